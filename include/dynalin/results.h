@@ -1,0 +1,77 @@
+// The plain values a linear analysis delivers. Frequencies in cycles per unit time, everything else in
+// the units of the model; matrices by rows and columns as printed.
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace dynalin {
+
+// Codes of the STATES matrix (LINEAR command, 5.2.6).
+enum class StateType : int {
+  part_euler = 1,
+  lse = 2,
+  tfsiso = 3,
+  gse = 4,
+  diff = 5,
+  ptcv = 6,
+  cvcv = 7,
+  flex_body_euler = 8,
+  point_mass_original = 9,
+  pstate = 10,
+  pstate_rate = 11,
+  part = 21,
+  fe_part = 27,
+  flex_body = 28,
+  point_mass = 29,
+  part_relative = 31,
+  flex_body_relative = 38,
+  point_mass_relative = 39,
+};
+
+// One state of the linear model.
+struct StateLabel {
+  StateType type = StateType::part;
+  std::int64_t element = 0;  // id of the PART, VARIABLE, TFSISO …
+  int coordinate = 0;        // 1-based; rates follow after the coordinates of the element (7–12 for a PART)
+  std::string text;          // "Global rotation AZ(BCS)"; for a rate the text of its coordinate
+  std::string owner;         // "PART/2"
+  bool is_rate = false;
+};
+
+struct ChannelLabel {  // one input or output
+  std::int64_t variable = 0;
+  std::string text;  // "VARIABLE/10"
+};
+
+// s' = A s + B u, y = C s + D u with s = (x1', x1, x2', x2, …, z).
+struct StateSpace {
+  double time = 0;
+  std::vector<StateLabel> states;
+  std::vector<ChannelLabel> inputs, outputs;
+  std::int64_t pinput = 0, poutput = 0;  // ids of the statements, 0 if none was asked for
+  Eigen::MatrixXd A, B, C, D;
+};
+
+// Eigenvalues λ/2π in printed order: real ones by ascending modulus, then complex pairs, one entry each with
+// positive imaginary part, by ascending imaginary part.
+struct EigenMode {
+  std::complex<double> eigenvalue_hz;
+  bool is_real = false;
+};
+
+struct EigenSolution {
+  double time = 0;
+  std::int64_t rm = 0;      // marker of the RM option, 0 if none
+  std::int64_t pstate = 0;  // 0 if none
+  bool without_damping = false;
+  std::size_t kinematic_states = 0;     // displacements and velocities together
+  std::size_t differential_states = 0;
+  std::vector<StateLabel> states;       // in the order of A
+  std::vector<EigenMode> modes;
+};
+
+}  // namespace dynalin

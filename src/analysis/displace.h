@@ -1,0 +1,36 @@
+// Moving a point along a displacement δq: translations add, rotations turn about global axes.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "system/system.h"
+
+namespace dynalin {
+
+// Rotations larger than `rotation_limit` [rad] shorten the whole step. Returns the factor that was used.
+inline double displace(const System& system, OperatingPoint& op, const Eigen::Ref<const Eigen::VectorXd>& step,
+                       double rotation_limit) {
+  const Layout& layout = system.layout();
+  double largest = 0;
+  for (const BodyBlock& b : layout.bodies) {
+    if (b.count == 6) largest = std::max(largest, step.segment<3>(b.offset + 3).norm());
+  }
+  const double factor = largest > rotation_limit ? rotation_limit / largest : 1.0;
+  for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
+    const BodyBlock& block = layout.bodies[b];
+    if (block.count == 0) continue;
+    const auto part = [&](Eigen::Index k) {
+      return factor * Vector{step(block.offset + k), step(block.offset + k + 1), step(block.offset + k + 2)};
+    };
+    op.poses[b].r += part(0);
+    if (block.count == 6) op.poses[b].R = orthonormalized(rotation_exponential(part(3)) * op.poses[b].R);
+  }
+  for (std::size_t k = 0; k < op.extra.size(); ++k) {
+    op.extra[k] += factor * step(layout.body_coordinate_count + static_cast<Eigen::Index>(k));
+  }
+  return factor;
+}
+
+}  // namespace dynalin

@@ -1,0 +1,43 @@
+// Initial conditions: a point that is consistent on the levels of position, velocity and acceleration.
+//
+// Position: Newton steps of least change until all rows hold; coordinates named by EXACT move last. Velocity: what the
+// dataset states is kept and the rest changes least, in the norm of CM velocities and L times angular velocities.
+// Acceleration: accelerations, multipliers, algebraic values and state rates together, by Newton.
+#pragma once
+
+#include <tl/expected.hpp>
+#include <string>
+#include <vector>
+
+#include "system/system.h"
+
+namespace dynalin {
+
+template <class T>
+using Result = tl::expected<T, Failure>;
+
+// Redundant rows and remarks of an analysis, for the message file.
+struct Findings {
+  std::vector<std::int32_t> redundant_rows;
+  std::vector<std::string> warnings;
+};
+
+// Moves the poses onto the constraints by the least change; a consistent point comes back untouched.
+Result<OperatingPoint> assemble_position(const System&, OperatingPoint start, Findings&);
+// Velocities by the dataset's initial conditions.
+Result<OperatingPoint> initial_velocity(const System&, OperatingPoint, Findings&);
+// Velocities of least change from those of the point itself.
+Result<OperatingPoint> reconcile_velocity(const System&, OperatingPoint, Findings&);
+// Accelerations and everything that follows from poses, velocities and states.
+Result<OperatingPoint> solve_acceleration(const System&, OperatingPoint, Findings&);
+// The three levels from the dataset.
+Result<OperatingPoint> initial_conditions(const System&, Findings&);
+
+// Largest relative violation of the position rows (or of velocity rows) and the row that has it.
+struct Violation {
+  double relative = 0;
+  std::int32_t row = -1;
+};
+Violation position_violation(const System&, const ConstraintRows&);
+
+}  // namespace dynalin

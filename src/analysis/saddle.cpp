@@ -1,0 +1,102 @@
+#include "analysis/saddle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dynalin {
+
+Saddle::Saddle(const System& system)
+    : n_(system.layout().coordinate_count),
+      m_(static_cast<std::int32_t>(system.layout().rows.size())),
+      w_(static_cast<std::int32_t>(system.layout().algebraic.size())),
+      z_(static_cast<std::int32_t>(system.layout().states.size())),
+      size_(n_ + m_ + w_ + z_),
+      system_(system) {}
+
+ColumnMatrix Saddle::matrix(const Equations& eq, const ConstraintRows& rows, const std::vector<bool>& active,
+                            const SaddleColumns& columns, const std::vector<bool>& cut,
+                            const std::vector<bool>& held, std::span<const double> added_diagonal) const {
+  std::vector<Triplet> entries;
+  const auto replaced = [&](std::int32_t r) {
+    if (r < n_) return false;
+    if (r < n_ + w_) return !cut.empty() && cut[static_cast<std::size_t>(r - n_)];
+    return !held.empty() && held[static_cast<std::size_t>(r - n_ - w_)];
+  };
+  const auto take = [&](Column family, std::int32_t offset) {
+    const ColumnMatrix& m = eq.matrix(family);
+    for (std::int32_t c = 0; c < m.columns; ++c) {
+      for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]);
+           k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
+        if (!replaced(m.row[k])) entries.push_back({equation(m.row[k]), offset + c, m.value[k]});
+      }
+    }
+  };
+  take(columns.coordinates, 0);
+  take(Column::lambda, n_);
+  take(Column::algebraic, n_ + m_);
+  take(columns.states, n_ + m_ + w_);
+  for (std::int32_t k = 0; k < m_; ++k) {
+    if (!active[static_cast<std::size_t>(k)]) {
+      entries.push_back({lambda(k), lambda(k), 1.0});
+      continue;
+    }
+    for (const auto& e : rows.row(k)) {
+      entries.push_back({lambda(k), e.column, e.c.g});
+      entries.push_back({e.column, lambda(k), -e.c.g});
+    }
+  }
+  for (std::int32_t k = 0; k < w_; ++k) {
+    if (replaced(n_ + k)) entries.push_back({algebraic(k), algebraic(k), 1.0});
+  }
+  for (std::int32_t k = 0; k < z_; ++k) {
+    if (replaced(n_ + w_ + k)) entries.push_back({state(k), state(k), 1.0});
+  }
+  for (std::size_t k = 0; k < added_diagonal.size(); ++k) {
+    const auto i = static_cast<std::int32_t>(k);
+    if (added_diagonal[k] != 0.0) entries.push_back({i, i, added_diagonal[k]});
+  }
+  return compressed(size_, size_, entries);
+}
+
+std::vector<std::string> undetermined(const System& system, const Saddle& saddle, ColumnMatrix m) {
+  // A random right-hand side, solved with a barely regularised matrix, grows along the null space.
+  double largest = 0;
+  for (const double v : m.value) largest = std::max(largest, std::abs(v));
+  std::vector<Triplet> entries;
+  for (std::int32_t c = 0; c < m.columns; ++c) {
+    for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]);
+         k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
+      entries.push_back({m.row[k], c, m.value[k]});
+    }
+    entries.push_back({c, c, 1e-10 * largest});
+  }
+  SparseLu lu;
+  if (!lu.factor(compressed(m.rows, m.columns, entries))) return {};
+  Eigen::MatrixXd x(saddle.size(), 1);
+  for (Eigen::Index k = 0; k < x.rows(); ++k) x(k, 0) = std::sin(1.0 + 1.7 * static_cast<double>(k));
+  for (int pass = 0; pass < 2; ++pass) {
+    lu.solve(x);
+    x /= x.cwiseAbs().maxCoeff();
+  }
+  const Layout& layout = system.layout();
+  std::vector<std::pair<double, std::string>> named;
+  for (std::int32_t k = 0; k < saddle.size(); ++k) {
+    const double size = std::abs(x(k, 0));
+    if (size < 0.1) continue;
+    if (k < saddle.lambda(0)) {
+      named.emplace_back(size, layout.coordinate_text(k));
+    } else if (k >= saddle.algebraic(0) && k < saddle.state(0)) {
+      const auto& a = layout.algebraic[static_cast<std::size_t>(k - saddle.algebraic(0))];
+      named.emplace_back(size, "the value of " + a.owner->full_text());
+    } else if (k >= saddle.state(0)) {
+      const auto& z = layout.states[static_cast<std::size_t>(k - saddle.state(0))];
+      named.emplace_back(size, "the state of " + z.owner->full_text());
+    }
+  }
+  std::stable_sort(named.begin(), named.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < std::min<std::size_t>(named.size(), 6); ++k) names.push_back(named[k].second);
+  return names;
+}
+
+}  // namespace dynalin

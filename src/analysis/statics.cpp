@@ -1,0 +1,224 @@
+#include "analysis/statics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/displace.h"
+#include "analysis/saddle.h"
+
+namespace dynalin {
+
+namespace {
+
+// The static equations at one point, with the scales that make their residuals comparable.
+class StaticEquations {
+ public:
+  explicit StaticEquations(const System& system) : system_(system), saddle_(system) {
+    rows_.resize(system.layout());
+    eq_.resize(system.layout());
+    for (const DifferentialState& z : system.layout().states) held_.push_back(z.held_in_statics);
+  }
+
+  void evaluate(const OperatingPoint& op, bool with_partials) {
+    const Motion motion = system_.motion(op);
+    system_.constraints(motion, rows_);
+    if (with_partials || part_.active.empty()) part_ = system_.partition(rows_, false);
+    if (with_partials) {
+      system_.equations(motion, rows_, eq_, {Column::position, Column::lambda, Column::algebraic, Column::state});
+    } else {
+      system_.equations(motion, rows_, eq_, {});
+    }
+    residual_ = Eigen::VectorXd::Zero(saddle_.size());
+    for (std::int32_t r = 0; r < eq_.size(); ++r) residual_(saddle_.equation(r)) = eq_.residual()[static_cast<std::size_t>(r)];
+    for (std::size_t k = 0; k < held_.size(); ++k) {
+      if (held_[k]) residual_(saddle_.state(static_cast<std::int32_t>(k))) = 0;
+    }
+    for (std::int32_t k = 0; k < rows_.size(); ++k) {
+      if (part_.active[static_cast<std::size_t>(k)]) residual_(saddle_.lambda(k)) = rows_.along_motion(k).value;
+    }
+    measure_forces(op);
+  }
+
+  // Largest unbalanced force (moments by length) and the size of the forces at play.
+  double imbalance() const {
+    double worst = 0;
+    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(system_.coordinates()); ++k) {
+      worst = std::max(worst, std::abs(residual_(k)) * force_unit(k));
+    }
+    return worst;
+  }
+  double force_scale() const { return force_scale_; }
+
+  // Sum of squares of all residuals in comparable units.
+  double merit() const {
+    const double force = force_scale_ > 0 ? force_scale_ : 1.0;
+    double sum = 0;
+    const auto n = static_cast<Eigen::Index>(system_.coordinates());
+    for (Eigen::Index k = 0; k < residual_.size(); ++k) {
+      double r = residual_(k);
+      if (k < n) r *= force_unit(k) / force;
+      else if (k < saddle_.algebraic(0)) r /= system_.length();
+      sum += r * r;
+    }
+    return sum;
+  }
+
+  const Eigen::VectorXd& residual() const { return residual_; }
+  const Saddle& saddle() const { return saddle_; }
+  const Partition& partition() const { return part_; }
+
+  // Tangent with `hold` times a typical stiffness added to the coordinates, and to states if `hold_states`.
+  ColumnMatrix tangent(double hold, bool hold_states) const {
+    std::vector<double> diagonal(static_cast<std::size_t>(saddle_.size()), 0.0);
+    double stiffness = 0;
+    for (const double v : eq_.matrix(Column::position).value) stiffness = std::max(stiffness, std::abs(v));
+    if (stiffness == 0) stiffness = 1;
+    for (std::size_t k = 0; k < system_.coordinates(); ++k) {
+      const double s = system_.length() / system_.coordinate_scale(static_cast<std::int32_t>(k));
+      diagonal[k] = hold * stiffness * s * s;
+    }
+    for (std::size_t k = 0; k < held_.size() && hold_states; ++k) {
+      diagonal[static_cast<std::size_t>(saddle_.state(static_cast<std::int32_t>(k)))] = held_[k] ? 0.0 : 1.0;
+    }
+    return saddle_.matrix(eq_, rows_, part_.active, {Column::position, Column::state}, {}, held_, diagonal);
+  }
+
+ private:
+  double force_unit(Eigen::Index k) const {
+    return system_.coordinate_scale(static_cast<std::int32_t>(k)) / system_.length();
+  }
+  void measure_forces(const OperatingPoint& op) {
+    force_scale_ = 0;
+    for (std::int32_t k = 0; k < rows_.size(); ++k) {
+      for (const auto& e : rows_.row(k)) {
+        force_scale_ = std::max(force_scale_, std::abs(e.c.g * op.lambda[static_cast<std::size_t>(k)]) * force_unit(e.column));
+      }
+    }
+    for (const Body& b : system_.model().bodies) force_scale_ = std::max(force_scale_, b.mass * norm(system_.model().gravity));
+    force_scale_ = std::max(force_scale_, imbalance());
+  }
+
+  const System& system_;
+  Saddle saddle_;
+  ConstraintRows rows_;
+  Equations eq_;
+  Partition part_;
+  std::vector<bool> held_;
+  Eigen::VectorXd residual_;
+  double force_scale_ = 0;
+};
+
+OperatingPoint moved(const System& system, const OperatingPoint& from, const Saddle& saddle, const Eigen::VectorXd& step,
+                     double fraction, double rotation_limit) {
+  OperatingPoint to = from;
+  const double f = fraction * displace(system, to, fraction * step.head(static_cast<Eigen::Index>(system.coordinates())), rotation_limit);
+  const auto add = [&](std::vector<double>& x, std::int32_t offset) {
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] += f * step(offset + static_cast<Eigen::Index>(k));
+  };
+  add(to.lambda, saddle.lambda(0));
+  add(to.algebraic, saddle.algebraic(0));
+  add(to.state, saddle.state(0));
+  return to;
+}
+
+// Relative size of a step in coordinates.
+double step_size(const System& system, const Eigen::VectorXd& step) {
+  double size = 0;
+  for (std::size_t k = 0; k < system.coordinates(); ++k) {
+    size = std::max(size, std::abs(step(static_cast<Eigen::Index>(k))) / system.coordinate_scale(static_cast<std::int32_t>(k)));
+  }
+  return size;
+}
+
+}  // namespace
+
+Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op, const StaticsOptions& options,
+                                        StaticsReport& report, Findings& findings) {
+  op.mode = AnalysisMode::statics;
+  const std::vector<double> first_state = op.state;
+  const auto rest = [](OperatingPoint& p) {
+    for (auto* x : {&p.velocity, &p.acceleration, &p.state_rate}) std::fill(x->begin(), x->end(), 0.0);
+  };
+  rest(op);
+  auto assembled = assemble_position(system, std::move(op), findings);
+  if (!assembled) return assembled;
+  op = std::move(*assembled);
+  // Reactions and algebraic values of the resting model are the best first guess; without masses there is none.
+  Findings ignored;
+  if (auto guess = solve_acceleration(system, op, ignored)) {
+    op = std::move(*guess);
+    rest(op);
+  }
+
+  StaticEquations equations(system);
+  std::vector<std::string> history;
+  double hold = 0, before = std::numeric_limits<double>::infinity();
+  bool held_states = false;
+  for (int iteration = 0; iteration < options.iteration_limit; ++iteration) {
+    equations.evaluate(op, true);
+    findings.redundant_rows = equations.partition().redundant;
+    report = {iteration, equations.imbalance()};
+    const double merit = equations.merit();
+    if (!std::isfinite(merit)) {
+      const std::string reason = system.fault(system.motion(op));
+      return tl::unexpected(Failure{"statics", reason.empty() ? "a force has no finite value" : reason, history});
+    }
+    history.push_back(fmt::format("iteration {}: imbalance {:.5e}", iteration, report.imbalance));
+    const bool balanced = std::sqrt(merit) <= 1e-13;
+    if (balanced && (iteration == 0 || std::sqrt(merit) >= 0.5 * std::sqrt(before))) break;
+
+    Eigen::MatrixXd step = -equations.residual();
+    SparseLu lu;
+    bool factored = hold == 0 ? lu.factor(equations.tangent(0, false)) : lu.factor(equations.tangent(hold, held_states));
+    for (double h = std::max(hold, 1e-8); !factored && h < 1e3; h *= 100) {
+      // First only the integrators are held, then the coordinates as well.
+      held_states = true;
+      factored = lu.factor(equations.tangent(0, true)) || lu.factor(equations.tangent(h, true));
+    }
+    if (!factored) {
+      Failure f{"statics", "the static equations are singular", undetermined(system, equations.saddle(), equations.tangent(0, false))};
+      return tl::unexpected(f);
+    }
+    lu.solve(step);
+    const double size = step_size(system, step);
+    if (size <= 1e-15 || (balanced && size <= 1e-12)) break;
+
+    // Halve until the residual falls; a Newton step close to the solution is taken as it is.
+    OperatingPoint next = op;
+    double after = std::numeric_limits<double>::infinity(), fraction = 1;
+    for (int k = 0; k < 12; ++k, fraction *= 0.5) {
+      next = moved(system, op, equations.saddle(), step, fraction, options.rotation_limit);
+      equations.evaluate(next, false);
+      after = equations.merit();
+      if (after < merit * (1 - 0.1 * fraction) || (size < 1e-9 && std::isfinite(after))) break;
+    }
+    if (after < merit || size < 1e-9) {
+      op = std::move(next);
+      system.remember(op);
+      hold = hold < 1e-10 ? 0 : hold * 0.1;
+    } else {
+      hold = std::max(hold * 10, 1e-6);
+      if (hold > 1e6) return tl::unexpected(Failure{"statics", "no equilibrium was found", history});
+    }
+    // Rounding level: the last correction did not improve anything any more.
+    if (size < 1e-11 && merit >= 0.25 * before && std::sqrt(merit) < 1e-9) break;
+    before = merit;
+  }
+  equations.evaluate(op, false);
+  report.imbalance = equations.imbalance();
+  if (std::sqrt(equations.merit()) > 1e-7) {
+    return tl::unexpected(Failure{"statics", fmt::format("no equilibrium was found, the imbalance is still {:.3e}", report.imbalance), history});
+  }
+  if (held_states) {
+    // A pure integrator that balances at its first value keeps it.
+    OperatingPoint kept = op;
+    kept.state = first_state;
+    equations.evaluate(kept, false);
+    if (std::sqrt(equations.merit()) < 1e-9) op = std::move(kept);
+  }
+  return op;
+}
+
+}  // namespace dynalin

@@ -1,0 +1,27 @@
+// Static equilibrium: poses, multipliers, algebraic values and states at which all velocities, accelerations and state
+// rates are zero.
+//
+// Damped Newton on all unknowns at once; where the tangent is singular (free or indifferent freedoms, pure
+// integrators) or a step does not help, a pseudo-transient term holds the point and fades with the residual. A point
+// that is balanced to rounding is accepted as it stands.
+#pragma once
+
+#include "analysis/initial.h"
+
+namespace dynalin {
+
+struct StaticsOptions {
+  int iteration_limit = 200;
+  double rotation_limit = 0.17453292519943295;  // [rad] a step, ALIMIT
+};
+
+struct StaticsReport {
+  int iterations = 0;
+  double imbalance = 0;  // largest unbalanced force or moment/length at the end
+};
+
+// From the pose and states of `start`; its velocities are set to zero.
+Result<OperatingPoint> find_equilibrium(const System&, OperatingPoint start, const StaticsOptions&, StaticsReport&,
+                                        Findings&);
+
+}  // namespace dynalin

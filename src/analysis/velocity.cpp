@@ -1,0 +1,236 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/initial.h"
+
+namespace dynalin {
+
+namespace {
+
+// One linear condition on velocities: coefficients · velocity = value.
+struct Condition {
+  std::vector<std::int32_t> column;
+  std::vector<double> coefficient;
+  double value = 0;
+  std::string text;
+};
+
+// What the dataset states, as conditions: the CM velocity along an axis a is a·(v + ω × c).
+std::vector<Condition> stated_velocities(const System& system, const Motion& motion) {
+  static constexpr std::array cm_names = {"VX", "VY", "VZ"}, angular_names = {"WX", "WY", "WZ"};
+  std::vector<Condition> conditions;
+  const Model& model = system.model();
+  for (std::size_t b = 1; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const BodyBlock& block = system.layout().bodies[b];
+    const Vector c = motion.bodies[b].R * body.p_BC;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (body.velocity.of_cm[k]) {
+        const Vector a = motion.axes(system.layout().marker(body.velocity.cm_axes))[k];
+        const Vector turn = cross(c, a);
+        Condition s{{}, {}, *body.velocity.of_cm[k], fmt::format("{} of {}", cm_names[k], body.label.full_text())};
+        for (std::int32_t i = 0; i < block.count; ++i) {
+          const auto at = static_cast<std::size_t>(i);
+          s.column.push_back(block.offset + i);
+          s.coefficient.push_back(i < 3 ? a[at] : turn[at - 3]);
+        }
+        conditions.push_back(std::move(s));
+      }
+      if (body.velocity.angular[k] && block.count == 6) {
+        const Vector a = motion.axes(system.layout().marker(body.velocity.angular_axes))[k];
+        Condition s{{}, {}, *body.velocity.angular[k], fmt::format("{} of {}", angular_names[k], body.label.full_text())};
+        for (std::int32_t i = 0; i < 3; ++i) {
+          s.column.push_back(block.offset + 3 + i);
+          s.coefficient.push_back(a[static_cast<std::size_t>(i)]);
+        }
+        conditions.push_back(std::move(s));
+      }
+    }
+  }
+  return conditions;
+}
+
+// ½ Σ |v_C|² + L² |ω|² over all bodies, times `weight`.
+void add_norm(const System& system, const Motion& motion, double weight, std::vector<Triplet>& entries) {
+  const double L2 = system.length() * system.length();
+  for (std::size_t b = 1; b < system.layout().bodies.size(); ++b) {
+    const BodyBlock& block = system.layout().bodies[b];
+    const Vector c = motion.bodies[b].R * system.model().bodies[b].p_BC;
+    const Matrix3 C = -skew(c);  // v_C = v + C ω
+    const Matrix3 CC = transpose(C) * C;
+    for (std::size_t r = 0; r < 3; ++r) {
+      const auto i = block.offset + static_cast<std::int32_t>(r);
+      entries.push_back({i, i, weight});
+      for (std::size_t k = 0; k < 3 && block.count == 6; ++k) {
+        const auto j = block.offset + 3 + static_cast<std::int32_t>(k);
+        entries.push_back({i, j, weight * C(r, k)});
+        entries.push_back({j, i, weight * C(r, k)});
+        entries.push_back({block.offset + 3 + static_cast<std::int32_t>(r), j,
+                           weight * (CC(r, k) + (r == k ? L2 : 0.0))});
+      }
+    }
+  }
+  for (const ExtraBlock& e : system.layout().extras) {
+    for (std::int32_t k = 0; k < e.count; ++k) entries.push_back({e.offset + k, e.offset + k, weight});
+  }
+}
+
+// min ½ (u − u₀)ᵀ W (u − u₀) under the conditions that are independent; dependent ones must agree to `tolerance`.
+struct LeastChange {
+  Eigen::VectorXd velocity;
+  std::vector<std::size_t> contradicted;
+};
+Result<LeastChange> least_change(const System& system, const Motion& motion, const std::vector<Condition>& conditions,
+                                 const Eigen::VectorXd& start) {
+  const auto n = static_cast<Eigen::Index>(system.coordinates());
+  const auto m = static_cast<Eigen::Index>(conditions.size());
+  std::vector<SparseRow> scaled(conditions.size());
+  for (std::size_t k = 0; k < conditions.size(); ++k) {
+    scaled[k].column = conditions[k].column;
+    for (std::size_t i = 0; i < conditions[k].column.size(); ++i) {
+      scaled[k].value.push_back(conditions[k].coefficient[i] * system.coordinate_scale(conditions[k].column[i]));
+    }
+  }
+  const std::vector<std::int32_t> order(system.preference().rbegin(), system.preference().rend());
+  const Elimination e = eliminate(std::move(scaled), static_cast<std::int32_t>(n), order);
+
+  std::vector<Triplet> entries;
+  add_norm(system, motion, 1.0, entries);
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(n + m, 1);
+  for (const Triplet& t : entries) x(t.row, 0) += t.value * start(t.column);
+  for (std::size_t k = 0; k < conditions.size(); ++k) {
+    const auto at = static_cast<std::int32_t>(n + static_cast<Eigen::Index>(k));
+    if (e.pivot_column[k] < 0) {
+      entries.push_back({at, at, 1.0});
+      continue;
+    }
+    x(at, 0) = conditions[k].value;
+    for (std::size_t i = 0; i < conditions[k].column.size(); ++i) {
+      entries.push_back({at, conditions[k].column[i], conditions[k].coefficient[i]});
+      entries.push_back({conditions[k].column[i], at, conditions[k].coefficient[i]});
+    }
+  }
+  SparseLu lu;
+  if (!lu.factor(compressed(static_cast<std::int32_t>(n + m), static_cast<std::int32_t>(n + m), entries))) {
+    return tl::unexpected(Failure{"velocity initial conditions", "the velocity conditions are singular", {}});
+  }
+  lu.solve(x);
+  LeastChange result{x.col(0).head(n), {}};
+  for (std::size_t k = 0; k < conditions.size(); ++k) {
+    if (e.pivot_column[k] >= 0) continue;
+    double sum = -conditions[k].value, size = std::abs(conditions[k].value);
+    for (std::size_t i = 0; i < conditions[k].column.size(); ++i) {
+      const double term = conditions[k].coefficient[i] * result.velocity(conditions[k].column[i]);
+      sum += term;
+      size = std::max(size, std::abs(term));
+    }
+    if (std::abs(sum) > 1e-8 * std::max(size, result.velocity.cwiseAbs().maxCoeff())) result.contradicted.push_back(k);
+  }
+  return result;
+}
+
+// Φ′ = g·u + Φ_t = 0 at u: the rate at zero velocity is Φ_t.
+std::vector<Condition> constraint_conditions(const System& system, const Motion& at_rest) {
+  ConstraintRows rows;
+  rows.resize(system.layout());
+  system.constraints(at_rest, rows);
+  std::vector<Condition> conditions;
+  for (std::int32_t k = 0; k < rows.size(); ++k) {
+    Condition c;
+    const bool position = rows.level(k) == RowLevel::position;
+    c.value = position ? -rows.along_motion(k).rate : -rows.along_motion(k).value;
+    c.text = system.row_text(k);
+    for (const auto& e : rows.row(k)) {
+      c.column.push_back(e.column);
+      c.coefficient.push_back(e.c.g);
+    }
+    conditions.push_back(std::move(c));
+  }
+  return conditions;
+}
+
+Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std::vector<Condition>& stated,
+                             const Eigen::VectorXd& start, Findings& findings) {
+  OperatingPoint rest = op;
+  std::fill(rest.velocity.begin(), rest.velocity.end(), 0.0);
+  std::fill(rest.acceleration.begin(), rest.acceleration.end(), 0.0);
+  const Motion motion = system.motion(rest);
+  std::vector<Condition> conditions = constraint_conditions(system, motion);
+  const std::size_t constraints = conditions.size();
+  auto hard = least_change(system, motion, conditions, start);
+  if (!hard) return tl::unexpected(hard.error());
+  if (!hard->contradicted.empty()) {
+    Failure f{"velocity initial conditions", "the constraints contradict each other on velocities", {}};
+    for (const std::size_t k : hard->contradicted) f.details.push_back(conditions[k].text);
+    return tl::unexpected(f);
+  }
+  conditions.insert(conditions.end(), stated.begin(), stated.end());
+  auto solution = stated.empty() ? std::move(hard) : least_change(system, motion, conditions, start);
+  if (!solution) return tl::unexpected(solution.error());
+  if (!solution->contradicted.empty()) {
+    // The stated values cannot all be kept: take the point nearest to all of them, then hold what it gives.
+    const auto n = static_cast<Eigen::Index>(system.coordinates());
+    std::vector<Triplet> entries;
+    add_norm(system, motion, 1e-10, entries);
+    Eigen::MatrixXd x = Eigen::MatrixXd::Zero(n + static_cast<Eigen::Index>(constraints), 1);
+    for (std::size_t k = constraints; k < conditions.size(); ++k) {
+      const Condition& c = conditions[k];
+      for (std::size_t i = 0; i < c.column.size(); ++i) {
+        x(c.column[i], 0) += c.coefficient[i] * c.value;
+        for (std::size_t j = 0; j < c.column.size(); ++j) {
+          entries.push_back({c.column[i], c.column[j], c.coefficient[i] * c.coefficient[j]});
+        }
+      }
+    }
+    ConstraintRows rows;
+    rows.resize(system.layout());
+    system.constraints(motion, rows);
+    const Partition part = system.partition(rows, true);
+    for (std::size_t k = 0; k < constraints; ++k) {
+      const auto at = static_cast<std::int32_t>(n + static_cast<Eigen::Index>(k));
+      if (!part.active[k]) {
+        entries.push_back({at, at, 1.0});
+        continue;
+      }
+      x(at, 0) = conditions[k].value;
+      for (std::size_t i = 0; i < conditions[k].column.size(); ++i) {
+        entries.push_back({at, conditions[k].column[i], conditions[k].coefficient[i]});
+        entries.push_back({conditions[k].column[i], at, conditions[k].coefficient[i]});
+      }
+    }
+    SparseLu lu;
+    if (!lu.factor(compressed(static_cast<std::int32_t>(x.rows()), static_cast<std::int32_t>(x.rows()), entries))) {
+      return tl::unexpected(Failure{"velocity initial conditions", "the velocity conditions are singular", {}});
+    }
+    lu.solve(x);
+    for (std::size_t k = constraints; k < conditions.size(); ++k) {
+      double value = 0;
+      for (std::size_t i = 0; i < conditions[k].column.size(); ++i) {
+        value += conditions[k].coefficient[i] * x(conditions[k].column[i], 0);
+      }
+      if (std::abs(value - conditions[k].value) > 1e-8 * std::max(1.0, std::abs(conditions[k].value))) {
+        findings.warnings.push_back(fmt::format("the initial velocity {} = {:g} contradicts the constraints and was changed to {:g}",
+                                                conditions[k].text, conditions[k].value, value));
+      }
+    }
+    solution->velocity = x.col(0).head(n);
+  }
+  op.velocity.assign(solution->velocity.data(), solution->velocity.data() + solution->velocity.size());
+  return op;
+}
+
+}  // namespace
+
+Result<OperatingPoint> initial_velocity(const System& system, OperatingPoint op, Findings& findings) {
+  const auto stated = stated_velocities(system, system.motion(op));
+  return solve(system, std::move(op), stated, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(system.coordinates())), findings);
+}
+
+Result<OperatingPoint> reconcile_velocity(const System& system, OperatingPoint op, Findings& findings) {
+  const Eigen::VectorXd start = Eigen::Map<const Eigen::VectorXd>(op.velocity.data(), static_cast<Eigen::Index>(op.velocity.size()));
+  return solve(system, std::move(op), {}, start, findings);
+}
+
+}  // namespace dynalin

@@ -1,0 +1,62 @@
+#include "base/source.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace dynalin {
+
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+
+}  // namespace
+
+SourceText::SourceText(std::string name, std::string text)
+    : name_(std::move(name)), text_(std::move(text)) {
+  if (text_.starts_with(byte_order_mark)) text_.erase(0, byte_order_mark.size());
+  if (text_.size() >= std::numeric_limits<std::uint32_t>::max()) {
+    throw std::length_error(name_ + " is longer than 4 GiB");
+  }
+  // Lines end with LF, CR LF or CR. A line end at the very end of the text starts no further line.
+  line_starts_.push_back(0);
+  for (std::size_t i = 0; i < text_.size(); ++i) {
+    if (!is_line_end(text_[i])) continue;
+    if (text_[i] == '\r' && i + 1 < text_.size() && text_[i + 1] == '\n') ++i;
+    if (i + 1 < text_.size()) line_starts_.push_back(static_cast<std::uint32_t>(i + 1));
+  }
+}
+
+SourceText::Place SourceText::place(std::uint32_t offset) const {
+  offset = std::min(offset, static_cast<std::uint32_t>(text_.size()));
+  const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
+  const auto index = static_cast<std::size_t>(after - line_starts_.begin()) - 1;
+  // A place inside the line end counts as just behind the last character.
+  const std::size_t column =
+      std::min<std::size_t>(offset - line_starts_[index], line(index + 1).size());
+  return {index + 1, column + 1};
+}
+
+std::string_view SourceText::line(std::size_t one_based) const {
+  if (one_based == 0 || one_based > line_starts_.size()) return {};
+  const std::size_t begin = line_starts_[one_based - 1];
+  std::size_t end = one_based < line_starts_.size() ? line_starts_[one_based] : text_.size();
+  if (end > begin && text_[end - 1] == '\n') --end;
+  if (end > begin && text_[end - 1] == '\r') --end;
+  return std::string_view(text_).substr(begin, end - begin);
+}
+
+Span join(const Span& a, const Span& b) {
+  if (!a.source) return b;
+  if (!b.source) return a;
+  assert(a.source == b.source);
+  const std::uint32_t begin = std::min(a.offset, b.offset);
+  const std::uint32_t end = std::max(a.offset + a.length, b.offset + b.length);
+  return {a.source, begin, end - begin};
+}
+
+}  // namespace dynalin

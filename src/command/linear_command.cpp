@@ -1,0 +1,215 @@
+#include "command/linear_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dynalin {
+
+namespace {
+
+using Integers = std::vector<std::int64_t>;
+using Id = std::optional<std::int64_t>;
+
+struct WrittenLinear {
+  bool eigensol = false, statemat = false, mkb = false, nastran_export = false;
+  bool no_damping = false, no_vector = false, original = false, names = false;
+  Id rm, pstate, pinput, poutput, modal_rm, table_precision;
+  Integers coords, kinetic, strain, dissipat, mlist, mrange;
+  std::vector<double> fcoords, fkinetic, fstrain, fdissipat;
+  std::string energy_per_mode, mass_per_mode, file, config;
+  std::vector<std::string> format, type;
+
+  static constexpr std::array<Argument<WrittenLinear>, 30> arguments = {{
+      {.name = "EIGENSOL", .slot = &WrittenLinear::eigensol},
+      {.name = "STATEMAT", .slot = &WrittenLinear::statemat},
+      {.name = "MKB", .slot = &WrittenLinear::mkb},
+      {.name = "EXPORT", .slot = &WrittenLinear::nastran_export},
+      {.name = "NODAMPIN", .slot = &WrittenLinear::no_damping},
+      {.name = "NOVECTOR", .slot = &WrittenLinear::no_vector},
+      {.name = "ORIGINAL", .slot = &WrittenLinear::original},
+      {.name = "NAMES", .slot = &WrittenLinear::names},
+      {.name = "RM", .slot = &WrittenLinear::rm, .minimum = 1},
+      {.name = "PSTATE", .slot = &WrittenLinear::pstate, .minimum = 1},
+      {.name = "PINPUT", .slot = &WrittenLinear::pinput, .minimum = 1},
+      {.name = "POUTPUT", .slot = &WrittenLinear::poutput, .minimum = 1},
+      {.name = "FILE", .slot = &WrittenLinear::file},
+      {.name = "FORMAT", .slot = &WrittenLinear::format},
+      {.name = "TYPE", .slot = &WrittenLinear::type},
+      {.name = "CONFIG", .slot = &WrittenLinear::config},
+      {.name = "COORDS", .slot = &WrittenLinear::coords},
+      {.name = "KINETIC", .slot = &WrittenLinear::kinetic},
+      {.name = "STRAIN", .slot = &WrittenLinear::strain},
+      {.name = "DISSIPAT", .slot = &WrittenLinear::dissipat},
+      {.name = "MLIST", .slot = &WrittenLinear::mlist},
+      {.name = "MRANGE", .slot = &WrittenLinear::mrange},
+      {.name = "FCOORDS", .slot = &WrittenLinear::fcoords},
+      {.name = "FKINETIC", .slot = &WrittenLinear::fkinetic},
+      {.name = "FSTRAIN", .slot = &WrittenLinear::fstrain},
+      {.name = "FDISSIPAT", .slot = &WrittenLinear::fdissipat},
+      {.name = "ENERGY_PER_MODE", .slot = &WrittenLinear::energy_per_mode},
+      {.name = "MASS_PER_MODE", .slot = &WrittenLinear::mass_per_mode},
+      {.name = "MODAL_RM", .slot = &WrittenLinear::modal_rm, .minimum = 1},
+      {.name = "TABLE_PRECISION", .slot = &WrittenLinear::table_precision, .minimum = 2},
+  }};
+};
+
+constexpr std::size_t longest_file_name = 76;
+
+class Rules {
+ public:
+  Rules(const WrittenLinear& w, ElementReader& reader) : w_(w), reader_(reader) {}
+
+  void check() {
+    options();
+    qualifiers();
+    tables();
+    files();
+  }
+
+ private:
+  bool given(std::string_view name) const { return reader_.given(name); }
+  void error(std::string_view code, std::string_view at, std::string message, std::string hint = {}) {
+    reader_.error(code, reader_.at(at), std::move(message), std::move(hint));
+  }
+  void excluded(std::string_view a, std::string_view b) {
+    if (given(a) && given(b)) error("excluded-arguments", b, fmt::format("{} and {} exclude each other", a, b));
+  }
+  void only_with(std::string_view argument, bool allowed, std::string_view options) {
+    if (given(argument) && !allowed) error("wrong-option", argument, fmt::format("{} goes with {} only", argument, options));
+  }
+
+  void options() {
+    static constexpr std::array<std::string_view, 4> names = {"EIGENSOL", "STATEMAT", "MKB", "EXPORT"};
+    const auto count = std::count_if(names.begin(), names.end(), [&](auto n) { return given(n); });
+    if (count == 0) error("missing-option", "", "LINEAR needs one of EIGENSOL, STATEMAT, MKB and EXPORT");
+    if (count < 2) return;
+    const auto second = std::find_if(std::find_if(names.begin(), names.end(), [&](auto n) { return given(n); }) + 1, names.end(),
+                                     [&](auto n) { return given(n); });
+    error("excluded-arguments", *second, "LINEAR takes exactly one of EIGENSOL, STATEMAT, MKB and EXPORT");
+  }
+
+  void qualifiers() {
+    const bool matrices = w_.statemat || w_.mkb, modes = w_.eigensol;
+    if (!modes && !matrices && !w_.nastran_export) return;
+    only_with("NODAMPIN", modes || w_.mkb, "EIGENSOL and MKB");
+    only_with("NOVECTOR", modes, "EIGENSOL");
+    for (const auto name : {"PINPUT", "POUTPUT", "FORMAT"}) only_with(name, matrices, "STATEMAT and MKB");
+    for (const auto name : {"RM", "PSTATE"}) only_with(name, modes || matrices, "EIGENSOL, STATEMAT and MKB");
+    for (const auto name : {"CONFIG", "TYPE"}) only_with(name, w_.nastran_export, "EXPORT");
+    only_with("FILE", !modes, "STATEMAT, MKB and EXPORT");
+    for (const auto name : {"COORDS", "KINETIC", "STRAIN", "DISSIPAT", "FCOORDS", "FKINETIC", "FSTRAIN", "FDISSIPAT", "MLIST",
+                            "MRANGE", "ENERGY_PER_MODE", "MASS_PER_MODE", "TABLE_PRECISION", "NAMES"}) {
+      only_with(name, modes, "EIGENSOL");
+    }
+  }
+
+  void mode_range(std::string_view name, const Integers& range) {
+    if (range.empty()) return;
+    if (range.size() > 2) {
+      error("wrong-count", name, fmt::format("{} has {} values, it takes one or two", name, range.size()));
+    } else if (range[0] < 1 || (range.size() == 2 && range[1] < range[0])) {
+      error("value-out-of-range", name, fmt::format("{} takes mode numbers i1 ≥ 1 and i2 ≥ i1", name));
+    }
+  }
+  void frequency_range(std::string_view name, const std::vector<double>& range) {
+    if (range.empty()) return;
+    if (range.size() != 2) {
+      error("wrong-count", name, fmt::format("{} takes two frequencies", name));
+    } else if (!(range[0] > 0 && range[1] > range[0])) {
+      error("value-out-of-range", name, fmt::format("{} takes frequencies 0 < r1 < r2", name));
+    }
+  }
+  void all_or_range(std::string_view name, const std::string& text) {
+    if (text.empty()) return;
+    std::string upper(text);
+    std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    const bool number = upper.find_first_not_of("0123456789, \t") == std::string::npos && upper.find_first_of("123456789") != std::string::npos;
+    if (upper != "ALL" && !number) {
+      error("value-out-of-range", name, fmt::format("{} takes ALL or one or two mode numbers", name));
+    }
+  }
+
+  void tables() {
+    mode_range("COORDS", w_.coords);
+    mode_range("KINETIC", w_.kinetic);
+    mode_range("STRAIN", w_.strain);
+    mode_range("DISSIPAT", w_.dissipat);
+    mode_range("MRANGE", w_.mrange);
+    frequency_range("FCOORDS", w_.fcoords);
+    frequency_range("FKINETIC", w_.fkinetic);
+    frequency_range("FSTRAIN", w_.fstrain);
+    frequency_range("FDISSIPAT", w_.fdissipat);
+    all_or_range("ENERGY_PER_MODE", w_.energy_per_mode);
+    all_or_range("MASS_PER_MODE", w_.mass_per_mode);
+    excluded("COORDS", "FCOORDS");
+    excluded("KINETIC", "FKINETIC");
+    excluded("STRAIN", "FSTRAIN");
+    excluded("DISSIPAT", "FDISSIPAT");
+    for (const auto name : {"COORDS", "KINETIC", "STRAIN", "DISSIPAT", "FCOORDS", "FKINETIC", "FSTRAIN", "FDISSIPAT", "MLIST", "MRANGE"}) {
+      excluded("NOVECTOR", name);
+    }
+    if (given("MLIST") != given("MRANGE")) {
+      const std::string_view there = given("MLIST") ? "MLIST" : "MRANGE";
+      error("missing-argument", there, fmt::format("{} needs {}", there, given("MLIST") ? "MRANGE" : "MLIST"));
+    }
+    if (given("MODAL_RM") && !given("MASS_PER_MODE")) error("missing-argument", "MODAL_RM", "MODAL_RM needs MASS_PER_MODE");
+  }
+
+  void files() {
+    if ((w_.statemat || w_.mkb || w_.nastran_export) && !given("FILE")) {
+      error("missing-argument", w_.statemat ? "STATEMAT" : w_.mkb ? "MKB" : "EXPORT",
+            fmt::format("{} needs FILE", w_.statemat ? "STATEMAT" : w_.mkb ? "MKB" : "EXPORT"));
+    }
+    if (w_.file.size() > longest_file_name) {
+      error("value-out-of-range", "FILE", fmt::format("the name of FILE has {} characters, {} are allowed", w_.file.size(), longest_file_name));
+    }
+    const auto one_of = [&](std::string_view name, const std::vector<std::string>& word, std::array<std::string_view, 2> words) {
+      if (!word.empty() && !find_keyword(word.front(), words)) {
+        error("unknown-word", name, fmt::format("{} is {} or {}, not {}", name, words[0], words[1], word.front()));
+      }
+    };
+    one_of("FORMAT", w_.format, {"MATRIXX", "MATLAB"});
+    one_of("TYPE", w_.type, {"OPENBOX", "CLOSEDBOX"});
+    if (w_.nastran_export && !given("TYPE")) error("missing-argument", "EXPORT", "EXPORT needs TYPE: OPENBOX or CLOSEDBOX");
+  }
+
+  const WrittenLinear& w_;
+  ElementReader& reader_;
+};
+
+}  // namespace
+
+std::optional<LinearCommand> read_linear(ElementReader& reader) {
+  WrittenLinear w;
+  const std::size_t before = reader.diagnostics().error_count();
+  const bool read = read_arguments(w, reader);
+  if (read) Rules(w, reader).check();
+  if (reader.diagnostics().error_count() > before) return std::nullopt;
+
+  LinearCommand c;
+  c.option = w.eigensol ? LinearOption::eigensol : w.statemat ? LinearOption::statemat : w.mkb ? LinearOption::mkb : LinearOption::nastran_export;
+  c.rm = w.rm, c.pstate = w.pstate, c.pinput = w.pinput, c.poutput = w.poutput;
+  c.without_damping = w.no_damping, c.without_vectors = w.no_vector, c.original = w.original, c.names = w.names;
+  c.file = w.file, c.config = w.config;
+  static constexpr std::array<std::string_view, 2> formats = {"MATRIXX", "MATLAB"};
+  if (!w.format.empty()) c.format = formats[*find_keyword(w.format.front(), formats)];
+  if (c.option == LinearOption::mkb || c.option == LinearOption::nastran_export) {
+    const std::string_view name = c.option == LinearOption::mkb ? "MKB" : "EXPORT";
+    reader.error("option-not-built", reader.at(name), fmt::format("LINEAR/{} is not available yet", name));
+    return std::nullopt;
+  }
+  if (w.original) {
+    reader.error("option-not-built", reader.at("ORIGINAL"), "ORIGINAL is not available yet");
+    return std::nullopt;
+  }
+  for (const auto name : {"COORDS", "KINETIC", "STRAIN", "DISSIPAT", "FCOORDS", "FKINETIC", "FSTRAIN", "FDISSIPAT", "MLIST",
+                          "ENERGY_PER_MODE", "MASS_PER_MODE"}) {
+    if (!reader.given(name)) continue;
+    c.tables.emplace_back(name);
+    reader.warning("table-not-built", reader.at(name), fmt::format("the table {} is not available yet and is left out", name));
+  }
+  return c;
+}
+
+}  // namespace dynalin

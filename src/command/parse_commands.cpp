@@ -1,0 +1,185 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+
+#include "command/command_reader.h"
+#include "command/commands.h"
+#include "command/linear_command.h"
+
+namespace dynalin {
+
+namespace {
+
+constexpr std::array<std::string_view, 52> command_names = {
+    "ACCGRAV", "ACTIVATE", "ARRAY",  "BEAM",   "BUSHING", "CONTROL",     "COUPLER",   "DEACTIVATE", "DEBUG",   "DIFF",         "ENVIRONMENT",
+    "EQUILIBRIUM", "FIELD", "FILE",  "FLEX_BODY", "FRICTION", "GCON",    "GEAR",      "GFORCE",     "HELP",    "IC",           "INFO",
+    "INTEGRATOR", "JOINT", "JPRIM",  "KINEMATICS", "LINEAR", "LSOLVER",  "MARKER",    "MENU",       "MOTION",  "OUTPUT",       "PART",
+    "PREFERENCES", "RELOAD", "REQUEST", "SAVE", "SENSOR", "SFORCE",      "SHOW",      "SIMULATE",   "SPLINE",  "SPRINGDAMPER", "STOP",
+    "STRING", "TIME", "VARIABLE", "VFORCE", "VTORQUE", "GSTIFF", "WSTIFF", "SYSTEM"};
+// Commands that set or print what a linear model does not need.
+constexpr std::array<std::string_view, 16> passive = {"DEBUG", "HELP", "IC", "INFO", "INTEGRATOR", "KINEMATICS", "LSOLVER", "MENU",
+                                                      "OUTPUT", "PREFERENCES", "REQUEST", "SHOW", "TIME", "GSTIFF", "WSTIFF", "EQUILIBRIUM"};
+
+struct WrittenSimulate {
+  bool initial = false, statics = false, kinematics = false, dynamics = false, transient = false;
+  bool displacement = false, velocity = false, acceleration = false;
+  std::optional<double> end, duration, step;
+  std::optional<std::int64_t> steps;
+
+  static constexpr std::array<Argument<WrittenSimulate>, 12> arguments = {{
+      {.name = "INITIAL_CONDITIONS", .slot = &WrittenSimulate::initial},
+      {.name = "STATICS", .slot = &WrittenSimulate::statics},
+      {.name = "KINEMATICS", .slot = &WrittenSimulate::kinematics},
+      {.name = "DYNAMICS", .slot = &WrittenSimulate::dynamics},
+      {.name = "TRANSIENT", .slot = &WrittenSimulate::transient},
+      {.name = "DISPLACEMENT", .slot = &WrittenSimulate::displacement},
+      {.name = "VELOCITY", .slot = &WrittenSimulate::velocity},
+      {.name = "ACCELERATION", .slot = &WrittenSimulate::acceleration},
+      {.name = "END", .slot = &WrittenSimulate::end},
+      {.name = "DURATION", .slot = &WrittenSimulate::duration},
+      {.name = "DTOUT", .slot = &WrittenSimulate::step},
+      {.name = "STEPS", .slot = &WrittenSimulate::steps, .minimum = 1},
+  }};
+};
+
+std::optional<SimulateCommand> read_simulate(ElementReader& reader) {
+  WrittenSimulate w;
+  if (!read_arguments(w, reader)) return std::nullopt;
+  const int kinds = w.initial + w.statics + w.kinematics + w.dynamics + w.transient;
+  if (kinds != 1) {
+    reader.error("missing-option", reader.statement().at,
+                 "SIMULATE takes exactly one of INITIAL_CONDITIONS, STATICS, KINEMATICS, DYNAMICS, TRANSIENT");
+    return std::nullopt;
+  }
+  for (const auto& [flag, name] : {std::pair{w.kinematics, "KINEMATICS"}, std::pair{w.dynamics, "DYNAMICS"}, std::pair{w.transient, "TRANSIENT"}}) {
+    if (!flag) continue;
+    reader.error("command-not-built", reader.at(name), fmt::format("SIMULATE/{} is not available yet", name));
+    return std::nullopt;
+  }
+  for (const auto name : {"END", "DURATION", "DTOUT", "STEPS"}) {
+    if (!reader.given(name)) continue;
+    reader.error("command-not-built", reader.at(name), "simulations over time are not available yet");
+    return std::nullopt;
+  }
+  return SimulateCommand{w.statics ? SimulateCommand::Kind::statics : SimulateCommand::Kind::initial_conditions};
+}
+
+struct WrittenFile {
+  std::string command, model, prefix;
+  static constexpr std::array<Argument<WrittenFile>, 3> arguments = {{
+      {.name = "COMMAND", .slot = &WrittenFile::command},
+      {.name = "MODEL", .slot = &WrittenFile::model},
+      {.name = "OUTPUT_PREFIX", .slot = &WrittenFile::prefix},
+  }};
+};
+
+std::string one_line(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const bool blank = std::isspace(static_cast<unsigned char>(c)) != 0;
+    if (!blank) out += c;
+    else if (!out.empty() && out.back() != ' ') out += ' ';
+  }
+  while (!out.empty() && out.back() == ' ') out.pop_back();
+  return out;
+}
+
+class FileParser {
+ public:
+  explicit FileParser(SourceRef source) { file_.source = std::move(source); }
+
+  Parsed<CommandFile> parse(SourceRef commands) {
+    Parsed<Dataset> parsed = parse_statements(commands, command_names);
+    diagnostics_.append(std::move(parsed.diagnostics));
+    keep_ = std::make_shared<Dataset>(std::move(parsed.value));
+    for (const Statement& s : keep_->statements) {
+      if (!s.name.empty()) read(s);
+    }
+    return {std::move(file_), std::move(diagnostics_)};
+  }
+  void name_model(std::string model, Span at, std::string prefix) {
+    file_.model = std::move(model), file_.model_at = at, file_.output_prefix = std::move(prefix);
+  }
+
+ private:
+  void read(const Statement& s) {
+    const ElementLabel label{s.name, s.id.value_or(0), "", s.at};
+    CommandReader reader(s, *keep_->source, diagnostics_, label);
+    Span whole = s.at;
+    if (!s.arguments.empty()) {
+      const WrittenArgument& last = s.arguments.back();
+      whole = join(s.at, last.has_value && last.value_span.length > 0 ? last.value_span : last.name);
+    }
+    Command command{one_line(whole.text()), s.at, StopCommand{}};
+    if (s.name == "SIMULATE") {
+      if (const auto c = read_simulate(reader)) command.what = *c;
+    } else if (s.name == "LINEAR") {
+      if (auto c = read_linear(reader)) command.what = std::move(*c);
+    } else if (s.name == "FILE") {
+      WrittenFile w;
+      if (!read_arguments(w, reader)) return;
+      if (!w.command.empty()) {
+        reader.error("command-not-built", reader.at("COMMAND"), "command files within command files are not available yet");
+      }
+      if (!w.model.empty()) name_model(w.model, reader.at("MODEL"), w.prefix);
+      return;
+    } else if (std::find(passive.begin(), passive.end(), s.name) != passive.end()) {
+      command.what = PassiveCommand{std::string(s.name)};
+    } else if (s.name != "STOP") {
+      diagnostics_.error("command-not-built", s.keyword, fmt::format("the command {} is not available yet", s.name));
+      return;
+    }
+    if (!stopped_) file_.commands.push_back(std::move(command));
+    stopped_ = stopped_ || s.name == "STOP";
+  }
+
+  CommandFile file_;
+  Diagnostics diagnostics_;
+  std::shared_ptr<Dataset> keep_;
+  bool stopped_ = false;
+};
+
+std::string_view trimmed(std::string_view s) {
+  while (!s.empty() && std::isspace(static_cast<unsigned char>(s.front()))) s.remove_prefix(1);
+  while (!s.empty() && std::isspace(static_cast<unsigned char>(s.back()))) s.remove_suffix(1);
+  return s;
+}
+
+bool is_command_line(std::string_view line) {
+  if (line.empty()) return true;
+  const std::size_t slash = line.find('/');
+  const std::string_view word = trimmed(line.substr(0, slash));
+  return (slash != std::string_view::npos && find_keyword(word, command_names).has_value()) || find_keyword(word, std::array<std::string_view, 1>{"STOP"});
+}
+
+}  // namespace
+
+Parsed<CommandFile> parse_command_file(SourceRef source) {
+  FileParser parser(source);
+  const std::string_view first = trimmed(source->line(1));
+  if (source->text().empty() || is_command_line(first) || first.starts_with("!")) return parser.parse(source);
+
+  // Model and prefix stand on the first two lines; blank them out so that the rest keeps its places.
+  std::string text(source->text());
+  std::size_t end = 0;
+  for (int line = 0; line < 2 && end < text.size(); ++line) {
+    const std::size_t next = text.find('\n', end);
+    const std::size_t stop = next == std::string::npos ? text.size() : next;
+    std::fill(text.begin() + static_cast<std::ptrdiff_t>(end), text.begin() + static_cast<std::ptrdiff_t>(stop), ' ');
+    end = stop + 1;
+  }
+  const auto offset = static_cast<std::uint32_t>(first.data() - source->text().data());
+  const std::string prefix = source->line_count() > 1 ? std::string(trimmed(source->line(2))) : std::string();
+  parser.name_model(std::string(first), {source.get(), offset, static_cast<std::uint32_t>(first.size())}, prefix);
+  auto rest = std::make_shared<const SourceText>(source->name(), std::move(text));
+  Parsed<CommandFile> file = parser.parse(rest);
+  file.value.source = rest;
+  return file;
+}
+
+Parsed<CommandFile> parse_commands(SourceRef source) { return FileParser(source).parse(source); }
+
+}  // namespace dynalin

@@ -1,0 +1,366 @@
+#include "command/session.h"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "analysis/statics.h"
+#include "command/commands.h"
+#include "elements/catalogue.h"
+#include "linear/eigen.h"
+#include "output/atomic_file.h"
+#include "output/json.h"
+#include "output/matrices.h"
+#include "output/message_file.h"
+
+namespace dynalin {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view version = "0.1.0";
+
+SourceRef read_source(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in || fs::is_directory(path)) return nullptr;
+  std::ostringstream text;
+  text << in.rdbuf();
+  return std::make_shared<const SourceText>(path, text.str());
+}
+
+bool has_extension(const std::string& path, std::string_view extension) {
+  std::string e = fs::path(path).extension().string();
+  for (char& c : e) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return e == extension;
+}
+
+// Everything a run needs, read and checked.
+struct Job {
+  CommandFile commands;
+  std::shared_ptr<const Dataset> dataset;
+  std::shared_ptr<const Model> model;
+  std::string prefix;
+  std::string folder;  // of the command file; files named in commands are relative to it
+};
+
+class Loader {
+ public:
+  Loader(const SessionOptions& options, std::ostream& err) : options_(options), err_(err) {}
+
+  std::optional<Job> load() {
+    Job job;
+    const std::string& file = options_.file;
+    const bool is_dataset = has_extension(file, ".adm");
+    std::string dataset_path = file;
+    job.folder = fs::path(file).parent_path().string();
+    if (is_dataset) {
+      std::string text;
+      for (const std::string& c : options_.commands) text += c + "\n";
+      auto parsed = parse_commands(std::make_shared<const SourceText>("command line", text));
+      take(std::move(parsed), job);
+    } else {
+      const SourceRef source = read_source(file);
+      if (!source) return missing(file);
+      auto parsed = parse_command_file(source);
+      keep_.push_back(source);
+      take(std::move(parsed), job);
+      if (job.commands.model.empty()) {
+        if (!diagnostics_.has_errors()) diagnostics_.error("missing-model", {source.get(), 0, 0}, "the command file names no model", "its first line is the name of the dataset");
+        return fail();
+      }
+      dataset_path = (fs::path(job.folder) / job.commands.model).string();
+      if (fs::path(dataset_path).extension().empty()) dataset_path += ".adm";
+    }
+    const SourceRef source = read_source(dataset_path);
+    if (!source) {
+      if (is_dataset) return missing(dataset_path);
+      diagnostics_.error("missing-model", job.commands.model_at, fmt::format("the dataset {} cannot be read", dataset_path));
+      return fail();
+    }
+    keep_.push_back(source);
+    auto parsed = parse_dataset(source);
+    const bool read = !parsed.diagnostics.has_errors();
+    diagnostics_.append(std::move(parsed.diagnostics));
+    job.dataset = std::make_shared<const Dataset>(std::move(parsed.value));
+    auto built = build_model(job.dataset, catalogue());
+    // Statements that could not be read leave gaps that the model would only complain about again.
+    if (read || built.diagnostics.has_errors()) diagnostics_.append(std::move(built.diagnostics));
+    job.model = std::move(built.value);
+    if (!diagnostics_.has_errors()) check_ids(job);
+    if (diagnostics_.has_errors()) return fail();
+    err_ << render(diagnostics_);
+    job.prefix = !options_.output_prefix.empty() ? options_.output_prefix : default_prefix(job, dataset_path);
+    return job;
+  }
+
+ private:
+  void take(Parsed<CommandFile> parsed, Job& job) {
+    job.commands = std::move(parsed.value);
+    diagnostics_.append(std::move(parsed.diagnostics));
+  }
+  std::string default_prefix(const Job& job, const std::string& dataset_path) const {
+    const std::string name = job.commands.output_prefix.empty() ? fs::path(dataset_path).stem().string() : job.commands.output_prefix;
+    return (fs::path(job.folder) / name).string();
+  }
+  std::nullopt_t missing(const std::string& path) {
+    fmt::print(err_, "error: {} cannot be read\n", path);
+    return std::nullopt;
+  }
+  std::nullopt_t fail() {
+    err_ << render(diagnostics_);
+    return std::nullopt;
+  }
+  // Ids that commands refer to must exist before anything runs.
+  void check_ids(const Job& job) {
+    for (const Command& c : job.commands.commands) {
+      const auto* linear = std::get_if<LinearCommand>(&c.what);
+      if (!linear) continue;
+      const auto need = [&](const std::optional<std::int64_t>& id, std::string_view statement, bool exists) {
+        if (id && !exists) diagnostics_.error("unknown-element", c.at, fmt::format("the command refers to {}/{}, which does not exist", statement, *id));
+      };
+      const auto found = [&](const std::optional<std::int64_t>& id, std::string_view statement) { return id && job.model->find(statement, *id).has_value(); };
+      need(linear->pstate, "PSTATE", found(linear->pstate, "PSTATE"));
+      need(linear->pinput, "PINPUT", found(linear->pinput, "PINPUT"));
+      need(linear->poutput, "POUTPUT", found(linear->poutput, "POUTPUT"));
+      const auto rm = linear->rm ? job.model->find_marker(*linear->rm) : std::nullopt;
+      need(linear->rm, "MARKER", rm.has_value());
+      if (rm && job.model->marker(*rm).floating) diagnostics_.error("floating-marker", c.at, fmt::format("RM=MARKER/{} is floating", *linear->rm));
+    }
+  }
+
+  const SessionOptions& options_;
+  std::ostream& err_;
+  Diagnostics diagnostics_;
+  std::vector<SourceRef> keep_;
+};
+
+class Session {
+ public:
+  Session(const SessionOptions& options, Job job, std::ostream& out, std::ostream& err)
+      : options_(options), job_(std::move(job)), out_(out), err_(err), system_(job_.model), point_(system_.drawn()) {}
+
+  int run() {
+    const auto start = std::chrono::steady_clock::now();
+    write_banner(message_, version);
+    write_title(message_, job_.model->title);
+    if (!job_.model->units.stated) remark("the dataset states no UNITS: the units consistency factor is taken as 1");
+    int status = done;
+    for (const Command& c : job_.commands.commands) {
+      write_command(message_, c.text);
+      if (std::holds_alternative<StopCommand>(c.what)) break;
+      const auto result = execute(c);
+      if (result) continue;
+      report(c, result.error());
+      status = analysis_failed;
+      if (!options_.keep_going) break;
+    }
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    write_footer(message_, status == done, elapsed.count());
+    if (!finish()) return analysis_failed;
+    return status;
+  }
+
+ private:
+  using Outcome = tl::expected<void, Failure>;
+
+  Outcome execute(const Command& c) {
+    if (const auto* simulate = std::get_if<SimulateCommand>(&c.what)) {
+      Outcome outcome = simulate->kind == SimulateCommand::Kind::statics ? statics() : initial();
+      if (outcome) json_.add_plain(c.text, point_.time);
+      return outcome;
+    }
+    if (const auto* linear = std::get_if<LinearCommand>(&c.what)) return run_linear(c, *linear);
+    if (const auto* passive = std::get_if<PassiveCommand>(&c.what)) {
+      remark(fmt::format("the command {} has no effect on linear models and is passed over", passive->name));
+      json_.add_plain(c.text, point_.time);
+    }
+    return {};
+  }
+
+  Outcome initial() {
+    if (consistent_) return {};
+    Findings findings;
+    write_begin(message_, "Displacement Initial Conditions");
+    auto op = assemble_position(system_, point_, findings);
+    if (!op) return tl::unexpected(op.error());
+    write_end(message_, "Displacement Initial Conditions");
+    write_begin(message_, "Velocity Initial Conditions");
+    op = initial_velocity(system_, std::move(*op), findings);
+    if (!op) return tl::unexpected(op.error());
+    write_end(message_, "Velocity Initial Conditions");
+    write_begin(message_, "Acceleration Initial Conditions");
+    op = solve_acceleration(system_, std::move(*op), findings);
+    if (!op) return tl::unexpected(op.error());
+    write_end(message_, "Acceleration Initial Conditions");
+    accept(std::move(*op), findings);
+    return {};
+  }
+
+  Outcome statics() {
+    Findings findings;
+    StaticsReport report;
+    write_begin(message_, "Static Solution");
+    auto op = find_equilibrium(system_, point_, {}, report, findings);
+    if (!op) return tl::unexpected(op.error());
+    write_static_result(message_, report.iterations, report.imbalance);
+    write_end(message_, "Static Solution");
+    // At t = 0 the dataset's velocities come back at the new pose.
+    if (op->time == 0 && !std::getenv("MSC_ADAMS_STATICS_NO_RESTORE_VELOCITIES")) op = initial_velocity(system_, std::move(*op), findings);
+    if (op) op = reconcile_velocity(system_, std::move(*op), findings);
+    if (op) op = solve_acceleration(system_, std::move(*op), findings);
+    if (!op) return tl::unexpected(op.error());
+    accept(std::move(*op), findings);
+    if (!options_.quiet) fmt::print(out_, "static equilibrium after {} iterations, imbalance {:.3e}\n", report.iterations, report.imbalance);
+    return {};
+  }
+
+  void accept(OperatingPoint op, const Findings& findings) {
+    point_ = std::move(op);
+    consistent_ = true;
+    std::vector<std::string> rows;
+    for (const std::int32_t r : findings.redundant_rows) rows.push_back(system_.row_text(r));
+    if (rows != redundant_) write_redundant(message_, point_.time, rows);
+    redundant_ = std::move(rows);
+    for (const std::string& w : findings.warnings) remark(w);
+  }
+
+  Outcome run_linear(const Command& c, const LinearCommand& command) {
+    if (auto ready = initial(); !ready) return ready;
+    LinearOptions options;
+    const Model& model = *job_.model;
+    if (command.pstate) options.pstate = model.find("PSTATE", *command.pstate);
+    if (command.pinput) options.pinput = model.find("PINPUT", *command.pinput);
+    if (command.poutput) options.poutput = model.find("POUTPUT", *command.poutput);
+    if (command.rm) options.rm = *model.find_marker(*command.rm);
+    options.without_damping = command.without_damping;
+    for (const std::string& table : command.tables) remark(fmt::format("the table {} is not available yet and is left out", table));
+    auto linear = linearize(system_, point_, options);
+    if (!linear) return tl::unexpected(linear.error());
+    for (const std::string& w : linear->warnings) remark(w);
+    if (linear->model.states.empty()) return tl::unexpected(Failure{"linear analysis", "the model has no states: neither degrees of freedom nor differential states", {}});
+
+    if (command.option == LinearOption::statemat) {
+      write_matrices(command, linear->model);
+      json_.add(c.text, linear->model);
+      if (!options_.quiet) fmt::print(out_, "state matrices of {} states written to {}\n", linear->model.states.size(), command.file);
+      return {};
+    }
+    auto modes = eigensolve(*linear);
+    if (!modes) return tl::unexpected(modes.error());
+    modes->rm = command.rm.value_or(0);
+    modes->pstate = command.pstate.value_or(0);
+    modes->without_damping = command.without_damping;
+    write_eigensolution(message_, *modes);
+    json_.add(c.text, *modes);
+    if (!options_.quiet) {
+      fmt::print(out_, "{} at time {:g}\n", c.text, modes->time);
+      write_eigen_table(out_, *modes);
+    }
+    return {};
+  }
+
+  void write_matrices(const LinearCommand& command, const StateSpace& model) {
+    const std::string base = (fs::path(job_.folder) / command.file).string();
+    const auto matrices = named_matrices(model);
+    if (command.format == "MATLAB") {
+      for (const NamedMatrix& m : matrices) {
+        auto file = std::make_unique<AtomicFile>(base + m.suffix);
+        write_matlab(file->stream(), m);
+        files_.push_back(std::move(file));
+      }
+    } else {
+      auto file = std::make_unique<AtomicFile>(base);
+      write_fsave(file->stream(), matrices, std::time(nullptr));
+      files_.push_back(std::move(file));
+    }
+  }
+
+  void remark(const std::string& text) {
+    write_block(message_, Block::warning, text);
+    fmt::print(err_, "warning: {}\n", text);
+  }
+
+  void report(const Command& c, const Failure& f) {
+    std::string text = fmt::format("{}: {}", f.analysis, f.message);
+    for (const std::string& d : f.details) text += "\n  " + d;
+    write_block(message_, Block::error, text);
+    fmt::print(err_, "error: {} failed\n{}\n", c.text, text);
+  }
+
+  // All files appear together at the end of the run.
+  bool finish() {
+    bool ok = true;
+    const auto commit = [&](AtomicFile& file) {
+      if (const auto result = file.commit(); !result) {
+        fmt::print(err_, "error: {}\n", result.error());
+        ok = false;
+      }
+    };
+    for (auto& file : files_) commit(*file);
+    AtomicFile message(job_.prefix + ".msg");
+    message.stream() << message_.str();
+    commit(message);
+    if (!options_.json.empty()) {
+      AtomicFile json(options_.json);
+      json_.write(json.stream());
+      commit(json);
+    }
+    return ok;
+  }
+
+  const SessionOptions& options_;
+  Job job_;
+  std::ostream& out_;
+  std::ostream& err_;
+  System system_;
+  OperatingPoint point_;
+  bool consistent_ = false;
+  std::vector<std::string> redundant_;
+  std::ostringstream message_;
+  JsonResults json_;
+  std::vector<std::unique_ptr<AtomicFile>> files_;
+};
+
+}  // namespace
+
+int run_session(const SessionOptions& options, std::ostream& out, std::ostream& err) {
+  auto job = Loader(options, err).load();
+  if (!job) return wrong_input;
+  return Session(options, std::move(*job), out, err).run();
+}
+
+int check_file(const std::string& file, std::ostream& out, std::ostream& err) {
+  SessionOptions options;
+  options.file = file;
+  const auto job = Loader(options, err).load();
+  if (!job) return wrong_input;
+  fmt::print(out, "{}: no errors\n", file);
+  return done;
+}
+
+int print_help(const std::string& statement, std::ostream& out, std::ostream& err) {
+  if (statement.empty()) {
+    for (const Kind* kind : catalogue()) fmt::print(out, "{:<14} {:<14} {}\n", kind->statement, kind->variant, kind->summary);
+    return done;
+  }
+  const std::string_view name = statement_name(statement);
+  bool found = false;
+  for (const Kind* kind : catalogue()) {
+    if (kind->statement != name) continue;
+    found = true;
+    fmt::print(out, "{}{}{}\n  {}\n", kind->statement, kind->variant.empty() ? "" : ", ", kind->variant, kind->summary);
+    for (const ArgumentInfo& a : kind->arguments) {
+      fmt::print(out, "    {:<16} {:<12} {:<20} {}{}\n", a.name, a.value, a.unit, a.help, a.required ? " (required)" : "");
+    }
+  }
+  if (!found) fmt::print(err, "error: no statement {} is available\n", statement);
+  return found ? done : wrong_usage;
+}
+
+}  // namespace dynalin

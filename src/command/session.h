@@ -1,0 +1,28 @@
+// One run of the program: reads and checks everything, runs the commands, writes the files.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace dynalin {
+
+struct SessionOptions {
+  std::string file;                   // .acf, or .adm together with `commands`
+  std::vector<std::string> commands;  // of -c
+  std::string json;                   // path of --json, empty for none
+  std::string output_prefix;          // of --output, empty for the name in the file
+  bool keep_going = false;
+  bool quiet = false;
+};
+
+enum ExitStatus : int { done = 0, wrong_input = 1, analysis_failed = 2, wrong_usage = 3 };
+
+// 0 done, 1 the input is wrong and nothing was run or written, 2 an analysis failed.
+int run_session(const SessionOptions&, std::ostream& out, std::ostream& err);
+// Reads and checks a dataset (with its command file) and says what is wrong.
+int check_file(const std::string& file, std::ostream& out, std::ostream& err);
+// The manual of a statement, or the list of statements.
+int print_help(const std::string& statement, std::ostream& out, std::ostream& err);
+
+}  // namespace dynalin

@@ -1,0 +1,35 @@
+// Splits the tokens of one statement into its arguments, without knowing which arguments the
+// statement has.
+//
+// A new argument begins after a comma, a backslash or a blank with a word that `=` follows or that
+// stands alone; everything else goes on with the value before it. So lists (`QP=1,0,0`) and
+// expressions that run over several lines stay whole.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "base/source.h"
+#include "dataset/dataset.h"
+
+namespace dynalin {
+
+// An argument whose value is tokens[begin, end) of the statement; `argument.value` is not set yet.
+struct ArgumentDraft {
+  WrittenArgument argument;
+  std::size_t begin = 0, end = 0;
+};
+
+struct SplitArguments {
+  std::vector<ArgumentDraft> drafts;
+  bool damaged = false;  // an error was reported
+};
+
+// `tokens` are those behind keyword, slash and id; `statement` is the full keyword, "" if unknown.
+SplitArguments split_arguments(std::span<const Token> tokens, std::string_view statement,
+                               const SourceText& source, Diagnostics& diagnostics);
+
+}  // namespace dynalin

@@ -1,0 +1,121 @@
+// The statements of a dataset or command file as written: keyword, id, arguments and where each stands.
+// Knows the grammar of text, and nothing of mechanics.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "base/source.h"
+
+namespace dynalin {
+
+enum class TokenKind : std::uint8_t {
+  word,    // letters, digits, underscores; starts with a letter or underscore
+  number,  // 12, 1.5E-3, 90D
+  symbol,  // one of , = : / \ ( ) [ ] + - * % ; ** counts as one symbol
+  other,   // a quoted text or other characters: legal only inside values read as raw text
+  end,
+};
+
+struct Token {
+  TokenKind kind = TokenKind::end;
+  bool continuation = false;  // a comma that is the continuation mark at the start of a line
+  bool degrees = false;       // a number with the suffix D; `value` is already in radians
+  bool integer = false;       // a number written without point, exponent and suffix
+  std::uint32_t offset = 0;
+  std::uint32_t length = 0;
+  double value = 0;  // of a number
+};
+
+// `NAME = value` or a bare `NAME`. The tokens of the value exclude the separators around it.
+struct WrittenArgument {
+  Span name;
+  bool has_value = false;           // '=' was written
+  std::span<const Token> value;     // into Dataset::tokens
+  Span value_span;                  // from the first to the last token of the value; after '=' if empty
+  // An error inside of it is already reported: the readers below return nothing and add no second error, and
+  // its tokens must not be parsed as an expression.
+  bool damaged = false;
+};
+
+struct Statement {
+  Span keyword;                      // as written
+  std::string_view name;             // full upper-case name out of the keyword table, "" if unknown
+  std::optional<std::int64_t> id;    // after the slash
+  Span at;                           // keyword and id together, the place to point at for the whole
+  std::string view_name;             // of a preceding `! adams_view_name='…'` comment
+  std::vector<WrittenArgument> arguments;
+  bool damaged = false;              // an error in it is already reported: id or arguments may be missing
+};
+
+// Can be moved and not copied, because the values of the arguments are spans into `tokens`. A single
+// statement may be copied as long as its dataset lives.
+struct Dataset {
+  SourceRef source;
+  std::string title;                 // at most 80 bytes
+  std::vector<Token> tokens;         // of the values of all arguments, one after the other
+  std::vector<Statement> statements; // without END; unknown ones are kept, their name is ""
+
+  Dataset() = default;
+  Dataset(Dataset&&) = default;
+  Dataset& operator=(Dataset&&) = default;
+  Dataset(const Dataset&) = delete;
+  Dataset& operator=(const Dataset&) = delete;
+  ~Dataset() = default;
+};
+
+// Reads a whole dataset: title line, statements, END. Reports every problem it finds.
+Parsed<Dataset> parse_dataset(SourceRef source);
+
+// Reads lines of commands: same grammar, no title, no END, the slash may be left out, keywords out of
+// `keywords` (they must outlive the result). Reading starts at byte `start`, behind the lines that name
+// the model.
+Parsed<Dataset> parse_statements(SourceRef source, std::span<const std::string_view> keywords,
+                                 std::uint32_t start = 0);
+
+// --- reading the value of one argument ------------------------------------------------------------
+// Each reports what it found and what it expected at the right place and returns nothing on error.
+// Between the numbers of a list a continuation comma counts as a comma, and merges with a comma before it.
+
+std::optional<double> read_real(const WrittenArgument&, const SourceText&, Diagnostics&);
+// `count` = 0 accepts any number of values ≥ 1.
+std::optional<std::vector<double>> read_reals(const WrittenArgument&, const SourceText&, Diagnostics&,
+                                              std::size_t count = 0);
+// A whole number with the place where it stands.
+struct WrittenInteger {
+  std::int64_t value;
+  Span at;
+};
+std::optional<WrittenInteger> read_integer(const WrittenArgument&, const SourceText&, Diagnostics&);
+std::optional<std::vector<WrittenInteger>> read_integers(const WrittenArgument&, const SourceText&,
+                                                         Diagnostics&);
+// One word, as written.
+std::optional<Span> read_word(const WrittenArgument&, const SourceText&, Diagnostics&);
+// Words separated by colons.
+std::optional<std::vector<Span>> read_words(const WrittenArgument&, const SourceText&, Diagnostics&);
+// Raw text such as a file name: from the first byte after '=' to the comma that ends it, without quotes
+// around it.
+std::optional<std::string> read_text(const WrittenArgument&, const SourceText&, Diagnostics&);
+
+// --- abbreviations ---------------------------------------------------------------------------------
+// The one keyword lookup, used for statements, arguments, option words and commands alike: an exact
+// match, else a unique prefix, else the candidate that the table of documented short forms prefers (M is
+// MARKER among statements and MASS among the arguments of PART). Case is not significant. Returns the index,
+// nothing if unknown (`ambiguous` lists the candidates of a tie).
+std::optional<std::size_t> find_keyword(std::string_view word,
+                                        std::span<const std::string_view> candidates,
+                                        std::vector<std::string_view>* ambiguous = nullptr);
+
+// Full name of a statement keyword by the priority table of the dataset language, "" if unknown.
+std::string_view statement_name(std::string_view word);
+std::span<const std::string_view> statement_names();
+
+// The candidate nearest to a misspelt word, "" if none is near: for hints.
+std::string_view nearest_word(std::string_view word, std::span<const std::string_view> candidates);
+
+}  // namespace dynalin

@@ -1,0 +1,132 @@
+// Keyword lookup: exact match, unique prefix, documented short forms; and the nearest word for
+// hints.
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "dataset/characters.h"
+#include "dataset/dataset.h"
+
+namespace dynalin {
+
+namespace {
+
+// Every statement of the dataset language, also those that other parts of the program refuse.
+constexpr auto statements = std::to_array<std::string_view>({
+    // clang-format off
+    "ACCGRAV", "ARRAY", "BEAM", "BUSHING", "CONTACT", "COUPLER", "CURVE", "CVCV", "DEBUG", "DIFF", "END",
+    "EQUILIBRIUM", "FE_LOAD", "FE_PART", "FEMDATA", "FIELD", "FLEX_BODY", "FRICTION", "GCON", "GEAR",
+    "GFORCE", "GRAPHICS", "GSE", "IC", "INTEGRATOR", "JOINT", "JPRIM", "KINEMATICS", "LSE", "LSOLVER",
+    "MARKER", "MATERIAL", "MATRIX", "MFORCE", "MOTION", "MREQUEST", "NFORCE", "OUTPUT", "PART", "PINPUT",
+    "POINT_MASS", "POUTPUT", "PSTATE", "PTCV", "REQUEST", "RESULTS", "SENSOR", "SFORCE", "SPLINE",
+    "SPRINGDAMPER", "STRING", "SURFACE", "TFSISO", "TIMGRAPHICS", "TIRE", "UCON", "UNITS", "VARIABLE",
+    "VFORCE", "VTORQUE",
+    // clang-format on
+});
+
+// A documented short form that is no unique prefix: from `minimum` on, every beginning of `full`
+// means it. Where several rows fit, the first whose full word is among the candidates counts.
+struct ShortForm {
+  std::string_view minimum, full;
+};
+constexpr auto short_forms = std::to_array<ShortForm>({
+    // statements
+    {"M", "MARKER"},
+    {"P", "PART"},
+    {"J", "JOINT"},
+    {"R", "REQUEST"},
+    {"LS", "LSOLVER"},
+    {"ST", "STRING"},
+    {"SE", "SENSOR"},
+    {"CON", "CONTACT"},
+    {"DE", "DEBUG"},
+    // arguments
+    {"M", "MASS"},
+    {"C", "COMMENT"},
+    {"D", "DISPLACEMENT"},
+    {"A", "ACCELERATION"},
+    {"F", "FORCE"},
+    {"L", "LENGTH"},
+    {"FLE", "FLEX_BODY"},
+    {"A", "ACTIONONLY"},
+    // kinds of joints
+    {"C", "CYLINDRICAL"},
+    {"T", "TRANSLATIONAL"},
+    {"U", "UNIVERSAL"},
+});
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  // Two rows of the usual table; a swap of neighbours counts as one edit.
+  std::vector<std::size_t> before_last, last(b.size() + 1), row(b.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const bool same = to_upper(a[i - 1]) == to_upper(b[j - 1]);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
+      const bool swapped = i > 1 && j > 1 && to_upper(a[i - 1]) == to_upper(b[j - 2]) &&
+                           to_upper(a[i - 2]) == to_upper(b[j - 1]);
+      if (swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+    before_last = last;
+    last = row;
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+std::optional<std::size_t> find_keyword(std::string_view word,
+                                        std::span<const std::string_view> candidates,
+                                        std::vector<std::string_view>* ambiguous) {
+  if (ambiguous) ambiguous->clear();
+  if (word.empty()) return std::nullopt;
+  std::optional<std::size_t> first;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!begins_with_ignoring_case(candidates[i], word)) continue;
+    if (candidates[i].size() == word.size()) return i;
+    if (!first) first = i;
+    ++count;
+  }
+  if (count <= 1) return first;
+
+  for (const ShortForm& form : short_forms) {
+    if (!begins_with_ignoring_case(word, form.minimum)) continue;
+    if (!begins_with_ignoring_case(form.full, word)) continue;
+    const auto found = std::find(candidates.begin(), candidates.end(), form.full);
+    if (found != candidates.end()) return static_cast<std::size_t>(found - candidates.begin());
+  }
+  if (ambiguous) {
+    for (const std::string_view candidate : candidates) {
+      if (begins_with_ignoring_case(candidate, word)) ambiguous->push_back(candidate);
+    }
+  }
+  return std::nullopt;
+}
+
+std::string_view statement_name(std::string_view word) {
+  const std::optional<std::size_t> found = find_keyword(word, statements);
+  return found ? statements[*found] : std::string_view{};
+}
+
+std::span<const std::string_view> statement_names() { return statements; }
+
+std::string_view nearest_word(std::string_view word, std::span<const std::string_view> candidates) {
+  constexpr std::size_t longest = 40;  // longer words are no misspelt keywords
+  if (word.empty() || word.size() > longest) return {};
+  std::string_view best;
+  std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
+  for (const std::string_view candidate : candidates) {
+    if (candidate.size() > word.size() + best_distance) continue;
+    if (word.size() > candidate.size() + best_distance) continue;
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < best_distance && distance < candidate.size()) {
+      best = candidate;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+}  // namespace dynalin

@@ -1,0 +1,77 @@
+#include "dataset/raw_text.h"
+
+#include <algorithm>
+#include <array>
+
+#include "dataset/characters.h"
+
+namespace dynalin {
+
+namespace {
+
+struct RawArgument {
+  std::string_view statement;  // "" for every statement
+  std::string_view full;
+  std::size_t minimum;  // letters that are enough
+  ValueForm form = ValueForm::text;
+};
+
+constexpr auto raw_arguments = std::to_array<RawArgument>({
+    {"", "FILE", 3},
+    {"", "MNF_FILE", 3},
+    {"", "DB_FILE", 4},
+    {"", "BDF_FILE", 4},
+    {"", "ROUTINE", 4},
+    {"", "INTERFACE", 6},
+    {"", "LABEL", 3},
+    {"", "TITLE", 3},
+    {"", "CONFIG_FILE", 4},
+    {"MATRIX", "NAME", 1},
+    {"MATRIX", "FILE", 2},
+    {"MATERIAL", "NAME", 1},
+    {"STRING", "STRING", 1},
+    {"GRAPHICS", "ELEMENT", 2},
+    {"SPLINE", "BLOCK", 1},
+    {"REQUEST", "COMMENT", 1, ValueForm::rest_of_line},
+    {"REQUEST", "TITLE", 1},
+    {"REQUEST", "CNAMES", 2},
+    {"REQUEST", "CUNITS", 2},
+    {"REQUEST", "RESULTS_NAME", 3},
+    {"MREQUEST", "COMMENT", 3, ValueForm::rest_of_line},
+    {"RESULTS", "COMMENT", 3, ValueForm::rest_of_line},
+    {"FILE", "MODEL", 1},
+    {"FILE", "COMMAND", 1},
+    {"FILE", "OUTPUT_PREFIX", 3},
+    {"SAVE", "FILE", 1},
+    {"SAVE", "TITLE", 1},
+    {"RELOAD", "FILE", 1},
+    {"RELOAD", "TITLE", 1},
+    {"RELOAD", "OUTPUT_PREFIX", 3},
+    {"LINEAR", "FILE", 2},
+    {"LINEAR", "CONFIG", 3},
+    {"ENVIRONMENT", "NAME", 1},
+    {"ENVIRONMENT", "VALUE", 1},
+    {"PREFERENCES", "LIBPATH", 3},
+    {"PREFERENCES", "CONTACT_GEOMETRY_LIBRARY", 9},
+});
+
+constexpr auto after_comment = std::to_array<std::string_view>(
+    {"I", "J", "RM", "F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "FUNCTION", "TITLE", "CNAMES",
+     "CUNITS", "RESULTS_NAME", "VARIABLES"});
+
+}  // namespace
+
+ValueForm value_form(std::string_view statement, std::string_view argument) {
+  for (const RawArgument& raw : raw_arguments) {
+    if (argument.size() < raw.minimum || !begins_with_ignoring_case(raw.full, argument)) continue;
+    if (raw.statement.empty() || raw.statement == statement) return raw.form;
+  }
+  return ValueForm::tokens;
+}
+
+bool ends_comment(std::string_view name) {
+  return std::any_of(after_comment.begin(), after_comment.end(),
+                     [&](std::string_view word) { return equal_ignoring_case(word, name); });
+}
+
+}  // namespace dynalin

@@ -1,0 +1,255 @@
+// Reads the value of one argument as numbers, words or text.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "dataset/dataset.h"
+#include "dataset/tokens.h"
+
+namespace dynalin {
+
+namespace {
+
+struct WrittenReal {
+  double value;
+  bool integer;
+  Span at;
+};
+
+std::string_view name_of(const WrittenArgument& argument) { return argument.name.text(); }
+
+// False if there is nothing to read, which is reported here unless it was before.
+bool has_readable_value(const WrittenArgument& argument, std::string_view what,
+                        Diagnostics& diagnostics) {
+  if (argument.damaged) return false;
+  if (argument.has_value && !argument.value.empty()) return true;
+  diagnostics.error("missing-value", argument.name,
+                    fmt::format("{} needs {}", name_of(argument), what),
+                    fmt::format("write {} = ...", name_of(argument)));
+  return false;
+}
+
+// Numbers with commas between them. Reads as far as it can, so that the first thing wrong is
+// reported.
+class NumberList {
+ public:
+  NumberList(const WrittenArgument& argument, const SourceText& source, Diagnostics& diagnostics)
+      : argument_(argument), source_(source), diagnostics_(diagnostics) {}
+
+  std::optional<std::vector<WrittenReal>> read() {
+    std::vector<WrittenReal> numbers;
+    for (;;) {
+      const std::optional<WrittenReal> number = read_number();
+      if (!number) return std::nullopt;
+      numbers.push_back(*number);
+      if (at_ == tokens().size()) return numbers;
+      if (!read_comma()) return std::nullopt;
+    }
+  }
+
+ private:
+  std::span<const Token> tokens() const { return argument_.value; }
+  bool symbol_here(char symbol) const {
+    return at_ < tokens().size() && is_symbol(tokens()[at_], source_, symbol);
+  }
+
+  std::optional<WrittenReal> read_number() {
+    const std::size_t begin = at_;
+    const bool negative = symbol_here('-');
+    if (negative || symbol_here('+')) ++at_;
+    if (at_ == tokens().size() || symbol_here(',')) {
+      report_missing(begin);
+      return std::nullopt;
+    }
+    const Token& token = tokens()[at_];
+    const Span at = token_span(token, source_);
+    if (token.kind != TokenKind::number) {
+      diagnostics_.error("expected-number", at,
+                         fmt::format("{} takes plain numbers, found {}", name_of(argument_),
+                                     quoted(token, source_)));
+      return std::nullopt;
+    }
+    // Too large a number was reported with the statement, and its argument marked.
+    if (!std::isfinite(token.value)) return std::nullopt;
+    ++at_;
+    return WrittenReal{negative ? -token.value : token.value, token.integer,
+                       join(token_span(tokens()[begin], source_), at)};
+  }
+
+  void report_missing(std::size_t begin) {
+    const Token& token = tokens()[std::min(begin, tokens().size() - 1)];
+    diagnostics_.error("missing-value", token_span(token, source_),
+                       fmt::format("a number is missing in the list of {}", name_of(argument_)));
+  }
+
+  // A comma at the end of a line and the mark at the start of the next are one.
+  bool read_comma() {
+    if (symbol_here(',')) {
+      ++at_;
+      while (at_ < tokens().size() && tokens()[at_].continuation) ++at_;
+      return true;
+    }
+    const Token& token = tokens()[at_];
+    const bool number = token.kind == TokenKind::number;
+    diagnostics_.error(number ? "expected-comma" : "expected-number", token_span(token, source_),
+                       number ? fmt::format("a comma is missing before {}", quoted(token, source_))
+                              : fmt::format("{} takes plain numbers, found {}", name_of(argument_),
+                                            quoted(token, source_)));
+    return false;
+  }
+
+  const WrittenArgument& argument_;
+  const SourceText& source_;
+  Diagnostics& diagnostics_;
+  std::size_t at_ = 0;
+};
+
+std::optional<std::vector<WrittenReal>> read_numbers(const WrittenArgument& argument,
+                                                     const SourceText& source,
+                                                     Diagnostics& diagnostics, std::size_t count,
+                                                     std::string_view noun) {
+  const std::string what = count == 0   ? fmt::format("{}s", noun)
+                           : count == 1 ? fmt::format("one {}", noun)
+                                        : fmt::format("{} {}s", count, noun);
+  if (!has_readable_value(argument, what, diagnostics)) return std::nullopt;
+  auto numbers = NumberList(argument, source, diagnostics).read();
+  if (!numbers || count == 0 || numbers->size() == count) return numbers;
+  diagnostics.error("wrong-count", argument.value_span,
+                    fmt::format("{} takes {}, found {}", name_of(argument), what, numbers->size()));
+  return std::nullopt;
+}
+
+// Whole numbers may be written as reals without fraction.
+std::optional<WrittenInteger> as_integer(const WrittenArgument& argument, const WrittenReal& number,
+                                         Diagnostics& diagnostics) {
+  constexpr double exact = 9007199254740992.0;  // 2^53: beyond it neighbours coincide
+  const bool degrees =
+      !number.integer && number.at.text().find_first_of("dD") != std::string_view::npos;
+  if (!degrees && std::abs(number.value) <= exact && number.value == std::floor(number.value)) {
+    return WrittenInteger{static_cast<std::int64_t>(number.value), number.at};
+  }
+  diagnostics.error(
+      "expected-integer", number.at,
+      fmt::format("{} takes whole numbers, found {}", name_of(argument), quoted(number.at.text())));
+  return std::nullopt;
+}
+
+// One word, which may begin with digits (3DBEAM) as long as no blank stands in it.
+std::optional<Span> take_word(const WrittenArgument& argument, const SourceText& source,
+                              Diagnostics& diagnostics, std::size_t& at) {
+  const std::span<const Token> tokens = argument.value;
+  while (at < tokens.size() && tokens[at].continuation) ++at;
+  if (at == tokens.size()) {
+    diagnostics.error("missing-value", token_span(tokens.back(), source),
+                      fmt::format("a word is missing in the list of {}", name_of(argument)));
+    return std::nullopt;
+  }
+  Span word = token_span(tokens[at], source);
+  bool has_letters = false;
+  const std::size_t begin = at;
+  while (at < tokens.size()) {
+    const Token& token = tokens[at];
+    if (token.kind != TokenKind::word && token.kind != TokenKind::number) break;
+    if (at > begin && token.offset != word.offset + word.length) break;
+    has_letters = has_letters || token.kind == TokenKind::word;
+    word = join(word, token_span(token, source));
+    ++at;
+  }
+  if (has_letters) return word;
+  diagnostics.error(
+      "expected-word", word,
+      fmt::format("{} takes a word, found {}", name_of(argument), quoted(word.text())));
+  return std::nullopt;
+}
+
+void report_not_a_word(const WrittenArgument& argument, const Token& token,
+                       const SourceText& source, std::string_view takes, Diagnostics& diagnostics) {
+  diagnostics.error("expected-word", token_span(token, source),
+                    fmt::format("{} takes {}, found {} behind the first", name_of(argument), takes,
+                                quoted(token, source)));
+}
+
+}  // namespace
+
+std::optional<double> read_real(const WrittenArgument& argument, const SourceText& source,
+                                Diagnostics& diagnostics) {
+  const auto numbers = read_numbers(argument, source, diagnostics, 1, "number");
+  if (!numbers) return std::nullopt;
+  return numbers->front().value;
+}
+
+std::optional<std::vector<double>> read_reals(const WrittenArgument& argument,
+                                              const SourceText& source, Diagnostics& diagnostics,
+                                              std::size_t count) {
+  const auto numbers = read_numbers(argument, source, diagnostics, count, "number");
+  if (!numbers) return std::nullopt;
+  std::vector<double> values;
+  values.reserve(numbers->size());
+  for (const WrittenReal& number : *numbers) values.push_back(number.value);
+  return values;
+}
+
+std::optional<WrittenInteger> read_integer(const WrittenArgument& argument,
+                                           const SourceText& source, Diagnostics& diagnostics) {
+  const auto numbers = read_numbers(argument, source, diagnostics, 1, "whole number");
+  if (!numbers) return std::nullopt;
+  return as_integer(argument, numbers->front(), diagnostics);
+}
+
+std::optional<std::vector<WrittenInteger>> read_integers(const WrittenArgument& argument,
+                                                         const SourceText& source,
+                                                         Diagnostics& diagnostics) {
+  const auto numbers = read_numbers(argument, source, diagnostics, 0, "whole number");
+  if (!numbers) return std::nullopt;
+  std::vector<WrittenInteger> values;
+  values.reserve(numbers->size());
+  for (const WrittenReal& number : *numbers) {
+    const auto value = as_integer(argument, number, diagnostics);
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+  }
+  return values;
+}
+
+std::optional<Span> read_word(const WrittenArgument& argument, const SourceText& source,
+                              Diagnostics& diagnostics) {
+  if (!has_readable_value(argument, "a word", diagnostics)) return std::nullopt;
+  std::size_t at = 0;
+  const std::optional<Span> word = take_word(argument, source, diagnostics, at);
+  if (!word || at == argument.value.size()) return word;
+  report_not_a_word(argument, argument.value[at], source, "one word", diagnostics);
+  return std::nullopt;
+}
+
+std::optional<std::vector<Span>> read_words(const WrittenArgument& argument,
+                                            const SourceText& source, Diagnostics& diagnostics) {
+  if (!has_readable_value(argument, "words", diagnostics)) return std::nullopt;
+  std::vector<Span> words;
+  std::size_t at = 0;
+  for (;;) {
+    const std::optional<Span> word = take_word(argument, source, diagnostics, at);
+    if (!word) return std::nullopt;
+    words.push_back(*word);
+    while (at < argument.value.size() && argument.value[at].continuation) ++at;
+    if (at == argument.value.size()) return words;
+    if (!is_symbol(argument.value[at], source, ':')) break;
+    ++at;
+  }
+  report_not_a_word(argument, argument.value[at], source, "words with colons between them",
+                    diagnostics);
+  return std::nullopt;
+}
+
+std::optional<std::string> read_text(const WrittenArgument& argument, const SourceText&,
+                                     Diagnostics& diagnostics) {
+  if (!has_readable_value(argument, "a text", diagnostics)) return std::nullopt;
+  std::string_view text = argument.value_span.text();
+  const bool in_quotes = text.size() >= 2 && (text.front() == '\'' || text.front() == '"') &&
+                         text.find(text.front(), 1) == text.size() - 1;
+  if (in_quotes) text = text.substr(1, text.size() - 2);
+  return std::string(text);
+}
+
+}  // namespace dynalin

@@ -1,0 +1,186 @@
+// PART/id, GROUND   or   PART/id, MASS=, CM=, IM=, IP=, QG=, {REULER= | ZG=, XG=}, VX= … WZ=, VM=, WM=, EXACT=
+//
+// A rigid body. IP holds Ixx, Iyy, Izz, Ixy, Ixz, Iyz with positive product integrals, so that the tensor has −Ixy …
+// off its diagonal, about the origin and along the axes of IM (CM if IM is absent). Initial velocities are those of the
+// CM along the axes of VM (global) and the angular velocity along those of WM (CM); a component that is not stated
+// may change freely.
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+
+#include "elements/families/inertia.h"
+#include "elements/families/orientation.h"
+#include "model/schema.h"
+
+namespace dynalin {
+
+namespace {
+
+struct Part {
+  bool ground = false;
+  double mass = 0;
+  MarkerId cm, im, vm, wm;
+  std::vector<double> ip;
+  Vector origin;
+  std::optional<Vector> angles, z_point, x_point;
+  std::optional<double> vx, vy, vz, wx, wy, wz;
+  std::vector<std::string> exact;
+  std::string material;
+  Matrix3 axes = Matrix3::identity();
+
+  static constexpr std::array<Argument<Part>, 18> arguments = {{
+      {.name = "GROUND", .slot = &Part::ground, .help = "this is the inertial body"},
+      {.name = "MASS", .slot = &Part::mass, .unit = unit::mass, .minimum = 0},
+      {.name = "CM", .slot = &Part::cm, .help = "marker at the centre of mass"},
+      {.name = "IM", .slot = &Part::im, .help = "marker that IP refers to, CM by default"},
+      {.name = "IP", .slot = &Part::ip, .unit = unit::inertia, .help = "Ixx, Iyy, Izz [, Ixy, Ixz, Iyz]"},
+      {.name = "QG", .slot = &Part::origin, .unit = unit::length, .help = "origin of the BCS"},
+      {.name = "REULER", .slot = &Part::angles, .unit = unit::angle, .help = "3-1-3 angles of the BCS"},
+      {.name = "ZG", .slot = &Part::z_point, .unit = unit::length, .help = "global point on +z of the BCS"},
+      {.name = "XG", .slot = &Part::x_point, .unit = unit::length, .help = "global point in the x-z plane"},
+      {.name = "VX", .slot = &Part::vx, .unit = unit::velocity, .help = "initial velocity of the CM"},
+      {.name = "VY", .slot = &Part::vy, .unit = unit::velocity},
+      {.name = "VZ", .slot = &Part::vz, .unit = unit::velocity},
+      {.name = "WX", .slot = &Part::wx, .unit = unit::angular_velocity, .help = "initial angular velocity"},
+      {.name = "WY", .slot = &Part::wy, .unit = unit::angular_velocity},
+      {.name = "WZ", .slot = &Part::wz, .unit = unit::angular_velocity},
+      {.name = "VM", .slot = &Part::vm, .help = "axes of VX, VY, VZ; global by default"},
+      {.name = "WM", .slot = &Part::wm, .help = "axes of WX, WY, WZ; those of CM by default"},
+      {.name = "EXACT", .slot = &Part::exact, .help = "coordinates the assembly should keep: X:Y:Z:PSI:THETA:PHI"},
+  }};
+};
+
+void mark_exact(Body& body, const std::vector<std::string>& words, ElementReader& reader) {
+  static constexpr std::array<std::string_view, 6> names = {"X", "Y", "Z", "PSI", "THETA", "PHI"};
+  for (const std::string& word : words) {
+    if (const auto k = find_keyword(word, names)) {
+      body.exact[*k] = true;
+    } else {
+      reader.error("unknown-word", reader.at("EXACT"), fmt::format("EXACT has no coordinate {}", word),
+                   "one of X, Y, Z, PSI, THETA, PHI");
+    }
+  }
+}
+
+class PartSet final : public TypedSet<Part> {
+ public:
+  using TypedSet::TypedSet;
+
+  void read(std::size_t k, ElementReader& reader) override {
+    Part& p = elements[k];
+    if (!read_arguments(p, reader)) return;
+    if (p.ground && reader.statement().arguments.size() > 1) {
+      reader.error("argument-of-ground", reader.at("GROUND"),
+                   fmt::format("{} is the ground and takes no other argument", reader.label().text()));
+      return;
+    }
+    if (!p.ip.empty() && p.ip.size() != 3 && p.ip.size() != 6) {
+      reader.error("wrong-count", reader.at("IP"),
+                   fmt::format("IP has {} values, it takes 3 or 6", p.ip.size()));
+    }
+    if ((p.mass > 0 || has_inertia(p)) && !p.cm.valid()) {
+      reader.error("missing-cm", reader.statement().at,
+                   fmt::format("{} has mass or inertia but no CM", reader.label().text()),
+                   "CM= names the marker at the centre of mass");
+    }
+    if (p.mass == 0 && has_inertia(p)) {
+      reader.warning("inertia-without-mass", reader.at("IP"),
+                     fmt::format("{} has inertia but no mass", reader.label().text()));
+    }
+    Body checked;
+    mark_exact(checked, p.exact, reader);
+    const auto axes =
+        orientation({p.angles, p.z_point, p.x_point, false, "REULER", "ZG", "XG"}, p.origin, reader);
+    if (axes) p.axes = *axes;
+  }
+
+  void finish(Model& model, Diagnostics& diagnostics) override {
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      const Part& p = elements[k];
+      if (p.ground) continue;
+      const BodyId id = *model.find_body("PART", labels[k].id);
+      Body& body = model.bodies[static_cast<std::size_t>(id.index)];
+      body.pose = {p.origin, p.axes};
+      body.user_mass = p.mass;
+      body.mass = p.mass / model.units.ucf;
+      place_mass(p, labels[k], id, model, body, diagnostics);
+      body.velocity = {{p.vx, p.vy, p.vz},
+                       {p.wx, p.wy, p.wz},
+                       p.vm.valid() ? p.vm : global_frame,
+                       p.wm.valid() ? p.wm : p.cm.valid() ? p.cm : global_frame};
+      if (!p.wm.valid() && !p.cm.valid() && (p.wx || p.wy || p.wz)) {
+        diagnostics.error("missing-cm", labels[k].at,
+                          fmt::format("{} states an angular velocity but neither WM nor CM", labels[k].text()));
+      }
+    }
+  }
+
+  std::unique_ptr<Kernel> make_kernel(const Model& model, Layout&) const override {
+    return std::make_unique<InertiaKernel>(model, BodyKind::part);
+  }
+
+ private:
+  static bool has_inertia(const Part& p) {
+    return std::any_of(p.ip.begin(), p.ip.end(), [](double x) { return x != 0.0; });
+  }
+
+  static void place_mass(const Part& p, const ElementLabel& label, BodyId id, const Model& model,
+                         Body& body, Diagnostics& diagnostics) {
+    if (!p.cm.valid()) return;
+    const auto owned = [&](MarkerId m, std::string_view argument) {
+      if (model.marker(m).place.body == id && !model.marker(m).floating) return true;
+      diagnostics.error("foreign-marker", label.at,
+                        fmt::format("{} of {} must be a fixed marker of that part, {} is not", argument,
+                                    label.text(), model.marker(m).label.text()));
+      return false;
+    };
+    if (!owned(p.cm, "CM") || (p.im.valid() && !owned(p.im, "IM"))) return;
+    const MarkerPlace& cm = model.marker(p.cm).place;
+    const MarkerPlace& im = model.marker(p.im.valid() ? p.im : p.cm).place;
+    body.has_cm = true;
+    body.p_BC = cm.p_BM;
+    if (p.ip.empty()) return;
+    const double xy = p.ip.size() == 6 ? p.ip[3] : 0, xz = p.ip.size() == 6 ? p.ip[4] : 0,
+                 yz = p.ip.size() == 6 ? p.ip[5] : 0;
+    const Matrix3 J_IM{{p.ip[0], -xy, -xz}, {-xy, p.ip[1], -yz}, {-xz, -yz, p.ip[2]}};
+    // From the origin of IM to the centre of mass, then from model units to dynamical ones.
+    const Vector s = cm.p_BM - im.p_BM;
+    const Matrix3 about_im = im.R_BM * J_IM * transpose(im.R_BM);
+    const Matrix3 about_cm = about_im - p.mass * (Matrix3::diagonal(dot(s, s)) - outer(s, s));
+    body.J_BC = (1.0 / model.units.ucf) * about_cm;
+
+    Eigen::Matrix3d J;
+    for (std::size_t r = 0; r < 3; ++r) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        J(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) = about_cm(r, c);
+      }
+    }
+    const Eigen::Vector3d principal =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(J, Eigen::EigenvaluesOnly).eigenvalues();
+    const double scale = principal.cwiseAbs().maxCoeff();
+    if (principal(0) < -1e-6 * scale) {
+      diagnostics.error("negative-inertia", label.at,
+                        fmt::format("the inertia tensor of {} about its centre of mass has the negative "
+                                    "principal value {:.4g}", label.text(), principal(0)));
+    } else if (principal(0) > 0 && principal(2) > (principal(0) + principal(1)) * (1 + 1e-4)) {
+      // With a principal value of exactly zero a planar model is meant, and no body is claimed.
+      diagnostics.warning("impossible-inertia", label.at,
+                          fmt::format("no rigid body has the principal inertias {:.4g}, {:.4g}, {:.4g} of {}",
+                                      principal(0), principal(1), principal(2), label.text()),
+                          "the largest is more than the sum of the others");
+    }
+  }
+};
+
+}  // namespace
+
+extern constinit const Kind part = {"PART",
+                                    "",
+                                    "A rigid body, or the ground.",
+                                    Kind::Role::body,
+                                    detail::argument_infos<Part>,
+                                    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+                                      return std::make_unique<PartSet>(kind);
+                                    }};
+
+}  // namespace dynalin

@@ -1,0 +1,33 @@
+// JOINT/id, TRANSLATIONAL, I=, J=
+//
+// A slider: the origin of I stays on the z axis of J and all axes stay parallel. Removes 5 degrees of freedom; the
+// translation that is left is that of I along z_J, measured from J.
+#include "elements/families/joint.h"
+
+namespace dynalin {
+
+namespace {
+
+struct Translational {
+  MarkerId i, j;
+
+  static constexpr std::string_view variant = "TRANSLATIONAL";
+  static constexpr std::string_view summary = "Slider: one translation along the common z axis is free.";
+  static constexpr std::array<std::string_view, 5> row_names = {"DX", "DY", "Zi.Xj", "Zi.Yj", "Xi.Yj"};
+  static constexpr bool rotates = false, translates = true;
+  static constexpr std::array<Argument<Translational>, 2> arguments = {{
+      {.name = "I", .slot = &Translational::i, .required = true, .help = "marker on the first body"},
+      {.name = "J", .slot = &Translational::j, .required = true, .help = "marker on the second body"},
+  }};
+
+  template <class T>
+  std::array<T, 5> rows(const RelativeFrame<T>& I) const {
+    return {I.p.x, I.p.y, I.z.x, I.z.y, I.x.y};
+  }
+};
+
+}  // namespace
+
+extern constinit const Kind translational = joint<Translational>();
+
+}  // namespace dynalin

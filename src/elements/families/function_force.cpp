@@ -1,0 +1,72 @@
+#include "elements/families/function_force.h"
+
+namespace dynalin {
+
+FunctionForceKernel::FunctionForceKernel(std::vector<FunctionForce> elements,
+                                         const std::vector<ElementLabel>& labels, Layout& layout) {
+  for (std::size_t k = 0; k < elements.size(); ++k) {
+    const MarkerPlace I = layout.marker(elements[k].i), J = layout.marker(elements[k].j);
+    forces_.push_back({std::move(elements[k]), I, J, layout.add_algebraic(labels[k]), {}});
+  }
+}
+
+void FunctionForceKernel::bind(const Signals& signals) {
+  for (Force& f : forces_) f.magnitude = BoundExpression(f.element.magnitude, signals);
+}
+
+PairForce FunctionForceKernel::force_of(const Force& f, const PairMotion& pair, double magnitude,
+                                        bool with_partials) {
+  if (f.element.direction == Direction::along_line) {
+    return along_line(pair, {magnitude, 0.0, 0.0}, with_partials);
+  }
+  RelativeWrench w;
+  (f.element.direction == Direction::along_z ? w.force : w.torque).z = magnitude;
+  PairForce force = spread(pair, w, with_partials);
+  force.acts_on_J = !f.element.action_only;
+  return force;
+}
+
+void FunctionForceKernel::equations(const Motion& motion, Equations& eq) const {
+  for (const Force& f : forces_) {
+    const double w = motion.algebraic[static_cast<std::size_t>(f.algebraic)];
+    const std::int32_t row = eq.algebraic_row(f.algebraic);
+    eq.add_residual(row, w);
+    eq.add(Column::algebraic, row, f.algebraic, 1.0);
+    f.magnitude.add(motion, eq, row, -1.0, Column::damping);
+
+    const PairMotion pair = pair_motion(motion, f.I, f.J);
+    const PairForce force = force_of(f, pair, w, eq.wants_partials());
+    apply(pair, force, eq);
+    if (!eq.wants(Column::algebraic)) continue;
+    const PairForce one = force_of(f, pair, 1.0, false);
+    apply_column(pair, one.force, one.torque, force.acts_on_J, Column::algebraic, f.algebraic, eq);
+  }
+}
+
+void FunctionForceKernel::remember(const Motion& motion, Memory& memory) const {
+  for (const Force& f : forces_) f.magnitude.remember(motion, memory);
+}
+
+void FunctionForceKernel::wrench(const Motion& motion, std::size_t k, bool with_partials,
+                                 MarkerWrench& out) const {
+  const Force& f = forces_[k];
+  out.pair = pair_motion(motion, f.I, f.J);
+  out.force = force_of(f, out.pair, motion.algebraic[static_cast<std::size_t>(f.algebraic)], with_partials);
+  if (!with_partials) return;
+  const PairForce one = force_of(f, out.pair, 1.0, false);
+  out.scalars.push_back({Column::algebraic, f.algebraic, one.force, one.torque});
+}
+
+std::string FunctionForceKernel::fault(const Motion& motion) const {
+  for (const Force& f : forces_) {
+    const std::string reason = f.magnitude.fault(motion);
+    if (!reason.empty()) return f.element.label.full_text() + ": " + reason;
+    if (f.element.direction == Direction::along_line &&
+        norm(motion.point(f.I) - motion.point(f.J)) == 0.0) {
+      return "the markers of " + f.element.label.full_text() + " coincide, its line of action has no direction";
+    }
+  }
+  return {};
+}
+
+}  // namespace dynalin

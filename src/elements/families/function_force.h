@@ -1,0 +1,51 @@
+// A single force or torque whose magnitude is a function expression.
+//
+// The magnitude is one algebraic unknown w with the equation w − e = 0, so that expressions may refer to each
+// other and the Jacobian stays sparse; the element adds only the direction.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "elements/families/markers.h"
+#include "mechanics/bound_expression.h"
+#include "mechanics/kernel.h"
+#include "model/schema.h"
+
+namespace dynalin {
+
+enum class Direction : std::uint8_t { along_line, along_z, about_z };
+
+struct FunctionForce {
+  ElementLabel label;
+  MarkerId i, j;
+  Direction direction = Direction::along_line;
+  bool action_only = false;
+  Expression magnitude;
+};
+
+class FunctionForceKernel final : public Kernel {
+ public:
+  FunctionForceKernel(std::vector<FunctionForce>, const std::vector<ElementLabel>&, Layout&);
+
+  void bind(const Signals&) override;
+  void equations(const Motion&, Equations&) const override;
+  void remember(const Motion&, Memory&) const override;
+  bool has_wrench() const override { return true; }
+  MarkerId marker_I(std::size_t k) const override { return forces_[k].element.i; }
+  MarkerId marker_J(std::size_t k) const override { return forces_[k].element.j; }
+  void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;
+  std::string fault(const Motion&) const override;
+
+ private:
+  struct Force {
+    FunctionForce element;
+    MarkerPlace I, J;
+    std::int32_t algebraic;
+    BoundExpression magnitude;
+  };
+  static PairForce force_of(const Force&, const PairMotion&, double magnitude, bool with_partials);
+  std::vector<Force> forces_;
+};
+
+}  // namespace dynalin

@@ -1,0 +1,44 @@
+#include "elements/families/inertia.h"
+
+namespace dynalin {
+
+InertiaKernel::InertiaKernel(const Model& model, BodyKind kind) : gravity_(model.gravity) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    if (body.kind != kind) continue;
+    const Vector& c = body.p_BC;
+    const Matrix3& J = body.J_BC;
+    // ∫ρρᵀ about the CM is tr(J)/2 − J; moving the point adds m c cᵀ.
+    const Matrix3 S = Matrix3::diagonal(0.5 * trace(J)) - J + body.mass * outer(c, c);
+    masses_.push_back({BodyId{static_cast<std::int32_t>(b)}, body.mass, body.mass * c, S});
+  }
+}
+
+void InertiaKernel::equations(const Motion& motion, Equations& eq) const {
+  for (const Mass& m : masses_) {
+    const BodyMotion& b = motion.body(m.body);
+    const BodyBlock& block = eq.layout().body(m.body);
+    const Vector c = b.R * m.moment, cdot = b.Rdot * m.moment, cddot = b.Rddot * m.moment;
+    const Matrix3 SA = m.S * transpose(b.R);
+    const Matrix3 G0 = b.R * SA, G2 = b.Rddot * SA;
+    // Σ S_ab a_a × a_b″ is the axial vector of G₂: e_k·T = ε_kij G₂(j,i).
+    const Vector moment = Vector{G2(2, 1) - G2(1, 2), G2(0, 2) - G2(2, 0), G2(1, 0) - G2(0, 1)};
+    const Vector force = m.mass * (b.rddot - gravity_) + cddot;
+    eq.apply(m.body, force, moment + cross(c, b.rddot - gravity_), 1.0);
+    if (!eq.wants_partials()) continue;
+
+    const Matrix3 one = Matrix3::identity();
+    const Matrix3 J = trace(G0) * one - G0;
+    const std::int32_t column = block.offset;
+    eq.add_block(Column::acceleration, m.body, column, m.mass * one, skew(c), 1.0);
+    if (block.count < 6) continue;
+    const Matrix3 G1 = b.Rdot * SA;
+    eq.add_block(Column::acceleration, m.body, column + 3, -skew(c), J, 1.0);
+    eq.add_block(Column::velocity, m.body, column + 3, -2.0 * skew(cdot),
+                 2.0 * (trace(G1) * one - G1), 1.0);
+    eq.add_block(Column::position, m.body, column + 3, -skew(cddot),
+                 transpose(G2) - G2 + skew(b.rddot - gravity_) * skew(c), 1.0);
+  }
+}
+
+}  // namespace dynalin

@@ -1,0 +1,160 @@
+// One scalar law along the line between two markers, or about the z axis of J.
+//
+// line_force: a member gives `S along_line(const TimeTaylor<S>& d)`, the force as a law of the distance and its
+// rate; positive pushes I away from J. axis_torque: a member gives `S about_axis(const S& angle, const S& rate)`, the
+// torque on I about z_J as a law of AZ(I,J), whole turns counted, and WZ(I,J,J).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "elements/families/joint.h"
+#include "elements/families/markers.h"
+#include "mechanics/kernel.h"
+#include "mechanics/path.h"
+#include "model/schema.h"
+
+namespace dynalin {
+
+template <class E>
+class LineForceKernel final : public Kernel {
+ public:
+  LineForceKernel(const std::vector<E>& elements, const std::vector<ElementLabel>& labels, Layout& layout)
+      : labels_(&labels) {
+    for (const E& e : elements) forces_.push_back({e, layout.marker(e.i), layout.marker(e.j)});
+  }
+
+  void equations(const Motion& motion, Equations& eq) const override {
+    for (const Force& f : forces_) {
+      const PairMotion pair = pair_motion(motion, f.I, f.J);
+      apply(pair, force_of(f, pair, eq.wants_partials()), eq);
+    }
+  }
+
+  bool has_wrench() const override { return true; }
+  MarkerId marker_I(std::size_t k) const override { return forces_[k].element.i; }
+  MarkerId marker_J(std::size_t k) const override { return forces_[k].element.j; }
+  void wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const override {
+    out.pair = pair_motion(motion, forces_[k].I, forces_[k].J);
+    out.force = force_of(forces_[k], out.pair, with_partials);
+  }
+  std::string fault(const Motion& motion) const override {
+    for (std::size_t k = 0; k < forces_.size(); ++k) {
+      const Vector line = motion.point(forces_[k].I) - motion.point(forces_[k].J);
+      if (norm(line) == 0.0) return "the markers of " + (*labels_)[k].full_text() + " coincide, its line of action has no direction";
+    }
+    return {};
+  }
+
+ private:
+  struct Force {
+    E element;
+    MarkerPlace I, J;
+  };
+  static PairForce force_of(const Force& f, const PairMotion& pair, bool with_partials) {
+    const Taylor d = norm(pair.I.origin - pair.J.origin);
+    const TimeTaylor<Dual<2>> seeded{Dual<2>(d.value, 0), Dual<2>(d.rate, 1),
+                                     Dual<2>(detail::missing(0.0))};
+    const Dual<2> F = f.element.along_line(seeded);
+    return along_line(pair, {F.value, F.partial[0], F.partial[1]}, with_partials);
+  }
+  std::vector<Force> forces_;
+  const std::vector<ElementLabel>* labels_;
+};
+
+template <class E>
+class AxisTorqueKernel final : public Kernel {
+ public:
+  AxisTorqueKernel(const std::vector<E>& elements, const std::vector<ElementLabel>&, Layout& layout) {
+    for (const E& e : elements) {
+      torques_.push_back({e, layout.marker(e.i), layout.marker(e.j), layout.add_memory()});
+    }
+  }
+
+  void equations(const Motion& motion, Equations& eq) const override {
+    for (const Torque& t : torques_) {
+      const PairMotion pair = pair_motion(motion, t.I, t.J);
+      apply(pair, torque_of(t, pair, motion, eq.wants_partials()), eq);
+    }
+  }
+  void remember(const Motion& motion, Memory& memory) const override {
+    for (const Torque& t : torques_) {
+      const PairMotion pair = pair_motion(motion, t.I, t.J);
+      auto& total = memory[static_cast<std::size_t>(t.memory)];
+      total = unwrapped(joint_rotation(pair.relative).value, total);
+    }
+  }
+
+  bool has_wrench() const override { return true; }
+  MarkerId marker_I(std::size_t k) const override { return torques_[k].element.i; }
+  MarkerId marker_J(std::size_t k) const override { return torques_[k].element.j; }
+  void wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const override {
+    out.pair = pair_motion(motion, torques_[k].I, torques_[k].J);
+    out.force = torque_of(torques_[k], out.pair, motion, with_partials);
+  }
+
+ private:
+  struct Torque {
+    E element;
+    MarkerPlace I, J;
+    std::int32_t memory;
+  };
+  static PairForce torque_of(const Torque& t, const PairMotion& pair, const Motion& motion,
+                             bool with_partials) {
+    const auto I = path::seeded<12>(pair.relative);
+    Dual<12> angle = joint_rotation(I).value;
+    angle.value = unwrapped(angle.value, motion.memory[static_cast<std::size_t>(t.memory)]);
+    // z component of the relative angular velocity, ½ Σ a × a′ over the axes of I seen from J.
+    const auto about_z = [](const auto& a) { return a.x.value * a.y.rate - a.y.value * a.x.rate; };
+    const Dual<12> rate = (about_z(I.x) + about_z(I.y) + about_z(I.z)) * 0.5;
+    const Dual<12> torque = t.element.about_axis(angle, rate);
+    RelativeWrench w;
+    w.torque.z = torque.value;
+    w.depends_on_rate = true;
+    for (std::size_t k = 0; k < 6; ++k) {
+      w.on_pose[5][k] = torque.partial[k];
+      w.on_rate[5][k] = torque.partial[6 + k];
+    }
+    return spread(pair, w, with_partials);
+  }
+  std::vector<Torque> torques_;
+};
+
+template <class E, template <class> class KernelOf>
+class TwoMarkerForceSet final : public TypedSet<E> {
+ public:
+  using TypedSet<E>::TypedSet;
+  void read(std::size_t k, ElementReader& reader) override { read_arguments(this->elements[k], reader); }
+  void finish(Model& model, Diagnostics& diagnostics) override {
+    constexpr bool turns = E::acts_on_rotation;
+    for (std::size_t k = 0; k < this->elements.size(); ++k) {
+      const E& e = this->elements[k];
+      check_pair(model, this->labels[k], e.i, e.j, {true, turns, turns}, diagnostics);
+    }
+  }
+  std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
+    return std::make_unique<KernelOf<E>>(this->elements, this->labels, layout);
+  }
+};
+
+template <class E, template <class> class KernelOf>
+constexpr Kind two_marker_force() {
+  return {E::keyword,
+          E::variant,
+          E::summary,
+          Kind::Role::element,
+          detail::argument_infos<E>,
+          [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+            return std::make_unique<TwoMarkerForceSet<E, KernelOf>>(kind);
+          }};
+}
+template <class E>
+constexpr Kind line_force() {
+  return two_marker_force<E, LineForceKernel>();
+}
+template <class E>
+constexpr Kind axis_torque() {
+  return two_marker_force<E, AxisTorqueKernel>();
+}
+
+}  // namespace dynalin

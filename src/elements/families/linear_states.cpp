@@ -1,0 +1,73 @@
+#include "elements/families/linear_states.h"
+
+namespace dynalin {
+
+LinearStatesKernel::LinearStatesKernel(std::vector<LinearStates> laws,
+                                       const std::vector<ElementLabel>& labels, Layout& layout) {
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    Element e{std::move(laws[k]), 0, 0, {}};
+    const LinearStates& law = e.law;
+    e.first_state = static_cast<std::int32_t>(layout.states.size());
+    for (Eigen::Index n = 0; n < law.A.rows(); ++n) {
+      layout.add_state({&labels[k], law.type, static_cast<std::int32_t>(n) + 1,
+                        law.initial.empty() ? 0.0 : law.initial[static_cast<std::size_t>(n)],
+                        law.held_in_statics});
+    }
+    e.first_output = static_cast<std::int32_t>(layout.algebraic.size());
+    for (Eigen::Index n = 0; n < law.C.rows(); ++n) {
+      layout.add_algebraic(labels[k], static_cast<std::int32_t>(n) + 1);
+    }
+    elements_.push_back(std::move(e));
+  }
+}
+
+void LinearStatesKernel::bind(const Signals& signals) {
+  for (Element& e : elements_) {
+    for (const VariableRef u : e.law.inputs) e.inputs.push_back(signals.variable(u).index);
+  }
+}
+
+void LinearStatesKernel::equations(const Motion& motion, Equations& eq) const {
+  // One row of [state or output] − M z − N u = 0.
+  const auto add_row = [&](const Element& e, std::int32_t row, const Eigen::MatrixXd& M,
+                           const Eigen::MatrixXd& N, Eigen::Index r) {
+    double sum = 0;
+    for (Eigen::Index c = 0; c < M.cols(); ++c) {
+      const std::int32_t z = e.first_state + static_cast<std::int32_t>(c);
+      sum += M(r, c) * motion.state[static_cast<std::size_t>(z)];
+      eq.add(Column::state, row, z, -M(r, c));
+    }
+    for (Eigen::Index c = 0; c < N.cols(); ++c) {
+      const std::int32_t u = e.inputs[static_cast<std::size_t>(c)];
+      sum += N(r, c) * motion.algebraic[static_cast<std::size_t>(u)];
+      eq.add(Column::algebraic, row, u, -N(r, c));
+    }
+    eq.add_residual(row, -sum);
+  };
+  for (const Element& e : elements_) {
+    for (Eigen::Index r = 0; r < e.law.A.rows(); ++r) {
+      const std::int32_t z = e.first_state + static_cast<std::int32_t>(r);
+      const std::int32_t row = eq.state_row(z);
+      eq.add_residual(row, motion.state_rate[static_cast<std::size_t>(z)]);
+      eq.add(Column::state_rate, row, z, 1.0);
+      add_row(e, row, e.law.A, e.law.B, r);
+    }
+    for (Eigen::Index r = 0; r < e.law.C.rows(); ++r) {
+      const std::int32_t y = e.first_output + static_cast<std::int32_t>(r);
+      const std::int32_t row = eq.algebraic_row(y);
+      eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(y)]);
+      eq.add(Column::algebraic, row, y, 1.0);
+      add_row(e, row, e.law.C, e.law.D, r);
+    }
+  }
+}
+
+Channel LinearStatesKernel::state_channel(std::size_t element, std::size_t n) const {
+  return {Channel::Kind::state, elements_[element].first_state + static_cast<std::int32_t>(n), 0};
+}
+
+Channel LinearStatesKernel::output_channel(std::size_t element, std::size_t n) const {
+  return {Channel::Kind::algebraic, elements_[element].first_output + static_cast<std::int32_t>(n), 0};
+}
+
+}  // namespace dynalin

@@ -1,0 +1,20 @@
+// Checks that every element between two markers needs.
+#pragma once
+
+#include <string>
+
+#include "model/model.h"
+
+namespace dynalin {
+
+struct PairRequirements {
+  bool different_bodies = true;
+  bool rotation_of_I = false;  // the element turns or holds the orientation of I's body
+  bool rotation_of_J = false;
+};
+
+// Reports floating markers, markers on one body and torques on a POINT_MASS; false if anything was wrong.
+bool check_pair(const Model&, const ElementLabel&, MarkerId i, MarkerId j, const PairRequirements&,
+                Diagnostics&);
+
+}  // namespace dynalin

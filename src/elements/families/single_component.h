@@ -1,0 +1,46 @@
+// The two kinds of SFORCE share everything but their direction.
+#pragma once
+
+#include <memory>
+
+#include "elements/families/function_force.h"
+#include "model/schema.h"
+
+namespace dynalin {
+
+template <class E>
+class SingleComponentSet final : public TypedSet<E> {
+ public:
+  using TypedSet<E>::TypedSet;
+  void read(std::size_t k, ElementReader& reader) override { read_arguments(this->elements[k], reader); }
+  void finish(Model& model, Diagnostics& diagnostics) override {
+    for (std::size_t k = 0; k < this->elements.size(); ++k) {
+      const E& e = this->elements[k];
+      const bool turns = E::acts_on_rotation;
+      check_pair(model, this->labels[k], e.i, e.j, {!e.action_only, turns, turns && !e.action_only},
+                 diagnostics);
+    }
+  }
+  std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
+    std::vector<FunctionForce> forces;
+    for (std::size_t k = 0; k < this->elements.size(); ++k) {
+      const E& e = this->elements[k];
+      forces.push_back({this->labels[k], e.i, e.j, e.direction(), e.action_only, e.function});
+    }
+    return std::make_unique<FunctionForceKernel>(std::move(forces), this->labels, layout);
+  }
+};
+
+template <class E>
+constexpr Kind single_component() {
+  return {"SFORCE",
+          E::variant,
+          E::summary,
+          Kind::Role::element,
+          detail::argument_infos<E>,
+          [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+            return std::make_unique<SingleComponentSet<E>>(kind);
+          }};
+}
+
+}  // namespace dynalin

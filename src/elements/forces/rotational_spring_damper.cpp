@@ -1,0 +1,43 @@
+// SPRINGDAMPER/id, ROTATIONAL, I=, J=, KT=, CT=, ANGLE=, TORQUE=
+//
+// Spring and damper in parallel about the z axis of J.
+//
+//     T = TORQUE − KT (AZ(I,J) − ANGLE) − CT WZ(I,J,J)
+//
+// acts on I about z_J, its opposite on J. AZ counts whole turns. The z axes of I and J are meant to be parallel.
+#include "elements/families/line_force.h"
+
+namespace dynalin {
+
+namespace {
+
+struct RotationalSpringDamper {
+  MarkerId i, j;
+  double stiffness = 0;   // [force·length/rad]
+  double damping = 0;     // [force·length·time/rad]
+  double free_angle = 0;  // [rad]
+  double preload = 0;     // [force·length] at AZ = free_angle
+
+  static constexpr std::string_view keyword = "SPRINGDAMPER", variant = "ROTATIONAL";
+  static constexpr std::string_view summary = "Spring and damper about the z axis of marker J.";
+  static constexpr bool acts_on_rotation = true;
+  static constexpr std::array<Argument<RotationalSpringDamper>, 6> arguments = {{
+      {.name = "I", .slot = &RotationalSpringDamper::i, .required = true, .help = "marker the torque acts on"},
+      {.name = "J", .slot = &RotationalSpringDamper::j, .required = true, .help = "marker the reaction acts on"},
+      {.name = "KT", .slot = &RotationalSpringDamper::stiffness, .unit = unit::angular_stiffness, .minimum = 0},
+      {.name = "CT", .slot = &RotationalSpringDamper::damping, .unit = unit::angular_damping, .minimum = 0},
+      {.name = "ANGLE", .slot = &RotationalSpringDamper::free_angle, .unit = unit::angle},
+      {.name = "TORQUE", .slot = &RotationalSpringDamper::preload, .unit = unit::torque, .help = "torque at ANGLE"},
+  }};
+
+  template <class S>
+  S about_axis(const S& angle, const S& rate) const {
+    return preload - stiffness * (angle - free_angle) - damping * rate;
+  }
+};
+
+}  // namespace
+
+extern constinit const Kind rotational_spring_damper = axis_torque<RotationalSpringDamper>();
+
+}  // namespace dynalin

@@ -1,0 +1,43 @@
+// Statements that a linear model does not need: they are read as text, kept and otherwise passed over.
+#include "model/kind.h"
+
+namespace dynalin {
+
+namespace {
+
+class InertSet final : public ElementSet {
+ public:
+  using ElementSet::ElementSet;
+  void append(ElementLabel label) override {
+    labels.push_back(std::move(label));
+    sound.push_back(true);
+  }
+  void read(std::size_t, ElementReader&) override {}
+};
+
+constexpr Kind inert(std::string_view statement, std::string_view summary) {
+  return {statement,
+          "",
+          summary,
+          Kind::Role::inert,
+          {},
+          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<InertSet>(kind); }};
+}
+
+}  // namespace
+
+extern constinit const Kind graphics = inert("GRAPHICS", "A shape for the display.");
+extern constinit const Kind request = inert("REQUEST", "Output of time histories.");
+extern constinit const Kind mrequest = inert("MREQUEST", "Output of time histories for groups of elements.");
+extern constinit const Kind output = inert("OUTPUT", "What is written to which file.");
+extern constinit const Kind results = inert("RESULTS", "Contents of the results file.");
+extern constinit const Kind debug = inert("DEBUG", "Diagnostic output.");
+extern constinit const Kind lsolver = inert("LSOLVER", "Choice of the linear solver.");
+extern constinit const Kind integrator = inert("INTEGRATOR", "Settings of the integrator.");
+extern constinit const Kind kinematics = inert("KINEMATICS", "Settings of kinematic analyses.");
+extern constinit const Kind equilibrium = inert("EQUILIBRIUM", "Settings of static analyses.");
+extern constinit const Kind ic = inert("IC", "Settings of the initial conditions.");
+extern constinit const Kind string = inert("STRING", "Text for subroutines.");
+extern constinit const Kind material = inert("MATERIAL", "Material data.");
+
+}  // namespace dynalin

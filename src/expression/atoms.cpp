@@ -1,0 +1,99 @@
+// Table of the functions that yield atoms: names, kinematic orders, argument counts.
+#include <array>
+
+#include "expression/expression.h"
+
+namespace dynalin {
+
+namespace {
+
+using enum AtomFamily;
+using std::int8_t;
+using std::uint8_t;
+
+constexpr int8_t by_reference = -1;
+
+constexpr AtomFunction measure(std::string_view name, int8_t order, uint8_t minimum,
+                               uint8_t maximum) {
+  return {name, marker_measure, order, minimum, maximum, "", true};
+}
+constexpr AtomFunction from_data(std::string_view name, uint8_t arguments,
+                                 std::string_view statement) {
+  return {name, data, by_reference, arguments, arguments, statement, true};
+}
+constexpr AtomFunction at_marker(std::string_view name, uint8_t maximum) {
+  return {name, marker_force, by_reference, 1, maximum, "", true};
+}
+enum Availability : bool { not_built = false, built = true };
+// (id, jflag, comp, rm)
+constexpr AtomFunction of_element(std::string_view name, std::string_view statement,
+                                  Availability availability) {
+  return {name, element_force, by_reference, 4, 4, statement, availability};
+}
+
+constexpr std::array table = {
+    // clang-format off
+    AtomFunction{"TIME", AtomFamily::time, 0, 0, 0, "", true},
+    // Displacements: (i, j, k), (i, j) where no axes are needed.
+    measure("DX", 0, 1, 3),     measure("DY", 0, 1, 3),     measure("DZ", 0, 1, 3),     measure("DM", 0, 1, 2),
+    // Velocities: (i, j, k, l), (i, j, l) for the norms.
+    measure("VX", 1, 1, 4),     measure("VY", 1, 1, 4),     measure("VZ", 1, 1, 4),     measure("VM", 1, 1, 3),
+    measure("VR", 1, 1, 3),
+    measure("WX", 1, 1, 3),     measure("WY", 1, 1, 3),     measure("WZ", 1, 1, 3),     measure("WM", 1, 1, 2),
+    // Accelerations: (i, j, k, l), (i, j, l) for the norms.
+    measure("ACCX", 2, 1, 4),   measure("ACCY", 2, 1, 4),   measure("ACCZ", 2, 1, 4),   measure("ACCM", 2, 1, 3),
+    measure("WDTX", 2, 1, 4),   measure("WDTY", 2, 1, 4),   measure("WDTZ", 2, 1, 4),   measure("WDTM", 2, 1, 3),
+    // Angles: (i, j).
+    measure("AX", 0, 1, 2),     measure("AY", 0, 1, 2),     measure("AZ", 0, 1, 2),
+    measure("PSI", 0, 1, 2),    measure("THETA", 0, 1, 2),  measure("PHI", 0, 1, 2),
+    measure("YAW", 0, 1, 2),    measure("PITCH", 0, 1, 2),  measure("ROLL", 0, 1, 2),
+    measure("INCANG", 0, 3, 3),
+    // Net force and torque on a marker: (i, j, k), (i, j).
+    at_marker("FX", 3), at_marker("FY", 3), at_marker("FZ", 3), at_marker("FM", 2),
+    at_marker("TX", 3), at_marker("TY", 3), at_marker("TZ", 3), at_marker("TM", 2),
+    of_element("BEAM",     "BEAM",         not_built),
+    of_element("BUSH",     "BUSHING",      not_built),
+    of_element("FIELD",    "FIELD",        not_built),
+    of_element("SFORCE",   "SFORCE",       built),
+    of_element("SPDP",     "SPRINGDAMPER", built),
+    of_element("VFORCE",   "VFORCE",       not_built),
+    of_element("VTORQ",    "VTORQUE",      not_built),
+    of_element("GFORCE",   "GFORCE",       not_built),
+    of_element("NFORCE",   "NFORCE",       not_built),
+    of_element("CONTACT",  "CONTACT",      not_built),
+    of_element("FRICTION", "FRICTION",     not_built),
+    of_element("JOINT",    "JOINT",        built),
+    of_element("JPRIM",    "JPRIM",        not_built),
+    of_element("MOTION",   "MOTION",       built),
+    of_element("PTCV",     "PTCV",         not_built),
+    of_element("CVCV",     "CVCV",         not_built),
+    from_data("VARVAL", 1, "VARIABLE"),
+    from_data("ARYVAL", 2, "ARRAY"),
+    from_data("DIF",    1, "DIFF"),
+    from_data("DIF1",   1, "DIFF"),
+    from_data("PINVAL", 2, "PINPUT"),
+    from_data("POUVAL", 2, "POUTPUT"),
+    // The kind of analysis as a number: constant during each.
+    AtomFunction{"MODE", data, 0, 0, 0, "", true},
+    // clang-format on
+};
+
+}  // namespace
+
+std::span<const AtomFunction> atom_functions() { return table; }
+
+const AtomFunction* find_atom_function(std::string_view name) {
+  for (const AtomFunction& f : table) {
+    if (f.name == name) return &f;
+  }
+  return nullptr;
+}
+
+ReferenceClass reference_class(const AtomFunction& function, std::size_t argument) {
+  if (function.statement.empty()) return ReferenceClass::marker;
+  if (argument == 0) return ReferenceClass::element;
+  const bool axes = function.family == AtomFamily::element_force && argument == 3;
+  return axes ? ReferenceClass::marker : ReferenceClass::index;
+}
+
+}  // namespace dynalin

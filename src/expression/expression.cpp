@@ -1,0 +1,70 @@
+#include "expression/expression.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "expression/program.h"
+
+namespace dynalin {
+
+namespace {
+
+std::shared_ptr<const ExpressionProgram> constant_program(double value) {
+  auto program = std::make_shared<ExpressionProgram>();
+  ExpressionNode node;
+  node.constant = value;
+  program->nodes.push_back(node);
+  program->places.emplace_back();
+  return program;
+}
+
+}  // namespace
+
+Expression::Expression() : program_(constant_program(0.0)) {}
+Expression::Expression(std::shared_ptr<const ExpressionProgram> program)
+    : program_(std::move(program)) {}
+
+Expression Expression::constant(double value) { return Expression(constant_program(value)); }
+
+std::span<const Atom> Expression::atoms() const { return program_->atoms; }
+const Span& Expression::at() const { return program_->at; }
+
+int Expression::order(std::span<const int> atom_orders) const {
+  assert(atom_orders.size() == atoms().size());
+  return atom_orders.empty() ? 0 : std::max(0, *std::ranges::max_element(atom_orders));
+}
+
+template <class T>
+T Expression::evaluate(std::span<const T> atom_values, ExpressionWorkspace<T>& workspace) const {
+  return program_->evaluate(atom_values, workspace);
+}
+
+template <class T>
+T Expression::evaluate(std::span<const T> atom_values, std::span<T> partials,
+                       ExpressionWorkspace<T>& workspace) const {
+  const T value = program_->evaluate(atom_values, workspace);
+  program_->differentiate(partials, workspace);
+  return value;
+}
+
+template <class T>
+std::optional<ExpressionFault> Expression::find_fault(std::span<const T> atom_values,
+                                                      FaultSearch search) const {
+  return program_->find_fault(atom_values, search);
+}
+
+template double Expression::evaluate(std::span<const double>, ExpressionWorkspace<double>&) const;
+template double Expression::evaluate(std::span<const double>, std::span<double>,
+                                     ExpressionWorkspace<double>&) const;
+template std::optional<ExpressionFault> Expression::find_fault(std::span<const double>,
+                                                               FaultSearch) const;
+template TimeTaylor<double> Expression::evaluate(std::span<const TimeTaylor<double>>,
+                                                 ExpressionWorkspace<TimeTaylor<double>>&) const;
+template TimeTaylor<double> Expression::evaluate(std::span<const TimeTaylor<double>>,
+                                                 std::span<TimeTaylor<double>>,
+                                                 ExpressionWorkspace<TimeTaylor<double>>&) const;
+template std::optional<ExpressionFault> Expression::find_fault(
+    std::span<const TimeTaylor<double>>, FaultSearch) const;
+
+}  // namespace dynalin

@@ -1,0 +1,116 @@
+// Function expressions: parsed once into a flat program over *atoms*.
+//
+// An atom is anything an expression reads from outside itself: a marker measure DX(1,2), VARVAL(3),
+// DIF(4), TIME, a force JOINT(1,0,2,0). The program is differentiated with respect to its atoms by one reverse
+// sweep; the system chains the sparse gradient of each atom behind it. So one expression may touch any number
+// of bodies at no extra cost.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "base/time_taylor.h"
+#include "dataset/dataset.h"
+
+namespace dynalin {
+
+// What class of thing an argument of an atom function names.
+enum class ReferenceClass : std::uint8_t {
+  marker,   // 0 or left out means the global frame
+  element,  // the id of a statement of class AtomFunction::statement
+  index,    // a 1-based position, a flag or a component number
+};
+
+enum class AtomFamily : std::uint8_t {
+  time,
+  marker_measure,  // DX … WDTM, AX, PSI, INCANG …: a function of marker motions
+  data,            // VARVAL, ARYVAL, DIF, DIF1, PINVAL, POUVAL; MODE, a number the analysis decides
+  marker_force,    // FX … TM (i, j, k): sum over all elements at marker i
+  element_force,   // JOINT, MOTION, SFORCE, SPDP … (id, jflag, comp, rm)
+};
+
+// One function that yields an atom, as the parser knows it.
+struct AtomFunction {
+  std::string_view name;
+  AtomFamily family;
+  std::int8_t order;  // kinematic order: 0 displacements, 1 velocities, 2 accelerations, −1 decided by what it refers to
+  std::uint8_t minimum_arguments;
+  std::uint8_t maximum_arguments;
+  std::string_view statement;  // class of the element named by the first argument, "" for markers
+  bool built;                  // false: known to the language, not available yet
+};
+
+// Table of all atom functions, in the order of the documentation.
+std::span<const AtomFunction> atom_functions();
+// The one of that upper-case name, nullptr if there is none.
+const AtomFunction* find_atom_function(std::string_view name);
+// What the zero-based argument of an atom function names.
+ReferenceClass reference_class(const AtomFunction&, std::size_t argument);
+
+struct Atom {
+  const AtomFunction* function = nullptr;
+  std::array<std::int32_t, 5> argument{};  // ids and indices as written, 0 where left out
+  std::uint8_t argument_count = 0;
+  Span at;                                 // of the call
+  std::array<Span, 5> argument_at{};       // of each argument, for messages about ids
+};
+
+struct ExpressionNode;  // one instruction of the flat program
+class ExpressionProgram;
+
+// Scratch memory of one evaluation; kept by the caller so that evaluation allocates nothing.
+template <class T>
+struct ExpressionWorkspace {
+  std::vector<T> value, adjoint;
+};
+
+// The place in an expression where a value or a derivative stopped being a finite number.
+struct ExpressionFault {
+  std::string function;  // name of the function or sign of the operator, as in the language
+  Span at;               // the call, or the operator with its operands
+  std::string reason;    // "SQRT of -3", "the derivative of SQRT is infinite at 0"
+};
+enum class FaultSearch : std::uint8_t { value, value_and_partials };
+
+class Expression {
+ public:
+  Expression();  // the constant 0
+  static Expression constant(double);
+
+  std::span<const Atom> atoms() const;  // each distinct atom once
+  bool is_constant() const { return atoms().empty(); }
+  const Span& at() const;
+
+  // Value at the given atom values. T is double or TimeTaylor<double>. Only the selected branch of an IF is evaluated.
+  template <class T>
+  T evaluate(std::span<const T> atoms, ExpressionWorkspace<T>&) const;
+  // Value and the partial derivative with respect to every atom (zero for atoms of branches not taken).
+  template <class T>
+  T evaluate(std::span<const T> atoms, std::span<T> partials, ExpressionWorkspace<T>&) const;
+
+  // Kinematic order, given that of each atom (Atom::function->order, or what the atom refers to where that is −1).
+  int order(std::span<const int> atom_orders) const;
+
+  // Names the function that makes the value, or else a partial derivative, infinite or undefined at
+  // these atom values; nothing if all are finite. On TimeTaylor the time derivatives count too. Allocates.
+  template <class T>
+  std::optional<ExpressionFault> find_fault(std::span<const T> atoms, FaultSearch) const;
+
+ private:
+  explicit Expression(std::shared_ptr<const ExpressionProgram>);
+  friend Expression parse_expression(std::span<const Token>, const SourceText&, Diagnostics&);
+  std::shared_ptr<const ExpressionProgram> program_;
+};
+
+// Parses the tokens of a value. Continuation commas are white space here. Reports all it can find; the result
+// after an error is the constant 0. The spans of the result point into the source text, which must outlive it.
+Expression parse_expression(std::span<const Token>, const SourceText&, Diagnostics&);
+
+}  // namespace dynalin

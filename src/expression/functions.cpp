@@ -1,0 +1,34 @@
+// Function names: those with a formula, and those the language knows beyond them.
+#include "expression/functions.h"
+
+#include <array>
+
+namespace dynalin {
+
+namespace {
+
+constexpr std::array<std::string_view, 22> not_built = {
+    // clang-format off
+    "DXYZ", "VXYZ", "ACCXYZ", "WXYZ", "WDTXYZ", "FXYZ", "TXYZ",
+    "UVX", "UVY", "UVZ", "UV", "MAG", "TRANS",
+    "AKISPL", "CUBSPL", "INTERP", "CURVE", "INVPSD", "DELAY", "SENVAL", "USER", "ORIENT",
+    // clang-format on
+};
+constexpr std::array<std::string_view, 7> bare_not_built = {"CPU",  "HSIZE",  "NJAC",  "NRHS",
+                                                            "ORDER", "FXFREQ", "FXMODE"};
+
+}  // namespace
+
+const Function* find_function(std::string_view name) {
+  for (const auto& family : {elementary_functions(), contact_functions(), series_functions()}) {
+    for (const Function& f : family) {
+      if (f.name == name) return &f;
+    }
+  }
+  return nullptr;
+}
+
+std::span<const std::string_view> functions_not_built() { return not_built; }
+std::span<const std::string_view> names_not_built() { return bare_not_built; }
+
+}  // namespace dynalin

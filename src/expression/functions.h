@@ -1,0 +1,68 @@
+// The mathematical and general functions of the language: SIN, STEP, IMPACT …
+//
+// Each function is one formula, written once over the scalar type; its derivatives come from the scalar.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/dual.h"
+#include "base/time_taylor.h"
+
+namespace dynalin {
+
+// Arguments differentiated in one pass. Functions with more variable arguments take several passes.
+inline constexpr std::size_t seeds_per_pass = 4;
+using Seeded = Dual<seeds_per_pass>;
+
+// What an exactly zero partial derivative means. With `flat` the function does not depend on that argument anywhere near
+// (STEP before its start), so that even an infinite outer derivative contributes nothing. With
+// `stationary` it may be a mere coincidence (COS at 0), and infinity times zero stays undefined.
+enum class ZeroPartial : std::uint8_t { stationary, flat };
+
+struct Function {
+  std::string_view name;
+  std::uint8_t minimum_arguments;
+  std::uint8_t maximum_arguments;
+  ZeroPartial zero_partial;
+
+  // The formula on each scalar in use.
+  double (*on_double)(std::span<const double>);
+  TimeTaylor<double> (*on_taylor)(std::span<const TimeTaylor<double>>);
+  Seeded (*on_seeded)(std::span<const Seeded>);
+  TimeTaylor<Seeded> (*on_seeded_taylor)(std::span<const TimeTaylor<Seeded>>);
+
+  // Says why there is no finite value at these arguments, "SQRT of -3"; empty if that is not known. An
+  // argument that is NaN is not known yet and never a reason.
+  std::string (*domain)(std::span<const double>);
+
+  double operator()(std::span<const double> a) const { return on_double(a); }
+  TimeTaylor<double> operator()(std::span<const TimeTaylor<double>> a) const {
+    return on_taylor(a);
+  }
+  Seeded operator()(std::span<const Seeded> a) const { return on_seeded(a); }
+  TimeTaylor<Seeded> operator()(std::span<const TimeTaylor<Seeded>> a) const {
+    return on_seeded_taylor(a);
+  }
+};
+
+// The longest argument list: FORCOS(x, x0, w, a0, …, a30).
+inline constexpr std::size_t most_arguments = 34;
+
+std::span<const Function> elementary_functions();  // ABS … SIGN
+std::span<const Function> contact_functions();     // STEP, IMPACT and what else is made of pieces
+std::span<const Function> series_functions();      // POLY … SWEEP
+
+// The one of that upper-case name, nullptr if there is none.
+const Function* find_function(std::string_view name);
+// The operator ** with an exponent that varies.
+const Function& variable_power();
+
+// Upper-case names that the language knows and this program does not evaluate yet.
+std::span<const std::string_view> functions_not_built();
+// Those of them that stand without parentheses.
+std::span<const std::string_view> names_not_built();
+
+}  // namespace dynalin

@@ -1,0 +1,104 @@
+// Functions made of pieces: the steps STEP, STEP5, HAVSIN and the contacts IMPACT, BISTOP.
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "expression/functions_define.h"
+#include "expression/functions_power.h"
+#include "expression/functions_steps.h"
+
+namespace dynalin {
+
+namespace {
+
+// HAVSIN(x, x0, h0, x1, h1) = (h0 + h1)/2 + (h1 − h0)/2 SIN(π s − π/2), constant outside.
+constexpr auto haversine = []<class T>(const T& x, const T& x0, const T& h0, const T& x1,
+                                       const T& h1) {
+  return steps::between(x, x0, h0, x1, h1, [](const T& s) {
+    using std::sin;
+    return T(0.5 + 0.5 * sin(T(std::numbers::pi * s - 0.5 * std::numbers::pi)));
+  });
+};
+
+// Force of a stop that is penetrated by p > 0 at the rate p′, never pulling:
+//     MAX(0, k p ** e + c(p) p′)      c(p): a cubic step from 0 at p = 0 to cmax at p = d
+// Where the force is held at 0 its derivatives are 0.
+struct Stop {
+  template <class T>
+  static T force(const T& p, const T& pdot, const T& k, const T& e, const T& cmax, const T& d) {
+    const T f = k * power(p, e) + steps::cubic(p, T(0.0), T(0.0), d, cmax) * pdot;
+    return value_of(f) <= 0.0 ? T(0.0) : f;
+  }
+  static bool is_defined(double k, double e, double cmax, double d) {
+    return k >= 0.0 && e > 0.0 && cmax >= 0.0 && d > 0.0;
+  }
+  static std::string domain(std::string_view name, std::span<const double> k_e_cmax_d) {
+    constexpr std::array bounds = {"k ≥ 0", "e > 0", "cmax ≥ 0", "d > 0"};
+    constexpr std::array names = {"k", "e", "cmax", "d"};
+    for (std::size_t n = 0; n < 4; ++n) {
+      const double a = k_e_cmax_d[n];
+      const bool may_be_zero = n == 0 || n == 2;
+      if (a < 0.0 || (a == 0.0 && !may_be_zero)) {
+        return fmt::format("{} with {} = {:.6g} where it needs {}", name, names[n], a, bounds[n]);
+      }
+    }
+    return {};
+  }
+};
+
+// IMPACT(x, x′, x1, k, e, cmax, d): a stop below x1.
+//     x < x1: MAX(0, k (x1 − x) ** e − STEP(x, x1 − d, cmax, x1, 0) x′)        x ≥ x1: 0, with derivative 0
+constexpr auto impact = []<class T>(const T& x, const T& xdot, const T& x1, const T& k, const T& e,
+                                    const T& cmax, const T& d) {
+  if (!Stop::is_defined(value_of(k), value_of(e), value_of(cmax), value_of(d))) {
+    return undefined<T>();
+  }
+  if (value_of(x) >= value_of(x1)) return T(0.0);
+  return Stop::force(T(x1 - x), T(-xdot), k, e, cmax, d);
+};
+
+// BISTOP(x, x′, x1, x2, k, e, cmax, d): a stop below x1 and one above x2, nothing between.
+//     x > x2: MIN(0, −k (x − x2) ** e − STEP(x, x2, 0, x2 + d, cmax) x′)       x1 ≤ x ≤ x2: 0, with derivative 0
+constexpr auto two_stops = []<class T>(const T& x, const T& xdot, const T& x1, const T& x2,
+                                       const T& k, const T& e, const T& cmax, const T& d) {
+  if (!Stop::is_defined(value_of(k), value_of(e), value_of(cmax), value_of(d)) ||
+      value_of(x1) > value_of(x2)) {
+    return undefined<T>();
+  }
+  if (value_of(x) < value_of(x1)) return Stop::force(T(x1 - x), T(-xdot), k, e, cmax, d);
+  if (value_of(x) <= value_of(x2)) return T(0.0);
+  return T(-Stop::force(T(x - x2), xdot, k, e, cmax, d));
+};
+
+std::string step_domain_of(std::string_view name, std::span<const double> a) {
+  return a[1] == a[3] ? fmt::format("{} with x0 = x1 = {:.6g}", name, a[1]) : "";
+}
+std::string step_domain(std::span<const double> a) { return step_domain_of("STEP", a); }
+std::string step5_domain(std::span<const double> a) { return step_domain_of("STEP5", a); }
+std::string havsin_domain(std::span<const double> a) { return step_domain_of("HAVSIN", a); }
+std::string impact_domain(std::span<const double> a) {
+  return Stop::domain("IMPACT", a.subspan(3));
+}
+std::string bistop_domain(std::span<const double> a) {
+  if (a[2] > a[3]) return fmt::format("BISTOP with x1 = {:.6g} above x2 = {:.6g}", a[2], a[3]);
+  return Stop::domain("BISTOP", a.subspan(4));
+}
+
+constexpr auto flat = ZeroPartial::flat;
+constexpr std::array table = {
+    // clang-format off
+    function<5>("STEP",   steps::cubic,   step_domain,   flat),
+    function<5>("STEP5",  steps::quintic, step5_domain,  flat),
+    function<5>("HAVSIN", haversine,      havsin_domain, flat),
+    function<7>("IMPACT", impact,         impact_domain, flat),
+    function<8>("BISTOP", two_stops,      bistop_domain, flat),
+    // clang-format on
+};
+
+}  // namespace
+
+std::span<const Function> contact_functions() { return table; }
+
+}  // namespace dynalin

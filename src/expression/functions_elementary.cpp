@@ -1,0 +1,186 @@
+// The functions of FORTRAN 77, in double precision: ABS … SIGN, and the operator **.
+//
+// Each comment states the value and, at a kink, the derivative that is used there.
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "expression/functions_define.h"
+#include "expression/functions_power.h"
+
+namespace dynalin {
+
+namespace {
+
+// --- smooth functions ------------------------------------------------------------------------------
+// ACOS(1) and ASIN(1) have a value and an infinite derivative, so has SQRT(0).
+constexpr auto arc_cosine = []<class T>(const T& x) {
+  using std::acos;
+  return acos(x);
+};
+constexpr auto arc_sine = []<class T>(const T& x) {
+  using std::asin;
+  return asin(x);
+};
+constexpr auto arc_tangent = []<class T>(const T& x) {
+  using std::atan;
+  return atan(x);
+};
+constexpr auto cosine = []<class T>(const T& x) {
+  using std::cos;
+  return cos(x);
+};
+constexpr auto sine = []<class T>(const T& x) {
+  using std::sin;
+  return sin(x);
+};
+constexpr auto tangent = []<class T>(const T& x) {
+  using std::tan;
+  return tan(x);
+};
+constexpr auto hyperbolic_cosine = []<class T>(const T& x) {
+  using std::cosh;
+  return cosh(x);
+};
+constexpr auto hyperbolic_sine = []<class T>(const T& x) {
+  using std::sinh;
+  return sinh(x);
+};
+constexpr auto hyperbolic_tangent = []<class T>(const T& x) {
+  using std::tanh;
+  return tanh(x);
+};
+constexpr auto exponential = []<class T>(const T& x) {
+  using std::exp;
+  return exp(x);
+};
+constexpr auto square_root = []<class T>(const T& x) {
+  using std::sqrt;
+  return sqrt(x);
+};
+constexpr auto natural_logarithm = []<class T>(const T& x) {
+  using std::log;
+  return log(x);
+};
+constexpr auto decimal_logarithm = []<class T>(const T& x) {
+  using std::log10;
+  return log10(x);
+};
+
+// ATAN2(y, x): the angle of the point (x, y) in (−π, π]. Adding 0 turns −0 into 0, so that the negative x
+// axis is at π and never at −π. At the origin the value is 0 and the derivative is not defined.
+constexpr auto angle_of_point = []<class T>(const T& y, const T& x) {
+  using std::atan2;
+  return atan2(T(y + 0.0), T(x + 0.0));
+};
+
+// --- functions with kinks and jumps ------------------------------------------------------------------
+// ABS(a): at 0 the derivative is 0.
+constexpr auto absolute = []<class T>(const T& a) {
+  if (value_of(a) < 0.0) return -a;
+  return value_of(a) == 0.0 ? T(0.0) : a;
+};
+
+// AINT(a): a without its fraction, toward 0; derivative 0 everywhere.
+constexpr auto truncated = []<class T>(const T& a) { return T(std::trunc(value_of(a))); };
+
+// ANINT(a): the nearest whole number, halves away from 0; derivative 0 everywhere.
+constexpr auto rounded = []<class T>(const T& a) { return T(std::round(value_of(a))); };
+
+// DIM(a, b): a − b where that is positive, else 0; at a = b the derivative is 0.
+constexpr auto positive_difference = []<class T>(const T& a, const T& b) {
+  return value_of(a) <= value_of(b) ? T(0.0) : T(a - b);
+};
+
+// MAX(a, b, …), MIN(a, b, …): derivative of the one selected, of the first on a tie. NaN wins, to be noticed.
+constexpr auto largest = []<class T>(std::span<const T> a) {
+  std::size_t selected = 0;
+  for (std::size_t k = 1; k < a.size() && !std::isnan(value_of(a[selected])); ++k) {
+    if (!(value_of(a[k]) <= value_of(a[selected]))) selected = k;
+  }
+  return a[selected];
+};
+constexpr auto smallest = []<class T>(std::span<const T> a) {
+  std::size_t selected = 0;
+  for (std::size_t k = 1; k < a.size() && !std::isnan(value_of(a[selected])); ++k) {
+    if (!(value_of(a[k]) >= value_of(a[selected]))) selected = k;
+  }
+  return a[selected];
+};
+
+// MOD(a, b) = a − AINT(a/b) b, with the sign of a; derivative 1 and −AINT(a/b), also at the jumps. The
+// value is that of fmod, because a/b may round up to a whole number that it does not reach.
+constexpr auto remainder_of_division = []<class T>(const T& a, const T& b) {
+  const double exact = std::fmod(value_of(a), value_of(b));
+  const double quotient = std::round((value_of(a) - exact) / value_of(b));
+  const T r = a - quotient * b;
+  return T(r + (exact - value_of(r)));
+};
+
+// SIGN(a, b): |a| with the sign of b, plus for b = 0; derivative 0 at a = 0 and with respect to b.
+constexpr auto with_sign_of = []<class T>(const T& a, const T& b) {
+  if (std::isnan(value_of(b))) return undefined<T>();
+  return value_of(b) < 0.0 ? T(-absolute(a)) : T(absolute(a));
+};
+
+constexpr auto power_of = []<class T>(const T& x, const T& n) { return power(x, n); };
+
+// --- where there is no value -------------------------------------------------------------------------
+std::string cosine_range(std::string_view name, double a) {
+  return std::fabs(a) > 1.0 ? fmt::format("{} of {:.6g}, which is outside −1 … 1", name, a) : "";
+}
+std::string acos_domain(std::span<const double> a) { return cosine_range("ACOS", a[0]); }
+std::string asin_domain(std::span<const double> a) { return cosine_range("ASIN", a[0]); }
+std::string sqrt_domain(std::span<const double> a) {
+  return a[0] < 0.0 ? fmt::format("SQRT of {:.6g}", a[0]) : "";
+}
+std::string log_domain(std::span<const double> a) {
+  return a[0] <= 0.0 ? fmt::format("LOG of {:.6g}", a[0]) : "";
+}
+std::string log10_domain(std::span<const double> a) {
+  return a[0] <= 0.0 ? fmt::format("LOG10 of {:.6g}", a[0]) : "";
+}
+std::string mod_domain(std::span<const double> a) {
+  return a[1] == 0.0 ? "MOD with the divisor 0" : "";
+}
+std::string power_domain(std::span<const double> a) {
+  const bool no_value = (a[0] == 0.0 && a[1] < 0.0) || (a[0] < 0.0 && std::trunc(a[1]) != a[1]);
+  return no_value && !std::isnan(a[1]) ? fmt::format("{:.6g} to the power {:.6g}", a[0], a[1]) : "";
+}
+
+constexpr auto flat = ZeroPartial::flat;
+constexpr std::array table = {
+    // clang-format off
+    function<1>("ABS",   absolute),
+    function<1>("ACOS",  arc_cosine, acos_domain),
+    function<1>("ASIN",  arc_sine, asin_domain),
+    function<1>("ATAN",  arc_tangent),
+    function<2>("ATAN2", angle_of_point),
+    function<1>("COS",   cosine),
+    function<1>("SIN",   sine),
+    function<1>("TAN",   tangent),
+    function<1>("COSH",  hyperbolic_cosine),
+    function<1>("SINH",  hyperbolic_sine),
+    function<1>("TANH",  hyperbolic_tangent),
+    function<1>("EXP",   exponential),
+    function<1>("SQRT",  square_root, sqrt_domain),
+    function<1>("LOG",   natural_logarithm, log_domain),
+    function<1>("LOG10", decimal_logarithm, log10_domain),
+    function<1>("AINT",  truncated, defined_everywhere, flat),
+    function<1>("ANINT", rounded, defined_everywhere, flat),
+    function<2>("DIM",   positive_difference, defined_everywhere, flat),
+    list_function("MAX", 2, most_arguments, largest, flat),
+    list_function("MIN", 2, most_arguments, smallest, flat),
+    function<2>("MOD",   remainder_of_division, mod_domain, flat),
+    function<2>("SIGN",  with_sign_of),
+    // clang-format on
+};
+constexpr Function power_operator = function<2>("**", power_of, power_domain);
+
+}  // namespace
+
+std::span<const Function> elementary_functions() { return table; }
+const Function& variable_power() { return power_operator; }
+
+}  // namespace dynalin

@@ -1,0 +1,43 @@
+// The marker measures of function expressions, DX to INCANG, each written once over the scalar type.
+//
+// Evaluated on TimeTaylor<double> a measure yields its value and rates, on TimeTaylor<Dual> with
+// path variations as seeds also its gradient (mechanics/path.h). Formulas: function expressions, marker kinematics.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "base/time_taylor.h"
+#include "base/vec3.h"
+
+namespace dynalin {
+
+enum class Measure : std::uint8_t {
+  // clang-format off
+  DX, DY, DZ, DM,
+  VX, VY, VZ, VM, VR,
+  WX, WY, WZ, WM,
+  ACCX, ACCY, ACCZ, ACCM,
+  WDTX, WDTY, WDTZ, WDTM,
+  AX, AY, AZ, PSI, THETA, PHI, YAW, PITCH, ROLL, INCANG,
+  // clang-format on
+};
+
+std::optional<Measure> find_measure(std::string_view name);
+// AX, AY and AZ count whole turns.
+constexpr bool counts_turns(Measure m) {
+  return m == Measure::AX || m == Measure::AY || m == Measure::AZ;
+}
+
+// Frames of the markers i, j, k, l along the motion, global axes; the global frame where one is left out.
+template <class T>
+struct MeasureFrames {
+  Frame<T> i, j, k, l;
+};
+
+// The measure with as many time derivatives as its kinematic order leaves; the rest is NaN.
+template <class T>
+T evaluate_measure(Measure, const MeasureFrames<T>&);
+
+}  // namespace dynalin

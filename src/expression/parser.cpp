@@ -1,0 +1,325 @@
+#include "expression/parser.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace dynalin {
+
+namespace {
+
+constexpr int sum_precedence = 1, product_precedence = 2, sign_precedence = 3,
+              power_precedence = 4;
+
+int precedence(std::string_view sign) {
+  if (sign == "+" || sign == "-") return sum_precedence;
+  return sign == "**" ? power_precedence : product_precedence;
+}
+
+ExpressionNode::Kind operation_kind(std::string_view sign) {
+  using Kind = ExpressionNode::Kind;
+  if (sign == "+") return Kind::add;
+  if (sign == "-") return Kind::subtract;
+  return sign == "/" ? Kind::divide : Kind::multiply;
+}
+
+bool is_operator(std::string_view symbol) {
+  return symbol == "+" || symbol == "-" || symbol == "*" || symbol == "/" || symbol == "**" ||
+         symbol == "%";
+}
+
+}  // namespace
+
+ExpressionParser::ExpressionParser(std::span<const Token> tokens, const SourceText& source,
+                                   Diagnostics& diagnostics)
+    : source_(source),
+      diagnostics_(diagnostics),
+      errors_before_(diagnostics.error_count()),
+      builder_(diagnostics),
+      nowhere_{&source, tokens.empty() ? 0 : tokens.front().offset, 0} {
+  for (const Token& token : tokens) {
+    if (token.kind == TokenKind::end) break;
+    if (!token.continuation) tokens_.push_back(token);
+  }
+}
+
+std::shared_ptr<const ExpressionProgram> ExpressionParser::parse() {
+  if (tokens_.empty()) {
+    diagnostics_.error("empty-expression", nowhere_, "an expression is expected here");
+    return nullptr;
+  }
+  while (!at_end() && !stopped_) {
+    if (operand_expected_) {
+      read_operand();
+    } else {
+      read_operator();
+    }
+  }
+  return stopped_ ? nullptr : finish();
+}
+
+void ExpressionParser::read_operand() {
+  const Token& token = tokens_[at_];
+  if (token.kind == TokenKind::word) return read_name();
+  if (token.kind == TokenKind::number) {
+    if (std::isinf(token.value)) {
+      diagnostics_.error("number-overflow", span(at_), "this number is too large");
+      push_operand(builder_.placeholder(span(at_)));
+    } else {
+      push_operand(builder_.constant(token.value, span(at_)));
+    }
+    ++at_;
+  } else if (symbol_at(at_, "-")) {
+    pending_.push_back({Pending::Kind::negation, "-", span(at_++), nullptr, operands_.size()});
+  } else if (symbol_at(at_, "+")) {
+    ++at_;
+  } else if (symbol_at(at_, "(")) {
+    open(Pending::Kind::group, span(at_++));
+  } else if (symbol_at(at_, "[")) {
+    diagnostics_.error("function-not-built", span(at_), "vectors in brackets are not available yet",
+                       "write the components one by one");
+    open(Pending::Kind::not_built, span(at_++));
+  } else if (symbol_at(at_, ")") && at_ > 0 && symbol_at(at_ - 1, "(") && !pending_.empty() &&
+             pending_.back().kind != Pending::Kind::group) {
+    close_parenthesis();  // a list without arguments
+  } else if (token.kind == TokenKind::symbol) {
+    syntax_error("missing-operand", span(at_),
+                 at_ == 0 ? fmt::format("a value is missing before '{}'", text(at_))
+                          : fmt::format("a value is missing between '{}' and '{}'", text(at_ - 1),
+                                        text(at_)));
+  } else {
+    syntax_error("bad-character", span(at_),
+                 fmt::format("'{}' has no meaning in an expression", text(at_)));
+  }
+}
+
+void ExpressionParser::read_operator() {
+  const std::string_view symbol =
+      tokens_[at_].kind == TokenKind::symbol ? text(at_) : std::string_view();
+  if (symbol == "*" && symbol_at(at_ + 1, "*")) {
+    // The power sign written with a blank inside.
+    push_operation("**", join(span(at_), span(at_ + 1)));
+    at_ += 2;
+  } else if (is_operator(symbol)) {
+    if (symbol == "%") {
+      diagnostics_.error("function-not-built", span(at_),
+                         "the vector product % is not available yet");
+    }
+    push_operation(symbol, span(at_++));
+  } else if (symbol == ",") {
+    end_argument();
+  } else if (symbol == ":") {
+    end_condition();
+  } else if (symbol == ")") {
+    close_parenthesis();
+  } else if (symbol == "]") {
+    close_bracket();
+  } else if (tokens_[at_].kind == TokenKind::other || (!symbol.empty() && symbol != "(" && symbol != "[")) {
+    syntax_error("bad-character", span(at_),
+                 fmt::format("'{}' has no meaning in an expression", text(at_)));
+  } else {
+    syntax_error("missing-operator", span(at_),
+                 fmt::format("an operator is missing between '{}' and '{}'", text(at_ - 1),
+                             text(at_)));
+  }
+}
+
+void ExpressionParser::push_operand(const Operand& operand) {
+  operands_.push_back(operand);
+  operand_expected_ = false;
+}
+
+void ExpressionParser::push_operation(std::string_view sign, const Span& at) {
+  // ** is right associative: equal ones wait. It takes its right side with a sign, so a sign waits too.
+  const int own = precedence(sign);
+  apply_waiting(sign == "**" ? own + 1 : own);
+  pending_.push_back({Pending::Kind::operation, sign, at, nullptr, operands_.size()});
+  operand_expected_ = true;
+}
+
+void ExpressionParser::open(Pending::Kind kind, const Span& at, const Function* function) {
+  pending_.push_back({kind, "", at, function, operands_.size()});
+  operand_expected_ = true;
+}
+
+void ExpressionParser::apply_waiting(int weakest) {
+  while (!pending_.empty()) {
+    const Pending& top = pending_.back();
+    const bool sign = top.kind == Pending::Kind::negation;
+    if (!sign && top.kind != Pending::Kind::operation) return;
+    if ((sign ? sign_precedence : precedence(top.sign)) < weakest) return;
+    const Operand result = apply(top);
+    pending_.pop_back();
+    operands_.push_back(result);
+  }
+}
+
+Operand ExpressionParser::apply(const Pending& operation) {
+  const Operand last = operands_.back();
+  operands_.pop_back();
+  if (operation.kind == Pending::Kind::negation) {
+    return builder_.negate(last, join(operation.at, last.at));
+  }
+  const Operand first = operands_.back();
+  operands_.pop_back();
+  if (operation.sign == "**") return builder_.power(first, last);
+  return builder_.binary(operation_kind(operation.sign), first, last);
+}
+
+// After apply_waiting(sum_precedence) only open lists are left at the end of pending_.
+void ExpressionParser::end_argument() {
+  apply_waiting(sum_precedence);
+  if (pending_.empty() || pending_.back().kind == Pending::Kind::group) {
+    return syntax_error("misplaced-separator", span(at_),
+                        pending_.empty() ? "a comma stands outside of any list of arguments"
+                                         : "a comma stands in parentheses that hold one value");
+  }
+  if (pending_.back().kind == Pending::Kind::if_condition) {
+    return syntax_error("misplaced-separator", span(at_),
+                        "the condition of IF ends with a colon, here is a comma",
+                        "IF(condition: negative, zero, positive)");
+  }
+  if (pending_.back().kind == Pending::Kind::if_branches) {
+    OpenIf& open_if = ifs_.back();
+    builder_.end_branch(open_if, operands_.back());
+    if (open_if.branches_begun == 3) {
+      return syntax_error("wrong-argument-count", span(at_),
+                          "IF takes 3 values behind its condition, here is another one");
+    }
+    builder_.begin_branch(open_if);
+  }
+  ++at_;
+  operand_expected_ = true;
+}
+
+void ExpressionParser::end_condition() {
+  apply_waiting(sum_precedence);
+  if (pending_.empty() || pending_.back().kind != Pending::Kind::if_condition) {
+    return syntax_error("misplaced-separator", span(at_),
+                        "a colon stands elsewhere than behind the condition of an IF");
+  }
+  ifs_.push_back(builder_.open_if(operands_.back()));
+  builder_.begin_branch(ifs_.back());
+  operands_.pop_back();
+  pending_.back().kind = Pending::Kind::if_branches;
+  ++at_;
+  operand_expected_ = true;
+}
+
+void ExpressionParser::close_parenthesis() {
+  if (!operand_expected_) apply_waiting(sum_precedence);
+  if (pending_.empty() || pending_.back().at.text().ends_with('[')) {
+    return syntax_error("unbalanced-parenthesis", span(at_), "')' closes nothing");
+  }
+  const Pending list = pending_.back();
+  const Span at = join(list.at, span(at_));
+  Operand result;
+  switch (list.kind) {
+    case Pending::Kind::call:
+      result = close_call(list, at);
+      break;
+    case Pending::Kind::if_condition:
+      return syntax_error("wrong-argument-count", span(at_),
+                          "IF ends before the colon and its 3 values",
+                          "IF(condition: negative, zero, positive)");
+    case Pending::Kind::if_branches:
+      result = close_if(at);
+      break;
+    case Pending::Kind::group:
+      result = {operands_.back().node, at};
+      break;
+    default:
+      result = builder_.placeholder(at);
+  }
+  pending_.pop_back();
+  operands_.resize(list.first_operand);
+  push_operand(result);
+  ++at_;
+}
+
+void ExpressionParser::close_bracket() {
+  apply_waiting(sum_precedence);
+  if (pending_.empty() || !pending_.back().at.text().ends_with('[')) {
+    return syntax_error("unbalanced-parenthesis", span(at_), "']' closes nothing");
+  }
+  const Pending vector = pending_.back();
+  pending_.pop_back();
+  operands_.resize(vector.first_operand);
+  push_operand(builder_.placeholder(join(vector.at, span(at_++))));
+}
+
+Operand ExpressionParser::close_call(const Pending& call, const Span& at) {
+  const std::span arguments = std::span(operands_).subspan(call.first_operand);
+  const Function& f = *call.function;
+  if (arguments.size() >= f.minimum_arguments && arguments.size() <= f.maximum_arguments) {
+    return builder_.call(f, arguments, at);
+  }
+  report_count(at, f.name, f.minimum_arguments, f.maximum_arguments, arguments.size());
+  return builder_.placeholder(at);
+}
+
+Operand ExpressionParser::close_if(const Span& at) {
+  OpenIf open_if = ifs_.back();
+  ifs_.pop_back();
+  const std::size_t count = open_if.branches_begun;
+  builder_.end_branch(open_if, operands_.back());
+  if (count == 3) return builder_.close_if(open_if, at);
+  diagnostics_.error("wrong-argument-count", at,
+                     fmt::format("IF takes 3 values behind its condition, here {} {}",
+                                 count == 1 ? "is" : "are", count),
+                     "IF(condition: negative, zero, positive)");
+  return builder_.placeholder(at);
+}
+
+std::shared_ptr<const ExpressionProgram> ExpressionParser::finish() {
+  const std::size_t last = tokens_.size() - 1;
+  const bool list_begun = symbol_at(last, "(") || symbol_at(last, ",") || symbol_at(last, ":") ||
+                          symbol_at(last, "[");
+  if (operand_expected_ && !list_begun) {
+    syntax_error("missing-operand", span(last),
+                 fmt::format("the expression ends behind '{}' where a value is expected",
+                             text(last)));
+    return nullptr;
+  }
+  if (!operand_expected_) apply_waiting(sum_precedence);
+  for (std::size_t k = pending_.size(); k-- > 0;) {
+    const Pending& open = pending_[k];
+    if (open.kind == Pending::Kind::operation || open.kind == Pending::Kind::negation) continue;
+    const std::string_view opened = open.at.text();
+    syntax_error("unbalanced-parenthesis", open.at,
+                 opened.size() == 1 ? fmt::format("'{}' is never closed", opened)
+                                    : fmt::format("the parenthesis of '{}' is never closed", opened));
+    return nullptr;
+  }
+  if (diagnostics_.error_count() > errors_before_) return nullptr;
+  return builder_.finish(join(span(0), span(last)));
+}
+
+std::string_view ExpressionParser::text(std::size_t i) const {
+  return source_.text().substr(tokens_[i].offset, tokens_[i].length);
+}
+
+bool ExpressionParser::symbol_at(std::size_t i, std::string_view symbol) const {
+  return i < tokens_.size() && tokens_[i].kind == TokenKind::symbol && text(i) == symbol;
+}
+
+Span ExpressionParser::span(std::size_t i) const {
+  return {&source_, tokens_[i].offset, tokens_[i].length};
+}
+
+void ExpressionParser::syntax_error(std::string_view code, const Span& at, std::string message,
+                                    std::string hint) {
+  diagnostics_.error(code, at, std::move(message), std::move(hint));
+  stopped_ = true;
+}
+
+Expression parse_expression(std::span<const Token> tokens, const SourceText& source,
+                            Diagnostics& diagnostics) {
+  auto program = ExpressionParser(tokens, source, diagnostics).parse();
+  return program ? Expression(std::move(program)) : Expression();
+}
+
+}  // namespace dynalin

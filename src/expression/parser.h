@@ -1,0 +1,98 @@
+// Reads the tokens of one expression and builds its program.
+//
+// Operators wait on a stack until a weaker one follows, and so do open parentheses; nothing here calls itself, so that an
+// expression may be nested as deeply as it likes.
+//
+//     expr := term {(+|-) term}    term := unary {(*|/) unary}    unary := (+|-) unary | power
+//     power := primary [** unary]  primary := number | name | name(…) | (expr)
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "dataset/dataset.h"
+#include "expression/program_builder.h"
+
+namespace dynalin {
+
+class ExpressionParser {
+ public:
+  ExpressionParser(std::span<const Token> tokens, const SourceText& source,
+                   Diagnostics& diagnostics);
+  // Nothing after an error.
+  std::shared_ptr<const ExpressionProgram> parse();
+
+ private:
+  // What was begun and waits for its end.
+  struct Pending {
+    enum class Kind : std::uint8_t {
+      operation,     // a binary operator with its left operand
+      negation,      // a sign
+      group,         // an open parenthesis
+      call,          // an open list of arguments
+      if_condition,  // IF( before its colon
+      if_branches,   // and behind it
+      not_built,     // an open list or vector of something that cannot be evaluated
+    };
+    Kind kind;
+    std::string_view sign;  // of an operation
+    Span at;                // of the operator, or of the function and the parenthesis
+    const Function* function = nullptr;
+    std::size_t first_operand = 0;  // of an open list, on the stack of operands
+  };
+
+  // Reading where an operand, or an operator, is expected.
+  void read_operand();
+  void read_operator();
+  void read_name();
+  void read_call(const Span& name, const std::string& upper);
+  void read_atom(const AtomFunction& function, const Span& name);
+  void read_atom_argument(Atom& atom, std::size_t index);
+  void check_atom(const Atom& atom);
+  void report_unknown(const Span& name, const std::string& upper);
+  void report_count(const Span& at, std::string_view name, std::size_t least, std::size_t most,
+                    std::size_t found);
+  void report_not_built(const Span& at, std::string_view name);
+
+  // Grammar on the stacks.
+  void push_operand(const Operand& operand);
+  void push_operation(std::string_view sign, const Span& at);
+  void open(Pending::Kind kind, const Span& at, const Function* function = nullptr);
+  void apply_waiting(int weakest);  // operators that bind at least as tightly
+  Operand apply(const Pending& operation);
+  void end_argument();
+  void end_condition();
+  void close_parenthesis();
+  void close_bracket();
+  Operand close_call(const Pending& call, const Span& at);
+  Operand close_if(const Span& at);
+  std::shared_ptr<const ExpressionProgram> finish();
+
+  // Tokens.
+  bool at_end() const { return at_ >= tokens_.size(); }
+  std::string_view text(std::size_t i) const;
+  bool symbol_at(std::size_t i, std::string_view symbol) const;
+  Span span(std::size_t i) const;
+  void syntax_error(std::string_view code, const Span& at, std::string message,
+                    std::string hint = {});
+
+  std::vector<Token> tokens_;  // without continuation marks
+  const SourceText& source_;
+  Diagnostics& diagnostics_;
+  std::size_t errors_before_;
+  ProgramBuilder builder_;
+  std::size_t at_ = 0;
+  bool operand_expected_ = true;
+  bool stopped_ = false;  // by an error in the grammar, after which nothing is certain
+  Span nowhere_;          // where an empty expression would stand
+  std::vector<Pending> pending_;
+  std::vector<Operand> operands_;
+  std::vector<OpenIf> ifs_;
+};
+
+}  // namespace dynalin

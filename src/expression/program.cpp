@@ -1,0 +1,153 @@
+#include "expression/program.h"
+
+#include <cassert>
+#include <limits>
+
+#include "expression/program_partials.h"
+
+namespace dynalin {
+
+namespace {
+
+using Kind = ExpressionNode::Kind;
+
+// Gathers the arguments of a call and evaluates its formula; S is T or, at rest, double.
+template <class S, std::size_t capacity, class T>
+S call(const Function& function, std::span<const std::int32_t> operands,
+       const std::vector<T>& value) {
+  std::array<S, capacity> arguments;
+  for (std::size_t k = 0; k < operands.size(); ++k) {
+    if constexpr (std::is_same_v<S, T>) {
+      arguments[k] = value[static_cast<std::size_t>(operands[k])];
+    } else {
+      arguments[k] = value_of(value[static_cast<std::size_t>(operands[k])]);
+    }
+  }
+  return function(std::span<const S>(arguments.data(), operands.size()));
+}
+
+// Which branch of an IF a condition selects: 0, 1, 2 for negative, zero, positive; NaN selects none.
+double selected_branch(double condition) {
+  if (std::isnan(condition)) return condition;
+  return condition < 0.0 ? 0.0 : condition == 0.0 ? 1.0 : 2.0;
+}
+
+}  // namespace
+
+template <class T>
+T ExpressionProgram::value_of_call(const ExpressionNode& node, const std::vector<T>& value) const {
+  const std::span list(operands.data() + node.b, static_cast<std::size_t>(node.a));
+  bool at_rest = true;
+  for (const std::int32_t k : list) {
+    at_rest = at_rest && is_at_rest(value[static_cast<std::size_t>(k)]);
+  }
+  if (at_rest) return T(call<double, most_arguments>(*node.function, list, value));
+  if (list.size() <= 8) return call<T, 8>(*node.function, list, value);
+  return call<T, most_arguments>(*node.function, list, value);
+}
+
+template <class T>
+T ExpressionProgram::evaluate(std::span<const T> atom_values,
+                              ExpressionWorkspace<T>& workspace) const {
+  assert(atom_values.size() == atoms.size());
+  std::vector<T>& value = workspace.value;
+  if (value.size() < nodes.size()) value.resize(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const ExpressionNode& node = nodes[i];
+    const auto a = static_cast<std::size_t>(node.a), b = static_cast<std::size_t>(node.b);
+    switch (node.kind) {
+      case Kind::constant:
+        value[i] = T(node.constant);
+        break;
+      case Kind::atom:
+        value[i] = atom_values[a];
+        break;
+      case Kind::negate:
+        value[i] = -value[a];
+        break;
+      case Kind::add:
+        value[i] = value[a] + value[b];
+        break;
+      case Kind::subtract:
+        value[i] = value[a] - value[b];
+        break;
+      case Kind::multiply:
+        value[i] = value[a] * value[b];
+        break;
+      case Kind::divide:
+        value[i] = quotient(value[a], value[b]);
+        break;
+      case Kind::power:
+        value[i] = power_at(value[a], node.constant);
+        break;
+      case Kind::call:
+        value[i] = value_of_call(node, value);
+        break;
+      case Kind::branch: {
+        // The loop's increment then leads to the first node of the branch, or to the merge.
+        const double selection = selected_branch(value_of(value[a]));
+        value[i] = T(selection);
+        const std::size_t entry = std::isnan(selection) ? 3 : static_cast<std::size_t>(selection);
+        i = static_cast<std::size_t>(operands[b + entry]) - 1;
+        break;
+      }
+      case Kind::jump:
+        i = a - 1;
+        break;
+      case Kind::merge: {
+        const double selection = value_of(value[a]);
+        if (std::isnan(selection)) {
+          value[i] = T(selection);
+        } else {
+          const auto result = operands[b + static_cast<std::size_t>(selection)];
+          value[i] = value[static_cast<std::size_t>(result)];
+        }
+        break;
+      }
+    }
+  }
+  return value[nodes.size() - 1];
+}
+
+// Nodes of branches not taken hold old values; their adjoints stay zero, so nobody looks at them. Zero adjoints are
+// passed over for another reason too: an infinite slope behind them does not matter.
+template <class T>
+void ExpressionProgram::sweep_back(ExpressionWorkspace<T>& workspace) const {
+  const std::size_t count = nodes.size();
+  std::vector<T>& adjoint = workspace.adjoint;
+  if (adjoint.size() < count) adjoint.resize(count);
+  for (std::size_t i = 0; i < count; ++i) adjoint[i] = T(0.0);
+  adjoint[count - 1] = T(1.0);
+  for (std::size_t i = count; i-- > 0;) {
+    if (is_zero(adjoint[i])) continue;
+    visit_partials(*this, nodes[i], workspace.value,
+                   [&](std::size_t operand, const auto& partial) {
+                     adjoint[operand] += adjoint[i] * partial;
+                   });
+  }
+}
+
+template <class T>
+void ExpressionProgram::differentiate(std::span<T> partials,
+                                      ExpressionWorkspace<T>& workspace) const {
+  assert(partials.size() == atoms.size());
+  sweep_back(workspace);
+  for (T& partial : partials) partial = T(0.0);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].kind != Kind::atom) continue;
+    partials[static_cast<std::size_t>(nodes[i].a)] += workspace.adjoint[i];
+  }
+}
+
+template double ExpressionProgram::evaluate(std::span<const double>,
+                                            ExpressionWorkspace<double>&) const;
+template Taylor ExpressionProgram::evaluate(std::span<const Taylor>,
+                                            ExpressionWorkspace<Taylor>&) const;
+template void ExpressionProgram::differentiate(std::span<double>,
+                                               ExpressionWorkspace<double>&) const;
+template void ExpressionProgram::differentiate(std::span<Taylor>,
+                                               ExpressionWorkspace<Taylor>&) const;
+template void ExpressionProgram::sweep_back(ExpressionWorkspace<double>&) const;
+template void ExpressionProgram::sweep_back(ExpressionWorkspace<Taylor>&) const;
+
+}  // namespace dynalin

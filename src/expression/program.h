@@ -1,0 +1,70 @@
+// The flat program of an expression: a tree in post order, every operand before what uses it.
+//
+// The forward sweep computes the value of each node. The reverse sweep carries the derivative of the result with
+// respect to each node, its adjoint, from the result down to the atoms. The three branches of an IF
+// stand one after the other behind the condition, with jumps around those not selected:
+//
+//     condition  branch  e2 …  jump  e3 …  jump  e4 …  merge
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "expression/expression.h"
+#include "expression/functions.h"
+
+namespace dynalin {
+
+struct ExpressionNode {
+  enum class Kind : std::uint8_t {
+    constant,  // constant
+    atom,      // atom number a
+    negate,    // −a
+    add,       // a + b
+    subtract,  // a − b
+    multiply,  // a b
+    divide,    // a / b
+    power,     // a ** constant
+    call,      // function of operands[b] … operands[b + a − 1]
+    branch,    // looks at node a; operands[b …]: first node of each of three branches, then the merge
+    jump,      // to node a
+    merge,     // of branch a; operands[b …]: result node of each of three branches
+  };
+  Kind kind = Kind::constant;
+  std::int32_t a = 0, b = 0;
+  const Function* function = nullptr;
+  double constant = 0;
+};
+
+class ExpressionProgram {
+ public:
+  std::vector<ExpressionNode> nodes;  // the last one is the result
+  std::vector<std::int32_t> operands;
+  std::vector<Span> places;  // of each node
+  std::vector<Atom> atoms;
+  Span at;
+
+  // Forward sweep; afterwards the workspace holds the value of each node visited.
+  template <class T>
+  T evaluate(std::span<const T> atom_values, ExpressionWorkspace<T>&) const;
+  // Reverse sweep after a forward sweep.
+  template <class T>
+  void differentiate(std::span<T> partials, ExpressionWorkspace<T>&) const;
+  template <class T>
+  std::optional<ExpressionFault> find_fault(std::span<const T> atom_values, FaultSearch) const;
+
+ private:
+  template <class T>
+  T value_of_call(const ExpressionNode&, const std::vector<T>& value) const;
+  // Leaves the adjoint of each node in the workspace.
+  template <class T>
+  void sweep_back(ExpressionWorkspace<T>&) const;
+  template <class T>
+  ExpressionFault explain_value(std::size_t node, const std::vector<T>& value) const;
+  template <class T>
+  ExpressionFault explain_partial(std::size_t node, const std::vector<T>& value) const;
+};
+
+}  // namespace dynalin

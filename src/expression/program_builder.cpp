@@ -1,0 +1,228 @@
+#include "expression/program_builder.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dynalin {
+
+namespace {
+
+using Kind = ExpressionNode::Kind;
+
+bool is_nan(double x) { return std::isnan(x); }
+
+double value_of_constants(const ExpressionNode& node, std::span<const double> a) {
+  switch (node.kind) {
+    case Kind::negate:
+      return -a[0];
+    case Kind::add:
+      return a[0] + a[1];
+    case Kind::subtract:
+      return a[0] - a[1];
+    case Kind::multiply:
+      return a[0] * a[1];
+    case Kind::divide:
+      return a[0] / a[1];
+    case Kind::power:
+      return std::pow(a[0], node.constant);
+    case Kind::call:
+      return (*node.function)(a);
+    default:
+      assert(false && "no other node is folded");
+      return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+std::string reason_for_no_value(const ExpressionNode& node, std::span<const double> a) {
+  std::string reason;
+  if (node.kind == Kind::call) reason = node.function->domain(a);
+  if (node.kind == Kind::power) reason = variable_power().domain(std::array{a[0], node.constant});
+  if (node.kind == Kind::divide && a[1] == 0.0) reason = "division by 0";
+  return reason.empty() ? "the result is too large" : reason;
+}
+
+}  // namespace
+
+std::int32_t ProgramBuilder::push(const ExpressionNode& node, const Span& at) {
+  program_.nodes.push_back(node);
+  program_.places.push_back(at);
+  return next() - 1;
+}
+
+void ProgramBuilder::pop(std::size_t count) {
+  program_.nodes.resize(program_.nodes.size() - count);
+  program_.places.resize(program_.nodes.size());
+}
+
+std::int32_t ProgramBuilder::push_operands(std::span<const std::int32_t> nodes) {
+  const auto first = static_cast<std::int32_t>(program_.operands.size());
+  program_.operands.insert(program_.operands.end(), nodes.begin(), nodes.end());
+  return first;
+}
+
+std::optional<double> ProgramBuilder::constant_value(const Operand& operand) const {
+  const ExpressionNode& node = program_.nodes[static_cast<std::size_t>(operand.node)];
+  return node.kind == Kind::constant ? std::optional(node.constant) : std::nullopt;
+}
+
+void ProgramBuilder::report_domain(std::string reason, const Span& at) {
+  diagnostics_.error("function-domain", at, "this has no finite value: " + std::move(reason));
+}
+
+Operand ProgramBuilder::constant(double value, const Span& at) {
+  return {push({.kind = Kind::constant, .constant = value}, at), at};
+}
+
+Operand ProgramBuilder::placeholder(const Span& at) {
+  return constant(std::numeric_limits<double>::quiet_NaN(), at);
+}
+
+Operand ProgramBuilder::atom(const Atom& atom) {
+  // An argument left out means 0, so DX(1) and DX(1,0) are the same.
+  const auto same = [&](const Atom& other) {
+    return other.function == atom.function && other.argument == atom.argument;
+  };
+  const auto found = std::ranges::find_if(program_.atoms, same);
+  const auto index = static_cast<std::int32_t>(found - program_.atoms.begin());
+  if (found == program_.atoms.end()) program_.atoms.push_back(atom);
+  return {push({.kind = Kind::atom, .a = index}, atom.at), atom.at};
+}
+
+// Inside of an IF a constant without finite value is left for the run, which may never select its branch.
+Operand ProgramBuilder::fold(const ExpressionNode& node, std::span<const Operand> operands,
+                             const Span& at) {
+  std::vector<double> values;
+  for (const Operand& operand : operands) values.push_back(*constant_value(operand));
+  const double value = value_of_constants(node, values);
+  if (!std::isfinite(value) && std::ranges::none_of(values, is_nan)) {
+    if (branch_depth_ > 0) return {push(node, at), at};
+    report_domain(reason_for_no_value(node, values), at);
+    pop(operands.size());
+    return placeholder(at);
+  }
+  pop(operands.size());
+  return constant(value, at);
+}
+
+Operand ProgramBuilder::negate(const Operand& a, const Span& at) {
+  const ExpressionNode node{.kind = Kind::negate, .a = a.node};
+  if (constant_value(a)) return fold(node, {&a, 1}, at);
+  return {push(node, at), at};
+}
+
+Operand ProgramBuilder::binary(Kind kind, const Operand& a, const Operand& b) {
+  const Span at = join(a.at, b.at);
+  const ExpressionNode node{.kind = kind, .a = a.node, .b = b.node};
+  const auto divisor = constant_value(b);
+  if (constant_value(a) && divisor) return fold(node, std::array{a, b}, at);
+  if (kind == Kind::divide && divisor == 0.0 && branch_depth_ == 0) {
+    report_domain("division by 0", at);
+  }
+  return {push(node, at), at};
+}
+
+Operand ProgramBuilder::power(const Operand& base, const Operand& exponent) {
+  const Span at = join(base.at, exponent.at);
+  const auto n = constant_value(exponent);
+  if (!n) return call(variable_power(), std::array{base, exponent}, at);
+  // The exponent is the last node; it moves into the power itself.
+  pop(1);
+  const ExpressionNode node{.kind = Kind::power, .a = base.node, .constant = *n};
+  if (constant_value(base)) return fold(node, {&base, 1}, at);
+  return {push(node, at), at};
+}
+
+Operand ProgramBuilder::call(const Function& function, std::span<const Operand> arguments,
+                             const Span& at) {
+  std::vector<std::int32_t> list;
+  std::vector<double> known;
+  bool all_constant = true;
+  for (const Operand& argument : arguments) {
+    const auto value = constant_value(argument);
+    all_constant = all_constant && value;
+    known.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+    list.push_back(argument.node);
+  }
+  if (!all_constant) {
+    std::string reason = function.domain(known);
+    if (!reason.empty()) report_domain(std::move(reason), at);
+  }
+  const ExpressionNode node{.kind = Kind::call,
+                            .a = static_cast<std::int32_t>(list.size()),
+                            .b = push_operands(list),
+                            .function = &function};
+  return all_constant ? fold(node, arguments, at) : Operand{push(node, at), at};
+}
+
+OpenIf ProgramBuilder::open_if(const Operand& condition) {
+  OpenIf open;
+  open.condition = condition;
+  ++branch_depth_;
+  const auto value = constant_value(condition);
+  if (value && !std::isnan(*value)) {
+    pop(1);
+    open.selected = *value < 0.0 ? 0 : *value == 0.0 ? 1 : 2;
+    return open;
+  }
+  open.table = push_operands(std::array<std::int32_t, 4>{});
+  open.branch =
+      push({.kind = Kind::branch, .a = condition.node, .b = open.table}, condition.at);
+  return open;
+}
+
+void ProgramBuilder::begin_branch(OpenIf& open) {
+  open.mark = program_.nodes.size();
+  if (!open.selected) {
+    program_.operands[static_cast<std::size_t>(open.table) + open.branches_begun] = next();
+  }
+  ++open.branches_begun;
+}
+
+void ProgramBuilder::end_branch(OpenIf& open, const Operand& result) {
+  const std::size_t index = open.branches_begun - 1;
+  open.results[index] = result.node;
+  if (open.selected) {
+    if (*open.selected != index) pop(program_.nodes.size() - open.mark);
+  } else if (index < 2) {
+    open.jumps[index] = push({.kind = Kind::jump}, result.at);
+  }
+}
+
+Operand ProgramBuilder::close_if(const OpenIf& open, const Span& at) {
+  assert(open.branches_begun == 3);
+  --branch_depth_;
+  if (open.selected) return {open.results[*open.selected], at};
+  const std::int32_t merge = push(
+      {.kind = Kind::merge, .a = open.branch, .b = push_operands(open.results)}, at);
+  program_.operands[static_cast<std::size_t>(open.table) + 3] = merge;
+  for (const std::int32_t jump : open.jumps) {
+    program_.nodes[static_cast<std::size_t>(jump)].a = merge;
+  }
+  return {merge, at};
+}
+
+std::shared_ptr<const ExpressionProgram> ProgramBuilder::finish(const Span& at) {
+  program_.at = at;
+  // Atoms of branches that a constant condition ruled out are gone.
+  constexpr std::int32_t unused = -1;
+  std::vector<std::int32_t> new_index(program_.atoms.size(), unused);
+  std::vector<Atom> kept;
+  for (ExpressionNode& node : program_.nodes) {
+    if (node.kind != Kind::atom) continue;
+    std::int32_t& index = new_index[static_cast<std::size_t>(node.a)];
+    if (index == unused) {
+      index = static_cast<std::int32_t>(kept.size());
+      kept.push_back(program_.atoms[static_cast<std::size_t>(node.a)]);
+    }
+    node.a = index;
+  }
+  program_.atoms = std::move(kept);
+  return std::make_shared<const ExpressionProgram>(std::move(program_));
+}
+
+}  // namespace dynalin

@@ -1,0 +1,18 @@
+// Coordinates that may become states, beyond the global ones: relative to a marker (RM) or the user's own (PSTATE).
+#pragma once
+
+#include "linear/linear_system.h"
+#include "mechanics/bound_expression.h"
+
+namespace dynalin {
+
+// Candidates in the order in which they are wanted, with the gradient rows of those that are no plain coordinate.
+struct CandidateSet {
+  std::vector<Candidate> wanted;      // PSTATE, then RM or global coordinates
+  std::vector<Candidate> fallback;    // global coordinates while RM is in force
+  ConstraintRows gradients;
+};
+
+Result<CandidateSet> state_candidates(const System&, const Motion&, const LinearOptions&);
+
+}  // namespace dynalin

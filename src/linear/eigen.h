@@ -1,0 +1,12 @@
+// Eigenvalues of a state matrix, in the order in which they are printed.
+#pragma once
+
+#include "analysis/initial.h"
+#include "linear/linear_system.h"
+
+namespace dynalin {
+
+// λ/2π: real ones first by ascending modulus, then complex pairs by ascending imaginary part.
+Result<EigenSolution> eigensolve(const LinearSystem&);
+
+}  // namespace dynalin

@@ -1,0 +1,58 @@
+// Assembly of a sparse matrix whose pattern comes from topology and is decided once.
+//
+// The first pass records where every contribution goes; later passes make the same calls in the same
+// order and only add numbers. Explicit zeros stay, so a factorisation may re-use its symbolic analysis.
+#pragma once
+
+#include <cassert>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace dynalin {
+
+// Compressed columns; row indices ascend within a column.
+struct ColumnMatrix {
+  std::int32_t rows = 0, columns = 0;
+  std::vector<std::int32_t> start;  // columns + 1
+  std::vector<std::int32_t> row;
+  std::vector<double> value;
+
+  // y += factor · (this) x
+  void multiply_add(std::span<const double> x, std::span<double> y, double factor = 1.0) const;
+};
+
+class Accumulator {
+ public:
+  void resize(std::int32_t rows, std::int32_t columns);
+  bool recorded() const { return recorded_; }
+
+  void begin();   // of a pass: zero values (or an empty record)
+  void finish();  // of the recording pass: builds the pattern
+
+  // Adds `values` to consecutive rows of one column.
+  void add(std::int32_t row, std::int32_t column, std::span<const double> values) {
+    if (!recorded_) {
+      runs_.push_back({row, column, static_cast<std::int32_t>(values.size())});
+      return;
+    }
+    assert(next_ < slots_.size());
+    double* target = matrix_.value.data() + slots_[next_++];
+    for (const double v : values) *target++ += v;
+  }
+  void add(std::int32_t row, std::int32_t column, double value) { add(row, column, {&value, 1}); }
+
+  const ColumnMatrix& matrix() const { return matrix_; }
+
+ private:
+  struct Run {
+    std::int32_t row, column, count;
+  };
+  bool recorded_ = false;
+  std::vector<Run> runs_;            // only while recording
+  std::vector<std::int32_t> slots_;  // where the run of each call starts in matrix_.value
+  std::size_t next_ = 0;
+  ColumnMatrix matrix_;
+};
+
+}  // namespace dynalin

@@ -1,0 +1,80 @@
+// An expression whose atoms are tied to the unknowns of a system: it evaluates itself on a Motion and puts
+// its exact partial derivatives where they belong.
+#pragma once
+
+#include <vector>
+
+#include "expression/expression.h"
+#include "expression/measures.h"
+#include "mechanics/kernel.h"
+
+namespace dynalin {
+
+class BoundExpression {
+ public:
+  BoundExpression() = default;
+  BoundExpression(Expression, const Signals&);
+
+  // Kinematic order: 0 displacements, 1 velocities, 2 accelerations or reactions.
+  int order() const { return order_; }
+  bool only_time() const { return only_time_; }
+  bool reads_channels() const { return reads_channels_; }  // algebraic values, states or their rates
+  bool is_constant() const { return atoms_.empty(); }
+
+  double value(const Motion&, ExpressionScratch&) const;
+  // Value and two rates; for expressions of order 0 without channels.
+  Taylor along_motion(const Motion&, ExpressionScratch&) const;
+
+  // Adds factor · e to the residual of `row` and its partials to the matrices. Velocity partials go to
+  // `velocity_family`: damping for forces and VARIABLEs, velocity for controllers.
+  void add(const Motion&, Equations&, std::int32_t row, double factor, Column velocity_family) const;
+  // Adds the gradient of an expression of order 0 to a position row and returns its course, both times factor.
+  Taylor add_position(const Motion&, ConstraintRows&, std::int32_t row, double factor = 1) const;
+  // The same for a velocity row, order 0 or 1: value and rate are valid.
+  Taylor add_velocity(const Motion&, ConstraintRows&, std::int32_t row, double factor = 1) const;
+
+  void remember(const Motion&, Memory&) const;
+  // What is wrong when a value or partial is not finite: function, argument and reason; empty if nothing is.
+  std::string fault(const Motion&) const;
+
+ private:
+  struct ForceTerm {
+    Signals::Element element;
+    bool on_J = false;
+  };
+  struct BoundAtom {
+    enum class Kind : std::uint8_t { time, mode, constant, channel, measure, force } kind;
+    double constant = 0;
+    Channel channel;
+    Measure measure = Measure::DX;
+    std::int8_t order = 0;
+    std::array<MarkerPlace, 4> places;  // i, j, k, l
+    std::array<BodyId, 4> bodies{};     // the distinct bodies among them that move
+    std::uint8_t body_count = 0;
+    std::int32_t memory = -1;           // total angle of a measure that counts turns
+    std::vector<ForceTerm> terms;
+    std::uint8_t component = 1;         // 1–8: FM FX FY FZ TM TX TY TZ
+    MarkerPlace axes_marker;
+  };
+
+  BoundAtom bind(const Atom&, const Signals&) const;
+  double atom_value(const BoundAtom&, const Motion&) const;
+  Taylor atom_along_motion(const BoundAtom&, const Motion&) const;
+  void add_atom(const BoundAtom&, const Motion&, Equations&, std::int32_t row, double factor,
+                Column velocity_family) const;
+  void add_force(const BoundAtom&, const Motion&, Equations&, std::int32_t row, double factor,
+                 Column velocity_family) const;
+  // Adds partial · (path gradient of the measure) at the levels a constraint row has.
+  void add_measure_to_row(const BoundAtom&, const Motion&, ConstraintRows&, std::int32_t row,
+                          const Taylor& partial, RowLevel level) const;
+  Taylor add_to_row(const Motion&, ConstraintRows&, std::int32_t row, double factor,
+                    RowLevel level) const;
+
+  Expression expression_;
+  std::vector<BoundAtom> atoms_;
+  int order_ = 0;
+  bool only_time_ = true;
+  bool reads_channels_ = false;
+};
+
+}  // namespace dynalin

@@ -1,0 +1,92 @@
+#include "mechanics/equations.h"
+
+#include <algorithm>
+
+namespace dynalin {
+
+void ConstraintRows::resize(const Layout& layout, std::size_t count) {
+  layout_ = &layout;
+  value_.assign(count, Taylor());
+  rows_.assign(count, {});
+}
+
+RowCoefficients& ConstraintRows::entry(std::int32_t row, std::int32_t column) {
+  auto& entries = rows_[static_cast<std::size_t>(row)];
+  // The first touch of a row in a pass clears it; its places stay, so nothing is allocated again.
+  if (row != scratch_row_) {
+    for (Entry& e : entries) e.c = {};
+    scratch_row_ = row;
+  }
+  for (Entry& e : entries) {
+    if (e.column == column) return e.c;
+  }
+  entries.push_back({column, {}});
+  return entries.back().c;
+}
+
+void ConstraintRows::add_pose(std::int32_t row, BodyId body, const Vec3<Taylor>& on_r,
+                              const Vec3<Taylor>& on_theta) {
+  const BodyBlock& block = layout_->body(body);
+  for (std::int32_t k = 0; k < block.count; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    accumulate(entry(row, block.offset + k), k < 3 ? on_r[i] : on_theta[i - 3]);
+  }
+}
+
+void Equations::resize(const Layout& layout) {
+  layout_ = &layout;
+  const auto n = layout.coordinate_count;
+  const auto m = static_cast<std::int32_t>(layout.rows.size());
+  const auto w = static_cast<std::int32_t>(layout.algebraic.size());
+  const auto z = static_cast<std::int32_t>(layout.states.size());
+  residual_.assign(static_cast<std::size_t>(n + w + z), 0.0);
+  const std::array<std::int32_t, column_families> columns = {n, n, n, n, m, w, z, z};
+  for (std::size_t k = 0; k < column_families; ++k) matrices_[k].resize(n + w + z, columns[k]);
+}
+
+void Equations::begin(std::initializer_list<Column> wanted) {
+  std::fill(residual_.begin(), residual_.end(), 0.0);
+  wanted_.fill(false);
+  wants_any_ = wanted.size() > 0;
+  recording_ = false;
+  for (const Column c : wanted) {
+    const auto k = static_cast<std::size_t>(c);
+    wanted_[k] = true;
+    recording_ = recording_ || !matrices_[k].recorded();
+    matrices_[k].begin();
+  }
+}
+
+void Equations::finish() {
+  for (std::size_t k = 0; k < column_families; ++k) {
+    if (wanted_[k]) matrices_[k].finish();
+  }
+}
+
+void Equations::apply(BodyId body, const Vector& force, const Vector& moment, double factor) {
+  const BodyBlock& block = layout_->body(body);
+  if (block.count == 0) return;
+  double* target = residual_.data() + block.offset;
+  for (std::size_t k = 0; k < 3; ++k) target[k] += factor * force[k];
+  if (block.count == 6) {
+    for (std::size_t k = 0; k < 3; ++k) target[3 + k] += factor * moment[k];
+  }
+}
+
+void Equations::add_block(Column family, BodyId on, std::int32_t column, const Matrix3& force,
+                          const Matrix3& moment, double factor) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    add_column(family, on, column + static_cast<std::int32_t>(k), force[k], moment[k], factor);
+  }
+}
+
+void Equations::add_column(Column family, BodyId on, std::int32_t column, const Vector& force,
+                           const Vector& moment, double factor) {
+  const BodyBlock& block = layout_->body(on);
+  if (block.count == 0 || !wants(family)) return;
+  const std::array<double, 6> values = {factor * force.x,  factor * force.y,  factor * force.z,
+                                        factor * moment.x, factor * moment.y, factor * moment.z};
+  add(family, block.offset, column, std::span(values).first(static_cast<std::size_t>(block.count)));
+}
+
+}  // namespace dynalin

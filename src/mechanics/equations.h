@@ -1,0 +1,142 @@
+// Where elements put what they contribute: constraint rows, residuals and their partial derivatives.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "expression/expression.h"
+#include "mechanics/accumulator.h"
+#include "mechanics/layout.h"
+
+namespace dynalin {
+
+struct ExpressionScratch {
+  ExpressionWorkspace<double> plain;
+  ExpressionWorkspace<Taylor> taylor;
+  std::vector<double> atoms, partials;
+  std::vector<Taylor> taylor_atoms, taylor_partials;
+};
+
+// What a constraint row contributes in one coordinate at the levels above its own.
+//
+//   position row Φ(q,t):     δΦ = g δq,   δΦ′ = g δq′ + v δq,   δΦ″ = g δq″ + a1 δq′ + a0 δq
+//                            with g = Φ_q, v = Φ_q′, a1 = 2 Φ_q′, a0 = Φ_q″
+//   velocity row Ψ(q,q′,t):  δΨ = g δq′ + v δq,                 δΨ′ = g δq″ + a1 δq′ + a0 δq
+//                            with g = Ψ_q′, v = Ψ_q, a1 = Ψ_q + (Ψ_q′)′, a0 = (Ψ_q)′
+struct RowCoefficients {
+  double g = 0, v = 0, a1 = 0, a0 = 0;
+};
+
+// All constraint rows: values at every level and sparse coefficients, stored by rows.
+class ConstraintRows {
+ public:
+  void resize(const Layout& layout) { resize(layout, layout.row_count()); }
+  // `count` rows that need not be those of the layout, such as gradients of chosen coordinates.
+  void resize(const Layout&, std::size_t count);
+  void begin() { scratch_row_ = -1; }
+
+  // Value, rate and acceleration of a position row; of a velocity row Ψ, Ψ′ and nothing.
+  void set(std::int32_t row, const Taylor& along_motion) {
+    value_[static_cast<std::size_t>(row)] = along_motion;
+  }
+  void add(std::int32_t row, std::int32_t column, const RowCoefficients& c) {
+    RowCoefficients& e = entry(row, column);
+    e.g += c.g, e.v += c.v, e.a1 += c.a1, e.a0 += c.a0;
+  }
+  // Gradient of a position row with respect to the pose of a body, along the motion.
+  void add_pose(std::int32_t row, BodyId body, const Vec3<Taylor>& on_r, const Vec3<Taylor>& on_theta);
+  void add_coordinate(std::int32_t row, std::int32_t column, const Taylor& g) {
+    accumulate(entry(row, column), g);
+  }
+
+  struct Entry {
+    std::int32_t column;
+    RowCoefficients c;
+  };
+  std::span<const Entry> row(std::int32_t k) const { return rows_[static_cast<std::size_t>(k)]; }
+  const Taylor& along_motion(std::int32_t k) const { return value_[static_cast<std::size_t>(k)]; }
+  std::int32_t size() const { return static_cast<std::int32_t>(rows_.size()); }
+  const Layout& layout() const { return *layout_; }
+  RowLevel level(std::int32_t k) const { return layout_->rows[static_cast<std::size_t>(k)].level; }
+
+  ExpressionScratch scratch;
+
+ private:
+  static void accumulate(RowCoefficients& c, const Taylor& g) {
+    c.g += g.value, c.v += g.rate, c.a1 += 2.0 * g.rate, c.a0 += g.acceleration;
+  }
+  RowCoefficients& entry(std::int32_t row, std::int32_t column);
+
+  const Layout* layout_ = nullptr;
+  std::vector<Taylor> value_;
+  std::vector<std::vector<Entry>> rows_;
+  std::int32_t scratch_row_ = -1;
+};
+
+// The unknown a partial derivative is taken with respect to.
+enum class Column : std::uint8_t {
+  position,      // δq
+  velocity,      // δq′: inertia, constraints and controllers
+  damping,       // δq′: forces and VARIABLEs, what NODAMPIN leaves out
+  acceleration,  // δq″
+  lambda,
+  algebraic,
+  state,
+  state_rate,
+};
+inline constexpr std::size_t column_families = 8;
+
+// Residuals of the force balance (one row a coordinate: inertia − applied − reactions = 0), of the algebraic
+// equations (w − g = 0) and of the differential ones (z′ − f = 0), in this order, and their partials.
+class Equations {
+ public:
+  void resize(const Layout&);
+  void begin(std::initializer_list<Column> wanted);
+  void finish();  // builds patterns after a recording pass
+  bool needs_second_pass() const { return recording_; }
+
+  bool wants(Column c) const { return wanted_[static_cast<std::size_t>(c)]; }
+  bool wants_partials() const { return wants_any_; }
+
+  std::int32_t algebraic_row(std::int32_t k) const { return layout_->coordinate_count + k; }
+  std::int32_t state_row(std::int32_t k) const {
+    return algebraic_row(static_cast<std::int32_t>(layout_->algebraic.size())) + k;
+  }
+
+  void add_residual(std::int32_t row, double value) { residual_[static_cast<std::size_t>(row)] += value; }
+  // Force and moment about the BCS origin that act on a body, global axes.
+  void apply(BodyId body, const Vector& force, const Vector& moment, double factor = -1.0);
+  void add(Column family, std::int32_t row, std::int32_t column, double value) {
+    if (wants(family)) matrices_[static_cast<std::size_t>(family)].add(row, column, value);
+  }
+  void add(Column family, std::int32_t row, std::int32_t column, std::span<const double> values) {
+    if (wants(family)) matrices_[static_cast<std::size_t>(family)].add(row, column, values);
+  }
+  // Partials of force and moment on `on` with respect to three coordinates starting at `column`:
+  // column k of `force` and `moment` belongs to coordinate column + k.
+  void add_block(Column family, BodyId on, std::int32_t column, const Matrix3& force,
+                 const Matrix3& moment, double factor = -1.0);
+  // The same with respect to one scalar unknown.
+  void add_column(Column family, BodyId on, std::int32_t column, const Vector& force,
+                  const Vector& moment, double factor = -1.0);
+
+  std::span<const double> residual() const { return residual_; }
+  std::span<double> residual() { return residual_; }
+  const ColumnMatrix& matrix(Column c) const { return matrices_[static_cast<std::size_t>(c)].matrix(); }
+  std::int32_t size() const { return static_cast<std::int32_t>(residual_.size()); }
+  const Layout& layout() const { return *layout_; }
+
+  ExpressionScratch scratch;
+
+ private:
+  const Layout* layout_ = nullptr;
+  std::vector<double> residual_;
+  std::array<Accumulator, column_families> matrices_;
+  std::array<bool, column_families> wanted_{};
+  bool wants_any_ = false;
+  bool recording_ = false;
+};
+
+}  // namespace dynalin

@@ -1,0 +1,71 @@
+// Typed numbers of things in a model, so that a body cannot be passed for a marker.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "base/source.h"
+#include "base/vec3.h"
+
+namespace dynalin {
+
+template <class Tag>
+struct Handle {
+  std::int32_t index = -1;
+
+  bool valid() const { return index >= 0; }
+  friend bool operator==(Handle, Handle) = default;
+};
+
+using BodyId = Handle<struct BodyTag>;      // ground is body 0
+using MarkerId = Handle<struct MarkerTag>;  // the global frame is marker 0
+
+inline constexpr BodyId ground_body{0};
+inline constexpr MarkerId global_frame{0};
+
+// An element of any kind: which set of the model, and where in it.
+struct ElementHandle {
+  std::int32_t set = -1;
+  std::int32_t index = -1;
+
+  bool valid() const { return set >= 0; }
+  friend bool operator==(ElementHandle, ElementHandle) = default;
+};
+
+// A reference to an element of one class of statements, such as ElementRef<VariableClass>.
+template <class Class>
+struct ElementRef : ElementHandle {};
+
+// clang-format off
+struct VariableClass { static constexpr std::string_view statement = "VARIABLE"; };
+struct ArrayClass    { static constexpr std::string_view statement = "ARRAY"; };
+struct MatrixClass   { static constexpr std::string_view statement = "MATRIX"; };
+struct JointClass    { static constexpr std::string_view statement = "JOINT"; };
+// clang-format on
+
+using VariableRef = ElementRef<VariableClass>;
+using ArrayRef = ElementRef<ArrayClass>;
+using MatrixRef = ElementRef<MatrixClass>;
+using JointRef = ElementRef<JointClass>;
+
+// How messages and tables call an element.
+struct ElementLabel {
+  std::string_view statement;  // "JOINT"
+  std::int64_t id = 0;
+  std::string view_name;  // from the dataset, may be empty
+  Span at;
+
+  // "JOINT/3", with the view name behind it when there is one.
+  std::string text() const { return std::string(statement) + "/" + std::to_string(id); }
+  std::string full_text() const { return view_name.empty() ? text() : text() + " (" + view_name + ")"; }
+};
+
+// Where a marker sits on its body.
+struct MarkerPlace {
+  BodyId body = ground_body;
+  Vector p_BM;                               // origin in the BCS
+  Matrix3 R_BM = Matrix3::identity();        // axes in the BCS
+};
+
+}  // namespace dynalin

@@ -1,0 +1,88 @@
+// The one seam between elements and the system: a Kernel holds all elements of one kind, contiguously, and
+// is called once a pass. It knows formulas; it knows nothing of solvers.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "mechanics/equations.h"
+#include "mechanics/pair.h"
+
+namespace dynalin {
+
+class Signals;
+
+// A force or constraint element as the force functions of expressions see it: what acts on its I marker.
+struct MarkerWrench {
+  PairMotion pair;
+  PairForce force;
+  // Scalar unknowns the wrench depends on: λ of a joint, w of a FUNCTION-valued force.
+  struct Scalar {
+    Column family;
+    std::int32_t column;
+    Vector force, torque;
+  };
+  std::vector<Scalar> scalars;
+};
+
+// A scalar channel that expressions may read.
+struct Channel {
+  enum class Kind : std::uint8_t { none, constant, algebraic, state, state_rate } kind = Kind::none;
+  std::int32_t index = -1;
+  double constant = 0;
+};
+
+class Kernel {
+ public:
+  virtual ~Kernel() = default;
+
+  // Second phase of making a System, when all numbering is known: bind expressions.
+  virtual void bind(const Signals&) {}
+
+  // Constraint rows with their values and coefficients at all levels.
+  virtual void constraints(const Motion&, ConstraintRows&) const {}
+  // Residuals of balance, algebraic and differential equations, and the partials that are wanted.
+  virtual void equations(const Motion&, Equations&) const {}
+  // An accepted configuration: take over what the memory holds (turn counts).
+  virtual void remember(const Motion&, Memory&) const {}
+
+  // --- what force functions need -------------------------------------------------------------------
+  virtual bool has_wrench() const { return false; }
+  virtual MarkerId marker_I(std::size_t) const { return {}; }
+  virtual MarkerId marker_J(std::size_t) const { return {}; }
+  virtual void wrench(const Motion&, std::size_t /*element*/, bool /*with_partials*/,
+                      MarkerWrench&) const {}
+
+  // --- what data functions read ----------------------------------------------------------------------
+  virtual Channel value_channel(std::size_t /*element*/) const { return {}; }  // VARVAL
+  virtual Channel state_channel(std::size_t /*element*/, std::size_t /*n*/) const { return {}; }
+  virtual Channel output_channel(std::size_t /*element*/, std::size_t /*n*/) const { return {}; }
+
+  // A sentence on why element `k` yields no finite numbers here, empty if it does.
+  virtual std::string fault(const Motion&) const { return {}; }
+};
+
+// What expressions refer to, resolved by the system.
+class Signals {
+ public:
+  virtual ~Signals() = default;
+  virtual const Layout& layout() const = 0;
+  virtual MarkerId marker(std::int64_t id) const = 0;  // global_frame for 0
+  virtual Channel variable(VariableRef) const = 0;
+  // Entry `n` (0-based) of an ARRAY of any type.
+  virtual Channel array_entry(ArrayRef, std::size_t n) const = 0;
+  virtual std::size_t array_size(ArrayRef) const = 0;
+  // A data atom: VARVAL, ARYVAL, DIF, DIF1, PINVAL, POUVAL.
+  virtual Channel data(const Atom&) const = 0;
+  struct Element {
+    const Kernel* kernel = nullptr;
+    std::size_t index = 0;
+  };
+  virtual Element element(std::string_view statement, std::int64_t id) const = 0;
+  virtual std::vector<Element> elements_at(MarkerId) const = 0;
+  virtual std::int32_t add_memory(double initial) const = 0;
+};
+
+}  // namespace dynalin

@@ -1,0 +1,66 @@
+#include "mechanics/layout.h"
+
+#include <array>
+#include <span>
+
+namespace dynalin {
+
+namespace {
+std::int32_t last_index(std::size_t size) { return static_cast<std::int32_t>(size) - 1; }
+}  // namespace
+
+std::int32_t Layout::add_body(BodyKind kind, ElementLabel label) {
+  const std::int32_t count = kind == BodyKind::part ? 6 : kind == BodyKind::point_mass ? 3 : 0;
+  bodies.push_back({kind, count > 0 ? coordinate_count : -1, count, std::move(label)});
+  coordinate_count += count;
+  body_coordinate_count = coordinate_count;
+  return last_index(bodies.size());
+}
+
+std::int32_t Layout::add_extra(ElementLabel label, std::vector<std::string> names,
+                               std::span<const double> initial) {
+  const std::int32_t offset = coordinate_count;
+  const auto count = static_cast<std::int32_t>(names.size());
+  extras.push_back({offset, count, std::move(label), std::move(names)});
+  extra_initial.insert(extra_initial.end(), initial.begin(), initial.end());
+  coordinate_count += count;
+  return offset;
+}
+
+std::int32_t Layout::add_row(const ElementLabel& owner, std::string_view name, RowLevel level) {
+  rows.push_back({&owner, name, level});
+  return last_index(rows.size());
+}
+
+std::int32_t Layout::add_algebraic(const ElementLabel& owner, std::int32_t component, double guess) {
+  algebraic.push_back({&owner, component, guess});
+  return last_index(algebraic.size());
+}
+
+std::int32_t Layout::add_state(const DifferentialState& state) {
+  states.push_back(state);
+  return last_index(states.size());
+}
+
+std::int32_t Layout::add_memory(double initial) {
+  memory.push_back(initial);
+  return last_index(memory.size());
+}
+
+std::string Layout::coordinate_text(std::int32_t coordinate) const {
+  static constexpr std::array names = {"DX", "DY", "DZ", "AX", "AY", "AZ"};
+  for (const BodyBlock& b : bodies) {
+    if (b.count > 0 && coordinate >= b.offset && coordinate < b.offset + b.count) {
+      return std::string(names[static_cast<std::size_t>(coordinate - b.offset)]) + " of " +
+             b.label.full_text();
+    }
+  }
+  for (const ExtraBlock& e : extras) {
+    if (coordinate >= e.offset && coordinate < e.offset + e.count) {
+      return e.names[static_cast<std::size_t>(coordinate - e.offset)] + " of " + e.label.full_text();
+    }
+  }
+  return "coordinate " + std::to_string(coordinate + 1);
+}
+
+}  // namespace dynalin

@@ -1,0 +1,88 @@
+// The numbering of unknowns and equations, filled by the elements when a System is made.
+//
+// Coordinates come in blocks: 6 a part (δr then δθ, global axes), 3 a point mass, any number for an
+// element that brings coordinates of its own. Nothing but a part may assume 6.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "dynalin/results.h"
+#include "mechanics/handles.h"
+#include "mechanics/motion.h"
+
+namespace dynalin {
+
+enum class BodyKind : std::uint8_t { ground, part, point_mass };
+
+struct BodyBlock {
+  BodyKind kind = BodyKind::ground;
+  std::int32_t offset = -1;  // first coordinate, −1 for ground
+  std::int32_t count = 0;    // 0, 3 or 6
+  ElementLabel label;
+};
+
+// Coordinates outside bodies.
+struct ExtraBlock {
+  std::int32_t offset = 0;  // among all coordinates
+  std::int32_t count = 0;
+  ElementLabel label;
+  std::vector<std::string> names;
+};
+
+enum class RowLevel : std::uint8_t { position, velocity };
+
+struct ConstraintRow {
+  const ElementLabel* owner = nullptr;
+  std::string_view name;  // "Zi.Xj"
+  RowLevel level = RowLevel::position;
+};
+
+// A scalar value with one equation of its own: VARIABLE, FUNCTION-valued force, output of a controller.
+struct AlgebraicUnknown {
+  const ElementLabel* owner = nullptr;
+  std::int32_t component = 0;  // 1-based where the owner has several, else 0
+  double guess = 0;
+};
+
+struct DifferentialState {
+  const ElementLabel* owner = nullptr;
+  StateType type = StateType::diff;
+  std::int32_t coordinate = 1;
+  double initial = 0;
+  bool held_in_statics = false;
+};
+
+class Layout {
+ public:
+  std::vector<BodyBlock> bodies;  // by BodyId
+  std::vector<MarkerPlace> markers;  // by MarkerId
+  std::vector<ElementLabel> marker_labels;
+  std::vector<ExtraBlock> extras;
+  std::vector<ConstraintRow> rows;
+  std::vector<AlgebraicUnknown> algebraic;
+  std::vector<DifferentialState> states;
+  Memory memory;                  // initial contents
+  std::vector<double> extra_initial;
+  std::int32_t coordinate_count = 0;       // all blocks
+  std::int32_t body_coordinate_count = 0;  // of the bodies alone; extras follow them
+
+  const BodyBlock& body(BodyId b) const { return bodies[static_cast<std::size_t>(b.index)]; }
+  const MarkerPlace& marker(MarkerId m) const { return markers[static_cast<std::size_t>(m.index)]; }
+
+  std::int32_t add_body(BodyKind, ElementLabel);
+  // After all bodies; returns the first coordinate.
+  std::int32_t add_extra(ElementLabel, std::vector<std::string> names, std::span<const double> initial);
+  std::int32_t add_row(const ElementLabel& owner, std::string_view name,
+                       RowLevel level = RowLevel::position);
+  std::int32_t add_algebraic(const ElementLabel& owner, std::int32_t component = 0, double guess = 0);
+  std::int32_t add_state(const DifferentialState&);
+  std::int32_t add_memory(double initial = 0);
+
+  std::size_t row_count() const { return rows.size(); }
+  // "DX of PART/3" and the like, for messages.
+  std::string coordinate_text(std::int32_t coordinate) const;
+};
+
+}  // namespace dynalin

@@ -1,0 +1,73 @@
+// The motion of the whole system at one instant, as elements see it: poses and their time derivatives,
+// multipliers, algebraic values and differential states. Evaluated once per pass and shared.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/time_taylor.h"
+#include "base/vec3.h"
+#include "mechanics/handles.h"
+
+namespace dynalin {
+
+// Pose of a body coordinate system: origin and axes in global coordinates.
+struct Pose {
+  Vector r;                          // [length]
+  Matrix3 R = Matrix3::identity();
+};
+
+// A body's BCS along the motion; all components in global axes.
+struct BodyMotion {
+  Vector r, rdot, rddot;       // origin and its derivatives
+  Matrix3 R, Rdot, Rddot;      // axes and their derivatives
+  Vector w, wdot;              // angular velocity and acceleration
+
+  // Fills the derivatives of R: R′ = ω×R, R″ = α×R + ω×(ω×R).
+  void set(const Pose& pose, const Vector& v, const Vector& omega, const Vector& a,
+           const Vector& alpha);
+};
+
+using Taylor = TimeTaylor<double>;
+
+inline Vec3<Taylor> along_motion(const Vector& v, const Vector& vdot, const Vector& vddot) {
+  return {{v.x, vdot.x, vddot.x}, {v.y, vdot.y, vddot.y}, {v.z, vdot.z, vddot.z}};
+}
+inline Vector value(const Vec3<Taylor>& v) { return {v.x.value, v.y.value, v.z.value}; }
+inline Vector rate(const Vec3<Taylor>& v) { return {v.x.rate, v.y.rate, v.z.rate}; }
+inline Vector acceleration(const Vec3<Taylor>& v) {
+  return {v.x.acceleration, v.y.acceleration, v.z.acceleration};
+}
+inline Matrix3 value(const Mat3<Taylor>& m) { return {value(m.x), value(m.y), value(m.z)}; }
+
+// What the expression function MODE returns.
+enum class AnalysisMode : int { kinematics = 1, initial_conditions = 3, dynamics = 4, statics = 5, linear = 7 };
+
+// Values that outlive an evaluation and change only with an accepted step: total angles for the turn count.
+using Memory = std::vector<double>;
+
+struct Motion {
+  double time = 0;
+  AnalysisMode mode = AnalysisMode::initial_conditions;
+  std::vector<BodyMotion> bodies;           // ground first
+  std::vector<double> extra, extra_rate, extra_acceleration;  // coordinates outside bodies (curve parameters)
+  std::vector<double> lambda;               // multipliers, one per constraint row
+  std::vector<double> algebraic;            // values of VARIABLEs, force components, outputs
+  std::vector<double> state, state_rate;    // differential states
+  Memory memory;
+
+  const BodyMotion& body(BodyId b) const { return bodies[static_cast<std::size_t>(b.index)]; }
+  // Marker frame along the motion, global axes.
+  Frame<Taylor> frame(const MarkerPlace&) const;
+  Vector point(const MarkerPlace& m) const {
+    const BodyMotion& b = body(m.body);
+    return b.r + b.R * m.p_BM;
+  }
+  Matrix3 axes(const MarkerPlace& m) const { return body(m.body).R * m.R_BM; }
+};
+
+// The angle with the same sine and cosine as `principal` that lies nearest to `remembered`.
+double unwrapped(double principal, double remembered);
+
+}  // namespace dynalin

@@ -1,0 +1,72 @@
+// What two-marker elements share: the motion of marker I relative to marker J, and how a force on I and
+// its reaction on J spread to the two bodies, with all partial derivatives.
+//
+// Variations of the two bodies (B carries I, C carries J) come in four groups of three columns,
+// δr_B, δθ_B, δr_C, δθ_C. With ρ_I from the BCS of B to I, and `arm` from the BCS of C to the origin of I,
+//
+//     δd = R_Jᵀ (δr_B − ρ_I × δθ_B − δr_C + arm × δθ_C),     δφ = R_Jᵀ (δθ_B − δθ_C)
+//
+// are the variations of the relative pose ξ = (d, φ) in the axes of J.
+#pragma once
+
+#include <array>
+
+#include "mechanics/equations.h"
+#include "mechanics/path.h"
+
+namespace dynalin {
+
+struct PairMotion {
+  BodyId body_I, body_J;
+  Frame<Taylor> I, J;               // global
+  RelativeFrame<Taylor> relative;   // I seen from J
+  Vec3<Taylor> arm_I, arm_J;        // from the BCS of the body to its marker, global axes
+  Vec3<Taylor> arm;                 // from the BCS of J's body to the origin of I
+  Vector w_J;                       // angular velocity of J's body
+};
+
+PairMotion pair_motion(const Motion&, const MarkerPlace& I, const MarkerPlace& J);
+
+// Partials of one vector with respect to the four groups of coordinates; columns are coordinates.
+struct GroupPartials {
+  std::array<Matrix3, 4> group{};
+};
+
+// The force and torque on I at its origin, global axes; the opposite acts on J's body at the same point.
+struct PairForce {
+  Vector force, torque;
+  GroupPartials force_on_position, torque_on_position;  // with respect to δq
+  GroupPartials force_on_velocity, torque_on_velocity;  // with respect to δq′
+  bool depends_on_velocity = false;
+  bool acts_on_J = true;
+};
+
+// A wrench given in the axes of J as a law of the relative motion.
+struct RelativeWrench {
+  Vector force, torque;                            // on I, axes of J
+  std::array<std::array<double, 6>, 6> on_pose{};  // ∂(force, torque)/∂ξ
+  std::array<std::array<double, 6>, 6> on_rate{};  // ∂(force, torque)/∂ξ′
+  bool depends_on_rate = false;
+};
+PairForce spread(const PairMotion&, const RelativeWrench&, bool with_partials);
+
+// A force of magnitude F along the line from J to I and its slopes in distance d and rate d′.
+struct LineMagnitude {
+  double value = 0, on_distance = 0, on_rate = 0;
+};
+PairForce along_line(const PairMotion&, const LineMagnitude&, bool with_partials);
+
+// Adds force, reaction and partials to the balance of both bodies.
+void apply(const PairMotion&, const PairForce&, Equations&, Column velocity_family = Column::damping);
+// The partials alone, for forces whose residual is added elsewhere (reactions come from the constraint rows).
+void apply_partials(const PairMotion&, const PairForce&, Equations&,
+                    Column velocity_family = Column::damping);
+// Adds the column of a scalar unknown that scales (force, torque) on I.
+void apply_column(const PairMotion&, const Vector& force, const Vector& torque, bool acts_on_J,
+                  Column family, std::int32_t column, Equations&);
+
+// Puts the gradient of a position row, given in the axes of J with respect to (d, φ), into the row.
+void add_gradient(std::int32_t row, const PairMotion&, const Vec3<Taylor>& on_d,
+                  const Vec3<Taylor>& on_phi, ConstraintRows&);
+
+}  // namespace dynalin

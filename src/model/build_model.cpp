@@ -1,0 +1,358 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "model/model.h"
+#include "model/reader.h"
+
+namespace dynalin {
+
+namespace {
+
+// One statement of the dataset on its way into the model.
+struct Placement {
+  const Statement* statement;
+  ElementSet* set;
+  std::size_t index;
+  std::size_t variant_argument;  // the written argument that chose the kind, or none
+  BodyId preceding_body;
+};
+constexpr std::size_t no_argument = static_cast<std::size_t>(-1);
+
+class Reader final : public ElementReader {
+ public:
+  Reader(Model& model, const Placement& placement, const SourceText& source,
+         Diagnostics& diagnostics)
+      : ElementReader(*placement.statement, source, diagnostics,
+                      placement.set->labels[placement.index]),
+        model_(model),
+        placement_(placement) {
+    if (placement.variant_argument != no_argument) {
+      const auto& w = placement.statement->arguments[placement.variant_argument];
+      assignments.push_back({placement.set->kind().variant, w.name});
+    }
+  }
+
+  std::optional<MarkerId> marker(const WrittenInteger& id, std::string_view argument) override {
+    const auto m = model_.find_marker(id.value);
+    if (!m || (id.value == 0)) {
+      report_missing("MARKER", "unknown-marker", id, argument);
+      return std::nullopt;
+    }
+    return m;
+  }
+
+  std::optional<BodyId> body(std::string_view statement, const WrittenInteger& id) override {
+    const auto b = model_.find_body(statement, id.value);
+    if (!b) {
+      error("unknown-body", id.at,
+            fmt::format("{} refers to {}/{}, which does not exist", label().text(), statement, id.value));
+    }
+    return b;
+  }
+
+  std::optional<ElementHandle> element(std::string_view statement, const WrittenInteger& id) override {
+    const auto h = model_.find(statement, id.value);
+    if (!h) report_missing(statement, "unknown-element", id, "");
+    return h;
+  }
+
+  std::optional<Expression> expression(const WrittenArgument& written) override {
+    const std::size_t before = diagnostics().error_count();
+    Expression e = parse_expression(written.value, source(), diagnostics());
+    if (diagnostics().error_count() > before) return std::nullopt;
+    for (const Atom& atom : e.atoms()) check_atom(atom);
+    if (diagnostics().error_count() > before) return std::nullopt;
+    return e;
+  }
+
+  std::optional<BodyId> preceding_body() const override {
+    if (!placement_.preceding_body.valid()) return std::nullopt;
+    return placement_.preceding_body;
+  }
+
+  void keep(SourceRef source) override { model_.further_sources.push_back(std::move(source)); }
+  std::string folder() const override {
+    return std::filesystem::path(source().name()).parent_path().string();
+  }
+
+ private:
+  void report_missing(std::string_view statement, std::string_view code, const WrittenInteger& id,
+                      std::string_view) {
+    error(code, id.at,
+          fmt::format("{} refers to {}/{}, which does not exist", label().text(), statement, id.value),
+          near_ids(statement, id.value));
+  }
+
+  // "MARKER/112 and MARKER/1211 exist": ids that differ by one digit more, less or other.
+  std::string near_ids(std::string_view statement, std::int64_t id) const {
+    const std::string wanted = std::to_string(id);
+    std::vector<std::string> near;
+    const auto consider = [&](std::int64_t candidate) {
+      const std::string text = std::to_string(candidate);
+      const std::size_t shared = std::mismatch(wanted.begin(), wanted.end(), text.begin(), text.end()).first -
+                                 wanted.begin();
+      const std::string_view a = std::string_view(wanted).substr(shared);
+      const std::string_view b = std::string_view(text).substr(shared);
+      const bool close = (a.size() == b.size() && !a.empty() && a.substr(1) == b.substr(1)) ||
+                         (a.size() == b.size() + 1 && a.substr(1) == b) ||
+                         (b.size() == a.size() + 1 && b.substr(1) == a);
+      if (close) near.push_back(fmt::format("{}/{}", statement, candidate));
+    };
+    if (statement == "MARKER") {
+      for (const auto& [candidate, m] : model_.marker_ids) consider(candidate);
+    } else if (const auto table = model_.ids.find(statement); table != model_.ids.end()) {
+      for (const auto& [candidate, h] : table->second) consider(candidate);
+    }
+    std::sort(near.begin(), near.end());
+    if (near.size() > 3) near.resize(3);
+    if (near.empty()) return {};
+    return fmt::format("{} {}", fmt::join(near, " and "), near.size() == 1 ? "exists" : "exist");
+  }
+
+  void check_id(const Atom& atom, std::size_t k, std::string_view statement) {
+    const std::int64_t id = atom.argument[k];
+    const bool is_marker = statement == "MARKER";
+    if (is_marker && id == 0) return;
+    if (is_marker ? model_.find_marker(id).has_value() : model_.find(statement, id).has_value()) return;
+    report_missing(statement, is_marker ? "unknown-marker" : "unknown-element", {id, atom.argument_at[k]}, "");
+  }
+
+  void check_atom(const Atom& atom) {
+    const AtomFunction& f = *atom.function;
+    switch (f.family) {
+      case AtomFamily::time:
+        return;
+      case AtomFamily::marker_measure:
+      case AtomFamily::marker_force:
+        for (std::size_t k = 0; k < atom.argument_count; ++k) check_id(atom, k, "MARKER");
+        return;
+      case AtomFamily::data:
+        if (f.statement.empty()) return;
+        check_id(atom, 0, f.statement);
+        if (atom.argument_count > 1 && atom.argument[1] < 1) {
+          error("value-out-of-range", atom.argument_at[1],
+                fmt::format("the second argument of {} counts from 1", f.name));
+        }
+        return;
+      case AtomFamily::element_force:
+        check_id(atom, 0, f.statement);
+        if (atom.argument[1] != 0 && atom.argument[1] != 1) {
+          error("value-out-of-range", atom.argument_at[1],
+                fmt::format("the second argument of {} is 0 (force on I) or 1 (force on J)", f.name));
+        }
+        if (atom.argument[2] < 1 || atom.argument[2] > 8) {
+          error("value-out-of-range", atom.argument_at[2],
+                fmt::format("the third argument of {} is a component, 1 to 8: FM FX FY FZ TM TX TY TZ",
+                            f.name));
+        }
+        if (atom.argument_count > 3) check_id(atom, 3, "MARKER");
+        return;
+    }
+  }
+
+  Model& model_;
+  const Placement& placement_;
+};
+
+// Finds which kind of a statement is meant; the variants of a statement are told by a bare word.
+class KindFinder {
+ public:
+  explicit KindFinder(Catalogue catalogue) {
+    for (const Kind* kind : catalogue) kinds_[std::string(kind->statement)].push_back(kind);
+  }
+
+  const Kind* find(const Statement& s, std::size_t& variant_argument, Diagnostics& diagnostics) const {
+    variant_argument = no_argument;
+    const auto it = kinds_.find(s.name);
+    if (it == kinds_.end()) {
+      diagnostics.error("statement-not-built", s.keyword,
+                        fmt::format("{} is not available yet", s.name));
+      return nullptr;
+    }
+    const auto& kinds = it->second;
+    if (kinds.size() == 1 && kinds.front()->variant.empty()) return kinds.front();
+
+    std::vector<std::string_view> variants;
+    for (const Kind* kind : kinds) variants.push_back(kind->variant);
+    const Kind* found = nullptr;
+    for (std::size_t k = 0; k < s.arguments.size(); ++k) {
+      const WrittenArgument& w = s.arguments[k];
+      if (w.has_value) continue;
+      const auto v = find_keyword(w.name.text(), variants);
+      if (!v || is_flag(*kinds[*v], w.name.text())) continue;
+      if (found) {
+        diagnostics.error("duplicate-variant", w.name,
+                          fmt::format("{}/{} is both {} and {}", s.name, s.id.value_or(0), found->variant,
+                                      kinds[*v]->variant));
+        return nullptr;
+      }
+      found = kinds[*v];
+      variant_argument = k;
+    }
+    if (!found) {
+      diagnostics.error("missing-variant", s.at, fmt::format("{} needs its type", s.name),
+                        fmt::format("one of {}", fmt::join(variants, ", ")));
+    }
+    return found;
+  }
+
+ private:
+  // A word such as I or R that is the exact name of an argument never selects a variant.
+  static bool is_flag(const Kind& kind, std::string_view word) {
+    return std::any_of(kind.arguments.begin(), kind.arguments.end(), [&](const ArgumentInfo& a) {
+      return a.name.size() == word.size() &&
+             std::equal(word.begin(), word.end(), a.name.begin(),
+                        [](char x, char y) { return std::toupper(static_cast<unsigned char>(x)) == y; });
+    });
+  }
+
+  std::map<std::string, std::vector<const Kind*>, std::less<>> kinds_;
+};
+
+bool is_ground(const Statement& s) {
+  static constexpr std::array<std::string_view, 1> ground = {"GROUND"};
+  return std::any_of(s.arguments.begin(), s.arguments.end(), [&](const WrittenArgument& w) {
+    return !w.has_value && find_keyword(w.name.text(), ground).has_value();
+  });
+}
+
+class Builder {
+ public:
+  Builder(std::shared_ptr<const Dataset> dataset, Catalogue catalogue)
+      : catalogue_(catalogue), finder_(catalogue), model_(std::make_unique<Model>()) {
+    model_->dataset = std::move(dataset);
+    model_->title = model_->dataset->title;
+    model_->markers.push_back({{"MARKER", 0, "", {}}, {}, false});
+    model_->marker_ids.emplace(0, global_frame);
+    Body ground;
+    ground.kind = BodyKind::ground;
+    ground.label = {"PART", 0, "ground", {}};
+    model_->bodies.push_back(ground);
+  }
+
+  Parsed<std::unique_ptr<Model>> build() {
+    register_statements();
+    read_statements();
+    // Later phases use values of other elements; after an error these may be half read.
+    if (!diagnostics_.has_errors()) {
+      for (auto& set : model_->sets) set->finish(*model_, diagnostics_);
+    }
+    return {std::move(model_), std::move(diagnostics_)};
+  }
+
+ private:
+  ElementSet& set_of(const Kind& kind) {
+    for (auto& set : model_->sets) {
+      if (&set->kind() == &kind) return *set;
+    }
+    model_->sets.push_back(kind.make_set(kind));
+    return *model_->sets.back();
+  }
+
+  // First pass: every id becomes known, so statements may refer to later ones.
+  void register_statements() {
+    // Sets in the order of the catalogue, whatever the order of the dataset, so that finishing works.
+    for (const Kind* kind : catalogue_) set_of(*kind);
+    BodyId preceding;
+    const Statement* ground = nullptr;
+    for (const Statement& s : model_->dataset->statements) {
+      if (s.name.empty() || s.name == "END") continue;
+      std::size_t variant_argument = no_argument;
+      const Kind* kind = finder_.find(s, variant_argument, diagnostics_);
+      if (!kind) {
+        // The id exists all the same: what refers to it must not complain as well.
+        if (s.id) model_->ids[std::string(s.name)].emplace(*s.id, ElementHandle{});
+        continue;
+      }
+      const bool needs_id = kind->role == Kind::Role::body || kind->role == Kind::Role::marker ||
+                            kind->role == Kind::Role::element;
+      if (needs_id && !s.id) {
+        diagnostics_.error("missing-id", s.at, fmt::format("{} needs an id: {}/1", s.name, s.name));
+        continue;
+      }
+      ElementSet& set = set_of(*kind);
+      const ElementLabel label{kind->statement, s.id.value_or(0), s.view_name, s.at};
+      if (kind->role == Kind::Role::singleton && set.size() > 0) {
+        diagnostics_.error("duplicate-statement", s.at, fmt::format("{} is given twice", s.name))
+            .notes.push_back({set.labels.front().at, "the first one is here"});
+        continue;
+      }
+      if (needs_id && !register_id(*kind, label, set, s, preceding, ground)) continue;
+      set.append(label);
+      placements_.push_back({&s, &set, set.size() - 1, variant_argument, preceding});
+    }
+    if (!ground) diagnostics_.error("missing-ground", {}, "the dataset has no PART with GROUND");
+  }
+
+  bool register_id(const Kind& kind, const ElementLabel& label, const ElementSet& set, const Statement& s,
+                   BodyId& preceding, const Statement*& ground) {
+    const auto duplicate = [&](const Span& first) {
+      diagnostics_.error("duplicate-id", s.at, fmt::format("{} is defined twice", label.text()))
+          .notes.push_back({first, "the first definition is here"});
+      return false;
+    };
+    if (kind.role == Kind::Role::marker) {
+      const MarkerId m{static_cast<std::int32_t>(model_->markers.size())};
+      const auto [it, fresh] = model_->marker_ids.emplace(label.id, m);
+      if (!fresh) return duplicate(model_->marker(it->second).label.at);
+      model_->markers.push_back({label, {}, false});
+      return true;
+    }
+    if (kind.role == Kind::Role::body) {
+      const bool is_ground_part = kind.statement == "PART" && is_ground(s);
+      const BodyId b = is_ground_part ? ground_body : BodyId{static_cast<std::int32_t>(model_->bodies.size())};
+      auto& table = model_->body_ids[std::string(kind.statement)];
+      const auto [it, fresh] = table.emplace(label.id, b);
+      if (!fresh) return duplicate(model_->body(it->second).label.at);
+      if (is_ground_part) {
+        if (ground) {
+          diagnostics_.error("duplicate-ground", s.at, fmt::format("{} is a second ground", label.text()))
+              .notes.push_back({ground->at, "the first one is here"});
+        }
+        ground = &s;
+        model_->bodies[0].label = label;
+      } else {
+        Body body;
+        body.label = label;
+        body.kind = kind.statement == "POINT_MASS" ? BodyKind::point_mass : BodyKind::part;
+        model_->bodies.push_back(std::move(body));
+      }
+      preceding = b;
+      return true;
+    }
+    std::int32_t index = 0;
+    while (model_->sets[static_cast<std::size_t>(index)].get() != &set) ++index;
+    auto& table = model_->ids[std::string(kind.statement)];
+    const auto [it, fresh] =
+        table.emplace(label.id, ElementHandle{index, static_cast<std::int32_t>(set.size())});
+    if (!fresh) return duplicate(it->second.valid() ? model_->label(it->second).at : Span{});
+    return true;
+  }
+
+  // Second pass: arguments, with all references resolved.
+  void read_statements() {
+    for (const Placement& p : placements_) {
+      Diagnostics own;
+      Reader reader(*model_, p, *model_->dataset->source, own);
+      p.set->read(p.index, reader);
+      if (own.has_errors()) p.set->sound[p.index] = false;
+      diagnostics_.append(std::move(own));
+    }
+  }
+
+  Catalogue catalogue_;
+  KindFinder finder_;
+  std::unique_ptr<Model> model_;
+  Diagnostics diagnostics_;
+  std::vector<Placement> placements_;
+};
+
+}  // namespace
+
+Parsed<std::unique_ptr<Model>> build_model(std::shared_ptr<const Dataset> dataset, Catalogue catalogue) {
+  return Builder(std::move(dataset), catalogue).build();
+}
+
+}  // namespace dynalin

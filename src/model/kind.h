@@ -1,0 +1,86 @@
+// What the program knows of a kind of element without knowing its formulas: keyword, arguments, and a way to
+// make the container of its elements. One Kind ends each element file; the catalogue lists them all.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "dataset/dataset.h"
+#include "mechanics/handles.h"
+#include "mechanics/kernel.h"
+
+namespace dynalin {
+
+struct Model;
+class ElementReader;
+
+// One argument as the manual and the reader of abbreviations see it.
+struct ArgumentInfo {
+  std::string_view name;
+  bool required = false;
+  bool is_flag = false;  // a bare keyword without value
+  std::string_view value;  // "marker", "real", "expression" …
+  std::string_view unit;
+  std::string_view help;
+};
+
+class ElementSet;
+
+struct Kind {
+  // What the statement is to the rest of the model.
+  enum class Role : std::uint8_t {
+    body,       // owns a place in Model::bodies
+    marker,     // owns a place in Model::markers
+    element,    // anything with an id
+    singleton,  // at most one, without id
+    inert,      // kept, without effect on a linear model
+  };
+
+  std::string_view statement;  // "JOINT"
+  std::string_view variant;    // "REVOLUTE", empty if the statement has one kind only
+  std::string_view summary;    // one sentence for the help
+  Role role = Role::element;
+  std::span<const ArgumentInfo> arguments;
+  std::unique_ptr<ElementSet> (*make_set)(const Kind&) = nullptr;
+};
+
+using Catalogue = std::span<const Kind* const>;
+
+// All elements of one kind in a model, contiguous, in the order of the dataset.
+class ElementSet {
+ public:
+  explicit ElementSet(const Kind& kind) : kind_(&kind) {}
+  virtual ~ElementSet() = default;
+
+  const Kind& kind() const { return *kind_; }
+  std::size_t size() const { return labels.size(); }
+
+  // First phase: an id is known. Second phase: the arguments are read. Third: values that need other elements.
+  virtual void append(ElementLabel label) = 0;
+  virtual void read(std::size_t index, ElementReader&) = 0;
+  virtual void finish(Model&, Diagnostics&) {}
+  virtual std::unique_ptr<Kernel> make_kernel(const Model&, Layout&) const { return nullptr; }
+
+  std::vector<ElementLabel> labels;
+  std::vector<bool> sound;  // false: its statement had errors, what refers to it stays silent
+
+ private:
+  const Kind* kind_;
+};
+
+template <class E>
+class TypedSet : public ElementSet {
+ public:
+  using ElementSet::ElementSet;
+  std::vector<E> elements;
+
+  void append(ElementLabel label) override {
+    labels.push_back(std::move(label));
+    sound.push_back(true);
+    elements.emplace_back();
+  }
+};
+
+}  // namespace dynalin

@@ -1,0 +1,96 @@
+// The validated mechanism: typed elements with every id resolved to a handle. Knows mechanics as data; it
+// knows no numerics and no solver.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "mechanics/layout.h"
+#include "model/kind.h"
+
+namespace dynalin {
+
+// Force · ucf = mass · acceleration. The dataset's units are consistent but for this factor.
+struct Units {
+  bool stated = false;
+  double ucf = 1;
+  double length_in_metres = 1;
+};
+
+// Initial velocity as stated: only the components that are given. Everything else may change freely.
+struct StatedVelocity {
+  std::array<std::optional<double>, 3> of_cm;    // along the axes of `cm_axes`, the CM's velocity
+  std::array<std::optional<double>, 3> angular;  // along the axes of `angular_axes`
+  MarkerId cm_axes = global_frame;
+  MarkerId angular_axes = global_frame;
+};
+
+struct Body {
+  BodyKind kind = BodyKind::part;
+  ElementLabel label;
+  Pose pose;                      // BCS as drawn
+  double mass = 0;                // dynamical: user mass / ucf [force·time²/length]
+  double user_mass = 0;
+  bool has_cm = false;
+  Vector p_BC;                    // CM in the BCS
+  Matrix3 J_BC;                   // dynamical inertia tensor about the CM, BCS axes
+  StatedVelocity velocity;
+  std::array<bool, 6> exact{};    // X Y Z PSI THETA PHI held in the assembly
+};
+
+struct Marker {
+  ElementLabel label;
+  MarkerPlace place;
+  bool floating = false;
+};
+
+struct Model {
+  std::string title;
+  Units units;
+  Vector gravity;                  // [length/time²], global axes
+  std::vector<Body> bodies;        // by BodyId, ground first
+  std::vector<Marker> markers;     // by MarkerId, the global frame first
+  std::vector<std::unique_ptr<ElementSet>> sets;  // in the order of the catalogue, only kinds that occur
+
+  std::optional<ElementHandle> find(std::string_view statement, std::int64_t id) const;
+  std::optional<MarkerId> find_marker(std::int64_t id) const;  // 0 is the global frame
+  std::optional<BodyId> find_body(std::string_view statement, std::int64_t id) const;
+
+  const ElementSet& set(ElementHandle h) const { return *sets[static_cast<std::size_t>(h.set)]; }
+  const ElementLabel& label(ElementHandle h) const {
+    return set(h).labels[static_cast<std::size_t>(h.index)];
+  }
+  // The element of a handle, nothing if it is of another type.
+  template <class E>
+  const E* get(ElementHandle h) const {
+    if (!h.valid()) return nullptr;
+    const auto* typed = dynamic_cast<const TypedSet<E>*>(&set(h));
+    return typed ? &typed->elements[static_cast<std::size_t>(h.index)] : nullptr;
+  }
+  const Marker& marker(MarkerId m) const { return markers[static_cast<std::size_t>(m.index)]; }
+  const Body& body(BodyId b) const { return bodies[static_cast<std::size_t>(b.index)]; }
+
+  // The largest distance between the origins of two markers as drawn, 1 if there is none: the length by
+  // which displacements and rotations are compared. [length]
+  double characteristic_length() const;
+
+  // Id tables and the text that labels and spans point into.
+  std::map<std::string, std::unordered_map<std::int64_t, ElementHandle>, std::less<>> ids;
+  std::unordered_map<std::int64_t, MarkerId> marker_ids;
+  std::map<std::string, std::unordered_map<std::int64_t, BodyId>, std::less<>> body_ids;
+  std::shared_ptr<const Dataset> dataset;
+  std::vector<SourceRef> further_sources;
+};
+
+// Reads every statement of the dataset by the catalogue. All problems are reported in one go; the model is
+// usable only without errors.
+Parsed<std::unique_ptr<Model>> build_model(std::shared_ptr<const Dataset>, Catalogue);
+
+}  // namespace dynalin

@@ -1,0 +1,66 @@
+// What an element sees while its statement is read: the values as written, resolved references, and a place
+// for diagnostics.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "dataset/dataset.h"
+#include "expression/expression.h"
+#include "mechanics/handles.h"
+
+namespace dynalin {
+
+class ElementReader {
+ public:
+  ElementReader(const Statement& statement, const SourceText& source, Diagnostics& diagnostics,
+                const ElementLabel& label)
+      : statement_(&statement), source_(&source), diagnostics_(&diagnostics), label_(&label) {}
+  virtual ~ElementReader() = default;
+
+  const Statement& statement() const { return *statement_; }
+  const SourceText& source() const { return *source_; }
+  Diagnostics& diagnostics() { return *diagnostics_; }
+  const ElementLabel& label() const { return *label_; }
+
+  // References; an id that does not exist is reported and yields nothing.
+  virtual std::optional<MarkerId> marker(const WrittenInteger&, std::string_view argument) = 0;
+  virtual std::optional<BodyId> body(std::string_view statement, const WrittenInteger&) = 0;
+  virtual std::optional<ElementHandle> element(std::string_view statement, const WrittenInteger&) = 0;
+  // A parsed expression whose every id exists.
+  virtual std::optional<Expression> expression(const WrittenArgument&) = 0;
+  // The body statement that precedes this one in the file.
+  virtual std::optional<BodyId> preceding_body() const = 0;
+  // Keeps the text of a further file alive as long as the model, for messages that point into it.
+  virtual void keep(SourceRef) {}
+  // Folder of the dataset, for files it names.
+  virtual std::string folder() const = 0;
+
+  // Where the named argument stands, the statement itself if it was not written.
+  Span at(std::string_view argument) const;
+  bool given(std::string_view argument) const { return at_argument(argument).has_value(); }
+  void error(std::string_view code, const Span& at, std::string message, std::string hint = {}) {
+    diagnostics_->error(code, at, std::move(message), std::move(hint));
+  }
+  void warning(std::string_view code, const Span& at, std::string message, std::string hint = {}) {
+    diagnostics_->warning(code, at, std::move(message), std::move(hint));
+  }
+
+  // Which written argument was read as which name; filled by read_arguments.
+  struct Assignment {
+    std::string_view name;
+    Span at;
+  };
+  std::vector<Assignment> assignments;
+
+ private:
+  std::optional<Span> at_argument(std::string_view argument) const;
+
+  const Statement* statement_;
+  const SourceText* source_;
+  Diagnostics* diagnostics_;
+  const ElementLabel* label_;
+};
+
+}  // namespace dynalin

@@ -1,0 +1,218 @@
+#include "model/schema.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace dynalin {
+
+std::optional<Span> ElementReader::at_argument(std::string_view argument) const {
+  for (const Assignment& a : assignments) {
+    if (a.name == argument) return a.at;
+  }
+  return std::nullopt;
+}
+
+Span ElementReader::at(std::string_view argument) const {
+  return at_argument(argument).value_or(statement_->at);
+}
+
+namespace {
+
+bool check_minimum(double value, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
+  if (value >= limits.minimum) return true;
+  r.error("value-out-of-range", w.value_span,
+          fmt::format("{} of {} is {}, it must be at least {}", limits.argument, r.label().text(), value,
+                      limits.minimum));
+  return false;
+}
+
+}  // namespace
+
+bool read_value(double& slot, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
+  const auto v = read_real(w, r.source(), r.diagnostics());
+  if (!v || !check_minimum(*v, w, limits, r)) return false;
+  slot = *v;
+  return true;
+}
+
+bool read_value(std::optional<double>& slot, const WrittenArgument& w, const ValueLimits& limits,
+                ElementReader& r) {
+  double v = 0;
+  if (!read_value(v, w, limits, r)) return false;
+  slot = v;
+  return true;
+}
+
+bool read_value(Vector& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
+  const auto v = read_reals(w, r.source(), r.diagnostics(), 3);
+  if (!v) return false;
+  slot = {(*v)[0], (*v)[1], (*v)[2]};
+  return true;
+}
+
+bool read_value(std::optional<Vector>& slot, const WrittenArgument& w, const ValueLimits& limits,
+                ElementReader& r) {
+  Vector v;
+  if (!read_value(v, w, limits, r)) return false;
+  slot = v;
+  return true;
+}
+
+bool read_value(std::vector<double>& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
+  auto v = read_reals(w, r.source(), r.diagnostics());
+  if (!v) return false;
+  slot = std::move(*v);
+  return true;
+}
+
+bool read_value(std::optional<std::int64_t>& slot, const WrittenArgument& w, const ValueLimits& limits,
+                ElementReader& r) {
+  const auto v = read_integer(w, r.source(), r.diagnostics());
+  if (!v || !check_minimum(static_cast<double>(v->value), w, limits, r)) return false;
+  slot = v->value;
+  return true;
+}
+
+bool read_value(MarkerId& slot, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
+  const auto v = read_integer(w, r.source(), r.diagnostics());
+  if (!v) return false;
+  const auto id = r.marker(*v, limits.argument);
+  if (!id) return false;
+  slot = *id;
+  return true;
+}
+
+bool read_value(BodyId& slot, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
+  const auto v = read_integer(w, r.source(), r.diagnostics());
+  if (!v) return false;
+  const auto id = r.body(limits.argument, *v);
+  if (!id) return false;
+  slot = *id;
+  return true;
+}
+
+bool read_value(ElementHandle& slot, std::string_view statement, const WrittenArgument& w,
+                ElementReader& r) {
+  const auto v = read_integer(w, r.source(), r.diagnostics());
+  if (!v) return false;
+  const auto handle = r.element(statement, *v);
+  if (!handle) return false;
+  slot = *handle;
+  return true;
+}
+
+bool read_value(std::vector<VariableRef>& slot, const WrittenArgument& w, const ValueLimits&,
+                ElementReader& r) {
+  const auto ids = read_integers(w, r.source(), r.diagnostics());
+  if (!ids) return false;
+  bool ok = true;
+  slot.clear();
+  for (const WrittenInteger& id : *ids) {
+    const auto handle = r.element(VariableClass::statement, id);
+    ok = ok && handle.has_value();
+    slot.push_back({handle.value_or(ElementHandle{})});
+  }
+  return ok;
+}
+
+bool read_value(std::vector<std::int64_t>& slot, const WrittenArgument& w, const ValueLimits&,
+                ElementReader& r) {
+  const auto ids = read_integers(w, r.source(), r.diagnostics());
+  if (!ids) return false;
+  slot.clear();
+  for (const WrittenInteger& id : *ids) slot.push_back(id.value);
+  return true;
+}
+
+bool read_value(Expression& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
+  auto e = r.expression(w);
+  if (!e) return false;
+  slot = std::move(*e);
+  return true;
+}
+
+bool read_value(std::string& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
+  auto text = read_text(w, r.source(), r.diagnostics());
+  if (!text) return false;
+  slot = std::move(*text);
+  return true;
+}
+
+bool read_value(std::vector<std::string>& slot, const WrittenArgument& w, const ValueLimits&,
+                ElementReader& r) {
+  const auto words = read_words(w, r.source(), r.diagnostics());
+  if (!words) return false;
+  slot.clear();
+  for (const Span& word : *words) {
+    std::string upper(word.text());
+    std::transform(upper.begin(), upper.end(), upper.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    slot.push_back(std::move(upper));
+  }
+  return true;
+}
+
+namespace detail {
+
+std::optional<std::size_t> find_argument(const WrittenArgument& written,
+                                         std::span<const ArgumentInfo> infos, ElementReader& r) {
+  // The word that chose the variant was recorded when the kind was found.
+  for (const auto& a : r.assignments) {
+    if (a.at.offset == written.name.offset && a.at.source == written.name.source) return infos.size();
+  }
+  std::vector<std::string_view> names;
+  for (const ArgumentInfo& info : infos) names.push_back(info.name);
+  std::vector<std::string_view> tied;
+  const auto k = find_keyword(written.name.text(), names, &tied);
+  const std::string_view owner = r.label().statement;
+  if (!k) {
+    if (!tied.empty()) {
+      r.error("ambiguous-argument", written.name,
+              fmt::format("{} of {} could be {}", written.name.text(), owner, fmt::join(tied, " or ")));
+      return std::nullopt;
+    }
+    const auto near = nearest_word(written.name.text(), names);
+    r.error("unknown-argument", written.name,
+            fmt::format("{} has no argument {}", owner, written.name.text()),
+            near.empty() ? fmt::format("its arguments are {}", fmt::join(names, ", "))
+                         : fmt::format("did you mean {}?", near));
+    return std::nullopt;
+  }
+  const ArgumentInfo& info = infos[*k];
+  for (const auto& a : r.assignments) {
+    if (a.name == info.name) {
+      r.error("duplicate-argument", written.name,
+              fmt::format("{} of {} is given twice", info.name, r.label().text()));
+      return std::nullopt;
+    }
+  }
+  r.assignments.push_back({info.name, written.name});
+  if (info.is_flag && written.has_value) {
+    r.error("unexpected-value", written.name,
+            fmt::format("{} of {} takes no value", info.name, owner));
+    return std::nullopt;
+  }
+  if (!info.is_flag && !written.has_value) {
+    r.error("missing-value", written.name,
+            fmt::format("{} of {} needs a value: {}", info.name, owner, info.value));
+    return std::nullopt;
+  }
+  return k;
+}
+
+bool check_required(std::span<const ArgumentInfo> infos, ElementReader& r) {
+  bool ok = true;
+  for (const ArgumentInfo& info : infos) {
+    if (!info.required || r.given(info.name)) continue;
+    r.error("missing-argument", r.statement().at,
+            fmt::format("{} needs {}", r.label().text(), info.name),
+            info.help.empty() ? std::string() : std::string(info.help));
+    ok = false;
+  }
+  return ok;
+}
+
+}  // namespace detail
+}  // namespace dynalin

@@ -1,0 +1,150 @@
+// Arguments declared as data: name, member, unit and limits in one line of the element, and the one
+// function that reads any statement by such a table.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "model/kind.h"
+#include "model/reader.h"
+
+namespace dynalin {
+
+// Dimensions as text for the manual; a dataset has consistent units, so nothing is converted.
+namespace unit {
+inline constexpr std::string_view none = "";
+inline constexpr std::string_view length = "length";
+inline constexpr std::string_view angle = "rad";
+inline constexpr std::string_view mass = "mass";
+inline constexpr std::string_view force = "force";
+inline constexpr std::string_view torque = "force·length";
+inline constexpr std::string_view velocity = "length/time";
+inline constexpr std::string_view angular_velocity = "rad/time";
+inline constexpr std::string_view acceleration = "length/time²";
+inline constexpr std::string_view inertia = "mass·length²";
+inline constexpr std::string_view stiffness = "force/length";
+inline constexpr std::string_view damping = "force·time/length";
+inline constexpr std::string_view angular_stiffness = "force·length/rad";
+inline constexpr std::string_view angular_damping = "force·length·time/rad";
+}  // namespace unit
+
+template <class E>
+using Slot = std::variant<bool E::*, double E::*, std::optional<double> E::*, Vector E::*,
+                          std::optional<Vector> E::*, std::vector<double> E::*,
+                          std::optional<std::int64_t> E::*, MarkerId E::*, BodyId E::*, VariableRef E::*,
+                          ArrayRef E::*, MatrixRef E::*, JointRef E::*, std::vector<VariableRef> E::*,
+                          std::vector<std::int64_t> E::*, Expression E::*, std::string E::*,
+                          std::vector<std::string> E::*>;
+
+template <class E>
+struct Argument {
+  std::string_view name;
+  Slot<E> slot;
+  bool required = false;
+  std::string_view unit{};
+  double minimum = -std::numeric_limits<double>::infinity();
+  std::string_view help{};
+};
+
+// Reading one value into one member: false after a reported error.
+struct ValueLimits {
+  std::string_view argument;
+  double minimum;
+};
+bool read_value(double&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(std::optional<double>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(Vector&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(std::optional<Vector>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(std::vector<double>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(std::optional<std::int64_t>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(MarkerId&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(BodyId&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(ElementHandle&, std::string_view statement, const WrittenArgument&, ElementReader&);
+bool read_value(std::vector<VariableRef>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(std::vector<std::int64_t>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(Expression&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(std::string&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(std::vector<std::string>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+template <class Class>
+bool read_value(ElementRef<Class>& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
+  return read_value(static_cast<ElementHandle&>(slot), Class::statement, w, r);
+}
+
+namespace detail {
+
+// Names of the value types, for the manual.
+template <class V>
+constexpr std::string_view value_text() {
+  if constexpr (std::is_same_v<V, bool>) return "";
+  else if constexpr (std::is_same_v<V, double> || std::is_same_v<V, std::optional<double>>) return "real";
+  else if constexpr (std::is_same_v<V, Vector> || std::is_same_v<V, std::optional<Vector>>) return "x, y, z";
+  else if constexpr (std::is_same_v<V, std::vector<double>>) return "reals";
+  else if constexpr (std::is_same_v<V, std::optional<std::int64_t>>) return "integer";
+  else if constexpr (std::is_same_v<V, MarkerId>) return "marker";
+  else if constexpr (std::is_same_v<V, BodyId>) return "body";
+  else if constexpr (std::is_same_v<V, std::vector<VariableRef>>) return "variables";
+  else if constexpr (std::is_same_v<V, std::vector<std::int64_t>>) return "ids";
+  else if constexpr (std::is_same_v<V, Expression>) return "expression";
+  else if constexpr (std::is_same_v<V, std::string>) return "text";
+  else if constexpr (std::is_same_v<V, std::vector<std::string>>) return "words";
+  else return "id";
+}
+
+template <class E>
+constexpr ArgumentInfo argument_info(const Argument<E>& a) {
+  ArgumentInfo info{a.name, a.required, false, {}, a.unit, a.help};
+  std::visit(
+      [&]<class V>(V E::*) {
+        info.is_flag = std::is_same_v<V, bool>;
+        info.value = value_text<V>();
+      },
+      a.slot);
+  return info;
+}
+
+template <class E>
+inline constexpr auto argument_infos = [] {
+  std::array<ArgumentInfo, E::arguments.size()> infos{};
+  for (std::size_t k = 0; k < infos.size(); ++k) infos[k] = argument_info(E::arguments[k]);
+  return infos;
+}();
+
+// Finds the argument a written name means; reports unknown and repeated ones.
+std::optional<std::size_t> find_argument(const WrittenArgument&, std::span<const ArgumentInfo>,
+                                         ElementReader&);
+// Reports arguments that are required and missing.
+bool check_required(std::span<const ArgumentInfo>, ElementReader&);
+
+}  // namespace detail
+
+// Reads all arguments of the reader's statement into `element`; false if anything was wrong.
+template <class E>
+bool read_arguments(E& element, ElementReader& reader) {
+  bool ok = true;
+  const std::span<const ArgumentInfo> infos = detail::argument_infos<E>;
+  for (const WrittenArgument& written : reader.statement().arguments) {
+    const auto k = detail::find_argument(written, infos, reader);
+    if (!k) {
+      ok = false;
+      continue;
+    }
+    if (*k >= infos.size()) continue;  // the word that selects the variant
+    const Argument<E>& a = E::arguments[*k];
+    ok &= std::visit(
+        [&]<class V>(V E::*member) {
+          if constexpr (std::is_same_v<V, bool>) {
+            return element.*member = true;
+          } else {
+            return read_value(element.*member, written, ValueLimits{a.name, a.minimum}, reader);
+          }
+        },
+        a.slot);
+  }
+  return detail::check_required(infos, reader) && ok;
+}
+
+}  // namespace dynalin

@@ -1,0 +1,29 @@
+// The text blocks of the message file (.msg).
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dynalin/results.h"
+
+namespace dynalin {
+
+void write_banner(std::ostream&, std::string_view version);
+void write_title(std::ostream&, std::string_view title);
+void write_command(std::ostream&, std::string_view line);  // " command: …"
+void write_begin(std::ostream&, std::string_view what);    // "  Begin …" between blank lines
+void write_end(std::ostream&, std::string_view what);
+void write_static_result(std::ostream&, int iterations, double imbalance);
+void write_redundant(std::ostream&, double time, const std::vector<std::string>& rows);
+enum class Block { warning, error };
+void write_block(std::ostream&, Block, std::string_view text);
+// From "EigenSolution computation started." to the table and its end.
+void write_eigensolution(std::ostream&, const EigenSolution&);
+void write_footer(std::ostream&, bool complete, double elapsed);
+
+// A table for the terminal: frequency, damping ratio, real and imaginary part.
+void write_eigen_table(std::ostream&, const EigenSolution&);
+
+}  // namespace dynalin

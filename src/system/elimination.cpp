@@ -1,0 +1,153 @@
+#include "system/elimination.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dynalin {
+
+namespace {
+
+// Entries this small, relative to the row as it was given, are rounding left behind by cancellation.
+constexpr double rounding = 1e-14;
+
+struct WorkRow {
+  std::vector<std::pair<std::int32_t, double>> entries;  // ascending columns
+  double first_size = 0;                                 // largest entry as given
+  double size = 0;                                       // largest entry now
+  bool active = true;
+
+  const double* find(std::int32_t column) const {
+    const auto it = std::lower_bound(entries.begin(), entries.end(), column,
+                                     [](const auto& e, std::int32_t c) { return e.first < c; });
+    return it != entries.end() && it->first == column ? &it->second : nullptr;
+  }
+  void measure() {
+    size = 0;
+    for (const auto& [c, v] : entries) size = std::max(size, std::abs(v));
+  }
+};
+
+class Eliminator {
+ public:
+  Eliminator(std::vector<SparseRow> rows, std::int32_t columns, const EliminationOptions& options)
+      : options_(options), holders_(static_cast<std::size_t>(columns)) {
+    result_.pivot_column.assign(rows.size(), -1);
+    result_.dependent.assign(static_cast<std::size_t>(columns), false);
+    rows_.resize(rows.size());
+    for (std::size_t r = 0; r < rows.size(); ++r) load(r, rows[r]);
+  }
+
+  Elimination run(std::span<const std::int32_t> order) {
+    // A row whose large entries were passed over may be left with them alone: offer those columns again.
+    while (remaining_ > 0) {
+      const std::size_t before = remaining_;
+      for (const std::int32_t c : order) {
+        if (!result_.dependent[static_cast<std::size_t>(c)]) offer(c);
+        if (remaining_ == 0) break;
+      }
+      if (remaining_ == before) break;
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void load(std::size_t r, const SparseRow& given) {
+    WorkRow& row = rows_[r];
+    for (std::size_t k = 0; k < given.column.size(); ++k) {
+      if (given.value[k] != 0.0) row.entries.emplace_back(given.column[k], given.value[k]);
+    }
+    std::sort(row.entries.begin(), row.entries.end());
+    row.measure();
+    row.first_size = row.size;
+    const double cut = rounding * row.size;
+    std::erase_if(row.entries, [&](const auto& e) { return std::abs(e.second) <= cut; });
+    row.active = !row.entries.empty();
+    if (!row.active) return;
+    ++remaining_;
+    for (const auto& [c, v] : row.entries) {
+      holders_[static_cast<std::size_t>(c)].push_back(static_cast<std::int32_t>(r));
+    }
+  }
+
+  void offer(std::int32_t column) {
+    auto& holders = holders_[static_cast<std::size_t>(column)];
+    std::sort(holders.begin(), holders.end());
+    holders.erase(std::unique(holders.begin(), holders.end()), holders.end());
+    std::int32_t best = -1;
+    std::size_t best_count = std::numeric_limits<std::size_t>::max();
+    std::size_t kept = 0;
+    for (const std::int32_t r : holders) {
+      const WorkRow& row = rows_[static_cast<std::size_t>(r)];
+      const double* v = row.active ? row.find(column) : nullptr;
+      if (!v) continue;
+      holders[kept++] = r;
+      if (std::abs(*v) >= options_.pivot_threshold * row.size && row.entries.size() < best_count) {
+        best = r;
+        best_count = row.entries.size();
+      }
+    }
+    holders.resize(kept);
+    if (best < 0) return;
+
+    WorkRow& pivot = rows_[static_cast<std::size_t>(best)];
+    const double pivot_value = *pivot.find(column);
+    pivot.active = false;
+    --remaining_;
+    result_.pivot_column[static_cast<std::size_t>(best)] = column;
+    result_.dependent[static_cast<std::size_t>(column)] = true;
+    result_.smallest_pivot = std::min(result_.smallest_pivot, pivot.size / pivot.first_size);
+    ++result_.rank;
+    for (const std::int32_t r : holders) {
+      if (r != best) subtract(r, pivot, column, pivot_value);
+    }
+    holders.clear();
+  }
+
+  void subtract(std::int32_t r, const WorkRow& pivot, std::int32_t column, double pivot_value) {
+    WorkRow& row = rows_[static_cast<std::size_t>(r)];
+    const double factor = *row.find(column) / pivot_value;
+    const double cut = rounding * std::max(row.first_size, std::abs(factor) * pivot.first_size);
+    merged_.clear();
+    auto a = row.entries.begin();
+    auto b = pivot.entries.begin();
+    while (a != row.entries.end() || b != pivot.entries.end()) {
+      if (b == pivot.entries.end() || (a != row.entries.end() && a->first < b->first)) {
+        merged_.push_back(*a++);
+        continue;
+      }
+      const std::int32_t c = b->first;
+      const bool both = a != row.entries.end() && a->first == c;
+      const double v = (both ? a->second : 0.0) - factor * b->second;
+      if (c != column && std::abs(v) > cut) {
+        merged_.emplace_back(c, v);
+        if (!both) holders_[static_cast<std::size_t>(c)].push_back(r);
+      }
+      if (both) ++a;
+      ++b;
+    }
+    row.entries.assign(merged_.begin(), merged_.end());
+    row.measure();
+    if (row.size <= options_.rank_tolerance * row.first_size) {
+      row.active = false;
+      row.entries.clear();
+      --remaining_;
+    }
+  }
+
+  EliminationOptions options_;
+  std::vector<WorkRow> rows_;
+  std::vector<std::vector<std::int32_t>> holders_;  // rows that may hold a column
+  std::vector<std::pair<std::int32_t, double>> merged_;
+  std::size_t remaining_ = 0;
+  Elimination result_;
+};
+
+}  // namespace
+
+Elimination eliminate(std::vector<SparseRow> rows, std::int32_t columns, std::span<const std::int32_t> order,
+                      const EliminationOptions& options) {
+  return Eliminator(std::move(rows), columns, options).run(order);
+}
+
+}  // namespace dynalin

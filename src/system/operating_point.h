@@ -1,0 +1,31 @@
+// All values of a system at one instant, and what it remembers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanics/motion.h"
+
+namespace dynalin {
+
+// Velocities and accelerations by coordinates of the layout: v then ω of a part's BCS, global axes.
+struct OperatingPoint {
+  double time = 0;
+  AnalysisMode mode = AnalysisMode::initial_conditions;
+  std::vector<Pose> poses;            // by body, ground first
+  std::vector<double> extra;          // coordinates outside bodies
+  std::vector<double> velocity, acceleration;
+  std::vector<double> lambda;         // multipliers; zero for rows that are not active
+  std::vector<double> algebraic;
+  std::vector<double> state, state_rate;
+  Memory memory;
+};
+
+// Why an analysis did not deliver: what was tried and what is to blame, by name.
+struct Failure {
+  std::string analysis;
+  std::string message;
+  std::vector<std::string> details;
+};
+
+}  // namespace dynalin

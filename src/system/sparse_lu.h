@@ -1,0 +1,41 @@
+// Sparse direct solution of square systems, behind one small interface (KLU).
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "mechanics/accumulator.h"
+
+namespace dynalin {
+
+struct Triplet {
+  std::int32_t row, column;
+  double value;
+};
+// Compressed columns from triplets; equal places are added up, zeros stay.
+ColumnMatrix compressed(std::int32_t rows, std::int32_t columns, std::span<const Triplet>);
+
+class SparseLu {
+ public:
+  SparseLu();
+  ~SparseLu();
+  SparseLu(SparseLu&&) noexcept;
+  SparseLu& operator=(SparseLu&&) noexcept;
+
+  // False if the matrix is singular to working precision.
+  bool factor(ColumnMatrix);
+  // Solves in place with one step of iterative refinement; every column of B is a right-hand side.
+  void solve(Eigen::Ref<Eigen::MatrixXd> B) const;
+  void solve_transposed(Eigen::Ref<Eigen::MatrixXd> B) const;
+  // Estimated reciprocal condition number.
+  double reciprocal_condition() const;
+  std::size_t entries() const;  // of the factors
+
+ private:
+  struct Factors;
+  std::unique_ptr<Factors> factors_;
+};
+
+}  // namespace dynalin

@@ -1,0 +1,239 @@
+#include "system/system.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "elements/controls/array.h"
+#include "elements/controls/variable_list.h"
+
+namespace dynalin {
+
+class System::SystemSignals final : public Signals {
+ public:
+  explicit SystemSignals(System& system) : system_(system), kernel_of_set_(system.model_->sets.size(), nullptr) {}
+
+  void own(std::size_t set, const Kernel* kernel) { kernel_of_set_[set] = kernel; }
+
+  // Which elements hold each marker, for the sums FX … TM.
+  void index_markers() {
+    at_marker_.resize(system_.layout_.markers.size());
+    for (std::size_t s = 0; s < kernel_of_set_.size(); ++s) {
+      const Kernel* kernel = kernel_of_set_[s];
+      if (!kernel || !kernel->has_wrench()) continue;
+      for (std::size_t k = 0; k < system_.model_->sets[s]->size(); ++k) {
+        const MarkerId i = kernel->marker_I(k), j = kernel->marker_J(k);
+        at_marker_[static_cast<std::size_t>(i.index)].push_back({kernel, k});
+        if (!(i == j)) at_marker_[static_cast<std::size_t>(j.index)].push_back({kernel, k});
+      }
+    }
+  }
+
+  const Layout& layout() const override { return system_.layout_; }
+  MarkerId marker(std::int64_t id) const override {
+    return system_.model_->find_marker(id).value_or(global_frame);
+  }
+  Channel variable(VariableRef ref) const override {
+    return kernel(ref)->value_channel(static_cast<std::size_t>(ref.index));
+  }
+  std::size_t array_size(ArrayRef ref) const override { return system_.model_->get<Array>(ref)->entries(); }
+  Channel array_entry(ArrayRef ref, std::size_t n) const override {
+    const Array& a = *system_.model_->get<Array>(ref);
+    if (n >= a.entries()) return {};
+    if (a.u) return variable(a.variables[n]);
+    if (a.x) return kernel(a.owner)->state_channel(static_cast<std::size_t>(a.owner.index), n);
+    if (a.y) return kernel(a.owner)->output_channel(static_cast<std::size_t>(a.owner.index), n);
+    return {Channel::Kind::constant, 0, a.numbers[n]};
+  }
+  Channel data(const Atom& atom) const override {
+    const std::string_view name = atom.function->name;
+    const auto handle = system_.model_->find(atom.function->statement, atom.argument[0]);
+    if (!handle) return {};
+    const auto n = static_cast<std::size_t>(atom.argument[1] - 1);
+    if (name == "VARVAL") return variable({*handle});
+    if (name == "ARYVAL") return array_entry({*handle}, n);
+    if (name == "DIF" || name == "DIF1") {
+      Channel c = kernel(*handle)->state_channel(static_cast<std::size_t>(handle->index), 0);
+      if (name == "DIF1") c.kind = Channel::Kind::state_rate;
+      return c;
+    }
+    const auto* list = system_.model_->get<VariableList>(*handle);  // PINVAL, POUVAL
+    return list && n < list->variables.size() ? variable(list->variables[n]) : Channel{};
+  }
+  Element element(std::string_view statement, std::int64_t id) const override {
+    const auto handle = system_.model_->find(statement, id);
+    if (!handle) return {};
+    return {kernel(*handle), static_cast<std::size_t>(handle->index)};
+  }
+  std::vector<Element> elements_at(MarkerId m) const override {
+    return at_marker_[static_cast<std::size_t>(m.index)];
+  }
+  std::int32_t add_memory(double initial) const override { return system_.layout_.add_memory(initial); }
+
+ private:
+  const Kernel* kernel(ElementHandle h) const { return kernel_of_set_[static_cast<std::size_t>(h.set)]; }
+
+  System& system_;
+  std::vector<const Kernel*> kernel_of_set_;
+  std::vector<std::vector<Element>> at_marker_;
+};
+
+System::System(std::shared_ptr<const Model> model) : model_(std::move(model)) {
+  for (const Body& b : model_->bodies) layout_.add_body(b.kind, b.label);
+  for (const Marker& m : model_->markers) {
+    layout_.markers.push_back(m.place);
+    layout_.marker_labels.push_back(m.label);
+  }
+  signals_ = std::make_unique<SystemSignals>(*this);
+  for (std::size_t s = 0; s < model_->sets.size(); ++s) {
+    if (model_->sets[s]->size() == 0) continue;
+    if (auto kernel = model_->sets[s]->make_kernel(*model_, layout_)) {
+      signals_->own(s, kernel.get());
+      kernels_.push_back(std::move(kernel));
+    }
+  }
+  signals_->index_markers();
+  for (auto& kernel : kernels_) kernel->bind(*signals_);
+
+  length_ = model_->characteristic_length();
+  scale_.assign(coordinates(), 1.0);
+  std::vector<const BodyBlock*> blocks;
+  for (const BodyBlock& b : layout_.bodies) {
+    if (b.count == 0) continue;
+    blocks.push_back(&b);
+    for (std::int32_t k = 0; k < 3; ++k) scale_[static_cast<std::size_t>(b.offset + k)] = length_;
+  }
+  std::stable_sort(blocks.begin(), blocks.end(), [](const BodyBlock* a, const BodyBlock* b) {
+    return a->label.id < b->label.id;
+  });
+  for (const BodyBlock* b : blocks) {
+    for (std::int32_t k = 3; k < b->count; ++k) preference_.push_back(b->offset + k);
+    for (std::int32_t k = 0; k < 3; ++k) preference_.push_back(b->offset + k);
+  }
+  for (const ExtraBlock& e : layout_.extras) {
+    for (std::int32_t k = 0; k < e.count; ++k) preference_.push_back(e.offset + k);
+  }
+}
+
+System::~System() = default;
+
+const Signals& System::signals() const { return *signals_; }
+
+OperatingPoint System::drawn() const {
+  OperatingPoint op;
+  for (const Body& b : model_->bodies) op.poses.push_back(b.pose);
+  op.extra = layout_.extra_initial;
+  op.velocity.assign(coordinates(), 0.0);
+  op.acceleration.assign(coordinates(), 0.0);
+  op.lambda.assign(layout_.row_count(), 0.0);
+  for (const AlgebraicUnknown& a : layout_.algebraic) op.algebraic.push_back(a.guess);
+  for (const DifferentialState& z : layout_.states) op.state.push_back(z.initial);
+  op.state_rate.assign(layout_.states.size(), 0.0);
+  op.memory = layout_.memory;
+  return op;
+}
+
+Motion System::motion(const OperatingPoint& op) const {
+  Motion m;
+  m.time = op.time;
+  m.mode = op.mode;
+  m.bodies.resize(layout_.bodies.size());
+  const auto vector_at = [](const std::vector<double>& x, std::int32_t k) {
+    const auto i = static_cast<std::size_t>(k);
+    return Vector{x[i], x[i + 1], x[i + 2]};
+  };
+  for (std::size_t b = 0; b < m.bodies.size(); ++b) {
+    const BodyBlock& block = layout_.bodies[b];
+    const bool moves = block.count > 0, turns = block.count == 6;
+    m.bodies[b].set(op.poses[b], moves ? vector_at(op.velocity, block.offset) : Vector{},
+                    turns ? vector_at(op.velocity, block.offset + 3) : Vector{},
+                    moves ? vector_at(op.acceleration, block.offset) : Vector{},
+                    turns ? vector_at(op.acceleration, block.offset + 3) : Vector{});
+  }
+  const auto first = static_cast<std::ptrdiff_t>(layout_.body_coordinate_count);
+  m.extra = op.extra;
+  m.extra_rate.assign(op.velocity.begin() + first, op.velocity.end());
+  m.extra_acceleration.assign(op.acceleration.begin() + first, op.acceleration.end());
+  m.lambda = op.lambda;
+  m.algebraic = op.algebraic;
+  m.state = op.state;
+  m.state_rate = op.state_rate;
+  m.memory = op.memory;
+  return m;
+}
+
+void System::constraints(const Motion& motion, ConstraintRows& rows) const {
+  rows.begin();
+  for (const auto& kernel : kernels_) kernel->constraints(motion, rows);
+}
+
+void System::equations(const Motion& motion, const ConstraintRows& rows, Equations& eq,
+                       std::initializer_list<Column> wanted) const {
+  const auto pass = [&] {
+    eq.begin(wanted);
+    for (const auto& kernel : kernels_) kernel->equations(motion, eq);
+  };
+  pass();
+  if (eq.needs_second_pass()) {
+    eq.finish();
+    pass();
+  }
+  // Reactions: the generalized force of row k is λ_k times its gradient.
+  for (std::int32_t k = 0; k < rows.size(); ++k) {
+    const double lambda = motion.lambda[static_cast<std::size_t>(k)];
+    if (lambda == 0.0) continue;
+    for (const auto& e : rows.row(k)) eq.add_residual(e.column, -lambda * e.c.g);
+  }
+}
+
+void System::remember(OperatingPoint& op) const {
+  const Motion m = motion(op);
+  for (const auto& kernel : kernels_) kernel->remember(m, op.memory);
+}
+
+std::string System::fault(const Motion& motion) const {
+  for (const auto& kernel : kernels_) {
+    std::string reason = kernel->fault(motion);
+    if (!reason.empty()) return reason;
+  }
+  return {};
+}
+
+SparseRow scaled_row(const System& system, std::span<const ConstraintRows::Entry> entries) {
+  SparseRow row;
+  row.column.reserve(entries.size());
+  row.value.reserve(entries.size());
+  for (const auto& e : entries) {
+    row.column.push_back(e.column);
+    row.value.push_back(e.c.g * system.coordinate_scale(e.column));
+  }
+  return row;
+}
+
+Partition System::partition(const ConstraintRows& rows, bool velocity_rows_too) const {
+  std::vector<SparseRow> scaled(static_cast<std::size_t>(rows.size()));
+  for (std::int32_t k = 0; k < rows.size(); ++k) {
+    if (velocity_rows_too || rows.level(k) == RowLevel::position) {
+      scaled[static_cast<std::size_t>(k)] = scaled_row(*this, rows.row(k));
+    }
+  }
+  const std::vector<std::int32_t> order(preference_.rbegin(), preference_.rend());
+  const Elimination e = eliminate(std::move(scaled), layout_.coordinate_count, order);
+  Partition p;
+  p.smallest_pivot = e.smallest_pivot;
+  for (std::int32_t k = 0; k < rows.size(); ++k) {
+    const bool counts = velocity_rows_too || rows.level(k) == RowLevel::position;
+    p.active.push_back(e.pivot_column[static_cast<std::size_t>(k)] >= 0);
+    if (counts && !p.active.back()) p.redundant.push_back(k);
+  }
+  for (const std::int32_t c : preference_) {
+    if (!e.dependent[static_cast<std::size_t>(c)]) p.independent.push_back(c);
+  }
+  return p;
+}
+
+std::string System::row_text(std::int32_t row) const {
+  const ConstraintRow& r = layout_.rows[static_cast<std::size_t>(row)];
+  return std::string(r.name) + " in " + r.owner->full_text();
+}
+
+}  // namespace dynalin

@@ -1,0 +1,70 @@
+// The numbered equations of a model: sparse residuals and Jacobians out of the kernels of its elements.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "mechanics/equations.h"
+#include "mechanics/kernel.h"
+#include "model/model.h"
+#include "system/elimination.h"
+#include "system/operating_point.h"
+#include "system/sparse_lu.h"
+
+namespace dynalin {
+
+// Which constraint rows take part and which coordinates are independent.
+struct Partition {
+  std::vector<bool> active;                    // rows
+  std::vector<std::int32_t> independent;       // coordinates, most wanted as states first
+  std::vector<std::int32_t> redundant;         // rows
+  double smallest_pivot = 1;
+};
+
+class System {
+ public:
+  explicit System(std::shared_ptr<const Model>);
+  ~System();
+  System(const System&) = delete;
+  System& operator=(const System&) = delete;
+
+  const Model& model() const { return *model_; }
+  const Layout& layout() const { return layout_; }
+  const Signals& signals() const;
+  double length() const { return length_; }  // by which displacements are made comparable with rotations
+  std::size_t coordinates() const { return static_cast<std::size_t>(layout_.coordinate_count); }
+
+  OperatingPoint drawn() const;  // poses and states as the dataset gives them, everything else zero
+  Motion motion(const OperatingPoint&) const;
+
+  void constraints(const Motion&, ConstraintRows&) const;
+  // Residuals with reactions included, and the wanted partials (patterns are recorded when first wanted).
+  void equations(const Motion&, const ConstraintRows&, Equations&, std::initializer_list<Column> wanted) const;
+  void remember(OperatingPoint&) const;
+  std::string fault(const Motion&) const;
+
+  // Scale of a coordinate: the model length for translations, 1 for rotations.
+  double coordinate_scale(std::int32_t coordinate) const { return scale_[static_cast<std::size_t>(coordinate)]; }
+  // Elimination of the position rows (or of all rows on velocities) with columns in the default preference.
+  Partition partition(const ConstraintRows&, bool velocity_rows_too) const;
+  // Coordinates in the order in which they are wanted as states: by element id, rotations first.
+  const std::vector<std::int32_t>& preference() const { return preference_; }
+
+  // "Zi.Xj of JOINT/3"
+  std::string row_text(std::int32_t row) const;
+
+ private:
+  class SystemSignals;
+  std::shared_ptr<const Model> model_;
+  Layout layout_;
+  std::vector<std::unique_ptr<Kernel>> kernels_;
+  std::unique_ptr<SystemSignals> signals_;
+  double length_ = 1;
+  std::vector<double> scale_;
+  std::vector<std::int32_t> preference_;
+};
+
+// One row of the constraint matrix scaled to comparable columns, for the elimination.
+SparseRow scaled_row(const System&, std::span<const ConstraintRows::Entry>);
+
+}  // namespace dynalin

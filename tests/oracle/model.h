@@ -1,0 +1,166 @@
+// The equations of a mechanism in the formulation of the oracle: Newton-Euler at the mass centre, reactions
+// as wrenches along constraint gradients, everything evaluated from poses, velocities and accelerations of
+// the bodies. Used by the oracle and by the generator, which needs ranks and conditioning.
+#pragma once
+
+#include <array>
+#include <map>
+#include <vector>
+
+#include "mechanism.h"
+#include "oracle.h"
+#include "small_algebra.h"
+
+namespace dynalin::oracle {
+
+struct BodyMotion {
+  Vec p;                     // BCS origin
+  Mat R;                     // BCS to global
+  Vec v, w, a, al;           // velocities and accelerations, global axes
+};
+
+// A marker along the motion: origin and axes with first and second time derivatives.
+struct MarkerMotion {
+  Vec p, v, a, w, al;
+  std::array<Vec, 3> axis, axis1, axis2;
+};
+
+struct Wrench {
+  Vec f, t;  // t about the point that the user of the wrench names
+};
+
+// One scalar constraint. point: (p_I - p_J) . e_J;  direction: e_I . e_J;  angle: AZ(I,J).
+// A motion subtracts its function of time.
+struct Row {
+  enum class Type { point, direction, angle };
+  Type type = Type::point;
+  int i = 0, j = 0;            // marker indices
+  int axis_i = 0, axis_j = 0;
+  int joint = -1, motion = -1; // whose row it is
+};
+
+struct DifferentialSlot {
+  ElementClass element = ElementClass::diff;
+  int element_id = 0, index = 1;
+};
+
+class Model {
+ public:
+  explicit Model(const Mechanism& mechanism);
+
+  // Structure.
+  struct BodyData {
+    BodyRef ref;
+    int dof = 0, offset = 0;
+    Real mass = 0;
+    Vec c;       // mass centre in the BCS; the BCS origin of a massless body without CM
+    Mat inertia; // about the mass centre, BCS axes
+  };
+  std::vector<BodyData> bodies;  // bodies[0] is ground
+  std::vector<Row> rows;
+  std::vector<DifferentialSlot> slots;
+  int dofs = 0;
+  Real length = 1;  // largest distance between marker origins in the drawn pose
+
+  // The instant under evaluation.
+  Real time = 0;
+  std::vector<BodyMotion> motion;
+  std::vector<Real> z;
+  std::vector<Real> variable_values, sforce_values, lambda;
+  std::vector<int> cut;           // per variable: 1 when it is an independent input
+  std::vector<Real> cut_values;
+
+  void update_positions();      // markers from poses
+  void update_velocities();     // markers from body velocities
+  void update_accelerations();  // markers from body accelerations
+  [[nodiscard]] const std::vector<MarkerMotion>& markers() const { return markers_; }
+
+  // Constraints. gradient: row times body velocities (v, w of each BCS) is the rate apart from time.
+  [[nodiscard]] Real row_position(const Row& row) const;
+  [[nodiscard]] Real row_velocity(const Row& row) const;
+  [[nodiscard]] Real row_acceleration(const Row& row) const;
+  [[nodiscard]] Wrench row_wrench(const Row& row) const;  // on I for a unit multiplier, t about p_I
+  [[nodiscard]] Dense gradient() const;
+
+  // Accelerations, multipliers, variables and force values at once; active rows carry multipliers.
+  std::vector<int> active;
+  [[nodiscard]] std::size_t algebra_size() const;
+  void unpack_algebra(const std::vector<Real>& x);
+  [[nodiscard]] std::vector<Real> algebra_residual() const;
+  [[nodiscard]] std::vector<int> algebra_groups() const;  // quantities of one kind share a scale
+
+  [[nodiscard]] std::vector<Real> differential_rates() const;
+  [[nodiscard]] Real evaluate(const Expr& expression) const;
+  [[nodiscard]] int variable_index(int id) const { return variable_index_.at(id); }
+  [[nodiscard]] int marker_index(int id) const { return marker_index_.at(id); }
+  [[nodiscard]] int body_index(const BodyRef& ref) const;
+  [[nodiscard]] const Mechanism& mechanism() const { return mechanism_; }
+  [[nodiscard]] Dense mass_matrix() const;  // about each BCS, for conditioning and kinetic energy only
+
+ private:
+  struct MarkerData {
+    int body = 0;
+    Vec p;
+    Mat R;
+  };
+  struct Pair {
+    Vec e;         // unit vector from J to I
+    Real distance = 0, rate = 0;
+  };
+  void read_bodies();
+  void read_rows();
+  void read_controls();
+  [[nodiscard]] Pair line_of_sight(int i, int j) const;
+  [[nodiscard]] Real angle_z(int i, int j) const;
+  void apply(std::vector<Wrench>& loads, int marker, const Vec& at, const Wrench& w, Real sign) const;
+  void apply_springs(std::vector<Wrench>& loads) const;
+  void apply_sforces(std::vector<Wrench>& loads) const;
+  [[nodiscard]] Wrench joint_wrench(int joint) const;  // on I, torque about p_I
+  [[nodiscard]] Wrench sforce_wrench(const Sforce& s, Real value) const;
+  [[nodiscard]] Real wrench_component(const Wrench& on_i, const Vec& i_from_j, const std::vector<int>& ids) const;
+  [[nodiscard]] Real evaluate_node(const Node& node) const;
+  [[nodiscard]] Real evaluate_measure(const Node& node) const;
+  [[nodiscard]] Real evaluate_function(const Node& node) const;
+  [[nodiscard]] Real array_entry(int id, int index) const;
+  [[nodiscard]] std::vector<Real> tfsiso_rates(std::size_t k) const;
+  [[nodiscard]] std::vector<Real> lse_rates(std::size_t k) const;
+  [[nodiscard]] Real input_entry(int array, std::size_t index) const;
+  [[nodiscard]] const NumberMatrix& number_matrix(int id) const;
+
+  Mechanism mechanism_;
+  std::vector<MarkerData> marker_data_;  // marker 0 is the global frame
+  std::vector<MarkerMotion> markers_;
+  std::map<int, int> marker_index_, variable_index_, sforce_index_, joint_index_, array_index_;
+  std::vector<std::array<int, 2>> spring_markers_, sforce_markers_, joint_markers_;
+  std::vector<std::size_t> tfsiso_slot_, lse_slot_, diff_slot_;
+  std::map<int, std::size_t> diff_of_id_;
+};
+
+// f, f' and f'' of a motion.
+[[nodiscard]] std::array<Real, 3> motion_values(const TimeFunction& f, Real t);
+
+[[nodiscard]] inline Vec to_vec(const Triple& t) { return {t[0], t[1], t[2]}; }
+[[nodiscard]] inline Triple to_triple(const Vec& v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
+
+// Rows in the given order that add rank; a dependent row keeps less than `tolerance` of its own length.
+[[nodiscard]] std::vector<int> independent_rows(const Dense& m, Real tolerance);
+
+// Places the model at a point, poses as given (rotations made orthonormal), without touching constraints.
+void place(Model& model, const OraclePoint& point);
+
+// Which velocities of which bodies must not change.
+struct Stated {
+  std::vector<bool> v, w;
+};
+
+// Changes the velocities that are not stated by the least amount that satisfies the constraints, measured by
+// mass-centre velocities and length times angular velocities.
+void complete_velocities(Model& model, const Stated& stated);
+
+// Solves accelerations, multipliers, variables and forces at the placed instant from zero. Throws when Newton
+// fails.
+std::vector<Real> solve_algebra(Model& model);
+
+}  // namespace dynalin::oracle

@@ -1,0 +1,210 @@
+// Three-vectors, rotations and a dense LU in extended precision, written for the oracle alone. Nothing
+// here is shared with the product, so a mistake in the product's algebra cannot hide itself.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace dynalin::oracle {
+
+using Real = long double;
+
+struct Vec {
+  Real x = 0, y = 0, z = 0;
+};
+
+[[nodiscard]] inline Vec operator+(const Vec& a, const Vec& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+[[nodiscard]] inline Vec operator-(const Vec& a, const Vec& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+[[nodiscard]] inline Vec operator-(const Vec& a) { return {-a.x, -a.y, -a.z}; }
+[[nodiscard]] inline Vec operator*(Real s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
+inline Vec& operator+=(Vec& a, const Vec& b) { return a = a + b; }
+[[nodiscard]] inline Real dot(const Vec& a, const Vec& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+[[nodiscard]] inline Vec cross(const Vec& a, const Vec& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+[[nodiscard]] inline Real norm(const Vec& a) { return std::sqrt(dot(a, a)); }
+[[nodiscard]] inline Real component(const Vec& a, int k) {
+  return k == 0 ? a.x : (k == 1 ? a.y : a.z);
+}
+inline void set_component(Vec& a, int k, Real value) {
+  (k == 0 ? a.x : (k == 1 ? a.y : a.z)) = value;
+}
+
+// A 3 x 3 matrix by columns: the columns of a rotation are the axes of the rotated frame.
+struct Mat {
+  std::array<Vec, 3> column{Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};
+};
+
+[[nodiscard]] inline Vec operator*(const Mat& m, const Vec& v) {
+  return v.x * m.column[0] + v.y * m.column[1] + v.z * m.column[2];
+}
+[[nodiscard]] inline Mat operator*(const Mat& a, const Mat& b) {
+  return {{a * b.column[0], a * b.column[1], a * b.column[2]}};
+}
+[[nodiscard]] inline Mat operator+(const Mat& a, const Mat& b) {
+  return {{a.column[0] + b.column[0], a.column[1] + b.column[1], a.column[2] + b.column[2]}};
+}
+[[nodiscard]] inline Mat operator*(Real s, const Mat& a) {
+  return {{s * a.column[0], s * a.column[1], s * a.column[2]}};
+}
+[[nodiscard]] inline Mat transpose(const Mat& m) {
+  const auto& c = m.column;
+  return {{Vec{c[0].x, c[1].x, c[2].x}, Vec{c[0].y, c[1].y, c[2].y}, Vec{c[0].z, c[1].z, c[2].z}}};
+}
+[[nodiscard]] inline Mat skew(const Vec& v) {
+  return {{Vec{0, v.z, -v.y}, Vec{-v.z, 0, v.x}, Vec{v.y, -v.x, 0}}};
+}
+[[nodiscard]] inline Mat zero_matrix() { return {{Vec{}, Vec{}, Vec{}}}; }
+
+[[nodiscard]] inline Mat rotation_z(Real a) {
+  return {{Vec{std::cos(a), std::sin(a), 0}, Vec{-std::sin(a), std::cos(a), 0}, Vec{0, 0, 1}}};
+}
+[[nodiscard]] inline Mat rotation_x(Real a) {
+  return {{Vec{1, 0, 0}, Vec{0, std::cos(a), std::sin(a)}, Vec{0, -std::sin(a), std::cos(a)}}};
+}
+[[nodiscard]] inline Mat rotation_313(Real a, Real b, Real c) {
+  return rotation_z(a) * rotation_x(b) * rotation_z(c);
+}
+
+// sum (-1)^k s^k / (2k + p)! and its derivative in s. With p = 1, 2, 3 these are sin(t)/t,
+// (1 - cos t)/t^2 and (t - sin t)/t^3 at s = t^2, without their cancellation at small angles.
+struct SeriesValue {
+  Real value = 0, slope = 0;
+};
+[[nodiscard]] inline SeriesValue rotation_series(Real s, int p) {
+  Real coefficient = 1;
+  for (int k = 2; k <= p; ++k) coefficient /= static_cast<Real>(k);
+  SeriesValue sum;
+  Real power = 1, power_before = 0;
+  for (int k = 0; k < 30; ++k) {
+    sum.value += coefficient * power;
+    sum.slope += static_cast<Real>(k) * coefficient * power_before;
+    coefficient /= -static_cast<Real>((2 * k + p + 1) * (2 * k + p + 2));
+    power_before = power;
+    power *= s;
+  }
+  return sum;
+}
+
+// exp(y^), its left Jacobian J with d/dt exp(y^) = (J y')^ exp(y^), and dJ/dt for a rate of y.
+[[nodiscard]] inline Mat rotation_exponential(const Vec& y) {
+  const Real s = dot(y, y);
+  const Mat Y = skew(y);
+  return Mat{} + rotation_series(s, 1).value * Y + rotation_series(s, 2).value * (Y * Y);
+}
+[[nodiscard]] inline Mat left_jacobian(const Vec& y) {
+  const Real s = dot(y, y);
+  const Mat Y = skew(y);
+  return Mat{} + rotation_series(s, 2).value * Y + rotation_series(s, 3).value * (Y * Y);
+}
+[[nodiscard]] inline Mat left_jacobian_rate(const Vec& y, const Vec& ydot) {
+  const Real s = dot(y, y);
+  const Real sdot = 2 * dot(y, ydot);
+  const Mat Y = skew(y);
+  const Mat Yd = skew(ydot);
+  const SeriesValue b = rotation_series(s, 2);
+  const SeriesValue c = rotation_series(s, 3);
+  return (b.slope * sdot) * Y + b.value * Yd + (c.slope * sdot) * (Y * Y) +
+         c.value * (Yd * Y + Y * Yd);
+}
+[[nodiscard]] inline Vec solve3(const Mat& m, const Vec& b) {
+  const auto& c = m.column;
+  const Real det = dot(c[0], cross(c[1], c[2]));
+  return {dot(b, cross(c[1], c[2])) / det, dot(c[0], cross(b, c[2])) / det,
+          dot(c[0], cross(c[1], b)) / det};
+}
+
+// Row-major dense matrix.
+class Dense {
+ public:
+  Dense() = default;
+  Dense(std::size_t rows, std::size_t columns)
+      : rows_(rows), columns_(columns), data_(rows * columns, 0) {}
+  [[nodiscard]] Real& operator()(std::size_t i, std::size_t j) { return data_[i * columns_ + j]; }
+  [[nodiscard]] Real operator()(std::size_t i, std::size_t j) const {
+    return data_[i * columns_ + j];
+  }
+  [[nodiscard]] std::size_t rows() const { return rows_; }
+  [[nodiscard]] std::size_t columns() const { return columns_; }
+  void swap_rows(std::size_t i, std::size_t k) {
+    for (std::size_t j = 0; j < columns_; ++j) std::swap((*this)(i, j), (*this)(k, j));
+  }
+
+ private:
+  std::size_t rows_ = 0, columns_ = 0;
+  std::vector<Real> data_;
+};
+
+// LU with row equilibration and partial pivoting.
+class Lu {
+ public:
+  Lu() = default;
+  explicit Lu(Dense m) : lu_(std::move(m)), order_(lu_.rows()), scale_(lu_.rows(), 1) {
+    const std::size_t n = lu_.rows();
+    if (n != lu_.columns()) throw std::runtime_error("the system to solve is not square");
+    for (std::size_t i = 0; i < n; ++i) {
+      order_[i] = i;
+      Real largest = 0;
+      for (std::size_t j = 0; j < n; ++j) largest = std::max(largest, std::fabs(lu_(i, j)));
+      if (!(largest > 0)) throw std::runtime_error("the system to solve has an empty row");
+      scale_[i] = 1 / largest;
+      for (std::size_t j = 0; j < n; ++j) lu_(i, j) *= scale_[i];
+    }
+    for (std::size_t k = 0; k < n; ++k) eliminate(k);
+  }
+
+  [[nodiscard]] std::vector<Real> solve(const std::vector<Real>& b) const {
+    const std::size_t n = lu_.rows();
+    std::vector<Real> x(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      Real sum = b[order_[i]] * scale_[order_[i]];
+      for (std::size_t j = 0; j < i; ++j) sum -= lu_(i, j) * x[j];
+      x[i] = sum;
+    }
+    for (std::size_t i = n; i-- > 0;) {
+      for (std::size_t j = i + 1; j < n; ++j) x[i] -= lu_(i, j) * x[j];
+      x[i] /= lu_(i, i);
+    }
+    return x;
+  }
+  [[nodiscard]] std::size_t size() const { return lu_.rows(); }
+  [[nodiscard]] bool ready() const { return ready_; }
+
+ private:
+  void eliminate(std::size_t k) {
+    const std::size_t n = lu_.rows();
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < n; ++i) {
+      if (std::fabs(lu_(i, k)) > std::fabs(lu_(pivot, k))) pivot = i;
+    }
+    if (!(std::fabs(lu_(pivot, k)) > 1e-15L)) throw std::runtime_error("a system is singular");
+    if (pivot != k) {
+      lu_.swap_rows(pivot, k);
+      std::swap(order_[pivot], order_[k]);
+    }
+    for (std::size_t i = k + 1; i < n; ++i) {
+      const Real factor = lu_(i, k) / lu_(k, k);
+      lu_(i, k) = factor;
+      if (factor == 0) continue;
+      for (std::size_t j = k + 1; j < n; ++j) lu_(i, j) -= factor * lu_(k, j);
+    }
+    ready_ = k + 1 == n;
+  }
+
+  Dense lu_;
+  std::vector<std::size_t> order_;
+  std::vector<Real> scale_;
+  bool ready_ = false;
+};
+
+}  // namespace dynalin::oracle
