@@ -51,9 +51,9 @@ class StaticEquations {
   }
   double force_scale() const { return force_scale_; }
 
-  // Sum of squares of all residuals in comparable units.
-  double merit() const {
-    const double force = force_scale_ > 0 ? force_scale_ : 1.0;
+  // Sum of squares of all residuals in comparable units; forces are measured against `force`.
+  double merit(double force) const {
+    if (!(force > 0)) force = 1.0;
     double sum = 0;
     const auto n = static_cast<Eigen::Index>(system_.coordinates());
     for (Eigen::Index k = 0; k < residual_.size(); ++k) {
@@ -123,15 +123,6 @@ OperatingPoint moved(const System& system, const OperatingPoint& from, const Sad
   return to;
 }
 
-// Relative size of a step in coordinates.
-double step_size(const System& system, const Eigen::VectorXd& step) {
-  double size = 0;
-  for (std::size_t k = 0; k < system.coordinates(); ++k) {
-    size = std::max(size, std::abs(step(static_cast<Eigen::Index>(k))) / system.coordinate_scale(static_cast<std::int32_t>(k)));
-  }
-  return size;
-}
-
 }  // namespace
 
 Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op, const StaticsOptions& options,
@@ -153,62 +144,77 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   }
 
   StaticEquations equations(system);
+  const Saddle& saddle = equations.saddle();
   std::vector<std::string> history;
-  double hold = 0, before = std::numeric_limits<double>::infinity();
-  bool held_states = false;
+  double hold = 1, before = std::numeric_limits<double>::infinity();
+  bool held_states = false, transient = false;
   for (int iteration = 0; iteration < options.iteration_limit; ++iteration) {
     equations.evaluate(op, true);
     findings.redundant_rows = equations.partition().redundant;
     report = {iteration, equations.imbalance()};
-    const double merit = equations.merit();
+    const double force = equations.force_scale(), merit = equations.merit(force);
     if (!std::isfinite(merit)) {
       const std::string reason = system.fault(system.motion(op));
       return tl::unexpected(Failure{"statics", reason.empty() ? "a force has no finite value" : reason, history});
     }
-    history.push_back(fmt::format("iteration {}: imbalance {:.5e}", iteration, report.imbalance));
-    const bool balanced = std::sqrt(merit) <= 1e-13;
-    if (balanced && (iteration == 0 || std::sqrt(merit) >= 0.5 * std::sqrt(before))) break;
+    history.push_back(fmt::format("iteration {}: imbalance {:.5e}{}", iteration, report.imbalance, transient ? " (pseudo-transient)" : ""));
+    const double level = std::sqrt(merit);
+    // Balanced as it stands, or at the level of rounding: accept.
+    if (level <= 1e-13 && iteration == 0) break;
+    if (level <= 1e-11 && level >= 0.25 * before) break;
+    before = level;
 
-    Eigen::MatrixXd step = -equations.residual();
-    SparseLu lu;
-    bool factored = hold == 0 ? lu.factor(equations.tangent(0, false)) : lu.factor(equations.tangent(hold, held_states));
-    for (double h = std::max(hold, 1e-8); !factored && h < 1e3; h *= 100) {
-      // First only the integrators are held, then the coordinates as well.
-      held_states = true;
-      factored = lu.factor(equations.tangent(0, true)) || lu.factor(equations.tangent(h, true));
-    }
-    if (!factored) {
-      Failure f{"statics", "the static equations are singular", undetermined(system, equations.saddle(), equations.tangent(0, false))};
-      return tl::unexpected(f);
-    }
-    lu.solve(step);
-    const double size = step_size(system, step);
-    if (size <= 1e-15 || (balanced && size <= 1e-12)) break;
-
-    // Halve until the residual falls; a Newton step close to the solution is taken as it is.
-    OperatingPoint next = op;
-    double after = std::numeric_limits<double>::infinity(), fraction = 1;
-    for (int k = 0; k < 12; ++k, fraction *= 0.5) {
-      next = moved(system, op, equations.saddle(), step, fraction, options.rotation_limit);
+    const auto solve = [&](double held) -> std::optional<Eigen::VectorXd> {
+      SparseLu lu;
+      bool factored = lu.factor(equations.tangent(held, held_states));
+      if (!factored && !held_states) factored = (held_states = true) && lu.factor(equations.tangent(held, true));
+      if (!factored) return std::nullopt;
+      Eigen::MatrixXd step = -equations.residual();
+      lu.solve(step);
+      return Eigen::VectorXd(step.col(0));
+    };
+    const auto attempt = [&](const Eigen::VectorXd& step, double fraction, double allowed) {
+      OperatingPoint next = moved(system, op, saddle, step, fraction, options.rotation_limit);
       equations.evaluate(next, false);
-      after = equations.merit();
-      if (after < merit * (1 - 0.1 * fraction) || (size < 1e-9 && std::isfinite(after))) break;
-    }
-    if (after < merit || size < 1e-9) {
+      const double after = equations.merit(force);
+      if (!(after <= allowed)) return false;
+      hold *= std::clamp(std::sqrt(after / merit), 0.1, 2.0);
       op = std::move(next);
       system.remember(op);
-      hold = hold < 1e-10 ? 0 : hold * 0.1;
-    } else {
-      hold = std::max(hold * 10, 1e-6);
-      if (hold > 1e6) return tl::unexpected(Failure{"statics", "no equilibrium was found", history});
+      return true;
+    };
+    // Newton where it helps; close to the solution rounding decides and its step is taken as it is.
+    bool taken = false;
+    if (!transient || level < 1e-3) {
+      if (const auto step = solve(0)) {
+        for (const double fraction : {1.0, 0.5, 0.25}) {
+          taken = attempt(*step, fraction, level < 1e-9 ? 4 * merit + 1e-24 : merit * (1 - 0.5 * fraction));
+          if (taken) break;
+          equations.evaluate(op, true);
+        }
+      }
+      transient = !taken;
     }
-    // Rounding level: the last correction did not improve anything any more.
-    if (size < 1e-11 && merit >= 0.25 * before && std::sqrt(merit) < 1e-9) break;
-    before = merit;
+    // Otherwise an implicit step of a damped motion, the longer the smaller the residual.
+    for (int k = 0; k < 20 && !taken; ++k) {
+      const auto step = solve(hold);
+      taken = step && attempt(*step, 1.0, 2 * merit);
+      if (!taken) {
+        hold *= 8;
+        equations.evaluate(op, true);
+      }
+    }
+    transient = transient && hold > 1e-7;
+    if (!taken) {
+      Failure f{"statics", "no step reduces the imbalance", history};
+      const auto names = undetermined(system, saddle, equations.tangent(0, false));
+      if (!names.empty()) f.message += fmt::format("; the tangent leaves {} undetermined", fmt::join(names, ", "));
+      return tl::unexpected(f);
+    }
   }
   equations.evaluate(op, false);
   report.imbalance = equations.imbalance();
-  if (std::sqrt(equations.merit()) > 1e-7) {
+  if (std::sqrt(equations.merit(equations.force_scale())) > 1e-7) {
     return tl::unexpected(Failure{"statics", fmt::format("no equilibrium was found, the imbalance is still {:.3e}", report.imbalance), history});
   }
   if (held_states) {
@@ -216,7 +222,7 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
     OperatingPoint kept = op;
     kept.state = first_state;
     equations.evaluate(kept, false);
-    if (std::sqrt(equations.merit()) < 1e-9) op = std::move(kept);
+    if (std::sqrt(equations.merit(equations.force_scale())) < 1e-9) op = std::move(kept);
   }
   return op;
 }

@@ -11,7 +11,7 @@
 namespace dynalin {
 
 struct StaticsOptions {
-  int iteration_limit = 200;
+  int iteration_limit = 500;
   double rotation_limit = 0.17453292519943295;  // [rad] a step, ALIMIT
 };
 

@@ -64,7 +64,7 @@ template TimeTaylor<double> Expression::evaluate(std::span<const TimeTaylor<doub
 template TimeTaylor<double> Expression::evaluate(std::span<const TimeTaylor<double>>,
                                                  std::span<TimeTaylor<double>>,
                                                  ExpressionWorkspace<TimeTaylor<double>>&) const;
-template std::optional<ExpressionFault> Expression::find_fault(
-    std::span<const TimeTaylor<double>>, FaultSearch) const;
+template std::optional<ExpressionFault> Expression::find_fault(std::span<const TimeTaylor<double>>,
+                                                               FaultSearch) const;
 
 }  // namespace dynalin

@@ -1,9 +1,9 @@
 // Function expressions: parsed once into a flat program over *atoms*.
 //
 // An atom is anything an expression reads from outside itself: a marker measure DX(1,2), VARVAL(3),
-// DIF(4), TIME, a force JOINT(1,0,2,0). The program is differentiated with respect to its atoms by one reverse
-// sweep; the system chains the sparse gradient of each atom behind it. So one expression may touch any number
-// of bodies at no extra cost.
+// DIF(4), TIME, a force JOINT(1,0,2,0). The program is differentiated with respect to its atoms by
+// one reverse sweep; the system chains the sparse gradient of each atom behind it. So one
+// expression may touch any number of bodies at no extra cost.
 #pragma once
 
 #include <array>
@@ -40,7 +40,8 @@ enum class AtomFamily : std::uint8_t {
 struct AtomFunction {
   std::string_view name;
   AtomFamily family;
-  std::int8_t order;  // kinematic order: 0 displacements, 1 velocities, 2 accelerations, −1 decided by what it refers to
+  std::int8_t order;  // kinematic order: 0 displacements, 1 velocities, 2 accelerations, −1 decided
+                      // by what it refers to
   std::uint8_t minimum_arguments;
   std::uint8_t maximum_arguments;
   std::string_view statement;  // class of the element named by the first argument, "" for markers
@@ -58,8 +59,8 @@ struct Atom {
   const AtomFunction* function = nullptr;
   std::array<std::int32_t, 5> argument{};  // ids and indices as written, 0 where left out
   std::uint8_t argument_count = 0;
-  Span at;                                 // of the call
-  std::array<Span, 5> argument_at{};       // of each argument, for messages about ids
+  Span at;                            // of the call
+  std::array<Span, 5> argument_at{};  // of each argument, for messages about ids
 };
 
 struct ExpressionNode;  // one instruction of the flat program
@@ -88,18 +89,22 @@ class Expression {
   bool is_constant() const { return atoms().empty(); }
   const Span& at() const;
 
-  // Value at the given atom values. T is double or TimeTaylor<double>. Only the selected branch of an IF is evaluated.
+  // Value at the given atom values. T is double or TimeTaylor<double>. Only the selected branch of
+  // an IF is evaluated.
   template <class T>
   T evaluate(std::span<const T> atoms, ExpressionWorkspace<T>&) const;
-  // Value and the partial derivative with respect to every atom (zero for atoms of branches not taken).
+  // Value and the partial derivative with respect to every atom (zero for atoms of branches not
+  // taken).
   template <class T>
   T evaluate(std::span<const T> atoms, std::span<T> partials, ExpressionWorkspace<T>&) const;
 
-  // Kinematic order, given that of each atom (Atom::function->order, or what the atom refers to where that is −1).
+  // Kinematic order, given that of each atom (Atom::function->order, or what the atom refers to
+  // where that is −1).
   int order(std::span<const int> atom_orders) const;
 
   // Names the function that makes the value, or else a partial derivative, infinite or undefined at
-  // these atom values; nothing if all are finite. On TimeTaylor the time derivatives count too. Allocates.
+  // these atom values; nothing if all are finite. On TimeTaylor the time derivatives count
+  // too, so all atoms should have theirs. Allocates.
   template <class T>
   std::optional<ExpressionFault> find_fault(std::span<const T> atoms, FaultSearch) const;
 
@@ -109,8 +114,9 @@ class Expression {
   std::shared_ptr<const ExpressionProgram> program_;
 };
 
-// Parses the tokens of a value. Continuation commas are white space here. Reports all it can find; the result
-// after an error is the constant 0. The spans of the result point into the source text, which must outlive it.
+// Parses the tokens of a value. Continuation commas are white space here. Reports all it can find;
+// the result after an error is the constant 0. The spans of the result point into the source text,
+// which must outlive it.
 Expression parse_expression(std::span<const Token>, const SourceText&, Diagnostics&);
 
 }  // namespace dynalin

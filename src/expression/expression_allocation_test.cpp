@@ -1,4 +1,5 @@
-// Evaluation with a workspace in use allocates nothing. Counts through the global operator new of the test program.
+// Evaluation with a workspace in use allocates nothing. Counts through the global operator new of
+// the test program.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -48,7 +49,8 @@ std::size_t allocations_of_second_evaluation(const Expression& e) {
 TEST(ExpressionAllocation, evaluation_allocates_nothing_after_the_first) {
   const ParsedText parsed = parse(
       "IF(VARVAL(1): SIN(VARVAL(2))**2, STEP(VARVAL(1),VARVAL(2),1,2,3), VARVAL(1)**VARVAL(2)"
-      "+FORCOS(VARVAL(1),VARVAL(2),1,2,3,4,VARVAL(1),6,7,8,9))*IMPACT(VARVAL(1),VARVAL(2),1,2,3,4,5)");
+      "+FORCOS(VARVAL(1),VARVAL(2),1,2,3,4,VARVAL(1),6,7,8,9))*IMPACT(VARVAL(1),VARVAL(2),1,2,3,4,"
+      "5)");
   ASSERT_FALSE(parsed.diagnostics.has_errors());
   const std::size_t before = allocations;
   delete new int(1);

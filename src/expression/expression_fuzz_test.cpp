@@ -1,5 +1,5 @@
-// Random expressions: whatever is written, the parser ends with a message or a program, and a program gives the same
-// on both scalars.
+// Random expressions: whatever is written, the parser ends with a message or a program, and a
+// program gives the same on both scalars.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,8 @@ std::size_t below(Random& random, std::size_t n) {
 std::string random_expression(Random& random, int depth) {
   const auto inner = [&] { return random_expression(random, depth - 1); };
   if (depth == 0) {
-    const char* leaves[] = {"TIME", "VARVAL(1)", "DX(1,2)", "VX(3,4,5)", "PI", "0", "2", "0.37", "90D", "1.5E-1"};
+    const char* leaves[] = {"TIME", "VARVAL(1)", "DX(1,2)", "VX(3,4,5)", "PI",
+                            "0",    "2",         "0.37",    "90D",       "1.5E-1"};
     return leaves[below(random, std::size(leaves))];
   }
   switch (below(random, 6)) {
@@ -83,8 +84,8 @@ TEST(ExpressionFuzz, both_scalars_agree_on_random_expressions) {
       all_finite = all_finite && std::isfinite(plain.partial[k]);
       expect_same(plain.partial[k], moving.partial[k].value, text);
     }
-    const auto found = parsed.expression.find_fault(std::span<const double>(x),
-                                                    FaultSearch::value_and_partials);
+    const auto found =
+        parsed.expression.find_fault(std::span<const double>(x), FaultSearch::value_and_partials);
     EXPECT_EQ(found.has_value(), !all_finite) << text;
     EXPECT_TRUE(!found || !found->reason.empty()) << text;
     finite += all_finite;
@@ -95,10 +96,18 @@ TEST(ExpressionFuzz, both_scalars_agree_on_random_expressions) {
 }
 
 TEST(ExpressionFuzz, any_sequence_of_tokens_gives_a_program_or_an_error) {
-  const char* pieces[] = {"(", ")", "[", "]", ",", ":", "+", "-", "*", "/", "**", "%", "=", "\\", "#", "'",
-                          "IF(", "IF", "SIN(", "SIN", "MAX(", "STEP(", "DX(", "DX(1,2)", "TIME", "MODE",
-                          "PI", "FOO(", "FOO", "AKISPL(", "USER(", "CPU", "BUSH(", "1", "0", "2.5", "30D",
-                          "1e999", "99999999999", "\n,", "&\n", " ", "\xff", "JOINT(1,0,2,0)", "SQRT(-1)"};
+  const char* pieces[] = {"(",       ")",       "[",           "]",
+                          ",",       ":",       "+",           "-",
+                          "*",       "/",       "**",          "%",
+                          "=",       "\\",      "#",           "'",
+                          "IF(",     "IF",      "SIN(",        "SIN",
+                          "MAX(",    "STEP(",   "DX(",         "DX(1,2)",
+                          "TIME",    "MODE",    "PI",          "FOO(",
+                          "FOO",     "AKISPL(", "USER(",       "CPU",
+                          "BUSH(",   "1",       "0",           "2.5",
+                          "30D",     "1e999",   "99999999999", "\n,",
+                          "&\n",     " ",       "\xff",        "JOINT(1,0,2,0)",
+                          "SQRT(-1)"};
   Random random(11);
   std::size_t programs = 0;
   for (int round = 0; round < 40000; ++round) {

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,9 +66,9 @@ inline double value(const std::string& text, const std::vector<double>& atoms = 
   return evaluate(text, atoms).value;
 }
 
-inline std::optional<ExpressionFault> fault(
-    const std::string& text, const std::vector<double>& atoms,
-    FaultSearch search = FaultSearch::value_and_partials) {
+inline std::optional<ExpressionFault> fault(const std::string& text,
+                                            const std::vector<double>& atoms,
+                                            FaultSearch search = FaultSearch::value_and_partials) {
   return parse(text).expression.find_fault(std::span<const double>(atoms), search);
 }
 

@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 22> not_built = {
     "AKISPL", "CUBSPL", "INTERP", "CURVE", "INVPSD", "DELAY", "SENVAL", "USER", "ORIENT",
     // clang-format on
 };
-constexpr std::array<std::string_view, 7> bare_not_built = {"CPU",  "HSIZE",  "NJAC",  "NRHS",
+constexpr std::array<std::string_view, 7> bare_not_built = {"CPU",   "HSIZE",  "NJAC",  "NRHS",
                                                             "ORDER", "FXFREQ", "FXMODE"};
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The mathematical and general functions of the language: SIN, STEP, IMPACT …
 //
-// Each function is one formula, written once over the scalar type; its derivatives come from the scalar.
+// Each function is one formula, written once over the scalar type; its derivatives come from the
+// scalar.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +18,10 @@ namespace dynalin {
 inline constexpr std::size_t seeds_per_pass = 4;
 using Seeded = Dual<seeds_per_pass>;
 
-// What an exactly zero partial derivative means. With `flat` the function does not depend on that argument anywhere near
-// (STEP before its start), so that even an infinite outer derivative contributes nothing. With
-// `stationary` it may be a mere coincidence (COS at 0), and infinity times zero stays undefined.
+// What an exactly zero partial derivative means. With `flat` the function does not depend on that
+// argument anywhere near (STEP before its start), so that even an infinite outer derivative
+// contributes nothing. With `stationary` it may be a mere coincidence (COS at 0), and infinity
+// times zero stays undefined.
 enum class ZeroPartial : std::uint8_t { stationary, flat };
 
 struct Function {
@@ -34,8 +36,8 @@ struct Function {
   Seeded (*on_seeded)(std::span<const Seeded>);
   TimeTaylor<Seeded> (*on_seeded_taylor)(std::span<const TimeTaylor<Seeded>>);
 
-  // Says why there is no finite value at these arguments, "SQRT of -3"; empty if that is not known. An
-  // argument that is NaN is not known yet and never a reason.
+  // Says why there is no finite value at these arguments, "SQRT of -3"; empty if that is not known.
+  // An argument that is NaN is not known yet and never a reason.
   std::string (*domain)(std::span<const double>);
 
   double operator()(std::span<const double> a) const { return on_double(a); }

@@ -49,7 +49,8 @@ struct Stop {
 };
 
 // IMPACT(x, x′, x1, k, e, cmax, d): a stop below x1.
-//     x < x1: MAX(0, k (x1 − x) ** e − STEP(x, x1 − d, cmax, x1, 0) x′)        x ≥ x1: 0, with derivative 0
+//     x < x1: MAX(0, k (x1 − x) ** e − STEP(x, x1 − d, cmax, x1, 0) x′)        x ≥ x1: 0, with
+//     derivative 0
 constexpr auto impact = []<class T>(const T& x, const T& xdot, const T& x1, const T& k, const T& e,
                                     const T& cmax, const T& d) {
   if (!Stop::is_defined(value_of(k), value_of(e), value_of(cmax), value_of(d))) {
@@ -60,7 +61,8 @@ constexpr auto impact = []<class T>(const T& x, const T& xdot, const T& x1, cons
 };
 
 // BISTOP(x, x′, x1, x2, k, e, cmax, d): a stop below x1 and one above x2, nothing between.
-//     x > x2: MIN(0, −k (x − x2) ** e − STEP(x, x2, 0, x2 + d, cmax) x′)       x1 ≤ x ≤ x2: 0, with derivative 0
+//     x > x2: MIN(0, −k (x − x2) ** e − STEP(x, x2, 0, x2 + d, cmax) x′)       x1 ≤ x ≤ x2: 0, with
+//     derivative 0
 constexpr auto two_stops = []<class T>(const T& x, const T& xdot, const T& x1, const T& x2,
                                        const T& k, const T& e, const T& cmax, const T& d) {
   if (!Stop::is_defined(value_of(k), value_of(e), value_of(cmax), value_of(d)) ||

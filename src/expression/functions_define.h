@@ -20,9 +20,8 @@ template <std::size_t count, class Formula>
 struct FixedArguments {
   template <class S>
   static S call(std::span<const S> a) {
-    return [&]<std::size_t... k>(std::index_sequence<k...>) {
-      return S(Formula{}(a[k]...));
-    }(std::make_index_sequence<count>{});
+    return [&]<std::size_t... k>(std::index_sequence<k...>) { return S(Formula{}(a[k]...)); }
+    (std::make_index_sequence<count>{});
   }
 };
 // `formula` takes them as a span.
@@ -50,8 +49,7 @@ constexpr Function make_function(std::string_view name, std::uint8_t minimum, st
 
 // A function of `count` arguments.
 template <std::size_t count, class Formula>
-constexpr Function function(std::string_view name, Formula,
-                            DomainCheck domain = defined_everywhere,
+constexpr Function function(std::string_view name, Formula, DomainCheck domain = defined_everywhere,
                             ZeroPartial zero = ZeroPartial::stationary) {
   constexpr auto n = static_cast<std::uint8_t>(count);
   return make_function<FixedArguments<count, Formula>>(name, n, n, domain, zero);

@@ -13,8 +13,9 @@ namespace dynalin {
 
 namespace {
 
-// --- smooth functions ------------------------------------------------------------------------------
-// ACOS(1) and ASIN(1) have a value and an infinite derivative, so has SQRT(0).
+// --- smooth functions
+// ------------------------------------------------------------------------------ ACOS(1) and
+// ASIN(1) have a value and an infinite derivative, so has SQRT(0).
 constexpr auto arc_cosine = []<class T>(const T& x) {
   using std::acos;
   return acos(x);
@@ -68,15 +69,17 @@ constexpr auto decimal_logarithm = []<class T>(const T& x) {
   return log10(x);
 };
 
-// ATAN2(y, x): the angle of the point (x, y) in (−π, π]. Adding 0 turns −0 into 0, so that the negative x
-// axis is at π and never at −π. At the origin the value is 0 and the derivative is not defined.
+// ATAN2(y, x): the angle of the point (x, y) in (−π, π]. Adding 0 turns −0 into 0, so that the
+// negative x axis is at π and never at −π. At the origin the value is 0 and the derivative is not
+// defined.
 constexpr auto angle_of_point = []<class T>(const T& y, const T& x) {
   using std::atan2;
   return atan2(T(y + 0.0), T(x + 0.0));
 };
 
-// --- functions with kinks and jumps ------------------------------------------------------------------
-// ABS(a): at 0 the derivative is 0.
+// --- functions with kinks and jumps
+// ------------------------------------------------------------------ ABS(a): at 0 the derivative is
+// 0.
 constexpr auto absolute = []<class T>(const T& a) {
   if (value_of(a) < 0.0) return -a;
   return value_of(a) == 0.0 ? T(0.0) : a;
@@ -93,7 +96,8 @@ constexpr auto positive_difference = []<class T>(const T& a, const T& b) {
   return value_of(a) <= value_of(b) ? T(0.0) : T(a - b);
 };
 
-// MAX(a, b, …), MIN(a, b, …): derivative of the one selected, of the first on a tie. NaN wins, to be noticed.
+// MAX(a, b, …), MIN(a, b, …): derivative of the one selected, of the first on a tie. NaN wins, to
+// be noticed.
 constexpr auto largest = []<class T>(std::span<const T> a) {
   std::size_t selected = 0;
   for (std::size_t k = 1; k < a.size() && !std::isnan(value_of(a[selected])); ++k) {
@@ -109,8 +113,8 @@ constexpr auto smallest = []<class T>(std::span<const T> a) {
   return a[selected];
 };
 
-// MOD(a, b) = a − AINT(a/b) b, with the sign of a; derivative 1 and −AINT(a/b), also at the jumps. The
-// value is that of fmod, because a/b may round up to a whole number that it does not reach.
+// MOD(a, b) = a − AINT(a/b) b, with the sign of a; derivative 1 and −AINT(a/b), also at the jumps.
+// The value is that of fmod, because a/b may round up to a whole number that it does not reach.
 constexpr auto remainder_of_division = []<class T>(const T& a, const T& b) {
   const double exact = std::fmod(value_of(a), value_of(b));
   const double quotient = std::round((value_of(a) - exact) / value_of(b));
@@ -126,7 +130,8 @@ constexpr auto with_sign_of = []<class T>(const T& a, const T& b) {
 
 constexpr auto power_of = []<class T>(const T& x, const T& n) { return power(x, n); };
 
-// --- where there is no value -------------------------------------------------------------------------
+// --- where there is no value
+// -------------------------------------------------------------------------
 std::string cosine_range(std::string_view name, double a) {
   return std::fabs(a) > 1.0 ? fmt::format("{} of {:.6g}, which is outside −1 … 1", name, a) : "";
 }

@@ -1,4 +1,5 @@
-// Series and harmonic signals: POLY, CHEBY, FORSIN, FORCOS, SHF, SWEEP. Smooth but for the corners of SWEEP.
+// Series and harmonic signals: POLY, CHEBY, FORSIN, FORCOS, SHF, SWEEP. Smooth but for the corners
+// of SWEEP.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -20,7 +21,8 @@ constexpr auto polynomial = []<class T>(std::span<const T> a) {
   return sum;
 };
 
-// CHEBY(x, x0, a0, a1, …) = Σ a_j T_j(x − x0) with T0 = 1, T1 = u, T_{j+1} = 2 u T_j − T_{j−1} for any u.
+// CHEBY(x, x0, a0, a1, …) = Σ a_j T_j(x − x0) with T0 = 1, T1 = u, T_{j+1} = 2 u T_j − T_{j−1} for
+// any u.
 constexpr auto chebyshev = []<class T>(std::span<const T> a) {
   const T u = a[0] - a[1];
   T before(1.0), now = u, sum = a[2];
@@ -60,9 +62,10 @@ constexpr auto simple_harmonic = []<class T>(const T& x, const T& x0, const T& a
   return T(a * sin(T(w * (x - x0) - phi)) + b);
 };
 
-// SWEEP(x, a, x0, f0, x1, f1, dx) = STEP5(x, x0, 0, x0 + dx, 1) a SIN(2π F(x)), where F is the integral of a
-// frequency that is f0 before x0, grows linearly to f1 at x1, and stays there. The frequency has corners at
-// x0 and x1, so the second derivative of the value jumps there; the constant side is used.
+// SWEEP(x, a, x0, f0, x1, f1, dx) = STEP5(x, x0, 0, x0 + dx, 1) a SIN(2π F(x)), where F is the
+// integral of a frequency that is f0 before x0, grows linearly to f1 at x1, and stays there. The
+// frequency has corners at x0 and x1, so the second derivative of the value jumps there; the
+// constant side is used.
 constexpr auto sweep = []<class T>(const T& x, const T& a, const T& x0, const T& f0, const T& x1,
                                    const T& f1, const T& dx) {
   using std::sin;

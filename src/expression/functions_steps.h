@@ -1,7 +1,8 @@
 // Transitions from h0 at x0 to h1 at x1, which other functions use too.
 //
-// With s = (x − x0)/(x1 − x0): h0 for s ≤ 0, h1 for s ≥ 1, h0 + (h1 − h0) shape(s) between. So a step with x1 < x0
-// runs from right to left. At both ends the constant side is used. With x0 = x1 there is no value.
+// With s = (x − x0)/(x1 − x0): h0 for s ≤ 0, h1 for s ≥ 1, h0 + (h1 − h0) shape(s) between. So a
+// step with x1 < x0 runs from right to left. At both ends the constant side is used. With x0 = x1
+// there is no value.
 #pragma once
 
 #include "expression/functions_define.h"

@@ -11,8 +11,7 @@ namespace dynalin {
 
 namespace {
 
-constexpr int sum_precedence = 1, product_precedence = 2, sign_precedence = 3,
-              power_precedence = 4;
+constexpr int sum_precedence = 1, product_precedence = 2, sign_precedence = 3, power_precedence = 4;
 
 int precedence(std::string_view sign) {
   if (sign == "+" || sign == "-") return sum_precedence;
@@ -117,13 +116,14 @@ void ExpressionParser::read_operator() {
     close_parenthesis();
   } else if (symbol == "]") {
     close_bracket();
-  } else if (tokens_[at_].kind == TokenKind::other || (!symbol.empty() && symbol != "(" && symbol != "[")) {
+  } else if (tokens_[at_].kind == TokenKind::other ||
+             (!symbol.empty() && symbol != "(" && symbol != "[")) {
     syntax_error("bad-character", span(at_),
                  fmt::format("'{}' has no meaning in an expression", text(at_)));
   } else {
-    syntax_error("missing-operator", span(at_),
-                 fmt::format("an operator is missing between '{}' and '{}'", text(at_ - 1),
-                             text(at_)));
+    syntax_error(
+        "missing-operator", span(at_),
+        fmt::format("an operator is missing between '{}' and '{}'", text(at_ - 1), text(at_)));
   }
 }
 
@@ -133,7 +133,8 @@ void ExpressionParser::push_operand(const Operand& operand) {
 }
 
 void ExpressionParser::push_operation(std::string_view sign, const Span& at) {
-  // ** is right associative: equal ones wait. It takes its right side with a sign, so a sign waits too.
+  // ** is right associative: equal ones wait. It takes its right side with a sign, so a sign waits
+  // too.
   const int own = precedence(sign);
   apply_waiting(sign == "**" ? own + 1 : own);
   pending_.push_back({Pending::Kind::operation, sign, at, nullptr, operands_.size()});
@@ -276,12 +277,12 @@ Operand ExpressionParser::close_if(const Span& at) {
 
 std::shared_ptr<const ExpressionProgram> ExpressionParser::finish() {
   const std::size_t last = tokens_.size() - 1;
-  const bool list_begun = symbol_at(last, "(") || symbol_at(last, ",") || symbol_at(last, ":") ||
-                          symbol_at(last, "[");
+  const bool list_begun =
+      symbol_at(last, "(") || symbol_at(last, ",") || symbol_at(last, ":") || symbol_at(last, "[");
   if (operand_expected_ && !list_begun) {
-    syntax_error("missing-operand", span(last),
-                 fmt::format("the expression ends behind '{}' where a value is expected",
-                             text(last)));
+    syntax_error(
+        "missing-operand", span(last),
+        fmt::format("the expression ends behind '{}' where a value is expected", text(last)));
     return nullptr;
   }
   if (!operand_expected_) apply_waiting(sum_precedence);
@@ -290,8 +291,9 @@ std::shared_ptr<const ExpressionProgram> ExpressionParser::finish() {
     if (open.kind == Pending::Kind::operation || open.kind == Pending::Kind::negation) continue;
     const std::string_view opened = open.at.text();
     syntax_error("unbalanced-parenthesis", open.at,
-                 opened.size() == 1 ? fmt::format("'{}' is never closed", opened)
-                                    : fmt::format("the parenthesis of '{}' is never closed", opened));
+                 opened.size() == 1
+                     ? fmt::format("'{}' is never closed", opened)
+                     : fmt::format("the parenthesis of '{}' is never closed", opened));
     return nullptr;
   }
   if (diagnostics_.error_count() > errors_before_) return nullptr;

@@ -1,7 +1,7 @@
 // Reads the tokens of one expression and builds its program.
 //
-// Operators wait on a stack until a weaker one follows, and so do open parentheses; nothing here calls itself, so that an
-// expression may be nested as deeply as it likes.
+// Operators wait on a stack until a weaker one follows, and so do open parentheses; nothing here
+// calls itself, so that an expression may be nested as deeply as it likes.
 //
 //     expr := term {(+|-) term}    term := unary {(*|/) unary}    unary := (+|-) unary | power
 //     power := primary [** unary]  primary := number | name | name(…) | (expr)

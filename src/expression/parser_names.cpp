@@ -92,8 +92,8 @@ void ExpressionParser::read_name() {
   }
   if (!symbol_at(at_ + 1, "(")) {
     ++at_;
-    const bool known = atom || upper == "IF" || find_function(upper) ||
-                       contains(functions_not_built(), upper);
+    const bool known =
+        atom || upper == "IF" || find_function(upper) || contains(functions_not_built(), upper);
     if (known) {
       diagnostics_.error("missing-arguments", name,
                          fmt::format("{} needs its arguments in parentheses", upper));
@@ -143,7 +143,8 @@ void ExpressionParser::report_count(const Span& at, std::string_view name, std::
       fmt::format("{} takes {}, here {} {}", name, wanted, found == 1 ? "is" : "are", found));
 }
 
-// The arguments of an atom are whole numbers: it is a quantity with a name, known before anything is evaluated.
+// The arguments of an atom are whole numbers: it is a quantity with a name, known before anything
+// is evaluated.
 void ExpressionParser::read_atom(const AtomFunction& function, const Span& name) {
   const std::size_t errors = diagnostics_.error_count();
   Atom atom = named_atom(function, name);

@@ -57,8 +57,8 @@ TEST(ExpressionParser, operators_bind_as_the_language_says) {
     const ParsedText parsed = parse(row.text);
     ASSERT_THAT(parsed.problems(), IsEmpty()) << row.text;
     const std::vector<double> all{a, b, c};
-    const std::vector<double> atoms(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(
-                                                                   parsed.expression.atoms().size()));
+    const std::vector<double> atoms(
+        all.begin(), all.begin() + static_cast<std::ptrdiff_t>(parsed.expression.atoms().size()));
     EXPECT_DOUBLE_EQ(evaluate(parsed.expression, atoms).value, row.value) << row.text;
   }
 }
@@ -72,7 +72,8 @@ TEST(ExpressionParser, constants_and_degrees_are_numbers) {
 }
 
 TEST(ExpressionParser, constant_parts_are_folded_also_inside_of_functions) {
-  const ParsedText parsed = parse("STEP(1, 0, 2*3, 1, MAX(1, SIN(0))) + IF(-1: 5, VARVAL(1), VX(2))");
+  const ParsedText parsed =
+      parse("STEP(1, 0, 2*3, 1, MAX(1, SIN(0))) + IF(-1: 5, VARVAL(1), VX(2))");
   EXPECT_TRUE(parsed.expression.is_constant());
   EXPECT_DOUBLE_EQ(evaluate<double>(parsed.expression, {}).value, 6);
 }
@@ -230,6 +231,20 @@ TEST(ExpressionParser, messages_say_what_was_found_and_what_could_be_meant) {
   EXPECT_THAT(parse("SPDP(TIME,1,2,0)").first().message, HasSubstr("the id of a SPRINGDAMPER"));
   EXPECT_THAT(parse("SQRT(-3)").first().message, HasSubstr("SQRT of -3"));
   EXPECT_THAT(parse("CUBSPL(1,2,3)").first().message, HasSubstr("CUBSPL is not available yet"));
+}
+
+TEST(ExpressionParser, errors_keep_their_places_within_a_dataset) {
+  const auto source = std::make_shared<const SourceText>("model.adm",
+                                                         "a title\n"
+                                                         "VARIABLE/1, IC=2, FUNCTION=DX(1,2)*(2\n"
+                                                         ",   +STEPP(TIME,0,1,2,3))\n"
+                                                         "END\n");
+  const Parsed<Dataset> dataset = parse_dataset(source);
+  ASSERT_FALSE(dataset.diagnostics.has_errors());
+  const WrittenArgument& function = dataset.value.statements.at(0).arguments.at(1);
+  Diagnostics diagnostics;
+  parse_expression(function.value, *source, diagnostics);
+  EXPECT_THAT(render(diagnostics), HasSubstr("model.adm:3:6: error: STEPP is no function"));
 }
 
 TEST(ExpressionParser, a_branch_that_may_never_be_taken_may_hold_a_constant_without_value) {

@@ -26,7 +26,8 @@ S call(const Function& function, std::span<const std::int32_t> operands,
   return function(std::span<const S>(arguments.data(), operands.size()));
 }
 
-// Which branch of an IF a condition selects: 0, 1, 2 for negative, zero, positive; NaN selects none.
+// Which branch of an IF a condition selects: 0, 1, 2 for negative, zero, positive; NaN selects
+// none.
 double selected_branch(double condition) {
   if (std::isnan(condition)) return condition;
   return condition < 0.0 ? 0.0 : condition == 0.0 ? 1.0 : 2.0;
@@ -109,8 +110,9 @@ T ExpressionProgram::evaluate(std::span<const T> atom_values,
   return value[nodes.size() - 1];
 }
 
-// Nodes of branches not taken hold old values; their adjoints stay zero, so nobody looks at them. Zero adjoints are
-// passed over for another reason too: an infinite slope behind them does not matter.
+// Nodes of branches not taken hold old values; their adjoints stay zero, so nobody looks at them.
+// Zero adjoints are passed over for another reason too: an infinite slope behind them does not
+// matter.
 template <class T>
 void ExpressionProgram::sweep_back(ExpressionWorkspace<T>& workspace) const {
   const std::size_t count = nodes.size();
@@ -120,10 +122,9 @@ void ExpressionProgram::sweep_back(ExpressionWorkspace<T>& workspace) const {
   adjoint[count - 1] = T(1.0);
   for (std::size_t i = count; i-- > 0;) {
     if (is_zero(adjoint[i])) continue;
-    visit_partials(*this, nodes[i], workspace.value,
-                   [&](std::size_t operand, const auto& partial) {
-                     adjoint[operand] += adjoint[i] * partial;
-                   });
+    visit_partials(*this, nodes[i], workspace.value, [&](std::size_t operand, const auto& partial) {
+      adjoint[operand] += adjoint[i] * partial;
+    });
   }
 }
 

@@ -1,8 +1,9 @@
 // The flat program of an expression: a tree in post order, every operand before what uses it.
 //
-// The forward sweep computes the value of each node. The reverse sweep carries the derivative of the result with
-// respect to each node, its adjoint, from the result down to the atoms. The three branches of an IF
-// stand one after the other behind the condition, with jumps around those not selected:
+// The forward sweep computes the value of each node. The reverse sweep carries the derivative of
+// the result with respect to each node, its adjoint, from the result down to the atoms. The three
+// branches of an IF stand one after the other behind the condition, with jumps around those not
+// selected:
 //
 //     condition  branch  e2 …  jump  e3 …  jump  e4 …  merge
 #pragma once
@@ -28,9 +29,9 @@ struct ExpressionNode {
     divide,    // a / b
     power,     // a ** constant
     call,      // function of operands[b] … operands[b + a − 1]
-    branch,    // looks at node a; operands[b …]: first node of each of three branches, then the merge
-    jump,      // to node a
-    merge,     // of branch a; operands[b …]: result node of each of three branches
+    branch,  // looks at node a; operands[b …]: first node of each of three branches, then the merge
+    jump,    // to node a
+    merge,  // of branch a; operands[b …]: result node of each of three branches
   };
   Kind kind = Kind::constant;
   std::int32_t a = 0, b = 0;

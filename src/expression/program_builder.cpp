@@ -93,7 +93,8 @@ Operand ProgramBuilder::atom(const Atom& atom) {
   return {push({.kind = Kind::atom, .a = index}, atom.at), atom.at};
 }
 
-// Inside of an IF a constant without finite value is left for the run, which may never select its branch.
+// Inside of an IF a constant without finite value is left for the run, which may never select its
+// branch.
 Operand ProgramBuilder::fold(const ExpressionNode& node, std::span<const Operand> operands,
                              const Span& at) {
   std::vector<double> values;
@@ -170,8 +171,7 @@ OpenIf ProgramBuilder::open_if(const Operand& condition) {
     return open;
   }
   open.table = push_operands(std::array<std::int32_t, 4>{});
-  open.branch =
-      push({.kind = Kind::branch, .a = condition.node, .b = open.table}, condition.at);
+  open.branch = push({.kind = Kind::branch, .a = condition.node, .b = open.table}, condition.at);
   return open;
 }
 
@@ -197,8 +197,8 @@ Operand ProgramBuilder::close_if(const OpenIf& open, const Span& at) {
   assert(open.branches_begun == 3);
   --branch_depth_;
   if (open.selected) return {open.results[*open.selected], at};
-  const std::int32_t merge = push(
-      {.kind = Kind::merge, .a = open.branch, .b = push_operands(open.results)}, at);
+  const std::int32_t merge =
+      push({.kind = Kind::merge, .a = open.branch, .b = push_operands(open.results)}, at);
   program_.operands[static_cast<std::size_t>(open.table) + 3] = merge;
   for (const std::int32_t jump : open.jumps) {
     program_.nodes[static_cast<std::size_t>(jump)].a = merge;

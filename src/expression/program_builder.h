@@ -1,4 +1,5 @@
-// Builds the flat program of an expression from its parts in post order, and folds constants on the way.
+// Builds the flat program of an expression from its parts in post order, and folds constants on the
+// way.
 #pragma once
 
 #include <array>

@@ -160,7 +160,8 @@ std::optional<ExpressionFault> ExpressionProgram::find_fault(std::span<const T> 
   if (search == FaultSearch::value) return std::nullopt;
 
   sweep_back(workspace);
-  // Each node is an operand of one other, so an adjoint that is not finite leads up to where it arose.
+  // Each node is an operand of one other, so an adjoint that is not finite leads up to where it
+  // arose.
   std::vector<std::size_t> user(nodes.size(), nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (is_zero(workspace.adjoint[i])) continue;

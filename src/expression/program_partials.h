@@ -11,7 +11,8 @@ namespace dynalin {
 
 using Taylor = TimeTaylor<double>;
 
-// --- one vocabulary for the two scalars of a program ---------------------------------------------------
+// --- one vocabulary for the two scalars of a program
+// ---------------------------------------------------
 inline bool is_zero(double x) { return x == 0.0; }
 inline bool is_zero(const Taylor& x) {
   return x.value == 0.0 && x.rate == 0.0 && x.acceleration == 0.0;
@@ -20,8 +21,8 @@ inline bool is_finite(double x) { return std::isfinite(x); }
 inline bool is_finite(const Taylor& x) {
   return std::isfinite(x.value) && std::isfinite(x.rate) && std::isfinite(x.acceleration);
 }
-// A quantity that does not change in time needs no time derivatives, and those of a function of it are 0
-// even where the function has an infinite slope.
+// A quantity that does not change in time needs no time derivatives, and those of a function of it
+// are 0 even where the function has an infinite slope.
 inline bool is_at_rest(double) { return true; }
 inline bool is_at_rest(const Taylor& x) { return x.rate == 0.0 && x.acceleration == 0.0; }
 
@@ -30,7 +31,8 @@ inline Taylor power_at(const Taylor& x, double n) {
   return is_at_rest(x) ? Taylor(std::pow(x.value, n)) : pow(x, n);
 }
 
-// The value is that of the plain division: x / x is 1 along the motion too, and ACOS of it is defined.
+// The value is that of the plain division: x / x is 1 along the motion too, and ACOS of it is
+// defined.
 inline double quotient(double a, double b) { return a / b; }
 inline Taylor quotient(const Taylor& a, const Taylor& b) {
   Taylor q = a / b;
@@ -38,8 +40,9 @@ inline Taylor quotient(const Taylor& a, const Taylor& b) {
   return q;
 }
 
-// The scalar that carries partial derivatives of T, and how it is taken apart again. A constant seed is enough: the dual
-// part of a formula on TimeTaylor<Dual> is the partial derivative together with its own time derivatives.
+// The scalar that carries partial derivatives of T, and how it is taken apart again. A constant
+// seed is enough: the dual part of a formula on TimeTaylor<Dual> is the partial derivative together
+// with its own time derivatives.
 template <class T>
 struct SeededScalar;
 template <>
@@ -61,7 +64,8 @@ struct SeededScalar<Taylor> {
   }
 };
 
-// Partials of one call, a pass of `seeds_per_pass` operands at a time; S is the scalar of the formula.
+// Partials of one call, a pass of `seeds_per_pass` operands at a time; S is the scalar of the
+// formula.
 template <class S, std::size_t capacity, class T, class Visit>
 void visit_call_in_passes(const ExpressionProgram& program, const Function& function,
                           std::span<const std::int32_t> operands, const std::vector<T>& value,
@@ -87,8 +91,7 @@ void visit_call_in_passes(const ExpressionProgram& program, const Function& func
       seeded[count++] = k;
     }
     if (count == 0) return;
-    const Argument result =
-        function(std::span<const Argument>(arguments.data(), operands.size()));
+    const Argument result = function(std::span<const Argument>(arguments.data(), operands.size()));
     for (std::size_t s = 0; s < count; ++s) {
       const S partial = Scalar::partial(result, s);
       const bool independent = function.zero_partial == ZeroPartial::flat && is_zero(partial);
@@ -112,8 +115,9 @@ void visit_call(const ExpressionProgram& program, const Function& function,
   }
 }
 
-// Calls visit(operand node, partial) for every operand on which the node depends. Operands that cannot matter, constants
-// and those multiplied by a constant zero, are left out, so that no infinity meets them.
+// Calls visit(operand node, partial) for every operand on which the node depends. Operands that
+// cannot matter, constants and those multiplied by a constant zero, are left out, so that no
+// infinity meets them.
 template <class T, class Visit>
 void visit_partials(const ExpressionProgram& program, const ExpressionNode& node,
                     const std::vector<T>& value, Visit visit) {

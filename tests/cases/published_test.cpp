@@ -8,7 +8,7 @@ using Published = Cases;
 using Complex = std::complex<double>;
 
 TEST_F(Published, rotating_slider_in_global_and_in_relative_coordinates) {
-  const Run r = run_example("rotating_slider", "rotating_slider.acf");
+  const RunResult r = run_example("rotating_slider", "rotating_slider.acf");
   ASSERT_EQ(r.status, 0) << r.err;
   expect_eigenvalues(r.eigenvalues(0), {0, 0, Complex(0, 3.074549302168)}, 2e-13);
   expect_eigenvalues(r.eigenvalues(1), {0, 0, Complex(0, 2.630555800663)}, 2e-13);
@@ -20,7 +20,7 @@ TEST_F(Published, rotating_slider_in_global_and_in_relative_coordinates) {
 
 TEST_F(Published, rotating_slider_state_matrices_have_the_closed_form) {
   const auto dataset = read_file(std::filesystem::path(EXAMPLES_DIR) / "rotating_slider/rotating_slider.adm");
-  const Run r = run(dataset, "LINEAR/STATEMAT, FILE=a\nLINEAR/STATEMAT, FILE=b, RM=5\n");
+  const RunResult r = run(dataset, "LINEAR/STATEMAT, FILE=a\nLINEAR/STATEMAT, FILE=b, RM=5\n");
   ASSERT_EQ(r.status, 0) << r.err;
   // J α″ = −2 m u u′ α′ with J = 323; the default coordinate adds −α′² to the spring.
   const std::vector<std::vector<double>> global = {{0, 0, -600.0 / 323, 0}, {1, 0, 0, 0}, {200, 0, 0, -5.0 / 3}, {0, 0, 1, 0}};
@@ -34,7 +34,7 @@ TEST_F(Published, rotating_slider_state_matrices_have_the_closed_form) {
 }
 
 TEST_F(Published, driven_blade_in_the_angle_and_in_a_coordinate_of_its_own) {
-  const Run r = run_example("driven_blade", "driven_blade.acf");
+  const RunResult r = run_example("driven_blade", "driven_blade.acf");
   ASSERT_EQ(r.status, 0) << r.err;
   expect_eigenvalues(r.eigenvalues(0), {Complex(0, 0.7001883973744)}, 1e-12);
   expect_eigenvalues(r.eigenvalues(1), {Complex(0, 1.738762025947)}, 1e-12);
@@ -46,7 +46,7 @@ TEST_F(Published, driven_blade_in_the_angle_and_in_a_coordinate_of_its_own) {
 
 TEST_F(Published, spring_pendulum_finds_its_equilibrium_and_eigenvalue) {
   const auto example = read_file(std::filesystem::path(EXAMPLES_DIR) / "spring_pendulum/spring_pendulum.adm");
-  const Run r = run_example("spring_pendulum", "spring_pendulum.acf");
+  const RunResult r = run_example("spring_pendulum", "spring_pendulum.acf");
   ASSERT_EQ(r.status, 0) << r.err;
   const Complex expected(-0.0448686373285978, 0.95828903953554);
   expect_eigenvalues(r.eigenvalues(1), {expected}, 1e-12);
@@ -57,7 +57,7 @@ TEST_F(Published, spring_pendulum_finds_its_equilibrium_and_eigenvalue) {
   // ∂DY/∂AZ the distance to its right.
   std::string text = example.substr(0, example.rfind("END"));
   text += "VARIABLE/6, FUNCTION=DX(7)\nVARIABLE/7, FUNCTION=DY(7)\nPOUTPUT/1, VARIABLES=6,7\nEND\n";
-  const Run pose = run(text, "SIM/STAT\nLINEAR/STATEMAT, POUTPUT=1, FILE=pose\n");
+  const RunResult pose = run(text, "SIM/STAT\nLINEAR/STATEMAT, POUTPUT=1, FILE=pose\n");
   ASSERT_EQ(pose.status, 0) << pose.err;
   expect_close(pose.matrix(1, "C")[0][1], 206.12823468637, 1e-12);
   expect_close(pose.matrix(1, "C")[1][1], 3.3392911044706, 1e-11);
@@ -66,7 +66,7 @@ TEST_F(Published, spring_pendulum_finds_its_equilibrium_and_eigenvalue) {
 const std::vector<Complex> open_loop_modes = {0.05009093452196, -0.05009247158884, -31.83098861838, Complex(-0.3179942710765, 0.6361891642241)};
 
 TEST_F(Published, cart_pendulum_with_its_actuator) {
-  const Run r = run_example("cart_pendulum", "pendulum.acf");
+  const RunResult r = run_example("cart_pendulum", "pendulum.acf");
   ASSERT_EQ(r.status, 0) << r.err;
   expect_eigenvalues(r.eigenvalues(1), open_loop_modes, 1e-11);
   // The document's own print was made with a seven-digit 1/2π.
@@ -74,7 +74,7 @@ TEST_F(Published, cart_pendulum_with_its_actuator) {
 }
 
 TEST_F(Published, cart_pendulum_open_loop_has_an_exact_zero_more) {
-  const Run r = run_example("cart_pendulum", "open_loop.acf");
+  const RunResult r = run_example("cart_pendulum", "open_loop.acf");
   ASSERT_EQ(r.status, 0) << r.err;
   std::vector<Complex> expected = open_loop_modes;
   expected.insert(expected.begin(), 0.0);
@@ -82,7 +82,7 @@ TEST_F(Published, cart_pendulum_open_loop_has_an_exact_zero_more) {
 }
 
 TEST_F(Published, cart_pendulum_state_matrices_entry_by_entry) {
-  const Run r = run_example("cart_pendulum", "open_loop.acf");
+  const RunResult r = run_example("cart_pendulum", "open_loop.acf");
   ASSERT_EQ(r.status, 0) << r.err;
   const double a13 = -100.0 / 1011, a33 = 110.0 / 1011, act = 4.02439896739235914e-02;
   const std::vector<std::vector<double>> A = {{-4040.0 / 1011, -20200.0 / 1011, 0, a13, act, 0},
@@ -109,14 +109,14 @@ TEST_F(Published, cart_pendulum_state_matrices_entry_by_entry) {
 }
 
 TEST_F(Published, state_matrix_file_has_the_fsave_layout) {
-  const Run r = run_example("cart_pendulum", "open_loop.acf");
+  const RunResult r = run_example("cart_pendulum", "open_loop.acf");
   ASSERT_EQ(r.status, 0) << r.err;
   std::istringstream in(r.text("open_loop.mat"));
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   ASSERT_EQ(lines.size(), 3u + 1 + 12 + 1 + 2 + 1 + 6 + 1 + 1 + 1 + 6 + 1 + 1 + 1 + 2);
-  EXPECT_EQ(lines[0].substr(0, 43), "MATRIXx                      VERSION   700 ");
-  EXPECT_EQ(lines[0].substr(39, 9), "00    7  ");
+  EXPECT_EQ(lines[0].substr(0, 42), "MATRIXx                      VERSION   700");
+  EXPECT_EQ(lines[0].substr(39, 12), "700    7    ");
   EXPECT_EQ(lines[1], "A             6    6B             6    1C             3    6D             3    1");
   EXPECT_EQ(lines[2], "STATES        3    6PINPUT        2    1POUTPUT       4    1");
   EXPECT_EQ(lines[3], "A             6    6    0(3(1PE25.17))       ");
@@ -135,7 +135,7 @@ TEST_F(Published, state_matrix_file_has_the_fsave_layout) {
 TEST_F(Published, matlab_format_writes_one_matrix_a_file) {
   std::filesystem::copy(std::filesystem::path(EXAMPLES_DIR) / "cart_pendulum", folder_, std::filesystem::copy_options::recursive);
   write("model.acf", "open_loop\nmodel\nSIM/STAT\nLINEAR/STATEMAT, PINPUT=1, POUTPUT=1, FORMAT=MATLAB FILE=plant\n");
-  const Run r = run_file("model.acf");
+  const RunResult r = run_file("model.acf");
   ASSERT_EQ(r.status, 0) << r.err;
   for (const char* suffix : {"a", "b", "c", "d", "st", "pi", "po"}) EXPECT_TRUE(r.wrote(std::string("plant") + suffix)) << suffix;
   EXPECT_EQ(r.text("plantpo"), "1.00000000000000000e+00\n1.00000000000000000e+01\n2.00000000000000000e+01\n3.00000000000000000e+01\n");
@@ -143,7 +143,7 @@ TEST_F(Published, matlab_format_writes_one_matrix_a_file) {
 }
 
 TEST_F(Published, cart_pendulum_closed_loop_is_stable) {
-  const Run r = run_example("cart_pendulum", "closed_loop.acf");
+  const RunResult r = run_example("cart_pendulum", "closed_loop.acf");
   ASSERT_EQ(r.status, 0) << r.err;
   expect_eigenvalues(r.eigenvalues(1),
                      {-0.5352339047128, -31.8270832847, Complex(-0.2373970644161, 0.07544884221599), Complex(-0.007377987186762, 0.1516113433946),
@@ -152,7 +152,7 @@ TEST_F(Published, cart_pendulum_closed_loop_is_stable) {
 }
 
 TEST_F(Published, message_file_lists_states_and_eigenvalues) {
-  const Run r = run_example("rotating_slider", "rotating_slider.acf");
+  const RunResult r = run_example("rotating_slider", "rotating_slider.acf");
   EXPECT_NE(r.message.find(" command: LINEAR/EIGENSOL, RM=5\n"), std::string::npos);
   EXPECT_NE(r.message.find("  Option RM=5 was used.\n"), std::string::npos);
   EXPECT_NE(r.message.find("        4 kinematic states (displacement and velocities)\n"), std::string::npos);

@@ -24,7 +24,7 @@ inline std::string read_file(const std::filesystem::path& path) {
   return text.str();
 }
 
-struct Run {
+struct RunResult {
   int status = -1;
   std::string out, err, message;
   nlohmann::json json;
@@ -60,12 +60,12 @@ class Cases : public ::testing::Test {
 
   void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name, std::ios::binary) << text; }
 
-  Run run_file(const std::string& file) const {
+  RunResult run_file(const std::string& file) const {
     SessionOptions options;
     options.file = (folder_ / file).string();
     options.json = (folder_ / "results.json").string();
     std::ostringstream out, err;
-    Run r;
+    RunResult r;
     r.status = run_session(options, out, err);
     r.out = out.str(), r.err = err.str(), r.folder = folder_;
     if (std::filesystem::exists(options.json)) r.json = nlohmann::json::parse(read_file(options.json));
@@ -74,12 +74,12 @@ class Cases : public ::testing::Test {
     return r;
   }
   // A dataset and the commands behind the two lines that name it.
-  Run run(const std::string& dataset, const std::string& commands) const {
+  RunResult run(const std::string& dataset, const std::string& commands) const {
     write("model.adm", dataset);
     write("model.acf", "model\nmodel\n" + commands);
     return run_file("model.acf");
   }
-  Run run_example(const std::string& folder, const std::string& file) const {
+  RunResult run_example(const std::string& folder, const std::string& file) const {
     std::filesystem::copy(std::filesystem::path(EXAMPLES_DIR) / folder, folder_, std::filesystem::copy_options::recursive);
     return run_file(file);
   }

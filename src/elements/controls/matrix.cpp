@@ -1,5 +1,133 @@
+// MATRIX/id, {FULL={RORDER | CORDER}, ROWS=, COLUMNS=, VALUES= | SPARSE, I=, J=, VALUES= | FILE=, NAME=}
+//
+// A table of numbers for LSE and others: by rows or columns, by its entries that are not zero, or out of a file.
 #include "elements/controls/matrix.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "dataset/matrix_file.h"
+#include "model/model.h"
 #include "model/schema.h"
-namespace dynalin { namespace { struct S final : TypedSet<Matrix> { using TypedSet::TypedSet; void read(std::size_t, ElementReader&) override {} }; }
-extern constinit const Kind matrix = {"MATRIX","","",Kind::Role::element,{},[](const Kind& k)->std::unique_ptr<ElementSet>{return std::make_unique<S>(k);}};
-}
+
+namespace dynalin {
+
+namespace {
+
+struct MatrixStatement {
+  std::vector<std::string> full;
+  bool sparse = false;
+  std::optional<std::int64_t> rows, columns;
+  std::vector<double> values;
+  std::vector<std::int64_t> row_of, column_of;
+  std::string file, name;
+
+  static constexpr std::array<Argument<MatrixStatement>, 9> arguments = {{
+      {.name = "FULL", .slot = &MatrixStatement::full, .help = "RORDER: by rows; CORDER: by columns"},
+      {.name = "SPARSE", .slot = &MatrixStatement::sparse, .help = "only entries that are not zero"},
+      {.name = "ROWS", .slot = &MatrixStatement::rows, .minimum = 1},
+      {.name = "COLUMNS", .slot = &MatrixStatement::columns, .minimum = 1},
+      {.name = "VALUES", .slot = &MatrixStatement::values},
+      {.name = "I", .slot = &MatrixStatement::row_of, .help = "rows of the VALUES"},
+      {.name = "J", .slot = &MatrixStatement::column_of, .help = "columns of the VALUES"},
+      {.name = "FILE", .slot = &MatrixStatement::file, .help = "file that holds the matrix"},
+      {.name = "NAME", .slot = &MatrixStatement::name, .help = "its name in the file"},
+  }};
+};
+
+class MatrixSet final : public TypedSet<Matrix> {
+ public:
+  using TypedSet::TypedSet;
+
+  void read(std::size_t k, ElementReader& reader) override {
+    MatrixStatement m;
+    if (!read_arguments(m, reader)) return;
+    const std::string owner = reader.label().text();
+    const int forms = !m.full.empty() + m.sparse + !m.file.empty();
+    if (forms != 1) {
+      reader.error("missing-argument", reader.statement().at, fmt::format("{} needs one of FULL, SPARSE and FILE", owner));
+    } else if (!m.file.empty()) {
+      read_from_file(m, elements[k], reader);
+    } else if (m.sparse) {
+      read_sparse(m, elements[k], reader);
+    } else {
+      read_full(m, elements[k], reader);
+    }
+  }
+
+ private:
+  static void read_full(const MatrixStatement& m, Matrix& out, ElementReader& reader) {
+    static constexpr std::array<std::string_view, 2> orders = {"RORDER", "CORDER"};
+    const auto order = find_keyword(m.full.front(), orders);
+    if (!order) reader.error("unknown-word", reader.at("FULL"), fmt::format("FULL is RORDER or CORDER, not {}", m.full.front()));
+    if (!m.rows || !m.columns) {
+      reader.error("missing-argument", reader.at("FULL"), "FULL needs ROWS and COLUMNS");
+      return;
+    }
+    const auto rows = static_cast<std::size_t>(*m.rows), columns = static_cast<std::size_t>(*m.columns);
+    if (m.values.size() != rows * columns) {
+      reader.error("wrong-count", reader.at("VALUES"), fmt::format("{} × {} values are needed, {} are given", rows, columns, m.values.size()));
+      return;
+    }
+    out = {rows, columns, m.values};
+    if (order && *order == 1) return;
+    for (std::size_t r = 0; r < rows; ++r) {
+      for (std::size_t c = 0; c < columns; ++c) out.values[c * rows + r] = m.values[r * columns + c];
+    }
+  }
+
+  static void read_sparse(const MatrixStatement& m, Matrix& out, ElementReader& reader) {
+    if (m.row_of.size() != m.values.size() || m.column_of.size() != m.values.size() || m.values.empty()) {
+      reader.error("wrong-count", reader.at("SPARSE"), fmt::format("I, J and VALUES must have the same length, they have {}, {} and {}",
+                                                                   m.row_of.size(), m.column_of.size(), m.values.size()));
+      return;
+    }
+    const auto rows = m.rows.value_or(*std::max_element(m.row_of.begin(), m.row_of.end()));
+    const auto columns = m.columns.value_or(*std::max_element(m.column_of.begin(), m.column_of.end()));
+    for (std::size_t k = 0; k < m.values.size(); ++k) {
+      if (m.row_of[k] < 1 || m.row_of[k] > rows || m.column_of[k] < 1 || m.column_of[k] > columns) {
+        reader.error("value-out-of-range", reader.at("I"), fmt::format("entry {}, {} lies outside of {} × {}", m.row_of[k], m.column_of[k], rows, columns));
+        return;
+      }
+    }
+    out.rows = static_cast<std::size_t>(rows), out.columns = static_cast<std::size_t>(columns);
+    out.values.assign(out.rows * out.columns, 0.0);
+    for (std::size_t k = 0; k < m.values.size(); ++k) {
+      out.values[static_cast<std::size_t>(m.column_of[k] - 1) * out.rows + static_cast<std::size_t>(m.row_of[k] - 1)] = m.values[k];
+    }
+  }
+
+  static void read_from_file(const MatrixStatement& m, Matrix& out, ElementReader& reader) {
+    if (m.name.empty()) {
+      reader.error("missing-argument", reader.at("FILE"), "FILE needs NAME, the name of the matrix in it");
+      return;
+    }
+    const std::filesystem::path path = std::filesystem::path(reader.folder()) / m.file;
+    std::ifstream in(path, std::ios::binary);
+    if (!in) {
+      reader.error("unreadable-file", reader.at("FILE"), fmt::format("the file {} of {} cannot be read", path.string(), reader.label().text()));
+      return;
+    }
+    std::ostringstream text;
+    text << in.rdbuf();
+    const auto source = std::make_shared<const SourceText>(path.string(), text.str());
+    reader.keep(source);
+    auto matrix = read_matrix_file(source, m.name, reader.diagnostics());
+    if (matrix) out = {matrix->rows, matrix->columns, std::move(matrix->values)};
+  }
+};
+
+}  // namespace
+
+extern constinit const Kind matrix = {"MATRIX",
+                                      "",
+                                      "A table of numbers, written out or from a file.",
+                                      Kind::Role::element,
+                                      detail::argument_infos<MatrixStatement>,
+                                      [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<MatrixSet>(kind); }};
+
+}  // namespace dynalin

@@ -1,0 +1,106 @@
+// The program's state matrices against the nonlinear oracle: generated mechanisms in space with loops, preload, massless
+// links, motions, forces that read reactions and accelerations, and control states, at points where the angular velocity is
+// not parallel to the angular acceleration.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "elements/catalogue.h"
+#include "linear/linear_system.h"
+#include "oracle/oracle.h"
+
+namespace dynalin::oracle {
+namespace {
+
+OraclePoint point_of(const System& system, const OperatingPoint& op) {
+  OraclePoint point;
+  point.time = op.time;
+  const Layout& layout = system.layout();
+  for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
+    const BodyBlock& block = layout.bodies[b];
+    BodyPoint body;
+    body.body_id = static_cast<int>(block.label.id);
+    body.is_point_mass = block.kind == ::dynalin::BodyKind::point_mass;
+    for (std::size_t k = 0; k < 3; ++k) {
+      body.position[k] = op.poses[b].r[k];
+      for (std::size_t c = 0; c < 3; ++c) body.rotation[k][c] = op.poses[b].R(k, c);
+      body.velocity[k] = op.velocity[static_cast<std::size_t>(block.offset) + k];
+      if (block.count == 6) body.angular_velocity[k] = op.velocity[static_cast<std::size_t>(block.offset) + 3 + k];
+    }
+    point.bodies.push_back(body);
+  }
+  for (std::size_t k = 0; k < layout.states.size(); ++k) {
+    const DifferentialState& z = layout.states[k];
+    point.z.push_back({static_cast<ElementClass>(z.type), static_cast<int>(z.owner->id), z.coordinate, op.state[k]});
+  }
+  return point;
+}
+
+ChosenState chosen(const StateLabel& label) {
+  ChosenState s;
+  if (label.type == StateType::part || label.type == StateType::point_mass) {
+    const bool point = label.type == StateType::point_mass;
+    s.kind = label.is_rate ? ChosenState::Kind::rate : ChosenState::Kind::coordinate;
+    s.body_id = static_cast<int>(label.element);
+    s.is_point_mass = point;
+    s.coordinate = label.coordinate - 1 - (label.is_rate ? (point ? 3 : 6) : 0);
+  } else {
+    s.kind = ChosenState::Kind::differential;
+    s.element = static_cast<ElementClass>(label.type);
+    s.element_id = static_cast<int>(label.element);
+    s.index = label.coordinate;
+  }
+  return s;
+}
+
+// Largest difference of an entry beyond what the extrapolation leaves open, relative to the largest entry.
+void expect_agreement(const Eigen::MatrixXd& ours, const Matrix& theirs, const Matrix& error, const char* name) {
+  ASSERT_EQ(static_cast<std::size_t>(ours.rows()), theirs.size()) << name;
+  double scale = 1;
+  for (const auto& row : theirs) {
+    for (const double v : row) scale = std::max(scale, std::abs(v));
+  }
+  for (std::size_t r = 0; r < theirs.size(); ++r) {
+    ASSERT_EQ(static_cast<std::size_t>(ours.cols()), theirs[r].size()) << name;
+    for (std::size_t c = 0; c < theirs[r].size(); ++c) {
+      const double v = ours(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c));
+      EXPECT_NEAR(v, theirs[r][c], 1e-9 * scale + 10 * error[r][c]) << name << "(" << r + 1 << "," << c + 1 << ")";
+    }
+  }
+}
+
+class Agreement : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(Agreement, state_matrices_equal_differences_of_the_nonlinear_model) {
+  for (std::uint64_t seed = GetParam(); seed < GetParam() + 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Mechanism mechanism = random_mechanism(seed);
+    const std::string text = dataset_text(mechanism);
+    auto dataset = parse_dataset(std::make_shared<const SourceText>("generated.adm", text));
+    ASSERT_FALSE(dataset.diagnostics.has_errors()) << render(dataset.diagnostics) << text;
+    auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
+    ASSERT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics);
+    const System system{std::shared_ptr<const Model>(std::move(model.value))};
+    Findings findings;
+    const auto op = initial_conditions(system, findings);
+    ASSERT_TRUE(op) << op.error().message << "\n" << text;
+
+    LinearOptions options;
+    options.pinput = system.model().find("PINPUT", 1);
+    options.poutput = system.model().find("POUTPUT", 1);
+    const auto linear = linearize(system, *op, options);
+    ASSERT_TRUE(linear) << linear.error().message;
+    std::vector<ChosenState> states;
+    for (const StateLabel& label : linear->model.states) states.push_back(chosen(label));
+    const OracleLinearModel oracle = oracle_linearize(mechanism, point_of(system, *op), states);
+    expect_agreement(linear->model.A, oracle.A, oracle.A_error, "A");
+    expect_agreement(linear->model.B, oracle.B, oracle.B_error, "B");
+    expect_agreement(linear->model.C, oracle.C, oracle.C_error, "C");
+    expect_agreement(linear->model.D, oracle.D, oracle.D_error, "D");
+    ASSERT_FALSE(::testing::Test::HasFailure()) << text;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(generated, Agreement, ::testing::Range<std::uint64_t>(1, 201, 20));
+
+}  // namespace
+}  // namespace dynalin::oracle
