@@ -72,8 +72,14 @@ class StaticEquations {
   // Tangent with `hold` times a typical stiffness added to the coordinates, and to states if `hold_states`.
   ColumnMatrix tangent(double hold, bool hold_states) const {
     std::vector<double> diagonal(static_cast<std::size_t>(saddle_.size()), 0.0);
+    // The largest entry of the tangent as force per length.
     double stiffness = 0;
-    for (const double v : eq_.matrix(Column::position).value) stiffness = std::max(stiffness, std::abs(v));
+    const ColumnMatrix& K = eq_.matrix(Column::position);
+    for (std::int32_t c = 0; c < K.columns; ++c) {
+      for (auto k = static_cast<std::size_t>(K.start[static_cast<std::size_t>(c)]); k < static_cast<std::size_t>(K.start[static_cast<std::size_t>(c) + 1]); ++k) {
+        if (K.row[k] < layout_coordinates()) stiffness = std::max(stiffness, std::abs(K.value[k]) * force_unit(K.row[k]) * force_unit(c));
+      }
+    }
     if (stiffness == 0) stiffness = 1;
     for (std::size_t k = 0; k < system_.coordinates(); ++k) {
       const double s = system_.length() / system_.coordinate_scale(static_cast<std::int32_t>(k));
@@ -86,9 +92,9 @@ class StaticEquations {
   }
 
  private:
-  double force_unit(Eigen::Index k) const {
-    return system_.coordinate_scale(static_cast<std::int32_t>(k)) / system_.length();
-  }
+  // 1 for a force, 1/length for a moment.
+  double force_unit(Eigen::Index k) const { return system_.coordinate_scale(static_cast<std::int32_t>(k)) / system_.length(); }
+  std::int32_t layout_coordinates() const { return system_.layout().coordinate_count; }
   void measure_forces(const OperatingPoint& op) {
     force_scale_ = 0;
     for (std::int32_t k = 0; k < rows_.size(); ++k) {
@@ -136,23 +142,30 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   auto assembled = assemble_position(system, std::move(op), findings);
   if (!assembled) return assembled;
   op = std::move(*assembled);
-  // Reactions and algebraic values of the resting model are the best first guess; without masses there is none.
-  Findings ignored;
-  if (auto guess = solve_acceleration(system, op, ignored)) {
-    op = std::move(*guess);
-    rest(op);
-  }
+  // Far from the solution the constraints are kept and reactions and algebraic values taken from the resting model, so
+  // that the imbalance speaks of the pose alone. Without masses there are no such values and the step's own are kept.
+  const auto settle = [&](OperatingPoint& p) {
+    Findings ignored;
+    if (auto joined = assemble_position(system, p, ignored)) p = std::move(*joined);
+    if (auto guess = solve_acceleration(system, p, ignored)) {
+      p = std::move(*guess);
+      rest(p);
+    }
+  };
+  settle(op);
 
   StaticEquations equations(system);
   const Saddle& saddle = equations.saddle();
   std::vector<std::string> history;
-  double hold = 1, before = std::numeric_limits<double>::infinity();
+  double force = 0, hold = 1, before = std::numeric_limits<double>::infinity();
   bool held_states = false, transient = false;
   for (int iteration = 0; iteration < options.iteration_limit; ++iteration) {
     equations.evaluate(op, true);
     findings.redundant_rows = equations.partition().redundant;
     report = {iteration, equations.imbalance()};
-    const double force = equations.force_scale(), merit = equations.merit(force);
+    // One yardstick for the whole search, or a step could pass by growing what it is measured against.
+    force = std::max(force, equations.force_scale());
+    const double merit = equations.merit(force);
     if (!std::isfinite(merit)) {
       const std::string reason = system.fault(system.motion(op));
       return tl::unexpected(Failure{"statics", reason.empty() ? "a force has no finite value" : reason, history});
@@ -175,10 +188,11 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
     };
     const auto attempt = [&](const Eigen::VectorXd& step, double fraction, double allowed) {
       OperatingPoint next = moved(system, op, saddle, step, fraction, options.rotation_limit);
+      if (level > 1e-6) settle(next);
       equations.evaluate(next, false);
       const double after = equations.merit(force);
       if (!(after <= allowed)) return false;
-      hold *= std::clamp(std::sqrt(after / merit), 0.1, 2.0);
+      hold *= after <= merit ? std::clamp(0.5 * std::sqrt(after / merit), 0.05, 0.5) : 2.0;
       op = std::move(next);
       system.remember(op);
       return true;

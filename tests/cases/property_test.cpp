@@ -67,7 +67,7 @@ std::string mechanism(const Variation& v) {
   marker(10, 1, {0.25, 0.2, -0.3}, R1), marker(20, 2, {0.6, 0.15, -0.65}, R2), marker(30, 3, {1.0, -0.2, -0.9}, R3);
   marker(1, 0, {0, 0, 0}, F), marker(11, 1, {0, 0, 0}, F);
   // The two z axes of the cross must be perpendicular.
-  const Matrix3 crossed{F.z, F.x, F.y};
+  const Matrix3 crossed{F.x, -F.z, F.y};
   marker(12, 1, {0.4, 0.3, -0.5}, F), marker(21, 2, {0.4, 0.3, -0.5}, crossed);
   marker(22, 2, {0.8, 0, -0.7}, crossed), marker(31, 3, {0.8, 0, -0.7}, crossed);
   marker(2, 0, {1.5, 0.5, 0.8}, F), marker(3, 0, {-0.8, 0.9, 0.4}, F), marker(32, 3, {1.1, -0.2, -0.8}, F);
