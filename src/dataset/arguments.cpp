@@ -165,13 +165,14 @@ void ArgumentSplitter::read_value(ArgumentDraft& draft) {
     result_.damaged = true;
     while (symbol_at(at_, '=')) ++at_;
   }
-  // The value may begin on the next line.
-  while (at_ < tokens_.size() && tokens_[at_].continuation && !assignment_at(after_comma(at_))) {
+  const ValueForm form = value_form(statement_, argument.name.text());
+  // The value may begin on the next line, but for a comment, which may be empty.
+  while (form != ValueForm::rest_of_line && at_ < tokens_.size() && tokens_[at_].continuation &&
+         !assignment_at(after_comma(at_))) {
     ++at_;
   }
   argument.has_value = true;
   draft.begin = draft.end = at_;
-  const ValueForm form = value_form(statement_, argument.name.text());
   at_ = form == ValueForm::tokens ? end_of_value(draft) : end_of_text(at_, form);
   draft.end = at_;
   if (draft.begin < draft.end) {
@@ -180,6 +181,7 @@ void ArgumentSplitter::read_value(ArgumentDraft& draft) {
     return;
   }
   argument.value_span = {&source_, tokens_[equals].offset + 1, 0};
+  if (form == ValueForm::rest_of_line) return;
   damage(argument, "missing-value", equals,
          std::string(argument.name.text()) + " has no value after '='");
 }
@@ -187,7 +189,7 @@ void ArgumentSplitter::read_value(ArgumentDraft& draft) {
 // Raw text ends with the line, at a comma, or where another assignment begins without doubt.
 std::size_t ArgumentSplitter::end_of_text(std::size_t begin, ValueForm form) const {
   for (std::size_t i = begin; i < tokens_.size(); ++i) {
-    if (i > begin && line_end_before(i)) return i;
+    if ((i > begin || form == ValueForm::rest_of_line) && line_end_before(i)) return i;
     if (symbol_at(i, '\\')) {
       const std::size_t next = symbol_at(i + 1, ',') ? after_comma(i + 1) : i + 1;
       if (assignment_at(next)) return i;
@@ -252,7 +254,6 @@ bool ArgumentSplitter::value_ends_at_comma(std::size_t begin, std::size_t comma,
 // A forgotten comma: a complete operand, and then an argument.
 bool ArgumentSplitter::value_ends_before_word(std::size_t begin, std::size_t i,
                                               const WrittenArgument& argument) const {
-  // The marks of continuation lines are skipped to see what the word really follows.
   if (i <= begin || !ends_operand(i - 1)) return false;
   if (assignment_at(i)) return true;
   return !argument.damaged && blank_before(i) && stands_alone(i);

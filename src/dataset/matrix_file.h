@@ -1,20 +1,31 @@
-// Named matrices out of files of other programs: MATRIXx FSAVE and ADAMSMAT.
+// Reads one named matrix out of a file of matrices: ADAMSMAT, MATRIXx FSAVE, or MATSAVE laid out
+// like FSAVE.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "base/source.h"
 
 namespace dynalin {
 
-struct FileMatrix {
-  std::size_t rows = 0, columns = 0;
+struct MatrixData {
+  std::string name;  // as the file writes it
+  std::int32_t rows = 0, columns = 0;
   std::vector<double> values;  // column by column
 };
 
-// The matrix `name` (case is not significant) of the file; what is wrong is reported at its place in the file.
-std::optional<FileMatrix> read_matrix_file(const SourceRef&, std::string_view name, Diagnostics&);
+// The matrix of that name in any case; an empty name takes the only matrix of the file. `asked_at`
+// is the place that names the matrix, for the message if it is missing. Problems inside the file
+// are reported at their place in the file, which must outlive the diagnostics.
+std::optional<MatrixData> read_matrix(const SourceText& file, std::string_view name,
+                                      const Span& asked_at, Diagnostics& diagnostics);
+
+// The matrices of the file in their order.
+std::vector<std::string> matrix_names(const SourceText& file);
 
 }  // namespace dynalin

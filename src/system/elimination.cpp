@@ -15,6 +15,7 @@ struct WorkRow {
   std::vector<std::pair<std::int32_t, double>> entries;  // ascending columns
   double first_size = 0;                                 // largest entry as given
   double size = 0;                                       // largest entry now
+  std::int32_t reach = 0;                                // the latest place in the order among its columns
   bool active = true;
 
   const double* find(std::int32_t column) const {
@@ -22,27 +23,32 @@ struct WorkRow {
                                      [](const auto& e, std::int32_t c) { return e.first < c; });
     return it != entries.end() && it->first == column ? &it->second : nullptr;
   }
-  void measure() {
+  void measure(const std::vector<std::int32_t>& place) {
     size = 0;
-    for (const auto& [c, v] : entries) size = std::max(size, std::abs(v));
+    reach = 0;
+    for (const auto& [c, v] : entries) {
+      size = std::max(size, std::abs(v));
+      reach = std::max(reach, place[static_cast<std::size_t>(c)]);
+    }
   }
 };
 
 class Eliminator {
  public:
-  Eliminator(std::vector<SparseRow> rows, std::int32_t columns, const EliminationOptions& options)
-      : options_(options), holders_(static_cast<std::size_t>(columns)) {
+  Eliminator(std::vector<SparseRow> rows, std::int32_t columns, std::span<const std::int32_t> order, const EliminationOptions& options)
+      : options_(options), order_(order), place_(static_cast<std::size_t>(columns)), holders_(static_cast<std::size_t>(columns)) {
+    for (std::size_t k = 0; k < order.size(); ++k) place_[static_cast<std::size_t>(order[k])] = static_cast<std::int32_t>(k);
     result_.pivot_column.assign(rows.size(), -1);
     result_.dependent.assign(static_cast<std::size_t>(columns), false);
     rows_.resize(rows.size());
     for (std::size_t r = 0; r < rows.size(); ++r) load(r, rows[r]);
   }
 
-  Elimination run(std::span<const std::int32_t> order) {
+  Elimination run() {
     // A row whose large entries were passed over may be left with them alone: offer those columns again.
     while (remaining_ > 0) {
       const std::size_t before = remaining_;
-      for (const std::int32_t c : order) {
+      for (const std::int32_t c : order_) {
         if (!result_.dependent[static_cast<std::size_t>(c)]) offer(c);
         if (remaining_ == 0) break;
       }
@@ -58,7 +64,7 @@ class Eliminator {
       if (given.value[k] != 0.0) row.entries.emplace_back(given.column[k], given.value[k]);
     }
     std::sort(row.entries.begin(), row.entries.end());
-    row.measure();
+    row.measure(place_);
     row.first_size = row.size;
     const double cut = rounding * row.size;
     std::erase_if(row.entries, [&](const auto& e) { return std::abs(e.second) <= cut; });
@@ -74,17 +80,20 @@ class Eliminator {
     auto& holders = holders_[static_cast<std::size_t>(column)];
     std::sort(holders.begin(), holders.end());
     holders.erase(std::unique(holders.begin(), holders.end()), holders.end());
+    // Rows that end soonest in the order go first: what loops leave over then lives on few columns, and dependent rows
+    // vanish there instead of being carried through the whole model. Among equals the sparsest.
     std::int32_t best = -1;
-    std::size_t best_count = std::numeric_limits<std::size_t>::max();
+    auto best_key = std::pair(std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::size_t>::max());
     std::size_t kept = 0;
     for (const std::int32_t r : holders) {
       const WorkRow& row = rows_[static_cast<std::size_t>(r)];
       const double* v = row.active ? row.find(column) : nullptr;
       if (!v) continue;
       holders[kept++] = r;
-      if (std::abs(*v) >= options_.pivot_threshold * row.size && row.entries.size() < best_count) {
+      const auto key = std::pair(row.reach, row.entries.size());
+      if (std::abs(*v) >= options_.pivot_threshold * row.size && key < best_key) {
         best = r;
-        best_count = row.entries.size();
+        best_key = key;
       }
     }
     holders.resize(kept);
@@ -127,7 +136,7 @@ class Eliminator {
       ++b;
     }
     row.entries.assign(merged_.begin(), merged_.end());
-    row.measure();
+    row.measure(place_);
     if (row.size <= options_.rank_tolerance * row.first_size) {
       row.active = false;
       row.entries.clear();
@@ -136,6 +145,8 @@ class Eliminator {
   }
 
   EliminationOptions options_;
+  std::span<const std::int32_t> order_;
+  std::vector<std::int32_t> place_;  // of each column in the order
   std::vector<WorkRow> rows_;
   std::vector<std::vector<std::int32_t>> holders_;  // rows that may hold a column
   std::vector<std::pair<std::int32_t, double>> merged_;
@@ -147,7 +158,7 @@ class Eliminator {
 
 Elimination eliminate(std::vector<SparseRow> rows, std::int32_t columns, std::span<const std::int32_t> order,
                       const EliminationOptions& options) {
-  return Eliminator(std::move(rows), columns, options).run(order);
+  return Eliminator(std::move(rows), columns, order, options).run();
 }
 
 }  // namespace dynalin

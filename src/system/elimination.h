@@ -1,8 +1,8 @@
 // Rank-revealing elimination of constraint rows with preferred pivot columns.
 //
 // Columns are offered as pivots in a given order, the least wanted states first. A column becomes dependent where
-// some row of the remaining system has an entry of at least τ times the largest of that row; the sparsest such row is
-// taken. Rows that vanish are redundant, columns that never gave a pivot are independent: one elimination answers both
+// some row of the remaining system has an entry of at least τ times the largest of that row; of such rows the one whose
+// columns end soonest in the order is taken. Rows that vanish are redundant, columns that never gave a pivot are independent: one elimination answers both
 // questions, and dependent coordinates are combinations of the independent ones with factors of at most 1/τ a step.
 #pragma once
 

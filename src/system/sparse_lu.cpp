@@ -1,8 +1,11 @@
 #include "system/sparse_lu.h"
 
+#include <dmumps_c.h>
 #include <klu.h>
 
 #include <algorithm>
+#include <cmath>
+#include <mutex>
 
 namespace dynalin {
 
@@ -48,16 +51,117 @@ ColumnMatrix compressed(std::int32_t rows, std::int32_t columns, std::span<const
   return m;
 }
 
+namespace {
+
+// Without loops KLU fills in almost nothing and is the fastest; its prediction of more than this many entries for each
+// of the matrix means loops in all directions, where nested dissection (MUMPS with METIS) wins by orders.
+constexpr double klu_fill_limit = 4;
+constexpr std::int32_t smallest_for_mumps = 2000;
+
+// KLU: left-looking LU with a block triangular form.
+class KluFactors {
+ public:
+  KluFactors() { klu_defaults(&common_); }
+  ~KluFactors() {
+    klu_free_numeric(&numeric_, &common_);
+    klu_free_symbolic(&symbolic_, &common_);
+  }
+  KluFactors(const KluFactors&) = delete;
+  KluFactors& operator=(const KluFactors&) = delete;
+
+  bool analyse(ColumnMatrix& m) {
+    // A stricter pivot choice than KLU's default: accuracy of the state matrix is worth the fill.
+    common_.tol = 0.1;
+    symbolic_ = klu_analyze(m.columns, m.start.data(), m.row.data(), &common_);
+    return symbolic_ != nullptr;
+  }
+  double predicted_entries() const { return symbolic_->lnz + symbolic_->unz; }
+  bool factor(ColumnMatrix& m) {
+    numeric_ = klu_factor(m.start.data(), m.row.data(), m.value.data(), symbolic_, &common_);
+    if (!numeric_ || common_.status == KLU_SINGULAR) return false;
+    klu_rcond(symbolic_, numeric_, &common_);
+    return common_.rcond > 1e-17;
+  }
+  void solve(double* x, int n) { klu_solve(symbolic_, numeric_, n, 1, x, &common_); }
+  void solve_transposed(double* x, int n) { klu_tsolve(symbolic_, numeric_, n, 1, x, &common_); }
+  std::size_t entries() const { return static_cast<std::size_t>(numeric_->lnz) + static_cast<std::size_t>(numeric_->unz); }
+
+ private:
+  klu_common common_{};
+  klu_symbolic* symbolic_ = nullptr;
+  klu_numeric* numeric_ = nullptr;
+};
+
+// MUMPS: multifrontal LU with nested dissection. Its Fortran core keeps state of its own: one call at a time.
+class MumpsFactors {
+ public:
+  MumpsFactors() {
+    id_.job = -1, id_.par = 1, id_.sym = 0, id_.comm_fortran = use_comm_world;
+    call();
+    for (const int k : {1, 2, 3, 4}) control(k) = 0;  // no printing
+    control(7) = 5;                                    // METIS
+    control(14) = 60;                                  // room for delayed pivots, percent
+    id_.cntl[0] = 0.1;                                 // pivot threshold
+  }
+  ~MumpsFactors() {
+    id_.job = -2;
+    call();
+  }
+  MumpsFactors(const MumpsFactors&) = delete;
+  MumpsFactors& operator=(const MumpsFactors&) = delete;
+
+  bool factor(ColumnMatrix& m) {
+    for (std::int32_t c = 0; c < m.columns; ++c) {
+      for (std::int32_t k = m.start[static_cast<std::size_t>(c)]; k < m.start[static_cast<std::size_t>(c) + 1]; ++k) {
+        row_.push_back(m.row[static_cast<std::size_t>(k)] + 1);
+        column_.push_back(c + 1);
+      }
+    }
+    id_.n = m.rows;
+    id_.nnz = static_cast<MUMPS_INT8>(m.value.size());
+    id_.irn = row_.data(), id_.jcn = column_.data(), id_.a = m.value.data();
+    control(24) = 1;       // null pivots are counted, not divided by
+    id_.cntl[2] = -1e-14;  // relative to the scaled matrix
+    for (int tries = 0; tries < 4; ++tries) {
+      id_.job = 4;
+      call();
+      // −8, −9: the working space was too small for the pivots that had to be delayed.
+      if (id_.infog[0] != -8 && id_.infog[0] != -9) break;
+      control(14) *= 3;
+    }
+    return id_.infog[0] == 0 && id_.infog[27] == 0;
+  }
+  void solve(double* x) { back_substitute(x, 1); }
+  void solve_transposed(double* x) { back_substitute(x, 0); }
+  std::size_t entries() const { return id_.infog[28] < 0 ? static_cast<std::size_t>(-id_.infog[28]) * 1000000u : static_cast<std::size_t>(id_.infog[28]); }
+
+ private:
+  static constexpr int use_comm_world = -987654;
+  int& control(int k) { return id_.icntl[k - 1]; }
+  void back_substitute(double* x, int plain) {
+    id_.rhs = x, id_.nrhs = 1, id_.lrhs = id_.n;
+    control(9) = plain;
+    id_.job = 3;
+    call();
+  }
+  void call() {
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
+    dmumps_c(&id_);
+  }
+  DMUMPS_STRUC_C id_{};
+  std::vector<int> row_, column_;
+};
+
+}  // namespace
+
 struct SparseLu::Factors {
   ColumnMatrix matrix;
-  mutable klu_common common{};
-  klu_symbolic* symbolic = nullptr;
-  klu_numeric* numeric = nullptr;
+  std::unique_ptr<KluFactors> klu;
+  std::unique_ptr<MumpsFactors> mumps;
 
-  ~Factors() {
-    klu_free_numeric(&numeric, &common);
-    klu_free_symbolic(&symbolic, &common);
-  }
+  void solve(double* x) const { mumps ? mumps->solve(x) : klu->solve(x, matrix.rows); }
+  void solve_transposed(double* x) const { mumps ? mumps->solve_transposed(x) : klu->solve_transposed(x, matrix.rows); }
 };
 
 SparseLu::SparseLu() = default;
@@ -67,53 +171,48 @@ SparseLu& SparseLu::operator=(SparseLu&&) noexcept = default;
 
 bool SparseLu::factor(ColumnMatrix matrix) {
   auto f = std::make_unique<Factors>();
-  klu_defaults(&f->common);
-  // A stricter pivot choice than KLU's default: accuracy of the state matrix is worth the fill.
-  f->common.tol = 0.1;
   f->matrix = std::move(matrix);
   ColumnMatrix& m = f->matrix;
-  if (m.rows == 0) {
-    factors_ = std::move(f);
-    return true;
+  if (m.rows > 0) {
+    f->klu = std::make_unique<KluFactors>();
+    if (!f->klu->analyse(m)) return false;
+    if (m.rows >= smallest_for_mumps && f->klu->predicted_entries() > klu_fill_limit * static_cast<double>(m.value.size())) {
+      f->klu.reset();
+      f->mumps = std::make_unique<MumpsFactors>();
+      if (!f->mumps->factor(m)) return false;
+    } else if (!f->klu->factor(m)) {
+      return false;
+    }
   }
-  f->symbolic = klu_analyze(m.columns, m.start.data(), m.row.data(), &f->common);
-  if (!f->symbolic) return false;
-  f->numeric = klu_factor(m.start.data(), m.row.data(), m.value.data(), f->symbolic, &f->common);
-  if (!f->numeric || f->common.status == KLU_SINGULAR) return false;
-  klu_rcond(f->symbolic, f->numeric, &f->common);
-  if (!(f->common.rcond > 1e-17)) return false;
   factors_ = std::move(f);
   return true;
 }
 
 void SparseLu::solve(Eigen::Ref<Eigen::MatrixXd> B) const {
-  Factors& f = *factors_;
-  const int n = f.matrix.rows;
+  const Factors& f = *factors_;
+  const auto n = static_cast<std::size_t>(f.matrix.rows);
   if (n == 0) return;
   for (Eigen::Index c = 0; c < B.cols(); ++c) {
     Eigen::VectorXd b = B.col(c), x = b;
-    klu_solve(f.symbolic, f.numeric, n, 1, x.data(), &f.common);
-    f.matrix.multiply_add({x.data(), static_cast<std::size_t>(n)}, {b.data(), static_cast<std::size_t>(n)}, -1.0);
-    klu_solve(f.symbolic, f.numeric, n, 1, b.data(), &f.common);
+    f.solve(x.data());
+    f.matrix.multiply_add({x.data(), n}, {b.data(), n}, -1.0);
+    f.solve(b.data());
     B.col(c) = x + b;
   }
 }
 
 void SparseLu::solve_transposed(Eigen::Ref<Eigen::MatrixXd> B) const {
-  Factors& f = *factors_;
+  const Factors& f = *factors_;
   if (f.matrix.rows == 0) return;
   for (Eigen::Index c = 0; c < B.cols(); ++c) {
     Eigen::VectorXd x = B.col(c);
-    klu_tsolve(f.symbolic, f.numeric, f.matrix.rows, 1, x.data(), &f.common);
+    f.solve_transposed(x.data());
     B.col(c) = x;
   }
 }
 
-double SparseLu::reciprocal_condition() const { return factors_->common.rcond; }
-
 std::size_t SparseLu::entries() const {
-  if (!factors_->numeric) return 0;
-  return static_cast<std::size_t>(factors_->numeric->lnz) + static_cast<std::size_t>(factors_->numeric->unz);
+  return factors_->mumps ? factors_->mumps->entries() : factors_->klu ? factors_->klu->entries() : 0;
 }
 
 }  // namespace dynalin

@@ -1,4 +1,5 @@
-// Sparse direct solution of square systems, behind one small interface (KLU).
+// Sparse direct solution of square systems, behind one small interface: KLU for tree-like patterns, MUMPS where loops
+// would fill it in. The prediction of KLU's own analysis decides.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,8 +30,6 @@ class SparseLu {
   // Solves in place with one step of iterative refinement; every column of B is a right-hand side.
   void solve(Eigen::Ref<Eigen::MatrixXd> B) const;
   void solve_transposed(Eigen::Ref<Eigen::MatrixXd> B) const;
-  // Estimated reciprocal condition number.
-  double reciprocal_condition() const;
   std::size_t entries() const;  // of the factors
 
  private:

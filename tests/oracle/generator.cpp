@@ -3,9 +3,12 @@
 // drawn in natural units (a length, a force that moves a unit mass at ten lengths per time squared) so
 // that every unit system gives equally gentle numbers.
 #include <algorithm>
+#include <iterator>
 #include <numbers>
 #include <random>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
 #include "model.h"
 
@@ -28,7 +31,10 @@ constexpr BodyRef ground{BodyKind::ground, 1};
 
 class Draw {
  public:
-  Draw(std::uint64_t seed, std::uint64_t attempt) : random_(seed * 1000003U + attempt * 7919U + 17U) {}
+  Draw(std::uint64_t seed, std::uint64_t attempt)
+      : random_(seed * 1000003U + attempt * 7919U + 17U),
+        wanted_loops_(seed % 10 == 0 ? 2 : (seed % 5 < 2 ? 1 : 0)),
+        wanted_motions_(seed % 3 == 0 ? 1 : 0) {}
   [[nodiscard]] Mechanism mechanism();
 
  private:
@@ -60,6 +66,7 @@ class Draw {
   void draw_differential_elements();
   void draw_sforces();
   void draw_outputs();
+  void check_structure() const;
   void check() const;
   void check_nodes(const Model& model, const Expr& e) const;
 
@@ -80,6 +87,8 @@ class Draw {
   }
 
   std::mt19937_64 random_;
+  // Rejection starves loops and motions; some seeds insist on them.
+  int wanted_loops_ = 0, wanted_motions_ = 0;
   Mechanism m_;
   double L_ = 1, F_ = 10;  // natural length and force
   std::vector<BodyRef> bodies_{ground};
@@ -218,8 +227,8 @@ void Draw::draw_tree() {
 }
 
 void Draw::draw_loops() {
-  if (!chance(0.7)) return;
-  const int wanted = 1 + pick(2);
+  if (wanted_loops_ == 0 && !chance(0.5)) return;
+  const int wanted = std::max(wanted_loops_, 1 + pick(2));
   int closed = 0;
   for (int attempt = 0; attempt < 12 && closed < wanted; ++attempt) {
     const BodyRef a = one_of(bodies_), b = one_of(bodies_);
@@ -648,8 +657,14 @@ void check_conditioning(Model& model, const std::vector<ChosenState>& states) {
   }
 }
 
-void Draw::check() const {
+void Draw::check_structure() const {
   if (mobility() < 1 || mobility() > 9) throw std::runtime_error("the mobility is out of range");
+  const Features f = features_of(m_);
+  if (f.loops < wanted_loops_) throw std::runtime_error("the seed wants more loops");
+  if (f.motions < wanted_motions_) throw std::runtime_error("the seed wants a motion");
+}
+
+void Draw::check() const {
   Model model(m_);
   const OraclePoint point = drawn_point(m_);
   place(model, point);
@@ -678,6 +693,7 @@ Mechanism Draw::mechanism() {
   draw_tree();
   draw_loops();
   draw_motions();
+  check_structure();
   draw_massless();
   draw_measure_markers();
   draw_velocities();

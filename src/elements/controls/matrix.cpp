@@ -116,8 +116,8 @@ class MatrixSet final : public TypedSet<Matrix> {
     text << in.rdbuf();
     const auto source = std::make_shared<const SourceText>(path.string(), text.str());
     reader.keep(source);
-    auto matrix = read_matrix_file(source, m.name, reader.diagnostics());
-    if (matrix) out = {matrix->rows, matrix->columns, std::move(matrix->values)};
+    auto matrix = read_matrix(*source, m.name, reader.at("NAME"), reader.diagnostics());
+    if (matrix) out = {static_cast<std::size_t>(matrix->rows), static_cast<std::size_t>(matrix->columns), std::move(matrix->values)};
   }
 };
 

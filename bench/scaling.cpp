@@ -1,0 +1,134 @@
+// How time and memory grow with the model: reading, initial conditions, assembly and elimination, for chains and for a
+// lattice of loops with redundant joints.
+//
+//     scaling chain 100000      a chain of revolute joints with a spring at each
+//     scaling tangled 100000    the same chain with its parts numbered at random
+//     scaling lattice 10000     a bar of 3 × 3 × n/9 bodies, hinged to all neighbours
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <numeric>
+#include <random>
+
+#include "analysis/initial.h"
+#include "elements/catalogue.h"
+#include "system/system.h"
+
+namespace {
+
+using namespace dynalin;
+
+class Clock {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> d = now - last_;
+    last_ = now;
+    return d.count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+double peak_megabytes() {
+  std::ifstream in("/proc/self/status");
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024;
+  }
+  return 0;
+}
+
+std::string chain(int n, bool tangled) {
+  std::vector<int> id(static_cast<std::size_t>(n) + 1);
+  std::iota(id.begin(), id.end(), 1);
+  if (tangled) std::shuffle(id.begin() + 1, id.end(), std::mt19937(1));
+  std::string text = "chain\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\n";
+  for (int k = 1; k <= n; ++k) {
+    const int p = id[static_cast<std::size_t>(k)], m = 4 * p;
+    const int before = k == 1 ? 1 : 4 * id[static_cast<std::size_t>(k) - 1] + 2;
+    text += fmt::format("PART/{}, MASS=1, CM={}, IP=0.1,0.1,0.1, QG=0,{},0\nMARKER/{}, QP=0,-0.5,0\nMARKER/{}\nMARKER/{}, QP=0,-1,0\n", p, m, 1 - k, m,
+                        m + 1, m + 2);
+    text += fmt::format("JOINT/{0}, REVOLUTE, I={1}, J={2}\nSPRINGDAMPER/{0}, ROTATIONAL, I={1}, J={2}, KT=10, CT=0.1\n", k, m + 1, before);
+  }
+  return text + "END\n";
+}
+
+std::string lattice(int n) {
+  const int side = 3, layers = std::max(1, n / (side * side));
+  std::string text = "lattice\nUNITS/SYSTEM=MKS\nPART/1, GROUND\n";
+  const auto body = [&](int x, int y, int z) { return (z * side + y) * side + x + 2; };
+  int joint = 0;
+  std::string joints;
+  text += "MARKER/1\n";
+  for (int z = 0; z < layers; ++z) {
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        const int b = body(x, y, z), m = 10 * b;
+        text += fmt::format("PART/{}, MASS=1, CM={}, IP=0.1,0.1,0.1, QG={},{},{}\nMARKER/{}\n", b, m, x, y, z, m);
+        // Hinges halfway to the six neighbours; axes along the next direction in turn.
+        static constexpr const char* places[] = {"0.5,0,0", "-0.5,0,0", "0,0.5,0", "0,-0.5,0", "0,0,0.5", "0,0,-0.5"};
+        static constexpr const char* axes[] = {"0,0,0", "0,0,0", "90D,90D,0", "90D,90D,0", "0,90D,0", "0,90D,0"};
+        for (int k = 0; k < 6; ++k) text += fmt::format("MARKER/{}, QP={}, REULER={}\n", m + 1 + k, places[k], axes[k]);
+        const auto hinge = [&](int other, int k) {
+          joints += fmt::format("JOINT/{}, REVOLUTE, I={}, J={}\n", ++joint, m + 1 + k, 10 * other + 2 + k);
+        };
+        if (x + 1 < side) hinge(body(x + 1, y, z), 0);
+        if (y + 1 < side) hinge(body(x, y + 1, z), 2);
+        if (z + 1 < layers) hinge(body(x, y, z + 1), 4);
+      }
+    }
+  }
+  joints += fmt::format("MARKER/2, PART=1, QP=0,0,-0.5, REULER=0,90D,0\nJOINT/{}, REVOLUTE, I={}, J=2\n", ++joint, 10 * body(0, 0, 0) + 6);
+  return text + joints + "END\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) return fmt::print("usage: scaling chain|tangled|lattice BODIES\n"), 3;
+  const int n = std::atoi(argv[2]);
+  const std::string kind = argv[1];
+  const std::string text = kind == "lattice" ? lattice(n) : chain(n, kind == "tangled");
+  fmt::print("{} of {} bodies, {:.1f} MB of text\n", kind, n, static_cast<double>(text.size()) / 1e6);
+
+  Clock clock;
+  auto parsed = parse_dataset(std::make_shared<const SourceText>("bench.adm", text));
+  fmt::print("  statements        {:8.3f} s\n", clock.lap());
+  auto built = build_model(std::make_shared<const Dataset>(std::move(parsed.value)), catalogue());
+  if (parsed.diagnostics.has_errors() || built.diagnostics.has_errors()) {
+    fmt::print("{}{}", render(parsed.diagnostics, 5), render(built.diagnostics, 5));
+    return 1;
+  }
+  fmt::print("  model             {:8.3f} s\n", clock.lap());
+  const System system{std::shared_ptr<const Model>(std::move(built.value))};
+  fmt::print("  system            {:8.3f} s\n", clock.lap());
+
+  Findings findings;
+  auto op = assemble_position(system, system.drawn(), findings);
+  if (op) op = initial_velocity(system, std::move(*op), findings);
+  if (!op) return fmt::print("failed: {}\n", op.error().message), 2;
+  fmt::print("  position, velocity{:8.3f} s\n", clock.lap());
+  op = solve_acceleration(system, std::move(*op), findings);
+  if (!op) return fmt::print("failed: {}\n", op.error().message), 2;
+  fmt::print("  acceleration      {:8.3f} s\n", clock.lap());
+
+  ConstraintRows rows;
+  rows.resize(system.layout());
+  Equations eq;
+  eq.resize(system.layout());
+  const Motion motion = system.motion(*op);
+  const auto all = {Column::position, Column::velocity, Column::damping, Column::acceleration, Column::lambda, Column::algebraic, Column::state, Column::state_rate};
+  system.constraints(motion, rows);
+  system.equations(motion, rows, eq, all);
+  clock.lap();
+  system.constraints(motion, rows);
+  fmt::print("  constraint rows   {:8.3f} s\n", clock.lap());
+  system.equations(motion, rows, eq, all);
+  fmt::print("  all partials      {:8.3f} s\n", clock.lap());
+  const Partition p = system.partition(rows, false);
+  fmt::print("  elimination       {:8.3f} s   {} rows, {} redundant, {} freedoms\n", clock.lap(), rows.size(), p.redundant.size(), p.independent.size());
+  fmt::print("  peak memory       {:8.0f} MB\n", peak_megabytes());
+}

@@ -1,0 +1,66 @@
+#include "base/source.h"
+
+#include <gtest/gtest.h>
+
+namespace dynalin {
+namespace {
+
+TEST(source_text, counts_lines_and_columns_from_one) {
+  const SourceText source("a.adm", "title\nPART/1\n");
+  EXPECT_EQ(source.line_count(), 2u);
+  EXPECT_EQ(source.line(2), "PART/1");
+  EXPECT_EQ(source.place(0).line, 1u);
+  EXPECT_EQ(source.place(0).column, 1u);
+  EXPECT_EQ(source.place(10).line, 2u);
+  EXPECT_EQ(source.place(10).column, 5u);
+}
+
+TEST(source_text, knows_all_three_line_ends) {
+  const SourceText source("a.adm", "one\r\ntwo\rthree\nfour");
+  ASSERT_EQ(source.line_count(), 4u);
+  EXPECT_EQ(source.line(1), "one");
+  EXPECT_EQ(source.line(2), "two");
+  EXPECT_EQ(source.line(3), "three");
+  EXPECT_EQ(source.line(4), "four");
+  EXPECT_EQ(source.place(5).line, 2u);
+}
+
+TEST(source_text, keeps_empty_lines) {
+  const SourceText source("a.adm", "\n\nx\n");
+  ASSERT_EQ(source.line_count(), 3u);
+  EXPECT_EQ(source.line(1), "");
+  EXPECT_EQ(source.line(3), "x");
+}
+
+TEST(source_text, takes_a_place_behind_the_text_as_its_end) {
+  const SourceText source("a.adm", "one\ntwo\n");
+  EXPECT_EQ(source.place(1000).line, 2u);
+  EXPECT_EQ(source.place(1000).column, 4u);
+}
+
+TEST(source_text, may_be_empty) {
+  const SourceText source("a.adm", "");
+  EXPECT_EQ(source.line_count(), 1u);
+  EXPECT_EQ(source.line(1), "");
+  EXPECT_EQ(source.line(2), "");
+  EXPECT_EQ(source.place(0).line, 1u);
+}
+
+TEST(source_text, drops_a_byte_order_mark) {
+  const SourceText source("a.adm", "\xEF\xBB\xBFtitle\n");
+  EXPECT_EQ(source.text(), "title\n");
+}
+
+TEST(span, joins_from_the_start_of_the_first_to_the_end_of_the_last) {
+  const SourceText source("a.adm", "SFORCE/12, I=1");
+  const Span keyword{&source, 0, 6}, id{&source, 7, 2};
+  EXPECT_EQ(join(keyword, id).text(), "SFORCE/12");
+  EXPECT_EQ(join(id, keyword).text(), "SFORCE/12");
+  EXPECT_EQ(join(Span{}, id).text(), "12");
+  EXPECT_EQ(join(id, Span{}).text(), "12");
+}
+
+TEST(span, without_source_has_no_text) { EXPECT_EQ(Span{}.text(), ""); }
+
+}  // namespace
+}  // namespace dynalin

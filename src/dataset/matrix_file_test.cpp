@@ -1,0 +1,248 @@
+#include "dataset/matrix_file.h"
+
+#include <gtest/gtest.h>
+
+#include "dataset/fortran_format.h"
+#include "dataset/test_reading.h"
+
+namespace dynalin::testing {
+namespace {
+
+using Values = std::vector<double>;
+
+class File {
+ public:
+  explicit File(std::string text) : source_("in.mat", std::move(text)) {}
+  std::optional<MatrixData> read(std::string_view name) {
+    return read_matrix(source_, name, Span{}, diagnostics_);
+  }
+  Texts found() const { return problems(diagnostics_); }
+  const Diagnostic& first() const { return diagnostics_.items().at(0); }
+  const SourceText& source() const { return source_; }
+
+ private:
+  SourceText source_;
+  Diagnostics diagnostics_;
+};
+
+// The values of a matrix that is read without complaint.
+Values values(const std::string& text, std::string_view name) {
+  File file(text);
+  const auto matrix = file.read(name);
+  EXPECT_EQ(file.found(), Texts{});
+  return matrix ? matrix->values : Values{};
+}
+
+const std::string fsave =
+    "MATRIXx                      VERSION   700    3    2024-04-21 19:31:36\n"
+    "A              2    3BC             3    1LONGNAME10    1    1\n"
+    "A              2    3    0(3(1PE25.17))\n"
+    "  1.00000000000000000e+00 -2.00000000000000000e+00  3.00000000000000000e+00\n"
+    "  4.00000000000000000e+00  5.00000000000000000e+00  6.50000000000000000e-01\n"
+    "BC             3    1    0(3(1PE25.17))\n"
+    "  1.00000000000000000e+00  0.00000000000000000e+00  1.00000000000000000e+03\n"
+    "LONGNAME10    1    1    0(1P3E25.17)\n"
+    "  7.00000000000000000D+00\n";
+
+TEST(fsave, holds_its_values_column_by_column) {
+  File file(fsave);
+  const auto matrix = file.read("A");
+  ASSERT_TRUE(matrix);
+  EXPECT_EQ(matrix->rows, 2);
+  EXPECT_EQ(matrix->columns, 3);
+  EXPECT_EQ(matrix->values, (Values{1, -2, 3, 4, 5, 0.65}));
+}
+
+TEST(fsave, finds_names_in_any_case) {
+  EXPECT_EQ(values(fsave, "bc"), (Values{1, 0, 1000}));
+  EXPECT_EQ(values(fsave, "LongName10"), Values{7});
+}
+
+TEST(fsave, keeps_directory_entries_apart_that_touch) {
+  const std::string text =
+      "MATRIXx VERSION 700 3 04-OCT-91 15:27\nAC 1 2BC 2 1CC1 1 1\n"
+      "AC 1 2 0(1P3E25.17)\n1.0E+00 2.0E+00\nBC 2 1 0(1P3E25.17)\n3.0 4.0\nCC1 1 1 0(1P3E25.17)\n5.0\n";
+  EXPECT_EQ(values(text, "AC"), (Values{1, 2}));
+  EXPECT_EQ(values(text, "BC"), (Values{3, 4}));
+  EXPECT_EQ(values(text, "CC1"), Values{5});
+  EXPECT_EQ(matrix_names(SourceText("m", text)), (Texts{"AC", "BC", "CC1"}));
+}
+
+TEST(fsave, reads_fields_that_touch_by_their_columns) {
+  const std::string text =
+      "MATRIXx VERSION 700 1\nA 2 2\nA             2    2    0(3(1PE11.3))\n"
+      " -1.000E+00 -2.000E+00-3.000E+001\n";
+  File file(text);
+  EXPECT_FALSE(file.read("A"));
+  EXPECT_EQ(values("MATRIXx VERSION 700 1\nA 2 2\nA             2    2    0(3(1PE10.3))\n"
+                   "-1.000E+00-2.000E+00-3.000E+00\n 4.000E+00\n",
+                   "A"),
+            (Values{-1, -2, -3, 4}));
+}
+
+TEST(fsave, gives_the_only_matrix_when_no_name_is_asked_for) {
+  EXPECT_EQ(values("MATRIXx\nA 1 1\nA 1 1 0(1P3E25.17)\n 5.\n", ""), Values{5});
+  File file(fsave);
+  EXPECT_FALSE(file.read(""));
+  EXPECT_EQ(file.found(), Texts{"1:1 matrix-missing"});
+}
+
+TEST(fsave, without_the_matrix_lists_those_it_has) {
+  File file(fsave);
+  EXPECT_FALSE(file.read("CC"));
+  EXPECT_EQ(file.found(), Texts{"1:1 matrix-missing"});
+  EXPECT_EQ(file.first().message, "in.mat has no matrix CC");
+  EXPECT_EQ(file.first().hint, "the file holds A, BC and LONGNAME10");
+}
+
+TEST(fsave, points_at_the_statement_that_asks_for_a_missing_matrix) {
+  const SourceText file("in.mat", fsave), deck("a.adm", "x\nNAME=CC\n");
+  Diagnostics diagnostics;
+  EXPECT_FALSE(read_matrix(file, "CC", {&deck, 7, 2}, diagnostics));
+  EXPECT_EQ(problems(diagnostics), Texts{"2:6 matrix-missing"});
+}
+
+TEST(fsave, that_is_cut_short_says_how_many_values_are_there) {
+  File file(fsave.substr(0, fsave.find("BC             3    1    0")));
+  EXPECT_TRUE(file.read("A"));
+  EXPECT_FALSE(file.read("BC"));
+  EXPECT_EQ(file.found(), Texts{"2:21 matrix-truncated"});
+  File values(fsave.substr(0, fsave.find("  4.000")));
+  EXPECT_FALSE(values.read("A"));
+  EXPECT_EQ(values.found(), Texts{"4:77 matrix-truncated"});
+  EXPECT_EQ(values.first().message, "A needs 6 values, 3 found before the file ends");
+}
+
+TEST(fsave, reports_the_wrong_number_of_values) {
+  const std::string start = "MATRIXx\nA 2 1B 1 1\nA 2 1 0(1P3E25.17)\n";
+  File few(start + "1.0\nB 1 1 0(1P3E25.17)\n2.0\n");
+  EXPECT_FALSE(few.read("A"));
+  EXPECT_EQ(few.found(), Texts{"4:4 matrix-count"});
+  File many(start + "1.0 2.0\n 3.0\nB 1 1 0(1P3E25.17)\n2.0\n");
+  EXPECT_FALSE(many.read("A"));
+  EXPECT_EQ(many.found(), Texts{"5:2 matrix-count"});
+}
+
+TEST(fsave, reports_text_among_the_values) {
+  File file("MATRIXx\nA 2 1\nA 2 1 0(1P3E25.17)\n1.0 x\n");
+  EXPECT_FALSE(file.read("A"));
+  EXPECT_EQ(file.found(), Texts{"4:5 matrix-number"});
+}
+
+TEST(fsave, refuses_complex_matrices) {
+  File file("MATRIXx\nA 1 1\nA 1 1 1(1P3E25.17)\n1.0\n2.0\n");
+  EXPECT_FALSE(file.read("A"));
+  EXPECT_EQ(file.found(), Texts{"3:1 matrix-complex"});
+}
+
+TEST(fsave, reports_an_incomplete_header) {
+  File file("MATRIXx\nB 1 1\nA 1 1 0\n1.0\n");
+  EXPECT_FALSE(file.read("A"));
+  EXPECT_EQ(file.found(), Texts{"3:1 matrix-header"});
+}
+
+TEST(fsave, reserves_no_memory_for_values_that_cannot_be_there) {
+  File file("MATRIXx\nA 9999999999\nA 99999 99999 0(1P3E25.17)\n1.0\n");
+  EXPECT_FALSE(file.read("A"));
+  EXPECT_EQ(file.found(), Texts{"3:1 matrix-truncated"});
+}
+
+TEST(fsave, may_hold_an_empty_matrix) {
+  File file("MATRIXx\nA 0 3\nA 0 3 0(1P3E25.17)\n");
+  const auto matrix = file.read("A");
+  ASSERT_TRUE(matrix);
+  EXPECT_EQ(matrix->columns, 3);
+  EXPECT_TRUE(matrix->values.empty());
+}
+
+TEST(matsave, is_read_when_it_looks_like_fsave) {
+  EXPECT_EQ(values("MATSAVE\nA 1 1\nA 1 1 0(1P3E25.17)\n 5.\n", "A"), Values{5});
+}
+
+const std::string adamsmat =
+    "ADAMSMAT   Floating platform\n3\nTRF VALK STL\n"
+    "TRF FULL RORDER 2 3 6 ( 3F8.5 )\n 1.36400 0.00000 2.00000\n-3.44000-1.50000 0.25000\n"
+    "VALK FULL CORDER 2 2 4 ( 3F6.3 )\n 0.000-3.440 1.500\n 2.000\n"
+    "STL SPARSE 3 2 2 ( 2I8, 1E14.6 )\n       1       2  1.500000E+00\n       3       1 -2.500000D+01\n";
+
+TEST(adamsmat, is_read_row_by_row) {
+  File file(adamsmat);
+  const auto matrix = file.read("trf");
+  ASSERT_TRUE(matrix) << file.found()[0];
+  EXPECT_EQ(matrix->rows, 2);
+  EXPECT_EQ(matrix->columns, 3);
+  EXPECT_EQ(matrix->values, (Values{1.364, -3.44, 0, -1.5, 2, 0.25}));
+}
+
+TEST(adamsmat, is_read_column_by_column) {
+  EXPECT_EQ(values(adamsmat, "VALK"), (Values{0, -3.44, 1.5, 2}));
+}
+
+TEST(adamsmat, fills_sparse_matrices) {
+  EXPECT_EQ(values(adamsmat, "STL"), (Values{0, 0, -25, 1.5, 0, 0}));
+}
+
+TEST(adamsmat, mixes_whole_numbers_and_others) {
+  EXPECT_EQ(values("ADAMSMAT\n1\nSELMOD\nSELMOD FULL RORDER 2 2 4 ( 1I8, 1E14.6 )\n"
+                   "       1  0.200000E+01\n       3  0.400000E+01\n",
+                   "SELMOD"),
+            (Values{1, 3, 2, 4}));
+}
+
+TEST(adamsmat, reports_sparse_entries_outside_or_twice) {
+  const std::string head = "ADAMSMAT\n1\nS\nS SPARSE 2 2 2 (2I4,E12.4)\n";
+  File outside(head + "1 1 5.0\n3 1 5.0\n");
+  EXPECT_FALSE(outside.read("S"));
+  EXPECT_EQ(outside.found(), Texts{"4:1 matrix-entry"});
+  File twice(head + "1 1 5.0\n1 1 6.0\n");
+  EXPECT_FALSE(twice.read("S"));
+  EXPECT_EQ(twice.found(), Texts{"4:1 matrix-entry"});
+}
+
+TEST(adamsmat, reports_a_header_that_contradicts_itself) {
+  File file("ADAMSMAT\n1\nT\nT FULL RORDER 2 2 5 (5F8.3)\n1. 2. 3. 4. 5.\n");
+  EXPECT_FALSE(file.read("T"));
+  EXPECT_EQ(file.found(), Texts{"4:1 matrix-header"});
+}
+
+TEST(adamsmat, warns_where_fortran_would_imply_a_point) {
+  File file("ADAMSMAT\n1\nT\nT FULL RORDER 1 2 2 (2F8.3)\n0 1500\n");
+  EXPECT_EQ(file.read("T")->values, (Values{0, 1500}));
+  EXPECT_EQ(file.found(), Texts{"5:3 matrix-implied-point"});
+}
+
+TEST(matrix_file, of_an_unknown_type_is_refused) {
+  for (const char* text : {"", "matrixx\n", "1 2 3\n", "HELLO"}) {
+    File file(text);
+    EXPECT_FALSE(file.read("A"));
+    EXPECT_EQ(file.found(), Texts{"1:1 matrix-file-type"});
+  }
+}
+
+TEST(matrix_file, reports_numbers_that_are_too_large) {
+  File file("MATRIXx\nA 1 1\nA 1 1 0(1P3E25.17)\n 1E999\n");
+  EXPECT_FALSE(file.read("A"));
+  EXPECT_EQ(file.found(), Texts{"3:1 number-overflow"});
+}
+
+TEST(fortran_format, writes_out_repetitions) {
+  EXPECT_EQ(parse_fortran_format("(3(1PE25.17))")->items.size(), 3u);
+  EXPECT_EQ(parse_fortran_format("(1P3E25.17)")->items.size(), 3u);
+  EXPECT_EQ(parse_fortran_format("( 1I8, 1E14.6 )")->items[1].width, 14u);
+  EXPECT_EQ(parse_fortran_format("(2(I4,2(F5.1,2X)),/,D9.2)")->items.size(), 12u);
+}
+
+TEST(fortran_format, goes_on_with_its_last_group) {
+  EXPECT_EQ(parse_fortran_format("(I4,2(F5.1))")->again, 1u);
+  EXPECT_EQ(parse_fortran_format("(I4,F5.1)")->again, 0u);
+}
+
+TEST(fortran_format, refuses_what_it_does_not_know) {
+  for (const char* text : {"", "(", "()", "(A10)", "(3X)", "(3F)", "(F0.3)", "3F8.2", "(9999(9999(F8.2)))",
+                           "((((((((((((((((((((((((F8.2))))))))))))))))))))))))", "(99999999999F8.2)"}) {
+    EXPECT_FALSE(parse_fortran_format(text)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace dynalin::testing

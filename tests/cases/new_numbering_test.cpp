@@ -1,0 +1,169 @@
+// Coordinates outside bodies and rows on velocities are in the numbering: two elements made for this test, a bead on a
+// parabola with its curve parameter as a coordinate, and a knife edge that forbids one velocity.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "elements/catalogue.h"
+#include "linear/eigen.h"
+#include "linear/linear_system.h"
+#include "mechanics/bound_expression.h"
+#include "model/schema.h"
+
+namespace dynalin {
+namespace {
+
+// PTCV/id, I=, RM=a: x_I = s, y_I = a s² in global coordinates, with s a coordinate of its own.
+struct Parabola {
+  MarkerId i;
+  double curvature = 0;
+  static constexpr std::array<Argument<Parabola>, 2> arguments = {{
+      {.name = "I", .slot = &Parabola::i, .required = true},
+      {.name = "DISP", .slot = &Parabola::curvature, .required = true},
+  }};
+};
+
+class ParabolaKernel final : public Kernel {
+ public:
+  ParabolaKernel(const std::vector<Parabola>& elements, const std::vector<ElementLabel>& labels, Layout& layout) : layout_(layout) {
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      const std::array<double, 1> start = {0.0};
+      const std::int32_t s = layout.add_extra(labels[k], {"s"}, start);
+      const std::int32_t first = layout.add_row(labels[k], "x");
+      layout.add_row(labels[k], "y");
+      beads_.push_back({layout.marker(elements[k].i), elements[k].curvature, s, first});
+    }
+  }
+  void constraints(const Motion& motion, ConstraintRows& rows) const override {
+    for (const Bead& b : beads_) {
+      const auto e = static_cast<std::size_t>(b.s - layout_.body_coordinate_count);
+      const Taylor s(motion.extra[e], motion.extra_rate[e], motion.extra_acceleration[e]);
+      const Frame<Taylor> I = motion.frame(b.I);
+      const BodyMotion& body = motion.body(b.I.body);
+      const Vec3<Taylor> arm = I.origin - along_motion(body.r, body.rdot, body.rddot);
+      for (std::int32_t k = 0; k < 2; ++k) {
+        const Vec3<Taylor> e_k{Taylor(k == 0 ? 1.0 : 0.0), Taylor(k == 1 ? 1.0 : 0.0), Taylor(0.0)};
+        rows.set(b.row + k, k == 0 ? I.origin.x - s : I.origin.y - b.a * s * s);
+        rows.add_pose(b.row + k, b.I.body, e_k, cross(arm, e_k));
+        rows.add_coordinate(b.row + k, b.s, k == 0 ? Taylor(-1.0) : -2.0 * b.a * s);
+      }
+    }
+  }
+  void equations(const Motion& motion, Equations& eq) const override {
+    // ∂(Φ_qᵀλ)/∂q: only the second row is curved, in s alone.
+    for (const Bead& b : beads_) {
+      const double lambda = motion.lambda[static_cast<std::size_t>(b.row) + 1];
+      eq.add(Column::position, b.s, b.s, 2.0 * b.a * lambda);
+    }
+  }
+
+ private:
+  struct Bead {
+    MarkerPlace I;
+    double a;
+    std::int32_t s, row;
+  };
+  const Layout& layout_;
+  std::vector<Bead> beads_;
+};
+
+// GCON/id, FUNCTION=: a row on velocities given by an expression linear in them.
+struct KnifeEdge {
+  Expression function;
+  static constexpr std::array<Argument<KnifeEdge>, 1> arguments = {{{.name = "FUNCTION", .slot = &KnifeEdge::function, .required = true}}};
+};
+
+class KnifeEdgeKernel final : public Kernel {
+ public:
+  KnifeEdgeKernel(const std::vector<KnifeEdge>& elements, const std::vector<ElementLabel>& labels, Layout& layout) {
+    for (std::size_t k = 0; k < elements.size(); ++k) rows_.push_back({elements[k].function, layout.add_row(labels[k], "velocity", RowLevel::velocity), {}});
+  }
+  void bind(const Signals& signals) override {
+    for (Row& r : rows_) r.bound = BoundExpression(r.function, signals);
+  }
+  void constraints(const Motion& motion, ConstraintRows& rows) const override {
+    for (const Row& r : rows_) rows.set(r.row, r.bound.add_velocity(motion, rows, r.row));
+  }
+
+ private:
+  struct Row {
+    Expression function;
+    std::int32_t row;
+    BoundExpression bound;
+  };
+  std::vector<Row> rows_;
+};
+
+template <class E, class K>
+class TestSet final : public TypedSet<E> {
+ public:
+  using TypedSet<E>::TypedSet;
+  void read(std::size_t k, ElementReader& reader) override { read_arguments(this->elements[k], reader); }
+  std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override { return std::make_unique<K>(this->elements, this->labels, layout); }
+};
+template <class E, class K>
+constexpr Kind test_kind(std::string_view statement) {
+  return {statement, "", "", Kind::Role::element, detail::argument_infos<E>,
+          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<TestSet<E, K>>(kind); }};
+}
+constexpr Kind parabola = test_kind<Parabola, ParabolaKernel>("PTCV");
+constexpr Kind knife_edge = test_kind<KnifeEdge, KnifeEdgeKernel>("GCON");
+
+Result<LinearSystem> linear_model(const std::string& text) {
+  std::vector<const Kind*> kinds(catalogue().begin(), catalogue().end());
+  kinds.push_back(&parabola);
+  kinds.push_back(&knife_edge);
+  auto dataset = parse_dataset(std::make_shared<const SourceText>("test.adm", text));
+  EXPECT_FALSE(dataset.diagnostics.has_errors()) << render(dataset.diagnostics);
+  auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), kinds);
+  EXPECT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics);
+  const System system{std::shared_ptr<const Model>(std::move(model.value))};
+  Findings findings;
+  const auto op = initial_conditions(system, findings);
+  if (!op) return tl::unexpected(op.error());
+  return linearize(system, *op, {});
+}
+
+TEST(NewNumbering, bead_on_a_parabola_swings_with_the_curvature) {
+  const auto linear = linear_model(
+      "Bead\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nPOINT_MASS/2, MASS=3, CM=2\nMARKER/2\nMARKER/3, PART=1\nPTCV/1, I=2, DISP=1.7\n"
+      "! out of the plane the bead is held by a spring\nMARKER/4, PART=1, QP=0,0,-1\nSPRINGDAMPER/1, TRANSLATIONAL, I=2, J=4, K=12, LENGTH=1\nEND\n");
+  ASSERT_TRUE(linear) << linear.error().message;
+  ASSERT_EQ(linear->model.states.size(), 4u);
+  EXPECT_EQ(linear->model.states[1].type, StateType::point_mass);
+  EXPECT_EQ(linear->model.states[1].coordinate, 1);
+  EXPECT_EQ(linear->model.states[0].coordinate, 4);
+  const auto modes = eigensolve(*linear);
+  ASSERT_TRUE(modes);
+  // ω² = 2 a g along the curve, k/m across it.
+  EXPECT_NEAR(modes->modes[0].eigenvalue_hz.imag(), std::sqrt(12.0 / 3) / (2 * std::numbers::pi), 1e-14);
+  EXPECT_NEAR(modes->modes[1].eigenvalue_hz.imag(), std::sqrt(2 * 1.7 * 9.81) / (2 * std::numbers::pi), 1e-14);
+}
+
+class Sleigh : public ::testing::TestWithParam<std::pair<double, double>> {};
+
+TEST_P(Sleigh, chaplygin_sleigh_has_three_positions_two_rates_and_one_eigenvalue) {
+  const auto [speed, expected] = GetParam();
+  const auto linear = linear_model(
+      "Sleigh\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, REULER=90D,90D,0\n"
+      "PART/2\nMARKER/21, REULER=90D,90D,0\nMARKER/22, REULER=0,-90D,0\n"
+      "PART/3\nMARKER/31, REULER=0,-90D,0\nMARKER/32\n"
+      "PART/4, MASS=2, CM=40, IP=0.3,0.3,0.3, VX=" + std::to_string(speed) + ", VY=0, WZ=0\nMARKER/40\nMARKER/41, QP=-0.4,0,0\n"
+      "JOINT/1, TRANSLATIONAL, I=21, J=1\nJOINT/2, TRANSLATIONAL, I=31, J=22\nJOINT/3, REVOLUTE, I=40, J=32\n"
+      "GCON/1, FUNCTION=VY(41,0,41)\nEND\n");
+  ASSERT_TRUE(linear) << linear.error().message;
+  std::size_t rates = 0;
+  for (const StateLabel& s : linear->model.states) rates += s.is_rate;
+  EXPECT_EQ(rates, 2u);
+  EXPECT_EQ(linear->model.states.size(), 5u);
+  const auto modes = eigensolve(*linear);
+  ASSERT_TRUE(modes);
+  ASSERT_EQ(modes->modes.size(), 5u);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(std::abs(modes->modes[k].eigenvalue_hz), 0.0, 1e-12);
+  EXPECT_NEAR(modes->modes[4].eigenvalue_hz.real() * 2 * std::numbers::pi, expected, 1e-12);
+}
+INSTANTIATE_TEST_SUITE_P(speeds, Sleigh, ::testing::Values(std::pair(1.0, -1.2903225806451615), std::pair(3.0, -3.8709677419354844), std::pair(-2.0, 2.580645161290323)));
+
+}  // namespace
+}  // namespace dynalin
