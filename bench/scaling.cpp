@@ -49,9 +49,12 @@ std::string chain(int n, bool tangled) {
   for (int k = 1; k <= n; ++k) {
     const int p = id[static_cast<std::size_t>(k)], m = 4 * p;
     const int before = k == 1 ? 1 : 4 * id[static_cast<std::size_t>(k) - 1] + 2;
-    text += fmt::format("PART/{}, MASS=1, CM={}, IP=0.1,0.1,0.1, QG=0,{},0\nMARKER/{}, QP=0,-0.5,0\nMARKER/{}\nMARKER/{}, QP=0,-1,0\n", p, m, 1 - k, m,
-                        m + 1, m + 2);
-    text += fmt::format("JOINT/{0}, REVOLUTE, I={1}, J={2}\nSPRINGDAMPER/{0}, ROTATIONAL, I={1}, J={2}, KT=10, CT=0.1\n", k, m + 1, before);
+    text += fmt::format(
+        "PART/{}, MASS=1, CM={}, IP=0.1,0.1,0.1, QG=0,{},0\nMARKER/{}, QP=0,-0.5,0\nMARKER/{}\nMARKER/{}, QP=0,-1,0\n",
+        p, m, 1 - k, m, m + 1, m + 2);
+    text +=
+        fmt::format("JOINT/{0}, REVOLUTE, I={1}, J={2}\nSPRINGDAMPER/{0}, ROTATIONAL, I={1}, J={2}, KT=10, CT=0.1\n", k,
+                    m + 1, before);
   }
   return text + "END\n";
 }
@@ -81,7 +84,8 @@ std::string lattice(int n) {
       }
     }
   }
-  joints += fmt::format("MARKER/2, PART=1, QP=0,0,-0.5, REULER=0,90D,0\nJOINT/{}, REVOLUTE, I={}, J=2\n", ++joint, 10 * body(0, 0, 0) + 6);
+  joints += fmt::format("MARKER/2, PART=1, QP=0,0,-0.5, REULER=0,90D,0\nJOINT/{}, REVOLUTE, I={}, J=2\n", ++joint,
+                        10 * body(0, 0, 0) + 6);
   return text + joints + "END\n";
 }
 
@@ -120,7 +124,8 @@ int main(int argc, char** argv) {
   Equations eq;
   eq.resize(system.layout());
   const Motion motion = system.motion(*op);
-  const auto all = {Column::position, Column::velocity, Column::damping, Column::acceleration, Column::lambda, Column::algebraic, Column::state, Column::state_rate};
+  const auto all = {Column::position, Column::velocity,  Column::damping, Column::acceleration,
+                    Column::lambda,   Column::algebraic, Column::state,   Column::state_rate};
   system.constraints(motion, rows);
   system.equations(motion, rows, eq, all);
   clock.lap();
@@ -129,6 +134,7 @@ int main(int argc, char** argv) {
   system.equations(motion, rows, eq, all);
   fmt::print("  all partials      {:8.3f} s\n", clock.lap());
   const Partition p = system.partition(rows, false);
-  fmt::print("  elimination       {:8.3f} s   {} rows, {} redundant, {} freedoms\n", clock.lap(), rows.size(), p.redundant.size(), p.independent.size());
+  fmt::print("  elimination       {:8.3f} s   {} rows, {} redundant, {} freedoms\n", clock.lap(), rows.size(),
+             p.redundant.size(), p.independent.size());
   fmt::print("  peak memory       {:8.0f} MB\n", peak_megabytes());
 }

@@ -13,16 +13,20 @@ namespace {
 constexpr int iteration_limit = 50;
 
 // Largest residual of each group of equations relative to the largest sum of terms in that group.
-double relative_imbalance(const ColumnMatrix& m, const Eigen::MatrixXd& residual, const OperatingPoint& op, const Saddle& saddle) {
+double relative_imbalance(const ColumnMatrix& m, const Eigen::MatrixXd& residual, const OperatingPoint& op,
+                          const Saddle& saddle) {
   Eigen::VectorXd terms = residual.col(0).cwiseAbs();
   const auto n = static_cast<std::int32_t>(op.acceleration.size());
   for (std::int32_t c = 0; c < m.columns; ++c) {
-    const auto at = [](const std::vector<double>& v, std::int32_t k) { return std::abs(v[static_cast<std::size_t>(k)]); };
-    const double x = c < n                      ? at(op.acceleration, c)
+    const auto at = [](const std::vector<double>& v, std::int32_t k) {
+      return std::abs(v[static_cast<std::size_t>(k)]);
+    };
+    const double x = c < n                     ? at(op.acceleration, c)
                      : c < saddle.algebraic(0) ? at(op.lambda, c - n)
                      : c < saddle.state(0)     ? at(op.algebraic, c - saddle.algebraic(0))
                                                : at(op.state_rate, c - saddle.state(0));
-    for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]); k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
+    for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]);
+         k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
       terms(m.row[k]) += std::abs(m.value[k]) * x;
     }
   }
@@ -39,7 +43,7 @@ double relative_imbalance(const ColumnMatrix& m, const Eigen::MatrixXd& residual
   return worst;
 }
 
-}
+}  // namespace
 
 Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint op, Findings& findings) {
   const Layout& layout = system.layout();
@@ -63,7 +67,8 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
     system.equations(motion, rows, eq, {Column::acceleration, Column::lambda, Column::algebraic, Column::state_rate});
 
     Eigen::MatrixXd step = Eigen::MatrixXd::Zero(saddle.size(), 1);
-    for (std::int32_t r = 0; r < eq.size(); ++r) step(saddle.equation(r), 0) = -eq.residual()[static_cast<std::size_t>(r)];
+    for (std::int32_t r = 0; r < eq.size(); ++r)
+      step(saddle.equation(r), 0) = -eq.residual()[static_cast<std::size_t>(r)];
     for (std::int32_t k = 0; k < rows.size(); ++k) {
       if (!part.active[static_cast<std::size_t>(k)]) continue;
       const Taylor& phi = rows.along_motion(k);
@@ -71,20 +76,23 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
     }
     if (!step.allFinite()) {
       const std::string reason = system.fault(motion);
-      return tl::unexpected(Failure{"acceleration initial conditions", reason.empty() ? "a force or constraint has no finite value" : reason, history});
+      return tl::unexpected(Failure{"acceleration initial conditions",
+                                    reason.empty() ? "a force or constraint has no finite value" : reason, history});
     }
     ColumnMatrix matrix = saddle.matrix(eq, rows, part.active, {});
-    SparseLu lu;
-    if (!lu.factor(matrix)) {
-      Failure f{"acceleration initial conditions", "the accelerations are not determined", undetermined(system, saddle, std::move(matrix))};
-      if (!f.details.empty()) f.message = fmt::format("the accelerations are not determined: nothing fixes {}", fmt::join(f.details, ", "));
-      return tl::unexpected(f);
-    }
     const double imbalance = relative_imbalance(matrix, step, op, saddle);
     history.push_back(fmt::format("iteration {}: relative imbalance {:.3e}", iteration, imbalance));
-    // Balanced to rounding, or close and no longer falling: the point is as exact as it gets.
-    if (imbalance < 1e-15 || (imbalance < 1e-10 && imbalance > 0.1 * before)) return op;
+    // Solved once and balanced to rounding, or close and no longer falling: the point is as exact as it gets.
+    if (iteration > 0 && (imbalance < 1e-15 || (imbalance < 1e-10 && imbalance > 0.1 * before))) return op;
     before = imbalance;
+    SparseLu lu;
+    if (!lu.factor(matrix)) {
+      Failure f{"acceleration initial conditions", "the accelerations are not determined",
+                undetermined(system, saddle, std::move(matrix))};
+      if (!f.details.empty())
+        f.message = fmt::format("the accelerations are not determined: nothing fixes {}", fmt::join(f.details, ", "));
+      return tl::unexpected(f);
+    }
     lu.solve(step);
     const auto update = [&](std::vector<double>& x, std::int32_t offset) {
       for (std::size_t k = 0; k < x.size(); ++k) x[k] += step(offset + static_cast<Eigen::Index>(k), 0);
@@ -94,7 +102,9 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
     update(op.algebraic, saddle.algebraic(0));
     update(op.state_rate, saddle.state(0));
   }
-  return tl::unexpected(Failure{"acceleration initial conditions", "the equations for accelerations, reactions and algebraic values did not converge", history});
+  return tl::unexpected(Failure{"acceleration initial conditions",
+                                "the equations for accelerations, reactions and algebraic values did not converge",
+                                history});
 }
 
 Result<OperatingPoint> initial_conditions(const System& system, Findings& findings) {

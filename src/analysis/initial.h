@@ -5,8 +5,8 @@
 // Acceleration: accelerations, multipliers, algebraic values and state rates together, by Newton.
 #pragma once
 
-#include <tl/expected.hpp>
 #include <string>
+#include <tl/expected.hpp>
 #include <vector>
 
 #include "system/system.h"

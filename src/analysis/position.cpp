@@ -12,7 +12,7 @@ namespace {
 
 constexpr double position_tolerance = 1e-13;  // relative to the scale of the row
 constexpr int iteration_limit = 50;
-constexpr double exact_weight = 1e8;          // of coordinates that EXACT asks to keep
+constexpr double exact_weight = 1e8;  // of coordinates that EXACT asks to keep
 
 double row_scale(const System& system, std::span<const ConstraintRows::Entry> row) {
   double scale = 0;
@@ -66,7 +66,8 @@ Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op
     const Violation v = position_violation(system, rows);
     history.push_back(fmt::format("iteration {}: largest violation {:.3e}", iteration, v.relative));
     if (std::isnan(v.relative)) {
-      return tl::unexpected(Failure{"initial conditions", fmt::format("{} has no finite value", system.row_text(v.row)), history});
+      return tl::unexpected(
+          Failure{"initial conditions", fmt::format("{} has no finite value", system.row_text(v.row)), history});
     }
     // Rounding sets the floor: stop there rather than wander.
     if (v.relative <= position_tolerance || (v.relative <= 1e-11 && v.relative >= 0.5 * before)) {
@@ -80,9 +81,11 @@ Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op
       // A dependent row that the others do not satisfy near the solution contradicts them.
       const double left = std::abs(rows.along_motion(r).value) / row_scale(system, rows.row(r));
       if (iteration > 5 && left > 0.9 * v.relative && left > 1e-9) {
-        return tl::unexpected(Failure{"initial conditions",
-                       fmt::format("the constraints contradict each other: {} cannot hold together with the others",
-                                   system.row_text(r)), history});
+        return tl::unexpected(
+            Failure{"initial conditions",
+                    fmt::format("the constraints contradict each other: {} cannot hold together with the others",
+                                system.row_text(r)),
+                    history});
       }
     }
     if (weight.empty()) weight = assembly_weights(system);
@@ -115,8 +118,9 @@ Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op
   const Violation v = position_violation(system, rows);
   findings.warnings.push_back(history.back());
   return tl::unexpected(Failure{"initial conditions",
-                 fmt::format("the model could not be assembled: {} is violated by {:.3e} of its scale",
-                             system.row_text(v.row), v.relative), history});
+                                fmt::format("the model could not be assembled: {} is violated by {:.3e} of its scale",
+                                            system.row_text(v.row), v.relative),
+                                history});
 }
 
 }  // namespace dynalin

@@ -14,8 +14,8 @@ Saddle::Saddle(const System& system)
       system_(system) {}
 
 ColumnMatrix Saddle::matrix(const Equations& eq, const ConstraintRows& rows, const std::vector<bool>& active,
-                            const SaddleColumns& columns, const std::vector<bool>& cut,
-                            const std::vector<bool>& held, std::span<const double> added_diagonal) const {
+                            const SaddleColumns& columns, const std::vector<bool>& cut, const std::vector<bool>& held,
+                            std::span<const double> added_diagonal) const {
   std::vector<Triplet> entries;
   const auto replaced = [&](std::int32_t r) {
     if (r < n_) return false;

@@ -31,9 +31,9 @@ class Saddle {
   std::int32_t equation(std::int32_t r) const { return r < n_ ? r : r + m_; }
 
   // `cut` marks algebraic equations that are replaced by w = given (inputs), `held` states by z* = given.
-  ColumnMatrix matrix(const Equations&, const ConstraintRows&, const std::vector<bool>& active,
-                      const SaddleColumns&, const std::vector<bool>& cut = {},
-                      const std::vector<bool>& held = {}, std::span<const double> added_diagonal = {}) const;
+  ColumnMatrix matrix(const Equations&, const ConstraintRows&, const std::vector<bool>& active, const SaddleColumns&,
+                      const std::vector<bool>& cut = {}, const std::vector<bool>& held = {},
+                      std::span<const double> added_diagonal = {}) const;
 
  private:
   std::int32_t n_, m_, w_, z_, size_;

@@ -31,7 +31,8 @@ class StaticEquations {
       system_.equations(motion, rows_, eq_, {});
     }
     residual_ = Eigen::VectorXd::Zero(saddle_.size());
-    for (std::int32_t r = 0; r < eq_.size(); ++r) residual_(saddle_.equation(r)) = eq_.residual()[static_cast<std::size_t>(r)];
+    for (std::int32_t r = 0; r < eq_.size(); ++r)
+      residual_(saddle_.equation(r)) = eq_.residual()[static_cast<std::size_t>(r)];
     for (std::size_t k = 0; k < held_.size(); ++k) {
       if (held_[k]) residual_(saddle_.state(static_cast<std::int32_t>(k))) = 0;
     }
@@ -58,8 +59,10 @@ class StaticEquations {
     const auto n = static_cast<Eigen::Index>(system_.coordinates());
     for (Eigen::Index k = 0; k < residual_.size(); ++k) {
       double r = residual_(k);
-      if (k < n) r *= force_unit(k) / force;
-      else if (k < saddle_.algebraic(0)) r /= system_.length();
+      if (k < n)
+        r *= force_unit(k) / force;
+      else if (k < saddle_.algebraic(0))
+        r /= system_.length();
       sum += r * r;
     }
     return sum;
@@ -76,8 +79,10 @@ class StaticEquations {
     double stiffness = 0;
     const ColumnMatrix& K = eq_.matrix(Column::position);
     for (std::int32_t c = 0; c < K.columns; ++c) {
-      for (auto k = static_cast<std::size_t>(K.start[static_cast<std::size_t>(c)]); k < static_cast<std::size_t>(K.start[static_cast<std::size_t>(c) + 1]); ++k) {
-        if (K.row[k] < layout_coordinates()) stiffness = std::max(stiffness, std::abs(K.value[k]) * force_unit(K.row[k]) * force_unit(c));
+      for (auto k = static_cast<std::size_t>(K.start[static_cast<std::size_t>(c)]);
+           k < static_cast<std::size_t>(K.start[static_cast<std::size_t>(c) + 1]); ++k) {
+        if (K.row[k] < layout_coordinates())
+          stiffness = std::max(stiffness, std::abs(K.value[k]) * force_unit(K.row[k]) * force_unit(c));
       }
     }
     if (stiffness == 0) stiffness = 1;
@@ -93,16 +98,20 @@ class StaticEquations {
 
  private:
   // 1 for a force, 1/length for a moment.
-  double force_unit(Eigen::Index k) const { return system_.coordinate_scale(static_cast<std::int32_t>(k)) / system_.length(); }
+  double force_unit(Eigen::Index k) const {
+    return system_.coordinate_scale(static_cast<std::int32_t>(k)) / system_.length();
+  }
   std::int32_t layout_coordinates() const { return system_.layout().coordinate_count; }
   void measure_forces(const OperatingPoint& op) {
     force_scale_ = 0;
     for (std::int32_t k = 0; k < rows_.size(); ++k) {
       for (const auto& e : rows_.row(k)) {
-        force_scale_ = std::max(force_scale_, std::abs(e.c.g * op.lambda[static_cast<std::size_t>(k)]) * force_unit(e.column));
+        force_scale_ =
+            std::max(force_scale_, std::abs(e.c.g * op.lambda[static_cast<std::size_t>(k)]) * force_unit(e.column));
       }
     }
-    for (const Body& b : system_.model().bodies) force_scale_ = std::max(force_scale_, b.mass * norm(system_.model().gravity));
+    for (const Body& b : system_.model().bodies)
+      force_scale_ = std::max(force_scale_, b.mass * norm(system_.model().gravity));
     force_scale_ = std::max(force_scale_, imbalance());
   }
 
@@ -116,10 +125,12 @@ class StaticEquations {
   double force_scale_ = 0;
 };
 
-OperatingPoint moved(const System& system, const OperatingPoint& from, const Saddle& saddle, const Eigen::VectorXd& step,
-                     double fraction, double rotation_limit) {
+OperatingPoint moved(const System& system, const OperatingPoint& from, const Saddle& saddle,
+                     const Eigen::VectorXd& step, double fraction, double rotation_limit) {
   OperatingPoint to = from;
-  const double f = fraction * displace(system, to, fraction * step.head(static_cast<Eigen::Index>(system.coordinates())), rotation_limit);
+  const double f =
+      fraction *
+      displace(system, to, fraction * step.head(static_cast<Eigen::Index>(system.coordinates())), rotation_limit);
   const auto add = [&](std::vector<double>& x, std::int32_t offset) {
     for (std::size_t k = 0; k < x.size(); ++k) x[k] += f * step(offset + static_cast<Eigen::Index>(k));
   };
@@ -170,7 +181,8 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
       const std::string reason = system.fault(system.motion(op));
       return tl::unexpected(Failure{"statics", reason.empty() ? "a force has no finite value" : reason, history});
     }
-    history.push_back(fmt::format("iteration {}: imbalance {:.5e}{}", iteration, report.imbalance, transient ? " (pseudo-transient)" : ""));
+    history.push_back(fmt::format("iteration {}: imbalance {:.5e}{}", iteration, report.imbalance,
+                                  transient ? " (pseudo-transient)" : ""));
     const double level = std::sqrt(merit);
     // Balanced as it stands, or at the level of rounding: accept.
     if (level <= 1e-13 && iteration == 0) break;
@@ -229,7 +241,8 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   equations.evaluate(op, false);
   report.imbalance = equations.imbalance();
   if (std::sqrt(equations.merit(equations.force_scale())) > 1e-7) {
-    return tl::unexpected(Failure{"statics", fmt::format("no equilibrium was found, the imbalance is still {:.3e}", report.imbalance), history});
+    return tl::unexpected(Failure{
+        "statics", fmt::format("no equilibrium was found, the imbalance is still {:.3e}", report.imbalance), history});
   }
   if (held_states) {
     // A pure integrator that balances at its first value keeps it.

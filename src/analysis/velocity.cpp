@@ -40,7 +40,8 @@ std::vector<Condition> stated_velocities(const System& system, const Motion& mot
       }
       if (body.velocity.angular[k] && block.count == 6) {
         const Vector a = motion.axes(system.layout().marker(body.velocity.angular_axes))[k];
-        Condition s{{}, {}, *body.velocity.angular[k], fmt::format("{} of {}", angular_names[k], body.label.full_text())};
+        Condition s{
+            {}, {}, *body.velocity.angular[k], fmt::format("{} of {}", angular_names[k], body.label.full_text())};
         for (std::int32_t i = 0; i < 3; ++i) {
           s.column.push_back(block.offset + 3 + i);
           s.coefficient.push_back(a[static_cast<std::size_t>(i)]);
@@ -67,8 +68,8 @@ void add_norm(const System& system, const Motion& motion, double weight, std::ve
         const auto j = block.offset + 3 + static_cast<std::int32_t>(k);
         entries.push_back({i, j, weight * C(r, k)});
         entries.push_back({j, i, weight * C(r, k)});
-        entries.push_back({block.offset + 3 + static_cast<std::int32_t>(r), j,
-                           weight * (CC(r, k) + (r == k ? L2 : 0.0))});
+        entries.push_back(
+            {block.offset + 3 + static_cast<std::int32_t>(r), j, weight * (CC(r, k) + (r == k ? L2 : 0.0))});
       }
     }
   }
@@ -211,8 +212,9 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
         value += conditions[k].coefficient[i] * x(conditions[k].column[i], 0);
       }
       if (std::abs(value - conditions[k].value) > 1e-8 * std::max(1.0, std::abs(conditions[k].value))) {
-        findings.warnings.push_back(fmt::format("the initial velocity {} = {:g} contradicts the constraints and was changed to {:g}",
-                                                conditions[k].text, conditions[k].value, value));
+        findings.warnings.push_back(
+            fmt::format("the initial velocity {} = {:g} contradicts the constraints and was changed to {:g}",
+                        conditions[k].text, conditions[k].value, value));
       }
     }
     solution->velocity = x.col(0).head(n);
@@ -225,11 +227,13 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
 
 Result<OperatingPoint> initial_velocity(const System& system, OperatingPoint op, Findings& findings) {
   const auto stated = stated_velocities(system, system.motion(op));
-  return solve(system, std::move(op), stated, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(system.coordinates())), findings);
+  return solve(system, std::move(op), stated, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(system.coordinates())),
+               findings);
 }
 
 Result<OperatingPoint> reconcile_velocity(const System& system, OperatingPoint op, Findings& findings) {
-  const Eigen::VectorXd start = Eigen::Map<const Eigen::VectorXd>(op.velocity.data(), static_cast<Eigen::Index>(op.velocity.size()));
+  const Eigen::VectorXd start =
+      Eigen::Map<const Eigen::VectorXd>(op.velocity.data(), static_cast<Eigen::Index>(op.velocity.size()));
   return solve(system, std::move(op), {}, start, findings);
 }
 

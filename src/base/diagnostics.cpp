@@ -24,8 +24,8 @@ constexpr auto explanations = std::to_array<Explanation>({
 });
 
 const Explanation* find_explanation(std::string_view code) {
-  const auto found = std::find_if(explanations.begin(), explanations.end(),
-                                  [&](const Explanation& e) { return e.code == code; });
+  const auto found =
+      std::find_if(explanations.begin(), explanations.end(), [&](const Explanation& e) { return e.code == code; });
   return found == explanations.end() ? nullptr : &*found;
 }
 
@@ -95,8 +95,7 @@ void append_excerpt(std::string& out, const Span& at, const SourceText::Place& p
   const std::size_t to = std::min(line.size(), start + 4 * widest_excerpt);
   std::vector<Glyph> shown = glyphs(line, from, to);
 
-  const auto at_caret =
-      std::find_if(shown.begin(), shown.end(), [&](const Glyph& g) { return g.offset >= start; });
+  const auto at_caret = std::find_if(shown.begin(), shown.end(), [&](const Glyph& g) { return g.offset >= start; });
   std::size_t caret = static_cast<std::size_t>(at_caret - shown.begin());
   const bool whole_line_fits = from == 0 && to == line.size() && shown.size() <= widest_excerpt;
   bool cut_left = false, cut_right = false;
@@ -128,16 +127,15 @@ void append_excerpt(std::string& out, const Span& at, const SourceText::Place& p
   out += fmt::format("{} | {}\n{} | {}\n", number, text, std::string(number.size(), ' '), marks);
 }
 
-void append_place_and_text(std::string& out, const Span& at, std::string_view severity,
-                           std::string_view message, std::string_view code) {
+void append_place_and_text(std::string& out, const Span& at, std::string_view severity, std::string_view message,
+                           std::string_view code) {
   const std::string ending = code.empty() ? "" : fmt::format(" [{}]", code);
   if (!at.source) {
     out += fmt::format("{}: {}{}\n", severity, message, ending);
     return;
   }
   const SourceText::Place place = at.source->place(at.offset);
-  out += fmt::format("{}:{}:{}: {}: {}{}\n", at.source->name(), place.line, place.column, severity,
-                     message, ending);
+  out += fmt::format("{}:{}:{}: {}: {}{}\n", at.source->name(), place.line, place.column, severity, message, ending);
   append_excerpt(out, at, place);
 }
 
@@ -147,17 +145,13 @@ std::string counted(std::size_t count, std::string_view noun) {
 
 }  // namespace
 
-Diagnostic& Diagnostics::error(std::string_view code, const Span& at, std::string message,
-                               std::string hint) {
+Diagnostic& Diagnostics::error(std::string_view code, const Span& at, std::string message, std::string hint) {
   ++error_count_;
-  return items_.emplace_back(
-      Diagnostic{Severity::error, listed(code), at, std::move(message), std::move(hint), {}});
+  return items_.emplace_back(Diagnostic{Severity::error, listed(code), at, std::move(message), std::move(hint), {}});
 }
 
-Diagnostic& Diagnostics::warning(std::string_view code, const Span& at, std::string message,
-                                 std::string hint) {
-  return items_.emplace_back(
-      Diagnostic{Severity::warning, listed(code), at, std::move(message), std::move(hint), {}});
+Diagnostic& Diagnostics::warning(std::string_view code, const Span& at, std::string message, std::string hint) {
+  return items_.emplace_back(Diagnostic{Severity::warning, listed(code), at, std::move(message), std::move(hint), {}});
 }
 
 void Diagnostics::append(Diagnostics other) {
@@ -168,8 +162,7 @@ void Diagnostics::append(Diagnostics other) {
 
 std::string render(const Diagnostic& diagnostic) {
   std::string out;
-  append_place_and_text(out, diagnostic.at, severity_name(diagnostic.severity), diagnostic.message,
-                        diagnostic.code);
+  append_place_and_text(out, diagnostic.at, severity_name(diagnostic.severity), diagnostic.message, diagnostic.code);
   if (!diagnostic.hint.empty()) out += fmt::format("hint: {}\n", diagnostic.hint);
   for (const Note& note : diagnostic.notes) {
     append_place_and_text(out, note.at, "note", note.message, "");
@@ -186,8 +179,7 @@ std::string render(const Diagnostics& diagnostics, std::size_t limit) {
     ordered.push_back(&item);
   }
   std::stable_sort(ordered.begin(), ordered.end(), [&](const Diagnostic* a, const Diagnostic* b) {
-    return std::pair(rank.at(a->at.source), a->at.offset) <
-           std::pair(rank.at(b->at.source), b->at.offset);
+    return std::pair(rank.at(a->at.source), a->at.offset) < std::pair(rank.at(b->at.source), b->at.offset);
   });
 
   std::string out;

@@ -28,8 +28,7 @@ struct Diagnostic {
 class Diagnostics {
  public:
   Diagnostic& error(std::string_view code, const Span& at, std::string message, std::string hint = {});
-  Diagnostic& warning(std::string_view code, const Span& at, std::string message,
-                      std::string hint = {});
+  Diagnostic& warning(std::string_view code, const Span& at, std::string message, std::string hint = {});
   bool has_errors() const { return error_count_ > 0; }
   std::size_t error_count() const { return error_count_; }
   const std::vector<Diagnostic>& items() const { return items_; }
@@ -43,7 +42,8 @@ class Diagnostics {
 // `file:line:col: error: message [code]`, the line, a caret under the span, the hint and the notes. Without a
 // source only `error: message [code]` and the hint. Every line, the last included, ends with a line end.
 std::string render(const Diagnostic&);
-// All of them in the order of their places (source by source, in the order of appearance); after `limit` errors only a count of the rest.
+// All of them in the order of their places (source by source, in the order of appearance); after `limit` errors only a
+// count of the rest.
 std::string render(const Diagnostics&, std::size_t limit = 50);
 // One line of explanation of a code, empty if there is no such code (`dynalin explain CODE`).
 std::string_view explain_diagnostic(std::string_view code);

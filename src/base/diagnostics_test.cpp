@@ -16,13 +16,15 @@ Span find(const SourceText& source, std::string_view text) {
 }
 
 TEST(render, shows_the_line_and_a_caret_under_the_place) {
-  const SourceText source("car.adm", std::string(40, '\n') + "SPRINGDAMPER/4, I = 12, J=121, K=4.0E4\n");
+  const SourceText source("car.adm",
+                          std::string(40, '\n') + "SPRINGDAMPER/4, I = 12, J=121, K=4.0E4\n");
   Diagnostics diagnostics;
   diagnostics.error("wrong-count", find(source, "121"),
                     "SPRINGDAMPER/4 refers to MARKER/121, which does not exist",
                     "MARKER/112 and MARKER/1211 exist");
   EXPECT_EQ(render(diagnostics.items()[0]),
-            "car.adm:41:27: error: SPRINGDAMPER/4 refers to MARKER/121, which does not exist [wrong-count]\n"
+            "car.adm:41:27: error: SPRINGDAMPER/4 refers to MARKER/121, which does not exist "
+            "[wrong-count]\n"
             "   41 | SPRINGDAMPER/4, I = 12, J=121, K=4.0E4\n"
             "      |                           ^~~\n"
             "hint: MARKER/112 and MARKER/1211 exist\n");
@@ -62,9 +64,11 @@ TEST(render, cuts_long_lines_around_the_caret) {
   const SourceText source("a.adm", std::string(1'000'000, 'a') + "x" + std::string(1'000'000, 'b'));
   Diagnostics diagnostics;
   diagnostics.error(any_code, {&source, 1'000'000, 1}, "m");
-  EXPECT_EQ(render(diagnostics), "a.adm:1:1000001: error: m [unexpected-text]\n"
-                                 "    1 | ..." + std::string(60, 'a') + "x" + std::string(39, 'b') +
-                                     "...\n      |    " + std::string(60, ' ') + "^\n");
+  EXPECT_EQ(render(diagnostics),
+            "a.adm:1:1000001: error: m [unexpected-text]\n"
+            "    1 | ..." +
+                std::string(60, 'a') + "x" + std::string(39, 'b') + "...\n      |    " +
+                std::string(60, ' ') + "^\n");
 }
 
 TEST(render, marks_a_span_over_several_lines_on_its_first_line_only) {

@@ -18,8 +18,7 @@ struct Dual {
   Dual() = default;
   Dual(double constant) : value(constant) {}  // NOLINT: numbers mix freely with duals
   template <class U = T>
-    requires(!std::is_same_v<U, double>)
-  explicit Dual(const U& constant) : value(constant) {}
+  requires(!std::is_same_v<U, double>) explicit Dual(const U& constant) : value(constant) {}
   Dual(const T& v, std::size_t seed) : value(v) { partial[seed] = T(1.0); }
 
   Dual& operator+=(const Dual& b) {

@@ -16,8 +16,7 @@ bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
 }  // namespace
 
-SourceText::SourceText(std::string name, std::string text)
-    : name_(std::move(name)), text_(std::move(text)) {
+SourceText::SourceText(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {
   if (text_.starts_with(byte_order_mark)) text_.erase(0, byte_order_mark.size());
   if (text_.size() >= std::numeric_limits<std::uint32_t>::max()) {
     throw std::length_error(name_ + " is longer than 4 GiB");
@@ -36,8 +35,7 @@ SourceText::Place SourceText::place(std::uint32_t offset) const {
   const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
   const auto index = static_cast<std::size_t>(after - line_starts_.begin()) - 1;
   // A place inside the line end counts as just behind the last character.
-  const std::size_t column =
-      std::min<std::size_t>(offset - line_starts_[index], line(index + 1).size());
+  const std::size_t column = std::min<std::size_t>(offset - line_starts_[index], line(index + 1).size());
   return {index + 1, column + 1};
 }
 

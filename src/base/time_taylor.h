@@ -67,9 +67,7 @@ struct TimeTaylor {
   }
   friend TimeTaylor operator/(double a, const TimeTaylor& b) { return TimeTaylor(a) / b; }
 
-  friend bool operator<(const TimeTaylor& a, const TimeTaylor& b) {
-    return value_of(a.value) < value_of(b.value);
-  }
+  friend bool operator<(const TimeTaylor& a, const TimeTaylor& b) { return value_of(a.value) < value_of(b.value); }
   friend bool operator>(const TimeTaylor& a, const TimeTaylor& b) { return b < a; }
   friend bool operator<=(const TimeTaylor& a, const TimeTaylor& b) { return !(b < a); }
   friend bool operator>=(const TimeTaylor& a, const TimeTaylor& b) { return !(a < b); }

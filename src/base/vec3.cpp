@@ -17,8 +17,7 @@ Matrix3 rotation_exponential(const Vector& a) {
     sinc = std::sin(angle) / angle;
     cosc = 2.0 * half * half / angle_squared;
   }
-  return Matrix3::identity() + sinc * skew(a) +
-         cosc * (outer(a, a) - Matrix3::diagonal(angle_squared));
+  return Matrix3::identity() + sinc * skew(a) + cosc * (outer(a, a) - Matrix3::diagonal(angle_squared));
 }
 
 namespace {

@@ -54,8 +54,7 @@ auto dot(const Vec3<A>& a, const Vec3<B>& b) {
 }
 template <class A, class B>
 auto cross(const Vec3<A>& a, const Vec3<B>& b) {
-  return Vec3<decltype(a.x * b.x)>{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z,
-                                   a.x * b.y - a.y * b.x};
+  return Vec3<decltype(a.x * b.x)>{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 template <class A>
 A norm(const Vec3<A>& a) {
@@ -73,9 +72,7 @@ struct Mat3 {
   Vec3<T> x, y, z;
 
   Vec3<T>& operator[](std::size_t column) { return column == 0 ? x : column == 1 ? y : z; }
-  const Vec3<T>& operator[](std::size_t column) const {
-    return column == 0 ? x : column == 1 ? y : z;
-  }
+  const Vec3<T>& operator[](std::size_t column) const { return column == 0 ? x : column == 1 ? y : z; }
   T& operator()(std::size_t row, std::size_t column) { return (*this)[column][row]; }
   const T& operator()(std::size_t row, std::size_t column) const { return (*this)[column][row]; }
 
@@ -89,9 +86,7 @@ struct Mat3 {
   }
 
   static Mat3 identity() { return diagonal(T(1.0)); }
-  static Mat3 diagonal(const T& d) {
-    return {{d, T(0.0), T(0.0)}, {T(0.0), d, T(0.0)}, {T(0.0), T(0.0), d}};
-  }
+  static Mat3 diagonal(const T& d) { return {{d, T(0.0), T(0.0)}, {T(0.0), d, T(0.0)}, {T(0.0), T(0.0), d}}; }
 };
 
 template <class A, class B>

@@ -39,7 +39,7 @@ struct Command {
 };
 
 struct CommandFile {
-  std::string model;          // path of the dataset, relative to the command file, with its extension
+  std::string model;  // path of the dataset, relative to the command file, with its extension
   Span model_at;
   std::string output_prefix;  // empty: the model's name
   std::vector<Command> commands;

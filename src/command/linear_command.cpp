@@ -76,7 +76,8 @@ class Rules {
     if (given(a) && given(b)) error("excluded-arguments", b, fmt::format("{} and {} exclude each other", a, b));
   }
   void only_with(std::string_view argument, bool allowed, std::string_view options) {
-    if (given(argument) && !allowed) error("wrong-option", argument, fmt::format("{} goes with {} only", argument, options));
+    if (given(argument) && !allowed)
+      error("wrong-option", argument, fmt::format("{} goes with {} only", argument, options));
   }
 
   void options() {
@@ -84,8 +85,8 @@ class Rules {
     const auto count = std::count_if(names.begin(), names.end(), [&](auto n) { return given(n); });
     if (count == 0) error("missing-option", "", "LINEAR needs one of EIGENSOL, STATEMAT, MKB and EXPORT");
     if (count < 2) return;
-    const auto second = std::find_if(std::find_if(names.begin(), names.end(), [&](auto n) { return given(n); }) + 1, names.end(),
-                                     [&](auto n) { return given(n); });
+    const auto second = std::find_if(std::find_if(names.begin(), names.end(), [&](auto n) { return given(n); }) + 1,
+                                     names.end(), [&](auto n) { return given(n); });
     error("excluded-arguments", *second, "LINEAR takes exactly one of EIGENSOL, STATEMAT, MKB and EXPORT");
   }
 
@@ -98,8 +99,8 @@ class Rules {
     for (const auto name : {"RM", "PSTATE"}) only_with(name, modes || matrices, "EIGENSOL, STATEMAT and MKB");
     for (const auto name : {"CONFIG", "TYPE"}) only_with(name, w_.nastran_export, "EXPORT");
     only_with("FILE", !modes, "STATEMAT, MKB and EXPORT");
-    for (const auto name : {"COORDS", "KINETIC", "STRAIN", "DISSIPAT", "FCOORDS", "FKINETIC", "FSTRAIN", "FDISSIPAT", "MLIST",
-                            "MRANGE", "ENERGY_PER_MODE", "MASS_PER_MODE", "TABLE_PRECISION", "NAMES"}) {
+    for (const auto name : {"COORDS", "KINETIC", "STRAIN", "DISSIPAT", "FCOORDS", "FKINETIC", "FSTRAIN", "FDISSIPAT",
+                            "MLIST", "MRANGE", "ENERGY_PER_MODE", "MASS_PER_MODE", "TABLE_PRECISION", "NAMES"}) {
       only_with(name, modes, "EIGENSOL");
     }
   }
@@ -123,8 +124,10 @@ class Rules {
   void all_or_range(std::string_view name, const std::string& text) {
     if (text.empty()) return;
     std::string upper(text);
-    std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    const bool number = upper.find_first_not_of("0123456789, \t") == std::string::npos && upper.find_first_of("123456789") != std::string::npos;
+    std::transform(upper.begin(), upper.end(), upper.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    const bool number = upper.find_first_not_of("0123456789, \t") == std::string::npos &&
+                        upper.find_first_of("123456789") != std::string::npos;
     if (upper != "ALL" && !number) {
       error("value-out-of-range", name, fmt::format("{} takes ALL or one or two mode numbers", name));
     }
@@ -146,32 +149,42 @@ class Rules {
     excluded("KINETIC", "FKINETIC");
     excluded("STRAIN", "FSTRAIN");
     excluded("DISSIPAT", "FDISSIPAT");
-    for (const auto name : {"COORDS", "KINETIC", "STRAIN", "DISSIPAT", "FCOORDS", "FKINETIC", "FSTRAIN", "FDISSIPAT", "MLIST", "MRANGE"}) {
+    for (const auto name : {"COORDS", "KINETIC", "STRAIN", "DISSIPAT", "FCOORDS", "FKINETIC", "FSTRAIN", "FDISSIPAT",
+                            "MLIST", "MRANGE"}) {
       excluded("NOVECTOR", name);
     }
     if (given("MLIST") != given("MRANGE")) {
       const std::string_view there = given("MLIST") ? "MLIST" : "MRANGE";
       error("missing-argument", there, fmt::format("{} needs {}", there, given("MLIST") ? "MRANGE" : "MLIST"));
     }
-    if (given("MODAL_RM") && !given("MASS_PER_MODE")) error("missing-argument", "MODAL_RM", "MODAL_RM needs MASS_PER_MODE");
+    if (given("MODAL_RM") && !given("MASS_PER_MODE"))
+      error("missing-argument", "MODAL_RM", "MODAL_RM needs MASS_PER_MODE");
   }
 
   void files() {
     if ((w_.statemat || w_.mkb || w_.nastran_export) && !given("FILE")) {
-      error("missing-argument", w_.statemat ? "STATEMAT" : w_.mkb ? "MKB" : "EXPORT",
-            fmt::format("{} needs FILE", w_.statemat ? "STATEMAT" : w_.mkb ? "MKB" : "EXPORT"));
+      error("missing-argument",
+            w_.statemat ? "STATEMAT"
+            : w_.mkb    ? "MKB"
+                        : "EXPORT",
+            fmt::format("{} needs FILE", w_.statemat ? "STATEMAT"
+                                         : w_.mkb    ? "MKB"
+                                                     : "EXPORT"));
     }
     if (w_.file.size() > longest_file_name) {
-      error("value-out-of-range", "FILE", fmt::format("the name of FILE has {} characters, {} are allowed", w_.file.size(), longest_file_name));
+      error("value-out-of-range", "FILE",
+            fmt::format("the name of FILE has {} characters, {} are allowed", w_.file.size(), longest_file_name));
     }
-    const auto one_of = [&](std::string_view name, const std::vector<std::string>& word, std::array<std::string_view, 2> words) {
+    const auto one_of = [&](std::string_view name, const std::vector<std::string>& word,
+                            std::array<std::string_view, 2> words) {
       if (!word.empty() && !find_keyword(word.front(), words)) {
         error("unknown-word", name, fmt::format("{} is {} or {}, not {}", name, words[0], words[1], word.front()));
       }
     };
     one_of("FORMAT", w_.format, {"MATRIXX", "MATLAB"});
     one_of("TYPE", w_.type, {"OPENBOX", "CLOSEDBOX"});
-    if (w_.nastran_export && !given("TYPE")) error("missing-argument", "EXPORT", "EXPORT needs TYPE: OPENBOX or CLOSEDBOX");
+    if (w_.nastran_export && !given("TYPE"))
+      error("missing-argument", "EXPORT", "EXPORT needs TYPE: OPENBOX or CLOSEDBOX");
   }
 
   const WrittenLinear& w_;
@@ -188,7 +201,10 @@ std::optional<LinearCommand> read_linear(ElementReader& reader) {
   if (reader.diagnostics().error_count() > before) return std::nullopt;
 
   LinearCommand c;
-  c.option = w.eigensol ? LinearOption::eigensol : w.statemat ? LinearOption::statemat : w.mkb ? LinearOption::mkb : LinearOption::nastran_export;
+  c.option = w.eigensol   ? LinearOption::eigensol
+             : w.statemat ? LinearOption::statemat
+             : w.mkb      ? LinearOption::mkb
+                          : LinearOption::nastran_export;
   c.rm = w.rm, c.pstate = w.pstate, c.pinput = w.pinput, c.poutput = w.poutput;
   c.without_damping = w.no_damping, c.without_vectors = w.no_vector, c.original = w.original, c.names = w.names;
   c.file = w.file, c.config = w.config;
@@ -203,11 +219,12 @@ std::optional<LinearCommand> read_linear(ElementReader& reader) {
     reader.error("option-not-built", reader.at("ORIGINAL"), "ORIGINAL is not available yet");
     return std::nullopt;
   }
-  for (const auto name : {"COORDS", "KINETIC", "STRAIN", "DISSIPAT", "FCOORDS", "FKINETIC", "FSTRAIN", "FDISSIPAT", "MLIST",
-                          "ENERGY_PER_MODE", "MASS_PER_MODE"}) {
+  for (const auto name : {"COORDS", "KINETIC", "STRAIN", "DISSIPAT", "FCOORDS", "FKINETIC", "FSTRAIN", "FDISSIPAT",
+                          "MLIST", "ENERGY_PER_MODE", "MASS_PER_MODE"}) {
     if (!reader.given(name)) continue;
     c.tables.emplace_back(name);
-    reader.warning("table-not-built", reader.at(name), fmt::format("the table {} is not available yet and is left out", name));
+    reader.warning("table-not-built", reader.at(name),
+                   fmt::format("the table {} is not available yet and is left out", name));
   }
   return c;
 }

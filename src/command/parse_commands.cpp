@@ -14,14 +14,17 @@ namespace dynalin {
 namespace {
 
 constexpr std::array<std::string_view, 52> command_names = {
-    "ACCGRAV", "ACTIVATE", "ARRAY",  "BEAM",   "BUSHING", "CONTROL",     "COUPLER",   "DEACTIVATE", "DEBUG",   "DIFF",         "ENVIRONMENT",
-    "EQUILIBRIUM", "FIELD", "FILE",  "FLEX_BODY", "FRICTION", "GCON",    "GEAR",      "GFORCE",     "HELP",    "IC",           "INFO",
-    "INTEGRATOR", "JOINT", "JPRIM",  "KINEMATICS", "LINEAR", "LSOLVER",  "MARKER",    "MENU",       "MOTION",  "OUTPUT",       "PART",
-    "PREFERENCES", "RELOAD", "REQUEST", "SAVE", "SENSOR", "SFORCE",      "SHOW",      "SIMULATE",   "SPLINE",  "SPRINGDAMPER", "STOP",
-    "STRING", "TIME", "VARIABLE", "VFORCE", "VTORQUE", "GSTIFF", "WSTIFF", "SYSTEM"};
+    "ACCGRAV",  "ACTIVATE",    "ARRAY",        "BEAM",        "BUSHING", "CONTROL", "COUPLER",    "DEACTIVATE",
+    "DEBUG",    "DIFF",        "ENVIRONMENT",  "EQUILIBRIUM", "FIELD",   "FILE",    "FLEX_BODY",  "FRICTION",
+    "GCON",     "GEAR",        "GFORCE",       "HELP",        "IC",      "INFO",    "INTEGRATOR", "JOINT",
+    "JPRIM",    "KINEMATICS",  "LINEAR",       "LSOLVER",     "MARKER",  "MENU",    "MOTION",     "OUTPUT",
+    "PART",     "PREFERENCES", "RELOAD",       "REQUEST",     "SAVE",    "SENSOR",  "SFORCE",     "SHOW",
+    "SIMULATE", "SPLINE",      "SPRINGDAMPER", "STOP",        "STRING",  "TIME",    "VARIABLE",   "VFORCE",
+    "VTORQUE",  "GSTIFF",      "WSTIFF",       "SYSTEM"};
 // Commands that set or print what a linear model does not need.
-constexpr std::array<std::string_view, 16> passive = {"DEBUG", "HELP", "IC", "INFO", "INTEGRATOR", "KINEMATICS", "LSOLVER", "MENU",
-                                                      "OUTPUT", "PREFERENCES", "REQUEST", "SHOW", "TIME", "GSTIFF", "WSTIFF", "EQUILIBRIUM"};
+constexpr std::array<std::string_view, 16> passive = {
+    "DEBUG",  "HELP",        "IC",      "INFO", "INTEGRATOR", "KINEMATICS", "LSOLVER", "MENU",
+    "OUTPUT", "PREFERENCES", "REQUEST", "SHOW", "TIME",       "GSTIFF",     "WSTIFF",  "EQUILIBRIUM"};
 
 struct WrittenSimulate {
   bool initial = false, statics = false, kinematics = false, dynamics = false, transient = false;
@@ -54,7 +57,8 @@ std::optional<SimulateCommand> read_simulate(ElementReader& reader) {
                  "SIMULATE takes exactly one of INITIAL_CONDITIONS, STATICS, KINEMATICS, DYNAMICS, TRANSIENT");
     return std::nullopt;
   }
-  for (const auto& [flag, name] : {std::pair{w.kinematics, "KINEMATICS"}, std::pair{w.dynamics, "DYNAMICS"}, std::pair{w.transient, "TRANSIENT"}}) {
+  for (const auto& [flag, name] : {std::pair{w.kinematics, "KINEMATICS"}, std::pair{w.dynamics, "DYNAMICS"},
+                                   std::pair{w.transient, "TRANSIENT"}}) {
     if (!flag) continue;
     reader.error("command-not-built", reader.at(name), fmt::format("SIMULATE/{} is not available yet", name));
     return std::nullopt;
@@ -80,8 +84,10 @@ std::string one_line(std::string_view text) {
   std::string out;
   for (const char c : text) {
     const bool blank = std::isspace(static_cast<unsigned char>(c)) != 0;
-    if (!blank) out += c;
-    else if (!out.empty() && out.back() != ' ') out += ' ';
+    if (!blank)
+      out += c;
+    else if (!out.empty() && out.back() != ' ')
+      out += ' ';
   }
   while (!out.empty() && out.back() == ' ') out.pop_back();
   return out;
@@ -122,7 +128,8 @@ class FileParser {
       WrittenFile w;
       if (!read_arguments(w, reader)) return;
       if (!w.command.empty()) {
-        reader.error("command-not-built", reader.at("COMMAND"), "command files within command files are not available yet");
+        reader.error("command-not-built", reader.at("COMMAND"),
+                     "command files within command files are not available yet");
       }
       if (!w.model.empty()) name_model(w.model, reader.at("MODEL"), w.prefix);
       return;
@@ -152,7 +159,8 @@ bool is_command_line(std::string_view line) {
   if (line.empty()) return true;
   const std::size_t slash = line.find('/');
   const std::string_view word = trimmed(line.substr(0, slash));
-  return (slash != std::string_view::npos && find_keyword(word, command_names).has_value()) || find_keyword(word, std::array<std::string_view, 1>{"STOP"});
+  return (slash != std::string_view::npos && find_keyword(word, command_names).has_value()) ||
+         find_keyword(word, std::array<std::string_view, 1>{"STOP"});
 }
 
 }  // namespace

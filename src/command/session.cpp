@@ -71,7 +71,9 @@ class Loader {
       keep_.push_back(source);
       take(std::move(parsed), job);
       if (job.commands.model.empty()) {
-        if (!diagnostics_.has_errors()) diagnostics_.error("missing-model", {source.get(), 0, 0}, "the command file names no model", "its first line is the name of the dataset");
+        if (!diagnostics_.has_errors())
+          diagnostics_.error("missing-model", {source.get(), 0, 0}, "the command file names no model",
+                             "its first line is the name of the dataset");
         return fail();
       }
       dataset_path = (fs::path(job.folder) / job.commands.model).string();
@@ -80,7 +82,8 @@ class Loader {
     const SourceRef source = read_source(dataset_path);
     if (!source) {
       if (is_dataset) return missing(dataset_path);
-      diagnostics_.error("missing-model", job.commands.model_at, fmt::format("the dataset {} cannot be read", dataset_path));
+      diagnostics_.error("missing-model", job.commands.model_at,
+                         fmt::format("the dataset {} cannot be read", dataset_path));
       return fail();
     }
     keep_.push_back(source);
@@ -105,7 +108,8 @@ class Loader {
     diagnostics_.append(std::move(parsed.diagnostics));
   }
   std::string default_prefix(const Job& job, const std::string& dataset_path) const {
-    const std::string name = job.commands.output_prefix.empty() ? fs::path(dataset_path).stem().string() : job.commands.output_prefix;
+    const std::string name =
+        job.commands.output_prefix.empty() ? fs::path(dataset_path).stem().string() : job.commands.output_prefix;
     return (fs::path(job.folder) / name).string();
   }
   std::nullopt_t missing(const std::string& path) {
@@ -122,15 +126,20 @@ class Loader {
       const auto* linear = std::get_if<LinearCommand>(&c.what);
       if (!linear) continue;
       const auto need = [&](const std::optional<std::int64_t>& id, std::string_view statement, bool exists) {
-        if (id && !exists) diagnostics_.error("unknown-element", c.at, fmt::format("the command refers to {}/{}, which does not exist", statement, *id));
+        if (id && !exists)
+          diagnostics_.error("unknown-element", c.at,
+                             fmt::format("the command refers to {}/{}, which does not exist", statement, *id));
       };
-      const auto found = [&](const std::optional<std::int64_t>& id, std::string_view statement) { return id && job.model->find(statement, *id).has_value(); };
+      const auto found = [&](const std::optional<std::int64_t>& id, std::string_view statement) {
+        return id && job.model->find(statement, *id).has_value();
+      };
       need(linear->pstate, "PSTATE", found(linear->pstate, "PSTATE"));
       need(linear->pinput, "PINPUT", found(linear->pinput, "PINPUT"));
       need(linear->poutput, "POUTPUT", found(linear->poutput, "POUTPUT"));
       const auto rm = linear->rm ? job.model->find_marker(*linear->rm) : std::nullopt;
       need(linear->rm, "MARKER", rm.has_value());
-      if (rm && job.model->marker(*rm).floating) diagnostics_.error("floating-marker", c.at, fmt::format("RM=MARKER/{} is floating", *linear->rm));
+      if (rm && job.model->marker(*rm).floating)
+        diagnostics_.error("floating-marker", c.at, fmt::format("RM=MARKER/{} is floating", *linear->rm));
     }
   }
 
@@ -211,12 +220,15 @@ class Session {
     write_static_result(message_, report.iterations, report.imbalance);
     write_end(message_, "Static Solution");
     // At t = 0 the dataset's velocities come back at the new pose.
-    if (op->time == 0 && !std::getenv("MSC_ADAMS_STATICS_NO_RESTORE_VELOCITIES")) op = initial_velocity(system_, std::move(*op), findings);
+    if (op->time == 0 && !std::getenv("MSC_ADAMS_STATICS_NO_RESTORE_VELOCITIES"))
+      op = initial_velocity(system_, std::move(*op), findings);
     if (op) op = reconcile_velocity(system_, std::move(*op), findings);
     if (op) op = solve_acceleration(system_, std::move(*op), findings);
     if (!op) return tl::unexpected(op.error());
     accept(std::move(*op), findings);
-    if (!options_.quiet) fmt::print(out_, "static equilibrium after {} iterations, imbalance {:.3e}\n", report.iterations, report.imbalance);
+    if (!options_.quiet)
+      fmt::print(out_, "static equilibrium after {} iterations, imbalance {:.3e}\n", report.iterations,
+                 report.imbalance);
     return {};
   }
 
@@ -239,16 +251,20 @@ class Session {
     if (command.poutput) options.poutput = model.find("POUTPUT", *command.poutput);
     if (command.rm) options.rm = *model.find_marker(*command.rm);
     options.without_damping = command.without_damping;
-    for (const std::string& table : command.tables) remark(fmt::format("the table {} is not available yet and is left out", table));
+    for (const std::string& table : command.tables)
+      remark(fmt::format("the table {} is not available yet and is left out", table));
     auto linear = linearize(system_, point_, options);
     if (!linear) return tl::unexpected(linear.error());
     for (const std::string& w : linear->warnings) remark(w);
-    if (linear->model.states.empty()) return tl::unexpected(Failure{"linear analysis", "the model has no states: neither degrees of freedom nor differential states", {}});
+    if (linear->model.states.empty())
+      return tl::unexpected(Failure{
+          "linear analysis", "the model has no states: neither degrees of freedom nor differential states", {}});
 
     if (command.option == LinearOption::statemat) {
       write_matrices(command, linear->model);
       json_.add(c.text, linear->model);
-      if (!options_.quiet) fmt::print(out_, "state matrices of {} states written to {}\n", linear->model.states.size(), command.file);
+      if (!options_.quiet)
+        fmt::print(out_, "state matrices of {} states written to {}\n", linear->model.states.size(), command.file);
       return {};
     }
     auto modes = eigensolve(*linear);
@@ -346,7 +362,8 @@ int check_file(const std::string& file, std::ostream& out, std::ostream& err) {
 
 int print_help(const std::string& statement, std::ostream& out, std::ostream& err) {
   if (statement.empty()) {
-    for (const Kind* kind : catalogue()) fmt::print(out, "{:<14} {:<14} {}\n", kind->statement, kind->variant, kind->summary);
+    for (const Kind* kind : catalogue())
+      fmt::print(out, "{:<14} {:<14} {}\n", kind->statement, kind->variant, kind->summary);
     return done;
   }
   const std::string_view name = statement_name(statement);
@@ -356,7 +373,8 @@ int print_help(const std::string& statement, std::ostream& out, std::ostream& er
     found = true;
     fmt::print(out, "{}{}{}\n  {}\n", kind->statement, kind->variant.empty() ? "" : ", ", kind->variant, kind->summary);
     for (const ArgumentInfo& a : kind->arguments) {
-      fmt::print(out, "    {:<16} {:<12} {:<20} {}{}\n", a.name, a.value, a.unit, a.help, a.required ? " (required)" : "");
+      fmt::print(out, "    {:<16} {:<12} {:<20} {}{}\n", a.name, a.value, a.unit, a.help,
+                 a.required ? " (required)" : "");
     }
   }
   if (!found) fmt::print(err, "error: no statement {} is available\n", statement);

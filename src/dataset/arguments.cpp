@@ -17,8 +17,8 @@ constexpr std::size_t unmatched = std::numeric_limits<std::size_t>::max();
 
 class ArgumentSplitter {
  public:
-  ArgumentSplitter(std::span<const Token> tokens, std::string_view statement,
-                   const SourceText& source, Diagnostics& diagnostics)
+  ArgumentSplitter(std::span<const Token> tokens, std::string_view statement, const SourceText& source,
+                   Diagnostics& diagnostics)
       : tokens_(tokens), statement_(statement), source_(source), diagnostics_(diagnostics) {
     match_parentheses();
   }
@@ -39,9 +39,7 @@ class ArgumentSplitter {
   bool symbol_at(std::size_t i, char symbol) const {
     return i < tokens_.size() && is_symbol(tokens_[i], source_, symbol);
   }
-  bool word_at(std::size_t i) const {
-    return i < tokens_.size() && tokens_[i].kind == TokenKind::word;
-  }
+  bool word_at(std::size_t i) const { return i < tokens_.size() && tokens_[i].kind == TokenKind::word; }
   bool assignment_at(std::size_t i) const { return word_at(i) && symbol_at(i + 1, '='); }
   bool separator_or_end_at(std::size_t i) const {
     return i >= tokens_.size() || symbol_at(i, ',') || symbol_at(i, '\\');
@@ -51,9 +49,7 @@ class ArgumentSplitter {
     return source_.text().substr(begin, tokens_[i].offset - begin);
   }
   bool blank_before(std::size_t i) const { return !gap_before(i).empty(); }
-  bool line_end_before(std::size_t i) const {
-    return gap_before(i).find_first_of("\r\n") != std::string_view::npos;
-  }
+  bool line_end_before(std::size_t i) const { return gap_before(i).find_first_of("\r\n") != std::string_view::npos; }
   // Behind an operand a word cannot go on with the same expression.
   bool ends_operand(std::size_t i) const {
     return tokens_[i].kind != TokenKind::symbol || symbol_at(i, ')') || symbol_at(i, ']');
@@ -79,8 +75,7 @@ class ArgumentSplitter {
   std::size_t end_of_value(ArgumentDraft& draft);
   bool value_ends_at_comma(std::size_t begin, std::size_t comma, std::size_t next,
                            const WrittenArgument& argument) const;
-  bool value_ends_before_word(std::size_t begin, std::size_t i,
-                              const WrittenArgument& argument) const;
+  bool value_ends_before_word(std::size_t begin, std::size_t i, const WrittenArgument& argument) const;
   void check_tokens(ArgumentDraft& draft, ValueForm form);
   void damage(WrittenArgument& argument, std::string_view code, std::size_t i, std::string message,
               std::string hint = {});
@@ -110,13 +105,12 @@ void ArgumentSplitter::match_parentheses() {
 
 // Moves to the next token that is no separator; false at the end of the statement.
 bool ArgumentSplitter::skip_separators() {
-  bool comma = false;
+  std::size_t commas = 0;
   while (at_ < tokens_.size()) {
     if (symbol_at(at_, ',')) {
-      if (comma) {
+      if (++commas == 2) {
         diagnostics_.warning("empty-argument", span(at_), "no argument stands before this comma");
       }
-      comma = true;
       at_ = after_comma(at_);
     } else if (symbol_at(at_, '\\')) {
       ++at_;
@@ -135,8 +129,7 @@ void ArgumentSplitter::report_unexpected(std::string_view expectation) {
                                 : symbol_at(at_, '=')                 ? "stray-equals"
                                 : closes                              ? "unbalanced-parenthesis"
                                                                       : "unexpected-text";
-  diagnostics_.error(code, span(at_),
-                     std::string(expectation) + ", found " + quoted(tokens_[at_], source_));
+  diagnostics_.error(code, span(at_), std::string(expectation) + ", found " + quoted(tokens_[at_], source_));
   for (++at_; at_ < tokens_.size() && !symbol_at(at_, '\\'); ++at_) {
     if (!symbol_at(at_, ',')) continue;
     const std::size_t next = after_comma(at_);
@@ -160,17 +153,14 @@ void ArgumentSplitter::read_value(ArgumentDraft& draft) {
   WrittenArgument& argument = draft.argument;
   const std::size_t equals = at_++;
   if (symbol_at(at_, '=')) {
-    diagnostics_.error("stray-equals", span(at_),
-                       "a second '=' stands behind " + std::string(argument.name.text()));
+    diagnostics_.error("stray-equals", span(at_), "a second '=' stands behind " + std::string(argument.name.text()));
     result_.damaged = true;
     while (symbol_at(at_, '=')) ++at_;
   }
   const ValueForm form = value_form(statement_, argument.name.text());
   // The value may begin on the next line, but for a comment, which may be empty.
-  while (form != ValueForm::rest_of_line && at_ < tokens_.size() && tokens_[at_].continuation &&
-         !assignment_at(after_comma(at_))) {
-    ++at_;
-  }
+  const std::size_t behind_marks = after_comma(at_ - 1);
+  if (form != ValueForm::rest_of_line && !assignment_at(behind_marks)) at_ = behind_marks;
   argument.has_value = true;
   draft.begin = draft.end = at_;
   at_ = form == ValueForm::tokens ? end_of_value(draft) : end_of_text(at_, form);
@@ -182,8 +172,7 @@ void ArgumentSplitter::read_value(ArgumentDraft& draft) {
   }
   argument.value_span = {&source_, tokens_[equals].offset + 1, 0};
   if (form == ValueForm::rest_of_line) return;
-  damage(argument, "missing-value", equals,
-         std::string(argument.name.text()) + " has no value after '='");
+  damage(argument, "missing-value", equals, std::string(argument.name.text()) + " has no value after '='");
 }
 
 // Raw text ends with the line, at a comma, or where another assignment begins without doubt.
@@ -195,8 +184,8 @@ std::size_t ArgumentSplitter::end_of_text(std::size_t begin, ValueForm form) con
       if (assignment_at(next)) return i;
     }
     if (form == ValueForm::rest_of_line) {
-      const bool argument_follows = symbol_at(i, ',') && assignment_at(i + 1) &&
-                                    ends_comment(token_text(tokens_[i + 1], source_));
+      const bool argument_follows =
+          symbol_at(i, ',') && assignment_at(i + 1) && ends_comment(token_text(tokens_[i + 1], source_));
       if (argument_follows) return i;
       continue;
     }
@@ -224,8 +213,7 @@ std::size_t ArgumentSplitter::end_of_value(ArgumentDraft& draft) {
       ++i;
     } else if (match_[i] != unmatched) {
       for (const std::size_t close = match_[i]; i < close; ++i) {
-        if (symbol_at(i, '='))
-          damage(argument, "stray-equals", i, "'=' stands inside of parentheses");
+        if (symbol_at(i, '=')) damage(argument, "stray-equals", i, "'=' stands inside of parentheses");
       }
       ++i;
     } else {
@@ -252,8 +240,7 @@ bool ArgumentSplitter::value_ends_at_comma(std::size_t begin, std::size_t comma,
 }
 
 // A forgotten comma: a complete operand, and then an argument.
-bool ArgumentSplitter::value_ends_before_word(std::size_t begin, std::size_t i,
-                                              const WrittenArgument& argument) const {
+bool ArgumentSplitter::value_ends_before_word(std::size_t begin, std::size_t i, const WrittenArgument& argument) const {
   if (i <= begin || !ends_operand(i - 1)) return false;
   if (assignment_at(i)) return true;
   return !argument.damaged && blank_before(i) && stands_alone(i);
@@ -266,17 +253,15 @@ void ArgumentSplitter::check_tokens(ArgumentDraft& draft, ValueForm form) {
       const auto byte = static_cast<unsigned char>(source_.text()[token.offset]);
       if (byte >= 0x20 && byte != 0x7F) continue;
       damage(draft.argument, "bad-character", i,
-             quoted(token, source_) + " stands in the value of " +
-                 std::string(draft.argument.name.text()));
+             quoted(token, source_) + " stands in the value of " + std::string(draft.argument.name.text()));
     }
     if (form != ValueForm::tokens || token.kind != TokenKind::number) continue;
     if (std::isinf(token.value)) {
       damage(draft.argument, "number-overflow", i, "this number is too large");
     }
     const bool sign = symbol_at(i + 1, '+') || symbol_at(i + 1, '-');
-    const bool like_exponent = token.degrees && sign && i + 2 < draft.end &&
-                               tokens_[i + 2].integer && !blank_before(i + 1) &&
-                               !blank_before(i + 2);
+    const bool like_exponent = token.degrees && sign && i + 2 < draft.end && tokens_[i + 2].integer &&
+                               !blank_before(i + 1) && !blank_before(i + 2);
     if (like_exponent) {
       diagnostics_.warning("degrees-not-exponent", join(span(i), span(i + 2)),
                            "D means degrees here and begins no exponent",
@@ -286,8 +271,8 @@ void ArgumentSplitter::check_tokens(ArgumentDraft& draft, ValueForm form) {
 }
 
 // One argument has one error: what goes wrong behind it is most often its consequence.
-void ArgumentSplitter::damage(WrittenArgument& argument, std::string_view code, std::size_t i,
-                              std::string message, std::string hint) {
+void ArgumentSplitter::damage(WrittenArgument& argument, std::string_view code, std::size_t i, std::string message,
+                              std::string hint) {
   if (!argument.damaged) {
     diagnostics_.error(code, span(i), std::move(message), std::move(hint));
   }
@@ -296,8 +281,8 @@ void ArgumentSplitter::damage(WrittenArgument& argument, std::string_view code, 
 
 }  // namespace
 
-SplitArguments split_arguments(std::span<const Token> tokens, std::string_view statement,
-                               const SourceText& source, Diagnostics& diagnostics) {
+SplitArguments split_arguments(std::span<const Token> tokens, std::string_view statement, const SourceText& source,
+                               Diagnostics& diagnostics) {
   return ArgumentSplitter(tokens, statement, source, diagnostics).split();
 }
 

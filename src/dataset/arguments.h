@@ -29,7 +29,7 @@ struct SplitArguments {
 };
 
 // `tokens` are those behind keyword, slash and id; `statement` is the full keyword, "" if unknown.
-SplitArguments split_arguments(std::span<const Token> tokens, std::string_view statement,
-                               const SourceText& source, Diagnostics& diagnostics);
+SplitArguments split_arguments(std::span<const Token> tokens, std::string_view statement, const SourceText& source,
+                               Diagnostics& diagnostics);
 
 }  // namespace dynalin

@@ -57,15 +57,17 @@ TEST(arguments, may_follow_the_slash_directly) {
 }
 
 TEST(arguments, let_an_expression_run_over_lines) {
-  EXPECT_EQ(split("SFORCE/1, FUNCTION = -1.2E-2*(DM(5,6)-291.5)\n, - 2.9E-3*VR(5,6)\n, + 0.0"),
-            Texts{"FUNCTION=- 1.2E-2 * ( DM ( 5 , 6 ) - 291.5 ) <,> - 2.9E-3 * VR ( 5 , 6 ) <,> + 0.0"});
+  EXPECT_EQ(
+      split("SFORCE/1, FUNCTION = -1.2E-2*(DM(5,6)-291.5)\n, - 2.9E-3*VR(5,6)\n, + 0.0"),
+      Texts{"FUNCTION=- 1.2E-2 * ( DM ( 5 , 6 ) - 291.5 ) <,> - 2.9E-3 * VR ( 5 , 6 ) <,> + 0.0"});
   EXPECT_EQ(split("VARIABLE/3\n, FUNCTION = (DX(5,6) +\n, DY(5,6))/\n, DM(5,6)"),
             Texts{"FUNCTION=( DX ( 5 , 6 ) + <,> DY ( 5 , 6 ) ) / <,> DM ( 5 , 6 )"});
   EXPECT_EQ(split("VARIABLE/3, FUNCTION=2*\n, PI\n, *3"), Texts{"FUNCTION=2 * <,> PI <,> * 3"});
 }
 
 TEST(arguments, end_an_expression_where_a_word_follows_an_operand) {
-  EXPECT_EQ(split("MOTION/1, FUNCTION=DX(1)\n, ROTATION"), (Texts{"FUNCTION=DX ( 1 )", "ROTATION"}));
+  EXPECT_EQ(split("MOTION/1, FUNCTION=DX(1)\n, ROTATION"),
+            (Texts{"FUNCTION=DX ( 1 )", "ROTATION"}));
   EXPECT_EQ(split("MOTION/1, FUNCTION=2*PI, ICDISP=0"), (Texts{"FUNCTION=2 * PI", "ICDISP=0"}));
 }
 
@@ -81,7 +83,8 @@ TEST(arguments, keep_the_colon_and_commas_of_IF_inside_its_parentheses) {
 TEST(arguments, end_expressions_at_a_backslash) {
   EXPECT_EQ(split("GFORCE/89, FX=20\\FY=40\\FZ=60, JFLOAT=5"),
             (Texts{"FX=20", "FY=40", "FZ=60", "JFLOAT=5"}));
-  EXPECT_EQ(split("REQUEST/4\n, F2=DX(1,2)\\\n, F3=DY(1,2)\\"), (Texts{"F2=DX ( 1 , 2 )", "F3=DY ( 1 , 2 )"}));
+  EXPECT_EQ(split("REQUEST/4\n, F2=DX(1,2)\\\n, F3=DY(1,2)\\"),
+            (Texts{"F2=DX ( 1 , 2 )", "F3=DY ( 1 , 2 )"}));
   EXPECT_EQ(split("GFORCE/1, FX = 0\\ FY = 0\\"), (Texts{"FX=0", "FY=0"}));
 }
 
@@ -103,13 +106,14 @@ TEST(arguments, may_begin_their_value_on_the_next_line) {
 }
 
 TEST(arguments, take_file_names_as_raw_text) {
-  const Parsed<Dataset> parsed =
-      read("FLEX_BODY/5, MNF_FILE=C:\\my dir\\a(1.mnf, QG=1,0,0\n"
-           "MATRIX/1, FILE=../data/in-1.mat NAME=ac\n"
-           "MATRIX/2,\n,file=\"a, b.mat\", name=ac");
+  const Parsed<Dataset> parsed = read(
+      "FLEX_BODY/5, MNF_FILE=C:\\my dir\\a(1.mnf, QG=1,0,0\n"
+      "MATRIX/1, FILE=../data/in-1.mat NAME=ac\n"
+      "MATRIX/2,\n,file=\"a, b.mat\", name=ac");
   EXPECT_EQ(problems(parsed.diagnostics), Texts{});
   const auto value = [&](std::size_t statement, std::size_t argument) {
-    return std::string(parsed.value.statements.at(statement).arguments.at(argument).value_span.text());
+    return std::string(
+        parsed.value.statements.at(statement).arguments.at(argument).value_span.text());
   };
   EXPECT_EQ(value(0, 0), "C:\\my dir\\a(1.mnf");
   EXPECT_EQ(parsed.value.statements[0].arguments.size(), 2u);
@@ -143,7 +147,8 @@ TEST(arguments, span_their_value_from_first_to_last_token) {
   EXPECT_EQ(parsed.value.statements.at(0).arguments.at(0).value_span.text(), "1 , 0, 2");
 }
 
-// --- faults ---------------------------------------------------------------------------------------------
+// --- faults
+// ---------------------------------------------------------------------------------------------
 
 TEST(arguments, report_a_parenthesis_that_is_never_closed) {
   const Faulty found = split_faulty("SFORCE/1, I=5, FUNCTION=-2*(DM(5,6)-291.5, J=6");

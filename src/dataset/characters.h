@@ -12,20 +12,16 @@ constexpr bool is_word_start(char c) { return is_letter(c) || c == '_'; }
 constexpr bool is_word_part(char c) { return is_word_start(c) || is_digit(c); }
 constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
 constexpr bool is_line_end(char c) { return c == '\n' || c == '\r'; }
-constexpr char to_upper(char c) {
-  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-}
+constexpr char to_upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 constexpr bool equal_ignoring_case(std::string_view a, std::string_view b) {
-  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) {
-           return to_upper(x) == to_upper(y);
-         });
+  return a.size() == b.size() &&
+         std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) { return to_upper(x) == to_upper(y); });
 }
 
 // Whether `word` begins with `beginning`.
 constexpr bool begins_with_ignoring_case(std::string_view word, std::string_view beginning) {
-  return word.size() >= beginning.size() &&
-         equal_ignoring_case(word.substr(0, beginning.size()), beginning);
+  return word.size() >= beginning.size() && equal_ignoring_case(word.substr(0, beginning.size()), beginning);
 }
 
 }  // namespace dynalin

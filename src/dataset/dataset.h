@@ -35,31 +35,31 @@ struct Token {
 // `NAME = value` or a bare `NAME`. The tokens of the value exclude the separators around it.
 struct WrittenArgument {
   Span name;
-  bool has_value = false;           // '=' was written
-  std::span<const Token> value;     // into Dataset::tokens
-  Span value_span;                  // from the first to the last token of the value; after '=' if empty
+  bool has_value = false;        // '=' was written
+  std::span<const Token> value;  // into Dataset::tokens
+  Span value_span;               // from the first to the last token of the value; after '=' if empty
   // An error inside of it is already reported: the readers below return nothing and add no second error, and
   // its tokens must not be parsed as an expression.
   bool damaged = false;
 };
 
 struct Statement {
-  Span keyword;                      // as written
-  std::string_view name;             // full upper-case name out of the keyword table, "" if unknown
-  std::optional<std::int64_t> id;    // after the slash
-  Span at;                           // keyword and id together, the place to point at for the whole
-  std::string view_name;             // of a preceding `! adams_view_name='…'` comment
+  Span keyword;                    // as written
+  std::string_view name;           // full upper-case name out of the keyword table, "" if unknown
+  std::optional<std::int64_t> id;  // after the slash
+  Span at;                         // keyword and id together, the place to point at for the whole
+  std::string view_name;           // of a preceding `! adams_view_name='…'` comment
   std::vector<WrittenArgument> arguments;
-  bool damaged = false;              // an error in it is already reported: id or arguments may be missing
+  bool damaged = false;  // an error in it is already reported: id or arguments may be missing
 };
 
 // Can be moved and not copied, because the values of the arguments are spans into `tokens`. A single
 // statement may be copied as long as its dataset lives.
 struct Dataset {
   SourceRef source;
-  std::string title;                 // at most 80 bytes
-  std::vector<Token> tokens;         // of the values of all arguments, one after the other
-  std::vector<Statement> statements; // without END; unknown ones are kept, their name is ""
+  std::string title;                  // at most 80 bytes
+  std::vector<Token> tokens;          // of the values of all arguments, one after the other
+  std::vector<Statement> statements;  // without END; unknown ones are kept, their name is ""
 
   Dataset() = default;
   Dataset(Dataset&&) = default;
@@ -75,8 +75,7 @@ Parsed<Dataset> parse_dataset(SourceRef source);
 // Reads lines of commands: same grammar, no title, no END, the slash may be left out, keywords out of
 // `keywords` (they must outlive the result). Reading starts at byte `start`, behind the lines that name
 // the model.
-Parsed<Dataset> parse_statements(SourceRef source, std::span<const std::string_view> keywords,
-                                 std::uint32_t start = 0);
+Parsed<Dataset> parse_statements(SourceRef source, std::span<const std::string_view> keywords, std::uint32_t start = 0);
 
 // --- reading the value of one argument ------------------------------------------------------------
 // Each reports what it found and what it expected at the right place and returns nothing on error.
@@ -92,8 +91,7 @@ struct WrittenInteger {
   Span at;
 };
 std::optional<WrittenInteger> read_integer(const WrittenArgument&, const SourceText&, Diagnostics&);
-std::optional<std::vector<WrittenInteger>> read_integers(const WrittenArgument&, const SourceText&,
-                                                         Diagnostics&);
+std::optional<std::vector<WrittenInteger>> read_integers(const WrittenArgument&, const SourceText&, Diagnostics&);
 // One word, as written.
 std::optional<Span> read_word(const WrittenArgument&, const SourceText&, Diagnostics&);
 // Words separated by colons.
@@ -107,8 +105,7 @@ std::optional<std::string> read_text(const WrittenArgument&, const SourceText&, 
 // match, else a unique prefix, else the candidate that the table of documented short forms prefers (M is
 // MARKER among statements and MASS among the arguments of PART). Case is not significant. Returns the index,
 // nothing if unknown (`ambiguous` lists the candidates of a tie).
-std::optional<std::size_t> find_keyword(std::string_view word,
-                                        std::span<const std::string_view> candidates,
+std::optional<std::size_t> find_keyword(std::string_view word, std::span<const std::string_view> candidates,
                                         std::vector<std::string_view>* ambiguous = nullptr);
 
 // Full name of a statement keyword by the priority table of the dataset language, "" if unknown.

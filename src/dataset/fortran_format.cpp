@@ -18,15 +18,13 @@ class FormatParser {
 
   std::optional<FortranFormat> parse() {
     if (!take('(') || !group(0)) return std::nullopt;
-    const bool numbers = std::any_of(format_.items.begin(), format_.items.end(), [](const auto& i) {
-      return i.kind == FortranItem::Kind::number;
-    });
+    const bool numbers = std::any_of(format_.items.begin(), format_.items.end(),
+                                     [](const auto& i) { return i.kind == FortranItem::Kind::number; });
     if (!numbers) return std::nullopt;
     // A last group without numbers would never end.
     const auto again = format_.items.begin() + static_cast<std::ptrdiff_t>(format_.again);
-    const bool goes_on = std::any_of(again, format_.items.end(), [](const auto& i) {
-      return i.kind == FortranItem::Kind::number;
-    });
+    const bool goes_on =
+        std::any_of(again, format_.items.end(), [](const auto& i) { return i.kind == FortranItem::Kind::number; });
     if (!goes_on) format_.again = 0;
     return format_;
   }
@@ -66,8 +64,7 @@ class FormatParser {
     if (take('-')) return take_count() && take('P');
     const std::optional<std::size_t> count = take_count();
     const std::size_t repeat = count.value_or(1);
-    if (count && take('P'))
-      return true;  // the scale factor does not change numbers with an exponent
+    if (count && take('P')) return true;  // the scale factor does not change numbers with an exponent
     if (take('/')) return append(repeat, {FortranItem::Kind::next_record, 0, 0});
     if (take('X')) return append(1, {FortranItem::Kind::skip, repeat, 0});
     if (take('(')) {
@@ -116,8 +113,6 @@ class FormatParser {
 
 }  // namespace
 
-std::optional<FortranFormat> parse_fortran_format(std::string_view text) {
-  return FormatParser(text).parse();
-}
+std::optional<FortranFormat> parse_fortran_format(std::string_view text) { return FormatParser(text).parse(); }
 
 }  // namespace dynalin

@@ -64,8 +64,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const bool same = to_upper(a[i - 1]) == to_upper(b[j - 1]);
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
-      const bool swapped = i > 1 && j > 1 && to_upper(a[i - 1]) == to_upper(b[j - 2]) &&
-                           to_upper(a[i - 2]) == to_upper(b[j - 1]);
+      const bool swapped =
+          i > 1 && j > 1 && to_upper(a[i - 1]) == to_upper(b[j - 2]) && to_upper(a[i - 2]) == to_upper(b[j - 1]);
       if (swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
     }
     before_last = last;
@@ -76,8 +76,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::optional<std::size_t> find_keyword(std::string_view word,
-                                        std::span<const std::string_view> candidates,
+std::optional<std::size_t> find_keyword(std::string_view word, std::span<const std::string_view> candidates,
                                         std::vector<std::string_view>* ambiguous) {
   if (ambiguous) ambiguous->clear();
   if (word.empty()) return std::nullopt;

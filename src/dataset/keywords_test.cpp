@@ -9,17 +9,17 @@ namespace {
 
 TEST(statement_name, knows_the_documented_short_forms) {
   const std::array<std::pair<std::string_view, std::string_view>, 44> cases{{
-      {"M", "MARKER"},       {"ma", "MARKER"},      {"MAR", "MARKER"},      {"MATR", "MATRIX"},
-      {"MATE", "MATERIAL"},  {"MO", "MOTION"},      {"MF", "MFORCE"},       {"MR", "MREQUEST"},
-      {"J", "JOINT"},        {"JP", "JPRIM"},       {"P", "PART"},          {"pa", "PART"},
-      {"POI", "POINT_MASS"}, {"PT", "PTCV"},        {"R", "REQUEST"},       {"RES", "RESULTS"},
-      {"result", "RESULTS"}, {"gra", "GRAPHICS"},   {"GF", "GFORCE"},       {"GE", "GEAR"},
-      {"GC", "GCON"},        {"sforce", "SFORCE"},  {"SF", "SFORCE"},       {"SPR", "SPRINGDAMPER"},
-      {"SPL", "SPLINE"},     {"ST", "STRING"},      {"SE", "SENSOR"},       {"vari", "VARIABLE"},
-      {"var", "VARIABLE"},   {"VF", "VFORCE"},      {"VT", "VTORQUE"},      {"LSE", "LSE"},
-      {"LS", "LSOLVER"},     {"IC", "IC"},          {"INT", "INTEGRATOR"},  {"ACC", "ACCGRAV"},
-      {"AR", "ARRAY"},       {"BE", "BEAM"},        {"BU", "BUSHING"},      {"CON", "CONTACT"},
-      {"EQU", "EQUILIBRIUM"}, {"FI", "FIELD"},      {"FL", "FLEX_BODY"},    {"FR", "FRICTION"},
+      {"M", "MARKER"},        {"ma", "MARKER"},     {"MAR", "MARKER"},     {"MATR", "MATRIX"},
+      {"MATE", "MATERIAL"},   {"MO", "MOTION"},     {"MF", "MFORCE"},      {"MR", "MREQUEST"},
+      {"J", "JOINT"},         {"JP", "JPRIM"},      {"P", "PART"},         {"pa", "PART"},
+      {"POI", "POINT_MASS"},  {"PT", "PTCV"},       {"R", "REQUEST"},      {"RES", "RESULTS"},
+      {"result", "RESULTS"},  {"gra", "GRAPHICS"},  {"GF", "GFORCE"},      {"GE", "GEAR"},
+      {"GC", "GCON"},         {"sforce", "SFORCE"}, {"SF", "SFORCE"},      {"SPR", "SPRINGDAMPER"},
+      {"SPL", "SPLINE"},      {"ST", "STRING"},     {"SE", "SENSOR"},      {"vari", "VARIABLE"},
+      {"var", "VARIABLE"},    {"VF", "VFORCE"},     {"VT", "VTORQUE"},     {"LSE", "LSE"},
+      {"LS", "LSOLVER"},      {"IC", "IC"},         {"INT", "INTEGRATOR"}, {"ACC", "ACCGRAV"},
+      {"AR", "ARRAY"},        {"BE", "BEAM"},       {"BU", "BUSHING"},     {"CON", "CONTACT"},
+      {"EQU", "EQUILIBRIUM"}, {"FI", "FIELD"},      {"FL", "FLEX_BODY"},   {"FR", "FRICTION"},
   }};
   for (const auto& [word, full] : cases) EXPECT_EQ(statement_name(word), full) << word;
 }

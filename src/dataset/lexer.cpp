@@ -10,9 +10,7 @@ namespace dynalin {
 
 namespace {
 
-constexpr bool is_symbol(char c) {
-  return std::string_view(",=:/\\()[]+-*%").find(c) != std::string_view::npos;
-}
+constexpr bool is_symbol(char c) { return std::string_view(",=:/\\()[]+-*%").find(c) != std::string_view::npos; }
 
 // A quote opens a quoted text only where a value may begin, so that the one in `Peter's` does not.
 constexpr bool may_open_quote(char previous) {
@@ -135,8 +133,8 @@ void Lexer::scan_number(std::vector<Token>& tokens) {
   const NumberExtent extent = number_extent(text_.substr(at_), ExponentLetter::e);
   const std::size_t end = at_ + extent.length;
   double value = number_value(text_.substr(at_, extent.length));
-  const bool degrees = end < text_.size() && to_upper(text_[end]) == 'D' &&
-                       (end + 1 == text_.size() || !is_word_part(text_[end + 1]));
+  const bool degrees =
+      end < text_.size() && to_upper(text_[end]) == 'D' && (end + 1 == text_.size() || !is_word_part(text_[end + 1]));
   if (degrees) value *= std::numbers::pi / 180.0;
   push(tokens, TokenKind::number, extent.length + (degrees ? 1 : 0));
   tokens.back().value = value;

@@ -78,8 +78,7 @@ class LineReader {
  private:
   Span take(std::size_t end) {
     const Span result{&file_,
-                      static_cast<std::uint32_t>(line_.data() - file_.text().data()) +
-                          static_cast<std::uint32_t>(at_),
+                      static_cast<std::uint32_t>(line_.data() - file_.text().data()) + static_cast<std::uint32_t>(at_),
                       static_cast<std::uint32_t>(end - at_)};
     at_ = end;
     return result;
@@ -188,18 +187,15 @@ std::string list_of_names(const Contents& contents) {
   return list;
 }
 
-Span first_line(const SourceText& file) {
-  return {&file, 0, static_cast<std::uint32_t>(file.line(1).size())};
-}
+Span first_line(const SourceText& file) { return {&file, 0, static_cast<std::uint32_t>(file.line(1).size())}; }
 
-const Header* find_header(const SourceText& file, const Contents& contents, std::string_view name,
-                          const Span& asked_at, Diagnostics& diagnostics) {
+const Header* find_header(const SourceText& file, const Contents& contents, std::string_view name, const Span& asked_at,
+                          Diagnostics& diagnostics) {
   const Span at = asked_at.source ? asked_at : first_line(file);
   if (name.empty()) {
     if (contents.headers.size() == 1) return &contents.headers[0];
     diagnostics.error("matrix-missing", at,
-                      fmt::format("{} holds {} matrices, and none is named", file.name(),
-                                  contents.headers.size()),
+                      fmt::format("{} holds {} matrices, and none is named", file.name(), contents.headers.size()),
                       list_of_names(contents));
     return nullptr;
   }
@@ -209,11 +205,9 @@ const Header* find_header(const SourceText& file, const Contents& contents, std:
   }
   const auto promised = std::find_if(contents.directory.begin(), contents.directory.end(), named);
   if (promised != contents.directory.end()) {
-    diagnostics.error(
-        "matrix-truncated", *promised,
-        fmt::format("{} is in the directory of the file, but its values are not there",
-                    promised->text()),
-        list_of_names(contents));
+    diagnostics.error("matrix-truncated", *promised,
+                      fmt::format("{} is in the directory of the file, but its values are not there", promised->text()),
+                      list_of_names(contents));
     return nullptr;
   }
   diagnostics.error("matrix-missing", at, fmt::format("{} has no matrix {}", file.name(), name),
@@ -237,9 +231,9 @@ bool check_header(const Header& header, const SourceText& file, Diagnostics& dia
   }
   const std::int64_t size = header.rows * header.columns;
   if (header.layout != Layout::sparse && header.entries != size) {
-    diagnostics.error("matrix-header", at,
-                      fmt::format("{} has {} rows and {} columns, but {} values", name, header.rows,
-                                  header.columns, header.entries));
+    diagnostics.error(
+        "matrix-header", at,
+        fmt::format("{} has {} rows and {} columns, but {} values", name, header.rows, header.columns, header.entries));
     return false;
   }
   if (header.complex) {
@@ -250,14 +244,12 @@ bool check_header(const Header& header, const SourceText& file, Diagnostics& dia
   // thin air.
   const auto characters = static_cast<std::int64_t>(file.text().size());
   if (header.entries > characters) {
-    diagnostics.error(
-        "matrix-truncated", at,
-        fmt::format("{} needs {} values, for which the file is too short", name, header.entries));
+    diagnostics.error("matrix-truncated", at,
+                      fmt::format("{} needs {} values, for which the file is too short", name, header.entries));
     return false;
   }
   if (size > most_values) {
-    diagnostics.error("matrix-header", at,
-                      fmt::format("{} has more than {} entries", name, most_values));
+    diagnostics.error("matrix-header", at, fmt::format("{} has more than {} entries", name, most_values));
     return false;
   }
   return true;
@@ -271,15 +263,14 @@ bool fill_sparse(const Header& header, const std::vector<double>& triples, Matri
     const double row = triples[i], column = triples[i + 1];
     const bool whole = row == std::floor(row) && column == std::floor(column);
     const bool inside = row >= 1 && row <= matrix.rows && column >= 1 && column <= matrix.columns;
-    const std::size_t index = whole && inside ? static_cast<std::size_t>(column - 1) *
-                                                        static_cast<std::size_t>(matrix.rows) +
-                                                    static_cast<std::size_t>(row - 1)
-                                              : 0;
+    const std::size_t index = whole && inside
+                                  ? static_cast<std::size_t>(column - 1) * static_cast<std::size_t>(matrix.rows) +
+                                        static_cast<std::size_t>(row - 1)
+                                  : 0;
     if (!whole || !inside || given[index]) {
-      diagnostics.error(
-          "matrix-entry", header.name,
-          fmt::format("entry {} of {} is for row {}, column {}, which {}", i / 3 + 1, matrix.name,
-                      row, column, whole && inside ? "is given twice" : "does not exist"));
+      diagnostics.error("matrix-entry", header.name,
+                        fmt::format("entry {} of {} is for row {}, column {}, which {}", i / 3 + 1, matrix.name, row,
+                                    column, whole && inside ? "is given twice" : "does not exist"));
       return false;
     }
     given[index] = true;
@@ -288,8 +279,7 @@ bool fill_sparse(const Header& header, const std::vector<double>& triples, Matri
   return true;
 }
 
-std::vector<double> transposed(const std::vector<double>& by_rows, std::size_t rows,
-                               std::size_t columns) {
+std::vector<double> transposed(const std::vector<double>& by_rows, std::size_t rows, std::size_t columns) {
   std::vector<double> by_columns(by_rows.size());
   for (std::size_t i = 0; i < rows; ++i) {
     for (std::size_t j = 0; j < columns; ++j) by_columns[j * rows + i] = by_rows[i * columns + j];
@@ -299,8 +289,8 @@ std::vector<double> transposed(const std::vector<double>& by_rows, std::size_t r
 
 }  // namespace
 
-std::optional<MatrixData> read_matrix(const SourceText& file, std::string_view name,
-                                      const Span& asked_at, Diagnostics& diagnostics) {
+std::optional<MatrixData> read_matrix(const SourceText& file, std::string_view name, const Span& asked_at,
+                                      Diagnostics& diagnostics) {
   if (type_of(file) == FileType::unknown) {
     diagnostics.error("matrix-file-type", first_line(file),
                       fmt::format("{} is not a known file of matrices", file.name()),
@@ -319,16 +309,15 @@ std::optional<MatrixData> read_matrix(const SourceText& file, std::string_view n
   const std::size_t end_line = last ? file.line_count() + 1 : (header + 1)->line;
   const bool sparse = header->layout == Layout::sparse;
   const auto count = static_cast<std::size_t>(header->entries) * (sparse ? 3 : 1);
-  auto values = read_matrix_values(
-      {file, matrix.name, header->name, header->line + 1, end_line, count, header->format},
-      diagnostics);
+  auto values = read_matrix_values({file, matrix.name, header->name, header->line + 1, end_line, count, header->format},
+                                   diagnostics);
   if (!values) return std::nullopt;
   if (sparse) {
     matrix.values.assign(static_cast<std::size_t>(header->rows * header->columns), 0.0);
     if (!fill_sparse(*header, *values, matrix, diagnostics)) return std::nullopt;
   } else if (header->layout == Layout::by_rows) {
-    matrix.values = transposed(*values, static_cast<std::size_t>(header->rows),
-                               static_cast<std::size_t>(header->columns));
+    matrix.values =
+        transposed(*values, static_cast<std::size_t>(header->rows), static_cast<std::size_t>(header->columns));
   } else {
     matrix.values = std::move(*values);
   }

@@ -22,8 +22,8 @@ struct MatrixData {
 // The matrix of that name in any case; an empty name takes the only matrix of the file. `asked_at`
 // is the place that names the matrix, for the message if it is missing. Problems inside the file
 // are reported at their place in the file, which must outlive the diagnostics.
-std::optional<MatrixData> read_matrix(const SourceText& file, std::string_view name,
-                                      const Span& asked_at, Diagnostics& diagnostics);
+std::optional<MatrixData> read_matrix(const SourceText& file, std::string_view name, const Span& asked_at,
+                                      Diagnostics& diagnostics);
 
 // The matrices of the file in their order.
 std::vector<std::string> matrix_names(const SourceText& file);

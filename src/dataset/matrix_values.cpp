@@ -43,8 +43,7 @@ struct FreeValues {
 };
 
 Span span_in(const SourceText& file, std::string_view part) {
-  return {&file, static_cast<std::uint32_t>(part.data() - file.text().data()),
-          static_cast<std::uint32_t>(part.size())};
+  return {&file, static_cast<std::uint32_t>(part.data() - file.text().data()), static_cast<std::uint32_t>(part.size())};
 }
 
 // Numbers with blanks or commas between them, on any number of lines.
@@ -81,14 +80,11 @@ FreeValues read_free(const MatrixBlock& block) {
 }
 
 // Numbers in the columns that the format says; nothing if the text does not fit it exactly.
-std::optional<std::vector<double>> read_columns(const MatrixBlock& block,
-                                                const FortranFormat& format) {
+std::optional<std::vector<double>> read_columns(const MatrixBlock& block, const FortranFormat& format) {
   std::vector<double> values;
   std::size_t line_number = block.first_line;
   std::size_t column = 0, item = 0;
-  const auto blank = [](std::string_view text) {
-    return std::all_of(text.begin(), text.end(), is_blank);
-  };
+  const auto blank = [](std::string_view text) { return std::all_of(text.begin(), text.end(), is_blank); };
   while (values.size() < block.value_count) {
     if (line_number >= block.end_line) return std::nullopt;
     const std::string_view line = block.file.line(line_number);
@@ -132,19 +128,17 @@ Span end_of_values(const MatrixBlock& block) {
   return block.header;
 }
 
-void report(const MatrixBlock& block, const FreeValues& found, bool format_known,
-            Diagnostics& diagnostics) {
+void report(const MatrixBlock& block, const FreeValues& found, bool format_known, Diagnostics& diagnostics) {
   if (found.bad.source) {
-    diagnostics.error("matrix-number", found.bad,
-                      fmt::format("the values of {} end in {}, which is not a number", block.name,
-                                  quoted(found.bad.text())),
-                      format_known
-                          ? fmt::format("nor do the values fit the columns of {}", block.format)
-                          : fmt::format("the format {} is not understood", block.format));
+    diagnostics.error(
+        "matrix-number", found.bad,
+        fmt::format("the values of {} end in {}, which is not a number", block.name, quoted(found.bad.text())),
+        format_known ? fmt::format("nor do the values fit the columns of {}", block.format)
+                     : fmt::format("the format {} is not understood", block.format));
     return;
   }
-  const std::string message = fmt::format("{} needs {} values, {} found", block.name,
-                                          block.value_count, found.values.size());
+  const std::string message =
+      fmt::format("{} needs {} values, {} found", block.name, block.value_count, found.values.size());
   if (found.surplus.source) {
     diagnostics.error("matrix-count", found.surplus, message);
     return;
@@ -154,8 +148,7 @@ void report(const MatrixBlock& block, const FreeValues& found, bool format_known
                     file_ends ? message + " before the file ends" : message);
 }
 
-void warn_about_implied_point(const FreeValues& found, const FortranFormat& format,
-                              Diagnostics& diagnostics) {
+void warn_about_implied_point(const FreeValues& found, const FortranFormat& format, Diagnostics& diagnostics) {
   if (!found.without_point.source) return;
   // In a format that mixes whole numbers and others it is not known which this one is.
   const bool implied = std::all_of(format.items.begin(), format.items.end(), [](const auto& item) {
@@ -164,15 +157,13 @@ void warn_about_implied_point(const FreeValues& found, const FortranFormat& form
   if (!implied) return;
   diagnostics.warning(
       "matrix-implied-point", found.without_point,
-      fmt::format("{} is read as it stands, where FORTRAN would imply a decimal point",
-                  found.without_point.text()),
+      fmt::format("{} is read as it stands, where FORTRAN would imply a decimal point", found.without_point.text()),
       "write the point");
 }
 
 }  // namespace
 
-std::optional<std::vector<double>> read_matrix_values(const MatrixBlock& block,
-                                                      Diagnostics& diagnostics) {
+std::optional<std::vector<double>> read_matrix_values(const MatrixBlock& block, Diagnostics& diagnostics) {
   FreeValues free = read_free(block);
   const std::optional<FortranFormat> format = parse_fortran_format(block.format);
   std::optional<std::vector<double>> values;
@@ -186,11 +177,9 @@ std::optional<std::vector<double>> read_matrix_values(const MatrixBlock& block,
     report(block, free, format.has_value(), diagnostics);
     return std::nullopt;
   }
-  const bool finite = std::all_of(values->begin(), values->end(),
-                                  [](double value) { return std::isfinite(value); });
+  const bool finite = std::all_of(values->begin(), values->end(), [](double value) { return std::isfinite(value); });
   if (finite) return values;
-  diagnostics.error("number-overflow", block.header,
-                    fmt::format("{} holds a number that is too large", block.name));
+  diagnostics.error("number-overflow", block.header, fmt::format("{} holds a number that is too large", block.name));
   return std::nullopt;
 }
 

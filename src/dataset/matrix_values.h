@@ -23,7 +23,6 @@ struct MatrixBlock {
 };
 
 // The numbers in the order of the file; problems are reported.
-std::optional<std::vector<double>> read_matrix_values(const MatrixBlock& block,
-                                                      Diagnostics& diagnostics);
+std::optional<std::vector<double>> read_matrix_values(const MatrixBlock& block, Diagnostics& diagnostics);
 
 }  // namespace dynalin

@@ -55,9 +55,9 @@ constexpr auto raw_arguments = std::to_array<RawArgument>({
     {"PREFERENCES", "CONTACT_GEOMETRY_LIBRARY", 9},
 });
 
-constexpr auto after_comment = std::to_array<std::string_view>(
-    {"I", "J", "RM", "F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "FUNCTION", "TITLE", "CNAMES",
-     "CUNITS", "RESULTS_NAME", "VARIABLES"});
+constexpr auto after_comment =
+    std::to_array<std::string_view>({"I", "J", "RM", "F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "FUNCTION",
+                                     "TITLE", "CNAMES", "CUNITS", "RESULTS_NAME", "VARIABLES"});
 
 }  // namespace
 

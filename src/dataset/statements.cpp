@@ -71,8 +71,7 @@ bool StatementReader::check_is_text() {
   const std::string_view sample = text.substr(0, 1024);
   const auto zeros = std::count(sample.begin(), sample.end(), '\0');
   if (utf16 || zeros * 8 > static_cast<std::ptrdiff_t>(sample.size())) {
-    diagnostics_.error("not-text", first,
-                       utf16 ? "the file is UTF-16 text" : "the file holds binary data",
+    diagnostics_.error("not-text", first, utf16 ? "the file is UTF-16 text" : "the file holds binary data",
                        "a dataset or command file is plain ASCII or UTF-8 text");
     return false;
   }
@@ -128,9 +127,8 @@ void StatementReader::read(std::uint32_t start) {
     }
     read_statement(tokens, lexer.view_name());
     const Token& last = tokens.back();
-    last_is_open_ = last.kind == TokenKind::symbol && !is_symbol(last, text_, ')') &&
-                    !is_symbol(last, text_, ']') && !is_symbol(last, text_, '\\') &&
-                    !is_symbol(last, text_, '/');
+    last_is_open_ = last.kind == TokenKind::symbol && !is_symbol(last, text_, ')') && !is_symbol(last, text_, ']') &&
+                    !is_symbol(last, text_, '\\') && !is_symbol(last, text_, '/');
   }
   if (diagnostics_.error_count() >= most_errors) {
     diagnostics_.error("too-many-errors", {&text_, lexer.position(), 0},
@@ -190,23 +188,21 @@ void StatementReader::report_not_a_statement(std::span<const Token> tokens) {
     return;
   }
   // The whole line is marked, and not the lines that continue it.
-  const std::size_t line_end =
-      std::min(text_.text().find_first_of("\r\n", first.offset), text_.text().size());
+  const std::size_t line_end = std::min(text_.text().find_first_of("\r\n", first.offset), text_.text().size());
   Span line = at;
   for (const Token& token : tokens) {
     if (token.offset < line_end) line = join(line, token_span(token, text_));
   }
-  diagnostics_.error("not-a-statement", line,
-                     fmt::format("{} is not {}", quoted(line.text()),
-                                 language_ == Language::dataset ? "a statement" : "a command"),
-                     continuation_hint(tokens));
+  diagnostics_.error(
+      "not-a-statement", line,
+      fmt::format("{} is not {}", quoted(line.text()), language_ == Language::dataset ? "a statement" : "a command"),
+      continuation_hint(tokens));
 }
 
 std::string StatementReader::continuation_hint(std::span<const Token> tokens) const {
   if (language_ == Language::commands) return "a command begins with its keyword";
   if (last_is_open_ && !dataset_.statements.empty()) {
-    return fmt::format("begin the line with a comma if it continues {}",
-                       dataset_.statements.back().at.text());
+    return fmt::format("begin the line with a comma if it continues {}", dataset_.statements.back().at.text());
   }
   const std::string_view word = token_text(tokens[0], text_);
   if (tokens.size() > 1 && tokens[1].kind == TokenKind::number && !statement_name(word).empty()) {
@@ -238,13 +234,12 @@ void StatementReader::look_up(Statement& statement) {
       list += ambiguous[i];
     }
     diagnostics_.error("ambiguous-keyword", statement.keyword,
-                       fmt::format("{} may mean several {}s", quoted(word), noun),
-                       fmt::format("it could be {}", list));
+                       fmt::format("{} may mean several {}s", quoted(word), noun), fmt::format("it could be {}", list));
     return;
   }
   const std::string_view nearest = nearest_word(word, keywords_);
-  diagnostics_.error(language_ == Language::dataset ? "unknown-statement" : "unknown-command",
-                     statement.keyword, fmt::format("there is no {} {}", noun, quoted(word)),
+  diagnostics_.error(language_ == Language::dataset ? "unknown-statement" : "unknown-command", statement.keyword,
+                     fmt::format("there is no {} {}", noun, quoted(word)),
                      nearest.empty() ? std::string{} : fmt::format("did you mean {}?", nearest));
 }
 
@@ -256,8 +251,7 @@ std::size_t StatementReader::read_id(std::span<const Token> tokens, Statement& s
   if (number >= tokens.size() || tokens[number].kind != TokenKind::number) return 0;
   std::size_t count = number + 1;
   const auto touches = [&](std::size_t i) {
-    return tokens[i].kind != TokenKind::symbol &&
-           tokens[i].offset == tokens[i - 1].offset + tokens[i - 1].length;
+    return tokens[i].kind != TokenKind::symbol && tokens[i].offset == tokens[i - 1].offset + tokens[i - 1].length;
   };
   while (count < tokens.size() && touches(count)) ++count;
   const Span at = join(token_span(tokens[0], text_), token_span(tokens[count - 1], text_));
@@ -279,17 +273,16 @@ std::size_t StatementReader::read_id(std::span<const Token> tokens, Statement& s
   }
   statement.id = id;
   if (digits.size() > documented_id_digits) {
-    diagnostics_.warning("long-id", at,
-                         fmt::format("the id of {} has more than {} digits", statement.at.text(),
-                                     documented_id_digits));
+    diagnostics_.warning(
+        "long-id", at, fmt::format("the id of {} has more than {} digits", statement.at.text(), documented_id_digits));
   }
   return count;
 }
 
 void StatementReader::read_arguments(std::span<const Token> tokens, Statement& statement) {
   Diagnostics ignored;  // of an unknown statement, which has its one error already
-  SplitArguments split = split_arguments(tokens, statement.name, text_,
-                                         statement.name.empty() ? ignored : diagnostics_);
+  SplitArguments split =
+      split_arguments(tokens, statement.name, text_, statement.name.empty() ? ignored : diagnostics_);
   statement.damaged = statement.damaged || split.damaged;
   statement.arguments.reserve(split.drafts.size());
   for (ArgumentDraft& draft : split.drafts) {
@@ -326,8 +319,7 @@ Parsed<Dataset> parse_dataset(SourceRef source) {
   return reader.finish();
 }
 
-Parsed<Dataset> parse_statements(SourceRef source, std::span<const std::string_view> keywords,
-                                 std::uint32_t start) {
+Parsed<Dataset> parse_statements(SourceRef source, std::span<const std::string_view> keywords, std::uint32_t start) {
   assert(source && start <= source->text().size());
   StatementReader reader(Language::commands, std::move(source), keywords);
   if (reader.check_is_text()) reader.read(start);

@@ -1,4 +1,5 @@
-// What the tests of this folder share: reading a text and writing its arguments and diagnostics in short form.
+// What the tests of this folder share: reading a text and writing its arguments and diagnostics in
+// short form.
 #pragma once
 
 #include <fmt/format.h>
@@ -57,7 +58,8 @@ inline std::vector<std::string> arguments(const Statement& statement, const Sour
   return result;
 }
 
-inline std::vector<std::string> arguments(const Parsed<Dataset>& parsed, std::size_t statement = 0) {
+inline std::vector<std::string> arguments(const Parsed<Dataset>& parsed,
+                                          std::size_t statement = 0) {
   return arguments(parsed.value.statements.at(statement), *parsed.value.source);
 }
 

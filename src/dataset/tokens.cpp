@@ -15,16 +15,13 @@ std::string quoted(std::string_view text) {
   if (!text.empty() && unprintable(text.front())) {
     return fmt::format("the byte 0x{:02X}", static_cast<unsigned char>(text.front()));
   }
-  text = text.substr(0, static_cast<std::size_t>(
-                            std::find_if(text.begin(), text.end(), unprintable) - text.begin()));
+  text = text.substr(0, static_cast<std::size_t>(std::find_if(text.begin(), text.end(), unprintable) - text.begin()));
   if (text.size() <= longest) return fmt::format("'{}'", text);
   std::size_t end = longest;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
   return fmt::format("'{}...'", text.substr(0, end));
 }
 
-std::string quoted(const Token& token, const SourceText& source) {
-  return quoted(token_text(token, source));
-}
+std::string quoted(const Token& token, const SourceText& source) { return quoted(token_text(token, source)); }
 
 }  // namespace dynalin

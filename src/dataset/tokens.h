@@ -13,13 +13,10 @@ inline std::string_view token_text(const Token& token, const SourceText& source)
   return source.text().substr(token.offset, token.length);
 }
 
-inline Span token_span(const Token& token, const SourceText& source) {
-  return {&source, token.offset, token.length};
-}
+inline Span token_span(const Token& token, const SourceText& source) { return {&source, token.offset, token.length}; }
 
 inline bool is_symbol(const Token& token, const SourceText& source, char symbol) {
-  return token.kind == TokenKind::symbol && token.length == 1 &&
-         source.text()[token.offset] == symbol;
+  return token.kind == TokenKind::symbol && token.length == 1 && source.text()[token.offset] == symbol;
 }
 
 // For messages: the token in quotes, shortened if long, or the code of a byte that cannot be

@@ -21,12 +21,10 @@ struct WrittenReal {
 std::string_view name_of(const WrittenArgument& argument) { return argument.name.text(); }
 
 // False if there is nothing to read, which is reported here unless it was before.
-bool has_readable_value(const WrittenArgument& argument, std::string_view what,
-                        Diagnostics& diagnostics) {
+bool has_readable_value(const WrittenArgument& argument, std::string_view what, Diagnostics& diagnostics) {
   if (argument.damaged) return false;
   if (argument.has_value && !argument.value.empty()) return true;
-  diagnostics.error("missing-value", argument.name,
-                    fmt::format("{} needs {}", name_of(argument), what),
+  diagnostics.error("missing-value", argument.name, fmt::format("{} needs {}", name_of(argument), what),
                     fmt::format("write {} = ...", name_of(argument)));
   return false;
 }
@@ -51,9 +49,7 @@ class NumberList {
 
  private:
   std::span<const Token> tokens() const { return argument_.value; }
-  bool symbol_here(char symbol) const {
-    return at_ < tokens().size() && is_symbol(tokens()[at_], source_, symbol);
-  }
+  bool symbol_here(char symbol) const { return at_ < tokens().size() && is_symbol(tokens()[at_], source_, symbol); }
 
   std::optional<WrittenReal> read_number() {
     const std::size_t begin = at_;
@@ -67,8 +63,7 @@ class NumberList {
     const Span at = token_span(token, source_);
     if (token.kind != TokenKind::number) {
       diagnostics_.error("expected-number", at,
-                         fmt::format("{} takes plain numbers, found {}", name_of(argument_),
-                                     quoted(token, source_)));
+                         fmt::format("{} takes plain numbers, found {}", name_of(argument_), quoted(token, source_)));
       return std::nullopt;
     }
     // Too large a number was reported with the statement, and its argument marked.
@@ -93,10 +88,10 @@ class NumberList {
     }
     const Token& token = tokens()[at_];
     const bool number = token.kind == TokenKind::number;
-    diagnostics_.error(number ? "expected-comma" : "expected-number", token_span(token, source_),
-                       number ? fmt::format("a comma is missing before {}", quoted(token, source_))
-                              : fmt::format("{} takes plain numbers, found {}", name_of(argument_),
-                                            quoted(token, source_)));
+    diagnostics_.error(
+        number ? "expected-comma" : "expected-number", token_span(token, source_),
+        number ? fmt::format("a comma is missing before {}", quoted(token, source_))
+               : fmt::format("{} takes plain numbers, found {}", name_of(argument_), quoted(token, source_)));
     return false;
   }
 
@@ -106,8 +101,7 @@ class NumberList {
   std::size_t at_ = 0;
 };
 
-std::optional<std::vector<WrittenReal>> read_numbers(const WrittenArgument& argument,
-                                                     const SourceText& source,
+std::optional<std::vector<WrittenReal>> read_numbers(const WrittenArgument& argument, const SourceText& source,
                                                      Diagnostics& diagnostics, std::size_t count,
                                                      std::string_view noun) {
   const std::string what = count == 0   ? fmt::format("{}s", noun)
@@ -125,20 +119,18 @@ std::optional<std::vector<WrittenReal>> read_numbers(const WrittenArgument& argu
 std::optional<WrittenInteger> as_integer(const WrittenArgument& argument, const WrittenReal& number,
                                          Diagnostics& diagnostics) {
   constexpr double exact = 9007199254740992.0;  // 2^53: beyond it neighbours coincide
-  const bool degrees =
-      !number.integer && number.at.text().find_first_of("dD") != std::string_view::npos;
+  const bool degrees = !number.integer && number.at.text().find_first_of("dD") != std::string_view::npos;
   if (!degrees && std::abs(number.value) <= exact && number.value == std::floor(number.value)) {
     return WrittenInteger{static_cast<std::int64_t>(number.value), number.at};
   }
-  diagnostics.error(
-      "expected-integer", number.at,
-      fmt::format("{} takes whole numbers, found {}", name_of(argument), quoted(number.at.text())));
+  diagnostics.error("expected-integer", number.at,
+                    fmt::format("{} takes whole numbers, found {}", name_of(argument), quoted(number.at.text())));
   return std::nullopt;
 }
 
 // One word, which may begin with digits (3DBEAM) as long as no blank stands in it.
-std::optional<Span> take_word(const WrittenArgument& argument, const SourceText& source,
-                              Diagnostics& diagnostics, std::size_t& at) {
+std::optional<Span> take_word(const WrittenArgument& argument, const SourceText& source, Diagnostics& diagnostics,
+                              std::size_t& at) {
   const std::span<const Token> tokens = argument.value;
   while (at < tokens.size() && tokens[at].continuation) ++at;
   if (at == tokens.size()) {
@@ -158,31 +150,28 @@ std::optional<Span> take_word(const WrittenArgument& argument, const SourceText&
     ++at;
   }
   if (has_letters) return word;
-  diagnostics.error(
-      "expected-word", word,
-      fmt::format("{} takes a word, found {}", name_of(argument), quoted(word.text())));
+  diagnostics.error("expected-word", word,
+                    fmt::format("{} takes a word, found {}", name_of(argument), quoted(word.text())));
   return std::nullopt;
 }
 
-void report_not_a_word(const WrittenArgument& argument, const Token& token,
-                       const SourceText& source, std::string_view takes, Diagnostics& diagnostics) {
-  diagnostics.error("expected-word", token_span(token, source),
-                    fmt::format("{} takes {}, found {} behind the first", name_of(argument), takes,
-                                quoted(token, source)));
+void report_not_a_word(const WrittenArgument& argument, const Token& token, const SourceText& source,
+                       std::string_view takes, Diagnostics& diagnostics) {
+  diagnostics.error(
+      "expected-word", token_span(token, source),
+      fmt::format("{} takes {}, found {} behind the first", name_of(argument), takes, quoted(token, source)));
 }
 
 }  // namespace
 
-std::optional<double> read_real(const WrittenArgument& argument, const SourceText& source,
-                                Diagnostics& diagnostics) {
+std::optional<double> read_real(const WrittenArgument& argument, const SourceText& source, Diagnostics& diagnostics) {
   const auto numbers = read_numbers(argument, source, diagnostics, 1, "number");
   if (!numbers) return std::nullopt;
   return numbers->front().value;
 }
 
-std::optional<std::vector<double>> read_reals(const WrittenArgument& argument,
-                                              const SourceText& source, Diagnostics& diagnostics,
-                                              std::size_t count) {
+std::optional<std::vector<double>> read_reals(const WrittenArgument& argument, const SourceText& source,
+                                              Diagnostics& diagnostics, std::size_t count) {
   const auto numbers = read_numbers(argument, source, diagnostics, count, "number");
   if (!numbers) return std::nullopt;
   std::vector<double> values;
@@ -191,15 +180,14 @@ std::optional<std::vector<double>> read_reals(const WrittenArgument& argument,
   return values;
 }
 
-std::optional<WrittenInteger> read_integer(const WrittenArgument& argument,
-                                           const SourceText& source, Diagnostics& diagnostics) {
+std::optional<WrittenInteger> read_integer(const WrittenArgument& argument, const SourceText& source,
+                                           Diagnostics& diagnostics) {
   const auto numbers = read_numbers(argument, source, diagnostics, 1, "whole number");
   if (!numbers) return std::nullopt;
   return as_integer(argument, numbers->front(), diagnostics);
 }
 
-std::optional<std::vector<WrittenInteger>> read_integers(const WrittenArgument& argument,
-                                                         const SourceText& source,
+std::optional<std::vector<WrittenInteger>> read_integers(const WrittenArgument& argument, const SourceText& source,
                                                          Diagnostics& diagnostics) {
   const auto numbers = read_numbers(argument, source, diagnostics, 0, "whole number");
   if (!numbers) return std::nullopt;
@@ -213,8 +201,7 @@ std::optional<std::vector<WrittenInteger>> read_integers(const WrittenArgument& 
   return values;
 }
 
-std::optional<Span> read_word(const WrittenArgument& argument, const SourceText& source,
-                              Diagnostics& diagnostics) {
+std::optional<Span> read_word(const WrittenArgument& argument, const SourceText& source, Diagnostics& diagnostics) {
   if (!has_readable_value(argument, "a word", diagnostics)) return std::nullopt;
   std::size_t at = 0;
   const std::optional<Span> word = take_word(argument, source, diagnostics, at);
@@ -223,8 +210,8 @@ std::optional<Span> read_word(const WrittenArgument& argument, const SourceText&
   return std::nullopt;
 }
 
-std::optional<std::vector<Span>> read_words(const WrittenArgument& argument,
-                                            const SourceText& source, Diagnostics& diagnostics) {
+std::optional<std::vector<Span>> read_words(const WrittenArgument& argument, const SourceText& source,
+                                            Diagnostics& diagnostics) {
   if (!has_readable_value(argument, "words", diagnostics)) return std::nullopt;
   std::vector<Span> words;
   std::size_t at = 0;
@@ -237,13 +224,11 @@ std::optional<std::vector<Span>> read_words(const WrittenArgument& argument,
     if (!is_symbol(argument.value[at], source, ':')) break;
     ++at;
   }
-  report_not_a_word(argument, argument.value[at], source, "words with colons between them",
-                    diagnostics);
+  report_not_a_word(argument, argument.value[at], source, "words with colons between them", diagnostics);
   return std::nullopt;
 }
 
-std::optional<std::string> read_text(const WrittenArgument& argument, const SourceText&,
-                                     Diagnostics& diagnostics) {
+std::optional<std::string> read_text(const WrittenArgument& argument, const SourceText&, Diagnostics& diagnostics) {
   if (!has_readable_value(argument, "a text", diagnostics)) return std::nullopt;
   std::string_view text = argument.value_span.text();
   const bool in_quotes = text.size() >= 2 && (text.front() == '\'' || text.front() == '"') &&

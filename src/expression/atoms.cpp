@@ -13,12 +13,10 @@ using std::uint8_t;
 
 constexpr int8_t by_reference = -1;
 
-constexpr AtomFunction measure(std::string_view name, int8_t order, uint8_t minimum,
-                               uint8_t maximum) {
+constexpr AtomFunction measure(std::string_view name, int8_t order, uint8_t minimum, uint8_t maximum) {
   return {name, marker_measure, order, minimum, maximum, "", true};
 }
-constexpr AtomFunction from_data(std::string_view name, uint8_t arguments,
-                                 std::string_view statement) {
+constexpr AtomFunction from_data(std::string_view name, uint8_t arguments, std::string_view statement) {
   return {name, data, by_reference, arguments, arguments, statement, true};
 }
 constexpr AtomFunction at_marker(std::string_view name, uint8_t maximum) {
@@ -26,8 +24,7 @@ constexpr AtomFunction at_marker(std::string_view name, uint8_t maximum) {
 }
 enum Availability : bool { not_built = false, built = true };
 // (id, jflag, comp, rm)
-constexpr AtomFunction of_element(std::string_view name, std::string_view statement,
-                                  Availability availability) {
+constexpr AtomFunction of_element(std::string_view name, std::string_view statement, Availability availability) {
   return {name, element_force, by_reference, 4, 4, statement, availability};
 }
 

@@ -22,8 +22,7 @@ std::shared_ptr<const ExpressionProgram> constant_program(double value) {
 }  // namespace
 
 Expression::Expression() : program_(constant_program(0.0)) {}
-Expression::Expression(std::shared_ptr<const ExpressionProgram> program)
-    : program_(std::move(program)) {}
+Expression::Expression(std::shared_ptr<const ExpressionProgram> program) : program_(std::move(program)) {}
 
 Expression Expression::constant(double value) { return Expression(constant_program(value)); }
 
@@ -41,30 +40,24 @@ T Expression::evaluate(std::span<const T> atom_values, ExpressionWorkspace<T>& w
 }
 
 template <class T>
-T Expression::evaluate(std::span<const T> atom_values, std::span<T> partials,
-                       ExpressionWorkspace<T>& workspace) const {
+T Expression::evaluate(std::span<const T> atom_values, std::span<T> partials, ExpressionWorkspace<T>& workspace) const {
   const T value = program_->evaluate(atom_values, workspace);
   program_->differentiate(partials, workspace);
   return value;
 }
 
 template <class T>
-std::optional<ExpressionFault> Expression::find_fault(std::span<const T> atom_values,
-                                                      FaultSearch search) const {
+std::optional<ExpressionFault> Expression::find_fault(std::span<const T> atom_values, FaultSearch search) const {
   return program_->find_fault(atom_values, search);
 }
 
 template double Expression::evaluate(std::span<const double>, ExpressionWorkspace<double>&) const;
-template double Expression::evaluate(std::span<const double>, std::span<double>,
-                                     ExpressionWorkspace<double>&) const;
-template std::optional<ExpressionFault> Expression::find_fault(std::span<const double>,
-                                                               FaultSearch) const;
+template double Expression::evaluate(std::span<const double>, std::span<double>, ExpressionWorkspace<double>&) const;
+template std::optional<ExpressionFault> Expression::find_fault(std::span<const double>, FaultSearch) const;
 template TimeTaylor<double> Expression::evaluate(std::span<const TimeTaylor<double>>,
                                                  ExpressionWorkspace<TimeTaylor<double>>&) const;
-template TimeTaylor<double> Expression::evaluate(std::span<const TimeTaylor<double>>,
-                                                 std::span<TimeTaylor<double>>,
+template TimeTaylor<double> Expression::evaluate(std::span<const TimeTaylor<double>>, std::span<TimeTaylor<double>>,
                                                  ExpressionWorkspace<TimeTaylor<double>>&) const;
-template std::optional<ExpressionFault> Expression::find_fault(std::span<const TimeTaylor<double>>,
-                                                               FaultSearch) const;
+template std::optional<ExpressionFault> Expression::find_fault(std::span<const TimeTaylor<double>>, FaultSearch) const;
 
 }  // namespace dynalin

@@ -21,8 +21,7 @@ std::size_t below(Random& random, std::size_t n) {
 std::string random_expression(Random& random, int depth) {
   const auto inner = [&] { return random_expression(random, depth - 1); };
   if (depth == 0) {
-    const char* leaves[] = {"TIME", "VARVAL(1)", "DX(1,2)", "VX(3,4,5)", "PI",
-                            "0",    "2",         "0.37",    "90D",       "1.5E-1"};
+    const char* leaves[] = {"TIME", "VARVAL(1)", "DX(1,2)", "VX(3,4,5)", "PI", "0", "2", "0.37", "90D", "1.5E-1"};
     return leaves[below(random, std::size(leaves))];
   }
   switch (below(random, 6)) {
@@ -37,8 +36,7 @@ std::string random_expression(Random& random, int depth) {
       const auto family = std::data(families)[below(random, 3)];
       const Function& f = family[below(random, family.size())];
       const std::size_t most = std::min<std::size_t>(f.maximum_arguments, f.minimum_arguments + 6u);
-      const std::size_t count =
-          f.minimum_arguments + below(random, most - f.minimum_arguments + 1u);
+      const std::size_t count = f.minimum_arguments + below(random, most - f.minimum_arguments + 1u);
       std::string text(f.name);
       for (std::size_t k = 0; k < count; ++k) text += (k == 0 ? "(" : ",") + inner();
       return text + ")";
@@ -76,16 +74,14 @@ TEST(ExpressionFuzz, both_scalars_agree_on_random_expressions) {
     const Result<double> plain = evaluate(parsed.expression, x);
     const Result<Taylor> moving = evaluate(parsed.expression, course);
     EXPECT_TRUE(plain.value == moving.value.value ||
-                !(std::fabs(plain.value - moving.value.value) >
-                  1e-9 * std::max(1.0, std::fabs(plain.value))))
+                !(std::fabs(plain.value - moving.value.value) > 1e-9 * std::max(1.0, std::fabs(plain.value))))
         << text;
     bool all_finite = std::isfinite(plain.value);
     for (std::size_t k = 0; k < n; ++k) {
       all_finite = all_finite && std::isfinite(plain.partial[k]);
       expect_same(plain.partial[k], moving.partial[k].value, text);
     }
-    const auto found =
-        parsed.expression.find_fault(std::span<const double>(x), FaultSearch::value_and_partials);
+    const auto found = parsed.expression.find_fault(std::span<const double>(x), FaultSearch::value_and_partials);
     EXPECT_EQ(found.has_value(), !all_finite) << text;
     EXPECT_TRUE(!found || !found->reason.empty()) << text;
     finite += all_finite;
@@ -96,18 +92,12 @@ TEST(ExpressionFuzz, both_scalars_agree_on_random_expressions) {
 }
 
 TEST(ExpressionFuzz, any_sequence_of_tokens_gives_a_program_or_an_error) {
-  const char* pieces[] = {"(",       ")",       "[",           "]",
-                          ",",       ":",       "+",           "-",
-                          "*",       "/",       "**",          "%",
-                          "=",       "\\",      "#",           "'",
-                          "IF(",     "IF",      "SIN(",        "SIN",
-                          "MAX(",    "STEP(",   "DX(",         "DX(1,2)",
-                          "TIME",    "MODE",    "PI",          "FOO(",
-                          "FOO",     "AKISPL(", "USER(",       "CPU",
-                          "BUSH(",   "1",       "0",           "2.5",
-                          "30D",     "1e999",   "99999999999", "\n,",
-                          "&\n",     " ",       "\xff",        "JOINT(1,0,2,0)",
-                          "SQRT(-1)"};
+  const char* pieces[] = {
+      "(",       ")",       "[",    "]",    ",",     ":",           "+",   "-",       "*",     "/",    "**",
+      "%",       "=",       "\\",   "#",    "'",     "IF(",         "IF",  "SIN(",    "SIN",   "MAX(", "STEP(",
+      "DX(",     "DX(1,2)", "TIME", "MODE", "PI",    "FOO(",        "FOO", "AKISPL(", "USER(", "CPU",  "BUSH(",
+      "1",       "0",       "2.5",  "30D",  "1e999", "99999999999", "\n,", "&\n",     " ",     "\xff", "JOINT(1,0,2,0)",
+      "SQRT(-1)"};
   Random random(11);
   std::size_t programs = 0;
   for (int round = 0; round < 40000; ++round) {

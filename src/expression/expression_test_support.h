@@ -26,8 +26,7 @@ struct ParsedText {
     std::vector<std::string> list;
     for (const Diagnostic& d : diagnostics.items()) {
       const auto place = source->place(d.at.offset);
-      list.push_back(std::string(d.code) + " " + std::to_string(place.line) + ":" +
-                     std::to_string(place.column));
+      list.push_back(std::string(d.code) + " " + std::to_string(place.line) + ":" + std::to_string(place.column));
     }
     return list;
   }
@@ -66,8 +65,7 @@ inline double value(const std::string& text, const std::vector<double>& atoms = 
   return evaluate(text, atoms).value;
 }
 
-inline std::optional<ExpressionFault> fault(const std::string& text,
-                                            const std::vector<double>& atoms,
+inline std::optional<ExpressionFault> fault(const std::string& text, const std::vector<double>& atoms,
                                             FaultSearch search = FaultSearch::value_and_partials) {
   return parse(text).expression.find_fault(std::span<const double>(atoms), search);
 }

@@ -41,13 +41,9 @@ struct Function {
   std::string (*domain)(std::span<const double>);
 
   double operator()(std::span<const double> a) const { return on_double(a); }
-  TimeTaylor<double> operator()(std::span<const TimeTaylor<double>> a) const {
-    return on_taylor(a);
-  }
+  TimeTaylor<double> operator()(std::span<const TimeTaylor<double>> a) const { return on_taylor(a); }
   Seeded operator()(std::span<const Seeded> a) const { return on_seeded(a); }
-  TimeTaylor<Seeded> operator()(std::span<const TimeTaylor<Seeded>> a) const {
-    return on_seeded_taylor(a);
-  }
+  TimeTaylor<Seeded> operator()(std::span<const TimeTaylor<Seeded>> a) const { return on_seeded_taylor(a); }
 };
 
 // The longest argument list: FORCOS(x, x0, w, a0, …, a30).

@@ -1,9 +1,9 @@
 // Functions made of pieces: the steps STEP, STEP5, HAVSIN and the contacts IMPACT, BISTOP.
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <numbers>
-
-#include <fmt/format.h>
 
 #include "expression/functions_define.h"
 #include "expression/functions_power.h"
@@ -14,8 +14,7 @@ namespace dynalin {
 namespace {
 
 // HAVSIN(x, x0, h0, x1, h1) = (h0 + h1)/2 + (h1 − h0)/2 SIN(π s − π/2), constant outside.
-constexpr auto haversine = []<class T>(const T& x, const T& x0, const T& h0, const T& x1,
-                                       const T& h1) {
+constexpr auto haversine = []<class T>(const T& x, const T& x0, const T& h0, const T& x1, const T& h1) {
   return steps::between(x, x0, h0, x1, h1, [](const T& s) {
     using std::sin;
     return T(0.5 + 0.5 * sin(T(std::numbers::pi * s - 0.5 * std::numbers::pi)));
@@ -51,8 +50,8 @@ struct Stop {
 // IMPACT(x, x′, x1, k, e, cmax, d): a stop below x1.
 //     x < x1: MAX(0, k (x1 − x) ** e − STEP(x, x1 − d, cmax, x1, 0) x′)        x ≥ x1: 0, with
 //     derivative 0
-constexpr auto impact = []<class T>(const T& x, const T& xdot, const T& x1, const T& k, const T& e,
-                                    const T& cmax, const T& d) {
+constexpr auto impact = []<class T>(const T& x, const T& xdot, const T& x1, const T& k, const T& e, const T& cmax,
+                                    const T& d) {
   if (!Stop::is_defined(value_of(k), value_of(e), value_of(cmax), value_of(d))) {
     return undefined<T>();
   }
@@ -63,10 +62,9 @@ constexpr auto impact = []<class T>(const T& x, const T& xdot, const T& x1, cons
 // BISTOP(x, x′, x1, x2, k, e, cmax, d): a stop below x1 and one above x2, nothing between.
 //     x > x2: MIN(0, −k (x − x2) ** e − STEP(x, x2, 0, x2 + d, cmax) x′)       x1 ≤ x ≤ x2: 0, with
 //     derivative 0
-constexpr auto two_stops = []<class T>(const T& x, const T& xdot, const T& x1, const T& x2,
-                                       const T& k, const T& e, const T& cmax, const T& d) {
-  if (!Stop::is_defined(value_of(k), value_of(e), value_of(cmax), value_of(d)) ||
-      value_of(x1) > value_of(x2)) {
+constexpr auto two_stops = []<class T>(const T& x, const T& xdot, const T& x1, const T& x2, const T& k, const T& e,
+                                       const T& cmax, const T& d) {
+  if (!Stop::is_defined(value_of(k), value_of(e), value_of(cmax), value_of(d)) || value_of(x1) > value_of(x2)) {
     return undefined<T>();
   }
   if (value_of(x) < value_of(x1)) return Stop::force(T(x1 - x), T(-xdot), k, e, cmax, d);
@@ -80,9 +78,7 @@ std::string step_domain_of(std::string_view name, std::span<const double> a) {
 std::string step_domain(std::span<const double> a) { return step_domain_of("STEP", a); }
 std::string step5_domain(std::span<const double> a) { return step_domain_of("STEP5", a); }
 std::string havsin_domain(std::span<const double> a) { return step_domain_of("HAVSIN", a); }
-std::string impact_domain(std::span<const double> a) {
-  return Stop::domain("IMPACT", a.subspan(3));
-}
+std::string impact_domain(std::span<const double> a) { return Stop::domain("IMPACT", a.subspan(3)); }
 std::string bistop_domain(std::span<const double> a) {
   if (a[2] > a[3]) return fmt::format("BISTOP with x1 = {:.6g} above x2 = {:.6g}", a[2], a[3]);
   return Stop::domain("BISTOP", a.subspan(4));

@@ -34,8 +34,8 @@ struct ArgumentList {
 };
 
 template <class Call>
-constexpr Function make_function(std::string_view name, std::uint8_t minimum, std::uint8_t maximum,
-                                 DomainCheck domain, ZeroPartial zero) {
+constexpr Function make_function(std::string_view name, std::uint8_t minimum, std::uint8_t maximum, DomainCheck domain,
+                                 ZeroPartial zero) {
   return {.name = name,
           .minimum_arguments = minimum,
           .maximum_arguments = maximum,
@@ -56,8 +56,8 @@ constexpr Function function(std::string_view name, Formula, DomainCheck domain =
 }
 // A function of a list of arguments.
 template <class Formula>
-constexpr Function list_function(std::string_view name, std::uint8_t minimum, std::uint8_t maximum,
-                                 Formula, ZeroPartial zero = ZeroPartial::stationary) {
+constexpr Function list_function(std::string_view name, std::uint8_t minimum, std::uint8_t maximum, Formula,
+                                 ZeroPartial zero = ZeroPartial::stationary) {
   return make_function<ArgumentList<Formula>>(name, minimum, maximum, defined_everywhere, zero);
 }
 
@@ -77,8 +77,8 @@ bool is_plain(const Dual<N>& x) {
 }
 template <class T>
 bool is_plain(const TimeTaylor<T>& x) {
-  return is_plain(x.value) && is_plain(x.rate) && is_plain(x.acceleration) &&
-         value_of(x.rate) == 0.0 && value_of(x.acceleration) == 0.0;
+  return is_plain(x.value) && is_plain(x.rate) && is_plain(x.acceleration) && value_of(x.rate) == 0.0 &&
+         value_of(x.acceleration) == 0.0;
 }
 
 }  // namespace dynalin

@@ -1,10 +1,10 @@
 // The functions of FORTRAN 77, in double precision: ABS … SIGN, and the operator **.
 //
 // Each comment states the value and, at a kink, the derivative that is used there.
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
-
-#include <fmt/format.h>
 
 #include "expression/functions_define.h"
 #include "expression/functions_power.h"
@@ -137,18 +137,10 @@ std::string cosine_range(std::string_view name, double a) {
 }
 std::string acos_domain(std::span<const double> a) { return cosine_range("ACOS", a[0]); }
 std::string asin_domain(std::span<const double> a) { return cosine_range("ASIN", a[0]); }
-std::string sqrt_domain(std::span<const double> a) {
-  return a[0] < 0.0 ? fmt::format("SQRT of {:.6g}", a[0]) : "";
-}
-std::string log_domain(std::span<const double> a) {
-  return a[0] <= 0.0 ? fmt::format("LOG of {:.6g}", a[0]) : "";
-}
-std::string log10_domain(std::span<const double> a) {
-  return a[0] <= 0.0 ? fmt::format("LOG10 of {:.6g}", a[0]) : "";
-}
-std::string mod_domain(std::span<const double> a) {
-  return a[1] == 0.0 ? "MOD with the divisor 0" : "";
-}
+std::string sqrt_domain(std::span<const double> a) { return a[0] < 0.0 ? fmt::format("SQRT of {:.6g}", a[0]) : ""; }
+std::string log_domain(std::span<const double> a) { return a[0] <= 0.0 ? fmt::format("LOG of {:.6g}", a[0]) : ""; }
+std::string log10_domain(std::span<const double> a) { return a[0] <= 0.0 ? fmt::format("LOG10 of {:.6g}", a[0]) : ""; }
+std::string mod_domain(std::span<const double> a) { return a[1] == 0.0 ? "MOD with the divisor 0" : ""; }
 std::string power_domain(std::span<const double> a) {
   const bool no_value = (a[0] == 0.0 && a[1] < 0.0) || (a[0] < 0.0 && std::trunc(a[1]) != a[1]);
   return no_value && !std::isnan(a[1]) ? fmt::format("{:.6g} to the power {:.6g}", a[0], a[1]) : "";

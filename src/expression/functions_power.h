@@ -21,8 +21,7 @@ Dual<N> undefined_response(const Dual<N>& x, double number) {
 template <class T>
 TimeTaylor<T> undefined_response(const TimeTaylor<T>& x, double number) {
   const auto derivative = [](const T& d) {
-    return undefined_response(d,
-                              value_of(d) == 0.0 ? 0.0 : std::numeric_limits<double>::quiet_NaN());
+    return undefined_response(d, value_of(d) == 0.0 ? 0.0 : std::numeric_limits<double>::quiet_NaN());
   };
   return {undefined_response(x.value, number), derivative(x.rate), derivative(x.acceleration)};
 }

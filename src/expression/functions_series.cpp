@@ -1,10 +1,10 @@
 // Series and harmonic signals: POLY, CHEBY, FORSIN, FORCOS, SHF, SWEEP. Smooth but for the corners
 // of SWEEP.
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <numbers>
-
-#include <fmt/format.h>
 
 #include "expression/functions_define.h"
 #include "expression/functions_steps.h"
@@ -56,8 +56,8 @@ constexpr auto sine_series = []<class T>(std::span<const T> a) {
 };
 
 // SHF(x, x0, a, w, phi, b) = a SIN(w (x − x0) − phi) + b.
-constexpr auto simple_harmonic = []<class T>(const T& x, const T& x0, const T& a, const T& w,
-                                             const T& phi, const T& b) {
+constexpr auto simple_harmonic = []<class T>(const T& x, const T& x0, const T& a, const T& w, const T& phi,
+                                             const T& b) {
   using std::sin;
   return T(a * sin(T(w * (x - x0) - phi)) + b);
 };
@@ -66,8 +66,8 @@ constexpr auto simple_harmonic = []<class T>(const T& x, const T& x0, const T& a
 // integral of a frequency that is f0 before x0, grows linearly to f1 at x1, and stays there. The
 // frequency has corners at x0 and x1, so the second derivative of the value jumps there; the
 // constant side is used.
-constexpr auto sweep = []<class T>(const T& x, const T& a, const T& x0, const T& f0, const T& x1,
-                                   const T& f1, const T& dx) {
+constexpr auto sweep = []<class T>(const T& x, const T& a, const T& x0, const T& f0, const T& x1, const T& f1,
+                                   const T& dx) {
   using std::sin;
   if (!(value_of(x1) >= value_of(x0)) || !(value_of(dx) > 0.0)) return undefined<T>();
   T turns = f0 * x;

@@ -19,16 +19,13 @@ T between(const T& x, const T& x0, const T& h0, const T& x1, const T& h1, Shape 
 }
 
 // STEP(x, x0, h0, x1, h1): shape s² (3 − 2 s), with continuous slope.
-inline constexpr auto cubic = []<class T>(const T& x, const T& x0, const T& h0, const T& x1,
-                                          const T& h1) {
+inline constexpr auto cubic = []<class T>(const T& x, const T& x0, const T& h0, const T& x1, const T& h1) {
   return between(x, x0, h0, x1, h1, [](const T& s) { return T(s * s * (3.0 - 2.0 * s)); });
 };
 
 // STEP5(x, x0, h0, x1, h1): shape s³ (10 − 15 s + 6 s²), with continuous curvature.
-inline constexpr auto quintic = []<class T>(const T& x, const T& x0, const T& h0, const T& x1,
-                                            const T& h1) {
-  return between(x, x0, h0, x1, h1,
-                 [](const T& s) { return T(s * s * s * (10.0 - s * (15.0 - 6.0 * s))); });
+inline constexpr auto quintic = []<class T>(const T& x, const T& x0, const T& h0, const T& x1, const T& h1) {
+  return between(x, x0, h0, x1, h1, [](const T& s) { return T(s * s * s * (10.0 - s * (15.0 - 6.0 * s))); });
 };
 
 }  // namespace dynalin::steps

@@ -181,8 +181,7 @@ TEST(ExpressionFunctions, taylor_values_and_partials_agree_with_differences_in_t
     }
     const auto at_time = [&](double t) {
       std::vector<double> x;
-      for (const Taylor& c : course)
-        x.push_back(c.value + t * c.rate + 0.5 * t * t * c.acceleration);
+      for (const Taylor& c : course) x.push_back(c.value + t * c.rate + 0.5 * t * t * c.acceleration);
       return evaluate(e, x);
     };
     const Result<Taylor> exact = evaluate(e, course);
@@ -225,8 +224,7 @@ struct Kink {
 };
 
 TEST(ExpressionFunctions, kinks_take_the_documented_side) {
-  const std::string step = call_text("STEP", 5), step5 = call_text("STEP5", 5),
-                    havsin = call_text("HAVSIN", 5);
+  const std::string step = call_text("STEP", 5), step5 = call_text("STEP5", 5), havsin = call_text("HAVSIN", 5);
   const Kink table[] = {
       {"ABS(VARVAL(1))", {0}, 0, {0}},
       {"DIM(VARVAL(1),VARVAL(2))", {3, 3}, 0, {0, 0}},
@@ -277,10 +275,9 @@ TEST(ExpressionFunctions, power_with_varying_exponent_has_both_partials) {
 TEST(ExpressionFunctions, undefined_arguments_give_no_number) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const char* text :
-       {"MAX(VARVAL(1),1)", "MAX(1,VARVAL(1))", "MIN(1,VARVAL(1),-1)", "DIM(1,VARVAL(1))",
-        "SIGN(1,VARVAL(1))", "ABS(VARVAL(1))", "STEP(VARVAL(1),0,0,1,1)",
-        "IMPACT(VARVAL(1),0,0,1,1,1,1)", "BISTOP(VARVAL(1),0,0,1,1,1,1,1)", "IF(VARVAL(1):1,2,3)",
-        "SWEEP(VARVAL(1),1,0,1,2,3,1)"}) {
+       {"MAX(VARVAL(1),1)", "MAX(1,VARVAL(1))", "MIN(1,VARVAL(1),-1)", "DIM(1,VARVAL(1))", "SIGN(1,VARVAL(1))",
+        "ABS(VARVAL(1))", "STEP(VARVAL(1),0,0,1,1)", "IMPACT(VARVAL(1),0,0,1,1,1,1)", "BISTOP(VARVAL(1),0,0,1,1,1,1,1)",
+        "IF(VARVAL(1):1,2,3)", "SWEEP(VARVAL(1),1,0,1,2,3,1)"}) {
     EXPECT_TRUE(std::isnan(value(text, {nan}))) << text;
   }
   EXPECT_TRUE(std::isnan(value(call_text("STEP", 5), {0, 1, 2, 1, 3})));

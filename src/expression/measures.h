@@ -26,9 +26,7 @@ enum class Measure : std::uint8_t {
 
 std::optional<Measure> find_measure(std::string_view name);
 // AX, AY and AZ count whole turns.
-constexpr bool counts_turns(Measure m) {
-  return m == Measure::AX || m == Measure::AY || m == Measure::AZ;
-}
+constexpr bool counts_turns(Measure m) { return m == Measure::AX || m == Measure::AY || m == Measure::AZ; }
 
 // Frames of the markers i, j, k, l along the motion, global axes; the global frame where one is left out.
 template <class T>

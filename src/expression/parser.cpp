@@ -1,11 +1,11 @@
 #include "expression/parser.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
-
-#include <fmt/format.h>
 
 namespace dynalin {
 
@@ -26,14 +26,12 @@ ExpressionNode::Kind operation_kind(std::string_view sign) {
 }
 
 bool is_operator(std::string_view symbol) {
-  return symbol == "+" || symbol == "-" || symbol == "*" || symbol == "/" || symbol == "**" ||
-         symbol == "%";
+  return symbol == "+" || symbol == "-" || symbol == "*" || symbol == "/" || symbol == "**" || symbol == "%";
 }
 
 }  // namespace
 
-ExpressionParser::ExpressionParser(std::span<const Token> tokens, const SourceText& source,
-                                   Diagnostics& diagnostics)
+ExpressionParser::ExpressionParser(std::span<const Token> tokens, const SourceText& source, Diagnostics& diagnostics)
     : source_(source),
       diagnostics_(diagnostics),
       errors_before_(diagnostics.error_count()),
@@ -87,25 +85,21 @@ void ExpressionParser::read_operand() {
   } else if (token.kind == TokenKind::symbol) {
     syntax_error("missing-operand", span(at_),
                  at_ == 0 ? fmt::format("a value is missing before '{}'", text(at_))
-                          : fmt::format("a value is missing between '{}' and '{}'", text(at_ - 1),
-                                        text(at_)));
+                          : fmt::format("a value is missing between '{}' and '{}'", text(at_ - 1), text(at_)));
   } else {
-    syntax_error("bad-character", span(at_),
-                 fmt::format("'{}' has no meaning in an expression", text(at_)));
+    syntax_error("bad-character", span(at_), fmt::format("'{}' has no meaning in an expression", text(at_)));
   }
 }
 
 void ExpressionParser::read_operator() {
-  const std::string_view symbol =
-      tokens_[at_].kind == TokenKind::symbol ? text(at_) : std::string_view();
+  const std::string_view symbol = tokens_[at_].kind == TokenKind::symbol ? text(at_) : std::string_view();
   if (symbol == "*" && symbol_at(at_ + 1, "*")) {
     // The power sign written with a blank inside.
     push_operation("**", join(span(at_), span(at_ + 1)));
     at_ += 2;
   } else if (is_operator(symbol)) {
     if (symbol == "%") {
-      diagnostics_.error("function-not-built", span(at_),
-                         "the vector product % is not available yet");
+      diagnostics_.error("function-not-built", span(at_), "the vector product % is not available yet");
     }
     push_operation(symbol, span(at_++));
   } else if (symbol == ",") {
@@ -116,14 +110,11 @@ void ExpressionParser::read_operator() {
     close_parenthesis();
   } else if (symbol == "]") {
     close_bracket();
-  } else if (tokens_[at_].kind == TokenKind::other ||
-             (!symbol.empty() && symbol != "(" && symbol != "[")) {
-    syntax_error("bad-character", span(at_),
-                 fmt::format("'{}' has no meaning in an expression", text(at_)));
+  } else if (tokens_[at_].kind == TokenKind::other || (!symbol.empty() && symbol != "(" && symbol != "[")) {
+    syntax_error("bad-character", span(at_), fmt::format("'{}' has no meaning in an expression", text(at_)));
   } else {
-    syntax_error(
-        "missing-operator", span(at_),
-        fmt::format("an operator is missing between '{}' and '{}'", text(at_ - 1), text(at_)));
+    syntax_error("missing-operator", span(at_),
+                 fmt::format("an operator is missing between '{}' and '{}'", text(at_ - 1), text(at_)));
   }
 }
 
@@ -179,8 +170,7 @@ void ExpressionParser::end_argument() {
                                          : "a comma stands in parentheses that hold one value");
   }
   if (pending_.back().kind == Pending::Kind::if_condition) {
-    return syntax_error("misplaced-separator", span(at_),
-                        "the condition of IF ends with a colon, here is a comma",
+    return syntax_error("misplaced-separator", span(at_), "the condition of IF ends with a colon, here is a comma",
                         "IF(condition: negative, zero, positive)");
   }
   if (pending_.back().kind == Pending::Kind::if_branches) {
@@ -223,8 +213,7 @@ void ExpressionParser::close_parenthesis() {
       result = close_call(list, at);
       break;
     case Pending::Kind::if_condition:
-      return syntax_error("wrong-argument-count", span(at_),
-                          "IF ends before the colon and its 3 values",
+      return syntax_error("wrong-argument-count", span(at_), "IF ends before the colon and its 3 values",
                           "IF(condition: negative, zero, positive)");
     case Pending::Kind::if_branches:
       result = close_if(at);
@@ -268,21 +257,19 @@ Operand ExpressionParser::close_if(const Span& at) {
   const std::size_t count = open_if.branches_begun;
   builder_.end_branch(open_if, operands_.back());
   if (count == 3) return builder_.close_if(open_if, at);
-  diagnostics_.error("wrong-argument-count", at,
-                     fmt::format("IF takes 3 values behind its condition, here {} {}",
-                                 count == 1 ? "is" : "are", count),
-                     "IF(condition: negative, zero, positive)");
+  diagnostics_.error(
+      "wrong-argument-count", at,
+      fmt::format("IF takes 3 values behind its condition, here {} {}", count == 1 ? "is" : "are", count),
+      "IF(condition: negative, zero, positive)");
   return builder_.placeholder(at);
 }
 
 std::shared_ptr<const ExpressionProgram> ExpressionParser::finish() {
   const std::size_t last = tokens_.size() - 1;
-  const bool list_begun =
-      symbol_at(last, "(") || symbol_at(last, ",") || symbol_at(last, ":") || symbol_at(last, "[");
+  const bool list_begun = symbol_at(last, "(") || symbol_at(last, ",") || symbol_at(last, ":") || symbol_at(last, "[");
   if (operand_expected_ && !list_begun) {
-    syntax_error(
-        "missing-operand", span(last),
-        fmt::format("the expression ends behind '{}' where a value is expected", text(last)));
+    syntax_error("missing-operand", span(last),
+                 fmt::format("the expression ends behind '{}' where a value is expected", text(last)));
     return nullptr;
   }
   if (!operand_expected_) apply_waiting(sum_precedence);
@@ -291,9 +278,8 @@ std::shared_ptr<const ExpressionProgram> ExpressionParser::finish() {
     if (open.kind == Pending::Kind::operation || open.kind == Pending::Kind::negation) continue;
     const std::string_view opened = open.at.text();
     syntax_error("unbalanced-parenthesis", open.at,
-                 opened.size() == 1
-                     ? fmt::format("'{}' is never closed", opened)
-                     : fmt::format("the parenthesis of '{}' is never closed", opened));
+                 opened.size() == 1 ? fmt::format("'{}' is never closed", opened)
+                                    : fmt::format("the parenthesis of '{}' is never closed", opened));
     return nullptr;
   }
   if (diagnostics_.error_count() > errors_before_) return nullptr;
@@ -308,18 +294,14 @@ bool ExpressionParser::symbol_at(std::size_t i, std::string_view symbol) const {
   return i < tokens_.size() && tokens_[i].kind == TokenKind::symbol && text(i) == symbol;
 }
 
-Span ExpressionParser::span(std::size_t i) const {
-  return {&source_, tokens_[i].offset, tokens_[i].length};
-}
+Span ExpressionParser::span(std::size_t i) const { return {&source_, tokens_[i].offset, tokens_[i].length}; }
 
-void ExpressionParser::syntax_error(std::string_view code, const Span& at, std::string message,
-                                    std::string hint) {
+void ExpressionParser::syntax_error(std::string_view code, const Span& at, std::string message, std::string hint) {
   diagnostics_.error(code, at, std::move(message), std::move(hint));
   stopped_ = true;
 }
 
-Expression parse_expression(std::span<const Token> tokens, const SourceText& source,
-                            Diagnostics& diagnostics) {
+Expression parse_expression(std::span<const Token> tokens, const SourceText& source, Diagnostics& diagnostics) {
   auto program = ExpressionParser(tokens, source, diagnostics).parse();
   return program ? Expression(std::move(program)) : Expression();
 }

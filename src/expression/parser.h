@@ -22,8 +22,7 @@ namespace dynalin {
 
 class ExpressionParser {
  public:
-  ExpressionParser(std::span<const Token> tokens, const SourceText& source,
-                   Diagnostics& diagnostics);
+  ExpressionParser(std::span<const Token> tokens, const SourceText& source, Diagnostics& diagnostics);
   // Nothing after an error.
   std::shared_ptr<const ExpressionProgram> parse();
 
@@ -55,8 +54,7 @@ class ExpressionParser {
   void read_atom_argument(Atom& atom, std::size_t index);
   void check_atom(const Atom& atom);
   void report_unknown(const Span& name, const std::string& upper);
-  void report_count(const Span& at, std::string_view name, std::size_t least, std::size_t most,
-                    std::size_t found);
+  void report_count(const Span& at, std::string_view name, std::size_t least, std::size_t most, std::size_t found);
   void report_not_built(const Span& at, std::string_view name);
 
   // Grammar on the stacks.
@@ -78,8 +76,7 @@ class ExpressionParser {
   std::string_view text(std::size_t i) const;
   bool symbol_at(std::size_t i, std::string_view symbol) const;
   Span span(std::size_t i) const;
-  void syntax_error(std::string_view code, const Span& at, std::string message,
-                    std::string hint = {});
+  void syntax_error(std::string_view code, const Span& at, std::string message, std::string hint = {});
 
   std::vector<Token> tokens_;  // without continuation marks
   const SourceText& source_;

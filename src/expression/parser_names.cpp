@@ -1,12 +1,12 @@
 // The names of an expression: constants, functions, and atoms with their ids.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
-
-#include <fmt/format.h>
 
 #include "expression/parser.h"
 
@@ -92,11 +92,9 @@ void ExpressionParser::read_name() {
   }
   if (!symbol_at(at_ + 1, "(")) {
     ++at_;
-    const bool known =
-        atom || upper == "IF" || find_function(upper) || contains(functions_not_built(), upper);
+    const bool known = atom || upper == "IF" || find_function(upper) || contains(functions_not_built(), upper);
     if (known) {
-      diagnostics_.error("missing-arguments", name,
-                         fmt::format("{} needs its arguments in parentheses", upper));
+      diagnostics_.error("missing-arguments", name, fmt::format("{} needs its arguments in parentheses", upper));
     } else {
       report_unknown(name, upper);
     }
@@ -124,8 +122,7 @@ void ExpressionParser::read_call(const Span& name, const std::string& upper) {
 
 void ExpressionParser::report_unknown(const Span& name, const std::string& upper) {
   const std::string_view near = nearest_word(upper, all_names());
-  diagnostics_.error("unknown-function", name,
-                     fmt::format("{} is no function or constant of expressions", name.text()),
+  diagnostics_.error("unknown-function", name, fmt::format("{} is no function or constant of expressions", name.text()),
                      near.empty() ? "" : fmt::format("{} exists", near));
 }
 
@@ -133,14 +130,13 @@ void ExpressionParser::report_not_built(const Span& at, std::string_view name) {
   diagnostics_.error("function-not-built", at, fmt::format("{} is not available yet", name));
 }
 
-void ExpressionParser::report_count(const Span& at, std::string_view name, std::size_t least,
-                                    std::size_t most, std::size_t found) {
+void ExpressionParser::report_count(const Span& at, std::string_view name, std::size_t least, std::size_t most,
+                                    std::size_t found) {
   const std::string wanted = least != most ? fmt::format("{} to {} arguments", least, most)
                              : least == 1  ? "1 argument"
                                            : fmt::format("{} arguments", least);
-  diagnostics_.error(
-      "wrong-argument-count", at,
-      fmt::format("{} takes {}, here {} {}", name, wanted, found == 1 ? "is" : "are", found));
+  diagnostics_.error("wrong-argument-count", at,
+                     fmt::format("{} takes {}, here {} {}", name, wanted, found == 1 ? "is" : "are", found));
 }
 
 // The arguments of an atom are whole numbers: it is a quantity with a name, known before anything
@@ -165,14 +161,12 @@ void ExpressionParser::read_atom(const AtomFunction& function, const Span& name)
   atom.argument_count = static_cast<std::uint8_t>(std::min(count, atom.argument.size()));
   if (diagnostics_.error_count() == errors) {
     if (count < function.minimum_arguments || count > function.maximum_arguments) {
-      report_count(atom.at, function.name, function.minimum_arguments, function.maximum_arguments,
-                   count);
+      report_count(atom.at, function.name, function.minimum_arguments, function.maximum_arguments, count);
     } else {
       check_atom(atom);
     }
   }
-  push_operand(diagnostics_.error_count() == errors ? builder_.atom(atom)
-                                                    : builder_.placeholder(atom.at));
+  push_operand(diagnostics_.error_count() == errors ? builder_.atom(atom) : builder_.placeholder(atom.at));
 }
 
 // Reads up to the comma or parenthesis behind the argument.
@@ -195,8 +189,8 @@ void ExpressionParser::read_atom_argument(Atom& atom, std::size_t index) {
   const bool fits = token.value <= std::numeric_limits<std::int32_t>::max();
   if (at_ - first != 1 || !token.integer || !fits) {
     diagnostics_.error("expected-integer", at,
-                       fmt::format("argument {} of {} is {}, written as a whole number", index + 1,
-                                   atom.function->name, argument_meaning(*atom.function, index)));
+                       fmt::format("argument {} of {} is {}, written as a whole number", index + 1, atom.function->name,
+                                   argument_meaning(*atom.function, index)));
     return;
   }
   if (index >= atom.argument.size()) return;
@@ -229,12 +223,11 @@ void ExpressionParser::check_atom(const Atom& atom) {
     }
     if (atom.argument[k] >= least && atom.argument[k] <= most) continue;
     const bool bounded = most != std::numeric_limits<std::int32_t>::max();
-    diagnostics_.error(
-        "argument-range", atom.argument_at[k],
-        fmt::format("argument {} of {} is {}, here is {}", k + 1, function.name,
-                    bounded ? fmt::format("a number from {} to {}", least, most)
-                            : argument_meaning(function, k) + fmt::format(", {} or more", least),
-                    atom.argument[k]));
+    diagnostics_.error("argument-range", atom.argument_at[k],
+                       fmt::format("argument {} of {} is {}, here is {}", k + 1, function.name,
+                                   bounded ? fmt::format("a number from {} to {}", least, most)
+                                           : argument_meaning(function, k) + fmt::format(", {} or more", least),
+                                   atom.argument[k]));
   }
 }
 

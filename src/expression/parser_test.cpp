@@ -57,8 +57,8 @@ TEST(ExpressionParser, operators_bind_as_the_language_says) {
     const ParsedText parsed = parse(row.text);
     ASSERT_THAT(parsed.problems(), IsEmpty()) << row.text;
     const std::vector<double> all{a, b, c};
-    const std::vector<double> atoms(
-        all.begin(), all.begin() + static_cast<std::ptrdiff_t>(parsed.expression.atoms().size()));
+    const std::vector<double> atoms(all.begin(),
+                                    all.begin() + static_cast<std::ptrdiff_t>(parsed.expression.atoms().size()));
     EXPECT_DOUBLE_EQ(evaluate(parsed.expression, atoms).value, row.value) << row.text;
   }
 }
@@ -72,8 +72,7 @@ TEST(ExpressionParser, constants_and_degrees_are_numbers) {
 }
 
 TEST(ExpressionParser, constant_parts_are_folded_also_inside_of_functions) {
-  const ParsedText parsed =
-      parse("STEP(1, 0, 2*3, 1, MAX(1, SIN(0))) + IF(-1: 5, VARVAL(1), VX(2))");
+  const ParsedText parsed = parse("STEP(1, 0, 2*3, 1, MAX(1, SIN(0))) + IF(-1: 5, VARVAL(1), VX(2))");
   EXPECT_TRUE(parsed.expression.is_constant());
   EXPECT_DOUBLE_EQ(evaluate<double>(parsed.expression, {}).value, 6);
 }
@@ -213,8 +212,7 @@ TEST(ExpressionParser, errors_point_at_their_places) {
       {"SWEEP(TIME,1,5,4,1,1,1)", {"function-domain 1:1"}},
       // Several mistakes, one message each.
       {"FOO(SQRT(-1))+\n, BAR(DX(1.5))/0",
-       {"unknown-function 1:1", "function-domain 1:5", "unknown-function 2:3",
-        "expected-integer 2:10"}},
+       {"unknown-function 1:1", "function-domain 1:5", "unknown-function 2:3", "expected-integer 2:10"}},
   };
   for (const Wrong& row : table) {
     const ParsedText parsed = parse(row.text);

@@ -13,8 +13,7 @@ using Kind = ExpressionNode::Kind;
 
 // Gathers the arguments of a call and evaluates its formula; S is T or, at rest, double.
 template <class S, std::size_t capacity, class T>
-S call(const Function& function, std::span<const std::int32_t> operands,
-       const std::vector<T>& value) {
+S call(const Function& function, std::span<const std::int32_t> operands, const std::vector<T>& value) {
   std::array<S, capacity> arguments;
   for (std::size_t k = 0; k < operands.size(); ++k) {
     if constexpr (std::is_same_v<S, T>) {
@@ -48,8 +47,7 @@ T ExpressionProgram::value_of_call(const ExpressionNode& node, const std::vector
 }
 
 template <class T>
-T ExpressionProgram::evaluate(std::span<const T> atom_values,
-                              ExpressionWorkspace<T>& workspace) const {
+T ExpressionProgram::evaluate(std::span<const T> atom_values, ExpressionWorkspace<T>& workspace) const {
   assert(atom_values.size() == atoms.size());
   std::vector<T>& value = workspace.value;
   if (value.size() < nodes.size()) value.resize(nodes.size());
@@ -122,15 +120,13 @@ void ExpressionProgram::sweep_back(ExpressionWorkspace<T>& workspace) const {
   adjoint[count - 1] = T(1.0);
   for (std::size_t i = count; i-- > 0;) {
     if (is_zero(adjoint[i])) continue;
-    visit_partials(*this, nodes[i], workspace.value, [&](std::size_t operand, const auto& partial) {
-      adjoint[operand] += adjoint[i] * partial;
-    });
+    visit_partials(*this, nodes[i], workspace.value,
+                   [&](std::size_t operand, const auto& partial) { adjoint[operand] += adjoint[i] * partial; });
   }
 }
 
 template <class T>
-void ExpressionProgram::differentiate(std::span<T> partials,
-                                      ExpressionWorkspace<T>& workspace) const {
+void ExpressionProgram::differentiate(std::span<T> partials, ExpressionWorkspace<T>& workspace) const {
   assert(partials.size() == atoms.size());
   sweep_back(workspace);
   for (T& partial : partials) partial = T(0.0);
@@ -140,14 +136,10 @@ void ExpressionProgram::differentiate(std::span<T> partials,
   }
 }
 
-template double ExpressionProgram::evaluate(std::span<const double>,
-                                            ExpressionWorkspace<double>&) const;
-template Taylor ExpressionProgram::evaluate(std::span<const Taylor>,
-                                            ExpressionWorkspace<Taylor>&) const;
-template void ExpressionProgram::differentiate(std::span<double>,
-                                               ExpressionWorkspace<double>&) const;
-template void ExpressionProgram::differentiate(std::span<Taylor>,
-                                               ExpressionWorkspace<Taylor>&) const;
+template double ExpressionProgram::evaluate(std::span<const double>, ExpressionWorkspace<double>&) const;
+template Taylor ExpressionProgram::evaluate(std::span<const Taylor>, ExpressionWorkspace<Taylor>&) const;
+template void ExpressionProgram::differentiate(std::span<double>, ExpressionWorkspace<double>&) const;
+template void ExpressionProgram::differentiate(std::span<Taylor>, ExpressionWorkspace<Taylor>&) const;
 template void ExpressionProgram::sweep_back(ExpressionWorkspace<double>&) const;
 template void ExpressionProgram::sweep_back(ExpressionWorkspace<Taylor>&) const;
 

@@ -29,9 +29,9 @@ struct ExpressionNode {
     divide,    // a / b
     power,     // a ** constant
     call,      // function of operands[b] … operands[b + a − 1]
-    branch,  // looks at node a; operands[b …]: first node of each of three branches, then the merge
-    jump,    // to node a
-    merge,  // of branch a; operands[b …]: result node of each of three branches
+    branch,    // looks at node a; operands[b …]: first node of each of three branches, then the merge
+    jump,      // to node a
+    merge,     // of branch a; operands[b …]: result node of each of three branches
   };
   Kind kind = Kind::constant;
   std::int32_t a = 0, b = 0;

@@ -78,9 +78,7 @@ Operand ProgramBuilder::constant(double value, const Span& at) {
   return {push({.kind = Kind::constant, .constant = value}, at), at};
 }
 
-Operand ProgramBuilder::placeholder(const Span& at) {
-  return constant(std::numeric_limits<double>::quiet_NaN(), at);
-}
+Operand ProgramBuilder::placeholder(const Span& at) { return constant(std::numeric_limits<double>::quiet_NaN(), at); }
 
 Operand ProgramBuilder::atom(const Atom& atom) {
   // An argument left out means 0, so DX(1) and DX(1,0) are the same.
@@ -95,8 +93,7 @@ Operand ProgramBuilder::atom(const Atom& atom) {
 
 // Inside of an IF a constant without finite value is left for the run, which may never select its
 // branch.
-Operand ProgramBuilder::fold(const ExpressionNode& node, std::span<const Operand> operands,
-                             const Span& at) {
+Operand ProgramBuilder::fold(const ExpressionNode& node, std::span<const Operand> operands, const Span& at) {
   std::vector<double> values;
   for (const Operand& operand : operands) values.push_back(*constant_value(operand));
   const double value = value_of_constants(node, values);
@@ -138,8 +135,7 @@ Operand ProgramBuilder::power(const Operand& base, const Operand& exponent) {
   return {push(node, at), at};
 }
 
-Operand ProgramBuilder::call(const Function& function, std::span<const Operand> arguments,
-                             const Span& at) {
+Operand ProgramBuilder::call(const Function& function, std::span<const Operand> arguments, const Span& at) {
   std::vector<std::int32_t> list;
   std::vector<double> known;
   bool all_constant = true;
@@ -153,10 +149,8 @@ Operand ProgramBuilder::call(const Function& function, std::span<const Operand> 
     std::string reason = function.domain(known);
     if (!reason.empty()) report_domain(std::move(reason), at);
   }
-  const ExpressionNode node{.kind = Kind::call,
-                            .a = static_cast<std::int32_t>(list.size()),
-                            .b = push_operands(list),
-                            .function = &function};
+  const ExpressionNode node{
+      .kind = Kind::call, .a = static_cast<std::int32_t>(list.size()), .b = push_operands(list), .function = &function};
   return all_constant ? fold(node, arguments, at) : Operand{push(node, at), at};
 }
 
@@ -197,8 +191,7 @@ Operand ProgramBuilder::close_if(const OpenIf& open, const Span& at) {
   assert(open.branches_begun == 3);
   --branch_depth_;
   if (open.selected) return {open.results[*open.selected], at};
-  const std::int32_t merge =
-      push({.kind = Kind::merge, .a = open.branch, .b = push_operands(open.results)}, at);
+  const std::int32_t merge = push({.kind = Kind::merge, .a = open.branch, .b = push_operands(open.results)}, at);
   program_.operands[static_cast<std::size_t>(open.table) + 3] = merge;
   for (const std::int32_t jump : open.jumps) {
     program_.nodes[static_cast<std::size_t>(jump)].a = merge;

@@ -1,8 +1,8 @@
 // Finds the node at which a value or a derivative stopped being finite, and says why.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
-
-#include <fmt/format.h>
 
 #include "expression/program.h"
 #include "expression/program_partials.h"
@@ -41,8 +41,8 @@ std::string operator_name(const ExpressionNode& node) {
 
 // The operands of a node whose values went into its own value.
 template <class T>
-std::vector<std::size_t> operands_in_use(const ExpressionProgram& program,
-                                         const ExpressionNode& node, const std::vector<T>& value) {
+std::vector<std::size_t> operands_in_use(const ExpressionProgram& program, const ExpressionNode& node,
+                                         const std::vector<T>& value) {
   const auto a = static_cast<std::size_t>(node.a), b = static_cast<std::size_t>(node.b);
   switch (node.kind) {
     case Kind::constant:
@@ -99,8 +99,7 @@ std::string reason_of_value(const ExpressionNode& node, const std::vector<double
   if (node.kind == Kind::power) reason = variable_power().domain(arguments);
   if (node.kind == Kind::divide && arguments[1] == 0.0) reason = "division by 0";
   if (!reason.empty()) return reason;
-  return fmt::format("the result of {} is too large at {}", operator_name(node),
-                     in_words(arguments));
+  return fmt::format("the result of {} is too large at {}", operator_name(node), in_words(arguments));
 }
 
 }  // namespace
@@ -121,21 +120,18 @@ ExpressionFault ExpressionProgram::explain_value(std::size_t i, const std::vecto
   const bool value_is_finite = std::isfinite(value_of(value[i]));
   const std::string_view what = value_is_finite ? "time derivative" : "value";
   if (node.kind == Kind::atom || node.kind == Kind::constant) {
-    const std::string name(node.kind == Kind::atom
-                               ? atoms[static_cast<std::size_t>(node.a)].function->name
-                               : places[i].text());
+    const std::string name(node.kind == Kind::atom ? atoms[static_cast<std::size_t>(node.a)].function->name
+                                                   : places[i].text());
     return {name, places[i], fmt::format("{} has no finite {}", places[i].text(), what)};
   }
   const std::vector<double> arguments = argument_values(*this, node, value);
   const std::string name = operator_name(node);
   if (!value_is_finite) return {name, places[i], reason_of_value(node, arguments)};
-  return {name, places[i],
-          fmt::format("a time derivative of {} is infinite at {}", name, in_words(arguments))};
+  return {name, places[i], fmt::format("a time derivative of {} is infinite at {}", name, in_words(arguments))};
 }
 
 template <class T>
-ExpressionFault ExpressionProgram::explain_partial(std::size_t i,
-                                                   const std::vector<T>& value) const {
+ExpressionFault ExpressionProgram::explain_partial(std::size_t i, const std::vector<T>& value) const {
   const ExpressionNode& node = nodes[i];
   bool infinite = true, in_time = true;
   visit_partials(*this, node, value, [&](std::size_t, const auto& partial) {
@@ -146,13 +142,11 @@ ExpressionFault ExpressionProgram::explain_partial(std::size_t i,
   const std::string name = operator_name(node);
   return {name, places[i],
           fmt::format("the {}derivative of {} is {} at {}", in_time ? "second " : "", name,
-                      infinite ? "infinite" : "not defined",
-                      in_words(argument_values(*this, node, value)))};
+                      infinite ? "infinite" : "not defined", in_words(argument_values(*this, node, value)))};
 }
 
 template <class T>
-std::optional<ExpressionFault> ExpressionProgram::find_fault(std::span<const T> atom_values,
-                                                             FaultSearch search) const {
+std::optional<ExpressionFault> ExpressionProgram::find_fault(std::span<const T> atom_values, FaultSearch search) const {
   ExpressionWorkspace<T> workspace;
   if (!is_finite(evaluate(atom_values, workspace))) {
     return explain_value(nodes.size() - 1, workspace.value);
@@ -176,9 +170,7 @@ std::optional<ExpressionFault> ExpressionProgram::find_fault(std::span<const T> 
   return std::nullopt;
 }
 
-template std::optional<ExpressionFault> ExpressionProgram::find_fault(std::span<const double>,
-                                                                      FaultSearch) const;
-template std::optional<ExpressionFault> ExpressionProgram::find_fault(std::span<const Taylor>,
-                                                                      FaultSearch) const;
+template std::optional<ExpressionFault> ExpressionProgram::find_fault(std::span<const double>, FaultSearch) const;
+template std::optional<ExpressionFault> ExpressionProgram::find_fault(std::span<const Taylor>, FaultSearch) const;
 
 }  // namespace dynalin

@@ -14,9 +14,7 @@ using Taylor = TimeTaylor<double>;
 // --- one vocabulary for the two scalars of a program
 // ---------------------------------------------------
 inline bool is_zero(double x) { return x == 0.0; }
-inline bool is_zero(const Taylor& x) {
-  return x.value == 0.0 && x.rate == 0.0 && x.acceleration == 0.0;
-}
+inline bool is_zero(const Taylor& x) { return x.value == 0.0 && x.rate == 0.0 && x.acceleration == 0.0; }
 inline bool is_finite(double x) { return std::isfinite(x); }
 inline bool is_finite(const Taylor& x) {
   return std::isfinite(x.value) && std::isfinite(x.rate) && std::isfinite(x.acceleration);
@@ -27,9 +25,7 @@ inline bool is_at_rest(double) { return true; }
 inline bool is_at_rest(const Taylor& x) { return x.rate == 0.0 && x.acceleration == 0.0; }
 
 inline double power_at(double x, double n) { return std::pow(x, n); }
-inline Taylor power_at(const Taylor& x, double n) {
-  return is_at_rest(x) ? Taylor(std::pow(x.value, n)) : pow(x, n);
-}
+inline Taylor power_at(const Taylor& x, double n) { return is_at_rest(x) ? Taylor(std::pow(x.value, n)) : pow(x, n); }
 
 // The value is that of the plain division: x / x is 1 along the motion too, and ACOS of it is
 // defined.
@@ -55,9 +51,7 @@ struct SeededScalar<double> {
 template <>
 struct SeededScalar<Taylor> {
   using Type = TimeTaylor<Seeded>;
-  static Type plain(const Taylor& x) {
-    return {Seeded(x.value), Seeded(x.rate), Seeded(x.acceleration)};
-  }
+  static Type plain(const Taylor& x) { return {Seeded(x.value), Seeded(x.rate), Seeded(x.acceleration)}; }
   static void seed(Type& x, std::size_t k) { x.value.partial[k] = 1.0; }
   static Taylor partial(const Type& x, std::size_t k) {
     return {x.value.partial[k], x.rate.partial[k], x.acceleration.partial[k]};
@@ -68,8 +62,7 @@ struct SeededScalar<Taylor> {
 // formula.
 template <class S, std::size_t capacity, class T, class Visit>
 void visit_call_in_passes(const ExpressionProgram& program, const Function& function,
-                          std::span<const std::int32_t> operands, const std::vector<T>& value,
-                          Visit& visit) {
+                          std::span<const std::int32_t> operands, const std::vector<T>& value, Visit& visit) {
   using Scalar = SeededScalar<S>;
   using Argument = typename Scalar::Type;
   const auto node = [&](std::size_t k) { return static_cast<std::size_t>(operands[k]); };
@@ -102,8 +95,8 @@ void visit_call_in_passes(const ExpressionProgram& program, const Function& func
 }
 
 template <std::size_t capacity, class T, class Visit>
-void visit_call(const ExpressionProgram& program, const Function& function,
-                std::span<const std::int32_t> operands, const std::vector<T>& value, Visit& visit) {
+void visit_call(const ExpressionProgram& program, const Function& function, std::span<const std::int32_t> operands,
+                const std::vector<T>& value, Visit& visit) {
   bool at_rest = true;
   for (const std::int32_t k : operands) {
     at_rest = at_rest && is_at_rest(value[static_cast<std::size_t>(k)]);
@@ -119,8 +112,8 @@ void visit_call(const ExpressionProgram& program, const Function& function,
 // cannot matter, constants and those multiplied by a constant zero, are left out, so that no
 // infinity meets them.
 template <class T, class Visit>
-void visit_partials(const ExpressionProgram& program, const ExpressionNode& node,
-                    const std::vector<T>& value, Visit visit) {
+void visit_partials(const ExpressionProgram& program, const ExpressionNode& node, const std::vector<T>& value,
+                    Visit visit) {
   using Kind = ExpressionNode::Kind;
   const auto a = static_cast<std::size_t>(node.a), b = static_cast<std::size_t>(node.b);
   const auto varies = [&](std::size_t k) { return program.nodes[k].kind != Kind::constant; };

@@ -42,8 +42,7 @@ TEST(ExpressionProgram, only_the_selected_branch_of_an_if_is_evaluated) {
 }
 
 TEST(ExpressionProgram, old_values_of_other_branches_do_not_leak) {
-  const ParsedText parsed =
-      parse("1+IF(VARVAL(1): SQRT(VARVAL(2)), 0, VARVAL(3)*IF(VARVAL(2): 1, 2, 3))");
+  const ParsedText parsed = parse("1+IF(VARVAL(1): SQRT(VARVAL(2)), 0, VARVAL(3)*IF(VARVAL(2): 1, 2, 3))");
   ExpressionWorkspace<double> workspace;
   std::vector<double> partial(3);
   const std::vector<double> negative{-1, -1, 4}, positive{1, 4, 5};
@@ -65,8 +64,8 @@ TEST(ExpressionProgram, nested_ifs_select_by_sign) {
 TEST(ExpressionProgram, taylor_carries_rates_through_operators) {
   // x = 2 + 3 t + 4 t²/2, y = 5 − t: the derivatives of x y / (x − y) ** 2 in closed form.
   const Taylor x(2, 3, 4), y(5, -1, 0);
-  const Result<Taylor> r = evaluate(
-      parse("VARVAL(1)*VARVAL(2)/(VARVAL(1)-VARVAL(2))**2").expression, std::vector<Taylor>{x, y});
+  const Result<Taylor> r =
+      evaluate(parse("VARVAL(1)*VARVAL(2)/(VARVAL(1)-VARVAL(2))**2").expression, std::vector<Taylor>{x, y});
   const Taylor d = x - y, expected = x * y / (d * d);
   EXPECT_NEAR(r.value.value, expected.value, 1e-15);
   EXPECT_NEAR(r.value.rate, expected.rate, 1e-14);
@@ -111,8 +110,7 @@ TEST(ExpressionProgram, infinite_slopes_do_not_matter_where_nothing_depends_on_t
 }
 
 TEST(ExpressionProgram, an_infinite_slope_at_rest_gives_no_rate) {
-  const Result<Taylor> r =
-      evaluate(parse("SQRT(VARVAL(1))+VARVAL(1)**1.5").expression, std::vector{Taylor(0.0)});
+  const Result<Taylor> r = evaluate(parse("SQRT(VARVAL(1))+VARVAL(1)**1.5").expression, std::vector{Taylor(0.0)});
   EXPECT_EQ(r.value.rate, 0);
   EXPECT_EQ(r.value.acceleration, 0);
   EXPECT_EQ(r.partial[0].value, infinity);
@@ -136,11 +134,7 @@ TEST(ExpressionProgram, the_culprit_of_a_value_that_is_not_finite_is_named) {
       {"(VARVAL(1)+1)**-2", {-1}, "**", "(VARVAL(1)+1)**-2", "0 to the power -2"},
       {"VARVAL(1)**.5", {-2}, "**", "VARVAL(1)**.5", "-2 to the power 0.5"},
       {"VARVAL(1)**VARVAL(2)", {-2, 0.5}, "**", "VARVAL(1)**VARVAL(2)", "-2 to the power 0.5"},
-      {"MOD(VARVAL(1),VARVAL(2))",
-       {3, 0},
-       "MOD",
-       "MOD(VARVAL(1),VARVAL(2))",
-       "MOD with the divisor 0"},
+      {"MOD(VARVAL(1),VARVAL(2))", {3, 0}, "MOD", "MOD(VARVAL(1),VARVAL(2))", "MOD with the divisor 0"},
       {"EXP(VARVAL(1))", {1000}, "EXP", "EXP(VARVAL(1))", "the result of EXP is too large at 1000"},
       {"IF(TIME: 1, 2, 1/0)", {1}, "/", "1/0", "division by 0"},
       {"IF(SQRT(TIME): 1, 2, 3)", {-1}, "SQRT", "SQRT(TIME)", "SQRT of -1"},
@@ -158,8 +152,7 @@ TEST(ExpressionProgram, the_culprit_of_a_value_that_is_not_finite_is_named) {
   };
   for (const FaultRow& row : table) {
     const ParsedText parsed = parse(row.text);
-    const auto found =
-        parsed.expression.find_fault(std::span<const double>(row.x), FaultSearch::value);
+    const auto found = parsed.expression.find_fault(std::span<const double>(row.x), FaultSearch::value);
     ASSERT_TRUE(found) << row.text;
     EXPECT_EQ(found->function, row.function);
     EXPECT_EQ(found->at.text(), row.place);
@@ -170,32 +163,19 @@ TEST(ExpressionProgram, the_culprit_of_a_value_that_is_not_finite_is_named) {
 
 TEST(ExpressionProgram, the_culprit_of_a_derivative_that_is_not_finite_is_named) {
   const FaultRow table[] = {
-      {"1+SQRT(VARVAL(1))",
-       {0},
-       "SQRT",
-       "SQRT(VARVAL(1))",
-       "the derivative of SQRT is infinite at 0"},
-      {"3*SQRT(VARVAL(1)**2)",
-       {0},
-       "SQRT",
-       "SQRT(VARVAL(1)**2)",
-       "the derivative of SQRT is infinite at 0"},
+      {"1+SQRT(VARVAL(1))", {0}, "SQRT", "SQRT(VARVAL(1))", "the derivative of SQRT is infinite at 0"},
+      {"3*SQRT(VARVAL(1)**2)", {0}, "SQRT", "SQRT(VARVAL(1)**2)", "the derivative of SQRT is infinite at 0"},
       {"ATAN2(VARVAL(1),VARVAL(2))",
        {0, 0},
        "ATAN2",
        "ATAN2(VARVAL(1),VARVAL(2))",
        "the derivative of ATAN2 is not defined at (0, 0)"},
       {"VARVAL(1)**.5", {0}, "**", "VARVAL(1)**.5", "the derivative of ** is infinite at (0, 0.5)"},
-      {"ASIN(VARVAL(1))",
-       {1},
-       "ASIN",
-       "ASIN(VARVAL(1))",
-       "the derivative of ASIN is infinite at 1"},
+      {"ASIN(VARVAL(1))", {1}, "ASIN", "ASIN(VARVAL(1))", "the derivative of ASIN is infinite at 1"},
   };
   for (const FaultRow& row : table) {
     const ParsedText parsed = parse(row.text);
-    const auto found = parsed.expression.find_fault(std::span<const double>(row.x),
-                                                    FaultSearch::value_and_partials);
+    const auto found = parsed.expression.find_fault(std::span<const double>(row.x), FaultSearch::value_and_partials);
     ASSERT_TRUE(found) << row.text;
     EXPECT_EQ(found->function, row.function);
     EXPECT_EQ(found->at.text(), row.place);
@@ -206,12 +186,10 @@ TEST(ExpressionProgram, the_culprit_of_a_derivative_that_is_not_finite_is_named)
 TEST(ExpressionProgram, faults_in_time_derivatives_are_found_on_taylor) {
   const ParsedText parsed = parse("VARVAL(1)**1.5");
   const std::vector<Taylor> moving{Taylor(0, 1, 0)}, resting{Taylor(0.0)};
-  const auto found =
-      parsed.expression.find_fault(std::span<const Taylor>(moving), FaultSearch::value);
+  const auto found = parsed.expression.find_fault(std::span<const Taylor>(moving), FaultSearch::value);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->reason, "a time derivative of ** is infinite at (0, 1.5)");
-  EXPECT_FALSE(parsed.expression.find_fault(std::span<const Taylor>(resting),
-                                            FaultSearch::value_and_partials));
+  EXPECT_FALSE(parsed.expression.find_fault(std::span<const Taylor>(resting), FaultSearch::value_and_partials));
 }
 
 }  // namespace

@@ -48,8 +48,8 @@ StateLabel coordinate_label(const Layout& layout, std::int32_t coordinate, std::
 
 // Gradient rows of one body's coordinates relative to marker b:
 // translation R_bᵀ(r_B − r_b), rotation R_bᵀ(δθ_B − δθ_b); for the owner of b the ground seen from b.
-void add_relative_rows(const Motion& motion, const BodyBlock& block, BodyId body,
-                       const MarkerPlace& b, std::int32_t first, ConstraintRows& rows) {
+void add_relative_rows(const Motion& motion, const BodyBlock& block, BodyId body, const MarkerPlace& b,
+                       std::int32_t first, ConstraintRows& rows) {
   const bool owner = b.body == body;
   const BodyMotion& reference = motion.body(b.body);
   const Frame<Taylor> frame = motion.frame(b);
@@ -71,7 +71,6 @@ void add_relative_rows(const Motion& motion, const BodyBlock& block, BodyId body
       if (b.body != ground_body) rows.add_pose(row, b.body, none, -e);
     }
   }
-
 }
 
 }  // namespace
@@ -95,8 +94,12 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
     const BoundExpression bound(e, system.signals());
     const bool plain = bound.order() == 0 && !bound.reads_channels();
     if (!plain || bound.only_time()) {
-      return tl::unexpected(Failure{"linear analysis",
-                     fmt::format("{} cannot be a PSTATE coordinate: its expression {} must be a displacement or angle and nothing else", name, e.at().text()), {}});
+      return tl::unexpected(Failure{
+          "linear analysis",
+          fmt::format(
+              "{} cannot be a PSTATE coordinate: its expression {} must be a displacement or angle and nothing else",
+              name, e.at().text()),
+          {}});
     }
     ConstraintRows& rows = set.gradients;
     rows.set(row, bound.add_position(motion, rows, row));
@@ -127,8 +130,10 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
       set.wanted.push_back({coordinate, -1, coordinate_label(layout, coordinate, 0, false)});
       continue;
     }
-    const bool owns = owner_offset >= 0 && coordinate >= owner_offset && coordinate < owner_offset + layout.body(b.body).count;
-    set.wanted.push_back({-1, row_of[static_cast<std::size_t>(coordinate)], coordinate_label(layout, coordinate, id, owns)});
+    const bool owns =
+        owner_offset >= 0 && coordinate >= owner_offset && coordinate < owner_offset + layout.body(b.body).count;
+    set.wanted.push_back(
+        {-1, row_of[static_cast<std::size_t>(coordinate)], coordinate_label(layout, coordinate, id, owns)});
   }
   return set;
 }

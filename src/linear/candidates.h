@@ -8,8 +8,8 @@ namespace dynalin {
 
 // Candidates in the order in which they are wanted, with the gradient rows of those that are no plain coordinate.
 struct CandidateSet {
-  std::vector<Candidate> wanted;      // PSTATE, then RM or global coordinates
-  std::vector<Candidate> fallback;    // global coordinates while RM is in force
+  std::vector<Candidate> wanted;    // PSTATE, then RM or global coordinates
+  std::vector<Candidate> fallback;  // global coordinates while RM is in force
   ConstraintRows gradients;
 };
 

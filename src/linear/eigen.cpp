@@ -22,8 +22,9 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear) {
   std::vector<double> re(static_cast<std::size_t>(n)), im(re), scale(re), rconde(re), rcondv(re);
   lapack_int low = 0, high = 0;
   double norm = 0;
-  const lapack_int info = LAPACKE_dgeevx(LAPACK_COL_MAJOR, 'B', 'N', 'N', 'N', n, A.data(), n, re.data(), im.data(), nullptr, 1,
-                                         nullptr, 1, &low, &high, scale.data(), &norm, rconde.data(), rcondv.data());
+  const lapack_int info =
+      LAPACKE_dgeevx(LAPACK_COL_MAJOR, 'B', 'N', 'N', 'N', n, A.data(), n, re.data(), im.data(), nullptr, 1, nullptr, 1,
+                     &low, &high, scale.data(), &norm, rconde.data(), rcondv.data());
   if (info != 0) return tl::unexpected(Failure{"eigensolution", "the QR iteration did not converge", {}});
   for (std::size_t k = 0; k < re.size(); ++k) {
     if (im[k] < 0) continue;  // one entry a pair

@@ -22,15 +22,21 @@ constexpr double rounding_units = 32;
 // y += factor · M x for sparse M and dense x.
 void multiply_add(const ColumnMatrix& m, const Matrix& x, Matrix& y, double factor) {
   for (Eigen::Index c = 0; c < x.cols(); ++c) {
-    m.multiply_add({x.col(c).data(), static_cast<std::size_t>(x.rows())}, {y.col(c).data(), static_cast<std::size_t>(y.rows())}, factor);
+    m.multiply_add({x.col(c).data(), static_cast<std::size_t>(x.rows())},
+                   {y.col(c).data(), static_cast<std::size_t>(y.rows())}, factor);
   }
 }
 
 class Linearizer {
  public:
   Linearizer(const System& system, const OperatingPoint& op, const LinearOptions& options)
-      : system_(system), layout_(system.layout()), options_(options), op_(op), motion_(system.motion(op)),
-        saddle_(system), n_(layout_.coordinate_count) {
+      : system_(system),
+        layout_(system.layout()),
+        options_(options),
+        op_(op),
+        motion_(system.motion(op)),
+        saddle_(system),
+        n_(layout_.coordinate_count) {
     rows_.resize(layout_);
     eq_.resize(layout_);
   }
@@ -108,8 +114,10 @@ class Linearizer {
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const bool unused = all[k].row >= 0 && is_constant(all[k]);
       if (!e.dependent[static_cast<std::size_t>(columns[k])] && !unused) chosen_.push_back(all[k]);
-      if (k < own && all[k].row >= 0 && all[k].label.type == StateType::pstate && e.dependent[static_cast<std::size_t>(columns[k])]) {
-        result_.warnings.push_back(fmt::format("{} was not taken: it is constant or depends on coordinates before it", all[k].label.text));
+      if (k < own && all[k].row >= 0 && all[k].label.type == StateType::pstate &&
+          e.dependent[static_cast<std::size_t>(columns[k])]) {
+        result_.warnings.push_back(
+            fmt::format("{} was not taken: it is constant or depends on coordinates before it", all[k].label.text));
       }
     }
   }
@@ -186,7 +194,8 @@ class Linearizer {
     first_state_ = static_cast<Eigen::Index>(model.states.size());
     for (const std::size_t k : state_order_) {
       const DifferentialState& z = layout_.states[k];
-      model.states.push_back({z.type, z.owner->id, z.coordinate, fmt::format("State {}", z.coordinate), z.owner->text(), false});
+      model.states.push_back(
+          {z.type, z.owner->id, z.coordinate, fmt::format("State {}", z.coordinate), z.owner->text(), false});
     }
     result_.differential_states = layout_.states.size();
   }
@@ -210,11 +219,12 @@ class Linearizer {
       const bool depends = depends_on_anything(u);
       const double value = op_.algebraic[static_cast<std::size_t>(u)];
       if (depends || value != 0.0) {
-        result_.warnings.push_back(fmt::format(
-            "{} is a plant input but its own expression {}; the linear model takes it as independent. Remove it from the "
-            "PINPUT, or put a new VARIABLE with FUNCTION=0 there and add its VARVAL to the expression",
-            layout_.algebraic[static_cast<std::size_t>(u)].owner->full_text(),
-            depends ? "depends on the state of the model" : fmt::format("has the value {:g}", value)));
+        result_.warnings.push_back(
+            fmt::format("{} is a plant input but its own expression {}; the linear model takes it as independent. "
+                        "Remove it from the "
+                        "PINPUT, or put a new VARIABLE with FUNCTION=0 there and add its VARVAL to the expression",
+                        layout_.algebraic[static_cast<std::size_t>(u)].owner->full_text(),
+                        depends ? "depends on the state of the model" : fmt::format("has the value {:g}", value)));
       }
     }
   }
@@ -226,7 +236,8 @@ class Linearizer {
       const ColumnMatrix& m = eq_.matrix(family);
       for (std::int32_t c = 0; c < m.columns; ++c) {
         if (family == Column::algebraic && c == unknown) continue;
-        const auto first = m.row.begin() + m.start[static_cast<std::size_t>(c)], last = m.row.begin() + m.start[static_cast<std::size_t>(c) + 1];
+        const auto first = m.row.begin() + m.start[static_cast<std::size_t>(c)],
+                   last = m.row.begin() + m.start[static_cast<std::size_t>(c) + 1];
         const auto it = std::lower_bound(first, last, row);
         if (it != last && *it == row && m.value[static_cast<std::size_t>(it - m.row.begin())] != 0.0) return true;
       }
@@ -361,7 +372,8 @@ class Linearizer {
       }
     }
     for (std::size_t k = 0; k < state_order_.size(); ++k) {
-      adjoint(saddle_.state(static_cast<std::int32_t>(state_order_[k])), first_state_ + static_cast<Eigen::Index>(k)) = 1.0;
+      adjoint(saddle_.state(static_cast<std::int32_t>(state_order_[k])), first_state_ + static_cast<Eigen::Index>(k)) =
+          1.0;
     }
     lu.solve_transposed(adjoint);
     rounding_ += adjoint.cwiseAbs().transpose() * size;
@@ -381,7 +393,8 @@ class Linearizer {
                                      combine(g, &RowCoefficients::a1, result_.dqdot) +
                                      combine(g, &RowCoefficients::a0, result_.dq);
       } else {
-        rates.row(position_column_[k]) = combine(g, &RowCoefficients::g, result_.dqdot) + combine(g, &RowCoefficients::v, result_.dq);
+        rates.row(position_column_[k]) =
+            combine(g, &RowCoefficients::g, result_.dqdot) + combine(g, &RowCoefficients::v, result_.dq);
       }
     }
     for (std::size_t k = 0; k < state_order_.size(); ++k) {
@@ -395,7 +408,8 @@ class Linearizer {
       // Outputs keep what they see of velocities.
       Matrix seen = Matrix::Zero(eq_.size(), columns_);
       multiply_add(eq_.matrix(Column::damping), result_.dqdot, seen, -1.0);
-      for (std::size_t k = 0; k < outputs_.size(); ++k) outputs.row(static_cast<Eigen::Index>(k)) += seen.row(eq_.algebraic_row(outputs_[k]));
+      for (std::size_t k = 0; k < outputs_.size(); ++k)
+        outputs.row(static_cast<Eigen::Index>(k)) += seen.row(eq_.algebraic_row(outputs_[k]));
     }
     model.A = rates.leftCols(states);
     model.A = (model.A.array().abs() <= rounding_.array()).select(0.0, model.A);

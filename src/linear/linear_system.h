@@ -26,15 +26,15 @@ struct LinearOptions {
 
 // A coordinate that may become a state: its gradient along the motion and its name.
 struct Candidate {
-  std::int32_t coordinate = -1;            // a coordinate of the layout itself, or
-  std::int32_t row = -1;                   // a row of gradients (RM, PSTATE)
+  std::int32_t coordinate = -1;  // a coordinate of the layout itself, or
+  std::int32_t row = -1;         // a row of gradients (RM, PSTATE)
   StateLabel label;
 };
 
 struct LinearSystem {
   StateSpace model;
   std::size_t kinematic_states = 0, differential_states = 0;
-  std::vector<StateLabel> coordinates;     // the chosen ones, in order
+  std::vector<StateLabel> coordinates;  // the chosen ones, in order
   std::vector<std::string> warnings;
   // Columns of states, then inputs: variations of all coordinates, rates, accelerations, multipliers, algebraic values.
   Eigen::MatrixXd dq, dqdot, dqddot, dlambda, dw;

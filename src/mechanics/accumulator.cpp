@@ -4,15 +4,12 @@
 
 namespace dynalin {
 
-void ColumnMatrix::multiply_add(std::span<const double> x, std::span<double> y,
-                                double factor) const {
+void ColumnMatrix::multiply_add(std::span<const double> x, std::span<double> y, double factor) const {
   for (std::int32_t c = 0; c < columns; ++c) {
     const double scaled = factor * x[static_cast<std::size_t>(c)];
     if (scaled == 0.0) continue;
-    for (std::int32_t k = start[static_cast<std::size_t>(c)];
-         k < start[static_cast<std::size_t>(c) + 1]; ++k) {
-      y[static_cast<std::size_t>(row[static_cast<std::size_t>(k)])] +=
-          value[static_cast<std::size_t>(k)] * scaled;
+    for (std::int32_t k = start[static_cast<std::size_t>(c)]; k < start[static_cast<std::size_t>(c) + 1]; ++k) {
+      y[static_cast<std::size_t>(row[static_cast<std::size_t>(k)])] += value[static_cast<std::size_t>(k)] * scaled;
     }
   }
 }

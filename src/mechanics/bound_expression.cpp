@@ -16,9 +16,9 @@ using Seeded = TimeTaylor<Dual<N>>;
 template <std::size_t N>
 Frame<Seeded<N>> seeded_frame(const Motion& motion, const MarkerPlace& place, BodyId body) {
   const Frame<Taylor> plain = motion.frame(place);
-  Frame<Seeded<N>> f{path::constant<N>(plain.origin),
-                     {path::constant<N>(plain.axes.x), path::constant<N>(plain.axes.y),
-                      path::constant<N>(plain.axes.z)}};
+  Frame<Seeded<N>> f{
+      path::constant<N>(plain.origin),
+      {path::constant<N>(plain.axes.x), path::constant<N>(plain.axes.y), path::constant<N>(plain.axes.z)}};
   if (place.body != body) return f;
   const BodyMotion& b = motion.body(body);
   const Vec3<Taylor> arm = plain.origin - along_motion(b.r, b.rdot, b.rddot);
@@ -36,17 +36,15 @@ Frame<Seeded<N>> seeded_frame(const Motion& motion, const MarkerPlace& place, Bo
 }
 
 template <std::size_t N>
-Seeded<N> seeded_measure(Measure measure, const std::array<MarkerPlace, 4>& places,
-                         const Motion& motion, BodyId body) {
+Seeded<N> seeded_measure(Measure measure, const std::array<MarkerPlace, 4>& places, const Motion& motion, BodyId body) {
   return evaluate_measure<Seeded<N>>(
       measure, {seeded_frame<N>(motion, places[0], body), seeded_frame<N>(motion, places[1], body),
                 seeded_frame<N>(motion, places[2], body), seeded_frame<N>(motion, places[3], body)});
 }
 
 template <std::size_t N>
-void add_measure_gradient(Measure measure, const std::array<MarkerPlace, 4>& places,
-                          const Motion& motion, BodyId body, Equations& eq, std::int32_t row,
-                          double factor, Column velocity_family) {
+void add_measure_gradient(Measure measure, const std::array<MarkerPlace, 4>& places, const Motion& motion, BodyId body,
+                          Equations& eq, std::int32_t row, double factor, Column velocity_family) {
   const BodyBlock& block = eq.layout().body(body);
   const auto g = seeded_measure<N>(measure, places, motion, body).value.partial;
   const std::array families = {Column::position, velocity_family, Column::acceleration};
@@ -60,8 +58,7 @@ void add_measure_gradient(Measure measure, const std::array<MarkerPlace, 4>& pla
 
 }  // namespace
 
-BoundExpression::BoundExpression(Expression expression, const Signals& signals)
-    : expression_(std::move(expression)) {
+BoundExpression::BoundExpression(Expression expression, const Signals& signals) : expression_(std::move(expression)) {
   for (const Atom& atom : expression_.atoms()) {
     atoms_.push_back(bind(atom, signals));
     const BoundAtom& a = atoms_.back();
@@ -113,10 +110,8 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
       break;
     case AtomFamily::marker_force: {
       a.kind = Kind::force;
-      static constexpr std::array<std::string_view, 8> names = {"FM", "FX", "FY", "FZ",
-                                                                "TM", "TX", "TY", "TZ"};
-      a.component = static_cast<std::uint8_t>(
-          std::find(names.begin(), names.end(), f.name) - names.begin() + 1);
+      static constexpr std::array<std::string_view, 8> names = {"FM", "FX", "FY", "FZ", "TM", "TX", "TY", "TZ"};
+      a.component = static_cast<std::uint8_t>(std::find(names.begin(), names.end(), f.name) - names.begin() + 1);
       const MarkerId i = signals.marker(atom.argument[0]);
       const bool from_all = atom.argument[1] == 0;
       const MarkerId j = signals.marker(atom.argument[1]);
@@ -228,8 +223,8 @@ void BoundExpression::add(const Motion& motion, Equations& eq, std::int32_t row,
   }
 }
 
-void BoundExpression::add_atom(const BoundAtom& a, const Motion& motion, Equations& eq,
-                               std::int32_t row, double factor, Column velocity_family) const {
+void BoundExpression::add_atom(const BoundAtom& a, const Motion& motion, Equations& eq, std::int32_t row, double factor,
+                               Column velocity_family) const {
   using Kind = BoundAtom::Kind;
   if (a.kind == Kind::channel) {
     const Column family = a.channel.kind == Channel::Kind::algebraic ? Column::algebraic
@@ -241,8 +236,7 @@ void BoundExpression::add_atom(const BoundAtom& a, const Motion& motion, Equatio
   } else if (a.kind == Kind::measure) {
     for (std::size_t b = 0; b < a.body_count; ++b) {
       const auto add_levels = [&]<std::size_t N>() {
-        add_measure_gradient<N>(a.measure, a.places, motion, a.bodies[b], eq, row, factor,
-                                velocity_family);
+        add_measure_gradient<N>(a.measure, a.places, motion, a.bodies[b], eq, row, factor, velocity_family);
       };
       if (a.order == 0) add_levels.operator()<6>();
       if (a.order == 1) add_levels.operator()<12>();
@@ -251,8 +245,8 @@ void BoundExpression::add_atom(const BoundAtom& a, const Motion& motion, Equatio
   }
 }
 
-void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equations& eq,
-                                std::int32_t row, double factor, Column velocity_family) const {
+void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equations& eq, std::int32_t row,
+                                double factor, Column velocity_family) const {
   const bool torque = is_torque(a.component);
   std::vector<MarkerWrench> wrenches(a.terms.size());
   Vector sum{};
@@ -288,8 +282,7 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
       if (!torque) return on_J ? -dot(e, f) : dot(e, f);
       return on_J ? -dot(e, m) - dot(e, cross(delta, f)) : dot(e, m);
     };
-    const std::array<const BodyBlock*, 2> blocks = {&eq.layout().body(p.body_I),
-                                                    &eq.layout().body(p.body_J)};
+    const std::array<const BodyBlock*, 2> blocks = {&eq.layout().body(p.body_I), &eq.layout().body(p.body_J)};
     const Matrix3 one = Matrix3::identity();
     const std::array<Matrix3, 4> delta_groups = {one, -skew(dynalin::value(p.arm_I)), -one,
                                                  skew(dynalin::value(p.arm_J))};
@@ -303,8 +296,7 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
         if (torque && on_J) value -= dot(e, cross(delta_groups[g][k], w.force.force));
         eq.add(Column::position, row, column, factor * value);
         eq.add(velocity_family, row, column,
-               factor * picked(w.force.force_on_velocity.group[g][k],
-                               w.force.torque_on_velocity.group[g][k]));
+               factor * picked(w.force.force_on_velocity.group[g][k], w.force.torque_on_velocity.group[g][k]));
       }
     }
     for (const MarkerWrench::Scalar& s : w.scalars) {
@@ -316,9 +308,9 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
 namespace {
 
 template <std::size_t N>
-void add_measure_row(Measure measure, const std::array<MarkerPlace, 4>& places, const Motion& motion,
-                     BodyId body, ConstraintRows& rows, std::int32_t row, const BodyBlock& block,
-                     const Taylor& partial, RowLevel row_level) {
+void add_measure_row(Measure measure, const std::array<MarkerPlace, 4>& places, const Motion& motion, BodyId body,
+                     ConstraintRows& rows, std::int32_t row, const BodyBlock& block, const Taylor& partial,
+                     RowLevel row_level) {
   const Seeded<N> m = seeded_measure<N>(measure, places, motion, body);
   // δX = Σ X_l δq^(l) and its rate, both times the partial e_X(t) of the expression.
   for (std::int32_t k = 0; k < block.count; ++k) {
@@ -343,8 +335,7 @@ void add_measure_row(Measure measure, const std::array<MarkerPlace, 4>& places, 
 }  // namespace
 
 void BoundExpression::add_measure_to_row(const BoundAtom& a, const Motion& motion, ConstraintRows& rows,
-                                         std::int32_t row, const Taylor& partial,
-                                         RowLevel level) const {
+                                         std::int32_t row, const Taylor& partial, RowLevel level) const {
   for (std::size_t b = 0; b < a.body_count; ++b) {
     const BodyBlock& block = rows.layout().body(a.bodies[b]);
     if (a.order == 0) {
@@ -355,16 +346,16 @@ void BoundExpression::add_measure_to_row(const BoundAtom& a, const Motion& motio
   }
 }
 
-Taylor BoundExpression::add_to_row(const Motion& motion, ConstraintRows& rows, std::int32_t row,
-                                   double factor, RowLevel level) const {
+Taylor BoundExpression::add_to_row(const Motion& motion, ConstraintRows& rows, std::int32_t row, double factor,
+                                   RowLevel level) const {
   ExpressionScratch& scratch = rows.scratch;
   scratch.taylor_atoms.resize(atoms_.size());
   scratch.taylor_partials.resize(atoms_.size());
   for (std::size_t k = 0; k < atoms_.size(); ++k) {
     scratch.taylor_atoms[k] = atom_along_motion(atoms_[k], motion);
   }
-  const Taylor e = expression_.evaluate<Taylor>(scratch.taylor_atoms, std::span(scratch.taylor_partials),
-                                                scratch.taylor);
+  const Taylor e =
+      expression_.evaluate<Taylor>(scratch.taylor_atoms, std::span(scratch.taylor_partials), scratch.taylor);
   for (std::size_t k = 0; k < atoms_.size(); ++k) {
     if (atoms_[k].kind == BoundAtom::Kind::measure) {
       add_measure_to_row(atoms_[k], motion, rows, row, factor * scratch.taylor_partials[k], level);

@@ -51,9 +51,9 @@ class BoundExpression {
     std::array<MarkerPlace, 4> places;  // i, j, k, l
     std::array<BodyId, 4> bodies{};     // the distinct bodies among them that move
     std::uint8_t body_count = 0;
-    std::int32_t memory = -1;           // total angle of a measure that counts turns
+    std::int32_t memory = -1;  // total angle of a measure that counts turns
     std::vector<ForceTerm> terms;
-    std::uint8_t component = 1;         // 1–8: FM FX FY FZ TM TX TY TZ
+    std::uint8_t component = 1;  // 1–8: FM FX FY FZ TM TX TY TZ
     MarkerPlace axes_marker;
   };
 
@@ -65,10 +65,9 @@ class BoundExpression {
   void add_force(const BoundAtom&, const Motion&, Equations&, std::int32_t row, double factor,
                  Column velocity_family) const;
   // Adds partial · (path gradient of the measure) at the levels a constraint row has.
-  void add_measure_to_row(const BoundAtom&, const Motion&, ConstraintRows&, std::int32_t row,
-                          const Taylor& partial, RowLevel level) const;
-  Taylor add_to_row(const Motion&, ConstraintRows&, std::int32_t row, double factor,
-                    RowLevel level) const;
+  void add_measure_to_row(const BoundAtom&, const Motion&, ConstraintRows&, std::int32_t row, const Taylor& partial,
+                          RowLevel level) const;
+  Taylor add_to_row(const Motion&, ConstraintRows&, std::int32_t row, double factor, RowLevel level) const;
 
   Expression expression_;
   std::vector<BoundAtom> atoms_;

@@ -24,8 +24,7 @@ RowCoefficients& ConstraintRows::entry(std::int32_t row, std::int32_t column) {
   return entries.back().c;
 }
 
-void ConstraintRows::add_pose(std::int32_t row, BodyId body, const Vec3<Taylor>& on_r,
-                              const Vec3<Taylor>& on_theta) {
+void ConstraintRows::add_pose(std::int32_t row, BodyId body, const Vec3<Taylor>& on_r, const Vec3<Taylor>& on_theta) {
   const BodyBlock& block = layout_->body(body);
   for (std::int32_t k = 0; k < block.count; ++k) {
     const auto i = static_cast<std::size_t>(k);
@@ -73,15 +72,15 @@ void Equations::apply(BodyId body, const Vector& force, const Vector& moment, do
   }
 }
 
-void Equations::add_block(Column family, BodyId on, std::int32_t column, const Matrix3& force,
-                          const Matrix3& moment, double factor) {
+void Equations::add_block(Column family, BodyId on, std::int32_t column, const Matrix3& force, const Matrix3& moment,
+                          double factor) {
   for (std::size_t k = 0; k < 3; ++k) {
     add_column(family, on, column + static_cast<std::int32_t>(k), force[k], moment[k], factor);
   }
 }
 
-void Equations::add_column(Column family, BodyId on, std::int32_t column, const Vector& force,
-                           const Vector& moment, double factor) {
+void Equations::add_column(Column family, BodyId on, std::int32_t column, const Vector& force, const Vector& moment,
+                           double factor) {
   const BodyBlock& block = layout_->body(on);
   if (block.count == 0 || !wants(family)) return;
   const std::array<double, 6> values = {factor * force.x,  factor * force.y,  factor * force.z,

@@ -38,18 +38,14 @@ class ConstraintRows {
   void begin() { scratch_row_ = -1; }
 
   // Value, rate and acceleration of a position row; of a velocity row Ψ, Ψ′ and nothing.
-  void set(std::int32_t row, const Taylor& along_motion) {
-    value_[static_cast<std::size_t>(row)] = along_motion;
-  }
+  void set(std::int32_t row, const Taylor& along_motion) { value_[static_cast<std::size_t>(row)] = along_motion; }
   void add(std::int32_t row, std::int32_t column, const RowCoefficients& c) {
     RowCoefficients& e = entry(row, column);
     e.g += c.g, e.v += c.v, e.a1 += c.a1, e.a0 += c.a0;
   }
   // Gradient of a position row with respect to the pose of a body, along the motion.
   void add_pose(std::int32_t row, BodyId body, const Vec3<Taylor>& on_r, const Vec3<Taylor>& on_theta);
-  void add_coordinate(std::int32_t row, std::int32_t column, const Taylor& g) {
-    accumulate(entry(row, column), g);
-  }
+  void add_coordinate(std::int32_t row, std::int32_t column, const Taylor& g) { accumulate(entry(row, column), g); }
 
   struct Entry {
     std::int32_t column;
@@ -116,11 +112,11 @@ class Equations {
   }
   // Partials of force and moment on `on` with respect to three coordinates starting at `column`:
   // column k of `force` and `moment` belongs to coordinate column + k.
-  void add_block(Column family, BodyId on, std::int32_t column, const Matrix3& force,
-                 const Matrix3& moment, double factor = -1.0);
+  void add_block(Column family, BodyId on, std::int32_t column, const Matrix3& force, const Matrix3& moment,
+                 double factor = -1.0);
   // The same with respect to one scalar unknown.
-  void add_column(Column family, BodyId on, std::int32_t column, const Vector& force,
-                  const Vector& moment, double factor = -1.0);
+  void add_column(Column family, BodyId on, std::int32_t column, const Vector& force, const Vector& moment,
+                  double factor = -1.0);
 
   std::span<const double> residual() const { return residual_; }
   std::span<double> residual() { return residual_; }

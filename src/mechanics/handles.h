@@ -64,8 +64,8 @@ struct ElementLabel {
 // Where a marker sits on its body.
 struct MarkerPlace {
   BodyId body = ground_body;
-  Vector p_BM;                               // origin in the BCS
-  Matrix3 R_BM = Matrix3::identity();        // axes in the BCS
+  Vector p_BM;                         // origin in the BCS
+  Matrix3 R_BM = Matrix3::identity();  // axes in the BCS
 };
 
 }  // namespace dynalin

@@ -52,8 +52,7 @@ class Kernel {
   virtual bool has_wrench() const { return false; }
   virtual MarkerId marker_I(std::size_t) const { return {}; }
   virtual MarkerId marker_J(std::size_t) const { return {}; }
-  virtual void wrench(const Motion&, std::size_t /*element*/, bool /*with_partials*/,
-                      MarkerWrench&) const {}
+  virtual void wrench(const Motion&, std::size_t /*element*/, bool /*with_partials*/, MarkerWrench&) const {}
 
   // --- what data functions read ----------------------------------------------------------------------
   virtual Channel value_channel(std::size_t /*element*/) const { return {}; }  // VARVAL

@@ -17,8 +17,7 @@ std::int32_t Layout::add_body(BodyKind kind, ElementLabel label) {
   return last_index(bodies.size());
 }
 
-std::int32_t Layout::add_extra(ElementLabel label, std::vector<std::string> names,
-                               std::span<const double> initial) {
+std::int32_t Layout::add_extra(ElementLabel label, std::vector<std::string> names, std::span<const double> initial) {
   const std::int32_t offset = coordinate_count;
   const auto count = static_cast<std::int32_t>(names.size());
   extras.push_back({offset, count, std::move(label), std::move(names)});
@@ -51,8 +50,7 @@ std::string Layout::coordinate_text(std::int32_t coordinate) const {
   static constexpr std::array names = {"DX", "DY", "DZ", "AX", "AY", "AZ"};
   for (const BodyBlock& b : bodies) {
     if (b.count > 0 && coordinate >= b.offset && coordinate < b.offset + b.count) {
-      return std::string(names[static_cast<std::size_t>(coordinate - b.offset)]) + " of " +
-             b.label.full_text();
+      return std::string(names[static_cast<std::size_t>(coordinate - b.offset)]) + " of " + b.label.full_text();
     }
   }
   for (const ExtraBlock& e : extras) {

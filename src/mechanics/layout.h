@@ -56,14 +56,14 @@ struct DifferentialState {
 
 class Layout {
  public:
-  std::vector<BodyBlock> bodies;  // by BodyId
+  std::vector<BodyBlock> bodies;     // by BodyId
   std::vector<MarkerPlace> markers;  // by MarkerId
   std::vector<ElementLabel> marker_labels;
   std::vector<ExtraBlock> extras;
   std::vector<ConstraintRow> rows;
   std::vector<AlgebraicUnknown> algebraic;
   std::vector<DifferentialState> states;
-  Memory memory;                  // initial contents
+  Memory memory;  // initial contents
   std::vector<double> extra_initial;
   std::int32_t coordinate_count = 0;       // all blocks
   std::int32_t body_coordinate_count = 0;  // of the bodies alone; extras follow them
@@ -74,8 +74,7 @@ class Layout {
   std::int32_t add_body(BodyKind, ElementLabel);
   // After all bodies; returns the first coordinate.
   std::int32_t add_extra(ElementLabel, std::vector<std::string> names, std::span<const double> initial);
-  std::int32_t add_row(const ElementLabel& owner, std::string_view name,
-                       RowLevel level = RowLevel::position);
+  std::int32_t add_row(const ElementLabel& owner, std::string_view name, RowLevel level = RowLevel::position);
   std::int32_t add_algebraic(const ElementLabel& owner, std::int32_t component = 0, double guess = 0);
   std::int32_t add_state(const DifferentialState&);
   std::int32_t add_memory(double initial = 0);

@@ -5,13 +5,10 @@
 namespace dynalin {
 
 namespace {
-Matrix3 cross_columns(const Vector& a, const Matrix3& m) {
-  return {cross(a, m.x), cross(a, m.y), cross(a, m.z)};
-}
+Matrix3 cross_columns(const Vector& a, const Matrix3& m) { return {cross(a, m.x), cross(a, m.y), cross(a, m.z)}; }
 }  // namespace
 
-void BodyMotion::set(const Pose& pose, const Vector& v, const Vector& omega, const Vector& a,
-                     const Vector& alpha) {
+void BodyMotion::set(const Pose& pose, const Vector& v, const Vector& omega, const Vector& a, const Vector& alpha) {
   r = pose.r, rdot = v, rddot = a;
   w = omega, wdot = alpha;
   R = pose.R;
@@ -23,8 +20,7 @@ Frame<Taylor> Motion::frame(const MarkerPlace& m) const {
   const BodyMotion& b = body(m.body);
   const Matrix3 R = b.R * m.R_BM, Rdot = b.Rdot * m.R_BM, Rddot = b.Rddot * m.R_BM;
   return {along_motion(b.r + b.R * m.p_BM, b.rdot + b.Rdot * m.p_BM, b.rddot + b.Rddot * m.p_BM),
-          {along_motion(R.x, Rdot.x, Rddot.x), along_motion(R.y, Rdot.y, Rddot.y),
-           along_motion(R.z, Rdot.z, Rddot.z)}};
+          {along_motion(R.x, Rdot.x, Rddot.x), along_motion(R.y, Rdot.y, Rddot.y), along_motion(R.z, Rdot.z, Rddot.z)}};
 }
 
 double unwrapped(double principal, double remembered) {

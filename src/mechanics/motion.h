@@ -14,19 +14,18 @@ namespace dynalin {
 
 // Pose of a body coordinate system: origin and axes in global coordinates.
 struct Pose {
-  Vector r;                          // [length]
+  Vector r;  // [length]
   Matrix3 R = Matrix3::identity();
 };
 
 // A body's BCS along the motion; all components in global axes.
 struct BodyMotion {
-  Vector r, rdot, rddot;       // origin and its derivatives
-  Matrix3 R, Rdot, Rddot;      // axes and their derivatives
-  Vector w, wdot;              // angular velocity and acceleration
+  Vector r, rdot, rddot;   // origin and its derivatives
+  Matrix3 R, Rdot, Rddot;  // axes and their derivatives
+  Vector w, wdot;          // angular velocity and acceleration
 
   // Fills the derivatives of R: R′ = ω×R, R″ = α×R + ω×(ω×R).
-  void set(const Pose& pose, const Vector& v, const Vector& omega, const Vector& a,
-           const Vector& alpha);
+  void set(const Pose& pose, const Vector& v, const Vector& omega, const Vector& a, const Vector& alpha);
 };
 
 using Taylor = TimeTaylor<double>;
@@ -36,9 +35,7 @@ inline Vec3<Taylor> along_motion(const Vector& v, const Vector& vdot, const Vect
 }
 inline Vector value(const Vec3<Taylor>& v) { return {v.x.value, v.y.value, v.z.value}; }
 inline Vector rate(const Vec3<Taylor>& v) { return {v.x.rate, v.y.rate, v.z.rate}; }
-inline Vector acceleration(const Vec3<Taylor>& v) {
-  return {v.x.acceleration, v.y.acceleration, v.z.acceleration};
-}
+inline Vector acceleration(const Vec3<Taylor>& v) { return {v.x.acceleration, v.y.acceleration, v.z.acceleration}; }
 inline Matrix3 value(const Mat3<Taylor>& m) { return {value(m.x), value(m.y), value(m.z)}; }
 
 // What the expression function MODE returns.
@@ -50,11 +47,11 @@ using Memory = std::vector<double>;
 struct Motion {
   double time = 0;
   AnalysisMode mode = AnalysisMode::initial_conditions;
-  std::vector<BodyMotion> bodies;           // ground first
+  std::vector<BodyMotion> bodies;                             // ground first
   std::vector<double> extra, extra_rate, extra_acceleration;  // coordinates outside bodies (curve parameters)
-  std::vector<double> lambda;               // multipliers, one per constraint row
-  std::vector<double> algebraic;            // values of VARIABLEs, force components, outputs
-  std::vector<double> state, state_rate;    // differential states
+  std::vector<double> lambda;                                 // multipliers, one per constraint row
+  std::vector<double> algebraic;                              // values of VARIABLEs, force components, outputs
+  std::vector<double> state, state_rate;                      // differential states
   Memory memory;
 
   const BodyMotion& body(BodyId b) const { return bodies[static_cast<std::size_t>(b.index)]; }

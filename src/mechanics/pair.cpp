@@ -50,8 +50,8 @@ PairForce spread(const PairMotion& p, const RelativeWrench& w, bool with_partial
   const Matrix3 rho = skew(value(p.arm_I)), arm = skew(value(p.arm));
   // δξ = Rᵀ G δq, all in global components.
   const Groups G{{one, -rho, -one, arm}, {Matrix3{}, one, Matrix3{}, -one}};
-  const auto add = [&](const std::array<std::array<double, 6>, 6>& m, const Groups& g,
-                       GroupPartials& force, GroupPartials& torque) {
+  const auto add = [&](const std::array<std::array<double, 6>, 6>& m, const Groups& g, GroupPartials& force,
+                       GroupPartials& torque) {
     const Matrix3 fd = congruent(R, block(m, 0, 0)), fr = congruent(R, block(m, 0, 3));
     const Matrix3 td = congruent(R, block(m, 3, 0)), tr = congruent(R, block(m, 3, 3));
     for (std::size_t k = 0; k < 4; ++k) {
@@ -87,8 +87,8 @@ PairForce along_line(const PairMotion& p, const LineMagnitude& F, bool with_part
 
   // δf = u (F_d δd + F_v δd′) + (F/d) (1 − u uᵀ) δΔ with δd′ = u·δΔ′ + u′·δΔ.
   const Matrix3 uu = outer(u, u);
-  const Matrix3 on_delta = F.on_distance * uu + F.on_rate * outer(u, rate(line)) +
-                           (F.value / d.value) * (Matrix3::identity() - uu);
+  const Matrix3 on_delta =
+      F.on_distance * uu + F.on_rate * outer(u, rate(line)) + (F.value / d.value) * (Matrix3::identity() - uu);
   const Matrix3 on_delta_rate = F.on_rate * uu;
   const Matrix3 one = Matrix3::identity();
   const std::array<Matrix3, 4> G = {one, -skew(value(p.arm_I)), -one, skew(value(p.arm_J))};
@@ -106,8 +106,7 @@ namespace {
 std::array<std::int32_t, 4> group_columns(const PairMotion& p, const Layout& layout) {
   const auto columns = [&](BodyId b) {
     const BodyBlock& block = layout.body(b);
-    return std::array<std::int32_t, 2>{block.count >= 3 ? block.offset : -1,
-                                       block.count == 6 ? block.offset + 3 : -1};
+    return std::array<std::int32_t, 2>{block.count >= 3 ? block.offset : -1, block.count == 6 ? block.offset + 3 : -1};
   };
   const auto B = columns(p.body_I), C = columns(p.body_J);
   return {B[0], B[1], C[0], C[1]};
@@ -145,16 +144,16 @@ void apply_partials(const PairMotion& p, const PairForce& f, Equations& eq, Colu
   }
 }
 
-void apply_column(const PairMotion& p, const Vector& force, const Vector& torque, bool acts_on_J,
-                  Column family, std::int32_t column, Equations& eq) {
+void apply_column(const PairMotion& p, const Vector& force, const Vector& torque, bool acts_on_J, Column family,
+                  std::int32_t column, Equations& eq) {
   eq.add_column(family, p.body_I, column, force, cross(value(p.arm_I), force) + torque);
   if (acts_on_J) {
     eq.add_column(family, p.body_J, column, -force, -(cross(value(p.arm), force) + torque));
   }
 }
 
-void add_gradient(std::int32_t row, const PairMotion& p, const Vec3<Taylor>& on_d,
-                  const Vec3<Taylor>& on_phi, ConstraintRows& rows) {
+void add_gradient(std::int32_t row, const PairMotion& p, const Vec3<Taylor>& on_d, const Vec3<Taylor>& on_phi,
+                  ConstraintRows& rows) {
   const Vec3<Taylor> f = p.J.axes * on_d, t = p.J.axes * on_phi;
   rows.add_pose(row, p.body_I, f, t + cross(p.arm_I, f));
   rows.add_pose(row, p.body_J, -f, -(t + cross(p.arm, f)));

@@ -18,11 +18,11 @@ namespace dynalin {
 
 struct PairMotion {
   BodyId body_I, body_J;
-  Frame<Taylor> I, J;               // global
-  RelativeFrame<Taylor> relative;   // I seen from J
-  Vec3<Taylor> arm_I, arm_J;        // from the BCS of the body to its marker, global axes
-  Vec3<Taylor> arm;                 // from the BCS of J's body to the origin of I
-  Vector w_J;                       // angular velocity of J's body
+  Frame<Taylor> I, J;              // global
+  RelativeFrame<Taylor> relative;  // I seen from J
+  Vec3<Taylor> arm_I, arm_J;       // from the BCS of the body to its marker, global axes
+  Vec3<Taylor> arm;                // from the BCS of J's body to the origin of I
+  Vector w_J;                      // angular velocity of J's body
 };
 
 PairMotion pair_motion(const Motion&, const MarkerPlace& I, const MarkerPlace& J);
@@ -59,14 +59,13 @@ PairForce along_line(const PairMotion&, const LineMagnitude&, bool with_partials
 // Adds force, reaction and partials to the balance of both bodies.
 void apply(const PairMotion&, const PairForce&, Equations&, Column velocity_family = Column::damping);
 // The partials alone, for forces whose residual is added elsewhere (reactions come from the constraint rows).
-void apply_partials(const PairMotion&, const PairForce&, Equations&,
-                    Column velocity_family = Column::damping);
+void apply_partials(const PairMotion&, const PairForce&, Equations&, Column velocity_family = Column::damping);
 // Adds the column of a scalar unknown that scales (force, torque) on I.
-void apply_column(const PairMotion&, const Vector& force, const Vector& torque, bool acts_on_J,
-                  Column family, std::int32_t column, Equations&);
+void apply_column(const PairMotion&, const Vector& force, const Vector& torque, bool acts_on_J, Column family,
+                  std::int32_t column, Equations&);
 
 // Puts the gradient of a position row, given in the axes of J with respect to (d, φ), into the row.
-void add_gradient(std::int32_t row, const PairMotion&, const Vec3<Taylor>& on_d,
-                  const Vec3<Taylor>& on_phi, ConstraintRows&);
+void add_gradient(std::int32_t row, const PairMotion&, const Vec3<Taylor>& on_d, const Vec3<Taylor>& on_phi,
+                  ConstraintRows&);
 
 }  // namespace dynalin

@@ -26,8 +26,7 @@ struct RelativeFrame {
   Vec3<T> x, y, z;
 };
 
-inline constexpr std::array<Vector, 3> unit_vectors = {Vector{1, 0, 0}, Vector{0, 1, 0},
-                                                       Vector{0, 0, 1}};
+inline constexpr std::array<Vector, 3> unit_vectors = {Vector{1, 0, 0}, Vector{0, 1, 0}, Vector{0, 0, 1}};
 
 namespace path {
 
@@ -43,8 +42,7 @@ Vec3<TimeTaylor<Dual<N>>> constant(const Vec3<Taylor>& v) {
 
 // Adds the variation direction(t) t^level/level! to v as partial `seed`.
 template <std::size_t N>
-void vary(Vec3<TimeTaylor<Dual<N>>>& v, std::size_t seed, std::size_t level,
-          const Vec3<Taylor>& direction) {
+void vary(Vec3<TimeTaylor<Dual<N>>>& v, std::size_t seed, std::size_t level, const Vec3<Taylor>& direction) {
   for (std::size_t k = 0; k < 3; ++k) {
     const Taylor& d = direction[k];
     if (level == 0) {
@@ -63,7 +61,7 @@ void vary(Vec3<TimeTaylor<Dual<N>>>& v, std::size_t seed, std::size_t level,
 // e_axis × v(t)
 inline Vec3<Taylor> turned(std::size_t axis, const Vec3<Taylor>& v) {
   const Taylor zero(0.0);
-  return axis == 0 ? Vec3<Taylor>{zero, -v.z, v.y}
+  return axis == 0   ? Vec3<Taylor>{zero, -v.z, v.y}
          : axis == 1 ? Vec3<Taylor>{v.z, zero, -v.x}
                      : Vec3<Taylor>{-v.y, v.x, zero};
 }
@@ -72,12 +70,10 @@ inline Vec3<Taylor> turned(std::size_t axis, const Vec3<Taylor>& v) {
 // with N = 12 the same again at level 1 in seeds 6–11.
 template <std::size_t N>
 RelativeFrame<TimeTaylor<Dual<N>>> seeded(const RelativeFrame<Taylor>& I) {
-  RelativeFrame<TimeTaylor<Dual<N>>> s{constant<N>(I.p), constant<N>(I.x), constant<N>(I.y),
-                                       constant<N>(I.z)};
+  RelativeFrame<TimeTaylor<Dual<N>>> s{constant<N>(I.p), constant<N>(I.x), constant<N>(I.y), constant<N>(I.z)};
   for (std::size_t level = 0; 6 * level < N; ++level) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3<Taylor> along{Taylor(unit_vectors[k].x), Taylor(unit_vectors[k].y),
-                               Taylor(unit_vectors[k].z)};
+      const Vec3<Taylor> along{Taylor(unit_vectors[k].x), Taylor(unit_vectors[k].y), Taylor(unit_vectors[k].z)};
       vary(s.p, 6 * level + k, level, along);
       vary(s.x, 6 * level + 3 + k, level, turned(k, I.x));
       vary(s.y, 6 * level + 3 + k, level, turned(k, I.y));

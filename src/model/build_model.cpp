@@ -22,10 +22,8 @@ constexpr std::size_t no_argument = static_cast<std::size_t>(-1);
 
 class Reader final : public ElementReader {
  public:
-  Reader(Model& model, const Placement& placement, const SourceText& source,
-         Diagnostics& diagnostics)
-      : ElementReader(*placement.statement, source, diagnostics,
-                      placement.set->labels[placement.index]),
+  Reader(Model& model, const Placement& placement, const SourceText& source, Diagnostics& diagnostics)
+      : ElementReader(*placement.statement, source, diagnostics, placement.set->labels[placement.index]),
         model_(model),
         placement_(placement) {
     if (placement.variant_argument != no_argument) {
@@ -73,15 +71,11 @@ class Reader final : public ElementReader {
   }
 
   void keep(SourceRef source) override { model_.further_sources.push_back(std::move(source)); }
-  std::string folder() const override {
-    return std::filesystem::path(source().name()).parent_path().string();
-  }
+  std::string folder() const override { return std::filesystem::path(source().name()).parent_path().string(); }
 
  private:
-  void report_missing(std::string_view statement, std::string_view code, const WrittenInteger& id,
-                      std::string_view) {
-    error(code, id.at,
-          fmt::format("{} refers to {}/{}, which does not exist", label().text(), statement, id.value),
+  void report_missing(std::string_view statement, std::string_view code, const WrittenInteger& id, std::string_view) {
+    error(code, id.at, fmt::format("{} refers to {}/{}, which does not exist", label().text(), statement, id.value),
           near_ids(statement, id.value));
   }
 
@@ -91,8 +85,8 @@ class Reader final : public ElementReader {
     std::vector<std::string> near;
     const auto consider = [&](std::int64_t candidate) {
       const std::string text = std::to_string(candidate);
-      const std::size_t shared = std::mismatch(wanted.begin(), wanted.end(), text.begin(), text.end()).first -
-                                 wanted.begin();
+      const std::size_t shared =
+          std::mismatch(wanted.begin(), wanted.end(), text.begin(), text.end()).first - wanted.begin();
       const std::string_view a = std::string_view(wanted).substr(shared);
       const std::string_view b = std::string_view(text).substr(shared);
       const bool close = (a.size() == b.size() && !a.empty() && a.substr(1) == b.substr(1)) ||
@@ -144,8 +138,7 @@ class Reader final : public ElementReader {
         }
         if (atom.argument[2] < 1 || atom.argument[2] > 8) {
           error("value-out-of-range", atom.argument_at[2],
-                fmt::format("the third argument of {} is a component, 1 to 8: FM FX FY FZ TM TX TY TZ",
-                            f.name));
+                fmt::format("the third argument of {} is a component, 1 to 8: FM FX FY FZ TM TX TY TZ", f.name));
         }
         if (atom.argument_count > 3) check_id(atom, 3, "MARKER");
         return;
@@ -167,8 +160,7 @@ class KindFinder {
     variant_argument = no_argument;
     const auto it = kinds_.find(s.name);
     if (it == kinds_.end()) {
-      diagnostics.error("statement-not-built", s.keyword,
-                        fmt::format("{} is not available yet", s.name));
+      diagnostics.error("statement-not-built", s.keyword, fmt::format("{} is not available yet", s.name));
       return nullptr;
     }
     const auto& kinds = it->second;
@@ -183,9 +175,9 @@ class KindFinder {
       const auto v = find_keyword(w.name.text(), variants);
       if (!v || is_flag(*kinds[*v], w.name.text())) continue;
       if (found) {
-        diagnostics.error("duplicate-variant", w.name,
-                          fmt::format("{}/{} is both {} and {}", s.name, s.id.value_or(0), found->variant,
-                                      kinds[*v]->variant));
+        diagnostics.error(
+            "duplicate-variant", w.name,
+            fmt::format("{}/{} is both {} and {}", s.name, s.id.value_or(0), found->variant, kinds[*v]->variant));
         return nullptr;
       }
       found = kinds[*v];
@@ -202,9 +194,9 @@ class KindFinder {
   // A word such as I or R that is the exact name of an argument never selects a variant.
   static bool is_flag(const Kind& kind, std::string_view word) {
     return std::any_of(kind.arguments.begin(), kind.arguments.end(), [&](const ArgumentInfo& a) {
-      return a.name.size() == word.size() &&
-             std::equal(word.begin(), word.end(), a.name.begin(),
-                        [](char x, char y) { return std::toupper(static_cast<unsigned char>(x)) == y; });
+      return a.name.size() == word.size() && std::equal(word.begin(), word.end(), a.name.begin(), [](char x, char y) {
+               return std::toupper(static_cast<unsigned char>(x)) == y;
+             });
     });
   }
 
@@ -266,8 +258,8 @@ class Builder {
         if (s.id) model_->ids[std::string(s.name)].emplace(*s.id, ElementHandle{});
         continue;
       }
-      const bool needs_id = kind->role == Kind::Role::body || kind->role == Kind::Role::marker ||
-                            kind->role == Kind::Role::element;
+      const bool needs_id =
+          kind->role == Kind::Role::body || kind->role == Kind::Role::marker || kind->role == Kind::Role::element;
       if (needs_id && !s.id) {
         diagnostics_.error("missing-id", s.at, fmt::format("{} needs an id: {}/1", s.name, s.name));
         continue;
@@ -325,8 +317,7 @@ class Builder {
     std::int32_t index = 0;
     while (model_->sets[static_cast<std::size_t>(index)].get() != &set) ++index;
     auto& table = model_->ids[std::string(kind.statement)];
-    const auto [it, fresh] =
-        table.emplace(label.id, ElementHandle{index, static_cast<std::int32_t>(set.size())});
+    const auto [it, fresh] = table.emplace(label.id, ElementHandle{index, static_cast<std::int32_t>(set.size())});
     if (!fresh) return duplicate(it->second.valid() ? model_->label(it->second).at : Span{});
     return true;
   }

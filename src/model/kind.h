@@ -20,7 +20,7 @@ class ElementReader;
 struct ArgumentInfo {
   std::string_view name;
   bool required = false;
-  bool is_flag = false;  // a bare keyword without value
+  bool is_flag = false;    // a bare keyword without value
   std::string_view value;  // "marker", "real", "expression" …
   std::string_view unit;
   std::string_view help;

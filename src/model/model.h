@@ -35,14 +35,14 @@ struct StatedVelocity {
 struct Body {
   BodyKind kind = BodyKind::part;
   ElementLabel label;
-  Pose pose;                      // BCS as drawn
-  double mass = 0;                // dynamical: user mass / ucf [force·time²/length]
+  Pose pose;        // BCS as drawn
+  double mass = 0;  // dynamical: user mass / ucf [force·time²/length]
   double user_mass = 0;
   bool has_cm = false;
-  Vector p_BC;                    // CM in the BCS
-  Matrix3 J_BC;                   // dynamical inertia tensor about the CM, BCS axes
+  Vector p_BC;   // CM in the BCS
+  Matrix3 J_BC;  // dynamical inertia tensor about the CM, BCS axes
   StatedVelocity velocity;
-  std::array<bool, 6> exact{};    // X Y Z PSI THETA PHI held in the assembly
+  std::array<bool, 6> exact{};  // X Y Z PSI THETA PHI held in the assembly
 };
 
 struct Marker {
@@ -54,9 +54,9 @@ struct Marker {
 struct Model {
   std::string title;
   Units units;
-  Vector gravity;                  // [length/time²], global axes
-  std::vector<Body> bodies;        // by BodyId, ground first
-  std::vector<Marker> markers;     // by MarkerId, the global frame first
+  Vector gravity;                                 // [length/time²], global axes
+  std::vector<Body> bodies;                       // by BodyId, ground first
+  std::vector<Marker> markers;                    // by MarkerId, the global frame first
   std::vector<std::unique_ptr<ElementSet>> sets;  // in the order of the catalogue, only kinds that occur
 
   std::optional<ElementHandle> find(std::string_view statement, std::int64_t id) const;
@@ -64,9 +64,7 @@ struct Model {
   std::optional<BodyId> find_body(std::string_view statement, std::int64_t id) const;
 
   const ElementSet& set(ElementHandle h) const { return *sets[static_cast<std::size_t>(h.set)]; }
-  const ElementLabel& label(ElementHandle h) const {
-    return set(h).labels[static_cast<std::size_t>(h.index)];
-  }
+  const ElementLabel& label(ElementHandle h) const { return set(h).labels[static_cast<std::size_t>(h.index)]; }
   // The element of a handle, nothing if it is of another type.
   template <class E>
   const E* get(ElementHandle h) const {

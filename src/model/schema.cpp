@@ -14,17 +14,15 @@ std::optional<Span> ElementReader::at_argument(std::string_view argument) const 
   return std::nullopt;
 }
 
-Span ElementReader::at(std::string_view argument) const {
-  return at_argument(argument).value_or(statement_->at);
-}
+Span ElementReader::at(std::string_view argument) const { return at_argument(argument).value_or(statement_->at); }
 
 namespace {
 
 bool check_minimum(double value, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
   if (value >= limits.minimum) return true;
-  r.error("value-out-of-range", w.value_span,
-          fmt::format("{} of {} is {}, it must be at least {}", limits.argument, r.label().text(), value,
-                      limits.minimum));
+  r.error(
+      "value-out-of-range", w.value_span,
+      fmt::format("{} of {} is {}, it must be at least {}", limits.argument, r.label().text(), value, limits.minimum));
   return false;
 }
 
@@ -37,8 +35,7 @@ bool read_value(double& slot, const WrittenArgument& w, const ValueLimits& limit
   return true;
 }
 
-bool read_value(std::optional<double>& slot, const WrittenArgument& w, const ValueLimits& limits,
-                ElementReader& r) {
+bool read_value(std::optional<double>& slot, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
   double v = 0;
   if (!read_value(v, w, limits, r)) return false;
   slot = v;
@@ -52,8 +49,7 @@ bool read_value(Vector& slot, const WrittenArgument& w, const ValueLimits&, Elem
   return true;
 }
 
-bool read_value(std::optional<Vector>& slot, const WrittenArgument& w, const ValueLimits& limits,
-                ElementReader& r) {
+bool read_value(std::optional<Vector>& slot, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
   Vector v;
   if (!read_value(v, w, limits, r)) return false;
   slot = v;
@@ -93,8 +89,7 @@ bool read_value(BodyId& slot, const WrittenArgument& w, const ValueLimits& limit
   return true;
 }
 
-bool read_value(ElementHandle& slot, std::string_view statement, const WrittenArgument& w,
-                ElementReader& r) {
+bool read_value(ElementHandle& slot, std::string_view statement, const WrittenArgument& w, ElementReader& r) {
   const auto v = read_integer(w, r.source(), r.diagnostics());
   if (!v) return false;
   const auto handle = r.element(statement, *v);
@@ -103,8 +98,7 @@ bool read_value(ElementHandle& slot, std::string_view statement, const WrittenAr
   return true;
 }
 
-bool read_value(std::vector<VariableRef>& slot, const WrittenArgument& w, const ValueLimits&,
-                ElementReader& r) {
+bool read_value(std::vector<VariableRef>& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
   const auto ids = read_integers(w, r.source(), r.diagnostics());
   if (!ids) return false;
   bool ok = true;
@@ -117,8 +111,7 @@ bool read_value(std::vector<VariableRef>& slot, const WrittenArgument& w, const 
   return ok;
 }
 
-bool read_value(std::vector<std::int64_t>& slot, const WrittenArgument& w, const ValueLimits&,
-                ElementReader& r) {
+bool read_value(std::vector<std::int64_t>& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
   const auto ids = read_integers(w, r.source(), r.diagnostics());
   if (!ids) return false;
   slot.clear();
@@ -140,8 +133,7 @@ bool read_value(std::string& slot, const WrittenArgument& w, const ValueLimits&,
   return true;
 }
 
-bool read_value(std::vector<std::string>& slot, const WrittenArgument& w, const ValueLimits&,
-                ElementReader& r) {
+bool read_value(std::vector<std::string>& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
   const auto words = read_words(w, r.source(), r.diagnostics());
   if (!words) return false;
   slot.clear();
@@ -156,8 +148,8 @@ bool read_value(std::vector<std::string>& slot, const WrittenArgument& w, const 
 
 namespace detail {
 
-std::optional<std::size_t> find_argument(const WrittenArgument& written,
-                                         std::span<const ArgumentInfo> infos, ElementReader& r) {
+std::optional<std::size_t> find_argument(const WrittenArgument& written, std::span<const ArgumentInfo> infos,
+                                         ElementReader& r) {
   // The word that chose the variant was recorded when the kind was found.
   for (const auto& a : r.assignments) {
     if (a.at.offset == written.name.offset && a.at.source == written.name.source) return infos.size();
@@ -174,8 +166,7 @@ std::optional<std::size_t> find_argument(const WrittenArgument& written,
       return std::nullopt;
     }
     const auto near = nearest_word(written.name.text(), names);
-    r.error("unknown-argument", written.name,
-            fmt::format("{} has no argument {}", owner, written.name.text()),
+    r.error("unknown-argument", written.name, fmt::format("{} has no argument {}", owner, written.name.text()),
             near.empty() ? fmt::format("its arguments are {}", fmt::join(names, ", "))
                          : fmt::format("did you mean {}?", near));
     return std::nullopt;
@@ -183,20 +174,17 @@ std::optional<std::size_t> find_argument(const WrittenArgument& written,
   const ArgumentInfo& info = infos[*k];
   for (const auto& a : r.assignments) {
     if (a.name == info.name) {
-      r.error("duplicate-argument", written.name,
-              fmt::format("{} of {} is given twice", info.name, r.label().text()));
+      r.error("duplicate-argument", written.name, fmt::format("{} of {} is given twice", info.name, r.label().text()));
       return std::nullopt;
     }
   }
   r.assignments.push_back({info.name, written.name});
   if (info.is_flag && written.has_value) {
-    r.error("unexpected-value", written.name,
-            fmt::format("{} of {} takes no value", info.name, owner));
+    r.error("unexpected-value", written.name, fmt::format("{} of {} takes no value", info.name, owner));
     return std::nullopt;
   }
   if (!info.is_flag && !written.has_value) {
-    r.error("missing-value", written.name,
-            fmt::format("{} of {} needs a value: {}", info.name, owner, info.value));
+    r.error("missing-value", written.name, fmt::format("{} of {} needs a value: {}", info.name, owner, info.value));
     return std::nullopt;
   }
   return k;
@@ -206,8 +194,7 @@ bool check_required(std::span<const ArgumentInfo> infos, ElementReader& r) {
   bool ok = true;
   for (const ArgumentInfo& info : infos) {
     if (!info.required || r.given(info.name)) continue;
-    r.error("missing-argument", r.statement().at,
-            fmt::format("{} needs {}", r.label().text(), info.name),
+    r.error("missing-argument", r.statement().at, fmt::format("{} needs {}", r.label().text(), info.name),
             info.help.empty() ? std::string() : std::string(info.help));
     ok = false;
   }

@@ -33,12 +33,11 @@ inline constexpr std::string_view angular_damping = "force·length·time/rad";
 }  // namespace unit
 
 template <class E>
-using Slot = std::variant<bool E::*, double E::*, std::optional<double> E::*, Vector E::*,
-                          std::optional<Vector> E::*, std::vector<double> E::*,
-                          std::optional<std::int64_t> E::*, MarkerId E::*, BodyId E::*, VariableRef E::*,
-                          ArrayRef E::*, MatrixRef E::*, JointRef E::*, std::vector<VariableRef> E::*,
-                          std::vector<std::int64_t> E::*, Expression E::*, std::string E::*,
-                          std::vector<std::string> E::*>;
+using Slot =
+    std::variant<bool E::*, double E::*, std::optional<double> E::*, Vector E::*, std::optional<Vector> E::*,
+                 std::vector<double> E::*, std::optional<std::int64_t> E::*, MarkerId E::*, BodyId E::*,
+                 VariableRef E::*, ArrayRef E::*, MatrixRef E::*, JointRef E::*, std::vector<VariableRef> E::*,
+                 std::vector<std::int64_t> E::*, Expression E::*, std::string E::*, std::vector<std::string> E::*>;
 
 template <class E>
 struct Argument {
@@ -79,19 +78,32 @@ namespace detail {
 // Names of the value types, for the manual.
 template <class V>
 constexpr std::string_view value_text() {
-  if constexpr (std::is_same_v<V, bool>) return "";
-  else if constexpr (std::is_same_v<V, double> || std::is_same_v<V, std::optional<double>>) return "real";
-  else if constexpr (std::is_same_v<V, Vector> || std::is_same_v<V, std::optional<Vector>>) return "x, y, z";
-  else if constexpr (std::is_same_v<V, std::vector<double>>) return "reals";
-  else if constexpr (std::is_same_v<V, std::optional<std::int64_t>>) return "integer";
-  else if constexpr (std::is_same_v<V, MarkerId>) return "marker";
-  else if constexpr (std::is_same_v<V, BodyId>) return "body";
-  else if constexpr (std::is_same_v<V, std::vector<VariableRef>>) return "variables";
-  else if constexpr (std::is_same_v<V, std::vector<std::int64_t>>) return "ids";
-  else if constexpr (std::is_same_v<V, Expression>) return "expression";
-  else if constexpr (std::is_same_v<V, std::string>) return "text";
-  else if constexpr (std::is_same_v<V, std::vector<std::string>>) return "words";
-  else return "id";
+  if constexpr (std::is_same_v<V, bool>)
+    return "";
+  else if constexpr (std::is_same_v<V, double> || std::is_same_v<V, std::optional<double>>)
+    return "real";
+  else if constexpr (std::is_same_v<V, Vector> || std::is_same_v<V, std::optional<Vector>>)
+    return "x, y, z";
+  else if constexpr (std::is_same_v<V, std::vector<double>>)
+    return "reals";
+  else if constexpr (std::is_same_v<V, std::optional<std::int64_t>>)
+    return "integer";
+  else if constexpr (std::is_same_v<V, MarkerId>)
+    return "marker";
+  else if constexpr (std::is_same_v<V, BodyId>)
+    return "body";
+  else if constexpr (std::is_same_v<V, std::vector<VariableRef>>)
+    return "variables";
+  else if constexpr (std::is_same_v<V, std::vector<std::int64_t>>)
+    return "ids";
+  else if constexpr (std::is_same_v<V, Expression>)
+    return "expression";
+  else if constexpr (std::is_same_v<V, std::string>)
+    return "text";
+  else if constexpr (std::is_same_v<V, std::vector<std::string>>)
+    return "words";
+  else
+    return "id";
 }
 
 template <class E>
@@ -114,8 +126,7 @@ inline constexpr auto argument_infos = [] {
 }();
 
 // Finds the argument a written name means; reports unknown and repeated ones.
-std::optional<std::size_t> find_argument(const WrittenArgument&, std::span<const ArgumentInfo>,
-                                         ElementReader&);
+std::optional<std::size_t> find_argument(const WrittenArgument&, std::span<const ArgumentInfo>, ElementReader&);
 // Reports arguments that are required and missing.
 bool check_required(std::span<const ArgumentInfo>, ElementReader&);
 

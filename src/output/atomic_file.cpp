@@ -10,7 +10,9 @@
 namespace dynalin {
 
 AtomicFile::AtomicFile(std::string path)
-    : path_(std::move(path)), temporary_(path_ + ".part" + std::to_string(::getpid())), stream_(temporary_, std::ios::binary) {}
+    : path_(std::move(path)),
+      temporary_(path_ + ".part" + std::to_string(::getpid())),
+      stream_(temporary_, std::ios::binary) {}
 
 AtomicFile::~AtomicFile() {
   if (committed_) return;

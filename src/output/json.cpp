@@ -18,7 +18,8 @@ Json states(const std::vector<StateLabel>& labels) {
   for (const StateLabel& s : labels) {
     std::string label = s.owner.empty() ? s.text : s.text + " " + s.owner;
     if (s.is_rate) label = "derivative of " + label;
-    list.push_back({{"label", label}, {"type", static_cast<int>(s.type)}, {"element", s.element}, {"coordinate", s.coordinate}});
+    list.push_back(
+        {{"label", label}, {"type", static_cast<int>(s.type)}, {"element", s.element}, {"coordinate", s.coordinate}});
   }
   return list;
 }
@@ -55,7 +56,8 @@ void JsonResults::add(const std::string& command, const EigenSolution& e) {
     values.push_back({{"real_hz", re}, {"imag_hz", m.is_real ? 0.0 : im}});
     if (!m.is_real) values.push_back({{"real_hz", re}, {"imag_hz", -im}});
   }
-  document_->results.push_back({{"command", command}, {"time", e.time}, {"states", states(e.states)}, {"eigenvalues", std::move(values)}});
+  document_->results.push_back(
+      {{"command", command}, {"time", e.time}, {"states", states(e.states)}, {"eigenvalues", std::move(values)}});
 }
 
 void JsonResults::add(const std::string& command, const StateSpace& s) {
@@ -70,8 +72,6 @@ void JsonResults::add(const std::string& command, const StateSpace& s) {
                                 {"outputs", channels(s.outputs)}});
 }
 
-void JsonResults::write(std::ostream& out) const {
-  out << Json{{"results", document_->results}}.dump(1) << '\n';
-}
+void JsonResults::write(std::ostream& out) const { out << Json{{"results", document_->results}}.dump(1) << '\n'; }
 
 }  // namespace dynalin

@@ -18,11 +18,13 @@ std::vector<NamedMatrix> named_matrices(const StateSpace& s) {
         static_cast<double>(label.coordinate);
   }
   out.push_back({"STATES", "st", states, true});
-  const auto channels = [&](const char* name, const char* suffix, std::int64_t id, const std::vector<ChannelLabel>& list) {
+  const auto channels = [&](const char* name, const char* suffix, std::int64_t id,
+                            const std::vector<ChannelLabel>& list) {
     if (!id) return;
     Eigen::MatrixXd m(static_cast<Eigen::Index>(list.size()) + 1, 1);
     m(0, 0) = static_cast<double>(id);
-    for (std::size_t k = 0; k < list.size(); ++k) m(static_cast<Eigen::Index>(k) + 1, 0) = static_cast<double>(list[k].variable);
+    for (std::size_t k = 0; k < list.size(); ++k)
+      m(static_cast<Eigen::Index>(k) + 1, 0) = static_cast<double>(list[k].variable);
     out.push_back({name, suffix, m});
   };
   channels("PINPUT", "pi", s.pinput, s.inputs);
@@ -31,7 +33,8 @@ std::vector<NamedMatrix> named_matrices(const StateSpace& s) {
 }
 
 void write_fsave(std::ostream& out, const std::vector<NamedMatrix>& matrices, std::time_t date) {
-  fmt::print(out, "MATRIXx                      VERSION   700{:5d}    {:%Y-%m-%d %H:%M:%S}\n", matrices.size(), fmt::localtime(date));
+  fmt::print(out, "MATRIXx                      VERSION   700{:5d}    {:%Y-%m-%d %H:%M:%S}\n", matrices.size(),
+             fmt::localtime(date));
   for (std::size_t k = 0; k < matrices.size(); ++k) {
     const NamedMatrix& m = matrices[k];
     const bool last = k % 4 == 3 || k + 1 == matrices.size();

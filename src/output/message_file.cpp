@@ -11,11 +11,13 @@ const std::string rule(79, '-');
 }
 
 void write_banner(std::ostream& out, std::string_view version) {
-  fmt::print(out, "{0}\n|{1:^77}|\n|{2:^77}|\n{0}\n\n", rule, "Dynalin: linear models of mechanisms", fmt::format("Version: {}", version));
+  fmt::print(out, "{0}\n|{1:^77}|\n|{2:^77}|\n{0}\n\n", rule, "Dynalin: linear models of mechanisms",
+             fmt::format("Version: {}", version));
 }
 
 void write_title(std::ostream& out, std::string_view title) {
-  fmt::print(out, "{0}\n|{1:^77}|\n|{2}|\n|{3:77}|\n|{4:^77}|\n{0}\n\n", rule, "Model Title", std::string(77, '='), "", title.substr(0, 77));
+  fmt::print(out, "{0}\n|{1:^77}|\n|{2}|\n|{3:77}|\n|{4:^77}|\n{0}\n\n", rule, "Model Title", std::string(77, '='), "",
+             title.substr(0, 77));
 }
 
 void write_command(std::ostream& out, std::string_view line) { fmt::print(out, " command: {}\n", line); }
@@ -23,12 +25,15 @@ void write_begin(std::ostream& out, std::string_view what) { fmt::print(out, "\n
 void write_end(std::ostream& out, std::string_view what) { fmt::print(out, "\n  End {}\n\n", what); }
 
 void write_static_result(std::ostream& out, int iterations, double imbalance) {
-  fmt::print(out, "  Static Solution converged in {} iterations\n  Residual imbalance is less than {:.5E}\n", iterations, imbalance);
+  fmt::print(out, "  Static Solution converged in {} iterations\n  Residual imbalance is less than {:.5E}\n",
+             iterations, imbalance);
 }
 
 void write_redundant(std::ostream& out, double time, const std::vector<std::string>& rows) {
   if (rows.empty()) return;
-  fmt::print(out, "\n  Time T={:.9E}.\n  Degree-of-freedom analysis identified redundant constraints in the model:\n  {}\n", time, rule.substr(2));
+  fmt::print(out,
+             "\n  Time T={:.9E}.\n  Degree-of-freedom analysis identified redundant constraints in the model:\n  {}\n",
+             time, rule.substr(2));
   for (const std::string& row : rows) fmt::print(out, "   -  deactivating constraint equation  {}\n", row);
 }
 
@@ -42,7 +47,9 @@ void write_eigensolution(std::ostream& out, const EigenSolution& e) {
   if (e.rm) fmt::print(out, "  Option RM={} was used.\n\n", e.rm);
   if (e.pstate) fmt::print(out, "  Option PSTATE={} was used.\n\n", e.pstate);
   if (e.without_damping) fmt::print(out, "  Option NODAMPIN was used.\n\n");
-  fmt::print(out, "  This model has\n{:9d} kinematic states (displacement and velocities)\n{:9d} differential states (DIFFs, LSEs, etc.)\n",
+  fmt::print(out,
+             "  This model has\n{:9d} kinematic states (displacement and velocities)\n{:9d} differential states "
+             "(DIFFs, LSEs, etc.)\n",
              e.kinematic_states, e.differential_states);
   if (e.kinematic_states > 0) {
     fmt::print(out, "\n  The selected kinematic states are:\n");
@@ -68,7 +75,8 @@ void write_eigensolution(std::ostream& out, const EigenSolution& e) {
 }
 
 void write_footer(std::ostream& out, bool complete, double elapsed) {
-  fmt::print(out, "\n\n{}\nElapsed time = {:.2f}s\n", complete ? "Finished -----" : "Ended early: the run failed -----", elapsed);
+  fmt::print(out, "\n\n{}\nElapsed time = {:.2f}s\n", complete ? "Finished -----" : "Ended early: the run failed -----",
+             elapsed);
 }
 
 void write_eigen_table(std::ostream& out, const EigenSolution& e) {
@@ -78,8 +86,8 @@ void write_eigen_table(std::ostream& out, const EigenSolution& e) {
   for (const EigenMode& m : e.modes) {
     const double size = std::abs(m.eigenvalue_hz);
     const double ratio = size > 0 ? -m.eigenvalue_hz.real() / size : 0.0;
-    fmt::print(out, "{:6d}  {:14.7g}  {:10.5f}  {:15.7g}  {}{:.7g}\n", ++number, size, ratio + 0.0, m.eigenvalue_hz.real() + 0.0,
-               m.is_real ? "" : "+/- ", m.is_real ? 0.0 : m.eigenvalue_hz.imag());
+    fmt::print(out, "{:6d}  {:14.7g}  {:10.5f}  {:15.7g}  {}{:.7g}\n", ++number, size, ratio + 0.0,
+               m.eigenvalue_hz.real() + 0.0, m.is_real ? "" : "+/- ", m.is_real ? 0.0 : m.eigenvalue_hz.imag());
   }
 }
 

@@ -35,9 +35,14 @@ struct WorkRow {
 
 class Eliminator {
  public:
-  Eliminator(std::vector<SparseRow> rows, std::int32_t columns, std::span<const std::int32_t> order, const EliminationOptions& options)
-      : options_(options), order_(order), place_(static_cast<std::size_t>(columns)), holders_(static_cast<std::size_t>(columns)) {
-    for (std::size_t k = 0; k < order.size(); ++k) place_[static_cast<std::size_t>(order[k])] = static_cast<std::int32_t>(k);
+  Eliminator(std::vector<SparseRow> rows, std::int32_t columns, std::span<const std::int32_t> order,
+             const EliminationOptions& options)
+      : options_(options),
+        order_(order),
+        place_(static_cast<std::size_t>(columns)),
+        holders_(static_cast<std::size_t>(columns)) {
+    for (std::size_t k = 0; k < order.size(); ++k)
+      place_[static_cast<std::size_t>(order[k])] = static_cast<std::int32_t>(k);
     result_.pivot_column.assign(rows.size(), -1);
     result_.dependent.assign(static_cast<std::size_t>(columns), false);
     rows_.resize(rows.size());

@@ -2,8 +2,9 @@
 //
 // Columns are offered as pivots in a given order, the least wanted states first. A column becomes dependent where
 // some row of the remaining system has an entry of at least τ times the largest of that row; of such rows the one whose
-// columns end soonest in the order is taken. Rows that vanish are redundant, columns that never gave a pivot are independent: one elimination answers both
-// questions, and dependent coordinates are combinations of the independent ones with factors of at most 1/τ a step.
+// columns end soonest in the order is taken. Rows that vanish are redundant, columns that never gave a pivot are
+// independent: one elimination answers both questions, and dependent coordinates are combinations of the independent
+// ones with factors of at most 1/τ a step.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,8 @@ struct SparseRow {
 };
 
 struct EliminationOptions {
-  double pivot_threshold = 0.1;    // τ
-  double rank_tolerance = 1e-9;    // a row is zero below this fraction of its first size
+  double pivot_threshold = 0.1;  // τ
+  double rank_tolerance = 1e-9;  // a row is zero below this fraction of its first size
 };
 
 struct Elimination {

@@ -12,10 +12,10 @@ namespace dynalin {
 struct OperatingPoint {
   double time = 0;
   AnalysisMode mode = AnalysisMode::initial_conditions;
-  std::vector<Pose> poses;            // by body, ground first
-  std::vector<double> extra;          // coordinates outside bodies
+  std::vector<Pose> poses;    // by body, ground first
+  std::vector<double> extra;  // coordinates outside bodies
   std::vector<double> velocity, acceleration;
-  std::vector<double> lambda;         // multipliers; zero for rows that are not active
+  std::vector<double> lambda;  // multipliers; zero for rows that are not active
   std::vector<double> algebraic;
   std::vector<double> state, state_rate;
   Memory memory;

@@ -84,7 +84,9 @@ class KluFactors {
   }
   void solve(double* x, int n) { klu_solve(symbolic_, numeric_, n, 1, x, &common_); }
   void solve_transposed(double* x, int n) { klu_tsolve(symbolic_, numeric_, n, 1, x, &common_); }
-  std::size_t entries() const { return static_cast<std::size_t>(numeric_->lnz) + static_cast<std::size_t>(numeric_->unz); }
+  std::size_t entries() const {
+    return static_cast<std::size_t>(numeric_->lnz) + static_cast<std::size_t>(numeric_->unz);
+  }
 
  private:
   klu_common common_{};
@@ -99,9 +101,9 @@ class MumpsFactors {
     id_.job = -1, id_.par = 1, id_.sym = 0, id_.comm_fortran = use_comm_world;
     call();
     for (const int k : {1, 2, 3, 4}) control(k) = 0;  // no printing
-    control(7) = 5;                                    // METIS
-    control(14) = 60;                                  // room for delayed pivots, percent
-    id_.cntl[0] = 0.1;                                 // pivot threshold
+    control(7) = 5;                                   // METIS
+    control(14) = 60;                                 // room for delayed pivots, percent
+    id_.cntl[0] = 0.1;                                // pivot threshold
   }
   ~MumpsFactors() {
     id_.job = -2;
@@ -133,7 +135,10 @@ class MumpsFactors {
   }
   void solve(double* x) { back_substitute(x, 1); }
   void solve_transposed(double* x) { back_substitute(x, 0); }
-  std::size_t entries() const { return id_.infog[28] < 0 ? static_cast<std::size_t>(-id_.infog[28]) * 1000000u : static_cast<std::size_t>(id_.infog[28]); }
+  std::size_t entries() const {
+    return id_.infog[28] < 0 ? static_cast<std::size_t>(-id_.infog[28]) * 1000000u
+                             : static_cast<std::size_t>(id_.infog[28]);
+  }
 
  private:
   static constexpr int use_comm_world = -987654;
@@ -176,7 +181,8 @@ bool SparseLu::factor(ColumnMatrix matrix) {
   if (m.rows > 0) {
     f->klu = std::make_unique<KluFactors>();
     if (!f->klu->analyse(m)) return false;
-    if (m.rows >= smallest_for_mumps && f->klu->predicted_entries() > klu_fill_limit * static_cast<double>(m.value.size())) {
+    if (m.rows >= smallest_for_mumps &&
+        f->klu->predicted_entries() > klu_fill_limit * static_cast<double>(m.value.size())) {
       f->klu.reset();
       f->mumps = std::make_unique<MumpsFactors>();
       if (!f->mumps->factor(m)) return false;

@@ -29,9 +29,7 @@ class System::SystemSignals final : public Signals {
   }
 
   const Layout& layout() const override { return system_.layout_; }
-  MarkerId marker(std::int64_t id) const override {
-    return system_.model_->find_marker(id).value_or(global_frame);
-  }
+  MarkerId marker(std::int64_t id) const override { return system_.model_->find_marker(id).value_or(global_frame); }
   Channel variable(VariableRef ref) const override {
     return kernel(ref)->value_channel(static_cast<std::size_t>(ref.index));
   }
@@ -64,9 +62,7 @@ class System::SystemSignals final : public Signals {
     if (!handle) return {};
     return {kernel(*handle), static_cast<std::size_t>(handle->index)};
   }
-  std::vector<Element> elements_at(MarkerId m) const override {
-    return at_marker_[static_cast<std::size_t>(m.index)];
-  }
+  std::vector<Element> elements_at(MarkerId m) const override { return at_marker_[static_cast<std::size_t>(m.index)]; }
   std::int32_t add_memory(double initial) const override { return system_.layout_.add_memory(initial); }
 
  private:
@@ -102,9 +98,8 @@ System::System(std::shared_ptr<const Model> model) : model_(std::move(model)) {
     blocks.push_back(&b);
     for (std::int32_t k = 0; k < 3; ++k) scale_[static_cast<std::size_t>(b.offset + k)] = length_;
   }
-  std::stable_sort(blocks.begin(), blocks.end(), [](const BodyBlock* a, const BodyBlock* b) {
-    return a->label.id < b->label.id;
-  });
+  std::stable_sort(blocks.begin(), blocks.end(),
+                   [](const BodyBlock* a, const BodyBlock* b) { return a->label.id < b->label.id; });
   for (const BodyBlock* b : blocks) {
     for (std::int32_t k = 3; k < b->count; ++k) preference_.push_back(b->offset + k);
     for (std::int32_t k = 0; k < 3; ++k) preference_.push_back(b->offset + k);

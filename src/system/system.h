@@ -15,9 +15,9 @@ namespace dynalin {
 
 // Which constraint rows take part and which coordinates are independent.
 struct Partition {
-  std::vector<bool> active;                    // rows
-  std::vector<std::int32_t> independent;       // coordinates, most wanted as states first
-  std::vector<std::int32_t> redundant;         // rows
+  std::vector<bool> active;               // rows
+  std::vector<std::int32_t> independent;  // coordinates, most wanted as states first
+  std::vector<std::int32_t> redundant;    // rows
   double smallest_pivot = 1;
 };
 

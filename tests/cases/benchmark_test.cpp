@@ -33,7 +33,8 @@ class SleepingTop : public Cases, public ::testing::WithParamInterface<char> {};
 TEST_P(SleepingTop, has_one_answer_whatever_local_axis_it_spins_about) {
   const RunResult fast = run(top(GetParam(), 200), "LINEAR/EIGENSOL\n");
   ASSERT_EQ(fast.status, 0) << fast.err;
-  expect_eigenvalues(fast.eigenvalues(0), {0, 0, Complex(0, 4.982301025652 / tau), Complex(0, 18.473523837522 / tau)}, 1e-11);
+  expect_eigenvalues(fast.eigenvalues(0), {0, 0, Complex(0, 4.982301025652 / tau), Complex(0, 18.473523837522 / tau)},
+                     1e-11);
   const RunResult slow = run(top(GetParam(), 100), "LINEAR/EIGENSOL\n");
   const auto values = slow.eigenvalues(0);
   ASSERT_EQ(values.size(), 6u);
@@ -62,8 +63,10 @@ std::string chain(int n, bool rods) {
   std::string text = "A hanging chain\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\n";
   for (int k = 1; k <= n; ++k) {
     const int id = k + 1;
-    text += fmt::format("PART/{}, MASS={:.17g}, CM={}, QG=0,{:.17g},0, IP=0,0,{:.17g}\n", id, m, 10 * id, -(k - 1) * h, rods ? m * h * h / 12 : 0.0);
-    text += fmt::format("MARKER/{}, QP=0,{:.17g},0\nMARKER/{}\nMARKER/{}, QP=0,{:.17g},0\n", 10 * id, rods ? -h / 2 : -h, 10 * id + 1, 10 * id + 2, -h);
+    text += fmt::format("PART/{}, MASS={:.17g}, CM={}, QG=0,{:.17g},0, IP=0,0,{:.17g}\n", id, m, 10 * id, -(k - 1) * h,
+                        rods ? m * h * h / 12 : 0.0);
+    text += fmt::format("MARKER/{}, QP=0,{:.17g},0\nMARKER/{}\nMARKER/{}, QP=0,{:.17g},0\n", 10 * id,
+                        rods ? -h / 2 : -h, 10 * id + 1, 10 * id + 2, -h);
     text += fmt::format("JOINT/{}, REVOLUTE, I={}, J={}\n", k, 10 * id + 1, k == 1 ? 1 : 10 * (id - 1) + 2);
   }
   return text + "END\n";
@@ -93,17 +96,20 @@ TEST_F(Benchmarks, hanging_chain_of_rods) {
 }
 
 TEST_F(Benchmarks, cart_pole_state_and_input_matrix) {
-  const RunResult r = run(
-      "Cart and pole\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.8\nPART/1, GROUND\nMARKER/1, REULER=90D,90D,0\nMARKER/2, QP=-5,0,0\n"
-      "PART/2, MASS=0.5, CM=20\nMARKER/20\nMARKER/21, REULER=90D,90D,0\n"
-      "PART/3, MASS=0.2, CM=30, IP=0.006,0.006,0.006\nMARKER/30, QP=0,0.3,0\nMARKER/31\n"
-      "JOINT/1, TRANSLATIONAL, I=21, J=1\nJOINT/2, REVOLUTE, I=31, J=20\n"
-      "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=2, C=0.1\n"
-      "VARIABLE/1, FUNCTION=0\nSFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=VARVAL(1)\nPINPUT/1, VARIABLES=1\nEND\n",
-      "LINEAR/STATEMAT, PINPUT=1, FILE=plant\nLINEAR/EIGENSOL\n");
+  const RunResult r =
+      run("Cart and pole\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.8\nPART/1, GROUND\nMARKER/1, REULER=90D,90D,0\nMARKER/2, "
+          "QP=-5,0,0\n"
+          "PART/2, MASS=0.5, CM=20\nMARKER/20\nMARKER/21, REULER=90D,90D,0\n"
+          "PART/3, MASS=0.2, CM=30, IP=0.006,0.006,0.006\nMARKER/30, QP=0,0.3,0\nMARKER/31\n"
+          "JOINT/1, TRANSLATIONAL, I=21, J=1\nJOINT/2, REVOLUTE, I=31, J=20\n"
+          "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=2, C=0.1\n"
+          "VARIABLE/1, FUNCTION=0\nSFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=VARVAL(1)\nPINPUT/1, "
+          "VARIABLES=1\nEND\n",
+          "LINEAR/STATEMAT, PINPUT=1, FILE=plant\nLINEAR/EIGENSOL\n");
   ASSERT_EQ(r.status, 0) << r.err;
   const auto A = r.matrix(0, "A"), B = r.matrix(0, "B");
-  const std::vector<double> cart = {-0.1818181818181818, 0, 0, 2.672727272727273}, pole = {-0.4545454545454545, 0, 0, 31.18181818181818};
+  const std::vector<double> cart = {-0.1818181818181818, 0, 0, 2.672727272727273},
+                            pole = {-0.4545454545454545, 0, 0, 31.18181818181818};
   for (std::size_t k = 0; k < 4; ++k) {
     expect_close(A[0][k], cart[k], 1e-13);
     expect_close(A[2][k], pole[k], 1e-13);

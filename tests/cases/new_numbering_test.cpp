@@ -26,7 +26,8 @@ struct Parabola {
 
 class ParabolaKernel final : public Kernel {
  public:
-  ParabolaKernel(const std::vector<Parabola>& elements, const std::vector<ElementLabel>& labels, Layout& layout) : layout_(layout) {
+  ParabolaKernel(const std::vector<Parabola>& elements, const std::vector<ElementLabel>& labels, Layout& layout)
+      : layout_(layout) {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const std::array<double, 1> start = {0.0};
       const std::int32_t s = layout.add_extra(labels[k], {"s"}, start);
@@ -71,13 +72,15 @@ class ParabolaKernel final : public Kernel {
 // GCON/id, FUNCTION=: a row on velocities given by an expression linear in them.
 struct KnifeEdge {
   Expression function;
-  static constexpr std::array<Argument<KnifeEdge>, 1> arguments = {{{.name = "FUNCTION", .slot = &KnifeEdge::function, .required = true}}};
+  static constexpr std::array<Argument<KnifeEdge>, 1> arguments = {
+      {{.name = "FUNCTION", .slot = &KnifeEdge::function, .required = true}}};
 };
 
 class KnifeEdgeKernel final : public Kernel {
  public:
   KnifeEdgeKernel(const std::vector<KnifeEdge>& elements, const std::vector<ElementLabel>& labels, Layout& layout) {
-    for (std::size_t k = 0; k < elements.size(); ++k) rows_.push_back({elements[k].function, layout.add_row(labels[k], "velocity", RowLevel::velocity), {}});
+    for (std::size_t k = 0; k < elements.size(); ++k)
+      rows_.push_back({elements[k].function, layout.add_row(labels[k], "velocity", RowLevel::velocity), {}});
   }
   void bind(const Signals& signals) override {
     for (Row& r : rows_) r.bound = BoundExpression(r.function, signals);
@@ -100,11 +103,17 @@ class TestSet final : public TypedSet<E> {
  public:
   using TypedSet<E>::TypedSet;
   void read(std::size_t k, ElementReader& reader) override { read_arguments(this->elements[k], reader); }
-  std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override { return std::make_unique<K>(this->elements, this->labels, layout); }
+  std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
+    return std::make_unique<K>(this->elements, this->labels, layout);
+  }
 };
 template <class E, class K>
 constexpr Kind test_kind(std::string_view statement) {
-  return {statement, "", "", Kind::Role::element, detail::argument_infos<E>,
+  return {statement,
+          "",
+          "",
+          Kind::Role::element,
+          detail::argument_infos<E>,
           [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<TestSet<E, K>>(kind); }};
 }
 constexpr Kind parabola = test_kind<Parabola, ParabolaKernel>("PTCV");
@@ -127,8 +136,10 @@ Result<LinearSystem> linear_model(const std::string& text) {
 
 TEST(NewNumbering, bead_on_a_parabola_swings_with_the_curvature) {
   const auto linear = linear_model(
-      "Bead\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nPOINT_MASS/2, MASS=3, CM=2\nMARKER/2\nMARKER/3, PART=1\nPTCV/1, I=2, DISP=1.7\n"
-      "! out of the plane the bead is held by a spring\nMARKER/4, PART=1, QP=0,0,-1\nSPRINGDAMPER/1, TRANSLATIONAL, I=2, J=4, K=12, LENGTH=1\nEND\n");
+      "Bead\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nPOINT_MASS/2, MASS=3, "
+      "CM=2\nMARKER/2\nMARKER/3, PART=1\nPTCV/1, I=2, DISP=1.7\n"
+      "! out of the plane the bead is held by a spring\nMARKER/4, PART=1, QP=0,0,-1\nSPRINGDAMPER/1, TRANSLATIONAL, "
+      "I=2, J=4, K=12, LENGTH=1\nEND\n");
   ASSERT_TRUE(linear) << linear.error().message;
   ASSERT_EQ(linear->model.states.size(), 4u);
   EXPECT_EQ(linear->model.states[1].type, StateType::point_mass);
@@ -149,7 +160,9 @@ TEST_P(Sleigh, chaplygin_sleigh_has_three_positions_two_rates_and_one_eigenvalue
       "Sleigh\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, REULER=90D,90D,0\n"
       "PART/2\nMARKER/21, REULER=90D,90D,0\nMARKER/22, REULER=0,-90D,0\n"
       "PART/3\nMARKER/31, REULER=0,-90D,0\nMARKER/32\n"
-      "PART/4, MASS=2, CM=40, IP=0.3,0.3,0.3, VX=" + std::to_string(speed) + ", VY=0, WZ=0\nMARKER/40\nMARKER/41, QP=-0.4,0,0\n"
+      "PART/4, MASS=2, CM=40, IP=0.3,0.3,0.3, VX=" +
+      std::to_string(speed) +
+      ", VY=0, WZ=0\nMARKER/40\nMARKER/41, QP=-0.4,0,0\n"
       "JOINT/1, TRANSLATIONAL, I=21, J=1\nJOINT/2, TRANSLATIONAL, I=31, J=22\nJOINT/3, REVOLUTE, I=40, J=32\n"
       "GCON/1, FUNCTION=VY(41,0,41)\nEND\n");
   ASSERT_TRUE(linear) << linear.error().message;
@@ -163,7 +176,9 @@ TEST_P(Sleigh, chaplygin_sleigh_has_three_positions_two_rates_and_one_eigenvalue
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(std::abs(modes->modes[k].eigenvalue_hz), 0.0, 1e-12);
   EXPECT_NEAR(modes->modes[4].eigenvalue_hz.real() * 2 * std::numbers::pi, expected, 1e-12);
 }
-INSTANTIATE_TEST_SUITE_P(speeds, Sleigh, ::testing::Values(std::pair(1.0, -1.2903225806451615), std::pair(3.0, -3.8709677419354844), std::pair(-2.0, 2.580645161290323)));
+INSTANTIATE_TEST_SUITE_P(speeds, Sleigh,
+                         ::testing::Values(std::pair(1.0, -1.2903225806451615), std::pair(3.0, -3.8709677419354844),
+                                           std::pair(-2.0, 2.580645161290323)));
 
 }  // namespace
 }  // namespace dynalin

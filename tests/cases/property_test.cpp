@@ -1,4 +1,5 @@
-// What may not change an eigenvalue: where the model stands, how it is numbered and ordered, its units, the coordinates.
+// What may not change an eigenvalue: where the model stands, how it is numbered and ordered, its units, the
+// coordinates.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,19 +23,19 @@ std::string xyz(const Vector& v) { return fmt::format("{:.17g},{:.17g},{:.17g}",
 struct Variation {
   Vector shift{};
   Matrix3 turn = Matrix3::identity();
-  double length = 1;   // one metre in model units
-  double mass = 1;     // one kilogram in model units
+  double length = 1;  // one metre in model units
+  double mass = 1;    // one kilogram in model units
   std::string units = "UNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH=METER, TIME=SECOND";
   std::array<int, 4> part = {1, 2, 3, 4};
   bool reversed = false;
 };
 
-// Three bodies on a ball, a cross and a hinge, held by loaded springs, one of them turning, with a damper and a controller:
-// nothing planar, nothing aligned.
+// Three bodies on a ball, a cross and a hinge, held by loaded springs, one of them turning, with a damper and a
+// controller: nothing planar, nothing aligned.
 std::string mechanism(const Variation& v) {
   const auto at = [&](double x, double y, double z) { return v.shift + v.turn * (Vector{x, y, z} * v.length); };
-  const double k = 1 / v.length;                      // N/m in N per length unit
-  const double L = v.length, I = v.mass * L * L;      // moments and inertias
+  const double k = 1 / v.length;                  // N/m in N per length unit
+  const double L = v.length, I = v.mass * L * L;  // moments and inertias
   std::vector<std::string> s;
   s.push_back(v.units);
   const Vector g = v.turn * Vector{0.7 * L, -1.1 * L, -9.6 * L};
@@ -43,7 +44,8 @@ std::string mechanism(const Variation& v) {
   const Matrix3 R1 = rotation_313(0.3, 0.5, -0.2), R2 = rotation_313(-0.7, 1.1, 0.4), R3 = rotation_313(1.9, 0.8, -1.2);
   const Vector o1{0.1, 0.2, -0.1}, o2{0.5, 0.3, -0.6}, o3{0.9, -0.1, -0.8};
   const auto part = [&](int n, double m, const Vector& o, const Matrix3& R, const char* ip) {
-    s.push_back(fmt::format("PART/{}, MASS={:.17g}, CM={}, IP={}, QG={}, REULER={}", v.part[static_cast<std::size_t>(n)], m * v.mass, 10 * n, ip, xyz(at(o.x, o.y, o.z)),
+    s.push_back(fmt::format("PART/{}, MASS={:.17g}, CM={}, IP={}, QG={}, REULER={}",
+                            v.part[static_cast<std::size_t>(n)], m * v.mass, 10 * n, ip, xyz(at(o.x, o.y, o.z)),
                             reuler(v.turn * R)));
   };
   const auto ip = [&](std::array<double, 6> x) {
@@ -75,9 +77,11 @@ std::string mechanism(const Variation& v) {
   s.push_back("JOINT/2, UNIVERSAL, I=21, J=12");
   s.push_back("JOINT/3, REVOLUTE, I=31, J=22");
   const auto spring = [&](int id, int i, int j, double K, double C, double l) {
-    s.push_back(fmt::format("SPRINGDAMPER/{}, TRANSLATIONAL, I={}, J={}, K={:.17g}, C={:.17g}, LENGTH={:.17g}", id, i, j, K * k, C * k, l * L));
+    s.push_back(fmt::format("SPRINGDAMPER/{}, TRANSLATIONAL, I={}, J={}, K={:.17g}, C={:.17g}, LENGTH={:.17g}", id, i,
+                            j, K * k, C * k, l * L));
   };
-  spring(1, 10, 3, 180, 3, 0.9), spring(2, 20, 2, 120, 1, 1.0), spring(3, 32, 2, 60, 0.5, 0.8), spring(4, 32, 3, 40, 0.7, 1.5);
+  spring(1, 10, 3, 180, 3, 0.9), spring(2, 20, 2, 120, 1, 1.0), spring(3, 32, 2, 60, 0.5, 0.8),
+      spring(4, 32, 3, 40, 0.7, 1.5);
   s.push_back(fmt::format("SPRINGDAMPER/5, ROTATIONAL, I=31, J=22, KT={:.17g}, CT={:.17g}, ANGLE=0.2", 3 * L, 0.1 * L));
   s.push_back(fmt::format("SPRINGDAMPER/6, ROTATIONAL, I=21, J=12, KT={:.17g}", 1.5 * L));
   s.push_back(fmt::format("VARIABLE/1, FUNCTION=VM(30)/{0:.17g} + 2*DX(30,1,12)/{0:.17g}", L));
@@ -96,7 +100,8 @@ std::string mechanism(const Variation& v) {
 void expect_same(std::vector<std::complex<double>> a, std::vector<std::complex<double>> b, double relative = 1e-9) {
   ASSERT_EQ(a.size(), b.size());
   for (const auto& x : a) {
-    const auto nearest = std::min_element(b.begin(), b.end(), [&](auto p, auto q) { return std::abs(p - x) < std::abs(q - x); });
+    const auto nearest =
+        std::min_element(b.begin(), b.end(), [&](auto p, auto q) { return std::abs(p - x) < std::abs(q - x); });
     EXPECT_LE(std::abs(*nearest - x), relative * std::abs(x)) << x << " against " << *nearest;
     b.erase(nearest);
   }
@@ -151,8 +156,11 @@ TEST_F(Properties, a_frame_that_turns_with_the_rotor_gives_one_answer_for_all_it
   // A turning arm with a slider at relative equilibrium: coordinates that move along agree.
   const std::string dataset = read_file(std::filesystem::path(EXAMPLES_DIR) / "rotating_slider/rotating_slider.adm");
   std::string text = dataset.substr(0, dataset.rfind("END"));
-  text += "VARIABLE/1, FUNCTION=DX(8,6,5)\nVARIABLE/2, FUNCTION=DZ(9,10,10)\nPSTATE/1, VARIABLES=1\nPSTATE/2, VARIABLES=2\nEND\n";
-  const RunResult r = run(text, "LINEAR/EIGENSOL, RM=5\nLINEAR/EIGENSOL, PSTATE=1\nLINEAR/EIGENSOL, PSTATE=2\nLINEAR/EIGENSOL, RM=10\n");
+  text +=
+      "VARIABLE/1, FUNCTION=DX(8,6,5)\nVARIABLE/2, FUNCTION=DZ(9,10,10)\nPSTATE/1, VARIABLES=1\nPSTATE/2, "
+      "VARIABLES=2\nEND\n";
+  const RunResult r = run(
+      text, "LINEAR/EIGENSOL, RM=5\nLINEAR/EIGENSOL, PSTATE=1\nLINEAR/EIGENSOL, PSTATE=2\nLINEAR/EIGENSOL, RM=10\n");
   ASSERT_EQ(r.status, 0) << r.err;
   for (std::size_t k = 1; k < 4; ++k) {
     EXPECT_NEAR(r.eigenvalues(k)[2].imag(), r.eigenvalues(0)[2].imag(), 1e-12) << k;

@@ -23,8 +23,10 @@ TEST_F(Published, rotating_slider_state_matrices_have_the_closed_form) {
   const RunResult r = run(dataset, "LINEAR/STATEMAT, FILE=a\nLINEAR/STATEMAT, FILE=b, RM=5\n");
   ASSERT_EQ(r.status, 0) << r.err;
   // J α″ = −2 m u u′ α′ with J = 323; the default coordinate adds −α′² to the spring.
-  const std::vector<std::vector<double>> global = {{0, 0, -600.0 / 323, 0}, {1, 0, 0, 0}, {200, 0, 0, -5.0 / 3}, {0, 0, 1, 0}};
-  const std::vector<std::vector<double>> relative = {{0, 0, 600.0 / 323, 0}, {1, 0, 0, 0}, {-200, 0, 0, 295.0 / 3}, {0, 0, 1, 0}};
+  const std::vector<std::vector<double>> global = {
+      {0, 0, -600.0 / 323, 0}, {1, 0, 0, 0}, {200, 0, 0, -5.0 / 3}, {0, 0, 1, 0}};
+  const std::vector<std::vector<double>> relative = {
+      {0, 0, 600.0 / 323, 0}, {1, 0, 0, 0}, {-200, 0, 0, 295.0 / 3}, {0, 0, 1, 0}};
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < 4; ++j) {
       expect_close(r.matrix(0, "A")[i][j], global[i][j], 1e-13);
@@ -63,7 +65,8 @@ TEST_F(Published, spring_pendulum_finds_its_equilibrium_and_eigenvalue) {
   expect_close(pose.matrix(1, "C")[1][1], 3.3392911044706, 1e-11);
 }
 
-const std::vector<Complex> open_loop_modes = {0.05009093452196, -0.05009247158884, -31.83098861838, Complex(-0.3179942710765, 0.6361891642241)};
+const std::vector<Complex> open_loop_modes = {0.05009093452196, -0.05009247158884, -31.83098861838,
+                                              Complex(-0.3179942710765, 0.6361891642241)};
 
 TEST_F(Published, cart_pendulum_with_its_actuator) {
   const RunResult r = run_example("cart_pendulum", "pendulum.acf");
@@ -85,12 +88,13 @@ TEST_F(Published, cart_pendulum_state_matrices_entry_by_entry) {
   const RunResult r = run_example("cart_pendulum", "open_loop.acf");
   ASSERT_EQ(r.status, 0) << r.err;
   const double a13 = -100.0 / 1011, a33 = 110.0 / 1011, act = 4.02439896739235914e-02;
-  const std::vector<std::vector<double>> A = {{-4040.0 / 1011, -20200.0 / 1011, 0, a13, act, 0},
-                                              {1, 0, 0, 0, 0, 0},
-                                              {3.95647873392680538e-01, 1.97823936696340263, 0, a33, -4.42683886413159505e-02, 0},
-                                              {0, 0, 1, 0, 0, 0},
-                                              {0, 0, 0, 0, -200, 0},
-                                              {0, 0, 0, 10, 0, 0}};
+  const std::vector<std::vector<double>> A = {
+      {-4040.0 / 1011, -20200.0 / 1011, 0, a13, act, 0},
+      {1, 0, 0, 0, 0, 0},
+      {3.95647873392680538e-01, 1.97823936696340263, 0, a33, -4.42683886413159505e-02, 0},
+      {0, 0, 1, 0, 0, 0},
+      {0, 0, 0, 0, -200, 0},
+      {0, 0, 0, 10, 0, 0}};
   const std::vector<std::vector<double>> C = {{0, 0, 0, 10, 0, 0}, {0, 0, 10, 0, 0, 0}, {0, 0, 0, 0, 0, 1}};
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j < 6; ++j) expect_close(r.matrix(2, "A")[i][j], A[i][j], 1e-14);
@@ -100,7 +104,8 @@ TEST_F(Published, cart_pendulum_state_matrices_entry_by_entry) {
     for (std::size_t j = 0; j < 6; ++j) expect_close(r.matrix(2, "C")[i][j], C[i][j], 1e-14);
     EXPECT_EQ(r.matrix(2, "D")[i][0], 0.0);
   }
-  const std::vector<std::array<int, 3>> states = {{21, 1, 7}, {21, 1, 1}, {21, 2, 11}, {21, 2, 5}, {3, 1, 1}, {3, 2, 1}};
+  const std::vector<std::array<int, 3>> states = {{21, 1, 7}, {21, 1, 1}, {21, 2, 11},
+                                                  {21, 2, 5}, {3, 1, 1},  {3, 2, 1}};
   for (std::size_t k = 0; k < 6; ++k) {
     EXPECT_EQ(r.result(2)["states"][k]["type"], states[k][0]);
     EXPECT_EQ(r.result(2)["states"][k]["element"], states[k][1]);
@@ -133,21 +138,26 @@ TEST_F(Published, state_matrix_file_has_the_fsave_layout) {
 }
 
 TEST_F(Published, matlab_format_writes_one_matrix_a_file) {
-  std::filesystem::copy(std::filesystem::path(EXAMPLES_DIR) / "cart_pendulum", folder_, std::filesystem::copy_options::recursive);
+  std::filesystem::copy(std::filesystem::path(EXAMPLES_DIR) / "cart_pendulum", folder_,
+                        std::filesystem::copy_options::recursive);
   write("model.acf", "open_loop\nmodel\nSIM/STAT\nLINEAR/STATEMAT, PINPUT=1, POUTPUT=1, FORMAT=MATLAB FILE=plant\n");
   const RunResult r = run_file("model.acf");
   ASSERT_EQ(r.status, 0) << r.err;
-  for (const char* suffix : {"a", "b", "c", "d", "st", "pi", "po"}) EXPECT_TRUE(r.wrote(std::string("plant") + suffix)) << suffix;
-  EXPECT_EQ(r.text("plantpo"), "1.00000000000000000e+00\n1.00000000000000000e+01\n2.00000000000000000e+01\n3.00000000000000000e+01\n");
-  EXPECT_EQ(r.text("plantst").substr(0, 72), "2.10000000000000000e+01 1.00000000000000000e+00 7.00000000000000000e+00\n");
+  for (const char* suffix : {"a", "b", "c", "d", "st", "pi", "po"})
+    EXPECT_TRUE(r.wrote(std::string("plant") + suffix)) << suffix;
+  EXPECT_EQ(r.text("plantpo"),
+            "1.00000000000000000e+00\n1.00000000000000000e+01\n2.00000000000000000e+01\n3.00000000000000000e+01\n");
+  EXPECT_EQ(r.text("plantst").substr(0, 72),
+            "2.10000000000000000e+01 1.00000000000000000e+00 7.00000000000000000e+00\n");
 }
 
 TEST_F(Published, cart_pendulum_closed_loop_is_stable) {
   const RunResult r = run_example("cart_pendulum", "closed_loop.acf");
   ASSERT_EQ(r.status, 0) << r.err;
   expect_eigenvalues(r.eigenvalues(1),
-                     {-0.5352339047128, -31.8270832847, Complex(-0.2373970644161, 0.07544884221599), Complex(-0.007377987186762, 0.1516113433946),
-                      Complex(-0.547796218063, 0.5127453303115), Complex(-0.2434664774643, 0.5713141189687), Complex(-24.6528379746, 10.06148215491)},
+                     {-0.5352339047128, -31.8270832847, Complex(-0.2373970644161, 0.07544884221599),
+                      Complex(-0.007377987186762, 0.1516113433946), Complex(-0.547796218063, 0.5127453303115),
+                      Complex(-0.2434664774643, 0.5713141189687), Complex(-24.6528379746, 10.06148215491)},
                      1e-11);
 }
 
@@ -156,7 +166,9 @@ TEST_F(Published, message_file_lists_states_and_eigenvalues) {
   EXPECT_NE(r.message.find(" command: LINEAR/EIGENSOL, RM=5\n"), std::string::npos);
   EXPECT_NE(r.message.find("  Option RM=5 was used.\n"), std::string::npos);
   EXPECT_NE(r.message.find("        4 kinematic states (displacement and velocities)\n"), std::string::npos);
-  EXPECT_NE(r.message.find("        1 Global rotation AZ(BCS)   PART/2\n        2 Global displacement DX(BCS)   PART/3\n"), std::string::npos);
+  EXPECT_NE(
+      r.message.find("        1 Global rotation AZ(BCS)   PART/2\n        2 Global displacement DX(BCS)   PART/3\n"),
+      std::string::npos);
   EXPECT_NE(r.message.find("                 E I G E N V A L U E S  at time = 0.00000E+00\n"), std::string::npos);
   EXPECT_NE(r.message.find("         1              0.00000E+00\n"), std::string::npos);
   EXPECT_NE(r.message.find("    +/-        3.07455E+00\n"), std::string::npos);

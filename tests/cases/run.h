@@ -52,13 +52,16 @@ struct RunResult {
 class Cases : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() /
-              ("dynalin_" + std::to_string(::getpid()) + "_" + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ =
+        std::filesystem::temp_directory_path() / ("dynalin_" + std::to_string(::getpid()) + "_" +
+                                                  ::testing::UnitTest::GetInstance()->current_test_info()->name());
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name, std::ios::binary) << text; }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
 
   RunResult run_file(const std::string& file) const {
     SessionOptions options;
@@ -80,7 +83,8 @@ class Cases : public ::testing::Test {
     return run_file("model.acf");
   }
   RunResult run_example(const std::string& folder, const std::string& file) const {
-    std::filesystem::copy(std::filesystem::path(EXAMPLES_DIR) / folder, folder_, std::filesystem::copy_options::recursive);
+    std::filesystem::copy(std::filesystem::path(EXAMPLES_DIR) / folder, folder_,
+                          std::filesystem::copy_options::recursive);
     return run_file(file);
   }
 
@@ -93,8 +97,8 @@ inline void expect_close(double value, double reference, double relative, double
 }
 
 // Printed order: reals, then each pair twice. `expected` holds one entry a pair.
-inline void expect_eigenvalues(const std::vector<std::complex<double>>& values, const std::vector<std::complex<double>>& expected,
-                               double relative = 1e-11) {
+inline void expect_eigenvalues(const std::vector<std::complex<double>>& values,
+                               const std::vector<std::complex<double>>& expected, double relative = 1e-11) {
   std::vector<std::complex<double>> all;
   for (const auto& e : expected) {
     all.push_back(e);
@@ -103,7 +107,8 @@ inline void expect_eigenvalues(const std::vector<std::complex<double>>& values, 
   ASSERT_EQ(values.size(), all.size());
   for (std::size_t k = 0; k < all.size(); ++k) {
     const double tolerance = std::abs(all[k]) == 0 ? 1e-12 : relative * std::abs(all[k]);
-    EXPECT_LE(std::abs(values[k] - all[k]), tolerance) << "eigenvalue " << k + 1 << ": " << values[k] << " instead of " << all[k];
+    EXPECT_LE(std::abs(values[k] - all[k]), tolerance)
+        << "eigenvalue " << k + 1 << ": " << values[k] << " instead of " << all[k];
   }
 }
 

@@ -1,6 +1,6 @@
-// The program's state matrices against the nonlinear oracle: generated mechanisms in space with loops, preload, massless
-// links, motions, forces that read reactions and accelerations, and control states, at points where the angular velocity is
-// not parallel to the angular acceleration.
+// The program's state matrices against the nonlinear oracle: generated mechanisms in space with loops, preload,
+// massless links, motions, forces that read reactions and accelerations, and control states, at points where the
+// angular velocity is not parallel to the angular acceleration.
 #include <gtest/gtest.h>
 
 #include <cmath>

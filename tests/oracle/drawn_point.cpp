@@ -11,8 +11,7 @@ namespace {
 
 // Stated velocities onto the bodies, everything else at rest.
 Stated place_stated_velocities(Model& model) {
-  Stated stated{std::vector<bool>(model.bodies.size(), false),
-                std::vector<bool>(model.bodies.size(), false)};
+  Stated stated{std::vector<bool>(model.bodies.size(), false), std::vector<bool>(model.bodies.size(), false)};
   for (const Body& body : model.mechanism().bodies) {
     if (body.ref.kind == BodyKind::ground) continue;
     const auto b = static_cast<std::size_t>(model.body_index(body.ref));
@@ -72,8 +71,7 @@ void complete_velocities(Model& model, const Stated& stated) {
       const Vec f{G(k, o), G(k, o + 1), G(k, o + 2)};
       if (!stated.v[b]) r[o] = f.x, r[o + 1] = f.y, r[o + 2] = f.z;
       if (model.bodies[b].dof == 3 || stated.w[b]) continue;
-      const Vec about_cm = Vec{G(k, o + 3), G(k, o + 4), G(k, o + 5)} -
-                           cross(model.motion[b].R * model.bodies[b].c, f);
+      const Vec about_cm = Vec{G(k, o + 3), G(k, o + 4), G(k, o + 5)} - cross(model.motion[b].R * model.bodies[b].c, f);
       for (int c = 0; c < 3; ++c) {
         r[o + 3 + static_cast<std::size_t>(c)] = component(about_cm, c) / model.length;
       }
@@ -122,8 +120,8 @@ OraclePoint drawn_point(const Mechanism& mechanism) {
   for (std::size_t b = 1; b < model.bodies.size(); ++b) {
     const BodyRef& ref = model.bodies[b].ref;
     const BodyMotion& m = model.motion[b];
-    point.bodies.push_back({ref.id, ref.kind == BodyKind::point_mass, to_triple(m.p), rows_of(m.R),
-                            to_triple(m.v), to_triple(m.w)});
+    point.bodies.push_back(
+        {ref.id, ref.kind == BodyKind::point_mass, to_triple(m.p), rows_of(m.R), to_triple(m.v), to_triple(m.w)});
   }
   for (const DifferentialSlot& slot : model.slots) {
     point.z.push_back({slot.element, slot.element_id, slot.index, initial_value(mechanism, slot)});
@@ -146,8 +144,7 @@ std::vector<ChosenState> choose_states(const Mechanism& mechanism, const OracleP
   }
   for (std::size_t k = 0; k < active.size(); ++k) {
     for (std::size_t j = 0; j < n; ++j) {
-      G(k, j) = all(static_cast<std::size_t>(active[k]), j) *
-                (is_translation[j] != 0 ? model.length : 1.0L);
+      G(k, j) = all(static_cast<std::size_t>(active[k]), j) * (is_translation[j] != 0 ? model.length : 1.0L);
     }
   }
   // Full pivoting: each constraint takes the coordinate it determines best; what is left is free.

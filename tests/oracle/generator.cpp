@@ -2,15 +2,12 @@
 // their bodies, so that loops close as drawn; velocities are projected onto the constraints. Quantities are
 // drawn in natural units (a length, a force that moves a unit mass at ten lengths per time squared) so
 // that every unit system gives equally gentle numbers.
-#include <algorithm>
-#include <iterator>
-#include <numbers>
-#include <random>
-#include <stdexcept>
-#include <tuple>
-#include <utility>
+#include "generator.h"
 
-#include "model.h"
+#include <algorithm>
+#include <numbers>
+#include <stdexcept>
+#include <string>
 
 namespace dynalin::oracle {
 
@@ -18,87 +15,11 @@ namespace {
 
 Triple angles_313(const Mat& R) {
   const auto& c = R.column;
-  return to_triple({std::atan2(c[2].x, -c[2].y), std::atan2(std::hypot(c[2].x, c[2].y), c[2].z),
-                    std::atan2(c[0].z, c[1].z)});
+  return to_triple(
+      {std::atan2(c[2].x, -c[2].y), std::atan2(std::hypot(c[2].x, c[2].y), c[2].z), std::atan2(c[0].z, c[1].z)});
 }
 
-struct Frame {
-  Vec p;
-  Mat R;
-};
-
-constexpr BodyRef ground{BodyKind::ground, 1};
-
-class Draw {
- public:
-  Draw(std::uint64_t seed, std::uint64_t attempt)
-      : random_(seed * 1000003U + attempt * 7919U + 17U),
-        wanted_loops_(seed % 10 == 0 ? 2 : (seed % 5 < 2 ? 1 : 0)),
-        wanted_motions_(seed % 3 == 0 ? 1 : 0) {}
-  [[nodiscard]] Mechanism mechanism();
-
- private:
-  // Randomness: the standard distributions differ between libraries, the bits do not.
-  double uniform(double a, double b) {
-    return a + (b - a) * std::ldexp(static_cast<double>(random_() >> 11U), -53);
-  }
-  bool chance(double p) { return uniform(0, 1) < p; }
-  int pick(int n) { return static_cast<int>(random_() % static_cast<std::uint64_t>(n)); }
-  template <class T>
-  const T& one_of(const std::vector<T>& list) {
-    return list[static_cast<std::size_t>(pick(static_cast<int>(list.size())))];
-  }
-  Vec box(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
-  Mat orientation() { return rotation_313(uniform(-3, 3), uniform(0.2, 2.9), uniform(-3, 3)); }
-
-  void draw_units();
-  void add_body(BodyKind kind);
-  int add_marker(const BodyRef& body, const Frame& global);
-  void connect(const BodyRef& i_body, const BodyRef& j_body, JointType type);
-  void draw_tree();
-  void draw_loops();
-  void draw_motions();
-  void draw_massless();
-  void draw_measure_markers();
-  void draw_velocities();
-  void draw_springs();
-  void draw_controls();
-  void draw_differential_elements();
-  void draw_sforces();
-  void draw_outputs();
-  void check_structure() const;
-  void check() const;
-  void check_nodes(const Model& model, const Expr& e) const;
-
-  Expr displacement();
-  Expr velocity();
-  Expr acceleration();
-  Expr reaction();
-  Expr kinematic() { return chance(0.5) ? displacement() : velocity(); }
-  Expr shaped(const Expr& x);
-  Expr feature(int self);
-  std::pair<int, int> distant_pair(bool oriented_j);
-  [[nodiscard]] BodyRef body_of(int marker) const;
-  [[nodiscard]] const Body& body(const BodyRef& ref) const;
-  [[nodiscard]] int mobility() const;
-  int variable(const Expr& e) {
-    m_.variables.push_back({next_variable_, e});
-    return next_variable_++;
-  }
-
-  std::mt19937_64 random_;
-  // Rejection starves loops and motions; some seeds insist on them.
-  int wanted_loops_ = 0, wanted_motions_ = 0;
-  Mechanism m_;
-  double L_ = 1, F_ = 10;  // natural length and force
-  std::vector<BodyRef> bodies_{ground};
-  std::vector<std::pair<BodyRef, BodyRef>> connected_;
-  std::vector<int> oriented_;  // measure markers on ground and parts
-  std::vector<int> all_;       // those and the ones on point masses
-  std::vector<int> features_, inputs_;
-  std::vector<Expr> states_;   // DIF and ARYVAL of what the control elements offer
-  int next_marker_ = 1, next_variable_ = 1, next_array_ = 1, next_matrix_ = 1;
-};
+}  // namespace
 
 void Draw::draw_units() {
   const double r = uniform(0, 1);
@@ -158,8 +79,12 @@ void Draw::add_body(BodyKind kind) {
   }
   const Triple d{static_cast<double>(J.column[0].x), static_cast<double>(J.column[1].y),
                  static_cast<double>(J.column[2].z)};
-  m_.bodies.back().ip = {d[0], d[1], d[2], -static_cast<double>(J.column[1].x),
-                         -static_cast<double>(J.column[2].x), -static_cast<double>(J.column[2].y)};
+  m_.bodies.back().ip = {d[0],
+                         d[1],
+                         d[2],
+                         -static_cast<double>(J.column[1].x),
+                         -static_cast<double>(J.column[2].x),
+                         -static_cast<double>(J.column[2].y)};
 }
 
 void Draw::connect(const BodyRef& i_body, const BodyRef& j_body, JointType type) {
@@ -253,8 +178,8 @@ void Draw::draw_motions() {
     const MarkerMotion& i = model.markers()[static_cast<std::size_t>(model.marker_index(joint.i))];
     const MarkerMotion& j = model.markers()[static_cast<std::size_t>(model.marker_index(joint.j))];
     const bool turns = joint.type == JointType::revolute;
-    const Real now = turns ? std::atan2(dot(i.axis[0], j.axis[1]), dot(i.axis[0], j.axis[0]))
-                           : dot(i.p - j.p, j.axis[2]);
+    const Real now =
+        turns ? std::atan2(dot(i.axis[0], j.axis[1]), dot(i.axis[0], j.axis[0])) : dot(i.p - j.p, j.axis[2]);
     const double size = turns ? 1 : L_;
     TimeFunction f;
     f.c = {0, size * uniform(-2, 2), size * uniform(-3, 3), size * uniform(-2, 2)};
@@ -277,7 +202,8 @@ void Draw::draw_massless() {
     for (std::size_t k = 0; k < m_.joints.size(); ++k) {
       if (connected_[k].first != m_.bodies[b].ref && connected_[k].second != m_.bodies[b].ref) continue;
       const int id = m_.joints[k].id;
-      const bool driven = std::any_of(m_.motions.begin(), m_.motions.end(), [&](const Motion& a) { return a.joint == id; });
+      const bool driven =
+          std::any_of(m_.motions.begin(), m_.motions.end(), [&](const Motion& a) { return a.joint == id; });
       links += driven || m_.joints[k].type == JointType::fixed ? 2 : 1;
     }
     if (links >= 2) candidates.push_back(b);
@@ -319,269 +245,6 @@ void Draw::draw_velocities() {
   }
 }
 
-// ------------------------------------------------------------------------------------ expressions
-
-std::pair<int, int> Draw::distant_pair(bool oriented_j) {
-  const Model model(m_);
-  for (int attempt = 0; attempt < 200; ++attempt) {
-    const int i = one_of(all_), j = one_of(oriented_j ? oriented_ : all_);
-    if (body_of(i) == body_of(j)) continue;
-    const Vec d = model.markers()[static_cast<std::size_t>(model.marker_index(i))].p -
-                  model.markers()[static_cast<std::size_t>(model.marker_index(j))].p;
-    if (norm(d) > 0.4 * L_) return {i, j};
-  }
-  throw std::runtime_error("no two markers are far enough apart");
-}
-
-Expr Draw::displacement() {
-  const auto [i, j] = distant_pair(true);
-  if (chance(0.25) && body_of(i).kind != BodyKind::point_mass) {
-    return measure(static_cast<Measure>(static_cast<int>(Measure::AX) + pick(3)), {i, j});
-  }
-  if (chance(0.3)) return (1 / L_) * measure(Measure::DM, {i, j});
-  const auto kind = static_cast<Measure>(pick(3));
-  const double r = uniform(0, 1);
-  if (r < 0.3) return (1 / L_) * measure(kind, {i});
-  if (r < 0.5) return (1 / L_) * measure(kind, {i, j});
-  return (1 / L_) * measure(kind, {i, r < 0.6 ? 0 : j, one_of(oriented_)});
-}
-
-Expr Draw::velocity() {
-  const auto [i, j] = distant_pair(true);
-  const double r = uniform(0, 1);
-  if (r < 0.2) return (0.5 / L_) * measure(Measure::VR, {i, j});
-  if (r < 0.25) return (0.5 / L_) * measure(Measure::VM, {i, j});
-  if (r < 0.55 && body_of(i).kind != BodyKind::point_mass) {
-    return 0.4 * measure(static_cast<Measure>(static_cast<int>(Measure::WX) + pick(3)), {i, j, one_of(oriented_)});
-  }
-  const auto kind = static_cast<Measure>(static_cast<int>(Measure::VX) + pick(3));
-  if (r < 0.7) return (0.5 / L_) * measure(kind, {i});
-  if (r < 0.85) return (0.5 / L_) * measure(kind, {i, j, one_of(oriented_)});
-  return (0.5 / L_) * measure(kind, {i, j, one_of(oriented_), one_of(oriented_)});
-}
-
-Expr Draw::acceleration() {
-  const auto [i, j] = distant_pair(true);
-  const double r = uniform(0, 1);
-  if (r < 0.05) return (0.05 / L_) * measure(Measure::ACCM, {i, j});
-  if (r < 0.4 && body_of(i).kind != BodyKind::point_mass) {
-    const auto kind = static_cast<Measure>(static_cast<int>(Measure::WDTX) + pick(3));
-    if (r < 0.2) return 0.03 * measure(kind, {i, j, one_of(oriented_)});
-    return 0.03 * measure(kind, {i, j, one_of(oriented_), one_of(oriented_)});
-  }
-  const auto kind = static_cast<Measure>(static_cast<int>(Measure::ACCX) + pick(3));
-  if (r < 0.7) return (0.05 / L_) * measure(kind, {i});
-  if (r < 0.85) return (0.05 / L_) * measure(kind, {i, j, one_of(oriented_)});
-  return (0.05 / L_) * measure(kind, {i, j, one_of(oriented_), one_of(oriented_)});
-}
-
-Expr Draw::reaction() {
-  if (m_.joints.empty()) return acceleration();
-  const Joint& joint = one_of(m_.joints);
-  const bool transmits_torque = joint.type != JointType::spherical;
-  const double r = uniform(0, 1);
-  const int rm = chance(0.4) ? 0 : one_of(oriented_);
-  if (r < 0.1) return (0.2 / F_) * joint_reaction(joint.id, pick(2), 1, rm);
-  if (transmits_torque && r < 0.15) return (0.2 / (F_ * L_)) * joint_reaction(joint.id, pick(2), 5, rm);
-  if (transmits_torque && r < 0.5) return (0.2 / (F_ * L_)) * joint_reaction(joint.id, pick(2), 6 + pick(3), rm);
-  return (0.2 / F_) * joint_reaction(joint.id, pick(2), 2 + pick(3), rm);
-}
-
-// A smooth function of an argument of order one, so that second and higher derivatives matter.
-Expr Draw::shaped(const Expr& x) {
-  switch (pick(8)) {
-    case 0:
-      return call(Function::sin, {x});
-    case 1:
-      return call(Function::cos, {x});
-    case 2:
-      return call(Function::tanh, {x});
-    case 3:
-      return call(Function::sqrt, {constant(1) + square(x)});
-    case 4:
-      return call(Function::exp, {constant(-0.5) * square(x)});
-    case 5:
-      return call(Function::atan2, {x, constant(1) + square(kinematic())});
-    case 6:
-      return x / (constant(1) + square(x));
-    default:
-      return x;
-  }
-}
-
-Expr Draw::feature(int self) {
-  Expr sum = constant(uniform(-0.5, 0.5));
-  const int terms = 1 + pick(3);
-  for (int k = 0; k < terms; ++k) {
-    Expr term = shaped(kinematic());
-    if (chance(0.3)) term = term * shaped(kinematic());
-    sum = sum + uniform(-0.6, 0.6) * term;
-  }
-  if (chance(0.4)) sum = sum + uniform(-0.25, 0.25) * shaped(acceleration());
-  if (chance(0.4)) sum = sum + uniform(-0.25, 0.25) * shaped(reaction());
-  if (chance(0.5)) sum = sum + uniform(-0.3, 0.3) * shaped(varval(one_of(features_)));
-  if (chance(0.15)) sum = sum + uniform(-0.3, 0.3) * call(Function::sin, {varval(self) + time_now()});
-  if (!states_.empty() && chance(0.4)) sum = sum + uniform(-0.5, 0.5) * one_of(states_);
-  if (chance(0.2)) sum = sum + uniform(-0.4, 0.4) * varval(one_of(inputs_));
-  return sum;
-}
-
-// --------------------------------------------------------------------------------------- elements
-
-void Draw::draw_springs() {
-  const int count = 1 + pick(3);
-  for (int k = 0; k < count; ++k) {
-    const auto [i, j] = distant_pair(false);
-    SpringDamper s{static_cast<int>(m_.springs.size()) + 1, Direction::translational, i, j, 0, 0, 0, 0};
-    s.k = F_ / L_ * uniform(0.3, 6);
-    s.c = F_ / L_ * uniform(0, 0.3);
-    s.free = L_ * uniform(0.3, 1.5);
-    s.preload = chance(0.5) ? F_ * uniform(-1, 1) : 0;
-    m_.springs.push_back(s);
-  }
-  for (const Joint& joint : m_.joints) {
-    if (joint.type != JointType::revolute || !chance(0.3)) continue;
-    SpringDamper s{static_cast<int>(m_.springs.size()) + 1, Direction::rotational, joint.i, joint.j, 0, 0, 0, 0};
-    s.k = F_ * L_ * uniform(0.1, 2);
-    s.c = F_ * L_ * uniform(0, 0.2);
-    s.free = uniform(-1, 1);
-    s.preload = F_ * L_ * uniform(-0.5, 0.5);
-    m_.springs.push_back(s);
-  }
-}
-
-void Draw::draw_differential_elements() {
-  const auto inputs_of = [&](int n) {
-    Array u{next_array_++, ArrayKind::u, {}, {}};
-    for (int k = 0; k < n; ++k) u.variables.push_back(chance(0.3) ? one_of(inputs_) : one_of(features_));
-    m_.arrays.push_back(u);
-    return u.id;
-  };
-  const auto owned = [&](ArrayKind kind) {
-    m_.arrays.push_back({next_array_, kind, {}, {}});
-    return next_array_++;
-  };
-  const auto matrix = [&](int rows, int columns, double size) {
-    NumberMatrix a{next_matrix_++, rows, columns, {}};
-    for (int k = 0; k < rows * columns; ++k) a.values.push_back(uniform(-size, size));
-    m_.matrices.push_back(a);
-    return a.id;
-  };
-  if (chance(0.45)) {
-    const int order = 1 + pick(3);
-    Tfsiso t;
-    t.id = 1;
-    t.u = inputs_of(1);
-    t.x = owned(ArrayKind::x);
-    t.y = owned(ArrayKind::y);
-    for (int k = 0; k <= order; ++k) t.denominator.push_back(uniform(0.5, 3));
-    const int numerator_order = pick(order + 1);
-    for (int k = 0; k <= numerator_order; ++k) t.numerator.push_back(uniform(-1, 1));
-    m_.tfsisos.push_back(t);
-    states_.push_back(aryval(t.y, 1));
-    states_.push_back(aryval(t.x, order));
-  }
-  if (chance(0.35)) {
-    const int n = 1 + pick(3), inputs = 1 + pick(2);
-    Lse e;
-    e.id = 1;
-    e.u = inputs_of(inputs);
-    e.x = owned(ArrayKind::x);
-    e.y = owned(ArrayKind::y);
-    e.a = matrix(n, n, 1.5);
-    e.b = matrix(n, inputs, 1);
-    e.c = matrix(2, n, 0.7);
-    if (chance(0.5)) e.d = matrix(2, inputs, 0.3);
-    if (chance(0.6)) {
-      Array ic{next_array_++, ArrayKind::ic, {}, {}};
-      for (int k = 0; k < n; ++k) ic.numbers.push_back(uniform(-1, 1));
-      m_.arrays.push_back(ic);
-      e.ic = ic.id;
-    }
-    m_.lses.push_back(e);
-    states_.push_back(aryval(e.y, 1 + pick(2)));
-  }
-  const int diffs = chance(0.5) ? 1 + pick(2) : 0;
-  for (int k = 1; k <= diffs; ++k) {
-    m_.diffs.push_back({k, uniform(-1, 1), {}});
-    states_.push_back(dif(k));
-  }
-}
-
-void Draw::draw_controls() {
-  const int inputs = 1 + pick(2), features = 2 + pick(3);
-  for (int k = 0; k < inputs; ++k) inputs_.push_back(variable(constant(0)));
-  for (int k = 0; k < features; ++k) features_.push_back(variable(constant(0)));
-  draw_differential_elements();
-  for (const int id : features_) m_.variables[static_cast<std::size_t>(id - 1)].function = feature(id);
-  for (const int id : inputs_) {
-    if (chance(0.2)) {
-      m_.variables[static_cast<std::size_t>(id - 1)].function = uniform(-0.5, 0.5) * shaped(kinematic());
-    }
-  }
-  for (Diff& d : m_.diffs) {
-    d.function = uniform(-1.5, 0.5) * dif(d.id) + uniform(-1, 1) * varval(one_of(features_)) +
-                 uniform(-0.5, 0.5) * shaped(dif(d.id) * kinematic());
-    if (chance(0.3)) d.function = d.function + uniform(-0.5, 0.5) * varval(one_of(inputs_));
-    if (chance(0.3)) d.function = d.function + uniform(-0.5, 0.5) * acceleration();
-  }
-  m_.pinput = {1, inputs_};
-}
-
-void Draw::draw_sforces() {
-  const int count = 2 + pick(3);
-  for (int k = 0; k < count; ++k) {
-    Sforce s;
-    s.id = static_cast<int>(m_.sforces.size()) + 1;
-    std::vector<Joint> hinges;
-    std::copy_if(m_.joints.begin(), m_.joints.end(), std::back_inserter(hinges),
-                 [](const Joint& j) { return j.type == JointType::revolute; });
-    if (chance(0.4)) s.direction = Direction::rotational;
-    if (chance(0.4)) s.reaction = Reaction::action_only;
-    if (s.direction == Direction::rotational && s.reaction == Reaction::on_j && hinges.empty()) {
-      s.reaction = Reaction::action_only;
-    }
-    std::tie(s.i, s.j) = distant_pair(true);
-    if (s.direction == Direction::rotational && s.reaction == Reaction::on_j) {
-      // Rotational forces want parallel z axes.
-      const Joint& hinge = one_of(hinges);
-      s.i = hinge.i;
-      s.j = hinge.j;
-    }
-    if (body_of(s.i) == ground) std::swap(s.i, s.j);
-    const bool on_point = body_of(s.i).kind == BodyKind::point_mass || body_of(s.j).kind == BodyKind::point_mass;
-    if (on_point) {
-      s.direction = Direction::translational;
-      s.reaction = Reaction::on_j;
-    }
-    Expr e = constant(uniform(-0.6, 0.6)) + uniform(-0.6, 0.6) * varval(one_of(features_));
-    if (chance(0.6)) e = e + uniform(-0.6, 0.6) * shaped(kinematic());
-    if (k == 0 || chance(0.4)) e = e + uniform(0.3, 1) * varval(one_of(inputs_));
-    if (chance(0.3)) e = e + uniform(-0.15, 0.15) * acceleration();
-    if (chance(0.3)) e = e + uniform(-0.15, 0.15) * reaction();
-    if (!states_.empty() && chance(0.5)) e = e + uniform(-0.7, 0.7) * one_of(states_);
-    s.function = (s.direction == Direction::rotational ? 0.5 * F_ * L_ : F_) * e;
-    m_.sforces.push_back(s);
-  }
-}
-
-void Draw::draw_outputs() {
-  std::vector<int> outputs;
-  outputs.push_back(variable(displacement()));
-  outputs.push_back(variable(velocity()));
-  outputs.push_back(variable(acceleration()));
-  outputs.push_back(variable(reaction()));
-  const Sforce& s = one_of(m_.sforces);
-  const bool line = s.direction == Direction::translational;
-  const int flag = s.reaction == Reaction::action_only ? 0 : pick(2);
-  const int rm = chance(0.5) ? 0 : one_of(oriented_);
-  outputs.push_back(variable((line ? 1 / F_ : 1 / (F_ * L_)) * sforce_load(s.id, flag, (line ? 2 : 6) + pick(3), rm)));
-  outputs.push_back(one_of(features_));
-  if (!states_.empty()) outputs.push_back(variable(one_of(states_)));
-  if (chance(0.2)) outputs.push_back(one_of(inputs_));
-  m_.poutput = {1, outputs};
-}
-
 // ---------------------------------------------------------------------------------------- rejection
 
 // Rejects the draw when a measure or a reaction stands near the place where it has no derivative.
@@ -605,6 +268,8 @@ void Draw::check_nodes(const Model& model, const Expr& e) const {
   if (n.op == Op::measure && (n.measure == Measure::ACCM)) require(model.evaluate(e) > 3 * L_);
   for (const Expr& argument : n.arguments) check_nodes(model, argument);
 }
+
+namespace {
 
 // How the dependent coordinates follow the chosen ones, and how massive the chosen ones are.
 void check_conditioning(Model& model, const std::vector<ChosenState>& states) {
@@ -657,6 +322,8 @@ void check_conditioning(Model& model, const std::vector<ChosenState>& states) {
   }
 }
 
+}  // namespace
+
 void Draw::check_structure() const {
   if (mobility() < 1 || mobility() > 9) throw std::runtime_error("the mobility is out of range");
   const Features f = features_of(m_);
@@ -704,8 +371,6 @@ Mechanism Draw::mechanism() {
   check();
   return m_;
 }
-
-}  // namespace
 
 Mechanism random_mechanism(std::uint64_t seed) {
   for (std::uint64_t attempt = 0; attempt < 2000; ++attempt) {

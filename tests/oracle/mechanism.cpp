@@ -129,19 +129,37 @@ std::string controls_text(const Mechanism& m) {
   }
   for (const Array& a : m.arrays) text += array_text(a);
   for (const NumberMatrix& a : m.matrices) {
-    text += Statement("MATRIX", a.id).set("FULL", std::string("RORDER")).set("ROWS", a.rows)
-                .set("COLUMNS", a.columns).set("VALUES", numbers(a.values)).text();
+    text += Statement("MATRIX", a.id)
+                .set("FULL", std::string("RORDER"))
+                .set("ROWS", a.rows)
+                .set("COLUMNS", a.columns)
+                .set("VALUES", numbers(a.values))
+                .text();
   }
   for (const Tfsiso& t : m.tfsisos) {
-    text += Statement("TFSISO", t.id).set("X", t.x).set("U", t.u).set("Y", t.y)
-                .set("NUMERATOR", numbers(t.numerator)).set("DENOMINATOR", numbers(t.denominator)).text();
+    text += Statement("TFSISO", t.id)
+                .set("X", t.x)
+                .set("U", t.u)
+                .set("Y", t.y)
+                .set("NUMERATOR", numbers(t.numerator))
+                .set("DENOMINATOR", numbers(t.denominator))
+                .text();
   }
   for (const Lse& e : m.lses) {
-    text += Statement("LSE", e.id).set("X", e.x).set("U", e.u).set("Y", e.y).set("IC", e.ic)
-                .set("A", e.a).set("B", e.b).set("C", e.c).set("D", e.d).text();
+    text += Statement("LSE", e.id)
+                .set("X", e.x)
+                .set("U", e.u)
+                .set("Y", e.y)
+                .set("IC", e.ic)
+                .set("A", e.a)
+                .set("B", e.b)
+                .set("C", e.c)
+                .set("D", e.d)
+                .text();
   }
   if (m.pinput.id != 0) text += Statement("PINPUT", m.pinput.id).set("VARIABLES", integers(m.pinput.variables)).text();
-  if (m.poutput.id != 0) text += Statement("POUTPUT", m.poutput.id).set("VARIABLES", integers(m.poutput.variables)).text();
+  if (m.poutput.id != 0)
+    text += Statement("POUTPUT", m.poutput.id).set("VARIABLES", integers(m.poutput.variables)).text();
   return text;
 }
 
@@ -153,7 +171,8 @@ void walk(const Expr& e, Visit&& visit) {
 }
 
 const Variable* find_variable(const Mechanism& m, int id) {
-  const auto found = std::find_if(m.variables.begin(), m.variables.end(), [id](const Variable& v) { return v.id == id; });
+  const auto found =
+      std::find_if(m.variables.begin(), m.variables.end(), [id](const Variable& v) { return v.id == id; });
   return found == m.variables.end() ? nullptr : &*found;
 }
 
@@ -202,9 +221,7 @@ Expr dif(int id) { return make(Op::dif, {}, {id}); }
 Expr joint_reaction(int id, int jflag, int component, int rm) {
   return make(Op::joint, {}, {id, jflag, component, rm});
 }
-Expr sforce_load(int id, int jflag, int component, int rm) {
-  return make(Op::sforce, {}, {id, jflag, component, rm});
-}
+Expr sforce_load(int id, int jflag, int component, int rm) { return make(Op::sforce, {}, {id, jflag, component, rm}); }
 Expr call(Function function, std::vector<Expr> arguments) {
   Node node;
   node.op = Op::function;
@@ -269,8 +286,11 @@ std::string dataset_text(const Mechanism& m) {
           ", KGRAV=" + number(m.gravity[2]) + "\n";
   for (const Body& body : m.bodies) text += body_text(body);
   for (const Marker& k : m.markers) {
-    text += Statement("MARKER", k.id).set(owner_keyword(k.body.kind), std::to_string(k.body.id))
-                .set("QP", k.qp).set("REULER", k.reuler).text();
+    text += Statement("MARKER", k.id)
+                .set(owner_keyword(k.body.kind), std::to_string(k.body.id))
+                .set("QP", k.qp)
+                .set("REULER", k.reuler)
+                .text();
   }
   for (const Joint& j : m.joints) {
     text += Statement("JOINT", j.id).word(joint_names[static_cast<int>(j.type)]).set("I", j.i).set("J", j.j).text();
@@ -278,8 +298,11 @@ std::string dataset_text(const Mechanism& m) {
   for (const Motion& k : m.motions) {
     const auto joint = std::find_if(m.joints.begin(), m.joints.end(), [&](const Joint& j) { return j.id == k.joint; });
     const bool turns = joint != m.joints.end() && joint->type == JointType::revolute;
-    text += Statement("MOTION", k.id).word(turns ? "ROTATION" : "TRANSLATION").set("JOINT", k.joint)
-                .set("FUNCTION", time_function_text(k.f)).text();
+    text += Statement("MOTION", k.id)
+                .word(turns ? "ROTATION" : "TRANSLATION")
+                .set("JOINT", k.joint)
+                .set("FUNCTION", time_function_text(k.f))
+                .text();
   }
   for (const SpringDamper& s : m.springs) text += spring_text(s);
   for (const Sforce& s : m.sforces) text += sforce_text(s);

@@ -21,18 +21,56 @@ struct Expr {
   std::shared_ptr<const Node> node;
 };
 
-enum class Op { constant, time, add, subtract, multiply, divide, power, function, measure, varval, aryval, dif, joint, sforce };
+enum class Op {
+  constant,
+  time,
+  add,
+  subtract,
+  multiply,
+  divide,
+  power,
+  function,
+  measure,
+  varval,
+  aryval,
+  dif,
+  joint,
+  sforce
+};
 enum class Function { sin, cos, tanh, exp, sqrt, atan, atan2, step };
 enum class Measure {
-  DX, DY, DZ, DM, VX, VY, VZ, VM, VR, WX, WY, WZ, WM, ACCX, ACCY, ACCZ, ACCM, WDTX, WDTY, WDTZ, WDTM, AX, AY, AZ
+  DX,
+  DY,
+  DZ,
+  DM,
+  VX,
+  VY,
+  VZ,
+  VM,
+  VR,
+  WX,
+  WY,
+  WZ,
+  WM,
+  ACCX,
+  ACCY,
+  ACCZ,
+  ACCM,
+  WDTX,
+  WDTY,
+  WDTZ,
+  WDTM,
+  AX,
+  AY,
+  AZ
 };
 
 struct Node {
   Op op = Op::constant;
-  double value = 0;            // constant
+  double value = 0;  // constant
   Function function = Function::sin;
   Measure measure = Measure::DX;
-  std::vector<int> ids;        // marker ids of a measure; id, jflag, comp, rm; id, index
+  std::vector<int> ids;  // marker ids of a measure; id, jflag, comp, rm; id, index
   std::vector<Expr> arguments;
 };
 
@@ -65,11 +103,11 @@ struct BodyRef {
 struct Body {
   BodyRef ref;
   double mass = 0;
-  std::array<double, 6> ip{};               // xx yy zz xy xz yz, product integrals positive
-  int cm = 0, im = 0;                       // marker ids, 0 = not given
+  std::array<double, 6> ip{};  // xx yy zz xy xz yz, product integrals positive
+  int cm = 0, im = 0;          // marker ids, 0 = not given
   Triple qg{}, reuler{};
-  std::optional<Triple> v;                  // of the CM marker, global axes
-  std::optional<Triple> w;                  // in the axes of the CM marker
+  std::optional<Triple> v;  // of the CM marker, global axes
+  std::optional<Triple> w;  // in the axes of the CM marker
 };
 
 struct Marker {
@@ -168,8 +206,9 @@ struct Mechanism {
 // The mechanism as a dataset, numbers with 17 digits, title first and END last.
 [[nodiscard]] std::string dataset_text(const Mechanism& mechanism);
 
-// A mechanism that is assembled as drawn and whose stated velocities satisfy its constraints. The same
-// seed gives the same mechanism. Draws near a singularity, of the constraints or of a measure, are rejected.
+// A mechanism that is assembled as drawn and whose stated velocities satisfy its constraints. The same seed gives the
+// same mechanism on one compiler; another may evaluate arguments in another order and draw differently. Draws near a
+// singularity, of the constraints or of a measure, are rejected.
 [[nodiscard]] Mechanism random_mechanism(std::uint64_t seed);
 
 // What a mechanism contains, for statistics over many seeds.

@@ -105,8 +105,8 @@ void Model::read_bodies() {
   for (const Marker& marker : mechanism_.markers) {
     BodyRef owner = marker.body;
     marker_index_[marker.id] = static_cast<int>(marker_data_.size());
-    marker_data_.push_back({body_index(owner), to_vec(marker.qp),
-                            rotation_313(marker.reuler[0], marker.reuler[1], marker.reuler[2])});
+    marker_data_.push_back(
+        {body_index(owner), to_vec(marker.qp), rotation_313(marker.reuler[0], marker.reuler[1], marker.reuler[2])});
   }
   for (const Body& body : mechanism_.bodies) {
     if (body.ref.kind == BodyKind::ground || body.cm == 0) continue;
@@ -143,13 +143,12 @@ void Model::read_rows() {
     std::vector<Pattern> patterns = coincide;
     if (joint.type == JointType::translational) patterns.pop_back();
     if (joint.type == JointType::universal) patterns.push_back({Type::direction, 2, 2});
-    const bool has_axis = joint.type == JointType::revolute ||
-                          joint.type == JointType::translational || joint.type == JointType::fixed;
+    const bool has_axis =
+        joint.type == JointType::revolute || joint.type == JointType::translational || joint.type == JointType::fixed;
     if (has_axis) patterns.insert(patterns.end(), aligned.begin(), aligned.end());
     if (has_axis && joint.type != JointType::revolute) patterns.push_back({Type::direction, 0, 1});
     for (const Pattern& p : patterns) {
-      rows.push_back({p.type, joint_markers_[k][0], joint_markers_[k][1], p.axis_i, p.axis_j,
-                      static_cast<int>(k), -1});
+      rows.push_back({p.type, joint_markers_[k][0], joint_markers_[k][1], p.axis_i, p.axis_j, static_cast<int>(k), -1});
     }
   }
   for (std::size_t k = 0; k < mechanism_.motions.size(); ++k) {
@@ -158,9 +157,8 @@ void Model::read_rows() {
     if (type != JointType::revolute && type != JointType::translational) {
       throw std::runtime_error("a motion needs a revolute or translational joint");
     }
-    rows.push_back({type == JointType::revolute ? Type::angle : Type::point,
-                    joint_markers_[joint][0], joint_markers_[joint][1], 0, 2, -1,
-                    static_cast<int>(k)});
+    rows.push_back({type == JointType::revolute ? Type::angle : Type::point, joint_markers_[joint][0],
+                    joint_markers_[joint][1], 0, 2, -1, static_cast<int>(k)});
   }
 }
 
@@ -288,12 +286,10 @@ Real Model::row_acceleration(const Row& row) const {
     drive = motion_values(mechanism_.motions[static_cast<std::size_t>(row.motion)].f, time)[2];
   }
   if (row.type == Row::Type::point) {
-    return dot(i.a - j.a, j.axis[aj]) + 2 * dot(i.v - j.v, j.axis1[aj]) +
-           dot(i.p - j.p, j.axis2[aj]) - drive;
+    return dot(i.a - j.a, j.axis[aj]) + 2 * dot(i.v - j.v, j.axis1[aj]) + dot(i.p - j.p, j.axis2[aj]) - drive;
   }
   if (row.type == Row::Type::direction) {
-    return dot(i.axis2[ai], j.axis[aj]) + 2 * dot(i.axis1[ai], j.axis1[aj]) +
-           dot(i.axis[ai], j.axis2[aj]);
+    return dot(i.axis2[ai], j.axis[aj]) + 2 * dot(i.axis1[ai], j.axis1[aj]) + dot(i.axis[ai], j.axis2[aj]);
   }
   return dot(i.al - j.al, j.axis[2]) + dot(i.w - j.w, j.axis1[2]) - drive;
 }
@@ -365,8 +361,7 @@ Real Model::angle_z(int i, int j) const {
   return std::atan2(dot(a.axis[0], b.axis[1]), dot(a.axis[0], b.axis[0]));
 }
 
-void Model::apply(std::vector<Wrench>& loads, int marker, const Vec& at, const Wrench& w,
-                  Real sign) const {
+void Model::apply(std::vector<Wrench>& loads, int marker, const Vec& at, const Wrench& w, Real sign) const {
   const auto b = static_cast<std::size_t>(marker_data_[static_cast<std::size_t>(marker)].body);
   loads[b].f += sign * w.f;
   loads[b].t += sign * (cross(at - motion[b].p, w.f) + w.t);
@@ -425,8 +420,7 @@ Wrench Model::joint_wrench(int joint) const {
 // --------------------------------------------------------------------------- the algebraic system
 
 std::size_t Model::algebra_size() const {
-  return static_cast<std::size_t>(dofs) + active.size() + variable_values.size() +
-         sforce_values.size();
+  return static_cast<std::size_t>(dofs) + active.size() + variable_values.size() + sforce_values.size();
 }
 
 std::vector<int> Model::algebra_groups() const {
@@ -482,9 +476,7 @@ std::vector<Real> Model::algebra_residual() const {
     const Vec force = (body.mass / ucf) * (a_c - g) - loads[b].f;
     residual.insert(residual.end(), {force.x, force.y, force.z});
     if (body.dof == 3) continue;
-    const auto inertia = [&](const Vec& w) {
-      return (1 / ucf) * (m.R * (body.inertia * (transpose(m.R) * w)));
-    };
+    const auto inertia = [&](const Vec& w) { return (1 / ucf) * (m.R * (body.inertia * (transpose(m.R) * w))); };
     const Vec about_cm = loads[b].t - cross(c, loads[b].f);
     const Vec torque = inertia(m.al) + cross(m.w, inertia(m.w)) - about_cm;
     residual.insert(residual.end(), {torque.x, torque.y, torque.z});

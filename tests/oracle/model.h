@@ -14,9 +14,9 @@
 namespace dynalin::oracle {
 
 struct BodyMotion {
-  Vec p;                     // BCS origin
-  Mat R;                     // BCS to global
-  Vec v, w, a, al;           // velocities and accelerations, global axes
+  Vec p;            // BCS origin
+  Mat R;            // BCS to global
+  Vec v, w, a, al;  // velocities and accelerations, global axes
 };
 
 // A marker along the motion: origin and axes with first and second time derivatives.
@@ -34,9 +34,9 @@ struct Wrench {
 struct Row {
   enum class Type { point, direction, angle };
   Type type = Type::point;
-  int i = 0, j = 0;            // marker indices
+  int i = 0, j = 0;  // marker indices
   int axis_i = 0, axis_j = 0;
-  int joint = -1, motion = -1; // whose row it is
+  int joint = -1, motion = -1;  // whose row it is
 };
 
 struct DifferentialSlot {
@@ -53,8 +53,8 @@ class Model {
     BodyRef ref;
     int dof = 0, offset = 0;
     Real mass = 0;
-    Vec c;       // mass centre in the BCS; the BCS origin of a massless body without CM
-    Mat inertia; // about the mass centre, BCS axes
+    Vec c;        // mass centre in the BCS; the BCS origin of a massless body without CM
+    Mat inertia;  // about the mass centre, BCS axes
   };
   std::vector<BodyData> bodies;  // bodies[0] is ground
   std::vector<Row> rows;
@@ -67,7 +67,7 @@ class Model {
   std::vector<BodyMotion> motion;
   std::vector<Real> z;
   std::vector<Real> variable_values, sforce_values, lambda;
-  std::vector<int> cut;           // per variable: 1 when it is an independent input
+  std::vector<int> cut;  // per variable: 1 when it is an independent input
   std::vector<Real> cut_values;
 
   void update_positions();      // markers from poses
@@ -104,7 +104,7 @@ class Model {
     Mat R;
   };
   struct Pair {
-    Vec e;         // unit vector from J to I
+    Vec e;  // unit vector from J to I
     Real distance = 0, rate = 0;
   };
   void read_bodies();

@@ -44,16 +44,14 @@ Real Model::evaluate_node(const Node& n) const {
     case Op::joint: {
       const int joint = joint_index_.at(n.ids[0]);
       const auto [i, j] = joint_markers_[static_cast<std::size_t>(joint)];
-      const Vec i_from_j =
-          markers_[static_cast<std::size_t>(i)].p - markers_[static_cast<std::size_t>(j)].p;
+      const Vec i_from_j = markers_[static_cast<std::size_t>(i)].p - markers_[static_cast<std::size_t>(j)].p;
       return wrench_component(joint_wrench(joint), i_from_j, n.ids);
     }
     case Op::sforce: {
       const auto k = static_cast<std::size_t>(sforce_index_.at(n.ids[0]));
       const auto [i, j] = sforce_markers_[k];
       const Sforce& s = mechanism_.sforces[k];
-      const Vec i_from_j =
-          markers_[static_cast<std::size_t>(i)].p - markers_[static_cast<std::size_t>(j)].p;
+      const Vec i_from_j = markers_[static_cast<std::size_t>(i)].p - markers_[static_cast<std::size_t>(j)].p;
       if (s.reaction == Reaction::action_only && n.ids[1] == 1) return 0;
       return wrench_component(sforce_wrench(s, sforce_values[k]), i_from_j, n.ids);
     }
@@ -61,8 +59,7 @@ Real Model::evaluate_node(const Node& n) const {
   throw std::runtime_error("an expression has an unknown operation");
 }
 
-Real Model::wrench_component(const Wrench& on_i, const Vec& i_from_j,
-                             const std::vector<int>& ids) const {
+Real Model::wrench_component(const Wrench& on_i, const Vec& i_from_j, const std::vector<int>& ids) const {
   Wrench w = on_i;
   if (ids[1] == 1) w = {-on_i.f, -on_i.t - cross(i_from_j, on_i.f)};
   const int comp = ids[2];
@@ -109,13 +106,10 @@ Real Model::evaluate_measure(const Node& n) const {
   const MarkerMotion& i = marker(0);
   const MarkerMotion& j = marker(1);
   const Vec r = i.p - j.p;
-  const auto along = [&](const Vec& v, int k) {
-    return dot(v, marker(2).axis[static_cast<std::size_t>(k)]);
-  };
+  const auto along = [&](const Vec& v, int k) { return dot(v, marker(2).axis[static_cast<std::size_t>(k)]); };
   // The reference frame of derivatives is the fourth marker; the magnitudes have no axes, so their
   // frame is the third.
-  const bool magnitude = n.measure == Measure::VM || n.measure == Measure::ACCM ||
-                         n.measure == Measure::WDTM;
+  const bool magnitude = n.measure == Measure::VM || n.measure == Measure::ACCM || n.measure == Measure::WDTM;
   const MarkerMotion& l = magnitude ? marker(2) : marker(3);
   const auto velocity = [&] { return i.v - j.v - cross(l.w, r); };
   const auto acceleration = [&] {
@@ -184,9 +178,8 @@ Real Model::array_entry(int id, int index) const {
     if (tf.x == id) return z[tfsiso_slot_[k] + at];
     if (tf.y != id) continue;
     const std::size_t order = tf.denominator.size() - 1;
-    const Real q = tf.numerator.size() == order + 1
-                       ? static_cast<Real>(tf.numerator[order]) / tf.denominator[order]
-                       : 0.0L;
+    const Real q =
+        tf.numerator.size() == order + 1 ? static_cast<Real>(tf.numerator[order]) / tf.denominator[order] : 0.0L;
     return (order > 0 ? z[tfsiso_slot_[k]] : 0.0L) + q * input_entry(tf.u, 0);
   }
   for (std::size_t k = 0; k < mechanism_.lses.size(); ++k) {
@@ -214,9 +207,7 @@ std::vector<Real> Model::tfsiso_rates(std::size_t k) const {
   const std::size_t order = tf.denominator.size() - 1;
   const Real lead = tf.denominator[order];
   const auto p = [&](std::size_t m) { return tf.denominator[m] / lead; };
-  const auto q = [&](std::size_t m) {
-    return m < tf.numerator.size() ? tf.numerator[m] / lead : 0.0L;
-  };
+  const auto q = [&](std::size_t m) { return m < tf.numerator.size() ? tf.numerator[m] / lead : 0.0L; };
   const Real u = input_entry(tf.u, 0);
   const std::size_t first = tfsiso_slot_[k];
   std::vector<Real> rates(order);
@@ -247,9 +238,7 @@ std::vector<Real> Model::lse_rates(std::size_t k) const {
 
 std::vector<Real> Model::differential_rates() const {
   std::vector<Real> rates;
-  const auto append = [&](const std::vector<Real>& more) {
-    rates.insert(rates.end(), more.begin(), more.end());
-  };
+  const auto append = [&](const std::vector<Real>& more) { rates.insert(rates.end(), more.begin(), more.end()); };
   for (std::size_t k = 0; k < mechanism_.lses.size(); ++k) append(lse_rates(k));
   for (std::size_t k = 0; k < mechanism_.tfsisos.size(); ++k) append(tfsiso_rates(k));
   for (const Diff& diff : mechanism_.diffs) rates.push_back(evaluate(diff.function));

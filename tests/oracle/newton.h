@@ -18,8 +18,7 @@ struct NewtonScales {
   std::vector<Real> floor;
 };
 
-[[nodiscard]] inline std::vector<Real> group_scales(const NewtonScales& scales,
-                                                    const std::vector<Real>& x) {
+[[nodiscard]] inline std::vector<Real> group_scales(const NewtonScales& scales, const std::vector<Real>& x) {
   std::vector<Real> largest(x.size() + 8, 0);
   for (std::size_t k = 0; k < x.size(); ++k) {
     Real& of_group = largest.at(static_cast<std::size_t>(scales.group[k]));

@@ -18,9 +18,7 @@ Mat orthonormal(const std::array<Triple, 3>& rows) {
   return R;
 }
 
-BodyRef ref_of(int id, bool is_point_mass) {
-  return {is_point_mass ? BodyKind::point_mass : BodyKind::part, id};
-}
+BodyRef ref_of(int id, bool is_point_mass) { return {is_point_mass ? BodyKind::point_mass : BodyKind::part, id}; }
 
 NewtonScales algebra_scales(const Model& model) {
   const std::vector<int> groups = model.algebra_groups();
@@ -35,8 +33,12 @@ void place(Model& model, const OraclePoint& point) {
   for (const BodyPoint& given : point.bodies) {
     const int b = model.body_index(ref_of(given.body_id, given.is_point_mass));
     BodyMotion& m = model.motion[static_cast<std::size_t>(b)];
-    m = {to_vec(given.position), orthonormal(given.rotation), to_vec(given.velocity),
-         given.is_point_mass ? Vec{} : to_vec(given.angular_velocity), Vec{}, Vec{}};
+    m = {to_vec(given.position),
+         orthonormal(given.rotation),
+         to_vec(given.velocity),
+         given.is_point_mass ? Vec{} : to_vec(given.angular_velocity),
+         Vec{},
+         Vec{}};
     ++placed;
   }
   if (placed + 1 != model.bodies.size()) throw std::runtime_error("the point lacks a body");
@@ -76,8 +78,7 @@ namespace {
 // The model around one operating point: maps values of states and inputs to rates and outputs.
 class Neighbourhood {
  public:
-  Neighbourhood(const Mechanism& mechanism, const OraclePoint& point,
-                const std::vector<ChosenState>& states)
+  Neighbourhood(const Mechanism& mechanism, const OraclePoint& point, const std::vector<ChosenState>& states)
       : model_(mechanism), states_(states) {
     place(model_, point);
     read_states();
@@ -110,9 +111,9 @@ class Neighbourhood {
 
  private:
   struct Column {
-    std::size_t dof = 0;       // of a coordinate or rate
-    std::size_t slot = 0;      // of a differential state
-    std::size_t partner = 0;   // rate of a coordinate, coordinate of a rate
+    std::size_t dof = 0;      // of a coordinate or rate
+    std::size_t slot = 0;     // of a differential state
+    std::size_t partner = 0;  // rate of a coordinate, coordinate of a rate
   };
 
   [[nodiscard]] std::size_t unknowns() const { return static_cast<std::size_t>(model_.dofs); }
@@ -122,10 +123,8 @@ class Neighbourhood {
   void pose(const std::vector<Real>& y);
   void move(const std::vector<Real>& y, const std::vector<Real>& ydot);
   [[nodiscard]] std::vector<Real> solve_positions(const std::vector<Real>& x);
-  [[nodiscard]] std::vector<Real> solve_velocities(const std::vector<Real>& x,
-                                                   const std::vector<Real>& y);
-  [[nodiscard]] std::vector<Real> second_rates(const std::vector<Real>& y,
-                                               const std::vector<Real>& ydot) const;
+  [[nodiscard]] std::vector<Real> solve_velocities(const std::vector<Real>& x, const std::vector<Real>& y);
+  [[nodiscard]] std::vector<Real> second_rates(const std::vector<Real>& y, const std::vector<Real>& ydot) const;
   void check_dropped_rows() const;
 
   Model model_;
@@ -148,11 +147,9 @@ void Neighbourhood::read_states() {
     const ChosenState& s = states_[k];
     Column column;
     if (s.kind == Kind::differential) {
-      const auto found = std::find_if(
-          model_.slots.begin(), model_.slots.end(), [&](const DifferentialSlot& slot) {
-            return slot.element == s.element && slot.element_id == s.element_id &&
-                   slot.index == s.index;
-          });
+      const auto found = std::find_if(model_.slots.begin(), model_.slots.end(), [&](const DifferentialSlot& slot) {
+        return slot.element == s.element && slot.element_id == s.element_id && slot.index == s.index;
+      });
       if (found == model_.slots.end()) throw std::runtime_error("no such differential state");
       column.slot = static_cast<std::size_t>(found - model_.slots.begin());
       ++differential;
@@ -200,8 +197,8 @@ void Neighbourhood::move(const std::vector<Real>& y, const std::vector<Real>& yd
     model_.motion[b].v = nominal_[b].v + Vec{rate[0], rate[1], rate[2]};
     if (body.dof == 3) continue;
     const Vec turn{at[3], at[4], at[5]};
-    model_.motion[b].w = left_jacobian(turn) * Vec{rate[3], rate[4], rate[5]} +
-                         rotation_exponential(turn) * nominal_[b].w;
+    model_.motion[b].w =
+        left_jacobian(turn) * Vec{rate[3], rate[4], rate[5]} + rotation_exponential(turn) * nominal_[b].w;
   }
   model_.update_velocities();
 }
@@ -223,8 +220,7 @@ std::vector<Real> Neighbourhood::solve_positions(const std::vector<Real>& x) {
   return y;
 }
 
-std::vector<Real> Neighbourhood::solve_velocities(const std::vector<Real>& x,
-                                                  const std::vector<Real>& y) {
+std::vector<Real> Neighbourhood::solve_velocities(const std::vector<Real>& x, const std::vector<Real>& y) {
   std::vector<Real> ydot(unknowns(), 0);
   const auto residual = [&](const std::vector<Real>& at) {
     move(y, at);
@@ -270,8 +266,7 @@ void Neighbourhood::polish() {
     fastest = std::max({fastest, norm(m.v) / model_.length, norm(m.w)});
   }
   for (std::size_t k = 0; k < unknowns(); ++k) {
-    moved_ = std::max({moved_, std::fabs(y[k]) / scales_.floor[k],
-                       std::fabs(ydot[k]) / (scales_.floor[k] * fastest)});
+    moved_ = std::max({moved_, std::fabs(y[k]) / scales_.floor[k], std::fabs(ydot[k]) / (scales_.floor[k] * fastest)});
   }
   if (moved_ > 1e-9L) throw std::runtime_error("the point is not on the constraints");
 }
@@ -287,8 +282,7 @@ void Neighbourhood::settle_algebra() {
   }
 }
 
-std::vector<Real> Neighbourhood::second_rates(const std::vector<Real>& y,
-                                              const std::vector<Real>& ydot) const {
+std::vector<Real> Neighbourhood::second_rates(const std::vector<Real>& y, const std::vector<Real>& ydot) const {
   std::vector<Real> second(unknowns(), 0);
   for (std::size_t b = 1; b < model_.bodies.size(); ++b) {
     const Model::BodyData& body = model_.bodies[b];
@@ -398,9 +392,7 @@ Extrapolated differentiate(F&& f, Real h) {
   return best;
 }
 
-Matrix matrix(std::size_t rows, std::size_t columns) {
-  return Matrix(rows, std::vector<double>(columns, 0.0));
-}
+Matrix matrix(std::size_t rows, std::size_t columns) { return Matrix(rows, std::vector<double>(columns, 0.0)); }
 
 double relative_error(const Matrix& value, const Matrix& error) {
   double largest = 1, worst = 0;
@@ -426,8 +418,8 @@ OracleLinearModel oracle_linearize(const Mechanism& mechanism, const OraclePoint
   result.C = result.C_error = matrix(outputs, n);
   result.D = result.D_error = matrix(outputs, inputs);
   std::vector<Real> x(n, 0), u(inputs, 0);
-  const auto store = [&](const Extrapolated& column, Matrix& top, Matrix& top_error, Matrix& low,
-                         Matrix& low_error, std::size_t j) {
+  const auto store = [&](const Extrapolated& column, Matrix& top, Matrix& top_error, Matrix& low, Matrix& low_error,
+                         std::size_t j) {
     for (std::size_t i = 0; i < n; ++i) {
       top[i][j] = static_cast<double>(column.value[i]);
       top_error[i][j] = static_cast<double>(column.error[i]);
@@ -445,8 +437,7 @@ OracleLinearModel oracle_linearize(const Mechanism& mechanism, const OraclePoint
       x[j] = 0;
       return value;
     };
-    store(differentiate(along, first_step * near.step(j)), result.A, result.A_error, result.C,
-          result.C_error, j);
+    store(differentiate(along, first_step * near.step(j)), result.A, result.A_error, result.C, result.C_error, j);
   }
   for (std::size_t j = 0; j < inputs; ++j) {
     const auto along = [&](Real h) {
@@ -465,8 +456,7 @@ OracleLinearModel oracle_linearize(const Mechanism& mechanism, const OraclePoint
   for (std::size_t b = 1; b < near.model().bodies.size(); ++b) {
     const BodyRef& ref = near.model().bodies[b].ref;
     const BodyMotion& m = near.nominal()[b];
-    result.accelerations.push_back(
-        {ref.id, ref.kind == BodyKind::point_mass, to_triple(m.a), to_triple(m.al)});
+    result.accelerations.push_back({ref.id, ref.kind == BodyKind::point_mass, to_triple(m.a), to_triple(m.al)});
   }
   for (const Real v : near.model().differential_rates()) {
     result.differential_rates.push_back(static_cast<double>(v));

@@ -63,7 +63,7 @@ struct OracleLinearModel {
   double error_estimate = 0;                  // largest over the four, each relative to its largest entry or 1
   std::vector<double> outputs, inputs;        // at the operating point
   std::vector<BodyAcceleration> accelerations;
-  std::vector<double> differential_rates;     // in the order of OraclePoint::z as drawn_point writes it
+  std::vector<double> differential_rates;  // in the order of OraclePoint::z as drawn_point writes it
   double polish = 0;  // largest change that put the given point on the constraints, relative to the model
 };
 

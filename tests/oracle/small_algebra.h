@@ -17,28 +17,18 @@ struct Vec {
   Real x = 0, y = 0, z = 0;
 };
 
-[[nodiscard]] inline Vec operator+(const Vec& a, const Vec& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-[[nodiscard]] inline Vec operator-(const Vec& a, const Vec& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
+[[nodiscard]] inline Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+[[nodiscard]] inline Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 [[nodiscard]] inline Vec operator-(const Vec& a) { return {-a.x, -a.y, -a.z}; }
 [[nodiscard]] inline Vec operator*(Real s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
 inline Vec& operator+=(Vec& a, const Vec& b) { return a = a + b; }
-[[nodiscard]] inline Real dot(const Vec& a, const Vec& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+[[nodiscard]] inline Real dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 [[nodiscard]] inline Vec cross(const Vec& a, const Vec& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 [[nodiscard]] inline Real norm(const Vec& a) { return std::sqrt(dot(a, a)); }
-[[nodiscard]] inline Real component(const Vec& a, int k) {
-  return k == 0 ? a.x : (k == 1 ? a.y : a.z);
-}
-inline void set_component(Vec& a, int k, Real value) {
-  (k == 0 ? a.x : (k == 1 ? a.y : a.z)) = value;
-}
+[[nodiscard]] inline Real component(const Vec& a, int k) { return k == 0 ? a.x : (k == 1 ? a.y : a.z); }
+inline void set_component(Vec& a, int k, Real value) { (k == 0 ? a.x : (k == 1 ? a.y : a.z)) = value; }
 
 // A 3 x 3 matrix by columns: the columns of a rotation are the axes of the rotated frame.
 struct Mat {
@@ -61,9 +51,7 @@ struct Mat {
   const auto& c = m.column;
   return {{Vec{c[0].x, c[1].x, c[2].x}, Vec{c[0].y, c[1].y, c[2].y}, Vec{c[0].z, c[1].z, c[2].z}}};
 }
-[[nodiscard]] inline Mat skew(const Vec& v) {
-  return {{Vec{0, v.z, -v.y}, Vec{-v.z, 0, v.x}, Vec{v.y, -v.x, 0}}};
-}
+[[nodiscard]] inline Mat skew(const Vec& v) { return {{Vec{0, v.z, -v.y}, Vec{-v.z, 0, v.x}, Vec{v.y, -v.x, 0}}}; }
 [[nodiscard]] inline Mat zero_matrix() { return {{Vec{}, Vec{}, Vec{}}}; }
 
 [[nodiscard]] inline Mat rotation_z(Real a) {
@@ -72,9 +60,7 @@ struct Mat {
 [[nodiscard]] inline Mat rotation_x(Real a) {
   return {{Vec{1, 0, 0}, Vec{0, std::cos(a), std::sin(a)}, Vec{0, -std::sin(a), std::cos(a)}}};
 }
-[[nodiscard]] inline Mat rotation_313(Real a, Real b, Real c) {
-  return rotation_z(a) * rotation_x(b) * rotation_z(c);
-}
+[[nodiscard]] inline Mat rotation_313(Real a, Real b, Real c) { return rotation_z(a) * rotation_x(b) * rotation_z(c); }
 
 // sum (-1)^k s^k / (2k + p)! and its derivative in s. With p = 1, 2, 3 these are sin(t)/t,
 // (1 - cos t)/t^2 and (t - sin t)/t^3 at s = t^2, without their cancellation at small angles.
@@ -114,26 +100,21 @@ struct SeriesValue {
   const Mat Yd = skew(ydot);
   const SeriesValue b = rotation_series(s, 2);
   const SeriesValue c = rotation_series(s, 3);
-  return (b.slope * sdot) * Y + b.value * Yd + (c.slope * sdot) * (Y * Y) +
-         c.value * (Yd * Y + Y * Yd);
+  return (b.slope * sdot) * Y + b.value * Yd + (c.slope * sdot) * (Y * Y) + c.value * (Yd * Y + Y * Yd);
 }
 [[nodiscard]] inline Vec solve3(const Mat& m, const Vec& b) {
   const auto& c = m.column;
   const Real det = dot(c[0], cross(c[1], c[2]));
-  return {dot(b, cross(c[1], c[2])) / det, dot(c[0], cross(b, c[2])) / det,
-          dot(c[0], cross(c[1], b)) / det};
+  return {dot(b, cross(c[1], c[2])) / det, dot(c[0], cross(b, c[2])) / det, dot(c[0], cross(c[1], b)) / det};
 }
 
 // Row-major dense matrix.
 class Dense {
  public:
   Dense() = default;
-  Dense(std::size_t rows, std::size_t columns)
-      : rows_(rows), columns_(columns), data_(rows * columns, 0) {}
+  Dense(std::size_t rows, std::size_t columns) : rows_(rows), columns_(columns), data_(rows * columns, 0) {}
   [[nodiscard]] Real& operator()(std::size_t i, std::size_t j) { return data_[i * columns_ + j]; }
-  [[nodiscard]] Real operator()(std::size_t i, std::size_t j) const {
-    return data_[i * columns_ + j];
-  }
+  [[nodiscard]] Real operator()(std::size_t i, std::size_t j) const { return data_[i * columns_ + j]; }
   [[nodiscard]] std::size_t rows() const { return rows_; }
   [[nodiscard]] std::size_t columns() const { return columns_; }
   void swap_rows(std::size_t i, std::size_t k) {
@@ -177,7 +158,6 @@ class Lu {
     }
     return x;
   }
-  [[nodiscard]] std::size_t size() const { return lu_.rows(); }
   [[nodiscard]] bool ready() const { return ready_; }
 
  private:

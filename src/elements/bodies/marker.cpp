@@ -63,8 +63,8 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
       reader.error("missing-argument", reader.at("USEXP"), "USEXP needs XP");
       return;
     }
-    const auto axes = orientation(
-        {m.angles, m.z_point, m.x_point, m.use_x_point, "REULER", "ZP", "XP"}, m.origin, reader);
+    const auto axes =
+        orientation({m.angles, m.z_point, m.x_point, m.use_x_point, "REULER", "ZP", "XP"}, m.origin, reader);
     if (axes) m.axes = *axes;
   }
 
@@ -105,13 +105,12 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
 
 }  // namespace
 
-extern constinit const Kind marker = {"MARKER",
-                                      "",
-                                      "A point with axes on a body.",
-                                      Kind::Role::marker,
-                                      detail::argument_infos<MarkerStatement>,
-                                      [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-                                        return std::make_unique<MarkerSet>(kind);
-                                      }};
+extern constinit const Kind marker = {
+    "MARKER",
+    "",
+    "A point with axes on a body.",
+    Kind::Role::marker,
+    detail::argument_infos<MarkerStatement>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<MarkerSet>(kind); }};
 
 }  // namespace dynalin

@@ -75,8 +75,7 @@ class PartSet final : public TypedSet<Part> {
       return;
     }
     if (!p.ip.empty() && p.ip.size() != 3 && p.ip.size() != 6) {
-      reader.error("wrong-count", reader.at("IP"),
-                   fmt::format("IP has {} values, it takes 3 or 6", p.ip.size()));
+      reader.error("wrong-count", reader.at("IP"), fmt::format("IP has {} values, it takes 3 or 6", p.ip.size()));
     }
     if ((p.mass > 0 || has_inertia(p)) && !p.cm.valid()) {
       reader.error("missing-cm", reader.statement().at,
@@ -89,8 +88,7 @@ class PartSet final : public TypedSet<Part> {
     }
     Body checked;
     mark_exact(checked, p.exact, reader);
-    const auto axes =
-        orientation({p.angles, p.z_point, p.x_point, false, "REULER", "ZG", "XG"}, p.origin, reader);
+    const auto axes = orientation({p.angles, p.z_point, p.x_point, false, "REULER", "ZG", "XG"}, p.origin, reader);
     if (axes) p.axes = *axes;
   }
 
@@ -107,7 +105,9 @@ class PartSet final : public TypedSet<Part> {
       body.velocity = {{p.vx, p.vy, p.vz},
                        {p.wx, p.wy, p.wz},
                        p.vm.valid() ? p.vm : global_frame,
-                       p.wm.valid() ? p.wm : p.cm.valid() ? p.cm : global_frame};
+                       p.wm.valid()   ? p.wm
+                       : p.cm.valid() ? p.cm
+                                      : global_frame};
       if (!p.wm.valid() && !p.cm.valid() && (p.wx || p.wy || p.wz)) {
         diagnostics.error("missing-cm", labels[k].at,
                           fmt::format("{} states an angular velocity but neither WM nor CM", labels[k].text()));
@@ -124,14 +124,14 @@ class PartSet final : public TypedSet<Part> {
     return std::any_of(p.ip.begin(), p.ip.end(), [](double x) { return x != 0.0; });
   }
 
-  static void place_mass(const Part& p, const ElementLabel& label, BodyId id, const Model& model,
-                         Body& body, Diagnostics& diagnostics) {
+  static void place_mass(const Part& p, const ElementLabel& label, BodyId id, const Model& model, Body& body,
+                         Diagnostics& diagnostics) {
     if (!p.cm.valid()) return;
     const auto owned = [&](MarkerId m, std::string_view argument) {
       if (model.marker(m).place.body == id && !model.marker(m).floating) return true;
       diagnostics.error("foreign-marker", label.at,
-                        fmt::format("{} of {} must be a fixed marker of that part, {} is not", argument,
-                                    label.text(), model.marker(m).label.text()));
+                        fmt::format("{} of {} must be a fixed marker of that part, {} is not", argument, label.text(),
+                                    model.marker(m).label.text()));
       return false;
     };
     if (!owned(p.cm, "CM") || (p.im.valid() && !owned(p.im, "IM"))) return;
@@ -161,7 +161,8 @@ class PartSet final : public TypedSet<Part> {
     if (principal(0) < -1e-6 * scale) {
       diagnostics.error("negative-inertia", label.at,
                         fmt::format("the inertia tensor of {} about its centre of mass has the negative "
-                                    "principal value {:.4g}", label.text(), principal(0)));
+                                    "principal value {:.4g}",
+                                    label.text(), principal(0)));
     } else if (principal(0) > 0 && principal(2) > (principal(0) + principal(1)) * (1 + 1e-4)) {
       // With a principal value of exactly zero a planar model is meant, and no body is claimed.
       diagnostics.warning("impossible-inertia", label.at,
@@ -174,13 +175,12 @@ class PartSet final : public TypedSet<Part> {
 
 }  // namespace
 
-extern constinit const Kind part = {"PART",
-                                    "",
-                                    "A rigid body, or the ground.",
-                                    Kind::Role::body,
-                                    detail::argument_infos<Part>,
-                                    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-                                      return std::make_unique<PartSet>(kind);
-                                    }};
+extern constinit const Kind part = {
+    "PART",
+    "",
+    "A rigid body, or the ground.",
+    Kind::Role::body,
+    detail::argument_infos<Part>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<PartSet>(kind); }};
 
 }  // namespace dynalin

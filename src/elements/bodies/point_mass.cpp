@@ -42,8 +42,7 @@ class PointMassSet final : public TypedSet<PointMass> {
   void read(std::size_t k, ElementReader& reader) override {
     PointMass& p = elements[k];
     if (!read_arguments(p, reader)) return;
-    const auto axes =
-        orientation({p.angles, p.z_point, p.x_point, false, "REULER", "ZG", "XG"}, p.origin, reader);
+    const auto axes = orientation({p.angles, p.z_point, p.x_point, false, "REULER", "ZG", "XG"}, p.origin, reader);
     if (axes) p.axes = *axes;
     for (const std::string& word : p.exact) {
       if (word != "X" && word != "Y" && word != "Z") {
@@ -81,13 +80,12 @@ class PointMassSet final : public TypedSet<PointMass> {
 
 }  // namespace
 
-extern constinit const Kind point_mass = {"POINT_MASS",
-                                          "",
-                                          "A mass that translates and never turns.",
-                                          Kind::Role::body,
-                                          detail::argument_infos<PointMass>,
-                                          [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-                                            return std::make_unique<PointMassSet>(kind);
-                                          }};
+extern constinit const Kind point_mass = {
+    "POINT_MASS",
+    "",
+    "A mass that translates and never turns.",
+    Kind::Role::body,
+    detail::argument_infos<PointMass>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<PointMassSet>(kind); }};
 
 }  // namespace dynalin

@@ -31,7 +31,9 @@ struct JointMotion {
       {.name = "FUNCTION", .slot = &JointMotion::function, .required = true, .help = "a function of TIME alone"},
       {.name = "DISPLACEMENT", .slot = &JointMotion::displacement, .help = "FUNCTION is the displacement"},
       {.name = "VELOCITY", .slot = &JointMotion::velocity, .help = "FUNCTION is the velocity: not available yet"},
-      {.name = "ACCELERATION", .slot = &JointMotion::acceleration, .help = "FUNCTION is the acceleration: not available yet"},
+      {.name = "ACCELERATION",
+       .slot = &JointMotion::acceleration,
+       .help = "FUNCTION is the acceleration: not available yet"},
   }};
 
   // Rows as functions of I seen from J; `f` is subtracted by the kernel.
@@ -43,12 +45,14 @@ struct JointMotion {
 
 class MotionKernel final : public Kernel {
  public:
-  MotionKernel(const std::vector<JointMotion>& elements, const std::vector<ElementLabel>& labels,
-               Layout& layout) {
+  MotionKernel(const std::vector<JointMotion>& elements, const std::vector<ElementLabel>& labels, Layout& layout) {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const JointMotion& e = elements[k];
-      motions_.push_back({e, layout.marker(e.i), layout.marker(e.j),
-                          layout.add_row(labels[k], e.turns ? "rotation" : "translation"), {}});
+      motions_.push_back({e,
+                          layout.marker(e.i),
+                          layout.marker(e.j),
+                          layout.add_row(labels[k], e.turns ? "rotation" : "translation"),
+                          {}});
     }
   }
 
@@ -142,7 +146,9 @@ class MotionSet final : public TypedSet<JointMotion> {
           (m.rotation && m.translation) || (both && !m.rotation && !m.translation)) {
         diagnostics.error("wrong-freedom", labels[k].at,
                           fmt::format("{} must name the freedom of {} that it drives", labels[k].text(), joint),
-                          both ? "ROTATION or TRANSLATION" : joints->rotates() ? "ROTATION" : "TRANSLATION");
+                          both                ? "ROTATION or TRANSLATION"
+                          : joints->rotates() ? "ROTATION"
+                                              : "TRANSLATION");
         continue;
       }
       m.turns = both ? m.rotation : joints->rotates();
@@ -158,13 +164,12 @@ class MotionSet final : public TypedSet<JointMotion> {
 
 }  // namespace
 
-extern constinit const Kind joint_motion = {"MOTION",
-                                            "",
-                                            "Drives the displacement of a joint as a function of time.",
-                                            Kind::Role::element,
-                                            detail::argument_infos<JointMotion>,
-                                            [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-                                              return std::make_unique<MotionSet>(kind);
-                                            }};
+extern constinit const Kind joint_motion = {
+    "MOTION",
+    "",
+    "Drives the displacement of a joint as a function of time.",
+    Kind::Role::element,
+    detail::argument_infos<JointMotion>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<MotionSet>(kind); }};
 
 }  // namespace dynalin

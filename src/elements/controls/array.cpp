@@ -52,9 +52,9 @@ void claim_array(Model& model, ArrayRef ref, char type, std::size_t size, Elemen
   Array& a = set->elements[static_cast<std::size_t>(ref.index)];
   const ElementLabel& label = set->labels[static_cast<std::size_t>(ref.index)];
   if (type == 'X' ? !a.x : !a.y) {
-    diagnostics.error("wrong-array-type", owner_label.at,
-                      fmt::format("{} of {} must be of type {}, {} is not", type, owner_label.text(), type,
-                                  label.text()))
+    diagnostics
+        .error("wrong-array-type", owner_label.at,
+               fmt::format("{} of {} must be of type {}, {} is not", type, owner_label.text(), type, label.text()))
         .notes.push_back({label.at, "it is defined here"});
     return;
   }
@@ -73,23 +73,20 @@ void claim_array(Model& model, ArrayRef ref, char type, std::size_t size, Elemen
   a.owned_size = size;
 }
 
-const Array* input_array(const Model& model, ArrayRef ref, const ElementLabel& owner_label,
-                         Diagnostics& diagnostics) {
+const Array* input_array(const Model& model, ArrayRef ref, const ElementLabel& owner_label, Diagnostics& diagnostics) {
   const Array* a = model.get<Array>(ref);
   if (a && a->u) return a;
   diagnostics.error("wrong-array-type", owner_label.at,
-                    fmt::format("U of {} must be of type U, {} is not", owner_label.text(),
-                                model.label(ref).text()));
+                    fmt::format("U of {} must be of type U, {} is not", owner_label.text(), model.label(ref).text()));
   return nullptr;
 }
 
-extern constinit const Kind array = {"ARRAY",
-                                     "",
-                                     "A vector of constants, inputs, states or outputs.",
-                                     Kind::Role::element,
-                                     detail::argument_infos<Array>,
-                                     [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-                                       return std::make_unique<ArraySet>(kind);
-                                     }};
+extern constinit const Kind array = {
+    "ARRAY",
+    "",
+    "A vector of constants, inputs, states or outputs.",
+    Kind::Role::element,
+    detail::argument_infos<Array>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<ArraySet>(kind); }};
 
 }  // namespace dynalin

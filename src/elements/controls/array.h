@@ -13,8 +13,8 @@ struct Array {
   std::optional<std::int64_t> size;
   std::vector<double> numbers;
   std::vector<VariableRef> variables;
-  ElementHandle owner;           // of an X or Y array: the LSE, TFSISO … it belongs to
-  std::size_t owned_size = 0;    // its number of entries there
+  ElementHandle owner;         // of an X or Y array: the LSE, TFSISO … it belongs to
+  std::size_t owned_size = 0;  // its number of entries there
 
   static constexpr std::array<Argument<Array>, 7> arguments = {{
       {.name = "IC", .slot = &Array::ic, .help = "constants, such as initial conditions"},
@@ -26,14 +26,12 @@ struct Array {
       {.name = "VARIABLES", .slot = &Array::variables, .help = "the inputs in order"},
   }};
 
-  std::size_t entries() const {
-    return u ? variables.size() : (x || y) ? owned_size : numbers.size();
-  }
+  std::size_t entries() const { return u ? variables.size() : (x || y) ? owned_size : numbers.size(); }
 };
 
 // Ties the X or Y array of `owner` to it and checks type and size; reports what does not fit.
-void claim_array(Model&, ArrayRef, char type, std::size_t size, ElementHandle owner,
-                 const ElementLabel& owner_label, Diagnostics&);
+void claim_array(Model&, ArrayRef, char type, std::size_t size, ElementHandle owner, const ElementLabel& owner_label,
+                 Diagnostics&);
 // The U array of an element: its VARIABLEs, or a report and nothing.
 const Array* input_array(const Model&, ArrayRef, const ElementLabel& owner_label, Diagnostics&);
 

@@ -36,7 +36,8 @@ class DiffSet final : public TypedSet<Diff> {
       reader.error("wrong-count", reader.at("IC"), fmt::format("IC has {} values, it takes 1 or 2", d.initial.size()));
     }
     for (const auto& [flag, name] : {std::pair{d.implicit, "IMPLICIT"}, std::pair{d.dynamic_hold, "DYNAMIC_HOLD"}}) {
-      if (flag) reader.error("argument-not-built", reader.at(name), fmt::format("{} of DIFF is not available yet", name));
+      if (flag)
+        reader.error("argument-not-built", reader.at(name), fmt::format("{} of DIFF is not available yet", name));
     }
   }
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
@@ -44,20 +45,19 @@ class DiffSet final : public TypedSet<Diff> {
     for (const Diff& d : elements) {
       items.push_back({d.function, d.initial.empty() ? 0.0 : d.initial[0], d.static_hold});
     }
-    return std::make_unique<FunctionEquationKernel>(FunctionEquationKernel::Unknown::state, std::move(items),
-                                                    labels, layout);
+    return std::make_unique<FunctionEquationKernel>(FunctionEquationKernel::Unknown::state, std::move(items), labels,
+                                                    layout);
   }
 };
 
 }  // namespace
 
-extern constinit const Kind diff = {"DIFF",
-                                    "",
-                                    "One differential state given by an expression.",
-                                    Kind::Role::element,
-                                    detail::argument_infos<Diff>,
-                                    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-                                      return std::make_unique<DiffSet>(kind);
-                                    }};
+extern constinit const Kind diff = {
+    "DIFF",
+    "",
+    "One differential state given by an expression.",
+    Kind::Role::element,
+    detail::argument_infos<Diff>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<DiffSet>(kind); }};
 
 }  // namespace dynalin

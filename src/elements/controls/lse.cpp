@@ -77,16 +77,17 @@ class LseSet final : public TypedSet<Lse> {
       law.inputs = u->variables;
     }
     const std::size_t inputs = law.inputs.size();
-    const std::size_t outputs = e.C.valid() ? model.get<Matrix>(e.C)->rows
-                                : e.D.valid() ? model.get<Matrix>(e.D)->rows : 0;
+    const std::size_t outputs = e.C.valid()   ? model.get<Matrix>(e.C)->rows
+                                : e.D.valid() ? model.get<Matrix>(e.D)->rows
+                                              : 0;
     const auto take = [&](MatrixRef ref, char name, std::size_t rows, std::size_t columns) {
       Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
       if (!ref.valid()) return out;
       const Matrix& m = *model.get<Matrix>(ref);
       if (m.rows != rows || m.columns != columns) {
         diagnostics.error("wrong-size", labels[k].at,
-                          fmt::format("{} of {} must be {} × {}, {} is {} × {}", name, labels[k].text(), rows,
-                                      columns, model.label(ref).text(), m.rows, m.columns));
+                          fmt::format("{} of {} must be {} × {}, {} is {} × {}", name, labels[k].text(), rows, columns,
+                                      model.label(ref).text(), m.rows, m.columns));
         return out;
       }
       for (std::size_t r = 0; r < rows; ++r) {
@@ -117,13 +118,12 @@ class LseSet final : public TypedSet<Lse> {
 
 }  // namespace
 
-extern constinit const Kind lse = {"LSE",
-                                   "",
-                                   "Linear state equations.",
-                                   Kind::Role::element,
-                                   detail::argument_infos<Lse>,
-                                   [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-                                     return std::make_unique<LseSet>(kind);
-                                   }};
+extern constinit const Kind lse = {
+    "LSE",
+    "",
+    "Linear state equations.",
+    Kind::Role::element,
+    detail::argument_infos<Lse>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<LseSet>(kind); }};
 
 }  // namespace dynalin

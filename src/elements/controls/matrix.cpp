@@ -49,7 +49,8 @@ class MatrixSet final : public TypedSet<Matrix> {
     const std::string owner = reader.label().text();
     const int forms = !m.full.empty() + m.sparse + !m.file.empty();
     if (forms != 1) {
-      reader.error("missing-argument", reader.statement().at, fmt::format("{} needs one of FULL, SPARSE and FILE", owner));
+      reader.error("missing-argument", reader.statement().at,
+                   fmt::format("{} needs one of FULL, SPARSE and FILE", owner));
     } else if (!m.file.empty()) {
       read_from_file(m, elements[k], reader);
     } else if (m.sparse) {
@@ -63,14 +64,16 @@ class MatrixSet final : public TypedSet<Matrix> {
   static void read_full(const MatrixStatement& m, Matrix& out, ElementReader& reader) {
     static constexpr std::array<std::string_view, 2> orders = {"RORDER", "CORDER"};
     const auto order = find_keyword(m.full.front(), orders);
-    if (!order) reader.error("unknown-word", reader.at("FULL"), fmt::format("FULL is RORDER or CORDER, not {}", m.full.front()));
+    if (!order)
+      reader.error("unknown-word", reader.at("FULL"), fmt::format("FULL is RORDER or CORDER, not {}", m.full.front()));
     if (!m.rows || !m.columns) {
       reader.error("missing-argument", reader.at("FULL"), "FULL needs ROWS and COLUMNS");
       return;
     }
     const auto rows = static_cast<std::size_t>(*m.rows), columns = static_cast<std::size_t>(*m.columns);
     if (m.values.size() != rows * columns) {
-      reader.error("wrong-count", reader.at("VALUES"), fmt::format("{} × {} values are needed, {} are given", rows, columns, m.values.size()));
+      reader.error("wrong-count", reader.at("VALUES"),
+                   fmt::format("{} × {} values are needed, {} are given", rows, columns, m.values.size()));
       return;
     }
     out = {rows, columns, m.values};
@@ -82,22 +85,25 @@ class MatrixSet final : public TypedSet<Matrix> {
 
   static void read_sparse(const MatrixStatement& m, Matrix& out, ElementReader& reader) {
     if (m.row_of.size() != m.values.size() || m.column_of.size() != m.values.size() || m.values.empty()) {
-      reader.error("wrong-count", reader.at("SPARSE"), fmt::format("I, J and VALUES must have the same length, they have {}, {} and {}",
-                                                                   m.row_of.size(), m.column_of.size(), m.values.size()));
+      reader.error("wrong-count", reader.at("SPARSE"),
+                   fmt::format("I, J and VALUES must have the same length, they have {}, {} and {}", m.row_of.size(),
+                               m.column_of.size(), m.values.size()));
       return;
     }
     const auto rows = m.rows.value_or(*std::max_element(m.row_of.begin(), m.row_of.end()));
     const auto columns = m.columns.value_or(*std::max_element(m.column_of.begin(), m.column_of.end()));
     for (std::size_t k = 0; k < m.values.size(); ++k) {
       if (m.row_of[k] < 1 || m.row_of[k] > rows || m.column_of[k] < 1 || m.column_of[k] > columns) {
-        reader.error("value-out-of-range", reader.at("I"), fmt::format("entry {}, {} lies outside of {} × {}", m.row_of[k], m.column_of[k], rows, columns));
+        reader.error("value-out-of-range", reader.at("I"),
+                     fmt::format("entry {}, {} lies outside of {} × {}", m.row_of[k], m.column_of[k], rows, columns));
         return;
       }
     }
     out.rows = static_cast<std::size_t>(rows), out.columns = static_cast<std::size_t>(columns);
     out.values.assign(out.rows * out.columns, 0.0);
     for (std::size_t k = 0; k < m.values.size(); ++k) {
-      out.values[static_cast<std::size_t>(m.column_of[k] - 1) * out.rows + static_cast<std::size_t>(m.row_of[k] - 1)] = m.values[k];
+      out.values[static_cast<std::size_t>(m.column_of[k] - 1) * out.rows + static_cast<std::size_t>(m.row_of[k] - 1)] =
+          m.values[k];
     }
   }
 
@@ -109,7 +115,8 @@ class MatrixSet final : public TypedSet<Matrix> {
     const std::filesystem::path path = std::filesystem::path(reader.folder()) / m.file;
     std::ifstream in(path, std::ios::binary);
     if (!in) {
-      reader.error("unreadable-file", reader.at("FILE"), fmt::format("the file {} of {} cannot be read", path.string(), reader.label().text()));
+      reader.error("unreadable-file", reader.at("FILE"),
+                   fmt::format("the file {} of {} cannot be read", path.string(), reader.label().text()));
       return;
     }
     std::ostringstream text;
@@ -117,17 +124,20 @@ class MatrixSet final : public TypedSet<Matrix> {
     const auto source = std::make_shared<const SourceText>(path.string(), text.str());
     reader.keep(source);
     auto matrix = read_matrix(*source, m.name, reader.at("NAME"), reader.diagnostics());
-    if (matrix) out = {static_cast<std::size_t>(matrix->rows), static_cast<std::size_t>(matrix->columns), std::move(matrix->values)};
+    if (matrix)
+      out = {static_cast<std::size_t>(matrix->rows), static_cast<std::size_t>(matrix->columns),
+             std::move(matrix->values)};
   }
 };
 
 }  // namespace
 
-extern constinit const Kind matrix = {"MATRIX",
-                                      "",
-                                      "A table of numbers, written out or from a file.",
-                                      Kind::Role::element,
-                                      detail::argument_infos<MatrixStatement>,
-                                      [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<MatrixSet>(kind); }};
+extern constinit const Kind matrix = {
+    "MATRIX",
+    "",
+    "A table of numbers, written out or from a file.",
+    Kind::Role::element,
+    detail::argument_infos<MatrixStatement>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<MatrixSet>(kind); }};
 
 }  // namespace dynalin

@@ -115,13 +115,12 @@ class TfsisoSet final : public TypedSet<Tfsiso> {
 
 }  // namespace
 
-extern constinit const Kind tfsiso = {"TFSISO",
-                                      "",
-                                      "A transfer function with one input and one output.",
-                                      Kind::Role::element,
-                                      detail::argument_infos<Tfsiso>,
-                                      [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-                                        return std::make_unique<TfsisoSet>(kind);
-                                      }};
+extern constinit const Kind tfsiso = {
+    "TFSISO",
+    "",
+    "A transfer function with one input and one output.",
+    Kind::Role::element,
+    detail::argument_infos<Tfsiso>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<TfsisoSet>(kind); }};
 
 }  // namespace dynalin

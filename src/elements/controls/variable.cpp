@@ -28,24 +28,21 @@ class VariableSet final : public TypedSet<Variable> {
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
     std::vector<FunctionEquationKernel::Item> items;
     for (const Variable& v : elements) items.push_back({v.function, v.initial, false});
-    return std::make_unique<FunctionEquationKernel>(FunctionEquationKernel::Unknown::algebraic,
-                                                    std::move(items), labels, layout);
+    return std::make_unique<FunctionEquationKernel>(FunctionEquationKernel::Unknown::algebraic, std::move(items),
+                                                    labels, layout);
   }
 };
 
 }  // namespace
 
-const Expression& variable_function(const Model& model, VariableRef ref) {
-  return model.get<Variable>(ref)->function;
-}
+const Expression& variable_function(const Model& model, VariableRef ref) { return model.get<Variable>(ref)->function; }
 
-extern constinit const Kind variable = {"VARIABLE",
-                                        "",
-                                        "An algebraic value given by an expression.",
-                                        Kind::Role::element,
-                                        detail::argument_infos<Variable>,
-                                        [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-                                          return std::make_unique<VariableSet>(kind);
-                                        }};
+extern constinit const Kind variable = {
+    "VARIABLE",
+    "",
+    "An algebraic value given by an expression.",
+    Kind::Role::element,
+    detail::argument_infos<Variable>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<VariableSet>(kind); }};
 
 }  // namespace dynalin

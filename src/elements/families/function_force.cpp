@@ -2,8 +2,8 @@
 
 namespace dynalin {
 
-FunctionForceKernel::FunctionForceKernel(std::vector<FunctionForce> elements,
-                                         const std::vector<ElementLabel>& labels, Layout& layout) {
+FunctionForceKernel::FunctionForceKernel(std::vector<FunctionForce> elements, const std::vector<ElementLabel>& labels,
+                                         Layout& layout) {
   for (std::size_t k = 0; k < elements.size(); ++k) {
     const MarkerPlace I = layout.marker(elements[k].i), J = layout.marker(elements[k].j);
     forces_.push_back({std::move(elements[k]), I, J, layout.add_algebraic(labels[k]), {}});
@@ -14,8 +14,7 @@ void FunctionForceKernel::bind(const Signals& signals) {
   for (Force& f : forces_) f.magnitude = BoundExpression(f.element.magnitude, signals);
 }
 
-PairForce FunctionForceKernel::force_of(const Force& f, const PairMotion& pair, double magnitude,
-                                        bool with_partials) {
+PairForce FunctionForceKernel::force_of(const Force& f, const PairMotion& pair, double magnitude, bool with_partials) {
   if (f.element.direction == Direction::along_line) {
     return along_line(pair, {magnitude, 0.0, 0.0}, with_partials);
   }
@@ -47,8 +46,7 @@ void FunctionForceKernel::remember(const Motion& motion, Memory& memory) const {
   for (const Force& f : forces_) f.magnitude.remember(motion, memory);
 }
 
-void FunctionForceKernel::wrench(const Motion& motion, std::size_t k, bool with_partials,
-                                 MarkerWrench& out) const {
+void FunctionForceKernel::wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const {
   const Force& f = forces_[k];
   out.pair = pair_motion(motion, f.I, f.J);
   out.force = force_of(f, out.pair, motion.algebraic[static_cast<std::size_t>(f.algebraic)], with_partials);
@@ -61,8 +59,7 @@ std::string FunctionForceKernel::fault(const Motion& motion) const {
   for (const Force& f : forces_) {
     const std::string reason = f.magnitude.fault(motion);
     if (!reason.empty()) return f.element.label.full_text() + ": " + reason;
-    if (f.element.direction == Direction::along_line &&
-        norm(motion.point(f.I) - motion.point(f.J)) == 0.0) {
+    if (f.element.direction == Direction::along_line && norm(motion.point(f.I) - motion.point(f.J)) == 0.0) {
       return "the markers of " + f.element.label.full_text() + " coincide, its line of action has no direction";
     }
   }

@@ -34,8 +34,7 @@ void InertiaKernel::equations(const Motion& motion, Equations& eq) const {
     if (block.count < 6) continue;
     const Matrix3 G1 = b.Rdot * SA;
     eq.add_block(Column::acceleration, m.body, column + 3, -skew(c), J, 1.0);
-    eq.add_block(Column::velocity, m.body, column + 3, -2.0 * skew(cdot),
-                 2.0 * (trace(G1) * one - G1), 1.0);
+    eq.add_block(Column::velocity, m.body, column + 3, -2.0 * skew(cdot), 2.0 * (trace(G1) * one - G1), 1.0);
     eq.add_block(Column::position, m.body, column + 3, -skew(cddot),
                  transpose(G2) - G2 + skew(b.rddot - gravity_) * skew(c), 1.0);
   }

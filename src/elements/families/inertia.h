@@ -30,9 +30,9 @@ class InertiaKernel final : public Kernel {
  private:
   struct Mass {
     BodyId body;
-    double mass;     // dynamical
-    Vector moment;   // m s, BCS axes
-    Matrix3 S;       // second moments about the BCS origin, BCS axes
+    double mass;    // dynamical
+    Vector moment;  // m s, BCS axes
+    Matrix3 S;      // second moments about the BCS origin, BCS axes
   };
   std::vector<Mass> masses_;
   Vector gravity_;

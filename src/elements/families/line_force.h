@@ -41,7 +41,8 @@ class LineForceKernel final : public Kernel {
   std::string fault(const Motion& motion) const override {
     for (std::size_t k = 0; k < forces_.size(); ++k) {
       const Vector line = motion.point(forces_[k].I) - motion.point(forces_[k].J);
-      if (norm(line) == 0.0) return "the markers of " + (*labels_)[k].full_text() + " coincide, its line of action has no direction";
+      if (norm(line) == 0.0)
+        return "the markers of " + (*labels_)[k].full_text() + " coincide, its line of action has no direction";
     }
     return {};
   }
@@ -53,8 +54,7 @@ class LineForceKernel final : public Kernel {
   };
   static PairForce force_of(const Force& f, const PairMotion& pair, bool with_partials) {
     const Taylor d = norm(pair.I.origin - pair.J.origin);
-    const TimeTaylor<Dual<2>> seeded{Dual<2>(d.value, 0), Dual<2>(d.rate, 1),
-                                     Dual<2>(detail::missing(0.0))};
+    const TimeTaylor<Dual<2>> seeded{Dual<2>(d.value, 0), Dual<2>(d.rate, 1), Dual<2>(detail::missing(0.0))};
     const Dual<2> F = f.element.along_line(seeded);
     return along_line(pair, {F.value, F.partial[0], F.partial[1]}, with_partials);
   }
@@ -99,8 +99,7 @@ class AxisTorqueKernel final : public Kernel {
     MarkerPlace I, J;
     std::int32_t memory;
   };
-  static PairForce torque_of(const Torque& t, const PairMotion& pair, const Motion& motion,
-                             bool with_partials) {
+  static PairForce torque_of(const Torque& t, const PairMotion& pair, const Motion& motion, bool with_partials) {
     const auto I = path::seeded<12>(pair.relative);
     Dual<12> angle = joint_rotation(I).value;
     angle.value = unwrapped(angle.value, motion.memory[static_cast<std::size_t>(t.memory)]);

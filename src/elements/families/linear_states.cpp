@@ -2,16 +2,15 @@
 
 namespace dynalin {
 
-LinearStatesKernel::LinearStatesKernel(std::vector<LinearStates> laws,
-                                       const std::vector<ElementLabel>& labels, Layout& layout) {
+LinearStatesKernel::LinearStatesKernel(std::vector<LinearStates> laws, const std::vector<ElementLabel>& labels,
+                                       Layout& layout) {
   for (std::size_t k = 0; k < laws.size(); ++k) {
     Element e{std::move(laws[k]), 0, 0, {}};
     const LinearStates& law = e.law;
     e.first_state = static_cast<std::int32_t>(layout.states.size());
     for (Eigen::Index n = 0; n < law.A.rows(); ++n) {
       layout.add_state({&labels[k], law.type, static_cast<std::int32_t>(n) + 1,
-                        law.initial.empty() ? 0.0 : law.initial[static_cast<std::size_t>(n)],
-                        law.held_in_statics});
+                        law.initial.empty() ? 0.0 : law.initial[static_cast<std::size_t>(n)], law.held_in_statics});
     }
     e.first_output = static_cast<std::int32_t>(layout.algebraic.size());
     for (Eigen::Index n = 0; n < law.C.rows(); ++n) {
@@ -29,8 +28,8 @@ void LinearStatesKernel::bind(const Signals& signals) {
 
 void LinearStatesKernel::equations(const Motion& motion, Equations& eq) const {
   // One row of [state or output] − M z − N u = 0.
-  const auto add_row = [&](const Element& e, std::int32_t row, const Eigen::MatrixXd& M,
-                           const Eigen::MatrixXd& N, Eigen::Index r) {
+  const auto add_row = [&](const Element& e, std::int32_t row, const Eigen::MatrixXd& M, const Eigen::MatrixXd& N,
+                           Eigen::Index r) {
     double sum = 0;
     for (Eigen::Index c = 0; c < M.cols(); ++c) {
       const std::int32_t z = e.first_state + static_cast<std::int32_t>(c);

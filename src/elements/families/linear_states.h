@@ -12,9 +12,9 @@ namespace dynalin {
 
 struct LinearStates {
   StateType type = StateType::lse;
-  Eigen::MatrixXd A, B, C, D;       // with as many columns in B and D as there are inputs
+  Eigen::MatrixXd A, B, C, D;  // with as many columns in B and D as there are inputs
   std::vector<VariableRef> inputs;
-  std::vector<double> initial;      // z at the start
+  std::vector<double> initial;  // z at the start
   bool held_in_statics = false;
 };
 

@@ -4,8 +4,8 @@
 
 namespace dynalin {
 
-bool check_pair(const Model& model, const ElementLabel& label, MarkerId i, MarkerId j,
-                const PairRequirements& needs, Diagnostics& diagnostics) {
+bool check_pair(const Model& model, const ElementLabel& label, MarkerId i, MarkerId j, const PairRequirements& needs,
+                Diagnostics& diagnostics) {
   bool ok = true;
   const auto check_one = [&](MarkerId m, bool needs_rotation) {
     const Marker& marker = model.marker(m);
@@ -18,17 +18,16 @@ bool check_pair(const Model& model, const ElementLabel& label, MarkerId i, Marke
     }
     if (needs_rotation && body.kind == BodyKind::point_mass) {
       diagnostics.error("rotation-of-point-mass", label.at,
-                        fmt::format("{} acts on the rotation of {}, which has none", label.text(),
-                                    body.label.text()));
+                        fmt::format("{} acts on the rotation of {}, which has none", label.text(), body.label.text()));
       ok = false;
     }
   };
   check_one(i, needs.rotation_of_I);
   check_one(j, needs.rotation_of_J);
   if (needs.different_bodies && model.marker(i).place.body == model.marker(j).place.body) {
-    diagnostics.error("same-body", label.at,
-                      fmt::format("I and J of {} are both on {}", label.text(),
-                                  model.body(model.marker(i).place.body).label.text()));
+    diagnostics.error(
+        "same-body", label.at,
+        fmt::format("I and J of {} are both on {}", label.text(), model.body(model.marker(i).place.body).label.text()));
     ok = false;
   }
   return ok;

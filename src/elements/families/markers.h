@@ -14,7 +14,6 @@ struct PairRequirements {
 };
 
 // Reports floating markers, markers on one body and torques on a POINT_MASS; false if anything was wrong.
-bool check_pair(const Model&, const ElementLabel&, MarkerId i, MarkerId j, const PairRequirements&,
-                Diagnostics&);
+bool check_pair(const Model&, const ElementLabel&, MarkerId i, MarkerId j, const PairRequirements&, Diagnostics&);
 
 }  // namespace dynalin

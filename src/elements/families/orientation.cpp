@@ -11,12 +11,11 @@ namespace {
 constexpr double degenerate = 1e-10;
 }  // namespace
 
-std::optional<Matrix3> orientation(const WrittenOrientation& w, const Vector& origin,
-                                   ElementReader& reader) {
+std::optional<Matrix3> orientation(const WrittenOrientation& w, const Vector& origin, ElementReader& reader) {
   if (w.angles && (w.z_point || w.x_point)) {
-    reader.error("conflicting-orientation", reader.at(w.z_point ? w.z_name : w.x_name),
-                 fmt::format("{} states both {} and {}", reader.label().text(), w.angles_name,
-                             w.z_point ? w.z_name : w.x_name));
+    reader.error(
+        "conflicting-orientation", reader.at(w.z_point ? w.z_name : w.x_name),
+        fmt::format("{} states both {} and {}", reader.label().text(), w.angles_name, w.z_point ? w.z_name : w.x_name));
     return std::nullopt;
   }
   if (w.angles) return rotation_313(w.angles->x, w.angles->y, w.angles->z);
@@ -33,8 +32,7 @@ std::optional<Matrix3> orientation(const WrittenOrientation& w, const Vector& or
   if (!lead_point) return fail(w.z_name, fmt::format("USEXP needs {}", w.x_name));
   const Vector lead = *lead_point - origin;
   if (norm(lead) == 0.0) {
-    return fail(lead_name, fmt::format("{} of {} coincides with the origin", lead_name,
-                                       reader.label().text()));
+    return fail(lead_name, fmt::format("{} of {} coincides with the origin", lead_name, reader.label().text()));
   }
   const Vector axis = normalized(lead);
   const auto& plane_point = x_leads ? w.z_point : w.x_point;
@@ -46,9 +44,8 @@ std::optional<Matrix3> orientation(const WrittenOrientation& w, const Vector& or
   }
   const Vector normal = x_leads ? cross(towards, axis) : cross(axis, towards);
   if (norm(normal) <= degenerate * norm(towards) || norm(towards) == 0.0) {
-    return fail(x_leads ? w.z_name : w.x_name,
-                fmt::format("{} and {} of {} lie on one line with the origin", w.z_name, w.x_name,
-                            reader.label().text()));
+    return fail(x_leads ? w.z_name : w.x_name, fmt::format("{} and {} of {} lie on one line with the origin", w.z_name,
+                                                           w.x_name, reader.label().text()));
   }
   const Vector y = normalized(normal);
   if (x_leads) return Matrix3{axis, y, cross(axis, y)};

@@ -17,8 +17,7 @@ class SingleComponentSet final : public TypedSet<E> {
     for (std::size_t k = 0; k < this->elements.size(); ++k) {
       const E& e = this->elements[k];
       const bool turns = E::acts_on_rotation;
-      check_pair(model, this->labels[k], e.i, e.j, {!e.action_only, turns, turns && !e.action_only},
-                 diagnostics);
+      check_pair(model, this->labels[k], e.i, e.j, {!e.action_only, turns, turns && !e.action_only}, diagnostics);
     }
   }
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
@@ -33,14 +32,13 @@ class SingleComponentSet final : public TypedSet<E> {
 
 template <class E>
 constexpr Kind single_component() {
-  return {"SFORCE",
-          E::variant,
-          E::summary,
-          Kind::Role::element,
-          detail::argument_infos<E>,
-          [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-            return std::make_unique<SingleComponentSet<E>>(kind);
-          }};
+  return {
+      "SFORCE",
+      E::variant,
+      E::summary,
+      Kind::Role::element,
+      detail::argument_infos<E>,
+      [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<SingleComponentSet<E>>(kind); }};
 }
 
 }  // namespace dynalin

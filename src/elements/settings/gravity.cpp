@@ -30,13 +30,12 @@ class GravitySet final : public TypedSet<Gravity> {
 
 }  // namespace
 
-extern constinit const Kind gravity = {"ACCGRAV",
-                                       "",
-                                       "Gravitational acceleration in global axes.",
-                                       Kind::Role::singleton,
-                                       detail::argument_infos<Gravity>,
-                                       [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-                                         return std::make_unique<GravitySet>(kind);
-                                       }};
+extern constinit const Kind gravity = {
+    "ACCGRAV",
+    "",
+    "Gravitational acceleration in global axes.",
+    Kind::Role::singleton,
+    detail::argument_infos<Gravity>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<GravitySet>(kind); }};
 
 }  // namespace dynalin

@@ -76,16 +76,15 @@ struct UnitsStatement {
 };
 
 template <std::size_t n, class Entry>
-const Entry* look_up(const std::array<Entry, n>& table, const std::vector<std::string>& word,
-                     std::string_view argument, ElementReader& reader) {
+const Entry* look_up(const std::array<Entry, n>& table, const std::vector<std::string>& word, std::string_view argument,
+                     ElementReader& reader) {
   std::array<std::string_view, n> names;
   std::transform(table.begin(), table.end(), names.begin(), [](const Entry& e) { return e.name; });
   if (const auto k = find_keyword(word.front(), names)) return &table[*k];
   const auto near = nearest_word(word.front(), names);
-  reader.error("unknown-unit", reader.at(argument),
-               fmt::format("{} is no unit of {}", word.front(), argument),
-               near.empty() ? fmt::format("known are {}", fmt::join(names, ", "))
-                            : fmt::format("did you mean {}?", near));
+  reader.error(
+      "unknown-unit", reader.at(argument), fmt::format("{} is no unit of {}", word.front(), argument),
+      near.empty() ? fmt::format("known are {}", fmt::join(names, ", ")) : fmt::format("did you mean {}?", near));
   return nullptr;
 }
 
@@ -132,13 +131,12 @@ class UnitsSet final : public TypedSet<UnitsStatement> {
 
 }  // namespace
 
-extern constinit const Kind units = {"UNITS",
-                                     "",
-                                     "Units of the dataset; they enter by the consistency factor alone.",
-                                     Kind::Role::singleton,
-                                     detail::argument_infos<UnitsStatement>,
-                                     [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-                                       return std::make_unique<UnitsSet>(kind);
-                                     }};
+extern constinit const Kind units = {
+    "UNITS",
+    "",
+    "Units of the dataset; they enter by the consistency factor alone.",
+    Kind::Role::singleton,
+    detail::argument_infos<UnitsStatement>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<UnitsSet>(kind); }};
 
 }  // namespace dynalin

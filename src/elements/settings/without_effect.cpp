@@ -16,12 +16,9 @@ class InertSet final : public ElementSet {
 };
 
 constexpr Kind inert(std::string_view statement, std::string_view summary) {
-  return {statement,
-          "",
-          summary,
-          Kind::Role::inert,
-          {},
-          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<InertSet>(kind); }};
+  return {statement, "",
+          summary,   Kind::Role::inert,
+          {},        [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<InertSet>(kind); }};
 }
 
 }  // namespace

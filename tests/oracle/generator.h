@@ -1,0 +1,92 @@
+// One draw of a random mechanism; random_mechanism repeats it until a draw is acceptable.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "model.h"
+
+namespace dynalin::oracle {
+
+struct Frame {
+  Vec p;
+  Mat R;
+};
+
+constexpr BodyRef ground{BodyKind::ground, 1};
+
+class Draw {
+ public:
+  Draw(std::uint64_t seed, std::uint64_t attempt)
+      : random_(seed * 1000003U + attempt * 7919U + 17U),
+        wanted_loops_(seed % 10 == 0 ? 2 : (seed % 5 < 2 ? 1 : 0)),
+        wanted_motions_(seed % 3 == 0 ? 1 : 0) {}
+  [[nodiscard]] Mechanism mechanism();
+
+ private:
+  // The standard distributions differ between libraries; the bits of the engine do not.
+  double uniform(double a, double b) { return a + (b - a) * std::ldexp(static_cast<double>(random_() >> 11U), -53); }
+  bool chance(double p) { return uniform(0, 1) < p; }
+  int pick(int n) { return static_cast<int>(random_() % static_cast<std::uint64_t>(n)); }
+  template <class T>
+  const T& one_of(const std::vector<T>& list) {
+    return list[static_cast<std::size_t>(pick(static_cast<int>(list.size())))];
+  }
+  Vec box(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
+  Mat orientation() { return rotation_313(uniform(-3, 3), uniform(0.2, 2.9), uniform(-3, 3)); }
+
+  void draw_units();
+  void add_body(BodyKind kind);
+  int add_marker(const BodyRef& body, const Frame& global);
+  void connect(const BodyRef& i_body, const BodyRef& j_body, JointType type);
+  void draw_tree();
+  void draw_loops();
+  void draw_motions();
+  void draw_massless();
+  void draw_measure_markers();
+  void draw_velocities();
+  void draw_springs();
+  void draw_controls();
+  void draw_differential_elements();
+  void draw_sforces();
+  void draw_outputs();
+  void check_structure() const;
+  void check() const;
+  void check_nodes(const Model& model, const Expr& e) const;
+
+  Expr displacement();
+  Expr velocity();
+  Expr acceleration();
+  Expr reaction();
+  Expr kinematic() { return chance(0.5) ? displacement() : velocity(); }
+  Expr shaped(const Expr& x);
+  Expr feature(int self);
+  std::pair<int, int> distant_pair(bool oriented_j);
+  // Alone against ground only a marker that moves says anything.
+  [[nodiscard]] int moving(int i, int j) const { return body_of(i) == ground ? j : i; }
+  [[nodiscard]] BodyRef body_of(int marker) const;
+  [[nodiscard]] const Body& body(const BodyRef& ref) const;
+  [[nodiscard]] int mobility() const;
+  int variable(const Expr& e) {
+    m_.variables.push_back({next_variable_, e});
+    return next_variable_++;
+  }
+
+  std::mt19937_64 random_;
+  // Rejection starves loops and motions; some seeds insist on them.
+  int wanted_loops_ = 0, wanted_motions_ = 0;
+  Mechanism m_;
+  double L_ = 1, F_ = 10;  // natural length and force
+  std::vector<BodyRef> bodies_{ground};
+  std::vector<std::pair<BodyRef, BodyRef>> connected_;
+  std::vector<int> oriented_;  // measure markers on ground and parts
+  std::vector<int> all_;       // those and the ones on point masses
+  std::vector<int> features_, inputs_;
+  std::vector<Expr> states_;  // DIF and ARYVAL of what the control elements offer
+  int next_marker_ = 1, next_variable_ = 1, next_array_ = 1, next_matrix_ = 1;
+};
+
+}  // namespace dynalin::oracle
