@@ -11,16 +11,13 @@ namespace {
 constexpr std::string_view any_code = "unexpected-text";
 
 Span find(const SourceText& source, std::string_view text) {
-  return {&source, static_cast<std::uint32_t>(source.text().find(text)),
-          static_cast<std::uint32_t>(text.size())};
+  return {&source, static_cast<std::uint32_t>(source.text().find(text)), static_cast<std::uint32_t>(text.size())};
 }
 
 TEST(render, shows_the_line_and_a_caret_under_the_place) {
-  const SourceText source("car.adm",
-                          std::string(40, '\n') + "SPRINGDAMPER/4, I = 12, J=121, K=4.0E4\n");
+  const SourceText source("car.adm", std::string(40, '\n') + "SPRINGDAMPER/4, I = 12, J=121, K=4.0E4\n");
   Diagnostics diagnostics;
-  diagnostics.error("wrong-count", find(source, "121"),
-                    "SPRINGDAMPER/4 refers to MARKER/121, which does not exist",
+  diagnostics.error("wrong-count", find(source, "121"), "SPRINGDAMPER/4 refers to MARKER/121, which does not exist",
                     "MARKER/112 and MARKER/1211 exist");
   EXPECT_EQ(render(diagnostics.items()[0]),
             "car.adm:41:27: error: SPRINGDAMPER/4 refers to MARKER/121, which does not exist "
@@ -67,8 +64,7 @@ TEST(render, cuts_long_lines_around_the_caret) {
   EXPECT_EQ(render(diagnostics),
             "a.adm:1:1000001: error: m [unexpected-text]\n"
             "    1 | ..." +
-                std::string(60, 'a') + "x" + std::string(39, 'b') + "...\n      |    " +
-                std::string(60, ' ') + "^\n");
+                std::string(60, 'a') + "x" + std::string(39, 'b') + "...\n      |    " + std::string(60, ' ') + "^\n");
 }
 
 TEST(render, marks_a_span_over_several_lines_on_its_first_line_only) {

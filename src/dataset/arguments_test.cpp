@@ -30,8 +30,7 @@ TEST(arguments, separate_at_commas) {
 }
 
 TEST(arguments, keep_lists_whole) {
-  EXPECT_EQ(split("MARKER/2, QP=1,0,-5, ZP=0,0,1, USEXP"),
-            (Texts{"QP=1 , 0 , - 5", "ZP=0 , 0 , 1", "USEXP"}));
+  EXPECT_EQ(split("MARKER/2, QP=1,0,-5, ZP=0,0,1, USEXP"), (Texts{"QP=1 , 0 , - 5", "ZP=0 , 0 , 1", "USEXP"}));
 }
 
 TEST(arguments, keep_lists_of_words_whole) {
@@ -46,8 +45,7 @@ TEST(arguments, take_a_continuation_mark_as_the_comma_of_a_list) {
 TEST(arguments, merge_a_mark_with_the_comma_or_slash_before_it) {
   EXPECT_EQ(split("PART/1\n, GROUND"), Texts{"GROUND"});
   EXPECT_EQ(split("PART/1,\n, GROUND"), Texts{"GROUND"});
-  EXPECT_EQ(split("UNITS/\n, FORCE = NEWTON\n, MASS=KILOGRAM"),
-            (Texts{"FORCE=NEWTON", "MASS=KILOGRAM"}));
+  EXPECT_EQ(split("UNITS/\n, FORCE = NEWTON\n, MASS=KILOGRAM"), (Texts{"FORCE=NEWTON", "MASS=KILOGRAM"}));
   EXPECT_EQ(split("ACCGRAV/\n, JGRAV = -9806.65"), Texts{"JGRAV=- 9806.65"});
 }
 
@@ -57,17 +55,15 @@ TEST(arguments, may_follow_the_slash_directly) {
 }
 
 TEST(arguments, let_an_expression_run_over_lines) {
-  EXPECT_EQ(
-      split("SFORCE/1, FUNCTION = -1.2E-2*(DM(5,6)-291.5)\n, - 2.9E-3*VR(5,6)\n, + 0.0"),
-      Texts{"FUNCTION=- 1.2E-2 * ( DM ( 5 , 6 ) - 291.5 ) <,> - 2.9E-3 * VR ( 5 , 6 ) <,> + 0.0"});
+  EXPECT_EQ(split("SFORCE/1, FUNCTION = -1.2E-2*(DM(5,6)-291.5)\n, - 2.9E-3*VR(5,6)\n, + 0.0"),
+            Texts{"FUNCTION=- 1.2E-2 * ( DM ( 5 , 6 ) - 291.5 ) <,> - 2.9E-3 * VR ( 5 , 6 ) <,> + 0.0"});
   EXPECT_EQ(split("VARIABLE/3\n, FUNCTION = (DX(5,6) +\n, DY(5,6))/\n, DM(5,6)"),
             Texts{"FUNCTION=( DX ( 5 , 6 ) + <,> DY ( 5 , 6 ) ) / <,> DM ( 5 , 6 )"});
   EXPECT_EQ(split("VARIABLE/3, FUNCTION=2*\n, PI\n, *3"), Texts{"FUNCTION=2 * <,> PI <,> * 3"});
 }
 
 TEST(arguments, end_an_expression_where_a_word_follows_an_operand) {
-  EXPECT_EQ(split("MOTION/1, FUNCTION=DX(1)\n, ROTATION"),
-            (Texts{"FUNCTION=DX ( 1 )", "ROTATION"}));
+  EXPECT_EQ(split("MOTION/1, FUNCTION=DX(1)\n, ROTATION"), (Texts{"FUNCTION=DX ( 1 )", "ROTATION"}));
   EXPECT_EQ(split("MOTION/1, FUNCTION=2*PI, ICDISP=0"), (Texts{"FUNCTION=2 * PI", "ICDISP=0"}));
 }
 
@@ -81,16 +77,13 @@ TEST(arguments, keep_the_colon_and_commas_of_IF_inside_its_parentheses) {
 }
 
 TEST(arguments, end_expressions_at_a_backslash) {
-  EXPECT_EQ(split("GFORCE/89, FX=20\\FY=40\\FZ=60, JFLOAT=5"),
-            (Texts{"FX=20", "FY=40", "FZ=60", "JFLOAT=5"}));
-  EXPECT_EQ(split("REQUEST/4\n, F2=DX(1,2)\\\n, F3=DY(1,2)\\"),
-            (Texts{"F2=DX ( 1 , 2 )", "F3=DY ( 1 , 2 )"}));
+  EXPECT_EQ(split("GFORCE/89, FX=20\\FY=40\\FZ=60, JFLOAT=5"), (Texts{"FX=20", "FY=40", "FZ=60", "JFLOAT=5"}));
+  EXPECT_EQ(split("REQUEST/4\n, F2=DX(1,2)\\\n, F3=DY(1,2)\\"), (Texts{"F2=DX ( 1 , 2 )", "F3=DY ( 1 , 2 )"}));
   EXPECT_EQ(split("GFORCE/1, FX = 0\\ FY = 0\\"), (Texts{"FX=0", "FY=0"}));
 }
 
 TEST(arguments, may_lack_the_comma_between_them) {
-  EXPECT_EQ(split("MARKER/1, PART=1 QP=1,0,0 ZP=0,0,1"),
-            (Texts{"PART=1", "QP=1 , 0 , 0", "ZP=0 , 0 , 1"}));
+  EXPECT_EQ(split("MARKER/1, PART=1 QP=1,0,0 ZP=0,0,1"), (Texts{"PART=1", "QP=1 , 0 , 0", "ZP=0 , 0 , 1"}));
   EXPECT_EQ(split("MATRIX/1, FULL RORDER, ROWS=4"), (Texts{"FULL", "RORDER", "ROWS=4"}));
   EXPECT_EQ(split("JOINT/1, I=1 REVOLUTE"), (Texts{"I=1", "REVOLUTE"}));
   EXPECT_EQ(split("PART/1 GROUND"), Texts{"GROUND"});
@@ -112,8 +105,7 @@ TEST(arguments, take_file_names_as_raw_text) {
       "MATRIX/2,\n,file=\"a, b.mat\", name=ac");
   EXPECT_EQ(problems(parsed.diagnostics), Texts{});
   const auto value = [&](std::size_t statement, std::size_t argument) {
-    return std::string(
-        parsed.value.statements.at(statement).arguments.at(argument).value_span.text());
+    return std::string(parsed.value.statements.at(statement).arguments.at(argument).value_span.text());
   };
   EXPECT_EQ(value(0, 0), "C:\\my dir\\a(1.mnf");
   EXPECT_EQ(parsed.value.statements[0].arguments.size(), 2u);
@@ -123,8 +115,7 @@ TEST(arguments, take_file_names_as_raw_text) {
 }
 
 TEST(arguments, give_a_comment_the_rest_of_its_line) {
-  const Parsed<Dataset> parsed =
-      read("REQUEST/1, F2=DX(1)\\C=Peter's force: x, y (left, ! note\n, F3=1");
+  const Parsed<Dataset> parsed = read("REQUEST/1, F2=DX(1)\\C=Peter's force: x, y (left, ! note\n, F3=1");
   EXPECT_EQ(problems(parsed.diagnostics), Texts{});
   const Statement& request = parsed.value.statements.at(0);
   ASSERT_EQ(request.arguments.size(), 3u);
@@ -133,8 +124,7 @@ TEST(arguments, give_a_comment_the_rest_of_its_line) {
 }
 
 TEST(arguments, may_follow_a_comment_on_its_line) {
-  EXPECT_EQ(split("REQUEST/1, D, COMMENT=cm position, I=20, J=1"),
-            (Texts{"D", "COMMENT=cm position", "I=20", "J=1"}));
+  EXPECT_EQ(split("REQUEST/1, D, COMMENT=cm position, I=20, J=1"), (Texts{"D", "COMMENT=cm position", "I=20", "J=1"}));
   EXPECT_EQ(split("REQUEST/1, COMMENT=\n, DISPLACEMENT"), (Texts{"COMMENT=", "DISPLACEMENT"}));
 }
 
@@ -170,16 +160,14 @@ TEST(arguments, report_an_unclosed_parenthesis_once) {
 }
 
 TEST(arguments, report_brackets_that_do_not_match) {
-  EXPECT_EQ(split_faulty("SFORCE/1, FUNCTION=MAG([1,2,3)").problems,
-            Texts{"2:23 unbalanced-parenthesis"});
+  EXPECT_EQ(split_faulty("SFORCE/1, FUNCTION=MAG([1,2,3)").problems, Texts{"2:23 unbalanced-parenthesis"});
 }
 
 TEST(arguments, report_stray_equals_signs) {
   EXPECT_EQ(split_faulty("PART/1, MASS==5, CM=2").problems, Texts{"2:14 stray-equals"});
   EXPECT_EQ(split_faulty("PART/1, MASS=1=5, CM=2").problems, Texts{"2:15 stray-equals"});
   EXPECT_EQ(split_faulty("PART/1, =5, CM=2").problems, Texts{"2:9 stray-equals"});
-  EXPECT_EQ(split_faulty("SFORCE/1, FUNCTION=IF(A=B:1,2,3), I=1").problems,
-            Texts{"2:24 stray-equals"});
+  EXPECT_EQ(split_faulty("SFORCE/1, FUNCTION=IF(A=B:1,2,3), I=1").problems, Texts{"2:24 stray-equals"});
   EXPECT_EQ(split_faulty("PART/1, MASS=1=5, CM=2").arguments.back(), "CM=2");
 }
 
@@ -219,8 +207,7 @@ TEST(arguments, report_numbers_that_are_too_large) {
 }
 
 TEST(arguments, warn_when_D_looks_like_an_exponent) {
-  EXPECT_EQ(split_faulty("VARIABLE/1, FUNCTION=2*1.0D+02").problems,
-            Texts{"2:24 degrees-not-exponent"});
+  EXPECT_EQ(split_faulty("VARIABLE/1, FUNCTION=2*1.0D+02").problems, Texts{"2:24 degrees-not-exponent"});
   EXPECT_EQ(split("VARIABLE/1, FUNCTION=30D - 5"), Texts{"FUNCTION=30D - 5"});
 }
 

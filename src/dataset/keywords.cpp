@@ -47,6 +47,7 @@ constexpr auto short_forms = std::to_array<ShortForm>({
     {"A", "ACCELERATION"},
     {"F", "FORCE"},
     {"L", "LENGTH"},
+    {"R", "RADIUS"},
     {"FLE", "FLEX_BODY"},
     {"A", "ACTIONONLY"},
     // kinds of joints

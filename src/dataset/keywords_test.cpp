@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "dataset/dataset.h"
 
@@ -59,6 +62,8 @@ TEST(find_keyword, reads_a_documented_short_form_by_what_is_possible_there) {
   EXPECT_EQ(find_keyword("ma", part), 1u);
   const std::array<std::string_view, 3> joint{"CONVEL", "CYLINDRICAL", "REVOLUTE"};
   EXPECT_EQ(find_keyword("C", joint), 1u);
+  const std::array<std::string_view, 3> graphics{"RM", "RANGLE", "RADIUS"};
+  EXPECT_EQ(find_keyword("r", graphics), 2u);
 }
 
 TEST(nearest_word, finds_what_was_probably_meant) {

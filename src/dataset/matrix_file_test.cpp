@@ -13,9 +13,7 @@ using Values = std::vector<double>;
 class File {
  public:
   explicit File(std::string text) : source_("in.mat", std::move(text)) {}
-  std::optional<MatrixData> read(std::string_view name) {
-    return read_matrix(source_, name, Span{}, diagnostics_);
-  }
+  std::optional<MatrixData> read(std::string_view name) { return read_matrix(source_, name, Span{}, diagnostics_); }
   Texts found() const { return problems(diagnostics_); }
   const Diagnostic& first() const { return diagnostics_.items().at(0); }
   const SourceText& source() const { return source_; }
@@ -171,13 +169,9 @@ TEST(adamsmat, is_read_row_by_row) {
   EXPECT_EQ(matrix->values, (Values{1.364, -3.44, 0, -1.5, 2, 0.25}));
 }
 
-TEST(adamsmat, is_read_column_by_column) {
-  EXPECT_EQ(values(adamsmat, "VALK"), (Values{0, -3.44, 1.5, 2}));
-}
+TEST(adamsmat, is_read_column_by_column) { EXPECT_EQ(values(adamsmat, "VALK"), (Values{0, -3.44, 1.5, 2})); }
 
-TEST(adamsmat, fills_sparse_matrices) {
-  EXPECT_EQ(values(adamsmat, "STL"), (Values{0, 0, -25, 1.5, 0, 0}));
-}
+TEST(adamsmat, fills_sparse_matrices) { EXPECT_EQ(values(adamsmat, "STL"), (Values{0, 0, -25, 1.5, 0, 0})); }
 
 TEST(adamsmat, mixes_whole_numbers_and_others) {
   EXPECT_EQ(values("ADAMSMAT\n1\nSELMOD\nSELMOD FULL RORDER 2 2 4 ( 1I8, 1E14.6 )\n"
@@ -235,9 +229,8 @@ TEST(fortran_format, goes_on_with_its_last_group) {
 }
 
 TEST(fortran_format, refuses_what_it_does_not_know) {
-  for (const char* text :
-       {"", "(", "()", "(A10)", "(3X)", "(3F)", "(F0.3)", "3F8.2", "(9999(9999(F8.2)))",
-        "((((((((((((((((((((((((F8.2))))))))))))))))))))))))", "(99999999999F8.2)"}) {
+  for (const char* text : {"", "(", "()", "(A10)", "(3X)", "(3F)", "(F0.3)", "3F8.2", "(9999(9999(F8.2)))",
+                           "((((((((((((((((((((((((F8.2))))))))))))))))))))))))", "(99999999999F8.2)"}) {
     EXPECT_FALSE(parse_fortran_format(text)) << text;
   }
 }

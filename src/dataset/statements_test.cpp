@@ -20,8 +20,7 @@ Texts heads(const Parsed<Dataset>& parsed) {
 }
 
 TEST(dataset, begins_with_its_title) {
-  const auto parsed =
-      read_whole("ADAMS/View model name: car, 1/2 ! title  \nPART/1, GROUND\nEND\n");
+  const auto parsed = read_whole("ADAMS/View model name: car, 1/2 ! title  \nPART/1, GROUND\nEND\n");
   EXPECT_EQ(parsed.value.title, "ADAMS/View model name: car, 1/2 ! title");
   EXPECT_EQ(heads(parsed), Texts{"PART/1"});
   EXPECT_EQ(problems(parsed.diagnostics), Texts{});
@@ -33,8 +32,8 @@ TEST(dataset, keeps_80_bytes_of_the_title_and_no_part_of_a_character) {
 }
 
 TEST(dataset, takes_a_statement_in_the_place_of_the_title_with_a_warning) {
-  for (const char* first : {"UNITS/FORCE=NEWTON", "PART/1, GROUND", "pa/99",
-                            "UNITS/\n, FORCE=NEWTON", "result/format"}) {
+  for (const char* first :
+       {"UNITS/FORCE=NEWTON", "PART/1, GROUND", "pa/99", "UNITS/\n, FORCE=NEWTON", "result/format"}) {
     const auto parsed = read_whole(std::string(first) + "\nMARKER/1\nEND\n");
     EXPECT_EQ(parsed.value.statements.size(), 2u) << first;
     EXPECT_EQ(problems(parsed.diagnostics), Texts{"1:1 missing-title"}) << first;
@@ -42,8 +41,8 @@ TEST(dataset, takes_a_statement_in_the_place_of_the_title_with_a_warning) {
 }
 
 TEST(dataset, takes_a_title_that_only_resembles_a_statement_as_title) {
-  for (const char* first : {"P/N 1234, rear axle", "R/C", "PART of a car", "Linear/1", "JOINT/1.5",
-                            "! x", "", "M/5 5", "PART/-1"}) {
+  for (const char* first :
+       {"P/N 1234, rear axle", "R/C", "PART of a car", "Linear/1", "JOINT/1.5", "! x", "", "M/5 5", "PART/-1"}) {
     const auto parsed = read_whole(std::string(first) + "\nMARKER/1\nEND\n");
     EXPECT_EQ(heads(parsed), Texts{"MARKER/1"}) << first;
     EXPECT_EQ(parsed.value.title, first);
@@ -89,9 +88,7 @@ TEST(dataset, reads_all_line_ends_alike) {
   }
 }
 
-TEST(dataset, takes_tabs_as_blanks) {
-  EXPECT_EQ(arguments(read("\tPART\t/\t1\n\t,\tMASS\t=\t2")), Texts{"MASS=2"});
-}
+TEST(dataset, takes_tabs_as_blanks) { EXPECT_EQ(arguments(read("\tPART\t/\t1\n\t,\tMASS\t=\t2")), Texts{"MASS=2"}); }
 
 TEST(dataset, drops_a_byte_order_mark) {
   const auto parsed = read_whole("\xEF\xBB\xBFtitle\nPART/1\nEND");
@@ -100,8 +97,7 @@ TEST(dataset, drops_a_byte_order_mark) {
 }
 
 TEST(dataset, refuses_binary_files_and_UTF16_with_one_error) {
-  EXPECT_EQ(problems(read_whole(std::string("\xFF\xFEt\0i\0", 6)).diagnostics),
-            Texts{"1:1 not-text"});
+  EXPECT_EQ(problems(read_whole(std::string("\xFF\xFEt\0i\0", 6)).diagnostics), Texts{"1:1 not-text"});
   EXPECT_EQ(problems(read_whole(std::string(5000, '\0')).diagnostics), Texts{"1:1 not-text"});
 }
 
@@ -165,8 +161,7 @@ TEST(ids, beyond_eight_digits_get_a_warning) {
 }
 
 TEST(ids, are_positive_whole_numbers) {
-  for (const char* id : {"0", "-5", "+5", "1.5", "5D", "1E3", "12abc", "99999999999999999999",
-                         "3000000000", "5'x'"}) {
+  for (const char* id : {"0", "-5", "+5", "1.5", "5D", "1E3", "12abc", "99999999999999999999", "3000000000", "5'x'"}) {
     const auto parsed = read(std::string("MARKER/") + id + ", PART=1");
     EXPECT_EQ(problems(parsed.diagnostics), Texts{"2:8 bad-id"}) << id;
     EXPECT_EQ(arguments(parsed), Texts{"PART=1"}) << id;
@@ -190,8 +185,7 @@ TEST(unknown_statements, that_are_ambiguous_list_what_they_could_be) {
 
 TEST(lines_without_statement, are_reported_and_skipped) {
   const auto parsed = read("Displacement integrator\n  \n, x\ntfsiso/2, num=1\n5, 6\n(1)");
-  EXPECT_EQ(problems(parsed.diagnostics),
-            (Texts{"2:1 not-a-statement", "6:1 not-a-statement", "7:1 not-a-statement"}));
+  EXPECT_EQ(problems(parsed.diagnostics), (Texts{"2:1 not-a-statement", "6:1 not-a-statement", "7:1 not-a-statement"}));
   EXPECT_EQ(parsed.diagnostics.items()[0].at.text(), "Displacement integrator");
   EXPECT_EQ(heads(parsed), Texts{"TFSISO/2"});
 }
@@ -199,8 +193,7 @@ TEST(lines_without_statement, are_reported_and_skipped) {
 TEST(lines_without_statement, have_hints_that_fit) {
   const auto parsed = read("SFORCE/1, I=1,\nJ=2\nPART 5, GROUND");
   ASSERT_EQ(problems(parsed.diagnostics), (Texts{"3:1 not-a-statement", "4:1 not-a-statement"}));
-  EXPECT_EQ(parsed.diagnostics.items()[0].hint,
-            "begin the line with a comma if it continues SFORCE/1");
+  EXPECT_EQ(parsed.diagnostics.items()[0].hint, "begin the line with a comma if it continues SFORCE/1");
   EXPECT_EQ(parsed.diagnostics.items()[1].hint, "write PART/5");
 }
 
@@ -236,8 +229,7 @@ TEST(values, stay_where_they_are_when_the_dataset_moves) {
 // --- commands
 // -------------------------------------------------------------------------------------------
 
-constexpr std::array<std::string_view, 7> keywords{"SIMULATE", "LINEAR", "SHOW", "STOP",
-                                                   "MARKER",   "MOTION", "FILE"};
+constexpr std::array<std::string_view, 7> keywords{"SIMULATE", "LINEAR", "SHOW", "STOP", "MARKER", "MOTION", "FILE"};
 
 Parsed<Dataset> read_commands(const std::string& text, std::uint32_t start = 0) {
   return parse_statements(std::make_shared<SourceText>("a.acf", text), keywords, start);
@@ -260,11 +252,9 @@ TEST(commands, may_lack_the_slash) {
 }
 
 TEST(commands, may_lack_a_comma) {
-  const auto parsed =
-      read_commands("LINEAR/STATEMAT, PINPUT=10, POUTPUT=20\n, FORMAT=MATRIXX FILE=STATES.MAT");
+  const auto parsed = read_commands("LINEAR/STATEMAT, PINPUT=10, POUTPUT=20\n, FORMAT=MATRIXX FILE=STATES.MAT");
   EXPECT_EQ(problems(parsed.diagnostics), Texts{});
-  EXPECT_EQ(arguments(parsed),
-            (Texts{"STATEMAT", "PINPUT=10", "POUTPUT=20", "FORMAT=MATRIXX", "FILE=STATES . MAT"}));
+  EXPECT_EQ(arguments(parsed), (Texts{"STATEMAT", "PINPUT=10", "POUTPUT=20", "FORMAT=MATRIXX", "FILE=STATES . MAT"}));
 }
 
 TEST(commands, begin_behind_the_lines_that_name_the_model) {

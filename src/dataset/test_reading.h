@@ -58,8 +58,7 @@ inline std::vector<std::string> arguments(const Statement& statement, const Sour
   return result;
 }
 
-inline std::vector<std::string> arguments(const Parsed<Dataset>& parsed,
-                                          std::size_t statement = 0) {
+inline std::vector<std::string> arguments(const Parsed<Dataset>& parsed, std::size_t statement = 0) {
   return arguments(parsed.value.statements.at(statement), *parsed.value.source);
 }
 
