@@ -95,7 +95,9 @@ class Reader final : public ElementReader {
       if (close) near.push_back(fmt::format("{}/{}", statement, candidate));
     };
     if (statement == "MARKER") {
-      for (const auto& [candidate, m] : model_.marker_ids) consider(candidate);
+      for (const auto& [candidate, m] : model_.marker_ids) {
+        if (candidate != 0) consider(candidate);
+      }
     } else if (const auto table = model_.ids.find(statement); table != model_.ids.end()) {
       for (const auto& [candidate, h] : table->second) consider(candidate);
     }
