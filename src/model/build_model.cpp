@@ -57,6 +57,7 @@ class Reader final : public ElementReader {
   }
 
   std::optional<Expression> expression(const WrittenArgument& written) override {
+    if (written.damaged) return std::nullopt;  // reported when the text was read
     const std::size_t before = diagnostics().error_count();
     Expression e = parse_expression(written.value, source(), diagnostics());
     if (diagnostics().error_count() > before) return std::nullopt;
