@@ -131,7 +131,17 @@ class FileParser {
         reader.error("command-not-built", reader.at("COMMAND"),
                      "command files within command files are not available yet");
       }
-      if (!w.model.empty()) name_model(w.model, reader.at("MODEL"), w.prefix);
+      if (w.model.empty()) return;
+      if (!file_.model.empty()) {
+        reader.error("second-model", reader.at("MODEL"),
+                     fmt::format("the model {} is already loaded, a run has one model", file_.model),
+                     "run the commands for the other model from a command file of its own");
+      } else if (!file_.commands.empty()) {
+        reader.error("second-model", reader.at("MODEL"), "commands that need the model stand before it is named",
+                     "name the model first");
+      } else {
+        name_model(w.model, reader.at("MODEL"), w.prefix);
+      }
       return;
     } else if (std::find(passive.begin(), passive.end(), s.name) != passive.end()) {
       command.what = PassiveCommand{std::string(s.name)};
@@ -172,12 +182,9 @@ Parsed<CommandFile> parse_command_file(SourceRef source) {
 
   // Model and prefix stand on the first two lines; blank them out so that the rest keeps its places.
   std::string text(source->text());
-  std::size_t end = 0;
-  for (int line = 0; line < 2 && end < text.size(); ++line) {
-    const std::size_t next = text.find('\n', end);
-    const std::size_t stop = next == std::string::npos ? text.size() : next;
-    std::fill(text.begin() + static_cast<std::ptrdiff_t>(end), text.begin() + static_cast<std::ptrdiff_t>(stop), ' ');
-    end = stop + 1;
+  for (std::size_t n = 1; n <= std::min<std::size_t>(2, source->line_count()); ++n) {
+    const std::string_view line = source->line(n);
+    text.replace(static_cast<std::size_t>(line.data() - source->text().data()), line.size(), line.size(), ' ');
   }
   const auto offset = static_cast<std::uint32_t>(first.data() - source->text().data());
   const std::string prefix = source->line_count() > 1 ? std::string(trimmed(source->line(2))) : std::string();

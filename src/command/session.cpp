@@ -286,15 +286,17 @@ class Session {
     const auto matrices = named_matrices(model);
     if (command.format == "MATLAB") {
       for (const NamedMatrix& m : matrices) {
-        auto file = std::make_unique<AtomicFile>(base + m.suffix);
-        write_matlab(file->stream(), m);
-        files_.push_back(std::move(file));
+        write_matlab(new_file(base + m.suffix), m);
       }
     } else {
-      auto file = std::make_unique<AtomicFile>(base);
-      write_fsave(file->stream(), matrices, std::time(nullptr));
-      files_.push_back(std::move(file));
+      write_fsave(new_file(base), matrices, std::time(nullptr));
     }
+  }
+
+  // A later command that writes the same file replaces what an earlier one wrote.
+  std::ostream& new_file(const std::string& path) {
+    std::erase_if(files_, [&](const auto& file) { return file->path() == path; });
+    return files_.emplace_back(std::make_unique<AtomicFile>(path))->stream();
   }
 
   void remark(const std::string& text) {

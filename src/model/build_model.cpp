@@ -264,7 +264,7 @@ class Builder {
       const bool needs_id =
           kind->role == Kind::Role::body || kind->role == Kind::Role::marker || kind->role == Kind::Role::element;
       if (needs_id && !s.id) {
-        diagnostics_.error("missing-id", s.at, fmt::format("{} needs an id: {}/1", s.name, s.name));
+        if (!s.damaged) diagnostics_.error("missing-id", s.at, fmt::format("{} needs an id: {}/1", s.name, s.name));
         continue;
       }
       ElementSet& set = set_of(*kind);

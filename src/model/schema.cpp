@@ -191,6 +191,7 @@ std::optional<std::size_t> find_argument(const WrittenArgument& written, std::sp
 }
 
 bool check_required(std::span<const ArgumentInfo> infos, ElementReader& r) {
+  if (r.statement().damaged) return false;  // what looks missing may stand in the part that could not be read
   bool ok = true;
   for (const ArgumentInfo& info : infos) {
     if (!info.required || r.given(info.name)) continue;

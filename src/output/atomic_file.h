@@ -14,6 +14,7 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
+  const std::string& path() const { return path_; }
   bool ok() const { return stream_.good(); }
   std::ostream& stream() { return stream_; }
   // Closes and renames; the error says which file and why.

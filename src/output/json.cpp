@@ -72,6 +72,9 @@ void JsonResults::add(const std::string& command, const StateSpace& s) {
                                 {"outputs", channels(s.outputs)}});
 }
 
-void JsonResults::write(std::ostream& out) const { out << Json{{"results", document_->results}}.dump(1) << '\n'; }
+void JsonResults::write(std::ostream& out) const {
+  // Commands are kept as written; bytes that are no UTF-8 become replacement characters.
+  out << Json{{"results", document_->results}}.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+}
 
 }  // namespace dynalin

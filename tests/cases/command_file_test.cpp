@@ -1,0 +1,60 @@
+// Command files as they come: shapes, line ends, bytes that are no text, files written twice.
+#include <gmock/gmock.h>
+
+#include "cases/run.h"
+
+namespace dynalin::cases {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CommandFiles : public Cases {
+ protected:
+  void SetUp() override {
+    Cases::SetUp();
+    write("model.adm",
+          "pendulum\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/10, PART=1\n"
+          "PART/2, QG=0,-1,0, MASS=1, CM=20, IP=1,1,1\nMARKER/20, PART=2\nMARKER/21, PART=2, QP=0,1,0\n"
+          "JOINT/1, REVOLUTE, I=21, J=10\nVARIABLE/1, FUNCTION=VARVAL(2)\nVARIABLE/2, FUNCTION=0\nPINPUT/1, VARIABLES=2\nPOUTPUT/1, VARIABLES=1\nEND\n");
+  }
+  RunResult commands(const std::string& text) const {
+    write("run.acf", text);
+    return run_file("run.acf");
+  }
+};
+
+TEST_F(CommandFiles, lines_may_end_with_carriage_returns_alone) {
+  const RunResult r = commands("model\rout\rLINEAR/EIGENSOL\rSTOP\r");
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.eigenvalues(0).size(), 2u);
+  EXPECT_TRUE(r.wrote("out.msg"));
+}
+
+TEST_F(CommandFiles, bytes_that_are_no_text_do_not_end_the_run) {
+  const RunResult r = commands("model\nout\nLINEAR/EIGENSOL ! \xC4\xE9\n");
+  EXPECT_NE(r.status, -1);
+  const RunResult in_command = commands("model\nout\nSHOW/\xE9\nLINEAR/EIGENSOL\n");
+  EXPECT_NE(in_command.status, -1);
+}
+
+TEST_F(CommandFiles, a_file_named_twice_holds_what_the_last_command_wrote) {
+  const RunResult r = commands("model\nout\nLINEAR/STATEMAT, FILE=m\nLINEAR/STATEMAT, FILE=m, PINPUT=1, POUTPUT=1\n");
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.text("m"), HasSubstr("B "));
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+    files += entry.path().string().find(".part") != std::string::npos;
+  }
+  EXPECT_EQ(files, 0u);
+}
+
+TEST_F(CommandFiles, a_second_model_is_an_error_at_its_place) {
+  const RunResult r = commands("FILE/MODEL=model\nLINEAR/EIGENSOL\nFILE/MODEL=other\nLINEAR/EIGENSOL\n");
+  EXPECT_EQ(r.status, 1);
+  EXPECT_THAT(r.err, HasSubstr("run.acf:3:6: error: the model model is already loaded"));
+  EXPECT_THAT(r.err, HasSubstr("[second-model]"));
+  EXPECT_THAT(commands("LINEAR/EIGENSOL\nFILE/MODEL=model\n").err, HasSubstr("run.acf:2:6: error"));
+}
+
+}  // namespace
+}  // namespace dynalin::cases
