@@ -40,6 +40,7 @@ class StaticEquations {
       if (part_.active[static_cast<std::size_t>(k)]) residual_(saddle_.lambda(k)) = rows_.along_motion(k).value;
     }
     measure_forces(op);
+    if (with_partials) measure_stiffness();
   }
 
   // Largest unbalanced force (moments by length) and the size of the forces at play.
@@ -68,6 +69,20 @@ class StaticEquations {
     return sum;
   }
 
+  // Work of the imbalance along a step of the coordinates, and the step's size in the metric that `tangent` holds with.
+  double slope(const Eigen::VectorXd& step) const {
+    const auto n = static_cast<Eigen::Index>(system_.coordinates());
+    return residual_.head(n).dot(step.head(n));
+  }
+  double damping(const Eigen::VectorXd& step) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < system_.coordinates(); ++k) {
+      const double d = step(static_cast<Eigen::Index>(k));
+      sum += holding(k) * d * d;
+    }
+    return sum;
+  }
+
   const Eigen::VectorXd& residual() const { return residual_; }
   const Saddle& saddle() const { return saddle_; }
   const Partition& partition() const { return part_; }
@@ -75,21 +90,7 @@ class StaticEquations {
   // Tangent with `hold` times a typical stiffness added to the coordinates, and to states if `hold_states`.
   ColumnMatrix tangent(double hold, bool hold_states) const {
     std::vector<double> diagonal(static_cast<std::size_t>(saddle_.size()), 0.0);
-    // The largest entry of the tangent as force per length.
-    double stiffness = 0;
-    const ColumnMatrix& K = eq_.matrix(Column::position);
-    for (std::int32_t c = 0; c < K.columns; ++c) {
-      for (auto k = static_cast<std::size_t>(K.start[static_cast<std::size_t>(c)]);
-           k < static_cast<std::size_t>(K.start[static_cast<std::size_t>(c) + 1]); ++k) {
-        if (K.row[k] < layout_coordinates())
-          stiffness = std::max(stiffness, std::abs(K.value[k]) * force_unit(K.row[k]) * force_unit(c));
-      }
-    }
-    if (stiffness == 0) stiffness = 1;
-    for (std::size_t k = 0; k < system_.coordinates(); ++k) {
-      const double s = system_.length() / system_.coordinate_scale(static_cast<std::int32_t>(k));
-      diagonal[k] = hold * stiffness * s * s;
-    }
+    for (std::size_t k = 0; k < system_.coordinates(); ++k) diagonal[k] = hold * holding(k);
     for (std::size_t k = 0; k < held_.size() && hold_states; ++k) {
       diagonal[static_cast<std::size_t>(saddle_.state(static_cast<std::int32_t>(k)))] = held_[k] ? 0.0 : 1.0;
     }
@@ -100,6 +101,24 @@ class StaticEquations {
   // 1 for a force, 1/length for a moment.
   double force_unit(Eigen::Index k) const {
     return system_.coordinate_scale(static_cast<std::int32_t>(k)) / system_.length();
+  }
+  // A typical stiffness, as one for coordinate k.
+  double holding(std::size_t k) const {
+    const double s = system_.length() / system_.coordinate_scale(static_cast<std::int32_t>(k));
+    return stiffness_ * s * s;
+  }
+  // The largest entry of the tangent as force per length.
+  void measure_stiffness() {
+    stiffness_ = 0;
+    const ColumnMatrix& K = eq_.matrix(Column::position);
+    for (std::int32_t c = 0; c < K.columns; ++c) {
+      for (auto k = static_cast<std::size_t>(K.start[static_cast<std::size_t>(c)]);
+           k < static_cast<std::size_t>(K.start[static_cast<std::size_t>(c) + 1]); ++k) {
+        if (K.row[k] < layout_coordinates())
+          stiffness_ = std::max(stiffness_, std::abs(K.value[k]) * force_unit(K.row[k]) * force_unit(c));
+      }
+    }
+    if (stiffness_ == 0) stiffness_ = 1;
   }
   std::int32_t layout_coordinates() const { return system_.layout().coordinate_count; }
   void measure_forces(const OperatingPoint& op) {
@@ -122,7 +141,7 @@ class StaticEquations {
   Partition part_;
   std::vector<bool> held_;
   Eigen::VectorXd residual_;
-  double force_scale_ = 0;
+  double force_scale_ = 0, stiffness_ = 1;
 };
 
 OperatingPoint moved(const System& system, const OperatingPoint& from, const Saddle& saddle,
@@ -144,6 +163,11 @@ OperatingPoint moved(const System& system, const OperatingPoint& from, const Sad
 
 Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op, const StaticsOptions& options,
                                         StaticsReport& report, Findings& findings) {
+  if (const auto& driven = system.layout().velocity_driven; !driven.empty()) {
+    Failure f{"static analysis", "motions that prescribe a velocity or an acceleration contradict rest", {}};
+    for (const ElementLabel* label : driven) f.details.push_back(label->full_text());
+    return tl::unexpected(f);
+  }
   op.mode = AnalysisMode::statics;
   const std::vector<double> first_state = op.state;
   const auto rest = [](OperatingPoint& p) {
@@ -221,14 +245,28 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
       }
       transient = !taken;
     }
-    // Otherwise an implicit step of a damped motion, the longer the smaller the residual.
+    // Otherwise an implicit step of a damped motion: downhill, and as long as the linear model foretells the slope
+    // along the step. Reactions do no work along it, so the slope speaks of the pose alone; the imbalance may grow on
+    // the way.
     for (int k = 0; k < 20 && !taken; ++k) {
       const auto step = solve(hold);
-      taken = step && attempt(*step, 1.0, 2 * merit);
-      if (!taken) {
-        hold *= 8;
-        equations.evaluate(op, true);
+      const double slope = step ? equations.slope(*step) : 0;
+      if (step && slope < 0) {
+        OperatingPoint next = moved(system, op, saddle, *step, 1.0, options.rotation_limit);
+        settle(next);
+        const double foretold = -hold * equations.damping(*step);
+        equations.evaluate(next, false);
+        const double off = std::abs(equations.slope(*step) - foretold) / -slope;
+        if (off <= 0.5) {
+          hold *= off < 0.1 ? 0.25 : off < 0.25 ? 0.5 : 1.0;
+          op = std::move(next);
+          system.remember(op);
+          taken = true;
+          break;
+        }
       }
+      hold *= 4;
+      equations.evaluate(op, true);
     }
     transient = transient && hold > 1e-7;
     if (!taken) {

@@ -60,7 +60,7 @@ constexpr std::array table = {
     of_element("CONTACT",  "CONTACT",      not_built),
     of_element("FRICTION", "FRICTION",     not_built),
     of_element("JOINT",    "JOINT",        built),
-    of_element("JPRIM",    "JPRIM",        not_built),
+    of_element("JPRIM",    "JPRIM",        built),
     of_element("MOTION",   "MOTION",       built),
     of_element("PTCV",     "PTCV",         not_built),
     of_element("CVCV",     "CVCV",         not_built),

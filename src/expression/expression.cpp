@@ -34,6 +34,16 @@ int Expression::order(std::span<const int> atom_orders) const {
   return atom_orders.empty() ? 0 : std::max(0, *std::ranges::max_element(atom_orders));
 }
 
+std::vector<Expression::Call> Expression::calls() const {
+  std::vector<Call> calls;
+  for (std::size_t k = 0; k < program_->nodes.size(); ++k) {
+    const ExpressionNode& node = program_->nodes[k];
+    if (node.kind == ExpressionNode::Kind::branch) calls.push_back({"IF", program_->places[k]});
+    if (node.kind == ExpressionNode::Kind::call) calls.push_back({node.function->name, program_->places[k]});
+  }
+  return calls;
+}
+
 template <class T>
 T Expression::evaluate(std::span<const T> atom_values, ExpressionWorkspace<T>& workspace) const {
   return program_->evaluate(atom_values, workspace);

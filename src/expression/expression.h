@@ -102,6 +102,13 @@ class Expression {
   // where that is −1).
   int order(std::span<const int> atom_orders) const;
 
+  // Functions that are called, IF among them, each call once.
+  struct Call {
+    std::string_view name;
+    Span at;
+  };
+  std::vector<Call> calls() const;
+
   // Names the function that makes the value, or else a partial derivative, infinite or undefined at
   // these atom values; nothing if all are finite. On TimeTaylor the time derivatives count
   // too, so all atoms should have theirs. Allocates.

@@ -121,5 +121,6 @@ template TimeTaylor<double> evaluate_measure(Measure, const MeasureFrames<TimeTa
 template TimeTaylor<Dual<6>> evaluate_measure(Measure, const MeasureFrames<TimeTaylor<Dual<6>>>&);
 template TimeTaylor<Dual<12>> evaluate_measure(Measure, const MeasureFrames<TimeTaylor<Dual<12>>>&);
 template TimeTaylor<Dual<18>> evaluate_measure(Measure, const MeasureFrames<TimeTaylor<Dual<18>>>&);
+template TimeTaylor<Dual<6, Dual<6>>> evaluate_measure(Measure, const MeasureFrames<TimeTaylor<Dual<6, Dual<6>>>>&);
 
 }  // namespace dynalin

@@ -3,50 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanics/path.h"
+#include "mechanics/seeded_frames.h"
 
 namespace dynalin {
 
 namespace {
 
 template <std::size_t N>
-using Seeded = TimeTaylor<Dual<N>>;
-
-// The marker frame with path variations of `body` as seeds: 6 a level, δr then δθ, levels 0 … N/6 − 1.
-template <std::size_t N>
-Frame<Seeded<N>> seeded_frame(const Motion& motion, const MarkerPlace& place, BodyId body) {
-  const Frame<Taylor> plain = motion.frame(place);
-  Frame<Seeded<N>> f{
-      path::constant<N>(plain.origin),
-      {path::constant<N>(plain.axes.x), path::constant<N>(plain.axes.y), path::constant<N>(plain.axes.z)}};
-  if (place.body != body) return f;
-  const BodyMotion& b = motion.body(body);
-  const Vec3<Taylor> arm = plain.origin - along_motion(b.r, b.rdot, b.rddot);
-  for (std::size_t level = 0; 6 * level < N; ++level) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector e = unit_vectors[k];
-      path::vary(f.origin, 6 * level + k, level, {Taylor(e.x), Taylor(e.y), Taylor(e.z)});
-      path::vary(f.origin, 6 * level + 3 + k, level, path::turned(k, arm));
-      for (std::size_t c = 0; c < 3; ++c) {
-        path::vary(f.axes[c], 6 * level + 3 + k, level, path::turned(k, plain.axes[c]));
-      }
-    }
-  }
-  return f;
-}
-
-template <std::size_t N>
-Seeded<N> seeded_measure(Measure measure, const std::array<MarkerPlace, 4>& places, const Motion& motion, BodyId body) {
-  return evaluate_measure<Seeded<N>>(
-      measure, {seeded_frame<N>(motion, places[0], body), seeded_frame<N>(motion, places[1], body),
-                seeded_frame<N>(motion, places[2], body), seeded_frame<N>(motion, places[3], body)});
-}
-
-template <std::size_t N>
 void add_measure_gradient(Measure measure, const std::array<MarkerPlace, 4>& places, const Motion& motion, BodyId body,
                           Equations& eq, std::int32_t row, double factor, Column velocity_family) {
   const BodyBlock& block = eq.layout().body(body);
-  const auto g = seeded_measure<N>(measure, places, motion, body).value.partial;
+  const auto g = path::seeded_measure<N>(measure, places, motion, body).value.partial;
   const std::array families = {Column::position, velocity_family, Column::acceleration};
   for (std::size_t level = 0; 6 * level < N; ++level) {
     for (std::int32_t k = 0; k < block.count; ++k) {
@@ -62,6 +29,9 @@ BoundExpression::BoundExpression(Expression expression, const Signals& signals) 
   for (const Atom& atom : expression_.atoms()) {
     atoms_.push_back(bind(atom, signals));
     const BoundAtom& a = atoms_.back();
+    for (std::size_t b = 0; b < a.body_count; ++b) {
+      if (std::find(bodies_.begin(), bodies_.end(), a.bodies[b]) == bodies_.end()) bodies_.push_back(a.bodies[b]);
+    }
     using Kind = BoundAtom::Kind;
     if (a.kind == Kind::measure) order_ = std::max(order_, static_cast<int>(a.order));
     if (a.kind == Kind::force) order_ = 2;
@@ -311,7 +281,7 @@ template <std::size_t N>
 void add_measure_row(Measure measure, const std::array<MarkerPlace, 4>& places, const Motion& motion, BodyId body,
                      ConstraintRows& rows, std::int32_t row, const BodyBlock& block, const Taylor& partial,
                      RowLevel row_level) {
-  const Seeded<N> m = seeded_measure<N>(measure, places, motion, body);
+  const path::Seeded<N> m = path::seeded_measure<N>(measure, places, motion, body);
   // δX = Σ X_l δq^(l) and its rate, both times the partial e_X(t) of the expression.
   for (std::int32_t k = 0; k < block.count; ++k) {
     const auto at = [&](std::size_t level) {

@@ -33,6 +33,9 @@ class BoundExpression {
   // The same for a velocity row, order 0 or 1: value and rate are valid.
   Taylor add_velocity(const Motion&, ConstraintRows&, std::int32_t row, double factor = 1) const;
 
+  // Adds the variation of the generalized forces that a multiplier exerts through a row made by the two above.
+  void add_reaction_partials(const Motion&, Equations&, double lambda, RowLevel) const;
+
   void remember(const Motion&, Memory&) const;
   // What is wrong when a value or partial is not finite: function, argument and reason; empty if nothing is.
   std::string fault(const Motion&) const;
@@ -69,7 +72,10 @@ class BoundExpression {
                           RowLevel level) const;
   Taylor add_to_row(const Motion&, ConstraintRows&, std::int32_t row, double factor, RowLevel level) const;
 
+  double gradient(const ExpressionScratch&, std::size_t atom, BodyId, std::size_t seed) const;
+
   Expression expression_;
+  std::vector<BodyId> bodies_;  // all that the measures see, ground left out
   std::vector<BoundAtom> atoms_;
   int order_ = 0;
   bool only_time_ = true;

@@ -17,6 +17,7 @@ struct ExpressionScratch {
   ExpressionWorkspace<Taylor> taylor;
   std::vector<double> atoms, partials;
   std::vector<Taylor> taylor_atoms, taylor_partials;
+  std::vector<std::array<double, 12>> gradients;
 };
 
 // What a constraint row contributes in one coordinate at the levels above its own.

@@ -65,8 +65,9 @@ class Layout {
   std::vector<DifferentialState> states;
   Memory memory;  // initial contents
   std::vector<double> extra_initial;
-  std::int32_t coordinate_count = 0;       // all blocks
-  std::int32_t body_coordinate_count = 0;  // of the bodies alone; extras follow them
+  std::vector<const ElementLabel*> velocity_driven;  // motions that contradict rest: no static analysis
+  std::int32_t coordinate_count = 0;                 // all blocks
+  std::int32_t body_coordinate_count = 0;            // of the bodies alone; extras follow them
 
   const BodyBlock& body(BodyId b) const { return bodies[static_cast<std::size_t>(b.index)]; }
   const MarkerPlace& marker(MarkerId m) const { return markers[static_cast<std::size_t>(m.index)]; }

@@ -98,15 +98,15 @@ bool read_value(ElementHandle& slot, std::string_view statement, const WrittenAr
   return true;
 }
 
-bool read_value(std::vector<VariableRef>& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
+bool read_value(std::vector<ElementHandle>& slot, std::string_view statement, const WrittenArgument& w,
+                ElementReader& r) {
   const auto ids = read_integers(w, r.source(), r.diagnostics());
   if (!ids) return false;
   bool ok = true;
-  slot.clear();
   for (const WrittenInteger& id : *ids) {
-    const auto handle = r.element(VariableClass::statement, id);
+    const auto handle = r.element(statement, id);
     ok = ok && handle.has_value();
-    slot.push_back({handle.value_or(ElementHandle{})});
+    slot.push_back(handle.value_or(ElementHandle{}));
   }
   return ok;
 }

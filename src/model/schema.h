@@ -37,7 +37,7 @@ using Slot =
     std::variant<bool E::*, double E::*, std::optional<double> E::*, Vector E::*, std::optional<Vector> E::*,
                  std::vector<double> E::*, std::optional<std::int64_t> E::*, MarkerId E::*, BodyId E::*,
                  VariableRef E::*, ArrayRef E::*, MatrixRef E::*, JointRef E::*, std::vector<VariableRef> E::*,
-                 std::vector<std::int64_t> E::*, Expression E::*, std::string E::*, std::vector<std::string> E::*>;
+                 std::vector<JointRef> E::*, std::vector<std::int64_t> E::*, Expression E::*, std::string E::*, std::vector<std::string> E::*>;
 
 template <class E>
 struct Argument {
@@ -63,7 +63,7 @@ bool read_value(std::optional<std::int64_t>&, const WrittenArgument&, const Valu
 bool read_value(MarkerId&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(BodyId&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(ElementHandle&, std::string_view statement, const WrittenArgument&, ElementReader&);
-bool read_value(std::vector<VariableRef>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(std::vector<ElementHandle>&, std::string_view statement, const WrittenArgument&, ElementReader&);
 bool read_value(std::vector<std::int64_t>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(Expression&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(std::string&, const WrittenArgument&, const ValueLimits&, ElementReader&);
@@ -71,6 +71,14 @@ bool read_value(std::vector<std::string>&, const WrittenArgument&, const ValueLi
 template <class Class>
 bool read_value(ElementRef<Class>& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
   return read_value(static_cast<ElementHandle&>(slot), Class::statement, w, r);
+}
+template <class Class>
+bool read_value(std::vector<ElementRef<Class>>& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
+  std::vector<ElementHandle> handles;
+  const bool ok = read_value(handles, Class::statement, w, r);
+  slot.clear();
+  for (const ElementHandle& h : handles) slot.push_back({h});
+  return ok;
 }
 
 namespace detail {
@@ -94,6 +102,8 @@ constexpr std::string_view value_text() {
     return "body";
   else if constexpr (std::is_same_v<V, std::vector<VariableRef>>)
     return "variables";
+  else if constexpr (std::is_same_v<V, std::vector<JointRef>>)
+    return "joints";
   else if constexpr (std::is_same_v<V, std::vector<std::int64_t>>)
     return "ids";
   else if constexpr (std::is_same_v<V, Expression>)

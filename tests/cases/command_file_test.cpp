@@ -15,7 +15,8 @@ class CommandFiles : public Cases {
     write("model.adm",
           "pendulum\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/10, PART=1\n"
           "PART/2, QG=0,-1,0, MASS=1, CM=20, IP=1,1,1\nMARKER/20, PART=2\nMARKER/21, PART=2, QP=0,1,0\n"
-          "JOINT/1, REVOLUTE, I=21, J=10\nVARIABLE/1, FUNCTION=VARVAL(2)\nVARIABLE/2, FUNCTION=0\nPINPUT/1, VARIABLES=2\nPOUTPUT/1, VARIABLES=1\nEND\n");
+          "JOINT/1, REVOLUTE, I=21, J=10\nVARIABLE/1, FUNCTION=VARVAL(2)\nVARIABLE/2, FUNCTION=0\nPINPUT/1, "
+          "VARIABLES=2\nPOUTPUT/1, VARIABLES=1\nEND\n");
   }
   RunResult commands(const std::string& text) const {
     write("run.acf", text);

@@ -1,5 +1,5 @@
-// Coordinates outside bodies and rows on velocities are in the numbering: two elements made for this test, a bead on a
-// parabola with its curve parameter as a coordinate, and a knife edge that forbids one velocity.
+// Coordinates outside bodies are in the numbering: an element made for this test, a bead on a parabola with its curve
+// parameter as a coordinate.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "elements/catalogue.h"
 #include "linear/eigen.h"
 #include "linear/linear_system.h"
-#include "mechanics/bound_expression.h"
+#include "mechanics/kernel.h"
 #include "model/schema.h"
 
 namespace dynalin {
@@ -69,35 +69,6 @@ class ParabolaKernel final : public Kernel {
   std::vector<Bead> beads_;
 };
 
-// GCON/id, FUNCTION=: a row on velocities given by an expression linear in them.
-struct KnifeEdge {
-  Expression function;
-  static constexpr std::array<Argument<KnifeEdge>, 1> arguments = {
-      {{.name = "FUNCTION", .slot = &KnifeEdge::function, .required = true}}};
-};
-
-class KnifeEdgeKernel final : public Kernel {
- public:
-  KnifeEdgeKernel(const std::vector<KnifeEdge>& elements, const std::vector<ElementLabel>& labels, Layout& layout) {
-    for (std::size_t k = 0; k < elements.size(); ++k)
-      rows_.push_back({elements[k].function, layout.add_row(labels[k], "velocity", RowLevel::velocity), {}});
-  }
-  void bind(const Signals& signals) override {
-    for (Row& r : rows_) r.bound = BoundExpression(r.function, signals);
-  }
-  void constraints(const Motion& motion, ConstraintRows& rows) const override {
-    for (const Row& r : rows_) rows.set(r.row, r.bound.add_velocity(motion, rows, r.row));
-  }
-
- private:
-  struct Row {
-    Expression function;
-    std::int32_t row;
-    BoundExpression bound;
-  };
-  std::vector<Row> rows_;
-};
-
 template <class E, class K>
 class TestSet final : public TypedSet<E> {
  public:
@@ -117,12 +88,10 @@ constexpr Kind test_kind(std::string_view statement) {
           [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<TestSet<E, K>>(kind); }};
 }
 constexpr Kind parabola = test_kind<Parabola, ParabolaKernel>("PTCV");
-constexpr Kind knife_edge = test_kind<KnifeEdge, KnifeEdgeKernel>("GCON");
 
 Result<LinearSystem> linear_model(const std::string& text) {
   std::vector<const Kind*> kinds(catalogue().begin(), catalogue().end());
   kinds.push_back(&parabola);
-  kinds.push_back(&knife_edge);
   auto dataset = parse_dataset(std::make_shared<const SourceText>("test.adm", text));
   EXPECT_FALSE(dataset.diagnostics.has_errors()) << render(dataset.diagnostics);
   auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), kinds);
@@ -151,34 +120,6 @@ TEST(NewNumbering, bead_on_a_parabola_swings_with_the_curvature) {
   EXPECT_NEAR(modes->modes[0].eigenvalue_hz.imag(), std::sqrt(12.0 / 3) / (2 * std::numbers::pi), 1e-14);
   EXPECT_NEAR(modes->modes[1].eigenvalue_hz.imag(), std::sqrt(2 * 1.7 * 9.81) / (2 * std::numbers::pi), 1e-14);
 }
-
-class Sleigh : public ::testing::TestWithParam<std::pair<double, double>> {};
-
-TEST_P(Sleigh, chaplygin_sleigh_has_three_positions_two_rates_and_one_eigenvalue) {
-  const auto [speed, expected] = GetParam();
-  const auto linear = linear_model(
-      "Sleigh\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, REULER=90D,90D,0\n"
-      "PART/2\nMARKER/21, REULER=90D,90D,0\nMARKER/22, REULER=0,-90D,0\n"
-      "PART/3\nMARKER/31, REULER=0,-90D,0\nMARKER/32\n"
-      "PART/4, MASS=2, CM=40, IP=0.3,0.3,0.3, VX=" +
-      std::to_string(speed) +
-      ", VY=0, WZ=0\nMARKER/40\nMARKER/41, QP=-0.4,0,0\n"
-      "JOINT/1, TRANSLATIONAL, I=21, J=1\nJOINT/2, TRANSLATIONAL, I=31, J=22\nJOINT/3, REVOLUTE, I=40, J=32\n"
-      "GCON/1, FUNCTION=VY(41,0,41)\nEND\n");
-  ASSERT_TRUE(linear) << linear.error().message;
-  std::size_t rates = 0;
-  for (const StateLabel& s : linear->model.states) rates += s.is_rate;
-  EXPECT_EQ(rates, 2u);
-  EXPECT_EQ(linear->model.states.size(), 5u);
-  const auto modes = eigensolve(*linear);
-  ASSERT_TRUE(modes);
-  ASSERT_EQ(modes->modes.size(), 5u);
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(std::abs(modes->modes[k].eigenvalue_hz), 0.0, 1e-12);
-  EXPECT_NEAR(modes->modes[4].eigenvalue_hz.real() * 2 * std::numbers::pi, expected, 1e-12);
-}
-INSTANTIATE_TEST_SUITE_P(speeds, Sleigh,
-                         ::testing::Values(std::pair(1.0, -1.2903225806451615), std::pair(3.0, -3.8709677419354844),
-                                           std::pair(-2.0, 2.580645161290323)));
 
 }  // namespace
 }  // namespace dynalin

@@ -4,21 +4,12 @@
 
 #include <algorithm>
 
-#include "base/vec3.h"
-#include "cases/run.h"
+#include "cases/dataset_text.h"
 
 namespace dynalin::cases {
 namespace {
 
 using Properties = Cases;
-
-// 3-1-3 angles of a rotation.
-std::string reuler(const Matrix3& R) {
-  const double theta = std::acos(std::clamp(R(2, 2), -1.0, 1.0));
-  const double psi = std::atan2(R(0, 2), -R(1, 2)), phi = std::atan2(R(2, 0), R(2, 1));
-  return fmt::format("{:.17g},{:.17g},{:.17g}", psi, theta, phi);
-}
-std::string xyz(const Vector& v) { return fmt::format("{:.17g},{:.17g},{:.17g}", v.x, v.y, v.z); }
 
 struct Variation {
   Vector shift{};
@@ -94,17 +85,6 @@ std::string mechanism(const Variation& v) {
   std::string text = "A mechanism in space\n";
   for (const auto& line : s) text += line + "\n";
   return text + "END\n";
-}
-
-// Order-free comparison: sorted by imaginary part, then real.
-void expect_same(std::vector<std::complex<double>> a, std::vector<std::complex<double>> b, double relative = 1e-9) {
-  ASSERT_EQ(a.size(), b.size());
-  for (const auto& x : a) {
-    const auto nearest =
-        std::min_element(b.begin(), b.end(), [&](auto p, auto q) { return std::abs(p - x) < std::abs(q - x); });
-    EXPECT_LE(std::abs(*nearest - x), relative * std::abs(x)) << x << " against " << *nearest;
-    b.erase(nearest);
-  }
 }
 
 class Invariance : public Cases {

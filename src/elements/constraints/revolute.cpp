@@ -9,19 +9,14 @@ namespace dynalin {
 namespace {
 
 struct Revolute {
-  MarkerId i, j;
-
   static constexpr std::string_view variant = "REVOLUTE";
   static constexpr std::string_view summary = "Hinge: one rotation about the common z axis is free.";
   static constexpr std::array<std::string_view, 5> row_names = {"DX", "DY", "DZ", "Zi.Xj", "Zi.Yj"};
-  static constexpr bool rotates = true, translates = false;
-  static constexpr std::array<Argument<Revolute>, 2> arguments = {{
-      {.name = "I", .slot = &Revolute::i, .required = true, .help = "marker on the first body"},
-      {.name = "J", .slot = &Revolute::j, .required = true, .help = "marker on the second body"},
-  }};
+  static constexpr Uses uses = Uses::both_orientations;
+  static constexpr bool rotates = true;
 
   template <class T>
-  std::array<T, 5> rows(const RelativeFrame<T>& I) const {
+  static std::array<T, 5> rows(const RelativeFrame<T>& I) {
     return {I.p.x, I.p.y, I.p.z, I.z.x, I.z.y};
   }
 };

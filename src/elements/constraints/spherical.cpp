@@ -8,19 +8,13 @@ namespace dynalin {
 namespace {
 
 struct Spherical {
-  MarkerId i, j;
-
   static constexpr std::string_view variant = "SPHERICAL";
   static constexpr std::string_view summary = "Ball: the origins coincide, all rotations are free.";
   static constexpr std::array<std::string_view, 3> row_names = {"DX", "DY", "DZ"};
-  static constexpr bool rotates = false, translates = false;
-  static constexpr std::array<Argument<Spherical>, 2> arguments = {{
-      {.name = "I", .slot = &Spherical::i, .required = true, .help = "marker on the first body"},
-      {.name = "J", .slot = &Spherical::j, .required = true, .help = "marker on the second body"},
-  }};
+  static constexpr Uses uses = Uses::no_orientation;
 
   template <class T>
-  std::array<T, 3> rows(const RelativeFrame<T>& I) const {
+  static std::array<T, 3> rows(const RelativeFrame<T>& I) {
     return {I.p.x, I.p.y, I.p.z};
   }
 };

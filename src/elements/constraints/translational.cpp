@@ -9,19 +9,14 @@ namespace dynalin {
 namespace {
 
 struct Translational {
-  MarkerId i, j;
-
   static constexpr std::string_view variant = "TRANSLATIONAL";
   static constexpr std::string_view summary = "Slider: one translation along the common z axis is free.";
   static constexpr std::array<std::string_view, 5> row_names = {"DX", "DY", "Zi.Xj", "Zi.Yj", "Xi.Yj"};
-  static constexpr bool rotates = false, translates = true;
-  static constexpr std::array<Argument<Translational>, 2> arguments = {{
-      {.name = "I", .slot = &Translational::i, .required = true, .help = "marker on the first body"},
-      {.name = "J", .slot = &Translational::j, .required = true, .help = "marker on the second body"},
-  }};
+  static constexpr Uses uses = Uses::both_orientations;
+  static constexpr bool translates = true;
 
   template <class T>
-  std::array<T, 5> rows(const RelativeFrame<T>& I) const {
+  static std::array<T, 5> rows(const RelativeFrame<T>& I) {
     return {I.p.x, I.p.y, I.z.x, I.z.y, I.x.y};
   }
 };

@@ -9,19 +9,13 @@ namespace dynalin {
 namespace {
 
 struct Universal {
-  MarkerId i, j;
-
   static constexpr std::string_view variant = "UNIVERSAL";
   static constexpr std::string_view summary = "Cross: rotations about z of I and about z of J are free.";
   static constexpr std::array<std::string_view, 4> row_names = {"DX", "DY", "DZ", "Zi.Zj"};
-  static constexpr bool rotates = false, translates = false;
-  static constexpr std::array<Argument<Universal>, 2> arguments = {{
-      {.name = "I", .slot = &Universal::i, .required = true, .help = "marker on the first body"},
-      {.name = "J", .slot = &Universal::j, .required = true, .help = "marker on the second body"},
-  }};
+  static constexpr Uses uses = Uses::both_orientations;
 
   template <class T>
-  std::array<T, 4> rows(const RelativeFrame<T>& I) const {
+  static std::array<T, 4> rows(const RelativeFrame<T>& I) {
     return {I.p.x, I.p.y, I.p.z, I.z.z};
   }
 };

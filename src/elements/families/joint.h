@@ -1,16 +1,28 @@
-// Joints: rows that hold marker I to marker J, written once at position level on I as seen from J.
+// Joints and joint primitives: rows that hold marker I to marker J, written once at position level on I as seen
+// from J.
 //
 // A member of the family gives
 //
-//     template <class T> std::array<T, n> rows(const RelativeFrame<T>& I) const;   // all zero when joined
-//     static constexpr std::array<std::string_view, n> row_names;                  // "Zi.Xj" …
-//     static constexpr bool rotates, translates;       // freedoms along/about z_J that a MOTION may drive
+//     template <class T> static std::array<T, n> rows(const RelativeFrame<T>& I);   // all zero when joined
+//     static constexpr std::array<std::string_view, n> row_names;                   // "Zi.Xj" …
+//     static constexpr Uses uses;                           // the orientations of which bodies its rows depend on
+//     static constexpr std::string_view variant, summary;
+//
+// and, where it is so,
+//
+//     static constexpr bool rotates, translates;   // freedoms about and along z_J that MOTION, COUPLER, GEAR take
+//     static constexpr std::string_view parameter; // PITCH or PD: rows is no longer static, the member is made
+//                                                  // from the value, and every row is measured from the drawing
+//     double period() const;                       // rows that contain an angle repeat with it
 //
 // Velocity and acceleration rows, their coefficients, reactions and geometric stiffness follow. The reaction of
 // row k is λ_k times its gradient: force and torque on I; the opposite acts on J's body at the same point.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
+#include <cmath>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -21,6 +33,32 @@
 #include "model/schema.h"
 
 namespace dynalin {
+
+enum class Uses : std::uint8_t { no_orientation, orientation_of_J, both_orientations };
+
+struct JointArguments {
+  MarkerId i, j;
+  std::optional<double> pitch, pd;
+
+  static constexpr std::array<Argument<JointArguments>, 4> arguments = {{
+      {.name = "I", .slot = &JointArguments::i, .required = true, .help = "marker on the first body"},
+      {.name = "J", .slot = &JointArguments::j, .required = true, .help = "marker on the second body"},
+      {.name = "PITCH", .slot = &JointArguments::pitch, .unit = unit::length, .help = "SCREW: advance in one turn"},
+      {.name = "PD",
+       .slot = &JointArguments::pd,
+       .unit = unit::length,
+       .help = "RACKPIN: pitch diameter of the pinion"},
+  }};
+};
+
+struct PrimitiveArguments {
+  MarkerId i, j;
+
+  static constexpr std::array<Argument<PrimitiveArguments>, 2> arguments = {{
+      {.name = "I", .slot = &PrimitiveArguments::i, .required = true, .help = "marker on the first body"},
+      {.name = "J", .slot = &PrimitiveArguments::j, .required = true, .help = "marker on the second body"},
+  }};
+};
 
 // What MOTION and other relations need to know of a joint.
 class JointSetBase : public ElementSet {
@@ -35,6 +73,7 @@ class JointSetBase : public ElementSet {
 // Angle from x_J to x_I about z_J, and displacement of I along z_J.
 template <class T>
 T joint_rotation(const RelativeFrame<T>& I) {
+  using std::atan2;
   return atan2(I.x.y, I.x.x);
 }
 template <class T>
@@ -42,13 +81,12 @@ T joint_translation(const RelativeFrame<T>& I) {
   return I.p.z;
 }
 
-// Puts one position row with gradient from duals into the constraint rows.
+// Adds the gradient of a position row, from duals in the axes of J.
 template <class Row>
-void put_row(std::int32_t row, const PairMotion& pair, const Row& phi, ConstraintRows& rows) {
+void add_pair_row(std::int32_t row, const PairMotion& pair, const Row& phi, ConstraintRows& rows) {
   const auto partial = [&](std::size_t k) {
     return Taylor(phi.value.partial[k], phi.rate.partial[k], phi.acceleration.partial[k]);
   };
-  rows.set(row, {phi.value.value, phi.rate.value, phi.acceleration.value});
   add_gradient(row, pair, {partial(0), partial(1), partial(2)}, {partial(3), partial(4), partial(5)}, rows);
 }
 
@@ -73,28 +111,48 @@ inline void add_multiplier(const path::NestedDual& phi, std::int32_t row, Marker
   out.scalars.push_back({Column::lambda, row, R * Vector{g(0), g(1), g(2)}, R * Vector{g(3), g(4), g(5)}});
 }
 
+// One joint with what its rows need beyond the markers.
+template <class E>
+struct Joint {
+  static constexpr std::size_t n = E::row_names.size();
+
+  E element;
+  MarkerId i, j;
+  std::array<double, n> offset{};  // subtracted from the rows
+
+  template <class T>
+  std::array<T, n> rows(const RelativeFrame<T>& I) const {
+    return element.rows(I);
+  }
+};
+
 template <class E>
 class JointKernel final : public Kernel {
  public:
-  static constexpr std::size_t n = E::row_names.size();
+  static constexpr std::size_t n = Joint<E>::n;
 
-  JointKernel(const std::vector<E>& elements, const std::vector<ElementLabel>& labels, Layout& layout) {
-    for (std::size_t k = 0; k < elements.size(); ++k) {
-      Joint joint{elements[k], layout.marker(elements[k].i), layout.marker(elements[k].j), 0};
+  JointKernel(const std::vector<Joint<E>>& joints, const std::vector<ElementLabel>& labels, Layout& layout) {
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      Placed placed{joints[k], layout.marker(joints[k].i), layout.marker(joints[k].j), 0};
       for (std::size_t r = 0; r < n; ++r) {
         const std::int32_t row = layout.add_row(labels[k], E::row_names[r]);
-        if (r == 0) joint.first_row = row;
+        if (r == 0) placed.first_row = row;
       }
-      joints_.push_back(std::move(joint));
+      joints_.push_back(std::move(placed));
     }
   }
 
   void constraints(const Motion& motion, ConstraintRows& rows) const override {
-    for (const Joint& joint : joints_) {
-      const PairMotion pair = pair_motion(motion, joint.I, joint.J);
-      const auto phi = joint.element.rows(path::seeded<6>(pair.relative));
+    for (const Placed& p : joints_) {
+      const PairMotion pair = pair_motion(motion, p.I, p.J);
+      auto phi = p.joint.rows(path::seeded<6>(pair.relative));
       for (std::size_t r = 0; r < n; ++r) {
-        put_row(joint.first_row + static_cast<std::int32_t>(r), pair, phi[r], rows);
+        if constexpr (requires { E::parameter; }) phi[r].value.value -= p.joint.offset[r];
+        if constexpr (requires(const E& e) { e.period(); })
+          phi[r].value.value = std::remainder(phi[r].value.value, p.joint.element.period());
+        const std::int32_t row = p.first_row + static_cast<std::int32_t>(r);
+        rows.set(row, {phi[r].value.value, phi[r].rate.value, phi[r].acceleration.value});
+        add_pair_row(row, pair, phi[r], rows);
       }
     }
   }
@@ -102,66 +160,113 @@ class JointKernel final : public Kernel {
   void equations(const Motion& motion, Equations& eq) const override {
     // The reaction itself is added from the constraint rows; here only its variation.
     if (!eq.wants(Column::position)) return;
-    for (const Joint& joint : joints_) {
-      const PairMotion pair = pair_motion(motion, joint.I, joint.J);
-      apply_partials(pair, spread(pair, reaction_of(joint, pair, motion), true), eq);
+    for (const Placed& p : joints_) {
+      const PairMotion pair = pair_motion(motion, p.I, p.J);
+      apply_partials(pair, spread(pair, reaction_of(p, pair, motion), true), eq);
     }
   }
 
   bool has_wrench() const override { return true; }
-  MarkerId marker_I(std::size_t k) const override { return joints_[k].element.i; }
-  MarkerId marker_J(std::size_t k) const override { return joints_[k].element.j; }
+  MarkerId marker_I(std::size_t k) const override { return joints_[k].joint.i; }
+  MarkerId marker_J(std::size_t k) const override { return joints_[k].joint.j; }
   void wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const override {
-    const Joint& joint = joints_[k];
-    out.pair = pair_motion(motion, joint.I, joint.J);
-    out.force = spread(out.pair, reaction_of(joint, out.pair, motion), with_partials);
+    const Placed& p = joints_[k];
+    out.pair = pair_motion(motion, p.I, p.J);
+    out.force = spread(out.pair, reaction_of(p, out.pair, motion), with_partials);
     if (!with_partials) return;
-    const auto rows = joint.element.rows(path::nested(out.pair.relative));
-    for (std::size_t r = 0; r < n; ++r) {
-      add_multiplier(rows[r], joint.first_row + static_cast<std::int32_t>(r), out);
-    }
+    const auto rows = p.joint.rows(path::nested(out.pair.relative));
+    for (std::size_t r = 0; r < n; ++r) add_multiplier(rows[r], p.first_row + static_cast<std::int32_t>(r), out);
   }
 
  private:
-  struct Joint {
-    E element;
+  struct Placed {
+    Joint<E> joint;
     MarkerPlace I, J;
     std::int32_t first_row;
   };
 
-  static RelativeWrench reaction_of(const Joint& joint, const PairMotion& pair, const Motion& motion) {
-    const auto lambda = std::span(motion.lambda).subspan(static_cast<std::size_t>(joint.first_row), n);
-    return reaction<n>(joint.element.rows(path::nested(pair.relative)), lambda);
+  static RelativeWrench reaction_of(const Placed& p, const PairMotion& pair, const Motion& motion) {
+    const auto lambda = std::span(motion.lambda).subspan(static_cast<std::size_t>(p.first_row), n);
+    return reaction<n>(p.joint.rows(path::nested(pair.relative)), lambda);
   }
 
-  std::vector<Joint> joints_;
+  std::vector<Placed> joints_;
 };
 
-template <class E>
+template <class E, class Written>
 class JointSet final : public JointSetBase {
  public:
   using JointSetBase::JointSetBase;
-  std::vector<E> elements;
+  std::vector<Joint<E>> joints;
 
   void append(ElementLabel label) override {
     labels.push_back(std::move(label));
     sound.push_back(true);
-    elements.emplace_back();
+    joints.emplace_back();
   }
-  void read(std::size_t k, ElementReader& reader) override { read_arguments(elements[k], reader); }
+  void read(std::size_t k, ElementReader& reader) override {
+    Written w;
+    const bool ok = read_arguments(w, reader);
+    if constexpr (std::is_same_v<Written, JointArguments>) {
+      read_parameter(w.pitch, "PITCH", joints[k].element, reader);
+      read_parameter(w.pd, "PD", joints[k].element, reader);
+    }
+    if (ok) joints[k].i = w.i, joints[k].j = w.j;
+  }
   void finish(Model& model, Diagnostics& diagnostics) override {
-    const bool turns = E::row_names.size() > 3;
-    for (std::size_t k = 0; k < elements.size(); ++k) {
-      check_pair(model, labels[k], elements[k].i, elements[k].j, {true, turns, turns}, diagnostics);
+    constexpr PairRequirements needs{true, E::uses == Uses::both_orientations, E::uses != Uses::no_orientation};
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      Joint<E>& joint = joints[k];
+      if (!check_pair(model, labels[k], joint.i, joint.j, needs, diagnostics)) continue;
+      const RelativeFrame<double> drawn = drawn_frame(model, joint.i, joint.j);
+      if constexpr (requires { E::parameter; }) joint.offset = joint.rows(drawn);
+      if (E::row_names.size() >= 4 && (rotates() || translates()) && drawn.z.z < 0) {
+        diagnostics.warning(
+            "opposed-axes", labels[k].at,
+            fmt::format("the z axes of the markers of {} point in opposite directions", labels[k].full_text()),
+            "the joint holds them like that");
+      }
     }
   }
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
-    return std::make_unique<JointKernel<E>>(elements, labels, layout);
+    return std::make_unique<JointKernel<E>>(joints, labels, layout);
   }
-  MarkerId marker_I(std::size_t k) const override { return elements[k].i; }
-  MarkerId marker_J(std::size_t k) const override { return elements[k].j; }
-  bool rotates() const override { return E::rotates; }
-  bool translates() const override { return E::translates; }
+  MarkerId marker_I(std::size_t k) const override { return joints[k].i; }
+  MarkerId marker_J(std::size_t k) const override { return joints[k].j; }
+  bool rotates() const override {
+    if constexpr (requires { E::rotates; }) return E::rotates;
+    return false;
+  }
+  bool translates() const override {
+    if constexpr (requires { E::translates; }) return E::translates;
+    return false;
+  }
+
+ private:
+  static void read_parameter(const std::optional<double>& value, std::string_view name, E& element,
+                             ElementReader& reader) {
+    constexpr std::string_view wanted = [] {
+      if constexpr (requires { E::parameter; }) return E::parameter;
+      return std::string_view();
+    }();
+    if (name != wanted) {
+      if (value) {
+        reader.error("unexpected-argument", reader.at(name), fmt::format("{} does not go with {}", name, E::variant));
+      }
+      return;
+    }
+    if constexpr (requires { E::parameter; }) {
+      if (!value && !reader.statement().damaged && !reader.given(name)) {
+        reader.error("missing-argument", reader.statement().at,
+                     fmt::format("{} needs {}", reader.label().text(), name));
+      } else if (value && *value == 0) {
+        reader.error("value-out-of-range", reader.at(name),
+                     fmt::format("{} of {} is zero", name, reader.label().text()));
+      } else if (value) {
+        element = E{*value};
+      }
+    }
+  }
 };
 
 template <class E>
@@ -170,8 +275,22 @@ constexpr Kind joint() {
           E::variant,
           E::summary,
           Kind::Role::element,
-          detail::argument_infos<E>,
-          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<JointSet<E>>(kind); }};
+          detail::argument_infos<JointArguments>,
+          [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+            return std::make_unique<JointSet<E, JointArguments>>(kind);
+          }};
+}
+
+template <class E>
+constexpr Kind primitive() {
+  return {"JPRIM",
+          E::variant,
+          E::summary,
+          Kind::Role::element,
+          detail::argument_infos<PrimitiveArguments>,
+          [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+            return std::make_unique<JointSet<E, PrimitiveArguments>>(kind);
+          }};
 }
 
 }  // namespace dynalin

@@ -33,4 +33,12 @@ bool check_pair(const Model& model, const ElementLabel& label, MarkerId i, Marke
   return ok;
 }
 
+RelativeFrame<double> drawn_frame(const Model& model, MarkerId i, MarkerId j) {
+  const MarkerPlace &I = model.marker(i).place, &J = model.marker(j).place;
+  const Pose &B = model.body(I.body).pose, &C = model.body(J.body).pose;
+  const Matrix3 A = transpose(C.R * J.R_BM);
+  const Matrix3 axes = A * (B.R * I.R_BM);
+  return {A * (B.r + B.R * I.p_BM - C.r - C.R * J.p_BM), axes[0], axes[1], axes[2]};
+}
+
 }  // namespace dynalin

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "mechanics/path.h"
 #include "model/model.h"
 
 namespace dynalin {
@@ -15,5 +16,8 @@ struct PairRequirements {
 
 // Reports floating markers, markers on one body and torques on a POINT_MASS; false if anything was wrong.
 bool check_pair(const Model&, const ElementLabel&, MarkerId i, MarkerId j, const PairRequirements&, Diagnostics&);
+
+// I seen from J as drawn.
+RelativeFrame<double> drawn_frame(const Model&, MarkerId i, MarkerId j);
 
 }  // namespace dynalin

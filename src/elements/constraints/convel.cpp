@@ -1,0 +1,29 @@
+// JOINT/id, CONVEL, I=, J=
+//
+// A constant-velocity joint: the origins coincide and the angle between x_I and y_J stays equal to that between y_I and
+// x_J, so that both shafts, along their z axes away from the joint, turn at equal and opposite rates. Removes 4
+// degrees of freedom.
+#include "elements/families/joint.h"
+
+namespace dynalin {
+
+namespace {
+
+struct Convel {
+  static constexpr std::string_view variant = "CONVEL";
+  static constexpr std::string_view summary =
+      "Constant-velocity joint: what one shaft turns about its axis, the other turns about its own.";
+  static constexpr std::array<std::string_view, 4> row_names = {"DX", "DY", "DZ", "Xi.Yj-Yi.Xj"};
+  static constexpr Uses uses = Uses::both_orientations;
+
+  template <class T>
+  static std::array<T, 4> rows(const RelativeFrame<T>& I) {
+    return {I.p.x, I.p.y, I.p.z, I.x.y - I.y.x};
+  }
+};
+
+}  // namespace
+
+extern constinit const Kind convel = joint<Convel>();
+
+}  // namespace dynalin

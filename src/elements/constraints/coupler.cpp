@@ -1,0 +1,93 @@
+// COUPLER/id, JOINTS=id1, id2 [, id3], SCALES= [, TYPE=T:R]
+//
+// Couples the displacements q of two or three joints, rotations in radians, measured from the zero of each joint:
+//
+//     r1 q1 + r2 q2 + r3 q3 = 0
+//
+// One scale fewer than joints means r1 = 1. TYPE says for each joint whether its translation or its rotation is meant,
+// which only a CYLINDRICAL joint needs.
+#include <fmt/format.h>
+
+#include "elements/families/joint_relation.h"
+
+namespace dynalin {
+
+namespace {
+
+struct Coupler {
+  std::vector<JointRef> joints;
+  std::vector<double> scales;
+  std::vector<std::string> types;
+  Expression function;
+
+  static constexpr std::array<Argument<Coupler>, 4> arguments = {{
+      {.name = "JOINTS", .slot = &Coupler::joints, .required = true, .help = "two or three joints"},
+      {.name = "SCALES", .slot = &Coupler::scales, .required = true, .help = "r1, r2, r3; r1 may be left out"},
+      {.name = "TYPE", .slot = &Coupler::types, .help = "T or R for each joint"},
+      {.name = "FUNCTION", .slot = &Coupler::function, .help = "user subroutines are not available"},
+  }};
+};
+
+class CouplerSet final : public TypedSet<Coupler> {
+ public:
+  using TypedSet::TypedSet;
+
+  void read(std::size_t k, ElementReader& reader) override {
+    Coupler& c = elements[k];
+    const bool ok = read_arguments(c, reader);
+    if (reader.given("FUNCTION")) {
+      reader.error("argument-not-built", reader.at("FUNCTION"), "user subroutines are not available");
+    }
+    if (!ok) return;
+    const std::size_t n = c.joints.size();
+    const std::string name = reader.label().text();
+    if (n != 2 && n != 3) {
+      reader.error("wrong-count", reader.at("JOINTS"), fmt::format("{} couples two or three joints, not {}", name, n));
+      return;
+    }
+    if (c.scales.size() + 1 == n) c.scales.insert(c.scales.begin(), 1.0);
+    if (c.scales.size() != n) {
+      reader.error("wrong-count", reader.at("SCALES"),
+                   fmt::format("{} needs {} or {} scales, here are {}", name, n - 1, n, c.scales.size()));
+    }
+    if (!c.types.empty() && c.types.size() != n) {
+      reader.error("wrong-count", reader.at("TYPE"), fmt::format("TYPE of {} needs {} words", name, n));
+    }
+    for (const std::string& type : c.types) {
+      if (type == "T" || type == "R") continue;
+      reader.error("unknown-word", reader.at("TYPE"), fmt::format("TYPE takes T and R, not {}", type));
+    }
+  }
+
+  void finish(Model& model, Diagnostics& diagnostics) override {
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      const Coupler& c = elements[k];
+      JointRelation relation;
+      for (std::size_t j = 0; j < c.joints.size(); ++j) {
+        const char type = c.types.empty() ? ' ' : c.types[j][0];
+        const auto freedom = joint_freedom(model, labels[k], c.joints[j], type, diagnostics);
+        if (freedom) relation.terms.push_back({*freedom, c.scales[j]});
+      }
+      relations_.push_back(std::move(relation));
+    }
+  }
+
+  std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
+    return std::make_unique<JointRelationKernel>(relations_, labels, "r.q", layout);
+  }
+
+ private:
+  std::vector<JointRelation> relations_;
+};
+
+}  // namespace
+
+extern constinit const Kind coupler = {
+    "COUPLER",
+    "",
+    "Couples the displacements of two or three joints linearly.",
+    Kind::Role::element,
+    detail::argument_infos<Coupler>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<CouplerSet>(kind); }};
+
+}  // namespace dynalin

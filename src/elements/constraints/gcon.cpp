@@ -1,0 +1,133 @@
+// GCON/id [, I=], FUNCTION=
+//
+// Drives a function expression to zero. One without velocities is a position row Φ(q, t) = 0; one with velocities
+// is a velocity row Ψ(q, q′, t) = 0, which takes a rate from the model and no position. The generalized forces are
+// λ Φ_q, or λ Ψ_q′: a constraint force does no work in a permitted motion. I only says where a force is reported.
+#include <fmt/format.h>
+
+#include "mechanics/bound_expression.h"
+#include "model/model.h"
+#include "model/schema.h"
+
+namespace dynalin {
+
+namespace {
+
+struct GeneralConstraint {
+  MarkerId i;
+  Expression function;
+
+  static constexpr std::array<Argument<GeneralConstraint>, 2> arguments = {{
+      {.name = "I", .slot = &GeneralConstraint::i, .help = "marker at which the force is reported"},
+      {.name = "FUNCTION",
+       .slot = &GeneralConstraint::function,
+       .required = true,
+       .help = "displacements, velocities and TIME; it is held at zero"},
+  }};
+
+  RowLevel level() const {
+    for (const Atom& atom : function.atoms()) {
+      if (atom.function->order > 0) return RowLevel::velocity;
+    }
+    return RowLevel::position;
+  }
+};
+
+class GeneralConstraintKernel final : public Kernel {
+ public:
+  GeneralConstraintKernel(const std::vector<GeneralConstraint>& elements, const std::vector<ElementLabel>& labels,
+                          Layout& layout) {
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      const RowLevel level = elements[k].level();
+      rows_.push_back({elements[k].function, {}, level, layout.add_row(labels[k], "FUNCTION", level)});
+    }
+  }
+
+  void bind(const Signals& signals) override {
+    for (Row& r : rows_) r.function = BoundExpression(r.written, signals);
+  }
+  void constraints(const Motion& motion, ConstraintRows& rows) const override {
+    for (const Row& r : rows_) {
+      rows.set(r.row, r.level == RowLevel::position ? r.function.add_position(motion, rows, r.row)
+                                                    : r.function.add_velocity(motion, rows, r.row));
+    }
+  }
+  void equations(const Motion& motion, Equations& eq) const override {
+    if (!eq.wants_partials()) return;
+    for (const Row& r : rows_) {
+      r.function.add_reaction_partials(motion, eq, motion.lambda[static_cast<std::size_t>(r.row)], r.level);
+    }
+  }
+  void remember(const Motion& motion, Memory& memory) const override {
+    for (const Row& r : rows_) r.function.remember(motion, memory);
+  }
+  std::string fault(const Motion& motion) const override {
+    for (const Row& r : rows_) {
+      if (std::string text = r.function.fault(motion); !text.empty()) return text;
+    }
+    return {};
+  }
+
+ private:
+  struct Row {
+    Expression written;
+    BoundExpression function;
+    RowLevel level;
+    std::int32_t row;
+  };
+  std::vector<Row> rows_;
+};
+
+class GeneralConstraintSet final : public TypedSet<GeneralConstraint> {
+ public:
+  using TypedSet::TypedSet;
+
+  void read(std::size_t k, ElementReader& reader) override {
+    GeneralConstraint& g = elements[k];
+    if (!read_arguments(g, reader)) return;
+    const auto unfit = [&](const Span& at, std::string_view name, std::string_view reason) {
+      reader.error("unfit-constraint", at,
+                   fmt::format("FUNCTION of {} uses {}, {}", reader.label().text(), name, reason),
+                   "displacements, velocities and TIME may be used");
+    };
+    for (const Atom& atom : g.function.atoms()) {
+      switch (atom.function->family) {
+        case AtomFamily::time:
+          break;
+        case AtomFamily::marker_measure:
+          if (atom.function->order > 1) unfit(atom.at, atom.function->name, "an acceleration");
+          break;
+        case AtomFamily::marker_force:
+        case AtomFamily::element_force:
+          unfit(atom.at, atom.function->name, "a force");
+          break;
+        case AtomFamily::data:
+          unfit(atom.at, atom.function->name, "which no constraint can follow");
+          break;
+      }
+    }
+    static constexpr std::array<std::string_view, 9> kinked = {"IF",  "ABS", "SIGN", "DIM",  "MIN",
+                                                               "MAX", "MOD", "AINT", "ANINT"};
+    for (const Expression::Call& call : g.function.calls()) {
+      if (std::find(kinked.begin(), kinked.end(), call.name) != kinked.end()) {
+        unfit(call.at, call.name, "which has kinks or jumps");
+      }
+    }
+  }
+
+  std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
+    return std::make_unique<GeneralConstraintKernel>(elements, labels, layout);
+  }
+};
+
+}  // namespace
+
+extern constinit const Kind gcon = {
+    "GCON",
+    "",
+    "Holds a function of displacements, velocities and time at zero.",
+    Kind::Role::element,
+    detail::argument_infos<GeneralConstraint>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<GeneralConstraintSet>(kind); }};
+
+}  // namespace dynalin

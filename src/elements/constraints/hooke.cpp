@@ -1,0 +1,28 @@
+// JOINT/id, HOOKE, I=, J=
+//
+// The cross of UNIVERSAL with other axes named: the origins coincide, the z axes lie along the shafts, and x of I and
+// y of J, the two bars of the cross, stay perpendicular. Removes 4 degrees of freedom.
+#include "elements/families/joint.h"
+
+namespace dynalin {
+
+namespace {
+
+struct Hooke {
+  static constexpr std::string_view variant = "HOOKE";
+  static constexpr std::string_view summary =
+      "Cross with z axes along the shafts: rotations about x of I and about y of J are free.";
+  static constexpr std::array<std::string_view, 4> row_names = {"DX", "DY", "DZ", "Xi.Yj"};
+  static constexpr Uses uses = Uses::both_orientations;
+
+  template <class T>
+  static std::array<T, 4> rows(const RelativeFrame<T>& I) {
+    return {I.p.x, I.p.y, I.p.z, I.x.y};
+  }
+};
+
+}  // namespace
+
+extern constinit const Kind hooke = joint<Hooke>();
+
+}  // namespace dynalin

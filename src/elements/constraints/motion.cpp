@@ -1,0 +1,217 @@
+// MOTION/id, {JOINT= [, ROTATION | TRANSLATION] | I=, J=, {X | Y | Z | B1 | B2 | B3}}, FUNCTION=
+//     [, DISPLACEMENT | VELOCITY | ACCELERATION] [, ICDISP=] [, ICVEL=]
+//
+// Drives one displacement q of a joint or of a marker pair by a function of time (families/pair_displacement.h):
+//
+//     DISPLACEMENT   q − f(t) = 0                  angles are compared modulo 2π
+//     VELOCITY       q − s = 0,   s′ = f(t)        s starts at ICDISP, or where the dataset draws it
+//     ACCELERATION   q − s = 0,   s″ = f(t)        s′ starts at ICVEL, or 0
+//
+// A linear model is taken at one instant and holds s: no state belongs to the motion.
+#include <fmt/format.h>
+
+#include "elements/families/pair_displacement.h"
+#include "mechanics/bound_expression.h"
+
+namespace dynalin {
+
+namespace {
+
+enum class DriveLevel : std::uint8_t { displacement, velocity, acceleration };
+
+struct PrescribedMotion {
+  JointRef joint;
+  MarkerId i, j;  // of the joint when there is one
+  bool rotation = false, translation = false;
+  bool x = false, y = false, z = false, b1 = false, b2 = false, b3 = false;
+  bool displacement = false, velocity = false, acceleration = false;
+  std::optional<double> icdisp, icvel;
+  Expression function;
+
+  // Set when the model is complete.
+  Displacement kind = Displacement::rotation;
+  DriveLevel level = DriveLevel::displacement;
+  double start = 0;  // s
+
+  using M = PrescribedMotion;
+  static constexpr std::array<Argument<M>, 17> arguments = {{
+      {.name = "JOINT", .slot = &M::joint, .help = "the joint that is driven"},
+      {.name = "I", .slot = &M::i, .help = "the marker that is driven"},
+      {.name = "J", .slot = &M::j, .help = "the marker relative to which it is driven"},
+      {.name = "ROTATIONAL", .slot = &M::rotation, .help = "drives the rotation of the joint"},
+      {.name = "TRANSLATIONAL", .slot = &M::translation, .help = "drives the translation of the joint"},
+      {.name = "X", .slot = &M::x, .help = "drives the displacement of I along x of J"},
+      {.name = "Y", .slot = &M::y, .help = "drives the displacement of I along y of J"},
+      {.name = "Z", .slot = &M::z, .help = "drives the displacement of I along z of J"},
+      {.name = "B1", .slot = &M::b1, .help = "drives the first angle of the body-fixed 1-2-3 sequence"},
+      {.name = "B2", .slot = &M::b2, .help = "drives the second angle"},
+      {.name = "B3", .slot = &M::b3, .help = "drives the third angle"},
+      {.name = "FUNCTION", .slot = &M::function, .required = true, .help = "a function of TIME alone"},
+      {.name = "DISPLACEMENT", .slot = &M::displacement, .help = "FUNCTION is the displacement (default)"},
+      {.name = "VELOCITY", .slot = &M::velocity, .help = "FUNCTION is the velocity"},
+      {.name = "ACCELERATION", .slot = &M::acceleration, .help = "FUNCTION is the acceleration"},
+      {.name = "ICDISP", .slot = &M::icdisp, .unit = "length or rad", .help = "displacement at the start"},
+      {.name = "ICVEL", .slot = &M::icvel, .unit = "length or rad, per time", .help = "velocity at the start"},
+  }};
+
+  std::string_view kind_text() const {
+    static constexpr std::array<std::string_view, 7> names = {"rotation", "X", "Y", "Z", "B1", "B2", "B3"};
+    if (joint.valid() && kind == translation_of_joint) return "translation";
+    return names[static_cast<std::size_t>(kind)];
+  }
+};
+
+class MotionKernel final : public Kernel {
+ public:
+  MotionKernel(const std::vector<PrescribedMotion>& elements, const std::vector<ElementLabel>& labels, Layout& layout) {
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      const PrescribedMotion& e = elements[k];
+      if (e.level != DriveLevel::displacement) layout.velocity_driven.push_back(&labels[k]);
+      driven_.push_back(
+          {e, {layout.marker(e.i), layout.marker(e.j), e.kind}, layout.add_row(labels[k], e.kind_text()), {}});
+    }
+  }
+
+  void bind(const Signals& signals) override {
+    for (Driven& d : driven_) d.function = BoundExpression(d.element.function, signals);
+  }
+
+  void constraints(const Motion& motion, ConstraintRows& rows) const override {
+    for (const Driven& d : driven_) {
+      const Taylor q = d.displacement.along_motion(motion), f = course(d, motion, rows.scratch);
+      Taylor row(q.value - f.value, q.rate - f.rate, q.acceleration - f.acceleration);
+      if (is_angle(d.element.kind)) row.value = std::remainder(row.value, 2 * std::numbers::pi);
+      rows.set(d.row, row);
+      d.displacement.add_to_row(motion, 1.0, d.row, rows);
+    }
+  }
+
+  void equations(const Motion& motion, Equations& eq) const override {
+    if (!eq.wants(Column::position)) return;
+    for (const Driven& d : driven_) d.displacement.add_reaction_partials(motion, lambda(d, motion), eq);
+  }
+
+  bool has_wrench() const override { return true; }
+  MarkerId marker_I(std::size_t k) const override { return driven_[k].element.i; }
+  MarkerId marker_J(std::size_t k) const override { return driven_[k].element.j; }
+  void wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const override {
+    const Driven& d = driven_[k];
+    d.displacement.wrench(motion, lambda(d, motion), d.row, with_partials, out);
+  }
+  std::string fault(const Motion& motion) const override {
+    for (const Driven& d : driven_) {
+      if (std::string text = d.function.fault(motion); !text.empty()) return text;
+    }
+    return {};
+  }
+
+ private:
+  struct Driven {
+    PrescribedMotion element;
+    PairDisplacement displacement;
+    std::int32_t row;
+    BoundExpression function;
+  };
+  static double lambda(const Driven& d, const Motion& motion) { return motion.lambda[static_cast<std::size_t>(d.row)]; }
+  // What the displacement is driven along, with its rates.
+  static Taylor course(const Driven& d, const Motion& motion, ExpressionScratch& scratch) {
+    const Taylor f = d.function.along_motion(motion, scratch);
+    switch (d.element.level) {
+      case DriveLevel::displacement:
+        return f;
+      case DriveLevel::velocity:
+        return {d.element.start, f.value, f.rate};
+      case DriveLevel::acceleration:
+        return {d.element.start, d.element.icvel.value_or(0.0), f.value};
+    }
+    return f;
+  }
+  std::vector<Driven> driven_;
+};
+
+class MotionSet final : public TypedSet<PrescribedMotion> {
+ public:
+  using TypedSet::TypedSet;
+
+  void read(std::size_t k, ElementReader& reader) override {
+    PrescribedMotion& m = elements[k];
+    if (!read_arguments(m, reader)) return;
+    for (const Atom& atom : m.function.atoms()) {
+      if (atom.function->family == AtomFamily::time) continue;
+      reader.error("function-of-state", atom.at,
+                   fmt::format("FUNCTION of {} depends on {}, it may depend on TIME only", reader.label().text(),
+                               atom.function->name));
+    }
+    const std::string name = reader.label().text();
+    const Span whole = reader.statement().at;
+    const int levels = m.displacement + m.velocity + m.acceleration;
+    if (levels > 1) {
+      reader.error("excluded-arguments", whole,
+                   fmt::format("{} takes one of DISPLACEMENT, VELOCITY and ACCELERATION", name));
+    }
+    m.level = m.velocity ? DriveLevel::velocity : m.acceleration ? DriveLevel::acceleration : DriveLevel::displacement;
+    if (m.icdisp && m.level == DriveLevel::displacement) {
+      reader.error("unexpected-argument", reader.at("ICDISP"), "ICDISP goes with VELOCITY and ACCELERATION");
+    }
+    if (m.icvel && m.level != DriveLevel::acceleration) {
+      reader.error("unexpected-argument", reader.at("ICVEL"), "ICVEL goes with ACCELERATION");
+    }
+
+    const std::array<std::pair<bool, Displacement>, 6> words = {{{m.x, Displacement::X},
+                                                                 {m.y, Displacement::Y},
+                                                                 {m.z, Displacement::Z},
+                                                                 {m.b1, Displacement::B1},
+                                                                 {m.b2, Displacement::B2},
+                                                                 {m.b3, Displacement::B3}}};
+    int chosen = 0;
+    for (const auto& [given, kind] : words) {
+      if (!given) continue;
+      ++chosen;
+      m.kind = kind;
+    }
+    const bool by_joint = reader.given("JOINT"), by_markers = reader.given("I") || reader.given("J");
+    if (by_joint && (by_markers || chosen > 0)) {
+      reader.error("excluded-arguments", whole, fmt::format("{} drives either a JOINT or a pair of markers", name));
+    } else if (!by_joint && !by_markers) {
+      reader.error("missing-argument", whole, fmt::format("{} needs JOINT, or I and J", name));
+    } else if (by_markers && !(reader.given("I") && reader.given("J"))) {
+      reader.error("missing-argument", whole, fmt::format("{} needs both I and J", name));
+    } else if (by_markers && (chosen != 1 || m.rotation || m.translation)) {
+      reader.error("wrong-freedom", whole, fmt::format("{} must name the one displacement that it drives", name),
+                   "X, Y, Z, B1, B2 or B3");
+    } else if (by_joint && m.rotation && m.translation) {
+      reader.error("wrong-freedom", whole, fmt::format("{} takes one of ROTATION and TRANSLATION", name));
+    }
+  }
+
+  void finish(Model& model, Diagnostics& diagnostics) override {
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      PrescribedMotion& m = elements[k];
+      if (m.joint.valid()) {
+        const char wanted = m.rotation ? 'R' : m.translation ? 'T' : ' ';
+        const auto freedom = joint_freedom(model, labels[k], m.joint, wanted, diagnostics);
+        if (!freedom) continue;
+        m.i = freedom->i, m.j = freedom->j, m.kind = freedom->kind;
+      } else if (!check_pair(model, labels[k], m.i, m.j, {true, is_angle(m.kind), true}, diagnostics)) {
+        continue;
+      }
+      m.start = m.icdisp.value_or(dynalin::displacement(m.kind, drawn_frame(model, m.i, m.j)));
+    }
+  }
+
+  std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
+    return std::make_unique<MotionKernel>(elements, labels, layout);
+  }
+};
+
+}  // namespace
+
+extern constinit const Kind motion = {
+    "MOTION",
+    "",
+    "Drives a displacement of a joint or of a pair of markers by a function of time.",
+    Kind::Role::element,
+    detail::argument_infos<PrescribedMotion>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<MotionSet>(kind); }};
+
+}  // namespace dynalin

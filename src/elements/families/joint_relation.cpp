@@ -1,0 +1,52 @@
+#include "elements/families/joint_relation.h"
+
+namespace dynalin {
+
+double drawn_value(const Model& model, const JointRelation& relation) {
+  double sum = 0;
+  for (const JointRelation::Term& t : relation.terms) {
+    sum += t.factor * displacement(t.freedom.kind, drawn_frame(model, t.freedom.i, t.freedom.j));
+  }
+  return sum;
+}
+
+JointRelationKernel::JointRelationKernel(const std::vector<JointRelation>& relations,
+                                         const std::vector<ElementLabel>& labels, std::string_view row_name,
+                                         Layout& layout) {
+  for (std::size_t k = 0; k < relations.size(); ++k) {
+    Relation r{{}, relations[k].constant, layout.add_row(labels[k], row_name)};
+    for (const JointRelation::Term& t : relations[k].terms) {
+      PairDisplacement q(layout.marker(t.freedom.i), layout.marker(t.freedom.j), t.freedom.kind);
+      q.count_turns(layout);
+      r.terms.emplace_back(q, t.factor);
+    }
+    relations_.push_back(std::move(r));
+  }
+}
+
+void JointRelationKernel::constraints(const Motion& motion, ConstraintRows& rows) const {
+  for (const Relation& r : relations_) {
+    Taylor sum(-r.constant);
+    for (const auto& [q, factor] : r.terms) {
+      sum = sum + factor * q.along_motion(motion);
+      q.add_to_row(motion, factor, r.row, rows);
+    }
+    rows.set(r.row, sum);
+  }
+}
+
+void JointRelationKernel::equations(const Motion& motion, Equations& eq) const {
+  if (!eq.wants(Column::position)) return;
+  for (const Relation& r : relations_) {
+    const double lambda = motion.lambda[static_cast<std::size_t>(r.row)];
+    for (const auto& [q, factor] : r.terms) q.add_reaction_partials(motion, factor * lambda, eq);
+  }
+}
+
+void JointRelationKernel::remember(const Motion& motion, Memory& memory) const {
+  for (const Relation& r : relations_) {
+    for (const auto& term : r.terms) term.first.remember(motion, memory);
+  }
+}
+
+}  // namespace dynalin

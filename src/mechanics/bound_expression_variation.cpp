@@ -1,0 +1,165 @@
+// How the generalized forces of an expression's constraint row change with the coordinates:
+//
+//     Q_i = λ g_i,    g_i = Σ_k e_k G_ki,    ∂g_i/∂ξ_j = Σ_k (Σ_l e_kl G_lj) G_ki + Σ_k e_k ∂G_ki/∂ξ_j
+//
+// with e_k, e_kl the derivatives of the expression by its atoms and G_ki those of atom k along unit displacement i
+// (position rows) or unit velocity i (velocity rows) in global axes.
+#include "mechanics/bound_expression.h"
+#include "mechanics/seeded_frames.h"
+
+namespace dynalin {
+
+namespace {
+
+using path::NestedDual;
+using Nested = TimeTaylor<NestedDual>;
+
+// A variation of one body: seeds δr, δθ of a path that grows with t^level / level!.
+struct Direction {
+  BodyId body;
+  std::size_t level;
+};
+
+// v(t) t^level/level! as coefficients.
+Vec3<TimeTaylor<Dual<6>>> grown(const Vec3<TimeTaylor<Dual<6>>>& v, std::size_t level) {
+  if (level == 0) return v;
+  Vec3<TimeTaylor<Dual<6>>> g;
+  for (std::size_t c = 0; c < 3; ++c) {
+    g[c] = {Dual<6>(0.0), v[c].value, Dual<6>(2.0) * v[c].rate};
+  }
+  return g;
+}
+
+void set_inner(Vec3<Nested>& v, std::size_t seed, const Vec3<TimeTaylor<Dual<6>>>& direction) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    v[c].value.partial[seed] = direction[c].value;
+    v[c].rate.partial[seed] = direction[c].rate;
+    v[c].acceleration.partial[seed] = direction[c].acceleration;
+  }
+}
+
+Vec3<Nested> lifted(const Vec3<TimeTaylor<Dual<6>>>& v) {
+  Vec3<Nested> n;
+  for (std::size_t c = 0; c < 3; ++c) {
+    n[c].value.value = v[c].value, n[c].rate.value = v[c].rate, n[c].acceleration.value = v[c].acceleration;
+  }
+  return n;
+}
+
+Vec3<TimeTaylor<Dual<6>>> turned(std::size_t axis, const Vec3<TimeTaylor<Dual<6>>>& v) {
+  const TimeTaylor<Dual<6>> zero{Dual<6>(0.0), Dual<6>(0.0), Dual<6>(0.0)};
+  return axis == 0   ? Vec3<TimeTaylor<Dual<6>>>{zero, -v.z, v.y}
+         : axis == 1 ? Vec3<TimeTaylor<Dual<6>>>{v.z, zero, -v.x}
+                     : Vec3<TimeTaylor<Dual<6>>>{-v.y, v.x, zero};
+}
+
+// The marker frame varied first along `outer`, then, at the varied motion, along `inner`.
+Frame<Nested> nested_frame(const Motion& motion, const MarkerPlace& place, const Direction& inner,
+                           const Direction& outer) {
+  const Frame<Taylor> plain = motion.frame(place);
+  const BodyMotion& b = motion.body(place.body);
+  const Vec3<Taylor> arm = plain.origin - along_motion(b.r, b.rdot, b.rddot);
+
+  Vec3<TimeTaylor<Dual<6>>> r = path::constant<6>(plain.origin), varied_arm = path::constant<6>(arm);
+  std::array<Vec3<TimeTaylor<Dual<6>>>, 3> axis;
+  for (std::size_t c = 0; c < 3; ++c) axis[c] = path::constant<6>(plain.axes[c]);
+  if (place.body == outer.body) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector e = unit_vectors[k];
+      path::vary(r, k, outer.level, {Taylor(e.x), Taylor(e.y), Taylor(e.z)});
+      path::vary(r, 3 + k, outer.level, path::turned(k, arm));
+      path::vary(varied_arm, 3 + k, outer.level, path::turned(k, arm));
+      for (std::size_t c = 0; c < 3; ++c) path::vary(axis[c], 3 + k, outer.level, path::turned(k, plain.axes[c]));
+    }
+  }
+  Frame<Nested> f{lifted(r), {lifted(axis[0]), lifted(axis[1]), lifted(axis[2])}};
+  if (place.body == inner.body) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector e = unit_vectors[k];
+      const Vec3<Taylor> unit{Taylor(e.x), Taylor(e.y), Taylor(e.z)};
+      set_inner(f.origin, k, grown(path::constant<6>(unit), inner.level));
+      set_inner(f.origin, 3 + k, grown(turned(k, varied_arm), inner.level));
+      for (std::size_t c = 0; c < 3; ++c) set_inner(f.axes[c], 3 + k, grown(turned(k, axis[c]), inner.level));
+    }
+  }
+  return f;
+}
+
+}  // namespace
+
+void BoundExpression::add_reaction_partials(const Motion& motion, Equations& eq, double lambda,
+                                            RowLevel row_level) const {
+  ExpressionScratch& scratch = eq.scratch;
+  const std::size_t n = atoms_.size();
+  scratch.taylor_atoms.resize(n);
+  scratch.taylor_partials.resize(n);
+  // Gradients of every atom by its bodies: level 0 in 0–5, level 1 in 6–11.
+  scratch.gradients.resize(4 * n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const BoundAtom& a = atoms_[k];
+    scratch.taylor_atoms[k] = Taylor(atom_value(a, motion), 0.0, 0.0);
+    if (a.kind != BoundAtom::Kind::measure) continue;
+    for (std::size_t b = 0; b < a.body_count; ++b) {
+      scratch.gradients[4 * k + b] = path::seeded_measure<12>(a.measure, a.places, motion, a.bodies[b]).value.partial;
+    }
+  }
+  const std::size_t inner_level = row_level == RowLevel::position ? 0 : 1;
+
+  // The variation of the slopes e_k along one coordinate comes as a rate.
+  for (std::size_t outer_level = 0; outer_level <= inner_level; ++outer_level) {
+    const Column family = outer_level == 0 ? Column::position : Column::velocity;
+    if (!eq.wants(family)) continue;
+    for (const BodyId outer : bodies_) {
+      const BodyBlock& columns = eq.layout().body(outer);
+      for (std::int32_t j = 0; j < columns.count; ++j) {
+        for (std::size_t l = 0; l < n; ++l) {
+          scratch.taylor_atoms[l].rate = gradient(scratch, l, outer, 6 * outer_level + static_cast<std::size_t>(j));
+        }
+        expression_.evaluate<Taylor>(scratch.taylor_atoms, std::span(scratch.taylor_partials), scratch.taylor);
+        for (const BodyId inner : bodies_) {
+          const BodyBlock& forces = eq.layout().body(inner);
+          for (std::int32_t i = 0; i < forces.count; ++i) {
+            double sum = 0;
+            for (std::size_t k = 0; k < n; ++k) {
+              const double g = gradient(scratch, k, inner, 6 * inner_level + static_cast<std::size_t>(i));
+              if (g != 0.0) sum += scratch.taylor_partials[k].rate * g;
+            }
+            eq.add(family, forces.offset + i, columns.offset + j, -lambda * sum);
+          }
+        }
+      }
+    }
+    // The variation of the gradients themselves, with the slopes e_k of the last pass.
+    if (bodies_.empty()) continue;
+    for (std::size_t k = 0; k < n; ++k) {
+      const BoundAtom& a = atoms_[k];
+      if (a.kind != BoundAtom::Kind::measure || (a.order == 0 && inner_level == 1)) continue;
+      const double slope = scratch.taylor_partials[k].value;
+      for (std::size_t b = 0; b < a.body_count; ++b) {
+        for (std::size_t c = 0; c < a.body_count; ++c) {
+          const Direction inner{a.bodies[b], inner_level}, outer{a.bodies[c], outer_level};
+          const auto frame = [&](std::size_t m) { return nested_frame(motion, a.places[m], inner, outer); };
+          const NestedDual m = evaluate_measure<Nested>(a.measure, {frame(0), frame(1), frame(2), frame(3)}).value;
+          const BodyBlock &forces = eq.layout().body(inner.body), &columns = eq.layout().body(outer.body);
+          for (std::int32_t i = 0; i < forces.count; ++i) {
+            for (std::int32_t j = 0; j < columns.count; ++j) {
+              eq.add(family, forces.offset + i, columns.offset + j,
+                     -lambda * slope * m.partial[static_cast<std::size_t>(i)].partial[static_cast<std::size_t>(j)]);
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+double BoundExpression::gradient(const ExpressionScratch& scratch, std::size_t atom, BodyId body,
+                                 std::size_t seed) const {
+  const BoundAtom& a = atoms_[atom];
+  for (std::size_t b = 0; b < a.body_count; ++b) {
+    if (a.bodies[b] == body) return scratch.gradients[4 * atom + b][seed];
+  }
+  return 0;
+}
+
+}  // namespace dynalin

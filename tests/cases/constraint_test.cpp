@@ -1,0 +1,294 @@
+// Every joint, primitive, motion and relation against the same constraint written as GCONs in marker measures, in a
+// loaded and moving mechanism; and what has a closed form.
+#include <numbers>
+
+#include "cases/dataset_text.h"
+
+namespace dynalin::cases {
+namespace {
+
+using Pieces = std::vector<std::string>;
+
+Matrix3 about(const Vector& axis, double angle) {
+  const Vector u = axis / norm(axis);
+  const Matrix3 K = skew(u), one = Matrix3::identity();
+  return one + std::sin(angle) * K + (1 - std::cos(angle)) * (K * K);
+}
+
+struct Held {
+  std::string name;
+  std::string statement;  // the element between I=31 and J=22
+  Vector p;               // I seen from J as drawn, where the element holds
+  Matrix3 axes;
+  Pieces functions;  // the same as GCONs
+};
+void PrintTo(const Held& h, std::ostream* out) { *out << h.name; }
+
+// Two bodies in a chain on a ball, pulled by springs, turning; the element under test joins them.
+std::string mechanism(const Held& h, bool as_functions) {
+  std::string s = "Chain\nUNITS/SYSTEM=MKS\nACCGRAV/IGRAV=1.7, JGRAV=-2.3, KGRAV=-8.9\nPART/1, GROUND\n";
+  const Matrix3 R2 = rotation_313(0.3, 0.5, -0.2), R3 = rotation_313(-0.7, 1.1, 0.4), F = rotation_313(0.4, 0.9, 0.3);
+  const Vector o2{0.3, 0.2, -0.1}, o3{0.9, 0.3, -0.5}, joint{0.6, 0.3, -0.2};
+  s += fmt::format(
+      "PART/2, MASS=2, CM=20, IP=0.2,0.3,0.25,0.01,-0.02,0.015, QG={}, REULER={}, WX=0.4, WY=-0.6, WZ=0.9\n", xyz(o2),
+      reuler(R2));
+  s += fmt::format("PART/3, MASS=1.5, CM=30, IP=0.1,0.15,0.12,-0.01,0.005,0.01, QG={}, REULER={}\n", xyz(o3),
+                   reuler(R3));
+  const auto marker = [&](int id, int body, const Vector& p, const Matrix3& axes) {
+    const Vector local = body == 1 ? p : body == 2 ? transpose_times(R2, p - o2) : transpose_times(R3, p - o3);
+    const Matrix3 local_axes = body == 1 ? axes : transpose_times(body == 2 ? R2 : R3, axes);
+    s += fmt::format("MARKER/{}, PART={}, QP={}, REULER={}\n", id, body, xyz(local), reuler(local_axes));
+  };
+  marker(20, 2, {0.35, 0.2, -0.15}, R2), marker(30, 3, {0.95, 0.25, -0.6}, R3);
+  marker(1, 1, {0, 0, 0}, F), marker(21, 2, {0, 0, 0}, F), marker(22, 2, joint, F);
+  const Vector at = joint + F * h.p;
+  const Matrix3 axes = F * h.axes;
+  marker(31, 3, at, axes);
+  for (int k = 0; k < 3; ++k) marker(311 + k, 3, at + axes[static_cast<std::size_t>(k)], axes);
+  marker(32, 3, {1.3, 0.1, -0.8}, F), marker(33, 3, {0.7, 0.6, -0.9}, F);
+  marker(2, 1, {1.5, 0.5, 0.8}, F), marker(3, 1, {-0.8, 0.9, 0.4}, F), marker(4, 1, {0.5, -1.2, 0.3}, F),
+      marker(5, 1, {1.9, -0.4, -0.6}, F);
+  s += "JOINT/1, SPHERICAL, I=21, J=1\n";
+  int id = 1;
+  for (const auto& [i, j, k, c, l] : std::vector<std::tuple<int, int, double, double, double>>{{20, 3, 180, 3, 0.9},
+                                                                                               {20, 4, 90, 1, 1.1},
+                                                                                               {30, 2, 120, 1, 1.0},
+                                                                                               {32, 2, 60, 0.5, 0.8},
+                                                                                               {33, 3, 80, 0.7, 1.5},
+                                                                                               {32, 5, 70, 2, 0.3},
+                                                                                               {33, 4, 50, 1, 1.2}}) {
+    s += fmt::format("SPRINGDAMPER/{}, TRANSLATIONAL, I={}, J={}, K={}, C={}, LENGTH={}\n", id++, i, j, k, c, l);
+  }
+  if (!as_functions) {
+    s += h.statement + "\n";
+  } else {
+    for (std::size_t k = 0; k < h.functions.size(); ++k)
+      s += fmt::format("GCON/{}, FUNCTION={}\n", k + 1, h.functions[k]);
+  }
+  return s + "END\n";
+}
+
+const Matrix3 one = Matrix3::identity();
+const Matrix3 turned = about({0, 0, 1}, 0.7), anyhow = rotation_313(0.5, 0.8, -0.3);
+const Matrix3 crossed = rotation_313(0.3, std::numbers::pi / 2, 0.5);
+const Vector none{}, along{0, 0, 0.2}, within{0.1, 0.2, 0}, off{0.1, -0.15, 0.2};
+const std::string DX = "DX(31,22,22)", DY = "DY(31,22,22)", DZ = "DZ(31,22,22)", XY = "DY(311,31,22)",
+                  YX = "DX(312,31,22)", ZX = "DX(313,31,22)", ZY = "DY(313,31,22)", ZZ = "DZ(313,31,22)";
+std::string number(double x) { return fmt::format("{:.17g}", x); }
+std::string angle_z() { return "AZ(31,22)"; }
+std::string minus_drawn(const std::string& f, double value) { return f + "-(" + number(value) + ")"; }
+
+std::vector<Held> all() {
+  const double drawn_turn = 0.7;
+  // R = Rx(B1) Ry(B2) Rz(B3)
+  const double B1 = 0.4, B2 = -0.3, B3 = 0.6;
+  const Matrix3 sequence = about({1, 0, 0}, B1) * about({0, 1, 0}, B2) * about({0, 0, 1}, B3);
+  const auto drive = [&](const std::string& word, const std::string& f) {
+    return "MOTION/1, I=31, J=22, " + word + ", FUNCTION=" + f;
+  };
+  const std::string wave = "+0.1*TIME+0.05*SIN(2*TIME)";
+  std::vector<Held> list = {
+      {"revolute", "JOINT/2, REVOLUTE, I=31, J=22", none, turned, {DX, DY, DZ, ZX, ZY}},
+      {"translational", "JOINT/2, TRANSLATIONAL, I=31, J=22", along, one, {DX, DY, ZX, ZY, XY}},
+      {"cylindrical", "JOINT/2, CYLINDRICAL, I=31, J=22", along, turned, {DX, DY, ZX, ZY}},
+      {"spherical", "JOINT/2, SPHERICAL, I=31, J=22", none, anyhow, {DX, DY, DZ}},
+      {"planar", "JOINT/2, PLANAR, I=31, J=22", within, turned, {DZ, ZX, ZY}},
+      {"universal", "JOINT/2, UNIVERSAL, I=31, J=22", none, crossed, {DX, DY, DZ, ZZ}},
+      {"hooke", "JOINT/2, HOOKE, I=31, J=22", none, about({0, 1, 0}, 0.4) * about({1, 0, 0}, 0.6), {DX, DY, DZ, XY}},
+      {"convel",
+       "JOINT/2, CONVEL, I=31, J=22",
+       none,
+       about({std::cos(0.3), std::sin(0.3), 0}, 0.5),
+       {DX, DY, DZ, XY + "-" + YX}},
+      {"fixed", "JOINT/2, FIXED, I=31, J=22", none, one, {DX, DY, DZ, ZX, ZY, XY}},
+      {"screw",
+       "JOINT/2, SCREW, I=31, J=22, PITCH=0.8",
+       along,
+       turned,
+       {minus_drawn(DZ, 0.2) + "-0.8/(2*PI)*(" + minus_drawn(angle_z(), drawn_turn) + ")"}},
+      {"rackpin",
+       "JOINT/2, RACKPIN, I=31, J=22, PD=0.6",
+       off,
+       crossed,
+       // z of J seen from I turns back by what the pinion turns forward.
+       {minus_drawn(DZ, 0.2) + "+0.3*(ATAN2(DZ(312,31,22),DZ(311,31,22))-ATAN2(" + number(crossed(2, 1)) + "," +
+        number(crossed(2, 0)) + "))"}},
+      {"atpoint", "JPRIM/2, ATPOINT, I=31, J=22", none, anyhow, {DX, DY, DZ}},
+      {"inline", "JPRIM/2, INLINE, I=31, J=22", along, anyhow, {DX, DY}},
+      {"inplane", "JPRIM/2, INPLANE, I=31, J=22", within, anyhow, {DZ}},
+      {"orientation", "JPRIM/2, ORIENTATION, I=31, J=22", off, one, {ZX, ZY, XY}},
+      {"parallel_axes", "JPRIM/2, PARALLEL_AXES, I=31, J=22", off, turned, {ZX, ZY}},
+      {"perpendicular", "JPRIM/2, PERPENDICULAR, I=31, J=22", off, crossed, {ZZ}},
+      {"motion_x", drive("X", number(off.x) + wave), off, anyhow, {DX + "-(" + number(off.x) + wave + ")"}},
+      {"motion_y", drive("Y", number(off.y) + wave), off, anyhow, {DY + "-(" + number(off.y) + wave + ")"}},
+      {"motion_z", drive("Z", number(off.z) + wave), off, anyhow, {DZ + "-(" + number(off.z) + wave + ")"}},
+      {"motion_b1",
+       drive("B1", number(B1) + wave),
+       off,
+       sequence,
+       {"ATAN2(-" + ZY + "," + ZZ + ")-(" + number(B1) + wave + ")"}},
+      {"motion_b2", drive("B2", number(B2) + wave), off, sequence, {"ASIN(" + ZX + ")-(" + number(B2) + wave + ")"}},
+      {"motion_b3",
+       drive("B3", number(B3) + wave),
+       off,
+       sequence,
+       {"ATAN2(-" + YX + ",DX(311,31,22))-(" + number(B3) + wave + ")"}},
+      {"motion_velocity",
+       "MOTION/1, I=31, J=22, Z, VELOCITY, FUNCTION=0.3+0.2*TIME",
+       off,
+       anyhow,
+       {minus_drawn(DZ, off.z) + "-0.3*TIME-0.1*TIME**2"}},
+      {"motion_acceleration",
+       "MOTION/1, I=31, J=22, Z, ACCELERATION, ICVEL=0.3, FUNCTION=0.2+TIME",
+       off,
+       anyhow,
+       {minus_drawn(DZ, off.z) + "-0.3*TIME-0.1*TIME**2"}},
+      {"joint_motion",
+       "JOINT/2, CYLINDRICAL, I=31, J=22\nMOTION/1, JOINT=2, ROTATION, FUNCTION=0.7" + wave,
+       along,
+       turned,
+       {DX, DY, ZX, ZY, angle_z() + "-(0.7" + wave + ")"}},
+      {"joint_motion_translation",
+       "JOINT/2, CYLINDRICAL, I=31, J=22\nMOTION/1, JOINT=2, TRANSLATION, FUNCTION=0.2" + wave,
+       along,
+       turned,
+       {DX, DY, ZX, ZY, DZ + "-(0.2" + wave + ")"}},
+      {"coupled",
+       "JOINT/2, CYLINDRICAL, I=31, J=22\nCOUPLER/1, JOINTS=2,2, TYPE=T:R, SCALES=-3.5",
+       along,
+       turned,
+       {DX, DY, ZX, ZY, DZ + "-3.5*" + angle_z()}},
+  };
+  list.back().axes = about({0, 0, 1}, 0.2 / 3.5);
+  return list;
+}
+
+class SameAsFunctions : public Cases, public ::testing::WithParamInterface<Held> {
+ protected:
+  static bool rests(const Held& h) { return h.name != "motion_velocity" && h.name != "motion_acceleration"; }
+};
+
+TEST_P(SameAsFunctions, at_rest_under_load_and_in_motion) {
+  for (const char* commands : {"SIMULATE/INITIAL\nLINEAR/EIGENSOL\n", "SIMULATE/STATIC\nLINEAR/EIGENSOL\n"}) {
+    if (std::string(commands).find("STATIC") != std::string::npos && !rests(GetParam())) continue;
+    const RunResult element = run(mechanism(GetParam(), false), commands),
+                    functions = run(mechanism(GetParam(), true), commands);
+    ASSERT_EQ(element.status, 0) << element.err;
+    ASSERT_EQ(functions.status, 0) << functions.err;
+    EXPECT_EQ(element.labels(1), functions.labels(1));
+    expect_same(element.eigenvalues(1), functions.eigenvalues(1));
+  }
+}
+INSTANTIATE_TEST_SUITE_P(every, SameAsFunctions, ::testing::ValuesIn(all()),
+                         [](const auto& p) { return p.param.name; });
+
+// Joints and the primitives that make them up.
+class SameAsPrimitives : public Cases, public ::testing::WithParamInterface<std::pair<const char*, std::string>> {};
+
+TEST_P(SameAsPrimitives, in_every_eigenvalue) {
+  const auto [name, primitives] = GetParam();
+  const std::vector<Held> list = all();
+  Held joint = *std::find_if(list.begin(), list.end(), [name = name](const Held& h) { return h.name == name; });
+  const RunResult whole = run(mechanism(joint, false), "SIMULATE/INITIAL\nLINEAR/EIGENSOL\n");
+  joint.statement = primitives;
+  const RunResult parts = run(mechanism(joint, false), "SIMULATE/INITIAL\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  ASSERT_EQ(parts.status, 0) << parts.err;
+  expect_same(whole.eigenvalues(1), parts.eigenvalues(1));
+}
+const std::string on = ", I=31, J=22\n";
+INSTANTIATE_TEST_SUITE_P(
+    joints, SameAsPrimitives,
+    ::testing::Values(std::pair("revolute", "JPRIM/1, ATPOINT" + on + "JPRIM/2, PARALLEL_AXES" + on),
+                      std::pair("translational", "JPRIM/1, INLINE" + on + "JPRIM/2, ORIENTATION" + on),
+                      std::pair("cylindrical", "JPRIM/1, INLINE" + on + "JPRIM/2, PARALLEL_AXES" + on),
+                      std::pair("planar", "JPRIM/1, INPLANE" + on + "JPRIM/2, PARALLEL_AXES" + on),
+                      std::pair("universal", "JPRIM/1, ATPOINT" + on + "JPRIM/2, PERPENDICULAR" + on),
+                      std::pair("fixed", "JPRIM/1, ATPOINT" + on + "JPRIM/2, ORIENTATION" + on)),
+    [](const auto& p) { return std::string(p.param.first); });
+
+// --- closed forms ------------------------------------------------------------------------------------------------
+
+class ClosedForm : public Cases {
+ protected:
+  // The one frequency of a model with one freedom, rad per unit time.
+  double frequency(const std::string& body) const {
+    const RunResult r =
+        run("Closed form\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n" + body + "END\n", "LINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+    if (r.status != 0 || r.eigenvalues(0).size() != 2u) return -1;
+    EXPECT_NEAR(r.eigenvalues(0)[0].real(), 0, 1e-12);
+    return 2 * std::numbers::pi * std::abs(r.eigenvalues(0)[0].imag());
+  }
+};
+
+TEST_F(ClosedForm, screw_adds_the_inertia_of_its_turning) {
+  const double m = 2, J = 0.3, P = 0.5, k = 40, ratio = 2 * std::numbers::pi / P;
+  const std::string text = fmt::format(
+      "MARKER/2, QP=0,0,-1\nPART/2, MASS={}, CM=20, IP=1,1,{}\nMARKER/20\nJOINT/1, CYLINDRICAL, I=20, J=1\n"
+      "JOINT/2, SCREW, I=20, J=1, PITCH={}\nSPRINGDAMPER/1, TRANSLATIONAL, I=20, J=2, K={}, LENGTH=1\n",
+      m, J, P, k);
+  EXPECT_NEAR(frequency(text), std::sqrt(k / (m + J * ratio * ratio)), 1e-13);
+}
+
+TEST_F(ClosedForm, pinion_rolls_on_its_rack) {
+  const double m = 2, J = 0.3, PD = 0.5, k = 40;
+  // The pinion turns about z and rolls along x; the rack's marker has z along x. A MOTION of the sense documented tells
+  // the sign.
+  const std::string text = fmt::format(
+      "MARKER/2, QP=-1,0,0\nMARKER/3, REULER=90D,90D,0\nPART/2, MASS={}, CM=20, IP=1,1,{}\nMARKER/20\n"
+      "JOINT/1, PLANAR, I=20, J=1\nJPRIM/1, INLINE, I=20, J=3\nJOINT/2, RACKPIN, I=20, J=3, PD={}\n"
+      "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=2, K={}, LENGTH=1\n",
+      m, J, PD, k);
+  EXPECT_NEAR(frequency(text), std::sqrt(k / (m + J * 4 / (PD * PD))), 1e-13);
+}
+
+TEST_F(ClosedForm, coupled_wheels) {
+  const double J1 = 0.7, J2 = 0.2, k = 9;
+  // 1 q1 − 3 q2 = 0: the second wheel turns a third of the first.
+  const std::string wheels = fmt::format(
+      "PART/2, MASS=1, CM=20, IP=1,1,{}\nMARKER/20\nPART/3, MASS=1, CM=30, IP=1,1,{}, QG=0.4,0,0\nMARKER/30\nMARKER/3, "
+      "PART=1, QP=0.4,0,0\n"
+      "JOINT/1, REVOLUTE, I=20, J=1\nJOINT/2, REVOLUTE, I=30, J=3\nSPRINGDAMPER/1, ROTATIONAL, I=20, J=1, KT={}\n",
+      J1, J2, k);
+  EXPECT_NEAR(frequency(wheels + "COUPLER/1, JOINTS=1,2, SCALES=-3\n"), std::sqrt(k / (J1 + J2 / 9)), 1e-13);
+  EXPECT_NEAR(frequency(wheels + "COUPLER/1, JOINTS=1,2, SCALES=2,-6\n"), std::sqrt(k / (J1 + J2 / 9)), 1e-13);
+  // Gears of radii 0.3 and 0.1 that touch at x = 0.3: the small one turns three times as fast, backwards.
+  const std::string gears = wheels + "MARKER/5, PART=1, QP=0.3,0,0, REULER=0,-90D,0\nGEAR/1, JOINTS=1,2, CV=5\n";
+  EXPECT_NEAR(frequency(gears), std::sqrt(k / (J1 + J2 * 9)), 1e-13);
+  // The carrier may hold the I marker.
+  std::string swapped = gears;
+  swapped.replace(swapped.find("I=30, J=3"), 9, "I=3, J=30");
+  EXPECT_NEAR(frequency(swapped), std::sqrt(k / (J1 + J2 * 9)), 1e-13);
+}
+
+TEST_F(ClosedForm, constraints_have_the_sense_they_are_documented_with) {
+  // Each mechanism is driven at one end; the velocity at the other is read through a VARIABLE as an output.
+  const auto reading = [&](const std::string& body, const std::string& output) {
+    const RunResult r = run("Sense\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n" + body +
+                                "VARIABLE/9, FUNCTION=0\nPART/9, MASS=1, CM=90, IP=1,1,1\nMARKER/90\nMARKER/91, "
+                                "PART=1\nJOINT/9, TRANSLATIONAL, I=90, J=91\n"
+                                "VARIABLE/1, FUNCTION=(" +
+                                output + ")*VZ(90)\nPOUTPUT/1, VARIABLES=1\nPINPUT/1, VARIABLES=9\nEND\n",
+                            "LINEAR/STATEMAT, FILE=m, PINPUT=1, POUTPUT=1\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+    if (r.status != 0) return 0.0;
+    double largest = 0;
+    const auto C = r.matrix(0, "C");
+    for (const double c : C[0]) largest = std::abs(c) > std::abs(largest) ? c : largest;
+    return largest;
+  };
+  EXPECT_NEAR(reading("PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, CYLINDRICAL, I=20, J=1\nJOINT/2, SCREW, "
+                      "I=20, J=1, PITCH=0.5\n"
+                      "MOTION/1, JOINT=1, ROTATION, FUNCTION=2*TIME\n",
+                      "VZ(20,1)"),
+              2 * 0.5 / (2 * std::numbers::pi), 1e-12);
+  EXPECT_NEAR(reading("MARKER/3, REULER=90D,90D,0\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, PLANAR, I=20, "
+                      "J=1\nJPRIM/1, INLINE, I=20, J=3\n"
+                      "JOINT/2, RACKPIN, I=20, J=3, PD=0.5\nMOTION/1, I=20, J=1, B3, FUNCTION=2*TIME\n",
+                      "VX(20,1)"),
+              2 * 0.25, 1e-12);
+}
+
+}  // namespace
+}  // namespace dynalin::cases
