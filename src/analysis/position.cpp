@@ -53,6 +53,10 @@ Violation position_violation(const System& system, const ConstraintRows& rows) {
 
 Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op, Findings& findings) {
   const Layout& layout = system.layout();
+  if (!layout.problems.empty()) {
+    return tl::unexpected(Failure{"initial conditions", layout.problems.front(),
+                                  {layout.problems.begin() + 1, layout.problems.end()}});
+  }
   ConstraintRows rows;
   rows.resize(layout);
   const auto n = static_cast<Eigen::Index>(system.coordinates());

@@ -159,6 +159,7 @@ class Session {
     write_banner(message_, version);
     write_title(message_, job_.model->title);
     if (!job_.model->units.stated) remark("the dataset states no UNITS: the units consistency factor is taken as 1");
+    for (const std::string& text : system_.layout().remarks) remark(text);
     int status = done;
     for (const Command& c : job_.commands.commands) {
       write_command(message_, c.text);

@@ -45,6 +45,10 @@ constexpr std::array table = {
     measure("PSI", 0, 1, 2),    measure("THETA", 0, 1, 2),  measure("PHI", 0, 1, 2),
     measure("YAW", 0, 1, 2),    measure("PITCH", 0, 1, 2),  measure("ROLL", 0, 1, 2),
     measure("INCANG", 0, 3, 3),
+    // Axes of marker i, component by component in the axes of k: (i, k). The dot keeps the names out of the language.
+    measure("UVX.X", 0, 1, 2),  measure("UVX.Y", 0, 1, 2),  measure("UVX.Z", 0, 1, 2),
+    measure("UVY.X", 0, 1, 2),  measure("UVY.Y", 0, 1, 2),  measure("UVY.Z", 0, 1, 2),
+    measure("UVZ.X", 0, 1, 2),  measure("UVZ.Y", 0, 1, 2),  measure("UVZ.Z", 0, 1, 2),
     // Net force and torque on a marker: (i, j, k), (i, j).
     at_marker("FX", 3), at_marker("FY", 3), at_marker("FZ", 3), at_marker("FM", 2),
     at_marker("TX", 3), at_marker("TY", 3), at_marker("TZ", 3), at_marker("TM", 2),

@@ -34,6 +34,16 @@ int Expression::order(std::span<const int> atom_orders) const {
   return atom_orders.empty() ? 0 : std::max(0, *std::ranges::max_element(atom_orders));
 }
 
+std::span<const SplineUse> Expression::splines() const { return program_->splines; }
+
+Expression Expression::with_curves(
+    const std::function<std::shared_ptr<const SplineCurves>(const SplineUse&)>& find) const {
+  if (program_->splines.empty()) return *this;
+  auto program = std::make_shared<ExpressionProgram>(*program_);
+  for (SplineUse& use : program->splines) use.curves = find(use);
+  return Expression(std::move(program));
+}
+
 std::vector<Expression::Call> Expression::calls() const {
   std::vector<Call> calls;
   for (std::size_t k = 0; k < program_->nodes.size(); ++k) {

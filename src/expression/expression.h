@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,6 +19,7 @@
 #include "base/diagnostics.h"
 #include "base/time_taylor.h"
 #include "dataset/dataset.h"
+#include "expression/spline.h"
 
 namespace dynalin {
 
@@ -86,7 +88,7 @@ class Expression {
   static Expression constant(double);
 
   std::span<const Atom> atoms() const;  // each distinct atom once
-  bool is_constant() const { return atoms().empty(); }
+  bool is_constant() const { return atoms().empty(); }  // a spline at constant arguments is
   const Span& at() const;
 
   // Value at the given atom values. T is double or TimeTaylor<double>. Only the selected branch of
@@ -108,6 +110,10 @@ class Expression {
     Span at;
   };
   std::vector<Call> calls() const;
+
+  // Splines it refers to, and the same expression with their curves; without them it has no value.
+  std::span<const SplineUse> splines() const;
+  Expression with_curves(const std::function<std::shared_ptr<const SplineCurves>(const SplineUse&)>& find) const;
 
   // Names the function that makes the value, or else a partial derivative, infinite or undefined at
   // these atom values; nothing if all are finite. On TimeTaylor the time derivatives count

@@ -7,13 +7,7 @@ namespace dynalin {
 
 namespace {
 
-constexpr std::array<std::string_view, 22> not_built = {
-    // clang-format off
-    "DXYZ", "VXYZ", "ACCXYZ", "WXYZ", "WDTXYZ", "FXYZ", "TXYZ",
-    "UVX", "UVY", "UVZ", "UV", "MAG", "TRANS",
-    "AKISPL", "CUBSPL", "INTERP", "CURVE", "INVPSD", "DELAY", "SENVAL", "USER", "ORIENT",
-    // clang-format on
-};
+constexpr std::array<std::string_view, 6> not_built = {"CURVE", "INVPSD", "DELAY", "SENVAL", "USER", "ORIENT"};
 constexpr std::array<std::string_view, 7> bare_not_built = {"CPU",   "HSIZE",  "NJAC",  "NRHS",
                                                             "ORDER", "FXFREQ", "FXMODE"};
 

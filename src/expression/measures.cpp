@@ -71,10 +71,11 @@ T included_angle(const MeasureFrames<T>& f) {
 }  // namespace
 
 std::optional<Measure> find_measure(std::string_view name) {
-  static constexpr std::array<std::string_view, 31> names = {
+  static constexpr std::array<std::string_view, 40> names = {
       "DX", "DY", "DZ",   "DM",    "VX",   "VY",   "VZ",    "VM",   "VR",    "WX",   "WY",
       "WZ", "WM", "ACCX", "ACCY",  "ACCZ", "ACCM", "WDTX",  "WDTY", "WDTZ",  "WDTM", "AX",
-      "AY", "AZ", "PSI",  "THETA", "PHI",  "YAW",  "PITCH", "ROLL", "INCANG"};
+      "AY", "AZ", "PSI",  "THETA", "PHI",  "YAW",  "PITCH", "ROLL", "INCANG",
+      "UVX.X", "UVX.Y", "UVX.Z", "UVY.X", "UVY.Y", "UVY.Z", "UVZ.X", "UVZ.Y", "UVZ.Z"};
   for (std::size_t k = 0; k < names.size(); ++k) {
     if (names[k] == name) return static_cast<Measure>(k);
   }
@@ -112,6 +113,11 @@ T evaluate_measure(Measure measure, const MeasureFrames<T>& f) {
     case Measure::PITCH: return asin(direction(f, 3, 1));
     case Measure::ROLL: return atan2(direction(f, 3, 2), direction(f, 3, 3));
     case Measure::INCANG: return included_angle(f);
+    case Measure::UVX_X: case Measure::UVX_Y: case Measure::UVX_Z: case Measure::UVY_X: case Measure::UVY_Y:
+    case Measure::UVY_Z: case Measure::UVZ_X: case Measure::UVZ_Y: case Measure::UVZ_Z: {
+      const auto n = static_cast<std::size_t>(measure) - static_cast<std::size_t>(Measure::UVX_X);
+      return direction(f, n % 3 + 1, n / 3 + 1);
+    }
   }
   // clang-format on
   return T(std::numeric_limits<double>::quiet_NaN());

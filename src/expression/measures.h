@@ -21,6 +21,7 @@ enum class Measure : std::uint8_t {
   ACCX, ACCY, ACCZ, ACCM,
   WDTX, WDTY, WDTZ, WDTM,
   AX, AY, AZ, PSI, THETA, PHI, YAW, PITCH, ROLL, INCANG,
+  UVX_X, UVX_Y, UVX_Z, UVY_X, UVY_Y, UVY_Z, UVZ_X, UVZ_Y, UVZ_Z,  // axis of i · axis of j
   // clang-format on
 };
 

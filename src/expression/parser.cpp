@@ -76,9 +76,7 @@ void ExpressionParser::read_operand() {
   } else if (symbol_at(at_, "(")) {
     open(Pending::Kind::group, span(at_++));
   } else if (symbol_at(at_, "[")) {
-    diagnostics_.error("function-not-built", span(at_), "vectors in brackets are not available yet",
-                       "write the components one by one");
-    open(Pending::Kind::not_built, span(at_++));
+    open(Pending::Kind::vector, span(at_++));
   } else if (symbol_at(at_, ")") && at_ > 0 && symbol_at(at_ - 1, "(") && !pending_.empty() &&
              pending_.back().kind != Pending::Kind::group) {
     close_parenthesis();  // a list without arguments
@@ -98,9 +96,6 @@ void ExpressionParser::read_operator() {
     push_operation("**", join(span(at_), span(at_ + 1)));
     at_ += 2;
   } else if (is_operator(symbol)) {
-    if (symbol == "%") {
-      diagnostics_.error("function-not-built", span(at_), "the vector product % is not available yet");
-    }
     push_operation(symbol, span(at_++));
   } else if (symbol == ",") {
     end_argument();
@@ -153,10 +148,12 @@ Operand ExpressionParser::apply(const Pending& operation) {
   const Operand last = operands_.back();
   operands_.pop_back();
   if (operation.kind == Pending::Kind::negation) {
-    return builder_.negate(last, join(operation.at, last.at));
+    const Span at = join(operation.at, last.at);
+    return last.is_vector() ? builder_.negate_vector(last, at) : builder_.negate(last, at);
   }
   const Operand first = operands_.back();
   operands_.pop_back();
+  if (first.is_vector() || last.is_vector() || operation.sign == "%") return apply_to_vectors(operation, first, last);
   if (operation.sign == "**") return builder_.power(first, last);
   return builder_.binary(operation_kind(operation.sign), first, last);
 }
@@ -175,6 +172,7 @@ void ExpressionParser::end_argument() {
   }
   if (pending_.back().kind == Pending::Kind::if_branches) {
     OpenIf& open_if = ifs_.back();
+    check_scalar(operands_.back(), "a branch of IF");
     builder_.end_branch(open_if, operands_.back());
     if (open_if.branches_begun == 3) {
       return syntax_error("wrong-argument-count", span(at_),
@@ -192,6 +190,7 @@ void ExpressionParser::end_condition() {
     return syntax_error("misplaced-separator", span(at_),
                         "a colon stands elsewhere than behind the condition of an IF");
   }
+  check_scalar(operands_.back(), "the condition of IF");
   ifs_.push_back(builder_.open_if(operands_.back()));
   builder_.begin_branch(ifs_.back());
   operands_.pop_back();
@@ -218,8 +217,12 @@ void ExpressionParser::close_parenthesis() {
     case Pending::Kind::if_branches:
       result = close_if(at);
       break;
+    case Pending::Kind::special:
+      result = close_special(list, at);
+      break;
     case Pending::Kind::group:
-      result = {operands_.back().node, at};
+      result = operands_.back();
+      result.at = at;
       break;
     default:
       result = builder_.placeholder(at);
@@ -236,14 +239,18 @@ void ExpressionParser::close_bracket() {
     return syntax_error("unbalanced-parenthesis", span(at_), "']' closes nothing");
   }
   const Pending vector = pending_.back();
+  const Operand result = close_vector(vector, join(vector.at, span(at_++)));
   pending_.pop_back();
   operands_.resize(vector.first_operand);
-  push_operand(builder_.placeholder(join(vector.at, span(at_++))));
+  push_operand(result);
 }
 
 Operand ExpressionParser::close_call(const Pending& call, const Span& at) {
   const std::span arguments = std::span(operands_).subspan(call.first_operand);
   const Function& f = *call.function;
+  for (const Operand& argument : arguments) {
+    if (!check_scalar(argument, fmt::format("an argument of {}", f.name))) return builder_.placeholder(at);
+  }
   if (arguments.size() >= f.minimum_arguments && arguments.size() <= f.maximum_arguments) {
     return builder_.call(f, arguments, at);
   }
@@ -255,6 +262,7 @@ Operand ExpressionParser::close_if(const Span& at) {
   OpenIf open_if = ifs_.back();
   ifs_.pop_back();
   const std::size_t count = open_if.branches_begun;
+  check_scalar(operands_.back(), "a branch of IF");
   builder_.end_branch(open_if, operands_.back());
   if (count == 3) return builder_.close_if(open_if, at);
   diagnostics_.error(
@@ -282,6 +290,7 @@ std::shared_ptr<const ExpressionProgram> ExpressionParser::finish() {
                                     : fmt::format("the parenthesis of '{}' is never closed", opened));
     return nullptr;
   }
+  check_scalar(operands_.back(), "the value of the expression");
   if (diagnostics_.error_count() > errors_before_) return nullptr;
   return builder_.finish(join(span(0), span(last)));
 }

@@ -36,6 +36,8 @@ class ExpressionParser {
       call,          // an open list of arguments
       if_condition,  // IF( before its colon
       if_branches,   // and behind it
+      vector,        // an open bracket
+      special,       // an open list of a function that takes vectors, or names a marker or spline by a constant
       not_built,     // an open list or vector of something that cannot be evaluated
     };
     Kind kind;
@@ -43,6 +45,7 @@ class ExpressionParser {
     Span at;                // of the operator, or of the function and the parenthesis
     const Function* function = nullptr;
     std::size_t first_operand = 0;  // of an open list, on the stack of operands
+    const struct SpecialFunction* special = nullptr;
   };
 
   // Reading where an operand, or an operator, is expected.
@@ -50,12 +53,22 @@ class ExpressionParser {
   void read_operator();
   void read_name();
   void read_call(const Span& name, const std::string& upper);
-  void read_atom(const AtomFunction& function, const Span& name);
+  // One atom, or the three components of a vector function.
+  void read_atom(std::span<const AtomFunction* const> components, const Span& name);
   void read_atom_argument(Atom& atom, std::size_t index);
   void check_atom(const Atom& atom);
   void report_unknown(const Span& name, const std::string& upper);
   void report_count(const Span& at, std::string_view name, std::size_t least, std::size_t most, std::size_t found);
   void report_not_built(const Span& at, std::string_view name);
+
+  // Vectors (parser_vectors.cpp).
+  Operand apply_to_vectors(const Pending& operation, const Operand& first, const Operand& last);
+  Operand close_vector(const Pending& vector, const Span& at);
+  Operand close_special(const Pending& call, const Span& at);
+  Operand close_spline(const Pending& call, std::span<const Operand> arguments, const Span& at);
+  std::optional<std::int32_t> constant_id(const Operand& operand, std::string_view meaning, std::int32_t least);
+  bool check_scalar(const Operand& operand, std::string_view where);
+  Operand marker_axis(std::size_t axis, const Atom& markers);
 
   // Grammar on the stacks.
   void push_operand(const Operand& operand);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "expression/parser.h"
+#include "expression/vector_functions.h"
 
 namespace dynalin {
 
@@ -39,10 +40,14 @@ bool contains(std::span<const std::string_view> names, std::string_view name) {
 std::vector<std::string_view> all_names() {
   std::vector<std::string_view> names{"IF"};
   for (const NamedConstant& c : named_constants) names.push_back(c.name);
-  for (const AtomFunction& f : atom_functions()) names.push_back(f.name);
+  for (const AtomFunction& f : atom_functions()) {
+    if (f.name.find('.') == std::string_view::npos) names.push_back(f.name);
+  }
   for (const auto& family : {elementary_functions(), contact_functions(), series_functions()}) {
     for (const Function& f : family) names.push_back(f.name);
   }
+  for (const VectorAtom& v : vector_atoms()) names.push_back(v.name);
+  for (const SpecialFunction& f : special_functions()) names.push_back(f.name);
   for (const auto& others : {functions_not_built(), names_not_built()}) {
     names.insert(names.end(), others.begin(), others.end());
   }
@@ -92,7 +97,8 @@ void ExpressionParser::read_name() {
   }
   if (!symbol_at(at_ + 1, "(")) {
     ++at_;
-    const bool known = atom || upper == "IF" || find_function(upper) || contains(functions_not_built(), upper);
+    const bool known = atom || upper == "IF" || find_function(upper) || find_vector_atom(upper) ||
+                       find_special_function(upper) || contains(functions_not_built(), upper);
     if (known) {
       diagnostics_.error("missing-arguments", name, fmt::format("{} needs its arguments in parentheses", upper));
     } else {
@@ -100,7 +106,12 @@ void ExpressionParser::read_name() {
     }
     return push_operand(builder_.placeholder(name));
   }
-  if (atom) return read_atom(*atom, name);
+  if (atom) return read_atom(std::array{atom}, name);
+  if (const VectorAtom* v = find_vector_atom(upper)) {
+    std::array<const AtomFunction*, 3> components;
+    for (std::size_t k = 0; k < 3; ++k) components[k] = find_atom_function(v->components[k]);
+    return read_atom(components, name);
+  }
   read_call(name, upper);
 }
 
@@ -110,6 +121,11 @@ void ExpressionParser::read_call(const Span& name, const std::string& upper) {
   if (upper == "IF") return open(Pending::Kind::if_condition, opening);
   if (const Function* function = find_function(upper)) {
     return open(Pending::Kind::call, opening, function);
+  }
+  if (const SpecialFunction* special = find_special_function(upper)) {
+    open(Pending::Kind::special, opening);
+    pending_.back().special = special;
+    return;
   }
   if (contains(functions_not_built(), upper)) {
     report_not_built(name, upper);
@@ -141,7 +157,8 @@ void ExpressionParser::report_count(const Span& at, std::string_view name, std::
 
 // The arguments of an atom are whole numbers: it is a quantity with a name, known before anything
 // is evaluated.
-void ExpressionParser::read_atom(const AtomFunction& function, const Span& name) {
+void ExpressionParser::read_atom(std::span<const AtomFunction* const> components, const Span& name) {
+  const AtomFunction& function = *components[0];
   const std::size_t errors = diagnostics_.error_count();
   Atom atom = named_atom(function, name);
   const Span opening = join(name, span(at_ + 1));
@@ -166,7 +183,14 @@ void ExpressionParser::read_atom(const AtomFunction& function, const Span& name)
       check_atom(atom);
     }
   }
-  push_operand(diagnostics_.error_count() == errors ? builder_.atom(atom) : builder_.placeholder(atom.at));
+  if (diagnostics_.error_count() > errors) return push_operand(builder_.placeholder(atom.at));
+  if (components.size() == 1) return push_operand(builder_.atom(atom));
+  std::array<Operand, 3> parts;
+  for (std::size_t k = 0; k < 3; ++k) {
+    atom.function = components[k];
+    parts[k] = builder_.atom(atom);
+  }
+  push_operand(builder_.vector(parts[0], parts[1], parts[2], atom.at));
 }
 
 // Reads up to the comma or parenthesis behind the argument.

@@ -105,6 +105,7 @@ TEST(ExpressionParser, order_is_the_largest_of_the_atoms) {
 
 TEST(ExpressionParser, every_atom_function_is_read_with_its_fewest_and_most_arguments) {
   for (const AtomFunction& f : atom_functions()) {
+    if (f.name.find('.') != std::string_view::npos) continue;  // a component of UVX … has no name of its own
     for (const int count : {f.minimum_arguments, f.maximum_arguments}) {
       std::string text(f.name);
       for (int k = 0; k < count; ++k) text += k == 0 ? "(1" : ",1";
@@ -187,13 +188,12 @@ TEST(ExpressionParser, errors_point_at_their_places) {
       {"JOINT(1,2,2,0)", {"argument-range 1:9"}},
       {"JOINT(1,1,9,0)", {"argument-range 1:11"}},
       {"ARYVAL(1,0)", {"argument-range 1:10"}},
-      {"1+[1,2,3]*DXYZ(1,2)", {"function-not-built 1:3", "function-not-built 1:11"}},
-      {"TIME%TIME", {"function-not-built 1:5"}},
-      {"AKISPL(DX(1,2),0,3)", {"function-not-built 1:1"}},
+      {"TIME%TIME", {"vector-mismatch 1:5"}},
+      {"CURVE(1,0,1,3)", {"function-not-built 1:1"}},
       {"FXFREQ*2", {"function-not-built 1:1"}},
       {"USER(1,2,3)", {"function-not-built 1:1"}},
-      {"[1,2", {"unbalanced-parenthesis 1:1", "function-not-built 1:1"}},
-      {"[1)", {"unbalanced-parenthesis 1:3", "function-not-built 1:1"}},
+      {"[1,2", {"unbalanced-parenthesis 1:1"}},
+      {"[1)", {"unbalanced-parenthesis 1:3"}},
       {"(1]", {"unbalanced-parenthesis 1:3"}},
       {"1 # 2", {"bad-character 1:3"}},
       {"# 2", {"bad-character 1:1"}},
@@ -228,7 +228,7 @@ TEST(ExpressionParser, messages_say_what_was_found_and_what_could_be_meant) {
   EXPECT_EQ(parse("DX(1,2,3,4)").first().message, "DX takes 1 to 3 arguments, here are 4");
   EXPECT_THAT(parse("SPDP(TIME,1,2,0)").first().message, HasSubstr("the id of a SPRINGDAMPER"));
   EXPECT_THAT(parse("SQRT(-3)").first().message, HasSubstr("SQRT of -3"));
-  EXPECT_THAT(parse("CUBSPL(1,2,3)").first().message, HasSubstr("CUBSPL is not available yet"));
+  EXPECT_THAT(parse("DELAY(1,2,3)").first().message, HasSubstr("DELAY is not available yet"));
 }
 
 TEST(ExpressionParser, errors_keep_their_places_within_a_dataset) {

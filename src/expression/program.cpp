@@ -82,6 +82,10 @@ T ExpressionProgram::evaluate(std::span<const T> atom_values, ExpressionWorkspac
       case Kind::call:
         value[i] = value_of_call(node, value);
         break;
+      case Kind::spline:
+        value[i] = splines[a].evaluate(value[static_cast<std::size_t>(operands[b])],
+                                 value[static_cast<std::size_t>(operands[b + 1])]);
+        break;
       case Kind::branch: {
         // The loop's increment then leads to the first node of the branch, or to the merge.
         const double selection = selected_branch(value_of(value[a]));

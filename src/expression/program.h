@@ -1,4 +1,5 @@
-// The flat program of an expression: a tree in post order, every operand before what uses it.
+// The flat program of an expression in post order, every operand before what uses it: a tree, but for components of vectors,
+// which several nodes may use.
 //
 // The forward sweep computes the value of each node. The reverse sweep carries the derivative of
 // the result with respect to each node, its adjoint, from the result down to the atoms. The three
@@ -15,6 +16,7 @@
 
 #include "expression/expression.h"
 #include "expression/functions.h"
+#include "expression/spline.h"
 
 namespace dynalin {
 
@@ -29,6 +31,7 @@ struct ExpressionNode {
     divide,    // a / b
     power,     // a ** constant
     call,      // function of operands[b] … operands[b + a − 1]
+    spline,    // spline number a at x = operands[b], z = operands[b + 1]
     branch,    // looks at node a; operands[b …]: first node of each of three branches, then the merge
     jump,      // to node a
     merge,     // of branch a; operands[b …]: result node of each of three branches
@@ -45,6 +48,7 @@ class ExpressionProgram {
   std::vector<std::int32_t> operands;
   std::vector<Span> places;  // of each node
   std::vector<Atom> atoms;
+  std::vector<SplineUse> splines;  // evaluate to NaN until their curves are attached
   Span at;
 
   // Forward sweep; afterwards the workspace holds the value of each node visited.

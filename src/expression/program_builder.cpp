@@ -78,7 +78,11 @@ Operand ProgramBuilder::constant(double value, const Span& at) {
   return {push({.kind = Kind::constant, .constant = value}, at), at};
 }
 
-Operand ProgramBuilder::placeholder(const Span& at) { return constant(std::numeric_limits<double>::quiet_NaN(), at); }
+Operand ProgramBuilder::placeholder(const Span& at) {
+  Operand nothing = constant(std::numeric_limits<double>::quiet_NaN(), at);
+  nothing.unknown = true;
+  return nothing;
+}
 
 Operand ProgramBuilder::atom(const Atom& atom) {
   // An argument left out means 0, so DX(1) and DX(1,0) are the same.
@@ -97,13 +101,17 @@ Operand ProgramBuilder::fold(const ExpressionNode& node, std::span<const Operand
   std::vector<double> values;
   for (const Operand& operand : operands) values.push_back(*constant_value(operand));
   const double value = value_of_constants(node, values);
+  // Operands that stand last are used by nobody else; components of a vector may be.
+  const auto first = next() - static_cast<std::int32_t>(operands.size());
+  bool last = first >= 0;
+  for (std::size_t k = 0; k < operands.size(); ++k) last = last && operands[k].node == first + static_cast<std::int32_t>(k);
   if (!std::isfinite(value) && std::ranges::none_of(values, is_nan)) {
     if (branch_depth_ > 0) return {push(node, at), at};
     report_domain(reason_for_no_value(node, values), at);
-    pop(operands.size());
+    if (last) pop(operands.size());
     return placeholder(at);
   }
-  pop(operands.size());
+  if (last) pop(operands.size());
   return constant(value, at);
 }
 
@@ -152,6 +160,15 @@ Operand ProgramBuilder::call(const Function& function, std::span<const Operand> 
   const ExpressionNode node{
       .kind = Kind::call, .a = static_cast<std::int32_t>(list.size()), .b = push_operands(list), .function = &function};
   return all_constant ? fold(node, arguments, at) : Operand{push(node, at), at};
+}
+
+Operand ProgramBuilder::spline(SplineUse use, const Operand& x, const Operand& z) {
+  const Span at = use.at;
+  program_.splines.push_back(std::move(use));
+  const ExpressionNode node{.kind = Kind::spline,
+                            .a = static_cast<std::int32_t>(program_.splines.size()) - 1,
+                            .b = push_operands(std::array{x.node, z.node})};
+  return {push(node, at), at};
 }
 
 OpenIf ProgramBuilder::open_if(const Operand& condition) {

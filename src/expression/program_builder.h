@@ -17,6 +17,11 @@ namespace dynalin {
 struct Operand {
   std::int32_t node = -1;
   Span at;
+  std::int32_t y = -1, z = -1;  // the other components of a vector
+  bool unknown = false;         // stands for what could not be understood
+
+  bool is_vector() const { return y >= 0; }
+  Operand component(std::size_t k) const { return {k == 0 ? node : k == 1 ? y : z, at, -1, -1, unknown}; }
 };
 
 // An IF between its condition and its closing parenthesis.
@@ -45,6 +50,23 @@ class ProgramBuilder {
   // Reports arguments for which the function has no value, if they are constants.
   Operand call(const Function& function, std::span<const Operand> arguments, const Span& at);
 
+  Operand spline(SplineUse use, const Operand& x, const Operand& z);
+
+  // Vectors are three nodes; what is made of them is taken apart into scalars here.
+  Operand vector(const Operand& x, const Operand& y, const Operand& z, const Span& at);
+  Operand negate_vector(const Operand& v, const Span& at);
+  Operand combine(ExpressionNode::Kind sum, const Operand& v, const Operand& w);   // v ± w
+  Operand scale(ExpressionNode::Kind kind, const Operand& v, const Operand& s);    // v * s, v / s
+  Operand dot(const Operand& v, const Operand& w);
+  Operand cross(const Operand& v, const Operand& w);
+  Operand magnitude(const Operand& v, const Span& at);
+  Operand unit(const Operand& v, const Span& at);
+  // Σ_b rows[a][b] v_b
+  Operand transform(const std::array<Operand, 3>& rows, const Operand& v, const Span& at);
+
+  // The value of a scalar that is known now.
+  std::optional<double> constant_value(const Operand& operand) const;
+
   OpenIf open_if(const Operand& condition);
   void begin_branch(OpenIf& open);
   void end_branch(OpenIf& open, const Operand& result);
@@ -59,8 +81,7 @@ class ProgramBuilder {
   void pop(std::size_t count);
   std::int32_t push_operands(std::span<const std::int32_t> nodes);
   std::int32_t next() const { return static_cast<std::int32_t>(program_.nodes.size()); }
-  std::optional<double> constant_value(const Operand& operand) const;
-  // Replaces a node whose operands are the last nodes, all constant, by its value.
+  // Replaces a node whose operands are all constant by its value.
   Operand fold(const ExpressionNode& node, std::span<const Operand> operands, const Span& at);
   void report_domain(std::string reason, const Span& at);
 

@@ -28,6 +28,8 @@ std::string operator_name(const ExpressionNode& node) {
       return "**";
     case Kind::call:
       return std::string(node.function->name);
+    case Kind::spline:
+      return "the spline";
     case Kind::merge:
     case Kind::branch:
     case Kind::jump:
@@ -65,6 +67,8 @@ std::vector<std::size_t> operands_in_use(const ExpressionProgram& program, const
       }
       return all;
     }
+    case Kind::spline:
+      return {static_cast<std::size_t>(program.operands[b]), static_cast<std::size_t>(program.operands[b + 1])};
     case Kind::merge: {
       const double selection = value_of(value[a]);
       if (std::isnan(selection)) return {a};

@@ -155,6 +155,16 @@ void visit_partials(const ExpressionProgram& program, const ExpressionNode& node
       if (a <= 8) return visit_call<8>(program, *node.function, operands, value, visit);
       return visit_call<most_arguments>(program, *node.function, operands, value, visit);
     }
+    case Kind::spline: {
+      using Scalar = SeededScalar<T>;
+      const auto x = static_cast<std::size_t>(program.operands[b]), z = static_cast<std::size_t>(program.operands[b + 1]);
+      auto seeded_x = Scalar::plain(value[x]), seeded_z = Scalar::plain(value[z]);
+      Scalar::seed(seeded_x, 0), Scalar::seed(seeded_z, 1);
+      const auto result = program.splines[a].evaluate(seeded_x, seeded_z);
+      if (varies(x)) visit(x, Scalar::partial(result, 0));
+      if (varies(z)) visit(z, Scalar::partial(result, 1));
+      return;
+    }
     case Kind::merge: {
       const double selection = value_of(value[a]);
       if (std::isnan(selection)) return;

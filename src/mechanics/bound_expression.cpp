@@ -25,7 +25,8 @@ void add_measure_gradient(Measure measure, const std::array<MarkerPlace, 4>& pla
 
 }  // namespace
 
-BoundExpression::BoundExpression(Expression expression, const Signals& signals) : expression_(std::move(expression)) {
+BoundExpression::BoundExpression(Expression expression, const Signals& signals, RatesOfAtoms rates)
+    : expression_(expression.with_curves([&](const SplineUse& use) { return signals.spline(use); })) {
   for (const Atom& atom : expression_.atoms()) {
     atoms_.push_back(bind(atom, signals));
     const BoundAtom& a = atoms_.back();
@@ -36,6 +37,16 @@ BoundExpression::BoundExpression(Expression expression, const Signals& signals) 
     if (a.kind == Kind::measure) order_ = std::max(order_, static_cast<int>(a.order));
     if (a.kind == Kind::force) order_ = 2;
     if (a.kind == Kind::channel) reads_channels_ = true;
+    if (rates == RatesOfAtoms::wanted) {
+      const bool impossible = a.kind == Kind::force || (a.kind == Kind::measure && a.order == 2) ||
+                              (a.kind == Kind::channel && a.channel.kind == Channel::Kind::state_rate);
+      if (impossible) {
+        signals.problem(std::string(atom.at.text()) +
+                        " stands in an expression whose time derivative DIF1 needs, and has none that is known");
+      } else if (a.kind == Kind::channel) {
+        atoms_.back().rate = signals.rate_of(a.channel);
+      }
+    }
     if (a.kind != Kind::time && a.kind != Kind::mode && a.kind != Kind::constant) only_time_ = false;
   }
 }

@@ -10,10 +10,13 @@
 
 namespace dynalin {
 
+// Whether the time derivatives of channels are wanted too: add_rate needs them.
+enum class RatesOfAtoms : bool { not_wanted, wanted };
+
 class BoundExpression {
  public:
   BoundExpression() = default;
-  BoundExpression(Expression, const Signals&);
+  BoundExpression(Expression, const Signals&, RatesOfAtoms = RatesOfAtoms::not_wanted);
 
   // Kinematic order: 0 displacements, 1 velocities, 2 accelerations or reactions.
   int order() const { return order_; }
@@ -28,6 +31,8 @@ class BoundExpression {
   // Adds factor · e to the residual of `row` and its partials to the matrices. Velocity partials go to
   // `velocity_family`: damping for forces and VARIABLEs, velocity for controllers.
   void add(const Motion&, Equations&, std::int32_t row, double factor, Column velocity_family) const;
+  // The same for the time derivative e′ along the motion; orders 0 and 1, without forces.
+  void add_rate(const Motion&, Equations&, std::int32_t row, double factor, Column velocity_family) const;
   // Adds the gradient of an expression of order 0 to a position row and returns its course, both times factor.
   Taylor add_position(const Motion&, ConstraintRows&, std::int32_t row, double factor = 1) const;
   // The same for a velocity row, order 0 or 1: value and rate are valid.
@@ -48,7 +53,7 @@ class BoundExpression {
   struct BoundAtom {
     enum class Kind : std::uint8_t { time, mode, constant, channel, measure, force } kind;
     double constant = 0;
-    Channel channel;
+    Channel channel, rate;  // rate: of the channel, where it is wanted
     Measure measure = Measure::DX;
     std::int8_t order = 0;
     std::array<MarkerPlace, 4> places;  // i, j, k, l

@@ -1,4 +1,5 @@
-// How the generalized forces of an expression's constraint row change with the coordinates:
+// Second derivatives: what an expression's rate e′ depends on, and how the generalized forces of its constraint row
+// change with the coordinates:
 //
 //     Q_i = λ g_i,    g_i = Σ_k e_k G_ki,    ∂g_i/∂ξ_j = Σ_k (Σ_l e_kl G_lj) G_ki + Σ_k e_k ∂G_ki/∂ξ_j
 //
@@ -149,6 +150,71 @@ void BoundExpression::add_reaction_partials(const Motion& motion, Equations& eq,
           }
         }
       }
+    }
+  }
+}
+
+namespace {
+
+// Partials of X and X′ of a measure by δq, δq′ … of one body.
+template <std::size_t N>
+void add_measure_rate(Measure measure, const std::array<MarkerPlace, 4>& places, const Motion& motion, BodyId body,
+                      Equations& eq, std::int32_t row, double by_value, double by_rate, Column velocity_family) {
+  const BodyBlock& block = eq.layout().body(body);
+  const auto m = path::seeded_measure<N>(measure, places, motion, body);
+  const std::array families = {Column::position, velocity_family, Column::acceleration};
+  for (std::size_t level = 0; 6 * level < N; ++level) {
+    for (std::int32_t k = 0; k < block.count; ++k) {
+      const std::size_t seed = 6 * level + static_cast<std::size_t>(k);
+      eq.add(families[level], row, block.offset + k,
+             by_value * m.value.partial[seed] + by_rate * m.rate.partial[seed]);
+    }
+  }
+}
+
+}  // namespace
+
+// δe′ = Σ_k e_k′ δa_k + e_k δa_k′
+void BoundExpression::add_rate(const Motion& motion, Equations& eq, std::int32_t row, double factor,
+                               Column velocity_family) const {
+  using Kind = BoundAtom::Kind;
+  ExpressionScratch& scratch = eq.scratch;
+  scratch.taylor_atoms.resize(atoms_.size());
+  scratch.taylor_partials.resize(atoms_.size());
+  for (std::size_t k = 0; k < atoms_.size(); ++k) {
+    const BoundAtom& a = atoms_[k];
+    Taylor& x = scratch.taylor_atoms[k] = Taylor(atom_value(a, motion), 0.0, 0.0);
+    if (a.kind == Kind::time) x.rate = motion.mode == AnalysisMode::statics ? 0.0 : 1.0;
+    if (a.kind == Kind::measure) x.rate = atom_along_motion(a, motion).rate;
+    if (a.kind != Kind::channel) continue;
+    const auto n = static_cast<std::size_t>(a.rate.index);
+    if (a.rate.kind == Channel::Kind::algebraic) x.rate = motion.algebraic[n];
+    if (a.rate.kind == Channel::Kind::state_rate) x.rate = motion.state_rate[n];
+  }
+  const Taylor e =
+      expression_.evaluate<Taylor>(scratch.taylor_atoms, std::span(scratch.taylor_partials), scratch.taylor);
+  eq.add_residual(row, factor * e.rate);
+  if (!eq.wants_partials()) return;
+  for (std::size_t k = 0; k < atoms_.size(); ++k) {
+    const BoundAtom& a = atoms_[k];
+    const double by_value = factor * scratch.taylor_partials[k].rate, by_rate = factor * scratch.taylor_partials[k].value;
+    if (a.kind == Kind::measure) {
+      for (std::size_t b = 0; b < a.body_count; ++b) {
+        if (a.order == 0) {
+          add_measure_rate<12>(a.measure, a.places, motion, a.bodies[b], eq, row, by_value, by_rate, velocity_family);
+        } else {
+          add_measure_rate<18>(a.measure, a.places, motion, a.bodies[b], eq, row, by_value, by_rate, velocity_family);
+        }
+      }
+    } else if (a.kind == Kind::channel) {
+      const auto add = [&](const Channel& c, double value) {
+        const Column family = c.kind == Channel::Kind::algebraic ? Column::algebraic
+                              : c.kind == Channel::Kind::state   ? Column::state
+                                                                 : Column::state_rate;
+        eq.add(family, row, c.index, value);
+      };
+      add(a.channel, by_value);
+      add(a.rate, by_rate);
     }
   }
 }

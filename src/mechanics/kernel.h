@@ -41,6 +41,9 @@ class Kernel {
   // Second phase of making a System, when all numbering is known: bind expressions.
   virtual void bind(const Signals&) {}
 
+  // Adds the equation of the unknown `rate`, the time derivative of the algebraic unknown, if this kernel owns that one.
+  virtual bool add_rate_equation(std::int32_t /*algebraic*/, std::int32_t /*rate*/, const Signals&) { return false; }
+
   // Constraint rows with their values and coefficients at all levels.
   virtual void constraints(const Motion&, ConstraintRows&) const {}
   // Residuals of balance, algebraic and differential equations, and the partials that are wanted.
@@ -75,6 +78,11 @@ class Signals {
   virtual std::size_t array_size(ArrayRef) const = 0;
   // A data atom: VARVAL, ARYVAL, DIF, DIF1, PINVAL, POUVAL.
   virtual Channel data(const Atom&) const = 0;
+  // The time derivative of a channel; that of an algebraic value becomes an unknown of its own.
+  virtual Channel rate_of(const Channel&) const = 0;
+  // Notes why the model cannot be solved as it stands.
+  virtual void problem(std::string) const = 0;
+  virtual std::shared_ptr<const SplineCurves> spline(const SplineUse&) const = 0;
   struct Element {
     const Kernel* kernel = nullptr;
     std::size_t index = 0;

@@ -52,6 +52,7 @@ struct DifferentialState {
   std::int32_t coordinate = 1;
   double initial = 0;
   bool held_in_statics = false;
+  double initial_rate = 0;  // where the search for it starts
 };
 
 class Layout {
@@ -81,6 +82,9 @@ class Layout {
   std::int32_t add_memory(double initial = 0);
 
   std::size_t row_count() const { return rows.size(); }
+  // Why the model cannot be solved as it stands, found while its equations were made.
+  std::vector<std::string> problems;
+  std::vector<std::string> remarks;  // worth a warning in every run
   // "DX of PART/3" and the like, for messages.
   std::string coordinate_text(std::int32_t coordinate) const;
 };

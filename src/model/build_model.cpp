@@ -62,6 +62,9 @@ class Reader final : public ElementReader {
     Expression e = parse_expression(written.value, source(), diagnostics());
     if (diagnostics().error_count() > before) return std::nullopt;
     for (const Atom& atom : e.atoms()) check_atom(atom);
+    for (const SplineUse& use : e.splines()) {
+      if (!model_.find("SPLINE", use.id)) report_missing("SPLINE", "unknown-element", {use.id, use.id_at}, "");
+    }
     if (diagnostics().error_count() > before) return std::nullopt;
     return e;
   }

@@ -24,6 +24,7 @@ struct ArgumentInfo {
   std::string_view value;  // "marker", "real", "expression" …
   std::string_view unit;
   std::string_view help;
+  bool repeats = false;  // may be written several times
 };
 
 class ElementSet;

@@ -63,6 +63,11 @@ bool read_value(std::vector<double>& slot, const WrittenArgument& w, const Value
   return true;
 }
 
+bool read_value(std::vector<std::vector<double>>& slot, const WrittenArgument& w, const ValueLimits& limits,
+                ElementReader& r) {
+  return read_value(slot.emplace_back(), w, limits, r);
+}
+
 bool read_value(std::optional<std::int64_t>& slot, const WrittenArgument& w, const ValueLimits& limits,
                 ElementReader& r) {
   const auto v = read_integer(w, r.source(), r.diagnostics());
@@ -173,7 +178,7 @@ std::optional<std::size_t> find_argument(const WrittenArgument& written, std::sp
   }
   const ArgumentInfo& info = infos[*k];
   for (const auto& a : r.assignments) {
-    if (a.name == info.name) {
+    if (a.name == info.name && !info.repeats) {
       r.error("duplicate-argument", written.name, fmt::format("{} of {} is given twice", info.name, r.label().text()));
       return std::nullopt;
     }

@@ -35,7 +35,7 @@ inline constexpr std::string_view angular_damping = "force·length·time/rad";
 template <class E>
 using Slot =
     std::variant<bool E::*, double E::*, std::optional<double> E::*, Vector E::*, std::optional<Vector> E::*,
-                 std::vector<double> E::*, std::optional<std::int64_t> E::*, MarkerId E::*, BodyId E::*,
+                 std::vector<double> E::*, std::vector<std::vector<double>> E::*, std::optional<std::int64_t> E::*, MarkerId E::*, BodyId E::*,
                  VariableRef E::*, ArrayRef E::*, MatrixRef E::*, JointRef E::*, std::vector<VariableRef> E::*,
                  std::vector<JointRef> E::*, std::vector<std::int64_t> E::*, Expression E::*, std::string E::*, std::vector<std::string> E::*>;
 
@@ -59,6 +59,8 @@ bool read_value(std::optional<double>&, const WrittenArgument&, const ValueLimit
 bool read_value(Vector&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(std::optional<Vector>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(std::vector<double>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+// One list more with every time the argument is written.
+bool read_value(std::vector<std::vector<double>>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(std::optional<std::int64_t>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(MarkerId&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(BodyId&, const WrittenArgument&, const ValueLimits&, ElementReader&);
@@ -94,6 +96,8 @@ constexpr std::string_view value_text() {
     return "x, y, z";
   else if constexpr (std::is_same_v<V, std::vector<double>>)
     return "reals";
+  else if constexpr (std::is_same_v<V, std::vector<std::vector<double>>>)
+    return "reals, repeated";
   else if constexpr (std::is_same_v<V, std::optional<std::int64_t>>)
     return "integer";
   else if constexpr (std::is_same_v<V, MarkerId>)
@@ -122,6 +126,7 @@ constexpr ArgumentInfo argument_info(const Argument<E>& a) {
   std::visit(
       [&]<class V>(V E::*) {
         info.is_flag = std::is_same_v<V, bool>;
+        info.repeats = std::is_same_v<V, std::vector<std::vector<double>>>;
         info.value = value_text<V>();
       },
       a.slot);

@@ -1,9 +1,11 @@
 #include "system/system.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "elements/controls/array.h"
+#include "elements/controls/spline.h"
 #include "elements/controls/variable_list.h"
 
 namespace dynalin {
@@ -51,8 +53,7 @@ class System::SystemSignals final : public Signals {
     if (name == "ARYVAL") return array_entry({*handle}, n);
     if (name == "DIF" || name == "DIF1") {
       Channel c = kernel(*handle)->state_channel(static_cast<std::size_t>(handle->index), 0);
-      if (name == "DIF1") c.kind = Channel::Kind::state_rate;
-      return c;
+      return name == "DIF1" ? rate_of(c) : c;
     }
     const auto* list = system_.model_->get<VariableList>(*handle);  // PINVAL, POUVAL
     return list && n < list->variables.size() ? variable(list->variables[n]) : Channel{};
@@ -63,6 +64,43 @@ class System::SystemSignals final : public Signals {
     return {kernel(*handle), static_cast<std::size_t>(handle->index)};
   }
   std::vector<Element> elements_at(MarkerId m) const override { return at_marker_[static_cast<std::size_t>(m.index)]; }
+  Channel rate_of(const Channel& c) const override {
+    if (c.kind == Channel::Kind::state) return {Channel::Kind::state_rate, c.index, 0};
+    if (c.kind != Channel::Kind::algebraic) return {Channel::Kind::constant, 0, 0};
+    const auto [it, fresh] = rates_.emplace(c.index, -1);
+    if (fresh) {
+      const ElementLabel& owner = *system_.layout_.algebraic[static_cast<std::size_t>(c.index)].owner;
+      it->second = system_.layout_.add_algebraic(owner);
+      rates_to_make_.emplace_back(c.index, it->second);
+    }
+    return {Channel::Kind::algebraic, it->second, 0};
+  }
+  void problem(std::string text) const override { system_.layout_.problems.push_back(std::move(text)); }
+
+  // Equations for the rates that bound expressions asked for; each may ask for more.
+  void make_rates() {
+    while (!rates_to_make_.empty()) {
+      const auto [algebraic, rate] = rates_to_make_.back();
+      rates_to_make_.pop_back();
+      const bool made = std::any_of(system_.kernels_.begin(), system_.kernels_.end(), [&, a = algebraic, r = rate](auto& k) {
+        return k->add_rate_equation(a, r, *this);
+      });
+      if (!made) {
+        problem("DIF1 needs the time derivative of " +
+                system_.layout_.algebraic[static_cast<std::size_t>(algebraic)].owner->full_text() +
+                ", which is not available");
+      }
+    }
+  }
+
+  std::shared_ptr<const SplineCurves> spline(const SplineUse& use) const override {
+    const auto handle = system_.model_->find("SPLINE", use.id);
+    const Spline* s = handle ? system_.model_->get<Spline>(*handle) : nullptr;
+    if (!s) return nullptr;
+    auto& curves = curves_[{use.id, use.method}];
+    if (!curves) curves = std::make_shared<const SplineCurves>(s->data, use.method);
+    return curves;
+  }
   std::int32_t add_memory(double initial) const override { return system_.layout_.add_memory(initial); }
 
  private:
@@ -71,6 +109,9 @@ class System::SystemSignals final : public Signals {
   System& system_;
   std::vector<const Kernel*> kernel_of_set_;
   std::vector<std::vector<Element>> at_marker_;
+  mutable std::map<std::int32_t, std::int32_t> rates_;  // of algebraic unknowns
+  mutable std::vector<std::pair<std::int32_t, std::int32_t>> rates_to_make_;
+  mutable std::map<std::pair<std::int64_t, SplineMethod>, std::shared_ptr<const SplineCurves>> curves_;
 };
 
 System::System(std::shared_ptr<const Model> model) : model_(std::move(model)) {
@@ -89,6 +130,7 @@ System::System(std::shared_ptr<const Model> model) : model_(std::move(model)) {
   }
   signals_->index_markers();
   for (auto& kernel : kernels_) kernel->bind(*signals_);
+  signals_->make_rates();
 
   length_ = model_->characteristic_length();
   scale_.assign(coordinates(), 1.0);
@@ -122,7 +164,7 @@ OperatingPoint System::drawn() const {
   op.lambda.assign(layout_.row_count(), 0.0);
   for (const AlgebraicUnknown& a : layout_.algebraic) op.algebraic.push_back(a.guess);
   for (const DifferentialState& z : layout_.states) op.state.push_back(z.initial);
-  op.state_rate.assign(layout_.states.size(), 0.0);
+  for (const DifferentialState& z : layout_.states) op.state_rate.push_back(z.initial_rate);
   op.memory = layout_.memory;
   return op;
 }

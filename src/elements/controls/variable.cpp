@@ -27,9 +27,10 @@ class VariableSet final : public TypedSet<Variable> {
   void read(std::size_t k, ElementReader& reader) override { read_arguments(elements[k], reader); }
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
     std::vector<FunctionEquationKernel::Item> items;
-    for (const Variable& v : elements) items.push_back({v.function, v.initial, false});
-    return std::make_unique<FunctionEquationKernel>(FunctionEquationKernel::Unknown::algebraic, std::move(items),
-                                                    labels, layout);
+    for (const Variable& v : elements) {
+      items.push_back({.function = v.function, .form = FunctionEquationKernel::Form::value, .initial = v.initial});
+    }
+    return std::make_unique<FunctionEquationKernel>(std::move(items), labels, layout);
   }
 };
 

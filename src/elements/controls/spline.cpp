@@ -1,0 +1,207 @@
+// SPLINE/id, {X=, Y= [, Y= …] | FILE= [, BLOCK=] [, CHANNEL=]} [, LINEAR_EXTRAPOLATE]
+//
+// Data points for AKISPL, CUBSPL and INTERP: one curve, or a family of curves over the same x, where each list Y begins
+// with the z of its curve.
+//
+// A file holds lines of numbers, x first. Text in brackets alone on a line begins a block; lines that begin with
+// ! $ # { ( or hold an equals sign are passed over. Two columns are one curve; with more, CHANNEL picks one, and a line
+// `Z z1 z2 …` before the numbers makes the columns a family.
+#include "elements/controls/spline.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "model/model.h"
+#include "model/schema.h"
+
+namespace dynalin {
+
+namespace {
+
+struct WrittenSpline {
+  std::vector<double> x;
+  std::vector<std::vector<double>> y;
+  std::string file, block;
+  std::optional<std::int64_t> channel;
+  bool linear = false;
+
+  static constexpr std::array<Argument<WrittenSpline>, 6> arguments = {{
+      {.name = "X", .slot = &WrittenSpline::x, .help = "at least 4 values, increasing"},
+      {.name = "Y", .slot = &WrittenSpline::y, .help = "as many; in a family z of the curve comes first"},
+      {.name = "FILE", .slot = &WrittenSpline::file, .help = "text file with the points"},
+      {.name = "BLOCK", .slot = &WrittenSpline::block, .help = "the block of the file, [NAME]"},
+      {.name = "CHANNEL", .slot = &WrittenSpline::channel, .minimum = 1, .help = "which column behind x"},
+      {.name = "LINEAR_EXTRAPOLATE", .slot = &WrittenSpline::linear, .help = "a line beyond the points, not a parabola"},
+  }};
+};
+
+std::string upper(std::string_view text) {
+  std::string s;
+  for (const char c : text) {
+    if (!std::isspace(static_cast<unsigned char>(c))) s += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  }
+  return s;
+}
+
+// The numbers of a line; nothing if it holds anything else.
+std::optional<std::vector<double>> numbers_of(std::string_view line) {
+  std::string text(line);
+  for (char& c : text) {
+    if (c == ',' || c == ';' || c == '\t') c = ' ';
+  }
+  std::istringstream in(text);
+  in.imbue(std::locale::classic());
+  std::vector<double> numbers;
+  for (double v = 0; in >> v;) numbers.push_back(v);
+  if (!in.eof() || numbers.empty()) return std::nullopt;
+  return numbers;
+}
+
+class SplineSet final : public TypedSet<Spline> {
+ public:
+  using TypedSet::TypedSet;
+
+  void read(std::size_t k, ElementReader& reader) override {
+    WrittenSpline w;
+    if (!read_arguments(w, reader)) return;
+    SplineData data;
+    data.linear_extrapolation = w.linear;
+    const bool by_file = reader.given("FILE"), by_values = reader.given("X") || reader.given("Y");
+    if (by_file == by_values || (by_values && !(reader.given("X") && reader.given("Y")))) {
+      reader.error("missing-argument", reader.statement().at,
+                   fmt::format("{} needs X and Y, or FILE", reader.label().text()));
+      return;
+    }
+    for (const auto name : {"BLOCK", "CHANNEL"}) {
+      if (by_values && reader.given(name)) {
+        reader.error("unexpected-argument", reader.at(name), fmt::format("{} goes with FILE", name));
+        return;
+      }
+    }
+    const bool ok = by_file ? read_file(w, data, reader) : take_values(w, data, reader);
+    if (ok && check(data, reader, reader.at(by_file ? "FILE" : "X"))) {
+      elements[k].data = std::make_shared<const SplineData>(std::move(data));
+    }
+  }
+
+ private:
+  static bool take_values(const WrittenSpline& w, SplineData& data, ElementReader& reader) {
+    data.x = w.x;
+    data.y = w.y;
+    const bool family = w.y.size() > 1 || w.y[0].size() == w.x.size() + 1;
+    for (std::vector<double>& y : data.y) {
+      if (y.size() != w.x.size() + (family ? 1 : 0)) {
+        reader.error("wrong-count", reader.at("Y"),
+                     fmt::format("{} has {} values of X and a list Y with {}{}", reader.label().text(), w.x.size(),
+                                 y.size(), family ? ", where z and as many are needed" : ""));
+        return false;
+      }
+      if (!family) continue;
+      data.z.push_back(y.front());
+      y.erase(y.begin());
+    }
+    if (data.z.size() == 1) data.z.clear();
+    return true;
+  }
+
+  static bool read_file(const WrittenSpline& w, SplineData& data, ElementReader& reader) {
+    const std::filesystem::path path = std::filesystem::path(reader.folder()) / w.file;
+    std::ifstream in(path, std::ios::binary);
+    if (!in || std::filesystem::is_directory(path)) {
+      reader.error("unreadable-file", reader.at("FILE"),
+                   fmt::format("the file {} of {} cannot be read", path.string(), reader.label().text()));
+      return false;
+    }
+    std::ostringstream text;
+    text << in.rdbuf();
+    const auto source = std::make_shared<const SourceText>(path.string(), text.str());
+    reader.keep(source);
+    bool in_block = w.block.empty();
+    std::vector<double> z;
+    std::vector<std::vector<double>> rows;
+    for (std::size_t n = 1; n <= source->line_count(); ++n) {
+      const std::string_view line = source->line(n);
+      const std::string bare = upper(line);
+      const Span at{source.get(), static_cast<std::uint32_t>(line.data() - source->text().data()),
+                    static_cast<std::uint32_t>(line.size())};
+      if (bare.empty() || std::string_view("!$#{(").find(bare[0]) != std::string_view::npos) continue;
+      if (bare.front() == '[' && bare.back() == ']') {
+        if (!w.block.empty()) in_block = bare == "[" + upper(w.block) + "]";
+        continue;
+      }
+      if (!in_block || bare.find('=') != std::string::npos) continue;
+      const std::size_t z_at = line.find_first_not_of(" \t");
+      const bool is_z = bare[0] == 'Z';
+      const auto numbers = numbers_of(is_z ? line.substr(z_at + 1) : line);
+      if (!numbers || (!is_z && !rows.empty() && numbers->size() != rows.front().size()) ||
+          (!is_z && numbers->size() < 2)) {
+        reader.error("spline-data", at, "a line of numbers is expected, x first, all lines with as many columns");
+        return false;
+      }
+      (is_z ? z : rows.emplace_back()) = *numbers;
+    }
+    if (rows.empty()) {
+      reader.error("spline-data", reader.at("FILE"),
+                   w.block.empty() ? fmt::format("{} holds no points", path.string())
+                                   : fmt::format("{} holds no points in the block [{}]", path.string(), w.block));
+      return false;
+    }
+    const std::size_t columns = rows.front().size() - 1;
+    if (w.channel && static_cast<std::size_t>(*w.channel) > columns) {
+      reader.error("value-out-of-range", reader.at("CHANNEL"),
+                   fmt::format("CHANNEL is {}, the file has {} columns behind x", *w.channel, columns));
+      return false;
+    }
+    if (!w.channel && columns > 1 && z.size() != columns) {
+      reader.error("spline-data", reader.at("FILE"),
+                   fmt::format("{} has {} columns behind x: CHANNEL, or a line Z with as many values, is needed",
+                               path.string(), columns));
+      return false;
+    }
+    for (const std::vector<double>& row : rows) data.x.push_back(row[0]);
+    for (std::size_t c = 0; c < columns; ++c) {
+      if (w.channel && static_cast<std::size_t>(*w.channel) != c + 1) continue;
+      std::vector<double>& y = data.y.emplace_back();
+      for (const std::vector<double>& row : rows) y.push_back(row[c + 1]);
+    }
+    if (data.y.size() > 1) data.z = z;
+    return true;
+  }
+
+  static bool check(const SplineData& data, ElementReader& reader, const Span& at) {
+    const std::string name = reader.label().text();
+    if (data.x.size() < 4) {
+      reader.error("spline-data", at, fmt::format("{} has {} points, it needs at least 4", name, data.x.size()));
+      return false;
+    }
+    for (std::size_t k = 1; k < data.x.size(); ++k) {
+      if (data.x[k] > data.x[k - 1]) continue;
+      reader.error("spline-data", at,
+                   fmt::format("X of {} must increase: value {} is {}, after {}", name, k + 1, data.x[k], data.x[k - 1]));
+      return false;
+    }
+    for (std::size_t k = 1; k < data.z.size(); ++k) {
+      if (data.z[k] > data.z[k - 1]) continue;
+      reader.error("spline-data", at,
+                   fmt::format("z of {} must increase: curve {} has {}, after {}", name, k + 1, data.z[k], data.z[k - 1]));
+      return false;
+    }
+    return true;
+  }
+};
+
+}  // namespace
+
+extern constinit const Kind spline = {
+    "SPLINE",
+    "",
+    "Data points of a curve or of a family of curves.",
+    Kind::Role::element,
+    detail::argument_infos<WrittenSpline>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<SplineSet>(kind); }};
+
+}  // namespace dynalin

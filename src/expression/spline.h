@@ -1,0 +1,63 @@
+// Curves and families of curves through data points, as AKISPL, CUBSPL and INTERP read them (function expressions,
+// section 11).
+//
+// Every piece is the cubic with given values and slopes at its two points; the methods differ in the slopes. Akima takes
+// weighted differences of the neighbours, the cubic spline those that make the second derivative continuous, with
+// the third derivative at each end that of the cubic through the four points there (Forsythe, Malcolm, Moler). At a
+// point the piece to its right counts. Beyond the data goes the parabola through the three last points, or the line
+// through the two last. A family is interpolated linearly in its second variable z.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/dual.h"
+#include "base/source.h"
+#include "base/time_taylor.h"
+
+namespace dynalin {
+
+enum class SplineMethod : std::uint8_t { akima, cubic, linear };
+
+struct SplineData {
+  std::vector<double> x;               // strictly increasing, at least 4
+  std::vector<double> z;               // of the curves of a family, strictly increasing; empty for a single curve
+  std::vector<std::vector<double>> y;  // one list a curve
+  bool linear_extrapolation = false;
+};
+
+class SplineCurves {
+ public:
+  SplineCurves(std::shared_ptr<const SplineData>, SplineMethod);
+
+  // Value, or derivative 1 or 2 with respect to x; T is double, TimeTaylor or Dual over them.
+  template <class T>
+  T at(const T& x, const T& z, int derivative) const;
+
+ private:
+  // Coefficients of y = c0 + c1 s + c2 s² + c3 s³ with s = x − origin.
+  struct Piece {
+    double origin = 0;
+    double c[4] = {0, 0, 0, 0};
+  };
+  const Piece& piece(std::size_t curve, double x) const;
+
+  std::shared_ptr<const SplineData> data_;
+  std::vector<std::vector<Piece>> pieces_;  // of each curve: left of the data, between the points, right of the data
+};
+
+// A call of a spline function inside an expression.
+struct SplineUse {
+  std::int64_t id = 0;
+  SplineMethod method = SplineMethod::akima;
+  int derivative = 0;
+  Span at, id_at;
+  std::shared_ptr<const SplineCurves> curves;
+
+  // NaN before curves are attached.
+  template <class T>
+  T evaluate(const T& x, const T& z) const;
+};
+
+}  // namespace dynalin

@@ -1,0 +1,36 @@
+// Functions of the language that yield or take vectors, and those that name a spline: the parser takes them apart into
+// scalar nodes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace dynalin {
+
+// A vector of three atoms with the same arguments: DXYZ(i, j, k) is [DX, DY, DZ].
+struct VectorAtom {
+  std::string_view name;
+  std::array<std::string_view, 3> components;
+};
+std::span<const VectorAtom> vector_atoms();
+const VectorAtom* find_vector_atom(std::string_view upper_case_name);
+
+struct SpecialFunction {
+  enum class Kind : std::uint8_t {
+    unit,       // UV(v)
+    magnitude,  // MAG(v)
+    transform,  // TRANS(v, i [, j])
+    akispl,     // AKISPL(x, z, id [, derivative])
+    cubspl,     // CUBSPL(x, z, id [, derivative])
+    interp,     // INTERP(x, method, id [, derivative])
+  };
+  std::string_view name;
+  Kind kind;
+  std::uint8_t minimum_arguments, maximum_arguments;
+};
+std::span<const SpecialFunction> special_functions();
+const SpecialFunction* find_special_function(std::string_view upper_case_name);
+
+}  // namespace dynalin
