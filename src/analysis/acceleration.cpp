@@ -108,7 +108,7 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
 }
 
 Result<OperatingPoint> initial_conditions(const System& system, Findings& findings) {
-  return assemble_position(system, system.drawn(), findings)
+  return assemble_position(system, system.drawn(), findings, Starts::held)
       .and_then([&](OperatingPoint op) { return initial_velocity(system, std::move(op), findings); })
       .and_then([&](OperatingPoint op) { return solve_acceleration(system, std::move(op), findings); });
 }

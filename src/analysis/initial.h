@@ -22,8 +22,10 @@ struct Findings {
   std::vector<std::string> warnings;
 };
 
+// Whether what elements ask of the start (IC of joints) is to hold as well.
+enum class Starts : bool { ignored, held };
 // Moves the poses onto the constraints by the least change; a consistent point comes back untouched.
-Result<OperatingPoint> assemble_position(const System&, OperatingPoint start, Findings&);
+Result<OperatingPoint> assemble_position(const System&, OperatingPoint start, Findings&, Starts = Starts::ignored);
 // Velocities by the dataset's initial conditions.
 Result<OperatingPoint> initial_velocity(const System&, OperatingPoint, Findings&);
 // Velocities of least change from those of the point itself.

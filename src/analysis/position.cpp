@@ -51,22 +51,28 @@ Violation position_violation(const System& system, const ConstraintRows& rows) {
   return v;
 }
 
-Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op, Findings& findings) {
+Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op, Findings& findings, Starts starts) {
   const Layout& layout = system.layout();
   if (!layout.problems.empty()) {
     return tl::unexpected(Failure{"initial conditions", layout.problems.front(),
                                   {layout.problems.begin() + 1, layout.problems.end()}});
   }
   ConstraintRows rows;
-  rows.resize(layout);
+  const std::size_t row_count = layout.row_count() + (starts == Starts::held ? system.starts().size() : 0);
+  rows.resize(layout, row_count);
+  const auto evaluate = [&] {
+    const Motion motion = system.motion(op);
+    system.constraints(motion, rows);
+    if (starts == Starts::held) system.start_rows(motion, static_cast<std::int32_t>(layout.row_count()), rows);
+  };
   const auto n = static_cast<Eigen::Index>(system.coordinates());
-  const auto m = static_cast<Eigen::Index>(layout.row_count());
+  const auto m = static_cast<Eigen::Index>(row_count);
   std::vector<double> weight;
   std::vector<std::string> history;
   double before = std::numeric_limits<double>::infinity();
 
   for (int iteration = 0; iteration < iteration_limit; ++iteration) {
-    system.constraints(system.motion(op), rows);
+    evaluate();
     const Violation v = position_violation(system, rows);
     history.push_back(fmt::format("iteration {}: largest violation {:.3e}", iteration, v.relative));
     if (std::isnan(v.relative)) {
@@ -118,7 +124,7 @@ Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op
     lu.solve(step);
     displace(system, op, step.col(0).head(n), 0.5);
   }
-  system.constraints(system.motion(op), rows);
+  evaluate();
   const Violation v = position_violation(system, rows);
   findings.warnings.push_back(history.back());
   return tl::unexpected(Failure{"initial conditions",

@@ -50,6 +50,21 @@ std::vector<Condition> stated_velocities(const System& system, const Motion& mot
       }
     }
   }
+  // What elements ask: the rate of their row.
+  const std::vector<StartCondition>& starts = system.starts();
+  ConstraintRows rows;
+  rows.resize(system.layout(), starts.size());
+  rows.begin();
+  system.start_rows(motion, 0, rows);
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    if (!starts[k].velocity) continue;
+    Condition s{{}, {}, *starts[k].velocity, fmt::format("of the {} of {}", starts[k].name, starts[k].owner->full_text())};
+    for (const auto& e : rows.row(static_cast<std::int32_t>(k))) {
+      s.column.push_back(e.column);
+      s.coefficient.push_back(e.c.g);
+    }
+    conditions.push_back(std::move(s));
+  }
   return conditions;
 }
 

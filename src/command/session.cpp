@@ -197,7 +197,7 @@ class Session {
     if (consistent_) return {};
     Findings findings;
     write_begin(message_, "Displacement Initial Conditions");
-    auto op = assemble_position(system_, point_, findings);
+    auto op = assemble_position(system_, point_, findings, Starts::held);
     if (!op) return tl::unexpected(op.error());
     write_end(message_, "Displacement Initial Conditions");
     write_begin(message_, "Velocity Initial Conditions");

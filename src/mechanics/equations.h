@@ -56,7 +56,11 @@ class ConstraintRows {
   const Taylor& along_motion(std::int32_t k) const { return value_[static_cast<std::size_t>(k)]; }
   std::int32_t size() const { return static_cast<std::int32_t>(rows_.size()); }
   const Layout& layout() const { return *layout_; }
-  RowLevel level(std::int32_t k) const { return layout_->rows[static_cast<std::size_t>(k)].level; }
+  // Rows beyond those of the layout are on positions.
+  RowLevel level(std::int32_t k) const {
+    const auto at = static_cast<std::size_t>(k);
+    return at < layout_->rows.size() ? layout_->rows[at].level : RowLevel::position;
+  }
 
   ExpressionScratch scratch;
 

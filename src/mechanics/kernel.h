@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,13 @@ struct Channel {
   double constant = 0;
 };
 
+// What an element asks of the start beyond the poses and velocities of bodies.
+struct StartCondition {
+  const ElementLabel* owner = nullptr;
+  std::string_view name;
+  std::optional<double> displacement, velocity;
+};
+
 class Kernel {
  public:
   virtual ~Kernel() = default;
@@ -46,6 +54,10 @@ class Kernel {
 
   // Constraint rows with their values and coefficients at all levels.
   virtual void constraints(const Motion&, ConstraintRows&) const {}
+  // Conditions at the start, and a position row for each: the displacement less what is asked, or zero where only the
+  // velocity is.
+  virtual std::span<const StartCondition> starts() const { return {}; }
+  virtual void start_rows(const Motion&, std::int32_t /*first_row*/, ConstraintRows&) const {}
   // Residuals of balance, algebraic and differential equations, and the partials that are wanted.
   virtual void equations(const Motion&, Equations&) const {}
   // An accepted configuration: take over what the memory holds (turn counts).

@@ -132,6 +132,10 @@ System::System(std::shared_ptr<const Model> model) : model_(std::move(model)) {
   for (auto& kernel : kernels_) kernel->bind(*signals_);
   signals_->make_rates();
 
+  for (const auto& kernel : kernels_) {
+    const auto own = kernel->starts();
+    starts_.insert(starts_.end(), own.begin(), own.end());
+  }
   length_ = model_->characteristic_length();
   scale_.assign(coordinates(), 1.0);
   std::vector<const BodyBlock*> blocks;
@@ -203,6 +207,13 @@ void System::constraints(const Motion& motion, ConstraintRows& rows) const {
   for (const auto& kernel : kernels_) kernel->constraints(motion, rows);
 }
 
+void System::start_rows(const Motion& motion, std::int32_t first_row, ConstraintRows& rows) const {
+  for (const auto& kernel : kernels_) {
+    kernel->start_rows(motion, first_row, rows);
+    first_row += static_cast<std::int32_t>(kernel->starts().size());
+  }
+}
+
 void System::equations(const Motion& motion, const ConstraintRows& rows, Equations& eq,
                        std::initializer_list<Column> wanted) const {
   const auto pass = [&] {
@@ -269,6 +280,10 @@ Partition System::partition(const ConstraintRows& rows, bool velocity_rows_too) 
 }
 
 std::string System::row_text(std::int32_t row) const {
+  if (const auto at = static_cast<std::size_t>(row); at >= layout_.rows.size()) {
+    const StartCondition& s = starts_[at - layout_.rows.size()];
+    return "the initial " + std::string(s.name) + " of " + s.owner->full_text();
+  }
   const ConstraintRow& r = layout_.rows[static_cast<std::size_t>(row)];
   return std::string(r.name) + " in " + r.owner->full_text();
 }

@@ -38,6 +38,9 @@ class System {
   Motion motion(const OperatingPoint&) const;
 
   void constraints(const Motion&, ConstraintRows&) const;
+  // Conditions of all elements at the start, and their rows from `first_row` on.
+  const std::vector<StartCondition>& starts() const { return starts_; }
+  void start_rows(const Motion&, std::int32_t first_row, ConstraintRows&) const;
   // Residuals with reactions included, and the wanted partials (patterns are recorded when first wanted).
   void equations(const Motion&, const ConstraintRows&, Equations&, std::initializer_list<Column> wanted) const;
   void remember(OperatingPoint&) const;
@@ -50,7 +53,7 @@ class System {
   // Coordinates in the order in which they are wanted as states: by element id, rotations first.
   const std::vector<std::int32_t>& preference() const { return preference_; }
 
-  // "Zi.Xj of JOINT/3"
+  // "Zi.Xj of JOINT/3"; rows beyond the constraints are conditions at the start
   std::string row_text(std::int32_t row) const;
 
  private:
@@ -59,6 +62,7 @@ class System {
   Layout layout_;
   std::vector<std::unique_ptr<Kernel>> kernels_;
   std::unique_ptr<SystemSignals> signals_;
+  std::vector<StartCondition> starts_;
   double length_ = 1;
   std::vector<double> scale_;
   std::vector<std::int32_t> preference_;

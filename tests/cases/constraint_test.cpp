@@ -290,5 +290,34 @@ TEST_F(ClosedForm, constraints_have_the_sense_they_are_documented_with) {
               2 * 0.25, 1e-12);
 }
 
+TEST_F(ClosedForm, joints_start_where_and_as_fast_as_they_are_asked) {
+  // The pendulum's eigenvalue at an angle and with a speed: θ″ = −(g/l) sin θ about θ = 0.5; coordinates read the rest.
+  const auto run_with = [&](const std::string& joint, const std::string& output) {
+    return run("Starts\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20, QP=0.3,0,0\n"
+               "MARKER/21\nVARIABLE/1, FUNCTION=" + output + "*VZ(31)\nPART/3, MASS=1, CM=31, IP=1,1,1\nMARKER/31\n"
+               "MARKER/32, PART=1\nJOINT/9, TRANSLATIONAL, I=31, J=32\nVARIABLE/2, FUNCTION=0\nPINPUT/1, VARIABLES=2\nPOUTPUT/1, VARIABLES=1\n" +
+                   joint + "\nEND\n",
+               "LINEAR/STATEMAT, FILE=m, PINPUT=1, POUTPUT=1\n");
+  };
+  const auto reading = [&](const std::string& joint, const std::string& output) {
+    const RunResult r = run_with(joint, output);
+    EXPECT_EQ(r.status, 0) << r.err;
+    double largest = 0;
+    if (r.status == 0) {
+      const auto C = r.matrix(0, "C");
+      for (const double c : C[0]) largest = std::abs(c) > std::abs(largest) ? c : largest;
+    }
+    return largest;
+  };
+  EXPECT_NEAR(reading("JOINT/1, REVOLUTE, I=21, J=1, IC=30D,2", "AZ(21,1)"), std::numbers::pi / 6, 1e-13);
+  EXPECT_NEAR(reading("JOINT/1, REVOLUTE, I=21, J=1, IC=30D,2", "WZ(21,1)"), 2, 1e-13);
+  EXPECT_NEAR(reading("JOINT/1, TRANSLATIONAL, I=21, J=1, IC=0.7", "DZ(21,1)"), 0.7, 1e-13);
+  EXPECT_NEAR(reading("JOINT/1, CYLINDRICAL, I=21, J=1, ICTRAN=0.7,3, ICROT=-1,5", "VZ(21,1)"), 3, 1e-13);
+  EXPECT_NEAR(reading("JOINT/1, CYLINDRICAL, I=21, J=1, ICTRAN=0.7,3, ICROT=-1,5", "AZ(21,1)"), -1, 1e-13);
+  const RunResult clash = run_with("JOINT/1, REVOLUTE, I=21, J=1, IC=30D\nMOTION/1, JOINT=1, FUNCTION=0.1", "AZ(21,1)");
+  EXPECT_EQ(clash.status, 2);
+  EXPECT_NE(clash.err.find("JOINT/1"), std::string::npos) << clash.err;
+}
+
 }  // namespace
 }  // namespace dynalin::cases

@@ -1,4 +1,4 @@
-// JOINT/id, CYLINDRICAL, I=, J=
+// JOINT/id, CYLINDRICAL, I=, J= [, ICTRAN=] [, ICROT=]
 //
 // A sleeve on a shaft: the origin of I stays on the z axis of J and the z axes stay parallel. Removes 4 degrees of
 // freedom; the rotation from x_J to x_I and the translation of I along z_J are left.

@@ -1,4 +1,4 @@
-// JOINT/id, REVOLUTE, I=, J=
+// JOINT/id, REVOLUTE, I=, J= [, IC=]
 //
 // A hinge: the origins coincide and the z axes are parallel. Removes 5 degrees of freedom; the rotation that is
 // left is the angle from x_J to x_I about the common z axis.

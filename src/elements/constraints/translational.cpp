@@ -1,4 +1,4 @@
-// JOINT/id, TRANSLATIONAL, I=, J=
+// JOINT/id, TRANSLATIONAL, I=, J= [, IC=]
 //
 // A slider: the origin of I stays on the z axis of J and all axes stay parallel. Removes 5 degrees of freedom; the
 // translation that is left is that of I along z_J, measured from J.

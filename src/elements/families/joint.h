@@ -24,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <string_view>
 #include <vector>
 
@@ -39,8 +40,9 @@ enum class Uses : std::uint8_t { no_orientation, orientation_of_J, both_orientat
 struct JointArguments {
   MarkerId i, j;
   std::optional<double> pitch, pd;
+  std::vector<double> ic, ictran, icrot;
 
-  static constexpr std::array<Argument<JointArguments>, 4> arguments = {{
+  static constexpr std::array<Argument<JointArguments>, 7> arguments = {{
       {.name = "I", .slot = &JointArguments::i, .required = true, .help = "marker on the first body"},
       {.name = "J", .slot = &JointArguments::j, .required = true, .help = "marker on the second body"},
       {.name = "PITCH", .slot = &JointArguments::pitch, .unit = unit::length, .help = "SCREW: advance in one turn"},
@@ -48,6 +50,9 @@ struct JointArguments {
        .slot = &JointArguments::pd,
        .unit = unit::length,
        .help = "RACKPIN: pitch diameter of the pinion"},
+      {.name = "IC", .slot = &JointArguments::ic, .help = "REVOLUTE, TRANSLATIONAL: displacement [, velocity] at the start"},
+      {.name = "ICTRAN", .slot = &JointArguments::ictran, .help = "CYLINDRICAL: the same along z"},
+      {.name = "ICROT", .slot = &JointArguments::icrot, .help = "CYLINDRICAL: the same about z"},
   }};
 };
 
@@ -111,6 +116,11 @@ inline void add_multiplier(const path::NestedDual& phi, std::int32_t row, Marker
   out.scalars.push_back({Column::lambda, row, R * Vector{g(0), g(1), g(2)}, R * Vector{g(3), g(4), g(5)}});
 }
 
+// What a joint asks of the start: displacement [length or rad] and velocity of its freedom.
+struct JointStart {
+  std::optional<double> displacement, velocity;
+};
+
 // One joint with what its rows need beyond the markers.
 template <class E>
 struct Joint {
@@ -119,6 +129,7 @@ struct Joint {
   E element;
   MarkerId i, j;
   std::array<double, n> offset{};  // subtracted from the rows
+  JointStart rotation, translation;
 
   template <class T>
   std::array<T, n> rows(const RelativeFrame<T>& I) const {
@@ -137,6 +148,12 @@ class JointKernel final : public Kernel {
       for (std::size_t r = 0; r < n; ++r) {
         const std::int32_t row = layout.add_row(labels[k], E::row_names[r]);
         if (r == 0) placed.first_row = row;
+      }
+      for (const bool turns : {true, false}) {
+        const JointStart& start = turns ? joints[k].rotation : joints[k].translation;
+        if (!start.displacement && !start.velocity) continue;
+        starts_.push_back({&labels[k], turns ? "rotation" : "translation", start.displacement, start.velocity});
+        start_places_.push_back({placed.I, placed.J, turns});
       }
       joints_.push_back(std::move(placed));
     }
@@ -166,6 +183,20 @@ class JointKernel final : public Kernel {
     }
   }
 
+  std::span<const StartCondition> starts() const override { return starts_; }
+  void start_rows(const Motion& motion, std::int32_t first, ConstraintRows& rows) const override {
+    for (std::size_t k = 0; k < starts_.size(); ++k) {
+      const StartPlace& p = start_places_[k];
+      const PairMotion pair = pair_motion(motion, p.I, p.J);
+      const auto frame = path::seeded<6>(pair.relative);
+      const auto q = p.turns ? joint_rotation(frame) : joint_translation(frame);
+      Taylor value(q.value.value - starts_[k].displacement.value_or(q.value.value), q.rate.value, q.acceleration.value);
+      if (p.turns) value.value = std::remainder(value.value, 2 * std::numbers::pi);
+      rows.set(first + static_cast<std::int32_t>(k), value);
+      add_pair_row(first + static_cast<std::int32_t>(k), pair, q, rows);
+    }
+  }
+
   bool has_wrench() const override { return true; }
   MarkerId marker_I(std::size_t k) const override { return joints_[k].joint.i; }
   MarkerId marker_J(std::size_t k) const override { return joints_[k].joint.j; }
@@ -190,7 +221,13 @@ class JointKernel final : public Kernel {
     return reaction<n>(p.joint.rows(path::nested(pair.relative)), lambda);
   }
 
+  struct StartPlace {
+    MarkerPlace I, J;
+    bool turns;
+  };
   std::vector<Placed> joints_;
+  std::vector<StartCondition> starts_;
+  std::vector<StartPlace> start_places_;
 };
 
 template <class E, class Written>
@@ -210,6 +247,10 @@ class JointSet final : public JointSetBase {
     if constexpr (std::is_same_v<Written, JointArguments>) {
       read_parameter(w.pitch, "PITCH", joints[k].element, reader);
       read_parameter(w.pd, "PD", joints[k].element, reader);
+      const bool both = rotates() && translates();
+      read_start(w.ic, "IC", !both && rotates() ? &joints[k].rotation : !both && translates() ? &joints[k].translation : nullptr, reader);
+      read_start(w.ictran, "ICTRAN", both ? &joints[k].translation : nullptr, reader);
+      read_start(w.icrot, "ICROT", both ? &joints[k].rotation : nullptr, reader);
     }
     if (ok) joints[k].i = w.i, joints[k].j = w.j;
   }
@@ -243,6 +284,19 @@ class JointSet final : public JointSetBase {
   }
 
  private:
+  static void read_start(const std::vector<double>& values, std::string_view name, JointStart* start,
+                         ElementReader& reader) {
+    if (values.empty()) return;
+    if (!start) {
+      reader.error("unexpected-argument", reader.at(name), fmt::format("{} does not go with {}", name, E::variant));
+    } else if (values.size() > 2) {
+      reader.error("wrong-count", reader.at(name),
+                   fmt::format("{} takes a displacement and a velocity, here are {} values", name, values.size()));
+    } else {
+      start->displacement = values[0];
+      if (values.size() == 2) start->velocity = values[1];
+    }
+  }
   static void read_parameter(const std::optional<double>& value, std::string_view name, E& element,
                              ElementReader& reader) {
     constexpr std::string_view wanted = [] {
