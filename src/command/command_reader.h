@@ -12,6 +12,7 @@ class CommandReader final : public ElementReader {
   std::optional<BodyId> body(std::string_view, const WrittenInteger&) override { return std::nullopt; }
   std::optional<ElementHandle> element(std::string_view, const WrittenInteger&) override { return std::nullopt; }
   std::optional<Expression> expression(const WrittenArgument&) override { return std::nullopt; }
+  std::optional<VectorExpression> vector_expression(const WrittenArgument&) override { return std::nullopt; }
   std::optional<BodyId> preceding_body() const override { return std::nullopt; }
   std::string folder() const override { return {}; }
 };

@@ -87,7 +87,7 @@ class Expression {
   Expression();  // the constant 0
   static Expression constant(double);
 
-  std::span<const Atom> atoms() const;  // each distinct atom once
+  std::span<const Atom> atoms() const;                  // each distinct atom once
   bool is_constant() const { return atoms().empty(); }  // a spline at constant arguments is
   const Span& at() const;
 
@@ -124,6 +124,7 @@ class Expression {
  private:
   explicit Expression(std::shared_ptr<const ExpressionProgram>);
   friend Expression parse_expression(std::span<const Token>, const SourceText&, Diagnostics&);
+  friend struct VectorExpression parse_vector_expression(std::span<const Token>, const SourceText&, Diagnostics&);
   std::shared_ptr<const ExpressionProgram> program_;
 };
 
@@ -131,5 +132,11 @@ class Expression {
 // the result after an error is the constant 0. The spans of the result point into the source text,
 // which must outlive it.
 Expression parse_expression(std::span<const Token>, const SourceText&, Diagnostics&);
+
+// The three components of an expression whose value is a vector.
+struct VectorExpression {
+  std::array<Expression, 3> component;
+};
+VectorExpression parse_vector_expression(std::span<const Token>, const SourceText&, Diagnostics&);
 
 }  // namespace dynalin

@@ -72,10 +72,10 @@ T included_angle(const MeasureFrames<T>& f) {
 
 std::optional<Measure> find_measure(std::string_view name) {
   static constexpr std::array<std::string_view, 40> names = {
-      "DX", "DY", "DZ",   "DM",    "VX",   "VY",   "VZ",    "VM",   "VR",    "WX",   "WY",
-      "WZ", "WM", "ACCX", "ACCY",  "ACCZ", "ACCM", "WDTX",  "WDTY", "WDTZ",  "WDTM", "AX",
-      "AY", "AZ", "PSI",  "THETA", "PHI",  "YAW",  "PITCH", "ROLL", "INCANG",
-      "UVX.X", "UVX.Y", "UVX.Z", "UVY.X", "UVY.Y", "UVY.Z", "UVZ.X", "UVZ.Y", "UVZ.Z"};
+      "DX",     "DY",    "DZ",    "DM",    "VX",    "VY",    "VZ",    "VM",    "VR",    "WX",
+      "WY",     "WZ",    "WM",    "ACCX",  "ACCY",  "ACCZ",  "ACCM",  "WDTX",  "WDTY",  "WDTZ",
+      "WDTM",   "AX",    "AY",    "AZ",    "PSI",   "THETA", "PHI",   "YAW",   "PITCH", "ROLL",
+      "INCANG", "UVX.X", "UVX.Y", "UVX.Z", "UVY.X", "UVY.Y", "UVY.Z", "UVZ.X", "UVZ.Y", "UVZ.Z"};
   for (std::size_t k = 0; k < names.size(); ++k) {
     if (names[k] == name) return static_cast<Measure>(k);
   }

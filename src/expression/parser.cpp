@@ -290,7 +290,15 @@ std::shared_ptr<const ExpressionProgram> ExpressionParser::finish() {
                                     : fmt::format("the parenthesis of '{}' is never closed", opened));
     return nullptr;
   }
-  check_scalar(operands_.back(), "the value of the expression");
+  if (!component_) {
+    check_scalar(operands_.back(), "the value of the expression");
+  } else if (operands_.back().is_vector()) {
+    // The result is the last node: that of the component and a zero.
+    const Operand wanted = operands_.back().component(*component_);
+    builder_.binary(ExpressionNode::Kind::add, wanted, builder_.constant(0.0, wanted.at));
+  } else if (!operands_.back().unknown) {
+    diagnostics_.error("vector-mismatch", operands_.back().at, "a vector is expected here, this is a number");
+  }
   if (diagnostics_.error_count() > errors_before_) return nullptr;
   return builder_.finish(join(span(0), span(last)));
 }
@@ -313,6 +321,17 @@ void ExpressionParser::syntax_error(std::string_view code, const Span& at, std::
 Expression parse_expression(std::span<const Token> tokens, const SourceText& source, Diagnostics& diagnostics) {
   auto program = ExpressionParser(tokens, source, diagnostics).parse();
   return program ? Expression(std::move(program)) : Expression();
+}
+
+VectorExpression parse_vector_expression(std::span<const Token> tokens, const SourceText& source,
+                                         Diagnostics& diagnostics) {
+  VectorExpression v;
+  for (std::size_t k = 0; k < 3; ++k) {
+    auto program = ExpressionParser(tokens, source, diagnostics).parse_component(k);
+    if (!program) break;  // reported once
+    v.component[k] = Expression(std::move(program));
+  }
+  return v;
 }
 
 }  // namespace dynalin

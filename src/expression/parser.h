@@ -25,6 +25,11 @@ class ExpressionParser {
   ExpressionParser(std::span<const Token> tokens, const SourceText& source, Diagnostics& diagnostics);
   // Nothing after an error.
   std::shared_ptr<const ExpressionProgram> parse();
+  // The same for one component of an expression whose value must be a vector.
+  std::shared_ptr<const ExpressionProgram> parse_component(std::size_t component) {
+    component_ = component;
+    return parse();
+  }
 
  private:
   // What was begun and waits for its end.
@@ -97,6 +102,7 @@ class ExpressionParser {
   std::size_t errors_before_;
   ProgramBuilder builder_;
   std::size_t at_ = 0;
+  std::optional<std::size_t> component_;  // wanted of a vector
   bool operand_expected_ = true;
   bool stopped_ = false;  // by an error in the grammar, after which nothing is certain
   Span nowhere_;          // where an empty expression would stand

@@ -84,7 +84,7 @@ T ExpressionProgram::evaluate(std::span<const T> atom_values, ExpressionWorkspac
         break;
       case Kind::spline:
         value[i] = splines[a].evaluate(value[static_cast<std::size_t>(operands[b])],
-                                 value[static_cast<std::size_t>(operands[b + 1])]);
+                                       value[static_cast<std::size_t>(operands[b + 1])]);
         break;
       case Kind::branch: {
         // The loop's increment then leads to the first node of the branch, or to the merge.

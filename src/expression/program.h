@@ -1,5 +1,5 @@
-// The flat program of an expression in post order, every operand before what uses it: a tree, but for components of vectors,
-// which several nodes may use.
+// The flat program of an expression in post order, every operand before what uses it: a tree, but for components of
+// vectors, which several nodes may use.
 //
 // The forward sweep computes the value of each node. The reverse sweep carries the derivative of
 // the result with respect to each node, its adjoint, from the result down to the atoms. The three

@@ -104,7 +104,8 @@ Operand ProgramBuilder::fold(const ExpressionNode& node, std::span<const Operand
   // Operands that stand last are used by nobody else; components of a vector may be.
   const auto first = next() - static_cast<std::int32_t>(operands.size());
   bool last = first >= 0;
-  for (std::size_t k = 0; k < operands.size(); ++k) last = last && operands[k].node == first + static_cast<std::int32_t>(k);
+  for (std::size_t k = 0; k < operands.size(); ++k)
+    last = last && operands[k].node == first + static_cast<std::int32_t>(k);
   if (!std::isfinite(value) && std::ranges::none_of(values, is_nan)) {
     if (branch_depth_ > 0) return {push(node, at), at};
     report_domain(reason_for_no_value(node, values), at);

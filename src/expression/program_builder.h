@@ -55,8 +55,8 @@ class ProgramBuilder {
   // Vectors are three nodes; what is made of them is taken apart into scalars here.
   Operand vector(const Operand& x, const Operand& y, const Operand& z, const Span& at);
   Operand negate_vector(const Operand& v, const Span& at);
-  Operand combine(ExpressionNode::Kind sum, const Operand& v, const Operand& w);   // v ± w
-  Operand scale(ExpressionNode::Kind kind, const Operand& v, const Operand& s);    // v * s, v / s
+  Operand combine(ExpressionNode::Kind sum, const Operand& v, const Operand& w);  // v ± w
+  Operand scale(ExpressionNode::Kind kind, const Operand& v, const Operand& s);   // v * s, v / s
   Operand dot(const Operand& v, const Operand& w);
   Operand cross(const Operand& v, const Operand& w);
   Operand magnitude(const Operand& v, const Span& at);

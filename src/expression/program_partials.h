@@ -157,7 +157,8 @@ void visit_partials(const ExpressionProgram& program, const ExpressionNode& node
     }
     case Kind::spline: {
       using Scalar = SeededScalar<T>;
-      const auto x = static_cast<std::size_t>(program.operands[b]), z = static_cast<std::size_t>(program.operands[b + 1]);
+      const auto x = static_cast<std::size_t>(program.operands[b]),
+                 z = static_cast<std::size_t>(program.operands[b + 1]);
       auto seeded_x = Scalar::plain(value[x]), seeded_z = Scalar::plain(value[z]);
       Scalar::seed(seeded_x, 0), Scalar::seed(seeded_z, 1);
       const auto result = program.splines[a].evaluate(seeded_x, seeded_z);

@@ -46,8 +46,7 @@ Points cubic_slopes(const Points& x, const Points& y, const Points& m) {
     right[i] = 3 * (m[i - 1] / h(i - 1) + m[i] / h(i));
   }
   diagonal[0] = upper[0] = 1, right[0] = 2 * m[0] + third_difference(x, y, 0) * h(0) * h(0);
-  diagonal[n - 1] = lower[n - 1] = 1,
-  right[n - 1] = 2 * m[n - 2] + third_difference(x, y, n - 4) * h(n - 2) * h(n - 2);
+  diagonal[n - 1] = lower[n - 1] = 1, right[n - 1] = 2 * m[n - 2] + third_difference(x, y, n - 4) * h(n - 2) * h(n - 2);
   for (std::size_t i = 1; i < n; ++i) {
     const double f = lower[i] / diagonal[i - 1];
     diagonal[i] -= f * upper[i - 1];
@@ -85,7 +84,8 @@ SplineCurves::SplineCurves(std::shared_ptr<const SplineData> data, SplineMethod 
       if (t.empty()) {
         pieces.push_back({x[i], {y[i], m[i], 0, 0}});
       } else {
-        pieces.push_back({x[i], {y[i], t[i], (3 * m[i] - 2 * t[i] - t[i + 1]) / h, (t[i] + t[i + 1] - 2 * m[i]) / (h * h)}});
+        pieces.push_back(
+            {x[i], {y[i], t[i], (3 * m[i] - 2 * t[i] - t[i + 1]) / h, (t[i] + t[i + 1] - 2 * m[i]) / (h * h)}});
       }
     }
     pieces.push_back(beyond(n - 1, n - 2, n - 3));

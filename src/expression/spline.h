@@ -1,8 +1,8 @@
 // Curves and families of curves through data points, as AKISPL, CUBSPL and INTERP read them (function expressions,
 // section 11).
 //
-// Every piece is the cubic with given values and slopes at its two points; the methods differ in the slopes. Akima takes
-// weighted differences of the neighbours, the cubic spline those that make the second derivative continuous, with
+// Every piece is the cubic with given values and slopes at its two points; the methods differ in the slopes. Akima
+// takes weighted differences of the neighbours, the cubic spline those that make the second derivative continuous, with
 // the third derivative at each end that of the cubic through the four points there (Forsythe, Malcolm, Moler). At a
 // point the piece to its right counts. Beyond the data goes the parabola through the three last points, or the line
 // through the two last. A family is interpolated linearly in its second variable z.

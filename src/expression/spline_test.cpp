@@ -67,8 +67,8 @@ TEST(Spline, goes_on_as_a_parabola_or_a_line) {
   SplineData d = through([](double p) { return p * p * p; });
   const SplineUse s = use(SplineMethod::akima, d);
   // The parabola through (2, 8), (3, 27), (4.5, 91.125).
-  const double t = 6, L2 = (t - 3) * (t - 4.5) / ((2 - 3.0) * (2 - 4.5)), L3 = (t - 2) * (t - 4.5) / ((3 - 2.0) * (3 - 4.5)),
-               L45 = (t - 2) * (t - 3) / ((4.5 - 2) * (4.5 - 3));
+  const double t = 6, L2 = (t - 3) * (t - 4.5) / ((2 - 3.0) * (2 - 4.5)),
+               L3 = (t - 2) * (t - 4.5) / ((3 - 2.0) * (3 - 4.5)), L45 = (t - 2) * (t - 3) / ((4.5 - 2) * (4.5 - 3));
   EXPECT_NEAR(s.evaluate(t, 0.0), 8 * L2 + 27 * L3 + 91.125 * L45, 1e-11);
   d.linear_extrapolation = true;
   const SplineUse line = use(SplineMethod::akima, d);

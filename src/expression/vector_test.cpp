@@ -58,15 +58,24 @@ TEST(Vectors, numbers_and_vectors_are_told_apart_at_their_place) {
     const char* text;
     const char* problem;
   } rows[] = {
-      {"[1,2,3]", "vector-mismatch 1:1"},         {"1+[1,2,3]", "vector-mismatch 1:2"},
-      {"SIN(DXYZ(1))", "vector-mismatch 1:5"},    {"2**DXYZ(1)", "vector-mismatch 1:2"},
-      {"1/DXYZ(1)", "vector-mismatch 1:2"},       {"MAG(3)", "vector-mismatch 1:5"},
-      {"[1,2]*[1,2,3]", "wrong-count 1:1"},       {"IF(DXYZ(1):1,2,3)", "vector-mismatch 1:4"},
-      {"IF(TIME:1,DXYZ(1),3)", "vector-mismatch 1:11"}, {"[1,[1,2,3],3]*[1,2,3]", "vector-mismatch 1:4"},
-      {"UV(DXYZ(1),2)*[1,2,3]", "wrong-argument-count 1:1"}, {"TRANS([1,2,3],TIME)*[1,1,1]", "expected-integer 1:15"},
-      {"AKISPL(TIME,0)", "wrong-argument-count 1:1"}, {"AKISPL(TIME,0,1.5)", "expected-integer 1:15"},
-      {"CUBSPL(TIME,0,7,3)", "argument-range 1:17"}, {"INTERP(TIME,2,7)", "argument-range 1:13"},
-      {"AKISPL(DXYZ(1),0,7)", "vector-mismatch 1:8"}, {"[1,2,3]*[4,5,6]%[1,2,3]", "vector-mismatch 1:16"},
+      {"[1,2,3]", "vector-mismatch 1:1"},
+      {"1+[1,2,3]", "vector-mismatch 1:2"},
+      {"SIN(DXYZ(1))", "vector-mismatch 1:5"},
+      {"2**DXYZ(1)", "vector-mismatch 1:2"},
+      {"1/DXYZ(1)", "vector-mismatch 1:2"},
+      {"MAG(3)", "vector-mismatch 1:5"},
+      {"[1,2]*[1,2,3]", "wrong-count 1:1"},
+      {"IF(DXYZ(1):1,2,3)", "vector-mismatch 1:4"},
+      {"IF(TIME:1,DXYZ(1),3)", "vector-mismatch 1:11"},
+      {"[1,[1,2,3],3]*[1,2,3]", "vector-mismatch 1:4"},
+      {"UV(DXYZ(1),2)*[1,2,3]", "wrong-argument-count 1:1"},
+      {"TRANS([1,2,3],TIME)*[1,1,1]", "expected-integer 1:15"},
+      {"AKISPL(TIME,0)", "wrong-argument-count 1:1"},
+      {"AKISPL(TIME,0,1.5)", "expected-integer 1:15"},
+      {"CUBSPL(TIME,0,7,3)", "argument-range 1:17"},
+      {"INTERP(TIME,2,7)", "argument-range 1:13"},
+      {"AKISPL(DXYZ(1),0,7)", "vector-mismatch 1:8"},
+      {"[1,2,3]*[4,5,6]%[1,2,3]", "vector-mismatch 1:16"},
   };
   for (const auto& row : rows) EXPECT_THAT(parse(row.text).problems(), ElementsAre(row.problem)) << row.text;
 }

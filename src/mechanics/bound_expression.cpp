@@ -64,7 +64,8 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
       a.measure = *find_measure(f.name);
       a.order = f.order;
       for (std::size_t k = 0; k < 4; ++k) {
-        a.places[k] = signals.layout().marker(signals.marker(k < atom.argument_count ? atom.argument[k] : 0));
+        const MarkerId written = signals.marker(k < atom.argument_count ? atom.argument[k] : 0);
+        a.places[k] = signals.layout().marker(signals.place_of(written));
         const BodyId body = a.places[k].body;
         const auto end = a.bodies.begin() + a.body_count;
         if (body != ground_body && std::find(a.bodies.begin(), end, body) == end) {
@@ -87,7 +88,7 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
       a.kind = Kind::force;
       a.terms.push_back({signals.element(f.statement, atom.argument[0]), atom.argument[1] == 1});
       a.component = static_cast<std::uint8_t>(atom.argument[2]);
-      a.axes_marker = signals.layout().marker(signals.marker(atom.argument[3]));
+      a.axes_marker = signals.layout().marker(signals.place_of(signals.marker(atom.argument[3])));
       break;
     case AtomFamily::marker_force: {
       a.kind = Kind::force;
@@ -101,7 +102,7 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
         const MarkerId other = is_I ? e.kernel->marker_J(e.index) : e.kernel->marker_I(e.index);
         if (from_all || other == j) a.terms.push_back({e, !is_I});
       }
-      a.axes_marker = signals.layout().marker(signals.marker(atom.argument[2]));
+      a.axes_marker = signals.layout().marker(signals.place_of(signals.marker(atom.argument[2])));
       break;
     }
   }
@@ -145,7 +146,7 @@ double BoundExpression::atom_value(const BoundAtom& a, const Motion& motion) con
       Vector sum{};
       MarkerWrench w;
       for (const ForceTerm& t : a.terms) {
-        w.scalars.clear();
+        w.clear();
         t.element.kernel->wrench(motion, t.element.index, false, w);
         sum += on_marker(w, t.on_J, is_torque(a.component));
       }
@@ -274,7 +275,7 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
       for (std::size_t k = 0; k < 3; ++k) {
         const std::int32_t column = block.offset + first + static_cast<std::int32_t>(k);
         double value = picked(w.force.force_on_position.group[g][k], w.force.torque_on_position.group[g][k]);
-        if (torque && on_J) value -= dot(e, cross(delta_groups[g][k], w.force.force));
+        if (torque && on_J && !w.J_follows_I) value -= dot(e, cross(delta_groups[g][k], w.force.force));
         eq.add(Column::position, row, column, factor * value);
         eq.add(velocity_family, row, column,
                factor * picked(w.force.force_on_velocity.group[g][k], w.force.torque_on_velocity.group[g][k]));
@@ -282,6 +283,13 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
     }
     for (const MarkerWrench::Scalar& s : w.scalars) {
       eq.add(s.family, row, s.column, factor * picked(s.force, s.torque));
+    }
+    for (const MarkerWrench::Turn& turn : w.turns) {
+      const BodyBlock& block = eq.layout().body(turn.body);
+      for (std::int32_t k = 0; k < 3 && block.count == 6; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        eq.add(Column::position, row, block.offset + 3 + k, factor * picked(turn.force[at], turn.torque[at]));
+      }
     }
   }
 }

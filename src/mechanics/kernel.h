@@ -26,6 +26,15 @@ struct MarkerWrench {
     Vector force, torque;
   };
   std::vector<Scalar> scalars;
+  // A body with whose rotation δθ the wrench on I turns beyond what the pair says; columns are coordinates.
+  struct Turn {
+    BodyId body;
+    Matrix3 force, torque;
+  };
+  std::vector<Turn> turns;
+  bool J_follows_I = false;  // J is a floating marker at the origin of I
+
+  void clear() { scalars.clear(), turns.clear(), J_follows_I = false; }
 };
 
 // A scalar channel that expressions may read.
@@ -84,6 +93,8 @@ class Signals {
   virtual ~Signals() = default;
   virtual const Layout& layout() const = 0;
   virtual MarkerId marker(std::int64_t id) const = 0;  // global_frame for 0
+  // The fixed marker at which a floating one is, any other itself.
+  virtual MarkerId place_of(MarkerId) const = 0;
   virtual Channel variable(VariableRef) const = 0;
   // Entry `n` (0-based) of an ARRAY of any type.
   virtual Channel array_entry(ArrayRef, std::size_t n) const = 0;

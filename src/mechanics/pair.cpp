@@ -152,6 +152,29 @@ void apply_column(const PairMotion& p, const Vector& force, const Vector& torque
   }
 }
 
+void apply_turn(const PairMotion& p, BodyId body, const Matrix3& force, const Matrix3& torque, Equations& eq) {
+  const BodyBlock& block = eq.layout().body(body);
+  if (block.count != 6) return;
+  eq.add_block(Column::position, p.body_I, block.offset + 3, force, skew(value(p.arm_I)) * force + torque);
+  eq.add_block(Column::position, p.body_J, block.offset + 3, -force, -(skew(value(p.arm)) * force + torque));
+}
+
+void apply_cross_partials(const PairMotion& acting, const PairMotion& varied, const PairForce& f, Equations& eq,
+                          Column velocity_family) {
+  const auto columns = group_columns(varied, eq.layout());
+  const Matrix3 to_I = skew(value(acting.arm_I)), to_J = skew(value(acting.arm));
+  const auto add = [&](Column family, std::int32_t column, const Matrix3& F, const Matrix3& T) {
+    if (!eq.wants(family)) return;
+    eq.add_block(family, acting.body_I, column, F, to_I * F + T);
+    eq.add_block(family, acting.body_J, column, -F, -(to_J * F + T));
+  };
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (columns[k] < 0) continue;
+    add(Column::position, columns[k], f.force_on_position.group[k], f.torque_on_position.group[k]);
+    add(velocity_family, columns[k], f.force_on_velocity.group[k], f.torque_on_velocity.group[k]);
+  }
+}
+
 void add_gradient(std::int32_t row, const PairMotion& p, const Vec3<Taylor>& on_d, const Vec3<Taylor>& on_phi,
                   ConstraintRows& rows) {
   const Vec3<Taylor> f = p.J.axes * on_d, t = p.J.axes * on_phi;

@@ -64,6 +64,12 @@ void apply_partials(const PairMotion&, const PairForce&, Equations&, Column velo
 void apply_column(const PairMotion&, const Vector& force, const Vector& torque, bool acts_on_J, Column family,
                   std::int32_t column, Equations&);
 
+// Adds the partials of force and torque on I with respect to the rotation of any body.
+void apply_turn(const PairMotion&, BodyId body, const Matrix3& force, const Matrix3& torque, Equations&);
+// Adds the partials of a force on I of pair `acting` with respect to the coordinates of another pair.
+void apply_cross_partials(const PairMotion& acting, const PairMotion& varied, const PairForce&, Equations&,
+                          Column velocity_family = Column::damping);
+
 // Puts the gradient of a position row, given in the axes of J with respect to (d, φ), into the row.
 void add_gradient(std::int32_t row, const PairMotion&, const Vec3<Taylor>& on_d, const Vec3<Taylor>& on_phi,
                   ConstraintRows&);

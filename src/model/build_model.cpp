@@ -60,13 +60,18 @@ class Reader final : public ElementReader {
     if (written.damaged) return std::nullopt;  // reported when the text was read
     const std::size_t before = diagnostics().error_count();
     Expression e = parse_expression(written.value, source(), diagnostics());
-    if (diagnostics().error_count() > before) return std::nullopt;
-    for (const Atom& atom : e.atoms()) check_atom(atom);
-    for (const SplineUse& use : e.splines()) {
-      if (!model_.find("SPLINE", use.id)) report_missing("SPLINE", "unknown-element", {use.id, use.id_at}, "");
-    }
+    if (diagnostics().error_count() == before) check_references(e);
     if (diagnostics().error_count() > before) return std::nullopt;
     return e;
+  }
+
+  std::optional<VectorExpression> vector_expression(const WrittenArgument& written) override {
+    if (written.damaged) return std::nullopt;
+    const std::size_t before = diagnostics().error_count();
+    VectorExpression v = parse_vector_expression(written.value, source(), diagnostics());
+    for (std::size_t k = 0; k < 3 && diagnostics().error_count() == before; ++k) check_references(v.component[k]);
+    if (diagnostics().error_count() > before) return std::nullopt;
+    return v;
   }
 
   std::optional<BodyId> preceding_body() const override {
@@ -117,6 +122,13 @@ class Reader final : public ElementReader {
     if (is_marker && id == 0) return;
     if (is_marker ? model_.find_marker(id).has_value() : model_.find(statement, id).has_value()) return;
     report_missing(statement, is_marker ? "unknown-marker" : "unknown-element", {id, atom.argument_at[k]}, "");
+  }
+
+  void check_references(const Expression& e) {
+    for (const Atom& atom : e.atoms()) check_atom(atom);
+    for (const SplineUse& use : e.splines()) {
+      if (!model_.find("SPLINE", use.id)) report_missing("SPLINE", "unknown-element", {use.id, use.id_at}, "");
+    }
   }
 
   void check_atom(const Atom& atom) {

@@ -49,6 +49,7 @@ struct Marker {
   ElementLabel label;
   MarkerPlace place;
   bool floating = false;
+  MarkerId follows{};  // of a floating marker: the marker that a force puts it on
 };
 
 struct Model {

@@ -30,6 +30,7 @@ class ElementReader {
   virtual std::optional<ElementHandle> element(std::string_view statement, const WrittenInteger&) = 0;
   // A parsed expression whose every id exists.
   virtual std::optional<Expression> expression(const WrittenArgument&) = 0;
+  virtual std::optional<VectorExpression> vector_expression(const WrittenArgument&) = 0;
   // The body statement that precedes this one in the file.
   virtual std::optional<BodyId> preceding_body() const = 0;
   // Keeps the text of a further file alive as long as the model, for messages that point into it.

@@ -131,6 +131,13 @@ bool read_value(Expression& slot, const WrittenArgument& w, const ValueLimits&, 
   return true;
 }
 
+bool read_value(VectorExpression& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
+  auto v = r.vector_expression(w);
+  if (!v) return false;
+  slot = std::move(*v);
+  return true;
+}
+
 bool read_value(std::string& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
   auto text = read_text(w, r.source(), r.diagnostics());
   if (!text) return false;

@@ -37,7 +37,7 @@ using Slot =
     std::variant<bool E::*, double E::*, std::optional<double> E::*, Vector E::*, std::optional<Vector> E::*,
                  std::vector<double> E::*, std::vector<std::vector<double>> E::*, std::optional<std::int64_t> E::*, MarkerId E::*, BodyId E::*,
                  VariableRef E::*, ArrayRef E::*, MatrixRef E::*, JointRef E::*, std::vector<VariableRef> E::*,
-                 std::vector<JointRef> E::*, std::vector<std::int64_t> E::*, Expression E::*, std::string E::*, std::vector<std::string> E::*>;
+                 std::vector<JointRef> E::*, std::vector<std::int64_t> E::*, Expression E::*, VectorExpression E::*, std::string E::*, std::vector<std::string> E::*>;
 
 template <class E>
 struct Argument {
@@ -68,6 +68,7 @@ bool read_value(ElementHandle&, std::string_view statement, const WrittenArgumen
 bool read_value(std::vector<ElementHandle>&, std::string_view statement, const WrittenArgument&, ElementReader&);
 bool read_value(std::vector<std::int64_t>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(Expression&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(VectorExpression&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(std::string&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(std::vector<std::string>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 template <class Class>
@@ -112,6 +113,8 @@ constexpr std::string_view value_text() {
     return "ids";
   else if constexpr (std::is_same_v<V, Expression>)
     return "expression";
+  else if constexpr (std::is_same_v<V, VectorExpression>)
+    return "vector";
   else if constexpr (std::is_same_v<V, std::string>)
     return "text";
   else if constexpr (std::is_same_v<V, std::vector<std::string>>)

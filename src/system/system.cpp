@@ -32,6 +32,10 @@ class System::SystemSignals final : public Signals {
 
   const Layout& layout() const override { return system_.layout_; }
   MarkerId marker(std::int64_t id) const override { return system_.model_->find_marker(id).value_or(global_frame); }
+  MarkerId place_of(MarkerId m) const override {
+    const MarkerId followed = system_.model_->marker(m).follows;
+    return followed.valid() ? followed : m;
+  }
   Channel variable(VariableRef ref) const override {
     return kernel(ref)->value_channel(static_cast<std::size_t>(ref.index));
   }

@@ -293,11 +293,15 @@ TEST_F(ClosedForm, constraints_have_the_sense_they_are_documented_with) {
 TEST_F(ClosedForm, joints_start_where_and_as_fast_as_they_are_asked) {
   // The pendulum's eigenvalue at an angle and with a speed: θ″ = −(g/l) sin θ about θ = 0.5; coordinates read the rest.
   const auto run_with = [&](const std::string& joint, const std::string& output) {
-    return run("Starts\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20, QP=0.3,0,0\n"
-               "MARKER/21\nVARIABLE/1, FUNCTION=" + output + "*VZ(31)\nPART/3, MASS=1, CM=31, IP=1,1,1\nMARKER/31\n"
-               "MARKER/32, PART=1\nJOINT/9, TRANSLATIONAL, I=31, J=32\nVARIABLE/2, FUNCTION=0\nPINPUT/1, VARIABLES=2\nPOUTPUT/1, VARIABLES=1\n" +
-                   joint + "\nEND\n",
-               "LINEAR/STATEMAT, FILE=m, PINPUT=1, POUTPUT=1\n");
+    return run(
+        "Starts\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20, QP=0.3,0,0\n"
+        "MARKER/21\nVARIABLE/1, FUNCTION=" +
+            output +
+            "*VZ(31)\nPART/3, MASS=1, CM=31, IP=1,1,1\nMARKER/31\n"
+            "MARKER/32, PART=1\nJOINT/9, TRANSLATIONAL, I=31, J=32\nVARIABLE/2, FUNCTION=0\nPINPUT/1, "
+            "VARIABLES=2\nPOUTPUT/1, VARIABLES=1\n" +
+            joint + "\nEND\n",
+        "LINEAR/STATEMAT, FILE=m, PINPUT=1, POUTPUT=1\n");
   };
   const auto reading = [&](const std::string& joint, const std::string& output) {
     const RunResult r = run_with(joint, output);

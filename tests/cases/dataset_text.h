@@ -27,9 +27,30 @@ inline void expect_same(std::vector<std::complex<double>> a, std::vector<std::co
   for (const auto& x : a) {
     const auto nearest =
         std::min_element(b.begin(), b.end(), [&](auto p, auto q) { return std::abs(p - x) < std::abs(q - x); });
-    EXPECT_LE(std::abs(*nearest - x), std::max(relative * std::abs(x), 1e-13 * largest)) << x << " against " << *nearest;
+    EXPECT_LE(std::abs(*nearest - x), std::max(relative * std::abs(x), 1e-13 * largest))
+        << x << " against " << *nearest;
     b.erase(nearest);
   }
+}
+
+// Two bodies on a ball and springs, turning and moving in all directions, with more elements. Ground has the markers
+// 1–4, part 2 the markers 20–22, part 3 the markers 30 and 31; nothing is aligned.
+inline std::string two_bodies(const std::string& more) {
+  return "Two bodies\nUNITS/SYSTEM=MKS\nACCGRAV/IGRAV=0.4, JGRAV=-9, KGRAV=1.2\nPART/1, GROUND\nMARKER/1, "
+         "REULER=0.3,0.4,0.5\n"
+         "MARKER/2, QP=1,0.5,0\nMARKER/3, QP=-0.5,1,0.3\nMARKER/4, QP=0.2,-0.9,1\n"
+         "PART/2, MASS=2, CM=20, IP=0.2,0.3,0.25, QG=0.1,0.2,-0.1, REULER=0.2,0.1,-0.3, WX=0.4, WY=-0.6, WZ=0.9, "
+         "VX=0.3, VY=0.2, VZ=-0.5\n"
+         "MARKER/20\nMARKER/21, QP=0.2,0.1,0, REULER=0.5,0.2,0.1\nMARKER/22, QP=-0.1,0.2,0.15\n"
+         "PART/3, MASS=1, CM=30, IP=0.1,0.15,0.12, QG=0.7,0.1,0.4, WX=0.2, WY=0.3, WZ=-0.7, VX=0.1, VY=-0.2, "
+         "VZ=0.5\nMARKER/30\nMARKER/31, QP=0.1,-0.2,0.1, REULER=0.7,0.9,0.2\n"
+         "JOINT/1, SPHERICAL, I=22, J=1\nSPRINGDAMPER/1, TRANSLATIONAL, I=20, J=2, K=90, C=1, LENGTH=0.6\n"
+         "SPRINGDAMPER/2, TRANSLATIONAL, I=21, J=3, K=70, C=1, LENGTH=0.7\nSPRINGDAMPER/3, TRANSLATIONAL, I=30, J=4, "
+         "K=50, C=2, LENGTH=0.4\n"
+         "SPRINGDAMPER/4, TRANSLATIONAL, I=31, J=21, K=60, C=1, LENGTH=0.3\nSPRINGDAMPER/5, TRANSLATIONAL, I=31, J=3, "
+         "K=40, C=1, LENGTH=0.3\n"
+         "SPRINGDAMPER/6, TRANSLATIONAL, I=30, J=2, K=45, C=1, LENGTH=0.2\n" +
+         more + "END\n";
 }
 
 }  // namespace dynalin::cases

@@ -8,18 +8,10 @@ class Expressions : public Cases {
  protected:
   // Two bodies on springs, moving, with a force and a controller made of the expression given.
   std::vector<std::complex<double>> solve(const std::string& expression, const std::string& more = "") const {
-    const RunResult r = run(
-        "Two bodies\nUNITS/SYSTEM=MKS\nACCGRAV/IGRAV=0.4, JGRAV=-9, KGRAV=1.2\nPART/1, GROUND\nMARKER/1, REULER=0.3,0.4,0.5\n"
-        "MARKER/2, QP=1,0.5,0\nMARKER/3, QP=-0.5,1,0.3\nMARKER/4, QP=0.2,-0.9,1\n"
-        "PART/2, MASS=2, CM=20, IP=0.2,0.3,0.25, QG=0.1,0.2,-0.1, REULER=0.2,0.1,-0.3, WX=0.4, WY=-0.6, WZ=0.9, VX=0.3, VY=0.2, VZ=-0.5\n"
-        "MARKER/20\nMARKER/21, QP=0.2,0.1,0, REULER=0.5,0.2,0.1\nMARKER/22, QP=-0.1,0.2,0.15\n"
-        "PART/3, MASS=1, CM=30, IP=0.1,0.15,0.12, QG=0.7,0.1,0.4, WX=0.2, WY=0.3, WZ=-0.7, VX=0.1, VY=-0.2, VZ=0.5\nMARKER/30\nMARKER/31, QP=0.1,-0.2,0.1, REULER=0.7,0.9,0.2\n"
-        "JOINT/1, SPHERICAL, I=22, J=1\nSPRINGDAMPER/1, TRANSLATIONAL, I=20, J=2, K=90, C=1, LENGTH=0.6\n"
-        "SPRINGDAMPER/2, TRANSLATIONAL, I=21, J=3, K=70, C=1, LENGTH=0.7\nSPRINGDAMPER/3, TRANSLATIONAL, I=30, J=4, K=50, C=2, LENGTH=0.4\n"
-        "SPRINGDAMPER/4, TRANSLATIONAL, I=31, J=21, K=60, C=1, LENGTH=0.3\nSPRINGDAMPER/5, TRANSLATIONAL, I=31, J=3, K=40, C=1, LENGTH=0.3\n"
-        "SPRINGDAMPER/6, TRANSLATIONAL, I=30, J=2, K=45, C=1, LENGTH=0.2\nSFORCE/1, TRANSLATIONAL, I=30, J=20, FUNCTION=VARVAL(1)\n"
-        "VARIABLE/1, FUNCTION=" + expression + "\nDIFF/1, FUNCTION=-2*DIF(1)+VARVAL(1)\n" + more + "END\n",
-        "SIMULATE/INITIAL\nLINEAR/EIGENSOL\n");
+    const RunResult r = run(two_bodies("SFORCE/1, TRANSLATIONAL, I=30, J=20, FUNCTION=VARVAL(1)\n"
+                                       "VARIABLE/1, FUNCTION=" +
+                                       expression + "\nDIFF/1, FUNCTION=-2*DIF(1)+VARVAL(1)\n" + more),
+                            "SIMULATE/INITIAL\nLINEAR/EIGENSOL\n");
     EXPECT_EQ(r.status, 0) << r.err;
     return r.status == 0 ? r.eigenvalues(1) : std::vector<std::complex<double>>();
   }
@@ -29,7 +21,8 @@ TEST_F(Expressions, vectors_are_what_their_components_are) {
   const std::pair<const char*, const char*> rows[] = {
       {"DXYZ(31,21)*VXYZ(31,21)", "DX(31,21)*VX(31,21)+DY(31,21)*VY(31,21)+DZ(31,21)*VZ(31,21)"},
       {"MAG(DXYZ(31,21)%WXYZ(30,20,21))",
-       "SQRT((DY(31,21)*WZ(30,20,21)-DZ(31,21)*WY(30,20,21))**2+(DZ(31,21)*WX(30,20,21)-DX(31,21)*WZ(30,20,21))**2+(DX(31,21)*WY(30,20,21)-DY(31,21)*WX(30,20,21))**2)"},
+       "SQRT((DY(31,21)*WZ(30,20,21)-DZ(31,21)*WY(30,20,21))**2+(DZ(31,21)*WX(30,20,21)-DX(31,21)*WZ(30,20,21))**2+(DX("
+       "31,21)*WY(30,20,21)-DY(31,21)*WX(30,20,21))**2)"},
       {"UV(DXYZ(31,3))*[1,2,3]", "(DX(31,3)+2*DY(31,3)+3*DZ(31,3))/DM(31,3)"},
       {"0.1*MAG(ACCXYZ(31,21,30,20))", "0.1*SQRT(ACCX(31,21,30,20)**2+ACCY(31,21,30,20)**2+ACCZ(31,21,30,20)**2)"},
       {"0.1*FXYZ(20)*[0,1,0]+0.2*TXYZ(22,0,31)*[0,0,1]", "0.1*FY(20)+0.2*TZ(22,0,31)"},
@@ -38,7 +31,8 @@ TEST_F(Expressions, vectors_are_what_their_components_are) {
       {"DXYZ(31,3)*UVY(21)", "DY(31,3,21)"},
       {"DXYZ(31,3,30)*UVX(21,30)", "DX(31,3,21)"},
       {"TRANS([1,2,3],21)*TRANS([3,-1,2],31,30)+WDTXYZ(30,20)*[0,0.1,0]",
-       "([1,2,3]*[UVX(21)*[1,0,0],UVY(21)*[1,0,0],UVZ(21)*[1,0,0]])*0+TRANS([1,2,3],21)*TRANS([3,-1,2],31,30)+0.1*WDTY(30,20)"},
+       "([1,2,3]*[UVX(21)*[1,0,0],UVY(21)*[1,0,0],UVZ(21)*[1,0,0]])*0+TRANS([1,2,3],21)*TRANS([3,-1,2],31,30)+0.1*WDTY("
+       "30,20)"},
   };
   for (const auto& [vector, scalar] : rows) {
     SCOPED_TRACE(vector);
@@ -57,12 +51,14 @@ TEST_F(Expressions, splines_in_forces_are_the_functions_they_run_through) {
   const std::string cubic = "(1-2*DX(31,21)+0.5*DX(31,21)**2+0.3*DX(31,21)**3)";
   expect_same(solve("CUBSPL(DX(31,21),0,7)", "SPLINE/7, " + x + ", " + y + "\n"), solve(cubic), 1e-10);
   expect_same(solve("INTERP(DX(31,21),3,7)", "SPLINE/7, " + x + ", " + y + "\n"), solve(cubic), 1e-10);
-  expect_same(solve("CUBSPL(DX(31,21),0,7,1)", "SPLINE/7, " + x + ", " + y + "\n"), solve("-2+DX(31,21)+0.9*DX(31,21)**2"), 1e-10);
+  expect_same(solve("CUBSPL(DX(31,21),0,7,1)", "SPLINE/7, " + x + ", " + y + "\n"),
+              solve("-2+DX(31,21)+0.9*DX(31,21)**2"), 1e-10);
   // A family over z = 1 and 2 that grows from f to 3 f.
   std::string first = y;
   first.insert(2, "1,");
   const std::string family = "SPLINE/7, " + x + ", " + first + ", Y=2" + y2 + "\n";
-  expect_same(solve("CUBSPL(DX(31,21),1.5+0.1*VX(30,20),7)", family), solve(cubic + "*(1+2*(0.5+0.1*VX(30,20)))"), 1e-10);
+  expect_same(solve("CUBSPL(DX(31,21),1.5+0.1*VX(30,20),7)", family), solve(cubic + "*(1+2*(0.5+0.1*VX(30,20)))"),
+              1e-10);
   // From a file with blocks.
   std::string file = "$ measured\n[OTHER]\n0 1\n1 2\n[BUMP]\n UNITS = m\n{ x  y }\n";
   for (int k = -3; k <= 4; ++k) {
@@ -95,11 +91,14 @@ TEST_F(Expressions, algebraic_equations_add_no_state_and_know_their_rate) {
   expect_same(solve("DIF(2)", "DIFF/2, IMPLICIT, FUNCTION=DIF(2)-0.3*" + x + "**2\n"), plain, 1e-10);
   // DX in the axes of a marker that turns: its rate is not VX in the ground.
   const std::string own = "DX(31,21,21)";
-  expect_same(solve("DIF1(2)", "DIFF/2, IMPLICIT, IC=0.5, FUNCTION=DIF(2)**2+DIF(2)-" + own + "-0.5*TIME\n"),
-              solve("(" + v + "+0.5)/(2*VARVAL(2)+1)", "VARIABLE/2, IC=0.5, FUNCTION=(" + own + "+0.5*TIME)/(VARVAL(2)+1)\n"), 1e-9);
+  expect_same(
+      solve("DIF1(2)", "DIFF/2, IMPLICIT, IC=0.5, FUNCTION=DIF(2)**2+DIF(2)-" + own + "-0.5*TIME\n"),
+      solve("(" + v + "+0.5)/(2*VARVAL(2)+1)", "VARIABLE/2, IC=0.5, FUNCTION=(" + own + "+0.5*TIME)/(VARVAL(2)+1)\n"),
+      1e-9);
   // Through a variable, another algebraic equation and a state.
-  expect_same(solve("DIF1(3)", "VARIABLE/2, FUNCTION=" + own + "**2\nDIFF/2, IMPLICIT, FUNCTION=DIF(2)-VARVAL(2)-3*DIF(1)\n"
-                               "DIFF/3, IMPLICIT, FUNCTION=2*DIF(3)-DIF(2)\n"),
+  expect_same(solve("DIF1(3)", "VARIABLE/2, FUNCTION=" + own +
+                                   "**2\nDIFF/2, IMPLICIT, FUNCTION=DIF(2)-VARVAL(2)-3*DIF(1)\n"
+                                   "DIFF/3, IMPLICIT, FUNCTION=2*DIF(3)-DIF(2)\n"),
               solve("0.5*(2*" + own + "*" + v + "+3*DIF1(1))"), 1e-9);
   // A velocity: its rate is an acceleration.
   expect_same(solve("0.1*DIF1(2)", "DIFF/2, IMPLICIT, FUNCTION=DIF(2)-VR(31,21)**2\n"),
@@ -107,8 +106,10 @@ TEST_F(Expressions, algebraic_equations_add_no_state_and_know_their_rate) {
 }
 
 TEST_F(Expressions, a_rate_that_is_not_known_is_an_error_that_names_it) {
-  const RunResult r = run("x\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\n"
-                          "DIFF/2, IMPLICIT, FUNCTION=DIF(2)-ACCX(20)\nDIFF/3, FUNCTION=DIF1(2)\nEND\n", "LINEAR/EIGENSOL\n");
+  const RunResult r =
+      run("x\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\n"
+          "DIFF/2, IMPLICIT, FUNCTION=DIF(2)-ACCX(20)\nDIFF/3, FUNCTION=DIF1(2)\nEND\n",
+          "LINEAR/EIGENSOL\n");
   EXPECT_EQ(r.status, 2);
   EXPECT_NE(r.err.find("ACCX(20)"), std::string::npos) << r.err;
 }

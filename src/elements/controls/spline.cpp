@@ -35,14 +35,17 @@ struct WrittenSpline {
       {.name = "FILE", .slot = &WrittenSpline::file, .help = "text file with the points"},
       {.name = "BLOCK", .slot = &WrittenSpline::block, .help = "the block of the file, [NAME]"},
       {.name = "CHANNEL", .slot = &WrittenSpline::channel, .minimum = 1, .help = "which column behind x"},
-      {.name = "LINEAR_EXTRAPOLATE", .slot = &WrittenSpline::linear, .help = "a line beyond the points, not a parabola"},
+      {.name = "LINEAR_EXTRAPOLATE",
+       .slot = &WrittenSpline::linear,
+       .help = "a line beyond the points, not a parabola"},
   }};
 };
 
 std::string upper(std::string_view text) {
   std::string s;
   for (const char c : text) {
-    if (!std::isspace(static_cast<unsigned char>(c))) s += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    if (!std::isspace(static_cast<unsigned char>(c)))
+      s += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   }
   return s;
 }
@@ -180,14 +183,16 @@ class SplineSet final : public TypedSet<Spline> {
     }
     for (std::size_t k = 1; k < data.x.size(); ++k) {
       if (data.x[k] > data.x[k - 1]) continue;
-      reader.error("spline-data", at,
-                   fmt::format("X of {} must increase: value {} is {}, after {}", name, k + 1, data.x[k], data.x[k - 1]));
+      reader.error(
+          "spline-data", at,
+          fmt::format("X of {} must increase: value {} is {}, after {}", name, k + 1, data.x[k], data.x[k - 1]));
       return false;
     }
     for (std::size_t k = 1; k < data.z.size(); ++k) {
       if (data.z[k] > data.z[k - 1]) continue;
-      reader.error("spline-data", at,
-                   fmt::format("z of {} must increase: curve {} has {}, after {}", name, k + 1, data.z[k], data.z[k - 1]));
+      reader.error(
+          "spline-data", at,
+          fmt::format("z of {} must increase: curve {} has {}, after {}", name, k + 1, data.z[k], data.z[k - 1]));
       return false;
     }
     return true;

@@ -50,7 +50,9 @@ struct JointArguments {
        .slot = &JointArguments::pd,
        .unit = unit::length,
        .help = "RACKPIN: pitch diameter of the pinion"},
-      {.name = "IC", .slot = &JointArguments::ic, .help = "REVOLUTE, TRANSLATIONAL: displacement [, velocity] at the start"},
+      {.name = "IC",
+       .slot = &JointArguments::ic,
+       .help = "REVOLUTE, TRANSLATIONAL: displacement [, velocity] at the start"},
       {.name = "ICTRAN", .slot = &JointArguments::ictran, .help = "CYLINDRICAL: the same along z"},
       {.name = "ICROT", .slot = &JointArguments::icrot, .help = "CYLINDRICAL: the same about z"},
   }};
@@ -248,7 +250,11 @@ class JointSet final : public JointSetBase {
       read_parameter(w.pitch, "PITCH", joints[k].element, reader);
       read_parameter(w.pd, "PD", joints[k].element, reader);
       const bool both = rotates() && translates();
-      read_start(w.ic, "IC", !both && rotates() ? &joints[k].rotation : !both && translates() ? &joints[k].translation : nullptr, reader);
+      read_start(w.ic, "IC",
+                 !both && rotates()      ? &joints[k].rotation
+                 : !both && translates() ? &joints[k].translation
+                                         : nullptr,
+                 reader);
       read_start(w.ictran, "ICTRAN", both ? &joints[k].translation : nullptr, reader);
       read_start(w.icrot, "ICROT", both ? &joints[k].rotation : nullptr, reader);
     }

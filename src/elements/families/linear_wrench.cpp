@@ -1,0 +1,135 @@
+#include "elements/families/linear_wrench.h"
+
+#include <fmt/format.h>
+
+namespace dynalin {
+
+namespace {
+
+// AX, AY, AZ of I seen from J: angles from y_J, z_J, x_J to the projections of y.. of I (dataset language, section
+// 0.1).
+template <class T>
+std::array<T, 3> projected_angles(const RelativeFrame<T>& I) {
+  using std::atan2;
+  return {atan2(-I.z.y, I.z.z), atan2(I.z.x, I.z.z), atan2(I.x.y, I.x.x)};
+}
+
+}  // namespace
+
+RelativeDisplacement relative_displacement(const PairMotion& pair, std::span<const double> turns) {
+  const auto I = path::seeded<12>(pair.relative);
+  const auto angles = projected_angles(I);
+  // Relative angular velocity, ½ Σ a × a′ over the axes of I seen from J.
+  const auto half_sum = [&](std::size_t u, std::size_t v) {
+    Dual<12> sum(0.0);
+    for (const auto* a : {&I.x, &I.y, &I.z}) sum = sum + (*a)[u].value * (*a)[v].rate - (*a)[v].value * (*a)[u].rate;
+    return sum * 0.5;
+  };
+  const std::array<Dual<12>, 6> rates = {I.p.x.rate,     I.p.y.rate,     I.p.z.rate,
+                                         half_sum(1, 2), half_sum(2, 0), half_sum(0, 1)};
+  RelativeDisplacement d;
+  for (std::size_t r = 0; r < 6; ++r) {
+    const Dual<12>& y = r < 3 ? I.p[r].value : angles[r - 3].value;
+    d.y[r] = r < 3 ? y.value : unwrapped(y.value, turns[r - 3]);
+    d.rate[r] = rates[r].value;
+    for (std::size_t k = 0; k < 6; ++k) {
+      d.on_pose[r][k] = y.partial[k];
+      d.rate_on_pose[r][k] = rates[r].partial[k];
+      d.rate_on_rate[r][k] = rates[r].partial[6 + k];
+    }
+  }
+  return d;
+}
+
+std::array<double, 3> total_angles(const PairMotion& pair, std::span<const double> turns) {
+  const auto angles = projected_angles(pair.relative);
+  std::array<double, 3> total{};
+  for (std::size_t k = 0; k < 3; ++k) total[k] = unwrapped(angles[k].value, turns[k]);
+  return total;
+}
+
+LinearWrenchKernel::LinearWrenchKernel(const std::vector<LinearWrench>& laws, const std::vector<ElementLabel>&,
+                                       Layout& layout) {
+  for (const LinearWrench& law : laws) {
+    laws_.push_back({law, layout.marker(law.i), layout.marker(law.j), layout.add_memory()});
+    layout.add_memory();
+    layout.add_memory();
+  }
+}
+
+PairForce LinearWrenchKernel::force_of(const Placed& p, const PairMotion& pair, const Motion& motion,
+                                       bool with_partials) {
+  const RelativeDisplacement d =
+      relative_displacement(pair, std::span(motion.memory).subspan(static_cast<std::size_t>(p.memory), 3));
+  RelativeWrench w;
+  w.depends_on_rate = true;
+  for (std::size_t r = 0; r < 6; ++r) {
+    double sum = p.law.force[r];
+    for (std::size_t c = 0; c < 6; ++c) {
+      const double K = p.law.K[r][c], C = p.law.C[r][c];
+      if (K == 0 && C == 0) continue;
+      sum -= K * (d.y[c] - p.law.length[c]) + C * d.rate[c];
+      for (std::size_t k = 0; k < 6; ++k) {
+        w.on_pose[r][k] -= K * d.on_pose[c][k] + C * d.rate_on_pose[c][k];
+        w.on_rate[r][k] -= C * d.rate_on_rate[c][k];
+      }
+    }
+    (r < 3 ? w.force[r] : w.torque[r - 3]) = sum;
+  }
+  return spread(pair, w, with_partials);
+}
+
+void LinearWrenchKernel::equations(const Motion& motion, Equations& eq) const {
+  for (const Placed& p : laws_) {
+    const PairMotion pair = pair_motion(motion, p.I, p.J);
+    apply(pair, force_of(p, pair, motion, eq.wants_partials()), eq);
+  }
+}
+
+void LinearWrenchKernel::remember(const Motion& motion, Memory& memory) const {
+  for (const Placed& p : laws_) {
+    const auto at = static_cast<std::size_t>(p.memory);
+    const auto total = total_angles(pair_motion(motion, p.I, p.J), std::span(memory).subspan(at, 3));
+    std::copy(total.begin(), total.end(), memory.begin() + static_cast<std::ptrdiff_t>(at));
+  }
+}
+
+void LinearWrenchKernel::wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const {
+  out.pair = pair_motion(motion, laws_[k].I, laws_[k].J);
+  out.force = force_of(laws_[k], out.pair, motion, with_partials);
+}
+
+template <std::size_t N>
+bool take_values(const std::vector<double>& values, std::string_view name, std::array<double, N>& out,
+                 ElementReader& reader) {
+  if (values.empty()) return true;
+  if (values.size() != N) {
+    reader.error("wrong-count", reader.at(name),
+                 fmt::format("{} of {} takes {} values, here are {}", name, reader.label().text(), N, values.size()));
+    return false;
+  }
+  std::copy(values.begin(), values.end(), out.begin());
+  return true;
+}
+template bool take_values(const std::vector<double>&, std::string_view, std::array<double, 3>&, ElementReader&);
+template bool take_values(const std::vector<double>&, std::string_view, std::array<double, 6>&, ElementReader&);
+template bool take_values(const std::vector<double>&, std::string_view, std::array<double, 21>&, ElementReader&);
+template bool take_values(const std::vector<double>&, std::string_view, std::array<double, 36>&, ElementReader&);
+
+Array66 by_columns(const std::array<double, 36>& values) {
+  Array66 m{};
+  for (std::size_t c = 0; c < 6; ++c) {
+    for (std::size_t r = 0; r < 6; ++r) m[r][c] = values[6 * c + r];
+  }
+  return m;
+}
+
+Array66 scaled(const Array66& m, double factor) {
+  Array66 s = m;
+  for (Array6& row : s) {
+    for (double& v : row) v *= factor;
+  }
+  return s;
+}
+
+}  // namespace dynalin

@@ -1,0 +1,100 @@
+// Forces that are linear in the displacement of I from J, as BUSHING, FIELD and BEAM have them:
+//
+//     (F, T) = FORCE − K (y − LENGTH) − C y′        on I, in the axes of J
+//     y = (DX, DY, DZ, AX, AY, AZ)(I,J) in the axes of J,   y′ = (velocity seen from J, relative angular velocity)
+//
+// The opposite acts on J's body at the origin of I, which is −F and −T − p × F at the origin of J. The angles are
+// projections and count whole turns; y′ holds the angular velocity itself, not their rates.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "elements/families/markers.h"
+#include "mechanics/kernel.h"
+#include "model/schema.h"
+
+namespace dynalin {
+
+using Array6 = std::array<double, 6>;
+using Array66 = std::array<Array6, 6>;  // [row][column]
+
+struct LinearWrench {
+  MarkerId i, j;
+  Array66 K{}, C{};          // stiffness and damping
+  Array6 length{}, force{};  // displacement at which `force` acts
+};
+
+// The displacement y, its gradient by the relative pose, and the rate y′ with its gradients by pose and rate of pose.
+struct RelativeDisplacement {
+  Array6 y{}, rate{};
+  Array66 on_pose{}, rate_on_pose{}, rate_on_rate{};
+};
+// `turns` holds the total angles that AX, AY, AZ are unwrapped to.
+RelativeDisplacement relative_displacement(const PairMotion&, std::span<const double> turns);
+// Total angles for the memory.
+std::array<double, 3> total_angles(const PairMotion&, std::span<const double> turns);
+
+class LinearWrenchKernel final : public Kernel {
+ public:
+  LinearWrenchKernel(const std::vector<LinearWrench>&, const std::vector<ElementLabel>&, Layout&);
+  void equations(const Motion&, Equations&) const override;
+  void remember(const Motion&, Memory&) const override;
+  bool has_wrench() const override { return true; }
+  MarkerId marker_I(std::size_t k) const override { return laws_[k].law.i; }
+  MarkerId marker_J(std::size_t k) const override { return laws_[k].law.j; }
+  void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;
+
+ private:
+  struct Placed {
+    LinearWrench law;
+    MarkerPlace I, J;
+    std::int32_t memory;  // of three total angles
+  };
+  static PairForce force_of(const Placed&, const PairMotion&, const Motion&, bool with_partials);
+  std::vector<Placed> laws_;
+};
+
+// Elements E that give `LinearWrench law(ElementReader&)` from their arguments, reporting what does not fit.
+template <class E>
+class LinearWrenchSet final : public TypedSet<LinearWrench> {
+ public:
+  using TypedSet::TypedSet;
+  void read(std::size_t k, ElementReader& reader) override {
+    E written;
+    if (read_arguments(written, reader)) elements[k] = written.law(reader);
+  }
+  void finish(Model& model, Diagnostics& diagnostics) override {
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      check_pair(model, labels[k], elements[k].i, elements[k].j, {true, true, true}, diagnostics);
+    }
+  }
+  std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
+    return std::make_unique<LinearWrenchKernel>(elements, labels, layout);
+  }
+};
+
+template <class E>
+constexpr Kind linear_wrench() {
+  return {E::keyword,
+          "",
+          E::summary,
+          Kind::Role::element,
+          detail::argument_infos<E>,
+          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<LinearWrenchSet<E>>(kind); }};
+}
+
+// Puts a list of exactly N values into an array; false after a reported error. An empty list leaves the array as it is.
+template <std::size_t N>
+bool take_values(const std::vector<double>& values, std::string_view name, std::array<double, N>& out,
+                 ElementReader& reader);
+extern template bool take_values(const std::vector<double>&, std::string_view, std::array<double, 3>&, ElementReader&);
+extern template bool take_values(const std::vector<double>&, std::string_view, std::array<double, 6>&, ElementReader&);
+extern template bool take_values(const std::vector<double>&, std::string_view, std::array<double, 21>&, ElementReader&);
+extern template bool take_values(const std::vector<double>&, std::string_view, std::array<double, 36>&, ElementReader&);
+// A 6 × 6 matrix entered by columns.
+Array66 by_columns(const std::array<double, 36>&);
+Array66 scaled(const Array66&, double factor);
+
+}  // namespace dynalin

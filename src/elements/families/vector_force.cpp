@@ -1,0 +1,150 @@
+#include "elements/families/vector_force.h"
+
+#include <fmt/format.h>
+
+namespace dynalin {
+
+VectorForceKernel::VectorForceKernel(std::vector<VectorForce> elements, const std::vector<ElementLabel>& labels,
+                                     Layout& layout)
+    : labels_(&labels) {
+  for (std::size_t k = 0; k < elements.size(); ++k) {
+    Force f{elements[k],
+            layout.marker(elements[k].i),
+            layout.marker(elements[k].jfloat),
+            layout.marker(elements[k].rm),
+            {}};
+    for (std::size_t axis = 0; axis < 6; ++axis) {
+      if (!f.element.component[axis]) continue;
+      f.components.push_back({axis, layout.add_algebraic(labels[k], static_cast<std::int32_t>(axis) + 1), {}});
+    }
+    forces_.push_back(std::move(f));
+  }
+}
+
+void VectorForceKernel::bind(const Signals& signals) {
+  for (Force& f : forces_) {
+    for (Component& c : f.components) c.expression = BoundExpression(*f.element.component[c.axis], signals);
+  }
+}
+
+void VectorForceKernel::wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const {
+  const Force& f = forces_[k];
+  out.pair = pair_motion(motion, f.I, f.J);
+  // The floating marker is where I is.
+  out.pair.J.origin = out.pair.I.origin;
+  out.J_follows_I = true;
+  out.force = {};
+  const Matrix3 axes = motion.axes(f.RM);
+  for (const Component& c : f.components) {
+    const Vector e = axes[c.axis % 3];
+    const double w = motion.algebraic[static_cast<std::size_t>(c.algebraic)];
+    (c.axis < 3 ? out.force.force : out.force.torque) += w * e;
+    if (with_partials) {
+      out.scalars.push_back({Column::algebraic, c.algebraic, c.axis < 3 ? e : Vector{}, c.axis < 3 ? Vector{} : e});
+    }
+  }
+  if (with_partials) out.turns.push_back({f.RM.body, -skew(out.force.force), -skew(out.force.torque)});
+}
+
+void VectorForceKernel::equations(const Motion& motion, Equations& eq) const {
+  MarkerWrench w;
+  for (std::size_t k = 0; k < forces_.size(); ++k) {
+    const Force& f = forces_[k];
+    for (const Component& c : f.components) {
+      const std::int32_t row = eq.algebraic_row(c.algebraic);
+      eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(c.algebraic)]);
+      eq.add(Column::algebraic, row, c.algebraic, 1.0);
+      c.expression.add(motion, eq, row, -1.0, Column::damping);
+    }
+    w.clear();
+    wrench(motion, k, eq.wants_partials(), w);
+    apply(w.pair, w.force, eq);
+    if (!eq.wants_partials()) continue;
+    for (const MarkerWrench::Scalar& s : w.scalars) {
+      apply_column(w.pair, s.force, s.torque, true, s.family, s.column, eq);
+    }
+    for (const MarkerWrench::Turn& t : w.turns) apply_turn(w.pair, t.body, t.force, t.torque, eq);
+  }
+}
+
+void VectorForceKernel::remember(const Motion& motion, Memory& memory) const {
+  for (const Force& f : forces_) {
+    for (const Component& c : f.components) c.expression.remember(motion, memory);
+  }
+}
+
+std::string VectorForceKernel::fault(const Motion& motion) const {
+  for (std::size_t k = 0; k < forces_.size(); ++k) {
+    for (const Component& c : forces_[k].components) {
+      const std::string reason = c.expression.fault(motion);
+      if (!reason.empty()) return (*labels_)[k].full_text() + ": " + reason;
+    }
+  }
+  return {};
+}
+
+void take_components(const WrittenVectorForce& w, bool forces, bool torques, VectorForce& out, ElementReader& reader) {
+  out.i = w.i, out.jfloat = w.jfloat, out.rm = w.rm;
+  const std::string name = reader.label().text();
+  static constexpr std::array<std::string_view, 6> names = {"FX", "FY", "FZ", "TX", "TY", "TZ"};
+  const std::array<const Expression*, 6> scalars = {&w.fx, &w.fy, &w.fz, &w.tx, &w.ty, &w.tz};
+  bool any = false;
+  for (std::size_t k = 0; k < 6; ++k) {
+    if (!reader.given(names[k])) continue;
+    out.component[k] = *scalars[k];
+    any = true;
+  }
+  const auto take_vector = [&](std::string_view word, const VectorExpression& v, std::size_t first) {
+    if (!reader.given(word)) return;
+    for (std::size_t k = first; k < first + 3; ++k) {
+      if (out.component[k]) {
+        reader.error("excluded-arguments", reader.at(word),
+                     fmt::format("{} takes {} or {}, not both", name, word, names[k]));
+        return;
+      }
+      out.component[k] = v.component[k - first];
+    }
+    any = true;
+  };
+  if (forces) take_vector("FXYZ", w.fxyz, 0);
+  if (torques) take_vector("TXYZ", w.txyz, 3);
+  if (reader.given("FUNCTION")) {
+    reader.error("argument-not-built", reader.at("FUNCTION"), "user subroutines are not available");
+  } else if (!any && !reader.statement().damaged) {
+    reader.error("missing-argument", reader.statement().at, fmt::format("{} has no component", name),
+                 forces && torques ? "one or more of FX, FY, FZ, TX, TY, TZ"
+                 : forces          ? "one or more of FX, FY, FZ"
+                                   : "one or more of TX, TY, TZ");
+  }
+}
+
+void check_vector_force(Model& model, const ElementLabel& label, const VectorForce& f, bool torques,
+                        Diagnostics& diagnostics) {
+  if (!f.i.valid() || !f.jfloat.valid() || !f.rm.valid()) return;
+  Marker& floating = model.markers[static_cast<std::size_t>(f.jfloat.index)];
+  if (!floating.floating) {
+    diagnostics.error("fixed-marker", label.at,
+                      fmt::format("JFLOAT of {}, {}, must be a floating marker", label.text(), floating.label.text()),
+                      "write FLOATING into the MARKER statement");
+    return;
+  }
+  for (const auto& [id, word] : {std::pair{f.i, "I"}, std::pair{f.rm, "RM"}}) {
+    if (!model.marker(id).floating) continue;
+    diagnostics.error("floating-marker", label.at,
+                      fmt::format("{} of {}, {}, is floating", word, label.text(), model.marker(id).label.text()),
+                      "a fixed marker is needed here");
+    return;
+  }
+  const Body& body = model.body(model.marker(f.i).place.body);
+  if (torques && body.kind == BodyKind::point_mass) {
+    diagnostics.error("rotation-of-point-mass", label.at,
+                      fmt::format("{} acts on the rotation of {}, which has none", label.text(), body.label.text()));
+  }
+  if (floating.place.body == model.marker(f.i).place.body) {
+    diagnostics.error("same-body", label.at,
+                      fmt::format("I and JFLOAT of {} are both on {}", label.text(), body.label.text()));
+  }
+  floating.follows = f.i;
+}
+
+}  // namespace dynalin

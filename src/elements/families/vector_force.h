@@ -1,0 +1,90 @@
+// A force and a torque on I given by expressions in the axes of RM, with the opposite on the body of a floating marker
+// at the same point: VFORCE, VTORQUE and GFORCE.
+//
+// Every component is an algebraic unknown w with w − e = 0, so that expressions may refer to each other.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "elements/families/markers.h"
+#include "mechanics/bound_expression.h"
+#include "mechanics/kernel.h"
+#include "model/schema.h"
+
+namespace dynalin {
+
+struct VectorForce {
+  MarkerId i, jfloat, rm;
+  // FX FY FZ TX TY TZ; those that are not written stay without unknown.
+  std::array<std::optional<Expression>, 6> component;
+};
+
+class VectorForceKernel final : public Kernel {
+ public:
+  VectorForceKernel(std::vector<VectorForce>, const std::vector<ElementLabel>&, Layout&);
+  void bind(const Signals&) override;
+  void equations(const Motion&, Equations&) const override;
+  void remember(const Motion&, Memory&) const override;
+  bool has_wrench() const override { return true; }
+  MarkerId marker_I(std::size_t k) const override { return forces_[k].element.i; }
+  MarkerId marker_J(std::size_t k) const override { return forces_[k].element.jfloat; }
+  void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;
+  std::string fault(const Motion&) const override;
+
+ private:
+  struct Component {
+    std::size_t axis;  // 0–2 force, 3–5 torque
+    std::int32_t algebraic;
+    BoundExpression expression;
+  };
+  struct Force {
+    VectorForce element;
+    MarkerPlace I, J, RM;
+    std::vector<Component> components;
+  };
+  std::vector<Force> forces_;
+  const std::vector<ElementLabel>* labels_;
+};
+
+struct WrittenVectorForce {
+  MarkerId i, jfloat, rm;
+  Expression fx, fy, fz, tx, ty, tz;
+  VectorExpression fxyz, txyz;
+  Expression function;
+};
+
+// Takes over what is written; `forces` and `torques` say which components the statement has.
+void take_components(const WrittenVectorForce&, bool forces, bool torques, VectorForce&, ElementReader&);
+void check_vector_force(Model&, const ElementLabel&, const VectorForce&, bool torques, Diagnostics&);
+
+// E: WrittenVectorForce with arguments, keyword, summary, has_forces, has_torques.
+template <class E>
+class VectorForceSet final : public TypedSet<VectorForce> {
+ public:
+  using TypedSet::TypedSet;
+  void read(std::size_t k, ElementReader& reader) override {
+    E written;
+    if (read_arguments(written, reader)) take_components(written, E::has_forces, E::has_torques, elements[k], reader);
+  }
+  void finish(Model& model, Diagnostics& diagnostics) override {
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      check_vector_force(model, labels[k], elements[k], E::has_torques, diagnostics);
+    }
+  }
+  std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
+    return std::make_unique<VectorForceKernel>(elements, labels, layout);
+  }
+};
+
+template <class E>
+constexpr Kind vector_force() {
+  return {E::keyword,
+          "",
+          E::summary,
+          Kind::Role::element,
+          detail::argument_infos<E>,
+          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<VectorForceSet<E>>(kind); }};
+}
+
+}  // namespace dynalin

@@ -1,0 +1,58 @@
+// FIELD/id, I=, J=, KMATRIX= [, CMATRIX= | CRATIO=] [, FORCE=] [, LENGTH=]
+//
+// A linear force of all six displacements (families/linear_wrench.h): KMATRIX and CMATRIX are 6 × 6 and entered by
+// columns, they need not be symmetric. FORCE acts at the displacement LENGTH. CRATIO: CMATRIX = CRATIO · KMATRIX.
+#include <fmt/format.h>
+
+#include "elements/families/linear_wrench.h"
+
+namespace dynalin {
+
+namespace {
+
+struct Field {
+  MarkerId i, j;
+  std::vector<double> stiffness, damping, force, length;
+  std::optional<double> ratio;
+  Expression function;
+
+  static constexpr std::string_view keyword = "FIELD";
+  static constexpr std::string_view summary = "Linear force of all six displacements, with full matrices.";
+  static constexpr std::array<Argument<Field>, 8> arguments = {{
+      {.name = "I", .slot = &Field::i, .required = true, .help = "marker the force acts on"},
+      {.name = "J", .slot = &Field::j, .required = true, .help = "marker the reaction acts on, and whose axes count"},
+      {.name = "KMATRIX", .slot = &Field::stiffness, .help = "36 values by columns: stiffness"},
+      {.name = "CMATRIX", .slot = &Field::damping, .help = "36 values by columns: damping"},
+      {.name = "CRATIO", .slot = &Field::ratio, .unit = "time", .help = "CMATRIX = CRATIO · KMATRIX"},
+      {.name = "FORCE", .slot = &Field::force, .help = "3 forces and 3 torques at LENGTH"},
+      {.name = "LENGTH", .slot = &Field::length, .help = "3 lengths and 3 angles at which FORCE acts"},
+      {.name = "FUNCTION", .slot = &Field::function, .help = "user subroutines are not available"},
+  }};
+
+  LinearWrench law(ElementReader& reader) const {
+    LinearWrench w{i, j, {}, {}, {}, {}};
+    std::array<double, 36> K{}, C{};
+    take_values(stiffness, "KMATRIX", K, reader);
+    take_values(damping, "CMATRIX", C, reader);
+    take_values(force, "FORCE", w.force, reader);
+    take_values(length, "LENGTH", w.length, reader);
+    if (reader.given("FUNCTION")) {
+      reader.error("argument-not-built", reader.at("FUNCTION"), "user subroutines are not available");
+    } else if (!reader.given("KMATRIX")) {
+      reader.error("missing-argument", reader.statement().at, fmt::format("{} needs KMATRIX", reader.label().text()));
+    }
+    if (ratio && !damping.empty()) {
+      reader.error("excluded-arguments", reader.at("CRATIO"),
+                   fmt::format("{} takes CMATRIX or CRATIO, not both", reader.label().text()));
+    }
+    w.K = by_columns(K);
+    w.C = ratio ? scaled(w.K, *ratio) : by_columns(C);
+    return w;
+  }
+};
+
+}  // namespace
+
+extern constinit const Kind field = linear_wrench<Field>();
+
+}  // namespace dynalin

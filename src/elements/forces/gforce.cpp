@@ -1,0 +1,39 @@
+// GFORCE/id, I=, JFLOAT=, RM=, {FX=\FY=\FZ= | FXYZ=} {TX=\TY=\TZ= | TXYZ=}
+//
+// A force and torque on I at its origin, with components in the axes of RM; the opposite acts on the body of the
+// floating marker JFLOAT at the same point. Components that are not written are zero.
+#include "elements/families/vector_force.h"
+
+namespace dynalin {
+
+namespace {
+
+struct GForce : WrittenVectorForce {
+  static constexpr std::string_view keyword = "GFORCE";
+  static constexpr std::string_view summary =
+      "A force and torque on a marker by components, with a reaction on a floating marker.";
+  static constexpr bool has_forces = true, has_torques = true;
+  static constexpr std::array<Argument<GForce>, 12> arguments = {{
+      {.name = "I", .slot = &GForce::i, .required = true, .help = "marker the force and torque acts on"},
+      {.name = "JFLOAT",
+       .slot = &GForce::jfloat,
+       .required = true,
+       .help = "floating marker on the body that takes the reaction"},
+      {.name = "RM", .slot = &GForce::rm, .required = true, .help = "marker in whose axes the components are given"},
+      {.name = "FX", .slot = &GForce::fx, .unit = unit::force},
+      {.name = "FY", .slot = &GForce::fy, .unit = unit::force},
+      {.name = "FZ", .slot = &GForce::fz, .unit = unit::force},
+      {.name = "TX", .slot = &GForce::tx, .unit = unit::torque},
+      {.name = "TY", .slot = &GForce::ty, .unit = unit::torque},
+      {.name = "TZ", .slot = &GForce::tz, .unit = unit::torque},
+      {.name = "FXYZ", .slot = &GForce::fxyz, .unit = unit::force, .help = "all three as a vector expression"},
+      {.name = "TXYZ", .slot = &GForce::txyz, .unit = unit::torque, .help = "all three as a vector expression"},
+      {.name = "FUNCTION", .slot = &GForce::function, .help = "user subroutines are not available"},
+  }};
+};
+
+}  // namespace
+
+extern constinit const Kind gforce = vector_force<GForce>();
+
+}  // namespace dynalin

@@ -1,0 +1,35 @@
+// VFORCE/id, I=, JFLOAT=, RM=, {FX=\FY=\FZ= | FXYZ=}
+//
+// A force on I at its origin, with components in the axes of RM; the opposite acts on the body of the floating marker
+// JFLOAT at the same point. Components that are not written are zero.
+#include "elements/families/vector_force.h"
+
+namespace dynalin {
+
+namespace {
+
+struct VForce : WrittenVectorForce {
+  static constexpr std::string_view keyword = "VFORCE";
+  static constexpr std::string_view summary =
+      "A force on a marker by components, with a reaction on a floating marker.";
+  static constexpr bool has_forces = true, has_torques = false;
+  static constexpr std::array<Argument<VForce>, 8> arguments = {{
+      {.name = "I", .slot = &VForce::i, .required = true, .help = "marker the force acts on"},
+      {.name = "JFLOAT",
+       .slot = &VForce::jfloat,
+       .required = true,
+       .help = "floating marker on the body that takes the reaction"},
+      {.name = "RM", .slot = &VForce::rm, .required = true, .help = "marker in whose axes the components are given"},
+      {.name = "FX", .slot = &VForce::fx, .unit = unit::force},
+      {.name = "FY", .slot = &VForce::fy, .unit = unit::force},
+      {.name = "FZ", .slot = &VForce::fz, .unit = unit::force},
+      {.name = "FXYZ", .slot = &VForce::fxyz, .unit = unit::force, .help = "all three as a vector expression"},
+      {.name = "FUNCTION", .slot = &VForce::function, .help = "user subroutines are not available"},
+  }};
+};
+
+}  // namespace
+
+extern constinit const Kind vforce = vector_force<VForce>();
+
+}  // namespace dynalin

@@ -1,0 +1,35 @@
+// VTORQUE/id, I=, JFLOAT=, RM=, {TX=\TY=\TZ= | TXYZ=}
+//
+// A torque on I at its origin, with components in the axes of RM; the opposite acts on the body of the floating marker
+// JFLOAT at the same point. Components that are not written are zero.
+#include "elements/families/vector_force.h"
+
+namespace dynalin {
+
+namespace {
+
+struct VTorque : WrittenVectorForce {
+  static constexpr std::string_view keyword = "VTORQUE";
+  static constexpr std::string_view summary =
+      "A torque on a marker by components, with a reaction on a floating marker.";
+  static constexpr bool has_forces = false, has_torques = true;
+  static constexpr std::array<Argument<VTorque>, 8> arguments = {{
+      {.name = "I", .slot = &VTorque::i, .required = true, .help = "marker the torque acts on"},
+      {.name = "JFLOAT",
+       .slot = &VTorque::jfloat,
+       .required = true,
+       .help = "floating marker on the body that takes the reaction"},
+      {.name = "RM", .slot = &VTorque::rm, .required = true, .help = "marker in whose axes the components are given"},
+      {.name = "TX", .slot = &VTorque::tx, .unit = unit::torque},
+      {.name = "TY", .slot = &VTorque::ty, .unit = unit::torque},
+      {.name = "TZ", .slot = &VTorque::tz, .unit = unit::torque},
+      {.name = "TXYZ", .slot = &VTorque::txyz, .unit = unit::torque, .help = "all three as a vector expression"},
+      {.name = "FUNCTION", .slot = &VTorque::function, .help = "user subroutines are not available"},
+  }};
+};
+
+}  // namespace
+
+extern constinit const Kind vtorque = vector_force<VTorque>();
+
+}  // namespace dynalin
