@@ -61,6 +61,7 @@ struct StateSpace {
 struct EigenMode {
   std::complex<double> eigenvalue_hz;
   bool is_real = false;
+  std::string moves_most;  // the part with the largest motion, or the controller where no part moves; empty: not known
 };
 
 struct EigenSolution {
@@ -72,6 +73,8 @@ struct EigenSolution {
   std::size_t differential_states = 0;
   std::vector<StateLabel> states;  // in the order of A
   std::vector<EigenMode> modes;
+  // Eigenvectors of A, one column a mode in the same order, of length 1; empty if they were not asked for.
+  Eigen::MatrixXcd vectors;
 };
 
 }  // namespace dynalin

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "analysis/displace.h"
 #include "analysis/saddle.h"
@@ -289,6 +290,16 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
     equations.evaluate(kept, false);
     if (std::sqrt(equations.merit(equations.force_scale())) < 1e-9) op = std::move(kept);
   }
+  return op;
+}
+
+Result<OperatingPoint> static_operating_point(const System& system, OperatingPoint start, const StaticsOptions& options,
+                                              StaticsReport& report, Findings& findings) {
+  auto op = find_equilibrium(system, std::move(start), options, report, findings);
+  if (op && op->time == 0 && !std::getenv("MSC_ADAMS_STATICS_NO_RESTORE_VELOCITIES"))
+    op = initial_velocity(system, std::move(*op), findings);
+  if (op) op = reconcile_velocity(system, std::move(*op), findings);
+  if (op) op = solve_acceleration(system, std::move(*op), findings);
   return op;
 }
 

@@ -24,4 +24,9 @@ struct StaticsReport {
 Result<OperatingPoint> find_equilibrium(const System&, OperatingPoint start, const StaticsOptions&, StaticsReport&,
                                         Findings&);
 
+// The same with everything that belongs to an operating point: at t = 0 the dataset's velocities come back at the new
+// pose (not with the environment variable MSC_ADAMS_STATICS_NO_RESTORE_VELOCITIES), then accelerations and reactions.
+Result<OperatingPoint> static_operating_point(const System&, OperatingPoint start, const StaticsOptions&,
+                                              StaticsReport&, Findings&);
+
 }  // namespace dynalin

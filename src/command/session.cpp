@@ -13,6 +13,7 @@
 #include "command/commands.h"
 #include "elements/catalogue.h"
 #include "linear/eigen.h"
+#include "linear/mode_shapes.h"
 #include "output/atomic_file.h"
 #include "output/json.h"
 #include "output/matrices.h"
@@ -216,16 +217,10 @@ class Session {
     Findings findings;
     StaticsReport report;
     write_begin(message_, "Static Solution");
-    auto op = find_equilibrium(system_, point_, {}, report, findings);
+    auto op = static_operating_point(system_, point_, {}, report, findings);
     if (!op) return tl::unexpected(op.error());
     write_static_result(message_, report.iterations, report.imbalance);
     write_end(message_, "Static Solution");
-    // At t = 0 the dataset's velocities come back at the new pose.
-    if (op->time == 0 && !std::getenv("MSC_ADAMS_STATICS_NO_RESTORE_VELOCITIES"))
-      op = initial_velocity(system_, std::move(*op), findings);
-    if (op) op = reconcile_velocity(system_, std::move(*op), findings);
-    if (op) op = solve_acceleration(system_, std::move(*op), findings);
-    if (!op) return tl::unexpected(op.error());
     accept(std::move(*op), findings);
     if (!options_.quiet)
       fmt::print(out_, "static equilibrium after {} iterations, imbalance {:.3e}\n", report.iterations,
@@ -268,8 +263,12 @@ class Session {
         fmt::print(out_, "state matrices of {} states written to {}\n", linear->model.states.size(), command.file);
       return {};
     }
-    auto modes = eigensolve(*linear);
+    if (linear->model.states.size() > 1000) {
+      fmt::print(err_, "computing the eigenvalues of {} states ...\n", linear->model.states.size());
+    }
+    auto modes = eigensolve(*linear, command.without_vectors ? Vectors::none : Vectors::right);
     if (!modes) return tl::unexpected(modes.error());
+    if (!command.without_vectors) name_movers(system_, point_, *linear, *modes);
     modes->rm = command.rm.value_or(0);
     modes->pstate = command.pstate.value_or(0);
     modes->without_damping = command.without_damping;

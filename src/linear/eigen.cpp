@@ -8,7 +8,7 @@
 
 namespace dynalin {
 
-Result<EigenSolution> eigensolve(const LinearSystem& linear) {
+Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   EigenSolution out;
   out.time = linear.model.time;
   out.kinematic_states = linear.kinematic_states;
@@ -19,22 +19,41 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear) {
   const auto n = static_cast<lapack_int>(A.rows());
   if (n == 0) return out;
   if (!A.allFinite()) return tl::unexpected(Failure{"eigensolution", "the state matrix is not finite", {}});
+  const bool with_vectors = wanted == Vectors::right;
   std::vector<double> re(static_cast<std::size_t>(n)), im(re), scale(re), rconde(re), rcondv(re);
+  Eigen::MatrixXd right(with_vectors ? n : 1, with_vectors ? n : 1);
   lapack_int low = 0, high = 0;
   double norm = 0;
   const lapack_int info =
-      LAPACKE_dgeevx(LAPACK_COL_MAJOR, 'B', 'N', 'N', 'N', n, A.data(), n, re.data(), im.data(), nullptr, 1, nullptr, 1,
-                     &low, &high, scale.data(), &norm, rconde.data(), rcondv.data());
+      LAPACKE_dgeevx(LAPACK_COL_MAJOR, 'B', 'N', with_vectors ? 'V' : 'N', 'N', n, A.data(), n, re.data(), im.data(),
+                     nullptr, 1, right.data(), with_vectors ? n : 1, &low, &high, scale.data(), &norm, rconde.data(),
+                     rcondv.data());
   if (info != 0) return tl::unexpected(Failure{"eigensolution", "the QR iteration did not converge", {}});
+
+  std::vector<std::size_t> order;  // one entry a pair
   for (std::size_t k = 0; k < re.size(); ++k) {
-    if (im[k] < 0) continue;  // one entry a pair
-    out.modes.push_back({std::complex(re[k], im[k]) / (2 * std::numbers::pi), im[k] == 0});
+    if (im[k] >= 0) order.push_back(k);
   }
-  std::stable_sort(out.modes.begin(), out.modes.end(), [](const EigenMode& a, const EigenMode& b) {
-    if (a.is_real != b.is_real) return a.is_real;
-    if (a.is_real) return std::abs(a.eigenvalue_hz.real()) < std::abs(b.eigenvalue_hz.real());
-    return a.eigenvalue_hz.imag() < b.eigenvalue_hz.imag();
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const bool a_real = im[a] == 0, b_real = im[b] == 0;
+    if (a_real != b_real) return a_real;
+    return a_real ? std::abs(re[a]) < std::abs(re[b]) : im[a] < im[b];
   });
+  if (with_vectors) out.vectors.resize(n, static_cast<Eigen::Index>(order.size()));
+  for (const std::size_t k : order) {
+    if (with_vectors) {
+      // Of a pair the columns hold the real and the imaginary part.
+      auto v = out.vectors.col(static_cast<Eigen::Index>(out.modes.size()));
+      const auto at = static_cast<Eigen::Index>(k);
+      v.real() = right.col(at);
+      if (im[k] != 0)
+        v.imag() = right.col(at + 1);
+      else
+        v.imag().setZero();
+      v /= v.norm();
+    }
+    out.modes.push_back({std::complex(re[k], im[k]) / (2 * std::numbers::pi), im[k] == 0, {}});
+  }
   return out;
 }
 

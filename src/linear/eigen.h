@@ -6,7 +6,9 @@
 
 namespace dynalin {
 
+enum class Vectors : bool { none, right };
+
 // λ/2π: real ones first by ascending modulus, then complex pairs by ascending imaginary part.
-Result<EigenSolution> eigensolve(const LinearSystem&);
+Result<EigenSolution> eigensolve(const LinearSystem&, Vectors = Vectors::right);
 
 }  // namespace dynalin

@@ -80,14 +80,16 @@ void write_footer(std::ostream& out, bool complete, double elapsed) {
 }
 
 void write_eigen_table(std::ostream& out, const EigenSolution& e) {
-  fmt::print(out, "{:>6}  {:>14}  {:>10}  {:>15}  {:>15}\n", "mode", "frequency", "damping", "real", "imaginary");
+  fmt::print(out, "{:>6}  {:>14}  {:>10}  {:>15}  {:>15}  {}\n", "mode", "frequency", "damping", "real", "imaginary",
+             e.vectors.size() ? "moves most" : "");
   fmt::print(out, "{:>6}  {:>14}  {:>10}  {:>15}  {:>15}\n", "", "cycles/time", "ratio", "cycles/time", "cycles/time");
   int number = 0;
   for (const EigenMode& m : e.modes) {
     const double size = std::abs(m.eigenvalue_hz);
     const double ratio = size > 0 ? -m.eigenvalue_hz.real() / size : 0.0;
-    fmt::print(out, "{:6d}  {:14.7g}  {:10.5f}  {:15.7g}  {}{:.7g}\n", ++number, size, ratio + 0.0,
-               m.eigenvalue_hz.real() + 0.0, m.is_real ? "" : "+/- ", m.is_real ? 0.0 : m.eigenvalue_hz.imag());
+    const std::string imaginary = m.is_real ? "0" : fmt::format("+/- {:.7g}", m.eigenvalue_hz.imag());
+    fmt::print(out, "{:6d}  {:14.7g}  {:10.5f}  {:15.7g}  {:>15}  {}\n", ++number, size, ratio + 0.0,
+               m.eigenvalue_hz.real() + 0.0, imaginary, m.moves_most);
   }
 }
 

@@ -1,0 +1,75 @@
+// The library: load a mechanism, find an operating point, linearize about it, read plain values.
+//
+// Errors are thrown as dynalin::Error. A Mechanism may be moved but not copied; different ones may be used in different
+// threads at the same time, one may not.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "dynalin/results.h"
+
+namespace dynalin {
+
+// Wrong input or an analysis that failed. what() says all of it; `problems` holds the single messages.
+class Error : public std::runtime_error {
+ public:
+  Error(const std::string& text, std::vector<std::string> messages)
+      : std::runtime_error(text), problems(std::move(messages)) {}
+  std::vector<std::string> problems;
+};
+
+// What LINEAR takes: ids of statements, nothing where an option is not used.
+struct LinearRequest {
+  std::optional<std::int64_t> pstate, pinput, poutput;
+  std::optional<std::int64_t> rm;  // marker relative to which the coordinates are taken
+  bool without_damping = false;    // forces and VARIABLEs lose what they see of velocities
+};
+
+// A body at the operating point, global axes.
+struct BodyState {
+  std::string name;                            // "PART/2", or with its view name "PART/2 (wheel)"
+  std::array<double, 3> position{};            // of the body coordinate system [length]
+  std::array<std::array<double, 3>, 3> axes{};  // its x, y and z axis
+  std::array<double, 3> velocity{};            // of its origin [length/time]
+  std::array<double, 3> angular_velocity{};    // [rad/time]
+};
+
+class Mechanism {
+ public:
+  // Reads an Adams dataset (.adm). Throws Error with every problem of the file.
+  static Mechanism load(const std::string& path);
+  // The same from text; `name` stands for the file in messages, and its folder is where MATRIX and SPLINE files lie.
+  static Mechanism from_text(std::string dataset, std::string name = "dataset.adm");
+  Mechanism(Mechanism&&) noexcept;
+  Mechanism& operator=(Mechanism&&) noexcept;
+  ~Mechanism();
+
+  // Operating points. Every linear analysis before one of these begins with initial_conditions().
+  void initial_conditions();
+  // Throws where there is no equilibrium; returns the number of iterations.
+  int static_equilibrium();
+
+  StateSpace state_space(const LinearRequest& = {});
+  EigenSolution eigensolution(const LinearRequest& = {});
+
+  std::vector<BodyState> bodies() const;
+  // Value of a VARIABLE at the operating point.
+  double variable(std::int64_t id) const;
+  // Constraint rows that depend on others, "Zi.Xj in JOINT/3".
+  const std::vector<std::string>& redundant_rows() const;
+  // Remarks of reading and of all analyses so far.
+  const std::vector<std::string>& warnings() const;
+
+ private:
+  struct State;
+  explicit Mechanism(std::unique_ptr<State>);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace dynalin

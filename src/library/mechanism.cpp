@@ -1,0 +1,161 @@
+#include "dynalin/mechanism.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "analysis/statics.h"
+#include "elements/catalogue.h"
+#include "linear/eigen.h"
+#include "linear/mode_shapes.h"
+
+namespace dynalin {
+
+struct Mechanism::State {
+  SourceRef source;
+  std::shared_ptr<const Model> model;
+  System system;
+  OperatingPoint point;
+  bool consistent = false;
+  std::vector<std::string> redundant, warnings;
+
+  State(SourceRef text, std::shared_ptr<const Model> m)
+      : source(std::move(text)), model(std::move(m)), system(model), point(system.drawn()) {
+    warnings = system.layout().remarks;
+  }
+
+  void accept(OperatingPoint op, const Findings& findings) {
+    point = std::move(op);
+    consistent = true;
+    redundant.clear();
+    for (const std::int32_t r : findings.redundant_rows) redundant.push_back(system.row_text(r));
+    warnings.insert(warnings.end(), findings.warnings.begin(), findings.warnings.end());
+  }
+};
+
+namespace {
+
+[[noreturn]] void fail(const Failure& f) {
+  std::vector<std::string> messages{f.message};
+  messages.insert(messages.end(), f.details.begin(), f.details.end());
+  std::string text = f.analysis + ": " + f.message;
+  for (const std::string& d : f.details) text += "\n  " + d;
+  throw Error(text, std::move(messages));
+}
+
+template <class T>
+T value_or_throw(Result<T> result) {
+  if (!result) fail(result.error());
+  return std::move(*result);
+}
+
+std::array<double, 3> plain(const Vector& v) { return {v.x, v.y, v.z}; }
+
+LinearOptions options_of(const Model& model, const LinearRequest& request) {
+  LinearOptions options;
+  const auto find = [&](std::optional<std::int64_t> id, std::string_view statement) -> std::optional<ElementHandle> {
+    if (!id) return std::nullopt;
+    const auto handle = model.find(statement, *id);
+    if (!handle) fail({"linear analysis", fmt::format("{}/{} does not exist", statement, *id), {}});
+    return handle;
+  };
+  options.pstate = find(request.pstate, "PSTATE");
+  options.pinput = find(request.pinput, "PINPUT");
+  options.poutput = find(request.poutput, "POUTPUT");
+  options.without_damping = request.without_damping;
+  if (request.rm) {
+    const auto marker = model.find_marker(*request.rm);
+    if (!marker) fail({"linear analysis", fmt::format("MARKER/{} does not exist", *request.rm), {}});
+    if (model.marker(*marker).floating) {
+      fail({"linear analysis", fmt::format("MARKER/{} is floating", *request.rm), {}});
+    }
+    options.rm = *marker;
+  }
+  return options;
+}
+
+}  // namespace
+
+Mechanism::Mechanism(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Mechanism::Mechanism(Mechanism&&) noexcept = default;
+Mechanism& Mechanism::operator=(Mechanism&&) noexcept = default;
+Mechanism::~Mechanism() = default;
+
+Mechanism Mechanism::load(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  if (in) text << in.rdbuf();
+  if (!in) throw Error(path + " cannot be read", {path + " cannot be read"});
+  return from_text(text.str(), path);
+}
+
+Mechanism Mechanism::from_text(std::string dataset, std::string name) {
+  const auto source = std::make_shared<const SourceText>(std::move(name), std::move(dataset));
+  auto parsed = parse_dataset(source);
+  Diagnostics diagnostics = std::move(parsed.diagnostics);
+  const bool read = !diagnostics.has_errors();
+  auto built = build_model(std::make_shared<const Dataset>(std::move(parsed.value)), catalogue());
+  if (read || built.diagnostics.has_errors()) diagnostics.append(std::move(built.diagnostics));
+  std::vector<std::string> messages;
+  for (const Diagnostic& d : diagnostics.items()) messages.push_back(d.message);
+  if (diagnostics.has_errors()) throw Error(render(diagnostics), std::move(messages));
+  auto state = std::make_unique<State>(source, std::shared_ptr<const Model>(std::move(built.value)));
+  state->warnings.insert(state->warnings.begin(), messages.begin(), messages.end());
+  return Mechanism(std::move(state));
+}
+
+void Mechanism::initial_conditions() {
+  Findings findings;
+  state_->accept(value_or_throw(dynalin::initial_conditions(state_->system, findings)), findings);
+}
+
+int Mechanism::static_equilibrium() {
+  Findings findings;
+  StaticsReport report;
+  state_->accept(value_or_throw(static_operating_point(state_->system, state_->point, {}, report, findings)), findings);
+  return report.iterations;
+}
+
+StateSpace Mechanism::state_space(const LinearRequest& request) {
+  if (!state_->consistent) initial_conditions();
+  LinearSystem linear =
+      value_or_throw(linearize(state_->system, state_->point, options_of(*state_->model, request)));
+  state_->warnings.insert(state_->warnings.end(), linear.warnings.begin(), linear.warnings.end());
+  return std::move(linear.model);
+}
+
+EigenSolution Mechanism::eigensolution(const LinearRequest& request) {
+  if (!state_->consistent) initial_conditions();
+  const LinearSystem linear =
+      value_or_throw(linearize(state_->system, state_->point, options_of(*state_->model, request)));
+  state_->warnings.insert(state_->warnings.end(), linear.warnings.begin(), linear.warnings.end());
+  EigenSolution solution = value_or_throw(eigensolve(linear));
+  name_movers(state_->system, state_->point, linear, solution);
+  solution.rm = request.rm.value_or(0);
+  solution.pstate = request.pstate.value_or(0);
+  solution.without_damping = request.without_damping;
+  return solution;
+}
+
+std::vector<BodyState> Mechanism::bodies() const {
+  const Motion motion = state_->system.motion(state_->point);
+  std::vector<BodyState> list;
+  for (std::size_t b = 1; b < motion.bodies.size(); ++b) {
+    const BodyMotion& m = motion.bodies[b];
+    list.push_back({state_->system.layout().bodies[b].label.full_text(), plain(m.r),
+                    {plain(m.R[0]), plain(m.R[1]), plain(m.R[2])}, plain(m.rdot), plain(m.w)});
+  }
+  return list;
+}
+
+double Mechanism::variable(std::int64_t id) const {
+  const auto handle = state_->model->find("VARIABLE", id);
+  if (!handle) fail({"results", fmt::format("VARIABLE/{} does not exist", id), {}});
+  return state_->point.algebraic[static_cast<std::size_t>(state_->system.signals().variable({*handle}).index)];
+}
+
+const std::vector<std::string>& Mechanism::redundant_rows() const { return state_->redundant; }
+const std::vector<std::string>& Mechanism::warnings() const { return state_->warnings; }
+
+}  // namespace dynalin
