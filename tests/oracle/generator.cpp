@@ -106,6 +106,47 @@ void Draw::connect(const BodyRef& i_body, const BodyRef& j_body, JointType type)
       break;
     case JointType::fixed:
       break;
+    case JointType::cylindrical:
+      I.R = J.R * rotation_z(uniform(-2.2, 2.2));
+      I.p += static_cast<Real>(L_ * uniform(-0.7, 0.7)) * J.R.column[2];
+      break;
+    case JointType::planar:
+      I.R = J.R * rotation_z(uniform(-2.2, 2.2));
+      I.p += static_cast<Real>(L_ * uniform(-0.7, 0.7)) * J.R.column[0] + static_cast<Real>(L_ * uniform(-0.7, 0.7)) * J.R.column[1];
+      break;
+    case JointType::hooke:
+      // x_I stays normal to y_J: a turn about y_J, then one about x_I.
+      I.R = J.R * rotation_x(-std::numbers::pi_v<Real> / 2) * rotation_z(uniform(-1, 1)) *
+            rotation_x(std::numbers::pi_v<Real> / 2) * rotation_x(uniform(-1, 1));
+      break;
+    case JointType::convel: {
+      // A turn about an axis in the x-y plane makes the matrix symmetric where the row looks.
+      const Mat to = rotation_z(uniform(-3, 3));
+      I.R = J.R * to * rotation_x(uniform(-1, 1)) * transpose(to);
+      break;
+    }
+    case JointType::atpoint:
+      I.R = orientation();
+      break;
+    case JointType::inline_:
+      I.R = orientation();
+      I.p += static_cast<Real>(L_ * uniform(-0.7, 0.7)) * J.R.column[2];
+      break;
+    case JointType::inplane:
+      I.R = orientation();
+      I.p += static_cast<Real>(L_ * uniform(-0.7, 0.7)) * J.R.column[0] + static_cast<Real>(L_ * uniform(-0.7, 0.7)) * J.R.column[1];
+      break;
+    case JointType::orientation:
+      I.p += box(0.7 * L_);
+      break;
+    case JointType::parallel_axes:
+      I.R = J.R * rotation_z(uniform(-2.2, 2.2));
+      I.p += box(0.7 * L_);
+      break;
+    case JointType::perpendicular:
+      I.R = J.R * rotation_z(uniform(-3, 3)) * rotation_x(std::numbers::pi_v<Real> / 2) * rotation_z(uniform(-3, 3));
+      I.p += box(0.7 * L_);
+      break;
   }
   const int i = add_marker(i_body, I);
   const int j = add_marker(j_body, J);
@@ -118,7 +159,7 @@ int Draw::mobility() const {
   for (const Body& b : m_.bodies) {
     count += b.ref.kind == BodyKind::part ? 6 : (b.ref.kind == BodyKind::point_mass ? 3 : 0);
   }
-  constexpr int removed[] = {5, 5, 3, 4, 6};
+  constexpr int removed[] = {5, 5, 3, 4, 6, 4, 3, 4, 4, 3, 2, 1, 3, 2, 1};
   for (const Joint& j : m_.joints) count -= removed[static_cast<int>(j.type)];
   return count - static_cast<int>(m_.motions.size());
 }
@@ -132,17 +173,21 @@ void Draw::draw_tree() {
     const BodyRef child = bodies_.back();
     const BodyRef parent = chance(0.65) ? parents.back() : one_of(parents);
     if (mass_point) {
-      if (chance(0.5)) connect(child, parent, JointType::spherical);
+      if (chance(0.5)) {
+        connect(child, parent,
+                one_of(std::vector{JointType::spherical, JointType::atpoint, JointType::inline_, JointType::inplane}));
+      }
       continue;
     }
     parents.push_back(child);
     if (mobility() < 10 && chance(0.06)) continue;  // free, held by springs alone
     const double r = uniform(0, 1);
-    const JointType type = r < 0.42   ? JointType::revolute
-                           : r < 0.55 ? JointType::spherical
-                           : r < 0.72 ? JointType::universal
-                           : r < 0.92 ? JointType::translational
-                                      : JointType::fixed;
+    const JointType type = r < 0.3    ? JointType::revolute
+                           : r < 0.36 ? JointType::spherical
+                           : r < 0.42 ? JointType::universal
+                           : r < 0.54 ? JointType::translational
+                           : r < 0.57 ? JointType::fixed
+                                      : static_cast<JointType>(static_cast<int>(JointType::cylindrical) + pick(10));
     if (chance(0.5)) {
       connect(child, parent, type);
     } else {
@@ -162,8 +207,15 @@ void Draw::draw_loops() {
     });
     if (a == b || joined || a.kind == BodyKind::point_mass || b.kind == BodyKind::point_mass) continue;
     const double r = uniform(0, 1);
-    const JointType type = r < 0.5 ? JointType::spherical : (r < 0.8 ? JointType::universal : JointType::revolute);
-    const int removed = type == JointType::spherical ? 3 : (type == JointType::universal ? 4 : 5);
+    const JointType type = r < 0.3   ? JointType::spherical
+                           : r < 0.45 ? JointType::universal
+                           : r < 0.55 ? JointType::revolute
+                           : r < 0.65 ? JointType::inline_
+                           : r < 0.75 ? JointType::inplane
+                           : r < 0.85 ? JointType::hooke
+                                      : JointType::perpendicular;
+    constexpr int rows_of[] = {5, 5, 3, 4, 6, 4, 3, 4, 4, 3, 2, 1, 3, 2, 1};
+    const int removed = rows_of[static_cast<int>(type)];
     if (mobility() - removed < 1) continue;
     connect(a, b, type);
     ++closed;
@@ -172,14 +224,22 @@ void Draw::draw_loops() {
 
 void Draw::draw_motions() {
   for (const Joint& joint : m_.joints) {
-    const bool drivable = joint.type == JointType::revolute || joint.type == JointType::translational;
-    if (!drivable || !chance(0.2) || mobility() < 2) continue;
+    using enum JointType;
+    const char freedom = joint.type == revolute        ? 'R'
+                         : joint.type == translational ? 'T'
+                         : joint.type == cylindrical   ? "RTZ"[pick(3)]
+                         : joint.type == planar        ? "XY"[pick(2)]
+                         : joint.type == inplane       ? "XY"[pick(2)]
+                         : joint.type == inline_       ? 'Z'
+                                                       : ' ';
+    if (freedom == ' ' || !chance(0.2) || mobility() < 2) continue;
     const Model model(m_);
     const MarkerMotion& i = model.markers()[static_cast<std::size_t>(model.marker_index(joint.i))];
     const MarkerMotion& j = model.markers()[static_cast<std::size_t>(model.marker_index(joint.j))];
-    const bool turns = joint.type == JointType::revolute;
+    const bool turns = freedom == 'R';
+    const std::size_t axis = freedom == 'X' ? 0 : freedom == 'Y' ? 1 : 2;
     const Real now =
-        turns ? std::atan2(dot(i.axis[0], j.axis[1]), dot(i.axis[0], j.axis[0])) : dot(i.p - j.p, j.axis[2]);
+        turns ? std::atan2(dot(i.axis[0], j.axis[1]), dot(i.axis[0], j.axis[0])) : dot(i.p - j.p, j.axis[axis]);
     const double size = turns ? 1 : L_;
     TimeFunction f;
     f.c = {0, size * uniform(-2, 2), size * uniform(-3, 3), size * uniform(-2, 2)};
@@ -189,7 +249,7 @@ void Draw::draw_motions() {
       f.phase = uniform(-2, 2);
     }
     f.c[0] = static_cast<double>(now - motion_values(f, 0)[0]);
-    m_.motions.push_back({static_cast<int>(m_.motions.size()) + 1, joint.id, f});
+    m_.motions.push_back({static_cast<int>(m_.motions.size()) + 1, joint.id, f, freedom});
   }
 }
 
@@ -253,7 +313,7 @@ void Draw::check_nodes(const Model& model, const Expr& e) const {
   const auto require = [](bool good) {
     if (!good) throw std::runtime_error("a measure is near a singularity");
   };
-  if (n.op == Op::joint && (n.ids[2] == 1 || n.ids[2] == 5)) {
+  if (n.op != Op::sforce && n.ids.size() >= 4 && n.op != Op::measure && (n.ids[2] == 1 || n.ids[2] == 5)) {
     require(model.evaluate(e) > 0.2 * F_ * (n.ids[2] == 5 ? 0.5 * L_ : 1));
   }
   if (n.op == Op::measure && n.measure >= Measure::AX) {
@@ -353,6 +413,14 @@ void Draw::check() const {
   for (const Variable& v : m_.variables) check_nodes(model, v.function);
   for (const Sforce& s : m_.sforces) check_nodes(model, s.function);
   for (const Diff& d : m_.diffs) check_nodes(model, d.function);
+  for (const GeneralForce& f : m_.gforces) {
+    for (const auto& e : f.component) {
+      if (e) check_nodes(model, *e);
+    }
+  }
+  for (const LinearForce& f : m_.linears) {
+    for (const Measure a : {Measure::AX, Measure::AY, Measure::AZ}) check_nodes(model, measure(a, {f.i, f.j}));
+  }
 }
 
 Mechanism Draw::mechanism() {
@@ -365,8 +433,10 @@ Mechanism Draw::mechanism() {
   draw_measure_markers();
   draw_velocities();
   draw_springs();
+  draw_linear_forces();
   draw_controls();
   draw_sforces();
+  draw_general_forces();
   draw_outputs();
   check();
   return m_;

@@ -49,6 +49,8 @@ class Draw {
   void draw_measure_markers();
   void draw_velocities();
   void draw_springs();
+  void draw_linear_forces();
+  void draw_general_forces();
   void draw_controls();
   void draw_differential_elements();
   void draw_sforces();
@@ -61,6 +63,7 @@ class Draw {
   Expr velocity();
   Expr acceleration();
   Expr reaction();
+  Expr load();
   Expr kinematic() { return chance(0.5) ? displacement() : velocity(); }
   Expr shaped(const Expr& x);
   Expr feature(int self);

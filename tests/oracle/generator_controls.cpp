@@ -67,14 +67,28 @@ Expr Draw::acceleration() {
 
 Expr Draw::reaction() {
   if (m_.joints.empty()) return acceleration();
+  if (!m_.linears.empty() && chance(0.3)) return load();
   const Joint& joint = one_of(m_.joints);
-  const bool transmits_torque = joint.type != JointType::spherical;
-  const double r = uniform(0, 1);
+  using enum JointType;
+  const bool transmits_torque =
+      joint.type != spherical && joint.type != atpoint && joint.type != inline_ && joint.type != inplane;
+  const bool transmits_force = joint.type != orientation && joint.type != parallel_axes && joint.type != perpendicular;
+  const double r = transmits_force ? uniform(0, 1) : uniform(0.1, 0.5);
   const int rm = chance(0.4) ? 0 : one_of(oriented_);
-  if (r < 0.1) return (0.2 / F_) * joint_reaction(joint.id, pick(2), 1, rm);
-  if (transmits_torque && r < 0.15) return (0.2 / (F_ * L_)) * joint_reaction(joint.id, pick(2), 5, rm);
-  if (transmits_torque && r < 0.5) return (0.2 / (F_ * L_)) * joint_reaction(joint.id, pick(2), 6 + pick(3), rm);
-  return (0.2 / F_) * joint_reaction(joint.id, pick(2), 2 + pick(3), rm);
+  const auto component = [&](int flag, int comp) {
+    return is_primitive(joint.type) ? primitive_reaction(joint.id, flag, comp, rm)
+                                    : joint_reaction(joint.id, flag, comp, rm);
+  };
+  if (r < 0.1) return (0.2 / F_) * component(pick(2), 1);
+  if (transmits_torque && r < 0.15) return (0.2 / (F_ * L_)) * component(pick(2), 5);
+  if (transmits_torque && r < 0.5) return (0.2 / (F_ * L_)) * component(pick(2), 6 + pick(3));
+  return (0.2 / F_) * component(pick(2), 2 + pick(3));
+}
+
+Expr Draw::load() {
+  const LinearForce& f = one_of(m_.linears);
+  const int comp = 1 + pick(8), flag = pick(2), rm = chance(0.4) ? 0 : one_of(oriented_);
+  return (0.2 / (comp > 4 ? F_ * L_ : F_)) * linear_load(f.kind, f.id, flag, comp, rm);
 }
 
 // A smooth function of an argument of order one, so that second and higher derivatives matter.
@@ -138,6 +152,61 @@ void Draw::draw_springs() {
     s.preload = F_ * L_ * uniform(-0.5, 0.5);
     m_.springs.push_back(s);
   }
+}
+
+void Draw::draw_linear_forces() {
+  const int count = pick(3);
+  for (int n = 0; n < count; ++n) {
+    LinearForce f;
+    f.id = n + 1;
+    f.kind = static_cast<LinearKind>(pick(3));
+    std::tie(f.i, f.j) = distant_pair(true);
+    if (body_of(f.i).kind == BodyKind::point_mass) continue;
+    const auto unit = [&](std::size_t r, std::size_t c) { return F_ / L_ * (r < 3 ? 1 : L_) * (c < 3 ? 1 : L_); };
+    for (std::size_t r = 0; r < 6; ++r) {
+      for (std::size_t c = 0; c < 6; ++c) {
+        if (f.kind == LinearKind::bushing && r != c) continue;
+        const double diagonal = r == c ? 1 : 0;
+        f.k[r][c] = unit(r, c) * (diagonal * uniform(0.2, 3) + (1 - diagonal) * uniform(-0.3, 0.3));
+        f.c[r][c] = unit(r, c) * (diagonal * uniform(0, 0.2) + (1 - diagonal) * uniform(-0.03, 0.03));
+      }
+      f.force[r] = (r < 3 ? F_ : F_ * L_) * uniform(-0.5, 0.5);
+      if (f.kind == LinearKind::field) f.length[r] = (r < 3 ? L_ : 1) * uniform(-0.6, 0.6);
+      if (f.kind == LinearKind::beam) f.force[r] = 0;
+    }
+    const double L2 = L_ * L_, E = F_ / L2;
+    f.beam = {L_ * uniform(0.5, 1.5), L2 * uniform(0.3, 2), L2 * L2 * uniform(0.05, 0.3), L2 * L2 * uniform(0.02, 0.1),
+              L2 * L2 * uniform(0.02, 0.1), E, 0.4 * E, chance(0.5) ? 1.2 : 0, chance(0.5) ? 1.5 : 0};
+    f.ratio = uniform(0, 0.05);
+    m_.linears.push_back(f);
+  }
+}
+
+void Draw::draw_general_forces() {
+  if (!chance(0.4)) return;
+  GeneralForce f;
+  f.id = 1;
+  int j = 0;
+  std::tie(f.i, j) = distant_pair(true);
+  if (body_of(f.i).kind == BodyKind::point_mass || body_of(f.i) == ground) return;
+  Marker floating;
+  floating.id = next_marker_++;
+  floating.body = body_of(j);
+  floating.floating = true;
+  m_.markers.push_back(floating);
+  f.jfloat = floating.id;
+  f.rm = one_of(oriented_);
+  for (std::size_t k = 0; k < 6; ++k) {
+    if (!chance(0.5)) continue;
+    Expr e = constant(uniform(-0.4, 0.4)) + uniform(-0.4, 0.4) * shaped(kinematic()) +
+             uniform(-0.4, 0.4) * varval(one_of(features_));
+    if (chance(0.3)) e = e + uniform(-0.15, 0.15) * reaction();
+    f.component[k] = (k < 3 ? F_ : 0.5 * F_ * L_) * e;
+  }
+  if (std::none_of(f.component.begin(), f.component.end(), [](const auto& c) { return c.has_value(); })) {
+    f.component[0] = F_ * varval(one_of(features_));
+  }
+  m_.gforces.push_back(f);
 }
 
 void Draw::draw_differential_elements() {
@@ -204,6 +273,10 @@ void Draw::draw_controls() {
   for (int k = 0; k < features; ++k) features_.push_back(variable(constant(0)));
   draw_differential_elements();
   for (const int id : features_) m_.variables[static_cast<std::size_t>(id - 1)].function = feature(id);
+  // Three variables deep.
+  const int first = variable(shaped(varval(one_of(features_))) + uniform(-0.3, 0.3) * shaped(kinematic()));
+  const int second = variable(shaped(varval(first)) * varval(first));
+  features_.push_back(variable(shaped(varval(second)) + uniform(-0.2, 0.2) * varval(first)));
   for (const int id : inputs_) {
     if (chance(0.2)) {
       m_.variables[static_cast<std::size_t>(id - 1)].function = uniform(-0.5, 0.5) * shaped(kinematic());
@@ -214,6 +287,7 @@ void Draw::draw_controls() {
                  uniform(-0.5, 0.5) * shaped(dif(d.id) * kinematic());
     if (chance(0.3)) d.function = d.function + uniform(-0.5, 0.5) * varval(one_of(inputs_));
     if (chance(0.3)) d.function = d.function + uniform(-0.5, 0.5) * acceleration();
+    if (chance(0.4)) d.coefficient = constant(uniform(1, 2)) + uniform(-0.3, 0.3) * shaped(kinematic()) + 0.1 * square(dif(d.id));
   }
   m_.pinput = {1, inputs_};
 }
@@ -267,6 +341,11 @@ void Draw::draw_outputs() {
   const int rm = chance(0.5) ? 0 : one_of(oriented_);
   outputs.push_back(variable((line ? 1 / F_ : 1 / (F_ * L_)) * sforce_load(s.id, flag, (line ? 2 : 6) + pick(3), rm)));
   outputs.push_back(one_of(features_));
+  if (!m_.linears.empty()) outputs.push_back(variable(load()));
+  if (!m_.gforces.empty()) {
+    const int comp = 2 + pick(3) + 4 * pick(2);
+    outputs.push_back(variable((1 / (comp > 4 ? F_ * L_ : F_)) * gforce_load(1, pick(2), comp, one_of(oriented_))));
+  }
   if (!states_.empty()) outputs.push_back(variable(one_of(states_)));
   if (chance(0.2)) outputs.push_back(one_of(inputs_));
   m_.poutput = {1, outputs};

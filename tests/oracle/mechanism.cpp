@@ -41,7 +41,10 @@ constexpr const char* function_names[] = {"SIN", "COS", "TANH", "EXP", "SQRT", "
 constexpr const char* measure_names[] = {"DX",   "DY",   "DZ",   "DM",   "VX",   "VY",   "VZ",   "VM",
                                          "VR",   "WX",   "WY",   "WZ",   "WM",   "ACCX", "ACCY", "ACCZ",
                                          "ACCM", "WDTX", "WDTY", "WDTZ", "WDTM", "AX",   "AY",   "AZ"};
-constexpr const char* joint_names[] = {"REVOLUTE", "TRANSLATIONAL", "SPHERICAL", "UNIVERSAL", "FIXED"};
+constexpr const char* joint_names[] = {"REVOLUTE", "TRANSLATIONAL", "SPHERICAL",   "UNIVERSAL",     "FIXED",
+                                       "CYLINDRICAL", "PLANAR",     "HOOKE",       "CONVEL",        "ATPOINT",
+                                       "INLINE",   "INPLANE",       "ORIENTATION", "PARALLEL_AXES", "PERPENDICULAR"};
+constexpr const char* linear_names[] = {"BUSH", "FIELD", "BEAM"};
 
 // One statement: keyword and id on the first line, one argument a line after it.
 class Statement {
@@ -104,6 +107,45 @@ std::string sforce_text(const Sforce& s) {
   return t.set("I", s.i).set("J", s.j).set("FUNCTION", expression_text(s.function)).text();
 }
 
+std::string linear_text(const LinearForce& f) {
+  constexpr const char* keywords[] = {"BUSHING", "FIELD", "BEAM"};
+  Statement t(keywords[static_cast<int>(f.kind)], f.id);
+  t.set("I", f.i).set("J", f.j);
+  if (f.kind == LinearKind::beam) {
+    constexpr const char* names[] = {"LENGTH", "AREA", "IXX", "IYY", "IZZ", "EMODULUS", "GMODULUS", "ASY", "ASZ"};
+    for (std::size_t k = 0; k < 9; ++k) t.set(names[k], f.beam[k]);
+    return t.set("CRATIO", f.ratio).text();
+  }
+  if (f.kind == LinearKind::bushing) {
+    const auto diagonal = [](const auto& m, std::size_t first) {
+      return numbers(std::array<double, 3>{m[first][first], m[first + 1][first + 1], m[first + 2][first + 2]});
+    };
+    t.set("K", diagonal(f.k, 0)).set("KT", diagonal(f.k, 3)).set("C", diagonal(f.c, 0)).set("CT", diagonal(f.c, 3));
+    t.set("FORCE", numbers(std::array<double, 3>{f.force[0], f.force[1], f.force[2]}));
+    return t.set("TORQUE", numbers(std::array<double, 3>{f.force[3], f.force[4], f.force[5]})).text();
+  }
+  const auto by_columns = [](const auto& m) {
+    std::vector<double> v;
+    for (std::size_t c = 0; c < 6; ++c) {
+      for (std::size_t r = 0; r < 6; ++r) v.push_back(m[r][c]);
+    }
+    return numbers(v);
+  };
+  t.set("KMATRIX", by_columns(f.k)).set("CMATRIX", by_columns(f.c));
+  return t.set("LENGTH", numbers(f.length)).set("FORCE", numbers(f.force)).text();
+}
+
+std::string gforce_text(const GeneralForce& f) {
+  constexpr const char* names[] = {"FX", "FY", "FZ", "TX", "TY", "TZ"};
+  std::string text = Statement("GFORCE", f.id).set("I", f.i).set("JFLOAT", f.jfloat).set("RM", f.rm).text();
+  std::string components;
+  for (std::size_t k = 0; k < 6; ++k) {
+    if (!f.component[k]) continue;
+    components += (components.empty() ? ", " : "\\\n, ") + std::string(names[k]) + " = " + expression_text(*f.component[k]);
+  }
+  return text + components + "\n";
+}
+
 std::string array_text(const Array& a) {
   Statement t("ARRAY", a.id);
   switch (a.kind) {
@@ -125,7 +167,15 @@ std::string controls_text(const Mechanism& m) {
     text += Statement("VARIABLE", v.id).set("FUNCTION", expression_text(v.function)).text();
   }
   for (const Diff& d : m.diffs) {
-    text += Statement("DIFF", d.id).set("IC", d.ic).set("FUNCTION", expression_text(d.function)).text();
+    Statement t("DIFF", d.id);
+    t.set("IC", d.ic);
+    if (d.coefficient) {
+      const std::string rate = "DIF1(" + std::to_string(d.id) + ")";
+      t.word("IMPLICIT").set("FUNCTION", expression_text(*d.coefficient) + "*" + rate + " - (" + expression_text(d.function) + ")");
+    } else {
+      t.set("FUNCTION", expression_text(d.function));
+    }
+    text += t.text();
   }
   for (const Array& a : m.arrays) text += array_text(a);
   for (const NumberMatrix& a : m.matrices) {
@@ -221,6 +271,13 @@ Expr dif(int id) { return make(Op::dif, {}, {id}); }
 Expr joint_reaction(int id, int jflag, int component, int rm) {
   return make(Op::joint, {}, {id, jflag, component, rm});
 }
+Expr primitive_reaction(int id, int jflag, int component, int rm) {
+  return make(Op::joint, {}, {id, jflag, component, rm, 1});
+}
+Expr linear_load(LinearKind kind, int id, int jflag, int component, int rm) {
+  return make(Op::linear, {}, {id, jflag, component, rm, static_cast<int>(kind)});
+}
+Expr gforce_load(int id, int jflag, int component, int rm) { return make(Op::gforce, {}, {id, jflag, component, rm}); }
 Expr sforce_load(int id, int jflag, int component, int rm) { return make(Op::sforce, {}, {id, jflag, component, rm}); }
 Expr call(Function function, std::vector<Expr> arguments) {
   Node node;
@@ -270,7 +327,11 @@ std::string expression_text(const Expr& expression) {
     case Op::dif:
       return "DIF(" + integers(n.ids) + ")";
     case Op::joint:
-      return "JOINT(" + integers(n.ids) + ")";
+      return (n.ids.size() > 4 ? "JPRIM(" : "JOINT(") + integers({n.ids.begin(), n.ids.begin() + 4}) + ")";
+    case Op::linear:
+      return std::string(linear_names[n.ids[4]]) + "(" + integers({n.ids.begin(), n.ids.begin() + 4}) + ")";
+    case Op::gforce:
+      return "GFORCE(" + integers(n.ids) + ")";
     case Op::sforce:
       return "SFORCE(" + integers(n.ids) + ")";
   }
@@ -286,6 +347,10 @@ std::string dataset_text(const Mechanism& m) {
           ", KGRAV=" + number(m.gravity[2]) + "\n";
   for (const Body& body : m.bodies) text += body_text(body);
   for (const Marker& k : m.markers) {
+    if (k.floating) {
+      text += Statement("MARKER", k.id).set(owner_keyword(k.body.kind), std::to_string(k.body.id)).word("FLOATING").text();
+      continue;
+    }
     text += Statement("MARKER", k.id)
                 .set(owner_keyword(k.body.kind), std::to_string(k.body.id))
                 .set("QP", k.qp)
@@ -293,19 +358,22 @@ std::string dataset_text(const Mechanism& m) {
                 .text();
   }
   for (const Joint& j : m.joints) {
-    text += Statement("JOINT", j.id).word(joint_names[static_cast<int>(j.type)]).set("I", j.i).set("J", j.j).text();
+    text += Statement(is_primitive(j.type) ? "JPRIM" : "JOINT", j.id).word(joint_names[static_cast<int>(j.type)]).set("I", j.i).set("J", j.j).text();
   }
   for (const Motion& k : m.motions) {
     const auto joint = std::find_if(m.joints.begin(), m.joints.end(), [&](const Joint& j) { return j.id == k.joint; });
-    const bool turns = joint != m.joints.end() && joint->type == JointType::revolute;
-    text += Statement("MOTION", k.id)
-                .word(turns ? "ROTATION" : "TRANSLATION")
-                .set("JOINT", k.joint)
-                .set("FUNCTION", time_function_text(k.f))
-                .text();
+    Statement t("MOTION", k.id);
+    if (k.freedom == 'R' || k.freedom == 'T') {
+      t.word(k.freedom == 'R' ? "ROTATION" : "TRANSLATION").set("JOINT", k.joint);
+    } else {
+      t.word(std::string(1, k.freedom)).set("I", joint->i).set("J", joint->j);
+    }
+    text += t.set("FUNCTION", time_function_text(k.f)).text();
   }
   for (const SpringDamper& s : m.springs) text += spring_text(s);
   for (const Sforce& s : m.sforces) text += sforce_text(s);
+  for (const LinearForce& f : m.linears) text += linear_text(f);
+  for (const GeneralForce& f : m.gforces) text += gforce_text(f);
   return text + controls_text(m) + "END\n";
 }
 

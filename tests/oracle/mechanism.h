@@ -34,8 +34,10 @@ enum class Op {
   varval,
   aryval,
   dif,
-  joint,
-  sforce
+  joint,   // JOINT and JPRIM
+  sforce,
+  linear,  // BUSH, FIELD, BEAM
+  gforce
 };
 enum class Function { sin, cos, tanh, exp, sqrt, atan, atan2, step };
 enum class Measure {
@@ -65,6 +67,8 @@ enum class Measure {
   AZ
 };
 
+enum class LinearKind { bushing, field, beam };
+
 struct Node {
   Op op = Op::constant;
   double value = 0;  // constant
@@ -88,7 +92,10 @@ struct Node {
 [[nodiscard]] Expr aryval(int array, int index);
 [[nodiscard]] Expr dif(int id);
 [[nodiscard]] Expr joint_reaction(int id, int jflag, int component, int rm);
+[[nodiscard]] Expr primitive_reaction(int id, int jflag, int component, int rm);
 [[nodiscard]] Expr sforce_load(int id, int jflag, int component, int rm);
+[[nodiscard]] Expr linear_load(LinearKind kind, int id, int jflag, int component, int rm);
+[[nodiscard]] Expr gforce_load(int id, int jflag, int component, int rm);
 [[nodiscard]] std::string expression_text(const Expr& expression);
 
 // --------------------------------------------------------------------------------- the mechanism
@@ -114,9 +121,28 @@ struct Marker {
   int id = 0;
   BodyRef body;
   Triple qp{}, reuler{};
+  bool floating = false;
 };
 
-enum class JointType { revolute, translational, spherical, universal, fixed };
+// Joints, then primitives.
+enum class JointType {
+  revolute,
+  translational,
+  spherical,
+  universal,
+  fixed,
+  cylindrical,
+  planar,
+  hooke,
+  convel,
+  atpoint,
+  inline_,
+  inplane,
+  orientation,
+  parallel_axes,
+  perpendicular
+};
+[[nodiscard]] inline bool is_primitive(JointType t) { return t >= JointType::atpoint; }
 struct Joint {
   int id = 0;
   JointType type = JointType::revolute;
@@ -128,9 +154,11 @@ struct TimeFunction {
   std::array<double, 4> c{};
   double amplitude = 0, frequency = 0, phase = 0;
 };
+// Of a joint: R or T; of its pair of markers: X, Y or Z.
 struct Motion {
   int id = 0, joint = 0;
   TimeFunction f;
+  char freedom = 'R';
 };
 
 enum class Direction { translational, rotational };
@@ -150,6 +178,22 @@ struct Sforce {
   Expr function;
 };
 
+// F = force - K (y - length) - C y' in the axes of J.
+struct LinearForce {
+  int id = 0;
+  LinearKind kind = LinearKind::bushing;
+  int i = 0, j = 0;
+  std::array<std::array<double, 6>, 6> k{}, c{};  // bushing, field: by rows; beam: c by CRATIO
+  std::array<double, 6> length{}, force{};
+  std::array<double, 9> beam{};  // LENGTH AREA IXX IYY IZZ E G ASY ASZ
+  double ratio = 0;              // CRATIO of a beam
+};
+// Six components on I in the axes of RM; a component without expression is zero.
+struct GeneralForce {
+  int id = 0, i = 0, jfloat = 0, rm = 0;
+  std::array<std::optional<Expr>, 6> component;
+};
+
 struct Variable {
   int id = 0;
   Expr function;
@@ -157,7 +201,8 @@ struct Variable {
 struct Diff {
   int id = 0;
   double ic = 0;
-  Expr function;  // explicit: DIF' = function
+  Expr function;  // explicit: DIF' = function; implicit: coefficient DIF' = function
+  std::optional<Expr> coefficient = std::nullopt;
 };
 
 enum class ArrayKind { u, x, y, ic };
@@ -194,6 +239,8 @@ struct Mechanism {
   std::vector<Motion> motions;
   std::vector<SpringDamper> springs;
   std::vector<Sforce> sforces;
+  std::vector<LinearForce> linears;
+  std::vector<GeneralForce> gforces;
   std::vector<Variable> variables;
   std::vector<Diff> diffs;
   std::vector<Array> arrays;

@@ -140,25 +140,30 @@ void Model::read_rows() {
     const Joint& joint = mechanism_.joints[k];
     joint_index_[joint.id] = static_cast<int>(k);
     joint_markers_.push_back({marker_index(joint.i), marker_index(joint.j)});
-    std::vector<Pattern> patterns = coincide;
-    if (joint.type == JointType::translational) patterns.pop_back();
-    if (joint.type == JointType::universal) patterns.push_back({Type::direction, 2, 2});
-    const bool has_axis =
-        joint.type == JointType::revolute || joint.type == JointType::translational || joint.type == JointType::fixed;
-    if (has_axis) patterns.insert(patterns.end(), aligned.begin(), aligned.end());
-    if (has_axis && joint.type != JointType::revolute) patterns.push_back({Type::direction, 0, 1});
+    std::vector<Pattern> patterns;
+    const auto is = [&](std::initializer_list<JointType> types) {
+      return std::find(types.begin(), types.end(), joint.type) != types.end();
+    };
+    using enum JointType;
+    if (is({revolute, spherical, universal, fixed, hooke, convel, atpoint})) patterns = coincide;
+    if (is({translational, cylindrical, inline_})) patterns.assign(coincide.begin(), coincide.begin() + 2);
+    if (is({planar, inplane})) patterns.push_back(coincide[2]);
+    if (is({revolute, translational, fixed, cylindrical, planar, orientation, parallel_axes})) {
+      patterns.insert(patterns.end(), aligned.begin(), aligned.end());
+    }
+    if (is({translational, fixed, orientation, hooke, convel})) patterns.push_back({Type::direction, 0, 1});
+    if (is({universal, perpendicular})) patterns.push_back({Type::direction, 2, 2});
     for (const Pattern& p : patterns) {
-      rows.push_back({p.type, joint_markers_[k][0], joint_markers_[k][1], p.axis_i, p.axis_j, static_cast<int>(k), -1});
+      rows.push_back({p.type, joint_markers_[k][0], joint_markers_[k][1], p.axis_i, p.axis_j, static_cast<int>(k), -1,
+                      joint.type == convel && p.type == Type::direction});
     }
   }
   for (std::size_t k = 0; k < mechanism_.motions.size(); ++k) {
     const auto joint = static_cast<std::size_t>(joint_index_.at(mechanism_.motions[k].joint));
-    const JointType type = mechanism_.joints[joint].type;
-    if (type != JointType::revolute && type != JointType::translational) {
-      throw std::runtime_error("a motion needs a revolute or translational joint");
-    }
-    rows.push_back({type == JointType::revolute ? Type::angle : Type::point, joint_markers_[joint][0],
-                    joint_markers_[joint][1], 0, 2, -1, static_cast<int>(k)});
+    const char freedom = mechanism_.motions[k].freedom;
+    const int axis = freedom == 'X' ? 0 : freedom == 'Y' ? 1 : 2;
+    rows.push_back({freedom == 'R' ? Type::angle : Type::point, joint_markers_[joint][0], joint_markers_[joint][1], 0,
+                    axis, -1, static_cast<int>(k)});
   }
 }
 
@@ -170,6 +175,10 @@ void Model::read_controls() {
   cut.assign(mechanism_.variables.size(), 0);
   cut_values.assign(mechanism_.variables.size(), 0);
   sforce_values.assign(mechanism_.sforces.size(), 0);
+  component_values.assign(6 * mechanism_.gforces.size(), 0);
+  for (std::size_t k = 0; k < mechanism_.gforces.size(); ++k) {
+    gforce_index_[mechanism_.gforces[k].id] = static_cast<int>(k);
+  }
   for (std::size_t k = 0; k < mechanism_.arrays.size(); ++k) {
     array_index_[mechanism_.arrays[k].id] = static_cast<int>(k);
   }
@@ -253,7 +262,9 @@ Real Model::row_position(const Row& row) const {
   }
   if (row.type == Row::Type::point) return dot(i.p - j.p, e_j) - drive;
   if (row.type == Row::Type::direction) {
-    return dot(i.axis[static_cast<std::size_t>(row.axis_i)], e_j);
+    const Real product = dot(i.axis[static_cast<std::size_t>(row.axis_i)], e_j);
+    if (!row.swapped) return product;
+    return product - dot(j.axis[static_cast<std::size_t>(row.axis_i)], i.axis[static_cast<std::size_t>(row.axis_j)]);
   }
   // A driven joint may have made many turns: the row is the remainder modulo one turn.
   return std::remainder(angle_z(row.i, row.j) - drive, 2 * std::numbers::pi_v<Real>);
@@ -271,7 +282,10 @@ Real Model::row_velocity(const Row& row) const {
     return dot(i.v - j.v, j.axis[aj]) + dot(i.p - j.p, j.axis1[aj]) - drive;
   }
   if (row.type == Row::Type::direction) {
-    return dot(i.axis1[ai], j.axis[aj]) + dot(i.axis[ai], j.axis1[aj]);
+    const auto rate = [](const MarkerMotion& m, std::size_t a, const MarkerMotion& n, std::size_t b) {
+      return dot(m.axis1[a], n.axis[b]) + dot(m.axis[a], n.axis1[b]);
+    };
+    return rate(i, ai, j, aj) - (row.swapped ? rate(j, ai, i, aj) : 0);
   }
   // Along motions that keep the z axes parallel the rate of AZ is the relative rate about z_J.
   return dot(i.w - j.w, j.axis[2]) - drive;
@@ -289,7 +303,10 @@ Real Model::row_acceleration(const Row& row) const {
     return dot(i.a - j.a, j.axis[aj]) + 2 * dot(i.v - j.v, j.axis1[aj]) + dot(i.p - j.p, j.axis2[aj]) - drive;
   }
   if (row.type == Row::Type::direction) {
-    return dot(i.axis2[ai], j.axis[aj]) + 2 * dot(i.axis1[ai], j.axis1[aj]) + dot(i.axis[ai], j.axis2[aj]);
+    const auto second = [](const MarkerMotion& m, std::size_t a, const MarkerMotion& n, std::size_t b) {
+      return dot(m.axis2[a], n.axis[b]) + 2 * dot(m.axis1[a], n.axis1[b]) + dot(m.axis[a], n.axis2[b]);
+    };
+    return second(i, ai, j, aj) - (row.swapped ? second(j, ai, i, aj) : 0);
   }
   return dot(i.al - j.al, j.axis[2]) + dot(i.w - j.w, j.axis1[2]) - drive;
 }
@@ -299,7 +316,10 @@ Wrench Model::row_wrench(const Row& row) const {
   const MarkerMotion& j = markers_[static_cast<std::size_t>(row.j)];
   const auto ai = static_cast<std::size_t>(row.axis_i), aj = static_cast<std::size_t>(row.axis_j);
   if (row.type == Row::Type::point) return {j.axis[aj], Vec{}};
-  if (row.type == Row::Type::direction) return {Vec{}, cross(i.axis[ai], j.axis[aj])};
+  if (row.type == Row::Type::direction) {
+    const Vec t = cross(i.axis[ai], j.axis[aj]);
+    return {Vec{}, row.swapped ? t - cross(i.axis[aj], j.axis[ai]) : t};
+  }
   return {Vec{}, j.axis[2]};
 }
 
@@ -406,6 +426,78 @@ void Model::apply_sforces(std::vector<Wrench>& loads) const {
   }
 }
 
+Wrench Model::linear_wrench(const LinearForce& f) const {
+  const MarkerMotion& i = markers_[static_cast<std::size_t>(marker_index(f.i))];
+  const MarkerMotion& j = markers_[static_cast<std::size_t>(marker_index(f.j))];
+  const Vec d = i.p - j.p, v = i.v - j.v - cross(j.w, d), w = i.w - j.w;
+  std::array<Real, 6> y{}, rate{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    y[k] = dot(d, j.axis[k]);
+    rate[k] = dot(v, j.axis[k]);
+    rate[3 + k] = dot(w, j.axis[k]);
+  }
+  y[3] = std::atan2(-dot(i.axis[2], j.axis[1]), dot(i.axis[2], j.axis[2]));
+  y[4] = std::atan2(dot(i.axis[2], j.axis[0]), dot(i.axis[2], j.axis[2]));
+  y[5] = std::atan2(dot(i.axis[0], j.axis[1]), dot(i.axis[0], j.axis[0]));
+  std::array<std::array<Real, 6>, 6> K{}, C{};
+  if (f.kind == LinearKind::beam) {
+    const Real L = f.beam[0], A = f.beam[1], Ixx = f.beam[2], Iyy = f.beam[3], Izz = f.beam[4], E = f.beam[5],
+               G = f.beam[6];
+    // Flexibilities of a cantilever under tip force and tip moment, inverted: an independent road to the stiffness.
+    const auto bending = [&](Real I, Real shear, Real& kff, Real& kfm, Real& kmm) {
+      const Real u_f = L * L * L / (3 * E * I) + shear * L / (G * A), u_m = L * L / (2 * E * I), t_m = L / (E * I);
+      const Real det = u_f * t_m - u_m * u_m;
+      kff = t_m / det, kfm = -u_m / det, kmm = u_f / det;
+    };
+    K[0][0] = E * A / L, K[3][3] = G * Ixx / L;
+    Real ff = 0, fm = 0, mm = 0;
+    bending(Izz, f.beam[7], ff, fm, mm);
+    K[1][1] = ff, K[1][5] = K[5][1] = fm, K[5][5] = mm;
+    bending(Iyy, f.beam[8], ff, fm, mm);
+    K[2][2] = ff, K[2][4] = K[4][2] = -fm, K[4][4] = mm;
+    for (std::size_t r = 0; r < 6; ++r) {
+      for (std::size_t c = 0; c < 6; ++c) C[r][c] = f.ratio * K[r][c];
+    }
+  } else {
+    for (std::size_t r = 0; r < 6; ++r) {
+      for (std::size_t c = 0; c < 6; ++c) K[r][c] = f.k[r][c], C[r][c] = f.c[r][c];
+    }
+  }
+  Wrench out;
+  for (std::size_t r = 0; r < 6; ++r) {
+    Real load = f.force[r];
+    for (std::size_t c = 0; c < 6; ++c) {
+      const Real free = f.kind == LinearKind::beam ? (c == 0 ? f.beam[0] : 0) : f.length[c];
+      load -= K[r][c] * (y[c] - free) + C[r][c] * rate[c];
+    }
+    (r < 3 ? out.f : out.t) += load * j.axis[r % 3];
+  }
+  return out;
+}
+
+Wrench Model::general_wrench(std::size_t k) const {
+  const MarkerMotion& rm = markers_[static_cast<std::size_t>(marker_index(mechanism_.gforces[k].rm))];
+  Wrench out;
+  for (std::size_t c = 0; c < 6; ++c) (c < 3 ? out.f : out.t) += component_values[6 * k + c] * rm.axis[c % 3];
+  return out;
+}
+
+void Model::apply_linears(std::vector<Wrench>& loads) const {
+  for (const LinearForce& f : mechanism_.linears) {
+    const int i = marker_index(f.i), j = marker_index(f.j);
+    const Wrench w = linear_wrench(f);
+    const Vec delta = markers_[static_cast<std::size_t>(i)].p - markers_[static_cast<std::size_t>(j)].p;
+    apply(loads, i, markers_[static_cast<std::size_t>(i)].p, w, 1);
+    apply(loads, j, markers_[static_cast<std::size_t>(j)].p, {-w.f, -w.t - cross(delta, w.f)}, 1);
+  }
+  for (std::size_t k = 0; k < mechanism_.gforces.size(); ++k) {
+    const GeneralForce& f = mechanism_.gforces[k];
+    const Vec at = markers_[static_cast<std::size_t>(marker_index(f.i))].p;
+    apply(loads, marker_index(f.i), at, general_wrench(k), 1);
+    apply(loads, marker_index(f.jfloat), at, general_wrench(k), -1);
+  }
+}
+
 Wrench Model::joint_wrench(int joint) const {
   Wrench sum;
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -420,7 +512,8 @@ Wrench Model::joint_wrench(int joint) const {
 // --------------------------------------------------------------------------- the algebraic system
 
 std::size_t Model::algebra_size() const {
-  return static_cast<std::size_t>(dofs) + active.size() + variable_values.size() + sforce_values.size();
+  return static_cast<std::size_t>(dofs) + active.size() + variable_values.size() + sforce_values.size() +
+         component_values.size();
 }
 
 std::vector<int> Model::algebra_groups() const {
@@ -432,7 +525,7 @@ std::vector<int> Model::algebra_groups() const {
     groups.push_back(rows[static_cast<std::size_t>(k)].type == Row::Type::point ? 2 : 3);
   }
   int next = 4;
-  for (std::size_t k = 0; k < variable_values.size() + sforce_values.size(); ++k) {
+  for (std::size_t k = 0; k < variable_values.size() + sforce_values.size() + component_values.size(); ++k) {
     groups.push_back(next++);
   }
   return groups;
@@ -450,6 +543,7 @@ void Model::unpack_algebra(const std::vector<Real>& x) {
   for (const int k : active) lambda[static_cast<std::size_t>(k)] = x[at++];
   for (Real& v : variable_values) v = x[at++];
   for (Real& v : sforce_values) v = x[at++];
+  for (Real& v : component_values) v = x[at++];
   update_accelerations();
 }
 
@@ -457,6 +551,7 @@ std::vector<Real> Model::algebra_residual() const {
   std::vector<Wrench> loads(bodies.size());
   apply_springs(loads);
   apply_sforces(loads);
+  apply_linears(loads);
   for (const int k : active) {
     const Row& row = rows[static_cast<std::size_t>(k)];
     const Wrench unit = row_wrench(row);
@@ -488,6 +583,10 @@ std::vector<Real> Model::algebra_residual() const {
   }
   for (std::size_t k = 0; k < sforce_values.size(); ++k) {
     residual.push_back(sforce_values[k] - evaluate(mechanism_.sforces[k].function));
+  }
+  for (std::size_t k = 0; k < component_values.size(); ++k) {
+    const std::optional<Expr>& e = mechanism_.gforces[k / 6].component[k % 6];
+    residual.push_back(component_values[k] - (e ? evaluate(*e) : 0));
   }
   return residual;
 }

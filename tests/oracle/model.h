@@ -29,7 +29,8 @@ struct Wrench {
   Vec f, t;  // t about the point that the user of the wrench names
 };
 
-// One scalar constraint. point: (p_I - p_J) . e_J;  direction: e_I . e_J;  angle: AZ(I,J).
+// One scalar constraint. point: (p_I - p_J) . e_J;  direction: e_I . e_J, or e_I . e_J - e_J' . e_I' with the axes swapped;
+// angle: AZ(I,J).
 // A motion subtracts its function of time.
 struct Row {
   enum class Type { point, direction, angle };
@@ -37,6 +38,7 @@ struct Row {
   int i = 0, j = 0;  // marker indices
   int axis_i = 0, axis_j = 0;
   int joint = -1, motion = -1;  // whose row it is
+  bool swapped = false;         // less the product of the same axes of the other marker
 };
 
 struct DifferentialSlot {
@@ -67,6 +69,7 @@ class Model {
   std::vector<BodyMotion> motion;
   std::vector<Real> z;
   std::vector<Real> variable_values, sforce_values, lambda;
+  std::vector<Real> component_values;  // of general forces, six each, in the order of the mechanism
   std::vector<int> cut;  // per variable: 1 when it is an independent input
   std::vector<Real> cut_values;
 
@@ -115,6 +118,9 @@ class Model {
   void apply(std::vector<Wrench>& loads, int marker, const Vec& at, const Wrench& w, Real sign) const;
   void apply_springs(std::vector<Wrench>& loads) const;
   void apply_sforces(std::vector<Wrench>& loads) const;
+  void apply_linears(std::vector<Wrench>& loads) const;
+  [[nodiscard]] Wrench linear_wrench(const LinearForce& f) const;   // on I, torque about p_I
+  [[nodiscard]] Wrench general_wrench(std::size_t k) const;
   [[nodiscard]] Wrench joint_wrench(int joint) const;  // on I, torque about p_I
   [[nodiscard]] Wrench sforce_wrench(const Sforce& s, Real value) const;
   [[nodiscard]] Real wrench_component(const Wrench& on_i, const Vec& i_from_j, const std::vector<int>& ids) const;
@@ -130,7 +136,7 @@ class Model {
   Mechanism mechanism_;
   std::vector<MarkerData> marker_data_;  // marker 0 is the global frame
   std::vector<MarkerMotion> markers_;
-  std::map<int, int> marker_index_, variable_index_, sforce_index_, joint_index_, array_index_;
+  std::map<int, int> marker_index_, variable_index_, sforce_index_, joint_index_, array_index_, gforce_index_;
   std::vector<std::array<int, 2>> spring_markers_, sforce_markers_, joint_markers_;
   std::vector<std::size_t> tfsiso_slot_, lse_slot_, diff_slot_;
   std::map<int, std::size_t> diff_of_id_;

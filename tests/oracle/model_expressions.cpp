@@ -3,6 +3,8 @@
 
 #include "model.h"
 
+#include <algorithm>
+
 namespace dynalin::oracle {
 
 namespace {
@@ -55,6 +57,16 @@ Real Model::evaluate_node(const Node& n) const {
       if (s.reaction == Reaction::action_only && n.ids[1] == 1) return 0;
       return wrench_component(sforce_wrench(s, sforce_values[k]), i_from_j, n.ids);
     }
+    case Op::linear: {
+      const auto found = std::find_if(mechanism_.linears.begin(), mechanism_.linears.end(), [&](const LinearForce& f) {
+        return f.id == n.ids[0] && static_cast<int>(f.kind) == n.ids[4];
+      });
+      const Vec i_from_j = markers_[static_cast<std::size_t>(marker_index(found->i))].p -
+                           markers_[static_cast<std::size_t>(marker_index(found->j))].p;
+      return wrench_component(linear_wrench(*found), i_from_j, n.ids);
+    }
+    case Op::gforce:
+      return wrench_component(general_wrench(static_cast<std::size_t>(gforce_index_.at(n.ids[0]))), Vec{}, n.ids);
   }
   throw std::runtime_error("an expression has an unknown operation");
 }
@@ -241,7 +253,9 @@ std::vector<Real> Model::differential_rates() const {
   const auto append = [&](const std::vector<Real>& more) { rates.insert(rates.end(), more.begin(), more.end()); };
   for (std::size_t k = 0; k < mechanism_.lses.size(); ++k) append(lse_rates(k));
   for (std::size_t k = 0; k < mechanism_.tfsisos.size(); ++k) append(tfsiso_rates(k));
-  for (const Diff& diff : mechanism_.diffs) rates.push_back(evaluate(diff.function));
+  for (const Diff& diff : mechanism_.diffs) {
+    rates.push_back(evaluate(diff.function) / (diff.coefficient ? evaluate(*diff.coefficient) : 1));
+  }
   return rates;
 }
 
