@@ -31,7 +31,7 @@ ColumnMatrix Saddle::matrix(const Equations& eq, const ConstraintRows& rows, con
       }
     }
   };
-  take(columns.coordinates, 0);
+  if (columns.with_coordinates) take(columns.coordinates, 0);
   take(Column::lambda, n_);
   take(Column::algebraic, n_ + m_);
   take(columns.states, n_ + m_ + w_);

@@ -18,6 +18,7 @@ namespace dynalin {
 struct SaddleColumns {
   Column coordinates = Column::acceleration;
   Column states = Column::state_rate;
+  bool with_coordinates = true;  // without, the diagonal that is added stands alone in their columns
 };
 
 class Saddle {

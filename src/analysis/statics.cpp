@@ -41,7 +41,7 @@ class StaticEquations {
       if (part_.active[static_cast<std::size_t>(k)]) residual_(saddle_.lambda(k)) = rows_.along_motion(k).value;
     }
     measure_forces(op);
-    if (with_partials) measure_stiffness();
+    if (with_partials && stiffness_ == 0) measure_stiffness();
   }
 
   // Largest unbalanced force (moments by length) and the size of the forces at play.
@@ -51,6 +51,22 @@ class StaticEquations {
       worst = std::max(worst, std::abs(residual_(k)) * force_unit(k));
     }
     return worst;
+  }
+  // The coordinate with the largest unbalanced force, or the equation that is farthest from being met.
+  std::string worst() const {
+    const Layout& layout = system_.layout();
+    double largest = 0;
+    std::string name;
+    for (std::int32_t k = 0; k < layout.coordinate_count; ++k) {
+      const double f = std::abs(residual_(k)) * force_unit(k);
+      if (f > largest) largest = f, name = layout.coordinate_text(k);
+    }
+    if (!name.empty()) return name;
+    for (std::int32_t k = 0; k < static_cast<std::int32_t>(layout.states.size()); ++k) {
+      const double f = std::abs(residual_(saddle_.state(k)));
+      if (f > largest) largest = f, name = "the state of " + layout.states[static_cast<std::size_t>(k)].owner->full_text();
+    }
+    return name;
   }
   double force_scale() const { return force_scale_; }
 
@@ -68,6 +84,37 @@ class StaticEquations {
       sum += r * r;
     }
     return sum;
+  }
+
+  // Takes reactions and algebraic values from  D a = F + Gᵀλ,  G a = 0,  w = e  at rest, with the metric D that `tangent`
+  // holds with; the imbalance that is left, −D a, does no work on the reactions. Leaves the point as it is if that fails.
+  void settle(OperatingPoint& op) {
+    OperatingPoint next = op;
+    Eigen::VectorXd a = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(system_.coordinates()));
+    const std::vector<bool> held(held_.size(), true);
+    double before = std::numeric_limits<double>::infinity();
+    for (int iteration = 0; iteration < 12; ++iteration) {
+      evaluate(next, true);
+      std::vector<double> D(static_cast<std::size_t>(saddle_.size()), 0.0);
+      for (std::size_t k = 0; k < system_.coordinates(); ++k) D[k] = holding(k);
+      SparseLu lu;
+      const SaddleColumns columns{Column::position, Column::state, false};
+      if (!residual_.allFinite() || !lu.factor(saddle_.matrix(eq_, rows_, part_.active, columns, {}, held, D))) return;
+      Eigen::MatrixXd step = -residual_;
+      for (Eigen::Index k = 0; k < a.size(); ++k) step(k, 0) -= D[static_cast<std::size_t>(k)] * a(k);
+      for (std::int32_t k = 0; k < rows_.size(); ++k) step(saddle_.lambda(k), 0) = 0;
+      for (std::size_t k = 0; k < held_.size(); ++k) step(saddle_.state(static_cast<std::int32_t>(k)), 0) = 0;
+      const double size = step.cwiseAbs().maxCoeff();
+      lu.solve(step);
+      a += step.col(0).head(a.size());
+      for (std::size_t k = 0; k < next.lambda.size(); ++k)
+        next.lambda[k] += step(saddle_.lambda(static_cast<std::int32_t>(k)), 0);
+      for (std::size_t k = 0; k < next.algebraic.size(); ++k)
+        next.algebraic[k] += step(saddle_.algebraic(static_cast<std::int32_t>(k)), 0);
+      if (size <= 1e-14 * force_scale_ || (iteration > 0 && size >= 0.5 * before && size <= 1e-9 * force_scale_)) break;
+      before = size;
+    }
+    if (step_is_finite(next)) op = std::move(next);
   }
 
   // Work of the imbalance along a step of the coordinates, and the step's size in the metric that `tangent` holds with.
@@ -99,6 +146,12 @@ class StaticEquations {
   }
 
  private:
+  static bool step_is_finite(const OperatingPoint& op) {
+    const auto finite = [](const std::vector<double>& v) {
+      return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
+    };
+    return finite(op.lambda) && finite(op.algebraic);
+  }
   // 1 for a force, 1/length for a moment.
   double force_unit(Eigen::Index k) const {
     return system_.coordinate_scale(static_cast<std::int32_t>(k)) / system_.length();
@@ -108,9 +161,8 @@ class StaticEquations {
     const double s = system_.length() / system_.coordinate_scale(static_cast<std::int32_t>(k));
     return stiffness_ * s * s;
   }
-  // The largest entry of the tangent as force per length.
+  // The largest entry of the first tangent as force per length; one yardstick for the whole search.
   void measure_stiffness() {
-    stiffness_ = 0;
     const ColumnMatrix& K = eq_.matrix(Column::position);
     for (std::int32_t c = 0; c < K.columns; ++c) {
       for (auto k = static_cast<std::size_t>(K.start[static_cast<std::size_t>(c)]);
@@ -142,7 +194,7 @@ class StaticEquations {
   Partition part_;
   std::vector<bool> held_;
   Eigen::VectorXd residual_;
-  double force_scale_ = 0, stiffness_ = 1;
+  double force_scale_ = 0, stiffness_ = 0;
 };
 
 OperatingPoint moved(const System& system, const OperatingPoint& from, const Saddle& saddle,
@@ -178,19 +230,15 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   auto assembled = assemble_position(system, std::move(op), findings);
   if (!assembled) return assembled;
   op = std::move(*assembled);
-  // Far from the solution the constraints are kept and reactions and algebraic values taken from the resting model, so
-  // that the imbalance speaks of the pose alone. Without masses there are no such values and the step's own are kept.
+  StaticEquations equations(system);
+  // Far from the solution the constraints are kept, and reactions and algebraic values are those that leave the least
+  // imbalance, so that it speaks of the pose alone.
   const auto settle = [&](OperatingPoint& p) {
     Findings ignored;
     if (auto joined = assemble_position(system, p, ignored)) p = std::move(*joined);
-    if (auto guess = solve_acceleration(system, p, ignored)) {
-      p = std::move(*guess);
-      rest(p);
-    }
+    equations.settle(p);
   };
   settle(op);
-
-  StaticEquations equations(system);
   const Saddle& saddle = equations.saddle();
   std::vector<std::string> history;
   double force = 0, hold = 1, before = std::numeric_limits<double>::infinity();
@@ -234,10 +282,12 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
       system.remember(op);
       return true;
     };
-    // Newton where it helps; close to the solution rounding decides and its step is taken as it is.
+    // Newton where it helps and goes downhill, so that it does not climb to an unstable equilibrium; close to the
+    // solution rounding decides and its step is taken as it is.
     bool taken = false;
     if (!transient || level < 1e-3) {
-      if (const auto step = solve(0)) {
+      const auto step = solve(0);
+      if (step && (level < 1e-6 || equations.slope(*step) < 0)) {
         for (const double fraction : {1.0, 0.5, 0.25}) {
           taken = attempt(*step, fraction, level < 1e-9 ? 4 * merit + 1e-24 : merit * (1 - 0.5 * fraction));
           if (taken) break;
@@ -271,7 +321,9 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
     }
     transient = transient && hold > 1e-7;
     if (!taken) {
+      equations.evaluate(op, true);
       Failure f{"statics", "no step reduces the imbalance", history};
+      if (const std::string worst = equations.worst(); !worst.empty()) f.message += ", which is largest at " + worst;
       const auto names = undetermined(system, saddle, equations.tangent(0, false));
       if (!names.empty()) f.message += fmt::format("; the tangent leaves {} undetermined", fmt::join(names, ", "));
       return tl::unexpected(f);
@@ -280,8 +332,10 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   equations.evaluate(op, false);
   report.imbalance = equations.imbalance();
   if (std::sqrt(equations.merit(equations.force_scale())) > 1e-7) {
-    return tl::unexpected(Failure{
-        "statics", fmt::format("no equilibrium was found, the imbalance is still {:.3e}", report.imbalance), history});
+    return tl::unexpected(Failure{"statics",
+                                  fmt::format("no equilibrium was found, the imbalance is still {:.3e}, largest at {}",
+                                              report.imbalance, equations.worst()),
+                                  history});
   }
   if (held_states) {
     // A pure integrator that balances at its first value keeps it.

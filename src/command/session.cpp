@@ -222,10 +222,28 @@ class Session {
     write_static_result(message_, report.iterations, report.imbalance);
     write_end(message_, "Static Solution");
     accept(std::move(*op), findings);
+    const std::string stability = stability_text();
+    fmt::print(message_, "  Stability: {}\n", stability);
     if (!options_.quiet)
-      fmt::print(out_, "static equilibrium after {} iterations, imbalance {:.3e}\n", report.iterations,
-                 report.imbalance);
+      fmt::print(out_, "static equilibrium after {} iterations, imbalance {:.3e}, {}\n", report.iterations,
+                 report.imbalance, stability);
     return {};
+  }
+
+  // Whether a small disturbance of the equilibrium grows, by the eigenvalues of its linear model.
+  std::string stability_text() const {
+    constexpr std::size_t affordable = 300;
+    if (system_.coordinates() > affordable) return "stability not examined";
+    const auto linear = linearize(system_, point_, {});
+    if (!linear) return "stability not known: " + linear.error().message;
+    const auto modes = eigensolve(*linear, Vectors::none);
+    if (!modes) return "stability not known: " + modes.error().message;
+    double largest = 0;
+    for (const EigenMode& m : modes->modes) largest = std::max(largest, std::abs(m.eigenvalue_hz));
+    std::size_t growing = 0;
+    for (const EigenMode& m : modes->modes) growing += m.eigenvalue_hz.real() > 1e-7 * largest;
+    if (growing == 0) return "nothing grows";
+    return fmt::format("unstable: {} {}", growing, growing == 1 ? "mode grows" : "modes grow");
   }
 
   void accept(OperatingPoint op, const Findings& findings) {

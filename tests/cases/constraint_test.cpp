@@ -165,7 +165,10 @@ std::vector<Held> all() {
 
 class SameAsFunctions : public Cases, public ::testing::WithParamInterface<Held> {
  protected:
-  static bool rests(const Held& h) { return h.name != "motion_velocity" && h.name != "motion_acceleration"; }
+  // Not at rest: what prescribes velocities, and the pinion, which turns past the cut of ATAN2 on its way.
+  static bool rests(const Held& h) {
+    return h.name != "motion_velocity" && h.name != "motion_acceleration" && h.name != "rackpin";
+  }
 };
 
 TEST_P(SameAsFunctions, at_rest_under_load_and_in_motion) {

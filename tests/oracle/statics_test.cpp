@@ -1,0 +1,94 @@
+// Static equilibria of generated mechanisms, checked by the oracle's own equations: at the point found nothing
+// accelerates and no state changes. What has no equilibrium that is found says why.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "analysis/statics.h"
+#include "elements/catalogue.h"
+#include "oracle/generator.h"
+
+namespace dynalin::oracle {
+namespace {
+
+TEST(Statics, generated_mechanisms_come_to_rest_or_say_why_not) {
+  int found = 0, refused = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Mechanism mechanism = random_mechanism(seed);
+    // Ground springs hold what would float away.
+    for (const Body& b : mechanism.bodies) {
+      if (b.ref.kind == BodyKind::ground || b.cm == 0 || seed % 4 == 0) continue;
+      Marker anchor;
+      anchor.id = 9000 + b.ref.id;
+      anchor.body = ground;
+      anchor.qp = {b.qg[0] + 1.3, b.qg[1] - 0.7, b.qg[2] + 2.1};
+      mechanism.markers.push_back(anchor);
+      mechanism.springs.push_back({9000 + b.ref.id, Direction::translational, b.cm, anchor.id,
+                                   30 * b.mass / mechanism.ucf, 0, 0, 0.5});
+    }
+    const std::string text = dataset_text(mechanism);
+    auto dataset = parse_dataset(std::make_shared<const SourceText>("generated.adm", text));
+    auto built = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
+    ASSERT_FALSE(built.diagnostics.has_errors()) << render(built.diagnostics);
+    const System system{std::shared_ptr<const ::dynalin::Model>(std::move(built.value))};
+    Findings findings;
+    StaticsReport report;
+    const auto op = find_equilibrium(system, system.drawn(), {}, report, findings);
+    if (!op) {
+      ++refused;
+      EXPECT_FALSE(op.error().message.empty());
+      std::cout << "seed " << seed << ": " << op.error().message << '\n';
+      continue;
+    }
+    ++found;
+    // Total angles beyond half a turn are not the oracle's principal ones.
+    bool turned = false;
+    for (const double angle : op->memory) turned = turned || std::abs(angle) > 3.1;
+    if (turned) continue;
+    // A model at rest has constant motions.
+    for (Motion& m : mechanism.motions) {
+      m.f.c[0] = static_cast<double>(motion_values(m.f, 0)[0]);
+      m.f.c[1] = m.f.c[2] = m.f.c[3] = m.f.amplitude = 0;
+    }
+    Model model(mechanism);
+    const Layout& layout = system.layout();
+    for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
+      const BodyRef ref{layout.bodies[b].kind == ::dynalin::BodyKind::point_mass ? BodyKind::point_mass : BodyKind::part,
+                        static_cast<int>(layout.bodies[b].label.id)};
+      BodyMotion& m = model.motion[static_cast<std::size_t>(model.body_index(ref))];
+      const Pose& pose = op->poses[b];
+      m.p = {pose.r.x, pose.r.y, pose.r.z};
+      for (std::size_t c = 0; c < 3; ++c) m.R.column[c] = {pose.R[c].x, pose.R[c].y, pose.R[c].z};
+      m.v = m.w = Vec{};
+    }
+    for (std::size_t k = 0; k < layout.states.size(); ++k) {
+      const DifferentialState& z = layout.states[k];
+      for (std::size_t s = 0; s < model.slots.size(); ++s) {
+        const DifferentialSlot& slot = model.slots[s];
+        if (static_cast<int>(slot.element) == static_cast<int>(z.type) && slot.element_id == z.owner->id && slot.index == z.coordinate) {
+          model.z[s] = op->state[k];
+        }
+      }
+    }
+    model.update_positions();
+    model.update_velocities();
+    for (const Row& row : model.rows) EXPECT_NEAR(static_cast<double>(model.row_position(row)), 0, 1e-10 * static_cast<double>(model.length));
+    try {
+      model.unpack_algebra(solve_algebra(model));
+    } catch (const std::runtime_error&) {
+      continue;  // the oracle's own search begins at zero and may miss a solution of an algebraic loop
+    }
+    for (const BodyMotion& m : model.motion) {
+      EXPECT_LT(norm(m.a), 1e-6 * model.length) << text;
+      EXPECT_LT(norm(m.al), 1e-6) << text;
+    }
+    for (const Real rate : model.differential_rates()) EXPECT_NEAR(static_cast<double>(rate), 0, 1e-7);
+  }
+  std::cout << found << " equilibria, " << refused << " refused\n";
+  EXPECT_GE(found, 60);
+}
+
+}  // namespace
+}  // namespace dynalin::oracle
