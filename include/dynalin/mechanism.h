@@ -33,11 +33,11 @@ struct LinearRequest {
 
 // A body at the operating point, global axes.
 struct BodyState {
-  std::string name;                            // "PART/2", or with its view name "PART/2 (wheel)"
-  std::array<double, 3> position{};            // of the body coordinate system [length]
+  std::string name;                             // "PART/2", or with its view name "PART/2 (wheel)"
+  std::array<double, 3> position{};             // of the body coordinate system [length]
   std::array<std::array<double, 3>, 3> axes{};  // its x, y and z axis
-  std::array<double, 3> velocity{};            // of its origin [length/time]
-  std::array<double, 3> angular_velocity{};    // [rad/time]
+  std::array<double, 3> velocity{};             // of its origin [length/time]
+  std::array<double, 3> angular_velocity{};     // [rad/time]
 };
 
 class Mechanism {

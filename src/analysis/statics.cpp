@@ -64,7 +64,8 @@ class StaticEquations {
     if (!name.empty()) return name;
     for (std::int32_t k = 0; k < static_cast<std::int32_t>(layout.states.size()); ++k) {
       const double f = std::abs(residual_(saddle_.state(k)));
-      if (f > largest) largest = f, name = "the state of " + layout.states[static_cast<std::size_t>(k)].owner->full_text();
+      if (f > largest)
+        largest = f, name = "the state of " + layout.states[static_cast<std::size_t>(k)].owner->full_text();
     }
     return name;
   }
@@ -86,8 +87,9 @@ class StaticEquations {
     return sum;
   }
 
-  // Takes reactions and algebraic values from  D a = F + Gᵀλ,  G a = 0,  w = e  at rest, with the metric D that `tangent`
-  // holds with; the imbalance that is left, −D a, does no work on the reactions. Leaves the point as it is if that fails.
+  // Takes reactions and algebraic values from  D a = F + Gᵀλ,  G a = 0,  w = e  at rest, with the metric D that
+  // `tangent` holds with; the imbalance that is left, −D a, does no work on the reactions. Leaves the point as it is if
+  // that fails.
   void settle(OperatingPoint& op) {
     OperatingPoint next = op;
     Eigen::VectorXd a = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(system_.coordinates()));

@@ -58,7 +58,8 @@ std::vector<Condition> stated_velocities(const System& system, const Motion& mot
   system.start_rows(motion, 0, rows);
   for (std::size_t k = 0; k < starts.size(); ++k) {
     if (!starts[k].velocity) continue;
-    Condition s{{}, {}, *starts[k].velocity, fmt::format("of the {} of {}", starts[k].name, starts[k].owner->full_text())};
+    Condition s{
+        {}, {}, *starts[k].velocity, fmt::format("of the {} of {}", starts[k].name, starts[k].owner->full_text())};
     for (const auto& e : rows.row(static_cast<std::int32_t>(k))) {
       s.column.push_back(e.column);
       s.coefficient.push_back(e.c.g);

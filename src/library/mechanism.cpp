@@ -119,8 +119,7 @@ int Mechanism::static_equilibrium() {
 
 StateSpace Mechanism::state_space(const LinearRequest& request) {
   if (!state_->consistent) initial_conditions();
-  LinearSystem linear =
-      value_or_throw(linearize(state_->system, state_->point, options_of(*state_->model, request)));
+  LinearSystem linear = value_or_throw(linearize(state_->system, state_->point, options_of(*state_->model, request)));
   state_->warnings.insert(state_->warnings.end(), linear.warnings.begin(), linear.warnings.end());
   return std::move(linear.model);
 }
@@ -143,8 +142,11 @@ std::vector<BodyState> Mechanism::bodies() const {
   std::vector<BodyState> list;
   for (std::size_t b = 1; b < motion.bodies.size(); ++b) {
     const BodyMotion& m = motion.bodies[b];
-    list.push_back({state_->system.layout().bodies[b].label.full_text(), plain(m.r),
-                    {plain(m.R[0]), plain(m.R[1]), plain(m.R[2])}, plain(m.rdot), plain(m.w)});
+    list.push_back({state_->system.layout().bodies[b].label.full_text(),
+                    plain(m.r),
+                    {plain(m.R[0]), plain(m.R[1]), plain(m.R[2])},
+                    plain(m.rdot),
+                    plain(m.w)});
   }
   return list;
 }

@@ -24,10 +24,9 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   Eigen::MatrixXd right(with_vectors ? n : 1, with_vectors ? n : 1);
   lapack_int low = 0, high = 0;
   double norm = 0;
-  const lapack_int info =
-      LAPACKE_dgeevx(LAPACK_COL_MAJOR, 'B', 'N', with_vectors ? 'V' : 'N', 'N', n, A.data(), n, re.data(), im.data(),
-                     nullptr, 1, right.data(), with_vectors ? n : 1, &low, &high, scale.data(), &norm, rconde.data(),
-                     rcondv.data());
+  const lapack_int info = LAPACKE_dgeevx(LAPACK_COL_MAJOR, 'B', 'N', with_vectors ? 'V' : 'N', 'N', n, A.data(), n,
+                                         re.data(), im.data(), nullptr, 1, right.data(), with_vectors ? n : 1, &low,
+                                         &high, scale.data(), &norm, rconde.data(), rcondv.data());
   if (info != 0) return tl::unexpected(Failure{"eigensolution", "the QR iteration did not converge", {}});
 
   std::vector<std::size_t> order;  // one entry a pair

@@ -32,7 +32,8 @@ void name_movers(const System& system, const OperatingPoint& op, const LinearSys
       if (size > most * (1 + 1e-6)) most = size, mover = &block.label;
     }
     std::string& name = solution.modes[m].moves_most;
-    if (mover && std::sqrt(most) > 1e-9 * system.length() * v.tail(states - static_cast<Eigen::Index>(linear.kinematic_states)).norm()) {
+    if (mover && std::sqrt(most) > 1e-9 * system.length() *
+                                       v.tail(states - static_cast<Eigen::Index>(linear.kinematic_states)).norm()) {
       name = mover->full_text();
       continue;
     }

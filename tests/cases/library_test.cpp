@@ -10,9 +10,12 @@ namespace dynalin {
 namespace {
 
 const std::string pendulum =
-    "Pendulum\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\n! adams_view_name='bob'\nPART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=1,0,0, WZ=0\n"
-    "MARKER/20\nMARKER/21, QP=-1,0,0\nJOINT/1, REVOLUTE, I=21, J=1\nVARIABLE/3, FUNCTION=AZ(21,1)\nVARIABLE/4, FUNCTION=0\n"
-    "SFORCE/1, ROTATIONAL, ACTIONONLY, I=20, J=20, FUNCTION=VARVAL(4)\nPINPUT/1, VARIABLES=4\nPOUTPUT/1, VARIABLES=3\nEND\n";
+    "Pendulum\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\n! adams_view_name='bob'\nPART/2, "
+    "MASS=1, CM=20, IP=0.1,0.1,0.1, QG=1,0,0, WZ=0\n"
+    "MARKER/20\nMARKER/21, QP=-1,0,0\nJOINT/1, REVOLUTE, I=21, J=1\nVARIABLE/3, FUNCTION=AZ(21,1)\nVARIABLE/4, "
+    "FUNCTION=0\n"
+    "SFORCE/1, ROTATIONAL, ACTIONONLY, I=20, J=20, FUNCTION=VARVAL(4)\nPINPUT/1, VARIABLES=4\nPOUTPUT/1, "
+    "VARIABLES=3\nEND\n";
 
 TEST(Library, finds_the_point_and_the_linear_model) {
   Mechanism m = Mechanism::from_text(pendulum);

@@ -19,8 +19,11 @@ class Statics : public Cases {
 TEST_F(Statics, a_pendulum_falls_and_hangs_also_from_almost_upright) {
   for (const double lean : {0.001, 0.3, 0.8, 1.0}) {
     const double up = std::sqrt(1 - lean * lean);
-    const RunResult r = rest(fmt::format("PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG={0:.17g},{1:.17g},0\nMARKER/20\nMARKER/21, QP=-{0:.17g},-{1:.17g},0\n"
-                                         "JOINT/1, REVOLUTE, I=21, J=1\n", lean, up));
+    const RunResult r =
+        rest(fmt::format("PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG={0:.17g},{1:.17g},0\nMARKER/20\nMARKER/21, "
+                         "QP=-{0:.17g},-{1:.17g},0\n"
+                         "JOINT/1, REVOLUTE, I=21, J=1\n",
+                         lean, up));
     ASSERT_EQ(r.status, 0) << r.err;
     EXPECT_THAT(r.out, HasSubstr("nothing grows"));
     EXPECT_GT(r.eigenvalues(1)[0].imag(), 0.4);
@@ -28,15 +31,19 @@ TEST_F(Statics, a_pendulum_falls_and_hangs_also_from_almost_upright) {
 }
 
 TEST_F(Statics, exactly_upright_it_stays_and_is_called_unstable) {
-  const RunResult r = rest("PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=0,1,0\nMARKER/20\nMARKER/21, QP=0,-1,0\nJOINT/1, REVOLUTE, I=21, J=1\n");
+  const RunResult r = rest(
+      "PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=0,1,0\nMARKER/20\nMARKER/21, QP=0,-1,0\nJOINT/1, REVOLUTE, I=21, "
+      "J=1\n");
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_THAT(r.out, HasSubstr("unstable: 1 mode grows"));
   EXPECT_THAT(r.message, HasSubstr("unstable: 1 mode grows"));
 }
 
 TEST_F(Statics, a_spring_that_is_slack_at_first_takes_the_load) {
-  const RunResult r = rest("PART/2, MASS=2, CM=20, IP=1,1,1, QG=0,-0.5,0\nMARKER/20\nMARKER/2, PART=1, REULER=0,90D,0\nMARKER/22, REULER=0,90D,0\nJOINT/1, TRANSLATIONAL, I=22, J=2\n"
-                           "SFORCE/1, TRANSLATIONAL, I=20, J=1, FUNCTION=-MAX(0,100*(DM(20,1)-1))\n");
+  const RunResult r = rest(
+      "PART/2, MASS=2, CM=20, IP=1,1,1, QG=0,-0.5,0\nMARKER/20\nMARKER/2, PART=1, REULER=0,90D,0\nMARKER/22, "
+      "REULER=0,90D,0\nJOINT/1, TRANSLATIONAL, I=22, J=2\n"
+      "SFORCE/1, TRANSLATIONAL, I=20, J=1, FUNCTION=-MAX(0,100*(DM(20,1)-1))\n");
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_NEAR(r.eigenvalues(1)[0].imag(), std::sqrt(50.0) / (2 * 3.14159265358979), 1e-8);
 }
@@ -53,15 +60,22 @@ TEST_F(Statics, without_load_a_free_part_rests_where_it_is) {
 }
 
 TEST_F(Statics, an_integrator_with_an_input_that_does_not_vanish_is_named) {
-  const RunResult r = rest("PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=0,-1,0\nMARKER/20\nMARKER/21, QP=0,1,0\nJOINT/1, REVOLUTE, I=21, J=1\nDIFF/7, FUNCTION=2+AZ(21,1)\n");
+  const RunResult r = rest(
+      "PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=0,-1,0\nMARKER/20\nMARKER/21, QP=0,1,0\nJOINT/1, REVOLUTE, I=21, "
+      "J=1\nDIFF/7, FUNCTION=2+AZ(21,1)\n");
   EXPECT_EQ(r.status, 2);
   EXPECT_THAT(r.err, HasSubstr("DIFF/7"));
-  const RunResult held = rest("PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=0,-1,0\nMARKER/20\nMARKER/21, QP=0,1,0\nJOINT/1, REVOLUTE, I=21, J=1\nDIFF/7, STATIC_HOLD, FUNCTION=2+AZ(21,1)\n");
+  const RunResult held = rest(
+      "PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=0,-1,0\nMARKER/20\nMARKER/21, QP=0,1,0\nJOINT/1, REVOLUTE, I=21, "
+      "J=1\nDIFF/7, STATIC_HOLD, FUNCTION=2+AZ(21,1)\n");
   EXPECT_EQ(held.status, 0) << held.err;
 }
 
 TEST_F(Statics, motions_hold_their_value_and_motions_of_velocity_are_refused) {
-  const std::string body = "PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=1,0,0\nMARKER/20\nMARKER/21, QP=-1,0,0\nJOINT/1, REVOLUTE, I=21, J=1\nPART/3, MASS=1, CM=30, IP=0.1,0.1,0.1, QG=2,0,0\nMARKER/30\nMARKER/31, QP=-1,0,0\nJOINT/2, REVOLUTE, I=31, J=20\n";
+  const std::string body =
+      "PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=1,0,0\nMARKER/20\nMARKER/21, QP=-1,0,0\nJOINT/1, REVOLUTE, I=21, "
+      "J=1\nPART/3, MASS=1, CM=30, IP=0.1,0.1,0.1, QG=2,0,0\nMARKER/30\nMARKER/31, QP=-1,0,0\nJOINT/2, REVOLUTE, I=31, "
+      "J=20\n";
   const RunResult r = rest(body + "MOTION/1, JOINT=1, FUNCTION=0.7+TIME\n");
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_EQ(r.eigenvalues(1).size(), 2u);
@@ -71,8 +85,12 @@ TEST_F(Statics, motions_hold_their_value_and_motions_of_velocity_are_refused) {
 }
 
 TEST_F(Statics, redundant_joints_carry_the_load_all_the_same) {
-  const std::string one = "PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=1,0,0\nMARKER/20\nMARKER/21, QP=-1,0,0\nJOINT/1, REVOLUTE, I=21, J=1\n";
-  const RunResult single = rest(one), twice = rest(one + "MARKER/22, QP=-1,0,0.5\nMARKER/2, PART=1, QP=0,0,0.5\nJOINT/2, REVOLUTE, I=22, J=2\n");
+  const std::string one =
+      "PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=1,0,0\nMARKER/20\nMARKER/21, QP=-1,0,0\nJOINT/1, REVOLUTE, I=21, "
+      "J=1\n";
+  const RunResult single = rest(one),
+                  twice = rest(one +
+                               "MARKER/22, QP=-1,0,0.5\nMARKER/2, PART=1, QP=0,0,0.5\nJOINT/2, REVOLUTE, I=22, J=2\n");
   ASSERT_EQ(single.status, 0) << single.err;
   ASSERT_EQ(twice.status, 0) << twice.err;
   expect_same(single.eigenvalues(1), twice.eigenvalues(1), 1e-10);

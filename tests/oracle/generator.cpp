@@ -112,7 +112,8 @@ void Draw::connect(const BodyRef& i_body, const BodyRef& j_body, JointType type)
       break;
     case JointType::planar:
       I.R = J.R * rotation_z(uniform(-2.2, 2.2));
-      I.p += static_cast<Real>(L_ * uniform(-0.7, 0.7)) * J.R.column[0] + static_cast<Real>(L_ * uniform(-0.7, 0.7)) * J.R.column[1];
+      I.p += static_cast<Real>(L_ * uniform(-0.7, 0.7)) * J.R.column[0] +
+             static_cast<Real>(L_ * uniform(-0.7, 0.7)) * J.R.column[1];
       break;
     case JointType::hooke:
       // x_I stays normal to y_J: a turn about y_J, then one about x_I.
@@ -134,7 +135,8 @@ void Draw::connect(const BodyRef& i_body, const BodyRef& j_body, JointType type)
       break;
     case JointType::inplane:
       I.R = orientation();
-      I.p += static_cast<Real>(L_ * uniform(-0.7, 0.7)) * J.R.column[0] + static_cast<Real>(L_ * uniform(-0.7, 0.7)) * J.R.column[1];
+      I.p += static_cast<Real>(L_ * uniform(-0.7, 0.7)) * J.R.column[0] +
+             static_cast<Real>(L_ * uniform(-0.7, 0.7)) * J.R.column[1];
       break;
     case JointType::orientation:
       I.p += box(0.7 * L_);
@@ -207,7 +209,7 @@ void Draw::draw_loops() {
     });
     if (a == b || joined || a.kind == BodyKind::point_mass || b.kind == BodyKind::point_mass) continue;
     const double r = uniform(0, 1);
-    const JointType type = r < 0.3   ? JointType::spherical
+    const JointType type = r < 0.3    ? JointType::spherical
                            : r < 0.45 ? JointType::universal
                            : r < 0.55 ? JointType::revolute
                            : r < 0.65 ? JointType::inline_

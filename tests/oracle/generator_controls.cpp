@@ -175,8 +175,15 @@ void Draw::draw_linear_forces() {
       if (f.kind == LinearKind::beam) f.force[r] = 0;
     }
     const double L2 = L_ * L_, E = F_ / L2;
-    f.beam = {L_ * uniform(0.5, 1.5), L2 * uniform(0.3, 2), L2 * L2 * uniform(0.05, 0.3), L2 * L2 * uniform(0.02, 0.1),
-              L2 * L2 * uniform(0.02, 0.1), E, 0.4 * E, chance(0.5) ? 1.2 : 0, chance(0.5) ? 1.5 : 0};
+    f.beam = {L_ * uniform(0.5, 1.5),
+              L2 * uniform(0.3, 2),
+              L2 * L2 * uniform(0.05, 0.3),
+              L2 * L2 * uniform(0.02, 0.1),
+              L2 * L2 * uniform(0.02, 0.1),
+              E,
+              0.4 * E,
+              chance(0.5) ? 1.2 : 0,
+              chance(0.5) ? 1.5 : 0};
     f.ratio = uniform(0, 0.05);
     m_.linears.push_back(f);
   }
@@ -287,7 +294,8 @@ void Draw::draw_controls() {
                  uniform(-0.5, 0.5) * shaped(dif(d.id) * kinematic());
     if (chance(0.3)) d.function = d.function + uniform(-0.5, 0.5) * varval(one_of(inputs_));
     if (chance(0.3)) d.function = d.function + uniform(-0.5, 0.5) * acceleration();
-    if (chance(0.4)) d.coefficient = constant(uniform(1, 2)) + uniform(-0.3, 0.3) * shaped(kinematic()) + 0.1 * square(dif(d.id));
+    if (chance(0.4))
+      d.coefficient = constant(uniform(1, 2)) + uniform(-0.3, 0.3) * shaped(kinematic()) + 0.1 * square(dif(d.id));
   }
   m_.pinput = {1, inputs_};
 }

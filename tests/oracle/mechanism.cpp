@@ -41,9 +41,9 @@ constexpr const char* function_names[] = {"SIN", "COS", "TANH", "EXP", "SQRT", "
 constexpr const char* measure_names[] = {"DX",   "DY",   "DZ",   "DM",   "VX",   "VY",   "VZ",   "VM",
                                          "VR",   "WX",   "WY",   "WZ",   "WM",   "ACCX", "ACCY", "ACCZ",
                                          "ACCM", "WDTX", "WDTY", "WDTZ", "WDTM", "AX",   "AY",   "AZ"};
-constexpr const char* joint_names[] = {"REVOLUTE", "TRANSLATIONAL", "SPHERICAL",   "UNIVERSAL",     "FIXED",
-                                       "CYLINDRICAL", "PLANAR",     "HOOKE",       "CONVEL",        "ATPOINT",
-                                       "INLINE",   "INPLANE",       "ORIENTATION", "PARALLEL_AXES", "PERPENDICULAR"};
+constexpr const char* joint_names[] = {"REVOLUTE",    "TRANSLATIONAL", "SPHERICAL",   "UNIVERSAL",     "FIXED",
+                                       "CYLINDRICAL", "PLANAR",        "HOOKE",       "CONVEL",        "ATPOINT",
+                                       "INLINE",      "INPLANE",       "ORIENTATION", "PARALLEL_AXES", "PERPENDICULAR"};
 constexpr const char* linear_names[] = {"BUSH", "FIELD", "BEAM"};
 
 // One statement: keyword and id on the first line, one argument a line after it.
@@ -141,7 +141,8 @@ std::string gforce_text(const GeneralForce& f) {
   std::string components;
   for (std::size_t k = 0; k < 6; ++k) {
     if (!f.component[k]) continue;
-    components += (components.empty() ? ", " : "\\\n, ") + std::string(names[k]) + " = " + expression_text(*f.component[k]);
+    components +=
+        (components.empty() ? ", " : "\\\n, ") + std::string(names[k]) + " = " + expression_text(*f.component[k]);
   }
   return text + components + "\n";
 }
@@ -171,7 +172,8 @@ std::string controls_text(const Mechanism& m) {
     t.set("IC", d.ic);
     if (d.coefficient) {
       const std::string rate = "DIF1(" + std::to_string(d.id) + ")";
-      t.word("IMPLICIT").set("FUNCTION", expression_text(*d.coefficient) + "*" + rate + " - (" + expression_text(d.function) + ")");
+      t.word("IMPLICIT")
+          .set("FUNCTION", expression_text(*d.coefficient) + "*" + rate + " - (" + expression_text(d.function) + ")");
     } else {
       t.set("FUNCTION", expression_text(d.function));
     }
@@ -348,7 +350,8 @@ std::string dataset_text(const Mechanism& m) {
   for (const Body& body : m.bodies) text += body_text(body);
   for (const Marker& k : m.markers) {
     if (k.floating) {
-      text += Statement("MARKER", k.id).set(owner_keyword(k.body.kind), std::to_string(k.body.id)).word("FLOATING").text();
+      text +=
+          Statement("MARKER", k.id).set(owner_keyword(k.body.kind), std::to_string(k.body.id)).word("FLOATING").text();
       continue;
     }
     text += Statement("MARKER", k.id)
@@ -358,7 +361,11 @@ std::string dataset_text(const Mechanism& m) {
                 .text();
   }
   for (const Joint& j : m.joints) {
-    text += Statement(is_primitive(j.type) ? "JPRIM" : "JOINT", j.id).word(joint_names[static_cast<int>(j.type)]).set("I", j.i).set("J", j.j).text();
+    text += Statement(is_primitive(j.type) ? "JPRIM" : "JOINT", j.id)
+                .word(joint_names[static_cast<int>(j.type)])
+                .set("I", j.i)
+                .set("J", j.j)
+                .text();
   }
   for (const Motion& k : m.motions) {
     const auto joint = std::find_if(m.joints.begin(), m.joints.end(), [&](const Joint& j) { return j.id == k.joint; });

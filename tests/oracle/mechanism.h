@@ -34,7 +34,7 @@ enum class Op {
   varval,
   aryval,
   dif,
-  joint,   // JOINT and JPRIM
+  joint,  // JOINT and JPRIM
   sforce,
   linear,  // BUSH, FIELD, BEAM
   gforce

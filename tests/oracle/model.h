@@ -29,9 +29,8 @@ struct Wrench {
   Vec f, t;  // t about the point that the user of the wrench names
 };
 
-// One scalar constraint. point: (p_I - p_J) . e_J;  direction: e_I . e_J, or e_I . e_J - e_J' . e_I' with the axes swapped;
-// angle: AZ(I,J).
-// A motion subtracts its function of time.
+// One scalar constraint. point: (p_I - p_J) . e_J;  direction: e_I . e_J, or e_I . e_J - e_J' . e_I' with the axes
+// swapped; angle: AZ(I,J). A motion subtracts its function of time.
 struct Row {
   enum class Type { point, direction, angle };
   Type type = Type::point;
@@ -70,7 +69,7 @@ class Model {
   std::vector<Real> z;
   std::vector<Real> variable_values, sforce_values, lambda;
   std::vector<Real> component_values;  // of general forces, six each, in the order of the mechanism
-  std::vector<int> cut;  // per variable: 1 when it is an independent input
+  std::vector<int> cut;                // per variable: 1 when it is an independent input
   std::vector<Real> cut_values;
 
   void update_positions();      // markers from poses
@@ -119,7 +118,7 @@ class Model {
   void apply_springs(std::vector<Wrench>& loads) const;
   void apply_sforces(std::vector<Wrench>& loads) const;
   void apply_linears(std::vector<Wrench>& loads) const;
-  [[nodiscard]] Wrench linear_wrench(const LinearForce& f) const;   // on I, torque about p_I
+  [[nodiscard]] Wrench linear_wrench(const LinearForce& f) const;  // on I, torque about p_I
   [[nodiscard]] Wrench general_wrench(std::size_t k) const;
   [[nodiscard]] Wrench joint_wrench(int joint) const;  // on I, torque about p_I
   [[nodiscard]] Wrench sforce_wrench(const Sforce& s, Real value) const;

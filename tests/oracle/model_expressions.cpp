@@ -1,9 +1,8 @@
 // Function expressions, control elements and placing: the part of the model that reads, not moves.
+#include <algorithm>
 #include <stdexcept>
 
 #include "model.h"
-
-#include <algorithm>
 
 namespace dynalin::oracle {
 

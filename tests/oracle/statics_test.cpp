@@ -1,11 +1,12 @@
 // Static equilibria of generated mechanisms, checked by the oracle's own equations: at the point found nothing
 // accelerates and no state changes. What has no equilibrium that is found says why.
+#include "analysis/statics.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <iostream>
 
-#include "analysis/statics.h"
 #include "elements/catalogue.h"
 #include "oracle/generator.h"
 
@@ -25,8 +26,8 @@ TEST(Statics, generated_mechanisms_come_to_rest_or_say_why_not) {
       anchor.body = ground;
       anchor.qp = {b.qg[0] + 1.3, b.qg[1] - 0.7, b.qg[2] + 2.1};
       mechanism.markers.push_back(anchor);
-      mechanism.springs.push_back({9000 + b.ref.id, Direction::translational, b.cm, anchor.id,
-                                   30 * b.mass / mechanism.ucf, 0, 0, 0.5});
+      mechanism.springs.push_back(
+          {9000 + b.ref.id, Direction::translational, b.cm, anchor.id, 30 * b.mass / mechanism.ucf, 0, 0, 0.5});
     }
     const std::string text = dataset_text(mechanism);
     auto dataset = parse_dataset(std::make_shared<const SourceText>("generated.adm", text));
@@ -55,8 +56,9 @@ TEST(Statics, generated_mechanisms_come_to_rest_or_say_why_not) {
     Model model(mechanism);
     const Layout& layout = system.layout();
     for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
-      const BodyRef ref{layout.bodies[b].kind == ::dynalin::BodyKind::point_mass ? BodyKind::point_mass : BodyKind::part,
-                        static_cast<int>(layout.bodies[b].label.id)};
+      const BodyRef ref{
+          layout.bodies[b].kind == ::dynalin::BodyKind::point_mass ? BodyKind::point_mass : BodyKind::part,
+          static_cast<int>(layout.bodies[b].label.id)};
       BodyMotion& m = model.motion[static_cast<std::size_t>(model.body_index(ref))];
       const Pose& pose = op->poses[b];
       m.p = {pose.r.x, pose.r.y, pose.r.z};
@@ -67,14 +69,16 @@ TEST(Statics, generated_mechanisms_come_to_rest_or_say_why_not) {
       const DifferentialState& z = layout.states[k];
       for (std::size_t s = 0; s < model.slots.size(); ++s) {
         const DifferentialSlot& slot = model.slots[s];
-        if (static_cast<int>(slot.element) == static_cast<int>(z.type) && slot.element_id == z.owner->id && slot.index == z.coordinate) {
+        if (static_cast<int>(slot.element) == static_cast<int>(z.type) && slot.element_id == z.owner->id &&
+            slot.index == z.coordinate) {
           model.z[s] = op->state[k];
         }
       }
     }
     model.update_positions();
     model.update_velocities();
-    for (const Row& row : model.rows) EXPECT_NEAR(static_cast<double>(model.row_position(row)), 0, 1e-10 * static_cast<double>(model.length));
+    for (const Row& row : model.rows)
+      EXPECT_NEAR(static_cast<double>(model.row_position(row)), 0, 1e-10 * static_cast<double>(model.length));
     try {
       model.unpack_algebra(solve_algebra(model));
     } catch (const std::runtime_error&) {

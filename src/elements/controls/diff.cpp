@@ -1,8 +1,9 @@
 // DIFF/id, FUNCTION= [, IC=z [, z′]] [, IMPLICIT] [, STATIC_HOLD]
 //
 // One differential equation. Explicit, z′ = e(…), starting at IC. With IMPLICIT, e(z, z′, …) = 0: a state where e reads
-// its own DIF1, otherwise an algebraic unknown that adds no state. DIF(id) reads z and DIF1(id) z′; that of an algebraic one is
-// the exact time derivative of its equation. With STATIC_HOLD a static solution keeps z; otherwise it looks for z′ = 0.
+// its own DIF1, otherwise an algebraic unknown that adds no state. DIF(id) reads z and DIF1(id) z′; that of an
+// algebraic one is the exact time derivative of its equation. With STATIC_HOLD a static solution keeps z; otherwise it
+// looks for z′ = 0.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -66,8 +67,8 @@ class DiffSet final : public TypedSet<Diff> {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const Diff& d = elements[k];
       if (d.algebraic) {
-        layout.remarks.push_back(fmt::format(
-            "{} does not read its own DIF1: it is algebraic and contributes no state", labels[k].full_text()));
+        layout.remarks.push_back(fmt::format("{} does not read its own DIF1: it is algebraic and contributes no state",
+                                             labels[k].full_text()));
       }
       const Form form = d.algebraic ? Form::implicit_algebraic : d.implicit ? Form::implicit_state : Form::rate;
       items.push_back({d.function, form, d.initial.empty() ? 0.0 : d.initial[0],

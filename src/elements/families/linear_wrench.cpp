@@ -16,6 +16,16 @@ std::array<T, 3> projected_angles(const RelativeFrame<T>& I) {
 
 }  // namespace
 
+bool LinearWrench::turns() const {
+  for (std::size_t r = 0; r < 6; ++r) {
+    if (r >= 3 && force[r] != 0) return true;
+    for (std::size_t c = 0; c < 6; ++c) {
+      if ((r >= 3 || c >= 3) && (K[r][c] != 0 || C[r][c] != 0)) return true;
+    }
+  }
+  return false;
+}
+
 RelativeDisplacement relative_displacement(const PairMotion& pair, std::span<const double> turns) {
   const auto I = path::seeded<12>(pair.relative);
   const auto angles = projected_angles(I);

@@ -24,6 +24,9 @@ struct LinearWrench {
   MarkerId i, j;
   Array66 K{}, C{};          // stiffness and damping
   Array6 length{}, force{};  // displacement at which `force` acts
+
+  // Whether rotations or torques are in it; without them POINT_MASSes will do.
+  bool turns() const;
 };
 
 // The displacement y, its gradient by the relative pose, and the rate y′ with its gradients by pose and rate of pose.
@@ -67,7 +70,8 @@ class LinearWrenchSet final : public TypedSet<LinearWrench> {
   }
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) {
-      check_pair(model, labels[k], elements[k].i, elements[k].j, {true, true, true}, diagnostics);
+      const bool turns = elements[k].turns();
+      check_pair(model, labels[k], elements[k].i, elements[k].j, {true, turns, turns}, diagnostics);
     }
   }
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
