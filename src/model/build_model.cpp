@@ -245,8 +245,11 @@ class Builder {
   Parsed<std::unique_ptr<Model>> build() {
     register_statements();
     read_statements();
-    // Later phases use values of other elements; after an error these may be half read.
-    if (!diagnostics_.has_errors()) {
+    // Later phases use values of other elements; after an error, reported here or when the text was read, these may be
+    // half read.
+    const auto& statements = model_->dataset->statements;
+    const bool damaged = std::any_of(statements.begin(), statements.end(), [](const Statement& s) { return s.damaged; });
+    if (!diagnostics_.has_errors() && !damaged) {
       for (auto& set : model_->sets) set->finish(*model_, diagnostics_);
     }
     return {std::move(model_), std::move(diagnostics_)};
@@ -293,7 +296,7 @@ class Builder {
       set.append(label);
       placements_.push_back({&s, &set, set.size() - 1, variant_argument, preceding});
     }
-    if (!ground) diagnostics_.error("missing-ground", {}, "the dataset has no PART with GROUND");
+    if (!ground && !model_->dataset->statements.empty()) diagnostics_.error("missing-ground", {}, "the dataset has no PART with GROUND");
   }
 
   bool register_id(const Kind& kind, const ElementLabel& label, const ElementSet& set, const Statement& s,

@@ -35,6 +35,12 @@ bool read_value(double& slot, const WrittenArgument& w, const ValueLimits& limit
   return true;
 }
 
+bool read_value(ElsewhereOnly&, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
+  r.error("unexpected-argument", w.name,
+          fmt::format("{} does not go with this type of {}", limits.argument, r.label().statement));
+  return false;
+}
+
 bool read_value(std::optional<double>& slot, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
   double v = 0;
   if (!read_value(v, w, limits, r)) return false;

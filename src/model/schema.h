@@ -32,9 +32,12 @@ inline constexpr std::string_view angular_stiffness = "force·length/rad";
 inline constexpr std::string_view angular_damping = "force·length·time/rad";
 }  // namespace unit
 
+// Marks an argument of another type of the statement, so that an abbreviation here does not take it.
+struct ElsewhereOnly {};
+
 template <class E>
 using Slot =
-    std::variant<bool E::*, double E::*, std::optional<double> E::*, Vector E::*, std::optional<Vector> E::*,
+    std::variant<bool E::*, ElsewhereOnly E::*, double E::*, std::optional<double> E::*, Vector E::*, std::optional<Vector> E::*,
                  std::vector<double> E::*, std::vector<std::vector<double>> E::*, std::optional<std::int64_t> E::*, MarkerId E::*, BodyId E::*,
                  VariableRef E::*, ArrayRef E::*, MatrixRef E::*, JointRef E::*, std::vector<VariableRef> E::*,
                  std::vector<JointRef> E::*, std::vector<std::int64_t> E::*, Expression E::*, VectorExpression E::*, std::string E::*, std::vector<std::string> E::*>;
@@ -55,6 +58,7 @@ struct ValueLimits {
   double minimum;
 };
 bool read_value(double&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(ElsewhereOnly&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(std::optional<double>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(Vector&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(std::optional<Vector>&, const WrittenArgument&, const ValueLimits&, ElementReader&);

@@ -57,5 +57,10 @@ TEST_F(CommandFiles, a_second_model_is_an_error_at_its_place) {
   EXPECT_THAT(commands("LINEAR/EIGENSOL\nFILE/MODEL=model\n").err, HasSubstr("run.acf:2:6: error"));
 }
 
+TEST_F(CommandFiles, a_model_that_is_not_there_is_named_at_its_place) {
+  EXPECT_THAT(commands("nowhere\nout\nLINEAR/EIGENSOL\n").err, HasSubstr("run.acf:1:1: error"));
+  EXPECT_THAT(commands("! no model\nLINEAR/EIGENSOL\n").err, HasSubstr("[missing-model]"));
+}
+
 }  // namespace
 }  // namespace dynalin::cases

@@ -18,16 +18,22 @@ struct RotationalSpringDamper {
   double free_angle = 0;  // [rad]
   double preload = 0;     // [force·length] at AZ = free_angle
 
+  ElsewhereOnly elsewhere;
+
   static constexpr std::string_view keyword = "SPRINGDAMPER", variant = "ROTATIONAL";
   static constexpr std::string_view summary = "Spring and damper about the z axis of marker J.";
   static constexpr bool acts_on_rotation = true;
-  static constexpr std::array<Argument<RotationalSpringDamper>, 6> arguments = {{
+  static constexpr std::array<Argument<RotationalSpringDamper>, 10> arguments = {{
       {.name = "I", .slot = &RotationalSpringDamper::i, .required = true, .help = "marker the torque acts on"},
       {.name = "J", .slot = &RotationalSpringDamper::j, .required = true, .help = "marker the reaction acts on"},
       {.name = "KT", .slot = &RotationalSpringDamper::stiffness, .unit = unit::angular_stiffness, .minimum = 0},
       {.name = "CT", .slot = &RotationalSpringDamper::damping, .unit = unit::angular_damping, .minimum = 0},
       {.name = "ANGLE", .slot = &RotationalSpringDamper::free_angle, .unit = unit::angle},
       {.name = "TORQUE", .slot = &RotationalSpringDamper::preload, .unit = unit::torque, .help = "torque at ANGLE"},
+      {.name = "K", .slot = &RotationalSpringDamper::elsewhere, .help = "goes with TRANSLATIONAL"},
+      {.name = "C", .slot = &RotationalSpringDamper::elsewhere, .help = "goes with TRANSLATIONAL"},
+      {.name = "LENGTH", .slot = &RotationalSpringDamper::elsewhere, .help = "goes with TRANSLATIONAL"},
+      {.name = "FORCE", .slot = &RotationalSpringDamper::elsewhere, .help = "goes with TRANSLATIONAL"},
   }};
 
   template <class S>

@@ -19,16 +19,22 @@ struct SpringDamper {
   double free_length = 0;  // [length]
   double preload = 0;      // [force] at d = free_length
 
+  ElsewhereOnly elsewhere;
+
   static constexpr std::string_view keyword = "SPRINGDAMPER", variant = "TRANSLATIONAL";
   static constexpr std::string_view summary = "Spring and damper along the line between two markers.";
   static constexpr bool acts_on_rotation = false;
-  static constexpr std::array<Argument<SpringDamper>, 6> arguments = {{
+  static constexpr std::array<Argument<SpringDamper>, 10> arguments = {{
       {.name = "I", .slot = &SpringDamper::i, .required = true, .help = "marker the force acts on"},
       {.name = "J", .slot = &SpringDamper::j, .required = true, .help = "marker the reaction acts on"},
       {.name = "K", .slot = &SpringDamper::stiffness, .unit = unit::stiffness, .minimum = 0},
       {.name = "C", .slot = &SpringDamper::damping, .unit = unit::damping, .minimum = 0},
       {.name = "LENGTH", .slot = &SpringDamper::free_length, .unit = unit::length, .minimum = 0},
       {.name = "FORCE", .slot = &SpringDamper::preload, .unit = unit::force, .help = "force at d = LENGTH"},
+      {.name = "KT", .slot = &SpringDamper::elsewhere, .help = "goes with ROTATIONAL"},
+      {.name = "CT", .slot = &SpringDamper::elsewhere, .help = "goes with ROTATIONAL"},
+      {.name = "ANGLE", .slot = &SpringDamper::elsewhere, .help = "goes with ROTATIONAL"},
+      {.name = "TORQUE", .slot = &SpringDamper::elsewhere, .help = "goes with ROTATIONAL"},
   }};
 
   template <class S>

@@ -1,0 +1,286 @@
+// Wrong input: every problem with its code, line and column, and nothing written.
+#include <gmock/gmock.h>
+
+#include <set>
+#include <sstream>
+
+#include "base/diagnostics.h"
+#include "cases/run.h"
+
+namespace dynalin::cases {
+namespace {
+
+// Where the text stands: behind nine lines of a sound dataset, as the whole dataset, or as commands from line 3 on.
+enum class Place { added, whole, command };
+struct Wrong {
+  Place place;
+  const char* text;
+  std::vector<std::string> problems;  // "code line:column"
+};
+
+const std::string sound =
+    "Wrong input\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, PART=1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20, PART=2\n"
+    "MARKER/21, PART=2, QP=0,0,1\nJOINT/1, REVOLUTE, I=20, J=1\nVARIABLE/1, FUNCTION=1\n";
+
+const std::vector<Wrong>& table() {
+  // clang-format off
+  static const std::vector<Wrong> rows = {
+    {Place::added, "PA/9, MASS=1, CM=90", {"unknown-marker 10:18"}},
+    {Place::added, "GRX/1", {"unknown-statement 10:1"}},
+    {Place::added, "JOINT/5", {"missing-variant 10:1"}},
+    {Place::added, "PART/9, QG=1\x01"",2", {"bad-character 10:13"}},
+    {Place::added, "PART/0, MASS=1", {"bad-id 10:6"}},
+    {Place::added, "PART/99999999999, MASS=1", {"bad-id 10:6"}},
+    {Place::added, "PART/9, MASS=1D3, CM=90", {"expected-number 10:15", "unknown-marker 10:22"}},
+    {Place::added, "PART/9,, QG=1,2,3", {"empty-argument 10:8"}},
+    {Place::added, "PART/9, QG=1 2 3", {"expected-comma 10:14"}},
+    {Place::added, "JOINT/9, FIXED, I=2.5, J=1", {"expected-integer 10:19"}},
+    {Place::added, "PART/9, QG=1,2,x", {"wrong-count 10:12", "missing-value 10:16"}},
+    {Place::added, "PART/9, EXACT=1:2", {"expected-word 10:15"}},
+    {Place::added, "PART/123456789, QG=1,2,3", {"long-id 10:6"}},
+    {Place::added, "PART/9, QG=", {"missing-value 10:11"}},
+    {Place::added, "MARKER/9, QP=1,,3", {"missing-value 10:16"}},
+    {Place::whole, "PART/1, GROUND\nEND\n", {"missing-title 1:1"}},
+    {Place::whole, "title\nPART/1, GROUND\n", {"missing-end 2:15"}},
+    {Place::whole, "", {"empty-dataset 1:1"}},
+    {Place::whole, "   \n \n", {"empty-dataset 1:1"}},
+    {Place::added, "this is no statement", {"not-a-statement 10:1"}},
+    {Place::added, "PART/9, QG=1e999,2,3", {"number-overflow 10:12"}},
+    {Place::added, "PART/9, = 3", {"stray-equals 10:9"}},
+    {Place::added, "VARIABLE/9, FUNCTION=(1+2", {"unbalanced-parenthesis 10:22"}},
+    {Place::added, "VARIABLE/9, FUNCTION=1+2)", {"unbalanced-parenthesis 10:25"}},
+    {Place::added, "PART/9, 3 4", {"unexpected-text 10:9"}},
+    {Place::added, "FOO/9, X=1", {"unknown-statement 10:1"}},
+    {Place::added, "PART/9, QG=1,2", {"wrong-count 10:12"}},
+    {Place::added, "PART/9, IP=1,2", {"missing-cm 10:1", "wrong-count 10:9", "inertia-without-mass 10:9"}},
+    {Place::added, "FIELD/9, I=20, J=1, KMATRIX=1,2,3", {"wrong-count 10:21"}},
+    {Place::added, "BUSHING/9, I=20, J=1, K=1", {"wrong-count 10:23"}},
+    {Place::added, "BEAM/9, I=20, J=1, LENGTH=1, AREA=1, IXX=1, IYY=1, IZZ=1, EMOD=1, GMOD=1, CMATRIX=1,2", {"wrong-count 10:75"}},
+    {Place::added, "VARIABLE/9, FUNCTION=DX(20,1,0,0)", {"wrong-argument-count 10:22"}},
+    {Place::added, "VARIABLE/9, FUNCTION=DX(0,1)", {"argument-range 10:25"}},
+    {Place::added, "VARIABLE/9, FUNCTION=", {"missing-value 10:21"}},
+    {Place::added, "VARIABLE/9, FUNCTION=SQRT(-3)", {"function-domain 10:22"}},
+    {Place::added, "VARIABLE/9, FUNCTION=USER(1)", {"function-not-built 10:22"}},
+    {Place::added, "VARIABLE/9, FUNCTION=(1,2)", {"misplaced-separator 10:24"}},
+    {Place::added, "VARIABLE/9, FUNCTION=DX", {"missing-arguments 10:22"}},
+    {Place::added, "VARIABLE/9, FUNCTION=1+*2", {"missing-operand 10:24"}},
+    {Place::added, "VARIABLE/9, FUNCTION=2 3", {"missing-operator 10:24"}},
+    {Place::added, "VARIABLE/9, FUNCTION=FOO(1)", {"unknown-function 10:22"}},
+    {Place::added, "VARIABLE/9, FUNCTION=DXYZ(20)", {"vector-mismatch 10:22"}},
+    {Place::added, "VARIABLE/9, FUNCTION=SIN(1,2)", {"wrong-argument-count 10:22"}},
+    {Place::added, "JOINT/9, REVOLUTE, I=20, J=1, IC=1,2,3", {"wrong-count 10:31"}},
+    {Place::added, "MOTION/9, JOINT=1, FUNCTION=1, D=3", {"unexpected-value 10:32"}},
+    {Place::added, "DIFF/9, FUNCTION=1, DYNAMIC_HOLD", {"argument-not-built 10:21"}},
+    {Place::added, "PART/9, GROUND, MASS=1", {"duplicate-ground 10:1", "argument-of-ground 10:9"}},
+    {Place::added, "MARKER/9, PART=2, RM=8\nMARKER/8, PART=2, RM=9", {"circular-reference 10:1", "circular-reference 11:1"}},
+    {Place::added, "MARKER/9, PART=2, REULER=1,2,3, ZP=1,2,3", {"conflicting-orientation 10:33"}},
+    {Place::added, "MARKER/9, PART=2, ZP=0,0,0", {"degenerate-orientation 10:19"}},
+    {Place::added, "MARKER/9, PART=2, ZP=0,0,1, XP=0,0,2", {"degenerate-orientation 10:29"}},
+    {Place::added, "PART/9, MASS=1, MASS=2, CM=20", {"duplicate-argument 10:17"}},
+    {Place::added, "PART/9, GROUND", {"duplicate-ground 10:1"}},
+    {Place::added, "PART/2, MASS=1", {"duplicate-id 10:1"}},
+    {Place::added, "UNITS/SYSTEM=MKS", {"duplicate-statement 10:1"}},
+    {Place::added, "JOINT/9, REVOLUTE, FIXED, I=20, J=1", {"duplicate-variant 10:20"}},
+    {Place::added, "FIELD/9, I=20, J=1, CRATIO=1, KMATRIX=1, CMATRIX=1", {"excluded-arguments 10:21", "wrong-count 10:31", "wrong-count 10:42"}},
+    {Place::added, "VFORCE/9, I=20, JFLOAT=1, RM=1, FX=1", {"fixed-marker 10:1"}},
+    {Place::added, "MARKER/9, PART=2, FLOATING\nJOINT/9, FIXED, I=9, J=1", {"floating-marker 11:1"}},
+    {Place::added, "PART/9, MASS=1, CM=20", {"foreign-marker 10:1"}},
+    {Place::added, "PART/9, MASS=1, CM=90\nMARKER/90, PART=9, FLOATING", {"foreign-marker 10:1"}},
+    {Place::added, "MARKER/9, PART=2, RM=1", {"foreign-reference 10:1"}},
+    {Place::added, "MOTION/9, JOINT=1, FUNCTION=DX(20,1)", {"function-of-state 10:29"}},
+    {Place::added, "MOTION/9, JOINT=1, FUNCTION=VARVAL(1)", {"function-of-state 10:29"}},
+    {Place::added, "PART/9, MASS=1, CM=90, IP=1,1,9\nMARKER/90, PART=9", {"impossible-inertia 10:1"}},
+    {Place::added, "TFSISO/9, U=1, X=2, Y=3, NUM=1,2,3, DEN=1,2\nARRAY/1, U, VARIABLES=1\nARRAY/2, X\nARRAY/3, Y", {"improper-transfer-function 10:26"}},
+    {Place::added, "PART/9, CM=90, IP=1,1,1\nMARKER/90, PART=9", {"inertia-without-mass 10:16"}},
+    {Place::added, "JOINT/9, FIXED, I=20", {"missing-argument 10:1"}},
+    {Place::added, "PART/9, MASS=1", {"missing-cm 10:1"}},
+    {Place::added, "PART/9, IP=1,1,1", {"missing-cm 10:1", "inertia-without-mass 10:9"}},
+    {Place::whole, "t\nUNITS/SYSTEM=MKS\nPART/2, MASS=1, CM=20\nMARKER/20\nEND\n", {"missing-ground 0:0"}},
+    {Place::added, "PART, MASS=1", {"not-a-statement 10:1"}},
+    {Place::added, "MARKER, PART=2", {"not-a-statement 10:1"}},
+    {Place::whole, "t\nMARKER/1\nPART/1, GROUND\nEND\n", {"missing-owner 2:1"}},
+    {Place::added, "JOINT/9, I=20, J=1", {"missing-variant 10:1"}},
+    {Place::added, "JPRIM/9, I=20, J=1", {"missing-variant 10:1"}},
+    {Place::whole, "t\nUNITS/SYSTEM=MKS, LENGTH=METER\nPART/1, GROUND\nEND\n", {"mixed-units 2:1"}},
+    {Place::whole, "t\nUNITS/LENGTH=METER\nPART/1, GROUND\nEND\n", {"mixed-units 2:1"}},
+    {Place::added, "PART/9, MASS=1, CM=90, IP=1,1,-1\nMARKER/90, PART=9", {"negative-inertia 10:1"}},
+    {Place::added, "MARKER/9, PART=2, FLOATING, QP=1,2,3", {"placed-floating-marker 10:19"}},
+    {Place::added, "POINT_MASS/9, MASS=1, CM=90\nMARKER/90\nJOINT/9, FIXED, I=90, J=1", {"rotation-of-point-mass 12:1"}},
+    {Place::added, "POINT_MASS/9, MASS=1, CM=90\nMARKER/90\nSPRINGDAMPER/9, ROTATIONAL, I=90, J=1, KT=1", {"rotation-of-point-mass 12:1"}},
+    {Place::added, "POINT_MASS/9, MASS=1, CM=90\nMARKER/90\nBUSHING/9, I=90, J=1, KT=1,1,1", {"rotation-of-point-mass 12:1"}},
+    {Place::added, "JOINT/9, FIXED, I=20, J=21", {"same-body 10:1"}},
+    {Place::added, "SFORCE/9, TRANSLATIONAL, I=20, J=21, FUNCTION=1", {"same-body 10:1"}},
+    {Place::added, "JPRIM/9, INLINE, I=21, J=20", {"same-body 10:1"}},
+    {Place::added, "LSE/8, X=2, U=1, A=1\nLSE/9, X=2, U=1, A=1\nMATRIX/1, FULL=RORDER, ROWS=1, COLUMNS=1, VALUES=1\nARRAY/1, U, VARIABLES=1\nARRAY/2, X", {"missing-argument 10:13", "missing-argument 11:13"}},
+    {Place::added, "FLEX_BODY/9", {"statement-not-built 10:1"}},
+    {Place::added, "GSE/9", {"statement-not-built 10:1"}},
+    {Place::added, "MARKER/9, PART=2, POINT_MASS=7\nPOINT_MASS/7", {"two-owners 10:19"}},
+    {Place::added, "ARRAY/9, U, X", {"two-types 10:1"}},
+    {Place::added, "JOINT/9, SPHERICAL, I=20, J=1\nMOTION/9, JOINT=9, FUNCTION=1", {"undrivable-joint 11:1"}},
+    {Place::added, "JOINT/9, FIXED, I=20, J=1\nCOUPLER/9, JOINTS=1,9, SCALES=1", {"undrivable-joint 11:1"}},
+    {Place::added, "JOINT/9, PLANAR, I=20, J=1\nMOTION/9, JOINT=9, FUNCTION=TIME", {"undrivable-joint 11:1"}},
+    {Place::added, "ARRAY/9, X, NUMBERS=1", {"unexpected-argument 10:13"}},
+    {Place::added, "JOINT/9, REVOLUTE, I=20, J=1, PITCH=3", {"unexpected-argument 10:31"}},
+    {Place::added, "JOINT/9, SCREW, I=20, J=1, PD=3", {"missing-argument 10:1", "unexpected-argument 10:28"}},
+    {Place::added, "JOINT/9, SPHERICAL, I=20, J=1, IC=3", {"unexpected-argument 10:32"}},
+    {Place::added, "MOTION/9, JOINT=1, FUNCTION=1, ICDISP=2", {"unexpected-argument 10:32"}},
+    {Place::added, "PART/9=3", {"stray-equals 10:7"}},
+    {Place::added, "JOINT/9, FIXED=3, I=20, J=1", {"missing-variant 10:1"}},
+    {Place::added, "PART/9, FOO=1", {"unknown-argument 10:9"}},
+    {Place::added, "SPRINGDAMPER/9, TRANSLATIONAL, I=20, J=1, KT=3", {"unexpected-argument 10:43"}},
+    {Place::added, "SPRINGDAMPER/9, ROTATIONAL, I=20, J=1, K=3", {"unexpected-argument 10:40"}},
+    {Place::added, "MARKER/9, PART=77", {"unknown-body 10:16"}},
+    {Place::added, "MARKER/9, POINT_MASS=2", {"unknown-body 10:22"}},
+    {Place::added, "JOINT/9, FIXED, I=20, J=77", {"unknown-marker 10:25"}},
+    {Place::added, "VARIABLE/9, FUNCTION=VARVAL(77)", {"unknown-element 10:29"}},
+    {Place::added, "MOTION/9, JOINT=77, FUNCTION=1", {"unknown-element 10:17"}},
+    {Place::added, "VARIABLE/9, FUNCTION=AKISPL(TIME,0,77)", {"unknown-element 10:36"}},
+    {Place::whole, "t\nUNITS/LENGTH=FURLONG, MASS=KILOGRAM, FORCE=NEWTON, TIME=SECOND\nPART/1, GROUND\nEND\n", {"unknown-unit 2:7"}},
+    {Place::added, "PART/9, EXACT=X:FOO", {"unknown-word 10:9"}},
+    {Place::added, "COUPLER/9, JOINTS=1,1, SCALES=1, TYPE=T:Q", {"unknown-word 10:34"}},
+    {Place::added, "MATRIX/9, FILE=no_such.mat, NAME=a", {"unreadable-file 10:11"}},
+    {Place::added, "SPLINE/9, FILE=no_such.txt", {"unreadable-file 10:11"}},
+    {Place::added, "SPRINGDAMPER/9, TRANSLATIONAL, I=20, J=1, K=-3", {"value-out-of-range 10:45"}},
+    {Place::added, "BUSHING/9, I=20, J=1, K=1,-1,1", {"value-out-of-range 10:23"}},
+    {Place::added, "PART/9, MASS=-1, CM=90", {"value-out-of-range 10:14", "unknown-marker 10:21"}},
+    {Place::added, "LSE/9, X=1, U=1, A=1\nMATRIX/1, FULL=RORDER, ROWS=1, COLUMNS=1, VALUES=1\nARRAY/1, U, VARIABLES=1", {"missing-argument 10:13"}},
+    {Place::added, "JOINT/9, CYLINDRICAL, I=20, J=1\nMOTION/9, JOINT=9, FUNCTION=1", {"wrong-freedom 11:1"}},
+    {Place::added, "MOTION/9, JOINT=1, TRANSLATION, FUNCTION=1", {"wrong-freedom 10:1"}},
+    {Place::added, "MOTION/9, I=20, J=1, FUNCTION=1", {"wrong-freedom 10:1"}},
+    {Place::added, "MOTION/9, JOINT=1, I=20, J=1, X, FUNCTION=1", {"excluded-arguments 10:1"}},
+    {Place::added, "MOTION/9, FUNCTION=1", {"missing-argument 10:1"}},
+    {Place::added, "LSE/9, X=2, U=1, A=1\nMATRIX/1, FULL=RORDER, ROWS=1, COLUMNS=2, VALUES=1,2\nARRAY/1, U, VARIABLES=1\nARRAY/2, X", {"missing-argument 10:13"}},
+    {Place::added, "MATRIX/9, FULL=RORDER, ROWS=2, COLUMNS=2, VALUES=1,2,3", {"wrong-count 10:43"}},
+    {Place::added, "TFSISO/9, U=1, X=2, Y=3, NUM=1, DEN=1,2,0\nARRAY/1, U, VARIABLES=1\nARRAY/2, X\nARRAY/3, Y", {"zero-leading-coefficient 10:33"}},
+    {Place::added, "JOINT/9, REVOLUTE, I=29, J=1\nMARKER/29, PART=2, REULER=0,180D,0", {"opposed-axes 10:1"}},
+    {Place::added, "GEAR/9, JOINTS=1,1, CV=20\nJOINT/8, REVOLUTE, I=20, J=1", {"suspicious-gear 10:1", "suspicious-gear 10:1"}},
+    {Place::added, "GEAR/9, JOINTS=1,1, CV=5\nMARKER/5, PART=1, QP=1,0,0", {"suspicious-gear 10:1", "suspicious-gear 10:1"}},
+    {Place::added, "GEAR/9, JOINTS=1, CV=1", {"wrong-count 10:9"}},
+    {Place::added, "COUPLER/9, JOINTS=1, SCALES=1", {"wrong-count 10:12"}},
+    {Place::added, "COUPLER/9, JOINTS=1,1,1, SCALES=1", {"wrong-count 10:26"}},
+    {Place::added, "GCON/9, FUNCTION=ACCX(20)", {"unfit-constraint 10:18"}},
+    {Place::added, "GCON/9, FUNCTION=ABS(DX(20))", {"unfit-constraint 10:18"}},
+    {Place::added, "GCON/9, FUNCTION=JOINT(1,0,2,0)", {"unfit-constraint 10:18"}},
+    {Place::added, "SPLINE/9, X=1,2,3, Y=1,2,3", {"spline-data 10:11"}},
+    {Place::added, "SPLINE/9, X=1,2,2,3, Y=1,2,3,4", {"spline-data 10:11"}},
+    {Place::added, "SPLINE/9, X=1,2,3,4, Y=1,2,3", {"wrong-count 10:22"}},
+    {Place::added, "PART/9, QG=1,2,3, ZG=1,2,3, REULER=1,2,3", {"conflicting-orientation 10:19"}},
+    {Place::added, ", QG=1,2,3", {"unknown-argument 10:3"}},
+    {Place::whole, "t\n, MASS=1\nPART/1, GROUND\nEND\n", {"stray-continuation 2:1"}},
+    {Place::added, "NFORCE/9, IMARKERS=20, J=1, FUNCTION=USER(1)", {"function-not-built 10:38"}},
+    {Place::added, "BEAM/9, I=20, J=1, LENGTH=1, AREA=1, IXX=1, IYY=1, IZZ=1, EMOD=1, GMOD=1, FORM=STRING", {"argument-not-built 10:75"}},
+    {Place::added, "SFORCE/9, ROTATIONAL, I=20, J=1", {"missing-argument 10:1"}},
+    {Place::added, "VARIABLE/9, FUNCTION=BUSH(77,0,1,0)", {"unknown-element 10:27"}},
+    {Place::added, "JOINT/9, SCREW, I=20, J=1", {"missing-argument 10:1"}},
+    {Place::added, "JOINT/9, RACKPIN, I=20, J=1", {"missing-argument 10:1"}},
+    {Place::command, "LINEAR/EIGENSOL, STATEMAT, FILE=x", {"excluded-arguments 3:18", "wrong-option 3:28"}},
+    {Place::command, "LINEAR", {"missing-option 3:1"}},
+    {Place::command, "LINEAR/MKB, FILE=x", {"option-not-built 3:8"}},
+    {Place::command, "FOO/1", {"unknown-command 3:1"}},
+    {Place::command, "SIMULATE/TRANSIENT, END=1", {"command-not-built 3:10"}},
+    {Place::command, "SIMULATE", {"missing-option 3:1"}},
+    {Place::command, "LINEAR/EIGENSOL, COORDS=1", {"table-not-built 3:18"}},
+    {Place::command, "LINEAR/STATEMAT, FILE=x, KINETIC=1", {"wrong-option 3:26"}},
+    {Place::command, "LINEAR/EIGENSOL, FILE=x", {"wrong-option 3:18"}},
+    {Place::command, "FILE/COMMAND=x", {"command-not-built 3:6"}},
+    {Place::command, "FILE/MODEL=x", {"second-model 3:6"}},
+    {Place::command, "LINEAR/EIGENSOL, PSTATE=9", {"unknown-element 3:1"}},
+    {Place::command, "LINEAR/EIGENSOL, RM=9", {"unknown-element 3:1"}},
+    {Place::command, "LINEAR/EXPORT", {"missing-argument 3:8", "missing-argument 3:8"}},
+    {Place::command, "ACTIVATE/MOTION, ID=3", {"command-not-built 3:1"}},
+    {Place::command, "LINEAR/EIGENSOL, ORIGINAL", {"option-not-built 3:18"}},
+    {Place::added, "SPRINGDAMPER/9, TRANSLATIONAL, I=20, J=1, K=3, ANGLE=2", {"unexpected-argument 10:48"}},
+    {Place::added, "PART/9, M=1, CM=20, V=3", {"ambiguous-argument 10:21"}},
+    {Place::added, "ARRAY/9, U, VARIABLES=1\nLSE/9, X=9, U=9, A=1, B=1\nMATRIX/1, FULL=RORDER, ROWS=1, COLUMNS=1, VALUES=1", {"wrong-array-type 11:1"}},
+    {Place::added, "ARRAY/7, X\nARRAY/9, U, VARIABLES=1\nLSE/8, X=7, U=9, A=1, B=1\nLSE/9, X=7, U=9, A=1, B=1\nMATRIX/1, FULL=RORDER, ROWS=1, COLUMNS=1, VALUES=1", {"shared-array 13:1"}},
+    {Place::added, "ARRAY/7, X, SIZE=3\nARRAY/9, U, VARIABLES=1\nLSE/8, X=7, U=9, A=1, B=1\nMATRIX/1, FULL=RORDER, ROWS=1, COLUMNS=1, VALUES=1", {"wrong-size 10:1"}},
+    {Place::added, "PART/9, MASS=1, CM=90, IM=20\nMARKER/90, PART=9", {"foreign-marker 10:1"}},
+    {Place::added, "MARKER/9, PART=2, USEXP, ZP=0,0,1", {"missing-argument 10:19"}},
+    {Place::added, "MARKER/9, PART=2, ZP=1,0,0, USEXP, XP=2,0,0", {"degenerate-orientation 10:19"}},
+    {Place::added, "PART/9, GROUND\nPART/10, GROUND", {"duplicate-ground 10:1", "duplicate-ground 11:1"}},
+    {Place::added, "JOINT/1, FIXED, I=20, J=1", {"duplicate-id 10:1"}},
+    {Place::added, "MARKER/20, PART=1", {"duplicate-id 10:1"}},
+    {Place::added, "JOINT/9, FIXED, I=77, J=78", {"unknown-marker 10:19", "unknown-marker 10:25"}},
+    {Place::added, "GEAR/9, JOINTS=1,8, CV=5\nMARKER/5, PART=3\nPART/3\nPART/4\nMARKER/40, PART=4\nJOINT/8, REVOLUTE, I=40, J=20", {"foreign-marker 10:1", "foreign-marker 10:1"}},
+    {Place::added, "VARIABLE/9, FUNCTION=((1+2)", {"unbalanced-parenthesis 10:22"}},
+    {Place::added, "VARIABLE/9, FUNCTION=SINN(1)", {"unknown-function 10:22"}},
+    {Place::added, "SPLINE/9, X=1,2,3,4", {"missing-argument 10:1"}},
+    {Place::added, "VFORCE/9, I=20, JFLOAT=9, RM=1, FX=1\nMARKER/9, PART=2, FLOATING", {"same-body 10:1"}},
+    {Place::added, "MARKER/9, PART=1, FLOATING\nVFORCE/9, I=20, JFLOAT=9, RM=9, FX=1", {"floating-marker 11:1"}},
+    {Place::added, "MATRIX/9, SPARSE, I=1, J=3, VALUES=2, ROWS=2, COLUMNS=2", {"value-out-of-range 10:19"}},
+    {Place::added, "MATRIX/9, ROWS=2", {"missing-argument 10:1"}},
+    {Place::added, "C=1", {"not-a-statement 10:1"}},
+    {Place::added, "PA/9, MA=1", {"missing-cm 10:1"}},
+    {Place::added, "ACCGRAV/IGRAV=1, FOO=2", {"unknown-argument 10:18"}},
+    {Place::added, "MARKER/9, PART=2, REULER=1,2", {"wrong-count 10:26"}},
+    {Place::command, "SI", {"missing-option 3:1"}},
+    {Place::command, "FILE/MODEL=m, FOO=1", {"unknown-argument 3:15"}},
+    {Place::command, "LINEAR/EIG, NODAMPIN=3", {"unexpected-value 3:13"}},
+    {Place::command, "LINEAR/EIGENSOL\nFILE/MODEL=m", {"second-model 4:6"}},
+    {Place::command, "LINEAR/STATEMAT", {"missing-argument 3:8"}},
+    {Place::command, "LINEAR/STATEMAT, FILE=x, FORMAT=FOO", {"unknown-word 3:26"}},
+    {Place::added, "PART/, MASS=1", {"missing-id 10:1"}},
+    {Place::added, "JOINT/, FIXED, I=20, J=1", {"missing-id 10:1"}},
+    {Place::added, "PART/9, MASS=1, CM=1E2D, QG=1,2,3", {"expected-integer 10:20"}},
+    {Place::added, "PART/9, QG=1D3,2,3", {"expected-number 10:13"}},
+    {Place::added, "PART/9, MASS=1.5D3E2", {"expected-number 10:17"}},
+  };
+  // clang-format on
+  return rows;
+}
+
+class WrongInput : public Cases, public ::testing::WithParamInterface<std::size_t> {};
+
+// "code line:column" of every problem of the two files, in the order of the output.
+std::vector<std::string> problems_of(const std::string& err) {
+  std::vector<std::string> list;
+  std::istringstream lines(err);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t bracket = line.rfind(" [");
+    const bool error = line.find("error: ") != std::string::npos, warning = line.find("warning: ") != std::string::npos;
+    if (bracket == std::string::npos || line.back() != ']' || (!error && !warning)) continue;
+    const std::string code = line.substr(bracket + 2, line.size() - bracket - 3);
+    const std::size_t file = line.find("model.a");
+    std::string at = "0:0";
+    if (file != std::string::npos) at = line.substr(file + 10, line.find(": ", file) - file - 10);
+    list.push_back(code + " " + at);
+  }
+  return list;
+}
+
+TEST_P(WrongInput, is_reported_with_code_line_and_column) {
+  const Wrong& w = table()[GetParam()];
+  write("model.adm", w.place == Place::whole ? w.text : sound + (w.place == Place::added ? std::string(w.text) + "\n" : "") + "END\n");
+  write("model.acf", std::string("model\nmodel\n") + (w.place == Place::command ? w.text : "LINEAR/EIGENSOL") + "\n");
+  const RunResult r = run_file("model.acf");
+  EXPECT_EQ(problems_of(r.err), w.problems) << w.text << "\n" << r.err;
+  const bool wrong = r.err.find("error: ") != std::string::npos && r.status == 1;
+  if (wrong) {
+    EXPECT_FALSE(r.wrote("model.msg"));
+    EXPECT_FALSE(r.wrote("results.json"));
+  }
+}
+INSTANTIATE_TEST_SUITE_P(table, WrongInput, ::testing::Range<std::size_t>(0, table().size()));
+
+TEST(WrongInputTable, has_every_code_but_those_that_unit_tests_hold) {
+  std::set<std::string> covered = {
+      // dataset/statements_test, lexer and parser tests
+      "ambiguous-keyword", "degrees-not-exponent", "not-text", "too-many-errors", "empty-expression", "missing-id",
+      // command_file_test
+      "missing-model",
+      // dataset/matrix_file_test
+      "matrix-complex", "matrix-count", "matrix-entry", "matrix-file-type", "matrix-header",
+      "matrix-implied-point", "matrix-missing", "matrix-number", "matrix-truncated"};
+  for (const Wrong& w : table()) {
+    for (const std::string& p : w.problems) covered.insert(p.substr(0, p.find(' ')));
+  }
+  static constexpr std::string_view codes[] = {
+#define DYNALIN_DIAGNOSTIC(code, text) code,
+#include "base/diagnostics.def"
+#undef DYNALIN_DIAGNOSTIC
+  };
+  for (const std::string_view code : codes) EXPECT_TRUE(covered.contains(std::string(code))) << code;
+}
+
+}  // namespace
+}  // namespace dynalin::cases
