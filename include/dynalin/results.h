@@ -56,11 +56,24 @@ struct StateSpace {
   Eigen::MatrixXd A, B, C, D;
 };
 
+// M s″ + B s′ + K s = P u, y = C (s, s′) + D u with s = (x, z).
+struct SecondOrder {
+  double time = 0;
+  std::vector<StateLabel> states;  // of s
+  std::vector<ChannelLabel> inputs, outputs;
+  std::int64_t pinput = 0, poutput = 0;
+  Eigen::MatrixXd M, B, K, P, C, D;
+};
+
 // Eigenvalues λ/2π in printed order: real ones by ascending modulus, then complex pairs, one entry each with
 // positive imaginary part, by ascending imaginary part.
 struct EigenMode {
   std::complex<double> eigenvalue_hz;
   bool is_real = false;
+  // How far a change of A moves the eigenvalue: |δλ| ≤ condition · ‖δA‖ to first order; infinite for a defective one.
+  // 0 if it was not asked for.
+  double condition = 0;
+  double backward_error = 0;  // ‖A v − λ v‖ / ‖A‖ of the computed pair
   std::string moves_most;  // the part with the largest motion, or the controller where no part moves; empty: not known
 };
 

@@ -8,6 +8,7 @@
 
 #include "base/diagnostics.h"
 #include "base/source.h"
+#include "dynalin/results.h"
 
 namespace dynalin {
 
@@ -23,6 +24,18 @@ struct LinearCommand {
   std::optional<std::int64_t> rm, pstate, pinput, poutput;
   bool without_damping = false, without_vectors = false, original = false, names = false;
   std::string file, format = "MATRIXX", type, config;
+  // Which modes a table is for: numbers i1 … i2, or |imaginary part| between two frequencies.
+  struct Modes {
+    std::vector<std::int64_t> numbers;
+    std::vector<double> frequencies;
+    bool wanted() const { return !numbers.empty() || !frequencies.empty(); }
+    bool has(std::size_t number, const EigenMode&) const;
+  };
+  Modes coordinates, kinetic, strain, dissipation;
+  int table_precision = 2;
+  bool wants_tables() const {
+    return coordinates.wanted() || kinetic.wanted() || strain.wanted() || dissipation.wanted();
+  }
   std::vector<std::string> tables;  // arguments that ask for tables not available yet, as named
 };
 

@@ -193,6 +193,15 @@ class Rules {
 
 }  // namespace
 
+bool LinearCommand::Modes::has(std::size_t number, const EigenMode& mode) const {
+  if (!frequencies.empty()) {
+    const double f = std::abs(mode.eigenvalue_hz.imag());
+    return !mode.is_real && f >= frequencies[0] && f <= frequencies[1];
+  }
+  const auto n = static_cast<std::int64_t>(number);
+  return !numbers.empty() && n >= numbers.front() && n <= numbers.back();
+}
+
 std::optional<LinearCommand> read_linear(ElementReader& reader) {
   WrittenLinear w;
   const std::size_t before = reader.diagnostics().error_count();
@@ -210,17 +219,20 @@ std::optional<LinearCommand> read_linear(ElementReader& reader) {
   c.file = w.file, c.config = w.config;
   static constexpr std::array<std::string_view, 2> formats = {"MATRIXX", "MATLAB"};
   if (!w.format.empty()) c.format = formats[*find_keyword(w.format.front(), formats)];
-  if (c.option == LinearOption::mkb || c.option == LinearOption::nastran_export) {
-    const std::string_view name = c.option == LinearOption::mkb ? "MKB" : "EXPORT";
-    reader.error("option-not-built", reader.at(name), fmt::format("LINEAR/{} is not available yet", name));
+  if (c.option == LinearOption::nastran_export) {
+    reader.error("option-not-built", reader.at("EXPORT"), "LINEAR/EXPORT is not available yet");
     return std::nullopt;
   }
   if (w.original) {
     reader.error("option-not-built", reader.at("ORIGINAL"), "ORIGINAL is not available yet");
     return std::nullopt;
   }
-  for (const auto name : {"COORDS", "KINETIC", "STRAIN", "DISSIPAT", "FCOORDS", "FKINETIC", "FSTRAIN", "FDISSIPAT",
-                          "MLIST", "ENERGY_PER_MODE", "MASS_PER_MODE"}) {
+  c.coordinates = {w.coords, w.fcoords};
+  c.kinetic = {w.kinetic, w.fkinetic};
+  c.strain = {w.strain, w.fstrain};
+  c.dissipation = {w.dissipat, w.fdissipat};
+  c.table_precision = static_cast<int>(w.table_precision.value_or(2));
+  for (const auto name : {"MLIST", "ENERGY_PER_MODE", "MASS_PER_MODE"}) {
     if (!reader.given(name)) continue;
     c.tables.emplace_back(name);
     reader.warning("table-not-built", reader.at(name),

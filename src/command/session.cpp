@@ -14,10 +14,12 @@
 #include "elements/catalogue.h"
 #include "linear/eigen.h"
 #include "linear/mode_shapes.h"
+#include "linear/second_order.h"
 #include "output/atomic_file.h"
 #include "output/json.h"
 #include "output/matrices.h"
 #include "output/message_file.h"
+#include "output/modal_tables.h"
 
 namespace dynalin {
 
@@ -155,6 +157,12 @@ class Session {
   Session(const SessionOptions& options, Job job, std::ostream& out, std::ostream& err)
       : options_(options), job_(std::move(job)), out_(out), err_(err), system_(job_.model), point_(system_.drawn()) {}
 
+  // What only showed while the equations were made: wrong input like any other.
+  bool sound() const {
+    for (const std::string& text : system_.layout().problems) fmt::print(err_, "error: {}\n", text);
+    return system_.layout().problems.empty();
+  }
+
   int run() {
     const auto start = std::chrono::steady_clock::now();
     write_banner(message_, version);
@@ -274,8 +282,17 @@ class Session {
       return tl::unexpected(Failure{
           "linear analysis", "the model has no states: neither degrees of freedom nor differential states", {}});
 
+    if (command.option == LinearOption::mkb) {
+      const auto form = second_order(linear->model);
+      if (!form) return tl::unexpected(form.error());
+      write_matrices(command, named_matrices(*form));
+      json_.add(c.text, *form);
+      if (!options_.quiet)
+        fmt::print(out_, "second-order matrices of {} states written to {}\n", form->states.size(), command.file);
+      return {};
+    }
     if (command.option == LinearOption::statemat) {
-      write_matrices(command, linear->model);
+      write_matrices(command, named_matrices(linear->model));
       json_.add(c.text, linear->model);
       if (!options_.quiet)
         fmt::print(out_, "state matrices of {} states written to {}\n", linear->model.states.size(), command.file);
@@ -292,6 +309,7 @@ class Session {
     modes->without_damping = command.without_damping;
     write_eigensolution(message_, *modes);
     json_.add(c.text, *modes);
+    if (command.wants_tables()) write_tables(command, *linear, *modes);
     if (!options_.quiet) {
       fmt::print(out_, "{} at time {:g}\n", c.text, modes->time);
       write_eigen_table(out_, *modes);
@@ -299,9 +317,27 @@ class Session {
     return {};
   }
 
-  void write_matrices(const LinearCommand& command, const StateSpace& model) {
+  void write_tables(const LinearCommand& command, const LinearSystem& linear, const EigenSolution& modes) {
+    const ModalEnergy energy(system_, point_, linear, modes);
+    const ModalTableFormat format{command.table_precision, command.names};
+    write_modal_title(tables_, modes.time);
+    if ((command.strain.wanted() || command.dissipation.wanted()) && job_.model->has("NFORCE"))
+      remark("the rows of NFORCE are not available yet and are left out of the strain and dissipation tables");
+    for (std::size_t k = 0; k < modes.modes.size(); ++k) {
+      const auto in = [&](const LinearCommand::Modes& m) { return m.has(k + 1, modes.modes[k]); };
+      const bool coordinates = in(command.coordinates), kinetic = in(command.kinetic), strain = in(command.strain),
+                 dissipation = in(command.dissipation);
+      if (!coordinates && !kinetic && !strain && !dissipation) continue;
+      write_mode_header(tables_, k + 1, energy.header(k));
+      if (coordinates) write_coordinates(tables_, format, energy.coordinates(k));
+      if (kinetic) write_kinetic(tables_, format, energy.kinetic(k));
+      if (strain) write_forces(tables_, format, ForceTable::strain, energy.strain(k));
+      if (dissipation) write_forces(tables_, format, ForceTable::dissipation, energy.dissipation(k));
+    }
+  }
+
+  void write_matrices(const LinearCommand& command, const std::vector<NamedMatrix>& matrices) {
     const std::string base = (fs::path(job_.folder) / command.file).string();
-    const auto matrices = named_matrices(model);
     if (command.format == "MATLAB") {
       for (const NamedMatrix& m : matrices) {
         write_matlab(new_file(base + m.suffix), m);
@@ -339,6 +375,11 @@ class Session {
       }
     };
     for (auto& file : files_) commit(*file);
+    if (!tables_.view().empty()) {
+      AtomicFile text(job_.prefix + ".txt");
+      text.stream() << tables_.view();
+      commit(text);
+    }
     AtomicFile message(job_.prefix + ".msg");
     message.stream() << message_.str();
     commit(message);
@@ -358,7 +399,7 @@ class Session {
   OperatingPoint point_;
   bool consistent_ = false;
   std::vector<std::string> redundant_;
-  std::ostringstream message_;
+  std::ostringstream message_, tables_;
   JsonResults json_;
   std::vector<std::unique_ptr<AtomicFile>> files_;
 };
@@ -368,14 +409,15 @@ class Session {
 int run_session(const SessionOptions& options, std::ostream& out, std::ostream& err) {
   auto job = Loader(options, err).load();
   if (!job) return wrong_input;
-  return Session(options, std::move(*job), out, err).run();
+  Session session(options, std::move(*job), out, err);
+  return session.sound() ? session.run() : wrong_input;
 }
 
 int check_file(const std::string& file, std::ostream& out, std::ostream& err) {
   SessionOptions options;
   options.file = file;
-  const auto job = Loader(options, err).load();
-  if (!job) return wrong_input;
+  auto job = Loader(options, err).load();
+  if (!job || !Session(options, std::move(*job), out, err).sound()) return wrong_input;
   fmt::print(out, "{}: no errors\n", file);
   return done;
 }

@@ -1,6 +1,7 @@
 #include "dynalin/mechanism.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <fstream>
 #include <sstream>
@@ -101,6 +102,9 @@ Mechanism Mechanism::from_text(std::string dataset, std::string name) {
   for (const Diagnostic& d : diagnostics.items()) messages.push_back(d.message);
   if (diagnostics.has_errors()) throw Error(render(diagnostics), std::move(messages));
   auto state = std::make_unique<State>(source, std::shared_ptr<const Model>(std::move(built.value)));
+  if (const auto& problems = state->system.layout().problems; !problems.empty()) {
+    throw Error(fmt::format("{}", fmt::join(problems, "\n")), problems);
+  }
   state->warnings.insert(state->warnings.begin(), messages.begin(), messages.end());
   return Mechanism(std::move(state));
 }

@@ -21,12 +21,13 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   if (!A.allFinite()) return tl::unexpected(Failure{"eigensolution", "the state matrix is not finite", {}});
   const bool with_vectors = wanted == Vectors::right;
   std::vector<double> re(static_cast<std::size_t>(n)), im(re), scale(re), rconde(re), rcondv(re);
-  Eigen::MatrixXd right(with_vectors ? n : 1, with_vectors ? n : 1);
+  Eigen::MatrixXd right(with_vectors ? n : 1, with_vectors ? n : 1), left = right;
   lapack_int low = 0, high = 0;
   double norm = 0;
-  const lapack_int info = LAPACKE_dgeevx(LAPACK_COL_MAJOR, 'B', 'N', with_vectors ? 'V' : 'N', 'N', n, A.data(), n,
-                                         re.data(), im.data(), nullptr, 1, right.data(), with_vectors ? n : 1, &low,
-                                         &high, scale.data(), &norm, rconde.data(), rcondv.data());
+  const lapack_int info =
+      LAPACKE_dgeevx(LAPACK_COL_MAJOR, 'B', with_vectors ? 'V' : 'N', with_vectors ? 'V' : 'N', 'N', n, A.data(), n,
+                     re.data(), im.data(), left.data(), with_vectors ? n : 1, right.data(), with_vectors ? n : 1, &low,
+                     &high, scale.data(), &norm, rconde.data(), rcondv.data());
   if (info != 0) return tl::unexpected(Failure{"eigensolution", "the QR iteration did not converge", {}});
 
   std::vector<std::size_t> order;  // one entry a pair
@@ -40,18 +41,32 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   });
   if (with_vectors) out.vectors.resize(n, static_cast<Eigen::Index>(order.size()));
   for (const std::size_t k : order) {
+    double condition = 0;
     if (with_vectors) {
       // Of a pair the columns hold the real and the imaginary part.
-      auto v = out.vectors.col(static_cast<Eigen::Index>(out.modes.size()));
-      const auto at = static_cast<Eigen::Index>(k);
-      v.real() = right.col(at);
-      if (im[k] != 0)
-        v.imag() = right.col(at + 1);
-      else
-        v.imag().setZero();
-      v /= v.norm();
+      const auto column = [&](const Eigen::MatrixXd& vectors) {
+        const auto at = static_cast<Eigen::Index>(k);
+        Eigen::VectorXcd v = vectors.col(at).cast<std::complex<double>>();
+        if (im[k] != 0) v.imag() = vectors.col(at + 1);
+        return Eigen::VectorXcd(v / v.norm());
+      };
+      const auto v = out.vectors.col(static_cast<Eigen::Index>(out.modes.size())) = column(right);
+      condition = 1 / std::abs(column(left).dot(v));
     }
-    out.modes.push_back({std::complex(re[k], im[k]) / (2 * std::numbers::pi), im[k] == 0, {}});
+    EigenMode mode;
+    mode.eigenvalue_hz = std::complex(re[k], im[k]) / (2 * std::numbers::pi);
+    mode.is_real = im[k] == 0;
+    mode.condition = condition;
+    out.modes.push_back(std::move(mode));
+  }
+  if (with_vectors) {
+    const Eigen::MatrixXcd image = linear.model.A * out.vectors;
+    const double size = linear.model.A.norm();
+    for (std::size_t k = 0; k < out.modes.size(); ++k) {
+      const auto at = static_cast<Eigen::Index>(k);
+      const std::complex<double> lambda = out.modes[k].eigenvalue_hz * (2 * std::numbers::pi);
+      out.modes[k].backward_error = size > 0 ? (image.col(at) - lambda * out.vectors.col(at)).norm() / size : 0;
+    }
   }
   return out;
 }

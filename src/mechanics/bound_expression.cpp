@@ -81,6 +81,10 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
         break;
       }
       a.channel = signals.data(atom);
+      if (a.channel.kind == Channel::Kind::none) {
+        signals.problem(std::string(atom.at.text()) + " reads an entry that does not exist, or that nothing fills");
+        a.channel = {Channel::Kind::constant, 0, 0};
+      }
       a.kind = a.channel.kind == Channel::Kind::constant ? Kind::constant : Kind::channel;
       a.constant = a.channel.constant;
       break;

@@ -166,8 +166,7 @@ void add_measure_rate(Measure measure, const std::array<MarkerPlace, 4>& places,
   for (std::size_t level = 0; 6 * level < N; ++level) {
     for (std::int32_t k = 0; k < block.count; ++k) {
       const std::size_t seed = 6 * level + static_cast<std::size_t>(k);
-      eq.add(families[level], row, block.offset + k,
-             by_value * m.value.partial[seed] + by_rate * m.rate.partial[seed]);
+      eq.add(families[level], row, block.offset + k, by_value * m.value.partial[seed] + by_rate * m.rate.partial[seed]);
     }
   }
 }
@@ -197,7 +196,8 @@ void BoundExpression::add_rate(const Motion& motion, Equations& eq, std::int32_t
   if (!eq.wants_partials()) return;
   for (std::size_t k = 0; k < atoms_.size(); ++k) {
     const BoundAtom& a = atoms_[k];
-    const double by_value = factor * scratch.taylor_partials[k].rate, by_rate = factor * scratch.taylor_partials[k].value;
+    const double by_value = factor * scratch.taylor_partials[k].rate,
+                 by_rate = factor * scratch.taylor_partials[k].value;
     if (a.kind == Kind::measure) {
       for (std::size_t b = 0; b < a.body_count; ++b) {
         if (a.order == 0) {

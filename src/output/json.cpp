@@ -1,5 +1,6 @@
 #include "output/json.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
@@ -56,8 +57,29 @@ void JsonResults::add(const std::string& command, const EigenSolution& e) {
     values.push_back({{"real_hz", re}, {"imag_hz", m.is_real ? 0.0 : im}});
     if (!m.is_real) values.push_back({{"real_hz", re}, {"imag_hz", -im}});
   }
-  document_->results.push_back(
-      {{"command", command}, {"time", e.time}, {"states", states(e.states)}, {"eigenvalues", std::move(values)}});
+  Json modes = Json::array();
+  for (std::size_t k = 0; k < e.modes.size(); ++k) {
+    const EigenMode& m = e.modes[k];
+    Json mode = {{"real_hz", m.eigenvalue_hz.real() + 0.0}, {"imag_hz", m.is_real ? 0.0 : m.eigenvalue_hz.imag()}};
+    if (e.vectors.size() > 0) {
+      mode["moves_most"] = m.moves_most;
+      // A defective eigenvalue has no finite condition number; JSON knows no infinity.
+      mode["condition"] = std::isfinite(m.condition) ? Json(m.condition) : Json();
+      mode["backward_error"] = m.backward_error;
+      Json vector = Json::array();
+      for (Eigen::Index r = 0; r < e.vectors.rows(); ++r) {
+        const std::complex<double> v = e.vectors(r, static_cast<Eigen::Index>(k));
+        vector.push_back({v.real() + 0.0, v.imag() + 0.0});
+      }
+      mode["vector"] = std::move(vector);
+    }
+    modes.push_back(std::move(mode));
+  }
+  document_->results.push_back({{"command", command},
+                                {"time", e.time},
+                                {"states", states(e.states)},
+                                {"eigenvalues", std::move(values)},
+                                {"modes", std::move(modes)}});
 }
 
 void JsonResults::add(const std::string& command, const StateSpace& s) {
@@ -65,6 +87,20 @@ void JsonResults::add(const std::string& command, const StateSpace& s) {
                                 {"time", s.time},
                                 {"A", matrix(s.A)},
                                 {"B", matrix(s.B)},
+                                {"C", matrix(s.C)},
+                                {"D", matrix(s.D)},
+                                {"states", states(s.states)},
+                                {"inputs", channels(s.inputs)},
+                                {"outputs", channels(s.outputs)}});
+}
+
+void JsonResults::add(const std::string& command, const SecondOrder& s) {
+  document_->results.push_back({{"command", command},
+                                {"time", s.time},
+                                {"M", matrix(s.M)},
+                                {"B", matrix(s.B)},
+                                {"K", matrix(s.K)},
+                                {"P", matrix(s.P)},
                                 {"C", matrix(s.C)},
                                 {"D", matrix(s.D)},
                                 {"states", states(s.states)},

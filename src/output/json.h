@@ -16,6 +16,7 @@ class JsonResults {
   void add_plain(const std::string& command, double time);  // a command without numbers of its own
   void add(const std::string& command, const EigenSolution&);
   void add(const std::string& command, const StateSpace&);
+  void add(const std::string& command, const SecondOrder&);
   void write(std::ostream&) const;
 
  private:

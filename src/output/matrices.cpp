@@ -5,12 +5,11 @@
 
 namespace dynalin {
 
-std::vector<NamedMatrix> named_matrices(const StateSpace& s) {
-  std::vector<NamedMatrix> out;
-  out.push_back({"A", "a", s.A});
-  if (s.pinput) out.push_back({"B", "b", s.B});
-  if (s.poutput) out.push_back({"C", "c", s.C});
-  if (s.pinput && s.poutput) out.push_back({"D", "d", s.D});
+namespace {
+
+// STATES, PINPUT and POUTPUT of either form.
+template <class Form>
+void add_lists(const Form& s, std::vector<NamedMatrix>& out) {
   Eigen::MatrixXd states(3, static_cast<Eigen::Index>(s.states.size()));
   for (std::size_t k = 0; k < s.states.size(); ++k) {
     const StateLabel& label = s.states[k];
@@ -29,6 +28,30 @@ std::vector<NamedMatrix> named_matrices(const StateSpace& s) {
   };
   channels("PINPUT", "pi", s.pinput, s.inputs);
   channels("POUTPUT", "po", s.poutput, s.outputs);
+}
+
+}  // namespace
+
+std::vector<NamedMatrix> named_matrices(const StateSpace& s) {
+  std::vector<NamedMatrix> out;
+  out.push_back({"A", "a", s.A});
+  if (s.pinput) out.push_back({"B", "b", s.B});
+  if (s.poutput) out.push_back({"C", "c", s.C});
+  if (s.pinput && s.poutput) out.push_back({"D", "d", s.D});
+  add_lists(s, out);
+  return out;
+}
+
+std::vector<NamedMatrix> named_matrices(const SecondOrder& s) {
+  std::vector<NamedMatrix> out;
+  Eigen::MatrixXd KB(s.K.rows(), s.K.cols() + s.B.cols());
+  KB << s.K, s.B;
+  out.push_back({"M", "m", s.M});
+  out.push_back({"KB", "kb", KB});
+  if (s.pinput) out.push_back({"P", "p", s.P});
+  if (s.poutput) out.push_back({"C", "c", s.C});
+  if (s.pinput && s.poutput) out.push_back({"D", "d", s.D});
+  add_lists(s, out);
   return out;
 }
 

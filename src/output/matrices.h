@@ -20,6 +20,8 @@ struct NamedMatrix {
 
 // A, B, C, D, STATES, PINPUT, POUTPUT, leaving out what was not asked for.
 std::vector<NamedMatrix> named_matrices(const StateSpace&);
+// M, KB = [K B], P, C, D, STATES, PINPUT, POUTPUT.
+std::vector<NamedMatrix> named_matrices(const SecondOrder&);
 
 // MATRIXx FSAVE: a directory of names and sizes, then each matrix by columns, three values of 25 characters a line.
 void write_fsave(std::ostream&, const std::vector<NamedMatrix>&, std::time_t date);

@@ -44,6 +44,7 @@ class System::SystemSignals final : public Signals {
     const Array& a = *system_.model_->get<Array>(ref);
     if (n >= a.entries()) return {};
     if (a.u) return variable(a.variables[n]);
+    if ((a.x || a.y) && !a.owner.valid()) return {};
     if (a.x) return kernel(a.owner)->state_channel(static_cast<std::size_t>(a.owner.index), n);
     if (a.y) return kernel(a.owner)->output_channel(static_cast<std::size_t>(a.owner.index), n);
     return {Channel::Kind::constant, 0, a.numbers[n]};
@@ -86,9 +87,9 @@ class System::SystemSignals final : public Signals {
     while (!rates_to_make_.empty()) {
       const auto [algebraic, rate] = rates_to_make_.back();
       rates_to_make_.pop_back();
-      const bool made = std::any_of(system_.kernels_.begin(), system_.kernels_.end(), [&, a = algebraic, r = rate](auto& k) {
-        return k->add_rate_equation(a, r, *this);
-      });
+      const bool made =
+          std::any_of(system_.kernels_.begin(), system_.kernels_.end(),
+                      [&, a = algebraic, r = rate](auto& k) { return k->add_rate_equation(a, r, *this); });
       if (!made) {
         problem("DIF1 needs the time derivative of " +
                 system_.layout_.algebraic[static_cast<std::size_t>(algebraic)].owner->full_text() +

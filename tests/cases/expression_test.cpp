@@ -110,8 +110,19 @@ TEST_F(Expressions, a_rate_that_is_not_known_is_an_error_that_names_it) {
       run("x\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\n"
           "DIFF/2, IMPLICIT, FUNCTION=DIF(2)-ACCX(20)\nDIFF/3, FUNCTION=DIF1(2)\nEND\n",
           "LINEAR/EIGENSOL\n");
-  EXPECT_EQ(r.status, 2);
+  EXPECT_EQ(r.status, 1);
   EXPECT_NE(r.err.find("ACCX(20)"), std::string::npos) << r.err;
+  EXPECT_FALSE(r.wrote("model.msg"));
+}
+
+TEST_F(Expressions, entries_that_do_not_exist_are_errors) {
+  const std::string base = "ARRAY/1, IC, NUMBERS=1,2\nARRAY/2, X\nPINPUT/1, VARIABLES=1\nVARIABLE/1, FUNCTION=";
+  for (const char* atom : {"ARYVAL(1,3)", "ARYVAL(2,1)", "PINVAL(1,2)"}) {
+    const RunResult r = run(two_bodies(base + atom + "\n"), "LINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 1) << atom;
+    EXPECT_NE(r.err.find(atom), std::string::npos) << r.err;
+    EXPECT_FALSE(r.wrote("model.msg"));
+  }
 }
 
 }  // namespace

@@ -1,0 +1,279 @@
+#include "linear/modal_energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace dynalin {
+
+namespace {
+
+using Complex = std::complex<double>;
+using ComplexVector = std::array<Complex, 3>;
+
+// The force elements whose rows the tables have, in the order of the document.
+constexpr std::array<std::string_view, 8> force_statements = {"BEAM",   "BUSHING",      "FIELD",  "GFORCE",
+                                                              "SFORCE", "SPRINGDAMPER", "VFORCE", "VTORQUE"};
+
+ComplexVector three(const Eigen::VectorXcd& x, std::int32_t at) { return {x(at), x(at + 1), x(at + 2)}; }
+
+ComplexVector times(const Matrix3& m, const ComplexVector& v) {
+  ComplexVector r;
+  for (std::size_t i = 0; i < 3; ++i) r[i] = m(i, 0) * v[0] + m(i, 1) * v[1] + m(i, 2) * v[2];
+  return r;
+}
+void add(ComplexVector& a, const ComplexVector& b, Complex factor = 1.0) {
+  for (std::size_t k = 0; k < 3; ++k) a[k] += factor * b[k];
+}
+
+}  // namespace
+
+ModalEnergy::ModalEnergy(const System& system, const OperatingPoint& op, const LinearSystem& linear,
+                         const EigenSolution& solution)
+    : system_(system), linear_(linear), solution_(solution), motion_(system.motion(op)) {
+  ConstraintRows rows;
+  rows.resize(system.layout());
+  eq_.resize(system.layout());
+  system.constraints(motion_, rows);
+  system.equations(motion_, rows, eq_, {Column::position, Column::damping, Column::velocity, Column::algebraic});
+  // The algebraic block alone: ∂a/∂w.
+  const auto n = system.layout().coordinate_count;
+  const auto w = static_cast<std::int32_t>(system.layout().algebraic.size());
+  std::vector<Triplet> entries;
+  const ColumnMatrix& m = eq_.matrix(Column::algebraic);
+  for (std::int32_t c = 0; c < m.columns; ++c) {
+    for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]);
+         k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
+      if (m.row[k] >= n && m.row[k] < n + w) entries.push_back({m.row[k] - n, c, m.value[k]});
+    }
+  }
+  if (w > 0) algebraic_solved_ = algebraic_.factor(compressed(w, w, entries));
+}
+
+Eigen::VectorXcd ModalEnergy::scaled_vector(std::size_t mode) const {
+  Eigen::VectorXcd z = solution_.vectors.col(static_cast<Eigen::Index>(mode));
+  Eigen::Index largest = 0;
+  z.cwiseAbs().maxCoeff(&largest);
+  return z / z(largest);
+}
+
+Eigen::VectorXcd ModalEnergy::displacements(const Eigen::VectorXcd& z) const {
+  return linear_.dq.leftCols(z.size()) * z;
+}
+
+Eigen::VectorXcd ModalEnergy::velocities(const Eigen::VectorXcd& z) const {
+  Eigen::VectorXcd rates = z;
+  for (Eigen::Index k = 0; k < rates.size(); ++k) {
+    if (!solution_.states[static_cast<std::size_t>(k)].is_rate) rates(k) = 0;
+  }
+  return linear_.dqdot.leftCols(z.size()) * rates;
+}
+
+std::vector<std::size_t> ModalEnergy::bodies_by_id() const {
+  std::vector<std::size_t> order;
+  const auto& bodies = system_.layout().bodies;
+  for (std::size_t b = 1; b < bodies.size(); ++b) {
+    if (bodies[b].count > 0) order.push_back(b);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return bodies[a].label.id < bodies[b].label.id; });
+  return order;
+}
+
+// ½ m |v_C|² and ½ ωᴴ J ω term by term, global axes.
+std::array<double, 9> ModalEnergy::kinetic_terms(std::size_t body, const Eigen::VectorXcd& v) const {
+  const Body& b = system_.model().bodies[body];
+  const BodyBlock& block = system_.layout().bodies[body];
+  std::array<double, 9> terms{};
+  ComplexVector of_cm = three(v, block.offset);
+  ComplexVector w{};
+  const Matrix3& R = motion_.bodies[body].R;
+  if (block.count == 6) {
+    w = three(v, block.offset + 3);
+    add(of_cm, times(-skew(R * b.p_BC), w));
+  }
+  // In user units: no factor of consistency.
+  const double factor = b.mass > 0 ? b.user_mass / b.mass : 1.0;
+  for (std::size_t k = 0; k < 3; ++k) terms[k] = 0.5 * b.user_mass * std::norm(of_cm[k]);
+  const Matrix3 J = R * b.J_BC * transpose(R);
+  for (std::size_t k = 0; k < 3; ++k) terms[3 + k] = 0.5 * factor * J(k, k) * std::norm(w[k]);
+  const auto product = [&](std::size_t i, std::size_t j) {
+    return factor * J(i, j) * std::real(w[i] * std::conj(w[j]));
+  };
+  terms[6] = product(0, 1), terms[7] = product(0, 2), terms[8] = product(1, 2);
+  return terms;
+}
+
+ModeHeader ModalEnergy::header(std::size_t mode) const {
+  const Complex hz = solution_.modes[mode].eigenvalue_hz;
+  const double size = std::abs(hz), omega = 2 * std::numbers::pi * size;
+  const Eigen::VectorXcd z = scaled_vector(mode);
+  const auto energy = [&](const Eigen::VectorXcd& v) {
+    double sum = 0;
+    for (const std::size_t b : bodies_by_id()) {
+      for (const double term : kinetic_terms(b, v)) sum += term;
+    }
+    return sum;
+  };
+  ModeHeader h;
+  h.frequency = size;
+  if (size == 0) {
+    h.mass = 2 * energy(displacements(z));
+    return h;
+  }
+  h.damping_ratio = std::abs(hz.real()) / size;
+  h.kinetic_energy = energy(velocities(z));
+  h.stiffness = 2 * h.kinetic_energy;
+  h.mass = h.stiffness / (omega * omega);
+  return h;
+}
+
+std::vector<ModalRow<Complex>> ModalEnergy::coordinates(std::size_t mode) const {
+  const Eigen::VectorXcd z = scaled_vector(mode), dq = displacements(z);
+  std::vector<ModalRow<Complex>> rows;
+  for (const std::size_t b : bodies_by_id()) {
+    const BodyBlock& block = system_.layout().bodies[b];
+    ComplexVector of_cm = three(dq, block.offset), turn{};
+    if (block.count == 6) {
+      turn = three(dq, block.offset + 3);
+      add(of_cm, times(-skew(motion_.bodies[b].R * system_.model().bodies[b].p_BC), turn));
+    }
+    rows.push_back({&block.label, {of_cm[0], of_cm[1], of_cm[2], turn[0], turn[1], turn[2]}});
+  }
+  const auto& states = system_.layout().states;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    // The states of the model follow the coordinates, by type and id.
+    const auto found = std::find_if(solution_.states.begin(), solution_.states.end(), [&](const StateLabel& s) {
+      return s.type == states[k].type && s.element == states[k].owner->id && s.coordinate == states[k].coordinate;
+    });
+    rows.push_back({states[k].owner, {z(found - solution_.states.begin())}});
+  }
+  Complex largest = 0;
+  for (const auto& row : rows) {
+    for (const Complex& v : row.values) {
+      if (std::abs(v) > std::abs(largest) * (1 + 1e-12)) largest = v;
+    }
+  }
+  for (auto& row : rows) {
+    for (Complex& v : row.values) v = largest == Complex(0) ? Complex(0) : v / largest;
+  }
+  return rows;
+}
+
+std::vector<ModalRow<double>> ModalEnergy::kinetic(std::size_t mode) const {
+  const Eigen::VectorXcd z = scaled_vector(mode);
+  const bool at_rest = solution_.modes[mode].eigenvalue_hz == Complex(0);
+  const Eigen::VectorXcd v = at_rest ? displacements(z) : velocities(z);
+  std::vector<ModalRow<double>> rows;
+  double total = 0;
+  for (const std::size_t b : bodies_by_id()) {
+    const auto terms = kinetic_terms(b, v);
+    ModalRow<double> row{&system_.layout().bodies[b].label, {terms.begin(), terms.end()}};
+    row.values.push_back(0);
+    for (const double t : terms) row.values.back() += t;
+    total += row.values.back();
+    rows.push_back(std::move(row));
+  }
+  for (auto& row : rows) {
+    for (double& x : row.values) x = total != 0 ? 100 * x / total : 0;
+  }
+  return rows;
+}
+
+Eigen::VectorXcd ModalEnergy::algebraic_change(const Eigen::VectorXcd& dq, Column family) const {
+  const auto n = static_cast<Eigen::Index>(system_.layout().coordinate_count);
+  const auto w = static_cast<Eigen::Index>(system_.layout().algebraic.size());
+  Eigen::VectorXcd change = Eigen::VectorXcd::Zero(w);
+  if (w == 0 || !algebraic_solved_) return change;
+  for (const bool imaginary : {false, true}) {
+    const Eigen::VectorXd x = imaginary ? Eigen::VectorXd(dq.imag()) : Eigen::VectorXd(dq.real());
+    Eigen::VectorXd rows = Eigen::VectorXd::Zero(eq_.size());
+    const auto subtract = [&](Column c) {
+      eq_.matrix(c).multiply_add({x.data(), static_cast<std::size_t>(x.size())},
+                                 {rows.data(), static_cast<std::size_t>(rows.size())}, -1.0);
+    };
+    subtract(family);
+    if (family == Column::damping) subtract(Column::velocity);  // algebraic DIFFs
+    Eigen::MatrixXd right = rows.segment(n, w);
+    algebraic_.solve(right);
+    change += imaginary ? Complex(0, 1) * right.col(0) : Eigen::VectorXcd(right.col(0).cast<Complex>());
+  }
+  return change;
+}
+
+std::vector<ModalRow<double>> ModalEnergy::force_rows(std::size_t mode, Column family) const {
+  const bool strain = family == Column::position;
+  const Eigen::VectorXcd z = scaled_vector(mode);
+  const Eigen::VectorXcd u = strain ? displacements(z) : velocities(z);
+  const Eigen::VectorXcd dw = algebraic_change(u, family);
+  const Layout& layout = system_.layout();
+  std::vector<ModalRow<double>> rows;
+  double total = 0;
+  MarkerWrench w;
+  for (const std::string_view statement : force_statements) {
+    for (const auto& set : system_.model().sets) {
+      if (set->kind().statement != statement) continue;
+      const bool rotational = set->kind().variant == "ROTATIONAL" || statement == "VTORQUE";
+      const bool translational = set->kind().variant == "TRANSLATIONAL" || statement == "VFORCE";
+      for (const ElementLabel& label : set->labels) {
+        const Signals::Element element = system_.signals().element(statement, label.id);
+        w.clear();
+        element.kernel->wrench(motion_, element.index, true, w);
+        const PairMotion& p = w.pair;
+        const BodyBlock &B = layout.body(p.body_I), &C = layout.body(p.body_J);
+        const auto group = [&](const BodyBlock& block, std::int32_t first) {
+          return block.count >= first + 3 ? three(u, block.offset + first) : ComplexVector{};
+        };
+        const std::array<ComplexVector, 4> du = {group(B, 0), group(B, 3), group(C, 0), group(C, 3)};
+        ComplexVector dF{}, dT{};
+        for (std::size_t g = 0; g < 4; ++g) {
+          add(dF, times((strain ? w.force.force_on_position : w.force.force_on_velocity).group[g], du[g]));
+          add(dT, times((strain ? w.force.torque_on_position : w.force.torque_on_velocity).group[g], du[g]));
+        }
+        for (const MarkerWrench::Scalar& s : w.scalars) {
+          if (s.family != Column::algebraic) continue;
+          for (std::size_t k = 0; k < 3; ++k) {
+            dF[k] += dw(s.column) * s.force[k];
+            dT[k] += dw(s.column) * s.torque[k];
+          }
+        }
+        for (const MarkerWrench::Turn& turn : w.turns) {
+          if (!strain) continue;
+          const ComplexVector theta = group(layout.body(turn.body), 3);
+          add(dF, times(turn.force, theta));
+          add(dT, times(turn.torque, theta));
+        }
+        // What the force works on: I against the point of J's body where the reaction acts.
+        const bool along_line = w.force.acts_on_J && translational && statement != "VFORCE";
+        const Vector arm_J = along_line ? value(p.arm_J) : value(p.arm);
+        ComplexVector moved = du[0], turned = du[1];
+        add(moved, times(-skew(value(p.arm_I)), du[1]));
+        if (w.force.acts_on_J) {
+          add(moved, du[2], -1.0);
+          add(moved, times(-skew(arm_J), du[3]), -1.0);
+          add(turned, du[3], -1.0);
+        }
+        ModalRow<double> row{&label, std::vector<double>(7, 0.0)};
+        for (std::size_t k = 0; k < 3; ++k) {
+          row.values[1 + k] = -0.5 * std::real(std::conj(moved[k]) * dF[k]);
+          row.values[4 + k] = -0.5 * std::real(std::conj(turned[k]) * dT[k]);
+        }
+        for (std::size_t k = 1; k < 7; ++k) row.values[0] += row.values[k];
+        total += row.values[0];
+        const double blank = std::numeric_limits<double>::quiet_NaN();
+        for (std::size_t k = 0; k < 3; ++k) {
+          if (rotational) row.values[1 + k] = blank;
+          if (translational) row.values[4 + k] = blank;
+        }
+        rows.push_back(std::move(row));
+      }
+    }
+  }
+  for (auto& row : rows) {
+    for (double& x : row.values) x = total != 0 ? 100 * x / total : x * 0;
+  }
+  return rows;
+}
+
+}  // namespace dynalin

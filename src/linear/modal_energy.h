@@ -1,0 +1,61 @@
+// What the modal tables hold: header quantities, coordinates, and how kinetic energy, strain energy and dissipated
+// power are shared among the elements (LINEAR command, 5.1.5 and 5.1.6; scaling as the published headers prove).
+//
+// The eigenvector z of the state matrix is scaled so that its entry of largest modulus is 1. With T the map from states
+// to coordinates, velocities belong to the velocity entries of z alone, displacements to all entries.
+#pragma once
+
+#include "linear/linear_system.h"
+#include "system/sparse_lu.h"
+
+namespace dynalin {
+
+struct ModeHeader {
+  double damping_ratio = 0;   // |Re λ|/|λ|; 1 for a real eigenvalue, 0 for a zero one
+  double frequency = 0;       // |λ|/2π [1/time]
+  double stiffness = 0;       // 2 T [mass/time²]
+  double mass = 0;            // 2 T/|λ|² [mass]
+  double kinetic_energy = 0;  // T = Σ ½ vᴴ M v [mass/time²]
+};
+
+// One row: an element with its numbers.
+template <class T>
+struct ModalRow {
+  const ElementLabel* element = nullptr;
+  std::vector<T> values;
+};
+
+class ModalEnergy {
+ public:
+  ModalEnergy(const System&, const OperatingPoint&, const LinearSystem&, const EigenSolution&);
+
+  ModeHeader header(std::size_t mode) const;
+  // X Y Z of the mass centre and RX RY RZ of each body, global axes; then one value for each differential state. The
+  // largest is 1.
+  std::vector<ModalRow<std::complex<double>>> coordinates(std::size_t mode) const;
+  // X Y Z RXX RYY RZZ RXY RXZ RYZ and the sum, in percent of the model.
+  std::vector<ModalRow<double>> kinetic(std::size_t mode) const;
+  // Total X Y Z RX RY RZ in percent of the model, global axes; a missing entry is NaN. Forces follow displacements
+  // (strain) or velocities (dissipation) also through other forces, VARIABLEs and algebraic DIFFs.
+  std::vector<ModalRow<double>> strain(std::size_t mode) const { return force_rows(mode, Column::position); }
+  std::vector<ModalRow<double>> dissipation(std::size_t mode) const { return force_rows(mode, Column::damping); }
+
+ private:
+  Eigen::VectorXcd scaled_vector(std::size_t mode) const;
+  Eigen::VectorXcd displacements(const Eigen::VectorXcd& z) const;
+  Eigen::VectorXcd velocities(const Eigen::VectorXcd& z) const;  // of the velocity entries
+  std::vector<std::size_t> bodies_by_id() const;
+  std::array<double, 9> kinetic_terms(std::size_t body, const Eigen::VectorXcd& v) const;
+  std::vector<ModalRow<double>> force_rows(std::size_t mode, Column family) const;
+  Eigen::VectorXcd algebraic_change(const Eigen::VectorXcd& dq, Column family) const;
+
+  const System& system_;
+  const LinearSystem& linear_;
+  const EigenSolution& solution_;
+  Motion motion_;
+  Equations eq_;
+  SparseLu algebraic_;
+  bool algebraic_solved_ = true;
+};
+
+}  // namespace dynalin

@@ -1,0 +1,23 @@
+// The text file of modal tables: COORDS, KINETIC, STRAIN and DISSIPAT with their header, in the layout other programs
+// read.
+#pragma once
+
+#include <iosfwd>
+
+#include "linear/modal_energy.h"
+
+namespace dynalin {
+
+struct ModalTableFormat {
+  int precision = 2;  // 2: the old format with two decimals; otherwise exponents with this many digits behind the point
+  bool names = false;  // view names behind each row; the old format has none
+};
+
+void write_modal_title(std::ostream&, double time);
+void write_mode_header(std::ostream&, std::size_t number, const ModeHeader&);
+void write_coordinates(std::ostream&, const ModalTableFormat&, const std::vector<ModalRow<std::complex<double>>>&);
+void write_kinetic(std::ostream&, const ModalTableFormat&, const std::vector<ModalRow<double>>&);
+enum class ForceTable : bool { strain, dissipation };
+void write_forces(std::ostream&, const ModalTableFormat&, ForceTable, const std::vector<ModalRow<double>>&);
+
+}  // namespace dynalin
