@@ -31,10 +31,12 @@ struct LinearCommand {
     bool wanted() const { return !numbers.empty() || !frequencies.empty(); }
     bool has(std::size_t number, const EigenMode&) const;
   };
-  Modes coordinates, kinetic, strain, dissipation;
+  Modes coordinates, kinetic, strain, dissipation, markers;
+  std::vector<std::int64_t> marker_list;  // MLIST
   int table_precision = 2;
   bool wants_tables() const {
-    return coordinates.wanted() || kinetic.wanted() || strain.wanted() || dissipation.wanted();
+    return coordinates.wanted() || kinetic.wanted() || strain.wanted() || dissipation.wanted() ||
+           markers.wanted();
   }
   std::vector<std::string> tables;  // arguments that ask for tables not available yet, as named
 };

@@ -231,8 +231,10 @@ std::optional<LinearCommand> read_linear(ElementReader& reader) {
   c.kinetic = {w.kinetic, w.fkinetic};
   c.strain = {w.strain, w.fstrain};
   c.dissipation = {w.dissipat, w.fdissipat};
+  c.markers = {w.mrange, {}};
+  c.marker_list = w.mlist;
   c.table_precision = static_cast<int>(w.table_precision.value_or(2));
-  for (const auto name : {"MLIST", "ENERGY_PER_MODE", "MASS_PER_MODE"}) {
+  for (const auto name : {"ENERGY_PER_MODE", "MASS_PER_MODE"}) {
     if (!reader.given(name)) continue;
     c.tables.emplace_back(name);
     reader.warning("table-not-built", reader.at(name),

@@ -139,6 +139,9 @@ class Loader {
       need(linear->pstate, "PSTATE", found(linear->pstate, "PSTATE"));
       need(linear->pinput, "PINPUT", found(linear->pinput, "PINPUT"));
       need(linear->poutput, "POUTPUT", found(linear->poutput, "POUTPUT"));
+      for (const std::int64_t id : linear->marker_list) {
+        need(id, "MARKER", job.model->find_marker(id).has_value());
+      }
       const auto rm = linear->rm ? job.model->find_marker(*linear->rm) : std::nullopt;
       need(linear->rm, "MARKER", rm.has_value());
       if (rm && job.model->marker(*rm).floating)
@@ -320,6 +323,8 @@ class Session {
   void write_tables(const LinearCommand& command, const LinearSystem& linear, const EigenSolution& modes) {
     const ModalEnergy energy(system_, point_, linear, modes);
     const ModalTableFormat format{command.table_precision, command.names};
+    std::vector<MarkerId> listed;
+    for (const std::int64_t id : command.marker_list) listed.push_back(*job_.model->find_marker(id));
     write_modal_title(tables_, modes.time);
     if ((command.strain.wanted() || command.dissipation.wanted()) && job_.model->has("NFORCE"))
       remark("the rows of NFORCE are not available yet and are left out of the strain and dissipation tables");
@@ -327,9 +332,11 @@ class Session {
       const auto in = [&](const LinearCommand::Modes& m) { return m.has(k + 1, modes.modes[k]); };
       const bool coordinates = in(command.coordinates), kinetic = in(command.kinetic), strain = in(command.strain),
                  dissipation = in(command.dissipation);
-      if (!coordinates && !kinetic && !strain && !dissipation) continue;
+      const bool markers = in(command.markers);
+      if (!coordinates && !kinetic && !strain && !dissipation && !markers) continue;
       write_mode_header(tables_, k + 1, energy.header(k));
-      if (coordinates) write_coordinates(tables_, format, energy.coordinates(k));
+      if (coordinates) write_shape(tables_, format, ShapeTable::coordinates, energy.coordinates(k));
+      if (markers) write_shape(tables_, format, ShapeTable::markers, energy.markers(k, listed));
       if (kinetic) write_kinetic(tables_, format, energy.kinetic(k));
       if (strain) write_forces(tables_, format, ForceTable::strain, energy.strain(k));
       if (dissipation) write_forces(tables_, format, ForceTable::dissipation, energy.dissipation(k));

@@ -91,9 +91,13 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
     const VariableRef ref = own->variables[k];
     const Expression& e = variable_function(system.model(), ref);
     const std::string name = system.model().label(ref).text();
-    const BoundExpression bound(e, system.signals());
-    const bool plain = bound.order() == 0 && !bound.reads_channels();
-    if (!plain || bound.only_time()) {
+    bool plain = true, moves = false;
+    for (const Atom& atom : e.atoms()) {
+      const bool measure = atom.function->family == AtomFamily::marker_measure && atom.function->order == 0;
+      plain = plain && (measure || atom.function->family == AtomFamily::time);
+      moves = moves || measure;
+    }
+    if (!plain || !moves) {
       return tl::unexpected(Failure{
           "linear analysis",
           fmt::format(
@@ -101,6 +105,7 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
               name, e.at().text()),
           {}});
     }
+    const BoundExpression bound(e, system.signals(), Binding::gradient);
     ConstraintRows& rows = set.gradients;
     rows.set(row, bound.add_position(motion, rows, row));
     Candidate c;

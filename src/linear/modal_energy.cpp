@@ -129,7 +129,7 @@ ModeHeader ModalEnergy::header(std::size_t mode) const {
   return h;
 }
 
-std::vector<ModalRow<Complex>> ModalEnergy::coordinates(std::size_t mode) const {
+std::pair<std::vector<ModalRow<Complex>>, Complex> ModalEnergy::shape(std::size_t mode) const {
   const Eigen::VectorXcd z = scaled_vector(mode), dq = displacements(z);
   std::vector<ModalRow<Complex>> rows;
   for (const std::size_t b : bodies_by_id()) {
@@ -155,8 +155,37 @@ std::vector<ModalRow<Complex>> ModalEnergy::coordinates(std::size_t mode) const 
       if (std::abs(v) > std::abs(largest) * (1 + 1e-12)) largest = v;
     }
   }
+  return {std::move(rows), largest};
+}
+
+std::vector<ModalRow<Complex>> ModalEnergy::coordinates(std::size_t mode) const {
+  auto [rows, largest] = shape(mode);
   for (auto& row : rows) {
     for (Complex& v : row.values) v = largest == Complex(0) ? Complex(0) : v / largest;
+  }
+  return std::move(rows);
+}
+
+std::vector<ModalRow<Complex>> ModalEnergy::markers(std::size_t mode, std::span<const MarkerId> list) const {
+  const Complex largest = shape(mode).second;
+  const Eigen::VectorXcd dq = displacements(scaled_vector(mode));
+  const Layout& layout = system_.layout();
+  std::vector<ModalRow<Complex>> rows;
+  for (const MarkerId m : list) {
+    const MarkerPlace& place =
+        layout.marker(system_.signals().place_of(m));  // a floating one is where its force puts it
+    const BodyBlock& block = layout.body(place.body);
+    ComplexVector moved{}, turned{};
+    if (block.count >= 3) moved = three(dq, block.offset);
+    if (block.count == 6) {
+      turned = three(dq, block.offset + 3);
+      add(moved, times(-skew(motion_.body(place.body).R * place.p_BM), turned));
+    }
+    ModalRow<Complex> row{&layout.marker_labels[static_cast<std::size_t>(m.index)], {}};
+    for (const ComplexVector& part : {moved, turned}) {
+      for (const Complex& v : part) row.values.push_back(largest == Complex(0) ? Complex(0) : v / largest);
+    }
+    rows.push_back(std::move(row));
   }
   return rows;
 }

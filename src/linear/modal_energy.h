@@ -33,6 +33,8 @@ class ModalEnergy {
   // X Y Z of the mass centre and RX RY RZ of each body, global axes; then one value for each differential state. The
   // largest is 1.
   std::vector<ModalRow<std::complex<double>>> coordinates(std::size_t mode) const;
+  // X Y Z of the origin and RX RY RZ of each marker, global axes, with the scale of `coordinates`.
+  std::vector<ModalRow<std::complex<double>>> markers(std::size_t mode, std::span<const MarkerId>) const;
   // X Y Z RXX RYY RZZ RXY RXZ RYZ and the sum, in percent of the model.
   std::vector<ModalRow<double>> kinetic(std::size_t mode) const;
   // Total X Y Z RX RY RZ in percent of the model, global axes; a missing entry is NaN. Forces follow displacements
@@ -45,6 +47,8 @@ class ModalEnergy {
   Eigen::VectorXcd displacements(const Eigen::VectorXcd& z) const;
   Eigen::VectorXcd velocities(const Eigen::VectorXcd& z) const;  // of the velocity entries
   std::vector<std::size_t> bodies_by_id() const;
+  // Rows of bodies and states before they are scaled, and the largest value among them.
+  std::pair<std::vector<ModalRow<std::complex<double>>>, std::complex<double>> shape(std::size_t mode) const;
   std::array<double, 9> kinetic_terms(std::size_t body, const Eigen::VectorXcd& v) const;
   std::vector<ModalRow<double>> force_rows(std::size_t mode, Column family) const;
   Eigen::VectorXcd algebraic_change(const Eigen::VectorXcd& dq, Column family) const;

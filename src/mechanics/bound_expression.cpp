@@ -25,10 +25,10 @@ void add_measure_gradient(Measure measure, const std::array<MarkerPlace, 4>& pla
 
 }  // namespace
 
-BoundExpression::BoundExpression(Expression expression, const Signals& signals, RatesOfAtoms rates)
+BoundExpression::BoundExpression(Expression expression, const Signals& signals, Binding binding)
     : expression_(expression.with_curves([&](const SplineUse& use) { return signals.spline(use); })) {
   for (const Atom& atom : expression_.atoms()) {
-    atoms_.push_back(bind(atom, signals));
+    atoms_.push_back(bind(atom, signals, binding));
     const BoundAtom& a = atoms_.back();
     for (std::size_t b = 0; b < a.body_count; ++b) {
       if (std::find(bodies_.begin(), bodies_.end(), a.bodies[b]) == bodies_.end()) bodies_.push_back(a.bodies[b]);
@@ -37,7 +37,7 @@ BoundExpression::BoundExpression(Expression expression, const Signals& signals, 
     if (a.kind == Kind::measure) order_ = std::max(order_, static_cast<int>(a.order));
     if (a.kind == Kind::force) order_ = 2;
     if (a.kind == Kind::channel) reads_channels_ = true;
-    if (rates == RatesOfAtoms::wanted) {
+    if (binding == Binding::rates) {
       const bool impossible = a.kind == Kind::force || (a.kind == Kind::measure && a.order == 2) ||
                               (a.kind == Kind::channel && a.channel.kind == Channel::Kind::state_rate);
       if (impossible) {
@@ -51,7 +51,7 @@ BoundExpression::BoundExpression(Expression expression, const Signals& signals, 
   }
 }
 
-BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals& signals) const {
+BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals& signals, Binding binding) const {
   using Kind = BoundAtom::Kind;
   BoundAtom a{};
   const AtomFunction& f = *atom.function;
@@ -72,7 +72,7 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
           a.bodies[a.body_count++] = body;
         }
       }
-      if (counts_turns(a.measure)) a.memory = signals.add_memory(0.0);
+      if (counts_turns(a.measure) && binding != Binding::gradient) a.memory = signals.add_memory(0.0);
       break;
     }
     case AtomFamily::data:

@@ -10,13 +10,14 @@
 
 namespace dynalin {
 
-// Whether the time derivatives of channels are wanted too: add_rate needs them.
-enum class RatesOfAtoms : bool { not_wanted, wanted };
+// What an expression is bound for: the equations of a system, with the time derivatives of channels for add_rate, or its
+// gradient alone, which keeps no total angles and may be bound at any time.
+enum class Binding : std::uint8_t { equations, rates, gradient };
 
 class BoundExpression {
  public:
   BoundExpression() = default;
-  BoundExpression(Expression, const Signals&, RatesOfAtoms = RatesOfAtoms::not_wanted);
+  BoundExpression(Expression, const Signals&, Binding = Binding::equations);
 
   // Kinematic order: 0 displacements, 1 velocities, 2 accelerations or reactions.
   int order() const { return order_; }
@@ -65,7 +66,7 @@ class BoundExpression {
     MarkerPlace axes_marker;
   };
 
-  BoundAtom bind(const Atom&, const Signals&) const;
+  BoundAtom bind(const Atom&, const Signals&, Binding) const;
   double atom_value(const BoundAtom&, const Motion&) const;
   Taylor atom_along_motion(const BoundAtom&, const Motion&) const;
   void add_atom(const BoundAtom&, const Motion&, Equations&, std::int32_t row, double factor,

@@ -87,11 +87,11 @@ void write_mode_header(std::ostream& out, std::size_t number, const ModeHeader& 
   out << '\n';
 }
 
-void write_coordinates(std::ostream& out, const ModalTableFormat& format,
-                       const std::vector<ModalRow<std::complex<double>>>& rows) {
+void write_shape(std::ostream& out, const ModalTableFormat& format, ShapeTable kind,
+                 const std::vector<ModalRow<std::complex<double>>>& rows) {
   Table t(out, format);
   const bool old = format.precision == 2;
-  t.title("Normalized coordinates in this mode", 12);
+  t.title(kind == ShapeTable::coordinates ? "Normalized coordinates in this mode" : "Marker mode table", 12);
   t.rule({12});
   t.head(t.heading({"X", "Y", "Z", "RX", "RY", "RZ"}, 2));
   const std::string_view magnitude = old ? "mag." : "magnitude";

@@ -15,7 +15,10 @@ struct ModalTableFormat {
 
 void write_modal_title(std::ostream&, double time);
 void write_mode_header(std::ostream&, std::size_t number, const ModeHeader&);
-void write_coordinates(std::ostream&, const ModalTableFormat&, const std::vector<ModalRow<std::complex<double>>>&);
+// Magnitudes and phases, of the bodies and states or of chosen markers.
+enum class ShapeTable : bool { coordinates, markers };
+void write_shape(std::ostream&, const ModalTableFormat&, ShapeTable,
+                 const std::vector<ModalRow<std::complex<double>>>&);
 void write_kinetic(std::ostream&, const ModalTableFormat&, const std::vector<ModalRow<double>>&);
 enum class ForceTable : bool { strain, dissipation };
 void write_forces(std::ostream&, const ModalTableFormat&, ForceTable, const std::vector<ModalRow<double>>&);

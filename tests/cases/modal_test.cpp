@@ -187,6 +187,26 @@ TEST_F(Modal, tables_of_a_moving_mechanism_add_up_to_a_hundred) {
   }
 }
 
+TEST_F(Modal, markers_move_with_their_bodies) {
+  const RunResult r = run(
+      two_bodies(""),
+      "LINEAR/EIGENSOL, COORDS=3, MLIST=20,21,1, MRANGE=3, TABLE_PRECISION=9\nLINEAR/EIGENSOL, MLIST=77, MRANGE=1\n");
+  EXPECT_EQ(r.status, 1);
+  EXPECT_THAT(r.err, HasSubstr("MARKER/77"));
+  const RunResult sound =
+      run(two_bodies(""), "LINEAR/EIGENSOL, COORDS=3, MLIST=20,21,1, MRANGE=3, TABLE_PRECISION=9\n");
+  ASSERT_EQ(sound.status, 0) << sound.err;
+  const std::string t = sound.text("model.txt");
+  // MARKER/20 is the mass centre of PART/2; ground does not move; MARKER/21 turns with the part.
+  const auto part = row(t, "Normalized coordinates", "PART/2"), centre = row(t, "Marker mode table", "MARKER/20"),
+             other = row(t, "Marker mode table", "MARKER/21");
+  EXPECT_EQ(part, centre);
+  EXPECT_EQ(row(t, "Marker mode table", "MARKER/1 "), std::vector<double>(12, 0.0));
+  ASSERT_EQ(other.size(), 12u);
+  EXPECT_NE(other[0], part[0]);
+  for (std::size_t k = 6; k < 12; ++k) EXPECT_EQ(other[k], part[k]);
+}
+
 TEST_F(Modal, ranges_of_frequency_skip_real_modes) {
   const RunResult r = run(two_bodies("DIFF/7, FUNCTION=-DIF(7)\n"),
                           "LINEAR/EIGENSOL, FKINETIC=0.0001,1000\nLINEAR/EIGENSOL, KINETIC=1\n");

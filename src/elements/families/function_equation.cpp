@@ -33,7 +33,7 @@ bool FunctionEquationKernel::add_rate_equation(std::int32_t algebraic, std::int3
   for (std::size_t k = 0; k < items_.size(); ++k) {
     if (!is_algebraic(items_[k].form) || unknowns_[k].index != algebraic) continue;
     rates_.push_back(
-        {rate, items_[k].form == Form::value, BoundExpression(items_[k].function, signals, RatesOfAtoms::wanted)});
+        {rate, items_[k].form == Form::value, BoundExpression(items_[k].function, signals, Binding::rates)});
     return true;
   }
   return false;
