@@ -10,8 +10,8 @@
 
 namespace dynalin {
 
-// What an expression is bound for: the equations of a system, with the time derivatives of channels for add_rate, or its
-// gradient alone, which keeps no total angles and may be bound at any time.
+// What an expression is bound for: the equations of a system, with the time derivatives of channels for add_rate, or
+// its gradient alone, which keeps no total angles and may be bound at any time.
 enum class Binding : std::uint8_t { equations, rates, gradient };
 
 class BoundExpression {

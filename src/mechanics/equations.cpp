@@ -39,12 +39,14 @@ void Equations::resize(const Layout& layout) {
   const auto w = static_cast<std::int32_t>(layout.algebraic.size());
   const auto z = static_cast<std::int32_t>(layout.states.size());
   residual_.assign(static_cast<std::size_t>(n + w + z), 0.0);
+  magnitude_ = residual_;
   const std::array<std::int32_t, column_families> columns = {n, n, n, n, m, w, z, z};
   for (std::size_t k = 0; k < column_families; ++k) matrices_[k].resize(n + w + z, columns[k]);
 }
 
 void Equations::begin(std::initializer_list<Column> wanted) {
   std::fill(residual_.begin(), residual_.end(), 0.0);
+  std::fill(magnitude_.begin(), magnitude_.end(), 0.0);
   wanted_.fill(false);
   wants_any_ = wanted.size() > 0;
   recording_ = false;
@@ -65,10 +67,10 @@ void Equations::finish() {
 void Equations::apply(BodyId body, const Vector& force, const Vector& moment, double factor) {
   const BodyBlock& block = layout_->body(body);
   if (block.count == 0) return;
-  double* target = residual_.data() + block.offset;
-  for (std::size_t k = 0; k < 3; ++k) target[k] += factor * force[k];
-  if (block.count == 6) {
-    for (std::size_t k = 0; k < 3; ++k) target[3 + k] += factor * moment[k];
+  for (std::int32_t k = 0; k < 3; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    add_residual(block.offset + k, factor * force[at]);
+    if (block.count == 6) add_residual(block.offset + 3 + k, factor * moment[at]);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -106,7 +107,10 @@ class Equations {
     return algebraic_row(static_cast<std::int32_t>(layout_->algebraic.size())) + k;
   }
 
-  void add_residual(std::int32_t row, double value) { residual_[static_cast<std::size_t>(row)] += value; }
+  void add_residual(std::int32_t row, double value) {
+    residual_[static_cast<std::size_t>(row)] += value;
+    magnitude_[static_cast<std::size_t>(row)] += std::abs(value);
+  }
   // Force and moment about the BCS origin that act on a body, global axes.
   void apply(BodyId body, const Vector& force, const Vector& moment, double factor = -1.0);
   void add(Column family, std::int32_t row, std::int32_t column, double value) {
@@ -125,6 +129,8 @@ class Equations {
 
   std::span<const double> residual() const { return residual_; }
   std::span<double> residual() { return residual_; }
+  // Sum of the sizes of all that was added to a row: what its rounding is measured against.
+  std::span<const double> magnitude() const { return magnitude_; }
   const ColumnMatrix& matrix(Column c) const { return matrices_[static_cast<std::size_t>(c)].matrix(); }
   std::int32_t size() const { return static_cast<std::int32_t>(residual_.size()); }
   const Layout& layout() const { return *layout_; }
@@ -133,7 +139,7 @@ class Equations {
 
  private:
   const Layout* layout_ = nullptr;
-  std::vector<double> residual_;
+  std::vector<double> residual_, magnitude_;
   std::array<Accumulator, column_families> matrices_;
   std::array<bool, column_families> wanted_{};
   bool wants_any_ = false;

@@ -58,7 +58,8 @@ class Kernel {
   // Second phase of making a System, when all numbering is known: bind expressions.
   virtual void bind(const Signals&) {}
 
-  // Adds the equation of the unknown `rate`, the time derivative of the algebraic unknown, if this kernel owns that one.
+  // Adds the equation of the unknown `rate`, the time derivative of the algebraic unknown, if this kernel owns that
+  // one.
   virtual bool add_rate_equation(std::int32_t /*algebraic*/, std::int32_t /*rate*/, const Signals&) { return false; }
 
   // Constraint rows with their values and coefficients at all levels.

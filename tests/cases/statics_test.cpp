@@ -84,6 +84,31 @@ TEST_F(Statics, motions_hold_their_value_and_motions_of_velocity_are_refused) {
   EXPECT_THAT(refused.err, HasSubstr("MOTION/1"));
 }
 
+TEST_F(Statics, stiff_bushings_and_beams_far_from_the_origin_come_to_rest) {
+  // Parts in a row, 40 m out; every part rests on its neighbour and no joint carries anything.
+  std::string s = "MARKER/2, PART=1, QP=40,0,0\n";
+  for (int k = 1; k <= 12; ++k) {
+    const double x = 40 + 0.2 * k;
+    s += fmt::format(
+        "PART/{0}, MASS=2, CM={0}0, IP=0.2,0.3,0.4, QG={1:.17g},0,0\nMARKER/{0}0\nMARKER/{0}1, "
+        "QP=0.1,0.05,0\nMARKER/{0}2, QP=-0.1,0.05,0\n",
+        k + 1, x);
+    const std::string j = k == 1 ? "2" : fmt::format("{}1", k);
+    if (k % 2) {
+      s += fmt::format("BUSHING/{0}, I={1}2, J={2}, K=3E8,2E8,3E8, KT=1E6,2E6,3E6\n", k, k + 1, j);
+    } else {
+      s += fmt::format(
+          "MARKER/{0}3, PART={0}, QP=0.1,0,0\nBEAM/{1}, I={2}0, J={0}3, LENGTH=0.1, AREA=1E-3, IXX=1E-6, IYY=1E-6, "
+          "IZZ=1E-6, EMOD=2.1E11, GMOD=8E10\n",
+          k, k, k + 1);
+    }
+  }
+  const RunResult r = rest(s, "KGRAV=-9.81");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("nothing grows"));
+  EXPECT_EQ(r.eigenvalues(1).size(), 144u);
+}
+
 TEST_F(Statics, redundant_joints_carry_the_load_all_the_same) {
   const std::string one =
       "PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=1,0,0\nMARKER/20\nMARKER/21, QP=-1,0,0\nJOINT/1, REVOLUTE, I=21, "
