@@ -134,6 +134,7 @@ void Draw::connect(const BodyRef& i_body, const BodyRef& j_body, JointType type)
       I.p += static_cast<Real>(L_ * uniform(-0.7, 0.7)) * J.R.column[2];
       break;
     case JointType::inplane:
+    case JointType::gcon_plane:
       I.R = orientation();
       I.p += static_cast<Real>(L_ * uniform(-0.7, 0.7)) * J.R.column[0] +
              static_cast<Real>(L_ * uniform(-0.7, 0.7)) * J.R.column[1];
@@ -146,6 +147,7 @@ void Draw::connect(const BodyRef& i_body, const BodyRef& j_body, JointType type)
       I.p += box(0.7 * L_);
       break;
     case JointType::perpendicular:
+    case JointType::gcon_right_angle:
       I.R = J.R * rotation_z(uniform(-3, 3)) * rotation_x(std::numbers::pi_v<Real> / 2) * rotation_z(uniform(-3, 3));
       I.p += box(0.7 * L_);
       break;
@@ -161,7 +163,7 @@ int Draw::mobility() const {
   for (const Body& b : m_.bodies) {
     count += b.ref.kind == BodyKind::part ? 6 : (b.ref.kind == BodyKind::point_mass ? 3 : 0);
   }
-  constexpr int removed[] = {5, 5, 3, 4, 6, 4, 3, 4, 4, 3, 2, 1, 3, 2, 1};
+  constexpr int removed[] = {5, 5, 3, 4, 6, 4, 3, 4, 4, 3, 2, 1, 3, 2, 1, 1, 1};
   for (const Joint& j : m_.joints) count -= removed[static_cast<int>(j.type)];
   return count - static_cast<int>(m_.motions.size());
 }
@@ -189,7 +191,7 @@ void Draw::draw_tree() {
                            : r < 0.42 ? JointType::universal
                            : r < 0.54 ? JointType::translational
                            : r < 0.57 ? JointType::fixed
-                                      : static_cast<JointType>(static_cast<int>(JointType::cylindrical) + pick(10));
+                                      : static_cast<JointType>(static_cast<int>(JointType::cylindrical) + pick(12));
     if (chance(0.5)) {
       connect(child, parent, type);
     } else {
@@ -214,9 +216,11 @@ void Draw::draw_loops() {
                            : r < 0.55 ? JointType::revolute
                            : r < 0.65 ? JointType::inline_
                            : r < 0.75 ? JointType::inplane
-                           : r < 0.85 ? JointType::hooke
+                           : r < 0.82 ? JointType::hooke
+                           : r < 0.88 ? JointType::gcon_plane
+                           : r < 0.94 ? JointType::gcon_right_angle
                                       : JointType::perpendicular;
-    constexpr int rows_of[] = {5, 5, 3, 4, 6, 4, 3, 4, 4, 3, 2, 1, 3, 2, 1};
+    constexpr int rows_of[] = {5, 5, 3, 4, 6, 4, 3, 4, 4, 3, 2, 1, 3, 2, 1, 1, 1};
     const int removed = rows_of[static_cast<int>(type)];
     if (mobility() - removed < 1) continue;
     connect(a, b, type);
@@ -317,6 +321,11 @@ void Draw::check_nodes(const Model& model, const Expr& e) const {
   };
   if (n.op != Op::sforce && n.ids.size() >= 4 && n.op != Op::measure && (n.ids[2] == 1 || n.ids[2] == 5)) {
     require(model.evaluate(e) > 0.2 * F_ * (n.ids[2] == 5 ? 0.5 * L_ : 1));
+  }
+  if (n.op == Op::spline) {
+    // Between the points, away from the places where a derivative jumps.
+    const Real x = model.evaluate(n.arguments[0]);
+    require(std::fabs(x) < 3.4L && std::fabs(x - std::round(x)) < 0.4L);
   }
   if (n.op == Op::measure && n.measure >= Measure::AX) {
     const MarkerMotion& i = model.markers()[static_cast<std::size_t>(model.marker_index(n.ids[0]))];

@@ -69,6 +69,7 @@ Expr Draw::reaction() {
   if (m_.joints.empty()) return acceleration();
   if (!m_.linears.empty() && chance(0.3)) return load();
   const Joint& joint = one_of(m_.joints);
+  if (is_gcon(joint.type)) return acceleration();
   using enum JointType;
   const bool transmits_torque =
       joint.type != spherical && joint.type != atpoint && joint.type != inline_ && joint.type != inplane;
@@ -93,7 +94,14 @@ Expr Draw::load() {
 
 // A smooth function of an argument of order one, so that second and higher derivatives matter.
 Expr Draw::shaped(const Expr& x) {
-  switch (pick(8)) {
+  switch (pick(9)) {
+    case 8: {
+      // Points between the whole numbers.
+      SplinePoints p{static_cast<int>(m_.splines.size()) + 1, {}, {}};
+      for (int k = -4; k < 4; ++k) p.x.push_back(k + 0.5), p.y.push_back(uniform(-0.8, 0.8));
+      m_.splines.push_back(p);
+      return spline_at(x, p.id, chance(0.5));
+    }
     case 0:
       return call(Function::sin, {x});
     case 1:
@@ -352,7 +360,8 @@ void Draw::draw_outputs() {
   if (!m_.linears.empty()) outputs.push_back(variable(load()));
   if (!m_.gforces.empty()) {
     const int comp = 2 + pick(3) + 4 * pick(2);
-    outputs.push_back(variable((1 / (comp > 4 ? F_ * L_ : F_)) * gforce_load(1, pick(2), comp, one_of(oriented_))));
+    outputs.push_back(variable((1 / (comp > 4 ? F_ * L_ : F_)) *
+                               gforce_load(general_statement(m_.gforces[0]), 1, pick(2), comp, one_of(oriented_))));
   }
   if (!states_.empty()) outputs.push_back(variable(one_of(states_)));
   if (chance(0.2)) outputs.push_back(one_of(inputs_));

@@ -135,9 +135,15 @@ std::string linear_text(const LinearForce& f) {
   return t.set("LENGTH", numbers(f.length)).set("FORCE", numbers(f.force)).text();
 }
 
+constexpr const char* general_keywords[] = {"GFORCE", "VFORCE", "VTORQUE"};
+
 std::string gforce_text(const GeneralForce& f) {
   constexpr const char* names[] = {"FX", "FY", "FZ", "TX", "TY", "TZ"};
-  std::string text = Statement("GFORCE", f.id).set("I", f.i).set("JFLOAT", f.jfloat).set("RM", f.rm).text();
+  std::string text = Statement(general_keywords[general_statement(f)], f.id)
+                         .set("I", f.i)
+                         .set("JFLOAT", f.jfloat)
+                         .set("RM", f.rm)
+                         .text();
   std::string components;
   for (std::size_t k = 0; k < 6; ++k) {
     if (!f.component[k]) continue;
@@ -180,6 +186,9 @@ std::string controls_text(const Mechanism& m) {
     text += t.text();
   }
   for (const Array& a : m.arrays) text += array_text(a);
+  for (const SplinePoints& p : m.splines) {
+    text += Statement("SPLINE", p.id).set("X", numbers(p.x)).set("Y", numbers(p.y)).text();
+  }
   for (const NumberMatrix& a : m.matrices) {
     text += Statement("MATRIX", a.id)
                 .set("FULL", std::string("RORDER"))
@@ -279,7 +288,16 @@ Expr primitive_reaction(int id, int jflag, int component, int rm) {
 Expr linear_load(LinearKind kind, int id, int jflag, int component, int rm) {
   return make(Op::linear, {}, {id, jflag, component, rm, static_cast<int>(kind)});
 }
-Expr gforce_load(int id, int jflag, int component, int rm) { return make(Op::gforce, {}, {id, jflag, component, rm}); }
+Expr gforce_load(int statement, int id, int jflag, int component, int rm) {
+  return make(Op::gforce, {}, {id, jflag, component, rm, statement});
+}
+Expr spline_at(const Expr& x, int id, bool akima) { return make(Op::spline, {x}, {id, akima ? 1 : 0}); }
+int general_statement(const GeneralForce& force) {
+  const auto any = [&](std::size_t first) {
+    return force.component[first] || force.component[first + 1] || force.component[first + 2];
+  };
+  return any(0) && any(3) ? 0 : any(0) ? 1 : 2;
+}
 Expr sforce_load(int id, int jflag, int component, int rm) { return make(Op::sforce, {}, {id, jflag, component, rm}); }
 Expr call(Function function, std::vector<Expr> arguments) {
   Node node;
@@ -320,8 +338,23 @@ std::string expression_text(const Expr& expression) {
       for (const Expr& a : n.arguments) text += (text.empty() ? "" : ", ") + expression_text(a);
       return std::string(function_names[static_cast<int>(n.function)]) + "(" + text + ")";
     }
-    case Op::measure:
-      return std::string(measure_names[static_cast<int>(n.measure)]) + "(" + integers(n.ids) + ")";
+    case Op::measure: {
+      // Some as vectors: the same quantity taken apart by the parser.
+      int sum = 0;
+      for (const int id : n.ids) sum += id;
+      const std::string list = "(" + integers(n.ids) + ")";
+      const std::string name = measure_names[static_cast<int>(n.measure)];
+      if (sum % 3 == 0 && n.measure == Measure::DM) return "MAG(DXYZ" + list + ")";
+      if (sum % 3 == 0 && n.measure <= Measure::DZ) {
+        const char* units[] = {"[1,0,0]", "[0,1,0]", "[0,0,1]"};
+        return "(DXYZ" + list + "*" + units[static_cast<int>(n.measure)] + ")";
+      }
+      if (sum % 3 == 0 && n.measure == Measure::WX) return "([1,0,0]*WXYZ" + list + ")";
+      if (sum % 5 == 0 && n.measure == Measure::DY && n.ids.size() == 3) {
+        return "(TRANS(DXYZ(" + integers({n.ids[0], n.ids[1]}) + ")," + std::to_string(n.ids[2]) + ")*[0,1,0])";
+      }
+      return name + list;
+    }
     case Op::varval:
       return "VARVAL(" + integers(n.ids) + ")";
     case Op::aryval:
@@ -333,7 +366,10 @@ std::string expression_text(const Expr& expression) {
     case Op::linear:
       return std::string(linear_names[n.ids[4]]) + "(" + integers({n.ids.begin(), n.ids.begin() + 4}) + ")";
     case Op::gforce:
-      return "GFORCE(" + integers(n.ids) + ")";
+      return std::string(n.ids[4] == 2 ? "VTORQ" : general_keywords[n.ids[4]]) + "(" +
+             integers({n.ids.begin(), n.ids.begin() + 4}) + ")";
+    case Op::spline:
+      return std::string(n.ids[1] ? "AKISPL(" : "CUBSPL(") + argument(0) + ", 0, " + std::to_string(n.ids[0]) + ")";
     case Op::sforce:
       return "SFORCE(" + integers(n.ids) + ")";
   }
@@ -361,6 +397,15 @@ std::string dataset_text(const Mechanism& m) {
                 .text();
   }
   for (const Joint& j : m.joints) {
+    if (is_gcon(j.type)) {
+      // z of I along z of J: by the origin, or by the direction cosine of the axis.
+      const std::string pair = std::to_string(j.i) + "," + std::to_string(j.j);
+      const bool plane = j.type == JointType::gcon_plane;
+      text += Statement("GCON", j.id)
+                  .set("FUNCTION", plane ? "DZ(" + pair + "," + std::to_string(j.j) + ")" : "UVZ(" + pair + ")*[0,0,1]")
+                  .text();
+      continue;
+    }
     text += Statement(is_primitive(j.type) ? "JPRIM" : "JOINT", j.id)
                 .word(joint_names[static_cast<int>(j.type)])
                 .set("I", j.i)

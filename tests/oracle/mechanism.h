@@ -37,7 +37,8 @@ enum class Op {
   joint,  // JOINT and JPRIM
   sforce,
   linear,  // BUSH, FIELD, BEAM
-  gforce
+  gforce,
+  spline  // AKISPL, CUBSPL of one argument
 };
 enum class Function { sin, cos, tanh, exp, sqrt, atan, atan2, step };
 enum class Measure {
@@ -95,7 +96,9 @@ struct Node {
 [[nodiscard]] Expr primitive_reaction(int id, int jflag, int component, int rm);
 [[nodiscard]] Expr sforce_load(int id, int jflag, int component, int rm);
 [[nodiscard]] Expr linear_load(LinearKind kind, int id, int jflag, int component, int rm);
-[[nodiscard]] Expr gforce_load(int id, int jflag, int component, int rm);
+[[nodiscard]] Expr spline_at(const Expr& x, int id, bool akima);
+// `statement`: 0 GFORCE, 1 VFORCE, 2 VTORQUE, as general_statement says.
+[[nodiscard]] Expr gforce_load(int statement, int id, int jflag, int component, int rm);
 [[nodiscard]] std::string expression_text(const Expr& expression);
 
 // --------------------------------------------------------------------------------- the mechanism
@@ -140,9 +143,12 @@ enum class JointType {
   inplane,
   orientation,
   parallel_axes,
-  perpendicular
+  perpendicular,
+  gcon_plane,  // INPLANE and PERPENDICULAR written as GCONs in marker measures
+  gcon_right_angle
 };
-[[nodiscard]] inline bool is_primitive(JointType t) { return t >= JointType::atpoint; }
+[[nodiscard]] inline bool is_gcon(JointType t) { return t >= JointType::gcon_plane; }
+[[nodiscard]] inline bool is_primitive(JointType t) { return t >= JointType::atpoint && !is_gcon(t); }
 struct Joint {
   int id = 0;
   JointType type = JointType::revolute;
@@ -194,6 +200,9 @@ struct GeneralForce {
   std::array<std::optional<Expr>, 6> component;
 };
 
+// Which statement it is written as: 1, without torques, is a VFORCE, 2, without forces, a VTORQUE, 0 a GFORCE.
+[[nodiscard]] int general_statement(const GeneralForce& force);
+
 struct Variable {
   int id = 0;
   Expr function;
@@ -224,6 +233,10 @@ struct Lse {
   int id = 0, x = 0, u = 0, y = 0, ic = 0;  // 0 = not given
   int a = 0, b = 0, c = 0, d = 0;           // MATRIX ids, 0 = not given
 };
+struct SplinePoints {
+  int id = 0;
+  std::vector<double> x, y;
+};
 struct VariableList {
   int id = 0;
   std::vector<int> variables;
@@ -241,6 +254,7 @@ struct Mechanism {
   std::vector<Sforce> sforces;
   std::vector<LinearForce> linears;
   std::vector<GeneralForce> gforces;
+  std::vector<SplinePoints> splines;
   std::vector<Variable> variables;
   std::vector<Diff> diffs;
   std::vector<Array> arrays;

@@ -147,12 +147,12 @@ void Model::read_rows() {
     using enum JointType;
     if (is({revolute, spherical, universal, fixed, hooke, convel, atpoint})) patterns = coincide;
     if (is({translational, cylindrical, inline_})) patterns.assign(coincide.begin(), coincide.begin() + 2);
-    if (is({planar, inplane})) patterns.push_back(coincide[2]);
+    if (is({planar, inplane, gcon_plane})) patterns.push_back(coincide[2]);
     if (is({revolute, translational, fixed, cylindrical, planar, orientation, parallel_axes})) {
       patterns.insert(patterns.end(), aligned.begin(), aligned.end());
     }
     if (is({translational, fixed, orientation, hooke, convel})) patterns.push_back({Type::direction, 0, 1});
-    if (is({universal, perpendicular})) patterns.push_back({Type::direction, 2, 2});
+    if (is({universal, perpendicular, gcon_right_angle})) patterns.push_back({Type::direction, 2, 2});
     for (const Pattern& p : patterns) {
       rows.push_back({p.type, joint_markers_[k][0], joint_markers_[k][1], p.axis_i, p.axis_j, static_cast<int>(k), -1,
                       joint.type == convel && p.type == Type::direction});

@@ -120,6 +120,7 @@ class Model {
   void apply_linears(std::vector<Wrench>& loads) const;
   [[nodiscard]] Wrench linear_wrench(const LinearForce& f) const;  // on I, torque about p_I
   [[nodiscard]] Wrench general_wrench(std::size_t k) const;
+  [[nodiscard]] Real spline_value(const SplinePoints& points, Real x, bool akima) const;
   [[nodiscard]] Wrench joint_wrench(int joint) const;  // on I, torque about p_I
   [[nodiscard]] Wrench sforce_wrench(const Sforce& s, Real value) const;
   [[nodiscard]] Real wrench_component(const Wrench& on_i, const Vec& i_from_j, const std::vector<int>& ids) const;

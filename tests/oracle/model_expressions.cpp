@@ -64,10 +64,57 @@ Real Model::evaluate_node(const Node& n) const {
                            markers_[static_cast<std::size_t>(marker_index(found->j))].p;
       return wrench_component(linear_wrench(*found), i_from_j, n.ids);
     }
+    case Op::spline: {
+      const auto found = std::find_if(mechanism_.splines.begin(), mechanism_.splines.end(),
+                                      [&](const SplinePoints& p) { return p.id == n.ids[0]; });
+      return spline_value(*found, evaluate(n.arguments[0]), n.ids[1] != 0);
+    }
     case Op::gforce:
       return wrench_component(general_wrench(static_cast<std::size_t>(gforce_index_.at(n.ids[0]))), Vec{}, n.ids);
   }
   throw std::runtime_error("an expression has an unknown operation");
+}
+
+// Inside the points only. The cubic spline by its second derivatives, with third differences given at the ends.
+Real Model::spline_value(const SplinePoints& points, Real at, bool akima) const {
+  const std::size_t n = points.x.size();
+  const auto x = [&](std::size_t k) { return static_cast<Real>(points.x[k]); };
+  const auto y = [&](std::size_t k) { return static_cast<Real>(points.y[k]); };
+  const auto h = [&](std::size_t k) { return x(k + 1) - x(k); };
+  const auto m = [&](std::size_t k) { return (y(k + 1) - y(k)) / h(k); };
+  std::size_t k = 0;
+  while (k + 2 < n && at >= x(k + 1)) ++k;
+  const Real s = at - x(k);
+  if (akima) {
+    std::vector<Real> slope(n + 3);  // two beyond either end, with constant differences
+    for (std::size_t i = 0; i + 1 < n; ++i) slope[i + 2] = m(i);
+    slope[1] = 2 * slope[2] - slope[3], slope[0] = 2 * slope[1] - slope[2];
+    slope[n + 1] = 2 * slope[n] - slope[n - 1], slope[n + 2] = 2 * slope[n + 1] - slope[n];
+    const auto tangent = [&](std::size_t i) {
+      const Real right = std::fabs(slope[i + 3] - slope[i + 2]), left = std::fabs(slope[i + 1] - slope[i]);
+      return right + left == 0 ? (slope[i + 1] + slope[i + 2]) / 2
+                               : (right * slope[i + 1] + left * slope[i + 2]) / (right + left);
+    };
+    // Hermite's basis on the piece.
+    const Real t = s / h(k), u = 1 - t;
+    return y(k) * u * u * (1 + 2 * t) + y(k + 1) * t * t * (3 - 2 * t) +
+           h(k) * (tangent(k) * t * u * u - tangent(k + 1) * t * t * u);
+  }
+  Dense A(n, n);
+  std::vector<Real> b(n, 0);
+  const auto third = [&](std::size_t i) {
+    const Real first = (m(i + 1) - m(i)) / (x(i + 2) - x(i)), second = (m(i + 2) - m(i + 1)) / (x(i + 3) - x(i + 1));
+    return 6 * (second - first) / (x(i + 3) - x(i));
+  };
+  A(0, 0) = -1, A(0, 1) = 1, b[0] = third(0) * h(0);
+  A(n - 1, n - 2) = -1, A(n - 1, n - 1) = 1, b[n - 1] = third(n - 4) * h(n - 2);
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    A(i, i - 1) = h(i - 1), A(i, i) = 2 * (h(i - 1) + h(i)), A(i, i + 1) = h(i);
+    b[i] = 6 * (m(i) - m(i - 1));
+  }
+  const std::vector<Real> M = Lu(A).solve(b);
+  return y(k) + s * (m(k) - h(k) * (2 * M[k] + M[k + 1]) / 6) + s * s * M[k] / 2 +
+         s * s * s * (M[k + 1] - M[k]) / (6 * h(k));
 }
 
 Real Model::wrench_component(const Wrench& on_i, const Vec& i_from_j, const std::vector<int>& ids) const {
