@@ -6,6 +6,7 @@
 
 namespace dynalin {
 
+// With `right`, eigenvectors and, from the left ones, the condition number of each eigenvalue.
 enum class Vectors : bool { none, right };
 
 // λ/2π: real ones first by ascending modulus, then complex pairs by ascending imaginary part.
