@@ -6,6 +6,13 @@
 
 namespace dynalin {
 
+// A coordinate that may become a state: its gradient along the motion and its name.
+struct Candidate {
+  std::int32_t coordinate = -1;  // a coordinate of the layout itself, or
+  std::int32_t row = -1;         // a row of gradients (RM, PSTATE)
+  StateLabel label;
+};
+
 // Candidates in the order in which they are wanted, with the gradient rows of those that are no plain coordinate.
 struct CandidateSet {
   std::vector<Candidate> wanted;    // PSTATE, then RM or global coordinates

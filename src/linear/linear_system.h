@@ -1,14 +1,8 @@
-// The perturbation equations of a model at an operating point, reduced to chosen coordinates.
-//
-// With δq = the path variation of all coordinates and x the chosen ones, three levels are solved with the same rows:
-//
-//     [G; X] δq  = [0; δx]
-//     [G; X] δq′ = [−G′ δq; δx′ − X′ δq]
-//     saddle (δq″, δλ, δw, δz′) = −(∂/∂q δq + ∂/∂q′ δq′ + ∂/∂z δz), constraint rows −(a1 δq′ + a0 δq)
-//
-// and δx″ = X δq″ + 2 X′ δq′ + X″ δq. Velocity rows make the second level larger: fewer rates than coordinates.
+// The exact linear model of a system at an operating point: the perturbation equations (perturbation.h) reduced to
+// chosen coordinates (state_choice.h).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,12 +18,7 @@ struct LinearOptions {
   bool without_damping = false;  // NODAMPIN
 };
 
-// A coordinate that may become a state: its gradient along the motion and its name.
-struct Candidate {
-  std::int32_t coordinate = -1;  // a coordinate of the layout itself, or
-  std::int32_t row = -1;         // a row of gradients (RM, PSTATE)
-  StateLabel label;
-};
+class PerturbationEquations;
 
 struct LinearSystem {
   StateSpace model;
@@ -38,6 +27,8 @@ struct LinearSystem {
   std::vector<std::string> warnings;
   // Columns of states, then inputs: variations of all coordinates, rates, accelerations, multipliers, algebraic values.
   Eigen::MatrixXd dq, dqdot, dqddot, dlambda, dw;
+  Eigen::MatrixXd rounding;  // what the entries of A may carry of rounding, element by element
+  std::shared_ptr<const PerturbationEquations> equations;
 };
 
 // The point must be consistent on all levels (solve_acceleration).

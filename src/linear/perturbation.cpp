@@ -1,0 +1,282 @@
+#include "linear/perturbation.h"
+
+#include <cmath>
+#include <limits>
+
+namespace dynalin {
+
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+
+// Roundings that a sum of the reduction may pick up, in units of the last place of its largest partial sums.
+constexpr double rounding_units = 32;
+
+std::span<const double> column(const Eigen::Ref<const Matrix>& x, Eigen::Index c) {
+  return {x.data() + c * x.outerStride(), static_cast<std::size_t>(x.rows())};
+}
+std::span<double> column(Eigen::Ref<Matrix>& x, Eigen::Index c) {
+  return {x.data() + c * x.outerStride(), static_cast<std::size_t>(x.rows())};
+}
+
+// y += factor · M x for sparse M and dense x.
+void multiply_add(const ColumnMatrix& m, const Eigen::Ref<const Matrix>& x, Eigen::Ref<Matrix> y, double factor) {
+  for (Eigen::Index c = 0; c < x.cols(); ++c) m.multiply_add(column(x, c), column(y, c), factor);
+}
+
+ColumnMatrix transposed(const ColumnMatrix& m) {
+  std::vector<Triplet> entries;
+  entries.reserve(m.value.size());
+  for (std::int32_t c = 0; c < m.columns; ++c) {
+    for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]);
+         k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
+      entries.push_back({c, m.row[k], m.value[k]});
+    }
+  }
+  return compressed(m.columns, m.rows, entries);
+}
+
+ColumnMatrix absolute(ColumnMatrix m) {
+  for (double& v : m.value) v = std::abs(v);
+  return m;
+}
+
+// Adds a block to the triplets of a larger matrix.
+void place(std::vector<Triplet>& entries, const ColumnMatrix& m, std::int32_t row, std::int32_t column) {
+  for (std::int32_t c = 0; c < m.columns; ++c) {
+    for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]);
+         k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
+      entries.push_back({row + m.row[k], column + c, m.value[k]});
+    }
+  }
+}
+
+using Entries = std::vector<Triplet>;
+
+// One of the first two levels: constraint rows, then chosen coordinates.
+ColumnMatrix level_matrix(const ConstraintRows& rows, const StateChoice& choice, const std::vector<bool>& active,
+                          const std::vector<bool>& use, std::int32_t n, bool& square) {
+  Entries entries;
+  std::int32_t r = 0;
+  for (std::int32_t k = 0; k < rows.size(); ++k) {
+    if (!active[static_cast<std::size_t>(k)]) continue;
+    for (const auto& e : rows.row(k)) entries.push_back({r, e.column, e.c.g});
+    ++r;
+  }
+  for (std::size_t k = 0; k < choice.gradient.size(); ++k) {
+    if (!use[k]) continue;
+    for (const auto& e : choice.gradient[k]) entries.push_back({r, e.column, e.c.g});
+    ++r;
+  }
+  square = r == n;
+  return square ? compressed(n, n, entries) : ColumnMatrix{};
+}
+
+}  // namespace
+
+Result<PerturbationEquations> PerturbationEquations::make(const System& system, const ConstraintRows& rows,
+                                                          const Equations& eq, const StateChoice& choice,
+                                                          const std::vector<std::int32_t>& inputs,
+                                                          bool without_damping) {
+  PerturbationEquations p;
+  const Layout& layout = system.layout();
+  const std::int32_t n = p.n_ = layout.coordinate_count;
+  const Saddle saddle(system);
+  p.saddle_size_ = saddle.size();
+  p.algebraic_ = 2 * n + saddle.size();
+  p.states_ = choice.size();
+  std::vector<bool> cut(layout.algebraic.size(), false);
+  for (const std::int32_t u : inputs) cut[static_cast<std::size_t>(u)] = true;
+
+  // The diagonal of F.
+  const std::vector<bool> every(choice.gradient.size(), true);
+  std::array<ColumnMatrix, 3> diagonal;
+  bool square = false;
+  const auto factor = [&](std::size_t level) {
+    auto lu = std::make_shared<SparseLu>();
+    if (!lu->factor(diagonal[level])) return false;
+    p.level_[level] = std::move(lu);
+    return true;
+  };
+  const Failure singular{"linear analysis", "the chosen coordinates do not determine the position of the model", {}};
+  diagonal[0] = level_matrix(rows, choice, choice.active, every, n, square);
+  if (!square || !factor(0)) return tl::unexpected(singular);
+  if (choice.splits_unequally()) {
+    diagonal[1] = level_matrix(rows, choice, choice.velocity_active, choice.has_rate, n, square);
+    if (!square || !factor(1)) return tl::unexpected(singular);
+  } else {
+    diagonal[1] = diagonal[0];
+    p.level_[1] = p.level_[0];
+  }
+  diagonal[2] = saddle.matrix(eq, rows, choice.velocity_active, {}, cut);
+  if (!factor(2)) {
+    return tl::unexpected(
+        Failure{"linear analysis", "the accelerations are not determined", undetermined(system, saddle, diagonal[2])});
+  }
+
+  // What lies below it, and the columns of states and inputs.
+  Entries below_10, below_20, below_21, states;
+  std::int32_t r = 0;
+  for (std::int32_t k = 0; k < rows.size(); ++k) {
+    if (!choice.velocity_active[static_cast<std::size_t>(k)]) continue;
+    for (const auto& e : rows.row(k)) {
+      if (e.c.v != 0.0) below_10.push_back({r, e.column, e.c.v});
+      if (e.c.a1 != 0.0) below_21.push_back({saddle.lambda(k), e.column, e.c.a1});
+      if (e.c.a0 != 0.0) below_20.push_back({saddle.lambda(k), e.column, e.c.a0});
+    }
+    ++r;
+  }
+  const auto held = n - static_cast<std::int32_t>(choice.gradient.size());
+  for (std::size_t k = 0; k < choice.gradient.size(); ++k) {
+    states.push_back({held + static_cast<std::int32_t>(k), choice.position_state[k], -1.0});
+    if (!choice.has_rate[k]) continue;
+    for (const auto& e : choice.gradient[k]) {
+      if (e.c.v != 0.0) below_10.push_back({r, e.column, e.c.v});
+    }
+    states.push_back({n + r++, choice.rate_state[k], -1.0});
+  }
+  const auto add = [&](Column family, Entries& entries, auto&& place_of) {
+    const ColumnMatrix& m = eq.matrix(family);
+    for (std::int32_t c = 0; c < m.columns; ++c) {
+      for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]);
+           k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
+        const std::int32_t w = m.row[k] - n;
+        const bool replaced = w >= 0 && w < static_cast<std::int32_t>(cut.size()) && cut[static_cast<std::size_t>(w)];
+        if (!replaced) entries.push_back(place_of(saddle.equation(m.row[k]), c, m.value[k]));
+      }
+    }
+  };
+  const auto there = [](std::int32_t row, std::int32_t c, double v) { return Triplet{row, c, v}; };
+  add(Column::position, below_20, there);
+  add(Column::velocity, below_21, there);
+  if (!without_damping) add(Column::damping, below_21, there);
+  std::vector<std::int32_t> state_of(choice.differential.size());
+  for (std::size_t k = 0; k < choice.differential.size(); ++k) {
+    state_of[static_cast<std::size_t>(choice.differential[k])] =
+        choice.first_differential + static_cast<std::int32_t>(k);
+  }
+  add(Column::state, states, [&](std::int32_t row, std::int32_t c, double v) {
+    return Triplet{2 * n + row, state_of[static_cast<std::size_t>(c)], v};
+  });
+  for (std::size_t u = 0; u < inputs.size(); ++u) {
+    states.push_back({2 * n + saddle.algebraic(inputs[u]), p.states_ + static_cast<std::int32_t>(u), -1.0});
+  }
+  p.rates_on_positions_ = compressed(n, n, below_10);
+  p.saddle_on_positions_ = compressed(saddle.size(), n, below_20);
+  p.saddle_on_rates_ = compressed(saddle.size(), n, below_21);
+  p.on_states_ = compressed(p.algebraic_, p.states_ + static_cast<std::int32_t>(inputs.size()), states);
+
+  // The rates of states.
+  Entries on_algebraic, on_states;
+  for (std::size_t k = 0; k < choice.gradient.size(); ++k) {
+    const std::int32_t position = choice.position_state[k], rate = choice.rate_state[k];
+    if (rate >= 0) on_states.push_back({position, rate, 1.0});
+    for (const auto& [c, g] : choice.gradient[k]) {
+      if (rate >= 0) {
+        on_algebraic.push_back({rate, 2 * n + c, g.g});
+        if (g.a1 != 0.0) on_algebraic.push_back({rate, n + c, g.a1});
+        if (g.a0 != 0.0) on_algebraic.push_back({rate, c, g.a0});
+      } else {
+        on_algebraic.push_back({position, n + c, g.g});
+        if (g.v != 0.0) on_algebraic.push_back({position, c, g.v});
+      }
+    }
+  }
+  for (std::size_t k = 0; k < choice.differential.size(); ++k) {
+    on_algebraic.push_back(
+        {choice.first_differential + static_cast<std::int32_t>(k), 2 * n + saddle.state(choice.differential[k]), 1.0});
+  }
+  p.state_rates_on_algebraic_ = compressed(p.states_, p.algebraic_, on_algebraic);
+  p.state_rates_on_states_ = compressed(p.states_, p.states_, on_states);
+
+  Entries all;
+  place(all, diagonal[0], 0, 0);
+  place(all, p.rates_on_positions_, n, 0);
+  place(all, diagonal[1], n, n);
+  place(all, p.saddle_on_positions_, 2 * n, 0);
+  place(all, p.saddle_on_rates_, 2 * n, n);
+  place(all, diagonal[2], 2 * n, 2 * n);
+  for (const Triplet& t : states) {
+    if (t.column < p.states_) all.push_back({t.row, p.algebraic_ + t.column, t.value});
+  }
+  place(all, p.state_rates_on_algebraic_, p.algebraic_, 0);
+  place(all, p.state_rates_on_states_, p.algebraic_, p.algebraic_);
+  p.pencil_ = compressed(p.unknowns(), p.unknowns(), all);
+  return p;
+}
+
+void PerturbationEquations::solve_levels(Matrix& b) const {
+  level_[0]->solve(b.topRows(n_));
+  multiply_add(rates_on_positions_, b.topRows(n_), b.middleRows(n_, n_), -1.0);
+  level_[1]->solve(b.middleRows(n_, n_));
+  multiply_add(saddle_on_positions_, b.topRows(n_), b.bottomRows(saddle_size_), -1.0);
+  multiply_add(saddle_on_rates_, b.middleRows(n_, n_), b.bottomRows(saddle_size_), -1.0);
+  level_[2]->solve(b.bottomRows(saddle_size_));
+}
+
+Matrix PerturbationEquations::complete(const Matrix& x) const {
+  Matrix a = Matrix::Zero(algebraic_, x.cols());
+  Matrix padded = Matrix::Zero(on_states_.columns, x.cols());
+  padded.topRows(x.rows()) = x;
+  multiply_add(on_states_, padded, a, -1.0);
+  solve_levels(a);
+  return a;
+}
+
+Matrix PerturbationEquations::complete_left(const Matrix& y) const {
+  Matrix a = Matrix::Zero(algebraic_, y.cols());
+  multiply_add(transposed(state_rates_on_algebraic_), y, a, -1.0);
+  level_[2]->solve_transposed(a.bottomRows(saddle_size_));
+  multiply_add(transposed(saddle_on_rates_), a.bottomRows(saddle_size_), a.middleRows(n_, n_), -1.0);
+  level_[1]->solve_transposed(a.middleRows(n_, n_));
+  multiply_add(transposed(saddle_on_positions_), a.bottomRows(saddle_size_), a.topRows(n_), -1.0);
+  multiply_add(transposed(rates_on_positions_), a.middleRows(n_, n_), a.topRows(n_), -1.0);
+  level_[0]->solve_transposed(a.topRows(n_));
+  return a;
+}
+
+Matrix PerturbationEquations::reduced(const Matrix& residuals) const {
+  Matrix a = residuals.topRows(algebraic_);
+  solve_levels(a);
+  Matrix r = residuals.bottomRows(states_);
+  multiply_add(state_rates_on_algebraic_, a, r, -1.0);
+  return r;
+}
+
+Matrix PerturbationEquations::state_rates(const Matrix& a, const Matrix& x) const {
+  Matrix rates = Matrix::Zero(states_, a.cols());
+  multiply_add(state_rates_on_algebraic_, a, rates, 1.0);
+  multiply_add(state_rates_on_states_, x.topRows(states_), rates, 1.0);
+  return rates;
+}
+
+Matrix PerturbationEquations::rounding(const Matrix& a) const {
+  const Matrix dq = a.topLeftCorner(n_, states_).cwiseAbs(), dqdot = a.block(n_, 0, n_, states_).cwiseAbs();
+  Matrix size = Matrix::Zero(algebraic_, states_);
+  const ColumnMatrix states = absolute(on_states_);
+  for (Eigen::Index c = 0; c < states_; ++c) {
+    const auto at = static_cast<std::size_t>(c);
+    for (auto k = static_cast<std::size_t>(states.start[at]); k < static_cast<std::size_t>(states.start[at + 1]); ++k) {
+      size(states.row[k], c) += states.value[k];
+    }
+  }
+  Matrix of_saddle = size.bottomRows(saddle_size_);
+  multiply_add(absolute(saddle_on_positions_), dq, of_saddle, 1.0);
+  multiply_add(absolute(saddle_on_rates_), dqdot, of_saddle, 1.0);
+
+  const ColumnMatrix on_algebraic = absolute(state_rates_on_algebraic_);
+  Matrix parts = Matrix::Zero(algebraic_, states_);
+  parts.topRows(n_) = dq;
+  parts.middleRows(n_, n_) = dqdot;
+  Matrix total = Matrix::Zero(states_, states_);
+  multiply_add(on_algebraic, parts, total, 1.0);
+
+  Matrix adjoint = Matrix::Zero(algebraic_, states_);
+  multiply_add(transposed(state_rates_on_algebraic_), Matrix::Identity(states_, states_), adjoint, 1.0);
+  Matrix of_rates = adjoint.bottomRows(saddle_size_);
+  level_[2]->solve_transposed(of_rates);
+  total += of_rates.cwiseAbs().transpose() * of_saddle;
+  return rounding_units * std::numeric_limits<double>::epsilon() * total;
+}
+
+}  // namespace dynalin

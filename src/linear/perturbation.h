@@ -1,0 +1,65 @@
+// The perturbation equations of a model at an operating point as one sparse system, nothing eliminated:
+//
+//     0  = F a + G x + H u          a = (δq, δq′, δq″, δλ, δw, δz′),  x the states,  u the inputs
+//     x′ = P a + R x
+//
+// F is block lower triangular in three levels that are solved one after the other:
+//
+//     [Φ_q; X] δq  = [0; δx]                                            Φ_q constraint rows, X chosen coordinates
+//     [Φ_q; X] δq′ = [−Φ_q′ δq; δx′ − X′ δq]
+//     saddle (δq″, δλ, δw, δz′) = −(∂/∂q δq + ∂/∂q′ δq′ + ∂/∂z δz), constraint rows −(a1 δq′ + a0 δq)
+//
+// and δx″ = X δq″ + 2 X′ δq′ + X″ δq. Velocity rows make the second level larger: fewer rates than coordinates.
+// The state matrix is A = R − P F⁻¹ G; its eigenvalues are those of the sparse pencil S − λ E of all unknowns (a, x).
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "analysis/saddle.h"
+#include "linear/state_choice.h"
+#include "system/sparse_lu.h"
+
+namespace dynalin {
+
+class PerturbationEquations {
+ public:
+  // `inputs` are algebraic unknowns that are cut free of their own equation.
+  static Result<PerturbationEquations> make(const System&, const ConstraintRows&, const Equations&, const StateChoice&,
+                                            const std::vector<std::int32_t>& inputs, bool without_damping);
+
+  std::int32_t states() const { return states_; }
+  std::int32_t unknowns() const { return algebraic_ + states_; }  // of the pencil
+  std::int32_t coordinates() const { return n_; }
+  // Where parts of a begin.
+  std::int32_t rates() const { return n_; }
+  std::int32_t accelerations() const { return 2 * n_; }
+  std::int32_t saddle() const { return 2 * n_; }
+  std::int32_t state_columns() const { return algebraic_; }
+
+  // a of columns (x; u) or x alone.
+  Eigen::MatrixXd complete(const Eigen::MatrixXd& states_and_inputs) const;
+  // The left counterpart: y_a of the rows y_x of states, with y_aᵀ F + y_xᵀ P = 0.
+  Eigen::MatrixXd complete_left(const Eigen::MatrixXd& of_states) const;
+  // r_x − P F⁻¹ r_a of residuals (r_a; r_x): what they amount to in the equations of states.
+  Eigen::MatrixXd reduced(const Eigen::MatrixXd& residuals) const;
+  // P a + R x
+  Eigen::MatrixXd state_rates(const Eigen::MatrixXd& a, const Eigen::MatrixXd& states_and_inputs) const;
+  // Roundings that the entries of A may carry, element by element: Σ|y||r| over the very sums that make them.
+  Eigen::MatrixXd rounding(const Eigen::MatrixXd& a) const;
+
+  // [F G; P R], and where E has its ones: the last states() places of the diagonal.
+  const ColumnMatrix& pencil() const { return pencil_; }
+
+ private:
+  void solve_levels(Eigen::MatrixXd& b) const;
+
+  std::int32_t n_ = 0, saddle_size_ = 0, algebraic_ = 0, states_ = 0;
+  std::array<std::shared_ptr<const SparseLu>, 3> level_;
+  ColumnMatrix rates_on_positions_, saddle_on_positions_, saddle_on_rates_;  // below the diagonal of F
+  ColumnMatrix on_states_;                                                   // [G H]
+  ColumnMatrix state_rates_on_algebraic_, state_rates_on_states_;            // P and R
+  ColumnMatrix pencil_;
+};
+
+}  // namespace dynalin

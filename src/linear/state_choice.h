@@ -1,0 +1,33 @@
+// Which coordinates and rates become states, and which constraint rows hold the others.
+//
+// The rows of constraints take pivots first among coordinates that are wanted least; what is left over is independent.
+// Velocity rows then take some of the rates away: such a coordinate is a state without its rate.
+#pragma once
+
+#include "linear/candidates.h"
+
+namespace dynalin {
+
+struct StateChoice {
+  struct Entry {  // of the gradient of a chosen coordinate
+    std::int32_t column;
+    RowCoefficients c;
+  };
+  std::vector<StateLabel> labels;             // of chosen coordinates, in the order in which they are wanted
+  std::vector<std::vector<Entry>> gradient;   // x = gradient · q, along the motion
+  std::vector<bool> has_rate;                 // whether x′ is a state as well
+  std::vector<bool> active, velocity_active;  // rows that hold positions, and rates
+  // Places in the list of states.
+  std::vector<std::int32_t> position_state, rate_state;  // of chosen coordinates; −1 if there is no rate
+  std::vector<std::int32_t> differential;                // differential state k of the list is state differential[k]
+  std::int32_t first_differential = 0;
+  std::vector<StateLabel> states;  // all, as listed: rate before coordinate, then differential states
+  std::vector<std::string> warnings;
+
+  std::int32_t size() const { return static_cast<std::int32_t>(states.size()); }
+  bool splits_unequally() const;  // fewer rates than coordinates, or other rows
+};
+
+Result<StateChoice> choose_states(const System&, const Motion&, const ConstraintRows&, const LinearOptions&);
+
+}  // namespace dynalin
