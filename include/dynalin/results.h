@@ -74,6 +74,10 @@ struct EigenMode {
   // 0 if it was not asked for.
   double condition = 0;
   double backward_error = 0;  // ‖A v − λ v‖ / ‖A‖ of the computed pair
+  // |computed − exact| for the perturbation equations as assembled, λ/2π like the eigenvalue. 0 for a structural zero.
+  double error_bound_hz = 0;
+  bool structural_zero = false;  // zero because the model is free to move that way, not by computation
+  bool refined = false;          // by inverse iteration on the sparse equations
   std::string moves_most;  // the part with the largest motion, or the controller where no part moves; empty: not known
 };
 

@@ -35,8 +35,7 @@ struct LinearCommand {
   std::vector<std::int64_t> marker_list;  // MLIST
   int table_precision = 2;
   bool wants_tables() const {
-    return coordinates.wanted() || kinetic.wanted() || strain.wanted() || dissipation.wanted() ||
-           markers.wanted();
+    return coordinates.wanted() || kinetic.wanted() || strain.wanted() || dissipation.wanted() || markers.wanted();
   }
   std::vector<std::string> tables;  // arguments that ask for tables not available yet, as named
 };

@@ -4,14 +4,13 @@
 #include <fmt/ostream.h>
 
 #include <chrono>
-#include <cstdlib>
+#include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "analysis/statics.h"
-#include "command/commands.h"
-#include "elements/catalogue.h"
+#include "command/job.h"
+#include "command/mode_tables.h"
 #include "linear/eigen.h"
 #include "linear/mode_shapes.h"
 #include "linear/second_order.h"
@@ -19,7 +18,6 @@
 #include "output/json.h"
 #include "output/matrices.h"
 #include "output/message_file.h"
-#include "output/modal_tables.h"
 
 namespace dynalin {
 
@@ -28,132 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view version = "0.1.0";
-
-SourceRef read_source(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in || fs::is_directory(path)) return nullptr;
-  std::ostringstream text;
-  text << in.rdbuf();
-  return std::make_shared<const SourceText>(path, text.str());
-}
-
-bool has_extension(const std::string& path, std::string_view extension) {
-  std::string e = fs::path(path).extension().string();
-  for (char& c : e) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return e == extension;
-}
-
-// Everything a run needs, read and checked.
-struct Job {
-  CommandFile commands;
-  std::shared_ptr<const Dataset> dataset;
-  std::shared_ptr<const Model> model;
-  std::string prefix;
-  std::string folder;  // of the command file; files named in commands are relative to it
-};
-
-class Loader {
- public:
-  Loader(const SessionOptions& options, std::ostream& err) : options_(options), err_(err) {}
-
-  std::optional<Job> load() {
-    Job job;
-    const std::string& file = options_.file;
-    const bool is_dataset = has_extension(file, ".adm");
-    std::string dataset_path = file;
-    job.folder = fs::path(file).parent_path().string();
-    if (is_dataset) {
-      std::string text;
-      for (const std::string& c : options_.commands) text += c + "\n";
-      auto parsed = parse_commands(std::make_shared<const SourceText>("command line", text));
-      take(std::move(parsed), job);
-    } else {
-      const SourceRef source = read_source(file);
-      if (!source) return missing(file);
-      auto parsed = parse_command_file(source);
-      keep_.push_back(source);
-      take(std::move(parsed), job);
-      if (job.commands.model.empty()) {
-        if (!diagnostics_.has_errors())
-          diagnostics_.error("missing-model", {source.get(), 0, 0}, "the command file names no model",
-                             "its first line is the name of the dataset");
-        return fail();
-      }
-      dataset_path = (fs::path(job.folder) / job.commands.model).string();
-      if (fs::path(dataset_path).extension().empty()) dataset_path += ".adm";
-    }
-    const SourceRef source = read_source(dataset_path);
-    if (!source) {
-      if (is_dataset) return missing(dataset_path);
-      diagnostics_.error("missing-model", job.commands.model_at,
-                         fmt::format("the dataset {} cannot be read", dataset_path));
-      return fail();
-    }
-    keep_.push_back(source);
-    auto parsed = parse_dataset(source);
-    const bool read = !parsed.diagnostics.has_errors();
-    diagnostics_.append(std::move(parsed.diagnostics));
-    job.dataset = std::make_shared<const Dataset>(std::move(parsed.value));
-    auto built = build_model(job.dataset, catalogue());
-    // Statements that could not be read leave gaps that the model would only complain about again.
-    if (read || built.diagnostics.has_errors()) diagnostics_.append(std::move(built.diagnostics));
-    job.model = std::move(built.value);
-    if (!diagnostics_.has_errors()) check_ids(job);
-    if (diagnostics_.has_errors()) return fail();
-    err_ << render(diagnostics_);
-    job.prefix = !options_.output_prefix.empty() ? options_.output_prefix : default_prefix(job, dataset_path);
-    return job;
-  }
-
- private:
-  void take(Parsed<CommandFile> parsed, Job& job) {
-    job.commands = std::move(parsed.value);
-    diagnostics_.append(std::move(parsed.diagnostics));
-  }
-  std::string default_prefix(const Job& job, const std::string& dataset_path) const {
-    const std::string name =
-        job.commands.output_prefix.empty() ? fs::path(dataset_path).stem().string() : job.commands.output_prefix;
-    return (fs::path(job.folder) / name).string();
-  }
-  std::nullopt_t missing(const std::string& path) {
-    fmt::print(err_, "error: {} cannot be read\n", path);
-    return std::nullopt;
-  }
-  std::nullopt_t fail() {
-    err_ << render(diagnostics_);
-    return std::nullopt;
-  }
-  // Ids that commands refer to must exist before anything runs.
-  void check_ids(const Job& job) {
-    for (const Command& c : job.commands.commands) {
-      const auto* linear = std::get_if<LinearCommand>(&c.what);
-      if (!linear) continue;
-      const auto need = [&](const std::optional<std::int64_t>& id, std::string_view statement, bool exists) {
-        if (id && !exists)
-          diagnostics_.error("unknown-element", c.at,
-                             fmt::format("the command refers to {}/{}, which does not exist", statement, *id));
-      };
-      const auto found = [&](const std::optional<std::int64_t>& id, std::string_view statement) {
-        return id && job.model->find(statement, *id).has_value();
-      };
-      need(linear->pstate, "PSTATE", found(linear->pstate, "PSTATE"));
-      need(linear->pinput, "PINPUT", found(linear->pinput, "PINPUT"));
-      need(linear->poutput, "POUTPUT", found(linear->poutput, "POUTPUT"));
-      for (const std::int64_t id : linear->marker_list) {
-        need(id, "MARKER", job.model->find_marker(id).has_value());
-      }
-      const auto rm = linear->rm ? job.model->find_marker(*linear->rm) : std::nullopt;
-      need(linear->rm, "MARKER", rm.has_value());
-      if (rm && job.model->marker(*rm).floating)
-        diagnostics_.error("floating-marker", c.at, fmt::format("RM=MARKER/{} is floating", *linear->rm));
-    }
-  }
-
-  const SessionOptions& options_;
-  std::ostream& err_;
-  Diagnostics diagnostics_;
-  std::vector<SourceRef> keep_;
-};
 
 class Session {
  public:
@@ -312,35 +184,16 @@ class Session {
     modes->without_damping = command.without_damping;
     write_eigensolution(message_, *modes);
     json_.add(c.text, *modes);
-    if (command.wants_tables()) write_tables(command, *linear, *modes);
+    if (command.wants_tables()) {
+      const auto tables = mode_tables(command, system_, point_, *linear, *modes);
+      if (!tables) return tl::unexpected(tables.error());
+      tables_ << *tables;
+    }
     if (!options_.quiet) {
       fmt::print(out_, "{} at time {:g}\n", c.text, modes->time);
       write_eigen_table(out_, *modes);
     }
     return {};
-  }
-
-  void write_tables(const LinearCommand& command, const LinearSystem& linear, const EigenSolution& modes) {
-    const ModalEnergy energy(system_, point_, linear, modes);
-    const ModalTableFormat format{command.table_precision, command.names};
-    std::vector<MarkerId> listed;
-    for (const std::int64_t id : command.marker_list) listed.push_back(*job_.model->find_marker(id));
-    write_modal_title(tables_, modes.time);
-    if ((command.strain.wanted() || command.dissipation.wanted()) && job_.model->has("NFORCE"))
-      remark("the rows of NFORCE are not available yet and are left out of the strain and dissipation tables");
-    for (std::size_t k = 0; k < modes.modes.size(); ++k) {
-      const auto in = [&](const LinearCommand::Modes& m) { return m.has(k + 1, modes.modes[k]); };
-      const bool coordinates = in(command.coordinates), kinetic = in(command.kinetic), strain = in(command.strain),
-                 dissipation = in(command.dissipation);
-      const bool markers = in(command.markers);
-      if (!coordinates && !kinetic && !strain && !dissipation && !markers) continue;
-      write_mode_header(tables_, k + 1, energy.header(k));
-      if (coordinates) write_shape(tables_, format, ShapeTable::coordinates, energy.coordinates(k));
-      if (markers) write_shape(tables_, format, ShapeTable::markers, energy.markers(k, listed));
-      if (kinetic) write_kinetic(tables_, format, energy.kinetic(k));
-      if (strain) write_forces(tables_, format, ForceTable::strain, energy.strain(k));
-      if (dissipation) write_forces(tables_, format, ForceTable::dissipation, energy.dissipation(k));
-    }
   }
 
   void write_matrices(const LinearCommand& command, const std::vector<NamedMatrix>& matrices) {
@@ -414,7 +267,7 @@ class Session {
 }  // namespace
 
 int run_session(const SessionOptions& options, std::ostream& out, std::ostream& err) {
-  auto job = Loader(options, err).load();
+  auto job = load_job(options, err);
   if (!job) return wrong_input;
   Session session(options, std::move(*job), out, err);
   return session.sound() ? session.run() : wrong_input;
@@ -423,31 +276,10 @@ int run_session(const SessionOptions& options, std::ostream& out, std::ostream& 
 int check_file(const std::string& file, std::ostream& out, std::ostream& err) {
   SessionOptions options;
   options.file = file;
-  auto job = Loader(options, err).load();
+  auto job = load_job(options, err);
   if (!job || !Session(options, std::move(*job), out, err).sound()) return wrong_input;
   fmt::print(out, "{}: no errors\n", file);
   return done;
-}
-
-int print_help(const std::string& statement, std::ostream& out, std::ostream& err) {
-  if (statement.empty()) {
-    for (const Kind* kind : catalogue())
-      fmt::print(out, "{:<14} {:<14} {}\n", kind->statement, kind->variant, kind->summary);
-    return done;
-  }
-  const std::string_view name = statement_name(statement);
-  bool found = false;
-  for (const Kind* kind : catalogue()) {
-    if (kind->statement != name) continue;
-    found = true;
-    fmt::print(out, "{}{}{}\n  {}\n", kind->statement, kind->variant.empty() ? "" : ", ", kind->variant, kind->summary);
-    for (const ArgumentInfo& a : kind->arguments) {
-      fmt::print(out, "    {:<16} {:<12} {:<20} {}{}\n", a.name, a.value, a.unit, a.help,
-                 a.required ? " (required)" : "");
-    }
-  }
-  if (!found) fmt::print(err, "error: no statement {} is available\n", statement);
-  return found ? done : wrong_usage;
 }
 
 }  // namespace dynalin

@@ -100,7 +100,7 @@ class Linearizer {
     result_.dlambda = a.middleRows(first + saddle.lambda(0), rows_.size());
     result_.dw = a.middleRows(first + saddle.algebraic(0), static_cast<Eigen::Index>(layout_.algebraic.size()));
 
-    const Matrix rates = p.state_rates(a, unit);
+    const Matrix rates = p.state_matrices(a);
     Matrix outputs = Matrix::Zero(static_cast<Eigen::Index>(outputs_.size()), states + inputs);
     for (std::size_t k = 0; k < outputs_.size(); ++k) {
       outputs.row(static_cast<Eigen::Index>(k)) = result_.dw.row(outputs_[k]);

@@ -1,5 +1,6 @@
 #include "linear/perturbation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -9,8 +10,8 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-// Roundings that a sum of the reduction may pick up, in units of the last place of its largest partial sums.
-constexpr double rounding_units = 32;
+// Roundings that the entries of the equations have picked up, in units of the last place of the sums made of them.
+constexpr double rounding_units = 16;
 
 std::span<const double> column(const Eigen::Ref<const Matrix>& x, Eigen::Index c) {
   return {x.data() + c * x.outerStride(), static_cast<std::size_t>(x.rows())};
@@ -243,11 +244,36 @@ Matrix PerturbationEquations::reduced(const Matrix& residuals) const {
   return r;
 }
 
-Matrix PerturbationEquations::state_rates(const Matrix& a, const Matrix& x) const {
-  Matrix rates = Matrix::Zero(states_, a.cols());
+Matrix PerturbationEquations::state_matrices(const Matrix& a) const {
+  const Eigen::Index columns = a.cols(), inputs = columns - states_;
+  Matrix rates = Matrix::Zero(states_, columns);
   multiply_add(state_rates_on_algebraic_, a, rates, 1.0);
-  multiply_add(state_rates_on_states_, x.topRows(states_), rates, 1.0);
-  return rates;
+  multiply_add(state_rates_on_states_, Matrix::Identity(states_, columns), rates, 1.0);
+  // Residuals of all equations at (a, x, x′) as computed.
+  Matrix residual(unknowns(), columns);
+  std::vector<long double> sum(static_cast<std::size_t>(unknowns()));
+  const auto add = [&](const ColumnMatrix& m, std::int32_t column, long double factor) {
+    for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(column)]);
+         k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(column) + 1]); ++k) {
+      sum[static_cast<std::size_t>(m.row[k])] += factor * static_cast<long double>(m.value[k]);
+    }
+  };
+  for (Eigen::Index c = 0; c < columns; ++c) {
+    std::fill(sum.begin(), sum.end(), 0.0L);
+    for (std::int32_t k = 0; k < algebraic_; ++k) {
+      if (a(k, c) != 0.0) add(pencil_, k, static_cast<long double>(a(k, c)));
+    }
+    if (c < columns - inputs) {
+      add(pencil_, algebraic_ + static_cast<std::int32_t>(c), 1.0L);
+    } else {
+      add(on_states_, static_cast<std::int32_t>(c), 1.0L);
+    }
+    for (std::int32_t k = 0; k < unknowns(); ++k) {
+      const long double rate = k < algebraic_ ? 0.0L : static_cast<long double>(rates(k - algebraic_, c));
+      residual(k, c) = static_cast<double>(sum[static_cast<std::size_t>(k)] - rate);
+    }
+  }
+  return rates + reduced(residual);
 }
 
 Matrix PerturbationEquations::rounding(const Matrix& a) const {

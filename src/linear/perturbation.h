@@ -43,8 +43,9 @@ class PerturbationEquations {
   Eigen::MatrixXd complete_left(const Eigen::MatrixXd& of_states) const;
   // r_x − P F⁻¹ r_a of residuals (r_a; r_x): what they amount to in the equations of states.
   Eigen::MatrixXd reduced(const Eigen::MatrixXd& residuals) const;
-  // P a + R x
-  Eigen::MatrixXd state_rates(const Eigen::MatrixXd& a, const Eigen::MatrixXd& states_and_inputs) const;
+  // [A B] of the columns a that complete(unit matrix) has given, corrected by a residual in long double: entries are as
+  // good as those of the equations, however much cancels in them.
+  Eigen::MatrixXd state_matrices(const Eigen::MatrixXd& a) const;
   // Roundings that the entries of A may carry, element by element: Σ|y||r| over the very sums that make them.
   Eigen::MatrixXd rounding(const Eigen::MatrixXd& a) const;
 

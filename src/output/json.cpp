@@ -63,9 +63,12 @@ void JsonResults::add(const std::string& command, const EigenSolution& e) {
     Json mode = {{"real_hz", m.eigenvalue_hz.real() + 0.0}, {"imag_hz", m.is_real ? 0.0 : m.eigenvalue_hz.imag()}};
     if (e.vectors.size() > 0) {
       mode["moves_most"] = m.moves_most;
-      // A defective eigenvalue has no finite condition number; JSON knows no infinity.
+      // A defective eigenvalue has no finite condition number or bound; JSON knows no infinity.
       mode["condition"] = std::isfinite(m.condition) ? Json(m.condition) : Json();
       mode["backward_error"] = m.backward_error;
+      mode["error_bound_hz"] = std::isfinite(m.error_bound_hz) ? Json(m.error_bound_hz) : Json();
+      mode["structural_zero"] = m.structural_zero;
+      mode["refined"] = m.refined;
       Json vector = Json::array();
       for (Eigen::Index r = 0; r < e.vectors.rows(); ++r) {
         const std::complex<double> v = e.vectors(r, static_cast<Eigen::Index>(k));

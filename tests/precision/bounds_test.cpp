@@ -1,0 +1,137 @@
+// The stated error bounds against 50-digit eigensolutions of the same assembled equations.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "elements/catalogue.h"
+#include "linear/eigen.h"
+#include "oracle/mechanism.h"
+#include "precision/precise.h"
+
+namespace dynalin::precision {
+namespace {
+
+std::string listing(const std::vector<Value>& exact) {
+  std::string s = "exact, rad:\n";
+  for (const Value& v : exact)
+    s += fmt::format("  {:.17g} {:.17g}\n", v.re.convert_to<double>(), v.im.convert_to<double>());
+  return s;
+}
+
+class Bounds : public ::testing::Test {
+ protected:
+  // Every eigenvalue of the dataset: its bound over its error where there is one.
+  void examine(const std::string& text) {
+    auto dataset = parse_dataset(std::make_shared<const SourceText>("generated.adm", text));
+    ASSERT_FALSE(dataset.diagnostics.has_errors()) << render(dataset.diagnostics) << text;
+    auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
+    ASSERT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics);
+    const System system{std::shared_ptr<const Model>(std::move(model.value))};
+    Findings findings;
+    const auto op = initial_conditions(system, findings);
+    ASSERT_TRUE(op) << op.error().message << "\n" << text;
+    const auto linear = linearize(system, *op, {});
+    ASSERT_TRUE(linear) << linear.error().message;
+    if (linear->model.states.empty()) return;
+    const auto solution = eigensolve(*linear);
+    ASSERT_TRUE(solution) << solution.error().message;
+    const std::vector<Value> exact = eigenvalues(*linear->equations);
+    for (const EigenMode& mode : solution->modes) {
+      if (mode.structural_zero) continue;  // the equations hold it up to their rounding only
+      Real error = distance(exact.front(), mode.eigenvalue_hz);
+      for (const Value& v : exact) error = std::min(error, distance(v, mode.eigenvalue_hz));
+      ++examined_;
+      const Real bound(mode.error_bound_hz);
+      EXPECT_LE(error, bound) << mode.eigenvalue_hz << " condition " << mode.condition << " refined " << mode.refined
+                              << "\n"
+                              << listing(exact) << text;
+      if (!std::isfinite(mode.error_bound_hz)) ++unbounded_;
+      if (error > 0) ratio_.push_back(static_cast<double>(bound / error));
+    }
+  }
+  void TearDown() override {
+    ASSERT_FALSE(ratio_.empty());
+    std::nth_element(ratio_.begin(), ratio_.begin() + static_cast<std::ptrdiff_t>(ratio_.size() / 2), ratio_.end());
+    const double median = ratio_[ratio_.size() / 2];
+    RecordProperty("eigenvalues", examined_);
+    RecordProperty("median_of_bound_over_error", fmt::format("{:.3g}", median));
+    EXPECT_LE(median, 100);
+    EXPECT_LE(unbounded_, examined_ / 100);
+  }
+
+  int examined_ = 0, unbounded_ = 0;
+  std::vector<double> ratio_;
+};
+
+class GeneratedBounds : public Bounds, public ::testing::WithParamInterface<std::uint64_t> {};
+
+TEST_P(GeneratedBounds, hold_for_generated_mechanisms) {
+  for (std::uint64_t seed = GetParam(); seed < GetParam() + 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    examine(oracle::dataset_text(oracle::random_mechanism(seed)));
+    if (HasFatalFailure() || HasFailure()) return;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(seeds, GeneratedBounds, ::testing::Values(1001, 1101, 1201, 1301, 1401, 1501));
+
+// Slides on a line, coupled by springs and dampers whose sizes spread over many decades.
+std::string stiff_chain(std::mt19937_64& random, int n, double decades) {
+  const auto spread = [&] {
+    return std::pow(10.0, std::uniform_real_distribution<double>(-decades / 2, decades / 2)(random));
+  };
+  std::string s = "chain of slides\nPART/1, GROUND\nMARKER/1, REULER=1.5707963267948966,1.5707963267948966,0\n";
+  for (int k = 2; k <= n + 1; ++k) {
+    s += fmt::format(
+        "PART/{0}, MASS={1:.17g}, CM={0}0, IP=1,1,1, QG={2},0,0\nMARKER/{0}0\nMARKER/{0}1, "
+        "REULER=1.5707963267948966,1.5707963267948966,0\n"
+        "JOINT/{0}, TRANSLATIONAL, I={0}1, J=1\n"
+        "SPRINGDAMPER/{0}, TRANSLATION, I={0}0, J={3}, K={4:.17g}, C={5:.17g}, LENGTH=1\n",
+        k, spread(), k - 1, k == 2 ? "1" : fmt::format("{}0", k - 1), spread(), 0.01 * spread());
+  }
+  return s + "END\n";
+}
+
+TEST_F(Bounds, hold_for_stiff_chains) {
+  std::mt19937_64 random(20);
+  for (int k = 0; k < 160; ++k) {
+    examine(stiff_chain(random, 2 + k % 7, 2.0 + k % 15));
+    if (HasFailure()) return;
+  }
+}
+
+// A slide whose damping misses the critical one by a part in 10^k: two eigenvalues that nearly are one, with one
+// vector.
+TEST_F(Bounds, hold_near_critical_damping) {
+  for (int k = 0; k < 120; ++k) {
+    const double off = (k % 2 ? 1 : -1) * std::pow(10.0, -k / 8.0), stiffness = 100.0 * (1 + k % 5);
+    examine(
+        fmt::format("slide\nPART/1, GROUND\nMARKER/1, REULER=1.5707963267948966,1.5707963267948966,0\n"
+                    "PART/2, MASS=1, CM=20, IP=1,1,1, QG=1,0,0\nMARKER/20\nMARKER/21, "
+                    "REULER=1.5707963267948966,1.5707963267948966,0\n"
+                    "JOINT/1, TRANSLATIONAL, I=21, J=1\n"
+                    "SPRINGDAMPER/1, TRANSLATION, I=20, J=1, K={:.17g}, C={:.17g}, LENGTH=1\nEND\n",
+                    stiffness, 2 * std::sqrt(stiffness) * (1 + off)));
+    if (HasFailure()) return;
+  }
+}
+
+// Lags in series: a chain of equal or nearly equal eigenvalues.
+TEST_F(Bounds, hold_for_lags_in_series) {
+  for (int k = 0; k < 120; ++k) {
+    std::string s = "lags\nPART/1, GROUND\n";
+    const int n = 2 + k % 3;
+    const double off = k % 4 == 0 ? 0.0 : std::pow(10.0, -k / 10.0);
+    for (int i = 1; i <= n; ++i) {
+      s += fmt::format("VARIABLE/{0}, FUNCTION={1}\nDIFF/{0}, IC=1, FUNCTION=VARVAL({0})-{2:.17g}*DIF({0})\n", i,
+                       i == 1 ? "0" : fmt::format("{}*DIF({})", 3 * i, i - 1), 2 * (1 + i * off));
+    }
+    examine(s + "END\n");
+    if (HasFailure()) return;
+  }
+}
+
+}  // namespace
+}  // namespace dynalin::precision

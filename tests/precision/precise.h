@@ -1,0 +1,69 @@
+// Eigenvalues of the assembled perturbation equations with 50 digits: the same numbers, none of the product's algebra.
+#pragma once
+
+#include <Eigen/Dense>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/cpp_complex.hpp>
+#include <boost/multiprecision/eigen.hpp>
+#include <complex>
+#include <vector>
+
+#include "linear/perturbation.h"
+
+namespace dynalin::precision {
+
+using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
+using Dense = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+
+struct Value {
+  Real re, im;
+};
+
+// Solves F a = −G by elimination with row pivoting; rows that are zero in a column cost nothing.
+inline Dense state_matrix(const PerturbationEquations& p) {
+  const ColumnMatrix& S = p.pencil();
+  const Eigen::Index N = p.unknowns(), n = p.states(), m = N - n;
+  Dense M = Dense::Zero(N, N);
+  for (std::int32_t c = 0; c < S.columns; ++c) {
+    for (auto k = static_cast<std::size_t>(S.start[static_cast<std::size_t>(c)]);
+         k < static_cast<std::size_t>(S.start[static_cast<std::size_t>(c) + 1]); ++k) {
+      M(S.row[k], c) += Real(S.value[k]);
+    }
+  }
+  std::vector<Eigen::Index> used;
+  for (Eigen::Index c = 0; c < m; ++c) {
+    Eigen::Index pivot = c;
+    for (Eigen::Index r = c; r < m; ++r) {
+      if (abs(M(r, c)) > abs(M(pivot, c))) pivot = r;
+    }
+    if (pivot != c) M.row(c).swap(M.row(pivot));
+    used.clear();
+    for (Eigen::Index k = c + 1; k < N; ++k) {
+      if (M(c, k) != 0) used.push_back(k);
+    }
+    for (Eigen::Index r = c + 1; r < N; ++r) {
+      if (M(r, c) == 0) continue;
+      const Real factor = M(r, c) / M(c, c);
+      for (const Eigen::Index k : used) M(r, k) -= factor * M(c, k);
+    }
+  }
+  return M.bottomRightCorner(n, n);
+}
+
+inline std::vector<Value> eigenvalues(const PerturbationEquations& p) {
+  const Eigen::EigenSolver<Dense> solver(state_matrix(p), false);
+  std::vector<Value> values;
+  for (Eigen::Index k = 0; k < solver.eigenvalues().size(); ++k) {
+    values.push_back({solver.eigenvalues()(k).real(), solver.eigenvalues()(k).imag()});
+  }
+  return values;
+}
+
+// |λ/2π − given| with the given value in cycles per unit time.
+inline Real distance(const Value& exact, const std::complex<double>& hz) {
+  static const Real cycle = 2 * boost::math::constants::pi<Real>();
+  const Real re = exact.re / cycle - Real(hz.real()), im = exact.im / cycle - Real(hz.imag());
+  return sqrt(re * re + im * im);
+}
+
+}  // namespace dynalin::precision
