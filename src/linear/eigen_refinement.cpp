@@ -27,7 +27,8 @@ constexpr double long_eps = 5.5e-20;  // rounding of one operation in long doubl
 // At most so many eigenvalues are refined by inverse iteration, smallest first, and only where the factors are small.
 constexpr std::size_t most_refined = 100;
 constexpr double most_factor_entries = 2e7;
-constexpr double good_enough = 1e-13;  // bound against modulus
+constexpr double least_product = 1e-12;  // |yᴴ x| of unit vectors
+constexpr double good_enough = 1e-13;    // bound against modulus
 
 // What the sparse equations say about a pair: the residual (S − λ E) w and what the sums of its rows may have rounded.
 struct Residual {
@@ -133,13 +134,33 @@ class Refiner {
     along_conjugate_ = pairs_.left.transpose() * reduced;
     product_ = pairs_.left.adjoint() * pairs_.right;
     product_conjugate_ = pairs_.left.transpose() * pairs_.right;
+    find_defective();
     measure_zero_modes(reduced);
     for (Index i = 0; i < count_; ++i) {
       // The components are sums in double of residuals that are themselves rounding.
       floor_(i) += 1e-8 * pairs_.left.col(i).cwiseAbs().dot(reduced.col(i).cwiseAbs());
-      floor_(i) /= std::abs(product_(i, i));
+      floor_(i) /= defective(i) ? 1 : std::abs(product_(i, i));
     }
   }
+
+  // Left and right vectors of a defective eigenvalue are orthogonal: nothing can be measured along them. What a change
+  // of A by its rounding does is bounded by Elsner's theorem for the eigenvalues that come together there.
+  void find_defective() {
+    defective_bound_ = Eigen::VectorXd::Zero(count_);
+    const double size = zero_.block.norm(), change = 16 * eps * size;
+    for (Index i = 0; i < count_; ++i) {
+      if (std::abs(product_(i, i)) > least_product) continue;
+      int together = 0;
+      for (Index j = 0; j < count_; ++j) {
+        if (std::abs(product_(j, j)) > least_product) continue;
+        if (std::abs(value({i, false}) - value({j, false})) <= 1e-3 * size) ++together;
+        if (!real(j) && std::abs(value({i, false}) - value({j, true})) <= 1e-3 * size) ++together;
+      }
+      const double k = std::max(together, 2);
+      defective_bound_(i) = std::pow(2 * size, 1 - 1 / k) * std::pow(change, 1 / k);
+    }
+  }
+  bool defective(Index i) const { return defective_bound_(i) > 0; }
 
   // What the equations say about the zeros that were split off couples them with the others as well:
   // g_i0 (λ_i − N)⁻¹ g_0i.
@@ -162,8 +183,10 @@ class Refiner {
     const ComplexMatrix dual = zero_.left().leftCols(z).transpose().cast<Complex>();
     const ComplexMatrix U = dual * pairs_.right, onto = dual * reduced;
     for (Index i = 0; i < count_; ++i) {
+      if (defective(i)) continue;
       ComplexVector to_zero = onto.col(i);
       for (Index j = 0; j < count_; ++j) {
+        if (defective(j)) continue;
         to_zero -= U.col(j) * g({j, false}, {i, false});
         if (!real(j)) to_zero -= U.col(j).conjugate() * g({j, true}, {i, false});
       }
@@ -191,6 +214,7 @@ class Refiner {
   template <class Function>
   void for_others(Index i, Function&& visit) const {
     for (Index j = 0; j < count_; ++j) {
+      if (defective(j)) continue;
       if (j != i) visit(Member{j, false});
       if (!real(j)) visit(Member{j, true});
     }
@@ -202,11 +226,12 @@ class Refiner {
     std::iota(group_.begin(), group_.end(), Index{0});
     closed_.assign(static_cast<std::size_t>(count_), false);
     for (Index i = 0; i < count_; ++i) {
+      if (defective(i)) continue;
       const Member me{i, false};
       for_others(i, [&](const Member& j) {
         const double gap = std::abs(value(me) - value(j));
         const double mixing = std::sqrt(std::abs(g(me, j)) * std::abs(g(j, me)));
-        if (mixing <= gap / 8 && std::abs(p(me, j)) <= 0.01) return;
+        if (mixing <= gap / 8 && std::abs(p(me, j)) * std::abs(p(j, me)) <= 1e-4) return;
         const Index a = root(i), b = root(j.at);
         group_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
         if (j.conjugate) closed_[static_cast<std::size_t>(std::min(a, b))] = true;
@@ -235,6 +260,7 @@ class Refiner {
     ComplexMatrix right = ComplexMatrix::Zero(count_, count_), right_conjugate = right, left = right,
                   left_conjugate = right;
     for (Index i = 0; i < count_; ++i) {
+      if (defective(i)) continue;
       const Member me{i, false};
       for_others(i, [&](const Member& j) {
         if (root(j.at) == root(i) && (closed_[static_cast<std::size_t>(root(i))] || !j.conjugate)) return;
@@ -270,7 +296,7 @@ class Refiner {
       parts.push_back(correct_cluster(members, closed_[r]));
       for (std::size_t k = 0; k < parts.back().values.size(); ++k) {
         trust.push_back({parts.back().bound, false});
-        alone_.push_back(half == 1 && !closed_[r]);
+        alone_.push_back(half == 1 && !closed_[r] && !defective(members[0].at));
       }
       auto& values = parts.back().values;
       corrected.values.insert(corrected.values.end(), values.begin(), values.end());
@@ -293,6 +319,7 @@ class Refiner {
   }
 
   Corrected correct_cluster(const std::vector<Member>& members, bool closed) const {
+    if (defective(members[0].at)) return unchanged(members, defective_bound_(members[0].at));
     const auto k = static_cast<Index>(members.size());
     // What couples the cluster with the rest, to second order.
     double rest = 0, floor = 0, modulus = 0;
@@ -463,6 +490,7 @@ class Refiner {
   std::vector<EigenTrust> trust_;
   Eigen::VectorXd floor_, zero_coupling_;
   ComplexMatrix along_, along_conjugate_, product_, product_conjugate_;
+  Eigen::VectorXd defective_bound_;  // 0 for an eigenvalue that is not
   ComplexMatrix zero_share_;
   std::vector<Index> group_;
   std::vector<bool> closed_;

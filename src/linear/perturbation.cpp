@@ -302,6 +302,17 @@ Matrix PerturbationEquations::rounding(const Matrix& a) const {
   Matrix of_rates = adjoint.bottomRows(saddle_size_);
   level_[2]->solve_transposed(of_rates);
   total += of_rates.cwiseAbs().transpose() * of_saddle;
+
+  // Coordinates whose rate is no state read δq′ itself, the solution of the second level.
+  Matrix of_level = adjoint.middleRows(n_, n_);
+  if (!of_level.isZero(0)) {
+    level_[1]->solve_transposed(of_level);
+    Matrix whole = Matrix::Zero(unknowns(), states_), sums = whole;
+    whole.topRows(algebraic_) = a.leftCols(states_).cwiseAbs();
+    whole.bottomRows(states_).setIdentity();
+    multiply_add(absolute(pencil_), whole, sums, 1.0);
+    total += of_level.cwiseAbs().transpose() * sums.middleRows(n_, n_);
+  }
   return rounding_units * std::numeric_limits<double>::epsilon() * total;
 }
 
