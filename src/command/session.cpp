@@ -11,6 +11,7 @@
 
 #include "analysis/statics.h"
 #include "command/commands.h"
+#include "command/environment.h"
 #include "elements/catalogue.h"
 #include "linear/eigen.h"
 #include "linear/mode_shapes.h"
@@ -172,6 +173,8 @@ class Session {
     write_title(message_, job_.model->title);
     if (!job_.model->units.stated) remark("the dataset states no UNITS: the units consistency factor is taken as 1");
     for (const std::string& text : system_.layout().remarks) remark(text);
+    for (const std::string_view name : environment_.names)
+      remark(fmt::format("the environment variable {} is set and changes what this run computes", name));
     int status = done;
     for (const Command& c : job_.commands.commands) {
       write_command(message_, c.text);
@@ -194,6 +197,7 @@ class Session {
   Outcome execute(const Command& c) {
     if (const auto* simulate = std::get_if<SimulateCommand>(&c.what)) {
       Outcome outcome = simulate->kind == SimulateCommand::Kind::statics ? statics() : initial();
+      if (simulate->kind != SimulateCommand::Kind::statics) at_rest_.reset();
       if (outcome) json_.add_plain(c.text, point_.time);
       return outcome;
     }
@@ -228,8 +232,11 @@ class Session {
     Findings findings;
     StaticsReport report;
     write_begin(message_, "Static Solution");
-    auto op = static_operating_point(system_, point_, {}, report, findings);
+    StaticsOptions options;
+    options.restore_velocities = !environment_.statics_stay_at_rest;
+    auto op = static_operating_point(system_, point_, options, report, findings);
     if (!op) return tl::unexpected(op.error());
+    at_rest_ = std::move(report.at_rest);
     write_static_result(message_, report.iterations, report.imbalance);
     write_end(message_, "Static Solution");
     accept(std::move(*op), findings);
@@ -267,6 +274,11 @@ class Session {
     for (const std::string& w : findings.warnings) remark(w);
   }
 
+  // Without reconciliation LINEAR takes the static solution as it was found; any other point is consistent anyway.
+  const OperatingPoint& point_of(const LinearCommand& command) const {
+    return at_rest_ && (command.original || environment_.without_reconciliation) ? *at_rest_ : point_;
+  }
+
   Outcome run_linear(const Command& c, const LinearCommand& command) {
     if (auto ready = initial(); !ready) return ready;
     LinearOptions options;
@@ -276,9 +288,12 @@ class Session {
     if (command.poutput) options.poutput = model.find("POUTPUT", *command.poutput);
     if (command.rm) options.rm = *model.find_marker(*command.rm);
     options.without_damping = command.without_damping;
+    options.principal_states = command.original || environment_.principal_states;
+    options.without_rate_coupling = command.original || environment_.without_rate_coupling;
     for (const std::string& table : command.tables)
       remark(fmt::format("the table {} is not available yet and is left out", table));
-    auto linear = linearize(system_, point_, options);
+    const OperatingPoint& point = point_of(command);
+    auto linear = linearize(system_, point, options);
     if (!linear) return tl::unexpected(linear.error());
     for (const std::string& w : linear->warnings) remark(w);
     if (linear->model.states.empty())
@@ -306,10 +321,11 @@ class Session {
     }
     auto modes = eigensolve(*linear, command.without_vectors ? Vectors::none : Vectors::right);
     if (!modes) return tl::unexpected(modes.error());
-    if (!command.without_vectors) name_movers(system_, point_, *linear, *modes);
+    if (!command.without_vectors) name_movers(system_, point, *linear, *modes);
     modes->rm = command.rm.value_or(0);
     modes->pstate = command.pstate.value_or(0);
     modes->without_damping = command.without_damping;
+    modes->original = command.original;
     write_eigensolution(message_, *modes);
     json_.add(c.text, *modes);
     if (command.wants_tables()) write_tables(command, *linear, *modes);
@@ -321,7 +337,7 @@ class Session {
   }
 
   void write_tables(const LinearCommand& command, const LinearSystem& linear, const EigenSolution& modes) {
-    const ModalEnergy energy(system_, point_, linear, modes);
+    const ModalEnergy energy(system_, point_of(command), linear, modes);
     const ModalTableFormat format{command.table_precision, command.names};
     std::vector<MarkerId> listed;
     for (const std::int64_t id : command.marker_list) listed.push_back(*job_.model->find_marker(id));
@@ -405,6 +421,8 @@ class Session {
   System system_;
   OperatingPoint point_;
   bool consistent_ = false;
+  Environment environment_ = read_environment();
+  std::optional<OperatingPoint> at_rest_;  // what the last static analysis found, if no other one came after it
   std::vector<std::string> redundant_;
   std::ostringstream message_, tables_;
   JsonResults json_;

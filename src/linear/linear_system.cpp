@@ -49,6 +49,7 @@ class Linearizer {
     auto candidates = state_candidates(system_, motion_, options_);
     if (!candidates) return tl::unexpected(candidates.error());
     candidates_ = std::move(*candidates);
+    result_.warnings = candidates_.warnings;
     choose_coordinates();
     choose_rates();
     label_states();
@@ -170,7 +171,8 @@ class Linearizer {
         StateLabel rate = label;
         rate.is_rate = true;
         const bool own = label.type == StateType::pstate;
-        const bool point = label.type == StateType::point_mass || label.type == StateType::point_mass_relative;
+        const bool point = label.type == StateType::point_mass || label.type == StateType::point_mass_relative ||
+                           label.type == StateType::point_mass_original;
         if (own) rate.type = StateType::pstate_rate;
         rate.coordinate = own ? 2 : label.coordinate + (point ? 3 : 6);
         rate_column_.push_back(static_cast<Eigen::Index>(model.states.size()));
@@ -413,6 +415,9 @@ class Linearizer {
     }
     model.A = rates.leftCols(states);
     model.A = (model.A.array().abs() <= rounding_.array()).select(0.0, model.A);
+    for (Eigen::Index k = 0; options_.without_damping && options_.without_rate_coupling && k < first_state_; ++k) {
+      if (model.states[static_cast<std::size_t>(k)].is_rate) model.A.col(k).tail(states - first_state_).setZero();
+    }
     model.B = rates.rightCols(inputs);
     model.C = outputs.leftCols(states);
     model.D = outputs.rightCols(inputs);
