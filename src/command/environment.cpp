@@ -1,20 +1,45 @@
 #include "command/environment.h"
 
+#include <array>
 #include <cstdlib>
 
 namespace dynalin {
 
+namespace {
+
+struct Variable {
+  const char* name;
+  bool Environment::*slot;
+};
+constexpr std::array variables = {
+    Variable{"MSC_LINEAR_PBCS_STATES", &Environment::principal_states},
+    Variable{"MSC_ADAMS_SOLVER_NODAMP_DIFF", &Environment::without_rate_coupling},
+    Variable{"MSC_ADAMS_LINEAR_NO_CHECKS_FOR_CONSISTENCY", &Environment::without_reconciliation},
+    Variable{"MSC_ADAMS_STATICS_NO_RESTORE_VELOCITIES", &Environment::statics_stay_at_rest},
+};
+
+}  // namespace
+
+bool Environment::set(std::string_view name) {
+  for (const Variable& v : variables) {
+    if (v.name == name) return this->*v.slot = true;
+  }
+  return false;
+}
+
+std::vector<std::string_view> Environment::names() const {
+  std::vector<std::string_view> list;
+  for (const Variable& v : variables) {
+    if (this->*v.slot) list.emplace_back(v.name);
+  }
+  return list;
+}
+
 Environment read_environment() {
   Environment e;
-  const auto is_set = [&](const char* name) {
-    if (!std::getenv(name)) return false;
-    e.names.emplace_back(name);
-    return true;
-  };
-  e.principal_states = is_set("MSC_LINEAR_PBCS_STATES");
-  e.without_rate_coupling = is_set("MSC_ADAMS_SOLVER_NODAMP_DIFF");
-  e.without_reconciliation = is_set("MSC_ADAMS_LINEAR_NO_CHECKS_FOR_CONSISTENCY");
-  e.statics_stay_at_rest = is_set("MSC_ADAMS_STATICS_NO_RESTORE_VELOCITIES");
+  for (const Variable& v : variables) {
+    if (std::getenv(v.name)) e.set(v.name);
+  }
   return e;
 }
 

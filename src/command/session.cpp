@@ -173,7 +173,7 @@ class Session {
     write_title(message_, job_.model->title);
     if (!job_.model->units.stated) remark("the dataset states no UNITS: the units consistency factor is taken as 1");
     for (const std::string& text : system_.layout().remarks) remark(text);
-    for (const std::string_view name : environment_.names)
+    for (const std::string_view name : environment_.names())
       remark(fmt::format("the environment variable {} is set and changes what this run computes", name));
     int status = done;
     for (const Command& c : job_.commands.commands) {
@@ -202,6 +202,11 @@ class Session {
       return outcome;
     }
     if (const auto* linear = std::get_if<LinearCommand>(&c.what)) return run_linear(c, *linear);
+    if (const auto* variable = std::get_if<EnvironmentCommand>(&c.what)) {
+      if (!environment_.set(variable->name))
+        remark(fmt::format("the environment variable {} means nothing here and is passed over", variable->name));
+      json_.add_plain(c.text, point_.time);
+    }
     if (const auto* passive = std::get_if<PassiveCommand>(&c.what)) {
       remark(fmt::format("the command {} has no effect on linear models and is passed over", passive->name));
       json_.add_plain(c.text, point_.time);

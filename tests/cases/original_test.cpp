@@ -461,6 +461,41 @@ TEST_F(Original, library_has_options_and_looks_at_no_environment) {
   EXPECT_NEAR(stiffness(request), p.kappa(), 1e-12);
 }
 
+TEST_F(Original, a_sleigh_has_fewer_rates_than_principal_coordinates) {
+  // Chaplygin's sleigh of mass m and inertia j about its mass centre, the blade b behind it, at the speed v:
+  // one eigenvalue −m b v/(j + m b²), four zeros.
+  const double m = 2, j = 0.3, b = 0.4, v = 1.5;
+  const RunResult r = run(fmt::format("Sleigh\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS={}, CM=20, "
+                                      "IP=0.1,0.2,{}, VX={}, VY=0, WZ=0\nMARKER/20\nMARKER/21, QP=-{},0,0\n"
+                                      "JOINT/1, PLANAR, I=20, J=1\nGCON/1, FUNCTION=VY(21,0,21)\nEND\n",
+                                      m, j, v, b),
+                          "LINEAR/EIGENSOL, ORIGINAL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(codes(r, 0), ::testing::ElementsAre(std::array{1, 2, 7}, std::array{1, 2, 1}, std::array{1, 2, 8},
+                                                  std::array{1, 2, 2}, std::array{1, 2, 4}));
+  double largest = 0;
+  for (const Complex& value : r.eigenvalues(0)) largest = std::min(largest, value.real());
+  expect_close(largest * two_pi, -m * b * v / (j + m * b * b), 1e-12);
+}
+
+TEST_F(Original, the_command_environment_sets_variables_for_what_follows) {
+  const Pendulum p;
+  const double w = 1.3;
+  const RunResult r = run(p.text(0, w),
+                          "SIM/STAT\nLINEAR/EIGENSOL\nENVIRONMENT/NAME=MSC_LINEAR_PBCS_STATES, VALUE=1\n"
+                          "LINEAR/EIGENSOL\nENV/NAME=MSC_ADAMS_LINEAR_NO_CHECKS_FOR_CONSISTENCY, VALUE=yes\n"
+                          "LINEAR/EIGENSOL\nENVIRONMENT/NAME=SOMETHING_ELSE, VALUE=3\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const Complex plain(0, std::sqrt(p.kappa()) / two_pi), moving(0, std::sqrt(p.kappa() + w * w) / two_pi);
+  expect_eigenvalues(r.eigenvalues(1), {plain}, 1e-12);
+  expect_eigenvalues(r.eigenvalues(3), {moving}, 1e-12);
+  expect_eigenvalues(r.eigenvalues(5), {plain}, 1e-12);
+  EXPECT_EQ(codes(r, 5)[1], (std::array{1, 2, 1}));
+  EXPECT_THAT(r.message, HasSubstr("SOMETHING_ELSE means nothing here"));
+  // It is a variable of the run, not of the process.
+  EXPECT_EQ(std::getenv(pbcs_states), nullptr);
+}
+
 TEST_F(Original, statics_stay_at_rest_where_the_environment_says_so) {
   const Pendulum p;
   const Variable variable(no_restore);

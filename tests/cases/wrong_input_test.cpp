@@ -189,6 +189,7 @@ const std::vector<Wrong>& table() {
     {Place::command, "LINEAR/EIGENSOL, RM=9", {"unknown-element 3:1"}},
     {Place::command, "LINEAR/EXPORT", {"missing-argument 3:8", "missing-argument 3:8"}},
     {Place::command, "ACTIVATE/MOTION, ID=3", {"command-not-built 3:1"}},
+    {Place::command, "ENVIRONMENT/VALUE=1", {"missing-argument 3:1"}},
     {Place::command, "LINEAR/EIGENSOL, ORIGINAL=1", {"unexpected-value 3:18"}},
     {Place::command, "LINEAR/STATEMAT, FILE=x, NODAMPIN, ORIGINAL", {"wrong-option 3:26"}},
     {Place::command, "LINEAR/EXPORT, TYPE=CLOSEDBOX, FILE=x, ORIGINAL", {"option-not-built 3:8"}},
