@@ -47,8 +47,9 @@ Matrix3 nearest_frame(const Vector& line) {
   return Matrix3::identity() + turn + (1 / (1 + axis[nearest])) * (turn * turn);
 }
 
-// With ω = ψ′ Z + θ′ n + φ′ z, the line of nodes n = Z × z/sin θ and z the third axis of the frame:
-//     δψ = δθ·(Z − (z₁, z₂, 0) cos θ/sin²θ),   δθ = δθ·n,   δφ = δθ·(z₁, z₂, 0)/sin²θ
+// With the third axis z = (z₁, z₂, cos ϑ) of the frame, s = sin ϑ and the line of nodes n = Z × z/s,
+// ω = ψ′ Z + ϑ′ n + φ′ z gives for a rotation δθ
+//     δψ = (Z − (z₁, z₂, 0) cos ϑ/s²)·δθ,   δϑ = n·δθ,   δφ = ((z₁, z₂, 0)/s²)·δθ
 std::array<Vec3<Taylor>, 3> angle_gradients(const Vec3<Taylor>& z) {
   const Taylor none(0.0);
   const Taylor sine2 = z.x * z.x + z.y * z.y, sine = sqrt(sine2);
