@@ -29,6 +29,10 @@ struct LinearRequest {
   std::optional<std::int64_t> pstate, pinput, poutput;
   std::optional<std::int64_t> rm;  // marker relative to which the coordinates are taken
   bool without_damping = false;    // forces and VARIABLEs lose what they see of velocities
+  // The original implementation (ORIGINAL is all three):
+  bool principal_states = false;        // positions of mass centres and 3-1-3 angles of principal axes
+  bool without_rate_coupling = false;   // with without_damping: differential states lose what they see of velocities
+  bool without_reconciliation = false;  // a static solution is taken as it was found, at rest
 };
 
 // A body at the operating point, global axes.
@@ -52,8 +56,9 @@ class Mechanism {
 
   // Operating points. Every linear analysis before one of these begins with initial_conditions().
   void initial_conditions();
-  // Throws where there is no equilibrium; returns the number of iterations.
-  int static_equilibrium();
+  // Throws where there is no equilibrium; returns the number of iterations. Afterwards the velocities that the dataset
+  // states come back at the new pose if they are to be restored.
+  int static_equilibrium(bool restore_velocities = true);
 
   StateSpace state_space(const LinearRequest& = {});
   EigenSolution eigensolution(const LinearRequest& = {});

@@ -86,6 +86,7 @@ struct EigenSolution {
   std::int64_t rm = 0;      // marker of the RM option, 0 if none
   std::int64_t pstate = 0;  // 0 if none
   bool without_damping = false;
+  bool original = false;             // option ORIGINAL
   std::size_t kinematic_states = 0;  // displacements and velocities together
   std::size_t differential_states = 0;
   std::vector<StateLabel> states;  // in the order of A

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "analysis/displace.h"
 #include "analysis/saddle.h"
@@ -271,7 +270,7 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   for (int iteration = 0; iteration < options.iteration_limit; ++iteration) {
     equations.evaluate(op, true);
     findings.redundant_rows = equations.partition().redundant;
-    report = {iteration, equations.imbalance()};
+    report.iterations = iteration, report.imbalance = equations.imbalance();
     // One yardstick for the whole search, or a step could pass by growing what it is measured against.
     force = std::max(force, equations.force_scale());
     const double merit = equations.merit(force);
@@ -377,8 +376,8 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
 Result<OperatingPoint> static_operating_point(const System& system, OperatingPoint start, const StaticsOptions& options,
                                               StaticsReport& report, Findings& findings) {
   auto op = find_equilibrium(system, std::move(start), options, report, findings);
-  if (op && op->time == 0 && !std::getenv("MSC_ADAMS_STATICS_NO_RESTORE_VELOCITIES"))
-    op = initial_velocity(system, std::move(*op), findings);
+  if (op) report.at_rest = *op;
+  if (op && op->time == 0 && options.restore_velocities) op = initial_velocity(system, std::move(*op), findings);
   if (op) op = reconcile_velocity(system, std::move(*op), findings);
   if (op) op = solve_acceleration(system, std::move(*op), findings);
   return op;

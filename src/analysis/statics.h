@@ -13,11 +13,13 @@ namespace dynalin {
 struct StaticsOptions {
   int iteration_limit = 500;
   double rotation_limit = 0.17453292519943295;  // [rad] a step, ALIMIT
+  bool restore_velocities = true;               // the dataset's velocities come back at t = 0
 };
 
 struct StaticsReport {
   int iterations = 0;
-  double imbalance = 0;  // largest unbalanced force or moment/length at the end
+  double imbalance = 0;      // largest unbalanced force or moment/length at the end
+  OperatingPoint at_rest{};  // the solution itself: no velocities, accelerations and rates (static_operating_point)
 };
 
 // From the pose and states of `start`; its velocities are set to zero.
@@ -25,7 +27,7 @@ Result<OperatingPoint> find_equilibrium(const System&, OperatingPoint start, con
                                         Findings&);
 
 // The same with everything that belongs to an operating point: at t = 0 the dataset's velocities come back at the new
-// pose (not with the environment variable MSC_ADAMS_STATICS_NO_RESTORE_VELOCITIES), then accelerations and reactions.
+// pose if they are to be restored, then accelerations, reactions and rates are those of the moving model.
 Result<OperatingPoint> static_operating_point(const System&, OperatingPoint start, const StaticsOptions&,
                                               StaticsReport&, Findings&);
 

@@ -40,6 +40,11 @@ struct LinearCommand {
   std::vector<std::string> tables;  // arguments that ask for tables not available yet, as named
 };
 
+// ENVIRONMENT: an environment variable for the rest of the run.
+struct EnvironmentCommand {
+  std::string name;
+};
+
 // A command that is known and has no effect on a linear model.
 struct PassiveCommand {
   std::string name;
@@ -49,7 +54,7 @@ struct StopCommand {};
 struct Command {
   std::string text;  // as written, on one line
   Span at;
-  std::variant<SimulateCommand, LinearCommand, PassiveCommand, StopCommand> what;
+  std::variant<SimulateCommand, LinearCommand, EnvironmentCommand, PassiveCommand, StopCommand> what;
 };
 
 struct CommandFile {

@@ -223,10 +223,6 @@ std::optional<LinearCommand> read_linear(ElementReader& reader) {
     reader.error("option-not-built", reader.at("EXPORT"), "LINEAR/EXPORT is not available yet");
     return std::nullopt;
   }
-  if (w.original) {
-    reader.error("option-not-built", reader.at("ORIGINAL"), "ORIGINAL is not available yet");
-    return std::nullopt;
-  }
   c.coordinates = {w.coords, w.fcoords};
   c.kinetic = {w.kinetic, w.fkinetic};
   c.strain = {w.strain, w.fstrain};

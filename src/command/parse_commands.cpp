@@ -80,6 +80,14 @@ struct WrittenFile {
   }};
 };
 
+struct WrittenEnvironment {
+  std::string name, value;
+  static constexpr std::array<Argument<WrittenEnvironment>, 2> arguments = {{
+      {.name = "NAME", .slot = &WrittenEnvironment::name, .required = true},
+      {.name = "VALUE", .slot = &WrittenEnvironment::value},
+  }};
+};
+
 std::string one_line(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -124,6 +132,9 @@ class FileParser {
       if (const auto c = read_simulate(reader)) command.what = *c;
     } else if (s.name == "LINEAR") {
       if (auto c = read_linear(reader)) command.what = std::move(*c);
+    } else if (s.name == "ENVIRONMENT") {
+      WrittenEnvironment w;
+      if (read_arguments(w, reader)) command.what = EnvironmentCommand{w.name};
     } else if (s.name == "FILE") {
       WrittenFile w;
       if (!read_arguments(w, reader)) return;

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "analysis/statics.h"
+#include "command/environment.h"
 #include "command/job.h"
 #include "command/mode_tables.h"
 #include "linear/eigen.h"
@@ -44,6 +45,8 @@ class Session {
     write_title(message_, job_.model->title);
     if (!job_.model->units.stated) remark("the dataset states no UNITS: the units consistency factor is taken as 1");
     for (const std::string& text : system_.layout().remarks) remark(text);
+    for (const std::string_view name : environment_.names())
+      remark(fmt::format("the environment variable {} is set and changes what this run computes", name));
     int status = done;
     for (const Command& c : job_.commands.commands) {
       write_command(message_, c.text);
@@ -66,10 +69,16 @@ class Session {
   Outcome execute(const Command& c) {
     if (const auto* simulate = std::get_if<SimulateCommand>(&c.what)) {
       Outcome outcome = simulate->kind == SimulateCommand::Kind::statics ? statics() : initial();
+      if (simulate->kind != SimulateCommand::Kind::statics) at_rest_.reset();
       if (outcome) json_.add_plain(c.text, point_.time);
       return outcome;
     }
     if (const auto* linear = std::get_if<LinearCommand>(&c.what)) return run_linear(c, *linear);
+    if (const auto* variable = std::get_if<EnvironmentCommand>(&c.what)) {
+      if (!environment_.set(variable->name))
+        remark(fmt::format("the environment variable {} means nothing here and is passed over", variable->name));
+      json_.add_plain(c.text, point_.time);
+    }
     if (const auto* passive = std::get_if<PassiveCommand>(&c.what)) {
       remark(fmt::format("the command {} has no effect on linear models and is passed over", passive->name));
       json_.add_plain(c.text, point_.time);
@@ -100,8 +109,11 @@ class Session {
     Findings findings;
     StaticsReport report;
     write_begin(message_, "Static Solution");
-    auto op = static_operating_point(system_, point_, {}, report, findings);
+    StaticsOptions options;
+    options.restore_velocities = !environment_.statics_stay_at_rest;
+    auto op = static_operating_point(system_, point_, options, report, findings);
     if (!op) return tl::unexpected(op.error());
+    at_rest_ = std::move(report.at_rest);
     write_static_result(message_, report.iterations, report.imbalance);
     write_end(message_, "Static Solution");
     accept(std::move(*op), findings);
@@ -139,6 +151,11 @@ class Session {
     for (const std::string& w : findings.warnings) remark(w);
   }
 
+  // Without reconciliation LINEAR takes the static solution as it was found; any other point is consistent anyway.
+  const OperatingPoint& point_of(const LinearCommand& command) const {
+    return at_rest_ && (command.original || environment_.without_reconciliation) ? *at_rest_ : point_;
+  }
+
   Outcome run_linear(const Command& c, const LinearCommand& command) {
     if (auto ready = initial(); !ready) return ready;
     LinearOptions options;
@@ -148,9 +165,12 @@ class Session {
     if (command.poutput) options.poutput = model.find("POUTPUT", *command.poutput);
     if (command.rm) options.rm = *model.find_marker(*command.rm);
     options.without_damping = command.without_damping;
+    options.principal_states = command.original || environment_.principal_states;
+    options.without_rate_coupling = command.original || environment_.without_rate_coupling;
     for (const std::string& table : command.tables)
       remark(fmt::format("the table {} is not available yet and is left out", table));
-    auto linear = linearize(system_, point_, options);
+    const OperatingPoint& point = point_of(command);
+    auto linear = linearize(system_, point, options);
     if (!linear) return tl::unexpected(linear.error());
     for (const std::string& w : linear->warnings) remark(w);
     if (linear->model.states.empty())
@@ -178,14 +198,15 @@ class Session {
     }
     auto modes = eigensolve(*linear, command.without_vectors ? Vectors::none : Vectors::right);
     if (!modes) return tl::unexpected(modes.error());
-    if (!command.without_vectors) name_movers(system_, point_, *linear, *modes);
+    if (!command.without_vectors) name_movers(system_, point, *linear, *modes);
     modes->rm = command.rm.value_or(0);
     modes->pstate = command.pstate.value_or(0);
     modes->without_damping = command.without_damping;
+    modes->original = command.original;
     write_eigensolution(message_, *modes);
     json_.add(c.text, *modes);
     if (command.wants_tables()) {
-      const auto tables = mode_tables(command, system_, point_, *linear, *modes);
+      const auto tables = mode_tables(command, system_, point, *linear, *modes);
       if (!tables) return tl::unexpected(tables.error());
       tables_ << *tables;
     }
@@ -258,6 +279,8 @@ class Session {
   System system_;
   OperatingPoint point_;
   bool consistent_ = false;
+  Environment environment_ = read_environment();
+  std::optional<OperatingPoint> at_rest_;  // what the last static analysis found, if no other one came after it
   std::vector<std::string> redundant_;
   std::ostringstream message_, tables_;
   JsonResults json_;

@@ -19,11 +19,16 @@ struct Mechanism::State {
   System system;
   OperatingPoint point;
   bool consistent = false;
+  std::optional<OperatingPoint> at_rest;  // what the last static analysis found, if no other one came after it
   std::vector<std::string> redundant, warnings;
 
   State(SourceRef text, std::shared_ptr<const Model> m)
       : source(std::move(text)), model(std::move(m)), system(model), point(system.drawn()) {
     warnings = system.layout().remarks;
+  }
+
+  const OperatingPoint& point_of(const LinearRequest& request) const {
+    return at_rest && request.without_reconciliation ? *at_rest : point;
   }
 
   void accept(OperatingPoint op, const Findings& findings) {
@@ -65,6 +70,8 @@ LinearOptions options_of(const Model& model, const LinearRequest& request) {
   options.pinput = find(request.pinput, "PINPUT");
   options.poutput = find(request.poutput, "POUTPUT");
   options.without_damping = request.without_damping;
+  options.principal_states = request.principal_states;
+  options.without_rate_coupling = request.without_rate_coupling;
   if (request.rm) {
     const auto marker = model.find_marker(*request.rm);
     if (!marker) fail({"linear analysis", fmt::format("MARKER/{} does not exist", *request.rm), {}});
@@ -112,18 +119,24 @@ Mechanism Mechanism::from_text(std::string dataset, std::string name) {
 void Mechanism::initial_conditions() {
   Findings findings;
   state_->accept(value_or_throw(dynalin::initial_conditions(state_->system, findings)), findings);
+  state_->at_rest.reset();
 }
 
-int Mechanism::static_equilibrium() {
+int Mechanism::static_equilibrium(bool restore_velocities) {
   Findings findings;
   StaticsReport report;
-  state_->accept(value_or_throw(static_operating_point(state_->system, state_->point, {}, report, findings)), findings);
+  StaticsOptions options;
+  options.restore_velocities = restore_velocities;
+  state_->accept(value_or_throw(static_operating_point(state_->system, state_->point, options, report, findings)),
+                 findings);
+  state_->at_rest = std::move(report.at_rest);
   return report.iterations;
 }
 
 StateSpace Mechanism::state_space(const LinearRequest& request) {
   if (!state_->consistent) initial_conditions();
-  LinearSystem linear = value_or_throw(linearize(state_->system, state_->point, options_of(*state_->model, request)));
+  LinearSystem linear =
+      value_or_throw(linearize(state_->system, state_->point_of(request), options_of(*state_->model, request)));
   state_->warnings.insert(state_->warnings.end(), linear.warnings.begin(), linear.warnings.end());
   return std::move(linear.model);
 }
@@ -131,13 +144,14 @@ StateSpace Mechanism::state_space(const LinearRequest& request) {
 EigenSolution Mechanism::eigensolution(const LinearRequest& request) {
   if (!state_->consistent) initial_conditions();
   const LinearSystem linear =
-      value_or_throw(linearize(state_->system, state_->point, options_of(*state_->model, request)));
+      value_or_throw(linearize(state_->system, state_->point_of(request), options_of(*state_->model, request)));
   state_->warnings.insert(state_->warnings.end(), linear.warnings.begin(), linear.warnings.end());
   EigenSolution solution = value_or_throw(eigensolve(linear));
-  name_movers(state_->system, state_->point, linear, solution);
+  name_movers(state_->system, state_->point_of(request), linear, solution);
   solution.rm = request.rm.value_or(0);
   solution.pstate = request.pstate.value_or(0);
   solution.without_damping = request.without_damping;
+  solution.original = request.principal_states && request.without_rate_coupling && request.without_reconciliation;
   return solution;
 }
 

@@ -6,6 +6,7 @@
 
 #include "elements/controls/variable.h"
 #include "elements/controls/variable_list.h"
+#include "linear/original_states.h"
 
 namespace dynalin {
 
@@ -82,7 +83,14 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
   const VariableList* own = options.pstate ? system.model().get<VariableList>(*options.pstate) : nullptr;
   if (own) count += own->variables.size();
   const bool relative = options.rm.valid();
-  if (relative) count += static_cast<std::size_t>(layout.body_coordinate_count);
+  const bool principal = options.principal_states && !relative;
+  if (relative || principal) count += static_cast<std::size_t>(layout.body_coordinate_count);
+  if (relative && options.principal_states) {
+    set.warnings.push_back(
+        fmt::format("RM={} asks for coordinates relative to that marker: the coordinates of the original "
+                    "implementation are not used",
+                    layout.marker_labels[static_cast<std::size_t>(options.rm.index)].id));
+  }
   set.gradients.resize(layout, count);
   set.gradients.begin();
   std::int32_t row = 0;
@@ -115,8 +123,16 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
     set.wanted.push_back(std::move(c));
   }
 
-  auto& plain = relative ? set.fallback : set.wanted;
+  if (principal) {
+    row = add_principal_candidates(system, motion, row, set);
+    for (std::int32_t k = layout.body_coordinate_count; k < layout.coordinate_count; ++k) {
+      set.wanted.push_back({k, -1, coordinate_label(layout, k, 0, false)});
+    }
+  }
+  auto& plain = relative || principal ? set.fallback : set.wanted;
   for (const std::int32_t coordinate : system.preference()) {
+    // Coordinates outside bodies know no frame: they are wanted as they are.
+    if ((relative || principal) && coordinate >= layout.body_coordinate_count) continue;
     plain.push_back({coordinate, -1, coordinate_label(layout, coordinate, 0, false)});
   }
   if (!relative) return set;

@@ -1,4 +1,5 @@
-// Coordinates that may become states, beyond the global ones: relative to a marker (RM) or the user's own (PSTATE).
+// Coordinates that may become states, beyond the global ones: relative to a marker (RM), the user's own (PSTATE), or
+// those of the original implementation (original_states.h).
 #pragma once
 
 #include "linear/linear_system.h"
@@ -15,9 +16,10 @@ struct Candidate {
 
 // Candidates in the order in which they are wanted, with the gradient rows of those that are no plain coordinate.
 struct CandidateSet {
-  std::vector<Candidate> wanted;    // PSTATE, then RM or global coordinates
-  std::vector<Candidate> fallback;  // global coordinates while RM is in force
+  std::vector<Candidate> wanted;    // PSTATE, then RM, principal or global coordinates
+  std::vector<Candidate> fallback;  // global coordinates while RM or principal ones are in force
   ConstraintRows gradients;
+  std::vector<std::string> warnings;
 };
 
 Result<CandidateSet> state_candidates(const System&, const Motion&, const LinearOptions&);

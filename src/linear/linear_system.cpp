@@ -126,6 +126,16 @@ class Linearizer {
     model.C = outputs.leftCols(states);
     model.D = outputs.rightCols(inputs);
     result_.rounding = rounding;
+    if (options_.without_damping && options_.without_rate_coupling) {
+      for (std::size_t k = 0; k < result_.kinematic_states; ++k) {
+        if (model.states[k].is_rate)
+          model.A.col(static_cast<Eigen::Index>(k))
+              .tail(static_cast<Eigen::Index>(result_.differential_states))
+              .setZero();
+      }
+      // No sparse equations have this block missing; what remains is the matrix itself.
+      equations = std::make_shared<const PerturbationEquations>(PerturbationEquations::of_state_matrix(model.A));
+    }
     result_.equations = std::move(equations);
   }
 

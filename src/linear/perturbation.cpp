@@ -206,6 +206,26 @@ Result<PerturbationEquations> PerturbationEquations::make(const System& system, 
   return p;
 }
 
+PerturbationEquations PerturbationEquations::of_state_matrix(const Matrix& A) {
+  PerturbationEquations p;
+  p.states_ = static_cast<std::int32_t>(A.rows());
+  Entries entries;
+  for (std::int32_t c = 0; c < p.states_; ++c) {
+    for (std::int32_t r = 0; r < p.states_; ++r) {
+      if (A(r, c) != 0.0) entries.push_back({r, c, A(r, c)});
+    }
+  }
+  p.pencil_ = p.state_rates_on_states_ = compressed(p.states_, p.states_, entries);
+  const ColumnMatrix none = compressed(0, 0, {});
+  auto lu = std::make_shared<SparseLu>();
+  lu->factor(none);
+  p.level_.fill(lu);
+  p.rates_on_positions_ = p.saddle_on_positions_ = p.saddle_on_rates_ = none;
+  p.on_states_ = compressed(0, p.states_, {});
+  p.state_rates_on_algebraic_ = compressed(p.states_, 0, {});
+  return p;
+}
+
 void PerturbationEquations::solve_levels(Matrix& b) const {
   level_[0]->solve(b.topRows(n_));
   multiply_add(rates_on_positions_, b.topRows(n_), b.middleRows(n_, n_), -1.0);

@@ -28,6 +28,9 @@ class PerturbationEquations {
   static Result<PerturbationEquations> make(const System&, const ConstraintRows&, const Equations&, const StateChoice&,
                                             const std::vector<std::int32_t>& inputs, bool without_damping);
 
+  // x′ = A x as it stands.
+  static PerturbationEquations of_state_matrix(const Eigen::MatrixXd& A);
+
   std::int32_t states() const { return states_; }
   std::int32_t unknowns() const { return algebraic_ + states_; }  // of the pencil
   std::int32_t coordinates() const { return n_; }

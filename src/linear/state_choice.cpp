@@ -19,6 +19,7 @@ class Chooser {
         n_(layout_.coordinate_count) {}
 
   StateChoice run() {
+    choice_.warnings = candidates_.warnings;
     choose_coordinates();
     choose_rates();
     list_states();
@@ -143,7 +144,8 @@ class Chooser {
         StateLabel rate = label;
         rate.is_rate = true;
         const bool own = label.type == StateType::pstate;
-        const bool point = label.type == StateType::point_mass || label.type == StateType::point_mass_relative;
+        const bool point = label.type == StateType::point_mass || label.type == StateType::point_mass_relative ||
+                           label.type == StateType::point_mass_original;
         if (own) rate.type = StateType::pstate_rate;
         rate.coordinate = own ? 2 : label.coordinate + (point ? 3 : 6);
         choice_.states.push_back(rate);

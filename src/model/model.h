@@ -39,8 +39,9 @@ struct Body {
   double mass = 0;  // dynamical: user mass / ucf [force·time²/length]
   double user_mass = 0;
   bool has_cm = false;
-  Vector p_BC;   // CM in the BCS
-  Matrix3 J_BC;  // dynamical inertia tensor about the CM, BCS axes
+  Vector p_BC;                         // CM in the BCS
+  Matrix3 J_BC;                        // dynamical inertia tensor about the CM, BCS axes
+  Matrix3 R_BI = Matrix3::identity();  // axes along which the dataset gives the inertia (IM, or CM), in the BCS
   StatedVelocity velocity;
   std::array<bool, 6> exact{};  // X Y Z PSI THETA PHI held in the assembly
 };

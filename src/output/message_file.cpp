@@ -47,6 +47,7 @@ void write_eigensolution(std::ostream& out, const EigenSolution& e) {
   if (e.rm) fmt::print(out, "  Option RM={} was used.\n\n", e.rm);
   if (e.pstate) fmt::print(out, "  Option PSTATE={} was used.\n\n", e.pstate);
   if (e.without_damping) fmt::print(out, "  Option NODAMPIN was used.\n\n");
+  if (e.original) fmt::print(out, "  Option ORIGINAL was used.\n\n");
   fmt::print(out,
              "  This model has\n{:9d} kinematic states (displacement and velocities)\n{:9d} differential states "
              "(DIFFs, LSEs, etc.)\n",

@@ -139,6 +139,7 @@ class PartSet final : public TypedSet<Part> {
     const MarkerPlace& im = model.marker(p.im.valid() ? p.im : p.cm).place;
     body.has_cm = true;
     body.p_BC = cm.p_BM;
+    body.R_BI = im.R_BM;
     if (p.ip.empty()) return;
     const double xy = p.ip.size() == 6 ? p.ip[3] : 0, xz = p.ip.size() == 6 ? p.ip[4] : 0,
                  yz = p.ip.size() == 6 ? p.ip[5] : 0;
