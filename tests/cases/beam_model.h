@@ -75,10 +75,11 @@ inline std::vector<std::complex<double>> clamped_squares(const Eigen::MatrixXd& 
   return list;
 }
 
-// Limits of values at h, h/2, h/4 … whose error is a series in h².
-inline double extrapolated(std::vector<double> values) {
+// Limit of values at h, h/2, h/4 … whose error is a series in h², h⁴, h⁶ …, or in h², h³, h⁴ …
+enum class Powers { even, all };
+inline double extrapolated(std::vector<double> values, Powers powers = Powers::even) {
   double factor = 4;
-  for (std::size_t left = values.size() - 1; left > 0; --left, factor *= 4) {
+  for (std::size_t left = values.size() - 1; left > 0; --left, factor *= powers == Powers::even ? 4 : 2) {
     for (std::size_t k = 0; k < left; ++k) values[k] = (factor * values[k + 1] - values[k]) / (factor - 1);
   }
   return values[0];

@@ -10,9 +10,9 @@ enum class Load { dead, follower };
 
 // A column of unit length, mass and bending stiffness about z, clamped at 0, with the force P at its end towards 0.
 struct Column {
-  Load load;
-  int n;
-  double P;
+  Load load = Load::dead;
+  int n = 1;
+  double P = 0;
   double EA = 1e6;
 
   double arm() const { return (1 - P / EA) / n; }  // distance of neighbouring nodes in equilibrium
@@ -84,17 +84,20 @@ class Columns : public Beams {
 TEST_F(Columns, under_a_dead_load_buckle_where_a_frequency_reaches_zero) {
   for (const double P : {0.0, 1.0, 2.4, 2.6, 4.0}) agrees({Load::dead, 8, P}, 4);
   for (const double P : {2.0, 3.0}) agrees({Load::dead, 16, P}, 4);
-  const double euler = std::numbers::pi * std::numbers::pi / 4;
   std::vector<double> loads;
-  for (const int n : {4, 8, 16}) {
+  for (const int n : {4, 8, 16, 32}) {
     const double P = Column::critical(Load::dead, n, 1, 4);
     EXPECT_FALSE(grows({Load::dead, n, P * (1 - 1e-6)})) << n;
     EXPECT_TRUE(grows({Load::dead, n, P * (1 + 1e-6)})) << n;
     loads.push_back(P);
   }
-  EXPECT_NEAR((loads[0] - euler) / (loads[1] - euler), 4, 0.1);
-  EXPECT_NEAR((loads[1] - euler) / (loads[2] - euler), 4, 0.05);
-  EXPECT_NEAR(extrapolated(loads), euler, 1e-5 * euler);
+  // π²/4 EI/L², times 1 + P/EA since the column is as much shorter when it buckles. The element looks from J, which
+  // brings in odd powers of its length.
+  const double pi = std::numbers::pi, euler = pi * pi / 4 * (1 + pi * pi / 4 / Column{}.EA);
+  EXPECT_NEAR((loads[0] - euler) / (loads[1] - euler), 4, 0.3);
+  EXPECT_NEAR((loads[1] - euler) / (loads[2] - euler), 4, 0.1);
+  EXPECT_NEAR((loads[2] - euler) / (loads[3] - euler), 4, 0.05);
+  EXPECT_NEAR(extrapolated(loads, Powers::all), euler, 1e-6 * euler);
 }
 
 TEST_F(Columns, under_a_follower_load_flutter_where_two_frequencies_meet) {
@@ -111,12 +114,12 @@ TEST_F(Columns, under_a_follower_load_flutter_where_two_frequencies_meet) {
     const auto growing =
         std::max_element(values.begin(), values.end(), [](auto a, auto b) { return a.real() < b.real(); });
     EXPECT_GT(growing->real(), 1e-2) << n;
-    EXPECT_NEAR(std::abs(growing->imag()), frequency, 20.0 / (n * n)) << n;
+    EXPECT_NEAR(std::abs(growing->imag()), frequency, 25.0 / (n * n)) << n;
     loads.push_back(P);
   }
   EXPECT_NEAR((loads[0] - beck) / (loads[1] - beck), 4, 0.3);
   EXPECT_NEAR((loads[1] - beck) / (loads[2] - beck), 4, 0.1);
-  EXPECT_NEAR(extrapolated(loads), beck, 1e-4 * beck);
+  EXPECT_NEAR(extrapolated(loads, Powers::all), beck, 1e-4 * beck);
 }
 
 }  // namespace
