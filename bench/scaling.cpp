@@ -8,12 +8,12 @@
 
 #include <chrono>
 #include <cstring>
-#include <fstream>
 #include <numeric>
 #include <random>
 
 #include "analysis/initial.h"
 #include "elements/catalogue.h"
+#include "peak_memory.h"
 #include "system/system.h"
 
 namespace {
@@ -32,14 +32,6 @@ class Clock {
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-double peak_megabytes() {
-  std::ifstream in("/proc/self/status");
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024;
-  }
-  return 0;
-}
 
 std::string chain(int n, bool tangled) {
   std::vector<int> id(static_cast<std::size_t>(n) + 1);

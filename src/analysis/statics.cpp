@@ -267,6 +267,7 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   std::vector<std::string> history;
   double force = 0, hold = 1, before = std::numeric_limits<double>::infinity();
   bool held_states = false, transient = false;
+  int stalled = 0;
   for (int iteration = 0; iteration < options.iteration_limit; ++iteration) {
     equations.evaluate(op, true);
     findings.redundant_rows = equations.partition().redundant;
@@ -284,6 +285,9 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
     // Balanced as it stands, or at the level of rounding: accept.
     if (level <= 1e-13 && iteration == 0) break;
     if (level <= 1e-11 && level >= 0.25 * before) break;
+    const bool stalls = level >= 0.25 * before && report.imbalance <= 100 * equations.rounding(op);
+    stalled = stalls ? stalled + 1 : 0;
+    if (stalled == 3) break;  // stiff elements turn the rounding of positions into forces
     before = level;
 
     const auto solve = [&](double held) -> std::optional<Eigen::VectorXd> {
