@@ -8,6 +8,9 @@ namespace dynalin {
 namespace {
 
 constexpr double near_rest = 1e-6;  // of the forces at play: Newton's method takes over
+// Steps after which the sum of squares must have fallen to the given part, or the search has come to its least.
+constexpr int patience = 12;
+constexpr double progress = 0.8;
 
 // ⎡ E   UJC ⎤ ⎡ p ⎤   ⎡ −U r ⎤      E: 1, and 0 for constraint rows, which makes p their multiplier
 // ⎣ (UJC)ᵀ −μ ⎦ ⎣ y ⎦ = ⎣  0   ⎦      U, C: units of equations and unknowns; δ = C y. Reactions are not held by μ.
@@ -44,8 +47,13 @@ bool reduce_imbalance(StaticEquations& equations, OperatingPoint& op, int step_l
   const double force = equations.force_scale();
   const Eigen::VectorXd row_unit = equations.row_units(force), column_unit = equations.column_units(op);
   double merit = equations.merit(force), mu = 1e-2, growth = 2;
+  double earlier = std::numeric_limits<double>::infinity();
   for (int k = 0; k < step_limit && std::isfinite(merit) && mu < 1e12; ++k) {
     if (std::sqrt(merit) < near_rest) return true;
+    if (k % patience == 0) {
+      if (merit > progress * earlier) return false;
+      earlier = merit;
+    }
     const auto step = damped_step(equations, row_unit, column_unit, mu);
     bool taken = false;
     if (step) {

@@ -53,14 +53,15 @@ class StaticEquations {
   // states.
   ColumnMatrix tangent(double hold, double hold_states) const;
 
- private:
-  // 1 for a force, 1/length for a moment.
-  double force_unit(std::int32_t k) const { return system_.coordinate_scale(k) / system_.length(); }
-  // A typical stiffness, as one for coordinate k.
+  // A typical stiffness of the first point that was evaluated with partials, as one for coordinate k.
   double holding(std::int32_t k) const {
     const double s = system_.length() / system_.coordinate_scale(k);
     return stiffness_ * s * s;
   }
+
+ private:
+  // 1 for a force, 1/length for a moment.
+  double force_unit(std::int32_t k) const { return system_.coordinate_scale(k) / system_.length(); }
   double unit(Eigen::Index k, double force) const;
   void measure_stiffness();
   void measure_forces(const OperatingPoint&);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <random>
 
 #include "analysis/continuation.h"
 #include "analysis/least_imbalance.h"
@@ -126,6 +127,22 @@ bool at_rest(StaticEquations& equations, const OperatingPoint& op) {
          std::sqrt(equations.merit(std::numeric_limits<double>::infinity())) <= 1e-7;
 }
 
+// Another place to begin: every part turned and moved, every state changed, at most as far as the model is long, a
+// radian or one; the same places in every run.
+OperatingPoint elsewhere(const System& system, OperatingPoint op, int k) {
+  std::mt19937_64 bits(static_cast<std::uint64_t>(k));
+  const auto draw = [&](double size) { return size * (std::ldexp(static_cast<double>(bits() >> 11), -52) - 1); };
+  const double size = k % 2 ? 0.3 : 1.0;
+  for (std::size_t b = 1; b < op.poses.size(); ++b) {
+    Vector shift, turn;
+    for (std::size_t c = 0; c < 3; ++c) shift[c] = draw(size * system.length()), turn[c] = draw(3 * size);
+    op.poses[b].r += shift;
+    op.poses[b].R = orthonormalized(rotation_exponential(turn) * op.poses[b].R);
+  }
+  for (double& z : op.state) z += draw(3 * size);
+  return op;
+}
+
 Failure refusal(StaticEquations& equations, const OperatingPoint& op, std::vector<std::string> history) {
   equations.evaluate(op, true);
   const System& system = equations.system();
@@ -179,6 +196,14 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
         op = std::move(*rest);
         found = Descent(equations, options, history).run(op);
       }
+    }
+  }
+  for (int k = 0; k < options.restarts && !found; ++k) {
+    OperatingPoint other = elsewhere(system, drawn, k);
+    if (reduce_imbalance(equations, other, 60)) {
+      op = std::move(other);
+      found = Descent(equations, options, history).run(op);
+
     }
   }
   report.iterations = std::max(0, static_cast<int>(history.size()) - 1);

@@ -13,6 +13,7 @@ namespace dynalin {
 struct StaticsOptions {
   int iteration_limit = 500;
   double rotation_limit = 0.17453292519943295;  // [rad] a step, ALIMIT
+  int restarts = 24;  // of the search from other places, after all else
 };
 
 struct StaticsReport {
