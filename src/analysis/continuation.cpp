@@ -100,7 +100,8 @@ class Curve {
   }
 
   Place at(const Place& from, const Eigen::VectorXd& tangent, double length) const {
-    return {moved(system_, from.op, equations_.saddle(), tangent, length, 1.0), from.s + length * tangent(tangent.size() - 1)};
+    return {moved(system_, from.op, equations_.saddle(), tangent, length, 1.0),
+            from.s + length * tangent(tangent.size() - 1)};
   }
 
   // Newton back to the curve across the border, or at fixed s without one.

@@ -74,12 +74,12 @@ std::string StaticEquations::worst(double force) const {
   double largest = 0;
   std::int32_t at = -1;
   for (std::int32_t k = 0; k < saddle_.size(); ++k) {
+    if (k >= saddle_.lambda(0) && k < saddle_.algebraic(0)) continue;  // constraints are met at every point of a search
     const double r = std::abs(residual_(k)) * unit(k, force);
     if (r > largest) largest = r, at = k;
   }
   if (at < 0) return {};
   if (at < coordinates_) return fmt::format("the unbalanced force is largest at {}", layout.coordinate_text(at));
-  if (at < saddle_.algebraic(0)) return system_.row_text(at - saddle_.lambda(0)) + " is violated";
   if (at < saddle_.state(0)) {
     const auto& w = layout.algebraic[static_cast<std::size_t>(at - saddle_.algebraic(0))];
     return fmt::format("{} has no value that agrees with its own function", w.owner->full_text());

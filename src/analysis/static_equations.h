@@ -35,14 +35,14 @@ class StaticEquations {
   // The equation that is farthest from being met, in words.
   std::string worst(double force) const;
 
-  // Units of equations (as in `merit`) and of unknowns (lengths, radians, sizes of forces, values and states), that make
-  // them comparable.
+  // Units of equations (as in `merit`) and of unknowns (lengths, radians, sizes of forces, values and states), that
+  // make them comparable.
   Eigen::VectorXd row_units(double force) const;
   Eigen::VectorXd column_units(const OperatingPoint&) const;
 
-  // Constraints met, then reactions and algebraic values from  D a = F + Gᵀλ,  G a = 0  w = e  at rest, with the metric D that
-  // `tangent` holds with; the imbalance that is left, −D a, does no work on the reactions. Leaves the point as it is if
-  // that fails.
+  // Constraints met, then reactions and algebraic values from  D a = F + Gᵀλ,  G a = 0  w = e  at rest, with the metric
+  // D that `tangent` holds with; the imbalance that is left, −D a, does no work on the reactions. Leaves the point as
+  // it is if that fails.
   void settle(OperatingPoint&);
 
   // Work of the imbalance along a step of the coordinates, and the step's size in the metric that `tangent` holds with.

@@ -10,10 +10,19 @@
 #include "analysis/continuation.h"
 #include "analysis/least_imbalance.h"
 #include "analysis/static_equations.h"
+#include "analysis/static_refusal.h"
 
 namespace dynalin {
 
 namespace {
+
+// Beyond all proportion to the model: balance is an illusion of forces that vanish or grow without end.
+bool escaped(const System& system, const OperatingPoint& from, const OperatingPoint& to) {
+  constexpr double far = 1e6;
+  double largest = 0;
+  for (std::size_t b = 1; b < to.poses.size(); ++b) largest = std::max(largest, norm(to.poses[b].r - from.poses[b].r));
+  return !(largest <= far * system.length());
+}
 
 // One way downhill from a point: Newton where it helps, else implicit steps of a damped motion.
 class Descent {
@@ -31,7 +40,10 @@ class Descent {
       if (!std::isfinite(merit_)) return false;
       history_.push_back(fmt::format("iteration {}: imbalance {:.5e}{}", history_.size(), equations_.imbalance(),
                                      transient_ ? " (pseudo-transient)" : ""));
-      if (merit_ < lowest_merit_) lowest_merit_ = merit_, lowest_ = op;
+      if (iteration_ == 0) first_ = op, first_force_ = force_;
+      if (escaped(system_, first_, op)) return false;
+      // Against the first yardstick: forces that grow without end do not make a point better.
+      if (const double m = equations_.merit(first_force_); m < lowest_merit_) lowest_merit_ = m, lowest_ = op;
       const double level = std::sqrt(merit_);
       // Balanced as it stands, or at the level of rounding: accept.
       if (level <= 1e-13 && iteration_ == 0) return true;
@@ -58,8 +70,8 @@ class Descent {
     return Eigen::VectorXd(step.col(0));
   }
 
-  // Where it goes downhill, so that it does not climb to an unstable equilibrium; close to the solution rounding decides
-  // and the step is taken as it is.
+  // Where it goes downhill, so that it does not climb to an unstable equilibrium; close to the solution rounding
+  // decides and the step is taken as it is.
   bool newton(OperatingPoint& op, double level) {
     if (transient_ && level >= 1e-3) return false;
     transient_ = true;
@@ -112,8 +124,8 @@ class Descent {
   const StaticsOptions& options_;
   std::vector<std::string>& history_;
   int iteration_ = 0;
-  OperatingPoint lowest_;
-  double lowest_merit_ = std::numeric_limits<double>::infinity();
+  OperatingPoint first_, lowest_;
+  double first_force_ = 0, lowest_merit_ = std::numeric_limits<double>::infinity();
   double force_ = 0, merit_ = 0, hold_ = 1, before_ = std::numeric_limits<double>::infinity();
   bool held_states_ = false, transient_ = false;
 };
@@ -143,21 +155,6 @@ OperatingPoint elsewhere(const System& system, OperatingPoint op, int k) {
   return op;
 }
 
-Failure refusal(StaticEquations& equations, const OperatingPoint& op, std::vector<std::string> history) {
-  equations.evaluate(op, true);
-  const System& system = equations.system();
-  Failure f{"statics", "no equilibrium was found", std::move(history)};
-  if (!equations.residual().allFinite()) {
-    const std::string reason = system.fault(system.motion(op));
-    f.message = reason.empty() ? "a force has no finite value" : reason;
-    return f;
-  }
-  if (const std::string worst = equations.worst(equations.force_scale()); !worst.empty()) f.message += ": " + worst;
-  const auto names = undetermined(system, equations.saddle(), equations.tangent(0, 0));
-  if (!names.empty()) f.message += fmt::format("; the tangent leaves {} undetermined", fmt::join(names, ", "));
-  return f;
-}
-
 }  // namespace
 
 Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op, const StaticsOptions& options,
@@ -181,12 +178,20 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   const OperatingPoint drawn = op;
   bool found = descent.run(op);
   const OperatingPoint lowest = descent.lowest();
+  if (!found) {
+    // What nothing holds at the first point, at the best and at the last is held nowhere.
+    const auto unheld = unheld_parts(equations, drawn);
+    if (!unheld.empty() && unheld == unheld_parts(equations, lowest) && unheld == unheld_parts(equations, op)) {
+      report = {static_cast<int>(history.size()), equations.imbalance()};
+      return tl::unexpected(static_refusal(equations, lowest, std::move(history)));
+    }
+  }
   for (const OperatingPoint* start : {&lowest, &drawn}) {
     if (found) break;
     OperatingPoint least = *start;
     if (reduce_imbalance(equations, least, 100)) {
       op = std::move(least);
-      found = Descent(equations, options, history).run(op);
+      found = Descent(equations, options, history).run(op) && !escaped(system, drawn, op);
     }
   }
   for (const OperatingPoint* start : {&lowest, &drawn}) {
@@ -194,7 +199,7 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
       if (found) break;
       if (auto rest = follow_to_rest(equations, *start, forward)) {
         op = std::move(*rest);
-        found = Descent(equations, options, history).run(op);
+        found = Descent(equations, options, history).run(op) && !escaped(system, drawn, op);
       }
     }
   }
@@ -202,14 +207,13 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
     OperatingPoint other = elsewhere(system, drawn, k);
     if (reduce_imbalance(equations, other, 60)) {
       op = std::move(other);
-      found = Descent(equations, options, history).run(op);
-
+      found = Descent(equations, options, history).run(op) && !escaped(system, drawn, op);
     }
   }
   report.iterations = std::max(0, static_cast<int>(history.size()) - 1);
-  if (!at_rest(equations, op)) {
+  if (escaped(system, drawn, op) || !at_rest(equations, op)) {
     report.imbalance = equations.imbalance();
-    return tl::unexpected(refusal(equations, lowest, std::move(history)));
+    return tl::unexpected(static_refusal(equations, lowest, std::move(history)));
   }
   report.imbalance = equations.imbalance();
   findings.redundant_rows = equations.partition().redundant;
