@@ -24,6 +24,9 @@ bool escaped(const System& system, const OperatingPoint& from, const OperatingPo
   return !(largest <= far * system.length());
 }
 
+// Iterations after which a motion that has come no closer to rest goes round in a circle or away.
+constexpr int patience = 80;
+
 // One way downhill from a point: Newton where it helps, else implicit steps of a damped motion.
 class Descent {
  public:
@@ -43,7 +46,10 @@ class Descent {
       if (iteration_ == 0) first_ = op, first_force_ = force_;
       if (escaped(system_, first_, op)) return false;
       // Against the first yardstick: forces that grow without end do not make a point better.
-      if (const double m = equations_.merit(first_force_); m < lowest_merit_) lowest_merit_ = m, lowest_ = op;
+      const double merit = equations_.merit(first_force_);
+      if (merit < 0.8 * lowest_merit_) improved_ = iteration_;
+      if (merit < lowest_merit_) lowest_merit_ = merit, lowest_ = op;
+      if (iteration_ > improved_ + patience) return false;
       const double level = std::sqrt(merit_);
       // Balanced as it stands, or at the level of rounding: accept.
       if (level <= 1e-13 && iteration_ == 0) return true;
@@ -123,7 +129,7 @@ class Descent {
   const System& system_;
   const StaticsOptions& options_;
   std::vector<std::string>& history_;
-  int iteration_ = 0;
+  int iteration_ = 0, improved_ = 0;
   OperatingPoint first_, lowest_;
   double first_force_ = 0, lowest_merit_ = std::numeric_limits<double>::infinity();
   double force_ = 0, merit_ = 0, hold_ = 1, before_ = std::numeric_limits<double>::infinity();

@@ -128,7 +128,7 @@ TEST_F(Statics, redundant_joints_carry_the_load_all_the_same) {
 TEST_F(Statics, an_equilibrium_inside_a_limit_cycle_is_found_and_called_unstable) {
   const std::string u = "(DX(30,1)-0.2)", v = "(DY(30,1)+0.1)", r = "(1-" + u + "**2-" + v + "**2)";
   const RunResult run = rest(
-      "POINT_MASS/3, MASS=1, CM=30, QG=0.9,0.4,0\nMARKER/30, POINT_MASS=3\nMARKER/9, "
+      "POINT_MASS/3, MASS=1, CM=30, QG=0.9,0.4,0\nMARKER/30, POINT_MASS=3\nMARKER/9, PART=1, "
       "FLOATING\nVFORCE/1, I=30, JFLOAT=9, RM=1, FX=" +
           u + "*" + r + "-3*" + v + "\\, FY=" + v + "*" + r + "+3*" + u + "\\, FZ=-DZ(30,1)\n",
       "JGRAV=0");

@@ -92,7 +92,7 @@ TEST(Statics, generated_mechanisms_come_to_rest_or_say_why_not) {
     for (const Real rate : model.differential_rates()) EXPECT_NEAR(static_cast<double>(rate), 0, 1e-7);
   }
   std::cout << found << " equilibria, " << refused << " refused\n";
-  EXPECT_GE(found, 60);
+  EXPECT_GE(found, 92);
 }
 
 }  // namespace
