@@ -1,9 +1,10 @@
 // Static equilibrium: poses, multipliers, algebraic values and states at which all velocities, accelerations and state
 // rates are zero.
 //
-// Damped Newton on all unknowns at once; where the tangent is singular (free or indifferent freedoms, pure
-// integrators) or a step does not help, a pseudo-transient term holds the point and fades with the residual. A point
-// that is balanced to rounding is accepted as it stands.
+// The search, each step only where the one before it fails: (1) downhill, by Newton's method and implicit steps of a
+// damped motion (`statics.cpp`); (2) least squares (`least_imbalance.h`); (3) continuation (`continuation.h`); (4)
+// least squares from other places. A point that is balanced to rounding is accepted as it stands. What cannot be found
+// is explained (`static_refusal.h`).
 #pragma once
 
 #include "analysis/initial.h"
@@ -14,6 +15,7 @@ struct StaticsOptions {
   int iteration_limit = 500;
   double rotation_limit = 0.17453292519943295;  // [rad] a step, ALIMIT
   bool restore_velocities = true;               // the dataset's velocities come back at t = 0
+  int restarts = 24;                            // of the search from other places, after all else
 };
 
 struct StaticsReport {

@@ -1,6 +1,9 @@
 // Static equilibria that are hard to find, or are none.
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <complex>
+
 #include "cases/dataset_text.h"
 
 namespace dynalin::cases {
@@ -123,6 +126,75 @@ TEST_F(Statics, redundant_joints_carry_the_load_all_the_same) {
   ASSERT_EQ(single.status, 0) << single.err;
   ASSERT_EQ(twice.status, 0) << twice.err;
   expect_same(single.eigenvalues(1), twice.eigenvalues(1), 1e-10);
+}
+
+// A point mass in a field that turns it round: from everywhere else a damped motion runs into a cycle.
+TEST_F(Statics, an_equilibrium_inside_a_limit_cycle_is_found_and_called_unstable) {
+  const std::string u = "(DX(30,1)-0.2)", v = "(DY(30,1)+0.1)", r = "(1-" + u + "**2-" + v + "**2)";
+  const RunResult run = rest(
+      "POINT_MASS/3, MASS=1, CM=30, QG=0.9,0.4,0\nMARKER/30, POINT_MASS=3\nMARKER/9, PART=1, "
+      "FLOATING\nVFORCE/1, I=30, JFLOAT=9, RM=1, FX=" +
+          u + "*" + r + "-3*" + v + "\\, FY=" + v + "*" + r + "+3*" + u + "\\, FZ=-DZ(30,1)\n",
+      "JGRAV=0");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("unstable"));
+  // λ² = 1 ± 3i about the centre, −1 across.
+  const std::complex<double> root = std::sqrt(std::complex<double>(1, 3)) / (2 * 3.14159265358979);
+  double nearest = 1;
+  for (const auto& e : run.eigenvalues(1)) nearest = std::min(nearest, std::abs(e - root));
+  EXPECT_LT(nearest, 1e-9);
+}
+
+// z′ = z³ − 3z + 4 is least in size at z = 1, where it is 2, on the way from 0.9 to its only zero.
+TEST_F(Statics, a_state_passes_the_fold_that_is_in_its_way) {
+  const RunResult r = rest(
+      "PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=0,-1,0\nMARKER/20\nMARKER/21, QP=0,1,0\nJOINT/1, REVOLUTE, I=21, "
+      "J=1\nDIFF/7, IC=0.9, FUNCTION=DIF(7)**3-3*DIF(7)+4\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const double z = -std::cbrt(2 + std::sqrt(3.0)) - std::cbrt(2 - std::sqrt(3.0));  // Cardano
+  EXPECT_NEAR(r.eigenvalues(1)[0].real(), (3 * z * z - 3) / (2 * 3.14159265358979), 1e-9);
+}
+
+TEST_F(Statics, a_state_that_cannot_rest_is_named) {
+  const RunResult r = rest(
+      "PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=0,-1,0\nMARKER/20\nMARKER/21, QP=0,1,0\nJOINT/1, REVOLUTE, I=21, "
+      "J=1\nDIFF/7, IC=0.3, FUNCTION=DIF(7)**2+1\n");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, HasSubstr("DIFF/7"));
+}
+
+TEST_F(Statics, parts_that_hold_each_other_but_not_to_ground_are_named_with_their_weight) {
+  const RunResult r = rest(
+      "PART/2, MASS=2, CM=20, IP=1,1,1\nMARKER/20\nPART/3, MASS=3, CM=30, IP=1,1,1, QG=1,0,0\nMARKER/30\n"
+      "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=30, K=100, LENGTH=0.8\n");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, HasSubstr("nothing holds PART/2, PART/3 against the force (0, -49.05, 0)"));
+}
+
+TEST_F(Statics, a_slide_on_an_incline_is_pushed_along_it) {
+  const RunResult r = rest(
+      "PART/2, MASS=2, CM=20, IP=1,1,1\nMARKER/20\nMARKER/22, REULER=120D,90D,0\nMARKER/2, PART=1, "
+      "REULER=120D,90D,0\nJOINT/1, TRANSLATIONAL, I=22, J=2\n");
+  EXPECT_EQ(r.status, 2);
+  // z of the markers is (sin 120°, −cos 120°, 0), 30° above x: of the weight m g sin 30° is left.
+  EXPECT_THAT(r.err, HasSubstr("nothing holds PART/2 against the force (-8.4957, -4.905, 0)"));
+}
+
+TEST_F(Statics, a_torque_turns_a_pendulum_as_far_as_its_weight_allows) {
+  const auto driven = [&](double torque) {
+    return rest(fmt::format(
+        "PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=0,-1,0\nMARKER/20\nMARKER/21, QP=0,1,0\nJOINT/1, REVOLUTE, I=21, "
+        "J=1\nSFORCE/1, ROTATIONAL, I=21, J=1, FUNCTION={}\n",
+        torque));
+  };
+  const RunResult held = driven(8);
+  ASSERT_EQ(held.status, 0) << held.err;
+  EXPECT_THAT(held.out, HasSubstr("nothing grows"));
+  const double stiffness = std::sqrt(9.81 * 9.81 - 64);  // m g l cos θ with sin θ = T / m g l
+  EXPECT_NEAR(held.eigenvalues(1)[0].imag(), std::sqrt(stiffness / 1.1) / (2 * 3.14159265358979), 1e-9);
+  const RunResult spun = driven(11);
+  EXPECT_EQ(spun.status, 2);
+  EXPECT_THAT(spun.err, HasSubstr("PART/2"));
 }
 
 }  // namespace

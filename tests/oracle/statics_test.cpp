@@ -13,9 +13,11 @@
 namespace dynalin::oracle {
 namespace {
 
-TEST(Statics, generated_mechanisms_come_to_rest_or_say_why_not) {
+class Statics : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(Statics, generated_mechanisms_come_to_rest_or_say_why_not) {
   int found = 0, refused = 0;
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+  for (std::uint64_t seed = GetParam(); seed < GetParam() + 25; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Mechanism mechanism = random_mechanism(seed);
     // Ground springs hold what would float away.
@@ -92,8 +94,9 @@ TEST(Statics, generated_mechanisms_come_to_rest_or_say_why_not) {
     for (const Real rate : model.differential_rates()) EXPECT_NEAR(static_cast<double>(rate), 0, 1e-7);
   }
   std::cout << found << " equilibria, " << refused << " refused\n";
-  EXPECT_GE(found, 60);
+  EXPECT_GE(found, 22);
 }
+INSTANTIATE_TEST_SUITE_P(generated, Statics, ::testing::Range<std::uint64_t>(1, 101, 25));
 
 }  // namespace
 }  // namespace dynalin::oracle

@@ -1,0 +1,95 @@
+// The equations of rest at one point: force balance, constraints, algebraic and differential equations with all
+// velocities, accelerations and rates zero, and the scales that make their residuals comparable.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "analysis/saddle.h"
+#include "system/system.h"
+
+namespace dynalin {
+
+class StaticEquations {
+ public:
+  explicit StaticEquations(const System&);
+
+  void evaluate(const OperatingPoint&, bool with_partials);
+
+  const System& system() const { return system_; }
+  const Saddle& saddle() const { return saddle_; }
+  const Partition& partition() const { return part_; }
+  // In the order of the saddle matrix. Held states and rows that are not active have none.
+  const Eigen::VectorXd& residual() const { return residual_; }
+
+  // Largest unbalanced force, moments by length.
+  double imbalance() const;
+  // The size of the forces at play: reactions, weights, what is unbalanced.
+  double force_scale() const { return force_scale_; }
+  // The force that a unit in the last place of the positions makes, Σ |K| ε |q|; after an evaluation with partials.
+  double rounding(const OperatingPoint&) const;
+  // Sum of squares of residuals in comparable units; forces are measured against `force`.
+  double merit(double force) const { return merit(residual_, force); }
+  double merit(const Eigen::VectorXd& residual, double force) const;
+  // The equation that is farthest from being met, in words.
+  std::string worst(double force) const;
+
+  // Units of equations (as in `merit`) and of unknowns (lengths, radians, sizes of forces, values and states), that
+  // make them comparable.
+  Eigen::VectorXd row_units(double force) const;
+  Eigen::VectorXd column_units(const OperatingPoint&) const;
+
+  // Constraints met, then reactions and algebraic values from  D a = F + Gᵀλ,  G a = 0  w = e  at rest, with the metric
+  // D that `tangent` holds with; the imbalance that is left, −D a, does no work on the reactions. Leaves the point as
+  // it is if that fails.
+  void settle(OperatingPoint&);
+
+  // Work of the imbalance along a step of the coordinates, and the step's size in the metric that `tangent` holds with.
+  double slope(const Eigen::VectorXd& step) const;
+  double damping(const Eigen::VectorXd& step) const;
+
+  // Partials of the residual with `hold` times a typical stiffness added to the coordinates and `hold_states` to the
+  // states.
+  ColumnMatrix tangent(double hold, double hold_states) const;
+
+  // A typical stiffness of the first point that was evaluated with partials, as one for coordinate k.
+  double holding(std::int32_t k) const {
+    const double s = system_.length() / system_.coordinate_scale(k);
+    return stiffness_ * s * s;
+  }
+
+ private:
+  // 1 for a force, 1/length for a moment.
+  double force_unit(std::int32_t k) const { return system_.coordinate_scale(k) / system_.length(); }
+  double unit(Eigen::Index k, double force) const;
+  void measure_stiffness();
+  void measure_forces(const OperatingPoint&);
+
+  const System& system_;
+  Saddle saddle_;
+  std::int32_t coordinates_;
+  ConstraintRows rows_;
+  Equations eq_;
+  Partition part_;
+  std::vector<bool> held_;
+  Eigen::VectorXd residual_;
+  double force_scale_ = 0, stiffness_ = 0;
+};
+
+// f(row, column, value) for every entry.
+template <class F>
+void for_each_entry(const ColumnMatrix& m, F&& f) {
+  for (std::int32_t c = 0; c < m.columns; ++c) {
+    for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]);
+         k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
+      f(m.row[k], c, m.value[k]);
+    }
+  }
+}
+
+// The point moved by fraction · step; rotations beyond `rotation_limit` [rad] shorten the whole step.
+OperatingPoint moved(const System&, const OperatingPoint&, const Saddle&, const Eigen::VectorXd& step, double fraction,
+                     double rotation_limit);
+
+}  // namespace dynalin

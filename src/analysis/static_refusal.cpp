@@ -1,0 +1,126 @@
+#include "analysis/static_refusal.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace dynalin {
+
+namespace {
+
+constexpr std::size_t named_parts = 6;
+constexpr double negligible = 1e-9;  // of stiffnesses and forces, relative
+
+// Bodies in groups that no column of the tangent connects.
+class Groups {
+ public:
+  explicit Groups(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::size_t of(std::size_t b) {
+    while (parent_[b] != b) b = parent_[b] = parent_[parent_[b]];
+    return b;
+  }
+  void join(std::size_t a, std::size_t b) { parent_[of(a)] = of(b); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+std::string part_names(const Layout& layout, const std::vector<std::size_t>& bodies) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < std::min(bodies.size(), named_parts); ++k)
+    names.push_back(layout.bodies[bodies[k]].label.full_text());
+  std::string text = fmt::format("{}", fmt::join(names, ", "));
+  if (bodies.size() > named_parts) text += fmt::format(" and {} more", bodies.size() - named_parts);
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> unheld_parts(StaticEquations& equations, const OperatingPoint& op) {
+  equations.evaluate(op, true);
+  if (!equations.residual().allFinite()) return {};
+  const System& system = equations.system();
+  const Layout& layout = system.layout();
+  std::vector<std::size_t> body_of(system.coordinates(), 0);
+  for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
+    for (std::int32_t k = 0; k < layout.bodies[b].count; ++k)
+      body_of[static_cast<std::size_t>(layout.bodies[b].offset + k)] = b;
+  }
+  const auto body = [&](std::int32_t k) {
+    return static_cast<std::size_t>(k) < body_of.size() ? body_of[static_cast<std::size_t>(k)] : 0;
+  };
+  const ColumnMatrix J = equations.tangent(0, 0);
+  const Eigen::VectorXd unit = equations.column_units(op);
+
+  // The sum of forces on a group changes by Σ_columns s_c δ_c. Along a direction e with e · s_c = 0 for all c it is
+  // constant, reactions between the parts of the group included.
+  Groups groups(layout.bodies.size());
+  std::vector<std::size_t> touched(static_cast<std::size_t>(J.columns), 0);
+  std::vector<Eigen::Vector3d> sum(static_cast<std::size_t>(J.columns), Eigen::Vector3d::Zero());
+  double largest = 0;
+  for_each_entry(J, [&](std::int32_t r, std::int32_t c, double v) {
+    const std::size_t b = body(r);
+    if (b == 0 || v == 0) return;
+    std::size_t& other = touched[static_cast<std::size_t>(c)];
+    if (other == 0) other = body(c) != 0 ? body(c) : b;
+    groups.join(b, other);
+    if (const std::int32_t axis = r - layout.bodies[b].offset; axis < 3) {
+      sum[static_cast<std::size_t>(c)](axis) += v * unit(c);
+      largest = std::max(largest, std::abs(v * unit(c)));
+    }
+  });
+  std::map<std::size_t, Eigen::Matrix3d> resistance;
+  std::map<std::size_t, Eigen::Vector3d> force;
+  std::map<std::size_t, std::vector<std::size_t>> members;
+  for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
+    const std::size_t g = groups.of(b);
+    members[g].push_back(b);
+    resistance.try_emplace(g, Eigen::Matrix3d::Zero());
+    force.try_emplace(g, Eigen::Vector3d::Zero()).first->second -=
+        equations.residual().segment<3>(layout.bodies[b].offset);
+  }
+  for (std::size_t c = 0; c < sum.size(); ++c) {
+    if (touched[c] != 0) resistance[groups.of(touched[c])] += sum[c] * sum[c].transpose();
+  }
+  std::vector<std::string> sentences;
+  for (const auto& [g, bodies] : members) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> directions(resistance[g]);
+    Eigen::Vector3d left = Eigen::Vector3d::Zero();
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const Eigen::Vector3d e = directions.eigenvectors().col(k);
+      if (std::sqrt(std::max(0.0, directions.eigenvalues()(k))) <= negligible * largest) left += e.dot(force[g]) * e;
+    }
+    if (!(left.norm() > negligible * equations.force_scale())) continue;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      if (std::abs(left(k)) < 1e-6 * left.norm()) left(k) = 0;
+    }
+    sentences.push_back(fmt::format("nothing holds {} against the force ({:.5g}, {:.5g}, {:.5g})",
+                                    part_names(layout, bodies), left(0), left(1), left(2)));
+  }
+  return sentences;
+}
+
+Failure static_refusal(StaticEquations& equations, const OperatingPoint& op, std::vector<std::string> history) {
+  const System& system = equations.system();
+  Failure f{"statics", "no equilibrium was found", std::move(history)};
+  if (const auto unheld = unheld_parts(equations, op); !unheld.empty()) {
+    f.message += fmt::format(": {}", fmt::join(unheld, "; "));
+    return f;
+  }
+  equations.evaluate(op, true);
+  if (!equations.residual().allFinite()) {
+    const std::string reason = system.fault(system.motion(op));
+    f.message = reason.empty() ? "a force has no finite value" : reason;
+    return f;
+  }
+  if (const std::string worst = equations.worst(equations.force_scale()); !worst.empty()) f.message += ": " + worst;
+  const auto names = undetermined(system, equations.saddle(), equations.tangent(0, 0));
+  if (!names.empty()) f.message += fmt::format("; the tangent leaves {} undetermined", fmt::join(names, ", "));
+  return f;
+}
+
+}  // namespace dynalin
