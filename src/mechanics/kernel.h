@@ -86,6 +86,8 @@ class Kernel {
 
   // A sentence on why element `k` yields no finite numbers here, empty if it does.
   virtual std::string fault(const Motion&) const { return {}; }
+  // A sentence on how a converged point lies outside of what an element describes, empty if it does not.
+  virtual std::string departure(const Motion&) const { return {}; }
 };
 
 // What expressions refer to, resolved by the system.
@@ -96,6 +98,9 @@ class Signals {
   virtual MarkerId marker(std::int64_t id) const = 0;  // global_frame for 0
   // The fixed marker at which a floating one is, any other itself.
   virtual MarkerId place_of(MarkerId) const = 0;
+  // Whether origin and axes of place_of() are those of the marker: a floating one may have neither.
+  virtual bool has_origin(MarkerId) const = 0;
+  virtual bool has_axes(MarkerId) const = 0;
   virtual Channel variable(VariableRef) const = 0;
   // Entry `n` (0-based) of an ARRAY of any type.
   virtual Channel array_entry(ArrayRef, std::size_t n) const = 0;
@@ -106,7 +111,8 @@ class Signals {
   virtual Channel rate_of(const Channel&) const = 0;
   // Notes why the model cannot be solved as it stands.
   virtual void problem(std::string) const = 0;
-  virtual std::shared_ptr<const SplineCurves> spline(const SplineUse&) const = 0;
+  // Gives a call its SPLINE or CURVE.
+  virtual void attach(SplineUse&) const = 0;
   struct Element {
     const Kernel* kernel = nullptr;
     std::size_t index = 0;

@@ -127,7 +127,8 @@ class Reader final : public ElementReader {
   void check_references(const Expression& e) {
     for (const Atom& atom : e.atoms()) check_atom(atom);
     for (const SplineUse& use : e.splines()) {
-      if (!model_.find("SPLINE", use.id)) report_missing("SPLINE", "unknown-element", {use.id, use.id_at}, "");
+      const std::string_view statement = use.statement();
+      if (!model_.find(statement, use.id)) report_missing(statement, "unknown-element", {use.id, use.id_at}, "");
     }
   }
 

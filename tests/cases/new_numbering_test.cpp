@@ -29,8 +29,7 @@ class ParabolaKernel final : public Kernel {
   ParabolaKernel(const std::vector<Parabola>& elements, const std::vector<ElementLabel>& labels, Layout& layout)
       : layout_(layout) {
     for (std::size_t k = 0; k < elements.size(); ++k) {
-      const std::array<double, 1> start = {0.0};
-      const std::int32_t s = layout.add_extra(labels[k], {"s"}, start);
+      const std::int32_t s = layout.add_extra(labels[k], {{.name = "s"}});
       const std::int32_t first = layout.add_row(labels[k], "x");
       layout.add_row(labels[k], "y");
       beads_.push_back({layout.marker(elements[k].i), elements[k].curvature, s, first});
@@ -38,7 +37,7 @@ class ParabolaKernel final : public Kernel {
   }
   void constraints(const Motion& motion, ConstraintRows& rows) const override {
     for (const Bead& b : beads_) {
-      const auto e = static_cast<std::size_t>(b.s - layout_.body_coordinate_count);
+      const std::size_t e = layout_.extra_index(b.s);
       const Taylor s(motion.extra[e], motion.extra_rate[e], motion.extra_acceleration[e]);
       const Frame<Taylor> I = motion.frame(b.I);
       const BodyMotion& body = motion.body(b.I.body);

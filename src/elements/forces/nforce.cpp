@@ -21,7 +21,7 @@ struct Nforce {
   MarkerId j;
   MatrixRef stiffness, damping, length, force;
   std::optional<double> ratio;
-  Expression function;
+  UserSubroutine function{"NFOSUB"};
   std::vector<MarkerId> markers;
 
   static constexpr std::array<Argument<Nforce>, 8> arguments = {{
@@ -35,7 +35,7 @@ struct Nforce {
       {.name = "CRATIO", .slot = &Nforce::ratio, .unit = "time", .help = "damping as part of the stiffness"},
       {.name = "LENGTH", .slot = &Nforce::length, .help = "MATRIX of 6 n × 1: displacements at which FORCE acts"},
       {.name = "FORCE", .slot = &Nforce::force, .help = "MATRIX of 6 n × 1"},
-      {.name = "FUNCTION", .slot = &Nforce::function, .help = "user subroutines are not available"},
+      {.name = "FUNCTION", .slot = &Nforce::function, .help = "USER(…): not available"},
   }};
 };
 
@@ -138,10 +138,6 @@ class NforceSet final : public TypedSet<Nforce> {
     Nforce& n = elements[k];
     if (!read_arguments(n, reader)) return;
     const std::string name = reader.label().text();
-    if (reader.given("FUNCTION")) {
-      reader.error("argument-not-built", reader.at("FUNCTION"), "user subroutines are not available");
-      return;
-    }
     if (!n.stiffness.valid()) {
       reader.error("missing-argument", reader.statement().at, fmt::format("{} needs KMATRIX", name));
     }
