@@ -10,7 +10,8 @@
 
 namespace dynalin {
 
-// Rotations larger than `rotation_limit` [rad] shorten the whole step, and so do the limits of other coordinates. Returns the factor that was used.
+// Rotations larger than `rotation_limit` [rad] shorten the whole step, and so do the limits of other coordinates.
+// Returns the factor that was used.
 inline double displace(const System& system, OperatingPoint& op, const Eigen::Ref<const Eigen::VectorXd>& step,
                        double rotation_limit) {
   const Layout& layout = system.layout();

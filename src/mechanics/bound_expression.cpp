@@ -28,9 +28,19 @@ bool reads_axes(Measure m, std::size_t k) {
   switch (m) {
     case Measure::INCANG:
       return false;
-    case Measure::DX: case Measure::DY: case Measure::DZ: case Measure::DM:
-    case Measure::VX: case Measure::VY: case Measure::VZ: case Measure::VM: case Measure::VR:
-    case Measure::ACCX: case Measure::ACCY: case Measure::ACCZ: case Measure::ACCM:
+    case Measure::DX:
+    case Measure::DY:
+    case Measure::DZ:
+    case Measure::DM:
+    case Measure::VX:
+    case Measure::VY:
+    case Measure::VZ:
+    case Measure::VM:
+    case Measure::VR:
+    case Measure::ACCX:
+    case Measure::ACCY:
+    case Measure::ACCZ:
+    case Measure::ACCM:
       return k >= 2;
     default:
       return true;
@@ -311,7 +321,8 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
       }
     }
     for (const MarkerWrench::Scalar& s : w.scalars) {
-      eq.add(s.family, row, s.column, factor * picked(s.force, s.torque));
+      const Column family = s.family == Column::damping ? velocity_family : s.family;
+      eq.add(family, row, s.column, factor * picked(s.force, s.torque));
     }
     for (const MarkerWrench::Turn& turn : w.turns) {
       const BodyBlock& block = eq.layout().body(turn.body);

@@ -19,7 +19,7 @@ class Signals;
 struct MarkerWrench {
   PairMotion pair;
   PairForce force;
-  // Scalar unknowns the wrench depends on: λ of a joint, w of a FUNCTION-valued force.
+  // Scalar unknowns the wrench depends on: λ of a joint, w of a FUNCTION-valued force, coordinates beyond the pair's.
   struct Scalar {
     Column family;
     std::int32_t column;
@@ -75,9 +75,11 @@ class Kernel {
 
   // --- what force functions need -------------------------------------------------------------------
   virtual bool has_wrench() const { return false; }
+  // How many wrenches its elements exert: one each, but where one acts on many markers.
+  virtual std::size_t wrench_count(std::size_t elements) const { return elements; }
   virtual MarkerId marker_I(std::size_t) const { return {}; }
   virtual MarkerId marker_J(std::size_t) const { return {}; }
-  virtual void wrench(const Motion&, std::size_t /*element*/, bool /*with_partials*/, MarkerWrench&) const {}
+  virtual void wrench(const Motion&, std::size_t /*which*/, bool /*with_partials*/, MarkerWrench&) const {}
 
   // --- what data functions read ----------------------------------------------------------------------
   virtual Channel value_channel(std::size_t /*element*/) const { return {}; }  // VARVAL

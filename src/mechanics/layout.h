@@ -73,7 +73,7 @@ class Layout {
   std::vector<ConstraintRow> rows;
   std::vector<AlgebraicUnknown> algebraic;
   std::vector<DifferentialState> states;
-  Memory memory;  // initial contents
+  Memory memory;                                     // initial contents
   std::vector<const ElementLabel*> velocity_driven;  // motions that contradict rest: no static analysis
   std::int32_t coordinate_count = 0;                 // all blocks
   std::int32_t body_coordinate_count = 0;            // of the bodies alone; extras follow them

@@ -23,7 +23,7 @@ class System::SystemSignals final : public Signals {
     for (std::size_t s = 0; s < kernel_of_set_.size(); ++s) {
       const Kernel* kernel = kernel_of_set_[s];
       if (!kernel || !kernel->has_wrench()) continue;
-      for (std::size_t k = 0; k < system_.model_->sets[s]->size(); ++k) {
+      for (std::size_t k = 0; k < kernel->wrench_count(system_.model_->sets[s]->size()); ++k) {
         const MarkerId i = kernel->marker_I(k), j = kernel->marker_J(k);
         at_marker_[static_cast<std::size_t>(i.index)].push_back({kernel, k});
         if (!(i == j)) at_marker_[static_cast<std::size_t>(j.index)].push_back({kernel, k});

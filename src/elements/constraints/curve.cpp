@@ -1,7 +1,7 @@
 // CURVE/id, {OPEN | CLOSED}, MATRIX= [, CURVE_POINTS | , CONTROL_POINTS[=n]] [, ORDER=k]
 //
-// A curve in space for PTCV, CVCV and the function CURVE: c(u), −1 ≤ u ≤ 1, a B-spline of order k (degree k − 1, 4 unless
-// stated) through the points that the rows of the MATRIX hold, or along them as its control points
+// A curve in space for PTCV, CVCV and the function CURVE: c(u), −1 ≤ u ≤ 1, a B-spline of order k (degree k − 1, 4
+// unless stated) through the points that the rows of the MATRIX hold, or along them as its control points
 // (expression/parametric_curve.h). A closed one states its first point again as the last.
 #include "elements/constraints/curve.h"
 

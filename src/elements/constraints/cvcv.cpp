@@ -7,7 +7,8 @@
 //     p + R a(u) − b(v) = 0,     z·(R a′(u) × b′(v)) = 0          a: ICURVE, b: JCURVE, z: of JRM
 //
 // Removes 2 degrees of freedom. The reaction is a force across the tangent; a component along the tangent or a torque
-// would do work on u and v. It acts on I at the point of contact, where the floating markers are, and the opposite on J.
+// would do work on u and v. It acts on I at the point of contact, where the floating markers are, and the opposite on
+// J.
 #include "elements/families/curve_contact.h"
 #include "elements/families/markers.h"
 
@@ -42,31 +43,66 @@ struct CurveOnCurve {
 };
 
 // The parameters where the curves come closest to touching: small distance, and tangents that agree.
-std::array<double, 2> nearest_contact(const RelativeFrame<double>& I, const CurveOnCurve& e) {
-  constexpr std::size_t most = 400;
-  const std::vector<double> us = e.curves[0]->samples(most), vs = e.curves[1]->samples(most);
-  std::vector<Vector> points, tangents;
-  for (const double v : vs) {
-    points.push_back(e.curves[1]->at(v));
-    tangents.push_back(e.curves[1]->at(v, 1));
-  }
-  // What a right angle between the tangents counts as: a distance well below the size of the curves.
-  const double angle_length = 0.05 * std::min(e.curves[0]->least_speed(), e.curves[1]->least_speed());
-  double best = std::numeric_limits<double>::infinity();
-  std::array<double, 2> found{us.front(), vs.front()};
-  for (const double u : us) {
-    const Vector p = I.p + e.point(I, std::array{u, 0.0});
-    const Vector slope = e.curves[0]->at(u, 1), t = I.x * slope.x + I.y * slope.y;
-    for (std::size_t k = 0; k < vs.size(); ++k) {
-      const Vector d = p - points[k];
-      const double across = t.x * tangents[k].y - t.y * tangents[k].x;
-      const double size = dot(t, t) * dot(tangents[k], tangents[k]);
-      const double measure = dot(d, d) + (size > 0 ? angle_length * angle_length * across * across / size : 0.0);
-      if (measure < best) best = measure, found = {u, vs[k]};
+class NearestContact {
+ public:
+  NearestContact(const RelativeFrame<double>& I, const CurveOnCurve& e) : I_(I), e_(e) {}
+
+  std::array<double, 2> find() const {
+    constexpr std::size_t most = 400;  // of one curve; the best pair is made exact afterwards
+    const std::vector<double> us = e_.curves[0]->samples(most), vs = e_.curves[1]->samples(most);
+    double best = std::numeric_limits<double>::infinity();
+    std::array<double, 2> found{us.front(), vs.front()};
+    for (const double u : us) {
+      for (const double v : vs) {
+        const double measure = size(residual(std::array{u, v}));
+        if (measure < best) best = measure, found = {u, v};
+      }
     }
+    return refine(found, best);
   }
-  return found;
-}
+
+ private:
+  // The gap, and the angle between the tangents as a distance well below the size of the curves.
+  template <class T>
+  std::array<T, 4> residual(const std::array<T, 2>& u) const {
+    RelativeFrame<T> I;
+    for (std::size_t k = 0; k < 3; ++k) {
+      I.p[k] = T(I_.p[k]), I.x[k] = T(I_.x[k]), I.y[k] = T(I_.y[k]), I.z[k] = T(I_.z[k]);
+    }
+    std::array<T, 4> r = e_.rows(I, u);
+    r[3] = r[3] * (0.05 * std::min(e_.curves[0]->least_speed(), e_.curves[1]->least_speed()));
+    return r;
+  }
+  static double size(const std::array<double, 4>& r) { return r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]; }
+
+  // Gauss and Newton, halving steps that lead away.
+  std::array<double, 2> refine(std::array<double, 2> u, double best) const {
+    for (int iteration = 0; iteration < 60; ++iteration) {
+      const auto r = residual(std::array{Dual<2>(u[0], 0), Dual<2>(u[1], 1)});
+      double a = 0, b = 0, c = 0, g = 0, h = 0;
+      for (const Dual<2>& x : r) {
+        a += x.partial[0] * x.partial[0], b += x.partial[0] * x.partial[1], c += x.partial[1] * x.partial[1];
+        g += x.partial[0] * x.value, h += x.partial[1] * x.value;
+      }
+      const double determinant = a * c - b * b;
+      if (!(determinant > 1e-14 * a * c)) break;
+      std::array<double, 2> step = {(b * h - c * g) / determinant, (b * g - a * h) / determinant};
+      double fraction = 1, measure = best;
+      std::array<double, 2> next = u;
+      for (; fraction > 1e-3; fraction /= 2) {
+        next = {u[0] + fraction * step[0], u[1] + fraction * step[1]};
+        measure = size(residual(next));
+        if (measure < best && e_.curves[0]->reaches(next[0]) && e_.curves[1]->reaches(next[1])) break;
+      }
+      if (!(measure < best) || fraction <= 1e-3) break;
+      u = next, best = measure;
+    }
+    return u;
+  }
+
+  const RelativeFrame<double>& I_;
+  const CurveOnCurve& e_;
+};
 
 struct Cvcv {
   MarkerId ifloat, irm, iicm, jfloat, jrm, jicm;
@@ -150,7 +186,7 @@ class CvcvSet final : public TypedSet<Cvcv> {
   static std::array<ContactStart, 2> start(const Model& model, const Cvcv& e, const Curve& a, const Curve& b,
                                            const CurveOnCurve& element) {
     const RelativeFrame<double> I = drawn_frame(model, e.irm, e.jrm);
-    std::array<double, 2> u = nearest_contact(I, element);
+    std::array<double, 2> u = NearestContact(I, element).find();
     // A stated point on one curve leaves the point next to it on the other.
     if (e.idisp) {
       u[0] = stated_parameter(model, a, *e.idisp, e.irm, e.iicm);

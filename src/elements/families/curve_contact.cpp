@@ -13,10 +13,10 @@ bool check_contact_marker(Model& model, const ElementLabel& label, MarkerId floa
                           MarkerId own, Diagnostics& diagnostics) {
   const Marker& marker = model.marker(floating);
   if (!marker.floating) {
-    diagnostics.error("fixed-marker", label.at,
-                      fmt::format("{} of {}, {}, must be a floating marker", argument, label.text(),
-                                  marker.label.text()),
-                      "write FLOATING into the MARKER statement");
+    diagnostics.error(
+        "fixed-marker", label.at,
+        fmt::format("{} of {}, {}, must be a floating marker", argument, label.text(), marker.label.text()),
+        "write FLOATING into the MARKER statement");
     return false;
   }
   const BodyId body = model.marker(own).place.body;

@@ -8,7 +8,8 @@
 //     std::array<std::shared_ptr<const ParametricCurve>, m> curves;      // which each parameter runs along
 //     template <class T> std::array<T, n> rows(const RelativeFrame<T>& I, const std::array<T, m>& u) const;
 //     template <class T> Vec3<T> point(const RelativeFrame<T>& I, const std::array<T, m>& u) const;
-//                                                                        // of contact, from the origin of I in J's axes
+//                                                                        // of contact, from the origin of I in J's
+//                                                                        axes
 //
 // Rows at all levels, reactions and their variation follow: with the row gradients along displacement and rotation of I
 // as seen from J and along u as seeds 0–5 and 6 on, the balance of a parameter is Σ λ_r ∂Φ_r/∂u = 0, so a reaction does
@@ -50,7 +51,8 @@ struct CurveContact {
 // The parameter next to a stated point, given in the axes of marker `axes` (not valid: those of the curve's own
 // marker). Both markers are on one body.
 double stated_parameter(const Model&, const Curve&, const Vector& point, MarkerId own, MarkerId axes);
-// Reports a marker that is not floating or not on the body of the curve's marker, and a marker `axes` that is not either.
+// Reports a marker that is not floating or not on the body of the curve's marker, and a marker `axes` that is not
+// either.
 bool check_contact_marker(Model&, const ElementLabel&, MarkerId floating, std::string_view argument, MarkerId own,
                           Diagnostics&);
 bool check_start_axes(const Model&, const ElementLabel&, MarkerId axes, std::string_view argument, MarkerId own,
@@ -125,8 +127,7 @@ class CurveContactKernel final : public Kernel {
         const Dual<seeds>& of_parameter = work.partial[6 + a];
         const auto g = [&](std::size_t k) { return -of_parameter.partial[k]; };
         add_partials(coordinate(p, a), pair, {g(0), g(1), g(2)}, {g(3), g(4), g(5)}, Column::position, eq);
-        for (std::size_t b = 0; b < m; ++b)
-          eq.add(Column::position, coordinate(p, a), coordinate(p, b), g(6 + b));
+        for (std::size_t b = 0; b < m; ++b) eq.add(Column::position, coordinate(p, a), coordinate(p, b), g(6 + b));
       }
     }
   }
@@ -174,12 +175,12 @@ class CurveContactKernel final : public Kernel {
     const Matrix3 R = value(out.pair.J.axes);
     for (std::size_t r = 0; r < n; ++r) {
       const Reaction unit = at_contact(rows[r]);
-      out.scalars.push_back({Column::lambda, p.first_row + static_cast<std::int32_t>(r), R * plain(unit.force),
-                             R * plain(unit.torque)});
+      out.scalars.push_back(
+          {Column::lambda, p.first_row + static_cast<std::int32_t>(r), R * plain(unit.force), R * plain(unit.torque)});
     }
     for (std::size_t a = 0; a < m; ++a) {
-      out.scalars.push_back({Column::position, coordinate(p, a), R * slope(reaction.force, 6 + a),
-                             R * slope(reaction.torque, 6 + a)});
+      out.scalars.push_back(
+          {Column::position, coordinate(p, a), R * slope(reaction.force, 6 + a), R * slope(reaction.torque, 6 + a)});
     }
   }
 
