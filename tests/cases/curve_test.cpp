@@ -323,23 +323,22 @@ TEST_F(CurveCases, reaction_presses_across_the_contact) {
 }
 
 TEST_F(CurveCases, straight_curve_is_an_inline_primitive_with_its_reaction) {
-  // A force that reads the reaction, in a mechanism that moves in space.
-  const Vector d = line.slope(0), p = line.at(0.2);
+  // Forces that read the reaction, in a mechanism that moves in space.
+  const Vector d = line.slope(0);
   const Matrix3 along = about(cross(Vector{0, 0, 1}, d), std::atan2(std::hypot(d.x, d.y), d.z));
   const std::string feedback =
-      "SFORCE/1, TRANSLATIONAL, I=30, J=2, FUNCTION=0.4*{0}(1,0,2,21)-0.3*{0}(1,0,5,0)+0.2*"
-      "{0}(1,0,1,0)\nSFORCE/2, TRANSLATIONAL, I=31, J=4, FUNCTION=0.3*FY(31,{1},20)\n";
-  const auto text = [&](const std::string& statement, const std::string& name, int j) {
-    return two_bodies(fmt::format("MARKER/23, PART=2, QP={}, REULER={}\nMARKER/24, PART=2, QP=0.1,0.3,-0.2\n",
-                                  xyz(Vector{0.1, 0.3, -0.2} + line.at(0)), reuler(along)) +
-                      statement + fmt::format(fmt::runtime(feedback), name, j));
+      "\nSFORCE/1, TRANSLATIONAL, I=30, J=2, FUNCTION=0.4*{0}(1,0,2,21)-0.3*{0}(1,0,1,0)+0.2*{0}(1,1,4,31)\nSFORCE/2, "
+      "TRANSLATIONAL, I=31, J=4, FUNCTION=0.3*FY(31,{1},20)\n";
+  const auto solved = [&](const std::string& statement, const std::string& name, int j) {
+    const Held h{"", statement + fmt::format(fmt::runtime(feedback), name, j), line.at(0.2), anyhow, {}};
+    return run(mechanism(h, false), "SIMULATE/INITIAL\nLINEAR/EIGENSOL\n");
   };
-  (void)p;
-  const std::string commands = "SIMULATE/INITIAL\nLINEAR/EIGENSOL\n";
   const RunResult curve =
-      run(text(line.curve(1, 6) + "MARKER/29, PART=2, FLOATING\nPTCV/1, I=31, JFLOAT=29, CURVE=1, RM=24\n", "PTCV", 29),
-          commands);
-  const RunResult primitive = run(text("JPRIM/1, INLINE, I=31, J=23\n", "JPRIM", 23), commands);
+      solved(line.curve(1, 6) + "MARKER/29, PART=2, FLOATING\nPTCV/1, I=31, JFLOAT=29, CURVE=1, RM=22", "PTCV", 29);
+  const RunResult primitive =
+      solved(fmt::format("MARKER/23, PART=2, RM=22, QP={}, REULER={}\nJPRIM/1, INLINE, I=31, J=23", xyz(line.at(0)),
+                         reuler(along)),
+             "JPRIM", 23);
   ASSERT_EQ(curve.status, 0) << curve.err;
   ASSERT_EQ(primitive.status, 0) << primitive.err;
   EXPECT_EQ(curve.labels(1), primitive.labels(1));

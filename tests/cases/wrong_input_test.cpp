@@ -231,6 +231,7 @@ const std::vector<Wrong>& table() {
     {Place::added, "CURVE/9, OPEN, MATRIX=9\nMATRIX/9, FULL=RORDER, ROWS=4, COLUMNS=3, VALUES=1,2,3,1,2,3,1,2,3,1,2,3", {"curve-data 10:16"}},
     {Place::added, "CURVE/9, OPEN, MATRIX=9, ORDER=3\nMATRIX/9, FULL=RORDER, ROWS=4, COLUMNS=3, VALUES=1,2,3,4,5,6,7,8,9,1,2,4", {"value-out-of-range 10:26"}},
     {Place::added, "CURVE/9, OPEN, MATRIX=9, ORDER=5\nMATRIX/9, FULL=RORDER, ROWS=4, COLUMNS=3, VALUES=1,2,3,4,5,6,7,8,9,1,2,4", {"value-out-of-range 10:26"}},
+    {Place::added, "CURVE/9, OPEN, MATRIX=9, ORDER=17\nMATRIX/9, FULL=RORDER, ROWS=4, COLUMNS=3, VALUES=1,2,3,4,5,6,7,8,9,1,2,4", {"value-out-of-range 10:26"}},
     {Place::added, "CURVE/9, OPEN, MATRIX=9, CONTROL_POINTS=5\nMATRIX/9, FULL=RORDER, ROWS=4, COLUMNS=3, VALUES=1,2,3,4,5,6,7,8,9,1,2,4", {"argument-not-built 10:26"}},
     {Place::added, "CURVE/9, OPEN, MATRIX=9, CURVE_POINTS, CONTROL_POINTS\nMATRIX/9, FULL=RORDER, ROWS=4, COLUMNS=3, VALUES=1,2,3,4,5,6,7,8,9,1,2,4", {"excluded-arguments 10:40"}},
     {Place::added, "CURVE/9, OPEN, MATRIX=9, MINPAR=0\nMATRIX/9, FULL=RORDER, ROWS=4, COLUMNS=3, VALUES=1,2,3,4,5,6,7,8,9,1,2,4", {"unexpected-argument 10:26"}},

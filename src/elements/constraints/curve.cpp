@@ -17,7 +17,7 @@ namespace dynalin {
 
 namespace {
 
-constexpr std::int64_t cubic = 4;
+constexpr std::int64_t cubic = 4, highest_order = 16;
 
 struct WrittenCurve {
   bool open = false, closed = false, points = false;
@@ -98,6 +98,12 @@ class CurveSet final : public TypedSet<Curve> {
       return;
     }
     const std::int64_t order = w.order.value_or(cubic);
+    if (order > highest_order) {
+      diagnostics.error("value-out-of-range", w.order_at,
+                        fmt::format("ORDER of {} is {}, it must be at most {}", name, order, highest_order),
+                        "high orders swing between the points");
+      return;
+    }
     if (static_cast<std::size_t>(order) > m.rows) {
       diagnostics.error("value-out-of-range", w.order_at,
                         fmt::format("ORDER of {} is {}, more than its {} points allow", name, order, m.rows));
