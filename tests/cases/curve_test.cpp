@@ -238,8 +238,9 @@ TEST_F(CurveCases, parabola_rocks_on_a_table) {
   EXPECT_NEAR(std::abs(values[0]), 0, 1e-10);
 }
 
-// A cam with the upper edge y = h − a x² turns about its origin under a flat follower that a spring presses down: with
-// the lift L(θ) = h cos θ + (sin θ + sin θ/cos² θ)/(4a)·… from the highest point x = tan θ/(2a) of the turned edge.
+// A cam with the upper edge y = h − a x² turns about its origin under a flat follower that a spring presses down. The
+// highest point of the edge turned by θ is x = tan θ/(2a), the lift L = h cos θ + sin θ tan θ/(4a); a torque F L′ holds
+// the follower's force F, and (J + m L′²) δθ″ + (kt + F L″ + ks L′²) δθ = 0.
 struct CamModel {
   double a = 0.9, h = 0.4, angle = 0.5, J = 0.3, m = 1.2, kt = 5, ks = 40, pressed = 0.3;
 
