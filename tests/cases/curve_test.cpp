@@ -363,7 +363,8 @@ TEST_F(CurveCases, starts_where_and_as_fast_as_it_is_asked) {
     EXPECT_EQ(r.status, 0) << r.err;
     double largest = 0;
     if (r.status == 0) {
-      for (const double c : r.matrix(0, "C")[0]) largest = std::abs(c) > std::abs(largest) ? c : largest;
+      const auto C = r.matrix(0, "C");
+      for (const double c : C[0]) largest = std::abs(c) > std::abs(largest) ? c : largest;
     }
     return largest;
   };
