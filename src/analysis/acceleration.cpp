@@ -88,8 +88,12 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
     // Solved once and balanced to rounding, or close and no longer falling: the point is as exact as it gets. Stiff
     // elements turn the rounding of positions into forces, so that a small imbalance that stays is rounding too.
     stalled = imbalance > 0.1 * before ? stalled + 1 : 0;
-    if (iteration > 0 && (imbalance < 1e-15 || (imbalance < 1e-10 && stalled > 0) || (imbalance < 1e-6 && stalled > 3)))
+    if (iteration > 0 &&
+        (imbalance < 1e-15 || (imbalance < 1e-10 && stalled > 0) || (imbalance < 1e-6 && stalled > 3))) {
+      if (const std::string reason = system.departure(motion); !reason.empty())
+        return tl::unexpected(Failure{"acceleration initial conditions", reason, {}});
       return op;
+    }
     before = imbalance;
     SparseLu lu;
     if (!lu.factor(matrix)) {

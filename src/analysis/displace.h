@@ -4,12 +4,14 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "system/system.h"
 
 namespace dynalin {
 
-// Rotations larger than `rotation_limit` [rad] shorten the whole step. Returns the factor that was used.
+// Rotations larger than `rotation_limit` [rad] shorten the whole step, and so do the limits of other coordinates.
+// Returns the factor that was used.
 inline double displace(const System& system, OperatingPoint& op, const Eigen::Ref<const Eigen::VectorXd>& step,
                        double rotation_limit) {
   const Layout& layout = system.layout();
@@ -17,7 +19,13 @@ inline double displace(const System& system, OperatingPoint& op, const Eigen::Re
   for (const BodyBlock& b : layout.bodies) {
     if (b.count == 6) largest = std::max(largest, step.segment<3>(b.offset + 3).norm());
   }
-  const double factor = largest > rotation_limit ? rotation_limit / largest : 1.0;
+  double factor = largest > rotation_limit ? rotation_limit / largest : 1.0;
+  for (const ExtraBlock& e : layout.extras) {
+    for (std::int32_t k = 0; k < e.count; ++k) {
+      const double limit = e.coordinates[static_cast<std::size_t>(k)].largest_step;
+      factor = std::min(factor, limit / std::max(std::abs(step(e.offset + k)), std::numeric_limits<double>::min()));
+    }
+  }
   for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
     const BodyBlock& block = layout.bodies[b];
     if (block.count == 0) continue;

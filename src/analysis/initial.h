@@ -22,6 +22,9 @@ struct Findings {
   std::vector<std::string> warnings;
 };
 
+// Of coordinates outside bodies in the least change of positions and velocities, beside 1 for those of bodies.
+inline constexpr double follower_weight = 1e-16;
+
 // Whether what elements ask of the start (IC of joints) is to hold as well.
 enum class Starts : bool { ignored, held };
 // Moves the poses onto the constraints by the least change; a consistent point comes back untouched.

@@ -25,6 +25,8 @@ std::vector<double> assembly_weights(const System& system) {
   for (std::size_t k = 0; k < weight.size(); ++k) {
     const double s = system.coordinate_scale(static_cast<std::int32_t>(k));
     weight[k] = 1.0 / (s * s);
+    // Coordinates outside bodies follow them.
+    if (k >= static_cast<std::size_t>(system.layout().body_coordinate_count)) weight[k] *= follower_weight;
   }
   const Layout& layout = system.layout();
   for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
@@ -63,7 +65,12 @@ Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op
   const auto evaluate = [&] {
     const Motion motion = system.motion(op);
     system.constraints(motion, rows);
-    if (starts == Starts::held) system.start_rows(motion, static_cast<std::int32_t>(layout.row_count()), rows);
+    if (starts == Starts::ignored) return;
+    const auto first = static_cast<std::int32_t>(layout.row_count());
+    system.start_rows(motion, first, rows);
+    for (std::size_t k = 0; k < system.starts().size(); ++k) {
+      if (!system.starts()[k].displacement) rows.drop(first + static_cast<std::int32_t>(k));
+    }
   };
   const auto n = static_cast<Eigen::Index>(system.coordinates());
   const auto m = static_cast<Eigen::Index>(row_count);

@@ -89,8 +89,12 @@ void add_norm(const System& system, const Motion& motion, double weight, std::ve
       }
     }
   }
+  // Coordinates outside bodies follow them: a weight that only keeps the matrix regular where nothing moves them.
   for (const ExtraBlock& e : system.layout().extras) {
-    for (std::int32_t k = 0; k < e.count; ++k) entries.push_back({e.offset + k, e.offset + k, weight});
+    for (std::int32_t k = 0; k < e.count; ++k) {
+      const double s = system.length() / system.coordinate_scale(e.offset + k);
+      entries.push_back({e.offset + k, e.offset + k, follower_weight * weight * s * s});
+    }
   }
 }
 

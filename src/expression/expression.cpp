@@ -36,11 +36,10 @@ int Expression::order(std::span<const int> atom_orders) const {
 
 std::span<const SplineUse> Expression::splines() const { return program_->splines; }
 
-Expression Expression::with_curves(
-    const std::function<std::shared_ptr<const SplineCurves>(const SplineUse&)>& find) const {
+Expression Expression::with_curves(const std::function<void(SplineUse&)>& attach) const {
   if (program_->splines.empty()) return *this;
   auto program = std::make_shared<ExpressionProgram>(*program_);
-  for (SplineUse& use : program->splines) use.curves = find(use);
+  for (SplineUse& use : program->splines) attach(use);
   return Expression(std::move(program));
 }
 

@@ -111,9 +111,9 @@ class Expression {
   };
   std::vector<Call> calls() const;
 
-  // Splines it refers to, and the same expression with their curves; without them it has no value.
+  // Splines and curves it refers to, and the same expression with their data attached; without it has no value.
   std::span<const SplineUse> splines() const;
-  Expression with_curves(const std::function<std::shared_ptr<const SplineCurves>(const SplineUse&)>& find) const;
+  Expression with_curves(const std::function<void(SplineUse&)>& attach) const;
 
   // Names the function that makes the value, or else a partial derivative, infinite or undefined at
   // these atom values; nothing if all are finite. On TimeTaylor the time derivatives count

@@ -84,6 +84,7 @@ Operand ExpressionParser::close_special(const Pending& call, const Span& at) {
   if (f.kind == Kind::akispl || f.kind == Kind::cubspl || f.kind == Kind::interp) {
     return close_spline(call, arguments, at);
   }
+  if (f.kind == Kind::curve) return close_curve(arguments, at);
   const Operand v = arguments[0];
   if (v.unknown) return builder_.placeholder(at);
   if (!v.is_vector()) {
@@ -138,6 +139,30 @@ Operand ExpressionParser::close_spline(const Pending& call, std::span<const Oper
   use.id = *id;
   use.derivative = *derivative;
   return builder_.spline(std::move(use), arguments[0], z);
+}
+
+Operand ExpressionParser::close_curve(std::span<const Operand> arguments, const Span& at) {
+  const auto derivative = constant_id(arguments[1], "the order of a derivative, 0 to 2,", 0);
+  const auto component = constant_id(arguments[2], "a component, 1 to 3 for x, y, z,", 1);
+  const auto id = constant_id(arguments[3], "the id of a CURVE", 1);
+  const auto in_range = [&](const std::optional<std::int32_t>& value, std::int32_t most, const Operand& operand,
+                            std::string_view meaning) {
+    if (value && *value > most) {
+      diagnostics_.error("argument-range", operand.at, fmt::format("{}, here is {}", meaning, *value));
+    }
+    return value && *value <= most;
+  };
+  const bool order_fits = in_range(derivative, 2, arguments[1], "the order of a derivative is 0, 1 or 2");
+  const bool component_fits = in_range(component, 3, arguments[2], "the component of a CURVE is 1, 2 or 3");
+  const bool scalar = check_scalar(arguments[0], "the first argument of CURVE");
+  if (!id || !order_fits || !component_fits || !scalar || arguments[0].unknown) return builder_.placeholder(at);
+  SplineUse use;
+  use.id = *id;
+  use.derivative = *derivative;
+  use.component = static_cast<std::size_t>(*component - 1);
+  use.at = at;
+  use.id_at = arguments[3].at;
+  return builder_.spline(std::move(use), arguments[0], builder_.constant(0.0, at));
 }
 
 }  // namespace dynalin

@@ -10,11 +10,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "base/dual.h"
 #include "base/source.h"
 #include "base/time_taylor.h"
+#include "expression/parametric_curve.h"
 
 namespace dynalin {
 
@@ -47,13 +50,17 @@ class SplineCurves {
   std::vector<std::vector<Piece>> pieces_;  // of each curve: left of the data, between the points, right of the data
 };
 
-// A call of a spline function inside an expression.
+// A call inside an expression of a function that reads a SPLINE, or a CURVE.
 struct SplineUse {
   std::int64_t id = 0;
   SplineMethod method = SplineMethod::akima;
   int derivative = 0;
+  std::optional<std::size_t> component;  // of a CURVE at the parameter x: 0–2; nothing for a SPLINE
   Span at, id_at;
   std::shared_ptr<const SplineCurves> curves;
+  std::shared_ptr<const ParametricCurve> parametric;
+
+  std::string_view statement() const { return component ? "CURVE" : "SPLINE"; }
 
   // NaN before curves are attached.
   template <class T>

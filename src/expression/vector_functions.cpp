@@ -18,13 +18,14 @@ constexpr std::array<VectorAtom, 10> atoms = {{
 }};
 
 using Kind = SpecialFunction::Kind;
-constexpr std::array<SpecialFunction, 6> special = {{
+constexpr std::array<SpecialFunction, 7> special = {{
     {"UV", Kind::unit, 1, 1},
     {"MAG", Kind::magnitude, 1, 1},
     {"TRANS", Kind::transform, 2, 3},
     {"AKISPL", Kind::akispl, 3, 4},
     {"CUBSPL", Kind::cubspl, 3, 4},
     {"INTERP", Kind::interp, 3, 4},
+    {"CURVE", Kind::curve, 4, 4},
 }};
 
 template <class Table>

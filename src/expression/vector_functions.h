@@ -25,6 +25,7 @@ struct SpecialFunction {
     akispl,     // AKISPL(x, z, id [, derivative])
     cubspl,     // CUBSPL(x, z, id [, derivative])
     interp,     // INTERP(x, method, id [, derivative])
+    curve,      // CURVE(parameter, derivative, component, id)
   };
   std::string_view name;
   Kind kind;

@@ -88,10 +88,10 @@ TEST(SplineFunctions, have_no_value_until_their_curves_are_attached) {
   EXPECT_EQ(parsed.expression.splines()[1].derivative, 1);
   EXPECT_EQ(parsed.expression.splines()[1].id_at.text(), "8");
   EXPECT_TRUE(std::isnan(evaluate<double>(parsed.expression, {1, 1}).value));
-  const Expression attached = parsed.expression.with_curves([](const SplineUse& use) {
+  const Expression attached = parsed.expression.with_curves([](SplineUse& use) {
     SplineData d{{0, 1, 2, 3}, {}, {{0, 1, 2, 3}}, false};
     if (use.id == 8) d.z = {0, 1}, d.y.push_back({0, 3, 6, 9});
-    return std::make_shared<const SplineCurves>(std::make_shared<const SplineData>(d), use.method);
+    use.curves = std::make_shared<const SplineCurves>(std::make_shared<const SplineData>(d), use.method);
   });
   const auto r = evaluate<double>(attached, {1.25, 0.5});
   EXPECT_NEAR(r.value, 2.5 + 2, 1e-14);

@@ -42,7 +42,7 @@ StateLabel coordinate_label(const Layout& layout, std::int32_t coordinate, std::
     label.owner = e.label.text();
     label.type = e.label.statement == "CVCV" ? StateType::cvcv : StateType::ptcv;
     label.coordinate = coordinate - e.offset + 1;
-    label.text = e.names[static_cast<std::size_t>(coordinate - e.offset)];
+    label.text = e.coordinates[static_cast<std::size_t>(coordinate - e.offset)].name;
   }
   return label;
 }

@@ -147,7 +147,9 @@ class Chooser {
         const bool point = label.type == StateType::point_mass || label.type == StateType::point_mass_relative ||
                            label.type == StateType::point_mass_original;
         if (own) rate.type = StateType::pstate_rate;
-        rate.coordinate = own ? 2 : label.coordinate + (point ? 3 : 6);
+        // Curve parameters have no second code: only 1, or 1 and 2, are permissible (LINEAR command, 5.2.6).
+        const bool parameter = label.type == StateType::ptcv || label.type == StateType::cvcv;
+        rate.coordinate = own ? 2 : label.coordinate + (parameter ? 0 : point ? 3 : 6);
         choice_.states.push_back(rate);
       }
       choice_.position_state.push_back(next());

@@ -23,10 +23,42 @@ void add_measure_gradient(Measure measure, const std::array<MarkerPlace, 4>& pla
   }
 }
 
+// Whether a measure looks at the axes of its k-th marker.
+bool reads_axes(Measure m, std::size_t k) {
+  switch (m) {
+    case Measure::INCANG:
+      return false;
+    case Measure::DX:
+    case Measure::DY:
+    case Measure::DZ:
+    case Measure::DM:
+    case Measure::VX:
+    case Measure::VY:
+    case Measure::VZ:
+    case Measure::VM:
+    case Measure::VR:
+    case Measure::ACCX:
+    case Measure::ACCY:
+    case Measure::ACCZ:
+    case Measure::ACCM:
+      return k >= 2;
+    default:
+      return true;
+  }
+}
+
+// A floating marker has no place of its own, and on a curve axes that no measure follows.
+void check_marker(const Signals& signals, const Atom& atom, MarkerId m, bool axes) {
+  if (signals.has_origin(m) && (!axes || signals.has_axes(m))) return;
+  signals.problem(std::string(atom.at.text()) + " reads the " + (signals.has_origin(m) ? "axes" : "place") + " of " +
+                  signals.layout().marker_labels[static_cast<std::size_t>(m.index)].full_text() +
+                  ", a floating marker, which is not available");
+}
+
 }  // namespace
 
 BoundExpression::BoundExpression(Expression expression, const Signals& signals, Binding binding)
-    : expression_(expression.with_curves([&](const SplineUse& use) { return signals.spline(use); })) {
+    : expression_(expression.with_curves([&](SplineUse& use) { signals.attach(use); })) {
   for (const Atom& atom : expression_.atoms()) {
     atoms_.push_back(bind(atom, signals, binding));
     const BoundAtom& a = atoms_.back();
@@ -65,6 +97,7 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
       a.order = f.order;
       for (std::size_t k = 0; k < 4; ++k) {
         const MarkerId written = signals.marker(k < atom.argument_count ? atom.argument[k] : 0);
+        check_marker(signals, atom, written, reads_axes(a.measure, k));
         a.places[k] = signals.layout().marker(signals.place_of(written));
         const BodyId body = a.places[k].body;
         const auto end = a.bodies.begin() + a.body_count;
@@ -92,6 +125,7 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
       a.kind = Kind::force;
       a.terms.push_back({signals.element(f.statement, atom.argument[0]), atom.argument[1] == 1});
       a.component = static_cast<std::uint8_t>(atom.argument[2]);
+      check_marker(signals, atom, signals.marker(atom.argument[3]), true);
       a.axes_marker = signals.layout().marker(signals.place_of(signals.marker(atom.argument[3])));
       break;
     case AtomFamily::marker_force: {
@@ -106,6 +140,7 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
         const MarkerId other = is_I ? e.kernel->marker_J(e.index) : e.kernel->marker_I(e.index);
         if (from_all || other == j) a.terms.push_back({e, !is_I});
       }
+      check_marker(signals, atom, signals.marker(atom.argument[2]), true);
       a.axes_marker = signals.layout().marker(signals.place_of(signals.marker(atom.argument[2])));
       break;
     }
@@ -286,7 +321,8 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
       }
     }
     for (const MarkerWrench::Scalar& s : w.scalars) {
-      eq.add(s.family, row, s.column, factor * picked(s.force, s.torque));
+      const Column family = s.family == Column::damping ? velocity_family : s.family;
+      eq.add(family, row, s.column, factor * picked(s.force, s.torque));
     }
     for (const MarkerWrench::Turn& turn : w.turns) {
       const BodyBlock& block = eq.layout().body(turn.body);

@@ -49,6 +49,12 @@ class ConstraintRows {
   void add_pose(std::int32_t row, BodyId body, const Vec3<Taylor>& on_r, const Vec3<Taylor>& on_theta);
   void add_coordinate(std::int32_t row, std::int32_t column, const Taylor& g) { accumulate(entry(row, column), g); }
 
+  // Makes a row empty: it holds nothing.
+  void drop(std::int32_t row) {
+    value_[static_cast<std::size_t>(row)] = Taylor();
+    for (Entry& e : rows_[static_cast<std::size_t>(row)]) e.c = {};
+  }
+
   struct Entry {
     std::int32_t column;
     RowCoefficients c;

@@ -42,12 +42,16 @@ struct VariableClass { static constexpr std::string_view statement = "VARIABLE";
 struct ArrayClass    { static constexpr std::string_view statement = "ARRAY"; };
 struct MatrixClass   { static constexpr std::string_view statement = "MATRIX"; };
 struct JointClass    { static constexpr std::string_view statement = "JOINT"; };
+struct CurveClass    { static constexpr std::string_view statement = "CURVE"; };
+struct FlexBodyClass { static constexpr std::string_view statement = "FLEX_BODY"; };
 // clang-format on
 
 using VariableRef = ElementRef<VariableClass>;
 using ArrayRef = ElementRef<ArrayClass>;
 using MatrixRef = ElementRef<MatrixClass>;
 using JointRef = ElementRef<JointClass>;
+using CurveRef = ElementRef<CurveClass>;
+using FlexBodyRef = ElementRef<FlexBodyClass>;
 
 // How messages and tables call an element.
 struct ElementLabel {

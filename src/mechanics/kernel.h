@@ -19,7 +19,7 @@ class Signals;
 struct MarkerWrench {
   PairMotion pair;
   PairForce force;
-  // Scalar unknowns the wrench depends on: λ of a joint, w of a FUNCTION-valued force.
+  // Scalar unknowns the wrench depends on: λ of a joint, w of a FUNCTION-valued force, coordinates beyond the pair's.
   struct Scalar {
     Column family;
     std::int32_t column;
@@ -75,9 +75,11 @@ class Kernel {
 
   // --- what force functions need -------------------------------------------------------------------
   virtual bool has_wrench() const { return false; }
+  // How many wrenches its elements exert: one each, but where one acts on many markers.
+  virtual std::size_t wrench_count(std::size_t elements) const { return elements; }
   virtual MarkerId marker_I(std::size_t) const { return {}; }
   virtual MarkerId marker_J(std::size_t) const { return {}; }
-  virtual void wrench(const Motion&, std::size_t /*element*/, bool /*with_partials*/, MarkerWrench&) const {}
+  virtual void wrench(const Motion&, std::size_t /*which*/, bool /*with_partials*/, MarkerWrench&) const {}
 
   // --- what data functions read ----------------------------------------------------------------------
   virtual Channel value_channel(std::size_t /*element*/) const { return {}; }  // VARVAL
@@ -86,6 +88,8 @@ class Kernel {
 
   // A sentence on why element `k` yields no finite numbers here, empty if it does.
   virtual std::string fault(const Motion&) const { return {}; }
+  // A sentence on how a converged point lies outside of what an element describes, empty if it does not.
+  virtual std::string departure(const Motion&) const { return {}; }
 };
 
 // What expressions refer to, resolved by the system.
@@ -96,6 +100,9 @@ class Signals {
   virtual MarkerId marker(std::int64_t id) const = 0;  // global_frame for 0
   // The fixed marker at which a floating one is, any other itself.
   virtual MarkerId place_of(MarkerId) const = 0;
+  // Whether origin and axes of place_of() are those of the marker: a floating one may have neither.
+  virtual bool has_origin(MarkerId) const = 0;
+  virtual bool has_axes(MarkerId) const = 0;
   virtual Channel variable(VariableRef) const = 0;
   // Entry `n` (0-based) of an ARRAY of any type.
   virtual Channel array_entry(ArrayRef, std::size_t n) const = 0;
@@ -106,7 +113,8 @@ class Signals {
   virtual Channel rate_of(const Channel&) const = 0;
   // Notes why the model cannot be solved as it stands.
   virtual void problem(std::string) const = 0;
-  virtual std::shared_ptr<const SplineCurves> spline(const SplineUse&) const = 0;
+  // Gives a call its SPLINE or CURVE.
+  virtual void attach(SplineUse&) const = 0;
   struct Element {
     const Kernel* kernel = nullptr;
     std::size_t index = 0;

@@ -1,7 +1,6 @@
 #include "mechanics/layout.h"
 
 #include <array>
-#include <span>
 
 namespace dynalin {
 
@@ -17,11 +16,10 @@ std::int32_t Layout::add_body(BodyKind kind, ElementLabel label) {
   return last_index(bodies.size());
 }
 
-std::int32_t Layout::add_extra(ElementLabel label, std::vector<std::string> names, std::span<const double> initial) {
+std::int32_t Layout::add_extra(ElementLabel label, std::vector<ExtraCoordinate> coordinates) {
   const std::int32_t offset = coordinate_count;
-  const auto count = static_cast<std::int32_t>(names.size());
-  extras.push_back({offset, count, std::move(label), std::move(names)});
-  extra_initial.insert(extra_initial.end(), initial.begin(), initial.end());
+  const auto count = static_cast<std::int32_t>(coordinates.size());
+  extras.push_back({offset, count, std::move(label), std::move(coordinates)});
   coordinate_count += count;
   return offset;
 }
@@ -55,7 +53,7 @@ std::string Layout::coordinate_text(std::int32_t coordinate) const {
   }
   for (const ExtraBlock& e : extras) {
     if (coordinate >= e.offset && coordinate < e.offset + e.count) {
-      return e.names[static_cast<std::size_t>(coordinate - e.offset)] + " of " + e.label.full_text();
+      return e.coordinates[static_cast<std::size_t>(coordinate - e.offset)].name + " of " + e.label.full_text();
     }
   }
   return "coordinate " + std::to_string(coordinate + 1);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,12 +24,20 @@ struct BodyBlock {
   ElementLabel label;
 };
 
-// Coordinates outside bodies.
+// A coordinate outside bodies.
+struct ExtraCoordinate {
+  std::string name;
+  double initial = 0;
+  double speed = 0;  // the least length that a unit of it moves anything [length], 0 if it is like an angle
+  double largest_step = std::numeric_limits<double>::infinity();  // of an iteration
+};
+
+// The coordinates outside bodies of one element.
 struct ExtraBlock {
   std::int32_t offset = 0;  // among all coordinates
   std::int32_t count = 0;
   ElementLabel label;
-  std::vector<std::string> names;
+  std::vector<ExtraCoordinate> coordinates;
 };
 
 enum class RowLevel : std::uint8_t { position, velocity };
@@ -64,8 +73,7 @@ class Layout {
   std::vector<ConstraintRow> rows;
   std::vector<AlgebraicUnknown> algebraic;
   std::vector<DifferentialState> states;
-  Memory memory;  // initial contents
-  std::vector<double> extra_initial;
+  Memory memory;                                     // initial contents
   std::vector<const ElementLabel*> velocity_driven;  // motions that contradict rest: no static analysis
   std::int32_t coordinate_count = 0;                 // all blocks
   std::int32_t body_coordinate_count = 0;            // of the bodies alone; extras follow them
@@ -75,7 +83,11 @@ class Layout {
 
   std::int32_t add_body(BodyKind, ElementLabel);
   // After all bodies; returns the first coordinate.
-  std::int32_t add_extra(ElementLabel, std::vector<std::string> names, std::span<const double> initial);
+  std::int32_t add_extra(ElementLabel, std::vector<ExtraCoordinate>);
+  // Where a coordinate outside bodies stands among those in Motion.
+  std::size_t extra_index(std::int32_t coordinate) const {
+    return static_cast<std::size_t>(coordinate - body_coordinate_count);
+  }
   std::int32_t add_row(const ElementLabel& owner, std::string_view name, RowLevel level = RowLevel::position);
   std::int32_t add_algebraic(const ElementLabel& owner, std::int32_t component = 0, double guess = 0);
   std::int32_t add_state(const DifferentialState&);

@@ -175,6 +175,21 @@ void apply_cross_partials(const PairMotion& acting, const PairMotion& varied, co
   }
 }
 
+void add_partials(std::int32_t row, const PairMotion& p, const Vector& on_d, const Vector& on_phi, Column family,
+                  Equations& eq) {
+  const Matrix3 R = value(p.J.axes);
+  const Vector f = R * on_d, t = R * on_phi;
+  const auto add = [&](BodyId body, const Vector& on_r, const Vector& on_theta) {
+    const BodyBlock& block = eq.layout().body(body);
+    for (std::int32_t k = 0; k < block.count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      eq.add(family, row, block.offset + k, k < 3 ? on_r[at] : on_theta[at - 3]);
+    }
+  };
+  add(p.body_I, f, t + cross(value(p.arm_I), f));
+  add(p.body_J, -f, -(t + cross(value(p.arm), f)));
+}
+
 void add_gradient(std::int32_t row, const PairMotion& p, const Vec3<Taylor>& on_d, const Vec3<Taylor>& on_phi,
                   ConstraintRows& rows) {
   const Vec3<Taylor> f = p.J.axes * on_d, t = p.J.axes * on_phi;

@@ -70,6 +70,9 @@ void apply_turn(const PairMotion&, BodyId body, const Matrix3& force, const Matr
 void apply_cross_partials(const PairMotion& acting, const PairMotion& varied, const PairForce&, Equations&,
                           Column velocity_family = Column::damping);
 
+// Adds the partials of row `row` of the equations, given in the axes of J with respect to (d, φ).
+void add_partials(std::int32_t row, const PairMotion&, const Vector& on_d, const Vector& on_phi, Column, Equations&);
+
 // Puts the gradient of a position row, given in the axes of J with respect to (d, φ), into the row.
 void add_gradient(std::int32_t row, const PairMotion&, const Vec3<Taylor>& on_d, const Vec3<Taylor>& on_phi,
                   ConstraintRows&);

@@ -67,11 +67,11 @@ inline Vec3<Taylor> turned(std::size_t axis, const Vec3<Taylor>& v) {
 }
 
 // The relative frame with seeds 0–2 on its origin and 3–5 on its rotation, both in the axes of J;
-// with N = 12 the same again at level 1 in seeds 6–11.
+// with N = 12 the same again at level 1 in seeds 6–11. Seeds beyond are left to the caller.
 template <std::size_t N>
 RelativeFrame<TimeTaylor<Dual<N>>> seeded(const RelativeFrame<Taylor>& I) {
   RelativeFrame<TimeTaylor<Dual<N>>> s{constant<N>(I.p), constant<N>(I.x), constant<N>(I.y), constant<N>(I.z)};
-  for (std::size_t level = 0; 6 * level < N; ++level) {
+  for (std::size_t level = 0; 6 * (level + 1) <= N; ++level) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3<Taylor> along{Taylor(unit_vectors[k].x), Taylor(unit_vectors[k].y), Taylor(unit_vectors[k].z)};
       vary(s.p, 6 * level + k, level, along);
@@ -86,25 +86,29 @@ RelativeFrame<TimeTaylor<Dual<N>>> seeded(const RelativeFrame<Taylor>& I) {
 // Two nested first-order variations of a relative pose: the inner one gives the gradient g_i along a unit
 // displacement e_i held fixed in the axes of J, the outer one varies the pose at which that gradient is taken.
 // For a scalar f on this scalar f.partial[i].partial[k] = ∂g_i/∂ξ_k. It is not the symmetric Hessian.
-using NestedDual = Dual<6, Dual<6>>;
+// Seeds from 6 on are left to the caller.
+template <std::size_t N>
+using NestedDuals = Dual<N, Dual<N>>;
+using NestedDual = NestedDuals<6>;
 
-inline RelativeFrame<NestedDual> nested(const RelativeFrame<Taylor>& I) {
-  RelativeFrame<NestedDual> s;
+template <std::size_t N = 6>
+RelativeFrame<NestedDuals<N>> nested(const RelativeFrame<Taylor>& I) {
+  RelativeFrame<NestedDuals<N>> s;
   for (std::size_t c = 0; c < 3; ++c) {
-    s.p[c].value = Dual<6>(I.p[c].value, c);
-    s.p[c].partial[c] = Dual<6>(1.0);
+    s.p[c].value = Dual<N>(I.p[c].value, c);
+    s.p[c].partial[c] = Dual<N>(1.0);
   }
   const auto axis = [](const Vec3<Taylor>& a) {
-    Vec3<Dual<6>> varied{Dual<6>(a.x.value), Dual<6>(a.y.value), Dual<6>(a.z.value)};
+    Vec3<Dual<N>> varied{Dual<N>(a.x.value), Dual<N>(a.y.value), Dual<N>(a.z.value)};
     const Vector plain = value(a);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vector turned = cross(unit_vectors[k], plain);
       for (std::size_t c = 0; c < 3; ++c) varied[c].partial[3 + k] = turned[c];
     }
-    Vec3<NestedDual> result;
+    Vec3<NestedDuals<N>> result;
     for (std::size_t c = 0; c < 3; ++c) result[c].value = varied[c];
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3<Dual<6>> turned = cross(unit_vectors[i], varied);
+      const Vec3<Dual<N>> turned = cross(unit_vectors[i], varied);
       for (std::size_t c = 0; c < 3; ++c) result[c].partial[3 + i] = turned[c];
     }
     return result;

@@ -127,7 +127,8 @@ class Reader final : public ElementReader {
   void check_references(const Expression& e) {
     for (const Atom& atom : e.atoms()) check_atom(atom);
     for (const SplineUse& use : e.splines()) {
-      if (!model_.find("SPLINE", use.id)) report_missing("SPLINE", "unknown-element", {use.id, use.id_at}, "");
+      const std::string_view statement = use.statement();
+      if (!model_.find(statement, use.id)) report_missing(statement, "unknown-element", {use.id, use.id_at}, "");
     }
   }
 
@@ -248,7 +249,8 @@ class Builder {
     // Later phases use values of other elements; after an error, reported here or when the text was read, these may be
     // half read.
     const auto& statements = model_->dataset->statements;
-    const bool damaged = std::any_of(statements.begin(), statements.end(), [](const Statement& s) { return s.damaged; });
+    const bool damaged =
+        std::any_of(statements.begin(), statements.end(), [](const Statement& s) { return s.damaged; });
     if (!diagnostics_.has_errors() && !damaged) {
       for (auto& set : model_->sets) set->finish(*model_, diagnostics_);
     }
@@ -296,7 +298,8 @@ class Builder {
       set.append(label);
       placements_.push_back({&s, &set, set.size() - 1, variant_argument, preceding});
     }
-    if (!ground && !model_->dataset->statements.empty()) diagnostics_.error("missing-ground", {}, "the dataset has no PART with GROUND");
+    if (!ground && !model_->dataset->statements.empty())
+      diagnostics_.error("missing-ground", {}, "the dataset has no PART with GROUND");
   }
 
   bool register_id(const Kind& kind, const ElementLabel& label, const ElementSet& set, const Statement& s,

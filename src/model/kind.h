@@ -24,7 +24,8 @@ struct ArgumentInfo {
   std::string_view value;  // "marker", "real", "expression" …
   std::string_view unit;
   std::string_view help;
-  bool repeats = false;  // may be written several times
+  bool repeats = false;         // may be written several times
+  bool value_optional = false;  // a bare keyword, or one with a value
 };
 
 class ElementSet;

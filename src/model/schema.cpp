@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 namespace dynalin {
@@ -98,6 +99,27 @@ bool read_value(BodyId& slot, const WrittenArgument& w, const ValueLimits& limit
   if (!id) return false;
   slot = *id;
   return true;
+}
+
+bool read_value(WordOrCount& slot, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
+  slot.given = true;
+  return !w.has_value || read_value(slot.count, w, limits, r);
+}
+
+bool read_value(UserSubroutine& slot, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
+  if (w.damaged) return false;  // reported when the text was read
+  static constexpr std::array<std::string_view, 1> user = {"USER"};
+  const std::string owner = r.label().text();
+  const Span first = w.value.empty() ? w.value_span : Span{&r.source(), w.value[0].offset, w.value[0].length};
+  if (find_keyword(first.text(), user)) {
+    r.error("function-not-built", first,
+            fmt::format("{} calls the user subroutine {}; user subroutines are not available", owner, slot.name));
+  } else {
+    r.error("unknown-word", first,
+            fmt::format("{} of {} is USER(…), the call of a subroutine {}, and no expression", limits.argument, owner,
+                        slot.name));
+  }
+  return false;
 }
 
 bool read_value(ElementHandle& slot, std::string_view statement, const WrittenArgument& w, ElementReader& r) {
@@ -201,7 +223,7 @@ std::optional<std::size_t> find_argument(const WrittenArgument& written, std::sp
     r.error("unexpected-value", written.name, fmt::format("{} of {} takes no value", info.name, owner));
     return std::nullopt;
   }
-  if (!info.is_flag && !written.has_value) {
+  if (!info.is_flag && !info.value_optional && !written.has_value) {
     r.error("missing-value", written.name, fmt::format("{} of {} needs a value: {}", info.name, owner, info.value));
     return std::nullopt;
   }

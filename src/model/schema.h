@@ -35,12 +35,24 @@ inline constexpr std::string_view angular_damping = "force·length·time/rad";
 // Marks an argument of another type of the statement, so that an abbreviation here does not take it.
 struct ElsewhereOnly {};
 
+// A word that may be followed by a number: CONTROL_POINTS or CONTROL_POINTS=6.
+struct WordOrCount {
+  bool given = false;
+  std::optional<std::int64_t> count;
+};
+
+// FUNCTION=USER(…) of a statement whose function is always a subroutine: an error that names it.
+struct UserSubroutine {
+  std::string_view name;  // "FIESUB"
+};
+
 template <class E>
-using Slot =
-    std::variant<bool E::*, ElsewhereOnly E::*, double E::*, std::optional<double> E::*, Vector E::*, std::optional<Vector> E::*,
-                 std::vector<double> E::*, std::vector<std::vector<double>> E::*, std::optional<std::int64_t> E::*, MarkerId E::*, BodyId E::*,
-                 VariableRef E::*, ArrayRef E::*, MatrixRef E::*, JointRef E::*, std::vector<VariableRef> E::*,
-                 std::vector<JointRef> E::*, std::vector<std::int64_t> E::*, Expression E::*, VectorExpression E::*, std::string E::*, std::vector<std::string> E::*>;
+using Slot = std::variant<bool E::*, ElsewhereOnly E::*, double E::*, std::optional<double> E::*, Vector E::*,
+                          std::optional<Vector> E::*, std::vector<double> E::*, std::vector<std::vector<double>> E::*,
+                          std::optional<std::int64_t> E::*, MarkerId E::*, BodyId E::*, VariableRef E::*, ArrayRef E::*,
+                          MatrixRef E::*, JointRef E::*, CurveRef E::*, FlexBodyRef E::*, WordOrCount E::*, UserSubroutine E::*,
+                          std::vector<VariableRef> E::*, std::vector<JointRef> E::*, std::vector<std::int64_t> E::*,
+                          Expression E::*, VectorExpression E::*, std::string E::*, std::vector<std::string> E::*>;
 
 template <class E>
 struct Argument {
@@ -68,6 +80,8 @@ bool read_value(std::vector<std::vector<double>>&, const WrittenArgument&, const
 bool read_value(std::optional<std::int64_t>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(MarkerId&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(BodyId&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(WordOrCount&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(UserSubroutine&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(ElementHandle&, std::string_view statement, const WrittenArgument&, ElementReader&);
 bool read_value(std::vector<ElementHandle>&, std::string_view statement, const WrittenArgument&, ElementReader&);
 bool read_value(std::vector<std::int64_t>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
@@ -103,8 +117,10 @@ constexpr std::string_view value_text() {
     return "reals";
   else if constexpr (std::is_same_v<V, std::vector<std::vector<double>>>)
     return "reals, repeated";
-  else if constexpr (std::is_same_v<V, std::optional<std::int64_t>>)
+  else if constexpr (std::is_same_v<V, std::optional<std::int64_t>> || std::is_same_v<V, WordOrCount>)
     return "integer";
+  else if constexpr (std::is_same_v<V, UserSubroutine>)
+    return "USER(…)";
   else if constexpr (std::is_same_v<V, MarkerId>)
     return "marker";
   else if constexpr (std::is_same_v<V, BodyId>)
@@ -133,6 +149,7 @@ constexpr ArgumentInfo argument_info(const Argument<E>& a) {
   std::visit(
       [&]<class V>(V E::*) {
         info.is_flag = std::is_same_v<V, bool>;
+        info.value_optional = std::is_same_v<V, WordOrCount>;
         info.repeats = std::is_same_v<V, std::vector<std::vector<double>>>;
         info.value = value_text<V>();
       },

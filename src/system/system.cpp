@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "elements/constraints/curve.h"
 #include "elements/controls/array.h"
 #include "elements/controls/spline.h"
 #include "elements/controls/variable_list.h"
@@ -22,7 +23,7 @@ class System::SystemSignals final : public Signals {
     for (std::size_t s = 0; s < kernel_of_set_.size(); ++s) {
       const Kernel* kernel = kernel_of_set_[s];
       if (!kernel || !kernel->has_wrench()) continue;
-      for (std::size_t k = 0; k < system_.model_->sets[s]->size(); ++k) {
+      for (std::size_t k = 0; k < kernel->wrench_count(system_.model_->sets[s]->size()); ++k) {
         const MarkerId i = kernel->marker_I(k), j = kernel->marker_J(k);
         at_marker_[static_cast<std::size_t>(i.index)].push_back({kernel, k});
         if (!(i == j)) at_marker_[static_cast<std::size_t>(j.index)].push_back({kernel, k});
@@ -36,6 +37,11 @@ class System::SystemSignals final : public Signals {
     const MarkerId followed = system_.model_->marker(m).follows;
     return followed.valid() ? followed : m;
   }
+  bool has_origin(MarkerId m) const override {
+    const Marker& marker = system_.model_->marker(m);
+    return !marker.floating || marker.follows.valid();
+  }
+  bool has_axes(MarkerId m) const override { return has_origin(m) && !system_.model_->marker(m).on_curve; }
   Channel variable(VariableRef ref) const override {
     return kernel(ref)->value_channel(static_cast<std::size_t>(ref.index));
   }
@@ -98,13 +104,15 @@ class System::SystemSignals final : public Signals {
     }
   }
 
-  std::shared_ptr<const SplineCurves> spline(const SplineUse& use) const override {
-    const auto handle = system_.model_->find("SPLINE", use.id);
-    const Spline* s = handle ? system_.model_->get<Spline>(*handle) : nullptr;
-    if (!s) return nullptr;
+  void attach(SplineUse& use) const override {
+    const auto handle = system_.model_->find(use.statement(), use.id);
+    if (!handle) return;
+    if (const Curve* c = system_.model_->get<Curve>(*handle)) use.parametric = c->shape;
+    const Spline* s = system_.model_->get<Spline>(*handle);
+    if (!s) return;
     auto& curves = curves_[{use.id, use.method}];
     if (!curves) curves = std::make_shared<const SplineCurves>(s->data, use.method);
-    return curves;
+    use.curves = curves;
   }
   std::int32_t add_memory(double initial) const override { return system_.layout_.add_memory(initial); }
 
@@ -156,7 +164,11 @@ System::System(std::shared_ptr<const Model> model) : model_(std::move(model)) {
     for (std::int32_t k = 0; k < 3; ++k) preference_.push_back(b->offset + k);
   }
   for (const ExtraBlock& e : layout_.extras) {
-    for (std::int32_t k = 0; k < e.count; ++k) preference_.push_back(e.offset + k);
+    for (std::int32_t k = 0; k < e.count; ++k) {
+      const double speed = e.coordinates[static_cast<std::size_t>(k)].speed;
+      if (speed > 0) scale_[static_cast<std::size_t>(e.offset + k)] = length_ / speed;
+      preference_.push_back(e.offset + k);
+    }
   }
 }
 
@@ -167,7 +179,9 @@ const Signals& System::signals() const { return *signals_; }
 OperatingPoint System::drawn() const {
   OperatingPoint op;
   for (const Body& b : model_->bodies) op.poses.push_back(b.pose);
-  op.extra = layout_.extra_initial;
+  for (const ExtraBlock& e : layout_.extras) {
+    for (const ExtraCoordinate& c : e.coordinates) op.extra.push_back(c.initial);
+  }
   op.velocity.assign(coordinates(), 0.0);
   op.acceleration.assign(coordinates(), 0.0);
   op.lambda.assign(layout_.row_count(), 0.0);
@@ -246,6 +260,14 @@ void System::remember(OperatingPoint& op) const {
 std::string System::fault(const Motion& motion) const {
   for (const auto& kernel : kernels_) {
     std::string reason = kernel->fault(motion);
+    if (!reason.empty()) return reason;
+  }
+  return {};
+}
+
+std::string System::departure(const Motion& motion) const {
+  for (const auto& kernel : kernels_) {
+    std::string reason = kernel->departure(motion);
     if (!reason.empty()) return reason;
   }
   return {};

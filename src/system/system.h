@@ -45,8 +45,9 @@ class System {
   void equations(const Motion&, const ConstraintRows&, Equations&, std::initializer_list<Column> wanted) const;
   void remember(OperatingPoint&) const;
   std::string fault(const Motion&) const;
+  std::string departure(const Motion&) const;
 
-  // Scale of a coordinate: the model length for translations, 1 for rotations.
+  // Scale of a coordinate: the model length for translations, 1 for rotations, and what moves as far for the others.
   double coordinate_scale(std::int32_t coordinate) const { return scale_[static_cast<std::size_t>(coordinate)]; }
   // Elimination of the position rows (or of all rows on velocities) with columns in the default preference.
   Partition partition(const ConstraintRows&, bool velocity_rows_too) const;

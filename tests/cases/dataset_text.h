@@ -13,6 +13,7 @@ namespace dynalin::cases {
 // 3-1-3 angles of a rotation.
 inline std::string reuler(const Matrix3& R) {
   const double theta = std::acos(std::clamp(R(2, 2), -1.0, 1.0));
+  if (R(2, 2) == 1.0) return fmt::format("{:.17g},0,0", std::atan2(R(1, 0), R(0, 0)));
   const double psi = std::atan2(R(0, 2), -R(1, 2)), phi = std::atan2(R(2, 0), R(2, 1));
   return fmt::format("{:.17g},{:.17g},{:.17g}", psi, theta, phi);
 }

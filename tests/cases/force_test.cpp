@@ -99,6 +99,56 @@ TEST_F(Forces, beam_has_timoshenkos_stiffness) {
   expect_same(solve(beam), solve(as_expressions(K, C, {L, 0, 0, 0, 0, 0}, {})));
 }
 
+// What marker 31 feels, read by another force, against the same from the GFORCE.
+TEST_F(Forces, nforce_is_seen_by_force_functions) {
+  const Table K = full(9, 0.5), C = full(0.3, -0.2);
+  const std::array<double, 6> force = {7, -5, 9, 2, 1, -3};
+  // Marker 20 sees what the others do as well: two markers, the second through GFORCEs that read both.
+  std::vector<double> k, c;
+  for (std::size_t column = 0; column < 12; ++column) {
+    for (std::size_t row = 0; row < 12; ++row) {
+      const double size = row / 6 == column / 6 ? 1.0 : 0.3;
+      k.push_back(size * K[row % 6][column % 6]), c.push_back(size * C[row % 6][column % 6]);
+    }
+  }
+  const auto matrix = [](int id, const std::vector<double>& values) {
+    std::string s = fmt::format("MATRIX/{}, FULL=CORDER, ROWS={}, COLUMNS={}, VALUES=", id, 12, values.size() / 12);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      s += fmt::format("{}{:.17g}", i ? (i % 6 ? "," : "\n, ") : "", values[i]);
+    return s + "\n";
+  };
+  std::vector<double> preload(force.begin(), force.end());
+  preload.insert(preload.end(), {1, 2, -3, 0.5, -1, 1.5});
+  const std::string nforce = matrix(1, k) + matrix(2, c) + matrix(3, preload) +
+                             "NFORCE/1, IMARKERS=31,22, J=4, KMATRIX=1, CMATRIX=2, FORCE=3\n";
+  const std::array<const char*, 6> measure = {"DX({0},4,4)", "DY({0},4,4)", "DZ({0},4,4)",
+                                              "AX({0},4)",   "AY({0},4)",   "AZ({0},4)"};
+  const std::array<const char*, 6> speed = {"VX({0},4,4,4)", "VY({0},4,4,4)", "VZ({0},4,4,4)",
+                                            "WX({0},4,4)",   "WY({0},4,4)",   "WZ({0},4,4)"};
+  const std::array<int, 2> markers = {31, 22};
+  std::string gforce;
+  for (std::size_t b = 0; b < 2; ++b) {
+    gforce +=
+        fmt::format("MARKER/{}, PART=1, FLOATING\nGFORCE/{}, I={}, JFLOAT={}, RM=4", 28 + b, 1 + b, markers[b], 28 + b);
+    for (std::size_t r = 0; r < 6; ++r) {
+      gforce += fmt::format(", {}={:.17g}", components[r], preload[6 * b + r]);
+      for (std::size_t col = 0; col < 12; ++col) {
+        const int m = markers[col / 6];
+        gforce += fmt::format("\n, -({:.17g})*{}-({:.17g})*{}", k[12 * col + 6 * b + r],
+                              fmt::format(fmt::runtime(measure[col % 6]), m), c[12 * col + 6 * b + r],
+                              fmt::format(fmt::runtime(speed[col % 6]), m));
+      }
+      if (r < 5) gforce += "\\";
+    }
+    gforce += "\n";
+  }
+  const std::string reader =
+      "SFORCE/1, TRANSLATIONAL, I=30, J=2, FUNCTION=0.2*FX(31,0,21)-0.1*TY(31,0,20)+0.05*FM(31)+0.03*FX(22,{0},30)\n";
+  const auto own = solve(nforce + fmt::format(fmt::runtime(reader), 4));
+  expect_same(own, solve(gforce + fmt::format(fmt::runtime(reader), 29)));
+  EXPECT_NE(own, solve(nforce));
+}
+
 TEST_F(Forces, nforce_is_fields_that_see_each_other) {
   const Table K = full(9, 0.5), C = full(0.3, -0.2);
   const auto matrix = [](int id, const std::vector<double>& values, std::size_t rows, std::size_t columns) {

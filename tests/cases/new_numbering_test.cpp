@@ -14,7 +14,7 @@
 namespace dynalin {
 namespace {
 
-// PTCV/id, I=, RM=a: x_I = s, y_I = a s² in global coordinates, with s a coordinate of its own.
+// UCON/id, I=, DISP=a: x_I = s, y_I = a s² in global coordinates, with s a coordinate of its own.
 struct Parabola {
   MarkerId i;
   double curvature = 0;
@@ -29,8 +29,7 @@ class ParabolaKernel final : public Kernel {
   ParabolaKernel(const std::vector<Parabola>& elements, const std::vector<ElementLabel>& labels, Layout& layout)
       : layout_(layout) {
     for (std::size_t k = 0; k < elements.size(); ++k) {
-      const std::array<double, 1> start = {0.0};
-      const std::int32_t s = layout.add_extra(labels[k], {"s"}, start);
+      const std::int32_t s = layout.add_extra(labels[k], {{.name = "s"}});
       const std::int32_t first = layout.add_row(labels[k], "x");
       layout.add_row(labels[k], "y");
       beads_.push_back({layout.marker(elements[k].i), elements[k].curvature, s, first});
@@ -38,7 +37,7 @@ class ParabolaKernel final : public Kernel {
   }
   void constraints(const Motion& motion, ConstraintRows& rows) const override {
     for (const Bead& b : beads_) {
-      const auto e = static_cast<std::size_t>(b.s - layout_.body_coordinate_count);
+      const std::size_t e = layout_.extra_index(b.s);
       const Taylor s(motion.extra[e], motion.extra_rate[e], motion.extra_acceleration[e]);
       const Frame<Taylor> I = motion.frame(b.I);
       const BodyMotion& body = motion.body(b.I.body);
@@ -87,7 +86,7 @@ constexpr Kind test_kind(std::string_view statement) {
           detail::argument_infos<E>,
           [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<TestSet<E, K>>(kind); }};
 }
-constexpr Kind parabola = test_kind<Parabola, ParabolaKernel>("PTCV");
+constexpr Kind parabola = test_kind<Parabola, ParabolaKernel>("UCON");
 
 Result<LinearSystem> linear_model(const std::string& text) {
   std::vector<const Kind*> kinds(catalogue().begin(), catalogue().end());
@@ -106,7 +105,7 @@ Result<LinearSystem> linear_model(const std::string& text) {
 TEST(NewNumbering, bead_on_a_parabola_swings_with_the_curvature) {
   const auto linear = linear_model(
       "Bead\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nPOINT_MASS/2, MASS=3, "
-      "CM=2\nMARKER/2\nMARKER/3, PART=1\nPTCV/1, I=2, DISP=1.7\n"
+      "CM=2\nMARKER/2\nMARKER/3, PART=1\nUCON/1, I=2, DISP=1.7\n"
       "! out of the plane the bead is held by a spring\nMARKER/4, PART=1, QP=0,0,-1\nSPRINGDAMPER/1, TRANSLATIONAL, "
       "I=2, J=4, K=12, LENGTH=1\nEND\n");
   ASSERT_TRUE(linear) << linear.error().message;

@@ -14,7 +14,7 @@ struct Field {
   MarkerId i, j;
   std::vector<double> stiffness, damping, force, length;
   std::optional<double> ratio;
-  Expression function;
+  UserSubroutine function{"FIESUB"};
 
   static constexpr std::string_view keyword = "FIELD";
   static constexpr std::string_view summary = "Linear force of all six displacements, with full matrices.";
@@ -26,7 +26,7 @@ struct Field {
       {.name = "CRATIO", .slot = &Field::ratio, .unit = "time", .help = "CMATRIX = CRATIO · KMATRIX"},
       {.name = "FORCE", .slot = &Field::force, .help = "3 forces and 3 torques at LENGTH"},
       {.name = "LENGTH", .slot = &Field::length, .help = "3 lengths and 3 angles at which FORCE acts"},
-      {.name = "FUNCTION", .slot = &Field::function, .help = "user subroutines are not available"},
+      {.name = "FUNCTION", .slot = &Field::function, .help = "USER(…): not available"},
   }};
 
   LinearWrench law(ElementReader& reader) const {
@@ -36,9 +36,7 @@ struct Field {
     take_values(damping, "CMATRIX", C, reader);
     take_values(force, "FORCE", w.force, reader);
     take_values(length, "LENGTH", w.length, reader);
-    if (reader.given("FUNCTION")) {
-      reader.error("argument-not-built", reader.at("FUNCTION"), "user subroutines are not available");
-    } else if (!reader.given("KMATRIX")) {
+    if (!reader.given("KMATRIX")) {
       reader.error("missing-argument", reader.statement().at, fmt::format("{} needs KMATRIX", reader.label().text()));
     }
     if (ratio && !damping.empty()) {

@@ -21,7 +21,7 @@ struct Nforce {
   MarkerId j;
   MatrixRef stiffness, damping, length, force;
   std::optional<double> ratio;
-  Expression function;
+  UserSubroutine function{"NFOSUB"};
   std::vector<MarkerId> markers;
 
   static constexpr std::array<Argument<Nforce>, 8> arguments = {{
@@ -35,7 +35,7 @@ struct Nforce {
       {.name = "CRATIO", .slot = &Nforce::ratio, .unit = "time", .help = "damping as part of the stiffness"},
       {.name = "LENGTH", .slot = &Nforce::length, .help = "MATRIX of 6 n × 1: displacements at which FORCE acts"},
       {.name = "FORCE", .slot = &Nforce::force, .help = "MATRIX of 6 n × 1"},
-      {.name = "FUNCTION", .slot = &Nforce::function, .help = "user subroutines are not available"},
+      {.name = "FUNCTION", .slot = &Nforce::function, .help = "USER(…): not available"},
   }};
 };
 
@@ -49,7 +49,7 @@ struct Law {
 
 class NforceKernel final : public Kernel {
  public:
-  NforceKernel(const std::vector<Law>& laws, Layout& layout) {
+  NforceKernel(const std::vector<Law>& laws, Layout& layout) : layout_(layout) {
     for (const Law& law : laws) {
       Placed p{law, {}, layout.marker(law.j), {}};
       for (const MarkerId m : law.markers) {
@@ -57,6 +57,7 @@ class NforceKernel final : public Kernel {
         p.memory.push_back(layout.add_memory());
         layout.add_memory();
         layout.add_memory();
+        wrenches_.emplace_back(laws_.size(), p.I.size() - 1);
       }
       laws_.push_back(std::move(p));
     }
@@ -65,41 +66,13 @@ class NforceKernel final : public Kernel {
   void equations(const Motion& motion, Equations& eq) const override {
     for (const Placed& p : laws_) {
       const std::size_t n = p.I.size();
-      pairs_.resize(n), displacements_.resize(n);
+      look(p, motion);
       for (std::size_t k = 0; k < n; ++k) {
-        pairs_[k] = pair_motion(motion, p.I[k], p.J);
-        displacements_[k] = relative_displacement(
-            pairs_[k], std::span(motion.memory).subspan(static_cast<std::size_t>(p.memory[k]), 3));
-      }
-      for (std::size_t k = 0; k < n; ++k) {
-        RelativeWrench total;
-        for (std::size_t r = 0; r < 6; ++r) {
-          double sum = p.law.force[6 * k + r];
-          for (std::size_t l = 0; l < n; ++l) {
-            for (std::size_t c = 0; c < 6; ++c) {
-              const auto [K, C] = entry(p.law, 6 * k + r, 6 * l + c);
-              sum -= K * (displacements_[l].y[c] - p.law.length[6 * l + c]) + C * displacements_[l].rate[c];
-            }
-          }
-          (r < 3 ? total.force[r] : total.torque[r - 3]) = sum;
-        }
         // The force itself turns with J and its arms move; each marker adds what its displacement changes.
-        apply(pairs_[k], spread(pairs_[k], total, eq.wants_partials()), eq);
+        apply(pairs_[k], spread(pairs_[k], total(p, k), eq.wants_partials()), eq);
         if (!eq.wants_partials()) continue;
-        for (std::size_t l = 0; l < n; ++l) {
-          RelativeWrench change;
-          change.depends_on_rate = true;
-          for (std::size_t r = 0; r < 6; ++r) {
-            for (std::size_t c = 0; c < 6; ++c) {
-              const auto [K, C] = entry(p.law, 6 * k + r, 6 * l + c);
-              for (std::size_t i = 0; i < 6; ++i) {
-                change.on_pose[r][i] -= K * displacements_[l].on_pose[c][i] + C * displacements_[l].rate_on_pose[c][i];
-                change.on_rate[r][i] -= C * displacements_[l].rate_on_rate[c][i];
-              }
-            }
-          }
-          apply_cross_partials(pairs_[k], pairs_[l], spread(pairs_[l], change, true), eq);
-        }
+        for (std::size_t l = 0; l < n; ++l)
+          apply_cross_partials(pairs_[k], pairs_[l], spread(pairs_[l], change(p, k, l), true), eq);
       }
     }
   }
@@ -108,8 +81,37 @@ class NforceKernel final : public Kernel {
     for (const Placed& p : laws_) {
       for (std::size_t k = 0; k < p.I.size(); ++k) {
         const auto at = static_cast<std::size_t>(p.memory[k]);
-        const auto total = total_angles(pair_motion(motion, p.I[k], p.J), std::span(memory).subspan(at, 3));
-        std::copy(total.begin(), total.end(), memory.begin() + static_cast<std::ptrdiff_t>(at));
+        const auto angles = total_angles(pair_motion(motion, p.I[k], p.J), std::span(memory).subspan(at, 3));
+        std::copy(angles.begin(), angles.end(), memory.begin() + static_cast<std::ptrdiff_t>(at));
+      }
+    }
+  }
+
+  // A wrench for each marker.
+  bool has_wrench() const override { return true; }
+  std::size_t wrench_count(std::size_t) const override { return wrenches_.size(); }
+  MarkerId marker_I(std::size_t w) const override { return law_of(w).markers[wrenches_[w].second]; }
+  MarkerId marker_J(std::size_t w) const override { return law_of(w).j; }
+  void wrench(const Motion& motion, std::size_t w, bool with_partials, MarkerWrench& out) const override {
+    const auto [at, k] = wrenches_[w];
+    const Placed& p = laws_[at];
+    look(p, motion);
+    out.pair = pairs_[k];
+    out.force = spread(out.pair, total(p, k), with_partials);
+    if (!with_partials) return;
+    for (std::size_t l = 0; l < p.I.size(); ++l) {
+      const PairForce f = spread(pairs_[l], change(p, k, l), true);
+      for (std::size_t g = 0; g < 4; ++g) {
+        const BodyBlock& block = layout_.body(g < 2 ? pairs_[l].body_I : pairs_[l].body_J);
+        const std::int32_t first = g % 2 == 0 ? 0 : 3;
+        for (std::int32_t i = 0; i < 3 && block.count >= first + 3; ++i) {
+          const auto c = static_cast<std::size_t>(i);
+          const std::int32_t column = block.offset + first + i;
+          out.scalars.push_back(
+              {Column::position, column, f.force_on_position.group[g][c], f.torque_on_position.group[g][c]});
+          out.scalars.push_back(
+              {Column::damping, column, f.force_on_velocity.group[g][c], f.torque_on_velocity.group[g][c]});
+        }
       }
     }
   }
@@ -121,11 +123,56 @@ class NforceKernel final : public Kernel {
     MarkerPlace J;
     std::vector<std::int32_t> memory;
   };
+  const Law& law_of(std::size_t w) const { return laws_[wrenches_[w].first].law; }
   static std::pair<double, double> entry(const Law& law, std::size_t row, std::size_t column) {
     const std::size_t at = column * law.size + row;
     return {law.K[at], law.C.empty() ? 0.0 : law.C[at]};
   }
+  // Takes the motions of the pairs and their displacements.
+  void look(const Placed& p, const Motion& motion) const {
+    const std::size_t n = p.I.size();
+    pairs_.resize(n), displacements_.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto turns = std::span(motion.memory).subspan(static_cast<std::size_t>(p.memory[k]), 3);
+      pairs_[k] = pair_motion(motion, p.I[k], p.J);
+      displacements_[k] = relative_displacement(pairs_[k], turns);
+    }
+  }
+  // What acts on marker k.
+  RelativeWrench total(const Placed& p, std::size_t k) const {
+    RelativeWrench w;
+    for (std::size_t r = 0; r < 6; ++r) {
+      double sum = p.law.force[6 * k + r];
+      for (std::size_t l = 0; l < p.I.size(); ++l) {
+        for (std::size_t c = 0; c < 6; ++c) {
+          const auto [K, C] = entry(p.law, 6 * k + r, 6 * l + c);
+          sum -= K * (displacements_[l].y[c] - p.law.length[6 * l + c]) + C * displacements_[l].rate[c];
+        }
+      }
+      (r < 3 ? w.force[r] : w.torque[r - 3]) = sum;
+    }
+    return w;
+  }
+  // How that changes with the displacement of marker l.
+  RelativeWrench change(const Placed& p, std::size_t k, std::size_t l) const {
+    RelativeWrench w;
+    w.depends_on_rate = true;
+    const RelativeDisplacement& d = displacements_[l];
+    for (std::size_t r = 0; r < 6; ++r) {
+      for (std::size_t c = 0; c < 6; ++c) {
+        const auto [K, C] = entry(p.law, 6 * k + r, 6 * l + c);
+        for (std::size_t i = 0; i < 6; ++i) {
+          w.on_pose[r][i] -= K * d.on_pose[c][i] + C * d.rate_on_pose[c][i];
+          w.on_rate[r][i] -= C * d.rate_on_rate[c][i];
+        }
+      }
+    }
+    return w;
+  }
+
+  const Layout& layout_;
   std::vector<Placed> laws_;
+  std::vector<std::pair<std::size_t, std::size_t>> wrenches_;  // law and marker
   mutable std::vector<PairMotion> pairs_;
   mutable std::vector<RelativeDisplacement> displacements_;
 };
@@ -138,10 +185,6 @@ class NforceSet final : public TypedSet<Nforce> {
     Nforce& n = elements[k];
     if (!read_arguments(n, reader)) return;
     const std::string name = reader.label().text();
-    if (reader.given("FUNCTION")) {
-      reader.error("argument-not-built", reader.at("FUNCTION"), "user subroutines are not available");
-      return;
-    }
     if (!n.stiffness.valid()) {
       reader.error("missing-argument", reader.statement().at, fmt::format("{} needs KMATRIX", name));
     }

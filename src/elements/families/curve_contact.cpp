@@ -1,0 +1,51 @@
+#include "elements/families/curve_contact.h"
+
+namespace dynalin {
+
+double stated_parameter(const Model& model, const Curve& curve, const Vector& point, MarkerId own, MarkerId axes) {
+  const MarkerPlace& to = model.marker(own).place;
+  const MarkerPlace& from = model.marker(axes.valid() ? axes : own).place;
+  const Vector in_body = from.p_BM + from.R_BM * point;
+  return curve.shape->nearest(transpose_times(to.R_BM, in_body - to.p_BM));
+}
+
+bool check_contact_marker(Model& model, const ElementLabel& label, MarkerId floating, std::string_view argument,
+                          MarkerId own, Diagnostics& diagnostics) {
+  const Marker& marker = model.marker(floating);
+  if (!marker.floating) {
+    diagnostics.error(
+        "fixed-marker", label.at,
+        fmt::format("{} of {}, {}, must be a floating marker", argument, label.text(), marker.label.text()),
+        "write FLOATING into the MARKER statement");
+    return false;
+  }
+  const BodyId body = model.marker(own).place.body;
+  if (marker.place.body != body) {
+    diagnostics.error("foreign-marker", label.at,
+                      fmt::format("{} of {}, {}, must be on {}, which carries the curve", argument, label.text(),
+                                  marker.label.text(), model.body(body).label.text()));
+    return false;
+  }
+  return true;
+}
+
+bool check_start_axes(const Model& model, const ElementLabel& label, MarkerId axes, std::string_view argument,
+                      MarkerId own, Diagnostics& diagnostics) {
+  if (!axes.valid()) return true;
+  const Marker& marker = model.marker(axes);
+  const BodyId body = model.marker(own).place.body;
+  if (marker.floating) {
+    diagnostics.error("floating-marker", label.at,
+                      fmt::format("{} of {}, {}, is floating", argument, label.text(), marker.label.text()),
+                      "a fixed marker is needed here");
+  } else if (marker.place.body != body) {
+    diagnostics.error("foreign-marker", label.at,
+                      fmt::format("{} of {}, {}, must be on {}, which carries the curve", argument, label.text(),
+                                  marker.label.text(), model.body(body).label.text()));
+  } else {
+    return true;
+  }
+  return false;
+}
+
+}  // namespace dynalin

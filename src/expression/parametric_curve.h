@@ -1,0 +1,89 @@
+// A curve in space c(u), −1 ≤ u ≤ 1, as the CURVE statement defines it: a B-spline through its points, or one that
+// follows its control points.
+//
+// The points of an open curve lie at equal steps of u. Its knots are k-fold at both ends and the means of k − 1
+// neighbouring parameters between, so that a cubic has no knot at its second and its last point but one: cubics with
+// equal steps are reproduced, and four points make one cubic. Control points follow uniform knots, k-fold at the ends.
+// A closed curve repeats its first point as its last one and continues with all derivatives up to k − 2 across the
+// closure; its knots are uniform.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "base/dual.h"
+#include "base/time_taylor.h"
+#include "base/vec3.h"
+
+namespace dynalin {
+
+class ParametricCurve {
+ public:
+  enum class Shape : std::uint8_t { open, closed };
+  enum class Data : std::uint8_t { points, control_points };
+  using Points = std::vector<Vec3<double>>;
+
+  // At least `order` points, order 4 for cubics; those of a closed curve with the first one again at the end.
+  ParametricCurve(const Points&, Shape, Data, int order = 4);
+
+  Shape shape() const { return shape_; }
+  // c and its derivatives with respect to u. A closed curve repeats with the period 2; an open one goes on along its
+  // tangent beyond its ends. At a knot the piece to its right counts.
+  template <class T>
+  Vec3<T> at(const T& u, int derivative = 0) const;
+  // Whether the curve exists at u.
+  bool reaches(double u) const { return shape_ == Shape::closed || std::abs(u) <= 1 + end_tolerance; }
+  // u − v, by way of the closure where that is shorter.
+  double difference(double u, double v) const;
+
+  // The parameter of the point next to p.
+  double nearest(const Vec3<double>& p) const;
+  // Parameters spread over the curve, a few for each piece but no more than `most`.
+  std::vector<double> samples(std::size_t most) const;
+  // The least length that a unit of u moves the point, cusps left out. [length]
+  double least_speed() const { return least_speed_; }
+
+ private:
+  static constexpr double end_tolerance = 1e-9;  // an end met but for rounding belongs to the curve
+  using Knots = std::vector<double>;
+
+  void take_open(const Points&, Data);
+  void take_closed(const Points&, Data);
+  void add_piece(const Knots&, const Points& controls, std::size_t span);
+  std::size_t piece(double u) const;
+
+  Shape shape_;
+  std::size_t order_;
+  std::vector<double> breaks_;             // between the pieces, ends included
+  std::vector<Vec3<double>> coefficient_;  // order_ for each piece, of powers of u − (middle of the piece)
+  double least_speed_ = 0;
+};
+
+template <class T>
+Vec3<T> ParametricCurve::at(const T& u, int derivative) const {
+  const double x = value_of(u);
+  if (!reaches(x)) {
+    const double end = std::copysign(1.0, x);
+    const Vec3<double> p = at(end), slope = at(end, 1);
+    const T s = u - T(end);
+    const auto along = [&](double value, double rate) {
+      return derivative == 0 ? T(value) + s * rate : T(derivative == 1 ? rate : 0.0);
+    };
+    return {along(p.x, slope.x), along(p.y, slope.y), along(p.z, slope.z)};
+  }
+  const double turns = shape_ == Shape::closed ? 2 * std::floor((x - breaks_.front()) / 2) : 0.0;
+  const std::size_t k = piece(x - turns);
+  const T s = u - T(turns + 0.5 * (breaks_[k] + breaks_[k + 1]));
+  Vec3<T> sum{T(0.0), T(0.0), T(0.0)};
+  const auto lowest = static_cast<std::size_t>(derivative);
+  for (std::size_t j = order_; j-- > lowest;) {
+    double factor = 1;
+    for (std::size_t i = 0; i < lowest; ++i) factor *= static_cast<double>(j - i);
+    const Vec3<double> c = coefficient_[k * order_ + j] * factor;
+    sum = {sum.x * s + c.x, sum.y * s + c.y, sum.z * s + c.z};
+  }
+  return sum;
+}
+
+}  // namespace dynalin

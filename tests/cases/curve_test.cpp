@@ -1,0 +1,419 @@
+// PTCV and CVCV against the same constraints written as GCONs with explicit polynomials, and closed forms: beads on
+// parabolas and circles, a parabola that rocks on a table, a cam under a flat follower.
+#include <numbers>
+
+#include "cases/chain.h"
+
+namespace dynalin::cases {
+namespace {
+
+std::string number(double x) { return fmt::format("{:.17g}", x); }
+
+// A polynomial in u for each coordinate.
+struct Polynomials {
+  std::array<std::array<double, 4>, 3> a;
+
+  Vector at(double u) const {
+    const auto value = [&](const std::array<double, 4>& c) { return c[0] + u * (c[1] + u * (c[2] + u * c[3])); };
+    return {value(a[0]), value(a[1]), value(a[2])};
+  }
+  Vector slope(double u) const {
+    const auto value = [&](const std::array<double, 4>& c) { return c[1] + u * (2 * c[2] + u * 3 * c[3]); };
+    return {value(a[0]), value(a[1]), value(a[2])};
+  }
+  // As expressions of u.
+  std::string text(std::size_t k, const std::string& u) const {
+    return fmt::format("POLY({},0,{:.17g},{:.17g},{:.17g},{:.17g})", u, a[k][0], a[k][1], a[k][2], a[k][3]);
+  }
+  std::string slope_text(std::size_t k, const std::string& u) const {
+    return fmt::format("POLY({},0,{:.17g},{:.17g},{:.17g})", u, a[k][1], 2 * a[k][2], 3 * a[k][3]);
+  }
+  // MATRIX and CURVE of that id through n points of it.
+  std::string curve(int id, int n) const {
+    std::string s = fmt::format("MATRIX/{}, FULL=RORDER, ROWS={}, COLUMNS=3, VALUES=", id, n);
+    for (int i = 0; i < n; ++i) s += (i > 0 ? "\n, " : "") + xyz(at(-1 + 2.0 * i / (n - 1)));
+    return s + fmt::format("\nCURVE/{}, OPEN, MATRIX={}, CURVE_POINTS\n", id, id);
+  }
+};
+
+// A particle without mass whose x and y are the parameters that the GCONs need.
+std::string parameters(double u, double v) {
+  return fmt::format("POINT_MASS/90, MASS=0, CM=901, QG={:.17g},{:.17g},0\nMARKER/901, POINT_MASS=90\n", u, v);
+}
+const std::string U = "DX(901)", V = "DY(901)";
+const std::array<std::string, 3> P = {"DX(31,22,22)", "DY(31,22,22)", "DZ(31,22,22)"};
+// Component c of the k-th axis of 31 in those of 22.
+std::string axis(int k, std::size_t c) { return fmt::format("D{}({},31,22)", "XYZ"[c], 311 + k); }
+
+const Matrix3 anyhow = rotation_313(0.5, 0.8, -0.3);
+const Polynomials bow{{{{0.05, 0.4, 0.1, -0.05}, {0.1, -0.2, 0.3, 0.1}, {-0.1, 0.1, 0.05, 0.2}}}};
+const Polynomials line{{{{0.1, 0.5, 0, 0}, {-0.05, 0.25, 0, 0}, {0.2, -0.3, 0, 0}}}};
+const Polynomials cam{{{{0.02, 0.3, 0.05, 0}, {0.05, 0.1, -0.35, 0.06}, {0, 0, 0, 0}}}};
+const Polynomials track{{{{-0.1, 0.5, 0, 0.04}, {0.1, -0.1, 0.2, -0.05}, {0, 0, 0, 0}}}};
+
+std::string closed_curve(int id, int n, const std::string& more = "") {
+  std::string s = fmt::format("MATRIX/{}, FULL=RORDER, ROWS={}, COLUMNS=3, VALUES=", id, n + 1);
+  for (int i = 0; i <= n; ++i) {
+    const double t = 2 * std::numbers::pi * (i % n) / n;
+    s += (i > 0 ? "\n, " : "") + xyz({0.3 * std::cos(t), 0.2 * std::sin(t), 0.1 * std::sin(2 * t)});
+  }
+  return s + fmt::format("\nCURVE/{}, CLOSED, MATRIX={}{}\n", id, id, more);
+}
+
+std::vector<Held> all() {
+  const std::string point = "MARKER/29, PART=2, FLOATING\nPTCV/1, I=31, JFLOAT=29, CURVE=1, RM=22";
+  std::vector<Held> list;
+  {
+    Held h{"ptcv", bow.curve(1, 7) + point, bow.at(0.3), anyhow, {"DY(901)", "DZ(901)"}, parameters(0.3, 0)};
+    for (std::size_t k = 0; k < 3; ++k) h.functions.push_back(P[k] + "-" + bow.text(k, U));
+    list.push_back(h);
+    // At a knot, and in the first and last piece.
+    for (const auto& [name, u] : {std::pair{"ptcv_at_a_knot", 0.0}, {"ptcv_first", -0.9}, {"ptcv_last", 0.95}}) {
+      h.name = name, h.p = bow.at(u), h.helpers = parameters(u, 0);
+      list.push_back(h);
+    }
+  }
+  {
+    // Four points are one cubic; a point mass would do as well.
+    Held h{"ptcv_four_points",     bow.curve(1, 4) + point, bow.at(-0.4), anyhow,
+           {"DY(901)", "DZ(901)"}, parameters(-0.4, 0)};
+    for (std::size_t k = 0; k < 3; ++k) h.functions.push_back(P[k] + "-" + bow.text(k, U));
+    list.push_back(h);
+  }
+  {
+    // The contact on ground's side and the curve on the other: I and RM change places.
+    Held h{"ptcv_swapped",
+           bow.curve(1, 7) + "MARKER/29, PART=3, FLOATING\nPTCV/1, I=22, JFLOAT=29, CURVE=1, RM=31",
+           -(anyhow * bow.at(0.3)),
+           anyhow,
+           {"DY(901)", "DZ(901)"},
+           parameters(0.3, 0)};
+    for (std::size_t k = 0; k < 3; ++k) h.functions.push_back(fmt::format("D{}(22,31,31)-", "XYZ"[k]) + bow.text(k, U));
+    list.push_back(h);
+  }
+  {
+    // A closed curve read by the function CURVE: exact in both, so what is compared is the constraint.
+    Held h{"ptcv_closed", closed_curve(1, 9) + point, {}, anyhow, {"DY(901)", "DZ(901)"}, ""};
+    // Its first point, u = −1.
+    h.p = {0.3, 0, 0};
+    h.helpers = closed_curve(1, 9) + parameters(-1, 0);
+    for (std::size_t k = 0; k < 3; ++k) h.functions.push_back(P[k] + fmt::format("-CURVE(DX(901),0,{},1)", k + 1));
+    list.push_back(h);
+  }
+  {
+    // The straight one has a joint of its own.
+    Held h{"ptcv_straight", line.curve(1, 5) + point, line.at(0.2), anyhow, {"DY(901)", "DZ(901)"}, parameters(0.2, 0)};
+    for (std::size_t k = 0; k < 3; ++k) h.functions.push_back(P[k] + "-" + line.text(k, U));
+    list.push_back(h);
+  }
+  for (const bool apart : {false, true}) {
+    // Turned about z until the tangents agree, then about the common tangent.
+    const double u = 0.25, v = -0.35;
+    const Vector s = cam.slope(u), t = track.slope(v);
+    const Matrix3 R =
+        about(t, 0.5) * about({0, 0, 1}, std::atan2(t.y, t.x) - std::atan2(s.y, s.x) + (apart ? std::numbers::pi : 0));
+    Held h{apart ? "cvcv_opposed" : "cvcv",
+           cam.curve(1, 7) + track.curve(2, 6) +
+               "MARKER/29, PART=2, FLOATING\nMARKER/39, PART=3, FLOATING\n"
+               "CVCV/1, IFLOAT=39, ICURVE=1, IRM=31, JFLOAT=29, JCURVE=2, JRM=22",
+           track.at(v) - R * cam.at(u),
+           R,
+           {"DZ(901)"},
+           parameters(u, v)};
+    std::array<std::string, 2> slope;
+    for (std::size_t c = 0; c < 3; ++c) {
+      h.functions.push_back(P[c] + "+" + axis(0, c) + "*" + cam.text(0, U) + "+" + axis(1, c) + "*" + cam.text(1, U) +
+                            "-" + track.text(c, V));
+      if (c < 2)
+        slope[c] = "(" + axis(0, c) + "*" + cam.slope_text(0, U) + "+" + axis(1, c) + "*" + cam.slope_text(1, U) + ")";
+    }
+    h.functions.push_back(slope[0] + "*" + track.slope_text(1, V) + "-" + slope[1] + "*" + track.slope_text(0, V));
+    list.push_back(h);
+  }
+  return list;
+}
+
+class CurveAsFunctions : public Cases, public ::testing::WithParamInterface<Held> {};
+
+TEST_P(CurveAsFunctions, has_the_same_states_and_eigenvalues_in_motion_and_at_rest_under_load) {
+  for (const char* commands : {"SIMULATE/INITIAL\nLINEAR/EIGENSOL\n", "SIMULATE/STATIC\nLINEAR/EIGENSOL\n"}) {
+    const RunResult element = run(mechanism(GetParam(), false), commands),
+                    functions = run(mechanism(GetParam(), true), commands);
+    // The end of an open curve may be nearer than rest.
+    if (element.status == 2 && element.err.find("open curve") != std::string::npos &&
+        std::string(commands).find("STATIC") != std::string::npos) {
+      continue;
+    }
+    ASSERT_EQ(element.status, 0) << element.err;
+    ASSERT_EQ(functions.status, 0) << functions.err;
+    EXPECT_EQ(element.labels(1), functions.labels(1));
+    expect_same(element.eigenvalues(1), functions.eigenvalues(1));
+  }
+}
+INSTANTIATE_TEST_SUITE_P(every, CurveAsFunctions, ::testing::ValuesIn(all()),
+                         [](const auto& p) { return p.param.name; });
+
+class CurveCases : public Cases {
+ protected:
+  std::vector<std::complex<double>> solve(const std::string& text, const std::string& commands = "") const {
+    const RunResult r =
+        run("Curves\nUNITS/SYSTEM=MKS\nPART/1, GROUND\n" + text + "END\n", commands + "LINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.status == 0 ? r.eigenvalues(commands.empty() ? 0 : 1) : std::vector<std::complex<double>>();
+  }
+  // The one frequency of a model with one freedom, rad per unit time.
+  double frequency(const std::string& text, const std::string& commands = "") const {
+    const auto values = solve(text, commands);
+    EXPECT_EQ(values.size(), 2u);
+    if (values.size() != 2u) return -1;
+    EXPECT_NEAR(values[0].real(), 0, 1e-12);
+    return 2 * std::numbers::pi * std::abs(values[0].imag());
+  }
+};
+
+// y = a x² in the x-y plane of its marker, |x| ≤ 1.
+std::string parabola(int id, double a, double height = 0) {
+  return Polynomials{{{{0, 1, 0, 0}, {height, 0, a, 0}, {0, 0, 0, 0}}}}.curve(id, 5);
+}
+
+TEST_F(CurveCases, bead_on_a_parabola) {
+  const std::string text = "ACCGRAV/JGRAV=-9.81\nMARKER/1\nMARKER/9, FLOATING\n" + parabola(1, 1.7) +
+                           "POINT_MASS/2, MASS=3, CM=2, QG={}\nMARKER/2\nPTCV/1, I=2, JFLOAT=9, CURVE=1, RM=1{}\n";
+  const double expected = std::sqrt(2 * 1.7 * 9.81);
+  EXPECT_NEAR(frequency(fmt::format(fmt::runtime(text), "0,0,0", "")), expected, 1e-12);
+  // Drawn off the curve and far from rest it finds both.
+  EXPECT_NEAR(frequency(fmt::format(fmt::runtime(text), "0.4,0.9,-0.2", ""), "SIMULATE/STATIC\n"), expected, 1e-7);
+}
+
+TEST_F(CurveCases, bead_on_a_parabola_that_turns) {
+  // Seen from the turning wire ω² = 2 a g − W², and with W² > 2 a g it runs away.
+  for (const double W : {3.0, 7.0}) {
+    const RunResult r = run(
+        "Curves\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1, REULER=0,-90D,0\nPART/3\nMARKER/30, "
+        "REULER=0,-90D,0\nMARKER/31\nMARKER/39, PART=3, FLOATING\nJOINT/1, REVOLUTE, I=30, J=1\nMOTION/1, JOINT=1, "
+        "FUNCTION=" +
+            number(W) + "*TIME\n" + parabola(1, 1.7) +
+            "POINT_MASS/2, MASS=3, CM=2\nMARKER/2\nPTCV/1, I=2, JFLOAT=39, CURVE=1, RM=31\nEND\n",
+        "LINEAR/EIGENSOL, RM=31\n");
+    ASSERT_EQ(r.status, 0) << r.err;
+    const double square = 2 * 1.7 * 9.81 - W * W;
+    const auto values = r.eigenvalues(0);
+    ASSERT_EQ(values.size(), 2u);
+    for (const auto& z : values) {
+      const std::complex<double> s = 2 * std::numbers::pi * z;
+      EXPECT_NEAR(std::abs(s * s + square), 0, 1e-11 * std::abs(square)) << W;
+    }
+  }
+}
+
+TEST_F(CurveCases, ring_of_points_has_the_curvature_of_its_spline) {
+  // At the lowest of n points: curvature |c″|/|c′|² of the periodic cubic spline, 2 (1 − cos w)(2 + cos w)/(3 sin²
+  // w)/r.
+  const int n = 8;
+  const double r = 0.7, w = 2 * std::numbers::pi / n, c = std::cos(w);
+  std::string s = fmt::format("MATRIX/1, FULL=RORDER, ROWS={}, COLUMNS=3, VALUES=", n + 1);
+  for (int i = 0; i <= n; ++i) s += (i > 0 ? "," : "") + xyz({r * std::cos(w * (i % n)), r * std::sin(w * (i % n)), 0});
+  const std::string text = s +
+                           "\nCURVE/1, CLOSED, MATRIX=1, CURVE_POINTS\nACCGRAV/JGRAV=-9.81\nMARKER/1\nMARKER/9, "
+                           "FLOATING\nPOINT_MASS/2, MASS=3, CM=2, QG=0,-0.7,0\nMARKER/2\nPTCV/1, I=2, JFLOAT=9, "
+                           "CURVE=1, RM=1\n";
+  const double curvature = 2 * (1 - c) * (2 + c) / (3 * std::sin(w) * std::sin(w)) / r;
+  EXPECT_NEAR(frequency(text), std::sqrt(9.81 * curvature), 1e-11);
+}
+
+TEST_F(CurveCases, parabola_rocks_on_a_table) {
+  // Without friction the mass centre, a height H above the vertex, moves on a vertical line: ω² = m g (1/(2a) − H)/J.
+  const double a = 0.8, H = 0.3, m = 2, J = 0.4;
+  const std::string text = fmt::format(
+      "ACCGRAV/JGRAV=-9.81\nMARKER/1\nMARKER/9, FLOATING\n{}{}PART/2, MASS={}, CM=20, IP=1,1,{}, "
+      "QG=0.2,0,0\nMARKER/20, QP=0,{},0\nMARKER/21\nMARKER/29, FLOATING\nJOINT/1, PLANAR, I=20, J=1\nCVCV/1, "
+      "IFLOAT=29, "
+      "ICURVE=1, IRM=21, JFLOAT=9, JCURVE=2, JRM=1\n",
+      parabola(1, a), parabola(2, 0), m, J, H);
+  const auto values = solve(text);
+  // It slides freely as well.
+  ASSERT_EQ(values.size(), 4u);
+  const double found = 2 * std::numbers::pi * std::abs(values[3].imag());
+  EXPECT_NEAR(found, std::sqrt(m * 9.81 * (1 / (2 * a) - H) / J), 1e-11);
+  EXPECT_NEAR(std::abs(values[0]), 0, 1e-10);
+}
+
+// A cam with the upper edge y = h − a x² turns about its origin under a flat follower that a spring presses down. The
+// highest point of the edge turned by θ is x = tan θ/(2a), the lift L = h cos θ + sin θ tan θ/(4a); a torque F L′ holds
+// the follower's force F, and (J + m L′²) δθ″ + (kt + F L″ + ks L′²) δθ = 0.
+struct CamModel {
+  double a = 0.9, h = 0.4, angle = 0.5, J = 0.3, m = 1.2, kt = 5, ks = 40, pressed = 0.3;
+
+  double lift() const { return h * std::cos(angle) + std::sin(angle) * std::tan(angle) / (4 * a); }
+  double slope() const {
+    const double s = std::sin(angle), c = std::cos(angle);
+    return -h * s + (s + s / (c * c)) / (4 * a);
+  }
+  double bend() const {
+    const double s = std::sin(angle), c = std::cos(angle);
+    return -h * c + (c + 1 / c + 2 * s * s / (c * c * c)) / (4 * a);
+  }
+  double force() const { return ks * pressed; }
+  // Everything is placed in a frame F at `at`.
+  std::string text(const Matrix3& F, const Vector& at, const std::string& more = "") const {
+    const Matrix3 R = F * about({0, 0, 1}, angle);
+    const Vector follower = at + F * Vector{0.1, lift(), 0}, above = at + F * Vector{0.1, lift() + 1, 0};
+    const Matrix3 along_y = F * rotation_313(0, -std::numbers::pi / 2, 0);
+    // The torque that balances: kt·0 + T = force · slope.
+    return parabola(1, -a, h) + parabola(2, 0) +
+           fmt::format(
+               "MARKER/1, QP={0}, REULER={1}\nMARKER/2, PART=1, QP={0}, REULER={2}\nMARKER/3, PART=1, QP={3}, "
+               "REULER={4}\n"
+               "PART/2, MASS=0.7, CM=20, IP=1,1,{5:.17g}, QG={0}, REULER={2}\nMARKER/20\nMARKER/29, FLOATING\n"
+               "PART/3, MASS={6:.17g}, CM=30, IP=1,1,1, QG={7}, REULER={1}\nMARKER/30\nMARKER/31, "
+               "REULER=0,-90D,0\nMARKER/39, FLOATING\n"
+               "JOINT/1, REVOLUTE, I=20, J=1\nJOINT/2, TRANSLATIONAL, I=31, J=3\n"
+               "CVCV/1, IFLOAT=29, ICURVE=1, IRM=20, JFLOAT=39, JCURVE=2, JRM=30\n"
+               "SPRINGDAMPER/1, ROTATIONAL, I=20, J=2, KT={8:.17g}, TORQUE={9:.17g}\n"
+               "SPRINGDAMPER/2, TRANSLATIONAL, I=30, J=3, K={10:.17g}, LENGTH={11:.17g}\n",
+               xyz(at), reuler(F), reuler(R), xyz(above), reuler(along_y), J, m, xyz(follower), kt, force() * slope(),
+               ks, 1 + pressed) +
+           more;
+  }
+  double frequency() const {
+    return std::sqrt((kt + force() * bend() + ks * slope() * slope()) / (J + m * slope() * slope()));
+  }
+};
+
+TEST_F(CurveCases, cam_under_a_flat_follower) {
+  const CamModel cam_model;
+  EXPECT_NEAR(frequency(cam_model.text(Matrix3::identity(), {})), cam_model.frequency(), 1e-10);
+  // Turned and carried away as a whole.
+  EXPECT_NEAR(frequency(cam_model.text(rotation_313(0.7, 1.1, -0.4), {3, -2, 5})), cam_model.frequency(), 1e-9);
+  // The rotation of the cam is the coordinate, not the parameters.
+  const RunResult r =
+      run("Curves\nUNITS/SYSTEM=MKS\nPART/1, GROUND\n" + cam_model.text(Matrix3::identity(), {}) + "END\n",
+          "LINEAR/EIGENSOL\n");
+  EXPECT_EQ(r.result(0).at("states").at(1).at("element"), 2);
+  EXPECT_EQ(r.result(0).at("states").at(1).at("type"), 21);
+}
+
+TEST_F(CurveCases, reaction_presses_across_the_contact) {
+  // The follower's balance m y″ = N + spring, read as two outputs that must agree; N itself through its factor.
+  const CamModel cam_model;
+  const std::string more =
+      "PART/9, MASS=1, CM=90, IP=1,1,1\nMARKER/90\nMARKER/91, PART=1\nJOINT/9, TRANSLATIONAL, I=90, J=91\n"
+      "VARIABLE/1, FUNCTION=CVCV(1,1,3,0)\nVARIABLE/2, FUNCTION=1.2*ACCY(30)-SPDP(2,0,3,0)\n"
+      "VARIABLE/3, FUNCTION=-FY(29,39,0)\nVARIABLE/4, FUNCTION=VZ(90)*CVCV(1,0,3,0)\n"
+      "VARIABLE/5, FUNCTION=CVCV(1,0,8,0)\nVARIABLE/6, FUNCTION=CVCV(1,1,2,30)\nVARIABLE/7, FUNCTION=0\n"
+      "VARIABLE/8, FUNCTION=FY(39,0,30)-SPDP(2,0,3,0)\n"
+      "PINPUT/1, VARIABLES=7\nPOUTPUT/1, VARIABLES=1,2,3,4,5,6,8\n";
+  const RunResult r =
+      run("Curves\nUNITS/SYSTEM=MKS\nPART/1, GROUND\n" + cam_model.text(Matrix3::identity(), {}, more) + "END\n",
+          "LINEAR/STATEMAT, FILE=m, PINPUT=1, POUTPUT=1\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto C = r.matrix(0, "C");
+  double largest = 0;
+  for (std::size_t k = 0; k < C[0].size(); ++k) {
+    EXPECT_NEAR(C[0][k], C[1][k], 1e-10);
+    EXPECT_NEAR(C[0][k], C[2][k], 1e-10);
+    EXPECT_NEAR(C[4][k], 0, 1e-10);  // no torque at the contact
+    EXPECT_NEAR(C[5][k], 0, 1e-10);  // no force along the flat follower
+    largest = std::max(largest, std::abs(C[0][k]));
+  }
+  // δN = m δy″ + ks δy with δy = L′ δθ and δθ″ = −ω² δθ.
+  const double w = cam_model.frequency();
+  EXPECT_NEAR(largest, std::abs(cam_model.slope() * (cam_model.ks - cam_model.m * w * w)), 1e-10);
+  // The spring pushes the follower down on the cam.
+  double factor = 0;
+  for (const double c : C[3]) factor += c;
+  EXPECT_NEAR(factor, -cam_model.force(), 1e-10);
+}
+
+TEST_F(CurveCases, straight_curve_is_an_inline_primitive_with_its_reaction) {
+  // Forces that read the reaction, in a mechanism that moves in space.
+  const Vector d = line.slope(0);
+  const Matrix3 along = about(cross(Vector{0, 0, 1}, d), std::atan2(std::hypot(d.x, d.y), d.z));
+  const std::string feedback =
+      "\nSFORCE/1, TRANSLATIONAL, I=30, J=2, FUNCTION=0.4*{0}(1,0,2,21)-0.3*{0}(1,0,1,0)+0.2*{0}(1,1,4,31)\nSFORCE/2, "
+      "TRANSLATIONAL, I=31, J=4, FUNCTION=0.3*FY(31,{1},20)\n";
+  const auto solved = [&](const std::string& statement, const std::string& name, int j) {
+    const Held h{"", statement + fmt::format(fmt::runtime(feedback), name, j), line.at(0.2), anyhow, {}};
+    return run(mechanism(h, false), "SIMULATE/INITIAL\nLINEAR/EIGENSOL\n");
+  };
+  const RunResult curve =
+      solved(line.curve(1, 6) + "MARKER/29, PART=2, FLOATING\nPTCV/1, I=31, JFLOAT=29, CURVE=1, RM=22", "PTCV", 29);
+  const RunResult primitive =
+      solved(fmt::format("MARKER/23, PART=2, RM=22, QP={}, REULER={}\nJPRIM/1, INLINE, I=31, J=23", xyz(line.at(0)),
+                         reuler(along)),
+             "JPRIM", 23);
+  ASSERT_EQ(curve.status, 0) << curve.err;
+  ASSERT_EQ(primitive.status, 0) << primitive.err;
+  EXPECT_EQ(curve.labels(1), primitive.labels(1));
+  expect_same(curve.eigenvalues(1), primitive.eigenvalues(1));
+}
+
+TEST_F(CurveCases, starts_where_and_as_fast_as_it_is_asked) {
+  // C holds a reading as the factor of the rate of an idle part.
+  const auto reading = [&](const std::string& ptcv, const std::string& output) {
+    const RunResult r =
+        run("Curves\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, QP=0,0.5,0, REULER=90D,0,0\nMARKER/3, QP=0,0.5,0\n"
+            "MARKER/9, FLOATING\n" +
+                parabola(1, 1.7) +
+                "POINT_MASS/2, MASS=3, CM=2, QG=0,0.5,0\nMARKER/2\nPTCV/1, I=2, JFLOAT=9, CURVE=1, RM=1" + ptcv +
+                "\nVARIABLE/9, FUNCTION=0\nPART/9, MASS=1, CM=90, IP=1,1,1\nMARKER/90\nMARKER/91, PART=1\nJOINT/9, "
+                "TRANSLATIONAL, I=90, J=91\nVARIABLE/1, FUNCTION=(" +
+                output + ")*VZ(90)\nPINPUT/1, VARIABLES=9\nPOUTPUT/1, VARIABLES=1\nEND\n",
+            "LINEAR/STATEMAT, FILE=m, PINPUT=1, POUTPUT=1\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+    double largest = 0;
+    if (r.status == 0) {
+      const auto C = r.matrix(0, "C");
+      for (const double c : C[0]) largest = std::abs(c) > std::abs(largest) ? c : largest;
+    }
+    return largest;
+  };
+  const double x = 0.3, y = 1.7 * 0.09, along = std::sqrt(1 + 4 * 1.7 * 1.7 * x * x);
+  const std::string there = fmt::format(", DISP={:.17g},{:.17g},0", x, y);
+  EXPECT_NEAR(reading("", "1+DX(2,1,1)"), 1, 1e-13);
+  EXPECT_NEAR(reading(there, "DX(2,1,1)"), x, 1e-12);
+  EXPECT_NEAR(reading(there, "DY(9,1,1)"), y, 1e-12);  // the floating marker is there too
+  EXPECT_NEAR(reading(there + ", VEL=2", "VX(2,1,1)"), 2 / along, 1e-12);
+  EXPECT_NEAR(reading(", VEL=-3", "VX(2,1,1)"), -3, 1e-12);
+  // The same point in the axes of marker 3, which is turned back: x there is −y of marker 1.
+  EXPECT_NEAR(reading(fmt::format(", ICM=3, DISP={:.17g},{:.17g},0", -y, x), "DX(2,1,1)"), x, 1e-12);
+}
+
+TEST_F(CurveCases, contact_beyond_an_open_end_is_an_error) {
+  const RunResult r =
+      run("Curves\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=5,0,0\nMARKER/9, "
+          "PART=1, FLOATING\n" +
+              parabola(1, -0.1) +
+              "POINT_MASS/2, MASS=3, CM=20, QG=0.9,0,0\nMARKER/20\nPTCV/1, I=20, JFLOAT=9, CURVE=1, "
+              "RM=1\nSPRINGDAMPER/1, TRANSLATIONAL, I=20, J=2, K=100\nEND\n",
+          "SIMULATE/STATIC\nLINEAR/EIGENSOL\n");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_NE(r.err.find("PTCV/1 lies beyond the end of its open curve"), std::string::npos) << r.err;
+}
+
+TEST_F(CurveCases, axes_of_a_marker_on_a_curve_are_refused) {
+  for (const char* function : {"AX(2,9)", "DX(2,1,9)", "PTCV(1,0,2,9)"}) {
+    const RunResult r =
+        run("Curves\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/9, FLOATING\n" + parabola(1, 1) +
+                "PART/2, MASS=3, CM=2, IP=1,1,1\nMARKER/2\nPTCV/1, I=2, JFLOAT=9, CURVE=1, RM=1\n"
+                "VARIABLE/1, FUNCTION=" +
+                function + "\nEND\n",
+            "LINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 2);
+    EXPECT_NE(r.err.find("reads the axes of MARKER/9"), std::string::npos) << r.err;
+  }
+}
+
+TEST_F(CurveCases, function_curve_reads_points_and_slopes) {
+  // A spring as stiff as the slope of the curve at half its way, with its sign.
+  const double frequency_found =
+      frequency("MARKER/1\n" + bow.curve(4, 6) +
+                "PART/2, MASS=2, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\nMARKER/21\nSFORCE/1, "
+                "TRANSLATIONAL, ACTIONONLY, I=20, J=20, FUNCTION=-30*(CURVE(0.5+DZ(20),0,3,4)-CURVE(0.5,0,3,4))"
+                "-DZ(20)*CURVE(0.25,2,2,4)\n");
+  const double stiffness = 30 * bow.slope(0.5).z + (2 * 0.3 + 6 * 0.1 * 0.25);
+  EXPECT_NEAR(frequency_found, std::sqrt(stiffness / 2), 1e-11);
+}
+
+}  // namespace
+}  // namespace dynalin::cases
