@@ -163,9 +163,8 @@ void Model::refresh_gradients() {
 }
 
 Real Model::drive(const Row& row, std::size_t derivative) const {
-  return row.motion < 0
-             ? 0
-             : motion_values(mechanism_.motions[static_cast<std::size_t>(row.motion)].f, time)[derivative];
+  return row.motion < 0 ? 0
+                        : motion_values(mechanism_.motions[static_cast<std::size_t>(row.motion)].f, time)[derivative];
 }
 
 Real Model::row_position(const Row& row) const {

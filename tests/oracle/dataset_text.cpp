@@ -10,9 +10,10 @@ namespace dynalin::oracle {
 
 namespace {
 
-constexpr const char* joint_names[] = {"REVOLUTE",    "TRANSLATIONAL", "SPHERICAL",   "UNIVERSAL",     "FIXED",
-                                       "CYLINDRICAL", "PLANAR",        "HOOKE",       "CONVEL",        "SCREW", "RACKPIN", "ATPOINT",
-                                       "INLINE",      "INPLANE",       "ORIENTATION", "PARALLEL_AXES", "PERPENDICULAR"};
+constexpr const char* joint_names[] = {"REVOLUTE",      "TRANSLATIONAL", "SPHERICAL", "UNIVERSAL", "FIXED",
+                                       "CYLINDRICAL",   "PLANAR",        "HOOKE",     "CONVEL",    "SCREW",
+                                       "RACKPIN",       "ATPOINT",       "INLINE",    "INPLANE",   "ORIENTATION",
+                                       "PARALLEL_AXES", "PERPENDICULAR"};
 
 // One statement: keyword and id on the first line, one argument a line after it.
 class Statement {
@@ -58,7 +59,8 @@ std::string time_function_text(const TimeFunction& f, int level) {
   std::string text = n(c[0]) + " + " + n(c[1]) + "*TIME + " + n(c[2]) + "*TIME**2 + " + n(c[3]) + "*TIME**3";
   if (f.amplitude == 0) return text;
   const double amplitude = f.amplitude * (level == 0 ? 1 : level == 1 ? f.frequency : -f.frequency * f.frequency);
-  return text + " + " + n(amplitude) + (level == 1 ? "*COS(" : "*SIN(") + n(f.frequency) + "*TIME + " + n(f.phase) + ")";
+  return text + " + " + n(amplitude) + (level == 1 ? "*COS(" : "*SIN(") + n(f.frequency) + "*TIME + " + n(f.phase) +
+         ")";
 }
 
 std::string joint_text(const Joint& j) {
@@ -258,6 +260,7 @@ std::string controls_text(const Mechanism& m) {
                 .text();
   }
   if (m.pinput.id != 0) text += Statement("PINPUT", m.pinput.id).set("VARIABLES", integers(m.pinput.variables)).text();
+  if (m.pstate.id != 0) text += Statement("PSTATE", m.pstate.id).set("VARIABLES", integers(m.pstate.variables)).text();
   if (m.poutput.id != 0)
     text += Statement("POUTPUT", m.poutput.id).set("VARIABLES", integers(m.poutput.variables)).text();
   return text;

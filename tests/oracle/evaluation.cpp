@@ -36,8 +36,8 @@ Evaluator<Jet>::View Evaluator<Jet>::view(int id) const {
   const Vec no{}, dark{unknown, unknown, unknown};
   View out;
   if (variation_ == nullptr) {
-    out = {jets(m.p, m.v, m.a), jets(m.v, m.a, dark), jets(m.a, dark, dark), jets(m.w, m.al, dark),
-           jets(m.al, dark, dark), {}};
+    out = {jets(m.p, m.v, m.a),   jets(m.v, m.a, dark),   jets(m.a, dark, dark),
+           jets(m.w, m.al, dark), jets(m.al, dark, dark), {}};
     for (std::size_t c = 0; c < 3; ++c) out.axis[c] = jets(m.axis[c], m.axis1[c], m.axis2[c]);
     return out;
   }
@@ -46,8 +46,12 @@ Evaluator<Jet>::View Evaluator<Jet>::view(int id) const {
   const Vec turn = moves ? variation_->turn : no;
   const Vec shift = moves ? variation_->shift + cross(turn, m.p - model_.motion[static_cast<std::size_t>(body)].p) : no;
   const bool rates = variation_->of_rates;
-  out = {jets(m.p, rates ? no : shift, dark), jets(m.v, rates ? shift : dark, dark), jets(m.a, dark, dark),
-         jets(m.w, rates ? turn : dark, dark), jets(m.al, dark, dark), {}};
+  out = {jets(m.p, rates ? no : shift, dark),
+         jets(m.v, rates ? shift : dark, dark),
+         jets(m.a, dark, dark),
+         jets(m.w, rates ? turn : dark, dark),
+         jets(m.al, dark, dark),
+         {}};
   for (std::size_t c = 0; c < 3; ++c) out.axis[c] = jets(m.axis[c], rates ? no : cross(turn, m.axis[c]), dark);
   return out;
 }
@@ -187,8 +191,7 @@ T Evaluator<T>::measured(const Node& n) const {
     case Measure::ACCM: {
       const View l = view(id_or_zero(n.ids, magnitude ? 2 : 3));
       if (n.measure == Measure::VM) return norm(velocity(l));
-      const Vector3<T> a =
-          i.a - j.a - cross(l.al, r) - T(2) * cross(l.w, velocity(l)) - cross(l.w, cross(l.w, r));
+      const Vector3<T> a = i.a - j.a - cross(l.al, r) - T(2) * cross(l.w, velocity(l)) - cross(l.w, cross(l.w, r));
       return n.measure == Measure::ACCM ? norm(a) : along(a, from(Measure::ACCX));
     }
     case Measure::WDTX:

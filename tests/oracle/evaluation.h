@@ -20,8 +20,7 @@ template <class T>
 class Evaluator {
  public:
   // A variation serves jets alone; without one their parameter is time.
-  explicit Evaluator(const Model& model, const Variation* variation = nullptr)
-      : model_(model), variation_(variation) {}
+  explicit Evaluator(const Model& model, const Variation* variation = nullptr) : model_(model), variation_(variation) {}
   [[nodiscard]] T operator()(const Expr& e) const { return node(*e.node); }
 
  private:

@@ -9,14 +9,14 @@ namespace dynalin::oracle {
 
 namespace {
 
-constexpr std::array function_names{
-    "SIN",  "COS",  "TAN",   "ASIN",   "ACOS",   "ATAN",   "ATAN2", "SINH",  "COSH",   "TANH",   "EXP", "LOG",
-    "LOG10", "SQRT", "**",   "ABS",    "AINT",   "ANINT",  "DIM",   "MAX",   "MIN",    "MOD",    "SIGN", "IF",
-    "STEP", "STEP5", "HAVSIN", "IMPACT", "BISTOP", "POLY", "CHEBY", "FORSIN", "FORCOS", "SHF",   "SWEEP"};
-constexpr std::array measure_names{"DX",   "DY",   "DZ",   "DM",   "VX",   "VY",   "VZ",  "VM",    "VR",
-                                   "WX",   "WY",   "WZ",   "WM",   "ACCX", "ACCY", "ACCZ", "ACCM", "WDTX",
-                                   "WDTY", "WDTZ", "WDTM", "AX",   "AY",   "AZ",   "PSI", "THETA", "PHI",
-                                   "YAW",  "PITCH", "ROLL", "INCANG", "UVX", "UVY", "UVZ"};
+constexpr std::array function_names{"SIN",    "COS",    "TAN",  "ASIN",  "ACOS",   "ATAN",   "ATAN2", "SINH",  "COSH",
+                                    "TANH",   "EXP",    "LOG",  "LOG10", "SQRT",   "**",     "ABS",   "AINT",  "ANINT",
+                                    "DIM",    "MAX",    "MIN",  "MOD",   "SIGN",   "IF",     "STEP",  "STEP5", "HAVSIN",
+                                    "IMPACT", "BISTOP", "POLY", "CHEBY", "FORSIN", "FORCOS", "SHF",   "SWEEP"};
+constexpr std::array measure_names{"DX",   "DY",    "DZ",   "DM",     "VX",   "VY",   "VZ",   "VM",    "VR",
+                                   "WX",   "WY",    "WZ",   "WM",     "ACCX", "ACCY", "ACCZ", "ACCM",  "WDTX",
+                                   "WDTY", "WDTZ",  "WDTM", "AX",     "AY",   "AZ",   "PSI",  "THETA", "PHI",
+                                   "YAW",  "PITCH", "ROLL", "INCANG", "UVX",  "UVY",  "UVZ"};
 constexpr std::array linear_names{"BUSH", "FIELD", "BEAM"};
 constexpr std::array load_names{"FM", "FX", "FY", "FZ", "TM", "TX", "TY", "TZ"};
 constexpr std::array unit_vectors{"[1,0,0]", "[0,1,0]", "[0,0,1]"};
@@ -115,9 +115,7 @@ Expr linear_load(LinearKind kind, int id, int jflag, int component, int rm) {
 Expr gforce_load(int statement, int id, int jflag, int component, int rm) {
   return make(Op::gforce, {}, {id, jflag, component, rm, statement});
 }
-Expr marker_load(int component, int i, int j, int axes) {
-  return make(Op::marker_force, {}, {i, j, component, axes});
-}
+Expr marker_load(int component, int i, int j, int axes) { return make(Op::marker_force, {}, {i, j, component, axes}); }
 Expr spline_at(const Expr& x, int id, Interpolation method, int derivative) {
   return make(Op::spline, {x}, {id, static_cast<int>(method), derivative});
 }
@@ -196,8 +194,8 @@ std::string expression_text(const Expr& expression) {
       const std::string list = "(" + integers({n.ids[0], n.ids[1], n.ids[3]}) + ")";
       if (n.ids[3] % 2 == 0) return name + list;
       const int along = (n.ids[2] - 2) % 4;
-      return std::string(n.ids[2] < 5 ? "(FXYZ" : "(TXYZ") + list + "*" + unit_vectors[static_cast<std::size_t>(along)] +
-             ")";
+      return std::string(n.ids[2] < 5 ? "(FXYZ" : "(TXYZ") + list + "*" +
+             unit_vectors[static_cast<std::size_t>(along)] + ")";
     }
     case Op::spline:
       return spline_text(n);

@@ -31,7 +31,8 @@ bool reads_reaction(const Mechanism& m, const Expr& e, int depth, int most) {
   walk(e, [&](const Node& n) {
     found = found || (depth <= 0 && (n.op == Op::joint || n.op == Op::motion));
     if (n.op != Op::varval || most == 0) return;
-    if (const Variable* v = find_variable(m, n.ids[0])) found = found || reads_reaction(m, v->function, depth - 1, most - 1);
+    if (const Variable* v = find_variable(m, n.ids[0]))
+      found = found || reads_reaction(m, v->function, depth - 1, most - 1);
   });
   return found;
 }

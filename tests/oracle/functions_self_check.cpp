@@ -123,8 +123,8 @@ TEST(Oracle, angles_are_those_of_their_sequences) {
   };
   const Mat C = rotation_z(a) * turn_y(b) * rotation_x(c);
   const Vec& z = C.column[2];
-  const Triple three_two_one = to_triple({std::atan2(z.x, -z.y), std::atan2(std::hypot(z.x, z.y), z.z),
-                                          std::atan2(C.column[0].z, C.column[1].z)});
+  const Triple three_two_one = to_triple(
+      {std::atan2(z.x, -z.y), std::atan2(std::hypot(z.x, z.y), z.z), std::atan2(C.column[0].z, C.column[1].z)});
   m.markers = {{1, part, {1, 0, 0}, {a, b, c}}, {2, ground, origin, origin}, {3, ground, {0, 2, 0}, three_two_one}};
   const Model model(m);
   const auto value = [&](const Expr& e) { return static_cast<double>(model.evaluate(e)); };
@@ -141,7 +141,8 @@ TEST(Oracle, angles_are_those_of_their_sequences) {
 TEST(Oracle, nforce_of_one_marker_is_a_field) {
   Mechanism m = with_ground();
   const BodyRef part = add_part(m, 1, 2, {0.4, 0.5, 0.6, 0, 0, 0}, 1);
-  m.markers = {{1, part, origin, origin}, {2, part, {0.2, 0.1, -0.3}, {0.2, 0.3, 0.1}},
+  m.markers = {{1, part, origin, origin},
+               {2, part, {0.2, 0.1, -0.3}, {0.2, 0.3, 0.1}},
                {3, ground, {0.1, 0, 0.5}, {0.1, 0.2, 0.4}}};
   body(m, 1).w = Triple{0.3, -0.5, 0.7};
   body(m, 1).v = Triple{0.1, 0.2, 0.3};
@@ -228,7 +229,9 @@ TEST(Oracle, net_force_of_a_marker_is_the_sum_of_what_names_it) {
   Mechanism m = with_ground();
   m.gravity = {0, -10, 0};
   const BodyRef part = add_part(m, 1, 2, {1, 1, 1, 0, 0, 0}, 1);
-  m.markers = {{1, part, {3, 0, 0}, origin}, {2, part, {1, 0, 0}, z_along_x}, {3, ground, origin, z_along_x},
+  m.markers = {{1, part, {3, 0, 0}, origin},
+               {2, part, {1, 0, 0}, z_along_x},
+               {3, ground, origin, z_along_x},
                {4, ground, {0, 0, 0}, origin}};
   m.joints = {{1, JointType::translational, 2, 3}};
   m.springs = {{1, Direction::translational, 2, 4, 5, 0, 0, 3}};

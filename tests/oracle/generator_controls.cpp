@@ -19,7 +19,9 @@ Expr Draw::feature(int self) {
   if (chance(0.5)) sum = sum + uniform(-0.3, 0.3) * shaped(varval(one_of(features_)));
   if (chance(0.15)) sum = sum + uniform(-0.3, 0.3) * call(Function::sin, {varval(self) + time_now()});
   if (!states_.empty() && chance(0.4)) sum = sum + uniform(-0.5, 0.5) * one_of(states_);
-  if (chance(0.2)) sum = sum + uniform(-0.4, 0.4) * (chance(0.3) ? input_value(1 + pick(static_cast<int>(inputs_.size()))) : varval(one_of(inputs_)));
+  if (chance(0.2))
+    sum = sum + uniform(-0.4, 0.4) *
+                    (chance(0.3) ? input_value(1 + pick(static_cast<int>(inputs_.size()))) : varval(one_of(inputs_)));
   return sum;
 }
 
@@ -137,7 +139,8 @@ void Draw::draw_controls() {
   for (const int id : features_) m_.variables[static_cast<std::size_t>(id - 1)].function = feature(id);
   // Three variables deep, with a reaction at the bottom of some.
   const int bottom = variable(constant(uniform(-0.3, 0.3)) + 0.5 * reaction());
-  const int first = variable(shaped(varval(chance(0.5) ? bottom : one_of(features_))) + uniform(-0.3, 0.3) * shaped_kinematic());
+  const int first =
+      variable(shaped(varval(chance(0.5) ? bottom : one_of(features_))) + uniform(-0.3, 0.3) * shaped_kinematic());
   const int second = variable(shaped(varval(first)) * varval(first));
   features_.push_back(variable(shaped(varval(second)) + uniform(-0.2, 0.2) * varval(first)));
   for (const int id : inputs_) {
@@ -173,6 +176,17 @@ void Draw::draw_outputs() {
   outputs.push_back(variable(shaped(output_value(1 + pick(4)))));
   if (chance(0.2)) outputs.push_back(one_of(inputs_));
   m_.poutput = {1, outputs};
+  // Coordinates wanted as states: bare displacements and angles.
+  if (chance(0.6)) return;
+  for (int k = 1 + pick(2); k > 0; --k) {
+    const auto [i, j] = distant_pair(true);
+    const bool turns = body_of(i).kind != BodyKind::point_mass && chance(0.3);
+    const auto kind = static_cast<Measure>(turns ? static_cast<int>(Measure::AX) + pick(3) : pick(3));
+    m_.pstate.variables.push_back(variable(turns         ? measure(kind, {i, j})
+                                           : chance(0.3) ? measure(Measure::DM, {i, j})
+                                                         : measure(kind, {i, j, j})));
+  }
+  m_.pstate.id = 1;
 }
 
 }  // namespace dynalin::oracle

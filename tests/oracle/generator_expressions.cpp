@@ -87,7 +87,8 @@ Expr Draw::reaction() {
   if (!m_.motions.empty() && chance(0.3)) {
     const Motion& m = one_of(m_.motions);
     const bool force = m.freedom >= 'T';
-    return (0.2 / (force ? F_ : F_ * L_)) * motion_reaction(m.id, pick(2), (force ? 2 : 6) + pick(3), one_of(oriented_));
+    return (0.2 / (force ? F_ : F_ * L_)) *
+           motion_reaction(m.id, pick(2), (force ? 2 : 6) + pick(3), one_of(oriented_));
   }
   const Joint& joint = one_of(m_.joints);
   if (is_gcon(joint.type)) return acceleration();
@@ -133,8 +134,11 @@ Expr Draw::net_load() {
   const bool torques = joint.type != JointType::spherical && joint.type != JointType::atpoint &&
                        joint.type != JointType::inline_ && joint.type != JointType::inplane;
   const int comp = forces || !torques ? force : torque;
-  return (0.2 / (comp < 5 ? F_ : F_ * L_)) *
-         marker_load(comp, swap ? joint.j : joint.i, chance(0.5) ? 0 : swap ? joint.i : joint.j, rm);
+  return (0.2 / (comp < 5 ? F_ : F_ * L_)) * marker_load(comp, swap ? joint.j : joint.i,
+                                                         chance(0.5) ? 0
+                                                         : swap      ? joint.i
+                                                                     : joint.j,
+                                                         rm);
 }
 
 // --------------------------------------------------------------------------------------- functions

@@ -113,9 +113,8 @@ void Draw::draw_motions() {
     Motion motion{static_cast<int>(m_.motions.size()) + 1, joint.id, {}, freedom, chance(0.4) ? 1 + pick(2) : 0};
     m_.motions.push_back(motion);
     const Model still(m_);
-    const auto row = std::find_if(still.rows.begin(), still.rows.end(), [&](const Row& r) {
-      return r.motion == static_cast<int>(m_.motions.size()) - 1;
-    });
+    const auto row = std::find_if(still.rows.begin(), still.rows.end(),
+                                  [&](const Row& r) { return r.motion == static_cast<int>(m_.motions.size()) - 1; });
     const double size = freedom == 'R' || freedom <= '3' ? 1 : L_;
     TimeFunction f;
     f.c = {0, size * uniform(-2, 2), size * uniform(-3, 3), size * uniform(-2, 2)};

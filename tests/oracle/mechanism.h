@@ -215,7 +215,7 @@ struct Mechanism {
   std::vector<NumberMatrix> matrices;
   std::vector<Tfsiso> tfsisos;
   std::vector<Lse> lses;
-  VariableList pinput, poutput;  // id 0: none
+  VariableList pinput, poutput, pstate;  // id 0: none
 };
 
 // The mechanism as a dataset, numbers with 17 digits, title first and END last.
@@ -232,7 +232,7 @@ struct Features {
   int differential_states = 0, inputs = 0, outputs = 0;
   bool force_reads_acceleration = false, force_reads_reaction = false, force_reads_velocity = false;
   bool algebraic_loop = false, separate_im = false, units_factor = false;
-  bool deep_reaction = false;     // a force reads a reaction through at least three VARVALs in a row
+  bool deep_reaction = false;  // a force reads a reaction through at least three VARVALs in a row
   int velocity_constraints = 0, algebraic_diffs = 0;
 };
 [[nodiscard]] Features features_of(const Mechanism& mechanism);

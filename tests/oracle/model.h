@@ -81,9 +81,9 @@ class Model {
   std::vector<BodyMotion> motion;
   std::vector<Real> z;
   std::vector<Real> variable_values, sforce_values, lambda;
-  std::vector<Real> component_values;  // of general forces, six each, in the order of the mechanism
+  std::vector<Real> component_values;                   // of general forces, six each, in the order of the mechanism
   std::vector<Real> algebraic_values, algebraic_rates;  // per DIFF, used where it is algebraic
-  std::vector<int> cut;                // per variable: 1 when it is an independent input
+  std::vector<int> cut;                                 // per variable: 1 when it is an independent input
   std::vector<Real> cut_values;
 
   void update_positions();      // markers from poses
@@ -91,8 +91,8 @@ class Model {
   void update_accelerations();  // markers from body accelerations
   [[nodiscard]] const std::vector<MarkerMotion>& markers() const { return markers_; }
 
-  // Constraints. gradient: row times body velocities (v, w of each BCS) is the rate apart from time. A row of velocities
-  // has no position (zero); its gradient is that by velocities.
+  // Constraints. gradient: row times body velocities (v, w of each BCS) is the rate apart from time. A row of
+  // velocities has no position (zero); its gradient is that by velocities.
   [[nodiscard]] Real row_position(const Row& row) const;
   [[nodiscard]] Real row_velocity(const Row& row) const;
   [[nodiscard]] Real row_acceleration(const Row& row) const;

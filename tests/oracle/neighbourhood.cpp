@@ -82,6 +82,11 @@ void Neighbourhood::read_states() {
       if (found == model_.slots.end()) throw std::runtime_error("no such differential state");
       column.slot = static_cast<std::size_t>(found - model_.slots.begin());
       ++differential;
+    } else if (s.variable != 0) {
+      const auto v = static_cast<std::size_t>(model_.variable_index(s.variable));
+      column.function = model_.mechanism().variables[v].function;
+      column.nominal = model_.evaluate_along(column.function);
+      (s.kind == Kind::coordinate ? chosen_ : chosen_rates_).push_back(k);
     } else {
       const auto b = static_cast<std::size_t>(model_.body_index(ref_of(s.body_id, s.is_point_mass)));
       if (s.coordinate < 0 || s.coordinate >= model_.bodies[b].dof) {
@@ -98,6 +103,15 @@ void Neighbourhood::read_states() {
   for (const int id : model_.mechanism().pinput.variables) {
     inputs_.push_back(static_cast<std::size_t>(model_.variable_index(id)));
   }
+}
+
+Real Neighbourhood::change(std::size_t state, const std::vector<Real>& y, int level) const {
+  const Column& column = columns_[state];
+  if (!column.function.node) return y[column.dof];
+  const Jet there = model_.evaluate_along(column.function);
+  return level == 0   ? there.v - column.nominal.v
+         : level == 1 ? there.d - column.nominal.d
+                      : there.dd - column.nominal.dd;
 }
 
 void Neighbourhood::pose(const std::vector<Real>& y) {
@@ -133,7 +147,7 @@ std::vector<Real> Neighbourhood::solve_positions(const std::vector<Real>& x) {
     for (const int k : position_rows_) {
       r.push_back(model_.row_position(model_.rows[static_cast<std::size_t>(k)]));
     }
-    for (const std::size_t k : chosen_) r.push_back(at[columns_[k].dof] - x[k]);
+    for (const std::size_t k : chosen_) r.push_back(change(k, at, 0) - x[k]);
     return r;
   };
   newton(residual, y, scales_, position_factors_, "position");
@@ -150,7 +164,7 @@ std::vector<Real> Neighbourhood::solve_velocities(const std::vector<Real>& x, co
     for (const int k : model_.active) {
       r.push_back(model_.row_velocity(model_.rows[static_cast<std::size_t>(k)]));
     }
-    for (const std::size_t k : chosen_rates_) r.push_back(at[columns_[k].dof] - x[k]);
+    for (const std::size_t k : chosen_rates_) r.push_back(change(k, at, 1) - x[k]);
     return r;
   };
   newton(residual, ydot, scales_, velocity_factors_, "velocity");
@@ -203,6 +217,9 @@ void Neighbourhood::settle_algebra() {
   nominal_z_ = model_.z;
   nominal_algebra_ = solve_algebra(model_);
   nominal_ = model_.motion;
+  for (Column& column : columns_) {
+    if (column.function.node) column.nominal = model_.evaluate_along(column.function);
+  }
   for (const std::size_t k : inputs_) {
     nominal_inputs_.push_back(model_.variable_values[k]);
     model_.cut[k] = 1;
@@ -253,8 +270,8 @@ std::vector<Real> Neighbourhood::evaluate(const std::vector<Real>& x, const std:
   const std::vector<Real> zdot = model_.differential_rates();
   std::vector<Real> result;
   for (std::size_t k = 0; k < states_.size(); ++k) {
-    if (states_[k].kind == Kind::coordinate) result.push_back(ydot[columns_[k].dof]);
-    if (states_[k].kind == Kind::rate) result.push_back(second[columns_[k].dof]);
+    if (states_[k].kind == Kind::coordinate) result.push_back(change(k, ydot, 1));
+    if (states_[k].kind == Kind::rate) result.push_back(change(k, second, 2));
     if (states_[k].kind == Kind::differential) result.push_back(zdot[columns_[k].slot]);
   }
   for (const int id : model_.mechanism().poutput.variables) {

@@ -41,6 +41,7 @@ class Neighbourhood {
   [[nodiscard]] Real moved() const { return moved_; }
   [[nodiscard]] Real step(std::size_t state) const {
     const ChosenState& s = states_[state];
+    if (s.variable != 0) return columns_[state].function.node->measure <= Measure::DM ? model_.length / 4 : 1;
     if (s.kind == ChosenState::Kind::differential || s.coordinate >= 3) return 1;
     return model_.length / 4;
   }
@@ -49,12 +50,17 @@ class Neighbourhood {
   struct Column {
     std::size_t dof = 0;   // of a coordinate or rate
     std::size_t slot = 0;  // of a differential state
+    Expr function{};       // of PSTATE
+    Jet nominal;           // its value and rates at the operating point
   };
 
   [[nodiscard]] std::size_t unknowns() const { return static_cast<std::size_t>(model_.dofs); }
   void read_states();
   void polish();
   void settle_algebra();
+  // What a state measures, less its nominal value, on the level of positions, velocities or accelerations: of the BCS
+  // from y or its derivative, of PSTATE from the placed model.
+  [[nodiscard]] Real change(std::size_t state, const std::vector<Real>& y, int level) const;
   void pose(const std::vector<Real>& y);
   void move(const std::vector<Real>& y, const std::vector<Real>& ydot);
   [[nodiscard]] std::vector<Real> solve_positions(const std::vector<Real>& x);
@@ -67,7 +73,7 @@ class Neighbourhood {
   std::vector<Column> columns_;
   std::vector<std::size_t> chosen_, chosen_rates_;  // states that are coordinates, or rates
   std::vector<int> position_rows_;                  // the active rows that have a position
-  std::vector<std::size_t> inputs_;  // variable indices
+  std::vector<std::size_t> inputs_;                 // variable indices
   std::vector<Real> nominal_inputs_, nominal_algebra_;
   std::vector<BodyMotion> nominal_;
   std::vector<Real> nominal_z_;

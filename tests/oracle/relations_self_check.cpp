@@ -81,14 +81,13 @@ TEST(Oracle, rows_have_the_rates_and_gradients_of_their_positions) {
             if (!rows[k].of_rates && c >= 3) motion.R = rotation_exponential(step) * motion.R;
             still.update_positions();
             still.update_velocities();
-            const Real value =
-                rows[k].of_rates ? still.row_velocity(still.rows[k]) : still.row_position(still.rows[k]);
+            const Real value = rows[k].of_rates ? still.row_velocity(still.rows[k]) : still.row_position(still.rows[k]);
             motion = before;
             return value;
           };
           const Real seen = slope(moved, 1e-4L);
-          EXPECT_NEAR(static_cast<double>(seen), static_cast<double>(G(k, static_cast<std::size_t>(still.bodies[b].offset + c))),
-                      tolerance);
+          EXPECT_NEAR(static_cast<double>(seen),
+                      static_cast<double>(G(k, static_cast<std::size_t>(still.bodies[b].offset + c))), tolerance);
         }
       }
     }
@@ -174,8 +173,7 @@ TEST(Oracle, driven_angles_are_those_of_the_sequence_x_y_z) {
   const Vec &x = C.column[0], &y = C.column[1], &z = C.column[2];
   const Vec g = z;
   m.markers = {{1, part, origin, origin}, {2, ground, origin, origin}};
-  m.markers[0].reuler = to_triple(
-      {std::atan2(g.x, -g.y), std::atan2(std::hypot(g.x, g.y), g.z), std::atan2(x.z, y.z)});
+  m.markers[0].reuler = to_triple({std::atan2(g.x, -g.y), std::atan2(std::hypot(g.x, g.y), g.z), std::atan2(x.z, y.z)});
   m.joints = {{1, JointType::spherical, 1, 2}};
   m.motions = {{1, 1, {{b1, 1, 0, 0}, 0, 0, 0}, '1'},
                {2, 1, {{b2, 0, 0, 0}, 0, 0, 0}, '2'},
