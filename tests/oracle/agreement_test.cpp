@@ -3,9 +3,12 @@
 // angular velocity is not parallel to the angular acceleration.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "elements/catalogue.h"
+#include "expression/functions.h"
+#include "expression/vector_functions.h"
 #include "linear/linear_system.h"
 #include "oracle/oracle.h"
 
@@ -44,6 +47,9 @@ ChosenState chosen(const StateLabel& label) {
     s.body_id = static_cast<int>(label.element);
     s.is_point_mass = point;
     s.coordinate = label.coordinate - 1 - (label.is_rate ? (point ? 3 : 6) : 0);
+  } else if (label.type == StateType::pstate || label.type == StateType::pstate_rate) {
+    s.kind = label.is_rate ? ChosenState::Kind::rate : ChosenState::Kind::coordinate;
+    s.variable = static_cast<int>(label.element);
   } else {
     s.kind = ChosenState::Kind::differential;
     s.element = static_cast<ElementClass>(label.type);
@@ -88,6 +94,7 @@ TEST_P(Agreement, state_matrices_equal_differences_of_the_nonlinear_model) {
 
     LinearOptions options;
     options.pinput = system.model().find("PINPUT", 1);
+    if (mechanism.pstate.id != 0) options.pstate = system.model().find("PSTATE", 1);
     options.poutput = system.model().find("POUTPUT", 1);
     const auto linear = linearize(system, *op, options);
     ASSERT_TRUE(linear) << linear.error().message;
@@ -108,6 +115,27 @@ TEST_P(Agreement, state_matrices_equal_differences_of_the_nonlinear_model) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(generated, Agreement, ::testing::Range<std::uint64_t>(1, 201, 20));
+
+// A new element or function without a place in the generator fails here.
+TEST(Generated, mechanisms_hold_every_element_and_function_of_the_program) {
+  std::string text;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) text += dataset_text(random_mechanism(seed));
+  const auto holds = [&](const std::string& word) { return text.find(word) != std::string::npos; };
+  for (const Kind* kind : catalogue()) {
+    if (kind->role == Kind::Role::inert) continue;
+    EXPECT_TRUE(holds("\n" + std::string(kind->statement) + "/")) << kind->statement;
+    EXPECT_TRUE(kind->variant.empty() || holds(", " + std::string(kind->variant))) << kind->variant;
+  }
+  for (const auto& family : {elementary_functions(), contact_functions(), series_functions()}) {
+    for (const ::dynalin::Function& f : family) EXPECT_TRUE(holds(std::string(f.name) + "(")) << f.name;
+  }
+  for (const AtomFunction& f : atom_functions()) {
+    if (!f.built || f.maximum_arguments == 0 || f.name.find('.') != std::string_view::npos) continue;
+    EXPECT_TRUE(holds(std::string(f.name) + "(")) << f.name;
+  }
+  for (const SpecialFunction& f : special_functions()) EXPECT_TRUE(holds(std::string(f.name) + "(")) << f.name;
+  for (const VectorAtom& f : vector_atoms()) EXPECT_TRUE(holds(std::string(f.name) + "(")) << f.name;
+}
 
 }  // namespace
 }  // namespace dynalin::oracle

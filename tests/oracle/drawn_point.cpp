@@ -129,54 +129,74 @@ OraclePoint drawn_point(const Mechanism& mechanism) {
   return point;
 }
 
+namespace {
+
+// The columns that the rows leave free, 1 each, of those offered where that is possible. Full pivoting: each row takes
+// the column it determines best, one that was not offered before one that was.
+std::vector<int> free_columns(const Model& model, const Dense& all, const std::vector<int>& offered, bool with_rates) {
+  std::vector<int> kept;
+  for (const int k : independent_rows(all, 1e-9L)) {
+    if (with_rates || !model.rows[static_cast<std::size_t>(k)].of_rates) kept.push_back(k);
+  }
+  const auto n = static_cast<std::size_t>(model.dofs);
+  Dense G(kept.size(), n);
+  for (const Model::BodyData& body : model.bodies) {
+    for (int c = 0; c < body.dof; ++c) {
+      const auto j = static_cast<std::size_t>(body.offset + c);
+      for (std::size_t k = 0; k < kept.size(); ++k) {
+        G(k, j) = all(static_cast<std::size_t>(kept[k]), j) * (c < 3 ? model.length : 1.0L);
+      }
+    }
+  }
+  std::vector<int> free(n, 1);
+  std::size_t taken = 0;
+  for (const int preferred : {0, 1}) {
+    while (taken < kept.size()) {
+      std::size_t pi = 0, pj = n;
+      Real best = preferred == 0 ? 1e-6L : 0;
+      for (std::size_t i = taken; i < kept.size(); ++i) {
+        for (std::size_t j = 0; j < n; ++j) {
+          if (free[j] == 0 || offered[j] != preferred || std::fabs(G(i, j)) <= best) continue;
+          best = std::fabs(G(i, j));
+          pi = i;
+          pj = j;
+        }
+      }
+      if (pj == n) break;
+      if (pi != taken) G.swap_rows(pi, taken);
+      free[pj] = 0;
+      for (std::size_t i = taken + 1; i < kept.size(); ++i) {
+        const Real factor = G(i, pj) / G(taken, pj);
+        for (std::size_t j = 0; j < n; ++j) G(i, j) -= factor * G(taken, j);
+        G(i, pj) = 0;
+      }
+      ++taken;
+    }
+  }
+  return free;
+}
+
+}  // namespace
+
 std::vector<ChosenState> choose_states(const Mechanism& mechanism, const OraclePoint& point) {
   Model model(mechanism);
   place(model, point);
   const Dense all = model.gradient();
-  const std::vector<int> active = independent_rows(all, 1e-9L);
-  const auto n = static_cast<std::size_t>(model.dofs);
-  Dense G(active.size(), n);
-  std::vector<int> is_translation(n, 0);
-  for (const Model::BodyData& body : model.bodies) {
-    for (int c = 0; c < std::min(body.dof, 3); ++c) {
-      is_translation[static_cast<std::size_t>(body.offset + c)] = 1;
-    }
-  }
-  for (std::size_t k = 0; k < active.size(); ++k) {
-    for (std::size_t j = 0; j < n; ++j) {
-      G(k, j) = all(static_cast<std::size_t>(active[k]), j) * (is_translation[j] != 0 ? model.length : 1.0L);
-    }
-  }
-  // Full pivoting: each constraint takes the coordinate it determines best; what is left is free.
-  std::vector<int> dependent(n, 0);
-  for (std::size_t k = 0; k < active.size(); ++k) {
-    std::size_t pi = k, pj = 0;
-    Real best = -1;
-    for (std::size_t i = k; i < active.size(); ++i) {
-      for (std::size_t j = 0; j < n; ++j) {
-        if (dependent[j] != 0 || std::fabs(G(i, j)) <= best) continue;
-        best = std::fabs(G(i, j));
-        pi = i;
-        pj = j;
-      }
-    }
-    if (pi != k) G.swap_rows(pi, k);
-    dependent[pj] = 1;
-    for (std::size_t i = k + 1; i < active.size(); ++i) {
-      const Real factor = G(i, pj) / G(k, pj);
-      for (std::size_t j = 0; j < n; ++j) G(i, j) -= factor * G(k, j);
-    }
-  }
+  // Coordinates first, by the position rows; of their rates those that all rows leave free.
+  const std::vector<int> offered(static_cast<std::size_t>(model.dofs), 1);
+  const std::vector<int> coordinates = free_columns(model, all, offered, false);
+  const std::vector<int> rates = free_columns(model, all, coordinates, true);
   std::vector<ChosenState> states;
   for (const Model::BodyData& body : model.bodies) {
     for (int c = 0; c < body.dof; ++c) {
-      if (dependent[static_cast<std::size_t>(body.offset + c)] != 0) continue;
+      const auto k = static_cast<std::size_t>(body.offset + c);
+      if (coordinates[k] == 0) continue;
       ChosenState s;
       s.body_id = body.ref.id;
       s.is_point_mass = body.ref.kind == BodyKind::point_mass;
       s.coordinate = c;
       s.kind = ChosenState::Kind::rate;
-      states.push_back(s);
+      if (rates[k] != 0) states.push_back(s);
       s.kind = ChosenState::Kind::coordinate;
       states.push_back(s);
     }

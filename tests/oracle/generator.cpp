@@ -126,6 +126,11 @@ void Draw::connect(const BodyRef& i_body, const BodyRef& j_body, JointType type)
       I.R = J.R * to * rotation_x(uniform(-1, 1)) * transpose(to);
       break;
     }
+    case JointType::screw:
+    case JointType::rackpin:
+      I.R = orientation();
+      I.p += box(0.7 * L_);
+      break;
     case JointType::atpoint:
       I.R = orientation();
       break;
@@ -154,7 +159,9 @@ void Draw::connect(const BodyRef& i_body, const BodyRef& j_body, JointType type)
   }
   const int i = add_marker(i_body, I);
   const int j = add_marker(j_body, J);
-  m_.joints.push_back({static_cast<int>(m_.joints.size()) + 1, type, i, j});
+  const bool sized = type == JointType::screw || type == JointType::rackpin;
+  const double size = sized ? L_ * uniform(0.3, 1.5) * (chance(0.5) ? 1 : -1) : 0;
+  m_.joints.push_back({static_cast<int>(m_.joints.size()) + 1, type, i, j, size});
   connected_.emplace_back(i_body, j_body);
 }
 
@@ -163,8 +170,8 @@ int Draw::mobility() const {
   for (const Body& b : m_.bodies) {
     count += b.ref.kind == BodyKind::part ? 6 : (b.ref.kind == BodyKind::point_mass ? 3 : 0);
   }
-  constexpr int removed[] = {5, 5, 3, 4, 6, 4, 3, 4, 4, 3, 2, 1, 3, 2, 1, 1, 1};
-  for (const Joint& j : m_.joints) count -= removed[static_cast<int>(j.type)];
+  for (const Joint& j : m_.joints) count -= equations_of(j.type);
+  count -= static_cast<int>(m_.couplers.size() + m_.gears.size() + m_.gcons.size());
   return count - static_cast<int>(m_.motions.size());
 }
 
@@ -191,7 +198,7 @@ void Draw::draw_tree() {
                            : r < 0.42 ? JointType::universal
                            : r < 0.54 ? JointType::translational
                            : r < 0.57 ? JointType::fixed
-                                      : static_cast<JointType>(static_cast<int>(JointType::cylindrical) + pick(12));
+                                      : static_cast<JointType>(static_cast<int>(JointType::cylindrical) + pick(14));
     if (chance(0.5)) {
       connect(child, parent, type);
     } else {
@@ -217,45 +224,14 @@ void Draw::draw_loops() {
                            : r < 0.65 ? JointType::inline_
                            : r < 0.75 ? JointType::inplane
                            : r < 0.82 ? JointType::hooke
-                           : r < 0.88 ? JointType::gcon_plane
-                           : r < 0.94 ? JointType::gcon_right_angle
+                           : r < 0.86 ? JointType::gcon_plane
+                           : r < 0.90 ? JointType::gcon_right_angle
+                           : r < 0.94 ? JointType::screw
+                           : r < 0.97 ? JointType::rackpin
                                       : JointType::perpendicular;
-    constexpr int rows_of[] = {5, 5, 3, 4, 6, 4, 3, 4, 4, 3, 2, 1, 3, 2, 1, 1, 1};
-    const int removed = rows_of[static_cast<int>(type)];
-    if (mobility() - removed < 1) continue;
+    if (mobility() - equations_of(type) < 1) continue;
     connect(a, b, type);
     ++closed;
-  }
-}
-
-void Draw::draw_motions() {
-  for (const Joint& joint : m_.joints) {
-    using enum JointType;
-    const char freedom = joint.type == revolute        ? 'R'
-                         : joint.type == translational ? 'T'
-                         : joint.type == cylindrical   ? "RTZ"[pick(3)]
-                         : joint.type == planar        ? "XY"[pick(2)]
-                         : joint.type == inplane       ? "XY"[pick(2)]
-                         : joint.type == inline_       ? 'Z'
-                                                       : ' ';
-    if (freedom == ' ' || !chance(0.2) || mobility() < 2) continue;
-    const Model model(m_);
-    const MarkerMotion& i = model.markers()[static_cast<std::size_t>(model.marker_index(joint.i))];
-    const MarkerMotion& j = model.markers()[static_cast<std::size_t>(model.marker_index(joint.j))];
-    const bool turns = freedom == 'R';
-    const std::size_t axis = freedom == 'X' ? 0 : freedom == 'Y' ? 1 : 2;
-    const Real now =
-        turns ? std::atan2(dot(i.axis[0], j.axis[1]), dot(i.axis[0], j.axis[0])) : dot(i.p - j.p, j.axis[axis]);
-    const double size = turns ? 1 : L_;
-    TimeFunction f;
-    f.c = {0, size * uniform(-2, 2), size * uniform(-3, 3), size * uniform(-2, 2)};
-    if (chance(0.6)) {
-      f.amplitude = size * uniform(0.1, 0.6);
-      f.frequency = uniform(1, 4);
-      f.phase = uniform(-2, 2);
-    }
-    f.c[0] = static_cast<double>(now - motion_values(f, 0)[0]);
-    m_.motions.push_back({static_cast<int>(m_.motions.size()) + 1, joint.id, f, freedom});
   }
 }
 
@@ -309,142 +285,27 @@ void Draw::draw_velocities() {
     b.v = to_triple(cm.v);
     if (b.ref.kind == BodyKind::part) b.w = to_triple(transpose(Mat{cm.axis}) * cm.w);
   }
-}
-
-// ---------------------------------------------------------------------------------------- rejection
-
-// Rejects the draw when a measure or a reaction stands near the place where it has no derivative.
-void Draw::check_nodes(const Model& model, const Expr& e) const {
-  const Node& n = *e.node;
-  const auto require = [](bool good) {
-    if (!good) throw std::runtime_error("a measure is near a singularity");
-  };
-  if (n.op != Op::sforce && n.ids.size() >= 4 && n.op != Op::measure && (n.ids[2] == 1 || n.ids[2] == 5)) {
-    require(model.evaluate(e) > 0.2 * F_ * (n.ids[2] == 5 ? 0.5 * L_ : 1));
-  }
-  if (n.op == Op::spline) {
-    // Between the points, away from the places where a derivative jumps.
-    const Real x = model.evaluate(n.arguments[0]);
-    require(std::fabs(x) < 3.4L && std::fabs(x - std::round(x)) < 0.4L);
-  }
-  if (n.op == Op::measure && n.measure >= Measure::AX) {
-    const MarkerMotion& i = model.markers()[static_cast<std::size_t>(model.marker_index(n.ids[0]))];
-    const MarkerMotion& j = model.markers()[static_cast<std::size_t>(model.marker_index(n.ids[1]))];
-    const Vec& of_i = n.measure == Measure::AZ ? i.axis[0] : i.axis[2];
-    const Vec& normal = j.axis[static_cast<std::size_t>(static_cast<int>(n.measure) - static_cast<int>(Measure::AX))];
-    const Real off = dot(of_i, normal);
-    require(1 - off * off > 0.1L && std::fabs(model.evaluate(e)) < 2.9L);
-  }
-  if (n.op == Op::measure && (n.measure == Measure::VM)) require(model.evaluate(e) > 0.5 * L_);
-  if (n.op == Op::measure && (n.measure == Measure::ACCM)) require(model.evaluate(e) > 3 * L_);
-  for (const Expr& argument : n.arguments) check_nodes(model, argument);
-}
-
-namespace {
-
-// How the dependent coordinates follow the chosen ones, and how massive the chosen ones are.
-void check_conditioning(Model& model, const std::vector<ChosenState>& states) {
-  const Dense G = model.gradient();
-  const auto n = static_cast<std::size_t>(model.dofs);
-  Dense P(n, n);
-  std::vector<Real> scale(n, 1);
-  for (const Model::BodyData& b : model.bodies) {
-    for (int c = 0; c < std::min(3, b.dof); ++c) scale[static_cast<std::size_t>(b.offset + c)] = model.length;
-  }
-  for (std::size_t k = 0; k < G.rows(); ++k) {
-    for (std::size_t j = 0; j < n; ++j) P(k, j) = G(k, j) * scale[j];
-  }
-  std::size_t row = G.rows();
-  for (const ChosenState& s : states) {
-    if (s.kind != ChosenState::Kind::coordinate) continue;
-    const BodyRef ref{s.is_point_mass ? BodyKind::point_mass : BodyKind::part, s.body_id};
-    const auto b = static_cast<std::size_t>(model.body_index(ref));
-    P(row++, static_cast<std::size_t>(model.bodies[b].offset + s.coordinate)) = 1;
-  }
-  const Lu lu(P);
-  std::vector<std::vector<Real>> N;
-  for (std::size_t k = G.rows(); k < n; ++k) {
-    std::vector<Real> unit(n, 0);
-    unit[k] = 1;
-    N.push_back(lu.solve(unit));
-    for (const Real v : N.back()) {
-      if (std::fabs(v) > 8) throw std::runtime_error("the constraints are badly conditioned");
-    }
-  }
-  const Dense M = model.mass_matrix();
-  const std::size_t f = N.size();
-  Dense R(f, f);
-  for (std::size_t a = 0; a < f; ++a) {
-    for (std::size_t i = 0; i < n; ++i) {
-      Real sum = 0;
-      for (std::size_t j = 0; j < n; ++j) sum += M(i, j) * scale[j] * N[a][j];
-      for (std::size_t b = 0; b < f; ++b) R(b, a) += N[b][i] * scale[i] * sum;
-    }
-  }
-  // Pivots of the reduced mass matrix: a small one is an admissible motion that carries hardly any mass.
-  Real largest = 0;
-  for (std::size_t k = 0; k < f; ++k) largest = std::max(largest, R(k, k));
-  for (std::size_t k = 0; k < f; ++k) {
-    if (R(k, k) < 3e-3L * largest) throw std::runtime_error("an admissible motion carries no mass");
-    for (std::size_t i = k + 1; i < f; ++i) {
-      const Real factor = R(i, k) / R(k, k);
-      for (std::size_t j = k; j < f; ++j) R(i, j) -= factor * R(k, j);
-    }
-  }
-}
-
-}  // namespace
-
-void Draw::check_structure() const {
-  if (mobility() < 1 || mobility() > 9) throw std::runtime_error("the mobility is out of range");
-  const Features f = features_of(m_);
-  if (f.loops < wanted_loops_) throw std::runtime_error("the seed wants more loops");
-  if (f.motions < wanted_motions_) throw std::runtime_error("the seed wants a motion");
-}
-
-void Draw::check() const {
-  Model model(m_);
-  const OraclePoint point = drawn_point(m_);
-  place(model, point);
-  const Dense G = model.gradient();
-  if (independent_rows(G, 0.02L).size() != G.rows()) throw std::runtime_error("constraints are nearly redundant");
-  check_conditioning(model, choose_states(m_, point));
-  for (const Row& row : model.rows) {
-    if (row.type == Row::Type::angle && std::fabs(model.row_position(row)) > 1e-12L) {
-      throw std::runtime_error("a motion does not start where the joint is");
-    }
-  }
-  for (const BodyMotion& b : model.motion) {
-    if (norm(b.w) > 8 || norm(b.v) > 6 * L_) throw std::runtime_error("a body moves too fast");
-  }
-  solve_algebra(model);
-  for (const BodyMotion& b : model.motion) {
-    if (norm(b.al) > 150 || norm(b.a) > 150 * L_) throw std::runtime_error("a body accelerates too fast");
-  }
-  for (const Variable& v : m_.variables) check_nodes(model, v.function);
-  for (const Sforce& s : m_.sforces) check_nodes(model, s.function);
-  for (const Diff& d : m_.diffs) check_nodes(model, d.function);
-  for (const GeneralForce& f : m_.gforces) {
-    for (const auto& e : f.component) {
-      if (e) check_nodes(model, *e);
-    }
-  }
-  for (const LinearForce& f : m_.linears) {
-    for (const Measure a : {Measure::AX, Measure::AY, Measure::AZ}) check_nodes(model, measure(a, {f.i, f.j}));
-  }
+  here_.emplace(m_);
+  place(*here_, drawn_point(m_));
 }
 
 Mechanism Draw::mechanism() {
   draw_units();
   draw_tree();
   draw_loops();
+  draw_screws();
+  draw_couplers();
+  draw_gears();
   draw_motions();
+  draw_measure_markers();
+  draw_position_gcon();
+  draw_velocity_gcon();
   check_structure();
   draw_massless();
-  draw_measure_markers();
   draw_velocities();
   draw_springs();
   draw_linear_forces();
+  draw_nforces();
   draw_controls();
   draw_sforces();
   draw_general_forces();

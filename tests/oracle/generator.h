@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -44,15 +45,23 @@ class Draw {
   void connect(const BodyRef& i_body, const BodyRef& j_body, JointType type);
   void draw_tree();
   void draw_loops();
+  void draw_screws();
+  void draw_couplers();
+  void draw_gears();
   void draw_motions();
+  void draw_position_gcon();
+  void draw_velocity_gcon();
   void draw_massless();
   void draw_measure_markers();
   void draw_velocities();
   void draw_springs();
   void draw_linear_forces();
+  void draw_nforces();
   void draw_general_forces();
   void draw_controls();
   void draw_differential_elements();
+  void draw_diff_functions();
+  void draw_algebraic_diffs();
   void draw_sforces();
   void draw_outputs();
   void check_structure() const;
@@ -60,12 +69,29 @@ class Draw {
   void check_nodes(const Model& model, const Expr& e) const;
 
   Expr displacement();
+  Expr angle();
   Expr velocity();
   Expr acceleration();
   Expr reaction();
   Expr load();
+  Expr net_load();
+  Expr rate() { return one_of(rates_); }
   Expr kinematic() { return chance(0.5) ? displacement() : velocity(); }
+  // A smooth function of an argument of order one, so that second and higher derivatives matter.
   Expr shaped(const Expr& x);
+  Expr curved(const Expr& x);
+  Expr series(const Expr& x);
+  Expr interpolated(const Expr& x);
+  // Of something kinematic also functions that are smooth in pieces: a piece that holds its present value.
+  Expr shaped_kinematic();
+  Expr in_pieces(const Expr& x);
+  Expr contact(const Expr& x, double now);
+  [[nodiscard]] double now(const Expr& x) const { return static_cast<double>(here_->evaluate(x)); }
+  std::vector<Expr> constants(std::initializer_list<double> values) {
+    std::vector<Expr> list;
+    for (const double v : values) list.push_back(constant(v));
+    return list;
+  }
   Expr feature(int self);
   std::pair<int, int> distant_pair(bool oriented_j);
   // Alone against ground only a marker that moves says anything.
@@ -88,7 +114,9 @@ class Draw {
   std::vector<int> oriented_;  // measure markers on ground and parts
   std::vector<int> all_;       // those and the ones on point masses
   std::vector<int> features_, inputs_;
-  std::vector<Expr> states_;  // DIF and ARYVAL of what the control elements offer
+  std::vector<Expr> states_;   // DIF and ARYVAL of what the control elements offer
+  std::vector<Expr> rates_;    // DIF1
+  std::optional<Model> here_;  // at the drawn point, once it is known
   int next_marker_ = 1, next_variable_ = 1, next_array_ = 1, next_matrix_ = 1;
 };
 

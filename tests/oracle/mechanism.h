@@ -4,104 +4,16 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "expression.h"
 
 namespace dynalin::oracle {
 
 using Triple = std::array<double, 3>;
 
-// ---------------------------------------------------------------------------------- expressions
-struct Node;
-
-// A function expression as a tree; built with the functions below, printed by expression_text.
-struct Expr {
-  std::shared_ptr<const Node> node;
-};
-
-enum class Op {
-  constant,
-  time,
-  add,
-  subtract,
-  multiply,
-  divide,
-  power,
-  function,
-  measure,
-  varval,
-  aryval,
-  dif,
-  joint,  // JOINT and JPRIM
-  sforce,
-  linear,  // BUSH, FIELD, BEAM
-  gforce,
-  spline  // AKISPL, CUBSPL of one argument
-};
-enum class Function { sin, cos, tanh, exp, sqrt, atan, atan2, step };
-enum class Measure {
-  DX,
-  DY,
-  DZ,
-  DM,
-  VX,
-  VY,
-  VZ,
-  VM,
-  VR,
-  WX,
-  WY,
-  WZ,
-  WM,
-  ACCX,
-  ACCY,
-  ACCZ,
-  ACCM,
-  WDTX,
-  WDTY,
-  WDTZ,
-  WDTM,
-  AX,
-  AY,
-  AZ
-};
-
-enum class LinearKind { bushing, field, beam };
-
-struct Node {
-  Op op = Op::constant;
-  double value = 0;  // constant
-  Function function = Function::sin;
-  Measure measure = Measure::DX;
-  std::vector<int> ids;  // marker ids of a measure; id, jflag, comp, rm; id, index
-  std::vector<Expr> arguments;
-};
-
-[[nodiscard]] Expr constant(double value);
-[[nodiscard]] Expr time_now();
-[[nodiscard]] Expr operator+(const Expr& a, const Expr& b);
-[[nodiscard]] Expr operator-(const Expr& a, const Expr& b);
-[[nodiscard]] Expr operator*(const Expr& a, const Expr& b);
-[[nodiscard]] Expr operator/(const Expr& a, const Expr& b);
-[[nodiscard]] Expr operator*(double a, const Expr& b);
-[[nodiscard]] Expr square(const Expr& a);
-[[nodiscard]] Expr call(Function function, std::vector<Expr> arguments);
-[[nodiscard]] Expr measure(Measure measure, std::vector<int> markers);
-[[nodiscard]] Expr varval(int id);
-[[nodiscard]] Expr aryval(int array, int index);
-[[nodiscard]] Expr dif(int id);
-[[nodiscard]] Expr joint_reaction(int id, int jflag, int component, int rm);
-[[nodiscard]] Expr primitive_reaction(int id, int jflag, int component, int rm);
-[[nodiscard]] Expr sforce_load(int id, int jflag, int component, int rm);
-[[nodiscard]] Expr linear_load(LinearKind kind, int id, int jflag, int component, int rm);
-[[nodiscard]] Expr spline_at(const Expr& x, int id, bool akima);
-// `statement`: 0 GFORCE, 1 VFORCE, 2 VTORQUE, as general_statement says.
-[[nodiscard]] Expr gforce_load(int statement, int id, int jflag, int component, int rm);
-[[nodiscard]] std::string expression_text(const Expr& expression);
-
-// --------------------------------------------------------------------------------- the mechanism
 enum class BodyKind { ground, part, point_mass };
 
 struct BodyRef {
@@ -138,6 +50,8 @@ enum class JointType {
   planar,
   hooke,
   convel,
+  screw,
+  rackpin,
   atpoint,
   inline_,
   inplane,
@@ -153,6 +67,28 @@ struct Joint {
   int id = 0;
   JointType type = JointType::revolute;
   int i = 0, j = 0;
+  double size = 0;  // PITCH of a screw, PD of a rack and pinion
+};
+// Equations that a joint of each type states.
+[[nodiscard]] int equations_of(JointType type);
+
+// r1 q1 + r2 q2 (+ r3 q3) = 0 for the displacements of joints, R or T each.
+struct Coupler {
+  int id = 0;
+  std::vector<int> joints;
+  std::vector<double> scales;
+  std::string freedoms;
+};
+struct Gear {
+  int id = 0;
+  std::array<int, 2> joints{};
+  int cv = 0;
+};
+// function = 0; of rates: it holds velocities, to which it is affine.
+struct Gcon {
+  int id = 0;
+  bool of_rates = false;
+  Expr function;
 };
 
 // c0 + c1 t + c2 t^2 + c3 t^3 + amplitude sin(frequency t + phase)
@@ -160,11 +96,13 @@ struct TimeFunction {
   std::array<double, 4> c{};
   double amplitude = 0, frequency = 0, phase = 0;
 };
-// Of a joint: R or T; of its pair of markers: X, Y or Z.
+// Of a joint: R or T; of its pair of markers: X, Y, Z or the angles 1, 2, 3 of Rx Ry Rz. f is the displacement; what
+// is written is its derivative of the order `level`.
 struct Motion {
   int id = 0, joint = 0;
   TimeFunction f;
   char freedom = 'R';
+  int level = 0;
 };
 
 enum class Direction { translational, rotational };
@@ -184,15 +122,22 @@ struct Sforce {
   Expr function;
 };
 
-// F = force - K (y - length) - C y' in the axes of J.
+// F = force - K (y - length) - C y' in the axes of J. C is `ratio` times K, or c where the ratio is 0.
 struct LinearForce {
   int id = 0;
   LinearKind kind = LinearKind::bushing;
   int i = 0, j = 0;
-  std::array<std::array<double, 6>, 6> k{}, c{};  // bushing, field: by rows; beam: c by CRATIO
+  std::array<std::array<double, 6>, 6> k{}, c{};  // by rows; k of a beam follows from its section
   std::array<double, 6> length{}, force{};
   std::array<double, 9> beam{};  // LENGTH AREA IXX IYY IZZ E G ASY ASZ
-  double ratio = 0;              // CRATIO of a beam
+  double ratio = 0;              // CRATIO of a field or beam
+};
+// The same for n markers as seen from J, with matrices of 6 n rows: ids of MATRIX statements, 0 = not given.
+struct Nforce {
+  int id = 0, j = 0;
+  std::vector<int> i;
+  int k = 0, c = 0, length = 0, force = 0;
+  double ratio = 0;  // CRATIO
 };
 // Six components on I in the axes of RM; a component without expression is zero.
 struct GeneralForce {
@@ -207,11 +152,15 @@ struct Variable {
   int id = 0;
   Expr function;
 };
+enum class DiffKind { explicit_rate, implicit_rate, algebraic };
+// explicit: DIF' = function; implicit: coefficient DIF' = function; algebraic: 0 = function.
 struct Diff {
   int id = 0;
   double ic = 0;
-  Expr function;  // explicit: DIF' = function; implicit: coefficient DIF' = function
-  std::optional<Expr> coefficient = std::nullopt;
+  Expr function;
+  DiffKind kind = DiffKind::explicit_rate;
+  Expr coefficient{};      // implicit
+  bool rate_read = false;  // algebraic: somewhere DIF1 is asked for
 };
 
 enum class ArrayKind { u, x, y, ic };
@@ -236,6 +185,7 @@ struct Lse {
 struct SplinePoints {
   int id = 0;
   std::vector<double> x, y;
+  std::vector<double> z, beyond;  // a family of two curves y and `beyond` at two z, or one curve
 };
 struct VariableList {
   int id = 0;
@@ -249,10 +199,14 @@ struct Mechanism {
   std::vector<Body> bodies;  // exactly one of them ground
   std::vector<Marker> markers;
   std::vector<Joint> joints;
+  std::vector<Coupler> couplers;
+  std::vector<Gear> gears;
+  std::vector<Gcon> gcons;
   std::vector<Motion> motions;
   std::vector<SpringDamper> springs;
   std::vector<Sforce> sforces;
   std::vector<LinearForce> linears;
+  std::vector<Nforce> nforces;
   std::vector<GeneralForce> gforces;
   std::vector<SplinePoints> splines;
   std::vector<Variable> variables;
@@ -261,7 +215,7 @@ struct Mechanism {
   std::vector<NumberMatrix> matrices;
   std::vector<Tfsiso> tfsisos;
   std::vector<Lse> lses;
-  VariableList pinput, poutput;  // id 0: none
+  VariableList pinput, poutput, pstate;  // id 0: none
 };
 
 // The mechanism as a dataset, numbers with 17 digits, title first and END last.
@@ -278,6 +232,8 @@ struct Features {
   int differential_states = 0, inputs = 0, outputs = 0;
   bool force_reads_acceleration = false, force_reads_reaction = false, force_reads_velocity = false;
   bool algebraic_loop = false, separate_im = false, units_factor = false;
+  bool deep_reaction = false;  // a force reads a reaction through at least three VARVALs in a row
+  int velocity_constraints = 0, algebraic_diffs = 0;
 };
 [[nodiscard]] Features features_of(const Mechanism& mechanism);
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "jet.h"
 #include "mechanism.h"
 #include "oracle.h"
 #include "small_algebra.h"
@@ -30,14 +31,26 @@ struct Wrench {
 };
 
 // One scalar constraint. point: (p_I - p_J) . e_J;  direction: e_I . e_J, or e_I . e_J - e_J' . e_I' with the axes
-// swapped; angle: AZ(I,J). A motion subtracts its function of time.
+// swapped; angle: AZ(I,J); expression: any function of displacements, or one of velocities. A motion subtracts its
+// function of time.
 struct Row {
-  enum class Type { point, direction, angle };
+  enum class Type { point, direction, angle, expression };
   Type type = Type::point;
   int i = 0, j = 0;  // marker indices
   int axis_i = 0, axis_j = 0;
   int joint = -1, motion = -1;  // whose row it is
   bool swapped = false;         // less the product of the same axes of the other marker
+  bool of_rates = false;        // an expression of velocities: no position row
+  Expr function{};
+  Real offset = 0;                 // subtracted from an expression
+  std::vector<Wrench> gradient{};  // of an expression, on each body, t about its BCS
+};
+
+// A displacement of one body, or a change of its velocity: `shift` of the BCS and `turn`, global axes.
+struct Variation {
+  int body = 0;
+  Vec shift, turn;
+  bool of_rates = false;
 };
 
 struct DifferentialSlot {
@@ -64,12 +77,13 @@ class Model {
   Real length = 1;  // largest distance between marker origins in the drawn pose
 
   // The instant under evaluation.
-  Real time = 0;
+  Real time = 0, clock = 1;  // and the rate of TIME: 0 in a static analysis
   std::vector<BodyMotion> motion;
   std::vector<Real> z;
   std::vector<Real> variable_values, sforce_values, lambda;
-  std::vector<Real> component_values;  // of general forces, six each, in the order of the mechanism
-  std::vector<int> cut;                // per variable: 1 when it is an independent input
+  std::vector<Real> component_values;                   // of general forces, six each, in the order of the mechanism
+  std::vector<Real> algebraic_values, algebraic_rates;  // per DIFF, used where it is algebraic
+  std::vector<int> cut;                                 // per variable: 1 when it is an independent input
   std::vector<Real> cut_values;
 
   void update_positions();      // markers from poses
@@ -77,22 +91,25 @@ class Model {
   void update_accelerations();  // markers from body accelerations
   [[nodiscard]] const std::vector<MarkerMotion>& markers() const { return markers_; }
 
-  // Constraints. gradient: row times body velocities (v, w of each BCS) is the rate apart from time.
+  // Constraints. gradient: row times body velocities (v, w of each BCS) is the rate apart from time. A row of
+  // velocities has no position (zero); its gradient is that by velocities.
   [[nodiscard]] Real row_position(const Row& row) const;
   [[nodiscard]] Real row_velocity(const Row& row) const;
   [[nodiscard]] Real row_acceleration(const Row& row) const;
-  [[nodiscard]] Wrench row_wrench(const Row& row) const;  // on I for a unit multiplier, t about p_I
   [[nodiscard]] Dense gradient() const;
 
   // Accelerations, multipliers, variables and force values at once; active rows carry multipliers.
   std::vector<int> active;
   [[nodiscard]] std::size_t algebra_size() const;
+  [[nodiscard]] std::size_t algebraic_unknowns() const;  // of DIFFs
   void unpack_algebra(const std::vector<Real>& x);
   [[nodiscard]] std::vector<Real> algebra_residual() const;
   [[nodiscard]] std::vector<int> algebra_groups() const;  // quantities of one kind share a scale
 
   [[nodiscard]] std::vector<Real> differential_rates() const;
   [[nodiscard]] Real evaluate(const Expr& expression) const;
+  // With time derivatives along the motion, as far as positions, velocities and accelerations give them.
+  [[nodiscard]] Jet evaluate_along(const Expr& expression) const;
   [[nodiscard]] int variable_index(int id) const { return variable_index_.at(id); }
   [[nodiscard]] int marker_index(int id) const { return marker_index_.at(id); }
   [[nodiscard]] int body_index(const BodyRef& ref) const;
@@ -100,6 +117,8 @@ class Model {
   [[nodiscard]] Dense mass_matrix() const;  // about each BCS, for conditioning and kinetic energy only
 
  private:
+  template <class T>
+  friend class Evaluator;
   struct MarkerData {
     int body = 0;
     Vec p;
@@ -111,35 +130,56 @@ class Model {
   };
   void read_bodies();
   void read_rows();
+  void read_joint(std::size_t k);
+  void read_relations();
+  void read_motions();
   void read_controls();
+  void capture_offsets();
+  void refresh_gradients();
   [[nodiscard]] Pair line_of_sight(int i, int j) const;
   [[nodiscard]] Real angle_z(int i, int j) const;
+  [[nodiscard]] Real drive(const Row& row, std::size_t derivative) const;
+  [[nodiscard]] Wrench row_wrench(const Row& row) const;  // on I for a unit multiplier, t about p_I
+  // On every body, t about its BCS, `size` times the gradient of a row.
+  void apply_row(std::vector<Wrench>& loads, const Row& row, Real size) const;
   void apply(std::vector<Wrench>& loads, int marker, const Vec& at, const Wrench& w, Real sign) const;
   void apply_springs(std::vector<Wrench>& loads) const;
   void apply_sforces(std::vector<Wrench>& loads) const;
   void apply_linears(std::vector<Wrench>& loads) const;
-  [[nodiscard]] Wrench linear_wrench(const LinearForce& f) const;  // on I, torque about p_I
+  void apply_nforces(std::vector<Wrench>& loads) const;
+  // Wrenches on I, torque about p_I.
+  [[nodiscard]] Wrench spring_wrench(std::size_t k) const;
+  [[nodiscard]] Wrench sforce_wrench(std::size_t k) const;
+  [[nodiscard]] Wrench linear_wrench(const LinearForce& f) const;
   [[nodiscard]] Wrench general_wrench(std::size_t k) const;
-  [[nodiscard]] Real spline_value(const SplinePoints& points, Real x, bool akima) const;
-  [[nodiscard]] Wrench joint_wrench(int joint) const;  // on I, torque about p_I
-  [[nodiscard]] Wrench sforce_wrench(const Sforce& s, Real value) const;
+  [[nodiscard]] Wrench joint_wrench(int joint) const;
+  [[nodiscard]] Wrench motion_wrench(int motion) const;
+  [[nodiscard]] Wrench net_wrench(int i, int j) const;  // on marker i, from all that acts between i and j; j 0: all
+  // The six displacements of I as seen from J, their rates, and a wrench given in the axes of J.
+  struct Displacements {
+    std::array<Real, 6> y{}, rate{};
+  };
+  [[nodiscard]] Displacements displacements(int i, int j) const;
+  [[nodiscard]] Wrench in_axes_of(int j, const std::array<Real, 6>& load) const;
+  [[nodiscard]] Vec between(int i, int j) const;  // from J to I
   [[nodiscard]] Real wrench_component(const Wrench& on_i, const Vec& i_from_j, const std::vector<int>& ids) const;
-  [[nodiscard]] Real evaluate_node(const Node& node) const;
-  [[nodiscard]] Real evaluate_measure(const Node& node) const;
-  [[nodiscard]] Real evaluate_function(const Node& node) const;
+  [[nodiscard]] Real load_value(const Node& node) const;  // JOINT, MOTION, SFORCE ... FX ... TM
   [[nodiscard]] Real array_entry(int id, int index) const;
   [[nodiscard]] std::vector<Real> tfsiso_rates(std::size_t k) const;
   [[nodiscard]] std::vector<Real> lse_rates(std::size_t k) const;
   [[nodiscard]] Real input_entry(int array, std::size_t index) const;
   [[nodiscard]] const NumberMatrix& number_matrix(int id) const;
+  [[nodiscard]] Real diff_value(std::size_t k) const;
+  [[nodiscard]] Real diff_rate(std::size_t k) const;
 
   Mechanism mechanism_;
   std::vector<MarkerData> marker_data_;  // marker 0 is the global frame
   std::vector<MarkerMotion> markers_;
   std::map<int, int> marker_index_, variable_index_, sforce_index_, joint_index_, array_index_, gforce_index_;
+  std::map<int, std::size_t> diff_index_;
   std::vector<std::array<int, 2>> spring_markers_, sforce_markers_, joint_markers_;
   std::vector<std::size_t> tfsiso_slot_, lse_slot_, diff_slot_;
-  std::map<int, std::size_t> diff_of_id_;
+  bool has_expressions_ = false;  // among the rows
 };
 
 // f, f' and f'' of a motion.

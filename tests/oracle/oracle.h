@@ -3,9 +3,9 @@
 //
 // Coordinates. r_n(t), R_n(t) is the nominal motion of a body through the operating point, with its true
 // first and second derivatives there. The perturbed motion is r = r_n + y_r, R = exp(y_theta^) R_n with y in
-// global axes; r is the origin of the BCS. A state is a component of y, a component of y', or a differential
-// state. For given states and inputs the position, velocity and acceleration levels are each solved by
-// Newton; nothing is linearized by hand.
+// global axes; r is the origin of the BCS. A state is a component of y or of y', the change of a measured displacement
+// or of its rate (PSTATE), or a differential state. For given states and inputs the position, velocity and acceleration
+// levels are each solved by Newton; nothing is linearized by hand. Velocity constraints take rates and no coordinates.
 //
 // Angles are principal values at the operating point: a point that has turned through more than half a turn
 // since time 0 is outside the oracle's reach when a rotational spring or an angle measure sees that turn.
@@ -29,7 +29,8 @@ struct ChosenState {
   int coordinate = 0;  // 0..5: x y z rx ry rz, global axes
   ElementClass element = ElementClass::diff;
   int element_id = 0;
-  int index = 1;  // 1-based within the element
+  int index = 1;     // 1-based within the element
+  int variable = 0;  // of PSTATE: the coordinate is the value of this VARIABLE, a displacement or angle
 };
 
 struct BodyPoint {
@@ -67,10 +68,10 @@ struct OracleLinearModel {
   double polish = 0;  // largest change that put the given point on the constraints, relative to the model
 };
 
-// Precondition: the states are a valid set (coordinates complement the constraints, every coordinate with
-// its rate, every differential state once). Throws std::runtime_error when a level cannot be solved, when
-// the point is off the constraints by more than 1e-9, or when the set is not valid. Inputs of PINPUT are cut
-// from their own expressions; clear Mechanism::pinput for the matrices of EIGENSOL.
+// Precondition: the states are a valid set (coordinates complement the position constraints, rates those and the
+// velocity constraints, so that there may be fewer rates; every differential state once). Throws std::runtime_error
+// when a level cannot be solved, when the point is off the constraints by more than 1e-9, or when the set is not valid.
+// Inputs of PINPUT are cut from their own expressions; clear Mechanism::pinput for the matrices of EIGENSOL.
 [[nodiscard]] OracleLinearModel oracle_linearize(const Mechanism& mechanism, const OraclePoint& point,
                                                  const std::vector<ChosenState>& states);
 
@@ -78,8 +79,8 @@ struct OracleLinearModel {
 // satisfy the constraints.
 [[nodiscard]] OraclePoint drawn_point(const Mechanism& mechanism);
 
-// A well-conditioned set of states at the drawn point: rate and coordinate of each, then differential states
-// in the order LSE, TFSISO, DIFF.
+// A well-conditioned set of states at the drawn point: rate, where it is free, and coordinate of each, then
+// differential states in the order LSE, TFSISO, DIFF.
 [[nodiscard]] std::vector<ChosenState> choose_states(const Mechanism& mechanism, const OraclePoint& point);
 
 }  // namespace dynalin::oracle

@@ -2,10 +2,12 @@
 // here is shared with the product, so a mistake in the product's algebra cannot hide itself.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -13,21 +15,50 @@ namespace dynalin::oracle {
 
 using Real = long double;
 
-struct Vec {
-  Real x = 0, y = 0, z = 0;
+// Over numbers, or over jets (jet.h).
+template <class T>
+struct Vector3 {
+  T x{}, y{}, z{};
 };
+using Vec = Vector3<Real>;
 
-[[nodiscard]] inline Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-[[nodiscard]] inline Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-[[nodiscard]] inline Vec operator-(const Vec& a) { return {-a.x, -a.y, -a.z}; }
-[[nodiscard]] inline Vec operator*(Real s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
-inline Vec& operator+=(Vec& a, const Vec& b) { return a = a + b; }
-[[nodiscard]] inline Real dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-[[nodiscard]] inline Vec cross(const Vec& a, const Vec& b) {
+template <class T>
+[[nodiscard]] Vector3<T> operator+(const Vector3<T>& a, const Vector3<T>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+[[nodiscard]] Vector3<T> operator-(const Vector3<T>& a, const Vector3<T>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T>
+[[nodiscard]] Vector3<T> operator-(const Vector3<T>& a) {
+  return {-a.x, -a.y, -a.z};
+}
+template <class T>
+[[nodiscard]] Vector3<T> operator*(const std::type_identity_t<T>& s, const Vector3<T>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+template <class T>
+Vector3<T>& operator+=(Vector3<T>& a, const Vector3<T>& b) {
+  return a = a + b;
+}
+template <class T>
+[[nodiscard]] T dot(const Vector3<T>& a, const Vector3<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+[[nodiscard]] Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-[[nodiscard]] inline Real norm(const Vec& a) { return std::sqrt(dot(a, a)); }
-[[nodiscard]] inline Real component(const Vec& a, int k) { return k == 0 ? a.x : (k == 1 ? a.y : a.z); }
+template <class T>
+[[nodiscard]] T norm(const Vector3<T>& a) {
+  using std::sqrt;
+  return sqrt(dot(a, a));
+}
+template <class T>
+[[nodiscard]] const T& component(const Vector3<T>& a, int k) {
+  return k == 0 ? a.x : (k == 1 ? a.y : a.z);
+}
 inline void set_component(Vec& a, int k, Real value) { (k == 0 ? a.x : (k == 1 ? a.y : a.z)) = value; }
 
 // A 3 x 3 matrix by columns: the columns of a rotation are the axes of the rotated frame.

@@ -1,0 +1,44 @@
+// Values of function expressions: numbers, or jets along the motion or along a variation of one body.
+#pragma once
+
+#include <stdexcept>
+#include <vector>
+
+#include "functions.h"
+#include "model.h"
+
+namespace dynalin::oracle {
+
+// The cubic a + b s + c s^2 + d s^3 of s = x - start that a spline of one curve is made of at x.
+struct Piece {
+  Real start = 0, a = 0, b = 0, c = 0, d = 0;
+};
+[[nodiscard]] Piece spline_piece(const std::vector<double>& x, const std::vector<double>& y, Real at,
+                                 Interpolation method);
+
+template <class T>
+class Evaluator {
+ public:
+  // A variation serves jets alone; without one their parameter is time.
+  explicit Evaluator(const Model& model, const Variation* variation = nullptr) : model_(model), variation_(variation) {}
+  [[nodiscard]] T operator()(const Expr& e) const { return node(*e.node); }
+
+ private:
+  struct View {
+    Vector3<T> p, v, a, w, al;
+    std::array<Vector3<T>, 3> axis;
+  };
+  [[nodiscard]] T node(const Node& n) const;
+  [[nodiscard]] T measured(const Node& n) const;
+  [[nodiscard]] T spline(const Node& n) const;
+  [[nodiscard]] T variable(int id) const;
+  [[nodiscard]] T state(int id) const;
+  [[nodiscard]] View view(int id) const;
+  [[nodiscard]] static T without_rate(Real value);  // a quantity whose derivatives are not known
+
+  const Model& model_;
+  const Variation* variation_;
+  mutable int depth_ = 0;
+};
+
+}  // namespace dynalin::oracle
