@@ -351,6 +351,7 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
       if (const std::string worst = equations.worst(); !worst.empty()) f.message += ", which is largest at " + worst;
       const auto names = undetermined(system, saddle, equations.tangent(0, false));
       if (!names.empty()) f.message += fmt::format("; the tangent leaves {} undetermined", fmt::join(names, ", "));
+      if (const std::string reason = system.departure(system.motion(op)); !reason.empty()) f.message += "; " + reason;
       return tl::unexpected(f);
     }
   }
@@ -359,10 +360,12 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   const bool balanced = std::sqrt(equations.merit(equations.force_scale())) <= 1e-7;
   // Stiff elements turn the rounding of positions into forces; no point is better than that.
   if (!balanced && report.imbalance > 100 * equations.rounding(op)) {
-    return tl::unexpected(Failure{"statics",
-                                  fmt::format("no equilibrium was found, the imbalance is still {:.3e}, largest at {}",
-                                              report.imbalance, equations.worst()),
-                                  history});
+    Failure f{"statics",
+              fmt::format("no equilibrium was found, the imbalance is still {:.3e}, largest at {}", report.imbalance,
+                          equations.worst()),
+              history};
+    if (const std::string reason = system.departure(system.motion(op)); !reason.empty()) f.message += "; " + reason;
+    return tl::unexpected(f);
   }
   if (held_states) {
     // A pure integrator that balances at its first value keeps it.
