@@ -120,6 +120,7 @@ Failure static_refusal(StaticEquations& equations, const OperatingPoint& op, std
   if (const std::string worst = equations.worst(equations.force_scale()); !worst.empty()) f.message += ": " + worst;
   const auto names = undetermined(system, equations.saddle(), equations.tangent(0, 0));
   if (!names.empty()) f.message += fmt::format("; the tangent leaves {} undetermined", fmt::join(names, ", "));
+  if (const std::string reason = system.departure(system.motion(op)); !reason.empty()) f.message += "; " + reason;
   return f;
 }
 

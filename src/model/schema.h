@@ -47,12 +47,13 @@ struct UserSubroutine {
 };
 
 template <class E>
-using Slot = std::variant<bool E::*, ElsewhereOnly E::*, double E::*, std::optional<double> E::*, Vector E::*,
-                          std::optional<Vector> E::*, std::vector<double> E::*, std::vector<std::vector<double>> E::*,
-                          std::optional<std::int64_t> E::*, MarkerId E::*, BodyId E::*, VariableRef E::*, ArrayRef E::*,
-                          MatrixRef E::*, JointRef E::*, CurveRef E::*, FlexBodyRef E::*, WordOrCount E::*, UserSubroutine E::*,
-                          std::vector<VariableRef> E::*, std::vector<JointRef> E::*, std::vector<std::int64_t> E::*,
-                          Expression E::*, VectorExpression E::*, std::string E::*, std::vector<std::string> E::*>;
+using Slot =
+    std::variant<bool E::*, ElsewhereOnly E::*, double E::*, std::optional<double> E::*, Vector E::*,
+                 std::optional<Vector> E::*, std::vector<double> E::*, std::vector<std::vector<double>> E::*,
+                 std::optional<std::int64_t> E::*, MarkerId E::*, BodyId E::*, VariableRef E::*, ArrayRef E::*,
+                 MatrixRef E::*, JointRef E::*, CurveRef E::*, FlexBodyRef E::*, WordOrCount E::*, UserSubroutine E::*,
+                 std::vector<VariableRef> E::*, std::vector<JointRef> E::*, std::vector<std::int64_t> E::*,
+                 Expression E::*, VectorExpression E::*, std::string E::*, std::vector<std::string> E::*>;
 
 template <class E>
 struct Argument {

@@ -20,6 +20,7 @@ struct Held {
   Matrix3 axes;
   Pieces functions;          // the same as GCONs
   std::string helpers = {};  // statements that those need
+  bool at_rest = false;      // drawn without velocities
 };
 inline void PrintTo(const Held& h, std::ostream* out) { *out << h.name; }
 
@@ -28,9 +29,8 @@ inline std::string mechanism(const Held& h, bool as_functions) {
   std::string s = "Chain\nUNITS/SYSTEM=MKS\nACCGRAV/IGRAV=1.7, JGRAV=-2.3, KGRAV=-8.9\nPART/1, GROUND\n";
   const Matrix3 R2 = rotation_313(0.3, 0.5, -0.2), R3 = rotation_313(-0.7, 1.1, 0.4), F = rotation_313(0.4, 0.9, 0.3);
   const Vector o2{0.3, 0.2, -0.1}, o3{0.9, 0.3, -0.5}, joint{0.6, 0.3, -0.2};
-  s += fmt::format(
-      "PART/2, MASS=2, CM=20, IP=0.2,0.3,0.25,0.01,-0.02,0.015, QG={}, REULER={}, WX=0.4, WY=-0.6, WZ=0.9\n", xyz(o2),
-      reuler(R2));
+  s += fmt::format("PART/2, MASS=2, CM=20, IP=0.2,0.3,0.25,0.01,-0.02,0.015, QG={}, REULER={}{}\n", xyz(o2), reuler(R2),
+                   h.at_rest ? "" : ", WX=0.4, WY=-0.6, WZ=0.9");
   s += fmt::format("PART/3, MASS=1.5, CM=30, IP=0.1,0.15,0.12,-0.01,0.005,0.01, QG={}, REULER={}\n", xyz(o3),
                    reuler(R3));
   const auto marker = [&](int id, int body, const Vector& p, const Matrix3& axes) {

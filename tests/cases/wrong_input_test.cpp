@@ -251,7 +251,7 @@ const std::vector<Wrong>& table() {
     {Place::added, "VARIABLE/9, FUNCTION=CURVE(0.5,0,1,77)", {"unknown-element 10:36"}},
     {Place::added, "FIELD/9, I=20, J=1, FUNCTION=USER(1,2), LENGTH=1,2,3,4,5,6", {"function-not-built 10:30"}},
     {Place::added, "FIELD/9, I=20, J=1, FUNCTION=3*DX(20,1)", {"unknown-word 10:30"}},
-    {Place::added, "FIELD/9, I=20, J=1, NONLINEAR, KMATRIX=1", {"unknown-argument 10:21", "wrong-count 10:32"}},
+    {Place::added, "FIELD/9, I=20, J=1, NONLINEAR, KMATRIX=1", {"unknown-argument 10:21"}},
     {Place::added, "VARIABLE/9, FUNCTION=NFORCE(1,0,2,0)", {"function-not-built 10:22"}},
     {Place::added, "FLEX_BODY/9\nMFORCE/9, FLEX_BODY=9, CASE_INDEX=1, SCALE=SIN(TIME)", {"statement-not-built 10:1", "statement-not-built 11:11"}},
     {Place::added, "MFORCE/9, FLEX_BODY=9, CASE_INDEX=1, SCALE=1", {"unknown-element 10:21"}},

@@ -1,0 +1,232 @@
+#include "linear/modal_sums.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace dynalin {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Matrix = Eigen::MatrixXd;
+using ComplexMatrix = Eigen::MatrixXcd;
+using Index = Eigen::Index;
+
+// Columns of coordinates as columns of √mass · motion, six rows a body: their products are those of the mass matrix.
+// User units: no factor of consistency.
+class MassRoot {
+ public:
+  MassRoot(const System& system, const OperatingPoint& op) {
+    const Layout& layout = system.layout();
+    for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
+      const BodyBlock& block = layout.bodies[b];
+      const Body& body = system.model().bodies[b];
+      if (block.count == 0 || body.user_mass == 0) continue;
+      Item item{block.offset, block.count == 6, std::sqrt(body.user_mass), op.poses[b].R * body.p_BC, {}};
+      item.centre = op.poses[b].r + item.arm;
+      const Matrix3 J = op.poses[b].R * body.J_BC * transpose(op.poses[b].R);
+      const double factor = body.user_mass / body.mass;
+      Eigen::Matrix3d inertia;
+      for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c)
+          inertia(r, c) = factor * J(static_cast<std::size_t>(r), static_cast<std::size_t>(c));
+      }
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(inertia);
+      item.inertia_root =
+          principal.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * principal.eigenvectors().transpose();
+      items_.push_back(item);
+    }
+  }
+
+  Matrix of(const Matrix& columns) const {
+    Matrix out = Matrix::Zero(6 * static_cast<Index>(items_.size()), columns.cols());
+    for (std::size_t k = 0; k < items_.size(); ++k) {
+      const Item& item = items_[k];
+      Matrix move = columns.middleRows(item.offset, 3);
+      if (item.turns) {
+        const Matrix turn = columns.middleRows(item.offset + 3, 3);
+        for (Index c = 0; c < columns.cols(); ++c) {
+          const Vector v = cross(Vector{turn(0, c), turn(1, c), turn(2, c)}, item.arm);
+          for (std::size_t i = 0; i < 3; ++i) move(static_cast<Index>(i), c) += v[i];
+        }
+        out.middleRows(6 * static_cast<Index>(k) + 3, 3) = item.inertia_root * turn;
+      }
+      out.middleRows(6 * static_cast<Index>(k), 3) = item.mass_root * move;
+    }
+    return out;
+  }
+  // The model moved along and turned about three axes at a point.
+  Matrix of_rigid_motion(const Vector& origin, const Matrix3& axes) const {
+    Matrix out = Matrix::Zero(6 * static_cast<Index>(items_.size()), 6);
+    for (std::size_t k = 0; k < items_.size(); ++k) {
+      const auto at = 6 * static_cast<Index>(k);
+      for (std::size_t d = 0; d < 3; ++d) {
+        const Vector e{axes(0, d), axes(1, d), axes(2, d)};
+        const Vector by_turn = cross(e, items_[k].centre - origin);
+        const Eigen::Vector3d axis(e[0], e[1], e[2]);
+        out.block(at, static_cast<Index>(d), 3, 1) = items_[k].mass_root * axis;
+        out.block(at, static_cast<Index>(d) + 3, 3, 1) =
+            items_[k].mass_root * Eigen::Vector3d(by_turn[0], by_turn[1], by_turn[2]);
+        if (items_[k].turns) out.block(at + 3, static_cast<Index>(d) + 3, 3, 1) = items_[k].inertia_root * axis;
+      }
+    }
+    return out;
+  }
+
+ private:
+  struct Item {
+    std::int32_t offset;
+    bool turns;
+    double mass_root;
+    Vector arm, centre{};
+    Eigen::Matrix3d inertia_root{};
+  };
+  std::vector<Item> items_;
+};
+
+ComplexMatrix times(const Matrix& m, const ComplexMatrix& x) {
+  ComplexMatrix out(m.rows(), x.cols());
+  out.real() = m * x.real();
+  out.imag() = m * x.imag();
+  return out;
+}
+
+// Places of coordinates and of their rates among the states; empty where a coordinate has no rate.
+std::pair<std::vector<Index>, std::vector<Index>> pairs_of(const LinearSystem& linear) {
+  std::vector<Index> position, rate;
+  for (std::size_t k = 0; k < linear.kinematic_states; ++k) {
+    (linear.model.states[k].is_rate ? rate : position).push_back(static_cast<Index>(k));
+  }
+  return {position, rate};
+}
+
+// Numbers of modes whose shapes span the coordinates, vibrations before real modes.
+std::vector<std::size_t> spanning(const EigenSolution& modes, const ComplexMatrix& shapes) {
+  std::vector<std::size_t> order, chosen;
+  for (const bool real : {false, true}) {
+    for (std::size_t k = 0; k < modes.modes.size(); ++k) {
+      if (modes.modes[k].is_real == real) order.push_back(k);
+    }
+  }
+  ComplexMatrix basis(shapes.rows(), 0);
+  for (const std::size_t k : order) {
+    if (basis.cols() == shapes.rows()) break;
+    Eigen::VectorXcd v = shapes.col(static_cast<Index>(k));
+    const double size = v.norm();
+    for (int twice = 0; twice < 2; ++twice) v -= basis * (basis.adjoint() * v).eval();
+    if (!(v.norm() > 1e-7 * size)) continue;
+    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
+    basis.rightCols(1) = v.normalized();
+    chosen.push_back(k);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+Result<ModalEnergies> modal_energies(const System& system, const OperatingPoint& op, const LinearSystem& linear,
+                                     const EigenSolution& modes) {
+  const auto [position, rate] = pairs_of(linear);
+  if (position.size() != rate.size()) {
+    return tl::unexpected(Failure{"energies per mode",
+                                  "a model with velocity constraints has fewer rates than coordinates: its shapes do "
+                                  "not share out its energy",
+                                  {}});
+  }
+  const auto n = static_cast<Index>(position.size());
+  const MassRoot root(system, op);
+  const Matrix B = root.of(linear.dqdot(Eigen::all, rate));
+  const Matrix M = B.transpose() * B;
+  const Matrix C = -M * linear.model.A(rate, rate), K = -M * linear.model.A(rate, position);
+  // Rates and accelerations of the coordinates are those of the bodies, seen in their mass.
+  const auto seen = [&](const std::vector<double>& of_bodies) {
+    const Matrix column = Eigen::Map<const Eigen::VectorXd>(of_bodies.data(), static_cast<Index>(of_bodies.size()));
+    return Eigen::VectorXd(B.completeOrthogonalDecomposition().solve(root.of(column)).col(0));
+  };
+  const Eigen::VectorXd v = seen(op.velocity), a = seen(op.acceleration);
+  const Eigen::VectorXd x = K.completeOrthogonalDecomposition().solve(-(M * a + C * v));
+
+  // Rows by the root of their mass, so that lengths and angles compare.
+  const Eigen::VectorXd unit = M.diagonal().cwiseSqrt().unaryExpr([](double m) { return m > 0 ? m : 1.0; });
+  const ComplexMatrix shapes = unit.cast<Complex>().asDiagonal() * modes.vectors(position, Eigen::all);
+  const std::vector<std::size_t> chosen = spanning(modes, shapes);
+  if (static_cast<Index>(chosen.size()) < n) {
+    return tl::unexpected(
+        Failure{"energies per mode",
+                fmt::format("the modal matrix is singular: the shapes of all modes span {} of {} coordinates",
+                            chosen.size(), n),
+                {}});
+  }
+  ComplexMatrix Phi(n, n);
+  for (Index c = 0; c < n; ++c)
+    Phi.col(c) = modes.vectors(position, static_cast<Index>(chosen[static_cast<std::size_t>(c)]));
+  const Eigen::FullPivLU<ComplexMatrix> lu(unit.cast<Complex>().asDiagonal() * Phi);
+  const Eigen::VectorXcd eta = lu.solve(unit.cwiseProduct(x).cast<Complex>());
+  const Eigen::VectorXcd eta_rate = lu.solve(unit.cwiseProduct(v).cast<Complex>());
+
+  ModalEnergies out;
+  out.modes.resize(modes.modes.size());
+  const auto share = [&](const Matrix& m, const Eigen::VectorXcd& e, Index i) {
+    return std::real(std::conj(e(i)) * Phi.col(i).dot(times(m, Phi * e).col(0)));
+  };
+  for (Index i = 0; i < n; ++i) {
+    ModalEnergies::Share& s = out.modes[chosen[static_cast<std::size_t>(i)]];
+    s.kinetic = 0.5 * share(M, eta_rate, i);
+    s.potential = 0.5 * share(K, eta, i);
+    s.power = share(C, eta_rate, i);
+    out.total.kinetic += s.kinetic, out.total.potential += s.potential, out.total.power += s.power;
+  }
+  return out;
+}
+
+ModalMasses modal_masses(const System& system, const OperatingPoint& op, const LinearSystem& linear,
+                         const EigenSolution& modes, MarkerId frame) {
+  Vector origin{};
+  Matrix3 axes = Matrix3::identity();
+  if (frame.valid()) {
+    const MarkerPlace& place = system.layout().marker(system.signals().place_of(frame));
+    const auto b = static_cast<std::size_t>(place.body.index);
+    origin = op.poses[b].r + op.poses[b].R * place.p_BM;
+    axes = op.poses[b].R * place.R_BM;
+  }
+  const MassRoot root(system, op);
+  const Matrix rigid = root.of_rigid_motion(origin, axes);
+  const ComplexMatrix displacement = times(linear.dq.leftCols(modes.vectors.rows()), modes.vectors);
+  ComplexMatrix shapes(rigid.rows(), displacement.cols());
+  shapes.real() = root.of(displacement.real());
+  shapes.imag() = root.of(displacement.imag());
+
+  ModalMasses out;
+  for (Index d = 0; d < 6; ++d) out.total[static_cast<std::size_t>(d)] = rigid.col(d).squaredNorm();
+  out.modes.resize(modes.modes.size());
+  for (std::size_t k = 0; k < modes.modes.size(); ++k) {
+    const auto at = static_cast<Index>(k);
+    const double size = displacement.col(at).cwiseAbs().maxCoeff(), before = shapes.col(at).norm();
+    const Complex hz = modes.modes[k].eigenvalue_hz;
+    for (int twice = 0; twice < 2; ++twice) {
+      for (std::size_t j = 0; j < k; ++j) {
+        if (std::abs(modes.modes[j].eigenvalue_hz - hz) > 1e-9 * std::abs(hz)) continue;
+        const auto other = shapes.col(static_cast<Index>(j));
+        if (other.squaredNorm() > 0) shapes.col(at) -= other * (other.dot(shapes.col(at)) / other.squaredNorm());
+      }
+    }
+    if (!(shapes.col(at).norm() > 1e-7 * before) || size == 0) {
+      shapes.col(at).setZero();
+      continue;
+    }
+    shapes.col(at) /= size;
+    ModalMasses::Row& row = out.modes[k];
+    row.generalized = shapes.col(at).squaredNorm();
+    for (Index d = 0; d < 6; ++d) {
+      const Complex L = shapes.col(at).dot(rigid.col(d).cast<Complex>());
+      row.participation[static_cast<std::size_t>(d)] = L / row.generalized;
+      row.effective[static_cast<std::size_t>(d)] = std::norm(L) / row.generalized;
+    }
+  }
+  return out;
+}
+
+}  // namespace dynalin
