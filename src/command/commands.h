@@ -32,12 +32,14 @@ struct LinearCommand {
     bool has(std::size_t number, const EigenMode&) const;
   };
   Modes coordinates, kinetic, strain, dissipation, markers;
+  Modes energy_per_mode, mass_per_mode;
+  std::optional<std::int64_t> modal_rm;
   std::vector<std::int64_t> marker_list;  // MLIST
   int table_precision = 2;
   bool wants_tables() const {
-    return coordinates.wanted() || kinetic.wanted() || strain.wanted() || dissipation.wanted() || markers.wanted();
+    return coordinates.wanted() || kinetic.wanted() || strain.wanted() || dissipation.wanted() || markers.wanted() ||
+           energy_per_mode.wanted() || mass_per_mode.wanted();
   }
-  std::vector<std::string> tables;  // arguments that ask for tables not available yet, as named
 };
 
 // ENVIRONMENT: an environment variable for the rest of the run.

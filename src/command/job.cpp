@@ -116,6 +116,7 @@ class Loader {
       need(linear->pstate, "PSTATE", found(linear->pstate, "PSTATE"));
       need(linear->pinput, "PINPUT", found(linear->pinput, "PINPUT"));
       need(linear->poutput, "POUTPUT", found(linear->poutput, "POUTPUT"));
+      need(linear->modal_rm, "MARKER", linear->modal_rm && job.model->find_marker(*linear->modal_rm).has_value());
       for (const std::int64_t id : linear->marker_list) {
         need(id, "MARKER", job.model->find_marker(id).has_value());
       }

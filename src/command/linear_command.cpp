@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <sstream>
 
 namespace dynalin {
 
@@ -55,6 +57,22 @@ struct WrittenLinear {
 };
 
 constexpr std::size_t longest_file_name = 76;
+
+// ALL, or one or two mode numbers; empty if it is neither.
+Integers all_or_range(const std::string& text) {
+  std::string word(text);
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  if (word == "ALL") return {1, std::numeric_limits<std::int64_t>::max()};
+  Integers range;
+  std::istringstream in(word);
+  for (std::int64_t n = 0; in >> n;) {
+    range.push_back(n);
+    in >> std::ws;
+    if (in.peek() == ',') in.get();
+  }
+  return in.eof() ? range : Integers{};
+}
 
 class Rules {
  public:
@@ -122,14 +140,11 @@ class Rules {
     }
   }
   void all_or_range(std::string_view name, const std::string& text) {
-    if (text.empty()) return;
-    std::string upper(text);
-    std::transform(upper.begin(), upper.end(), upper.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    const bool number = upper.find_first_not_of("0123456789, \t") == std::string::npos &&
-                        upper.find_first_of("123456789") != std::string::npos;
-    if (upper != "ALL" && !number) {
-      error("value-out-of-range", name, fmt::format("{} takes ALL or one or two mode numbers", name));
+    const Integers range = dynalin::all_or_range(text);
+    const bool numbers = range.size() == 1 || range.size() == 2;
+    if (!text.empty() && (!numbers || range.front() < 1 || range.back() < range.front())) {
+      error("value-out-of-range", name,
+            fmt::format("{} takes ALL or mode numbers i1 ≥ 1 and i2 ≥ i1, not {}", name, text));
     }
   }
 
@@ -150,7 +165,7 @@ class Rules {
     excluded("STRAIN", "FSTRAIN");
     excluded("DISSIPAT", "FDISSIPAT");
     for (const auto name : {"COORDS", "KINETIC", "STRAIN", "DISSIPAT", "FCOORDS", "FKINETIC", "FSTRAIN", "FDISSIPAT",
-                            "MLIST", "MRANGE"}) {
+                            "MLIST", "MRANGE", "ENERGY_PER_MODE", "MASS_PER_MODE"}) {
       excluded("NOVECTOR", name);
     }
     if (given("MLIST") != given("MRANGE")) {
@@ -230,12 +245,9 @@ std::optional<LinearCommand> read_linear(ElementReader& reader) {
   c.markers = {w.mrange, {}};
   c.marker_list = w.mlist;
   c.table_precision = static_cast<int>(w.table_precision.value_or(2));
-  for (const auto name : {"ENERGY_PER_MODE", "MASS_PER_MODE"}) {
-    if (!reader.given(name)) continue;
-    c.tables.emplace_back(name);
-    reader.warning("table-not-built", reader.at(name),
-                   fmt::format("the table {} is not available yet and is left out", name));
-  }
+  c.energy_per_mode = {all_or_range(w.energy_per_mode), {}};
+  c.mass_per_mode = {all_or_range(w.mass_per_mode), {}};
+  c.modal_rm = w.modal_rm;
   return c;
 }
 

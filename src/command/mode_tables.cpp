@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "linear/modal_energy.h"
+#include "linear/modal_sums.h"
 #include "output/modal_tables.h"
 
 namespace dynalin {
@@ -26,6 +27,17 @@ Result<std::string> mode_tables(const LinearCommand& command, const System& syst
     if (kinetic) write_kinetic(out, format, energy.kinetic(k));
     if (strain) write_forces(out, format, ForceTable::strain, energy.strain(k));
     if (dissipation) write_forces(out, format, ForceTable::dissipation, energy.dissipation(k));
+  }
+  if (command.energy_per_mode.wanted()) {
+    const auto energies = modal_energies(system, point, linear, modes);
+    if (!energies) return tl::unexpected(energies.error());
+    write_energies(out, format, *energies,
+                   [&](std::size_t k) { return command.energy_per_mode.has(k + 1, modes.modes[k]); });
+  }
+  if (command.mass_per_mode.wanted()) {
+    const auto frame = command.modal_rm ? *system.model().find_marker(*command.modal_rm) : MarkerId{};
+    write_masses(out, format, modal_masses(system, point, linear, modes, frame), command.modal_rm.value_or(0),
+                 [&](std::size_t k) { return command.mass_per_mode.has(k + 1, modes.modes[k]); });
   }
   return out.str();
 }

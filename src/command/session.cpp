@@ -167,8 +167,6 @@ class Session {
     options.without_damping = command.without_damping;
     options.principal_states = command.original || environment_.principal_states;
     options.without_rate_coupling = command.original || environment_.without_rate_coupling;
-    for (const std::string& table : command.tables)
-      remark(fmt::format("the table {} is not available yet and is left out", table));
     const OperatingPoint& point = point_of(command);
     auto linear = linearize(system_, point, options);
     if (!linear) return tl::unexpected(linear.error());

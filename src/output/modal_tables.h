@@ -2,9 +2,11 @@
 // read.
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 
 #include "linear/modal_energy.h"
+#include "linear/modal_sums.h"
 
 namespace dynalin {
 
@@ -22,5 +24,11 @@ void write_shape(std::ostream&, const ModalTableFormat&, ShapeTable,
 void write_kinetic(std::ostream&, const ModalTableFormat&, const std::vector<ModalRow<double>>&);
 enum class ForceTable : bool { strain, dissipation };
 void write_forces(std::ostream&, const ModalTableFormat&, ForceTable, const std::vector<ModalRow<double>>&);
+
+// One row a wanted mode, with shares in percent of what the wanted modes hold together, and the totals.
+using WantedMode = std::function<bool(std::size_t)>;
+void write_energies(std::ostream&, const ModalTableFormat&, const ModalEnergies&, const WantedMode&);
+// `rm` is the marker of MODAL_RM, 0 for the global frame.
+void write_masses(std::ostream&, const ModalTableFormat&, const ModalMasses&, std::int64_t rm, const WantedMode&);
 
 }  // namespace dynalin
