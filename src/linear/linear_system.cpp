@@ -50,7 +50,7 @@ class Linearizer {
     if (!candidates) return tl::unexpected(candidates.error());
     candidates_ = std::move(*candidates);
     choose_coordinates();
-    choose_rates();
+    if (auto failure = choose_rates()) return tl::unexpected(*failure);
     label_states();
     read_channels();
     if (auto failure = solve_levels()) return tl::unexpected(*failure);
@@ -122,41 +122,56 @@ class Linearizer {
     }
   }
 
-  // Velocity rows take some of the rates away; a position whose rate is dependent stands alone.
-  void choose_rates() {
+  // Velocity rows take some of the rates away; a position whose rate is dependent stands alone. The rows are written in
+  // the chosen rates alone, δq′ = N δx′, so that every other rate is dependent whatever the sizes of its entries.
+  std::optional<Failure> choose_rates() {
     has_rate_.assign(chosen_.size(), true);
     velocity_active_ = active_;
     bool any = false;
     for (std::int32_t k = 0; k < rows_.size(); ++k) any = any || rows_.level(k) == RowLevel::velocity;
-    if (!any) return;
-    std::vector<SparseRow> rows;
-    for (std::int32_t k = 0; k < rows_.size(); ++k) {
-      const bool used = rows_.level(k) == RowLevel::velocity || active_[static_cast<std::size_t>(k)];
-      rows.push_back(used ? scaled_row(system_, rows_.row(k)) : SparseRow{});
-    }
+    if (!any || chosen_.empty()) return std::nullopt;
+    SparseLu lu;
+    if (!factor_level(active_, has_rate_, lu)) return undetermined_positions();
+    const auto count = static_cast<Eigen::Index>(chosen_.size()), held = static_cast<Eigen::Index>(n_) - count;
+    Matrix N = Matrix::Zero(n_, count);
     std::vector<std::int32_t> order;
-    for (std::int32_t c = 0; c < n_; ++c) order.push_back(c);
-    std::vector<std::int32_t> columns;
-    std::int32_t next = n_;
-    for (const Candidate& c : chosen_) {
-      SparseRow row;
-      double size = 0;
-      for (const auto& [column, g] : gradient(c)) {
-        row.column.push_back(column);
-        row.value.push_back(g.g * system_.coordinate_scale(column));
-        size = std::max(size, std::abs(row.value.back()));
+    for (Eigen::Index k = 0; k < count; ++k) {
+      // A unit of the coordinate is what a unit of the scaled coordinates of the layout makes of it.
+      double unit = 0;
+      for (const auto& [column, g] : gradient(chosen_[static_cast<std::size_t>(k)])) {
+        unit = std::max(unit, std::abs(g.g * system_.coordinate_scale(column)));
       }
-      row.column.push_back(next);
-      row.value.push_back(-size);
-      rows.push_back(std::move(row));
-      columns.push_back(next++);
+      N(held + k, k) = unit;
+      order.insert(order.begin(), static_cast<std::int32_t>(k));
     }
-    order.insert(order.end(), columns.rbegin(), columns.rend());
-    const Elimination e = eliminate(std::move(rows), next, order);
+    lu.solve(N);
+    std::vector<SparseRow> rows(static_cast<std::size_t>(rows_.size()));
     for (std::int32_t k = 0; k < rows_.size(); ++k) {
+      if (rows_.level(k) != RowLevel::velocity) continue;
+      Eigen::RowVectorXd reduced = Eigen::RowVectorXd::Zero(count);
+      double size = 0;
+      for (const auto& e : rows_.row(k)) {
+        reduced += e.c.g * N.row(e.column);
+        size = std::max(size, std::abs(e.c.g * system_.coordinate_scale(e.column)));
+      }
+      // What is left of a row that follows from the position rows is rounding.
+      if (reduced.cwiseAbs().maxCoeff() <= EliminationOptions{}.rank_tolerance * size) continue;
+      for (Eigen::Index c = 0; c < count; ++c) {
+        rows[static_cast<std::size_t>(k)].column.push_back(static_cast<std::int32_t>(c));
+        rows[static_cast<std::size_t>(k)].value.push_back(reduced(c));
+      }
+    }
+    const Elimination e = eliminate(std::move(rows), static_cast<std::int32_t>(count), order);
+    for (std::int32_t k = 0; k < rows_.size(); ++k) {
+      if (rows_.level(k) != RowLevel::velocity) continue;
       velocity_active_[static_cast<std::size_t>(k)] = e.pivot_column[static_cast<std::size_t>(k)] >= 0;
     }
-    for (std::size_t k = 0; k < chosen_.size(); ++k) has_rate_[k] = !e.dependent[static_cast<std::size_t>(columns[k])];
+    for (std::size_t k = 0; k < chosen_.size(); ++k) has_rate_[k] = !e.dependent[k];
+    return std::nullopt;
+  }
+
+  static Failure undetermined_positions() {
+    return {"linear analysis", "the chosen coordinates do not determine the position of the model", {}};
   }
 
   void label_states() {
@@ -278,15 +293,16 @@ class Linearizer {
 
     SparseLu lu;
     const std::vector<bool> every(chosen_.size(), true);
-    const Failure singular{"linear analysis", "the chosen coordinates do not determine the position of the model", {}};
-    if (!factor_level(active_, every, lu)) return singular;
+    if (!factor_level(active_, every, lu)) return undetermined_positions();
     dq = Matrix::Zero(n_, columns_);
     const auto held = static_cast<Eigen::Index>(n_) - static_cast<Eigen::Index>(chosen_.size());
     for (std::size_t k = 0; k < chosen_.size(); ++k) dq(held + static_cast<Eigen::Index>(k), position_column_[k]) = 1.0;
     lu.solve(dq);
 
     if (velocity_active_ != active_ || std::find(has_rate_.begin(), has_rate_.end(), false) != has_rate_.end()) {
-      if (!factor_level(velocity_active_, has_rate_, lu)) return singular;
+      if (!factor_level(velocity_active_, has_rate_, lu)) {
+        return Failure{"linear analysis", "the chosen rates do not determine the velocities of the model", {}};
+      }
     }
     dqdot = Matrix::Zero(n_, columns_);
     Eigen::Index r = 0;
