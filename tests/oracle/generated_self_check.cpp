@@ -73,7 +73,7 @@ TEST(Oracle, state_matrix_times_the_motion_is_the_jerk) {
     const std::vector<ChosenState> states = choose_states(m, point);
     const OracleLinearModel here = oracle_linearize(m, point, states);
     const std::vector<double> rates = rates_along(point, here, states);
-    const double h = 1e-6;
+    const double h = 2e-7;
     const OraclePoint after = advanced(point, here, h), before = advanced(point, here, -h);
     const std::vector<double> up = rates_along(after, oracle_linearize(m, after, states), states);
     const std::vector<double> down = rates_along(before, oracle_linearize(m, before, states), states);
