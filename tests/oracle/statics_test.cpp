@@ -90,7 +90,9 @@ TEST(Statics, generated_mechanisms_come_to_rest_or_say_why_not) {
       const double off = std::abs(static_cast<double>(model.row_position(row)));
       const bool relation = row.type == Row::Type::expression && row.motion < 0;
       counted = counted || (relation && turned && off > 0.1);
-      if (!counted) EXPECT_LE(off, 1e-10 * static_cast<double>(model.length));
+      if (!counted) {
+        EXPECT_LE(off, 1e-10 * static_cast<double>(model.length));
+      }
     }
     if (counted) continue;
     try {
