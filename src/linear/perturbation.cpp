@@ -54,25 +54,6 @@ void place(std::vector<Triplet>& entries, const ColumnMatrix& m, std::int32_t ro
 
 using Entries = std::vector<Triplet>;
 
-// One of the first two levels: constraint rows, then chosen coordinates.
-ColumnMatrix level_matrix(const ConstraintRows& rows, const StateChoice& choice, const std::vector<bool>& active,
-                          const std::vector<bool>& use, std::int32_t n, bool& square) {
-  Entries entries;
-  std::int32_t r = 0;
-  for (std::int32_t k = 0; k < rows.size(); ++k) {
-    if (!active[static_cast<std::size_t>(k)]) continue;
-    for (const auto& e : rows.row(k)) entries.push_back({r, e.column, e.c.g});
-    ++r;
-  }
-  for (std::size_t k = 0; k < choice.gradient.size(); ++k) {
-    if (!use[k]) continue;
-    for (const auto& e : choice.gradient[k]) entries.push_back({r, e.column, e.c.g});
-    ++r;
-  }
-  square = r == n;
-  return square ? compressed(n, n, entries) : ColumnMatrix{};
-}
-
 }  // namespace
 
 Result<PerturbationEquations> PerturbationEquations::make(const System& system, const ConstraintRows& rows,
@@ -99,12 +80,14 @@ Result<PerturbationEquations> PerturbationEquations::make(const System& system, 
     p.level_[level] = std::move(lu);
     return true;
   };
-  const Failure singular{"linear analysis", "the chosen coordinates do not determine the position of the model", {}};
-  diagonal[0] = level_matrix(rows, choice, choice.active, every, n, square);
-  if (!square || !factor(0)) return tl::unexpected(singular);
+  diagonal[0] = level_matrix(rows, choice, choice.active, every, square);
+  if (!square || !factor(0)) return tl::unexpected(undetermined_positions());
   if (choice.splits_unequally()) {
-    diagonal[1] = level_matrix(rows, choice, choice.velocity_active, choice.has_rate, n, square);
-    if (!square || !factor(1)) return tl::unexpected(singular);
+    diagonal[1] = level_matrix(rows, choice, choice.velocity_active, choice.has_rate, square);
+    if (!square || !factor(1)) {
+      return tl::unexpected(
+          Failure{"linear analysis", "the chosen rates do not determine the velocities of the model", {}});
+    }
   } else {
     diagonal[1] = diagonal[0];
     p.level_[1] = p.level_[0];

@@ -18,10 +18,10 @@ class Chooser {
         candidates_(std::move(candidates)),
         n_(layout_.coordinate_count) {}
 
-  StateChoice run() {
+  Result<StateChoice> run() {
     choice_.warnings = candidates_.warnings;
     choose_coordinates();
-    choose_rates();
+    if (auto failure = choose_rates()) return tl::unexpected(*failure);
     list_states();
     return std::move(choice_);
   }
@@ -95,43 +95,57 @@ class Chooser {
     }
   }
 
-  // Velocity rows take some of the rates away; a position whose rate is dependent stands alone.
-  void choose_rates() {
-    choice_.has_rate.assign(choice_.labels.size(), true);
+  // Velocity rows take some of the rates away; a position whose rate is dependent stands alone. The rows are written in
+  // the chosen rates alone, δq′ = L⁻¹ (0; δx′), so that every other rate is dependent whatever the sizes of its
+  // entries.
+  std::optional<Failure> choose_rates() {
+    const std::size_t count = choice_.gradient.size();
+    choice_.has_rate.assign(count, true);
     choice_.velocity_active = choice_.active;
-    bool any = false;
-    for (std::int32_t k = 0; k < rows_.size(); ++k) any = any || rows_.level(k) == RowLevel::velocity;
-    if (!any) return;
-    std::vector<SparseRow> rows;
+    std::vector<std::int32_t> on_velocity;
     for (std::int32_t k = 0; k < rows_.size(); ++k) {
-      const bool used = rows_.level(k) == RowLevel::velocity || choice_.active[static_cast<std::size_t>(k)];
-      rows.push_back(used ? scaled_row(system_, rows_.row(k)) : SparseRow{});
+      if (rows_.level(k) == RowLevel::velocity) on_velocity.push_back(k);
     }
+    if (on_velocity.empty() || count == 0) return std::nullopt;
+    bool square = false;
+    SparseLu lu;
+    const ColumnMatrix level = level_matrix(rows_, choice_, choice_.active, choice_.has_rate, square);
+    if (!square || !lu.factor(level)) return undetermined_positions();
+    const auto held = static_cast<Eigen::Index>(n_) - static_cast<Eigen::Index>(count);
+    // A unit of a coordinate is what a unit of the scaled coordinates of the layout makes of it.
+    Eigen::VectorXd unit = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count));
     std::vector<std::int32_t> order;
-    for (std::int32_t c = 0; c < n_; ++c) order.push_back(c);
-    std::vector<std::int32_t> columns;
-    std::int32_t next = n_;
-    for (const Gradient& gradient : choice_.gradient) {
-      SparseRow row;
-      double size = 0;
-      for (const auto& [column, g] : gradient) {
-        row.column.push_back(column);
-        row.value.push_back(g.g * system_.coordinate_scale(column));
-        size = std::max(size, std::abs(row.value.back()));
+    for (std::size_t k = 0; k < count; ++k) {
+      double& u = unit(static_cast<Eigen::Index>(k));
+      for (const auto& [column, g] : choice_.gradient[k]) {
+        u = std::max(u, std::abs(g.g * system_.coordinate_scale(column)));
       }
-      row.column.push_back(next);
-      row.value.push_back(-size);
-      rows.push_back(std::move(row));
-      columns.push_back(next++);
+      order.insert(order.begin(), static_cast<std::int32_t>(k));
     }
-    order.insert(order.end(), columns.rbegin(), columns.rend());
-    const Elimination e = eliminate(std::move(rows), next, order);
-    for (std::int32_t k = 0; k < rows_.size(); ++k) {
+    std::vector<SparseRow> rows(static_cast<std::size_t>(rows_.size()));
+    for (const std::int32_t k : on_velocity) {
+      Eigen::MatrixXd row = Eigen::MatrixXd::Zero(n_, 1);
+      double size = 0;
+      for (const auto& e : rows_.row(k)) {
+        row(e.column, 0) += e.c.g;
+        size = std::max(size, std::abs(e.c.g * system_.coordinate_scale(e.column)));
+      }
+      lu.solve_transposed(row);
+      const Eigen::VectorXd reduced = row.col(0).tail(n_ - held).cwiseProduct(unit);
+      // What is left of a row that follows from the position rows is rounding.
+      if (reduced.cwiseAbs().maxCoeff() <= EliminationOptions{}.rank_tolerance * size) continue;
+      for (Eigen::Index c = 0; c < reduced.size(); ++c) {
+        if (reduced(c) == 0.0) continue;
+        rows[static_cast<std::size_t>(k)].column.push_back(static_cast<std::int32_t>(c));
+        rows[static_cast<std::size_t>(k)].value.push_back(reduced(c));
+      }
+    }
+    const Elimination e = eliminate(std::move(rows), static_cast<std::int32_t>(count), order);
+    for (const std::int32_t k : on_velocity) {
       choice_.velocity_active[static_cast<std::size_t>(k)] = e.pivot_column[static_cast<std::size_t>(k)] >= 0;
     }
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      choice_.has_rate[k] = !e.dependent[static_cast<std::size_t>(columns[k])];
-    }
+    for (std::size_t k = 0; k < count; ++k) choice_.has_rate[k] = !e.dependent[k];
+    return std::nullopt;
   }
 
   // States are listed by element; user coordinates keep their order and come first.
@@ -185,6 +199,29 @@ class Chooser {
 
 bool StateChoice::splits_unequally() const {
   return velocity_active != active || std::find(has_rate.begin(), has_rate.end(), false) != has_rate.end();
+}
+
+ColumnMatrix level_matrix(const ConstraintRows& rows, const StateChoice& choice, const std::vector<bool>& active,
+                          const std::vector<bool>& used, bool& square) {
+  std::vector<Triplet> entries;
+  std::int32_t r = 0;
+  for (std::int32_t k = 0; k < rows.size(); ++k) {
+    if (!active[static_cast<std::size_t>(k)]) continue;
+    for (const auto& e : rows.row(k)) entries.push_back({r, e.column, e.c.g});
+    ++r;
+  }
+  for (std::size_t k = 0; k < choice.gradient.size(); ++k) {
+    if (!used[k]) continue;
+    for (const auto& e : choice.gradient[k]) entries.push_back({r, e.column, e.c.g});
+    ++r;
+  }
+  const std::int32_t n = rows.layout().coordinate_count;
+  square = r == n;
+  return square ? compressed(n, n, entries) : ColumnMatrix{};
+}
+
+Failure undetermined_positions() {
+  return {"linear analysis", "the chosen coordinates do not determine the position of the model", {}};
 }
 
 Result<StateChoice> choose_states(const System& system, const Motion& motion, const ConstraintRows& rows,

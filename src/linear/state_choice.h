@@ -5,6 +5,7 @@
 #pragma once
 
 #include "linear/candidates.h"
+#include "system/sparse_lu.h"
 
 namespace dynalin {
 
@@ -27,6 +28,12 @@ struct StateChoice {
   std::int32_t size() const { return static_cast<std::int32_t>(states.size()); }
   bool splits_unequally() const;  // fewer rates than coordinates, or other rows
 };
+
+// The matrix of one level: constraint rows that are active, then the gradients of chosen coordinates that are used;
+// `square` says whether they determine a motion.
+ColumnMatrix level_matrix(const ConstraintRows&, const StateChoice&, const std::vector<bool>& active,
+                          const std::vector<bool>& used, bool& square);
+Failure undetermined_positions();
 
 Result<StateChoice> choose_states(const System&, const Motion&, const ConstraintRows&, const LinearOptions&);
 

@@ -54,6 +54,22 @@ INSTANTIATE_TEST_SUITE_P(speeds, Sleigh,
                          ::testing::Values(std::pair(1.0, -1.2903225806451615), std::pair(3.0, -3.8709677419354844),
                                            std::pair(-2.0, 2.580645161290323)));
 
+// A coordinate that follows the chosen one with a factor above ten keeps its rate beside a velocity constraint
+// elsewhere: the slide moves 53 units along z for one along x, which is the state.
+TEST_F(Rolling, sleigh_leaves_the_rate_of_a_steep_slide_alone) {
+  const Spectrum s = solve(
+      "Slide and sleigh\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, ZP=0.15,1,8\nMARKER/2\n"
+      "PART/2, MASS=4, CM=20, IP=1,1,1\nMARKER/20, ZP=0.15,1,8\n"
+      "JOINT/1, TRANSLATIONAL, I=20, J=1\nBUSHING/1, I=20, J=1, K=0,0,36\n"
+      "PART/3, MASS=2, CM=30, IP=0.3,0.3,0.3, VX=1, VY=0, WZ=0\nMARKER/30\nMARKER/31, QP=-0.4,0,0\n"
+      "JOINT/2, PLANAR, I=30, J=2\nGCON/1, FUNCTION=VY(31,0,31)\nEND\n");
+  ASSERT_EQ(s.values.size(), 7u);
+  EXPECT_EQ(s.rates, 3u);
+  expect_near({s.values[0].real(), std::abs(s.values[0].imag())}, {0, 3}, 1e-12);
+  expect_near(s.values[2], -1.2903225806451615, 1e-12);
+  for (std::size_t k = 3; k < 7; ++k) expect_near(s.values[k], 0, 1e-9);
+}
+
 // Rolling without slip of a wheel of radius r about its axle: contact on the ground and no velocity there. `centre` is
 // at the wheel's centre, `axle` one unit away along the axle, both on the wheel.
 std::string rolling(int first_id, int centre, int axle, double r) {

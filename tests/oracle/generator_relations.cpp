@@ -66,7 +66,7 @@ void Draw::draw_couplers() {
 }
 
 void Draw::draw_gears() {
-  if (mobility() < 2 || !chance(0.6)) return;
+  if (m_.joints.size() < 2 || mobility() < 2 || !chance(0.6)) return;
   for (int attempt = 0; attempt < 30; ++attempt) {
     const auto one = static_cast<std::size_t>(pick(static_cast<int>(m_.joints.size())));
     const auto two = static_cast<std::size_t>(pick(static_cast<int>(m_.joints.size())));

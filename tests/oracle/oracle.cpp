@@ -53,15 +53,16 @@ Extrapolated extrapolate(F&& f, Real h) {
 // Starts with a step that suits gentle nonlinearities and shrinks it while that pays.
 template <class F>
 Extrapolated differentiate(F&& f, Real h) {
+  constexpr int attempts = 6;
   Extrapolated best;
   best.relative = -1;
-  for (int attempt = 0; attempt < 4; ++attempt) {
+  for (int attempt = 0; attempt < attempts; ++attempt) {
     try {
       Extrapolated next = extrapolate(f, h);
       if (best.relative < 0 || next.relative < best.relative) best = std::move(next);
     } catch (const std::runtime_error&) {
       // Too far away for Newton, or for a function: the next, smaller step decides.
-      if (attempt == 3 && best.relative < 0) throw;
+      if (attempt + 1 == attempts && best.relative < 0) throw;
     }
     if (best.relative >= 0 && best.relative < 1e-14L) break;
     h /= 4;
