@@ -67,6 +67,7 @@ TEST(Oracle, state_matrix_times_the_motion_is_the_jerk) {
     Mechanism m = random_mechanism(seed);
     const std::string text = dataset_text(m);
     if (!m.motions.empty() || text.find("TIME", text.find("ACCGRAV")) != std::string::npos) continue;
+    if (text.find("PINVAL") != std::string::npos) continue;  // it names the PINPUT that is taken away here
     m.pinput = {};  // inputs keep their own expressions, as along the motion
     SCOPED_TRACE(seed);
     ++checked;
