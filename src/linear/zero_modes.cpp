@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace dynalin {
@@ -81,20 +82,40 @@ class Splitter {
   void take_null_space() {
     const Index k = left();
     if (k == 0) return;
-    // Rows in units of what they may be off: singular values of about one and less are then rounding.
-    Matrix scaled = core();
-    const Eigen::VectorXd unit = tolerance(Matrix::Ones(k, 1));
-    for (Index i = 0; i < k; ++i) scaled.row(i) /= unit(i) > 0 ? unit(i) : std::numeric_limits<double>::min();
+    std::vector<Index> support(static_cast<std::size_t>(k));
+    std::iota(support.begin(), support.end(), Index{0});
+    const Matrix scaled = in_units_of_tolerance(support);
     if (!scaled.allFinite() || surely_regular(scaled)) return;
     const Eigen::ColPivHouseholderQR<Matrix> qr(scaled);
-    const Matrix& R = qr.matrixR();
     Index rank = k;
-    while (rank > 0 && std::abs(R(rank - 1, rank - 1)) <= static_cast<double>(k)) --rank;
+    while (rank > 0 && std::abs(qr.matrixR()(rank - 1, rank - 1)) <= static_cast<double>(k)) --rank;
     for (; rank < k; ++rank) {
-      const Matrix v = null_vectors(qr, rank);
-      const Matrix image = core() * v;
-      if ((image.array().abs() <= tolerance(v).array()).all()) return rotate(v);
+      Matrix v = null_vectors(qr, rank);
+      if (is_null(v)) return rotate(v);
+      // Once more among the columns that take part, in units of their own rows.
+      support.clear();
+      for (Index j = 0; j < k; ++j) {
+        if (!v.row(j).isZero(0)) support.push_back(j);
+      }
+      const Eigen::ColPivHouseholderQR<Matrix> own(in_units_of_tolerance(support));
+      const Matrix part = null_vectors(own, static_cast<Index>(support.size()) - v.cols());
+      v.setZero();
+      v(support, Eigen::all) = part;
+      if (part.allFinite() && is_null(v)) return rotate(v);
     }
+  }
+  bool is_null(const Matrix& v) { return ((core() * v).array().abs() <= tolerance(v).array()).all(); }
+
+  // Columns of the core with rows in units of what they may be off: singular values of about one and less are rounding.
+  Matrix in_units_of_tolerance(const std::vector<Index>& columns) {
+    Matrix ones = Matrix::Zero(left(), 1);
+    ones(columns, Eigen::all).setOnes();
+    const Eigen::VectorXd unit = tolerance(ones);
+    Matrix scaled = core()(Eigen::all, columns);
+    for (Index i = 0; i < scaled.rows(); ++i) {
+      if (unit(i) > 0) scaled.row(i) /= unit(i);
+    }
+    return scaled;
   }
 
   // An estimate of ‖M⁻¹‖ far below one says that no direction is shrunk to rounding.
@@ -109,7 +130,7 @@ class Splitter {
   }
 
   static Matrix null_vectors(const Eigen::ColPivHouseholderQR<Matrix>& qr, Index rank) {
-    const Index k = qr.rows(), p = k - rank;
+    const Index k = qr.cols(), p = k - rank;
     Matrix v = Matrix::Zero(k, p);
     v.topRows(rank) = -qr.matrixR().topRightCorner(rank, p);
     qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(v.topRows(rank));

@@ -33,7 +33,10 @@ class Bounds : public ::testing::Test {
     const System system{std::shared_ptr<const Model>(std::move(model.value))};
     Findings findings;
     const auto op = initial_conditions(system, findings);
-    ASSERT_TRUE(op) << op.error().message << "\n" << text;
+    if (!op) {  // a draw whose accelerations have no solution
+      ++refused_;
+      return;
+    }
     const auto linear = linearize(system, *op, {});
     ASSERT_TRUE(linear) << linear.error().message;
     if (linear->model.states.empty()) return;
@@ -45,7 +48,8 @@ class Bounds : public ::testing::Test {
       Real error = distance(exact.front(), mode.eigenvalue_hz);
       for (const Value& v : exact) error = std::min(error, distance(v, mode.eigenvalue_hz));
       ++examined_;
-      const Real bound(mode.error_bound_hz);
+      // 50 digits of equations of size one are themselves good to 1e-45.
+      const Real bound = Real(mode.error_bound_hz) + Real("1e-45");
       EXPECT_LE(error, bound) << mode.eigenvalue_hz << " condition " << mode.condition << " refined " << mode.refined
                               << "\n"
                               << listing(exact) << text;
@@ -61,9 +65,10 @@ class Bounds : public ::testing::Test {
     RecordProperty("median_of_bound_over_error", fmt::format("{:.3g}", median));
     EXPECT_LE(median, 100);
     EXPECT_LE(unbounded_, examined_ / 100);
+    EXPECT_LE(refused_, 1);
   }
 
-  int examined_ = 0, unbounded_ = 0;
+  int examined_ = 0, unbounded_ = 0, refused_ = 0;
   std::vector<double> ratio_;
 };
 
