@@ -81,6 +81,13 @@ struct EigenMode {
   std::string moves_most;  // the part with the largest motion, or the controller where no part moves; empty: not known
 };
 
+// One entry of a mode shape: a coordinate of the model or a differential state.
+struct ShapeLabel {
+  std::string element;   // "PART/2"
+  std::string name;      // view name of it, empty if there is none
+  std::string quantity;  // X Y Z of the origin of the BCS, RX RY RZ in global axes; "State 1"; a curve parameter
+};
+
 struct EigenSolution {
   double time = 0;
   std::int64_t rm = 0;      // marker of the RM option, 0 if none
@@ -93,6 +100,10 @@ struct EigenSolution {
   std::vector<EigenMode> modes;
   // Eigenvectors of A, one column a mode in the same order, of length 1; empty if they were not asked for.
   Eigen::MatrixXcd vectors;
+  // The same motions in all coordinates of the model and the differential states, one column a mode; the entry of
+  // largest modulus is 1.
+  std::vector<ShapeLabel> shape_labels;
+  Eigen::MatrixXcd shapes;
 };
 
 }  // namespace dynalin

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -76,6 +78,7 @@ class Loader {
     if (read || built.diagnostics.has_errors()) diagnostics_.append(std::move(built.diagnostics));
     job.model = std::move(built.value);
     if (!diagnostics_.has_errors()) check_ids(job);
+    read_results_options(job);
     if (diagnostics_.has_errors()) return fail();
     err_ << render(diagnostics_);
     job.prefix = !options_.output_prefix.empty() ? options_.output_prefix : default_prefix(job, dataset_path);
@@ -99,6 +102,23 @@ class Loader {
   std::nullopt_t fail() {
     err_ << render(diagnostics_);
     return std::nullopt;
+  }
+  // RESULTS/XRF asks for the results file in XML; other contents of it are not written here.
+  static void read_results_options(Job& job) {
+    constexpr std::int64_t digits_unless_stated = 17;
+    for (const Statement& s : job.dataset->statements) {
+      if (s.name != "RESULTS") continue;
+      bool xrf = false;
+      std::int64_t digits = digits_unless_stated;
+      static constexpr std::array<std::string_view, 2> names = {"XRF", "DECIMALPLACES"};
+      for (const WrittenArgument& a : s.arguments) {
+        const auto which = find_keyword(a.name.text(), names);
+        if (!which) continue;
+        if (*which == 0) xrf = true;
+        if (*which == 1 && !a.value.empty()) digits = static_cast<std::int64_t>(a.value.front().value);
+      }
+      if (xrf) job.xrf_digits = static_cast<int>(std::clamp<std::int64_t>(digits, 1, 17));
+    }
   }
   // Ids that commands refer to must exist before anything runs.
   void check_ids(const Job& job) {

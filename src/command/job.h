@@ -15,6 +15,7 @@ struct Job {
   std::shared_ptr<const Dataset> dataset;
   std::shared_ptr<const Model> model;
   std::string prefix;
+  int xrf_digits = 0;  // decimals of the results file, 0 for none
   std::string folder;  // of the command file; files named in commands are relative to it
 };
 

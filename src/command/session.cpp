@@ -19,6 +19,7 @@
 #include "output/json.h"
 #include "output/matrices.h"
 #include "output/message_file.h"
+#include "output/results_file.h"
 
 namespace dynalin {
 
@@ -31,7 +32,9 @@ constexpr std::string_view version = "0.1.0";
 class Session {
  public:
   Session(const SessionOptions& options, Job job, std::ostream& out, std::ostream& err)
-      : options_(options), job_(std::move(job)), out_(out), err_(err), system_(job_.model), point_(system_.drawn()) {}
+      : options_(options), job_(std::move(job)), out_(out), err_(err), system_(job_.model), point_(system_.drawn()) {
+    if (job_.xrf_digits > 0) results_.emplace(job_.model->title, job_.xrf_digits);
+  }
 
   // What only showed while the equations were made: wrong input like any other.
   bool sound() const {
@@ -187,6 +190,7 @@ class Session {
     if (command.option == LinearOption::statemat) {
       write_matrices(command, named_matrices(linear->model));
       json_.add(c.text, linear->model);
+      if (results_) results_->add(linear->model);
       if (!options_.quiet)
         fmt::print(out_, "state matrices of {} states written to {}\n", linear->model.states.size(), command.file);
       return {};
@@ -196,13 +200,17 @@ class Session {
     }
     auto modes = eigensolve(*linear, command.without_vectors ? Vectors::none : Vectors::right);
     if (!modes) return tl::unexpected(modes.error());
-    if (!command.without_vectors) name_movers(system_, point, *linear, *modes);
+    if (!command.without_vectors) {
+      name_movers(system_, point, *linear, *modes);
+      map_shapes(system_, *linear, *modes);
+    }
     modes->rm = command.rm.value_or(0);
     modes->pstate = command.pstate.value_or(0);
     modes->without_damping = command.without_damping;
     modes->original = command.original;
     write_eigensolution(message_, *modes);
     json_.add(c.text, *modes);
+    if (results_) results_->add(*modes);
     if (command.wants_tables()) {
       const auto tables = mode_tables(command, system_, point, *linear, *modes);
       if (!tables) return tl::unexpected(tables.error());
@@ -259,6 +267,11 @@ class Session {
       text.stream() << tables_.view();
       commit(text);
     }
+    if (results_) {
+      AtomicFile results(job_.prefix + ".res");
+      results_->write(results.stream(), std::string(version));
+      commit(results);
+    }
     AtomicFile message(job_.prefix + ".msg");
     message.stream() << message_.str();
     commit(message);
@@ -282,6 +295,7 @@ class Session {
   std::vector<std::string> redundant_;
   std::ostringstream message_, tables_;
   JsonResults json_;
+  std::optional<ResultsFile> results_;  // where the dataset has RESULTS with XRF
   std::vector<std::unique_ptr<AtomicFile>> files_;
 };
 

@@ -13,7 +13,7 @@ using Complex = std::complex<double>;
 using ComplexVector = std::array<Complex, 3>;
 
 // The force elements whose rows the tables have, in the order of the document.
-constexpr std::array<std::string_view, 8> force_statements = {"BEAM",   "BUSHING",      "FIELD",  "GFORCE",
+constexpr std::array<std::string_view, 9> force_statements = {"BEAM",   "BUSHING",      "FIELD",  "GFORCE", "NFORCE",
                                                               "SFORCE", "SPRINGDAMPER", "VFORCE", "VTORQUE"};
 
 ComplexVector three(const Eigen::VectorXcd& x, std::int32_t at) { return {x(at), x(at + 1), x(at + 2)}; }
@@ -139,7 +139,7 @@ std::pair<std::vector<ModalRow<Complex>>, Complex> ModalEnergy::shape(std::size_
       turn = three(dq, block.offset + 3);
       add(of_cm, times(-skew(motion_.bodies[b].R * system_.model().bodies[b].p_BC), turn));
     }
-    rows.push_back({&block.label, {of_cm[0], of_cm[1], of_cm[2], turn[0], turn[1], turn[2]}});
+    rows.push_back({&block.label, 0, {of_cm[0], of_cm[1], of_cm[2], turn[0], turn[1], turn[2]}});
   }
   const auto& states = system_.layout().states;
   for (std::size_t k = 0; k < states.size(); ++k) {
@@ -147,7 +147,7 @@ std::pair<std::vector<ModalRow<Complex>>, Complex> ModalEnergy::shape(std::size_
     const auto found = std::find_if(solution_.states.begin(), solution_.states.end(), [&](const StateLabel& s) {
       return s.type == states[k].type && s.element == states[k].owner->id && s.coordinate == states[k].coordinate;
     });
-    rows.push_back({states[k].owner, {z(found - solution_.states.begin())}});
+    rows.push_back({states[k].owner, 0, {z(found - solution_.states.begin())}});
   }
   Complex largest = 0;
   for (const auto& row : rows) {
@@ -181,7 +181,7 @@ std::vector<ModalRow<Complex>> ModalEnergy::markers(std::size_t mode, std::span<
       turned = three(dq, block.offset + 3);
       add(moved, times(-skew(motion_.body(place.body).R * place.p_BM), turned));
     }
-    ModalRow<Complex> row{&layout.marker_labels[static_cast<std::size_t>(m.index)], {}};
+    ModalRow<Complex> row{&layout.marker_labels[static_cast<std::size_t>(m.index)]};
     for (const ComplexVector& part : {moved, turned}) {
       for (const Complex& v : part) row.values.push_back(largest == Complex(0) ? Complex(0) : v / largest);
     }
@@ -198,7 +198,7 @@ std::vector<ModalRow<double>> ModalEnergy::kinetic(std::size_t mode) const {
   double total = 0;
   for (const std::size_t b : bodies_by_id()) {
     const auto terms = kinetic_terms(b, v);
-    ModalRow<double> row{&system_.layout().bodies[b].label, {terms.begin(), terms.end()}};
+    ModalRow<double> row{&system_.layout().bodies[b].label, 0, {terms.begin(), terms.end()}};
     row.values.push_back(0);
     for (const double t : terms) row.values.back() += t;
     total += row.values.back();
@@ -245,10 +245,12 @@ std::vector<ModalRow<double>> ModalEnergy::force_rows(std::size_t mode, Column f
       if (set->kind().statement != statement) continue;
       const bool rotational = set->kind().variant == "ROTATIONAL" || statement == "VTORQUE";
       const bool translational = set->kind().variant == "TRANSLATIONAL" || statement == "VFORCE";
-      for (const ElementLabel& label : set->labels) {
-        const Signals::Element element = system_.signals().element(statement, label.id);
+      const Kernel& kernel = *system_.signals().element(statement, set->labels.front().id).kernel;
+      const std::size_t wrenches = kernel.wrench_count(set->labels.size());
+      for (std::size_t which = 0; which < wrenches; ++which) {
+        const ElementLabel& label = set->labels[kernel.element_of_wrench(which)];
         w.clear();
-        element.kernel->wrench(motion_, element.index, true, w);
+        kernel.wrench(motion_, which, true, w);
         const PairMotion& p = w.pair;
         const BodyBlock &B = layout.body(p.body_I), &C = layout.body(p.body_J);
         const auto group = [&](const BodyBlock& block, std::int32_t first) {
@@ -261,10 +263,11 @@ std::vector<ModalRow<double>> ModalEnergy::force_rows(std::size_t mode, Column f
           add(dT, times((strain ? w.force.torque_on_position : w.force.torque_on_velocity).group[g], du[g]));
         }
         for (const MarkerWrench::Scalar& s : w.scalars) {
-          if (s.family != Column::algebraic) continue;
+          if (s.family != Column::algebraic && s.family != family) continue;
+          const Complex change = s.family == family ? u(s.column) : dw(s.column);
           for (std::size_t k = 0; k < 3; ++k) {
-            dF[k] += dw(s.column) * s.force[k];
-            dT[k] += dw(s.column) * s.torque[k];
+            dF[k] += change * s.force[k];
+            dT[k] += change * s.torque[k];
           }
         }
         for (const MarkerWrench::Turn& turn : w.turns) {
@@ -283,7 +286,8 @@ std::vector<ModalRow<double>> ModalEnergy::force_rows(std::size_t mode, Column f
           add(moved, times(-skew(arm_J), du[3]), -1.0);
           add(turned, du[3], -1.0);
         }
-        ModalRow<double> row{&label, std::vector<double>(7, 0.0)};
+        ModalRow<double> row{&label, 0, std::vector<double>(7, 0.0)};
+        if (statement == "NFORCE") row.marker = system_.model().marker(kernel.marker_I(which)).label.id;
         for (std::size_t k = 0; k < 3; ++k) {
           row.values[1 + k] = -0.5 * std::real(std::conj(moved[k]) * dF[k]);
           row.values[4 + k] = -0.5 * std::real(std::conj(turned[k]) * dT[k]);

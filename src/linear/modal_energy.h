@@ -22,7 +22,8 @@ struct ModeHeader {
 template <class T>
 struct ModalRow {
   const ElementLabel* element = nullptr;
-  std::vector<T> values;
+  std::int64_t marker = 0;  // of the rows that an element has for each of its markers
+  std::vector<T> values{};
 };
 
 class ModalEnergy {

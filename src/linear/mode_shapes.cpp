@@ -1,5 +1,6 @@
 #include "linear/mode_shapes.h"
 
+#include <array>
 #include <cmath>
 
 namespace dynalin {
@@ -40,6 +41,46 @@ void name_movers(const System& system, const OperatingPoint& op, const LinearSys
     Eigen::Index k = 0;
     v.cwiseAbs().maxCoeff(&k);
     name = solution.states[static_cast<std::size_t>(k)].owner;
+  }
+}
+
+void map_shapes(const System& system, const LinearSystem& linear, EigenSolution& solution) {
+  static constexpr std::array<std::string_view, 6> names = {"X", "Y", "Z", "RX", "RY", "RZ"};
+  const Layout& layout = system.layout();
+  const auto states = static_cast<Eigen::Index>(linear.model.states.size());
+  const auto differential = static_cast<Eigen::Index>(linear.differential_states);
+  const auto n = static_cast<Eigen::Index>(layout.coordinate_count);
+  solution.shape_labels.assign(static_cast<std::size_t>(n + differential), {});
+  for (const BodyBlock& b : layout.bodies) {
+    for (std::int32_t k = 0; k < b.count; ++k) {
+      solution.shape_labels[static_cast<std::size_t>(b.offset + k)] = {b.label.text(), b.label.view_name,
+                                                                       std::string(names[static_cast<std::size_t>(k)])};
+    }
+  }
+  for (const ExtraBlock& e : layout.extras) {
+    for (std::int32_t k = 0; k < e.count; ++k) {
+      solution.shape_labels[static_cast<std::size_t>(e.offset + k)] = {e.label.text(), e.label.view_name,
+                                                                       e.coordinates[static_cast<std::size_t>(k)].name};
+    }
+  }
+  for (Eigen::Index k = 0; k < differential; ++k) {
+    const StateLabel& s = linear.model.states[static_cast<std::size_t>(states - differential + k)];
+    solution.shape_labels[static_cast<std::size_t>(n + k)] = {s.owner, "", s.text};
+  }
+  solution.shapes.resize(n + differential, solution.vectors.cols());
+  const auto T = linear.dq.leftCols(states);
+  solution.shapes.topRows(n).real() = T * solution.vectors.real();
+  solution.shapes.topRows(n).imag() = T * solution.vectors.imag();
+  solution.shapes.bottomRows(differential) = solution.vectors.bottomRows(differential);
+  for (Eigen::Index c = 0; c < solution.shapes.cols(); ++c) {
+    Eigen::Index largest = 0;
+    auto shape = solution.shapes.col(c);
+    if (shape.size() == 0) continue;
+    shape.cwiseAbs().maxCoeff(&largest);
+    const std::complex<double> unit = shape(largest);
+    if (unit == 0.0) continue;
+    shape /= unit;
+    shape(largest) = 1;
   }
 }
 

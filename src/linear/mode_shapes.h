@@ -9,4 +9,8 @@ namespace dynalin {
 // displacement of the mass centre and the model length L.
 void name_movers(const System&, const OperatingPoint&, const LinearSystem&, EigenSolution&);
 
+// Fills EigenSolution::shapes: φ = T z with T the map from states to all coordinates (LINEAR command, "Eigenvectors and
+// mode shapes").
+void map_shapes(const System&, const LinearSystem&, EigenSolution&);
+
 }  // namespace dynalin

@@ -77,6 +77,7 @@ class Kernel {
   virtual bool has_wrench() const { return false; }
   // How many wrenches its elements exert: one each, but where one acts on many markers.
   virtual std::size_t wrench_count(std::size_t elements) const { return elements; }
+  virtual std::size_t element_of_wrench(std::size_t which) const { return which; }
   virtual MarkerId marker_I(std::size_t) const { return {}; }
   virtual MarkerId marker_J(std::size_t) const { return {}; }
   virtual void wrench(const Motion&, std::size_t /*which*/, bool /*with_partials*/, MarkerWrench&) const {}

@@ -35,6 +35,24 @@ Json matrix(const Eigen::MatrixXd& m) {
   return rows;
 }
 
+Json column(const Eigen::MatrixXcd& m, std::size_t k) {
+  Json list = Json::array();
+  for (Eigen::Index r = 0; r < m.rows(); ++r) {
+    const std::complex<double> v = m(r, static_cast<Eigen::Index>(k));
+    list.push_back({v.real() + 0.0, v.imag() + 0.0});
+  }
+  return list;
+}
+
+Json shape_labels(const std::vector<ShapeLabel>& labels) {
+  Json list = Json::array();
+  for (const ShapeLabel& l : labels) {
+    list.push_back({{"element", l.element}, {"quantity", l.quantity}});
+    if (!l.name.empty()) list.back()["name"] = l.name;
+  }
+  return list;
+}
+
 Json channels(const std::vector<ChannelLabel>& labels) {
   Json list = Json::array();
   for (const ChannelLabel& c : labels) list.push_back({{"label", c.text}, {"variable", c.variable}});
@@ -69,18 +87,15 @@ void JsonResults::add(const std::string& command, const EigenSolution& e) {
       mode["error_bound_hz"] = std::isfinite(m.error_bound_hz) ? Json(m.error_bound_hz) : Json();
       mode["structural_zero"] = m.structural_zero;
       mode["refined"] = m.refined;
-      Json vector = Json::array();
-      for (Eigen::Index r = 0; r < e.vectors.rows(); ++r) {
-        const std::complex<double> v = e.vectors(r, static_cast<Eigen::Index>(k));
-        vector.push_back({v.real() + 0.0, v.imag() + 0.0});
-      }
-      mode["vector"] = std::move(vector);
+      mode["vector"] = column(e.vectors, k);
+      if (e.shapes.size() > 0) mode["shape"] = column(e.shapes, k);
     }
     modes.push_back(std::move(mode));
   }
   document_->results.push_back({{"command", command},
                                 {"time", e.time},
                                 {"states", states(e.states)},
+                                {"shape_entries", shape_labels(e.shape_labels)},
                                 {"eigenvalues", std::move(values)},
                                 {"modes", std::move(modes)}});
 }

@@ -146,7 +146,9 @@ void write_forces(std::ostream& out, const ModalTableFormat& format, ForceTable 
   for (const auto& row : rows) {
     std::string cells;
     for (const double x : row.values) cells += t.number(x);
-    t.row(fmt::format("{}/{}", row.element->statement.substr(0, 4), row.element->id), *row.element, cells + " ");
+    std::string label = fmt::format("{}/{}", row.element->statement.substr(0, 4), row.element->id);
+    if (row.marker > 0) label += fmt::format(",{}", row.marker);
+    t.row(label, *row.element, cells + " ");
   }
   t.rule({7});
   out << '\n';

@@ -90,6 +90,7 @@ class NforceKernel final : public Kernel {
   // A wrench for each marker.
   bool has_wrench() const override { return true; }
   std::size_t wrench_count(std::size_t) const override { return wrenches_.size(); }
+  std::size_t element_of_wrench(std::size_t w) const override { return wrenches_[w].first; }
   MarkerId marker_I(std::size_t w) const override { return law_of(w).markers[wrenches_[w].second]; }
   MarkerId marker_J(std::size_t w) const override { return law_of(w).j; }
   void wrench(const Motion& motion, std::size_t w, bool with_partials, MarkerWrench& out) const override {

@@ -1,0 +1,116 @@
+#include "output/results_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <cmath>
+#include <iterator>
+
+namespace dynalin {
+
+namespace {
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+std::string state_map(const std::vector<StateLabel>& states) {
+  std::string s = "<dl:StateMap>\n";
+  int id = 0;
+  for (const StateLabel& label : states) {
+    s += fmt::format(
+        "<dl:State id=\"{}\" type=\"{}\" element=\"{}\" coordinate=\"{}\" derivative=\"{}\" name=\"{}\" />\n", ++id,
+        static_cast<int>(label.type), label.element, label.coordinate, label.is_rate ? 1 : 0,
+        escaped(label.owner.empty() ? label.text : label.text + " " + label.owner));
+  }
+  return s + "</dl:StateMap>\n";
+}
+
+}  // namespace
+
+std::string ResultsFile::number(double x) const { return fmt::format("{:.{}g}", x + 0.0, digits_); }
+
+void ResultsFile::add(const EigenSolution& e) {
+  std::string s = fmt::format("<dl:Linear time=\"{}\" rm=\"{}\" pstate=\"{}\" damping=\"{}\" original=\"{}\">\n",
+                              number(e.time), e.rm, e.pstate, e.without_damping ? 0 : 1, e.original ? 1 : 0);
+  s += state_map(e.states);
+  for (std::size_t k = 0; k < e.modes.size(); ++k) {
+    const EigenMode& m = e.modes[k];
+    const double size = std::abs(m.eigenvalue_hz);
+    s += fmt::format("<dl:Mode number=\"{}\" real=\"{}\" imag=\"{}\" frequency=\"{}\" dampingRatio=\"{}\"", k + 1,
+                     number(m.eigenvalue_hz.real()), number(m.is_real ? 0.0 : m.eigenvalue_hz.imag()), number(size),
+                     number(size > 0 ? std::abs(m.eigenvalue_hz.real()) / size : 0.0));
+    if (e.shapes.cols() == 0) {
+      s += " />\n";
+      continue;
+    }
+    if (std::isfinite(m.error_bound_hz)) s += fmt::format(" errorBound=\"{}\"", number(m.error_bound_hz));
+    s += ">\n";
+    // Entries of one element follow each other.
+    for (std::size_t r = 0; r < e.shape_labels.size();) {
+      const ShapeLabel& first = e.shape_labels[r];
+      const std::size_t slash = first.element.find('/');
+      s +=
+          fmt::format("<dl:Entity name=\"{}\" entType=\"{}\" objectId=\"{}\">\n",
+                      escaped(first.name.empty() ? first.element : first.name), escaped(first.element.substr(0, slash)),
+                      slash == std::string::npos ? "" : first.element.substr(slash + 1));
+      for (; r < e.shape_labels.size() && e.shape_labels[r].element == first.element; ++r) {
+        const std::complex<double> v = e.shapes(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k));
+        s += fmt::format("<dl:Component name=\"{}\">{} {}</dl:Component>\n", escaped(e.shape_labels[r].quantity),
+                         number(v.real()), number(v.imag()));
+      }
+      s += "</dl:Entity>\n";
+    }
+    s += "</dl:Mode>\n";
+  }
+  blocks_.push_back(s + "</dl:Linear>\n");
+}
+
+void ResultsFile::add(const StateSpace& model) {
+  std::string s = fmt::format("<dl:Linear time=\"{}\">\n", number(model.time)) + state_map(model.states);
+  const auto matrix = [&](std::string_view name, const Eigen::MatrixXd& m) {
+    if (m.size() == 0) return;
+    s += fmt::format("<dl:Matrix name=\"{}\" rows=\"{}\" columns=\"{}\" order=\"column\">\n", name, m.rows(), m.cols());
+    for (Eigen::Index c = 0; c < m.cols(); ++c) {
+      for (Eigen::Index r = 0; r < m.rows(); ++r) s += number(m(r, c)) + (r + 1 < m.rows() ? " " : "\n");
+    }
+    s += "</dl:Matrix>\n";
+  };
+  matrix("A", model.A);
+  matrix("B", model.B);
+  matrix("C", model.C);
+  matrix("D", model.D);
+  blocks_.push_back(s + "</dl:Linear>\n");
+}
+
+void ResultsFile::write(std::ostream& out, const std::string& version) const {
+  fmt::print(out,
+             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Results xmlns=\"http://www.mscsoftware.com/:xrf10\" "
+             "xmlns:dl=\"urn:dynalin:linear:1\">\n");
+  fmt::print(out, "<Bibliography>\n<File schema=\"xrf\" version=\"2.0.0.0\" />\n</Bibliography>\n");
+  fmt::print(out, "<Analysis name=\"ANALYSIS_01\" Solver=\"Dynalin {}\">\n<ModelInfo title=\"{}\" />\n", version,
+             escaped(title_));
+  for (const std::string& block : blocks_) out << block;
+  fmt::print(out, "</Analysis>\n</Results>\n");
+}
+
+}  // namespace dynalin

@@ -1,0 +1,29 @@
+// The results file (.res) in XRF: the frame that readers of time histories expect, and behind it, in a namespace of its
+// own that they pass over, what linear analyses found. No public sample shows the element set that Adams itself writes
+// for modes.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "dynalin/results.h"
+
+namespace dynalin {
+
+class ResultsFile {
+ public:
+  // `digits` significant decimals of every number (DECIMALPLACES).
+  ResultsFile(std::string title, int digits) : title_(std::move(title)), digits_(digits) {}
+  void add(const EigenSolution&);
+  void add(const StateSpace&);
+  void write(std::ostream&, const std::string& version) const;
+
+ private:
+  std::string number(double) const;
+  std::string title_;
+  int digits_;
+  std::vector<std::string> blocks_;
+};
+
+}  // namespace dynalin
