@@ -12,6 +12,7 @@
 #include "command/environment.h"
 #include "command/job.h"
 #include "command/mode_tables.h"
+#include "linear/cautions.h"
 #include "linear/eigen.h"
 #include "linear/mode_shapes.h"
 #include "linear/second_order.h"
@@ -208,6 +209,7 @@ class Session {
     modes->pstate = command.pstate.value_or(0);
     modes->without_damping = command.without_damping;
     modes->original = command.original;
+    for (const std::string& text : cautions(system_, point, *linear, *modes)) remark(text);
     write_eigensolution(message_, *modes);
     json_.add(c.text, *modes);
     if (results_) results_->add(*modes);
@@ -218,7 +220,7 @@ class Session {
     }
     if (!options_.quiet) {
       fmt::print(out_, "{} at time {:g}\n", c.text, modes->time);
-      write_eigen_table(out_, *modes);
+      write_eigen_table(out_, *modes, options_.bounds);
     }
     return {};
   }

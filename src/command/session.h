@@ -13,6 +13,7 @@ struct SessionOptions {
   std::string json;                   // path of --json, empty for none
   std::string output_prefix;          // of --output, empty for the name in the file
   bool keep_going = false;
+  bool bounds = false;  // of eigenvalues, in the table on the terminal
   bool quiet = false;
 };
 

@@ -8,6 +8,7 @@
 
 #include "analysis/statics.h"
 #include "elements/catalogue.h"
+#include "linear/cautions.h"
 #include "linear/eigen.h"
 #include "linear/mode_shapes.h"
 
@@ -147,11 +148,15 @@ EigenSolution Mechanism::eigensolution(const LinearRequest& request) {
       value_or_throw(linearize(state_->system, state_->point_of(request), options_of(*state_->model, request)));
   state_->warnings.insert(state_->warnings.end(), linear.warnings.begin(), linear.warnings.end());
   EigenSolution solution = value_or_throw(eigensolve(linear));
-  name_movers(state_->system, state_->point_of(request), linear, solution);
   solution.rm = request.rm.value_or(0);
   solution.pstate = request.pstate.value_or(0);
   solution.without_damping = request.without_damping;
   solution.original = request.principal_states && request.without_rate_coupling && request.without_reconciliation;
+  name_movers(state_->system, state_->point_of(request), linear, solution);
+  map_shapes(state_->system, linear, solution);
+  for (std::string& text : cautions(state_->system, state_->point_of(request), linear, solution)) {
+    state_->warnings.push_back(std::move(text));
+  }
   return solution;
 }
 

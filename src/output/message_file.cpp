@@ -3,6 +3,7 @@
 #include <fmt/ostream.h>
 
 #include <cmath>
+#include <string>
 
 namespace dynalin {
 
@@ -80,17 +81,30 @@ void write_footer(std::ostream& out, bool complete, double elapsed) {
              elapsed);
 }
 
-void write_eigen_table(std::ostream& out, const EigenSolution& e) {
-  fmt::print(out, "{:>6}  {:>14}  {:>10}  {:>15}  {:>15}  {}\n", "mode", "frequency", "damping", "real", "imaginary",
-             e.vectors.size() ? "moves most" : "");
-  fmt::print(out, "{:>6}  {:>14}  {:>10}  {:>15}  {:>15}\n", "", "cycles/time", "ratio", "cycles/time", "cycles/time");
+void write_eigen_table(std::ostream& out, const EigenSolution& e, bool with_bounds) {
+  with_bounds = with_bounds && e.vectors.size() > 0;
+  const auto line = [&](std::string_view number, std::string_view frequency, std::string_view damping,
+                        std::string_view real, std::string_view imaginary, const std::string& bounds,
+                        std::string_view mover) {
+    fmt::print(out, "{:>6}  {:>14}  {:>10}  {:>15}  {:>15}  {}{}\n", number, frequency, damping, real, imaginary,
+               bounds, mover);
+  };
+  const auto columns = [&](std::string_view bound, std::string_view condition) {
+    return with_bounds ? fmt::format("{:>12}  {:>10}  ", bound, condition) : std::string();
+  };
+  line("mode", "frequency", "damping", "real", "imaginary", columns("error bound", "condition"),
+       e.vectors.size() ? "moves most" : "");
+  line("", "cycles/time", "ratio", "cycles/time", "cycles/time", columns("cycles/time", ""), "");
   int number = 0;
   for (const EigenMode& m : e.modes) {
     const double size = std::abs(m.eigenvalue_hz);
     const double ratio = size > 0 ? -m.eigenvalue_hz.real() / size : 0.0;
-    const std::string imaginary = m.is_real ? "0" : fmt::format("+/- {:.7g}", m.eigenvalue_hz.imag());
-    fmt::print(out, "{:6d}  {:14.7g}  {:10.5f}  {:15.7g}  {:>15}  {}\n", ++number, size, ratio + 0.0,
-               m.eigenvalue_hz.real() + 0.0, imaginary, m.moves_most);
+    line(std::to_string(++number), fmt::format("{:.7g}", size), fmt::format("{:.5f}", ratio + 0.0),
+         fmt::format("{:.7g}", m.eigenvalue_hz.real() + 0.0),
+         m.is_real ? "0" : fmt::format("+/- {:.7g}", m.eigenvalue_hz.imag()),
+         columns(m.structural_zero ? "exact" : fmt::format("{:.1e}", m.error_bound_hz),
+                 fmt::format("{:.1e}", m.condition)),
+         m.moves_most);
   }
 }
 

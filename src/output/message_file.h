@@ -23,7 +23,8 @@ void write_block(std::ostream&, Block, std::string_view text);
 void write_eigensolution(std::ostream&, const EigenSolution&);
 void write_footer(std::ostream&, bool complete, double elapsed);
 
-// A table for the terminal: frequency, damping ratio, real and imaginary part.
-void write_eigen_table(std::ostream&, const EigenSolution&);
+// A table for the terminal: frequency, damping ratio, real and imaginary part; on request how far each eigenvalue may be
+// off and its condition number.
+void write_eigen_table(std::ostream&, const EigenSolution&, bool with_bounds);
 
 }  // namespace dynalin

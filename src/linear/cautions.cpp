@@ -1,0 +1,149 @@
+#include "linear/cautions.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "analysis/displace.h"
+
+namespace dynalin {
+
+namespace {
+
+// A thousandth of the model away along the chosen coordinates, in different shares so that no symmetry survives.
+std::optional<OperatingPoint> nearby(const System& system, const OperatingPoint& op, const LinearSystem& linear) {
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(linear.dq.rows());
+  double share = 1;
+  for (std::size_t k = 0; k < linear.kinematic_states; ++k) {
+    if (linear.model.states[k].is_rate) continue;
+    Eigen::VectorXd column = linear.dq.col(static_cast<Eigen::Index>(k));
+    double size = 0;
+    for (Eigen::Index c = 0; c < column.size(); ++c)
+      size = std::max(size, std::abs(column(c)) / system.coordinate_scale(static_cast<std::int32_t>(c)));
+    if (size > 0) step += share / size * column;
+    share *= -std::numbers::phi / 2;
+  }
+  constexpr double distance = 1e-3;
+  OperatingPoint there = op;
+  displace(system, there, distance * step, 1.0);
+  Findings ignored;
+  auto assembled = assemble_position(system, std::move(there), ignored);
+  if (!assembled) return std::nullopt;
+  return std::move(*assembled);
+}
+
+std::vector<std::int32_t> redundant_rows(const System& system, const OperatingPoint& op) {
+  ConstraintRows rows;
+  rows.resize(system.layout());
+  const Motion motion = system.motion(op);
+  system.constraints(motion, rows);
+  return system.partition(rows, false).redundant;
+}
+
+void singular_configuration(const System& system, const OperatingPoint& op, const LinearSystem& linear,
+                            std::vector<std::string>& out) {
+  const auto here = redundant_rows(system, op);
+  if (here.empty() || linear.kinematic_states == 0) return;
+  const auto beside = nearby(system, op, linear);
+  if (!beside) return;
+  const auto there = redundant_rows(system, *beside);
+  if (there.size() >= here.size()) return;
+  std::vector<std::string> rows;
+  for (const std::int32_t r : here) {
+    if (std::find(there.begin(), there.end(), r) == there.end()) rows.push_back(system.row_text(r));
+  }
+  out.push_back(fmt::format(
+      "the configuration is singular: {} {} redundant here and not right beside it; the model has {} more degree{} of "
+      "freedom than nearby, and modes and frequencies change abruptly",
+      fmt::join(rows, ", "), rows.size() == 1 ? "is" : "are", here.size() - there.size(),
+      here.size() - there.size() == 1 ? "" : "s"));
+}
+
+void disproportion(const System& system, const LinearSystem& linear, std::vector<std::string>& out) {
+  constexpr double far = 1e5;
+  double largest = far;
+  std::int32_t mover = -1;
+  std::size_t chosen = 0;
+  for (std::size_t k = 0; k < linear.kinematic_states; ++k) {
+    const StateLabel& s = linear.model.states[k];
+    // A user's own coordinate may have any size.
+    if (s.is_rate || s.type == StateType::pstate) continue;
+    const bool turns = s.coordinate > 3 && s.type != StateType::ptcv && s.type != StateType::cvcv;
+    const double unit = turns ? 1.0 : system.length();
+    for (Eigen::Index r = 0; r < linear.dq.rows(); ++r) {
+      const double moved = std::abs(linear.dq(r, static_cast<Eigen::Index>(k))) * unit /
+                           system.coordinate_scale(static_cast<std::int32_t>(r));
+      if (moved > largest) largest = moved, mover = static_cast<std::int32_t>(r), chosen = k;
+    }
+  }
+  if (mover < 0) return;
+  const StateLabel& s = linear.model.states[chosen];
+  out.push_back(fmt::format("near a singular configuration: {} moves {:.1e} times as far as the chosen {} of {}",
+                            system.layout().coordinate_text(mover), largest, s.text, s.owner));
+}
+
+void motion(const System& system, const OperatingPoint& op, const EigenSolution& modes, std::vector<std::string>& out) {
+  // Against what the fastest mode does to the model as a whole, and gravity.
+  double fastest = 0;
+  for (const EigenMode& m : modes.modes) fastest = std::max(fastest, 2 * std::numbers::pi * std::abs(m.eigenvalue_hz));
+  const double L = system.length();
+  const double scale = std::max(norm(system.model().gravity), L * fastest * fastest);
+  double most = std::max(1e-6 * scale, 1e-12 * L);
+  const ElementLabel* part = nullptr;
+  double acceleration = 0, turning = 0;
+  for (const BodyBlock& b : system.layout().bodies) {
+    if (b.count == 0) continue;
+    const auto part_of = [&](const std::vector<double>& of, std::int32_t first) {
+      const auto at = static_cast<std::size_t>(b.offset + first);
+      return norm(Vector{of[at], of[at + 1], of[at + 2]});
+    };
+    const double a = part_of(op.acceleration, 0), w = b.count == 6 ? part_of(op.velocity, 3) : 0;
+    const double size = a + L * (w * w + (b.count == 6 ? part_of(op.acceleration, 3) : 0));
+    if (size > most * (1 + 1e-9)) most = size, part = &b.label, acceleration = a, turning = w;
+  }
+  if (!part) return;
+  out.push_back(
+      fmt::format("the point accelerates or turns, most of all {} (acceleration {:.5g} length/time², angular "
+                  "velocity {:.5g} rad/time): the eigenvalues hold for this instant, and mode shapes may be "
+                  "strange",
+                  part->full_text(), acceleration, turning));
+}
+
+void overdamping(const EigenSolution& modes, std::vector<std::string>& out) {
+  if (modes.without_damping) return;
+  int falling = 0, others = 0;
+  const EigenMode* slowest = nullptr;
+  std::size_t number = 0;
+  for (std::size_t k = 0; k < modes.modes.size(); ++k) {
+    const EigenMode& m = modes.modes[k];
+    const bool of_body =
+        m.moves_most.find("PART/") != std::string::npos || m.moves_most.find("POINT_MASS/") != std::string::npos;
+    if (!m.is_real || !of_body) continue;
+    const bool falls = m.eigenvalue_hz.real() < 0;
+    ++(falls ? falling : others);
+    if (falls && !slowest) slowest = &m, number = k + 1;
+  }
+  const int pairs = (falling - others) / 2;
+  if (pairs < 1 || !slowest) return;
+  out.push_back(
+      fmt::format("{} mode{} overdamped, the slowest is mode {} of {}: with NODAMPIN the vibrations behind "
+                  "them show",
+                  pairs, pairs == 1 ? " is" : "s are", number, slowest->moves_most));
+}
+
+}  // namespace
+
+std::vector<std::string> cautions(const System& system, const OperatingPoint& op, const LinearSystem& linear,
+                                  const EigenSolution& modes) {
+  std::vector<std::string> out;
+  singular_configuration(system, op, linear, out);
+  disproportion(system, linear, out);
+  motion(system, op, modes, out);
+  overdamping(modes, out);
+  return out;
+}
+
+}  // namespace dynalin

@@ -1,0 +1,97 @@
+// What an eigensolution warns of, and what it does not.
+#include <gmock/gmock.h>
+
+#include "cases/dataset_text.h"
+
+namespace dynalin::cases {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class Caution : public Cases {
+ protected:
+  static std::string slide(double K, double C, const std::string& more = "") {
+    std::ostringstream s;
+    s << "Slide\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, REULER=90D,90D,0\n! adams_view_name='carriage'\n"
+      << "PART/2, MASS=1, CM=20, IP=1,1,1, QG=1,0,0" << more
+      << "\nMARKER/20\nMARKER/21, REULER=90D,90D,0\nJOINT/1, TRANSLATIONAL, I=21, J=1\n"
+      << "SPRINGDAMPER/1, TRANSLATION, I=20, J=1, K=" << K << ", C=" << C << ", LENGTH=1\nEND\n";
+    return s.str();
+  }
+};
+
+TEST_F(Caution, overdamped_modes_name_their_part) {
+  const RunResult over = run(slide(100, 30), "LINEAR/EIGENSOL\n");
+  EXPECT_THAT(over.err, HasSubstr("1 mode is overdamped, the slowest is mode 1 of PART/2 (carriage)"));
+  EXPECT_THAT(over.message, HasSubstr("overdamped"));
+  EXPECT_THAT(run(slide(100, 10), "LINEAR/EIGENSOL\n").err, Not(HasSubstr("overdamped")));
+  // Without damping it vibrates.
+  EXPECT_THAT(run(slide(100, 30), "LINEAR/EIGENSOL, NODAMPIN\n").err, Not(HasSubstr("overdamped")));
+}
+
+TEST_F(Caution, accelerating_and_turning_points_name_the_part) {
+  // The spring is drawn 0.5 too long: 50 length/time².
+  std::string pulled = slide(100, 0);
+  pulled.replace(pulled.find("LENGTH=1"), 8, "LENGTH=.5");
+  EXPECT_THAT(run(pulled, "LINEAR/EIGENSOL\n").err,
+              HasSubstr("most of all PART/2 (carriage) (acceleration 50 length/time², angular velocity 0"));
+  EXPECT_THAT(run(pulled, "SIMULATE/STATIC\nLINEAR/EIGENSOL\n").err, Not(HasSubstr("accelerates")));
+  EXPECT_THAT(run(slide(100, 0, ", VX=3"), "LINEAR/EIGENSOL\n").err, Not(HasSubstr("accelerates")));
+  const RunResult top =
+      run("Top\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,2, WZ=7\nMARKER/20\n"
+          "JOINT/1, REVOLUTE, I=20, J=1\nEND\n",
+          "LINEAR/EIGENSOL\n");
+  EXPECT_THAT(top.err, HasSubstr("PART/2 (acceleration 0 length/time², angular velocity 7 rad/time)"));
+}
+
+// Two cranks of length 1 and a coupler of length 2 between hinges 2 apart, all on one line: the parallelogram may go
+// over into its mirror image, and the row that is redundant here is not so beside it.
+TEST_F(Caution, change_points_of_a_four_bar_are_singular) {
+  const auto four_bar = [](double angle) {
+    std::ostringstream s;
+    s.precision(17);
+    const double c = std::cos(angle), w = std::sin(angle);
+    s << "Four-bar\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=2,0,0\n"
+      << "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nMARKER/21, QP=" << c << "," << w << ",0\n"
+      << "PART/3, MASS=1, CM=30, IP=1,1,1, QG=" << c << "," << w << ",0\nMARKER/30\nMARKER/31, QP=2,0,0\n"
+      << "PART/4, MASS=1, CM=40, IP=1,1,1, QG=2,0,0\nMARKER/40\nMARKER/41, QP=" << c << "," << w << ",0\n"
+      << "JOINT/1, REVOLUTE, I=20, J=1\nJOINT/2, REVOLUTE, I=30, J=21\nJOINT/3, REVOLUTE, I=41, J=31\n"
+      << "JOINT/4, REVOLUTE, I=40, J=2\nEND\n";
+    return s.str();
+  };
+  const RunResult flat = run(four_bar(0), "LINEAR/EIGENSOL\n");
+  ASSERT_EQ(flat.status, 0) << flat.err;
+  EXPECT_THAT(flat.err, HasSubstr("the configuration is singular"));
+  EXPECT_THAT(flat.err, HasSubstr("1 more degree of freedom than nearby"));
+  // Three rows of a planar loop are redundant everywhere.
+  const RunResult open = run(four_bar(0.7), "LINEAR/EIGENSOL\n");
+  EXPECT_THAT(open.err, Not(HasSubstr("singular")));
+}
+
+TEST_F(Caution, results_file_holds_the_modes_on_request) {
+  std::string text = slide(100, 2);
+  EXPECT_FALSE(run(text, "LINEAR/EIGENSOL\n").wrote("model.res"));
+  text.insert(text.find("END\n"), "RESULTS/XRF, DECIMALPLACES=6\n");
+  const RunResult r = run(text, "LINEAR/EIGENSOL\nLINEAR/STATEMAT, FILE=m\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const std::string xml = r.text("model.res");
+  EXPECT_THAT(xml,
+              HasSubstr("<Results xmlns=\"http://www.mscsoftware.com/:xrf10\" xmlns:dl=\"urn:dynalin:linear:1\">"));
+  // −1 ± √(100 − 1) i over 2π.
+  EXPECT_THAT(xml, HasSubstr("<dl:Mode number=\"1\" real=\"-0.159155\" imag=\"1.58357\" frequency=\"1.59155\" "
+                             "dampingRatio=\"0.1\""));
+  EXPECT_THAT(xml, HasSubstr("<dl:Entity name=\"carriage\" entType=\"PART\" objectId=\"2\">\n"
+                             "<dl:Component name=\"X\">1 0</dl:Component>\n"
+                             "<dl:Component name=\"Y\">0 0</dl:Component>"));
+  EXPECT_THAT(
+      xml, HasSubstr("<dl:Matrix name=\"A\" rows=\"2\" columns=\"2\" order=\"column\">\n-2 1\n-100 0\n</dl:Matrix>"));
+  EXPECT_THAT(xml, HasSubstr("</Analysis>\n</Results>\n"));
+  // The same shapes in JSON.
+  const auto& mode = r.result(0).at("modes").at(0);
+  EXPECT_EQ(r.result(0).at("shape_entries").at(0).at("quantity"), "X");
+  EXPECT_NEAR(mode.at("shape").at(0).at(0).get<double>(), 1, 1e-15);
+}
+
+}  // namespace
+}  // namespace dynalin::cases
