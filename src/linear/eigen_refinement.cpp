@@ -220,7 +220,7 @@ class Refiner {
     }
   }
 
-  // Eigenvalues that perturbations of the size of the residuals mix belong together.
+  // Eigenvalues that perturbations of the size of the residuals mix belong together, and equal ones always.
   void find_clusters() {
     group_.resize(static_cast<std::size_t>(count_));
     std::iota(group_.begin(), group_.end(), Index{0});
@@ -231,7 +231,7 @@ class Refiner {
       for_others(i, [&](const Member& j) {
         const double gap = std::abs(value(me) - value(j));
         const double mixing = std::sqrt(std::abs(g(me, j)) * std::abs(g(j, me)));
-        if (mixing <= gap / 8 && std::abs(p(me, j)) * std::abs(p(j, me)) <= 1e-4) return;
+        if (gap > 0 && mixing <= gap / 8 && std::abs(p(me, j)) * std::abs(p(j, me)) <= 1e-4) return;
         const Index a = root(i), b = root(j.at);
         group_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
         if (j.conjugate) closed_[static_cast<std::size_t>(std::min(a, b))] = true;

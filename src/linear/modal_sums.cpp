@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dynalin {
 
@@ -94,6 +95,40 @@ ComplexMatrix times(const Matrix& m, const ComplexMatrix& x) {
   return out;
 }
 
+// What the table of coordinates shows of each mode: mass centres and rotations of all bodies, differential states.
+ComplexMatrix table_entries(const System& system, const OperatingPoint& op, const EigenSolution& modes,
+                            const ComplexMatrix& displacement) {
+  const Layout& layout = system.layout();
+  std::vector<Eigen::RowVectorXcd> rows;
+  for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
+    const BodyBlock& block = layout.bodies[b];
+    if (block.count == 0) continue;
+    ComplexMatrix of = displacement.middleRows(block.offset, block.count);
+    if (block.count == 6) {
+      const Matrix3 arm = skew(op.poses[b].R * system.model().bodies[b].p_BC);
+      for (Index i = 0; i < 3; ++i) {
+        for (Index j = 0; j < 3; ++j)
+          of.row(i) -= arm(static_cast<std::size_t>(i), static_cast<std::size_t>(j)) * of.row(3 + j);
+      }
+    }
+    for (Index i = 0; i < of.rows(); ++i) rows.push_back(of.row(i));
+  }
+  for (Index k = modes.vectors.rows() - static_cast<Index>(modes.differential_states); k < modes.vectors.rows(); ++k)
+    rows.push_back(modes.vectors.row(k));
+  ComplexMatrix out(static_cast<Index>(rows.size()), displacement.cols());
+  for (std::size_t k = 0; k < rows.size(); ++k) out.row(static_cast<Index>(k)) = rows[k];
+  return out;
+}
+
+// The first of entries that are equally large but for rounding.
+Complex largest_entry(const Eigen::VectorXcd& entries) {
+  Complex largest = 0;
+  for (const Complex& v : entries) {
+    if (std::abs(v) > std::abs(largest) * (1 + 1e-12)) largest = v;
+  }
+  return largest;
+}
+
 // Places of coordinates and of their rates among the states; empty where a coordinate has no rate.
 std::pair<std::vector<Index>, std::vector<Index>> pairs_of(const LinearSystem& linear) {
   std::vector<Index> position, rate;
@@ -103,7 +138,9 @@ std::pair<std::vector<Index>, std::vector<Index>> pairs_of(const LinearSystem& l
   return {position, rate};
 }
 
-// Numbers of modes whose shapes span the coordinates, vibrations before real modes.
+// Numbers of modes whose shapes span the coordinates, vibrations before real modes. A shape that differs from earlier
+// ones by no more than rounding of A may have made of it, 1/condition being how near A is to a defective matrix, adds
+// nothing.
 std::vector<std::size_t> spanning(const EigenSolution& modes, const ComplexMatrix& shapes) {
   std::vector<std::size_t> order, chosen;
   for (const bool real : {false, true}) {
@@ -117,7 +154,9 @@ std::vector<std::size_t> spanning(const EigenSolution& modes, const ComplexMatri
     Eigen::VectorXcd v = shapes.col(static_cast<Index>(k));
     const double size = v.norm();
     for (int twice = 0; twice < 2; ++twice) v -= basis * (basis.adjoint() * v).eval();
-    if (!(v.norm() > 1e-7 * size)) continue;
+    const double uncertain =
+        modes.modes[k].structural_zero ? 0 : 64 * std::numeric_limits<double>::epsilon() * modes.modes[k].condition;
+    if (!(v.norm() > std::max(1e-7, uncertain) * size)) continue;
     basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
     basis.rightCols(1) = v.normalized();
     chosen.push_back(k);
@@ -198,26 +237,32 @@ ModalMasses modal_masses(const System& system, const OperatingPoint& op, const L
   ComplexMatrix shapes(rigid.rows(), displacement.cols());
   shapes.real() = root.of(displacement.real());
   shapes.imag() = root.of(displacement.imag());
+  ComplexMatrix entries = table_entries(system, op, modes, displacement);
 
   ModalMasses out;
   for (Index d = 0; d < 6; ++d) out.total[static_cast<std::size_t>(d)] = rigid.col(d).squaredNorm();
   out.modes.resize(modes.modes.size());
   for (std::size_t k = 0; k < modes.modes.size(); ++k) {
     const auto at = static_cast<Index>(k);
-    const double size = displacement.col(at).cwiseAbs().maxCoeff(), before = shapes.col(at).norm();
+    const double before = shapes.col(at).norm();
     const Complex hz = modes.modes[k].eigenvalue_hz;
     for (int twice = 0; twice < 2; ++twice) {
       for (std::size_t j = 0; j < k; ++j) {
         if (std::abs(modes.modes[j].eigenvalue_hz - hz) > 1e-9 * std::abs(hz)) continue;
         const auto other = shapes.col(static_cast<Index>(j));
-        if (other.squaredNorm() > 0) shapes.col(at) -= other * (other.dot(shapes.col(at)) / other.squaredNorm());
+        if (!(other.squaredNorm() > 0)) continue;
+        const Complex part = other.dot(shapes.col(at)) / other.squaredNorm();
+        shapes.col(at) -= other * part;
+        entries.col(at) -= entries.col(static_cast<Index>(j)) * part;
       }
     }
-    if (!(shapes.col(at).norm() > 1e-7 * before) || size == 0) {
+    const Complex largest = largest_entry(entries.col(at));
+    if (!(shapes.col(at).norm() > 1e-7 * before) || largest == Complex(0)) {
       shapes.col(at).setZero();
       continue;
     }
-    shapes.col(at) /= size;
+    shapes.col(at) /= largest;
+    entries.col(at) /= largest;
     ModalMasses::Row& row = out.modes[k];
     row.generalized = shapes.col(at).squaredNorm();
     for (Index d = 0; d < 6; ++d) {

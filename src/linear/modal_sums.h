@@ -29,11 +29,12 @@ struct ModalEnergies {
 Result<ModalEnergies> modal_energies(const System&, const OperatingPoint&, const LinearSystem&, const EigenSolution&);
 
 // With r_d the rigid-body displacement along (d = 0 … 2) and about (3 … 5) the axes of a frame and φ_i the displacement
-// shape of all bodies: L = φᴴ M r, participation Γ = L/(φᴴ M φ), effective mass |L|²/(φᴴ M φ). Shapes of equal
-// eigenvalues are made orthogonal to each other first, or their masses would count twice.
+// shape of all bodies: L = φᴴ M r, participation Γ = L/(φᴴ M φ), effective mass |L|²/(φᴴ M φ). Shapes are scaled as in
+// the table of coordinates, so that Γ goes with its entries: the largest, of mass centres, rotations and differential
+// states, is 1. Those of equal eigenvalues are made orthogonal to each other first, or their masses would count twice.
 struct ModalMasses {
   struct Row {
-    double generalized = 0;  // φᴴ M φ of the shape with its largest entry 1 [mass]
+    double generalized = 0;  // φᴴ M φ [mass]
     std::array<std::complex<double>, 6> participation{};
     std::array<double, 6> effective{};  // [mass], [mass·length²]
   };

@@ -81,7 +81,11 @@ void write_masses(std::ostream& out, const ModalTableFormat& format, const Modal
       sum[d] += m.effective[d];
     }
     t.row(std::to_string(k + 1), real);
-    if (std::any_of(imaginary.begin(), imaginary.end(), [](double x) { return x != 0; })) t.row("  imag.", imaginary);
+    // Shapes of real modes are real but for rounding.
+    double largest = 0;
+    for (const auto& factor : m.participation) largest = std::max(largest, std::abs(factor));
+    if (std::any_of(imaginary.begin(), imaginary.end(), [&](double x) { return std::abs(x) > 1e-10 * largest; }))
+      t.row("  imag.", imaginary);
   }
   t.end();
 

@@ -1,0 +1,83 @@
+// Cost of the full eigensolution against LAPACK alone on the same matrix, with the refinement timed apart.
+//
+//     eigen_cost 100 300 600     links of a hanging chain, two states each
+#include <fmt/format.h>
+#include <lapacke.h>
+
+#include <chrono>
+#include <cstdlib>
+
+#include "elements/catalogue.h"
+#include "linear/eigen.h"
+#include "linear/eigen_refinement.h"
+#include "linear/zero_modes.h"
+
+namespace {
+
+using namespace dynalin;
+
+std::string chain(int n) {
+  std::string s = "chain\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\n";
+  for (int k = 1; k <= n; ++k) {
+    s += fmt::format(
+        "PART/{0}, MASS={1:.17g}, CM={0}0, IP={2:.17g},{2:.17g},{2:.17g}, QG=0,{3:.17g},0\n"
+        "MARKER/{0}0, QP=0,{4:.17g},0\nMARKER/{0}1\nMARKER/{0}2, QP=0,{5:.17g},0\nJOINT/{0}, REVOLUTE, I={0}1, J={6}\n",
+        k + 1, 1.0 / n, 1.0 / 12 / n / n / n, -(k - 1.0) / n, -0.5 / n, -1.0 / n,
+        k == 1 ? std::string("1") : fmt::format("{}2", k));
+  }
+  return s + "END\n";
+}
+
+template <class Function>
+double seconds(Function&& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void measure(int n) {
+  auto dataset = parse_dataset(std::make_shared<const SourceText>("chain.adm", chain(n)));
+  auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
+  const System system{std::shared_ptr<const Model>(std::move(model.value))};
+  Findings findings;
+  const auto op = initial_conditions(system, findings);
+  if (!op) return fmt::print("{}\n", op.error().message);
+  const auto linear = linearize(system, *op, {});
+  if (!linear) return fmt::print("{}\n", linear.error().message);
+  const double whole = seconds([&] { return eigensolve(*linear).has_value(); });
+
+  Eigen::MatrixXd A = linear->model.A;
+  const auto size = static_cast<lapack_int>(A.rows());
+  Eigen::MatrixXd left(size, size), right(size, size);
+  Eigen::VectorXd re(size), im(size), scale(size), of_values(size), of_vectors(size);
+  lapack_int low = 0, high = 0;
+  double norm = 0;
+  const double lapack = seconds([&] {
+    LAPACKE_dgeevx(LAPACK_COL_MAJOR, 'B', 'V', 'V', 'N', size, A.data(), size, re.data(), im.data(), left.data(), size,
+                   right.data(), size, &low, &high, scale.data(), &norm, of_values.data(), of_vectors.data());
+  });
+  ZeroModes zero;
+  const double splitting = seconds([&] { zero = split_zero_modes(linear->model.A, linear->rounding); });
+  // The same pairs as LAPACK gave them; this model has no zero modes.
+  EigenPairs pairs;
+  pairs.right.resize(size, size), pairs.left.resize(size, size);
+  Eigen::Index count = 0;
+  for (Eigen::Index k = 0; k < size; ++k) {
+    if (im(k) < 0) continue;
+    pairs.values.emplace_back(re(k), im(k));
+    pairs.right.col(count).real() = right.col(k), pairs.left.col(count).real() = left.col(k);
+    pairs.right.col(count).imag().setZero(), pairs.left.col(count).imag().setZero();
+    if (im(k) > 0) pairs.right.col(count).imag() = right.col(k + 1), pairs.left.col(count).imag() = left.col(k + 1);
+    ++count;
+  }
+  pairs.right.conservativeResize(size, count), pairs.left.conservativeResize(size, count);
+  const double refining = seconds([&] { refine(*linear->equations, zero, pairs); });
+  fmt::print("{:5} states: eigensolve {:8.3f} s, dgeevx {:8.3f} s, zeros {:8.3f} s ({}), refinement {:8.3f} s\n", size,
+             whole, lapack, splitting, zero.count, refining);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (int k = 1; k < argc; ++k) measure(std::atoi(argv[k]));
+}
