@@ -45,6 +45,35 @@ double relative_imbalance(const ColumnMatrix& m, const Eigen::MatrixXd& residual
   return worst;
 }
 
+// The algebraic or differential equation that is farthest from being met, relative to its own terms; empty if all are.
+std::string farthest_equation(const Layout& layout, const Equations& eq) {
+  std::string name;
+  double worst = 1e-6;
+  const auto look = [&](std::int32_t row, const ElementLabel& owner) {
+    const auto at = static_cast<std::size_t>(row);
+    const double relative = std::abs(eq.residual()[at]) / std::max(eq.magnitude()[at], 1e-300);
+    if (relative > worst) worst = relative, name = owner.full_text();
+  };
+  for (std::size_t k = 0; k < layout.algebraic.size(); ++k)
+    look(eq.algebraic_row(static_cast<std::int32_t>(k)), *layout.algebraic[k].owner);
+  for (std::size_t k = 0; k < layout.states.size(); ++k)
+    look(eq.state_row(static_cast<std::int32_t>(k)), *layout.states[k].owner);
+  return name;
+}
+
+void warn_of_changed_starts(const System& system, const OperatingPoint& op, Findings& findings) {
+  const auto& algebraic = system.layout().algebraic;
+  for (std::size_t k = 0; k < algebraic.size(); ++k) {
+    const double stated = algebraic[k].guess, found = op.algebraic[k];
+    if (!algebraic[k].guess_is_start || std::abs(found - stated) <= 1e-9 * std::max(std::abs(stated), std::abs(found)))
+      continue;
+    findings.warnings.push_back(
+        fmt::format("the initial value {:g} of {} contradicts the condition it follows from: it "
+                    "starts at {:.9g}",
+                    stated, algebraic[k].owner->full_text(), found));
+  }
+}
+
 }  // namespace
 
 Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint op, Findings& findings) {
@@ -112,15 +141,21 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
     update(op.algebraic, saddle.algebraic(0));
     update(op.state_rate, saddle.state(0));
   }
-  return tl::unexpected(Failure{"acceleration initial conditions",
-                                "the equations for accelerations, reactions and algebraic values did not converge",
-                                history});
+  Failure f{"acceleration initial conditions",
+            "the equations for accelerations, reactions and algebraic values did not converge", history};
+  if (const std::string name = farthest_equation(layout, eq); !name.empty())
+    f.message += "; farthest from being met is the equation of " + name;
+  return tl::unexpected(f);
 }
 
 Result<OperatingPoint> initial_conditions(const System& system, Findings& findings) {
   return assemble_position(system, system.drawn(), findings, Starts::held)
       .and_then([&](OperatingPoint op) { return initial_velocity(system, std::move(op), findings); })
-      .and_then([&](OperatingPoint op) { return solve_acceleration(system, std::move(op), findings); });
+      .and_then([&](OperatingPoint op) { return solve_acceleration(system, std::move(op), findings); })
+      .map([&](OperatingPoint op) {
+        warn_of_changed_starts(system, op, findings);
+        return op;
+      });
 }
 
 }  // namespace dynalin
