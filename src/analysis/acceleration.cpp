@@ -61,16 +61,17 @@ std::string farthest_equation(const Layout& layout, const Equations& eq) {
   return name;
 }
 
-void warn_of_changed_starts(const System& system, const OperatingPoint& op, Findings& findings) {
-  const auto& algebraic = system.layout().algebraic;
-  for (std::size_t k = 0; k < algebraic.size(); ++k) {
-    const double stated = algebraic[k].guess, found = op.algebraic[k];
-    if (!algebraic[k].guess_is_start || std::abs(found - stated) <= 1e-9 * std::max(std::abs(stated), std::abs(found)))
-      continue;
+// A value that began as the dataset states it and ends elsewhere; a static solution begins where it has moved it.
+void warn_of_changed_starts(const Layout& layout, const std::vector<double>& before, const std::vector<double>& after,
+                            Findings& findings) {
+  for (std::size_t k = 0; k < layout.algebraic.size(); ++k) {
+    const AlgebraicUnknown& a = layout.algebraic[k];
+    const double change = std::abs(after[k] - a.guess), size = std::max(std::abs(a.guess), std::abs(after[k]));
+    if (!a.guess_is_start || before[k] != a.guess || change <= 1e-9 * size) continue;
     findings.warnings.push_back(
         fmt::format("the initial value {:g} of {} contradicts the condition it follows from: it "
                     "starts at {:.9g}",
-                    stated, algebraic[k].owner->full_text(), found));
+                    a.guess, a.owner->full_text(), after[k]));
   }
 }
 
@@ -85,6 +86,7 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
   eq.resize(layout);
   Partition part;
   std::vector<std::string> history;
+  const std::vector<double> first_values = op.algebraic;
   double before = std::numeric_limits<double>::infinity();
   int stalled = 0;
 
@@ -121,6 +123,7 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
         (imbalance < 1e-15 || (imbalance < 1e-10 && stalled > 0) || (imbalance < 1e-6 && stalled > 3))) {
       if (const std::string reason = system.departure(motion); !reason.empty())
         return tl::unexpected(Failure{"acceleration initial conditions", reason, {}});
+      warn_of_changed_starts(layout, first_values, op.algebraic, findings);
       return op;
     }
     before = imbalance;
@@ -151,11 +154,7 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
 Result<OperatingPoint> initial_conditions(const System& system, Findings& findings) {
   return assemble_position(system, system.drawn(), findings, Starts::held)
       .and_then([&](OperatingPoint op) { return initial_velocity(system, std::move(op), findings); })
-      .and_then([&](OperatingPoint op) { return solve_acceleration(system, std::move(op), findings); })
-      .map([&](OperatingPoint op) {
-        warn_of_changed_starts(system, op, findings);
-        return op;
-      });
+      .and_then([&](OperatingPoint op) { return solve_acceleration(system, std::move(op), findings); });
 }
 
 }  // namespace dynalin
