@@ -45,6 +45,36 @@ double relative_imbalance(const ColumnMatrix& m, const Eigen::MatrixXd& residual
   return worst;
 }
 
+// The algebraic or differential equation that is farthest from being met, relative to its own terms; empty if all are.
+std::string farthest_equation(const Layout& layout, const Equations& eq) {
+  std::string name;
+  double worst = 1e-6;
+  const auto look = [&](std::int32_t row, const ElementLabel& owner) {
+    const auto at = static_cast<std::size_t>(row);
+    const double relative = std::abs(eq.residual()[at]) / std::max(eq.magnitude()[at], 1e-300);
+    if (relative > worst) worst = relative, name = owner.full_text();
+  };
+  for (std::size_t k = 0; k < layout.algebraic.size(); ++k)
+    look(eq.algebraic_row(static_cast<std::int32_t>(k)), *layout.algebraic[k].owner);
+  for (std::size_t k = 0; k < layout.states.size(); ++k)
+    look(eq.state_row(static_cast<std::int32_t>(k)), *layout.states[k].owner);
+  return name;
+}
+
+// A value that began as the dataset states it and ends elsewhere; a static solution begins where it has moved it.
+void warn_of_changed_starts(const Layout& layout, const std::vector<double>& before, const std::vector<double>& after,
+                            Findings& findings) {
+  for (std::size_t k = 0; k < layout.algebraic.size(); ++k) {
+    const AlgebraicUnknown& a = layout.algebraic[k];
+    const double change = std::abs(after[k] - a.guess), size = std::max(std::abs(a.guess), std::abs(after[k]));
+    if (!a.guess_is_start || before[k] != a.guess || change <= 1e-9 * size) continue;
+    findings.warnings.push_back(
+        fmt::format("the initial value {:g} of {} contradicts the condition it follows from: it "
+                    "starts at {:.9g}",
+                    a.guess, a.owner->full_text(), after[k]));
+  }
+}
+
 }  // namespace
 
 Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint op, Findings& findings) {
@@ -56,6 +86,7 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
   eq.resize(layout);
   Partition part;
   std::vector<std::string> history;
+  const std::vector<double> first_values = op.algebraic;
   double before = std::numeric_limits<double>::infinity();
   int stalled = 0;
 
@@ -92,6 +123,7 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
         (imbalance < 1e-15 || (imbalance < 1e-10 && stalled > 0) || (imbalance < 1e-6 && stalled > 3))) {
       if (const std::string reason = system.departure(motion); !reason.empty())
         return tl::unexpected(Failure{"acceleration initial conditions", reason, {}});
+      warn_of_changed_starts(layout, first_values, op.algebraic, findings);
       return op;
     }
     before = imbalance;
@@ -112,9 +144,11 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
     update(op.algebraic, saddle.algebraic(0));
     update(op.state_rate, saddle.state(0));
   }
-  return tl::unexpected(Failure{"acceleration initial conditions",
-                                "the equations for accelerations, reactions and algebraic values did not converge",
-                                history});
+  Failure f{"acceleration initial conditions",
+            "the equations for accelerations, reactions and algebraic values did not converge", history};
+  if (const std::string name = farthest_equation(layout, eq); !name.empty())
+    f.message += "; farthest from being met is the equation of " + name;
+  return tl::unexpected(f);
 }
 
 Result<OperatingPoint> initial_conditions(const System& system, Findings& findings) {

@@ -87,7 +87,9 @@ std::vector<std::string> undetermined(const System& system, const Saddle& saddle
       named.emplace_back(size, layout.coordinate_text(k));
     } else if (k >= saddle.algebraic(0) && k < saddle.state(0)) {
       const auto& a = layout.algebraic[static_cast<std::size_t>(k - saddle.algebraic(0))];
-      named.emplace_back(size, "the value of " + a.owner->full_text());
+      const bool is_rate = std::any_of(layout.algebraic.begin(), layout.algebraic.end(),
+                                       [&](const auto& other) { return other.rate == k - saddle.algebraic(0); });
+      named.emplace_back(size, (is_rate ? "the rate of " : "the value of ") + a.owner->full_text());
     } else if (k >= saddle.state(0)) {
       const auto& z = layout.states[static_cast<std::size_t>(k - saddle.state(0))];
       named.emplace_back(size, "the state of " + z.owner->full_text());

@@ -57,6 +57,13 @@ class Linearizer {
     read(options_.pinput, result_.model.inputs, inputs_, result_.model.pinput);
     read(options_.poutput, result_.model.outputs, outputs_, result_.model.poutput);
     for (const std::int32_t u : inputs_) {
+      const AlgebraicUnknown& unknown = layout_.algebraic[static_cast<std::size_t>(u)];
+      if (unknown.rate >= 0) {
+        result_.warnings.push_back(fmt::format(
+            "{} is a plant input, and a DIF1 needs its time derivative, which no state-space model has: the "
+            "linear model takes it as zero",
+            unknown.owner->full_text()));
+      }
       const bool depends = depends_on_anything(u);
       const double value = op_.algebraic[static_cast<std::size_t>(u)];
       if (depends || value != 0.0) {

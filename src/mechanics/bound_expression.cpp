@@ -69,7 +69,7 @@ BoundExpression::BoundExpression(Expression expression, const Signals& signals, 
     if (a.kind == Kind::measure) order_ = std::max(order_, static_cast<int>(a.order));
     if (a.kind == Kind::force) order_ = 2;
     if (a.kind == Kind::channel) reads_channels_ = true;
-    if (binding == Binding::rates) {
+    if (binding == Binding::rates || binding == Binding::condition_rates) {
       const bool impossible = a.kind == Kind::force || (a.kind == Kind::measure && a.order == 2) ||
                               (a.kind == Kind::channel && a.channel.kind == Channel::Kind::state_rate);
       if (impossible) {
@@ -111,6 +111,10 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
     case AtomFamily::data:
       if (f.name == "MODE") {
         a.kind = Kind::mode;
+        break;
+      }
+      if (f.name == "DIF1" && (binding == Binding::condition || binding == Binding::condition_rates)) {
+        a.kind = Kind::constant;
         break;
       }
       a.channel = signals.data(atom);
@@ -217,6 +221,14 @@ double BoundExpression::value(const Motion& motion, ExpressionScratch& scratch) 
   scratch.atoms.resize(atoms_.size());
   for (std::size_t k = 0; k < atoms_.size(); ++k) scratch.atoms[k] = atom_value(atoms_[k], motion);
   return expression_.evaluate<double>(scratch.atoms, scratch.plain);
+}
+
+std::span<const double> BoundExpression::partials(const Motion& motion, ExpressionScratch& scratch) const {
+  scratch.atoms.resize(atoms_.size());
+  scratch.partials.resize(atoms_.size());
+  for (std::size_t k = 0; k < atoms_.size(); ++k) scratch.atoms[k] = atom_value(atoms_[k], motion);
+  expression_.evaluate<double>(scratch.atoms, std::span(scratch.partials), scratch.plain);
+  return scratch.partials;
 }
 
 Taylor BoundExpression::along_motion(const Motion& motion, ExpressionScratch& scratch) const {

@@ -11,8 +11,9 @@
 namespace dynalin {
 
 // What an expression is bound for: the equations of a system, with the time derivatives of channels for add_rate, or
-// its gradient alone, which keeps no total angles and may be bound at any time.
-enum class Binding : std::uint8_t { equations, rates, gradient };
+// its gradient alone, which keeps no total angles and may be bound at any time. A condition is bound with zero for
+// every DIF1: they cancel in the sum it is a term of.
+enum class Binding : std::uint8_t { equations, rates, gradient, condition, condition_rates };
 
 class BoundExpression {
  public:
@@ -26,6 +27,8 @@ class BoundExpression {
   bool is_constant() const { return atoms_.empty(); }
 
   double value(const Motion&, ExpressionScratch&) const;
+  // With respect to the atoms of the expression, in their order; lives in the scratch.
+  std::span<const double> partials(const Motion&, ExpressionScratch&) const;
   // Value and two rates; for expressions of order 0 without channels.
   Taylor along_motion(const Motion&, ExpressionScratch&) const;
 

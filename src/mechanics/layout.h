@@ -53,6 +53,8 @@ struct AlgebraicUnknown {
   const ElementLabel* owner = nullptr;
   std::int32_t component = 0;  // 1-based where the owner has several, else 0
   double guess = 0;
+  bool guess_is_start = false;  // stated as an initial value: a start that differs is worth a warning
+  std::int32_t rate = -1;       // the unknown that is its time derivative, where something reads it
 };
 
 struct DifferentialState {

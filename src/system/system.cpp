@@ -82,6 +82,7 @@ class System::SystemSignals final : public Signals {
     if (fresh) {
       const ElementLabel& owner = *system_.layout_.algebraic[static_cast<std::size_t>(c.index)].owner;
       it->second = system_.layout_.add_algebraic(owner);
+      system_.layout_.algebraic[static_cast<std::size_t>(c.index)].rate = it->second;
       rates_to_make_.emplace_back(c.index, it->second);
     }
     return {Channel::Kind::algebraic, it->second, 0};

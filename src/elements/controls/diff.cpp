@@ -1,13 +1,19 @@
 // DIFF/id, FUNCTION= [, IC=z [, z′]] [, IMPLICIT] [, STATIC_HOLD]
 //
 // One differential equation. Explicit, z′ = e(…), starting at IC. With IMPLICIT, e(z, z′, …) = 0: a state where e reads
-// its own DIF1, otherwise an algebraic unknown that adds no state. DIF(id) reads z and DIF1(id) z′; that of an
+// its own DIF1, otherwise an algebraic unknown that adds no state. Where DIFFs read each other's DIF1, there are as
+// many states as the equations have rank in their rates (rate_reduction.h). DIF(id) reads z and DIF1(id) z′; that of an
 // algebraic one is the exact time derivative of its equation. With STATIC_HOLD a static solution keeps z; otherwise it
 // looks for z′ = 0.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <set>
 
+#include "elements/controls/rate_reduction.h"
+#include "elements/controls/variable.h"
+#include "elements/controls/variable_list.h"
 #include "elements/families/function_equation.h"
 #include "model/model.h"
 #include "model/schema.h"
@@ -37,6 +43,36 @@ bool reads_own_rate(const Diff& d, std::int64_t id) {
                      [&](const Atom& a) { return a.function->name == "DIF1" && a.argument[0] == id; });
 }
 
+// Whether an expression can see rates of DIFFs that its own atoms do not show: through VARIABLEs, or by forces and
+// accelerations. Splines have no data yet.
+bool hides_rates(const Model& model, const Expression& function) {
+  std::set<std::int64_t> visited;
+  const std::function<bool(const Expression&, bool)> hides = [&](const Expression& e, bool indirect) {
+    if (!indirect && !e.splines().empty()) return true;
+    for (const Atom& a : e.atoms()) {
+      const AtomFunction& f = *a.function;
+      if (f.family == AtomFamily::element_force || f.family == AtomFamily::marker_force) return true;
+      if (f.family == AtomFamily::marker_measure && f.order == 2) return true;
+      if (f.name == "DIF1" && indirect) return true;
+      const auto through = [&](VariableRef v) {
+        return visited.insert(model.label(v).id).second && hides(variable_function(model, v), true);
+      };
+      if (f.name == "VARVAL") {
+        const auto v = model.find("VARIABLE", a.argument[0]);
+        if (v && through({*v})) return true;
+      } else if (f.name == "PINVAL" || f.name == "POUVAL") {
+        const auto handle = model.find(f.statement, a.argument[0]);
+        const auto* list = handle ? model.get<VariableList>(*handle) : nullptr;
+        if (list && std::any_of(list->variables.begin(), list->variables.end(), through)) return true;
+      } else if (f.name == "ARYVAL") {
+        return true;  // outputs of controllers pass on what they are fed
+      }
+    }
+    return false;
+  };
+  return hides(function, false);
+}
+
 class DiffSet final : public TypedSet<Diff> {
  public:
   using TypedSet::TypedSet;
@@ -61,20 +97,78 @@ class DiffSet final : public TypedSet<Diff> {
       reader.error("wrong-count", reader.at("IC"), "the second value of IC goes with IMPLICIT");
     }
   }
-  std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
+  std::unique_ptr<Kernel> make_kernel(const Model& model, Layout& layout) const override {
     using Form = FunctionEquationKernel::Form;
+    std::vector<DiffEquation> equations;
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      const Diff& d = elements[k];
+      const std::int64_t id = labels[k].id;
+      equations.push_back({id, d.function, d.implicit, reads_own_rate(d, id), hides_rates(model, d.function),
+                           d.initial.empty() ? 0.0 : d.initial[0], d.initial.size() > 1 ? d.initial[1] : 0.0});
+    }
+    const RateReduction reduction = reduce_rates(equations);
+    for (const RateReduction::Refusal& r : reduction.refusals) layout.problems.push_back(text(r));
+
     std::vector<FunctionEquationKernel::Item> items;
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const Diff& d = elements[k];
-      if (d.algebraic) {
-        layout.remarks.push_back(fmt::format("{} does not read its own DIF1: it is algebraic and contributes no state",
-                                             labels[k].full_text()));
+      const RateReduction::Role& role = reduction.roles[k];
+      FunctionEquationKernel::Item item{.function = d.function,
+                                        .form = Form::rate,
+                                        .initial = equations[k].initial,
+                                        .initial_rate = equations[k].initial_rate,
+                                        .held_in_statics = d.static_hold,
+                                        .start_stated = !d.algebraic && !d.initial.empty()};
+      const auto sign = [&](std::size_t of) { return elements[of].implicit ? 1.0 : -1.0; };
+      if (role.is_state) {
+        item.form = d.implicit ? Form::implicit_state : Form::rate;
+        if (role.equation != k) {
+          item.terms = {{role.equation, sign(role.equation), !elements[role.equation].implicit}};
+        }
+        if (d.algebraic) {
+          layout.remarks.push_back(fmt::format(
+              "{} does not read its own DIF1, but it takes its rate to solve the equations that do: it is a state",
+              labels[k].full_text()));
+        }
+      } else {
+        item.form = role.condition.empty() ? Form::implicit_algebraic : Form::condition;
+        for (const RateReduction::Term& t : role.condition) {
+          item.terms.push_back({t.of, t.factor * sign(t.of), !elements[t.of].implicit});
+        }
+        layout.remarks.push_back(remark(k, role));
       }
-      const Form form = d.algebraic ? Form::implicit_algebraic : d.implicit ? Form::implicit_state : Form::rate;
-      items.push_back({d.function, form, d.initial.empty() ? 0.0 : d.initial[0],
-                       d.initial.size() > 1 ? d.initial[1] : 0.0, d.static_hold});
+      items.push_back(std::move(item));
     }
     return std::make_unique<FunctionEquationKernel>(std::move(items), labels, layout);
+  }
+
+ private:
+  std::string names(const std::vector<std::size_t>& members) const {
+    std::vector<std::size_t> sorted = members;
+    std::sort(sorted.begin(), sorted.end(), [&](auto a, auto b) { return labels[a].id < labels[b].id; });
+    std::vector<std::string> list;
+    for (const std::size_t k : sorted) list.push_back(labels[k].full_text());
+    return fmt::format("{}", fmt::join(list, ", "));
+  }
+
+  std::string text(const RateReduction::Refusal& r) const {
+    const bool varying = r.fault == RateReduction::Fault::varying;
+    return fmt::format(
+        "the equations of {} do not determine their rates: {}", names(r.members),
+        varying ? "fewer of them are independent in DIF1, and the combinations without DIF1 change with the state"
+                : "even with the derivatives of the combinations without DIF1 some stay free (higher index)");
+  }
+
+  std::string remark(std::size_t k, const RateReduction::Role& role) const {
+    if (elements[k].algebraic) {
+      return fmt::format("{} does not read its own DIF1: it is algebraic and contributes no state",
+                         labels[k].full_text());
+    }
+    std::vector<std::size_t> of;
+    for (const RateReduction::Term& t : role.condition) of.push_back(t.of);
+    return fmt::format(
+        "{} follows from a condition without DIF1 that is in the equations of {}: it contributes no state",
+        labels[k].full_text(), names(of));
   }
 };
 

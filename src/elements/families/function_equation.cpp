@@ -1,11 +1,19 @@
 #include "elements/families/function_equation.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
 namespace dynalin {
 
 namespace {
 
+constexpr double rates_cancel = 1e-9;  // of the sum of their sizes
+
 bool is_algebraic(FunctionEquationKernel::Form form) {
-  return form == FunctionEquationKernel::Form::value || form == FunctionEquationKernel::Form::implicit_algebraic;
+  using Form = FunctionEquationKernel::Form;
+  return form == Form::value || form == Form::implicit_algebraic || form == Form::condition;
 }
 
 }  // namespace
@@ -16,7 +24,9 @@ FunctionEquationKernel::FunctionEquationKernel(std::vector<Item> items, const st
   for (std::size_t k = 0; k < items_.size(); ++k) {
     const Item& item = items_[k];
     if (is_algebraic(item.form)) {
-      unknowns_.push_back({Channel::Kind::algebraic, layout.add_algebraic(labels[k], 0, item.initial), 0});
+      const std::int32_t n = layout.add_algebraic(labels[k], 0, item.initial);
+      layout.algebraic[static_cast<std::size_t>(n)].guess_is_start = item.form == Form::condition && item.start_stated;
+      unknowns_.push_back({Channel::Kind::algebraic, n, 0});
     } else {
       DifferentialState z{&labels[k], StateType::diff, 1, item.initial, item.held_in_statics};
       z.initial_rate = item.initial_rate;
@@ -26,41 +36,71 @@ FunctionEquationKernel::FunctionEquationKernel(std::vector<Item> items, const st
 }
 
 void FunctionEquationKernel::bind(const Signals& signals) {
-  for (Item& item : items_) functions_.emplace_back(item.function, signals);
+  for (std::size_t k = 0; k < items_.size(); ++k) {
+    const Item& item = items_[k];
+    if (item.terms.empty()) {
+      const bool value_less_function = item.form == Form::value || item.form == Form::rate;
+      parts_.push_back({k, k, value_less_function ? -1.0 : 1.0, BoundExpression(item.function, signals)});
+    }
+    const bool condition = item.form == Form::condition;
+    for (const Term& t : item.terms) {
+      const Expression& e = items_[t.of].function;
+      parts_.push_back(
+          {k, t.of, t.factor, BoundExpression(e, signals, condition ? Binding::condition : Binding::equations)});
+      if (condition) whole_.push_back({k, t.of, t.factor, BoundExpression(e, signals)});
+      if (!t.with_rate) continue;
+      if (condition) {
+        whole_.back().rate = unknowns_[t.of];
+      } else {
+        parts_.back().rate = signals.rate_of(unknowns_[t.of]);
+      }
+    }
+  }
 }
 
 bool FunctionEquationKernel::add_rate_equation(std::int32_t algebraic, std::int32_t rate, const Signals& signals) {
   for (std::size_t k = 0; k < items_.size(); ++k) {
-    if (!is_algebraic(items_[k].form) || unknowns_[k].index != algebraic) continue;
-    rates_.push_back(
-        {rate, items_[k].form == Form::value, BoundExpression(items_[k].function, signals, Binding::rates)});
+    const Item& item = items_[k];
+    if (!is_algebraic(item.form) || unknowns_[k].index != algebraic) continue;
+    const bool value = item.form == Form::value;
+    if (item.terms.empty()) {
+      rates_.push_back({rate, value, value ? -1.0 : 1.0, BoundExpression(item.function, signals, Binding::rates)});
+    }
+    for (const Term& t : item.terms) {
+      rates_.push_back(
+          {rate, false, t.factor, BoundExpression(items_[t.of].function, signals, Binding::condition_rates)});
+    }
     return true;
   }
   return false;
 }
 
 void FunctionEquationKernel::equations(const Motion& motion, Equations& eq) const {
-  for (std::size_t k = 0; k < functions_.size(); ++k) {
-    const bool algebraic = is_algebraic(items_[k].form);
+  const auto row_of = [&](std::size_t k) {
     const std::int32_t n = unknowns_[k].index;
-    const auto at = static_cast<std::size_t>(n);
-    const std::int32_t row = algebraic ? eq.algebraic_row(n) : eq.state_row(n);
+    return is_algebraic(items_[k].form) ? eq.algebraic_row(n) : eq.state_row(n);
+  };
+  for (std::size_t k = 0; k < items_.size(); ++k) {
+    const std::int32_t n = unknowns_[k].index;
+    if (items_[k].form == Form::value) {
+      eq.add_residual(row_of(k), motion.algebraic[static_cast<std::size_t>(n)]);
+      eq.add(Column::algebraic, row_of(k), n, 1.0);
+    } else if (items_[k].form == Form::rate && items_[k].terms.empty()) {
+      eq.add_residual(row_of(k), motion.state_rate[static_cast<std::size_t>(n)]);
+      eq.add(Column::state_rate, row_of(k), n, 1.0);
+    }
+  }
+  for (const Part& p : parts_) {
     // NODAMPIN leaves out what VARIABLEs see of velocities; the partials of a DIFF stay.
-    switch (items_[k].form) {
-      case Form::value:
-        eq.add_residual(row, motion.algebraic[at]);
-        eq.add(Column::algebraic, row, n, 1.0);
-        functions_[k].add(motion, eq, row, -1.0, Column::damping);
-        break;
-      case Form::rate:
-        eq.add_residual(row, motion.state_rate[at]);
-        eq.add(Column::state_rate, row, n, 1.0);
-        functions_[k].add(motion, eq, row, -1.0, Column::velocity);
-        break;
-      case Form::implicit_state:
-      case Form::implicit_algebraic:
-        functions_[k].add(motion, eq, row, 1.0, Column::velocity);
-        break;
+    p.function.add(motion, eq, row_of(p.item), p.factor,
+                   items_[p.item].form == Form::value ? Column::damping : Column::velocity);
+    const auto n = static_cast<std::size_t>(p.rate.index);
+    if (p.rate.kind == Channel::Kind::algebraic) {
+      eq.add_residual(row_of(p.item), motion.algebraic[n]);
+      eq.add(Column::algebraic, row_of(p.item), p.rate.index, 1.0);
+    } else if (p.rate.kind == Channel::Kind::state_rate) {
+      eq.add_residual(row_of(p.item), motion.state_rate[n]);
+      eq.add(Column::state_rate, row_of(p.item), p.rate.index, 1.0);
     }
   }
   for (const RateEquation& r : rates_) {
@@ -69,19 +109,48 @@ void FunctionEquationKernel::equations(const Motion& motion, Equations& eq) cons
       eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(r.rate)]);
       eq.add(Column::algebraic, row, r.rate, 1.0);
     }
-    r.function.add_rate(motion, eq, row, r.explicit_value ? -1.0 : 1.0, Column::velocity);
+    r.function.add_rate(motion, eq, row, r.factor, Column::velocity);
   }
 }
 
 void FunctionEquationKernel::remember(const Motion& motion, Memory& memory) const {
-  for (const BoundExpression& f : functions_) f.remember(motion, memory);
+  for (const Part& p : parts_) p.function.remember(motion, memory);
+  for (const Part& p : whole_) p.function.remember(motion, memory);
   for (const RateEquation& r : rates_) r.function.remember(motion, memory);
 }
 
 std::string FunctionEquationKernel::fault(const Motion& motion) const {
-  for (std::size_t k = 0; k < functions_.size(); ++k) {
-    const std::string reason = functions_[k].fault(motion);
-    if (!reason.empty()) return (*labels_)[k].full_text() + ": " + reason;
+  for (const Part& p : parts_) {
+    const std::string reason = p.function.fault(motion);
+    if (!reason.empty()) return (*labels_)[p.of].full_text() + ": " + reason;
+  }
+  return {};
+}
+
+// The rates that cancel in conditions were found at other places; here they have to cancel as well.
+std::string FunctionEquationKernel::departure(const Motion& motion) const {
+  if (whole_.empty()) return {};
+  ExpressionScratch scratch;
+  std::map<std::int64_t, std::pair<double, double>> sums;  // of partials by DIFF, and of their sizes
+  for (std::size_t k = 0; k < whole_.size(); ++k) {
+    const Part& p = whole_[k];
+    const auto add = [&](std::int64_t id, double value) {
+      sums[id].first += value;
+      sums[id].second += std::abs(value);
+    };
+    const auto partials = p.function.partials(motion, scratch);
+    const auto atoms = items_[p.of].function.atoms();
+    for (std::size_t a = 0; a < atoms.size(); ++a) {
+      if (atoms[a].function->name == "DIF1") add(atoms[a].argument[0], p.factor * partials[a]);
+    }
+    if (p.rate.kind != Channel::Kind::none) add((*labels_)[p.of].id, -p.factor);
+    if (k + 1 < whole_.size() && whole_[k + 1].item == p.item) continue;
+    for (const auto& [id, sum] : sums) {
+      if (std::abs(sum.first) <= rates_cancel * sum.second) continue;
+      return fmt::format("{} is held by a condition in which DIF1({}) cancels elsewhere, but not here",
+                         (*labels_)[p.item].full_text(), id);
+    }
+    sums.clear();
   }
   return {};
 }
