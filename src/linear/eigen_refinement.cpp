@@ -90,6 +90,7 @@ class Refiner {
       find_clusters();
       if (pass == 0) improve_vectors();
       correct();
+      if (settled()) break;
     }
     invert();
     return std::move(trust_);
@@ -421,6 +422,17 @@ class Refiner {
     return out;
   }
 
+  // Whether nothing is left that only better vectors can tell: clusters, or bounds that are not small against the gaps.
+  // Single eigenvalues that are small against the others are a matter of inverse iteration.
+  bool settled() const {
+    for (Index i = 0; i < count_; ++i) {
+      const double bound = trust_[static_cast<std::size_t>(i)].bound;
+      if (bound <= good_enough * std::abs(pairs_.values[static_cast<std::size_t>(i)])) continue;
+      if (!alone_[static_cast<std::size_t>(i)] || !(bound < 1e-4 * nearest(i))) return false;
+    }
+    return true;
+  }
+
   // Inverse iteration for what is still inexact against its own modulus.
   void invert() {
     std::vector<Index> wanted;
@@ -444,7 +456,10 @@ class Refiner {
   double nearest(Index i) const {
     const Complex me = pairs_.values[static_cast<std::size_t>(i)];
     double gap = zero_.count > 0 ? std::abs(me) : std::numeric_limits<double>::infinity();
-    for_others(i, [&](const Member& j) { gap = std::min(gap, std::abs(me - value(j))); });
+    for (Index j = 0; j < count_; ++j) {
+      if (j != i) gap = std::min(gap, std::abs(me - value({j, false})));
+      if (!real(j)) gap = std::min(gap, std::abs(me - value({j, true})));
+    }
     return gap;
   }
 
