@@ -93,6 +93,7 @@ class Refiner {
       if (settled()) break;
     }
     invert();
+    doubt_rounding();
     return std::move(trust_);
   }
 
@@ -323,18 +324,23 @@ class Refiner {
     if (defective(members[0].at)) return unchanged(members, defective_bound_(members[0].at));
     const auto k = static_cast<Index>(members.size());
     // What couples the cluster with the rest, to second order.
-    double rest = 0, floor = 0, modulus = 0;
+    double rest = 0, floor = 0, modulus = 0, row = 0, closest = std::numeric_limits<double>::infinity();
     for (const Member& m : members) {
-      double sum = 0;
+      double sum = 0, radius = 0;
       for_others(m.at, [&](const Member& j) {
         if (root(j.at) == root(m.at) && (closed || !j.conjugate)) return;
         const double gap = std::abs(value({m.at, false}) - value(j));
+        radius += std::abs(g({m.at, false}, j));
+        closest = std::min(closest, gap);
         sum += (std::abs(g({m.at, false}, j)) / gap + std::abs(p({m.at, false}, j))) * std::abs(g(j, {m.at, false}));
       });
       rest = std::max(rest, sum + zero_coupling_(m.at));
+      row = std::max(row, radius);
       floor = std::max(floor, floor_(m.at));
       modulus = std::max(modulus, std::abs(value(m)));
     }
+    // Where the second order is not small against the gaps, the radius of Gershgorin's disc holds without any order.
+    if (rest > 1e-5 * closest) rest += row;
     const double written = 2 * eps * modulus, outside = 2 * static_cast<double>(k) * rest + floor + written;
     Corrected out;
     if (k == 1) {
@@ -420,6 +426,17 @@ class Refiner {
     out.right = pairs_.right(Eigen::all, at);
     out.left = pairs_.left(Eigen::all, at);
     return out;
+  }
+
+  // Eigenvalues no larger than what rounding makes of a zero, and known to few digits, may be one.
+  void doubt_rounding() {
+    const double size = eps * zero_.block.norm();
+    for (Index i = 0; i < count_; ++i) {
+      EigenTrust& trust = trust_[static_cast<std::size_t>(i)];
+      const double modulus = std::abs(pairs_.values[static_cast<std::size_t>(i)]);
+      const double condition = 1 / std::abs(pairs_.left.col(i).dot(pairs_.right.col(i)));
+      if (!trust.refined && modulus <= condition * size && trust.bound > 1e-8 * modulus) trust.bound += modulus;
+    }
   }
 
   // Whether nothing is left that only better vectors can tell: clusters, or bounds that are not small against the gaps.

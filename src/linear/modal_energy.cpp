@@ -242,7 +242,7 @@ std::vector<ModalRow<double>> ModalEnergy::force_rows(std::size_t mode, Column f
   MarkerWrench w;
   for (const std::string_view statement : force_statements) {
     for (const auto& set : system_.model().sets) {
-      if (set->kind().statement != statement) continue;
+      if (set->kind().statement != statement || set->labels.empty()) continue;
       const bool rotational = set->kind().variant == "ROTATIONAL" || statement == "VTORQUE";
       const bool translational = set->kind().variant == "TRANSLATIONAL" || statement == "VFORCE";
       const Kernel& kernel = *system_.signals().element(statement, set->labels.front().id).kernel;
