@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "analysis/initial.h"
 #include "analysis/saddle.h"
@@ -27,10 +28,7 @@ double relative_imbalance(const ColumnMatrix& m, const Eigen::MatrixXd& residual
                      : c < saddle.algebraic(0) ? at(op.lambda, c - n)
                      : c < saddle.state(0)     ? at(op.algebraic, c - saddle.algebraic(0))
                                                : at(op.state_rate, c - saddle.state(0));
-    for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]);
-         k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
-      terms(m.row[k]) += std::abs(m.value[k]) * x;
-    }
+    for_each_in_column(m, c, [&](std::int32_t r, double v) { terms(r) += std::abs(v) * x; });
   }
   double worst = 0;
   const auto group = [&](std::int32_t first, std::int32_t last) {
@@ -43,6 +41,15 @@ double relative_imbalance(const ColumnMatrix& m, const Eigen::MatrixXd& residual
   group(saddle.state(0), saddle.size());
   // Constraint rows are linear in the accelerations: one solution meets them, and at rest they are pure rounding.
   return worst;
+}
+
+// Corrects accelerations that are already exact to rounding. What all but vanishes was rounding alone and is zero.
+void correct(std::vector<double>& acceleration, const Eigen::MatrixXd& step) {
+  for (std::size_t k = 0; k < acceleration.size(); ++k) {
+    const double change = step(static_cast<Eigen::Index>(k), 0);
+    acceleration[k] += change;
+    if (std::abs(acceleration[k]) <= 1e-3 * std::abs(change)) acceleration[k] = 0;
+  }
 }
 
 // The algebraic or differential equation that is farthest from being met, relative to its own terms; empty if all are.
@@ -89,27 +96,33 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
   const std::vector<double> first_values = op.algebraic;
   double before = std::numeric_limits<double>::infinity();
   int stalled = 0;
+  SparseLu lu;
 
-  for (int iteration = 0; iteration < iteration_limit; ++iteration) {
+  // Minus the residuals at `op`, in the order of the saddle matrix.
+  const auto evaluate = [&](std::initializer_list<Column> wanted) {
     const Motion motion = system.motion(op);
     system.constraints(motion, rows);
-    if (iteration == 0) {
+    if (part.active.empty()) {
       part = system.partition(rows, true);
       findings.redundant_rows = part.redundant;
       for (const std::int32_t r : part.redundant) op.lambda[static_cast<std::size_t>(r)] = 0.0;
     }
-    system.equations(motion, rows, eq, {Column::acceleration, Column::lambda, Column::algebraic, Column::state_rate});
-
-    Eigen::MatrixXd step = Eigen::MatrixXd::Zero(saddle.size(), 1);
+    system.equations(motion, rows, eq, wanted);
+    Eigen::MatrixXd missing = Eigen::MatrixXd::Zero(saddle.size(), 1);
     for (std::int32_t r = 0; r < eq.size(); ++r)
-      step(saddle.equation(r), 0) = -eq.residual()[static_cast<std::size_t>(r)];
+      missing(saddle.equation(r), 0) = -eq.residual()[static_cast<std::size_t>(r)];
     for (std::int32_t k = 0; k < rows.size(); ++k) {
       if (!part.active[static_cast<std::size_t>(k)]) continue;
       const Taylor& phi = rows.along_motion(k);
-      step(saddle.lambda(k), 0) = -(rows.level(k) == RowLevel::position ? phi.acceleration : phi.rate);
+      missing(saddle.lambda(k), 0) = -(rows.level(k) == RowLevel::position ? phi.acceleration : phi.rate);
     }
+    return missing;
+  };
+
+  for (int iteration = 0; iteration < iteration_limit; ++iteration) {
+    Eigen::MatrixXd step = evaluate({Column::acceleration, Column::lambda, Column::algebraic, Column::state_rate});
     if (!step.allFinite()) {
-      const std::string reason = system.fault(motion);
+      const std::string reason = system.fault(system.motion(op));
       return tl::unexpected(Failure{"acceleration initial conditions",
                                     reason.empty() ? "a force or constraint has no finite value" : reason, history});
     }
@@ -121,13 +134,18 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
     stalled = imbalance > 0.1 * before ? stalled + 1 : 0;
     if (iteration > 0 &&
         (imbalance < 1e-15 || (imbalance < 1e-10 && stalled > 0) || (imbalance < 1e-6 && stalled > 3))) {
-      if (const std::string reason = system.departure(motion); !reason.empty())
+      if (const std::string reason = system.departure(system.motion(op)); !reason.empty())
         return tl::unexpected(Failure{"acceleration initial conditions", reason, {}});
       warn_of_changed_starts(layout, first_values, op.algebraic, findings);
+      // What is zero by the structure of the model, such as the load of a body in free fall, becomes exactly zero.
+      for (int correction = 0; correction < 2 && imbalance < 1e-15; ++correction) {
+        if (correction > 0) step = evaluate({});
+        lu.solve(step);
+        correct(op.acceleration, step);
+      }
       return op;
     }
     before = imbalance;
-    SparseLu lu;
     if (!lu.factor(matrix)) {
       Failure f{"acceleration initial conditions", "the accelerations are not determined",
                 undetermined(system, saddle, std::move(matrix))};

@@ -23,13 +23,9 @@ ColumnMatrix Saddle::matrix(const Equations& eq, const ConstraintRows& rows, con
     return !held.empty() && held[static_cast<std::size_t>(r - n_ - w_)];
   };
   const auto take = [&](Column family, std::int32_t offset) {
-    const ColumnMatrix& m = eq.matrix(family);
-    for (std::int32_t c = 0; c < m.columns; ++c) {
-      for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]);
-           k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
-        if (!replaced(m.row[k])) entries.push_back({equation(m.row[k]), offset + c, m.value[k]});
-      }
-    }
+    for_each_entry(eq.matrix(family), [&](std::int32_t r, std::int32_t c, double v) {
+      if (!replaced(r)) entries.push_back({equation(r), offset + c, v});
+    });
   };
   if (columns.with_coordinates) take(columns.coordinates, 0);
   take(Column::lambda, n_);
@@ -63,13 +59,8 @@ std::vector<std::string> undetermined(const System& system, const Saddle& saddle
   double largest = 0;
   for (const double v : m.value) largest = std::max(largest, std::abs(v));
   std::vector<Triplet> entries;
-  for (std::int32_t c = 0; c < m.columns; ++c) {
-    for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]);
-         k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
-      entries.push_back({m.row[k], c, m.value[k]});
-    }
-    entries.push_back({c, c, 1e-10 * largest});
-  }
+  for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) { entries.push_back({r, c, v}); });
+  for (std::int32_t c = 0; c < m.columns; ++c) entries.push_back({c, c, 1e-10 * largest});
   SparseLu lu;
   if (!lu.factor(compressed(m.rows, m.columns, entries))) return {};
   Eigen::MatrixXd x(saddle.size(), 1);

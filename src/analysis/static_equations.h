@@ -77,17 +77,6 @@ class StaticEquations {
   double force_scale_ = 0, stiffness_ = 0;
 };
 
-// f(row, column, value) for every entry.
-template <class F>
-void for_each_entry(const ColumnMatrix& m, F&& f) {
-  for (std::int32_t c = 0; c < m.columns; ++c) {
-    for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]);
-         k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
-      f(m.row[k], c, m.value[k]);
-    }
-  }
-}
-
 // The point moved by fraction · step; rotations beyond `rotation_limit` [rad] shorten the whole step.
 OperatingPoint moved(const System&, const OperatingPoint&, const Saddle&, const Eigen::VectorXd& step, double fraction,
                      double rotation_limit);

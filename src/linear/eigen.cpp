@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "linear/dense_products.h"
 #include "linear/eigen_refinement.h"
 #include "linear/zero_modes.h"
 
@@ -55,17 +56,22 @@ bool solve_core(Eigen::MatrixXd core, bool with_vectors, EigenPairs& pairs) {
 // From [N C; 0 B] to A: the part of a right eigenvector in the space of the zero modes follows from (N − λ) u = −C y.
 void map_to_states(const ZeroModes& zero, EigenPairs& pairs) {
   const Eigen::Index n = zero.block.rows(), z = zero.count;
-  const Eigen::MatrixXcd C = zero.block.topRightCorner(z, n - z).cast<Complex>();
-  Eigen::MatrixXcd full(n, pairs.right.cols());
-  full.bottomRows(n - z) = pairs.right;
-  full.topRows(z) = -C * pairs.right;
-  for (Eigen::Index k = 0; k < full.cols() && z > 0; ++k) {
-    Eigen::MatrixXcd N = zero.block.topLeftCorner(z, z).cast<Complex>();
-    N.diagonal().array() -= pairs.values[static_cast<std::size_t>(k)];
-    full.col(k).head(z) = N.triangularView<Eigen::Upper>().solve(full.col(k).head(z)).eval();
+  if (z == 0) {
+    pairs.right = zero.scale.asDiagonal() * pairs.right;
+    pairs.left = zero.scale.cwiseInverse().asDiagonal() * pairs.left;
+  } else {
+    const Eigen::MatrixXcd C = zero.block.topRightCorner(z, n - z).cast<Complex>();
+    Eigen::MatrixXcd full(n, pairs.right.cols());
+    full.bottomRows(n - z) = pairs.right;
+    full.topRows(z) = -C * pairs.right;
+    for (Eigen::Index k = 0; k < full.cols(); ++k) {
+      Eigen::MatrixXcd N = zero.block.topLeftCorner(z, z).cast<Complex>();
+      N.diagonal().array() -= pairs.values[static_cast<std::size_t>(k)];
+      full.col(k).head(z) = N.triangularView<Eigen::Upper>().solve(full.col(k).head(z)).eval();
+    }
+    pairs.right = real_product(zero.right(), full);
+    pairs.left = real_product(zero.left().rightCols(n - z), pairs.left);
   }
-  pairs.right = zero.right() * full;
-  pairs.left = zero.left().rightCols(n - z) * pairs.left;
   pairs.right.colwise().normalize();
   pairs.left.colwise().normalize();
 }
@@ -128,7 +134,7 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
     out.modes.push_back(std::move(mode));
   }
   if (with_vectors) {
-    const Eigen::MatrixXcd image = A * out.vectors;
+    const Eigen::MatrixXcd image = real_product(A, out.vectors);
     const double size = A.norm();
     for (std::size_t k = 0; k < out.modes.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(k);

@@ -41,13 +41,9 @@ ModalEnergy::ModalEnergy(const System& system, const OperatingPoint& op, const L
   const auto n = system.layout().coordinate_count;
   const auto w = static_cast<std::int32_t>(system.layout().algebraic.size());
   std::vector<Triplet> entries;
-  const ColumnMatrix& m = eq_.matrix(Column::algebraic);
-  for (std::int32_t c = 0; c < m.columns; ++c) {
-    for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]);
-         k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
-      if (m.row[k] >= n && m.row[k] < n + w) entries.push_back({m.row[k] - n, c, m.value[k]});
-    }
-  }
+  for_each_entry(eq_.matrix(Column::algebraic), [&](std::int32_t r, std::int32_t c, double v) {
+    if (r >= n && r < n + w) entries.push_back({r - n, c, v});
+  });
   if (w > 0) algebraic_solved_ = algebraic_.factor(compressed(w, w, entries));
 }
 

@@ -28,12 +28,7 @@ void multiply_add(const ColumnMatrix& m, const Eigen::Ref<const Matrix>& x, Eige
 ColumnMatrix transposed(const ColumnMatrix& m) {
   std::vector<Triplet> entries;
   entries.reserve(m.value.size());
-  for (std::int32_t c = 0; c < m.columns; ++c) {
-    for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]);
-         k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
-      entries.push_back({c, m.row[k], m.value[k]});
-    }
-  }
+  for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) { entries.push_back({c, r, v}); });
   return compressed(m.columns, m.rows, entries);
 }
 
@@ -44,12 +39,7 @@ ColumnMatrix absolute(ColumnMatrix m) {
 
 // Adds a block to the triplets of a larger matrix.
 void place(std::vector<Triplet>& entries, const ColumnMatrix& m, std::int32_t row, std::int32_t column) {
-  for (std::int32_t c = 0; c < m.columns; ++c) {
-    for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]);
-         k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
-      entries.push_back({row + m.row[k], column + c, m.value[k]});
-    }
-  }
+  for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) { entries.push_back({row + r, column + c, v}); });
 }
 
 using Entries = std::vector<Triplet>;
@@ -120,15 +110,11 @@ Result<PerturbationEquations> PerturbationEquations::make(const System& system, 
     states.push_back({n + r++, choice.rate_state[k], -1.0});
   }
   const auto add = [&](Column family, Entries& entries, auto&& place_of) {
-    const ColumnMatrix& m = eq.matrix(family);
-    for (std::int32_t c = 0; c < m.columns; ++c) {
-      for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]);
-           k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
-        const std::int32_t w = m.row[k] - n;
-        const bool replaced = w >= 0 && w < static_cast<std::int32_t>(cut.size()) && cut[static_cast<std::size_t>(w)];
-        if (!replaced) entries.push_back(place_of(saddle.equation(m.row[k]), c, m.value[k]));
-      }
-    }
+    for_each_entry(eq.matrix(family), [&](std::int32_t row, std::int32_t c, double v) {
+      const std::int32_t w = row - n;
+      const bool replaced = w >= 0 && w < static_cast<std::int32_t>(cut.size()) && cut[static_cast<std::size_t>(w)];
+      if (!replaced) entries.push_back(place_of(saddle.equation(row), c, v));
+    });
   };
   const auto there = [](std::int32_t row, std::int32_t c, double v) { return Triplet{row, c, v}; };
   add(Column::position, below_20, there);
@@ -256,10 +242,9 @@ Matrix PerturbationEquations::state_matrices(const Matrix& a) const {
   Matrix residual(unknowns(), columns);
   std::vector<long double> sum(static_cast<std::size_t>(unknowns()));
   const auto add = [&](const ColumnMatrix& m, std::int32_t column, long double factor) {
-    for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(column)]);
-         k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(column) + 1]); ++k) {
-      sum[static_cast<std::size_t>(m.row[k])] += factor * static_cast<long double>(m.value[k]);
-    }
+    for_each_in_column(m, column, [&](std::int32_t row, double v) {
+      sum[static_cast<std::size_t>(row)] += factor * static_cast<long double>(v);
+    });
   };
   for (Eigen::Index c = 0; c < columns; ++c) {
     std::fill(sum.begin(), sum.end(), 0.0L);
@@ -282,12 +267,8 @@ Matrix PerturbationEquations::state_matrices(const Matrix& a) const {
 Matrix PerturbationEquations::rounding(const Matrix& a) const {
   const Matrix dq = a.topLeftCorner(n_, states_).cwiseAbs(), dqdot = a.block(n_, 0, n_, states_).cwiseAbs();
   Matrix size = Matrix::Zero(algebraic_, states_);
-  const ColumnMatrix states = absolute(on_states_);
-  for (Eigen::Index c = 0; c < states_; ++c) {
-    const auto at = static_cast<std::size_t>(c);
-    for (auto k = static_cast<std::size_t>(states.start[at]); k < static_cast<std::size_t>(states.start[at + 1]); ++k) {
-      size(states.row[k], c) += states.value[k];
-    }
+  for (std::int32_t c = 0; c < states_; ++c) {
+    for_each_in_column(on_states_, c, [&](std::int32_t row, double v) { size(row, c) += std::abs(v); });
   }
   Matrix of_saddle = size.bottomRows(saddle_size_);
   multiply_add(absolute(saddle_on_positions_), dq, of_saddle, 1.0);

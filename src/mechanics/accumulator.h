@@ -22,6 +22,23 @@ struct ColumnMatrix {
   void multiply_add(std::span<const double> x, std::span<double> y, double factor = 1.0) const;
 };
 
+// f(row, value) for every entry of a column, in ascending rows.
+template <class Function>
+void for_each_in_column(const ColumnMatrix& m, std::int32_t column, Function&& f) {
+  const auto c = static_cast<std::size_t>(column);
+  for (auto k = static_cast<std::size_t>(m.start[c]); k < static_cast<std::size_t>(m.start[c + 1]); ++k) {
+    f(m.row[k], m.value[k]);
+  }
+}
+
+// f(row, column, value) for every entry.
+template <class Function>
+void for_each_entry(const ColumnMatrix& m, Function&& f) {
+  for (std::int32_t c = 0; c < m.columns; ++c) {
+    for_each_in_column(m, c, [&](std::int32_t r, double v) { f(r, c, v); });
+  }
+}
+
 class Accumulator {
  public:
   void resize(std::int32_t rows, std::int32_t columns);

@@ -19,12 +19,7 @@ ShiftedLu::ShiftedLu(const ColumnMatrix& S, std::int32_t shifted) : factors_(std
   Factors& f = *factors_;
   std::vector<Triplet> entries;
   entries.reserve(S.value.size() + static_cast<std::size_t>(shifted));
-  for (std::int32_t c = 0; c < S.columns; ++c) {
-    for (auto k = static_cast<std::size_t>(S.start[static_cast<std::size_t>(c)]);
-         k < static_cast<std::size_t>(S.start[static_cast<std::size_t>(c) + 1]); ++k) {
-      entries.push_back({S.row[k], c, S.value[k]});
-    }
-  }
+  for_each_entry(S, [&](std::int32_t r, std::int32_t c, double v) { entries.push_back({r, c, v}); });
   for (std::int32_t c = S.columns - shifted; c < S.columns; ++c) entries.push_back({c, c, 0.0});
   f.matrix = compressed(S.rows, S.columns, entries);
   for (std::int32_t c = S.columns - shifted; c < S.columns; ++c) {

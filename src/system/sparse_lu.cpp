@@ -82,8 +82,8 @@ class KluFactors {
     klu_rcond(symbolic_, numeric_, &common_);
     return common_.rcond > 1e-17;
   }
-  void solve(double* x, int n) { klu_solve(symbolic_, numeric_, n, 1, x, &common_); }
-  void solve_transposed(double* x, int n) { klu_tsolve(symbolic_, numeric_, n, 1, x, &common_); }
+  void solve(double* x, int n, int columns) { klu_solve(symbolic_, numeric_, n, columns, x, &common_); }
+  void solve_transposed(double* x, int n, int columns) { klu_tsolve(symbolic_, numeric_, n, columns, x, &common_); }
   std::size_t entries() const {
     return static_cast<std::size_t>(numeric_->lnz) + static_cast<std::size_t>(numeric_->unz);
   }
@@ -113,12 +113,10 @@ class MumpsFactors {
   MumpsFactors& operator=(const MumpsFactors&) = delete;
 
   bool factor(ColumnMatrix& m) {
-    for (std::int32_t c = 0; c < m.columns; ++c) {
-      for (std::int32_t k = m.start[static_cast<std::size_t>(c)]; k < m.start[static_cast<std::size_t>(c) + 1]; ++k) {
-        row_.push_back(m.row[static_cast<std::size_t>(k)] + 1);
-        column_.push_back(c + 1);
-      }
-    }
+    for_each_entry(m, [&](std::int32_t r, std::int32_t c, double) {
+      row_.push_back(r + 1);
+      column_.push_back(c + 1);
+    });
     id_.n = m.rows;
     id_.nnz = static_cast<MUMPS_INT8>(m.value.size());
     id_.irn = row_.data(), id_.jcn = column_.data(), id_.a = m.value.data();
@@ -133,8 +131,8 @@ class MumpsFactors {
     }
     return id_.infog[0] == 0 && id_.infog[27] == 0;
   }
-  void solve(double* x) { back_substitute(x, 1); }
-  void solve_transposed(double* x) { back_substitute(x, 0); }
+  void solve(double* x, int columns) { back_substitute(x, columns, 1); }
+  void solve_transposed(double* x, int columns) { back_substitute(x, columns, 0); }
   std::size_t entries() const {
     return id_.infog[28] < 0 ? static_cast<std::size_t>(-id_.infog[28]) * 1000000u
                              : static_cast<std::size_t>(id_.infog[28]);
@@ -143,8 +141,8 @@ class MumpsFactors {
  private:
   static constexpr int use_comm_world = -987654;
   int& control(int k) { return id_.icntl[k - 1]; }
-  void back_substitute(double* x, int plain) {
-    id_.rhs = x, id_.nrhs = 1, id_.lrhs = id_.n;
+  void back_substitute(double* x, int columns, int plain) {
+    id_.rhs = x, id_.nrhs = columns, id_.lrhs = id_.n;
     control(9) = plain;
     id_.job = 3;
     call();
@@ -158,6 +156,15 @@ class MumpsFactors {
   std::vector<int> row_, column_;
 };
 
+// Several right-hand sides at a time go through the factors once, few enough to stay in the cache.
+template <class Function>
+void for_blocks(Eigen::Ref<Eigen::MatrixXd>& B, Function&& solve) {
+  constexpr Eigen::Index most = 16;
+  for (Eigen::Index first = 0; first < B.cols(); first += most) {
+    solve(B.middleCols(first, std::min(most, B.cols() - first)));
+  }
+}
+
 }  // namespace
 
 struct SparseLu::Factors {
@@ -165,8 +172,14 @@ struct SparseLu::Factors {
   std::unique_ptr<KluFactors> klu;
   std::unique_ptr<MumpsFactors> mumps;
 
-  void solve(double* x) const { mumps ? mumps->solve(x) : klu->solve(x, matrix.rows); }
-  void solve_transposed(double* x) const { mumps ? mumps->solve_transposed(x) : klu->solve_transposed(x, matrix.rows); }
+  void solve(Eigen::MatrixXd& x) const {
+    const auto columns = static_cast<int>(x.cols());
+    mumps ? mumps->solve(x.data(), columns) : klu->solve(x.data(), matrix.rows, columns);
+  }
+  void solve_transposed(Eigen::MatrixXd& x) const {
+    const auto columns = static_cast<int>(x.cols());
+    mumps ? mumps->solve_transposed(x.data(), columns) : klu->solve_transposed(x.data(), matrix.rows, columns);
+  }
 };
 
 SparseLu::SparseLu() = default;
@@ -198,23 +211,25 @@ void SparseLu::solve(Eigen::Ref<Eigen::MatrixXd> B) const {
   const Factors& f = *factors_;
   const auto n = static_cast<std::size_t>(f.matrix.rows);
   if (n == 0) return;
-  for (Eigen::Index c = 0; c < B.cols(); ++c) {
-    Eigen::VectorXd b = B.col(c), x = b;
-    f.solve(x.data());
-    f.matrix.multiply_add({x.data(), n}, {b.data(), n}, -1.0);
-    f.solve(b.data());
-    B.col(c) = x + b;
-  }
+  for_blocks(B, [&](auto&& block) {
+    Eigen::MatrixXd b = block, x = b;
+    f.solve(x);
+    for (Eigen::Index c = 0; c < b.cols(); ++c) {
+      f.matrix.multiply_add({x.col(c).data(), n}, {b.col(c).data(), n}, -1.0);
+    }
+    f.solve(b);
+    block = x + b;
+  });
 }
 
 void SparseLu::solve_transposed(Eigen::Ref<Eigen::MatrixXd> B) const {
   const Factors& f = *factors_;
   if (f.matrix.rows == 0) return;
-  for (Eigen::Index c = 0; c < B.cols(); ++c) {
-    Eigen::VectorXd x = B.col(c);
-    f.solve_transposed(x.data());
-    B.col(c) = x;
-  }
+  for_blocks(B, [&](auto&& block) {
+    Eigen::MatrixXd x = block;
+    f.solve_transposed(x);
+    block = x;
+  });
 }
 
 std::size_t SparseLu::entries() const {

@@ -56,6 +56,21 @@ TEST_F(ZeroModes, a_free_body_has_twelve) {
   }
 }
 
+// What the bodies feel, gravity less acceleration, is zero, and so is all that follows from it.
+TEST_F(ZeroModes, bodies_in_free_fall_have_twelve_each) {
+  for (const double scale : {1.0, 10.0}) {
+    const Spectrum s = solve(fmt::format(
+        "Falling\nUNITS/SYSTEM=MKS\nACCGRAV/IGRAV=1.76,JGRAV=-6.246,KGRAV=-0.09\nPART/1, GROUND\n"
+        "PART/2, MASS=2.428, CM=20, IP=0.5,0.7,0.6,0.05,-0.04,0.06, QG={0},2.931,-0.535, REULER=1.558,-0.761,1.621\n"
+        "MARKER/20, PART=2, QP=-4.091,5.434,4.137, REULER=-0.516,0.23,1.092\n"
+        "PART/3, MASS=1818, CM=30, IP=50,70,60,5,-4,6, QG=0.965,5.492,-4.221, REULER=1.82,1.114,2.066\n"
+        "MARKER/30, PART=3, QP=-2.96,{0},5.405, REULER=1.829,-0.329,-2.437\nEND\n",
+        -7.324 * scale));
+    EXPECT_EQ(s.zeros, 24u);
+    EXPECT_TRUE(s.others.empty());
+  }
+}
+
 // Two bodies on one mount, with the same place and turn of everything.
 std::string tied(const std::string& units, const Vector& at, const Matrix3& turn, double stiffness) {
   const Vector p{0.7, -0.4, 0.9}, q{-0.5, 0.2, -0.6};  // the mount from either body

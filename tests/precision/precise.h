@@ -24,12 +24,7 @@ inline Dense state_matrix(const PerturbationEquations& p) {
   const ColumnMatrix& S = p.pencil();
   const Eigen::Index N = p.unknowns(), n = p.states(), m = N - n;
   Dense M = Dense::Zero(N, N);
-  for (std::int32_t c = 0; c < S.columns; ++c) {
-    for (auto k = static_cast<std::size_t>(S.start[static_cast<std::size_t>(c)]);
-         k < static_cast<std::size_t>(S.start[static_cast<std::size_t>(c) + 1]); ++k) {
-      M(S.row[k], c) += Real(S.value[k]);
-    }
-  }
+  for_each_entry(S, [&](std::int32_t r, std::int32_t c, double v) { M(r, c) += Real(v); });
   std::vector<Eigen::Index> used;
   for (Eigen::Index c = 0; c < m; ++c) {
     Eigen::Index pivot = c;

@@ -1,0 +1,26 @@
+// Products of large dense matrices by the BLAS, which knows the processor better than templates that are
+// compiled for every x86-64.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace dynalin {
+
+Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);             // A B
+Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);     // Aᴴ B
+Eigen::MatrixXcd transposed_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);  // Aᵀ B
+
+// A real linear map of real matrices, applied to a complex one.
+template <class Function>
+Eigen::MatrixXcd by_parts(const Eigen::MatrixXcd& m, Function&& real_map) {
+  Eigen::MatrixXd both(m.rows(), 2 * m.cols());
+  both << m.real(), m.imag();
+  const Eigen::MatrixXd image = real_map(both);
+  Eigen::MatrixXcd out(image.rows(), m.cols());
+  out.real() = image.leftCols(m.cols());
+  out.imag() = image.rightCols(m.cols());
+  return out;
+}
+Eigen::MatrixXcd real_product(const Eigen::MatrixXd& a, const Eigen::MatrixXcd& b);
+
+}  // namespace dynalin

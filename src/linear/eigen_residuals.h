@@ -1,0 +1,73 @@
+// What the sparse perturbation equations say about computed eigenpairs, in components along all of them.
+//
+// With all eigenvectors X = [x_j] and Y their left counterparts, R the residuals S w − λ E w of the sparse pencil
+// (perturbation.h) in long double, reduced to the states, the similar matrix
+//
+//     X⁻¹ A X = Λ + G,   G_ij = y_iᴴ r_j / y_iᴴ x_i  (minus what Yᴴ X is off from diagonal)
+//
+// is exact.
+#pragma once
+
+#include <vector>
+
+#include "linear/eigen_pairs.h"
+#include "linear/perturbation.h"
+#include "linear/zero_modes.h"
+
+namespace dynalin {
+
+class EigenResiduals {
+ public:
+  EigenResiduals(const PerturbationEquations&, const ZeroModes&, const EigenPairs&);
+
+  Eigen::Index count() const { return floor_.size(); }
+  // Entries of Yᴴ R and of Yᴴ X among members, in units of y_iᴴ x_i.
+  std::complex<double> g(const Member& i, const Member& j) const { return entry(along_, along_conjugate_, i, j); }
+  std::complex<double> p(const Member& i, const Member& j) const { return entry(product_, product_conjugate_, i, j); }
+  // y_iᴴ x_i
+  std::complex<double> unit(Eigen::Index i) const { return unit_(i); }
+
+  // What rounding may have left of G_ii.
+  double floor(Eigen::Index i) const { return floor_(i); }
+
+  // Left and right vectors of a defective eigenvalue are orthogonal: nothing can be measured along them. What a change
+  // of A by its rounding does is bounded by Elsner's theorem for the eigenvalues that come together there.
+  bool defective(Eigen::Index i) const { return defective_bound_(i) > 0; }
+  double defective_bound(Eigen::Index i) const { return defective_bound_(i); }
+
+  // What the zeros that were split off add to the second order of mode i, |g_i0 (λ_i − N)⁻¹ g_0i|, and the share that
+  // they take in its right vector.
+  double zero_coupling(Eigen::Index i) const { return zero_coupling_(i); }
+  const Eigen::MatrixXcd& zero_share() const { return zero_share_; }
+
+  // All members but i itself, defective ones left out.
+  template <class Function>
+  void for_others(Eigen::Index i, Function&& visit) const {
+    for (Eigen::Index j = 0; j < count(); ++j) {
+      if (defective(j)) continue;
+      if (j != i) visit(Member{j, false});
+      if (!pairs_.real(j)) visit(Member{j, true});
+    }
+  }
+
+ private:
+  Eigen::MatrixXcd measure(const PerturbationEquations&);
+  void find_defective(const ZeroModes&);
+  void measure_zero_modes(const PerturbationEquations&, const ZeroModes&, const Eigen::MatrixXcd& reduced);
+
+  static std::complex<double> entry(const Eigen::MatrixXcd& plain, const Eigen::MatrixXcd& crossed, const Member& i,
+                                    const Member& j) {
+    const std::complex<double> v = (i.conjugate != j.conjugate ? crossed : plain)(i.at, j.at);
+    return j.conjugate ? std::conj(v) : v;
+  }
+
+  const EigenPairs& pairs_;
+  Eigen::VectorXcd unit_;
+  Eigen::VectorXd floor_, zero_coupling_;
+  Eigen::VectorXd defective_bound_;  // 0 for an eigenvalue that is not
+  // Rows in units of y_iᴴ x_i; crossed: of y̅_i with r_j and x_j.
+  Eigen::MatrixXcd along_, along_conjugate_, product_, product_conjugate_;
+  Eigen::MatrixXcd zero_share_;
+};
+
+}  // namespace dynalin

@@ -1,0 +1,72 @@
+#include "linear/inverse_iteration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "linear/pencil_residual.h"
+#include "system/shifted_lu.h"
+
+namespace dynalin {
+
+namespace {
+
+using Complex = std::complex<double>;
+using LongComplex = std::complex<long double>;
+using Index = Eigen::Index;
+using ComplexVector = Eigen::VectorXcd;
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr std::size_t most_refined = 100;
+constexpr double most_factor_entries = 2e7;
+
+void refine_one(const PerturbationEquations& equations, ShiftedLu& lu, Index i, EigenPairs& pairs, EigenTrust& trust) {
+  Complex& value = pairs.values[static_cast<std::size_t>(i)];
+  const Complex start = value;
+  if (!lu.factor(start)) return;
+  const Index n = equations.states(), N = equations.unknowns();
+  ComplexVector w = ComplexVector::Zero(N), y = w;
+  w.tail(n) = pairs.right.col(i);
+  y.tail(n) = pairs.left.col(i);
+  LongComplex lambda(start);
+  double change = std::numeric_limits<double>::infinity(), floor = 0;
+  for (int round = 0; round < 4; ++round) {
+    w.head(N - n).setZero(), y.head(N - n).setZero();
+    lu.solve(w), lu.solve_adjoint(y);
+    w /= w.tail(n).norm(), y /= y.tail(n).norm();
+    if (!w.allFinite() || !y.allFinite()) return;
+    const PencilResidual r = pencil_residual(equations.pencil(), equations.states(), lambda, w);
+    const Complex unit = y.tail(n).dot(w.tail(n));
+    const Complex delta = y.dot(r.value) / unit;
+    floor = y.cwiseAbs().dot(r.rounding) / std::abs(unit);
+    lambda += LongComplex(delta);
+    change = std::abs(delta);
+    if (round > 0 && change <= floor + eps * std::abs(start)) break;
+  }
+  Complex refined(static_cast<double>(lambda.real()), static_cast<double>(lambda.imag()));
+  if (pairs.real(i)) refined.imag(0);
+  const double bound = 4 * change + floor + eps * std::abs(refined);
+  // Farther away than the bound would mean that another eigenvalue was found.
+  if (std::abs(refined - start) > 2 * trust.bound || bound > trust.bound) return;
+  if (!pairs.real(i) && refined.imag() <= 0) return;
+  value = refined;
+  pairs.right.col(i) = w.tail(n);
+  pairs.left.col(i) = y.tail(n);
+  trust = {bound, true};
+}
+
+}  // namespace
+
+void refine_by_inverse_iteration(const PerturbationEquations& equations, std::vector<Index> wanted, EigenPairs& pairs,
+                                 std::vector<EigenTrust>& trust) {
+  if (wanted.empty()) return;
+  std::stable_sort(wanted.begin(), wanted.end(), [&](Index a, Index b) {
+    return std::abs(value(pairs, {a, false})) < std::abs(value(pairs, {b, false}));
+  });
+  if (wanted.size() > most_refined) wanted.resize(most_refined);
+  ShiftedLu lu(equations.pencil(), equations.states());
+  if (lu.predicted_entries() > most_factor_entries) return;
+  for (const Index i : wanted) refine_one(equations, lu, i, pairs, trust[static_cast<std::size_t>(i)]);
+}
+
+}  // namespace dynalin
