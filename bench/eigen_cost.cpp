@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "elements/catalogue.h"
+#include "hanging_chain.h"
 #include "linear/eigen.h"
 #include "linear/eigen_refinement.h"
 #include "linear/zero_modes.h"
@@ -17,18 +18,6 @@
 namespace {
 
 using namespace dynalin;
-
-std::string chain(int n) {
-  std::string s = "chain\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\n";
-  for (int k = 1; k <= n; ++k) {
-    s += fmt::format(
-        "PART/{0}, MASS={1:.17g}, CM={0}0, IP={2:.17g},{2:.17g},{2:.17g}, QG=0,{3:.17g},0\n"
-        "MARKER/{0}0, QP=0,{4:.17g},0\nMARKER/{0}1\nMARKER/{0}2, QP=0,{5:.17g},0\nJOINT/{0}, REVOLUTE, I={0}1, J={6}\n",
-        k + 1, 1.0 / n, 1.0 / 12 / n / n / n, -(k - 1.0) / n, -0.5 / n, -1.0 / n,
-        k == 1 ? std::string("1") : fmt::format("{}2", k));
-  }
-  return s + "END\n";
-}
 
 // The best of several runs; what a run uses up is made anew before each.
 template <class Prepare, class Function>
@@ -45,7 +34,7 @@ double seconds(Prepare&& prepare, Function&& work) {
 }
 
 void measure(int n) {
-  auto dataset = parse_dataset(std::make_shared<const SourceText>("chain.adm", chain(n)));
+  auto dataset = parse_dataset(std::make_shared<const SourceText>("chain.adm", hanging_chain(n)));
   auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
   const System system{std::shared_ptr<const Model>(std::move(model.value))};
   Findings findings;

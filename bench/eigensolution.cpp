@@ -12,22 +12,10 @@
 #include <numbers>
 #include <string>
 
+#include "hanging_chain.h"
 #include "peak_memory.h"
 
 namespace {
-
-std::string chain(int n) {
-  std::string s = "chain\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\n";
-  for (int k = 1; k <= n; ++k) {
-    s += fmt::format(
-        "PART/{0}, MASS={1:.17g}, CM={0}0, IP={2:.17g},{2:.17g},{2:.17g}, QG=0,{3:.17g},0\nMARKER/{0}0, "
-        "QP=0,{4:.17g},0\n"
-        "MARKER/{0}1\nMARKER/{0}2, QP=0,{5:.17g},0\nJOINT/{0}, REVOLUTE, I={0}1, J={6}\n",
-        k + 1, 1.0 / n, 1.0 / 12 / n / n / n, -(k - 1.0) / n, -0.5 / n, -1.0 / n,
-        k == 1 ? std::string("1") : fmt::format("{}2", k));
-  }
-  return s + "END\n";
-}
 
 std::string vehicle(int n) {
   std::string s = "vehicle\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=0,0.5,0\n";
@@ -91,7 +79,7 @@ int main(int argc, char** argv) {
                peak_megabytes());
     last = now;
   };
-  auto mechanism = dynalin::Mechanism::from_text(kind == "chain"     ? chain(n)
+  auto mechanism = dynalin::Mechanism::from_text(kind == "chain"     ? hanging_chain(n)
                                                  : kind == "vehicle" ? vehicle(n)
                                                                      : rotor(n));
   report("reading");

@@ -107,6 +107,17 @@ class RotatingBlade : public Cases {
     for (double v = 0; in >> v;) values.push_back(v);
     return values;
   }
+  // Of the hinge and of the spring-damper between the tips, which works along x and y.
+  void expect_shares(const std::string& table, std::size_t k, double hinge, double x, double y) const {
+    const double percent = 100 / (hinge + x + y);
+    EXPECT_NEAR(row(table, "SPRI/1", k).at(0), percent * hinge, 1e-10);
+    const auto cells = row(table, "SPRI/2", k);
+    ASSERT_EQ(cells.size(), 4u);
+    EXPECT_NEAR(cells[0], percent * (x + y), 1e-10);
+    EXPECT_NEAR(cells[1], percent * x, 1e-10);
+    EXPECT_NEAR(cells[2], percent * y, 1e-10);
+    EXPECT_NEAR(cells[3], 0, 1e-10);
+  }
   double header(const std::string& name, std::size_t n) const {
     std::size_t at = text_.find("Energy table for MODE " + std::to_string(n + 1));
     at = text_.find(name, at);
@@ -187,14 +198,7 @@ TEST_F(RotatingBlade, dissipated_power) {
     const Complex along = n.x() * u.x() + n.y() * u.y();
     const double hinge = rotor_.CT * std::norm(v(0)), x = std::real(std::conj(u.x()) * rotor_.C * along * n.x()),
                  y = std::real(std::conj(u.y()) * rotor_.C * along * n.y());
-    const double percent = 100 / (hinge + x + y);
-    EXPECT_NEAR(row("dissipative energy", "SPRI/1", k).at(0), percent * hinge, 1e-10);
-    const auto cells = row("dissipative energy", "SPRI/2", k);
-    ASSERT_EQ(cells.size(), 4u);
-    EXPECT_NEAR(cells[0], percent * (x + y), 1e-10);
-    EXPECT_NEAR(cells[1], percent * x, 1e-10);
-    EXPECT_NEAR(cells[2], percent * y, 1e-10);
-    EXPECT_NEAR(cells[3], 0, 1e-10);
+    expect_shares("dissipative energy", k, hinge, x, y);
   }
 }
 
@@ -214,14 +218,7 @@ TEST_F(UndampedTips, strain_energy) {
     const Complex along = n.x() * u.x() + n.y() * u.y();
     const double hinge = rotor_.KT * std::norm(q(0)), x = std::real(std::conj(u.x()) * rotor_.K * along * n.x()),
                  y = std::real(std::conj(u.y()) * rotor_.K * along * n.y());
-    const double percent = 100 / (hinge + x + y);
-    EXPECT_NEAR(row("strain energy", "SPRI/1", k).at(0), percent * hinge, 1e-10);
-    const auto cells = row("strain energy", "SPRI/2", k);
-    ASSERT_EQ(cells.size(), 4u);
-    EXPECT_NEAR(cells[0], percent * (x + y), 1e-10);
-    EXPECT_NEAR(cells[1], percent * x, 1e-10);
-    EXPECT_NEAR(cells[2], percent * y, 1e-10);
-    EXPECT_NEAR(cells[3], 0, 1e-10);
+    expect_shares("strain energy", k, hinge, x, y);
   }
 }
 

@@ -11,6 +11,11 @@ namespace {
 
 using ::testing::HasSubstr;
 
+// A pendulum in its place of rest.
+const std::string hanging =
+    "PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=0,-1,0\nMARKER/20\nMARKER/21, QP=0,1,0\n"
+    "JOINT/1, REVOLUTE, I=21, J=1\n";
+
 class Statics : public Cases {
  protected:
   RunResult rest(const std::string& elements, const std::string& gravity = "JGRAV=-9.81") const {
@@ -63,14 +68,10 @@ TEST_F(Statics, without_load_a_free_part_rests_where_it_is) {
 }
 
 TEST_F(Statics, an_integrator_with_an_input_that_does_not_vanish_is_named) {
-  const RunResult r = rest(
-      "PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=0,-1,0\nMARKER/20\nMARKER/21, QP=0,1,0\nJOINT/1, REVOLUTE, I=21, "
-      "J=1\nDIFF/7, FUNCTION=2+AZ(21,1)\n");
+  const RunResult r = rest(hanging + "DIFF/7, FUNCTION=2+AZ(21,1)\n");
   EXPECT_EQ(r.status, 2);
   EXPECT_THAT(r.err, HasSubstr("DIFF/7"));
-  const RunResult held = rest(
-      "PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=0,-1,0\nMARKER/20\nMARKER/21, QP=0,1,0\nJOINT/1, REVOLUTE, I=21, "
-      "J=1\nDIFF/7, STATIC_HOLD, FUNCTION=2+AZ(21,1)\n");
+  const RunResult held = rest(hanging + "DIFF/7, STATIC_HOLD, FUNCTION=2+AZ(21,1)\n");
   EXPECT_EQ(held.status, 0) << held.err;
 }
 
@@ -147,18 +148,14 @@ TEST_F(Statics, an_equilibrium_inside_a_limit_cycle_is_found_and_called_unstable
 
 // z′ = z³ − 3z + 4 is least in size at z = 1, where it is 2, on the way from 0.9 to its only zero.
 TEST_F(Statics, a_state_passes_the_fold_that_is_in_its_way) {
-  const RunResult r = rest(
-      "PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=0,-1,0\nMARKER/20\nMARKER/21, QP=0,1,0\nJOINT/1, REVOLUTE, I=21, "
-      "J=1\nDIFF/7, IC=0.9, FUNCTION=DIF(7)**3-3*DIF(7)+4\n");
+  const RunResult r = rest(hanging + "DIFF/7, IC=0.9, FUNCTION=DIF(7)**3-3*DIF(7)+4\n");
   ASSERT_EQ(r.status, 0) << r.err;
   const double z = -std::cbrt(2 + std::sqrt(3.0)) - std::cbrt(2 - std::sqrt(3.0));  // Cardano
   EXPECT_NEAR(r.eigenvalues(1)[0].real(), (3 * z * z - 3) / (2 * 3.14159265358979), 1e-9);
 }
 
 TEST_F(Statics, a_state_that_cannot_rest_is_named) {
-  const RunResult r = rest(
-      "PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=0,-1,0\nMARKER/20\nMARKER/21, QP=0,1,0\nJOINT/1, REVOLUTE, I=21, "
-      "J=1\nDIFF/7, IC=0.3, FUNCTION=DIF(7)**2+1\n");
+  const RunResult r = rest(hanging + "DIFF/7, IC=0.3, FUNCTION=DIF(7)**2+1\n");
   EXPECT_EQ(r.status, 2);
   EXPECT_THAT(r.err, HasSubstr("DIFF/7"));
 }
@@ -182,10 +179,7 @@ TEST_F(Statics, a_slide_on_an_incline_is_pushed_along_it) {
 
 TEST_F(Statics, a_torque_turns_a_pendulum_as_far_as_its_weight_allows) {
   const auto driven = [&](double torque) {
-    return rest(fmt::format(
-        "PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1, QG=0,-1,0\nMARKER/20\nMARKER/21, QP=0,1,0\nJOINT/1, REVOLUTE, I=21, "
-        "J=1\nSFORCE/1, ROTATIONAL, I=21, J=1, FUNCTION={}\n",
-        torque));
+    return rest(hanging + fmt::format("SFORCE/1, ROTATIONAL, I=21, J=1, FUNCTION={}\n", torque));
   };
   const RunResult held = driven(8);
   ASSERT_EQ(held.status, 0) << held.err;
