@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostics.h"
 #include "dynalin/results.h"
 #include "mechanics/handles.h"
 #include "mechanics/motion.h"
@@ -97,7 +98,7 @@ class Layout {
 
   std::size_t row_count() const { return rows.size(); }
   // Why the model cannot be solved as it stands, found while its equations were made.
-  std::vector<std::string> problems;
+  std::vector<Diagnostic> problems;
   std::vector<std::string> remarks;  // worth a warning in every run
   // "DX of PART/3" and the like, for messages.
   std::string coordinate_text(std::int32_t coordinate) const;

@@ -19,6 +19,7 @@ Expr Draw::feature(int self) {
   if (chance(0.5)) sum = sum + uniform(-0.3, 0.3) * shaped(varval(one_of(features_)));
   if (chance(0.15)) sum = sum + uniform(-0.3, 0.3) * call(Function::sin, {varval(self) + time_now()});
   if (!states_.empty() && chance(0.4)) sum = sum + uniform(-0.5, 0.5) * one_of(states_);
+  if (chance(0.1)) sum = sum + uniform(-0.3, 0.3) * ((constant(1) + senval(1)) * kinematic());
   if (chance(0.2))
     sum = sum + uniform(-0.4, 0.4) *
                     (chance(0.3) ? input_value(1 + pick(static_cast<int>(inputs_.size()))) : varval(one_of(inputs_)));

@@ -51,7 +51,9 @@ bool hides_rates(const Model& model, const Expression& function) {
     if (!indirect && !e.splines().empty()) return true;
     for (const Atom& a : e.atoms()) {
       const AtomFunction& f = *a.function;
-      if (f.family == AtomFamily::element_force || f.family == AtomFamily::marker_force) return true;
+      if (f.family == AtomFamily::delay || f.family == AtomFamily::element_force ||
+          f.family == AtomFamily::marker_force)
+        return true;
       if (f.family == AtomFamily::marker_measure && f.order == 2) return true;
       if (f.name == "DIF1" && indirect) return true;
       const auto through = [&](VariableRef v) {
@@ -107,7 +109,8 @@ class DiffSet final : public TypedSet<Diff> {
                            d.initial.empty() ? 0.0 : d.initial[0], d.initial.size() > 1 ? d.initial[1] : 0.0});
     }
     const RateReduction reduction = reduce_rates(equations);
-    for (const RateReduction::Refusal& r : reduction.refusals) layout.problems.push_back(text(r));
+    for (const RateReduction::Refusal& r : reduction.refusals)
+      layout.problems.push_back({Severity::error, "unsolvable-model", labels[r.members[0]].at, text(r), "", {}});
 
     std::vector<FunctionEquationKernel::Item> items;
     for (std::size_t k = 0; k < elements.size(); ++k) {

@@ -91,6 +91,19 @@ class SplineSet final : public TypedSet<Spline> {
     }
   }
 
+  // A power spectral density is not negative, and nothing but positive where its logarithm counts.
+  void finish(Model& model, Diagnostics& diagnostics) override {
+    for (const SplineUse& use : model.spectra) {
+      const Spline* s = model.get<Spline>(*model.find("SPLINE", use.id));
+      if (!s || !s->data) continue;
+      const std::string fault = spectrum_fault(*s->data, use.spectrum->logarithmic);
+      if (fault.empty()) continue;
+      diagnostics.error("spline-data", use.id_at,
+                        fmt::format("INVPSD takes SPLINE/{} as a power spectral density, one curve of numbers {}: {}",
+                                    use.id, use.spectrum->logarithmic ? "above 0" : "that are 0 or more", fault));
+    }
+  }
+
  private:
   static bool take_values(const WrittenSpline& w, SplineData& data, ElementReader& reader) {
     data.x = w.x;
