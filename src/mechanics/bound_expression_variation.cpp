@@ -218,6 +218,7 @@ void BoundExpression::add_rate(const Motion& motion, Equations& eq, std::int32_t
       }
     } else if (a.kind == Kind::channel) {
       const auto add = [&](const Channel& c, double value) {
+        if (c.kind == Channel::Kind::constant) return;
         const Column family = c.kind == Channel::Kind::algebraic ? Column::algebraic
                               : c.kind == Channel::Kind::state   ? Column::state
                                                                  : Column::state_rate;

@@ -64,7 +64,8 @@ struct DifferentialState {
   std::int32_t coordinate = 1;
   double initial = 0;
   bool held_in_statics = false;
-  double initial_rate = 0;  // where the search for it starts
+  double initial_rate = 0;        // where the search for it starts
+  bool held_in_dynamics = false;  // a constant of the linear model, whose rate counts as zero
 };
 
 class Layout {

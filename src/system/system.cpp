@@ -4,7 +4,6 @@
 #include <map>
 #include <numeric>
 
-#include "elements/constraints/curve.h"
 #include "elements/controls/array.h"
 #include "elements/controls/spline.h"
 #include "elements/controls/variable_list.h"
@@ -77,7 +76,8 @@ class System::SystemSignals final : public Signals {
   }
   std::vector<Element> elements_at(MarkerId m) const override { return at_marker_[static_cast<std::size_t>(m.index)]; }
   Channel rate_of(const Channel& c) const override {
-    if (c.kind == Channel::Kind::state) return {Channel::Kind::state_rate, c.index, 0};
+    if (c.kind == Channel::Kind::state && !system_.layout_.states[static_cast<std::size_t>(c.index)].held_in_dynamics)
+      return {Channel::Kind::state_rate, c.index, 0};
     if (c.kind != Channel::Kind::algebraic) return {Channel::Kind::constant, 0, 0};
     const auto [it, fresh] = rates_.emplace(c.index, -1);
     if (fresh) {
@@ -111,19 +111,13 @@ class System::SystemSignals final : public Signals {
     }
   }
 
+  // Calls of one SPLINE by one method share their curves.
   void attach(SplineUse& use) const override {
-    const auto handle = system_.model_->find(use.statement(), use.id);
-    if (!handle) return;
-    if (const Curve* c = system_.model_->get<Curve>(*handle)) use.parametric = c->shape;
-    const Spline* s = system_.model_->get<Spline>(*handle);
-    if (!s) return;
-    if (use.spectrum) {
-      use.signal = std::make_shared<const HarmonicSignal>(*s->data, *use.spectrum);
-      return;
-    }
-    auto& curves = curves_[{use.id, use.method}];
-    if (!curves) curves = std::make_shared<const SplineCurves>(s->data, use.method);
-    use.curves = curves;
+    const bool shares = !use.component && !use.spectrum;
+    if (shares) use.curves = curves_[{use.id, use.method}];
+    if (use.curves) return;
+    attach_data(*system_.model_, use);
+    if (shares) curves_[{use.id, use.method}] = use.curves;
   }
   std::int32_t add_memory(double initial) const override { return system_.layout_.add_memory(initial); }
 

@@ -132,6 +132,8 @@ T Evaluator<T>::node(const Node& n) const {
       return spectrum(n);
     case Op::senval:
       return T(0);
+    case Op::delay:
+      return without_rate(model_.delayed_value(n));
     default:
       return without_rate(model_.load_value(n));
   }

@@ -39,7 +39,8 @@ enum class Op {
   marker_force,  // FX ... TM
   spline,        // AKISPL, CUBSPL, INTERP
   spectrum,      // INVPSD
-  senval
+  senval,
+  delay
 };
 
 enum class Function {
@@ -106,6 +107,8 @@ struct Node {
 // Of a density between the first and last point of a SPLINE, straight lines between them.
 [[nodiscard]] Expr signal_of(const Expr& x, int id, double low, double high, int count, int seed);
 [[nodiscard]] Expr senval(int id);
+// What e was `lag` ago; at a time before the start that is start + rate time.
+[[nodiscard]] Expr delayed(const Expr& e, const Expr& lag, double start, double rate);
 // `statement`: 0 GFORCE, 1 VFORCE, 2 VTORQUE, as general_statement says.
 [[nodiscard]] Expr gforce_load(int statement, int id, int jflag, int component, int rm);
 

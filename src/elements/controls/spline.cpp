@@ -15,6 +15,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "elements/constraints/curve.h"
 #include "model/model.h"
 #include "model/schema.h"
 
@@ -213,6 +214,19 @@ class SplineSet final : public TypedSet<Spline> {
 };
 
 }  // namespace
+
+void attach_data(const Model& model, SplineUse& use) {
+  const auto handle = model.find(use.statement(), use.id);
+  if (!handle) return;
+  if (const Curve* c = model.get<Curve>(*handle)) use.parametric = c->shape;
+  const Spline* s = model.get<Spline>(*handle);
+  if (!s) return;
+  if (use.spectrum) {
+    use.signal = std::make_shared<const HarmonicSignal>(*s->data, *use.spectrum);
+  } else {
+    use.curves = std::make_shared<const SplineCurves>(s->data, use.method);
+  }
+}
 
 extern constinit const Kind spline = {
     "SPLINE",
