@@ -77,7 +77,7 @@ BoundExpression::BoundExpression(Expression expression, const Signals& signals, 
         signals.problem(std::string(atom.at.text()) +
                             " stands in an expression whose time derivative DIF1 or DELAY needs, and has none that is "
                             "known",
-                        atom.at, "a DELAY read as a Padé approximant needs none");
+                        atom.at, "a DELAY needs none as a Padé approximant, run with --pade");
       } else if (a.kind == Kind::channel) {
         atoms_.back().rate = signals.rate_of(a.channel);
       }

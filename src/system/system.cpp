@@ -106,7 +106,7 @@ class System::SystemSignals final : public Signals {
       if (!made) {
         const ElementLabel& owner = *system_.layout_.algebraic[static_cast<std::size_t>(algebraic)].owner;
         problem("a DIF1 or a DELAY needs the time derivative of " + owner.full_text() + ", which is not available",
-                owner.at, "a DELAY read as a Padé approximant needs none");
+                owner.at, "a DELAY needs none as a Padé approximant, run with --pade");
       }
     }
   }
