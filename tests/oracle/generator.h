@@ -83,7 +83,7 @@ class Draw {
   Expr series(const Expr& x);
   Expr interpolated(const Expr& x);
   Expr signal(const Expr& x);
-  Expr delayed_signal();
+  Expr delayed_signal(bool of_states);
   // Of something kinematic also functions that are smooth in pieces: a piece that holds its present value.
   Expr shaped_kinematic();
   Expr in_pieces(const Expr& x);
