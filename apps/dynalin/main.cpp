@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   run->add_option("--output", options.output_prefix, "prefix of the output files");
   run->add_flag("--keep-going", options.keep_going, "go on after a command that failed");
   run->add_flag("--bounds", options.bounds, "say how exact each eigenvalue is");
+  run->add_flag("--pade", options.pade, "a DELAY is a first-order Pade approximant with a state, not e - tau e'");
   run->add_flag("--quiet", options.quiet, "no tables on the terminal");
   CLI::App* check = app.add_subcommand("check", "read and check a dataset or command file");
   check->add_option("FILE", options.file)->required();

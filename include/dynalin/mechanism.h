@@ -35,6 +35,11 @@ struct LinearRequest {
   bool without_reconciliation = false;  // a static solution is taken as it was found, at rest
 };
 
+// What is decided before a model is made.
+struct ReadingOptions {
+  bool pade_delays = false;  // a DELAY as (1 − τs/2)/(1 + τs/2) with a state of its own, else as e − τ e′
+};
+
 // A body at the operating point, global axes.
 struct BodyState {
   std::string name;                             // "PART/2", or with its view name "PART/2 (wheel)"
@@ -47,9 +52,9 @@ struct BodyState {
 class Mechanism {
  public:
   // Reads an Adams dataset (.adm). Throws Error with every problem of the file.
-  static Mechanism load(const std::string& path);
+  static Mechanism load(const std::string& path, const ReadingOptions& = {});
   // The same from text; `name` stands for the file in messages, and its folder is where MATRIX and SPLINE files lie.
-  static Mechanism from_text(std::string dataset, std::string name = "dataset.adm");
+  static Mechanism from_text(std::string dataset, std::string name = "dataset.adm", const ReadingOptions& = {});
   Mechanism(Mechanism&&) noexcept;
   Mechanism& operator=(Mechanism&&) noexcept;
   ~Mechanism();

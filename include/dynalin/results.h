@@ -30,6 +30,7 @@ enum class StateType : int {
   part_relative = 31,
   flex_body_relative = 38,
   point_mass_relative = 39,
+  delay = 101,  // ours: of a DELAY read as a Padé approximant
 };
 
 // One state of the linear model.

@@ -56,8 +56,9 @@ Violation position_violation(const System& system, const ConstraintRows& rows) {
 Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op, Findings& findings, Starts starts) {
   const Layout& layout = system.layout();
   if (!layout.problems.empty()) {
-    return tl::unexpected(
-        Failure{"initial conditions", layout.problems.front(), {layout.problems.begin() + 1, layout.problems.end()}});
+    Failure f{"initial conditions", layout.problems.front().message, {}};
+    for (std::size_t k = 1; k < layout.problems.size(); ++k) f.details.push_back(layout.problems[k].message);
+    return tl::unexpected(f);
   }
   ConstraintRows rows;
   const std::size_t row_count = layout.row_count() + (starts == Starts::held ? system.starts().size() : 0);

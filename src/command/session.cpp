@@ -33,13 +33,18 @@ constexpr std::string_view version = "0.1.0";
 class Session {
  public:
   Session(const SessionOptions& options, Job job, std::ostream& out, std::ostream& err)
-      : options_(options), job_(std::move(job)), out_(out), err_(err), system_(job_.model), point_(system_.drawn()) {
+      : options_(options),
+        job_(std::move(job)),
+        out_(out),
+        err_(err),
+        system_(job_.model, {options.pade ? DelayReading::pade : DelayReading::first_order}),
+        point_(system_.drawn()) {
     if (job_.xrf_digits > 0) results_.emplace(job_.model->title, job_.xrf_digits);
   }
 
   // What only showed while the equations were made: wrong input like any other.
   bool sound() const {
-    for (const std::string& text : system_.layout().problems) fmt::print(err_, "error: {}\n", text);
+    for (const Diagnostic& d : system_.layout().problems) err_ << render(d);
     return system_.layout().problems.empty();
   }
 

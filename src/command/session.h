@@ -15,6 +15,7 @@ struct SessionOptions {
   bool keep_going = false;
   bool bounds = false;  // of eigenvalues, in the table on the terminal
   bool quiet = false;
+  bool pade = false;  // a DELAY as a Padé approximant with a state of its own
 };
 
 enum ExitStatus : int { done = 0, wrong_input = 1, analysis_failed = 2, wrong_usage = 3 };

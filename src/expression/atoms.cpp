@@ -74,6 +74,10 @@ constexpr std::array table = {
     from_data("DIF1",   1, "DIFF"),
     from_data("PINVAL", 2, "PINPUT"),
     from_data("POUVAL", 2, "POUTPUT"),
+    // What the sensor's EVALUATE stored when it last triggered: 0 before, constant while a model is linearized.
+    AtomFunction{"SENVAL", data, 0, 1, 1, "SENSOR", true, "EVALUATE"},
+    // Its arguments are expressions, but for an id in the fourth place.
+    AtomFunction{"DELAY", AtomFamily::delay, by_reference, 3, 4, "", true},
     // The kind of analysis as a number: constant during each.
     AtomFunction{"MODE", data, 0, 0, 0, "", true},
     // clang-format on

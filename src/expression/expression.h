@@ -33,9 +33,10 @@ enum class ReferenceClass : std::uint8_t {
 enum class AtomFamily : std::uint8_t {
   time,
   marker_measure,  // DX … WDTM, AX, PSI, INCANG …: a function of marker motions
-  data,            // VARVAL, ARYVAL, DIF, DIF1, PINVAL, POUVAL; MODE, a number the analysis decides
+  data,            // VARVAL, ARYVAL, DIF, DIF1, PINVAL, POUVAL, SENVAL; MODE, a number the analysis decides
   marker_force,    // FX … TM (i, j, k): sum over all elements at marker i
   element_force,   // JOINT, MOTION, SFORCE, SPDP … (id, jflag, comp, rm)
+  delay,           // DELAY(e, tau, history [, id]): a quantity of its own, made of expressions
 };
 
 // One function that yields an atom, as the parser knows it.
@@ -46,8 +47,9 @@ struct AtomFunction {
                       // by what it refers to
   std::uint8_t minimum_arguments;
   std::uint8_t maximum_arguments;
-  std::string_view statement;  // class of the element named by the first argument, "" for markers
-  bool built;                  // false: known to the language, not available yet
+  std::string_view statement;            // class of the element named by the first argument, "" for markers
+  bool built;                            // false: known to the language, not available yet
+  std::string_view required_argument{};  // that the statement of the element must have
 };
 
 // Table of all atom functions, in the order of the documentation.
@@ -57,12 +59,15 @@ const AtomFunction* find_atom_function(std::string_view name);
 // What the zero-based argument of an atom function names.
 ReferenceClass reference_class(const AtomFunction&, std::size_t argument);
 
+struct DelayedCall;
+
 struct Atom {
   const AtomFunction* function = nullptr;
   std::array<std::int32_t, 5> argument{};  // ids and indices as written, 0 where left out
   std::uint8_t argument_count = 0;
-  Span at;                            // of the call
-  std::array<Span, 5> argument_at{};  // of each argument, for messages about ids
+  Span at;                                               // of the call
+  std::array<Span, 5> argument_at{};                     // of each argument, for messages about ids
+  std::shared_ptr<const DelayedCall> delayed = nullptr;  // of DELAY: what stands between its parentheses
 };
 
 struct ExpressionNode;  // one instruction of the flat program
@@ -123,9 +128,17 @@ class Expression {
 
  private:
   explicit Expression(std::shared_ptr<const ExpressionProgram>);
+  friend class ExpressionParser;
   friend Expression parse_expression(std::span<const Token>, const SourceText&, Diagnostics&);
   friend struct VectorExpression parse_vector_expression(std::span<const Token>, const SourceText&, Diagnostics&);
   std::shared_ptr<const ExpressionProgram> program_;
+};
+
+// DELAY(e, tau, history [, id]): e as it was tau ago, history(TIME) where that lies before the start.
+struct DelayedCall {
+  Expression value, lag, history;
+  std::int32_t array = 0;  // ARRAY with settings of the interpolation, 0 for none
+  Span array_at;
 };
 
 // Parses the tokens of a value. Continuation commas are white space here. Reports all it can find;

@@ -25,6 +25,11 @@ class ExpressionParser {
   ExpressionParser(std::span<const Token> tokens, const SourceText& source, Diagnostics& diagnostics);
   // Nothing after an error.
   std::shared_ptr<const ExpressionProgram> parse();
+  // Parses a part of a DELAY, in which no other one may stand.
+  std::shared_ptr<const ExpressionProgram> parse_within_delay() {
+    within_delay_ = true;
+    return parse();
+  }
   // The same for one component of an expression whose value must be a vector.
   std::shared_ptr<const ExpressionProgram> parse_component(std::size_t component) {
     component_ = component;
@@ -62,6 +67,9 @@ class ExpressionParser {
   void read_atom(std::span<const AtomFunction* const> components, const Span& name);
   void read_atom_argument(Atom& atom, std::size_t index);
   void check_atom(const Atom& atom);
+  // DELAY (parser_delay.cpp).
+  void read_delay(const AtomFunction& function, const Span& name);
+  std::span<const Token> next_argument(Span& at);
   void report_unknown(const Span& name, const std::string& upper);
   void report_count(const Span& at, std::string_view name, std::size_t least, std::size_t most, std::size_t found);
   void report_not_built(const Span& at, std::string_view name);
@@ -72,6 +80,7 @@ class ExpressionParser {
   Operand close_special(const Pending& call, const Span& at);
   Operand close_spline(const Pending& call, std::span<const Operand> arguments, const Span& at);
   Operand close_curve(std::span<const Operand> arguments, const Span& at);
+  Operand close_spectrum(std::span<const Operand> arguments, const Span& at);
   std::optional<std::int32_t> constant_id(const Operand& operand, std::string_view meaning, std::int32_t least);
   bool check_scalar(const Operand& operand, std::string_view where);
   Operand marker_axis(std::size_t axis, const Atom& markers);
@@ -104,6 +113,7 @@ class ExpressionParser {
   ProgramBuilder builder_;
   std::size_t at_ = 0;
   std::optional<std::size_t> component_;  // wanted of a vector
+  bool within_delay_ = false;
   bool operand_expected_ = true;
   bool stopped_ = false;  // by an error in the grammar, after which nothing is certain
   Span nowhere_;          // where an empty expression would stand

@@ -106,6 +106,7 @@ void ExpressionParser::read_name() {
     }
     return push_operand(builder_.placeholder(name));
   }
+  if (atom && atom->family == AtomFamily::delay) return read_delay(*atom, name);
   if (atom) return read_atom(std::array{atom}, name);
   if (const VectorAtom* v = find_vector_atom(upper)) {
     std::array<const AtomFunction*, 3> components;

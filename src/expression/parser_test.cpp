@@ -192,6 +192,27 @@ TEST(ExpressionParser, errors_point_at_their_places) {
       {"CURVE(1,3,1,3)", {"argument-range 1:9"}},
       {"CURVE(1,0,4,3)", {"argument-range 1:11"}},
       {"CURVE(1,0,1,TIME)", {"expected-integer 1:13"}},
+      {"INVPSD(TIME,1,0,5,9,0)", {"wrong-argument-count 1:1"}},
+      {"INVPSD(TIME,TIME,0,5,9,0,1)", {"expected-integer 1:13"}},
+      {"INVPSD(TIME,1,TIME,5,9,0,1)", {"expected-number 1:15"}},
+      {"INVPSD(TIME,1,-1,5,9,0,1)", {"argument-range 1:15"}},
+      {"INVPSD(TIME,1,2,2,9,0,1)", {"argument-range 1:17"}},
+      {"INVPSD(TIME,1,2,5,1,0,1)", {"argument-range 1:19"}},
+      {"INVPSD(TIME,1,2,5,200,0,1)", {"argument-range 1:19"}},
+      {"INVPSD(TIME,1,2,5,9.5,2,1)", {"argument-range 1:19", "argument-range 1:23"}},
+      {"INVPSD([1,2,3],1,2,5,9,0,1)", {"vector-mismatch 1:8"}},
+      {"SENVAL(0)", {"argument-range 1:8"}},
+      {"1+DELAY(TIME,1)", {"wrong-argument-count 1:3"}},
+      {"DELAY(TIME,1,0,3,4)", {"wrong-argument-count 1:1"}},
+      {"DELAY()", {"wrong-argument-count 1:1"}},
+      {"DELAY(TIME,,0)", {"missing-operand 1:12"}},
+      {"DELAY(TIME,1,", {"unbalanced-parenthesis 1:1"}},
+      {"DELAY(TIME,FOO(MAX(1,2)),SIN(1,2))", {"unknown-function 1:12", "wrong-argument-count 1:26"}},
+      {"DELAY(TIME,1,DX(1,2))", {"function-of-state 1:14"}},
+      {"DELAY(TIME,1,0,1.5)", {"expected-integer 1:16"}},
+      {"DELAY(DXYZ(1),1,0)", {"vector-mismatch 1:7"}},
+      {"DELAY(2*DELAY(TIME,1,0),1,0)", {"function-not-built 1:9"}},
+      {"SENVAL(1,2)", {"wrong-argument-count 1:1"}},
       {"FXFREQ*2", {"function-not-built 1:1"}},
       {"USER(1,2,3)", {"function-not-built 1:1"}},
       {"[1,2", {"unbalanced-parenthesis 1:1"}},
@@ -230,7 +251,7 @@ TEST(ExpressionParser, messages_say_what_was_found_and_what_could_be_meant) {
   EXPECT_EQ(parse("DX(1,2,3,4)").first().message, "DX takes 1 to 3 arguments, here are 4");
   EXPECT_THAT(parse("SPDP(TIME,1,2,0)").first().message, HasSubstr("the id of a SPRINGDAMPER"));
   EXPECT_THAT(parse("SQRT(-3)").first().message, HasSubstr("SQRT of -3"));
-  EXPECT_THAT(parse("DELAY(1,2,3)").first().message, HasSubstr("DELAY is not available yet"));
+  EXPECT_THAT(parse("ORIENT(1,2)").first().message, HasSubstr("ORIENT is not available yet"));
 }
 
 TEST(ExpressionParser, errors_keep_their_places_within_a_dataset) {

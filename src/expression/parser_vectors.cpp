@@ -85,6 +85,7 @@ Operand ExpressionParser::close_special(const Pending& call, const Span& at) {
     return close_spline(call, arguments, at);
   }
   if (f.kind == Kind::curve) return close_curve(arguments, at);
+  if (f.kind == Kind::spectrum) return close_spectrum(arguments, at);
   const Operand v = arguments[0];
   if (v.unknown) return builder_.placeholder(at);
   if (!v.is_vector()) {
@@ -162,6 +163,46 @@ Operand ExpressionParser::close_curve(std::span<const Operand> arguments, const 
   use.component = static_cast<std::size_t>(*component - 1);
   use.at = at;
   use.id_at = arguments[3].at;
+  return builder_.spline(std::move(use), arguments[0], builder_.constant(0.0, at));
+}
+
+// All arguments but x are constants, each with its own range.
+Operand ExpressionParser::close_spectrum(std::span<const Operand> arguments, const Span& at) {
+  bool sound = check_scalar(arguments[0], "the first argument of INVPSD") && !arguments[0].unknown;
+  const auto number = [&](std::size_t k) {
+    const Operand& operand = arguments[k];
+    if (operand.unknown || !check_scalar(operand, "an argument of INVPSD")) return std::optional<double>();
+    const auto value = builder_.constant_value(operand);
+    if (!value) {
+      diagnostics_.error("expected-number", operand.at, fmt::format("argument {} of INVPSD is a constant", k + 1));
+    }
+    return value;
+  };
+  const auto require = [&](bool holds, std::size_t k, std::string_view meaning) {
+    sound = sound && holds;
+    if (!holds) {
+      diagnostics_.error("argument-range", arguments[k].at,
+                         fmt::format("argument {} of INVPSD is {}, here is {:g}", k + 1, meaning,
+                                     *builder_.constant_value(arguments[k])));
+    }
+  };
+  const auto id = constant_id(arguments[1], "the id of a SPLINE", 1);
+  const auto low = number(2), high = number(3), count = number(4), flag = number(5), seed = number(6);
+  if (low) require(*low >= 0, 2, "the lowest frequency, 0 or more");
+  if (low && high) require(*high > *low, 3, "the highest frequency, above the lowest");
+  if (count) {
+    require(*count == std::floor(*count) && *count >= 2 && *count <= 199, 4, "how many frequencies, 2 to 199");
+  }
+  if (flag) require(*flag == 0 || *flag == 1, 5, "0 (lines between the points) or 1 (lines between their logarithms)");
+  constexpr double most = 9007199254740992.0;  // up to which every whole number is one
+  if (seed) require(std::abs(*seed) <= most, 6, "a seed of at most 2**53");
+  if (!sound || !id || !low || !high || !count || !flag || !seed) return builder_.placeholder(at);
+  SplineUse use;
+  use.id = *id;
+  use.spectrum =
+      SpectrumBands{*low, *high, static_cast<std::int32_t>(*count), *flag == 1, static_cast<std::int64_t>(*seed)};
+  use.at = at;
+  use.id_at = arguments[1].at;
   return builder_.spline(std::move(use), arguments[0], builder_.constant(0.0, at));
 }
 

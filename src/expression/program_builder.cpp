@@ -87,7 +87,7 @@ Operand ProgramBuilder::placeholder(const Span& at) {
 Operand ProgramBuilder::atom(const Atom& atom) {
   // An argument left out means 0, so DX(1) and DX(1,0) are the same.
   const auto same = [&](const Atom& other) {
-    return other.function == atom.function && other.argument == atom.argument;
+    return other.function == atom.function && other.argument == atom.argument && other.delayed == atom.delayed;
   };
   const auto found = std::ranges::find_if(program_.atoms, same);
   const auto index = static_cast<std::int32_t>(found - program_.atoms.begin());

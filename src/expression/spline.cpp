@@ -122,6 +122,7 @@ T SplineCurves::at(const T& x, const T& z, int derivative) const {
 
 template <class T>
 T SplineUse::evaluate(const T& x, const T& z) const {
+  if (signal) return signal->at(x);
   if (parametric) return parametric->at(x, derivative)[*component];
   return curves ? curves->at(x, z, derivative) : T(std::numeric_limits<double>::quiet_NaN());
 }

@@ -18,6 +18,7 @@
 #include "base/source.h"
 #include "base/time_taylor.h"
 #include "expression/parametric_curve.h"
+#include "expression/spectrum.h"
 
 namespace dynalin {
 
@@ -55,9 +56,11 @@ struct SplineUse {
   std::int64_t id = 0;
   SplineMethod method = SplineMethod::akima;
   int derivative = 0;
-  std::optional<std::size_t> component;  // of a CURVE at the parameter x: 0–2; nothing for a SPLINE
+  std::optional<std::size_t> component;   // of a CURVE at the parameter x: 0–2; nothing for a SPLINE
+  std::optional<SpectrumBands> spectrum;  // of INVPSD, which takes the SPLINE as a power spectral density
   Span at, id_at;
   std::shared_ptr<const SplineCurves> curves;
+  std::shared_ptr<const HarmonicSignal> signal;
   std::shared_ptr<const ParametricCurve> parametric;
 
   std::string_view statement() const { return component ? "CURVE" : "SPLINE"; }

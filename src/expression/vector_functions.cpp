@@ -18,7 +18,7 @@ constexpr std::array<VectorAtom, 10> atoms = {{
 }};
 
 using Kind = SpecialFunction::Kind;
-constexpr std::array<SpecialFunction, 7> special = {{
+constexpr std::array<SpecialFunction, 8> special = {{
     {"UV", Kind::unit, 1, 1},
     {"MAG", Kind::magnitude, 1, 1},
     {"TRANS", Kind::transform, 2, 3},
@@ -26,6 +26,7 @@ constexpr std::array<SpecialFunction, 7> special = {{
     {"CUBSPL", Kind::cubspl, 3, 4},
     {"INTERP", Kind::interp, 3, 4},
     {"CURVE", Kind::curve, 4, 4},
+    {"INVPSD", Kind::spectrum, 7, 7},
 }};
 
 template <class Table>

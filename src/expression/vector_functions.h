@@ -26,6 +26,7 @@ struct SpecialFunction {
     cubspl,     // CUBSPL(x, z, id [, derivative])
     interp,     // INTERP(x, method, id [, derivative])
     curve,      // CURVE(parameter, derivative, component, id)
+    spectrum,   // INVPSD(x, id, f0, f1, n, log, seed)
   };
   std::string_view name;
   Kind kind;

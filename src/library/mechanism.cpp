@@ -23,8 +23,8 @@ struct Mechanism::State {
   std::optional<OperatingPoint> at_rest;  // what the last static analysis found, if no other one came after it
   std::vector<std::string> redundant, warnings;
 
-  State(SourceRef text, std::shared_ptr<const Model> m)
-      : source(std::move(text)), model(std::move(m)), system(model), point(system.drawn()) {
+  State(SourceRef text, std::shared_ptr<const Model> m, const SystemOptions& options)
+      : source(std::move(text)), model(std::move(m)), system(model, options), point(system.drawn()) {
     warnings = system.layout().remarks;
   }
 
@@ -91,15 +91,15 @@ Mechanism::Mechanism(Mechanism&&) noexcept = default;
 Mechanism& Mechanism::operator=(Mechanism&&) noexcept = default;
 Mechanism::~Mechanism() = default;
 
-Mechanism Mechanism::load(const std::string& path) {
+Mechanism Mechanism::load(const std::string& path, const ReadingOptions& options) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
   if (in) text << in.rdbuf();
   if (!in) throw Error(path + " cannot be read", {path + " cannot be read"});
-  return from_text(text.str(), path);
+  return from_text(text.str(), path, options);
 }
 
-Mechanism Mechanism::from_text(std::string dataset, std::string name) {
+Mechanism Mechanism::from_text(std::string dataset, std::string name, const ReadingOptions& options) {
   const auto source = std::make_shared<const SourceText>(std::move(name), std::move(dataset));
   auto parsed = parse_dataset(source);
   Diagnostics diagnostics = std::move(parsed.diagnostics);
@@ -109,9 +109,14 @@ Mechanism Mechanism::from_text(std::string dataset, std::string name) {
   std::vector<std::string> messages;
   for (const Diagnostic& d : diagnostics.items()) messages.push_back(d.message);
   if (diagnostics.has_errors()) throw Error(render(diagnostics), std::move(messages));
-  auto state = std::make_unique<State>(source, std::shared_ptr<const Model>(std::move(built.value)));
+  auto state =
+      std::make_unique<State>(source, std::shared_ptr<const Model>(std::move(built.value)),
+                              SystemOptions{options.pade_delays ? DelayReading::pade : DelayReading::first_order});
   if (const auto& problems = state->system.layout().problems; !problems.empty()) {
-    throw Error(fmt::format("{}", fmt::join(problems, "\n")), problems);
+    std::string text;
+    messages.clear();
+    for (const Diagnostic& d : problems) text += render(d), messages.push_back(d.message);
+    throw Error(text, messages);
   }
   state->warnings.insert(state->warnings.begin(), messages.begin(), messages.end());
   return Mechanism(std::move(state));

@@ -120,7 +120,8 @@ Result<PerturbationEquations> PerturbationEquations::make(const System& system, 
   add(Column::position, below_20, there);
   add(Column::velocity, below_21, there);
   if (!without_damping) add(Column::damping, below_21, there);
-  std::vector<std::int32_t> state_of(choice.differential.size());
+  constexpr std::int32_t constant = -1;
+  std::vector<std::int32_t> state_of(layout.states.size(), constant);
   for (std::size_t k = 0; k < choice.differential.size(); ++k) {
     state_of[static_cast<std::size_t>(choice.differential[k])] =
         choice.first_differential + static_cast<std::int32_t>(k);
@@ -128,6 +129,7 @@ Result<PerturbationEquations> PerturbationEquations::make(const System& system, 
   add(Column::state, states, [&](std::int32_t row, std::int32_t c, double v) {
     return Triplet{2 * n + row, state_of[static_cast<std::size_t>(c)], v};
   });
+  std::erase_if(states, [](const Triplet& t) { return t.column == constant; });
   for (std::size_t u = 0; u < inputs.size(); ++u) {
     states.push_back({2 * n + saddle.algebraic(inputs[u]), p.states_ + static_cast<std::int32_t>(u), -1.0});
   }

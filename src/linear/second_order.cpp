@@ -13,7 +13,7 @@ Result<SecondOrder> second_order(const StateSpace& model) {
     const StateLabel& s = model.states[k];
     const auto at = static_cast<Eigen::Index>(k);
     const bool of_controller = s.type == StateType::lse || s.type == StateType::tfsiso || s.type == StateType::gse ||
-                               s.type == StateType::diff;
+                               s.type == StateType::diff || s.type == StateType::delay;
     (s.is_rate ? rate : of_controller ? differential : coordinate).push_back(at);
   }
   if (rate.size() != coordinate.size()) {

@@ -172,7 +172,7 @@ class Chooser {
     choice_.first_differential = next();
     // Differential states by type code, then id.
     for (std::size_t k = 0; k < layout_.states.size(); ++k) {
-      choice_.differential.push_back(static_cast<std::int32_t>(k));
+      if (!layout_.states[k].held_in_dynamics) choice_.differential.push_back(static_cast<std::int32_t>(k));
     }
     const auto key = [&](std::int32_t k) {
       const DifferentialState& z = layout_.states[static_cast<std::size_t>(k)];

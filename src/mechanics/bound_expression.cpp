@@ -51,8 +51,9 @@ bool reads_axes(Measure m, std::size_t k) {
 void check_marker(const Signals& signals, const Atom& atom, MarkerId m, bool axes) {
   if (signals.has_origin(m) && (!axes || signals.has_axes(m))) return;
   signals.problem(std::string(atom.at.text()) + " reads the " + (signals.has_origin(m) ? "axes" : "place") + " of " +
-                  signals.layout().marker_labels[static_cast<std::size_t>(m.index)].full_text() +
-                  ", a floating marker, which is not available");
+                      signals.layout().marker_labels[static_cast<std::size_t>(m.index)].full_text() +
+                      ", a floating marker, which is not available",
+                  atom.at);
 }
 
 }  // namespace
@@ -74,7 +75,9 @@ BoundExpression::BoundExpression(Expression expression, const Signals& signals, 
                               (a.kind == Kind::channel && a.channel.kind == Channel::Kind::state_rate);
       if (impossible) {
         signals.problem(std::string(atom.at.text()) +
-                        " stands in an expression whose time derivative DIF1 needs, and has none that is known");
+                            " stands in an expression whose time derivative DIF1 or DELAY needs, and has none that is "
+                            "known",
+                        atom.at, "a DELAY needs none as a Padé approximant, run with --pade");
       } else if (a.kind == Kind::channel) {
         atoms_.back().rate = signals.rate_of(a.channel);
       }
@@ -113,17 +116,26 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
         a.kind = Kind::mode;
         break;
       }
+      if (f.name == "SENVAL") {
+        a.kind = Kind::constant;  // no analysis of ours lets a sensor trigger
+        break;
+      }
       if (f.name == "DIF1" && (binding == Binding::condition || binding == Binding::condition_rates)) {
         a.kind = Kind::constant;
         break;
       }
       a.channel = signals.data(atom);
       if (a.channel.kind == Channel::Kind::none) {
-        signals.problem(std::string(atom.at.text()) + " reads an entry that does not exist, or that nothing fills");
+        signals.problem(std::string(atom.at.text()) + " reads an entry that does not exist, or that nothing fills",
+                        atom.at);
         a.channel = {Channel::Kind::constant, 0, 0};
       }
       a.kind = a.channel.kind == Channel::Kind::constant ? Kind::constant : Kind::channel;
       a.constant = a.channel.constant;
+      break;
+    case AtomFamily::delay:
+      a.kind = Kind::channel;
+      a.channel = signals.delayed(atom);
       break;
     case AtomFamily::element_force:
       a.kind = Kind::force;

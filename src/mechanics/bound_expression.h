@@ -37,6 +37,7 @@ class BoundExpression {
   void add(const Motion&, Equations&, std::int32_t row, double factor, Column velocity_family) const;
   // The same for the time derivative e′ along the motion; orders 0 and 1, without forces.
   void add_rate(const Motion&, Equations&, std::int32_t row, double factor, Column velocity_family) const;
+  double rate(const Motion&, ExpressionScratch&) const;  // e′
   // Adds the gradient of an expression of order 0 to a position row and returns its course, both times factor.
   Taylor add_position(const Motion&, ConstraintRows&, std::int32_t row, double factor = 1) const;
   // The same for a velocity row, order 0 or 1: value and rate are valid.
@@ -71,6 +72,7 @@ class BoundExpression {
 
   BoundAtom bind(const Atom&, const Signals&, Binding) const;
   double atom_value(const BoundAtom&, const Motion&) const;
+  void fill_rates(const Motion&, ExpressionScratch&) const;  // atoms with their values and rates
   Taylor atom_along_motion(const BoundAtom&, const Motion&) const;
   void add_atom(const BoundAtom&, const Motion&, Equations&, std::int32_t row, double factor,
                 Column velocity_family) const;

@@ -173,11 +173,8 @@ void add_measure_rate(Measure measure, const std::array<MarkerPlace, 4>& places,
 
 }  // namespace
 
-// δe′ = Σ_k e_k′ δa_k + e_k δa_k′
-void BoundExpression::add_rate(const Motion& motion, Equations& eq, std::int32_t row, double factor,
-                               Column velocity_family) const {
+void BoundExpression::fill_rates(const Motion& motion, ExpressionScratch& scratch) const {
   using Kind = BoundAtom::Kind;
-  ExpressionScratch& scratch = eq.scratch;
   scratch.taylor_atoms.resize(atoms_.size());
   scratch.taylor_partials.resize(atoms_.size());
   for (std::size_t k = 0; k < atoms_.size(); ++k) {
@@ -190,6 +187,19 @@ void BoundExpression::add_rate(const Motion& motion, Equations& eq, std::int32_t
     if (a.rate.kind == Channel::Kind::algebraic) x.rate = motion.algebraic[n];
     if (a.rate.kind == Channel::Kind::state_rate) x.rate = motion.state_rate[n];
   }
+}
+
+double BoundExpression::rate(const Motion& motion, ExpressionScratch& scratch) const {
+  fill_rates(motion, scratch);
+  return expression_.evaluate<Taylor>(scratch.taylor_atoms, scratch.taylor).rate;
+}
+
+// δe′ = Σ_k e_k′ δa_k + e_k δa_k′
+void BoundExpression::add_rate(const Motion& motion, Equations& eq, std::int32_t row, double factor,
+                               Column velocity_family) const {
+  using Kind = BoundAtom::Kind;
+  ExpressionScratch& scratch = eq.scratch;
+  fill_rates(motion, scratch);
   const Taylor e =
       expression_.evaluate<Taylor>(scratch.taylor_atoms, std::span(scratch.taylor_partials), scratch.taylor);
   eq.add_residual(row, factor * e.rate);
@@ -208,6 +218,7 @@ void BoundExpression::add_rate(const Motion& motion, Equations& eq, std::int32_t
       }
     } else if (a.kind == Kind::channel) {
       const auto add = [&](const Channel& c, double value) {
+        if (c.kind == Channel::Kind::constant) return;
         const Column family = c.kind == Channel::Kind::algebraic ? Column::algebraic
                               : c.kind == Channel::Kind::state   ? Column::state
                                                                  : Column::state_rate;

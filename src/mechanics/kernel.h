@@ -110,10 +110,12 @@ class Signals {
   virtual std::size_t array_size(ArrayRef) const = 0;
   // A data atom: VARVAL, ARYVAL, DIF, DIF1, PINVAL, POUVAL.
   virtual Channel data(const Atom&) const = 0;
+  // The unknown that a DELAY is.
+  virtual Channel delayed(const Atom&) const = 0;
   // The time derivative of a channel; that of an algebraic value becomes an unknown of its own.
   virtual Channel rate_of(const Channel&) const = 0;
-  // Notes why the model cannot be solved as it stands.
-  virtual void problem(std::string) const = 0;
+  // Notes why the model cannot be solved as it stands, and where that is written.
+  virtual void problem(std::string, const Span& at = {}, std::string hint = {}) const = 0;
   // Gives a call its SPLINE or CURVE.
   virtual void attach(SplineUse&) const = 0;
   struct Element {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostics.h"
 #include "dynalin/results.h"
 #include "mechanics/handles.h"
 #include "mechanics/motion.h"
@@ -63,7 +64,8 @@ struct DifferentialState {
   std::int32_t coordinate = 1;
   double initial = 0;
   bool held_in_statics = false;
-  double initial_rate = 0;  // where the search for it starts
+  double initial_rate = 0;        // where the search for it starts
+  bool held_in_dynamics = false;  // a constant of the linear model, whose rate counts as zero
 };
 
 class Layout {
@@ -97,7 +99,7 @@ class Layout {
 
   std::size_t row_count() const { return rows.size(); }
   // Why the model cannot be solved as it stands, found while its equations were made.
-  std::vector<std::string> problems;
+  std::vector<Diagnostic> problems;
   std::vector<std::string> remarks;  // worth a warning in every run
   // "DX of PART/3" and the like, for messages.
   std::string coordinate_text(std::int32_t coordinate) const;

@@ -124,10 +124,29 @@ class Reader final : public ElementReader {
     report_missing(statement, is_marker ? "unknown-marker" : "unknown-element", {id, atom.argument_at[k]}, "");
   }
 
+  // SENVAL reads what an argument of its SENSOR yields, so that must be there.
+  void check_required_argument(const Atom& atom) {
+    const AtomFunction& f = *atom.function;
+    if (f.required_argument.empty() || !model_.find(f.statement, atom.argument[0])) return;
+    for (const Statement& s : model_.dataset->statements) {
+      if (s.name != f.statement || s.id != atom.argument[0]) continue;
+      const bool given = std::any_of(s.arguments.begin(), s.arguments.end(), [&](const WrittenArgument& w) {
+        return find_keyword(w.name.text(), std::span(&f.required_argument, 1)).has_value();
+      });
+      if (given) return;
+    }
+    error("missing-argument", atom.argument_at[0],
+          fmt::format("{} reads {} of {}/{}, which has none", f.name, f.required_argument, f.statement,
+                      atom.argument[0]));
+  }
+
   void check_references(const Expression& e) {
     for (const Atom& atom : e.atoms()) check_atom(atom);
     for (const SplineUse& use : e.splines()) {
       const std::string_view statement = use.statement();
+      if (use.spectrum && (model_.spectra.empty() || model_.spectra.back().id_at.offset != use.id_at.offset)) {
+        model_.spectra.push_back(use);  // once, where a vector reads it three times
+      }
       if (!model_.find(statement, use.id)) report_missing(statement, "unknown-element", {use.id, use.id_at}, "");
     }
   }
@@ -144,10 +163,18 @@ class Reader final : public ElementReader {
       case AtomFamily::data:
         if (f.statement.empty()) return;
         check_id(atom, 0, f.statement);
+        check_required_argument(atom);
         if (atom.argument_count > 1 && atom.argument[1] < 1) {
           error("value-out-of-range", atom.argument_at[1],
                 fmt::format("the second argument of {} counts from 1", f.name));
         }
+        return;
+      case AtomFamily::delay:
+        check_references(atom.delayed->value);
+        check_references(atom.delayed->lag);
+        check_references(atom.delayed->history);
+        if (atom.delayed->array > 0 && !model_.find("ARRAY", atom.delayed->array))
+          report_missing("ARRAY", "unknown-element", {atom.delayed->array, atom.delayed->array_at}, "");
         return;
       case AtomFamily::element_force:
         check_id(atom, 0, f.statement);

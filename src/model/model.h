@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "expression/spline.h"
 #include "mechanics/layout.h"
 #include "model/kind.h"
 
@@ -82,6 +83,9 @@ struct Model {
   // The largest distance between the origins of two markers as drawn, 1 if there is none: the length by
   // which displacements and rotations are compared. [length]
   double characteristic_length() const;
+
+  // Calls of INVPSD, whose data are looked at when all SPLINEs are read.
+  std::vector<SplineUse> spectra;
 
   // Id tables and the text that labels and spans point into.
   std::map<std::string, std::unordered_map<std::int64_t, ElementHandle>, std::less<>> ids;

@@ -41,6 +41,9 @@ struct WordOrCount {
   std::optional<std::int64_t> count;
 };
 
+// An argument of old datasets that has no effect any more: whatever it is given is passed over.
+struct Obsolete {};
+
 // FUNCTION=USER(…) of a statement whose function is always a subroutine: an error that names it.
 struct UserSubroutine {
   std::string_view name;  // "FIESUB"
@@ -48,7 +51,7 @@ struct UserSubroutine {
 
 template <class E>
 using Slot =
-    std::variant<bool E::*, ElsewhereOnly E::*, double E::*, std::optional<double> E::*, Vector E::*,
+    std::variant<bool E::*, ElsewhereOnly E::*, Obsolete E::*, double E::*, std::optional<double> E::*, Vector E::*,
                  std::optional<Vector> E::*, std::vector<double> E::*, std::vector<std::vector<double>> E::*,
                  std::optional<std::int64_t> E::*, MarkerId E::*, BodyId E::*, VariableRef E::*, ArrayRef E::*,
                  MatrixRef E::*, JointRef E::*, CurveRef E::*, FlexBodyRef E::*, WordOrCount E::*, UserSubroutine E::*,
@@ -72,6 +75,7 @@ struct ValueLimits {
 };
 bool read_value(double&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(ElsewhereOnly&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+inline bool read_value(Obsolete&, const WrittenArgument&, const ValueLimits&, ElementReader&) { return true; }
 bool read_value(std::optional<double>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(Vector&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(std::optional<Vector>&, const WrittenArgument&, const ValueLimits&, ElementReader&);
@@ -108,7 +112,7 @@ namespace detail {
 // Names of the value types, for the manual.
 template <class V>
 constexpr std::string_view value_text() {
-  if constexpr (std::is_same_v<V, bool>)
+  if constexpr (std::is_same_v<V, bool> || std::is_same_v<V, Obsolete>)
     return "";
   else if constexpr (std::is_same_v<V, double> || std::is_same_v<V, std::optional<double>>)
     return "real";
@@ -150,7 +154,7 @@ constexpr ArgumentInfo argument_info(const Argument<E>& a) {
   std::visit(
       [&]<class V>(V E::*) {
         info.is_flag = std::is_same_v<V, bool>;
-        info.value_optional = std::is_same_v<V, WordOrCount>;
+        info.value_optional = std::is_same_v<V, WordOrCount> || std::is_same_v<V, Obsolete>;
         info.repeats = std::is_same_v<V, std::vector<std::vector<double>>>;
         info.value = value_text<V>();
       },

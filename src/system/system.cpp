@@ -4,7 +4,6 @@
 #include <map>
 #include <numeric>
 
-#include "elements/constraints/curve.h"
 #include "elements/controls/array.h"
 #include "elements/controls/spline.h"
 #include "elements/controls/variable_list.h"
@@ -13,7 +12,8 @@ namespace dynalin {
 
 class System::SystemSignals final : public Signals {
  public:
-  explicit SystemSignals(System& system) : system_(system), kernel_of_set_(system.model_->sets.size(), nullptr) {}
+  SystemSignals(System& system, DelayKernel& delays)
+      : system_(system), delays_(delays), kernel_of_set_(system.model_->sets.size(), nullptr) {}
 
   void own(std::size_t set, const Kernel* kernel) { kernel_of_set_[set] = kernel; }
 
@@ -76,7 +76,8 @@ class System::SystemSignals final : public Signals {
   }
   std::vector<Element> elements_at(MarkerId m) const override { return at_marker_[static_cast<std::size_t>(m.index)]; }
   Channel rate_of(const Channel& c) const override {
-    if (c.kind == Channel::Kind::state) return {Channel::Kind::state_rate, c.index, 0};
+    if (c.kind == Channel::Kind::state && !system_.layout_.states[static_cast<std::size_t>(c.index)].held_in_dynamics)
+      return {Channel::Kind::state_rate, c.index, 0};
     if (c.kind != Channel::Kind::algebraic) return {Channel::Kind::constant, 0, 0};
     const auto [it, fresh] = rates_.emplace(c.index, -1);
     if (fresh) {
@@ -87,7 +88,12 @@ class System::SystemSignals final : public Signals {
     }
     return {Channel::Kind::algebraic, it->second, 0};
   }
-  void problem(std::string text) const override { system_.layout_.problems.push_back(std::move(text)); }
+  Channel delayed(const Atom& atom) const override {
+    return delays_.channel_of(atom, "in " + statement_at(atom.at), system_.layout_);
+  }
+  void problem(std::string text, const Span& at, std::string hint) const override {
+    system_.layout_.problems.push_back({Severity::error, "unsolvable-model", at, std::move(text), std::move(hint), {}});
+  }
 
   // Equations for the rates that bound expressions asked for; each may ask for more.
   void make_rates() {
@@ -98,29 +104,37 @@ class System::SystemSignals final : public Signals {
           std::any_of(system_.kernels_.begin(), system_.kernels_.end(),
                       [&, a = algebraic, r = rate](auto& k) { return k->add_rate_equation(a, r, *this); });
       if (!made) {
-        problem("DIF1 needs the time derivative of " +
-                system_.layout_.algebraic[static_cast<std::size_t>(algebraic)].owner->full_text() +
-                ", which is not available");
+        const ElementLabel& owner = *system_.layout_.algebraic[static_cast<std::size_t>(algebraic)].owner;
+        problem("a DIF1 or a DELAY needs the time derivative of " + owner.full_text() + ", which is not available",
+                owner.at, "a DELAY needs none as a Padé approximant, run with --pade");
       }
     }
   }
 
+  // Calls of one SPLINE by one method share their curves.
   void attach(SplineUse& use) const override {
-    const auto handle = system_.model_->find(use.statement(), use.id);
-    if (!handle) return;
-    if (const Curve* c = system_.model_->get<Curve>(*handle)) use.parametric = c->shape;
-    const Spline* s = system_.model_->get<Spline>(*handle);
-    if (!s) return;
-    auto& curves = curves_[{use.id, use.method}];
-    if (!curves) curves = std::make_shared<const SplineCurves>(s->data, use.method);
-    use.curves = curves;
+    const bool shares = !use.component && !use.spectrum;
+    if (shares) use.curves = curves_[{use.id, use.method}];
+    if (use.curves) return;
+    attach_data(*system_.model_, use);
+    if (shares) curves_[{use.id, use.method}] = use.curves;
   }
   std::int32_t add_memory(double initial) const override { return system_.layout_.add_memory(initial); }
 
  private:
+  // "SFORCE/3", the statement of the dataset in which something stands.
+  std::string statement_at(const Span& at) const {
+    const auto& all = system_.model_->dataset->statements;
+    const auto next = std::upper_bound(all.begin(), all.end(), at.offset,
+                                       [](std::uint32_t offset, const Statement& s) { return offset < s.at.offset; });
+    if (next == all.begin()) return {};
+    const Statement& s = *std::prev(next);
+    return std::string(s.name) + (s.id ? "/" + std::to_string(*s.id) : "");
+  }
   const Kernel* kernel(ElementHandle h) const { return kernel_of_set_[static_cast<std::size_t>(h.set)]; }
 
   System& system_;
+  DelayKernel& delays_;
   std::vector<const Kernel*> kernel_of_set_;
   std::vector<std::vector<Element>> at_marker_;
   mutable std::map<std::int32_t, std::int32_t> rates_;  // of algebraic unknowns
@@ -128,13 +142,14 @@ class System::SystemSignals final : public Signals {
   mutable std::map<std::pair<std::int64_t, SplineMethod>, std::shared_ptr<const SplineCurves>> curves_;
 };
 
-System::System(std::shared_ptr<const Model> model) : model_(std::move(model)) {
+System::System(std::shared_ptr<const Model> model, const SystemOptions& options) : model_(std::move(model)) {
   for (const Body& b : model_->bodies) layout_.add_body(b.kind, b.label);
   for (const Marker& m : model_->markers) {
     layout_.markers.push_back(m.place);
     layout_.marker_labels.push_back(m.label);
   }
-  signals_ = std::make_unique<SystemSignals>(*this);
+  auto delays = std::make_unique<DelayKernel>(options.delays);
+  signals_ = std::make_unique<SystemSignals>(*this, *delays);
   for (std::size_t s = 0; s < model_->sets.size(); ++s) {
     if (model_->sets[s]->size() == 0) continue;
     if (auto kernel = model_->sets[s]->make_kernel(*model_, layout_)) {
@@ -144,6 +159,8 @@ System::System(std::shared_ptr<const Model> model) : model_(std::move(model)) {
   }
   signals_->index_markers();
   for (auto& kernel : kernels_) kernel->bind(*signals_);
+  kernels_.push_back(std::move(delays));
+  kernels_.back()->bind(*signals_);
   signals_->make_rates();
 
   for (const auto& kernel : kernels_) {

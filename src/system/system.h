@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "elements/families/delay.h"
 #include "mechanics/equations.h"
 #include "mechanics/kernel.h"
 #include "model/model.h"
@@ -21,9 +22,13 @@ struct Partition {
   double smallest_pivot = 1;
 };
 
+struct SystemOptions {
+  DelayReading delays = DelayReading::first_order;
+};
+
 class System {
  public:
-  explicit System(std::shared_ptr<const Model>);
+  explicit System(std::shared_ptr<const Model>, const SystemOptions& = {});
   ~System();
   System(const System&) = delete;
   System& operator=(const System&) = delete;

@@ -95,6 +95,31 @@ Wrench Model::net_wrench(int i_id, int j_id) const {
   return sum;
 }
 
+// At rest it is e itself.
+Real Model::delayed_value(const Node& n) const {
+  const Real lag = evaluate(n.arguments[1]);
+  if (clock == 0 || lag <= 0) return evaluate(n.arguments[0]);
+  if (delay_offset.empty()) return n.arguments[2].node->value + n.arguments[3].node->value * (time - lag);
+  const Jet e = evaluate_along(n.arguments[0]);
+  return e.v - lag * e.d + delay_offset.at(&n);
+}
+
+void Model::expand_delays() {
+  std::map<const Node*, Real> offset;
+  const auto record = [&](const Expr& e) {
+    walk(e, [&](const Node& n) {
+      if (n.op != Op::delay) return;
+      const Jet now = evaluate_along(n.arguments[0]);
+      const Real lag = evaluate(n.arguments[1]);
+      offset[&n] = delayed_value(n) - (now.v - lag * now.d);
+    });
+  };
+  for (const Variable& v : mechanism_.variables) record(v.function);
+  for (const Sforce& s : mechanism_.sforces) record(s.function);
+  for (const Diff& d : mechanism_.diffs) record(d.function);
+  delay_offset = std::move(offset);
+}
+
 Real Model::diff_value(std::size_t k) const {
   return mechanism_.diffs[k].kind == DiffKind::algebraic ? algebraic_values[k] : z[diff_slot_[k]];
 }

@@ -1,6 +1,9 @@
 #include "evaluation.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <numbers>
+#include <utility>
 
 namespace dynalin::oracle {
 
@@ -125,6 +128,12 @@ T Evaluator<T>::node(const Node& n) const {
       return without_rate(model_.array_entry(n.ids[0], n.ids[1]));
     case Op::spline:
       return spline(n);
+    case Op::spectrum:
+      return spectrum(n);
+    case Op::senval:
+      return T(0);
+    case Op::delay:
+      return without_rate(model_.delayed_value(n));
     default:
       return without_rate(model_.load_value(n));
   }
@@ -147,6 +156,46 @@ T Evaluator<T>::spline(const Node& n) const {
   const T z = (*this)(n.arguments[1]);
   const T share = (z - T(static_cast<Real>(found->z[0]))) / T(static_cast<Real>(found->z[1]) - found->z[0]);
   return (T(1) - share) * curve(found->y) + share * curve(found->beyond);
+}
+
+// Phase k of a seed: the generator's number k scaled to a turn. Each step adds a constant, so number k needs no other.
+Real phase_of(int seed, int k) {
+  std::uint64_t word = static_cast<std::uint64_t>(seed) + static_cast<std::uint64_t>(k + 1) * 11400714819323198485u;
+  for (const auto& [shift, factor] : {std::pair{30, 13787848793156543929u}, {27, 10723151780598845931u}}) {
+    word ^= word >> shift;
+    word *= factor;
+  }
+  word ^= word >> 31;
+  return 2 * std::numbers::pi_v<Real> * std::ldexp(static_cast<Real>(word >> 11), -53);
+}
+
+template <class T>
+T Evaluator<T>::spectrum(const Node& n) const {
+  using std::cos;
+  using std::sin;
+  const auto& splines = model_.mechanism_.splines;
+  const auto data =
+      std::find_if(splines.begin(), splines.end(), [&](const SplinePoints& p) { return p.id == n.ids[0]; });
+  // The density accumulated up to f, by trapezia.
+  const auto power_below = [&](Real f) {
+    Real sum = 0;
+    for (std::size_t k = 0; k + 1 < data->x.size() && data->x[k] < f; ++k) {
+      const Real h = static_cast<Real>(data->x[k + 1]) - data->x[k], s = std::min<Real>(1, (f - data->x[k]) / h);
+      const Real at_s = data->y[k] + s * (static_cast<Real>(data->y[k + 1]) - data->y[k]);
+      sum += (data->y[k] + at_s) / 2 * s * h;
+    }
+    return sum;
+  };
+  const T x = (*this)(n.arguments[0]);
+  const Real low = n.arguments[1].node->value, high = n.arguments[2].node->value;
+  T sum(0);
+  for (int k = 0; k < n.ids[1]; ++k) {
+    const auto edge = [&](int j) { return low + (high - low) * j / n.ids[1]; };
+    const Real size = std::sqrt(2 * (power_below(edge(k + 1)) - power_below(edge(k)))), phase = phase_of(n.ids[2], k);
+    const T turn = T(std::numbers::pi_v<Real> * (edge(k) + edge(k + 1))) * x;
+    sum = sum + T(size * std::cos(phase)) * sin(turn) + T(size * std::sin(phase)) * cos(turn);
+  }
+  return sum;
 }
 
 template <class T>

@@ -31,6 +31,7 @@ class Evaluator {
   [[nodiscard]] T node(const Node& n) const;
   [[nodiscard]] T measured(const Node& n) const;
   [[nodiscard]] T spline(const Node& n) const;
+  [[nodiscard]] T spectrum(const Node& n) const;
   [[nodiscard]] T variable(int id) const;
   [[nodiscard]] T state(int id) const;
   [[nodiscard]] View view(int id) const;

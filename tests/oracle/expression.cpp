@@ -122,6 +122,13 @@ Expr spline_at(const Expr& x, int id, Interpolation method, int derivative) {
 Expr surface_at(const Expr& x, const Expr& z, int id, Interpolation method) {
   return make(Op::spline, {x, z}, {id, static_cast<int>(method), 0});
 }
+Expr signal_of(const Expr& x, int id, double low, double high, int count, int seed) {
+  return make(Op::spectrum, {x, constant(low), constant(high)}, {id, count, seed});
+}
+Expr senval(int id) { return make(Op::senval, {}, {id}); }
+Expr delayed(const Expr& e, const Expr& lag, double start, double rate) {
+  return make(Op::delay, {e, lag, constant(start), constant(rate)});
+}
 Expr call(Function function, std::vector<Expr> arguments) {
   Node node;
   node.op = Op::function;
@@ -199,6 +206,13 @@ std::string expression_text(const Expr& expression) {
     }
     case Op::spline:
       return spline_text(n);
+    case Op::spectrum:
+      return "INVPSD(" + argument(0) + ", " + std::to_string(n.ids[0]) + ", " + argument(1) + ", " + argument(2) +
+             ", " + integers({n.ids[1], 0, n.ids[2]}) + ")";
+    case Op::delay:
+      return "DELAY(" + argument(0) + ", " + argument(1) + ", " + argument(2) + " + " + argument(3) + "*TIME)";
+    case Op::senval:
+      return with_ids("SENVAL", 1);
   }
   return {};
 }

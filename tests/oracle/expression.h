@@ -37,7 +37,10 @@ enum class Op {
   linear,  // BUSH, FIELD, BEAM
   gforce,
   marker_force,  // FX ... TM
-  spline         // AKISPL, CUBSPL, INTERP
+  spline,        // AKISPL, CUBSPL, INTERP
+  spectrum,      // INVPSD
+  senval,
+  delay
 };
 
 enum class Function {
@@ -101,6 +104,11 @@ struct Node {
 // Derivative: 0, or 1 for the slope.
 [[nodiscard]] Expr spline_at(const Expr& x, int id, Interpolation method, int derivative = 0);
 [[nodiscard]] Expr surface_at(const Expr& x, const Expr& z, int id, Interpolation method);
+// Of a density between the first and last point of a SPLINE, straight lines between them.
+[[nodiscard]] Expr signal_of(const Expr& x, int id, double low, double high, int count, int seed);
+[[nodiscard]] Expr senval(int id);
+// What e was `lag` ago; at a time before the start that is start + rate time.
+[[nodiscard]] Expr delayed(const Expr& e, const Expr& lag, double start, double rate);
 // `statement`: 0 GFORCE, 1 VFORCE, 2 VTORQUE, as general_statement says.
 [[nodiscard]] Expr gforce_load(int statement, int id, int jflag, int component, int rm);
 

@@ -82,6 +82,8 @@ class Draw {
   Expr curved(const Expr& x);
   Expr series(const Expr& x);
   Expr interpolated(const Expr& x);
+  Expr signal(const Expr& x);
+  Expr delayed_signal(bool of_states);
   // Of something kinematic also functions that are smooth in pieces: a piece that holds its present value.
   Expr shaped_kinematic();
   Expr in_pieces(const Expr& x);

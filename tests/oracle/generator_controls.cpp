@@ -19,10 +19,27 @@ Expr Draw::feature(int self) {
   if (chance(0.5)) sum = sum + uniform(-0.3, 0.3) * shaped(varval(one_of(features_)));
   if (chance(0.15)) sum = sum + uniform(-0.3, 0.3) * call(Function::sin, {varval(self) + time_now()});
   if (!states_.empty() && chance(0.4)) sum = sum + uniform(-0.5, 0.5) * one_of(states_);
+  if (chance(0.15)) sum = sum + uniform(-0.5, 0.5) * shaped(delayed_signal(true));
+  if (chance(0.1)) sum = sum + uniform(-0.3, 0.3) * ((constant(1) + senval(1)) * kinematic());
   if (chance(0.2))
     sum = sum + uniform(-0.4, 0.4) *
                     (chance(0.3) ? input_value(1 + pick(static_cast<int>(inputs_.size()))) : varval(one_of(inputs_)));
   return sum;
+}
+
+// Of what has a rate that is known, by a time that may depend on the state. The rate of a state is evaluated here, so
+// no state may be delayed in its own rate.
+Expr Draw::delayed_signal(bool of_states) {
+  Expr e = uniform(-0.6, 0.6) * shaped_kinematic();
+  const auto smooth = [&] {
+    return uniform(-0.5, 0.5) * call(Function::sin, {kinematic()}) * call(Function::atan, {kinematic()});
+  };
+  if (chance(0.5)) e = e + uniform(-0.5, 0.5) * varval(variable(smooth() + uniform(-0.3, 0.3) * kinematic()));
+  if (chance(0.3)) e = e + uniform(-0.3, 0.3) * call(Function::sin, {2.0 * time_now()});
+  if (of_states && !m_.diffs.empty() && m_.diffs[0].kind != DiffKind::algebraic) e = e + uniform(-0.3, 0.3) * dif(1);
+  Expr lag = constant(uniform(0.05, 0.2));
+  if (chance(0.4)) lag = lag + 0.04 * call(Function::sin, {kinematic()});
+  return delayed(e, lag, uniform(-0.3, 0.3), uniform(-1, 1));
 }
 
 void Draw::draw_differential_elements() {
@@ -92,6 +109,7 @@ void Draw::draw_diff_functions() {
                  uniform(-0.5, 0.5) * shaped(dif(d.id) * kinematic());
     if (chance(0.3)) d.function = d.function + uniform(-0.5, 0.5) * varval(one_of(inputs_));
     if (chance(0.3)) d.function = d.function + uniform(-0.5, 0.5) * acceleration();
+    if (chance(0.2)) d.function = d.function + uniform(-0.5, 0.5) * delayed_signal(false);
     if (!chance(0.4)) continue;
     d.kind = DiffKind::implicit_rate;
     d.coefficient = constant(uniform(1, 2)) + uniform(-0.3, 0.3) * shaped_kinematic() + 0.1 * square(dif(d.id));

@@ -146,7 +146,7 @@ Expr Draw::net_load() {
 Expr Draw::shaped(const Expr& x) {
   switch (pick(12)) {
     case 0:
-      return interpolated(x);
+      return chance(0.25) ? signal(x) : interpolated(x);
     case 1:
       return call(Function::sin, {x});
     case 2:
@@ -184,6 +184,17 @@ Expr Draw::interpolated(const Expr& x) {
   m_.splines.push_back(p);
   if (family) return surface_at(x, kinematic(), p.id, chance(0.5) ? Interpolation::akima : Interpolation::cubic);
   return spline_at(x, p.id, static_cast<Interpolation>(pick(4)), chance(0.2) ? 1 : 0);
+}
+
+// Of a density on one to five cycles per unit of x, from before its first point to behind its last.
+Expr Draw::signal(const Expr& x) {
+  SplinePoints p{static_cast<int>(m_.splines.size()) + 1, {}, {}, {}, {}};
+  for (int k = 0; k < 5; ++k) {
+    p.x.push_back(0.1 + 0.1 * k);
+    p.y.push_back(uniform(0.2, 1));
+  }
+  m_.splines.push_back(p);
+  return signal_of(x, p.id, uniform(0, 0.2), uniform(0.3, 0.6), 2 + pick(5), pick(1000));
 }
 
 Expr Draw::series(const Expr& x) {

@@ -83,6 +83,7 @@ class Model {
   std::vector<Real> variable_values, sforce_values, lambda;
   std::vector<Real> component_values;                   // of general forces, six each, in the order of the mechanism
   std::vector<Real> algebraic_values, algebraic_rates;  // per DIFF, used where it is algebraic
+  std::map<const Node*, Real> delay_offset;             // see expand_delays
   std::vector<int> cut;                                 // per variable: 1 when it is an independent input
   std::vector<Real> cut_values;
 
@@ -106,6 +107,8 @@ class Model {
   [[nodiscard]] std::vector<Real> algebra_residual() const;
   [[nodiscard]] std::vector<int> algebra_groups() const;  // quantities of one kind share a scale
 
+  // From here on a DELAY is e - tau e' plus what makes its value here that of its history before the start.
+  void expand_delays();
   [[nodiscard]] std::vector<Real> differential_rates() const;
   [[nodiscard]] Real evaluate(const Expr& expression) const;
   // With time derivatives along the motion, as far as positions, velocities and accelerations give them.
@@ -164,6 +167,7 @@ class Model {
   [[nodiscard]] Vec between(int i, int j) const;  // from J to I
   [[nodiscard]] Real wrench_component(const Wrench& on_i, const Vec& i_from_j, const std::vector<int>& ids) const;
   [[nodiscard]] Real load_value(const Node& node) const;  // JOINT, MOTION, SFORCE ... FX ... TM
+  [[nodiscard]] Real delayed_value(const Node& node) const;
   [[nodiscard]] Real array_entry(int id, int index) const;
   [[nodiscard]] std::vector<Real> tfsiso_rates(std::size_t k) const;
   [[nodiscard]] std::vector<Real> lse_rates(std::size_t k) const;

@@ -217,6 +217,7 @@ void Neighbourhood::settle_algebra() {
   nominal_z_ = model_.z;
   nominal_algebra_ = solve_algebra(model_);
   nominal_ = model_.motion;
+  model_.expand_delays();
   for (Column& column : columns_) {
     if (column.function.node) column.nominal = model_.evaluate_along(column.function);
   }

@@ -102,6 +102,7 @@ class GeneralConstraintSet final : public TypedSet<GeneralConstraint> {
           unfit(atom.at, atom.function->name, "a force");
           break;
         case AtomFamily::data:
+        case AtomFamily::delay:
           unfit(atom.at, atom.function->name, "which no constraint can follow");
           break;
       }

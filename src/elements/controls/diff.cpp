@@ -1,17 +1,20 @@
-// DIFF/id, FUNCTION= [, IC=z [, z′]] [, IMPLICIT] [, STATIC_HOLD]
+// DIFF/id, FUNCTION= [, IC=z [, z′]] [, IMPLICIT] [, STATIC_HOLD] [, DYNAMIC_HOLD]
 //
 // One differential equation. Explicit, z′ = e(…), starting at IC. With IMPLICIT, e(z, z′, …) = 0: a state where e reads
 // its own DIF1, otherwise an algebraic unknown that adds no state. Where DIFFs read each other's DIF1, there are as
 // many states as the equations have rank in their rates (rate_reduction.h). DIF(id) reads z and DIF1(id) z′; that of an
 // algebraic one is the exact time derivative of its equation. With STATIC_HOLD a static solution keeps z; otherwise it
-// looks for z′ = 0.
+// looks for z′ = 0. With DYNAMIC_HOLD z is constant but in statics: no state of the linear model, and z′ counts as
+// zero.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 #include <set>
 
+#include "elements/controls/array.h"
 #include "elements/controls/rate_reduction.h"
+#include "elements/controls/spline.h"
 #include "elements/controls/variable.h"
 #include "elements/controls/variable_list.h"
 #include "elements/families/function_equation.h"
@@ -33,7 +36,7 @@ struct Diff {
       {.name = "FUNCTION", .slot = &Diff::function, .required = true, .help = "z′, or with IMPLICIT what is zero"},
       {.name = "IMPLICIT", .slot = &Diff::implicit, .help = "FUNCTION = 0"},
       {.name = "STATIC_HOLD", .slot = &Diff::static_hold, .help = "z keeps its value in statics"},
-      {.name = "DYNAMIC_HOLD", .slot = &Diff::dynamic_hold, .help = "not available yet"},
+      {.name = "DYNAMIC_HOLD", .slot = &Diff::dynamic_hold, .help = "z is constant in linear models"},
   }};
 };
 
@@ -43,15 +46,16 @@ bool reads_own_rate(const Diff& d, std::int64_t id) {
                      [&](const Atom& a) { return a.function->name == "DIF1" && a.argument[0] == id; });
 }
 
-// Whether an expression can see rates of DIFFs that its own atoms do not show: through VARIABLEs, or by forces and
-// accelerations. Splines have no data yet.
+// Whether an expression can see rates of DIFFs that its own atoms do not show: through VARIABLEs, or by forces,
+// accelerations and outputs of controllers.
 bool hides_rates(const Model& model, const Expression& function) {
   std::set<std::int64_t> visited;
   const std::function<bool(const Expression&, bool)> hides = [&](const Expression& e, bool indirect) {
-    if (!indirect && !e.splines().empty()) return true;
     for (const Atom& a : e.atoms()) {
       const AtomFunction& f = *a.function;
-      if (f.family == AtomFamily::element_force || f.family == AtomFamily::marker_force) return true;
+      if (f.family == AtomFamily::delay || f.family == AtomFamily::element_force ||
+          f.family == AtomFamily::marker_force)
+        return true;
       if (f.family == AtomFamily::marker_measure && f.order == 2) return true;
       if (f.name == "DIF1" && indirect) return true;
       const auto through = [&](VariableRef v) {
@@ -65,7 +69,10 @@ bool hides_rates(const Model& model, const Expression& function) {
         const auto* list = handle ? model.get<VariableList>(*handle) : nullptr;
         if (list && std::any_of(list->variables.begin(), list->variables.end(), through)) return true;
       } else if (f.name == "ARYVAL") {
-        return true;  // outputs of controllers pass on what they are fed
+        const auto handle = model.find("ARRAY", a.argument[0]);
+        const auto* array = handle ? model.get<Array>(*handle) : nullptr;
+        if (!array || array->y) return true;  // outputs of controllers pass on what they are fed
+        if (std::any_of(array->variables.begin(), array->variables.end(), through)) return true;
       }
     }
     return false;
@@ -82,13 +89,11 @@ class DiffSet final : public TypedSet<Diff> {
     if (d.initial.size() > 2) {
       reader.error("wrong-count", reader.at("IC"), fmt::format("IC has {} values, it takes 1 or 2", d.initial.size()));
     }
-    if (d.dynamic_hold) {
-      reader.error("argument-not-built", reader.at("DYNAMIC_HOLD"), "DYNAMIC_HOLD of DIFF is not available yet");
-    }
     if (d.implicit && !reads_own_rate(d, reader.label().id)) {
       d.algebraic = true;
-      if (d.static_hold) {
-        reader.error("unexpected-argument", reader.at("STATIC_HOLD"),
+      for (const std::string_view hold : {"STATIC_HOLD", "DYNAMIC_HOLD"}) {
+        if (!reader.given(hold)) continue;
+        reader.error("unexpected-argument", reader.at(hold),
                      fmt::format("{} is algebraic, as its FUNCTION does not read DIF1({}): there is no state to hold",
                                  reader.label().text(), reader.label().id));
       }
@@ -103,11 +108,14 @@ class DiffSet final : public TypedSet<Diff> {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const Diff& d = elements[k];
       const std::int64_t id = labels[k].id;
-      equations.push_back({id, d.function, d.implicit, reads_own_rate(d, id), hides_rates(model, d.function),
-                           d.initial.empty() ? 0.0 : d.initial[0], d.initial.size() > 1 ? d.initial[1] : 0.0});
+      const Expression function = d.function.with_curves([&](SplineUse& use) { attach_data(model, use); });
+      equations.push_back({id, function, d.implicit, reads_own_rate(d, id), hides_rates(model, d.function),
+                           d.initial.empty() ? 0.0 : d.initial[0], d.initial.size() > 1 ? d.initial[1] : 0.0,
+                           d.dynamic_hold});
     }
     const RateReduction reduction = reduce_rates(equations);
-    for (const RateReduction::Refusal& r : reduction.refusals) layout.problems.push_back(text(r));
+    for (const RateReduction::Refusal& r : reduction.refusals)
+      layout.problems.push_back({Severity::error, "unsolvable-model", labels[r.members[0]].at, text(r), "", {}});
 
     std::vector<FunctionEquationKernel::Item> items;
     for (std::size_t k = 0; k < elements.size(); ++k) {
@@ -118,9 +126,12 @@ class DiffSet final : public TypedSet<Diff> {
                                         .initial = equations[k].initial,
                                         .initial_rate = equations[k].initial_rate,
                                         .held_in_statics = d.static_hold,
+                                        .held_in_dynamics = d.dynamic_hold,
                                         .start_stated = !d.algebraic && !d.initial.empty()};
       const auto sign = [&](std::size_t of) { return elements[of].implicit ? 1.0 : -1.0; };
-      if (role.is_state) {
+      if (d.dynamic_hold) {
+        // z′ − e = 0 in both forms: it is asked for where z′ = 0 alone.
+      } else if (role.is_state) {
         item.form = d.implicit ? Form::implicit_state : Form::rate;
         if (role.equation != k) {
           item.terms = {{role.equation, sign(role.equation), !elements[role.equation].implicit}};

@@ -80,7 +80,9 @@ LeftNullSpace left_null_space(const Matrix& m, const std::vector<std::size_t>& o
 class Reducer {
  public:
   explicit Reducer(const std::vector<DiffEquation>& all) : all_(all) {
-    for (std::size_t k = 0; k < all.size(); ++k) index_[all[k].id] = k;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (!all[k].constant) index_[all[k].id] = k;
+    }
     result_.roles.resize(all.size());
     for (std::size_t k = 0; k < all.size(); ++k) {
       result_.roles[k].is_state = !is_algebraic(k);
@@ -90,7 +92,7 @@ class Reducer {
 
   RateReduction run() {
     for (const auto& members : components()) {
-      const bool shared = members.size() > 1 || all_[members[0]].reads_own_rate;
+      const bool shared = members.size() > 1 || (all_[members[0]].reads_own_rate && !all_[members[0]].constant);
       if (shared) reduce(members);
     }
     return std::move(result_);
@@ -109,6 +111,7 @@ class Reducer {
       return k;
     };
     for (std::size_t k = 0; k < all_.size(); ++k) {
+      if (all_[k].constant) continue;
       for (const Atom& a : all_[k].function.atoms()) {
         if (!reads_rate(a)) continue;
         if (const auto it = index_.find(a.argument[0]); it != index_.end()) leader[find(k)] = find(it->second);

@@ -19,6 +19,7 @@ struct DiffEquation {
   bool implicit = false, reads_own_rate = false;
   bool opaque = false;  // reads rates in ways that its partials do not show: takes no part in conditions
   double initial = 0, initial_rate = 0;
+  bool constant = false;  // z does not change, whatever its function says
 };
 
 struct RateReduction {

@@ -15,6 +15,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "elements/constraints/curve.h"
 #include "model/model.h"
 #include "model/schema.h"
 
@@ -88,6 +89,19 @@ class SplineSet final : public TypedSet<Spline> {
     const bool ok = by_file ? read_file(w, data, reader) : take_values(w, data, reader);
     if (ok && check(data, reader, reader.at(by_file ? "FILE" : "X"))) {
       elements[k].data = std::make_shared<const SplineData>(std::move(data));
+    }
+  }
+
+  // A power spectral density is not negative, and nothing but positive where its logarithm counts.
+  void finish(Model& model, Diagnostics& diagnostics) override {
+    for (const SplineUse& use : model.spectra) {
+      const Spline* s = model.get<Spline>(*model.find("SPLINE", use.id));
+      if (!s || !s->data) continue;
+      const std::string fault = spectrum_fault(*s->data, use.spectrum->logarithmic);
+      if (fault.empty()) continue;
+      diagnostics.error("spline-data", use.id_at,
+                        fmt::format("INVPSD takes SPLINE/{} as a power spectral density, one curve of numbers {}: {}",
+                                    use.id, use.spectrum->logarithmic ? "above 0" : "that are 0 or more", fault));
     }
   }
 
@@ -200,6 +214,19 @@ class SplineSet final : public TypedSet<Spline> {
 };
 
 }  // namespace
+
+void attach_data(const Model& model, SplineUse& use) {
+  const auto handle = model.find(use.statement(), use.id);
+  if (!handle) return;
+  if (const Curve* c = model.get<Curve>(*handle)) use.parametric = c->shape;
+  const Spline* s = model.get<Spline>(*handle);
+  if (!s) return;
+  if (use.spectrum) {
+    use.signal = std::make_shared<const HarmonicSignal>(*s->data, *use.spectrum);
+  } else {
+    use.curves = std::make_shared<const SplineCurves>(s->data, use.method);
+  }
+}
 
 extern constinit const Kind spline = {
     "SPLINE",

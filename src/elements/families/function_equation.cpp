@@ -30,6 +30,7 @@ FunctionEquationKernel::FunctionEquationKernel(std::vector<Item> items, const st
     } else {
       DifferentialState z{&labels[k], StateType::diff, 1, item.initial, item.held_in_statics};
       z.initial_rate = item.initial_rate;
+      z.held_in_dynamics = item.held_in_dynamics;
       unknowns_.push_back({Channel::Kind::state, layout.add_state(z), 0});
     }
   }

@@ -31,7 +31,7 @@ class FunctionEquationKernel final : public Kernel {
     Expression function;
     Form form = Form::value;
     double initial = 0, initial_rate = 0;
-    bool held_in_statics = false;
+    bool held_in_statics = false, held_in_dynamics = false;
     std::vector<Term> terms = {};  // of the equation, where it is not the function of the element itself
     bool start_stated = false;     // of a condition: what it has to change of `initial` is worth a warning
   };

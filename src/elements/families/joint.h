@@ -21,6 +21,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -37,12 +38,15 @@ namespace dynalin {
 
 enum class Uses : std::uint8_t { no_orientation, orientation_of_J, both_orientations };
 
+inline constexpr std::string_view obsolete_friction = "obsolete, ignored";
+
 struct JointArguments {
+  Obsolete friction;
   MarkerId i, j;
   std::optional<double> pitch, pd;
   std::vector<double> ic, ictran, icrot;
 
-  static constexpr std::array<Argument<JointArguments>, 7> arguments = {{
+  static constexpr std::array<Argument<JointArguments>, 24> arguments = {{
       {.name = "I", .slot = &JointArguments::i, .required = true, .help = "marker on the first body"},
       {.name = "J", .slot = &JointArguments::j, .required = true, .help = "marker on the second body"},
       {.name = "PITCH", .slot = &JointArguments::pitch, .unit = unit::length, .help = "SCREW: advance in one turn"},
@@ -55,6 +59,24 @@ struct JointArguments {
        .help = "REVOLUTE, TRANSLATIONAL: displacement [, velocity] at the start"},
       {.name = "ICTRAN", .slot = &JointArguments::ictran, .help = "CYLINDRICAL: the same along z"},
       {.name = "ICROT", .slot = &JointArguments::icrot, .help = "CYLINDRICAL: the same about z"},
+      // Friction as old datasets have it. It was moved to a statement of its own.
+      {.name = "FRICTION", .slot = &JointArguments::friction, .help = obsolete_friction},
+      {.name = "MU_STAT_ROT", .slot = &JointArguments::friction, .help = obsolete_friction},
+      {.name = "MU_DYN_ROT", .slot = &JointArguments::friction, .help = obsolete_friction},
+      {.name = "MU_STAT_TRANS", .slot = &JointArguments::friction, .help = obsolete_friction},
+      {.name = "MU_DYN_TRANS", .slot = &JointArguments::friction, .help = obsolete_friction},
+      {.name = "MAX_FRIC_ROT", .slot = &JointArguments::friction, .help = obsolete_friction},
+      {.name = "INNER_RADIUS", .slot = &JointArguments::friction, .help = obsolete_friction},
+      {.name = "OUTER_RADIUS", .slot = &JointArguments::friction, .help = obsolete_friction},
+      {.name = "HEIGHT", .slot = &JointArguments::friction, .help = obsolete_friction},
+      {.name = "WIDTH", .slot = &JointArguments::friction, .help = obsolete_friction},
+      {.name = "DELTA_V", .slot = &JointArguments::friction, .help = obsolete_friction},
+      {.name = "MAXIMUM_DEFORMATION", .slot = &JointArguments::friction, .help = obsolete_friction},
+      {.name = "PRELOAD_RADIAL", .slot = &JointArguments::friction, .help = obsolete_friction},
+      {.name = "PRELOAD_AXIAL", .slot = &JointArguments::friction, .help = obsolete_friction},
+      {.name = "PRELOAD_X", .slot = &JointArguments::friction, .help = obsolete_friction},
+      {.name = "PRELOAD_Y", .slot = &JointArguments::friction, .help = obsolete_friction},
+      {.name = "PRELOAD_ONLY", .slot = &JointArguments::friction, .help = obsolete_friction},
   }};
 };
 
@@ -257,6 +279,7 @@ class JointSet final : public JointSetBase {
                  reader);
       read_start(w.ictran, "ICTRAN", both ? &joints[k].translation : nullptr, reader);
       read_start(w.icrot, "ICROT", both ? &joints[k].rotation : nullptr, reader);
+      warn_of_obsolete(reader);
     }
     if (ok) joints[k].i = w.i, joints[k].j = w.j;
   }
@@ -290,6 +313,21 @@ class JointSet final : public JointSetBase {
   }
 
  private:
+  static void warn_of_obsolete(ElementReader& reader) {
+    std::vector<std::string_view> given;
+    for (const ElementReader::Assignment& a : reader.assignments) {
+      const auto is_it = [&](const Argument<JointArguments>& known) {
+        return known.name == a.name && known.help == obsolete_friction;
+      };
+      if (std::any_of(JointArguments::arguments.begin(), JointArguments::arguments.end(), is_it))
+        given.push_back(a.name);
+    }
+    if (given.empty()) return;
+    reader.warning("obsolete-argument", reader.at(given.front()),
+                   fmt::format("friction as an argument of {} is obsolete and ignored: {}", reader.label().text(),
+                               fmt::join(given, ", ")),
+                   "the statement FRICTION replaces it");
+  }
   static void read_start(const std::vector<double>& values, std::string_view name, JointStart* start,
                          ElementReader& reader) {
     if (values.empty()) return;

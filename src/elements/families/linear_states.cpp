@@ -26,6 +26,23 @@ void LinearStatesKernel::bind(const Signals& signals) {
   }
 }
 
+bool LinearStatesKernel::add_rate_equation(std::int32_t algebraic, std::int32_t rate, const Signals& signals) {
+  for (std::size_t k = 0; k < elements_.size(); ++k) {
+    const Element& e = elements_[k];
+    const Eigen::Index output = algebraic - e.first_output;
+    if (output < 0 || output >= e.law.C.rows()) continue;
+    OutputRate r{k, output, rate, {}};
+    for (Eigen::Index c = 0; c < e.law.D.cols(); ++c) {
+      const bool counts = e.law.D(output, c) != 0.0;
+      const Channel u{Channel::Kind::algebraic, e.inputs[static_cast<std::size_t>(c)], 0};
+      r.inputs.push_back(counts ? signals.rate_of(u) : Channel());
+    }
+    rates_.push_back(std::move(r));
+    return true;
+  }
+  return false;
+}
+
 void LinearStatesKernel::equations(const Motion& motion, Equations& eq) const {
   // One row of [state or output] − M z − N u = 0.
   const auto add_row = [&](const Element& e, std::int32_t row, const Eigen::MatrixXd& M, const Eigen::MatrixXd& N,
@@ -57,6 +74,23 @@ void LinearStatesKernel::equations(const Motion& motion, Equations& eq) const {
       eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(y)]);
       eq.add(Column::algebraic, row, y, 1.0);
       add_row(e, row, e.law.C, e.law.D, r);
+    }
+  }
+  for (const OutputRate& r : rates_) {
+    const Element& e = elements_[r.element];
+    const std::int32_t row = eq.algebraic_row(r.rate);
+    eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(r.rate)]);
+    eq.add(Column::algebraic, row, r.rate, 1.0);
+    for (Eigen::Index c = 0; c < e.law.C.cols(); ++c) {
+      const std::int32_t z = e.first_state + static_cast<std::int32_t>(c);
+      eq.add_residual(row, -e.law.C(r.output, c) * motion.state_rate[static_cast<std::size_t>(z)]);
+      eq.add(Column::state_rate, row, z, -e.law.C(r.output, c));
+    }
+    for (std::size_t c = 0; c < r.inputs.size(); ++c) {
+      if (r.inputs[c].kind != Channel::Kind::algebraic) continue;
+      const double d = e.law.D(r.output, static_cast<Eigen::Index>(c));
+      eq.add_residual(row, -d * motion.algebraic[static_cast<std::size_t>(r.inputs[c].index)]);
+      eq.add(Column::algebraic, row, r.inputs[c].index, -d);
     }
   }
 }

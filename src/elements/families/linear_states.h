@@ -22,6 +22,7 @@ class LinearStatesKernel final : public Kernel {
  public:
   LinearStatesKernel(std::vector<LinearStates>, const std::vector<ElementLabel>&, Layout&);
   void bind(const Signals&) override;
+  bool add_rate_equation(std::int32_t algebraic, std::int32_t rate, const Signals&) override;
   void equations(const Motion&, Equations&) const override;
   Channel state_channel(std::size_t element, std::size_t n) const override;
   Channel output_channel(std::size_t element, std::size_t n) const override;
@@ -32,7 +33,15 @@ class LinearStatesKernel final : public Kernel {
     std::int32_t first_state = 0, first_output = 0;
     std::vector<std::int32_t> inputs;  // algebraic unknowns
   };
+  // y′ − C z′ − D u′ = 0 of one output.
+  struct OutputRate {
+    std::size_t element;
+    Eigen::Index output;
+    std::int32_t rate;
+    std::vector<Channel> inputs;  // u′, none where D has a zero
+  };
   std::vector<Element> elements_;
+  std::vector<OutputRate> rates_;
 };
 
 }  // namespace dynalin

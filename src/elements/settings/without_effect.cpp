@@ -34,8 +34,6 @@ extern constinit const Kind integrator = inert("INTEGRATOR", "Settings of the in
 extern constinit const Kind kinematics = inert("KINEMATICS", "Settings of kinematic analyses.");
 extern constinit const Kind equilibrium = inert("EQUILIBRIUM", "Settings of static analyses.");
 extern constinit const Kind ic = inert("IC", "Settings of the initial conditions.");
-extern constinit const Kind sensor =
-    inert("SENSOR", "Stops or changes a simulation over time; never acts on a linear model.");
 extern constinit const Kind femdata = inert("FEMDATA", "Output of loads for finite-element programs.");
 extern constinit const Kind timgraphics = inert("TIMGRAPHICS", "Graphics over time.");
 extern constinit const Kind string = inert("STRING", "Text for subroutines.");
