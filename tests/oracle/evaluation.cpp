@@ -125,6 +125,10 @@ T Evaluator<T>::node(const Node& n) const {
       return without_rate(model_.array_entry(n.ids[0], n.ids[1]));
     case Op::spline:
       return spline(n);
+    case Op::curve:
+      return curve(n);
+    case Op::gap:
+      return gap(n);
     default:
       return without_rate(model_.load_value(n));
   }
@@ -147,6 +151,11 @@ T Evaluator<T>::spline(const Node& n) const {
   const T z = (*this)(n.arguments[1]);
   const T share = (z - T(static_cast<Real>(found->z[0]))) / T(static_cast<Real>(found->z[1]) - found->z[0]);
   return (T(1) - share) * curve(found->y) + share * curve(found->beyond);
+}
+
+template <class T>
+T Evaluator<T>::curve(const Node& n) const {
+  return component(model_.curves_.at(n.ids[0]).at((*this)(n.arguments[0]), n.ids[1]), n.ids[2] - 1);
 }
 
 template <class T>

@@ -22,6 +22,8 @@ class Evaluator {
   // A variation serves jets alone; without one their parameter is time.
   explicit Evaluator(const Model& model, const Variation* variation = nullptr) : model_(model), variation_(variation) {}
   [[nodiscard]] T operator()(const Expr& e) const { return node(*e.node); }
+  // Where a contact is on the curves of i and of j.
+  [[nodiscard]] std::array<T, 2> contact_parameters(std::size_t k) const;
 
  private:
   struct View {
@@ -31,6 +33,8 @@ class Evaluator {
   [[nodiscard]] T node(const Node& n) const;
   [[nodiscard]] T measured(const Node& n) const;
   [[nodiscard]] T spline(const Node& n) const;
+  [[nodiscard]] T curve(const Node& n) const;
+  [[nodiscard]] T gap(const Node& n) const;
   [[nodiscard]] T variable(int id) const;
   [[nodiscard]] T state(int id) const;
   [[nodiscard]] View view(int id) const;
@@ -40,5 +44,10 @@ class Evaluator {
   const Variation* variation_;
   mutable int depth_ = 0;
 };
+
+template <>
+Evaluator<Real>::View Evaluator<Real>::view(int id) const;
+template <>
+Evaluator<Jet>::View Evaluator<Jet>::view(int id) const;
 
 }  // namespace dynalin::oracle

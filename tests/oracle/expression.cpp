@@ -1,6 +1,7 @@
 #include "expression.h"
 
 #include <array>
+#include <stdexcept>
 #include <utility>
 
 #include "text.h"
@@ -122,6 +123,13 @@ Expr spline_at(const Expr& x, int id, Interpolation method, int derivative) {
 Expr surface_at(const Expr& x, const Expr& z, int id, Interpolation method) {
   return make(Op::spline, {x, z}, {id, static_cast<int>(method), 0});
 }
+Expr curve_at(const Expr& u, int derivative, int component, int id) {
+  return make(Op::curve, {u}, {id, derivative, component});
+}
+Expr contact_reaction(bool two_curves, int id, int jflag, int component, int rm) {
+  return make(Op::contact, {}, {id, jflag, component, rm, two_curves ? 1 : 0});
+}
+Expr contact_gap(int contact, int row) { return make(Op::gap, {}, {contact, row}); }
 Expr call(Function function, std::vector<Expr> arguments) {
   Node node;
   node.op = Op::function;
@@ -199,6 +207,12 @@ std::string expression_text(const Expr& expression) {
     }
     case Op::spline:
       return spline_text(n);
+    case Op::curve:
+      return "CURVE(" + argument(0) + ", " + integers({n.ids[1], n.ids[2], n.ids[0]}) + ")";
+    case Op::contact:
+      return with_ids(n.ids[4] != 0 ? "CVCV" : "PTCV", 4);
+    case Op::gap:
+      throw std::logic_error("the language has no gaps of contacts");
   }
   return {};
 }

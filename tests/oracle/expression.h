@@ -37,7 +37,10 @@ enum class Op {
   linear,  // BUSH, FIELD, BEAM
   gforce,
   marker_force,  // FX ... TM
-  spline         // AKISPL, CUBSPL, INTERP
+  spline,        // AKISPL, CUBSPL, INTERP
+  curve,         // CURVE
+  contact,       // PTCV, CVCV
+  gap            // of a contact, not of the language: what its rows hold at zero
 };
 
 enum class Function {
@@ -101,6 +104,11 @@ struct Node {
 // Derivative: 0, or 1 for the slope.
 [[nodiscard]] Expr spline_at(const Expr& x, int id, Interpolation method, int derivative = 0);
 [[nodiscard]] Expr surface_at(const Expr& x, const Expr& z, int id, Interpolation method);
+// Component 1..3 of a derivative of the curve.
+[[nodiscard]] Expr curve_at(const Expr& u, int derivative, int component, int id);
+[[nodiscard]] Expr contact_reaction(bool two_curves, int id, int jflag, int component, int rm);
+// Row 0 or 1 of a contact, by its place in the mechanism.
+[[nodiscard]] Expr contact_gap(int contact, int row);
 // `statement`: 0 GFORCE, 1 VFORCE, 2 VTORQUE, as general_statement says.
 [[nodiscard]] Expr gforce_load(int statement, int id, int jflag, int component, int rm);
 

@@ -48,6 +48,10 @@ class Draw {
   void draw_screws();
   void draw_couplers();
   void draw_gears();
+  int draw_curve(bool plane);
+  void draw_contacts();
+  void place_contact(const BodyRef& i_body, const BodyRef& j_body, bool two_curves);
+  void draw_contact_starts();
   void draw_motions();
   void draw_position_gcon();
   void draw_velocity_gcon();
@@ -75,6 +79,7 @@ class Draw {
   Expr reaction();
   Expr load();
   Expr net_load();
+  Expr contact_load();
   Expr rate() { return one_of(rates_); }
   Expr kinematic() { return chance(0.5) ? displacement() : velocity(); }
   // A smooth function of an argument of order one, so that second and higher derivatives matter.
