@@ -39,8 +39,8 @@ class Session {
 
   // What only showed while the equations were made: wrong input like any other.
   bool sound() const {
-    for (const std::string& text : system_.layout().problems) fmt::print(err_, "error: {}\n", text);
-    return system_.layout().problems.empty();
+    fmt::print(err_, "{}", render(system_.layout().problems));
+    return !system_.layout().problems.has_errors();
   }
 
   int run() {

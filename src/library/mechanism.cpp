@@ -110,8 +110,10 @@ Mechanism Mechanism::from_text(std::string dataset, std::string name) {
   for (const Diagnostic& d : diagnostics.items()) messages.push_back(d.message);
   if (diagnostics.has_errors()) throw Error(render(diagnostics), std::move(messages));
   auto state = std::make_unique<State>(source, std::shared_ptr<const Model>(std::move(built.value)));
-  if (const auto& problems = state->system.layout().problems; !problems.empty()) {
-    throw Error(fmt::format("{}", fmt::join(problems, "\n")), problems);
+  if (const Diagnostics& problems = state->system.layout().problems; problems.has_errors()) {
+    std::vector<std::string> reasons;
+    for (const Diagnostic& d : problems.items()) reasons.push_back(d.message);
+    throw Error(render(problems), std::move(reasons));
   }
   state->warnings.insert(state->warnings.begin(), messages.begin(), messages.end());
   return Mechanism(std::move(state));

@@ -37,11 +37,10 @@ class System::SystemSignals final : public Signals {
     const MarkerId followed = system_.model_->marker(m).follows;
     return followed.valid() ? followed : m;
   }
-  bool has_origin(MarkerId m) const override {
+  bool has_place(MarkerId m) const override {
     const Marker& marker = system_.model_->marker(m);
-    return !marker.floating || marker.follows.valid();
+    return !marker.floating || marker.follows.valid() || system_.layout_.curve_point(m);
   }
-  bool has_axes(MarkerId m) const override { return has_origin(m) && !system_.model_->marker(m).on_curve; }
   Channel variable(VariableRef ref) const override {
     return kernel(ref)->value_channel(static_cast<std::size_t>(ref.index));
   }
@@ -87,7 +86,9 @@ class System::SystemSignals final : public Signals {
     }
     return {Channel::Kind::algebraic, it->second, 0};
   }
-  void problem(std::string text) const override { system_.layout_.problems.push_back(std::move(text)); }
+  void problem(std::string_view code, const Span& at, std::string text) const override {
+    system_.layout_.problems.error(code, at, std::move(text));
+  }
 
   // Equations for the rates that bound expressions asked for; each may ask for more.
   void make_rates() {
@@ -98,9 +99,10 @@ class System::SystemSignals final : public Signals {
           std::any_of(system_.kernels_.begin(), system_.kernels_.end(),
                       [&, a = algebraic, r = rate](auto& k) { return k->add_rate_equation(a, r, *this); });
       if (!made) {
-        problem("DIF1 needs the time derivative of " +
-                system_.layout_.algebraic[static_cast<std::size_t>(algebraic)].owner->full_text() +
-                ", which is not available");
+        problem("unknown-rate", Span{},
+                "DIF1 needs the time derivative of " +
+                    system_.layout_.algebraic[static_cast<std::size_t>(algebraic)].owner->full_text() +
+                    ", which is not available");
       }
     }
   }

@@ -69,6 +69,29 @@ Parameters<T> improved(const CurveShape* a, const CurveShape& b, const Slopes& s
   return {u[0] - T(s[0][0]) * g[0] - T(s[0][1]) * g[1], u[1] - T(s[1][0]) * g[0] - T(s[1][1]) * g[1]};
 }
 
+template <class T>
+struct Trihedron {
+  Vector3<T> p;
+  std::array<Vector3<T>, 3> axis;
+};
+
+// On a curve, global axes: x along it, y away from the centre of curvature.
+template <class T, class View>
+Trihedron<T> trihedron(const CurveShape& curve, const T& u, const View& carrier) {
+  const auto turned = [&](const Vector3<T>& v) {
+    return v.x * carrier.axis[0] + v.y * carrier.axis[1] + v.z * carrier.axis[2];
+  };
+  const Vector3<T> slope = curve.at(u, 1), bend = curve.at(u, 2);
+  const Vector3<T> x = (T(1) / norm(slope)) * slope;
+  const Vector3<T> inwards = bend - dot(bend, x) * x;
+  const Vector3<T> y = (T(-1) / norm(inwards)) * inwards;
+  return {carrier.p + turned(curve.at(u)), {turned(x), turned(y), turned(cross(x, y))}};
+}
+
+Vector3<Jet> differentiated(const Vector3<Jet>& v) {
+  return {{v.x.d, v.x.dd, unknown}, {v.y.d, v.y.dd, unknown}, {v.z.d, v.z.dd, unknown}};
+}
+
 }  // namespace
 
 void Model::read_contacts() {
@@ -82,6 +105,11 @@ void Model::read_contacts() {
     data.across[0] = (1 / norm(data.across[0])) * data.across[0];
     data.across[1] = (1 / norm(along)) * cross(along, data.across[0]);
     contact_data_.push_back(data);
+    for (const bool on_i : {false, true}) {
+      if (on_i && !c.two_curves) continue;
+      MarkerData& floating = marker_data_[static_cast<std::size_t>(marker_index(on_i ? c.ifloat : c.jfloat))];
+      floating.contact = static_cast<int>(k), floating.on_i = on_i;
+    }
     for (const int r : {0, 1}) {
       Row row{Row::Type::expression};
       row.function = contact_gap(static_cast<int>(k), r);
@@ -107,6 +135,14 @@ void Model::solve_contacts() {
       if (iteration > 10 && step < 1e-14L) break;
     }
     if (!(step < 1e-14L)) throw std::runtime_error("a point of contact is lost");
+    for (const bool on_i : {false, true}) {
+      if (on_i && !c.two_curves) continue;
+      const Contact& contact = mechanism_.contacts[k];
+      MarkerMotion& floating = markers_[static_cast<std::size_t>(marker_index(on_i ? contact.ifloat : contact.jfloat))];
+      const Trihedron<Real> at = trihedron(curves_.at(on_i ? c.icurve : c.jcurve), c.parameter[on_i ? 0 : 1],
+                                           markers_[static_cast<std::size_t>(on_i ? c.i : c.j)]);
+      floating.p = at.p, floating.axis = at.axis;
+    }
   }
 }
 
@@ -170,6 +206,28 @@ T Evaluator<T>::gap(const Node& n) const {
   const Vector3<T> s = b.at(u[1], 1);
   using std::sqrt;
   return cross_z(s, d) / sqrt(s.x * s.x + s.y * s.y);
+}
+
+// Its velocity is that of the point of contact, its angular velocity that of its axes.
+template <>
+Evaluator<Jet>::View Evaluator<Jet>::contact_view(std::size_t contact, bool on_i) const {
+  if (variation_ != nullptr) throw std::logic_error("no constraint may follow a point of contact");
+  const auto& c = model_.contact_data_[contact];
+  const Contact& written = model_.mechanism_.contacts[contact];
+  const Trihedron<Jet> at = trihedron(model_.curves_.at(on_i ? c.icurve : c.jcurve),
+                                      contact_parameters(contact)[on_i ? 0 : 1], view(on_i ? written.i : written.j));
+  View out{at.p, differentiated(at.p), {}, {}, {}, at.axis};
+  out.a = differentiated(out.v);
+  for (const Vector3<Jet>& e : at.axis) out.w += Jet(0.5L) * cross(e, differentiated(e));
+  out.al = differentiated(out.w);
+  return out;
+}
+template <>
+Evaluator<Real>::View Evaluator<Real>::contact_view(std::size_t contact, bool on_i) const {
+  const auto along = Evaluator<Jet>(model_).contact_view(contact, on_i);
+  const auto now = [](const Vector3<Jet>& v) { return Vec{v.x.v, v.y.v, v.z.v}; };
+  return {now(along.p), now(along.v),  now(along.a),
+          now(along.w), now(along.al), {now(along.axis[0]), now(along.axis[1]), now(along.axis[2])}};
 }
 
 std::array<Real, 2> Model::contact_speeds(std::size_t k) const {

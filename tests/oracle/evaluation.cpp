@@ -25,13 +25,20 @@ Jet Evaluator<Jet>::without_rate(Real value) {
 
 template <>
 Evaluator<Real>::View Evaluator<Real>::view(int id) const {
-  const MarkerMotion& m = model_.markers_[static_cast<std::size_t>(model_.marker_index(id))];
+  const auto k = static_cast<std::size_t>(model_.marker_index(id));
+  if (model_.marker_data_[k].contact >= 0) {
+    return contact_view(static_cast<std::size_t>(model_.marker_data_[k].contact), model_.marker_data_[k].on_i);
+  }
+  const MarkerMotion& m = model_.markers_[k];
   return {m.p, m.v, m.a, m.w, m.al, m.axis};
 }
 
 template <>
 Evaluator<Jet>::View Evaluator<Jet>::view(int id) const {
   const auto k = static_cast<std::size_t>(model_.marker_index(id));
+  if (model_.marker_data_[k].contact >= 0) {
+    return contact_view(static_cast<std::size_t>(model_.marker_data_[k].contact), model_.marker_data_[k].on_i);
+  }
   const MarkerMotion& m = model_.markers_[k];
   const Vec no{}, dark{unknown, unknown, unknown};
   View out;

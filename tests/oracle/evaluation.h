@@ -26,6 +26,8 @@ class Evaluator {
   [[nodiscard]] std::array<T, 2> contact_parameters(std::size_t k) const;
 
  private:
+  template <class U>
+  friend class Evaluator;
   struct View {
     Vector3<T> p, v, a, w, al;
     std::array<Vector3<T>, 3> axis;
@@ -38,6 +40,7 @@ class Evaluator {
   [[nodiscard]] T variable(int id) const;
   [[nodiscard]] T state(int id) const;
   [[nodiscard]] View view(int id) const;
+  [[nodiscard]] View contact_view(std::size_t contact, bool on_i) const;
   [[nodiscard]] static T without_rate(Real value);  // a quantity whose derivatives are not known
 
   const Model& model_;
@@ -45,6 +48,10 @@ class Evaluator {
   mutable int depth_ = 0;
 };
 
+template <>
+Evaluator<Real>::View Evaluator<Real>::contact_view(std::size_t contact, bool on_i) const;
+template <>
+Evaluator<Jet>::View Evaluator<Jet>::contact_view(std::size_t contact, bool on_i) const;
 template <>
 Evaluator<Real>::View Evaluator<Real>::view(int id) const;
 template <>

@@ -91,6 +91,37 @@ void Draw::place_contact(const BodyRef& i_body, const BodyRef& j_body, bool two_
   c.jfloat = floating(j_body);
   if (two_curves) c.ifloat = floating(i_body);
   m_.contacts.push_back(c);
+  const auto note = [&](int marker, const CurveShape& shape, Real u) {
+    const Vec d = shape.at<Real>(u, 1);
+    if (norm(cross(d, shape.at<Real>(u, 2))) > 0.4L * std::pow(norm(d), 3.0L) / L_) floating_.push_back(marker);
+  };
+  note(c.jfloat, b, c.v);
+  if (two_curves) note(c.ifloat, shape_of(m_, c.icurve), c.u);
+}
+
+// Measures of floating markers, and in their axes.
+Expr Draw::at_contact(int order) {
+  const int f = one_of(floating_);
+  for (int attempt = 0; attempt < 50; ++attempt) {
+    const auto [i, j] = distant_pair(true);
+    const Vec d = here_->markers()[static_cast<std::size_t>(here_->marker_index(f))].p -
+                  here_->markers()[static_cast<std::size_t>(here_->marker_index(j))].p;
+    if (norm(d) < 0.3L * L_) continue;
+    const auto along = [&](Measure x) { return static_cast<Measure>(static_cast<int>(x) + pick(3)); };
+    const bool turning = body_of(i).kind != BodyKind::point_mass && chance(0.4);
+    if (order == 0) {
+      if (turning) return 0.5 * measure(along(chance(0.5) ? Measure::AX : Measure::YAW), {i, f});
+      return (1 / L_) * (chance(0.5) ? measure(along(Measure::DX), {f, j, one_of(oriented_)})
+                                     : measure(along(Measure::DX), {i, j, f}));
+    }
+    const Measure linear = along(order == 1 ? Measure::VX : Measure::ACCX);
+    const Measure angular = along(order == 1 ? Measure::WX : Measure::WDTX);
+    const double scale = order == 1 ? 0.3 : 0.02;
+    if (turning) return scale * (order == 1 ? measure(angular, {f, j, i}) : measure(angular, {f, j, i, j}));
+    if (chance(0.5)) return (scale / L_) * measure(linear, {f, j, one_of(oriented_), one_of(oriented_)});
+    return (scale / L_) * measure(linear, {i, j, f, chance(0.5) ? f : j});
+  }
+  return displacement();
 }
 
 void Draw::draw_contacts() {

@@ -65,6 +65,7 @@ Expr Draw::velocity() {
 }
 
 Expr Draw::acceleration() {
+  if (here_ && !floating_.empty() && chance(0.2)) return at_contact(2);
   const auto [i, j] = distant_pair(true);
   const double r = uniform(0, 1);
   if (r < 0.05) return (0.05 / L_) * measure(Measure::ACCM, {i, j});
@@ -117,7 +118,7 @@ Expr Draw::load() {
 
 Expr Draw::contact_load() {
   const Contact& c = one_of(m_.contacts);
-  const int rm = chance(0.4) ? 0 : one_of(oriented_);
+  const int rm = chance(0.4) ? 0 : one_of(floating_.empty() || chance(0.5) ? oriented_ : floating_);
   const bool torque = c.two_curves && chance(0.3);  // there is none about a single point
   const int comp = torque ? 6 + pick(3) : 2 + pick(3);
   const double scale = 0.2 / (torque ? F_ * L_ : F_);

@@ -127,6 +127,8 @@ class Model {
     int body = 0;
     Vec p;
     Mat R;
+    int contact = -1;  // that holds a floating marker
+    bool on_i = false;
   };
   struct Pair {
     Vec e;  // unit vector from J to I

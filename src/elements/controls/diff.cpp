@@ -107,7 +107,9 @@ class DiffSet final : public TypedSet<Diff> {
                            d.initial.empty() ? 0.0 : d.initial[0], d.initial.size() > 1 ? d.initial[1] : 0.0});
     }
     const RateReduction reduction = reduce_rates(equations);
-    for (const RateReduction::Refusal& r : reduction.refusals) layout.problems.push_back(text(r));
+    for (const RateReduction::Refusal& r : reduction.refusals) {
+      layout.problems.error("unfit-condition", labels[r.members.front()].at, text(r));
+    }
 
     std::vector<FunctionEquationKernel::Item> items;
     for (std::size_t k = 0; k < elements.size(); ++k) {
