@@ -147,6 +147,8 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
     }
     before = imbalance;
     if (!lu.factor(matrix)) {
+      if (const std::string reason = system.departure(motion); !reason.empty())
+        return tl::unexpected(Failure{"acceleration initial conditions", reason, {}});
       Failure f{"acceleration initial conditions", "the accelerations are not determined",
                 undetermined(system, saddle, std::move(matrix))};
       if (!f.details.empty())

@@ -55,10 +55,11 @@ Violation position_violation(const System& system, const ConstraintRows& rows) {
 
 Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op, Findings& findings, Starts starts) {
   const Layout& layout = system.layout();
-  if (!layout.problems.empty()) {
-    Failure f{"initial conditions", layout.problems.front().message, {}};
-    for (std::size_t k = 1; k < layout.problems.size(); ++k) f.details.push_back(layout.problems[k].message);
-    return tl::unexpected(f);
+  if (layout.problems.has_errors()) {
+    Failure f{"initial conditions", layout.problems.items().front().message, {}};
+    for (std::size_t k = 1; k < layout.problems.items().size(); ++k)
+      f.details.push_back(layout.problems.items()[k].message);
+    return tl::unexpected(std::move(f));
   }
   ConstraintRows rows;
   const std::size_t row_count = layout.row_count() + (starts == Starts::held ? system.starts().size() : 0);

@@ -44,8 +44,8 @@ class Session {
 
   // What only showed while the equations were made: wrong input like any other.
   bool sound() const {
-    for (const Diagnostic& d : system_.layout().problems) err_ << render(d);
-    return system_.layout().problems.empty();
+    fmt::print(err_, "{}", render(system_.layout().problems));
+    return !system_.layout().problems.has_errors();
   }
 
   int run() {

@@ -152,6 +152,11 @@ std::size_t ParametricCurve::piece(double u) const {
   return static_cast<std::size_t>(above - breaks_.begin()) - 1;
 }
 
+bool ParametricCurve::straight_at(double u) const {
+  const Vec3<double> slope = at(u, 1);
+  return !(norm(cross(slope, at(u, 2))) > 1e-9 * dot(slope, slope));
+}
+
 double ParametricCurve::difference(double u, double v) const {
   return shape_ == Shape::closed ? std::remainder(u - v, 2.0) : u - v;
 }

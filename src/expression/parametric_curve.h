@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "base/dual.h"
@@ -32,6 +33,11 @@ class ParametricCurve {
   // tangent beyond its ends. At a knot the piece to its right counts.
   template <class T>
   Vec3<T> at(const T& u, int derivative = 0) const;
+  // The point with axes: x along the tangent towards growing u, y away from the centre of curvature, z = x × y. Where
+  // the curve is straight, a radius of 10⁹ times its size included, y and z are NaN.
+  template <class T>
+  Frame<T> frame(const T& u) const;
+  bool straight_at(double u) const;
   // Whether the curve exists at u.
   bool reaches(double u) const { return shape_ == Shape::closed || std::abs(u) <= 1 + end_tolerance; }
   // u − v, by way of the closure where that is shorter.
@@ -84,6 +90,20 @@ Vec3<T> ParametricCurve::at(const T& u, int derivative) const {
     sum = {sum.x * s + c.x, sum.y * s + c.y, sum.z * s + c.z};
   }
   return sum;
+}
+
+template <class T>
+Frame<T> ParametricCurve::frame(const T& u) const {
+  const Vec3<T> tangent = at(u, 1);
+  const Vec3<T> x = tangent / norm(tangent);
+  if (straight_at(value_of(u))) {
+    const T none(std::numeric_limits<double>::quiet_NaN());
+    const Vec3<T> unknown{none, none, none};
+    return {at(u), {x, unknown, unknown}};
+  }
+  const Vec3<T> across = cross(at(u, 2), tangent);
+  const Vec3<T> z = across / norm(across);
+  return {at(u), {x, cross(z, x), z}};
 }
 
 }  // namespace dynalin

@@ -112,11 +112,10 @@ Mechanism Mechanism::from_text(std::string dataset, std::string name, const Read
   auto state =
       std::make_unique<State>(source, std::shared_ptr<const Model>(std::move(built.value)),
                               SystemOptions{options.pade_delays ? DelayReading::pade : DelayReading::first_order});
-  if (const auto& problems = state->system.layout().problems; !problems.empty()) {
-    std::string text;
-    messages.clear();
-    for (const Diagnostic& d : problems) text += render(d), messages.push_back(d.message);
-    throw Error(text, messages);
+  if (const Diagnostics& problems = state->system.layout().problems; problems.has_errors()) {
+    std::vector<std::string> reasons;
+    for (const Diagnostic& d : problems.items()) reasons.push_back(d.message);
+    throw Error(render(problems), std::move(reasons));
   }
   state->warnings.insert(state->warnings.begin(), messages.begin(), messages.end());
   return Mechanism(std::move(state));

@@ -10,7 +10,7 @@ namespace dynalin {
 namespace {
 
 template <std::size_t N>
-void add_measure_gradient(Measure measure, const std::array<MarkerPlace, 4>& places, const Motion& motion, BodyId body,
+void add_measure_gradient(Measure measure, const std::array<PlacedMarker, 4>& places, const Motion& motion, BodyId body,
                           Equations& eq, std::int32_t row, double factor, Column velocity_family) {
   const BodyBlock& block = eq.layout().body(body);
   const auto g = path::seeded_measure<N>(measure, places, motion, body).value.partial;
@@ -47,13 +47,20 @@ bool reads_axes(Measure m, std::size_t k) {
   }
 }
 
-// A floating marker has no place of its own, and on a curve axes that no measure follows.
-void check_marker(const Signals& signals, const Atom& atom, MarkerId m, bool axes) {
-  if (signals.has_origin(m) && (!axes || signals.has_axes(m))) return;
-  signals.problem(std::string(atom.at.text()) + " reads the " + (signals.has_origin(m) ? "axes" : "place") + " of " +
-                      signals.layout().marker_labels[static_cast<std::size_t>(m.index)].full_text() +
-                      ", a floating marker, which is not available",
-                  atom.at);
+// Where a marker is, and its axes where they are read: a floating marker has no place of its own. One on a curve whose
+// axes do not matter is as well at the origin of the fixed marker that lies there, if there is one.
+PlacedMarker find_marker(const Signals& signals, const Atom& atom, std::int64_t id, bool axes) {
+  const Layout& layout = signals.layout();
+  const MarkerId m = signals.marker(id), followed = signals.place_of(m);
+  if (!signals.has_place(m)) {
+    signals.problem("unplaced-marker", atom.at,
+                    std::string(atom.at.text()) + " reads " +
+                        layout.marker_labels[static_cast<std::size_t>(m.index)].full_text() +
+                        ", a floating marker that no element gives a place");
+  }
+  const CurvePoint* on = layout.curve_point(m);
+  if (!on || (!axes && !(followed == m))) return {layout.marker(followed)};
+  return {layout.marker(on->carrier), on->curve.get(), on->coordinate, layout.extra_index(on->coordinate)};
 }
 
 }  // namespace
@@ -74,16 +81,31 @@ BoundExpression::BoundExpression(Expression expression, const Signals& signals, 
       const bool impossible = a.kind == Kind::force || (a.kind == Kind::measure && a.order == 2) ||
                               (a.kind == Kind::channel && a.channel.kind == Channel::Kind::state_rate);
       if (impossible) {
-        signals.problem(std::string(atom.at.text()) +
+        signals.problem("unknown-rate", atom.at,
+                        std::string(atom.at.text()) +
                             " stands in an expression whose time derivative DIF1 or DELAY needs, and has none that is "
                             "known",
-                        atom.at, "a DELAY needs none as a Padé approximant, run with --pade");
+                        "a DELAY needs none as a Padé approximant, run with --pade");
       } else if (a.kind == Kind::channel) {
         atoms_.back().rate = signals.rate_of(a.channel);
       }
     }
     if (a.kind != Kind::time && a.kind != Kind::mode && a.kind != Kind::constant) only_time_ = false;
   }
+}
+
+void BoundExpression::note_parameter(BoundAtom& a, const PlacedMarker& marker) {
+  const auto end = a.parameters.begin() + a.parameter_count;
+  if (marker.curve && std::find(a.parameters.begin(), end, marker.parameter) == end) {
+    a.parameters[a.parameter_count++] = marker.parameter;
+  }
+}
+
+const Atom* BoundExpression::atom_on_curve() const {
+  for (std::size_t k = 0; k < atoms_.size(); ++k) {
+    if (atoms_[k].parameter_count > 0) return &expression_.atoms()[k];
+  }
+  return nullptr;
 }
 
 BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals& signals, Binding binding) const {
@@ -99,10 +121,10 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
       a.measure = *find_measure(f.name);
       a.order = f.order;
       for (std::size_t k = 0; k < 4; ++k) {
-        const MarkerId written = signals.marker(k < atom.argument_count ? atom.argument[k] : 0);
-        check_marker(signals, atom, written, reads_axes(a.measure, k));
-        a.places[k] = signals.layout().marker(signals.place_of(written));
-        const BodyId body = a.places[k].body;
+        const std::int64_t written = k < atom.argument_count ? atom.argument[k] : 0;
+        a.places[k] = find_marker(signals, atom, written, reads_axes(a.measure, k));
+        note_parameter(a, a.places[k]);
+        const BodyId body = a.places[k].place.body;
         const auto end = a.bodies.begin() + a.body_count;
         if (body != ground_body && std::find(a.bodies.begin(), end, body) == end) {
           a.bodies[a.body_count++] = body;
@@ -126,8 +148,8 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
       }
       a.channel = signals.data(atom);
       if (a.channel.kind == Channel::Kind::none) {
-        signals.problem(std::string(atom.at.text()) + " reads an entry that does not exist, or that nothing fills",
-                        atom.at);
+        signals.problem("unfilled-entry", atom.at,
+                        std::string(atom.at.text()) + " reads an entry that does not exist, or that nothing fills");
         a.channel = {Channel::Kind::constant, 0, 0};
       }
       a.kind = a.channel.kind == Channel::Kind::constant ? Kind::constant : Kind::channel;
@@ -141,8 +163,8 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
       a.kind = Kind::force;
       a.terms.push_back({signals.element(f.statement, atom.argument[0]), atom.argument[1] == 1});
       a.component = static_cast<std::uint8_t>(atom.argument[2]);
-      check_marker(signals, atom, signals.marker(atom.argument[3]), true);
-      a.axes_marker = signals.layout().marker(signals.place_of(signals.marker(atom.argument[3])));
+      a.axes_marker = find_marker(signals, atom, atom.argument[3], true);
+      note_parameter(a, a.axes_marker);
       break;
     case AtomFamily::marker_force: {
       a.kind = Kind::force;
@@ -156,8 +178,8 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
         const MarkerId other = is_I ? e.kernel->marker_J(e.index) : e.kernel->marker_I(e.index);
         if (from_all || other == j) a.terms.push_back({e, !is_I});
       }
-      check_marker(signals, atom, signals.marker(atom.argument[2]), true);
-      a.axes_marker = signals.layout().marker(signals.place_of(signals.marker(atom.argument[2])));
+      a.axes_marker = find_marker(signals, atom, atom.argument[2], true);
+      note_parameter(a, a.axes_marker);
       break;
     }
   }
@@ -206,7 +228,7 @@ double BoundExpression::atom_value(const BoundAtom& a, const Motion& motion) con
         sum += on_marker(w, t.on_J, is_torque(a.component));
       }
       if (is_magnitude(a.component)) return norm(sum);
-      return dot(motion.axes(a.axes_marker)[axis_of(a.component)], sum);
+      return dot(a.axes_marker.axes(motion)[axis_of(a.component)], sum);
     }
   }
   return 0;
@@ -223,8 +245,8 @@ Taylor BoundExpression::atom_along_motion(const BoundAtom& a, const Motion& moti
     return {atom_value(a, motion), is_state ? motion.state_rate[k] : missing, missing};
   }
   if (a.kind != Kind::measure) return {atom_value(a, motion)};
-  Taylor m = evaluate_measure<Taylor>(a.measure, {motion.frame(a.places[0]), motion.frame(a.places[1]),
-                                                  motion.frame(a.places[2]), motion.frame(a.places[3])});
+  Taylor m = evaluate_measure<Taylor>(a.measure, {a.places[0].frame(motion), a.places[1].frame(motion),
+                                                  a.places[2].frame(motion), a.places[3].frame(motion)});
   if (a.memory >= 0) m.value = unwrapped(m.value, motion.memory[static_cast<std::size_t>(a.memory)]);
   return m;
 }
@@ -287,6 +309,13 @@ void BoundExpression::add_atom(const BoundAtom& a, const Motion& motion, Equatio
       if (a.order == 1) add_levels.operator()<12>();
       if (a.order == 2) add_levels.operator()<18>();
     }
+    const std::array families = {Column::position, velocity_family, Column::acceleration};
+    for (std::size_t p = 0; p < a.parameter_count; ++p) {
+      const auto m = path::measure_by_parameter(a.measure, a.places, motion, a.parameters[p]);
+      for (std::size_t level = 0; level <= static_cast<std::size_t>(a.order); ++level) {
+        eq.add(families[level], row, a.parameters[p], factor == 0.0 ? 0.0 : factor * m.value.partial[level]);
+      }
+    }
   }
 }
 
@@ -306,13 +335,19 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
     const double size = norm(sum);
     if (size > 0) e = sum / size;
   } else {
-    e = motion.axes(a.axes_marker)[axis_of(a.component)];
-    const BodyBlock& block = eq.layout().body(a.axes_marker.body);
+    e = a.axes_marker.axes(motion)[axis_of(a.component)];
+    const BodyBlock& block = eq.layout().body(a.axes_marker.place.body);
     if (block.count == 6) {
       const Vector turn = cross(e, sum);
       for (std::size_t k = 0; k < 3; ++k) {
         eq.add(Column::position, row, block.offset + 3 + static_cast<std::int32_t>(k), factor * turn[k]);
       }
+    }
+    for (std::size_t p = 0; p < a.parameter_count; ++p) {
+      const auto axes = path::frame_by_parameter(motion, a.axes_marker, a.parameters[p]).axes;
+      const auto& axis = axes[axis_of(a.component)];
+      const Vector slope{axis.x.value.partial[0], axis.y.value.partial[0], axis.z.value.partial[0]};
+      eq.add(Column::position, row, a.parameters[p], factor * dot(slope, sum));
     }
   }
 
@@ -361,7 +396,7 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
 namespace {
 
 template <std::size_t N>
-void add_measure_row(Measure measure, const std::array<MarkerPlace, 4>& places, const Motion& motion, BodyId body,
+void add_measure_row(Measure measure, const std::array<PlacedMarker, 4>& places, const Motion& motion, BodyId body,
                      ConstraintRows& rows, std::int32_t row, const BodyBlock& block, const Taylor& partial,
                      RowLevel row_level) {
   const path::Seeded<N> m = path::seeded_measure<N>(measure, places, motion, body);
@@ -389,6 +424,12 @@ void add_measure_row(Measure measure, const std::array<MarkerPlace, 4>& places, 
 
 void BoundExpression::add_measure_to_row(const BoundAtom& a, const Motion& motion, ConstraintRows& rows,
                                          std::int32_t row, const Taylor& partial, RowLevel level) const {
+  // Only rows without reactions read curve parameters, and those are rows of positions.
+  for (std::size_t p = 0; p < a.parameter_count; ++p) {
+    const auto m = path::measure_by_parameter(a.measure, a.places, motion, a.parameters[p]);
+    rows.add_coordinate(row, a.parameters[p],
+                        partial * Taylor(m.value.partial[0], m.rate.partial[0], m.acceleration.partial[0]));
+  }
   for (std::size_t b = 0; b < a.body_count; ++b) {
     const BodyBlock& block = rows.layout().body(a.bodies[b]);
     if (a.order == 0) {
@@ -437,7 +478,14 @@ std::string BoundExpression::fault(const Motion& motion) const {
   std::vector<double> values;
   for (const BoundAtom& a : atoms_) values.push_back(atom_value(a, motion));
   for (std::size_t k = 0; k < values.size(); ++k) {
-    if (!std::isfinite(values[k])) return std::string(expression_.atoms()[k].at.text()) + " has no finite value";
+    if (std::isfinite(values[k])) continue;
+    const BoundAtom& a = atoms_[k];
+    const bool straight =
+        a.axes_marker.straight(motion) ||
+        std::any_of(a.places.begin(), a.places.end(), [&](const auto& p) { return p.straight(motion); });
+    return std::string(expression_.atoms()[k].at.text()) +
+           (straight ? " reads the y or z axis of a marker at a point of contact where the curve is straight"
+                     : " has no finite value");
   }
   const auto found = expression_.find_fault<double>(values, FaultSearch::value_and_partials);
   return found ? found->reason : std::string();

@@ -7,6 +7,7 @@
 #include "expression/expression.h"
 #include "expression/measures.h"
 #include "mechanics/kernel.h"
+#include "mechanics/placed_marker.h"
 
 namespace dynalin {
 
@@ -25,6 +26,8 @@ class BoundExpression {
   bool only_time() const { return only_time_; }
   bool reads_channels() const { return reads_channels_; }  // algebraic values, states or their rates
   bool is_constant() const { return atoms_.empty(); }
+  // The first atom that reads how a marker moves along a curve, null if none does.
+  const Atom* atom_on_curve() const;
 
   double value(const Motion&, ExpressionScratch&) const;
   // With respect to the atoms of the expression, in their order; lives in the scratch.
@@ -61,15 +64,17 @@ class BoundExpression {
     Channel channel, rate;  // rate: of the channel, where it is wanted
     Measure measure = Measure::DX;
     std::int8_t order = 0;
-    std::array<MarkerPlace, 4> places;  // i, j, k, l
-    std::array<BodyId, 4> bodies{};     // the distinct bodies among them that move
-    std::uint8_t body_count = 0;
+    std::array<PlacedMarker, 4> places;        // i, j, k, l
+    std::array<BodyId, 4> bodies{};            // the distinct bodies among them that move
+    std::array<std::int32_t, 4> parameters{};  // the distinct curve parameters among them, as coordinates
+    std::uint8_t body_count = 0, parameter_count = 0;
     std::int32_t memory = -1;  // total angle of a measure that counts turns
     std::vector<ForceTerm> terms;
     std::uint8_t component = 1;  // 1–8: FM FX FY FZ TM TX TY TZ
-    MarkerPlace axes_marker;
+    PlacedMarker axes_marker;
   };
 
+  static void note_parameter(BoundAtom&, const PlacedMarker&);
   BoundAtom bind(const Atom&, const Signals&, Binding) const;
   double atom_value(const BoundAtom&, const Motion&) const;
   void fill_rates(const Motion&, ExpressionScratch&) const;  // atoms with their values and rates

@@ -55,9 +55,10 @@ Vec3<TimeTaylor<Dual<6>>> turned(std::size_t axis, const Vec3<TimeTaylor<Dual<6>
 }
 
 // The marker frame varied first along `outer`, then, at the varied motion, along `inner`.
-Frame<Nested> nested_frame(const Motion& motion, const MarkerPlace& place, const Direction& inner,
+Frame<Nested> nested_frame(const Motion& motion, const PlacedMarker& marker, const Direction& inner,
                            const Direction& outer) {
-  const Frame<Taylor> plain = motion.frame(place);
+  const MarkerPlace& place = marker.place;
+  const Frame<Taylor> plain = marker.frame(motion);
   const BodyMotion& b = motion.body(place.body);
   const Vec3<Taylor> arm = plain.origin - along_motion(b.r, b.rdot, b.rddot);
 
@@ -158,7 +159,7 @@ namespace {
 
 // Partials of X and X′ of a measure by δq, δq′ … of one body.
 template <std::size_t N>
-void add_measure_rate(Measure measure, const std::array<MarkerPlace, 4>& places, const Motion& motion, BodyId body,
+void add_measure_rate(Measure measure, const std::array<PlacedMarker, 4>& places, const Motion& motion, BodyId body,
                       Equations& eq, std::int32_t row, double by_value, double by_rate, Column velocity_family) {
   const BodyBlock& block = eq.layout().body(body);
   const auto m = path::seeded_measure<N>(measure, places, motion, body);
@@ -209,6 +210,14 @@ void BoundExpression::add_rate(const Motion& motion, Equations& eq, std::int32_t
     const double by_value = factor * scratch.taylor_partials[k].rate,
                  by_rate = factor * scratch.taylor_partials[k].value;
     if (a.kind == Kind::measure) {
+      const std::array families = {Column::position, velocity_family, Column::acceleration};
+      for (std::size_t p = 0; p < a.parameter_count; ++p) {
+        const auto m = path::measure_by_parameter(a.measure, a.places, motion, a.parameters[p]);
+        for (std::size_t level = 0; level <= static_cast<std::size_t>(a.order) + 1; ++level) {
+          eq.add(families[level], row, a.parameters[p],
+                 by_value * m.value.partial[level] + by_rate * m.rate.partial[level]);
+        }
+      }
       for (std::size_t b = 0; b < a.body_count; ++b) {
         if (a.order == 0) {
           add_measure_rate<12>(a.measure, a.places, motion, a.bodies[b], eq, row, by_value, by_rate, velocity_family);

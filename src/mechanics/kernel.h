@@ -101,9 +101,8 @@ class Signals {
   virtual MarkerId marker(std::int64_t id) const = 0;  // global_frame for 0
   // The fixed marker at which a floating one is, any other itself.
   virtual MarkerId place_of(MarkerId) const = 0;
-  // Whether origin and axes of place_of() are those of the marker: a floating one may have neither.
-  virtual bool has_origin(MarkerId) const = 0;
-  virtual bool has_axes(MarkerId) const = 0;
+  // Whether anything gives the marker a place: a floating one may have none.
+  virtual bool has_place(MarkerId) const = 0;
   virtual Channel variable(VariableRef) const = 0;
   // Entry `n` (0-based) of an ARRAY of any type.
   virtual Channel array_entry(ArrayRef, std::size_t n) const = 0;
@@ -115,7 +114,7 @@ class Signals {
   // The time derivative of a channel; that of an algebraic value becomes an unknown of its own.
   virtual Channel rate_of(const Channel&) const = 0;
   // Notes why the model cannot be solved as it stands, and where that is written.
-  virtual void problem(std::string, const Span& at = {}, std::string hint = {}) const = 0;
+  virtual void problem(std::string_view code, const Span& at, std::string, std::string hint = {}) const = 0;
   // Gives a call its SPLINE or CURVE.
   virtual void attach(SplineUse&) const = 0;
   struct Element {

@@ -24,6 +24,13 @@ std::int32_t Layout::add_extra(ElementLabel label, std::vector<ExtraCoordinate> 
   return offset;
 }
 
+const CurvePoint* Layout::curve_point(MarkerId m) const {
+  for (const CurvePoint& p : curve_points) {
+    if (p.marker == m) return &p;
+  }
+  return nullptr;
+}
+
 std::int32_t Layout::add_row(const ElementLabel& owner, std::string_view name, RowLevel level) {
   rows.push_back({&owner, name, level});
   return last_index(rows.size());

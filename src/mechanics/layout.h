@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,15 @@ struct ExtraBlock {
   std::vector<ExtraCoordinate> coordinates;
 };
 
+class ParametricCurve;
+
+// A floating marker at a point of contact: on the curve that another marker carries, at a coordinate outside bodies.
+struct CurvePoint {
+  MarkerId marker, carrier;
+  std::shared_ptr<const ParametricCurve> curve;
+  std::int32_t coordinate = -1;
+};
+
 enum class RowLevel : std::uint8_t { position, velocity };
 
 struct ConstraintRow {
@@ -74,6 +84,7 @@ class Layout {
   std::vector<MarkerPlace> markers;  // by MarkerId
   std::vector<ElementLabel> marker_labels;
   std::vector<ExtraBlock> extras;
+  std::vector<CurvePoint> curve_points;
   std::vector<ConstraintRow> rows;
   std::vector<AlgebraicUnknown> algebraic;
   std::vector<DifferentialState> states;
@@ -98,8 +109,10 @@ class Layout {
   std::int32_t add_memory(double initial = 0);
 
   std::size_t row_count() const { return rows.size(); }
+  // The contact that holds a floating marker, null if none does.
+  const CurvePoint* curve_point(MarkerId) const;
   // Why the model cannot be solved as it stands, found while its equations were made.
-  std::vector<Diagnostic> problems;
+  Diagnostics problems;
   std::vector<std::string> remarks;  // worth a warning in every run
   // "DX of PART/3" and the like, for messages.
   std::string coordinate_text(std::int32_t coordinate) const;

@@ -3,19 +3,24 @@
 
 #include "expression/measures.h"
 #include "mechanics/path.h"
+#include "mechanics/placed_marker.h"
 
 namespace dynalin::path {
 
 template <std::size_t N>
 using Seeded = TimeTaylor<Dual<N>>;
 
+template <std::size_t N>
+Frame<Seeded<N>> constant(const Frame<Taylor>& f) {
+  return {constant<N>(f.origin), {constant<N>(f.axes.x), constant<N>(f.axes.y), constant<N>(f.axes.z)}};
+}
+
 // The marker frame with path variations of `body` as seeds: 6 a level, δr then δθ, levels 0 … N/6 − 1.
 template <std::size_t N>
-Frame<Seeded<N>> seeded_frame(const Motion& motion, const MarkerPlace& place, BodyId body) {
-  const Frame<Taylor> plain = motion.frame(place);
-  Frame<Seeded<N>> f{constant<N>(plain.origin),
-                     {constant<N>(plain.axes.x), constant<N>(plain.axes.y), constant<N>(plain.axes.z)}};
-  if (place.body != body) return f;
+Frame<Seeded<N>> seeded_frame(const Motion& motion, const PlacedMarker& marker, BodyId body) {
+  const Frame<Taylor> plain = marker.frame(motion);
+  Frame<Seeded<N>> f = constant<N>(plain);
+  if (marker.place.body != body) return f;
   const BodyMotion& b = motion.body(body);
   const Vec3<Taylor> arm = plain.origin - along_motion(b.r, b.rdot, b.rddot);
   for (std::size_t level = 0; 6 * level < N; ++level) {
@@ -31,8 +36,24 @@ Frame<Seeded<N>> seeded_frame(const Motion& motion, const MarkerPlace& place, Bo
   return f;
 }
 
+// With variations of one curve parameter as seeds: one a level.
+inline constexpr std::size_t parameter_seeds = 6;
+inline Frame<Seeded<parameter_seeds>> frame_by_parameter(const Motion& motion, const PlacedMarker& marker,
+                                                         std::int32_t parameter) {
+  if (!marker.curve || marker.parameter != parameter) return constant<parameter_seeds>(marker.frame(motion));
+  Seeded<parameter_seeds> u = constant<parameter_seeds>(marker.along_motion(motion));
+  u.value.partial[0] = 1.0, u.rate.partial[1] = 1.0, u.acceleration.partial[2] = 1.0;
+  return marker.on_curve(constant<parameter_seeds>(motion.frame(marker.place)), u);
+}
+inline Seeded<parameter_seeds> measure_by_parameter(Measure measure, const std::array<PlacedMarker, 4>& places,
+                                                    const Motion& motion, std::int32_t parameter) {
+  const auto frame = [&](std::size_t k) { return frame_by_parameter(motion, places[k], parameter); };
+  return evaluate_measure<Seeded<parameter_seeds>>(measure, {frame(0), frame(1), frame(2), frame(3)});
+}
+
 template <std::size_t N>
-Seeded<N> seeded_measure(Measure measure, const std::array<MarkerPlace, 4>& places, const Motion& motion, BodyId body) {
+Seeded<N> seeded_measure(Measure measure, const std::array<PlacedMarker, 4>& places, const Motion& motion,
+                         BodyId body) {
   return evaluate_measure<Seeded<N>>(
       measure, {seeded_frame<N>(motion, places[0], body), seeded_frame<N>(motion, places[1], body),
                 seeded_frame<N>(motion, places[2], body), seeded_frame<N>(motion, places[3], body)});

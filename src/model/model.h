@@ -51,8 +51,7 @@ struct Marker {
   ElementLabel label;
   MarkerPlace place;
   bool floating = false;
-  MarkerId follows{};     // of a floating marker: the marker at whose origin an element holds it
-  bool on_curve = false;  // of a floating marker: its axes are those of a curve at the point of contact
+  MarkerId follows{};  // of a floating marker: the marker at whose origin an element holds it
 };
 
 struct Model {

@@ -37,11 +37,10 @@ class System::SystemSignals final : public Signals {
     const MarkerId followed = system_.model_->marker(m).follows;
     return followed.valid() ? followed : m;
   }
-  bool has_origin(MarkerId m) const override {
+  bool has_place(MarkerId m) const override {
     const Marker& marker = system_.model_->marker(m);
-    return !marker.floating || marker.follows.valid();
+    return !marker.floating || marker.follows.valid() || system_.layout_.curve_point(m);
   }
-  bool has_axes(MarkerId m) const override { return has_origin(m) && !system_.model_->marker(m).on_curve; }
   Channel variable(VariableRef ref) const override {
     return kernel(ref)->value_channel(static_cast<std::size_t>(ref.index));
   }
@@ -91,8 +90,8 @@ class System::SystemSignals final : public Signals {
   Channel delayed(const Atom& atom) const override {
     return delays_.channel_of(atom, "in " + statement_at(atom.at), system_.layout_);
   }
-  void problem(std::string text, const Span& at, std::string hint) const override {
-    system_.layout_.problems.push_back({Severity::error, "unsolvable-model", at, std::move(text), std::move(hint), {}});
+  void problem(std::string_view code, const Span& at, std::string text, std::string hint) const override {
+    system_.layout_.problems.error(code, at, std::move(text), std::move(hint));
   }
 
   // Equations for the rates that bound expressions asked for; each may ask for more.
@@ -105,8 +104,9 @@ class System::SystemSignals final : public Signals {
                       [&, a = algebraic, r = rate](auto& k) { return k->add_rate_equation(a, r, *this); });
       if (!made) {
         const ElementLabel& owner = *system_.layout_.algebraic[static_cast<std::size_t>(algebraic)].owner;
-        problem("a DIF1 or a DELAY needs the time derivative of " + owner.full_text() + ", which is not available",
-                owner.at, "a DELAY needs none as a Padé approximant, run with --pade");
+        problem("unknown-rate", owner.at,
+                "a DIF1 or a DELAY needs the time derivative of " + owner.full_text() + ", which is not available",
+                "a DELAY needs none as a Padé approximant, run with --pade");
       }
     }
   }

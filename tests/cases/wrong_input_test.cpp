@@ -79,10 +79,10 @@ const std::vector<Wrong>& table() {
     {Place::added, "JOINT/9, REVOLUTE, I=20, J=1, IC=1,2,3", {"wrong-count 10:31"}},
     {Place::added, "MOTION/9, JOINT=1, FUNCTION=1, D=3", {"unexpected-value 10:32"}},
     {Place::added, "DIFF/9, IMPLICIT, FUNCTION=DIF(9)-1, DYNAMIC_HOLD", {"unexpected-argument 10:38"}},
-    {Place::added, "VARIABLE/9, FUNCTION=2*ARYVAL(9,3)\nARRAY/9, NUMBERS=1,2", {"unsolvable-model 10:24"}},
+    {Place::added, "VARIABLE/9, FUNCTION=2*ARYVAL(9,3)\nARRAY/9, NUMBERS=1,2", {"unfilled-entry 10:24"}},
     {Place::added, "VARIABLE/9, FUNCTION=DELAY(VARVAL(1),1,0,9)", {"unknown-element 10:42"}},
     {Place::added, "VARIABLE/9, FUNCTION=DELAY(VARVAL(8),DX(29),AKISPL(TIME,0,7))", {"unknown-element 10:35", "unknown-marker 10:41", "unknown-element 10:59"}},
-    {Place::added, "VARIABLE/9, FUNCTION=DELAY(SFORCE(9,0,1,0),1,0)\nSFORCE/9, TRANSLATIONAL, I=21, J=1, FUNCTION=1", {"unsolvable-model 10:28"}},
+    {Place::added, "VARIABLE/9, FUNCTION=DELAY(SFORCE(9,0,1,0),1,0)\nSFORCE/9, TRANSLATIONAL, I=21, J=1, FUNCTION=1", {"unknown-rate 10:28"}},
     {Place::added, "JOINT/9, REVOLUTE, I=20, J=1, FRICTION=ON, MU_STAT_ROT=0.3, INNER=2, PRELOAD_ONLY", {"obsolete-argument 10:31"}},
     {Place::added, "PART/9, GROUND, MASS=1", {"duplicate-ground 10:1", "argument-of-ground 10:9"}},
     {Place::added, "MARKER/9, PART=2, RM=8\nMARKER/8, PART=2, RM=9", {"circular-reference 10:1", "circular-reference 11:1"}},
@@ -263,6 +263,9 @@ const std::vector<Wrong>& table() {
     {Place::added, "CVCV/9, IFLOAT=8, ICURVE=9, IRM=20, JFLOAT=8, JCURVE=9, JRM=1\nMARKER/8, PART=2, FLOATING\nCURVE/9, OPEN, MATRIX=9\nMATRIX/9, FULL=RORDER, ROWS=4, COLUMNS=3, VALUES=1,2,0,4,5,0,7,8,0,1,2,0", {"foreign-marker 10:1"}},
     {Place::added, "CVCV/9, IFLOAT=8, ICURVE=9, IRM=20, JCURVE=9, JRM=1, IICM=20\nMARKER/8, PART=2, FLOATING\nCURVE/9, OPEN, MATRIX=9\nMATRIX/9, FULL=RORDER, ROWS=4, COLUMNS=3, VALUES=1,2,0,4,5,0,7,8,0,1,2,0", {"missing-argument 10:1"}},
     {Place::added, "VARIABLE/9, FUNCTION=CURVE(0.5,0,1,77)", {"unknown-element 10:36"}},
+    {Place::added, "VARIABLE/9, FUNCTION=1+DX(9)\nMARKER/9, PART=1, FLOATING", {"unplaced-marker 10:24"}},
+    {Place::added, "VARIABLE/9, FUNCTION=ARYVAL(9,1)\nARRAY/9, X", {"unfilled-entry 10:22"}},
+    {Place::added, "GCON/9, FUNCTION=DX(20,1,9)\nPTCV/9, I=20, JFLOAT=9, RM=1, CURVE=9\nMARKER/9, PART=1, FLOATING\nCURVE/9, OPEN, MATRIX=9\nMATRIX/9, FULL=RORDER, ROWS=4, COLUMNS=3, VALUES=1,2,3,4,5,6,7,8,9,1,2,4", {"unfit-constraint 10:18"}},
     {Place::added, "FIELD/9, I=20, J=1, FUNCTION=USER(1,2), LENGTH=1,2,3,4,5,6", {"function-not-built 10:30"}},
     {Place::added, "FIELD/9, I=20, J=1, FUNCTION=3*DX(20,1)", {"unknown-word 10:30"}},
     {Place::added, "FIELD/9, I=20, J=1, NONLINEAR, KMATRIX=1", {"unknown-argument 10:21"}},
@@ -322,6 +325,8 @@ TEST(WrongInputTable, has_every_code_but_those_that_unit_tests_hold) {
       "ambiguous-keyword", "degrees-not-exponent", "not-text", "too-many-errors", "empty-expression", "missing-id",
       // command_file_test
       "missing-model",
+      // implicit_diff_test
+      "unfit-condition",
       // dataset/matrix_file_test
       "matrix-complex", "matrix-count", "matrix-entry", "matrix-file-type", "matrix-header", "matrix-implied-point",
       "matrix-missing", "matrix-number", "matrix-truncated"};

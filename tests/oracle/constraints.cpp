@@ -53,6 +53,7 @@ void Model::read_rows() {
   for (std::size_t k = 0; k < mechanism_.joints.size(); ++k) read_joint(k);
   read_relations();
   read_motions();
+  read_contacts();
   for (const bool of_rates : {false, true}) {
     for (const Gcon& g : mechanism_.gcons) {
       if (g.of_rates != of_rates) continue;
@@ -151,7 +152,9 @@ void Model::refresh_gradients() {
   for (Row& row : rows) {
     if (row.type != Row::Type::expression) continue;
     row.gradient.assign(bodies.size(), Wrench{});
+    const Node& node = *row.function.node;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
+      if (node.op == Op::gap && !touches(static_cast<std::size_t>(node.ids[0]), static_cast<int>(b))) continue;
       for (int c = 0; c < 6; ++c) {
         Variation variation{static_cast<int>(b), Vec{}, Vec{}, row.of_rates};
         set_component(c < 3 ? variation.shift : variation.turn, c % 3, 1);

@@ -53,6 +53,11 @@ Real Model::load_value(const Node& n) const {
     }
     case Op::gforce:
       return wrench_component(general_wrench(numbered(mechanism_.gforces, has_id)), Vec{}, n.ids);
+    case Op::contact: {
+      const std::size_t k = numbered(
+          mechanism_.contacts, [&](const Contact& c) { return c.id == n.ids[0] && c.two_curves == (n.ids[4] != 0); });
+      return wrench_component(contact_wrench(k), Vec{}, n.ids);
+    }
     case Op::marker_force:
       return wrench_component(net_wrench(n.ids[0], n.ids[1]), Vec{}, {0, 0, n.ids[2], n.ids[3]});
     default:
@@ -91,6 +96,14 @@ Wrench Model::net_wrench(int i_id, int j_id) const {
     const Wrench w = general_wrench(k);
     if (marker_index(f.i) == i && (j < 0 || marker_index(f.jfloat) == j)) sum.f += w.f, sum.t += w.t;
     if (marker_index(f.jfloat) == i && (j < 0 || marker_index(f.i) == j)) sum.f += -w.f, sum.t += -w.t;
+  }
+  for (std::size_t k = 0; k < mechanism_.contacts.size(); ++k) {
+    // Floating markers stand at the contact, and so does I of a PTCV.
+    const Contact& c = mechanism_.contacts[k];
+    const int on_i = marker_index(c.two_curves ? c.ifloat : c.i), on_j = marker_index(c.jfloat);
+    const Wrench w = contact_wrench(k);
+    if (on_i == i && (j < 0 || on_j == j)) sum.f += w.f, sum.t += w.t;
+    if (on_j == i && (j < 0 || on_i == j)) sum.f += -w.f, sum.t += -w.t;
   }
   return sum;
 }

@@ -92,6 +92,32 @@ std::string coupler_text(const Coupler& c) {
       .text();
 }
 
+std::string curve_text(const Curve& c) {
+  Statement t("CURVE", c.id);
+  t.word(c.closed ? "CLOSED" : "OPEN").set("MATRIX", c.matrix);
+  if (c.controls) t.word("CONTROL_POINTS");
+  if (c.order != 4) t.set("ORDER", c.order);
+  return t.text();
+}
+
+std::string contact_text(const Contact& c) {
+  Statement t(c.two_curves ? "CVCV" : "PTCV", c.id);
+  const auto start = [&](const std::string& prefix, const auto& at, int axes, const auto& speed) {
+    if (at) t.set(prefix + "DISP", *at).set(prefix + "ICM", axes);
+    if (speed) t.set(prefix + "VEL", *speed);
+  };
+  if (!c.two_curves) {
+    t.set("I", c.i).set("JFLOAT", c.jfloat).set("CURVE", c.jcurve).set("RM", c.j);
+    start("", c.at_j, c.axes_j, c.speed_j);
+    return t.text();
+  }
+  t.set("IFLOAT", c.ifloat).set("ICURVE", c.icurve).set("IRM", c.i);
+  t.set("JFLOAT", c.jfloat).set("JCURVE", c.jcurve).set("JRM", c.j);
+  start("I", c.at_i, c.axes_i, c.speed_i);
+  start("J", c.at_j, c.axes_j, c.speed_j);
+  return t.text();
+}
+
 std::string motion_text(const Mechanism& m, const Motion& k) {
   const auto joint = std::find_if(m.joints.begin(), m.joints.end(), [&](const Joint& j) { return j.id == k.joint; });
   Statement t("MOTION", k.id);
@@ -307,6 +333,8 @@ std::string dataset_text(const Mechanism& m) {
     text += Statement("GEAR", g.id).set("JOINTS", integers({g.joints[0], g.joints[1]})).set("CV", g.cv).text();
   }
   for (const Gcon& g : m.gcons) text += Statement("GCON", g.id).set("FUNCTION", expression_text(g.function)).text();
+  for (const Curve& c : m.curves) text += curve_text(c);
+  for (const Contact& c : m.contacts) text += contact_text(c);
   for (const Motion& k : m.motions) text += motion_text(m, k);
   for (const SpringDamper& s : m.springs) text += spring_text(s);
   for (const Sforce& s : m.sforces) text += sforce_text(s);

@@ -28,13 +28,20 @@ Jet Evaluator<Jet>::without_rate(Real value) {
 
 template <>
 Evaluator<Real>::View Evaluator<Real>::view(int id) const {
-  const MarkerMotion& m = model_.markers_[static_cast<std::size_t>(model_.marker_index(id))];
+  const auto k = static_cast<std::size_t>(model_.marker_index(id));
+  if (model_.marker_data_[k].contact >= 0) {
+    return contact_view(static_cast<std::size_t>(model_.marker_data_[k].contact), model_.marker_data_[k].on_i);
+  }
+  const MarkerMotion& m = model_.markers_[k];
   return {m.p, m.v, m.a, m.w, m.al, m.axis};
 }
 
 template <>
 Evaluator<Jet>::View Evaluator<Jet>::view(int id) const {
   const auto k = static_cast<std::size_t>(model_.marker_index(id));
+  if (model_.marker_data_[k].contact >= 0) {
+    return contact_view(static_cast<std::size_t>(model_.marker_data_[k].contact), model_.marker_data_[k].on_i);
+  }
   const MarkerMotion& m = model_.markers_[k];
   const Vec no{}, dark{unknown, unknown, unknown};
   View out;
@@ -134,6 +141,10 @@ T Evaluator<T>::node(const Node& n) const {
       return T(0);
     case Op::delay:
       return without_rate(model_.delayed_value(n));
+    case Op::curve:
+      return curve(n);
+    case Op::gap:
+      return gap(n);
     default:
       return without_rate(model_.load_value(n));
   }
@@ -196,6 +207,11 @@ T Evaluator<T>::spectrum(const Node& n) const {
     sum = sum + T(size * std::cos(phase)) * sin(turn) + T(size * std::sin(phase)) * cos(turn);
   }
   return sum;
+}
+
+template <class T>
+T Evaluator<T>::curve(const Node& n) const {
+  return component(model_.curves_.at(n.ids[0]).at((*this)(n.arguments[0]), n.ids[1]), n.ids[2] - 1);
 }
 
 template <class T>

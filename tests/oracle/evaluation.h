@@ -22,8 +22,12 @@ class Evaluator {
   // A variation serves jets alone; without one their parameter is time.
   explicit Evaluator(const Model& model, const Variation* variation = nullptr) : model_(model), variation_(variation) {}
   [[nodiscard]] T operator()(const Expr& e) const { return node(*e.node); }
+  // Where a contact is on the curves of i and of j.
+  [[nodiscard]] std::array<T, 2> contact_parameters(std::size_t k) const;
 
  private:
+  template <class U>
+  friend class Evaluator;
   struct View {
     Vector3<T> p, v, a, w, al;
     std::array<Vector3<T>, 3> axis;
@@ -32,14 +36,26 @@ class Evaluator {
   [[nodiscard]] T measured(const Node& n) const;
   [[nodiscard]] T spline(const Node& n) const;
   [[nodiscard]] T spectrum(const Node& n) const;
+  [[nodiscard]] T curve(const Node& n) const;
+  [[nodiscard]] T gap(const Node& n) const;
   [[nodiscard]] T variable(int id) const;
   [[nodiscard]] T state(int id) const;
   [[nodiscard]] View view(int id) const;
+  [[nodiscard]] View contact_view(std::size_t contact, bool on_i) const;
   [[nodiscard]] static T without_rate(Real value);  // a quantity whose derivatives are not known
 
   const Model& model_;
   const Variation* variation_;
   mutable int depth_ = 0;
 };
+
+template <>
+Evaluator<Real>::View Evaluator<Real>::contact_view(std::size_t contact, bool on_i) const;
+template <>
+Evaluator<Jet>::View Evaluator<Jet>::contact_view(std::size_t contact, bool on_i) const;
+template <>
+Evaluator<Real>::View Evaluator<Real>::view(int id) const;
+template <>
+Evaluator<Jet>::View Evaluator<Jet>::view(int id) const;
 
 }  // namespace dynalin::oracle

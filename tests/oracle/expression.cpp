@@ -1,6 +1,7 @@
 #include "expression.h"
 
 #include <array>
+#include <stdexcept>
 #include <utility>
 
 #include "text.h"
@@ -129,6 +130,13 @@ Expr senval(int id) { return make(Op::senval, {}, {id}); }
 Expr delayed(const Expr& e, const Expr& lag, double start, double rate) {
   return make(Op::delay, {e, lag, constant(start), constant(rate)});
 }
+Expr curve_at(const Expr& u, int derivative, int component, int id) {
+  return make(Op::curve, {u}, {id, derivative, component});
+}
+Expr contact_reaction(bool two_curves, int id, int jflag, int component, int rm) {
+  return make(Op::contact, {}, {id, jflag, component, rm, two_curves ? 1 : 0});
+}
+Expr contact_gap(int contact, int row) { return make(Op::gap, {}, {contact, row}); }
 Expr call(Function function, std::vector<Expr> arguments) {
   Node node;
   node.op = Op::function;
@@ -213,6 +221,12 @@ std::string expression_text(const Expr& expression) {
       return "DELAY(" + argument(0) + ", " + argument(1) + ", " + argument(2) + " + " + argument(3) + "*TIME)";
     case Op::senval:
       return with_ids("SENVAL", 1);
+    case Op::curve:
+      return "CURVE(" + argument(0) + ", " + integers({n.ids[1], n.ids[2], n.ids[0]}) + ")";
+    case Op::contact:
+      return with_ids(n.ids[4] != 0 ? "CVCV" : "PTCV", 4);
+    case Op::gap:
+      throw std::logic_error("the language has no gaps of contacts");
   }
   return {};
 }

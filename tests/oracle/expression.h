@@ -40,7 +40,10 @@ enum class Op {
   spline,        // AKISPL, CUBSPL, INTERP
   spectrum,      // INVPSD
   senval,
-  delay
+  delay,
+  curve,    // CURVE
+  contact,  // PTCV, CVCV
+  gap       // of a contact, not of the language: what its rows hold at zero
 };
 
 enum class Function {
@@ -109,6 +112,11 @@ struct Node {
 [[nodiscard]] Expr senval(int id);
 // What e was `lag` ago; at a time before the start that is start + rate time.
 [[nodiscard]] Expr delayed(const Expr& e, const Expr& lag, double start, double rate);
+// Component 1..3 of a derivative of the curve.
+[[nodiscard]] Expr curve_at(const Expr& u, int derivative, int component, int id);
+[[nodiscard]] Expr contact_reaction(bool two_curves, int id, int jflag, int component, int rm);
+// Row 0 or 1 of a contact, by its place in the mechanism.
+[[nodiscard]] Expr contact_gap(int contact, int row);
 // `statement`: 0 GFORCE, 1 VFORCE, 2 VTORQUE, as general_statement says.
 [[nodiscard]] Expr gforce_load(int statement, int id, int jflag, int component, int rm);
 

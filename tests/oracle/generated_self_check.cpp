@@ -102,6 +102,7 @@ TEST(Oracle, dataset_repeats_for_a_seed_and_is_complete) {
 TEST(Oracle, two_hundred_seeds_are_varied_accurate_and_quick) {
   int loops = 0, two_loops = 0, massless = 0, points = 0, motions = 0, states = 0, accelerations = 0;
   int reactions = 0, deep = 0, algebraic = 0, units = 0, rolling = 0, unknowns = 0, relations = 0, wanted = 0;
+  int points_on = 0, curves_on = 0;
   double worst = 0;
   const auto start = std::chrono::steady_clock::now();
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
@@ -128,6 +129,8 @@ TEST(Oracle, two_hundred_seeds_are_varied_accurate_and_quick) {
     unknowns += f.algebraic_diffs > 0 ? 1 : 0;
     relations += m.couplers.empty() && m.gears.empty() ? 0 : 1;
     wanted += m.pstate.id != 0 ? 1 : 0;
+    points_on += f.points_on_curves > 0 ? 1 : 0;
+    curves_on += f.curves_on_curves > 0 ? 1 : 0;
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   std::printf("of 200: %d loops (%d two), %d massless, %d point masses, %d motions, %d control states\n", loops,
@@ -137,6 +140,7 @@ TEST(Oracle, two_hundred_seeds_are_varied_accurate_and_quick) {
   std::printf(
       "        %d velocity constraints, %d couplers or gears, %d algebraic DIFFs, %d deep reactions, %d PSTATE\n",
       rolling, relations, unknowns, deep, wanted);
+  std::printf("        %d points on curves, %d curves on curves\n", points_on, curves_on);
   std::printf("        worst error estimate %.1e, %.1f s\n", worst, seconds.count());
   EXPECT_GE(loops, 60);
   EXPECT_GE(two_loops, 10);
@@ -153,6 +157,8 @@ TEST(Oracle, two_hundred_seeds_are_varied_accurate_and_quick) {
   EXPECT_GE(unknowns, 60);
   EXPECT_GE(deep, 20);
   EXPECT_GE(wanted, 40);
+  EXPECT_GE(points_on, 25);
+  EXPECT_GE(curves_on, 12);
 }
 
 }  // namespace

@@ -171,7 +171,7 @@ int Draw::mobility() const {
     count += b.ref.kind == BodyKind::part ? 6 : (b.ref.kind == BodyKind::point_mass ? 3 : 0);
   }
   for (const Joint& j : m_.joints) count -= equations_of(j.type);
-  count -= static_cast<int>(m_.couplers.size() + m_.gears.size() + m_.gcons.size());
+  count -= static_cast<int>(m_.couplers.size() + m_.gears.size() + m_.gcons.size() + 2 * m_.contacts.size());
   return count - static_cast<int>(m_.motions.size());
 }
 
@@ -296,6 +296,7 @@ Mechanism Draw::mechanism() {
   draw_screws();
   draw_couplers();
   draw_gears();
+  draw_contacts();
   draw_motions();
   draw_measure_markers();
   draw_position_gcon();
@@ -303,6 +304,7 @@ Mechanism Draw::mechanism() {
   check_structure();
   draw_massless();
   draw_velocities();
+  draw_contact_starts();
   draw_springs();
   draw_linear_forces();
   draw_nforces();

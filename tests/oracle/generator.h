@@ -48,6 +48,10 @@ class Draw {
   void draw_screws();
   void draw_couplers();
   void draw_gears();
+  int draw_curve(bool plane);
+  void draw_contacts();
+  void place_contact(const BodyRef& i_body, const BodyRef& j_body, bool two_curves);
+  void draw_contact_starts();
   void draw_motions();
   void draw_position_gcon();
   void draw_velocity_gcon();
@@ -75,8 +79,14 @@ class Draw {
   Expr reaction();
   Expr load();
   Expr net_load();
+  Expr contact_load();
+  Expr at_contact(int order);
   Expr rate() { return one_of(rates_); }
-  Expr kinematic() { return chance(0.5) ? displacement() : velocity(); }
+  Expr kinematic() {
+    const int order = pick(2);
+    if (here_ && !floating_.empty() && chance(0.25)) return at_contact(order);
+    return order == 0 ? displacement() : velocity();
+  }
   // A smooth function of an argument of order one, so that second and higher derivatives matter.
   Expr shaped(const Expr& x);
   Expr curved(const Expr& x);
@@ -115,6 +125,7 @@ class Draw {
   std::vector<std::pair<BodyRef, BodyRef>> connected_;
   std::vector<int> oriented_;  // measure markers on ground and parts
   std::vector<int> all_;       // those and the ones on point masses
+  std::vector<int> floating_;  // at points of contact where the curve is bent, so that it has axes
   std::vector<int> features_, inputs_;
   std::vector<Expr> states_;   // DIF and ARYVAL of what the control elements offer
   std::vector<Expr> rates_;    // DIF1

@@ -45,6 +45,13 @@ void Draw::check_nodes(const Model& model, const Expr& e) const {
     const Real x = model.evaluate(n.arguments[0]);
     require(std::fabs(x) < 3.4L && std::fabs(x - std::round(x)) < 0.4L);
   }
+  if (n.op == Op::curve) {
+    const auto curve =
+        std::find_if(m_.curves.begin(), m_.curves.end(), [&](const Curve& c) { return c.id == n.ids[0]; });
+    const auto points = std::find_if(m_.matrices.begin(), m_.matrices.end(),
+                                     [&](const NumberMatrix& a) { return a.id == curve->matrix; });
+    require(CurveShape(*curve, *points).clearance(model.evaluate(n.arguments[0])) > 0.04L);
+  }
   if (n.op == Op::measure && n.measure >= Measure::AX) check_angle(model, n, model.evaluate(e));
   if (n.op == Op::function && n.function == Function::atan2) {
     const Real y = model.evaluate(n.arguments[0]), x = model.evaluate(n.arguments[1]);

@@ -65,6 +65,7 @@ Expr Draw::velocity() {
 }
 
 Expr Draw::acceleration() {
+  if (here_ && !floating_.empty() && chance(0.2)) return at_contact(2);
   const auto [i, j] = distant_pair(true);
   const double r = uniform(0, 1);
   if (r < 0.05) return (0.05 / L_) * measure(Measure::ACCM, {i, j});
@@ -83,6 +84,7 @@ Expr Draw::acceleration() {
 Expr Draw::reaction() {
   if (m_.joints.empty()) return acceleration();
   if (!m_.linears.empty() && chance(0.2)) return load();
+  if (!m_.contacts.empty() && chance(0.3)) return contact_load();
   if (chance(0.25)) return net_load();
   if (!m_.motions.empty() && chance(0.3)) {
     const Motion& m = one_of(m_.motions);
@@ -112,6 +114,21 @@ Expr Draw::load() {
   const LinearForce& f = one_of(m_.linears);
   const int comp = 1 + pick(8), flag = pick(2), rm = chance(0.4) ? 0 : one_of(oriented_);
   return (0.2 / (comp > 4 ? F_ * L_ : F_)) * linear_load(f.kind, f.id, flag, comp, rm);
+}
+
+Expr Draw::contact_load() {
+  const Contact& c = one_of(m_.contacts);
+  const int rm = chance(0.4) ? 0 : one_of(floating_.empty() || chance(0.5) ? oriented_ : floating_);
+  const bool torque = c.two_curves && chance(0.3);  // there is none about a single point
+  const int comp = torque ? 6 + pick(3) : 2 + pick(3);
+  const double scale = 0.2 / (torque ? F_ * L_ : F_);
+  if (chance(0.6)) {
+    const bool magnitude = !torque && chance(0.2);
+    return scale * contact_reaction(c.two_curves, c.id, pick(2), magnitude ? 1 : comp, rm);
+  }
+  const int i = c.two_curves ? c.ifloat : c.i;
+  const bool swap = chance(0.5);
+  return scale * marker_load(comp, swap ? c.jfloat : i, chance(0.5) ? 0 : swap ? i : c.jfloat, rm);
 }
 
 // Of a spring by its name; of a joint or a spring by its markers.
@@ -146,6 +163,10 @@ Expr Draw::net_load() {
 Expr Draw::shaped(const Expr& x) {
   switch (pick(12)) {
     case 0:
+      if (!m_.curves.empty() && chance(0.4)) {
+        // Near the middle of the open ones.
+        return (0.8 / L_) * curve_at(0.7 * call(Function::sin, {x}), pick(3), 1 + pick(3), one_of(m_.curves).id);
+      }
       return chance(0.25) ? signal(x) : interpolated(x);
     case 1:
       return call(Function::sin, {x});

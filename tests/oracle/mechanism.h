@@ -91,6 +91,26 @@ struct Gcon {
   Expr function;
 };
 
+// A spline of order k through points, the rows of a MATRIX, or along them as control points.
+struct Curve {
+  int id = 0, matrix = 0;
+  bool closed = false, controls = false;
+  int order = 4;
+};
+// Of a curve on marker j and the origin of marker i (PTCV), or of another curve on marker i (CVCV), in their x-y
+// planes.
+struct Contact {
+  int id = 0;
+  bool two_curves = false;
+  int i = 0, j = 0;
+  int ifloat = 0, jfloat = 0;            // PTCV: the latter alone
+  int icurve = 0, jcurve = 0;            // PTCV: the latter alone
+  double u = 0, v = 0;                   // near the parameters of the contact on i and on j; not written
+  std::optional<Triple> at_i{}, at_j{};  // IDISP, and JDISP or DISP
+  int axes_i = 0, axes_j = 0;            // IICM, and JICM or ICM
+  std::optional<double> speed_i{}, speed_j{};
+};
+
 // c0 + c1 t + c2 t^2 + c3 t^3 + amplitude sin(frequency t + phase)
 struct TimeFunction {
   std::array<double, 4> c{};
@@ -202,6 +222,8 @@ struct Mechanism {
   std::vector<Coupler> couplers;
   std::vector<Gear> gears;
   std::vector<Gcon> gcons;
+  std::vector<Curve> curves;
+  std::vector<Contact> contacts;
   std::vector<Motion> motions;
   std::vector<SpringDamper> springs;
   std::vector<Sforce> sforces;
@@ -234,6 +256,7 @@ struct Features {
   bool algebraic_loop = false, separate_im = false, units_factor = false;
   bool deep_reaction = false;  // a force reads a reaction through at least three VARVALs in a row
   int velocity_constraints = 0, algebraic_diffs = 0;
+  int points_on_curves = 0, curves_on_curves = 0;
 };
 [[nodiscard]] Features features_of(const Mechanism& mechanism);
 

@@ -190,6 +190,7 @@ void Model::update_positions() {
     markers_[k].p = k == 0 ? Vec{} : body.p + body.R * data.p;
     markers_[k].axis = R.column;
   }
+  solve_contacts();
   refresh_gradients();
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "curves.h"
 #include "jet.h"
 #include "mechanism.h"
 #include "oracle.h"
@@ -111,6 +112,9 @@ class Model {
   void expand_delays();
   [[nodiscard]] std::vector<Real> differential_rates() const;
   [[nodiscard]] Real evaluate(const Expr& expression) const;
+  [[nodiscard]] Vec contact_point(std::size_t k) const;
+  // How fast the point of contact moves along the curves of i and of j.
+  [[nodiscard]] std::array<Real, 2> contact_speeds(std::size_t k) const;
   // With time derivatives along the motion, as far as positions, velocities and accelerations give them.
   [[nodiscard]] Jet evaluate_along(const Expr& expression) const;
   [[nodiscard]] int variable_index(int id) const { return variable_index_.at(id); }
@@ -126,6 +130,8 @@ class Model {
     int body = 0;
     Vec p;
     Mat R;
+    int contact = -1;  // that holds a floating marker
+    bool on_i = false;
   };
   struct Pair {
     Vec e;  // unit vector from J to I
@@ -136,8 +142,11 @@ class Model {
   void read_joint(std::size_t k);
   void read_relations();
   void read_motions();
+  void read_contacts();
   void read_controls();
   void capture_offsets();
+  void solve_contacts();
+  [[nodiscard]] bool touches(std::size_t contact, int body) const;
   void refresh_gradients();
   [[nodiscard]] Pair line_of_sight(int i, int j) const;
   [[nodiscard]] Real angle_z(int i, int j) const;
@@ -157,6 +166,7 @@ class Model {
   [[nodiscard]] Wrench general_wrench(std::size_t k) const;
   [[nodiscard]] Wrench joint_wrench(int joint) const;
   [[nodiscard]] Wrench motion_wrench(int motion) const;
+  [[nodiscard]] Wrench contact_wrench(std::size_t k) const;  // torque about the point of contact
   [[nodiscard]] Wrench net_wrench(int i, int j) const;  // on marker i, from all that acts between i and j; j 0: all
   // The six displacements of I as seen from J, their rates, and a wrench given in the axes of J.
   struct Displacements {
@@ -184,6 +194,17 @@ class Model {
   std::vector<std::array<int, 2>> spring_markers_, sforce_markers_, joint_markers_;
   std::vector<std::size_t> tfsiso_slot_, lse_slot_, diff_slot_;
   bool has_expressions_ = false;  // among the rows
+  struct ContactData {
+    bool two_curves = false;
+    int i = 0, j = 0;             // marker indices
+    int icurve = 0, jcurve = 0;   // ids
+    std::array<Vec, 2> across{};  // of PTCV: normal to the curve where it was drawn, axes of j
+    // On i and on j, at the present positions, with their slopes by the conditions that hold there.
+    std::array<Real, 2> parameter{};
+    std::array<std::array<Real, 2>, 2> slopes{};
+  };
+  std::map<int, CurveShape> curves_;
+  std::vector<ContactData> contact_data_;
 };
 
 // f, f' and f'' of a motion.

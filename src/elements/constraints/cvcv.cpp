@@ -33,6 +33,22 @@ struct CurveOnCurve {
   Vec3<T> point(const RelativeFrame<T>& I, const std::array<T, 2>& u) const {
     return turned(I, curves[0]->at(u[0]));
   }
+  // The contact follows the poses where ∂(distance along the tangent, tangent)/∂(u, v) is regular. It is not where the
+  // curves osculate: they could slide along each other with the poses unchanged.
+  std::string undetermined(const RelativeFrame<double>& I, const std::array<double, 2>& u) const {
+    const Vector t = turned(I, curves[0]->at(u[0], 1)), t2 = turned(I, curves[0]->at(u[0], 2));
+    const Vector s = curves[1]->at(u[1], 1), s2 = curves[1]->at(u[1], 2);
+    const auto curvature = [](const Vector& d, const Vector& dd) {
+      return (d.x * dd.y - d.y * dd.x) / std::pow(std::hypot(d.x, d.y), 3);
+    };
+    const double a = curvature(t, t2) * (t.x * s.x + t.y * s.y < 0 ? -1 : 1), b = curvature(s, s2);
+    const double flat = 1e-9 / std::max(norm(t), norm(s));  // a radius far beyond the size of the curves
+    if (std::abs(a - b) > std::max(flat, 1e-9 * std::abs(b))) return {};
+    return fmt::format(
+        " has no definite point of contact: its curves have the same curvature {:.6g} where they touch, at the "
+        "parameters {:.6g} and {:.6g}",
+        std::abs(b) > flat ? b : 0.0, u[0], u[1]);
+  }
 
  private:
   // From the x-y plane of I into the axes of J.
@@ -126,9 +142,9 @@ struct Cvcv {
   }};
 };
 
-class CvcvSet final : public TypedSet<Cvcv> {
+class CvcvSet final : public CurveContactSet<Cvcv, CurveOnCurve> {
  public:
-  using TypedSet::TypedSet;
+  using CurveContactSet::CurveContactSet;
 
   void read(std::size_t k, ElementReader& reader) override {
     const Cvcv& e = elements[k];
@@ -156,14 +172,15 @@ class CvcvSet final : public TypedSet<Cvcv> {
           !check_plane(model, label, e.jcurve, "JCURVE", diagnostics)) {
         continue;
       }
-      for (const MarkerId m : {e.ifloat, e.jfloat}) model.markers[static_cast<std::size_t>(m.index)].on_curve = true;
       const CurveOnCurve element{{a->shape, b->shape}};
-      contacts_.push_back({element, e.irm, e.jrm, e.ifloat, e.jfloat, start(model, e, *a, *b, element)});
+      contacts_.push_back({element,
+                           e.irm,
+                           e.jrm,
+                           e.ifloat,
+                           e.jfloat,
+                           {{{e.ifloat, e.irm}, {e.jfloat, e.jrm}}},
+                           start(model, e, *a, *b, element)});
     }
-  }
-
-  std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
-    return std::make_unique<CurveContactKernel<CurveOnCurve>>(contacts_, labels, layout);
   }
 
  private:
@@ -199,18 +216,10 @@ class CvcvSet final : public TypedSet<Cvcv> {
     }
     return {{{u[0], e.idisp.has_value(), e.ivel}, {u[1], e.jdisp.has_value(), e.jvel}}};
   }
-
-  std::vector<CurveContact<CurveOnCurve>> contacts_;
 };
 
 }  // namespace
 
-extern constinit const Kind cvcv = {
-    "CVCV",
-    "",
-    "Two plane curves touch.",
-    Kind::Role::element,
-    detail::argument_infos<Cvcv>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<CvcvSet>(kind); }};
+extern constinit const Kind cvcv = curve_contact<CvcvSet, Cvcv>("CVCV", "Two plane curves touch.");
 
 }  // namespace dynalin

@@ -44,7 +44,13 @@ class GeneralConstraintKernel final : public Kernel {
   }
 
   void bind(const Signals& signals) override {
-    for (Row& r : rows_) r.function = BoundExpression(r.written, signals);
+    for (Row& r : rows_) {
+      r.function = BoundExpression(r.written, signals);
+      const Atom* atom = r.function.atom_on_curve();
+      if (!atom) continue;
+      signals.problem("unfit-constraint", atom->at,
+                      fmt::format("{} follows a marker along a curve, which no constraint can", atom->at.text()));
+    }
   }
   void constraints(const Motion& motion, ConstraintRows& rows) const override {
     for (const Row& r : rows_) {

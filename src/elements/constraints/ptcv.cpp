@@ -46,9 +46,9 @@ struct Ptcv {
   }};
 };
 
-class PtcvSet final : public TypedSet<Ptcv> {
+class PtcvSet final : public CurveContactSet<Ptcv, PointOnCurve> {
  public:
-  using TypedSet::TypedSet;
+  using CurveContactSet::CurveContactSet;
 
   void read(std::size_t k, ElementReader& reader) override {
     if (!read_arguments(elements[k], reader) || !elements[k].icm.valid() || elements[k].disp) return;
@@ -66,30 +66,16 @@ class PtcvSet final : public TypedSet<Ptcv> {
           !check_start_axes(model, label, e.icm, "ICM", e.rm, diagnostics) || !curve->shape) {
         continue;
       }
-      Marker& floating = model.markers[static_cast<std::size_t>(e.jfloat.index)];
-      floating.follows = e.i, floating.on_curve = true;
+      model.markers[static_cast<std::size_t>(e.jfloat.index)].follows = e.i;
       ContactStart start{curve->shape->nearest(drawn_frame(model, e.i, e.rm).p), e.disp.has_value(), e.vel};
       if (e.disp) start.parameter = stated_parameter(model, *curve, *e.disp, e.rm, e.icm);
-      contacts_.push_back({{{curve->shape}}, e.i, e.rm, e.i, e.jfloat, {start}});
+      contacts_.push_back({{{curve->shape}}, e.i, e.rm, e.i, e.jfloat, {{{e.jfloat, e.rm}}}, {start}});
     }
   }
-
-  std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
-    return std::make_unique<CurveContactKernel<PointOnCurve>>(contacts_, labels, layout);
-  }
-
- private:
-  std::vector<CurveContact<PointOnCurve>> contacts_;
 };
 
 }  // namespace
 
-extern constinit const Kind ptcv = {
-    "PTCV",
-    "",
-    "Holds a point on a curve.",
-    Kind::Role::element,
-    detail::argument_infos<Ptcv>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<PtcvSet>(kind); }};
+extern constinit const Kind ptcv = curve_contact<PtcvSet, Ptcv>("PTCV", "Holds a point on a curve.");
 
 }  // namespace dynalin

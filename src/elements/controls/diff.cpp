@@ -114,8 +114,9 @@ class DiffSet final : public TypedSet<Diff> {
                            d.dynamic_hold});
     }
     const RateReduction reduction = reduce_rates(equations);
-    for (const RateReduction::Refusal& r : reduction.refusals)
-      layout.problems.push_back({Severity::error, "unsolvable-model", labels[r.members[0]].at, text(r), "", {}});
+    for (const RateReduction::Refusal& r : reduction.refusals) {
+      layout.problems.error("unfit-condition", labels[r.members.front()].at, text(r));
+    }
 
     std::vector<FunctionEquationKernel::Item> items;
     for (std::size_t k = 0; k < elements.size(); ++k) {

@@ -13,7 +13,11 @@
 //
 // Rows at all levels, reactions and their variation follow: with the row gradients along displacement and rotation of I
 // as seen from J and along u as seeds 0–5 and 6 on, the balance of a parameter is Σ λ_r ∂Φ_r/∂u = 0, so a reaction does
-// no work along a curve. It is reported at the point of contact.
+// no work along a curve. It is reported at the point of contact. A member may say where its contact is undetermined,
+//
+//     std::string undetermined(const RelativeFrame<double>& I, const std::array<double, m>& u) const;
+//
+// in words that follow the name of the element, empty where it is not.
 #pragma once
 
 #include <fmt/format.h>
@@ -45,6 +49,11 @@ struct CurveContact {
   E element;
   MarkerId i, j;              // the frames
   MarkerId touch_I, touch_J;  // the markers at the point of contact that force functions name
+  // The floating markers there, and the markers that carry their curves, one for each parameter.
+  struct Floating {
+    MarkerId marker, carrier;
+  };
+  std::array<Floating, m> floating;
   std::array<ContactStart, m> start;
 };
 
@@ -75,6 +84,10 @@ class CurveContactKernel final : public Kernel {
       }
       Placed p{c, layout.marker(c.i), layout.marker(c.j), layout.add_extra(labels[k], std::move(coordinates)), 0, 0};
       p.first_extra = layout.extra_index(p.first_coordinate);
+      for (std::size_t a = 0; a < m; ++a) {
+        layout.curve_points.push_back({c.floating[a].marker, c.floating[a].carrier, c.element.curves[a],
+                                       p.first_coordinate + static_cast<std::int32_t>(a)});
+      }
       for (std::size_t r = 0; r < n; ++r) {
         const std::int32_t row = layout.add_row(labels[k], E::row_names[r]);
         if (r == 0) p.first_row = row;
@@ -186,6 +199,13 @@ class CurveContactKernel final : public Kernel {
 
   std::string departure(const Motion& motion) const override {
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      if constexpr (requires { &E::undetermined; }) {
+        const Placed& p = contacts_[k];
+        std::array<double, m> u;
+        for (std::size_t a = 0; a < m; ++a) u[a] = motion.extra[p.first_extra + a];
+        const std::string reason = p.contact.element.undetermined(plain(pair_motion(motion, p.I, p.J).relative), u);
+        if (!reason.empty()) return (*labels_)[k].full_text() + reason;
+      }
       for (std::size_t a = 0; a < m; ++a) {
         const double u = along_motion(contacts_[k], a, motion).value;
         if (contacts_[k].contact.element.curves[a]->reaches(u)) continue;
@@ -241,6 +261,9 @@ class CurveContactKernel final : public Kernel {
     const auto& g = work.partial;
     return {{g[0], g[1], g[2]}, {g[3], g[4], g[5]}};
   }
+  static RelativeFrame<double> plain(const RelativeFrame<Taylor>& I) {
+    return {value(I.p), value(I.x), value(I.y), value(I.z)};
+  }
   static Vector plain(const Vec3<Dual<seeds>>& v) { return {v.x.value, v.y.value, v.z.value}; }
   static Vector slope(const Vec3<Dual<seeds>>& v, std::size_t seed) {
     return {v.x.partial[seed], v.y.partial[seed], v.z.partial[seed]};
@@ -260,5 +283,28 @@ class CurveContactKernel final : public Kernel {
   std::vector<std::pair<std::size_t, std::size_t>> start_places_;  // contact, parameter
   const std::vector<ElementLabel>* labels_;
 };
+
+// The elements of such a statement: Written holds its arguments, E is the member of the family.
+template <class Written, class E>
+class CurveContactSet : public TypedSet<Written> {
+ public:
+  using TypedSet<Written>::TypedSet;
+  std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
+    return std::make_unique<CurveContactKernel<E>>(contacts_, this->labels, layout);
+  }
+
+ protected:
+  std::vector<CurveContact<E>> contacts_;
+};
+
+template <class Set, class Written>
+constexpr Kind curve_contact(std::string_view statement, std::string_view summary) {
+  return {statement,
+          "",
+          summary,
+          Kind::Role::element,
+          detail::argument_infos<Written>,
+          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<Set>(kind); }};
+}
 
 }  // namespace dynalin

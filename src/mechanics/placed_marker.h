@@ -1,0 +1,43 @@
+// Where an expression finds a marker: fixed on its body, or at a point of contact that a curve parameter moves along
+// the curve that the marker `place` carries.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "expression/parametric_curve.h"
+#include "mechanics/motion.h"
+
+namespace dynalin {
+
+struct PlacedMarker {
+  MarkerPlace place;
+  const ParametricCurve* curve = nullptr;
+  std::int32_t parameter = -1;  // among the coordinates
+  std::size_t extra = 0;        // and among those in Motion::extra
+
+  // The frame at parameter u of the curve carried by `carrier`.
+  template <class T>
+  Frame<T> on_curve(const Frame<T>& carrier, const T& u) const {
+    const Frame<T> local = curve->frame(u);
+    const auto turned = [&](const Vec3<T>& v) {
+      return carrier.axes.x * v.x + carrier.axes.y * v.y + carrier.axes.z * v.z;
+    };
+    return {carrier.origin + turned(local.origin), {turned(local.axes.x), turned(local.axes.y), turned(local.axes.z)}};
+  }
+  Taylor along_motion(const Motion& motion) const {
+    return {motion.extra[extra], motion.extra_rate[extra], motion.extra_acceleration[extra]};
+  }
+  Frame<Taylor> frame(const Motion& motion) const {
+    const Frame<Taylor> carrier = motion.frame(place);
+    return curve ? on_curve(carrier, along_motion(motion)) : carrier;
+  }
+  Matrix3 axes(const Motion& motion) const {
+    const Matrix3 carrier = motion.axes(place);
+    return curve ? carrier * curve->frame(motion.extra[extra]).axes : carrier;
+  }
+  // Whether its y and z axes are unknown.
+  bool straight(const Motion& motion) const { return curve && curve->straight_at(motion.extra[extra]); }
+};
+
+}  // namespace dynalin
