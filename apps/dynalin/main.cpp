@@ -20,10 +20,11 @@ int main(int argc, char** argv) {
   run->add_option("--output", options.output_prefix, "prefix of the output files");
   run->add_flag("--keep-going", options.keep_going, "go on after a command that failed");
   run->add_flag("--bounds", options.bounds, "say how exact each eigenvalue is");
-  run->add_flag("--pade", options.pade, "a DELAY is a first-order Pade approximant with a state, not e - tau e'");
   run->add_flag("--quiet", options.quiet, "no tables on the terminal");
   CLI::App* check = app.add_subcommand("check", "read and check a dataset or command file");
   check->add_option("FILE", options.file)->required();
+  for (CLI::App* reading : {run, check})
+    reading->add_flag("--pade", options.pade, "a DELAY is a first-order Pade approximant with a state, not e - tau e'");
   CLI::App* help = app.add_subcommand("help", "arguments of a statement, or the list of statements");
   help->add_option("STATEMENT", word);
   CLI::App* explain = app.add_subcommand("explain", "what a diagnostic code means");
@@ -35,7 +36,7 @@ int main(int argc, char** argv) {
     return app.exit(e) == 0 ? done : wrong_usage;
   }
   if (*run) return run_session(options, std::cout, std::cerr);
-  if (*check) return check_file(options.file, std::cout, std::cerr);
+  if (*check) return check_file(options, std::cout, std::cerr);
   if (*help) return print_help(word, std::cout, std::cerr);
   const std::string_view text = explain_diagnostic(word);
   if (text.empty()) {

@@ -82,6 +82,10 @@ void warn_of_changed_starts(const Layout& layout, const std::vector<double>& bef
   }
 }
 
+tl::unexpected<Failure> failure(std::string message, std::vector<std::string> details = {}) {
+  return tl::unexpected(Failure{"acceleration initial conditions", std::move(message), std::move(details)});
+}
+
 }  // namespace
 
 Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint op, Findings& findings) {
@@ -123,8 +127,7 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
     Eigen::MatrixXd step = evaluate({Column::acceleration, Column::lambda, Column::algebraic, Column::state_rate});
     if (!step.allFinite()) {
       const std::string reason = system.fault(system.motion(op));
-      return tl::unexpected(Failure{"acceleration initial conditions",
-                                    reason.empty() ? "a force or constraint has no finite value" : reason, history});
+      return failure(reason.empty() ? "a force or constraint has no finite value" : reason, history);
     }
     ColumnMatrix matrix = saddle.matrix(eq, rows, part.active, {});
     const double imbalance = relative_imbalance(matrix, step, eq, op, saddle);
@@ -134,8 +137,7 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
     stalled = imbalance > 0.1 * before ? stalled + 1 : 0;
     if (iteration > 0 &&
         (imbalance < 1e-15 || (imbalance < 1e-10 && stalled > 0) || (imbalance < 1e-6 && stalled > 3))) {
-      if (const std::string reason = system.departure(system.motion(op)); !reason.empty())
-        return tl::unexpected(Failure{"acceleration initial conditions", reason, {}});
+      if (const std::string reason = system.departure(system.motion(op)); !reason.empty()) return failure(reason);
       warn_of_changed_starts(layout, first_values, op.algebraic, findings);
       // What is zero by the structure of the model, such as the load of a body in free fall, becomes exactly zero.
       for (int correction = 0; correction < 2 && imbalance < 1e-15; ++correction) {
@@ -147,13 +149,10 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
     }
     before = imbalance;
     if (!lu.factor(matrix)) {
-      if (const std::string reason = system.departure(motion); !reason.empty())
-        return tl::unexpected(Failure{"acceleration initial conditions", reason, {}});
-      Failure f{"acceleration initial conditions", "the accelerations are not determined",
-                undetermined(system, saddle, std::move(matrix))};
-      if (!f.details.empty())
-        f.message = fmt::format("the accelerations are not determined: nothing fixes {}", fmt::join(f.details, ", "));
-      return tl::unexpected(f);
+      if (const std::string reason = system.departure(system.motion(op)); !reason.empty()) return failure(reason);
+      const std::vector<std::string> free = undetermined(system, saddle, std::move(matrix));
+      const std::string named = free.empty() ? "" : fmt::format(": nothing fixes {}", fmt::join(free, ", "));
+      return failure("the accelerations are not determined" + named, free);
     }
     lu.solve(step);
     const auto update = [&](std::vector<double>& x, std::int32_t offset) {
@@ -164,11 +163,10 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
     update(op.algebraic, saddle.algebraic(0));
     update(op.state_rate, saddle.state(0));
   }
-  Failure f{"acceleration initial conditions",
-            "the equations for accelerations, reactions and algebraic values did not converge", history};
-  if (const std::string name = farthest_equation(layout, eq); !name.empty())
-    f.message += "; farthest from being met is the equation of " + name;
-  return tl::unexpected(f);
+  const std::string name = farthest_equation(layout, eq);
+  return failure("the equations for accelerations, reactions and algebraic values did not converge" +
+                     (name.empty() ? "" : "; farthest from being met is the equation of " + name),
+                 history);
 }
 
 Result<OperatingPoint> initial_conditions(const System& system, Findings& findings) {

@@ -315,12 +315,10 @@ int run_session(const SessionOptions& options, std::ostream& out, std::ostream& 
   return session.sound() ? session.run() : wrong_input;
 }
 
-int check_file(const std::string& file, std::ostream& out, std::ostream& err) {
-  SessionOptions options;
-  options.file = file;
+int check_file(const SessionOptions& options, std::ostream& out, std::ostream& err) {
   auto job = load_job(options, err);
   if (!job || !Session(options, std::move(*job), out, err).sound()) return wrong_input;
-  fmt::print(out, "{}: no errors\n", file);
+  fmt::print(out, "{}: no errors\n", options.file);
   return done;
 }
 

@@ -8,31 +8,35 @@ namespace dynalin {
 
 namespace {
 
-Eigen::MatrixXcd multiply(CBLAS_TRANSPOSE transpose, const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
+void gemm(CBLAS_TRANSPOSE transpose, int rows, int columns, int inner, const double* a, int a_rows, const double* b,
+          double* c) {
+  cblas_dgemm(CblasColMajor, transpose, CblasNoTrans, rows, columns, inner, 1.0, a, a_rows, b, inner, 0.0, c, rows);
+}
+void gemm(CBLAS_TRANSPOSE transpose, int rows, int columns, int inner, const std::complex<double>* a, int a_rows,
+          const std::complex<double>* b, std::complex<double>* c) {
+  const std::complex<double> one = 1, zero = 0;
+  cblas_zgemm(CblasColMajor, transpose, CblasNoTrans, rows, columns, inner, &one, a, a_rows, b, inner, &zero, c, rows);
+}
+
+template <class Matrix>
+Matrix multiply(CBLAS_TRANSPOSE transpose, const Matrix& a, const Matrix& b) {
   const bool plain = transpose == CblasNoTrans;
   const Eigen::Index rows = plain ? a.rows() : a.cols(), inner = plain ? a.cols() : a.rows();
   eigen_assert(inner == b.rows());
-  Eigen::MatrixXcd c = Eigen::MatrixXcd::Zero(rows, b.cols());
+  Matrix c = Matrix::Zero(rows, b.cols());
   if (c.size() == 0 || inner == 0) return c;
-  const std::complex<double> one = 1, zero = 0;
-  cblas_zgemm(CblasColMajor, transpose, CblasNoTrans, static_cast<int>(rows), static_cast<int>(b.cols()),
-              static_cast<int>(inner), &one, a.data(), static_cast<int>(a.rows()), b.data(), static_cast<int>(b.rows()),
-              &zero, c.data(), static_cast<int>(rows));
+  gemm(transpose, static_cast<int>(rows), static_cast<int>(b.cols()), static_cast<int>(inner), a.data(),
+       static_cast<int>(a.rows()), b.data(), c.data());
   return c;
 }
 
 }  // namespace
 
 Eigen::MatrixXcd real_product(const Eigen::MatrixXd& a, const Eigen::MatrixXcd& b) {
-  return by_parts(b, [&](const Eigen::MatrixXd& parts) {
-    eigen_assert(a.cols() == parts.rows());
-    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(a.rows(), parts.cols());
-    if (c.size() == 0 || a.cols() == 0) return c;
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, static_cast<int>(a.rows()), static_cast<int>(parts.cols()),
-                static_cast<int>(a.cols()), 1.0, a.data(), static_cast<int>(a.rows()), parts.data(),
-                static_cast<int>(parts.rows()), 0.0, c.data(), static_cast<int>(c.rows()));
-    return c;
-  });
+  return by_parts(b, [&](const Eigen::MatrixXd& parts) { return multiply(CblasNoTrans, a, parts); });
+}
+Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return multiply(CblasTrans, a, b);
 }
 Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) { return multiply(CblasNoTrans, a, b); }
 Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {

@@ -3,12 +3,23 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 
 namespace dynalin {
 
 Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);             // A B
 Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);     // Aᴴ B
 Eigen::MatrixXcd transposed_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);  // Aᵀ B
+
+Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+// visit(first, count) for all columns, as many at a time as make good use of a matrix product while what belongs to
+// them stays small.
+template <class Function>
+void for_column_blocks(Eigen::Index columns, Function&& visit) {
+  constexpr Eigen::Index most = 64;
+  for (Eigen::Index first = 0; first < columns; first += most) visit(first, std::min(most, columns - first));
+}
 
 // A real linear map of real matrices, applied to a complex one.
 template <class Function>

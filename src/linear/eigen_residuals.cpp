@@ -51,9 +51,7 @@ EigenResiduals::EigenResiduals(const PerturbationEquations& equations, const Zer
 ComplexMatrix EigenResiduals::measure(const PerturbationEquations& equations) {
   const Index n = equations.states(), N = equations.unknowns();
   ComplexMatrix reduced(n, count());
-  constexpr Index block = 64;
-  for (Index first = 0; first < count(); first += block) {
-    const Index columns = std::min(block, count() - first);
+  for_column_blocks(count(), [&](Index first, Index columns) {
     const ComplexMatrix x = pairs_.right.middleCols(first, columns), y = pairs_.left.middleCols(first, columns);
     const ComplexMatrix a = by_parts(x, [&](const Matrix& m) { return equations.complete(m); });
     const ComplexMatrix b = by_parts(y, [&](const Matrix& m) { return equations.complete_left(m); });
@@ -68,7 +66,7 @@ ComplexMatrix EigenResiduals::measure(const PerturbationEquations& equations) {
           b.col(c).cwiseAbs().dot(of.rounding.head(b.rows())) + y.col(c).cwiseAbs().dot(of.rounding.tail(n));
     }
     reduced.middleCols(first, columns) = by_parts(r, [&](const Matrix& m) { return equations.reduced(m); });
-  }
+  });
   return reduced;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "linear/dense_products.h"
+
 namespace dynalin {
 
 namespace {
@@ -241,64 +243,71 @@ Matrix PerturbationEquations::state_matrices(const Matrix& a) const {
   multiply_add(state_rates_on_algebraic_, a, rates, 1.0);
   multiply_add(state_rates_on_states_, Matrix::Identity(states_, columns), rates, 1.0);
   // Residuals of all equations at (a, x, x′) as computed.
-  Matrix residual(unknowns(), columns);
   std::vector<long double> sum(static_cast<std::size_t>(unknowns()));
   const auto add = [&](const ColumnMatrix& m, std::int32_t column, long double factor) {
     for_each_in_column(m, column, [&](std::int32_t row, double v) {
       sum[static_cast<std::size_t>(row)] += factor * static_cast<long double>(v);
     });
   };
-  for (Eigen::Index c = 0; c < columns; ++c) {
-    std::fill(sum.begin(), sum.end(), 0.0L);
-    for (std::int32_t k = 0; k < algebraic_; ++k) {
-      if (a(k, c) != 0.0) add(pencil_, k, static_cast<long double>(a(k, c)));
+  for_column_blocks(columns, [&](Eigen::Index first, Eigen::Index count) {
+    Matrix residual(unknowns(), count);
+    for (Eigen::Index c = first; c < first + count; ++c) {
+      std::fill(sum.begin(), sum.end(), 0.0L);
+      for (std::int32_t k = 0; k < algebraic_; ++k) {
+        if (a(k, c) != 0.0) add(pencil_, k, static_cast<long double>(a(k, c)));
+      }
+      if (c < columns - inputs) {
+        add(pencil_, algebraic_ + static_cast<std::int32_t>(c), 1.0L);
+      } else {
+        add(on_states_, static_cast<std::int32_t>(c), 1.0L);
+      }
+      for (std::int32_t k = 0; k < unknowns(); ++k) {
+        const long double rate = k < algebraic_ ? 0.0L : static_cast<long double>(rates(k - algebraic_, c));
+        residual(k, c - first) = static_cast<double>(sum[static_cast<std::size_t>(k)] - rate);
+      }
     }
-    if (c < columns - inputs) {
-      add(pencil_, algebraic_ + static_cast<std::int32_t>(c), 1.0L);
-    } else {
-      add(on_states_, static_cast<std::int32_t>(c), 1.0L);
-    }
-    for (std::int32_t k = 0; k < unknowns(); ++k) {
-      const long double rate = k < algebraic_ ? 0.0L : static_cast<long double>(rates(k - algebraic_, c));
-      residual(k, c) = static_cast<double>(sum[static_cast<std::size_t>(k)] - rate);
-    }
-  }
-  return rates + reduced(residual);
+    rates.middleCols(first, count) += reduced(residual);
+  });
+  return rates;
 }
 
 Matrix PerturbationEquations::rounding(const Matrix& a) const {
-  const Matrix dq = a.topLeftCorner(n_, states_).cwiseAbs(), dqdot = a.block(n_, 0, n_, states_).cwiseAbs();
-  Matrix size = Matrix::Zero(algebraic_, states_);
-  for (std::int32_t c = 0; c < states_; ++c) {
-    for_each_in_column(on_states_, c, [&](std::int32_t row, double v) { size(row, c) += std::abs(v); });
-  }
-  Matrix of_saddle = size.bottomRows(saddle_size_);
-  multiply_add(absolute(saddle_on_positions_), dq, of_saddle, 1.0);
-  multiply_add(absolute(saddle_on_rates_), dqdot, of_saddle, 1.0);
-
-  const ColumnMatrix on_algebraic = absolute(state_rates_on_algebraic_);
-  Matrix parts = Matrix::Zero(algebraic_, states_);
-  parts.topRows(n_) = dq;
-  parts.middleRows(n_, n_) = dqdot;
-  Matrix total = Matrix::Zero(states_, states_);
-  multiply_add(on_algebraic, parts, total, 1.0);
-
+  const ColumnMatrix from_positions = absolute(saddle_on_positions_), from_rates = absolute(saddle_on_rates_);
+  const ColumnMatrix on_algebraic = absolute(state_rates_on_algebraic_), pencil = absolute(pencil_);
   Matrix adjoint = Matrix::Zero(algebraic_, states_);
   multiply_add(transposed(state_rates_on_algebraic_), Matrix::Identity(states_, states_), adjoint, 1.0);
   Matrix of_rates = adjoint.bottomRows(saddle_size_);
   level_[2]->solve_transposed(of_rates);
-  total += of_rates.cwiseAbs().transpose() * of_saddle;
-
+  of_rates = of_rates.cwiseAbs();
   // Coordinates whose rate is no state read δq′ itself, the solution of the second level.
   Matrix of_level = adjoint.middleRows(n_, n_);
-  if (!of_level.isZero(0)) {
-    level_[1]->solve_transposed(of_level);
-    Matrix whole = Matrix::Zero(unknowns(), states_), sums = whole;
-    whole.topRows(algebraic_) = a.leftCols(states_).cwiseAbs();
-    whole.bottomRows(states_).setIdentity();
-    multiply_add(absolute(pencil_), whole, sums, 1.0);
-    total += of_level.cwiseAbs().transpose() * sums.middleRows(n_, n_);
-  }
+  const bool reads_level = !of_level.isZero(0);
+  if (reads_level) level_[1]->solve_transposed(of_level);
+  of_level = of_level.cwiseAbs();
+  adjoint.resize(0, 0);
+
+  Matrix total(states_, states_);
+  for_column_blocks(states_, [&](Eigen::Index first, Eigen::Index count) {
+    Matrix parts = Matrix::Zero(algebraic_, count), of_saddle = Matrix::Zero(saddle_size_, count);
+    parts.topRows(2 * n_) = a.block(0, first, 2 * n_, count).cwiseAbs();
+    for (Eigen::Index c = 0; c < count; ++c) {
+      for_each_in_column(on_states_, static_cast<std::int32_t>(first + c), [&](std::int32_t row, double v) {
+        if (row >= 2 * n_) of_saddle(row - 2 * n_, c) += std::abs(v);
+      });
+    }
+    multiply_add(from_positions, parts.topRows(n_), of_saddle, 1.0);
+    multiply_add(from_rates, parts.middleRows(n_, n_), of_saddle, 1.0);
+    Matrix sum = transposed_product(of_rates, of_saddle);
+    multiply_add(on_algebraic, parts, sum, 1.0);
+    if (reads_level) {
+      Matrix whole = Matrix::Zero(unknowns(), count), sums = whole;
+      whole.topRows(algebraic_) = a.block(0, first, algebraic_, count).cwiseAbs();
+      whole.bottomRows(states_).middleRows(first, count).setIdentity();
+      multiply_add(pencil, whole, sums, 1.0);
+      sum += transposed_product(of_level, sums.middleRows(n_, n_).eval());
+    }
+    total.middleCols(first, count) = sum;
+  });
   return rounding_units * std::numeric_limits<double>::epsilon() * total;
 }
 

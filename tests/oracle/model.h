@@ -113,6 +113,10 @@ class Model {
   [[nodiscard]] std::vector<Real> differential_rates() const;
   [[nodiscard]] Real evaluate(const Expr& expression) const;
   [[nodiscard]] Vec contact_point(std::size_t k) const;
+  // Where on the curves of i and of j the search for the point of contact begins from now on.
+  void look_for_contact_at(std::size_t k, double u, double v) {
+    mechanism_.contacts[k].u = u, mechanism_.contacts[k].v = v;
+  }
   // How fast the point of contact moves along the curves of i and of j.
   [[nodiscard]] std::array<Real, 2> contact_speeds(std::size_t k) const;
   // With time derivatives along the motion, as far as positions, velocities and accelerations give them.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -59,9 +60,17 @@ TEST_P(Statics, generated_mechanisms_come_to_rest_or_say_why_not) {
       m.f.c[0] = static_cast<double>(motion_values(m.f, 0)[0]);
       m.f.c[1] = m.f.c[2] = m.f.c[3] = m.f.amplitude = 0;
     }
+    const Layout& layout = system.layout();
     Model model(mechanism);
     model.clock = 0;
-    const Layout& layout = system.layout();
+    for (const ExtraBlock& e : layout.extras) {
+      for (std::size_t k = 0; k < mechanism.contacts.size(); ++k) {
+        const bool two = mechanism.contacts[k].two_curves;
+        if (mechanism.contacts[k].id != e.label.id || two != (e.label.statement == "CVCV")) continue;
+        const double* parameter = &op->extra[layout.extra_index(e.offset)];
+        model.look_for_contact_at(k, two ? parameter[0] : 0, parameter[two ? 1 : 0]);
+      }
+    }
     for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
       const BodyRef ref{
           layout.bodies[b].kind == ::dynalin::BodyKind::point_mass ? BodyKind::point_mass : BodyKind::part,
