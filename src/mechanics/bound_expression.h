@@ -77,6 +77,7 @@ class BoundExpression {
   static void note_parameter(BoundAtom&, const PlacedMarker&);
   BoundAtom bind(const Atom&, const Signals&, Binding) const;
   double atom_value(const BoundAtom&, const Motion&) const;
+  double force_value(const BoundAtom&, const Motion&) const;
   void fill_rates(const Motion&, ExpressionScratch&) const;  // atoms with their values and rates
   Taylor atom_along_motion(const BoundAtom&, const Motion&) const;
   void add_atom(const BoundAtom&, const Motion&, Equations&, std::int32_t row, double factor,

@@ -1,24 +1,12 @@
-// Statements that a linear model does not need: they are read as text, kept and otherwise passed over.
-#include "model/kind.h"
+// Statements that a linear model does not need.
+#include "elements/families/kept_as_text.h"
 
 namespace dynalin {
 
 namespace {
 
-class InertSet final : public ElementSet {
- public:
-  using ElementSet::ElementSet;
-  void append(ElementLabel label) override {
-    labels.push_back(std::move(label));
-    sound.push_back(true);
-  }
-  void read(std::size_t, ElementReader&) override {}
-};
-
 constexpr Kind inert(std::string_view statement, std::string_view summary) {
-  return {statement, "",
-          summary,   Kind::Role::inert,
-          {},        [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<InertSet>(kind); }};
+  return kept_as_text(statement, summary, Kind::Role::inert);
 }
 
 }  // namespace

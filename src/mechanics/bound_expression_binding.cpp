@@ -1,0 +1,173 @@
+// What the atoms of an expression stand for: markers, elements, channels.
+#include <algorithm>
+
+#include "mechanics/bound_expression.h"
+
+namespace dynalin {
+
+namespace {
+
+// Whether a measure looks at the axes of its k-th marker.
+bool reads_axes(Measure m, std::size_t k) {
+  switch (m) {
+    case Measure::INCANG:
+      return false;
+    case Measure::DX:
+    case Measure::DY:
+    case Measure::DZ:
+    case Measure::DM:
+    case Measure::VX:
+    case Measure::VY:
+    case Measure::VZ:
+    case Measure::VM:
+    case Measure::VR:
+    case Measure::ACCX:
+    case Measure::ACCY:
+    case Measure::ACCZ:
+    case Measure::ACCM:
+      return k >= 2;
+    default:
+      return true;
+  }
+}
+
+// Where a marker is, and its axes where they are read: a floating marker has no place of its own. One on a curve whose
+// axes do not matter is as well at the origin of the fixed marker that lies there, if there is one.
+PlacedMarker find_marker(const Signals& signals, const Atom& atom, std::int64_t id, bool axes) {
+  const Layout& layout = signals.layout();
+  const MarkerId m = signals.marker(id), followed = signals.place_of(m);
+  if (!signals.has_place(m)) {
+    signals.problem("unplaced-marker", atom.at,
+                    std::string(atom.at.text()) + " reads " +
+                        layout.marker_labels[static_cast<std::size_t>(m.index)].full_text() +
+                        ", a floating marker that no element gives a place");
+  }
+  const CurvePoint* on = layout.curve_point(m);
+  if (!on || (!axes && !(followed == m))) return {layout.marker(followed)};
+  return {layout.marker(on->carrier), on->curve.get(), on->coordinate, layout.extra_index(on->coordinate)};
+}
+
+}  // namespace
+
+BoundExpression::BoundExpression(Expression expression, const Signals& signals, Binding binding)
+    : expression_(expression.with_curves([&](SplineUse& use) { signals.attach(use); })) {
+  for (const Atom& atom : expression_.atoms()) {
+    atoms_.push_back(bind(atom, signals, binding));
+    const BoundAtom& a = atoms_.back();
+    for (std::size_t b = 0; b < a.body_count; ++b) {
+      if (std::find(bodies_.begin(), bodies_.end(), a.bodies[b]) == bodies_.end()) bodies_.push_back(a.bodies[b]);
+    }
+    using Kind = BoundAtom::Kind;
+    if (a.kind == Kind::measure) order_ = std::max(order_, static_cast<int>(a.order));
+    if (a.kind == Kind::force) order_ = 2;
+    if (a.kind == Kind::channel) reads_channels_ = true;
+    if (binding == Binding::rates || binding == Binding::condition_rates) {
+      const bool impossible = a.kind == Kind::force || (a.kind == Kind::measure && a.order == 2) ||
+                              (a.kind == Kind::channel && a.channel.kind == Channel::Kind::state_rate);
+      if (impossible) {
+        signals.problem("unknown-rate", atom.at,
+                        std::string(atom.at.text()) +
+                            " stands in an expression whose time derivative DIF1 or DELAY needs, and has none that is "
+                            "known",
+                        "a DELAY needs none as a Padé approximant, run with --pade");
+      } else if (a.kind == Kind::channel) {
+        atoms_.back().rate = signals.rate_of(a.channel);
+      }
+    }
+    if (a.kind != Kind::time && a.kind != Kind::mode && a.kind != Kind::constant) only_time_ = false;
+  }
+}
+
+void BoundExpression::note_parameter(BoundAtom& a, const PlacedMarker& marker) {
+  const auto end = a.parameters.begin() + a.parameter_count;
+  if (marker.curve && std::find(a.parameters.begin(), end, marker.parameter) == end) {
+    a.parameters[a.parameter_count++] = marker.parameter;
+  }
+}
+
+const Atom* BoundExpression::atom_on_curve() const {
+  for (std::size_t k = 0; k < atoms_.size(); ++k) {
+    if (atoms_[k].parameter_count > 0) return &expression_.atoms()[k];
+  }
+  return nullptr;
+}
+
+BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals& signals, Binding binding) const {
+  using Kind = BoundAtom::Kind;
+  BoundAtom a{};
+  const AtomFunction& f = *atom.function;
+  switch (f.family) {
+    case AtomFamily::time:
+      a.kind = Kind::time;
+      break;
+    case AtomFamily::marker_measure: {
+      a.kind = Kind::measure;
+      a.measure = *find_measure(f.name);
+      a.order = f.order;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::int64_t written = k < atom.argument_count ? atom.argument[k] : 0;
+        a.places[k] = find_marker(signals, atom, written, reads_axes(a.measure, k));
+        note_parameter(a, a.places[k]);
+        const BodyId body = a.places[k].place.body;
+        const auto end = a.bodies.begin() + a.body_count;
+        if (body != ground_body && std::find(a.bodies.begin(), end, body) == end) {
+          a.bodies[a.body_count++] = body;
+        }
+      }
+      if (counts_turns(a.measure) && binding != Binding::gradient) a.memory = signals.add_memory(0.0);
+      break;
+    }
+    case AtomFamily::data:
+      if (f.name == "MODE") {
+        a.kind = Kind::mode;
+        break;
+      }
+      if (f.name == "SENVAL") {
+        a.kind = Kind::constant;  // no analysis of ours lets a sensor trigger
+        break;
+      }
+      if (f.name == "DIF1" && (binding == Binding::condition || binding == Binding::condition_rates)) {
+        a.kind = Kind::constant;
+        break;
+      }
+      a.channel = signals.data(atom);
+      if (a.channel.kind == Channel::Kind::none) {
+        signals.problem("unfilled-entry", atom.at,
+                        std::string(atom.at.text()) + " reads an entry that does not exist, or that nothing fills");
+        a.channel = {Channel::Kind::constant, 0, 0};
+      }
+      a.kind = a.channel.kind == Channel::Kind::constant ? Kind::constant : Kind::channel;
+      a.constant = a.channel.constant;
+      break;
+    case AtomFamily::delay:
+      a.kind = Kind::channel;
+      a.channel = signals.delayed(atom);
+      break;
+    case AtomFamily::element_force:
+      a.kind = Kind::force;
+      a.terms.push_back({signals.element(f.statement, atom.argument[0]), atom.argument[1] == 1});
+      a.component = static_cast<std::uint8_t>(atom.argument[2]);
+      a.axes_marker = find_marker(signals, atom, atom.argument[3], true);
+      note_parameter(a, a.axes_marker);
+      break;
+    case AtomFamily::marker_force: {
+      a.kind = Kind::force;
+      static constexpr std::array<std::string_view, 8> names = {"FM", "FX", "FY", "FZ", "TM", "TX", "TY", "TZ"};
+      a.component = static_cast<std::uint8_t>(std::find(names.begin(), names.end(), f.name) - names.begin() + 1);
+      const MarkerId i = signals.marker(atom.argument[0]);
+      const bool from_all = atom.argument[1] == 0;
+      const MarkerId j = signals.marker(atom.argument[1]);
+      for (const Signals::Element& e : signals.elements_at(i)) {
+        const bool is_I = e.kernel->marker_I(e.index) == i;
+        const MarkerId other = is_I ? e.kernel->marker_J(e.index) : e.kernel->marker_I(e.index);
+        if (from_all || other == j) a.terms.push_back({e, !is_I});
+      }
+      a.axes_marker = find_marker(signals, atom, atom.argument[2], true);
+      note_parameter(a, a.axes_marker);
+      break;
+    }
+  }
+  return a;
+}
+
+}  // namespace dynalin

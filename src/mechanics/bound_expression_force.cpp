@@ -1,0 +1,110 @@
+// Forces and reactions that an expression reads, and what they depend on.
+#include "mechanics/bound_expression.h"
+#include "mechanics/seeded_frames.h"
+
+namespace dynalin {
+
+namespace {
+
+// Force or torque on the marker of a term, global axes.
+Vector on_marker(const MarkerWrench& w, bool on_J, bool torque) {
+  if (!on_J) return torque ? w.force.torque : w.force.force;
+  if (!w.force.acts_on_J) return {};
+  if (!torque) return -w.force.force;
+  const Vector delta = value(w.pair.I.origin) - value(w.pair.J.origin);
+  return -w.force.torque - cross(delta, w.force.force);
+}
+
+bool is_torque(std::uint8_t component) { return component > 4; }
+bool is_magnitude(std::uint8_t component) { return component == 1 || component == 5; }
+std::size_t axis_of(std::uint8_t component) { return (component - 2u) % 4u; }
+
+}  // namespace
+
+double BoundExpression::force_value(const BoundAtom& a, const Motion& motion) const {
+  Vector sum{};
+  MarkerWrench w;
+  for (const ForceTerm& t : a.terms) {
+    w.clear();
+    t.element.kernel->wrench(motion, t.element.index, false, w);
+    sum += on_marker(w, t.on_J, is_torque(a.component));
+  }
+  if (is_magnitude(a.component)) return norm(sum);
+  return dot(a.axes_marker.axes(motion)[axis_of(a.component)], sum);
+}
+
+void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equations& eq, std::int32_t row,
+                                double factor, Column velocity_family) const {
+  const bool torque = is_torque(a.component);
+  std::vector<MarkerWrench> wrenches(a.terms.size());
+  Vector sum{};
+  for (std::size_t t = 0; t < a.terms.size(); ++t) {
+    const ForceTerm& term = a.terms[t];
+    term.element.kernel->wrench(motion, term.element.index, true, wrenches[t]);
+    sum += on_marker(wrenches[t], term.on_J, torque);
+  }
+  // The direction that picks the component: an axis of the marker, or that of the vector itself.
+  Vector e{};
+  if (is_magnitude(a.component)) {
+    const double size = norm(sum);
+    if (size > 0) e = sum / size;
+  } else {
+    e = a.axes_marker.axes(motion)[axis_of(a.component)];
+    const BodyBlock& block = eq.layout().body(a.axes_marker.place.body);
+    if (block.count == 6) {
+      const Vector turn = cross(e, sum);
+      for (std::size_t k = 0; k < 3; ++k) {
+        eq.add(Column::position, row, block.offset + 3 + static_cast<std::int32_t>(k), factor * turn[k]);
+      }
+    }
+    for (std::size_t p = 0; p < a.parameter_count; ++p) {
+      const auto axes = path::frame_by_parameter(motion, a.axes_marker, a.parameters[p]).axes;
+      const auto& axis = axes[axis_of(a.component)];
+      const Vector slope{axis.x.value.partial[0], axis.y.value.partial[0], axis.z.value.partial[0]};
+      eq.add(Column::position, row, a.parameters[p], factor * dot(slope, sum));
+    }
+  }
+
+  for (std::size_t t = 0; t < a.terms.size(); ++t) {
+    const MarkerWrench& w = wrenches[t];
+    const PairMotion& p = w.pair;
+    const bool on_J = a.terms[t].on_J;
+    if (on_J && !w.force.acts_on_J) continue;
+    const Vector delta = dynalin::value(p.I.origin) - dynalin::value(p.J.origin);
+    // e·(vector of interest) in terms of force and torque on I.
+    const auto picked = [&](const Vector& f, const Vector& m) {
+      if (!torque) return on_J ? -dot(e, f) : dot(e, f);
+      return on_J ? -dot(e, m) - dot(e, cross(delta, f)) : dot(e, m);
+    };
+    const std::array<const BodyBlock*, 2> blocks = {&eq.layout().body(p.body_I), &eq.layout().body(p.body_J)};
+    const Matrix3 one = Matrix3::identity();
+    const std::array<Matrix3, 4> delta_groups = {one, -skew(dynalin::value(p.arm_I)), -one,
+                                                 skew(dynalin::value(p.arm_J))};
+    for (std::size_t g = 0; g < 4; ++g) {
+      const BodyBlock& block = *blocks[g / 2];
+      const std::int32_t first = g % 2 == 0 ? 0 : 3;
+      if (block.count < first + 3) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t column = block.offset + first + static_cast<std::int32_t>(k);
+        double value = picked(w.force.force_on_position.group[g][k], w.force.torque_on_position.group[g][k]);
+        if (torque && on_J && !w.J_follows_I) value -= dot(e, cross(delta_groups[g][k], w.force.force));
+        eq.add(Column::position, row, column, factor * value);
+        eq.add(velocity_family, row, column,
+               factor * picked(w.force.force_on_velocity.group[g][k], w.force.torque_on_velocity.group[g][k]));
+      }
+    }
+    for (const MarkerWrench::Scalar& s : w.scalars) {
+      const Column family = s.family == Column::damping ? velocity_family : s.family;
+      eq.add(family, row, s.column, factor * picked(s.force, s.torque));
+    }
+    for (const MarkerWrench::Turn& turn : w.turns) {
+      const BodyBlock& block = eq.layout().body(turn.body);
+      for (std::int32_t k = 0; k < 3 && block.count == 6; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        eq.add(Column::position, row, block.offset + 3 + k, factor * picked(turn.force[at], turn.torque[at]));
+      }
+    }
+  }
+}
+
+}  // namespace dynalin
