@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/acceleration_rounding.h"
 #include "analysis/initial.h"
 #include "analysis/saddle.h"
 
@@ -43,12 +44,19 @@ double relative_imbalance(const ColumnMatrix& m, const Eigen::MatrixXd& residual
   return worst;
 }
 
-// Corrects accelerations that are already exact to rounding. What all but vanishes was rounding alone and is zero.
-void correct(std::vector<double>& acceleration, const Eigen::MatrixXd& step) {
-  for (std::size_t k = 0; k < acceleration.size(); ++k) {
-    const double change = step(static_cast<Eigen::Index>(k), 0);
-    acceleration[k] += change;
-    if (std::abs(acceleration[k]) <= 1e-3 * std::abs(change)) acceleration[k] = 0;
+// Corrects values that are already exact to rounding. What all but vanishes was rounding alone and is zero.
+void correct(std::vector<double>& values, std::int32_t offset, const Eigen::MatrixXd& step) {
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double change = step(offset + static_cast<Eigen::Index>(k), 0);
+    values[k] += change;
+    if (std::abs(values[k]) <= 1e-3 * std::abs(change)) values[k] = 0;
+  }
+}
+
+// What is zero but for the rounding of the point is zero.
+void drop_rounding(std::vector<double>& values, std::int32_t offset, const Eigen::VectorXd& rounding) {
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (std::abs(values[k]) <= rounding(offset + static_cast<Eigen::Index>(k))) values[k] = 0;
   }
 }
 
@@ -95,22 +103,21 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
   rows.resize(layout);
   Equations eq;
   eq.resize(layout);
-  Partition part;
   std::vector<std::string> history;
   const std::vector<double> first_values = op.algebraic;
   double before = std::numeric_limits<double>::infinity();
   int stalled = 0;
   SparseLu lu;
 
-  // Minus the residuals at `op`, in the order of the saddle matrix.
-  const auto evaluate = [&](std::initializer_list<Column> wanted) {
-    const Motion motion = system.motion(op);
+  system.constraints(system.motion(op), rows);
+  const Partition part = system.partition(rows, true);
+  findings.redundant_rows = part.redundant;
+  for (const std::int32_t r : part.redundant) op.lambda[static_cast<std::size_t>(r)] = 0.0;
+
+  // Minus the residuals at a point, in the order of the saddle matrix.
+  const auto evaluate = [&](const OperatingPoint& at, std::initializer_list<Column> wanted) {
+    const Motion motion = system.motion(at);
     system.constraints(motion, rows);
-    if (part.active.empty()) {
-      part = system.partition(rows, true);
-      findings.redundant_rows = part.redundant;
-      for (const std::int32_t r : part.redundant) op.lambda[static_cast<std::size_t>(r)] = 0.0;
-    }
     system.equations(motion, rows, eq, wanted);
     Eigen::MatrixXd missing = Eigen::MatrixXd::Zero(saddle.size(), 1);
     for (std::int32_t r = 0; r < eq.size(); ++r)
@@ -124,7 +131,7 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
   };
 
   for (int iteration = 0; iteration < iteration_limit; ++iteration) {
-    Eigen::MatrixXd step = evaluate({Column::acceleration, Column::lambda, Column::algebraic, Column::state_rate});
+    Eigen::MatrixXd step = evaluate(op, {Column::acceleration, Column::lambda, Column::algebraic, Column::state_rate});
     if (!step.allFinite()) {
       const std::string reason = system.fault(system.motion(op));
       return failure(reason.empty() ? "a force or constraint has no finite value" : reason, history);
@@ -141,10 +148,15 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
       warn_of_changed_starts(layout, first_values, op.algebraic, findings);
       // What is zero by the structure of the model, such as the load of a body in free fall, becomes exactly zero.
       for (int correction = 0; correction < 2 && imbalance < 1e-15; ++correction) {
-        if (correction > 0) step = evaluate({});
+        if (correction > 0) step = evaluate(op, {});
         lu.solve(step);
-        correct(op.acceleration, step);
+        correct(op.acceleration, 0, step);
+        correct(op.lambda, saddle.lambda(0), step);
       }
+      const Eigen::VectorXd rounding =
+          rounding_of_accelerations(system, lu, op, [&](const OperatingPoint& at) { return evaluate(at, {}); });
+      drop_rounding(op.acceleration, 0, rounding);
+      drop_rounding(op.lambda, saddle.lambda(0), rounding);
       return op;
     }
     before = imbalance;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "analysis/initial.h"
 
@@ -98,6 +99,20 @@ void add_norm(const System& system, const Motion& motion, double weight, std::ve
   }
 }
 
+// How far velocities are from a condition, and the size of its terms.
+struct Miss {
+  double value, size;
+};
+Miss miss(const Condition& c, const Eigen::VectorXd& velocity) {
+  Miss m{-c.value, std::abs(c.value)};
+  for (std::size_t i = 0; i < c.column.size(); ++i) {
+    const double term = c.coefficient[i] * velocity(c.column[i]);
+    m.value += term;
+    m.size = std::max(m.size, std::abs(term));
+  }
+  return m;
+}
+
 // min ½ (u − u₀)ᵀ W (u − u₀) under the conditions that are independent; dependent ones must agree to `tolerance`.
 struct LeastChange {
   Eigen::VectorXd velocity;
@@ -141,15 +156,54 @@ Result<LeastChange> least_change(const System& system, const Motion& motion, con
   LeastChange result{x.col(0).head(n), {}};
   for (std::size_t k = 0; k < conditions.size(); ++k) {
     if (e.pivot_column[k] >= 0) continue;
-    double sum = -conditions[k].value, size = std::abs(conditions[k].value);
-    for (std::size_t i = 0; i < conditions[k].column.size(); ++i) {
-      const double term = conditions[k].coefficient[i] * result.velocity(conditions[k].column[i]);
-      sum += term;
-      size = std::max(size, std::abs(term));
-    }
-    if (std::abs(sum) > 1e-8 * std::max(size, result.velocity.cwiseAbs().maxCoeff())) result.contradicted.push_back(k);
+    const Miss off = miss(conditions[k], result.velocity);
+    if (std::abs(off.value) > 1e-8 * std::max(off.size, result.velocity.cwiseAbs().maxCoeff()))
+      result.contradicted.push_back(k);
   }
   return result;
+}
+
+bool met_to_rounding(const Condition& c, const Eigen::VectorXd& velocity) {
+  const Miss off = miss(c, velocity);
+  return std::abs(off.value) <= 4 * std::numeric_limits<double>::epsilon() * off.size;
+}
+
+// The velocities that meet the constraints, which come first and of which some are `active`, and the other conditions
+// in the sense of least squares; what these leave open changes least from `start`.
+Result<Eigen::VectorXd> nearest(const System& system, const Motion& motion, const std::vector<Condition>& conditions,
+                                const std::vector<bool>& active, const Eigen::VectorXd& start) {
+  const auto n = static_cast<Eigen::Index>(system.coordinates());
+  std::vector<Triplet> entries;
+  add_norm(system, motion, 1e-10, entries);
+  Eigen::MatrixXd change = Eigen::MatrixXd::Zero(n + static_cast<Eigen::Index>(active.size()), 1);
+  for (std::size_t k = active.size(); k < conditions.size(); ++k) {
+    const Condition& c = conditions[k];
+    const double off = miss(c, start).value;
+    for (std::size_t i = 0; i < c.column.size(); ++i) {
+      change(c.column[i], 0) -= c.coefficient[i] * off;
+      for (std::size_t j = 0; j < c.column.size(); ++j) {
+        entries.push_back({c.column[i], c.column[j], c.coefficient[i] * c.coefficient[j]});
+      }
+    }
+  }
+  for (std::size_t k = 0; k < active.size(); ++k) {
+    const auto at = static_cast<std::int32_t>(n + static_cast<Eigen::Index>(k));
+    if (!active[k]) {
+      entries.push_back({at, at, 1.0});
+      continue;
+    }
+    change(at, 0) = -miss(conditions[k], start).value;
+    for (std::size_t i = 0; i < conditions[k].column.size(); ++i) {
+      entries.push_back({at, conditions[k].column[i], conditions[k].coefficient[i]});
+      entries.push_back({conditions[k].column[i], at, conditions[k].coefficient[i]});
+    }
+  }
+  SparseLu lu;
+  const auto size = static_cast<std::int32_t>(change.rows());
+  if (!lu.factor(compressed(size, size, entries)))
+    return tl::unexpected(Failure{"velocity initial conditions", "the velocity conditions are singular", {}});
+  lu.solve(change);
+  return start + change.col(0).head(n);
 }
 
 // Φ′ = g·u + Φ_t = 0 at u: the rate at zero velocity is Φ_t.
@@ -187,59 +241,35 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
     for (const std::size_t k : hard->contradicted) f.details.push_back(conditions[k].text);
     return tl::unexpected(f);
   }
-  conditions.insert(conditions.end(), stated.begin(), stated.end());
-  auto solution = stated.empty() ? std::move(hard) : least_change(system, motion, conditions, start);
-  if (!solution) return tl::unexpected(solution.error());
-  if (!solution->contradicted.empty()) {
-    // The stated values cannot all be kept: take the point nearest to all of them, then hold what it gives.
-    const auto n = static_cast<Eigen::Index>(system.coordinates());
-    std::vector<Triplet> entries;
-    add_norm(system, motion, 1e-10, entries);
-    Eigen::MatrixXd x = Eigen::MatrixXd::Zero(n + static_cast<Eigen::Index>(constraints), 1);
-    for (std::size_t k = constraints; k < conditions.size(); ++k) {
-      const Condition& c = conditions[k];
-      for (std::size_t i = 0; i < c.column.size(); ++i) {
-        x(c.column[i], 0) += c.coefficient[i] * c.value;
-        for (std::size_t j = 0; j < c.column.size(); ++j) {
-          entries.push_back({c.column[i], c.column[j], c.coefficient[i] * c.coefficient[j]});
-        }
-      }
-    }
+  Eigen::VectorXd velocity = std::move(hard->velocity);
+  if (!stated.empty()) {
+    conditions.insert(conditions.end(), stated.begin(), stated.end());
+    auto kept = least_change(system, motion, conditions, start);
+    if (!kept) return tl::unexpected(kept.error());
     ConstraintRows rows;
     rows.resize(system.layout());
     system.constraints(motion, rows);
     const Partition part = system.partition(rows, true);
-    for (std::size_t k = 0; k < constraints; ++k) {
-      const auto at = static_cast<std::int32_t>(n + static_cast<Eigen::Index>(k));
-      if (!part.active[k]) {
-        entries.push_back({at, at, 1.0});
-        continue;
-      }
-      x(at, 0) = conditions[k].value;
-      for (std::size_t i = 0; i < conditions[k].column.size(); ++i) {
-        entries.push_back({at, conditions[k].column[i], conditions[k].coefficient[i]});
-        entries.push_back({conditions[k].column[i], at, conditions[k].coefficient[i]});
-      }
+    // Where the stated values cannot all be kept, the point nearest to all of them is taken; a second pass undoes what
+    // the least change has pulled it. Where some follow from others, but for a tolerance, all count alike.
+    const bool contradicted = !kept->contradicted.empty();
+    velocity = contradicted ? start : std::move(kept->velocity);
+    const auto met = [&](const Condition& c) { return met_to_rounding(c, velocity); };
+    for (int pass = 0; pass < (contradicted ? 2 : 1); ++pass) {
+      if (std::all_of(conditions.begin(), conditions.end(), met)) break;
+      auto found = nearest(system, motion, conditions, part.active, velocity);
+      if (!found) return tl::unexpected(found.error());
+      velocity = std::move(*found);
     }
-    SparseLu lu;
-    if (!lu.factor(compressed(static_cast<std::int32_t>(x.rows()), static_cast<std::int32_t>(x.rows()), entries))) {
-      return tl::unexpected(Failure{"velocity initial conditions", "the velocity conditions are singular", {}});
+    for (std::size_t k = constraints; k < conditions.size() && contradicted; ++k) {
+      const double stated_value = conditions[k].value, value = stated_value + miss(conditions[k], velocity).value;
+      if (std::abs(value - stated_value) <= 1e-8 * std::max(1.0, std::abs(stated_value))) continue;
+      findings.warnings.push_back(
+          fmt::format("the initial velocity {} = {:g} contradicts the constraints and was changed to {:g}",
+                      conditions[k].text, stated_value, value));
     }
-    lu.solve(x);
-    for (std::size_t k = constraints; k < conditions.size(); ++k) {
-      double value = 0;
-      for (std::size_t i = 0; i < conditions[k].column.size(); ++i) {
-        value += conditions[k].coefficient[i] * x(conditions[k].column[i], 0);
-      }
-      if (std::abs(value - conditions[k].value) > 1e-8 * std::max(1.0, std::abs(conditions[k].value))) {
-        findings.warnings.push_back(
-            fmt::format("the initial velocity {} = {:g} contradicts the constraints and was changed to {:g}",
-                        conditions[k].text, conditions[k].value, value));
-      }
-    }
-    solution->velocity = x.col(0).head(n);
   }
-  op.velocity.assign(solution->velocity.data(), solution->velocity.data() + solution->velocity.size());
+  op.velocity.assign(velocity.data(), velocity.data() + velocity.size());
   return op;
 }
 

@@ -85,6 +85,7 @@ void doubt_rounding(const ZeroModes& zero, const EigenPairs& pairs, std::vector<
 }  // namespace
 
 std::vector<EigenTrust> refine(const PerturbationEquations& equations, const ZeroModes& zero, EigenPairs& pairs) {
+  const StructuredPencil pencil(equations, zero);
   EigenClusters::Corrected corrected;
   std::vector<double> gap;
   const auto single = [&](Index i, double part) {
@@ -92,7 +93,7 @@ std::vector<EigenTrust> refine(const PerturbationEquations& equations, const Zer
     return corrected.alone[at] && corrected.trust[at].bound < part * gap[at];
   };
   for (int pass = 0; pass < 2; ++pass) {
-    const EigenResiduals residuals(equations, zero, pairs);
+    const EigenResiduals residuals(pencil, zero, pairs);
     const EigenClusters clusters(pairs, residuals);
     corrected = clusters.corrected();
     gap = nearest(zero, corrected.pairs);
@@ -109,7 +110,7 @@ std::vector<EigenTrust> refine(const PerturbationEquations& equations, const Zer
   }
   std::vector<Index> wanted = inexact(pairs, corrected.trust);
   std::erase_if(wanted, [&](Index i) { return !single(i, 0.01); });
-  refine_by_inverse_iteration(equations, std::move(wanted), pairs, corrected.trust);
+  refine_by_inverse_iteration(pencil, std::move(wanted), pairs, corrected.trust);
   doubt_rounding(zero, pairs, corrected.trust);
   return std::move(corrected.trust);
 }

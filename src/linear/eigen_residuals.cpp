@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "linear/dense_products.h"
-#include "linear/pencil_residual.h"
 
 namespace dynalin {
 
@@ -22,9 +21,9 @@ constexpr double least_product = 1e-12;  // |yᴴ x| of unit vectors
 
 }  // namespace
 
-EigenResiduals::EigenResiduals(const PerturbationEquations& equations, const ZeroModes& zero, const EigenPairs& pairs)
+EigenResiduals::EigenResiduals(const StructuredPencil& pencil, const ZeroModes& zero, const EigenPairs& pairs)
     : pairs_(pairs), floor_(Eigen::VectorXd::Zero(pairs.right.cols())) {
-  const ComplexMatrix reduced = measure(equations);
+  const ComplexMatrix reduced = measure(pencil);
   product_ = adjoint_product(pairs.left, pairs.right);
   product_conjugate_ = transposed_product(pairs.left, pairs.right);
   unit_ = product_.diagonal();
@@ -44,11 +43,12 @@ EigenResiduals::EigenResiduals(const PerturbationEquations& equations, const Zer
   along_conjugate_ = transposed_product(pairs.left, reduced);
   in_units(along_, along_conjugate_);
   in_units(product_, product_conjugate_);
-  measure_zero_modes(equations, zero, reduced);
+  measure_zero_modes(pencil, zero, reduced);
 }
 
 // The residuals reduced to the states, and in floor_ what their own sums round.
-ComplexMatrix EigenResiduals::measure(const PerturbationEquations& equations) {
+ComplexMatrix EigenResiduals::measure(const StructuredPencil& pencil) {
+  const PerturbationEquations& equations = pencil.equations();
   const Index n = equations.states(), N = equations.unknowns();
   ComplexMatrix reduced(n, count());
   for_column_blocks(count(), [&](Index first, Index columns) {
@@ -59,11 +59,12 @@ ComplexMatrix EigenResiduals::measure(const PerturbationEquations& equations) {
     for (Index c = 0; c < columns; ++c) {
       ComplexVector w(N);
       w << a.col(c), x.col(c);
-      const PencilResidual of =
-          pencil_residual(equations.pencil(), equations.states(), value(pairs_, {first + c, false}), w);
+      const PencilResidual of = pencil.residual(value(pairs_, {first + c, false}), w);
       r.col(c) = of.value;
-      floor_(first + c) =
-          b.col(c).cwiseAbs().dot(of.rounding.head(b.rows())) + y.col(c).cwiseAbs().dot(of.rounding.tail(n));
+      const ComplexVector out = pencil.taken_out(w);
+      floor_(first + c) = b.col(c).cwiseAbs().dot(of.rounding.head(b.rows())) +
+                          y.col(c).cwiseAbs().dot(of.rounding.tail(n)) +
+                          first_order_margin * std::abs(b.col(c).dot(out.head(b.rows())) + y.col(c).dot(out.tail(n)));
     }
     reduced.middleCols(first, columns) = by_parts(r, [&](const Matrix& m) { return equations.reduced(m); });
   });
@@ -90,24 +91,17 @@ void EigenResiduals::find_defective(const ZeroModes& zero) {
   }
 }
 
-void EigenResiduals::measure_zero_modes(const PerturbationEquations& equations, const ZeroModes& zero,
+void EigenResiduals::measure_zero_modes(const StructuredPencil& pencil, const ZeroModes& zero,
                                         const ComplexMatrix& reduced) {
-  const Index z = zero.count, n = equations.states(), N = equations.unknowns();
+  const Index z = zero.count, n = pencil.equations().states();
   zero_coupling_ = Eigen::VectorXd::Zero(count());
   zero_share_ = ComplexMatrix::Zero(n, count());
   if (z == 0 || count() == 0) return;
   const Matrix T0 = zero.right().leftCols(z), chains = zero.block.topLeftCorner(z, z);
-  const Matrix a = equations.complete(T0);
-  Matrix r(N, z);
-  for (Index c = 0; c < z; ++c) {
-    ComplexVector w(N);
-    w << a.col(c).cast<Complex>(), T0.col(c).cast<Complex>();
-    r.col(c) = pencil_residual(equations.pencil(), equations.states(), 0, w).value.real();
-  }
-  r.bottomRows(n) -= T0 * chains;
-  const ComplexMatrix from_zero = adjoint_product(pairs_.left, equations.reduced(r).cast<Complex>());
+  const ComplexMatrix from_zero =
+      adjoint_product(pairs_.left, pencil.equations().reduced(pencil.zero_residuals()).cast<Complex>());
   // Dual to the zero modes: the upper rows of T⁻¹ less what belongs to the other modes.
-  const ComplexMatrix dual = zero.left().leftCols(z).transpose().cast<Complex>();
+  const ComplexMatrix dual = pencil.zero_shares().cast<Complex>();
   const ComplexMatrix U = dual * pairs_.right, onto = dual * reduced;
   for (Index i = 0; i < count(); ++i) {
     if (defective(i)) continue;

@@ -1,7 +1,7 @@
 // What the sparse perturbation equations say about computed eigenpairs, in components along all of them.
 //
 // With all eigenvectors X = [x_j] and Y their left counterparts, R the residuals S w − λ E w of the sparse pencil
-// (perturbation.h) in long double, reduced to the states, the similar matrix
+// (pencil_residual.h) in long double, reduced to the states, the similar matrix
 //
 //     X⁻¹ A X = Λ + G,   G_ij = y_iᴴ r_j / y_iᴴ x_i  (minus what Yᴴ X is off from diagonal)
 //
@@ -11,14 +11,13 @@
 #include <vector>
 
 #include "linear/eigen_pairs.h"
-#include "linear/perturbation.h"
-#include "linear/zero_modes.h"
+#include "linear/pencil_residual.h"
 
 namespace dynalin {
 
 class EigenResiduals {
  public:
-  EigenResiduals(const PerturbationEquations&, const ZeroModes&, const EigenPairs&);
+  EigenResiduals(const StructuredPencil&, const ZeroModes&, const EigenPairs&);
 
   Eigen::Index count() const { return floor_.size(); }
   // Entries of Yᴴ R and of Yᴴ X among members, in units of y_iᴴ x_i.
@@ -27,7 +26,7 @@ class EigenResiduals {
   // y_iᴴ x_i
   std::complex<double> unit(Eigen::Index i) const { return unit_(i); }
 
-  // What rounding may have left of G_ii.
+  // What rounding may have left of G_ii: of its own sums, and what was taken out for the sake of the zero modes.
   double floor(Eigen::Index i) const { return floor_(i); }
 
   // Left and right vectors of a defective eigenvalue are orthogonal: nothing can be measured along them. What a change
@@ -51,9 +50,9 @@ class EigenResiduals {
   }
 
  private:
-  Eigen::MatrixXcd measure(const PerturbationEquations&);
+  Eigen::MatrixXcd measure(const StructuredPencil&);
   void find_defective(const ZeroModes&);
-  void measure_zero_modes(const PerturbationEquations&, const ZeroModes&, const Eigen::MatrixXcd& reduced);
+  void measure_zero_modes(const StructuredPencil&, const ZeroModes&, const Eigen::MatrixXcd& reduced);
 
   static std::complex<double> entry(const Eigen::MatrixXcd& plain, const Eigen::MatrixXcd& crossed, const Member& i,
                                     const Member& j) {

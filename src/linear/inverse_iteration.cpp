@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "linear/pencil_residual.h"
 #include "system/shifted_lu.h"
 
 namespace dynalin {
@@ -20,11 +19,11 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr std::size_t most_refined = 100;
 constexpr double most_factor_entries = 2e7;
 
-void refine_one(const PerturbationEquations& equations, ShiftedLu& lu, Index i, EigenPairs& pairs, EigenTrust& trust) {
+void refine_one(const StructuredPencil& pencil, ShiftedLu& lu, Index i, EigenPairs& pairs, EigenTrust& trust) {
   Complex& value = pairs.values[static_cast<std::size_t>(i)];
   const Complex start = value;
   if (!lu.factor(start)) return;
-  const Index n = equations.states(), N = equations.unknowns();
+  const Index n = pencil.equations().states(), N = pencil.equations().unknowns();
   ComplexVector w = ComplexVector::Zero(N), y = w;
   w.tail(n) = pairs.right.col(i);
   y.tail(n) = pairs.left.col(i);
@@ -35,10 +34,10 @@ void refine_one(const PerturbationEquations& equations, ShiftedLu& lu, Index i, 
     lu.solve(w), lu.solve_adjoint(y);
     w /= w.tail(n).norm(), y /= y.tail(n).norm();
     if (!w.allFinite() || !y.allFinite()) return;
-    const PencilResidual r = pencil_residual(equations.pencil(), equations.states(), lambda, w);
+    const PencilResidual r = pencil.residual(lambda, w);
     const Complex unit = y.tail(n).dot(w.tail(n));
     const Complex delta = y.dot(r.value) / unit;
-    floor = y.cwiseAbs().dot(r.rounding) / std::abs(unit);
+    floor = (y.cwiseAbs().dot(r.rounding) + first_order_margin * std::abs(y.dot(pencil.taken_out(w)))) / std::abs(unit);
     lambda += LongComplex(delta);
     change = std::abs(delta);
     if (round > 0 && change <= floor + eps * std::abs(start)) break;
@@ -57,16 +56,16 @@ void refine_one(const PerturbationEquations& equations, ShiftedLu& lu, Index i, 
 
 }  // namespace
 
-void refine_by_inverse_iteration(const PerturbationEquations& equations, std::vector<Index> wanted, EigenPairs& pairs,
+void refine_by_inverse_iteration(const StructuredPencil& pencil, std::vector<Index> wanted, EigenPairs& pairs,
                                  std::vector<EigenTrust>& trust) {
   if (wanted.empty()) return;
   std::stable_sort(wanted.begin(), wanted.end(), [&](Index a, Index b) {
     return std::abs(value(pairs, {a, false})) < std::abs(value(pairs, {b, false}));
   });
   if (wanted.size() > most_refined) wanted.resize(most_refined);
-  ShiftedLu lu(equations.pencil(), equations.states());
+  ShiftedLu lu(pencil.equations().pencil(), pencil.equations().states());
   if (lu.predicted_entries() > most_factor_entries) return;
-  for (const Index i : wanted) refine_one(equations, lu, i, pairs, trust[static_cast<std::size_t>(i)]);
+  for (const Index i : wanted) refine_one(pencil, lu, i, pairs, trust[static_cast<std::size_t>(i)]);
 }
 
 }  // namespace dynalin

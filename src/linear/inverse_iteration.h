@@ -2,14 +2,14 @@
 #pragma once
 
 #include "linear/eigen_pairs.h"
-#include "linear/perturbation.h"
+#include "linear/pencil_residual.h"
 
 namespace dynalin {
 
 // Inverse iteration with Rayleigh quotients of residuals in long double for the pairs `wanted`, smallest modulus
 // first; nothing where the factors would be large. A result farther away than the pair's bound, or no better, is
 // not taken.
-void refine_by_inverse_iteration(const PerturbationEquations&, std::vector<Eigen::Index> wanted, EigenPairs& pairs,
+void refine_by_inverse_iteration(const StructuredPencil&, std::vector<Eigen::Index> wanted, EigenPairs& pairs,
                                  std::vector<EigenTrust>& trust);
 
 }  // namespace dynalin

@@ -20,6 +20,7 @@ class Linearizer {
       : system_(system), layout_(system.layout()), options_(options), op_(op), motion_(system.motion(op)) {
     rows_.resize(layout_);
     eq_.resize(layout_);
+    eq_.keep_sizes();
   }
 
   Result<LinearSystem> run() {
@@ -36,7 +37,8 @@ class Linearizer {
     result_.differential_states = choice->differential.size();
     result_.warnings = choice->warnings;
     read_channels();
-    auto equations = PerturbationEquations::make(system_, rows_, eq_, *choice, inputs_, options_.without_damping);
+    auto equations =
+        PerturbationEquations::make(system_, motion_, rows_, eq_, *choice, inputs_, options_.without_damping);
     if (!equations) return tl::unexpected(equations.error());
     reduce(std::make_shared<const PerturbationEquations>(std::move(*equations)));
     return std::move(result_);

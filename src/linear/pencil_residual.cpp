@@ -37,4 +37,31 @@ PencilResidual pencil_residual(const ColumnMatrix& S, std::int32_t states, LongC
   return r;
 }
 
+StructuredPencil::StructuredPencil(const PerturbationEquations& equations, const ZeroModes& zero)
+    : equations_(equations) {
+  const Eigen::Index z = zero.count, n = equations.states();
+  const Eigen::MatrixXd T0 = zero.right().leftCols(z);
+  shares_ = zero.left().leftCols(z).transpose();
+  residuals_.resize(equations.unknowns(), z);
+  if (z == 0) return;
+  const Eigen::MatrixXd a = equations.complete(T0);
+  for (Eigen::Index c = 0; c < z; ++c) {
+    Eigen::VectorXcd w(equations.unknowns());
+    w << a.col(c).cast<std::complex<double>>(), T0.col(c).cast<std::complex<double>>();
+    residuals_.col(c) = pencil_residual(equations.pencil(), equations.states(), 0, w).value.real();
+  }
+  residuals_.bottomRows(n) -= T0 * zero.block.topLeftCorner(z, z);
+}
+
+PencilResidual StructuredPencil::residual(LongComplex lambda, const Eigen::VectorXcd& w) const {
+  PencilResidual r = pencil_residual(equations_.pencil(), equations_.states(), lambda, w);
+  r.value -= taken_out(w);
+  return r;
+}
+
+Eigen::VectorXcd StructuredPencil::taken_out(const Eigen::VectorXcd& w) const {
+  const Eigen::VectorXcd along = shares_ * w.tail(equations_.states());
+  return residuals_ * along;
+}
+
 }  // namespace dynalin

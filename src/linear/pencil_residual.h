@@ -4,11 +4,13 @@
 #include <Eigen/Core>
 #include <complex>
 
-#include "mechanics/accumulator.h"
+#include "linear/perturbation.h"
+#include "linear/zero_modes.h"
 
 namespace dynalin {
 
-constexpr double long_eps = 5.5e-20;  // rounding of one operation in long double
+constexpr double long_eps = 5.5e-20;      // rounding of one operation in long double
+constexpr double first_order_margin = 2;  // a bound that is good to first order leaves as much for the rest
 
 // (S − λ E) w, E the identity in the last `states` places, and what the sums of its rows may have rounded.
 struct PencilResidual {
@@ -17,5 +19,26 @@ struct PencilResidual {
 };
 PencilResidual pencil_residual(const ColumnMatrix& S, std::int32_t states, std::complex<long double> lambda,
                                const Eigen::VectorXcd& w);
+
+// The pencil with what is zero by the structure of the model exactly so.
+//
+// The zero modes T₀ leave S W₀ − E W₀ N = R, the rounding of the entries of S. The pencil S − R T₀⁺ is the nearest that
+// has them: a mode that runs far along them, as a slow one does beside rigid-body motion, is not driven by R.
+class StructuredPencil {
+ public:
+  StructuredPencil(const PerturbationEquations&, const ZeroModes&);
+
+  const PerturbationEquations& equations() const { return equations_; }
+  PencilResidual residual(std::complex<long double> lambda, const Eigen::VectorXcd& w) const;
+  // R T₀⁺ of the states in w: what the pencil as assembled would add.
+  Eigen::VectorXcd taken_out(const Eigen::VectorXcd& w) const;
+  // R of the zero modes, and T₀⁺.
+  const Eigen::MatrixXd& zero_residuals() const { return residuals_; }
+  const Eigen::MatrixXd& zero_shares() const { return shares_; }
+
+ private:
+  const PerturbationEquations& equations_;
+  Eigen::MatrixXd residuals_, shares_;
+};
 
 }  // namespace dynalin

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "linear/dense_products.h"
+#include "linear/entry_sizes.h"
 
 namespace dynalin {
 
@@ -34,11 +35,6 @@ ColumnMatrix transposed(const ColumnMatrix& m) {
   return compressed(m.columns, m.rows, entries);
 }
 
-ColumnMatrix absolute(ColumnMatrix m) {
-  for (double& v : m.value) v = std::abs(v);
-  return m;
-}
-
 // Adds a block to the triplets of a larger matrix.
 void place(std::vector<Triplet>& entries, const ColumnMatrix& m, std::int32_t row, std::int32_t column) {
   for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) { entries.push_back({row + r, column + c, v}); });
@@ -46,10 +42,30 @@ void place(std::vector<Triplet>& entries, const ColumnMatrix& m, std::int32_t ro
 
 using Entries = std::vector<Triplet>;
 
+// Entries of a block of the pencil, and in a list of all blocks the sizes of what they are made of.
+class SizedBlock {
+ public:
+  SizedBlock(std::int32_t row, std::int32_t column, Entries& sizes) : row_(row), column_(column), sizes_(sizes) {}
+
+  Entries values;
+  void add(std::int32_t r, std::int32_t c, double value, double size) {
+    if (value != 0.0) values.push_back({r, c, value});
+    note_size(r, c, size);
+  }
+  void note_size(std::int32_t r, std::int32_t c, double size) {
+    if (size > 0) sizes_.push_back({row_ + r, column_ + c, size});
+  }
+
+ private:
+  std::int32_t row_, column_;
+  Entries& sizes_;
+};
+
 }  // namespace
 
-Result<PerturbationEquations> PerturbationEquations::make(const System& system, const ConstraintRows& rows,
-                                                          const Equations& eq, const StateChoice& choice,
+Result<PerturbationEquations> PerturbationEquations::make(const System& system, const Motion& motion,
+                                                          const ConstraintRows& rows, const Equations& eq,
+                                                          const StateChoice& choice,
                                                           const std::vector<std::int32_t>& inputs,
                                                           bool without_damping) {
   PerturbationEquations p;
@@ -91,77 +107,105 @@ Result<PerturbationEquations> PerturbationEquations::make(const System& system, 
   }
 
   // What lies below it, and the columns of states and inputs.
-  Entries below_10, below_20, below_21, states;
-  std::int32_t r = 0;
-  for (std::int32_t k = 0; k < rows.size(); ++k) {
-    if (!choice.velocity_active[static_cast<std::size_t>(k)]) continue;
-    for (const auto& e : rows.row(k)) {
-      if (e.c.v != 0.0) below_10.push_back({r, e.column, e.c.v});
-      if (e.c.a1 != 0.0) below_21.push_back({saddle.lambda(k), e.column, e.c.a1});
-      if (e.c.a0 != 0.0) below_20.push_back({saddle.lambda(k), e.column, e.c.a0});
-    }
-    ++r;
-  }
-  const auto held = n - static_cast<std::int32_t>(choice.gradient.size());
-  for (std::size_t k = 0; k < choice.gradient.size(); ++k) {
-    states.push_back({held + static_cast<std::int32_t>(k), choice.position_state[k], -1.0});
-    if (!choice.has_rate[k]) continue;
-    for (const auto& e : choice.gradient[k]) {
-      if (e.c.v != 0.0) below_10.push_back({r, e.column, e.c.v});
-    }
-    states.push_back({n + r++, choice.rate_state[k], -1.0});
-  }
-  const auto add = [&](Column family, Entries& entries, auto&& place_of) {
-    for_each_entry(eq.matrix(family), [&](std::int32_t row, std::int32_t c, double v) {
-      const std::int32_t w = row - n;
-      const bool replaced = w >= 0 && w < static_cast<std::int32_t>(cut.size()) && cut[static_cast<std::size_t>(w)];
-      if (!replaced) entries.push_back(place_of(saddle.equation(row), c, v));
-    });
+  const std::int32_t first_saddle = 2 * n, first_state = p.algebraic_;
+  const EntrySizes entry_sizes(layout, motion);
+  Entries sizes;
+  SizedBlock below_10(n, 0, sizes), below_20(first_saddle, 0, sizes), below_21(first_saddle, n, sizes),
+      coordinates(0, 0, sizes), rates(n, n, sizes), states(0, first_state, sizes);
+  std::int32_t held = 0, r = 0;
+  const auto note_gradient = [](SizedBlock& block, std::int32_t at, const auto& row,
+                                const std::vector<RowCoefficients>& size) {
+    for (std::size_t e = 0; e < row.size(); ++e) block.note_size(at, row[e].column, size[e].g);
   };
-  const auto there = [](std::int32_t row, std::int32_t c, double v) { return Triplet{row, c, v}; };
-  add(Column::position, below_20, there);
-  add(Column::velocity, below_21, there);
-  if (!without_damping) add(Column::damping, below_21, there);
+  const auto add_rate_row = [&](const auto& row, const std::vector<RowCoefficients>& size) {
+    for (std::size_t e = 0; e < row.size(); ++e) {
+      below_10.add(r, row[e].column, row[e].c.v, size[e].v);
+    }
+    note_gradient(rates, r++, row, size);
+  };
+  for (std::int32_t k = 0; k < rows.size(); ++k) {
+    const auto row = rows.row(k);
+    const std::vector<RowCoefficients> size = entry_sizes.of_row(row);
+    if (choice.active[static_cast<std::size_t>(k)]) note_gradient(coordinates, held++, row, size);
+    if (!choice.velocity_active[static_cast<std::size_t>(k)]) continue;
+    add_rate_row(row, size);
+    for (std::size_t e = 0; e < row.size(); ++e) {
+      below_21.add(saddle.lambda(k), row[e].column, row[e].c.a1, size[e].a1);
+      below_20.add(saddle.lambda(k), row[e].column, row[e].c.a0, size[e].a0);
+    }
+  }
+  for (std::size_t k = 0; k < choice.gradient.size(); ++k) {
+    const auto& row = choice.gradient[k];
+    const std::vector<RowCoefficients> size = entry_sizes.of_row(row);
+    states.add(held, choice.position_state[k], -1.0, 1.0);
+    note_gradient(coordinates, held++, row, size);
+    if (!choice.has_rate[k]) continue;
+    states.add(n + r, choice.rate_state[k], -1.0, 1.0);
+    add_rate_row(row, size);
+  }
+  const auto add = [&](Column family, auto&& add_entry) {
+    const ColumnMatrix& m = eq.matrix(family);
+    const ColumnMatrix size = entry_sizes.of(eq, family);
+    for (std::int32_t c = 0; c < m.columns; ++c) {
+      for (std::int32_t e = m.start[static_cast<std::size_t>(c)]; e < m.start[static_cast<std::size_t>(c) + 1]; ++e) {
+        const auto at = static_cast<std::size_t>(e);
+        const std::int32_t w = m.row[at] - n;
+        const bool replaced = w >= 0 && w < static_cast<std::int32_t>(cut.size()) && cut[static_cast<std::size_t>(w)];
+        if (!replaced) add_entry(m.row[at], c, m.value[at], size.value[at]);
+      }
+    }
+  };
+  const auto to = [&](SizedBlock& block) {
+    return
+        [&](std::int32_t row, std::int32_t c, double v, double size) { block.add(saddle.equation(row), c, v, size); };
+  };
+  add(Column::position, to(below_20));
+  add(Column::velocity, to(below_21));
+  if (!without_damping) add(Column::damping, to(below_21));
   constexpr std::int32_t constant = -1;
   std::vector<std::int32_t> state_of(layout.states.size(), constant);
   for (std::size_t k = 0; k < choice.differential.size(); ++k) {
     state_of[static_cast<std::size_t>(choice.differential[k])] =
         choice.first_differential + static_cast<std::int32_t>(k);
   }
-  add(Column::state, states, [&](std::int32_t row, std::int32_t c, double v) {
-    return Triplet{2 * n + row, state_of[static_cast<std::size_t>(c)], v};
+  add(Column::state, [&](std::int32_t row, std::int32_t c, double v, double size) {
+    const std::int32_t state = state_of[static_cast<std::size_t>(c)];
+    if (state != constant) states.add(first_saddle + saddle.equation(row), state, v, size);
   });
-  std::erase_if(states, [](const Triplet& t) { return t.column == constant; });
   for (std::size_t u = 0; u < inputs.size(); ++u) {
-    states.push_back({2 * n + saddle.algebraic(inputs[u]), p.states_ + static_cast<std::int32_t>(u), -1.0});
+    states.add(first_saddle + saddle.algebraic(inputs[u]), p.states_ + static_cast<std::int32_t>(u), -1.0, 0.0);
   }
-  p.rates_on_positions_ = compressed(n, n, below_10);
-  p.saddle_on_positions_ = compressed(saddle.size(), n, below_20);
-  p.saddle_on_rates_ = compressed(saddle.size(), n, below_21);
-  p.on_states_ = compressed(p.algebraic_, p.states_ + static_cast<std::int32_t>(inputs.size()), states);
+  p.rates_on_positions_ = compressed(n, n, below_10.values);
+  p.saddle_on_positions_ = compressed(saddle.size(), n, below_20.values);
+  p.saddle_on_rates_ = compressed(saddle.size(), n, below_21.values);
+  p.on_states_ = compressed(p.algebraic_, p.states_ + static_cast<std::int32_t>(inputs.size()), states.values);
 
   // The rates of states.
-  Entries on_algebraic, on_states;
+  SizedBlock on_algebraic(first_state, 0, sizes), on_states(first_state, first_state, sizes);
   for (std::size_t k = 0; k < choice.gradient.size(); ++k) {
     const std::int32_t position = choice.position_state[k], rate = choice.rate_state[k];
-    if (rate >= 0) on_states.push_back({position, rate, 1.0});
-    for (const auto& [c, g] : choice.gradient[k]) {
+    if (rate >= 0) on_states.add(position, rate, 1.0, 0.0);
+    const auto& row = choice.gradient[k];
+    const std::vector<RowCoefficients> size = entry_sizes.of_row(row);
+    for (std::size_t e = 0; e < row.size(); ++e) {
+      const auto& [c, g] = row[e];
       if (rate >= 0) {
-        on_algebraic.push_back({rate, 2 * n + c, g.g});
-        if (g.a1 != 0.0) on_algebraic.push_back({rate, n + c, g.a1});
-        if (g.a0 != 0.0) on_algebraic.push_back({rate, c, g.a0});
+        on_algebraic.add(rate, 2 * n + c, g.g, size[e].g);
+        on_algebraic.add(rate, n + c, g.a1, size[e].a1);
+        on_algebraic.add(rate, c, g.a0, size[e].a0);
       } else {
-        on_algebraic.push_back({position, n + c, g.g});
-        if (g.v != 0.0) on_algebraic.push_back({position, c, g.v});
+        on_algebraic.add(position, n + c, g.g, size[e].g);
+        on_algebraic.add(position, c, g.v, size[e].v);
       }
     }
   }
   for (std::size_t k = 0; k < choice.differential.size(); ++k) {
-    on_algebraic.push_back(
-        {choice.first_differential + static_cast<std::int32_t>(k), 2 * n + saddle.state(choice.differential[k]), 1.0});
+    on_algebraic.add(choice.first_differential + static_cast<std::int32_t>(k),
+                     2 * n + saddle.state(choice.differential[k]), 1.0, 1.0);
   }
-  p.state_rates_on_algebraic_ = compressed(p.states_, p.algebraic_, on_algebraic);
-  p.state_rates_on_states_ = compressed(p.states_, p.states_, on_states);
+  p.state_rates_on_algebraic_ = compressed(p.states_, p.algebraic_, on_algebraic.values);
+  p.state_rates_on_states_ = compressed(p.states_, p.states_, on_states.values);
+  p.sizes_ = compressed(p.unknowns(), p.unknowns(), sizes);
 
   Entries all;
   place(all, diagonal[0], 0, 0);
@@ -170,7 +214,7 @@ Result<PerturbationEquations> PerturbationEquations::make(const System& system, 
   place(all, p.saddle_on_positions_, 2 * n, 0);
   place(all, p.saddle_on_rates_, 2 * n, n);
   place(all, diagonal[2], 2 * n, 2 * n);
-  for (const Triplet& t : states) {
+  for (const Triplet& t : states.values) {
     if (t.column < p.states_) all.push_back({t.row, p.algebraic_ + t.column, t.value});
   }
   place(all, p.state_rates_on_algebraic_, p.algebraic_, 0);
@@ -196,6 +240,8 @@ PerturbationEquations PerturbationEquations::of_state_matrix(const Matrix& A) {
   p.rates_on_positions_ = p.saddle_on_positions_ = p.saddle_on_rates_ = none;
   p.on_states_ = compressed(0, p.states_, {});
   p.state_rates_on_algebraic_ = compressed(p.states_, 0, {});
+  p.sizes_ = p.pencil_;
+  for (double& v : p.sizes_.value) v = std::abs(v);
   return p;
 }
 
@@ -272,41 +318,20 @@ Matrix PerturbationEquations::state_matrices(const Matrix& a) const {
 }
 
 Matrix PerturbationEquations::rounding(const Matrix& a) const {
-  const ColumnMatrix from_positions = absolute(saddle_on_positions_), from_rates = absolute(saddle_on_rates_);
-  const ColumnMatrix on_algebraic = absolute(state_rates_on_algebraic_), pencil = absolute(pencil_);
-  Matrix adjoint = Matrix::Zero(algebraic_, states_);
-  multiply_add(transposed(state_rates_on_algebraic_), Matrix::Identity(states_, states_), adjoint, 1.0);
-  Matrix of_rates = adjoint.bottomRows(saddle_size_);
-  level_[2]->solve_transposed(of_rates);
-  of_rates = of_rates.cwiseAbs();
-  // Coordinates whose rate is no state read δq′ itself, the solution of the second level.
-  Matrix of_level = adjoint.middleRows(n_, n_);
-  const bool reads_level = !of_level.isZero(0);
-  if (reads_level) level_[1]->solve_transposed(of_level);
-  of_level = of_level.cwiseAbs();
-  adjoint.resize(0, 0);
-
   Matrix total(states_, states_);
-  for_column_blocks(states_, [&](Eigen::Index first, Eigen::Index count) {
-    Matrix parts = Matrix::Zero(algebraic_, count), of_saddle = Matrix::Zero(saddle_size_, count);
-    parts.topRows(2 * n_) = a.block(0, first, 2 * n_, count).cwiseAbs();
-    for (Eigen::Index c = 0; c < count; ++c) {
-      for_each_in_column(on_states_, static_cast<std::int32_t>(first + c), [&](std::int32_t row, double v) {
-        if (row >= 2 * n_) of_saddle(row - 2 * n_, c) += std::abs(v);
-      });
-    }
-    multiply_add(from_positions, parts.topRows(n_), of_saddle, 1.0);
-    multiply_add(from_rates, parts.middleRows(n_, n_), of_saddle, 1.0);
-    Matrix sum = transposed_product(of_rates, of_saddle);
-    multiply_add(on_algebraic, parts, sum, 1.0);
-    if (reads_level) {
-      Matrix whole = Matrix::Zero(unknowns(), count), sums = whole;
-      whole.topRows(algebraic_) = a.block(0, first, algebraic_, count).cwiseAbs();
-      whole.bottomRows(states_).middleRows(first, count).setIdentity();
-      multiply_add(pencil, whole, sums, 1.0);
-      sum += transposed_product(of_level, sums.middleRows(n_, n_).eval());
-    }
-    total.middleCols(first, count) = sum;
+  for_column_blocks(states_, [&](Eigen::Index top, Eigen::Index height) {
+    Matrix unit = Matrix::Zero(states_, height);
+    unit.middleRows(top, height).setIdentity();
+    const Matrix adjoint = complete_left(unit).cwiseAbs();
+    for_column_blocks(states_, [&](Eigen::Index first, Eigen::Index count) {
+      // Displacements and rates are what they are; roundings of what follows from them count where they arise.
+      Matrix parts = Matrix::Zero(unknowns(), count), sums = parts;
+      parts.topRows(2 * n_) = a.block(0, first, 2 * n_, count).cwiseAbs();
+      parts.bottomRows(states_).middleRows(first, count).setIdentity();
+      multiply_add(sizes_, parts, sums, 1.0);
+      total.block(top, first, height, count) =
+          transposed_product(adjoint, sums.topRows(algebraic_).eval()) + sums.middleRows(algebraic_ + top, height);
+    });
   });
   return rounding_units * std::numeric_limits<double>::epsilon() * total;
 }

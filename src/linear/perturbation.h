@@ -25,8 +25,10 @@ namespace dynalin {
 class PerturbationEquations {
  public:
   // `inputs` are algebraic unknowns that are cut free of their own equation.
-  static Result<PerturbationEquations> make(const System&, const ConstraintRows&, const Equations&, const StateChoice&,
-                                            const std::vector<std::int32_t>& inputs, bool without_damping);
+  // The equations must hold all partials, and sizes.
+  static Result<PerturbationEquations> make(const System&, const Motion&, const ConstraintRows&, const Equations&,
+                                            const StateChoice&, const std::vector<std::int32_t>& inputs,
+                                            bool without_damping);
 
   // x′ = A x as it stands.
   static PerturbationEquations of_state_matrix(const Eigen::MatrixXd& A);
@@ -64,6 +66,7 @@ class PerturbationEquations {
   ColumnMatrix on_states_;                                                   // [G H]
   ColumnMatrix state_rates_on_algebraic_, state_rates_on_states_;            // P and R
   ColumnMatrix pencil_;
+  ColumnMatrix sizes_;  // of what its entries are made of, where roundings are counted (entry_sizes.h)
 };
 
 }  // namespace dynalin

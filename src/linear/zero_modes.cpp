@@ -18,6 +18,8 @@ using Index = Eigen::Index;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 // Entries of the blocks that are made in the splitting carry a few roundings more.
 constexpr double margin = 2;
+// What the entries of a computed null direction are not exact to, relative to the largest.
+constexpr double rounding_of_entries = 64 * eps;
 
 class Splitter {
  public:
@@ -29,7 +31,7 @@ class Splitter {
     LAPACKE_dgebal(LAPACK_COL_MAJOR, 'S', n, out_.block.data(), n, &low, &high, out_.scale.data());
     // Rounding grows with what a row or column is multiplied with.
     rounding_ = out_.scale.cwiseInverse().asDiagonal() * rounding * out_.scale.asDiagonal();
-    out_.basis = Matrix::Identity(n_, n_);
+    out_.basis = out_.dual = Matrix::Identity(n_, n_);
   }
 
   ZeroModes run() {
@@ -67,6 +69,7 @@ class Splitter {
     rounding_.row(a).swap(rounding_.row(b));
     rounding_.col(a).swap(rounding_.col(b));
     out_.basis.col(a).swap(out_.basis.col(b));
+    out_.dual.col(a).swap(out_.dual.col(b));
   }
 
   // What entries of (core · v) may be off, for columns v whose entries are known to a few units of the last place of
@@ -90,23 +93,43 @@ class Splitter {
     Index rank = k;
     while (rank > 0 && std::abs(qr.matrixR()(rank - 1, rank - 1)) <= static_cast<double>(k)) --rank;
     for (; rank < k; ++rank) {
-      Matrix v = null_vectors(qr, rank);
-      if (is_null(v)) return rotate(v);
+      const Matrix v = null_vectors(qr, rank);
+      if (split_off_sparsest(v)) return;
       // Once more among the columns that take part, in units of their own rows.
       support.clear();
       for (Index j = 0; j < k; ++j) {
-        if (!v.row(j).isZero(0)) support.push_back(j);
+        if (!without_small(v, rounding_of_entries).row(j).isZero(0)) support.push_back(j);
       }
       const Eigen::ColPivHouseholderQR<Matrix> own(in_units_of_tolerance(support));
       const Matrix part = null_vectors(own, static_cast<Index>(support.size()) - v.cols());
-      v.setZero();
-      v(support, Eigen::all) = part;
-      if (part.allFinite() && is_null(v)) return rotate(v);
+      if (!part.allFinite()) continue;
+      Matrix among = Matrix::Zero(k, v.cols());
+      among(support, Eigen::all) = part;
+      if (split_off_sparsest(among)) return;
     }
+  }
+  // Null directions that are exactly zero where they may be keep equations apart that have nothing to do with them.
+  bool split_off_sparsest(const Matrix& v) {
+    for (const double least : {1e-8, 1e-10, 1e-12, rounding_of_entries, 0.0}) {
+      Matrix sparse = without_small(v, least);
+      if (!is_null(sparse)) continue;
+      split_off(std::move(sparse));
+      return true;
+    }
+    return false;
+  }
+  static Matrix without_small(Matrix v, double least) {
+    for (Index c = 0; c < v.cols(); ++c) {
+      const double size = v.col(c).cwiseAbs().maxCoeff();
+      v.col(c) = (v.col(c).array().abs() <= least * size).select(0.0, v.col(c));
+    }
+    return v;
   }
   bool is_null(const Matrix& v) { return ((core() * v).array().abs() <= tolerance(v).array()).all(); }
 
   // Columns of the core with rows in units of what they may be off: singular values of about one and less are rounding.
+  // Larger rows come first: only then does every row keep its own digits in an orthogonal factorization (Cox and
+  // Higham, Stability of Householder QR factorization for weighted least squares problems).
   Matrix in_units_of_tolerance(const std::vector<Index>& columns) {
     Matrix ones = Matrix::Zero(left(), 1);
     ones(columns, Eigen::all).setOnes();
@@ -115,7 +138,11 @@ class Splitter {
     for (Index i = 0; i < scaled.rows(); ++i) {
       if (unit(i) > 0) scaled.row(i) /= unit(i);
     }
-    return scaled;
+    const Eigen::VectorXd size = scaled.cwiseAbs().rowwise().maxCoeff();
+    std::vector<Index> order(static_cast<std::size_t>(scaled.rows()));
+    std::iota(order.begin(), order.end(), Index{0});
+    std::stable_sort(order.begin(), order.end(), [&](Index i, Index j) { return size(i) > size(j); });
+    return scaled(order, Eigen::all);
   }
 
   // An estimate of ‖M⁻¹‖ far below one says that no direction is shrunk to rounding.
@@ -135,27 +162,43 @@ class Splitter {
     v.topRows(rank) = -qr.matrixR().topRightCorner(rank, p);
     qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(v.topRows(rank));
     v.bottomRows(p).setIdentity();
-    for (Index c = 0; c < p; ++c) {
-      const double least = 64 * eps * v.col(c).cwiseAbs().maxCoeff();
-      v.col(c) = (v.col(c).array().abs() <= least).select(0.0, v.col(c));
-    }
     return qr.colsPermutation() * v;
   }
 
-  void rotate(const Matrix& v) {
-    const Index k = left(), p = v.cols(), z = out_.count;
-    const Eigen::HouseholderQR<Matrix> qr(v);
-    const Matrix Q = qr.householderQ();
-    out_.block.rightCols(k) = (out_.block.rightCols(k) * Q).eval();
-    out_.block.bottomRows(k) = (Q.transpose() * out_.block.bottomRows(k)).eval();
+  // Brings v to [1; W] with complete pivoting; entries that cancel are zero.
+  void make_unit(Matrix& v) {
+    for (Index c = 0; c < v.cols(); ++c) {
+      Index row = 0, column = 0;
+      v.bottomRightCorner(v.rows() - c, v.cols() - c).cwiseAbs().maxCoeff(&row, &column);
+      v.col(c).swap(v.col(c + column));
+      v.row(c).swap(v.row(c + row));
+      exchange(out_.count + c, out_.count + c + row);
+      v.col(c) /= v(c, c);
+      for (Index other = 0; other < v.cols(); ++other) {
+        if (other == c || v(c, other) == 0) continue;
+        const Eigen::VectorXd share = v(c, other) * v.col(c);
+        v.col(other) -= share;
+        v.col(other) = (v.col(other).array().abs() <= 16 * eps * share.array().abs()).select(0.0, v.col(other));
+      }
+    }
+  }
+
+  void split_off(Matrix v) {
+    make_unit(v);
+    const Index k = left(), p = v.cols(), rest = k - p, z = out_.count;
+    const Matrix W = v.bottomRows(rest), size = W.cwiseAbs();
+    // Columns of the zero modes, in the rows of those before.
+    rounding_.block(0, z, z, p) += rounding_.block(0, z + p, z, rest) * size;
+    out_.block.block(0, z, z, p) += out_.block.block(0, z + p, z, rest) * W;
     out_.block.block(z, z, k, p).setZero();
-    out_.basis.rightCols(k) = (out_.basis.rightCols(k) * Q).eval();
-    const Matrix absolute = Q.cwiseAbs();
-    rounding_.rightCols(k) = (rounding_.rightCols(k) * absolute).eval();
-    rounding_.bottomRows(k) = (absolute.transpose() * rounding_.bottomRows(k)).eval();
-    // The products round as well.
-    rounding_.bottomRightCorner(k, k).array() += 4 * eps * out_.block.bottomRightCorner(k, k).cwiseAbs().maxCoeff();
+    // Rows of what is left.
+    const Matrix upper = out_.block.block(z, z + p, p, rest);
+    rounding_.bottomRightCorner(rest, rest) += size * (rounding_.block(z, z + p, p, rest) + 8 * eps * upper.cwiseAbs());
+    out_.block.bottomRightCorner(rest, rest) -= W * upper;
+    out_.basis.middleCols(z, p) += out_.basis.rightCols(rest) * W;
+    out_.dual.rightCols(rest) -= out_.dual.middleCols(z, p) * W.transpose();
     out_.count += p;
+    core() = (core().array().abs() <= rounding_.bottomRightCorner(rest, rest).array()).select(0.0, core());
   }
 
   Index n_;

@@ -2,11 +2,14 @@
 // found before the QR iteration and taken out of it.
 //
 // A direction v is a null direction when every entry of A v is within the rounding of its own sum. Null directions are
-// split off with an orthonormal basis, and again from what is left, until nothing is singular: zero chains of any
-// length appear as the strictly upper triangular block N of
+// split off, and again from what is left, until nothing is singular: zero chains of any length appear as the strictly
+// upper triangular block N of
 //
-//     A = T ⎡ N  C ⎤ T⁻¹        T = D Q,  D a balancing of A,  Q orthonormal.
+//     A = T ⎡ N  C ⎤ T⁻¹        T = D E,  D a balancing of A,  E a product of eliminations.
 //           ⎣ 0  B ⎦
+//
+// E takes p null directions V = [1; W] with their largest entries first: B = A₂₂ − W A₁₂ mixes no rows but those that
+// take part, so that soft equations beside stiff ones keep their digits; an orthonormal basis would mix them all.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,10 +20,11 @@ struct ZeroModes {
   Eigen::Index count = 0;  // multiplicity of the eigenvalue zero, size of N
   Eigen::MatrixXd block;   // [N C; 0 B]
   Eigen::VectorXd scale;   // diagonal of D
-  Eigen::MatrixXd basis;   // Q
+  Eigen::MatrixXd basis;   // E
+  Eigen::MatrixXd dual;    // E⁻ᵀ
 
-  Eigen::MatrixXd right() const { return scale.asDiagonal() * basis; }                // T
-  Eigen::MatrixXd left() const { return scale.cwiseInverse().asDiagonal() * basis; }  // T⁻ᵀ
+  Eigen::MatrixXd right() const { return scale.asDiagonal() * basis; }               // T
+  Eigen::MatrixXd left() const { return scale.cwiseInverse().asDiagonal() * dual; }  // T⁻ᵀ
   // Eigenvectors of A, one for each zero, the last link of the chain it belongs to.
   Eigen::MatrixXd vectors() const;
   bool defective() const { return !block.topLeftCorner(count, count).isZero(0); }

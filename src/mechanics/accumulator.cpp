@@ -28,6 +28,7 @@ void Accumulator::begin() {
   next_ = 0;
   if (recorded_) {
     std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
+    if (keeps_sizes_) sizes_.assign(matrix_.value.size(), 0.0);
   } else {
     runs_.clear();
   }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cassert>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -44,6 +45,9 @@ class Accumulator {
   void resize(std::int32_t rows, std::int32_t columns);
   bool recorded() const { return recorded_; }
 
+  // Also keeps, from the next pass on, the sum of the sizes of all that is added to an entry.
+  void keep_sizes() { keeps_sizes_ = true; }
+
   void begin();   // of a pass: zero values (or an empty record)
   void finish();  // of the recording pass: builds the pattern
 
@@ -54,12 +58,17 @@ class Accumulator {
       return;
     }
     assert(next_ < slots_.size());
-    double* target = matrix_.value.data() + slots_[next_++];
+    const std::int32_t slot = slots_[next_++];
+    double* target = matrix_.value.data() + slot;
     for (const double v : values) *target++ += v;
+    if (!keeps_sizes_) return;
+    double* size = sizes_.data() + slot;
+    for (const double v : values) *size++ += std::abs(v);
   }
   void add(std::int32_t row, std::int32_t column, double value) { add(row, column, {&value, 1}); }
 
   const ColumnMatrix& matrix() const { return matrix_; }
+  std::span<const double> sizes() const { return sizes_; }  // entry by entry of matrix()
 
  private:
   struct Run {
@@ -70,6 +79,8 @@ class Accumulator {
   std::vector<std::int32_t> slots_;  // where the run of each call starts in matrix_.value
   std::size_t next_ = 0;
   ColumnMatrix matrix_;
+  bool keeps_sizes_ = false;
+  std::vector<double> sizes_;
 };
 
 }  // namespace dynalin

@@ -11,7 +11,7 @@ Vector on_marker(const MarkerWrench& w, bool on_J, bool torque) {
   if (!on_J) return torque ? w.force.torque : w.force.force;
   if (!w.force.acts_on_J) return {};
   if (!torque) return -w.force.force;
-  const Vector delta = value(w.pair.I.origin) - value(w.pair.J.origin);
+  const Vector delta = value(w.pair.delta);
   return -w.force.torque - cross(delta, w.force.force);
 }
 
@@ -58,7 +58,7 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
       }
     }
     for (std::size_t p = 0; p < a.parameter_count; ++p) {
-      const auto axes = path::frame_by_parameter(motion, a.axes_marker, a.parameters[p]).axes;
+      const auto axes = path::frame_by_parameter(motion, a.axes_marker, a.parameters[p], a.axes_marker.place.body).axes;
       const auto& axis = axes[axis_of(a.component)];
       const Vector slope{axis.x.value.partial[0], axis.y.value.partial[0], axis.z.value.partial[0]};
       eq.add(Column::position, row, a.parameters[p], factor * dot(slope, sum));
@@ -70,7 +70,7 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
     const PairMotion& p = w.pair;
     const bool on_J = a.terms[t].on_J;
     if (on_J && !w.force.acts_on_J) continue;
-    const Vector delta = dynalin::value(p.I.origin) - dynalin::value(p.J.origin);
+    const Vector delta = dynalin::value(p.delta);
     // e·(vector of interest) in terms of force and torque on I.
     const auto picked = [&](const Vector& f, const Vector& m) {
       if (!torque) return on_J ? -dot(e, f) : dot(e, f);

@@ -54,13 +54,13 @@ Vec3<TimeTaylor<Dual<6>>> turned(std::size_t axis, const Vec3<TimeTaylor<Dual<6>
                      : Vec3<TimeTaylor<Dual<6>>>{-v.y, v.x, zero};
 }
 
-// The marker frame varied first along `outer`, then, at the varied motion, along `inner`.
+// The marker frame varied first along `outer`, then, at the varied motion, along `inner`; its origin from the BCS of
+// `from`.
 Frame<Nested> nested_frame(const Motion& motion, const PlacedMarker& marker, const Direction& inner,
-                           const Direction& outer) {
+                           const Direction& outer, BodyId from) {
   const MarkerPlace& place = marker.place;
-  const Frame<Taylor> plain = marker.frame(motion);
-  const BodyMotion& b = motion.body(place.body);
-  const Vec3<Taylor> arm = plain.origin - along_motion(b.r, b.rdot, b.rddot);
+  const Frame<Taylor> plain = marker.frame(motion, from);
+  const Vec3<Taylor> arm = marker.arm(motion);
 
   Vec3<TimeTaylor<Dual<6>>> r = path::constant<6>(plain.origin), varied_arm = path::constant<6>(arm);
   std::array<Vec3<TimeTaylor<Dual<6>>>, 3> axis;
@@ -140,7 +140,9 @@ void BoundExpression::add_reaction_partials(const Motion& motion, Equations& eq,
       for (std::size_t b = 0; b < a.body_count; ++b) {
         for (std::size_t c = 0; c < a.body_count; ++c) {
           const Direction inner{a.bodies[b], inner_level}, outer{a.bodies[c], outer_level};
-          const auto frame = [&](std::size_t m) { return nested_frame(motion, a.places[m], inner, outer); };
+          const auto frame = [&](std::size_t m) {
+            return nested_frame(motion, a.places[m], inner, outer, a.places[0].place.body);
+          };
           const NestedDual m = evaluate_measure<Nested>(a.measure, {frame(0), frame(1), frame(2), frame(3)}).value;
           const BodyBlock &forces = eq.layout().body(inner.body), &columns = eq.layout().body(outer.body);
           for (std::int32_t i = 0; i < forces.count; ++i) {

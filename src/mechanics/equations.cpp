@@ -44,6 +44,10 @@ void Equations::resize(const Layout& layout) {
   for (std::size_t k = 0; k < column_families; ++k) matrices_[k].resize(n + w + z, columns[k]);
 }
 
+void Equations::keep_sizes() {
+  for (Accumulator& a : matrices_) a.keep_sizes();
+}
+
 void Equations::begin(std::initializer_list<Column> wanted) {
   std::fill(residual_.begin(), residual_.end(), 0.0);
   std::fill(magnitude_.begin(), magnitude_.end(), 0.0);

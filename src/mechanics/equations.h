@@ -101,6 +101,8 @@ inline constexpr std::size_t column_families = 8;
 class Equations {
  public:
   void resize(const Layout&);
+  // The partials of later passes come with the sizes of what was added up to them.
+  void keep_sizes();
   void begin(std::initializer_list<Column> wanted);
   void finish();  // builds patterns after a recording pass
   bool needs_second_pass() const { return recording_; }
@@ -138,6 +140,7 @@ class Equations {
   // Sum of the sizes of all that was added to a row: what its rounding is measured against.
   std::span<const double> magnitude() const { return magnitude_; }
   const ColumnMatrix& matrix(Column c) const { return matrices_[static_cast<std::size_t>(c)].matrix(); }
+  std::span<const double> sizes(Column c) const { return matrices_[static_cast<std::size_t>(c)].sizes(); }
   std::int32_t size() const { return static_cast<std::int32_t>(residual_.size()); }
   const Layout& layout() const { return *layout_; }
 

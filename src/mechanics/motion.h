@@ -55,8 +55,11 @@ struct Motion {
   Memory memory;
 
   const BodyMotion& body(BodyId b) const { return bodies[static_cast<std::size_t>(b.index)]; }
-  // Marker frame along the motion, global axes.
-  Frame<Taylor> frame(const MarkerPlace&) const;
+  // Marker frame along the motion, global axes; its origin from that of `from`'s BCS, which keeps what is near exact.
+  Frame<Taylor> frame(const MarkerPlace&, BodyId from = BodyId{0}) const;
+  Mat3<Taylor> axes_along(const MarkerPlace&) const;
+  // From the BCS to the marker along the motion, global axes: exact however far from the global origin both are.
+  Vec3<Taylor> arm(const MarkerPlace&) const;
   Vector point(const MarkerPlace& m) const {
     const BodyMotion& b = body(m.body);
     return b.r + b.R * m.p_BM;

@@ -25,22 +25,22 @@ Matrix3 congruent(const Matrix3& R, const Matrix3& m) { return R * m * transpose
 PairMotion pair_motion(const Motion& motion, const MarkerPlace& I, const MarkerPlace& J) {
   PairMotion p;
   p.body_I = I.body, p.body_J = J.body;
-  p.I = motion.frame(I), p.J = motion.frame(J);
-  const Vec3<Taylor> delta = p.I.origin - p.J.origin;
-  p.relative = {transpose_times(p.J.axes, delta), transpose_times(p.J.axes, p.I.axes.x),
-                transpose_times(p.J.axes, p.I.axes.y), transpose_times(p.J.axes, p.I.axes.z)};
+  const Mat3<Taylor> axes_I = motion.axes_along(I);
+  p.axes_J = motion.axes_along(J);
+  p.arm_I = motion.arm(I), p.arm_J = motion.arm(J);
+  // Differences of origins first: what is near stays exact far from the global origin.
   const BodyMotion &b = motion.body(I.body), &c = motion.body(J.body);
-  p.arm_I = p.I.origin - along_motion(b.r, b.rdot, b.rddot);
-  const Vec3<Taylor> r_J = along_motion(c.r, c.rdot, c.rddot);
-  p.arm_J = p.J.origin - r_J;
-  p.arm = p.I.origin - r_J;
+  p.arm = along_motion(b.r - c.r, b.rdot - c.rdot, b.rddot - c.rddot) + p.arm_I;
+  p.delta = p.arm - p.arm_J;
+  p.relative = {transpose_times(p.axes_J, p.delta), transpose_times(p.axes_J, axes_I.x),
+                transpose_times(p.axes_J, axes_I.y), transpose_times(p.axes_J, axes_I.z)};
   p.w_J = c.w;
   return p;
 }
 
 PairForce spread(const PairMotion& p, const RelativeWrench& w, bool with_partials) {
   PairForce out;
-  const Matrix3 R = value(p.J.axes);
+  const Matrix3 R = value(p.axes_J);
   out.force = R * w.force;
   out.torque = R * w.torque;
   out.depends_on_velocity = w.depends_on_rate;
@@ -77,9 +77,8 @@ PairForce spread(const PairMotion& p, const RelativeWrench& w, bool with_partial
 
 PairForce along_line(const PairMotion& p, const LineMagnitude& F, bool with_partials) {
   PairForce out;
-  const Vec3<Taylor> delta = p.I.origin - p.J.origin;
-  const Taylor d = norm(delta);
-  const Vec3<Taylor> line = delta / d;
+  const Taylor d = norm(p.delta);
+  const Vec3<Taylor> line = p.delta / d;
   const Vector u = value(line);
   out.force = F.value * u;
   out.depends_on_velocity = F.on_rate != 0.0;
@@ -177,7 +176,7 @@ void apply_cross_partials(const PairMotion& acting, const PairMotion& varied, co
 
 void add_partials(std::int32_t row, const PairMotion& p, const Vector& on_d, const Vector& on_phi, Column family,
                   Equations& eq) {
-  const Matrix3 R = value(p.J.axes);
+  const Matrix3 R = value(p.axes_J);
   const Vector f = R * on_d, t = R * on_phi;
   const auto add = [&](BodyId body, const Vector& on_r, const Vector& on_theta) {
     const BodyBlock& block = eq.layout().body(body);
@@ -192,7 +191,7 @@ void add_partials(std::int32_t row, const PairMotion& p, const Vector& on_d, con
 
 void add_gradient(std::int32_t row, const PairMotion& p, const Vec3<Taylor>& on_d, const Vec3<Taylor>& on_phi,
                   ConstraintRows& rows) {
-  const Vec3<Taylor> f = p.J.axes * on_d, t = p.J.axes * on_phi;
+  const Vec3<Taylor> f = p.axes_J * on_d, t = p.axes_J * on_phi;
   rows.add_pose(row, p.body_I, f, t + cross(p.arm_I, f));
   rows.add_pose(row, p.body_J, -f, -(t + cross(p.arm, f)));
 }

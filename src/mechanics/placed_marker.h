@@ -20,17 +20,21 @@ struct PlacedMarker {
   template <class T>
   Frame<T> on_curve(const Frame<T>& carrier, const T& u) const {
     const Frame<T> local = curve->frame(u);
-    const auto turned = [&](const Vec3<T>& v) {
-      return carrier.axes.x * v.x + carrier.axes.y * v.y + carrier.axes.z * v.z;
-    };
-    return {carrier.origin + turned(local.origin), {turned(local.axes.x), turned(local.axes.y), turned(local.axes.z)}};
+    return {carrier.origin + carrier.axes * local.origin, carrier.axes * local.axes};
   }
   Taylor along_motion(const Motion& motion) const {
     return {motion.extra[extra], motion.extra_rate[extra], motion.extra_acceleration[extra]};
   }
-  Frame<Taylor> frame(const Motion& motion) const {
-    const Frame<Taylor> carrier = motion.frame(place);
+  // Its origin from that of `from`'s BCS.
+  Frame<Taylor> frame(const Motion& motion, BodyId from) const {
+    const Frame<Taylor> carrier = motion.frame(place, from);
     return curve ? on_curve(carrier, along_motion(motion)) : carrier;
+  }
+  // From the BCS of the body that carries it.
+  Vec3<Taylor> arm(const Motion& motion) const {
+    const Vec3<Taylor> carrier = motion.arm(place);
+    if (!curve) return carrier;
+    return carrier + motion.axes_along(place) * curve->frame(along_motion(motion)).origin;
   }
   Matrix3 axes(const Motion& motion) const {
     const Matrix3 carrier = motion.axes(place);

@@ -43,6 +43,7 @@ class Bounds : public ::testing::Test {
     const auto solution = eigensolve(*linear);
     ASSERT_TRUE(solution) << solution.error().message;
     const std::vector<Value> exact = eigenvalues(*linear->equations);
+    ASSERT_EQ(exact.size(), linear->model.states.size()) << text;
     for (const EigenMode& mode : solution->modes) {
       if (mode.structural_zero) continue;  // the equations hold it up to their rounding only
       Real error = distance(exact.front(), mode.eigenvalue_hz);

@@ -45,8 +45,12 @@ inline Dense state_matrix(const PerturbationEquations& p) {
   return M.bottomRightCorner(n, n);
 }
 
+// Empty if the QR iteration does not converge, neither for the matrix nor for its transpose.
 inline std::vector<Value> eigenvalues(const PerturbationEquations& p) {
-  const Eigen::EigenSolver<Dense> solver(state_matrix(p), false);
+  const Dense A = state_matrix(p);
+  Eigen::EigenSolver<Dense> solver(A, false);
+  if (solver.info() != Eigen::Success) solver.compute(A.transpose(), false);
+  if (solver.info() != Eigen::Success) return {};
   std::vector<Value> values;
   for (Eigen::Index k = 0; k < solver.eigenvalues().size(); ++k) {
     values.push_back({solver.eigenvalues()(k).real(), solver.eigenvalues()(k).imag()});

@@ -133,7 +133,7 @@ class CurveContactKernel final : public Kernel {
       const Nested work = reaction_work(p, pair, motion);
       const Reaction at_I = reaction_at_I(work);
       apply_partials(pair, spread(pair, relative_wrench(at_I), true), eq);
-      const Matrix3 R = value(pair.J.axes);
+      const Matrix3 R = value(pair.axes_J);
       for (std::size_t a = 0; a < m; ++a) {
         apply_column(pair, R * slope(at_I.force, 6 + a), R * slope(at_I.torque, 6 + a), true, Column::position,
                      coordinate(p, a), eq);
@@ -182,10 +182,10 @@ class CurveContactKernel final : public Kernel {
     const Reaction reaction = at_contact(work);
     out.force = spread(out.pair, relative_wrench(reaction), with_partials);
     // Both markers are at the point of contact.
-    out.pair.J.origin = out.pair.I.origin;
+    out.pair.delta = {};
     out.J_follows_I = true;
     if (!with_partials) return;
-    const Matrix3 R = value(out.pair.J.axes);
+    const Matrix3 R = value(out.pair.axes_J);
     for (std::size_t r = 0; r < n; ++r) {
       const Reaction unit = at_contact(rows[r]);
       out.scalars.push_back(

@@ -135,7 +135,7 @@ RelativeWrench reaction(const std::array<path::NestedDual, n>& rows, std::span<c
 
 // The multiplier of a row as a scalar that the wrench on I depends on.
 inline void add_multiplier(const path::NestedDual& phi, std::int32_t row, MarkerWrench& out) {
-  const Matrix3 R = value(out.pair.J.axes);
+  const Matrix3 R = value(out.pair.axes_J);
   const auto g = [&](std::size_t i) { return phi.partial[i].value; };
   out.scalars.push_back({Column::lambda, row, R * Vector{g(0), g(1), g(2)}, R * Vector{g(3), g(4), g(5)}});
 }

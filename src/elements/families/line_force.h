@@ -53,7 +53,7 @@ class LineForceKernel final : public Kernel {
     MarkerPlace I, J;
   };
   static PairForce force_of(const Force& f, const PairMotion& pair, bool with_partials) {
-    const Taylor d = norm(pair.I.origin - pair.J.origin);
+    const Taylor d = norm(pair.delta);
     const TimeTaylor<Dual<2>> seeded{Dual<2>(d.value, 0), Dual<2>(d.rate, 1), Dual<2>(detail::missing(0.0))};
     const Dual<2> F = f.element.along_line(seeded);
     return along_line(pair, {F.value, F.partial[0], F.partial[1]}, with_partials);

@@ -31,7 +31,7 @@ void VectorForceKernel::wrench(const Motion& motion, std::size_t k, bool with_pa
   const Force& f = forces_[k];
   out.pair = pair_motion(motion, f.I, f.J);
   // The floating marker is where I is.
-  out.pair.J.origin = out.pair.I.origin;
+  out.pair.delta = {};
   out.J_follows_I = true;
   out.force = {};
   const Matrix3 axes = motion.axes(f.RM);

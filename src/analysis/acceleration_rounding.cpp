@@ -1,0 +1,76 @@
+#include "analysis/acceleration_rounding.h"
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+#include "analysis/displace.h"
+
+namespace dynalin {
+
+namespace {
+
+constexpr int samples = 3;
+// In units of the last place: far enough that what comes of it is no rounding itself.
+constexpr double units = 64;
+// A sample is seldom the worst case.
+constexpr double margin = 8;
+
+// A random displacement and change of velocities within the units of the last place of vectors.
+struct Shake {
+  Eigen::VectorXd step, velocity;
+};
+Shake shake(const Layout& layout, const OperatingPoint& op, std::minstd_rand& random) {
+  constexpr double amplitude = units * std::numeric_limits<double>::epsilon();
+  const auto draw = [&] { return amplitude * std::uniform_real_distribution<double>(-1, 1)(random); };
+  const auto size_of = [](const Vector& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
+  Shake s{Eigen::VectorXd::Zero(layout.coordinate_count), Eigen::VectorXd::Zero(layout.coordinate_count)};
+  for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
+    const BodyBlock& block = layout.bodies[b];
+    for (std::int32_t k = 0; k < block.count; ++k) {
+      const auto first = static_cast<std::size_t>(block.offset + k - k % 3);
+      s.step(block.offset + k) = draw() * (k < 3 ? size_of(op.poses[b].r) : 1.0);
+      s.velocity(block.offset + k) =
+          draw() * size_of({op.velocity[first], op.velocity[first + 1], op.velocity[first + 2]});
+    }
+  }
+  for (std::size_t k = 0; k < op.extra.size(); ++k) {
+    const auto at = layout.body_coordinate_count + static_cast<Eigen::Index>(k);
+    s.step(at) = draw() * std::max(1.0, std::abs(op.extra[k]));
+    s.velocity(at) = draw() * std::abs(op.velocity[static_cast<std::size_t>(at)]);
+  }
+  return s;
+}
+
+}  // namespace
+
+Eigen::VectorXd rounding_of_accelerations(const System& system, const SparseLu& lu, const OperatingPoint& op,
+                                          const MissingForces& missing) {
+  const Layout& layout = system.layout();
+  const Eigen::MatrixXd here = missing(op);
+  Eigen::VectorXd worst = Eigen::VectorXd::Zero(here.rows());
+  std::minstd_rand random(1);
+  for (int sample = 0; sample < samples; ++sample) {
+    const Shake s = shake(layout, op, random);
+    const auto answer = [&](double direction) -> Eigen::VectorXd {
+      OperatingPoint there = op;
+      displace(system, there, direction * s.step, 1.0);
+      for (std::size_t k = 0; k < there.velocity.size(); ++k) {
+        there.velocity[k] += direction * s.velocity(static_cast<Eigen::Index>(k));
+      }
+      Eigen::MatrixXd change = missing(there) - here;
+      if (!change.allFinite()) return Eigen::VectorXd::Zero(worst.size());
+      lu.solve(change);
+      return change.col(0).cwiseAbs();
+    };
+    worst = worst.cwiseMax(answer(1).cwiseMin(answer(-1)));
+  }
+  for (const BodyBlock& block : layout.bodies) {
+    for (std::int32_t k = 0; k < block.count; k += 3) {
+      worst.segment<3>(block.offset + k).setConstant(worst.segment<3>(block.offset + k).maxCoeff());
+    }
+  }
+  return margin / units * worst;
+}
+
+}  // namespace dynalin

@@ -1,0 +1,20 @@
+// How exact accelerations and reactions can be at a point whose positions and velocities are rounded.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "analysis/saddle.h"
+#include "system/sparse_lu.h"
+
+namespace dynalin {
+
+// Minus the residuals at a point, in the order of the saddle matrix.
+using MissingForces = std::function<Eigen::MatrixXd(const OperatingPoint&)>;
+
+// Of each unknown of the saddle equations, what roundings of the point may make of it: the answer of the factored
+// equations to displacements and velocities of some units in the last place, taken both ways so that a law that
+// switches at the point itself does not count.
+Eigen::VectorXd rounding_of_accelerations(const System&, const SparseLu&, const OperatingPoint&, const MissingForces&);
+
+}  // namespace dynalin
