@@ -13,6 +13,8 @@ namespace dynalin {
 namespace {
 
 constexpr int iteration_limit = 50;
+// A step no longer than this, in units of what roundings of the point make of it, corrects nothing.
+constexpr double rounding_units_of_step = 8;
 
 // Largest residual of each group of equations relative to the largest sum of terms in that group: forces as they were
 // added, and what the unknowns contribute.
@@ -130,6 +132,10 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
     return missing;
   };
 
+  const auto rounding_at = [&](const OperatingPoint& point) {
+    return rounding_of_accelerations(system, lu, point,
+                                     [&](const OperatingPoint& at) -> Eigen::VectorXd { return evaluate(at, {}); });
+  };
   for (int iteration = 0; iteration < iteration_limit; ++iteration) {
     Eigen::MatrixXd step = evaluate(op, {Column::acceleration, Column::lambda, Column::algebraic, Column::state_rate});
     if (!step.allFinite()) {
@@ -140,33 +146,39 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
     const double imbalance = relative_imbalance(matrix, step, eq, op, saddle);
     history.push_back(fmt::format("iteration {}: relative imbalance {:.3e}", iteration, imbalance));
     // Solved once and balanced to rounding, or close and no longer falling: the point is as exact as it gets. Stiff
-    // elements turn the rounding of positions into forces, so that a small imbalance that stays is rounding too.
+    // elements turn the rounding of positions into forces, so that a small imbalance that stays is rounding too. Where
+    // all forces vanish an imbalance is relative to rounding, and the step has to be measured against that.
     stalled = imbalance > 0.1 * before ? stalled + 1 : 0;
-    if (iteration > 0 &&
-        (imbalance < 1e-15 || (imbalance < 1e-10 && stalled > 0) || (imbalance < 1e-6 && stalled > 3))) {
+    bool settled =
+        iteration > 0 && (imbalance < 1e-15 || (imbalance < 1e-10 && stalled > 0) || (imbalance < 1e-6 && stalled > 3));
+    const bool corrected = settled && imbalance < 1e-15;
+    if (!settled) {
+      before = imbalance;
+      if (!lu.factor(matrix)) {
+        if (const std::string reason = system.departure(system.motion(op)); !reason.empty()) return failure(reason);
+        const std::vector<std::string> free = undetermined(system, saddle, std::move(matrix));
+        const std::string named = free.empty() ? "" : fmt::format(": nothing fixes {}", fmt::join(free, ", "));
+        return failure("the accelerations are not determined" + named, free);
+      }
+      lu.solve(step);
+      settled = iteration > 0 && stalled > 0 &&
+                (step.col(0).array().abs() <= rounding_units_of_step * rounding_at(op).array()).all();
+    }
+    if (settled) {
       if (const std::string reason = system.departure(system.motion(op)); !reason.empty()) return failure(reason);
       warn_of_changed_starts(layout, first_values, op.algebraic, findings);
       // What is zero by the structure of the model, such as the load of a body in free fall, becomes exactly zero.
-      for (int correction = 0; correction < 2 && imbalance < 1e-15; ++correction) {
+      for (int correction = 0; correction < 2 && corrected; ++correction) {
         if (correction > 0) step = evaluate(op, {});
         lu.solve(step);
         correct(op.acceleration, 0, step);
         correct(op.lambda, saddle.lambda(0), step);
       }
-      const Eigen::VectorXd rounding =
-          rounding_of_accelerations(system, lu, op, [&](const OperatingPoint& at) { return evaluate(at, {}); });
+      const Eigen::VectorXd rounding = rounding_at(op);
       drop_rounding(op.acceleration, 0, rounding);
       drop_rounding(op.lambda, saddle.lambda(0), rounding);
       return op;
     }
-    before = imbalance;
-    if (!lu.factor(matrix)) {
-      if (const std::string reason = system.departure(system.motion(op)); !reason.empty()) return failure(reason);
-      const std::vector<std::string> free = undetermined(system, saddle, std::move(matrix));
-      const std::string named = free.empty() ? "" : fmt::format(": nothing fixes {}", fmt::join(free, ", "));
-      return failure("the accelerations are not determined" + named, free);
-    }
-    lu.solve(step);
     const auto update = [&](std::vector<double>& x, std::int32_t offset) {
       for (std::size_t k = 0; k < x.size(); ++k) x[k] += step(offset + static_cast<Eigen::Index>(k), 0);
     };

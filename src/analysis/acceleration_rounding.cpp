@@ -47,23 +47,27 @@ Shake shake(const Layout& layout, const OperatingPoint& op, std::minstd_rand& ra
 Eigen::VectorXd rounding_of_accelerations(const System& system, const SparseLu& lu, const OperatingPoint& op,
                                           const MissingForces& missing) {
   const Layout& layout = system.layout();
-  const Eigen::MatrixXd here = missing(op);
-  Eigen::VectorXd worst = Eigen::VectorXd::Zero(here.rows());
+  const Eigen::VectorXd here = missing(op);
+  Eigen::MatrixXd answers(here.size(), 2 * samples);  // both ways, side by side
   std::minstd_rand random(1);
   for (int sample = 0; sample < samples; ++sample) {
     const Shake s = shake(layout, op, random);
-    const auto answer = [&](double direction) -> Eigen::VectorXd {
+    for (const int way : {0, 1}) {
+      const double direction = way == 0 ? 1 : -1;
       OperatingPoint there = op;
       displace(system, there, direction * s.step, 1.0);
       for (std::size_t k = 0; k < there.velocity.size(); ++k) {
         there.velocity[k] += direction * s.velocity(static_cast<Eigen::Index>(k));
       }
-      Eigen::MatrixXd change = missing(there) - here;
-      if (!change.allFinite()) return Eigen::VectorXd::Zero(worst.size());
-      lu.solve(change);
-      return change.col(0).cwiseAbs();
-    };
-    worst = worst.cwiseMax(answer(1).cwiseMin(answer(-1)));
+      auto answer = answers.col(2 * sample + way);
+      answer = missing(there) - here;
+      if (!answer.allFinite()) answer.setZero();
+    }
+  }
+  lu.solve(answers);
+  Eigen::VectorXd worst = Eigen::VectorXd::Zero(here.size());
+  for (int sample = 0; sample < samples; ++sample) {
+    worst = worst.cwiseMax(answers.col(2 * sample).cwiseAbs().cwiseMin(answers.col(2 * sample + 1).cwiseAbs()));
   }
   for (const BodyBlock& block : layout.bodies) {
     for (std::int32_t k = 0; k < block.count; k += 3) {

@@ -10,7 +10,7 @@
 namespace dynalin {
 
 // Minus the residuals at a point, in the order of the saddle matrix.
-using MissingForces = std::function<Eigen::MatrixXd(const OperatingPoint&)>;
+using MissingForces = std::function<Eigen::VectorXd(const OperatingPoint&)>;
 
 // Of each unknown of the saddle equations, what roundings of the point may make of it: the answer of the factored
 // equations to displacements and velocities of some units in the last place, taken both ways so that a law that

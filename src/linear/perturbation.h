@@ -58,6 +58,8 @@ class PerturbationEquations {
   const ColumnMatrix& pencil() const { return pencil_; }
 
  private:
+  class Assembly;  // perturbation_assembly.cpp
+
   void solve_levels(Eigen::MatrixXd& b) const;
 
   std::int32_t n_ = 0, saddle_size_ = 0, algebraic_ = 0, states_ = 0;

@@ -111,6 +111,34 @@ TEST_F(ZeroModes, what_is_left_does_not_depend_on_the_place) {
   expect_same(at_origin.others, away.others, 1e-11);
 }
 
+// Two round bodies on a flexible joint spin about their axis: nothing acts on them but what rounding leaves. Place,
+// velocity, attitude and axis are free.
+std::string satellite(const Vector& at, const Matrix3& turn, double spin) {
+  return fmt::format(
+      "Satellite\nUNITS/SYSTEM=MKS\nPART/1, GROUND\n"
+      "PART/2, MASS=10, CM=20, IP=3,3,5, QG={0}, REULER={1}, VX=0, VY=0, VZ=0, WX=0, WY=0, WZ={2}\nMARKER/20\n"
+      "MARKER/21, QP=0,0,0.4\n"
+      "PART/3, MASS=2, CM=30, IP=0.3,0.3,0.4, QG={3}, REULER={1}, VX=0, VY=0, VZ=0, WX=0, WY=0, WZ={2}\nMARKER/30\n"
+      "MARKER/31, QP=0,0,-0.3\nJOINT/1, SPHERICAL, I=31, J=21\n"
+      "BUSHING/1, I=31, J=21, K=0,0,0, KT=200,200,250, C=0,0,0, CT=0.5,0.5,0.7\nEND\n",
+      xyz(at), reuler(turn), spin, xyz(at + turn * Vector{0, 0, 0.7}));
+}
+
+TEST_F(ZeroModes, a_spinning_satellite_has_ten_wherever_it_is) {
+  for (const double spin : {0.5, 2.0, 20.0}) {
+    const Spectrum upright = solve(satellite({0, 0, 0}, Matrix3::identity(), spin));
+    EXPECT_EQ(upright.zeros, 10u);
+    EXPECT_EQ(upright.others.size(), 8u);
+    for (const auto& [at, turn] : {std::pair(Vector{0, 0, 0}, rotation_313(0.4, 0.9, -0.7)),
+                                   std::pair(Vector{4, -7, 9}, rotation_313(2.9, 1.5707, -1.5708)),
+                                   std::pair(Vector{700, -400, 1100}, rotation_313(-1.1, 2.2, 0.3))}) {
+      const Spectrum moved = solve(satellite(at, turn, spin));
+      EXPECT_EQ(moved.zeros, 10u) << xyz(at);
+      expect_same(moved.others, upright.others, 1e-10);
+    }
+  }
+}
+
 // A carriage on a rail carries a pendulum: two zeros, and the pendulum with the carriage free, w² = m g l (M + m) /
 // (J (M + m) + m l² M).
 TEST_F(ZeroModes, a_carriage_with_a_pendulum_has_two) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <set>
 
 #include "elements/catalogue.h"
@@ -80,7 +79,6 @@ void expect_agreement(const Eigen::MatrixXd& ours, const Matrix& theirs, const M
 class Agreement : public ::testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(Agreement, state_matrices_equal_differences_of_the_nonlinear_model) {
-  int blunt = 0;
   for (std::uint64_t seed = GetParam(); seed < GetParam() + 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Mechanism mechanism = random_mechanism(seed);
@@ -103,12 +101,8 @@ TEST_P(Agreement, state_matrices_equal_differences_of_the_nonlinear_model) {
     std::vector<ChosenState> states;
     for (const StateLabel& label : linear->model.states) states.push_back(chosen(label));
     const OracleLinearModel oracle = oracle_linearize(mechanism, point_of(system, *op), states);
-    // Differences that are not sharp themselves, where the chosen states drive a steep mechanism, prove nothing.
-    if (oracle.error_estimate > 1e-9) {
-      std::cout << "seed " << seed << " left out: differences good to " << oracle.error_estimate << '\n';
-      EXPECT_LE(++blunt, 1);
-      continue;
-    }
+    // Differences that are not sharp themselves prove nothing.
+    EXPECT_LE(oracle.error_estimate, 1e-9);
     expect_agreement(linear->model.A, oracle.A, oracle.A_error, "A");
     expect_agreement(linear->model.B, oracle.B, oracle.B_error, "B");
     expect_agreement(linear->model.C, oracle.C, oracle.C_error, "C");

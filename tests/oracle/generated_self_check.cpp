@@ -110,7 +110,7 @@ TEST(Oracle, two_hundred_seeds_are_varied_accurate_and_quick) {
     const Mechanism m = random_mechanism(seed);
     const OraclePoint point = drawn_point(m);
     const OracleLinearModel r = oracle_linearize(m, point, choose_states(m, point));
-    EXPECT_LT(r.error_estimate, 2e-11);
+    EXPECT_LT(r.error_estimate, 1e-11);
     EXPECT_LT(r.polish, 1e-12);
     worst = std::max(worst, r.error_estimate);
     const Features f = features_of(m);

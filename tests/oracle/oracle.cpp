@@ -53,7 +53,7 @@ Extrapolated extrapolate(F&& f, Real h) {
 // Starts with a step that suits gentle nonlinearities and shrinks it while that pays.
 template <class F>
 Extrapolated differentiate(F&& f, Real h) {
-  constexpr int attempts = 6;
+  constexpr int attempts = 10;
   Extrapolated best;
   best.relative = -1;
   for (int attempt = 0; attempt < attempts; ++attempt) {
