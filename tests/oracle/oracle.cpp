@@ -14,12 +14,11 @@ struct Extrapolated {
   Real relative = 0;
 };
 
-// Central differences at h, h/2, h/4, h/8, extrapolated in h^2. The error is the last change of the
+// Central differences at h, h/2, h/4 … on so many levels, extrapolated in h^2. The error is the last change of the
 // diagonal of the tableau, which belongs to the less accurate of the two entries.
 template <class F>
-Extrapolated extrapolate(F&& f, Real h) {
-  constexpr int levels = 4;
-  std::vector<std::vector<std::vector<Real>>> T(levels);
+Extrapolated extrapolate(F&& f, Real h, int levels) {
+  std::vector<std::vector<std::vector<Real>>> T(static_cast<std::size_t>(levels));
   for (int k = 0; k < levels; ++k) {
     const auto level = static_cast<std::size_t>(k);
     const Real step = std::ldexp(h, -k);
@@ -39,10 +38,11 @@ Extrapolated extrapolate(F&& f, Real h) {
       T[level].push_back(better);
     }
   }
-  Extrapolated result{T[3][3], T[3][3], 0};
+  const std::vector<Real>&last = T.back().back(), &before = T[T.size() - 2].back();
+  Extrapolated result{last, last, 0};
   Real largest = 1, worst = 0;
   for (std::size_t i = 0; i < result.value.size(); ++i) {
-    result.error[i] = std::fabs(T[3][3][i] - T[2][2][i]);
+    result.error[i] = std::fabs(last[i] - before[i]);
     largest = std::max(largest, std::fabs(result.value[i]));
     worst = std::max(worst, result.error[i]);
   }
@@ -50,23 +50,26 @@ Extrapolated extrapolate(F&& f, Real h) {
   return result;
 }
 
-// Starts with a step that suits gentle nonlinearities and shrinks it while that pays.
+// Starts with a step that suits gentle nonlinearities and shrinks it while that pays. What is not sharp then, for the
+// rounding of small steps or the curvature in large ones, gets more levels.
 template <class F>
-Extrapolated differentiate(F&& f, Real h) {
-  constexpr int attempts = 10;
+Extrapolated differentiate(F&& f, const Real first_step) {
   Extrapolated best;
   best.relative = -1;
-  for (int attempt = 0; attempt < attempts; ++attempt) {
-    try {
-      Extrapolated next = extrapolate(f, h);
-      if (best.relative < 0 || next.relative < best.relative) best = std::move(next);
-    } catch (const std::runtime_error&) {
-      // Too far away for Newton, or for a function: the next, smaller step decides.
-      if (attempt + 1 == attempts && best.relative < 0) throw;
+  const auto attempt = [&](int levels, int attempts, Real enough) {
+    Real h = first_step;
+    for (int k = 0; k < attempts && (best.relative < 0 || best.relative >= enough); ++k, h /= 4) {
+      try {
+        Extrapolated next = extrapolate(f, h, levels);
+        if (best.relative < 0 || next.relative < best.relative) best = std::move(next);
+      } catch (const std::runtime_error&) {
+        // Too far away for Newton, or for a function: the next, smaller step decides.
+        if (k + 1 == attempts && best.relative < 0) throw;
+      }
     }
-    if (best.relative >= 0 && best.relative < 1e-14L) break;
-    h /= 4;
-  }
+  };
+  attempt(4, 10, 1e-14L);
+  attempt(6, 4, 1e-12L);
   return best;
 }
 
