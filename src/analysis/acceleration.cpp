@@ -151,7 +151,7 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
     stalled = imbalance > 0.1 * before ? stalled + 1 : 0;
     bool settled =
         iteration > 0 && (imbalance < 1e-15 || (imbalance < 1e-10 && stalled > 0) || (imbalance < 1e-6 && stalled > 3));
-    const bool corrected = settled && imbalance < 1e-15;
+    const bool balanced = settled && imbalance < 1e-15;
     if (!settled) {
       before = imbalance;
       if (!lu.factor(matrix)) {
@@ -168,7 +168,7 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
       if (const std::string reason = system.departure(system.motion(op)); !reason.empty()) return failure(reason);
       warn_of_changed_starts(layout, first_values, op.algebraic, findings);
       // What is zero by the structure of the model, such as the load of a body in free fall, becomes exactly zero.
-      for (int correction = 0; correction < 2 && corrected; ++correction) {
+      for (int correction = 0; correction < 2 && balanced; ++correction) {
         if (correction > 0) step = evaluate(op, {});
         lu.solve(step);
         correct(op.acceleration, 0, step);

@@ -168,11 +168,15 @@ bool met_to_rounding(const Condition& c, const Eigen::VectorXd& velocity) {
   return std::abs(off.value) <= 4 * std::numeric_limits<double>::epsilon() * off.size;
 }
 
-// The velocities that meet the constraints, which come first and of which some are `active`, and the other conditions
-// in the sense of least squares; what these leave open changes least from `start`.
+// The velocities that meet the constraints, which come first, and the other conditions in the sense of least squares;
+// what these leave open changes least from `start`.
 Result<Eigen::VectorXd> nearest(const System& system, const Motion& motion, const std::vector<Condition>& conditions,
-                                const std::vector<bool>& active, const Eigen::VectorXd& start) {
+                                const Eigen::VectorXd& start) {
   const auto n = static_cast<Eigen::Index>(system.coordinates());
+  ConstraintRows rows;
+  rows.resize(system.layout());
+  system.constraints(motion, rows);
+  const std::vector<bool> active = system.partition(rows, true).active;
   std::vector<Triplet> entries;
   add_norm(system, motion, 1e-10, entries);
   Eigen::MatrixXd change = Eigen::MatrixXd::Zero(n + static_cast<Eigen::Index>(active.size()), 1);
@@ -246,10 +250,6 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
     conditions.insert(conditions.end(), stated.begin(), stated.end());
     auto kept = least_change(system, motion, conditions, start);
     if (!kept) return tl::unexpected(kept.error());
-    ConstraintRows rows;
-    rows.resize(system.layout());
-    system.constraints(motion, rows);
-    const Partition part = system.partition(rows, true);
     // Where the stated values cannot all be kept, the point nearest to all of them is taken; a second pass undoes what
     // the least change has pulled it. Where some follow from others, but for a tolerance, all count alike.
     const bool contradicted = !kept->contradicted.empty();
@@ -257,7 +257,7 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
     const auto met = [&](const Condition& c) { return met_to_rounding(c, velocity); };
     for (int pass = 0; pass < (contradicted ? 2 : 1); ++pass) {
       if (std::all_of(conditions.begin(), conditions.end(), met)) break;
-      auto found = nearest(system, motion, conditions, part.active, velocity);
+      auto found = nearest(system, motion, conditions, velocity);
       if (!found) return tl::unexpected(found.error());
       velocity = std::move(*found);
     }

@@ -5,10 +5,10 @@
 // split off, and again from what is left, until nothing is singular: zero chains of any length appear as the strictly
 // upper triangular block N of
 //
-//     A = T ⎡ N  C ⎤ T⁻¹        T = D E,  D a balancing of A,  E a product of eliminations.
+//     A = T ⎡ N  C ⎤ T⁻¹        T = D L,  D a balancing of A,  L a product of eliminations.
 //           ⎣ 0  B ⎦
 //
-// E takes p null directions V = [1; W] with their largest entries first: B = A₂₂ − W A₁₂ mixes no rows but those that
+// L takes p null directions V = [1; W] with their largest entries first: B = A₂₂ − W A₁₂ mixes no rows but those that
 // take part, so that soft equations beside stiff ones keep their digits; an orthonormal basis would mix them all.
 #pragma once
 
@@ -20,8 +20,8 @@ struct ZeroModes {
   Eigen::Index count = 0;  // multiplicity of the eigenvalue zero, size of N
   Eigen::MatrixXd block;   // [N C; 0 B]
   Eigen::VectorXd scale;   // diagonal of D
-  Eigen::MatrixXd basis;   // E
-  Eigen::MatrixXd dual;    // E⁻ᵀ
+  Eigen::MatrixXd basis;   // L
+  Eigen::MatrixXd dual;    // L⁻ᵀ
 
   Eigen::MatrixXd right() const { return scale.asDiagonal() * basis; }               // T
   Eigen::MatrixXd left() const { return scale.cwiseInverse().asDiagonal() * dual; }  // T⁻ᵀ

@@ -56,7 +56,7 @@ struct Motion {
 
   const BodyMotion& body(BodyId b) const { return bodies[static_cast<std::size_t>(b.index)]; }
   // Marker frame along the motion, global axes; its origin from that of `from`'s BCS, which keeps what is near exact.
-  Frame<Taylor> frame(const MarkerPlace&, BodyId from = BodyId{0}) const;
+  Frame<Taylor> frame(const MarkerPlace&, BodyId from = ground_body) const;
   Mat3<Taylor> axes_along(const MarkerPlace&) const;
   // From the BCS to the marker along the motion, global axes: exact however far from the global origin both are.
   Vec3<Taylor> arm(const MarkerPlace&) const;
