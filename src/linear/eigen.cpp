@@ -9,7 +9,6 @@
 
 #include "linear/dense_products.h"
 #include "linear/eigen_refinement.h"
-#include "linear/zero_modes.h"
 
 namespace dynalin {
 
@@ -78,6 +77,15 @@ void map_to_states(const ZeroModes& zero, EigenPairs& pairs) {
 
 }  // namespace
 
+std::optional<UnrefinedPairs> unrefined_pairs(const LinearSystem& linear, bool with_vectors) {
+  const Eigen::Index n = linear.model.A.rows();
+  UnrefinedPairs found{split_zero_modes(linear.model.A, linear.rounding), {}};
+  const Eigen::Index core = n - found.zero.count;
+  if (!solve_core(found.zero.block.bottomRightCorner(core, core), with_vectors, found.pairs)) return std::nullopt;
+  if (with_vectors && core > 0) map_to_states(found.zero, found.pairs);
+  return found;
+}
+
 Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   EigenSolution out;
   out.time = linear.model.time;
@@ -89,16 +97,12 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   if (A.rows() == 0) return out;
   if (!A.allFinite()) return tl::unexpected(Failure{"eigensolution", "the state matrix is not finite", {}});
   const bool with_vectors = wanted == Vectors::right;
-  const ZeroModes zero = split_zero_modes(A, linear.rounding);
-  EigenPairs pairs;
+  std::optional<UnrefinedPairs> found = unrefined_pairs(linear, with_vectors);
+  if (!found) return tl::unexpected(Failure{"eigensolution", "the QR iteration did not converge", {}});
+  auto& [zero, pairs] = *found;
   const Eigen::Index n = A.rows(), z = zero.count;
-  if (!solve_core(zero.block.bottomRightCorner(n - z, n - z), with_vectors, pairs))
-    return tl::unexpected(Failure{"eigensolution", "the QR iteration did not converge", {}});
   std::vector<EigenTrust> trust(pairs.values.size());
-  if (with_vectors && n > z) {
-    map_to_states(zero, pairs);
-    trust = refine(*linear.equations, zero, pairs);
-  }
+  if (with_vectors && n > z) trust = refine(*linear.equations, zero, pairs);
 
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < pairs.values.size(); ++k) order.push_back(k);

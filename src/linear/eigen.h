@@ -1,8 +1,12 @@
 // Eigenvalues of a state matrix, in the order in which they are printed, with a statement of how good each one is.
 #pragma once
 
+#include <optional>
+
 #include "analysis/initial.h"
+#include "linear/eigen_pairs.h"
 #include "linear/linear_system.h"
+#include "linear/zero_modes.h"
 
 namespace dynalin {
 
@@ -13,5 +17,13 @@ enum class Vectors : bool { none, right };
 // the structure are exact (zero_modes.h); with vectors, the others are corrected on the sparse perturbation equations
 // and carry an error bound (eigen_refinement.h).
 Result<EigenSolution> eigensolve(const LinearSystem&, Vectors = Vectors::right);
+
+// What the QR iteration alone gives of a finite state matrix [rad/time], and the zeros that it did not see; nothing if
+// it does not converge.
+struct UnrefinedPairs {
+  ZeroModes zero;
+  EigenPairs pairs;
+};
+std::optional<UnrefinedPairs> unrefined_pairs(const LinearSystem&, bool with_vectors);
 
 }  // namespace dynalin
