@@ -54,7 +54,7 @@ void measure(int n) {
   };
   const double lapack = seconds([] { return 0; }, [&](int) { solve(linear->model.A); });
   std::optional<UnrefinedPairs> found;
-  const double pairs = seconds([] { return 0; }, [&](int) { found = unrefined_pairs(*linear, true); });
+  const double pairs = seconds([] { return 0; }, [&](int) { found = unrefined_pairs(*linear, Vectors::right); });
   if (!found) return fmt::print("the QR iteration did not converge\n");
   const double zeros =
       seconds([] { return 0; }, [&](int) { (void)split_zero_modes(linear->model.A, linear->rounding); });

@@ -77,7 +77,8 @@ void map_to_states(const ZeroModes& zero, EigenPairs& pairs) {
 
 }  // namespace
 
-std::optional<UnrefinedPairs> unrefined_pairs(const LinearSystem& linear, bool with_vectors) {
+std::optional<UnrefinedPairs> unrefined_pairs(const LinearSystem& linear, Vectors wanted) {
+  const bool with_vectors = wanted == Vectors::right;
   const Eigen::Index n = linear.model.A.rows();
   UnrefinedPairs found{split_zero_modes(linear.model.A, linear.rounding), {}};
   const Eigen::Index core = n - found.zero.count;
@@ -97,7 +98,7 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   if (A.rows() == 0) return out;
   if (!A.allFinite()) return tl::unexpected(Failure{"eigensolution", "the state matrix is not finite", {}});
   const bool with_vectors = wanted == Vectors::right;
-  std::optional<UnrefinedPairs> found = unrefined_pairs(linear, with_vectors);
+  std::optional<UnrefinedPairs> found = unrefined_pairs(linear, wanted);
   if (!found) return tl::unexpected(Failure{"eigensolution", "the QR iteration did not converge", {}});
   auto& [zero, pairs] = *found;
   const Eigen::Index n = A.rows(), z = zero.count;

@@ -24,6 +24,6 @@ struct UnrefinedPairs {
   ZeroModes zero;
   EigenPairs pairs;
 };
-std::optional<UnrefinedPairs> unrefined_pairs(const LinearSystem&, bool with_vectors);
+std::optional<UnrefinedPairs> unrefined_pairs(const LinearSystem&, Vectors);
 
 }  // namespace dynalin

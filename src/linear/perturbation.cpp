@@ -131,8 +131,9 @@ Matrix PerturbationEquations::state_matrices(const Matrix& a) const {
 }
 
 Matrix PerturbationEquations::rounding(const Matrix& a) const {
-  // Displacements keep their digits, one by one; rates of a model that moves are sums.
-  const Eigen::Index first_row = rates_on_positions_.value.empty() ? 2 * n_ : n_, rows = algebraic_ - first_row;
+  // Displacements keep their digits, one by one; rates are sums where the model moves or constraints hold rates alone.
+  const bool rates_are_sums = !rates_on_positions_.value.empty() || level_[1] != level_[0];
+  const Eigen::Index first_row = rates_are_sums ? n_ : 2 * n_, rows = algebraic_ - first_row;
   Matrix adjoint(rows, states_);
   for_column_blocks(states_, [&](Eigen::Index first, Eigen::Index count) {
     Matrix unit = Matrix::Zero(states_, count);
