@@ -6,6 +6,7 @@
 // what is derived.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
