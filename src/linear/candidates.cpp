@@ -4,9 +4,9 @@
 
 #include <array>
 
-#include "elements/controls/variable.h"
 #include "elements/controls/variable_list.h"
 #include "linear/original_states.h"
+#include "linear/user_coordinates.h"
 
 namespace dynalin {
 
@@ -95,44 +95,22 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
   set.gradients.begin();
   std::int32_t row = 0;
 
-  for (std::size_t k = 0; own && k < own->variables.size(); ++k, ++row) {
-    const VariableRef ref = own->variables[k];
-    const Expression& e = variable_function(system.model(), ref);
-    const std::string name = system.model().label(ref).text();
-    bool plain = true, moves = false;
-    for (const Atom& atom : e.atoms()) {
-      const bool measure = atom.function->family == AtomFamily::marker_measure && atom.function->order == 0;
-      plain = plain && (measure || atom.function->family == AtomFamily::time);
-      moves = moves || measure;
-    }
-    if (!plain || !moves) {
-      return tl::unexpected(Failure{
-          "linear analysis",
-          fmt::format(
-              "{} cannot be a PSTATE coordinate: its expression {} must be a displacement or angle and nothing else",
-              name, e.at().text()),
-          {}});
-    }
-    const BoundExpression bound(e, system.signals(), Binding::gradient);
-    ConstraintRows& rows = set.gradients;
-    rows.set(row, bound.add_position(motion, rows, row));
-    Candidate c;
-    c.row = row;
-    c.label = {StateType::pstate, system.model().label(ref).id, 1, "", "", false};
-    c.label.text = fmt::format("PSTATE VARIABLE VAR/{} {}", c.label.element, e.at().text());
-    set.wanted.push_back(std::move(c));
+  if (own) {
+    if (auto failure = add_user_candidates(system, motion, *own, row, set)) return tl::unexpected(*failure);
+    row += static_cast<std::int32_t>(set.own.size());
   }
-
   if (principal) {
     row = add_principal_candidates(system, motion, row, set);
     for (std::int32_t k = layout.body_coordinate_count; k < layout.coordinate_count; ++k) {
       set.wanted.push_back({k, -1, coordinate_label(layout, k, 0, false)});
+      set.moves.push_back({{k, 1.0}});
     }
+    return set;
   }
-  auto& plain = relative || principal ? set.fallback : set.wanted;
+  auto& plain = relative ? set.fallback : set.wanted;
   for (const std::int32_t coordinate : system.preference()) {
     // Coordinates outside bodies know no frame: they are wanted as they are.
-    if ((relative || principal) && coordinate >= layout.body_coordinate_count) continue;
+    if (relative && coordinate >= layout.body_coordinate_count) continue;
     plain.push_back({coordinate, -1, coordinate_label(layout, coordinate, 0, false)});
   }
   if (!relative) return set;

@@ -10,15 +10,19 @@ namespace dynalin {
 // A coordinate that may become a state: its gradient along the motion and its name.
 struct Candidate {
   std::int32_t coordinate = -1;  // a coordinate of the layout itself, or
-  std::int32_t row = -1;         // a row of gradients (RM, PSTATE)
+  std::int32_t row = -1;         // a row of gradients (RM, PSTATE, principal coordinates)
   StateLabel label;
 };
 
 // Candidates in the order in which they are wanted, with the gradient rows of those that are no plain coordinate.
 struct CandidateSet {
-  std::vector<Candidate> wanted;    // PSTATE, then RM, principal or global coordinates
-  std::vector<Candidate> fallback;  // global coordinates while RM or principal ones are in force
+  std::vector<Candidate> own;       // PSTATE
+  std::vector<Candidate> wanted;    // RM, principal or global coordinates
+  std::vector<Candidate> fallback;  // global coordinates while RM is in force
   ConstraintRows gradients;
+  // Where the wanted ones are a change of coordinates of the layout: how a unit of each moves those. Empty otherwise.
+  using Moves = std::vector<std::pair<std::int32_t, double>>;
+  std::vector<Moves> moves;
   std::vector<std::string> warnings;
 };
 

@@ -112,7 +112,7 @@ void motion(const System& system, const OperatingPoint& op, const EigenSolution&
                   part->full_text(), acceleration, turning));
 }
 
-void overdamping(const EigenSolution& modes, std::vector<std::string>& out) {
+void overdamping(const LinearSystem& linear, const EigenSolution& modes, std::vector<std::string>& out) {
   if (modes.without_damping) return;
   int falling = 0, others = 0;
   const EigenMode* slowest = nullptr;
@@ -126,7 +126,8 @@ void overdamping(const EigenSolution& modes, std::vector<std::string>& out) {
     ++(falls ? falling : others);
     if (falls && !slowest) slowest = &m, number = k + 1;
   }
-  const int pairs = (falling - others) / 2;
+  // Coordinates of first order bring one real mode each.
+  const int pairs = (falling - others - static_cast<int>(linear.first_order)) / 2;
   if (pairs < 1 || !slowest) return;
   out.push_back(
       fmt::format("{} mode{} overdamped, the slowest is mode {} of {}: with NODAMPIN the vibrations behind "
@@ -142,7 +143,7 @@ std::vector<std::string> cautions(const System& system, const OperatingPoint& op
   singular_configuration(system, op, linear, out);
   disproportion(system, linear, out);
   motion(system, op, modes, out);
-  overdamping(modes, out);
+  overdamping(linear, modes, out);
   return out;
 }
 

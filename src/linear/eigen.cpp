@@ -3,8 +3,10 @@
 #include <lapacke.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <numbers>
 
 #include "linear/dense_products.h"
@@ -18,29 +20,27 @@ using Complex = std::complex<double>;
 constexpr double cycle = 2 * std::numbers::pi;
 
 // Pairs of a real matrix without zero modes, in coordinates of their own.
-bool solve_core(Eigen::MatrixXd core, bool with_vectors, EigenPairs& pairs) {
+bool solve_core(Eigen::MatrixXd core, EigenPairs& pairs) {
   const auto n = static_cast<lapack_int>(core.rows());
   if (n == 0) return true;
   std::vector<double> re(static_cast<std::size_t>(n)), im(re), scale(re), unused_e(re), unused_v(re);
-  Eigen::MatrixXd right(with_vectors ? n : 1, with_vectors ? n : 1), left = right;
+  Eigen::MatrixXd right(n, n), left(n, n);
   lapack_int low = 0, high = 0;
   double norm = 0;
-  const char wanted = with_vectors ? 'V' : 'N';
-  const lapack_int leading = with_vectors ? n : 1;
-  const lapack_int info = LAPACKE_dgeevx(LAPACK_COL_MAJOR, 'B', wanted, wanted, 'N', n, core.data(), n, re.data(),
-                                         im.data(), left.data(), leading, right.data(), leading, &low, &high,
-                                         scale.data(), &norm, unused_e.data(), unused_v.data());
+  const lapack_int info =
+      LAPACKE_dgeevx(LAPACK_COL_MAJOR, 'B', 'V', 'V', 'N', n, core.data(), n, re.data(), im.data(), left.data(), n,
+                     right.data(), n, &low, &high, scale.data(), &norm, unused_e.data(), unused_v.data());
+  if (info == LAPACK_WORK_MEMORY_ERROR || info == LAPACK_TRANSPOSE_MEMORY_ERROR) throw std::bad_alloc();
   if (info != 0) return false;
   std::vector<std::size_t> kept;  // one entry a pair
   for (std::size_t k = 0; k < re.size(); ++k) {
     if (im[k] >= 0) kept.push_back(k);
   }
   const auto columns = static_cast<Eigen::Index>(kept.size());
-  if (with_vectors) pairs.right.resize(n, columns), pairs.left.resize(n, columns);
+  pairs.right.resize(n, columns), pairs.left.resize(n, columns);
   for (Eigen::Index c = 0; c < columns; ++c) {
     const std::size_t k = kept[static_cast<std::size_t>(c)];
     pairs.values.emplace_back(re[k], im[k]);
-    if (!with_vectors) continue;
     // Of a pair the columns hold the real and the imaginary part.
     const auto at = static_cast<Eigen::Index>(k);
     pairs.right.col(c) = right.col(at).cast<Complex>();
@@ -52,38 +52,45 @@ bool solve_core(Eigen::MatrixXd core, bool with_vectors, EigenPairs& pairs) {
   return true;
 }
 
-// From [N C; 0 B] to A: the part of a right eigenvector in the space of the zero modes follows from (N − λ) u = −C y.
-void map_to_states(const ZeroModes& zero, EigenPairs& pairs) {
-  const Eigen::Index n = zero.block.rows(), z = zero.count;
-  if (z == 0) {
-    pairs.right = zero.scale.asDiagonal() * pairs.right;
-    pairs.left = zero.scale.cwiseInverse().asDiagonal() * pairs.left;
-  } else {
-    const Eigen::MatrixXcd C = zero.block.topRightCorner(z, n - z).cast<Complex>();
-    Eigen::MatrixXcd full(n, pairs.right.cols());
-    full.bottomRows(n - z) = pairs.right;
-    full.topRows(z) = -C * pairs.right;
-    for (Eigen::Index k = 0; k < full.cols(); ++k) {
-      Eigen::MatrixXcd N = zero.block.topLeftCorner(z, z).cast<Complex>();
-      N.diagonal().array() -= pairs.values[static_cast<std::size_t>(k)];
-      full.col(k).head(z) = N.triangularView<Eigen::Upper>().solve(full.col(k).head(z)).eval();
-    }
-    pairs.right = real_product(zero.right(), full);
-    pairs.left = real_product(zero.left().rightCols(n - z), pairs.left);
+// A value, or a part of one, that is no more than its bound and than rounding of the model's fastest rate, or of the
+// other part, is zero as far as anybody can tell.
+void clear_rounding(EigenPairs& pairs, std::vector<EigenTrust>& trust) {
+  constexpr double rounding = 1e-13;
+  double fastest = 0;
+  for (const Complex& v : pairs.values) fastest = std::max(fastest, std::abs(v));
+  for (std::size_t k = 0; k < trust.size(); ++k) {
+    Complex& v = pairs.values[k];
+    const double unit = rounding * (v.imag() == 0 ? fastest : std::abs(v.imag())), re = std::abs(v.real());
+    if (re > trust[k].bound || re > unit) continue;
+    v.real(0);
+    trust[k].bound += re;
   }
-  pairs.right.colwise().normalize();
-  pairs.left.colwise().normalize();
+}
+
+// What no bound is less than [rad/time]. Vectors so nearly orthogonal are those of a defective value, and measuring
+// along them says nothing: Elsner's bound for those that come together, with the rounding of the core (in long double
+// where they were found to be a cluster). Beside zeros of the structure a value of the size of rounding is one of
+// rounding.
+double least_bound(Complex value, const EigenMode& mode, const ZeroModes& zero) {
+  const double size = zero.block.norm(), eps = std::numeric_limits<double>::epsilon();
+  const double n = static_cast<double>(zero.block.rows());
+  if (mode.condition > 1e14) {
+    const bool alone = mode.cluster_size <= 1;
+    const double together = alone ? 2.0 : static_cast<double>(mode.cluster_size);
+    return size * std::pow(32 * n * (alone ? eps : 5.5e-20), 1 / together);
+  }
+  if (std::abs(value) <= 1e-12 * size) return std::abs(value) + mode.condition * eps * size;
+  return 0;
 }
 
 }  // namespace
 
-std::optional<UnrefinedPairs> unrefined_pairs(const LinearSystem& linear, Vectors wanted) {
-  const bool with_vectors = wanted == Vectors::right;
-  const Eigen::Index n = linear.model.A.rows();
-  UnrefinedPairs found{split_zero_modes(linear.model.A, linear.rounding), {}};
+std::optional<UnrefinedPairs> unrefined_pairs(const LinearSystem& linear) {
+  const Eigen::Index n = linear.A.rows();
+  UnrefinedPairs found{split_zero_modes(linear.A, linear.rounding, linear.structural_zeros.get()), {}};
   const Eigen::Index core = n - found.zero.count;
-  if (!solve_core(found.zero.block.bottomRightCorner(core, core), with_vectors, found.pairs)) return std::nullopt;
-  if (with_vectors && core > 0) map_to_states(found.zero, found.pairs);
+  if (!solve_core(found.zero.block.bottomRightCorner(core, core), found.pairs)) return std::nullopt;
+  if (core > 0) map_to_states(found.zero, found.pairs);
   return found;
 }
 
@@ -94,16 +101,22 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   out.differential_states = linear.differential_states;
   out.states = linear.model.states;
 
-  const Eigen::MatrixXd& A = linear.model.A;
+  const Eigen::MatrixXd& A = linear.A;
   if (A.rows() == 0) return out;
-  if (!A.allFinite()) return tl::unexpected(Failure{"eigensolution", "the state matrix is not finite", {}});
-  const bool with_vectors = wanted == Vectors::right;
-  std::optional<UnrefinedPairs> found = unrefined_pairs(linear, wanted);
+  assert(A.allFinite());  // linearize() refuses what is not, by name
+  std::optional<UnrefinedPairs> found = unrefined_pairs(linear);
   if (!found) return tl::unexpected(Failure{"eigensolution", "the QR iteration did not converge", {}});
   auto& [zero, pairs] = *found;
   const Eigen::Index n = A.rows(), z = zero.count;
   std::vector<EigenTrust> trust(pairs.values.size());
-  if (with_vectors && n > z) trust = refine(*linear.equations, zero, pairs);
+  if (n > z) trust = refine(*linear.equations, zero, pairs);
+  for (std::size_t k = 0; linear.uncertainty.size() > 0 && k < trust.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    const Eigen::VectorXd left = pairs.left.col(at).cwiseAbs(), right = pairs.right.col(at).cwiseAbs();
+    trust[k].bound += left.dot(linear.uncertainty * right) / std::abs(pairs.left.col(at).dot(pairs.right.col(at)));
+  }
+
+  clear_rounding(pairs, trust);
 
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < pairs.values.size(); ++k) order.push_back(k);
@@ -114,39 +127,36 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
     return x_real ? std::abs(x.real()) < std::abs(y.real()) : x.imag() < y.imag();
   });
 
-  if (with_vectors) {
-    out.vectors.resize(n, z + static_cast<Eigen::Index>(order.size()));
-    out.vectors.leftCols(z) = zero.vectors().cast<Complex>();
-    out.vectors.leftCols(z).colwise().normalize();
-  }
+  out.vectors.resize(n, z + static_cast<Eigen::Index>(order.size()));
+  out.vectors.leftCols(z) = zero.vectors().cast<Complex>();
+  out.vectors.leftCols(z).colwise().normalize();
   for (Eigen::Index k = 0; k < z; ++k) {
     EigenMode mode;
     mode.is_real = mode.structural_zero = true;
-    if (with_vectors) mode.condition = zero.defective() ? std::numeric_limits<double>::infinity() : 1.0;
+    mode.condition = zero.defective() ? std::numeric_limits<double>::infinity() : 1.0;
     out.modes.push_back(std::move(mode));
   }
   for (const std::size_t k : order) {
     EigenMode mode;
     mode.eigenvalue_hz = pairs.values[k] / cycle;
     mode.is_real = pairs.values[k].imag() == 0;
-    if (with_vectors) {
-      const auto at = static_cast<Eigen::Index>(k);
-      out.vectors.col(static_cast<Eigen::Index>(out.modes.size())) = pairs.right.col(at);
-      mode.condition = 1 / std::abs(pairs.left.col(at).dot(pairs.right.col(at)));
-      mode.error_bound_hz = trust[k].bound / cycle;
-      mode.refined = trust[k].refined;
-    }
+    const auto at = static_cast<Eigen::Index>(k);
+    out.vectors.col(static_cast<Eigen::Index>(out.modes.size())) = pairs.right.col(at);
+    mode.condition = 1 / std::abs(pairs.left.col(at).dot(pairs.right.col(at)));
+    mode.error_bound_hz = trust[k].bound / cycle;
+    mode.refined = trust[k].refined;
+    mode.cluster_size = static_cast<std::size_t>(trust[k].cluster);
+    mode.error_bound_hz = std::max(mode.error_bound_hz, least_bound(pairs.values[k], mode, zero) / cycle);
     out.modes.push_back(std::move(mode));
   }
-  if (with_vectors) {
-    const Eigen::MatrixXcd image = real_product(A, out.vectors);
-    const double size = A.norm();
-    for (std::size_t k = 0; k < out.modes.size(); ++k) {
-      const auto at = static_cast<Eigen::Index>(k);
-      const Complex lambda = out.modes[k].eigenvalue_hz * cycle;
-      out.modes[k].backward_error = size > 0 ? (image.col(at) - lambda * out.vectors.col(at)).norm() / size : 0;
-    }
+  const Eigen::MatrixXcd image = real_product(A, out.vectors);
+  const double size = A.norm();
+  for (std::size_t k = 0; k < out.modes.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    const Complex lambda = out.modes[k].eigenvalue_hz * cycle;
+    out.modes[k].backward_error = size > 0 ? (image.col(at) - lambda * out.vectors.col(at)).norm() / size : 0;
   }
+  if (wanted == Vectors::none) out.vectors.resize(0, 0);
   return out;
 }
 

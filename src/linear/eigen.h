@@ -10,12 +10,12 @@
 
 namespace dynalin {
 
-// With `right`, eigenvectors, condition numbers and error bounds.
+// What the solution holds of eigenvectors; values and bounds need them all the same.
 enum class Vectors : bool { none, right };
 
 // λ/2π: real ones first by ascending modulus, then complex pairs by ascending imaginary part. Zeros that follow from
-// the structure are exact (zero_modes.h); with vectors, the others are corrected on the sparse perturbation equations
-// and carry an error bound (eigen_refinement.h).
+// the structure are exact (zero_modes.h); the others are corrected on the sparse perturbation equations and carry an
+// error bound (eigen_refinement.h).
 Result<EigenSolution> eigensolve(const LinearSystem&, Vectors = Vectors::right);
 
 // What the QR iteration alone gives of a finite state matrix [rad/time], and the zeros that it did not see; nothing if
@@ -24,6 +24,6 @@ struct UnrefinedPairs {
   ZeroModes zero;
   EigenPairs pairs;
 };
-std::optional<UnrefinedPairs> unrefined_pairs(const LinearSystem&, Vectors);
+std::optional<UnrefinedPairs> unrefined_pairs(const LinearSystem&);
 
 }  // namespace dynalin

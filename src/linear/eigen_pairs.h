@@ -5,6 +5,8 @@
 #include <complex>
 #include <vector>
 
+#include "linear/zero_modes.h"
+
 namespace dynalin {
 
 // In rad per time: of each complex pair the one with positive imaginary part.
@@ -18,6 +20,8 @@ struct EigenPairs {
 struct EigenTrust {
   double bound = 0;      // |error| of the value as corrected [rad/time]
   bool refined = false;  // by inverse iteration
+  // So many eigenvalues are within the bound that nothing tells apart: the value is their mean.
+  Eigen::Index cluster = 1;
 };
 
 // One of the pairs, or the conjugate that belongs to it.
@@ -30,5 +34,9 @@ inline std::complex<double> value(const EigenPairs& pairs, const Member& m) {
   const std::complex<double> v = pairs.values[static_cast<std::size_t>(m.at)];
   return m.conjugate ? std::conj(v) : v;
 }
+
+// From [N C; 0 B] to A: vectors of B become unit vectors of A. The part of a right one in the space of the zero modes
+// follows from (N − λ) u = −C y.
+void map_to_states(const ZeroModes&, EigenPairs&);
 
 }  // namespace dynalin

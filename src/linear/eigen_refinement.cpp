@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "linear/dense_products.h"
-#include "linear/eigen_clusters.h"
 #include "linear/eigen_residuals.h"
+#include "linear/included_values.h"
 #include "linear/inverse_iteration.h"
+#include "linear/isolated_values.h"
 
 namespace dynalin {
 
@@ -19,18 +21,17 @@ using ComplexMatrix = Eigen::MatrixXcd;
 
 constexpr double good_enough = 1e-13;  // bound against modulus
 
-// Each vector takes the first-order share of those outside its cluster:
+// Each vector takes the first-order share of the others that do not mix with it:
 // x_i + Σ_j x_j G_ji/(λ_i − λ_j) and, dual to it, y_i − Σ_j y_j (p_ij + G_ij/(λ_j − λ_i))ᴴ.
-void improve_vectors(const EigenResiduals& residuals, const EigenClusters& clusters, EigenPairs& pairs) {
+void improve_vectors(const EigenResiduals& residuals, EigenPairs& pairs) {
   const Index count = residuals.count();
   ComplexMatrix right = ComplexMatrix::Zero(count, count), right_conjugate = right, left = right,
                 left_conjugate = right;
   for (Index i = 0; i < count; ++i) {
-    if (residuals.defective(i)) continue;
     const Member me{i, false};
     residuals.for_others(i, [&](const Member& j) {
-      if (clusters.together(i, j)) return;
       const Complex gap = value(pairs, me) - value(pairs, j);
+      if (8 * std::max(std::abs(residuals.g(j, me)), std::abs(residuals.g(me, j))) > std::abs(gap)) return;
       const Complex unit = residuals.unit(j.at), own = residuals.unit(i);
       (j.conjugate ? right_conjugate : right)(j.at, i) = residuals.g(j, me) / gap;
       // Rows of the inverse are y_jᴴ/(y_jᴴ x_j).
@@ -71,14 +72,15 @@ std::vector<Index> inexact(const EigenPairs& pairs, const std::vector<EigenTrust
   return found;
 }
 
-// Eigenvalues no larger than what rounding makes of a zero, and known to few digits, may be one.
+// Single eigenvalues no larger than what rounding makes of a zero, and known to few digits, may be one.
 void doubt_rounding(const ZeroModes& zero, const EigenPairs& pairs, std::vector<EigenTrust>& trust) {
   const double size = std::numeric_limits<double>::epsilon() * zero.block.norm();
   for (std::size_t i = 0; i < trust.size(); ++i) {
     const double modulus = std::abs(pairs.values[i]);
     const auto at = static_cast<Index>(i);
     const double condition = 1 / std::abs(pairs.left.col(at).dot(pairs.right.col(at)));
-    if (!trust[i].refined && modulus <= condition * size && trust[i].bound > 1e-8 * modulus) trust[i].bound += modulus;
+    if (trust[i].cluster > 1 || trust[i].refined) continue;
+    if (modulus <= condition * size && trust[i].bound > 1e-8 * modulus) trust[i].bound += modulus;
   }
 }
 
@@ -86,33 +88,38 @@ void doubt_rounding(const ZeroModes& zero, const EigenPairs& pairs, std::vector<
 
 std::vector<EigenTrust> refine(const PerturbationEquations& equations, const ZeroModes& zero, EigenPairs& pairs) {
   const StructuredPencil pencil(equations, zero);
-  EigenClusters::Corrected corrected;
+  std::vector<EigenTrust> trust(pairs.values.size(), {std::numeric_limits<double>::infinity(), false, 1});
   std::vector<double> gap;
-  const auto single = [&](Index i, double part) {
+  const auto well_apart = [&](Index i, double part) {
     const auto at = static_cast<std::size_t>(i);
-    return corrected.alone[at] && corrected.trust[at].bound < part * gap[at];
+    return trust[at].cluster == 1 && trust[at].bound < part * gap[at];
   };
+  bool all_apart = false;
   for (int pass = 0; pass < 2; ++pass) {
     const EigenResiduals residuals(pencil, zero, pairs);
-    const EigenClusters clusters(pairs, residuals);
-    corrected = clusters.corrected();
-    gap = nearest(zero, corrected.pairs);
-    // Clusters, and bounds that are not small against the gaps, want better vectors. Single eigenvalues that are small
-    // against the others are a matter of inverse iteration.
-    const std::vector<Index> left = inexact(corrected.pairs, corrected.trust);
-    const bool settled = std::all_of(left.begin(), left.end(), [&](Index i) { return single(i, 1e-4); });
-    if (!settled && pass == 0) {
-      improve_vectors(residuals, clusters, pairs);
-      corrected = clusters.corrected();
-    }
-    pairs = std::move(corrected.pairs);
+    std::optional<IsolatedValues> found = isolated_values(pairs, residuals);
+    if (!found) break;
+    all_apart = found->all, trust = std::move(found->trust);
+    gap = nearest(zero, pairs);
+    // Bounds that are not small against the gaps want better vectors. Eigenvalues that are small against the others are
+    // a matter of inverse iteration.
+    const std::vector<Index> left = inexact(pairs, trust);
+    const bool settled = std::all_of(left.begin(), left.end(), [&](Index i) { return well_apart(i, 1e-4); });
+    if (!settled && pass == 0) improve_vectors(residuals, pairs);
+    pairs.values = std::move(found->values);
     if (settled) break;
   }
-  std::vector<Index> wanted = inexact(pairs, corrected.trust);
-  std::erase_if(wanted, [&](Index i) { return !single(i, 0.01); });
-  refine_by_inverse_iteration(pencil, std::move(wanted), pairs, corrected.trust);
-  doubt_rounding(zero, pairs, corrected.trust);
-  return std::move(corrected.trust);
+  if (!all_apart) {
+    if (std::optional<IncludedValues> found = included_values(pencil, zero)) {
+      pairs = std::move(found->pairs), trust = std::move(found->trust);
+    }
+  }
+  gap = nearest(zero, pairs);
+  std::vector<Index> wanted = inexact(pairs, trust);
+  std::erase_if(wanted, [&](Index i) { return !well_apart(i, 0.01); });
+  refine_by_inverse_iteration(pencil, std::move(wanted), pairs, trust);
+  doubt_rounding(zero, pairs, trust);
+  return trust;
 }
 
 }  // namespace dynalin

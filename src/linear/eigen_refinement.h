@@ -1,7 +1,8 @@
 // Correction of computed eigenvalues on the sparse perturbation equations, and how far each may still be off: residuals
-// in components along all modes (eigen_residuals.h) correct every eigenvalue with those that it cannot be told from
-// (eigen_clusters.h), a second time from vectors improved to first order where the first has left anything; those that
-// are still inexact against their modulus are refined by inverse iteration (inverse_iteration.h).
+// in components along all modes (eigen_residuals.h) correct eigenvalues that lie apart (isolated_values.h), a second
+// time from vectors improved to first order where the first has left anything; where that proves nothing, clusters of
+// defective eigenvalues are bounded together (included_values.h). Single ones that are still inexact against their
+// modulus are refined by inverse iteration (inverse_iteration.h).
 #pragma once
 
 #include "linear/eigen_pairs.h"

@@ -18,23 +18,32 @@ using ComplexVector = Eigen::VectorXcd;
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double least_product = 1e-12;  // |yᴴ x| of unit vectors
+// A sum of residuals with the solution of the constraints on the left and the same with it on the right differ by as
+// much as either is off; unless both err alike.
+constexpr double margin_of_difference = 4;
+
+// The part that a row may have in any column of unit length, at most.
+Eigen::VectorXd largest_share(const Matrix& sizes) {
+  Eigen::VectorXd share = Eigen::VectorXd::Zero(sizes.rows());
+  for (Index c = 0; c < sizes.cols(); ++c) {
+    const double norm = sizes.col(c).norm();
+    if (norm > 0) share = share.cwiseMax(sizes.col(c) / norm);
+  }
+  return share;
+}
 
 }  // namespace
 
 EigenResiduals::EigenResiduals(const StructuredPencil& pencil, const ZeroModes& zero, const EigenPairs& pairs)
     : pairs_(pairs), floor_(Eigen::VectorXd::Zero(pairs.right.cols())) {
-  const ComplexMatrix reduced = measure(pencil);
   product_ = adjoint_product(pairs.left, pairs.right);
-  product_conjugate_ = transposed_product(pairs.left, pairs.right);
   unit_ = product_.diagonal();
-  find_defective(zero);
-  for (Index i = 0; i < count(); ++i) {
-    // The components are sums in double of residuals that are themselves rounding.
-    floor_(i) += 1e-8 * pairs.left.col(i).cwiseAbs().dot(reduced.col(i).cwiseAbs());
-    if (defective(i)) continue;
-    floor_(i) /= std::abs(unit_(i));
-  }
-  const ComplexVector of_unit = unit_.unaryExpr([](const Complex& u) { return u == 0.0 ? u : 1.0 / u; });
+  complete_ = pairs.right.allFinite() && pairs.left.allFinite() && unit_.cwiseAbs().minCoeff() > least_product;
+  if (!complete_) return;
+  product_conjugate_ = transposed_product(pairs.left, pairs.right);
+  row_floor_.resize(count(), 3), column_floor_.resize(count(), 3);
+  const ComplexMatrix reduced = measure(pencil);
+  const ComplexVector of_unit = unit_.cwiseInverse();
   const auto in_units = [&](ComplexMatrix& plain, ComplexMatrix& crossed) {
     plain = of_unit.asDiagonal() * plain;
     crossed = of_unit.conjugate().asDiagonal() * crossed;
@@ -43,6 +52,7 @@ EigenResiduals::EigenResiduals(const StructuredPencil& pencil, const ZeroModes& 
   along_conjugate_ = transposed_product(pairs.left, reduced);
   in_units(along_, along_conjugate_);
   in_units(product_, product_conjugate_);
+  measure_floors(pencil, reduced);
   measure_zero_modes(pencil, zero, reduced);
 }
 
@@ -51,6 +61,7 @@ ComplexMatrix EigenResiduals::measure(const StructuredPencil& pencil) {
   const PerturbationEquations& equations = pencil.equations();
   const Index n = equations.states(), N = equations.unknowns();
   ComplexMatrix reduced(n, count());
+  rounding_share_ = Eigen::VectorXd::Zero(N);
   for_column_blocks(count(), [&](Index first, Index columns) {
     const ComplexMatrix x = pairs_.right.middleCols(first, columns), y = pairs_.left.middleCols(first, columns);
     const ComplexMatrix a = by_parts(x, [&](const Matrix& m) { return equations.complete(m); });
@@ -65,29 +76,65 @@ ComplexMatrix EigenResiduals::measure(const StructuredPencil& pencil) {
       floor_(first + c) = b.col(c).cwiseAbs().dot(of.rounding.head(b.rows())) +
                           y.col(c).cwiseAbs().dot(of.rounding.tail(n)) +
                           first_order_margin * std::abs(b.col(c).dot(out.head(b.rows())) + y.col(c).dot(out.tail(n)));
+      const double norm = of.rounding.norm();
+      column_floor_(first + c, 0) = norm;
+      if (norm > 0) rounding_share_ = rounding_share_.cwiseMax(of.rounding / norm);
     }
     reduced.middleCols(first, columns) = by_parts(r, [&](const Matrix& m) { return equations.reduced(m); });
+    for (Index c = 0; c < columns; ++c) {
+      const Complex other = b.col(c).dot(r.col(c).head(b.rows())) + y.col(c).dot(r.col(c).tail(n));
+      const double off = std::abs(other - y.col(c).dot(reduced.col(first + c)));
+      const double sum = y.col(c).cwiseAbs().dot(reduced.col(first + c).cwiseAbs());
+      floor_(first + c) += margin_of_difference * off + static_cast<double>(N) * eps * sum;
+      floor_(first + c) /= std::abs(unit_(first + c));
+      column_floor_(first + c, 1) = sum > 0 ? off / sum : 0;
+    }
   });
   return reduced;
 }
 
-void EigenResiduals::find_defective(const ZeroModes& zero) {
-  defective_bound_ = Eigen::VectorXd::Zero(count());
-  const double size = zero.block.norm(), change = 16 * eps * size;
-  const auto orthogonal = [&](Index i) { return std::abs(unit_(i)) <= least_product; };
-  for (Index i = 0; i < count(); ++i) {
-    if (!orthogonal(i)) continue;
-    int together = 0;
-    const auto close = [&](const Member& j) {
-      return std::abs(value(pairs_, {i, false}) - value(pairs_, j)) <= 1e-3 * size;
-    };
-    for (Index j = 0; j < count(); ++j) {
-      if (!orthogonal(j)) continue;
-      if (close({j, false})) ++together;
-      if (!pairs_.real(j) && close({j, true})) ++together;
+// Off the diagonal products of a share of the row and one of the column bound Σ_r |y_ri| δ_rj: those of the rounding of
+// the residuals, of their sums, and of P E.
+void EigenResiduals::measure_floors(const StructuredPencil& pencil, const ComplexMatrix& reduced) {
+  const PerturbationEquations& equations = pencil.equations();
+  const Index n = equations.states();
+  const double relative = margin_of_difference * column_floor_.col(1).maxCoeff() + static_cast<double>(n) * eps;
+  const Eigen::VectorXd sum_share = largest_share(reduced.cwiseAbs());
+  for_column_blocks(count(), [&](Index first, Index columns) {
+    const ComplexMatrix y = pairs_.left.middleCols(first, columns);
+    const ComplexMatrix b = by_parts(y, [&](const Matrix& m) { return equations.complete_left(m); });
+    for (Index c = 0; c < columns; ++c) {
+      const double unit = std::abs(unit_(first + c));
+      row_floor_(first + c, 0) =
+          (b.col(c).cwiseAbs().dot(rounding_share_.head(b.rows())) + y.col(c).cwiseAbs().dot(rounding_share_.tail(n))) /
+          unit;
+      row_floor_(first + c, 1) = y.col(c).cwiseAbs().dot(sum_share) / unit;
     }
-    const double k = std::max(together, 2);
-    defective_bound_(i) = std::pow(2 * size, 1 - 1 / k) * std::pow(change, 1 / k);
+  });
+  for (Index j = 0; j < count(); ++j) column_floor_(j, 1) = relative * reduced.col(j).norm();
+  row_floor_.col(2).setZero(), column_floor_.col(2).setZero();
+  // E = G − P E: with column sums of |P| below a quarter, those of |E| are at most those of |G| and a third.
+  Eigen::VectorXd of_p = Eigen::VectorXd::Zero(count()), of_g = of_p;
+  for (Index i = 0; i < count(); ++i) {
+    for_others(i, [&](const Member& j) {
+      const double share = std::abs(p({i, false}, j));
+      row_floor_(i, 2) = std::max(row_floor_(i, 2), share);
+      of_p(j.at) += share;
+      of_g(j.at) += std::abs(g({i, false}, j)) + floor(i, j.at);
+    });
+    of_g(i) += std::abs(g({i, false}, {i, false})) + floor_(i);
+  }
+  // Of pairs the rows of the conjugates are the same with columns exchanged: their sums are within twice these.
+  if (!(of_p.maxCoeff() <= 0.125)) complete_ = false;
+  column_floor_.col(2) = (2 * 4.0 / 3) * of_g;
+  for (Index i = 0; i < count(); ++i) {
+    const Member me{i, false};
+    double mixed = 0;
+    for_others(i, [&](const Member& j) {
+      const double onto = std::abs(g(j, me)) + floor(j.at, i);
+      mixed += std::abs(p(me, j)) * onto;
+    });
+    floor_(i) += mixed;
   }
 }
 
@@ -100,15 +147,14 @@ void EigenResiduals::measure_zero_modes(const StructuredPencil& pencil, const Ze
   const Matrix T0 = zero.right().leftCols(z), chains = zero.block.topLeftCorner(z, z);
   const ComplexMatrix from_zero =
       adjoint_product(pairs_.left, pencil.equations().reduced(pencil.zero_residuals()).cast<Complex>());
+  const ComplexMatrix along_zero = adjoint_product(pairs_.left, T0.cast<Complex>());
   // Dual to the zero modes: the upper rows of T⁻¹ less what belongs to the other modes.
   const ComplexMatrix dual = pencil.zero_shares().cast<Complex>();
   const ComplexMatrix U = dual * pairs_.right, onto = dual * reduced;
   for (Index i = 0; i < count(); ++i) {
-    if (defective(i)) continue;
     const Member me{i, false};
     ComplexVector to_zero = onto.col(i);
     for (Index j = 0; j < count(); ++j) {
-      if (defective(j)) continue;
       to_zero -= U.col(j) * g({j, false}, me);
       if (!pairs_.real(j)) to_zero -= U.col(j).conjugate() * g({j, true}, me);
     }
@@ -117,6 +163,8 @@ void EigenResiduals::measure_zero_modes(const StructuredPencil& pencil, const Ze
     const ComplexVector through = shifted.triangularView<Eigen::Upper>().solve(to_zero);
     zero_share_.col(i) = T0 * through;
     zero_coupling_(i) = from_zero.row(i).cwiseAbs().dot(through.cwiseAbs()) / std::abs(unit_(i));
+    // What the left vector is off from one that does not see the zero modes.
+    floor_(i) += along_zero.row(i).cwiseAbs().dot(to_zero.cwiseAbs()) / std::abs(unit_(i));
   }
 }
 

@@ -22,19 +22,35 @@ struct LinearOptions {
 };
 
 class PerturbationEquations;
+class StructuralZeros;
+
+// How far the constraint rows and chosen coordinates are from depending on each other (configuration.h).
+struct NearSingularity {
+  double distance = 1;
+  std::vector<std::string> rows;
+};
 
 struct LinearSystem {
   StateSpace model;
   std::size_t kinematic_states = 0, differential_states = 0;
+  std::size_t first_order = 0;          // coordinates without mass whose rate is no state
+  bool has_massless_states = false;     // some coordinates or rates follow from balances of forces without inertia
   std::vector<StateLabel> coordinates;  // the chosen ones, in order
+  bool principal_states = false;        // those of the original implementation are in force
   std::vector<std::string> warnings;
   // Columns of states, then inputs: variations of all coordinates, rates, accelerations, multipliers, algebraic values.
   Eigen::MatrixXd dq, dqdot, dqddot, dlambda, dw;
+  Eigen::MatrixXd A;         // as computed; in the model, entries that are nothing but rounding are zero
   Eigen::MatrixXd rounding;  // what the entries of A may carry of rounding, element by element
+  // What roundings of the velocities make of A near singular configurations, element by element; else empty.
+  Eigen::MatrixXd uncertainty;
+  std::shared_ptr<const StructuralZeros> structural_zeros;
+  NearSingularity near_singularity;
   std::shared_ptr<const PerturbationEquations> equations;
 };
 
-// The point must be consistent on all levels (solve_acceleration).
+// The point must be consistent on all levels (solve_acceleration). Refused where its roundings alone decide the state
+// matrix, with a warning where they leave few digits of it.
 Result<LinearSystem> linearize(const System&, OperatingPoint, const LinearOptions&);
 
 }  // namespace dynalin

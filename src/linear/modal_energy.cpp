@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "linear/original_states.h"
+
 namespace dynalin {
 
 namespace {
@@ -15,6 +17,9 @@ using ComplexVector = std::array<Complex, 3>;
 // The force elements whose rows the tables have, in the order of the document.
 constexpr std::array<std::string_view, 9> force_statements = {"BEAM",   "BUSHING",      "FIELD",  "GFORCE", "NFORCE",
                                                               "SFORCE", "SPRINGDAMPER", "VFORCE", "VTORQUE"};
+
+// Relative size of what is left where motions cancel; zero modes come with a little more than the rounding of a number.
+constexpr double rounding = 1e-10;
 
 ComplexVector three(const Eigen::VectorXcd& x, std::int32_t at) { return {x(at), x(at + 1), x(at + 2)}; }
 
@@ -37,6 +42,14 @@ ModalEnergy::ModalEnergy(const System& system, const OperatingPoint& op, const L
   eq_.resize(system.layout());
   system.constraints(motion_, rows);
   system.equations(motion_, rows, eq_, {Column::position, Column::damping, Column::velocity, Column::algebraic});
+  eq_.clear_undefined();  // linearize() has refused those that count
+  if (linear.principal_states) {
+    CandidateSet set;
+    set.gradients.resize(system.layout(), static_cast<std::size_t>(system.layout().body_coordinate_count));
+    set.gradients.begin();
+    add_principal_candidates(system, motion_, 0, set);
+    original_ = std::move(set.gradients);
+  }
   // The algebraic block alone: ∂a/∂w.
   const auto n = system.layout().coordinate_count;
   const auto w = static_cast<std::int32_t>(system.layout().algebraic.size());
@@ -59,6 +72,8 @@ Eigen::VectorXcd ModalEnergy::displacements(const Eigen::VectorXcd& z) const {
 }
 
 Eigen::VectorXcd ModalEnergy::velocities(const Eigen::VectorXcd& z) const {
+  // Without mass velocities follow from forces, which positions and differential states make as well.
+  if (linear_.has_massless_states) return linear_.dqdot.leftCols(z.size()) * z;
   Eigen::VectorXcd rates = z;
   for (Eigen::Index k = 0; k < rates.size(); ++k) {
     if (!solution_.states[static_cast<std::size_t>(k)].is_rate) rates(k) = 0;
@@ -101,10 +116,26 @@ std::array<double, 9> ModalEnergy::kinetic_terms(std::size_t body, const Eigen::
   return terms;
 }
 
+double ModalEnergy::largest_original(const Eigen::VectorXcd& z) const {
+  const Eigen::VectorXcd dq = displacements(z);
+  double largest = 0;
+  for (std::int32_t k = 0; k < original_->size(); ++k) {
+    Complex p = 0;
+    for (const auto& entry : original_->row(k)) p += entry.c.g * dq(entry.column);
+    largest = std::max(largest, std::abs(p));
+  }
+  return largest;
+}
+
 ModeHeader ModalEnergy::header(std::size_t mode) const {
   const Complex hz = solution_.modes[mode].eigenvalue_hz;
   const double size = std::abs(hz), omega = 2 * std::numbers::pi * size;
-  const Eigen::VectorXcd z = scaled_vector(mode);
+  Eigen::VectorXcd z = scaled_vector(mode);
+  if (original_) {
+    // Rates of the coordinates are among the entries that the default compares.
+    const double largest = std::max(1.0, omega) * largest_original(z);
+    if (largest > 0) z /= largest;
+  }
   const auto energy = [&](const Eigen::VectorXcd& v) {
     double sum = 0;
     for (const std::size_t b : bodies_by_id()) {
@@ -144,7 +175,10 @@ std::pair<std::vector<ModalRow<Complex>>, Complex> ModalEnergy::shape(std::size_
     const auto found = std::find_if(solution_.states.begin(), solution_.states.end(), [&](const StateLabel& s) {
       return s.type == states[k].type && s.element == states[k].owner->id && s.coordinate == states[k].coordinate;
     });
-    rows.push_back({states[k].owner, 0, {z(found - solution_.states.begin())}});
+    const bool several = std::count_if(states.begin(), states.end(), [&](const DifferentialState& other) {
+                           return other.owner == states[k].owner;
+                         }) > 1;
+    rows.push_back({states[k].owner, several ? states[k].coordinate : 0, {z(found - solution_.states.begin())}});
   }
   Complex largest = 0;
   for (const auto& row : rows) {
@@ -207,6 +241,23 @@ std::vector<ModalRow<double>> ModalEnergy::kinetic(std::size_t mode) const {
   return rows;
 }
 
+Eigen::VectorXd ModalEnergy::algebraic_size(const Eigen::VectorXcd& dq, Column family) const {
+  const auto n = static_cast<Eigen::Index>(system_.layout().coordinate_count);
+  const auto w = static_cast<Eigen::Index>(system_.layout().algebraic.size());
+  if (w == 0 || !algebraic_solved_) return Eigen::VectorXd::Zero(w);
+  Eigen::VectorXd rows = Eigen::VectorXd::Zero(eq_.size());
+  const auto add_sizes = [&](Column c) {
+    for_each_entry(eq_.matrix(c),
+                   [&](std::int32_t r, std::int32_t k, double v) { rows(r) += std::abs(v) * std::abs(dq(k)); });
+  };
+  add_sizes(family);
+  if (family == Column::damping) add_sizes(Column::velocity);
+  const Eigen::MatrixXd given = rows.segment(n, w);
+  Eigen::MatrixXd solved = given;
+  algebraic_.solve(solved);
+  return solved.cwiseAbs().cwiseMax(given).col(0);
+}
+
 Eigen::VectorXcd ModalEnergy::algebraic_change(const Eigen::VectorXcd& dq, Column family) const {
   const auto n = static_cast<Eigen::Index>(system_.layout().coordinate_count);
   const auto w = static_cast<Eigen::Index>(system_.layout().algebraic.size());
@@ -233,13 +284,15 @@ std::vector<ModalRow<double>> ModalEnergy::force_rows(std::size_t mode, Column f
   const Eigen::VectorXcd z = scaled_vector(mode);
   const Eigen::VectorXcd u = strain ? displacements(z) : velocities(z);
   const Eigen::VectorXcd dw = algebraic_change(u, family);
+  const Eigen::VectorXd dw_size = algebraic_size(u, family);
   const Layout& layout = system_.layout();
   std::vector<ModalRow<double>> rows;
-  double total = 0;
+  double total = 0, parts = 0;
+  double without_cancellation = 0;  // what the energy would be if no motions cancelled
   MarkerWrench w;
   for (const std::string_view statement : force_statements) {
     for (const auto& set : system_.model().sets) {
-      if (set->kind().statement != statement || set->labels.empty()) continue;
+      if (set->kind().statement != statement || set->labels.empty() || !set->active) continue;
       const bool rotational = set->kind().variant == "ROTATIONAL" || statement == "VTORQUE";
       const bool translational = set->kind().variant == "TRANSLATIONAL" || statement == "VFORCE";
       const Kernel& kernel = *system_.signals().element(statement, set->labels.front().id).kernel;
@@ -255,13 +308,21 @@ std::vector<ModalRow<double>> ModalEnergy::force_rows(std::size_t mode, Column f
         };
         const std::array<ComplexVector, 4> du = {group(B, 0), group(B, 3), group(C, 0), group(C, 3)};
         ComplexVector dF{}, dT{};
+        std::array<double, 4> du_size{};
+        double dF_size = 0, dT_size = 0;
         for (std::size_t g = 0; g < 4; ++g) {
+          const auto size = [](const Matrix3& m) { return std::sqrt(trace(m * transpose(m))); };
+          du_size[g] = std::sqrt(std::norm(du[g][0]) + std::norm(du[g][1]) + std::norm(du[g][2]));
+          dF_size += du_size[g] * size((strain ? w.force.force_on_position : w.force.force_on_velocity).group[g]);
+          dT_size += du_size[g] * size((strain ? w.force.torque_on_position : w.force.torque_on_velocity).group[g]);
           add(dF, times((strain ? w.force.force_on_position : w.force.force_on_velocity).group[g], du[g]));
           add(dT, times((strain ? w.force.torque_on_position : w.force.torque_on_velocity).group[g], du[g]));
         }
         for (const MarkerWrench::Scalar& s : w.scalars) {
           if (s.family != Column::algebraic && s.family != family) continue;
           const Complex change = s.family == family ? u(s.column) : dw(s.column);
+          const double change_size = s.family == family ? std::abs(change) : dw_size(s.column);
+          dF_size += change_size * norm(s.force), dT_size += change_size * norm(s.torque);
           for (std::size_t k = 0; k < 3; ++k) {
             dF[k] += change * s.force[k];
             dT[k] += change * s.torque[k];
@@ -283,13 +344,19 @@ std::vector<ModalRow<double>> ModalEnergy::force_rows(std::size_t mode, Column f
           add(moved, times(-skew(arm_J), du[3]), -1.0);
           add(turned, du[3], -1.0);
         }
+        double moved_size = du_size[0] + norm(value(p.arm_I)) * du_size[1], turned_size = du_size[1];
+        if (w.force.acts_on_J) {
+          moved_size += du_size[2] + norm(arm_J) * du_size[3];
+          turned_size += du_size[3];
+        }
+        without_cancellation += moved_size * dF_size + turned_size * dT_size;
         ModalRow<double> row{&label, 0, std::vector<double>(7, 0.0)};
-        if (statement == "NFORCE") row.marker = system_.model().marker(kernel.marker_I(which)).label.id;
+        if (statement == "NFORCE") row.part = system_.model().marker(kernel.marker_I(which)).label.id;
         for (std::size_t k = 0; k < 3; ++k) {
           row.values[1 + k] = -0.5 * std::real(std::conj(moved[k]) * dF[k]);
           row.values[4 + k] = -0.5 * std::real(std::conj(turned[k]) * dT[k]);
         }
-        for (std::size_t k = 1; k < 7; ++k) row.values[0] += row.values[k];
+        for (std::size_t k = 1; k < 7; ++k) row.values[0] += row.values[k], parts += std::abs(row.values[k]);
         total += row.values[0];
         const double blank = std::numeric_limits<double>::quiet_NaN();
         for (std::size_t k = 0; k < 3; ++k) {
@@ -300,8 +367,14 @@ std::vector<ModalRow<double>> ModalEnergy::force_rows(std::size_t mode, Column f
       }
     }
   }
+  // No share of nothing: motions of rigid bodies leave roundings in every element. A spring that is slack but for the
+  // rounding of its own force, which is that of the places it joins, does work in a turn of the model.
+  double distance = 1;  // of the bodies from the origin, in lengths of the model
+  for (const BodyMotion& b : motion_.bodies) distance = std::max(distance, norm(b.r) / system_.length());
+  const double least = strain ? 64 * std::numeric_limits<double>::epsilon() * distance : rounding * rounding;
+  const bool nothing = parts <= least * without_cancellation || std::abs(total) <= rounding * parts;
   for (auto& row : rows) {
-    for (double& x : row.values) x = total != 0 ? 100 * x / total : x * 0;
+    for (double& x : row.values) x = nothing ? x * 0 : 100 * x / total;
   }
   return rows;
 }

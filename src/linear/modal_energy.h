@@ -1,9 +1,13 @@
 // What the modal tables hold: header quantities, coordinates, and how kinetic energy, strain energy and dissipated
 // power are shared among the elements (LINEAR command, 5.1.5 and 5.1.6; scaling as the published headers prove).
 //
-// The eigenvector z of the state matrix is scaled so that its entry of largest modulus is 1. With T the map from states
-// to coordinates, velocities belong to the velocity entries of z alone, displacements to all entries.
+// The eigenvector z of the state matrix is scaled so that its entry of largest modulus is 1; in the original
+// implementation so that the largest among the coordinates of all bodies, chosen or not, and their rates is 1. With T
+// the map from states to coordinates, velocities belong to the velocity entries of z alone, displacements to all
+// entries.
 #pragma once
+
+#include <optional>
 
 #include "linear/linear_system.h"
 #include "system/sparse_lu.h"
@@ -22,7 +26,7 @@ struct ModeHeader {
 template <class T>
 struct ModalRow {
   const ElementLabel* element = nullptr;
-  std::int64_t marker = 0;  // of the rows that an element has for each of its markers
+  std::int64_t part = 0;  // the marker or state, where an element has a row for each
   std::vector<T> values{};
 };
 
@@ -45,6 +49,8 @@ class ModalEnergy {
 
  private:
   Eigen::VectorXcd scaled_vector(std::size_t mode) const;
+  // The largest modulus of what the mode moves among mass centres and principal angles of all bodies.
+  double largest_original(const Eigen::VectorXcd& z) const;
   Eigen::VectorXcd displacements(const Eigen::VectorXcd& z) const;
   Eigen::VectorXcd velocities(const Eigen::VectorXcd& z) const;  // of the velocity entries
   std::vector<std::size_t> bodies_by_id() const;
@@ -53,12 +59,14 @@ class ModalEnergy {
   std::array<double, 9> kinetic_terms(std::size_t body, const Eigen::VectorXcd& v) const;
   std::vector<ModalRow<double>> force_rows(std::size_t mode, Column family) const;
   Eigen::VectorXcd algebraic_change(const Eigen::VectorXcd& dq, Column family) const;
+  Eigen::VectorXd algebraic_size(const Eigen::VectorXcd& dq, Column family) const;  // the same if nothing cancelled
 
   const System& system_;
   const LinearSystem& linear_;
   const EigenSolution& solution_;
   Motion motion_;
   Equations eq_;
+  std::optional<ConstraintRows> original_;  // gradients of the coordinates of the original implementation
   SparseLu algebraic_;
   bool algebraic_solved_ = true;
 };

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "linear/mass_root.h"
+
 namespace dynalin {
 
 namespace {
@@ -16,84 +18,15 @@ using Matrix = Eigen::MatrixXd;
 using ComplexMatrix = Eigen::MatrixXcd;
 using Index = Eigen::Index;
 
-// Columns of coordinates as columns of √mass · motion, six rows a body: their products are those of the mass matrix.
-// User units: no factor of consistency.
-class MassRoot {
- public:
-  MassRoot(const System& system, const OperatingPoint& op) {
-    const Layout& layout = system.layout();
-    for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
-      const BodyBlock& block = layout.bodies[b];
-      const Body& body = system.model().bodies[b];
-      if (block.count == 0 || body.user_mass == 0) continue;
-      Item item{block.offset, block.count == 6, std::sqrt(body.user_mass), op.poses[b].R * body.p_BC, {}};
-      item.centre = op.poses[b].r + item.arm;
-      const Matrix3 J = op.poses[b].R * body.J_BC * transpose(op.poses[b].R);
-      const double factor = body.user_mass / body.mass;
-      Eigen::Matrix3d inertia;
-      for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 3; ++c)
-          inertia(r, c) = factor * J(static_cast<std::size_t>(r), static_cast<std::size_t>(c));
-      }
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(inertia);
-      item.inertia_root =
-          principal.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * principal.eigenvectors().transpose();
-      items_.push_back(item);
-    }
-  }
-
-  Matrix of(const Matrix& columns) const {
-    Matrix out = Matrix::Zero(6 * static_cast<Index>(items_.size()), columns.cols());
-    for (std::size_t k = 0; k < items_.size(); ++k) {
-      const Item& item = items_[k];
-      Matrix move = columns.middleRows(item.offset, 3);
-      if (item.turns) {
-        const Matrix turn = columns.middleRows(item.offset + 3, 3);
-        for (Index c = 0; c < columns.cols(); ++c) {
-          const Vector v = cross(Vector{turn(0, c), turn(1, c), turn(2, c)}, item.arm);
-          for (std::size_t i = 0; i < 3; ++i) move(static_cast<Index>(i), c) += v[i];
-        }
-        out.middleRows(6 * static_cast<Index>(k) + 3, 3) = item.inertia_root * turn;
-      }
-      out.middleRows(6 * static_cast<Index>(k), 3) = item.mass_root * move;
-    }
-    return out;
-  }
-  // The model moved along and turned about three axes at a point.
-  Matrix of_rigid_motion(const Vector& origin, const Matrix3& axes) const {
-    Matrix out = Matrix::Zero(6 * static_cast<Index>(items_.size()), 6);
-    for (std::size_t k = 0; k < items_.size(); ++k) {
-      const auto at = 6 * static_cast<Index>(k);
-      for (std::size_t d = 0; d < 3; ++d) {
-        const Vector e{axes(0, d), axes(1, d), axes(2, d)};
-        const Vector by_turn = cross(e, items_[k].centre - origin);
-        const Eigen::Vector3d axis(e[0], e[1], e[2]);
-        out.block(at, static_cast<Index>(d), 3, 1) = items_[k].mass_root * axis;
-        out.block(at, static_cast<Index>(d) + 3, 3, 1) =
-            items_[k].mass_root * Eigen::Vector3d(by_turn[0], by_turn[1], by_turn[2]);
-        if (items_[k].turns) out.block(at + 3, static_cast<Index>(d) + 3, 3, 1) = items_[k].inertia_root * axis;
-      }
-    }
-    return out;
-  }
-
- private:
-  struct Item {
-    std::int32_t offset;
-    bool turns;
-    double mass_root;
-    Vector arm, centre{};
-    Eigen::Matrix3d inertia_root{};
-  };
-  std::vector<Item> items_;
-};
-
 ComplexMatrix times(const Matrix& m, const ComplexMatrix& x) {
   ComplexMatrix out(m.rows(), x.cols());
   out.real() = m * x.real();
   out.imag() = m * x.imag();
   return out;
 }
+
+// The square of an amplitude that is rounding beside that of another mode.
+constexpr double unexcited = 1e-24;
 
 // What the table of coordinates shows of each mode: mass centres and rotations of all bodies, differential states.
 ComplexMatrix table_entries(const System& system, const OperatingPoint& op, const EigenSolution& modes,
@@ -169,6 +102,12 @@ std::vector<std::size_t> spanning(const EigenSolution& modes, const ComplexMatri
 Result<ModalEnergies> modal_energies(const System& system, const OperatingPoint& op, const LinearSystem& linear,
                                      const EigenSolution& modes) {
   const auto [position, rate] = pairs_of(linear);
+  if (linear.first_order > 0) {
+    return tl::unexpected(Failure{"energies per mode",
+                                  "a model with coordinates of first order, of freedoms that have damping and no mass, "
+                                  "has fewer rates than coordinates: its shapes do not share out its energy",
+                                  {}});
+  }
   if (position.size() != rate.size()) {
     return tl::unexpected(Failure{"energies per mode",
                                   "a model with velocity constraints has fewer rates than coordinates: its shapes do "
@@ -208,6 +147,7 @@ Result<ModalEnergies> modal_energies(const System& system, const OperatingPoint&
 
   ModalEnergies out;
   out.modes.resize(modes.modes.size());
+  out.counted.assign(modes.modes.size(), false);
   const auto share = [&](const Matrix& m, const Eigen::VectorXcd& e, Index i) {
     return std::real(std::conj(e(i)) * Phi.col(i).dot(times(m, Phi * e).col(0)));
   };
@@ -216,7 +156,16 @@ Result<ModalEnergies> modal_energies(const System& system, const OperatingPoint&
     s.kinetic = 0.5 * share(M, eta_rate, i);
     s.potential = 0.5 * share(K, eta, i);
     s.power = share(C, eta_rate, i);
+    out.counted[chosen[static_cast<std::size_t>(i)]] = true;
     out.total.kinetic += s.kinetic, out.total.potential += s.potential, out.total.power += s.power;
+  }
+  for (double ModalEnergies::Share::*of :
+       {&ModalEnergies::Share::kinetic, &ModalEnergies::Share::potential, &ModalEnergies::Share::power}) {
+    double size = 0;
+    for (const ModalEnergies::Share& s : out.modes) size += std::abs(s.*of);
+    for (ModalEnergies::Share& s : out.modes) {
+      if (std::abs(s.*of) <= unexcited * size) s.*of = 0;
+    }
   }
   return out;
 }
@@ -257,16 +206,21 @@ ModalMasses modal_masses(const System& system, const OperatingPoint& op, const L
       }
     }
     const Complex largest = largest_entry(entries.col(at));
+    ModalMasses::Row& row = out.modes[k];
     if (!(shapes.col(at).norm() > 1e-7 * before) || largest == Complex(0)) {
+      row.kind = before > 0 ? ModalMasses::Row::Kind::repeated : ModalMasses::Row::Kind::still;
       shapes.col(at).setZero();
       continue;
     }
     shapes.col(at) /= largest;
     entries.col(at) /= largest;
-    ModalMasses::Row& row = out.modes[k];
     row.generalized = shapes.col(at).squaredNorm();
+    // Relative to the sizes of its terms, what rounding makes of a sum that is zero.
+    const double rounding =
+        std::min(1e-8, std::max(64.0, modes.modes[k].condition) * std::numeric_limits<double>::epsilon());
     for (Index d = 0; d < 6; ++d) {
       const Complex L = shapes.col(at).dot(rigid.col(d).cast<Complex>());
+      if (std::abs(L) <= rounding * shapes.col(at).cwiseAbs().dot(rigid.col(d).cwiseAbs())) continue;
       row.participation[static_cast<std::size_t>(d)] = L / row.generalized;
       row.effective[static_cast<std::size_t>(d)] = std::norm(L) / row.generalized;
     }

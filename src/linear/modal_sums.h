@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 #include "linear/modal_energy.h"
@@ -22,6 +23,7 @@ struct ModalEnergies {
     double power = 0;                   // dissipated [mass·length²/time³]
   };
   std::vector<Share> modes;  // of all; one whose shape is a combination of earlier ones has none
+  std::vector<bool> counted;
   Share total;
 };
 
@@ -32,8 +34,12 @@ Result<ModalEnergies> modal_energies(const System&, const OperatingPoint&, const
 // shape of all bodies: L = φᴴ M r, participation Γ = L/(φᴴ M φ), effective mass |L|²/(φᴴ M φ). Shapes are scaled as in
 // the table of coordinates, so that Γ goes with its entries: the largest, of mass centres, rotations and differential
 // states, is 1. Those of equal eigenvalues are made orthogonal to each other first, or their masses would count twice.
+//
+// A mode in which nothing that has mass moves has none of this, nor one whose shape repeats those before it; what is
+// left of a sum that cancels is zero.
 struct ModalMasses {
   struct Row {
+    enum class Kind : std::uint8_t { counted, still, repeated } kind = Kind::counted;
     double generalized = 0;  // φᴴ M φ [mass]
     std::array<std::complex<double>, 6> participation{};
     std::array<double, 6> effective{};  // [mass], [mass·length²]

@@ -3,44 +3,85 @@
 #include <array>
 #include <cmath>
 
+#include "linear/dense_products.h"
+#include "linear/mass_root.h"
+
 namespace dynalin {
 
-void name_movers(const System& system, const OperatingPoint& op, const LinearSystem& linear, EigenSolution& solution) {
+namespace {
+
+// Ties within this go to the body that comes first.
+constexpr double equal_shares = 1e-6;
+
+// The body that moves furthest, by √(|δr_C|² + L²|δθ|²); null if none moves.
+const ElementLabel* furthest(const System& system, const OperatingPoint& op, const Eigen::VectorXcd& dq) {
   const Layout& layout = system.layout();
-  const auto states = static_cast<Eigen::Index>(linear.model.states.size());
   const double L2 = system.length() * system.length();
-  for (std::size_t m = 0; m < solution.modes.size(); ++m) {
-    const Eigen::VectorXcd v = solution.vectors.col(static_cast<Eigen::Index>(m));
-    const Eigen::VectorXcd dq = linear.dq.leftCols(states) * v;
-    double most = 0;
-    const ElementLabel* mover = nullptr;
-    for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
-      const BodyBlock& block = layout.bodies[b];
-      if (block.count == 0) continue;
-      const Vector c = op.poses[b].R * system.model().bodies[b].p_BC;
-      double size = 0;
-      for (const bool imaginary : {false, true}) {
-        const auto part = [&](std::int32_t k) {
-          const std::complex<double> x = dq(block.offset + k);
-          return imaginary ? x.imag() : x.real();
-        };
-        const Vector r{part(0), part(1), part(2)};
-        const Vector turn = block.count == 6 ? Vector{part(3), part(4), part(5)} : Vector{};
-        const Vector of_cm = r + cross(turn, c);
-        size += dot(of_cm, of_cm) + L2 * dot(turn, turn);
-      }
-      // Equal motions within rounding belong to the part that comes first.
-      if (size > most * (1 + 1e-6)) most = size, mover = &block.label;
+  double most = 0;
+  const ElementLabel* mover = nullptr;
+  for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
+    const BodyBlock& block = layout.bodies[b];
+    if (block.count == 0) continue;
+    const Vector c = op.poses[b].R * system.model().bodies[b].p_BC;
+    double size = 0;
+    for (const bool imaginary : {false, true}) {
+      const auto part = [&](std::int32_t k) {
+        const std::complex<double> x = dq(block.offset + k);
+        return imaginary ? x.imag() : x.real();
+      };
+      const Vector r{part(0), part(1), part(2)};
+      const Vector turn = block.count == 6 ? Vector{part(3), part(4), part(5)} : Vector{};
+      const Vector of_cm = r + cross(turn, c);
+      size += dot(of_cm, of_cm) + L2 * dot(turn, turn);
     }
+    if (size > most * (1 + equal_shares)) most = size, mover = &block.label;
+  }
+  return mover;
+}
+
+// The body with the largest share of the kinetic energy, null if nothing that has mass moves.
+const ElementLabel* most_energetic(const System& system, const MassRoot& root, const Eigen::VectorXcd& v) {
+  Eigen::MatrixXd columns(v.size(), 2);
+  columns << v.real(), v.imag();
+  const Eigen::MatrixXd weighed = root.of(columns);
+  double most = 0;
+  const ElementLabel* mover = nullptr;
+  for (std::size_t k = 0; k < root.bodies(); ++k) {
+    const double energy = weighed.middleRows(6 * static_cast<Eigen::Index>(k), 6).squaredNorm();
+    if (energy > most * (1 + equal_shares)) most = energy, mover = &system.layout().bodies[root.body(k)].label;
+  }
+  return mover;
+}
+
+}  // namespace
+
+void name_movers(const System& system, const OperatingPoint& op, const LinearSystem& linear, EigenSolution& solution) {
+  const auto states = static_cast<Eigen::Index>(linear.model.states.size());
+  const auto differential = states - static_cast<Eigen::Index>(linear.kinematic_states);
+  const MassRoot root(system, op);
+  std::vector<Eigen::Index> rates;
+  for (Eigen::Index k = 0; k < states; ++k) {
+    if (linear.model.states[static_cast<std::size_t>(k)].is_rate) rates.push_back(k);
+  }
+  const Eigen::MatrixXcd displacements = real_product(linear.dq.leftCols(states), solution.vectors),
+                         velocities =
+                             real_product(linear.dqdot(Eigen::all, rates), solution.vectors(rates, Eigen::all));
+  for (std::size_t m = 0; m < solution.modes.size(); ++m) {
+    const auto at = static_cast<Eigen::Index>(m);
+    const Eigen::VectorXcd z = solution.vectors.col(at), dq = displacements.col(at);
     std::string& name = solution.modes[m].moves_most;
-    if (mover && std::sqrt(most) > 1e-9 * system.length() *
-                                       v.tail(states - static_cast<Eigen::Index>(linear.kinematic_states)).norm()) {
-      name = mover->full_text();
+    const bool at_rest = solution.modes[m].eigenvalue_hz == std::complex<double>(0);
+    const ElementLabel* body = most_energetic(system, root, at_rest ? dq : Eigen::VectorXcd(velocities.col(at)));
+    // A freedom without mass is what a mode may consist of; controllers that turn it are named before it.
+    if (!body && z.tail(differential).norm() <= 1e-9 * z.norm()) body = furthest(system, op, dq);
+    if (body) {
+      name = body->full_text();
       continue;
     }
+    const Eigen::Index first = differential > 0 ? states - differential : 0;
     Eigen::Index k = 0;
-    v.cwiseAbs().maxCoeff(&k);
-    name = solution.states[static_cast<std::size_t>(k)].owner;
+    z.tail(states - first).cwiseAbs().maxCoeff(&k);
+    name = solution.states[static_cast<std::size_t>(first + k)].owner;
   }
 }
 

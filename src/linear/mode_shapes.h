@@ -5,8 +5,8 @@
 
 namespace dynalin {
 
-// Fills EigenMode::moves_most from the eigenvectors: motions are compared by √(|δr_C|² + L² |δθ|²) with the
-// displacement of the mass centre and the model length L.
+// Fills EigenMode::moves_most from the eigenvectors: the body with the largest share of the kinetic energy; where
+// nothing that has mass moves, the controller whose state is largest, or else the body that moves furthest.
 void name_movers(const System&, const OperatingPoint&, const LinearSystem&, EigenSolution&);
 
 // Fills EigenSolution::shapes: φ = T z with T the map from states to all coordinates (LINEAR command, "Eigenvectors and

@@ -57,6 +57,22 @@ std::array<Vec3<Taylor>, 3> angle_gradients(const Vec3<Taylor>& z) {
   return {{{-(x * z.z), -(y * z.z), Taylor(1.0)}, {-(z.y / sine), z.x / sine, none}, {x, y, none}}};
 }
 
+// The same the other way round: how a unit of coordinate k of a body moves its coordinates in the layout, with z the
+// third axis of its frame and `arm` from the origin of the BCS to the mass centre.
+CandidateSet::Moves moves_of(const BodyBlock& block, std::size_t k, const Vector& z, const Vector& arm) {
+  if (k < 3) return {{block.offset + static_cast<std::int32_t>(k), 1.0}};
+  const double sine = std::hypot(z.x, z.y);
+  const Vector turn = k == 3 ? unit_vectors[2] : k == 4 ? Vector{-z.y / sine, z.x / sine, 0} : z;
+  const Vector shift = -cross(turn, arm);  // the mass centre stays
+  CandidateSet::Moves moves;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto at = block.offset + static_cast<std::int32_t>(i);
+    if (shift[i] != 0) moves.emplace_back(at, shift[i]);
+    if (turn[i] != 0) moves.emplace_back(at + 3, turn[i]);
+  }
+  return moves;
+}
+
 StateLabel principal_label(const BodyBlock& block, std::int32_t k, bool renamed) {
   static constexpr std::array names = {"DX", "DY", "DZ", "PSI", "THETA", "PHI"};
   StateLabel label;
@@ -126,6 +142,7 @@ std::int32_t add_principal_candidates(const System& system, const Motion& motion
         set.gradients.add_pose(row, id, none, angles[i - 3]);
       }
       set.wanted.push_back({-1, row, principal_label(block, k, renamed)});
+      set.moves.push_back(moves_of(block, i, moving.R * axes.z, moving.R * body.p_BC));
     }
   }
   return row;

@@ -59,6 +59,7 @@ PerturbationEquations PerturbationEquations::of_state_matrix(const Matrix& A) {
 }
 
 void PerturbationEquations::solve_levels(Matrix& b) const {
+  if (whole_) return whole_->solve(b);
   level_[0]->solve(b.topRows(n_));
   multiply_add(rates_on_positions_, b.topRows(n_), b.middleRows(n_, n_), -1.0);
   level_[1]->solve(b.middleRows(n_, n_));
@@ -79,6 +80,14 @@ Matrix PerturbationEquations::complete(const Matrix& x) const {
 Matrix PerturbationEquations::complete_left(const Matrix& y) const {
   Matrix a = Matrix::Zero(algebraic_, y.cols());
   multiply_add(transposed(state_rates_on_algebraic_), y, a, -1.0);
+  return solve_transposed(std::move(a));
+}
+
+Matrix PerturbationEquations::solve_transposed(Matrix a) const {
+  if (whole_) {
+    whole_->solve_transposed(a);
+    return a;
+  }
   level_[2]->solve_transposed(a.bottomRows(saddle_size_));
   multiply_add(transposed(saddle_on_rates_), a.bottomRows(saddle_size_), a.middleRows(n_, n_), -1.0);
   level_[1]->solve_transposed(a.middleRows(n_, n_));
@@ -132,8 +141,8 @@ Matrix PerturbationEquations::state_matrices(const Matrix& a) const {
 
 Matrix PerturbationEquations::rounding(const Matrix& a) const {
   // Displacements keep their digits, one by one; rates are sums where the model moves or constraints hold rates alone.
-  const bool rates_are_sums = !rates_on_positions_.value.empty() || level_[1] != level_[0];
-  const Eigen::Index first_row = rates_are_sums ? n_ : 2 * n_, rows = algebraic_ - first_row;
+  const bool rates_are_sums = whole_ || !rates_on_positions_.value.empty() || level_[1] != level_[0];
+  const Eigen::Index first_row = whole_ ? 0 : rates_are_sums ? n_ : 2 * n_, rows = algebraic_ - first_row;
   Matrix adjoint(rows, states_);
   for_column_blocks(states_, [&](Eigen::Index first, Eigen::Index count) {
     Matrix unit = Matrix::Zero(states_, count);
@@ -141,9 +150,10 @@ Matrix PerturbationEquations::rounding(const Matrix& a) const {
     adjoint.middleCols(first, count) = complete_left(unit).bottomRows(rows).cwiseAbs();
   });
   Matrix total(states_, states_);
+  const Eigen::Index summed = whole_ ? 3 * n_ : 2 * n_;  // differentiated balances are sums of accelerations as well
   for_column_blocks(states_, [&](Eigen::Index first, Eigen::Index count) {
     Matrix parts = Matrix::Zero(unknowns(), count), sums = parts;
-    parts.topRows(2 * n_) = a.block(0, first, 2 * n_, count).cwiseAbs();
+    parts.topRows(summed) = a.block(0, first, summed, count).cwiseAbs();
     parts.bottomRows(states_).middleRows(first, count).setIdentity();
     multiply_add(sizes_, parts, sums, 1.0);
     total.middleCols(first, count) =

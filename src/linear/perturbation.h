@@ -10,6 +10,8 @@
 //     saddle (δq″, δλ, δw, δz′) = −(∂/∂q δq + ∂/∂q′ δq′ + ∂/∂z δz), constraint rows −(a1 δq′ + a0 δq)
 //
 // and δx″ = X δq″ + 2 X′ δq′ + X″ δq. Velocity rows make the second level larger: fewer rates than coordinates.
+// Freedoms without mass leave F without its blocks: their balances stand among the saddle equations, and differentiated
+// balances in the places of the rows that the first two levels lack (massless_states.h); F is then factored as a whole.
 // The state matrix is A = R − P F⁻¹ G; its eigenvalues are those of the sparse pencil S − λ E of all unknowns (a, x).
 #pragma once
 
@@ -17,6 +19,7 @@
 #include <memory>
 
 #include "analysis/saddle.h"
+#include "linear/massless_states.h"
 #include "linear/state_choice.h"
 #include "system/sparse_lu.h"
 
@@ -28,7 +31,7 @@ class PerturbationEquations {
   // The equations must hold all partials, and sizes.
   static Result<PerturbationEquations> make(const System&, const Motion&, const ConstraintRows&, const Equations&,
                                             const StateChoice&, const std::vector<std::int32_t>& inputs,
-                                            bool without_damping);
+                                            bool without_damping, const MasslessStates* massless = nullptr);
 
   // x′ = A x as it stands.
   static PerturbationEquations of_state_matrix(const Eigen::MatrixXd& A);
@@ -46,6 +49,8 @@ class PerturbationEquations {
   Eigen::MatrixXd complete(const Eigen::MatrixXd& states_and_inputs) const;
   // The left counterpart: y_a of the rows y_x of states, with y_aᵀ F + y_xᵀ P = 0.
   Eigen::MatrixXd complete_left(const Eigen::MatrixXd& of_states) const;
+  // y with yᵀ F = bᵀ.
+  Eigen::MatrixXd solve_transposed(Eigen::MatrixXd b) const;
   // r_x − P F⁻¹ r_a of residuals (r_a; r_x): what they amount to in the equations of states.
   Eigen::MatrixXd reduced(const Eigen::MatrixXd& residuals) const;
   // [A B] of the columns a that complete(unit matrix) has given, corrected by a residual in long double: entries are as
@@ -53,6 +58,10 @@ class PerturbationEquations {
   Eigen::MatrixXd state_matrices(const Eigen::MatrixXd& a) const;
   // Roundings that the entries of A may carry, element by element: Σ|y||r| over the very sums that make them.
   Eigen::MatrixXd rounding(const Eigen::MatrixXd& a) const;
+
+  // Columns a that the equations leave open, of freedoms without mass: rates or accelerations that depend on
+  // derivatives of inputs or, where the model moves, of coefficients. The states do not depend on them.
+  const Eigen::MatrixXd& open_directions() const { return open_; }
 
   // [F G; P R], and where E has its ones: the last states() places of the diagonal.
   const ColumnMatrix& pencil() const { return pencil_; }
@@ -64,6 +73,8 @@ class PerturbationEquations {
 
   std::int32_t n_ = 0, saddle_size_ = 0, algebraic_ = 0, states_ = 0;
   std::array<std::shared_ptr<const SparseLu>, 3> level_;
+  std::shared_ptr<const SparseLu> whole_;  // of F, where freedoms without mass couple the levels
+  Eigen::MatrixXd open_;
   ColumnMatrix rates_on_positions_, saddle_on_positions_, saddle_on_rates_;  // below the diagonal of F
   ColumnMatrix on_states_;                                                   // [G H]
   ColumnMatrix state_rates_on_algebraic_, state_rates_on_states_;            // P and R

@@ -1,4 +1,10 @@
 // How the perturbation equations come about: from constraint rows, gradients of chosen coordinates and partials.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "linear/entry_sizes.h"
 #include "linear/perturbation.h"
 
@@ -42,7 +48,8 @@ class SizedBlock {
 class PerturbationEquations::Assembly {
  public:
   Assembly(const System& system, const Motion& motion, const ConstraintRows& rows, const Equations& eq,
-           const StateChoice& choice, const std::vector<std::int32_t>& inputs, bool without_damping)
+           const StateChoice& choice, const std::vector<std::int32_t>& inputs, bool without_damping,
+           const MasslessStates* massless)
       : system_(system),
         saddle_(system),
         rows_(rows),
@@ -50,6 +57,7 @@ class PerturbationEquations::Assembly {
         choice_(choice),
         inputs_(inputs),
         without_damping_(without_damping),
+        massless_(massless),
         entry_sizes_(system.layout(), motion),
         n_(system.layout().coordinate_count),
         first_state_(2 * n_ + saddle_.size()),
@@ -62,12 +70,17 @@ class PerturbationEquations::Assembly {
   }
 
   Result<PerturbationEquations> run() {
-    if (auto factored = factor_diagonal(); !factored) return tl::unexpected(factored.error());
+    if (auto factored = massless_ ? set_diagonal() : factor_diagonal(); !factored)
+      return tl::unexpected(factored.error());
     take_rows();
     take_partials();
     take_inputs();
     take_rates_of_states();
+    if (massless_) take_balances();
     join();
+    if (massless_) {
+      if (auto factored = factor_whole(); !factored) return tl::unexpected(factored.error());
+    }
     return std::move(p_);
   }
 
@@ -102,6 +115,133 @@ class PerturbationEquations::Assembly {
     return {};
   }
 
+  // The same where freedoms without mass leave rows vacant, behind the others of each level.
+  Result<void> set_diagonal() {
+    const auto condensed = static_cast<std::int32_t>(massless_->limit.condensed());
+    const auto all = static_cast<std::int32_t>(massless_->limit.count());
+    bool square = false, square_rates = false;
+    diagonal_[0] = level_matrix(rows_, choice_, choice_.active, choice_.has_position, square, condensed);
+    diagonal_[1] = level_matrix(rows_, choice_, choice_.velocity_active, choice_.has_rate, square_rates, all);
+    if (!square || !square_rates) return tl::unexpected(undetermined_positions());
+    diagonal_[2] = saddle_.matrix(eq_, rows_, choice_.velocity_active, {}, cut_);
+    return {};
+  }
+
+  // What takes the vacant places: at rest the balances that the saddle equations hold, differentiated,
+  //     Yᵀ(R_q δq′ + R_q′ δq″ + R_z δz′) = 0,
+  // for rates of condensed freedoms and accelerations of damped ones, and once more for accelerations of condensed
+  // ones; derivatives of inputs are left out, and of z′ and q″ in the last. Where the model moves nothing is known but
+  // that the states do not ask for it. Such rows are open.
+  void take_balances() {
+    const MasslessLimit& limit = massless_->limit;
+    const Eigen::Index condensed = limit.condensed(), damped = limit.damped();
+    const auto row_of_rate = [&](Eigen::Index k) { return n_ - static_cast<std::int32_t>(condensed - k); };
+    const auto row_of_condensed = [&](Eigen::Index k) {
+      return 2 * n_ - static_cast<std::int32_t>(condensed + damped - k);
+    };
+    const auto row_of_damped = [&](Eigen::Index k) { return 2 * n_ - static_cast<std::int32_t>(damped - k); };
+    if (!massless_->at_rest) {
+      const auto hold = [&](std::int32_t row, Eigen::Index direction) {
+        balances_.add(row, 2 * n_ + limit.directions.coordinate[static_cast<std::size_t>(direction)], 1.0, 1.0);
+        open_rows_.push_back(row);
+      };
+      Eigen::Index lost = 0;
+      for (std::size_t k = 0; k < choice_.gradient.size(); ++k) {
+        if (choice_.has_position[k]) continue;
+        for (const auto& [column, g] : choice_.gradient[k])
+          balances_.add(row_of_rate(lost), n_ + column, g.g, std::abs(g.g));
+        open_rows_.push_back(row_of_rate(lost++));
+      }
+      for (Eigen::Index k = 0; k < condensed; ++k)
+        hold(row_of_condensed(k), limit.damping.other_column[static_cast<std::size_t>(k)]);
+      for (Eigen::Index k = 0; k < damped; ++k)
+        hold(row_of_damped(k), limit.damping.pivot_column[static_cast<std::size_t>(k)]);
+      return;
+    }
+    const auto place_row = [&](std::int32_t row, std::int32_t column, const Eigen::RowVectorXd& value,
+                               const Eigen::RowVectorXd& size) {
+      for (Eigen::Index c = 0; c < value.size(); ++c) {
+        const bool vanishes = std::abs(value(c)) <= cancelled_units * std::numeric_limits<double>::epsilon() * size(c);
+        if (size(c) > 0) balances_.add(row, column + static_cast<std::int32_t>(c), vanishes ? 0.0 : value(c), size(c));
+      }
+    };
+    // An input in the balance would come with its derivative.
+    const auto driven = [&](const Eigen::VectorXd& weights) {
+      const Eigen::VectorXd y = limit.left * weights;
+      return std::any_of(inputs_.begin(), inputs_.end(),
+                         [&](std::int32_t u) { return y(saddle_.algebraic(u)) != 0.0; });
+    };
+    const auto once = [&](std::int32_t row, const Eigen::VectorXd& weights) {
+      const Eigen::RowVectorXd w = weights.transpose(), size = w.cwiseAbs();
+      place_row(row, n_, w * limit.on_positions, size * limit.on_positions_size);
+      place_row(row, 2 * n_, w * limit.on_rates, size * limit.on_rates_size);
+      const Eigen::RowVectorXd on_states = w * limit.on_states, state_size = size * limit.on_states_size;
+      for (const std::int32_t z : choice_.differential)
+        place_row(row, 2 * n_ + saddle_.state(z), on_states.segment(z, 1), state_size.segment(z, 1));
+      if (driven(weights)) open_rows_.push_back(row);
+    };
+    for (Eigen::Index k = 0; k < condensed; ++k) {
+      const Eigen::VectorXd weights = limit.damping.left_null.col(k);
+      once(row_of_rate(k), weights);
+      const Eigen::RowVectorXd w = weights.transpose();
+      place_row(row_of_condensed(k), 2 * n_, w * limit.on_positions, w.cwiseAbs() * limit.on_positions_size);
+      const auto vanish = [&](const Eigen::MatrixXd& of, const Eigen::MatrixXd& size) {
+        return ((w * of).array().abs() <=
+                cancelled_units * std::numeric_limits<double>::epsilon() * (w.cwiseAbs() * size).array())
+            .all();
+      };
+      const bool plain = vanish(limit.on_rates, limit.on_rates_size) && vanish(limit.on_states, limit.on_states_size) &&
+                         !driven(weights);
+      if (!plain) open_rows_.push_back(row_of_condensed(k));
+    }
+    for (Eigen::Index k = 0; k < damped; ++k) {
+      once(row_of_damped(k),
+           Eigen::VectorXd::Unit(limit.count(), limit.damping.pivot_row[static_cast<std::size_t>(k)]));
+    }
+  }
+
+  Result<void> factor_whole() {
+    std::vector<Triplet> entries;
+    for_each_entry(p_.pencil_, [&](std::int32_t r, std::int32_t c, double v) {
+      if (r < first_state_ && c < first_state_) entries.push_back({r, c, v});
+    });
+    auto lu = std::make_shared<SparseLu>();
+    const MasslessDirections& d = massless_->limit.directions;
+    const auto names = [&](const Eigen::MatrixXd& of) { return names_of(system_, d, of); };
+    if (!lu->factor(compressed(first_state_, first_state_, entries))) {
+      return tl::unexpected(
+          Failure{"limit of vanishing mass",
+                  fmt::format("the balance of forces does not determine the freedoms without mass: {}",
+                              names(Eigen::MatrixXd::Identity(d.count(), d.count()))),
+                  {}});
+    }
+    p_.whole_ = std::move(lu);
+    std::sort(open_rows_.begin(), open_rows_.end());
+    open_rows_.erase(std::unique(open_rows_.begin(), open_rows_.end()), open_rows_.end());
+    p_.open_ = Eigen::MatrixXd::Zero(first_state_, static_cast<Eigen::Index>(open_rows_.size()));
+    for (std::size_t k = 0; k < open_rows_.size(); ++k) p_.open_(open_rows_[k], static_cast<Eigen::Index>(k)) = 1;
+    p_.whole_->solve(p_.open_);
+    // Whether any state follows from what is open, beyond rounding.
+    Eigen::MatrixXd seen = Eigen::MatrixXd::Zero(p_.states_, p_.open_.cols()), size = seen;
+    const Eigen::RowVectorXd moves = p_.open_.topRows(3 * n_).cwiseAbs().colwise().maxCoeff();
+    const Eigen::RowVectorXd others =
+        p_.open_.bottomRows(first_state_ - 2 * n_ - saddle_.state(0)).cwiseAbs().colwise().sum();
+    for_each_entry(p_.state_rates_on_algebraic_, [&](std::int32_t r, std::int32_t c, double v) {
+      seen.row(r) += v * p_.open_.row(c);
+      size.row(r) += std::abs(v) * (c < 3 * n_ ? moves : (others + moves).eval());
+    });
+    if ((seen.array().abs() > 1e-11 * size.array()).any()) {
+      return tl::unexpected(Failure{
+          "limit of vanishing mass",
+          fmt::format("rates of freedoms without mass ({}) act on the model, and they follow from the derivative of {}",
+                      names(Eigen::MatrixXd::Identity(d.count(), d.count())),
+                      massless_->at_rest ? "a plant input, which no state-space model has"
+                                         : "forces along the motion: that is possible at rest only"),
+          {}});
+    }
+    return {};
+  }
+
   // Constraints and chosen coordinates on the three levels, in the order of level_matrix.
   void take_rows() {
     std::int32_t coordinate = 0, rate = 0;
@@ -123,7 +263,7 @@ class PerturbationEquations::Assembly {
     for (std::size_t k = 0; k < choice_.gradient.size(); ++k) {
       const auto& row = choice_.gradient[k];
       const std::vector<RowCoefficients> size = entry_sizes_.of_row(row);
-      states_.add(coordinate++, choice_.position_state[k], -1.0, 1.0);
+      if (choice_.has_position[k]) states_.add(coordinate++, choice_.position_state[k], -1.0, 1.0);
       if (!choice_.has_rate[k]) continue;
       states_.add(n_ + rate, choice_.rate_state[k], -1.0, 1.0);
       take_rate(row, size);
@@ -174,6 +314,7 @@ class PerturbationEquations::Assembly {
   void take_rates_of_states() {
     for (std::size_t k = 0; k < choice_.gradient.size(); ++k) {
       const std::int32_t position = choice_.position_state[k], rate = choice_.rate_state[k];
+      if (position < 0) continue;
       if (rate >= 0) rates_on_states_.push_back({position, rate, 1.0});
       const auto& row = choice_.gradient[k];
       const std::vector<RowCoefficients> size = entry_sizes_.of_row(row);
@@ -210,6 +351,7 @@ class PerturbationEquations::Assembly {
     place(all, p_.saddle_on_positions_, 2 * n_, 0);
     place(all, p_.saddle_on_rates_, 2 * n_, n_);
     place(all, diagonal_[2], 2 * n_, 2 * n_);
+    place(all, compressed(first_state_, first_state_, balances_.values), 0, 0);
     for (const Triplet& t : states_.values) {
       if (t.column < p_.states_) all.push_back({t.row, first_state_ + t.column, t.value});
     }
@@ -225,6 +367,7 @@ class PerturbationEquations::Assembly {
   const StateChoice& choice_;
   const std::vector<std::int32_t>& inputs_;
   const bool without_damping_;
+  const MasslessStates* massless_;  // null where everything has mass
   const EntrySizes entry_sizes_;
   const std::int32_t n_, first_state_;
   std::vector<bool> cut_;  // algebraic equations that inputs replace
@@ -234,15 +377,17 @@ class PerturbationEquations::Assembly {
   // Blocks of F below the diagonal, the sizes of the second on it, [G H] and P.
   SizedBlock below_10_{n_, 0, sizes_}, below_20_{2 * n_, 0, sizes_}, below_21_{2 * n_, n_, sizes_};
   SizedBlock rates_{n_, n_, sizes_};
+  SizedBlock balances_{0, 0, sizes_};  // in the rows that freedoms without mass leave vacant
+  std::vector<std::int32_t> open_rows_;
   SizedBlock states_{0, first_state_, sizes_}, rates_on_algebraic_{first_state_, 0, sizes_};
 };
 
 Result<PerturbationEquations> PerturbationEquations::make(const System& system, const Motion& motion,
                                                           const ConstraintRows& rows, const Equations& eq,
                                                           const StateChoice& choice,
-                                                          const std::vector<std::int32_t>& inputs,
-                                                          bool without_damping) {
-  return Assembly(system, motion, rows, eq, choice, inputs, without_damping).run();
+                                                          const std::vector<std::int32_t>& inputs, bool without_damping,
+                                                          const MasslessStates* massless) {
+  return Assembly(system, motion, rows, eq, choice, inputs, without_damping, massless).run();
 }
 
 }  // namespace dynalin

@@ -1,8 +1,10 @@
 #include "linear/second_order.h"
 
+#include <algorithm>
+
 namespace dynalin {
 
-Result<SecondOrder> second_order(const StateSpace& model) {
+Result<SecondOrder> second_order(const StateSpace& model, std::size_t first_order) {
   SecondOrder out;
   out.time = model.time;
   out.pinput = model.pinput, out.poutput = model.poutput;
@@ -16,11 +18,20 @@ Result<SecondOrder> second_order(const StateSpace& model) {
                                s.type == StateType::diff || s.type == StateType::delay;
     (s.is_rate ? rate : of_controller ? differential : coordinate).push_back(at);
   }
-  if (rate.size() != coordinate.size()) {
+  if (rate.size() + first_order != coordinate.size()) {
     return tl::unexpected(Failure{"linear analysis",
                                   "a model with velocity constraints has fewer rates than coordinates and no "
                                   "second-order form",
                                   {}});
+  }
+  // Coordinates of first order stand with the differential states, behind those that have a rate before them.
+  if (first_order > 0) {
+    const auto follows_rate = [&](Eigen::Index k) {
+      return k > 0 && model.states[static_cast<std::size_t>(k) - 1].is_rate;
+    };
+    const auto first = std::stable_partition(coordinate.begin(), coordinate.end(), follows_rate);
+    differential.insert(differential.begin(), first, coordinate.end());
+    coordinate.erase(first, coordinate.end());
   }
   const auto n = static_cast<Eigen::Index>(rate.size()), m = static_cast<Eigen::Index>(differential.size());
   const auto inputs = model.B.cols(), outputs = model.C.rows();

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "linear/user_choice.h"
 
 namespace dynalin {
 
@@ -20,22 +23,20 @@ class Chooser {
 
   Result<StateChoice> run() {
     choice_.warnings = candidates_.warnings;
-    choose_coordinates();
+    if (candidates_.moves.empty()) {
+      choose_coordinates();
+    } else {
+      choose_among_new();
+    }
+    auto own = prefer_user_coordinates(system_, rows_, candidates_, choice_);
+    if (!own) return tl::unexpected(own.error());
+    own_units_ = std::move(*own);
     if (auto failure = choose_rates()) return tl::unexpected(*failure);
-    list_states();
+    list_states(layout_, choice_);
     return std::move(choice_);
   }
 
  private:
-  using Gradient = std::vector<StateChoice::Entry>;
-
-  Gradient gradient(const Candidate& c) const {
-    if (c.row < 0) return {{c.coordinate, {1.0, 0.0, 0.0, 0.0}}};
-    Gradient g;
-    for (const auto& entry : candidates_.gradients.row(c.row)) g.push_back({entry.column, entry.c});
-    return g;
-  }
-
   bool is_constant(const Candidate& c) const {
     const auto row = candidates_.gradients.row(c.row);
     return std::all_of(row.begin(), row.end(), [](const auto& e) { return e.c.g == 0.0; });
@@ -72,7 +73,6 @@ class Chooser {
     std::vector<std::int32_t> columns;
     std::int32_t next = n_;
     add_candidate_rows(all, rows, columns, next);
-    const std::size_t own = columns.size();
     add_candidate_rows(candidates_.fallback, rows, columns, next);
     all.insert(all.end(), candidates_.fallback.begin(), candidates_.fallback.end());
 
@@ -84,14 +84,47 @@ class Chooser {
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const bool dependent = e.dependent[static_cast<std::size_t>(columns[k])];
       const bool unused = all[k].row >= 0 && is_constant(all[k]);
-      if (!dependent && !unused) {
-        choice_.labels.push_back(all[k].label);
-        choice_.gradient.push_back(gradient(all[k]));
+      if (!dependent && !unused) take(all[k]);
+    }
+  }
+
+  void take(const Candidate& c) {
+    choice_.labels.push_back(c.label);
+    choice_.gradient.push_back(gradient_of(candidates_, c));
+  }
+
+  // The candidates are a change of coordinates: constraint rows are written in them, so that nothing else can be chosen
+  // however large their gradients are.
+  void choose_among_new() {
+    const auto count = static_cast<std::int32_t>(candidates_.wanted.size());
+    std::vector<CandidateSet::Moves> moved_by(static_cast<std::size_t>(n_));  // of each old coordinate
+    for (std::int32_t k = 0; k < count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const double unit = unit_of(system_, gradient_of(candidates_, candidates_.wanted[at]));
+      for (const auto& [column, v] : candidates_.moves[at])
+        moved_by[static_cast<std::size_t>(column)].emplace_back(k, v * unit);
+    }
+    std::vector<SparseRow> rows(static_cast<std::size_t>(rows_.size()));
+    std::vector<double> sum(static_cast<std::size_t>(count), 0.0);
+    for (std::int32_t r = 0; r < rows_.size(); ++r) {
+      if (rows_.level(r) != RowLevel::position) continue;
+      SparseRow& row = rows[static_cast<std::size_t>(r)];
+      for (const auto& e : rows_.row(r)) {
+        for (const auto& [k, v] : moved_by[static_cast<std::size_t>(e.column)]) {
+          if (std::find(row.column.begin(), row.column.end(), k) == row.column.end()) row.column.push_back(k);
+          sum[static_cast<std::size_t>(k)] += e.c.g * v;
+        }
       }
-      if (k < own && all[k].row >= 0 && all[k].label.type == StateType::pstate && dependent) {
-        choice_.warnings.push_back(
-            fmt::format("{} was not taken: it is constant or depends on coordinates before it", all[k].label.text));
-      }
+      for (const std::int32_t k : row.column) row.value.push_back(std::exchange(sum[static_cast<std::size_t>(k)], 0.0));
+    }
+    std::vector<std::int32_t> order;
+    for (std::int32_t k = count; k-- > 0;) order.push_back(k);
+    const Elimination e = eliminate(std::move(rows), count, order);
+    for (std::int32_t k = 0; k < rows_.size(); ++k) {
+      choice_.active.push_back(e.pivot_column[static_cast<std::size_t>(k)] >= 0);
+    }
+    for (std::size_t k = 0; k < candidates_.wanted.size(); ++k) {
+      if (!e.dependent[k]) take(candidates_.wanted[k]);
     }
   }
 
@@ -100,6 +133,7 @@ class Chooser {
   // entries.
   std::optional<Failure> choose_rates() {
     const std::size_t count = choice_.gradient.size();
+    choice_.has_position.assign(count, true);
     choice_.has_rate.assign(count, true);
     choice_.velocity_active = choice_.active;
     std::vector<std::int32_t> on_velocity;
@@ -117,9 +151,7 @@ class Chooser {
     std::vector<std::int32_t> order;
     for (std::size_t k = 0; k < count; ++k) {
       double& u = unit(static_cast<Eigen::Index>(k));
-      for (const auto& [column, g] : choice_.gradient[k]) {
-        u = std::max(u, std::abs(g.g * system_.coordinate_scale(column)));
-      }
+      u = k < own_units_.size() ? own_units_[k] : unit_of(system_, choice_.gradient[k]);
       order.insert(order.begin(), static_cast<std::int32_t>(k));
     }
     std::vector<SparseRow> rows(static_cast<std::size_t>(rows_.size()));
@@ -148,61 +180,63 @@ class Chooser {
     return std::nullopt;
   }
 
-  // States are listed by element; user coordinates keep their order and come first.
-  void list_states() {
-    const auto next = [&] { return static_cast<std::int32_t>(choice_.states.size()); };
-    for (std::size_t k = 0; k < choice_.labels.size(); ++k) {
-      const StateLabel& label = choice_.labels[k];
-      choice_.rate_state.push_back(choice_.has_rate[k] ? next() : -1);
-      if (choice_.has_rate[k]) {
-        StateLabel rate = label;
-        rate.is_rate = true;
-        const bool own = label.type == StateType::pstate;
-        const bool point = label.type == StateType::point_mass || label.type == StateType::point_mass_relative ||
-                           label.type == StateType::point_mass_original;
-        if (own) rate.type = StateType::pstate_rate;
-        // Curve parameters have no second code: only 1, or 1 and 2, are permissible (LINEAR command, 5.2.6).
-        const bool parameter = label.type == StateType::ptcv || label.type == StateType::cvcv;
-        rate.coordinate = own ? 2 : label.coordinate + (parameter ? 0 : point ? 3 : 6);
-        choice_.states.push_back(rate);
-      }
-      choice_.position_state.push_back(next());
-      choice_.states.push_back(label);
-    }
-    choice_.first_differential = next();
-    // Differential states by type code, then id.
-    for (std::size_t k = 0; k < layout_.states.size(); ++k) {
-      if (!layout_.states[k].held_in_dynamics) choice_.differential.push_back(static_cast<std::int32_t>(k));
-    }
-    const auto key = [&](std::int32_t k) {
-      const DifferentialState& z = layout_.states[static_cast<std::size_t>(k)];
-      return std::tuple(static_cast<int>(z.type), z.owner->id, z.coordinate);
-    };
-    std::stable_sort(choice_.differential.begin(), choice_.differential.end(),
-                     [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
-    for (const std::int32_t k : choice_.differential) {
-      const DifferentialState& z = layout_.states[static_cast<std::size_t>(k)];
-      choice_.states.push_back(
-          {z.type, z.owner->id, z.coordinate, fmt::format("State {}", z.coordinate), z.owner->text(), false});
-    }
-  }
-
   const System& system_;
   const Layout& layout_;
   const ConstraintRows& rows_;
   CandidateSet candidates_;
   std::int32_t n_;
   StateChoice choice_;
+  std::vector<double> own_units_;  // of the user's coordinates, which come first
 };
 
 }  // namespace
+
+// States are listed by element; user coordinates keep their order and come first.
+void list_states(const Layout& layout, StateChoice& choice) {
+  choice.rate_state.clear(), choice.position_state.clear(), choice.differential.clear(), choice.states.clear();
+  const auto next = [&] { return static_cast<std::int32_t>(choice.states.size()); };
+  for (std::size_t k = 0; k < choice.labels.size(); ++k) {
+    const StateLabel& label = choice.labels[k];
+    choice.rate_state.push_back(choice.has_rate[k] ? next() : -1);
+    if (choice.has_rate[k]) {
+      StateLabel rate = label;
+      rate.is_rate = true;
+      const bool own = label.type == StateType::pstate;
+      const bool point = label.type == StateType::point_mass || label.type == StateType::point_mass_relative ||
+                         label.type == StateType::point_mass_original;
+      if (own) rate.type = StateType::pstate_rate;
+      // Curve parameters have no second code: only 1, or 1 and 2, are permissible (LINEAR command, 5.2.6).
+      const bool parameter = label.type == StateType::ptcv || label.type == StateType::cvcv;
+      rate.coordinate = own ? 2 : label.coordinate + (parameter ? 0 : point ? 3 : 6);
+      choice.states.push_back(rate);
+    }
+    choice.position_state.push_back(choice.has_position[k] ? next() : -1);
+    if (choice.has_position[k]) choice.states.push_back(label);
+  }
+  choice.first_differential = next();
+  // Differential states by type code, then id.
+  for (std::size_t k = 0; k < layout.states.size(); ++k) {
+    if (!layout.states[k].held_in_dynamics) choice.differential.push_back(static_cast<std::int32_t>(k));
+  }
+  const auto key = [&](std::int32_t k) {
+    const DifferentialState& z = layout.states[static_cast<std::size_t>(k)];
+    return std::tuple(static_cast<int>(z.type), z.owner->id, z.coordinate);
+  };
+  std::stable_sort(choice.differential.begin(), choice.differential.end(),
+                   [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
+  for (const std::int32_t k : choice.differential) {
+    const DifferentialState& z = layout.states[static_cast<std::size_t>(k)];
+    choice.states.push_back(
+        {z.type, z.owner->id, z.coordinate, fmt::format("State {}", z.coordinate), z.owner->text(), false});
+  }
+}
 
 bool StateChoice::splits_unequally() const {
   return velocity_active != active || std::find(has_rate.begin(), has_rate.end(), false) != has_rate.end();
 }
 
 ColumnMatrix level_matrix(const ConstraintRows& rows, const StateChoice& choice, const std::vector<bool>& active,
-                          const std::vector<bool>& used, bool& square) {
+                          const std::vector<bool>& used, bool& square, std::int32_t vacant) {
   std::vector<Triplet> entries;
   std::int32_t r = 0;
   for (std::int32_t k = 0; k < rows.size(); ++k) {
@@ -216,7 +250,7 @@ ColumnMatrix level_matrix(const ConstraintRows& rows, const StateChoice& choice,
     ++r;
   }
   const std::int32_t n = rows.layout().coordinate_count;
-  square = r == n;
+  square = r + vacant == n;
   return square ? compressed(n, n, entries) : ColumnMatrix{};
 }
 

@@ -1,7 +1,8 @@
 // Which coordinates and rates become states, and which constraint rows hold the others.
 //
 // The rows of constraints take pivots first among coordinates that are wanted least; what is left over is independent.
-// Velocity rows then take some of the rates away: such a coordinate is a state without its rate.
+// Velocity rows then take some of the rates away: such a coordinate is a state without its rate. So do freedoms without
+// mass (massless_states.h), which may take positions as well.
 #pragma once
 
 #include "linear/candidates.h"
@@ -16,10 +17,11 @@ struct StateChoice {
   };
   std::vector<StateLabel> labels;             // of chosen coordinates, in the order in which they are wanted
   std::vector<std::vector<Entry>> gradient;   // x = gradient · q, along the motion
+  std::vector<bool> has_position;             // whether x is a state; without mass its forces may determine it
   std::vector<bool> has_rate;                 // whether x′ is a state as well
   std::vector<bool> active, velocity_active;  // rows that hold positions, and rates
   // Places in the list of states.
-  std::vector<std::int32_t> position_state, rate_state;  // of chosen coordinates; −1 if there is no rate
+  std::vector<std::int32_t> position_state, rate_state;  // of chosen coordinates; −1 for what is no state
   std::vector<std::int32_t> differential;                // differential state k of the list is state differential[k]
   std::int32_t first_differential = 0;
   std::vector<StateLabel> states;  // all, as listed: rate before coordinate, then differential states
@@ -30,10 +32,13 @@ struct StateChoice {
 };
 
 // The matrix of one level: constraint rows that are active, then the gradients of chosen coordinates that are used;
-// `square` says whether they determine a motion.
+// `square` says whether they determine a motion, with as many rows beyond them as are left `vacant` at the end.
 ColumnMatrix level_matrix(const ConstraintRows&, const StateChoice&, const std::vector<bool>& active,
-                          const std::vector<bool>& used, bool& square);
+                          const std::vector<bool>& used, bool& square, std::int32_t vacant = 0);
 Failure undetermined_positions();
+
+// Fills in the list of states and their places.
+void list_states(const Layout&, StateChoice&);
 
 Result<StateChoice> choose_states(const System&, const Motion&, const ConstraintRows&, const LinearOptions&);
 

@@ -2,12 +2,16 @@
 
 #include <lapacke.h>
 
-#include <Eigen/QR>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <vector>
+
+#include "linear/balanced.h"
+#include "linear/structural_zeros.h"
+#include "linear/triangular_form.h"
 
 namespace dynalin {
 
@@ -18,28 +22,26 @@ using Index = Eigen::Index;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 // Entries of the blocks that are made in the splitting carry a few roundings more.
 constexpr double margin = 2;
+// What states drive is solved for where it is no nearer to a singular matrix.
+constexpr double regular = 1e-10;
 // What the entries of a computed null direction are not exact to, relative to the largest.
 constexpr double rounding_of_entries = 64 * eps;
 
 class Splitter {
  public:
-  Splitter(const Matrix& A, const Matrix& rounding) : n_(A.rows()) {
-    out_.block = A;
-    out_.scale = Eigen::VectorXd::Ones(n_);
-    lapack_int low = 0, high = 0;
-    const auto n = static_cast<lapack_int>(n_);
-    LAPACKE_dgebal(LAPACK_COL_MAJOR, 'S', n, out_.block.data(), n, &low, &high, out_.scale.data());
-    // Rounding grows with what a row or column is multiplied with.
-    rounding_ = out_.scale.cwiseInverse().asDiagonal() * rounding * out_.scale.asDiagonal();
+  Splitter(const Matrix& A, const Matrix& rounding, const StructuralZeros* motions)
+      : n_(A.rows()), motions_(motions), state_(static_cast<std::size_t>(n_)) {
+    std::iota(state_.begin(), state_.end(), std::size_t{0});
+    // Rounding must not decide about units: what it leaves of zeros would be blown up to the size of the rest.
+    Balanced b = balanced((A.array().abs() <= rounding.array()).select(0.0, A));
+    rounding_ = b.of(rounding);
+    out_.block = b.of(A);
+    out_.scale = std::move(b.scale);
     out_.basis = out_.dual = Matrix::Identity(n_, n_);
   }
 
   ZeroModes run() {
-    for (Index before = -1; before < out_.count;) {
-      before = out_.count;
-      take_zero_columns();
-      if (out_.count == before) take_null_space();
-    }
+    while (left() > 0 && (take_zero_columns() || take_state_that_nothing_holds() || take_motions())) continue;
     for (Index j = 0; j < out_.count; ++j) {
       for (Index i = 0; i < out_.count; ++i) {
         if (std::abs(out_.block(i, j)) <= margin * rounding_(i, j)) out_.block(i, j) = 0;
@@ -54,13 +56,14 @@ class Splitter {
 
   // Columns that are exactly zero are null directions as they stand; only those of this pass count, so that chains
   // keep their order.
-  void take_zero_columns() {
+  bool take_zero_columns() {
     std::vector<Index> zero;
     for (Index j = out_.count; j < n_; ++j) {
       if (out_.block.col(j).tail(n_ - out_.count).isZero(0)) zero.push_back(j);
     }
     for (std::size_t k = 0; k < zero.size(); ++k) exchange(out_.count + static_cast<Index>(k), zero[k]);
     out_.count += static_cast<Index>(zero.size());
+    return !zero.empty();
   }
   void exchange(Index a, Index b) {
     if (a == b) return;
@@ -70,6 +73,58 @@ class Splitter {
     rounding_.col(a).swap(rounding_.col(b));
     out_.basis.col(a).swap(out_.basis.col(b));
     out_.dual.col(a).swap(out_.dual.col(b));
+    std::swap(state_[static_cast<std::size_t>(a)], state_[static_cast<std::size_t>(b)]);
+  }
+
+  // A state alone in its block of the triangular form, zero on the diagonal, and all that it drives: what it reaches
+  // is regular once the zeros there are split off.
+  bool take_state_that_nothing_holds() {
+    for (const std::vector<Index>& block : connected_components(core())) {
+      const Index i = block.front();
+      if (block.size() > 1 || core()(i, i) != 0.0) continue;
+      Matrix v = Matrix::Zero(left(), 1);
+      v(i, 0) = 1;
+      const std::vector<Index> reached = reached_from(core(), i);
+      if (!reached.empty()) {
+        const Eigen::PartialPivLU<Matrix> driven(core()(reached, reached));
+        if (!(driven.rcond() > regular)) continue;  // motions among them are taken first
+        v(reached, 0) = -driven.solve(core()(reached, std::vector<Index>{i}));
+      }
+      if (!v.allFinite() || !(excess(v) <= 1)) continue;
+      // The state itself is the pivot, and the triangular form stays.
+      v.row(0).swap(v.row(i));
+      exchange(out_.count, out_.count + i);
+      eliminate(v);
+      return true;
+    }
+    return false;
+  }
+
+  // Motions that no element feels.
+  bool take_motions() {
+    if (!motions_ || !may_be_singular()) return false;
+    const Matrix found = motions_->beyond(out_.right().leftCols(out_.count));
+    if (found.cols() == 0) return false;
+    Matrix v = out_.scale.cwiseInverse().asDiagonal() * found;
+    v.colwise().normalize();
+    v = (out_.dual.transpose() * v).bottomRows(left()).eval();
+    follow(v);
+    if (v.cols() == 0 || !v.allFinite()) return false;
+    return split_off_sparsest(v);
+  }
+  // What a motion does to states that only follow it.
+  void follow(Matrix& v) {
+    std::vector<Index> followers, others;
+    for (Index k = 0; k < left(); ++k) {
+      (motions_->driven()[state_[static_cast<std::size_t>(out_.count + k)]] ? followers : others).push_back(k);
+    }
+    if (followers.empty()) return;
+    const Eigen::PartialPivLU<Matrix> own(core()(followers, followers));
+    if (!(own.rcond() > regular)) {
+      v.resize(v.rows(), 0);
+    } else {
+      v(followers, Eigen::all) = -own.solve(core()(followers, others) * v(others, Eigen::all));
+    }
   }
 
   // What entries of (core · v) may be off, for columns v whose entries are known to a few units of the last place of
@@ -82,37 +137,19 @@ class Splitter {
     return (rounding_.bottomRightCorner(k, k) + 4 * eps * size) * v.cwiseAbs() + size * inexact;
   }
 
-  void take_null_space() {
-    const Index k = left();
-    if (k == 0) return;
-    std::vector<Index> support(static_cast<std::size_t>(k));
-    std::iota(support.begin(), support.end(), Index{0});
-    const Matrix scaled = in_units_of_tolerance(support);
-    if (!scaled.allFinite() || surely_regular(scaled)) return;
-    const Eigen::ColPivHouseholderQR<Matrix> qr(scaled);
-    Index rank = k;
-    while (rank > 0 && std::abs(qr.matrixR()(rank - 1, rank - 1)) <= static_cast<double>(k)) --rank;
-    for (; rank < k; ++rank) {
-      const Matrix v = null_vectors(qr, rank);
-      if (split_off_sparsest(v)) return;
-      // Once more among the columns that take part, in units of their own rows.
-      support.clear();
-      for (Index j = 0; j < k; ++j) {
-        if (!without_small(v, rounding_of_entries).row(j).isZero(0)) support.push_back(j);
-      }
-      const Eigen::ColPivHouseholderQR<Matrix> own(in_units_of_tolerance(support));
-      const Matrix part = null_vectors(own, static_cast<Index>(support.size()) - v.cols());
-      if (!part.allFinite()) continue;
-      Matrix among = Matrix::Zero(k, v.cols());
-      among(support, Eigen::all) = part;
-      if (split_off_sparsest(among)) return;
-    }
+  bool may_be_singular() {
+    Matrix scaled = in_units_of_tolerance();
+    return scaled.allFinite() && !surely_regular(std::move(scaled));
   }
   // Null directions that are exactly zero where they may be keep equations apart that have nothing to do with them.
+  // What the matrix makes of them may be a good deal more than its roundings where the model lies far from the origin:
+  // that they are null is proved elsewhere.
   bool split_off_sparsest(const Matrix& v) {
+    const double as_given = excess(v);
+    if (!(as_given <= 1e4) || (core() * v).norm() > 1e-6 * core().norm() * v.norm()) return false;
     for (const double least : {1e-8, 1e-10, 1e-12, rounding_of_entries, 0.0}) {
       Matrix sparse = without_small(v, least);
-      if (!is_null(sparse)) continue;
+      if (excess(sparse) > std::max(1.0, 2 * as_given)) continue;
       split_off(std::move(sparse));
       return true;
     }
@@ -125,24 +162,26 @@ class Splitter {
     }
     return v;
   }
-  bool is_null(const Matrix& v) { return ((core() * v).array().abs() <= tolerance(v).array()).all(); }
+  // The largest entry of (core · v) in units of what it may be off.
+  double excess(const Matrix& v) {
+    const Matrix image = (core() * v).cwiseAbs(), allowed = tolerance(v);
+    double worst = 0;
+    for (Index c = 0; c < image.cols(); ++c) {
+      for (Index r = 0; r < image.rows(); ++r) {
+        if (image(r, c) > 0) worst = std::max(worst, image(r, c) / allowed(r, c));
+      }
+    }
+    return worst;
+  }
 
-  // Columns of the core with rows in units of what they may be off: singular values of about one and less are rounding.
-  // Larger rows come first: only then does every row keep its own digits in an orthogonal factorization (Cox and
-  // Higham, Stability of Householder QR factorization for weighted least squares problems).
-  Matrix in_units_of_tolerance(const std::vector<Index>& columns) {
-    Matrix ones = Matrix::Zero(left(), 1);
-    ones(columns, Eigen::all).setOnes();
-    const Eigen::VectorXd unit = tolerance(ones);
-    Matrix scaled = core()(Eigen::all, columns);
+  // The core with rows in units of what they may be off: singular values of about one and less are rounding.
+  Matrix in_units_of_tolerance() {
+    const Eigen::VectorXd unit = tolerance(Matrix::Ones(left(), 1));
+    Matrix scaled = core();
     for (Index i = 0; i < scaled.rows(); ++i) {
       if (unit(i) > 0) scaled.row(i) /= unit(i);
     }
-    const Eigen::VectorXd size = scaled.cwiseAbs().rowwise().maxCoeff();
-    std::vector<Index> order(static_cast<std::size_t>(scaled.rows()));
-    std::iota(order.begin(), order.end(), Index{0});
-    std::stable_sort(order.begin(), order.end(), [&](Index i, Index j) { return size(i) > size(j); });
-    return scaled(order, Eigen::all);
+    return scaled;
   }
 
   // An estimate of ‖M⁻¹‖ far below one says that no direction is shrunk to rounding.
@@ -153,16 +192,7 @@ class Splitter {
     if (LAPACKE_dgetrf(LAPACK_COL_MAJOR, n, n, m.data(), n, pivots.data()) != 0) return false;
     double reciprocal = 0;
     LAPACKE_dgecon(LAPACK_COL_MAJOR, '1', n, m.data(), n, norm, &reciprocal);
-    return reciprocal * norm > 10.0 * static_cast<double>(n);
-  }
-
-  static Matrix null_vectors(const Eigen::ColPivHouseholderQR<Matrix>& qr, Index rank) {
-    const Index k = qr.cols(), p = k - rank;
-    Matrix v = Matrix::Zero(k, p);
-    v.topRows(rank) = -qr.matrixR().topRightCorner(rank, p);
-    qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(v.topRows(rank));
-    v.bottomRows(p).setIdentity();
-    return qr.colsPermutation() * v;
+    return reciprocal * norm > 1e4 * static_cast<double>(n);
   }
 
   // Brings v to [1; W] with complete pivoting; entries that cancel are zero.
@@ -185,6 +215,10 @@ class Splitter {
 
   void split_off(Matrix v) {
     make_unit(v);
+    eliminate(v);
+  }
+  // Takes directions [1; W] out.
+  void eliminate(const Matrix& v) {
     const Index k = left(), p = v.cols(), rest = k - p, z = out_.count;
     const Matrix W = v.bottomRows(rest), size = W.cwiseAbs();
     // Columns of the zero modes, in the rows of those before.
@@ -198,10 +232,11 @@ class Splitter {
     out_.basis.middleCols(z, p) += out_.basis.rightCols(rest) * W;
     out_.dual.rightCols(rest) -= out_.dual.middleCols(z, p) * W.transpose();
     out_.count += p;
-    core() = (core().array().abs() <= rounding_.bottomRightCorner(rest, rest).array()).select(0.0, core());
   }
 
   Index n_;
+  const StructuralZeros* motions_;
+  std::vector<std::size_t> state_;  // that stands at each place of the block
   Matrix rounding_;
   ZeroModes out_;
 };
@@ -217,6 +252,8 @@ Matrix ZeroModes::vectors() const {
   return right() * v;
 }
 
-ZeroModes split_zero_modes(const Matrix& A, const Matrix& rounding) { return Splitter(A, rounding).run(); }
+ZeroModes split_zero_modes(const Matrix& A, const Matrix& rounding, const StructuralZeros* motions) {
+  return Splitter(A, rounding, motions).run();
+}
 
 }  // namespace dynalin

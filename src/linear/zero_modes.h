@@ -1,20 +1,23 @@
 // Eigenvalues that are zero by the structure of the model - rigid-body motion, ignorable coordinates, integrators -
-// found before the QR iteration and taken out of it.
+// taken out before the QR iteration.
 //
-// A direction v is a null direction when every entry of A v is within the rounding of its own sum. Null directions are
-// split off, and again from what is left, until nothing is singular: zero chains of any length appear as the strictly
-// upper triangular block N of
+// What counts: a state that nothing holds, alone on the diagonal of a triangular form of the state matrix that follows
+// from which entries are there at all, and motions along which every element's own contribution vanishes
+// (structural_zeros.h). An eigenvalue that is merely small is none of these. Directions v of zeros are split off, and
+// again from what is left: zero chains of any length appear as the strictly upper triangular block N of
 //
 //     A = T ⎡ N  C ⎤ T⁻¹        T = D L,  D a balancing of A,  L a product of eliminations.
 //           ⎣ 0  B ⎦
 //
-// L takes p null directions V = [1; W] with their largest entries first: B = A₂₂ − W A₁₂ mixes no rows but those that
+// L takes p directions V = [1; W] with their largest entries first: B = A₂₂ − W A₁₂ mixes no rows but those that
 // take part, so that soft equations beside stiff ones keep their digits; an orthonormal basis would mix them all.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace dynalin {
+
+class StructuralZeros;
 
 struct ZeroModes {
   Eigen::Index count = 0;  // multiplicity of the eigenvalue zero, size of N
@@ -31,6 +34,6 @@ struct ZeroModes {
 };
 
 // `rounding` holds what each entry of A may carry.
-ZeroModes split_zero_modes(const Eigen::MatrixXd& A, const Eigen::MatrixXd& rounding);
+ZeroModes split_zero_modes(const Eigen::MatrixXd& A, const Eigen::MatrixXd& rounding, const StructuralZeros* motions);
 
 }  // namespace dynalin

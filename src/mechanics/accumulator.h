@@ -67,6 +67,20 @@ class Accumulator {
   }
   void add(std::int32_t row, std::int32_t column, double value) { add(row, column, {&value, 1}); }
 
+  // Entries that are no finite numbers become zero; take(row, column) for each.
+  template <class Take>
+  void clear_undefined(Take&& take) {
+    for (std::int32_t c = 0; c < matrix_.columns; ++c) {
+      for (auto k = static_cast<std::size_t>(matrix_.start[static_cast<std::size_t>(c)]);
+           k < static_cast<std::size_t>(matrix_.start[static_cast<std::size_t>(c) + 1]); ++k) {
+        if (std::isfinite(matrix_.value[k])) continue;
+        take(matrix_.row[k], c);
+        matrix_.value[k] = 0.0;
+        if (keeps_sizes_) sizes_[k] = 0.0;
+      }
+    }
+  }
+
   const ColumnMatrix& matrix() const { return matrix_; }
   std::span<const double> sizes() const { return sizes_; }  // entry by entry of matrix()
 

@@ -11,14 +11,14 @@ namespace {
 
 template <std::size_t N>
 void add_measure_gradient(Measure measure, const std::array<PlacedMarker, 4>& places, const Motion& motion, BodyId body,
-                          Equations& eq, std::int32_t row, double factor, Column velocity_family) {
+                          Equations& eq, std::int32_t row, double factor, bool passes_over, Column velocity_family) {
   const BodyBlock& block = eq.layout().body(body);
   const auto g = path::seeded_measure<N>(measure, places, motion, body).value.partial;
   const std::array families = {Column::position, velocity_family, Column::acceleration};
   for (std::size_t level = 0; 6 * level < N; ++level) {
     for (std::int32_t k = 0; k < block.count; ++k) {
       const double value = g[6 * level + static_cast<std::size_t>(k)];
-      eq.add(families[level], row, block.offset + k, factor == 0.0 ? 0.0 : factor * value);
+      eq.add(families[level], row, block.offset + k, factor == 0.0 && passes_over ? 0.0 : factor * value);
     }
   }
 }
@@ -78,11 +78,22 @@ std::span<const double> BoundExpression::partials(const Motion& motion, Expressi
   return scratch.partials;
 }
 
-Taylor BoundExpression::along_motion(const Motion& motion, ExpressionScratch& scratch) const {
-  scratch.taylor_atoms.resize(atoms_.size());
+void BoundExpression::fill_along_motion(const Motion& motion, std::span<const Taylor> given,
+                                        std::vector<Taylor>& atoms) const {
+  atoms.resize(atoms_.size());
   for (std::size_t k = 0; k < atoms_.size(); ++k) {
-    scratch.taylor_atoms[k] = atom_along_motion(atoms_[k], motion);
+    const bool from_others = !given.empty() && atoms_[k].kind == BoundAtom::Kind::channel;
+    atoms[k] = from_others ? given[k] : atom_along_motion(atoms_[k], motion);
   }
+}
+
+Taylor BoundExpression::along_motion(const Motion& motion, ExpressionScratch& scratch) const {
+  return along_motion(motion, scratch, {});
+}
+
+Taylor BoundExpression::along_motion(const Motion& motion, ExpressionScratch& scratch,
+                                     std::span<const Taylor> given) const {
+  fill_along_motion(motion, given, scratch.taylor_atoms);
   return expression_.evaluate<Taylor>(scratch.taylor_atoms, scratch.taylor);
 }
 
@@ -99,12 +110,24 @@ void BoundExpression::add(const Motion& motion, Equations& eq, std::int32_t row,
   const double e = expression_.evaluate<double>(scratch.atoms, std::span(scratch.partials), scratch.plain);
   eq.add_residual(row, factor * e);
   for (std::size_t k = 0; k < atoms_.size(); ++k) {
-    add_atom(atoms_[k], motion, eq, row, factor * scratch.partials[k], velocity_family);
+    // A size that is zero grows whichever way things move: of no direction, and so its gradient counts as zero.
+    const bool flat = is_size(atoms_[k]) && scratch.atoms[k] == 0.0;
+    const double partial = flat ? 0.0 : factor * scratch.partials[k];
+    eq.begin_term(partial);
+    add_atom(atoms_[k], motion, eq, row, partial, flat || partial != 0.0 || passes_over(k, scratch), velocity_family);
   }
+  eq.end_terms();
+}
+
+// A kink vanishes with its factor; a jump does only where nothing reads it.
+bool BoundExpression::passes_over(std::size_t atom, const ExpressionScratch& scratch) const {
+  const BoundAtom& a = atoms_[atom];
+  const bool jumps = a.kind == BoundAtom::Kind::measure && may_jump(a.measure);
+  return !jumps || !expression_.reaches(atom, scratch.plain);
 }
 
 void BoundExpression::add_atom(const BoundAtom& a, const Motion& motion, Equations& eq, std::int32_t row, double factor,
-                               Column velocity_family) const {
+                               bool passes_over, Column velocity_family) const {
   using Kind = BoundAtom::Kind;
   if (a.kind == Kind::channel) {
     const Column family = a.channel.kind == Channel::Kind::algebraic ? Column::algebraic
@@ -116,7 +139,8 @@ void BoundExpression::add_atom(const BoundAtom& a, const Motion& motion, Equatio
   } else if (a.kind == Kind::measure) {
     for (std::size_t b = 0; b < a.body_count; ++b) {
       const auto add_levels = [&]<std::size_t N>() {
-        add_measure_gradient<N>(a.measure, a.places, motion, a.bodies[b], eq, row, factor, velocity_family);
+        add_measure_gradient<N>(a.measure, a.places, motion, a.bodies[b], eq, row, factor, passes_over,
+                                velocity_family);
       };
       if (a.order == 0) add_levels.operator()<6>();
       if (a.order == 1) add_levels.operator()<12>();
@@ -126,7 +150,8 @@ void BoundExpression::add_atom(const BoundAtom& a, const Motion& motion, Equatio
     for (std::size_t p = 0; p < a.parameter_count; ++p) {
       const auto m = path::measure_by_parameter(a.measure, a.places, motion, a.parameters[p]);
       for (std::size_t level = 0; level <= static_cast<std::size_t>(a.order); ++level) {
-        eq.add(families[level], row, a.parameters[p], factor == 0.0 ? 0.0 : factor * m.value.partial[level]);
+        eq.add(families[level], row, a.parameters[p],
+               factor == 0.0 && passes_over ? 0.0 : factor * m.value.partial[level]);
       }
     }
   }
@@ -139,12 +164,13 @@ void add_measure_row(Measure measure, const std::array<PlacedMarker, 4>& places,
                      ConstraintRows& rows, std::int32_t row, const BodyBlock& block, const Taylor& partial,
                      RowLevel row_level) {
   const path::Seeded<N> m = path::seeded_measure<N>(measure, places, motion, body);
+  const bool nothing = partial.value == 0.0 && partial.rate == 0.0 && partial.acceleration == 0.0;
   // δX = Σ X_l δq^(l) and its rate, both times the partial e_X(t) of the expression.
   for (std::int32_t k = 0; k < block.count; ++k) {
     const auto at = [&](std::size_t level) {
       const std::size_t seed = 6 * level + static_cast<std::size_t>(k);
       const Taylor course(m.value.partial[seed], m.rate.partial[seed], m.acceleration.partial[seed]);
-      return partial * course;
+      return nothing ? Taylor() : partial * course;
     };
     const std::int32_t column = block.offset + k;
     if (row_level == RowLevel::position) {
@@ -179,14 +205,12 @@ void BoundExpression::add_measure_to_row(const BoundAtom& a, const Motion& motio
   }
 }
 
-Taylor BoundExpression::add_to_row(const Motion& motion, ConstraintRows& rows, std::int32_t row, double factor,
-                                   RowLevel level) const {
+template <class Factor>
+Taylor BoundExpression::add_to_row(const Motion& motion, ConstraintRows& rows, std::int32_t row, const Factor& factor,
+                                   RowLevel level, std::span<const Taylor> given) const {
   ExpressionScratch& scratch = rows.scratch;
-  scratch.taylor_atoms.resize(atoms_.size());
   scratch.taylor_partials.resize(atoms_.size());
-  for (std::size_t k = 0; k < atoms_.size(); ++k) {
-    scratch.taylor_atoms[k] = atom_along_motion(atoms_[k], motion);
-  }
+  fill_along_motion(motion, given, scratch.taylor_atoms);
   const Taylor e =
       expression_.evaluate<Taylor>(scratch.taylor_atoms, std::span(scratch.taylor_partials), scratch.taylor);
   for (std::size_t k = 0; k < atoms_.size(); ++k) {
@@ -199,35 +223,25 @@ Taylor BoundExpression::add_to_row(const Motion& motion, ConstraintRows& rows, s
 
 Taylor BoundExpression::add_position(const Motion& motion, ConstraintRows& rows, std::int32_t row,
                                      double factor) const {
-  return add_to_row(motion, rows, row, factor, RowLevel::position);
+  return add_to_row(motion, rows, row, factor, RowLevel::position, {});
+}
+
+void BoundExpression::add_position(const Motion& motion, ConstraintRows& rows, std::int32_t row, const Taylor& factor,
+                                   std::span<const Taylor> given) const {
+  add_to_row(motion, rows, row, factor, RowLevel::position, given);
 }
 
 Taylor BoundExpression::add_velocity(const Motion& motion, ConstraintRows& rows, std::int32_t row,
                                      double factor) const {
-  return add_to_row(motion, rows, row, factor, RowLevel::velocity);
+  return add_to_row(motion, rows, row, factor, RowLevel::velocity, {});
 }
 
 void BoundExpression::remember(const Motion& motion, Memory& memory) const {
   for (const BoundAtom& a : atoms_) {
-    if (a.memory >= 0) memory[static_cast<std::size_t>(a.memory)] = atom_along_motion(a, motion).value;
+    if (a.memory < 0) continue;
+    const double total = atom_along_motion(a, motion).value;
+    if (std::isfinite(total)) memory[static_cast<std::size_t>(a.memory)] = total;
   }
-}
-
-std::string BoundExpression::fault(const Motion& motion) const {
-  std::vector<double> values;
-  for (const BoundAtom& a : atoms_) values.push_back(atom_value(a, motion));
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    if (std::isfinite(values[k])) continue;
-    const BoundAtom& a = atoms_[k];
-    const bool straight =
-        a.axes_marker.straight(motion) ||
-        std::any_of(a.places.begin(), a.places.end(), [&](const auto& p) { return p.straight(motion); });
-    return std::string(expression_.atoms()[k].at.text()) +
-           (straight ? " reads the y or z axis of a marker at a point of contact where the curve is straight"
-                     : " has no finite value");
-  }
-  const auto found = expression_.find_fault<double>(values, FaultSearch::value_and_partials);
-  return found ? found->reason : std::string();
 }
 
 }  // namespace dynalin

@@ -35,6 +35,9 @@ class BoundExpression {
   // Value and two rates; for expressions of order 0 without channels.
   Taylor along_motion(const Motion&, ExpressionScratch&) const;
 
+  // The same with values of others in it: `given` has those of all atoms, of which the channels are taken.
+  Taylor along_motion(const Motion&, ExpressionScratch&, std::span<const Taylor> given) const;
+
   // Adds factor · e to the residual of `row` and its partials to the matrices. Velocity partials go to
   // `velocity_family`: damping for forces and VARIABLEs, velocity for controllers.
   void add(const Motion&, Equations&, std::int32_t row, double factor, Column velocity_family) const;
@@ -43,6 +46,10 @@ class BoundExpression {
   double rate(const Motion&, ExpressionScratch&) const;  // e′
   // Adds the gradient of an expression of order 0 to a position row and returns its course, both times factor.
   Taylor add_position(const Motion&, ConstraintRows&, std::int32_t row, double factor = 1) const;
+  // The same with values of others in it; what they are multiplied with is left in rows.scratch.taylor_partials, in the
+  // order of the atoms and without the factor.
+  void add_position(const Motion&, ConstraintRows&, std::int32_t row, const Taylor& factor,
+                    std::span<const Taylor> given) const;
   // The same for a velocity row, order 0 or 1: value and rate are valid.
   Taylor add_velocity(const Motion&, ConstraintRows&, std::int32_t row, double factor = 1) const;
 
@@ -50,8 +57,11 @@ class BoundExpression {
   void add_reaction_partials(const Motion&, Equations&, double lambda, RowLevel) const;
 
   void remember(const Motion&, Memory&) const;
-  // What is wrong when a value or partial is not finite: function, argument and reason; empty if nothing is.
-  std::string fault(const Motion&) const;
+  // Adds what is wrong when a value or partial is not finite: function, argument and reason.
+  // With rates also what its time derivative or a second derivative does not have.
+  enum class Derivatives : std::uint8_t { first, with_rates };
+  void find_fault(const Motion&, const ElementLabel& of, std::vector<ElementFault>&,
+                  Derivatives = Derivatives::first) const;
 
  private:
   struct ForceTerm {
@@ -80,16 +90,27 @@ class BoundExpression {
   double force_value(const BoundAtom&, const Motion&) const;
   void fill_rates(const Motion&, ExpressionScratch&) const;  // atoms with their values and rates
   Taylor atom_along_motion(const BoundAtom&, const Motion&) const;
-  void add_atom(const BoundAtom&, const Motion&, Equations&, std::int32_t row, double factor,
+  // A factor of zero leaves nothing of a gradient that is not defined, if `passes_over`.
+  void add_atom(const BoundAtom&, const Motion&, Equations&, std::int32_t row, double factor, bool passes_over,
                 Column velocity_family) const;
+  bool has_gradient(const BoundAtom&, const Motion&) const;
+  bool is_size_of_nothing(const BoundAtom&, const Motion&) const;
   void add_force(const BoundAtom&, const Motion&, Equations&, std::int32_t row, double factor,
                  Column velocity_family) const;
   // Adds partial · (path gradient of the measure) at the levels a constraint row has.
   void add_measure_to_row(const BoundAtom&, const Motion&, ConstraintRows&, std::int32_t row, const Taylor& partial,
                           RowLevel level) const;
-  Taylor add_to_row(const Motion&, ConstraintRows&, std::int32_t row, double factor, RowLevel level) const;
+  void fill_along_motion(const Motion&, std::span<const Taylor> given, std::vector<Taylor>& atoms) const;
+  template <class Factor>
+  Taylor add_to_row(const Motion&, ConstraintRows&, std::int32_t row, const Factor& factor, RowLevel level,
+                    std::span<const Taylor> given) const;
 
   double gradient(const ExpressionScratch&, std::size_t atom, BodyId, std::size_t seed) const;
+  // Whether a partial of zero makes the gradient of an atom vanish where that is not defined.
+  bool passes_over(std::size_t atom, const ExpressionScratch&) const;
+  static bool is_size(const BoundAtom&);  // of a vector: never negative
+  std::string fault_of_value(const Motion&, const std::vector<double>& atoms) const;
+  std::string fault_of_gradient(const Motion&, const std::vector<double>& atoms, Derivatives) const;
 
   Expression expression_;
   std::vector<BodyId> bodies_;  // all that the measures see, ground left out

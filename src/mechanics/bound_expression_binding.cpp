@@ -1,5 +1,7 @@
 // What the atoms of an expression stand for: markers, elements, channels.
 #include <algorithm>
+#include <optional>
+#include <unordered_set>
 
 #include "mechanics/bound_expression.h"
 
@@ -31,6 +33,48 @@ bool reads_axes(Measure m, std::size_t k) {
   }
 }
 
+// Which of the markers i, j, k, l an argument names, if its measure looks at it. Sizes need no axes: their third
+// argument is the frame in which derivatives in time are taken. The rate of a distance is the same in all of them.
+std::optional<std::size_t> role_of_argument(Measure m, std::size_t argument) {
+  switch (m) {
+    case Measure::VM:
+    case Measure::ACCM:
+    case Measure::WDTM:
+      return argument == 2 ? 3 : argument;
+    case Measure::VR:
+      return argument == 2 ? std::nullopt : std::optional(argument);
+    default:
+      return argument;
+  }
+}
+
+// Whether a measure of two markers on one rigid body never changes, whoever looks at it.
+bool is_constant_on_a_body(Measure m) {
+  switch (m) {
+    case Measure::DM:
+    case Measure::VR:
+    case Measure::WM:
+    case Measure::WDTM:
+    case Measure::AX:
+    case Measure::AY:
+    case Measure::AZ:
+    case Measure::PSI:
+    case Measure::THETA:
+    case Measure::PHI:
+    case Measure::YAW:
+    case Measure::PITCH:
+    case Measure::ROLL:
+    case Measure::PSI_PLUS_PHI:
+    case Measure::PSI_MINUS_PHI:
+    case Measure::YAW_PLUS_ROLL:
+    case Measure::YAW_MINUS_ROLL:
+    case Measure::THETA_SQUARED:
+      return true;
+    default:
+      return false;
+  }
+}
+
 // Where a marker is, and its axes where they are read: a floating marker has no place of its own. One on a curve whose
 // axes do not matter is as well at the origin of the fixed marker that lies there, if there is one.
 PlacedMarker find_marker(const Signals& signals, const Atom& atom, std::int64_t id, bool axes) {
@@ -51,11 +95,12 @@ PlacedMarker find_marker(const Signals& signals, const Atom& atom, std::int64_t 
 
 BoundExpression::BoundExpression(Expression expression, const Signals& signals, Binding binding)
     : expression_(expression.with_curves([&](SplineUse& use) { signals.attach(use); })) {
+  std::unordered_set<std::int32_t> seen;  // of bodies_: a sum may run over all bodies of a model
   for (const Atom& atom : expression_.atoms()) {
     atoms_.push_back(bind(atom, signals, binding));
     const BoundAtom& a = atoms_.back();
     for (std::size_t b = 0; b < a.body_count; ++b) {
-      if (std::find(bodies_.begin(), bodies_.end(), a.bodies[b]) == bodies_.end()) bodies_.push_back(a.bodies[b]);
+      if (seen.insert(a.bodies[b].index).second) bodies_.push_back(a.bodies[b]);
     }
     using Kind = BoundAtom::Kind;
     if (a.kind == Kind::measure) order_ = std::max(order_, static_cast<int>(a.order));
@@ -104,9 +149,12 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
       a.kind = Kind::measure;
       a.measure = *find_measure(f.name);
       a.order = f.order;
+      a.places.fill({signals.layout().marker(signals.marker(0))});
+      for (std::size_t argument = 0; argument < atom.argument_count; ++argument) {
+        const auto role = role_of_argument(a.measure, argument);
+        if (role) a.places[*role] = find_marker(signals, atom, atom.argument[argument], reads_axes(a.measure, *role));
+      }
       for (std::size_t k = 0; k < 4; ++k) {
-        const std::int64_t written = k < atom.argument_count ? atom.argument[k] : 0;
-        a.places[k] = find_marker(signals, atom, written, reads_axes(a.measure, k));
         note_parameter(a, a.places[k]);
         const BodyId body = a.places[k].place.body;
         const auto end = a.bodies.begin() + a.body_count;
@@ -114,7 +162,11 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
           a.bodies[a.body_count++] = body;
         }
       }
-      if (counts_turns(a.measure) && binding != Binding::gradient) a.memory = signals.add_memory(0.0);
+      // Rounding of what never changes is no gradient, least of all at a kink.
+      const bool one_body =
+          a.places[0].place.body == a.places[1].place.body && !a.places[0].curve && !a.places[1].curve;
+      if (one_body && is_constant_on_a_body(a.measure)) a.body_count = 0;
+      if (counts_turns(a.measure) && binding != Binding::gradient) a.memory = signals.add_memory(atom.at, 0.0);
       break;
     }
     case AtomFamily::data:
@@ -145,7 +197,9 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
       break;
     case AtomFamily::element_force:
       a.kind = Kind::force;
-      a.terms.push_back({signals.element(f.statement, atom.argument[0]), atom.argument[1] == 1});
+      if (const Signals::Element e = signals.element(f.statement, atom.argument[0]); e.kernel) {
+        a.terms.push_back({e, atom.argument[1] == 1});  // an element taken out of the model exerts nothing
+      }
       a.component = static_cast<std::uint8_t>(atom.argument[2]);
       a.axes_marker = find_marker(signals, atom, atom.argument[3], true);
       note_parameter(a, a.axes_marker);

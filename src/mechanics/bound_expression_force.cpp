@@ -1,4 +1,6 @@
 // Forces and reactions that an expression reads, and what they depend on.
+#include <limits>
+
 #include "mechanics/bound_expression.h"
 #include "mechanics/seeded_frames.h"
 
@@ -33,6 +35,17 @@ double BoundExpression::force_value(const BoundAtom& a, const Motion& motion) co
   return dot(a.axes_marker.axes(motion)[axis_of(a.component)], sum);
 }
 
+bool BoundExpression::is_size(const BoundAtom& a) {
+  if (a.kind == BoundAtom::Kind::force) return is_magnitude(a.component);
+  return a.kind == BoundAtom::Kind::measure &&
+         (a.measure == Measure::DM || a.measure == Measure::VM || a.measure == Measure::WM ||
+          a.measure == Measure::ACCM || a.measure == Measure::WDTM);
+}
+
+bool BoundExpression::is_size_of_nothing(const BoundAtom& a, const Motion& motion) const {
+  return is_magnitude(a.component) && force_value(a, motion) == 0.0;
+}
+
 void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equations& eq, std::int32_t row,
                                 double factor, Column velocity_family) const {
   const bool torque = is_torque(a.component);
@@ -65,6 +78,8 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
     }
   }
 
+  // The size of no force has a kink: what changes the force changes it in no defined way.
+  const bool kink = is_magnitude(a.component) && factor != 0.0 && norm(sum) == 0.0;
   for (std::size_t t = 0; t < a.terms.size(); ++t) {
     const MarkerWrench& w = wrenches[t];
     const PairMotion& p = w.pair;
@@ -73,6 +88,10 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
     const Vector delta = dynalin::value(p.delta);
     // e·(vector of interest) in terms of force and torque on I.
     const auto picked = [&](const Vector& f, const Vector& m) {
+      if (kink) {
+        const Vector change = !torque ? f : on_J ? m + cross(delta, f) : m;
+        return norm(change) == 0.0 ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+      }
       if (!torque) return on_J ? -dot(e, f) : dot(e, f);
       return on_J ? -dot(e, m) - dot(e, cross(delta, f)) : dot(e, m);
     };
@@ -87,7 +106,10 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
       for (std::size_t k = 0; k < 3; ++k) {
         const std::int32_t column = block.offset + first + static_cast<std::int32_t>(k);
         double value = picked(w.force.force_on_position.group[g][k], w.force.torque_on_position.group[g][k]);
-        if (torque && on_J && !w.J_follows_I) value -= dot(e, cross(delta_groups[g][k], w.force.force));
+        if (torque && on_J && !w.J_follows_I) {
+          const Vector lever = cross(delta_groups[g][k], w.force.force);
+          value -= kink && norm(lever) != 0.0 ? std::numeric_limits<double>::quiet_NaN() : dot(e, lever);
+        }
         eq.add(Column::position, row, column, factor * value);
         eq.add(velocity_family, row, column,
                factor * picked(w.force.force_on_velocity.group[g][k], w.force.torque_on_velocity.group[g][k]));

@@ -124,9 +124,10 @@ void BoundExpression::add_reaction_partials(const Motion& motion, Equations& eq,
             double sum = 0;
             for (std::size_t k = 0; k < n; ++k) {
               const double g = gradient(scratch, k, inner, 6 * inner_level + static_cast<std::size_t>(i));
-              if (g != 0.0) sum += scratch.taylor_partials[k].rate * g;
+              const double change = scratch.taylor_partials[k].rate;
+              if (g != 0.0 && change != 0.0) sum += change * g;
             }
-            eq.add(family, forces.offset + i, columns.offset + j, -lambda * sum);
+            eq.add(family, forces.offset + i, columns.offset + j, lambda == 0.0 ? 0.0 : -lambda * sum);
           }
         }
       }
@@ -147,8 +148,9 @@ void BoundExpression::add_reaction_partials(const Motion& motion, Equations& eq,
           const BodyBlock &forces = eq.layout().body(inner.body), &columns = eq.layout().body(outer.body);
           for (std::int32_t i = 0; i < forces.count; ++i) {
             for (std::int32_t j = 0; j < columns.count; ++j) {
-              eq.add(family, forces.offset + i, columns.offset + j,
-                     -lambda * slope * m.partial[static_cast<std::size_t>(i)].partial[static_cast<std::size_t>(j)]);
+              const double change = m.partial[static_cast<std::size_t>(i)].partial[static_cast<std::size_t>(j)];
+              const double force = lambda * slope;
+              eq.add(family, forces.offset + i, columns.offset + j, force == 0.0 ? 0.0 : -force * change);
             }
           }
         }
@@ -169,7 +171,9 @@ void add_measure_rate(Measure measure, const std::array<PlacedMarker, 4>& places
   for (std::size_t level = 0; 6 * level < N; ++level) {
     for (std::int32_t k = 0; k < block.count; ++k) {
       const std::size_t seed = 6 * level + static_cast<std::size_t>(k);
-      eq.add(families[level], row, block.offset + k, by_value * m.value.partial[seed] + by_rate * m.rate.partial[seed]);
+      const auto times = [](double factor, double gradient) { return factor == 0.0 ? 0.0 : factor * gradient; };
+      eq.add(families[level], row, block.offset + k,
+             times(by_value, m.value.partial[seed]) + times(by_rate, m.rate.partial[seed]));
     }
   }
 }

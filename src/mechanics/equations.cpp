@@ -48,17 +48,37 @@ void Equations::keep_sizes() {
   for (Accumulator& a : matrices_) a.keep_sizes();
 }
 
+std::vector<Equations::Undefined> Equations::clear_undefined() {
+  std::vector<Undefined> found;
+  for (std::size_t f = 0; f < column_families; ++f) {
+    const auto family = static_cast<Column>(f);
+    if (!wants(family)) continue;
+    matrices_[f].clear_undefined([&](std::int32_t row, std::int32_t column) {
+      found.push_back({family, row, column});
+    });
+  }
+  return found;
+}
+
 void Equations::begin(std::initializer_list<Column> wanted) {
   std::fill(residual_.begin(), residual_.end(), 0.0);
   std::fill(magnitude_.begin(), magnitude_.end(), 0.0);
   wanted_.fill(false);
   wants_any_ = wanted.size() > 0;
   recording_ = false;
+  if (trace_) trace_->clear();
   for (const Column c : wanted) {
     const auto k = static_cast<std::size_t>(c);
     wanted_[k] = true;
     recording_ = recording_ || !matrices_[k].recorded();
     matrices_[k].begin();
+  }
+}
+
+void Equations::note(Column family, std::int32_t row, std::int32_t column, std::span<const double> values) {
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (values[k] == 0.0) continue;
+    trace_->partials.push_back({family, row + static_cast<std::int32_t>(k), column, values[k], trace_->term});
   }
 }
 

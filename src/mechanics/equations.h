@@ -9,6 +9,7 @@
 
 #include "expression/expression.h"
 #include "mechanics/accumulator.h"
+#include "mechanics/element_trace.h"
 #include "mechanics/layout.h"
 
 namespace dynalin {
@@ -107,6 +108,24 @@ class Equations {
   void finish();  // builds patterns after a recording pass
   bool needs_second_pass() const { return recording_; }
 
+  // Later passes also note what each element adds on its own.
+  void note_elements(ElementTrace* trace) { trace_ = trace; }
+  // What follows is added by another element; where it holds constraint rows, their reactions belong to it.
+  void begin_element(std::int32_t first_row = -1, std::int32_t row_count = 0) {
+    if (trace_) trace_->begin(first_row, row_count);
+  }
+
+  // What follows, until the next call, is one quantity that an algebraic or differential equation reads, times the
+  // coefficient.
+  void begin_term(double coefficient) {
+    if (!trace_) return;
+    trace_->term = static_cast<std::int32_t>(trace_->coefficients.size());
+    trace_->coefficients.push_back(coefficient);
+  }
+  void end_terms() {
+    if (trace_) trace_->term = -1;
+  }
+
   bool wants(Column c) const { return wanted_[static_cast<std::size_t>(c)]; }
   bool wants_partials() const { return wants_any_; }
 
@@ -116,16 +135,19 @@ class Equations {
   }
 
   void add_residual(std::int32_t row, double value) {
+    if (trace_ && row < layout_->coordinate_count) trace_->loads.push_back({row, value});
     residual_[static_cast<std::size_t>(row)] += value;
     magnitude_[static_cast<std::size_t>(row)] += std::abs(value);
   }
   // Force and moment about the BCS origin that act on a body, global axes.
   void apply(BodyId body, const Vector& force, const Vector& moment, double factor = -1.0);
   void add(Column family, std::int32_t row, std::int32_t column, double value) {
-    if (wants(family)) matrices_[static_cast<std::size_t>(family)].add(row, column, value);
+    add(family, row, column, {&value, 1});
   }
   void add(Column family, std::int32_t row, std::int32_t column, std::span<const double> values) {
-    if (wants(family)) matrices_[static_cast<std::size_t>(family)].add(row, column, values);
+    if (!wants(family)) return;
+    if (trace_) note(family, row, column, values);
+    matrices_[static_cast<std::size_t>(family)].add(row, column, values);
   }
   // Partials of force and moment on `on` with respect to three coordinates starting at `column`:
   // column k of `force` and `moment` belongs to coordinate column + k.
@@ -134,6 +156,14 @@ class Equations {
   // The same with respect to one scalar unknown.
   void add_column(Column family, BodyId on, std::int32_t column, const Vector& force, const Vector& moment,
                   double factor = -1.0);
+
+  // Partials that are no finite numbers, of functions without a derivative here. They become zero: an iteration does
+  // without them, a linear model only if nothing comes of them.
+  struct Undefined {
+    Column family;
+    std::int32_t row, column;
+  };
+  std::vector<Undefined> clear_undefined();
 
   std::span<const double> residual() const { return residual_; }
   std::span<double> residual() { return residual_; }
@@ -147,7 +177,10 @@ class Equations {
   ExpressionScratch scratch;
 
  private:
+  void note(Column, std::int32_t row, std::int32_t column, std::span<const double> values);
+
   const Layout* layout_ = nullptr;
+  ElementTrace* trace_ = nullptr;
   std::vector<double> residual_, magnitude_;
   std::array<Accumulator, column_families> matrices_;
   std::array<bool, column_families> wanted_{};

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "mechanics/equations.h"
@@ -13,6 +14,7 @@
 
 namespace dynalin {
 
+class BoundExpression;
 class Signals;
 
 // A force or constraint element as the force functions of expressions see it: what acts on its I marker.
@@ -51,6 +53,13 @@ struct StartCondition {
   std::optional<double> displacement, velocity;
 };
 
+// Why an element has no finite value, or a value without a derivative: a sentence that names it.
+struct ElementFault {
+  const ElementLabel* of = nullptr;
+  std::string reason;
+  bool in_value = true;
+};
+
 class Kernel {
  public:
   virtual ~Kernel() = default;
@@ -84,11 +93,13 @@ class Kernel {
 
   // --- what data functions read ----------------------------------------------------------------------
   virtual Channel value_channel(std::size_t /*element*/) const { return {}; }  // VARVAL
+  // The expression that gives this value, null if none does.
+  virtual const BoundExpression* value_function(std::size_t /*element*/) const { return nullptr; }
   virtual Channel state_channel(std::size_t /*element*/, std::size_t /*n*/) const { return {}; }
   virtual Channel output_channel(std::size_t /*element*/, std::size_t /*n*/) const { return {}; }
 
-  // A sentence on why element `k` yields no finite numbers here, empty if it does.
-  virtual std::string fault(const Motion&) const { return {}; }
+  // Adds why elements yield no finite values or derivatives here.
+  virtual void faults(const Motion&, std::vector<ElementFault>&) const {}
   // A sentence on how a converged point lies outside of what an element describes, empty if it does not.
   virtual std::string departure(const Motion&) const { return {}; }
 };
@@ -123,7 +134,7 @@ class Signals {
   };
   virtual Element element(std::string_view statement, std::int64_t id) const = 0;
   virtual std::vector<Element> elements_at(MarkerId) const = 0;
-  virtual std::int32_t add_memory(double initial) const = 0;
+  virtual std::int32_t add_memory(const Span& owner, double initial) const = 0;
 };
 
 }  // namespace dynalin

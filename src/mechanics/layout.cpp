@@ -46,8 +46,9 @@ std::int32_t Layout::add_state(const DifferentialState& state) {
   return last_index(states.size());
 }
 
-std::int32_t Layout::add_memory(double initial) {
+std::int32_t Layout::add_memory(const Span& owner, double initial) {
   memory.push_back(initial);
+  memory_owners.push_back(owner);
   return last_index(memory.size());
 }
 

@@ -89,6 +89,7 @@ class Layout {
   std::vector<AlgebraicUnknown> algebraic;
   std::vector<DifferentialState> states;
   Memory memory;                                     // initial contents
+  std::vector<Span> memory_owners;                   // of each entry
   std::vector<const ElementLabel*> velocity_driven;  // motions that contradict rest: no static analysis
   std::int32_t coordinate_count = 0;                 // all blocks
   std::int32_t body_coordinate_count = 0;            // of the bodies alone; extras follow them
@@ -106,7 +107,8 @@ class Layout {
   std::int32_t add_row(const ElementLabel& owner, std::string_view name, RowLevel level = RowLevel::position);
   std::int32_t add_algebraic(const ElementLabel& owner, std::int32_t component = 0, double guess = 0);
   std::int32_t add_state(const DifferentialState&);
-  std::int32_t add_memory(double initial = 0);
+  // `owner`: the place in the input that what is remembered belongs to, by which it is found again in an edited model.
+  std::int32_t add_memory(const Span& owner, double initial = 0);
 
   std::size_t row_count() const { return rows.size(); }
   // The contact that holds a floating marker, null if none does.

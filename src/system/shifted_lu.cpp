@@ -2,6 +2,8 @@
 
 #include <klu.h>
 
+#include <new>
+
 #include "system/sparse_lu.h"
 
 namespace dynalin {
@@ -30,6 +32,7 @@ ShiftedLu::ShiftedLu(const ColumnMatrix& S, std::int32_t shifted) : factors_(std
   klu_defaults(&f.common);
   f.common.tol = 0.1;
   f.symbolic = klu_analyze(f.matrix.columns, f.matrix.start.data(), f.matrix.row.data(), &f.common);
+  if (f.common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
 }
 
 ShiftedLu::~ShiftedLu() {
@@ -49,6 +52,7 @@ bool ShiftedLu::factor(std::complex<double> shift) {
   klu_z_free_numeric(&f.numeric, &f.common);
   f.numeric = klu_z_factor(f.matrix.start.data(), f.matrix.row.data(), reinterpret_cast<double*>(f.value.data()),
                            f.symbolic, &f.common);
+  if (f.common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
   return f.numeric && f.common.status == KLU_OK;
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <new>
+#include <optional>
 
 namespace dynalin {
 
@@ -73,14 +75,56 @@ class KluFactors {
     // A stricter pivot choice than KLU's default: accuracy of the state matrix is worth the fill.
     common_.tol = 0.1;
     symbolic_ = klu_analyze(m.columns, m.start.data(), m.row.data(), &common_);
+    throw_if_out_of_memory();
     return symbolic_ != nullptr;
   }
   double predicted_entries() const { return symbolic_->lnz + symbolic_->unz; }
+  // False if a pivot is nothing.
   bool factor(ColumnMatrix& m) {
+    klu_free_numeric(&numeric_, &common_);
     numeric_ = klu_factor(m.start.data(), m.row.data(), m.value.data(), symbolic_, &common_);
-    if (!numeric_ || common_.status == KLU_SINGULAR) return false;
+    throw_if_out_of_memory();
+    return numeric_ && common_.status != KLU_SINGULAR;
+  }
+  // The smallest pivot beside the largest.
+  double least_pivot() {
     klu_rcond(symbolic_, numeric_, &common_);
-    return common_.rcond > 1e-17;
+    return common_.rcond;
+  }
+  // The smallest pivot beside the terms Σ |l||u| that were taken from its place: what cancellation has left of it.
+  double most_cancelled() {
+    const auto n = static_cast<std::size_t>(symbolic_->n);
+    std::vector<int> lp(n + 1), up(n + 1), li(static_cast<std::size_t>(numeric_->lnz)),
+        ui(static_cast<std::size_t>(numeric_->unz));
+    std::vector<double> lx(li.size()), ux(ui.size());
+    if (!klu_extract(numeric_, symbolic_, lp.data(), li.data(), lx.data(), up.data(), ui.data(), ux.data(), nullptr,
+                     nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, &common_)) {
+      throw_if_out_of_memory();
+      return 0;
+    }
+    // Row k of L meets column k of U: both by columns, so L is gone through once and U looked up by rows.
+    std::vector<std::vector<std::pair<int, double>>> u_rows(n);
+    std::vector<double> pivot(n, 0.0), taken(n, 0.0);
+    for (std::size_t c = 0; c < n; ++c) {
+      for (auto k = static_cast<std::size_t>(up[c]); k < static_cast<std::size_t>(up[c + 1]); ++k) {
+        const auto r = static_cast<std::size_t>(ui[k]);
+        if (r == c) {
+          pivot[c] = std::abs(ux[k]);
+        } else {
+          u_rows[r].emplace_back(static_cast<int>(c), std::abs(ux[k]));
+        }
+      }
+    }
+    std::vector<double> below(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto first = static_cast<std::size_t>(lp[i]), last = static_cast<std::size_t>(lp[i + 1]);
+      for (std::size_t k = first; k < last; ++k) below[static_cast<std::size_t>(li[k])] = std::abs(lx[k]);
+      for (const auto& [c, u] : u_rows[i]) taken[static_cast<std::size_t>(c)] += below[static_cast<std::size_t>(c)] * u;
+      for (std::size_t k = first; k < last; ++k) below[static_cast<std::size_t>(li[k])] = 0;
+    }
+    double least = 1;
+    for (std::size_t k = 0; k < n; ++k) least = std::min(least, pivot[k] / (pivot[k] + taken[k]));
+    return least;
   }
   void solve(double* x, int n, int columns) { klu_solve(symbolic_, numeric_, n, columns, x, &common_); }
   void solve_transposed(double* x, int n, int columns) { klu_tsolve(symbolic_, numeric_, n, columns, x, &common_); }
@@ -89,6 +133,11 @@ class KluFactors {
   }
 
  private:
+  // A matrix that does not fit is not a singular one.
+  void throw_if_out_of_memory() const {
+    if (common_.status == KLU_OUT_OF_MEMORY || common_.status == KLU_TOO_LARGE) throw std::bad_alloc();
+  }
+
   klu_common common_{};
   klu_symbolic* symbolic_ = nullptr;
   klu_numeric* numeric_ = nullptr;
@@ -129,6 +178,8 @@ class MumpsFactors {
       if (id_.infog[0] != -8 && id_.infog[0] != -9) break;
       control(14) *= 3;
     }
+    constexpr int allocation_failed = -13;
+    if (id_.infog[0] == allocation_failed) throw std::bad_alloc();
     return id_.infog[0] == 0 && id_.infog[27] == 0;
   }
   void solve(double* x, int columns) { back_substitute(x, columns, 1); }
@@ -165,20 +216,68 @@ void for_blocks(Eigen::Ref<Eigen::MatrixXd>& B, Function&& solve) {
   }
 }
 
+// Of a matrix that is not singular: the smallest pivot beside the largest, which counts units of rows and columns as
+// well; where that fails, beside what it has been added up from.
+constexpr double least_pivot = 1e-17, least_left_by_cancellation = 1e-14;
+
+// Units, powers of two, in which every row and every column of a matrix has a largest entry near 1.
+struct Units {
+  Eigen::VectorXd row, column;
+};
+Units balancing_units(const ColumnMatrix& m) {
+  constexpr int sweeps = 12;
+  Units u{Eigen::VectorXd::Ones(m.rows), Eigen::VectorXd::Ones(m.columns)};
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(m.rows), column = Eigen::VectorXd::Zero(m.columns);
+    for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) {
+      const double size = std::abs(v * u.row(r) * u.column(c));
+      row(r) = std::max(row(r), size), column(c) = std::max(column(c), size);
+    });
+    const auto adjust = [](Eigen::VectorXd& unit, const Eigen::VectorXd& largest) {
+      for (Eigen::Index k = 0; k < unit.size(); ++k) {
+        if (largest(k) > 0 && std::isfinite(largest(k))) {
+          unit(k) *= std::exp2(-std::round(0.5 * std::log2(largest(k))));
+        }
+      }
+    };
+    adjust(u.row, row);
+    adjust(u.column, column);
+  }
+  return u;
+}
+
 }  // namespace
 
 struct SparseLu::Factors {
   ColumnMatrix matrix;
   std::unique_ptr<KluFactors> klu;
   std::unique_ptr<MumpsFactors> mumps;
+  std::optional<Units> units;  // of the matrix that was factored
+
+  // For units that differ so much that no pivot can be compared with another.
+  bool factor_balanced() {
+    units = balancing_units(matrix);
+    ColumnMatrix balanced = matrix;
+    for (std::int32_t c = 0; c < balanced.columns; ++c) {
+      for (auto k = static_cast<std::size_t>(balanced.start[static_cast<std::size_t>(c)]);
+           k < static_cast<std::size_t>(balanced.start[static_cast<std::size_t>(c) + 1]); ++k) {
+        balanced.value[k] *= units->row(balanced.row[k]) * units->column(c);
+      }
+    }
+    return klu->factor(balanced) && klu->most_cancelled() > least_left_by_cancellation;
+  }
 
   void solve(Eigen::MatrixXd& x) const {
     const auto columns = static_cast<int>(x.cols());
+    if (units) x = units->row.asDiagonal() * x;
     mumps ? mumps->solve(x.data(), columns) : klu->solve(x.data(), matrix.rows, columns);
+    if (units) x = units->column.asDiagonal() * x;
   }
   void solve_transposed(Eigen::MatrixXd& x) const {
     const auto columns = static_cast<int>(x.cols());
+    if (units) x = units->column.asDiagonal() * x;
     mumps ? mumps->solve_transposed(x.data(), columns) : klu->solve_transposed(x.data(), matrix.rows, columns);
+    if (units) x = units->row.asDiagonal() * x;
   }
 };
 
@@ -199,7 +298,7 @@ bool SparseLu::factor(ColumnMatrix matrix) {
       f->klu.reset();
       f->mumps = std::make_unique<MumpsFactors>();
       if (!f->mumps->factor(m)) return false;
-    } else if (!f->klu->factor(m)) {
+    } else if (!(f->klu->factor(m) && f->klu->least_pivot() > least_pivot) && !f->factor_balanced()) {
       return false;
     }
   }

@@ -119,16 +119,28 @@ class System::SystemSignals final : public Signals {
     attach_data(*system_.model_, use);
     if (shares) curves_[{use.id, use.method}] = use.curves;
   }
-  std::int32_t add_memory(double initial) const override { return system_.layout_.add_memory(initial); }
+  std::int32_t add_memory(const Span& owner, double initial) const override {
+    return system_.layout_.add_memory(owner, initial);
+  }
 
  private:
   // "SFORCE/3", the statement of the dataset in which something stands.
   std::string statement_at(const Span& at) const {
     const auto& all = system_.model_->dataset->statements;
+    // What a command wrote stands elsewhere than its statement.
+    for (const Statement& s : all) {
+      if (at.source == s.at.source) break;
+      for (const WrittenArgument& w : s.arguments) {
+        const Span& v = w.value_span;
+        if (v.source == at.source && at.offset >= v.offset && at.offset < v.offset + v.length) return text_of(s);
+      }
+    }
     const auto next = std::upper_bound(all.begin(), all.end(), at.offset,
                                        [](std::uint32_t offset, const Statement& s) { return offset < s.at.offset; });
     if (next == all.begin()) return {};
-    const Statement& s = *std::prev(next);
+    return text_of(*std::prev(next));
+  }
+  static std::string text_of(const Statement& s) {
     return std::string(s.name) + (s.id ? "/" + std::to_string(*s.id) : "");
   }
   const Kernel* kernel(ElementHandle h) const { return kernel_of_set_[static_cast<std::size_t>(h.set)]; }
@@ -144,6 +156,12 @@ class System::SystemSignals final : public Signals {
 
 System::System(std::shared_ptr<const Model> model, const SystemOptions& options) : model_(std::move(model)) {
   for (const Body& b : model_->bodies) layout_.add_body(b.kind, b.label);
+  for (const Body& b : model_->bodies) {
+    if (!b.origin_at.valid()) continue;
+    layout_.remarks.push_back(b.label.full_text() + " has its BCS far from all its markers: the origin of " +
+                              model_->marker(b.origin_at).label.full_text() +
+                              " is taken instead, and its translations are meant where they are those of the BCS");
+  }
   for (const Marker& m : model_->markers) {
     layout_.markers.push_back(m.place);
     layout_.marker_labels.push_back(m.label);
@@ -151,7 +169,7 @@ System::System(std::shared_ptr<const Model> model, const SystemOptions& options)
   auto delays = std::make_unique<DelayKernel>(options.delays);
   signals_ = std::make_unique<SystemSignals>(*this, *delays);
   for (std::size_t s = 0; s < model_->sets.size(); ++s) {
-    if (model_->sets[s]->size() == 0) continue;
+    if (model_->sets[s]->size() == 0 || !model_->sets[s]->active) continue;
     if (auto kernel = model_->sets[s]->make_kernel(*model_, layout_)) {
       signals_->own(s, kernel.get());
       kernels_.push_back(std::move(kernel));
@@ -168,6 +186,7 @@ System::System(std::shared_ptr<const Model> model, const SystemOptions& options)
     starts_.insert(starts_.end(), own.begin(), own.end());
   }
   length_ = model_->characteristic_length();
+  state_settings(model_->settings.initial_conditions);
   scale_.assign(coordinates(), 1.0);
   std::vector<const BodyBlock*> blocks;
   for (const BodyBlock& b : layout_.bodies) {
@@ -266,6 +285,7 @@ void System::equations(const Motion& motion, const ConstraintRows& rows, Equatio
   for (std::int32_t k = 0; k < rows.size(); ++k) {
     const double lambda = motion.lambda[static_cast<std::size_t>(k)];
     if (lambda == 0.0) continue;
+    eq.begin_element(k, 1);
     for (const auto& e : rows.row(k)) eq.add_residual(e.column, -lambda * e.c.g);
   }
 }
@@ -275,12 +295,17 @@ void System::remember(OperatingPoint& op) const {
   for (const auto& kernel : kernels_) kernel->remember(m, op.memory);
 }
 
+std::vector<ElementFault> System::faults(const Motion& motion) const {
+  std::vector<ElementFault> found;
+  for (const auto& kernel : kernels_) kernel->faults(motion, found);
+  return found;
+}
+
 std::string System::fault(const Motion& motion) const {
-  for (const auto& kernel : kernels_) {
-    std::string reason = kernel->fault(motion);
-    if (!reason.empty()) return reason;
-  }
-  return {};
+  const std::vector<ElementFault> found = faults(motion);
+  const auto first = std::find_if(found.begin(), found.end(), [](const ElementFault& f) { return f.in_value; });
+  if (first != found.end()) return first->reason;
+  return found.empty() ? std::string() : found.front().reason;
 }
 
 std::string System::departure(const Motion& motion) const {

@@ -37,6 +37,9 @@ class System {
   const Layout& layout() const { return layout_; }
   const Signals& signals() const;
   double length() const { return length_; }  // by which displacements are made comparable with rotations
+  // How far redundant rows may be from following from the others, in scales of the row: ERROR of IC.
+  double assembly_error() const { return assembly_error_; }
+  void state_settings(const InitialConditionSettings& s) { assembly_error_ = s.error.value_or(1e-10); }
   std::size_t coordinates() const { return static_cast<std::size_t>(layout_.coordinate_count); }
 
   OperatingPoint drawn() const;  // poses and states as the dataset gives them, everything else zero
@@ -49,6 +52,8 @@ class System {
   // Residuals with reactions included, and the wanted partials (patterns are recorded when first wanted).
   void equations(const Motion&, const ConstraintRows&, Equations&, std::initializer_list<Column> wanted) const;
   void remember(OperatingPoint&) const;
+  // Where functions have no finite value or no derivative; the first that has no value, or else the first.
+  std::vector<ElementFault> faults(const Motion&) const;
   std::string fault(const Motion&) const;
   std::string departure(const Motion&) const;
 
@@ -69,7 +74,7 @@ class System {
   std::vector<std::unique_ptr<Kernel>> kernels_;
   std::unique_ptr<SystemSignals> signals_;
   std::vector<StartCondition> starts_;
-  double length_ = 1;
+  double length_ = 1, assembly_error_ = 0;
   std::vector<double> scale_;
   std::vector<std::int32_t> preference_;
 };

@@ -13,18 +13,19 @@
 namespace dynalin::precision {
 
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
-using Dense = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
 struct Value {
   Real re, im;
 };
 
 // Solves F a = −G by elimination with row pivoting; rows that are zero in a column cost nothing.
-inline Dense state_matrix(const PerturbationEquations& p) {
+template <class Number = Real>
+Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> state_matrix(const PerturbationEquations& p) {
+  using Dense = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>;
   const ColumnMatrix& S = p.pencil();
   const Eigen::Index N = p.unknowns(), n = p.states(), m = N - n;
   Dense M = Dense::Zero(N, N);
-  for_each_entry(S, [&](std::int32_t r, std::int32_t c, double v) { M(r, c) += Real(v); });
+  for_each_entry(S, [&](std::int32_t r, std::int32_t c, double v) { M(r, c) += Number(v); });
   std::vector<Eigen::Index> used;
   for (Eigen::Index c = 0; c < m; ++c) {
     Eigen::Index pivot = c;
@@ -38,7 +39,7 @@ inline Dense state_matrix(const PerturbationEquations& p) {
     }
     for (Eigen::Index r = c + 1; r < N; ++r) {
       if (M(r, c) == 0) continue;
-      const Real factor = M(r, c) / M(c, c);
+      const Number factor = M(r, c) / M(c, c);
       for (const Eigen::Index k : used) M(r, k) -= factor * M(c, k);
     }
   }
@@ -47,6 +48,7 @@ inline Dense state_matrix(const PerturbationEquations& p) {
 
 // Empty if the QR iteration does not converge, neither for the matrix nor for its transpose.
 inline std::vector<Value> eigenvalues(const PerturbationEquations& p) {
+  using Dense = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
   const Dense A = state_matrix(p);
   Eigen::EigenSolver<Dense> solver(A, false);
   if (solver.info() != Eigen::Success) solver.compute(A.transpose(), false);

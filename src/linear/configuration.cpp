@@ -1,0 +1,128 @@
+#include "linear/configuration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "analysis/acceleration_rounding.h"
+#include "system/sparse_lu.h"
+
+namespace dynalin {
+
+namespace {
+
+// Estimated roundings of entries below this are of no weight.
+constexpr double suspicious = 1e-9;
+constexpr int samples = 3;
+constexpr double units = 1;   // in the last place
+constexpr double margin = 4;  // a sample is seldom the worst case
+
+}  // namespace
+
+NearSingularity near_singularity(const System& system, const ConstraintRows& rows, const StateChoice& choice) {
+  NearSingularity near;
+  bool square = false;
+  const std::vector<bool> every(choice.gradient.size(), true);
+  ColumnMatrix m = level_matrix(rows, choice, choice.active, every, square);
+  if (!square || m.columns == 0) return near;
+  Eigen::VectorXd size = Eigen::VectorXd::Zero(m.rows);
+  for (std::int32_t c = 0; c < m.columns; ++c) {
+    for (auto k = static_cast<std::size_t>(m.start[static_cast<std::size_t>(c)]);
+         k < static_cast<std::size_t>(m.start[static_cast<std::size_t>(c) + 1]); ++k) {
+      m.value[k] *= system.coordinate_scale(c);
+      size(m.row[k]) = std::max(size(m.row[k]), std::abs(m.value[k]));
+    }
+  }
+  for (std::size_t k = 0; k < m.value.size(); ++k) m.value[k] /= size(m.row[k]);
+  SparseLu lu;
+  if (!lu.factor(m)) return near;
+  // Inverse iteration for the least singular value.
+  Eigen::MatrixXd left(m.rows, 1);
+  for (Eigen::Index k = 0; k < left.rows(); ++k) left(k, 0) = std::sin(1.0 + 1.7 * static_cast<double>(k));
+  for (int pass = 0; pass < 3; ++pass) {
+    left /= left.norm();
+    lu.solve(left);
+    const double grown = left.norm();
+    left /= grown;
+    lu.solve_transposed(left);
+    near.distance = 1 / std::max(grown, left.norm());
+    if (!std::isfinite(near.distance)) return {};
+  }
+  const double largest = left.cwiseAbs().maxCoeff();
+  Eigen::Index r = 0;
+  for (std::int32_t k = 0; k < rows.size(); ++k) {
+    if (!choice.active[static_cast<std::size_t>(k)]) continue;
+    if (std::abs(left(r++, 0)) >= 0.3 * largest) near.rows.push_back(system.row_text(k));
+  }
+  for (const StateLabel& label : choice.labels) {
+    if (std::abs(left(r++, 0)) >= 0.3 * largest) near.rows.push_back(label.text + " of " + label.owner);
+  }
+  return near;
+}
+
+namespace {
+
+// Units of states in which they compare: a coordinate as far as it moves the model by its length or a radian, its rate
+// the fastest rate of the linear model times that.
+Eigen::VectorXd units_of_states(const System& system, const LinearSystem& linear) {
+  Eigen::VectorXd unit = Eigen::VectorXd::Ones(linear.A.rows());
+  const auto n = static_cast<Eigen::Index>(linear.kinematic_states);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const bool rate = linear.model.states[static_cast<std::size_t>(k)].is_rate;
+    const Eigen::MatrixXd& moved = rate ? linear.dqdot : linear.dq;
+    double most = 0;
+    for (std::int32_t c = 0; c < moved.rows(); ++c)
+      most = std::max(most, std::abs(moved(c, k)) / system.coordinate_scale(c));
+    if (most > 0) unit(k) = 1 / most;
+  }
+  double fastest = 0;
+  for (Eigen::Index r = 0; r < n; ++r) {
+    if (!linear.model.states[static_cast<std::size_t>(r)].is_rate) continue;
+    for (Eigen::Index c = 0; c < n; ++c) {
+      const double entry = std::abs(linear.A(r, c)) * unit(c) / unit(r);
+      fastest = std::max(fastest, linear.model.states[static_cast<std::size_t>(c)].is_rate ? entry : std::sqrt(entry));
+    }
+  }
+  for (Eigen::Index k = 0; k < n; ++k) {
+    if (linear.model.states[static_cast<std::size_t>(k)].is_rate && fastest > 0) unit(k) *= fastest;
+  }
+  return unit;
+}
+
+}  // namespace
+
+double relative_size(const System& system, const LinearSystem& linear, const Eigen::MatrixXd& of) {
+  const auto n = static_cast<Eigen::Index>(linear.kinematic_states);
+  if (n == 0) return 0;
+  const Eigen::VectorXd unit = units_of_states(system, linear).head(n);
+  const auto largest = [&](const Eigen::MatrixXd& m) {
+    return (unit.cwiseInverse().asDiagonal() * m.topLeftCorner(n, n).cwiseAbs() * unit.asDiagonal()).eval().maxCoeff();
+  };
+  const double size = largest(linear.A);
+  return size > 0 ? largest(of) / size : 0;
+}
+
+Eigen::MatrixXd rounding_of_velocities(const System& system, const OperatingPoint& op, const LinearSystem& linear,
+                                       const Linearization& linearize_at) {
+  if (relative_size(system, linear, linear.rounding) <= suspicious) return {};
+  std::minstd_rand random(1);
+  Eigen::MatrixXd worst = Eigen::MatrixXd::Zero(linear.A.rows(), linear.A.cols());
+  for (int k = 0; k < samples; ++k) {
+    Shake s = shake(system.layout(), op, units, random);
+    s.step.setZero();
+    Findings ignored;
+    auto there = reconcile_velocity(system, shaken(system, op, s, 1.0), ignored);
+    if (there) there = solve_acceleration(system, std::move(*there), ignored);
+    if (!there) return worst.setConstant(std::numeric_limits<double>::infinity());
+    const auto other = linearize_at(*there);
+    const auto same = [](const StateLabel& a, const StateLabel& b) { return a.text == b.text && a.owner == b.owner; };
+    if (!other || !std::equal(linear.model.states.begin(), linear.model.states.end(), other->model.states.begin(),
+                              other->model.states.end(), same))
+      return worst.setConstant(std::numeric_limits<double>::infinity());
+    worst = worst.cwiseMax((other->A - linear.A).cwiseAbs());
+  }
+  return margin * worst;
+}
+
+}  // namespace dynalin

@@ -1,0 +1,28 @@
+// How near a singular configuration the operating point is, and what roundings of the point make of the linear model
+// there.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "linear/linear_system.h"
+#include "linear/state_choice.h"
+
+namespace dynalin {
+
+// The constraint rows and chosen coordinates, each row and each coordinate in its own unit, as a matrix: its least
+// singular value, and the rows and coordinates that all but depend on each other there.
+NearSingularity near_singularity(const System&, const ConstraintRows&, const StateChoice&);
+
+// The largest entry against that of the state matrix, lengths of the model, radians and its fastest rate taken as
+// units.
+double relative_size(const System&, const LinearSystem&, const Eigen::MatrixXd& of_matrix);
+
+// How far the entries of the state matrix follow when velocities change by a unit in the last place, and accelerations
+// and reactions with them; poses are what they are. Infinite where a point that near has no such model, empty where the
+// estimated roundings of the entries are of no weight: then nothing is tried.
+using Linearization = std::function<Result<LinearSystem>(const OperatingPoint&)>;
+Eigen::MatrixXd rounding_of_velocities(const System&, const OperatingPoint&, const LinearSystem&, const Linearization&);
+
+}  // namespace dynalin

@@ -1,0 +1,39 @@
+// Motions of the bodies weighed by the root of their mass: products of weighed columns are those of the mass matrix.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "system/system.h"
+
+namespace dynalin {
+
+// Columns of coordinates become columns of √mass · motion: six rows for each body that has mass, the displacement of
+// its mass centre and its rotation in principal axes. User units: no factor of consistency.
+class MassRoot {
+ public:
+  MassRoot(const System&, const OperatingPoint&);
+
+  std::size_t bodies() const { return items_.size(); }
+  std::size_t body(std::size_t k) const { return items_[k].body; }  // whose rows are 6k … 6k + 5
+
+  Eigen::MatrixXd of(const Eigen::MatrixXd& columns) const;
+  // What `of` would give if nothing cancelled, column by column: its rounding is measured against this.
+  Eigen::RowVectorXd size_of(const Eigen::MatrixXd& columns) const;
+  // The model moved along and turned about three axes at a point.
+  Eigen::MatrixXd of_rigid_motion(const Vector& origin, const Matrix3& axes) const;
+
+ private:
+  struct Item {
+    std::size_t body;
+    std::int32_t offset;
+    bool turns;
+    double mass_root;
+    Vector arm, centre{};
+    Eigen::Matrix3d inertia_root{};
+  };
+  double length_;
+  std::vector<Item> items_;
+};
+
+}  // namespace dynalin

@@ -1,0 +1,76 @@
+// Why an expression has no finite value or gradient here.
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/bound_expression.h"
+#include "mechanics/seeded_frames.h"
+
+namespace dynalin {
+
+std::string BoundExpression::fault_of_value(const Motion& motion, const std::vector<double>& values) const {
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (std::isfinite(values[k])) continue;
+    const BoundAtom& a = atoms_[k];
+    const bool straight =
+        a.axes_marker.straight(motion) ||
+        std::any_of(a.places.begin(), a.places.end(), [&](const auto& p) { return p.straight(motion); });
+    return std::string(expression_.atoms()[k].at.text()) +
+           (straight ? " reads the y or z axis of a marker at a point of contact where the curve is straight"
+                     : " has no finite value");
+  }
+  const auto found = expression_.find_fault<double>(values, FaultSearch::value);
+  return found ? found->reason : std::string();
+}
+
+bool BoundExpression::has_gradient(const BoundAtom& a, const Motion& motion) const {
+  const auto finite = [](const auto& partials) {
+    return std::all_of(partials.begin(), partials.end(), [](double p) { return std::isfinite(p); });
+  };
+  for (std::size_t b = 0; b < a.body_count; ++b) {
+    const auto gradient_of = [&]<std::size_t N>() {
+      return finite(path::seeded_measure<N>(a.measure, a.places, motion, a.bodies[b]).value.partial);
+    };
+    const bool defined = a.order == 0   ? gradient_of.operator()<6>()
+                         : a.order == 1 ? gradient_of.operator()<12>()
+                                        : gradient_of.operator()<18>();
+    if (!defined) return false;
+  }
+  return true;
+}
+
+std::string BoundExpression::fault_of_gradient(const Motion& motion, const std::vector<double>& values,
+                                               Derivatives derivatives) const {
+  if (const auto found = expression_.find_fault<double>(values, FaultSearch::value_and_partials)) return found->reason;
+  ExpressionScratch scratch;
+  scratch.partials.resize(atoms_.size());
+  expression_.evaluate<double>(values, std::span(scratch.partials), scratch.plain);
+  for (std::size_t k = 0; k < atoms_.size(); ++k) {
+    const BoundAtom& a = atoms_[k];
+    const bool vanishes = scratch.partials[k] == 0.0 && passes_over(k, scratch);
+    if (vanishes && (derivatives == Derivatives::first || !expression_.reaches(k, scratch.plain))) continue;
+    const std::string text(expression_.atoms()[k].at.text());
+    if (a.kind == BoundAtom::Kind::measure && !has_gradient(a, motion)) {
+      const std::string_view place = place_without_gradient(a.measure);
+      return text + " has no derivative " + std::string(place.empty() ? "here" : place);
+    }
+    if (a.kind == BoundAtom::Kind::force && is_size_of_nothing(a, motion)) {
+      return text + " has no derivative where it is 0";
+    }
+  }
+  if (derivatives == Derivatives::first) return {};
+  fill_rates(motion, scratch);
+  const auto found = expression_.find_fault<Taylor>(scratch.taylor_atoms, FaultSearch::value_and_partials);
+  return found ? found->reason : std::string();
+}
+
+void BoundExpression::find_fault(const Motion& motion, const ElementLabel& of, std::vector<ElementFault>& faults,
+                                 Derivatives derivatives) const {
+  std::vector<double> values;
+  for (const BoundAtom& a : atoms_) values.push_back(atom_value(a, motion));
+  std::string reason = fault_of_value(motion, values);
+  const bool in_value = !reason.empty();
+  if (!in_value) reason = fault_of_gradient(motion, values, derivatives);
+  if (!reason.empty()) faults.push_back({&of, of.full_text() + ": " + reason, in_value});
+}
+
+}  // namespace dynalin

@@ -1,0 +1,52 @@
+// What each element on its own adds to the equations, before anything is summed up: in a sum over elements a small
+// contribution beside large ones is lost, and whether every single one vanishes cannot be seen any more.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace dynalin {
+
+enum class Column : std::uint8_t;
+
+struct ElementTrace {
+  struct Partial {
+    Column family;
+    std::int32_t row, column;
+    double value;
+    std::int32_t term;  // of an algebraic or differential equation, −1 if the entry stands alone
+  };
+  struct Load {  // on a row of the force balance
+    std::int32_t row;
+    double value;
+  };
+  // One force, joint or body; entries up to those of the next one are its own.
+  struct Element {
+    std::size_t first_partial, first_load;
+    std::int32_t first_row, row_count;  // the constraint rows whose reactions it is, if any
+  };
+  std::vector<Element> elements;
+  std::vector<Partial> partials;
+  std::vector<Load> loads;
+  std::vector<double> coefficients;  // of terms: how much of what the term reads an equation takes
+
+  void clear() {
+    elements.clear(), partials.clear(), loads.clear(), coefficients.clear();
+    term = -1;
+    begin(-1, 0);
+  }
+  void begin(std::int32_t first_row, std::int32_t row_count) {
+    elements.push_back({partials.size(), loads.size(), first_row, row_count});
+  }
+  std::size_t end_of_partials(std::size_t e) const {
+    return e + 1 < elements.size() ? elements[e + 1].first_partial : partials.size();
+  }
+  std::size_t end_of_loads(std::size_t e) const {
+    return e + 1 < elements.size() ? elements[e + 1].first_load : loads.size();
+  }
+
+  std::int32_t term = -1;  // the one that is being added
+};
+
+}  // namespace dynalin

@@ -1,0 +1,30 @@
+#include "system/undefined_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dynalin {
+
+std::string fault_of(const std::vector<ElementFault>& faults, const ElementLabel& label) {
+  const auto found = std::find_if(faults.begin(), faults.end(), [&](const ElementFault& f) {
+    return f.of->statement == label.statement && f.of->id == label.id;
+  });
+  return found == faults.end() ? std::string() : found->reason;
+}
+
+std::optional<std::string> undefined_row(const System& system, const Motion& motion, const ConstraintRows& rows) {
+  for (std::int32_t k = 0; k < rows.size(); ++k) {
+    const auto row = rows.row(k);
+    const bool finite = std::all_of(row.begin(), row.end(), [](const ConstraintRows::Entry& e) {
+      return std::isfinite(e.c.g) && std::isfinite(e.c.v) && std::isfinite(e.c.a1) && std::isfinite(e.c.a0);
+    });
+    if (finite) continue;
+    const auto at = static_cast<std::size_t>(k);
+    std::string reason;
+    if (at < system.layout().rows.size()) reason = fault_of(system.faults(motion), *system.layout().rows[at].owner);
+    return reason.empty() ? system.row_text(k) + " has no finite derivative" : reason;
+  }
+  return std::nullopt;
+}
+
+}  // namespace dynalin

@@ -1,0 +1,17 @@
+// Constraint rows whose gradient is no finite number: of functions that have no derivative where the model stands.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "system/system.h"
+
+namespace dynalin {
+
+// A sentence that names the first of them, and the function; nothing if all have a gradient.
+std::optional<std::string> undefined_row(const System&, const Motion&, const ConstraintRows&);
+
+// What is known of an element among the faults of a system; empty if nothing is.
+std::string fault_of(const std::vector<ElementFault>&, const ElementLabel&);
+
+}  // namespace dynalin

@@ -1,0 +1,62 @@
+// What tables and JSON say of eigenvalues that are not certain to all digits printed.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cases/run.h"
+
+namespace dynalin::cases {
+namespace {
+
+class EigenDoubt : public Cases {};
+
+// (s + 1)^7: one eigenvalue, seven times, with one vector.
+const char* const seventh_power =
+    "controller\nPART/1, GROUND\nVARIABLE/1, FUNCTION=0\nARRAY/1, U, VARIABLES=1\nARRAY/2, X\nARRAY/3, Y\n"
+    "TFSISO/1, U=1, X=2, Y=3, NUM=1, DEN=1,7,21,35,35,21,7,1\nEND\n";
+const char* const simple_lag =
+    "controller\nPART/1, GROUND\nVARIABLE/1, FUNCTION=0\nARRAY/1, U, VARIABLES=1\nARRAY/2, X\nARRAY/3, Y\n"
+    "TFSISO/1, U=1, X=2, Y=3, NUM=1, DEN=2,3,1\nEND\n";
+
+TEST_F(EigenDoubt, a_defective_eigenvalue_is_printed_as_the_mean_of_its_cluster_and_marked) {
+  const RunResult r = run(seventh_power, "LINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const double exact = -1 / (2 * 3.14159265358979323846);
+  ASSERT_EQ(r.result(0).at("modes").size(), 7u);
+  for (const auto& m : r.result(0).at("modes")) {
+    EXPECT_EQ(m.at("cluster_size").get<int>(), 7);
+    const double bound = m.at("error_bound_hz").get<double>();
+    EXPECT_LE(std::abs(m.at("real_hz").get<double>() - exact), 1e-15);  // rounding of the mean and of 1/2π
+    EXPECT_GT(bound, 1e-6);  // what 1e-19 makes of a value seven times defective
+    EXPECT_LT(bound, 0.05);
+    EXPECT_EQ(m.at("imag_hz").get<double>(), 0);
+  }
+  EXPECT_NE(r.message.find("1             -1.59155E-01?\n"), std::string::npos) << r.message;
+  EXPECT_NE(r.message.find("? the error bound is larger than the last digit printed"), std::string::npos);
+  EXPECT_NE(r.message.find("1 to 7: the mean of 7 eigenvalues within"), std::string::npos);
+  EXPECT_NE(r.out.find("-0.1591549?"), std::string::npos) << r.out;
+}
+
+TEST_F(EigenDoubt, well_determined_values_bear_no_mark) {
+  const RunResult r = run(simple_lag, "LINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.message.find('?'), std::string::npos) << r.message;
+  EXPECT_EQ(r.out.find('?'), std::string::npos) << r.out;
+}
+
+TEST_F(EigenDoubt, without_vectors_values_and_bounds_are_the_same) {
+  for (const char* dataset : {seventh_power, simple_lag}) {
+    const RunResult r = run(dataset, "LINEAR/EIGENSOL\nLINEAR/EIGENSOL, NOVECTOR\n");
+    ASSERT_EQ(r.status, 0) << r.err;
+    const auto &with = r.result(0).at("modes"), &without = r.result(1).at("modes");
+    ASSERT_EQ(with.size(), without.size());
+    for (std::size_t k = 0; k < with.size(); ++k) {
+      for (const char* what : {"real_hz", "imag_hz", "error_bound_hz", "condition", "cluster_size"})
+        EXPECT_EQ(with.at(k).at(what), without.at(k).at(what)) << what;
+      EXPECT_FALSE(without.at(k).contains("vector"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dynalin::cases

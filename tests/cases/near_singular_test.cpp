@@ -1,0 +1,172 @@
+// Mechanisms near their dead points, moving and at rest: the linear model is right, or it is refused with a reason.
+#include <gtest/gtest.h>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
+#include <numbers>
+#include <regex>
+
+#include "cases/dataset_text.h"
+
+namespace dynalin::cases {
+namespace {
+
+using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
+
+class NearSingular : public Cases {
+ protected:
+  // Examines one mechanism of one freedom whose coefficients are known: x″ = a1 x′ + a0 x, known to `digits` relative.
+  // Says whether it was linearized.
+  bool examine(const std::string& dataset, double a1, double a0, double digits,
+               const std::string& commands = "") const {
+    const RunResult r = run(dataset, commands + "LINEAR/EIGENSOL\n");
+    if (r.status == 2) {
+      EXPECT_NE(r.err.find("singular"), std::string::npos) << r.err;
+      EXPECT_NE(r.err.find("JOINT/"), std::string::npos) << r.err;
+      return false;
+    }
+    EXPECT_EQ(r.status, 0) << r.err;
+    if (r.status != 0) return false;
+    const std::string said = r.err + r.out + r.message;
+    if (said.find("configuration is singular") != std::string::npos) return false;
+    std::smatch stated;
+    if (std::regex_search(said, stated, std::regex("changes the state matrix by ([0-9.e+-]+) of its size")))
+      digits = std::max(digits, 10 * std::stod(stated[1]));
+    const auto& result = r.result(r.json.at("results").size() - 1);
+    const auto values = r.eigenvalues(r.json.at("results").size() - 1);
+    EXPECT_EQ(values.size(), 2u);
+    if (values.size() != 2) return true;
+    for (const auto& mode : result.at("modes"))
+      digits = std::max(digits, 4 * mode.at("error_bound_hz").get<double>() / std::abs(values[0]));
+    constexpr double cycle = 2 * std::numbers::pi;
+    const std::complex<double> sum = cycle * (values[0] + values[1]), product = cycle * cycle * values[0] * values[1];
+    EXPECT_LE(std::abs(product + a0), digits * std::abs(a0)) << product << " for " << -a0;
+    EXPECT_LE(std::abs(sum - a1), digits * std::max(std::abs(a1), std::sqrt(std::abs(a0)))) << sum << " for " << a1;
+    return true;
+  }
+};
+
+std::string angles_text(const Real& psi, const Real& theta = 0, const Real& phi = 0) {
+  return fmt::format("{:.17g},{:.17g},{:.17g}", psi.convert_to<double>(), theta.convert_to<double>(),
+                     phi.convert_to<double>());
+}
+
+TEST_F(NearSingular, parallelograms_near_the_flat_position) {
+  for (int k = 1; k <= 12; ++k) {
+    const double angle = std::pow(10.0, -k);
+    const bool at_rest = examine(parallelogram(angle, 0, 28), 0, -8, 1e-9);
+    EXPECT_TRUE(at_rest || k > 8) << k;
+    const bool moving = examine(parallelogram(angle, 300, 28), 0, -8, 1e-9);
+    EXPECT_TRUE(moving || k > 4) << k;
+  }
+}
+
+// Crank of length 1 with inertia 2 about its hinge, rod of length 3 with its mass 1 and inertia 1/2 at the wrist pin,
+// slider of mass 2, a spring of stiffness 7 on the crank that is free at `free_angle`.
+std::string slider_crank(const Real& angle, double speed, double free_angle) {
+  const Real c = cos(angle), s = sin(angle), tilt = asin(s / 3), x = c + 3 * cos(tilt);
+  const Real w = speed, tilt_rate = w * c / (3 * cos(tilt)), v = -w * s - 3 * sin(tilt) * tilt_rate;
+  const auto d = [](const Real& r) { return r.convert_to<double>(); };
+  return fmt::format(
+      "Slider-crank\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, REULER=90D,90D,0\n"
+      "PART/2, MASS=1, CM=20, IP=2,2,2, REULER={0}, WZ={1:.17g}\nMARKER/20\nMARKER/22, QP=1,0,0\n"
+      "PART/3, MASS=1, CM=30, IP=0.5,0.5,0.5, QG={2:.17g},{3:.17g},0, REULER={4}, VX={5:.17g}, VY=0, "
+      "WZ={6:.17g}\nMARKER/30, QP=3,0,0\nMARKER/31\nPART/4, MASS=2, CM=40, IP=1,1,1, QG={7:.17g},0,0, "
+      "VX={5:.17g}\nMARKER/40\nMARKER/41, REULER=90D,90D,0\nJOINT/1, REVOLUTE, I=20, J=1\nJOINT/2, REVOLUTE, I=31, "
+      "J=22\n"
+      "JOINT/3, REVOLUTE, I=30, J=40\nJOINT/4, TRANSLATIONAL, I=41, J=2\n"
+      "SPRINGDAMPER/1, ROTATIONAL, I=20, J=1, KT=7, CT=0, ANGLE={8:.17g}\n",
+      angles_text(angle), speed, d(c), d(s), angles_text(-tilt), d(v), d(-tilt_rate), d(x), free_angle);
+}
+
+// J(a) a″ + ½ J′ a′² + 7 (a − free) = 0.
+Real slider_crank_inertia(const Real& a) {
+  const Real tilt = asin(sin(a) / 3), tilt_slope = cos(a) / (3 * cos(tilt));
+  const Real slope = -sin(a) - 3 * sin(tilt) * tilt_slope;
+  return 2 + 3 * slope * slope + tilt_slope * tilt_slope / 2;
+}
+template <class F>
+Real slope_of(F&& f, const Real& at) {
+  const Real h("1e-16");
+  return (8 * (f(at + h) - f(at - h)) - (f(at + 2 * h) - f(at - 2 * h))) / (12 * h);
+}
+
+TEST_F(NearSingular, slider_cranks_near_both_dead_points) {
+  for (int k = 1; k <= 12; ++k) {
+    for (const double dead : {0.0, std::numbers::pi}) {
+      for (const double speed : {0.0, 40.0}) {
+        const Real angle = Real(dead == 0 ? std::pow(10.0, -k) : dead - std::pow(10.0, -k));
+        const auto inertia_slope = [](const Real& a) { return slope_of(slider_crank_inertia, a); };
+        const auto acceleration = [&](const Real& a) {
+          return -(inertia_slope(a) * speed * speed / 2 + 7 * (a - Real("0.3"))) / slider_crank_inertia(a);
+        };
+        const Real a0 = slope_of(acceleration, angle), a1 = -inertia_slope(angle) * speed / slider_crank_inertia(angle);
+        EXPECT_TRUE(
+            examine(slider_crank(angle, speed, 0.3) + "END\n", a1.convert_to<double>(), a0.convert_to<double>(), 1e-9))
+            << k << " " << dead << " " << speed;
+      }
+    }
+  }
+}
+
+// With the slider's displacement as the coordinate the crank moves 1/angle times as far. At rest where the spring is
+// free the values do not depend on it: 7/J.
+TEST_F(NearSingular, slider_cranks_in_the_coordinate_of_the_slider) {
+  for (int k = 1; k <= 12; ++k) {
+    const double angle = std::pow(10.0, -k);
+    const std::string dataset =
+        slider_crank(Real(angle), 0, angle) + "VARIABLE/1, FUNCTION=DX(40,1)\nPSTATE/1, VARIABLES=1\nEND\n";
+    const RunResult r = run(dataset, "LINEAR/EIGENSOL, PSTATE=1\n");
+    if (r.status == 2) {
+      EXPECT_NE(r.err.find("singular"), std::string::npos) << r.err;
+      EXPECT_GT(k, 6);
+      continue;
+    }
+    ASSERT_EQ(r.status, 0) << r.err;
+    const double w = std::sqrt(7 / slider_crank_inertia(Real(angle)).convert_to<double>()) / (2 * std::numbers::pi);
+    const auto values = r.eigenvalues(0);
+    ASSERT_EQ(values.size(), 2u);
+    EXPECT_NEAR(std::abs(values[0]), w, 1e-6 * w) << k;
+  }
+}
+
+// Two shafts on hinges with a universal joint between them, the second bent by nearly 90 degrees; the pins of the first
+// at `turn`. A spring of stiffness 5 on the first; the second turns r times as far, w² = 5/(2 + 3 r²).
+struct Shafts {
+  std::string dataset;
+  Real ratio;
+};
+using Vector3 = std::array<Real, 3>;
+Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Real dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+// 3-1-3 angles of axes with this z.
+std::string along(const Vector3& z) { return angles_text(atan2(z[0], -z[1]), acos(z[2] / sqrt(dot(z, z)))); }
+
+Shafts shafts(const Real& from_square, const Real& turn) {
+  const Vector3 first{0, 0, 1}, second{cos(from_square), 0, sin(from_square)}, pin{cos(turn), sin(turn), 0};
+  const Vector3 other = cross(second, pin), normal = cross(pin, other);
+  return {fmt::format("Shafts\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, REULER={0}\n"
+                      "PART/2, MASS=1, CM=20, IP=1,1,2\nMARKER/20\nMARKER/21, REULER={1}\n"
+                      "PART/3, MASS=1, CM=30, IP=3,3,3\nMARKER/30, REULER={0}\nMARKER/31, REULER={2}\n"
+                      "JOINT/1, REVOLUTE, I=20, J=1\nJOINT/2, REVOLUTE, I=30, J=2\nJOINT/3, UNIVERSAL, I=21, J=31\n"
+                      "SPRINGDAMPER/1, ROTATIONAL, I=20, J=1, KT=5, CT=0, ANGLE=0\nEND\n",
+                      along(second), along(pin), along(other)),
+          dot(first, normal) / dot(second, normal)};
+}
+
+TEST_F(NearSingular, universal_joints_bent_by_nearly_a_right_angle) {
+  for (int k = 1; k <= 12; ++k) {
+    for (const double turn : {1e-3, 0.4, std::numbers::pi / 2}) {
+      const Real off = pow(Real(10), -k);
+      const Shafts s = shafts(off, Real(turn));
+      const double a0 = (-5 / (2 + 3 * s.ratio * s.ratio)).convert_to<double>();
+      const bool done = examine(s.dataset, 0, a0, 1e-9 + 1e-14 * std::pow(10.0, k));
+      EXPECT_TRUE(done || k > 7) << k << " " << turn;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dynalin::cases

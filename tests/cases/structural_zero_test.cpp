@@ -1,0 +1,171 @@
+// A zero eigenvalue is said to be exact where the structure of the model proves it, and nowhere else.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cases/dataset_text.h"
+
+namespace dynalin::cases {
+namespace {
+
+class StructuralZeros : public Cases {
+ protected:
+  struct Mode {
+    std::complex<double> value;  // rad per unit time
+    double bound;
+    bool structural_zero;
+  };
+  std::vector<Mode> solve(const std::string& dataset, const std::string& commands = "LINEAR/EIGENSOL\n") const {
+    const RunResult r = run(dataset, commands);
+    EXPECT_EQ(r.status, 0) << r.err;
+    std::vector<Mode> modes;
+    if (r.status != 0) return modes;
+    for (const auto& m : r.result(r.json.at("results").size() - 1).at("modes")) {
+      constexpr double cycle = 2 * std::numbers::pi;
+      modes.push_back({cycle * std::complex<double>(m.at("real_hz"), m.at("imag_hz")),
+                       m.at("error_bound_hz").is_null() ? std::numeric_limits<double>::infinity()
+                                                        : cycle * m.at("error_bound_hz").get<double>(),
+                       m.at("structural_zero")});
+    }
+    return modes;
+  }
+  static std::size_t zeros(const std::vector<Mode>& modes) {
+    return static_cast<std::size_t>(std::count_if(modes.begin(), modes.end(), [](const Mode& m) {
+      EXPECT_TRUE(!m.structural_zero || (m.value == 0.0 && m.bound == 0));
+      return m.structural_zero;
+    }));
+  }
+};
+
+// z′ = A z, A by rows.
+std::string linear_states(std::size_t n, const std::vector<double>& A) {
+  std::string s = fmt::format(
+      "States\nPART/1, GROUND\nARRAY/1, X\nMATRIX/1, FULL=RORDER, ROWS={0}, COLUMNS={0}, "
+      "VALUES={1:.17g}",
+      n, A[0]);
+  for (std::size_t k = 1; k < A.size(); ++k) s += fmt::format("{}{:.17g}", k % 6 ? "," : "\n,  ", A[k]);
+  return s + "\nLSE/1, X=1, A=1\nEND\n";
+}
+
+TEST_F(StructuralZeros, coefficients_that_all_but_cancel_make_none) {
+  const auto modes = solve(linear_states(2, {1e7, -9999999, 10000001, -1e7}));
+  ASSERT_EQ(modes.size(), 2u);
+  EXPECT_EQ(zeros(modes), 0u);
+  for (const Mode& m : modes) EXPECT_LE(std::abs(std::abs(m.value.real()) - 1), m.bound) << m.value << " " << m.bound;
+}
+
+// The same as forces: x″ = A x has the values ±1 and ±j.
+TEST_F(StructuralZeros, forces_that_all_but_cancel_make_none) {
+  const auto modes = solve(
+      "Forces\nPART/1, GROUND\nMARKER/1, REULER=90D,90D,0\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20, "
+      "REULER=90D,90D,0\n"
+      "PART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30, REULER=90D,90D,0\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
+      "JOINT/2, TRANSLATIONAL, I=30, J=1\n"
+      "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=1E7*DX(20,1,0)-9999999*DX(30,1,0)\n"
+      "SFORCE/2, TRANSLATIONAL, ACTIONONLY, I=30, J=1, FUNCTION=10000001*DX(20,1,0)-1E7*DX(30,1,0)\nEND\n");
+  EXPECT_EQ(zeros(modes), 0u);
+  for (const Mode& m : modes) EXPECT_LE(std::abs(std::abs(m.value) - 1), m.bound) << m.value << " " << m.bound;
+}
+
+// Slides along x with unit masses; springs by stiffness between neighbours, the first one to the ground.
+std::string slides(const std::vector<double>& stiffness) {
+  std::string s = "Slides\nPART/1, GROUND\nMARKER/1, REULER=90D,90D,0\n";
+  for (std::size_t k = 0; k < stiffness.size(); ++k) {
+    const std::size_t part = k + 2;
+    s += fmt::format(
+        "PART/{0}, MASS=1, CM={0}0, IP=1,1,1, QG={1},0,0\nMARKER/{0}0\nMARKER/{0}1, REULER=90D,90D,0\n"
+        "JOINT/{0}, TRANSLATIONAL, I={0}1, J=1\n",
+        part, part - 1);
+    if (stiffness[k] != 0)
+      s += fmt::format("SPRINGDAMPER/{0}, TRANSLATION, I={0}0, J={2}, K={1:.17g}, LENGTH=1\n", part, stiffness[k],
+                       k == 0 ? "1" : fmt::format("{}0", part - 1));
+  }
+  return s + "END\n";
+}
+
+TEST_F(StructuralZeros, a_soft_spring_beside_a_stiff_one_is_none) {
+  for (const double soft : {1e-2, 1e-4, 1e-6, 1e-10}) {
+    const auto modes = solve(slides({soft, 1e12}));
+    EXPECT_EQ(zeros(modes), 0u) << soft;
+  }
+  // One that the sum of both still has digits of: w² = k/2.
+  const auto modes = solve(slides({1e-1, 1e12}));
+  ASSERT_EQ(modes.size(), 2u);
+  EXPECT_NEAR(std::norm(modes[0].value), 0.05, 1e-3 * 0.05);
+}
+
+// Both slides move alike, and nothing holds them; what lies between stiff and soft springs does not spoil that.
+TEST_F(StructuralZeros, what_nothing_holds_has_two_whatever_holds_it_together) {
+  for (const std::vector<double>& k : {std::vector<double>{0, 1e12, 1e-2, 3}, std::vector<double>{0, 1, 1e-9, 1e9},
+                                       std::vector<double>{0, 1e-3, 2e-3}}) {
+    const auto modes = solve(slides(k));
+    EXPECT_EQ(zeros(modes), 2u);
+    for (const Mode& m : modes) EXPECT_EQ(m.structural_zero, m.value == 0.0);
+  }
+}
+
+TEST_F(StructuralZeros, a_frank_matrix_has_none) {
+  for (const std::size_t n : {12u, 16u, 17u, 20u}) {
+    std::vector<double> A;
+    for (std::size_t i = 1; i <= n; ++i) {
+      for (std::size_t j = 1; j <= n; ++j) A.push_back(j + 1 < i ? 0.0 : static_cast<double>(n + 1 - std::max(i, j)));
+    }
+    EXPECT_EQ(zeros(solve(linear_states(n, A))), 0u) << n;
+  }
+}
+
+// Integrators first, last and between lags, and states without an equation of their own.
+TEST_F(StructuralZeros, integrators_anywhere_in_a_chain_have_one_each) {
+  const auto modes = solve(
+      "Chain\nPART/1, GROUND\nDIFF/1, IC=1, FUNCTION=DIF(2)\nDIFF/2, IC=1, FUNCTION=-2*DIF(2)+DIF(3)\n"
+      "DIFF/3, IC=1, FUNCTION=3*DIF(4)\nDIFF/4, IC=1, FUNCTION=-5*DIF(4)+DIF(5)\nDIFF/5, IC=1, FUNCTION=0\n"
+      "DIFF/6, IC=1, FUNCTION=-DIF(6)+DIF(5)\nEND\n");
+  ASSERT_EQ(modes.size(), 6u);
+  EXPECT_EQ(zeros(modes), 3u);
+  EXPECT_NEAR(modes[3].value.real(), -1, 1e-14);
+  EXPECT_NEAR(modes[4].value.real(), -2, 1e-14);
+  EXPECT_NEAR(modes[5].value.real(), -5, 1e-14);
+}
+
+// A sensor with a lag on a slide that floats follows it; a controller that holds the slide by a measured place ends it.
+TEST_F(StructuralZeros, sensors_follow_and_controllers_hold) {
+  const std::string slide =
+      "Slide\nPART/1, GROUND\nMARKER/1, REULER=90D,90D,0\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20, "
+      "REULER=90D,90D,0\n"
+      "JOINT/1, TRANSLATIONAL, I=20, J=1\nDIFF/1, IC=0, FUNCTION=-4*DIF(1)+DX(20,1)\n";
+  const auto sensed = solve(slide + "END\n");
+  ASSERT_EQ(sensed.size(), 3u);
+  EXPECT_EQ(zeros(sensed), 2u);
+  const auto held = solve(slide + "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=-1E-6*DIF(1)\nEND\n");
+  EXPECT_EQ(zeros(held), 0u);
+}
+
+// Displacements taken with equal weight: their difference is meant.
+TEST_F(StructuralZeros, a_force_of_a_difference_of_displacements_lets_both_go) {
+  const auto modes = solve(
+      "Difference\nPART/1, GROUND\nMARKER/1, REULER=90D,90D,0\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20, "
+      "REULER=90D,90D,0\nPART/3, MASS=2, CM=30, IP=1,1,1\nMARKER/30, REULER=90D,90D,0\nJOINT/1, TRANSLATIONAL, I=20, "
+      "J=1\n"
+      "JOINT/2, TRANSLATIONAL, I=30, J=1\n"
+      "SFORCE/1, TRANSLATIONAL, I=20, J=30, ACTIONONLY, FUNCTION=-3E5*(DX(20,1)-DX(30,1))\n"
+      "SFORCE/2, TRANSLATIONAL, I=30, J=20, ACTIONONLY, FUNCTION=3E5*(DX(20,1)-DX(30,1))\nEND\n");
+  ASSERT_EQ(modes.size(), 3u);
+  EXPECT_EQ(zeros(modes), 2u);
+}
+
+TEST_F(StructuralZeros, a_parallelogram_near_its_flat_position_keeps_its_stiffness) {
+  for (const double angle : {1e-1, 1e-3, 1e-5, 1e-6}) {
+    for (const double speed : {0.0, 300.0}) {
+      const auto modes = solve(parallelogram(angle, speed, 25));
+      EXPECT_EQ(zeros(modes), 0u) << angle << " " << speed;
+    }
+  }
+}
+
+TEST_F(StructuralZeros, a_parallelogram_without_a_spring_moves_freely) {
+  for (const double angle : {1e-1, 0.7, 1.2}) EXPECT_EQ(zeros(solve(parallelogram(angle, 0, 0))), 2u);
+}
+
+}  // namespace
+}  // namespace dynalin::cases
