@@ -2,49 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
+#include "analysis/acceleration_checks.h"
+#include "analysis/acceleration_equations.h"
 #include "analysis/acceleration_rounding.h"
 #include "analysis/initial.h"
 #include "analysis/saddle.h"
+#include "system/undefined_rows.h"
 
 namespace dynalin {
 
 namespace {
 
-constexpr int iteration_limit = 50;
+constexpr int iteration_limit = 100;
+// Solutions with undefined equations held, after which a reason is named.
+constexpr int held_limit = 5;
+constexpr int halving_limit = 40;
 // A step no longer than this, in units of what roundings of the point make of it, corrects nothing.
 constexpr double rounding_units_of_step = 8;
-
-// Largest residual of each group of equations relative to the largest sum of terms in that group: forces as they were
-// added, and what the unknowns contribute.
-double relative_imbalance(const ColumnMatrix& m, const Eigen::MatrixXd& residual, const Equations& eq,
-                          const OperatingPoint& op, const Saddle& saddle) {
-  Eigen::VectorXd terms = residual.col(0).cwiseAbs();
-  for (std::int32_t r = 0; r < eq.size(); ++r) terms(saddle.equation(r)) += eq.magnitude()[static_cast<std::size_t>(r)];
-  const auto n = static_cast<std::int32_t>(op.acceleration.size());
-  for (std::int32_t c = 0; c < m.columns; ++c) {
-    const auto at = [](const std::vector<double>& v, std::int32_t k) {
-      return std::abs(v[static_cast<std::size_t>(k)]);
-    };
-    const double x = c < n                     ? at(op.acceleration, c)
-                     : c < saddle.algebraic(0) ? at(op.lambda, c - n)
-                     : c < saddle.state(0)     ? at(op.algebraic, c - saddle.algebraic(0))
-                                               : at(op.state_rate, c - saddle.state(0));
-    for_each_in_column(m, c, [&](std::int32_t r, double v) { terms(r) += std::abs(v) * x; });
-  }
-  double worst = 0;
-  const auto group = [&](std::int32_t first, std::int32_t last) {
-    if (first >= last) return;
-    const double size = terms.segment(first, last - first).maxCoeff();
-    if (size > 0) worst = std::max(worst, residual.col(0).segment(first, last - first).cwiseAbs().maxCoeff() / size);
-  };
-  group(0, n);
-  group(saddle.algebraic(0), saddle.state(0));
-  group(saddle.state(0), saddle.size());
-  // Constraint rows are linear in the accelerations: one solution meets them, and at rest they are pure rounding.
-  return worst;
-}
+// Steps of which none is shorter than a part of all before them have met a rounding that no sum of terms shows, inside
+// an expression. A root of ninefold multiplicity still comes closer than that.
+constexpr int patience = 8;
+constexpr double progress = 0.4;
+// Of an unknown, or of its known rounding: what such steps may be for the point to count as found.
+constexpr double largest_hidden_rounding = 1e-6, hidden_units = 1e3;
+// Of a derivative: lost digits worth a warning, and so many that no derivative is left.
+constexpr double material_loss = 1e-9, loss_of_all = 0.1;
 
 // Corrects values that are already exact to rounding. What all but vanishes was rounding alone and is zero.
 void correct(std::vector<double>& values, std::int32_t offset, const Eigen::MatrixXd& step) {
@@ -96,101 +81,211 @@ tl::unexpected<Failure> failure(std::string message, std::vector<std::string> de
   return tl::unexpected(Failure{"acceleration initial conditions", std::move(message), std::move(details)});
 }
 
+// What a converged iteration leaves behind.
+struct Solution {
+  OperatingPoint op;
+  SparseLu lu;
+  ColumnMatrix factored;
+  bool linear = true;           // every point had the same matrix
+  Eigen::VectorXd terms;        // of each equation
+  Eigen::VectorXd uncertainty;  // of each unknown
+};
+
+bool same(const ColumnMatrix& a, const ColumnMatrix& b) {
+  return a.value == b.value && a.row == b.row && a.start == b.start;
+}
+
+// Steps in units of those that count as none; 0/0 is none.
+double longest(const Eigen::VectorXd& step, const Eigen::VectorXd& unit) {
+  double ratio = 0;
+  for (Eigen::Index k = 0; k < step.size(); ++k) {
+    if (step(k) != 0) ratio = std::max(ratio, std::abs(step(k)) / unit(k));
+  }
+  return ratio;
+}
+
+// Decides by the steps of Newton's method, each measured in what rounding makes of its own unknown, when to stop.
+class StepLength {
+ public:
+  // `rounding` is that of the solution, and grows where steps show more. Near a multiple root steps shrink slowly, and
+  // they count until rounding makes them.
+  bool settled(const Eigen::VectorXd& step, Eigen::VectorXd& rounding, const Eigen::VectorXd& size,
+               const std::function<Eigen::VectorXd()>& rounding_of_point) {
+    constexpr double unit = 4 * std::numeric_limits<double>::epsilon();
+    Eigen::VectorXd allowed = rounding.cwiseMax(unit * size);
+    double now = longest(step, allowed);
+    if (now > 1 && now > 0.1 * last_) {
+      allowed = allowed.cwiseMax(rounding_units_of_step * rounding_of_point());
+      now = longest(step, allowed);
+    }
+    last_ = now;
+    if (now <= 1) return true;
+    steps_.push_back(now);
+    const auto recent = static_cast<std::ptrdiff_t>(patience);
+    if (std::ssize(steps_) <= recent) return false;
+    const double before = *std::min_element(steps_.begin(), steps_.end() - recent);
+    const double since = *std::min_element(steps_.end() - recent, steps_.end());
+    const Eigen::VectorXd most = (largest_hidden_rounding * size).cwiseMax(hidden_units * allowed);
+    if (since <= progress * before || longest(step, most) > 1) return false;
+    rounding = rounding.cwiseMax(step.cwiseAbs());
+    return true;
+  }
+  double last() const { return last_; }
+
+ private:
+  double last_ = std::numeric_limits<double>::infinity();
+  std::vector<double> steps_;
+};
+
+// At λ = 0 a force of reactions may have no derivative: it waits until the others have made reactions.
+enum class Start : std::uint8_t { undefined_held, reactions_held };
+
+tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquations& equations, OperatingPoint op,
+                                        Start start) {
+  const Saddle& saddle = equations.saddle();
+  std::vector<std::string> history;
+  Solution found;
+  OperatingPoint regular_point;
+  Eigen::MatrixXd step;
+  bool regular = false;  // an earlier point was
+  bool undefined = false;
+  int held = 0, halved = 0;
+  StepLength length;
+  for (int iteration = 0; iteration < iteration_limit; ++iteration) {
+    equations.release();
+    if (auto looked = equations.look_at_massless(op); !looked) {
+      const std::string reason = system.departure(system.motion(op));
+      return tl::unexpected(reason.empty() ? looked.error() : failure(reason).value());
+    }
+    Eigen::VectorXd next = equations.evaluate(op, AccelerationEquations::unknowns);
+    bool holds = iteration == 0 && start == Start::reactions_held && equations.hold_reactions(next);
+    if (iteration == 0 && start == Start::reactions_held && !holds) return failure("no force depends on reactions");
+    if (!regular && held++ < held_limit) holds = equations.hold_undefined(next) || holds;
+    // Partials without a finite value: the iteration does without them, and names them if it fails.
+    if (!holds) undefined = equations.clear_undefined();
+    ColumnMatrix matrix = equations.matrix();
+    if (!next.allFinite() ||
+        !std::all_of(matrix.value.begin(), matrix.value.end(), [](double v) { return std::isfinite(v); })) {
+      if (regular && halved++ < halving_limit) {
+        step *= 0.5;
+        op = regular_point;
+        equations.move(op, step.col(0));
+        continue;
+      }
+      const std::string reason = system.fault(system.motion(op));
+      return failure(reason.empty() ? "a force or constraint has no finite value" : reason, history);
+    }
+    regular = !holds;
+    halved = 0;
+    step = next;
+    if (!same(matrix, found.factored)) {
+      found.linear = found.linear && found.factored.value.empty();
+      if (!found.lu.factor(matrix)) {
+        if (undefined) {
+          if (const std::string reason = system.fault(system.motion(op)); !reason.empty()) return failure(reason);
+        }
+        if (const std::string reason = system.departure(system.motion(op)); !reason.empty()) return failure(reason);
+        const std::vector<std::string> free = undetermined(system, saddle, equations.saddle_matrix());
+        const std::string named = free.empty() ? "" : fmt::format(": nothing fixes {}", fmt::join(free, ", "));
+        return failure("the accelerations are not determined" + named, free);
+      }
+      found.factored = std::move(matrix);
+    }
+    found.lu.solve(step);
+    if (iteration > 0 && !holds) {
+      found.terms = equations.terms(found.factored, op);
+      Eigen::VectorXd rounding = rounding_of_solution(found.lu, found.terms), size = equations.values(op).cwiseAbs();
+      equations.spread_over_axes(rounding);
+      const bool settled = length.settled(step.col(0), rounding, size, [&] {
+        return rounding_of_accelerations(system, found.lu, op, [&](const OperatingPoint& at) -> Eigen::VectorXd {
+          return equations.evaluate(at, {});
+        });
+      });
+      history.push_back(fmt::format("iteration {}: longest step {:.3e} times its rounding", iteration, length.last()));
+      if (settled) {
+        equations.move(op, step.col(0));
+        found.op = std::move(op);
+        found.uncertainty = std::move(rounding);
+        return found;
+      }
+    }
+    regular_point = op;
+    equations.move(op, step.col(0));
+  }
+  if (undefined) {
+    if (const std::string reason = system.fault(system.motion(op)); !reason.empty()) return failure(reason, history);
+  }
+  equations.evaluate(op, {});
+  const std::string name = farthest_equation(system.layout(), equations.equations());
+  return failure("the equations for accelerations, reactions and algebraic values did not converge" +
+                     (name.empty() ? "" : "; farthest from being met is the equation of " + name),
+                 history);
+}
+
 }  // namespace
 
 Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint op, Findings& findings) {
   const Layout& layout = system.layout();
-  const Saddle saddle(system);
-  ConstraintRows rows;
-  rows.resize(layout);
-  Equations eq;
-  eq.resize(layout);
-  std::vector<std::string> history;
+  AccelerationEquations equations(system, op);
+  if (const auto reason = undefined_row(system, system.motion(op), equations.rows())) return failure(*reason);
+  const Saddle& saddle = equations.saddle();
+  findings.redundant_rows = equations.partition().redundant;
+  for (const std::int32_t r : findings.redundant_rows) op.lambda[static_cast<std::size_t>(r)] = 0.0;
   const std::vector<double> first_values = op.algebraic;
-  double before = std::numeric_limits<double>::infinity();
-  int stalled = 0;
-  SparseLu lu;
+  const std::vector<double> first_velocity = op.velocity;
 
-  system.constraints(system.motion(op), rows);
-  const Partition part = system.partition(rows, true);
-  findings.redundant_rows = part.redundant;
-  for (const std::int32_t r : part.redundant) op.lambda[static_cast<std::size_t>(r)] = 0.0;
-
-  // Minus the residuals at a point, in the order of the saddle matrix.
-  const auto evaluate = [&](const OperatingPoint& at, std::initializer_list<Column> wanted) {
-    const Motion motion = system.motion(at);
-    system.constraints(motion, rows);
-    system.equations(motion, rows, eq, wanted);
-    Eigen::MatrixXd missing = Eigen::MatrixXd::Zero(saddle.size(), 1);
-    for (std::int32_t r = 0; r < eq.size(); ++r)
-      missing(saddle.equation(r), 0) = -eq.residual()[static_cast<std::size_t>(r)];
-    for (std::int32_t k = 0; k < rows.size(); ++k) {
-      if (!part.active[static_cast<std::size_t>(k)]) continue;
-      const Taylor& phi = rows.along_motion(k);
-      missing(saddle.lambda(k), 0) = -(rows.level(k) == RowLevel::position ? phi.acceleration : phi.rate);
-    }
-    return missing;
-  };
-
-  const auto rounding_at = [&](const OperatingPoint& point) {
-    return rounding_of_accelerations(system, lu, point,
-                                     [&](const OperatingPoint& at) -> Eigen::VectorXd { return evaluate(at, {}); });
-  };
-  for (int iteration = 0; iteration < iteration_limit; ++iteration) {
-    Eigen::MatrixXd step = evaluate(op, {Column::acceleration, Column::lambda, Column::algebraic, Column::state_rate});
-    if (!step.allFinite()) {
-      const std::string reason = system.fault(system.motion(op));
-      return failure(reason.empty() ? "a force or constraint has no finite value" : reason, history);
-    }
-    ColumnMatrix matrix = saddle.matrix(eq, rows, part.active, {});
-    const double imbalance = relative_imbalance(matrix, step, eq, op, saddle);
-    history.push_back(fmt::format("iteration {}: relative imbalance {:.3e}", iteration, imbalance));
-    // Solved once and balanced to rounding, or close and no longer falling: the point is as exact as it gets. Stiff
-    // elements turn the rounding of positions into forces, so that a small imbalance that stays is rounding too. Where
-    // all forces vanish an imbalance is relative to rounding, and the step has to be measured against that.
-    stalled = imbalance > 0.1 * before ? stalled + 1 : 0;
-    bool settled =
-        iteration > 0 && (imbalance < 1e-15 || (imbalance < 1e-10 && stalled > 0) || (imbalance < 1e-6 && stalled > 3));
-    const bool balanced = settled && imbalance < 1e-15;
-    if (!settled) {
-      before = imbalance;
-      if (!lu.factor(matrix)) {
-        if (const std::string reason = system.departure(system.motion(op)); !reason.empty()) return failure(reason);
-        const std::vector<std::string> free = undetermined(system, saddle, std::move(matrix));
-        const std::string named = free.empty() ? "" : fmt::format(": nothing fixes {}", fmt::join(free, ", "));
-        return failure("the accelerations are not determined" + named, free);
-      }
-      lu.solve(step);
-      settled = iteration > 0 && stalled > 0 &&
-                (step.col(0).array().abs() <= rounding_units_of_step * rounding_at(op).array()).all();
-    }
-    if (settled) {
-      if (const std::string reason = system.departure(system.motion(op)); !reason.empty()) return failure(reason);
-      warn_of_changed_starts(layout, first_values, op.algebraic, findings);
-      // What is zero by the structure of the model, such as the load of a body in free fall, becomes exactly zero.
-      for (int correction = 0; correction < 2 && balanced; ++correction) {
-        if (correction > 0) step = evaluate(op, {});
-        lu.solve(step);
-        correct(op.acceleration, 0, step);
-        correct(op.lambda, saddle.lambda(0), step);
-      }
-      const Eigen::VectorXd rounding = rounding_at(op);
-      drop_rounding(op.acceleration, 0, rounding);
-      drop_rounding(op.lambda, saddle.lambda(0), rounding);
-      return op;
-    }
-    const auto update = [&](std::vector<double>& x, std::int32_t offset) {
-      for (std::size_t k = 0; k < x.size(); ++k) x[k] += step(offset + static_cast<Eigen::Index>(k), 0);
-    };
-    update(op.acceleration, 0);
-    update(op.lambda, saddle.lambda(0));
-    update(op.algebraic, saddle.algebraic(0));
-    update(op.state_rate, saddle.state(0));
+  auto solution = iterate(system, equations, op, Start::undefined_held);
+  if (!solution) {
+    if (auto again = iterate(system, equations, std::move(op), Start::reactions_held)) solution = std::move(again);
   }
-  const std::string name = farthest_equation(layout, eq);
-  return failure("the equations for accelerations, reactions and algebraic values did not converge" +
-                     (name.empty() ? "" : "; farthest from being met is the equation of " + name),
-                 history);
+  if (!solution) return tl::unexpected(solution.error());
+  op = std::move(solution->op);
+  const SparseLu& lu = solution->lu;
+  if (const std::string reason = system.departure(system.motion(op)); !reason.empty()) return failure(reason);
+  warn_of_changed_starts(layout, first_values, op.algebraic, findings);
+
+  // What is zero by the structure of the model, such as the load of a body in free fall, becomes exactly zero.
+  for (int correction = 0; correction < 2; ++correction) {
+    Eigen::MatrixXd step = equations.evaluate(op, {});
+    lu.solve(step);
+    correct(op.acceleration, 0, step);
+    correct(op.lambda, saddle.lambda(0), step);
+  }
+  const Eigen::VectorXd rounding = rounding_of_accelerations(
+      system, lu, op, [&](const OperatingPoint& at) -> Eigen::VectorXd { return equations.evaluate(at, {}); });
+  drop_rounding(op.acceleration, 0, rounding);
+  drop_rounding(op.lambda, saddle.lambda(0), rounding);
+
+  if (equations.massless().any() || !findings.redundant_rows.empty()) equations.evaluate(op, {});
+  if (auto accepted = equations.massless().accept(first_velocity, op, equations.equations(), findings); !accepted)
+    return tl::unexpected(accepted.error());
+  if (!findings.redundant_rows.empty()) {
+    const auto contradicted =
+        contradicted_accelerations(system, equations, op, rounding.cwiseMax(solution->uncertainty));
+    std::vector<std::string> names;
+    for (const std::int32_t k : contradicted) names.push_back(system.row_text(k));
+    if (!names.empty()) {
+      return failure(fmt::format("the constraints contradict each other on accelerations: {} cannot hold together with "
+                                 "the others",
+                                 fmt::join(names, ", ")),
+                     names);
+    }
+  }
+  if (!solution->linear) {
+    const LostDigits lost =
+        lost_digits(system, equations, lu, solution->factored, op, solution->terms, solution->uncertainty);
+    if (lost.part >= loss_of_all) {
+      return failure(
+          fmt::format("{} stands at a multiple root of its equations, where nothing has a derivative", lost.of));
+    }
+    if (lost.part >= material_loss) {
+      findings.warnings.push_back(
+          fmt::format("the equations have all but a multiple root in {}: rounding leaves its derivatives, and what "
+                      "follows from them, known to {:.1e} of themselves",
+                      lost.of, lost.part));
+    }
+  }
+  return op;
 }
 
 Result<OperatingPoint> initial_conditions(const System& system, Findings& findings) {

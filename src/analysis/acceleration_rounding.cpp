@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <random>
 
 #include "analysis/displace.h"
 
@@ -16,12 +15,10 @@ constexpr double units = 64;
 // A sample is seldom the worst case.
 constexpr double margin = 8;
 
-// A random displacement and change of velocities within the units of the last place of vectors.
-struct Shake {
-  Eigen::VectorXd step, velocity;
-};
-Shake shake(const Layout& layout, const OperatingPoint& op, std::minstd_rand& random) {
-  constexpr double amplitude = units * std::numeric_limits<double>::epsilon();
+}  // namespace
+
+Shake shake(const Layout& layout, const OperatingPoint& op, double places, std::minstd_rand& random) {
+  const double amplitude = places * std::numeric_limits<double>::epsilon();
   const auto draw = [&] { return amplitude * std::uniform_real_distribution<double>(-1, 1)(random); };
   const auto size_of = [](const Vector& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
   Shake s{Eigen::VectorXd::Zero(layout.coordinate_count), Eigen::VectorXd::Zero(layout.coordinate_count)};
@@ -42,7 +39,13 @@ Shake shake(const Layout& layout, const OperatingPoint& op, std::minstd_rand& ra
   return s;
 }
 
-}  // namespace
+OperatingPoint shaken(const System& system, OperatingPoint op, const Shake& s, double direction) {
+  displace(system, op, direction * s.step, 1.0);
+  for (std::size_t k = 0; k < op.velocity.size(); ++k) {
+    op.velocity[k] += direction * s.velocity(static_cast<Eigen::Index>(k));
+  }
+  return op;
+}
 
 Eigen::VectorXd rounding_of_accelerations(const System& system, const SparseLu& lu, const OperatingPoint& op,
                                           const MissingForces& missing) {
@@ -51,16 +54,10 @@ Eigen::VectorXd rounding_of_accelerations(const System& system, const SparseLu& 
   Eigen::MatrixXd answers(here.size(), 2 * samples);  // both ways, side by side
   std::minstd_rand random(1);
   for (int sample = 0; sample < samples; ++sample) {
-    const Shake s = shake(layout, op, random);
+    const Shake s = shake(layout, op, units, random);
     for (const int way : {0, 1}) {
-      const double direction = way == 0 ? 1 : -1;
-      OperatingPoint there = op;
-      displace(system, there, direction * s.step, 1.0);
-      for (std::size_t k = 0; k < there.velocity.size(); ++k) {
-        there.velocity[k] += direction * s.velocity(static_cast<Eigen::Index>(k));
-      }
       auto answer = answers.col(2 * sample + way);
-      answer = missing(there) - here;
+      answer = missing(shaken(system, op, s, way == 0 ? 1 : -1)) - here;
       if (!answer.allFinite()) answer.setZero();
     }
   }
@@ -75,6 +72,16 @@ Eigen::VectorXd rounding_of_accelerations(const System& system, const SparseLu& 
     }
   }
   return margin / units * worst;
+}
+
+Eigen::VectorXd rounding_of_solution(const SparseLu& lu, const Eigen::VectorXd& terms) {
+  Eigen::MatrixXd answers(terms.size(), samples);
+  std::minstd_rand random(1);
+  for (Eigen::Index k = 0; k < answers.size(); ++k) {
+    answers(k) = terms(k % terms.size()) * std::uniform_real_distribution<double>(-1, 1)(random);
+  }
+  lu.solve(answers);
+  return margin * std::numeric_limits<double>::epsilon() * answers.cwiseAbs().rowwise().maxCoeff();
 }
 
 }  // namespace dynalin

@@ -3,11 +3,19 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <random>
 
 #include "analysis/saddle.h"
 #include "system/sparse_lu.h"
 
 namespace dynalin {
+
+// A random displacement and change of velocities, each within some units in the last place of its vector.
+struct Shake {
+  Eigen::VectorXd step, velocity;
+};
+Shake shake(const Layout&, const OperatingPoint&, double units, std::minstd_rand&);
+OperatingPoint shaken(const System&, OperatingPoint, const Shake&, double direction);
 
 // Minus the residuals at a point, in the order of the saddle matrix.
 using MissingForces = std::function<Eigen::VectorXd(const OperatingPoint&)>;
@@ -16,5 +24,9 @@ using MissingForces = std::function<Eigen::VectorXd(const OperatingPoint&)>;
 // equations to displacements and velocities of some units in the last place, taken both ways so that a law that
 // switches at the point itself does not count.
 Eigen::VectorXd rounding_of_accelerations(const System&, const SparseLu&, const OperatingPoint&, const MissingForces&);
+
+// The same of what rounds in solving and evaluating the equations: their answer to some units in the last place of the
+// terms of each.
+Eigen::VectorXd rounding_of_solution(const SparseLu&, const Eigen::VectorXd& terms);
 
 }  // namespace dynalin

@@ -88,9 +88,9 @@ class Curve {
   }
 
   // The unit tangent of the curve with border · t > 0.
-  std::optional<Eigen::VectorXd> direction(const Eigen::VectorXd& border) const {
+  std::optional<Eigen::VectorXd> direction(const Eigen::VectorXd& border) {
     SparseLu lu;
-    if (!equations_.residual().allFinite() || !lu.factor(matrix(border))) return std::nullopt;
+    if (!equations_.residual().allFinite() || !equations_.factor(lu, matrix(border))) return std::nullopt;
     Eigen::MatrixXd t = Eigen::MatrixXd::Zero(border.size(), 1);
     t(border.size() - 1, 0) = 1;
     lu.solve(t);
@@ -117,7 +117,7 @@ class Curve {
       if (level < 1e-9) return p;
       before = level;
       SparseLu lu;
-      if (!lu.factor(matrix(border))) return std::nullopt;
+      if (!equations_.factor(lu, matrix(border))) return std::nullopt;
       lu.solve(step);
       if (weight_.cwiseProduct(step.col(0)).norm() > 1) return std::nullopt;
       p = at(p, step.col(0), 1);

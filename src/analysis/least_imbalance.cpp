@@ -12,30 +12,48 @@ constexpr double near_rest = 1e-6;  // of the forces at play: Newton's method ta
 constexpr int patience = 12;
 constexpr double progress = 0.8;
 
-// ⎡ E   UJC ⎤ ⎡ p ⎤   ⎡ −U r ⎤      E: 1, and 0 for constraint rows, which makes p their multiplier
-// ⎣ (UJC)ᵀ −μ ⎦ ⎣ y ⎦ = ⎣  0   ⎦      U, C: units of equations and unknowns; δ = C y. Reactions are not held by μ.
-std::optional<Eigen::VectorXd> damped_step(const StaticEquations& equations, const Eigen::VectorXd& row_unit,
+// ⎡ AᵀA + μ   Bᵀ ⎤ ⎡ y ⎤   ⎡ −Aᵀ U r ⎤      A, B: rows of U J C but for constraints, and those of constraints, with the
+// ⎣ B         0  ⎦ ⎣ p ⎦ = ⎣ −U r_c  ⎦      units U, C of equations and unknowns; δ = C y. μ does not hold reactions.
+//
+// Equations of rest read few unknowns, so AᵀA stays sparse; the coupled form with A itself fills in without bounds, as
+// pivots leave its diagonal.
+std::optional<Eigen::VectorXd> damped_step(StaticEquations& equations, const Eigen::VectorXd& row_unit,
                                            const Eigen::VectorXd& column_unit, double mu) {
+  struct Entry {
+    std::int32_t column;
+    double value;
+  };
   const Saddle& saddle = equations.saddle();
-  const std::int32_t n = saddle.size();
-  const auto reaction = [&](std::int32_t k) { return k >= saddle.lambda(0) && k < saddle.algebraic(0); };
-  std::vector<Triplet> entries;
+  const std::int32_t n = saddle.size(), first = saddle.lambda(0), m = saddle.algebraic(0) - first;
+  std::vector<std::vector<Entry>> rows(static_cast<std::size_t>(n));
   for_each_entry(equations.tangent(0, 0), [&](std::int32_t r, std::int32_t c, double v) {
-    const double scaled = v * row_unit(r) * column_unit(c);
-    entries.push_back({r, n + c, scaled});
-    entries.push_back({n + c, r, scaled});
+    if (v != 0) rows[static_cast<std::size_t>(r)].push_back({c, v * row_unit(r) * column_unit(c)});
   });
-  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(2 * n, 1);
-  for (std::int32_t k = 0; k < n; ++k) {
-    entries.push_back({k, k, reaction(k) ? 0.0 : 1.0});
-    entries.push_back({n + k, n + k, reaction(k) ? -1e-12 : -mu});
-    x(k, 0) = -row_unit(k) * equations.residual()(k);
+  std::vector<Triplet> entries;
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(n + m, 1);
+  for (std::int32_t r = 0; r < n; ++r) {
+    const double off = -row_unit(r) * equations.residual()(r);
+    const bool constraint = r >= first && r < first + m;
+    const std::int32_t multiplier = n + r - first;
+    if (constraint) x(multiplier, 0) = off;
+    for (const Entry& a : rows[static_cast<std::size_t>(r)]) {
+      if (constraint) {
+        entries.push_back({multiplier, a.column, a.value});
+        entries.push_back({a.column, multiplier, a.value});
+        continue;
+      }
+      x(a.column, 0) += a.value * off;
+      for (const Entry& b : rows[static_cast<std::size_t>(r)]) {
+        entries.push_back({a.column, b.column, a.value * b.value});
+      }
+    }
+    entries.push_back({r, r, constraint ? 1e-12 : mu});
   }
   SparseLu lu;
-  if (!lu.factor(compressed(2 * n, 2 * n, entries))) return std::nullopt;
+  if (!equations.factor(lu, compressed(n + m, n + m, entries))) return std::nullopt;
   lu.solve(x);
   if (!x.allFinite()) return std::nullopt;
-  return Eigen::VectorXd(column_unit.cwiseProduct(x.col(0).tail(n)));
+  return Eigen::VectorXd(column_unit.cwiseProduct(x.col(0).head(n)));
 }
 
 }  // namespace

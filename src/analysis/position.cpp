@@ -2,15 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "analysis/displace.h"
 #include "analysis/initial.h"
+#include "expression/parametric_curve.h"
+#include "system/undefined_rows.h"
 
 namespace dynalin {
 
 namespace {
 
 constexpr double position_tolerance = 1e-13;  // relative to the scale of the row
+// Roundings of its coordinates that a row may show: it sums up some of them, and frames round as well.
+constexpr double rounding_units = 8;
 constexpr int iteration_limit = 50;
 constexpr double exact_weight = 1e8;  // of coordinates that EXACT asks to keep
 
@@ -18,6 +24,29 @@ double row_scale(const System& system, std::span<const ConstraintRows::Entry> ro
   double scale = 0;
   for (const auto& e : row) scale = std::max(scale, std::abs(e.c.g) * system.coordinate_scale(e.column));
   return scale > 0 ? scale : 1.0;
+}
+
+// Of each coordinate, what its last place is counted from: the farthest component of an origin, a radian.
+std::vector<double> coordinate_sizes(const Layout& layout, const OperatingPoint& op) {
+  std::vector<double> size(static_cast<std::size_t>(layout.coordinate_count), 1.0);
+  for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
+    const BodyBlock& block = layout.bodies[b];
+    if (block.count == 0) continue;
+    const Vector& r = op.poses[b].r;
+    std::fill_n(size.begin() + block.offset, 3, std::max({std::abs(r.x), std::abs(r.y), std::abs(r.z)}));
+  }
+  for (std::size_t k = 0; k < op.extra.size(); ++k) {
+    const auto at = static_cast<std::size_t>(layout.body_coordinate_count) + k;
+    size[at] = std::max(1.0, std::abs(op.extra[k]));
+  }
+  return size;
+}
+
+// What the last places of the coordinates make of a row.
+double row_rounding(const std::vector<double>& sizes, std::span<const ConstraintRows::Entry> row) {
+  double sum = 0;
+  for (const auto& e : row) sum += std::abs(e.c.g) * sizes[static_cast<std::size_t>(e.column)];
+  return rounding_units * std::numeric_limits<double>::epsilon() * sum;
 }
 
 std::vector<double> assembly_weights(const System& system) {
@@ -40,6 +69,15 @@ std::vector<double> assembly_weights(const System& system) {
   return weight;
 }
 
+std::string value_fault(const System& system, const OperatingPoint& op, std::int32_t row) {
+  const auto at = static_cast<std::size_t>(row);
+  std::string reason;
+  if (at < system.layout().rows.size()) {
+    reason = fault_of(system.faults(system.motion(op)), *system.layout().rows[at].owner);
+  }
+  return reason.empty() ? system.row_text(row) + " has no finite value" : reason;
+}
+
 }  // namespace
 
 Violation position_violation(const System& system, const ConstraintRows& rows) {
@@ -53,7 +91,76 @@ Violation position_violation(const System& system, const ConstraintRows& rows) {
   return v;
 }
 
-Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op, Findings& findings, Starts starts) {
+namespace {
+
+// Where the parameters of open curves may go: on along the tangents there, or not beyond the ends.
+enum class Ends : bool { passed, kept };
+
+double end_of(double u) { return std::copysign(1.0, u); }
+
+bool beyond_an_end(const Layout& layout, const OperatingPoint& op) {
+  return std::any_of(layout.curve_points.begin(), layout.curve_points.end(), [&](const CurvePoint& c) {
+    return !c.curve->reaches(op.extra[layout.extra_index(c.coordinate)]);
+  });
+}
+
+// The step of least change that meets the active rows to first order; some coordinates may have to stay.
+std::optional<Eigen::VectorXd> least_step(const ConstraintRows& rows, const Partition& part,
+                                          const std::vector<double>& weight, const std::vector<bool>& fixed) {
+  const auto n = static_cast<std::int32_t>(weight.size()), m = rows.size();
+  std::vector<Triplet> entries;
+  for (std::int32_t k = 0; k < n; ++k) entries.push_back({k, k, weight[static_cast<std::size_t>(k)]});
+  Eigen::MatrixXd step = Eigen::MatrixXd::Zero(n + m, 1);
+  for (std::int32_t k = 0; k < m; ++k) {
+    const std::int32_t at = n + k;
+    if (!part.active[static_cast<std::size_t>(k)]) {
+      entries.push_back({at, at, 1.0});
+      continue;
+    }
+    step(at, 0) = -rows.along_motion(k).value;
+    for (const auto& e : rows.row(k)) {
+      if (fixed[static_cast<std::size_t>(e.column)]) continue;
+      entries.push_back({at, e.column, e.c.g});
+      entries.push_back({e.column, at, e.c.g});
+    }
+  }
+  SparseLu lu;
+  if (!lu.factor(compressed(n + m, n + m, entries))) return std::nullopt;
+  lu.solve(step);
+  return Eigen::VectorXd(step.col(0).head(n));
+}
+
+double largest_step(const Layout& layout, std::int32_t coordinate) {
+  for (const ExtraBlock& e : layout.extras) {
+    if (coordinate < e.offset + e.count) {
+      return e.coordinates[static_cast<std::size_t>(coordinate - e.offset)].largest_step;
+    }
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+// Parameters that a step would take beyond the end of an open curve: those on their way are put there, those that stand
+// there have to stay.
+struct Stopped {
+  bool moved = false, held = false;
+};
+Stopped stop_at_ends(const Layout& layout, OperatingPoint& op, const Eigen::VectorXd& step, std::vector<bool>& fixed) {
+  Stopped s;
+  for (const CurvePoint& c : layout.curve_points) {
+    double& u = op.extra[layout.extra_index(c.coordinate)];
+    const double most = largest_step(layout, c.coordinate);
+    const double next = u + std::clamp(step(c.coordinate), -most, most);
+    if (c.curve->reaches(next)) continue;
+    if (u != end_of(next)) {
+      u = end_of(next), s.moved = true;
+    } else {
+      fixed[static_cast<std::size_t>(c.coordinate)] = true, s.held = true;
+    }
+  }
+  return s;
+}
+
+Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Findings& findings, Starts starts, Ends ends) {
   const Layout& layout = system.layout();
   if (layout.problems.has_errors()) {
     Failure f{"initial conditions", layout.problems.items().front().message, {}};
@@ -74,8 +181,6 @@ Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op
       if (!system.starts()[k].displacement) rows.drop(first + static_cast<std::int32_t>(k));
     }
   };
-  const auto n = static_cast<Eigen::Index>(system.coordinates());
-  const auto m = static_cast<Eigen::Index>(row_count);
   std::vector<double> weight;
   std::vector<std::string> history;
   double before = std::numeric_limits<double>::infinity();
@@ -85,53 +190,56 @@ Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op
     const Violation v = position_violation(system, rows);
     history.push_back(fmt::format("iteration {}: largest violation {:.3e}", iteration, v.relative));
     if (std::isnan(v.relative)) {
-      return tl::unexpected(
-          Failure{"initial conditions", fmt::format("{} has no finite value", system.row_text(v.row)), history});
+      return tl::unexpected(Failure{"initial conditions", value_fault(system, op, v.row), history});
     }
-    // Rounding sets the floor: stop there rather than wander.
-    if (v.relative <= position_tolerance || (v.relative <= 1e-11 && v.relative >= 0.5 * before)) {
+    const auto finished = [&] {
       system.remember(op);
       return op;
+    };
+    if (v.relative <= position_tolerance) return finished();
+    if (const auto reason = undefined_row(system, system.motion(op), rows)) {
+      return tl::unexpected(Failure{"initial conditions", *reason, history});
     }
-    before = v.relative;
-
     const Partition part = system.partition(rows, false);
-    for (const std::int32_t r : part.redundant) {
-      // A dependent row that the others do not satisfy near the solution contradicts them.
-      const double left = std::abs(rows.along_motion(r).value) / row_scale(system, rows.row(r));
-      if (iteration > 5 && left > 0.9 * v.relative && left > 1e-9) {
-        return tl::unexpected(
-            Failure{"initial conditions",
-                    fmt::format("the constraints contradict each other: {} cannot hold together with the others",
-                                system.row_text(r)),
-                    history});
-      }
-    }
-    if (weight.empty()) weight = assembly_weights(system);
-    std::vector<Triplet> entries;
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const auto i = static_cast<std::int32_t>(k);
-      entries.push_back({i, i, weight[static_cast<std::size_t>(k)]});
-    }
-    Eigen::MatrixXd step = Eigen::MatrixXd::Zero(n + m, 1);
+    // What is left of the rows that can be met, and the redundant rows that do not follow from them.
+    const std::vector<double> sizes = coordinate_sizes(layout, op);
+    double left = 0, above_rounding = 0;
+    std::vector<std::string> contradicted;
     for (std::int32_t k = 0; k < rows.size(); ++k) {
-      const auto at = static_cast<std::int32_t>(n) + k;
-      if (!part.active[static_cast<std::size_t>(k)]) {
-        entries.push_back({at, at, 1.0});
-        continue;
-      }
-      step(at, 0) = -rows.along_motion(k).value;
-      for (const auto& e : rows.row(k)) {
-        entries.push_back({at, e.column, e.c.g});
-        entries.push_back({e.column, at, e.c.g});
+      if (rows.level(k) != RowLevel::position) continue;
+      const double scale = row_scale(system, rows.row(k)), rounding = row_rounding(sizes, rows.row(k)) / scale;
+      const double relative = std::abs(rows.along_motion(k).value) / scale;
+      if (part.active[static_cast<std::size_t>(k)]) {
+        left = std::max(left, relative);
+        above_rounding = std::max(above_rounding, relative - std::max(position_tolerance, rounding));
+      } else if (relative > std::max(system.assembly_error(), position_tolerance) * (1 + 1e-6) + rounding) {
+        contradicted.push_back(system.row_text(k));
       }
     }
-    SparseLu lu;
-    if (!lu.factor(compressed(static_cast<std::int32_t>(n + m), static_cast<std::int32_t>(n + m), entries))) {
+    // Rounding sets the floor: stop there rather than wander.
+    if (above_rounding <= 0 || (left <= 1e-11 && left >= 0.5 * before)) {
+      if (contradicted.empty()) return finished();
+      history.insert(history.begin(), contradicted.begin(), contradicted.end());
+      return tl::unexpected(Failure{"initial conditions",
+                                    fmt::format("the constraints contradict each other: {} cannot hold together with "
+                                                "the others (IC/ERROR is {:g} of a row's scale)",
+                                                contradicted.front(), system.assembly_error()),
+                                    history});
+    }
+    before = left;
+
+    if (weight.empty()) weight = assembly_weights(system);
+    std::vector<bool> fixed(weight.size(), false);
+    std::optional<Eigen::VectorXd> step = least_step(rows, part, weight, fixed);
+    if (step && ends == Ends::kept) {
+      const Stopped stopped = stop_at_ends(layout, op, *step, fixed);
+      if (stopped.moved) continue;
+      if (stopped.held) step = least_step(rows, part, weight, fixed);
+    }
+    if (!step) {
       return tl::unexpected(Failure{"initial conditions", "the constraints are singular at this position", history});
     }
-    lu.solve(step);
-    displace(system, op, step.col(0).head(n), 0.5);
+    displace(system, op, *step, 0.5);
   }
   evaluate();
   const Violation v = position_violation(system, rows);
@@ -140,6 +248,57 @@ Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op
                                 fmt::format("the model could not be assembled: {} is violated by {:.3e} of its scale",
                                             system.row_text(v.row), v.relative),
                                 history});
+}
+
+// How far bodies have been moved, squared: radians and lengths of the model.
+double change(const System& system, const OperatingPoint& from, const OperatingPoint& to) {
+  double sum = 0;
+  for (std::size_t b = 0; b < from.poses.size(); ++b) {
+    const Vector r = (to.poses[b].r - from.poses[b].r) / system.length();
+    const Matrix3 turn = to.poses[b].R - from.poses[b].R;
+    sum += dot(r, r);
+    for (std::size_t k = 0; k < 3; ++k) sum += 0.5 * dot(turn[k], turn[k]);
+  }
+  return sum;
+}
+
+// From the drawn place and, if that fails, from places all over the curves. The least change counts.
+std::optional<OperatingPoint> assemble_inside(const System& system, const OperatingPoint& drawn, Starts starts) {
+  constexpr std::size_t places = 12;
+  const Layout& layout = system.layout();
+  std::optional<OperatingPoint> best;
+  const auto consider = [&](OperatingPoint from) {
+    Findings unused;
+    auto found = assemble(system, std::move(from), unused, starts, Ends::kept);
+    if (!found || beyond_an_end(layout, *found)) return;
+    if (!best || change(system, drawn, *found) < change(system, drawn, *best)) best = std::move(*found);
+  };
+  consider(drawn);
+  if (best) return best;
+  for (std::size_t k = 0; k < places; ++k) {
+    OperatingPoint from = drawn;
+    for (const CurvePoint& c : layout.curve_points) {
+      const std::vector<double> all = c.curve->samples(places);
+      from.extra[layout.extra_index(c.coordinate)] = all[k * (all.size() - 1) / (places - 1)];
+    }
+    consider(std::move(from));
+  }
+  return best;
+}
+
+}  // namespace
+
+Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op, Findings& findings, Starts starts) {
+  const Layout& layout = system.layout();
+  const bool searches = starts == Starts::held && !layout.curve_points.empty();
+  const OperatingPoint drawn = searches ? op : OperatingPoint();
+  Findings first = findings;
+  auto found = assemble(system, std::move(op), first, starts, Ends::passed);
+  if (searches && (!found || beyond_an_end(layout, *found))) {
+    if (auto inside = assemble_inside(system, drawn, starts)) return *std::move(inside);
+  }
+  findings = std::move(first);
+  return found;
 }
 
 }  // namespace dynalin

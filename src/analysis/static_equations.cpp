@@ -31,12 +31,16 @@ void StaticEquations::evaluate(const OperatingPoint& op, bool with_partials) {
   if (with_partials || part_.active.empty()) part_ = system_.partition(rows_, false);
   if (with_partials) {
     system_.equations(motion, rows_, eq_, {Column::position, Column::lambda, Column::algebraic, Column::state});
+    undefined_ = !eq_.clear_undefined().empty();
   } else {
     system_.equations(motion, rows_, eq_, {});
   }
   residual_ = Eigen::VectorXd::Zero(saddle_.size());
-  for (std::int32_t r = 0; r < eq_.size(); ++r)
+  magnitude_ = Eigen::VectorXd::Zero(saddle_.size());
+  for (std::int32_t r = 0; r < eq_.size(); ++r) {
     residual_(saddle_.equation(r)) = eq_.residual()[static_cast<std::size_t>(r)];
+    magnitude_(saddle_.equation(r)) = eq_.magnitude()[static_cast<std::size_t>(r)];
+  }
   for (std::size_t k = 0; k < held_.size(); ++k) {
     if (held_[k]) residual_(saddle_.state(static_cast<std::int32_t>(k))) = 0;
   }
@@ -44,7 +48,28 @@ void StaticEquations::evaluate(const OperatingPoint& op, bool with_partials) {
     if (part_.active[static_cast<std::size_t>(k)]) residual_(saddle_.lambda(k)) = rows_.along_motion(k).value;
   }
   measure_forces(op);
-  if (with_partials && stiffness_ == 0) measure_stiffness();
+  if (!with_partials) return;
+  if (stiffness_ == 0) measure_stiffness();
+  measure_rounding(op);
+  measure_parts();
+}
+
+double StaticEquations::excess() const {
+  double worst = 0;
+  for (Eigen::Index k = 0; k < residual_.size(); ++k) {
+    if (residual_(k) != 0) worst = std::max(worst, std::abs(residual_(k)) / rounding_(k));
+  }
+  return worst;
+}
+
+bool StaticEquations::factor(SparseLu& lu, ColumnMatrix m) {
+  constexpr double overhead = 3000;  // products an unknown: evaluation and the analysis of the pattern
+  const double size = std::max(1.0, static_cast<double>(m.rows));
+  effort_ += overhead * size;
+  if (!lu.factor(std::move(m))) return false;
+  const auto entries = static_cast<double>(lu.entries());
+  effort_ += entries * entries / size;
+  return true;
 }
 
 double StaticEquations::imbalance() const {
@@ -54,8 +79,22 @@ double StaticEquations::imbalance() const {
 }
 
 double StaticEquations::unit(Eigen::Index k, double force) const {
+  if (yardstick_ == Yardstick::part && (k < coordinates_ || k >= saddle_.algebraic(0))) {
+    const double scale = own_scale_(k);
+    return scale > 0 ? (k < coordinates_ ? force_unit(static_cast<std::int32_t>(k)) : 1.0) / scale : 0.0;
+  }
   if (k < coordinates_) return force_unit(static_cast<std::int32_t>(k)) / force;
   return k < saddle_.algebraic(0) ? 1 / system_.length() : 1.0;
+}
+
+double StaticEquations::merit(double force) const {
+  if (yardstick_ == Yardstick::model) return merit(residual_, force);
+  double sum = 0;
+  for (Eigen::Index k = 0; k < residual_.size(); ++k) {
+    const double r = std::max(0.0, std::abs(residual_(k)) - 10 * rounding_(k)) * unit(k, force);
+    sum += std::isnan(residual_(k)) ? residual_(k) : r * r;
+  }
+  return sum;
 }
 
 double StaticEquations::merit(const Eigen::VectorXd& residual, double force) const {
@@ -66,6 +105,16 @@ double StaticEquations::merit(const Eigen::VectorXd& residual, double force) con
     sum += r * r;
   }
   return sum;
+}
+
+std::string StaticEquations::equation_text(Eigen::Index row) const {
+  const Layout& layout = system_.layout();
+  const auto k = static_cast<std::int32_t>(row);
+  if (k < coordinates_) return layout.coordinate_text(k);
+  if (k < saddle_.algebraic(0)) return system_.row_text(k - saddle_.lambda(0));
+  if (k < saddle_.state(0))
+    return "the value of " + layout.algebraic[static_cast<std::size_t>(k - saddle_.algebraic(0))].owner->full_text();
+  return "the state of " + layout.states[static_cast<std::size_t>(k - saddle_.state(0))].owner->full_text();
 }
 
 std::string StaticEquations::worst(double force) const {
@@ -89,21 +138,79 @@ std::string StaticEquations::worst(double force) const {
                      std::abs(residual_(at)));
 }
 
-double StaticEquations::rounding(const OperatingPoint& op) const {
-  std::vector<double> size(system_.coordinates(), 1.0), force(system_.coordinates(), 0.0);
+void StaticEquations::measure_rounding(const OperatingPoint& op) {
   const Layout& layout = system_.layout();
+  Eigen::VectorXd size = Eigen::VectorXd::Ones(saddle_.size());
   for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
-    for (std::int32_t k = 0; k < std::min(layout.bodies[b].count, 3); ++k) {
-      size[static_cast<std::size_t>(layout.bodies[b].offset + k)] = norm(op.poses[b].r);
+    const BodyBlock& block = layout.bodies[b];
+    for (std::int32_t k = 0; k < std::min(block.count, 3); ++k) size(block.offset + k) = norm(op.poses[b].r);
+  }
+  const auto sizes = [&](const std::vector<double>& x, std::int32_t offset) {
+    for (std::size_t k = 0; k < x.size(); ++k) size(offset + static_cast<Eigen::Index>(k)) = std::abs(x[k]);
+  };
+  sizes(op.extra, layout.body_coordinate_count);
+  sizes(op.lambda, saddle_.lambda(0));
+  sizes(op.algebraic, saddle_.algebraic(0));
+  sizes(op.state, saddle_.state(0));
+  rounding_ = magnitude_;
+  const auto take = [&](Column family, std::int32_t offset) {
+    for_each_entry(eq_.matrix(family), [&](std::int32_t r, std::int32_t c, double v) {
+      rounding_(saddle_.equation(r)) += std::abs(v) * size(offset + c);
+    });
+  };
+  take(Column::position, 0);
+  take(Column::lambda, saddle_.lambda(0));
+  take(Column::algebraic, saddle_.algebraic(0));
+  take(Column::state, saddle_.state(0));
+  for (std::int32_t k = 0; k < rows_.size(); ++k) {
+    if (!part_.active[static_cast<std::size_t>(k)]) continue;
+    for (const auto& e : rows_.row(k)) {
+      rounding_(saddle_.lambda(k)) += std::abs(e.c.g) * size(e.column);
+      rounding_(e.column) += std::abs(e.c.g) * size(saddle_.lambda(k));
     }
   }
+  rounding_ *= std::numeric_limits<double>::epsilon();
+}
+
+void StaticEquations::measure_parts() {
+  if (own_scale_.size() == 0) {
+    own_scale_ = Eigen::VectorXd::Zero(saddle_.size());
+    own_stiffness_.assign(static_cast<std::size_t>(coordinates_), 0.0);
+  }
+  for (Eigen::Index k = 0; k < own_scale_.size(); ++k) {
+    const double unit = k < coordinates_ ? force_unit(static_cast<std::int32_t>(k)) : 1.0;
+    own_scale_(k) = std::max(own_scale_(k), magnitude_(k) * unit);
+  }
+  for (const BodyBlock& b : system_.layout().bodies) {
+    if (b.count > 0)
+      own_scale_.segment(b.offset, b.count).setConstant(own_scale_.segment(b.offset, b.count).maxCoeff());
+  }
+}
+
+void StaticEquations::measure_by(Yardstick yardstick) {
+  yardstick_ = yardstick;
+  if (yardstick == Yardstick::model) return;
+  own_scale_.setZero();  // what was far from here does not matter any more
+  measure_parts();
+  // The stiffness that holds a part in place; where nothing does, its forces over the length of the model.
+  std::fill(own_stiffness_.begin(), own_stiffness_.end(), 0.0);
   for_each_entry(eq_.matrix(Column::position), [&](std::int32_t r, std::int32_t c, double k) {
-    if (r < coordinates_) force[static_cast<std::size_t>(r)] += std::abs(k) * size[static_cast<std::size_t>(c)];
+    if (r != c || r >= coordinates_) return;
+    double& own = own_stiffness_[static_cast<std::size_t>(r)];
+    own = std::max(own, std::abs(k) * force_unit(r) * force_unit(r));
   });
-  double worst = 0;
-  for (std::int32_t k = 0; k < coordinates_; ++k)
-    worst = std::max(worst, force[static_cast<std::size_t>(k)] * force_unit(k));
-  return worst * std::numeric_limits<double>::epsilon();
+  for (std::int32_t k = 0; k < coordinates_; ++k) {
+    double& own = own_stiffness_[static_cast<std::size_t>(k)];
+    own = std::max(own, own_scale_(k) / system_.length());
+  }
+  for (const BodyBlock& b : system_.layout().bodies) {
+    if (b.count == 0) continue;
+    const auto first = own_stiffness_.begin() + b.offset;
+    std::fill(first, first + b.count, *std::max_element(first, first + b.count));
+  }
+  for (double& own : own_stiffness_) {
+    if (!(own > 0)) own = stiffness_;
+  }
 }
 
 void StaticEquations::settle(OperatingPoint& op) {
@@ -115,24 +222,33 @@ void StaticEquations::settle(OperatingPoint& op) {
   double before = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < 12; ++iteration) {
     evaluate(next, true);
+    if (!residual_.allFinite()) return;
     std::vector<double> D(static_cast<std::size_t>(saddle_.size()), 0.0);
-    for (std::int32_t k = 0; k < coordinates_; ++k) D[static_cast<std::size_t>(k)] = holding(k);
-    SparseLu lu;
-    const SaddleColumns columns{Column::position, Column::state, false};
-    if (!residual_.allFinite() || !lu.factor(saddle_.matrix(eq_, rows_, part_.active, columns, {}, held, D))) return;
     Eigen::MatrixXd step = -residual_;
-    for (Eigen::Index k = 0; k < a.size(); ++k) step(k, 0) -= D[static_cast<std::size_t>(k)] * a(k);
+    double level = 0;  // in units of rounding
+    for (std::int32_t k = 0; k < coordinates_; ++k) {
+      const double d = D[static_cast<std::size_t>(k)] = holding(k);
+      step(k, 0) -= d * a(k);
+    }
     for (std::int32_t k = 0; k < rows_.size(); ++k) step(saddle_.lambda(k), 0) = 0;
     for (std::size_t k = 0; k < held_.size(); ++k) step(saddle_.state(static_cast<std::int32_t>(k)), 0) = 0;
-    const double size = step.cwiseAbs().maxCoeff();
+    for (std::int32_t k = 0; k < saddle_.size(); ++k) {
+      if (step(k, 0) == 0) continue;
+      const double off = k < coordinates_ ? std::abs(D[static_cast<std::size_t>(k)] * a(k)) : 0.0;
+      level = std::max(level, std::abs(step(k, 0)) / (rounding_(k) + std::numeric_limits<double>::epsilon() * off +
+                                                      std::numeric_limits<double>::min()));
+    }
+    if (level <= 4 || (level <= 1e4 && level >= 0.5 * before)) break;
+    before = level;
+    SparseLu lu;
+    const SaddleColumns columns{Column::position, Column::state, false};
+    if (!factor(lu, saddle_.matrix(eq_, rows_, part_.active, columns, {}, held, D))) return;
     lu.solve(step);
     a += step.col(0).head(a.size());
     for (std::size_t k = 0; k < next.lambda.size(); ++k)
       next.lambda[k] += step(saddle_.lambda(static_cast<std::int32_t>(k)), 0);
     for (std::size_t k = 0; k < next.algebraic.size(); ++k)
       next.algebraic[k] += step(saddle_.algebraic(static_cast<std::int32_t>(k)), 0);
-    if (size <= 1e-14 * force_scale_ || (iteration > 0 && size >= 0.5 * before && size <= 1e-9 * force_scale_)) break;
-    before = size;
   }
   if (finite(next.lambda) && finite(next.algebraic)) op = std::move(next);
 }
@@ -195,11 +311,12 @@ void StaticEquations::measure_forces(const OperatingPoint& op) {
 }
 
 OperatingPoint moved(const System& system, const OperatingPoint& from, const Saddle& saddle,
-                     const Eigen::VectorXd& step, double fraction, double rotation_limit) {
+                     const Eigen::VectorXd& step, double fraction, double rotation_limit, double* taken) {
   OperatingPoint to = from;
   const double f =
       fraction *
       displace(system, to, fraction * step.head(static_cast<Eigen::Index>(system.coordinates())), rotation_limit);
+  if (taken) *taken = f;
   const auto add = [&](std::vector<double>& x, std::int32_t offset) {
     for (std::size_t k = 0; k < x.size(); ++k) x[k] += f * step(offset + static_cast<Eigen::Index>(k));
   };

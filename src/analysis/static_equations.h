@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,10 @@
 #include "system/system.h"
 
 namespace dynalin {
+
+// What the equations are measured by: forces of the whole model, which far from rest tells what matters, or those of
+// each part, which shows a light part beside a heavy one.
+enum class Yardstick : bool { model, part };
 
 class StaticEquations {
  public:
@@ -22,18 +27,30 @@ class StaticEquations {
   const Partition& partition() const { return part_; }
   // In the order of the saddle matrix. Held states and rows that are not active have none.
   const Eigen::VectorXd& residual() const { return residual_; }
+  // Sums of the sizes of all that is in an equation, without sign.
+  const Eigen::VectorXd& magnitude() const { return magnitude_; }
+  // How far off residuals may be because numbers are rounded, ε (Σ |terms| + Σ |J| |x|): stiff elements turn the
+  // rounding of positions into forces. Of the last evaluation with partials.
+  const Eigen::VectorXd& rounding() const { return rounding_; }
+  // Largest residual in units of its rounding.
+  double excess() const;
 
   // Largest unbalanced force, moments by length.
   double imbalance() const;
   // The size of the forces at play: reactions, weights, what is unbalanced.
   double force_scale() const { return force_scale_; }
-  // The force that a unit in the last place of the positions makes, Σ |K| ε |q|; after an evaluation with partials.
-  double rounding(const OperatingPoint&) const;
-  // Sum of squares of residuals in comparable units; forces are measured against `force`.
-  double merit(double force) const { return merit(residual_, force); }
+  // Whether functions have no derivative at the last point that was evaluated with partials.
+  bool has_undefined_partials() const { return undefined_; }
+
+  void measure_by(Yardstick);
+  Yardstick yardstick() const { return yardstick_; }
+  // Sum of squares of residuals in comparable units; forces are measured against `force`, or those of each part against
+  // the largest that were seen on it since `measure_by`, less what rounding explains.
+  double merit(double force) const;
   double merit(const Eigen::VectorXd& residual, double force) const;
   // The equation that is farthest from being met, in words.
   std::string worst(double force) const;
+  std::string equation_text(Eigen::Index row) const;  // "DZ of PART/2", "the value of VARIABLE/3"
 
   // Units of equations (as in `merit`) and of unknowns (lengths, radians, sizes of forces, values and states), that
   // make them comparable.
@@ -53,19 +70,25 @@ class StaticEquations {
   // states.
   ColumnMatrix tangent(double hold, double hold_states) const;
 
-  // A typical stiffness of the first point that was evaluated with partials, as one for coordinate k.
-  double holding(std::int32_t k) const {
-    const double s = system_.length() / system_.coordinate_scale(k);
-    return stiffness_ * s * s;
-  }
+  // Factors and keeps count of the work so far, about the number of products.
+  bool factor(SparseLu&, ColumnMatrix);
+  double effort() const { return effort_; }
 
  private:
   // 1 for a force, 1/length for a moment.
   double force_unit(std::int32_t k) const { return system_.coordinate_scale(k) / system_.length(); }
   double unit(Eigen::Index k, double force) const;
+  // A typical stiffness of the first point that was evaluated with partials, as one for coordinate k.
+  double holding(std::int32_t k) const {
+    const double s = system_.length() / system_.coordinate_scale(k);
+    return (yardstick_ == Yardstick::model ? stiffness_ : own_stiffness_[static_cast<std::size_t>(k)]) * s * s;
+  }
   void measure_stiffness();
   void measure_forces(const OperatingPoint&);
+  void measure_rounding(const OperatingPoint&);
+  void measure_parts();
 
+  bool undefined_ = false;
   const System& system_;
   Saddle saddle_;
   std::int32_t coordinates_;
@@ -73,12 +96,16 @@ class StaticEquations {
   Equations eq_;
   Partition part_;
   std::vector<bool> held_;
-  Eigen::VectorXd residual_;
-  double force_scale_ = 0, stiffness_ = 0;
+  Eigen::VectorXd residual_, magnitude_, rounding_;
+  double force_scale_ = 0, stiffness_ = 0, effort_ = 0;
+  Yardstick yardstick_ = Yardstick::model;
+  Eigen::VectorXd own_scale_;          // by equation, the largest magnitude seen; a body's rows share theirs
+  std::vector<double> own_stiffness_;  // by coordinate, as force per length
 };
 
-// The point moved by fraction · step; rotations beyond `rotation_limit` [rad] shorten the whole step.
+// The point moved by fraction · step; rotations beyond `rotation_limit` [rad] shorten the whole step. `taken` becomes
+// the factor of the step that was gone.
 OperatingPoint moved(const System&, const OperatingPoint&, const Saddle&, const Eigen::VectorXd& step, double fraction,
-                     double rotation_limit);
+                     double rotation_limit, double* taken = nullptr);
 
 }  // namespace dynalin

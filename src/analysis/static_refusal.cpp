@@ -104,17 +104,25 @@ std::vector<std::string> unheld_parts(StaticEquations& equations, const Operatin
   return sentences;
 }
 
-Failure static_refusal(StaticEquations& equations, const OperatingPoint& op, std::vector<std::string> history) {
+Failure static_refusal(StaticEquations& equations, OperatingPoint op, std::vector<std::string> history) {
   const System& system = equations.system();
   Failure f{"statics", "no equilibrium was found", std::move(history)};
   if (const auto unheld = unheld_parts(equations, op); !unheld.empty()) {
     f.message += fmt::format(": {}", fmt::join(unheld, "; "));
     return f;
   }
+  equations.settle(op);
   equations.evaluate(op, true);
-  if (!equations.residual().allFinite()) {
-    const std::string reason = system.fault(system.motion(op));
-    f.message = reason.empty() ? "a force has no finite value" : reason;
+  if (const Eigen::VectorXd sum = equations.residual() + equations.rounding(); !sum.allFinite()) {
+    f.message = system.fault(system.motion(op));
+    for (Eigen::Index k = 0; k < sum.size() && f.message.empty(); ++k) {
+      if (!std::isfinite(sum(k)))
+        f.message = "a term in the equation of " + equations.equation_text(k) + " has no finite value or slope";
+    }
+    return f;
+  }
+  if (equations.has_undefined_partials()) {
+    if (const std::string reason = system.fault(system.motion(op)); !reason.empty()) f.message += ": " + reason;
     return f;
   }
   if (const std::string worst = equations.worst(equations.force_scale()); !worst.empty()) f.message += ": " + worst;

@@ -13,6 +13,6 @@ namespace dynalin {
 std::vector<std::string> unheld_parts(StaticEquations&, const OperatingPoint&);
 
 // At a point that is not at rest.
-Failure static_refusal(StaticEquations&, const OperatingPoint&, std::vector<std::string> history);
+Failure static_refusal(StaticEquations&, OperatingPoint, std::vector<std::string> history);
 
 }  // namespace dynalin

@@ -2,12 +2,13 @@
 // rates are zero.
 //
 // The search, each step only where the one before it fails: (1) downhill, by Newton's method and implicit steps of a
-// damped motion (`statics.cpp`); (2) least squares (`least_imbalance.h`); (3) continuation (`continuation.h`); (4)
+// damped motion (`static_descent.h`); (2) least squares (`least_imbalance.h`); (3) continuation (`continuation.h`); (4)
 // least squares from other places. A point that is balanced to rounding is accepted as it stands. What cannot be found
 // is explained (`static_refusal.h`).
 #pragma once
 
 #include "analysis/initial.h"
+#include "analysis/static_history.h"
 
 namespace dynalin {
 
@@ -16,6 +17,8 @@ struct StaticsOptions {
   double rotation_limit = 0.17453292519943295;  // [rad] a step, ALIMIT
   bool restore_velocities = true;               // the dataset's velocities come back at t = 0
   int restarts = 24;                            // of the search from other places, after all else
+  double effort_limit = 1e10;                   // products, some ten seconds: what was not found by then is not
+  StaticProgress progress{};                    // called with every iteration
 };
 
 struct StaticsReport {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "analysis/initial.h"
+#include "system/undefined_rows.h"
 
 namespace dynalin {
 
@@ -113,6 +114,36 @@ Miss miss(const Condition& c, const Eigen::VectorXd& velocity) {
   return m;
 }
 
+// Redundant rows are combinations of the others to 1e-9 of themselves, and so is what they ask of velocities.
+constexpr double contradiction = 1e-8;
+// Of the fastest of all: what solving may leave of it elsewhere.
+constexpr double solution_rounding = 1e-12;
+
+// Displacements in lengths of the model and rotations alike.
+double fastest_of(const System& system, const Eigen::VectorXd& velocity) {
+  double fastest = 0;
+  for (std::int32_t k = 0; k < velocity.size(); ++k) {
+    fastest = std::max(fastest, std::abs(velocity(k)) / system.coordinate_scale(k));
+  }
+  return fastest;
+}
+
+// Whether velocities meet a condition as far as it follows from others, in the size of its own terms: those that axes
+// turned otherwise would show count as well. `rounding` is that of velocities, in lengths of the model and radians.
+bool follows(const System& system, const Condition& c, const Eigen::VectorXd& velocity, double rounding) {
+  const Miss off = miss(c, velocity);
+  double size = off.size, noise = 0;
+  for (std::size_t i = 0; i < c.column.size(); ++i) {
+    const Eigen::Index k = c.column[i];
+    const bool of_body = k < system.layout().body_coordinate_count;
+    const double along = of_body ? velocity.segment<3>(k - k % 3).cwiseAbs().maxCoeff() : std::abs(velocity(k));
+    size = std::max(size, std::abs(c.coefficient[i]) * along);
+    noise = std::max(noise, std::abs(c.coefficient[i]) * system.coordinate_scale(c.column[i]));
+  }
+  const double tolerance = std::max(contradiction, 100 * system.assembly_error());
+  return std::abs(off.value) <= tolerance * size + rounding * noise;
+}
+
 // min ½ (u − u₀)ᵀ W (u − u₀) under the conditions that are independent; dependent ones must agree to `tolerance`.
 struct LeastChange {
   Eigen::VectorXd velocity;
@@ -154,11 +185,11 @@ Result<LeastChange> least_change(const System& system, const Motion& motion, con
   }
   lu.solve(x);
   LeastChange result{x.col(0).head(n), {}};
+  const double rounding = solution_rounding * fastest_of(system, result.velocity);
   for (std::size_t k = 0; k < conditions.size(); ++k) {
-    if (e.pivot_column[k] >= 0) continue;
-    const Miss off = miss(conditions[k], result.velocity);
-    if (std::abs(off.value) > 1e-8 * std::max(off.size, result.velocity.cwiseAbs().maxCoeff()))
+    if (e.pivot_column[k] < 0 && !follows(system, conditions[k], result.velocity, rounding)) {
       result.contradicted.push_back(k);
+    }
   }
   return result;
 }
@@ -166,6 +197,23 @@ Result<LeastChange> least_change(const System& system, const Motion& motion, con
 bool met_to_rounding(const Condition& c, const Eigen::VectorXd& velocity) {
   const Miss off = miss(c, velocity);
   return std::abs(off.value) <= 4 * std::numeric_limits<double>::epsilon() * off.size;
+}
+
+// Stated values of single coordinates that come out but for rounding are exactly what is stated, if the constraints,
+// which come first, are still met: near singular configurations a unit in the last place decides accelerations.
+void keep_as_stated(const std::vector<Condition>& conditions, std::size_t constraints, Eigen::VectorXd& velocity) {
+  Eigen::VectorXd kept = velocity;
+  for (std::size_t k = constraints; k < conditions.size(); ++k) {
+    const Condition& c = conditions[k];
+    std::size_t at = 0, terms = 0;
+    for (std::size_t i = 0; i < c.column.size(); ++i) {
+      if (c.coefficient[i] != 0) at = i, ++terms;
+    }
+    if (terms == 1 && met_to_rounding(c, velocity)) kept(c.column[at]) = c.value / c.coefficient[at];
+  }
+  const auto first = conditions.begin(), last = first + static_cast<std::ptrdiff_t>(constraints);
+  if (std::all_of(first, last, [&](const Condition& c) { return met_to_rounding(c, kept); }))
+    velocity = std::move(kept);
 }
 
 // The velocities that meet the constraints, which come first, and the other conditions in the sense of least squares;
@@ -210,11 +258,8 @@ Result<Eigen::VectorXd> nearest(const System& system, const Motion& motion, cons
   return start + change.col(0).head(n);
 }
 
-// Φ′ = g·u + Φ_t = 0 at u: the rate at zero velocity is Φ_t.
-std::vector<Condition> constraint_conditions(const System& system, const Motion& at_rest) {
-  ConstraintRows rows;
-  rows.resize(system.layout());
-  system.constraints(at_rest, rows);
+// Φ′ = g·u + Φ_t = 0 at u: the rate at zero velocity is Φ_t; rows at rest.
+std::vector<Condition> constraint_conditions(const System& system, const ConstraintRows& rows) {
   std::vector<Condition> conditions;
   for (std::int32_t k = 0; k < rows.size(); ++k) {
     Condition c;
@@ -236,7 +281,13 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
   std::fill(rest.velocity.begin(), rest.velocity.end(), 0.0);
   std::fill(rest.acceleration.begin(), rest.acceleration.end(), 0.0);
   const Motion motion = system.motion(rest);
-  std::vector<Condition> conditions = constraint_conditions(system, motion);
+  ConstraintRows rows;
+  rows.resize(system.layout());
+  system.constraints(motion, rows);
+  if (const auto reason = undefined_row(system, motion, rows)) {
+    return tl::unexpected(Failure{"velocity initial conditions", *reason, {}});
+  }
+  std::vector<Condition> conditions = constraint_conditions(system, rows);
   const std::size_t constraints = conditions.size();
   auto hard = least_change(system, motion, conditions, start);
   if (!hard) return tl::unexpected(hard.error());
@@ -261,9 +312,11 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
       if (!found) return tl::unexpected(found.error());
       velocity = std::move(*found);
     }
+    if (!contradicted) keep_as_stated(conditions, constraints, velocity);
+    const double unnoticed = contradiction * fastest_of(system, velocity);
     for (std::size_t k = constraints; k < conditions.size() && contradicted; ++k) {
       const double stated_value = conditions[k].value, value = stated_value + miss(conditions[k], velocity).value;
-      if (std::abs(value - stated_value) <= 1e-8 * std::max(1.0, std::abs(stated_value))) continue;
+      if (follows(system, conditions[k], velocity, unnoticed)) continue;
       findings.warnings.push_back(
           fmt::format("the initial velocity {} = {:g} contradicts the constraints and was changed to {:g}",
                       conditions[k].text, stated_value, value));

@@ -1,0 +1,115 @@
+#include "analysis/acceleration_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace dynalin {
+
+namespace {
+
+// Redundant rows are combinations of the others to 1e-9 of themselves, and so is what follows for their rates.
+constexpr double contradiction = 1e-8;
+
+// The largest of the three components of a vector of a body that a coordinate belongs to, or its own size.
+double along_axes(const Layout& layout, const std::vector<double>& values, std::int32_t coordinate) {
+  const auto at = static_cast<std::size_t>(coordinate);
+  if (coordinate >= layout.body_coordinate_count) return std::abs(values[at]);
+  const std::size_t first = at - at % 3;
+  return std::max({std::abs(values[first]), std::abs(values[first + 1]), std::abs(values[first + 2])});
+}
+
+std::string unknown_text(const System& system, const AccelerationEquations& equations, std::int32_t k) {
+  const Layout& layout = system.layout();
+  const Saddle& saddle = equations.saddle();
+  if (k >= saddle.size()) return "the balance of freedoms without mass";
+  if (k < saddle.lambda(0)) return "the acceleration " + layout.coordinate_text(k);
+  if (k < saddle.algebraic(0)) return "the reaction " + system.row_text(k - saddle.lambda(0));
+  if (k < saddle.state(0)) {
+    return "the value of " + layout.algebraic[static_cast<std::size_t>(k - saddle.algebraic(0))].owner->full_text();
+  }
+  return "the rate of " + layout.states[static_cast<std::size_t>(k - saddle.state(0))].owner->full_text();
+}
+
+}  // namespace
+
+std::vector<std::int32_t> contradicted_accelerations(const System& system, const AccelerationEquations& equations,
+                                                     const OperatingPoint& op, const Eigen::VectorXd& rounding) {
+  const ConstraintRows& rows = equations.rows();
+  const double tolerance = std::max(contradiction, 100 * system.assembly_error());
+  std::vector<std::int32_t> contradicted;
+  for (const std::int32_t k : equations.partition().redundant) {
+    const bool position = rows.level(k) == RowLevel::position;
+    const double left = position ? rows.along_motion(k).acceleration : rows.along_motion(k).rate;
+    // The terms g q″ and those of velocities; what remains without q″ is a term too.
+    double size = 0, noise = 0, follows = 0;
+    for (const auto& e : rows.row(k)) {
+      const auto at = static_cast<std::size_t>(e.column);
+      size += std::abs(e.c.g) * along_axes(system.layout(), op.acceleration, e.column) +
+              std::abs(e.c.a1) * along_axes(system.layout(), op.velocity, e.column);
+      noise += std::abs(e.c.g) * rounding(e.column);
+      follows += e.c.g * op.acceleration[at];
+    }
+    size += std::abs(left - follows);
+    if (std::abs(left) > tolerance * size + 4 * noise) contradicted.push_back(k);
+  }
+  return contradicted;
+}
+
+LostDigits lost_digits(const System& system, AccelerationEquations& equations, const SparseLu& lu,
+                       const ColumnMatrix& factored, const OperatingPoint& op, const Eigen::VectorXd& terms,
+                       const Eigen::VectorXd& uncertainty) {
+  const Saddle& saddle = equations.saddle();
+  const Eigen::Index count = terms.size();
+  const auto n = static_cast<std::size_t>(count);
+  std::minstd_rand random(1);
+  const auto sign = [&] { return random() % 2 == 0 ? 1.0 : -1.0; };
+  Eigen::MatrixXd answer(count, 1);
+  Eigen::VectorXd shift = uncertainty;
+  for (Eigen::Index k = 0; k < terms.size(); ++k) answer(k, 0) = sign() * terms(k), shift(k) *= sign();
+  lu.solve(answer);
+  Eigen::VectorXd change = Eigen::VectorXd::Constant(count, std::numeric_limits<double>::infinity());
+  Eigen::VectorXd bend = Eigen::VectorXd::Zero(count);
+  std::vector<bool> bends(n, false);  // an equation, and the unknown that is its own
+  // Both ways: an expression that switches at the point itself does not bend.
+  for (const double way : {1.0, -1.0}) {
+    OperatingPoint there = op;
+    equations.move(there, way * shift);
+    if (!equations.look_at_massless(there)) continue;
+    const Eigen::VectorXd missing = equations.evaluate(there, AccelerationEquations::unknowns);
+    if (missing.size() != count) return {};
+    bend = bend.cwiseMax(missing.cwiseAbs());
+    ColumnMatrix difference = equations.matrix();
+    if (difference.value.size() != factored.value.size()) return {};
+    for (std::size_t k = 0; k < factored.value.size(); ++k) difference.value[k] -= factored.value[k];
+    Eigen::MatrixXd off = Eigen::MatrixXd::Zero(count, 1);
+    difference.multiply_add({answer.data(), n}, {off.data(), n});
+    if (!off.allFinite()) continue;
+    for (Eigen::Index k = 0; k < off.rows(); ++k) bends[static_cast<std::size_t>(k)] = off(k, 0) != 0;
+    lu.solve(off);
+    change = change.cwiseMin(off.col(0).cwiseAbs());
+  }
+  Eigen::VectorXd size = answer.col(0).cwiseAbs();
+  equations.spread_over_axes(size);
+  const Eigen::VectorXd value = equations.values(op).cwiseAbs();
+  std::vector<double> parts(n, 0.0);
+  for (std::int32_t k = 0; k < static_cast<std::int32_t>(count); ++k) {
+    // An algebraic value that is nothing but rounding has no derivative to lose.
+    const bool algebraic = k >= saddle.algebraic(0) && k < saddle.state(0);
+    if (!(size(k) > 0) || !std::isfinite(change(k)) || (algebraic && value(k) <= 1e3 * bend(k))) continue;
+    parts[static_cast<std::size_t>(k)] = change(k) / size(k);
+  }
+  // What loses most, and is named after an equation that bends rather than after one that follows it.
+  LostDigits lost{parts.empty() ? 0.0 : *std::max_element(parts.begin(), parts.end()), {}};
+  for (const bool own : {false, true}) {
+    for (std::int32_t k = 0; k < static_cast<std::int32_t>(count); ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      if (parts[at] < 0.5 * lost.part || (own && !bends[at])) continue;
+      lost.of = unknown_text(system, equations, k);
+      break;
+    }
+  }
+  return lost;
+}
+
+}  // namespace dynalin

@@ -1,0 +1,68 @@
+// The equations of one instant for accelerations, multipliers, algebraic values and state rates. Freedoms without mass
+// border them with unknowns of their own.
+#pragma once
+
+#include <Eigen/Core>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "analysis/massless_balance.h"
+#include "analysis/saddle.h"
+#include "system/system.h"
+
+namespace dynalin {
+
+class AccelerationEquations {
+ public:
+  // Which rows are active is decided by the poses and velocities of the point.
+  AccelerationEquations(const System&, const OperatingPoint&);
+  AccelerationEquations(const AccelerationEquations&) = delete;
+  AccelerationEquations& operator=(const AccelerationEquations&) = delete;
+
+  static constexpr std::initializer_list<Column> unknowns = {Column::acceleration, Column::lambda, Column::algebraic,
+                                                             Column::state_rate};
+  const Saddle& saddle() const { return saddle_; }
+  const ConstraintRows& rows() const { return rows_; }
+  const Equations& equations() const { return equations_; }
+  const Partition& partition() const { return partition_; }
+  const MasslessBalance& massless() const { return massless_; }
+
+  // What freedoms without mass ask for at a point; nothing where there are none.
+  Result<void> look_at_massless(const OperatingPoint&);
+
+  // Minus the residuals at a point, in the order of the saddle matrix, then of the border. What follows speaks of the
+  // last point evaluated.
+  Eigen::VectorXd evaluate(const OperatingPoint&, std::initializer_list<Column> wanted);
+  // Algebraic and differential equations without a finite value or partial keep their unknown as it is; whether any do.
+  bool hold_undefined(Eigen::VectorXd& missing);
+  // So do those that reactions or accelerations enter.
+  bool hold_reactions(Eigen::VectorXd& missing);
+  void release();
+  // Partials without a finite value become zero; whether there are any.
+  bool clear_undefined() { return !equations_.clear_undefined().empty(); }
+  ColumnMatrix matrix() const { return massless_.bordered(saddle_matrix()); }
+  ColumnMatrix saddle_matrix() const;
+  // Of each equation, the sizes of the terms it was added up from.
+  Eigen::VectorXd terms(const ColumnMatrix&, const OperatingPoint&) const;
+
+  // Adds a step to all unknowns of a point. Forces that condensed freedoms lack are kept here: they enter linearly, so
+  // that the next step does not depend on them.
+  void move(OperatingPoint&, const Eigen::Ref<const Eigen::VectorXd>& step);
+  Eigen::VectorXd values(const OperatingPoint&) const;
+  // The same of unknowns that turn with the axes: each three of a body have the largest of them.
+  void spread_over_axes(Eigen::VectorXd&) const;
+
+ private:
+  bool hold(const std::vector<bool>& equations, Eigen::VectorXd& missing);
+
+  const System& system_;
+  Saddle saddle_;
+  ConstraintRows rows_;
+  Equations equations_;
+  Partition partition_;
+  MasslessBalance massless_;  // of the active rows
+  std::vector<bool> cut_, held_;
+};
+
+}  // namespace dynalin

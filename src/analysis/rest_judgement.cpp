@@ -1,0 +1,165 @@
+#include "analysis/rest_judgement.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dynalin {
+
+namespace {
+
+constexpr double balance = 1e-9;       // of the terms of an equation
+constexpr double small_step = 1e-9;    // of the size of an unknown; what is left after the step is far less
+constexpr double roundings = 100;      // that residuals may be off: the estimate counts each number once
+constexpr double explained = 30;       // times the largest step that rounding was seen to make
+constexpr double softest = 1e9;        // answer of an unknown that anything holds
+constexpr double indifference = 1e-6;  // a step that rounding makes, of the size of an unknown
+
+bool row_counts(const StaticEquations& equations, Eigen::Index k) {
+  const Saddle& saddle = equations.saddle();
+  return k < saddle.lambda(0) || k >= saddle.algebraic(0);  // constraints are met by assembly
+}
+
+// Columns with the given sizes and random signs, the same in every run.
+Eigen::MatrixXd random_signs(const Eigen::VectorXd& size, Eigen::Index columns) {
+  Eigen::MatrixXd x(size.size(), columns);
+  std::uint64_t bits = 0x9e3779b97f4a7c15u;
+  for (Eigen::Index c = 0; c < columns; ++c) {
+    for (Eigen::Index r = 0; r < size.size(); ++r) {
+      bits = bits * 6364136223846793005u + 1442695040888963407u;
+      x(r, c) = (bits >> 63) != 0 ? size(r) : -size(r);
+    }
+  }
+  return x;
+}
+
+// Rows and columns of comparable size, so that a small stiffness of its own is told from none: R J C.
+class ScaledTangent {
+ public:
+  explicit ScaledTangent(ColumnMatrix J) : matrix_(std::move(J)) {
+    const Eigen::Index n = matrix_.rows;
+    row_ = Eigen::VectorXd::Ones(n);
+    column_ = Eigen::VectorXd::Ones(n);
+    for (int pass = 0; pass < 3; ++pass) {
+      for (const bool by_column : {true, false}) {
+        Eigen::VectorXd largest = Eigen::VectorXd::Zero(n);
+        for_each_entry(matrix_, [&](std::int32_t r, std::int32_t c, double v) {
+          double& m = largest(by_column ? c : r);
+          m = std::max(m, std::abs(v) * row_(r) * column_(c));
+        });
+        Eigen::VectorXd& scale = by_column ? column_ : row_;
+        for (Eigen::Index k = 0; k < n; ++k) {
+          if (largest(k) > 0) scale(k) /= largest(k);
+        }
+      }
+    }
+  }
+
+  // Where a direction is indifferent, with a little of the identity.
+  bool factor(StaticEquations& equations, double identity) {
+    ColumnMatrix m = matrix_;
+    std::size_t at = 0;
+    std::vector<Triplet> entries;
+    entries.reserve(m.value.size() + static_cast<std::size_t>(m.rows));
+    for_each_entry(matrix_, [&](std::int32_t r, std::int32_t c, double v) {
+      m.value[at++] = v * row_(r) * column_(c);
+      if (identity > 0) entries.push_back({r, c, m.value[at - 1]});
+    });
+    if (identity == 0) return equations.factor(lu_, std::move(m));
+    for (std::int32_t k = 0; k < m.rows; ++k) {
+      if (row_counts(equations, k)) entries.push_back({k, k, identity});
+    }
+    return equations.factor(lu_, compressed(m.rows, m.columns, entries));
+  }
+  void solve(Eigen::MatrixXd& x) const {
+    x = row_.asDiagonal() * x;
+    lu_.solve(x);
+    x = column_.asDiagonal() * x;
+  }
+  // How much unknowns answer to a change of all equations by about their largest coefficient, in units of their scale.
+  Eigen::VectorXd answer() const {
+    Eigen::MatrixXd x = random_signs(Eigen::VectorXd::Ones(row_.size()), 2);
+    lu_.solve(x);
+    return x.cwiseAbs().rowwise().maxCoeff();
+  }
+
+ private:
+  ColumnMatrix matrix_;
+  Eigen::VectorXd row_, column_;
+  SparseLu lu_;
+};
+
+// Lengths, radians, states by their value, at least one. A value of an expression has the size that it takes where
+// what it depends on changes by its own.
+Eigen::VectorXd unknown_sizes(const StaticEquations& equations, const OperatingPoint& op, const ColumnMatrix& tangent) {
+  const System& system = equations.system();
+  const Saddle& saddle = equations.saddle();
+  Eigen::VectorXd size = Eigen::VectorXd::Ones(saddle.size());
+  for (std::int32_t k = 0; k < saddle.lambda(0); ++k) size(k) = system.coordinate_scale(k);
+  for (std::size_t k = 0; k < op.state.size(); ++k)
+    size(saddle.state(static_cast<std::int32_t>(k))) = std::max(1.0, std::abs(op.state[k]));
+  for (std::size_t k = 0; k < op.algebraic.size(); ++k)
+    size(saddle.algebraic(static_cast<std::int32_t>(k))) = std::abs(op.algebraic[k]);
+  const auto is_value = [&](std::int32_t k) { return k >= saddle.algebraic(0) && k < saddle.state(0); };
+  const Eigen::VectorXd first = size;
+  for_each_entry(tangent, [&](std::int32_t r, std::int32_t c, double v) {
+    if (is_value(r) && row_counts(equations, c) && !is_value(c)) size(r) = std::max(size(r), std::abs(v) * first(c));
+  });
+  for (Eigen::Index k = 0; k < size.size(); ++k) {
+    if (!(size(k) > 0)) size(k) = 1;
+  }
+  return size;
+}
+
+}  // namespace
+
+bool balanced_to_rounding(const StaticEquations& equations) {
+  if (!equations.residual().allFinite()) return false;
+  for (Eigen::Index k = 0; k < equations.residual().size(); ++k) {
+    if (!row_counts(equations, k)) continue;
+    if (std::abs(equations.residual()(k)) > roundings * equations.rounding()(k)) return false;
+  }
+  return true;
+}
+
+std::optional<RestJudgement> judge(StaticEquations& equations, const OperatingPoint& op) {
+  const Eigen::VectorXd& residual = equations.residual();
+  const Eigen::VectorXd& rounding = equations.rounding();
+  if (!residual.allFinite() || !rounding.allFinite()) return std::nullopt;
+  RestJudgement j;
+  j.balanced = true;
+  for (Eigen::Index k = 0; k < residual.size() && j.balanced; ++k) {
+    if (!row_counts(equations, k)) continue;
+    const double r = std::abs(residual(k));
+    j.balanced = r <= balance * equations.magnitude()(k) || r <= roundings * rounding(k);
+  }
+  const ColumnMatrix J = equations.tangent(0, 0);
+  j.size = unknown_sizes(equations, op, J);
+  j.indifferent.assign(static_cast<std::size_t>(residual.size()), false);
+  j.determined = true;
+  if (residual.size() == 0) return j;
+
+  ScaledTangent tangent(J);
+  if (!tangent.factor(equations, 0) && !tangent.factor(equations, 1e-12)) return std::nullopt;
+  // What rounding does to the step: the largest of several steps with random signs of what rounding adds to residuals.
+  const Eigen::MatrixXd samples = random_signs(rounding, 5);
+  Eigen::MatrixXd x(residual.size(), samples.cols() + 1);
+  x << -residual, samples;
+  tangent.solve(x);
+  if (!x.allFinite()) return std::nullopt;
+  j.step = x.col(0);
+  const Eigen::VectorXd answer = tangent.answer();
+  for (Eigen::Index k = 0; k < residual.size(); ++k) {
+    const double by_rounding = x.row(k).tail(samples.cols()).cwiseAbs().maxCoeff();
+    const bool noise = std::abs(j.step(k)) <= explained * by_rounding;
+    if (!row_counts(equations, k)) continue;
+    j.indifferent[static_cast<std::size_t>(k)] = by_rounding > indifference * j.size(k) || !(answer(k) < softest);
+    if (noise && by_rounding > small_step * j.size(k)) j.step(k) = 0;
+    if (noise) continue;
+    const double relative = std::abs(j.step(k)) / j.size(k);
+    j.determined = j.determined && relative <= small_step;
+    if (relative > j.largest) j.largest = relative, j.largest_at = k;
+  }
+  return j;
+}
+
+}  // namespace dynalin

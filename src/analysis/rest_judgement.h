@@ -1,0 +1,29 @@
+// Whether a point is an equilibrium, judged equation by equation and unknown by unknown, never by one scale for the
+// model: every equation balances within the terms it is made of, and Newton's step there is small in each unknown's own
+// size. The second is what a force that fades with distance, or misses zero by little, does not pass.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analysis/static_equations.h"
+
+namespace dynalin {
+
+struct RestJudgement {
+  bool balanced = false;    // every equation, within its own terms or their rounding
+  bool determined = false;  // Newton's step is small, or explained by rounding
+  Eigen::VectorXd step;     // Newton's; zero where rounding explains all of it
+  Eigen::VectorXd size;     // of each unknown: model lengths, radians, what states and values are themselves
+  double largest = 0;       // of |step| / size over coordinates, states and algebraic values
+  Eigen::Index largest_at = -1;
+  std::vector<bool> indifferent;  // unknowns that nothing but rounding determines
+};
+
+// At the point of the last evaluation, which was with partials. Nothing if no step can be computed.
+std::optional<RestJudgement> judge(StaticEquations&, const OperatingPoint&);
+
+// Every equation balances but for rounding: nothing can be said against the point.
+bool balanced_to_rounding(const StaticEquations&);
+
+}  // namespace dynalin

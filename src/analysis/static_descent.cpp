@@ -1,0 +1,244 @@
+#include "analysis/static_descent.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dynalin {
+
+namespace {
+
+// Iterations after which a motion that has come no closer to rest goes round in a circle or away.
+constexpr int patience = 80;
+// Iterations near balance after which steps that do not become smaller never will: a force that fades or misses zero.
+constexpr int patience_with_steps = 40;
+constexpr double near_balance = 1e-9;  // of the forces at play: judged from here on
+constexpr double noise = 100;          // residuals in units of rounding that say nothing
+constexpr double settled_move = 1e-6;  // of the size of an unknown
+
+double farthest(const OperatingPoint& from, const OperatingPoint& to) {
+  double largest = 0;
+  for (std::size_t b = 1; b < to.poses.size(); ++b) {
+    const double way = norm(to.poses[b].r - from.poses[b].r);
+    if (!(way <= largest)) largest = way;
+  }
+  return largest;
+}
+
+}  // namespace
+
+bool escaped(const System& system, const OperatingPoint& from, const OperatingPoint& to) {
+  constexpr double far = 1e6;
+  return !(farthest(from, to) <= far * system.length());
+}
+
+bool Descent::run(OperatingPoint& op, const std::vector<bool>* loose) {
+  loose_ = loose;
+  equations_.measure_by(Yardstick::model);
+  const OperatingPoint first = op;
+  lowest_ = op;
+  for (iteration_ = 0; iteration_ < options_.iteration_limit; ++iteration_) {
+    // A motion that comes closer to rest goes on even in a model so large that the effort is soon spent.
+    const bool spent = equations_.effort() > options_.effort_limit;
+    if (spent && loose) return false;
+    equations_.evaluate(op, true);
+    // One yardstick for the whole search, or a step could pass by growing what it is measured against.
+    force_ = std::max(force_, equations_.force_scale());
+    merit_ = equations_.merit(force_);
+    history_.add(equations_.imbalance());
+    if (!std::isfinite(merit_)) return false;
+    if (iteration_ == 0) first_force_ = force_;
+    if (iteration_ == 0 && !loose && balanced_to_rounding(equations_)) return true;
+    if (escaped(system_, first, op)) return false;
+    note_arrivals();
+    // Against the first yardstick: forces that grow without end do not make a point better.
+    const double merit = equations_.merit(first_force_);
+    if (merit < 0.8 * lowest_merit_ || merit == 0) improved_ = iteration_;
+    // What falls freely comes no closer to rest until it lands.
+    if (const double way = farthest(first, op); way > 1.2 * way_) way_ = way, improved_ = iteration_;
+    if (merit < lowest_merit_ || (merit == 0 && equations_.yardstick() == Yardstick::part))
+      lowest_merit_ = merit, lowest_ = op;
+    if (iteration_ > improved_ + (spent ? patience / 4 : patience)) return false;
+    const double level = std::sqrt(merit_);
+    if (level <= near_balance || equations_.excess() <= 1e4) {
+      if (finish(op)) return true;
+      if (iteration_ > converging_ + patience_with_steps) return false;
+      stalled_ = level >= 0.25 * before_ || level == 0 ? stalled_ + 1 : 0;
+      if (stalled_ == 3 && equations_.yardstick() == Yardstick::model) {
+        change_yardstick();
+        continue;
+      }
+    } else {
+      converging_ = iteration_;
+    }
+    before_ = level;
+    if (newton(op, level)) continue;
+    if (!implicit(op)) {
+      if (equations_.yardstick() == Yardstick::part || level > 1e-5) return false;
+      change_yardstick();
+      continue;
+    }
+    transient_ = hold_ > 1e-7;
+  }
+  return false;
+}
+
+// What moves now is too light to count among the forces of the model.
+void Descent::change_yardstick() {
+  equations_.measure_by(Yardstick::part);
+  hold_ = 1;
+  transient_ = false;
+  before_ = lowest_merit_ = std::numeric_limits<double>::infinity();
+  improved_ = converging_ = iteration_;
+}
+
+// Newton's steps in the unknowns' own sizes until nothing but rounding is left.
+bool Descent::finish(OperatingPoint& op) {
+  constexpr int steps = 60;
+  OperatingPoint here = op;
+  double smallest = std::numeric_limits<double>::infinity();
+  int stuck = 0;
+  std::optional<OperatingPoint> rest;
+  for (int k = 0; k < steps; ++k) {
+    equations_.settle(here);
+    equations_.evaluate(here, true);
+    const auto j = judge(equations_, here);
+    if (!j) break;
+    if (k == 0) {
+      if (j->largest < 0.8 * smallest_move_) smallest_move_ = j->largest, converging_ = iteration_;
+    }
+    stuck = j->largest < 0.95 * smallest ? 0 : stuck + 1;
+    // What Newton's method cannot improve any more is determined as well as it can be.
+    const bool exact = j->largest <= 1e-12 && stuck >= 3;
+    if ((j->balanced || exact) && j->determined && came_to_rest(*j)) rest = here;
+    if (rest && (j->largest == 0 || stuck > 0)) break;
+    if (!rest && j->largest_at >= 0) {
+      doubt_ = fmt::format("{} would still have to change by {:.3g} to balance a rest of {:.3g}",
+                           equations_.equation_text(j->largest_at), j->step(j->largest_at), equations_.imbalance());
+    }
+    if (j->largest > 1e-2 || stuck > 3) break;
+    smallest = std::min(smallest, j->largest);
+    double taken = 0;
+    here = moved(system_, here, equations_.saddle(), j->step, 1.0, options_.rotation_limit, &taken);
+    for (Eigen::Index i = 0; i < j->step.size(); ++i) {
+      if (j->step(i) != 0 && move_.size() > 0) move_(i) = std::abs(taken * j->step(i)) / j->size(i);
+    }
+  }
+  if (rest) {
+    op = std::move(*rest);
+    system_.remember(op);
+    equations_.settle(op);
+    return true;
+  }
+  equations_.evaluate(op, true);
+  return false;
+}
+
+// What nothing but rounding determines may be anywhere. It is where it is because nothing moved it, or because what
+// moved it ended; where a force only fades, the steps stay large until the force is lost in rounding.
+bool Descent::came_to_rest(const RestJudgement& j) const {
+  for (Eigen::Index k = 0; k < move_.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (!j.indifferent[i]) continue;
+    if (!arrived_[i] && move_(k) > settled_move) return false;
+    if (loose_ && !(*loose_)[i]) return false;
+  }
+  return true;
+}
+
+void Descent::note_arrivals() {
+  const Eigen::Index n = equations_.residual().size();
+  if (move_.size() == 0) {
+    move_ = Eigen::VectorXd::Zero(n);
+    excess_before_ = Eigen::VectorXd::Zero(n);
+    excess_ = Eigen::VectorXd::Zero(n);
+    arrived_.assign(static_cast<std::size_t>(n), false);
+  }
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double r = std::abs(equations_.residual()(k));
+    const double now = r == 0 ? 0.0 : r / equations_.rounding()(k);
+    if (now <= noise && std::max(excess_(k), excess_before_(k)) >= 1e5) arrived_[static_cast<std::size_t>(k)] = true;
+    if (now > 1e4) arrived_[static_cast<std::size_t>(k)] = false;
+    excess_before_(k) = excess_(k);
+    excess_(k) = now;
+  }
+}
+
+void Descent::note_move(const Eigen::VectorXd& step, double factor) {
+  const Saddle& saddle = equations_.saddle();
+  for (Eigen::Index k = 0; k < step.size(); ++k) {
+    if (excess_(k) <= noise) continue;  // nothing pushed there, whatever a nearly singular matrix makes of it
+    const auto i = static_cast<std::int32_t>(k);
+    const bool pose = i < saddle.lambda(0);
+    if (pose || i >= saddle.state(0))
+      move_(k) = std::abs(factor * step(k)) / (pose ? system_.coordinate_scale(i) : 1.0);
+  }
+}
+
+std::optional<Eigen::VectorXd> Descent::solve(double hold) {
+  SparseLu lu;
+  bool factored = equations_.factor(lu, equations_.tangent(hold, held_states_));
+  if (!factored && !held_states_)
+    factored = (held_states_ = true) && equations_.factor(lu, equations_.tangent(hold, true));
+  if (!factored) return std::nullopt;
+  Eigen::MatrixXd step = -equations_.residual();
+  lu.solve(step);
+  if (!step.allFinite()) return std::nullopt;
+  return Eigen::VectorXd(step.col(0));
+}
+
+// Where it goes downhill, so that it does not climb to an unstable equilibrium; close to the solution rounding
+// decides and the step is taken as it is.
+bool Descent::newton(OperatingPoint& op, double level) {
+  if (transient_ && level >= 1e-3) return false;
+  transient_ = true;
+  const auto step = solve(0);
+  if (!step || (level >= 1e-6 && equations_.slope(*step) >= 0)) return false;
+  for (const double fraction : {1.0, 0.5, 0.25}) {
+    double taken = 0;
+    OperatingPoint next = moved(system_, op, equations_.saddle(), *step, fraction, options_.rotation_limit, &taken);
+    if (level > 1e-6) equations_.settle(next);
+    equations_.evaluate(next, false);
+    const double after = equations_.merit(force_);
+    if (after <= (level < 1e-9 ? 4 * merit_ + 1e-24 : merit_ * (1 - 0.5 * fraction))) {
+      hold_ *= after <= merit_ ? std::clamp(0.5 * std::sqrt(after / std::max(merit_, 1e-300)), 0.05, 0.5) : 2.0;
+      op = std::move(next);
+      note_move(*step, taken);
+      system_.remember(op);
+      transient_ = false;
+      return true;
+    }
+  }
+  equations_.evaluate(op, true);
+  return false;
+}
+
+// An implicit step of a damped motion: downhill, and as long as the linear model foretells the slope along the step.
+// Reactions do no work along it, so the slope speaks of the pose alone; the imbalance may grow on the way.
+bool Descent::implicit(OperatingPoint& op) {
+  for (int k = 0; k < 40; ++k) {  // a factor of 1e24: forces may be functions, whose stiffness is not known before
+    const auto step = solve(hold_);
+    const double slope = step ? equations_.slope(*step) : 0;
+    if (step && slope < 0) {
+      double taken = 0;
+      OperatingPoint next = moved(system_, op, equations_.saddle(), *step, 1.0, options_.rotation_limit, &taken);
+      equations_.settle(next);
+      const double foretold = -hold_ * equations_.damping(*step);
+      equations_.evaluate(next, false);
+      const double off = std::abs(equations_.slope(*step) - foretold) / -slope;
+      if (off <= 0.5 && equations_.residual().allFinite()) {
+        hold_ *= off < 0.1 ? 0.25 : off < 0.25 ? 0.5 : 1.0;
+        op = std::move(next);
+        note_move(*step, taken);
+        system_.remember(op);
+        return true;
+      }
+    }
+    hold_ *= 4;
+    equations_.evaluate(op, true);
+  }
+  return false;
+}
+
+}  // namespace dynalin

@@ -1,0 +1,58 @@
+// One way downhill from a point to rest: Newton's method where it helps, else implicit steps of a damped motion.
+#pragma once
+
+#include <optional>
+
+#include "analysis/rest_judgement.h"
+#include "analysis/static_history.h"
+#include "analysis/statics.h"
+
+namespace dynalin {
+
+// Beyond all proportion to the model: balance is an illusion of forces that vanish or grow without end.
+bool escaped(const System&, const OperatingPoint& from, const OperatingPoint& to);
+
+class Descent {
+ public:
+  Descent(StaticEquations& equations, const StaticsOptions& options, StaticHistory& history)
+      : equations_(equations), system_(equations.system()), options_(options), history_(history) {}
+
+  // Whether it came to rest; `op` is the last point in any case. Without `loose`, nothing was moved before: what
+  // nothing holds may then rest where it is. Otherwise only unknowns that `loose` marks may be held by nothing.
+  bool run(OperatingPoint& op, const std::vector<bool>* loose = nullptr);
+
+  const OperatingPoint& lowest() const { return lowest_; }
+  bool held_states() const { return held_states_; }
+  // What kept the last points that were nearly balanced from being accepted, empty if there were none.
+  const std::string& doubt() const { return doubt_; }
+
+ private:
+  std::optional<Eigen::VectorXd> solve(double hold);
+  bool newton(OperatingPoint& op, double level);
+  bool implicit(OperatingPoint& op);
+  bool finish(OperatingPoint& op);
+  bool came_to_rest(const RestJudgement&) const;
+  void note_arrivals();
+  void note_move(const Eigen::VectorXd& step, double factor);
+  void change_yardstick();
+  double level() const;
+
+  StaticEquations& equations_;
+  const System& system_;
+  const StaticsOptions& options_;
+  StaticHistory& history_;
+  const std::vector<bool>* loose_ = nullptr;
+  int iteration_ = 0, improved_ = 0, converging_ = 0, stalled_ = 0;
+  OperatingPoint lowest_;
+  double way_ = 0, first_force_ = 0, lowest_merit_ = std::numeric_limits<double>::infinity();
+  double force_ = 0, merit_ = 0, hold_ = 1, before_ = std::numeric_limits<double>::infinity();
+  bool held_states_ = false, transient_ = false;
+  // By unknown: the last step that was taken, relative; residuals of the last two iterations in units of rounding; and
+  // whether balance came at once from far off, as where a contact opens, and not little by little.
+  Eigen::VectorXd move_, excess_, excess_before_;
+  std::vector<bool> arrived_;
+  double smallest_move_ = std::numeric_limits<double>::infinity();
+  std::string doubt_;
+};
+
+}  // namespace dynalin

@@ -1,0 +1,19 @@
+// What EQUILIBRIUM states, as far as statics has the setting.
+#pragma once
+
+#include <algorithm>
+
+#include "analysis/statics.h"
+#include "model/settings.h"
+
+namespace dynalin {
+
+inline StaticsOptions statics_options(const EquilibriumSettings& s) {
+  constexpr std::int64_t most_iterations = 1'000'000;
+  StaticsOptions options;
+  if (s.iteration_limit) options.iteration_limit = static_cast<int>(std::min(*s.iteration_limit, most_iterations));
+  if (s.rotation_limit && *s.rotation_limit > 0) options.rotation_limit = *s.rotation_limit;
+  return options;
+}
+
+}  // namespace dynalin

@@ -1,0 +1,94 @@
+// Work grows with the text: what was quadratic once. Limits are seconds of this process on one core, many times what is
+// needed and a small part of what a search through everything takes.
+#include <gmock/gmock.h>
+
+#include <ctime>
+#include <numbers>
+
+#include "cases/run.h"
+
+namespace dynalin::cases {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Growth : public Cases {
+ protected:
+  void SetUp() override {
+    Cases::SetUp();
+    begin_ = std::clock();
+  }
+  double seconds() const { return static_cast<double>(std::clock() - begin_) / CLOCKS_PER_SEC; }
+  // A part that slides along z, with a marker K at each of `count` heights.
+  static std::string slider(int count, const std::string& law, const std::string& more = "") {
+    std::string text =
+        "many\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, PART=1, QP=0,0,-1\n"
+        "PART/2, MASS=2, CM=3, IP=1,1,1\nMARKER/3, PART=2\nJOINT/1, TRANSLATIONAL, I=3, J=1\n";
+    for (int k = 0; k < count; ++k) text += "MARKER/" + std::to_string(1000 + k) + ", PART=2\n";
+    return text + more + "SFORCE/1, TRANSLATIONAL, I=3, J=1, FUNCTION=" + law + "\nEND\n";
+  }
+  std::clock_t begin_ = 0;
+};
+
+// Each atom is another one; all springs in parallel make one of stiffness 8.
+TEST_F(Growth, a_sum_of_very_many_atoms_is_read_and_linearized_quickly) {
+  constexpr int atoms = 100'000;
+  std::string law = "-8.0E-5*(0";
+  for (int k = 0; k < atoms; ++k) law += (k % 8 ? "+DZ(" : "\n, +DZ(") + std::to_string(1000 + k) + ",1)";
+  const RunResult r = run(slider(atoms, law + ")+8"), "LINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err.substr(0, 1000);
+  // ω² = 8/2; summing 1e5 terms loses at most 1e5 roundings.
+  expect_eigenvalues(r.eigenvalues(0), {{0, 2 / (2 * std::numbers::pi)}}, 1e-10);
+  EXPECT_LT(seconds(), 10);
+}
+
+TEST_F(Growth, very_many_references_to_nothing_are_reported_quickly) {
+  constexpr int count = 40'000;
+  std::string springs;
+  for (int k = 0; k < count; ++k) {
+    springs += "SPRINGDAMPER/" + std::to_string(k + 1) + ", TRANSLATIONAL, I=" + std::to_string(5'000'000 + k) +
+               ", J=" + std::to_string(1000 + k) + ", K=1\n";
+  }
+  const RunResult r = run(slider(count, "0", springs), "LINEAR/EIGENSOL\n");
+  EXPECT_EQ(r.status, 1);
+  EXPECT_THAT(r.err, HasSubstr(std::to_string(count - 49) + " more errors of the kind [unknown-marker]"));
+  EXPECT_LT(r.err.size(), 50'000u) << "only the first are printed";
+  EXPECT_LT(seconds(), 10);
+}
+
+TEST_F(Growth, a_long_chain_of_markers_in_frames_of_others_is_placed_quickly) {
+  constexpr int count = 40'000;
+  std::string chain;
+  for (int k = 0; k < count; ++k) {
+    chain += "MARKER/" + std::to_string(1'000'000 + k) +
+             ", PART=2, QP=0,0,1, RM=" + (k + 1 < count ? std::to_string(1'000'001 + k) : "3") + "\n";
+  }
+  // The first marker is `count` above the last: the force law reads its height over MARKER/1.
+  const std::string height = std::to_string(count + 1);
+  const RunResult r = run(slider(0, "-8*(DZ(1000000,1)-" + height + ")", chain), "LINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err.substr(0, 1000);
+  expect_eigenvalues(r.eigenvalues(0), {{0, 2 / (2 * std::numbers::pi)}});
+  EXPECT_LT(seconds(), 10);
+}
+
+TEST_F(Growth, near_ids_are_named_as_ever) {
+  const std::string markers = "MARKER/112, PART=2\nMARKER/1211, PART=2\nMARKER/21, PART=2\nMARKER/5121, PART=2\n";
+  const RunResult r =
+      run(slider(0, "0", markers + "SPRINGDAMPER/1, TRANSLATIONAL, I=121, J=1, K=1\n"), "LINEAR/EIGENSOL\n");
+  EXPECT_THAT(r.err, HasSubstr("hint: MARKER/1211 and MARKER/21 and MARKER/5121 exist"));
+}
+
+TEST_F(Growth, markers_that_refer_to_a_circle_or_to_a_faulty_marker_are_reported_once) {
+  const RunResult r = run(slider(0, "0",
+                                 "MARKER/5, PART=2, RM=6\nMARKER/6, PART=2, RM=7\nMARKER/7, PART=2, RM=6\n"
+                                 "MARKER/8, PART=2, RM=9\nMARKER/9, PART=2, RM=1\n"),
+                          "LINEAR/EIGENSOL\n");
+  EXPECT_THAT(r.err, HasSubstr("MARKER/6 refers to itself through RM"));
+  EXPECT_THAT(r.err, HasSubstr("MARKER/7 refers to itself through RM"));
+  EXPECT_THAT(r.err, HasSubstr("RM of MARKER/9 is on another body"));
+  EXPECT_THAT(r.err, ::testing::Not(HasSubstr("MARKER/5 refers")));
+  EXPECT_THAT(r.err, ::testing::Not(HasSubstr("RM of MARKER/8")));
+}
+
+}  // namespace
+}  // namespace dynalin::cases
