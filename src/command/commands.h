@@ -9,6 +9,7 @@
 #include "base/diagnostics.h"
 #include "base/source.h"
 #include "dynalin/results.h"
+#include "elements/settings/analysis_settings.h"
 
 namespace dynalin {
 
@@ -47,6 +48,19 @@ struct EnvironmentCommand {
   std::string name;
 };
 
+// A command that changes the model: the statement in CommandFile::written (edits.h).
+struct EditCommand {
+  const Statement* statement = nullptr;
+};
+
+// A command that sets what the analyses after it work with.
+struct SettingCommand {
+  std::optional<WrittenEquilibrium> equilibrium;
+  std::optional<WrittenInitialConditions> initial_conditions;
+  std::vector<std::string> passed_over;  // "INTEGRATOR/HMAX"
+  std::vector<std::string> remarks;
+};
+
 // A command that is known and has no effect on a linear model.
 struct PassiveCommand {
   std::string name;
@@ -56,7 +70,10 @@ struct StopCommand {};
 struct Command {
   std::string text;  // as written, on one line
   Span at;
-  std::variant<SimulateCommand, LinearCommand, EnvironmentCommand, PassiveCommand, StopCommand> what;
+  std::variant<SimulateCommand, LinearCommand, EnvironmentCommand, EditCommand, SettingCommand, PassiveCommand,
+               StopCommand>
+      what;
+  std::size_t stage = 0;  // which of the models of the run it works with, itself an edit included
 };
 
 struct CommandFile {
@@ -64,6 +81,7 @@ struct CommandFile {
   Span model_at;
   std::string output_prefix;  // empty: the model's name
   std::vector<Command> commands;
+  std::shared_ptr<const Dataset> written;  // the statements of the file
   SourceRef source;
 };
 

@@ -4,11 +4,10 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "base/read_file.h"
+#include "command/output_plan.h"
 #include "elements/catalogue.h"
 
 namespace dynalin {
@@ -16,14 +15,6 @@ namespace dynalin {
 namespace {
 
 namespace fs = std::filesystem;
-
-SourceRef read_source(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in || fs::is_directory(path)) return nullptr;
-  std::ostringstream text;
-  text << in.rdbuf();
-  return std::make_shared<const SourceText>(path, text.str());
-}
 
 bool has_extension(const std::string& path, std::string_view extension) {
   std::string e = fs::path(path).extension().string();
@@ -48,7 +39,7 @@ class Loader {
       take(std::move(parsed), job);
     } else {
       const SourceRef source = read_source(file);
-      if (!source) return missing(file);
+      if (!source) return missing(file, why_unread_);
       auto parsed = parse_command_file(source);
       keep_.push_back(source);
       take(std::move(parsed), job);
@@ -63,29 +54,42 @@ class Loader {
     }
     const SourceRef source = read_source(dataset_path);
     if (!source) {
-      if (is_dataset) return missing(dataset_path);
+      if (is_dataset) return missing(dataset_path, why_unread_);
       diagnostics_.error("missing-model", job.commands.model_at,
-                         fmt::format("the dataset {} cannot be read", dataset_path));
+                         fmt::format("the dataset {} cannot be read: {}", dataset_path, why_unread_));
       return fail();
     }
     keep_.push_back(source);
     auto parsed = parse_dataset(source);
     const bool read = !parsed.diagnostics.has_errors();
     diagnostics_.append(std::move(parsed.diagnostics));
-    job.dataset = std::make_shared<const Dataset>(std::move(parsed.value));
-    auto built = build_model(job.dataset, catalogue());
+    const auto dataset = std::make_shared<Dataset>(std::move(parsed.value));
+    auto built = build_model(dataset, catalogue(), {options_.user_value});
     // Statements that could not be read leave gaps that the model would only complain about again.
     if (read || built.diagnostics.has_errors()) diagnostics_.append(std::move(built.diagnostics));
-    job.model = std::move(built.value);
+    job.stages.push_back({dataset, std::move(built.value), {}});
+    if (!diagnostics_.has_errors()) make_stages(job);
     if (!diagnostics_.has_errors()) check_ids(job);
     read_results_options(job);
     if (diagnostics_.has_errors()) return fail();
-    err_ << render(diagnostics_);
+    // Statements that were edited or replaced point into those that they came from.
+    if (job.stages.size() == 1 && job.model().dataset == dataset) dataset->release_arguments();
     job.prefix = !options_.output_prefix.empty() ? options_.output_prefix : default_prefix(job, dataset_path);
+    for (const Job::Stage& stage : job.stages)
+      keep_.insert(keep_.end(), stage.model->further_sources.begin(), stage.model->further_sources.end());
+    check_outputs(job, options_, keep_, diagnostics_);
+    if (diagnostics_.has_errors()) return fail();
+    err_ << render(diagnostics_);
     return job;
   }
 
  private:
+  SourceRef read_source(const std::string& path) {
+    auto text = read_file(path);
+    if (text) return std::make_shared<const SourceText>(path, std::move(*text));
+    why_unread_ = text.error();
+    return nullptr;
+  }
   void take(Parsed<CommandFile> parsed, Job& job) {
     job.commands = std::move(parsed.value);
     diagnostics_.append(std::move(parsed.diagnostics));
@@ -95,54 +99,75 @@ class Loader {
         job.commands.output_prefix.empty() ? fs::path(dataset_path).stem().string() : job.commands.output_prefix;
     return (fs::path(job.folder) / name).string();
   }
-  std::nullopt_t missing(const std::string& path) {
-    fmt::print(err_, "error: {} cannot be read\n", path);
+  std::nullopt_t missing(const std::string& path, const std::string& reason) {
+    fmt::print(err_, "error: {} cannot be read: {}\n", path, reason);
     return std::nullopt;
   }
   std::nullopt_t fail() {
     err_ << render(diagnostics_);
     return std::nullopt;
   }
+  // Commands that edit the model end a stage of the run; neighbours share the next one. What is wrong with the dataset
+  // itself is reported already.
+  void make_stages(Job& job) {
+    std::vector<Command>& commands = job.commands.commands;
+    for (std::size_t k = 0; k < commands.size(); ++k) {
+      if (!std::holds_alternative<EditCommand>(commands[k].what)) {
+        commands[k].stage = job.stages.size() - 1;
+        continue;
+      }
+      std::vector<const Statement*> edits;
+      for (; k < commands.size() && std::holds_alternative<EditCommand>(commands[k].what); ++k) {
+        edits.push_back(std::get<EditCommand>(commands[k].what).statement);
+        commands[k].stage = job.stages.size();
+      }
+      --k;
+      EditedDataset now = edited(job.stages.back().dataset, job.commands.written, edits, catalogue(), diagnostics_);
+      auto built = build_model(now.dataset, catalogue(), {options_.user_value});
+      const SourceText* read_before = job.stages.front().dataset->source.get();
+      for (const Diagnostic& d : built.diagnostics.items()) {
+        if (d.severity == Severity::error) {
+          diagnostics_.error(d.code, d.at, d.message, d.hint).notes = d.notes;
+        } else if (d.at.source != read_before) {
+          diagnostics_.warning(d.code, d.at, d.message, d.hint).notes = d.notes;
+        }
+      }
+      job.stages.push_back({std::move(now.dataset), std::move(built.value), std::move(now.restated)});
+      if (diagnostics_.has_errors()) return;
+    }
+  }
   // RESULTS/XRF asks for the results file in XML; other contents of it are not written here.
   static void read_results_options(Job& job) {
-    constexpr std::int64_t digits_unless_stated = 17;
-    for (const Statement& s : job.dataset->statements) {
-      if (s.name != "RESULTS") continue;
-      bool xrf = false;
-      std::int64_t digits = digits_unless_stated;
-      static constexpr std::array<std::string_view, 2> names = {"XRF", "DECIMALPLACES"};
-      for (const WrittenArgument& a : s.arguments) {
-        const auto which = find_keyword(a.name.text(), names);
-        if (!which) continue;
-        if (*which == 0) xrf = true;
-        if (*which == 1 && !a.value.empty()) digits = static_cast<std::int64_t>(a.value.front().value);
-      }
-      if (xrf) job.xrf_digits = static_cast<int>(std::clamp<std::int64_t>(digits, 1, 17));
-    }
+    constexpr std::int64_t digits_that_count = 17;  // more say nothing more of a number
+    const ResultsSettings& results = job.model().settings.results;
+    if (results.xrf)
+      job.xrf_digits = static_cast<int>(
+          std::clamp<std::int64_t>(results.decimal_places.value_or(digits_that_count), 1, digits_that_count));
   }
   // Ids that commands refer to must exist before anything runs.
   void check_ids(const Job& job) {
     for (const Command& c : job.commands.commands) {
       const auto* linear = std::get_if<LinearCommand>(&c.what);
       if (!linear) continue;
+      const Model& model = *job.stages[c.stage].model;
       const auto need = [&](const std::optional<std::int64_t>& id, std::string_view statement, bool exists) {
         if (id && !exists)
           diagnostics_.error("unknown-element", c.at,
                              fmt::format("the command refers to {}/{}, which does not exist", statement, *id));
       };
       const auto found = [&](const std::optional<std::int64_t>& id, std::string_view statement) {
-        return id && job.model->find(statement, *id).has_value();
+        return id && model.find(statement, *id).has_value();
       };
       need(linear->pstate, "PSTATE", found(linear->pstate, "PSTATE"));
       need(linear->pinput, "PINPUT", found(linear->pinput, "PINPUT"));
       need(linear->poutput, "POUTPUT", found(linear->poutput, "POUTPUT"));
-      need(linear->modal_rm, "MARKER", linear->modal_rm && job.model->find_marker(*linear->modal_rm).has_value());
+      need(linear->modal_rm, "MARKER", linear->modal_rm && model.find_marker(*linear->modal_rm).has_value());
       for (const std::int64_t id : linear->marker_list) {
-        need(id, "MARKER", job.model->find_marker(id).has_value());
+        need(id, "MARKER", id > 0 && model.find_marker(id).has_value());
       }
-      const auto rm = linear->rm ? job.model->find_marker(*linear->rm) : std::nullopt;
+      const auto rm = linear->rm ? model.find_marker(*linear->rm) : std::nullopt;
       need(linear->rm, "MARKER", rm.has_value());
-      if (rm && job.model->marker(*rm).floating)
+      if (rm && model.marker(*rm).floating)
         diagnostics_.error("floating-marker", c.at, fmt::format("RM=MARKER/{} is floating", *linear->rm));
     }
   }
@@ -150,7 +175,8 @@ class Loader {
   const SessionOptions& options_;
   std::ostream& err_;
   Diagnostics diagnostics_;
-  std::vector<SourceRef> keep_;
+  std::vector<SourceRef> keep_;  // the files that were read
+  std::string why_unread_;
 };
 
 }  // namespace

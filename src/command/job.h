@@ -4,6 +4,7 @@
 #include <iosfwd>
 
 #include "command/commands.h"
+#include "command/edits.h"
 #include "command/session.h"
 #include "model/model.h"
 
@@ -12,8 +13,14 @@ namespace dynalin {
 // Everything a run needs, read and checked.
 struct Job {
   CommandFile commands;
-  std::shared_ptr<const Dataset> dataset;
-  std::shared_ptr<const Model> model;
+  // The models of the run in order: that of the dataset, then one more for each group of commands that edit it.
+  struct Stage {
+    std::shared_ptr<const Dataset> dataset;
+    std::shared_ptr<const Model> model;
+    Restated restated;  // elements whose start the edits state
+  };
+  std::vector<Stage> stages;
+  const Model& model() const { return *stages.front().model; }
   std::string prefix;
   int xrf_digits = 0;  // decimals of the results file, 0 for none
   std::string folder;  // of the command file; files named in commands are relative to it

@@ -52,7 +52,7 @@ struct WrittenLinear {
       {.name = "ENERGY_PER_MODE", .slot = &WrittenLinear::energy_per_mode},
       {.name = "MASS_PER_MODE", .slot = &WrittenLinear::mass_per_mode},
       {.name = "MODAL_RM", .slot = &WrittenLinear::modal_rm, .minimum = 1},
-      {.name = "TABLE_PRECISION", .slot = &WrittenLinear::table_precision, .minimum = 2},
+      {.name = "TABLE_PRECISION", .slot = &WrittenLinear::table_precision, .minimum = 2, .maximum = 100},
   }};
 };
 

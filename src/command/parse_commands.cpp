@@ -7,24 +7,28 @@
 
 #include "command/command_reader.h"
 #include "command/commands.h"
+#include "command/edits.h"
 #include "command/linear_command.h"
+#include "elements/settings/output_settings.h"
+#include "elements/settings/setting_set.h"
 
 namespace dynalin {
 
 namespace {
 
-constexpr std::array<std::string_view, 52> command_names = {
-    "ACCGRAV",  "ACTIVATE",    "ARRAY",        "BEAM",        "BUSHING", "CONTROL", "COUPLER",    "DEACTIVATE",
-    "DEBUG",    "DIFF",        "ENVIRONMENT",  "EQUILIBRIUM", "FIELD",   "FILE",    "FLEX_BODY",  "FRICTION",
-    "GCON",     "GEAR",        "GFORCE",       "HELP",        "IC",      "INFO",    "INTEGRATOR", "JOINT",
-    "JPRIM",    "KINEMATICS",  "LINEAR",       "LSOLVER",     "MARKER",  "MENU",    "MOTION",     "OUTPUT",
-    "PART",     "PREFERENCES", "RELOAD",       "REQUEST",     "SAVE",    "SENSOR",  "SFORCE",     "SHOW",
-    "SIMULATE", "SPLINE",      "SPRINGDAMPER", "STOP",        "STRING",  "TIME",    "VARIABLE",   "VFORCE",
-    "VTORQUE",  "GSTIFF",      "WSTIFF",       "SYSTEM"};
+constexpr std::array<std::string_view, 66> command_names = {
+    "ACCGRAV",  "ACTIVATE",    "ARRAY",        "BEAM",        "BUSHING", "CONTROL",    "COUPLER",    "DEACTIVATE",
+    "DEBUG",    "DIFF",        "ENVIRONMENT",  "EQUILIBRIUM", "FIELD",   "FILE",       "FLEX_BODY",  "FRICTION",
+    "GCON",     "GEAR",        "GFORCE",       "HELP",        "IC",      "INFO",       "INTEGRATOR", "JOINT",
+    "JPRIM",    "KINEMATICS",  "LINEAR",       "LSOLVER",     "MARKER",  "MENU",       "MOTION",     "OUTPUT",
+    "PART",     "PREFERENCES", "RELOAD",       "REQUEST",     "SAVE",    "SENSOR",     "SFORCE",     "SHOW",
+    "SIMULATE", "SPLINE",      "SPRINGDAMPER", "STOP",        "STRING",  "TIME",       "VARIABLE",   "VFORCE",
+    "VTORQUE",  "GSTIFF",      "WSTIFF",       "SYSTEM",      "CONTACT", "CURVE",      "CVCV",       "GSE",
+    "LSE",      "MATRIX",      "MFORCE",       "NFORCE",      "PINPUT",  "POINT_MASS", "POUTPUT",    "PSTATE",
+    "PTCV",     "TFSISO"};
 // Commands that set or print what a linear model does not need.
-constexpr std::array<std::string_view, 16> passive = {
-    "DEBUG",  "HELP",        "IC",      "INFO", "INTEGRATOR", "KINEMATICS", "LSOLVER", "MENU",
-    "OUTPUT", "PREFERENCES", "REQUEST", "SHOW", "TIME",       "GSTIFF",     "WSTIFF",  "EQUILIBRIUM"};
+constexpr std::array<std::string_view, 8> passive = {"HELP", "INFO",   "MENU",   "SHOW",
+                                                     "TIME", "GSTIFF", "WSTIFF", "STRING"};
 
 struct WrittenSimulate {
   bool initial = false, statics = false, kinematics = false, dynamics = false, transient = false;
@@ -88,6 +92,47 @@ struct WrittenEnvironment {
   }};
 };
 
+// A command that has the arguments of a statement of settings.
+template <class E>
+bool read_setting(SettingCommand& out, ElementReader& reader, E& written) {
+  if (!read_arguments(written, reader)) return false;
+  out.passed_over = arguments_passed_over<E>(reader);
+  return true;
+}
+
+std::optional<SettingCommand> read_setting(std::string_view name, ElementReader& reader) {
+  SettingCommand out;
+  const auto passed_over_alone = [&]<class E>(E written) { return read_setting(out, reader, written); };
+  bool ok = true;
+  if (name == "EQUILIBRIUM") {
+    ok = read_setting(out, reader, out.equilibrium.emplace());
+  } else if (name == "IC") {
+    ok = read_setting(out, reader, out.initial_conditions.emplace());
+  } else if (name == "INTEGRATOR") {
+    ok = passed_over_alone(WrittenIntegrator{});
+  } else if (name == "KINEMATICS") {
+    ok = passed_over_alone(WrittenKinematics{});
+  } else if (name == "LSOLVER") {
+    ok = passed_over_alone(WrittenLinearSolver{});
+  } else if (name == "DEBUG") {
+    ok = passed_over_alone(WrittenDebug{});
+  } else if (name == "OUTPUT") {
+    ok = passed_over_alone(WrittenOutput{});
+  } else if (name == "PREFERENCES") {
+    WrittenPreferences written;
+    ok = read_setting(out, reader, written);
+    if (written.asks_for_fortran()) out.remarks.emplace_back(WrittenPreferences::fortran_remark);
+  } else if (name == "REQUEST") {
+    WrittenRequest written;
+    ok = read_arguments(written, reader);
+    out.passed_over = {"REQUEST"};
+  } else {
+    return std::nullopt;
+  }
+  if (!ok) return SettingCommand{};
+  return out;
+}
+
 std::string one_line(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -112,6 +157,7 @@ class FileParser {
     for (const Statement& s : keep_->statements) {
       if (!s.name.empty()) read(s);
     }
+    file_.written = keep_;
     return {std::move(file_), std::move(diagnostics_)};
   }
   void name_model(std::string model, Span at, std::string prefix) {
@@ -154,6 +200,10 @@ class FileParser {
         name_model(w.model, reader.at("MODEL"), w.prefix);
       }
       return;
+    } else if (auto setting = read_setting(s.name, reader)) {
+      command.what = std::move(*setting);
+    } else if (redefines(s.name) || s.name == "ACTIVATE" || s.name == "DEACTIVATE") {
+      command.what = EditCommand{&s};
     } else if (std::find(passive.begin(), passive.end(), s.name) != passive.end()) {
       command.what = PassiveCommand{std::string(s.name)};
     } else if (s.name != "STOP") {
@@ -181,7 +231,7 @@ bool is_command_line(std::string_view line) {
   const std::size_t slash = line.find('/');
   const std::string_view word = trimmed(line.substr(0, slash));
   return (slash != std::string_view::npos && find_keyword(word, command_names).has_value()) ||
-         find_keyword(word, std::array<std::string_view, 1>{"STOP"});
+         (word.size() >= 3 && find_keyword(word, std::array<std::string_view, 1>{"STOP"}));  // a model may be called s
 }
 
 }  // namespace

@@ -3,32 +3,43 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
-#include <filesystem>
+#include <limits>
+#include <map>
+#include <set>
 #include <sstream>
 
-#include "analysis/statics.h"
+#include "analysis/static_settings.h"
 #include "command/environment.h"
 #include "command/job.h"
 #include "command/mode_tables.h"
+#include "command/output_plan.h"
+#include "command/progress_line.h"
 #include "linear/cautions.h"
 #include "linear/eigen.h"
 #include "linear/mode_shapes.h"
 #include "linear/second_order.h"
-#include "output/atomic_file.h"
+#include "linear/still_modes.h"
 #include "output/json.h"
 #include "output/matrices.h"
 #include "output/message_file.h"
+#include "output/output_file.h"
 #include "output/results_file.h"
+#include "system/carry_over.h"
 
 namespace dynalin {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::string_view version = "0.1.0";
+
+// Tables on the terminal would stand between the results that go there.
+bool to_standard_output(const std::string& path) {
+  const auto destination = path.empty() ? tl::unexpected(std::string()) : find_destination(path);
+  return destination && destination->kind == Destination::Kind::standard_output;
+}
 
 class Session {
  public:
@@ -37,23 +48,33 @@ class Session {
         job_(std::move(job)),
         out_(out),
         err_(err),
-        system_(job_.model, {options.pade ? DelayReading::pade : DelayReading::first_order}),
-        point_(system_.drawn()) {
-    if (job_.xrf_digits > 0) results_.emplace(job_.model->title, job_.xrf_digits);
+        quiet_(options.quiet || to_standard_output(options.json)),
+        settings_(job_.model().settings) {
+    for (const Job::Stage& s : job_.stages)
+      systems_.push_back(std::make_unique<System>(
+          s.model, SystemOptions{options.pade ? DelayReading::pade : DelayReading::first_order}));
+    point_ = system().drawn();
+    if (job_.xrf_digits > 0) results_.emplace(job_.model().title, job_.xrf_digits);
   }
 
   // What only showed while the equations were made: wrong input like any other.
   bool sound() const {
-    fmt::print(err_, "{}", render(system_.layout().problems));
-    return !system_.layout().problems.has_errors();
+    for (const auto& s : systems_) {
+      if (!s->layout().problems.has_errors()) continue;
+      fmt::print(err_, "{}", render(s->layout().problems));
+      return false;
+    }
+    return true;
   }
 
   int run() {
     const auto start = std::chrono::steady_clock::now();
     write_banner(message_, version);
-    write_title(message_, job_.model->title);
-    if (!job_.model->units.stated) remark("the dataset states no UNITS: the units consistency factor is taken as 1");
-    for (const std::string& text : system_.layout().remarks) remark(text);
+    write_title(message_, job_.model().title);
+    if (!job_.model().units.stated) remark("the dataset states no UNITS: the units consistency factor is taken as 1");
+    for (const std::string& text : system().layout().remarks) remark(text);
+    for (const std::string& text : settings_.remarks) remark(text);
+    pass_over(settings_.passed_over);
     for (const std::string_view name : environment_.names())
       remark(fmt::format("the environment variable {} is set and changes what this run computes", name));
     int status = done;
@@ -75,7 +96,65 @@ class Session {
  private:
   using Outcome = tl::expected<void, Failure>;
 
+  const System& system() const { return *systems_[stage_]; }
+  const Model& model() const { return system().model(); }
+
+  // The model that a command works with; what is known of the one before goes on by class and id.
+  void enter_stage(std::size_t stage) {
+    if (stage == stage_) return;
+    const std::size_t before = std::exchange(stage_, stage);
+    if (started_) {
+      point_ = carried_over(*systems_[before], point_, system(), job_.stages[stage].restated);
+      restated_velocity_ = job_.stages[stage].restated.velocities;
+    } else {
+      point_ = system().drawn();
+    }
+    consistent_ = false;
+    at_rest_.reset();
+    const std::vector<std::string>& said = systems_[before]->layout().remarks;
+    for (const std::string& text : system().layout().remarks) {
+      if (std::find(said.begin(), said.end(), text) == said.end()) remark(text);
+    }
+  }
+
+  // Elements that are not in the model since the last edit.
+  void write_deactivated() {
+    const std::set<std::string> before = std::exchange(inactive_, {});
+    for (const auto& set : model().sets) {
+      if (set->active) continue;
+      for (const ElementLabel& label : set->labels) {
+        const std::string name = label.full_text();
+        inactive_.insert(name);
+        if (before.contains(name)) continue;
+        fmt::print(message_, "   Deactivated {}, force/torque values will be zero in function-expression references.\n",
+                   name);
+      }
+    }
+  }
+
+  // Settings that nothing acts on are named once a run.
+  void pass_over(const std::vector<std::string>& settings) {
+    std::vector<std::string> fresh;
+    for (const std::string& s : settings) {
+      if (passed_over_.insert(s).second) fresh.push_back(s);
+    }
+    if (!fresh.empty())
+      remark(fmt::format("nothing here acts on {}, which {} passed over", fmt::join(fresh, ", "),
+                         fresh.size() == 1 ? "is" : "are"));
+  }
+
+  void apply(const SettingCommand& setting) {
+    if (setting.equilibrium) setting.equilibrium->apply(settings_.equilibrium);
+    if (setting.initial_conditions) {
+      setting.initial_conditions->apply(settings_.initial_conditions);
+      for (const auto& s : systems_) s->state_settings(settings_.initial_conditions);
+    }
+    for (const std::string& text : setting.remarks) remark(text);
+    pass_over(setting.passed_over);
+  }
+
   Outcome execute(const Command& c) {
+    enter_stage(c.stage);
     if (const auto* simulate = std::get_if<SimulateCommand>(&c.what)) {
       Outcome outcome = simulate->kind == SimulateCommand::Kind::statics ? statics() : initial();
       if (simulate->kind != SimulateCommand::Kind::statics) at_rest_.reset();
@@ -86,6 +165,14 @@ class Session {
     if (const auto* variable = std::get_if<EnvironmentCommand>(&c.what)) {
       if (!environment_.set(variable->name))
         remark(fmt::format("the environment variable {} means nothing here and is passed over", variable->name));
+      json_.add_plain(c.text, point_.time);
+    }
+    if (const auto* setting = std::get_if<SettingCommand>(&c.what)) {
+      apply(*setting);
+      json_.add_plain(c.text, point_.time);
+    }
+    if (std::holds_alternative<EditCommand>(c.what)) {
+      write_deactivated();
       json_.add_plain(c.text, point_.time);
     }
     if (const auto* passive = std::get_if<PassiveCommand>(&c.what)) {
@@ -99,15 +186,18 @@ class Session {
     if (consistent_) return {};
     Findings findings;
     write_begin(message_, "Displacement Initial Conditions");
-    auto op = assemble_position(system_, point_, findings, Starts::held);
+    auto op = assemble_position(system(), point_, findings, started_ ? Starts::ignored : Starts::held);
     if (!op) return tl::unexpected(op.error());
     write_end(message_, "Displacement Initial Conditions");
     write_begin(message_, "Velocity Initial Conditions");
-    op = initial_velocity(system_, std::move(*op), findings);
+    // An edited model goes on with the velocities it had.
+    const bool goes_on = started_ && !restated_velocity_;
+    op = goes_on ? reconcile_velocity(system(), std::move(*op), findings)
+                 : initial_velocity(system(), std::move(*op), findings);
     if (!op) return tl::unexpected(op.error());
     write_end(message_, "Velocity Initial Conditions");
     write_begin(message_, "Acceleration Initial Conditions");
-    op = solve_acceleration(system_, std::move(*op), findings);
+    op = solve_acceleration(system(), std::move(*op), findings);
     if (!op) return tl::unexpected(op.error());
     write_end(message_, "Acceleration Initial Conditions");
     accept(std::move(*op), findings);
@@ -118,9 +208,15 @@ class Session {
     Findings findings;
     StaticsReport report;
     write_begin(message_, "Static Solution");
-    StaticsOptions options;
+    StaticsOptions options = statics_options(settings_.equilibrium);
     options.restore_velocities = !environment_.statics_stay_at_rest;
-    auto op = static_operating_point(system_, point_, options, report, findings);
+    ProgressLine line(quiet_ ? nullptr : &out_);
+    options.progress = [&](int iteration, double imbalance) {
+      line.show(
+          [&] { return fmt::format("static equilibrium: iteration {}, imbalance {:.2e}", iteration, imbalance); });
+    };
+    auto op = static_operating_point(system(), point_, options, report, findings);
+    line.clear();
     if (!op) return tl::unexpected(op.error());
     at_rest_ = std::move(report.at_rest);
     write_static_result(message_, report.iterations, report.imbalance);
@@ -128,17 +224,18 @@ class Session {
     accept(std::move(*op), findings);
     const std::string stability = stability_text();
     fmt::print(message_, "  Stability: {}\n", stability);
-    if (!options_.quiet)
+    if (!quiet_)
       fmt::print(out_, "static equilibrium after {} iterations, imbalance {:.3e}, {}\n", report.iterations,
                  report.imbalance, stability);
     return {};
   }
 
-  // Whether a small disturbance of the equilibrium grows, by the eigenvalues of its linear model.
+  // Whether a small disturbance of the equilibrium grows, by the eigenvalues of its linear model: that of the solution
+  // itself, without the velocities of the dataset that may have come back.
   std::string stability_text() const {
     constexpr std::size_t affordable = 300;
-    if (system_.coordinates() > affordable) return "stability not examined";
-    const auto linear = linearize(system_, point_, {});
+    if (system().coordinates() > affordable) return "stability not examined";
+    const auto linear = linearize(system(), *at_rest_, {});
     if (!linear) return "stability not known: " + linear.error().message;
     const auto modes = eigensolve(*linear, Vectors::none);
     if (!modes) return "stability not known: " + modes.error().message;
@@ -152,9 +249,10 @@ class Session {
 
   void accept(OperatingPoint op, const Findings& findings) {
     point_ = std::move(op);
-    consistent_ = true;
+    consistent_ = started_ = true;
+    restated_velocity_ = false;
     std::vector<std::string> rows;
-    for (const std::int32_t r : findings.redundant_rows) rows.push_back(system_.row_text(r));
+    for (const std::int32_t r : findings.redundant_rows) rows.push_back(system().row_text(r));
     if (rows != redundant_) write_redundant(message_, point_.time, rows);
     redundant_ = std::move(rows);
     for (const std::string& w : findings.warnings) remark(w);
@@ -168,7 +266,7 @@ class Session {
   Outcome run_linear(const Command& c, const LinearCommand& command) {
     if (auto ready = initial(); !ready) return ready;
     LinearOptions options;
-    const Model& model = *job_.model;
+    const Model& model = this->model();
     if (command.pstate) options.pstate = model.find("PSTATE", *command.pstate);
     if (command.pinput) options.pinput = model.find("PINPUT", *command.pinput);
     if (command.poutput) options.poutput = model.find("POUTPUT", *command.poutput);
@@ -177,7 +275,7 @@ class Session {
     options.principal_states = command.original || environment_.principal_states;
     options.without_rate_coupling = command.original || environment_.without_rate_coupling;
     const OperatingPoint& point = point_of(command);
-    auto linear = linearize(system_, point, options);
+    auto linear = linearize(system(), point, options);
     if (!linear) return tl::unexpected(linear.error());
     for (const std::string& w : linear->warnings) remark(w);
     if (linear->model.states.empty())
@@ -185,66 +283,126 @@ class Session {
           "linear analysis", "the model has no states: neither degrees of freedom nor differential states", {}});
 
     if (command.option == LinearOption::mkb) {
-      const auto form = second_order(linear->model);
+      auto form = second_order(linear->model, linear->first_order);
       if (!form) return tl::unexpected(form.error());
-      write_matrices(command, named_matrices(*form));
+      note_options(*form, command);
+      if (auto written = write_matrices(command, named_matrices(*form)); !written) return written;
+      write_matrix_states(message_, *form);
+      if (results_ && !settings_.results.without_linear) results_->add(*form);
       json_.add(c.text, *form);
-      if (!options_.quiet)
+      if (!quiet_)
         fmt::print(out_, "second-order matrices of {} states written to {}\n", form->states.size(), command.file);
       return {};
     }
     if (command.option == LinearOption::statemat) {
-      write_matrices(command, named_matrices(linear->model));
+      note_options(linear->model, command);
+      if (auto written = write_matrices(command, named_matrices(linear->model)); !written) return written;
+      write_matrix_states(message_, linear->model);
       json_.add(c.text, linear->model);
-      if (results_) results_->add(linear->model);
-      if (!options_.quiet)
+      if (results_ && !settings_.results.without_linear) results_->add(linear->model);
+      if (!quiet_)
         fmt::print(out_, "state matrices of {} states written to {}\n", linear->model.states.size(), command.file);
       return {};
     }
     if (linear->model.states.size() > 1000) {
       fmt::print(err_, "computing the eigenvalues of {} states ...\n", linear->model.states.size());
     }
+    const std::clock_t begun = std::clock();
     auto modes = eigensolve(*linear, command.without_vectors ? Vectors::none : Vectors::right);
     if (!modes) return tl::unexpected(modes.error());
+    const double cpu_seconds = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
     if (!command.without_vectors) {
-      name_movers(system_, point, *linear, *modes);
-      map_shapes(system_, *linear, *modes);
+      clear_still_modes(system(), point, *linear, *modes);
+      name_movers(system(), point, *linear, *modes);
+      map_shapes(system(), *linear, *modes);
     }
     modes->rm = command.rm.value_or(0);
     modes->pstate = command.pstate.value_or(0);
     modes->without_damping = command.without_damping;
     modes->original = command.original;
-    for (const std::string& text : cautions(system_, point, *linear, *modes)) remark(text);
-    write_eigensolution(message_, *modes);
-    json_.add(c.text, *modes);
-    if (results_) results_->add(*modes);
+    for (const std::string& text : cautions(system(), point, *linear, *modes)) remark(text);
+    // All that this command has to say is in the files of the run, or nothing of it.
     if (command.wants_tables()) {
-      const auto tables = mode_tables(command, system_, point, *linear, *modes);
+      const auto tables = mode_tables(command, system(), point, *linear, *modes);
       if (!tables) return tl::unexpected(tables.error());
       tables_ << *tables;
     }
-    if (!options_.quiet) {
+    write_eigensolution(message_, *modes, cpu_seconds);
+    json_.add(c.text, *modes);
+    if (results_ && !settings_.results.without_linear) results_->add(*modes);
+    warn_of_missing_modes(command, modes->modes.size());
+    if (!quiet_) {
       fmt::print(out_, "{} at time {:g}\n", c.text, modes->time);
       write_eigen_table(out_, *modes, options_.bounds);
     }
     return {};
   }
 
-  void write_matrices(const LinearCommand& command, const std::vector<NamedMatrix>& matrices) {
-    const std::string base = (fs::path(job_.folder) / command.file).string();
-    if (command.format == "MATLAB") {
-      for (const NamedMatrix& m : matrices) {
-        write_matlab(new_file(base + m.suffix), m);
-      }
+  template <class Matrices>
+  static void note_options(Matrices& m, const LinearCommand& command) {
+    m.rm = command.rm.value_or(0);
+    m.pstate = command.pstate.value_or(0);
+    m.without_damping = command.without_damping;
+    m.original = command.original;
+  }
+
+  // Tables of modes that are not there.
+  void warn_of_missing_modes(const LinearCommand& command, std::size_t modes) {
+    const auto look = [&](std::string_view name, const LinearCommand::Modes& wanted) {
+      if (wanted.numbers.empty()) return;
+      const auto all = std::numeric_limits<std::int64_t>::max();
+      const std::int64_t last = wanted.numbers.back(), count = static_cast<std::int64_t>(modes);
+      if (last <= count || last == all) return;
+      remark(fmt::format("{} asks for {} {}, the eigensolution has {} {}", name,
+                         wanted.numbers.front() == last ? "mode" : "modes up to", last, count,
+                         count == 1 ? "mode" : "modes"));
+    };
+    look("COORDS", command.coordinates), look("KINETIC", command.kinetic), look("STRAIN", command.strain);
+    look("DISSIPAT", command.dissipation), look("MRANGE", command.markers);
+    look("ENERGY_PER_MODE", command.energy_per_mode), look("MASS_PER_MODE", command.mass_per_mode);
+  }
+
+  using Files = std::vector<std::unique_ptr<OutputFile>>;
+
+  // All files of the command, or none of them.
+  Outcome write_matrices(const LinearCommand& command, const std::vector<NamedMatrix>& matrices) {
+    const std::string base = linear_path(job_, command.file);
+    Files made;
+    tl::expected<void, std::string> result;
+    if (command.format != "MATLAB") {
+      result = write(made, base, [&](std::ostream& o) { write_fsave(o, matrices, std::time(nullptr)); });
     } else {
-      write_fsave(new_file(base), matrices, std::time(nullptr));
+      for (const NamedMatrix& m : matrices) {
+        if (result) result = write(made, base + m.suffix, [&](std::ostream& o) { write_matlab(o, m); });
+      }
     }
+    if (!result) return tl::unexpected(Failure{"linear analysis", result.error(), {}});
+    take(std::move(made));
+    return {};
+  }
+
+  template <class Content>
+  static tl::expected<void, std::string> write(Files& made, const std::string& path, const Content& content) {
+    auto destination = find_destination(path);
+    if (!destination) return tl::unexpected("cannot write " + path + ": " + destination.error());
+    auto file = OutputFile::create(std::move(*destination));
+    if (!file) return tl::unexpected(file.error());
+    content((*file)->stream());
+    made.push_back(std::move(*file));
+    return made.back()->complete();
   }
 
   // A later command that writes the same file replaces what an earlier one wrote.
-  std::ostream& new_file(const std::string& path) {
-    std::erase_if(files_, [&](const auto& file) { return file->path() == path; });
-    return files_.emplace_back(std::make_unique<AtomicFile>(path))->stream();
+  void take(Files made) {
+    for (auto& file : made) {
+      const Destination& d = file->destination();
+      const auto [place, fresh] = place_of_file_.emplace(d.place(), files_.size());
+      if (d.kind == Destination::Kind::replaced && !fresh) {
+        files_[place->second] = std::move(file);
+      } else {
+        files_.push_back(std::move(file));
+      }
+    }
   }
 
   void remark(const std::string& text) {
@@ -261,49 +419,42 @@ class Session {
 
   // All files appear together at the end of the run.
   bool finish() {
-    bool ok = true;
-    const auto commit = [&](AtomicFile& file) {
-      if (const auto result = file.commit(); !result) {
-        fmt::print(err_, "error: {}\n", result.error());
-        ok = false;
-      }
+    Files made;
+    tl::expected<void, std::string> result;
+    const auto add = [&](const std::string& path, const auto& content) {
+      if (result) result = write(made, path, content);
     };
-    for (auto& file : files_) commit(*file);
-    if (!tables_.view().empty()) {
-      AtomicFile text(job_.prefix + ".txt");
-      text.stream() << tables_.view();
-      commit(text);
-    }
-    if (results_) {
-      AtomicFile results(job_.prefix + ".res");
-      results_->write(results.stream(), std::string(version));
-      commit(results);
-    }
-    AtomicFile message(job_.prefix + ".msg");
-    message.stream() << message_.str();
-    commit(message);
-    if (!options_.json.empty()) {
-      AtomicFile json(options_.json);
-      json_.write(json.stream());
-      commit(json);
-    }
-    return ok;
+    if (!tables_.view().empty()) add(job_.prefix + ".txt", [&](std::ostream& o) { o << tables_.view(); });
+    if (results_) add(job_.prefix + ".res", [&](std::ostream& o) { results_->write(o, std::string(version)); });
+    add(job_.prefix + ".msg", [&](std::ostream& o) { o << message_.view(); });
+    if (!options_.json.empty()) add(options_.json, [&](std::ostream& o) { json_.write(o); });
+    take(std::move(made));
+    if (result) result = commit(files_, out_);
+    if (!result) fmt::print(err_, "error: {}\n", result.error());
+    return result.has_value();
   }
 
   const SessionOptions& options_;
   Job job_;
   std::ostream& out_;
   std::ostream& err_;
-  System system_;
+  bool quiet_;
+  Settings settings_;
+  std::vector<std::unique_ptr<System>> systems_;  // of the stages
+  std::size_t stage_ = 0;
+  std::set<std::string> passed_over_, inactive_;  // what is said already
   OperatingPoint point_;
   bool consistent_ = false;
+  bool started_ = false;            // an analysis has been made
+  bool restated_velocity_ = false;  // and then a command stated where something starts
   Environment environment_ = read_environment();
   std::optional<OperatingPoint> at_rest_;  // what the last static analysis found, if no other one came after it
   std::vector<std::string> redundant_;
   std::ostringstream message_, tables_;
   JsonResults json_;
   std::optional<ResultsFile> results_;  // where the dataset has RESULTS with XRF
-  std::vector<std::unique_ptr<AtomicFile>> files_;
+  Files files_;
+  std::map<Destination::Place, std::size_t> place_of_file_;  // among files_
 };
 
 }  // namespace
@@ -311,6 +462,10 @@ class Session {
 int run_session(const SessionOptions& options, std::ostream& out, std::ostream& err) {
   auto job = load_job(options, err);
   if (!job) return wrong_input;
+  Diagnostics unwritable;
+  check_permissions(*job, options, unwritable);
+  err << render(unwritable);
+  if (unwritable.has_errors()) return wrong_input;
   Session session(options, std::move(*job), out, err);
   return session.sound() ? session.run() : wrong_input;
 }

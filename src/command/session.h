@@ -2,6 +2,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,8 @@ struct SessionOptions {
   bool keep_going = false;
   bool bounds = false;  // of eigenvalues, in the table on the terminal
   bool quiet = false;
-  bool pade = false;  // a DELAY as a Padé approximant with a state of its own
+  std::optional<double> user_value;  // in the place of compiled routines
+  bool pade = false;                 // a DELAY as a Padé approximant with a state of its own
 };
 
 enum ExitStatus : int { done = 0, wrong_input = 1, analysis_failed = 2, wrong_usage = 3 };

@@ -24,6 +24,8 @@ class ArgumentSplitter {
   }
 
   SplitArguments split() {
+    constexpr std::size_t usual = 8;
+    result_.drafts.reserve(usual);
     while (skip_separators()) {
       if (word_at(at_)) {
         read_argument();
@@ -72,6 +74,7 @@ class ArgumentSplitter {
   void read_argument();
   void read_value(ArgumentDraft& draft);
   std::size_t end_of_text(std::size_t begin, ValueForm form) const;
+  std::size_t end_of_text_list(std::size_t begin) const;
   std::size_t end_of_value(ArgumentDraft& draft);
   bool value_ends_at_comma(std::size_t begin, std::size_t comma, std::size_t next,
                            const WrittenArgument& argument) const;
@@ -84,19 +87,20 @@ class ArgumentSplitter {
   std::string_view statement_;
   const SourceText& source_;
   Diagnostics& diagnostics_;
-  std::vector<std::size_t> match_;  // the partner of each parenthesis and bracket
+  std::vector<std::size_t> match_;  // the partner of each parenthesis and bracket; empty if there is none
   std::size_t at_ = 0;
   SplitArguments result_;
 };
 
 void ArgumentSplitter::match_parentheses() {
-  match_.assign(tokens_.size(), unmatched);
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < tokens_.size(); ++i) {
+    if (tokens_[i].kind != TokenKind::symbol) continue;
     if (symbol_at(i, '(') || symbol_at(i, '[')) open.push_back(i);
     const bool round = symbol_at(i, ')');
     if (!round && !symbol_at(i, ']')) continue;
     if (open.empty() || !symbol_at(open.back(), round ? '(' : '[')) continue;
+    if (match_.empty()) match_.assign(tokens_.size(), unmatched);
     match_[i] = open.back();
     match_[open.back()] = i;
     open.pop_back();
@@ -163,7 +167,10 @@ void ArgumentSplitter::read_value(ArgumentDraft& draft) {
   if (form != ValueForm::rest_of_line && !assignment_at(behind_marks)) at_ = behind_marks;
   argument.has_value = true;
   draft.begin = draft.end = at_;
-  at_ = form == ValueForm::tokens ? end_of_value(draft) : end_of_text(at_, form);
+  at_ = form == ValueForm::tokens      ? end_of_value(draft)
+        : form == ValueForm::text_list ? end_of_text_list(at_)
+        : form == ValueForm::free_text ? tokens_.size()
+                                       : end_of_text(at_, form);
   draft.end = at_;
   if (draft.begin < draft.end) {
     argument.value_span = join(span(draft.begin), span(draft.end - 1));
@@ -172,6 +179,10 @@ void ArgumentSplitter::read_value(ArgumentDraft& draft) {
   }
   argument.value_span = {&source_, tokens_[equals].offset + 1, 0};
   if (form == ValueForm::rest_of_line) return;
+  if (form == ValueForm::free_text || form == ValueForm::text_list) {
+    diagnostics_.warning("missing-value", span(equals), std::string(argument.name.text()) + " has no value after '='");
+    return;
+  }
   damage(argument, "missing-value", equals, std::string(argument.name.text()) + " has no value after '='");
 }
 
@@ -195,6 +206,32 @@ std::size_t ArgumentSplitter::end_of_text(std::size_t begin, ValueForm form) con
   return tokens_.size();
 }
 
+// Lists go on behind a comma and over lines. Among quoted texts only quotes and empty places belong to the list, among
+// bare words everything that is no argument.
+std::size_t ArgumentSplitter::end_of_text_list(std::size_t begin) const {
+  const auto quoted_at = [&](std::size_t i) {
+    return i < tokens_.size() && tokens_[i].kind == TokenKind::other &&
+           (source_.text()[tokens_[i].offset] == '"' || source_.text()[tokens_[i].offset] == '\'');
+  };
+  const bool in_quotes = quoted_at(begin) || symbol_at(begin, ',');
+  std::size_t i = begin;
+  while (i < tokens_.size() && !symbol_at(i, '\\')) {
+    if (!symbol_at(i, ',')) {
+      if (i > begin && assignment_at(i)) return i;
+      ++i;
+      continue;
+    }
+    const std::size_t next = after_comma(i);
+    if (next >= tokens_.size() || assignment_at(next)) return i;
+    const bool belongs =
+        symbol_at(next, ',') ||
+        (in_quotes ? quoted_at(next) : !(stands_alone(next) && ends_text_list(token_text(tokens_[next], source_))));
+    if (!belongs) return i;
+    i = next;
+  }
+  return i;
+}
+
 std::size_t ArgumentSplitter::end_of_value(ArgumentDraft& draft) {
   WrittenArgument& argument = draft.argument;
   std::size_t i = draft.begin;
@@ -211,7 +248,7 @@ std::size_t ArgumentSplitter::end_of_value(ArgumentDraft& draft) {
       damage(argument, "stray-equals", i, "'=' stands inside of a value",
              "a comma may be missing before the name of the argument");
       ++i;
-    } else if (match_[i] != unmatched) {
+    } else if (!match_.empty() && match_[i] != unmatched) {
       for (const std::size_t close = match_[i]; i < close; ++i) {
         if (symbol_at(i, '=')) damage(argument, "stray-equals", i, "'=' stands inside of parentheses");
       }
@@ -252,11 +289,21 @@ void ArgumentSplitter::check_tokens(ArgumentDraft& draft, ValueForm form) {
     if (token.kind == TokenKind::other) {
       const auto byte = static_cast<unsigned char>(source_.text()[token.offset]);
       if (byte >= 0x20 && byte != 0x7F) continue;
+      if (form == ValueForm::free_text) {
+        diagnostics_.warning("bad-character", span(i),
+                             quoted(token, source_) + " stands in the text of " +
+                                 std::string(draft.argument.name.text()) + " and is kept");
+        continue;
+      }
       damage(draft.argument, "bad-character", i,
              quoted(token, source_) + " stands in the value of " + std::string(draft.argument.name.text()));
     }
     if (form != ValueForm::tokens || token.kind != TokenKind::number) continue;
-    if (std::isinf(token.value)) {
+    // Only very long numbers and those with an exponent may be too large.
+    constexpr std::uint32_t short_number = 300;
+    const bool may_overflow =
+        token.length > short_number || token_text(token, source_).find_first_of("eE") != std::string_view::npos;
+    if (may_overflow && std::isinf(token_value(token, source_))) {
       damage(draft.argument, "number-overflow", i, "this number is too large");
     }
     const bool sign = symbol_at(i + 1, '+') || symbol_at(i + 1, '-');

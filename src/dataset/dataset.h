@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,19 +27,27 @@ enum class TokenKind : std::uint8_t {
 struct Token {
   TokenKind kind = TokenKind::end;
   bool continuation = false;  // a comma that is the continuation mark at the start of a line
-  bool degrees = false;       // a number with the suffix D; `value` is already in radians
+  bool degrees = false;       // a number with the suffix D
   bool integer = false;       // a number written without point, exponent and suffix
   std::uint32_t offset = 0;
   std::uint32_t length = 0;
-  double value = 0;  // of a number
+};
+
+// Tokens in blocks, so that those which are stored stay where they are while others follow.
+class TokenStore {
+ public:
+  std::span<const Token> add(std::span<const Token> tokens);
+
+ private:
+  std::vector<std::vector<Token>> blocks_;
 };
 
 // `NAME = value` or a bare `NAME`. The tokens of the value exclude the separators around it.
 struct WrittenArgument {
   Span name;
-  bool has_value = false;        // '=' was written
   std::span<const Token> value;  // into Dataset::tokens
   Span value_span;               // from the first to the last token of the value; after '=' if empty
+  bool has_value = false;        // '=' was written
   // An error inside of it is already reported: the readers below return nothing and add no second error, and
   // its tokens must not be parsed as an expression.
   bool damaged = false;
@@ -48,18 +58,23 @@ struct Statement {
   std::string_view name;           // full upper-case name out of the keyword table, "" if unknown
   std::optional<std::int64_t> id;  // after the slash
   Span at;                         // keyword and id together, the place to point at for the whole
-  std::string view_name;           // of a preceding `! adams_view_name='…'` comment
+  std::string_view view_name;      // of a preceding `! adams_view_name='…'` comment
   std::vector<WrittenArgument> arguments;
-  bool damaged = false;  // an error in it is already reported: id or arguments may be missing
+  bool damaged = false;   // an error in it is already reported: id or arguments may be missing
+  bool inactive = false;  // taken out of the model by a command; its id still exists
 };
 
 // Can be moved and not copied, because the values of the arguments are spans into `tokens`. A single
 // statement may be copied as long as its dataset lives.
 struct Dataset {
   SourceRef source;
-  std::string title;                  // at most 80 bytes
-  std::vector<Token> tokens;          // of the values of all arguments, one after the other
-  std::vector<Statement> statements;  // without END; unknown ones are kept, their name is ""
+  std::string title;                                    // at most 80 bytes
+  TokenStore tokens;                                    // of the values of all arguments
+  std::deque<Statement> statements;                     // without END; unknown ones are kept, their name is ""
+  std::vector<std::shared_ptr<const Dataset>> origins;  // whose tokens and texts edited statements point into
+
+  // Gives the memory of all arguments back when the model is made of them; ids and places stay.
+  void release_arguments();
 
   Dataset() = default;
   Dataset(Dataset&&) = default;

@@ -18,7 +18,7 @@ constexpr auto statements = std::to_array<std::string_view>({
     "EQUILIBRIUM", "FE_LOAD", "FE_PART", "FEMDATA", "FIELD", "FLEX_BODY", "FRICTION", "GCON", "GEAR",
     "GFORCE", "GRAPHICS", "GSE", "IC", "INTEGRATOR", "JOINT", "JPRIM", "KINEMATICS", "LSE", "LSOLVER",
     "MARKER", "MATERIAL", "MATRIX", "MFORCE", "MOTION", "MREQUEST", "NFORCE", "OUTPUT", "PART", "PINPUT",
-    "POINT_MASS", "POUTPUT", "PSTATE", "PTCV", "REQUEST", "RESULTS", "SENSOR", "SFORCE", "SPLINE",
+    "POINT_MASS", "POUTPUT", "PREFERENCES", "PSTATE", "PTCV", "REQUEST", "RESULTS", "SENSOR", "SFORCE", "SPLINE",
     "SPRINGDAMPER", "STRING", "SURFACE", "TFSISO", "TIMGRAPHICS", "TIRE", "UCON", "UNITS", "VARIABLE",
     "VFORCE", "VTORQUE",
     // clang-format on
@@ -44,16 +44,32 @@ constexpr auto short_forms = std::to_array<ShortForm>({
     {"M", "MASS"},
     {"C", "COMMENT"},
     {"D", "DISPLACEMENT"},
+    {"V", "VELOCITY"},
     {"A", "ACCELERATION"},
     {"F", "FORCE"},
     {"L", "LENGTH"},
     {"R", "RADIUS"},
+    {"R", "REULER"},
+    {"R", "ROWS"},
+    {"MAX", "MAXIT"},
+    {"ST", "STABILITY"},
+    {"C", "COLUMNS"},
     {"FLE", "FLEX_BODY"},
     {"A", "ACTIONONLY"},
     // kinds of joints
     {"C", "CYLINDRICAL"},
     {"T", "TRANSLATIONAL"},
     {"U", "UNIVERSAL"},
+});
+
+// Words that are met with more letters than the keyword has.
+constexpr auto longer_spellings = std::to_array<ShortForm>({
+    {"EIGENSOL", "EIGENSOLUTION"},
+    {"NODAMPIN", "NODAMPING"},
+    {"NOVECTOR", "NOVECTORS"},
+    {"STATEMAT", "STATEMATRICES"},
+    {"STATEMAT", "STATEMATRIX"},
+    {"DISSIPAT", "DISSIPATION"},
 });
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -89,7 +105,15 @@ std::optional<std::size_t> find_keyword(std::string_view word, std::span<const s
     if (!first) first = i;
     ++count;
   }
-  if (count <= 1) return first;
+  if (count == 1) return first;
+  if (count == 0) {
+    for (const ShortForm& form : longer_spellings) {
+      if (!begins_with_ignoring_case(word, form.minimum) || !begins_with_ignoring_case(form.full, word)) continue;
+      const auto found = std::find(candidates.begin(), candidates.end(), form.minimum);
+      if (found != candidates.end()) return static_cast<std::size_t>(found - candidates.begin());
+    }
+    return std::nullopt;
+  }
 
   for (const ShortForm& form : short_forms) {
     if (!begins_with_ignoring_case(word, form.minimum)) continue;

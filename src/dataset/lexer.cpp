@@ -1,6 +1,6 @@
 #include "dataset/lexer.h"
 
-#include <numbers>
+#include <array>
 #include <utility>
 
 #include "dataset/characters.h"
@@ -10,7 +10,12 @@ namespace dynalin {
 
 namespace {
 
-constexpr bool is_symbol(char c) { return std::string_view(",=:/\\()[]+-*%").find(c) != std::string_view::npos; }
+constexpr auto symbols = [] {
+  std::array<bool, 256> table{};
+  for (const char c : std::string_view(",=:/\\()[]+-*%")) table[static_cast<unsigned char>(c)] = true;
+  return table;
+}();
+constexpr bool is_symbol(char c) { return symbols[static_cast<unsigned char>(c)]; }
 
 // A quote opens a quoted text only where a value may begin, so that the one in `Peter's` does not.
 constexpr bool may_open_quote(char previous) {
@@ -132,12 +137,9 @@ void Lexer::scan_token(std::vector<Token>& tokens) {
 void Lexer::scan_number(std::vector<Token>& tokens) {
   const NumberExtent extent = number_extent(text_.substr(at_), ExponentLetter::e);
   const std::size_t end = at_ + extent.length;
-  double value = number_value(text_.substr(at_, extent.length));
   const bool degrees =
       end < text_.size() && to_upper(text_[end]) == 'D' && (end + 1 == text_.size() || !is_word_part(text_[end + 1]));
-  if (degrees) value *= std::numbers::pi / 180.0;
   push(tokens, TokenKind::number, extent.length + (degrees ? 1 : 0));
-  tokens.back().value = value;
   tokens.back().degrees = degrees;
   tokens.back().integer = !degrees && !extent.has_point && !extent.has_exponent;
 }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,7 +19,7 @@ class Lexer {
   // Replaces `tokens` by those of the next statement, at least one; false at the end of the text.
   bool next_statement(std::vector<Token>& tokens);
   // The name out of the comments between the statement just read and the one before it.
-  const std::string& view_name() const { return view_name_; }
+  std::string_view view_name() const { return view_name_; }
   // Where reading goes on.
   std::uint32_t position() const { return static_cast<std::uint32_t>(at_); }
 
@@ -39,7 +38,7 @@ class Lexer {
 
   std::string_view text_;
   std::size_t at_;
-  std::string view_name_, pending_view_name_;
+  std::string_view view_name_, pending_view_name_;
 };
 
 }  // namespace dynalin

@@ -29,13 +29,16 @@ constexpr auto raw_arguments = std::to_array<RawArgument>({
     {"MATRIX", "NAME", 1},
     {"MATRIX", "FILE", 2},
     {"MATERIAL", "NAME", 1},
-    {"STRING", "STRING", 1},
+    {"STRING", "STRING", 1, ValueForm::free_text},
+    {"PART", "MATERIAL", 3},
+    {"POINT_MASS", "MATERIAL", 3},
     {"GRAPHICS", "ELEMENT", 2},
     {"SPLINE", "BLOCK", 1},
     {"REQUEST", "COMMENT", 1, ValueForm::rest_of_line},
     {"REQUEST", "TITLE", 1},
-    {"REQUEST", "CNAMES", 2},
-    {"REQUEST", "CUNITS", 2},
+    {"REQUEST", "CNAMES", 2, ValueForm::text_list},
+    {"REQUEST", "CUNITS", 2, ValueForm::text_list},
+    {"REQUEST", "CLABELS", 2, ValueForm::text_list},
     {"REQUEST", "RESULTS_NAME", 3},
     {"MREQUEST", "COMMENT", 3, ValueForm::rest_of_line},
     {"RESULTS", "COMMENT", 3, ValueForm::rest_of_line},
@@ -57,16 +60,29 @@ constexpr auto raw_arguments = std::to_array<RawArgument>({
 
 constexpr auto after_comment =
     std::to_array<std::string_view>({"I", "J", "RM", "F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "FUNCTION",
-                                     "TITLE", "CNAMES", "CUNITS", "RESULTS_NAME", "VARIABLES"});
+                                     "TITLE", "CNAMES", "CUNITS", "CLABELS", "RESULTS_NAME", "VARIABLES"});
+
+constexpr auto after_text_list = std::to_array<std::string_view>({"DISPLACEMENT", "VELOCITY", "ACCELERATION", "FORCE"});
 
 }  // namespace
 
 ValueForm value_form(std::string_view statement, std::string_view argument) {
+  if (argument.empty()) return ValueForm::tokens;
+  const char first = to_upper(argument.front());
   for (const RawArgument& raw : raw_arguments) {
+    if (raw.full.front() != first) continue;
     if (argument.size() < raw.minimum || !begins_with_ignoring_case(raw.full, argument)) continue;
     if (raw.statement.empty() || raw.statement == statement) return raw.form;
   }
   return ValueForm::tokens;
+}
+
+// Fewer letters are rather one of the texts.
+bool ends_text_list(std::string_view word) {
+  constexpr std::size_t enough = 4;
+  return word.size() >= enough &&
+         std::any_of(after_text_list.begin(), after_text_list.end(),
+                     [&](std::string_view name) { return begins_with_ignoring_case(name, word); });
 }
 
 bool ends_comment(std::string_view name) {

@@ -28,8 +28,6 @@ class StatementReader {
   StatementReader(Language language, SourceRef source, std::span<const std::string_view> keywords)
       : language_(language), keywords_(keywords), text_(*source) {
     dataset_.source = std::move(source);
-    // About what ordinary datasets need; memory that is not touched costs nothing.
-    dataset_.tokens.reserve(text_.text().size() / 8 + 16);
   }
 
   void read(std::uint32_t start);
@@ -38,12 +36,12 @@ class StatementReader {
   bool check_is_text();
   bool stopped() const { return ended_ || diagnostics_.error_count() >= most_errors; }
   std::uint32_t start() const { return start_; }
-  Parsed<Dataset> finish();
+  Parsed<Dataset> finish() { return {std::move(dataset_), std::move(diagnostics_)}; }
 
  private:
   bool first_line_is_statement() const;
   bool is_end(std::span<const Token> tokens) const;
-  void read_statement(std::span<const Token> tokens, const std::string& view_name);
+  void read_statement(std::span<const Token> tokens, std::string_view view_name);
   bool is_statement(std::span<const Token> tokens);
   void report_not_a_statement(std::span<const Token> tokens);
   std::string continuation_hint(std::span<const Token> tokens) const;
@@ -56,7 +54,6 @@ class StatementReader {
   const SourceText& text_;
   Dataset dataset_;
   Diagnostics diagnostics_;
-  std::vector<std::uint32_t> value_lengths_;  // in tokens, one for each argument of each statement
   std::uint32_t start_ = 0;
   bool ended_ = false;
   bool last_is_open_ = false;  // the last statement ends in a comma or an operator
@@ -121,7 +118,8 @@ void StatementReader::read(std::uint32_t start) {
   Lexer lexer(text_, start);
   std::vector<Token> tokens;
   while (!stopped() && lexer.next_statement(tokens)) {
-    if (language_ == Language::dataset && is_end(tokens)) {
+    if (is_end(tokens)) {
+      if (language_ == Language::commands) read_statement(std::span(tokens).first(1), lexer.view_name());
       ended_ = true;
       return;
     }
@@ -136,7 +134,12 @@ void StatementReader::read(std::uint32_t start) {
   }
 }
 
+// Nothing behind the end is read, whatever it is.
 bool StatementReader::is_end(std::span<const Token> tokens) const {
+  if (language_ == Language::commands) {
+    const auto found = find_keyword(token_text(tokens[0], text_), keywords_);
+    return tokens[0].kind == TokenKind::word && found && keywords_[*found] == "STOP";
+  }
   if (!equal_ignoring_case(token_text(tokens[0], text_), "END")) return false;
   return tokens.size() == 1 || (tokens.size() == 2 && is_symbol(tokens[1], text_, '/'));
 }
@@ -148,7 +151,7 @@ void StatementReader::report_missing_end() {
                        "the dataset has no END statement", "the end of the file may be lost");
 }
 
-void StatementReader::read_statement(std::span<const Token> tokens, const std::string& view_name) {
+void StatementReader::read_statement(std::span<const Token> tokens, std::string_view view_name) {
   if (!is_statement(tokens)) return;
   Statement statement;
   statement.keyword = statement.at = token_span(tokens[0], text_);
@@ -286,27 +289,28 @@ void StatementReader::read_arguments(std::span<const Token> tokens, Statement& s
   statement.damaged = statement.damaged || split.damaged;
   statement.arguments.reserve(split.drafts.size());
   for (ArgumentDraft& draft : split.drafts) {
-    const std::span<const Token> value = tokens.subspan(draft.begin, draft.end - draft.begin);
-    dataset_.tokens.insert(dataset_.tokens.end(), value.begin(), value.end());
-    value_lengths_.push_back(static_cast<std::uint32_t>(value.size()));
+    draft.argument.value = dataset_.tokens.add(tokens.subspan(draft.begin, draft.end - draft.begin));
     statement.arguments.push_back(draft.argument);
   }
 }
 
-// Only now the tokens stay where they are, and the values can point at them.
-Parsed<Dataset> StatementReader::finish() {
-  std::span<const Token> rest = dataset_.tokens;
-  auto length = value_lengths_.begin();
-  for (Statement& statement : dataset_.statements) {
-    for (WrittenArgument& argument : statement.arguments) {
-      argument.value = rest.first(*length);
-      rest = rest.subspan(*length++);
-    }
+}  // namespace
+
+std::span<const Token> TokenStore::add(std::span<const Token> tokens) {
+  constexpr std::size_t first_block = 256, largest_block = 65536;
+  if (blocks_.empty() || blocks_.back().capacity() - blocks_.back().size() < tokens.size()) {
+    const std::size_t next = blocks_.empty() ? first_block : std::min(2 * blocks_.back().capacity(), largest_block);
+    blocks_.emplace_back().reserve(std::max(next, tokens.size()));
   }
-  return {std::move(dataset_), std::move(diagnostics_)};
+  std::vector<Token>& block = blocks_.back();
+  block.insert(block.end(), tokens.begin(), tokens.end());
+  return std::span<const Token>(block).last(tokens.size());
 }
 
-}  // namespace
+void Dataset::release_arguments() {
+  for (Statement& statement : statements) std::vector<WrittenArgument>().swap(statement.arguments);
+  tokens = {};
+}
 
 Parsed<Dataset> parse_dataset(SourceRef source) {
   assert(source);

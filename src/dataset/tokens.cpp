@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
+
+#include "dataset/number.h"
 
 namespace dynalin {
 
@@ -20,6 +23,12 @@ std::string quoted(std::string_view text) {
   std::size_t end = longest;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
   return fmt::format("'{}...'", text.substr(0, end));
+}
+
+double token_value(const Token& token, const SourceText& source) {
+  const std::string_view text = token_text(token, source);
+  if (!token.degrees) return number_value(text);
+  return number_value(text.substr(0, text.size() - 1)) * std::numbers::pi / 180.0;
 }
 
 std::string quoted(const Token& token, const SourceText& source) { return quoted(token_text(token, source)); }

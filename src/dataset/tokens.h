@@ -19,6 +19,9 @@ inline bool is_symbol(const Token& token, const SourceText& source, char symbol)
   return token.kind == TokenKind::symbol && token.length == 1 && source.text()[token.offset] == symbol;
 }
 
+// Value of a number, in radians where it has the suffix D; infinite if it is too large.
+double token_value(const Token& token, const SourceText& source);
+
 // For messages: the token in quotes, shortened if long, or the code of a byte that cannot be
 // printed.
 std::string quoted(const Token& token, const SourceText& source);

@@ -66,11 +66,11 @@ class NumberList {
                          fmt::format("{} takes plain numbers, found {}", name_of(argument_), quoted(token, source_)));
       return std::nullopt;
     }
+    const double value = token_value(token, source_);
     // Too large a number was reported with the statement, and its argument marked.
-    if (!std::isfinite(token.value)) return std::nullopt;
+    if (!std::isfinite(value)) return std::nullopt;
     ++at_;
-    return WrittenReal{negative ? -token.value : token.value, token.integer,
-                       join(token_span(tokens()[begin], source_), at)};
+    return WrittenReal{negative ? -value : value, token.integer, join(token_span(tokens()[begin], source_), at)};
   }
 
   void report_missing(std::size_t begin) {

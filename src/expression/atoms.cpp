@@ -49,6 +49,10 @@ constexpr std::array table = {
     measure("UVX.X", 0, 1, 2),  measure("UVX.Y", 0, 1, 2),  measure("UVX.Z", 0, 1, 2),
     measure("UVY.X", 0, 1, 2),  measure("UVY.Y", 0, 1, 2),  measure("UVY.Z", 0, 1, 2),
     measure("UVZ.X", 0, 1, 2),  measure("UVZ.Y", 0, 1, 2),  measure("UVZ.Z", 0, 1, 2),
+    // Angles together, smooth where each of them is not (smooth_angles.cpp); no names of the language either.
+    measure("PSI.PLUS.PHI", 0, 1, 2),  measure("PSI.MINUS.PHI", 0, 1, 2),  measure("THETA.SQUARED", 0, 1, 2),
+    measure("YAW.PLUS.ROLL", 0, 1, 2), measure("YAW.MINUS.ROLL", 0, 1, 2), measure("INCANG.SQUARED", 0, 3, 3),
+    measure("INCANG.COSINE", 0, 3, 3),
     // Net force and torque on a marker: (i, j, k), (i, j).
     at_marker("FX", 3), at_marker("FY", 3), at_marker("FZ", 3), at_marker("FM", 2),
     at_marker("TX", 3), at_marker("TY", 3), at_marker("TZ", 3), at_marker("TM", 2),

@@ -66,6 +66,18 @@ T Expression::evaluate(std::span<const T> atom_values, std::span<T> partials, Ex
 }
 
 template <class T>
+bool Expression::reaches(std::size_t atom, const ExpressionWorkspace<T>& workspace) const {
+  const auto& nodes = program_->nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].kind != ExpressionNode::Kind::atom || static_cast<std::size_t>(nodes[i].a) != atom) continue;
+    if (workspace.reached[i]) return true;
+  }
+  return false;
+}
+template bool Expression::reaches(std::size_t, const ExpressionWorkspace<double>&) const;
+template bool Expression::reaches(std::size_t, const ExpressionWorkspace<TimeTaylor<double>>&) const;
+
+template <class T>
 std::optional<ExpressionFault> Expression::find_fault(std::span<const T> atom_values, FaultSearch search) const {
   return program_->find_fault(atom_values, search);
 }

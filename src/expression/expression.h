@@ -77,6 +77,9 @@ class ExpressionProgram;
 template <class T>
 struct ExpressionWorkspace {
   std::vector<T> value, adjoint;
+  std::vector<char> reached;  // nodes on which the result depends, even if only with a derivative of zero here
+  std::vector<double> order;  // of the growth of nodes, where an infinite slope has to be judged
+  std::vector<char> smooth;
 };
 
 // The place in an expression where a value or a derivative stopped being a finite number.
@@ -105,6 +108,10 @@ class Expression {
   template <class T>
   T evaluate(std::span<const T> atoms, std::span<T> partials, ExpressionWorkspace<T>&) const;
 
+  // Whether the result depends on an atom at all, after an evaluation with partials; the partial may be zero.
+  template <class T>
+  bool reaches(std::size_t atom, const ExpressionWorkspace<T>&) const;
+
   // Kinematic order, given that of each atom (Atom::function->order, or what the atom refers to
   // where that is −1).
   int order(std::span<const int> atom_orders) const;
@@ -120,9 +127,12 @@ class Expression {
   std::span<const SplineUse> splines() const;
   Expression with_curves(const std::function<void(SplineUse&)>& attach) const;
 
+  // The same with other expressions in the place of atoms, where `define` gives one.
+  Expression with_definitions(const std::function<std::optional<Expression>(const Atom&)>& define) const;
+
   // Names the function that makes the value, or else a partial derivative, infinite or undefined at
-  // these atom values; nothing if all are finite. On TimeTaylor the time derivatives count
-  // too, so all atoms should have theirs. Allocates.
+  // these atom values (SQRT at 0 times what is 0 as well may have any derivative); nothing if all are finite. On
+  // TimeTaylor the time derivatives count too, so all atoms should have theirs. Allocates.
   template <class T>
   std::optional<ExpressionFault> find_fault(std::span<const T> atoms, FaultSearch) const;
 

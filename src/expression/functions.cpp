@@ -7,7 +7,7 @@ namespace dynalin {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> not_built = {"USER", "ORIENT"};
+constexpr std::array<std::string_view, 1> not_built = {"USER"};
 constexpr std::array<std::string_view, 7> bare_not_built = {"CPU",   "HSIZE",  "NJAC",  "NRHS",
                                                             "ORDER", "FXFREQ", "FXMODE"};
 

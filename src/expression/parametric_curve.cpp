@@ -157,6 +157,17 @@ bool ParametricCurve::straight_at(double u) const {
   return !(norm(cross(slope, at(u, 2))) > 1e-9 * dot(slope, slope));
 }
 
+bool ParametricCurve::corner_at(double u) const {
+  if (order_ > 2) return false;
+  for (std::size_t k = shape_ == Shape::open ? 1 : 0; k + 1 < breaks_.size(); ++k) {
+    if (std::abs(difference(u, breaks_[k])) > end_tolerance) continue;
+    const Vec3<double> before = coefficient_[(k == 0 ? breaks_.size() - 2 : k - 1) * order_ + 1];
+    const Vec3<double> behind = coefficient_[k * order_ + 1];
+    return norm(before - behind) > 1e-9 * (norm(before) + norm(behind));
+  }
+  return false;
+}
+
 double ParametricCurve::difference(double u, double v) const {
   return shape_ == Shape::closed ? std::remainder(u - v, 2.0) : u - v;
 }

@@ -40,6 +40,8 @@ class ParametricCurve {
   bool straight_at(double u) const;
   // Whether the curve exists at u.
   bool reaches(double u) const { return shape_ == Shape::closed || std::abs(u) <= 1 + end_tolerance; }
+  // Whether pieces of a polygon meet at u in a corner.
+  bool corner_at(double u) const;
   // u − v, by way of the closure where that is shorter.
   double difference(double u, double v) const;
 

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "dataset/tokens.h"
+
 namespace dynalin {
 
 namespace {
@@ -62,11 +64,12 @@ void ExpressionParser::read_operand() {
   const Token& token = tokens_[at_];
   if (token.kind == TokenKind::word) return read_name();
   if (token.kind == TokenKind::number) {
-    if (std::isinf(token.value)) {
+    const double value = token_value(token, source_);
+    if (std::isinf(value)) {
       diagnostics_.error("number-overflow", span(at_), "this number is too large");
       push_operand(builder_.placeholder(span(at_)));
     } else {
-      push_operand(builder_.constant(token.value, span(at_)));
+      push_operand(builder_.constant(value, span(at_)));
     }
     ++at_;
   } else if (symbol_at(at_, "-")) {

@@ -81,6 +81,7 @@ class ExpressionParser {
   Operand close_spline(const Pending& call, std::span<const Operand> arguments, const Span& at);
   Operand close_curve(std::span<const Operand> arguments, const Span& at);
   Operand close_spectrum(std::span<const Operand> arguments, const Span& at);
+  Operand close_orientation(std::span<const Operand> arguments, const Span& at);
   std::optional<std::int32_t> constant_id(const Operand& operand, std::string_view meaning, std::int32_t least);
   bool check_scalar(const Operand& operand, std::string_view where);
   Operand marker_axis(std::size_t axis, const Atom& markers);

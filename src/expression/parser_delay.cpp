@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "dataset/tokens.h"
 #include "expression/parser.h"
 
 namespace dynalin {
@@ -35,9 +36,10 @@ void ExpressionParser::read_delay(const AtomFunction& function, const Span& name
       if (auto program = ExpressionParser(argument, source_, diagnostics_).parse_within_delay())
         *parts[count] = Expression(std::move(program));
     } else if (count == parts.size()) {
-      const bool is_id = argument.size() == 1 && argument[0].integer && argument[0].value >= 1 &&
-                         argument[0].value <= std::numeric_limits<std::int32_t>::max();
-      if (is_id) call.array = static_cast<std::int32_t>(argument[0].value), call.array_at = at;
+      const bool whole = argument.size() == 1 && argument[0].integer;
+      const double id = whole ? token_value(argument[0], source_) : 0;
+      const bool is_id = id >= 1 && id <= std::numeric_limits<std::int32_t>::max();
+      if (is_id) call.array = static_cast<std::int32_t>(id), call.array_at = at;
       if (!is_id) {
         diagnostics_.error("expected-integer", at,
                            "argument 4 of DELAY is the id of an ARRAY, written as a whole number");

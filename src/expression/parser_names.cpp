@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "dataset/tokens.h"
 #include "expression/parser.h"
 #include "expression/vector_functions.h"
 
@@ -211,7 +212,8 @@ void ExpressionParser::read_atom_argument(Atom& atom, std::size_t index) {
   }
   const Span at = join(span(first), span(at_ - 1));
   const Token& token = tokens_[first];
-  const bool fits = token.value <= std::numeric_limits<std::int32_t>::max();
+  const double value = token.kind == TokenKind::number ? token_value(token, source_) : 0;
+  const bool fits = value <= std::numeric_limits<std::int32_t>::max();
   if (at_ - first != 1 || !token.integer || !fits) {
     diagnostics_.error("expected-integer", at,
                        fmt::format("argument {} of {} is {}, written as a whole number", index + 1, atom.function->name,
@@ -219,7 +221,7 @@ void ExpressionParser::read_atom_argument(Atom& atom, std::size_t index) {
     return;
   }
   if (index >= atom.argument.size()) return;
-  atom.argument[index] = static_cast<std::int32_t>(token.value);
+  atom.argument[index] = static_cast<std::int32_t>(value);
   atom.argument_at[index] = at;
 }
 

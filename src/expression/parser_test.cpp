@@ -251,7 +251,7 @@ TEST(ExpressionParser, messages_say_what_was_found_and_what_could_be_meant) {
   EXPECT_EQ(parse("DX(1,2,3,4)").first().message, "DX takes 1 to 3 arguments, here are 4");
   EXPECT_THAT(parse("SPDP(TIME,1,2,0)").first().message, HasSubstr("the id of a SPRINGDAMPER"));
   EXPECT_THAT(parse("SQRT(-3)").first().message, HasSubstr("SQRT of -3"));
-  EXPECT_THAT(parse("ORIENT(1,2)").first().message, HasSubstr("ORIENT is not available yet"));
+  EXPECT_THAT(parse("ORIENT(13,2,1)").first().message, HasSubstr("ORIENT with the system 13 is not available yet"));
 }
 
 TEST(ExpressionParser, errors_keep_their_places_within_a_dataset) {

@@ -86,6 +86,7 @@ Operand ExpressionParser::close_special(const Pending& call, const Span& at) {
   }
   if (f.kind == Kind::curve) return close_curve(arguments, at);
   if (f.kind == Kind::spectrum) return close_spectrum(arguments, at);
+  if (f.kind == Kind::orientation) return close_orientation(arguments, at);
   const Operand v = arguments[0];
   if (v.unknown) return builder_.placeholder(at);
   if (!v.is_vector()) {

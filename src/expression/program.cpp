@@ -32,6 +32,8 @@ double selected_branch(double condition) {
   return condition < 0.0 ? 0.0 : condition == 0.0 ? 1.0 : 2.0;
 }
 
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
 }  // namespace
 
 template <class T>
@@ -112,20 +114,33 @@ T ExpressionProgram::evaluate(std::span<const T> atom_values, ExpressionWorkspac
   return value[nodes.size() - 1];
 }
 
-// Nodes of branches not taken hold old values; their adjoints stay zero, so nobody looks at them.
-// Zero adjoints are passed over for another reason too: an infinite slope behind them does not
-// matter.
+// Nodes of branches not taken hold old values and are never reached; nor is what stands behind a constant zero or the
+// flat side of a function, so that an infinite slope there does not matter. An infinite slope behind a derivative that
+// merely is zero here matters unless what vanishes there vanishes fast enough.
 template <class T>
 void ExpressionProgram::sweep_back(ExpressionWorkspace<T>& workspace) const {
   const std::size_t count = nodes.size();
   std::vector<T>& adjoint = workspace.adjoint;
-  if (adjoint.size() < count) adjoint.resize(count);
-  for (std::size_t i = 0; i < count; ++i) adjoint[i] = T(0.0);
-  adjoint[count - 1] = T(1.0);
+  std::vector<char>& reached = workspace.reached;
+  if (adjoint.size() < count) adjoint.resize(count), reached.resize(count);
+  for (std::size_t i = 0; i < count; ++i) adjoint[i] = T(0.0), reached[i] = false;
+  adjoint[count - 1] = T(1.0), reached[count - 1] = true;
   for (std::size_t i = count; i-- > 0;) {
-    if (is_zero(adjoint[i])) continue;
-    visit_partials(*this, nodes[i], workspace.value,
-                   [&](std::size_t operand, const auto& partial) { adjoint[operand] += adjoint[i] * partial; });
+    if (!reached[i]) continue;
+    const bool counts = !is_zero(adjoint[i]);
+    bool infinite = false;
+    visit_partials(*this, nodes[i], workspace.value, [&](std::size_t operand, const auto& partial) {
+      reached[operand] = true;
+      if (counts) {
+        adjoint[operand] += adjoint[i] * partial;
+      } else {
+        infinite = infinite || !std::isfinite(value_of(partial));
+      }
+    });
+    if (!infinite || is_differentiable(workspace)) continue;
+    visit_partials(*this, nodes[i], workspace.value, [&](std::size_t operand, const auto& partial) {
+      if (!std::isfinite(value_of(partial))) adjoint[operand] += undefined;
+    });
   }
 }
 

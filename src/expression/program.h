@@ -63,6 +63,9 @@ class ExpressionProgram {
  private:
   template <class T>
   T value_of_call(const ExpressionNode&, const std::vector<T>& value) const;
+  // Whether the chain rule holds for the result although a node has an infinite derivative (vanishing.cpp).
+  template <class T>
+  bool is_differentiable(ExpressionWorkspace<T>&) const;
   // Leaves the adjoint of each node in the workspace.
   template <class T>
   void sweep_back(ExpressionWorkspace<T>&) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -89,9 +90,17 @@ Operand ProgramBuilder::atom(const Atom& atom) {
   const auto same = [&](const Atom& other) {
     return other.function == atom.function && other.argument == atom.argument && other.delayed == atom.delayed;
   };
-  const auto found = std::ranges::find_if(program_.atoms, same);
-  const auto index = static_cast<std::int32_t>(found - program_.atoms.begin());
-  if (found == program_.atoms.end()) program_.atoms.push_back(atom);
+  // Sums over all parts of a model have as many atoms.
+  std::size_t key = std::hash<const void*>{}(atom.function) ^ std::hash<const void*>{}(atom.delayed.get());
+  for (const std::int32_t id : atom.argument) key = 31 * key + static_cast<std::size_t>(id);
+  const auto [first, last] = atom_index_.equal_range(key);
+  const auto found = std::find_if(
+      first, last, [&](const auto& entry) { return same(program_.atoms[static_cast<std::size_t>(entry.second)]); });
+  const auto index = found != last ? found->second : static_cast<std::int32_t>(program_.atoms.size());
+  if (found == last) {
+    atom_index_.emplace(key, index);
+    program_.atoms.push_back(atom);
+  }
   return {push({.kind = Kind::atom, .a = index}, atom.at), atom.at};
 }
 
@@ -219,6 +228,7 @@ Operand ProgramBuilder::close_if(const OpenIf& open, const Span& at) {
 
 std::shared_ptr<const ExpressionProgram> ProgramBuilder::finish(const Span& at) {
   program_.at = at;
+  join_angles();
   // Atoms of branches that a constant condition ruled out are gone.
   constexpr std::int32_t unused = -1;
   std::vector<std::int32_t> new_index(program_.atoms.size(), unused);

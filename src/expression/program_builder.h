@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <unordered_map>
 
 #include "base/diagnostics.h"
 #include "expression/program.h"
@@ -76,6 +77,8 @@ class ProgramBuilder {
   std::shared_ptr<const ExpressionProgram> finish(const Span& at);
 
  private:
+  // Reads combinations of angles that are smooth as one quantity (smooth_angles.cpp).
+  void join_angles();
   using Kind = ExpressionNode::Kind;
   std::int32_t push(const ExpressionNode& node, const Span& at);
   void pop(std::size_t count);
@@ -87,6 +90,7 @@ class ProgramBuilder {
 
   Diagnostics& diagnostics_;
   ExpressionProgram program_;
+  std::unordered_multimap<std::size_t, std::int32_t> atom_index_;  // by hash, of which distinct atoms may share one
   std::size_t branch_depth_ = 0;
 };
 

@@ -162,14 +162,16 @@ std::optional<ExpressionFault> ExpressionProgram::find_fault(std::span<const T> 
   // arose.
   std::vector<std::size_t> user(nodes.size(), nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (is_zero(workspace.adjoint[i])) continue;
+    if (!workspace.reached[i]) continue;
     for (const std::size_t k : operands_in_use(*this, nodes[i], workspace.value)) user[k] = i;
   }
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].kind != Kind::atom || is_finite(workspace.adjoint[i])) continue;
     std::size_t cause = user[i];
     while (!is_finite(workspace.adjoint[cause])) cause = user[cause];
-    return explain_partial(cause, workspace.value);
+    ExpressionFault found = explain_partial(cause, workspace.value);
+    if (is_zero(workspace.adjoint[cause])) found.reason += ", and its factor of 0 does not vanish faster";
+    return found;
   }
   return std::nullopt;
 }

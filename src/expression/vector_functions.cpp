@@ -18,7 +18,7 @@ constexpr std::array<VectorAtom, 10> atoms = {{
 }};
 
 using Kind = SpecialFunction::Kind;
-constexpr std::array<SpecialFunction, 8> special = {{
+constexpr std::array<SpecialFunction, 9> special = {{
     {"UV", Kind::unit, 1, 1},
     {"MAG", Kind::magnitude, 1, 1},
     {"TRANS", Kind::transform, 2, 3},
@@ -27,6 +27,7 @@ constexpr std::array<SpecialFunction, 8> special = {{
     {"INTERP", Kind::interp, 3, 4},
     {"CURVE", Kind::curve, 4, 4},
     {"INVPSD", Kind::spectrum, 7, 7},
+    {"ORIENT", Kind::orientation, 3, 4},
 }};
 
 template <class Table>

@@ -19,14 +19,15 @@ const VectorAtom* find_vector_atom(std::string_view upper_case_name);
 
 struct SpecialFunction {
   enum class Kind : std::uint8_t {
-    unit,       // UV(v)
-    magnitude,  // MAG(v)
-    transform,  // TRANS(v, i [, j])
-    akispl,     // AKISPL(x, z, id [, derivative])
-    cubspl,     // CUBSPL(x, z, id [, derivative])
-    interp,     // INTERP(x, method, id [, derivative])
-    curve,      // CURVE(parameter, derivative, component, id)
-    spectrum,   // INVPSD(x, id, f0, f1, n, log, seed)
+    unit,         // UV(v)
+    magnitude,    // MAG(v)
+    transform,    // TRANS(v, i [, j])
+    akispl,       // AKISPL(x, z, id [, derivative])
+    cubspl,       // CUBSPL(x, z, id [, derivative])
+    interp,       // INTERP(x, method, id [, derivative])
+    curve,        // CURVE(parameter, derivative, component, id)
+    spectrum,     // INVPSD(x, id, f0, f1, n, log, seed)
+    orientation,  // ORIENT(system, component, i [, j])
   };
   std::string_view name;
   Kind kind;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "model/kind_finder.h"
 #include "model/model.h"
 #include "model/reader.h"
+#include "model/user_routines.h"
 
 namespace dynalin {
 
@@ -18,14 +20,29 @@ struct Placement {
   std::size_t variant_argument;  // the written argument that chose the kind, or none
   BodyId preceding_body;
 };
-constexpr std::size_t no_argument = static_cast<std::size_t>(-1);
+constexpr std::size_t no_argument = KindFinder::no_argument;
+
+// Statements of which an atom function needs an argument, by name and id.
+using ExaminedStatements = std::map<std::pair<std::string_view, std::int64_t>, const Statement*>;
+bool is_examined(std::string_view statement) {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> list;
+    for (const AtomFunction& f : atom_functions()) {
+      if (!f.required_argument.empty()) list.push_back(f.statement);
+    }
+    return list;
+  }();
+  return std::ranges::find(names, statement) != names.end();
+}
 
 class Reader final : public ElementReader {
  public:
-  Reader(Model& model, const Placement& placement, const SourceText& source, Diagnostics& diagnostics)
+  Reader(Model& model, const Placement& placement, const ExaminedStatements& examined, const SourceText& source,
+         Diagnostics& diagnostics)
       : ElementReader(*placement.statement, source, diagnostics, placement.set->labels[placement.index]),
         model_(model),
-        placement_(placement) {
+        placement_(placement),
+        examined_(examined) {
     if (placement.variant_argument != no_argument) {
       const auto& w = placement.statement->arguments[placement.variant_argument];
       assignments.push_back({placement.set->kind().variant, w.name});
@@ -59,7 +76,7 @@ class Reader final : public ElementReader {
   std::optional<Expression> expression(const WrittenArgument& written) override {
     if (written.damaged) return std::nullopt;  // reported when the text was read
     const std::size_t before = diagnostics().error_count();
-    Expression e = parse_expression(written.value, source(), diagnostics());
+    Expression e = parse_expression(written.value, *written.name.source, diagnostics());
     if (diagnostics().error_count() == before) check_references(e);
     if (diagnostics().error_count() > before) return std::nullopt;
     return e;
@@ -68,7 +85,7 @@ class Reader final : public ElementReader {
   std::optional<VectorExpression> vector_expression(const WrittenArgument& written) override {
     if (written.damaged) return std::nullopt;
     const std::size_t before = diagnostics().error_count();
-    VectorExpression v = parse_vector_expression(written.value, source(), diagnostics());
+    VectorExpression v = parse_vector_expression(written.value, *written.name.source, diagnostics());
     for (std::size_t k = 0; k < 3 && diagnostics().error_count() == before; ++k) check_references(v.component[k]);
     if (diagnostics().error_count() > before) return std::nullopt;
     return v;
@@ -88,29 +105,31 @@ class Reader final : public ElementReader {
           near_ids(statement, id.value));
   }
 
-  // "MARKER/112 and MARKER/1211 exist": ids that differ by one digit more, less or other.
+  // "MARKER/112 and MARKER/1211 exist": ids that differ by one digit more, less or other. These few are looked up, so
+  // that the hint costs the same in models of any size.
   std::string near_ids(std::string_view statement, std::int64_t id) const {
     const std::string wanted = std::to_string(id);
     std::vector<std::string> near;
-    const auto consider = [&](std::int64_t candidate) {
-      const std::string text = std::to_string(candidate);
-      const std::size_t shared =
-          std::mismatch(wanted.begin(), wanted.end(), text.begin(), text.end()).first - wanted.begin();
-      const std::string_view a = std::string_view(wanted).substr(shared);
-      const std::string_view b = std::string_view(text).substr(shared);
-      const bool close = (a.size() == b.size() && !a.empty() && a.substr(1) == b.substr(1)) ||
-                         (a.size() == b.size() + 1 && a.substr(1) == b) ||
-                         (b.size() == a.size() + 1 && b.substr(1) == a);
-      if (close) near.push_back(fmt::format("{}/{}", statement, candidate));
+    const auto consider = [&](const std::string& digits) {
+      constexpr std::size_t most_digits = 10;
+      if (digits.empty() || digits.size() > most_digits || digits.front() == '0' || digits == wanted) return;
+      const std::int64_t candidate = std::stoll(digits);
+      const bool exists = statement == "MARKER" ? model_.find_marker(candidate).has_value()
+                                                : model_.find(statement, candidate).has_value();
+      if (exists) near.push_back(fmt::format("{}/{}", statement, candidate));
     };
-    if (statement == "MARKER") {
-      for (const auto& [candidate, m] : model_.marker_ids) {
-        if (candidate != 0) consider(candidate);
+    if (wanted.front() == '-') return {};
+    for (std::size_t k = 0; k <= wanted.size(); ++k) {
+      const std::string before = wanted.substr(0, k), here = wanted.substr(k, 1),
+                        after = wanted.substr(std::min(k + 1, wanted.size()));
+      if (!here.empty()) consider(before + after);
+      for (char digit = '0'; digit <= '9'; ++digit) {
+        if (!here.empty()) consider(before + digit + after);
+        consider(before + digit + here + after);
       }
-    } else if (const auto table = model_.ids.find(statement); table != model_.ids.end()) {
-      for (const auto& [candidate, h] : table->second) consider(candidate);
     }
     std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
     if (near.size() > 3) near.resize(3);
     if (near.empty()) return {};
     return fmt::format("{} {}", fmt::join(near, " and "), near.size() == 1 ? "exists" : "exist");
@@ -127,14 +146,14 @@ class Reader final : public ElementReader {
   // SENVAL reads what an argument of its SENSOR yields, so that must be there.
   void check_required_argument(const Atom& atom) {
     const AtomFunction& f = *atom.function;
-    if (f.required_argument.empty() || !model_.find(f.statement, atom.argument[0])) return;
-    for (const Statement& s : model_.dataset->statements) {
-      if (s.name != f.statement || s.id != atom.argument[0]) continue;
-      const bool given = std::any_of(s.arguments.begin(), s.arguments.end(), [&](const WrittenArgument& w) {
-        return find_keyword(w.name.text(), std::span(&f.required_argument, 1)).has_value();
-      });
-      if (given) return;
-    }
+    if (f.required_argument.empty()) return;
+    const auto found = examined_.find({f.statement, atom.argument[0]});
+    if (found == examined_.end()) return;
+    const auto& arguments = found->second->arguments;
+    const bool given = std::any_of(arguments.begin(), arguments.end(), [&](const WrittenArgument& w) {
+      return find_keyword(w.name.text(), std::span(&f.required_argument, 1)).has_value();
+    });
+    if (given) return;
     error("missing-argument", atom.argument_at[0],
           fmt::format("{} reads {} of {}/{}, which has none", f.name, f.required_argument, f.statement,
                       atom.argument[0]));
@@ -193,60 +212,7 @@ class Reader final : public ElementReader {
 
   Model& model_;
   const Placement& placement_;
-};
-
-// Finds which kind of a statement is meant; the variants of a statement are told by a bare word.
-class KindFinder {
- public:
-  explicit KindFinder(Catalogue catalogue) {
-    for (const Kind* kind : catalogue) kinds_[std::string(kind->statement)].push_back(kind);
-  }
-
-  const Kind* find(const Statement& s, std::size_t& variant_argument, Diagnostics& diagnostics) const {
-    variant_argument = no_argument;
-    const auto it = kinds_.find(s.name);
-    if (it == kinds_.end()) {
-      diagnostics.error("statement-not-built", s.keyword, fmt::format("{} is not available yet", s.name));
-      return nullptr;
-    }
-    const auto& kinds = it->second;
-    if (kinds.size() == 1 && kinds.front()->variant.empty()) return kinds.front();
-
-    std::vector<std::string_view> variants;
-    for (const Kind* kind : kinds) variants.push_back(kind->variant);
-    const Kind* found = nullptr;
-    for (std::size_t k = 0; k < s.arguments.size(); ++k) {
-      const WrittenArgument& w = s.arguments[k];
-      if (w.has_value) continue;
-      const auto v = find_keyword(w.name.text(), variants);
-      if (!v || is_flag(*kinds[*v], w.name.text())) continue;
-      if (found) {
-        diagnostics.error(
-            "duplicate-variant", w.name,
-            fmt::format("{}/{} is both {} and {}", s.name, s.id.value_or(0), found->variant, kinds[*v]->variant));
-        return nullptr;
-      }
-      found = kinds[*v];
-      variant_argument = k;
-    }
-    if (!found) {
-      diagnostics.error("missing-variant", s.at, fmt::format("{} needs its type", s.name),
-                        fmt::format("one of {}", fmt::join(variants, ", ")));
-    }
-    return found;
-  }
-
- private:
-  // A word such as I or R that is the exact name of an argument never selects a variant.
-  static bool is_flag(const Kind& kind, std::string_view word) {
-    return std::any_of(kind.arguments.begin(), kind.arguments.end(), [&](const ArgumentInfo& a) {
-      return a.name.size() == word.size() && std::equal(word.begin(), word.end(), a.name.begin(), [](char x, char y) {
-               return std::toupper(static_cast<unsigned char>(x)) == y;
-             });
-    });
-  }
-
-  std::map<std::string, std::vector<const Kind*>, std::less<>> kinds_;
+  const ExaminedStatements& examined_;
 };
 
 bool is_ground(const Statement& s) {
@@ -258,9 +224,9 @@ bool is_ground(const Statement& s) {
 
 class Builder {
  public:
-  Builder(std::shared_ptr<const Dataset> dataset, Catalogue catalogue)
+  Builder(std::shared_ptr<const Dataset> dataset, Catalogue catalogue, const BuildOptions& options)
       : catalogue_(catalogue), finder_(catalogue), model_(std::make_unique<Model>()) {
-    model_->dataset = std::move(dataset);
+    model_->dataset = without_user_routines(std::move(dataset), catalogue, options.user_value, diagnostics_);
     model_->title = model_->dataset->title;
     model_->markers.push_back({{"MARKER", 0, "", {}}, {}, false});
     model_->marker_ids.emplace(0, global_frame);
@@ -285,18 +251,30 @@ class Builder {
   }
 
  private:
-  ElementSet& set_of(const Kind& kind) {
-    for (auto& set : model_->sets) {
-      if (&set->kind() == &kind) return *set;
+  std::int32_t set_index(const Kind& kind, bool active) {
+    const auto [found, fresh] =
+        set_of_kind_.emplace(std::pair(&kind, active), static_cast<std::int32_t>(model_->sets.size()));
+    if (fresh) {
+      model_->sets.push_back(kind.make_set(kind));
+      model_->sets.back()->active = active;
     }
-    model_->sets.push_back(kind.make_set(kind));
-    return *model_->sets.back();
+    return found->second;
+  }
+  ElementSet& set_of(const Kind& kind, bool active) {
+    return *model_->sets[static_cast<std::size_t>(set_index(kind, active))];
   }
 
   // First pass: every id becomes known, so statements may refer to later ones.
   void register_statements() {
+    const auto& statements = model_->dataset->statements;
+    placements_.reserve(statements.size());
+    const auto count = [&](std::string_view name) {
+      return static_cast<std::size_t>(std::ranges::count(statements, name, &Statement::name));
+    };
+    model_->markers.reserve(1 + count("MARKER"));
+    model_->bodies.reserve(1 + count("PART") + count("POINT_MASS"));
     // Sets in the order of the catalogue, whatever the order of the dataset, so that finishing works.
-    for (const Kind* kind : catalogue_) set_of(*kind);
+    for (const Kind* kind : catalogue_) set_of(*kind, true);
     BodyId preceding;
     const Statement* ground = nullptr;
     for (const Statement& s : model_->dataset->statements) {
@@ -314,14 +292,16 @@ class Builder {
         if (!s.damaged) diagnostics_.error("missing-id", s.at, fmt::format("{} needs an id: {}/1", s.name, s.name));
         continue;
       }
-      ElementSet& set = set_of(*kind);
-      const ElementLabel label{kind->statement, s.id.value_or(0), s.view_name, s.at};
+      ElementSet& set = set_of(*kind, !s.inactive);
+      const ElementLabel label{kind->statement, s.id.value_or(0), std::string(s.view_name), s.at};
       if (kind->role == Kind::Role::singleton && set.size() > 0) {
         diagnostics_.error("duplicate-statement", s.at, fmt::format("{} is given twice", s.name))
             .notes.push_back({set.labels.front().at, "the first one is here"});
         continue;
       }
       if (needs_id && !register_id(*kind, label, set, s, preceding, ground)) continue;
+      if (kind->role == Kind::Role::element && s.id && is_examined(s.name))
+        examined_.emplace(std::pair(s.name, *s.id), &s);
       set.append(label);
       placements_.push_back({&s, &set, set.size() - 1, variant_argument, preceding});
     }
@@ -365,8 +345,7 @@ class Builder {
       preceding = b;
       return true;
     }
-    std::int32_t index = 0;
-    while (model_->sets[static_cast<std::size_t>(index)].get() != &set) ++index;
+    const std::int32_t index = set_index(kind, set.active);
     auto& table = model_->ids[std::string(kind.statement)];
     const auto [it, fresh] = table.emplace(label.id, ElementHandle{index, static_cast<std::int32_t>(set.size())});
     if (!fresh) return duplicate(it->second.valid() ? model_->label(it->second).at : Span{});
@@ -377,7 +356,7 @@ class Builder {
   void read_statements() {
     for (const Placement& p : placements_) {
       Diagnostics own;
-      Reader reader(*model_, p, *model_->dataset->source, own);
+      Reader reader(*model_, p, examined_, *model_->dataset->source, own);
       p.set->read(p.index, reader);
       if (own.has_errors()) p.set->sound[p.index] = false;
       diagnostics_.append(std::move(own));
@@ -387,14 +366,17 @@ class Builder {
   Catalogue catalogue_;
   KindFinder finder_;
   std::unique_ptr<Model> model_;
+  std::map<std::pair<const Kind*, bool>, std::int32_t> set_of_kind_;  // and whether its elements are active
   Diagnostics diagnostics_;
   std::vector<Placement> placements_;
+  ExaminedStatements examined_;
 };
 
 }  // namespace
 
-Parsed<std::unique_ptr<Model>> build_model(std::shared_ptr<const Dataset> dataset, Catalogue catalogue) {
-  return Builder(std::move(dataset), catalogue).build();
+Parsed<std::unique_ptr<Model>> build_model(std::shared_ptr<const Dataset> dataset, Catalogue catalogue,
+                                           const BuildOptions& options) {
+  return Builder(std::move(dataset), catalogue, options).build();
 }
 
 }  // namespace dynalin

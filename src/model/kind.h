@@ -67,6 +67,7 @@ class ElementSet {
 
   std::vector<ElementLabel> labels;
   std::vector<bool> sound;  // false: its statement had errors, what refers to it stays silent
+  bool active = true;       // false: elements that a command took out of the model, and that exert nothing
 
  private:
   const Kind* kind_;

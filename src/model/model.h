@@ -15,6 +15,7 @@
 #include "expression/spline.h"
 #include "mechanics/layout.h"
 #include "model/kind.h"
+#include "model/settings.h"
 
 namespace dynalin {
 
@@ -36,8 +37,10 @@ struct StatedVelocity {
 struct Body {
   BodyKind kind = BodyKind::part;
   ElementLabel label;
-  Pose pose;        // BCS as drawn
-  double mass = 0;  // dynamical: user mass / ucf [force·time²/length]
+  Pose pose;             // BCS as drawn
+  MarkerId origin_at{};  // the marker that is taken as its origin where the one written stands too far away
+  Vector origin_offset;  // of that marker from the origin written, along the axes of the BCS
+  double mass = 0;       // dynamical: user mass / ucf [force·time²/length]
   double user_mass = 0;
   bool has_cm = false;
   Vector p_BC;                         // CM in the BCS
@@ -57,6 +60,7 @@ struct Marker {
 struct Model {
   std::string title;
   Units units;
+  Settings settings;
   Vector gravity;                                 // [length/time²], global axes
   std::vector<Body> bodies;                       // by BodyId, ground first
   std::vector<Marker> markers;                    // by MarkerId, the global frame first
@@ -83,6 +87,12 @@ struct Model {
   // which displacements and rotations are compared. [length]
   double characteristic_length() const;
 
+  // VARIABLEs whose course in time a MOTION follows: they cannot be inputs of a linear model.
+  struct FollowedVariable {
+    const ElementLabel* follower;
+    VariableRef variable;
+  };
+  std::vector<FollowedVariable> followed_in_time;
   // Calls of INVPSD, whose data are looked at when all SPLINEs are read.
   std::vector<SplineUse> spectra;
 
@@ -96,6 +106,9 @@ struct Model {
 
 // Reads every statement of the dataset by the catalogue. All problems are reported in one go; the model is
 // usable only without errors.
-Parsed<std::unique_ptr<Model>> build_model(std::shared_ptr<const Dataset>, Catalogue);
+struct BuildOptions {
+  std::optional<double> user_value{};  // what takes the place of compiled routines; nothing: they are errors
+};
+Parsed<std::unique_ptr<Model>> build_model(std::shared_ptr<const Dataset>, Catalogue, const BuildOptions& = {});
 
 }  // namespace dynalin

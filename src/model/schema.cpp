@@ -19,19 +19,20 @@ Span ElementReader::at(std::string_view argument) const { return at_argument(arg
 
 namespace {
 
-bool check_minimum(double value, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
-  if (value >= limits.minimum) return true;
-  r.error(
-      "value-out-of-range", w.value_span,
-      fmt::format("{} of {} is {}, it must be at least {}", limits.argument, r.label().text(), value, limits.minimum));
+bool check_range(double value, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
+  if (value >= limits.minimum && value <= limits.maximum) return true;
+  const bool low = !(value >= limits.minimum);
+  r.error("value-out-of-range", w.value_span,
+          fmt::format("{} of {} is {}, it must be at {} {}", limits.argument, r.label().text(), value,
+                      low ? "least" : "most", low ? limits.minimum : limits.maximum));
   return false;
 }
 
 }  // namespace
 
 bool read_value(double& slot, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
-  const auto v = read_real(w, r.source(), r.diagnostics());
-  if (!v || !check_minimum(*v, w, limits, r)) return false;
+  const auto v = read_real(w, *w.name.source, r.diagnostics());
+  if (!v || !check_range(*v, w, limits, r)) return false;
   slot = *v;
   return true;
 }
@@ -50,7 +51,7 @@ bool read_value(std::optional<double>& slot, const WrittenArgument& w, const Val
 }
 
 bool read_value(Vector& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
-  const auto v = read_reals(w, r.source(), r.diagnostics(), 3);
+  const auto v = read_reals(w, *w.name.source, r.diagnostics(), 3);
   if (!v) return false;
   slot = {(*v)[0], (*v)[1], (*v)[2]};
   return true;
@@ -64,7 +65,7 @@ bool read_value(std::optional<Vector>& slot, const WrittenArgument& w, const Val
 }
 
 bool read_value(std::vector<double>& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
-  auto v = read_reals(w, r.source(), r.diagnostics());
+  auto v = read_reals(w, *w.name.source, r.diagnostics());
   if (!v) return false;
   slot = std::move(*v);
   return true;
@@ -77,14 +78,14 @@ bool read_value(std::vector<std::vector<double>>& slot, const WrittenArgument& w
 
 bool read_value(std::optional<std::int64_t>& slot, const WrittenArgument& w, const ValueLimits& limits,
                 ElementReader& r) {
-  const auto v = read_integer(w, r.source(), r.diagnostics());
-  if (!v || !check_minimum(static_cast<double>(v->value), w, limits, r)) return false;
+  const auto v = read_integer(w, *w.name.source, r.diagnostics());
+  if (!v || !check_range(static_cast<double>(v->value), w, limits, r)) return false;
   slot = v->value;
   return true;
 }
 
 bool read_value(MarkerId& slot, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
-  const auto v = read_integer(w, r.source(), r.diagnostics());
+  const auto v = read_integer(w, *w.name.source, r.diagnostics());
   if (!v) return false;
   const auto id = r.marker(*v, limits.argument);
   if (!id) return false;
@@ -93,7 +94,7 @@ bool read_value(MarkerId& slot, const WrittenArgument& w, const ValueLimits& lim
 }
 
 bool read_value(BodyId& slot, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
-  const auto v = read_integer(w, r.source(), r.diagnostics());
+  const auto v = read_integer(w, *w.name.source, r.diagnostics());
   if (!v) return false;
   const auto id = r.body(limits.argument, *v);
   if (!id) return false;
@@ -106,11 +107,19 @@ bool read_value(WordOrCount& slot, const WrittenArgument& w, const ValueLimits& 
   return !w.has_value || read_value(slot.count, w, limits, r);
 }
 
+bool read_value(OptionalWord& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
+  slot.given = true;
+  if (!w.has_value) return true;
+  const auto word = read_word(w, *w.name.source, r.diagnostics());
+  if (word) slot.word = std::string(word->text());
+  return word.has_value();
+}
+
 bool read_value(UserSubroutine& slot, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
   if (w.damaged) return false;  // reported when the text was read
   static constexpr std::array<std::string_view, 1> user = {"USER"};
   const std::string owner = r.label().text();
-  const Span first = w.value.empty() ? w.value_span : Span{&r.source(), w.value[0].offset, w.value[0].length};
+  const Span first = w.value.empty() ? w.value_span : Span{w.name.source, w.value[0].offset, w.value[0].length};
   if (find_keyword(first.text(), user)) {
     r.error("function-not-built", first,
             fmt::format("{} calls the user subroutine {}; user subroutines are not available", owner, slot.name));
@@ -123,7 +132,7 @@ bool read_value(UserSubroutine& slot, const WrittenArgument& w, const ValueLimit
 }
 
 bool read_value(ElementHandle& slot, std::string_view statement, const WrittenArgument& w, ElementReader& r) {
-  const auto v = read_integer(w, r.source(), r.diagnostics());
+  const auto v = read_integer(w, *w.name.source, r.diagnostics());
   if (!v) return false;
   const auto handle = r.element(statement, *v);
   if (!handle) return false;
@@ -133,7 +142,7 @@ bool read_value(ElementHandle& slot, std::string_view statement, const WrittenAr
 
 bool read_value(std::vector<ElementHandle>& slot, std::string_view statement, const WrittenArgument& w,
                 ElementReader& r) {
-  const auto ids = read_integers(w, r.source(), r.diagnostics());
+  const auto ids = read_integers(w, *w.name.source, r.diagnostics());
   if (!ids) return false;
   bool ok = true;
   for (const WrittenInteger& id : *ids) {
@@ -145,7 +154,7 @@ bool read_value(std::vector<ElementHandle>& slot, std::string_view statement, co
 }
 
 bool read_value(std::vector<std::int64_t>& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
-  const auto ids = read_integers(w, r.source(), r.diagnostics());
+  const auto ids = read_integers(w, *w.name.source, r.diagnostics());
   if (!ids) return false;
   slot.clear();
   for (const WrittenInteger& id : *ids) slot.push_back(id.value);
@@ -167,14 +176,14 @@ bool read_value(VectorExpression& slot, const WrittenArgument& w, const ValueLim
 }
 
 bool read_value(std::string& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
-  auto text = read_text(w, r.source(), r.diagnostics());
+  auto text = read_text(w, *w.name.source, r.diagnostics());
   if (!text) return false;
   slot = std::move(*text);
   return true;
 }
 
 bool read_value(std::vector<std::string>& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
-  const auto words = read_words(w, r.source(), r.diagnostics());
+  const auto words = read_words(w, *w.name.source, r.diagnostics());
   if (!words) return false;
   slot.clear();
   for (const Span& word : *words) {
@@ -189,13 +198,11 @@ bool read_value(std::vector<std::string>& slot, const WrittenArgument& w, const 
 namespace detail {
 
 std::optional<std::size_t> find_argument(const WrittenArgument& written, std::span<const ArgumentInfo> infos,
-                                         ElementReader& r) {
+                                         std::span<const std::string_view> names, ElementReader& r) {
   // The word that chose the variant was recorded when the kind was found.
   for (const auto& a : r.assignments) {
     if (a.at.offset == written.name.offset && a.at.source == written.name.source) return infos.size();
   }
-  std::vector<std::string_view> names;
-  for (const ArgumentInfo& info : infos) names.push_back(info.name);
   std::vector<std::string_view> tied;
   const auto k = find_keyword(written.name.text(), names, &tied);
   const std::string_view owner = r.label().statement;

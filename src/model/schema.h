@@ -41,6 +41,12 @@ struct WordOrCount {
   std::optional<std::int64_t> count;
 };
 
+// A word that may stand alone or with another one as its value: FULL or FULL=RORDER.
+struct OptionalWord {
+  bool given = false;
+  std::string word;  // as written
+};
+
 // An argument of old datasets that has no effect any more: whatever it is given is passed over.
 struct Obsolete {};
 
@@ -50,13 +56,13 @@ struct UserSubroutine {
 };
 
 template <class E>
-using Slot =
-    std::variant<bool E::*, ElsewhereOnly E::*, Obsolete E::*, double E::*, std::optional<double> E::*, Vector E::*,
-                 std::optional<Vector> E::*, std::vector<double> E::*, std::vector<std::vector<double>> E::*,
-                 std::optional<std::int64_t> E::*, MarkerId E::*, BodyId E::*, VariableRef E::*, ArrayRef E::*,
-                 MatrixRef E::*, JointRef E::*, CurveRef E::*, FlexBodyRef E::*, WordOrCount E::*, UserSubroutine E::*,
-                 std::vector<VariableRef> E::*, std::vector<JointRef> E::*, std::vector<std::int64_t> E::*,
-                 Expression E::*, VectorExpression E::*, std::string E::*, std::vector<std::string> E::*>;
+using Slot = std::variant<bool E::*, ElsewhereOnly E::*, Obsolete E::*, double E::*, std::optional<double> E::*,
+                          Vector E::*, std::optional<Vector> E::*, std::vector<double> E::*,
+                          std::vector<std::vector<double>> E::*, std::optional<std::int64_t> E::*, MarkerId E::*,
+                          BodyId E::*, VariableRef E::*, ArrayRef E::*, MatrixRef E::*, JointRef E::*, CurveRef E::*,
+                          FlexBodyRef E::*, WordOrCount E::*, OptionalWord E::*, UserSubroutine E::*,
+                          std::vector<VariableRef> E::*, std::vector<JointRef> E::*, std::vector<std::int64_t> E::*,
+                          Expression E::*, VectorExpression E::*, std::string E::*, std::vector<std::string> E::*>;
 
 template <class E>
 struct Argument {
@@ -66,12 +72,13 @@ struct Argument {
   std::string_view unit{};
   double minimum = -std::numeric_limits<double>::infinity();
   std::string_view help{};
+  double maximum = std::numeric_limits<double>::infinity();
 };
 
 // Reading one value into one member: false after a reported error.
 struct ValueLimits {
   std::string_view argument;
-  double minimum;
+  double minimum, maximum;
 };
 bool read_value(double&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(ElsewhereOnly&, const WrittenArgument&, const ValueLimits&, ElementReader&);
@@ -86,6 +93,7 @@ bool read_value(std::optional<std::int64_t>&, const WrittenArgument&, const Valu
 bool read_value(MarkerId&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(BodyId&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(WordOrCount&, const WrittenArgument&, const ValueLimits&, ElementReader&);
+bool read_value(OptionalWord&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(UserSubroutine&, const WrittenArgument&, const ValueLimits&, ElementReader&);
 bool read_value(ElementHandle&, std::string_view statement, const WrittenArgument&, ElementReader&);
 bool read_value(std::vector<ElementHandle>&, std::string_view statement, const WrittenArgument&, ElementReader&);
@@ -124,6 +132,8 @@ constexpr std::string_view value_text() {
     return "reals, repeated";
   else if constexpr (std::is_same_v<V, std::optional<std::int64_t>> || std::is_same_v<V, WordOrCount>)
     return "integer";
+  else if constexpr (std::is_same_v<V, OptionalWord>)
+    return "word";
   else if constexpr (std::is_same_v<V, UserSubroutine>)
     return "USER(…)";
   else if constexpr (std::is_same_v<V, MarkerId>)
@@ -154,7 +164,8 @@ constexpr ArgumentInfo argument_info(const Argument<E>& a) {
   std::visit(
       [&]<class V>(V E::*) {
         info.is_flag = std::is_same_v<V, bool>;
-        info.value_optional = std::is_same_v<V, WordOrCount> || std::is_same_v<V, Obsolete>;
+        info.value_optional =
+            std::is_same_v<V, WordOrCount> || std::is_same_v<V, OptionalWord> || std::is_same_v<V, Obsolete>;
         info.repeats = std::is_same_v<V, std::vector<std::vector<double>>>;
         info.value = value_text<V>();
       },
@@ -169,8 +180,16 @@ inline constexpr auto argument_infos = [] {
   return infos;
 }();
 
+template <class E>
+inline constexpr auto argument_names = [] {
+  std::array<std::string_view, E::arguments.size()> names{};
+  for (std::size_t k = 0; k < names.size(); ++k) names[k] = E::arguments[k].name;
+  return names;
+}();
+
 // Finds the argument a written name means; reports unknown and repeated ones.
-std::optional<std::size_t> find_argument(const WrittenArgument&, std::span<const ArgumentInfo>, ElementReader&);
+std::optional<std::size_t> find_argument(const WrittenArgument&, std::span<const ArgumentInfo>,
+                                         std::span<const std::string_view> names, ElementReader&);
 // Reports arguments that are required and missing.
 bool check_required(std::span<const ArgumentInfo>, ElementReader&);
 
@@ -182,7 +201,7 @@ bool read_arguments(E& element, ElementReader& reader) {
   bool ok = true;
   const std::span<const ArgumentInfo> infos = detail::argument_infos<E>;
   for (const WrittenArgument& written : reader.statement().arguments) {
-    const auto k = detail::find_argument(written, infos, reader);
+    const auto k = detail::find_argument(written, infos, detail::argument_names<E>, reader);
     if (!k) {
       ok = false;
       continue;
@@ -194,7 +213,7 @@ bool read_arguments(E& element, ElementReader& reader) {
           if constexpr (std::is_same_v<V, bool>) {
             return element.*member = true;
           } else {
-            return read_value(element.*member, written, ValueLimits{a.name, a.minimum}, reader);
+            return read_value(element.*member, written, ValueLimits{a.name, a.minimum, a.maximum}, reader);
           }
         },
         a.slot);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/vec3.h"
 #include "cases/run.h"
@@ -18,6 +19,21 @@ inline std::string reuler(const Matrix3& R) {
   return fmt::format("{:.17g},{:.17g},{:.17g}", psi, theta, phi);
 }
 inline std::string xyz(const Vector& v) { return fmt::format("{:.17g},{:.17g},{:.17g}", v.x, v.y, v.z); }
+
+// A parallelogram that turns: crank, coupler and rocker of mass 1, radius of gyration of the cranks about their hinges
+// 5/4, the spring alone moves it, w² = K/(5/4 + 5/4 + 1), whatever the crank's angle and speed.
+inline std::string parallelogram(double angle, double speed, double stiffness) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return fmt::format(
+      "Parallelogram\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=2,0,0\n"
+      "PART/2, MASS=1, CM=20, IP=1,1,1, REULER={0:.17g},0,0, WZ={1:.17g}\nMARKER/20, QP=0.5,0,0\nMARKER/21\n"
+      "MARKER/22, QP=1,0,0\nPART/3, MASS=1, CM=30, IP=1,1,1, QG={2:.17g},{3:.17g},0, VX={4:.17g}, VY={5:.17g}\n"
+      "MARKER/30, QP=1,0,0\nMARKER/31\nMARKER/32, QP=2,0,0\n"
+      "PART/4, MASS=1, CM=40, IP=1,1,1, QG=2,0,0, REULER={0:.17g},0,0, WZ={1:.17g}\nMARKER/40, QP=0.5,0,0\nMARKER/41\n"
+      "MARKER/42, QP=1,0,0\nJOINT/1, REVOLUTE, I=21, J=1\nJOINT/2, REVOLUTE, I=31, J=22\nJOINT/3, REVOLUTE, I=41, J=2\n"
+      "JOINT/4, REVOLUTE, I=32, J=42\nSPRINGDAMPER/1, ROTATIONAL, I=21, J=1, KT={6:.17g}, CT=0, ANGLE=0\nEND\n",
+      angle, speed, c, s, -speed * s, speed * c, stiffness);
+}
 
 // Order-free comparison: sorted by imaginary part, then real.
 inline void expect_same(std::vector<std::complex<double>> a, std::vector<std::complex<double>> b,

@@ -277,7 +277,7 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair("BUSHING/1, I=31, J=21, K=1,-2,3", "value-out-of-range"),
         std::pair("BUSHING/1, I=31, J=30, K=1,2,3", "same-body"), std::pair("FIELD/1, I=31, J=21", "missing-argument"),
         std::pair("FIELD/1, I=31, J=21, KMATRIX=1,2,3", "wrong-count"),
-        std::pair("FIELD/1, I=31, J=21, FUNCTION=USER(1)", "function-not-built"),
+        std::pair("FIELD/1, I=31, J=21, FUNCTION=USER(1)", "missing-routine"),
         std::pair("BEAM/1, I=31, J=21, LENGTH=0, AREA=1, IXX=1, IYY=1, IZZ=1, EMOD=1, GMOD=1", "value-out-of-range"),
         std::pair("BEAM/1, I=31, J=21, LENGTH=1, AREA=1, IXX=1, IYY=1, IZZ=1, EMOD=1, GMOD=1, CRATIO=1, CMATRIX=1",
                   "excluded-arguments"),

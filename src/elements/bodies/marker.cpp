@@ -70,37 +70,54 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
 
   void finish(Model& model, Diagnostics& diagnostics) override {
     // Marker k of this set is marker k + 1 of the model.
+    state_.assign(elements.size(), State::as_written);
     for (std::size_t k = 0; k < elements.size(); ++k) {
       Marker& marker = model.markers[k + 1];
       marker.floating = elements[k].floating;
       marker.place = {elements[k].owner, elements[k].origin, elements[k].axes};
-      if (elements[k].reference.valid()) refer(k, model, diagnostics);
     }
+    for (std::size_t k = 0; k < elements.size(); ++k) refer(k, model, diagnostics);
   }
 
  private:
-  // The place in the body's axes of a marker given in the frame of another, which may be given so itself.
+  enum class State : std::uint8_t { as_written, on_the_way, placed, faulty };
+
+  std::size_t reference_of(std::size_t k) const { return static_cast<std::size_t>(elements[k].reference.index) - 1; }
+
+  // The place in the body's axes of a marker given in the frame of another, which may be given so itself. Each is
+  // placed once, however long the chain.
   void refer(std::size_t k, Model& model, Diagnostics& diagnostics) {
-    MarkerPlace place{elements[k].owner, elements[k].origin, elements[k].axes};
+    std::vector<std::size_t> chain;
     std::size_t at = k;
-    for (std::size_t steps = 0; elements[at].reference.valid(); ++steps) {
-      const auto next = static_cast<std::size_t>(elements[at].reference.index) - 1;
-      if (steps > elements.size()) {
-        diagnostics.error("circular-reference", labels[k].at,
-                          fmt::format("{} refers to itself through RM", labels[k].text()));
-        return;
-      }
-      if (elements[next].owner != elements[k].owner) {
-        diagnostics.error("foreign-reference", labels[k].at,
-                          fmt::format("RM of {} is on another body", labels[k].text()));
-        return;
-      }
-      place.p_BM = elements[next].origin + elements[next].axes * place.p_BM;
-      place.R_BM = elements[next].axes * place.R_BM;
-      at = next;
+    for (; elements[at].reference.valid() && state_[at] == State::as_written; at = reference_of(at)) {
+      state_[at] = State::on_the_way;
+      chain.push_back(at);
     }
-    model.markers[k + 1].place = place;
+    bool circular = !chain.empty() && state_[at] == State::on_the_way;  // from `at` on
+    for (; !chain.empty(); chain.pop_back()) {
+      const std::size_t marker = chain.back(), next = reference_of(marker);
+      if (circular) {
+        state_[marker] = State::faulty;
+        diagnostics.error("circular-reference", labels[marker].at,
+                          fmt::format("{} refers to itself through RM", labels[marker].text()));
+        circular = marker != at;
+      } else if (elements[next].owner != elements[marker].owner) {
+        state_[marker] = State::faulty;
+        diagnostics.error("foreign-reference", labels[marker].at,
+                          fmt::format("RM of {} is on another body", labels[marker].text()));
+      } else if (state_[next] == State::faulty) {
+        state_[marker] = State::faulty;  // said of the other one
+      } else {
+        MarkerPlace& place = model.markers[marker + 1].place;
+        const MarkerPlace& reference = model.markers[next + 1].place;
+        place.p_BM = reference.p_BM + reference.R_BM * place.p_BM;
+        place.R_BM = reference.R_BM * place.R_BM;
+        state_[marker] = State::placed;
+      }
+    }
   }
+
+  std::vector<State> state_;
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
-// PART/id, GROUND   or   PART/id, MASS=, CM=, IM=, IP=, QG=, {REULER= | ZG=, XG=}, VX= … WZ=, VM=, WM=, EXACT=
+// PART/id, GROUND   or   PART/id, MASS=, CM=, IM=, IP=, QG=, {REULER= | ZG=, XG=}, VX= … WZ=, VM=, WM=, EXACT=,
+// MATERIAL=
 //
 // A rigid body. IP holds Ixx, Iyy, Izz, Ixy, Ixz, Iyz with positive product integrals, so that the tensor has −Ixy …
 // off its diagonal, about the origin and along the axes of IM (CM if IM is absent). Initial velocities are those of the
@@ -7,6 +8,8 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <limits>
 
 #include "elements/families/inertia.h"
 #include "elements/families/orientation.h"
@@ -28,7 +31,7 @@ struct Part {
   std::string material;
   Matrix3 axes = Matrix3::identity();
 
-  static constexpr std::array<Argument<Part>, 18> arguments = {{
+  static constexpr std::array<Argument<Part>, 19> arguments = {{
       {.name = "GROUND", .slot = &Part::ground, .help = "this is the inertial body"},
       {.name = "MASS", .slot = &Part::mass, .unit = unit::mass, .minimum = 0},
       {.name = "CM", .slot = &Part::cm, .help = "marker at the centre of mass"},
@@ -47,6 +50,7 @@ struct Part {
       {.name = "VM", .slot = &Part::vm, .help = "axes of VX, VY, VZ; global by default"},
       {.name = "WM", .slot = &Part::wm, .help = "axes of WX, WY, WZ; those of CM by default"},
       {.name = "EXACT", .slot = &Part::exact, .help = "coordinates the assembly should keep: X:Y:Z:PSI:THETA:PHI"},
+      {.name = "MATERIAL", .slot = &Part::material, .help = "name of a MATERIAL; has no effect on a rigid part"},
   }};
 };
 
@@ -69,7 +73,7 @@ class PartSet final : public TypedSet<Part> {
   void read(std::size_t k, ElementReader& reader) override {
     Part& p = elements[k];
     if (!read_arguments(p, reader)) return;
-    if (p.ground && reader.statement().arguments.size() > 1) {
+    if (p.ground && reader.statement().arguments.size() > (reader.given("MATERIAL") ? 2u : 1u)) {
       reader.error("argument-of-ground", reader.at("GROUND"),
                    fmt::format("{} is the ground and takes no other argument", reader.label().text()));
       return;
@@ -94,11 +98,14 @@ class PartSet final : public TypedSet<Part> {
 
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) {
+      if (!elements[k].ground) body_of(model, k).pose = {elements[k].origin, elements[k].axes};
+    }
+    bring_origins_near(model);
+    for (std::size_t k = 0; k < elements.size(); ++k) {
       const Part& p = elements[k];
       if (p.ground) continue;
       const BodyId id = *model.find_body("PART", labels[k].id);
       Body& body = model.bodies[static_cast<std::size_t>(id.index)];
-      body.pose = {p.origin, p.axes};
       body.user_mass = p.mass;
       body.mass = p.mass / model.units.ucf;
       place_mass(p, labels[k], id, model, body, diagnostics);
@@ -120,6 +127,44 @@ class PartSet final : public TypedSet<Part> {
   }
 
  private:
+  // In lengths of the model: an origin farther from all markers than that costs digits that they have, its square those
+  // of the inertia.
+  static constexpr double far_origin = 1e3;
+
+  Body& body_of(Model& model, std::size_t k) const {
+    return model.bodies[static_cast<std::size_t>(model.find_body("PART", labels[k].id)->index)];
+  }
+
+  // Takes a marker as the origin of each BCS that stands far from all that its part has. The differences between
+  // markers stay as written.
+  void bring_origins_near(Model& model) const {
+    const double limit = far_origin * model.characteristic_length();
+    std::vector<double> nearest(model.bodies.size(), std::numeric_limits<double>::infinity());
+    std::vector<MarkerId> first(model.bodies.size());
+    for (std::size_t m = 1; m < model.markers.size(); ++m) {
+      const Marker& marker = model.markers[m];
+      if (marker.floating) continue;
+      const auto b = static_cast<std::size_t>(marker.place.body.index);
+      nearest[b] = std::min(nearest[b], norm(marker.place.p_BM));
+      if (!first[b].valid()) first[b] = MarkerId{static_cast<std::int32_t>(m)};
+    }
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      const Part& p = elements[k];
+      if (p.ground || !p.exact.empty()) continue;
+      const auto b = static_cast<std::size_t>(model.find_body("PART", labels[k].id)->index);
+      if (!first[b].valid() || nearest[b] <= limit) continue;
+      Body& body = model.bodies[b];
+      const bool own = p.cm.valid() && static_cast<std::size_t>(model.marker(p.cm).place.body.index) == b;
+      body.origin_at = own ? p.cm : first[b];
+      body.origin_offset = model.marker(body.origin_at).place.p_BM;
+      body.pose.r += body.pose.R * body.origin_offset;
+    }
+    for (Marker& marker : model.markers) {
+      const Body& body = model.bodies[static_cast<std::size_t>(marker.place.body.index)];
+      if (!marker.floating && body.origin_at.valid()) marker.place.p_BM -= body.origin_offset;
+    }
+  }
+
   static bool has_inertia(const Part& p) {
     return std::any_of(p.ip.begin(), p.ip.end(), [](double x) { return x != 0.0; });
   }
@@ -147,8 +192,7 @@ class PartSet final : public TypedSet<Part> {
     // From the origin of IM to the centre of mass, then from model units to dynamical ones.
     const Vector s = cm.p_BM - im.p_BM;
     const Matrix3 about_im = im.R_BM * J_IM * transpose(im.R_BM);
-    const Matrix3 about_cm = about_im - p.mass * (Matrix3::diagonal(dot(s, s)) - outer(s, s));
-    body.J_BC = (1.0 / model.units.ucf) * about_cm;
+    Matrix3 about_cm = about_im - p.mass * (Matrix3::diagonal(dot(s, s)) - outer(s, s));
 
     Eigen::Matrix3d J;
     for (std::size_t r = 0; r < 3; ++r) {
@@ -156,8 +200,20 @@ class PartSet final : public TypedSet<Part> {
         J(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) = about_cm(r, c);
       }
     }
-    const Eigen::Vector3d principal =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(J, Eigen::EigenvaluesOnly).eigenvalues();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(J);
+    Eigen::Vector3d principal = solver.eigenvalues();
+    // What cancels between the two points is zero: a thin rod has no inertia about its axis, a heavy point none at all.
+    const double roundings = 16 * std::numeric_limits<double>::epsilon() * p.mass * dot(s, s);
+    if ((principal.array().abs() < roundings).any()) {
+      principal = (principal.array().abs() < roundings).select(0.0, principal);
+      J = solver.eigenvectors() * principal.asDiagonal() * solver.eigenvectors().transpose();
+      for (std::size_t r = 0; r < 3; ++r) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          about_cm(r, c) = J(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c));
+        }
+      }
+    }
+    body.J_BC = (1.0 / model.units.ucf) * about_cm;
     const double scale = principal.cwiseAbs().maxCoeff();
     if (principal(0) < -1e-6 * scale) {
       diagnostics.error("negative-inertia", label.at,

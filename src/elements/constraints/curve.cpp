@@ -1,8 +1,8 @@
 // CURVE/id, {OPEN | CLOSED}, MATRIX= [, CURVE_POINTS | , CONTROL_POINTS[=n]] [, ORDER=k]
 //
 // A curve in space for PTCV, CVCV and the function CURVE: c(u), −1 ≤ u ≤ 1, a B-spline of order k (degree k − 1, 4
-// unless stated) through the points that the rows of the MATRIX hold, or along them as its control points
-// (expression/parametric_curve.h). A closed one states its first point again as the last.
+// unless stated; 2 is the polygon) through the points that the rows of the MATRIX hold, or along them as its control
+// points (expression/parametric_curve.h). A closed one states its first point again as the last.
 #include "elements/constraints/curve.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace dynalin {
 
 namespace {
 
-constexpr std::int64_t cubic = 4, highest_order = 16;
+constexpr std::int64_t polygon = 2, cubic = 4, highest_order = 16;
 
 struct WrittenCurve {
   bool open = false, closed = false, points = false;
@@ -72,10 +72,14 @@ class CurveSet final : public TypedSet<Curve> {
       reader.error("unexpected-argument", reader.at(word),
                    fmt::format("{} goes with FUNCTION; the parameter of {} runs from -1 to 1", word, name));
     }
-    if (w.order && *w.order < cubic) {
+    if (w.order && *w.order < polygon) {
       reader.error("value-out-of-range", w.order_at,
-                   fmt::format("ORDER of {} is {}, it must be at least {}", name, *w.order, cubic),
-                   "a point that follows a curve of lower order has jumps in its acceleration");
+                   fmt::format("ORDER of {} is {}, it must be at least {}", name, *w.order, polygon));
+    } else if (w.order && *w.order < cubic) {
+      reader.warning("rough-curve", w.order_at,
+                     fmt::format("{} of order {} has {} where its pieces meet", name, *w.order,
+                                 *w.order == polygon ? "corners" : "jumps in its curvature"),
+                     "a linear model holds for the piece it is taken on");
     }
   }
 

@@ -36,7 +36,8 @@ struct GeneralConstraint {
 class GeneralConstraintKernel final : public Kernel {
  public:
   GeneralConstraintKernel(const std::vector<GeneralConstraint>& elements, const std::vector<ElementLabel>& labels,
-                          Layout& layout) {
+                          Layout& layout)
+      : labels_(&labels) {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const RowLevel level = elements[k].level();
       rows_.push_back({elements[k].function, {}, level, layout.add_row(labels[k], "FUNCTION", level)});
@@ -61,17 +62,17 @@ class GeneralConstraintKernel final : public Kernel {
   void equations(const Motion& motion, Equations& eq) const override {
     if (!eq.wants_partials()) return;
     for (const Row& r : rows_) {
+      eq.begin_element(r.row, 1);
       r.function.add_reaction_partials(motion, eq, motion.lambda[static_cast<std::size_t>(r.row)], r.level);
     }
   }
   void remember(const Motion& motion, Memory& memory) const override {
     for (const Row& r : rows_) r.function.remember(motion, memory);
   }
-  std::string fault(const Motion& motion) const override {
-    for (const Row& r : rows_) {
-      if (std::string text = r.function.fault(motion); !text.empty()) return text;
+  void faults(const Motion& motion, std::vector<ElementFault>& faults) const override {
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      rows_[k].function.find_fault(motion, (*labels_)[k], faults, BoundExpression::Derivatives::with_rates);
     }
-    return {};
   }
 
  private:
@@ -82,6 +83,7 @@ class GeneralConstraintKernel final : public Kernel {
     std::int32_t row;
   };
   std::vector<Row> rows_;
+  const std::vector<ElementLabel>* labels_;
 };
 
 class GeneralConstraintSet final : public TypedSet<GeneralConstraint> {

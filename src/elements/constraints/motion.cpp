@@ -1,6 +1,8 @@
 // MOTION/id, {JOINT= [, ROTATION | TRANSLATION] | I=, J=, {X | Y | Z | B1 | B2 | B3}}, FUNCTION=
 //     [, DISPLACEMENT | VELOCITY | ACCELERATION] [, ICDISP=] [, ICVEL=]
 //
+// FUNCTION depends on TIME, and on VARIABLEs that depend on TIME themselves; these are put into it.
+//
 // Drives one displacement q of a joint or of a marker pair by a function of time (families/pair_displacement.h):
 //
 //     DISPLACEMENT   q − f(t) = 0                  angles are compared modulo 2π
@@ -10,6 +12,9 @@
 // A linear model is taken at one instant and holds s: no state belongs to the motion.
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "elements/controls/variable.h"
 #include "elements/families/pair_displacement.h"
 #include "mechanics/bound_expression.h"
 
@@ -63,7 +68,8 @@ struct PrescribedMotion {
 
 class MotionKernel final : public Kernel {
  public:
-  MotionKernel(const std::vector<PrescribedMotion>& elements, const std::vector<ElementLabel>& labels, Layout& layout) {
+  MotionKernel(const std::vector<PrescribedMotion>& elements, const std::vector<ElementLabel>& labels, Layout& layout)
+      : labels_(&labels) {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const PrescribedMotion& e = elements[k];
       if (e.level != DriveLevel::displacement) layout.velocity_driven.push_back(&labels[k]);
@@ -88,7 +94,10 @@ class MotionKernel final : public Kernel {
 
   void equations(const Motion& motion, Equations& eq) const override {
     if (!eq.wants(Column::position)) return;
-    for (const Driven& d : driven_) d.displacement.add_reaction_partials(motion, lambda(d, motion), eq);
+    for (const Driven& d : driven_) {
+      eq.begin_element(d.row, 1);
+      d.displacement.add_reaction_partials(motion, lambda(d, motion), eq);
+    }
   }
 
   bool has_wrench() const override { return true; }
@@ -98,11 +107,8 @@ class MotionKernel final : public Kernel {
     const Driven& d = driven_[k];
     d.displacement.wrench(motion, lambda(d, motion), d.row, with_partials, out);
   }
-  std::string fault(const Motion& motion) const override {
-    for (const Driven& d : driven_) {
-      if (std::string text = d.function.fault(motion); !text.empty()) return text;
-    }
-    return {};
+  void faults(const Motion& motion, std::vector<ElementFault>& faults) const override {
+    for (std::size_t k = 0; k < driven_.size(); ++k) driven_[k].function.find_fault(motion, (*labels_)[k], faults);
   }
 
  private:
@@ -127,6 +133,48 @@ class MotionKernel final : public Kernel {
     return f;
   }
   std::vector<Driven> driven_;
+  const std::vector<ElementLabel>* labels_;
+};
+
+// FUNCTION with the VARIABLEs that it reads put into it.
+class CourseInTime {
+ public:
+  CourseInTime(Model& model, const ElementLabel& label, Diagnostics& diagnostics)
+      : model_(model), label_(label), diagnostics_(diagnostics) {}
+
+  // Nothing after a reported dependence on the state.
+  std::optional<Expression> of(const Expression& function) {
+    const std::size_t before = diagnostics_.error_count();
+    Expression course = function.with_definitions([&](const Atom& atom) { return definition(atom); });
+    if (diagnostics_.error_count() > before) return std::nullopt;
+    return course;
+  }
+
+ private:
+  std::optional<Expression> definition(const Atom& atom) {
+    if (atom.function->family == AtomFamily::time) return std::nullopt;
+    const auto variable = model_.find("VARIABLE", atom.argument[0]);
+    if (atom.function->name != "VARVAL" || !variable) {
+      diagnostics_.error("function-of-state", atom.at,
+                         fmt::format("{} depends on {}, it may depend on TIME only", label_.text(), atom.at.text()));
+      return std::nullopt;
+    }
+    if (std::find(within_.begin(), within_.end(), atom.argument[0]) != within_.end()) {
+      diagnostics_.error("function-of-state", atom.at,
+                         fmt::format("{}, which {} follows, depends on itself", atom.at.text(), label_.text()));
+      return std::nullopt;
+    }
+    model_.followed_in_time.push_back({&label_, {*variable}});
+    within_.push_back(atom.argument[0]);
+    auto course = of(variable_function(model_, {*variable}));
+    within_.pop_back();
+    return course;
+  }
+
+  Model& model_;
+  const ElementLabel& label_;
+  Diagnostics& diagnostics_;
+  std::vector<std::int32_t> within_;  // VARIABLEs whose function is looked at
 };
 
 class MotionSet final : public TypedSet<PrescribedMotion> {
@@ -137,7 +185,7 @@ class MotionSet final : public TypedSet<PrescribedMotion> {
     PrescribedMotion& m = elements[k];
     if (!read_arguments(m, reader)) return;
     for (const Atom& atom : m.function.atoms()) {
-      if (atom.function->family == AtomFamily::time) continue;
+      if (atom.function->family == AtomFamily::time || atom.function->name == "VARVAL") continue;
       reader.error("function-of-state", atom.at,
                    fmt::format("FUNCTION of {} depends on {}, it may depend on TIME only", reader.label().text(),
                                atom.function->name));
@@ -187,6 +235,9 @@ class MotionSet final : public TypedSet<PrescribedMotion> {
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       PrescribedMotion& m = elements[k];
+      auto in_time = CourseInTime(model, labels[k], diagnostics).of(m.function);
+      if (!in_time) continue;
+      m.function = std::move(*in_time);
       if (m.joint.valid()) {
         const char wanted = m.rotation ? 'R' : m.translation ? 'T' : ' ';
         const auto freedom = joint_freedom(model, labels[k], m.joint, wanted, diagnostics);

@@ -1,4 +1,5 @@
-// MATRIX/id, {FULL={RORDER | CORDER}, ROWS=, COLUMNS=, VALUES= | SPARSE, I=, J=, VALUES= | FILE=, NAME=}
+// MATRIX/id, {FULL={RORDER | CORDER} (also FULL RORDER, as two words), ROWS=, COLUMNS=, VALUES= | SPARSE, I=, J=,
+// VALUES= | FILE=, NAME=}
 //
 // A table of numbers for LSE and others: by rows or columns, by its entries that are not zero, or out of a file.
 #include "elements/controls/matrix.h"
@@ -7,9 +8,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "base/read_file.h"
 #include "dataset/matrix_file.h"
 #include "model/model.h"
 #include "model/schema.h"
@@ -19,15 +19,17 @@ namespace dynalin {
 namespace {
 
 struct MatrixStatement {
-  std::vector<std::string> full;
-  bool sparse = false;
+  OptionalWord full;
+  bool by_rows = false, by_columns = false, sparse = false;
   std::optional<std::int64_t> rows, columns;
   std::vector<double> values;
   std::vector<std::int64_t> row_of, column_of;
   std::string file, name;
 
-  static constexpr std::array<Argument<MatrixStatement>, 9> arguments = {{
+  static constexpr std::array<Argument<MatrixStatement>, 11> arguments = {{
       {.name = "FULL", .slot = &MatrixStatement::full, .help = "RORDER: by rows; CORDER: by columns"},
+      {.name = "RORDER", .slot = &MatrixStatement::by_rows, .help = "behind FULL: by rows"},
+      {.name = "CORDER", .slot = &MatrixStatement::by_columns, .help = "behind FULL: by columns"},
       {.name = "SPARSE", .slot = &MatrixStatement::sparse, .help = "only entries that are not zero"},
       {.name = "ROWS", .slot = &MatrixStatement::rows, .minimum = 1},
       {.name = "COLUMNS", .slot = &MatrixStatement::columns, .minimum = 1},
@@ -39,6 +41,8 @@ struct MatrixStatement {
   }};
 };
 
+constexpr std::int64_t most_values = 100'000'000;  // all entries are kept, zeros too
+
 class MatrixSet final : public TypedSet<Matrix> {
  public:
   using TypedSet::TypedSet;
@@ -47,7 +51,7 @@ class MatrixSet final : public TypedSet<Matrix> {
     MatrixStatement m;
     if (!read_arguments(m, reader)) return;
     const std::string owner = reader.label().text();
-    const int forms = !m.full.empty() + m.sparse + !m.file.empty();
+    const int forms = m.full.given + m.sparse + !m.file.empty();
     if (forms != 1) {
       reader.error("missing-argument", reader.statement().at,
                    fmt::format("{} needs one of FULL, SPARSE and FILE", owner));
@@ -63,15 +67,21 @@ class MatrixSet final : public TypedSet<Matrix> {
  private:
   static void read_full(const MatrixStatement& m, Matrix& out, ElementReader& reader) {
     static constexpr std::array<std::string_view, 2> orders = {"RORDER", "CORDER"};
-    const auto order = find_keyword(m.full.front(), orders);
-    if (!order)
-      reader.error("unknown-word", reader.at("FULL"), fmt::format("FULL is RORDER or CORDER, not {}", m.full.front()));
+    std::optional<std::size_t> order;
+    if (!m.full.word.empty()) order = find_keyword(m.full.word, orders);
+    if (m.by_rows != m.by_columns && m.full.word.empty()) order = m.by_columns ? 1 : 0;
+    if (!order || (!m.full.word.empty() && (m.by_rows || m.by_columns))) {
+      reader.error("unknown-word", reader.at("FULL"),
+                   m.full.word.empty() || order ? "FULL is either RORDER or CORDER"
+                                                : fmt::format("FULL is RORDER or CORDER, not {}", m.full.word));
+    }
     if (!m.rows || !m.columns) {
       reader.error("missing-argument", reader.at("FULL"), "FULL needs ROWS and COLUMNS");
       return;
     }
     const auto rows = static_cast<std::size_t>(*m.rows), columns = static_cast<std::size_t>(*m.columns);
-    if (m.values.size() != rows * columns) {
+    // Divided, because the product of what is written may be too large for any number.
+    if (m.values.size() / rows != columns || m.values.size() % rows != 0) {
       reader.error("wrong-count", reader.at("VALUES"),
                    fmt::format("{} × {} values are needed, {} are given", rows, columns, m.values.size()));
       return;
@@ -99,6 +109,12 @@ class MatrixSet final : public TypedSet<Matrix> {
         return;
       }
     }
+    if (rows > most_values / columns) {
+      reader.error("value-out-of-range", reader.at("SPARSE"),
+                   fmt::format("{} has {} × {} entries, at most {} are available", reader.label().text(), rows, columns,
+                               most_values));
+      return;
+    }
     out.rows = static_cast<std::size_t>(rows), out.columns = static_cast<std::size_t>(columns);
     out.values.assign(out.rows * out.columns, 0.0);
     for (std::size_t k = 0; k < m.values.size(); ++k) {
@@ -113,15 +129,14 @@ class MatrixSet final : public TypedSet<Matrix> {
       return;
     }
     const std::filesystem::path path = std::filesystem::path(reader.folder()) / m.file;
-    std::ifstream in(path, std::ios::binary);
-    if (!in) {
-      reader.error("unreadable-file", reader.at("FILE"),
-                   fmt::format("the file {} of {} cannot be read", path.string(), reader.label().text()));
+    auto text = dynalin::read_file(path.string());
+    if (!text) {
+      reader.error(
+          "unreadable-file", reader.at("FILE"),
+          fmt::format("the file {} of {} cannot be read: {}", path.string(), reader.label().text(), text.error()));
       return;
     }
-    std::ostringstream text;
-    text << in.rdbuf();
-    const auto source = std::make_shared<const SourceText>(path.string(), text.str());
+    const auto source = std::make_shared<const SourceText>(path.string(), std::move(*text));
     reader.keep(source);
     auto matrix = read_matrix(*source, m.name, reader.at("NAME"), reader.diagnostics());
     if (matrix)

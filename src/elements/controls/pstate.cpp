@@ -1,8 +1,8 @@
 // PSTATE/id, VARIABLES=
 //
 // Coordinates wanted as states of the linear model, tried in order before the default ones. Each VARIABLE must be a
-// displacement or angle that is not constant; dependent ones are passed over and the list is completed by default
-// coordinates.
+// smooth function of positions and time; constant and dependent ones are passed over and the list is completed by
+// default coordinates.
 #include "elements/controls/variable_list.h"
 
 namespace dynalin {

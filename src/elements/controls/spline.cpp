@@ -12,9 +12,9 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
+#include "base/read_file.h"
 #include "elements/constraints/curve.h"
 #include "model/model.h"
 #include "model/schema.h"
@@ -127,15 +127,14 @@ class SplineSet final : public TypedSet<Spline> {
 
   static bool read_file(const WrittenSpline& w, SplineData& data, ElementReader& reader) {
     const std::filesystem::path path = std::filesystem::path(reader.folder()) / w.file;
-    std::ifstream in(path, std::ios::binary);
-    if (!in || std::filesystem::is_directory(path)) {
-      reader.error("unreadable-file", reader.at("FILE"),
-                   fmt::format("the file {} of {} cannot be read", path.string(), reader.label().text()));
+    auto text = dynalin::read_file(path.string());
+    if (!text) {
+      reader.error(
+          "unreadable-file", reader.at("FILE"),
+          fmt::format("the file {} of {} cannot be read: {}", path.string(), reader.label().text(), text.error()));
       return false;
     }
-    std::ostringstream text;
-    text << in.rdbuf();
-    const auto source = std::make_shared<const SourceText>(path.string(), text.str());
+    const auto source = std::make_shared<const SourceText>(path.string(), std::move(*text));
     reader.keep(source);
     bool in_block = w.block.empty();
     std::vector<double> z;

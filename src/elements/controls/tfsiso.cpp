@@ -10,6 +10,9 @@
 // so that 10/(1 + 0.005 s) is z′ = −200 z + 2000 u, y = z: the gain sits at the input.
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+
 #include "elements/controls/array.h"
 #include "elements/families/linear_states.h"
 #include "model/model.h"
@@ -18,6 +21,8 @@
 namespace dynalin {
 
 namespace {
+
+constexpr double widest_spread = 1e13;  // of poles: the slow ones keep a few digits beside the fast ones
 
 struct Tfsiso {
   ArrayRef x, u, y, initial;
@@ -36,6 +41,25 @@ struct Tfsiso {
   }};
 
   Eigen::Index degree() const { return static_cast<Eigen::Index>(denominator.size()) - 1; }
+
+  // How many times as fast as the slowest pole that moves the fastest one is, by the corners of the coefficients'
+  // sizes: the upper hull of log |a_j| over j has the slopes −log |s|.
+  double spread() const {
+    double slowest = std::numeric_limits<double>::infinity(), fastest = 0;
+    std::size_t at = 0;
+    while (at < denominator.size() && denominator[at] == 0.0) ++at;
+    while (at + 1 < denominator.size()) {
+      std::size_t next = at + 1;
+      double corner = std::numeric_limits<double>::infinity();
+      for (std::size_t j = at + 1; j < denominator.size(); ++j) {
+        const double pole = std::pow(std::abs(denominator[at] / denominator[j]), 1.0 / static_cast<double>(j - at));
+        if (pole <= corner) corner = pole, next = j;
+      }
+      slowest = std::min(slowest, corner), fastest = std::max(fastest, corner);
+      at = next;
+    }
+    return slowest > 0 ? fastest / slowest : 0;
+  }
 
   void realize() {
     const Eigen::Index k = degree();
@@ -71,6 +95,11 @@ class TfsisoSet final : public TypedSet<Tfsiso> {
     } else if (e.numerator.size() > e.denominator.size()) {
       reader.error("improper-transfer-function", reader.at("NUMERATOR"),
                    fmt::format("{} has a NUMERATOR of higher degree than its DENOMINATOR", name));
+    } else if (const double spread = e.spread(); spread > widest_spread) {
+      reader.error("spread-poles", reader.at("DENOMINATOR"),
+                   fmt::format("the poles of {} lie a factor of {:.0e} apart, more than numbers of 16 digits hold",
+                               name, spread),
+                   "leave out the last coefficient, if it is meant as nothing");
     } else {
       e.realize();
     }

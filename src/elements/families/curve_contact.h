@@ -129,6 +129,7 @@ class CurveContactKernel final : public Kernel {
   void equations(const Motion& motion, Equations& eq) const override {
     if (!eq.wants(Column::position)) return;
     for (const Placed& p : contacts_) {
+      eq.begin_element(p.first_row, static_cast<std::int32_t>(n));
       const PairMotion pair = pair_motion(motion, p.I, p.J);
       const Nested work = reaction_work(p, pair, motion);
       const Reaction at_I = reaction_at_I(work);
@@ -208,6 +209,10 @@ class CurveContactKernel final : public Kernel {
       }
       for (std::size_t a = 0; a < m; ++a) {
         const double u = along_motion(contacts_[k], a, motion).value;
+        if (contacts_[k].contact.element.curves[a]->corner_at(u)) {
+          return fmt::format("the contact of {} rests on a corner of its curve, at the parameter {:.6g}",
+                             (*labels_)[k].full_text(), u);
+        }
         if (contacts_[k].contact.element.curves[a]->reaches(u)) continue;
         return fmt::format("the contact of {} lies beyond the {} of its open curve, at the parameter {:.6g}",
                            (*labels_)[k].full_text(), u < 0 ? "start" : "end", u);

@@ -105,18 +105,18 @@ void DelayKernel::remember(const Motion& motion, Memory& memory) const {
   }
 }
 
-std::string DelayKernel::fault(const Motion& motion) const {
+void DelayKernel::faults(const Motion& motion, std::vector<ElementFault>& faults) const {
   ExpressionScratch scratch;
   for (const Call& c : calls_) {
-    for (const BoundExpression* e : {&c.value, &c.lag}) {
-      if (const std::string reason = e->fault(motion); !reason.empty()) return c.label.full_text() + ": " + reason;
-    }
+    c.value.find_fault(motion, c.label, faults,
+                       c.state < 0 ? BoundExpression::Derivatives::with_rates : BoundExpression::Derivatives::first);
+    c.lag.find_fault(motion, c.label, faults);
     if (c.state < 0) continue;
     if (const double tau = c.lag.value(motion, scratch); !(tau > 0)) {
-      return fmt::format("{}: the Padé approximant needs a delay above 0, here it is {:g}", c.label.full_text(), tau);
+      faults.push_back({&c.label, fmt::format("{}: the Padé approximant needs a delay above 0, here it is {:g}",
+                                              c.label.full_text(), tau)});
     }
   }
-  return {};
 }
 
 }  // namespace dynalin

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -65,15 +66,21 @@ bool FunctionEquationKernel::add_rate_equation(std::int32_t algebraic, std::int3
     if (!is_algebraic(item.form) || unknowns_[k].index != algebraic) continue;
     const bool value = item.form == Form::value;
     if (item.terms.empty()) {
-      rates_.push_back({rate, value, value ? -1.0 : 1.0, BoundExpression(item.function, signals, Binding::rates)});
+      rates_.push_back({rate, value, value ? -1.0 : 1.0, BoundExpression(item.function, signals, Binding::rates), k});
     }
     for (const Term& t : item.terms) {
       rates_.push_back(
-          {rate, false, t.factor, BoundExpression(items_[t.of].function, signals, Binding::condition_rates)});
+          {rate, false, t.factor, BoundExpression(items_[t.of].function, signals, Binding::condition_rates), t.of});
     }
     return true;
   }
   return false;
+}
+
+const BoundExpression* FunctionEquationKernel::value_function(std::size_t element) const {
+  if (items_[element].form != Form::value) return nullptr;
+  const auto part = std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return p.item == element; });
+  return part != parts_.end() ? &part->function : nullptr;
 }
 
 void FunctionEquationKernel::equations(const Motion& motion, Equations& eq) const {
@@ -120,12 +127,11 @@ void FunctionEquationKernel::remember(const Motion& motion, Memory& memory) cons
   for (const RateEquation& r : rates_) r.function.remember(motion, memory);
 }
 
-std::string FunctionEquationKernel::fault(const Motion& motion) const {
-  for (const Part& p : parts_) {
-    const std::string reason = p.function.fault(motion);
-    if (!reason.empty()) return (*labels_)[p.of].full_text() + ": " + reason;
+void FunctionEquationKernel::faults(const Motion& motion, std::vector<ElementFault>& faults) const {
+  for (const Part& p : parts_) p.function.find_fault(motion, (*labels_)[p.of], faults);
+  for (const RateEquation& r : rates_) {
+    r.function.find_fault(motion, (*labels_)[r.of], faults, BoundExpression::Derivatives::with_rates);
   }
-  return {};
 }
 
 // The rates that cancel in conditions were found at other places; here they have to cancel as well.

@@ -42,8 +42,9 @@ class FunctionEquationKernel final : public Kernel {
   void equations(const Motion&, Equations&) const override;
   void remember(const Motion&, Memory&) const override;
   Channel value_channel(std::size_t element) const override { return unknowns_[element]; }
+  const BoundExpression* value_function(std::size_t element) const override;
   Channel state_channel(std::size_t element, std::size_t) const override { return unknowns_[element]; }
-  std::string fault(const Motion&) const override;
+  void faults(const Motion&, std::vector<ElementFault>&) const override;
   std::string departure(const Motion&) const override;
 
  private:
@@ -59,6 +60,7 @@ class FunctionEquationKernel final : public Kernel {
     bool explicit_value;  // w′ − e′ = 0, else e′ = 0
     double factor;        // of e′
     BoundExpression function;
+    std::size_t of;  // the item whose function it is
   };
   std::vector<Item> items_;
   std::vector<Channel> unknowns_;

@@ -27,6 +27,7 @@ PairForce FunctionForceKernel::force_of(const Force& f, const PairMotion& pair, 
 
 void FunctionForceKernel::equations(const Motion& motion, Equations& eq) const {
   for (const Force& f : forces_) {
+    eq.begin_element();
     const double w = motion.algebraic[static_cast<std::size_t>(f.algebraic)];
     const std::int32_t row = eq.algebraic_row(f.algebraic);
     eq.add_residual(row, w);
@@ -55,15 +56,14 @@ void FunctionForceKernel::wrench(const Motion& motion, std::size_t k, bool with_
   out.scalars.push_back({Column::algebraic, f.algebraic, one.force, one.torque});
 }
 
-std::string FunctionForceKernel::fault(const Motion& motion) const {
+void FunctionForceKernel::faults(const Motion& motion, std::vector<ElementFault>& faults) const {
   for (const Force& f : forces_) {
-    const std::string reason = f.magnitude.fault(motion);
-    if (!reason.empty()) return f.element.label.full_text() + ": " + reason;
     if (f.element.direction == Direction::along_line && norm(motion.point(f.I) - motion.point(f.J)) == 0.0) {
-      return "the markers of " + f.element.label.full_text() + " coincide, its line of action has no direction";
+      faults.push_back({&f.element.label, "the markers of " + f.element.label.full_text() +
+                                              " coincide, its line of action has no direction"});
     }
+    f.magnitude.find_fault(motion, f.element.label, faults);
   }
-  return {};
 }
 
 }  // namespace dynalin

@@ -202,6 +202,7 @@ class JointKernel final : public Kernel {
     // The reaction itself is added from the constraint rows; here only its variation.
     if (!eq.wants(Column::position)) return;
     for (const Placed& p : joints_) {
+      eq.begin_element(p.first_row, static_cast<std::int32_t>(n));
       const PairMotion pair = pair_motion(motion, p.I, p.J);
       apply_partials(pair, spread(pair, reaction_of(p, pair, motion), true), eq);
     }

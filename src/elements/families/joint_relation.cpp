@@ -17,7 +17,7 @@ JointRelationKernel::JointRelationKernel(const std::vector<JointRelation>& relat
     Relation r{{}, relations[k].constant, layout.add_row(labels[k], row_name)};
     for (const JointRelation::Term& t : relations[k].terms) {
       PairDisplacement q(layout.marker(t.freedom.i), layout.marker(t.freedom.j), t.freedom.kind);
-      q.count_turns(layout);
+      q.count_turns(layout, labels[k].at);
       r.terms.emplace_back(q, t.factor);
     }
     relations_.push_back(std::move(r));
@@ -38,6 +38,7 @@ void JointRelationKernel::constraints(const Motion& motion, ConstraintRows& rows
 void JointRelationKernel::equations(const Motion& motion, Equations& eq) const {
   if (!eq.wants(Column::position)) return;
   for (const Relation& r : relations_) {
+    eq.begin_element(r.row, 1);
     const double lambda = motion.lambda[static_cast<std::size_t>(r.row)];
     for (const auto& [q, factor] : r.terms) q.add_reaction_partials(motion, factor * lambda, eq);
   }

@@ -27,6 +27,7 @@ class LineForceKernel final : public Kernel {
   void equations(const Motion& motion, Equations& eq) const override {
     for (const Force& f : forces_) {
       const PairMotion pair = pair_motion(motion, f.I, f.J);
+      eq.begin_element();
       apply(pair, force_of(f, pair, eq.wants_partials()), eq);
     }
   }
@@ -38,13 +39,14 @@ class LineForceKernel final : public Kernel {
     out.pair = pair_motion(motion, forces_[k].I, forces_[k].J);
     out.force = force_of(forces_[k], out.pair, with_partials);
   }
-  std::string fault(const Motion& motion) const override {
+  void faults(const Motion& motion, std::vector<ElementFault>& faults) const override {
     for (std::size_t k = 0; k < forces_.size(); ++k) {
       const Vector line = motion.point(forces_[k].I) - motion.point(forces_[k].J);
-      if (norm(line) == 0.0)
-        return "the markers of " + (*labels_)[k].full_text() + " coincide, its line of action has no direction";
+      if (norm(line) != 0.0) continue;
+      const ElementLabel& label = (*labels_)[k];
+      faults.push_back(
+          {&label, "the markers of " + label.full_text() + " coincide, its line of action has no direction"});
     }
-    return {};
   }
 
  private:
@@ -65,15 +67,17 @@ class LineForceKernel final : public Kernel {
 template <class E>
 class AxisTorqueKernel final : public Kernel {
  public:
-  AxisTorqueKernel(const std::vector<E>& elements, const std::vector<ElementLabel>&, Layout& layout) {
-    for (const E& e : elements) {
-      torques_.push_back({e, layout.marker(e.i), layout.marker(e.j), layout.add_memory()});
+  AxisTorqueKernel(const std::vector<E>& elements, const std::vector<ElementLabel>& labels, Layout& layout) {
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      const E& e = elements[k];
+      torques_.push_back({e, layout.marker(e.i), layout.marker(e.j), layout.add_memory(labels[k].at)});
     }
   }
 
   void equations(const Motion& motion, Equations& eq) const override {
     for (const Torque& t : torques_) {
       const PairMotion pair = pair_motion(motion, t.I, t.J);
+      eq.begin_element();
       apply(pair, torque_of(t, pair, motion, eq.wants_partials()), eq);
     }
   }

@@ -58,12 +58,13 @@ std::array<double, 3> total_angles(const PairMotion& pair, std::span<const doubl
   return total;
 }
 
-LinearWrenchKernel::LinearWrenchKernel(const std::vector<LinearWrench>& laws, const std::vector<ElementLabel>&,
+LinearWrenchKernel::LinearWrenchKernel(const std::vector<LinearWrench>& laws, const std::vector<ElementLabel>& labels,
                                        Layout& layout) {
-  for (const LinearWrench& law : laws) {
-    laws_.push_back({law, layout.marker(law.i), layout.marker(law.j), layout.add_memory()});
-    layout.add_memory();
-    layout.add_memory();
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    const LinearWrench& law = laws[k];
+    laws_.push_back({law, layout.marker(law.i), layout.marker(law.j), layout.add_memory(labels[k].at)});
+    layout.add_memory(labels[k].at);
+    layout.add_memory(labels[k].at);
   }
 }
 
@@ -91,6 +92,7 @@ PairForce LinearWrenchKernel::force_of(const Placed& p, const PairMotion& pair, 
 
 void LinearWrenchKernel::equations(const Motion& motion, Equations& eq) const {
   for (const Placed& p : laws_) {
+    eq.begin_element();
     const PairMotion pair = pair_motion(motion, p.I, p.J);
     apply(pair, force_of(p, pair, motion, eq.wants_partials()), eq);
   }

@@ -43,6 +43,13 @@ std::optional<JointFreedom> joint_freedom(const Model& model, const ElementLabel
   if (!joints) return std::nullopt;
   const auto index = static_cast<std::size_t>(joint.index);
   const std::string name = model.label(joint).full_text();
+  const auto self = model.find(user.statement, user.id);
+  if (!joints->active && self && model.set(*self).active) {
+    diagnostics.error("inactive-joint", user.at,
+                      fmt::format("{} refers to {}, which a command has deactivated", user.full_text(), name),
+                      fmt::format("deactivate {} first", user.text()));
+    return std::nullopt;
+  }
   if (!joints->rotates() && !joints->translates()) {
     diagnostics.error("undrivable-joint", user.at,
                       fmt::format("{} refers to {}, a {} joint, which has no freedom to drive", user.full_text(), name,

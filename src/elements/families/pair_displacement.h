@@ -45,8 +45,8 @@ class PairDisplacement {
  public:
   PairDisplacement(const MarkerPlace& I, const MarkerPlace& J, Displacement kind) : I_(I), J_(J), kind_(kind) {}
   // Angles count whole turns from now on.
-  void count_turns(Layout& layout) {
-    if (is_angle(kind_)) memory_ = layout.add_memory();
+  void count_turns(Layout& layout, const Span& owner) {
+    if (is_angle(kind_)) memory_ = layout.add_memory(owner);
   }
 
   Taylor along_motion(const Motion&) const;

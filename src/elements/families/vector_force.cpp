@@ -50,6 +50,7 @@ void VectorForceKernel::equations(const Motion& motion, Equations& eq) const {
   MarkerWrench w;
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     const Force& f = forces_[k];
+    eq.begin_element();
     for (const Component& c : f.components) {
       const std::int32_t row = eq.algebraic_row(c.algebraic);
       eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(c.algebraic)]);
@@ -73,14 +74,10 @@ void VectorForceKernel::remember(const Motion& motion, Memory& memory) const {
   }
 }
 
-std::string VectorForceKernel::fault(const Motion& motion) const {
+void VectorForceKernel::faults(const Motion& motion, std::vector<ElementFault>& faults) const {
   for (std::size_t k = 0; k < forces_.size(); ++k) {
-    for (const Component& c : forces_[k].components) {
-      const std::string reason = c.expression.fault(motion);
-      if (!reason.empty()) return (*labels_)[k].full_text() + ": " + reason;
-    }
+    for (const Component& c : forces_[k].components) c.expression.find_fault(motion, (*labels_)[k], faults);
   }
-  return {};
 }
 
 void take_components(const WrittenVectorForce& w, bool forces, bool torques, VectorForce& out, ElementReader& reader) {

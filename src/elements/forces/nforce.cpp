@@ -49,14 +49,16 @@ struct Law {
 
 class NforceKernel final : public Kernel {
  public:
-  NforceKernel(const std::vector<Law>& laws, Layout& layout) : layout_(layout) {
+  NforceKernel(const std::vector<Law>& laws, const std::vector<ElementLabel>& labels, Layout& layout)
+      : layout_(layout) {
     for (const Law& law : laws) {
+      const Span& owner = labels[laws_.size()].at;
       Placed p{law, {}, layout.marker(law.j), {}};
       for (const MarkerId m : law.markers) {
         p.I.push_back(layout.marker(m));
-        p.memory.push_back(layout.add_memory());
-        layout.add_memory();
-        layout.add_memory();
+        p.memory.push_back(layout.add_memory(owner));
+        layout.add_memory(owner);
+        layout.add_memory(owner);
         wrenches_.emplace_back(laws_.size(), p.I.size() - 1);
       }
       laws_.push_back(std::move(p));
@@ -65,6 +67,7 @@ class NforceKernel final : public Kernel {
 
   void equations(const Motion& motion, Equations& eq) const override {
     for (const Placed& p : laws_) {
+      eq.begin_element();
       const std::size_t n = p.I.size();
       look(p, motion);
       for (std::size_t k = 0; k < n; ++k) {
@@ -229,7 +232,7 @@ class NforceSet final : public TypedSet<Nforce> {
   }
 
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
-    return std::make_unique<NforceKernel>(laws_, layout);
+    return std::make_unique<NforceKernel>(laws_, labels, layout);
   }
 
  private:

@@ -1,0 +1,105 @@
+#include "command/output_plan.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+
+#include "output/destination.h"
+
+namespace dynalin {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PlannedFile {
+  std::string path, what;
+  Span at;                 // of the command, nothing for those of the command line
+  bool of_linear = false;  // a later LINEAR may write the same file again
+};
+
+std::vector<PlannedFile> planned_files(const Job& job, const SessionOptions& options) {
+  std::vector<PlannedFile> list;
+  bool tables = false;
+  for (const Command& c : job.commands.commands) {
+    const auto* linear = std::get_if<LinearCommand>(&c.what);
+    if (!linear) continue;
+    tables = tables || linear->wants_tables();
+    if (linear->file.empty()) continue;
+    const std::string base = linear_path(job, linear->file);
+    if (linear->format == "MATLAB") {
+      for (const std::string_view suffix : matlab_suffixes(*linear))
+        list.push_back({base + std::string(suffix), "FILE of " + c.text, c.at, true});
+    } else {
+      list.push_back({base, "FILE of " + c.text, c.at, true});
+    }
+  }
+  if (tables) list.push_back({job.prefix + ".txt", "the file of modal tables", {}});
+  if (job.xrf_digits > 0) list.push_back({job.prefix + ".res", "the results file", {}});
+  list.push_back({job.prefix + ".msg", "the message file", {}});
+  if (!options.json.empty()) list.push_back({options.json, "--json", {}});
+  return list;
+}
+
+}  // namespace
+
+std::string linear_path(const Job& job, const std::string& file) {
+  return file == "-" ? file : (fs::path(job.folder) / file).string();
+}
+
+std::vector<std::string_view> matlab_suffixes(const LinearCommand& c) {
+  std::vector<std::string_view> list{"st"};
+  if (c.option == LinearOption::statemat) {
+    list.push_back("a");
+    if (c.pinput) list.push_back("b");
+  } else {
+    list.insert(list.end(), {"m", "kb"});
+    if (c.pinput) list.push_back("p");
+  }
+  if (c.pinput) list.push_back("pi");
+  if (c.poutput) list.insert(list.end(), {"c", "po"});
+  if (c.pinput && c.poutput) list.push_back("d");
+  return list;
+}
+
+void check_outputs(const Job& job, const SessionOptions& options, const std::vector<SourceRef>& inputs,
+                   Diagnostics& diagnostics) {
+  std::map<Destination::Place, std::string> read;
+  for (const SourceRef& source : inputs) {
+    if (const auto d = find_destination(source->name()); d && d->kind == Destination::Kind::replaced)
+      read.emplace(d->place(), source->name());
+  }
+  std::map<Destination::Place, const PlannedFile*> known;
+  const std::vector<PlannedFile> files = planned_files(job, options);
+  for (const PlannedFile& file : files) {
+    const auto d = find_destination(file.path);
+    if (!d) {
+      diagnostics.error("unwritable-file", file.at,
+                        fmt::format("{} cannot write {}: {}", file.what, file.path, d.error()));
+      continue;
+    }
+    if (d->kind != Destination::Kind::replaced) continue;
+    if (const auto input = read.find(d->place()); input != read.end()) {
+      diagnostics.error("file-in-use", file.at,
+                        fmt::format("{} would overwrite {}, which the run reads", file.what, input->second),
+                        file.path == input->second ? "" : fmt::format("{} is the same file", file.path));
+    }
+    const auto [other, fresh] = known.emplace(d->place(), &file);
+    if (fresh || (file.of_linear && other->second->of_linear)) continue;
+    diagnostics.error("file-in-use", other->second->at,
+                      fmt::format("{} and {} are one file, {}", other->second->what, file.what, file.path));
+  }
+}
+
+void check_permissions(const Job& job, const SessionOptions& options, Diagnostics& diagnostics) {
+  for (const PlannedFile& file : planned_files(job, options)) {
+    const auto d = find_destination(file.path);
+    const std::string reason = d ? why_not_writable(*d) : d.error();
+    if (!reason.empty())
+      diagnostics.error("unwritable-file", file.at,
+                        fmt::format("{} cannot write {}: {}", file.what, file.path, reason));
+  }
+}
+
+}  // namespace dynalin

@@ -1,0 +1,59 @@
+// Statements that set something: read by a table of arguments like any other; what nothing acts on is noted by name.
+//
+// A written statement E has, beside its table,
+//
+//     static constexpr std::array<std::string_view, n> acting;   // arguments that something acts on, or that need no
+//     word void apply(Settings&) const;
+#pragma once
+
+#include <algorithm>
+#include <memory>
+
+#include "model/model.h"
+#include "model/schema.h"
+
+namespace dynalin {
+
+// "INTEGRATOR/HMAX" for each argument of the reader's statement that nothing acts on.
+template <class E>
+std::vector<std::string> arguments_passed_over(const ElementReader& reader) {
+  std::vector<std::string> list;
+  for (const ElementReader::Assignment& a : reader.assignments) {
+    if (std::find(E::acting.begin(), E::acting.end(), a.name) == E::acting.end())
+      list.push_back(std::string(reader.label().statement) + "/" + std::string(a.name));
+  }
+  return list;
+}
+
+template <class E>
+class SettingSet final : public TypedSet<E> {
+ public:
+  using TypedSet<E>::TypedSet;
+  void read(std::size_t k, ElementReader& reader) override {
+    if (!read_arguments(this->elements[k], reader)) return;
+    const auto list = arguments_passed_over<E>(reader);
+    passed_over_.insert(passed_over_.end(), list.begin(), list.end());
+  }
+  void finish(Model& model, Diagnostics&) override {
+    for (const E& e : this->elements) e.apply(model.settings);
+    auto& all = model.settings.passed_over;
+    for (const std::string& name : passed_over_) {
+      if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
+    }
+  }
+
+ private:
+  std::vector<std::string> passed_over_;
+};
+
+template <class E>
+constexpr Kind setting(std::string_view statement, std::string_view summary) {
+  return {statement,
+          "",
+          summary,
+          Kind::Role::inert,
+          detail::argument_infos<E>,
+          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<SettingSet<E>>(kind); }};
+}
+
+}  // namespace dynalin

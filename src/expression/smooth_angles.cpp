@@ -1,0 +1,281 @@
+// Angles have kinks and jumps where what is made of them has none: COS(THETA(i,j)) is the product of two axes. A
+// program that combines angles in one of these ways reads the combination as one quantity instead.
+//
+//     COS(THETA)                      z_i·z_j
+//     SIN(PITCH)                      entry (3,1)
+//     SIN(THETA) * SIN or COS(PSI)    entries (1,3) and −(2,3)
+//     SIN(THETA) * SIN or COS(PHI)    entries (3,1) and (3,2)
+//     COS(PITCH) * SIN or COS(YAW)    entries (2,1) and (1,1)
+//     COS(PITCH) * SIN or COS(ROLL)   entries (3,2) and (3,3)
+//     PSI ± PHI, YAW ± ROLL           of the quantities that both turns share
+//     COS(INCANG)
+//     THETA ** 2n, THETA * THETA, the same of INCANG
+//
+// The entries are those of the matrix whose columns are the axes of i in the axes of j; sums and products may have
+// other terms and factors before the two. Angles that are combined otherwise stay what they are.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "expression/program_builder.h"
+
+namespace dynalin {
+
+namespace {
+
+using Kind = ExpressionNode::Kind;
+
+struct Product {
+  std::string_view of_first, first, of_second, second, entry;
+  double sign;
+};
+// UVX.Z is the component z, axes of j, of the axis x of i: entry (3, 1).
+constexpr std::array products = {
+    // clang-format off
+    Product{"SIN", "THETA", "SIN", "PSI",  "UVZ.X",  1},
+    Product{"SIN", "THETA", "COS", "PSI",  "UVZ.Y", -1},
+    Product{"SIN", "THETA", "SIN", "PHI",  "UVX.Z",  1},
+    Product{"SIN", "THETA", "COS", "PHI",  "UVY.Z",  1},
+    Product{"COS", "PITCH", "SIN", "YAW",  "UVX.Y",  1},
+    Product{"COS", "PITCH", "COS", "YAW",  "UVX.X",  1},
+    Product{"COS", "PITCH", "SIN", "ROLL", "UVY.Z",  1},
+    Product{"COS", "PITCH", "COS", "ROLL", "UVZ.Z",  1},
+    // clang-format on
+};
+
+class Rewriting {
+ public:
+  explicit Rewriting(ExpressionProgram& program) : p_(program) {}
+
+  void run() {
+    for (std::size_t k = 0; k < p_.nodes.size(); ++k) {
+      switch (p_.nodes[k].kind) {
+        case Kind::power:
+          square(k, p_.nodes[k].a, p_.nodes[k].constant);
+          break;
+        case Kind::multiply:
+          multiply(k);
+          break;
+        case Kind::add:
+        case Kind::subtract:
+          sum(k);
+          break;
+        default:
+          break;
+      }
+    }
+    for (std::size_t k = 0; k < p_.nodes.size(); ++k) {
+      if (const Atom* a = angle_of_call(k, "COS", "THETA")) put(k, "UVZ.Z", *a);
+      if (const Atom* a = angle_of_call(k, "SIN", "PITCH")) put(k, "UVX.Z", *a);
+      if (const Atom* a = angle_of_call(k, "COS", "INCANG")) put(k, "INCANG.COSINE", *a);
+    }
+    if (changed_) clear_unused();
+  }
+
+ private:
+  const ExpressionNode& node(std::int32_t k) const { return p_.nodes[static_cast<std::size_t>(k)]; }
+  const Atom* atom(std::int32_t k, std::string_view name) const {
+    if (node(k).kind != Kind::atom) return nullptr;
+    const Atom& a = p_.atoms[static_cast<std::size_t>(node(k).a)];
+    return a.function->name == name ? &a : nullptr;
+  }
+  // The angle of that name whose function this node is.
+  const Atom* angle_of_call(std::size_t k, std::string_view function, std::string_view angle) const {
+    const ExpressionNode& n = p_.nodes[k];
+    if (n.kind != Kind::call || n.function->name != function) return nullptr;
+    return atom(p_.operands[static_cast<std::size_t>(n.b)], angle);
+  }
+  static bool same_markers(const Atom& a, const Atom& b) { return a.argument == b.argument; }
+
+  // The node becomes the quantity of that name, of the markers of an atom in it.
+  void put(std::size_t k, std::string_view name, const Atom& of) {
+    Atom quantity = of;
+    quantity.function = find_atom_function(name);
+    quantity.at = p_.places[k];
+    const auto found = std::ranges::find_if(
+        p_.atoms, [&](const Atom& a) { return a.function == quantity.function && a.argument == quantity.argument; });
+    const auto index = static_cast<std::int32_t>(found - p_.atoms.begin());
+    if (found == p_.atoms.end()) p_.atoms.push_back(quantity);
+    p_.nodes[k] = {.kind = Kind::atom, .a = index};
+    changed_ = true;
+  }
+
+  void square(std::size_t k, std::int32_t of, double exponent) {
+    const bool even = exponent > 0 && std::fmod(exponent, 2.0) == 0.0;
+    for (const auto& [angle, squared] : {std::pair{"THETA", "THETA.SQUARED"}, std::pair{"INCANG", "INCANG.SQUARED"}}) {
+      const Atom* a = even ? atom(of, angle) : nullptr;
+      if (!a) continue;
+      if (exponent == 2.0) return put(k, squared, *a);
+      // The angle itself stands nowhere else: nodes are used once.
+      if (users(of) > 1) return;
+      put(static_cast<std::size_t>(of), squared, *a);
+      p_.nodes[k].constant = exponent / 2;
+      return;
+    }
+  }
+
+  // What two factors are together: a quantity, of the markers of an atom, with a sign.
+  struct Together {
+    std::string_view name;
+    double sign;
+    Atom of;
+  };
+  std::optional<Together> together(std::int32_t x, std::int32_t y) const {
+    for (const std::string_view angle : {"THETA", "INCANG"}) {
+      const Atom *a = atom(x, angle), *b = atom(y, angle);
+      if (a && b && same_markers(*a, *b)) {
+        return Together{angle == "THETA" ? "THETA.SQUARED" : "INCANG.SQUARED", 1, *a};
+      }
+    }
+    for (const auto& [m, n] : {std::pair{x, y}, std::pair{y, x}}) {
+      for (const Product& product : products) {
+        const Atom* a = angle_of_call(static_cast<std::size_t>(m), product.of_first, product.first);
+        const Atom* b = angle_of_call(static_cast<std::size_t>(n), product.of_second, product.second);
+        if (a && b && same_markers(*a, *b)) return Together{product.entry, product.sign, *a};
+      }
+    }
+    return std::nullopt;
+  }
+
+  // x y, or (rest x) y.
+  void multiply(std::size_t k) {
+    const std::int32_t y = p_.nodes[k].b;
+    if (const auto both = together(p_.nodes[k].a, y)) {
+      if (both->sign > 0) return put(k, both->name, both->of);
+      const std::int32_t argument = p_.operands[static_cast<std::size_t>(node(y).b)];
+      if (users(argument) > 1) return;
+      p_.places[static_cast<std::size_t>(argument)] = p_.places[k];
+      put(static_cast<std::size_t>(argument), both->name, both->of);
+      p_.nodes[k] = {.kind = Kind::negate, .a = argument};
+      return;
+    }
+    const ExpressionNode inner = node(p_.nodes[k].a);
+    if (inner.kind != Kind::multiply || users(p_.nodes[k].a) > 1 || users(y) > 1) return;
+    const auto both = together(inner.b, y);
+    if (!both) return;
+    const Span at = join(p_.places[static_cast<std::size_t>(inner.b)], p_.places[static_cast<std::size_t>(y)]);
+    std::int32_t place = y;
+    if (both->sign < 0) {
+      place = p_.operands[static_cast<std::size_t>(node(y).b)];
+      if (users(place) > 1) return;
+      p_.nodes[static_cast<std::size_t>(y)] = {.kind = Kind::negate, .a = place};
+    }
+    p_.places[static_cast<std::size_t>(place)] = at;
+    put(static_cast<std::size_t>(place), both->name, both->of);
+    p_.nodes[k].a = inner.a;
+  }
+
+  // x ± y, or (rest ± x) ± y, with x and y two turns about axes that may coincide.
+  void sum(std::size_t k) {
+    const ExpressionNode outer = p_.nodes[k];
+    const double sign_y = outer.kind == Kind::add ? 1 : -1;
+    if (const auto pair = turns(outer.a, outer.b)) {
+      const auto& [name_plus, name_minus, swapped] = *pair;
+      if (sign_y > 0) return put(k, name_plus, *of(outer.a));
+      if (!swapped) return put(k, name_minus, *of(outer.a));
+      if (users(outer.b) > 1) return;
+      const Atom angle = *of(outer.b);
+      p_.places[static_cast<std::size_t>(outer.b)] = p_.places[k];
+      put(static_cast<std::size_t>(outer.b), name_minus, angle);
+      p_.nodes[k] = {.kind = Kind::negate, .a = outer.b};
+      return;
+    }
+    const ExpressionNode inner = node(outer.a);
+    if ((inner.kind != Kind::add && inner.kind != Kind::subtract) || users(outer.a) > 1 || users(outer.b) > 1) return;
+    const auto pair = turns(inner.b, outer.b);
+    if (!pair) return;
+    const auto& [name_plus, name_minus, swapped] = *pair;
+    const double sign_x = inner.kind == Kind::add ? 1 : -1;
+    // sign_x x + sign_y y = sign (x + y), or sign (first − last).
+    const bool plus = sign_x == sign_y;
+    const double sign = plus ? sign_x : swapped ? sign_y : sign_x;
+    const Atom angle = *of(outer.b);
+    p_.places[static_cast<std::size_t>(outer.b)] = join(of(inner.b)->at, angle.at);
+    put(static_cast<std::size_t>(outer.b), plus ? name_plus : name_minus, angle);
+    p_.nodes[k] = {.kind = sign > 0 ? Kind::add : Kind::subtract, .a = inner.a, .b = outer.b};
+  }
+
+  struct Turns {
+    std::string_view plus, minus;
+    bool swapped;  // the last of the three angles stands first
+  };
+  std::optional<Turns> turns(std::int32_t x, std::int32_t y) const {
+    for (const auto& [first, last, plus, minus] :
+         {std::array<std::string_view, 4>{"PSI", "PHI", "PSI.PLUS.PHI", "PSI.MINUS.PHI"},
+          std::array<std::string_view, 4>{"YAW", "ROLL", "YAW.PLUS.ROLL", "YAW.MINUS.ROLL"}}) {
+      for (const bool swapped : {false, true}) {
+        const Atom *a = atom(x, swapped ? last : first), *b = atom(y, swapped ? first : last);
+        if (a && b && same_markers(*a, *b)) return Turns{plus, minus, swapped};
+      }
+    }
+    return std::nullopt;
+  }
+  const Atom* of(std::int32_t k) const { return &p_.atoms[static_cast<std::size_t>(node(k).a)]; }
+
+  template <class Visit>
+  void for_operands(const ExpressionNode& n, Visit&& visit) const {
+    const auto listed = [&](std::int32_t count) {
+      for (std::int32_t k = 0; k < count; ++k) visit(p_.operands[static_cast<std::size_t>(n.b + k)]);
+    };
+    switch (n.kind) {
+      case Kind::constant:
+      case Kind::atom:
+      case Kind::jump:
+        return;
+      case Kind::negate:
+      case Kind::power:
+      case Kind::branch:
+        return visit(n.a);
+      case Kind::add:
+      case Kind::subtract:
+      case Kind::multiply:
+      case Kind::divide:
+        visit(n.a);
+        return visit(n.b);
+      case Kind::call:
+        return listed(n.a);
+      case Kind::spline:
+        return listed(2);
+      case Kind::merge:
+        visit(n.a);
+        return listed(3);
+    }
+  }
+  std::size_t users(std::int32_t of) const {
+    std::size_t count = 0;
+    for (const ExpressionNode& n : p_.nodes) for_operands(n, [&](std::int32_t k) { count += k == of; });
+    return count;
+  }
+
+  // What nothing reads any more is the constant 0: its atoms are not looked at.
+  void clear_unused() {
+    std::vector<std::size_t> count(p_.nodes.size(), 0);
+    for (const ExpressionNode& n : p_.nodes) {
+      for_operands(n, [&](std::int32_t k) { ++count[static_cast<std::size_t>(k)]; });
+    }
+    for (std::size_t k = p_.nodes.size() - 1; k-- > 0;) {
+      ExpressionNode& n = p_.nodes[k];
+      const bool is_flow = n.kind == Kind::jump || n.kind == Kind::branch || n.kind == Kind::merge;
+      if (count[k] > 0 || is_flow) continue;
+      for_operands(n, [&](std::int32_t of) { --count[static_cast<std::size_t>(of)]; });
+      n = {.kind = Kind::constant};
+    }
+  }
+
+  ExpressionProgram& p_;
+  bool changed_ = false;
+};
+
+}  // namespace
+
+void ProgramBuilder::join_angles() {
+  const bool has_angles = std::ranges::any_of(program_.atoms, [](const Atom& a) {
+    return a.function->name == "THETA" || a.function->name == "PSI" || a.function->name == "YAW" ||
+           a.function->name == "PITCH" || a.function->name == "INCANG" || a.function->name == "ROLL";
+  });
+  if (has_angles) Rewriting(program_).run();
+}
+
+}  // namespace dynalin

@@ -1,0 +1,69 @@
+#include "model/kind_finder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace dynalin {
+
+namespace {
+
+// A word such as I or R that is the exact name of an argument never selects a variant.
+bool is_argument(const Kind& kind, std::string_view word) {
+  return std::any_of(kind.arguments.begin(), kind.arguments.end(), [&](const ArgumentInfo& a) {
+    return a.name.size() == word.size() && std::equal(word.begin(), word.end(), a.name.begin(), [](char x, char y) {
+             return std::toupper(static_cast<unsigned char>(x)) == y;
+           });
+  });
+}
+
+}  // namespace
+
+KindFinder::KindFinder(Catalogue catalogue) {
+  for (const Kind* kind : catalogue) {
+    Variants& of_statement = kinds_[std::string(kind->statement)];
+    of_statement.kinds.push_back(kind);
+    of_statement.names.push_back(kind->variant);
+  }
+}
+
+const std::vector<const Kind*>& KindFinder::kinds_of(std::string_view statement) const {
+  static const std::vector<const Kind*> none;
+  const auto it = kinds_.find(statement);
+  return it == kinds_.end() ? none : it->second.kinds;
+}
+
+const Kind* KindFinder::find(const Statement& s, std::size_t& variant_argument, Diagnostics& diagnostics) const {
+  variant_argument = no_argument;
+  const auto it = kinds_.find(s.name);
+  if (it == kinds_.end()) {
+    diagnostics.error("statement-not-built", s.keyword, fmt::format("{} is not available yet", s.name));
+    return nullptr;
+  }
+  const auto& [kinds, variants] = it->second;
+  if (kinds.size() == 1 && kinds.front()->variant.empty()) return kinds.front();
+
+  const Kind* found = nullptr;
+  for (std::size_t k = 0; k < s.arguments.size(); ++k) {
+    const WrittenArgument& w = s.arguments[k];
+    if (w.has_value) continue;
+    const auto v = find_keyword(w.name.text(), variants);
+    if (!v || is_argument(*kinds[*v], w.name.text())) continue;
+    if (found) {
+      diagnostics.error(
+          "duplicate-variant", w.name,
+          fmt::format("{}/{} is both {} and {}", s.name, s.id.value_or(0), found->variant, kinds[*v]->variant));
+      return nullptr;
+    }
+    found = kinds[*v];
+    variant_argument = k;
+  }
+  if (!found) {
+    diagnostics.error("missing-variant", s.at, fmt::format("{} needs its type", s.name),
+                      fmt::format("one of {}", fmt::join(variants, ", ")));
+  }
+  return found;
+}
+
+}  // namespace dynalin

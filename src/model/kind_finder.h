@@ -1,0 +1,30 @@
+// Finds which kind of a statement is meant; the variants of a statement are told by a bare word.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "model/kind.h"
+
+namespace dynalin {
+
+class KindFinder {
+ public:
+  static constexpr std::size_t no_argument = static_cast<std::size_t>(-1);
+  explicit KindFinder(Catalogue);
+
+  // The kind, and which of the arguments chose it; nothing after a report.
+  const Kind* find(const Statement&, std::size_t& variant_argument, Diagnostics&) const;
+  // All kinds of a statement, empty if there is none.
+  const std::vector<const Kind*>& kinds_of(std::string_view statement) const;
+
+ private:
+  struct Variants {
+    std::vector<const Kind*> kinds;
+    std::vector<std::string_view> names;
+  };
+  std::map<std::string, Variants, std::less<>> kinds_;
+};
+
+}  // namespace dynalin

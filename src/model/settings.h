@@ -1,0 +1,61 @@
+// What a dataset sets for analyses and output, as far as anything here acts on it. A value that is not stated leaves
+// the analysis its own.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dynalin {
+
+// EQUILIBRIUM: what static analyses iterate with.
+struct EquilibriumSettings {
+  std::optional<double> error, imbalance, stability;
+  std::optional<double> translation_limit;  // TLIMIT [length]
+  std::optional<double> rotation_limit;     // ALIMIT [rad]
+  std::optional<std::int64_t> iteration_limit;
+};
+
+// IC: what the analyses of initial conditions iterate with.
+struct InitialConditionSettings {
+  std::optional<double> error;  // of redundant rows, in their scales
+  std::optional<double> velocity_error, acceleration_error;
+  std::optional<double> translation_limit, rotation_limit;  // TLIMIT [length], ALIMIT [rad]
+  std::optional<std::int64_t> iteration_limit, acceleration_iteration_limit;
+};
+
+// RESULTS: contents of the results file.
+struct ResultsSettings {
+  bool xrf = false;
+  bool without_linear = false;  // NOLINEAR
+  std::optional<std::int64_t> decimal_places;
+};
+
+struct Settings {
+  EquilibriumSettings equilibrium;
+  InitialConditionSettings initial_conditions;
+  ResultsSettings results;
+  std::vector<std::string> passed_over;  // "INTEGRATOR/HMAX": stated, and nothing acts on it
+  std::vector<std::string> remarks;      // worth a sentence in every run
+};
+
+// Values that `later` states replace those of `earlier`.
+template <class T>
+void take_over(std::optional<T>& earlier, const std::optional<T>& later) {
+  if (later) earlier = later;
+}
+inline void take_over(EquilibriumSettings& earlier, const EquilibriumSettings& later) {
+  take_over(earlier.error, later.error), take_over(earlier.imbalance, later.imbalance);
+  take_over(earlier.stability, later.stability), take_over(earlier.translation_limit, later.translation_limit);
+  take_over(earlier.rotation_limit, later.rotation_limit), take_over(earlier.iteration_limit, later.iteration_limit);
+}
+inline void take_over(InitialConditionSettings& earlier, const InitialConditionSettings& later) {
+  take_over(earlier.error, later.error), take_over(earlier.velocity_error, later.velocity_error);
+  take_over(earlier.acceleration_error, later.acceleration_error);
+  take_over(earlier.translation_limit, later.translation_limit);
+  take_over(earlier.rotation_limit, later.rotation_limit), take_over(earlier.iteration_limit, later.iteration_limit);
+  take_over(earlier.acceleration_iteration_limit, later.acceleration_iteration_limit);
+}
+
+}  // namespace dynalin

@@ -1,0 +1,138 @@
+#include "model/user_routines.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace dynalin {
+
+namespace {
+
+constexpr std::array<std::string_view, 1> user = {"USER"};
+constexpr std::array<std::string_view, 2> names_of_code = {"ROUTINE", "INTERFACE"};
+
+Span span_of(const Token& token, const SourceText& source) { return {&source, token.offset, token.length}; }
+
+// USER(…) and nothing else, or the beginning of it.
+bool calls_routine(const WrittenArgument& w) {
+  if (w.damaged || w.value.size() < 2) return false;
+  const SourceText& source = *w.name.source;
+  return w.value[0].kind == TokenKind::word && find_keyword(span_of(w.value[0], source).text(), user) == 0 &&
+         span_of(w.value[0], source).length == user[0].size() && span_of(w.value[1], source).text() == "(";
+}
+
+bool names_code(const WrittenArgument& w) {
+  return w.has_value && w.name.length >= 4 && find_keyword(w.name.text(), names_of_code).has_value();
+}
+
+// Which arguments of which statements a constant can stand for; those of a FIELD are forces without stiffness.
+struct Stand {
+  std::string_view statement;
+  std::span<const std::string_view> arguments;
+};
+constexpr std::array<std::string_view, 1> one = {"FUNCTION"};
+constexpr std::array<std::string_view, 3> forces = {"FX", "FY", "FZ"}, torques = {"TX", "TY", "TZ"};
+constexpr std::array<std::string_view, 6> both = {"FX", "FY", "FZ", "TX", "TY", "TZ"};
+constexpr std::array<std::string_view, 2> field = {"KMATRIX", "FORCE"};
+constexpr std::array<Stand, 8> stands = {{{"VARIABLE", one},
+                                          {"SFORCE", one},
+                                          {"DIFF", one},
+                                          {"MOTION", one},
+                                          {"VFORCE", forces},
+                                          {"VTORQUE", torques},
+                                          {"GFORCE", both},
+                                          {"FIELD", field}}};
+
+class Replacement {
+ public:
+  Replacement(const Dataset& base, Catalogue catalogue, const std::optional<double>& value, Diagnostics& diagnostics)
+      : catalogue_(catalogue), value_(value), diagnostics_(diagnostics) {
+    if (!value) return;
+    std::string text = "CONSTANT/1";
+    for (const std::string_view name : {"FUNCTION", "FX", "FY", "FZ", "TX", "TY", "TZ"})
+      text += fmt::format(", {}={:.17g}", name, *value);
+    text += ", KMATRIX=0";
+    for (int k = 1; k < 36; ++k) text += ",0";
+    text += fmt::format(", FORCE={:.17g}", *value);
+    for (int k = 1; k < 6; ++k) text += fmt::format(",{:.17g}", *value);
+    static constexpr std::array<std::string_view, 1> keywords = {"CONSTANT"};
+    constants_ = std::make_shared<const Dataset>(
+        parse_statements(std::make_shared<const SourceText>("--user-value of " + base.source->name(), text + "\n"),
+                         keywords)
+            .value);
+  }
+
+  const std::shared_ptr<const Dataset>& constants() const { return constants_; }
+
+  void apply(Statement& s) {
+    const auto kind =
+        std::find_if(catalogue_.begin(), catalogue_.end(), [&](const Kind* k) { return k->statement == s.name; });
+    if (kind == catalogue_.end() || (*kind)->role == Kind::Role::inert) return;
+    const auto call = std::find_if(s.arguments.begin(), s.arguments.end(), calls_routine);
+    if (call != s.arguments.end()) {
+      replace(s, static_cast<std::size_t>(call - s.arguments.begin()));
+    } else if (const auto code = std::find_if(s.arguments.begin(), s.arguments.end(), names_code);
+               code != s.arguments.end()) {
+      diagnostics_.error(
+          "missing-routine", code->name,
+          fmt::format("{} names a compiled routine, and compiled routines cannot be called here", s.at.text()));
+    }
+    std::erase_if(s.arguments, names_code);
+  }
+
+ private:
+  void replace(Statement& s, std::size_t k) {
+    WrittenArgument& call = s.arguments[k];
+    const Span at = span_of(call.value[0], *call.name.source);
+    const auto stand =
+        std::find_if(stands.begin(), stands.end(), [&](const Stand& r) { return r.statement == s.name; });
+    if (!value_ || stand == stands.end()) {
+      diagnostics_.error(
+          "missing-routine", at,
+          fmt::format("{} calls a compiled routine, and compiled routines cannot be called here", s.at.text()),
+          stand == stands.end() ? "no constant can take its place"
+                                : "--user-value X puts the constant X in the place of each call");
+      call.damaged = true;
+      return;
+    }
+    diagnostics_.warning(
+        "missing-routine", at,
+        fmt::format("{} calls a compiled routine: the constant {:g} takes its place", s.at.text(), *value_));
+    s.arguments.erase(s.arguments.begin() + static_cast<std::ptrdiff_t>(k));
+    for (const WrittenArgument& w : constants_->statements.front().arguments) {
+      if (std::find(stand->arguments.begin(), stand->arguments.end(), w.name.text()) != stand->arguments.end())
+        s.arguments.push_back(w);
+    }
+  }
+
+  Catalogue catalogue_;
+  const std::optional<double>& value_;
+  Diagnostics& diagnostics_;
+  std::shared_ptr<const Dataset> constants_;
+};
+
+bool concerns_code(const Statement& s) {
+  return std::any_of(s.arguments.begin(), s.arguments.end(),
+                     [](const WrittenArgument& w) { return calls_routine(w) || names_code(w); });
+}
+
+}  // namespace
+
+std::shared_ptr<const Dataset> without_user_routines(std::shared_ptr<const Dataset> base, Catalogue catalogue,
+                                                     const std::optional<double>& value, Diagnostics& diagnostics) {
+  if (std::none_of(base->statements.begin(), base->statements.end(), concerns_code)) return base;
+  Replacement replacement(*base, catalogue, value, diagnostics);
+  auto out = std::make_shared<Dataset>();
+  out->source = base->source;
+  out->title = base->title;
+  out->statements = base->statements;
+  for (Statement& s : out->statements) {
+    if (concerns_code(s)) replacement.apply(s);
+  }
+  out->origins = {base};
+  if (replacement.constants()) out->origins.push_back(replacement.constants());
+  return out;
+}
+
+}  // namespace dynalin

@@ -1,0 +1,291 @@
+// Commands that change the model between analyses: redefinition, ACTIVATE and DEACTIVATE.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cases/run.h"
+
+namespace dynalin::cases {
+namespace {
+
+using ::testing::HasSubstr;
+constexpr double turn = 2 * std::numbers::pi;
+
+// A mass of 2 on a spring of 8: ω = 2.
+const std::string oscillator =
+    "oscillator\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,1,1\nMARKER/20\n"
+    "MARKER/21, PART=2, QP=0,0,1\nMARKER/3, PART=1, QP=0,0,-2\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
+    "SPRINGDAMPER/1, TRANSLATIONAL, I=21, J=3, K=8, LENGTH=3\n";
+
+class EditCommands : public Cases {
+ protected:
+  void expect_frequency(const RunResult& r, std::size_t k, double omega, double relative = 1e-12) const {
+    expect_eigenvalues(r.eigenvalues(k), {{0, omega / turn}}, relative);
+  }
+};
+
+TEST_F(EditCommands, an_argument_that_is_defined_anew_counts_from_then_on) {
+  const RunResult r = run(oscillator + "END\n",
+                          "LINEAR/EIGENSOL\nSPRINGDAMPER/1, K=50\nLINEAR/EIGENSOL\npart/2, m=8\nspr/1, &\n  ! note\n , "
+                          "k=2, &\n l=3\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  expect_frequency(r, 0, 2);
+  expect_frequency(r, 2, 5);
+  expect_frequency(r, 5, 0.5);
+}
+
+TEST_F(EditCommands, expressions_are_defined_anew_and_read_what_others_define) {
+  const RunResult r = run(oscillator +
+                              "VARIABLE/1, FUNCTION=0\nSFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, "
+                              "FUNCTION=-VARVAL(1)*DZ(20,1)\nEND\n",
+                          "LINEAR/EIGENSOL\nVARIABLE/1, FUNC=10\nLINEAR/EIGENSOL\nSFORCE/1, FUNCTION=-(VARVAL(1)\n, "
+                          "+32)*DZ(20,1)\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  expect_frequency(r, 0, 2);
+  expect_frequency(r, 2, 3);
+  expect_frequency(r, 4, 5);
+}
+
+TEST_F(EditCommands, deactivated_elements_exert_nothing_and_come_back) {
+  const RunResult r = run(oscillator +
+                              "BUSHING/7, I=20, J=1, K=0,0,10\nSFORCE/9, TRANSLATIONAL, ACTIONONLY, I=20, J=1, "
+                              "FUNCTION=-DZ(20,1)*(32+SPDP(1,0,4,0))+3*BUSH(7,0,4,0)\nEND\n",
+                          "LINEAR/EIGENSOL\nDEACTIVATE/BUSHING, ID=7\nLINEAR/EIGENSOL\nDEACT/SFORCE, "
+                          "RANGE=5,12\nLINEAR/EIGENSOL\nACTIVATE/BUSHING, ID=7\nACTIVATE/SFORCE, RANGE=9,9\nLINEAR/"
+                          "EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  expect_frequency(r, 0, std::sqrt((8 + 10 + 30 + 32) / 2.0));
+  expect_frequency(r, 2, std::sqrt((8 + 32) / 2.0));
+  expect_frequency(r, 4, 2);
+  expect_frequency(r, 7, std::sqrt((8 + 10 + 30 + 32) / 2.0));
+}
+
+TEST_F(EditCommands, a_lock_that_is_taken_out_leaves_the_pose_where_it_is) {
+  // A pendulum held at 60 degrees by a motion; let go, it is not in equilibrium, and its stiffness is that of the pose.
+  const RunResult r = run(
+      "t\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-10\nPART/1, GROUND\nMARKER/1\nPART/2, QG=0,-1,0, MASS=1, CM=20, "
+      "IP=0,0,3\nMARKER/20\nMARKER/21, QP=0,1,0\nJOINT/1, REVOLUTE, I=21, J=1\nMOTION/1, JOINT=1, FUNCTION=60D\nEND\n",
+      "SIMULATE/STATIC\nDEACTIVATE/MOTION, ID=1\nLINEAR/EIGENSOL\nACTIVATE/MOTION, ID=1\nMOTION/1, "
+      "FUNCTION=0\nSIMULATE/INITIAL\nDEACTIVATE/MOTION, ID=1\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  expect_frequency(r, 2, std::sqrt(10 * 0.5 / 4));
+  expect_frequency(r, 7, std::sqrt(10.0 / 4));
+}
+
+TEST_F(EditCommands, velocities_go_on_when_a_motion_is_taken_out) {
+  const auto arm = [](const std::string& rate, const std::string& motion) {
+    return "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=2, IP=1,1,5" + rate +
+           "\nMARKER/2\nMARKER/4, REULER=90D,90D,0\nPART/3, QG=1,0,0, MASS=2, CM=3, IP=1,1,1\nMARKER/3, "
+           "REULER=90D,90D,0\nJOINT/1, REVOLUTE, I=2, J=1\n" +
+           motion + "JOINT/2, TRANSLATIONAL, I=3, J=4\nBUSHING/1, I=3, J=4, K=0,0,200\nEND\n";
+  };
+  const RunResult edited = run(arm("", "MOTION/1, JOINT=1, FUNCTION=6*TIME\n"),
+                               "LINEAR/EIGENSOL, RM=2\nDEACTIVATE/MOTION, ID=1\nLINEAR/STATEMAT, FILE=a, RM=2\n");
+  const RunResult stated = run(arm(", WZ=6", ""), "LINEAR/STATEMAT, FILE=a, RM=2\n");
+  ASSERT_EQ(edited.status, 0) << edited.err;
+  ASSERT_EQ(stated.status, 0) << stated.err;
+  expect_frequency(edited, 0, 8);
+  const auto A = edited.matrix(2, "A"), wanted = stated.matrix(0, "A");
+  ASSERT_EQ(A.size(), wanted.size());
+  ASSERT_EQ(A.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) EXPECT_NEAR(A[i][j], wanted[i][j], 1e-11) << i << j;
+  }
+}
+
+TEST_F(EditCommands, turns_of_an_angle_are_remembered) {
+  // Balanced at 5 radians, which an angle that forgot its turn would take for 5 − 2π; 0.3·25 + 1 = 8.5.
+  const RunResult r = run(
+      "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, REVOLUTE, "
+      "I=20, J=1\nSFORCE/1, ROTATIONAL, I=20, J=1, FUNCTION=17.5-AZ(20,1)-0.1*AZ(20,1)**3\nSPRINGDAMPER/1, ROTATIONAL, "
+      "I=20, J=1, KT=0, ANGLE=5\nEND\n",
+      "SIMULATE/STATIC\nLINEAR/EIGENSOL\nSPRINGDAMPER/1, KT=3\nLINEAR/EIGENSOL\nSIMULATE/STATIC\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  expect_frequency(r, 1, std::sqrt(8.5), 1e-10);
+  expect_frequency(r, 3, std::sqrt(11.5), 1e-10);
+  expect_frequency(r, 5, std::sqrt(11.5), 1e-10);
+}
+
+TEST_F(EditCommands, a_part_begins_where_a_command_puts_it_and_stays_where_only_its_speed_is_stated) {
+  const std::string cubic =
+      "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, QG=0,0,1, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, "
+      "TRANSLATIONAL, I=20, J=1\nSFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=8-DZ(20,1)**3\nEND\n";
+  const RunResult r = run(cubic, "SIMULATE/STATIC\nPART/2, VZ=3\nLINEAR/EIGENSOL\nPART/2, QG=0,0,3\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  expect_frequency(r, 2, std::sqrt(12.0), 1e-10);
+  expect_frequency(r, 4, std::sqrt(27.0));
+}
+
+TEST_F(EditCommands, differential_states_go_on_by_id) {
+  // The force reads a state that rests at 3 only where it was found; an element in front of it comes and goes.
+  const RunResult sound = run(oscillator +
+                                  "BUSHING/1, I=20, J=1, K=0,0,1\nDIFF/1, IC=9, FUNCTION=-DIF(1)\nDIFF/2, IC=1, "
+                                  "FUNCTION=3-DIF(2)\nSFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, "
+                                  "FUNCTION=-14*DIF(2)*DZ(20,1)\nEND\n",
+                              "SIMULATE/STATIC\nDEACTIVATE/BUSHING, ID=1\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(sound.status, 0) << sound.err;
+  expect_eigenvalues(sound.eigenvalues(2), {{-1 / turn, 0}, {-1 / turn, 0}, {0, std::sqrt((8 + 14 * 3) / 2.0) / turn}},
+                     1e-12);
+}
+
+TEST_F(EditCommands, one_way_of_stating_a_thing_ends_the_other) {
+  const RunResult r =
+      run("t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, ZP=0,0,1, XP=1,0,0\nPART/2, MASS=1, CM=20, "
+          "IP=1,1,1\nMARKER/20, ZP=0,0,1, XP=1,0,0\nJOINT/1, TRANSLATIONAL, I=20, J=1\nBUSHING/1, I=20, J=1, "
+          "K=0,0,25\nMOTION/1, JOINT=1, VELOCITY, FUNCTION=3, ICDISP=0\nEND\n",
+          "MOTION/1, DISPLACEMENT, FUNCTION=0\nSIMULATE/STATIC\nDEACTIVATE/MOTION, ID=1\nMARKER/1, "
+          "REULER=90D,90D,0\nMARKER/20, R=90D,90D,0\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  expect_frequency(r, 5, 5);
+  EXPECT_THAT(r.labels(5), ::testing::Contains(HasSubstr("DX(BCS)")));
+}
+
+TEST_F(EditCommands, a_joint_may_become_another_type) {
+  const RunResult r =
+      run("t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,4\nMARKER/20\n"
+          "JOINT/1, TRANSLATIONAL, I=20, J=1\nBUSHING/1, I=20, J=1, K=0,0,25, KT=0,0,36\nEND\n",
+          "LINEAR/EIGENSOL\nJOINT/1, REVOLUTE\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  expect_frequency(r, 0, 5);
+  expect_frequency(r, 2, 3);
+}
+
+TEST_F(EditCommands, before_the_first_analysis_edits_count_as_if_written_in_the_dataset) {
+  const RunResult r =
+      run("t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, "
+          "TRANSLATIONAL, I=20, J=1\nSFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=-DZ(20,1)**3\nEND\n",
+          "PART/2, QG=0,0,2\nLINEAR/EIGENSOL\nPART/2, QG=0,0,3\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  expect_frequency(r, 1, std::sqrt(12.0));
+  expect_frequency(r, 3, std::sqrt(27.0));
+}
+
+// The markers of the part are 1 apart and a million from its origin as written, so one of them is taken as origin: the
+// CM, which an edit may give to the other.
+TEST_F(EditCommands, a_part_whose_origin_is_far_away_stays_when_it_gets_another_one) {
+  const RunResult slider =
+      run("t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, QG=0,0,1e6, MASS=1, CM=20, IP=1,1,1\nMARKER/20, "
+          "QP=0,0,-1e6\nMARKER/22, QP=0,0,-999999\nJOINT/1, TRANSLATIONAL, I=20, J=1\nSFORCE/1, TRANSLATIONAL, "
+          "ACTIONONLY, I=20, J=1, FUNCTION=8-DZ(20,1)**3\nEND\n",
+          "SIMULATE/STATIC\nPART/2, CM=22, MASS=3\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(slider.status, 0) << slider.err;
+  EXPECT_THAT(slider.err, HasSubstr("MARKER/22 is taken instead"));
+  expect_frequency(slider, 2, 2, 1e-8);  // a million is known to 1e-10
+
+  const auto plate = [](const std::string& more) {
+    return "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/4, REULER=0,90D,0\nPART/2, QG=1e6,0,0, MASS=1, "
+           "IP=1,1,1, WZ=3, " +
+           more +
+           "\nMARKER/20, QP=-1e6,0,0\nMARKER/22, QP=-999999,0,0\nJOINT/1, PLANAR, I=20, J=1\nSFORCE/1, "
+           "TRANSLATIONAL, ACTIONONLY, I=20, J=4, FUNCTION=VY(22,1)**3\nEND\n";
+  };
+  const RunResult edited = run(plate("CM=20"), "SIMULATE/INITIAL_CONDITIONS\nPART/2, CM=22\nLINEAR/STATEMAT, FILE=a\n");
+  const RunResult stated = run(plate("CM=22, VY=3"), "LINEAR/STATEMAT, FILE=a\n");
+  ASSERT_EQ(edited.status, 0) << edited.err;
+  ASSERT_EQ(stated.status, 0) << stated.err;
+  const auto A = edited.matrix(2, "A"), wanted = stated.matrix(0, "A");
+  ASSERT_EQ(A.size(), 6u);
+  ASSERT_EQ(wanted.size(), 6u);
+  double largest = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      EXPECT_NEAR(A[i][j], wanted[i][j], 1e-7) << i << j;
+      largest = std::max(largest, std::abs(wanted[i][j]));
+    }
+  }
+  EXPECT_GT(largest, 20);  // 3 · 3² at the marker that was not the origin
+}
+
+TEST_F(EditCommands, settings_of_initial_conditions_hold_for_models_to_come_and_end) {
+  // The second joint asks for a place 1e-7 beside that of the first.
+  const std::string doors =
+      "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=1E-7,0,1\nPART/2, MASS=1, CM=20, IP=1,1,1\n"
+      "MARKER/20, QP=1,0,0\nMARKER/21\nMARKER/22, QP=0,0,1\nJOINT/1, REVOLUTE, I=21, J=1\nJOINT/2, REVOLUTE, I=22, "
+      "J=2\nSPRINGDAMPER/1, ROTATIONAL, I=21, J=1, KT=8\nEND\n";
+  const std::string edit = "DEACTIVATE/JOINT, ID=2\nLINEAR/EIGENSOL\nIC/ERROR=1E-6\nACTIVATE/JOINT, ID=2\n";
+  EXPECT_EQ(run(doors, "LINEAR/EIGENSOL\n").status, 2);
+  const RunResult wide = run(doors, edit + "LINEAR/EIGENSOL\n");
+  ASSERT_EQ(wide.status, 0) << wide.err;
+  expect_frequency(wide, 4, 2, 1e-5);
+  EXPECT_EQ(run(doors, edit + "IC/DEFAULT\nLINEAR/EIGENSOL\n").status, 2);
+}
+
+TEST_F(EditCommands, gravity_may_be_switched_and_stated_for_the_first_time) {
+  const std::string pendulum =
+      "PART/1, GROUND\nMARKER/1\nPART/2, QG=0,-1,0, MASS=1, CM=20, IP=0,0,3\nMARKER/20\nMARKER/21, QP=0,1,0\nJOINT/1, "
+      "REVOLUTE, I=21, J=1\nEND\n";
+  const RunResult r = run("t\nUNITS/SYSTEM=MKS\n" + pendulum,
+                          "ACCGRAV/JGRAV=-16\nLINEAR/EIGENSOL\nACCGRAV/J=-36\nLINEAR/"
+                          "EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  expect_frequency(r, 1, 2);
+  expect_frequency(r, 3, 3);
+}
+
+TEST_F(EditCommands, a_redundant_lock_comes_and_goes) {
+  const RunResult r =
+      run(oscillator + "JOINT/2, FIXED, I=20, J=1\nJPRIM/1, INPLANE, I=20, J=3\nMARKER/4, PART=1\nEND\n",
+          "DEACTIVATE/JOINT, ID=2\nDEACTIVATE/JPRIM, RANGE=1,9\nSIM/STAT\nLINEAR/EIGENSOL\nACTIVATE/"
+          "JOINT, ID=2\nSIMULATE/STATIC\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  expect_frequency(r, 3, 2);
+}
+
+TEST_F(EditCommands, mistakes_stand_at_their_place_and_nothing_runs) {
+  const auto error = [&](const std::string& commands) {
+    const RunResult r = run(oscillator + "END\n", "LINEAR/EIGENSOL\n" + commands + "\n");
+    EXPECT_EQ(r.status, 1) << commands;
+    EXPECT_FALSE(r.wrote("model.msg")) << commands;
+    return r.err;
+  };
+  EXPECT_THAT(error("SPRINGDAMPER/2, K=5"), HasSubstr("model.acf:4:1: error: SPRINGDAMPER/2 does not exist"));
+  EXPECT_THAT(error("SPRINGDAMPER/1, KK=5"), HasSubstr("model.acf:4:17: error"));
+  EXPECT_THAT(error("SPRINGDAMPER/1, K=-5"), HasSubstr("model.acf:4:19: error"));
+  EXPECT_THAT(error("SPRINGDAMPER/1, I=77"), HasSubstr("model.acf:4:19: error"));
+  EXPECT_THAT(error("SPRINGDAMPER/1, K=5\nLINEAR/EIGENSOL\nMARKER/21, QP=1,2"), HasSubstr("model.acf:6:15: error"));
+  EXPECT_THAT(error("MARKER/77, QP=1,2,3"), HasSubstr("[unknown-element]"));
+  EXPECT_THAT(error("PART/3, MASS=3"), HasSubstr("[unknown-element]"));
+  EXPECT_THAT(error("SPRINGDAMPER, K=5"), HasSubstr("[missing-id]"));
+  EXPECT_THAT(error("DEACTIVATE/JOINT, ID=1,7"), HasSubstr("model.acf:4:24: error: JOINT/7 does not exist"));
+  EXPECT_THAT(error("DEACTIVATE/MARKER, ID=1"), HasSubstr("model.acf:4:12: error"));
+  EXPECT_THAT(error("DEACTIVATE/JOINT, RANGE=7,9"), HasSubstr("[unknown-element]"));
+  EXPECT_THAT(error("DEACTIVATE/JOINT, RANGE=7"), HasSubstr("[wrong-count]"));
+  EXPECT_THAT(error("DEACTIVATE/JOINT"), HasSubstr("[missing-argument]"));
+  EXPECT_THAT(error("DEACTIVATE/JOINT, ID=1, RANGE=1,2"), HasSubstr("[excluded-arguments]"));
+  EXPECT_THAT(error("ACTIVATE/JOINT, MOTION, ID=1"), HasSubstr("[excluded-arguments]"));
+  EXPECT_THAT(error("ACTIVATE/JOINT, IDS=1"), HasSubstr("[unknown-argument]"));
+}
+
+TEST_F(EditCommands, an_element_that_is_active_already_gets_a_warning) {
+  const RunResult r = run(oscillator + "END\n", "ACTIVATE/JOINT, ID=1\nLINEAR/EIGENSOL\n");
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("model.acf:3:20: warning: JOINT/1 is active already [already-so]"));
+}
+
+TEST_F(EditCommands, a_motion_on_a_joint_that_is_taken_out_is_refused) {
+  const RunResult r = run(oscillator + "MOTION/1, JOINT=1, FUNCTION=0\nEND\n", "DEACTIVATE/JOINT, ID=1\nSIM/STATIC\n");
+  EXPECT_EQ(r.status, 1);
+  EXPECT_THAT(r.err, HasSubstr("MOTION/1 refers to JOINT/1, which a command has deactivated [inactive-joint]"));
+}
+
+TEST_F(EditCommands, the_message_file_says_what_was_taken_out) {
+  const RunResult r = run(oscillator + "!     adams_view_name='lock'\nJOINT/2, FIXED, I=20, J=1\nEND\n",
+                          "DEACTIVATE/JOINT, ID=2\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.message,
+              HasSubstr("Deactivated JOINT/2 (lock), force/torque values will be zero in function-expression "
+                        "references."));
+}
+
+TEST_F(EditCommands, list_and_preferences_change_nothing) {
+  const RunResult r = run(oscillator + "END\n",
+                          "LINEAR/EIGENSOL\nPREFERENCES/SOLVER=F77\nSPRINGDAMPER/1, LIST\nLINEAR/"
+                          "EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("ORIGINAL"));
+  expect_frequency(r, 3, 2);
+}
+
+}  // namespace
+}  // namespace dynalin::cases

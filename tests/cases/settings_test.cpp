@@ -1,0 +1,118 @@
+// Settings in datasets and as commands: checked like every other statement, obeyed where something acts on them, and
+// named once where nothing does.
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "cases/run.h"
+
+namespace dynalin::cases {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::string pendulum =
+    "pendulum\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-10\nPART/1, GROUND\nMARKER/1\nPART/2, QG=1,0,0, MASS=1, CM=20, "
+    "IP=0,0,1.5\nMARKER/20\nMARKER/21, QP=-1,0,0\nJOINT/1, REVOLUTE, I=21, J=1\n";
+
+class Settings : public Cases {
+ protected:
+  RunResult with(const std::string& lines, const std::string& commands = "LINEAR/EIGENSOL\n") const {
+    return run(pendulum + lines + "END\n", commands);
+  }
+  std::size_t count(const std::string& text, const std::string& part) const {
+    std::size_t n = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+    return n;
+  }
+};
+
+TEST_F(Settings, of_every_statement_are_read) {
+  const RunResult r = with(
+      "EQUILIBRIUM/ERROR=1E-6, IMBALANCE=1e-5, MAXIT=50, TLIMIT=20, ALIMIT=10D, STABILITY=1E-5, PATTERN=T:F:T, "
+      "METHOD=ORIGINAL, ATOL=1e-6\nIC/ERROR=1e-10, MAXIT=25, VERR=1e-4, AERR=1e-4, AMAXIT=25, ALIMIT=30D, PATTERN=T\n"
+      "INTEGRATOR/GSTIFF, SI2, ERROR=1e-3, HMAX=0.01, KMAX=6, CORRECTOR=MODIFIED, INTERPOLATE=ON, PATTERN=T:F\n"
+      "KINEMATICS/ERROR=1e-4, MAXIT=10, HMAX=0.1\nOUTPUT/REQSAVE, GRSAVE, NOPRINT, DSCALE=1,2, OSFORMAT\n"
+      "RESULTS/XRF, DECIMALPLACES=8, NOACCELERATIONS, COMMENT=a, b: c\nDEBUG/EPRINT, NODUMP\nLSOLVER/AUTO\n"
+      "GRAPHICS/1, BOX, CORNER=20, X=20, Y=-10, Z=5\ngra/2, cylind, cm=20, len=50, r=4, seg=20, sides=10\n"
+      "GRAPHICS/3, SPDP, I=20, J=1, COILS=10, DA=8\nGRAPHICS/4, OUTLINE=20,21\nGRAPHICS/5, FORCE, ETYPE=SFORCE, EID=7, "
+      "EMARKER=20\nGRAPHICS/6, EXTERNAL, RM=20, FILE=a.xmt_txt, ELEMENT=SHELL_10, FACETING_TOLERANCE=300\n"
+      "MREQUEST/1, WHAT=EVER\nMATERIAL/1, NAME=steel\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(count(r.err, "nothing here acts on"), 1u) << r.err;
+  for (const char* name : {"EQUILIBRIUM/ERROR", "IC/MAXIT", "INTEGRATOR/HMAX", "KINEMATICS/HMAX", "OUTPUT/REQSAVE",
+                           "DEBUG/EPRINT", "LSOLVER/AUTO", "EQUILIBRIUM/METHOD"})
+    EXPECT_EQ(count(r.err, name), 1u) << name;
+  for (const char* acting : {"EQUILIBRIUM/MAXIT", "EQUILIBRIUM/ALIMIT", "RESULTS", "GRAPHICS"})
+    EXPECT_THAT(r.err, Not(HasSubstr(acting)));
+}
+
+TEST_F(Settings, that_do_not_exist_are_errors_at_their_place) {
+  const auto error = [&](const std::string& line) {
+    const RunResult r = with(line + "\n");
+    EXPECT_EQ(r.status, 1) << line;
+    return r.err;
+  };
+  EXPECT_THAT(error("EQUILIBRIUM/FOO=1"), HasSubstr("model.adm:10:13: error"));
+  EXPECT_THAT(error("EQUILIBRIUM/MAXIT=0"), HasSubstr("[value-out-of-range]"));
+  EXPECT_THAT(error("EQUILIBRIUM/ERROR=abc"), HasSubstr("[expected-number]"));
+  EXPECT_THAT(error("IC/HMAX=1"), HasSubstr("[unknown-argument]"));
+  EXPECT_THAT(error("INTEGRATOR/GSTIF, HHH"), HasSubstr("model.adm:10:19: error"));
+  EXPECT_THAT(error("OUTPUT/REQSAV, GR521SAV"), HasSubstr("model.adm:10:16: error"));
+  EXPECT_THAT(error("RESULTS/XRF, DECIMALPLACES=0"), HasSubstr("[value-out-of-range]"));
+  EXPECT_THAT(error("REQUEST/1, DISPLACEMENT, K=3"), HasSubstr("model.adm:10:26: error"));
+  EXPECT_THAT(error("GRAPHICS/1, BALL, CM=20"), HasSubstr("[unknown-argument]"));
+  EXPECT_THAT(error("DEBUG/EVERYTHING"), HasSubstr("[unknown-argument]"));
+  EXPECT_THAT(error("PREFERENCES/SOLVERS=F77"), HasSubstr("[unknown-argument]"));
+  const RunResult command = with("", "EQUIL/MAXIT=20, FOO=3\nSIM/STAT\n");
+  EXPECT_EQ(command.status, 1);
+  EXPECT_THAT(command.err, HasSubstr("model.acf:3:17: error"));
+}
+
+TEST_F(Settings, of_commands_replace_those_of_the_dataset_and_are_named_once) {
+  const RunResult r =
+      with("EQUILIBRIUM/ERROR=1E-6\n",
+           "equil/maxit=100,stab=1e-3,imb=1,alim=2.0D,tlim=5,err=0.5\nequil/err=0.5, stab=1e-6\nint/hht, "
+           "error=1e-5\ninte/list\nequilibrium/list\noutput/noprint\nic/list\nsim/stat\nlin/eig\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(count(r.err, "EQUILIBRIUM/ERROR"), 1u) << r.err;
+  EXPECT_EQ(count(r.err, "EQUILIBRIUM/STABILITY"), 1u) << r.err;
+  EXPECT_EQ(count(r.err, "INTEGRATOR/HHT"), 1u) << r.err;
+  EXPECT_EQ(count(r.err, "OUTPUT/NOPRINT"), 1u) << r.err;
+  expect_eigenvalues(r.eigenvalues(8), {{0, 2 / (2 * std::numbers::pi)}}, 1e-11);
+}
+
+TEST_F(Settings, a_rotation_limit_bounds_the_steps_of_statics) {
+  // The drawn pendulum is level: steps of at most one degree need nearly ninety of them, ones of forty few.
+  const auto iterations = [&](const std::string& lines, const std::string& commands) {
+    const RunResult r = with(lines, commands + "SIMULATE/STATIC\nLINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+    const auto at = r.message.find("converged in ");
+    return at == std::string::npos ? -1 : std::stoi(r.message.substr(at + 13));
+  };
+  const int coarse = iterations("EQUILIBRIUM/ALIMIT=40D\n", ""), fine = iterations("EQUILIBRIUM/ALIMIT=1D\n", "");
+  EXPECT_GT(coarse, 0);
+  EXPECT_LT(coarse, 40);
+  EXPECT_GT(fine, 75);
+  EXPECT_EQ(iterations("EQUILIBRIUM/ALIMIT=40D\n", "EQUILIBRIUM/ALIMIT=1D\n"), fine);
+  EXPECT_EQ(iterations("EQUILIBRIUM/ALIMIT=1D\n", "EQUILIBRIUM/DEFAULT, ALIMIT=40D\n"), coarse);
+}
+
+TEST_F(Settings, nolinear_keeps_linear_results_out_of_the_results_file) {
+  const RunResult with_linear = with("RESULTS/XRF\n");
+  ASSERT_EQ(with_linear.status, 0) << with_linear.err;
+  EXPECT_THAT(with_linear.text("model.res"), HasSubstr("<dl:Mode"));
+  const RunResult without = with("RESULTS/XRF, NOLINEAR\n", "LINEAR/EIGENSOL\nLINEAR/STATEMAT, FILE=a\n");
+  ASSERT_EQ(without.status, 0) << without.err;
+  EXPECT_THAT(without.text("model.res"), HasSubstr("<Results"));
+  EXPECT_THAT(without.text("model.res"), Not(HasSubstr("<dl:Linear")));
+}
+
+TEST_F(Settings, that_nothing_was_said_of_give_no_remark) {
+  const RunResult r = with("");
+  EXPECT_THAT(r.err, Not(HasSubstr("passed over")));
+}
+
+}  // namespace
+}  // namespace dynalin::cases
