@@ -1,11 +1,40 @@
 // The command-line program: arguments in, exit status out; everything else is the library's.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
 #include <iostream>
+#include <new>
+#include <string_view>
 
 #include "base/diagnostics.h"
 #include "command/session.h"
+#include "output/temporary_file.h"
 
-int main(int argc, char** argv) {
+namespace {
+
+// A standard stream that is closed would give its number to the next file that is opened, and what is meant for the
+// terminal would end up there. It is opened the wrong way round, so that using it fails.
+void open_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
+    const int opened = ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    if (opened >= 0 && opened != stream) ::close(opened);
+  }
+}
+
+// Without memory for a stream.
+int fail(std::string_view text) {
+  for (const std::string_view part : {std::string_view("error: "), text, std::string_view("\n")}) {
+    if (::write(STDERR_FILENO, part.data(), part.size()) < 0) break;
+  }
+  return dynalin::analysis_failed;
+}
+
+int run(int argc, char** argv) {
   using namespace dynalin;
   CLI::App app{"Dynalin: linear models of mechanisms from Adams datasets"};
   app.set_version_flag("--version", "dynalin 0.1.0");
@@ -23,8 +52,10 @@ int main(int argc, char** argv) {
   run->add_flag("--quiet", options.quiet, "no tables on the terminal");
   CLI::App* check = app.add_subcommand("check", "read and check a dataset or command file");
   check->add_option("FILE", options.file)->required();
-  for (CLI::App* reading : {run, check})
+  for (CLI::App* reading : {run, check}) {
     reading->add_flag("--pade", options.pade, "a DELAY is a first-order Pade approximant with a state, not e - tau e'");
+    reading->add_option("--user-value", options.user_value, "a constant in the place of each compiled routine");
+  }
   CLI::App* help = app.add_subcommand("help", "arguments of a statement, or the list of statements");
   help->add_option("STATEMENT", word);
   CLI::App* explain = app.add_subcommand("explain", "what a diagnostic code means");
@@ -45,4 +76,30 @@ int main(int argc, char** argv) {
   }
   std::cout << word << ": " << text << '\n';
   return done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  open_standard_streams();
+  // A reader that has gone and a limit on the size of files are errors of writing like any other.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  dynalin::remove_temporary_files_on_signals();
+  try {
+    const int status = run(argc, argv);
+    errno = 0;
+    std::cout.flush();
+    if (std::cout) return status;
+    // An earlier flush failed, and what it was told is lost: one more try is told the same.
+    if (errno == 0 && ::write(STDOUT_FILENO, "\n", 1) >= 0) errno = 0;
+    return fail(errno ? std::string("standard output cannot be written: ") + std::strerror(errno)
+                      : std::string("standard output cannot be written"));
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory");
+  } catch (const std::length_error&) {
+    return fail("out of memory: something is larger than any memory");
+  } catch (const std::exception& e) {
+    return fail(std::string("unexpected: ") + e.what());
+  }
 }

@@ -182,21 +182,16 @@ std::string render(const Diagnostics& diagnostics, std::size_t limit) {
     return std::pair(rank.at(a->at.source), a->at.offset) < std::pair(rank.at(b->at.source), b->at.offset);
   });
 
+  // Each kind is counted for itself, so that one slip repeated a thousand times hides no other.
   std::string out;
-  std::size_t errors = 0, hidden_errors = 0, hidden_warnings = 0;
+  std::map<std::pair<Severity, std::string_view>, std::size_t> seen;
   for (const Diagnostic* item : ordered) {
-    const bool is_error = item->severity == Severity::error;
-    if (errors >= limit) {
-      ++(is_error ? hidden_errors : hidden_warnings);
-      continue;
-    }
-    if (is_error) ++errors;
-    out += render(*item);
+    if (++seen[{item->severity, item->code}] <= limit) out += render(*item);
   }
-  if (hidden_errors > 0) out += counted(hidden_errors, "error");
-  if (hidden_errors > 0 && hidden_warnings > 0) out += " and ";
-  if (hidden_warnings > 0) out += counted(hidden_warnings, "warning");
-  if (hidden_errors + hidden_warnings > 0) out += '\n';
+  for (const auto& [kind, count] : seen) {
+    if (count <= limit) continue;
+    out += fmt::format("{} of the kind [{}]\n", counted(count - limit, severity_name(kind.first)), kind.second);
+  }
   return out;
 }
 

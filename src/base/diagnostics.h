@@ -42,9 +42,9 @@ class Diagnostics {
 // `file:line:col: error: message [code]`, the line, a caret under the span, the hint and the notes. Without a
 // source only `error: message [code]` and the hint. Every line, the last included, ends with a line end.
 std::string render(const Diagnostic&);
-// All of them in the order of their places (source by source, in the order of appearance); after `limit` errors only a
-// count of the rest.
-std::string render(const Diagnostics&, std::size_t limit = 50);
+// All of them in the order of their places (source by source, in the order of appearance); after `limit` of one kind
+// only a count of the rest of that kind.
+std::string render(const Diagnostics&, std::size_t limit = 49);
 // One line of explanation of a code, empty if there is no such code (`dynalin explain CODE`).
 std::string_view explain_diagnostic(std::string_view code);
 

@@ -104,7 +104,8 @@ TEST(render, orders_by_place_and_counts_what_the_limit_hides) {
   diagnostics.error(any_code, {&source, 2, 1}, "second");
   const std::string text = render(diagnostics, 1);
   EXPECT_TRUE(text.starts_with("a.adm:1:1: error: first"));
-  EXPECT_TRUE(text.ends_with("2 more errors and 1 more warning\n"));
+  EXPECT_TRUE(text.ends_with("2 more errors of the kind [unexpected-text]\n"));
+  EXPECT_NE(text.find("warning: fourth"), std::string::npos);
   EXPECT_LT(render(diagnostics).find("second"), render(diagnostics).find("third"));
 }
 

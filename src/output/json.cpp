@@ -79,14 +79,15 @@ void JsonResults::add(const std::string& command, const EigenSolution& e) {
   for (std::size_t k = 0; k < e.modes.size(); ++k) {
     const EigenMode& m = e.modes[k];
     Json mode = {{"real_hz", m.eigenvalue_hz.real() + 0.0}, {"imag_hz", m.is_real ? 0.0 : m.eigenvalue_hz.imag()}};
+    // A defective eigenvalue has no finite condition number or bound; JSON knows no infinity.
+    mode["condition"] = std::isfinite(m.condition) ? Json(m.condition) : Json();
+    mode["backward_error"] = m.backward_error;
+    mode["error_bound_hz"] = std::isfinite(m.error_bound_hz) ? Json(m.error_bound_hz) : Json();
+    mode["cluster_size"] = m.cluster_size;
+    mode["structural_zero"] = m.structural_zero;
+    mode["refined"] = m.refined;
     if (e.vectors.size() > 0) {
       mode["moves_most"] = m.moves_most;
-      // A defective eigenvalue has no finite condition number or bound; JSON knows no infinity.
-      mode["condition"] = std::isfinite(m.condition) ? Json(m.condition) : Json();
-      mode["backward_error"] = m.backward_error;
-      mode["error_bound_hz"] = std::isfinite(m.error_bound_hz) ? Json(m.error_bound_hz) : Json();
-      mode["structural_zero"] = m.structural_zero;
-      mode["refined"] = m.refined;
       mode["vector"] = column(e.vectors, k);
       if (e.shapes.size() > 0) mode["shape"] = column(e.shapes, k);
     }
@@ -113,9 +114,12 @@ void JsonResults::add(const std::string& command, const StateSpace& s) {
 }
 
 void JsonResults::add(const std::string& command, const SecondOrder& s) {
+  Eigen::MatrixXd KB(s.K.rows(), s.K.cols() + s.B.cols());
+  KB << s.K, s.B;
   document_->results.push_back({{"command", command},
                                 {"time", s.time},
                                 {"M", matrix(s.M)},
+                                {"KB", matrix(KB)},
                                 {"B", matrix(s.B)},
                                 {"K", matrix(s.K)},
                                 {"P", matrix(s.P)},

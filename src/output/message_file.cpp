@@ -5,11 +5,41 @@
 #include <cmath>
 #include <string>
 
+#include "output/certain_digits.h"
+
 namespace dynalin {
 
 namespace {
+
 const std::string rule(79, '-');
+
+// What the marks of a table of eigenvalues say.
+// A value that is zero is as certain as its bound is small against the fastest of the model.
+double largest_modulus(const EigenSolution& e) {
+  double most = 0;
+  for (const EigenMode& m : e.modes) most = std::max(most, std::abs(m.eigenvalue_hz));
+  return most;
 }
+
+void write_doubts(std::ostream& out, const EigenSolution& e, int digits) {
+  bool marked = false;
+  for (const EigenMode& m : e.modes) {
+    const double size = std::abs(m.eigenvalue_hz);
+    marked = marked || !certain(m.eigenvalue_hz.real(), size, m.error_bound_hz, digits) ||
+             (!m.is_real && !certain(m.eigenvalue_hz.imag(), size, m.error_bound_hz, digits));
+  }
+  if (marked) fmt::print(out, "\n  ? the error bound is larger than the last digit printed\n");
+  for (std::size_t k = 0; k < e.modes.size();) {
+    const EigenMode& m = e.modes[k];
+    if (m.cluster_size > 1) {
+      fmt::print(out, "  {} to {}: the mean of {} eigenvalues within {:.1E} of it, not told apart\n", k + 1,
+                 k + m.cluster_size, m.cluster_size, m.error_bound_hz);
+    }
+    k += m.cluster_size;
+  }
+}
+
+}  // namespace
 
 void write_banner(std::ostream& out, std::string_view version) {
   fmt::print(out, "{0}\n|{1:^77}|\n|{2:^77}|\n{0}\n\n", rule, "Dynalin: linear models of mechanisms",
@@ -43,37 +73,102 @@ void write_block(std::ostream& out, Block kind, std::string_view text) {
   fmt::print(out, "\n---- START: {0} ----\n{1}\n---- END: {0} ----\n", name, text);
 }
 
-void write_eigensolution(std::ostream& out, const EigenSolution& e) {
-  fmt::print(out, "\n  EigenSolution computation started.\n\n");
-  if (e.rm) fmt::print(out, "  Option RM={} was used.\n\n", e.rm);
-  if (e.pstate) fmt::print(out, "  Option PSTATE={} was used.\n\n", e.pstate);
-  if (e.without_damping) fmt::print(out, "  Option NODAMPIN was used.\n\n");
-  if (e.original) fmt::print(out, "  Option ORIGINAL was used.\n\n");
+namespace {
+
+// Which states were chosen, and under which options; `count` states are kinematic, rates among them.
+struct ChosenStates {
+  const std::vector<StateLabel>& states;
+  std::size_t kinematic, differential;
+  std::int64_t rm, pstate;
+  bool without_damping, original;
+};
+
+void write_chosen_states(std::ostream& out, const ChosenStates& c) {
+  if (c.rm) fmt::print(out, "  Option RM={} was used.\n\n", c.rm);
+  if (c.pstate) fmt::print(out, "  Option PSTATE={} was used.\n\n", c.pstate);
+  if (c.without_damping) fmt::print(out, "  Option NODAMPIN was used.\n\n");
+  if (c.original) fmt::print(out, "  Option ORIGINAL was used.\n\n");
   fmt::print(out,
              "  This model has\n{:9d} kinematic states (displacement and velocities)\n{:9d} differential states "
              "(DIFFs, LSEs, etc.)\n",
-             e.kinematic_states, e.differential_states);
-  if (e.kinematic_states > 0) {
-    fmt::print(out, "\n  The selected kinematic states are:\n");
-    int number = 0;
-    for (std::size_t k = 0; k < e.kinematic_states; ++k) {
-      const StateLabel& s = e.states[k];
-      if (!s.is_rate) fmt::print(out, "{:9d} {}{}{}\n", ++number, s.text, s.owner.empty() ? "" : "   ", s.owner);
-    }
-    fmt::print(out, "\n  The other kinematic states are the respective derivatives.\n");
+             c.kinematic, c.differential);
+  if (c.kinematic == 0) return;
+  fmt::print(out, "\n  The selected kinematic states are:\n");
+  int number = 0;
+  std::size_t left = c.kinematic;
+  for (const StateLabel& s : c.states) {
+    if (left == 0) break;
+    if (!s.is_rate) fmt::print(out, "{:9d} {}{}{}\n", ++number, s.text, s.owner.empty() ? "" : "   ", s.owner);
+    --left;
   }
+  fmt::print(out, "\n  The other kinematic states are the respective derivatives.\n");
+}
+
+bool is_differential(const StateLabel& s) {
+  switch (s.type) {
+    case StateType::lse:
+    case StateType::tfsiso:
+    case StateType::gse:
+    case StateType::diff:
+    case StateType::delay:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+void write_matrix_states(std::ostream& out, const StateSpace& s) {
+  std::size_t differential = 0;
+  for (const StateLabel& label : s.states) differential += is_differential(label);
+  fmt::print(out, "\n  State matrices computation started.\n\n");
+  write_chosen_states(
+      out, {s.states, s.states.size() - differential, differential, s.rm, s.pstate, s.without_damping, s.original});
+  fmt::print(out, "\n  State matrices computation finished.\n\n");
+}
+
+// The coordinates of the second-order form stand without their rates, which are states all the same.
+void write_matrix_states(std::ostream& out, const SecondOrder& s) {
+  std::vector<StateLabel> states;
+  std::size_t differential = 0;
+  for (const StateLabel& label : s.states) {
+    if (is_differential(label)) {
+      ++differential;
+      continue;
+    }
+    states.push_back(label);
+    states.push_back(label);
+    states.back().is_rate = true;
+  }
+  fmt::print(out, "\n  Second-order matrices computation started.\n\n");
+  write_chosen_states(out, {states, states.size(), differential, s.rm, s.pstate, s.without_damping, s.original});
+  fmt::print(out, "\n  Second-order matrices computation finished.\n\n");
+}
+
+void write_eigensolution(std::ostream& out, const EigenSolution& e, double cpu_seconds) {
+  fmt::print(out, "\n  Eigensolution Using: QR eigen solver for {} values\n", e.states.size());
+  fmt::print(out, "\n  EigenSolution computation started.\n\n");
+  write_chosen_states(
+      out, {e.states, e.kinematic_states, e.differential_states, e.rm, e.pstate, e.without_damping, e.original});
   fmt::print(out, "\n{:17}E I G E N V A L U E S  at time = {:.5E}\n", "", e.time);
   fmt::print(out, "      Number    Real(cycles/unit time)   Imag.(cycles/unit time)\n");
   int number = 0;
+  const double fastest = largest_modulus(e);
   for (const EigenMode& m : e.modes) {
     const double re = m.eigenvalue_hz.real() + 0.0, im = m.eigenvalue_hz.imag();
+    const double size = std::abs(m.eigenvalue_hz);
+    const char* of_real = doubt(certain(re, size > 0 ? size : fastest, m.error_bound_hz, 6));
     if (m.is_real) {
-      fmt::print(out, "{:10d}{:25.5E}\n", ++number, re);
+      fmt::print(out, "{:10d}{:25.5E}{}\n", ++number, re, of_real);
     } else {
-      fmt::print(out, "{:10d}{:25.5E}    +/-{:19.5E}\n", ++number, re, im);
+      fmt::print(out, "{:10d}{:25.5E}{:<4}+/-{:19.5E}{}\n", ++number, re, of_real, im,
+                 doubt(certain(im, size, m.error_bound_hz, 6)));
     }
   }
-  fmt::print(out, "\n\n  Eigensolution computation finished.\n\n");
+  write_doubts(out, e, 6);
+  fmt::print(out, "\n\n  Simulation CPU time for eigenSolution computation = {:.6E} seconds.\n", cpu_seconds);
+  fmt::print(out, "\n  Eigensolution computation finished.\n\n");
 }
 
 void write_footer(std::ostream& out, bool complete, double elapsed) {
@@ -82,7 +177,6 @@ void write_footer(std::ostream& out, bool complete, double elapsed) {
 }
 
 void write_eigen_table(std::ostream& out, const EigenSolution& e, bool with_bounds) {
-  with_bounds = with_bounds && e.vectors.size() > 0;
   const auto line = [&](std::string_view number, std::string_view frequency, std::string_view damping,
                         std::string_view real, std::string_view imaginary, const std::string& bounds,
                         std::string_view mover) {
@@ -96,16 +190,22 @@ void write_eigen_table(std::ostream& out, const EigenSolution& e, bool with_boun
        e.vectors.size() ? "moves most" : "");
   line("", "cycles/time", "ratio", "cycles/time", "cycles/time", columns("cycles/time", ""), "");
   int number = 0;
+  const double fastest = largest_modulus(e);
   for (const EigenMode& m : e.modes) {
-    const double size = std::abs(m.eigenvalue_hz);
+    const double size = std::abs(m.eigenvalue_hz), compared = size > 0 ? size : fastest;
     const double ratio = size > 0 ? -m.eigenvalue_hz.real() / size : 0.0;
-    line(std::to_string(++number), fmt::format("{:.7g}", size), fmt::format("{:.5f}", ratio + 0.0),
-         fmt::format("{:.7g}", m.eigenvalue_hz.real() + 0.0),
-         m.is_real ? "0" : fmt::format("+/- {:.7g}", m.eigenvalue_hz.imag()),
+    const double bound = m.error_bound_hz;
+    const auto digits = [&](double v) {
+      return fmt::format("{:.7g}{}", v + 0.0, doubt(certain(v, compared, bound, 7)));
+    };
+    line(std::to_string(++number), digits(size),
+         fmt::format("{:.5f}{}", ratio + 0.0, doubt(m.structural_zero || m.is_real || bound <= 1e-5 * compared)),
+         digits(m.eigenvalue_hz.real()), m.is_real ? "0" : "+/- " + digits(m.eigenvalue_hz.imag()),
          columns(m.structural_zero ? "exact" : fmt::format("{:.1e}", m.error_bound_hz),
                  fmt::format("{:.1e}", m.condition)),
          m.moves_most);
   }
+  write_doubts(out, e, 7);
 }
 
 }  // namespace dynalin

@@ -19,12 +19,15 @@ void write_static_result(std::ostream&, int iterations, double imbalance);
 void write_redundant(std::ostream&, double time, const std::vector<std::string>& rows);
 enum class Block { warning, error };
 void write_block(std::ostream&, Block, std::string_view text);
-// From "EigenSolution computation started." to the table and its end.
-void write_eigensolution(std::ostream&, const EigenSolution&);
+// From the solver and "EigenSolution computation started." to the table, the CPU time and the end.
+void write_eigensolution(std::ostream&, const EigenSolution&, double cpu_seconds);
+// States and options of the matrices of STATEMAT and MKB.
+void write_matrix_states(std::ostream&, const StateSpace&);
+void write_matrix_states(std::ostream&, const SecondOrder&);
 void write_footer(std::ostream&, bool complete, double elapsed);
 
-// A table for the terminal: frequency, damping ratio, real and imaginary part; on request how far each eigenvalue may be
-// off and its condition number.
+// A table for the terminal: frequency, damping ratio, real and imaginary part; on request how far each eigenvalue may
+// be off and its condition number.
 void write_eigen_table(std::ostream&, const EigenSolution&, bool with_bounds);
 
 }  // namespace dynalin

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
 #include "output/modal_tables.h"
 
@@ -38,6 +39,23 @@ class SumTable {
   int digits_;
 };
 
+// "1, 2, 5-9"
+std::string mode_list(const std::vector<std::size_t>& modes) {
+  std::string text;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    const std::size_t first = k;
+    while (k + 1 < modes.size() && modes[k + 1] == modes[k] + 1) ++k;
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", modes[first] + 1);
+    if (k > first) text += fmt::format("-{}", modes[k] + 1);
+  }
+  return text;
+}
+
+void write_note(std::ostream& out, const std::vector<std::size_t>& modes, std::string_view what) {
+  if (modes.empty()) return;
+  fmt::print(out, "  Mode{} {}: {}.\n\n", modes.size() > 1 ? "s" : "", mode_list(modes), what);
+}
+
 double percent(double part, double whole) { return whole != 0 ? 100 * part / whole : 0; }
 
 }  // namespace
@@ -62,7 +80,17 @@ void write_energies(std::ostream& out, const ModalTableFormat& format, const Mod
   }
   row("Sum", sum);
   row("Model", energies.total);
+  if (energies.total.kinetic == 0 && energies.total.power == 0) {
+    fmt::print(out,
+               "  The model is at rest: kinetic energy and dissipated power are zero, and in equilibrium the potential "
+               "energy is zero as well, but for rounding.\n");
+  }
   t.end();
+  std::vector<std::size_t> without;
+  for (std::size_t k = 0; k < energies.modes.size(); ++k) {
+    if (wanted(k) && !energies.counted[k]) without.push_back(k);
+  }
+  write_note(out, without, "no share, the shape adds nothing to those of other modes");
 }
 
 void write_masses(std::ostream& out, const ModalTableFormat& format, const ModalMasses& masses, std::int64_t rm,
@@ -104,6 +132,15 @@ void write_masses(std::ostream& out, const ModalTableFormat& format, const Modal
   t.row("Sum", sum);
   t.row("Model", masses.total);
   t.end();
+  const auto of_kind = [&](ModalMasses::Row::Kind kind) {
+    std::vector<std::size_t> list;
+    for (std::size_t k = 0; k < masses.modes.size(); ++k) {
+      if (wanted(k) && masses.modes[k].kind == kind) list.push_back(k);
+    }
+    return list;
+  };
+  write_note(out, of_kind(ModalMasses::Row::Kind::still), "nothing that has mass moves");
+  write_note(out, of_kind(ModalMasses::Row::Kind::repeated), "the shape repeats those of modes before it");
 }
 
 }  // namespace dynalin

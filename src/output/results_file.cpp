@@ -45,6 +45,15 @@ std::string state_map(const std::vector<StateLabel>& states) {
   return s + "</dl:StateMap>\n";
 }
 
+std::string channel_map(std::string_view list, std::string_view entry, const std::vector<ChannelLabel>& channels) {
+  if (channels.empty()) return {};
+  std::string s = fmt::format("<dl:{}>\n", list);
+  int id = 0;
+  for (const ChannelLabel& c : channels)
+    s += fmt::format("<dl:{} id=\"{}\" variable=\"{}\" name=\"{}\" />\n", entry, ++id, c.variable, escaped(c.text));
+  return s + fmt::format("</dl:{}>\n", list);
+}
+
 }  // namespace
 
 std::string ResultsFile::number(double x) const { return fmt::format("{:.{}g}", x + 0.0, digits_); }
@@ -85,20 +94,38 @@ void ResultsFile::add(const EigenSolution& e) {
   blocks_.push_back(s + "</dl:Linear>\n");
 }
 
+std::string ResultsFile::matrix(std::string_view name, const Eigen::MatrixXd& m) const {
+  if (m.size() == 0) return {};
+  std::string s =
+      fmt::format("<dl:Matrix name=\"{}\" rows=\"{}\" columns=\"{}\" order=\"column\">\n", name, m.rows(), m.cols());
+  for (Eigen::Index c = 0; c < m.cols(); ++c) {
+    for (Eigen::Index r = 0; r < m.rows(); ++r) s += number(m(r, c)) + (r + 1 < m.rows() ? " " : "\n");
+  }
+  return s + "</dl:Matrix>\n";
+}
+
+template <class Matrices>
+std::string ResultsFile::head(const Matrices& m, std::string_view option) const {
+  std::string s = fmt::format(
+      "<dl:Linear option=\"{}\" time=\"{}\" rm=\"{}\" pstate=\"{}\" pinput=\"{}\" poutput=\"{}\" damping=\"{}\" "
+      "original=\"{}\">\n",
+      option, number(m.time), m.rm, m.pstate, m.pinput, m.poutput, m.without_damping ? 0 : 1, m.original ? 1 : 0);
+  s += state_map(m.states);
+  s += channel_map("Inputs", "Input", m.inputs);
+  return s + channel_map("Outputs", "Output", m.outputs);
+}
+
 void ResultsFile::add(const StateSpace& model) {
-  std::string s = fmt::format("<dl:Linear time=\"{}\">\n", number(model.time)) + state_map(model.states);
-  const auto matrix = [&](std::string_view name, const Eigen::MatrixXd& m) {
-    if (m.size() == 0) return;
-    s += fmt::format("<dl:Matrix name=\"{}\" rows=\"{}\" columns=\"{}\" order=\"column\">\n", name, m.rows(), m.cols());
-    for (Eigen::Index c = 0; c < m.cols(); ++c) {
-      for (Eigen::Index r = 0; r < m.rows(); ++r) s += number(m(r, c)) + (r + 1 < m.rows() ? " " : "\n");
-    }
-    s += "</dl:Matrix>\n";
-  };
-  matrix("A", model.A);
-  matrix("B", model.B);
-  matrix("C", model.C);
-  matrix("D", model.D);
+  std::string s = head(model, "STATEMAT");
+  s += matrix("A", model.A) + matrix("B", model.B) + matrix("C", model.C) + matrix("D", model.D);
+  blocks_.push_back(s + "</dl:Linear>\n");
+}
+
+void ResultsFile::add(const SecondOrder& model) {
+  Eigen::MatrixXd KB(model.K.rows(), model.K.cols() + model.B.cols());
+  KB << model.K, model.B;
+  std::string s = head(model, "MKB") + matrix("M", model.M) + matrix("KB", KB);
+  s += matrix("P", model.P) + matrix("C", model.C) + matrix("D", model.D);
   blocks_.push_back(s + "</dl:Linear>\n");
 }
 

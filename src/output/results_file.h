@@ -17,10 +17,15 @@ class ResultsFile {
   ResultsFile(std::string title, int digits) : title_(std::move(title)), digits_(digits) {}
   void add(const EigenSolution&);
   void add(const StateSpace&);
+  void add(const SecondOrder&);
   void write(std::ostream&, const std::string& version) const;
 
  private:
   std::string number(double) const;
+  std::string matrix(std::string_view name, const Eigen::MatrixXd&) const;
+  // The head of what belongs to matrices: options and channels.
+  template <class Matrices>
+  std::string head(const Matrices&, std::string_view option) const;
   std::string title_;
   int digits_;
   std::vector<std::string> blocks_;

@@ -1,0 +1,200 @@
+// What cannot be read whole is not read at all, and what is too large is an error that says so.
+#include <gmock/gmock.h>
+
+#include "program.h"
+
+namespace dynalin::faults {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Inputs : public Faults {
+ protected:
+  void expect_refused(const Outcome& r, const std::string& name, const std::string& reason) const {
+    EXPECT_EQ(r.status, 1) << name << " signal " << r.signal << r.err;
+    EXPECT_THAT(r.err, HasSubstr(name));
+    EXPECT_THAT(r.err, HasSubstr("cannot be read: " + reason));
+  }
+  Outcome run_dataset(const std::string& name, const Surroundings& surroundings = {}) const {
+    return run({"run", name, "-c", "LINEAR/EIGENSOL"}, surroundings);
+  }
+};
+
+// An error of the disk ends the reading as the end of the file does; what was read until then is a model as well.
+TEST_F(Inputs, a_read_error_is_not_the_end_of_a_file) {
+  if (sanitized) GTEST_SKIP();
+  write("points", "0 1\n1 2\n2 4\n3 8\n4 16\n5 32\n");
+  write("matrix", "ADAMSMAT\nA\nA FULL RORDER 1 1 1 (1E12.4)\n  1.0000E+00\n");
+  std::string dataset = pendulum;
+  dataset.insert(dataset.rfind("END"), "SPLINE/1, FILE=points\nMATRIX/1, FILE=matrix, NAME=A\n");
+  write("model.adm", dataset);
+  ASSERT_EQ(run({"run", "model.acf"}).status, 0);
+  for (const std::string name : {"model.adm", "model.acf", "points", "matrix"}) {
+    for (const std::string bytes : {"0", "14", "20"}) {
+      expect_refused(run({"run", "model.acf"}, fault("FAULT_READ", "/" + name, bytes)), name, "Input/output error");
+    }
+  }
+}
+
+TEST_F(Inputs, a_file_that_cannot_be_read_at_any_place_is_refused) {
+  fs::create_symlink("/proc/self/mem", folder_ / "memory.adm");
+  expect_refused(run_dataset("memory.adm"), "memory.adm", "");
+}
+
+TEST_F(Inputs, folders_pipes_and_devices_are_no_datasets) {
+  fs::create_directory(folder_ / "folder.adm");
+  expect_refused(run_dataset("folder.adm"), "folder.adm", "it is a directory");
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.adm").c_str(), 0600), 0);
+  expect_refused(run_dataset("pipe.adm"), "pipe.adm", "it is a pipe");
+  for (const auto device : {"/dev/zero", "/dev/null", "/dev/tty"}) {
+    fs::remove(folder_ / "device.adm");
+    fs::create_symlink(device, folder_ / "device.adm");
+    const Outcome r = run_dataset("device.adm");
+    EXPECT_EQ(r.status, 1);
+    EXPECT_THAT(r.err, HasSubstr("device.adm cannot be read: "));
+  }
+  // The terminal of the last one may not be there at all.
+  fs::remove(folder_ / "device.adm");
+  fs::create_symlink("/dev/zero", folder_ / "device.adm");
+  for (const std::string name : {"folder", "pipe", "device"}) {
+    write("model.acf", name + ".adm\nout\nLINEAR/EIGENSOL\n");
+    const Outcome r = run({"run", "model.acf"});
+    EXPECT_EQ(r.status, 1);
+    EXPECT_THAT(r.err, HasSubstr("model.acf:1:1: error: the dataset " + name + ".adm cannot be read: it is a"));
+  }
+}
+
+TEST_F(Inputs, folders_pipes_and_devices_are_no_files_of_numbers) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", folder_ / "endless");
+  for (const std::string name : {"..", "pipe", "endless"}) {
+    for (const std::string& statement :
+         std::vector<std::string>{"SPLINE/1, FILE=" + name, "MATRIX/1, NAME=A, FILE=" + name}) {
+      std::string dataset = pendulum;
+      dataset.insert(dataset.rfind("END"), statement + "\n");
+      write("model.adm", dataset);
+      const Outcome r = run({"run", "model.acf"});
+      EXPECT_EQ(r.status, 1) << statement << r.signal;
+      EXPECT_THAT(r.err, HasSubstr("cannot be read: it is a")) << statement;
+      EXPECT_THAT(r.err, HasSubstr("[unreadable-file]")) << statement;
+    }
+  }
+}
+
+TEST_F(Inputs, a_dataset_longer_than_any_is_refused_before_it_is_read) {
+  write("long.adm", pendulum);
+  fs::resize_file(folder_ / "long.adm", 5ULL << 30);  // a hole: no disk is needed
+  expect_refused(run_dataset("long.adm"), "long.adm", "it is longer than 4 GiB");
+}
+
+// --- memory
+
+class Memory : public Faults {
+ protected:
+  void SetUp() override {
+    Faults::SetUp();
+    if (sanitized) GTEST_SKIP();
+  }
+  Outcome run_within(rlim_t bytes) const {
+    Surroundings little;
+    little.prepare = [bytes] { limit(RLIMIT_AS, bytes); };
+    return run({"run", "model.acf", "--json", "results"}, little);
+  }
+  void expect_out_of_memory(const Outcome& r) const {
+    EXPECT_EQ(r.status, 2) << "signal " << r.signal << r.err;
+    EXPECT_THAT(r.err, HasSubstr("error: out of memory"));
+    EXPECT_FALSE(there("results"));
+    for (const std::string& name : names()) EXPECT_EQ(name.find(".part"), std::string::npos);
+  }
+  static constexpr rlim_t megabyte = 1 << 20;
+};
+
+TEST_F(Memory, too_little_for_the_dataset_is_an_error) {
+  std::string dataset = pendulum;
+  dataset.insert(dataset.rfind("END"), "MATRIX/1, SPARSE, ROWS=9000, COLUMNS=9000, I=1, J=1, VALUES=1\n");  // 648 MB
+  write("model.adm", dataset);
+  expect_out_of_memory(run_within(400 * megabyte));
+}
+
+TEST_F(Memory, too_little_for_the_file_is_an_error) {
+  write("model.adm", pendulum);
+  fs::resize_file(folder_ / "model.adm", 1ULL << 30);
+  expect_out_of_memory(run_within(400 * megabyte));
+}
+
+// A chain in rows: as many states as need matrices of 100 MB each.
+TEST_F(Memory, too_little_for_the_matrices_is_an_error) {
+  std::string dataset = "many\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n";
+  for (int k = 2; k < 402; ++k) {
+    const std::string id = std::to_string(k);
+    dataset += "PART/" + id + ", MASS=1, CM=" + id + ", IP=1,1,1\nMARKER/" + id + "\n";
+  }
+  write("model.adm", dataset + "END\n");
+  write("model.acf", "model\nmodel\nLINEAR/STATEMAT, FILE=m\nLINEAR/EIGENSOL\n");
+  expect_out_of_memory(run_within(400 * megabyte));
+  EXPECT_FALSE(there("m"));
+}
+
+// --- sizes and counts that make no sense
+
+TEST_F(Memory, absurd_sizes_are_refused_at_their_place) {
+  const std::vector<std::string> numbers = {"0",   "-1", "2147483647", "1E300", "-1E300", "9007199254740992",
+                                            "0.5", "NAN"};
+  for (const std::string& n : numbers) {
+    for (const std::string& argument : std::vector<std::string>{
+             "EIGENSOL, COORDS=1, TABLE_PRECISION=" + n, "EIGENSOL, COORDS=" + n + "," + n,
+             "EIGENSOL, MLIST=" + n + ", MRANGE=1", "EIGENSOL, MLIST=20, MRANGE=" + n, "EIGENSOL, ENERGY_PER_MODE=" + n,
+             "EIGENSOL, MASS_PER_MODE=1, MODAL_RM=" + n, "EIGENSOL, RM=" + n, "EIGENSOL, PSTATE=" + n,
+             "STATEMAT, FILE=m, PINPUT=" + n, "EIGENSOL, FCOORDS=" + n + "," + n}) {
+      write("model.acf", "model\nmodel\nLINEAR/" + argument + "\n");
+      const Outcome r = run({"run", "model.acf"});
+      const bool may_run = argument.find("COORDS") != std::string::npos ||
+                           argument.find("MRANGE=2147483647") != std::string::npos ||
+                           argument.find("MRANGE=9007199254740992") != std::string::npos ||
+                           argument.find("ENERGY_PER_MODE=") != std::string::npos;
+      if (r.status != 0 || !may_run) {
+        EXPECT_EQ(r.status, 1) << argument << " signal " << r.signal << r.err;
+      }
+      if (r.status == 1) {
+        EXPECT_THAT(r.err, HasSubstr("model.acf:3:")) << argument;
+      }
+    }
+  }
+}
+
+TEST_F(Memory, absurd_sizes_of_statements_are_refused_at_their_place) {
+  const std::vector<std::string> numbers = {"0", "-1", "2147483647", "1E300", "9007199254740992", "0.5", "NAN"};
+  for (const std::string& n : numbers) {
+    for (const std::string& statement : std::vector<std::string>{
+             "RESULTS/XRF, DECIMALPLACES=" + n, "RESULTS/DECIMALPLACES=" + n, "ARRAY/1, IC, NUMBERS=1,2, SIZE=" + n,
+             "MATRIX/1, FULL=RORDER, ROWS=" + n + ", COLUMNS=" + n + ", VALUES=1,2",
+             "MATRIX/1, FULL=CORDER, ROWS=4294967296, COLUMNS=" + n + ", VALUES=1,2",
+             "MATRIX/1, SPARSE, ROWS=" + n + ", COLUMNS=" + n + ", I=1, J=1, VALUES=2.5",
+             "MATRIX/1, SPARSE, I=" + n + ", J=" + n + ", VALUES=2.5", "SPLINE/1, FILE=points, CHANNEL=" + n,
+             "CURVE/1, MATRIX=2, ORDER=" + n, "CURVE/1, MATRIX=2, INTERPOLATION_ORDER=" + n,
+             "CURVE/1, MATRIX=2, CONTROL_POINTS=" + n, "VARIABLE/1, FUNCTION=ARYVAL(9," + n + ")",
+             "VARIABLE/1, FUNCTION=POLY(TIME,0," + n + ")", "VARIABLE/1, FUNCTION=CHEBY(TIME,0,1," + n + ")",
+             "VARIABLE/1, FUNCTION=DX(" + n + ")", "VARIABLE/1, FUNCTION=TIME**" + n,
+             "JOINT/" + n + ", FIXED, I=20, J=10"}) {
+      write("points", "0 1 3\n1 2 2\n2 4 1\n3 8 5\n4 16 7\n");
+      std::string dataset = pendulum;
+      dataset.insert(dataset.rfind("END"),
+                     statement +
+                         "\nMATRIX/2, FULL=RORDER, ROWS=5, COLUMNS=3, VALUES=0,0,0,1,0,0,2,1,0,3,1,0,4,2,0\n"
+                         "ARRAY/9, IC, NUMBERS=1,2,3\n");
+      write("model.adm", dataset);
+      const Outcome r = run({"check", "model.acf"});
+      EXPECT_TRUE(r.status == 0 || r.status == 1)
+          << statement << " status " << r.status << " signal " << r.signal << r.err;
+      if (r.status == 1) {
+        EXPECT_THAT(r.err, HasSubstr("model.adm:10:")) << statement;
+      }
+      if (n == "1E300" && statement.find("FUNCTION") == std::string::npos) {
+        EXPECT_EQ(r.status, 1) << statement << ": nobody can mean that";
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dynalin::faults
