@@ -54,10 +54,10 @@ void measure(int n) {
   };
   const double lapack = seconds([] { return 0; }, [&](int) { solve(linear->model.A); });
   std::optional<UnrefinedPairs> found;
-  const double pairs = seconds([] { return 0; }, [&](int) { found = unrefined_pairs(*linear, Vectors::right); });
+  const double pairs = seconds([] { return 0; }, [&](int) { found = unrefined_pairs(*linear); });
   if (!found) return fmt::print("the QR iteration did not converge\n");
   const double zeros =
-      seconds([] { return 0; }, [&](int) { (void)split_zero_modes(linear->model.A, linear->rounding); });
+      seconds([] { return 0; }, [&](int) { (void)split_zero_modes(linear->A, linear->rounding, linear->structural_zeros.get()); });
   const double refining =
       seconds([&] { return found->pairs; }, [&](EigenPairs& p) { refine(*linear->equations, found->zero, p); });
   // Backward errors; all else that eigensolve adds is a pass over the vectors.

@@ -38,6 +38,7 @@ struct LinearRequest {
 // What is decided before a model is made.
 struct ReadingOptions {
   bool pade_delays = false;  // a DELAY as (1 − τs/2)/(1 + τs/2) with a state of its own, else as e − τ e′
+  std::optional<double> user_value{};  // what takes the place of compiled user routines; nothing: they are errors
 };
 
 // A body at the operating point, global axes.

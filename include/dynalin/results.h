@@ -54,6 +54,8 @@ struct StateSpace {
   std::vector<StateLabel> states;
   std::vector<ChannelLabel> inputs, outputs;
   std::int64_t pinput = 0, poutput = 0;  // ids of the statements, 0 if none was asked for
+  std::int64_t rm = 0, pstate = 0;       // marker of the RM option and id of the PSTATE, 0 if none
+  bool without_damping = false, original = false;
   Eigen::MatrixXd A, B, C, D;
 };
 
@@ -62,7 +64,9 @@ struct SecondOrder {
   double time = 0;
   std::vector<StateLabel> states;  // of s
   std::vector<ChannelLabel> inputs, outputs;
-  std::int64_t pinput = 0, poutput = 0;
+  std::int64_t pinput = 0, poutput = 0;  // ids as in StateSpace
+  std::int64_t rm = 0, pstate = 0;
+  bool without_damping = false, original = false;
   Eigen::MatrixXd M, B, K, P, C, D;
 };
 
@@ -77,6 +81,8 @@ struct EigenMode {
   double backward_error = 0;  // ‖A v − λ v‖ / ‖A‖ of the computed pair
   // |computed − exact| for the perturbation equations as assembled, λ/2π like the eigenvalue. 0 for a structural zero.
   double error_bound_hz = 0;
+  // The value is the mean of so many eigenvalues within the bound, which the equations do not tell apart.
+  std::size_t cluster_size = 1;
   bool structural_zero = false;  // zero because the model is free to move that way, not by computation
   bool refined = false;          // by inverse iteration on the sparse equations
   std::string moves_most;  // the part with the largest motion, or the controller where no part moves; empty: not known

@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <fstream>
 #include <sstream>
 
-#include "analysis/statics.h"
+#include "analysis/static_settings.h"
+#include "base/read_file.h"
 #include "elements/catalogue.h"
 #include "linear/cautions.h"
 #include "linear/eigen.h"
 #include "linear/mode_shapes.h"
+#include "linear/still_modes.h"
 
 namespace dynalin {
 
@@ -26,6 +27,8 @@ struct Mechanism::State {
   State(SourceRef text, std::shared_ptr<const Model> m, const SystemOptions& options)
       : source(std::move(text)), model(std::move(m)), system(model, options), point(system.drawn()) {
     warnings = system.layout().remarks;
+    const std::vector<std::string>& settings = model->settings.remarks;
+    warnings.insert(warnings.end(), settings.begin(), settings.end());
   }
 
   const OperatingPoint& point_of(const LinearRequest& request) const {
@@ -92,11 +95,12 @@ Mechanism& Mechanism::operator=(Mechanism&&) noexcept = default;
 Mechanism::~Mechanism() = default;
 
 Mechanism Mechanism::load(const std::string& path, const ReadingOptions& options) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (in) text << in.rdbuf();
-  if (!in) throw Error(path + " cannot be read", {path + " cannot be read"});
-  return from_text(text.str(), path, options);
+  auto text = read_file(path);
+  if (!text) {
+    const std::string message = path + " cannot be read: " + text.error();
+    throw Error(message, {message});
+  }
+  return from_text(std::move(*text), path, options);
 }
 
 Mechanism Mechanism::from_text(std::string dataset, std::string name, const ReadingOptions& options) {
@@ -104,7 +108,9 @@ Mechanism Mechanism::from_text(std::string dataset, std::string name, const Read
   auto parsed = parse_dataset(source);
   Diagnostics diagnostics = std::move(parsed.diagnostics);
   const bool read = !diagnostics.has_errors();
-  auto built = build_model(std::make_shared<const Dataset>(std::move(parsed.value)), catalogue());
+  const auto written = std::make_shared<Dataset>(std::move(parsed.value));
+  auto built = build_model(written, catalogue(), {options.user_value});
+  if (built.value->dataset == written) written->release_arguments();
   if (read || built.diagnostics.has_errors()) diagnostics.append(std::move(built.diagnostics));
   std::vector<std::string> messages;
   for (const Diagnostic& d : diagnostics.items()) messages.push_back(d.message);
@@ -130,7 +136,7 @@ void Mechanism::initial_conditions() {
 int Mechanism::static_equilibrium(bool restore_velocities) {
   Findings findings;
   StaticsReport report;
-  StaticsOptions options;
+  StaticsOptions options = statics_options(state_->model->settings.equilibrium);
   options.restore_velocities = restore_velocities;
   state_->accept(value_or_throw(static_operating_point(state_->system, state_->point, options, report, findings)),
                  findings);
@@ -156,6 +162,7 @@ EigenSolution Mechanism::eigensolution(const LinearRequest& request) {
   solution.pstate = request.pstate.value_or(0);
   solution.without_damping = request.without_damping;
   solution.original = request.principal_states && request.without_rate_coupling && request.without_reconciliation;
+  clear_still_modes(state_->system, state_->point_of(request), linear, solution);
   name_movers(state_->system, state_->point_of(request), linear, solution);
   map_shapes(state_->system, linear, solution);
   for (std::string& text : cautions(state_->system, state_->point_of(request), linear, solution)) {
