@@ -11,6 +11,7 @@
 
 #include "linear/dense_products.h"
 #include "linear/eigen_refinement.h"
+#include "linear/perturbation.h"
 
 namespace dynalin {
 
@@ -67,20 +68,25 @@ void clear_rounding(EigenPairs& pairs, std::vector<EigenTrust>& trust) {
   }
 }
 
-// What no bound is less than [rad/time]. Vectors so nearly orthogonal are those of a defective value, and measuring
-// along them says nothing: Elsner's bound for those that come together, with the rounding of the core (in long double
-// where they were found to be a cluster). Beside zeros of the structure a value of the size of rounding is one of
-// rounding.
-double least_bound(Complex value, const EigenMode& mode, const ZeroModes& zero) {
-  const double size = zero.block.norm(), eps = std::numeric_limits<double>::epsilon();
-  const double n = static_cast<double>(zero.block.rows());
-  if (mode.condition > 1e14) {
-    const bool alone = mode.cluster_size <= 1;
-    const double together = alone ? 2.0 : static_cast<double>(mode.cluster_size);
-    return size * std::pow(32 * n * (alone ? eps : 5.5e-20), 1 / together);
+// Whether a number has so few digits that it is none that was rounded.
+bool is_short(double v) {
+  int exponent = 0;
+  const double digits = std::ldexp(std::frexp(v, &exponent), 26);
+  return digits == std::trunc(digits);
+}
+
+// What the entries of the state matrix are not known to because those of the equations are sums rounded to double
+// precision. One that is a single product and short is exact: a coefficient as the dataset states it.
+Eigen::MatrixXd rounding_of_entries(const LinearSystem& linear) {
+  constexpr double roundoff = std::numeric_limits<double>::epsilon() / 2, much = 1 + 1e-9;
+  Eigen::MatrixXd off = linear.rounding / (2 * PerturbationEquations::units_of_rounding);
+  for (Eigen::Index c = 0; c < off.cols(); ++c) {
+    for (Eigen::Index r = 0; r < off.rows(); ++r) {
+      const double entry = linear.A(r, c);
+      if (is_short(entry) && off(r, c) <= much * roundoff * std::abs(entry)) off(r, c) = 0;
+    }
   }
-  if (std::abs(value) <= 1e-12 * size) return std::abs(value) + mode.condition * eps * size;
-  return 0;
+  return off;
 }
 
 }  // namespace
@@ -109,11 +115,10 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   auto& [zero, pairs] = *found;
   const Eigen::Index n = A.rows(), z = zero.count;
   std::vector<EigenTrust> trust(pairs.values.size());
-  if (n > z) trust = refine(*linear.equations, zero, pairs);
-  for (std::size_t k = 0; linear.uncertainty.size() > 0 && k < trust.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(k);
-    const Eigen::VectorXd left = pairs.left.col(at).cwiseAbs(), right = pairs.right.col(at).cwiseAbs();
-    trust[k].bound += left.dot(linear.uncertainty * right) / std::abs(pairs.left.col(at).dot(pairs.right.col(at)));
+  if (n > z) {
+    Eigen::MatrixXd uncertainty = rounding_of_entries(linear);
+    if (linear.uncertainty.size() > 0) uncertainty += linear.uncertainty;
+    trust = refine(*linear.equations, zero, uncertainty, pairs);
   }
 
   clear_rounding(pairs, trust);
@@ -146,7 +151,6 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
     mode.error_bound_hz = trust[k].bound / cycle;
     mode.refined = trust[k].refined;
     mode.cluster_size = static_cast<std::size_t>(trust[k].cluster);
-    mode.error_bound_hz = std::max(mode.error_bound_hz, least_bound(pairs.values[k], mode, zero) / cycle);
     out.modes.push_back(std::move(mode));
   }
   const Eigen::MatrixXcd image = real_product(A, out.vectors);

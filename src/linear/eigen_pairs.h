@@ -19,6 +19,7 @@ struct EigenPairs {
 
 struct EigenTrust {
   double bound = 0;      // |error| of the value as corrected [rad/time]
+  double unknown = 0;    // the part of it that no better computation takes away
   bool refined = false;  // by inverse iteration
   // So many eigenvalues are within the bound that nothing tells apart: the value is their mean.
   Eigen::Index cluster = 1;

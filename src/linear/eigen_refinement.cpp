@@ -63,11 +63,12 @@ std::vector<double> nearest(const ZeroModes& zero, const EigenPairs& pairs) {
   return gap;
 }
 
-// Eigenvalues whose bound is not small against their modulus.
+// Eigenvalues whose bound is not small against their modulus, nor close to the least that it may be.
 std::vector<Index> inexact(const EigenPairs& pairs, const std::vector<EigenTrust>& trust) {
   std::vector<Index> found;
   for (std::size_t i = 0; i < trust.size(); ++i) {
-    if (!(trust[i].bound <= good_enough * std::abs(pairs.values[i]))) found.push_back(static_cast<Index>(i));
+    const double enough = good_enough * std::abs(pairs.values[i]) + 1.1 * trust[i].unknown;
+    if (!(trust[i].bound <= enough)) found.push_back(static_cast<Index>(i));
   }
   return found;
 }
@@ -86,9 +87,10 @@ void doubt_rounding(const ZeroModes& zero, const EigenPairs& pairs, std::vector<
 
 }  // namespace
 
-std::vector<EigenTrust> refine(const PerturbationEquations& equations, const ZeroModes& zero, EigenPairs& pairs) {
-  const StructuredPencil pencil(equations, zero);
-  std::vector<EigenTrust> trust(pairs.values.size(), {std::numeric_limits<double>::infinity(), false, 1});
+std::vector<EigenTrust> refine(const PerturbationEquations& equations, const ZeroModes& zero,
+                               const Eigen::MatrixXd& uncertainty, EigenPairs& pairs) {
+  const StructuredPencil pencil(equations, zero, uncertainty);
+  std::vector<EigenTrust> trust(pairs.values.size(), {std::numeric_limits<double>::infinity(), 0, false, 1});
   std::vector<double> gap;
   const auto well_apart = [&](Index i, double part) {
     const auto at = static_cast<std::size_t>(i);
@@ -112,6 +114,11 @@ std::vector<EigenTrust> refine(const PerturbationEquations& equations, const Zer
   if (!all_apart) {
     if (std::optional<IncludedValues> found = included_values(pencil, zero)) {
       pairs = std::move(found->pairs), trust = std::move(found->trust);
+      for (std::size_t i = 0; i < trust.size(); ++i) {
+        const auto at = static_cast<Index>(i);
+        const Eigen::VectorXd left = pairs.left.col(at).cwiseAbs(), right = pairs.right.col(at).cwiseAbs();
+        trust[i].unknown = left.dot(uncertainty * right) / std::abs(pairs.left.col(at).dot(pairs.right.col(at)));
+      }
     }
   }
   gap = nearest(zero, pairs);

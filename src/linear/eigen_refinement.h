@@ -11,7 +11,9 @@
 
 namespace dynalin {
 
-// Corrects `pairs` in place. The zero modes are those split off before.
-std::vector<EigenTrust> refine(const PerturbationEquations&, const ZeroModes&, EigenPairs& pairs);
+// Corrects `pairs` in place. The zero modes are those split off before; the bounds hold for all state matrices whose
+// entries differ by no more than `uncertainty` from those of the equations.
+std::vector<EigenTrust> refine(const PerturbationEquations&, const ZeroModes&, const Eigen::MatrixXd& uncertainty,
+                               EigenPairs& pairs);
 
 }  // namespace dynalin

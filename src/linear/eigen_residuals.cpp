@@ -32,18 +32,35 @@ Eigen::VectorXd largest_share(const Matrix& sizes) {
   return share;
 }
 
+// y_iᴴ x_i: where they are nearly orthogonal the rounding of a sum in double would count.
+ComplexVector products_of_pairs(const EigenPairs& pairs) {
+  ComplexVector products(pairs.right.cols());
+  for (Index i = 0; i < products.size(); ++i) {
+    long double re = 0, im = 0;
+    for (Index k = 0; k < pairs.right.rows(); ++k) {
+      const std::complex<long double> x(pairs.right(k, i)), y(pairs.left(k, i));
+      re += y.real() * x.real() + y.imag() * x.imag();
+      im += y.real() * x.imag() - y.imag() * x.real();
+    }
+    products(i) = {static_cast<double>(re), static_cast<double>(im)};
+  }
+  return products;
+}
+
 }  // namespace
 
 EigenResiduals::EigenResiduals(const StructuredPencil& pencil, const ZeroModes& zero, const EigenPairs& pairs)
     : pairs_(pairs), floor_(Eigen::VectorXd::Zero(pairs.right.cols())) {
   product_ = adjoint_product(pairs.left, pairs.right);
-  unit_ = product_.diagonal();
+  unit_ = products_of_pairs(pairs);
   complete_ = pairs.right.allFinite() && pairs.left.allFinite() && unit_.cwiseAbs().minCoeff() > least_product;
   if (!complete_) return;
   product_conjugate_ = transposed_product(pairs.left, pairs.right);
   row_floor_.resize(count(), 3), column_floor_.resize(count(), 3);
-  const ComplexMatrix reduced = measure(pencil);
   const ComplexVector of_unit = unit_.cwiseInverse();
+  const Matrix onto = pencil.uncertainty().transpose(), right = pairs.right.cwiseAbs(), left = pairs.left.cwiseAbs();
+  uncertain_ = of_unit.cwiseAbs().asDiagonal() * transposed_product(left, transposed_product(onto, right));
+  const ComplexMatrix reduced = measure(pencil);
   const auto in_units = [&](ComplexMatrix& plain, ComplexMatrix& crossed) {
     plain = of_unit.asDiagonal() * plain;
     crossed = of_unit.conjugate().asDiagonal() * crossed;
@@ -86,7 +103,7 @@ ComplexMatrix EigenResiduals::measure(const StructuredPencil& pencil) {
       const double off = std::abs(other - y.col(c).dot(reduced.col(first + c)));
       const double sum = y.col(c).cwiseAbs().dot(reduced.col(first + c).cwiseAbs());
       floor_(first + c) += margin_of_difference * off + static_cast<double>(N) * eps * sum;
-      floor_(first + c) /= std::abs(unit_(first + c));
+      floor_(first + c) = floor_(first + c) / std::abs(unit_(first + c)) + uncertain_(first + c, first + c);
       column_floor_(first + c, 1) = sum > 0 ? off / sum : 0;
     }
   });
@@ -117,7 +134,7 @@ void EigenResiduals::measure_floors(const StructuredPencil& pencil, const Comple
   Eigen::VectorXd of_p = Eigen::VectorXd::Zero(count()), of_g = of_p;
   for (Index i = 0; i < count(); ++i) {
     for_others(i, [&](const Member& j) {
-      const double share = std::abs(p({i, false}, j));
+      const double share = std::abs(p({i, false}, j)) + static_cast<double>(n) * eps / std::abs(unit_(i));
       row_floor_(i, 2) = std::max(row_floor_(i, 2), share);
       of_p(j.at) += share;
       of_g(j.at) += std::abs(g({i, false}, j)) + floor(i, j.at);
@@ -132,7 +149,7 @@ void EigenResiduals::measure_floors(const StructuredPencil& pencil, const Comple
     double mixed = 0;
     for_others(i, [&](const Member& j) {
       const double onto = std::abs(g(j, me)) + floor(j.at, i);
-      mixed += std::abs(p(me, j)) * onto;
+      mixed += (std::abs(p(me, j)) + static_cast<double>(n) * eps / std::abs(unit_(i))) * onto;
     });
     floor_(i) += mixed;
   }

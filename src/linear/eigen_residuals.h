@@ -31,8 +31,12 @@ class EigenResiduals {
 
   // What rounding may have left of G_ii: of its own sums, and what was taken out for the sake of the zero modes.
   double floor(Eigen::Index i) const { return floor_(i); }
-  // The same of G_ij off the diagonal.
-  double floor(Eigen::Index i, Eigen::Index j) const { return row_floor_.row(i).dot(column_floor_.row(j)); }
+  // The part of it that follows from what is not known of the state matrix.
+  double unknown(Eigen::Index i) const { return uncertain_(i, i); }
+  // The floor of G_ij off the diagonal.
+  double floor(Eigen::Index i, Eigen::Index j) const {
+    return row_floor_.row(i).dot(column_floor_.row(j)) + uncertain_(i, j);
+  }
 
   // What the zeros that were split off add to the second order of mode i, |g_i0 (λ_i − N)⁻¹ g_0i|, and the share that
   // they take in its right vector.
@@ -68,6 +72,7 @@ class EigenResiduals {
   // Rows in units of y_iᴴ x_i; crossed: of y̅_i with r_j and x_j.
   Eigen::MatrixXcd along_, along_conjugate_, product_, product_conjugate_;
   Eigen::MatrixXcd zero_share_;
+  Eigen::MatrixXd uncertain_;  // of entries, by what is not known of the state matrix
 };
 
 }  // namespace dynalin

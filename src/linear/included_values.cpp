@@ -88,6 +88,7 @@ Core measure(const StructuredPencil& pencil, const ZeroModes& zero) {
   off.rightCols(m).diagonal().array() = (product.rightCols(m).diagonal().array() - 1.0L).cast<double>();
   off = off.cwiseAbs() + static_cast<double>(n) * long_eps * (Y.cwiseAbs().transpose() * T.cwiseAbs());
   core.uncertainty += 1.1 * off * (L.transpose() * reduced).cwiseAbs();
+  core.uncertainty += transposed_product(Matrix(Y.cwiseAbs()), Matrix(pencil.uncertainty() * X.cwiseAbs()));
   core.uncertainty *= upward;
   return core;
 }
@@ -128,7 +129,7 @@ std::optional<IncludedValues> included_values(const StructuredPencil& pencil, co
     out.pairs.right.middleCols(at, disc.count) = disc.right;
     out.pairs.left.middleCols(at, disc.count) = disc.left;
     out.pairs.values.insert(out.pairs.values.end(), static_cast<std::size_t>(disc.count), disc.centre);
-    out.trust.insert(out.trust.end(), static_cast<std::size_t>(disc.count), {bound, false, disc.count});
+    out.trust.insert(out.trust.end(), static_cast<std::size_t>(disc.count), {bound, 0, false, disc.count});
     at += disc.count;
   }
   map_to_states(zero, out.pairs);

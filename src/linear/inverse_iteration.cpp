@@ -18,7 +18,6 @@ using ComplexVector = Eigen::VectorXcd;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr std::size_t most_refined = 100;
 constexpr double most_factor_entries = 2e7;
-constexpr double least_product = 1e-8;  // |yᴴ x|: beyond that a step says little about the error that is left
 
 void refine_one(const StructuredPencil& pencil, ShiftedLu& lu, Index i, EigenPairs& pairs, EigenTrust& trust) {
   Complex& value = pairs.values[static_cast<std::size_t>(i)];
@@ -29,7 +28,7 @@ void refine_one(const StructuredPencil& pencil, ShiftedLu& lu, Index i, EigenPai
   w.tail(n) = pairs.right.col(i);
   y.tail(n) = pairs.left.col(i);
   LongComplex lambda(start);
-  double change = std::numeric_limits<double>::infinity(), floor = 0;
+  double change = std::numeric_limits<double>::infinity(), floor = 0, unknown = 0;
   for (int round = 0; round < 4; ++round) {
     w.head(N - n).setZero(), y.head(N - n).setZero();
     lu.solve(w), lu.solve_adjoint(y);
@@ -37,23 +36,24 @@ void refine_one(const StructuredPencil& pencil, ShiftedLu& lu, Index i, EigenPai
     if (!w.allFinite() || !y.allFinite()) return;
     const PencilResidual r = pencil.residual(lambda, w);
     const Complex unit = y.tail(n).dot(w.tail(n));
-    if (std::abs(unit) < least_product) return;
+    if (unit == 0.0) return;
     const Complex delta = y.dot(r.value) / unit;
     floor = (y.cwiseAbs().dot(r.rounding) + first_order_margin * std::abs(y.dot(pencil.taken_out(w)))) / std::abs(unit);
+    unknown = y.tail(n).cwiseAbs().dot(pencil.uncertainty() * w.tail(n).cwiseAbs()) / std::abs(unit);
     lambda += LongComplex(delta);
     change = std::abs(delta);
     if (round > 0 && change <= floor + eps * std::abs(start)) break;
   }
   Complex refined(static_cast<double>(lambda.real()), static_cast<double>(lambda.imag()));
   if (pairs.real(i)) refined.imag(0);
-  const double bound = 4 * change + floor + eps * std::abs(refined);
+  const double bound = 4 * change + floor + unknown + eps * std::abs(refined);
   // The disc around the start holds this eigenvalue and no other; farther away another one was found.
   if (!(std::abs(refined - start) <= trust.bound && bound <= trust.bound)) return;
   if (!pairs.real(i) && refined.imag() <= 0) return;
   value = refined;
   pairs.right.col(i) = w.tail(n);
   pairs.left.col(i) = y.tail(n);
-  trust = {bound, true, 1};
+  trust = {bound, unknown, true, 1};
 }
 
 }  // namespace

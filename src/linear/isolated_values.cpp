@@ -72,7 +72,7 @@ class Discs {
       bound += 2 * residuals_.zero_coupling(i) + 2 * eps * std::abs(centre_(i));
       const bool known = std::isfinite(bound);
       out.values.push_back(known ? centre_(i) : value(pairs_, {i, false}));
-      out.trust.push_back({known ? bound : infinity, false, 1});
+      out.trust.push_back({known ? bound : infinity, residuals_.unknown(i), false, 1});
     }
     return out;
   }

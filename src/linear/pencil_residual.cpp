@@ -37,8 +37,9 @@ PencilResidual pencil_residual(const ColumnMatrix& S, std::int32_t states, LongC
   return r;
 }
 
-StructuredPencil::StructuredPencil(const PerturbationEquations& equations, const ZeroModes& zero)
-    : equations_(equations) {
+StructuredPencil::StructuredPencil(const PerturbationEquations& equations, const ZeroModes& zero,
+                                   const Eigen::MatrixXd& uncertainty)
+    : equations_(equations), uncertainty_(uncertainty) {
   const Eigen::Index z = zero.count, n = equations.states();
   const Eigen::MatrixXd T0 = zero.right().leftCols(z);
   shares_ = zero.left().leftCols(z).transpose();

@@ -26,7 +26,8 @@ PencilResidual pencil_residual(const ColumnMatrix& S, std::int32_t states, std::
 // has them: a mode that runs far along them, as a slow one does beside rigid-body motion, is not driven by R.
 class StructuredPencil {
  public:
-  StructuredPencil(const PerturbationEquations&, const ZeroModes&);
+  // `uncertainty` is what the entries of the state matrix may be off before anything is computed from them.
+  StructuredPencil(const PerturbationEquations&, const ZeroModes&, const Eigen::MatrixXd& uncertainty);
 
   const PerturbationEquations& equations() const { return equations_; }
   PencilResidual residual(std::complex<long double> lambda, const Eigen::VectorXcd& w) const;
@@ -35,9 +36,11 @@ class StructuredPencil {
   // R of the zero modes, and T₀⁺.
   const Eigen::MatrixXd& zero_residuals() const { return residuals_; }
   const Eigen::MatrixXd& zero_shares() const { return shares_; }
+  const Eigen::MatrixXd& uncertainty() const { return uncertainty_; }
 
  private:
   const PerturbationEquations& equations_;
+  const Eigen::MatrixXd& uncertainty_;
   Eigen::MatrixXd residuals_, shares_;
 };
 

@@ -12,9 +12,6 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-// Roundings that the entries of the equations have picked up, in units of the last place of the sums made of them.
-constexpr double rounding_units = 16;
-
 std::span<const double> column(const Eigen::Ref<const Matrix>& x, Eigen::Index c) {
   return {x.data() + c * x.outerStride(), static_cast<std::size_t>(x.rows())};
 }
@@ -159,7 +156,7 @@ Matrix PerturbationEquations::rounding(const Matrix& a) const {
     total.middleCols(first, count) =
         transposed_product(adjoint, sums.middleRows(first_row, rows).eval()) + sums.bottomRows(states_);
   });
-  return rounding_units * std::numeric_limits<double>::epsilon() * total;
+  return units_of_rounding * std::numeric_limits<double>::epsilon() * total;
 }
 
 }  // namespace dynalin

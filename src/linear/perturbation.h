@@ -56,7 +56,9 @@ class PerturbationEquations {
   // [A B] of the columns a that complete(unit matrix) has given, corrected by a residual in long double: entries are as
   // good as those of the equations, however much cancels in them.
   Eigen::MatrixXd state_matrices(const Eigen::MatrixXd& a) const;
-  // Roundings that the entries of A may carry, element by element: Σ|y||r| over the very sums that make them.
+  // Roundings that the entries of A may carry, element by element: Σ|y||r| over the very sums that make them, in so many
+  // units of the last place.
+  static constexpr double units_of_rounding = 16;
   Eigen::MatrixXd rounding(const Eigen::MatrixXd& a) const;
 
   // Columns a that the equations leave open, of freedoms without mass: rates or accelerations that depend on

@@ -150,7 +150,6 @@ TEST(Generated, mechanisms_hold_every_element_and_function_of_the_program) {
   }
   for (const AtomFunction& f : atom_functions()) {
     if (!f.built || f.maximum_arguments == 0 || f.name.find('.') != std::string_view::npos) continue;
-    if (f.name == "ORIENT") continue;  // a choice among the angles that are drawn; its own cases look at every system
     EXPECT_TRUE(holds(std::string(f.name) + "(")) << f.name;
   }
   for (const SpecialFunction& f : special_functions()) EXPECT_TRUE(holds(std::string(f.name) + "(")) << f.name;

@@ -64,6 +64,16 @@ std::string measure_text(const Node& n) {
   if (sum % 5 == 0 && n.measure == Measure::DY && n.ids.size() == 3) {
     return "(TRANS(DXYZ(" + integers({n.ids[0], n.ids[1]}) + ")," + std::to_string(n.ids[2]) + ")*[0,1,0])";
   }
+  // The same angles among those of all sequences.
+  if (sum % 3 == 2) {
+    const auto oriented = [&](const std::string& which) { return "ORIENT(" + which + ", " + integers(n.ids) + ")"; };
+    if (n.measure == Measure::PSI) return oriented("11, 1");
+    if (n.measure == Measure::THETA) return oriented("11, 2");
+    if (n.measure == Measure::PHI) return oriented("11, 3");
+    if (n.measure == Measure::YAW) return oriented("6, 1");
+    if (n.measure == Measure::PITCH) return "(-" + oriented("6, 2") + ")";
+    if (n.measure == Measure::ROLL) return oriented("6, 3");
+  }
   return name + list;
 }
 

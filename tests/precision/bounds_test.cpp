@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <random>
+#include <tuple>
 
 #include "elements/catalogue.h"
 #include "linear/eigen.h"
@@ -20,6 +22,12 @@ std::string listing(const std::vector<Value>& exact) {
   for (const Value& v : exact)
     s += fmt::format("  {:.17g} {:.17g}\n", v.re.convert_to<double>(), v.im.convert_to<double>());
   return s;
+}
+
+Real least_distance(const std::vector<Value>& exact, const EigenMode& mode) {
+  Real least = distance(exact.front(), mode.eigenvalue_hz);
+  for (const Value& v : exact) least = std::min(least, distance(v, mode.eigenvalue_hz));
+  return least;
 }
 
 class Bounds : public ::testing::Test {
@@ -42,15 +50,30 @@ class Bounds : public ::testing::Test {
     if (linear->model.states.empty()) return;
     const auto solution = eigensolve(*linear);
     ASSERT_TRUE(solution) << solution.error().message;
-    const std::vector<Value> exact = eigenvalues(*linear->equations);
+    std::vector<Value> exact = eigenvalues(*linear->equations);
     ASSERT_EQ(exact.size(), linear->model.states.size()) << text;
+    bool finer = false, zeros = false;
     for (const EigenMode& mode : solution->modes) {
-      if (mode.structural_zero) continue;  // the equations hold it up to their rounding only
-      Real error = distance(exact.front(), mode.eigenvalue_hz);
-      for (const Value& v : exact) error = std::min(error, distance(v, mode.eigenvalue_hz));
+      if (mode.structural_zero) {  // the equations hold it up to their rounding only
+        zeros = true;
+        continue;
+      }
       ++examined_;
+      // A rate along a motion that nothing holds shares a Jordan block with it: rounding of the equations, which the
+      // product takes out with the motion, moves both by its root.
+      if (zeros && std::abs(mode.eigenvalue_hz) < 1e-20) {
+        EXPECT_LE(least_distance(exact, mode), Real(1e-6)) << text;
+        continue;
+      }
       // 50 digits of equations of size one are themselves good to 1e-45.
       const Real bound = Real(mode.error_bound_hz) + Real("1e-45");
+      Real error = least_distance(exact, mode);
+      if (error > bound && !finer) {
+        finer = true;
+        exact = eigenvalues<Finer>(*linear->equations);
+        ASSERT_FALSE(exact.empty()) << text;
+        error = least_distance(exact, mode);
+      }
       EXPECT_LE(error, bound) << mode.eigenvalue_hz << " condition " << mode.condition << " refined " << mode.refined
                               << "\n"
                               << listing(exact) << text;
@@ -64,7 +87,8 @@ class Bounds : public ::testing::Test {
     const double median = ratio_[ratio_.size() / 2];
     RecordProperty("eigenvalues", examined_);
     RecordProperty("median_of_bound_over_error", fmt::format("{:.3g}", median));
-    EXPECT_LE(median, 100);
+    // Bounds cover the rounding of coefficients, which this reference takes as exact.
+    EXPECT_LE(median, 1000);
     EXPECT_LE(unbounded_, examined_ / 100);
     EXPECT_LE(refused_, 1);
   }
@@ -106,6 +130,57 @@ void stiff_chains(const std::function<void(const std::string&)>& examine) {
   for (int k = 0; k < 160; ++k) {
     examine(stiff_chain(random, 2 + k % 7, 2.0 + k % 15));
   }
+}
+
+// Two slides in a row, the first on a spring of stiffness a to the ground, the second on one of stiffness b to the first.
+std::string two_slides(double a, double b, double m1, double m2) {
+  std::string s = "two slides\nPART/1, GROUND\nMARKER/1, REULER=1.5707963267948966,1.5707963267948966,0\n";
+  for (const auto& [k, mass, stiffness] : {std::tuple(2, m1, a), std::tuple(3, m2, b)}) {
+    s += fmt::format(
+        "PART/{0}, MASS={1:.17g}, CM={0}0, IP=1,1,1, QG={2},0,0\nMARKER/{0}0\nMARKER/{0}1, "
+        "REULER=1.5707963267948966,1.5707963267948966,0\n"
+        "JOINT/{0}, TRANSLATIONAL, I={0}1, J=1\n"
+        "SPRINGDAMPER/{0}, TRANSLATION, I={0}0, J={3}, K={4:.17g}, LENGTH=1\n",
+        k, mass, k - 1, k == 2 ? "1" : "20", stiffness);
+  }
+  return s + "END\n";
+}
+// ω² of the slow mode and of the fast one.
+std::array<Real, 2> squares_of_two_slides(double a, double b, double m1, double m2) {
+  const Real A = a, B = b, M = m1, N = m2, sum = (A + B) / M + B / N, product = A * B / (M * N);
+  const Real fast = (sum + sqrt(sum * sum - 4 * product)) / 2;
+  return {product / fast, fast};
+}
+
+// The coefficients are sums of the data, and rounded: that is part of the bounds.
+TEST(DataBounds, a_soft_spring_beside_stiff_ones) {
+  std::mt19937_64 random(5);
+  const auto drawn = [&](double low, double high) {
+    return std::pow(10.0, std::uniform_real_distribution<double>(low, high)(random));
+  };
+  int inexact = 0;
+  for (int k = 0; k < 300; ++k) {
+    const double a = drawn(-12, 0), b = drawn(0, 4), m1 = drawn(-1, 1), m2 = drawn(-1, 1);
+    auto dataset = parse_dataset(std::make_shared<const SourceText>("drawn.adm", two_slides(a, b, m1, m2)));
+    auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
+    ASSERT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics);
+    const System system{std::shared_ptr<const Model>(std::move(model.value))};
+    Findings findings;
+    const auto op = initial_conditions(system, findings);
+    ASSERT_TRUE(op);
+    const auto linear = linearize(system, *op, {});
+    ASSERT_TRUE(linear) << linear.error().message;
+    const auto solution = eigensolve(*linear);
+    ASSERT_TRUE(solution);
+    std::vector<Value> exact;
+    for (const Real& square : squares_of_two_slides(a, b, m1, m2)) exact.push_back({0, sqrt(square)});
+    for (const EigenMode& mode : solution->modes) {
+      const Real error = least_distance(exact, mode);
+      EXPECT_LE(error, Real(mode.error_bound_hz)) << two_slides(a, b, m1, m2);
+      inexact += error > 1e-14 * std::abs(mode.eigenvalue_hz);
+    }
+  }
+  EXPECT_GT(inexact, 50) << "the draws do not show what they are for";
 }
 
 // A slide whose damping misses the critical one by a part in 10^k: two eigenvalues that nearly are one, with one

@@ -14,6 +14,9 @@ namespace dynalin::precision {
 
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
 
+// For eigenvalues of which even that leaves nothing: of a block of two that is all but defective rounding takes the root.
+using Finer = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<110>, boost::multiprecision::et_off>;
+
 struct Value {
   Real re, im;
 };
@@ -47,15 +50,16 @@ Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> state_matrix(const Perturb
 }
 
 // Empty if the QR iteration does not converge, neither for the matrix nor for its transpose.
-inline std::vector<Value> eigenvalues(const PerturbationEquations& p) {
-  using Dense = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-  const Dense A = state_matrix(p);
+template <class Number = Real>
+std::vector<Value> eigenvalues(const PerturbationEquations& p) {
+  using Dense = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>;
+  const Dense A = state_matrix<Number>(p);
   Eigen::EigenSolver<Dense> solver(A, false);
   if (solver.info() != Eigen::Success) solver.compute(A.transpose(), false);
   if (solver.info() != Eigen::Success) return {};
   std::vector<Value> values;
   for (Eigen::Index k = 0; k < solver.eigenvalues().size(); ++k) {
-    values.push_back({solver.eigenvalues()(k).real(), solver.eigenvalues()(k).imag()});
+    values.push_back({Real(solver.eigenvalues()(k).real()), Real(solver.eigenvalues()(k).imag())});
   }
   return values;
 }
