@@ -1,5 +1,5 @@
-// How time and memory grow with the model: reading, initial conditions, assembly and elimination, for chains and for a
-// lattice of loops with redundant joints.
+// How time and memory grow with the model: reading, initial conditions, assembly, elimination and choice of states, for
+// chains and for a lattice of loops with redundant joints.
 //
 //     scaling chain 100000      a chain of revolute joints with a spring at each
 //     scaling tangled 100000    the same chain with its parts numbered at random
@@ -13,6 +13,7 @@
 
 #include "analysis/initial.h"
 #include "elements/catalogue.h"
+#include "linear/state_choice.h"
 #include "peak_memory.h"
 #include "system/system.h"
 
@@ -128,5 +129,9 @@ int main(int argc, char** argv) {
   const Partition p = system.partition(rows, false);
   fmt::print("  elimination       {:8.3f} s   {} rows, {} redundant, {} freedoms\n", clock.lap(), rows.size(),
              p.redundant.size(), p.independent.size());
+  const auto candidates = state_candidates(system, motion, {});
+  fmt::print("  candidates        {:8.3f} s\n", clock.lap());
+  const auto choice = choose_states(system, motion, rows, {});
+  fmt::print("  choice of states  {:8.3f} s   {} states\n", clock.lap(), choice ? choice->size() : 0);
   fmt::print("  peak memory       {:8.0f} MB\n", peak_megabytes());
 }

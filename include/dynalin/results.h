@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "dynalin/element_id.h"
+
 namespace dynalin {
 
 // Codes of the STATES matrix (LINEAR command, 5.2.6).
@@ -39,7 +41,7 @@ struct StateLabel {
   std::int64_t element = 0;  // id of the PART, VARIABLE, TFSISO …
   int coordinate = 0;        // 1-based; rates follow after the coordinates of the element (7–12 for a PART)
   std::string text;          // "Global rotation AZ(BCS)"; for a rate the text of its coordinate
-  std::string owner;         // "PART/2"
+  ElementId owner;           // PART/2; nothing where the text names it
   bool is_rate = false;
 };
 
@@ -52,6 +54,7 @@ struct ChannelLabel {  // one input or output
 struct StateSpace {
   double time = 0;
   std::vector<StateLabel> states;
+  std::size_t kinematic_states = 0;  // displacements and velocities together; differential states follow them
   std::vector<ChannelLabel> inputs, outputs;
   std::int64_t pinput = 0, poutput = 0;  // ids of the statements, 0 if none was asked for
   std::int64_t rm = 0, pstate = 0;       // marker of the RM option and id of the PSTATE, 0 if none
@@ -62,7 +65,8 @@ struct StateSpace {
 // M s″ + B s′ + K s = P u, y = C (s, s′) + D u with s = (x, z).
 struct SecondOrder {
   double time = 0;
-  std::vector<StateLabel> states;  // of s
+  std::vector<StateLabel> states;       // of s
+  std::size_t differential_states = 0;  // the last of them
   std::vector<ChannelLabel> inputs, outputs;
   std::int64_t pinput = 0, poutput = 0;  // ids as in StateSpace
   std::int64_t rm = 0, pstate = 0;
@@ -85,12 +89,13 @@ struct EigenMode {
   std::size_t cluster_size = 1;
   bool structural_zero = false;  // zero because the model is free to move that way, not by computation
   bool refined = false;          // by inverse iteration on the sparse equations
-  std::string moves_most;  // the part with the largest motion, or the controller where no part moves; empty: not known
+  ElementId mover;         // the part with the largest motion, or the controller where no part moves; empty: not known
+  std::string moves_most;  // its name for the reader, "PART/2 (wheel)"
 };
 
 // One entry of a mode shape: a coordinate of the model or a differential state.
 struct ShapeLabel {
-  std::string element;   // "PART/2"
+  ElementId element;     // PART/2
   std::string name;      // view name of it, empty if there is none
   std::string quantity;  // X Y Z of the origin of the BCS, RX RY RZ in global axes; "State 1"; a curve parameter
 };

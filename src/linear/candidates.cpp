@@ -14,37 +14,38 @@ namespace {
 
 constexpr std::array names = {"DX", "DY", "DZ", "AX", "AY", "AZ"};
 
-StateLabel coordinate_label(const Layout& layout, std::int32_t coordinate, std::int64_t rm, bool owns_marker) {
-  StateLabel label;
-  for (const BodyBlock& b : layout.bodies) {
-    if (b.count == 0 || coordinate < b.offset || coordinate >= b.offset + b.count) continue;
-    const auto k = static_cast<std::size_t>(coordinate - b.offset);
-    const bool turns = k >= 3;
-    label.element = b.label.id;
-    label.owner = b.label.text();
-    label.coordinate = static_cast<int>(k) + 1;
-    const bool point = b.kind == BodyKind::point_mass;
-    const std::string_view what = turns ? "rotation" : "displacement";
-    if (rm == 0) {
-      label.type = point ? StateType::point_mass : StateType::part;
-      label.text = fmt::format("Global {} {}(BCS)", what, names[k]);
-    } else {
-      label.type = point ? StateType::point_mass_relative : StateType::part_relative;
+// Each coordinate of the layout as a state, those of bodies as they are seen from marker `rm` (0: global axes), which
+// `owner` carries.
+std::vector<StateCoordinate> listed_coordinates(const System& system, std::int64_t rm, BodyId owner) {
+  const Layout& layout = system.layout();
+  std::vector<StateCoordinate> list(system.coordinates());
+  const auto put = [&](std::int32_t at, StateType type, const ElementLabel& of, std::int32_t k, std::int32_t rates,
+                       std::string text) {
+    StateLabel label{type, of.id, static_cast<int>(k) + 1, std::move(text), of.element(), false};
+    list[static_cast<std::size_t>(at)] =
+        state_coordinate(std::move(label), type, static_cast<int>(rates + k) + 1, system.coordinate_scale(at));
+  };
+  for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
+    const BodyBlock& block = layout.bodies[b];
+    const bool point = block.kind == BodyKind::point_mass;
+    const bool owns_marker = owner == BodyId{static_cast<std::int32_t>(b)};
+    const StateType type = rm == 0 ? (point ? StateType::point_mass : StateType::part)
+                                   : (point ? StateType::point_mass_relative : StateType::part_relative);
+    for (std::int32_t k = 0; k < block.count; ++k) {
+      const bool turns = k >= 3;
+      const std::string_view what = turns ? "rotation" : "displacement", name = names[static_cast<std::size_t>(k)];
       const std::string_view seen = owns_marker ? "GROUND" : "BCS";
-      label.text = turns ? fmt::format("Relative {} {}({},{})", what, names[k], seen, rm)
-                         : fmt::format("Relative {} {}({},{},{})", what, names[k], seen, rm, rm);
+      put(block.offset + k, type, block.label, k, block.count,
+          rm == 0 ? fmt::format("Global {} {}(BCS)", what, name)
+          : turns ? fmt::format("Relative {} {}({},{})", what, name, seen, rm)
+                  : fmt::format("Relative {} {}({},{},{})", what, name, seen, rm, rm));
     }
-    return label;
   }
   for (const ExtraBlock& e : layout.extras) {
-    if (coordinate < e.offset || coordinate >= e.offset + e.count) continue;
-    label.element = e.label.id;
-    label.owner = e.label.text();
-    label.type = e.label.statement == "CVCV" ? StateType::cvcv : StateType::ptcv;
-    label.coordinate = coordinate - e.offset + 1;
-    label.text = e.coordinates[static_cast<std::size_t>(coordinate - e.offset)].name;
+    for (std::int32_t k = 0; k < e.count; ++k)
+      put(e.offset + k, e.type, e.label, k, 0, e.coordinates[static_cast<std::size_t>(k)].name);
   }
-  return label;
+  return list;
 }
 
 // Gradient rows of one body's coordinates relative to marker b:
@@ -76,6 +77,14 @@ void add_relative_rows(const Motion& motion, const BodyBlock& block, BodyId body
 
 }  // namespace
 
+StateCoordinate state_coordinate(StateLabel label, StateType rate_type, int rate_number, double scale) {
+  StateLabel rate = label;
+  rate.type = rate_type;
+  rate.coordinate = rate_number;
+  rate.is_rate = true;
+  return {std::move(label), std::move(rate), scale};
+}
+
 Result<CandidateSet> state_candidates(const System& system, const Motion& motion, const LinearOptions& options) {
   const Layout& layout = system.layout();
   CandidateSet set;
@@ -99,21 +108,22 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
     if (auto failure = add_user_candidates(system, motion, *own, row, set)) return tl::unexpected(*failure);
     row += static_cast<std::int32_t>(set.own.size());
   }
+  std::vector<StateCoordinate> global = listed_coordinates(system, 0, {});
+  const auto as_it_is = [&](std::int32_t k) {
+    return Candidate{k, -1, std::move(global[static_cast<std::size_t>(k)])};
+  };
   if (principal) {
     row = add_principal_candidates(system, motion, row, set);
     for (std::int32_t k = layout.body_coordinate_count; k < layout.coordinate_count; ++k) {
-      set.wanted.push_back({k, -1, coordinate_label(layout, k, 0, false)});
+      set.wanted.push_back(as_it_is(k));
       set.moves.push_back({{k, 1.0}});
     }
     return set;
   }
-  auto& plain = relative ? set.fallback : set.wanted;
-  for (const std::int32_t coordinate : system.preference()) {
-    // Coordinates outside bodies know no frame: they are wanted as they are.
-    if (relative && coordinate >= layout.body_coordinate_count) continue;
-    plain.push_back({coordinate, -1, coordinate_label(layout, coordinate, 0, false)});
+  if (!relative) {
+    for (const std::int32_t coordinate : system.preference()) set.wanted.push_back(as_it_is(coordinate));
+    return set;
   }
-  if (!relative) return set;
 
   const MarkerPlace& b = layout.marker(options.rm);
   const std::int64_t id = layout.marker_labels[static_cast<std::size_t>(options.rm.index)].id;
@@ -123,16 +133,16 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
     add_relative_rows(motion, block, BodyId{static_cast<std::int32_t>(k)}, b, row, set.gradients);
     for (std::int32_t i = 0; i < block.count; ++i) row_of[static_cast<std::size_t>(block.offset + i)] = row++;
   }
-  const std::int32_t owner_offset = layout.body(b.body).offset;
+  std::vector<StateCoordinate> seen = listed_coordinates(system, id, b.body);
   for (const std::int32_t coordinate : system.preference()) {
-    if (row_of[static_cast<std::size_t>(coordinate)] < 0) {
-      set.wanted.push_back({coordinate, -1, coordinate_label(layout, coordinate, 0, false)});
+    const auto at = static_cast<std::size_t>(coordinate);
+    // Coordinates outside bodies know no frame: they are wanted as they are.
+    if (row_of[at] < 0) {
+      set.wanted.push_back(as_it_is(coordinate));
       continue;
     }
-    const bool owns =
-        owner_offset >= 0 && coordinate >= owner_offset && coordinate < owner_offset + layout.body(b.body).count;
-    set.wanted.push_back(
-        {-1, row_of[static_cast<std::size_t>(coordinate)], coordinate_label(layout, coordinate, id, owns)});
+    set.wanted.push_back({-1, row_of[at], std::move(seen[at])});
+    set.fallback.push_back(as_it_is(coordinate));
   }
   return set;
 }

@@ -7,11 +7,20 @@
 
 namespace dynalin {
 
+// How a coordinate and its rate are listed as states.
+struct StateCoordinate {
+  StateLabel label, rate;
+  double scale = 0;  // how much of it compares with the length of the model and a radian; 0: it may have any size
+};
+
+// The rate is listed with its own type and number.
+StateCoordinate state_coordinate(StateLabel, StateType rate_type, int rate_number, double scale);
+
 // A coordinate that may become a state: its gradient along the motion and its name.
 struct Candidate {
   std::int32_t coordinate = -1;  // a coordinate of the layout itself, or
   std::int32_t row = -1;         // a row of gradients (RM, PSTATE, principal coordinates)
-  StateLabel label;
+  StateCoordinate state;
 };
 
 // Candidates in the order in which they are wanted, with the gradient rows of those that are no plain coordinate.

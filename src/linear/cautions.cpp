@@ -68,11 +68,8 @@ void disproportion(const System& system, const LinearSystem& linear, std::vector
   std::int32_t mover = -1;
   std::size_t chosen = 0;
   for (std::size_t k = 0; k < linear.kinematic_states; ++k) {
-    const StateLabel& s = linear.model.states[k];
-    // A user's own coordinate may have any size.
-    if (s.is_rate || s.type == StateType::pstate) continue;
-    const bool turns = s.coordinate > 3 && s.type != StateType::ptcv && s.type != StateType::cvcv;
-    const double unit = turns ? 1.0 : system.length();
+    const double unit = linear.scales[k];
+    if (unit == 0) continue;
     for (Eigen::Index r = 0; r < linear.dq.rows(); ++r) {
       const double moved = std::abs(linear.dq(r, static_cast<Eigen::Index>(k))) * unit /
                            system.coordinate_scale(static_cast<std::int32_t>(r));
@@ -82,7 +79,7 @@ void disproportion(const System& system, const LinearSystem& linear, std::vector
   if (mover < 0) return;
   const StateLabel& s = linear.model.states[chosen];
   out.push_back(fmt::format("near a singular configuration: {} moves {:.1e} times as far as the chosen {} of {}",
-                            system.layout().coordinate_text(mover), largest, s.text, s.owner));
+                            system.layout().coordinate_text(mover), largest, s.text, s.owner.text()));
 }
 
 void motion(const System& system, const OperatingPoint& op, const EigenSolution& modes, std::vector<std::string>& out) {
@@ -112,16 +109,15 @@ void motion(const System& system, const OperatingPoint& op, const EigenSolution&
                   part->full_text(), acceleration, turning));
 }
 
-void overdamping(const LinearSystem& linear, const EigenSolution& modes, std::vector<std::string>& out) {
+void overdamping(const System& system, const LinearSystem& linear, const EigenSolution& modes,
+                 std::vector<std::string>& out) {
   if (modes.without_damping) return;
   int falling = 0, others = 0;
   const EigenMode* slowest = nullptr;
   std::size_t number = 0;
   for (std::size_t k = 0; k < modes.modes.size(); ++k) {
     const EigenMode& m = modes.modes[k];
-    const bool of_body =
-        m.moves_most.find("PART/") != std::string::npos || m.moves_most.find("POINT_MASS/") != std::string::npos;
-    if (!m.is_real || !of_body) continue;
+    if (!m.is_real || !system.model().find_body(m.mover.statement, m.mover.id)) continue;
     const bool falls = m.eigenvalue_hz.real() < 0;
     ++(falls ? falling : others);
     if (falls && !slowest) slowest = &m, number = k + 1;
@@ -143,7 +139,7 @@ std::vector<std::string> cautions(const System& system, const OperatingPoint& op
   singular_configuration(system, op, linear, out);
   disproportion(system, linear, out);
   motion(system, op, modes, out);
-  overdamping(linear, modes, out);
+  overdamping(system, linear, modes, out);
   return out;
 }
 

@@ -55,8 +55,8 @@ NearSingularity near_singularity(const System& system, const ConstraintRows& row
     if (!choice.active[static_cast<std::size_t>(k)]) continue;
     if (std::abs(left(r++, 0)) >= 0.3 * largest) near.rows.push_back(system.row_text(k));
   }
-  for (const StateLabel& label : choice.labels) {
-    if (std::abs(left(r++, 0)) >= 0.3 * largest) near.rows.push_back(label.text + " of " + label.owner);
+  for (const StateCoordinate& c : choice.coordinates) {
+    if (std::abs(left(r++, 0)) >= 0.3 * largest) near.rows.push_back(c.label.text + " of " + c.label.owner.text());
   }
   return near;
 }

@@ -52,10 +52,12 @@ class Linearizer {
         return tl::unexpected(std::move(*failure));
     }
     result_.model.states = choice->states;
-    for (std::size_t k = 0; k < choice->labels.size(); ++k) {
-      if (choice->has_position[k]) result_.coordinates.push_back(choice->labels[k]);
+    result_.scales = choice->scales;
+    for (std::size_t k = 0; k < choice->coordinates.size(); ++k) {
+      if (choice->has_position[k]) result_.coordinates.push_back(choice->coordinates[k].label);
     }
     result_.kinematic_states = static_cast<std::size_t>(choice->first_differential);
+    result_.model.kinematic_states = result_.kinematic_states;
     result_.differential_states = choice->differential.size();
     auto equations = PerturbationEquations::make(system_, motion_, rows_, eq_, *choice, inputs_,
                                                  options_.without_damping, massless_ ? &*massless_ : nullptr);
@@ -190,7 +192,7 @@ class Linearizer {
     const StateSpace& m = result_.model;
     const auto state = [&](Eigen::Index k) {
       const StateLabel& s = m.states[static_cast<std::size_t>(k)];
-      return fmt::format("{} of {}", s.text, s.owner);
+      return fmt::format("{} of {}", s.text, s.owner.text());
     };
     const auto look = [](const Matrix& matrix, const auto& row, const auto& column) -> std::string {
       for (Eigen::Index c = 0; c < matrix.cols(); ++c) {

@@ -36,6 +36,8 @@ struct LinearSystem {
   std::size_t first_order = 0;          // coordinates without mass whose rate is no state
   bool has_massless_states = false;     // some coordinates or rates follow from balances of forces without inertia
   std::vector<StateLabel> coordinates;  // the chosen ones, in order
+  std::vector<double> scales;           // of states: how much of a coordinate compares with the length of the model and
+                                        // a radian; 0 for rates, differential states and what may have any size
   bool principal_states = false;        // those of the original implementation are in force
   std::vector<std::string> warnings;
   // Columns of states, then inputs: variations of all coordinates, rates, accelerations, multipliers, algebraic values.

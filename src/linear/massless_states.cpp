@@ -102,17 +102,17 @@ class Taker {
     std::vector<Index> listed = without_rate;
     std::sort(listed.begin(), listed.end());
     for (const Index c : listed) {
-      const StateLabel& label = choice_.labels[static_cast<std::size_t>(c)];
+      const StateLabel& label = choice_.coordinates[static_cast<std::size_t>(c)].label;
       if (!is_condensed(c)) ++states_.first_order;
       states_.remarks.push_back(
           is_condensed(c)
               ? fmt::format(
                     "{} of {} has no mass and is held by stiffness alone: it follows from the balance of forces "
                     "and is no state (limit of vanishing mass)",
-                    label.text, label.owner)
+                    label.text, label.owner.text())
               : fmt::format("{} of {} has no mass: its velocity follows from the balance of damping and other forces, "
                             "and it is a state of first order (limit of vanishing mass)",
-                            label.text, label.owner));
+                            label.text, label.owner.text()));
     }
     for (const auto& [grows, what] :
          {std::pair(limit_.outruns_damping, "damping"), std::pair(limit_.outruns_stiffness, "stiffness")}) {

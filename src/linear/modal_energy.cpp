@@ -6,31 +6,16 @@
 #include <numbers>
 
 #include "linear/original_states.h"
+#include "linear/wrench_work.h"
 
 namespace dynalin {
 
 namespace {
 
 using Complex = std::complex<double>;
-using ComplexVector = std::array<Complex, 3>;
-
-// The force elements whose rows the tables have, in the order of the document.
-constexpr std::array<std::string_view, 9> force_statements = {"BEAM",   "BUSHING",      "FIELD",  "GFORCE", "NFORCE",
-                                                              "SFORCE", "SPRINGDAMPER", "VFORCE", "VTORQUE"};
 
 // Relative size of what is left where motions cancel; zero modes come with a little more than the rounding of a number.
 constexpr double rounding = 1e-10;
-
-ComplexVector three(const Eigen::VectorXcd& x, std::int32_t at) { return {x(at), x(at + 1), x(at + 2)}; }
-
-ComplexVector times(const Matrix3& m, const ComplexVector& v) {
-  ComplexVector r;
-  for (std::size_t i = 0; i < 3; ++i) r[i] = m(i, 0) * v[0] + m(i, 1) * v[1] + m(i, 2) * v[2];
-  return r;
-}
-void add(ComplexVector& a, const ComplexVector& b, Complex factor = 1.0) {
-  for (std::size_t k = 0; k < 3; ++k) a[k] += factor * b[k];
-}
 
 }  // namespace
 
@@ -279,92 +264,47 @@ Eigen::VectorXcd ModalEnergy::algebraic_change(const Eigen::VectorXcd& dq, Colum
   return change;
 }
 
+// Sets of elements that have rows, in the order of the tables: by the name of the statement.
+std::vector<std::size_t> ModalEnergy::sets_with_rows() const {
+  const auto& sets = system_.model().sets;
+  std::vector<std::size_t> list;
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    if (sets[s]->kind().energy_rows != Kind::EnergyRows::none && sets[s]->size() > 0 && sets[s]->active)
+      list.push_back(s);
+  }
+  std::stable_sort(list.begin(), list.end(),
+                   [&](std::size_t a, std::size_t b) { return sets[a]->kind().statement < sets[b]->kind().statement; });
+  return list;
+}
+
 std::vector<ModalRow<double>> ModalEnergy::force_rows(std::size_t mode, Column family) const {
   const bool strain = family == Column::position;
   const Eigen::VectorXcd z = scaled_vector(mode);
   const Eigen::VectorXcd u = strain ? displacements(z) : velocities(z);
-  const Eigen::VectorXcd dw = algebraic_change(u, family);
-  const Eigen::VectorXd dw_size = algebraic_size(u, family);
-  const Layout& layout = system_.layout();
+  const WrenchWork work(system_.layout(), family, u, algebraic_change(u, family), algebraic_size(u, family));
   std::vector<ModalRow<double>> rows;
   double total = 0, parts = 0;
   double without_cancellation = 0;  // what the energy would be if no motions cancelled
   MarkerWrench w;
-  for (const std::string_view statement : force_statements) {
-    for (const auto& set : system_.model().sets) {
-      if (set->kind().statement != statement || set->labels.empty() || !set->active) continue;
-      const bool rotational = set->kind().variant == "ROTATIONAL" || statement == "VTORQUE";
-      const bool translational = set->kind().variant == "TRANSLATIONAL" || statement == "VFORCE";
-      const Kernel& kernel = *system_.signals().element(statement, set->labels.front().id).kernel;
-      const std::size_t wrenches = kernel.wrench_count(set->labels.size());
-      for (std::size_t which = 0; which < wrenches; ++which) {
-        const ElementLabel& label = set->labels[kernel.element_of_wrench(which)];
-        w.clear();
-        kernel.wrench(motion_, which, true, w);
-        const PairMotion& p = w.pair;
-        const BodyBlock &B = layout.body(p.body_I), &C = layout.body(p.body_J);
-        const auto group = [&](const BodyBlock& block, std::int32_t first) {
-          return block.count >= first + 3 ? three(u, block.offset + first) : ComplexVector{};
-        };
-        const std::array<ComplexVector, 4> du = {group(B, 0), group(B, 3), group(C, 0), group(C, 3)};
-        ComplexVector dF{}, dT{};
-        std::array<double, 4> du_size{};
-        double dF_size = 0, dT_size = 0;
-        for (std::size_t g = 0; g < 4; ++g) {
-          const auto size = [](const Matrix3& m) { return std::sqrt(trace(m * transpose(m))); };
-          du_size[g] = std::sqrt(std::norm(du[g][0]) + std::norm(du[g][1]) + std::norm(du[g][2]));
-          dF_size += du_size[g] * size((strain ? w.force.force_on_position : w.force.force_on_velocity).group[g]);
-          dT_size += du_size[g] * size((strain ? w.force.torque_on_position : w.force.torque_on_velocity).group[g]);
-          add(dF, times((strain ? w.force.force_on_position : w.force.force_on_velocity).group[g], du[g]));
-          add(dT, times((strain ? w.force.torque_on_position : w.force.torque_on_velocity).group[g], du[g]));
-        }
-        for (const MarkerWrench::Scalar& s : w.scalars) {
-          if (s.family != Column::algebraic && s.family != family) continue;
-          const Complex change = s.family == family ? u(s.column) : dw(s.column);
-          const double change_size = s.family == family ? std::abs(change) : dw_size(s.column);
-          dF_size += change_size * norm(s.force), dT_size += change_size * norm(s.torque);
-          for (std::size_t k = 0; k < 3; ++k) {
-            dF[k] += change * s.force[k];
-            dT[k] += change * s.torque[k];
-          }
-        }
-        for (const MarkerWrench::Turn& turn : w.turns) {
-          if (!strain) continue;
-          const ComplexVector theta = group(layout.body(turn.body), 3);
-          add(dF, times(turn.force, theta));
-          add(dT, times(turn.torque, theta));
-        }
-        // What the force works on: I against the point of J's body where the reaction acts.
-        const bool along_line = w.force.acts_on_J && translational && statement != "VFORCE";
-        const Vector arm_J = along_line ? value(p.arm_J) : value(p.arm);
-        ComplexVector moved = du[0], turned = du[1];
-        add(moved, times(-skew(value(p.arm_I)), du[1]));
-        if (w.force.acts_on_J) {
-          add(moved, du[2], -1.0);
-          add(moved, times(-skew(arm_J), du[3]), -1.0);
-          add(turned, du[3], -1.0);
-        }
-        double moved_size = du_size[0] + norm(value(p.arm_I)) * du_size[1], turned_size = du_size[1];
-        if (w.force.acts_on_J) {
-          moved_size += du_size[2] + norm(arm_J) * du_size[3];
-          turned_size += du_size[3];
-        }
-        without_cancellation += moved_size * dF_size + turned_size * dT_size;
-        ModalRow<double> row{&label, 0, std::vector<double>(7, 0.0)};
-        if (statement == "NFORCE") row.part = system_.model().marker(kernel.marker_I(which)).label.id;
-        for (std::size_t k = 0; k < 3; ++k) {
-          row.values[1 + k] = -0.5 * std::real(std::conj(moved[k]) * dF[k]);
-          row.values[4 + k] = -0.5 * std::real(std::conj(turned[k]) * dT[k]);
-        }
-        for (std::size_t k = 1; k < 7; ++k) row.values[0] += row.values[k], parts += std::abs(row.values[k]);
-        total += row.values[0];
-        const double blank = std::numeric_limits<double>::quiet_NaN();
-        for (std::size_t k = 0; k < 3; ++k) {
-          if (rotational) row.values[1 + k] = blank;
-          if (translational) row.values[4 + k] = blank;
-        }
-        rows.push_back(std::move(row));
+  for (const std::size_t s : sets_with_rows()) {
+    const ElementSet& set = *system_.model().sets[s];
+    const Kernel& kernel = *system_.signals().element(ElementHandle{static_cast<std::int32_t>(s), 0}).kernel;
+    for (std::size_t which = 0; which < kernel.wrench_count(set.size()); ++which) {
+      w.clear();
+      kernel.wrench(motion_, which, true, w);
+      const WrenchWork::Done done = work.of(w);
+      without_cancellation += done.without_cancellation;
+      ModalRow<double> row{&set.labels[kernel.element_of_wrench(which)], 0, std::vector<double>(7, 0.0)};
+      if (set.kind().energy_rows == Kind::EnergyRows::each_marker)
+        row.part = system_.model().marker(kernel.marker_I(which)).label.id;
+      for (std::size_t k = 0; k < 6; ++k) {
+        row.values[0] += done.along[k];
+        parts += std::abs(done.along[k]);
+        const bool shown = w.force.components != (k < 3 ? Components::torque : Components::force);
+        row.values[1 + k] = shown ? done.along[k] : std::numeric_limits<double>::quiet_NaN();
       }
+      total += row.values[0];
+      rows.push_back(std::move(row));
     }
   }
   // No share of nothing: motions of rigid bodies leave roundings in every element. A spring that is slack but for the

@@ -57,6 +57,7 @@ class ModalEnergy {
   // Rows of bodies and states before they are scaled, and the largest value among them.
   std::pair<std::vector<ModalRow<std::complex<double>>>, std::complex<double>> shape(std::size_t mode) const;
   std::array<double, 9> kinetic_terms(std::size_t body, const Eigen::VectorXcd& v) const;
+  std::vector<std::size_t> sets_with_rows() const;
   std::vector<ModalRow<double>> force_rows(std::size_t mode, Column family) const;
   Eigen::VectorXcd algebraic_change(const Eigen::VectorXcd& dq, Column family) const;
   Eigen::VectorXd algebraic_size(const Eigen::VectorXcd& dq, Column family) const;  // the same if nothing cancelled

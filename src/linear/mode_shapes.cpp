@@ -69,19 +69,21 @@ void name_movers(const System& system, const OperatingPoint& op, const LinearSys
   for (std::size_t m = 0; m < solution.modes.size(); ++m) {
     const auto at = static_cast<Eigen::Index>(m);
     const Eigen::VectorXcd z = solution.vectors.col(at), dq = displacements.col(at);
-    std::string& name = solution.modes[m].moves_most;
-    const bool at_rest = solution.modes[m].eigenvalue_hz == std::complex<double>(0);
+    EigenMode& mode = solution.modes[m];
+    const bool at_rest = mode.eigenvalue_hz == std::complex<double>(0);
     const ElementLabel* body = most_energetic(system, root, at_rest ? dq : Eigen::VectorXcd(velocities.col(at)));
     // A freedom without mass is what a mode may consist of; controllers that turn it are named before it.
     if (!body && z.tail(differential).norm() <= 1e-9 * z.norm()) body = furthest(system, op, dq);
     if (body) {
-      name = body->full_text();
+      mode.mover = body->element();
+      mode.moves_most = body->full_text();
       continue;
     }
     const Eigen::Index first = differential > 0 ? states - differential : 0;
     Eigen::Index k = 0;
     z.tail(states - first).cwiseAbs().maxCoeff(&k);
-    name = solution.states[static_cast<std::size_t>(first + k)].owner;
+    mode.mover = solution.states[static_cast<std::size_t>(first + k)].owner;
+    mode.moves_most = mode.mover.text();
   }
 }
 
@@ -94,13 +96,13 @@ void map_shapes(const System& system, const LinearSystem& linear, EigenSolution&
   solution.shape_labels.assign(static_cast<std::size_t>(n + differential), {});
   for (const BodyBlock& b : layout.bodies) {
     for (std::int32_t k = 0; k < b.count; ++k) {
-      solution.shape_labels[static_cast<std::size_t>(b.offset + k)] = {b.label.text(), b.label.view_name,
+      solution.shape_labels[static_cast<std::size_t>(b.offset + k)] = {b.label.element(), b.label.view_name,
                                                                        std::string(names[static_cast<std::size_t>(k)])};
     }
   }
   for (const ExtraBlock& e : layout.extras) {
     for (std::int32_t k = 0; k < e.count; ++k) {
-      solution.shape_labels[static_cast<std::size_t>(e.offset + k)] = {e.label.text(), e.label.view_name,
+      solution.shape_labels[static_cast<std::size_t>(e.offset + k)] = {e.label.element(), e.label.view_name,
                                                                        e.coordinates[static_cast<std::size_t>(k)].name};
     }
   }

@@ -73,16 +73,18 @@ CandidateSet::Moves moves_of(const BodyBlock& block, std::size_t k, const Vector
   return moves;
 }
 
-StateLabel principal_label(const BodyBlock& block, std::int32_t k, bool renamed) {
+StateCoordinate principal_coordinate(const System& system, const BodyBlock& block, std::int32_t k, bool renamed) {
   static constexpr std::array names = {"DX", "DY", "DZ", "PSI", "THETA", "PHI"};
   StateLabel label;
   label.type = block.kind == BodyKind::point_mass ? StateType::point_mass_original : StateType::part_euler;
   label.element = block.label.id;
-  label.owner = block.label.text();
+  label.owner = block.label.element();
   label.coordinate = k + 1;
   label.text = fmt::format("Global {} {}(PBCS{})", k < 3 ? "displacement" : "angle", names[static_cast<std::size_t>(k)],
                            renamed && k >= 3 ? " yzx" : "");
-  return label;
+  const StateType type = label.type;
+  const int rate = label.coordinate + static_cast<int>(block.count);
+  return state_coordinate(std::move(label), type, rate, system.coordinate_scale(block.offset + k));
 }
 
 }  // namespace
@@ -141,7 +143,7 @@ std::int32_t add_principal_candidates(const System& system, const Motion& motion
       } else {
         set.gradients.add_pose(row, id, none, angles[i - 3]);
       }
-      set.wanted.push_back({-1, row, principal_label(block, k, renamed)});
+      set.wanted.push_back({-1, row, principal_coordinate(system, block, k, renamed)});
       set.moves.push_back(moves_of(block, i, moving.R * axes.z, moving.R * body.p_BC));
     }
   }

@@ -14,9 +14,7 @@ Result<SecondOrder> second_order(const StateSpace& model, std::size_t first_orde
   for (std::size_t k = 0; k < model.states.size(); ++k) {
     const StateLabel& s = model.states[k];
     const auto at = static_cast<Eigen::Index>(k);
-    const bool of_controller = s.type == StateType::lse || s.type == StateType::tfsiso || s.type == StateType::gse ||
-                               s.type == StateType::diff || s.type == StateType::delay;
-    (s.is_rate ? rate : of_controller ? differential : coordinate).push_back(at);
+    (s.is_rate ? rate : k >= model.kinematic_states ? differential : coordinate).push_back(at);
   }
   if (rate.size() + first_order != coordinate.size()) {
     return tl::unexpected(Failure{"linear analysis",
@@ -40,6 +38,7 @@ Result<SecondOrder> second_order(const StateSpace& model, std::size_t first_orde
   std::vector<Eigen::Index> equations = rate;
   equations.insert(equations.end(), differential.begin(), differential.end());
   for (const Eigen::Index k : s) out.states.push_back(model.states[static_cast<std::size_t>(k)]);
+  out.differential_states = model.states.size() - model.kinematic_states;
 
   out.M = out.B = out.K = Eigen::MatrixXd::Zero(n + m, n + m);
   out.P = Eigen::MatrixXd::Zero(n + m, inputs);

@@ -89,7 +89,7 @@ class Chooser {
   }
 
   void take(const Candidate& c) {
-    choice_.labels.push_back(c.label);
+    choice_.coordinates.push_back(c.state);
     choice_.gradient.push_back(gradient_of(candidates_, c));
   }
 
@@ -195,23 +195,17 @@ class Chooser {
 void list_states(const Layout& layout, StateChoice& choice) {
   choice.rate_state.clear(), choice.position_state.clear(), choice.differential.clear(), choice.states.clear();
   const auto next = [&] { return static_cast<std::int32_t>(choice.states.size()); };
-  for (std::size_t k = 0; k < choice.labels.size(); ++k) {
-    const StateLabel& label = choice.labels[k];
+  choice.scales.clear();
+  const auto list = [&](const StateLabel& label, double scale) {
+    choice.states.push_back(label);
+    choice.scales.push_back(scale);
+  };
+  for (std::size_t k = 0; k < choice.coordinates.size(); ++k) {
+    const StateCoordinate& c = choice.coordinates[k];
     choice.rate_state.push_back(choice.has_rate[k] ? next() : -1);
-    if (choice.has_rate[k]) {
-      StateLabel rate = label;
-      rate.is_rate = true;
-      const bool own = label.type == StateType::pstate;
-      const bool point = label.type == StateType::point_mass || label.type == StateType::point_mass_relative ||
-                         label.type == StateType::point_mass_original;
-      if (own) rate.type = StateType::pstate_rate;
-      // Curve parameters have no second code: only 1, or 1 and 2, are permissible (LINEAR command, 5.2.6).
-      const bool parameter = label.type == StateType::ptcv || label.type == StateType::cvcv;
-      rate.coordinate = own ? 2 : label.coordinate + (parameter ? 0 : point ? 3 : 6);
-      choice.states.push_back(rate);
-    }
+    if (choice.has_rate[k]) list(c.rate, 0);
     choice.position_state.push_back(choice.has_position[k] ? next() : -1);
-    if (choice.has_position[k]) choice.states.push_back(label);
+    if (choice.has_position[k]) list(c.label, c.scale);
   }
   choice.first_differential = next();
   // Differential states by type code, then id.
@@ -226,8 +220,7 @@ void list_states(const Layout& layout, StateChoice& choice) {
                    [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
   for (const std::int32_t k : choice.differential) {
     const DifferentialState& z = layout.states[static_cast<std::size_t>(k)];
-    choice.states.push_back(
-        {z.type, z.owner->id, z.coordinate, fmt::format("State {}", z.coordinate), z.owner->text(), false});
+    list({z.type, z.owner->id, z.coordinate, fmt::format("State {}", z.coordinate), z.owner->element(), false}, 0);
   }
 }
 

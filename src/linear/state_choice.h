@@ -15,7 +15,7 @@ struct StateChoice {
     std::int32_t column;
     RowCoefficients c;
   };
-  std::vector<StateLabel> labels;             // of chosen coordinates, in the order in which they are wanted
+  std::vector<StateCoordinate> coordinates;   // the chosen ones, in the order in which they are wanted
   std::vector<std::vector<Entry>> gradient;   // x = gradient · q, along the motion
   std::vector<bool> has_position;             // whether x is a state; without mass its forces may determine it
   std::vector<bool> has_rate;                 // whether x′ is a state as well
@@ -25,6 +25,7 @@ struct StateChoice {
   std::vector<std::int32_t> differential;                // differential state k of the list is state differential[k]
   std::int32_t first_differential = 0;
   std::vector<StateLabel> states;  // all, as listed: rate before coordinate, then differential states
+  std::vector<double> scales;      // StateCoordinate::scale of those that are coordinates, 0 for all others
   std::vector<std::string> warnings;
 
   std::int32_t size() const { return static_cast<std::int32_t>(states.size()); }

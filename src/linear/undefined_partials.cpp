@@ -102,9 +102,7 @@ Failure UndefinedPartials::named(const std::vector<Entry>& entries) const {
     } else {
       // What acts on a body directly, without an unknown of its own: the reactions of constraints, forces along a line.
       const auto has_unknown = [&](const ElementFault& f) {
-        const auto owns = [&](const auto& u) {
-          return u.owner->statement == f.of->statement && u.owner->id == f.of->id;
-        };
+        const auto owns = [&](const auto& u) { return same_element(*u.owner, *f.of); };
         return std::any_of(layout.algebraic.begin(), layout.algebraic.end(), owns) ||
                std::any_of(layout.states.begin(), layout.states.end(), owns);
       };

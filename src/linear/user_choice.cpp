@@ -63,7 +63,7 @@ class Preference {
       take(c, std::move(gradient), motion, rest, along);
       if (left < barely_independent) {
         choice_.warnings.push_back(fmt::format("{} is nearly {}: only {:.1e} of its gradient is a motion of its own",
-                                               c.label.text,
+                                               c.state.label.text,
                                                taken_.size() > 1 ? "dependent on those before it" : "constant", left));
       }
     } else if (given == 0) {
@@ -76,7 +76,7 @@ class Preference {
   }
 
   void refuse(const Candidate& c, const std::string& why) {
-    choice_.warnings.push_back(fmt::format("{} was not taken: {}", c.label.text, why));
+    choice_.warnings.push_back(fmt::format("{} was not taken: {}", c.state.label.text, why));
   }
 
   void take(const Candidate& c, std::vector<StateChoice::Entry> gradient, const Vector& motion, const Vector& rest,
@@ -89,7 +89,7 @@ class Preference {
     triangle_(m, m) = rest.norm();
     sizes_.push_back(motion.norm());
     units_.push_back(rest.norm());
-    taken_.push_back(c.label);
+    taken_.push_back(c.state);
     gradients_.push_back(std::move(gradient));
   }
 
@@ -101,7 +101,7 @@ class Preference {
     for (std::size_t k = 0; k < taken_.size(); ++k) {
       if (std::abs(factors(static_cast<Index>(k))) * sizes_[k] <= independent * size) continue;
       if (names.size() < most_names) {
-        names.push_back(fmt::format("VAR/{}", taken_[k].element));
+        names.push_back(fmt::format("VAR/{}", taken_[k].label.element));
       } else {
         ++more;
       }
@@ -125,12 +125,12 @@ class Preference {
     std::vector<std::int32_t> order;
     for (auto k = static_cast<std::int32_t>(count_); k-- > 0;) order.push_back(k);
     const Elimination e = eliminate(std::move(rows), static_cast<std::int32_t>(count_), order);
-    for (std::size_t k = 0; k < choice_.labels.size(); ++k) {
+    for (std::size_t k = 0; k < choice_.coordinates.size(); ++k) {
       if (e.dependent[k]) continue;
-      taken_.push_back(choice_.labels[k]);
+      taken_.push_back(choice_.coordinates[k]);
       gradients_.push_back(std::move(choice_.gradient[k]));
     }
-    choice_.labels = std::move(taken_);
+    choice_.coordinates = std::move(taken_);
     choice_.gradient = std::move(gradients_);
   }
 
@@ -142,7 +142,7 @@ class Preference {
   Vector unit_;
   Matrix basis_, triangle_;  // motions of those taken, in rows: their transpose is basis · triangle
   std::vector<double> sizes_, units_;
-  std::vector<StateLabel> taken_;
+  std::vector<StateCoordinate> taken_;
   std::vector<std::vector<StateChoice::Entry>> gradients_;
 };
 

@@ -82,7 +82,7 @@ class Chain {
     }
     Link link;
     link.variable = variable;
-    const Signals::Element element = system_.signals().element("VARIABLE", system_.model().label(variable).id);
+    const Signals::Element element = system_.signals().element(variable);
     link.function = element.kernel->value_function(element.index);
     link.given.resize(e.atoms().size());
     for (std::size_t k = 0; k < e.atoms().size(); ++k) {
@@ -122,9 +122,9 @@ class Chain {
     if (channel.kind == Channel::Kind::constant || channel.kind == Channel::Kind::none) return std::nullopt;
     if (channel.kind != Channel::Kind::algebraic) return wrong("a differential state");
     const ElementLabel& owner = *system_.layout().algebraic[static_cast<std::size_t>(channel.index)].owner;
-    const auto handle = owner.statement == "VARIABLE" ? system_.model().find("VARIABLE", owner.id) : std::nullopt;
-    if (!handle) return wrong(fmt::format("which {} gives", owner.text()));
-    if (auto failure = visit(VariableRef{*handle}, atom.at)) return failure;
+    const auto other_variable = system_.model().find_as<VariableClass>(owner);
+    if (!other_variable) return wrong(fmt::format("which {} gives", owner.text()));
+    if (auto failure = visit(*other_variable, atom.at)) return failure;
     const std::size_t other = place_.at(channel.index);
     link.reads.emplace_back(k, other);
     link.given[k] = links_[other].value;
@@ -174,9 +174,10 @@ std::optional<Failure> add_user_candidates(const System& system, const Motion& m
     if (auto failure = Chain(system, motion, ref).add_gradient(set.gradients, row)) return failure;
     Candidate c;
     c.row = row++;
-    c.label = {StateType::pstate, system.model().label(ref).id, 1, "", "", false};
-    c.label.text =
-        fmt::format("PSTATE VARIABLE VAR/{} {}", c.label.element, variable_function(system.model(), ref).at().text());
+    StateLabel label{StateType::pstate, system.model().label(ref).id, 1, "", {}, false};
+    label.text =
+        fmt::format("PSTATE VARIABLE VAR/{} {}", label.element, variable_function(system.model(), ref).at().text());
+    c.state = state_coordinate(std::move(label), StateType::pstate_rate, 2, 0);
     set.own.push_back(std::move(c));
   }
   return std::nullopt;

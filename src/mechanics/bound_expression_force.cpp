@@ -11,7 +11,7 @@ namespace {
 // Force or torque on the marker of a term, global axes.
 Vector on_marker(const MarkerWrench& w, bool on_J, bool torque) {
   if (!on_J) return torque ? w.force.torque : w.force.force;
-  if (!w.force.acts_on_J) return {};
+  if (!w.force.acts_on_J()) return {};
   if (!torque) return -w.force.force;
   const Vector delta = value(w.pair.delta);
   return -w.force.torque - cross(delta, w.force.force);
@@ -84,7 +84,7 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
     const MarkerWrench& w = wrenches[t];
     const PairMotion& p = w.pair;
     const bool on_J = a.terms[t].on_J;
-    if (on_J && !w.force.acts_on_J) continue;
+    if (on_J && !w.force.acts_on_J()) continue;
     const Vector delta = dynalin::value(p.delta);
     // e·(vector of interest) in terms of force and torque on I.
     const auto picked = [&](const Vector& f, const Vector& m) {

@@ -7,6 +7,7 @@
 
 #include "base/source.h"
 #include "base/vec3.h"
+#include "dynalin/element_id.h"
 
 namespace dynalin {
 
@@ -60,10 +61,14 @@ struct ElementLabel {
   std::string view_name;  // from the dataset, may be empty
   Span at;
 
+  ElementId element() const { return {std::string(statement), id}; }
   // "JOINT/3", with the view name behind it when there is one.
   std::string text() const { return std::string(statement) + "/" + std::to_string(id); }
   std::string full_text() const { return view_name.empty() ? text() : text() + " (" + view_name + ")"; }
 };
+inline bool same_element(const ElementLabel& a, const ElementLabel& b) {
+  return a.id == b.id && a.statement == b.statement;
+}
 
 // Where a marker sits on its body.
 struct MarkerPlace {

@@ -133,6 +133,7 @@ class Signals {
     std::size_t index = 0;
   };
   virtual Element element(std::string_view statement, std::int64_t id) const = 0;
+  virtual Element element(ElementHandle) const = 0;
   virtual std::vector<Element> elements_at(MarkerId) const = 0;
   virtual std::int32_t add_memory(const Span& owner, double initial) const = 0;
 };

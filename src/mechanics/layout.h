@@ -39,6 +39,7 @@ struct ExtraBlock {
   std::int32_t offset = 0;  // among all coordinates
   std::int32_t count = 0;
   ElementLabel label;
+  StateType type;  // of these coordinates and of their rates as states, which are numbered alike
   std::vector<ExtraCoordinate> coordinates;
 };
 
@@ -99,7 +100,7 @@ class Layout {
 
   std::int32_t add_body(BodyKind, ElementLabel);
   // After all bodies; returns the first coordinate.
-  std::int32_t add_extra(ElementLabel, std::vector<ExtraCoordinate>);
+  std::int32_t add_extra(ElementLabel, StateType, std::vector<ExtraCoordinate>);
   // Where a coordinate outside bodies stands among those in Motion.
   std::size_t extra_index(std::int32_t coordinate) const {
     return static_cast<std::size_t>(coordinate - body_coordinate_count);

@@ -81,6 +81,8 @@ PairForce along_line(const PairMotion& p, const LineMagnitude& F, bool with_part
   const Vec3<Taylor> line = p.delta / d;
   const Vector u = value(line);
   out.force = F.value * u;
+  out.reaction = Reaction::at_J;
+  out.components = Components::force;
   out.depends_on_velocity = F.on_rate != 0.0;
   if (!with_partials) return out;
 
@@ -115,7 +117,7 @@ std::array<std::int32_t, 4> group_columns(const PairMotion& p, const Layout& lay
 
 void apply(const PairMotion& p, const PairForce& f, Equations& eq, Column velocity_family) {
   eq.apply(p.body_I, f.force, cross(value(p.arm_I), f.force) + f.torque);
-  if (f.acts_on_J) eq.apply(p.body_J, -f.force, -(cross(value(p.arm), f.force) + f.torque));
+  if (f.acts_on_J()) eq.apply(p.body_J, -f.force, -(cross(value(p.arm), f.force) + f.torque));
   if (eq.wants_partials()) apply_partials(p, f, eq, velocity_family);
 }
 
@@ -132,14 +134,14 @@ void apply_partials(const PairMotion& p, const PairForce& f, Equations& eq, Colu
     const Matrix3& F = f.force_on_position.group[k];
     const Matrix3& T = f.torque_on_position.group[k];
     eq.add_block(Column::position, p.body_I, columns[k], F, to_I * F + T + arm_I[k]);
-    if (f.acts_on_J) {
+    if (f.acts_on_J()) {
       eq.add_block(Column::position, p.body_J, columns[k], -F, -(to_J * F + T + arm_J[k]));
     }
     if (!eq.wants(velocity_family)) continue;
     const Matrix3& Fv = f.force_on_velocity.group[k];
     const Matrix3& Tv = f.torque_on_velocity.group[k];
     eq.add_block(velocity_family, p.body_I, columns[k], Fv, to_I * Fv + Tv);
-    if (f.acts_on_J) eq.add_block(velocity_family, p.body_J, columns[k], -Fv, -(to_J * Fv + Tv));
+    if (f.acts_on_J()) eq.add_block(velocity_family, p.body_J, columns[k], -Fv, -(to_J * Fv + Tv));
   }
 }
 

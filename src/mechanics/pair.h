@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "mechanics/equations.h"
 #include "mechanics/path.h"
@@ -33,13 +34,22 @@ struct GroupPartials {
   std::array<Matrix3, 4> group{};
 };
 
-// The force and torque on I at its origin, global axes; the opposite acts on J's body at the same point.
+// What takes the opposite of the force and torque on I: J's body at the origin of I, its body at the origin of J (the
+// same for a force along the line between both, but another point that it does its work on), or nothing in the model.
+enum class Reaction : std::uint8_t { at_I, at_J, none };
+// Which of the two a law gives.
+enum class Components : std::uint8_t { force, torque, force_and_torque };
+
+// The force and torque on I at its origin, global axes.
 struct PairForce {
   Vector force, torque;
   GroupPartials force_on_position, torque_on_position;  // with respect to δq
   GroupPartials force_on_velocity, torque_on_velocity;  // with respect to δq′
   bool depends_on_velocity = false;
-  bool acts_on_J = true;
+  Reaction reaction = Reaction::at_I;
+  Components components = Components::force_and_torque;
+
+  bool acts_on_J() const { return reaction != Reaction::none; }
 };
 
 // A wrench given in the axes of J as a law of the relative motion.

@@ -40,12 +40,17 @@ struct Kind {
     inert,      // kept, without effect on a linear model
   };
 
+  // Rows in the tables of strain energy and dissipated power of a mode: what its wrenches work, each element as a whole
+  // or on each of its I markers.
+  enum class EnergyRows : std::uint8_t { none, one, each_marker };
+
   std::string_view statement;  // "JOINT"
   std::string_view variant;    // "REVOLUTE", empty if the statement has one kind only
   std::string_view summary;    // one sentence for the help
   Role role = Role::element;
   std::span<const ArgumentInfo> arguments;
   std::unique_ptr<ElementSet> (*make_set)(const Kind&) = nullptr;
+  EnergyRows energy_rows = EnergyRows::none;
 };
 
 using Catalogue = std::span<const Kind* const>;

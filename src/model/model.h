@@ -67,6 +67,13 @@ struct Model {
   std::vector<std::unique_ptr<ElementSet>> sets;  // in the order of the catalogue, only kinds that occur
 
   std::optional<ElementHandle> find(std::string_view statement, std::int64_t id) const;
+  // The element of a label, nothing if it is of another class of statements.
+  template <class Class>
+  std::optional<ElementRef<Class>> find_as(const ElementLabel& of) const {
+    if (of.statement != Class::statement) return std::nullopt;
+    const auto handle = find(of.statement, of.id);
+    return handle ? std::optional(ElementRef<Class>{*handle}) : std::nullopt;
+  }
   std::optional<MarkerId> find_marker(std::int64_t id) const;  // 0 is the global frame
   std::optional<BodyId> find_body(std::string_view statement, std::int64_t id) const;
 

@@ -17,7 +17,7 @@ namespace {
 Json states(const std::vector<StateLabel>& labels) {
   Json list = Json::array();
   for (const StateLabel& s : labels) {
-    std::string label = s.owner.empty() ? s.text : s.text + " " + s.owner;
+    std::string label = s.owner.empty() ? s.text : s.text + " " + s.owner.text();
     if (s.is_rate) label = "derivative of " + label;
     list.push_back(
         {{"label", label}, {"type", static_cast<int>(s.type)}, {"element", s.element}, {"coordinate", s.coordinate}});
@@ -47,7 +47,7 @@ Json column(const Eigen::MatrixXcd& m, std::size_t k) {
 Json shape_labels(const std::vector<ShapeLabel>& labels) {
   Json list = Json::array();
   for (const ShapeLabel& l : labels) {
-    list.push_back({{"element", l.element}, {"quantity", l.quantity}});
+    list.push_back({{"element", l.element.text()}, {"quantity", l.quantity}});
     if (!l.name.empty()) list.back()["name"] = l.name;
   }
   return list;

@@ -98,51 +98,31 @@ void write_chosen_states(std::ostream& out, const ChosenStates& c) {
   std::size_t left = c.kinematic;
   for (const StateLabel& s : c.states) {
     if (left == 0) break;
-    if (!s.is_rate) fmt::print(out, "{:9d} {}{}{}\n", ++number, s.text, s.owner.empty() ? "" : "   ", s.owner);
+    if (!s.is_rate) fmt::print(out, "{:9d} {}{}{}\n", ++number, s.text, s.owner.empty() ? "" : "   ", s.owner.text());
     --left;
   }
   fmt::print(out, "\n  The other kinematic states are the respective derivatives.\n");
 }
 
-bool is_differential(const StateLabel& s) {
-  switch (s.type) {
-    case StateType::lse:
-    case StateType::tfsiso:
-    case StateType::gse:
-    case StateType::diff:
-    case StateType::delay:
-      return true;
-    default:
-      return false;
-  }
-}
-
 }  // namespace
 
 void write_matrix_states(std::ostream& out, const StateSpace& s) {
-  std::size_t differential = 0;
-  for (const StateLabel& label : s.states) differential += is_differential(label);
   fmt::print(out, "\n  State matrices computation started.\n\n");
-  write_chosen_states(
-      out, {s.states, s.states.size() - differential, differential, s.rm, s.pstate, s.without_damping, s.original});
+  write_chosen_states(out, {s.states, s.kinematic_states, s.states.size() - s.kinematic_states, s.rm, s.pstate,
+                            s.without_damping, s.original});
   fmt::print(out, "\n  State matrices computation finished.\n\n");
 }
 
 // The coordinates of the second-order form stand without their rates, which are states all the same.
 void write_matrix_states(std::ostream& out, const SecondOrder& s) {
   std::vector<StateLabel> states;
-  std::size_t differential = 0;
-  for (const StateLabel& label : s.states) {
-    if (is_differential(label)) {
-      ++differential;
-      continue;
-    }
-    states.push_back(label);
-    states.push_back(label);
+  for (std::size_t k = 0; k + s.differential_states < s.states.size(); ++k) {
+    states.insert(states.end(), 2, s.states[k]);
     states.back().is_rate = true;
   }
   fmt::print(out, "\n  Second-order matrices computation started.\n\n");
-  write_chosen_states(out, {states, states.size(), differential, s.rm, s.pstate, s.without_damping, s.original});
+  write_chosen_states(out,
+                      {states, states.size(), s.differential_states, s.rm, s.pstate, s.without_damping, s.original});
   fmt::print(out, "\n  Second-order matrices computation finished.\n\n");
 }
 

@@ -40,7 +40,7 @@ std::string state_map(const std::vector<StateLabel>& states) {
     s += fmt::format(
         "<dl:State id=\"{}\" type=\"{}\" element=\"{}\" coordinate=\"{}\" derivative=\"{}\" name=\"{}\" />\n", ++id,
         static_cast<int>(label.type), label.element, label.coordinate, label.is_rate ? 1 : 0,
-        escaped(label.owner.empty() ? label.text : label.text + " " + label.owner));
+        escaped(label.owner.empty() ? label.text : label.text + " " + label.owner.text()));
   }
   return s + "</dl:StateMap>\n";
 }
@@ -77,11 +77,9 @@ void ResultsFile::add(const EigenSolution& e) {
     // Entries of one element follow each other.
     for (std::size_t r = 0; r < e.shape_labels.size();) {
       const ShapeLabel& first = e.shape_labels[r];
-      const std::size_t slash = first.element.find('/');
-      s +=
-          fmt::format("<dl:Entity name=\"{}\" entType=\"{}\" objectId=\"{}\">\n",
-                      escaped(first.name.empty() ? first.element : first.name), escaped(first.element.substr(0, slash)),
-                      slash == std::string::npos ? "" : first.element.substr(slash + 1));
+      s += fmt::format("<dl:Entity name=\"{}\" entType=\"{}\" objectId=\"{}\">\n",
+                       escaped(first.name.empty() ? first.element.text() : first.name),
+                       escaped(first.element.statement), first.element.id);
       for (; r < e.shape_labels.size() && e.shape_labels[r].element == first.element; ++r) {
         const std::complex<double> v = e.shapes(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k));
         s += fmt::format("<dl:Component name=\"{}\">{} {}</dl:Component>\n", escaped(e.shape_labels[r].quantity),

@@ -71,8 +71,9 @@ class System::SystemSignals final : public Signals {
   Element element(std::string_view statement, std::int64_t id) const override {
     const auto handle = system_.model_->find(statement, id);
     if (!handle) return {};
-    return {kernel(*handle), static_cast<std::size_t>(handle->index)};
+    return element(*handle);
   }
+  Element element(ElementHandle h) const override { return {kernel(h), static_cast<std::size_t>(h.index)}; }
   std::vector<Element> elements_at(MarkerId m) const override { return at_marker_[static_cast<std::size_t>(m.index)]; }
   Channel rate_of(const Channel& c) const override {
     if (c.kind == Channel::Kind::state && !system_.layout_.states[static_cast<std::size_t>(c.index)].held_in_dynamics)

@@ -6,9 +6,8 @@
 namespace dynalin {
 
 std::string fault_of(const std::vector<ElementFault>& faults, const ElementLabel& label) {
-  const auto found = std::find_if(faults.begin(), faults.end(), [&](const ElementFault& f) {
-    return f.of->statement == label.statement && f.of->id == label.id;
-  });
+  const auto found =
+      std::find_if(faults.begin(), faults.end(), [&](const ElementFault& f) { return same_element(*f.of, label); });
   return found == faults.end() ? std::string() : found->reason;
 }
 

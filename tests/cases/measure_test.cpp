@@ -336,7 +336,8 @@ TEST_F(Measures, have_the_partials_of_motions_that_begin_elsewhere) {
       const auto expected = static_cast<double>(derivative(at, step));
       EXPECT_NEAR(s.C(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(c)), expected,
                   1e-9 * std::max(1.0, std::abs(expected)))  // differences of second differences
-          << list[k].text << " by " << (state.is_rate ? "the rate of " : "") << state.text << " of " << state.owner;
+          << list[k].text << " by " << (state.is_rate ? "the rate of " : "") << state.text << " of "
+          << state.owner.text();
     }
   }
 }

@@ -140,6 +140,7 @@ Real Model::diff_value(std::size_t k) const {
 Real Model::diff_rate(std::size_t k) const {
   const Diff& diff = mechanism_.diffs[k];
   if (diff.kind == DiffKind::algebraic) return algebraic_rates[k];
+  if (!held_rates.empty()) return held_rates[k];
   const Real function = evaluate(diff.function);
   return diff.kind == DiffKind::explicit_rate ? function : function / evaluate(diff.coefficient);
 }
@@ -214,6 +215,12 @@ std::vector<Real> Model::lse_rates(std::size_t k) const {
       rates[r] += b.values[r * columns + c] * input_entry(lse.u, c);
     }
   }
+  return rates;
+}
+
+std::vector<Real> Model::diff_rates() const {
+  std::vector<Real> rates;
+  for (std::size_t k = 0; k < mechanism_.diffs.size(); ++k) rates.push_back(diff_rate(k));
   return rates;
 }
 

@@ -155,34 +155,43 @@ Wrench Model::linear_wrench(const LinearForce& f) const {
   return in_axes_of(marker_index(f.j), load);
 }
 
-// Each marker takes its six rows; the body of J balances them.
-void Model::apply_nforces(std::vector<Wrench>& loads) const {
-  for (const Nforce& f : mechanism_.nforces) {
-    const std::size_t n = f.i.size();
-    std::vector<Real> y(6 * n), rate(6 * n);
-    for (std::size_t m = 0; m < n; ++m) {
-      const Displacements at = displacements(marker_index(f.i[m]), marker_index(f.j));
-      for (std::size_t c = 0; c < 6; ++c) {
-        y[6 * m + c] = at.y[c] - (f.length != 0 ? number_matrix(f.length).values[6 * m + c] : 0);
-        rate[6 * m + c] = at.rate[c];
+// Each marker takes its six rows.
+std::vector<Wrench> Model::nforce_wrenches(const Nforce& f) const {
+  const std::size_t n = f.i.size();
+  std::vector<Real> y(6 * n), rate(6 * n);
+  for (std::size_t m = 0; m < n; ++m) {
+    const Displacements at = displacements(marker_index(f.i[m]), marker_index(f.j));
+    for (std::size_t c = 0; c < 6; ++c) {
+      y[6 * m + c] = at.y[c] - (f.length != 0 ? number_matrix(f.length).values[6 * m + c] : 0);
+      rate[6 * m + c] = at.rate[c];
+    }
+  }
+  std::vector<Wrench> wrenches;
+  const std::vector<double>& K = number_matrix(f.k).values;
+  for (std::size_t m = 0; m < n; ++m) {
+    std::array<Real, 6> load{};
+    for (std::size_t r = 0; r < 6; ++r) {
+      const std::size_t row = 6 * m + r;
+      if (f.force != 0) load[r] = number_matrix(f.force).values[row];
+      for (std::size_t c = 0; c < 6 * n; ++c) {
+        const Real k = K[row * 6 * n + c];
+        const Real damping = f.c != 0 ? static_cast<Real>(number_matrix(f.c).values[row * 6 * n + c]) : f.ratio * k;
+        load[r] -= k * y[c] + damping * rate[c];
       }
     }
-    const std::vector<double>& K = number_matrix(f.k).values;
-    for (std::size_t m = 0; m < n; ++m) {
-      std::array<Real, 6> load{};
-      for (std::size_t r = 0; r < 6; ++r) {
-        const std::size_t row = 6 * m + r;
-        if (f.force != 0) load[r] = number_matrix(f.force).values[row];
-        for (std::size_t c = 0; c < 6 * n; ++c) {
-          const Real k = K[row * 6 * n + c];
-          const Real damping = f.c != 0 ? static_cast<Real>(number_matrix(f.c).values[row * 6 * n + c]) : f.ratio * k;
-          load[r] -= k * y[c] + damping * rate[c];
-        }
-      }
-      const Wrench w = in_axes_of(marker_index(f.j), load);
+    wrenches.push_back(in_axes_of(marker_index(f.j), load));
+  }
+  return wrenches;
+}
+
+// The body of J balances them.
+void Model::apply_nforces(std::vector<Wrench>& loads) const {
+  for (const Nforce& f : mechanism_.nforces) {
+    const std::vector<Wrench> wrenches = nforce_wrenches(f);
+    for (std::size_t m = 0; m < wrenches.size(); ++m) {
       const Vec at = markers_[static_cast<std::size_t>(marker_index(f.i[m]))].p;
-      apply(loads, marker_index(f.i[m]), at, w, 1);
-      apply(loads, marker_index(f.j), at, w, -1);
+      apply(loads, marker_index(f.i[m]), at, wrenches[m], 1);
+      apply(loads, marker_index(f.j), at, wrenches[m], -1);
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <map>
+#include <string_view>
 #include <vector>
 
 #include "curves.h"
@@ -47,6 +48,17 @@ struct Row {
   std::vector<Wrench> gradient{};  // of an expression, on each body, t about its BCS
 };
 
+// A force element as it acts: a wrench on I, its torque about p_I, and what takes the opposite.
+struct ForceLoad {
+  enum class Taker { body_at_i, body_at_j, nothing };
+  std::string_view statement;
+  int id = 0, marker = 0;  // marker: the id of I where the element has a wrench for each of several
+  int i = 0, j = 0;        // marker indices
+  Wrench on_i;
+  Taker taker = Taker::body_at_i;
+  bool forces = true, torques = true;  // what such a statement exerts
+};
+
 // A displacement of one body, or a change of its velocity: `shift` of the BCS and `turn`, global axes.
 struct Variation {
   int body = 0;
@@ -85,6 +97,7 @@ class Model {
   std::vector<Real> component_values;                   // of general forces, six each, in the order of the mechanism
   std::vector<Real> algebraic_values, algebraic_rates;  // per DIFF, used where it is algebraic
   std::map<const Node*, Real> delay_offset;             // see expand_delays
+  std::vector<Real> held_rates;                         // of differential states of DIFFs, if any: kept, not evaluated
   std::vector<int> cut;                                 // per variable: 1 when it is an independent input
   std::vector<Real> cut_values;
 
@@ -111,6 +124,9 @@ class Model {
   // From here on a DELAY is e - tau e' plus what makes its value here that of its history before the start.
   void expand_delays();
   [[nodiscard]] std::vector<Real> differential_rates() const;
+  [[nodiscard]] std::vector<Real> diff_rates() const;  // of every DIFF
+  // All force elements, statement by statement in alphabetical order.
+  [[nodiscard]] std::vector<ForceLoad> force_loads() const;
   [[nodiscard]] Real evaluate(const Expr& expression) const;
   [[nodiscard]] Vec contact_point(std::size_t k) const;
   // Where on the curves of i and of j the search for the point of contact begins from now on.
@@ -167,6 +183,7 @@ class Model {
   [[nodiscard]] Wrench spring_wrench(std::size_t k) const;
   [[nodiscard]] Wrench sforce_wrench(std::size_t k) const;
   [[nodiscard]] Wrench linear_wrench(const LinearForce& f) const;
+  [[nodiscard]] std::vector<Wrench> nforce_wrenches(const Nforce& f) const;  // on each marker
   [[nodiscard]] Wrench general_wrench(std::size_t k) const;
   [[nodiscard]] Wrench joint_wrench(int joint) const;
   [[nodiscard]] Wrench motion_wrench(int motion) const;

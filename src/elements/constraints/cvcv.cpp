@@ -17,6 +17,7 @@ namespace dynalin {
 namespace {
 
 struct CurveOnCurve {
+  static constexpr StateType state_type = StateType::cvcv;
   static constexpr std::array<std::string_view, 2> parameter_names = {"Curve parameter ALPHA(I)",
                                                                       "Curve parameter ALPHA(J)"};
   static constexpr std::array<std::string_view, 4> row_names = {"DX", "DY", "DZ", "tangent"};

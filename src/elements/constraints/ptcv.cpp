@@ -14,6 +14,7 @@ namespace dynalin {
 namespace {
 
 struct PointOnCurve {
+  static constexpr StateType state_type = StateType::ptcv;
   static constexpr std::array<std::string_view, 1> parameter_names = {"Curve parameter ALPHA"};
   static constexpr std::array<std::string_view, 3> row_names = {"DX", "DY", "DZ"};
   std::array<std::shared_ptr<const ParametricCurve>, 1> curves;

@@ -3,6 +3,7 @@
 // Marker I and marker J carry what touches; the parameters u of the points of contact are coordinates of the system
 // beside those of the bodies, without inertia. A member of the family gives
 //
+//     static constexpr StateType state_type;                             // of the parameters
 //     static constexpr std::array<std::string_view, m> parameter_names;
 //     static constexpr std::array<std::string_view, n> row_names;
 //     std::array<std::shared_ptr<const ParametricCurve>, m> curves;      // which each parameter runs along
@@ -82,7 +83,12 @@ class CurveContactKernel final : public Kernel {
         coordinates.push_back({std::string(E::parameter_names[a]), c.start[a].parameter,
                                c.element.curves[a]->least_speed(), largest_step});
       }
-      Placed p{c, layout.marker(c.i), layout.marker(c.j), layout.add_extra(labels[k], std::move(coordinates)), 0, 0};
+      Placed p{c,
+               layout.marker(c.i),
+               layout.marker(c.j),
+               layout.add_extra(labels[k], E::state_type, std::move(coordinates)),
+               0,
+               0};
       p.first_extra = layout.extra_index(p.first_coordinate);
       for (std::size_t a = 0; a < m; ++a) {
         layout.curve_points.push_back({c.floating[a].marker, c.floating[a].carrier, c.element.curves[a],

@@ -18,10 +18,12 @@ PairForce FunctionForceKernel::force_of(const Force& f, const PairMotion& pair, 
   if (f.element.direction == Direction::along_line) {
     return along_line(pair, {magnitude, 0.0, 0.0}, with_partials);
   }
+  const bool pushes = f.element.direction == Direction::along_z;
   RelativeWrench w;
-  (f.element.direction == Direction::along_z ? w.force : w.torque).z = magnitude;
+  (pushes ? w.force : w.torque).z = magnitude;
   PairForce force = spread(pair, w, with_partials);
-  force.acts_on_J = !f.element.action_only;
+  force.components = pushes ? Components::force : Components::torque;
+  if (f.element.action_only) force.reaction = Reaction::none;
   return force;
 }
 
@@ -39,7 +41,7 @@ void FunctionForceKernel::equations(const Motion& motion, Equations& eq) const {
     apply(pair, force, eq);
     if (!eq.wants(Column::algebraic)) continue;
     const PairForce one = force_of(f, pair, 1.0, false);
-    apply_column(pair, one.force, one.torque, force.acts_on_J, Column::algebraic, f.algebraic, eq);
+    apply_column(pair, one.force, one.torque, force.acts_on_J(), Column::algebraic, f.algebraic, eq);
   }
 }
 

@@ -118,7 +118,9 @@ class AxisTorqueKernel final : public Kernel {
       w.on_pose[5][k] = torque.partial[k];
       w.on_rate[5][k] = torque.partial[6 + k];
     }
-    return spread(pair, w, with_partials);
+    PairForce force = spread(pair, w, with_partials);
+    force.components = Components::torque;
+    return force;
   }
   std::vector<Torque> torques_;
 };
@@ -149,7 +151,8 @@ constexpr Kind two_marker_force() {
           detail::argument_infos<E>,
           [](const Kind& kind) -> std::unique_ptr<ElementSet> {
             return std::make_unique<TwoMarkerForceSet<E, KernelOf>>(kind);
-          }};
+          },
+          Kind::EnergyRows::one};
 }
 template <class E>
 constexpr Kind line_force() {

@@ -86,7 +86,8 @@ constexpr Kind linear_wrench() {
           E::summary,
           Kind::Role::element,
           detail::argument_infos<E>,
-          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<LinearWrenchSet<E>>(kind); }};
+          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<LinearWrenchSet<E>>(kind); },
+          Kind::EnergyRows::one};
 }
 
 // Puts a list of exactly N values into an array; false after a reported error. An empty list leaves the array as it is.

@@ -32,13 +32,13 @@ class SingleComponentSet final : public TypedSet<E> {
 
 template <class E>
 constexpr Kind single_component() {
-  return {
-      "SFORCE",
-      E::variant,
-      E::summary,
-      Kind::Role::element,
-      detail::argument_infos<E>,
-      [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<SingleComponentSet<E>>(kind); }};
+  return {"SFORCE",
+          E::variant,
+          E::summary,
+          Kind::Role::element,
+          detail::argument_infos<E>,
+          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<SingleComponentSet<E>>(kind); },
+          Kind::EnergyRows::one};
 }
 
 }  // namespace dynalin

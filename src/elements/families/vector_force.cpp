@@ -5,8 +5,8 @@
 namespace dynalin {
 
 VectorForceKernel::VectorForceKernel(std::vector<VectorForce> elements, const std::vector<ElementLabel>& labels,
-                                     Layout& layout)
-    : labels_(&labels) {
+                                     Components components, Layout& layout)
+    : labels_(&labels), components_(components) {
   for (std::size_t k = 0; k < elements.size(); ++k) {
     Force f{elements[k],
             layout.marker(elements[k].i),
@@ -34,6 +34,7 @@ void VectorForceKernel::wrench(const Motion& motion, std::size_t k, bool with_pa
   out.pair.delta = {};
   out.J_follows_I = true;
   out.force = {};
+  out.force.components = components_;
   const Matrix3 axes = motion.axes(f.RM);
   for (const Component& c : f.components) {
     const Vector e = axes[c.axis % 3];

@@ -22,7 +22,7 @@ struct VectorForce {
 
 class VectorForceKernel final : public Kernel {
  public:
-  VectorForceKernel(std::vector<VectorForce>, const std::vector<ElementLabel>&, Layout&);
+  VectorForceKernel(std::vector<VectorForce>, const std::vector<ElementLabel>&, Components, Layout&);
   void bind(const Signals&) override;
   void equations(const Motion&, Equations&) const override;
   void remember(const Motion&, Memory&) const override;
@@ -45,6 +45,7 @@ class VectorForceKernel final : public Kernel {
   };
   std::vector<Force> forces_;
   const std::vector<ElementLabel>* labels_;
+  Components components_;  // that the statement has, written or not
 };
 
 struct WrittenVectorForce {
@@ -73,7 +74,10 @@ class VectorForceSet final : public TypedSet<VectorForce> {
     }
   }
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
-    return std::make_unique<VectorForceKernel>(elements, labels, layout);
+    constexpr Components components = !E::has_torques  ? Components::force
+                                      : !E::has_forces ? Components::torque
+                                                       : Components::force_and_torque;
+    return std::make_unique<VectorForceKernel>(elements, labels, components, layout);
   }
 };
 
@@ -84,7 +88,8 @@ constexpr Kind vector_force() {
           E::summary,
           Kind::Role::element,
           detail::argument_infos<E>,
-          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<VectorForceSet<E>>(kind); }};
+          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<VectorForceSet<E>>(kind); },
+          Kind::EnergyRows::one};
 }
 
 }  // namespace dynalin

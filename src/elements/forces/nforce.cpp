@@ -247,6 +247,7 @@ extern constinit const Kind nforce = {
     "Linear force among several markers as seen from one.",
     Kind::Role::element,
     detail::argument_infos<Nforce>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<NforceSet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<NforceSet>(kind); },
+    Kind::EnergyRows::each_marker};
 
 }  // namespace dynalin

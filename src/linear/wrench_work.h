@@ -1,0 +1,45 @@
+// What the force of an element works in a mode (LINEAR command, 5.1.5): strain energy and dissipated power.
+//
+//     −½ Re (δF · ū)         u: motion of I against the point of J's body that takes the reaction, global axes
+//     −½ Re (δT · θ̄)         θ: rotation of I against J's body
+//
+// with δF and δT what displacements (or velocities) alone make of the wrench, through the algebraic unknowns as well.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <complex>
+
+#include "mechanics/kernel.h"
+
+namespace dynalin {
+
+using ComplexVector = std::array<std::complex<double>, 3>;
+
+inline ComplexVector three(const Eigen::VectorXcd& x, std::int32_t at) { return {x(at), x(at + 1), x(at + 2)}; }
+ComplexVector times(const Matrix3&, const ComplexVector&);
+void add(ComplexVector& a, const ComplexVector& b, std::complex<double> factor = 1.0);
+
+class WrenchWork {
+ public:
+  // `family`: position with displacements u of all coordinates, damping with velocities u. `dw`: what they make of the
+  // algebraic unknowns, `dw_size` that if nothing cancelled.
+  WrenchWork(const Layout&, Column family, const Eigen::VectorXcd& u, Eigen::VectorXcd dw, Eigen::VectorXd dw_size);
+
+  struct Done {
+    std::array<double, 6> along{};    // X Y Z of the force and of the torque
+    double without_cancellation = 0;  // the sum of all if no motions cancelled
+  };
+  Done of(const MarkerWrench&) const;
+
+ private:
+  ComplexVector motion_of(BodyId, std::int32_t first) const;
+
+  const Layout& layout_;
+  Column family_;
+  const Eigen::VectorXcd& u_;
+  Eigen::VectorXcd dw_;
+  Eigen::VectorXd dw_size_;
+};
+
+}  // namespace dynalin

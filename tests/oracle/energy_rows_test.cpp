@@ -1,0 +1,150 @@
+// The program's tables of strain energy and dissipated power against the work of the oracle's forces by differences, on
+// generated mechanisms and for every kind of element that has rows.
+#include "oracle/energy_rows.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "elements/catalogue.h"
+#include "linear/eigen.h"
+#include "linear/modal_energy.h"
+#include "oracle/program_point.h"
+
+namespace dynalin::oracle {
+namespace {
+
+// What was compared, over many mechanisms.
+struct Seen {
+  std::set<std::string> kinds;  // with a share of more than a thousandth: "SFORCE ROTATIONAL strain"
+  int tables = 0, left_out = 0;
+};
+
+// A sum that nearly cancels makes percentages of nothing.
+constexpr double cancelled = 1e-5;
+
+std::string kind_of(const EnergyRow& row) {
+  if (row.statement != "SFORCE" && row.statement != "SPRINGDAMPER") return row.statement;
+  return row.statement + (row.shows_force ? " TRANSLATIONAL" : " ROTATIONAL");
+}
+std::string key_of(const std::string& kind, Energy energy) {
+  return kind + (energy == Energy::strain ? " strain" : " dissipation");
+}
+
+void expect_rows(const std::vector<ModalRow<double>>& ours, const std::vector<EnergyRow>& theirs, Energy energy,
+                 Seen& seen) {
+  ASSERT_EQ(ours.size(), theirs.size());
+  double total = 0, parts = 0, size = 0;
+  for (const EnergyRow& row : theirs) {
+    for (const double v : row.along) total += v, parts += std::abs(v);
+    size += row.without_cancellation;
+  }
+  if (parts <= 1e-9 * size || std::abs(total) <= cancelled * parts) {
+    ++seen.left_out;
+    return;
+  }
+  ++seen.tables;
+  std::vector<bool> found(ours.size(), false);
+  std::string_view before;
+  for (std::size_t k = 0; k < ours.size(); ++k) {
+    const ElementLabel& label = *ours[k].element;
+    SCOPED_TRACE(label.text());
+    EXPECT_LE(before, label.statement);
+    before = label.statement;
+    std::size_t at = 0;
+    while (at < theirs.size() && (found[at] || theirs[at].statement != label.statement || theirs[at].id != label.id ||
+                                  theirs[at].marker != ours[k].part))
+      ++at;
+    ASSERT_LT(at, theirs.size()) << "marker " << ours[k].part;
+    found[at] = true;
+    const EnergyRow& row = theirs[at];
+    double sum = 0, error = 0;
+    ASSERT_EQ(ours[k].values.size(), 7u);
+    for (std::size_t c = 0; c < 6; ++c) {
+      const double share = 100 * row.along[c] / total, doubt = 100 * std::abs(row.error[c] / total);
+      const double room = 1e-8 * std::max(100.0, 100 * parts / std::abs(total)) + 10 * doubt;
+      sum += share, error += room;
+      const double value = ours[k].values[1 + c];
+      EXPECT_EQ(std::isnan(value), !(c < 3 ? row.shows_force : row.shows_torque)) << c;
+      if (std::isnan(value)) continue;
+      EXPECT_NEAR(value, share, room) << c;
+    }
+    EXPECT_NEAR(ours[k].values[0], sum, error);
+    if (std::abs(sum) > 0.1) seen.kinds.insert(key_of(kind_of(row), energy));
+  }
+}
+
+class EnergyRows : public ::testing::TestWithParam<std::uint64_t> {};
+
+void compare(std::uint64_t seed, Seen& seen) {
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  const Mechanism mechanism = random_mechanism(seed);
+  auto dataset = parse_dataset(std::make_shared<const SourceText>("generated.adm", dataset_text(mechanism)));
+  auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
+  ASSERT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics);
+  const System system{std::shared_ptr<const Model>(std::move(model.value))};
+  Findings findings;
+  const auto op = initial_conditions(system, findings);
+  ASSERT_TRUE(op) << op.error().message;
+  const auto linear = linearize(system, *op, {});
+  ASSERT_TRUE(linear) << linear.error().message;
+  const auto modes = eigensolve(*linear);
+  ASSERT_TRUE(modes) << modes.error().message;
+  std::vector<ChosenState> states;
+  for (const StateLabel& label : linear->model.states) states.push_back(chosen(label));
+  const ModalEnergy energies(system, *op, *linear, *modes);
+  const OraclePoint point = point_of(system, *op);
+  const std::size_t count = modes->modes.size();
+  for (const std::size_t mode : std::set<std::size_t>{0, count / 2, count - 1}) {
+    if (mode >= count) continue;
+    SCOPED_TRACE("mode " + std::to_string(mode + 1));
+    Eigen::VectorXcd z = modes->vectors.col(static_cast<Eigen::Index>(mode));
+    const std::vector<std::complex<double>> entries(z.begin(), z.end());
+    for (const Energy energy : {Energy::strain, Energy::dissipation}) {
+      SCOPED_TRACE(energy == Energy::strain ? "strain" : "dissipation");
+      const auto rows = energy == Energy::strain ? energies.strain(mode) : energies.dissipation(mode);
+      expect_rows(rows, energy_rows(mechanism, point, states, entries, energy), energy, seen);
+    }
+  }
+}
+
+TEST_P(EnergyRows, equal_the_work_of_forces_by_differences) {
+  Seen seen;
+  for (std::uint64_t seed = GetParam(); seed < GetParam() + 20; ++seed) {
+    compare(seed, seen);
+    ASSERT_FALSE(::testing::Test::HasFatalFailure());
+  }
+  EXPECT_GT(seen.tables, 5 * seen.left_out) << seen.tables;
+}
+INSTANTIATE_TEST_SUITE_P(generated, EnergyRows, ::testing::Range<std::uint64_t>(1, 201, 20));
+
+// Each in both tables, with a share that is not nothing.
+TEST(EnergyRowKinds, are_all_compared) {
+  std::set<std::string> missing;
+  for (const Kind* kind : catalogue()) {
+    if (kind->energy_rows == Kind::EnergyRows::none) continue;
+    const std::string name =
+        std::string(kind->statement) + (kind->variant.empty() ? "" : " ") + std::string(kind->variant);
+    for (const Energy energy : {Energy::strain, Energy::dissipation}) missing.insert(key_of(name, energy));
+  }
+  EXPECT_EQ(missing.size(), 22u)
+      << "BEAM, BUSHING, FIELD, GFORCE, NFORCE, VFORCE, VTORQUE, two each of SFORCE and SPRINGDAMPER";
+  for (std::uint64_t seed = 1; seed <= 200 && !missing.empty(); ++seed) {
+    // Only mechanisms that hold one of those.
+    const std::string text = dataset_text(random_mechanism(seed));
+    if (std::none_of(missing.begin(), missing.end(), [&](const std::string& key) {
+          return text.find("\n" + key.substr(0, key.find(' ')) + "/") != std::string::npos;
+        }))
+      continue;
+    Seen seen;
+    compare(seed, seen);
+    for (const std::string& key : seen.kinds) missing.erase(key);
+  }
+  for (const std::string& key : missing) ADD_FAILURE() << key;
+}
+
+}  // namespace
+}  // namespace dynalin::oracle
