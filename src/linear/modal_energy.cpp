@@ -22,6 +22,7 @@ constexpr double rounding = 1e-10;
 ModalEnergy::ModalEnergy(const System& system, const OperatingPoint& op, const LinearSystem& linear,
                          const EigenSolution& solution)
     : system_(system), linear_(linear), solution_(solution), motion_(system.motion(op)) {
+  motion_.mode = AnalysisMode::linear;  // a DELAY follows what it delays, as in linearize()
   ConstraintRows rows;
   rows.resize(system.layout());
   eq_.resize(system.layout());

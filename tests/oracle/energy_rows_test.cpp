@@ -77,11 +77,35 @@ void expect_rows(const std::vector<ModalRow<double>>& ours, const std::vector<En
   }
 }
 
+// Whether anything sees the point of contact of a curve or the reaction there. The program has the curve's parameter
+// for a coordinate of its own, the oracle does not: with multipliers and rates held they mean different things.
+bool sees_contacts(const Mechanism& m) {
+  std::set<int> touching;
+  for (const Contact& c : m.contacts) touching.insert({c.i, c.ifloat, c.jfloat});
+  bool found = false;
+  const auto look = [&](const Expr& e) {
+    if (!e.node) return;
+    walk(e, [&](const Node& n) {
+      const bool names_one =
+          std::any_of(n.ids.begin(), n.ids.end(), [&](int id) { return id != 0 && touching.count(id) > 0; });
+      found = found || n.op == Op::contact || ((n.op == Op::measure || n.op == Op::marker_force) && names_one);
+    });
+  };
+  for (const Variable& v : m.variables) look(v.function);
+  for (const Sforce& s : m.sforces) look(s.function);
+  for (const GeneralForce& f : m.gforces) {
+    for (const auto& e : f.component) look(e.value_or(Expr{}));
+  }
+  for (const Diff& d : m.diffs) look(d.function), look(d.coefficient);
+  return found;
+}
+
 class EnergyRows : public ::testing::TestWithParam<std::uint64_t> {};
 
 void compare(std::uint64_t seed, Seen& seen) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   const Mechanism mechanism = random_mechanism(seed);
+  if (sees_contacts(mechanism)) return;
   auto dataset = parse_dataset(std::make_shared<const SourceText>("generated.adm", dataset_text(mechanism)));
   auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
   ASSERT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics);
