@@ -167,6 +167,22 @@ TEST_F(Modal, strain_follows_variables_between_force_and_displacement) {
   }
 }
 
+// −300 (z − τ z′): stiffness like a spring, and damping of the wrong sign.
+TEST_F(Modal, a_delayed_force_stores_energy_and_feeds_power) {
+  const RunResult r =
+      run("Delayed\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=0,0,-1\nPART/2, MASS=2, CM=20, IP=1,1,1\n"
+          "MARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
+          "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=2, K=100, C=5, LENGTH=1\n"
+          "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=-300*DELAY(DZ(20,1),0.01,0)\nEND\n",
+          "LINEAR/EIGENSOL, STRAIN=1, DISSIPAT=1, TABLE_PRECISION=9\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const std::string t = r.text("model.txt");
+  EXPECT_NEAR(row(t, "strain energy", "SPRI/1", 0).at(0), 25, 1e-6);
+  EXPECT_NEAR(row(t, "strain energy", "SFOR/1", 0).at(0), 75, 1e-6);
+  EXPECT_NEAR(row(t, "dissipative energy", "SPRI/1", 0).at(0), 250, 1e-6);
+  EXPECT_NEAR(row(t, "dissipative energy", "SFOR/1", 0).at(0), -150, 1e-6);
+}
+
 TEST_F(Modal, tables_of_a_moving_mechanism_add_up_to_a_hundred) {
   const RunResult r = run(
       two_bodies("BUSHING/1, I=31, J=21, K=30,50,20, KT=4,6,3, C=1,0.5,2, CT=0.2,0.1,0.3\nDIFF/7, "
