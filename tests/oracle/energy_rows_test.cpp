@@ -25,6 +25,8 @@ struct Seen {
 
 // A sum that nearly cancels makes percentages of nothing.
 constexpr double cancelled = 1e-5;
+// Work that is rounding of extended precision, beside the square of the motion.
+constexpr double nothing = 1e-15;
 
 std::string kind_of(const EnergyRow& row) {
   if (row.statement != "SFORCE" && row.statement != "SPRINGDAMPER") return row.statement;
@@ -35,12 +37,18 @@ std::string key_of(const std::string& kind, Energy energy) {
 }
 
 void expect_rows(const std::vector<ModalRow<double>>& ours, const std::vector<EnergyRow>& theirs, Energy energy,
-                 Seen& seen) {
+                 double motion, Seen& seen) {
   ASSERT_EQ(ours.size(), theirs.size());
   double total = 0, parts = 0, size = 0;
   for (const EnergyRow& row : theirs) {
     for (const double v : row.along) total += v, parts += std::abs(v);
     size += row.without_cancellation;
+  }
+  if (parts <= nothing * motion) {
+    for (const auto& row : ours) {
+      for (const double v : row.values) EXPECT_TRUE(v == 0 || std::isnan(v)) << row.element->text();
+    }
+    return;
   }
   if (parts <= 1e-9 * size || std::abs(total) <= cancelled * parts) {
     ++seen.left_out;
@@ -130,7 +138,12 @@ void compare(std::uint64_t seed, Seen& seen) {
     for (const Energy energy : {Energy::strain, Energy::dissipation}) {
       SCOPED_TRACE(energy == Energy::strain ? "strain" : "dissipation");
       const auto rows = energy == Energy::strain ? energies.strain(mode) : energies.dissipation(mode);
-      expect_rows(rows, energy_rows(mechanism, point, states, entries, energy), energy, seen);
+      double motion = 0;
+      for (std::size_t k = 0; k < states.size(); ++k) {
+        const auto kind = energy == Energy::strain ? ChosenState::Kind::coordinate : ChosenState::Kind::rate;
+        if (states[k].kind == kind) motion += std::norm(entries[k]);
+      }
+      expect_rows(rows, energy_rows(mechanism, point, states, entries, energy), energy, motion, seen);
     }
   }
 }
