@@ -10,7 +10,7 @@
 #include <new>
 #include <string_view>
 
-#include "base/diagnostics.h"
+#include "command/help.h"
 #include "command/session.h"
 #include "output/temporary_file.h"
 
@@ -56,10 +56,10 @@ int run(int argc, char** argv) {
     reading->add_flag("--pade", options.pade, "a DELAY is a first-order Pade approximant with a state, not e - tau e'");
     reading->add_option("--user-value", options.user_value, "a constant in the place of each compiled routine");
   }
-  CLI::App* help = app.add_subcommand("help", "arguments of a statement, or the list of statements");
-  help->add_option("STATEMENT", word);
-  CLI::App* explain = app.add_subcommand("explain", "what a diagnostic code means");
-  explain->add_option("CODE", word)->required();
+  CLI::App* help = app.add_subcommand("help", "a statement, command or function, or the list of them");
+  help->add_option("NAME", word, "LINEAR, JOINT, STEP …");
+  CLI::App* explain = app.add_subcommand("explain", "what a message means, or the list of messages");
+  explain->add_option("CODE", word, "what stands in brackets behind the message");
 
   try {
     app.parse(argc, argv);
@@ -69,13 +69,7 @@ int run(int argc, char** argv) {
   if (*run) return run_session(options, std::cout, std::cerr);
   if (*check) return check_file(options, std::cout, std::cerr);
   if (*help) return print_help(word, std::cout, std::cerr);
-  const std::string_view text = explain_diagnostic(word);
-  if (text.empty()) {
-    std::cerr << "error: there is no diagnostic " << word << '\n';
-    return wrong_usage;
-  }
-  std::cout << word << ": " << text << '\n';
-  return done;
+  return print_explanation(word, std::cout, std::cerr);
 }
 
 }  // namespace

@@ -13,21 +13,14 @@ namespace dynalin {
 
 namespace {
 
-struct Explanation {
-  std::string_view code, text;
-};
+// What follows the line end after the opening quote.
+constexpr std::string_view behind_line_end(std::string_view text) { return text.substr(1); }
 
-constexpr auto explanations = std::to_array<Explanation>({
-#define DYNALIN_DIAGNOSTIC(code, text) Explanation{code, text},
+constexpr auto table = std::to_array<Explanation>({
+#define DYNALIN_DIAGNOSTIC(code, text, advice) Explanation{code, text, behind_line_end(advice)},
 #include "base/diagnostics.def"
 #undef DYNALIN_DIAGNOSTIC
 });
-
-const Explanation* find_explanation(std::string_view code) {
-  const auto found =
-      std::find_if(explanations.begin(), explanations.end(), [&](const Explanation& e) { return e.code == code; });
-  return found == explanations.end() ? nullptr : &*found;
-}
 
 // The code out of the table, so that it outlives whatever the caller passed.
 std::string_view listed(std::string_view code) {
@@ -195,9 +188,11 @@ std::string render(const Diagnostics& diagnostics, std::size_t limit) {
   return out;
 }
 
-std::string_view explain_diagnostic(std::string_view code) {
-  const Explanation* found = find_explanation(code);
-  return found ? found->text : std::string_view{};
+std::span<const Explanation> explanations() { return table; }
+
+const Explanation* find_explanation(std::string_view code) {
+  const auto found = std::find_if(table.begin(), table.end(), [&](const Explanation& e) { return e.code == code; });
+  return found == table.end() ? nullptr : &*found;
 }
 
 }  // namespace dynalin

@@ -1,6 +1,7 @@
 // What is wrong with the input: collected, never thrown, each with its place.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,8 +46,15 @@ std::string render(const Diagnostic&);
 // All of them in the order of their places (source by source, in the order of appearance); after `limit` of one kind
 // only a count of the rest of that kind.
 std::string render(const Diagnostics&, std::size_t limit = 49);
-// One line of explanation of a code, empty if there is no such code (`dynalin explain CODE`).
-std::string_view explain_diagnostic(std::string_view code);
+
+// What a code means (`dynalin explain CODE`).
+struct Explanation {
+  std::string_view code;
+  std::string_view text;    // one line
+  std::string_view advice;  // the cause, what to do about it, an example: lines without the last line end
+};
+std::span<const Explanation> explanations();
+const Explanation* find_explanation(std::string_view code);  // nullptr if there is no such code
 
 // A value together with what was found while making it; value is usable only without errors.
 template <class T>

@@ -120,17 +120,32 @@ TEST(diagnostics, count_errors_and_not_warnings) {
 }
 
 TEST(explanation, exists_for_listed_codes_only) {
-  EXPECT_FALSE(explain_diagnostic("unknown-statement").empty());
-  EXPECT_EQ(explain_diagnostic("no-such-code"), "");
+  ASSERT_TRUE(find_explanation("unknown-statement"));
+  EXPECT_FALSE(find_explanation("unknown-statement")->text.empty());
+  EXPECT_FALSE(find_explanation("no-such-code"));
 }
 
 TEST(explanation, is_listed_once_for_each_code) {
   std::set<std::string_view> codes;
-#define DYNALIN_DIAGNOSTIC(code, text)              \
-  EXPECT_TRUE(codes.insert(code).second) << (code); \
-  EXPECT_FALSE(std::string_view(text).empty()) << (code);
-#include "base/diagnostics.def"
-#undef DYNALIN_DIAGNOSTIC
+  for (const Explanation& e : explanations()) {
+    EXPECT_TRUE(codes.insert(e.code).second) << e.code;
+    EXPECT_FALSE(e.text.empty()) << e.code;
+  }
+}
+
+// Advice is more than the line that it stands under, and fits a terminal.
+TEST(explanation, advises) {
+  for (const Explanation& e : explanations()) {
+    EXPECT_GT(e.advice.size(), 80u) << e.code;
+    EXPECT_NE(e.advice.find_first_not_of(" \n"), std::string_view::npos) << e.code;
+    EXPECT_FALSE(e.advice.starts_with('\n') || e.advice.ends_with('\n')) << e.code;
+    EXPECT_EQ(e.advice.find(e.text), std::string_view::npos) << e.code;
+    for (std::size_t begin = 0; begin < e.advice.size();) {
+      const std::size_t end = std::min(e.advice.find('\n', begin), e.advice.size());
+      EXPECT_LE(end - begin, 121u) << e.code;
+      begin = end + 1;
+    }
+  }
 }
 
 #ifndef NDEBUG

@@ -14,13 +14,6 @@ namespace {
 
 using Names = std::span<const std::string_view>;
 
-constexpr std::array<std::string_view, 38> redefinable = {
-    "ACCGRAV", "ARRAY",        "BEAM",       "BUSHING",  "CONTACT", "COUPLER", "CURVE",  "CVCV",
-    "DIFF",    "FIELD",        "FLEX_BODY",  "FRICTION", "GCON",    "GEAR",    "GFORCE", "GSE",
-    "JOINT",   "JPRIM",        "LSE",        "MARKER",   "MATRIX",  "MFORCE",  "MOTION", "NFORCE",
-    "PART",    "PINPUT",       "POINT_MASS", "POUTPUT",  "PSTATE",  "PTCV",    "SENSOR", "SFORCE",
-    "SPLINE",  "SPRINGDAMPER", "TFSISO",     "VARIABLE", "VFORCE",  "VTORQUE"};
-
 // What can be taken out of a model: constraints, forces, sensors.
 constexpr std::array<std::string_view, 21> switchable = {
     "BEAM",  "BUSHING", "CONTACT", "COUPLER", "CVCV", "FIELD",  "FRICTION", "GCON",         "GEAR",   "GFORCE", "JOINT",
@@ -291,7 +284,7 @@ class Editor {
 
 }  // namespace
 
-bool redefines(std::string_view command) { return contains(redefinable, command); }
+std::span<const std::string_view> switchable_classes() { return switchable; }
 
 EditedDataset edited(std::shared_ptr<const Dataset> base, std::shared_ptr<const Dataset> written,
                      std::span<const Statement* const> commands, Catalogue catalogue, Diagnostics& diagnostics) {

@@ -9,8 +9,8 @@
 
 namespace dynalin {
 
-// Whether a command of this name defines a statement anew.
-bool redefines(std::string_view command);
+// Classes of elements that ACTIVATE and DEACTIVATE take.
+std::span<const std::string_view> switchable_classes();
 
 struct EditedDataset {
   std::shared_ptr<const Dataset> dataset;

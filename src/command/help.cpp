@@ -1,29 +1,178 @@
+#include "command/help.h"
+
+#include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <algorithm>
+#include <cctype>
+
+#include "base/diagnostics.h"
+#include "command/command_table.h"
+#include "command/help_pages.h"
 #include "command/session.h"
 #include "elements/catalogue.h"
+#include "expression/function_manual.h"
 
 namespace dynalin {
 
-int print_help(const std::string& statement, std::ostream& out, std::ostream& err) {
-  if (statement.empty()) {
-    for (const Kind* kind : catalogue())
-      fmt::print(out, "{:<14} {:<14} {}\n", kind->statement, kind->variant, kind->summary);
+namespace {
+
+constexpr std::size_t columns = 100;
+
+std::string upper_case(std::string_view text) {
+  std::string upper(text);
+  for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return upper;
+}
+
+// Names one after the other, in as many lines as they need.
+void print_names(std::ostream& out, const std::vector<std::string_view>& names, std::string_view indent) {
+  std::string line;
+  for (const std::string_view name : names) {
+    if (!line.empty() && indent.size() + line.size() + 1 + name.size() > columns) {
+      fmt::print(out, "{}{}\n", indent, line);
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + std::string(name);
+  }
+  if (!line.empty()) fmt::print(out, "{}{}\n", indent, line);
+}
+
+void list_statements(std::ostream& out) {
+  fmt::print(out, "Statements of a dataset\n");
+  std::string_view group, statement;
+  std::vector<std::string_view> inert;
+  for (const Kind* kind : catalogue()) {
+    if (kind->role == Kind::Role::inert && catalogue_group(*kind) == "without effect") {
+      inert.push_back(kind->statement);
+      continue;
+    }
+    if (catalogue_group(*kind) != group) fmt::print(out, "  {}\n", group = catalogue_group(*kind));
+    if (kind->statement == statement) continue;
+    statement = kind->statement;
+    const auto types = types_of(statement);
+    if (types.empty()) {
+      fmt::print(out, "    {:<14} {}\n", statement, kind->summary);
+      continue;
+    }
+    fmt::print(out, "    {:<14} of the types\n", statement);
+    print_names(out, types, "                     ");
+  }
+  fmt::print(out, "  settings and output, most of them without effect on a linear model\n");
+  print_names(out, inert, "    ");
+}
+
+void list_commands(std::ostream& out) {
+  struct Group {
+    CommandUse use;
+    std::string_view title;
+  };
+  static constexpr std::array<Group, 6> groups = {{
+      {CommandUse::run, "of a run"},
+      {CommandUse::analysis, "analyses"},
+      {CommandUse::model, "changes of the model"},
+      {CommandUse::setting, "settings"},
+      {CommandUse::without_effect, "read, without effect"},
+      {CommandUse::not_built, "not available yet"},
+  }};
+  fmt::print(out, "\nCommands\n");
+  for (const Group& group : groups) {
+    fmt::print(out, "  {}\n", group.title);
+    std::vector<std::string_view> bare;
+    for (const CommandRow& row : command_table()) {
+      if (row.use != group.use) continue;
+      const bool plain = row.use == CommandUse::without_effect || row.use == CommandUse::not_built;
+      if (row.summary.empty() || plain)
+        bare.push_back(row.name);
+      else
+        fmt::print(out, "    {:<14} {}\n", row.name, row.summary);
+    }
+    if (group.use == CommandUse::model)
+      fmt::print(out, "    and the statements, to define arguments of one anew: PART/2, MASS=3\n");
+    print_names(out, bare, group.use == CommandUse::model ? "      " : "    ");
+  }
+}
+
+void list_functions(std::ostream& out) {
+  fmt::print(out, "\nFunctions of expressions\n");
+  std::string_view group;
+  std::vector<std::string_view> names;
+  const auto flush = [&] {
+    if (!names.empty()) fmt::print(out, "  {}\n", group);
+    print_names(out, names, "    ");
+    names.clear();
+  };
+  for (const FunctionEntry& f : function_manual()) {
+    const std::string_view now = f.built ? f.group : "not available yet";
+    if (now != group && f.built) {
+      flush();
+      group = now;
+    }
+    if (f.built) names.push_back(f.name);
+  }
+  flush();
+  group = "not available yet";
+  for (const FunctionEntry& f : function_manual()) {
+    if (!f.built) names.push_back(f.name);
+  }
+  flush();
+}
+
+// Of each class the nearest name, so that a slip finds what was meant wherever it stands.
+std::vector<std::string_view> nearest_names(std::string_view word) {
+  std::vector<std::string_view> near;
+  const auto look = [&](std::span<const std::string_view> names) {
+    const std::string_view n = nearest_word(word, names);
+    if (!n.empty() && std::find(near.begin(), near.end(), n) == near.end()) near.push_back(n);
+  };
+  std::vector<std::string_view> functions, types;
+  for (const FunctionEntry& f : function_manual()) functions.push_back(f.name);
+  for (const Kind* kind : catalogue()) {
+    if (!kind->variant.empty()) types.push_back(kind->variant);
+  }
+  look(statement_names()), look(command_names()), look(functions), look(types);
+  return near;
+}
+
+}  // namespace
+
+int print_help(std::string_view name, std::ostream& out, std::ostream& err) {
+  if (name.empty()) {
+    list_statements(out);
+    list_commands(out);
+    list_functions(out);
+    fmt::print(out,
+               "\n`dynalin help NAME` shows what one of them takes; names may be shortened.\n"
+               "`dynalin explain` lists the messages, `dynalin --help` the options of the program.\n");
     return done;
   }
-  const std::string_view name = statement_name(statement);
-  bool found = false;
-  for (const Kind* kind : catalogue()) {
-    if (kind->statement != name) continue;
-    found = true;
-    fmt::print(out, "{}{}{}\n  {}\n", kind->statement, kind->variant.empty() ? "" : ", ", kind->variant, kind->summary);
-    for (const ArgumentInfo& a : kind->arguments) {
-      fmt::print(out, "    {:<16} {:<12} {:<20} {}{}\n", a.name, a.value, a.unit, a.help,
-                 a.required ? " (required)" : "");
-    }
+  if (print_pages(upper_case(name), out)) return done;
+  const auto near = nearest_names(name);
+  fmt::print(err, "error: there is no statement, command or function {}\n", name);
+  if (!near.empty()) fmt::print(err, "hint: {} {}\n", fmt::join(near, ", "), near.size() == 1 ? "exists" : "exist");
+  fmt::print(err, "hint: `dynalin help` lists all of them\n");
+  return wrong_usage;
+}
+
+int print_explanation(std::string_view code, std::ostream& out, std::ostream& err) {
+  if (code.empty()) {
+    for (const Explanation& e : explanations()) fmt::print(out, "{:<26} {}\n", e.code, e.text);
+    fmt::print(out, "\n`dynalin explain CODE` says what to do about one of them.\n");
+    return done;
   }
-  if (!found) fmt::print(err, "error: no statement {} is available\n", statement);
-  return found ? done : wrong_usage;
+  std::string word(code);  // with the brackets that it has in a message
+  std::erase_if(word, [](char c) { return c == '[' || c == ']'; });
+  if (const Explanation* e = find_explanation(word)) {
+    fmt::print(out, "{}: {}\n\n{}\n", e->code, e->text, e->advice);
+    return done;
+  }
+  std::vector<std::string_view> codes;
+  for (const Explanation& e : explanations()) codes.push_back(e.code);
+  fmt::print(err, "error: there is no message of the code {}\n", code);
+  const std::string_view near = nearest_word(word, codes);
+  if (!near.empty()) fmt::print(err, "hint: {} exists\n", near);
+  fmt::print(err, "hint: `dynalin explain` lists all of them\n");
+  return wrong_usage;
 }
 
 }  // namespace dynalin

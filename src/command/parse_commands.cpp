@@ -6,9 +6,10 @@
 #include <filesystem>
 
 #include "command/command_reader.h"
+#include "command/command_table.h"
 #include "command/commands.h"
-#include "command/edits.h"
 #include "command/linear_command.h"
+#include "command/written_commands.h"
 #include "elements/settings/output_settings.h"
 #include "elements/settings/setting_set.h"
 
@@ -16,41 +17,10 @@ namespace dynalin {
 
 namespace {
 
-constexpr std::array<std::string_view, 66> command_names = {
-    "ACCGRAV",  "ACTIVATE",    "ARRAY",        "BEAM",        "BUSHING", "CONTROL",    "COUPLER",    "DEACTIVATE",
-    "DEBUG",    "DIFF",        "ENVIRONMENT",  "EQUILIBRIUM", "FIELD",   "FILE",       "FLEX_BODY",  "FRICTION",
-    "GCON",     "GEAR",        "GFORCE",       "HELP",        "IC",      "INFO",       "INTEGRATOR", "JOINT",
-    "JPRIM",    "KINEMATICS",  "LINEAR",       "LSOLVER",     "MARKER",  "MENU",       "MOTION",     "OUTPUT",
-    "PART",     "PREFERENCES", "RELOAD",       "REQUEST",     "SAVE",    "SENSOR",     "SFORCE",     "SHOW",
-    "SIMULATE", "SPLINE",      "SPRINGDAMPER", "STOP",        "STRING",  "TIME",       "VARIABLE",   "VFORCE",
-    "VTORQUE",  "GSTIFF",      "WSTIFF",       "SYSTEM",      "CONTACT", "CURVE",      "CVCV",       "GSE",
-    "LSE",      "MATRIX",      "MFORCE",       "NFORCE",      "PINPUT",  "POINT_MASS", "POUTPUT",    "PSTATE",
-    "PTCV",     "TFSISO"};
-// Commands that set or print what a linear model does not need.
-constexpr std::array<std::string_view, 8> passive = {"HELP", "INFO",   "MENU",   "SHOW",
-                                                     "TIME", "GSTIFF", "WSTIFF", "STRING"};
-
-struct WrittenSimulate {
-  bool initial = false, statics = false, kinematics = false, dynamics = false, transient = false;
-  bool displacement = false, velocity = false, acceleration = false;
-  std::optional<double> end, duration, step;
-  std::optional<std::int64_t> steps;
-
-  static constexpr std::array<Argument<WrittenSimulate>, 12> arguments = {{
-      {.name = "INITIAL_CONDITIONS", .slot = &WrittenSimulate::initial},
-      {.name = "STATICS", .slot = &WrittenSimulate::statics},
-      {.name = "KINEMATICS", .slot = &WrittenSimulate::kinematics},
-      {.name = "DYNAMICS", .slot = &WrittenSimulate::dynamics},
-      {.name = "TRANSIENT", .slot = &WrittenSimulate::transient},
-      {.name = "DISPLACEMENT", .slot = &WrittenSimulate::displacement},
-      {.name = "VELOCITY", .slot = &WrittenSimulate::velocity},
-      {.name = "ACCELERATION", .slot = &WrittenSimulate::acceleration},
-      {.name = "END", .slot = &WrittenSimulate::end},
-      {.name = "DURATION", .slot = &WrittenSimulate::duration},
-      {.name = "DTOUT", .slot = &WrittenSimulate::step},
-      {.name = "STEPS", .slot = &WrittenSimulate::steps, .minimum = 1},
-  }};
-};
+std::optional<CommandUse> use_of(std::string_view name) {
+  const CommandRow* row = find_command(name);
+  return row ? std::optional(row->use) : std::nullopt;
+}
 
 std::optional<SimulateCommand> read_simulate(ElementReader& reader) {
   WrittenSimulate w;
@@ -74,23 +44,6 @@ std::optional<SimulateCommand> read_simulate(ElementReader& reader) {
   }
   return SimulateCommand{w.statics ? SimulateCommand::Kind::statics : SimulateCommand::Kind::initial_conditions};
 }
-
-struct WrittenFile {
-  std::string command, model, prefix;
-  static constexpr std::array<Argument<WrittenFile>, 3> arguments = {{
-      {.name = "COMMAND", .slot = &WrittenFile::command},
-      {.name = "MODEL", .slot = &WrittenFile::model},
-      {.name = "OUTPUT_PREFIX", .slot = &WrittenFile::prefix},
-  }};
-};
-
-struct WrittenEnvironment {
-  std::string name, value;
-  static constexpr std::array<Argument<WrittenEnvironment>, 2> arguments = {{
-      {.name = "NAME", .slot = &WrittenEnvironment::name, .required = true},
-      {.name = "VALUE", .slot = &WrittenEnvironment::value},
-  }};
-};
 
 // A command that has the arguments of a statement of settings.
 template <class E>
@@ -151,7 +104,7 @@ class FileParser {
   explicit FileParser(SourceRef source) { file_.source = std::move(source); }
 
   Parsed<CommandFile> parse(SourceRef commands) {
-    Parsed<Dataset> parsed = parse_statements(commands, command_names);
+    Parsed<Dataset> parsed = parse_statements(commands, command_names());
     diagnostics_.append(std::move(parsed.diagnostics));
     keep_ = std::make_shared<Dataset>(std::move(parsed.value));
     for (const Statement& s : keep_->statements) {
@@ -202,9 +155,9 @@ class FileParser {
       return;
     } else if (auto setting = read_setting(s.name, reader)) {
       command.what = std::move(*setting);
-    } else if (redefines(s.name) || s.name == "ACTIVATE" || s.name == "DEACTIVATE") {
+    } else if (use_of(s.name) == CommandUse::model) {
       command.what = EditCommand{&s};
-    } else if (std::find(passive.begin(), passive.end(), s.name) != passive.end()) {
+    } else if (use_of(s.name) == CommandUse::without_effect) {
       command.what = PassiveCommand{std::string(s.name)};
     } else if (s.name != "STOP") {
       diagnostics_.error("command-not-built", s.keyword, fmt::format("the command {} is not available yet", s.name));
@@ -230,7 +183,7 @@ bool is_command_line(std::string_view line) {
   if (line.empty()) return true;
   const std::size_t slash = line.find('/');
   const std::string_view word = trimmed(line.substr(0, slash));
-  return (slash != std::string_view::npos && find_keyword(word, command_names).has_value()) ||
+  return (slash != std::string_view::npos && find_keyword(word, command_names()).has_value()) ||
          (word.size() >= 3 && find_keyword(word, std::array<std::string_view, 1>{"STOP"}));  // a model may be called s
 }
 

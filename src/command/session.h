@@ -26,7 +26,5 @@ enum ExitStatus : int { done = 0, wrong_input = 1, analysis_failed = 2, wrong_us
 int run_session(const SessionOptions&, std::ostream& out, std::ostream& err);
 // Reads and checks a dataset (with its command file) and says what is wrong.
 int check_file(const SessionOptions&, std::ostream& out, std::ostream& err);
-// The manual of a statement, or the list of statements.
-int print_help(const std::string& statement, std::ostream& out, std::ostream& err);
 
 }  // namespace dynalin

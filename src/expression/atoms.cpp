@@ -13,78 +13,233 @@ using std::uint8_t;
 
 constexpr int8_t by_reference = -1;
 
-constexpr AtomFunction measure(std::string_view name, int8_t order, uint8_t minimum, uint8_t maximum) {
-  return {name, marker_measure, order, minimum, maximum, "", true};
+constexpr std::string_view markers =
+    "i, j, k, l  ids of markers, 0 or left out for the global frame; trailing ones may be left out";
+constexpr std::string_view marker_of_force =
+    "i  id of the marker that is acted on\n"
+    "j  id of the other marker; 0 or left out: all elements that act on i\n"
+    "k  id of the marker whose axes are used, 0 or left out for global ones: FX(5, 0, 7)";
+constexpr std::string_view element_of_force =
+    "id     of the statement\n"
+    "jflag  0: on its I marker, 1: on its J marker\n"
+    "comp   1 … 8: FM, FX, FY, FZ, TM, TX, TY, TZ\n"
+    "rm     id of the marker whose axes are used, 0 for global ones";
+
+constexpr AtomFunction measure(std::string_view name, int8_t order, uint8_t minimum, uint8_t maximum,
+                               FunctionText text = {}) {
+  return {name, marker_measure, order, minimum, maximum, "", true, text};
 }
-constexpr AtomFunction from_data(std::string_view name, uint8_t arguments, std::string_view statement) {
-  return {name, data, by_reference, arguments, arguments, statement, true};
+constexpr AtomFunction from_data(std::string_view name, uint8_t arguments, std::string_view statement,
+                                 FunctionText text) {
+  return {name, data, by_reference, arguments, arguments, statement, true, text};
 }
-constexpr AtomFunction at_marker(std::string_view name, uint8_t maximum) {
-  return {name, marker_force, by_reference, 1, maximum, "", true};
+constexpr AtomFunction at_marker(std::string_view name, uint8_t maximum, std::string_view meaning,
+                                 std::string_view unit) {
+  return {name,         marker_force,
+          by_reference, 1,
+          maximum,      "",
+          true,         {maximum == 3 ? "i [, j [, k]]" : "i [, j]", meaning, unit, marker_of_force}};
 }
 enum Availability : bool { not_built = false, built = true };
-// (id, jflag, comp, rm)
-constexpr AtomFunction of_element(std::string_view name, std::string_view statement, Availability availability) {
-  return {name, element_force, by_reference, 4, 4, statement, availability};
+constexpr AtomFunction of_element(std::string_view name, std::string_view statement, Availability availability,
+                                  std::string_view meaning) {
+  return {
+      name, element_force, by_reference, 4,
+      4,    statement,     availability, {"id, jflag, comp, rm", meaning, "force, or force·length", element_of_force}};
 }
 
 constexpr std::array table = {
-    // clang-format off
-    AtomFunction{"TIME", AtomFamily::time, 0, 0, 0, "", true},
+    AtomFunction{"TIME",
+                 AtomFamily::time,
+                 0,
+                 0,
+                 0,
+                 "",
+                 true,
+                 {"", "the time", "time", "in a linear model that of the operating point"}},
     // Displacements: (i, j, k), (i, j) where no axes are needed.
-    measure("DX", 0, 1, 3),     measure("DY", 0, 1, 3),     measure("DZ", 0, 1, 3),     measure("DM", 0, 1, 2),
+    measure("DX", 0, 1, 3,
+            {"i [, j [, k]]", "x of the displacement of marker i from j, along the axes of k", "length", markers}),
+    measure("DY", 0, 1, 3,
+            {"i [, j [, k]]", "y of the displacement of marker i from j, along the axes of k", "length", markers}),
+    measure("DZ", 0, 1, 3,
+            {"i [, j [, k]]", "z of the displacement of marker i from j, along the axes of k", "length", markers}),
+    measure("DM", 0, 1, 2, {"i [, j]", "distance of marker i from j", "length", markers}),
     // Velocities: (i, j, k, l), (i, j, l) for the norms.
-    measure("VX", 1, 1, 4),     measure("VY", 1, 1, 4),     measure("VZ", 1, 1, 4),     measure("VM", 1, 1, 3),
-    measure("VR", 1, 1, 3),
-    measure("WX", 1, 1, 3),     measure("WY", 1, 1, 3),     measure("WZ", 1, 1, 3),     measure("WM", 1, 1, 2),
+    measure("VX", 1, 1, 4,
+            {"i [, j [, k [, l]]]",
+             "x of the velocity of marker i relative to j, along the axes of k, derivative taken in l", "length/time",
+             markers}),
+    measure("VY", 1, 1, 4,
+            {"i [, j [, k [, l]]]",
+             "y of the velocity of marker i relative to j, along the axes of k, derivative taken in l", "length/time",
+             markers}),
+    measure("VZ", 1, 1, 4,
+            {"i [, j [, k [, l]]]",
+             "z of the velocity of marker i relative to j, along the axes of k, derivative taken in l", "length/time",
+             markers}),
+    measure("VM", 1, 1, 3,
+            {"i [, j [, l]]", "size of the velocity of marker i relative to j, derivative taken in l", "length/time",
+             markers}),
+    measure("VR", 1, 1, 3,
+            {"i [, j [, l]]", "rate of the distance of marker i from j, positive where they separate", "length/time",
+             markers}),
+    measure("WX", 1, 1, 3,
+            {"i [, j [, k]]", "x of the angular velocity of marker i relative to j, along the axes of k", "rad/time",
+             markers}),
+    measure("WY", 1, 1, 3,
+            {"i [, j [, k]]", "y of the angular velocity of marker i relative to j, along the axes of k", "rad/time",
+             markers}),
+    measure("WZ", 1, 1, 3,
+            {"i [, j [, k]]", "z of the angular velocity of marker i relative to j, along the axes of k", "rad/time",
+             markers}),
+    measure("WM", 1, 1, 2, {"i [, j]", "size of the angular velocity of marker i relative to j", "rad/time", markers}),
     // Accelerations: (i, j, k, l), (i, j, l) for the norms.
-    measure("ACCX", 2, 1, 4),   measure("ACCY", 2, 1, 4),   measure("ACCZ", 2, 1, 4),   measure("ACCM", 2, 1, 3),
-    measure("WDTX", 2, 1, 4),   measure("WDTY", 2, 1, 4),   measure("WDTZ", 2, 1, 4),   measure("WDTM", 2, 1, 3),
+    measure("ACCX", 2, 1, 4,
+            {"i [, j [, k [, l]]]",
+             "x of the acceleration of marker i relative to j, along the axes of k, derivative taken in l",
+             "length/time²", markers}),
+    measure("ACCY", 2, 1, 4,
+            {"i [, j [, k [, l]]]",
+             "y of the acceleration of marker i relative to j, along the axes of k, derivative taken in l",
+             "length/time²", markers}),
+    measure("ACCZ", 2, 1, 4,
+            {"i [, j [, k [, l]]]",
+             "z of the acceleration of marker i relative to j, along the axes of k, derivative taken in l",
+             "length/time²", markers}),
+    measure("ACCM", 2, 1, 3,
+            {"i [, j [, l]]", "size of the acceleration of marker i relative to j, derivative taken in l",
+             "length/time²", markers}),
+    measure("WDTX", 2, 1, 4,
+            {"i [, j [, k [, l]]]",
+             "x of the angular acceleration of marker i relative to j, along the axes of k, derivative taken in l",
+             "rad/time²", markers}),
+    measure("WDTY", 2, 1, 4,
+            {"i [, j [, k [, l]]]",
+             "y of the angular acceleration of marker i relative to j, along the axes of k, derivative taken in l",
+             "rad/time²", markers}),
+    measure("WDTZ", 2, 1, 4,
+            {"i [, j [, k [, l]]]",
+             "z of the angular acceleration of marker i relative to j, along the axes of k, derivative taken in l",
+             "rad/time²", markers}),
+    measure("WDTM", 2, 1, 3,
+            {"i [, j [, l]]", "size of the angular acceleration of marker i relative to j, derivative taken in l",
+             "rad/time²", markers}),
     // Angles: (i, j).
-    measure("AX", 0, 1, 2),     measure("AY", 0, 1, 2),     measure("AZ", 0, 1, 2),
-    measure("PSI", 0, 1, 2),    measure("THETA", 0, 1, 2),  measure("PHI", 0, 1, 2),
-    measure("YAW", 0, 1, 2),    measure("PITCH", 0, 1, 2),  measure("ROLL", 0, 1, 2),
-    measure("INCANG", 0, 3, 3),
+    measure("AX", 0, 1, 2,
+            {"i [, j]", "angle of marker i about the x axis of j; whole turns are counted", "rad", markers}),
+    measure("AY", 0, 1, 2,
+            {"i [, j]", "angle of marker i about the y axis of j; whole turns are counted", "rad", markers}),
+    measure("AZ", 0, 1, 2,
+            {"i [, j]", "angle of marker i about the z axis of j; whole turns are counted", "rad", markers}),
+    measure("PSI", 0, 1, 2,
+            {"i [, j]", "first of the 3-1-3 angles (about z, new x, new z) from j to i", "rad", markers}),
+    measure("THETA", 0, 1, 2,
+            {"i [, j]", "second of the 3-1-3 angles (about z, new x, new z) from j to i", "rad", markers}),
+    measure("PHI", 0, 1, 2,
+            {"i [, j]", "third of the 3-1-3 angles (about z, new x, new z) from j to i", "rad", markers}),
+    measure("YAW", 0, 1, 2,
+            {"i [, j]", "first of the 3-2-1 angles (about z, new y, new x) from j to i", "rad", markers}),
+    measure("PITCH", 0, 1, 2,
+            {"i [, j]", "the negative of the second of the 3-2-1 angles from j to i", "rad", markers}),
+    measure("ROLL", 0, 1, 2, {"i [, j]", "third of the 3-2-1 angles from j to i", "rad", markers}),
+    measure("INCANG", 0, 3, 3,
+            {"i, j, k", "angle at marker j between the lines to i and to k, 0 … π", "rad", "i, j, k  ids of markers"}),
     // Axes of marker i, component by component in the axes of k: (i, k). The dot keeps the names out of the language.
-    measure("UVX.X", 0, 1, 2),  measure("UVX.Y", 0, 1, 2),  measure("UVX.Z", 0, 1, 2),
-    measure("UVY.X", 0, 1, 2),  measure("UVY.Y", 0, 1, 2),  measure("UVY.Z", 0, 1, 2),
-    measure("UVZ.X", 0, 1, 2),  measure("UVZ.Y", 0, 1, 2),  measure("UVZ.Z", 0, 1, 2),
+    measure("UVX.X", 0, 1, 2),
+    measure("UVX.Y", 0, 1, 2),
+    measure("UVX.Z", 0, 1, 2),
+    measure("UVY.X", 0, 1, 2),
+    measure("UVY.Y", 0, 1, 2),
+    measure("UVY.Z", 0, 1, 2),
+    measure("UVZ.X", 0, 1, 2),
+    measure("UVZ.Y", 0, 1, 2),
+    measure("UVZ.Z", 0, 1, 2),
     // Angles together, smooth where each of them is not (smooth_angles.cpp); no names of the language either.
-    measure("PSI.PLUS.PHI", 0, 1, 2),  measure("PSI.MINUS.PHI", 0, 1, 2),  measure("THETA.SQUARED", 0, 1, 2),
-    measure("YAW.PLUS.ROLL", 0, 1, 2), measure("YAW.MINUS.ROLL", 0, 1, 2), measure("INCANG.SQUARED", 0, 3, 3),
+    measure("PSI.PLUS.PHI", 0, 1, 2),
+    measure("PSI.MINUS.PHI", 0, 1, 2),
+    measure("THETA.SQUARED", 0, 1, 2),
+    measure("YAW.PLUS.ROLL", 0, 1, 2),
+    measure("YAW.MINUS.ROLL", 0, 1, 2),
+    measure("INCANG.SQUARED", 0, 3, 3),
     measure("INCANG.COSINE", 0, 3, 3),
     // Net force and torque on a marker: (i, j, k), (i, j).
-    at_marker("FX", 3), at_marker("FY", 3), at_marker("FZ", 3), at_marker("FM", 2),
-    at_marker("TX", 3), at_marker("TY", 3), at_marker("TZ", 3), at_marker("TM", 2),
-    of_element("BEAM",     "BEAM",         built),
-    of_element("BUSH",     "BUSHING",      built),
-    of_element("FIELD",    "FIELD",        built),
-    of_element("SFORCE",   "SFORCE",       built),
-    of_element("SPDP",     "SPRINGDAMPER", built),
-    of_element("VFORCE",   "VFORCE",       built),
-    of_element("VTORQ",    "VTORQUE",      built),
-    of_element("GFORCE",   "GFORCE",       built),
-    of_element("NFORCE",   "NFORCE",       not_built),
-    of_element("CONTACT",  "CONTACT",      not_built),
-    of_element("FRICTION", "FRICTION",     not_built),
-    of_element("JOINT",    "JOINT",        built),
-    of_element("JPRIM",    "JPRIM",        built),
-    of_element("MOTION",   "MOTION",       built),
-    of_element("PTCV",     "PTCV",         built),
-    of_element("CVCV",     "CVCV",         built),
-    from_data("VARVAL", 1, "VARIABLE"),
-    from_data("ARYVAL", 2, "ARRAY"),
-    from_data("DIF",    1, "DIFF"),
-    from_data("DIF1",   1, "DIFF"),
-    from_data("PINVAL", 2, "PINPUT"),
-    from_data("POUVAL", 2, "POUTPUT"),
+    at_marker("FX", 3, "x of the force on marker i of all elements between i and j, along the axes of k", "force"),
+    at_marker("FY", 3, "y of the force on marker i of all elements between i and j, along the axes of k", "force"),
+    at_marker("FZ", 3, "z of the force on marker i of all elements between i and j, along the axes of k", "force"),
+    at_marker("FM", 2, "size of the force on marker i of all elements between i and j", "force"),
+    at_marker("TX", 3, "x of the torque on marker i of all elements between i and j, along the axes of k",
+              "force·length"),
+    at_marker("TY", 3, "y of the torque on marker i of all elements between i and j, along the axes of k",
+              "force·length"),
+    at_marker("TZ", 3, "z of the torque on marker i of all elements between i and j, along the axes of k",
+              "force·length"),
+    at_marker("TM", 2, "size of the torque on marker i of all elements between i and j", "force·length"),
+    of_element("BEAM", "BEAM", built, "a component of the force or torque of a BEAM"),
+    of_element("BUSH", "BUSHING", built, "a component of the force or torque of a BUSHING"),
+    of_element("FIELD", "FIELD", built, "a component of the force or torque of a FIELD"),
+    of_element("SFORCE", "SFORCE", built, "a component of the force or torque of a SFORCE"),
+    of_element("SPDP", "SPRINGDAMPER", built, "a component of the force or torque of a SPRINGDAMPER"),
+    of_element("VFORCE", "VFORCE", built, "a component of the force or torque of a VFORCE"),
+    of_element("VTORQ", "VTORQUE", built, "a component of the force or torque of a VTORQUE"),
+    of_element("GFORCE", "GFORCE", built, "a component of the force or torque of a GFORCE"),
+    of_element("NFORCE", "NFORCE", not_built, "a component of the force or torque of a NFORCE"),
+    of_element("CONTACT", "CONTACT", not_built, "a component of the force or torque of a CONTACT"),
+    of_element("FRICTION", "FRICTION", not_built, "a component of the force or torque of a FRICTION"),
+    of_element("JOINT", "JOINT", built, "a component of the reaction of a JOINT"),
+    of_element("JPRIM", "JPRIM", built, "a component of the reaction of a JPRIM"),
+    of_element("MOTION", "MOTION", built, "a component of the reaction of a MOTION"),
+    of_element("PTCV", "PTCV", built, "a component of the reaction of a PTCV"),
+    of_element("CVCV", "CVCV", built, "a component of the reaction of a CVCV"),
+    from_data("VARVAL", 1, "VARIABLE", {"id", "value of a VARIABLE", "what the VARIABLE has", "id  of the VARIABLE"}),
+    from_data("ARYVAL", 2, "ARRAY",
+              {"id, n", "entry n of an ARRAY", "what the entry has",
+               "id  of the ARRAY\n"
+               "n   which entry, from 1"}),
+    from_data("DIF", 1, "DIFF", {"id", "state of a DIFF", "what the DIFF has", "id  of the DIFF"}),
+    from_data("DIF1", 1, "DIFF",
+              {"id", "time derivative of the state of a DIFF", "that of the DIFF per time", "id  of the DIFF"}),
+    from_data("PINVAL", 2, "PINPUT",
+              {"id, n", "entry n of a PINPUT", "what the VARIABLE has",
+               "id  of the PINPUT\n"
+               "n   which of its VARIABLEs, from 1"}),
+    from_data("POUVAL", 2, "POUTPUT",
+              {"id, n", "entry n of a POUTPUT", "what the VARIABLE has",
+               "id  of the POUTPUT\n"
+               "n   which of its VARIABLEs, from 1"}),
     // What the sensor's EVALUATE stored when it last triggered: 0 before, constant while a model is linearized.
-    AtomFunction{"SENVAL", data, 0, 1, 1, "SENSOR", true, "EVALUATE"},
+    AtomFunction{"SENVAL",
+                 data,
+                 0,
+                 1,
+                 1,
+                 "SENSOR",
+                 true,
+                 {"id", "what EVALUATE of a SENSOR gave when it last triggered, 0 before", "what EVALUATE has",
+                  "id  of the SENSOR"},
+                 "EVALUATE"},
     // Its arguments are expressions, but for an id in the fourth place.
-    AtomFunction{"DELAY", AtomFamily::delay, by_reference, 3, 4, "", true},
+    AtomFunction{"DELAY",
+                 AtomFamily::delay,
+                 by_reference,
+                 3,
+                 4,
+                 "",
+                 true,
+                 {"e, tau, history [, id]", "e as it was tau ago", "as e",
+                  "e        any expression without a DELAY\n"
+                  "tau      how long ago [time]\n"
+                  "history  what e was before the start: a constant or a function of TIME [as e]\n"
+                  "id       of an ARRAY with settings of the interpolation, without effect on linear models"}},
     // The kind of analysis as a number: constant during each.
-    AtomFunction{"MODE", data, 0, 0, 0, "", true},
-    // clang-format on
+    AtomFunction{"MODE",
+                 data,
+                 0,
+                 0,
+                 0,
+                 "",
+                 true,
+                 {"", "which analysis is at work: 3 initial conditions, 5 statics, 7 linear", "", ""}},
 };
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "base/diagnostics.h"
 #include "base/time_taylor.h"
 #include "dataset/dataset.h"
+#include "expression/function_text.h"
 #include "expression/spline.h"
 
 namespace dynalin {
@@ -47,8 +48,9 @@ struct AtomFunction {
                       // by what it refers to
   std::uint8_t minimum_arguments;
   std::uint8_t maximum_arguments;
-  std::string_view statement;            // class of the element named by the first argument, "" for markers
-  bool built;                            // false: known to the language, not available yet
+  std::string_view statement;  // class of the element named by the first argument, "" for markers
+  bool built;                  // false: known to the language, not available yet
+  FunctionText text{};
   std::string_view required_argument{};  // that the statement of the element must have
 };
 

@@ -2,10 +2,18 @@
 #include "expression/functions.h"
 
 #include <array>
+#include <numbers>
 
 namespace dynalin {
 
 namespace {
+
+constexpr std::array constants = {
+    NamedConstant{"PI", std::numbers::pi, {"", "3.14159…", "", ""}},
+    NamedConstant{
+        "DTOR", std::numbers::pi / 180.0, {"", "π/180: a number of degrees times DTOR is in radians", "", ""}},
+    NamedConstant{"RTOD", 180.0 / std::numbers::pi, {"", "180/π: radians times RTOD are degrees", "", ""}},
+};
 
 constexpr std::array<std::string_view, 1> not_built = {"USER"};
 constexpr std::array<std::string_view, 7> bare_not_built = {"CPU",   "HSIZE",  "NJAC",  "NRHS",
@@ -21,6 +29,8 @@ const Function* find_function(std::string_view name) {
   }
   return nullptr;
 }
+
+std::span<const NamedConstant> named_constants() { return constants; }
 
 std::span<const std::string_view> functions_not_built() { return not_built; }
 std::span<const std::string_view> names_not_built() { return bare_not_built; }

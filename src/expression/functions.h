@@ -11,6 +11,7 @@
 
 #include "base/dual.h"
 #include "base/time_taylor.h"
+#include "expression/function_text.h"
 
 namespace dynalin {
 
@@ -29,6 +30,7 @@ struct Function {
   std::uint8_t minimum_arguments;
   std::uint8_t maximum_arguments;
   ZeroPartial zero_partial;
+  FunctionText text;
 
   // The formula on each scalar in use.
   double (*on_double)(std::span<const double>);
@@ -52,6 +54,13 @@ inline constexpr std::size_t most_arguments = 34;
 std::span<const Function> elementary_functions();  // ABS … SIGN
 std::span<const Function> contact_functions();     // STEP, IMPACT and what else is made of pieces
 std::span<const Function> series_functions();      // POLY … SWEEP
+
+struct NamedConstant {
+  std::string_view name;
+  double value;
+  FunctionText text;
+};
+std::span<const NamedConstant> named_constants();
 
 // The one of that upper-case name, nullptr if there is none.
 const Function* find_function(std::string_view name);

@@ -35,11 +35,12 @@ struct ArgumentList {
 
 template <class Call>
 constexpr Function make_function(std::string_view name, std::uint8_t minimum, std::uint8_t maximum, DomainCheck domain,
-                                 ZeroPartial zero) {
+                                 ZeroPartial zero, FunctionText text) {
   return {.name = name,
           .minimum_arguments = minimum,
           .maximum_arguments = maximum,
           .zero_partial = zero,
+          .text = text,
           .on_double = &Call::template call<double>,
           .on_taylor = &Call::template call<TimeTaylor<double>>,
           .on_seeded = &Call::template call<Seeded>,
@@ -49,16 +50,16 @@ constexpr Function make_function(std::string_view name, std::uint8_t minimum, st
 
 // A function of `count` arguments.
 template <std::size_t count, class Formula>
-constexpr Function function(std::string_view name, Formula, DomainCheck domain = defined_everywhere,
+constexpr Function function(std::string_view name, FunctionText text, Formula, DomainCheck domain = defined_everywhere,
                             ZeroPartial zero = ZeroPartial::stationary) {
   constexpr auto n = static_cast<std::uint8_t>(count);
-  return make_function<FixedArguments<count, Formula>>(name, n, n, domain, zero);
+  return make_function<FixedArguments<count, Formula>>(name, n, n, domain, zero, text);
 }
 // A function of a list of arguments.
 template <class Formula>
-constexpr Function list_function(std::string_view name, std::uint8_t minimum, std::uint8_t maximum, Formula,
-                                 ZeroPartial zero = ZeroPartial::stationary) {
-  return make_function<ArgumentList<Formula>>(name, minimum, maximum, defined_everywhere, zero);
+constexpr Function list_function(std::string_view name, FunctionText text, std::uint8_t minimum, std::uint8_t maximum,
+                                 Formula, ZeroPartial zero = ZeroPartial::stationary) {
+  return make_function<ArgumentList<Formula>>(name, minimum, maximum, defined_everywhere, zero, text);
 }
 
 template <class T>

@@ -148,32 +148,39 @@ std::string power_domain(std::span<const double> a) {
 
 constexpr auto flat = ZeroPartial::flat;
 constexpr std::array table = {
-    // clang-format off
-    function<1>("ABS",   absolute),
-    function<1>("ACOS",  arc_cosine, acos_domain),
-    function<1>("ASIN",  arc_sine, asin_domain),
-    function<1>("ATAN",  arc_tangent),
-    function<2>("ATAN2", angle_of_point),
-    function<1>("COS",   cosine),
-    function<1>("SIN",   sine),
-    function<1>("TAN",   tangent),
-    function<1>("COSH",  hyperbolic_cosine),
-    function<1>("SINH",  hyperbolic_sine),
-    function<1>("TANH",  hyperbolic_tangent),
-    function<1>("EXP",   exponential),
-    function<1>("SQRT",  square_root, sqrt_domain),
-    function<1>("LOG",   natural_logarithm, log_domain),
-    function<1>("LOG10", decimal_logarithm, log10_domain),
-    function<1>("AINT",  truncated, defined_everywhere, flat),
-    function<1>("ANINT", rounded, defined_everywhere, flat),
-    function<2>("DIM",   positive_difference, defined_everywhere, flat),
-    list_function("MAX", 2, most_arguments, largest, flat),
-    list_function("MIN", 2, most_arguments, smallest, flat),
-    function<2>("MOD",   remainder_of_division, mod_domain, flat),
-    function<2>("SIGN",  with_sign_of),
-    // clang-format on
+    function<1>("ABS", {"a", "the size of a, |a|", "as a", "its derivative at a = 0 is taken as 0"}, absolute),
+    function<1>("ACOS", {"a", "the angle, 0 … π, whose cosine is a", "rad", "a  −1 … 1"}, arc_cosine, acos_domain),
+    function<1>("ASIN", {"a", "the angle, −π/2 … π/2, whose sine is a", "rad", "a  −1 … 1"}, arc_sine, asin_domain),
+    function<1>("ATAN", {"a", "the angle, −π/2 … π/2, whose tangent is a", "rad", ""}, arc_tangent),
+    function<2>(
+        "ATAN2",
+        {"y, x", "the angle, −π … π, of the point (x, y) seen from the origin", "rad", "note the order: y comes first"},
+        angle_of_point),
+    function<1>("COS", {"a", "cosine", "1", "a  [rad]; write COS(30D) for degrees"}, cosine),
+    function<1>("SIN", {"a", "sine", "1", "a  [rad]; write SIN(30D) for degrees"}, sine),
+    function<1>("TAN", {"a", "tangent", "1", "a  [rad]; write TAN(30D) for degrees"}, tangent),
+    function<1>("COSH", {"a", "hyperbolic cosine", "1", ""}, hyperbolic_cosine),
+    function<1>("SINH", {"a", "hyperbolic sine", "1", ""}, hyperbolic_sine),
+    function<1>("TANH", {"a", "hyperbolic tangent", "1", ""}, hyperbolic_tangent),
+    function<1>("EXP", {"a", "e to the power a", "1", ""}, exponential),
+    function<1>("SQRT", {"a", "square root", "root of that of a", "a  0 or more; at 0 there is no derivative"},
+                square_root, sqrt_domain),
+    function<1>("LOG", {"a", "natural logarithm", "1", "a  above 0"}, natural_logarithm, log_domain),
+    function<1>("LOG10", {"a", "logarithm to the base 10", "1", "a  above 0"}, decimal_logarithm, log10_domain),
+    function<1>("AINT", {"a", "a without its fraction, towards 0", "as a", "its derivative is 0"}, truncated,
+                defined_everywhere, flat),
+    function<1>("ANINT", {"a", "the whole number nearest to a, halves away from 0", "as a", "its derivative is 0"},
+                rounded, defined_everywhere, flat),
+    function<2>("DIM", {"a, b", "a − b where that is positive, else 0", "as a, b", ""}, positive_difference,
+                defined_everywhere, flat),
+    list_function("MAX", {"a, b …", "the largest", "as a, b", "two values or more"}, 2, most_arguments, largest, flat),
+    list_function("MIN", {"a, b …", "the smallest", "as a, b", "two values or more"}, 2, most_arguments, smallest,
+                  flat),
+    function<2>("MOD", {"a, b", "the remainder of a divided by b, with the sign of a", "as a", "b  not 0"},
+                remainder_of_division, mod_domain, flat),
+    function<2>("SIGN", {"a, b", "the size of a with the sign of b, plus where b = 0", "as a", ""}, with_sign_of),
 };
-constexpr Function power_operator = function<2>("**", power_of, power_domain);
+constexpr Function power_operator = function<2>("**", {}, power_of, power_domain);
 
 }  // namespace
 

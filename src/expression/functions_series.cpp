@@ -88,14 +88,41 @@ std::string sweep_domain(std::span<const double> a) {
 }
 
 constexpr std::array table = {
-    // clang-format off
-    list_function("POLY",   3, 33, polynomial),
-    list_function("CHEBY",  3, 33, chebyshev),
-    list_function("FORSIN", 4, most_arguments, sine_series),
-    list_function("FORCOS", 4, most_arguments, cosine_series),
-    function<6>("SHF",   simple_harmonic),
-    function<7>("SWEEP", sweep, sweep_domain),
-    // clang-format on
+    list_function(
+        "POLY",
+        {"x, x0, a0 [, a1 …]", "a0 + a1 (x − x0) + a2 (x − x0)² + …", "as a0", "x0  where it is expanded [as x]"}, 3,
+        33, polynomial),
+    list_function("CHEBY",
+                  {"x, x0, a0 [, a1 …]", "a0 T0 + a1 T1 + … with the Chebyshev polynomials of x − x0", "as a0",
+                   "x0  where it is expanded [as x]"},
+                  3, 33, chebyshev),
+    list_function("FORSIN",
+                  {"x, x0, w, a0 [, a1 …]", "a0 + a1 sin(w (x − x0)) + a2 sin(2 w (x − x0)) + …", "as a0",
+                   "x0  where the phase is zero [as x]\n"
+                   "w   frequency [rad per unit of x]"},
+                  4, most_arguments, sine_series),
+    list_function("FORCOS",
+                  {"x, x0, w, a0 [, a1 …]", "a0 + a1 cos(w (x − x0)) + a2 cos(2 w (x − x0)) + …", "as a0",
+                   "x0  where the phase is zero [as x]\n"
+                   "w   frequency [rad per unit of x]"},
+                  4, most_arguments, cosine_series),
+    function<6>("SHF",
+                {"x, x0, a, w, p, b", "a sin(w (x − x0) − p) + b", "as a, b",
+                 "x0  where the phase is −p [as x]\n"
+                 "a   amplitude\n"
+                 "w   frequency [rad per unit of x]\n"
+                 "p   phase [rad]\n"
+                 "b   mean value"},
+                simple_harmonic),
+    function<7>(
+        "SWEEP",
+        {"x, a, x0, f0, x1, f1, dx", "a sine of amplitude a whose frequency goes from f0 at x0 to f1 at x1", "as a",
+         "x       often TIME\n"
+         "a       amplitude\n"
+         "x0, x1  where the frequency begins and ends to change [as x]\n"
+         "f0, f1  frequencies [cycles per unit of x]\n"
+         "dx      over which the sine comes in, from x0 on [as x]"},
+        sweep, sweep_domain),
 };
 
 }  // namespace

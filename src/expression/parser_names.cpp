@@ -5,26 +5,16 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "dataset/tokens.h"
+#include "expression/function_manual.h"
 #include "expression/parser.h"
 #include "expression/vector_functions.h"
 
 namespace dynalin {
 
 namespace {
-
-struct NamedConstant {
-  std::string_view name;
-  double value;
-};
-constexpr std::array named_constants = {
-    NamedConstant{"PI", std::numbers::pi},
-    NamedConstant{"DTOR", std::numbers::pi / 180.0},
-    NamedConstant{"RTOD", 180.0 / std::numbers::pi},
-};
 
 std::string upper_case(std::string_view text) {
   std::string upper(text);
@@ -39,19 +29,8 @@ bool contains(std::span<const std::string_view> names, std::string_view name) {
 }
 
 std::vector<std::string_view> all_names() {
-  std::vector<std::string_view> names{"IF"};
-  for (const NamedConstant& c : named_constants) names.push_back(c.name);
-  for (const AtomFunction& f : atom_functions()) {
-    if (f.name.find('.') == std::string_view::npos) names.push_back(f.name);
-  }
-  for (const auto& family : {elementary_functions(), contact_functions(), series_functions()}) {
-    for (const Function& f : family) names.push_back(f.name);
-  }
-  for (const VectorAtom& v : vector_atoms()) names.push_back(v.name);
-  for (const SpecialFunction& f : special_functions()) names.push_back(f.name);
-  for (const auto& others : {functions_not_built(), names_not_built()}) {
-    names.insert(names.end(), others.begin(), others.end());
-  }
+  std::vector<std::string_view> names;
+  for (const FunctionEntry& f : function_manual()) names.push_back(f.name);
   return names;
 }
 
@@ -81,7 +60,7 @@ std::string argument_meaning(const AtomFunction& function, std::size_t index) {
 void ExpressionParser::read_name() {
   const Span name = span(at_);
   const std::string upper = upper_case(name.text());
-  for (const NamedConstant& c : named_constants) {
+  for (const NamedConstant& c : named_constants()) {
     if (c.name != upper) continue;
     ++at_;
     return push_operand(builder_.constant(c.value, name));

@@ -7,12 +7,15 @@
 #include <span>
 #include <string_view>
 
+#include "expression/function_text.h"
+
 namespace dynalin {
 
 // A vector of three atoms with the same arguments: DXYZ(i, j, k) is [DX, DY, DZ].
 struct VectorAtom {
   std::string_view name;
   std::array<std::string_view, 3> components;
+  FunctionText text;
 };
 std::span<const VectorAtom> vector_atoms();
 const VectorAtom* find_vector_atom(std::string_view upper_case_name);
@@ -32,6 +35,8 @@ struct SpecialFunction {
   std::string_view name;
   Kind kind;
   std::uint8_t minimum_arguments, maximum_arguments;
+  FunctionText text;
+  bool takes_vector() const { return kind == Kind::unit || kind == Kind::magnitude || kind == Kind::transform; }
 };
 std::span<const SpecialFunction> special_functions();
 const SpecialFunction* find_special_function(std::string_view upper_case_name);

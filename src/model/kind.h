@@ -26,6 +26,7 @@ struct ArgumentInfo {
   std::string_view help;
   bool repeats = false;         // may be written several times
   bool value_optional = false;  // a bare keyword, or one with a value
+  bool elsewhere = false;       // an argument of another type of the statement, known here so that it keeps its name
 };
 
 class ElementSet;

@@ -166,6 +166,7 @@ constexpr ArgumentInfo argument_info(const Argument<E>& a) {
         info.is_flag = std::is_same_v<V, bool>;
         info.value_optional =
             std::is_same_v<V, WordOrCount> || std::is_same_v<V, OptionalWord> || std::is_same_v<V, Obsolete>;
+        info.elsewhere = std::is_same_v<V, ElsewhereOnly>;
         info.repeats = std::is_same_v<V, std::vector<std::vector<double>>>;
         info.value = value_text<V>();
       },

@@ -1,0 +1,184 @@
+#include "command/help_pages.h"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+
+#include "command/command_table.h"
+#include "command/edits.h"
+#include "elements/catalogue.h"
+#include "expression/function_manual.h"
+
+namespace dynalin {
+
+namespace {
+
+std::vector<const Kind*> kinds_of(std::string_view statement) {
+  std::vector<const Kind*> kinds;
+  for (const Kind* kind : catalogue()) {
+    if (kind->statement == statement) kinds.push_back(kind);
+  }
+  return kinds;
+}
+
+// "K=real" with what is known of it; names of one meaning share a line.
+void print_arguments(std::ostream& out, const std::vector<ArgumentInfo>& arguments) {
+  for (std::size_t k = 0; k < arguments.size(); ++k) {
+    const ArgumentInfo& a = arguments[k];
+    std::string name(a.name);
+    if (!a.value.empty()) name += a.value_optional ? fmt::format("[={}]", a.value) : fmt::format("={}", a.value);
+    const auto alike = [&](const ArgumentInfo& b) {
+      return !a.help.empty() && b.help == a.help && b.value == a.value && b.unit == a.unit && !b.required;
+    };
+    std::size_t last = k;
+    while (last + 1 < arguments.size() && alike(arguments[last + 1]))
+      name += fmt::format(", {}", arguments[++last].name);
+    std::string text(a.help);
+    if (!a.unit.empty()) text += fmt::format("{}[{}]", text.empty() ? "" : " ", a.unit);
+    if (a.repeats) text += text.empty() ? "may be repeated" : ", may be repeated";
+    if (a.required) text += text.empty() ? "required" : ", required";
+    constexpr std::size_t width = 24, longest = 100;
+    if (name.size() <= width) {
+      fmt::print(out, "{}\n", text.empty() ? "    " + name : fmt::format("    {:<{}}  {}", name, width, text));
+    } else {
+      for (std::size_t begin = 0; begin < name.size();) {  // many names, broken behind a comma
+        std::size_t end = name.size();
+        if (end - begin > longest) end = name.rfind(", ", begin + longest) + 1;
+        fmt::print(out, "    {}\n", name.substr(begin, end - begin));
+        begin = end + (end < name.size() ? 1 : 0);
+      }
+      if (!text.empty()) fmt::print(out, "    {:<{}}  {}\n", "", width, text);
+    }
+    k = last;
+  }
+}
+
+bool same(const ArgumentInfo& a, const ArgumentInfo& b) {
+  return a.name == b.name && a.value == b.value && a.help == b.help && a.required == b.required && a.unit == b.unit;
+}
+bool contains(std::span<const ArgumentInfo> list, const ArgumentInfo& a) {
+  return std::any_of(list.begin(), list.end(), [&](const ArgumentInfo& b) { return same(a, b); });
+}
+
+// What all types share once, then what each has of its own.
+void print_statement(std::ostream& out, const std::vector<const Kind*>& kinds) {
+  const Kind& first = *kinds.front();
+  const bool has_id = first.role != Kind::Role::singleton && first.role != Kind::Role::inert;
+  const bool has_types = !first.variant.empty();
+  fmt::print(out, "{}/{}{}{}\n", first.statement, has_id ? "id" : "", has_types ? (has_id ? ", type" : "type") : "",
+             first.arguments.empty() ? ""
+             : (has_id || has_types) ? ", arguments"
+                                     : "arguments");
+  std::vector<ArgumentInfo> shared;
+  for (const ArgumentInfo& a : first.arguments) {
+    const bool everywhere =
+        std::all_of(kinds.begin(), kinds.end(), [&](const Kind* k) { return contains(k->arguments, a); });
+    if (!a.elsewhere && everywhere) shared.push_back(a);
+  }
+  if (!has_types) fmt::print(out, "  {}\n", first.summary);
+  if (has_types) fmt::print(out, "  types\n");
+  for (const Kind* kind : kinds) {
+    if (has_types) fmt::print(out, "    {:<24}  {}\n", kind->variant, kind->summary);
+  }
+  if (!shared.empty()) fmt::print(out, "  arguments{}\n", has_types ? " of every type" : "");
+  print_arguments(out, shared);
+  for (const Kind* kind : kinds) {
+    std::vector<ArgumentInfo> own;
+    for (const ArgumentInfo& a : kind->arguments) {
+      if (!a.elsewhere && !contains(shared, a)) own.push_back(a);
+    }
+    if (own.empty()) continue;
+    fmt::print(out, "  arguments of {}\n", kind->variant);
+    print_arguments(out, own);
+  }
+}
+
+void print_command(std::ostream& out, const CommandRow& row, bool is_statement) {
+  if (is_statement && row.summary.empty()) {
+    fmt::print(out, "As a command it defines arguments of such a statement anew, the others stay.\n");
+    if (!row.example.empty()) fmt::print(out, "    {}\n", row.example);
+    return;
+  }
+  if (is_statement) {
+    fmt::print(out, "As a command it has the same arguments and holds from there on.\n    {}\n", row.example);
+    return;
+  }
+  fmt::print(out, "{} (command)\n", row.name);
+  if (row.summary.empty())
+    fmt::print(out, "  such a statement is not available yet\n");
+  else
+    fmt::print(out, "  {}{}\n", row.summary,
+               row.use == CommandUse::not_built        ? "; not available yet"
+               : row.use == CommandUse::without_effect ? "; read and passed over here"
+                                                       : "");
+  if (!row.arguments.empty()) fmt::print(out, "  arguments\n");
+  print_arguments(out, {row.arguments.begin(), row.arguments.end()});
+  if (row.name == "ACTIVATE" || row.name == "DEACTIVATE")
+    fmt::print(out, "  classes\n    {}\n", fmt::join(switchable_classes(), " "));
+  if (!row.example.empty()) fmt::print(out, "  example\n    {}\n", row.example);
+}
+
+void print_function(std::ostream& out, const FunctionEntry& f) {
+  const FunctionText& t = f.text;
+  fmt::print(out, "{}{} (function)\n", f.name, t.arguments.empty() ? "" : fmt::format("({})", t.arguments));
+  if (!f.built) fmt::print(out, "  not available yet{}\n", t.meaning.empty() ? "" : ":");
+  if (!t.meaning.empty()) fmt::print(out, "  {}{}\n", t.meaning, t.unit.empty() ? "" : fmt::format(" [{}]", t.unit));
+  for (std::string_view rest = t.details; !rest.empty();) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    fmt::print(out, "    {}\n", rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string_view> types_of(std::string_view statement) {
+  std::vector<std::string_view> types;
+  for (const Kind* kind : kinds_of(statement)) {
+    if (!kind->variant.empty()) types.push_back(kind->variant);
+  }
+  return types;
+}
+
+bool print_pages(const std::string& name, std::ostream& out) {
+  bool any = false;
+  const auto next = [&] {
+    if (any) fmt::print(out, "\n");
+    any = true;
+  };
+  const auto& functions = function_manual();
+  const auto function = std::find_if(functions.begin(), functions.end(), [&](const auto& f) { return f.name == name; });
+  // A whole name of one class is no abbreviation in another: STEP is a function and no beginning of anything.
+  const auto is_whole = [&](std::span<const std::string_view> names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  const bool whole = function != functions.end() || is_whole(statement_names()) || is_whole(command_names());
+  const auto found = [&](std::span<const std::string_view> names) -> std::string_view {
+    if (whole) return is_whole(names) ? std::string_view(name) : std::string_view{};
+    const auto k = find_keyword(name, names);
+    return k ? names[*k] : std::string_view{};
+  };
+
+  const std::string_view statement = found(statement_names());
+  const auto kinds = kinds_of(statement);
+  if (!kinds.empty()) next(), print_statement(out, kinds);
+  const std::string_view command = found(command_names());
+  if (!command.empty()) next(), print_command(out, *find_command(command), !kinds.empty() && command == statement);
+  if (!statement.empty() && kinds.empty() && command != statement) {
+    next();
+    fmt::print(out, "{} {}\n", statement,
+               statement == "END" ? "ends a dataset" : "is a statement that is not available yet");
+  }
+  if (function != functions.end()) next(), print_function(out, *function);
+  if (any) return true;
+  // REVOLUTE alone: the statement that it is a type of.
+  for (const Kind* kind : catalogue()) {
+    if (kind->variant != name || any) continue;
+    next();
+    print_statement(out, kinds_of(kind->statement));
+  }
+  return any;
+}
+
+}  // namespace dynalin

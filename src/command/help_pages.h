@@ -1,0 +1,18 @@
+// What the manual says of one statement, command or function.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dynalin {
+
+// Types of a statement in the order of the catalogue, empty if it has none.
+std::vector<std::string_view> types_of(std::string_view statement);
+
+// The pages of everything that has this upper-case name, shortened perhaps, or is a type of that name; false if there
+// is nothing.
+bool print_pages(const std::string& name, std::ostream& out);
+
+}  // namespace dynalin
