@@ -3,12 +3,14 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <iostream>
 #include <new>
 #include <string_view>
+#include <vector>
 
 #include "command/help.h"
 #include "command/session.h"
@@ -32,6 +34,23 @@ int fail(std::string_view text) {
     if (::write(STDERR_FILENO, part.data(), part.size()) < 0) break;
   }
   return dynalin::analysis_failed;
+}
+
+// Slips of those who do not know the program yet: a file without `run`, a command without -c.
+void hint_at_usage(const CLI::App& run, int argc, char** argv) {
+  const std::vector<std::string_view> words(argv + 1, argv + argc);
+  const auto names_file = [](std::string_view w) {
+    std::string end(w.substr(w.size() < 4 ? 0 : w.size() - 4));
+    for (char& c : end) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return end == ".adm" || end == ".acf";
+  };
+  if (words.empty()) {
+    std::cerr << "A first run: dynalin run model.adm -c \"LINEAR/EIGENSOL\"\n";
+  } else if (names_file(words[0])) {
+    std::cerr << "hint: dynalin run " << words[0] << '\n';
+  } else if (run.parsed() && words.size() > 2 && names_file(words[1]) && !words[2].starts_with('-')) {
+    std::cerr << "hint: dynalin run " << words[1] << " -c \"" << words[2] << "\"\n";
+  }
 }
 
 int run(int argc, char** argv) {
@@ -64,7 +83,10 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? done : wrong_usage;
+    const int status = app.exit(e);
+    if (status == 0) return done;
+    hint_at_usage(*run, argc, argv);
+    return wrong_usage;
   }
   if (*run) return run_session(options, std::cout, std::cerr);
   if (*check) return check_file(options, std::cout, std::cerr);

@@ -244,6 +244,8 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Finding
   evaluate();
   const Violation v = position_violation(system, rows);
   findings.warnings.push_back(history.back());
+  history.insert(history.begin(),
+                 "the parts of that constraint may be drawn too far from where they fit, or be too short to reach");
   return tl::unexpected(Failure{"initial conditions",
                                 fmt::format("the model could not be assembled: {} is violated by {:.3e} of its scale",
                                             system.row_text(v.row), v.relative),

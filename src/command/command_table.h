@@ -21,9 +21,10 @@ enum class CommandUse : std::uint8_t {
 struct CommandRow {
   std::string_view name;
   CommandUse use;
-  std::string_view summary;                      // empty where it defines a statement anew
-  std::string_view example;                      // "SIMULATE/STATICS"
-  std::span<const ArgumentInfo> arguments = {};  // where it defines a statement anew those of the statement hold
+  std::string_view summary;                       // empty where it defines a statement anew
+  std::string_view example;                       // "SIMULATE/STATICS"
+  std::span<const ArgumentInfo> arguments = {};   // where it defines a statement anew those of the statement hold
+  std::span<const std::string_view> acting = {};  // of a setting: arguments that something acts on
 };
 
 std::span<const CommandRow> command_table();

@@ -4,6 +4,7 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "command/command_table.h"
 #include "command/edits.h"
@@ -100,10 +101,6 @@ void print_command(std::ostream& out, const CommandRow& row, bool is_statement) 
     if (!row.example.empty()) fmt::print(out, "    {}\n", row.example);
     return;
   }
-  if (is_statement) {
-    fmt::print(out, "As a command it has the same arguments and holds from there on.\n    {}\n", row.example);
-    return;
-  }
   fmt::print(out, "{} (command)\n", row.name);
   if (row.summary.empty())
     fmt::print(out, "  such a statement is not available yet\n");
@@ -117,6 +114,29 @@ void print_command(std::ostream& out, const CommandRow& row, bool is_statement) 
   if (row.name == "ACTIVATE" || row.name == "DEACTIVATE")
     fmt::print(out, "  classes\n    {}\n", fmt::join(switchable_classes(), " "));
   if (!row.example.empty()) fmt::print(out, "  example\n    {}\n", row.example);
+}
+
+// A setting is a statement and a command alike.
+void print_setting(std::ostream& out, const CommandRow& row) {
+  const bool is_statement = !statement_name(row.name).empty();
+  fmt::print(out, "{}/ ({})\n  {}\n", row.name, is_statement ? "statement and command" : "command", row.summary);
+  std::vector<ArgumentInfo> acting, passed_over;
+  for (const ArgumentInfo& a : row.arguments) {
+    const bool acts = std::find(row.acting.begin(), row.acting.end(), a.name) != row.acting.end();
+    // LIST, and words for what is the case anyway, are read in silence.
+    if (acts && !a.help.empty()) acting.push_back(a);
+    if (!acts) passed_over.push_back(a);
+  }
+  if (!acting.empty()) fmt::print(out, "  arguments that act\n");
+  print_arguments(out, acting);
+  if (!passed_over.empty()) fmt::print(out, "  arguments that are checked and passed over with a warning\n");
+  std::string line;
+  for (const ArgumentInfo& a : passed_over) {
+    if (line.size() + 1 + a.name.size() > 100) fmt::print(out, "    {}\n", std::exchange(line, {}));
+    line += (line.empty() ? "" : " ") + std::string(a.name);
+  }
+  if (!line.empty()) fmt::print(out, "    {}\n", line);
+  fmt::print(out, "  example\n    {}\n", row.example);
 }
 
 void print_function(std::ostream& out, const FunctionEntry& f) {
@@ -162,9 +182,13 @@ bool print_pages(const std::string& name, std::ostream& out) {
 
   const std::string_view statement = found(statement_names());
   const auto kinds = kinds_of(statement);
-  if (!kinds.empty()) next(), print_statement(out, kinds);
   const std::string_view command = found(command_names());
-  if (!command.empty()) next(), print_command(out, *find_command(command), !kinds.empty() && command == statement);
+  const bool setting = !command.empty() && find_command(command)->use == CommandUse::setting;
+  if (!kinds.empty() && !(setting && command == statement)) next(), print_statement(out, kinds);
+  if (setting)
+    next(), print_setting(out, *find_command(command));
+  else if (!command.empty())
+    next(), print_command(out, *find_command(command), !kinds.empty() && command == statement);
   if (!statement.empty() && kinds.empty() && command != statement) {
     next();
     fmt::print(out, "{} {}\n", statement,

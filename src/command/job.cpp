@@ -101,6 +101,10 @@ class Loader {
   }
   std::nullopt_t missing(const std::string& path, const std::string& reason) {
     fmt::print(err_, "error: {} cannot be read: {}\n", path, reason);
+    for (const char* extension : {".acf", ".adm"}) {
+      if (std::error_code ec; fs::path(path).extension().empty() && fs::is_regular_file(path + extension, ec))
+        fmt::print(err_, "hint: {}{} exists\n", path, extension);
+    }
     return std::nullopt;
   }
   std::nullopt_t fail() {

@@ -13,6 +13,7 @@
 
 #include "analysis/static_settings.h"
 #include "command/environment.h"
+#include "command/failure_text.h"
 #include "command/job.h"
 #include "command/mode_tables.h"
 #include "command/output_plan.h"
@@ -411,10 +412,8 @@ class Session {
   }
 
   void report(const Command& c, const Failure& f) {
-    std::string text = fmt::format("{}: {}", f.analysis, f.message);
-    for (const std::string& d : f.details) text += "\n  " + d;
-    write_block(message_, Block::error, text);
-    fmt::print(err_, "error: {} failed\n{}\n", c.text, text);
+    write_block(message_, Block::error, failure_text(f));
+    fmt::print(err_, "error: {} failed\n{}\n", c.text, short_failure_text(f, job_.prefix + ".msg"));
   }
 
   // All files appear together at the end of the run.

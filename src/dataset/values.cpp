@@ -91,7 +91,9 @@ class NumberList {
     diagnostics_.error(
         number ? "expected-comma" : "expected-number", token_span(token, source_),
         number ? fmt::format("a comma is missing before {}", quoted(token, source_))
-               : fmt::format("{} takes plain numbers, found {}", name_of(argument_), quoted(token, source_)));
+               : fmt::format("{} takes plain numbers, found {}", name_of(argument_), quoted(token, source_)),
+        token.kind == TokenKind::word ? "units are not written behind numbers; UNITS states them for the whole dataset"
+                                      : "");
     return false;
   }
 

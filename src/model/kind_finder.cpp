@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 namespace dynalin {
@@ -60,7 +61,18 @@ const Kind* KindFinder::find(const Statement& s, std::size_t& variant_argument, 
     variant_argument = k;
   }
   if (!found) {
-    diagnostics.error("missing-variant", s.at, fmt::format("{} needs its type", s.name),
+    // A bare word that is no argument of any type was probably meant as one.
+    const auto strange = std::find_if(s.arguments.begin(), s.arguments.end(), [&](const WrittenArgument& w) {
+      return !w.has_value && std::none_of(kinds.begin(), kinds.end(), [&](const Kind* kind) {
+        return std::any_of(kind->arguments.begin(), kind->arguments.end(), [&](const ArgumentInfo& a) {
+          return find_keyword(w.name.text(), std::array{a.name}).has_value();
+        });
+      });
+    });
+    const bool named = strange != s.arguments.end();
+    diagnostics.error("missing-variant", named ? strange->name : s.at,
+                      named ? fmt::format("{} is no type of {}", strange->name.text(), s.name)
+                            : fmt::format("{} needs its type", s.name),
                       fmt::format("one of {}", fmt::join(variants, ", ")));
   }
   return found;

@@ -13,7 +13,6 @@ namespace {
 
 const std::string rule(79, '-');
 
-// What the marks of a table of eigenvalues say.
 // A value that is zero is as certain as its bound is small against the fastest of the model.
 double largest_modulus(const EigenSolution& e) {
   double most = 0;
@@ -21,10 +20,12 @@ double largest_modulus(const EigenSolution& e) {
   return most;
 }
 
+// What the marks of a table of eigenvalues say.
 void write_doubts(std::ostream& out, const EigenSolution& e, int digits) {
   bool marked = false;
+  const double fastest = largest_modulus(e);
   for (const EigenMode& m : e.modes) {
-    const double size = std::abs(m.eigenvalue_hz);
+    const double modulus = std::abs(m.eigenvalue_hz), size = modulus > 0 ? modulus : fastest;
     marked = marked || !certain(m.eigenvalue_hz.real(), size, m.error_bound_hz, digits) ||
              (!m.is_real && !certain(m.eigenvalue_hz.imag(), size, m.error_bound_hz, digits));
   }
