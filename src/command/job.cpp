@@ -29,7 +29,16 @@ class Loader {
   std::optional<Job> load() {
     Job job;
     const std::string& file = options_.file;
-    const bool is_dataset = has_extension(file, ".adm");
+    const bool has_commands = !options_.commands.empty();
+    if (has_commands && has_extension(file, ".acf")) {
+      fmt::print(err_,
+                 "error: -c gives commands for a dataset, and {} is a command file\nhint: run the dataset that it "
+                 "names with -c, or write the commands into it\n",
+                 file);
+      return std::nullopt;
+    }
+    // A file that is run with commands of its own is a dataset whatever its name.
+    const bool is_dataset = has_commands || has_extension(file, ".adm");
     std::string dataset_path = file;
     job.folder = fs::path(file).parent_path().string();
     if (is_dataset) {

@@ -187,6 +187,15 @@ bool is_command_line(std::string_view line) {
          (word.size() >= 3 && find_keyword(word, std::array<std::string_view, 1>{"STOP"}));  // a model may be called s
 }
 
+// Whether a line is a SIMULATE or LINEAR that would run, and no path that merely looks like a command.
+bool is_analysis(const std::string& line) {
+  if (!is_command_line(line)) return false;
+  const Parsed<CommandFile> parsed = parse_commands(std::make_shared<const SourceText>("", line));
+  if (parsed.diagnostics.has_errors() || parsed.value.commands.empty()) return false;
+  const auto& what = parsed.value.commands.front().what;
+  return std::holds_alternative<SimulateCommand>(what) || std::holds_alternative<LinearCommand>(what);
+}
+
 }  // namespace
 
 Parsed<CommandFile> parse_command_file(SourceRef source) {
@@ -205,6 +214,14 @@ Parsed<CommandFile> parse_command_file(SourceRef source) {
   parser.name_model(std::string(first), {source.get(), offset, static_cast<std::uint32_t>(first.size())}, prefix);
   auto rest = std::make_shared<const SourceText>(source->name(), std::move(text));
   Parsed<CommandFile> file = parser.parse(rest);
+  if (is_analysis(prefix)) {
+    const std::string_view line = source->line(2);
+    const auto at = static_cast<std::uint32_t>(line.data() - source->text().data() +
+                                               static_cast<std::ptrdiff_t>(line.find(prefix)));
+    file.diagnostics.error("missing-prefix", {source.get(), at, static_cast<std::uint32_t>(prefix.size())},
+                           "the second line is the prefix of the output files, and here it is a command",
+                           "put a prefix above it, or an empty line to take the name of the dataset");
+  }
   file.value.source = rest;
   return file;
 }

@@ -63,7 +63,8 @@ class NumberList {
     const Span at = token_span(token, source_);
     if (token.kind != TokenKind::number) {
       diagnostics_.error("expected-number", at,
-                         fmt::format("{} takes plain numbers, found {}", name_of(argument_), quoted(token, source_)));
+                         fmt::format("{} takes plain numbers, found {}", name_of(argument_), quoted(token, source_)),
+                         symbol_here('(') ? "lists have no parentheses: QP=1, 2, 3" : "");
       return std::nullopt;
     }
     const double value = token_value(token, source_);

@@ -83,7 +83,8 @@ TEST_F(Manual, has_each_kind_of_element_in_its_index) {
     const std::string type = kind->variant.empty() ? "" : "`" + std::string(kind->variant) + "`";
     const std::string begin = "| `" + std::string(kind->statement) + "` | " + type + " | [";
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& line) { return line.starts_with(begin); });
-    ASSERT_NE(row, rows.end()) << begin;
+    ASSERT_NE(row, rows.end()) << "docs/elements/README.md lacks " << begin << "page](page.md) | " << kind->summary
+                               << " |";
     EXPECT_TRUE(row->ends_with("| " + std::string(kind->summary) + " |")) << *row;
     const auto opening = row->find("](") + 2, closing = row->find(')', opening);
     linked.insert(row->substr(opening, closing - opening));
