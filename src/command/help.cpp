@@ -17,25 +17,14 @@ namespace dynalin {
 
 namespace {
 
-constexpr std::size_t columns = 100;
-
 std::string upper_case(std::string_view text) {
   std::string upper(text);
   for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return upper;
 }
 
-// Names one after the other, in as many lines as they need.
-void print_names(std::ostream& out, const std::vector<std::string_view>& names, std::string_view indent) {
-  std::string line;
-  for (const std::string_view name : names) {
-    if (!line.empty() && indent.size() + line.size() + 1 + name.size() > columns) {
-      fmt::print(out, "{}{}\n", indent, line);
-      line.clear();
-    }
-    line += (line.empty() ? "" : " ") + std::string(name);
-  }
-  if (!line.empty()) fmt::print(out, "{}{}\n", indent, line);
+bool has_statement(std::string_view name) {
+  return std::any_of(catalogue().begin(), catalogue().end(), [&](const Kind* kind) { return kind->statement == name; });
 }
 
 void list_statements(std::ostream& out) {
@@ -58,8 +47,14 @@ void list_statements(std::ostream& out) {
     fmt::print(out, "    {:<14} of the types\n", statement);
     print_names(out, types, "                     ");
   }
+  std::vector<std::string_view> missing;
+  for (const std::string_view name : statement_names()) {
+    if (name != "END" && !has_statement(name)) missing.push_back(name);
+  }
   fmt::print(out, "  settings and output, most of them without effect on a linear model\n");
   print_names(out, inert, "    ");
+  fmt::print(out, "  not available yet\n");
+  print_names(out, missing, "    ");
 }
 
 void list_commands(std::ostream& out) {
@@ -81,6 +76,7 @@ void list_commands(std::ostream& out) {
     std::vector<std::string_view> bare;
     for (const CommandRow& row : command_table()) {
       if (row.use != group.use) continue;
+      if (row.summary.empty() && !has_statement(row.name)) continue;
       const bool plain = row.use == CommandUse::without_effect || row.use == CommandUse::not_built;
       if (row.summary.empty() || plain)
         bare.push_back(row.name);

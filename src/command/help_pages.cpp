@@ -82,7 +82,9 @@ void print_statement(std::ostream& out, const std::vector<const Kind*>& kinds) {
   for (const Kind* kind : kinds) {
     if (has_types) fmt::print(out, "    {:<24}  {}\n", kind->variant, kind->summary);
   }
-  if (!shared.empty()) fmt::print(out, "  arguments{}\n", has_types ? " of every type" : "");
+  if (!shared.empty())
+    fmt::print(out, "  arguments{}\n",
+               kinds.size() > 1 && shared.size() < first.arguments.size() ? " of every type" : "");
   print_arguments(out, shared);
   for (const Kind* kind : kinds) {
     std::vector<ArgumentInfo> own;
@@ -112,7 +114,8 @@ void print_command(std::ostream& out, const CommandRow& row, bool is_statement) 
   if (!row.arguments.empty()) fmt::print(out, "  arguments\n");
   print_arguments(out, {row.arguments.begin(), row.arguments.end()});
   if (row.name == "ACTIVATE" || row.name == "DEACTIVATE")
-    fmt::print(out, "  classes\n    {}\n", fmt::join(switchable_classes(), " "));
+    fmt::print(out, "  classes\n"),
+        print_names(out, {switchable_classes().begin(), switchable_classes().end()}, "    ");
   if (!row.example.empty()) fmt::print(out, "  example\n    {}\n", row.example);
 }
 
@@ -120,28 +123,25 @@ void print_command(std::ostream& out, const CommandRow& row, bool is_statement) 
 void print_setting(std::ostream& out, const CommandRow& row) {
   const bool is_statement = !statement_name(row.name).empty();
   fmt::print(out, "{}/ ({})\n  {}\n", row.name, is_statement ? "statement and command" : "command", row.summary);
-  std::vector<ArgumentInfo> acting, passed_over;
+  std::vector<ArgumentInfo> acting;
+  std::vector<std::string_view> passed_over;
   for (const ArgumentInfo& a : row.arguments) {
     const bool acts = std::find(row.acting.begin(), row.acting.end(), a.name) != row.acting.end();
     // LIST, and words for what is the case anyway, are read in silence.
     if (acts && !a.help.empty()) acting.push_back(a);
-    if (!acts) passed_over.push_back(a);
+    if (!acts) passed_over.push_back(a.name);
   }
   if (!acting.empty()) fmt::print(out, "  arguments that act\n");
   print_arguments(out, acting);
   if (!passed_over.empty()) fmt::print(out, "  arguments that are checked and passed over with a warning\n");
-  std::string line;
-  for (const ArgumentInfo& a : passed_over) {
-    if (line.size() + 1 + a.name.size() > 100) fmt::print(out, "    {}\n", std::exchange(line, {}));
-    line += (line.empty() ? "" : " ") + std::string(a.name);
-  }
-  if (!line.empty()) fmt::print(out, "    {}\n", line);
+  print_names(out, passed_over, "    ");
   fmt::print(out, "  example\n    {}\n", row.example);
 }
 
 void print_function(std::ostream& out, const FunctionEntry& f) {
   const FunctionText& t = f.text;
-  fmt::print(out, "{}{} (function)\n", f.name, t.arguments.empty() ? "" : fmt::format("({})", t.arguments));
+  fmt::print(out, "{} in expressions\n",
+             t.arguments.empty() ? std::string(f.name) : fmt::format("{}({})", f.name, t.arguments));
   if (!f.built) fmt::print(out, "  not available yet{}\n", t.meaning.empty() ? "" : ":");
   if (!t.meaning.empty()) fmt::print(out, "  {}{}\n", t.meaning, t.unit.empty() ? "" : fmt::format(" [{}]", t.unit));
   for (std::string_view rest = t.details; !rest.empty();) {
@@ -152,6 +152,17 @@ void print_function(std::ostream& out, const FunctionEntry& f) {
 }
 
 }  // namespace
+
+void print_names(std::ostream& out, const std::vector<std::string_view>& names, std::string_view indent) {
+  constexpr std::size_t columns = 100;
+  std::string line;
+  for (const std::string_view name : names) {
+    if (!line.empty() && indent.size() + line.size() + 1 + name.size() > columns)
+      fmt::print(out, "{}{}\n", indent, std::exchange(line, {}));
+    line += (line.empty() ? "" : " ") + std::string(name);
+  }
+  if (!line.empty()) fmt::print(out, "{}{}\n", indent, line);
+}
 
 std::vector<std::string_view> types_of(std::string_view statement) {
   std::vector<std::string_view> types;

@@ -11,6 +11,9 @@ namespace dynalin {
 // Types of a statement in the order of the catalogue, empty if it has none.
 std::vector<std::string_view> types_of(std::string_view statement);
 
+// Names one after the other, in as many lines as they need.
+void print_names(std::ostream& out, const std::vector<std::string_view>& names, std::string_view indent);
+
 // The pages of everything that has this upper-case name, shortened perhaps, or is a type of that name; false if there
 // is nothing.
 bool print_pages(const std::string& name, std::ostream& out);

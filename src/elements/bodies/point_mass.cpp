@@ -22,15 +22,15 @@ struct PointMass {
   Matrix3 axes = Matrix3::identity();
 
   static constexpr std::array<Argument<PointMass>, 10> arguments = {{
-      {.name = "MASS", .slot = &PointMass::mass, .unit = unit::mass, .minimum = 0},
+      {.name = "MASS", .slot = &PointMass::mass, .unit = unit::mass, .minimum = 0, .help = "0 unless stated"},
       {.name = "CM", .slot = &PointMass::cm, .help = "marker at the mass"},
       {.name = "QG", .slot = &PointMass::origin, .unit = unit::length, .help = "origin of the BCS"},
       {.name = "REULER", .slot = &PointMass::angles, .unit = unit::angle, .help = "3-1-3 angles of the BCS"},
       {.name = "ZG", .slot = &PointMass::z_point, .unit = unit::length, .help = "global point on +z"},
       {.name = "XG", .slot = &PointMass::x_point, .unit = unit::length, .help = "global point in the x-z plane"},
       {.name = "VX", .slot = &PointMass::vx, .unit = unit::velocity, .help = "initial velocity, global axes"},
-      {.name = "VY", .slot = &PointMass::vy, .unit = unit::velocity},
-      {.name = "VZ", .slot = &PointMass::vz, .unit = unit::velocity},
+      {.name = "VY", .slot = &PointMass::vy, .unit = unit::velocity, .help = "the same along y"},
+      {.name = "VZ", .slot = &PointMass::vz, .unit = unit::velocity, .help = "the same along z"},
       {.name = "EXACT", .slot = &PointMass::exact, .help = "coordinates the assembly should keep: X:Y:Z"},
   }};
 };

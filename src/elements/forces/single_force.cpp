@@ -20,7 +20,11 @@ struct SingleForce {
       {.name = "I", .slot = &SingleForce::i, .required = true, .help = "marker the force acts on"},
       {.name = "J", .slot = &SingleForce::j, .required = true, .help = "marker the reaction acts on"},
       {.name = "ACTIONONLY", .slot = &SingleForce::action_only, .help = "no reaction on J"},
-      {.name = "FUNCTION", .slot = &SingleForce::function, .required = true, .unit = unit::force},
+      {.name = "FUNCTION",
+       .slot = &SingleForce::function,
+       .required = true,
+       .unit = unit::force,
+       .help = "the force; above 0 it pushes the markers apart"},
   }};
 
   Direction direction() const { return action_only ? Direction::along_z : Direction::along_line; }

@@ -20,7 +20,11 @@ struct SingleTorque {
       {.name = "I", .slot = &SingleTorque::i, .required = true, .help = "marker the torque acts on"},
       {.name = "J", .slot = &SingleTorque::j, .required = true, .help = "marker the reaction acts on"},
       {.name = "ACTIONONLY", .slot = &SingleTorque::action_only, .help = "no reaction on J"},
-      {.name = "FUNCTION", .slot = &SingleTorque::function, .required = true, .unit = unit::torque},
+      {.name = "FUNCTION",
+       .slot = &SingleTorque::function,
+       .required = true,
+       .unit = unit::torque,
+       .help = "the torque on I about z of J"},
   }};
 
   Direction direction() const { return Direction::about_z; }

@@ -20,9 +20,9 @@ struct VTorque : WrittenVectorForce {
        .required = true,
        .help = "floating marker on the body that takes the reaction"},
       {.name = "RM", .slot = &VTorque::rm, .required = true, .help = "marker in whose axes the components are given"},
-      {.name = "TX", .slot = &VTorque::tx, .unit = unit::torque},
-      {.name = "TY", .slot = &VTorque::ty, .unit = unit::torque},
-      {.name = "TZ", .slot = &VTorque::tz, .unit = unit::torque},
+      {.name = "TX", .slot = &VTorque::tx, .unit = unit::torque, .help = "about x of RM"},
+      {.name = "TY", .slot = &VTorque::ty, .unit = unit::torque, .help = "about y of RM"},
+      {.name = "TZ", .slot = &VTorque::tz, .unit = unit::torque, .help = "about z of RM"},
       {.name = "TXYZ", .slot = &VTorque::txyz, .unit = unit::torque, .help = "all three as a vector expression"},
       {.name = "FUNCTION", .slot = &VTorque::function, .help = "user subroutines are not available"},
   }};
