@@ -207,11 +207,13 @@ bool print_pages(const std::string& name, std::ostream& out) {
   }
   if (function != functions.end()) next(), print_function(out, *function);
   if (any) return true;
-  // REVOLUTE alone: the statement that it is a type of.
+  // REVOLUTE alone: the statements that it is a type of.
+  std::string_view shown;
   for (const Kind* kind : catalogue()) {
-    if (kind->variant != name || any) continue;
+    if (kind->variant != name || kind->statement == shown) continue;
+    shown = kind->statement;
     next();
-    print_statement(out, kinds_of(kind->statement));
+    print_statement(out, kinds_of(shown));
   }
   return any;
 }

@@ -34,7 +34,8 @@ std::optional<SimulateCommand> read_simulate(ElementReader& reader) {
   for (const auto& [flag, name] : {std::pair{w.kinematics, "KINEMATICS"}, std::pair{w.dynamics, "DYNAMICS"},
                                    std::pair{w.transient, "TRANSIENT"}}) {
     if (!flag) continue;
-    reader.error("command-not-built", reader.at(name), fmt::format("SIMULATE/{} is not available yet", name));
+    reader.error("command-not-built", reader.at(name), fmt::format("SIMULATE/{} is not available yet", name),
+                 "SIMULATE/STATICS and SIMULATE/INITIAL_CONDITIONS find an operating point at time 0");
     return std::nullopt;
   }
   for (const auto name : {"END", "DURATION", "DTOUT", "STEPS"}) {

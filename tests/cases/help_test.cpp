@@ -61,6 +61,11 @@ TEST(Help, has_a_page_for_every_name) {
   }
 }
 
+TEST(Help, shows_all_statements_that_have_a_type) {
+  EXPECT_THAT(help("TRANSLATIONAL").out,
+              AllOf(HasSubstr("JOINT/id"), HasSubstr("SFORCE/id"), HasSubstr("SPRINGDAMPER/id")));
+}
+
 TEST(Help, shows_what_a_function_takes) {
   const Printed step = help("step");
   EXPECT_EQ(step.status, done);
