@@ -91,7 +91,9 @@ TEST_F(Manual, has_each_kind_of_element_in_its_index) {
   }
   for (const auto& entry : fs::directory_iterator(pages)) {
     const std::string name = entry.path().filename().string();
-    if (name != "README.md") EXPECT_EQ(linked.erase(name), 1u) << name;
+    if (name != "README.md") {
+      EXPECT_EQ(linked.erase(name), 1u) << name;
+    }
   }
   EXPECT_TRUE(linked.empty()) << *linked.begin();
 }
@@ -104,15 +106,21 @@ TEST_F(Manual, names_all_that_is_not_built) {
   for (const std::string_view name : statement_names()) {
     if (name == "END") continue;
     const bool named = page.find("`" + std::string(name) + "`") != std::string::npos;
-    if (!built.contains(name)) EXPECT_TRUE(named) << name;
+    if (!built.contains(name)) {
+      EXPECT_TRUE(named) << name;
+    }
   }
   for (const FunctionEntry& f : function_manual()) {
-    if (!f.built) EXPECT_THAT(page, HasSubstr("`" + std::string(f.name)));
+    if (!f.built) {
+      EXPECT_THAT(page, HasSubstr("`" + std::string(f.name)));
+    }
   }
   for (const std::string& line : lines_of(page)) {
     if (!line.starts_with("| `") || line.find("| error |") == std::string::npos) continue;
     const std::string name = line.substr(3, line.find_first_of("`/", 3) - 3);
-    if (!find_command(name)) EXPECT_FALSE(built.contains(name)) << line;
+    if (!find_command(name)) {
+      EXPECT_FALSE(built.contains(name)) << line;
+    }
   }
 }
 

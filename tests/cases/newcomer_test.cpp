@@ -46,8 +46,8 @@ TEST_F(Newcomer, writes_a_type_that_does_not_exist) {
 }
 
 TEST_F(Newcomer, writes_units_behind_numbers) {
-  const RunResult r = check("PART/3, MASS=1 kg, CM=30, IP=1,1,1\nMARKER/30");
-  EXPECT_THAT(r.err, AllOf(HasSubstr(":7:16: error: MASS takes plain numbers, found 'kg'"),
+  const RunResult r = check("PART/3, MASS=1kg, CM=30, IP=1,1,1\nMARKER/30");
+  EXPECT_THAT(r.err, AllOf(HasSubstr(":7:15: error: MASS takes plain numbers, found 'kg'"),
                            HasSubstr("hint: units are not written behind numbers; UNITS states them")));
 }
 
