@@ -10,8 +10,7 @@ Saddle::Saddle(const System& system)
       m_(static_cast<std::int32_t>(system.layout().rows.size())),
       w_(static_cast<std::int32_t>(system.layout().algebraic.size())),
       z_(static_cast<std::int32_t>(system.layout().states.size())),
-      size_(n_ + m_ + w_ + z_),
-      system_(system) {}
+      size_(n_ + m_ + w_ + z_) {}
 
 ColumnMatrix Saddle::matrix(const Equations& eq, const ConstraintRows& rows, const std::vector<bool>& active,
                             const SaddleColumns& columns, const std::vector<bool>& cut, const std::vector<bool>& held,

@@ -38,7 +38,6 @@ class Saddle {
 
  private:
   std::int32_t n_, m_, w_, z_, size_;
-  const System& system_;
 };
 
 // The unknowns that a singular matrix leaves undetermined, largest first, by name.

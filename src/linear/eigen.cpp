@@ -112,7 +112,8 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   assert(A.allFinite());  // linearize() refuses what is not, by name
   std::optional<UnrefinedPairs> found = unrefined_pairs(linear);
   if (!found) return tl::unexpected(Failure{"eigensolution", "the QR iteration did not converge", {}});
-  auto& [zero, pairs] = *found;
+  const ZeroModes& zero = found->zero;
+  EigenPairs& pairs = found->pairs;
   const Eigen::Index n = A.rows(), z = zero.count;
   std::vector<EigenTrust> trust(pairs.values.size());
   if (n > z) {

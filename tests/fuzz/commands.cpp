@@ -1,0 +1,21 @@
+// Any bytes as a command file, and as commands given one by one.
+#include "command/commands.h"
+
+#include <memory>
+
+#include "target.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
+  using namespace dynalin;
+  const auto source = std::make_shared<const SourceText>("fuzz.acf", fuzz::text_of(bytes, count));
+  for (const auto read : {&parse_command_file, &parse_commands}) {
+    const auto parsed = read(source);
+    fuzz::demand_sound(parsed.diagnostics);
+    for (const Command& c : parsed.value.commands) {
+      fuzz::demand(std::size_t{c.at.offset} + c.at.length <= source->text().size(), "a command outside its source");
+      const auto* edit = std::get_if<EditCommand>(&c.what);
+      fuzz::demand(!edit || edit->statement, "an edit without a statement");
+    }
+  }
+  return 0;
+}

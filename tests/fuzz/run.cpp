@@ -1,0 +1,105 @@
+// A whole run in the process: a dataset, behind a line `####` commands, behind another one a file `data` that the
+// dataset may name. Whatever happens, the exit status is one of three, a failure says why, no temporary file stays, and
+// results are numbers.
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "command/commands.h"
+#include "command/session.h"
+#include "dataset/dataset.h"
+#include "folder.h"
+#include "target.h"
+
+namespace dynalin::fuzz {
+namespace {
+
+constexpr std::size_t most_bytes = 16384, most_statements = 150, most_commands = 8;
+
+std::vector<std::string> sections(std::string_view text) {
+  std::vector<std::string> list(1);
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size() - 1);
+    const std::string_view line = text.substr(0, end + 1);
+    if (line == "####\n")
+      list.emplace_back();
+    else
+      list.back() += line;
+    text.remove_prefix(end + 1);
+  }
+  return list;
+}
+
+// Nothing outside of the folder is written or read, and no run is long because its input asks for it.
+bool allowed(std::string_view file) { return file.find('/') == std::string_view::npos && file.size() < 40; }
+bool allowed(const CommandFile& commands) {
+  if (commands.commands.size() > most_commands || !allowed(commands.model) || !allowed(commands.output_prefix))
+    return false;
+  for (const Command& c : commands.commands) {
+    const auto* linear = std::get_if<LinearCommand>(&c.what);
+    if (linear && !(allowed(linear->file) && allowed(linear->config))) return false;
+  }
+  return true;
+}
+bool allowed(const Dataset& dataset) {
+  if (dataset.statements.size() > most_statements) return false;
+  for (const Statement& s : dataset.statements) {
+    for (const WrittenArgument& a : s.arguments) {
+      const std::string_view name = a.name.text();
+      const bool names_file = !name.empty() && (name.front() == 'F' || name.front() == 'f');
+      if ((s.name == "MATRIX" || s.name == "SPLINE") && names_file && !allowed(a.value_span.text())) return false;
+    }
+  }
+  return true;
+}
+
+// JSON has no sign for what is not a number: null takes its place, and is meant only where a bound is infinite.
+void demand_numbers(const nlohmann::json& value, std::string_view key) {
+  demand(!value.is_null() || key == "condition" || key == "error_bound_hz", "a result is not a number");
+  if (value.is_object()) {
+    for (const auto& [name, inner] : value.items()) demand_numbers(inner, name);
+  } else if (value.is_array()) {
+    for (const auto& inner : value) demand_numbers(inner, key);
+  }
+}
+
+void run(const Folder& folder, const std::vector<std::string>& parts) {
+  folder.write("model.adm", parts[0]);
+  folder.write("model.acf", "model\nmodel\n" + parts[1]);
+  if (parts.size() > 2) folder.write("data", parts[2]);
+  SessionOptions options;
+  options.file = folder.path("model.acf");
+  options.json = folder.path("results.json");
+  std::ostringstream out, err;
+  const int status = run_session(options, out, err);
+  demand(status == done || status == wrong_input || status == analysis_failed, "another exit status");
+  demand(status == done || err.str().find("error: ") != std::string::npos, "a failure that says nothing");
+  std::size_t inputs = parts.size() > 2 ? 3 : 2, files = 0;
+  for (const auto& entry : folder.entries()) {
+    ++files;
+    demand(entry.path().extension() != ".part", "a temporary file is left");
+  }
+  demand(status != wrong_input || files == inputs, "wrong input, and yet something is written");
+  demand(status != done || folder.has("results.json"), "no results");
+  if (folder.has("results.json")) demand_numbers(nlohmann::json::parse(folder.read("results.json")), "");
+}
+
+}  // namespace
+}  // namespace dynalin::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
+  using namespace dynalin;
+  static const fuzz::Folder folder;
+  if (count > fuzz::most_bytes) return -1;
+  const std::vector<std::string> parts = fuzz::sections(fuzz::text_of(bytes, count));
+  if (parts.size() < 2) return -1;
+  const auto commands = parse_commands(std::make_shared<const SourceText>("model.acf", parts[1]));
+  const auto dataset = parse_dataset(std::make_shared<const SourceText>("model.adm", parts[0]));
+  if (!fuzz::allowed(commands.value) || !fuzz::allowed(dataset.value)) return -1;
+  fuzz::run(folder, parts);
+  folder.clear();
+  return 0;
+}
