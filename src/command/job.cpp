@@ -73,7 +73,10 @@ class Loader {
     const bool read = !parsed.diagnostics.has_errors();
     diagnostics_.append(std::move(parsed.diagnostics));
     const auto dataset = std::make_shared<Dataset>(std::move(parsed.value));
-    auto built = build_model(dataset, catalogue(), {options_.user_value});
+    const auto edits = [](const Command& c) { return std::holds_alternative<EditCommand>(c.what); };
+    const bool edited = std::ranges::any_of(job.commands.commands, edits);
+    auto built = build_model(dataset, catalogue(),
+                             {.user_value = options_.user_value, .read_once = edited ? nullptr : dataset});
     // Statements that could not be read leave gaps that the model would only complain about again.
     if (read || built.diagnostics.has_errors()) diagnostics_.append(std::move(built.diagnostics));
     job.stages.push_back({dataset, std::move(built.value), {}});

@@ -37,9 +37,12 @@ struct Token {
 class TokenStore {
  public:
   std::span<const Token> add(std::span<const Token> tokens);
+  // Gives back what was added before these, block by block.
+  void release_before(std::span<const Token> stored);
 
  private:
   std::vector<std::vector<Token>> blocks_;
+  std::size_t released_ = 0;  // so many blocks
 };
 
 // `NAME = value` or a bare `NAME`. The tokens of the value exclude the separators around it.
@@ -73,8 +76,10 @@ struct Dataset {
   std::deque<Statement> statements;                     // without END; unknown ones are kept, their name is ""
   std::vector<std::shared_ptr<const Dataset>> origins;  // whose tokens and texts edited statements point into
 
-  // Gives the memory of all arguments back when the model is made of them; ids and places stay.
+  // Give the memory of arguments back when the model is made of them; ids and places stay. Of one statement: those of
+  // all before it must not be needed any more either.
   void release_arguments();
+  void release_arguments(Statement&);
 
   Dataset() = default;
   Dataset(Dataset&&) = default;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <charconv>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -305,6 +306,22 @@ std::span<const Token> TokenStore::add(std::span<const Token> tokens) {
   std::vector<Token>& block = blocks_.back();
   block.insert(block.end(), tokens.begin(), tokens.end());
   return std::span<const Token>(block).last(tokens.size());
+}
+
+void TokenStore::release_before(std::span<const Token> stored) {
+  const auto holds = [&](const std::vector<Token>& block) {
+    const std::less_equal<const Token*> before;
+    return !block.empty() && before(block.data(), stored.data()) && before(stored.data(), &block.back());
+  };
+  std::size_t here = released_;
+  while (here < blocks_.size() && !holds(blocks_[here])) ++here;
+  if (stored.empty() || here == blocks_.size()) return;
+  for (; released_ < here; ++released_) std::vector<Token>().swap(blocks_[released_]);
+}
+
+void Dataset::release_arguments(Statement& statement) {
+  for (const WrittenArgument& w : statement.arguments) tokens.release_before(w.value);
+  std::vector<WrittenArgument>().swap(statement.arguments);
 }
 
 void Dataset::release_arguments() {

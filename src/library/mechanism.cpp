@@ -109,7 +109,7 @@ Mechanism Mechanism::from_text(std::string dataset, std::string name, const Read
   Diagnostics diagnostics = std::move(parsed.diagnostics);
   const bool read = !diagnostics.has_errors();
   const auto written = std::make_shared<Dataset>(std::move(parsed.value));
-  auto built = build_model(written, catalogue(), {options.user_value});
+  auto built = build_model(written, catalogue(), {.user_value = options.user_value, .read_once = written});
   if (built.value->dataset == written) written->release_arguments();
   if (read || built.diagnostics.has_errors()) diagnostics.append(std::move(built.diagnostics));
   std::vector<std::string> messages;

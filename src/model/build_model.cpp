@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "model/kind_finder.h"
 #include "model/model.h"
@@ -15,11 +16,14 @@ namespace {
 // One statement of the dataset on its way into the model.
 struct Placement {
   const Statement* statement;
-  ElementSet* set;
-  std::size_t index;
-  std::size_t variant_argument;  // the written argument that chose the kind, or none
+  ElementSet* set;                // nullptr: it makes no element, which is reported
+  std::int32_t index;             // in the set
+  std::int32_t variant_argument;  // the written argument that chose the kind, or no_variant
   BodyId preceding_body;
+
+  std::size_t at() const { return static_cast<std::size_t>(index); }
 };
+constexpr std::int32_t no_variant = -1;
 constexpr std::size_t no_argument = KindFinder::no_argument;
 
 // Statements of which an atom function needs an argument, by name and id.
@@ -39,12 +43,12 @@ class Reader final : public ElementReader {
  public:
   Reader(Model& model, const Placement& placement, const ExaminedStatements& examined, const SourceText& source,
          Diagnostics& diagnostics)
-      : ElementReader(*placement.statement, source, diagnostics, placement.set->labels[placement.index]),
+      : ElementReader(*placement.statement, source, diagnostics, placement.set->labels[placement.at()]),
         model_(model),
         placement_(placement),
         examined_(examined) {
-    if (placement.variant_argument != no_argument) {
-      const auto& w = placement.statement->arguments[placement.variant_argument];
+    if (placement.variant_argument != no_variant) {
+      const auto& w = placement.statement->arguments[static_cast<std::size_t>(placement.variant_argument)];
       assignments.push_back({placement.set->kind().variant, w.name});
     }
   }
@@ -227,6 +231,7 @@ class Builder {
   Builder(std::shared_ptr<const Dataset> dataset, Catalogue catalogue, const BuildOptions& options)
       : catalogue_(catalogue), finder_(catalogue), model_(std::make_unique<Model>()) {
     model_->dataset = without_user_routines(std::move(dataset), catalogue, options.user_value, diagnostics_);
+    if (model_->dataset == options.read_once) read_once_ = options.read_once.get();
     model_->title = model_->dataset->title;
     model_->markers.push_back({{"MARKER", 0, "", {}}, {}, false});
     model_->marker_ids.emplace(0, global_frame);
@@ -264,10 +269,26 @@ class Builder {
     return *model_->sets[static_cast<std::size_t>(set_index(kind, active))];
   }
 
+  // What kind each statement is of, and room for all of them.
+  void find_kinds() {
+    const auto& statements = model_->dataset->statements;
+    placements_.reserve(statements.size());
+    std::map<ElementSet*, std::size_t> count;
+    for (const Statement& s : statements) {
+      if (s.name.empty() || s.name == "END") continue;
+      std::size_t variant_argument = no_argument;
+      const Kind* kind = finder_.find(s, variant_argument, diagnostics_);
+      ElementSet* set = kind ? &set_of(*kind, !s.inactive) : nullptr;
+      const bool chosen = variant_argument != no_argument;
+      placements_.push_back({&s, set, 0, chosen ? static_cast<std::int32_t>(variant_argument) : no_variant, {}});
+      if (set) ++count[set];
+    }
+    for (const auto& [set, elements] : count) set->reserve(elements);
+  }
+
   // First pass: every id becomes known, so statements may refer to later ones.
   void register_statements() {
     const auto& statements = model_->dataset->statements;
-    placements_.reserve(statements.size());
     const auto count = [&](std::string_view name) {
       return static_cast<std::size_t>(std::ranges::count(statements, name, &Statement::name));
     };
@@ -275,35 +296,37 @@ class Builder {
     model_->bodies.reserve(1 + count("PART") + count("POINT_MASS"));
     // Sets in the order of the catalogue, whatever the order of the dataset, so that finishing works.
     for (const Kind* kind : catalogue_) set_of(*kind, true);
+    find_kinds();
     BodyId preceding;
     const Statement* ground = nullptr;
-    for (const Statement& s : model_->dataset->statements) {
-      if (s.name.empty() || s.name == "END") continue;
-      std::size_t variant_argument = no_argument;
-      const Kind* kind = finder_.find(s, variant_argument, diagnostics_);
-      if (!kind) {
+    for (Placement& p : placements_) {
+      const Statement& s = *p.statement;
+      ElementSet* set = std::exchange(p.set, nullptr);
+      if (!set) {
         // The id exists all the same: what refers to it must not complain as well.
         if (s.id) model_->ids[std::string(s.name)].emplace(*s.id, ElementHandle{});
         continue;
       }
+      const Kind* kind = &set->kind();
       const bool needs_id =
           kind->role == Kind::Role::body || kind->role == Kind::Role::marker || kind->role == Kind::Role::element;
       if (needs_id && !s.id) {
         if (!s.damaged) diagnostics_.error("missing-id", s.at, fmt::format("{} needs an id: {}/1", s.name, s.name));
         continue;
       }
-      ElementSet& set = set_of(*kind, !s.inactive);
       const ElementLabel label{kind->statement, s.id.value_or(0), std::string(s.view_name), s.at};
-      if (kind->role == Kind::Role::singleton && set.size() > 0) {
+      if (kind->role == Kind::Role::singleton && set->size() > 0) {
         diagnostics_.error("duplicate-statement", s.at, fmt::format("{} is given twice", s.name))
-            .notes.push_back({set.labels.front().at, "the first one is here"});
+            .notes.push_back({set->labels.front().at, "the first one is here"});
         continue;
       }
-      if (needs_id && !register_id(*kind, label, set, s, preceding, ground)) continue;
+      if (needs_id && !register_id(*kind, label, *set, s, preceding, ground)) continue;
       if (kind->role == Kind::Role::element && s.id && is_examined(s.name))
         examined_.emplace(std::pair(s.name, *s.id), &s);
-      set.append(label);
-      placements_.push_back({&s, &set, set.size() - 1, variant_argument, preceding});
+      p.set = set;
+      p.index = static_cast<std::int32_t>(set->size());
+      p.preceding_body = preceding;
+      set->append(label);
     }
     if (!ground && !model_->dataset->statements.empty())
       diagnostics_.error("missing-ground", {}, "the dataset has no PART with GROUND");
@@ -354,17 +377,24 @@ class Builder {
 
   // Second pass: arguments, with all references resolved.
   void read_statements() {
+    auto read = read_once_ ? read_once_->statements.begin() : std::deque<Statement>::iterator{};
     for (const Placement& p : placements_) {
+      // SENVAL asks for arguments of others, by their names alone.
+      for (; read_once_ && &*read != p.statement; ++read) {
+        if (!is_examined(read->name)) read_once_->release_arguments(*read);
+      }
+      if (!p.set) continue;
       Diagnostics own;
       Reader reader(*model_, p, examined_, *model_->dataset->source, own);
-      p.set->read(p.index, reader);
-      if (own.has_errors()) p.set->sound[p.index] = false;
+      p.set->read(p.at(), reader);
+      if (own.has_errors()) p.set->sound[p.at()] = false;
       diagnostics_.append(std::move(own));
     }
   }
 
   Catalogue catalogue_;
   KindFinder finder_;
+  Dataset* read_once_ = nullptr;
   std::unique_ptr<Model> model_;
   std::map<std::pair<const Kind*, bool>, std::int32_t> set_of_kind_;  // and whether its elements are active
   Diagnostics diagnostics_;

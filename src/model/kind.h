@@ -67,6 +67,7 @@ class ElementSet {
 
   // First phase: an id is known. Second phase: the arguments are read. Third: values that need other elements.
   virtual void append(ElementLabel label) = 0;
+  virtual void reserve(std::size_t count) { labels.reserve(count); }  // so many are to come, not more
   virtual void read(std::size_t index, ElementReader&) = 0;
   virtual void finish(Model&, Diagnostics&) {}
   virtual std::unique_ptr<Kernel> make_kernel(const Model&, Layout&) const { return nullptr; }
@@ -85,6 +86,10 @@ class TypedSet : public ElementSet {
   using ElementSet::ElementSet;
   std::vector<E> elements;
 
+  void reserve(std::size_t count) override {
+    labels.reserve(count);
+    elements.reserve(count);
+  }
   void append(ElementLabel label) override {
     labels.push_back(std::move(label));
     sound.push_back(true);

@@ -115,6 +115,8 @@ struct Model {
 // usable only without errors.
 struct BuildOptions {
   std::optional<double> user_value{};  // what takes the place of compiled routines; nothing: they are errors
+  // The dataset itself, if nobody needs the arguments of its statements but the model: they go as they are read.
+  std::shared_ptr<Dataset> read_once{};
 };
 Parsed<std::unique_ptr<Model>> build_model(std::shared_ptr<const Dataset>, Catalogue, const BuildOptions& = {});
 

@@ -77,6 +77,9 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
       marker.place = {elements[k].owner, elements[k].origin, elements[k].axes};
     }
     for (std::size_t k = 0; k < elements.size(); ++k) refer(k, model, diagnostics);
+    // All that counts is in the model now.
+    std::vector<MarkerStatement>().swap(elements);
+    std::vector<State>().swap(state_);
   }
 
  private:

@@ -120,6 +120,7 @@ class PartSet final : public TypedSet<Part> {
                           fmt::format("{} states an angular velocity but neither WM nor CM", labels[k].text()));
       }
     }
+    std::vector<Part>().swap(elements);  // all that counts is in the model now
   }
 
   std::unique_ptr<Kernel> make_kernel(const Model& model, Layout&) const override {
