@@ -4,6 +4,23 @@
 
 namespace dynalin {
 
+namespace {
+
+constexpr double largest = 1e150;  // its square is a number
+
+// Of [N⁻¹ head; tail], where a tiny value beside long chains of zeros makes N⁻¹ too large for double.
+Eigen::VectorXcd direction(const Eigen::MatrixXcd& N, const Eigen::VectorXcd& column) {
+  using Long = std::complex<long double>;
+  Eigen::Matrix<Long, Eigen::Dynamic, 1> x = column.cast<Long>();
+  const Eigen::Matrix<Long, Eigen::Dynamic, 1> head = x.head(N.rows());
+  const Eigen::Matrix<Long, Eigen::Dynamic, Eigen::Dynamic> long_N = N.cast<Long>();
+  x.head(N.rows()) = long_N.triangularView<Eigen::Upper>().solve(head);
+  x.normalize();
+  return x.cast<std::complex<double>>();
+}
+
+}  // namespace
+
 void map_to_states(const ZeroModes& zero, EigenPairs& pairs) {
   const Eigen::Index n = zero.block.rows(), z = zero.count;
   if (z == 0) {
@@ -21,7 +38,12 @@ void map_to_states(const ZeroModes& zero, EigenPairs& pairs) {
         full.col(k).head(z).setZero();
         continue;
       }
-      full.col(k).head(z) = N.triangularView<Eigen::Upper>().solve(full.col(k).head(z)).eval();
+      const Eigen::VectorXcd head = N.triangularView<Eigen::Upper>().solve(full.col(k).head(z));
+      if (head.norm() < largest) {
+        full.col(k).head(z) = head;
+      } else {
+        full.col(k) = direction(N, full.col(k));
+      }
     }
     pairs.right = real_product(zero.right(), full);
     pairs.left = real_product(zero.left().rightCols(n - z), pairs.left);

@@ -178,6 +178,10 @@ void EigenResiduals::measure_zero_modes(const StructuredPencil& pencil, const Ze
     ComplexMatrix shifted = -chains.cast<Complex>();
     shifted.diagonal().array() += value(pairs_, me);
     const ComplexVector through = shifted.triangularView<Eigen::Upper>().solve(to_zero);
+    if (!through.allFinite()) {  // nothing tells a value of zero from those of the structure
+      zero_coupling_(i) = std::numeric_limits<double>::infinity();
+      continue;
+    }
     zero_share_.col(i) = T0 * through;
     zero_coupling_(i) = from_zero.row(i).cwiseAbs().dot(through.cwiseAbs()) / std::abs(unit_(i));
     // What the left vector is off from one that does not see the zero modes.

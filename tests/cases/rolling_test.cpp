@@ -25,6 +25,9 @@ class Rolling : public Cases {
     Spectrum s;
     if (r.status != 0) return s;
     s.values = r.eigenvalues(0);
+    for (const auto& mode : r.result(0).at("modes")) {
+      for (const auto& entry : mode.at("vector")) EXPECT_TRUE(entry.at(0).is_number() && entry.at(1).is_number());
+    }
     for (auto& v : s.values) v *= 2 * std::numbers::pi;
     std::stable_sort(s.values.begin(), s.values.end(), [](auto a, auto b) { return std::abs(a) > std::abs(b); });
     for (const std::string& label : r.labels(0)) s.rates += label.starts_with("derivative");
