@@ -270,5 +270,20 @@ TEST(commands, that_are_no_commands_are_reported) {
 
 TEST(commands, may_be_none) { EXPECT_EQ(problems(read_commands("").diagnostics), Texts{}); }
 
+// As the model reads them: those behind stay, also where blocks of tokens end between them.
+TEST(statements, give_their_arguments_back_one_after_the_other) {
+  std::string text;
+  for (int k = 1; k <= 2000; ++k) text += "MARKER/" + std::to_string(k) + ", QP=" + std::to_string(k) + ",0,0, FLOATING\n";
+  auto parsed = read(text);
+  ASSERT_TRUE(parsed.diagnostics.items().empty());
+  Dataset& dataset = parsed.value;
+  for (std::size_t k = 0; k < dataset.statements.size(); ++k) {
+    ASSERT_EQ(arguments(dataset.statements[k], *dataset.source).front(), "QP=" + std::to_string(k + 1) + " , 0 , 0");
+    dataset.release_arguments(dataset.statements[k]);
+    EXPECT_TRUE(dataset.statements[k].arguments.empty());
+    EXPECT_EQ(dataset.statements[k].id, static_cast<std::int64_t>(k + 1));
+  }
+}
+
 }  // namespace
 }  // namespace dynalin::testing

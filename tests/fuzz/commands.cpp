@@ -7,6 +7,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
   using namespace dynalin;
+  const fuzz::TimeLimit limit;
   const auto source = std::make_shared<const SourceText>("fuzz.acf", fuzz::text_of(bytes, count));
   for (const auto read : {&parse_command_file, &parse_commands}) {
     const auto parsed = read(source);

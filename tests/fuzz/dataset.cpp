@@ -46,6 +46,7 @@ bool names_files(const Dataset& dataset) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
   using namespace dynalin;
+  const fuzz::TimeLimit limit;
   const auto source = std::make_shared<const SourceText>("fuzz.adm", fuzz::text_of(bytes, count));
   auto parsed = parse_dataset(source);
   fuzz::demand_sound(parsed.diagnostics);

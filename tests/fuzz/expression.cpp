@@ -67,6 +67,7 @@ void evaluate(const Expression& parsed) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
   using namespace dynalin;
+  const fuzz::TimeLimit limit;
   const SourceText source("fuzz.adm", fuzz::text_of(bytes, count));
   Lexer lexer(source, 0);
   std::vector<Token> tokens;

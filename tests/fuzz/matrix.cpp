@@ -37,6 +37,7 @@ void write_and_read(const MatrixData& read) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
   using namespace dynalin;
+  const fuzz::TimeLimit limit;
   const SourceText file("fuzz.mat", fuzz::text_of(bytes, count));
   std::vector<std::string> names = matrix_names(file);
   constexpr std::size_t enough = 20;

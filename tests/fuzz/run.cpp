@@ -1,6 +1,7 @@
 // A whole run in the process: a dataset, behind a line `####` commands, behind another one a file `data` that the
 // dataset may name. Whatever happens, the exit status is one of three, a failure says why, no temporary file stays, and
 // results are numbers.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -17,7 +18,7 @@
 namespace dynalin::fuzz {
 namespace {
 
-constexpr std::size_t most_bytes = 16384, most_statements = 150, most_commands = 8;
+constexpr std::size_t most_bytes = 16384, most_statements = 150, most_bodies = 12, most_commands = 8;
 
 std::vector<std::string> sections(std::string_view text) {
   std::vector<std::string> list(1);
@@ -46,6 +47,8 @@ bool allowed(const CommandFile& commands) {
 }
 bool allowed(const Dataset& dataset) {
   if (dataset.statements.size() > most_statements) return false;
+  const auto is_body = [](const Statement& s) { return s.name == "PART" || s.name == "POINT_MASS"; };
+  if (std::ranges::count_if(dataset.statements, is_body) > static_cast<std::ptrdiff_t>(most_bodies)) return false;
   for (const Statement& s : dataset.statements) {
     for (const WrittenArgument& a : s.arguments) {
       const std::string_view name = a.name.text();
@@ -92,6 +95,7 @@ void run(const Folder& folder, const std::vector<std::string>& parts) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
   using namespace dynalin;
+  const fuzz::TimeLimit limit;
   static const fuzz::Folder folder;
   if (count > fuzz::most_bytes) return -1;
   const std::vector<std::string> parts = fuzz::sections(fuzz::text_of(bytes, count));

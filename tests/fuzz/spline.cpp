@@ -8,6 +8,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
   using namespace dynalin;
+  const fuzz::TimeLimit limit;
   static const fuzz::Folder folder;
   folder.write("points.txt", fuzz::text_of(bytes, count));
   const auto source = std::make_shared<const SourceText>(

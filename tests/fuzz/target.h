@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,21 @@ inline void demand(bool holds, std::string_view what) {
   std::fprintf(stderr, "fuzz target: %.*s\n", static_cast<int>(what.size()), what.data());
   std::abort();
 }
+
+// Ends the process where an input took longer than it may; processor time, because machines are shared.
+class TimeLimit {
+ public:
+  TimeLimit() = default;
+  TimeLimit(const TimeLimit&) = delete;
+  TimeLimit& operator=(const TimeLimit&) = delete;
+  ~TimeLimit() {
+    constexpr double longest = 10;  // seconds
+    demand(static_cast<double>(std::clock() - begin_) / CLOCKS_PER_SEC < longest, "it took too long");
+  }
+
+ private:
+  std::clock_t begin_ = std::clock();
+};
 
 // Every message can be printed and explained, and stands inside its source.
 inline void demand_sound(const Diagnostics& diagnostics) {
