@@ -1,13 +1,13 @@
-// What reading a large dataset costs: the text, its statements, the model, the system of equations; time, and memory as
-// a multiple of the size of the text.
+// What reading a large dataset costs: the text, its statements, the model, the system of equations; time of the
+// processor, and memory as a multiple of the size of the text.
 //
 //     reading exported 100      100 MB as pre-processors write it: an argument a line, banners, names in comments
 //     reading dense 100         100 MB by hand: a statement a line, no comments
 //     reading exported 100 FILE writes the dataset only, for `dynalin check FILE`
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <random>
 
@@ -54,11 +54,16 @@ class Text {
     const int m = 10 * k, before = k > 2 ? m - 8 : 1;
     const auto id = [](int n) { return std::to_string(n); };
     const std::string i = "I=" + id(m + 1), j = "J=" + id(before), cm = "CM=" + id(m), owner = "PART=" + id(k);
-    statement("PART", id(k), {"QG=" + vector(), "REULER=" + angles(), "MASS=1.2345", cm, "IP=1.0E+003, 1.1E+003, 1.2E+003"});
+    statement("PART", id(k),
+              {"QG=" + vector(), "REULER=" + angles(), "MASS=1.2345", cm, "IP=1.0E+003, 1.1E+003, 1.2E+003"});
     statement("MARKER", id(m), {owner, "QP=0, 0, 0"});
     for (int n = 1; n <= 3; ++n) statement("MARKER", id(m + n), {owner, "QP=" + vector(), "REULER=" + angles()});
-    statement("BUSHING", id(k), {i, j, "C=1.0, 1.0, 1.0", "K=1.0E+005, 1.0E+005, 1.0E+005", "CT=10, 10, 10", "KT=1.0E+006, 1.0E+006, 1.0E+006"});
-    statement("SFORCE", id(k), {"TRANSLATIONAL", i, j, fmt::format("FUNCTION=-12.5*(DM({0},{1})-100.0)\n, -0.35*VR({0},{1})", m + 1, before)});
+    statement("BUSHING", id(k),
+              {i, j, "C=1.0, 1.0, 1.0", "K=1.0E+005, 1.0E+005, 1.0E+005", "CT=10, 10, 10",
+               "KT=1.0E+006, 1.0E+006, 1.0E+006"});
+    statement(
+        "SFORCE", id(k),
+        {"TRANSLATIONAL", i, j, fmt::format("FUNCTION=-12.5*(DM({0},{1})-100.0)\n, -0.35*VR({0},{1})", m + 1, before)});
     statement("REQUEST", id(k), {"DISPLACEMENT", i, j, "RM=1", "COMMENT=displacement of part " + id(k)});
     statement("GRAPHICS", id(k), {"CYLINDER", cm, "LENGTH=12.5", "RADIUS=3.0"});
   }
@@ -72,8 +77,8 @@ class Steps {
  public:
   explicit Steps(std::size_t bytes) : megabytes_(static_cast<double>(bytes) / 1e6) {}
   void done(const char* step) {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
+    const std::clock_t now = std::clock();
+    const double seconds = static_cast<double>(now - last_) / CLOCKS_PER_SEC;
     last_ = now, sum_ += seconds;
     fmt::print("{:<12} {:8.2f} s {:8.1f} MB/s {:8.2f} times the text\n", step, seconds, megabytes_ / seconds,
                peak_megabytes() / megabytes_);
@@ -82,7 +87,7 @@ class Steps {
 
  private:
   double megabytes_, sum_ = 0;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  std::clock_t last_ = std::clock();
 };
 
 int measure(const std::string& file) {

@@ -22,6 +22,8 @@ SourceText::SourceText(std::string name, std::string text) : name_(std::move(nam
     throw std::length_error(name_ + " is longer than 4 GiB");
   }
   // Lines end with LF, CR LF or CR. A line end at the very end of the text starts no further line.
+  const auto ends = std::max(std::ranges::count(text_, '\n'), std::ranges::count(text_, '\r'));
+  line_starts_.reserve(static_cast<std::size_t>(ends) + 1);
   line_starts_.push_back(0);
   for (std::size_t i = 0; i < text_.size(); ++i) {
     if (!is_line_end(text_[i])) continue;

@@ -273,7 +273,8 @@ TEST(commands, may_be_none) { EXPECT_EQ(problems(read_commands("").diagnostics),
 // As the model reads them: those behind stay, also where blocks of tokens end between them.
 TEST(statements, give_their_arguments_back_one_after_the_other) {
   std::string text;
-  for (int k = 1; k <= 2000; ++k) text += "MARKER/" + std::to_string(k) + ", QP=" + std::to_string(k) + ",0,0, FLOATING\n";
+  for (int k = 1; k <= 2000; ++k)
+    text += "MARKER/" + std::to_string(k) + ", QP=" + std::to_string(k) + ",0,0, FLOATING\n";
   auto parsed = read(text);
   ASSERT_TRUE(parsed.diagnostics.items().empty());
   Dataset& dataset = parsed.value;

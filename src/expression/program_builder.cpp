@@ -242,7 +242,12 @@ std::shared_ptr<const ExpressionProgram> ProgramBuilder::finish(const Span& at) 
     }
     node.a = index;
   }
+  kept.shrink_to_fit();
   program_.atoms = std::move(kept);
+  // Models have many expressions, and each lives as long as the model.
+  program_.nodes.shrink_to_fit();
+  program_.places.shrink_to_fit();
+  program_.operands.shrink_to_fit();
   return std::make_shared<const ExpressionProgram>(std::move(program_));
 }
 

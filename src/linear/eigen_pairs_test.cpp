@@ -5,7 +5,8 @@
 namespace dynalin {
 namespace {
 
-// A chain of five zeros, at whose end a value of 1e-90: the vector is [1/λ⁵ … 1/λ 1] in its direction, and 1/λ⁵ no number.
+// A chain of five zeros, at whose end a value of 1e-90: the vector is [1/λ⁵ … 1/λ 1] in its direction, and 1/λ⁵ no
+// number.
 TEST(eigen_pairs, vectors_of_tiny_values_beside_long_chains_of_zeros_are_numbers) {
   constexpr Eigen::Index chain = 5, n = chain + 1;
   constexpr double value = 1e-90;

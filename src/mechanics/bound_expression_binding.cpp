@@ -96,6 +96,7 @@ PlacedMarker find_marker(const Signals& signals, const Atom& atom, std::int64_t 
 BoundExpression::BoundExpression(Expression expression, const Signals& signals, Binding binding)
     : expression_(expression.with_curves([&](SplineUse& use) { signals.attach(use); })) {
   std::unordered_set<std::int32_t> seen;  // of bodies_: a sum may run over all bodies of a model
+  atoms_.reserve(expression_.atoms().size());
   for (const Atom& atom : expression_.atoms()) {
     atoms_.push_back(bind(atom, signals, binding));
     const BoundAtom& a = atoms_.back();

@@ -156,6 +156,7 @@ class System::SystemSignals final : public Signals {
 };
 
 System::System(std::shared_ptr<const Model> model, const SystemOptions& options) : model_(std::move(model)) {
+  layout_.bodies.reserve(model_->bodies.size());
   for (const Body& b : model_->bodies) layout_.add_body(b.kind, b.label);
   for (const Body& b : model_->bodies) {
     if (!b.origin_at.valid()) continue;
@@ -163,6 +164,8 @@ System::System(std::shared_ptr<const Model> model, const SystemOptions& options)
                               model_->marker(b.origin_at).label.full_text() +
                               " is taken instead, and its translations are meant where they are those of the BCS");
   }
+  layout_.markers.reserve(model_->markers.size());
+  layout_.marker_labels.reserve(model_->markers.size());
   for (const Marker& m : model_->markers) {
     layout_.markers.push_back(m.place);
     layout_.marker_labels.push_back(m.label);
@@ -216,6 +219,7 @@ const Signals& System::signals() const { return *signals_; }
 
 OperatingPoint System::drawn() const {
   OperatingPoint op;
+  op.poses.reserve(model_->bodies.size());
   for (const Body& b : model_->bodies) op.poses.push_back(b.pose);
   for (const ExtraBlock& e : layout_.extras) {
     for (const ExtraCoordinate& c : e.coordinates) op.extra.push_back(c.initial);

@@ -16,7 +16,9 @@ namespace {
 using Taylor = TimeTaylor<double>;
 
 bool is_finite(double x) { return std::isfinite(x); }
-bool is_finite(const Taylor& x) { return std::isfinite(x.value) && std::isfinite(x.rate) && std::isfinite(x.acceleration); }
+bool is_finite(const Taylor& x) {
+  return std::isfinite(x.value) && std::isfinite(x.rate) && std::isfinite(x.acceleration);
+}
 
 template <class T>
 void evaluate_at(const Expression& e, const std::vector<T>& atoms) {

@@ -78,10 +78,11 @@ Words command_words() {
   return words;
 }
 
-const Words signs = {"\n,", "&\n", "!", "\r\n", "\t", "=", ":", "'", "\"", ";", "90D", "1E300", "1E-300", "0", "-1",
-                     "2147483647", "2147483648", "\nEND\n", "NaN", "INF"};
-const Words matrix_words = {"MATRIXx VERSION 700", "ADAMSMAT", "SPARSE", "FULL", "RORDER", "CORDER",
-                            "(1P3E25.17)", "(3F8.5)", "(2I8,E14.6)", "1.5D+00", "2147483647", "    1    1    0"};
+const Words signs = {"\n,", "&\n",   "!",      "\r\n", "\t", "=",          ":",          "'",       "\"",  ";",
+                     "90D", "1E300", "1E-300", "0",    "-1", "2147483647", "2147483648", "\nEND\n", "NaN", "INF"};
+const Words matrix_words = {
+    "MATRIXx VERSION 700", "ADAMSMAT", "SPARSE",      "FULL",    "RORDER",     "CORDER",
+    "(1P3E25.17)",         "(3F8.5)",  "(2I8,E14.6)", "1.5D+00", "2147483647", "    1    1    0"};
 const Words spline_words = {"[B]\n", "Z 1 2 3\n", "{", "$", "#", "1E300", "-1E-300", ","};
 
 // Fences ```adm and ```acf of the pages, each dataset with the commands behind it.

@@ -1,9 +1,8 @@
 // Any bytes as a file of matrices; a matrix that is read is written as FSAVE and read back, bit by bit.
-#include "dataset/matrix_file.h"
-
 #include <cmath>
 #include <sstream>
 
+#include "dataset/matrix_file.h"
 #include "output/matrices.h"
 #include "target.h"
 
@@ -14,8 +13,8 @@ void write_and_read(const MatrixData& read) {
   NamedMatrix written{"A", "a", Eigen::MatrixXd(read.rows, read.columns)};
   for (std::int32_t c = 0; c < read.columns; ++c) {
     for (std::int32_t r = 0; r < read.rows; ++r) {
-      const double value = read.values[static_cast<std::size_t>(c) * static_cast<std::size_t>(read.rows) +
-                                       static_cast<std::size_t>(r)];
+      const double value =
+          read.values[static_cast<std::size_t>(c) * static_cast<std::size_t>(read.rows) + static_cast<std::size_t>(r)];
       demand(std::isfinite(value), "a value that is not finite");
       written.value(r, c) = value;
     }
@@ -49,8 +48,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
     fuzz::demand_sound(diagnostics);
     fuzz::demand(matrix.has_value() == !diagnostics.has_errors(), "neither a matrix nor an error, or both");
     if (!matrix) continue;
-    fuzz::demand(matrix->values.size() == static_cast<std::size_t>(matrix->rows) * static_cast<std::size_t>(matrix->columns),
-                 "a matrix with another number of values");
+    fuzz::demand(
+        matrix->values.size() == static_cast<std::size_t>(matrix->rows) * static_cast<std::size_t>(matrix->columns),
+        "a matrix with another number of values");
     fuzz::write_and_read(*matrix);
   }
   return 0;

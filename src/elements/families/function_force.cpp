@@ -4,6 +4,7 @@ namespace dynalin {
 
 FunctionForceKernel::FunctionForceKernel(std::vector<FunctionForce> elements, const std::vector<ElementLabel>& labels,
                                          Layout& layout) {
+  forces_.reserve(elements.size());
   for (std::size_t k = 0; k < elements.size(); ++k) {
     const MarkerPlace I = layout.marker(elements[k].i), J = layout.marker(elements[k].j);
     forces_.push_back({std::move(elements[k]), I, J, layout.add_algebraic(labels[k]), {}});

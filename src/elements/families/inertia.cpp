@@ -1,8 +1,11 @@
 #include "elements/families/inertia.h"
 
+#include <algorithm>
+
 namespace dynalin {
 
 InertiaKernel::InertiaKernel(const Model& model, BodyKind kind) : gravity_(model.gravity) {
+  masses_.reserve(static_cast<std::size_t>(std::ranges::count(model.bodies, kind, &Body::kind)));
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     if (body.kind != kind) continue;

@@ -60,6 +60,7 @@ std::array<double, 3> total_angles(const PairMotion& pair, std::span<const doubl
 
 LinearWrenchKernel::LinearWrenchKernel(const std::vector<LinearWrench>& laws, const std::vector<ElementLabel>& labels,
                                        Layout& layout) {
+  laws_.reserve(laws.size());
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const LinearWrench& law = laws[k];
     laws_.push_back({law, layout.marker(law.i), layout.marker(law.j), layout.add_memory(labels[k].at)});
