@@ -1,8 +1,5 @@
 #include "linear/inclusion.h"
 
-#include <lapacke.h>
-
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -11,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "linear/clustered_schur.h"
 #include "linear/pencil_residual.h"
 
 namespace dynalin {
@@ -22,25 +20,15 @@ using Complex = std::complex<double>;
 using LongComplex = std::complex<long double>;
 using Matrix = Eigen::MatrixXd;
 using ComplexMatrix = Eigen::MatrixXcd;
-using LongReal = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double upward = 1 + 1e-9;           // covers the rounding of bounds that are themselves sums in double
 constexpr double least_size = 1e-300;         // keeps strict inequalities strict
 constexpr double most_inverse_defect = 0.05;  // of a basis times its computed inverse
 constexpr int most_rounds_of_weights = 300;
-constexpr Index most_in_long_double = 60;  // for the QR iteration
 
 std::size_t at(Index k) { return static_cast<std::size_t>(k); }
 
-// Products of complex matrices by their parts: the operators of std::complex ask for infinities at every step.
-LongComplexMatrix times(const LongComplexMatrix& a, const LongComplexMatrix& b) {
-  const LongReal ar = a.real(), ai = a.imag(), br = b.real(), bi = b.imag();
-  LongComplexMatrix c(a.rows(), b.cols());
-  c.real() = ar * br - ai * bi;
-  c.imag() = ar * bi + ai * br;
-  return c;
-}
 Matrix sizes(const LongComplexMatrix& m) {
   return m.unaryExpr([](const LongComplex& v) { return static_cast<double>(std::abs(v)); });
 }
@@ -99,12 +87,9 @@ class Inclusion {
 
   std::optional<std::vector<InclusionDisc>> run() {
     balance();
-    if (!schur()) return std::nullopt;
-    label_.resize(at(n_));
-    std::iota(label_.begin(), label_.end(), Index{0});
+    if (!schur_.compute(M_)) return std::nullopt;
     for (;;) {
-      arrange();
-      join_.resize(first_.size());
+      join_.resize(at(blocks()));
       std::iota(join_.begin(), join_.end(), Index{0});
       if (measure() && include() && mirrored()) break;
       if (!merge()) return std::nullopt;
@@ -113,28 +98,9 @@ class Inclusion {
   }
 
  private:
-  Index blocks() const { return static_cast<Index>(first_.size()); }
-  Index size(Index i) const { return (i + 1 < blocks() ? first_[at(i + 1)] : n_) - first_[at(i)]; }
-
-  // Whatever is missing from the Schur form is found again in E.
-  bool schur() {
-    if (n_ <= most_in_long_double) {
-      const Eigen::ComplexSchur<LongComplexMatrix> found(M_);
-      if (found.info() != Eigen::Success) return false;
-      T_ = found.matrixT(), Q_ = found.matrixU();
-      return true;
-    }
-    ComplexMatrix T = M_.cast<Complex>(), Q(n_, n_);
-    Eigen::VectorXcd values(n_);
-    const auto n = static_cast<lapack_int>(n_);
-    const auto lapack = [](ComplexMatrix& m) { return reinterpret_cast<lapack_complex_double*>(m.data()); };
-    lapack_int unused = 0;
-    if (LAPACKE_zgees(LAPACK_COL_MAJOR, 'V', 'N', nullptr, n, lapack(T), n, &unused,
-                      reinterpret_cast<lapack_complex_double*>(values.data()), lapack(Q), n) != 0)
-      return false;
-    T_ = T.cast<LongComplex>(), Q_ = Q.cast<LongComplex>();
-    return true;
-  }
+  Index blocks() const { return schur_.clusters(); }
+  Index first(Index i) const { return schur_.first(i); }
+  Index size(Index i) const { return schur_.size(i); }
 
   // By powers of two: exact.
   void balance() {
@@ -158,77 +124,8 @@ class Inclusion {
     }
   }
 
-  // Exchanges the neighbours k and k + 1 on the diagonal of T by a rotation.
-  void exchange(Index k) {
-    const LongComplex a = T_(k, k), b = T_(k + 1, k + 1), x = T_(k, k + 1), y = b - a;
-    const long double norm = std::hypot(std::abs(x), std::abs(y));
-    if (norm > 0) {
-      const LongComplex c = x / norm, s = y / norm;  // (c, s) spans the eigenvector of b
-      const auto turn = [&](auto&& left, auto&& right) {
-        for (Index r = 0; r < left.size(); ++r) {
-          const LongComplex p = left(r), q = right(r);
-          left(r) = p * c + q * s;
-          right(r) = q * std::conj(c) - p * std::conj(s);
-        }
-      };
-      turn(T_.col(k).head(k + 2), T_.col(k + 1).head(k + 2));
-      turn(Q_.col(k), Q_.col(k + 1));
-      for (Index j = k; j < n_; ++j) {
-        const LongComplex p = T_(k, j), q = T_(k + 1, j);
-        T_(k, j) = std::conj(c) * p + std::conj(s) * q;
-        T_(k + 1, j) = c * q - s * p;
-      }
-      T_(k + 1, k) = 0;
-      T_(k, k) = b, T_(k + 1, k + 1) = a;
-    }
-    std::swap(label_[at(k)], label_[at(k + 1)]);
-  }
-
-  // Clusters stand together on the diagonal.
-  void arrange() {
-    first_.clear();
-    for (Index begin = 0; begin < n_;) {
-      first_.push_back(begin);
-      const Index label = label_[at(begin)];
-      Index end = begin + 1;
-      for (Index k = end; k < n_; ++k) {
-        if (label_[at(k)] != label) continue;
-        for (Index m = k; m > end; --m) exchange(m - 1);
-        ++end;
-      }
-      begin = end;
-    }
-  }
-
-  // Bases of the invariant subspaces, orthonormal each: T V = V diag(T_jj), V_jj = 1.
-  LongComplexMatrix basis() const {
-    LongComplexMatrix Z(n_, n_);
-    for (Index j = 0; j < blocks(); ++j) {
-      const Index begin = first_[at(j)], k = size(j);
-      LongComplexMatrix v = LongComplexMatrix::Zero(begin + k, k);
-      v.bottomRows(k).setIdentity();
-      for (Index c = 0; c < k; ++c) {
-        LongComplexMatrix right = -T_.block(0, begin + c, begin, 1);
-        for (Index b = 0; b < c; ++b) right += v.col(b).head(begin) * T_(begin + b, begin + c);
-        for (Index r = begin - 1; r >= 0; --r) {
-          const LongComplex x = right(r, 0) / (T_(r, r) - T_(begin + c, begin + c));
-          v(r, c) = x;
-          right.col(0).head(r) -= T_.col(r).head(r) * x;
-        }
-      }
-      LongComplexMatrix z = times(Q_.leftCols(begin + k), v);
-      if (k == 1) {
-        z /= z.norm();
-      } else {
-        z = Eigen::HouseholderQR<LongComplexMatrix>(z).householderQ() * LongComplexMatrix::Identity(n_, k);
-      }
-      Z.middleCols(begin, k) = z;
-    }
-    return Z;
-  }
-
   bool measure() {
-    Z_ = basis();
+    Z_ = schur_.bases();  // what is missing from the Schur form is found again in E
     if (!Z_.allFinite()) return join_equal();
     inverse_ = Z_.partialPivLu().inverse();
     const double g = rounding_of_sum(n_);
@@ -248,11 +145,11 @@ class Inclusion {
     Matrix error = (rounded + P * H + row * column) * upward;
     balance_blocks(error);
     E_.resize(blocks(), blocks());
-    centre_.resize(first_.size()), powers_.resize(first_.size());
+    centre_.resize(at(blocks())), powers_.resize(at(blocks()));
     for (Index j = 0; j < blocks(); ++j) {
       for (Index i = 0; i < blocks(); ++i) {
-        Matrix part = error.block(first_[at(i)], first_[at(j)], size(i), size(j));
-        if (i != j) part += sizes(H_.block(first_[at(i)], first_[at(j)], size(i), size(j)));
+        Matrix part = error.block(first(i), first(j), size(i), size(j));
+        if (i != j) part += sizes(H_.block(first(i), first(j), size(i), size(j)));
         E_(i, j) = part.norm() * upward;
       }
       LongComplexMatrix D = block(j);
@@ -268,7 +165,7 @@ class Inclusion {
   void balance_blocks(Matrix& error) {
     block_scale_ = Eigen::VectorXd::Ones(n_);
     for (Index j = 0; j < blocks(); ++j) {
-      const Index begin = first_[at(j)], k = size(j);
+      const Index begin = first(j), k = size(j);
       if (k == 1) continue;
       Matrix B = sizes(block(j)) + error.block(begin, begin, k, k);
       B.diagonal().setZero();
@@ -294,7 +191,7 @@ class Inclusion {
       H_.row(a) *= static_cast<long double>(reciprocal(a));
     }
   }
-  LongComplexMatrix block(Index j) const { return H_.block(first_[at(j)], first_[at(j)], size(j), size(j)); }
+  LongComplexMatrix block(Index j) const { return H_.block(first(j), first(j), size(j), size(j)); }
 
   double distance(Index i, Index j) const { return static_cast<double>(std::abs(centre_[at(i)] - centre_[at(j)])); }
   // σ_min(z − D_j) for z within `radius` of the centre of i.
@@ -342,7 +239,7 @@ class Inclusion {
 
   bool include() {
     const Index q = blocks();
-    radius_.assign(first_.size(), infinity), tau_ = radius_;
+    radius_.assign(at(blocks()), infinity), tau_ = radius_;
     column_ = E_.colwise().maxCoeff().transpose().cwiseMax(least_size);
     row_ = E_ * column_.cwiseInverse();
     bool all = true;
@@ -382,7 +279,7 @@ class Inclusion {
   // Whom a disc's mirror image meets: itself, or one other.
   bool mirrored() {
     if (!real_) return true;
-    mirror_.assign(first_.size(), -1);
+    mirror_.assign(at(blocks()), -1);
     bool all = true;
     for (Index i = 0; i < blocks(); ++i) {
       for (Index j = 0; j < blocks(); ++j) {
@@ -414,29 +311,28 @@ class Inclusion {
   Index nearest(Index i) const {
     Index best = i;
     for (Index j = 0; j < blocks(); ++j) {
-      if (j != i && (best == i || std::abs(centre_of(j) - centre_of(i)) < std::abs(centre_of(best) - centre_of(i))))
+      if (j != i && (best == i || std::abs(schur_.mean(j) - schur_.mean(i)) < std::abs(schur_.mean(best) - schur_.mean(i))))
         best = j;
     }
     return best;
   }
-  LongComplex centre_of(Index j) const { return T_.diagonal().segment(first_[at(j)], size(j)).mean(); }
   bool join_equal() {
-    const long double least = 4 * static_cast<long double>(long_eps) * T_.norm();
+    const LongComplexMatrix& T = schur_.triangle();
+    const long double least = 4 * static_cast<long double>(long_eps) * T.norm();
     const auto before = join_;
     for (Index a = 0; a < n_; ++a) {
       for (Index b = 0; b < a; ++b) {
-        if (std::abs(T_(a, a) - T_(b, b)) <= least) join(owner(a), owner(b));
+        if (std::abs(T(a, a) - T(b, b)) <= least) join(schur_.cluster_of(a), schur_.cluster_of(b));
       }
     }
     return join_ == before ? join_closest() : false;
   }
-  Index owner(Index k) const { return std::upper_bound(first_.begin(), first_.end(), k) - first_.begin() - 1; }
   bool join_closest() {
     double least = infinity;
     Index a = 0, b = 0;
     for (Index i = 0; i < blocks(); ++i) {
       for (Index j = 0; j < i; ++j) {
-        const auto d = static_cast<double>(std::abs(centre_of(i) - centre_of(j)));
+        const auto d = static_cast<double>(std::abs(schur_.mean(i) - schur_.mean(j)));
         if (d < least) least = d, a = i, b = j;
       }
     }
@@ -449,16 +345,16 @@ class Inclusion {
     const double most = size_of_row.maxCoeff();
     if (!std::isfinite(most)) return join_closest();
     for (Index k = 0; k < n_; ++k) {
-      if (size_of_row(k) >= 0.1 * most) join(owner(k), nearest(owner(k)));
+      if (size_of_row(k) >= 0.1 * most) join(schur_.cluster_of(k), nearest(schur_.cluster_of(k)));
     }
     return false;
   }
   bool merge() {
+    std::vector<Index> joined;
+    for (Index i = 0; i < blocks(); ++i) joined.push_back(root(i));
     const Index before = blocks();
-    for (Index k = 0; k < n_; ++k) label_[at(k)] = root(owner(k));
-    Index left = 0;
-    for (Index i = 0; i < before; ++i) left += root(i) == i;
-    return left < before;
+    schur_.join(joined);
+    return blocks() < before;
   }
 
   std::vector<InclusionDisc> discs() const {
@@ -478,10 +374,10 @@ class Inclusion {
       disc.radius = (radius + static_cast<double>(std::abs(c - LongComplex(disc.centre)))) * upward;
       disc.count = size(i), disc.tau = tau_[at(i)];
       disc.powers = powers_[at(i)];
-      disc.basis = Z_.middleCols(first_[at(i)], size(i)).cast<Complex>();
-      disc.dual = inverse_.middleRows(first_[at(i)], size(i)).adjoint().cast<Complex>();
+      disc.basis = Z_.middleCols(first(i), size(i)).cast<Complex>();
+      disc.dual = inverse_.middleRows(first(i), size(i)).adjoint().cast<Complex>();
       add_vectors(i, on_axis, disc);
-      const Eigen::VectorXd inside = block_scale_.segment(first_[at(i)], size(i));
+      const Eigen::VectorXd inside = block_scale_.segment(first(i), size(i));
       disc.basis = scale_.asDiagonal() * disc.basis * inside.asDiagonal();
       disc.dual = scale_.cwiseInverse().asDiagonal() * disc.dual * inside.cwiseInverse().asDiagonal();
       out.push_back(std::move(disc));
@@ -536,10 +432,11 @@ class Inclusion {
 
   const Index n_;
   const bool real_;
-  LongComplexMatrix M_, T_, Q_, Z_, inverse_, H_;
+  LongComplexMatrix M_, Z_, inverse_, H_;
+  ClusteredSchur schur_;
   Matrix U_, E_;
   Eigen::VectorXd scale_, block_scale_, column_, row_;
-  std::vector<Index> label_, first_, join_, mirror_;
+  std::vector<Index> join_, mirror_;
   std::vector<LongComplex> centre_;
   std::vector<std::vector<double>> powers_;
   std::vector<double> radius_, tau_;
