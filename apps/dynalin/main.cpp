@@ -68,6 +68,7 @@ int run(int argc, char** argv) {
   run->add_option("--output", options.output_prefix, "prefix of the output files");
   run->add_flag("--keep-going", options.keep_going, "go on after a command that failed");
   run->add_flag("--bounds", options.bounds, "say how exact each eigenvalue is");
+  run->add_flag("--state", options.state, "print every operating point: positions, velocities, reactions, forces ...");
   run->add_flag("--quiet", options.quiet, "no tables on the terminal");
   CLI::App* check = app.add_subcommand("check", "read and check a dataset or command file");
   check->add_option("FILE", options.file)->required();

@@ -4,7 +4,6 @@
 // threads at the same time, one may not.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,7 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "dynalin/operating_state.h"
 #include "dynalin/results.h"
+#include "dynalin/units.h"
 
 namespace dynalin {
 
@@ -41,15 +42,6 @@ struct ReadingOptions {
   std::optional<double> user_value{};  // what takes the place of compiled user routines; nothing: they are errors
 };
 
-// A body at the operating point, global axes.
-struct BodyState {
-  std::string name;                             // "PART/2", or with its view name "PART/2 (wheel)"
-  std::array<double, 3> position{};             // of the body coordinate system [length]
-  std::array<std::array<double, 3>, 3> axes{};  // its x, y and z axis
-  std::array<double, 3> velocity{};             // of its origin [length/time]
-  std::array<double, 3> angular_velocity{};     // [rad/time]
-};
-
 class Mechanism {
  public:
   // Reads an Adams dataset (.adm). Throws Error with every problem of the file.
@@ -65,15 +57,21 @@ class Mechanism {
   // Throws where there is no equilibrium; returns the number of iterations. Afterwards the velocities that the dataset
   // states come back at the new pose if they are to be restored.
   int static_equilibrium(bool restore_velocities = true);
+  // What the last static_equilibrium() found, and whether it is stable; throws if there was none after the last
+  // initial_conditions().
+  StaticResult static_result() const;
 
   StateSpace state_space(const LinearRequest& = {});
   EigenSolution eigensolution(const LinearRequest& = {});
 
-  std::vector<BodyState> bodies() const;
+  // The operating point: as drawn before any analysis, then what the last one left.
+  OperatingState operating_state() const;
+  std::vector<BodyState> bodies() const;  // of it
   // Value of a VARIABLE at the operating point.
   double variable(std::int64_t id) const;
   // Constraint rows that depend on others, "Zi.Xj in JOINT/3".
   const std::vector<std::string>& redundant_rows() const;
+  const Units& units() const;
   // Remarks of reading and of all analyses so far.
   const std::vector<std::string>& warnings() const;
 

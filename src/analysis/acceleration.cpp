@@ -70,10 +70,10 @@ void warn_of_changed_starts(const Layout& layout, const std::vector<double>& bef
     const AlgebraicUnknown& a = layout.algebraic[k];
     const double change = std::abs(after[k] - a.guess), size = std::max(std::abs(a.guess), std::abs(after[k]));
     if (!a.guess_is_start || before[k] != a.guess || change <= 1e-9 * size) continue;
-    findings.warnings.push_back(
-        fmt::format("the initial value {:g} of {} contradicts the condition it follows from: it "
-                    "starts at {:.9g}",
-                    a.guess, a.owner->full_text(), after[k]));
+    findings.warnings.warning("changed-start", a.owner->at,
+                              fmt::format("the initial value {:g} of {} contradicts the condition it follows from: it "
+                                          "starts at {:.9g}",
+                                          a.guess, a.owner->full_text(), after[k]));
   }
 }
 
@@ -279,7 +279,8 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
           fmt::format("{} stands at a multiple root of its equations, where nothing has a derivative", lost.of));
     }
     if (lost.part >= material_loss) {
-      findings.warnings.push_back(
+      findings.warnings.warning(
+          "lost-digits", {},
           fmt::format("the equations have all but a multiple root in {}: rounding leaves its derivatives, and what "
                       "follows from them, known to {:.1e} of themselves",
                       lost.of, lost.part));

@@ -40,7 +40,7 @@ Shake shake(const Layout& layout, const OperatingPoint& op, double places, std::
 }
 
 OperatingPoint shaken(const System& system, OperatingPoint op, const Shake& s, double direction) {
-  displace(system, op, direction * s.step, 1.0);
+  displace(system, op, direction * s.step, {1.0});
   for (std::size_t k = 0; k < op.velocity.size(); ++k) {
     op.velocity[k] += direction * s.velocity(static_cast<Eigen::Index>(k));
   }

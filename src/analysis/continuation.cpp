@@ -100,7 +100,7 @@ class Curve {
   }
 
   Place at(const Place& from, const Eigen::VectorXd& tangent, double length) const {
-    return {moved(system_, from.op, equations_.saddle(), tangent, length, 1.0),
+    return {moved(system_, from.op, equations_.saddle(), tangent, length, {1.0}),
             from.s + length * tangent(tangent.size() - 1)};
   }
 

@@ -10,16 +10,24 @@
 
 namespace dynalin {
 
-// Rotations larger than `rotation_limit` [rad] shorten the whole step, and so do the limits of other coordinates.
-// Returns the factor that was used.
+// How far a step may move any body.
+struct StepLimits {
+  double rotation;  // [rad]
+  double translation = std::numeric_limits<double>::infinity();
+};
+
+// What goes beyond the limits shortens the whole step, and so do the limits of other coordinates. Returns the factor
+// that was used.
 inline double displace(const System& system, OperatingPoint& op, const Eigen::Ref<const Eigen::VectorXd>& step,
-                       double rotation_limit) {
+                       const StepLimits& limits) {
   const Layout& layout = system.layout();
-  double largest = 0;
+  double turn = 0, way = 0;
   for (const BodyBlock& b : layout.bodies) {
-    if (b.count == 6) largest = std::max(largest, step.segment<3>(b.offset + 3).norm());
+    if (b.count == 6) turn = std::max(turn, step.segment<3>(b.offset + 3).norm());
+    if (b.count > 0) way = std::max(way, step.segment<3>(b.offset).norm());
   }
-  double factor = largest > rotation_limit ? rotation_limit / largest : 1.0;
+  double factor = turn > limits.rotation ? limits.rotation / turn : 1.0;
+  if (factor * way > limits.translation) factor = limits.translation / way;
   for (const ExtraBlock& e : layout.extras) {
     for (std::int32_t k = 0; k < e.count; ++k) {
       const double limit = e.coordinates[static_cast<std::size_t>(k)].largest_step;

@@ -19,7 +19,7 @@ using Result = tl::expected<T, Failure>;
 // Redundant rows and remarks of an analysis, for the message file.
 struct Findings {
   std::vector<std::int32_t> redundant_rows;
-  std::vector<std::string> warnings;
+  Diagnostics warnings;
 };
 
 // Of coordinates outside bodies in the least change of positions and velocities, beside 1 for those of bodies.

@@ -75,7 +75,7 @@ bool reduce_imbalance(StaticEquations& equations, OperatingPoint& op, int step_l
     const auto step = damped_step(equations, row_unit, column_unit, mu);
     bool taken = false;
     if (step) {
-      OperatingPoint next = moved(system, op, equations.saddle(), *step, 1.0, 0.5);
+      OperatingPoint next = moved(system, op, equations.saddle(), *step, 1.0, {0.5});
       equations.settle(next);
       equations.evaluate(next, true);
       const double after = equations.merit(force);

@@ -158,10 +158,11 @@ Result<void> MasslessBalance::accept(const std::vector<double>& start, const Ope
       const auto at = static_cast<std::int32_t>(c);
       if (at < block.offset || at >= block.offset + block.count || !states_velocity(system_.model().bodies[b]))
         continue;
-      findings.warnings.push_back(fmt::format(
-          "the initial velocity of {} is changed from {:g} to {:g}: it has no mass, and its velocity follows "
-          "from the balance of its forces",
-          name(k), start[c], std::abs(found.velocity[c]) > 1e-12 * fastest ? found.velocity[c] : 0.0));
+      findings.warnings.warning(
+          "changed-velocity", block.label.at,
+          fmt::format("the initial velocity of {} is changed from {:g} to {:g}: it has no mass, and its velocity "
+                      "follows from the balance of its forces",
+                      name(k), start[c], std::abs(found.velocity[c]) > 1e-12 * fastest ? found.velocity[c] : 0.0));
     }
   }
   return {};

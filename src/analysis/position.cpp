@@ -49,6 +49,18 @@ double row_rounding(const std::vector<double>& sizes, std::span<const Constraint
   return rounding_units * std::numeric_limits<double>::epsilon() * sum;
 }
 
+// Axes that should be perpendicular and are parallel: no turn changes their product to first order.
+std::string_view stuck_axes(const System& system, const ConstraintRows& rows, std::int32_t k) {
+  constexpr double parallel = 1e-3;
+  if (static_cast<std::size_t>(k) >= system.layout().rows.size()) return {};
+  const std::string_view name = system.layout().rows[static_cast<std::size_t>(k)].name;
+  const bool product = name.size() == 5 && name[2] == '.';
+  for (const auto& e : rows.row(k)) {
+    if (!product || std::abs(e.c.g) > parallel) return {};
+  }
+  return ", whose axes are parallel and must be perpendicular,";
+}
+
 std::vector<double> assembly_weights(const System& system) {
   std::vector<double> weight(system.coordinates());
   for (std::size_t k = 0; k < weight.size(); ++k) {
@@ -160,7 +172,7 @@ Stopped stop_at_ends(const Layout& layout, OperatingPoint& op, const Eigen::Vect
   return s;
 }
 
-Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Findings& findings, Starts starts, Ends ends) {
+Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts starts, Ends ends) {
   const Layout& layout = system.layout();
   if (layout.problems.has_errors()) {
     Failure f{"initial conditions", layout.problems.items().front().message, {}};
@@ -205,6 +217,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Finding
     const std::vector<double> sizes = coordinate_sizes(layout, op);
     double left = 0, above_rounding = 0;
     std::vector<std::string> contradicted;
+    std::string_view stuck;  // of the first
     for (std::int32_t k = 0; k < rows.size(); ++k) {
       if (rows.level(k) != RowLevel::position) continue;
       const double scale = row_scale(system, rows.row(k)), rounding = row_rounding(sizes, rows.row(k)) / scale;
@@ -213,6 +226,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Finding
         left = std::max(left, relative);
         above_rounding = std::max(above_rounding, relative - std::max(position_tolerance, rounding));
       } else if (relative > std::max(system.assembly_error(), position_tolerance) * (1 + 1e-6) + rounding) {
+        if (contradicted.empty()) stuck = stuck_axes(system, rows, k);
         contradicted.push_back(system.row_text(k));
       }
     }
@@ -221,9 +235,9 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Finding
       if (contradicted.empty()) return finished();
       history.insert(history.begin(), contradicted.begin(), contradicted.end());
       return tl::unexpected(Failure{"initial conditions",
-                                    fmt::format("the constraints contradict each other: {} cannot hold together with "
-                                                "the others (IC/ERROR is {:g} of a row's scale)",
-                                                contradicted.front(), system.assembly_error()),
+                                    fmt::format("the constraints contradict each other: {}{} cannot hold together "
+                                                "with the others (IC/ERROR is {:g} of a row's scale)",
+                                                contradicted.front(), stuck, system.assembly_error()),
                                     history});
     }
     before = left;
@@ -239,11 +253,10 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Finding
     if (!step) {
       return tl::unexpected(Failure{"initial conditions", "the constraints are singular at this position", history});
     }
-    displace(system, op, *step, 0.5);
+    displace(system, op, *step, {0.5});
   }
   evaluate();
   const Violation v = position_violation(system, rows);
-  findings.warnings.push_back(history.back());
   history.insert(history.begin(),
                  "the parts of that constraint may be drawn too far from where they fit, or be too short to reach");
   return tl::unexpected(Failure{"initial conditions",
@@ -270,8 +283,7 @@ std::optional<OperatingPoint> assemble_inside(const System& system, const Operat
   const Layout& layout = system.layout();
   std::optional<OperatingPoint> best;
   const auto consider = [&](OperatingPoint from) {
-    Findings unused;
-    auto found = assemble(system, std::move(from), unused, starts, Ends::kept);
+    auto found = assemble(system, std::move(from), starts, Ends::kept);
     if (!found || beyond_an_end(layout, *found)) return;
     if (!best || change(system, drawn, *found) < change(system, drawn, *best)) best = std::move(*found);
   };
@@ -290,16 +302,14 @@ std::optional<OperatingPoint> assemble_inside(const System& system, const Operat
 
 }  // namespace
 
-Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op, Findings& findings, Starts starts) {
+Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op, Findings&, Starts starts) {
   const Layout& layout = system.layout();
   const bool searches = starts == Starts::held && !layout.curve_points.empty();
   const OperatingPoint drawn = searches ? op : OperatingPoint();
-  Findings first = findings;
-  auto found = assemble(system, std::move(op), first, starts, Ends::passed);
+  auto found = assemble(system, std::move(op), starts, Ends::passed);
   if (searches && (!found || beyond_an_end(layout, *found))) {
     if (auto inside = assemble_inside(system, drawn, starts)) return *std::move(inside);
   }
-  findings = std::move(first);
   return found;
 }
 

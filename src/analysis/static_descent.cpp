@@ -120,7 +120,7 @@ bool Descent::finish(OperatingPoint& op) {
     if (j->largest > 1e-2 || stuck > 3) break;
     smallest = std::min(smallest, j->largest);
     double taken = 0;
-    here = moved(system_, here, equations_.saddle(), j->step, 1.0, options_.rotation_limit, &taken);
+    here = moved(system_, here, equations_.saddle(), j->step, 1.0, options_.limits, &taken);
     for (Eigen::Index i = 0; i < j->step.size(); ++i) {
       if (j->step(i) != 0 && move_.size() > 0) move_(i) = std::abs(taken * j->step(i)) / j->size(i);
     }
@@ -197,7 +197,7 @@ bool Descent::newton(OperatingPoint& op, double level) {
   if (!step || (level >= 1e-6 && equations_.slope(*step) >= 0)) return false;
   for (const double fraction : {1.0, 0.5, 0.25}) {
     double taken = 0;
-    OperatingPoint next = moved(system_, op, equations_.saddle(), *step, fraction, options_.rotation_limit, &taken);
+    OperatingPoint next = moved(system_, op, equations_.saddle(), *step, fraction, options_.limits, &taken);
     if (level > 1e-6) equations_.settle(next);
     equations_.evaluate(next, false);
     const double after = equations_.merit(force_);
@@ -222,7 +222,7 @@ bool Descent::implicit(OperatingPoint& op) {
     const double slope = step ? equations_.slope(*step) : 0;
     if (step && slope < 0) {
       double taken = 0;
-      OperatingPoint next = moved(system_, op, equations_.saddle(), *step, 1.0, options_.rotation_limit, &taken);
+      OperatingPoint next = moved(system_, op, equations_.saddle(), *step, 1.0, options_.limits, &taken);
       equations_.settle(next);
       const double foretold = -hold_ * equations_.damping(*step);
       equations_.evaluate(next, false);

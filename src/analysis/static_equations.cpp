@@ -311,11 +311,10 @@ void StaticEquations::measure_forces(const OperatingPoint& op) {
 }
 
 OperatingPoint moved(const System& system, const OperatingPoint& from, const Saddle& saddle,
-                     const Eigen::VectorXd& step, double fraction, double rotation_limit, double* taken) {
+                     const Eigen::VectorXd& step, double fraction, const StepLimits& limits, double* taken) {
   OperatingPoint to = from;
   const double f =
-      fraction *
-      displace(system, to, fraction * step.head(static_cast<Eigen::Index>(system.coordinates())), rotation_limit);
+      fraction * displace(system, to, fraction * step.head(static_cast<Eigen::Index>(system.coordinates())), limits);
   if (taken) *taken = f;
   const auto add = [&](std::vector<double>& x, std::int32_t offset) {
     for (std::size_t k = 0; k < x.size(); ++k) x[k] += f * step(offset + static_cast<Eigen::Index>(k));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/displace.h"
 #include "analysis/saddle.h"
 #include "system/system.h"
 
@@ -103,9 +104,9 @@ class StaticEquations {
   std::vector<double> own_stiffness_;  // by coordinate, as force per length
 };
 
-// The point moved by fraction · step; rotations beyond `rotation_limit` [rad] shorten the whole step. `taken` becomes
-// the factor of the step that was gone.
+// The point moved by fraction · step, less where that is beyond the limits. `taken` becomes the factor of the step that
+// was gone.
 OperatingPoint moved(const System&, const OperatingPoint&, const Saddle&, const Eigen::VectorXd& step, double fraction,
-                     double rotation_limit, double* taken = nullptr);
+                     const StepLimits&, double* taken = nullptr);
 
 }  // namespace dynalin

@@ -66,6 +66,26 @@ OperatingPoint elsewhere(const System& system, OperatingPoint op, int k) {
   return op;
 }
 
+// The point settled, if it is an equilibrium within a tolerance that was stated.
+std::optional<OperatingPoint> within(const StaticsOptions::Tolerance& tolerance, StaticEquations& equations,
+                                     OperatingPoint op, Findings& findings) {
+  equations.measure_by(Yardstick::model);
+  equations.settle(op);
+  equations.evaluate(op, true);
+  const auto j = judge(equations, op);
+  if (!j || !(j->largest <= tolerance.error) || !(equations.imbalance() <= tolerance.imbalance)) return std::nullopt;
+  const Eigen::VectorXd& r = equations.residual();
+  const Eigen::Index first = equations.saddle().algebraic(0);
+  if (r.size() > first && !(r.tail(r.size() - first).cwiseAbs().maxCoeff() <= tolerance.imbalance)) return std::nullopt;
+  findings.warnings.warning(
+      "loose-equilibrium", {},
+      fmt::format("no exact equilibrium was found; this point is within what EQUILIBRIUM allows: a force of {:.3e} is "
+                  "out of balance (IMBALANCE {:g}), and the next step would be {:.3e} of the model's size (ERROR {:g})",
+                  equations.imbalance(), tolerance.imbalance, j->largest, tolerance.error));
+  equations.system().remember(op);
+  return op;
+}
+
 }  // namespace
 
 Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op, const StaticsOptions& options,
@@ -134,6 +154,17 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
       if (auto rest = follow_to_rest(equations, *start, forward)) descend(std::move(*rest));
     }
   }
+  if (!found && options.tolerance) {
+    for (const OperatingPoint* near : {&lowest, &drawn}) {
+      if (escaped(system, drawn, *near)) continue;
+      auto loose_rest = within(*options.tolerance, equations, *near, findings);
+      if (!loose_rest) continue;
+      report.iterations = std::max(0, history.iterations() - 1);
+      report.imbalance = equations.imbalance();
+      findings.redundant_rows = equations.partition().redundant;
+      return *std::move(loose_rest);
+    }
+  }
   for (int k = 0; k < options.restarts && go_on(); ++k) {
     OperatingPoint other = elsewhere(system, drawn, k);
     if (reduce_imbalance(equations, other, 60)) descend(std::move(other));
@@ -151,6 +182,12 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   equations.evaluate(op, true);
   report.iterations = std::max(0, history.iterations() - 1);
   report.imbalance = equations.imbalance();
+  if (options.tolerance && report.imbalance > options.tolerance->imbalance) {
+    findings.warnings.warning(
+        "rounding-above-imbalance", {},
+        fmt::format("IMBALANCE of EQUILIBRIUM asks for {:g}, and rounding of the positions alone leaves {:.3e}",
+                    options.tolerance->imbalance, report.imbalance));
+  }
   findings.redundant_rows = equations.partition().redundant;
   return op;
 }

@@ -3,10 +3,14 @@
 //
 // The search, each step only where the one before it fails: (1) downhill, by Newton's method and implicit steps of a
 // damped motion (`static_descent.h`); (2) least squares (`least_imbalance.h`); (3) continuation (`continuation.h`); (4)
-// least squares from other places. A point that is balanced to rounding is accepted as it stands. What cannot be found
-// is explained (`static_refusal.h`).
+// least squares from other places. A point that is balanced to rounding is accepted as it stands. A tolerance that is
+// stated never ends the search early, but before (4) a point within it is accepted. What cannot be found is explained
+// (`static_refusal.h`).
 #pragma once
 
+#include <optional>
+
+#include "analysis/displace.h"
 #include "analysis/initial.h"
 #include "analysis/static_history.h"
 
@@ -14,11 +18,17 @@ namespace dynalin {
 
 struct StaticsOptions {
   int iteration_limit = 500;
-  double rotation_limit = 0.17453292519943295;  // [rad] a step, ALIMIT
-  bool restore_velocities = true;               // the dataset's velocities come back at t = 0
-  int restarts = 24;                            // of the search from other places, after all else
-  double effort_limit = 1e10;                   // products, some ten seconds: what was not found by then is not
-  StaticProgress progress{};                    // called with every iteration
+  StepLimits limits{0.17453292519943295};  // of a step downhill: ALIMIT, TLIMIT
+  bool restore_velocities = true;          // the dataset's velocities come back at t = 0
+  int restarts = 24;                       // of the search from other places, after all else
+  double effort_limit = 1e10;              // products, some ten seconds: what was not found by then is not
+  StaticProgress progress{};               // called with every iteration
+  // What is taken for an equilibrium where no exact one is found near the first point; nothing is unless it is stated.
+  struct Tolerance {
+    double error = 1e-4;      // ERROR: Newton's step there, in lengths of the model, radians and sizes of states
+    double imbalance = 1e-4;  // IMBALANCE: any unbalanced force, or moment by length
+  };
+  std::optional<Tolerance> tolerance;
 };
 
 struct StaticsReport {

@@ -17,6 +17,7 @@ struct Condition {
   std::vector<double> coefficient;
   double value = 0;
   std::string text;
+  Span at;  // of the statement
 };
 
 // What the dataset states, as conditions: the CM velocity along an axis a is a·(v + ω × c).
@@ -32,7 +33,11 @@ std::vector<Condition> stated_velocities(const System& system, const Motion& mot
       if (body.velocity.of_cm[k]) {
         const Vector a = motion.axes(system.layout().marker(body.velocity.cm_axes))[k];
         const Vector turn = cross(c, a);
-        Condition s{{}, {}, *body.velocity.of_cm[k], fmt::format("{} of {}", cm_names[k], body.label.full_text())};
+        Condition s{{},
+                    {},
+                    *body.velocity.of_cm[k],
+                    fmt::format("{} of {}", cm_names[k], body.label.full_text()),
+                    body.label.at};
         for (std::int32_t i = 0; i < block.count; ++i) {
           const auto at = static_cast<std::size_t>(i);
           s.column.push_back(block.offset + i);
@@ -42,8 +47,11 @@ std::vector<Condition> stated_velocities(const System& system, const Motion& mot
       }
       if (body.velocity.angular[k] && block.count == 6) {
         const Vector a = motion.axes(system.layout().marker(body.velocity.angular_axes))[k];
-        Condition s{
-            {}, {}, *body.velocity.angular[k], fmt::format("{} of {}", angular_names[k], body.label.full_text())};
+        Condition s{{},
+                    {},
+                    *body.velocity.angular[k],
+                    fmt::format("{} of {}", angular_names[k], body.label.full_text()),
+                    body.label.at};
         for (std::int32_t i = 0; i < 3; ++i) {
           s.column.push_back(block.offset + 3 + i);
           s.coefficient.push_back(a[static_cast<std::size_t>(i)]);
@@ -60,8 +68,11 @@ std::vector<Condition> stated_velocities(const System& system, const Motion& mot
   system.start_rows(motion, 0, rows);
   for (std::size_t k = 0; k < starts.size(); ++k) {
     if (!starts[k].velocity) continue;
-    Condition s{
-        {}, {}, *starts[k].velocity, fmt::format("of the {} of {}", starts[k].name, starts[k].owner->full_text())};
+    Condition s{{},
+                {},
+                *starts[k].velocity,
+                fmt::format("of the {} of {}", starts[k].name, starts[k].owner->full_text()),
+                starts[k].owner->at};
     for (const auto& e : rows.row(static_cast<std::int32_t>(k))) {
       s.column.push_back(e.column);
       s.coefficient.push_back(e.c.g);
@@ -317,7 +328,8 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
     for (std::size_t k = constraints; k < conditions.size() && contradicted; ++k) {
       const double stated_value = conditions[k].value, value = stated_value + miss(conditions[k], velocity).value;
       if (follows(system, conditions[k], velocity, unnoticed)) continue;
-      findings.warnings.push_back(
+      findings.warnings.warning(
+          "changed-velocity", conditions[k].at,
           fmt::format("the initial velocity {} = {:g} contradicts the constraints and was changed to {:g}",
                       conditions[k].text, stated_value, value));
     }

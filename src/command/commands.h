@@ -58,7 +58,7 @@ struct SettingCommand {
   std::optional<WrittenEquilibrium> equilibrium;
   std::optional<WrittenInitialConditions> initial_conditions;
   std::vector<std::string> passed_over;  // "INTEGRATOR/HMAX"
-  std::vector<std::string> remarks;
+  Diagnostics remarks;
 };
 
 // A command that is known and has no effect on a linear model.

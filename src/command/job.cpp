@@ -40,7 +40,8 @@ class Loader {
     // A file that is run with commands of its own is a dataset whatever its name.
     const bool is_dataset = has_commands || has_extension(file, ".adm");
     std::string dataset_path = file;
-    job.folder = fs::path(file).parent_path().string();
+    job.from_command_line = is_dataset;
+    if (!is_dataset) job.folder = fs::path(file).parent_path().string();
     if (is_dataset) {
       std::string text;
       for (const std::string& c : options_.commands) text += c + "\n";
@@ -92,6 +93,8 @@ class Loader {
     check_outputs(job, options_, keep_, diagnostics_);
     if (diagnostics_.has_errors()) return fail();
     err_ << render(diagnostics_);
+    job.warnings = std::move(diagnostics_);
+    job.sources = std::move(keep_);
     return job;
   }
 
@@ -107,6 +110,8 @@ class Loader {
     diagnostics_.append(std::move(parsed.diagnostics));
   }
   std::string default_prefix(const Job& job, const std::string& dataset_path) const {
+    // Beside the dataset that the command line names, else beside the command file.
+    if (job.from_command_line) return fs::path(dataset_path).replace_extension().string();
     const std::string name =
         job.commands.output_prefix.empty() ? fs::path(dataset_path).stem().string() : job.commands.output_prefix;
     return (fs::path(job.folder) / name).string();

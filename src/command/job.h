@@ -22,8 +22,13 @@ struct Job {
   std::vector<Stage> stages;
   const Model& model() const { return *stages.front().model; }
   std::string prefix;
-  int xrf_digits = 0;  // decimals of the results file, 0 for none
-  std::string folder;  // of the command file; files named in commands are relative to it
+  int xrf_digits = 0;              // decimals of the results file, 0 for none
+  bool from_command_line = false;  // the commands
+  // Names are relative to where they are written: in a command file to its folder, on the command line to the current
+  // one, which is empty here.
+  std::string folder;
+  Diagnostics warnings;            // of reading
+  std::vector<SourceRef> sources;  // that were read
 };
 
 // Every problem found goes to `err`; then there is no job.

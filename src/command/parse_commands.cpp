@@ -75,7 +75,7 @@ std::optional<SettingCommand> read_setting(std::string_view name, ElementReader&
   } else if (name == "PREFERENCES") {
     WrittenPreferences written;
     ok = read_setting(out, reader, written);
-    if (written.asks_for_fortran()) out.remarks.emplace_back(WrittenPreferences::fortran_remark);
+    written.note(out.remarks);
   } else if (name == "REQUEST") {
     WrittenRequest written;
     ok = read_arguments(written, reader);

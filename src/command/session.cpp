@@ -2,33 +2,35 @@
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <limits>
-#include <map>
 #include <set>
 #include <sstream>
 
 #include "analysis/static_settings.h"
 #include "command/environment.h"
-#include "command/failure_text.h"
 #include "command/job.h"
 #include "command/mode_tables.h"
 #include "command/output_plan.h"
 #include "command/progress_line.h"
+#include "command/remarks.h"
+#include "command/run_files.h"
 #include "linear/cautions.h"
 #include "linear/eigen.h"
 #include "linear/mode_shapes.h"
 #include "linear/second_order.h"
+#include "linear/stability.h"
 #include "linear/still_modes.h"
 #include "output/json.h"
-#include "output/matrices.h"
 #include "output/message_file.h"
-#include "output/output_file.h"
+#include "output/operating_state_text.h"
 #include "output/results_file.h"
 #include "system/carry_over.h"
+#include "system/operating_state.h"
 
 namespace dynalin {
 
@@ -51,11 +53,16 @@ class Session {
         err_(err),
         quiet_(options.quiet || to_standard_output(options.json)),
         settings_(job_.model().settings) {
+    for (const Command& c : job_.commands.commands) {
+      const auto* linear = std::get_if<LinearCommand>(&c.what);
+      if (linear && !linear->file.empty()) quiet_ = quiet_ || to_standard_output(linear_path(job_, linear->file));
+    }
     for (const Job::Stage& s : job_.stages)
       systems_.push_back(std::make_unique<System>(
           s.model, SystemOptions{options.pade ? DelayReading::pade : DelayReading::first_order}));
     point_ = system().drawn();
-    if (job_.xrf_digits > 0) results_.emplace(job_.model().title, job_.xrf_digits);
+    if (job_.xrf_digits > 0)
+      results_.emplace(job_.model().title, job_.xrf_digits, job_.model().units, settings_.results);
   }
 
   // What only showed while the equations were made: wrong input like any other.
@@ -72,26 +79,31 @@ class Session {
     const auto start = std::chrono::steady_clock::now();
     write_banner(message_, version);
     write_title(message_, job_.model().title);
-    if (!job_.model().units.stated) remark("the dataset states no UNITS: the units consistency factor is taken as 1");
-    for (const std::string& text : system().layout().remarks) remark(text);
-    for (const std::string& text : settings_.remarks) remark(text);
-    pass_over(settings_.passed_over);
+    for (const Diagnostic& d : job_.warnings.items()) json_.add_warning("", d);
+    if (!units().stated)
+      remarks_.say("no-units", "the dataset states no UNITS: the units consistency factor is taken as 1");
+    remarks_.say(system().layout().remarks);
+    remarks_.say(settings_.remarks);
+    remarks_.pass_over(settings_.passed_over);
     for (const std::string_view name : environment_.names())
-      remark(fmt::format("the environment variable {} is set and changes what this run computes", name));
+      remarks_.say("environment-variable",
+                   fmt::format("the environment variable {} is set and changes what this run computes", name));
+    if (job_.commands.commands.empty())
+      remarks_.say("no-commands", "the command file ends behind the name of the model: there is nothing to run");
     int status = done;
     for (const Command& c : job_.commands.commands) {
       write_command(message_, c.text);
+      remarks_.begin(c.text);
       if (std::holds_alternative<StopCommand>(c.what)) break;
       const auto result = execute(c);
       if (result) continue;
-      report(c, result.error());
+      remarks_.report(result.error());
       status = analysis_failed;
       if (!options_.keep_going) break;
     }
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     write_footer(message_, status == done, elapsed.count());
-    if (!finish()) return analysis_failed;
-    return status;
+    return finish(status) ? status : analysis_failed;
   }
 
  private:
@@ -99,6 +111,7 @@ class Session {
 
   const System& system() const { return *systems_[stage_]; }
   const Model& model() const { return system().model(); }
+  const Units& units() const { return job_.model().units; }
 
   // The model that a command works with; what is known of the one before goes on by class and id.
   void enter_stage(std::size_t stage) {
@@ -112,10 +125,7 @@ class Session {
     }
     consistent_ = false;
     at_rest_.reset();
-    const std::vector<std::string>& said = systems_[before]->layout().remarks;
-    for (const std::string& text : system().layout().remarks) {
-      if (std::find(said.begin(), said.end(), text) == said.end()) remark(text);
-    }
+    remarks_.say_what_is_new(system().layout().remarks, systems_[before]->layout().remarks);
   }
 
   // Elements that are not in the model since the last edit.
@@ -133,39 +143,32 @@ class Session {
     }
   }
 
-  // Settings that nothing acts on are named once a run.
-  void pass_over(const std::vector<std::string>& settings) {
-    std::vector<std::string> fresh;
-    for (const std::string& s : settings) {
-      if (passed_over_.insert(s).second) fresh.push_back(s);
-    }
-    if (!fresh.empty())
-      remark(fmt::format("nothing here acts on {}, which {} passed over", fmt::join(fresh, ", "),
-                         fresh.size() == 1 ? "is" : "are"));
-  }
-
   void apply(const SettingCommand& setting) {
     if (setting.equilibrium) setting.equilibrium->apply(settings_.equilibrium);
     if (setting.initial_conditions) {
       setting.initial_conditions->apply(settings_.initial_conditions);
       for (const auto& s : systems_) s->state_settings(settings_.initial_conditions);
     }
-    for (const std::string& text : setting.remarks) remark(text);
-    pass_over(setting.passed_over);
+    remarks_.say(setting.remarks);
+    remarks_.pass_over(setting.passed_over);
   }
 
   Outcome execute(const Command& c) {
     enter_stage(c.stage);
     if (const auto* simulate = std::get_if<SimulateCommand>(&c.what)) {
-      Outcome outcome = simulate->kind == SimulateCommand::Kind::statics ? statics() : initial();
-      if (simulate->kind != SimulateCommand::Kind::statics) at_rest_.reset();
-      if (outcome) json_.add_plain(c.text, point_.time);
-      return outcome;
+      if (simulate->kind == SimulateCommand::Kind::statics) return statics(c);
+      at_rest_.reset();
+      if (auto ready = initial(); !ready) return ready;
+      const OperatingState state = operating_state(system(), point_);
+      show(StepKind::initial_conditions, state);
+      json_.add(c.text, state);
+      return {};
     }
     if (const auto* linear = std::get_if<LinearCommand>(&c.what)) return run_linear(c, *linear);
     if (const auto* variable = std::get_if<EnvironmentCommand>(&c.what)) {
       if (!environment_.set(variable->name))
-        remark(fmt::format("the environment variable {} means nothing here and is passed over", variable->name));
+        remarks_.say("environment-variable",
+                     fmt::format("the environment variable {} means nothing here and is passed over", variable->name));
       json_.add_plain(c.text, point_.time);
     }
     if (const auto* setting = std::get_if<SettingCommand>(&c.what)) {
@@ -177,7 +180,8 @@ class Session {
       json_.add_plain(c.text, point_.time);
     }
     if (const auto* passive = std::get_if<PassiveCommand>(&c.what)) {
-      remark(fmt::format("the command {} has no effect on linear models and is passed over", passive->name));
+      remarks_.say("passed-over",
+                   fmt::format("the command {} has no effect on linear models and is passed over", passive->name));
       json_.add_plain(c.text, point_.time);
     }
     return {};
@@ -205,7 +209,7 @@ class Session {
     return {};
   }
 
-  Outcome statics() {
+  Outcome statics(const Command& c) {
     Findings findings;
     StaticsReport report;
     write_begin(message_, "Static Solution");
@@ -223,40 +227,39 @@ class Session {
     write_static_result(message_, report.iterations, report.imbalance);
     write_end(message_, "Static Solution");
     accept(std::move(*op), findings);
-    const std::string stability = stability_text();
-    fmt::print(message_, "  Stability: {}\n", stability);
+    const StaticResult result{report.iterations, report.imbalance, stability_of(system(), *at_rest_),
+                              operating_state(system(), *at_rest_)};
+    fmt::print(message_, "  Stability: {}\n", result.stability.text());
     if (!quiet_)
-      fmt::print(out_, "static equilibrium after {} iterations, imbalance {:.3e}, {}\n", report.iterations,
-                 report.imbalance, stability);
+      fmt::print(out_, "static equilibrium after {} iterations, imbalance {:.3e}, {}\n", result.iterations,
+                 result.imbalance, result.stability.text());
+    show(StepKind::statics, result.at_rest);
+    // Velocities of the dataset that have come back make another point of it.
+    shown_ = std::all_of(point_.velocity.begin(), point_.velocity.end(), [](double v) { return v == 0; });
+    json_.add(c.text, result);
     return {};
   }
 
-  // Whether a small disturbance of the equilibrium grows, by the eigenvalues of its linear model: that of the solution
-  // itself, without the velocities of the dataset that may have come back.
-  std::string stability_text() const {
-    constexpr std::size_t affordable = 300;
-    if (system().coordinates() > affordable) return "stability not examined";
-    const auto linear = linearize(system(), *at_rest_, {});
-    if (!linear) return "stability not known: " + linear.error().message;
-    const auto modes = eigensolve(*linear, Vectors::none);
-    if (!modes) return "stability not known: " + modes.error().message;
-    double largest = 0;
-    for (const EigenMode& m : modes->modes) largest = std::max(largest, std::abs(m.eigenvalue_hz));
-    std::size_t growing = 0;
-    for (const EigenMode& m : modes->modes) growing += m.eigenvalue_hz.real() > 1e-7 * largest;
-    if (growing == 0) return "nothing grows";
-    return fmt::format("unstable: {} {}", growing, growing == 1 ? "mode grows" : "modes grow");
+  // The point in all files that have it, and on the terminal as far as it is wanted there.
+  void show(StepKind kind, const OperatingState& state) {
+    write_operating_state(message_, state, units());
+    if (results_) results_->add(kind, state);
+    if (!quiet_ && options_.state) write_operating_state(out_, state, units());
+    if (!quiet_ && !options_.state && kind == StepKind::statics)
+      write_operating_state(out_, state, units(), short_tables);
+    shown_ = true;
   }
 
   void accept(OperatingPoint op, const Findings& findings) {
     point_ = std::move(op);
     consistent_ = started_ = true;
+    shown_ = false;
     restated_velocity_ = false;
     std::vector<std::string> rows;
     for (const std::int32_t r : findings.redundant_rows) rows.push_back(system().row_text(r));
     if (rows != redundant_) write_redundant(message_, point_.time, rows);
     redundant_ = std::move(rows);
-    for (const std::string& w : findings.warnings) remark(w);
+    remarks_.say(findings.warnings);
   }
 
   // Without reconciliation LINEAR takes the static solution as it was found; any other point is consistent anyway.
@@ -278,11 +281,13 @@ class Session {
     const OperatingPoint& point = point_of(command);
     auto linear = linearize(system(), point, options);
     if (!linear) return tl::unexpected(linear.error());
-    for (const std::string& w : linear->warnings) remark(w);
+    remarks_.say(linear->warnings);
     if (linear->model.states.empty())
       return tl::unexpected(Failure{
           "linear analysis", "the model has no states: neither degrees of freedom nor differential states", {}});
 
+    const OperatingState state = operating_state(system(), point);
+    if (!shown_ && &point == &point_) show(StepKind::initial_conditions, state);
     if (command.option == LinearOption::mkb) {
       auto form = second_order(linear->model, linear->first_order);
       if (!form) return tl::unexpected(form.error());
@@ -291,8 +296,8 @@ class Session {
       write_matrix_states(message_, *form);
       if (results_ && !settings_.results.without_linear) results_->add(*form);
       json_.add(c.text, *form);
-      if (!quiet_)
-        fmt::print(out_, "second-order matrices of {} states written to {}\n", form->states.size(), command.file);
+      json_.add_point(state);
+      tell_of_matrices("second-order", form->states.size(), command);
       return {};
     }
     if (command.option == LinearOption::statemat) {
@@ -300,9 +305,9 @@ class Session {
       if (auto written = write_matrices(command, named_matrices(linear->model)); !written) return written;
       write_matrix_states(message_, linear->model);
       json_.add(c.text, linear->model);
+      json_.add_point(state);
       if (results_ && !settings_.results.without_linear) results_->add(linear->model);
-      if (!quiet_)
-        fmt::print(out_, "state matrices of {} states written to {}\n", linear->model.states.size(), command.file);
+      tell_of_matrices("state", linear->model.states.size(), command);
       return {};
     }
     if (linear->model.states.size() > 1000) {
@@ -321,7 +326,7 @@ class Session {
     modes->pstate = command.pstate.value_or(0);
     modes->without_damping = command.without_damping;
     modes->original = command.original;
-    for (const std::string& text : cautions(system(), point, *linear, *modes)) remark(text);
+    remarks_.say(cautions(system(), point, *linear, *modes));
     // All that this command has to say is in the files of the run, or nothing of it.
     if (command.wants_tables()) {
       const auto tables = mode_tables(command, system(), point, *linear, *modes);
@@ -330,13 +335,21 @@ class Session {
     }
     write_eigensolution(message_, *modes, cpu_seconds);
     json_.add(c.text, *modes);
+    json_.add_point(state);
     if (results_ && !settings_.results.without_linear) results_->add(*modes);
     warn_of_missing_modes(command, modes->modes.size());
     if (!quiet_) {
       fmt::print(out_, "{} at time {:g}\n", c.text, modes->time);
-      write_eigen_table(out_, *modes, options_.bounds);
+      write_eigen_table(out_, *modes, units().frequency(), options_.bounds);
+      if (command.wants_tables()) fmt::print(out_, "the tables of modes are in {}.txt\n", job_.prefix);
     }
     return {};
+  }
+
+  void tell_of_matrices(std::string_view which, std::size_t states, const LinearCommand& command) {
+    if (quiet_) return;
+    fmt::print(out_, "{} matrices of {} states: {}{}\n", which, states, linear_path(job_, command.file),
+               command.format == "MATLAB" ? "*, a file each" : "");
   }
 
   template <class Matrices>
@@ -354,83 +367,56 @@ class Session {
       const auto all = std::numeric_limits<std::int64_t>::max();
       const std::int64_t last = wanted.numbers.back(), count = static_cast<std::int64_t>(modes);
       if (last <= count || last == all) return;
-      remark(fmt::format("{} asks for {} {}, the eigensolution has {} {}", name,
-                         wanted.numbers.front() == last ? "mode" : "modes up to", last, count,
-                         count == 1 ? "mode" : "modes"));
+      remarks_.say("missing-mode", fmt::format("{} asks for {} {}, the eigensolution has {} {}", name,
+                                               wanted.numbers.front() == last ? "mode" : "modes up to", last, count,
+                                               count == 1 ? "mode" : "modes"));
     };
     look("COORDS", command.coordinates), look("KINETIC", command.kinetic), look("STRAIN", command.strain);
     look("DISSIPAT", command.dissipation), look("MRANGE", command.markers);
     look("ENERGY_PER_MODE", command.energy_per_mode), look("MASS_PER_MODE", command.mass_per_mode);
   }
 
-  using Files = std::vector<std::unique_ptr<OutputFile>>;
-
-  // All files of the command, or none of them.
   Outcome write_matrices(const LinearCommand& command, const std::vector<NamedMatrix>& matrices) {
-    const std::string base = linear_path(job_, command.file);
-    Files made;
-    tl::expected<void, std::string> result;
-    if (command.format != "MATLAB") {
-      result = write(made, base, [&](std::ostream& o) { write_fsave(o, matrices, std::time(nullptr)); });
-    } else {
-      for (const NamedMatrix& m : matrices) {
-        if (result) result = write(made, base + m.suffix, [&](std::ostream& o) { write_matlab(o, m); });
-      }
-    }
+    const auto result = files_.add(matrix_files(linear_path(job_, command.file), command.format, matrices));
     if (!result) return tl::unexpected(Failure{"linear analysis", result.error(), {}});
-    take(std::move(made));
     return {};
   }
 
-  template <class Content>
-  static tl::expected<void, std::string> write(Files& made, const std::string& path, const Content& content) {
-    auto destination = find_destination(path);
-    if (!destination) return tl::unexpected("cannot write " + path + ": " + destination.error());
-    auto file = OutputFile::create(std::move(*destination));
-    if (!file) return tl::unexpected(file.error());
-    content((*file)->stream());
-    made.push_back(std::move(*file));
-    return made.back()->complete();
-  }
-
-  // A later command that writes the same file replaces what an earlier one wrote.
-  void take(Files made) {
-    for (auto& file : made) {
-      const Destination& d = file->destination();
-      const auto [place, fresh] = place_of_file_.emplace(d.place(), files_.size());
-      if (d.kind == Destination::Kind::replaced && !fresh) {
-        files_[place->second] = std::move(file);
-      } else {
-        files_.push_back(std::move(file));
-      }
-    }
-  }
-
-  void remark(const std::string& text) {
-    write_block(message_, Block::warning, text);
-    fmt::print(err_, "warning: {}\n", text);
-  }
-
-  void report(const Command& c, const Failure& f) {
-    write_block(message_, Block::error, failure_text(f));
-    fmt::print(err_, "error: {} failed\n{}\n", c.text, short_failure_text(f, job_.prefix + ".msg"));
-  }
-
   // All files appear together at the end of the run.
-  bool finish() {
-    Files made;
-    tl::expected<void, std::string> result;
-    const auto add = [&](const std::string& path, const auto& content) {
-      if (result) result = write(made, path, content);
-    };
-    if (!tables_.view().empty()) add(job_.prefix + ".txt", [&](std::ostream& o) { o << tables_.view(); });
-    if (results_) add(job_.prefix + ".res", [&](std::ostream& o) { results_->write(o, std::string(version)); });
-    add(job_.prefix + ".msg", [&](std::ostream& o) { o << message_.view(); });
-    if (!options_.json.empty()) add(options_.json, [&](std::ostream& o) { json_.write(o); });
-    take(std::move(made));
-    if (result) result = commit(files_, out_);
+  bool finish(int status) {
+    std::vector<RunFiles::Planned> last;
+    if (!tables_.view().empty()) last.push_back({job_.prefix + ".txt", [&](std::ostream& o) { o << tables_.view(); }});
+    if (results_) {
+      const auto ending = status == done ? ResultsFile::Ending::successful : ResultsFile::Ending::failed;
+      last.push_back({job_.prefix + ".res",
+                      [this, ending](std::ostream& o) { results_->write(o, std::string(version), ending); }});
+    }
+    last.push_back({job_.prefix + ".msg", [&](std::ostream& o) { o << message_.view(); }});
+    if (!options_.json.empty())
+      last.push_back({options_.json, [&, status](std::ostream& o) {
+                        json_.finish(units(), status, planned_names(last));
+                        json_.write(o);
+                      }});
+    auto result = files_.add(last);
+    if (result) result = files_.commit(out_);
     if (!result) fmt::print(err_, "error: {}\n", result.error());
+    if (result) tell_of_files(status);
     return result.has_value();
+  }
+  void tell_of_files(int status) const {
+    const std::vector<std::string> names = files_.names();
+    if (quiet_ || names.empty()) return;
+    if (status != done) {
+      fmt::print(err_, "wrote {}\n", fmt::join(names, ", "));
+      return;
+    }
+    for (const std::string& name : names) fmt::print(out_, "wrote {}\n", name);
+  }
+  // Of all files of the run.
+  std::vector<std::string> planned_names(const std::vector<RunFiles::Planned>& last) const {
+    std::vector<std::string> list = files_.names();
+    for (const RunFiles::Planned& p : last) list.push_back(p.path);
+    return list;
   }
 
   const SessionOptions& options_;
@@ -441,9 +427,10 @@ class Session {
   Settings settings_;
   std::vector<std::unique_ptr<System>> systems_;  // of the stages
   std::size_t stage_ = 0;
-  std::set<std::string> passed_over_, inactive_;  // what is said already
+  std::set<std::string> inactive_;  // what is said already
   OperatingPoint point_;
   bool consistent_ = false;
+  bool shown_ = false;              // the point, where points are shown
   bool started_ = false;            // an analysis has been made
   bool restated_velocity_ = false;  // and then a command stated where something starts
   Environment environment_ = read_environment();
@@ -451,9 +438,9 @@ class Session {
   std::vector<std::string> redundant_;
   std::ostringstream message_, tables_;
   JsonResults json_;
+  Remarks remarks_{err_, message_, json_, job_.prefix + ".msg"};
   std::optional<ResultsFile> results_;  // where the dataset has RESULTS with XRF
-  Files files_;
-  std::map<Destination::Place, std::size_t> place_of_file_;  // among files_
+  RunFiles files_;
 };
 
 }  // namespace
@@ -461,6 +448,11 @@ class Session {
 int run_session(const SessionOptions& options, std::ostream& out, std::ostream& err) {
   auto job = load_job(options, err);
   if (!job) return wrong_input;
+  if (job->commands.commands.empty() && job->from_command_line) {
+    fmt::print(err, "error: {} states a model, and no command says what to do with it\n", options.file);
+    fmt::print(err, "hint: dynalin run {} -c simulate/statics -c linear/eigensol\n", options.file);
+    return wrong_usage;
+  }
   Diagnostics unwritable;
   check_permissions(*job, options, unwritable);
   err << render(unwritable);

@@ -16,6 +16,7 @@ struct SessionOptions {
   bool keep_going = false;
   bool bounds = false;  // of eigenvalues, in the table on the terminal
   bool quiet = false;
+  bool state = false;                // every operating point in full on the terminal
   std::optional<double> user_value;  // in the place of compiled routines
   bool pade = false;                 // a DELAY as a Padé approximant with a state of its own
 };

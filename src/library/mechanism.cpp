@@ -11,7 +11,9 @@
 #include "linear/cautions.h"
 #include "linear/eigen.h"
 #include "linear/mode_shapes.h"
+#include "linear/stability.h"
 #include "linear/still_modes.h"
+#include "system/operating_state.h"
 
 namespace dynalin {
 
@@ -22,13 +24,18 @@ struct Mechanism::State {
   OperatingPoint point;
   bool consistent = false;
   std::optional<OperatingPoint> at_rest;  // what the last static analysis found, if no other one came after it
+  int static_iterations = 0;
+  double static_imbalance = 0;
   std::vector<std::string> redundant, warnings;
 
   State(SourceRef text, std::shared_ptr<const Model> m, const SystemOptions& options)
       : source(std::move(text)), model(std::move(m)), system(model, options), point(system.drawn()) {
-    warnings = system.layout().remarks;
-    const std::vector<std::string>& settings = model->settings.remarks;
-    warnings.insert(warnings.end(), settings.begin(), settings.end());
+    note(system.layout().remarks);
+    note(model->settings.remarks);
+  }
+
+  void note(const Diagnostics& remarks) {
+    for (const Diagnostic& d : remarks.items()) warnings.push_back(d.message);
   }
 
   const OperatingPoint& point_of(const LinearRequest& request) const {
@@ -40,7 +47,7 @@ struct Mechanism::State {
     consistent = true;
     redundant.clear();
     for (const std::int32_t r : findings.redundant_rows) redundant.push_back(system.row_text(r));
-    warnings.insert(warnings.end(), findings.warnings.begin(), findings.warnings.end());
+    note(findings.warnings);
   }
 };
 
@@ -59,8 +66,6 @@ T value_or_throw(Result<T> result) {
   if (!result) fail(result.error());
   return std::move(*result);
 }
-
-std::array<double, 3> plain(const Vector& v) { return {v.x, v.y, v.z}; }
 
 LinearOptions options_of(const Model& model, const LinearRequest& request) {
   LinearOptions options;
@@ -141,6 +146,7 @@ int Mechanism::static_equilibrium(bool restore_velocities) {
   state_->accept(value_or_throw(static_operating_point(state_->system, state_->point, options, report, findings)),
                  findings);
   state_->at_rest = std::move(report.at_rest);
+  state_->static_iterations = report.iterations, state_->static_imbalance = report.imbalance;
   return report.iterations;
 }
 
@@ -148,7 +154,7 @@ StateSpace Mechanism::state_space(const LinearRequest& request) {
   if (!state_->consistent) initial_conditions();
   LinearSystem linear =
       value_or_throw(linearize(state_->system, state_->point_of(request), options_of(*state_->model, request)));
-  state_->warnings.insert(state_->warnings.end(), linear.warnings.begin(), linear.warnings.end());
+  state_->note(linear.warnings);
   return std::move(linear.model);
 }
 
@@ -156,7 +162,7 @@ EigenSolution Mechanism::eigensolution(const LinearRequest& request) {
   if (!state_->consistent) initial_conditions();
   const LinearSystem linear =
       value_or_throw(linearize(state_->system, state_->point_of(request), options_of(*state_->model, request)));
-  state_->warnings.insert(state_->warnings.end(), linear.warnings.begin(), linear.warnings.end());
+  state_->note(linear.warnings);
   EigenSolution solution = value_or_throw(eigensolve(linear));
   solution.rm = request.rm.value_or(0);
   solution.pstate = request.pstate.value_or(0);
@@ -165,25 +171,21 @@ EigenSolution Mechanism::eigensolution(const LinearRequest& request) {
   clear_still_modes(state_->system, state_->point_of(request), linear, solution);
   name_movers(state_->system, state_->point_of(request), linear, solution);
   map_shapes(state_->system, linear, solution);
-  for (std::string& text : cautions(state_->system, state_->point_of(request), linear, solution)) {
-    state_->warnings.push_back(std::move(text));
-  }
+  state_->note(cautions(state_->system, state_->point_of(request), linear, solution));
   return solution;
 }
 
-std::vector<BodyState> Mechanism::bodies() const {
-  const Motion motion = state_->system.motion(state_->point);
-  std::vector<BodyState> list;
-  for (std::size_t b = 1; b < motion.bodies.size(); ++b) {
-    const BodyMotion& m = motion.bodies[b];
-    list.push_back({state_->system.layout().bodies[b].label.full_text(),
-                    plain(m.r),
-                    {plain(m.R[0]), plain(m.R[1]), plain(m.R[2])},
-                    plain(m.rdot),
-                    plain(m.w)});
-  }
-  return list;
+OperatingState Mechanism::operating_state() const { return dynalin::operating_state(state_->system, state_->point); }
+
+std::vector<BodyState> Mechanism::bodies() const { return operating_state().bodies; }
+
+StaticResult Mechanism::static_result() const {
+  if (!state_->at_rest) fail({"results", "no static analysis has been made", {}});
+  return {state_->static_iterations, state_->static_imbalance, stability_of(state_->system, *state_->at_rest),
+          dynalin::operating_state(state_->system, *state_->at_rest)};
 }
+
+const Units& Mechanism::units() const { return state_->model->units; }
 
 double Mechanism::variable(std::int64_t id) const {
   const auto handle = state_->model->find("VARIABLE", id);

@@ -95,7 +95,8 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
   const bool principal = options.principal_states && !relative;
   if (relative || principal) count += static_cast<std::size_t>(layout.body_coordinate_count);
   if (relative && options.principal_states) {
-    set.warnings.push_back(
+    set.warnings.warning(
+        "options-disagree", {},
         fmt::format("RM={} asks for coordinates relative to that marker: the coordinates of the original "
                     "implementation are not used",
                     layout.marker_labels[static_cast<std::size_t>(options.rm.index)].id));

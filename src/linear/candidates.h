@@ -32,7 +32,7 @@ struct CandidateSet {
   // Where the wanted ones are a change of coordinates of the layout: how a unit of each moves those. Empty otherwise.
   using Moves = std::vector<std::pair<std::int32_t, double>>;
   std::vector<Moves> moves;
-  std::vector<std::string> warnings;
+  Diagnostics warnings;
 };
 
 Result<CandidateSet> state_candidates(const System&, const Motion&, const LinearOptions&);

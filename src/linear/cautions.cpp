@@ -28,7 +28,7 @@ std::optional<OperatingPoint> nearby(const System& system, const OperatingPoint&
   }
   constexpr double distance = 1e-3;
   OperatingPoint there = op;
-  displace(system, there, distance * step, 1.0);
+  displace(system, there, distance * step, {1.0});
   Findings ignored;
   auto assembled = assemble_position(system, std::move(there), ignored);
   if (!assembled) return std::nullopt;
@@ -44,7 +44,7 @@ std::vector<std::int32_t> redundant_rows(const System& system, const OperatingPo
 }
 
 void singular_configuration(const System& system, const OperatingPoint& op, const LinearSystem& linear,
-                            std::vector<std::string>& out) {
+                            Diagnostics& out) {
   const auto here = redundant_rows(system, op);
   if (here.empty() || linear.kinematic_states == 0) return;
   const auto beside = nearby(system, op, linear);
@@ -52,17 +52,21 @@ void singular_configuration(const System& system, const OperatingPoint& op, cons
   const auto there = redundant_rows(system, *beside);
   if (there.size() >= here.size()) return;
   std::vector<std::string> rows;
+  std::int32_t first = here.front();
   for (const std::int32_t r : here) {
-    if (std::find(there.begin(), there.end(), r) == there.end()) rows.push_back(system.row_text(r));
+    if (std::find(there.begin(), there.end(), r) != there.end()) continue;
+    if (rows.empty()) first = r;
+    rows.push_back(system.row_text(r));
   }
-  out.push_back(fmt::format(
-      "the configuration is singular: {} {} redundant here and not right beside it; the model has {} more degree{} of "
-      "freedom than nearby, and modes and frequencies change abruptly",
-      fmt::join(rows, ", "), rows.size() == 1 ? "is" : "are", here.size() - there.size(),
-      here.size() - there.size() == 1 ? "" : "s"));
+  out.warning("singular-configuration", system.layout().rows[static_cast<std::size_t>(first)].owner->at,
+              fmt::format("the configuration is singular: {} {} redundant here and not right beside it; the model has "
+                          "{} more degree{} of "
+                          "freedom than nearby, and modes and frequencies change abruptly",
+                          fmt::join(rows, ", "), rows.size() == 1 ? "is" : "are", here.size() - there.size(),
+                          here.size() - there.size() == 1 ? "" : "s"));
 }
 
-void disproportion(const System& system, const LinearSystem& linear, std::vector<std::string>& out) {
+void disproportion(const System& system, const LinearSystem& linear, Diagnostics& out) {
   constexpr double far = 1e5;
   double largest = far;
   std::int32_t mover = -1;
@@ -78,39 +82,39 @@ void disproportion(const System& system, const LinearSystem& linear, std::vector
   }
   if (mover < 0) return;
   const StateLabel& s = linear.model.states[chosen];
-  out.push_back(fmt::format("near a singular configuration: {} moves {:.1e} times as far as the chosen {} of {}",
-                            system.layout().coordinate_text(mover), largest, s.text, s.owner.text()));
+  out.warning("near-singular", {},
+              fmt::format("near a singular configuration: {} moves {:.1e} times as far as the chosen {} of {}",
+                          system.layout().coordinate_text(mover), largest, s.text, s.owner.text()));
 }
 
-void motion(const System& system, const OperatingPoint& op, const EigenSolution& modes, std::vector<std::string>& out) {
+void motion(const System& system, const OperatingPoint& op, const EigenSolution& modes, Diagnostics& out) {
   // Against what the fastest mode does to the model as a whole, and gravity.
   double fastest = 0;
   for (const EigenMode& m : modes.modes) fastest = std::max(fastest, 2 * std::numbers::pi * std::abs(m.eigenvalue_hz));
   const double L = system.length();
   const double scale = std::max(norm(system.model().gravity), L * fastest * fastest);
   double most = std::max(1e-6 * scale, 1e-12 * L);
-  const ElementLabel* part = nullptr;
-  double acceleration = 0, turning = 0;
-  for (const BodyBlock& b : system.layout().bodies) {
-    if (b.count == 0) continue;
-    const auto part_of = [&](const std::vector<double>& of, std::int32_t first) {
-      const auto at = static_cast<std::size_t>(b.offset + first);
-      return norm(Vector{of[at], of[at + 1], of[at + 2]});
-    };
-    const double a = part_of(op.acceleration, 0), w = b.count == 6 ? part_of(op.velocity, 3) : 0;
-    const double size = a + L * (w * w + (b.count == 6 ? part_of(op.acceleration, 3) : 0));
-    if (size > most * (1 + 1e-9)) most = size, part = &b.label, acceleration = a, turning = w;
+  struct {
+    const ElementLabel* part = nullptr;
+    double acceleration, turning, spin_up;
+  } found{};
+  const Motion motion = system.motion(op);
+  for (std::size_t b = 1; b < motion.bodies.size(); ++b) {
+    const BodyMotion& m = motion.bodies[b];
+    // Of the mass centre: where the origin of a part lies is the choice of its author.
+    const double a = norm(m.rddot + m.Rddot * system.model().bodies[b].p_BC), w = norm(m.w), spin_up = norm(m.wdot);
+    const double size = a + L * (w * w + spin_up);
+    if (size > most * (1 + 1e-9)) most = size, found = {&system.layout().bodies[b].label, a, w, spin_up};
   }
-  if (!part) return;
-  out.push_back(
-      fmt::format("the point accelerates or turns, most of all {} (acceleration {:.5g} length/time², angular "
-                  "velocity {:.5g} rad/time): the eigenvalues hold for this instant, and mode shapes may be "
-                  "strange",
-                  part->full_text(), acceleration, turning));
+  if (!found.part) return;
+  out.warning("accelerating-point", found.part->at,
+              fmt::format("the point accelerates or turns, most of all {} (acceleration of its mass centre {:.5g} "
+                          "length/time², angular velocity {:.5g} rad/time, angular acceleration {:.5g} rad/time²): the "
+                          "eigenvalues hold for this instant, and mode shapes may be strange",
+                          found.part->full_text(), found.acceleration, found.turning, found.spin_up));
 }
 
-void overdamping(const System& system, const LinearSystem& linear, const EigenSolution& modes,
-                 std::vector<std::string>& out) {
+void overdamping(const System& system, const LinearSystem& linear, const EigenSolution& modes, Diagnostics& out) {
   if (modes.without_damping) return;
   int falling = 0, others = 0;
   const EigenMode* slowest = nullptr;
@@ -125,17 +129,17 @@ void overdamping(const System& system, const LinearSystem& linear, const EigenSo
   // Coordinates of first order bring one real mode each.
   const int pairs = (falling - others - static_cast<int>(linear.first_order)) / 2;
   if (pairs < 1 || !slowest) return;
-  out.push_back(
-      fmt::format("{} mode{} overdamped, the slowest is mode {} of {}: with NODAMPIN the vibrations behind "
-                  "them show",
-                  pairs, pairs == 1 ? " is" : "s are", number, slowest->moves_most));
+  out.warning("overdamped-modes", {},
+              fmt::format("{} mode{} overdamped, the slowest is mode {} of {}: with NODAMPIN the vibrations behind "
+                          "them show",
+                          pairs, pairs == 1 ? " is" : "s are", number, slowest->moves_most));
 }
 
 }  // namespace
 
-std::vector<std::string> cautions(const System& system, const OperatingPoint& op, const LinearSystem& linear,
-                                  const EigenSolution& modes) {
-  std::vector<std::string> out;
+Diagnostics cautions(const System& system, const OperatingPoint& op, const LinearSystem& linear,
+                     const EigenSolution& modes) {
+  Diagnostics out;
   singular_configuration(system, op, linear, out);
   disproportion(system, linear, out);
   motion(system, op, modes, out);

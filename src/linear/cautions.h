@@ -5,11 +5,11 @@
 
 namespace dynalin {
 
-// Sentences, each with the part, joint or row it is about:
+// Warnings, each with the part, joint or row it is about:
 //   a singular configuration, whose dependent rows are independent right beside it: frequencies of nearby points
 //   differ, a coordinate that moves out of all proportion to the chosen ones, as near such a configuration, parts that
 //   accelerate or turn at the point: the eigenvalues hold for this instant, overdamped modes: real pairs where
 //   vibrations would be without damping.
-std::vector<std::string> cautions(const System&, const OperatingPoint&, const LinearSystem&, const EigenSolution&);
+Diagnostics cautions(const System&, const OperatingPoint&, const LinearSystem&, const EigenSolution&);
 
 }  // namespace dynalin

@@ -114,7 +114,7 @@ class Linearizer {
     massless_->limit = std::move(**limit);
     massless_->at_rest = at_rest(system_, op_, massless_->limit.directions);
     if (auto taken = take_massless_states(system_, rows_, choice, *massless_); !taken) return taken;
-    result_.warnings.insert(result_.warnings.end(), massless_->remarks.begin(), massless_->remarks.end());
+    result_.warnings.append(massless_->remarks);
     result_.first_order = massless_->first_order;
     result_.has_massless_states = true;
     return {};
@@ -136,22 +136,25 @@ class Linearizer {
     for (const Model::FollowedVariable& f : model.followed_in_time) {
       const std::int32_t followed = system_.signals().variable(f.variable).index;
       if (std::find(inputs_.begin(), inputs_.end(), followed) == inputs_.end()) continue;
-      result_.warnings.push_back(
+      result_.warnings.warning(
+          "followed-input", model.label(f.variable).at,
           fmt::format("{} is a plant input, and {} follows its course in time; the linear model holds the motion",
                       model.label(f.variable).full_text(), f.follower->full_text()));
     }
     for (const std::int32_t u : inputs_) {
       const AlgebraicUnknown& unknown = layout_.algebraic[static_cast<std::size_t>(u)];
       if (unknown.rate >= 0) {
-        result_.warnings.push_back(fmt::format(
-            "{} is a plant input, and a DIF1 needs its time derivative, which no state-space model has: the "
-            "linear model takes it as zero",
-            unknown.owner->full_text()));
+        result_.warnings.warning(
+            "rate-of-input", unknown.owner->at,
+            fmt::format("{} is a plant input, and a DIF1 needs its time derivative, which no state-space model has: "
+                        "the linear model takes it as zero",
+                        unknown.owner->full_text()));
       }
       const bool depends = depends_on_anything(u);
       const double value = op_.algebraic[static_cast<std::size_t>(u)];
       if (depends || value != 0.0) {
-        result_.warnings.push_back(
+        result_.warnings.warning(
+            "dependent-input", unknown.owner->at,
             fmt::format("{} is a plant input but its own expression {}; the linear model takes it as independent. "
                         "Remove it from the "
                         "PINPUT, or put a new VARIABLE with FUNCTION=0 there and add its VARVAL to the expression",
@@ -377,7 +380,8 @@ Result<LinearSystem> linearize(const System& system, OperatingPoint op, const Li
                 {}});
   }
   if (part > worth_a_warning) {
-    linear->warnings.push_back(
+    linear->warnings.warning(
+        "near-singular", {},
         fmt::format("near a singular configuration: {} all but depend on each other (relative distance {:.1e}); "
                     "rounding of the velocities changes the state matrix by {:.0e} of its size, which the error bounds "
                     "of the eigenvalues hold",

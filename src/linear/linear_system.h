@@ -39,7 +39,7 @@ struct LinearSystem {
   std::vector<double> scales;           // of states: how much of a coordinate compares with the length of the model and
                                         // a radian; 0 for rates, differential states and what may have any size
   bool principal_states = false;        // those of the original implementation are in force
-  std::vector<std::string> warnings;
+  Diagnostics warnings;
   // Columns of states, then inputs: variations of all coordinates, rates, accelerations, multipliers, algebraic values.
   Eigen::MatrixXd dq, dqdot, dqddot, dlambda, dw;
   Eigen::MatrixXd A;         // as computed; in the model, entries that are nothing but rounding are zero

@@ -104,7 +104,8 @@ class Taker {
     for (const Index c : listed) {
       const StateLabel& label = choice_.coordinates[static_cast<std::size_t>(c)].label;
       if (!is_condensed(c)) ++states_.first_order;
-      states_.remarks.push_back(
+      states_.remarks.warning(
+          "massless-freedom", {},
           is_condensed(c)
               ? fmt::format(
                     "{} of {} has no mass and is held by stiffness alone: it follows from the balance of forces "
@@ -117,7 +118,8 @@ class Taker {
     for (const auto& [grows, what] :
          {std::pair(limit_.outruns_damping, "damping"), std::pair(limit_.outruns_stiffness, "stiffness")}) {
       if (grows) {
-        states_.remarks.push_back(
+        states_.remarks.warning(
+            "massless-runaway", {},
             fmt::format("the {} of freedoms without mass ({}) is negative: with a small mass they would run away at "
                         "once, which the limit of vanishing mass does not show",
                         what, names_of(system_, limit_.directions, Matrix::Identity(limit_.count(), limit_.count()))));

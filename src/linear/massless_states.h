@@ -11,7 +11,7 @@ struct MasslessStates {
   MasslessLimit limit;
   bool at_rest = false;         // all coefficients are constant, so that balances may be differentiated
   std::size_t first_order = 0;  // coordinates that keep their position alone
-  std::vector<std::string> remarks;
+  Diagnostics remarks;
 };
 
 // Takes the states away and lists the others anew.

@@ -26,7 +26,7 @@ struct StateChoice {
   std::int32_t first_differential = 0;
   std::vector<StateLabel> states;  // all, as listed: rate before coordinate, then differential states
   std::vector<double> scales;      // StateCoordinate::scale of those that are coordinates, 0 for all others
-  std::vector<std::string> warnings;
+  Diagnostics warnings;
 
   std::int32_t size() const { return static_cast<std::int32_t>(states.size()); }
   bool splits_unequally() const;  // fewer rates than coordinates, or other rows

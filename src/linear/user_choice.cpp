@@ -62,9 +62,10 @@ class Preference {
     if (left > independent) {
       take(c, std::move(gradient), motion, rest, along);
       if (left < barely_independent) {
-        choice_.warnings.push_back(fmt::format("{} is nearly {}: only {:.1e} of its gradient is a motion of its own",
-                                               c.state.label.text,
-                                               taken_.size() > 1 ? "dependent on those before it" : "constant", left));
+        choice_.warnings.warning(
+            "dependent-coordinate", {},
+            fmt::format("{} is nearly {}: only {:.1e} of its gradient is a motion of its own", c.state.label.text,
+                        taken_.size() > 1 ? "dependent on those before it" : "constant", left));
       }
     } else if (given == 0) {
       refuse(c, "it is constant, to first order, wherever the model moves");
@@ -76,7 +77,7 @@ class Preference {
   }
 
   void refuse(const Candidate& c, const std::string& why) {
-    choice_.warnings.push_back(fmt::format("{} was not taken: {}", c.state.label.text, why));
+    choice_.warnings.warning("dependent-coordinate", {}, fmt::format("{} was not taken: {}", c.state.label.text, why));
   }
 
   void take(const Candidate& c, std::vector<StateChoice::Entry> gradient, const Vector& motion, const Vector& rest,

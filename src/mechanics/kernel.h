@@ -89,6 +89,8 @@ class Kernel {
   virtual std::size_t element_of_wrench(std::size_t which) const { return which; }
   virtual MarkerId marker_I(std::size_t) const { return {}; }
   virtual MarkerId marker_J(std::size_t) const { return {}; }
+  // The marker along whose axes the statement gives the components.
+  virtual MarkerId marker_of_axes(std::size_t which) const { return marker_J(which); }
   virtual void wrench(const Motion&, std::size_t /*which*/, bool /*with_partials*/, MarkerWrench&) const {}
 
   // --- what data functions read ----------------------------------------------------------------------

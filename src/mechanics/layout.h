@@ -116,7 +116,7 @@ class Layout {
   const CurvePoint* curve_point(MarkerId) const;
   // Why the model cannot be solved as it stands, found while its equations were made.
   Diagnostics problems;
-  std::vector<std::string> remarks;  // worth a warning in every run
+  Diagnostics remarks;  // worth a warning in every run
   // "DX of PART/3" and the like, for messages.
   std::string coordinate_text(std::int32_t coordinate) const;
 };

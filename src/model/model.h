@@ -12,19 +12,13 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "dynalin/units.h"
 #include "expression/spline.h"
 #include "mechanics/layout.h"
 #include "model/kind.h"
 #include "model/settings.h"
 
 namespace dynalin {
-
-// Force · ucf = mass · acceleration. The dataset's units are consistent but for this factor.
-struct Units {
-  bool stated = false;
-  double ucf = 1;
-  double length_in_metres = 1;
-};
 
 // Initial velocity as stated: only the components that are given. Everything else may change freely.
 struct StatedVelocity {

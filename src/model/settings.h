@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostics.h"
+
 namespace dynalin {
 
 // EQUILIBRIUM: what static analyses iterate with.
@@ -29,6 +31,8 @@ struct InitialConditionSettings {
 struct ResultsSettings {
   bool xrf = false;
   bool without_linear = false;  // NOLINEAR
+  bool without_displacements = false, without_velocities = false, without_accelerations = false;
+  bool without_reactions = false, without_forces = false, without_system_elements = false;
   std::optional<std::int64_t> decimal_places;
 };
 
@@ -37,7 +41,7 @@ struct Settings {
   InitialConditionSettings initial_conditions;
   ResultsSettings results;
   std::vector<std::string> passed_over;  // "INTEGRATOR/HMAX": stated, and nothing acts on it
-  std::vector<std::string> remarks;      // worth a sentence in every run
+  Diagnostics remarks;                   // worth a sentence in every run
 };
 
 // Values that `later` states replace those of `earlier`.

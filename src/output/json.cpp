@@ -1,15 +1,15 @@
 #include "output/json.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <ostream>
+
+#include "output/json_values.h"
 
 namespace dynalin {
 
-using Json = nlohmann::ordered_json;
-
 struct JsonResults::Document {
-  Json results = Json::array();
+  Json results = Json::array(), warnings = Json::array(), errors = Json::array();
+  Json units, status, files = Json::array();
 };
 
 namespace {
@@ -130,9 +130,43 @@ void JsonResults::add(const std::string& command, const SecondOrder& s) {
                                 {"outputs", channels(s.outputs)}});
 }
 
+void JsonResults::add(const std::string& command, const OperatingState& s) {
+  document_->results.push_back({{"command", command}, {"time", s.time}, {"operating_point", json_of(s)}});
+}
+
+void JsonResults::add(const std::string& command, const StaticResult& s) {
+  document_->results.push_back({{"command", command},
+                                {"time", s.at_rest.time},
+                                {"iterations", s.iterations},
+                                {"imbalance", s.imbalance},
+                                {"stability", json_of(s.stability)},
+                                {"operating_point", json_of(s.at_rest)}});
+}
+
+void JsonResults::add_point(const OperatingState& s) { document_->results.back()["operating_point"] = json_of(s); }
+
+void JsonResults::add_warning(const std::string& command, const Diagnostic& d) {
+  Json warning = json_of(d);
+  warning["command"] = command.empty() ? Json() : Json(command);
+  document_->warnings.push_back(std::move(warning));
+}
+
+void JsonResults::add_failure(const std::string& command, const std::string& message,
+                              const std::vector<std::string>& details) {
+  document_->errors.push_back({{"command", command}, {"message", message}, {"details", details}});
+}
+
+void JsonResults::finish(const Units& units, int status, const std::vector<std::string>& files) {
+  document_->units = json_of(units);
+  document_->status = status;
+  document_->files = files;
+}
+
 void JsonResults::write(std::ostream& out) const {
+  const Json all = {{"results", document_->results}, {"units", document_->units},   {"warnings", document_->warnings},
+                    {"errors", document_->errors},   {"status", document_->status}, {"files", document_->files}};
   // Commands are kept as written; bytes that are no UTF-8 become replacement characters.
-  out << Json{{"results", document_->results}}.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+  out << all.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
 }  // namespace dynalin

@@ -1,11 +1,15 @@
-// Everything a run computed, machine-readable: {"results": [an object a command]}.
+// Everything a run computed, machine-readable: {"results": [an object a command], …}. docs/json.md is its manual.
 #pragma once
 
 #include <iosfwd>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "base/diagnostics.h"
+#include "dynalin/operating_state.h"
 #include "dynalin/results.h"
+#include "dynalin/units.h"
 
 namespace dynalin {
 
@@ -17,6 +21,16 @@ class JsonResults {
   void add(const std::string& command, const EigenSolution&);
   void add(const std::string& command, const StateSpace&);
   void add(const std::string& command, const SecondOrder&);
+  // SIMULATE: the point that it found.
+  void add(const std::string& command, const OperatingState&);
+  void add(const std::string& command, const StaticResult&);
+  // The point at which the last result was linearized.
+  void add_point(const OperatingState&);
+  // `command` is the one that it came up with, empty for what was found in reading.
+  void add_warning(const std::string& command, const Diagnostic&);
+  void add_failure(const std::string& command, const std::string& message, const std::vector<std::string>& details);
+  // What concerns the run as a whole.
+  void finish(const Units&, int status, const std::vector<std::string>& files);
   void write(std::ostream&) const;
 
  private:

@@ -157,7 +157,7 @@ void write_footer(std::ostream& out, bool complete, double elapsed) {
              elapsed);
 }
 
-void write_eigen_table(std::ostream& out, const EigenSolution& e, bool with_bounds) {
+void write_eigen_table(std::ostream& out, const EigenSolution& e, const std::string& unit, bool with_bounds) {
   const auto line = [&](std::string_view number, std::string_view frequency, std::string_view damping,
                         std::string_view real, std::string_view imaginary, const std::string& bounds,
                         std::string_view mover) {
@@ -169,7 +169,7 @@ void write_eigen_table(std::ostream& out, const EigenSolution& e, bool with_boun
   };
   line("mode", "frequency", "damping", "real", "imaginary", columns("error bound", "condition"),
        e.vectors.size() ? "moves most" : "");
-  line("", "cycles/time", "ratio", "cycles/time", "cycles/time", columns("cycles/time", ""), "");
+  line("", unit, "ratio", unit, unit, columns(unit, ""), "");
   int number = 0;
   const double fastest = largest_modulus(e);
   for (const EigenMode& m : e.modes) {

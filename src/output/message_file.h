@@ -27,7 +27,7 @@ void write_matrix_states(std::ostream&, const SecondOrder&);
 void write_footer(std::ostream&, bool complete, double elapsed);
 
 // A table for the terminal: frequency, damping ratio, real and imaginary part; on request how far each eigenvalue may
-// be off and its condition number.
-void write_eigen_table(std::ostream&, const EigenSolution&, bool with_bounds);
+// be off and its condition number. `unit` is that of frequencies, "cycles/s".
+void write_eigen_table(std::ostream&, const EigenSolution&, const std::string& unit, bool with_bounds);
 
 }  // namespace dynalin

@@ -10,29 +10,6 @@ namespace dynalin {
 
 namespace {
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return out;
-}
-
 std::string state_map(const std::vector<StateLabel>& states) {
   std::string s = "<dl:StateMap>\n";
   int id = 0;
@@ -127,15 +104,17 @@ void ResultsFile::add(const SecondOrder& model) {
   blocks_.push_back(s + "</dl:Linear>\n");
 }
 
-void ResultsFile::write(std::ostream& out, const std::string& version) const {
+void ResultsFile::write(std::ostream& out, const std::string& version, Ending ending) const {
   fmt::print(out,
              "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Results xmlns=\"http://www.mscsoftware.com/:xrf10\" "
              "xmlns:dl=\"urn:dynalin:linear:1\">\n");
   fmt::print(out, "<Bibliography>\n<File schema=\"xrf\" version=\"2.0.0.0\" />\n</Bibliography>\n");
   fmt::print(out, "<Analysis name=\"ANALYSIS_01\" Solver=\"Dynalin {}\">\n<ModelInfo title=\"{}\" />\n", version,
              escaped(title_));
+  out << steps_.text([this](double x) { return number(x); });
   for (const std::string& block : blocks_) out << block;
-  fmt::print(out, "</Analysis>\n</Results>\n");
+  fmt::print(out, "<TerminationStatus runTermObject=\"\" runStatus=\"{}\" />\n</Analysis>\n</Results>\n",
+             ending == Ending::successful ? "Successful" : "Failed");
 }
 
 }  // namespace dynalin

@@ -1,6 +1,6 @@
-// The results file (.res) in XRF: the frame that readers of time histories expect, and behind it, in a namespace of its
-// own that they pass over, what linear analyses found. No public sample shows the element set that Adams itself writes
-// for modes.
+// The results file (.res) in XRF: operating points as the steps that readers of time histories expect, and behind them,
+// in a namespace of its own that they pass over, what linear analyses found. No public sample shows the element set
+// that Adams itself writes for modes.
 #pragma once
 
 #include <iosfwd>
@@ -8,17 +8,21 @@
 #include <vector>
 
 #include "dynalin/results.h"
+#include "output/results_steps.h"
 
 namespace dynalin {
 
 class ResultsFile {
  public:
   // `digits` significant decimals of every number (DECIMALPLACES).
-  ResultsFile(std::string title, int digits) : title_(std::move(title)), digits_(digits) {}
+  ResultsFile(std::string title, int digits, Units units, ResultsSettings settings)
+      : title_(std::move(title)), digits_(digits), steps_(std::move(units), std::move(settings)) {}
+  void add(StepKind kind, const OperatingState& state) { steps_.add(kind, state); }
   void add(const EigenSolution&);
   void add(const StateSpace&);
   void add(const SecondOrder&);
-  void write(std::ostream&, const std::string& version) const;
+  enum class Ending : bool { successful, failed };
+  void write(std::ostream&, const std::string& version, Ending) const;
 
  private:
   std::string number(double) const;
@@ -28,6 +32,7 @@ class ResultsFile {
   std::string head(const Matrices&, std::string_view option) const;
   std::string title_;
   int digits_;
+  ResultsSteps steps_;
   std::vector<std::string> blocks_;
 };
 

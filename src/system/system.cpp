@@ -160,9 +160,10 @@ System::System(std::shared_ptr<const Model> model, const SystemOptions& options)
   for (const Body& b : model_->bodies) layout_.add_body(b.kind, b.label);
   for (const Body& b : model_->bodies) {
     if (!b.origin_at.valid()) continue;
-    layout_.remarks.push_back(b.label.full_text() + " has its BCS far from all its markers: the origin of " +
-                              model_->marker(b.origin_at).label.full_text() +
-                              " is taken instead, and its translations are meant where they are those of the BCS");
+    layout_.remarks.warning("distant-origin", b.label.at,
+                            b.label.full_text() + " has its BCS far from all its markers: the origin of " +
+                                model_->marker(b.origin_at).label.full_text() +
+                                " is taken instead, and its translations are meant where they are those of the BCS");
   }
   layout_.markers.reserve(model_->markers.size());
   layout_.marker_labels.reserve(model_->markers.size());

@@ -34,15 +34,34 @@ TEST_F(Caution, accelerating_and_turning_points_name_the_part) {
   // The spring is drawn 0.5 too long: 50 length/time².
   std::string pulled = slide(100, 0);
   pulled.replace(pulled.find("LENGTH=1"), 8, "LENGTH=.5");
-  EXPECT_THAT(run(pulled, "LINEAR/EIGENSOL\n").err,
-              HasSubstr("most of all PART/2 (carriage) (acceleration 50 length/time², angular velocity 0"));
+  EXPECT_THAT(
+      run(pulled, "LINEAR/EIGENSOL\n").err,
+      HasSubstr("most of all PART/2 (carriage) (acceleration of its mass centre 50 length/time², angular velocity 0"));
   EXPECT_THAT(run(pulled, "SIMULATE/STATIC\nLINEAR/EIGENSOL\n").err, Not(HasSubstr("accelerates")));
   EXPECT_THAT(run(slide(100, 0, ", VX=3"), "LINEAR/EIGENSOL\n").err, Not(HasSubstr("accelerates")));
   const RunResult top =
       run("Top\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,2, WZ=7\nMARKER/20\n"
           "JOINT/1, REVOLUTE, I=20, J=1\nEND\n",
           "LINEAR/EIGENSOL\n");
-  EXPECT_THAT(top.err, HasSubstr("PART/2 (acceleration 0 length/time², angular velocity 7 rad/time)"));
+  EXPECT_THAT(top.err, HasSubstr("PART/2 (acceleration of its mass centre 0 length/time², angular velocity 7 rad/time, "
+                                 "angular acceleration 0 rad/time²)"));
+}
+
+// What counts of a body is its mass centre, wherever its author put the origin, and how its rotation speeds up.
+TEST_F(Caution, of_acceleration_look_at_mass_centre_and_angular_acceleration) {
+  const auto disc = [&](const std::string& more, const std::string& torque) {
+    return run("Disc\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,2, QG=-3,0,0" + more +
+                   "\nMARKER/20, QP=3,0,0\nJOINT/1, REVOLUTE, I=20, J=1\n"
+                   "SFORCE/1, ROTATIONAL, ACTIONONLY, I=20, J=20, FUNCTION=" +
+                   torque + "\nEND\n",
+               "LINEAR/EIGENSOL\n")
+        .err;
+  };
+  EXPECT_THAT(disc("", "10"), HasSubstr("(acceleration of its mass centre 0 length/time², angular velocity 0 rad/time, "
+                                        "angular acceleration 5 rad/time²)"));
+  EXPECT_THAT(disc(", WZ=2", "-9*AZ(20,1)"),
+              HasSubstr("(acceleration of its mass centre 0 length/time², angular velocity 2 "));
+  EXPECT_THAT(disc("", "0"), Not(HasSubstr("accelerates")));
 }
 
 // Two cranks of length 1 and a coupler of length 2 between hinges 2 apart, all on one line: the parallelogram may go

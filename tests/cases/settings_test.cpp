@@ -2,6 +2,7 @@
 // named once where nothing does.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "cases/run.h"
@@ -41,10 +42,11 @@ TEST_F(Settings, of_every_statement_are_read) {
       "MREQUEST/1, WHAT=EVER\nMATERIAL/1, NAME=steel\n");
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_EQ(count(r.err, "nothing here acts on"), 1u) << r.err;
-  for (const char* name : {"EQUILIBRIUM/ERROR", "IC/MAXIT", "INTEGRATOR/HMAX", "KINEMATICS/HMAX", "OUTPUT/REQSAVE",
-                           "DEBUG/EPRINT", "LSOLVER/AUTO", "EQUILIBRIUM/METHOD"})
+  for (const char* name : {"EQUILIBRIUM/STABILITY", "EQUILIBRIUM/PATTERN", "IC/MAXIT", "INTEGRATOR/HMAX",
+                           "KINEMATICS/HMAX", "OUTPUT/REQSAVE", "DEBUG/EPRINT", "LSOLVER/AUTO", "EQUILIBRIUM/METHOD"})
     EXPECT_EQ(count(r.err, name), 1u) << name;
-  for (const char* acting : {"EQUILIBRIUM/MAXIT", "EQUILIBRIUM/ALIMIT", "RESULTS", "GRAPHICS"})
+  for (const char* acting : {"EQUILIBRIUM/MAXIT", "EQUILIBRIUM/ALIMIT", "EQUILIBRIUM/TLIMIT", "EQUILIBRIUM/ERROR",
+                             "EQUILIBRIUM/IMBALANCE", "RESULTS", "GRAPHICS"})
     EXPECT_THAT(r.err, Not(HasSubstr(acting)));
 }
 
@@ -72,11 +74,11 @@ TEST_F(Settings, that_do_not_exist_are_errors_at_their_place) {
 
 TEST_F(Settings, of_commands_replace_those_of_the_dataset_and_are_named_once) {
   const RunResult r =
-      with("EQUILIBRIUM/ERROR=1E-6\n",
+      with("EQUILIBRIUM/STABILITY=1E-6\n",
            "equil/maxit=100,stab=1e-3,imb=1,alim=2.0D,tlim=5,err=0.5\nequil/err=0.5, stab=1e-6\nint/hht, "
            "error=1e-5\ninte/list\nequilibrium/list\noutput/noprint\nic/list\nsim/stat\nlin/eig\n");
   ASSERT_EQ(r.status, 0) << r.err;
-  EXPECT_EQ(count(r.err, "EQUILIBRIUM/ERROR"), 1u) << r.err;
+  EXPECT_EQ(count(r.err, "EQUILIBRIUM/ERROR"), 0u) << r.err;
   EXPECT_EQ(count(r.err, "EQUILIBRIUM/STABILITY"), 1u) << r.err;
   EXPECT_EQ(count(r.err, "INTEGRATOR/HHT"), 1u) << r.err;
   EXPECT_EQ(count(r.err, "OUTPUT/NOPRINT"), 1u) << r.err;
@@ -97,6 +99,62 @@ TEST_F(Settings, a_rotation_limit_bounds_the_steps_of_statics) {
   EXPECT_GT(fine, 75);
   EXPECT_EQ(iterations("EQUILIBRIUM/ALIMIT=40D\n", "EQUILIBRIUM/ALIMIT=1D\n"), fine);
   EXPECT_EQ(iterations("EQUILIBRIUM/ALIMIT=1D\n", "EQUILIBRIUM/DEFAULT, ALIMIT=40D\n"), coarse);
+}
+
+// A slider along z under a force; the model is 1 long.
+class StaticSettings : public Settings {
+ protected:
+  RunResult slider(const std::string& force, const std::string& settings) const {
+    return run(
+        "Slider\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1, QG=0,0,1\n"
+        "MARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\nSFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=" +
+            force + "\n" + settings + "END\n",
+        "SIMULATE/STATICS\n");
+  }
+};
+
+TEST_F(StaticSettings, a_translation_limit_bounds_the_steps) {
+  const auto iterations = [&](const std::string& settings) {
+    const RunResult r = slider("101-DZ(20)", settings);
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.status == 0 ? r.result(0).at("iterations").get<int>() : -1;
+  };
+  EXPECT_LT(iterations(""), 5);
+  EXPECT_GE(iterations("EQUILIBRIUM/TLIMIT=2\n"), 50);
+  EXPECT_LT(iterations("EQUILIBRIUM/TLIMIT=2\n"), 60);
+  EXPECT_LT(iterations("EQUILIBRIUM/TLIMIT=50\n"), 8);
+}
+
+// 0.01 + 100 |z − 1.001| has no zero: the step to its kink is of 1e-4, and 0.01 stays out of balance there. A force
+// that fades like e^−z is as small as one likes somewhere, and Newton's step stays 1.
+TEST_F(StaticSettings, error_and_imbalance_say_what_is_taken_where_nothing_is_exact) {
+  const std::string kink = "0.01+100*ABS(DZ(20)-1.001)", fade = "EXP(-DZ(20))";
+  const auto status = [&](const std::string& force, const std::string& settings) {
+    const RunResult r = slider(force, settings);
+    if (r.status == 0) {
+      EXPECT_EQ(r.json.at("warnings").at(0).at("code"), "loose-equilibrium") << r.err;
+      EXPECT_THAT(r.err, HasSubstr("within what EQUILIBRIUM allows"));
+    } else {
+      EXPECT_THAT(r.err, HasSubstr("no equilibrium was found"));
+    }
+    return r.status;
+  };
+  EXPECT_EQ(status(kink, ""), 2);
+  EXPECT_EQ(status(kink, "EQUILIBRIUM/ERROR=1e-3, IMBALANCE=0.1\n"), 0);
+  EXPECT_EQ(status(kink, "EQUILIBRIUM/ERROR=1e-3, IMBALANCE=1e-3\n"), 2);
+  EXPECT_EQ(status(kink, "EQUILIBRIUM/ERROR=1e-6, IMBALANCE=0.1\n"), 2);
+  EXPECT_EQ(status(fade, ""), 2);
+  EXPECT_EQ(status(fade, "EQUILIBRIUM/ERROR=2\n"), 0);
+  EXPECT_EQ(status(fade, "EQUILIBRIUM/ERROR=0.5\n"), 2);
+  EXPECT_EQ(status(fade, "EQUILIBRIUM/IMBALANCE=100\n"), 2);
+}
+
+TEST_F(StaticSettings, never_make_an_equilibrium_less_exact) {
+  const RunResult r = slider("2-DZ(20)**3", "EQUILIBRIUM/ERROR=1, IMBALANCE=1\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_NEAR(r.result(0).at("operating_point").at("bodies").at(0).at("position").at(2).get<double>(), std::cbrt(2.0),
+              1e-15);
+  EXPECT_TRUE(r.json.at("warnings").empty()) << r.err;
 }
 
 TEST_F(Settings, nolinear_keeps_linear_results_out_of_the_results_file) {

@@ -119,8 +119,8 @@ TEST_F(UserCoordinates, a_refused_coordinate_names_those_it_depends_on) {
                           "PSTATE/1, VARIABLES=1,2,6,3,4,5\n"),
           "LINEAR/EIGENSOL, PSTATE=1\n");
   ASSERT_EQ(r.status, 0) << r.err;
-  EXPECT_THAT(r.err, HasSubstr("VAR/2 DX(22) was not taken: it depends on VAR/1\n"));
-  EXPECT_THAT(r.err, HasSubstr("VAR/4 AZ(31) was not taken: it depends on VAR/1, VAR/3\n"));
+  EXPECT_THAT(r.err, HasSubstr("VAR/2 DX(22) was not taken: it depends on VAR/1 [dependent-coordinate]\n"));
+  EXPECT_THAT(r.err, HasSubstr("VAR/4 AZ(31) was not taken: it depends on VAR/1, VAR/3 [dependent-coordinate]\n"));
   EXPECT_THAT(r.err, HasSubstr("VAR/5 DZ(30) was not taken: the constraints keep it constant here"));
   EXPECT_THAT(r.err, HasSubstr("VAR/6 DZ(1) was not taken: it is constant"));
 }

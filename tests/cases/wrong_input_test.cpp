@@ -41,8 +41,8 @@ const std::vector<Wrong>& table() {
     {Place::added, "PART/123456789, QG=1,2,3", {"long-id 10:6"}},
     {Place::added, "PART/9, QG=", {"missing-value 10:11"}},
     {Place::added, "MARKER/9, QP=1,,3", {"missing-value 10:16"}},
-    {Place::whole, "PART/1, GROUND\nEND\n", {"missing-title 1:1"}},
-    {Place::whole, "title\nPART/1, GROUND\n", {"missing-end 2:15"}},
+    {Place::whole, "PART/1, GROUND\nEND\n", {"missing-title 1:1", "no-units 0:0"}},
+    {Place::whole, "title\nPART/1, GROUND\n", {"missing-end 2:15", "no-units 0:0"}},
     {Place::whole, "", {"empty-dataset 1:1"}},
     {Place::whole, "   \n \n", {"empty-dataset 1:1"}},
     {Place::added, "this is no statement", {"not-a-statement 10:1"}},
@@ -300,6 +300,7 @@ const std::vector<Wrong>& table() {
     {Place::added, "PART/9, MASS=1, CM=1E2D, QG=1,2,3", {"expected-integer 10:20"}},
     {Place::added, "PART/9, QG=1D3,2,3", {"expected-number 10:13"}},
     {Place::added, "PART/9, MASS=1.5D3E2", {"expected-number 10:17"}},
+    {Place::added, "JOINT/9, UNIVERSAL, I=21, J=1", {"parallel-axes 10:1"}},
   };
   // clang-format on
   return rows;
@@ -356,6 +357,12 @@ TEST(WrongInputTable, has_every_code_but_those_that_unit_tests_hold) {
   for (const Wrong& w : table()) {
     for (const std::string& p : w.problems) covered.insert(p.substr(0, p.find(' ')));
   }
+  static constexpr std::string_view remarks[] = {
+#define DYNALIN_DIAGNOSTIC(code, text, advice) code,
+#include "base/diagnostics/remarks.def"
+#undef DYNALIN_DIAGNOSTIC
+  };
+  for (const std::string_view code : remarks) covered.insert(std::string(code));  // remark_test
   for (const Explanation& e : explanations()) EXPECT_TRUE(covered.contains(std::string(e.code))) << e.code;
 }
 

@@ -138,16 +138,17 @@ class DiffSet final : public TypedSet<Diff> {
           item.terms = {{role.equation, sign(role.equation), !elements[role.equation].implicit}};
         }
         if (d.algebraic) {
-          layout.remarks.push_back(fmt::format(
-              "{} does not read its own DIF1, but it takes its rate to solve the equations that do: it is a state",
-              labels[k].full_text()));
+          layout.remarks.warning("implicit-diff", labels[k].at,
+                                 fmt::format("{} does not read its own DIF1, but it takes its rate to solve the "
+                                             "equations that do: it is a state",
+                                             labels[k].full_text()));
         }
       } else {
         item.form = role.condition.empty() ? Form::implicit_algebraic : Form::condition;
         for (const RateReduction::Term& t : role.condition) {
           item.terms.push_back({t.of, t.factor * sign(t.of), !elements[t.of].implicit});
         }
-        layout.remarks.push_back(remark(k, role));
+        layout.remarks.warning("implicit-diff", labels[k].at, remark(k, role));
       }
       items.push_back(std::move(item));
     }

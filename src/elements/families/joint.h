@@ -14,6 +14,7 @@
 //     static constexpr std::string_view parameter; // PITCH or PD: rows is no longer static, the member is made
 //                                                  // from the value, and every row is measured from the drawing
 //     double period() const;                       // rows that contain an angle repeat with it
+//     static constexpr std::string_view axes;      // what its axes stand for, said where they are drawn impossibly
 //
 // Velocity and acceleration rows, their coefficients, reactions and geometric stiffness follow. The reaction of
 // row k is λ_k times its gradient: force and torque on I; the opposite acts on J's body at the same point.
@@ -29,6 +30,7 @@
 #include <string_view>
 #include <vector>
 
+#include "elements/families/drawn_axes.h"
 #include "elements/families/markers.h"
 #include "mechanics/kernel.h"
 #include "mechanics/path.h"
@@ -289,6 +291,11 @@ class JointSet final : public JointSetBase {
     for (std::size_t k = 0; k < joints.size(); ++k) {
       Joint<E>& joint = joints[k];
       if (!check_pair(model, labels[k], joint.i, joint.j, needs, diagnostics)) continue;
+      constexpr std::string_view axes = [] {
+        if constexpr (requires { E::axes; }) return E::axes;
+        return std::string_view();
+      }();
+      check_drawn_axes(model, labels[k], joint.i, joint.j, E::row_names, axes, diagnostics);
       const RelativeFrame<double> drawn = drawn_frame(model, joint.i, joint.j);
       if constexpr (requires { E::parameter; }) joint.offset = joint.rows(drawn);
       if (E::row_names.size() >= 4 && (rotates() || translates()) && drawn.z.z < 0) {

@@ -29,6 +29,7 @@ class VectorForceKernel final : public Kernel {
   bool has_wrench() const override { return true; }
   MarkerId marker_I(std::size_t k) const override { return forces_[k].element.i; }
   MarkerId marker_J(std::size_t k) const override { return forces_[k].element.jfloat; }
+  MarkerId marker_of_axes(std::size_t k) const override { return forces_[k].element.rm; }
   void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;
   void faults(const Motion&, std::vector<ElementFault>&) const override;
 

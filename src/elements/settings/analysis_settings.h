@@ -6,8 +6,8 @@
 
 namespace dynalin {
 
-// EQUILIBRIUM: MAXIT and ALIMIT bound the search of statics. Its convergence is that of rounding, whatever ERROR and
-// IMBALANCE ask.
+// EQUILIBRIUM: MAXIT, ALIMIT and TLIMIT bound the search of statics, which goes on to rounding; ERROR and IMBALANCE say
+// what is taken where that is not reached. STABILITY, PATTERN and METHOD have no meaning for that search.
 struct WrittenEquilibrium {
   std::optional<double> error, imbalance, stability, tlimit, alimit;
   std::optional<std::int64_t> maxit;
@@ -17,11 +17,21 @@ struct WrittenEquilibrium {
 
   using E = WrittenEquilibrium;
   static constexpr std::array<Argument<E>, 22> arguments = {{
-      {.name = "ERROR", .slot = &E::error, .minimum = 0},
-      {.name = "IMBALANCE", .slot = &E::imbalance, .minimum = 0},
+      {.name = "ERROR",
+       .slot = &E::error,
+       .minimum = 0,
+       .help = "largest correction, in model lengths or rad, where no exact equilibrium is found; 1e-4"},
+      {.name = "IMBALANCE",
+       .slot = &E::imbalance,
+       .minimum = 0,
+       .help = "largest force out of balance where no exact equilibrium is found; 1e-4"},
       {.name = "MAXIT", .slot = &E::maxit, .minimum = 1, .help = "iterations of the search downhill"},
       {.name = "ALIMIT", .slot = &E::alimit, .unit = unit::angle, .minimum = 0, .help = "largest rotation of a step"},
-      {.name = "TLIMIT", .slot = &E::tlimit, .unit = unit::length, .minimum = 0},
+      {.name = "TLIMIT",
+       .slot = &E::tlimit,
+       .unit = unit::length,
+       .minimum = 0,
+       .help = "largest translation of a step"},
       {.name = "STABILITY", .slot = &E::stability, .minimum = 0},
       {.name = "PATTERN", .slot = &E::pattern},
       {.name = "METHOD", .slot = &E::method},
@@ -40,7 +50,8 @@ struct WrittenEquilibrium {
       {.name = "DEFAULT", .slot = &E::defaults, .help = "all settings as they are without the statement"},
       {.name = "LIST", .slot = &E::list},
   }};
-  static constexpr std::array<std::string_view, 5> acting = {"MAXIT", "ALIMIT", "STATIC", "DEFAULT", "LIST"};
+  static constexpr std::array<std::string_view, 8> acting = {"ERROR",  "IMBALANCE", "MAXIT",   "ALIMIT",
+                                                             "TLIMIT", "STATIC",    "DEFAULT", "LIST"};
   EquilibriumSettings stated() const { return {error, imbalance, stability, tlimit, alimit, maxit}; }
   void apply(EquilibriumSettings& s) const {
     if (defaults) s = {};
@@ -201,15 +212,13 @@ struct WrittenPreferences {
       {.name = "FUNCTION_ERROR", .slot = &E::value},
   }};
   static constexpr std::array<std::string_view, 2> acting = {"SOLVER", "LIST"};
-  static constexpr std::string_view fortran_remark =
-      "PREFERENCES/SOLVER=F77 asks for the FORTRAN solver: LINEAR with ORIGINAL gives the states and the coupling of "
-      "that solver";
-  bool asks_for_fortran() const {
-    return !solver.empty() && (solver.front().starts_with("F77") || solver.front().starts_with("FOR"));
+  void note(Diagnostics& remarks) const {
+    if (solver.empty() || !(solver.front().starts_with("F77") || solver.front().starts_with("FOR"))) return;
+    remarks.warning("fortran-solver", {},
+                    "PREFERENCES/SOLVER=F77 asks for the FORTRAN solver: LINEAR with ORIGINAL gives the states and the "
+                    "coupling of that solver");
   }
-  void apply(Settings& s) const {
-    if (asks_for_fortran()) s.remarks.emplace_back(fortran_remark);
-  }
+  void apply(Settings& s) const { note(s.remarks); }
 };
 
 }  // namespace dynalin

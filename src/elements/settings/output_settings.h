@@ -31,9 +31,11 @@ struct WrittenOutput {
   void apply(Settings&) const {}
 };
 
-// RESULTS: XRF asks for the results file in XML; NOLINEAR keeps what LINEAR finds out of it.
+// RESULTS: XRF asks for the results file in XML; the switches keep parts of its contents out of it.
 struct WrittenResults {
   bool xrf = false, no_linear = false, flag = false;
+  bool no_displacements = false, no_velocities = false, no_accelerations = false;
+  bool no_reactions = false, no_forces = false, no_system_elements = false;
   std::optional<std::int64_t> decimal_places;
   std::string comment;
 
@@ -49,14 +51,14 @@ struct WrittenResults {
       {.name = "FORMATTED", .slot = &E::flag},
       {.name = "UNFORMATTED", .slot = &E::flag},
       {.name = "COMMENT", .slot = &E::comment},
-      {.name = "NODISPLACEMENTS", .slot = &E::flag},
-      {.name = "NOVELOCITIES", .slot = &E::flag},
-      {.name = "NOACCELERATIONS", .slot = &E::flag},
-      {.name = "NOAPPLIEDFORCES", .slot = &E::flag},
-      {.name = "NOREACTIONFORCES", .slot = &E::flag},
+      {.name = "NODISPLACEMENTS", .slot = &E::no_displacements},
+      {.name = "NOVELOCITIES", .slot = &E::no_velocities},
+      {.name = "NOACCELERATIONS", .slot = &E::no_accelerations},
+      {.name = "NOAPPLIEDFORCES", .slot = &E::no_forces},
+      {.name = "NOREACTIONFORCES", .slot = &E::no_reactions},
       {.name = "NOFLOATINGMARKERS", .slot = &E::flag},
       {.name = "NODATASTRUCTURES", .slot = &E::flag},
-      {.name = "NOSYSTEMELEMENTS", .slot = &E::flag},
+      {.name = "NOSYSTEMELEMENTS", .slot = &E::no_system_elements},
       {.name = "NOTIRES", .slot = &E::flag},
       {.name = "NOREQUESTS", .slot = &E::flag},
   }};
@@ -77,7 +79,11 @@ struct WrittenResults {
                                                               "NOREQUESTS"};
   void apply(Settings& s) const {
     s.results.xrf = s.results.xrf || xrf;
-    s.results.without_linear = s.results.without_linear || no_linear;
+    const auto take = [](bool& earlier, bool stated) { earlier = earlier || stated; };
+    take(s.results.without_linear, no_linear);
+    take(s.results.without_displacements, no_displacements), take(s.results.without_velocities, no_velocities);
+    take(s.results.without_accelerations, no_accelerations), take(s.results.without_reactions, no_reactions);
+    take(s.results.without_forces, no_forces), take(s.results.without_system_elements, no_system_elements);
     take_over(s.results.decimal_places, decimal_places);
   }
 };

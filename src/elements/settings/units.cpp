@@ -51,18 +51,20 @@ constexpr std::array time_units = {
     UnitName{"NANOSECOND", 1e-9}, UnitName{"MINUTE", 60.0}, UnitName{"HOUR", 3600.0}, UnitName{"DAY", 86400.0},
 };
 // SYSTEM: length, mass, time and force; NONE is dimensionless.
-struct UnitSystem { std::string_view name; double length, mass, force; };
+struct UnitSystem { std::string_view name; UnitName length, mass, time, force; };
 constexpr std::array systems = {
-    UnitSystem{"MKS", 1.0, 1.0, 1.0}, UnitSystem{"CGS", 1e-2, 1e-3, 1e-5},
-    UnitSystem{"FPS", foot, pound, pound_force}, UnitSystem{"IPS", inch, pound, pound_force},
-    UnitSystem{"NONE", 1.0, 1.0, 1.0},
+    UnitSystem{"MKS", {"METER", 1.0}, {"KILOGRAM", 1.0}, {"SECOND", 1.0}, {"NEWTON", 1.0}},
+    UnitSystem{"CGS", {"CENTIMETER", 1e-2}, {"GRAM", 1e-3}, {"SECOND", 1.0}, {"DYNE", 1e-5}},
+    UnitSystem{"FPS", {"FOOT", foot}, {"POUND_MASS", pound}, {"SECOND", 1.0}, {"POUND_FORCE", pound_force}},
+    UnitSystem{"IPS", {"INCH", inch}, {"POUND_MASS", pound}, {"SECOND", 1.0}, {"POUND_FORCE", pound_force}},
+    UnitSystem{"NONE", {"", 1.0}, {"", 1.0}, {"", 1.0}, {"", 1.0}},
 };
 // clang-format on
 
 struct UnitsStatement {
   std::vector<std::string> force, mass, length, time, system;
   std::optional<double> ucf;
-  double si_force = 1, si_mass = 1, si_length = 1, si_time = 1;
+  UnitName force_unit{"", 1}, mass_unit{"", 1}, length_unit{"", 1}, time_unit{"", 1};
   double factor = 1;
 
   static constexpr std::array<Argument<UnitsStatement>, 6> arguments = {{
@@ -109,23 +111,30 @@ class UnitsSet final : public TypedSet<UnitsStatement> {
     if (!u.system.empty()) {
       const UnitSystem* s = look_up(systems, u.system, "SYSTEM", reader);
       if (!s) return;
-      u.si_force = s->force, u.si_mass = s->mass, u.si_length = s->length;
+      u.force_unit = s->force, u.mass_unit = s->mass, u.length_unit = s->length, u.time_unit = s->time;
     } else {
       const UnitName* force = look_up(force_units, u.force, "FORCE", reader);
       const UnitName* mass = look_up(mass_units, u.mass, "MASS", reader);
       const UnitName* length = look_up(length_units, u.length, "LENGTH", reader);
       const UnitName* time = look_up(time_units, u.time, "TIME", reader);
       if (!force || !mass || !length || !time) return;
-      u.si_force = force->si, u.si_mass = mass->si, u.si_length = length->si, u.si_time = time->si;
+      u.force_unit = *force, u.mass_unit = *mass, u.length_unit = *length, u.time_unit = *time;
     }
-    u.factor = u.si_force * u.si_time * u.si_time / (u.si_mass * u.si_length);
+    u.factor = u.force_unit.si * u.time_unit.si * u.time_unit.si / (u.mass_unit.si * u.length_unit.si);
     // Products of decimal prefixes pick up rounding; a power of ten is meant exactly.
     const double decade = std::pow(10.0, std::round(std::log10(u.factor)));
     if (std::abs(u.factor / decade - 1) < 1e-13) u.factor = decade;
   }
   void finish(Model& model, Diagnostics&) override {
     if (elements.empty()) return;
-    model.units = {true, elements[0].factor, elements[0].si_length};
+    const UnitsStatement& u = elements[0];
+    model.units = {true,
+                   u.factor,
+                   u.length_unit.si,
+                   std::string(u.force_unit.name),
+                   std::string(u.mass_unit.name),
+                   std::string(u.length_unit.name),
+                   std::string(u.time_unit.name)};
   }
 };
 

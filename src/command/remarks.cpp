@@ -1,0 +1,53 @@
+#include "command/remarks.h"
+
+#include <fmt/ostream.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "command/failure_text.h"
+#include "output/message_file.h"
+
+namespace dynalin {
+
+void Remarks::say(const Diagnostic& d) {
+  write_block(message_, Block::warning, d.message);
+  err_ << render(d);
+  json_.add_warning(command_, d);
+}
+
+void Remarks::say(const Diagnostics& all) {
+  for (const Diagnostic& d : all.items()) say(d);
+}
+
+void Remarks::say(std::string_view code, std::string text) {
+  Diagnostics one;
+  one.warning(code, {}, std::move(text));
+  say(one);
+}
+
+void Remarks::say_what_is_new(const Diagnostics& now, const Diagnostics& before) {
+  const auto& said = before.items();
+  for (const Diagnostic& d : now.items()) {
+    const auto same = [&](const Diagnostic& other) { return other.message == d.message; };
+    if (std::none_of(said.begin(), said.end(), same)) say(d);
+  }
+}
+
+void Remarks::pass_over(const std::vector<std::string>& settings) {
+  std::vector<std::string> fresh;
+  for (const std::string& s : settings) {
+    if (passed_over_.insert(s).second) fresh.push_back(s);
+  }
+  if (!fresh.empty())
+    say("passed-over", fmt::format("nothing here acts on {}, which {} passed over", fmt::join(fresh, ", "),
+                                   fresh.size() == 1 ? "is" : "are"));
+}
+
+void Remarks::report(const Failure& f) {
+  write_block(message_, Block::error, failure_text(f));
+  fmt::print(err_, "error: {} failed\n{}\n", command_, short_failure_text(f, message_file_));
+  json_.add_failure(command_, fmt::format("{}: {}", f.analysis, f.message), f.details);
+}
+
+}  // namespace dynalin

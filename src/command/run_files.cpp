@@ -1,0 +1,47 @@
+#include "command/run_files.h"
+
+#include <ctime>
+
+namespace dynalin {
+
+RunFiles::Result RunFiles::add(const std::vector<Planned>& planned) {
+  std::vector<std::unique_ptr<OutputFile>> made;
+  for (const Planned& p : planned) {
+    auto destination = find_destination(p.path);
+    if (!destination) return tl::unexpected("cannot write " + p.path + ": " + destination.error());
+    auto file = OutputFile::create(std::move(*destination));
+    if (!file) return tl::unexpected(file.error());
+    p.content((*file)->stream());
+    if (auto complete = (*file)->complete(); !complete) return complete;
+    made.push_back(std::move(*file));
+  }
+  for (auto& file : made) {
+    const Destination& d = file->destination();
+    const auto [place, fresh] = place_of_file_.emplace(d.place(), files_.size());
+    if (d.kind == Destination::Kind::replaced && !fresh) {
+      files_[place->second] = std::move(file);
+    } else {
+      files_.push_back(std::move(file));
+    }
+  }
+  return {};
+}
+
+std::vector<std::string> RunFiles::names() const {
+  std::vector<std::string> list;
+  for (const auto& file : files_) {
+    if (file->destination().kind == Destination::Kind::replaced) list.push_back(file->destination().name);
+  }
+  return list;
+}
+
+std::vector<RunFiles::Planned> matrix_files(const std::string& base, const std::string& format,
+                                            const std::vector<NamedMatrix>& matrices) {
+  if (format != "MATLAB") return {{base, [&](std::ostream& out) { write_fsave(out, matrices, std::time(nullptr)); }}};
+  std::vector<RunFiles::Planned> list;
+  for (const NamedMatrix& m : matrices)
+    list.push_back({base + m.suffix, [&m](std::ostream& out) { write_matlab(out, m); }});
+  return list;
+}
+
+}  // namespace dynalin

@@ -1,0 +1,16 @@
+// Rows that ask two axes to be perpendicular, "Zi.Xj", cannot be met from a drawing in which the axes are parallel:
+// there every turn leaves them as they are, to first order.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "elements/families/markers.h"
+
+namespace dynalin {
+
+// Reports the first such row of an element between I and J; `hint` is what the element's axes stand for.
+void check_drawn_axes(const Model&, const ElementLabel&, MarkerId i, MarkerId j,
+                      std::span<const std::string_view> row_names, std::string_view hint, Diagnostics&);
+
+}  // namespace dynalin

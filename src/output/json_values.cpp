@@ -1,0 +1,108 @@
+#include "output/json_values.h"
+
+namespace dynalin {
+
+namespace {
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
+Json marker_or_null(std::int64_t id) { return id == 0 ? Json() : Json(id); }
+
+Json body(const BodyState& b) {
+  return {
+      {"element", b.element},
+      {"name", b.view_name},
+      {"position", b.position},
+      {"angles", b.angles},
+      {"axes", b.axes},
+      {"velocity", b.velocity},
+      {"angular_velocity", b.angular_velocity},
+      {"acceleration", b.acceleration},
+      {"angular_acceleration", b.angular_acceleration},
+      {"mass_centre",
+       {{"position", b.centre_position}, {"velocity", b.centre_velocity}, {"acceleration", b.centre_acceleration}}}};
+}
+
+Json load(const Load& l) {
+  return {{"element", l.element},
+          {"type", l.variant},
+          {"name", l.view_name},
+          {"i", l.marker_I},
+          {"j", marker_or_null(l.marker_J)},
+          {"axes", marker_or_null(l.axes)},
+          {"force", l.force_in_axes},
+          {"torque", l.torque_in_axes},
+          {"global_force", l.force},
+          {"global_torque", l.torque}};
+}
+
+template <class Value, class Make>
+Json list_of(const std::vector<Value>& values, const Make& make) {
+  Json list = Json::array();
+  for (const Value& v : values) list.push_back(make(v));
+  return list;
+}
+
+Json channels(const ChannelValues& c) { return {{"element", c.element}, {"name", c.view_name}, {"values", c.values}}; }
+
+}  // namespace
+
+Json json_of(const Units& u) {
+  return {{"stated", u.stated},           {"force", text_or_null(u.force)},
+          {"mass", text_or_null(u.mass)}, {"length", text_or_null(u.length)},
+          {"time", text_or_null(u.time)}, {"angle", "RADIAN"},
+          {"frequency", u.frequency()},   {"consistency_factor", u.ucf}};
+}
+
+Json json_of(const OperatingState& s) {
+  return {
+      {"time", s.time},
+      {"bodies", list_of(s.bodies, body)},
+      {"reactions", list_of(s.reactions, load)},
+      {"forces", list_of(s.forces, load)},
+      {"constraints",
+       list_of(
+           s.constraints,
+           [](const ConstraintValue& c) -> Json {
+             return {{"element", c.element}, {"row", c.row}, {"multiplier", c.multiplier}, {"redundant", c.redundant}};
+           })},
+      {"variables",
+       list_of(s.variables,
+               [](const VariableValue& v) -> Json {
+                 return {{"element", "VARIABLE/" + std::to_string(v.id)}, {"name", v.view_name}, {"value", v.value}};
+               })},
+      {"states", list_of(s.states,
+                         [](const StateValue& z) -> Json {
+                           return {{"element", z.element},
+                                   {"name", z.view_name},
+                                   {"number", z.number},
+                                   {"value", z.value},
+                                   {"rate", z.rate}};
+                         })},
+      {"curve_parameters",
+       list_of(s.parameters,
+               [](const ParameterValue& p) -> Json {
+                 return {{"element", p.element}, {"parameter", p.name}, {"value", p.value}, {"rate", p.rate}};
+               })},
+      {"plant_inputs", list_of(s.plant_inputs, channels)},
+      {"plant_outputs", list_of(s.plant_outputs, channels)}};
+}
+
+Json json_of(const Stability& s) {
+  const bool known = s.verdict != Stability::Verdict::unknown;
+  return {{"verdict", s.verdict == Stability::Verdict::stable     ? "stable"
+                      : s.verdict == Stability::Verdict::unstable ? "unstable"
+                                                                  : "unknown"},
+          {"growing_modes", known ? Json(s.growing_modes) : Json()},
+          {"reason", text_or_null(s.reason)}};
+}
+
+Json json_of(const Diagnostic& d) {
+  Json at;
+  if (d.at.source) {
+    const SourceText::Place place = d.at.source->place(d.at.offset);
+    at = {{"file", d.at.source->name()}, {"line", place.line}, {"column", place.column}};
+  }
+  return {{"code", d.code}, {"message", d.message}, {"hint", text_or_null(d.hint)}, {"at", at}};
+}
+
+}  // namespace dynalin

@@ -1,0 +1,20 @@
+// Results as JSON values.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "base/diagnostics.h"
+#include "dynalin/operating_state.h"
+#include "dynalin/units.h"
+
+namespace dynalin {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Units&);
+Json json_of(const OperatingState&);
+Json json_of(const Stability&);
+// {"code", "message", "hint", "at": {"file", "line", "column"}}; `at` is null where no file states it.
+Json json_of(const Diagnostic&);
+
+}  // namespace dynalin

@@ -1,0 +1,156 @@
+// What a run remarks: each with its code, and where a statement is meant with its place; in JSON as on the terminal.
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "cases/run.h"
+
+namespace dynalin::cases {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Remark {
+  const char* code;
+  int line;  // of model.adm, 0 where no statement is meant
+  const char* dataset;
+  const char* commands;
+};
+
+// A slider along z: PART/2 with MARKER/20.
+#define SLIDER(mass)                                             \
+  "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, " mass \
+  "QG=0,0,1\nMARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
+#define BODY "MASS=1, CM=20, IP=1,1,1, "
+
+const std::vector<Remark>& table() {
+  static const std::vector<Remark> rows = {
+      {"accelerating-point", 5, SLIDER(BODY) "ACCGRAV/KGRAV=-10\nEND\n", "LINEAR/EIGENSOL\n"},
+      {"changed-velocity", 5, SLIDER("VX=1, " BODY) "END\n", "LINEAR/EIGENSOL\n"},
+      {"changed-start", 9,
+       SLIDER(BODY) "DIFF/1, IMPLICIT, IC=0.3, FUNCTION=DIF1(1)+DIF1(2)+2*DIF(1)\nDIFF/2, IMPLICIT, IC=3, "
+                    "FUNCTION=2*DIF1(1)+2*DIF1(2)+DIF(1)-2*DIF(2)\nEND\n",
+       "LINEAR/EIGENSOL\n"},
+      {"implicit-diff", 8, SLIDER(BODY) "DIFF/1, IMPLICIT, FUNCTION=2*DIF(1)-DIF(2)\nDIFF/2, FUNCTION=-DIF(2)\nEND\n",
+       "LINEAR/EIGENSOL\n"},
+      {"dependent-coordinate", 0, SLIDER(BODY) "VARIABLE/1, FUNCTION=DX(20)\nPSTATE/1, VARIABLES=1\nEND\n",
+       "LINEAR/EIGENSOL, PSTATE=1\n"},
+      {"dependent-input", 8, SLIDER(BODY) "VARIABLE/1, FUNCTION=2\nPINPUT/1, VARIABLES=1\nEND\n",
+       "LINEAR/STATEMAT, PINPUT=1, FILE=a\n"},
+      {"followed-input", 9,
+       SLIDER(BODY) "MOTION/1, JOINT=1, FUNCTION=VARVAL(1)\nVARIABLE/1, FUNCTION=0\nPINPUT/1, VARIABLES=1\nDIFF/1, "
+                    "FUNCTION=-DIF(1)\nEND\n",
+       "LINEAR/STATEMAT, PINPUT=1, FILE=a\n"},
+      {"rate-of-input", 8,
+       SLIDER(BODY) "VARIABLE/1, FUNCTION=0\nPINPUT/1, VARIABLES=1\nDIFF/1, FUNCTION=-DIF(1)+DELAY(VARVAL(1),0.1,0)\n"
+                    "END\n",
+       "LINEAR/STATEMAT, PINPUT=1, FILE=a\n"},
+      {"distant-origin", 5,
+       "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, QG=0,0,1e6, MASS=1, CM=20, IP=1,1,1\nMARKER/20, "
+       "QP=0,0,-1e6\nMARKER/22, QP=0,0,-999999\nJOINT/1, TRANSLATIONAL, I=20, J=1\nEND\n",
+       "LINEAR/EIGENSOL\n"},
+      {"environment-variable", 0, SLIDER(BODY) "END\n", "ENVIRONMENT/NAME=NOTHING, VALUE=1\nLINEAR/EIGENSOL\n"},
+      {"fortran-solver", 0, SLIDER(BODY) "PREFERENCES/SOLVER=F77\nEND\n", "LINEAR/EIGENSOL\n"},
+      {"massless-freedom", 0, SLIDER("") "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, K=2, C=1, LENGTH=1\nEND\n",
+       "LINEAR/EIGENSOL\n"},
+      {"massless-runaway", 0, SLIDER("") "SFORCE/1, TRANSLATIONAL, I=20, J=1, FUNCTION=VZ(20)-(DZ(20)-1)\nEND\n",
+       "LINEAR/EIGENSOL\n"},
+      {"missing-mode", 0, SLIDER(BODY) "END\n", "LINEAR/EIGENSOL, COORDS=7\n"},
+      {"no-commands", 0, SLIDER(BODY) "END\n", ""},
+      {"no-units", 0, "t\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nEND\n",
+       "LINEAR/EIGENSOL\n"},
+      {"options-disagree", 0, SLIDER(BODY) "END\n", "LINEAR/EIGENSOL, RM=1, ORIGINAL\n"},
+      {"overdamped-modes", 0, SLIDER(BODY) "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, K=1, C=9, LENGTH=1\nEND\n",
+       "LINEAR/EIGENSOL\n"},
+      {"passed-over", 0, SLIDER(BODY) "INTEGRATOR/HMAX=1\nEND\n", "LINEAR/EIGENSOL\n"},
+      {"loose-equilibrium", 0,
+       SLIDER(BODY) "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=EXP(-DZ(20))\nEQUILIBRIUM/ERROR=2\nEND\n",
+       "SIMULATE/STATICS\n"},
+      {"rounding-above-imbalance", 0,
+       SLIDER(BODY) "ACCGRAV/KGRAV=-9.81\nSPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, K=333, "
+                    "LENGTH=1.1\nEQUILIBRIUM/IMBALANCE=0\nEND\n",
+       "SIMULATE/STATICS\n"},
+      {"singular-configuration", 16,
+       "Four-bar\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=2,0,0\nPART/2, MASS=1, CM=20, "
+       "IP=1,1,1\nMARKER/20\nMARKER/21, QP=1,0,0\nPART/3, MASS=1, CM=30, IP=1,1,1, QG=1,0,0\nMARKER/30\nMARKER/31, "
+       "QP=2,0,0\nPART/4, MASS=1, CM=40, IP=1,1,1, QG=2,0,0\nMARKER/40\nMARKER/41, QP=1,0,0\nJOINT/1, REVOLUTE, I=20, "
+       "J=1\nJOINT/2, REVOLUTE, I=30, J=21\nJOINT/3, REVOLUTE, I=41, J=31\nJOINT/4, REVOLUTE, I=40, J=2\nEND\n",
+       "LINEAR/EIGENSOL\n"},
+  };
+  return rows;
+}
+
+class Remarks : public Cases, public ::testing::WithParamInterface<std::size_t> {};
+
+TEST_P(Remarks, have_a_code_and_a_place) {
+  const Remark& remark = table()[GetParam()];
+  const RunResult r = run(remark.dataset, remark.commands);
+  ASSERT_TRUE(r.json.contains("warnings")) << r.err;
+  EXPECT_THAT(r.err, HasSubstr(std::string("[") + remark.code + "]"));
+  std::set<int> lines;
+  for (const auto& w : r.json.at("warnings")) {
+    EXPECT_THAT(r.err, HasSubstr(w.at("message").get<std::string>()));
+    if (w.at("code") != remark.code) continue;
+    const bool placed = !w.at("at").is_null();
+    lines.insert(placed ? w.at("at").at("line").get<int>() : 0);
+    if (!placed) continue;
+    EXPECT_THAT(w.at("at").at("file").get<std::string>(), ::testing::EndsWith("model.adm"));
+    EXPECT_EQ(w.at("at").at("column"), 1);
+  }
+  EXPECT_THAT(lines, ::testing::Contains(remark.line)) << r.err;
+}
+INSTANTIATE_TEST_SUITE_P(table, Remarks, ::testing::Range<std::size_t>(0, table().size()));
+
+TEST(RemarkTable, has_every_code_but_those_that_other_tests_hold) {
+  std::set<std::string> covered = {
+      "lost-digits",    // initial_conditions_test
+      "near-singular",  // near_singular_test
+  };
+  for (const Remark& r : table()) covered.insert(r.code);
+  static constexpr std::string_view codes[] = {
+#define DYNALIN_DIAGNOSTIC(code, text, advice) code,
+#include "base/diagnostics/remarks.def"
+#undef DYNALIN_DIAGNOSTIC
+  };
+  for (const std::string_view code : codes) EXPECT_TRUE(covered.contains(std::string(code))) << code;
+}
+
+class JsonWarnings : public Cases {};
+
+TEST_F(JsonWarnings, of_reading_have_code_place_and_hint_and_those_of_a_command_its_text) {
+  const RunResult r = run(
+      "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, REVOLUTE, "
+      "I=20, J=1, MU_STAT_ROT=3\nEND\n",
+      "LINEAR/EIGENSOL, COORDS=5\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto& read = r.json.at("warnings").at(0);
+  EXPECT_EQ(read.at("code"), "obsolete-argument");
+  EXPECT_EQ(read.at("at").at("line"), 7);
+  EXPECT_EQ(read.at("at").at("column"), 31);
+  EXPECT_EQ(read.at("hint"), "the statement FRICTION replaces it");
+  EXPECT_TRUE(read.at("command").is_null());
+  const auto& of_command = r.json.at("warnings").back();
+  EXPECT_EQ(of_command.at("code"), "missing-mode");
+  EXPECT_EQ(of_command.at("command"), "LINEAR/EIGENSOL, COORDS=5");
+  EXPECT_TRUE(of_command.at("at").is_null());
+}
+
+TEST_F(JsonWarnings, stand_beside_errors_and_the_status_of_a_run_that_fails) {
+  const RunResult r =
+      run("t\nUNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH=MILLIMETER, TIME=MILLISECONDS\n"
+          "ACCGRAV/KGRAV=-1\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nEND\n",
+          "SIMULATE/INITIAL\nSIMULATE/STATICS\nLINEAR/EIGENSOL\n");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_EQ(r.json.at("status"), 2);
+  ASSERT_EQ(r.json.at("errors").size(), 1u);
+  EXPECT_EQ(r.json.at("errors").at(0).at("command"), "SIMULATE/STATICS");
+  EXPECT_THAT(r.json.at("errors").at(0).at("message").get<std::string>(), HasSubstr("no equilibrium was found"));
+  EXPECT_EQ(r.json.at("results").size(), 1u);
+  const auto& units = r.json.at("units");
+  EXPECT_EQ(units.at("length"), "MILLIMETER");
+  EXPECT_EQ(units.at("frequency"), "cycles/ms");
+  EXPECT_EQ(units.at("stated"), true);
+}
+
+}  // namespace
+}  // namespace dynalin::cases
