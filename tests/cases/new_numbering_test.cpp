@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "elements/catalogue.h"
+#include "linear/candidates.h"
 #include "linear/eigen.h"
 #include "linear/linear_system.h"
 #include "mechanics/kernel.h"
@@ -24,12 +25,14 @@ struct Parabola {
   }};
 };
 
+constexpr StateType type_of_s = StateType::fe_part;  // that no other element of the program has
+
 class ParabolaKernel final : public Kernel {
  public:
   ParabolaKernel(const std::vector<Parabola>& elements, const std::vector<ElementLabel>& labels, Layout& layout)
       : layout_(layout) {
     for (std::size_t k = 0; k < elements.size(); ++k) {
-      const std::int32_t s = layout.add_extra(labels[k], {{.name = "s"}});
+      const std::int32_t s = layout.add_extra(labels[k], type_of_s, {{.name = "s"}});
       const std::int32_t first = layout.add_row(labels[k], "x");
       layout.add_row(labels[k], "y");
       beads_.push_back({layout.marker(elements[k].i), elements[k].curvature, s, first});
@@ -88,26 +91,46 @@ constexpr Kind test_kind(std::string_view statement) {
 }
 constexpr Kind parabola = test_kind<Parabola, ParabolaKernel>("UCON");
 
-Result<LinearSystem> linear_model(const std::string& text) {
+std::unique_ptr<const System> system_of(const std::string& text) {
   std::vector<const Kind*> kinds(catalogue().begin(), catalogue().end());
   kinds.push_back(&parabola);
   auto dataset = parse_dataset(std::make_shared<const SourceText>("test.adm", text));
   EXPECT_FALSE(dataset.diagnostics.has_errors()) << render(dataset.diagnostics);
   auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), kinds);
   EXPECT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics);
-  const System system{std::shared_ptr<const Model>(std::move(model.value))};
-  Findings findings;
-  const auto op = initial_conditions(system, findings);
-  if (!op) return tl::unexpected(op.error());
-  return linearize(system, *op, {});
+  return std::make_unique<const System>(std::shared_ptr<const Model>(std::move(model.value)));
+}
+
+const std::string bead =
+    "Bead\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nPOINT_MASS/2, MASS=3, "
+    "CM=2\nMARKER/2\nMARKER/3, PART=1\nUCON/7, I=2, DISP=1.7\n"
+    "! out of the plane the bead is held by a spring\nMARKER/4, PART=1, QP=0,0,-1\nSPRINGDAMPER/1, TRANSLATIONAL, "
+    "I=2, J=4, K=12, LENGTH=1\nEND\n";
+
+TEST(NewNumbering, a_coordinate_of_its_own_is_listed_as_its_owner_says) {
+  const auto system = system_of(bead);
+  const auto candidates = state_candidates(*system, system->motion(system->drawn()), {});
+  ASSERT_TRUE(candidates);
+  ASSERT_EQ(candidates->wanted.size(), 4u);
+  const StateCoordinate& s = candidates->wanted.back().state;
+  EXPECT_EQ(s.label.type, type_of_s);
+  EXPECT_EQ(s.label.owner, (ElementId{"UCON", 7}));
+  EXPECT_EQ(s.label.element, 7);
+  EXPECT_EQ(s.label.text, "s");
+  EXPECT_EQ(s.label.coordinate, 1);
+  EXPECT_FALSE(s.label.is_rate);
+  EXPECT_EQ(s.rate.type, type_of_s);
+  EXPECT_EQ(s.rate.coordinate, 1);
+  EXPECT_TRUE(s.rate.is_rate);
+  EXPECT_EQ(s.scale, 1);
 }
 
 TEST(NewNumbering, bead_on_a_parabola_swings_with_the_curvature) {
-  const auto linear = linear_model(
-      "Bead\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nPOINT_MASS/2, MASS=3, "
-      "CM=2\nMARKER/2\nMARKER/3, PART=1\nUCON/1, I=2, DISP=1.7\n"
-      "! out of the plane the bead is held by a spring\nMARKER/4, PART=1, QP=0,0,-1\nSPRINGDAMPER/1, TRANSLATIONAL, "
-      "I=2, J=4, K=12, LENGTH=1\nEND\n");
+  const auto system = system_of(bead);
+  Findings findings;
+  const auto op = initial_conditions(*system, findings);
+  ASSERT_TRUE(op) << op.error().message;
+  const auto linear = linearize(*system, *op, {});
   ASSERT_TRUE(linear) << linear.error().message;
   ASSERT_EQ(linear->model.states.size(), 4u);
   EXPECT_EQ(linear->model.states[1].type, StateType::point_mass);
