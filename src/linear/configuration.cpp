@@ -64,8 +64,8 @@ NearSingularity near_singularity(const System& system, const ConstraintRows& row
 namespace {
 
 // Units of states in which they compare: a coordinate as far as it moves the model by its length or a radian, its rate
-// the fastest rate of the linear model times that.
-Eigen::VectorXd units_of_states(const System& system, const LinearSystem& linear) {
+// the fastest rate of the linear model, or of the motion itself, times that.
+Eigen::VectorXd units_of_states(const System& system, const OperatingPoint& op, const LinearSystem& linear) {
   Eigen::VectorXd unit = Eigen::VectorXd::Ones(linear.A.rows());
   const auto n = static_cast<Eigen::Index>(linear.kinematic_states);
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -77,6 +77,8 @@ Eigen::VectorXd units_of_states(const System& system, const LinearSystem& linear
     if (most > 0) unit(k) = 1 / most;
   }
   double fastest = 0;
+  for (std::size_t c = 0; c < op.velocity.size(); ++c)
+    fastest = std::max(fastest, std::abs(op.velocity[c]) / system.coordinate_scale(static_cast<std::int32_t>(c)));
   for (Eigen::Index r = 0; r < n; ++r) {
     if (!linear.model.states[static_cast<std::size_t>(r)].is_rate) continue;
     for (Eigen::Index c = 0; c < n; ++c) {
@@ -92,10 +94,11 @@ Eigen::VectorXd units_of_states(const System& system, const LinearSystem& linear
 
 }  // namespace
 
-double relative_size(const System& system, const LinearSystem& linear, const Eigen::MatrixXd& of) {
+double relative_size(const System& system, const OperatingPoint& op, const LinearSystem& linear,
+                     const Eigen::MatrixXd& of) {
   const auto n = static_cast<Eigen::Index>(linear.kinematic_states);
   if (n == 0) return 0;
-  const Eigen::VectorXd unit = units_of_states(system, linear).head(n);
+  const Eigen::VectorXd unit = units_of_states(system, op, linear).head(n);
   const auto largest = [&](const Eigen::MatrixXd& m) {
     return (unit.cwiseInverse().asDiagonal() * m.topLeftCorner(n, n).cwiseAbs() * unit.asDiagonal()).eval().maxCoeff();
   };
@@ -105,7 +108,7 @@ double relative_size(const System& system, const LinearSystem& linear, const Eig
 
 Eigen::MatrixXd rounding_of_velocities(const System& system, const OperatingPoint& op, const LinearSystem& linear,
                                        const Linearization& linearize_at) {
-  if (relative_size(system, linear, linear.rounding) <= suspicious) return {};
+  if (relative_size(system, op, linear, linear.rounding) <= suspicious) return {};
   std::minstd_rand random(1);
   Eigen::MatrixXd worst = Eigen::MatrixXd::Zero(linear.A.rows(), linear.A.cols());
   for (int k = 0; k < samples; ++k) {

@@ -15,9 +15,9 @@ namespace dynalin {
 // singular value, and the rows and coordinates that all but depend on each other there.
 NearSingularity near_singularity(const System&, const ConstraintRows&, const StateChoice&);
 
-// The largest entry against that of the state matrix, lengths of the model, radians and its fastest rate taken as
-// units.
-double relative_size(const System&, const LinearSystem&, const Eigen::MatrixXd& of_matrix);
+// The largest entry against that of the state matrix, lengths of the model, radians and the fastest rate of model and
+// motion taken as units.
+double relative_size(const System&, const OperatingPoint&, const LinearSystem&, const Eigen::MatrixXd& of_matrix);
 
 // How far the entries of the state matrix follow when velocities change by a unit in the last place, and accelerations
 // and reactions with them; poses are what they are. Infinite where a point that near has no such model, empty where the

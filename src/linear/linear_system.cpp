@@ -366,11 +366,11 @@ Result<LinearSystem> linearize(const System& system, OperatingPoint op, const Li
     return at(there);
   });
   if (linear->uncertainty.size() == 0) return linear;
-  const double part = relative_size(system, *linear, linear->uncertainty);
+  const double part = relative_size(system, op, *linear, linear->uncertainty);
   constexpr double worth_a_warning = 1e-6, singular = 1e-7;
   const NearSingularity& near = linear->near_singularity;
   // So near that accelerations, too, are lost in their own rounding, what velocities make of them tells nothing.
-  const bool lost = near.distance < singular && relative_size(system, *linear, linear->rounding) > 10;
+  const bool lost = near.distance < singular && relative_size(system, op, *linear, linear->rounding) > 10;
   if (lost || !(part < 1)) {
     return tl::unexpected(
         Failure{"linear analysis",

@@ -168,5 +168,24 @@ TEST_F(NearSingular, universal_joints_bent_by_nearly_a_right_angle) {
   }
 }
 
+// Nothing but rounding stands in the state matrix of a disc that turns freely: its own turning is what that is
+// measured against, and no configuration is singular.
+TEST_F(NearSingular, a_disc_that_turns_freely_about_an_axis_away_from_its_origin_is_none) {
+  for (const double speed : {0.0, 1e-3, 2.0, 1e4}) {
+    for (const double offset : {0.1, 3.0, 700.0}) {
+      const RunResult r = run(fmt::format("Disc\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, "
+                                          "IP=1,2,3, QG={0:.17g},0,0, WZ={1:.17g}\nMARKER/20, QP={2:.17g},0.3,0\n"
+                                          "MARKER/21, QP={2:.17g},0,0\nJOINT/1, REVOLUTE, I=21, J=1\nEND\n",
+                                          -offset, speed, offset),
+                              "LINEAR/EIGENSOL\n");
+      ASSERT_EQ(r.status, 0) << r.err;
+      EXPECT_EQ(r.err.find("singular"), std::string::npos) << r.err;
+      const auto values = r.eigenvalues(0);
+      ASSERT_EQ(values.size(), 2u);
+      for (const auto& v : values) EXPECT_LT(std::abs(v), 1e-7 * std::max(speed, 1e-3)) << speed << " " << offset;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dynalin::cases
