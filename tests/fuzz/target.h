@@ -44,7 +44,7 @@ class TimeLimit {
 // Every message can be printed and explained, and stands inside its source.
 inline void demand_sound(const Diagnostics& diagnostics) {
   for (const Diagnostic& d : diagnostics.items()) {
-    demand(!d.message.empty() && !explain_diagnostic(d.code).empty(), "a diagnostic without message or explanation");
+    demand(!d.message.empty() && find_explanation(d.code) != nullptr, "a diagnostic without message or explanation");
     if (!d.at.source) continue;
     demand(std::size_t{d.at.offset} + d.at.length <= d.at.source->text().size(), "a diagnostic outside its source");
   }
