@@ -15,7 +15,7 @@ inline StaticsOptions statics_options(const EquilibriumSettings& s) {
   if (s.rotation_limit && *s.rotation_limit > 0) options.limits.rotation = *s.rotation_limit;
   if (s.translation_limit && *s.translation_limit > 0) options.limits.translation = *s.translation_limit;
   if (s.error || s.imbalance) {
-    StaticsOptions::Tolerance& tolerance = options.tolerance.emplace();
+    StaticTolerance& tolerance = options.tolerance.emplace();
     tolerance.error = s.error.value_or(tolerance.error);
     tolerance.imbalance = s.imbalance.value_or(tolerance.imbalance);
   }

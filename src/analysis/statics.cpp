@@ -67,7 +67,7 @@ OperatingPoint elsewhere(const System& system, OperatingPoint op, int k) {
 }
 
 // The point settled, if it is an equilibrium within a tolerance that was stated.
-std::optional<OperatingPoint> within(const StaticsOptions::Tolerance& tolerance, StaticEquations& equations,
+std::optional<OperatingPoint> within(const StaticTolerance& tolerance, StaticEquations& equations,
                                      OperatingPoint op, Findings& findings) {
   equations.measure_by(Yardstick::model);
   equations.settle(op);

@@ -16,6 +16,12 @@
 
 namespace dynalin {
 
+// What is taken for an equilibrium where no exact one is found near the first point; nothing is unless it is stated.
+struct StaticTolerance {
+  double error = 1e-4;      // ERROR: Newton's step there, in lengths of the model, radians and sizes of states
+  double imbalance = 1e-4;  // IMBALANCE: any unbalanced force, or moment by length
+};
+
 struct StaticsOptions {
   int iteration_limit = 500;
   StepLimits limits{0.17453292519943295};  // of a step downhill: ALIMIT, TLIMIT
@@ -23,12 +29,7 @@ struct StaticsOptions {
   int restarts = 24;                       // of the search from other places, after all else
   double effort_limit = 1e10;              // products, some ten seconds: what was not found by then is not
   StaticProgress progress{};               // called with every iteration
-  // What is taken for an equilibrium where no exact one is found near the first point; nothing is unless it is stated.
-  struct Tolerance {
-    double error = 1e-4;      // ERROR: Newton's step there, in lengths of the model, radians and sizes of states
-    double imbalance = 1e-4;  // IMBALANCE: any unbalanced force, or moment by length
-  };
-  std::optional<Tolerance> tolerance;
+  std::optional<StaticTolerance> tolerance;
 };
 
 struct StaticsReport {
