@@ -2,6 +2,7 @@
 // dataset may name. Whatever happens, the exit status is one of three, a failure says why, no temporary file stays, and
 // results are numbers.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -59,13 +60,14 @@ bool allowed(const Dataset& dataset) {
   return true;
 }
 
-// JSON has no sign for what is not a number: null takes its place, and is meant only where a bound is infinite.
-void demand_numbers(const nlohmann::json& value, std::string_view key) {
-  demand(!value.is_null() || key == "condition" || key == "error_bound_hz", "a result is not a number");
-  if (value.is_object()) {
-    for (const auto& [name, inner] : value.items()) demand_numbers(inner, name);
-  } else if (value.is_array()) {
-    for (const auto& inner : value) demand_numbers(inner, key);
+// JSON has no sign for what is not a number: null takes its place. Elsewhere null is what nobody stated, and a bound that
+// is infinite.
+void demand_numbers(const nlohmann::json& value) {
+  constexpr std::array<std::string_view, 4> numbers = {"real_hz", "imag_hz", "backward_error", "time"};
+  for (const auto& [name, inner] : value.items()) {
+    const bool is_number = value.is_array() || std::ranges::find(numbers, name) != numbers.end();
+    demand(!inner.is_null() || !is_number, "a result is not a number");
+    if (inner.is_structured()) demand_numbers(inner);
   }
 }
 
@@ -87,7 +89,7 @@ void run(const Folder& folder, const std::vector<std::string>& parts) {
   }
   demand(status != wrong_input || files == inputs, "wrong input, and yet something is written");
   demand(status != done || folder.has("results.json"), "no results");
-  if (folder.has("results.json")) demand_numbers(nlohmann::json::parse(folder.read("results.json")), "");
+  if (folder.has("results.json")) demand_numbers(nlohmann::json::parse(folder.read("results.json")).at("results"));
 }
 
 }  // namespace
