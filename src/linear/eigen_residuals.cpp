@@ -79,12 +79,17 @@ ComplexMatrix EigenResiduals::measure(const StructuredPencil& pencil) {
   const Index n = equations.states(), N = equations.unknowns();
   ComplexMatrix reduced(n, count());
   rounding_share_ = Eigen::VectorXd::Zero(N);
+  left_shares_.resize(N - n, count()), left_units_.resize(count());
   for_column_blocks(count(), [&](Index first, Index columns) {
     const ComplexMatrix x = pairs_.right.middleCols(first, columns), y = pairs_.left.middleCols(first, columns);
     const ComplexMatrix a = by_parts(x, [&](const Matrix& m) { return equations.complete(m); });
     const ComplexMatrix b = by_parts(y, [&](const Matrix& m) { return equations.complete_left(m); });
     ComplexMatrix r(N, columns);
     for (Index c = 0; c < columns; ++c) {
+      const Eigen::VectorXd of_b = b.col(c).cwiseAbs();
+      const double largest = of_b.size() > 0 ? of_b.maxCoeff() : 0;
+      left_units_(first + c) = largest;
+      left_shares_.col(first + c) = (largest > 0 ? Eigen::VectorXd(of_b / largest) : of_b).cast<float>();
       ComplexVector w(N);
       w << a.col(c), x.col(c);
       const PencilResidual of = pencil.residual(value(pairs_, {first + c, false}), w);
@@ -113,21 +118,19 @@ ComplexMatrix EigenResiduals::measure(const StructuredPencil& pencil) {
 // Off the diagonal products of a share of the row and one of the column bound Σ_r |y_ri| δ_rj: those of the rounding of
 // the residuals, of their sums, and of P E.
 void EigenResiduals::measure_floors(const StructuredPencil& pencil, const ComplexMatrix& reduced) {
-  const PerturbationEquations& equations = pencil.equations();
-  const Index n = equations.states();
+  const Index n = pencil.equations().states();
   const double relative = margin_of_difference * column_floor_.col(1).maxCoeff() + static_cast<double>(n) * eps;
   const Eigen::VectorXd sum_share = largest_share(reduced.cwiseAbs());
-  for_column_blocks(count(), [&](Index first, Index columns) {
-    const ComplexMatrix y = pairs_.left.middleCols(first, columns);
-    const ComplexMatrix b = by_parts(y, [&](const Matrix& m) { return equations.complete_left(m); });
-    for (Index c = 0; c < columns; ++c) {
-      const double unit = std::abs(unit_(first + c));
-      row_floor_(first + c, 0) =
-          (b.col(c).cwiseAbs().dot(rounding_share_.head(b.rows())) + y.col(c).cwiseAbs().dot(rounding_share_.tail(n))) /
-          unit;
-      row_floor_(first + c, 1) = y.col(c).cwiseAbs().dot(sum_share) / unit;
-    }
-  });
+  constexpr double upward = 1 + 1e-6;  // from single precision
+  const Index algebraic = left_shares_.rows();
+  for (Index i = 0; i < count(); ++i) {
+    const double unit = std::abs(unit_(i));
+    const Eigen::VectorXd y = pairs_.left.col(i).cwiseAbs();
+    const double shares = left_shares_.col(i).cast<double>().dot(rounding_share_.head(algebraic));
+    row_floor_(i, 0) = (upward * left_units_(i) * shares + y.dot(rounding_share_.tail(n))) / unit;
+    row_floor_(i, 1) = y.dot(sum_share) / unit;
+  }
+  left_shares_.resize(0, 0);
   for (Index j = 0; j < count(); ++j) column_floor_(j, 1) = relative * reduced.col(j).norm();
   row_floor_.col(2).setZero(), column_floor_.col(2).setZero();
   // E = G − P E: with column sums of |P| below a quarter, those of |E| are at most those of |G| and a third.
