@@ -73,6 +73,12 @@ std::vector<Index> inexact(const EigenPairs& pairs, const std::vector<EigenTrust
   return found;
 }
 
+double largest(const std::vector<EigenTrust>& trust) {
+  double bound = 0;
+  for (const EigenTrust& t : trust) bound = std::max(bound, t.bound);
+  return bound;
+}
+
 // Single eigenvalues no larger than what rounding makes of a zero, and known to few digits, may be one.
 void doubt_rounding(const ZeroModes& zero, const EigenPairs& pairs, std::vector<EigenTrust>& trust) {
   const double size = std::numeric_limits<double>::epsilon() * zero.block.norm();
@@ -112,7 +118,8 @@ std::vector<EigenTrust> refine(const PerturbationEquations& equations, const Zer
     if (settled) break;
   }
   if (!all_apart) {
-    if (std::optional<IncludedValues> found = included_values(pencil, zero)) {
+    std::optional<IncludedValues> found = included_values(pencil, zero);
+    if (found && largest(found->trust) <= largest(trust)) {
       pairs = std::move(found->pairs), trust = std::move(found->trust);
       for (std::size_t i = 0; i < trust.size(); ++i) {
         const auto at = static_cast<Index>(i);

@@ -231,7 +231,8 @@ class Inclusion {
     joined = i == 0 ? 1 : 0;
     double most = -1;
     for (Index j = 0; j < q; ++j) {
-      const double coupling = j == i ? -1 : std::max(E_(i, j), E_(j, i)) / apart(j);
+      // A block that is not known to within its distance is as good as here, coupled or not.
+      const double coupling = j == i ? -1 : std::max({E_(i, j), E_(j, i), E_(j, j)}) / apart(j);
       if (coupling > most) most = coupling, joined = j;
     }
     return std::nullopt;

@@ -103,5 +103,28 @@ TEST(Inclusion, well_separated_values_are_told_apart_to_long_double) {
   EXPECT_EQ(total, 20);
 }
 
+// Equal oscillators that know nothing of each other, some of them a rounding off: they belong together, and not to the
+// mirror image of the others.
+TEST(Inclusion, equal_oscillators_share_a_disc_above_the_axis) {
+  for (const Eigen::Index count : {2, 3, 6, 12}) {
+    for (int kind = 0; kind < 3; ++kind) {
+      const double off = 250 * (1 + 1.2e-16), plain = 250;
+      LongComplexMatrix M = LongComplexMatrix::Zero(2 * count, 2 * count);
+      Eigen::MatrixXd uncertainty = Eigen::MatrixXd::Zero(2 * count, 2 * count);
+      for (Eigen::Index k = 0; k < count; ++k) {
+        M(2 * k, 2 * k + 1) = kind == 0 || (kind == 1 && k % 2) ? -plain : -off;
+        M(2 * k + 1, 2 * k) = 1;
+        uncertainty(2 * k, 2 * k + 1) = 2.8e-14;
+      }
+      const auto discs = inclusion_discs(M, uncertainty, true);
+      ASSERT_TRUE(discs);
+      ASSERT_EQ(discs->size(), 1u) << count << " " << kind;
+      EXPECT_EQ(discs->front().count, count);
+      EXPECT_NEAR(std::abs(discs->front().centre - Complex(0, std::sqrt(250.0))), 0, 1e-14);
+      EXPECT_LE(discs->front().radius, 1e-14);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dynalin

@@ -64,7 +64,11 @@ class Discs {
       const bool narrow = disc.members.size() == 1 || disc.radius <= least_relative_width * std::abs(disc.centre);
       out.all = out.all && proven_[at(i)] && narrow;
     }
-    if (std::find(proven_.begin(), proven_.end(), false) != proven_.end()) join_discs();
+    if (std::find(proven_.begin(), proven_.end(), false) != proven_.end()) {
+      // Discs and Gershgorin's side by side must count the same eigenvalues.
+      for (Index i = 0; i < count; ++i) proven_[at(i)] = proven_[at(i)] && inside_gershgorin(i);
+      join_discs();
+    }
     for (Index i = 0; i < count; ++i) {
       const Disc& disc = disc_[at(group_[at(i)])];
       double bound = proven_[at(group_[at(i)])] ? disc.radius + std::abs(centre_(i) - disc.centre) : of_component(i);
@@ -153,12 +157,15 @@ class Discs {
       if (r <= radius || !std::isfinite(r)) break;
       radius = 1.1 * r;
     }
-    // Inside of one of Gershgorin's, so that both count the same eigenvalues.
-    const bool inside = std::any_of(disc.members.begin(), disc.members.end(), [&](Index a) {
+    // No eigenvalue of Λ + tE is between this radius and the one it was found for: inside are as many as there are members.
+    const bool upper = pairs_.real(group) || disc.centre.imag() > disc.radius;
+    proven_[at(group)] = std::isfinite(disc.radius) && upper;
+  }
+  bool inside_gershgorin(Index group) const {
+    const Disc& disc = disc_[at(group)];
+    return std::any_of(disc.members.begin(), disc.members.end(), [&](Index a) {
       return std::abs(centre_(a) - disc.centre) + disc.radius <= gershgorin(a);
     });
-    const bool upper = pairs_.real(group) || disc.centre.imag() > disc.radius;
-    proven_[at(group)] = inside && upper;
   }
   // Whether a disc meets another, or the mirror image of one.
   bool meet(Index i, Index j) const {
@@ -172,10 +179,14 @@ class Discs {
   // What the disc of a group, of at most `radius`, must have as radius; infinity if that cannot be said.
   double needed(Index group, double radius) const {
     const Disc& disc = disc_[at(group)];
-    double own = 0;
+    double own = 0, mixed = 0;
     for (const Index a : disc.members) {
-      for (const Index b : disc.members) own = std::hypot(own, a == b ? diagonal(a) : size(a, {b, false}));
+      own = std::max(own, diagonal(a));
+      for (const Index b : disc.members) {
+        if (a != b) mixed = std::hypot(mixed, size(a, {b, false}));
+      }
     }
+    own += mixed;
     double most = 0, largest = 0, second = 0, coupling = 0;
     bool apart = true;
     const auto add = [&](const Member& j) {

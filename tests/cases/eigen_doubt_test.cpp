@@ -1,4 +1,5 @@
 // What tables and JSON say of eigenvalues that are not certain to all digits printed.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,6 +56,34 @@ TEST_F(EigenDoubt, without_vectors_values_and_bounds_are_the_same) {
         EXPECT_EQ(with.at(k).at(what), without.at(k).at(what)) << what;
       EXPECT_FALSE(without.at(k).contains("vector"));
     }
+  }
+}
+
+// Two equal parts on equal mounts, with and without a critically damped slide beside them: that nothing tells the slide's
+// two values apart, nor equal ones from each other, costs no digit of the frequencies of the parts.
+TEST_F(EigenDoubt, equal_parts_keep_their_frequencies_beside_a_defective_value) {
+  std::string parts = "Parts\nUNITS/SYSTEM=MKS\nPART/1, GROUND\n";
+  for (const int k : {2, 3}) {
+    parts += fmt::format(
+        "PART/{0}, MASS=2, CM={0}0, QG=0,{1},0.3, IP=0.8,0.8,0.8\nMARKER/{0}0\nMARKER/{0}1\n"
+        "MARKER/{0}2, PART=1, QP=0,{1},0.3\nBUSHING/{0}, I={0}1, J={0}2, K=500,500,500, KT=200,200,200\n",
+        k, 2 * k - 5);
+  }
+  const std::string slide =
+      "MARKER/8, PART=1, REULER=90D,90D,0\nPART/9, MASS=1.1, CM=90, IP=1,1,1, QG=5,0,0\nMARKER/90\n"
+      "MARKER/91, REULER=90D,90D,0\nJOINT/9, TRANSLATIONAL, I=91, J=8\n"
+      "SPRINGDAMPER/9, TRANSLATION, I=90, J=8, K=110, C=22, LENGTH=5\n";
+  for (const std::string& beside : {std::string(), slide}) {
+    const RunResult r = run(parts + beside + "END\n", "LINEAR/EIGENSOL\n");
+    ASSERT_EQ(r.status, 0) << r.err;
+    int equal = 0;
+    for (const auto& mode : r.result(0).at("modes")) {
+      if (mode.at("imag_hz").get<double>() == 0) continue;
+      EXPECT_NEAR(mode.at("imag_hz").get<double>(), std::sqrt(250.0) / 2 / 3.14159265358979324, 1e-14);
+      EXPECT_LT(mode.at("error_bound_hz").get<double>(), 1e-13);
+      ++equal;
+    }
+    EXPECT_EQ(equal, 12);
   }
 }
 
