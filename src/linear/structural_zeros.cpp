@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "linear/null_space.h"
 #include "system/sparse_lu.h"
 
 namespace dynalin {
@@ -69,7 +70,7 @@ class StructuralZeros::Contributions {
     add_rates_that_follow(d, rows);
     add_readings(d, rows);
     add_forces(d, rows);
-    const Matrix null = null_space(rows, d.states.cols());
+    const Matrix null = null_space(rows, d.states.cols(), vanishing * std::sqrt(static_cast<double>(d.states.cols())));
     return without(earlier, d.states * null);
   }
 
@@ -497,21 +498,6 @@ class StructuralZeros::Contributions {
       if (kind(k) > 0) fresh.row(k) *= kind(k);
     }
     return fresh;
-  }
-
-  static Matrix null_space(const std::vector<Eigen::RowVectorXd>& rows, Index columns) {
-    Matrix m = Matrix::Zero(std::max(static_cast<Index>(rows.size()), columns), columns);
-    for (std::size_t r = 0; r < rows.size(); ++r) m.row(static_cast<Index>(r)) = rows[r];
-    if (!m.allFinite()) return Matrix(columns, 0);
-    const Eigen::ColPivHouseholderQR<Matrix> qr(m);
-    const double limit = vanishing * std::sqrt(static_cast<double>(columns));
-    Index rank = columns;
-    while (rank > 0 && std::abs(qr.matrixR()(rank - 1, rank - 1)) <= limit) --rank;
-    Matrix v = Matrix::Zero(columns, columns - rank);
-    v.topRows(rank) = -qr.matrixR().topRightCorner(rank, columns - rank);
-    qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(v.topRows(rank));
-    v.bottomRows(columns - rank).setIdentity();
-    return qr.colsPermutation() * v;
   }
 
   const std::vector<BodyBlock> bodies_;
