@@ -117,8 +117,8 @@ int main(int argc, char** argv) {
   Equations eq;
   eq.resize(system.layout());
   const Motion motion = system.motion(*op);
-  const auto all = {Column::position, Column::velocity,  Column::damping, Column::acceleration,
-                    Column::lambda,   Column::algebraic, Column::state,   Column::state_rate};
+  const auto all = {PartialBy::position, PartialBy::velocity,  PartialBy::damping, PartialBy::acceleration,
+                    PartialBy::lambda,   PartialBy::algebraic, PartialBy::state,   PartialBy::state_rate};
   system.constraints(motion, rows);
   system.equations(motion, rows, eq, all);
   clock.lap();

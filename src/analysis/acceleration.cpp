@@ -8,8 +8,8 @@
 #include "analysis/acceleration_checks.h"
 #include "analysis/acceleration_equations.h"
 #include "analysis/acceleration_rounding.h"
+#include "analysis/augmented_system.h"
 #include "analysis/initial.h"
-#include "analysis/saddle.h"
 #include "system/undefined_rows.h"
 
 namespace dynalin {
@@ -142,7 +142,7 @@ enum class Start : std::uint8_t { undefined_held, reactions_held };
 
 tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquations& equations, OperatingPoint op,
                                         Start start) {
-  const Saddle& saddle = equations.saddle();
+  const AugmentedSystem& augmented = equations.augmented();
   std::vector<std::string> history;
   Solution found;
   OperatingPoint regular_point;
@@ -154,7 +154,7 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
   for (int iteration = 0; iteration < iteration_limit; ++iteration) {
     equations.release();
     if (auto looked = equations.look_at_massless(op); !looked) {
-      const std::string reason = system.departure(system.motion(op));
+      const std::string reason = system.domain_violation(system.motion(op));
       return tl::unexpected(reason.empty() ? looked.error() : failure(reason).value());
     }
     Eigen::VectorXd next = equations.evaluate(op, AccelerationEquations::unknowns);
@@ -172,7 +172,7 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
         equations.move(op, step.col(0));
         continue;
       }
-      const std::string reason = system.fault(system.motion(op));
+      const std::string reason = system.undefined_value(system.motion(op));
       return failure(reason.empty() ? "a force or constraint has no finite value" : reason, history);
     }
     regular = !holds;
@@ -182,10 +182,12 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
       found.linear = found.linear && found.factored.value.empty();
       if (!found.lu.factor(matrix)) {
         if (undefined) {
-          if (const std::string reason = system.fault(system.motion(op)); !reason.empty()) return failure(reason);
+          if (const std::string reason = system.undefined_value(system.motion(op)); !reason.empty())
+            return failure(reason);
         }
-        if (const std::string reason = system.departure(system.motion(op)); !reason.empty()) return failure(reason);
-        const std::vector<std::string> free = undetermined(system, saddle, equations.saddle_matrix());
+        if (const std::string reason = system.domain_violation(system.motion(op)); !reason.empty())
+          return failure(reason);
+        const std::vector<std::string> free = undetermined(system, augmented, equations.augmented_matrix());
         const std::string named = free.empty() ? "" : fmt::format(": nothing fixes {}", fmt::join(free, ", "));
         return failure("the accelerations are not determined" + named, free);
       }
@@ -213,7 +215,8 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
     equations.move(op, step.col(0));
   }
   if (undefined) {
-    if (const std::string reason = system.fault(system.motion(op)); !reason.empty()) return failure(reason, history);
+    if (const std::string reason = system.undefined_value(system.motion(op)); !reason.empty())
+      return failure(reason, history);
   }
   equations.evaluate(op, {});
   const std::string name = farthest_equation(system.layout(), equations.equations());
@@ -228,7 +231,7 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
   const Layout& layout = system.layout();
   AccelerationEquations equations(system, op);
   if (const auto reason = undefined_row(system, system.motion(op), equations.rows())) return failure(*reason);
-  const Saddle& saddle = equations.saddle();
+  const AugmentedSystem& augmented = equations.augmented();
   findings.redundant_rows = equations.partition().redundant;
   for (const std::int32_t r : findings.redundant_rows) op.lambda[static_cast<std::size_t>(r)] = 0.0;
   const std::vector<double> first_values = op.algebraic;
@@ -241,7 +244,7 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
   if (!solution) return tl::unexpected(solution.error());
   op = std::move(solution->op);
   const SparseLu& lu = solution->lu;
-  if (const std::string reason = system.departure(system.motion(op)); !reason.empty()) return failure(reason);
+  if (const std::string reason = system.domain_violation(system.motion(op)); !reason.empty()) return failure(reason);
   warn_of_changed_starts(layout, first_values, op.algebraic, findings);
 
   // What is zero by the structure of the model, such as the load of a body in free fall, becomes exactly zero.
@@ -249,12 +252,12 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
     Eigen::MatrixXd step = equations.evaluate(op, {});
     lu.solve(step);
     correct(op.acceleration, 0, step);
-    correct(op.lambda, saddle.lambda(0), step);
+    correct(op.lambda, augmented.lambda(0), step);
   }
   const Eigen::VectorXd rounding = rounding_of_accelerations(
       system, lu, op, [&](const OperatingPoint& at) -> Eigen::VectorXd { return equations.evaluate(at, {}); });
   drop_rounding(op.acceleration, 0, rounding);
-  drop_rounding(op.lambda, saddle.lambda(0), rounding);
+  drop_rounding(op.lambda, augmented.lambda(0), rounding);
 
   if (equations.massless().any() || !findings.redundant_rows.empty()) equations.evaluate(op, {});
   if (auto accepted = equations.massless().accept(first_velocity, op, equations.equations(), findings); !accepted)

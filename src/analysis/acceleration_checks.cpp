@@ -21,14 +21,14 @@ double along_axes(const Layout& layout, const std::vector<double>& values, std::
 
 std::string unknown_text(const System& system, const AccelerationEquations& equations, std::int32_t k) {
   const Layout& layout = system.layout();
-  const Saddle& saddle = equations.saddle();
-  if (k >= saddle.size()) return "the balance of freedoms without mass";
-  if (k < saddle.lambda(0)) return "the acceleration " + layout.coordinate_text(k);
-  if (k < saddle.algebraic(0)) return "the reaction " + system.row_text(k - saddle.lambda(0));
-  if (k < saddle.state(0)) {
-    return "the value of " + layout.algebraic[static_cast<std::size_t>(k - saddle.algebraic(0))].owner->full_text();
+  const AugmentedSystem& augmented = equations.augmented();
+  if (k >= augmented.size()) return "the balance of freedoms without mass";
+  if (k < augmented.lambda(0)) return "the acceleration " + layout.coordinate_text(k);
+  if (k < augmented.algebraic(0)) return "the reaction " + system.row_text(k - augmented.lambda(0));
+  if (k < augmented.state(0)) {
+    return "the value of " + layout.algebraic[static_cast<std::size_t>(k - augmented.algebraic(0))].owner->full_text();
   }
-  return "the rate of " + layout.states[static_cast<std::size_t>(k - saddle.state(0))].owner->full_text();
+  return "the rate of " + layout.states[static_cast<std::size_t>(k - augmented.state(0))].owner->full_text();
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ std::vector<std::int32_t> contradicted_accelerations(const System& system, const
 LostDigits lost_digits(const System& system, AccelerationEquations& equations, const SparseLu& lu,
                        const ColumnMatrix& factored, const OperatingPoint& op, const Eigen::VectorXd& terms,
                        const Eigen::VectorXd& uncertainty) {
-  const Saddle& saddle = equations.saddle();
+  const AugmentedSystem& augmented = equations.augmented();
   const Eigen::Index count = terms.size();
   const auto n = static_cast<std::size_t>(count);
   std::minstd_rand random(1);
@@ -95,7 +95,7 @@ LostDigits lost_digits(const System& system, AccelerationEquations& equations, c
   std::vector<double> parts(n, 0.0);
   for (std::int32_t k = 0; k < static_cast<std::int32_t>(count); ++k) {
     // An algebraic value that is nothing but rounding has no derivative to lose.
-    const bool algebraic = k >= saddle.algebraic(0) && k < saddle.state(0);
+    const bool algebraic = k >= augmented.algebraic(0) && k < augmented.state(0);
     if (!(size(k) > 0) || !std::isfinite(change(k)) || (algebraic && value(k) <= 1e3 * bend(k))) continue;
     parts[static_cast<std::size_t>(k)] = change(k) / size(k);
   }

@@ -18,7 +18,7 @@ ConstraintRows rows_at(const System& system, const OperatingPoint& op) {
 
 AccelerationEquations::AccelerationEquations(const System& system, const OperatingPoint& op)
     : system_(system),
-      saddle_(system),
+      augmented_(system),
       rows_(rows_at(system, op)),
       partition_(system.partition(rows_, true)),
       massless_(system, op, partition_.active) {
@@ -29,30 +29,30 @@ AccelerationEquations::AccelerationEquations(const System& system, const Operati
 
 Result<void> AccelerationEquations::look_at_massless(const OperatingPoint& op) {
   if (!massless_.any()) return {};
-  evaluate(op, {Column::position, Column::velocity, Column::damping, Column::acceleration, Column::lambda,
-                Column::algebraic, Column::state, Column::state_rate});
+  evaluate(op, {PartialBy::position, PartialBy::velocity, PartialBy::damping, PartialBy::acceleration,
+                PartialBy::lambda, PartialBy::algebraic, PartialBy::state, PartialBy::state_rate});
   const bool undefined = clear_undefined();
   const Motion motion = system_.motion(op);
   auto looked = massless_.look(motion, rows_, equations_);
   if (!looked && undefined) {
-    if (std::string reason = system_.fault(motion); !reason.empty())
+    if (std::string reason = system_.undefined_value(motion); !reason.empty())
       return tl::unexpected(Failure{"acceleration initial conditions", std::move(reason), {}});
   }
   return looked;
 }
 
-Eigen::VectorXd AccelerationEquations::evaluate(const OperatingPoint& op, std::initializer_list<Column> wanted) {
+Eigen::VectorXd AccelerationEquations::evaluate(const OperatingPoint& op, std::initializer_list<PartialBy> wanted) {
   const Motion motion = system_.motion(op);
   system_.constraints(motion, rows_);
   system_.equations(motion, rows_, equations_, wanted);
-  Eigen::VectorXd missing = Eigen::VectorXd::Zero(saddle_.size());
+  Eigen::VectorXd missing = Eigen::VectorXd::Zero(augmented_.size());
   for (std::int32_t r = 0; r < equations_.size(); ++r) {
-    missing(saddle_.equation(r)) = -equations_.residual()[static_cast<std::size_t>(r)];
+    missing(augmented_.equation(r)) = -equations_.residual()[static_cast<std::size_t>(r)];
   }
   for (std::int32_t k = 0; k < rows_.size(); ++k) {
     if (!partition_.active[static_cast<std::size_t>(k)]) continue;
     const Taylor& phi = rows_.along_motion(k);
-    missing(saddle_.lambda(k)) = -(rows_.level(k) == RowLevel::position ? phi.acceleration : phi.rate);
+    missing(augmented_.lambda(k)) = -(rows_.level(k) == RowLevel::position ? phi.acceleration : phi.rate);
   }
   return massless_.bordered(std::move(missing));
 }
@@ -67,7 +67,7 @@ bool AccelerationEquations::hold(const std::vector<bool>& equations, Eigen::Vect
   for (std::int32_t r = equations_.algebraic_row(0); r < equations_.size(); ++r) {
     if (!equations[static_cast<std::size_t>(r)]) continue;
     any = true;
-    missing(saddle_.equation(r)) = 0;
+    missing(augmented_.equation(r)) = 0;
     const std::int32_t state = r - equations_.state_row(0);
     if (state < 0) {
       cut_[static_cast<std::size_t>(r - equations_.algebraic_row(0))] = true;
@@ -81,9 +81,9 @@ bool AccelerationEquations::hold(const std::vector<bool>& equations, Eigen::Vect
 bool AccelerationEquations::hold_undefined(Eigen::VectorXd& missing) {
   std::vector<bool> undefined(static_cast<std::size_t>(equations_.size()), false);
   for (std::int32_t r = 0; r < equations_.size(); ++r) {
-    undefined[static_cast<std::size_t>(r)] = !std::isfinite(missing(saddle_.equation(r)));
+    undefined[static_cast<std::size_t>(r)] = !std::isfinite(missing(augmented_.equation(r)));
   }
-  for (const Column family : unknowns) {
+  for (const PartialBy family : unknowns) {
     for_each_entry(equations_.matrix(family), [&](std::int32_t r, std::int32_t, double v) {
       if (!std::isfinite(v)) undefined[static_cast<std::size_t>(r)] = true;
     });
@@ -93,19 +93,19 @@ bool AccelerationEquations::hold_undefined(Eigen::VectorXd& missing) {
 
 bool AccelerationEquations::hold_reactions(Eigen::VectorXd& missing) {
   std::vector<bool> follows(static_cast<std::size_t>(equations_.size()), false);
-  for (const Column family : {Column::acceleration, Column::lambda}) {
+  for (const PartialBy family : {PartialBy::acceleration, PartialBy::lambda}) {
     for_each_entry(equations_.matrix(family),
                    [&](std::int32_t r, std::int32_t, double) { follows[static_cast<std::size_t>(r)] = true; });
   }
   return hold(follows, missing);
 }
 
-ColumnMatrix AccelerationEquations::saddle_matrix() const {
-  return saddle_.matrix(equations_, rows_, partition_.active, {}, cut_, held_);
+ColumnMatrix AccelerationEquations::augmented_matrix() const {
+  return augmented_.matrix(equations_, rows_, partition_.active, {}, cut_, held_);
 }
 
 Eigen::VectorXd AccelerationEquations::values(const OperatingPoint& op) const {
-  Eigen::VectorXd x(saddle_.size() + massless_.size());
+  Eigen::VectorXd x(augmented_.size() + massless_.size());
   Eigen::Index at = 0;
   for (const auto* part : {&op.acceleration, &op.lambda, &op.algebraic, &op.state_rate}) {
     for (const double v : *part) x(at++) = v;
@@ -117,7 +117,7 @@ Eigen::VectorXd AccelerationEquations::values(const OperatingPoint& op) const {
 Eigen::VectorXd AccelerationEquations::terms(const ColumnMatrix& m, const OperatingPoint& op) const {
   Eigen::VectorXd terms = Eigen::VectorXd::Zero(m.rows);
   for (std::int32_t r = 0; r < equations_.size(); ++r) {
-    terms(saddle_.equation(r)) = equations_.magnitude()[static_cast<std::size_t>(r)];
+    terms(augmented_.equation(r)) = equations_.magnitude()[static_cast<std::size_t>(r)];
   }
   const Eigen::VectorXd x = values(op);
   for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) { terms(r) += std::abs(v * x(c)); });

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "analysis/augmented_system.h"
 #include "analysis/massless_balance.h"
-#include "analysis/saddle.h"
 #include "system/system.h"
 
 namespace dynalin {
@@ -20,9 +20,9 @@ class AccelerationEquations {
   AccelerationEquations(const AccelerationEquations&) = delete;
   AccelerationEquations& operator=(const AccelerationEquations&) = delete;
 
-  static constexpr std::initializer_list<Column> unknowns = {Column::acceleration, Column::lambda, Column::algebraic,
-                                                             Column::state_rate};
-  const Saddle& saddle() const { return saddle_; }
+  static constexpr std::initializer_list<PartialBy> unknowns = {PartialBy::acceleration, PartialBy::lambda,
+                                                                PartialBy::algebraic, PartialBy::state_rate};
+  const AugmentedSystem& augmented() const { return augmented_; }
   const ConstraintRows& rows() const { return rows_; }
   const Equations& equations() const { return equations_; }
   const Partition& partition() const { return partition_; }
@@ -31,9 +31,9 @@ class AccelerationEquations {
   // What freedoms without mass ask for at a point; nothing where there are none.
   Result<void> look_at_massless(const OperatingPoint&);
 
-  // Minus the residuals at a point, in the order of the saddle matrix, then of the border. What follows speaks of the
-  // last point evaluated.
-  Eigen::VectorXd evaluate(const OperatingPoint&, std::initializer_list<Column> wanted);
+  // Minus the residuals at a point, in the order of the augmented matrix, then of the border. What follows speaks of
+  // the last point evaluated.
+  Eigen::VectorXd evaluate(const OperatingPoint&, std::initializer_list<PartialBy> wanted);
   // Algebraic and differential equations without a finite value or partial keep their unknown as it is; whether any do.
   bool hold_undefined(Eigen::VectorXd& missing);
   // So do those that reactions or accelerations enter.
@@ -41,8 +41,8 @@ class AccelerationEquations {
   void release();
   // Partials without a finite value become zero; whether there are any.
   bool clear_undefined() { return !equations_.clear_undefined().empty(); }
-  ColumnMatrix matrix() const { return massless_.bordered(saddle_matrix()); }
-  ColumnMatrix saddle_matrix() const;
+  ColumnMatrix matrix() const { return massless_.bordered(augmented_matrix()); }
+  ColumnMatrix augmented_matrix() const;
   // Of each equation, the sizes of the terms it was added up from.
   Eigen::VectorXd terms(const ColumnMatrix&, const OperatingPoint&) const;
 
@@ -57,7 +57,7 @@ class AccelerationEquations {
   bool hold(const std::vector<bool>& equations, Eigen::VectorXd& missing);
 
   const System& system_;
-  Saddle saddle_;
+  AugmentedSystem augmented_;
   ConstraintRows rows_;
   Equations equations_;
   Partition partition_;

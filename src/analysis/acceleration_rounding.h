@@ -5,7 +5,7 @@
 #include <functional>
 #include <random>
 
-#include "analysis/saddle.h"
+#include "analysis/augmented_system.h"
 #include "system/sparse_lu.h"
 
 namespace dynalin {
@@ -17,10 +17,10 @@ struct Shake {
 Shake shake(const Layout&, const OperatingPoint&, double units, std::minstd_rand&);
 OperatingPoint shaken(const System&, OperatingPoint, const Shake&, double direction);
 
-// Minus the residuals at a point, in the order of the saddle matrix.
+// Minus the residuals at a point, in the order of the augmented matrix.
 using MissingForces = std::function<Eigen::VectorXd(const OperatingPoint&)>;
 
-// Of each unknown of the saddle equations, what roundings of the point may make of it: the answer of the factored
+// Of each unknown of the augmented equations, what roundings of the point may make of it: the answer of the factored
 // equations to displacements and velocities of some units in the last place, taken both ways so that a law that
 // switches at the point itself does not count.
 Eigen::VectorXd rounding_of_accelerations(const System&, const SparseLu&, const OperatingPoint&, const MissingForces&);

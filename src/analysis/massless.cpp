@@ -65,16 +65,16 @@ void add_momentum_rows(const System& system, const Motion& motion, std::vector<S
   }
 }
 
-// Of the residuals in the order of the saddle equations: partials by q, q′ and z, and what they are made of.
-struct SaddlePartials {
+// Of the residuals in the order of the augmented equations: partials by q, q′ and z, and what they are made of.
+struct AugmentedPartials {
   ColumnMatrix positions, rates, states, positions_size, rates_size, states_size;
 };
 
-SaddlePartials saddle_partials(const Saddle& saddle, const ConstraintRows& rows, const Equations& eq,
-                               const MasslessRequest& request) {
+AugmentedPartials augmented_partials(const AugmentedSystem& augmented, const ConstraintRows& rows, const Equations& eq,
+                                     const MasslessRequest& request) {
   const std::int32_t n = eq.layout().coordinate_count;
   std::vector<Triplet> on_q, on_u, on_z, q_size, u_size, z_size;
-  const auto take = [&](Column family, std::vector<Triplet>& values, std::vector<Triplet>& sizes) {
+  const auto take = [&](PartialBy family, std::vector<Triplet>& values, std::vector<Triplet>& sizes) {
     const ColumnMatrix& m = eq.matrix(family);
     const std::span<const double> size = eq.sizes(family);
     for (std::int32_t c = 0; c < m.columns; ++c) {
@@ -82,25 +82,25 @@ SaddlePartials saddle_partials(const Saddle& saddle, const ConstraintRows& rows,
         const auto at = static_cast<std::size_t>(e);
         const auto w = static_cast<std::size_t>(m.row[at] - n);
         if (m.row[at] >= n && w < request.cut.size() && request.cut[w]) continue;
-        values.push_back({saddle.equation(m.row[at]), c, m.value[at]});
-        sizes.push_back({saddle.equation(m.row[at]), c, at < size.size() ? size[at] : std::abs(m.value[at])});
+        values.push_back({augmented.equation(m.row[at]), c, m.value[at]});
+        sizes.push_back({augmented.equation(m.row[at]), c, at < size.size() ? size[at] : std::abs(m.value[at])});
       }
     }
   };
-  take(Column::position, on_q, q_size);
-  take(Column::velocity, on_u, u_size);
-  if (!request.without_damping) take(Column::damping, on_u, u_size);
-  take(Column::state, on_z, z_size);
+  take(PartialBy::position, on_q, q_size);
+  take(PartialBy::velocity, on_u, u_size);
+  if (!request.without_damping) take(PartialBy::damping, on_u, u_size);
+  take(PartialBy::state, on_z, z_size);
   for (std::int32_t k = 0; k < rows.size(); ++k) {
     if (!request.active[static_cast<std::size_t>(k)]) continue;
     for (const auto& e : rows.row(k)) {
-      on_q.push_back({saddle.lambda(k), e.column, e.c.a0});
-      on_u.push_back({saddle.lambda(k), e.column, e.c.a1});
-      q_size.push_back({saddle.lambda(k), e.column, std::abs(e.c.a0)});
-      u_size.push_back({saddle.lambda(k), e.column, std::abs(e.c.a1)});
+      on_q.push_back({augmented.lambda(k), e.column, e.c.a0});
+      on_u.push_back({augmented.lambda(k), e.column, e.c.a1});
+      q_size.push_back({augmented.lambda(k), e.column, std::abs(e.c.a0)});
+      u_size.push_back({augmented.lambda(k), e.column, std::abs(e.c.a1)});
     }
   }
-  const std::int32_t size = saddle.size(), z = static_cast<std::int32_t>(eq.layout().states.size());
+  const std::int32_t size = augmented.size(), z = static_cast<std::int32_t>(eq.layout().states.size());
   return {compressed(size, n, on_q),   compressed(size, n, on_u),   compressed(size, z, on_z),
           compressed(size, n, q_size), compressed(size, n, u_size), compressed(size, z, z_size)};
 }
@@ -138,7 +138,7 @@ Matrix selected_rows(const Matrix& m, const std::vector<Index>& which) {
   return out;
 }
 
-// The saddle matrix with a unit of force in and a held acceleration out of each massless direction.
+// The augmented matrix with a unit of force in and a held acceleration out of each massless direction.
 ColumnMatrix bordered(const ColumnMatrix& m, const MasslessDirections& d) {
   std::vector<Triplet> entries;
   for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) { entries.push_back({r, c, v}); });
@@ -168,13 +168,14 @@ Matrix with_rounding(const System& system, const Matrix& directions) {
 
 // The same of left null vectors: what follows from components of forces, algebraic and differential equations, has
 // theirs; reactions have those of the inertia that they balance.
-Matrix with_rounding(const System& system, const Saddle& saddle, const ColumnMatrix& m, const Matrix& left) {
-  const Index n = saddle.lambda(0);
+Matrix with_rounding(const System& system, const AugmentedSystem& augmented, const ColumnMatrix& m,
+                     const Matrix& left) {
+  const Index n = augmented.lambda(0);
   Matrix size = left.cwiseAbs();
   Matrix rounding = Matrix::Zero(left.rows(), left.cols());
   rounding.topRows(n) = with_rounding(system, left.topRows(n)) - size.topRows(n);
   for (int pass = 0; pass < 3; ++pass) {
-    for (std::int32_t c = saddle.algebraic(0); c < saddle.size(); ++c) {
+    for (std::int32_t c = augmented.algebraic(0); c < augmented.size(); ++c) {
       double own = 0;
       Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(left.cols());
       for_each_in_column(m, c, [&](std::int32_t r, double v) {
@@ -186,7 +187,7 @@ Matrix with_rounding(const System& system, const Saddle& saddle, const ColumnMat
       if (own > 0) rounding.row(c) = sum / own;
     }
   }
-  std::vector<double> largest(static_cast<std::size_t>(saddle.size()), 0.0);
+  std::vector<double> largest(static_cast<std::size_t>(augmented.size()), 0.0);
   for (std::int32_t c = 0; c < n; ++c) {
     for_each_in_column(m, c, [&](std::int32_t r, double v) {
       double& most = largest[static_cast<std::size_t>(r)];
@@ -199,7 +200,7 @@ Matrix with_rounding(const System& system, const Saddle& saddle, const ColumnMat
       if (r < n) sum += std::abs(v) * (rounding.row(r) + component_units * epsilon * size.row(r));
     });
     for_each_in_column(m, c, [&](std::int32_t r, double v) {
-      const bool reaction = r >= saddle.lambda(0) && r < saddle.algebraic(0);
+      const bool reaction = r >= augmented.lambda(0) && r < augmented.algebraic(0);
       if (reaction && std::abs(v) >= 0.1 * largest[static_cast<std::size_t>(r)])
         rounding.row(r) = rounding.row(r).cwiseMax(sum / std::abs(v));
     });
@@ -207,8 +208,8 @@ Matrix with_rounding(const System& system, const Saddle& saddle, const ColumnMat
   return size + rounding;
 }
 
-// Whether the columns of the saddle matrix vanish along what its left null vectors leave: an acceleration that a force
-// on the freedom itself reads stands for a mass.
+// Whether the columns of the augmented matrix vanish along what its left null vectors leave: an acceleration that a
+// force on the freedom itself reads stands for a mass.
 bool has_virtual_mass(const ColumnMatrix& m, const MasslessDirections& d, const Matrix& left_size, const Matrix& rest) {
   for (std::size_t j = 0; j < d.coordinate.size(); ++j) {
     Eigen::RowVectorXd size = Eigen::RowVectorXd::Zero(left_size.cols());
@@ -309,26 +310,26 @@ Result<std::optional<MasslessLimit>> massless_limit(const System& system, const 
   limit.directions = massless_directions(system, motion, rows, request.active);
   const Index k = limit.count();
   if (k == 0) return Out();
-  const Saddle saddle(system);
-  const ColumnMatrix matrix = saddle.matrix(eq, rows, request.active, {}, request.cut);
+  const AugmentedSystem augmented(system);
+  const ColumnMatrix matrix = augmented.matrix(eq, rows, request.active, {}, request.cut);
   SparseLu lu;
   // Singular in more than the freedoms without mass, or beside virtual masses: the plain equations say it.
   if (!lu.factor(bordered(matrix, limit.directions))) return Out();
-  Matrix y = Matrix::Zero(saddle.size() + k, k);
+  Matrix y = Matrix::Zero(augmented.size() + k, k);
   y.bottomRows(k).setIdentity();
   limit.right = y;
   lu.solve_transposed(y);
   lu.solve(limit.right);
-  limit.left = y.topRows(saddle.size());
-  limit.right.conservativeResize(saddle.size(), Eigen::NoChange);
-  const Matrix size = with_rounding(system, saddle, matrix, limit.left);
+  limit.left = y.topRows(augmented.size());
+  limit.right.conservativeResize(augmented.size(), Eigen::NoChange);
+  const Matrix size = with_rounding(system, augmented, matrix, limit.left);
   if (has_virtual_mass(matrix, limit.directions, size, y.bottomRows(k))) return Out();
   // Components that are rounding of the solution would couple what has nothing to do with each other.
   for (Index c = 0; c < k; ++c) {
     auto column = limit.left.col(c);
-    for (const auto& [first, last] : {std::pair<Index, Index>{0, saddle.lambda(0)},
-                                      {saddle.lambda(0), saddle.algebraic(0)},
-                                      {saddle.algebraic(0), saddle.size()}}) {
+    for (const auto& [first, last] : {std::pair<Index, Index>{0, augmented.lambda(0)},
+                                      {augmented.lambda(0), augmented.algebraic(0)},
+                                      {augmented.algebraic(0), augmented.size()}}) {
       if (first == last) continue;
       auto group = column.segment(first, last - first);
       const double zero = cancelled_units * epsilon * group.cwiseAbs().maxCoeff();
@@ -336,7 +337,7 @@ Result<std::optional<MasslessLimit>> massless_limit(const System& system, const 
     }
   }
 
-  const SaddlePartials partials = saddle_partials(saddle, rows, eq, request);
+  const AugmentedPartials partials = augmented_partials(augmented, rows, eq, request);
   const Matrix along = with_rounding(system, limit.directions.basis);
   const auto balance = [&](const ColumnMatrix& of, const ColumnMatrix& sizes, Matrix& value, Matrix& its_size) {
     value = left_product(limit.left, of);

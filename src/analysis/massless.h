@@ -3,7 +3,7 @@
 //     Φ_q ν = 0,   v_C(ν) = 0 of every mass,   J ω(ν) = 0 of every inertia.
 //
 // What has mass there is decided on the statements: a mass or principal inertia of zero, not a small one. In the limit
-// of vanishing mass the balance of forces along ν holds without inertia. With the left null vectors Y of the saddle
+// of vanishing mass the balance of forces along ν holds without inertia. With the left null vectors Y of the augmented
 // matrix it reads Yᵀ R(q, q′, z) = 0, R the residuals; its partials by q′ and q along ν are damping C and stiffness K.
 // Directions in which C is regular follow the balance with their velocities, and are of first order. In the null space
 // of C the balance determines the positions, if WᵀKZ is regular with the null vectors W and Z of C.
@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "analysis/augmented_system.h"
 #include "analysis/initial.h"
 #include "analysis/rank_split.h"
-#include "analysis/saddle.h"
 
 namespace dynalin {
 
@@ -33,7 +33,7 @@ MasslessDirections massless_directions(const System&, const Motion&, const Const
 
 struct MasslessLimit {
   MasslessDirections directions;
-  Eigen::MatrixXd left;                               // Y, in the order of the saddle equations
+  Eigen::MatrixXd left;                               // Y, in the order of the augmented equations
   Eigen::MatrixXd right;                              // what accelerations along the directions bring with them
   Eigen::MatrixXd on_positions, on_rates, on_states;  // Yᵀ ∂R
   Eigen::MatrixXd on_positions_size, on_rates_size, on_states_size;  // of the sums that make them

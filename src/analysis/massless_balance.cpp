@@ -114,9 +114,9 @@ Result<void> MasslessBalance::accept(const std::vector<double>& start, const Ope
     for (Index c = 0; c < moved.size(); ++c)
       farthest = std::max(farthest, std::abs(moved(c)) / system_.coordinate_scale(static_cast<std::int32_t>(c)));
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(limit_->left.rows());
-    const Saddle saddle(system_);
+    const AugmentedSystem augmented(system_);
     for (std::int32_t r = 0; r < eq.size(); ++r)
-      forces(saddle.equation(r)) = eq.magnitude()[static_cast<std::size_t>(r)];
+      forces(augmented.equation(r)) = eq.magnitude()[static_cast<std::size_t>(r)];
     const Eigen::VectorXd size =
         limit_->damping.left_null.cwiseAbs().transpose() * (limit_->left.cwiseAbs().transpose() * forces);
     if (farthest > pose_tolerance && (lacking_.array().abs() > force_tolerance * size.array()).any()) {

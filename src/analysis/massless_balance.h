@@ -1,4 +1,4 @@
-// Freedoms without mass in the acceleration initial conditions: the saddle equations do not determine their
+// Freedoms without mass in the acceleration initial conditions: the augmented equations do not determine their
 // accelerations, and ask for balance instead. Velocities of damped freedoms are unknowns of the same Newton iteration;
 // where stiffness alone holds a freedom its pose has to be balanced already.
 #pragma once
@@ -14,7 +14,7 @@ class MasslessBalance {
   MasslessBalance(const System&, const OperatingPoint&, const std::vector<bool>& active);
 
   bool any() const { return directions_.count() > 0; }
-  // Unknowns beyond those of the saddle equations: velocities of damped freedoms, forces that condensed ones lack.
+  // Unknowns beyond those of the augmented equations: velocities of damped freedoms, forces that condensed ones lack.
   Eigen::Index size() const { return limit_ ? limit_->count() : 0; }
   // Looks at the freedoms at this point; from then on residuals and the matrix are bordered. `Equations` must hold all
   // partials, and sizes.

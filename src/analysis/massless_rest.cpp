@@ -38,7 +38,7 @@ bool at_rest(const System& system, const OperatingPoint& op, const MasslessDirec
     const Taylor& phi = rows.along_motion(k);
     if (phi.rate != 0.0 || (rows.level(k) == RowLevel::position && phi.acceleration != 0.0)) return false;
   }
-  system.equations(motion, rows, eq, {Column::position, Column::algebraic});
+  system.equations(motion, rows, eq, {PartialBy::position, PartialBy::algebraic});
   // What a unit in the last place of positions makes of stiff elements is rest as well.
   std::vector<double> blurred(static_cast<std::size_t>(eq.size()), 0.0);
   std::vector<double> far(static_cast<std::size_t>(layout.coordinate_count));
@@ -48,14 +48,14 @@ bool at_rest(const System& system, const OperatingPoint& op, const MasslessDirec
     for (std::int32_t k = 0; k < std::min(layout.bodies[b].count, std::int32_t{3}); ++k)
       far[static_cast<std::size_t>(layout.bodies[b].offset + k)] += norm(op.poses[b].r);
   }
-  for_each_entry(eq.matrix(Column::position), [&](std::int32_t r, std::int32_t c, double v) {
+  for_each_entry(eq.matrix(PartialBy::position), [&](std::int32_t r, std::int32_t c, double v) {
     blurred[static_cast<std::size_t>(r)] += rounding * std::abs(v) * far[static_cast<std::size_t>(c)];
   });
   // Forces that are functions pass on what their values are rounded by.
   const std::vector<double> direct = blurred;
   for (int pass = 0; pass < 3; ++pass) {
     std::vector<double> next = direct;
-    for_each_entry(eq.matrix(Column::algebraic), [&](std::int32_t r, std::int32_t c, double v) {
+    for_each_entry(eq.matrix(PartialBy::algebraic), [&](std::int32_t r, std::int32_t c, double v) {
       const auto own = static_cast<std::size_t>(eq.algebraic_row(c));
       if (r != eq.algebraic_row(c)) next[static_cast<std::size_t>(r)] += std::abs(v) * blurred[own];
     });
@@ -75,7 +75,7 @@ bool at_rest(const System& system, const OperatingPoint& op, const MasslessDirec
   if (!balanced(0, coordinates) || !balanced(eq.state_row(0), eq.size())) return false;
   for (const double ahead : {0x1p-20, 0x1p-8}) {
     motion.time = op.time + ahead * std::max(1.0, std::abs(op.time));
-    system.equations(motion, rows, later, {Column::position, Column::algebraic});
+    system.equations(motion, rows, later, {PartialBy::position, PartialBy::algebraic});
     if (!std::equal(eq.residual().begin(), eq.residual().end(), later.residual().begin())) return false;
   }
   return true;

@@ -81,11 +81,11 @@ std::vector<double> assembly_weights(const System& system) {
   return weight;
 }
 
-std::string value_fault(const System& system, const OperatingPoint& op, std::int32_t row) {
+std::string undefined_value_text(const System& system, const OperatingPoint& op, std::int32_t row) {
   const auto at = static_cast<std::size_t>(row);
   std::string reason;
   if (at < system.layout().rows.size()) {
-    reason = fault_of(system.faults(system.motion(op)), *system.layout().rows[at].owner);
+    reason = undefined_value_of(system.undefined_values(system.motion(op)), *system.layout().rows[at].owner);
   }
   return reason.empty() ? system.row_text(row) + " has no finite value" : reason;
 }
@@ -202,7 +202,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
     const Violation v = position_violation(system, rows);
     history.push_back(fmt::format("iteration {}: largest violation {:.3e}", iteration, v.relative));
     if (std::isnan(v.relative)) {
-      return tl::unexpected(Failure{"initial conditions", value_fault(system, op, v.row), history});
+      return tl::unexpected(Failure{"initial conditions", undefined_value_text(system, op, v.row), history});
     }
     const auto finished = [&] {
       system.remember(op);

@@ -15,8 +15,8 @@ constexpr double softest = 1e9;        // answer of an unknown that anything hol
 constexpr double indifference = 1e-6;  // a step that rounding makes, of the size of an unknown
 
 bool row_counts(const StaticEquations& equations, Eigen::Index k) {
-  const Saddle& saddle = equations.saddle();
-  return k < saddle.lambda(0) || k >= saddle.algebraic(0);  // constraints are met by assembly
+  const AugmentedSystem& augmented = equations.augmented();
+  return k < augmented.lambda(0) || k >= augmented.algebraic(0);  // constraints are met by assembly
 }
 
 // Columns with the given sizes and random signs, the same in every run.
@@ -92,14 +92,14 @@ class ScaledTangent {
 // what it depends on changes by its own.
 Eigen::VectorXd unknown_sizes(const StaticEquations& equations, const OperatingPoint& op, const ColumnMatrix& tangent) {
   const System& system = equations.system();
-  const Saddle& saddle = equations.saddle();
-  Eigen::VectorXd size = Eigen::VectorXd::Ones(saddle.size());
-  for (std::int32_t k = 0; k < saddle.lambda(0); ++k) size(k) = system.coordinate_scale(k);
+  const AugmentedSystem& augmented = equations.augmented();
+  Eigen::VectorXd size = Eigen::VectorXd::Ones(augmented.size());
+  for (std::int32_t k = 0; k < augmented.lambda(0); ++k) size(k) = system.coordinate_scale(k);
   for (std::size_t k = 0; k < op.state.size(); ++k)
-    size(saddle.state(static_cast<std::int32_t>(k))) = std::max(1.0, std::abs(op.state[k]));
+    size(augmented.state(static_cast<std::int32_t>(k))) = std::max(1.0, std::abs(op.state[k]));
   for (std::size_t k = 0; k < op.algebraic.size(); ++k)
-    size(saddle.algebraic(static_cast<std::int32_t>(k))) = std::abs(op.algebraic[k]);
-  const auto is_value = [&](std::int32_t k) { return k >= saddle.algebraic(0) && k < saddle.state(0); };
+    size(augmented.algebraic(static_cast<std::int32_t>(k))) = std::abs(op.algebraic[k]);
+  const auto is_value = [&](std::int32_t k) { return k >= augmented.algebraic(0) && k < augmented.state(0); };
   const Eigen::VectorXd first = size;
   for_each_entry(tangent, [&](std::int32_t r, std::int32_t c, double v) {
     if (is_value(r) && row_counts(equations, c) && !is_value(c)) size(r) = std::max(size(r), std::abs(v) * first(c));

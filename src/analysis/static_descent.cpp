@@ -120,7 +120,7 @@ bool Descent::finish(OperatingPoint& op) {
     if (j->largest > 1e-2 || stuck > 3) break;
     smallest = std::min(smallest, j->largest);
     double taken = 0;
-    here = moved(system_, here, equations_.saddle(), j->step, 1.0, options_.limits, &taken);
+    here = moved(system_, here, equations_.augmented(), j->step, 1.0, options_.limits, &taken);
     for (Eigen::Index i = 0; i < j->step.size(); ++i) {
       if (j->step(i) != 0 && move_.size() > 0) move_(i) = std::abs(taken * j->step(i)) / j->size(i);
     }
@@ -166,12 +166,12 @@ void Descent::note_arrivals() {
 }
 
 void Descent::note_move(const Eigen::VectorXd& step, double factor) {
-  const Saddle& saddle = equations_.saddle();
+  const AugmentedSystem& augmented = equations_.augmented();
   for (Eigen::Index k = 0; k < step.size(); ++k) {
     if (excess_(k) <= noise) continue;  // nothing pushed there, whatever a nearly singular matrix makes of it
     const auto i = static_cast<std::int32_t>(k);
-    const bool pose = i < saddle.lambda(0);
-    if (pose || i >= saddle.state(0))
+    const bool pose = i < augmented.lambda(0);
+    if (pose || i >= augmented.state(0))
       move_(k) = std::abs(factor * step(k)) / (pose ? system_.coordinate_scale(i) : 1.0);
   }
 }
@@ -197,7 +197,7 @@ bool Descent::newton(OperatingPoint& op, double level) {
   if (!step || (level >= 1e-6 && equations_.slope(*step) >= 0)) return false;
   for (const double fraction : {1.0, 0.5, 0.25}) {
     double taken = 0;
-    OperatingPoint next = moved(system_, op, equations_.saddle(), *step, fraction, options_.limits, &taken);
+    OperatingPoint next = moved(system_, op, equations_.augmented(), *step, fraction, options_.limits, &taken);
     if (level > 1e-6) equations_.settle(next);
     equations_.evaluate(next, false);
     const double after = equations_.merit(force_);
@@ -222,7 +222,7 @@ bool Descent::implicit(OperatingPoint& op) {
     const double slope = step ? equations_.slope(*step) : 0;
     if (step && slope < 0) {
       double taken = 0;
-      OperatingPoint next = moved(system_, op, equations_.saddle(), *step, 1.0, options_.limits, &taken);
+      OperatingPoint next = moved(system_, op, equations_.augmented(), *step, 1.0, options_.limits, &taken);
       equations_.settle(next);
       const double foretold = -hold_ * equations_.damping(*step);
       equations_.evaluate(next, false);

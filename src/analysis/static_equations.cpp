@@ -19,7 +19,7 @@ bool finite(const std::vector<double>& v) {
 }  // namespace
 
 StaticEquations::StaticEquations(const System& system)
-    : system_(system), saddle_(system), coordinates_(system.layout().coordinate_count) {
+    : system_(system), augmented_(system), coordinates_(system.layout().coordinate_count) {
   rows_.resize(system.layout());
   eq_.resize(system.layout());
   for (const DifferentialState& z : system.layout().states) held_.push_back(z.held_in_statics);
@@ -30,22 +30,23 @@ void StaticEquations::evaluate(const OperatingPoint& op, bool with_partials) {
   system_.constraints(motion, rows_);
   if (with_partials || part_.active.empty()) part_ = system_.partition(rows_, false);
   if (with_partials) {
-    system_.equations(motion, rows_, eq_, {Column::position, Column::lambda, Column::algebraic, Column::state});
+    system_.equations(motion, rows_, eq_,
+                      {PartialBy::position, PartialBy::lambda, PartialBy::algebraic, PartialBy::state});
     undefined_ = !eq_.clear_undefined().empty();
   } else {
     system_.equations(motion, rows_, eq_, {});
   }
-  residual_ = Eigen::VectorXd::Zero(saddle_.size());
-  magnitude_ = Eigen::VectorXd::Zero(saddle_.size());
+  residual_ = Eigen::VectorXd::Zero(augmented_.size());
+  magnitude_ = Eigen::VectorXd::Zero(augmented_.size());
   for (std::int32_t r = 0; r < eq_.size(); ++r) {
-    residual_(saddle_.equation(r)) = eq_.residual()[static_cast<std::size_t>(r)];
-    magnitude_(saddle_.equation(r)) = eq_.magnitude()[static_cast<std::size_t>(r)];
+    residual_(augmented_.equation(r)) = eq_.residual()[static_cast<std::size_t>(r)];
+    magnitude_(augmented_.equation(r)) = eq_.magnitude()[static_cast<std::size_t>(r)];
   }
   for (std::size_t k = 0; k < held_.size(); ++k) {
-    if (held_[k]) residual_(saddle_.state(static_cast<std::int32_t>(k))) = 0;
+    if (held_[k]) residual_(augmented_.state(static_cast<std::int32_t>(k))) = 0;
   }
   for (std::int32_t k = 0; k < rows_.size(); ++k) {
-    if (part_.active[static_cast<std::size_t>(k)]) residual_(saddle_.lambda(k)) = rows_.along_motion(k).value;
+    if (part_.active[static_cast<std::size_t>(k)]) residual_(augmented_.lambda(k)) = rows_.along_motion(k).value;
   }
   measure_forces(op);
   if (!with_partials) return;
@@ -79,12 +80,12 @@ double StaticEquations::imbalance() const {
 }
 
 double StaticEquations::unit(Eigen::Index k, double force) const {
-  if (yardstick_ == Yardstick::part && (k < coordinates_ || k >= saddle_.algebraic(0))) {
+  if (yardstick_ == Yardstick::part && (k < coordinates_ || k >= augmented_.algebraic(0))) {
     const double scale = own_scale_(k);
     return scale > 0 ? (k < coordinates_ ? force_unit(static_cast<std::int32_t>(k)) : 1.0) / scale : 0.0;
   }
   if (k < coordinates_) return force_unit(static_cast<std::int32_t>(k)) / force;
-  return k < saddle_.algebraic(0) ? 1 / system_.length() : 1.0;
+  return k < augmented_.algebraic(0) ? 1 / system_.length() : 1.0;
 }
 
 double StaticEquations::merit(double force) const {
@@ -111,10 +112,10 @@ std::string StaticEquations::equation_text(Eigen::Index row) const {
   const Layout& layout = system_.layout();
   const auto k = static_cast<std::int32_t>(row);
   if (k < coordinates_) return layout.coordinate_text(k);
-  if (k < saddle_.algebraic(0)) return system_.row_text(k - saddle_.lambda(0));
-  if (k < saddle_.state(0))
-    return "the value of " + layout.algebraic[static_cast<std::size_t>(k - saddle_.algebraic(0))].owner->full_text();
-  return "the state of " + layout.states[static_cast<std::size_t>(k - saddle_.state(0))].owner->full_text();
+  if (k < augmented_.algebraic(0)) return system_.row_text(k - augmented_.lambda(0));
+  if (k < augmented_.state(0))
+    return "the value of " + layout.algebraic[static_cast<std::size_t>(k - augmented_.algebraic(0))].owner->full_text();
+  return "the state of " + layout.states[static_cast<std::size_t>(k - augmented_.state(0))].owner->full_text();
 }
 
 std::string StaticEquations::worst(double force) const {
@@ -122,25 +123,26 @@ std::string StaticEquations::worst(double force) const {
   const Layout& layout = system_.layout();
   double largest = 0;
   std::int32_t at = -1;
-  for (std::int32_t k = 0; k < saddle_.size(); ++k) {
-    if (k >= saddle_.lambda(0) && k < saddle_.algebraic(0)) continue;  // constraints are met at every point of a search
+  for (std::int32_t k = 0; k < augmented_.size(); ++k) {
+    if (k >= augmented_.lambda(0) && k < augmented_.algebraic(0))
+      continue;  // constraints are met at every point of a search
     const double r = std::abs(residual_(k)) * unit(k, force);
     if (r > largest) largest = r, at = k;
   }
   if (at < 0) return {};
   if (at < coordinates_) return fmt::format("the unbalanced force is largest at {}", layout.coordinate_text(at));
-  if (at < saddle_.state(0)) {
-    const auto& w = layout.algebraic[static_cast<std::size_t>(at - saddle_.algebraic(0))];
+  if (at < augmented_.state(0)) {
+    const auto& w = layout.algebraic[static_cast<std::size_t>(at - augmented_.algebraic(0))];
     return fmt::format("{} has no value that agrees with its own function", w.owner->full_text());
   }
-  const auto& z = layout.states[static_cast<std::size_t>(at - saddle_.state(0))];
+  const auto& z = layout.states[static_cast<std::size_t>(at - augmented_.state(0))];
   return fmt::format("the state of {} does not come to rest, its rate is still {:.3e}", z.owner->full_text(),
                      std::abs(residual_(at)));
 }
 
 void StaticEquations::measure_rounding(const OperatingPoint& op) {
   const Layout& layout = system_.layout();
-  Eigen::VectorXd size = Eigen::VectorXd::Ones(saddle_.size());
+  Eigen::VectorXd size = Eigen::VectorXd::Ones(augmented_.size());
   for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
     const BodyBlock& block = layout.bodies[b];
     for (std::int32_t k = 0; k < std::min(block.count, 3); ++k) size(block.offset + k) = norm(op.poses[b].r);
@@ -149,24 +151,24 @@ void StaticEquations::measure_rounding(const OperatingPoint& op) {
     for (std::size_t k = 0; k < x.size(); ++k) size(offset + static_cast<Eigen::Index>(k)) = std::abs(x[k]);
   };
   sizes(op.extra, layout.body_coordinate_count);
-  sizes(op.lambda, saddle_.lambda(0));
-  sizes(op.algebraic, saddle_.algebraic(0));
-  sizes(op.state, saddle_.state(0));
+  sizes(op.lambda, augmented_.lambda(0));
+  sizes(op.algebraic, augmented_.algebraic(0));
+  sizes(op.state, augmented_.state(0));
   rounding_ = magnitude_;
-  const auto take = [&](Column family, std::int32_t offset) {
+  const auto take = [&](PartialBy family, std::int32_t offset) {
     for_each_entry(eq_.matrix(family), [&](std::int32_t r, std::int32_t c, double v) {
-      rounding_(saddle_.equation(r)) += std::abs(v) * size(offset + c);
+      rounding_(augmented_.equation(r)) += std::abs(v) * size(offset + c);
     });
   };
-  take(Column::position, 0);
-  take(Column::lambda, saddle_.lambda(0));
-  take(Column::algebraic, saddle_.algebraic(0));
-  take(Column::state, saddle_.state(0));
+  take(PartialBy::position, 0);
+  take(PartialBy::lambda, augmented_.lambda(0));
+  take(PartialBy::algebraic, augmented_.algebraic(0));
+  take(PartialBy::state, augmented_.state(0));
   for (std::int32_t k = 0; k < rows_.size(); ++k) {
     if (!part_.active[static_cast<std::size_t>(k)]) continue;
     for (const auto& e : rows_.row(k)) {
-      rounding_(saddle_.lambda(k)) += std::abs(e.c.g) * size(e.column);
-      rounding_(e.column) += std::abs(e.c.g) * size(saddle_.lambda(k));
+      rounding_(augmented_.lambda(k)) += std::abs(e.c.g) * size(e.column);
+      rounding_(e.column) += std::abs(e.c.g) * size(augmented_.lambda(k));
     }
   }
   rounding_ *= std::numeric_limits<double>::epsilon();
@@ -174,7 +176,7 @@ void StaticEquations::measure_rounding(const OperatingPoint& op) {
 
 void StaticEquations::measure_parts() {
   if (own_scale_.size() == 0) {
-    own_scale_ = Eigen::VectorXd::Zero(saddle_.size());
+    own_scale_ = Eigen::VectorXd::Zero(augmented_.size());
     own_stiffness_.assign(static_cast<std::size_t>(coordinates_), 0.0);
   }
   for (Eigen::Index k = 0; k < own_scale_.size(); ++k) {
@@ -194,7 +196,7 @@ void StaticEquations::measure_by(Yardstick yardstick) {
   measure_parts();
   // The stiffness that holds a part in place; where nothing does, its forces over the length of the model.
   std::fill(own_stiffness_.begin(), own_stiffness_.end(), 0.0);
-  for_each_entry(eq_.matrix(Column::position), [&](std::int32_t r, std::int32_t c, double k) {
+  for_each_entry(eq_.matrix(PartialBy::position), [&](std::int32_t r, std::int32_t c, double k) {
     if (r != c || r >= coordinates_) return;
     double& own = own_stiffness_[static_cast<std::size_t>(r)];
     own = std::max(own, std::abs(k) * force_unit(r) * force_unit(r));
@@ -223,16 +225,16 @@ void StaticEquations::settle(OperatingPoint& op) {
   for (int iteration = 0; iteration < 12; ++iteration) {
     evaluate(next, true);
     if (!residual_.allFinite()) return;
-    std::vector<double> D(static_cast<std::size_t>(saddle_.size()), 0.0);
+    std::vector<double> D(static_cast<std::size_t>(augmented_.size()), 0.0);
     Eigen::MatrixXd step = -residual_;
     double level = 0;  // in units of rounding
     for (std::int32_t k = 0; k < coordinates_; ++k) {
       const double d = D[static_cast<std::size_t>(k)] = holding(k);
       step(k, 0) -= d * a(k);
     }
-    for (std::int32_t k = 0; k < rows_.size(); ++k) step(saddle_.lambda(k), 0) = 0;
-    for (std::size_t k = 0; k < held_.size(); ++k) step(saddle_.state(static_cast<std::int32_t>(k)), 0) = 0;
-    for (std::int32_t k = 0; k < saddle_.size(); ++k) {
+    for (std::int32_t k = 0; k < rows_.size(); ++k) step(augmented_.lambda(k), 0) = 0;
+    for (std::size_t k = 0; k < held_.size(); ++k) step(augmented_.state(static_cast<std::int32_t>(k)), 0) = 0;
+    for (std::int32_t k = 0; k < augmented_.size(); ++k) {
       if (step(k, 0) == 0) continue;
       const double off = k < coordinates_ ? std::abs(D[static_cast<std::size_t>(k)] * a(k)) : 0.0;
       level = std::max(level, std::abs(step(k, 0)) / (rounding_(k) + std::numeric_limits<double>::epsilon() * off +
@@ -241,32 +243,32 @@ void StaticEquations::settle(OperatingPoint& op) {
     if (level <= 4 || (level <= 1e4 && level >= 0.5 * before)) break;
     before = level;
     SparseLu lu;
-    const SaddleColumns columns{Column::position, Column::state, false};
-    if (!factor(lu, saddle_.matrix(eq_, rows_, part_.active, columns, {}, held, D))) return;
+    const AugmentedColumns columns{PartialBy::position, PartialBy::state, false};
+    if (!factor(lu, augmented_.matrix(eq_, rows_, part_.active, columns, {}, held, D))) return;
     lu.solve(step);
     a += step.col(0).head(a.size());
     for (std::size_t k = 0; k < next.lambda.size(); ++k)
-      next.lambda[k] += step(saddle_.lambda(static_cast<std::int32_t>(k)), 0);
+      next.lambda[k] += step(augmented_.lambda(static_cast<std::int32_t>(k)), 0);
     for (std::size_t k = 0; k < next.algebraic.size(); ++k)
-      next.algebraic[k] += step(saddle_.algebraic(static_cast<std::int32_t>(k)), 0);
+      next.algebraic[k] += step(augmented_.algebraic(static_cast<std::int32_t>(k)), 0);
   }
   if (finite(next.lambda) && finite(next.algebraic)) op = std::move(next);
 }
 
 Eigen::VectorXd StaticEquations::row_units(double force) const {
-  Eigen::VectorXd u(saddle_.size());
+  Eigen::VectorXd u(augmented_.size());
   for (Eigen::Index k = 0; k < u.size(); ++k) u(k) = unit(k, force > 0 ? force : 1.0);
   return u;
 }
 
 Eigen::VectorXd StaticEquations::column_units(const OperatingPoint& op) const {
-  Eigen::VectorXd u = Eigen::VectorXd::Constant(saddle_.size(), std::max(force_scale_, 1e-300));
+  Eigen::VectorXd u = Eigen::VectorXd::Constant(augmented_.size(), std::max(force_scale_, 1e-300));
   for (std::int32_t k = 0; k < coordinates_; ++k) u(k) = system_.coordinate_scale(k);
   const auto sizes = [&](const std::vector<double>& x, std::int32_t offset) {
     for (std::size_t k = 0; k < x.size(); ++k) u(offset + static_cast<Eigen::Index>(k)) = std::max(1.0, std::abs(x[k]));
   };
-  sizes(op.algebraic, saddle_.algebraic(0));
-  sizes(op.state, saddle_.state(0));
+  sizes(op.algebraic, augmented_.algebraic(0));
+  sizes(op.state, augmented_.state(0));
   return u;
 }
 
@@ -281,17 +283,17 @@ double StaticEquations::damping(const Eigen::VectorXd& step) const {
 }
 
 ColumnMatrix StaticEquations::tangent(double hold, double hold_states) const {
-  std::vector<double> diagonal(static_cast<std::size_t>(saddle_.size()), 0.0);
+  std::vector<double> diagonal(static_cast<std::size_t>(augmented_.size()), 0.0);
   for (std::int32_t k = 0; k < coordinates_; ++k) diagonal[static_cast<std::size_t>(k)] = hold * holding(k);
   for (std::size_t k = 0; k < held_.size(); ++k) {
-    diagonal[static_cast<std::size_t>(saddle_.state(static_cast<std::int32_t>(k)))] = held_[k] ? 0.0 : hold_states;
+    diagonal[static_cast<std::size_t>(augmented_.state(static_cast<std::int32_t>(k)))] = held_[k] ? 0.0 : hold_states;
   }
-  return saddle_.matrix(eq_, rows_, part_.active, {Column::position, Column::state}, {}, held_, diagonal);
+  return augmented_.matrix(eq_, rows_, part_.active, {PartialBy::position, PartialBy::state}, {}, held_, diagonal);
 }
 
 // The largest entry of the first tangent as force per length; one yardstick for the whole search.
 void StaticEquations::measure_stiffness() {
-  for_each_entry(eq_.matrix(Column::position), [&](std::int32_t r, std::int32_t c, double k) {
+  for_each_entry(eq_.matrix(PartialBy::position), [&](std::int32_t r, std::int32_t c, double k) {
     if (r < coordinates_) stiffness_ = std::max(stiffness_, std::abs(k) * force_unit(r) * force_unit(c));
   });
   if (stiffness_ == 0) stiffness_ = 1;
@@ -310,7 +312,7 @@ void StaticEquations::measure_forces(const OperatingPoint& op) {
   force_scale_ = std::max(force_scale_, imbalance());
 }
 
-OperatingPoint moved(const System& system, const OperatingPoint& from, const Saddle& saddle,
+OperatingPoint moved(const System& system, const OperatingPoint& from, const AugmentedSystem& augmented,
                      const Eigen::VectorXd& step, double fraction, const StepLimits& limits, double* taken) {
   OperatingPoint to = from;
   const double f =
@@ -319,9 +321,9 @@ OperatingPoint moved(const System& system, const OperatingPoint& from, const Sad
   const auto add = [&](std::vector<double>& x, std::int32_t offset) {
     for (std::size_t k = 0; k < x.size(); ++k) x[k] += f * step(offset + static_cast<Eigen::Index>(k));
   };
-  add(to.lambda, saddle.lambda(0));
-  add(to.algebraic, saddle.algebraic(0));
-  add(to.state, saddle.state(0));
+  add(to.lambda, augmented.lambda(0));
+  add(to.algebraic, augmented.algebraic(0));
+  add(to.state, augmented.state(0));
   return to;
 }
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/augmented_system.h"
 #include "analysis/displace.h"
-#include "analysis/saddle.h"
 #include "system/system.h"
 
 namespace dynalin {
@@ -24,9 +24,9 @@ class StaticEquations {
   void evaluate(const OperatingPoint&, bool with_partials);
 
   const System& system() const { return system_; }
-  const Saddle& saddle() const { return saddle_; }
+  const AugmentedSystem& augmented() const { return augmented_; }
   const Partition& partition() const { return part_; }
-  // In the order of the saddle matrix. Held states and rows that are not active have none.
+  // In the order of the augmented matrix. Held states and rows that are not active have none.
   const Eigen::VectorXd& residual() const { return residual_; }
   // Sums of the sizes of all that is in an equation, without sign.
   const Eigen::VectorXd& magnitude() const { return magnitude_; }
@@ -91,7 +91,7 @@ class StaticEquations {
 
   bool undefined_ = false;
   const System& system_;
-  Saddle saddle_;
+  AugmentedSystem augmented_;
   std::int32_t coordinates_;
   ConstraintRows rows_;
   Equations eq_;
@@ -106,7 +106,7 @@ class StaticEquations {
 
 // The point moved by fraction · step, less where that is beyond the limits. `taken` becomes the factor of the step that
 // was gone.
-OperatingPoint moved(const System&, const OperatingPoint&, const Saddle&, const Eigen::VectorXd& step, double fraction,
-                     const StepLimits&, double* taken = nullptr);
+OperatingPoint moved(const System&, const OperatingPoint&, const AugmentedSystem&, const Eigen::VectorXd& step,
+                     double fraction, const StepLimits&, double* taken = nullptr);
 
 }  // namespace dynalin

@@ -114,7 +114,7 @@ Failure static_refusal(StaticEquations& equations, OperatingPoint op, std::vecto
   equations.settle(op);
   equations.evaluate(op, true);
   if (const Eigen::VectorXd sum = equations.residual() + equations.rounding(); !sum.allFinite()) {
-    f.message = system.fault(system.motion(op));
+    f.message = system.undefined_value(system.motion(op));
     for (Eigen::Index k = 0; k < sum.size() && f.message.empty(); ++k) {
       if (!std::isfinite(sum(k)))
         f.message = "a term in the equation of " + equations.equation_text(k) + " has no finite value or slope";
@@ -122,13 +122,15 @@ Failure static_refusal(StaticEquations& equations, OperatingPoint op, std::vecto
     return f;
   }
   if (equations.has_undefined_partials()) {
-    if (const std::string reason = system.fault(system.motion(op)); !reason.empty()) f.message += ": " + reason;
+    if (const std::string reason = system.undefined_value(system.motion(op)); !reason.empty())
+      f.message += ": " + reason;
     return f;
   }
   if (const std::string worst = equations.worst(equations.force_scale()); !worst.empty()) f.message += ": " + worst;
-  const auto names = undetermined(system, equations.saddle(), equations.tangent(0, 0));
+  const auto names = undetermined(system, equations.augmented(), equations.tangent(0, 0));
   if (!names.empty()) f.message += fmt::format("; the tangent leaves {} undetermined", fmt::join(names, ", "));
-  if (const std::string reason = system.departure(system.motion(op)); !reason.empty()) f.message += "; " + reason;
+  if (const std::string reason = system.domain_violation(system.motion(op)); !reason.empty())
+    f.message += "; " + reason;
   return f;
 }
 

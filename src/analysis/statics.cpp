@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "analysis/continuation.h"
-#include "analysis/least_imbalance.h"
+#include "analysis/homotopy.h"
+#include "analysis/levenberg_marquardt.h"
 #include "analysis/static_descent.h"
 #include "analysis/static_refusal.h"
 
@@ -67,15 +67,15 @@ OperatingPoint elsewhere(const System& system, OperatingPoint op, int k) {
 }
 
 // The point settled, if it is an equilibrium within a tolerance that was stated.
-std::optional<OperatingPoint> within(const StaticTolerance& tolerance, StaticEquations& equations,
-                                     OperatingPoint op, Findings& findings) {
+std::optional<OperatingPoint> within(const StaticTolerance& tolerance, StaticEquations& equations, OperatingPoint op,
+                                     Findings& findings) {
   equations.measure_by(Yardstick::model);
   equations.settle(op);
   equations.evaluate(op, true);
   const auto j = judge(equations, op);
   if (!j || !(j->largest <= tolerance.error) || !(equations.imbalance() <= tolerance.imbalance)) return std::nullopt;
   const Eigen::VectorXd& r = equations.residual();
-  const Eigen::Index first = equations.saddle().algebraic(0);
+  const Eigen::Index first = equations.augmented().algebraic(0);
   if (r.size() > first && !(r.tail(r.size() - first).cwiseAbs().maxCoeff() <= tolerance.imbalance)) return std::nullopt;
   findings.warnings.warning(
       "loose-equilibrium", {},
@@ -133,7 +133,7 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   if (!found) {
     equations.evaluate(drawn, true);
     const auto j = judge(equations, drawn);
-    loose = j ? j->indifferent : std::vector<bool>(static_cast<std::size_t>(equations.saddle().size()), true);
+    loose = j ? j->indifferent : std::vector<bool>(static_cast<std::size_t>(equations.augmented().size()), true);
   }
   bool held_states = descent.held_states();
   const auto descend = [&](OperatingPoint start) {

@@ -2,7 +2,7 @@
 // rates are zero.
 //
 // The search, each step only where the one before it fails: (1) downhill, by Newton's method and implicit steps of a
-// damped motion (`static_descent.h`); (2) least squares (`least_imbalance.h`); (3) continuation (`continuation.h`); (4)
+// damped motion (`static_descent.h`); (2) least squares (`levenberg_marquardt.h`); (3) continuation (`homotopy.h`); (4)
 // least squares from other places. A point that is balanced to rounding is accepted as it stands. A tolerance that is
 // stated never ends the search early, but before (4) a point within it is accepted. What cannot be found is explained
 // (`static_refusal.h`).

@@ -78,17 +78,19 @@ template bool Expression::reaches(std::size_t, const ExpressionWorkspace<double>
 template bool Expression::reaches(std::size_t, const ExpressionWorkspace<TimeTaylor<double>>&) const;
 
 template <class T>
-std::optional<ExpressionFault> Expression::find_fault(std::span<const T> atom_values, FaultSearch search) const {
-  return program_->find_fault(atom_values, search);
+std::optional<UndefinedOperation> Expression::find_undefined(std::span<const T> atom_values,
+                                                             UndefinedSearch search) const {
+  return program_->find_undefined(atom_values, search);
 }
 
 template double Expression::evaluate(std::span<const double>, ExpressionWorkspace<double>&) const;
 template double Expression::evaluate(std::span<const double>, std::span<double>, ExpressionWorkspace<double>&) const;
-template std::optional<ExpressionFault> Expression::find_fault(std::span<const double>, FaultSearch) const;
+template std::optional<UndefinedOperation> Expression::find_undefined(std::span<const double>, UndefinedSearch) const;
 template TimeTaylor<double> Expression::evaluate(std::span<const TimeTaylor<double>>,
                                                  ExpressionWorkspace<TimeTaylor<double>>&) const;
 template TimeTaylor<double> Expression::evaluate(std::span<const TimeTaylor<double>>, std::span<TimeTaylor<double>>,
                                                  ExpressionWorkspace<TimeTaylor<double>>&) const;
-template std::optional<ExpressionFault> Expression::find_fault(std::span<const TimeTaylor<double>>, FaultSearch) const;
+template std::optional<UndefinedOperation> Expression::find_undefined(std::span<const TimeTaylor<double>>,
+                                                                      UndefinedSearch) const;
 
 }  // namespace dynalin

@@ -85,12 +85,12 @@ struct ExpressionWorkspace {
 };
 
 // The place in an expression where a value or a derivative stopped being a finite number.
-struct ExpressionFault {
+struct UndefinedOperation {
   std::string function;  // name of the function or sign of the operator, as in the language
   Span at;               // the call, or the operator with its operands
   std::string reason;    // "SQRT of -3", "the derivative of SQRT is infinite at 0"
 };
-enum class FaultSearch : std::uint8_t { value, value_and_partials };
+enum class UndefinedSearch : std::uint8_t { value, value_and_partials };
 
 class Expression {
  public:
@@ -136,7 +136,7 @@ class Expression {
   // these atom values (SQRT at 0 times what is 0 as well may have any derivative); nothing if all are finite. On
   // TimeTaylor the time derivatives count too, so all atoms should have theirs. Allocates.
   template <class T>
-  std::optional<ExpressionFault> find_fault(std::span<const T> atoms, FaultSearch) const;
+  std::optional<UndefinedOperation> find_undefined(std::span<const T> atoms, UndefinedSearch) const;
 
  private:
   explicit Expression(std::shared_ptr<const ExpressionProgram>);

@@ -81,7 +81,8 @@ TEST(ExpressionFuzz, both_scalars_agree_on_random_expressions) {
       all_finite = all_finite && std::isfinite(plain.partial[k]);
       expect_same(plain.partial[k], moving.partial[k].value, text);
     }
-    const auto found = parsed.expression.find_fault(std::span<const double>(x), FaultSearch::value_and_partials);
+    const auto found =
+        parsed.expression.find_undefined(std::span<const double>(x), UndefinedSearch::value_and_partials);
     EXPECT_EQ(found.has_value(), !all_finite) << text;
     EXPECT_TRUE(!found || !found->reason.empty()) << text;
     finite += all_finite;
@@ -113,7 +114,7 @@ TEST(ExpressionFuzz, any_sequence_of_tokens_gives_a_program_or_an_error) {
     ++programs;
     const std::vector<double> x(parsed.expression.atoms().size(), 0.5);
     evaluate(parsed.expression, x);
-    parsed.expression.find_fault(std::span<const double>(x), FaultSearch::value_and_partials);
+    parsed.expression.find_undefined(std::span<const double>(x), UndefinedSearch::value_and_partials);
   }
   EXPECT_GT(programs, 100u);
 }

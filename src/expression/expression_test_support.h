@@ -65,9 +65,9 @@ inline double value(const std::string& text, const std::vector<double>& atoms = 
   return evaluate(text, atoms).value;
 }
 
-inline std::optional<ExpressionFault> fault(const std::string& text, const std::vector<double>& atoms,
-                                            FaultSearch search = FaultSearch::value_and_partials) {
-  return parse(text).expression.find_fault(std::span<const double>(atoms), search);
+inline std::optional<UndefinedOperation> fault(const std::string& text, const std::vector<double>& atoms,
+                                               UndefinedSearch search = UndefinedSearch::value_and_partials) {
+  return parse(text).expression.find_undefined(std::span<const double>(atoms), search);
 }
 
 }  // namespace dynalin::expression_test

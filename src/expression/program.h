@@ -58,7 +58,7 @@ class ExpressionProgram {
   template <class T>
   void differentiate(std::span<T> partials, ExpressionWorkspace<T>&) const;
   template <class T>
-  std::optional<ExpressionFault> find_fault(std::span<const T> atom_values, FaultSearch) const;
+  std::optional<UndefinedOperation> find_undefined(std::span<const T> atom_values, UndefinedSearch) const;
 
  private:
   template <class T>
@@ -70,9 +70,9 @@ class ExpressionProgram {
   template <class T>
   void sweep_back(ExpressionWorkspace<T>&) const;
   template <class T>
-  ExpressionFault explain_value(std::size_t node, const std::vector<T>& value) const;
+  UndefinedOperation explain_value(std::size_t node, const std::vector<T>& value) const;
   template <class T>
-  ExpressionFault explain_partial(std::size_t node, const std::vector<T>& value) const;
+  UndefinedOperation explain_partial(std::size_t node, const std::vector<T>& value) const;
 };
 
 }  // namespace dynalin

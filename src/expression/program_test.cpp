@@ -152,13 +152,13 @@ TEST(ExpressionProgram, the_culprit_of_a_value_that_is_not_finite_is_named) {
   };
   for (const FaultRow& row : table) {
     const ParsedText parsed = parse(row.text);
-    const auto found = parsed.expression.find_fault(std::span<const double>(row.x), FaultSearch::value);
+    const auto found = parsed.expression.find_undefined(std::span<const double>(row.x), UndefinedSearch::value);
     ASSERT_TRUE(found) << row.text;
     EXPECT_EQ(found->function, row.function);
     EXPECT_EQ(found->at.text(), row.place);
     EXPECT_EQ(found->reason, row.reason);
   }
-  EXPECT_FALSE(fault("SQRT(VARVAL(1))", {0}, FaultSearch::value));
+  EXPECT_FALSE(fault("SQRT(VARVAL(1))", {0}, UndefinedSearch::value));
 }
 
 TEST(ExpressionProgram, the_culprit_of_a_derivative_that_is_not_finite_is_named) {
@@ -175,7 +175,8 @@ TEST(ExpressionProgram, the_culprit_of_a_derivative_that_is_not_finite_is_named)
   };
   for (const FaultRow& row : table) {
     const ParsedText parsed = parse(row.text);
-    const auto found = parsed.expression.find_fault(std::span<const double>(row.x), FaultSearch::value_and_partials);
+    const auto found =
+        parsed.expression.find_undefined(std::span<const double>(row.x), UndefinedSearch::value_and_partials);
     ASSERT_TRUE(found) << row.text;
     EXPECT_EQ(found->function, row.function);
     EXPECT_EQ(found->at.text(), row.place);
@@ -186,10 +187,10 @@ TEST(ExpressionProgram, the_culprit_of_a_derivative_that_is_not_finite_is_named)
 TEST(ExpressionProgram, faults_in_time_derivatives_are_found_on_taylor) {
   const ParsedText parsed = parse("VARVAL(1)**1.5");
   const std::vector<Taylor> moving{Taylor(0, 1, 0)}, resting{Taylor(0.0)};
-  const auto found = parsed.expression.find_fault(std::span<const Taylor>(moving), FaultSearch::value);
+  const auto found = parsed.expression.find_undefined(std::span<const Taylor>(moving), UndefinedSearch::value);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->reason, "a time derivative of ** is infinite at (0, 1.5)");
-  EXPECT_FALSE(parsed.expression.find_fault(std::span<const Taylor>(resting), FaultSearch::value_and_partials));
+  EXPECT_FALSE(parsed.expression.find_undefined(std::span<const Taylor>(resting), UndefinedSearch::value_and_partials));
 }
 
 }  // namespace

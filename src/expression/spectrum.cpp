@@ -78,7 +78,7 @@ T HarmonicSignal::at(const T& x) const {
   return sum;
 }
 
-std::string spectrum_fault(const SplineData& d, bool logarithmic) {
+std::string why_no_spectrum(const SplineData& d, bool logarithmic) {
   if (d.y.size() != 1) return "it is a family of curves";
   for (std::size_t k = 0; k < d.x.size(); ++k) {
     if (d.x[k] < 0 || (logarithmic && d.x[k] == 0)) return fmt::format("value {} of X is {:g}", k + 1, d.x[k]);

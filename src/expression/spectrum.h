@@ -42,6 +42,6 @@ class HarmonicSignal {
 };
 
 // Why data are no density that can be interpolated so, "value 3 of Y is -1"; empty if they are.
-std::string spectrum_fault(const SplineData&, bool logarithmic);
+std::string why_no_spectrum(const SplineData&, bool logarithmic);
 
 }  // namespace dynalin

@@ -106,14 +106,14 @@ TEST(Spectrum, call_reads_its_constants_and_is_differentiated) {
 }
 
 TEST(Spectrum, data_that_are_no_density_are_told) {
-  EXPECT_EQ(spectrum_fault(points({0, 1, 2, 3}, [](double) { return 1.0; }), false), "");
-  EXPECT_EQ(spectrum_fault(points({0, 1, 2, 3}, [](double) { return 1.0; }), true), "value 1 of X is 0");
-  EXPECT_EQ(spectrum_fault(points({-1, 1, 2, 3}, [](double) { return 1.0; }), false), "value 1 of X is -1");
-  EXPECT_EQ(spectrum_fault(points({0, 1, 2, 3}, [](double f) { return 1 - f; }), false), "value 3 of Y is -1");
-  EXPECT_EQ(spectrum_fault(points({1, 2, 3, 4}, [](double f) { return 2 - f; }), true), "value 2 of Y is 0");
+  EXPECT_EQ(why_no_spectrum(points({0, 1, 2, 3}, [](double) { return 1.0; }), false), "");
+  EXPECT_EQ(why_no_spectrum(points({0, 1, 2, 3}, [](double) { return 1.0; }), true), "value 1 of X is 0");
+  EXPECT_EQ(why_no_spectrum(points({-1, 1, 2, 3}, [](double) { return 1.0; }), false), "value 1 of X is -1");
+  EXPECT_EQ(why_no_spectrum(points({0, 1, 2, 3}, [](double f) { return 1 - f; }), false), "value 3 of Y is -1");
+  EXPECT_EQ(why_no_spectrum(points({1, 2, 3, 4}, [](double f) { return 2 - f; }), true), "value 2 of Y is 0");
   SplineData family = points({0, 1, 2, 3}, [](double) { return 1.0; });
   family.y.push_back(family.y[0]), family.z = {0, 1};
-  EXPECT_EQ(spectrum_fault(family, false), "it is a family of curves");
+  EXPECT_EQ(why_no_spectrum(family, false), "it is a family of curves");
 }
 
 }  // namespace

@@ -19,15 +19,15 @@ EntrySizes::EntrySizes(const Layout& layout, const Motion& motion)
   }
 }
 
-ColumnMatrix EntrySizes::of(const Equations& eq, Column family) const {
+ColumnMatrix EntrySizes::of(const Equations& eq, PartialBy family) const {
   ColumnMatrix m = eq.matrix(family);
   const std::span<const double> sizes = eq.sizes(family);
   std::copy(sizes.begin(), sizes.end(), m.value.begin());
   // Inertia gives partials by displacements and rates what is derived from those by accelerations.
-  const double order = family == Column::position ? 2 : family == Column::velocity ? 1 : 0;
+  const double order = family == PartialBy::position ? 2 : family == PartialBy::velocity ? 1 : 0;
   if (order > 0) {
-    const ColumnMatrix& inertia = eq.matrix(Column::acceleration);
-    const std::span<const double> inertia_sizes = eq.sizes(Column::acceleration);
+    const ColumnMatrix& inertia = eq.matrix(PartialBy::acceleration);
+    const std::span<const double> inertia_sizes = eq.sizes(PartialBy::acceleration);
     for (std::int32_t c = 0; c < m.columns; ++c) {
       const double factor = std::pow(turning_[static_cast<std::size_t>(c)], order);
       if (factor == 0) continue;
@@ -43,7 +43,7 @@ ColumnMatrix EntrySizes::of(const Equations& eq, Column family) const {
     }
   }
   // Columns of one group have the same rows but for those that elements leave out; the largest of a block counts.
-  const bool by_coordinates = family <= Column::acceleration;
+  const bool by_coordinates = family <= PartialBy::acceleration;
   std::vector<double> largest(static_cast<std::size_t>(m.rows), 0.0);
   for (std::int32_t c = 0; c < m.columns;) {
     std::int32_t end = c + 1;

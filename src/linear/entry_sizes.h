@@ -19,7 +19,7 @@ class EntrySizes {
   EntrySizes(const Layout&, const Motion&);
 
   // Of partials, with the pattern of eq.matrix(family); eq must keep sizes and hold accelerations.
-  ColumnMatrix of(const Equations& eq, Column family) const;
+  ColumnMatrix of(const Equations& eq, PartialBy family) const;
   // Of a row's coefficients, entry by entry.
   template <class Entries>
   std::vector<RowCoefficients> of_row(const Entries& row) const {

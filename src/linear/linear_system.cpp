@@ -35,8 +35,8 @@ class Linearizer {
   Result<LinearSystem> run() {
     system_.constraints(motion_, rows_);
     system_.equations(motion_, rows_, eq_,
-                      {Column::position, Column::velocity, Column::damping, Column::acceleration, Column::lambda,
-                       Column::algebraic, Column::state, Column::state_rate});
+                      {PartialBy::position, PartialBy::velocity, PartialBy::damping, PartialBy::acceleration,
+                       PartialBy::lambda, PartialBy::algebraic, PartialBy::state, PartialBy::state_rate});
     if (const auto undefined = undefined_row(system_, motion_, rows_)) return refusal(*undefined);
     auto choice = choose_states(system_, motion_, rows_, options_);
     if (!choice) return tl::unexpected(choice.error());
@@ -167,10 +167,10 @@ class Linearizer {
   bool depends_on_anything(std::int32_t unknown) const {
     const std::int32_t row = eq_.algebraic_row(unknown);
     for (std::size_t f = 0; f < column_families; ++f) {
-      const auto family = static_cast<Column>(f);
+      const auto family = static_cast<PartialBy>(f);
       const ColumnMatrix& m = eq_.matrix(family);
       for (std::int32_t c = 0; c < m.columns; ++c) {
-        if (family == Column::algebraic && c == unknown) continue;
+        if (family == PartialBy::algebraic && c == unknown) continue;
         const auto first = m.row.begin() + m.start[static_cast<std::size_t>(c)],
                    last = m.row.begin() + m.start[static_cast<std::size_t>(c) + 1];
         const auto it = std::lower_bound(first, last, row);
@@ -220,13 +220,13 @@ class Linearizer {
     const PerturbationEquations& p = *equations;
     StateSpace& model = result_.model;
     const Eigen::Index states = p.states(), inputs = static_cast<Eigen::Index>(inputs_.size());
-    const Saddle saddle(system_);
-    const Eigen::Index n = p.coordinates(), first = p.saddle();
+    const AugmentedSystem augmented(system_);
+    const Eigen::Index n = p.coordinates(), first = p.augmented();
     result_.dq = a.topRows(n);
     result_.dqdot = a.middleRows(p.rates(), n);
     result_.dqddot = a.middleRows(p.accelerations(), n);
-    result_.dlambda = a.middleRows(first + saddle.lambda(0), rows_.size());
-    result_.dw = a.middleRows(first + saddle.algebraic(0), static_cast<Eigen::Index>(layout_.algebraic.size()));
+    result_.dlambda = a.middleRows(first + augmented.lambda(0), rows_.size());
+    result_.dw = a.middleRows(first + augmented.algebraic(0), static_cast<Eigen::Index>(layout_.algebraic.size()));
 
     const Matrix rates = p.state_matrices(a);
     const Matrix outputs = outputs_of(p, a);
@@ -251,7 +251,7 @@ class Linearizer {
 
   // What outputs see of columns of unknowns.
   Matrix outputs_of(const PerturbationEquations& p, const Matrix& a) const {
-    const Eigen::Index n = p.coordinates(), w = p.saddle() + Saddle(system_).algebraic(0);
+    const Eigen::Index n = p.coordinates(), w = p.augmented() + AugmentedSystem(system_).algebraic(0);
     Matrix outputs(static_cast<Eigen::Index>(outputs_.size()), a.cols());
     for (std::size_t k = 0; k < outputs_.size(); ++k) {
       outputs.row(static_cast<Eigen::Index>(k)) = a.row(w + outputs_[k]);
@@ -262,7 +262,7 @@ class Linearizer {
     for (Eigen::Index c = 0; c < outputs.cols(); ++c) {
       const Eigen::VectorXd rates = a.col(c).segment(p.rates(), n);
       seen.setZero();
-      eq_.matrix(Column::damping)
+      eq_.matrix(PartialBy::damping)
           .multiply_add({rates.data(), static_cast<std::size_t>(n)},
                         {seen.data(), static_cast<std::size_t>(seen.size())}, -1.0);
       for (std::size_t k = 0; k < outputs_.size(); ++k)
@@ -281,7 +281,7 @@ class Linearizer {
       double size = 0;
       const std::int32_t row = eq_.algebraic_row(outputs_[k]);
       for (std::size_t f = 0; f < column_families; ++f) {
-        for_each_entry(eq_.matrix(static_cast<Column>(f)), [&](std::int32_t r, std::int32_t, double v) {
+        for_each_entry(eq_.matrix(static_cast<PartialBy>(f)), [&](std::int32_t r, std::int32_t, double v) {
           if (r == row) size += std::abs(v);
         });
       }

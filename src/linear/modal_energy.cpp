@@ -27,7 +27,8 @@ ModalEnergy::ModalEnergy(const System& system, const OperatingPoint& op, const L
   rows.resize(system.layout());
   eq_.resize(system.layout());
   system.constraints(motion_, rows);
-  system.equations(motion_, rows, eq_, {Column::position, Column::damping, Column::velocity, Column::algebraic});
+  system.equations(motion_, rows, eq_,
+                   {PartialBy::position, PartialBy::damping, PartialBy::velocity, PartialBy::algebraic});
   eq_.clear_undefined();  // linearize() has refused those that count
   if (linear.principal_states) {
     CandidateSet set;
@@ -40,7 +41,7 @@ ModalEnergy::ModalEnergy(const System& system, const OperatingPoint& op, const L
   const auto n = system.layout().coordinate_count;
   const auto w = static_cast<std::int32_t>(system.layout().algebraic.size());
   std::vector<Triplet> entries;
-  for_each_entry(eq_.matrix(Column::algebraic), [&](std::int32_t r, std::int32_t c, double v) {
+  for_each_entry(eq_.matrix(PartialBy::algebraic), [&](std::int32_t r, std::int32_t c, double v) {
     if (r >= n && r < n + w) entries.push_back({r - n, c, v});
   });
   if (w > 0) algebraic_solved_ = algebraic_.factor(compressed(w, w, entries));
@@ -227,24 +228,24 @@ std::vector<ModalRow<double>> ModalEnergy::kinetic(std::size_t mode) const {
   return rows;
 }
 
-Eigen::VectorXd ModalEnergy::algebraic_size(const Eigen::VectorXcd& dq, Column family) const {
+Eigen::VectorXd ModalEnergy::algebraic_size(const Eigen::VectorXcd& dq, PartialBy family) const {
   const auto n = static_cast<Eigen::Index>(system_.layout().coordinate_count);
   const auto w = static_cast<Eigen::Index>(system_.layout().algebraic.size());
   if (w == 0 || !algebraic_solved_) return Eigen::VectorXd::Zero(w);
   Eigen::VectorXd rows = Eigen::VectorXd::Zero(eq_.size());
-  const auto add_sizes = [&](Column c) {
+  const auto add_sizes = [&](PartialBy c) {
     for_each_entry(eq_.matrix(c),
                    [&](std::int32_t r, std::int32_t k, double v) { rows(r) += std::abs(v) * std::abs(dq(k)); });
   };
   add_sizes(family);
-  if (family == Column::damping) add_sizes(Column::velocity);
+  if (family == PartialBy::damping) add_sizes(PartialBy::velocity);
   const Eigen::MatrixXd given = rows.segment(n, w);
   Eigen::MatrixXd solved = given;
   algebraic_.solve(solved);
   return solved.cwiseAbs().cwiseMax(given).col(0);
 }
 
-Eigen::VectorXcd ModalEnergy::algebraic_change(const Eigen::VectorXcd& dq, Column family) const {
+Eigen::VectorXcd ModalEnergy::algebraic_change(const Eigen::VectorXcd& dq, PartialBy family) const {
   const auto n = static_cast<Eigen::Index>(system_.layout().coordinate_count);
   const auto w = static_cast<Eigen::Index>(system_.layout().algebraic.size());
   Eigen::VectorXcd change = Eigen::VectorXcd::Zero(w);
@@ -252,12 +253,12 @@ Eigen::VectorXcd ModalEnergy::algebraic_change(const Eigen::VectorXcd& dq, Colum
   for (const bool imaginary : {false, true}) {
     const Eigen::VectorXd x = imaginary ? Eigen::VectorXd(dq.imag()) : Eigen::VectorXd(dq.real());
     Eigen::VectorXd rows = Eigen::VectorXd::Zero(eq_.size());
-    const auto subtract = [&](Column c) {
+    const auto subtract = [&](PartialBy c) {
       eq_.matrix(c).multiply_add({x.data(), static_cast<std::size_t>(x.size())},
                                  {rows.data(), static_cast<std::size_t>(rows.size())}, -1.0);
     };
     subtract(family);
-    if (family == Column::damping) subtract(Column::velocity);  // algebraic DIFFs
+    if (family == PartialBy::damping) subtract(PartialBy::velocity);  // algebraic DIFFs
     Eigen::MatrixXd right = rows.segment(n, w);
     algebraic_.solve(right);
     change += imaginary ? Complex(0, 1) * right.col(0) : Eigen::VectorXcd(right.col(0).cast<Complex>());
@@ -278,8 +279,8 @@ std::vector<std::size_t> ModalEnergy::sets_with_rows() const {
   return list;
 }
 
-std::vector<ModalRow<double>> ModalEnergy::force_rows(std::size_t mode, Column family) const {
-  const bool strain = family == Column::position;
+std::vector<ModalRow<double>> ModalEnergy::force_rows(std::size_t mode, PartialBy family) const {
+  const bool strain = family == PartialBy::position;
   const Eigen::VectorXcd z = scaled_vector(mode);
   const Eigen::VectorXcd u = strain ? displacements(z) : velocities(z);
   const WrenchWork work(system_.layout(), family, u, algebraic_change(u, family), algebraic_size(u, family));

@@ -44,8 +44,8 @@ class ModalEnergy {
   std::vector<ModalRow<double>> kinetic(std::size_t mode) const;
   // Total X Y Z RX RY RZ in percent of the model, global axes; a missing entry is NaN. Forces follow displacements
   // (strain) or velocities (dissipation) also through other forces, VARIABLEs and algebraic DIFFs.
-  std::vector<ModalRow<double>> strain(std::size_t mode) const { return force_rows(mode, Column::position); }
-  std::vector<ModalRow<double>> dissipation(std::size_t mode) const { return force_rows(mode, Column::damping); }
+  std::vector<ModalRow<double>> strain(std::size_t mode) const { return force_rows(mode, PartialBy::position); }
+  std::vector<ModalRow<double>> dissipation(std::size_t mode) const { return force_rows(mode, PartialBy::damping); }
 
  private:
   Eigen::VectorXcd scaled_vector(std::size_t mode) const;
@@ -58,9 +58,9 @@ class ModalEnergy {
   std::pair<std::vector<ModalRow<std::complex<double>>>, std::complex<double>> shape(std::size_t mode) const;
   std::array<double, 9> kinetic_terms(std::size_t body, const Eigen::VectorXcd& v) const;
   std::vector<std::size_t> sets_with_rows() const;
-  std::vector<ModalRow<double>> force_rows(std::size_t mode, Column family) const;
-  Eigen::VectorXcd algebraic_change(const Eigen::VectorXcd& dq, Column family) const;
-  Eigen::VectorXd algebraic_size(const Eigen::VectorXcd& dq, Column family) const;  // the same if nothing cancelled
+  std::vector<ModalRow<double>> force_rows(std::size_t mode, PartialBy family) const;
+  Eigen::VectorXcd algebraic_change(const Eigen::VectorXcd& dq, PartialBy family) const;
+  Eigen::VectorXd algebraic_size(const Eigen::VectorXcd& dq, PartialBy family) const;  // the same if nothing cancelled
 
   const System& system_;
   const LinearSystem& linear_;

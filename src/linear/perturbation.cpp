@@ -47,7 +47,7 @@ PerturbationEquations PerturbationEquations::of_state_matrix(const Matrix& A) {
   auto lu = std::make_shared<SparseLu>();
   lu->factor(none);
   p.level_.fill(lu);
-  p.rates_on_positions_ = p.saddle_on_positions_ = p.saddle_on_rates_ = none;
+  p.rates_on_positions_ = p.augmented_on_positions_ = p.augmented_on_rates_ = none;
   p.on_states_ = compressed(0, p.states_, {});
   p.state_rates_on_algebraic_ = compressed(p.states_, 0, {});
   p.sizes_ = p.pencil_;
@@ -60,9 +60,9 @@ void PerturbationEquations::solve_levels(Matrix& b) const {
   level_[0]->solve(b.topRows(n_));
   multiply_add(rates_on_positions_, b.topRows(n_), b.middleRows(n_, n_), -1.0);
   level_[1]->solve(b.middleRows(n_, n_));
-  multiply_add(saddle_on_positions_, b.topRows(n_), b.bottomRows(saddle_size_), -1.0);
-  multiply_add(saddle_on_rates_, b.middleRows(n_, n_), b.bottomRows(saddle_size_), -1.0);
-  level_[2]->solve(b.bottomRows(saddle_size_));
+  multiply_add(augmented_on_positions_, b.topRows(n_), b.bottomRows(augmented_size_), -1.0);
+  multiply_add(augmented_on_rates_, b.middleRows(n_, n_), b.bottomRows(augmented_size_), -1.0);
+  level_[2]->solve(b.bottomRows(augmented_size_));
 }
 
 Matrix PerturbationEquations::complete(const Matrix& x) const {
@@ -85,10 +85,10 @@ Matrix PerturbationEquations::solve_transposed(Matrix a) const {
     whole_->solve_transposed(a);
     return a;
   }
-  level_[2]->solve_transposed(a.bottomRows(saddle_size_));
-  multiply_add(transposed(saddle_on_rates_), a.bottomRows(saddle_size_), a.middleRows(n_, n_), -1.0);
+  level_[2]->solve_transposed(a.bottomRows(augmented_size_));
+  multiply_add(transposed(augmented_on_rates_), a.bottomRows(augmented_size_), a.middleRows(n_, n_), -1.0);
   level_[1]->solve_transposed(a.middleRows(n_, n_));
-  multiply_add(transposed(saddle_on_positions_), a.bottomRows(saddle_size_), a.topRows(n_), -1.0);
+  multiply_add(transposed(augmented_on_positions_), a.bottomRows(augmented_size_), a.topRows(n_), -1.0);
   multiply_add(transposed(rates_on_positions_), a.middleRows(n_, n_), a.topRows(n_), -1.0);
   level_[0]->solve_transposed(a.topRows(n_));
   return a;

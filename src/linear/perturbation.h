@@ -7,18 +7,19 @@
 //
 //     [Φ_q; X] δq  = [0; δx]                                            Φ_q constraint rows, X chosen coordinates
 //     [Φ_q; X] δq′ = [−Φ_q′ δq; δx′ − X′ δq]
-//     saddle (δq″, δλ, δw, δz′) = −(∂/∂q δq + ∂/∂q′ δq′ + ∂/∂z δz), constraint rows −(a1 δq′ + a0 δq)
+//     augmented (δq″, δλ, δw, δz′) = −(∂/∂q δq + ∂/∂q′ δq′ + ∂/∂z δz), constraint rows −(a1 δq′ + a0 δq)
 //
 // and δx″ = X δq″ + 2 X′ δq′ + X″ δq. Velocity rows make the second level larger: fewer rates than coordinates.
-// Freedoms without mass leave F without its blocks: their balances stand among the saddle equations, and differentiated
-// balances in the places of the rows that the first two levels lack (massless_states.h); F is then factored as a whole.
-// The state matrix is A = R − P F⁻¹ G; its eigenvalues are those of the sparse pencil S − λ E of all unknowns (a, x).
+// Freedoms without mass leave F without its blocks: their balances stand among the augmented equations, and
+// differentiated balances in the places of the rows that the first two levels lack (massless_states.h); F is then
+// factored as a whole. The state matrix is A = R − P F⁻¹ G; its eigenvalues are those of the sparse pencil S − λ E of
+// all unknowns (a, x).
 #pragma once
 
 #include <array>
 #include <memory>
 
-#include "analysis/saddle.h"
+#include "analysis/augmented_system.h"
 #include "linear/massless_states.h"
 #include "linear/state_choice.h"
 #include "system/sparse_lu.h"
@@ -42,7 +43,7 @@ class PerturbationEquations {
   // Where parts of a begin.
   std::int32_t rates() const { return n_; }
   std::int32_t accelerations() const { return 2 * n_; }
-  std::int32_t saddle() const { return 2 * n_; }
+  std::int32_t augmented() const { return 2 * n_; }
   std::int32_t state_columns() const { return algebraic_; }
 
   // a of columns (x; u) or x alone.
@@ -56,8 +57,8 @@ class PerturbationEquations {
   // [A B] of the columns a that complete(unit matrix) has given, corrected by a residual in long double: entries are as
   // good as those of the equations, however much cancels in them.
   Eigen::MatrixXd state_matrices(const Eigen::MatrixXd& a) const;
-  // Roundings that the entries of A may carry, element by element: Σ|y||r| over the very sums that make them, in so many
-  // units of the last place.
+  // Roundings that the entries of A may carry, element by element: Σ|y||r| over the very sums that make them, in so
+  // many units of the last place.
   static constexpr double units_of_rounding = 16;
   Eigen::MatrixXd rounding(const Eigen::MatrixXd& a) const;
 
@@ -73,13 +74,13 @@ class PerturbationEquations {
 
   void solve_levels(Eigen::MatrixXd& b) const;
 
-  std::int32_t n_ = 0, saddle_size_ = 0, algebraic_ = 0, states_ = 0;
+  std::int32_t n_ = 0, augmented_size_ = 0, algebraic_ = 0, states_ = 0;
   std::array<std::shared_ptr<const SparseLu>, 3> level_;
   std::shared_ptr<const SparseLu> whole_;  // of F, where freedoms without mass couple the levels
   Eigen::MatrixXd open_;
-  ColumnMatrix rates_on_positions_, saddle_on_positions_, saddle_on_rates_;  // below the diagonal of F
-  ColumnMatrix on_states_;                                                   // [G H]
-  ColumnMatrix state_rates_on_algebraic_, state_rates_on_states_;            // P and R
+  ColumnMatrix rates_on_positions_, augmented_on_positions_, augmented_on_rates_;  // below the diagonal of F
+  ColumnMatrix on_states_;                                                         // [G H]
+  ColumnMatrix state_rates_on_algebraic_, state_rates_on_states_;                  // P and R
   ColumnMatrix pencil_;
   ColumnMatrix sizes_;  // of what its entries are made of, where roundings are counted (entry_sizes.h)
 };

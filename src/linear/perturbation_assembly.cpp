@@ -51,7 +51,7 @@ class PerturbationEquations::Assembly {
            const StateChoice& choice, const std::vector<std::int32_t>& inputs, bool without_damping,
            const MasslessStates* massless)
       : system_(system),
-        saddle_(system),
+        augmented_(system),
         rows_(rows),
         eq_(eq),
         choice_(choice),
@@ -60,11 +60,11 @@ class PerturbationEquations::Assembly {
         massless_(massless),
         entry_sizes_(system.layout(), motion),
         n_(system.layout().coordinate_count),
-        first_state_(2 * n_ + saddle_.size()),
+        first_state_(2 * n_ + augmented_.size()),
         cut_(system.layout().algebraic.size(), false) {
     for (const std::int32_t u : inputs) cut_[static_cast<std::size_t>(u)] = true;
     p_.n_ = n_;
-    p_.saddle_size_ = saddle_.size();
+    p_.augmented_size_ = augmented_.size();
     p_.algebraic_ = first_state_;
     p_.states_ = choice.size();
   }
@@ -107,10 +107,10 @@ class PerturbationEquations::Assembly {
       diagonal_[1] = diagonal_[0];
       p_.level_[1] = p_.level_[0];
     }
-    diagonal_[2] = saddle_.matrix(eq_, rows_, choice_.velocity_active, {}, cut_);
+    diagonal_[2] = augmented_.matrix(eq_, rows_, choice_.velocity_active, {}, cut_);
     if (!factor(2)) {
       return tl::unexpected(Failure{"linear analysis", "the accelerations are not determined",
-                                    undetermined(system_, saddle_, diagonal_[2])});
+                                    undetermined(system_, augmented_, diagonal_[2])});
     }
     return {};
   }
@@ -123,11 +123,11 @@ class PerturbationEquations::Assembly {
     diagonal_[0] = level_matrix(rows_, choice_, choice_.active, choice_.has_position, square, condensed);
     diagonal_[1] = level_matrix(rows_, choice_, choice_.velocity_active, choice_.has_rate, square_rates, all);
     if (!square || !square_rates) return tl::unexpected(undetermined_positions());
-    diagonal_[2] = saddle_.matrix(eq_, rows_, choice_.velocity_active, {}, cut_);
+    diagonal_[2] = augmented_.matrix(eq_, rows_, choice_.velocity_active, {}, cut_);
     return {};
   }
 
-  // What takes the vacant places: at rest the balances that the saddle equations hold, differentiated,
+  // What takes the vacant places: at rest the balances that the augmented equations hold, differentiated,
   //     Yᵀ(R_q δq′ + R_q′ δq″ + R_z δz′) = 0,
   // for rates of condensed freedoms and accelerations of damped ones, and once more for accelerations of condensed
   // ones; derivatives of inputs are left out, and of z′ and q″ in the last. Where the model moves nothing is known but
@@ -169,7 +169,7 @@ class PerturbationEquations::Assembly {
     const auto driven = [&](const Eigen::VectorXd& weights) {
       const Eigen::VectorXd y = limit.left * weights;
       return std::any_of(inputs_.begin(), inputs_.end(),
-                         [&](std::int32_t u) { return y(saddle_.algebraic(u)) != 0.0; });
+                         [&](std::int32_t u) { return y(augmented_.algebraic(u)) != 0.0; });
     };
     const auto once = [&](std::int32_t row, const Eigen::VectorXd& weights) {
       const Eigen::RowVectorXd w = weights.transpose(), size = w.cwiseAbs();
@@ -177,7 +177,7 @@ class PerturbationEquations::Assembly {
       place_row(row, 2 * n_, w * limit.on_rates, size * limit.on_rates_size);
       const Eigen::RowVectorXd on_states = w * limit.on_states, state_size = size * limit.on_states_size;
       for (const std::int32_t z : choice_.differential)
-        place_row(row, 2 * n_ + saddle_.state(z), on_states.segment(z, 1), state_size.segment(z, 1));
+        place_row(row, 2 * n_ + augmented_.state(z), on_states.segment(z, 1), state_size.segment(z, 1));
       if (driven(weights)) open_rows_.push_back(row);
     };
     for (Eigen::Index k = 0; k < condensed; ++k) {
@@ -225,7 +225,7 @@ class PerturbationEquations::Assembly {
     Eigen::MatrixXd seen = Eigen::MatrixXd::Zero(p_.states_, p_.open_.cols()), size = seen;
     const Eigen::RowVectorXd moves = p_.open_.topRows(3 * n_).cwiseAbs().colwise().maxCoeff();
     const Eigen::RowVectorXd others =
-        p_.open_.bottomRows(first_state_ - 2 * n_ - saddle_.state(0)).cwiseAbs().colwise().sum();
+        p_.open_.bottomRows(first_state_ - 2 * n_ - augmented_.state(0)).cwiseAbs().colwise().sum();
     for_each_entry(p_.state_rates_on_algebraic_, [&](std::int32_t r, std::int32_t c, double v) {
       seen.row(r) += v * p_.open_.row(c);
       size.row(r) += std::abs(v) * (c < 3 * n_ ? moves : (others + moves).eval());
@@ -256,8 +256,8 @@ class PerturbationEquations::Assembly {
       if (!choice_.velocity_active[static_cast<std::size_t>(k)]) continue;
       take_rate(row, size);
       for (std::size_t e = 0; e < row.size(); ++e) {
-        below_21_.add(saddle_.lambda(k), row[e].column, row[e].c.a1, size[e].a1);
-        below_20_.add(saddle_.lambda(k), row[e].column, row[e].c.a0, size[e].a0);
+        below_21_.add(augmented_.lambda(k), row[e].column, row[e].c.a1, size[e].a1);
+        below_20_.add(augmented_.lambda(k), row[e].column, row[e].c.a0, size[e].a0);
       }
     }
     for (std::size_t k = 0; k < choice_.gradient.size(); ++k) {
@@ -270,9 +270,9 @@ class PerturbationEquations::Assembly {
     }
   }
 
-  // take(row of the saddle, column, value, size) for all entries but those of equations that inputs have cut.
+  // take(row of the augmented, column, value, size) for all entries but those of equations that inputs have cut.
   template <class Take>
-  void for_partials(Column family, Take&& take) const {
+  void for_partials(PartialBy family, Take&& take) const {
     const ColumnMatrix& m = eq_.matrix(family);
     const ColumnMatrix size = entry_sizes_.of(eq_, family);
     for (std::int32_t c = 0; c < m.columns; ++c) {
@@ -280,7 +280,7 @@ class PerturbationEquations::Assembly {
         const auto at = static_cast<std::size_t>(e);
         const std::int32_t w = m.row[at] - n_;
         const bool replaced = w >= 0 && w < static_cast<std::int32_t>(cut_.size()) && cut_[static_cast<std::size_t>(w)];
-        if (!replaced) take(saddle_.equation(m.row[at]), c, m.value[at], size.value[at]);
+        if (!replaced) take(augmented_.equation(m.row[at]), c, m.value[at], size.value[at]);
       }
     }
   }
@@ -289,16 +289,16 @@ class PerturbationEquations::Assembly {
     const auto to = [](SizedBlock& block) {
       return [&](std::int32_t row, std::int32_t c, double v, double size) { block.add(row, c, v, size); };
     };
-    for_partials(Column::position, to(below_20_));
-    for_partials(Column::velocity, to(below_21_));
-    if (!without_damping_) for_partials(Column::damping, to(below_21_));
+    for_partials(PartialBy::position, to(below_20_));
+    for_partials(PartialBy::velocity, to(below_21_));
+    if (!without_damping_) for_partials(PartialBy::damping, to(below_21_));
     constexpr std::int32_t constant = -1;
     std::vector<std::int32_t> state_of(system_.layout().states.size(), constant);
     for (std::size_t k = 0; k < choice_.differential.size(); ++k) {
       state_of[static_cast<std::size_t>(choice_.differential[k])] =
           choice_.first_differential + static_cast<std::int32_t>(k);
     }
-    for_partials(Column::state, [&](std::int32_t row, std::int32_t c, double v, double size) {
+    for_partials(PartialBy::state, [&](std::int32_t row, std::int32_t c, double v, double size) {
       const std::int32_t state = state_of[static_cast<std::size_t>(c)];
       if (state != constant) states_.add(2 * n_ + row, state, v, size);
     });
@@ -307,7 +307,7 @@ class PerturbationEquations::Assembly {
   void take_inputs() {
     for (std::size_t u = 0; u < inputs_.size(); ++u) {
       const std::int32_t column = p_.states_ + static_cast<std::int32_t>(u);
-      states_.add(2 * n_ + saddle_.algebraic(inputs_[u]), column, -1.0, 0.0);
+      states_.add(2 * n_ + augmented_.algebraic(inputs_[u]), column, -1.0, 0.0);
     }
   }
 
@@ -332,14 +332,14 @@ class PerturbationEquations::Assembly {
     }
     for (std::size_t k = 0; k < choice_.differential.size(); ++k) {
       rates_on_algebraic_.add(choice_.first_differential + static_cast<std::int32_t>(k),
-                              2 * n_ + saddle_.state(choice_.differential[k]), 1.0, 1.0);
+                              2 * n_ + augmented_.state(choice_.differential[k]), 1.0, 1.0);
     }
   }
 
   void join() {
     p_.rates_on_positions_ = compressed(n_, n_, below_10_.values);
-    p_.saddle_on_positions_ = compressed(saddle_.size(), n_, below_20_.values);
-    p_.saddle_on_rates_ = compressed(saddle_.size(), n_, below_21_.values);
+    p_.augmented_on_positions_ = compressed(augmented_.size(), n_, below_20_.values);
+    p_.augmented_on_rates_ = compressed(augmented_.size(), n_, below_21_.values);
     p_.on_states_ = compressed(first_state_, p_.states_ + static_cast<std::int32_t>(inputs_.size()), states_.values);
     p_.state_rates_on_algebraic_ = compressed(p_.states_, first_state_, rates_on_algebraic_.values);
     p_.state_rates_on_states_ = compressed(p_.states_, p_.states_, rates_on_states_);
@@ -348,8 +348,8 @@ class PerturbationEquations::Assembly {
     place(all, diagonal_[0], 0, 0);
     place(all, p_.rates_on_positions_, n_, 0);
     place(all, diagonal_[1], n_, n_);
-    place(all, p_.saddle_on_positions_, 2 * n_, 0);
-    place(all, p_.saddle_on_rates_, 2 * n_, n_);
+    place(all, p_.augmented_on_positions_, 2 * n_, 0);
+    place(all, p_.augmented_on_rates_, 2 * n_, n_);
     place(all, diagonal_[2], 2 * n_, 2 * n_);
     place(all, compressed(first_state_, first_state_, balances_.values), 0, 0);
     for (const Triplet& t : states_.values) {
@@ -361,7 +361,7 @@ class PerturbationEquations::Assembly {
   }
 
   const System& system_;
-  const Saddle saddle_;
+  const AugmentedSystem augmented_;
   const ConstraintRows& rows_;
   const Equations& eq_;
   const StateChoice& choice_;

@@ -84,7 +84,7 @@ class StructuralZeros::Contributions {
   };
 
   struct Entry {
-    Column family;
+    PartialBy family;
     std::int32_t row, column;
     double value;
   };
@@ -115,9 +115,9 @@ class StructuralZeros::Contributions {
   }
 
   double scale(std::int32_t coordinate) const { return scale_[static_cast<std::size_t>(coordinate)]; }
-  static std::size_t at(Column family) { return static_cast<std::size_t>(family); }
-  double unit(Column family, std::int32_t column) const {
-    return at(family) <= at(Column::acceleration) ? scale(column) : 1.0;
+  static std::size_t at(PartialBy family) { return static_cast<std::size_t>(family); }
+  double unit(PartialBy family, std::int32_t column) const {
+    return at(family) <= at(PartialBy::acceleration) ? scale(column) : 1.0;
   }
 
   void sort_elements(const ElementTrace& trace, bool without_damping) {
@@ -135,7 +135,7 @@ class StructuralZeros::Contributions {
       }
       for (std::size_t k = noted.first_partial; k < trace.end_of_partials(e); ++k) {
         const ElementTrace::Partial& p = trace.partials[k];
-        if (without_damping && p.family == Column::damping) continue;
+        if (without_damping && p.family == PartialBy::damping) continue;
         if (!std::isfinite(p.value)) continue;  // of functions without a derivative: nothing comes of them
         if (p.row < n_) {
           element->partials.push_back({p.family, p.row, p.column, p.value});
@@ -151,11 +151,11 @@ class StructuralZeros::Contributions {
 
   void read(const ElementTrace::Partial& p, const ElementTrace& trace) {
     const std::int32_t unknown = p.row - n_;
-    if (p.family == Column::algebraic && p.column == unknown) return;  // what the equation defines
-    if (p.family == Column::state_rate && p.column == unknown - w_) return;
+    if (p.family == PartialBy::algebraic && p.column == unknown) return;  // what the equation defines
+    if (p.family == PartialBy::state_rate && p.column == unknown - w_) return;
     std::vector<Reading>& readings = readings_[p.row];
     const Entry entry{p.family, p.row, p.column, p.value};
-    const bool part_of_term = at(p.family) <= at(Column::acceleration) && p.term >= 0;
+    const bool part_of_term = at(p.family) <= at(PartialBy::acceleration) && p.term >= 0;
     if (part_of_term && !readings.empty() && last_term_ == p.term) {
       readings.back().partials.push_back(entry);
     } else {
@@ -168,13 +168,13 @@ class StructuralZeros::Contributions {
   void find_driven(const Equations& eq) {
     std::vector<bool> acts(static_cast<std::size_t>(eq.size()), false);  // equations that bodies depend on
     for (std::int32_t r = 0; r < n_; ++r) acts[static_cast<std::size_t>(r)] = true;
-    const auto owner_of = [&](Column family, std::int32_t c) -> std::int32_t {
-      if (family == Column::algebraic) return n_ + c;
-      return family == Column::state || family == Column::state_rate ? n_ + w_ + c : -1;
+    const auto owner_of = [&](PartialBy family, std::int32_t c) -> std::int32_t {
+      if (family == PartialBy::algebraic) return n_ + c;
+      return family == PartialBy::state || family == PartialBy::state_rate ? n_ + w_ + c : -1;
     };
     for (bool changed = true; changed;) {
       changed = false;
-      for (const Column family : {Column::algebraic, Column::state, Column::state_rate}) {
+      for (const PartialBy family : {PartialBy::algebraic, PartialBy::state, PartialBy::state_rate}) {
         for_each_entry(eq.matrix(family), [&](std::int32_t r, std::int32_t c, double v) {
           const auto owner = static_cast<std::size_t>(owner_of(family, c));
           if (v == 0.0 || !acts[static_cast<std::size_t>(r)] || acts[owner]) return;
@@ -183,7 +183,7 @@ class StructuralZeros::Contributions {
       }
     }
     for (std::size_t k = 0; k < state_count_; ++k) driven_.push_back(!acts[static_cast<std::size_t>(n_ + w_) + k]);
-    for_each_entry(eq.matrix(Column::algebraic), [&](std::int32_t r, std::int32_t c, double v) {
+    for_each_entry(eq.matrix(PartialBy::algebraic), [&](std::int32_t r, std::int32_t c, double v) {
       if (r < n_ && v != 0.0) held_rows_.push_back(n_ + c);
     });
     for (std::int32_t k = 0; k < static_cast<std::int32_t>(state_count_); ++k) {
@@ -209,8 +209,8 @@ class StructuralZeros::Contributions {
     Eigen::VectorXd factor = Eigen::VectorXd::Ones(free + more);
     for (Index c = 0; c < factor.size(); ++c) {
       double size = 0;
-      for (const Column family : {Column::position, Column::velocity}) {
-        if (family == Column::position && c >= free) continue;
+      for (const PartialBy family : {PartialBy::position, PartialBy::velocity}) {
+        if (family == PartialBy::position && c >= free) continue;
         for (std::int32_t k = 0; k < n_; ++k) size = std::max(size, std::abs(d.change[at(family)](k, c)) / scale(k));
         if (size > 0) break;
       }
@@ -222,7 +222,7 @@ class StructuralZeros::Contributions {
     for (std::size_t f = 0; f < column_families; ++f) {
       for (Index k = 0; k < d.change[f].rows(); ++k) {
         if (d.change[f].cols() == 0) continue;
-        const double u = unit(static_cast<Column>(f), static_cast<std::int32_t>(k));
+        const double u = unit(static_cast<PartialBy>(f), static_cast<std::int32_t>(k));
         d.size[f] = std::max(d.size[f], d.change[f].row(k).cwiseAbs().maxCoeff() / u);
       }
     }
@@ -255,13 +255,13 @@ class StructuralZeros::Contributions {
       ++r;
     }
     rates_.solve(right);
-    d.change[at(Column::position)] = dq;
-    d.change[at(Column::velocity)] = d.change[at(Column::damping)] = dqdot;
-    d.change[at(Column::acceleration)] = right;
-    d.change[at(Column::lambda)] = image(dlambda_);
-    d.change[at(Column::algebraic)] = image(dw_);
+    d.change[at(PartialBy::position)] = dq;
+    d.change[at(PartialBy::velocity)] = d.change[at(PartialBy::damping)] = dqdot;
+    d.change[at(PartialBy::acceleration)] = right;
+    d.change[at(PartialBy::lambda)] = image(dlambda_);
+    d.change[at(PartialBy::algebraic)] = image(dw_);
     const Index states = static_cast<Index>(state_count_);
-    d.change[at(Column::state)] = d.change[at(Column::state_rate)] = RowMajor::Zero(states, d.states.cols());
+    d.change[at(PartialBy::state)] = d.change[at(PartialBy::state_rate)] = RowMajor::Zero(states, d.states.cols());
   }
 
   // Coordinates without a rate of their own change as the others make them; that must be what is wanted.
@@ -271,11 +271,11 @@ class StructuralZeros::Contributions {
       Eigen::RowVectorXd sum = -d.rates_of_states.row(choice_.position_state[k]);
       double size = sum.cwiseAbs().maxCoeff();
       for (const auto& e : choice_.gradient[k]) {
-        sum +=
-            e.c.g * d.change[at(Column::velocity)].row(e.column) + e.c.v * d.change[at(Column::position)].row(e.column);
+        sum += e.c.g * d.change[at(PartialBy::velocity)].row(e.column) +
+               e.c.v * d.change[at(PartialBy::position)].row(e.column);
         const double u = scale(e.column);
-        size = std::max({size, std::abs(e.c.g) * u * d.size[at(Column::velocity)],
-                         std::abs(e.c.v) * u * d.size[at(Column::position)]});
+        size = std::max({size, std::abs(e.c.g) * u * d.size[at(PartialBy::velocity)],
+                         std::abs(e.c.v) * u * d.size[at(PartialBy::position)]});
       }
       if (size > 0) rows.push_back(sum / size);
     }
@@ -306,19 +306,19 @@ class StructuralZeros::Contributions {
 
   double size_of(const Directions& d, const Entry& p) const {
     // A quantity that is itself defined by an equation is as exact as what it is made of.
-    if (p.family == Column::algebraic) return size_of_algebraic(d, p.column, 0);
-    if (p.family == Column::lambda) return d.change[at(p.family)].row(p.column).cwiseAbs().maxCoeff();
+    if (p.family == PartialBy::algebraic) return size_of_algebraic(d, p.column, 0);
+    if (p.family == PartialBy::lambda) return d.change[at(p.family)].row(p.column).cwiseAbs().maxCoeff();
     return unit(p.family, p.column) * d.size[at(p.family)];
   }
   double size_of_algebraic(const Directions& d, std::int32_t unknown, int depth) const {
-    double size = d.change[at(Column::algebraic)].row(unknown).cwiseAbs().maxCoeff();
+    double size = d.change[at(PartialBy::algebraic)].row(unknown).cwiseAbs().maxCoeff();
     const auto found = readings_.find(n_ + unknown);
     if (found == readings_.end() || depth > 8) return size;
     for (const Reading& reading : found->second) {
       for (const Entry& p : reading.partials) {
         size = std::max(
             size, std::abs(p.value) *
-                      (p.family == Column::algebraic ? size_of_algebraic(d, p.column, depth + 1) : size_of(d, p)));
+                      (p.family == PartialBy::algebraic ? size_of_algebraic(d, p.column, depth + 1) : size_of(d, p)));
       }
     }
     return size;
@@ -421,7 +421,7 @@ class StructuralZeros::Contributions {
     on.place = place_of(b);
     on.turns = block.count == 6;
     if (!on.turns) return;
-    const auto moved = d.change[at(Column::position)].middleRows(block.offset, 3);
+    const auto moved = d.change[at(PartialBy::position)].middleRows(block.offset, 3);
     on.change.bottomRows(3) -= cross_matrix(on.load.head<3>()) * moved / length_;
   }
 

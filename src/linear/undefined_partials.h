@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/saddle.h"
+#include "analysis/augmented_system.h"
 #include "linear/perturbation.h"
 
 namespace dynalin {
@@ -22,8 +22,8 @@ class UndefinedPartials {
   std::optional<Failure> failure(const PerturbationEquations&, const StateChoice&, const Eigen::MatrixXd& a) const;
   // The same where the equations cannot be solved; nothing if none has been taken out.
   std::optional<Failure> failure() const;
-  // Of entries in equations that balances of freedoms without mass take in (rows of the saddle equations): those hold
-  // partials of several equations at once, and what has no derivative is not told apart there.
+  // Of entries in equations that balances of freedoms without mass take in (rows of the augmented equations): those
+  // hold partials of several equations at once, and what has no derivative is not told apart there.
   std::optional<Failure> failure_in_balances(const Eigen::MatrixXd& balances) const;
 
  private:
@@ -32,7 +32,7 @@ class UndefinedPartials {
 
   const System& system_;
   const Motion& motion_;
-  Saddle saddle_;
+  AugmentedSystem augmented_;
   std::vector<std::int32_t> outputs_;
   bool without_damping_;
   std::vector<Entry> entries_;

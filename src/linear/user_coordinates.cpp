@@ -146,12 +146,12 @@ class Chain {
     });
     if (fine) return std::nullopt;
     for (const Link& link : links_) {
-      std::vector<ElementFault> faults;
-      link.function->find_fault(motion_, system_.model().label(link.variable), faults,
-                                BoundExpression::Derivatives::with_rates);
-      if (!faults.empty())
+      std::vector<UndefinedValue> undefined_values;
+      link.function->find_undefined(motion_, system_.model().label(link.variable), undefined_values,
+                                    BoundExpression::Derivatives::with_rates);
+      if (!undefined_values.empty())
         return refused(variable_function(system_.model(), link.variable).at(),
-                       "has no derivatives here (" + faults.front().reason + ")");
+                       "has no derivatives here (" + undefined_values.front().reason + ")");
     }
     return refused({}, "has no derivatives here");
   }

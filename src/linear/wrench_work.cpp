@@ -23,7 +23,7 @@ void add(ComplexVector& a, const ComplexVector& b, Complex factor) {
   for (std::size_t k = 0; k < 3; ++k) a[k] += factor * b[k];
 }
 
-WrenchWork::WrenchWork(const Layout& layout, Column family, const Eigen::VectorXcd& u, Eigen::VectorXcd dw,
+WrenchWork::WrenchWork(const Layout& layout, PartialBy family, const Eigen::VectorXcd& u, Eigen::VectorXcd dw,
                        Eigen::VectorXd dw_size)
     : layout_(layout), family_(family), u_(u), dw_(std::move(dw)), dw_size_(std::move(dw_size)) {}
 
@@ -33,7 +33,7 @@ ComplexVector WrenchWork::motion_of(BodyId body, std::int32_t first) const {
 }
 
 WrenchWork::Done WrenchWork::of(const MarkerWrench& w) const {
-  const bool strain = family_ == Column::position;
+  const bool strain = family_ == PartialBy::position;
   const PairMotion& p = w.pair;
   const std::array<ComplexVector, 4> du = {motion_of(p.body_I, 0), motion_of(p.body_I, 3), motion_of(p.body_J, 0),
                                            motion_of(p.body_J, 3)};
@@ -52,7 +52,7 @@ WrenchWork::Done WrenchWork::of(const MarkerWrench& w) const {
     add(dT, times(on_torque.group[g], du[g]));
   }
   for (const MarkerWrench::Scalar& s : w.scalars) {
-    if (s.family != Column::algebraic && s.family != family_) continue;
+    if (s.family != PartialBy::algebraic && s.family != family_) continue;
     const Complex change = s.family == family_ ? u_(s.column) : dw_(s.column);
     const double change_size = s.family == family_ ? std::abs(change) : dw_size_(s.column);
     dF_size += change_size * norm(s.force), dT_size += change_size * norm(s.torque);

@@ -24,7 +24,7 @@ class WrenchWork {
  public:
   // `family`: position with displacements u of all coordinates, damping with velocities u. `dw`: what they make of the
   // algebraic unknowns, `dw_size` that if nothing cancelled.
-  WrenchWork(const Layout&, Column family, const Eigen::VectorXcd& u, Eigen::VectorXcd dw, Eigen::VectorXd dw_size);
+  WrenchWork(const Layout&, PartialBy family, const Eigen::VectorXcd& u, Eigen::VectorXcd dw, Eigen::VectorXd dw_size);
 
   struct Done {
     std::array<double, 6> along{};    // X Y Z of the force and of the torque
@@ -36,7 +36,7 @@ class WrenchWork {
   ComplexVector motion_of(BodyId, std::int32_t first) const;
 
   const Layout& layout_;
-  Column family_;
+  PartialBy family_;
   const Eigen::VectorXcd& u_;
   Eigen::VectorXcd dw_;
   Eigen::VectorXd dw_size_;

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanics/seeded_frames.h"
+#include "mechanics/frame_variations.h"
 
 namespace dynalin {
 
 namespace {
 
 template <std::size_t N>
-void add_measure_gradient(Measure measure, const std::array<PlacedMarker, 4>& places, const Motion& motion, BodyId body,
-                          Equations& eq, std::int32_t row, double factor, bool passes_over, Column velocity_family) {
+void add_measure_gradient(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion, BodyId body,
+                          Equations& eq, std::int32_t row, double factor, bool passes_over, PartialBy velocity_family) {
   const BodyBlock& block = eq.layout().body(body);
-  const auto g = path::seeded_measure<N>(measure, places, motion, body).value.partial;
-  const std::array families = {Column::position, velocity_family, Column::acceleration};
+  const auto g = path::varied_measure<N>(measure, places, motion, body).value.partial;
+  const std::array families = {PartialBy::position, velocity_family, PartialBy::acceleration};
   for (std::size_t level = 0; 6 * level < N; ++level) {
     for (std::int32_t k = 0; k < block.count; ++k) {
       const double value = g[6 * level + static_cast<std::size_t>(k)];
@@ -98,7 +98,7 @@ Taylor BoundExpression::along_motion(const Motion& motion, ExpressionScratch& sc
 }
 
 void BoundExpression::add(const Motion& motion, Equations& eq, std::int32_t row, double factor,
-                          Column velocity_family) const {
+                          PartialBy velocity_family) const {
   ExpressionScratch& scratch = eq.scratch;
   if (!eq.wants_partials()) {
     eq.add_residual(row, factor * value(motion, scratch));
@@ -127,12 +127,12 @@ bool BoundExpression::passes_over(std::size_t atom, const ExpressionScratch& scr
 }
 
 void BoundExpression::add_atom(const BoundAtom& a, const Motion& motion, Equations& eq, std::int32_t row, double factor,
-                               bool passes_over, Column velocity_family) const {
+                               bool passes_over, PartialBy velocity_family) const {
   using Kind = BoundAtom::Kind;
   if (a.kind == Kind::channel) {
-    const Column family = a.channel.kind == Channel::Kind::algebraic ? Column::algebraic
-                          : a.channel.kind == Channel::Kind::state   ? Column::state
-                                                                     : Column::state_rate;
+    const PartialBy family = a.channel.kind == Channel::Kind::algebraic ? PartialBy::algebraic
+                             : a.channel.kind == Channel::Kind::state   ? PartialBy::state
+                                                                        : PartialBy::state_rate;
     eq.add(family, row, a.channel.index, factor);
   } else if (a.kind == Kind::force) {
     add_force(a, motion, eq, row, factor, velocity_family);
@@ -146,7 +146,7 @@ void BoundExpression::add_atom(const BoundAtom& a, const Motion& motion, Equatio
       if (a.order == 1) add_levels.operator()<12>();
       if (a.order == 2) add_levels.operator()<18>();
     }
-    const std::array families = {Column::position, velocity_family, Column::acceleration};
+    const std::array families = {PartialBy::position, velocity_family, PartialBy::acceleration};
     for (std::size_t p = 0; p < a.parameter_count; ++p) {
       const auto m = path::measure_by_parameter(a.measure, a.places, motion, a.parameters[p]);
       for (std::size_t level = 0; level <= static_cast<std::size_t>(a.order); ++level) {
@@ -160,10 +160,10 @@ void BoundExpression::add_atom(const BoundAtom& a, const Motion& motion, Equatio
 namespace {
 
 template <std::size_t N>
-void add_measure_row(Measure measure, const std::array<PlacedMarker, 4>& places, const Motion& motion, BodyId body,
+void add_measure_row(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion, BodyId body,
                      ConstraintRows& rows, std::int32_t row, const BodyBlock& block, const Taylor& partial,
                      RowLevel row_level) {
-  const path::Seeded<N> m = path::seeded_measure<N>(measure, places, motion, body);
+  const path::Seeded<N> m = path::varied_measure<N>(measure, places, motion, body);
   const bool nothing = partial.value == 0.0 && partial.rate == 0.0 && partial.acceleration == 0.0;
   // δX = Σ X_l δq^(l) and its rate, both times the partial e_X(t) of the expression.
   for (std::int32_t k = 0; k < block.count; ++k) {

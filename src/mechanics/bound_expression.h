@@ -7,7 +7,7 @@
 #include "expression/expression.h"
 #include "expression/measures.h"
 #include "mechanics/kernel.h"
-#include "mechanics/placed_marker.h"
+#include "mechanics/marker_frame.h"
 
 namespace dynalin {
 
@@ -40,9 +40,9 @@ class BoundExpression {
 
   // Adds factor · e to the residual of `row` and its partials to the matrices. Velocity partials go to
   // `velocity_family`: damping for forces and VARIABLEs, velocity for controllers.
-  void add(const Motion&, Equations&, std::int32_t row, double factor, Column velocity_family) const;
+  void add(const Motion&, Equations&, std::int32_t row, double factor, PartialBy velocity_family) const;
   // The same for the time derivative e′ along the motion; orders 0 and 1, without forces.
-  void add_rate(const Motion&, Equations&, std::int32_t row, double factor, Column velocity_family) const;
+  void add_rate(const Motion&, Equations&, std::int32_t row, double factor, PartialBy velocity_family) const;
   double rate(const Motion&, ExpressionScratch&) const;  // e′
   // Adds the gradient of an expression of order 0 to a position row and returns its course, both times factor.
   Taylor add_position(const Motion&, ConstraintRows&, std::int32_t row, double factor = 1) const;
@@ -60,8 +60,8 @@ class BoundExpression {
   // Adds what is wrong when a value or partial is not finite: function, argument and reason.
   // With rates also what its time derivative or a second derivative does not have.
   enum class Derivatives : std::uint8_t { first, with_rates };
-  void find_fault(const Motion&, const ElementLabel& of, std::vector<ElementFault>&,
-                  Derivatives = Derivatives::first) const;
+  void find_undefined(const Motion&, const ElementLabel& of, std::vector<UndefinedValue>&,
+                      Derivatives = Derivatives::first) const;
 
  private:
   struct ForceTerm {
@@ -74,17 +74,17 @@ class BoundExpression {
     Channel channel, rate;  // rate: of the channel, where it is wanted
     Measure measure = Measure::DX;
     std::int8_t order = 0;
-    std::array<PlacedMarker, 4> places;        // i, j, k, l
+    std::array<MarkerFrame, 4> places;         // i, j, k, l
     std::array<BodyId, 4> bodies{};            // the distinct bodies among them that move
     std::array<std::int32_t, 4> parameters{};  // the distinct curve parameters among them, as coordinates
     std::uint8_t body_count = 0, parameter_count = 0;
     std::int32_t memory = -1;  // total angle of a measure that counts turns
     std::vector<ForceTerm> terms;
     std::uint8_t component = 1;  // 1–8: FM FX FY FZ TM TX TY TZ
-    PlacedMarker axes_marker;
+    MarkerFrame axes_marker;
   };
 
-  static void note_parameter(BoundAtom&, const PlacedMarker&);
+  static void note_parameter(BoundAtom&, const MarkerFrame&);
   BoundAtom bind(const Atom&, const Signals&, Binding) const;
   double atom_value(const BoundAtom&, const Motion&) const;
   double force_value(const BoundAtom&, const Motion&) const;
@@ -92,11 +92,11 @@ class BoundExpression {
   Taylor atom_along_motion(const BoundAtom&, const Motion&) const;
   // A factor of zero leaves nothing of a gradient that is not defined, if `passes_over`.
   void add_atom(const BoundAtom&, const Motion&, Equations&, std::int32_t row, double factor, bool passes_over,
-                Column velocity_family) const;
+                PartialBy velocity_family) const;
   bool has_gradient(const BoundAtom&, const Motion&) const;
   bool is_size_of_nothing(const BoundAtom&, const Motion&) const;
   void add_force(const BoundAtom&, const Motion&, Equations&, std::int32_t row, double factor,
-                 Column velocity_family) const;
+                 PartialBy velocity_family) const;
   // Adds partial · (path gradient of the measure) at the levels a constraint row has.
   void add_measure_to_row(const BoundAtom&, const Motion&, ConstraintRows&, std::int32_t row, const Taylor& partial,
                           RowLevel level) const;
@@ -109,8 +109,8 @@ class BoundExpression {
   // Whether a partial of zero makes the gradient of an atom vanish where that is not defined.
   bool passes_over(std::size_t atom, const ExpressionScratch&) const;
   static bool is_size(const BoundAtom&);  // of a vector: never negative
-  std::string fault_of_value(const Motion&, const std::vector<double>& atoms) const;
-  std::string fault_of_gradient(const Motion&, const std::vector<double>& atoms, Derivatives) const;
+  std::string undefined_in_value(const Motion&, const std::vector<double>& atoms) const;
+  std::string undefined_in_gradient(const Motion&, const std::vector<double>& atoms, Derivatives) const;
 
   Expression expression_;
   std::vector<BodyId> bodies_;  // all that the measures see, ground left out

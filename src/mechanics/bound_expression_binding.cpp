@@ -77,7 +77,7 @@ bool is_constant_on_a_body(Measure m) {
 
 // Where a marker is, and its axes where they are read: a floating marker has no place of its own. One on a curve whose
 // axes do not matter is as well at the origin of the fixed marker that lies there, if there is one.
-PlacedMarker find_marker(const Signals& signals, const Atom& atom, std::int64_t id, bool axes) {
+MarkerFrame find_marker(const Signals& signals, const Atom& atom, std::int64_t id, bool axes) {
   const Layout& layout = signals.layout();
   const MarkerId m = signals.marker(id), followed = signals.place_of(m);
   if (!signals.has_place(m)) {
@@ -124,7 +124,7 @@ BoundExpression::BoundExpression(Expression expression, const Signals& signals, 
   }
 }
 
-void BoundExpression::note_parameter(BoundAtom& a, const PlacedMarker& marker) {
+void BoundExpression::note_parameter(BoundAtom& a, const MarkerFrame& marker) {
   const auto end = a.parameters.begin() + a.parameter_count;
   if (marker.curve && std::find(a.parameters.begin(), end, marker.parameter) == end) {
     a.parameters[a.parameter_count++] = marker.parameter;

@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "mechanics/bound_expression.h"
-#include "mechanics/seeded_frames.h"
+#include "mechanics/frame_variations.h"
 
 namespace dynalin {
 
@@ -47,7 +47,7 @@ bool BoundExpression::is_size_of_nothing(const BoundAtom& a, const Motion& motio
 }
 
 void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equations& eq, std::int32_t row,
-                                double factor, Column velocity_family) const {
+                                double factor, PartialBy velocity_family) const {
   const bool torque = is_torque(a.component);
   std::vector<MarkerWrench> wrenches(a.terms.size());
   Vector sum{};
@@ -67,14 +67,14 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
     if (block.count == 6) {
       const Vector turn = cross(e, sum);
       for (std::size_t k = 0; k < 3; ++k) {
-        eq.add(Column::position, row, block.offset + 3 + static_cast<std::int32_t>(k), factor * turn[k]);
+        eq.add(PartialBy::position, row, block.offset + 3 + static_cast<std::int32_t>(k), factor * turn[k]);
       }
     }
     for (std::size_t p = 0; p < a.parameter_count; ++p) {
       const auto axes = path::frame_by_parameter(motion, a.axes_marker, a.parameters[p], a.axes_marker.place.body).axes;
       const auto& axis = axes[axis_of(a.component)];
       const Vector slope{axis.x.value.partial[0], axis.y.value.partial[0], axis.z.value.partial[0]};
-      eq.add(Column::position, row, a.parameters[p], factor * dot(slope, sum));
+      eq.add(PartialBy::position, row, a.parameters[p], factor * dot(slope, sum));
     }
   }
 
@@ -110,20 +110,20 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
           const Vector lever = cross(delta_groups[g][k], w.force.force);
           value -= kink && norm(lever) != 0.0 ? std::numeric_limits<double>::quiet_NaN() : dot(e, lever);
         }
-        eq.add(Column::position, row, column, factor * value);
+        eq.add(PartialBy::position, row, column, factor * value);
         eq.add(velocity_family, row, column,
                factor * picked(w.force.force_on_velocity.group[g][k], w.force.torque_on_velocity.group[g][k]));
       }
     }
     for (const MarkerWrench::Scalar& s : w.scalars) {
-      const Column family = s.family == Column::damping ? velocity_family : s.family;
+      const PartialBy family = s.family == PartialBy::damping ? velocity_family : s.family;
       eq.add(family, row, s.column, factor * picked(s.force, s.torque));
     }
     for (const MarkerWrench::Turn& turn : w.turns) {
       const BodyBlock& block = eq.layout().body(turn.body);
       for (std::int32_t k = 0; k < 3 && block.count == 6; ++k) {
         const auto at = static_cast<std::size_t>(k);
-        eq.add(Column::position, row, block.offset + 3 + k, factor * picked(turn.force[at], turn.torque[at]));
+        eq.add(PartialBy::position, row, block.offset + 3 + k, factor * picked(turn.force[at], turn.torque[at]));
       }
     }
   }

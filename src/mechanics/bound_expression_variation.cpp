@@ -6,7 +6,7 @@
 // with e_k, e_kl the derivatives of the expression by its atoms and G_ki those of atom k along unit displacement i
 // (position rows) or unit velocity i (velocity rows) in global axes.
 #include "mechanics/bound_expression.h"
-#include "mechanics/seeded_frames.h"
+#include "mechanics/frame_variations.h"
 
 namespace dynalin {
 
@@ -56,7 +56,7 @@ Vec3<TimeTaylor<Dual<6>>> turned(std::size_t axis, const Vec3<TimeTaylor<Dual<6>
 
 // The marker frame varied first along `outer`, then, at the varied motion, along `inner`; its origin from the BCS of
 // `from`.
-Frame<Nested> nested_frame(const Motion& motion, const PlacedMarker& marker, const Direction& inner,
+Frame<Nested> nested_frame(const Motion& motion, const MarkerFrame& marker, const Direction& inner,
                            const Direction& outer, BodyId from) {
   const MarkerPlace& place = marker.place;
   const Frame<Taylor> plain = marker.frame(motion, from);
@@ -102,14 +102,14 @@ void BoundExpression::add_reaction_partials(const Motion& motion, Equations& eq,
     scratch.taylor_atoms[k] = Taylor(atom_value(a, motion), 0.0, 0.0);
     if (a.kind != BoundAtom::Kind::measure) continue;
     for (std::size_t b = 0; b < a.body_count; ++b) {
-      scratch.gradients[4 * k + b] = path::seeded_measure<12>(a.measure, a.places, motion, a.bodies[b]).value.partial;
+      scratch.gradients[4 * k + b] = path::varied_measure<12>(a.measure, a.places, motion, a.bodies[b]).value.partial;
     }
   }
   const std::size_t inner_level = row_level == RowLevel::position ? 0 : 1;
 
   // The variation of the slopes e_k along one coordinate comes as a rate.
   for (std::size_t outer_level = 0; outer_level <= inner_level; ++outer_level) {
-    const Column family = outer_level == 0 ? Column::position : Column::velocity;
+    const PartialBy family = outer_level == 0 ? PartialBy::position : PartialBy::velocity;
     if (!eq.wants(family)) continue;
     for (const BodyId outer : bodies_) {
       const BodyBlock& columns = eq.layout().body(outer);
@@ -163,11 +163,11 @@ namespace {
 
 // Partials of X and X′ of a measure by δq, δq′ … of one body.
 template <std::size_t N>
-void add_measure_rate(Measure measure, const std::array<PlacedMarker, 4>& places, const Motion& motion, BodyId body,
-                      Equations& eq, std::int32_t row, double by_value, double by_rate, Column velocity_family) {
+void add_measure_rate(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion, BodyId body,
+                      Equations& eq, std::int32_t row, double by_value, double by_rate, PartialBy velocity_family) {
   const BodyBlock& block = eq.layout().body(body);
-  const auto m = path::seeded_measure<N>(measure, places, motion, body);
-  const std::array families = {Column::position, velocity_family, Column::acceleration};
+  const auto m = path::varied_measure<N>(measure, places, motion, body);
+  const std::array families = {PartialBy::position, velocity_family, PartialBy::acceleration};
   for (std::size_t level = 0; 6 * level < N; ++level) {
     for (std::int32_t k = 0; k < block.count; ++k) {
       const std::size_t seed = 6 * level + static_cast<std::size_t>(k);
@@ -203,7 +203,7 @@ double BoundExpression::rate(const Motion& motion, ExpressionScratch& scratch) c
 
 // δe′ = Σ_k e_k′ δa_k + e_k δa_k′
 void BoundExpression::add_rate(const Motion& motion, Equations& eq, std::int32_t row, double factor,
-                               Column velocity_family) const {
+                               PartialBy velocity_family) const {
   using Kind = BoundAtom::Kind;
   ExpressionScratch& scratch = eq.scratch;
   fill_rates(motion, scratch);
@@ -216,7 +216,7 @@ void BoundExpression::add_rate(const Motion& motion, Equations& eq, std::int32_t
     const double by_value = factor * scratch.taylor_partials[k].rate,
                  by_rate = factor * scratch.taylor_partials[k].value;
     if (a.kind == Kind::measure) {
-      const std::array families = {Column::position, velocity_family, Column::acceleration};
+      const std::array families = {PartialBy::position, velocity_family, PartialBy::acceleration};
       for (std::size_t p = 0; p < a.parameter_count; ++p) {
         const auto m = path::measure_by_parameter(a.measure, a.places, motion, a.parameters[p]);
         for (std::size_t level = 0; level <= static_cast<std::size_t>(a.order) + 1; ++level) {
@@ -234,9 +234,9 @@ void BoundExpression::add_rate(const Motion& motion, Equations& eq, std::int32_t
     } else if (a.kind == Kind::channel) {
       const auto add = [&](const Channel& c, double value) {
         if (c.kind == Channel::Kind::constant) return;
-        const Column family = c.kind == Channel::Kind::algebraic ? Column::algebraic
-                              : c.kind == Channel::Kind::state   ? Column::state
-                                                                 : Column::state_rate;
+        const PartialBy family = c.kind == Channel::Kind::algebraic ? PartialBy::algebraic
+                                 : c.kind == Channel::Kind::state   ? PartialBy::state
+                                                                    : PartialBy::state_rate;
         eq.add(family, row, c.index, value);
       };
       add(a.channel, by_value);

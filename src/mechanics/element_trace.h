@@ -8,11 +8,11 @@
 
 namespace dynalin {
 
-enum class Column : std::uint8_t;
+enum class PartialBy : std::uint8_t;
 
 struct ElementTrace {
   struct Partial {
-    Column family;
+    PartialBy family;
     std::int32_t row, column;
     double value;
     std::int32_t term;  // of an algebraic or differential equation, −1 if the entry stands alone

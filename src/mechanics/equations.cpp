@@ -51,7 +51,7 @@ void Equations::keep_sizes() {
 std::vector<Equations::Undefined> Equations::clear_undefined() {
   std::vector<Undefined> found;
   for (std::size_t f = 0; f < column_families; ++f) {
-    const auto family = static_cast<Column>(f);
+    const auto family = static_cast<PartialBy>(f);
     if (!wants(family)) continue;
     matrices_[f].clear_undefined([&](std::int32_t row, std::int32_t column) {
       found.push_back({family, row, column});
@@ -60,14 +60,14 @@ std::vector<Equations::Undefined> Equations::clear_undefined() {
   return found;
 }
 
-void Equations::begin(std::initializer_list<Column> wanted) {
+void Equations::begin(std::initializer_list<PartialBy> wanted) {
   std::fill(residual_.begin(), residual_.end(), 0.0);
   std::fill(magnitude_.begin(), magnitude_.end(), 0.0);
   wanted_.fill(false);
   wants_any_ = wanted.size() > 0;
   recording_ = false;
   if (trace_) trace_->clear();
-  for (const Column c : wanted) {
+  for (const PartialBy c : wanted) {
     const auto k = static_cast<std::size_t>(c);
     wanted_[k] = true;
     recording_ = recording_ || !matrices_[k].recorded();
@@ -75,7 +75,7 @@ void Equations::begin(std::initializer_list<Column> wanted) {
   }
 }
 
-void Equations::note(Column family, std::int32_t row, std::int32_t column, std::span<const double> values) {
+void Equations::note(PartialBy family, std::int32_t row, std::int32_t column, std::span<const double> values) {
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (values[k] == 0.0) continue;
     trace_->partials.push_back({family, row + static_cast<std::int32_t>(k), column, values[k], trace_->term});
@@ -98,14 +98,14 @@ void Equations::apply(BodyId body, const Vector& force, const Vector& moment, do
   }
 }
 
-void Equations::add_block(Column family, BodyId on, std::int32_t column, const Matrix3& force, const Matrix3& moment,
+void Equations::add_block(PartialBy family, BodyId on, std::int32_t column, const Matrix3& force, const Matrix3& moment,
                           double factor) {
   for (std::size_t k = 0; k < 3; ++k) {
     add_column(family, on, column + static_cast<std::int32_t>(k), force[k], moment[k], factor);
   }
 }
 
-void Equations::add_column(Column family, BodyId on, std::int32_t column, const Vector& force, const Vector& moment,
+void Equations::add_column(PartialBy family, BodyId on, std::int32_t column, const Vector& force, const Vector& moment,
                            double factor) {
   const BodyBlock& block = layout_->body(on);
   if (block.count == 0 || !wants(family)) return;

@@ -85,7 +85,7 @@ class ConstraintRows {
 };
 
 // The unknown a partial derivative is taken with respect to.
-enum class Column : std::uint8_t {
+enum class PartialBy : std::uint8_t {
   position,      // δq
   velocity,      // δq′: inertia, constraints and controllers
   damping,       // δq′: forces and VARIABLEs, what NODAMPIN leaves out
@@ -104,7 +104,7 @@ class Equations {
   void resize(const Layout&);
   // The partials of later passes come with the sizes of what was added up to them.
   void keep_sizes();
-  void begin(std::initializer_list<Column> wanted);
+  void begin(std::initializer_list<PartialBy> wanted);
   void finish();  // builds patterns after a recording pass
   bool needs_second_pass() const { return recording_; }
 
@@ -126,7 +126,7 @@ class Equations {
     if (trace_) trace_->term = -1;
   }
 
-  bool wants(Column c) const { return wanted_[static_cast<std::size_t>(c)]; }
+  bool wants(PartialBy c) const { return wanted_[static_cast<std::size_t>(c)]; }
   bool wants_partials() const { return wants_any_; }
 
   std::int32_t algebraic_row(std::int32_t k) const { return layout_->coordinate_count + k; }
@@ -141,26 +141,26 @@ class Equations {
   }
   // Force and moment about the BCS origin that act on a body, global axes.
   void apply(BodyId body, const Vector& force, const Vector& moment, double factor = -1.0);
-  void add(Column family, std::int32_t row, std::int32_t column, double value) {
+  void add(PartialBy family, std::int32_t row, std::int32_t column, double value) {
     add(family, row, column, {&value, 1});
   }
-  void add(Column family, std::int32_t row, std::int32_t column, std::span<const double> values) {
+  void add(PartialBy family, std::int32_t row, std::int32_t column, std::span<const double> values) {
     if (!wants(family)) return;
     if (trace_) note(family, row, column, values);
     matrices_[static_cast<std::size_t>(family)].add(row, column, values);
   }
   // Partials of force and moment on `on` with respect to three coordinates starting at `column`:
   // column k of `force` and `moment` belongs to coordinate column + k.
-  void add_block(Column family, BodyId on, std::int32_t column, const Matrix3& force, const Matrix3& moment,
+  void add_block(PartialBy family, BodyId on, std::int32_t column, const Matrix3& force, const Matrix3& moment,
                  double factor = -1.0);
   // The same with respect to one scalar unknown.
-  void add_column(Column family, BodyId on, std::int32_t column, const Vector& force, const Vector& moment,
+  void add_column(PartialBy family, BodyId on, std::int32_t column, const Vector& force, const Vector& moment,
                   double factor = -1.0);
 
   // Partials that are no finite numbers, of functions without a derivative here. They become zero: an iteration does
   // without them, a linear model only if nothing comes of them.
   struct Undefined {
-    Column family;
+    PartialBy family;
     std::int32_t row, column;
   };
   std::vector<Undefined> clear_undefined();
@@ -169,15 +169,15 @@ class Equations {
   std::span<double> residual() { return residual_; }
   // Sum of the sizes of all that was added to a row: what its rounding is measured against.
   std::span<const double> magnitude() const { return magnitude_; }
-  const ColumnMatrix& matrix(Column c) const { return matrices_[static_cast<std::size_t>(c)].matrix(); }
-  std::span<const double> sizes(Column c) const { return matrices_[static_cast<std::size_t>(c)].sizes(); }
+  const ColumnMatrix& matrix(PartialBy c) const { return matrices_[static_cast<std::size_t>(c)].matrix(); }
+  std::span<const double> sizes(PartialBy c) const { return matrices_[static_cast<std::size_t>(c)].sizes(); }
   std::int32_t size() const { return static_cast<std::int32_t>(residual_.size()); }
   const Layout& layout() const { return *layout_; }
 
   ExpressionScratch scratch;
 
  private:
-  void note(Column, std::int32_t row, std::int32_t column, std::span<const double> values);
+  void note(PartialBy, std::int32_t row, std::int32_t column, std::span<const double> values);
 
   const Layout* layout_ = nullptr;
   ElementTrace* trace_ = nullptr;

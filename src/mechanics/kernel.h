@@ -23,7 +23,7 @@ struct MarkerWrench {
   PairForce force;
   // Scalar unknowns the wrench depends on: λ of a joint, w of a FUNCTION-valued force, coordinates beyond the pair's.
   struct Scalar {
-    Column family;
+    PartialBy family;
     std::int32_t column;
     Vector force, torque;
   };
@@ -54,7 +54,7 @@ struct StartCondition {
 };
 
 // Why an element has no finite value, or a value without a derivative: a sentence that names it.
-struct ElementFault {
+struct UndefinedValue {
   const ElementLabel* of = nullptr;
   std::string reason;
   bool in_value = true;
@@ -101,9 +101,9 @@ class Kernel {
   virtual Channel output_channel(std::size_t /*element*/, std::size_t /*n*/) const { return {}; }
 
   // Adds why elements yield no finite values or derivatives here.
-  virtual void faults(const Motion&, std::vector<ElementFault>&) const {}
+  virtual void undefined_values(const Motion&, std::vector<UndefinedValue>&) const {}
   // A sentence on how a converged point lies outside of what an element describes, empty if it does not.
-  virtual std::string departure(const Motion&) const { return {}; }
+  virtual std::string domain_violation(const Motion&) const { return {}; }
 };
 
 // What expressions refer to, resolved by the system.

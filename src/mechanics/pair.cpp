@@ -115,13 +115,13 @@ std::array<std::int32_t, 4> group_columns(const PairMotion& p, const Layout& lay
 
 }  // namespace
 
-void apply(const PairMotion& p, const PairForce& f, Equations& eq, Column velocity_family) {
+void apply(const PairMotion& p, const PairForce& f, Equations& eq, PartialBy velocity_family) {
   eq.apply(p.body_I, f.force, cross(value(p.arm_I), f.force) + f.torque);
   if (f.acts_on_J()) eq.apply(p.body_J, -f.force, -(cross(value(p.arm), f.force) + f.torque));
   if (eq.wants_partials()) apply_partials(p, f, eq, velocity_family);
 }
 
-void apply_partials(const PairMotion& p, const PairForce& f, Equations& eq, Column velocity_family) {
+void apply_partials(const PairMotion& p, const PairForce& f, Equations& eq, PartialBy velocity_family) {
   const Vector rho = value(p.arm_I), arm = value(p.arm);
   const auto columns = group_columns(p, eq.layout());
   const Matrix3 to_I = skew(rho), to_J = skew(arm), of_force = skew(f.force);
@@ -133,9 +133,9 @@ void apply_partials(const PairMotion& p, const PairForce& f, Equations& eq, Colu
     if (columns[k] < 0) continue;
     const Matrix3& F = f.force_on_position.group[k];
     const Matrix3& T = f.torque_on_position.group[k];
-    eq.add_block(Column::position, p.body_I, columns[k], F, to_I * F + T + arm_I[k]);
+    eq.add_block(PartialBy::position, p.body_I, columns[k], F, to_I * F + T + arm_I[k]);
     if (f.acts_on_J()) {
-      eq.add_block(Column::position, p.body_J, columns[k], -F, -(to_J * F + T + arm_J[k]));
+      eq.add_block(PartialBy::position, p.body_J, columns[k], -F, -(to_J * F + T + arm_J[k]));
     }
     if (!eq.wants(velocity_family)) continue;
     const Matrix3& Fv = f.force_on_velocity.group[k];
@@ -145,7 +145,7 @@ void apply_partials(const PairMotion& p, const PairForce& f, Equations& eq, Colu
   }
 }
 
-void apply_column(const PairMotion& p, const Vector& force, const Vector& torque, bool acts_on_J, Column family,
+void apply_column(const PairMotion& p, const Vector& force, const Vector& torque, bool acts_on_J, PartialBy family,
                   std::int32_t column, Equations& eq) {
   eq.add_column(family, p.body_I, column, force, cross(value(p.arm_I), force) + torque);
   if (acts_on_J) {
@@ -156,27 +156,27 @@ void apply_column(const PairMotion& p, const Vector& force, const Vector& torque
 void apply_turn(const PairMotion& p, BodyId body, const Matrix3& force, const Matrix3& torque, Equations& eq) {
   const BodyBlock& block = eq.layout().body(body);
   if (block.count != 6) return;
-  eq.add_block(Column::position, p.body_I, block.offset + 3, force, skew(value(p.arm_I)) * force + torque);
-  eq.add_block(Column::position, p.body_J, block.offset + 3, -force, -(skew(value(p.arm)) * force + torque));
+  eq.add_block(PartialBy::position, p.body_I, block.offset + 3, force, skew(value(p.arm_I)) * force + torque);
+  eq.add_block(PartialBy::position, p.body_J, block.offset + 3, -force, -(skew(value(p.arm)) * force + torque));
 }
 
 void apply_cross_partials(const PairMotion& acting, const PairMotion& varied, const PairForce& f, Equations& eq,
-                          Column velocity_family) {
+                          PartialBy velocity_family) {
   const auto columns = group_columns(varied, eq.layout());
   const Matrix3 to_I = skew(value(acting.arm_I)), to_J = skew(value(acting.arm));
-  const auto add = [&](Column family, std::int32_t column, const Matrix3& F, const Matrix3& T) {
+  const auto add = [&](PartialBy family, std::int32_t column, const Matrix3& F, const Matrix3& T) {
     if (!eq.wants(family)) return;
     eq.add_block(family, acting.body_I, column, F, to_I * F + T);
     eq.add_block(family, acting.body_J, column, -F, -(to_J * F + T));
   };
   for (std::size_t k = 0; k < 4; ++k) {
     if (columns[k] < 0) continue;
-    add(Column::position, columns[k], f.force_on_position.group[k], f.torque_on_position.group[k]);
+    add(PartialBy::position, columns[k], f.force_on_position.group[k], f.torque_on_position.group[k]);
     add(velocity_family, columns[k], f.force_on_velocity.group[k], f.torque_on_velocity.group[k]);
   }
 }
 
-void add_partials(std::int32_t row, const PairMotion& p, const Vector& on_d, const Vector& on_phi, Column family,
+void add_partials(std::int32_t row, const PairMotion& p, const Vector& on_d, const Vector& on_phi, PartialBy family,
                   Equations& eq) {
   const Matrix3 R = value(p.axes_J);
   const Vector f = R * on_d, t = R * on_phi;

@@ -68,21 +68,21 @@ struct LineMagnitude {
 PairForce along_line(const PairMotion&, const LineMagnitude&, bool with_partials);
 
 // Adds force, reaction and partials to the balance of both bodies.
-void apply(const PairMotion&, const PairForce&, Equations&, Column velocity_family = Column::damping);
+void apply(const PairMotion&, const PairForce&, Equations&, PartialBy velocity_family = PartialBy::damping);
 // The partials alone, for forces whose residual is added elsewhere (reactions come from the constraint rows).
-void apply_partials(const PairMotion&, const PairForce&, Equations&, Column velocity_family = Column::damping);
+void apply_partials(const PairMotion&, const PairForce&, Equations&, PartialBy velocity_family = PartialBy::damping);
 // Adds the column of a scalar unknown that scales (force, torque) on I.
-void apply_column(const PairMotion&, const Vector& force, const Vector& torque, bool acts_on_J, Column family,
+void apply_column(const PairMotion&, const Vector& force, const Vector& torque, bool acts_on_J, PartialBy family,
                   std::int32_t column, Equations&);
 
 // Adds the partials of force and torque on I with respect to the rotation of any body.
 void apply_turn(const PairMotion&, BodyId body, const Matrix3& force, const Matrix3& torque, Equations&);
 // Adds the partials of a force on I of pair `acting` with respect to the coordinates of another pair.
 void apply_cross_partials(const PairMotion& acting, const PairMotion& varied, const PairForce&, Equations&,
-                          Column velocity_family = Column::damping);
+                          PartialBy velocity_family = PartialBy::damping);
 
 // Adds the partials of row `row` of the equations, given in the axes of J with respect to (d, φ).
-void add_partials(std::int32_t row, const PairMotion&, const Vector& on_d, const Vector& on_phi, Column, Equations&);
+void add_partials(std::int32_t row, const PairMotion&, const Vector& on_d, const Vector& on_phi, PartialBy, Equations&);
 
 // Puts the gradient of a position row, given in the axes of J with respect to (d, φ), into the row.
 void add_gradient(std::int32_t row, const PairMotion&, const Vec3<Taylor>& on_d, const Vec3<Taylor>& on_phi,

@@ -277,7 +277,7 @@ void System::start_rows(const Motion& motion, std::int32_t first_row, Constraint
 }
 
 void System::equations(const Motion& motion, const ConstraintRows& rows, Equations& eq,
-                       std::initializer_list<Column> wanted) const {
+                       std::initializer_list<PartialBy> wanted) const {
   const auto pass = [&] {
     eq.begin(wanted);
     for (const auto& kernel : kernels_) kernel->equations(motion, eq);
@@ -301,22 +301,22 @@ void System::remember(OperatingPoint& op) const {
   for (const auto& kernel : kernels_) kernel->remember(m, op.memory);
 }
 
-std::vector<ElementFault> System::faults(const Motion& motion) const {
-  std::vector<ElementFault> found;
-  for (const auto& kernel : kernels_) kernel->faults(motion, found);
+std::vector<UndefinedValue> System::undefined_values(const Motion& motion) const {
+  std::vector<UndefinedValue> found;
+  for (const auto& kernel : kernels_) kernel->undefined_values(motion, found);
   return found;
 }
 
-std::string System::fault(const Motion& motion) const {
-  const std::vector<ElementFault> found = faults(motion);
-  const auto first = std::find_if(found.begin(), found.end(), [](const ElementFault& f) { return f.in_value; });
+std::string System::undefined_value(const Motion& motion) const {
+  const std::vector<UndefinedValue> found = undefined_values(motion);
+  const auto first = std::find_if(found.begin(), found.end(), [](const UndefinedValue& f) { return f.in_value; });
   if (first != found.end()) return first->reason;
   return found.empty() ? std::string() : found.front().reason;
 }
 
-std::string System::departure(const Motion& motion) const {
+std::string System::domain_violation(const Motion& motion) const {
   for (const auto& kernel : kernels_) {
-    std::string reason = kernel->departure(motion);
+    std::string reason = kernel->domain_violation(motion);
     if (!reason.empty()) return reason;
   }
   return {};

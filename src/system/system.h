@@ -50,12 +50,12 @@ class System {
   const std::vector<StartCondition>& starts() const { return starts_; }
   void start_rows(const Motion&, std::int32_t first_row, ConstraintRows&) const;
   // Residuals with reactions included, and the wanted partials (patterns are recorded when first wanted).
-  void equations(const Motion&, const ConstraintRows&, Equations&, std::initializer_list<Column> wanted) const;
+  void equations(const Motion&, const ConstraintRows&, Equations&, std::initializer_list<PartialBy> wanted) const;
   void remember(OperatingPoint&) const;
   // Where functions have no finite value or no derivative; the first that has no value, or else the first.
-  std::vector<ElementFault> faults(const Motion&) const;
-  std::string fault(const Motion&) const;
-  std::string departure(const Motion&) const;
+  std::vector<UndefinedValue> undefined_values(const Motion&) const;
+  std::string undefined_value(const Motion&) const;
+  std::string domain_violation(const Motion&) const;
 
   // Scale of a coordinate: the model length for translations, 1 for rotations, and what moves as far for the others.
   double coordinate_scale(std::int32_t coordinate) const { return scale_[static_cast<std::size_t>(coordinate)]; }

@@ -5,10 +5,10 @@
 
 namespace dynalin {
 
-std::string fault_of(const std::vector<ElementFault>& faults, const ElementLabel& label) {
-  const auto found =
-      std::find_if(faults.begin(), faults.end(), [&](const ElementFault& f) { return same_element(*f.of, label); });
-  return found == faults.end() ? std::string() : found->reason;
+std::string undefined_value_of(const std::vector<UndefinedValue>& undefined_values, const ElementLabel& label) {
+  const auto found = std::find_if(undefined_values.begin(), undefined_values.end(),
+                                  [&](const UndefinedValue& f) { return same_element(*f.of, label); });
+  return found == undefined_values.end() ? std::string() : found->reason;
 }
 
 std::optional<std::string> undefined_row(const System& system, const Motion& motion, const ConstraintRows& rows) {
@@ -20,7 +20,8 @@ std::optional<std::string> undefined_row(const System& system, const Motion& mot
     if (finite) continue;
     const auto at = static_cast<std::size_t>(k);
     std::string reason;
-    if (at < system.layout().rows.size()) reason = fault_of(system.faults(motion), *system.layout().rows[at].owner);
+    if (at < system.layout().rows.size())
+      reason = undefined_value_of(system.undefined_values(motion), *system.layout().rows[at].owner);
     return reason.empty() ? system.row_text(k) + " has no finite derivative" : reason;
   }
   return std::nullopt;

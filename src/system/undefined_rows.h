@@ -11,7 +11,7 @@ namespace dynalin {
 // A sentence that names the first of them, and the function; nothing if all have a gradient.
 std::optional<std::string> undefined_row(const System&, const Motion&, const ConstraintRows&);
 
-// What is known of an element among the faults of a system; empty if nothing is.
-std::string fault_of(const std::vector<ElementFault>&, const ElementLabel&);
+// What is known of an element among the undefined_values of a system; empty if nothing is.
+std::string undefined_value_of(const std::vector<UndefinedValue>&, const ElementLabel&);
 
 }  // namespace dynalin

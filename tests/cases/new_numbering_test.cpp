@@ -57,7 +57,7 @@ class ParabolaKernel final : public Kernel {
     // ∂(Φ_qᵀλ)/∂q: only the second row is curved, in s alone.
     for (const Bead& b : beads_) {
       const double lambda = motion.lambda[static_cast<std::size_t>(b.row) + 1];
-      eq.add(Column::position, b.s, b.s, 2.0 * b.a * lambda);
+      eq.add(PartialBy::position, b.s, b.s, 2.0 * b.a * lambda);
     }
   }
 

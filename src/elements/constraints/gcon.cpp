@@ -69,9 +69,10 @@ class GeneralConstraintKernel final : public Kernel {
   void remember(const Motion& motion, Memory& memory) const override {
     for (const Row& r : rows_) r.function.remember(motion, memory);
   }
-  void faults(const Motion& motion, std::vector<ElementFault>& faults) const override {
+  void undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined_values) const override {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-      rows_[k].function.find_fault(motion, (*labels_)[k], faults, BoundExpression::Derivatives::with_rates);
+      rows_[k].function.find_undefined(motion, (*labels_)[k], undefined_values,
+                                       BoundExpression::Derivatives::with_rates);
     }
   }
 

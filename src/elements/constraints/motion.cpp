@@ -93,7 +93,7 @@ class MotionKernel final : public Kernel {
   }
 
   void equations(const Motion& motion, Equations& eq) const override {
-    if (!eq.wants(Column::position)) return;
+    if (!eq.wants(PartialBy::position)) return;
     for (const Driven& d : driven_) {
       eq.begin_element(d.row, 1);
       d.displacement.add_reaction_partials(motion, lambda(d, motion), eq);
@@ -107,8 +107,9 @@ class MotionKernel final : public Kernel {
     const Driven& d = driven_[k];
     d.displacement.wrench(motion, lambda(d, motion), d.row, with_partials, out);
   }
-  void faults(const Motion& motion, std::vector<ElementFault>& faults) const override {
-    for (std::size_t k = 0; k < driven_.size(); ++k) driven_[k].function.find_fault(motion, (*labels_)[k], faults);
+  void undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined_values) const override {
+    for (std::size_t k = 0; k < driven_.size(); ++k)
+      driven_[k].function.find_undefined(motion, (*labels_)[k], undefined_values);
   }
 
  private:

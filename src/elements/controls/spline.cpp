@@ -97,7 +97,7 @@ class SplineSet final : public TypedSet<Spline> {
     for (const SplineUse& use : model.spectra) {
       const Spline* s = model.get<Spline>(*model.find("SPLINE", use.id));
       if (!s || !s->data) continue;
-      const std::string fault = spectrum_fault(*s->data, use.spectrum->logarithmic);
+      const std::string fault = why_no_spectrum(*s->data, use.spectrum->logarithmic);
       if (fault.empty()) continue;
       diagnostics.error("spline-data", use.id_at,
                         fmt::format("INVPSD takes SPLINE/{} as a power spectral density, one curve of numbers {}: {}",

@@ -133,7 +133,7 @@ class CurveContactKernel final : public Kernel {
 
   // The reactions themselves are added from the constraint rows; here only their variation.
   void equations(const Motion& motion, Equations& eq) const override {
-    if (!eq.wants(Column::position)) return;
+    if (!eq.wants(PartialBy::position)) return;
     for (const Placed& p : contacts_) {
       eq.begin_element(p.first_row, static_cast<std::int32_t>(n));
       const PairMotion pair = pair_motion(motion, p.I, p.J);
@@ -142,12 +142,12 @@ class CurveContactKernel final : public Kernel {
       apply_partials(pair, spread(pair, relative_wrench(at_I), true), eq);
       const Matrix3 R = value(pair.axes_J);
       for (std::size_t a = 0; a < m; ++a) {
-        apply_column(pair, R * slope(at_I.force, 6 + a), R * slope(at_I.torque, 6 + a), true, Column::position,
+        apply_column(pair, R * slope(at_I.force, 6 + a), R * slope(at_I.torque, 6 + a), true, PartialBy::position,
                      coordinate(p, a), eq);
         const Dual<seeds>& of_parameter = work.partial[6 + a];
         const auto g = [&](std::size_t k) { return -of_parameter.partial[k]; };
-        add_partials(coordinate(p, a), pair, {g(0), g(1), g(2)}, {g(3), g(4), g(5)}, Column::position, eq);
-        for (std::size_t b = 0; b < m; ++b) eq.add(Column::position, coordinate(p, a), coordinate(p, b), g(6 + b));
+        add_partials(coordinate(p, a), pair, {g(0), g(1), g(2)}, {g(3), g(4), g(5)}, PartialBy::position, eq);
+        for (std::size_t b = 0; b < m; ++b) eq.add(PartialBy::position, coordinate(p, a), coordinate(p, b), g(6 + b));
       }
     }
   }
@@ -195,16 +195,16 @@ class CurveContactKernel final : public Kernel {
     const Matrix3 R = value(out.pair.axes_J);
     for (std::size_t r = 0; r < n; ++r) {
       const Reaction unit = at_contact(rows[r]);
-      out.scalars.push_back(
-          {Column::lambda, p.first_row + static_cast<std::int32_t>(r), R * plain(unit.force), R * plain(unit.torque)});
+      out.scalars.push_back({PartialBy::lambda, p.first_row + static_cast<std::int32_t>(r), R * plain(unit.force),
+                             R * plain(unit.torque)});
     }
     for (std::size_t a = 0; a < m; ++a) {
       out.scalars.push_back(
-          {Column::position, coordinate(p, a), R * slope(reaction.force, 6 + a), R * slope(reaction.torque, 6 + a)});
+          {PartialBy::position, coordinate(p, a), R * slope(reaction.force, 6 + a), R * slope(reaction.torque, 6 + a)});
     }
   }
 
-  std::string departure(const Motion& motion) const override {
+  std::string domain_violation(const Motion& motion) const override {
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
       if constexpr (requires { &E::undetermined; }) {
         const Placed& p = contacts_[k];

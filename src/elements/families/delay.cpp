@@ -11,7 +11,7 @@ namespace {
 
 // Adds factor · e without its value to a row: what a residual that is not a sum of such terms depends on.
 void add_partials(const BoundExpression& e, const Motion& motion, Equations& eq, std::int32_t row, double factor) {
-  e.add(motion, eq, row, factor, Column::velocity);
+  e.add(motion, eq, row, factor, PartialBy::velocity);
   eq.add_residual(row, -factor * e.value(motion, eq.scratch));
 }
 
@@ -48,7 +48,7 @@ void DelayKernel::equations(const Motion& motion, Equations& eq) const {
   for (const Call& c : calls_) {
     const std::int32_t row = eq.algebraic_row(c.unknown);
     eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(c.unknown)]);
-    eq.add(Column::algebraic, row, c.unknown, 1.0);
+    eq.add(PartialBy::algebraic, row, c.unknown, 1.0);
     const double tau = c.never ? 0.0 : c.lag.value(motion, eq.scratch);
     const bool rests = motion.mode == AnalysisMode::statics, linear = motion.mode == AnalysisMode::linear;
     if (c.state >= 0) add_state(c, motion, eq, tau);
@@ -57,10 +57,10 @@ void DelayKernel::equations(const Motion& motion, Equations& eq) const {
     } else if (c.state >= 0) {
       const double z = motion.state[static_cast<std::size_t>(c.state)];
       eq.add_residual(row, -2.0 * z);
-      eq.add(Column::state, row, c.state, -2.0);
-      c.value.add(motion, eq, row, 1.0, Column::velocity);
+      eq.add(PartialBy::state, row, c.state, -2.0);
+      c.value.add(motion, eq, row, 1.0, PartialBy::velocity);
     } else {
-      c.value.add(motion, eq, row, -1.0, Column::velocity);
+      c.value.add(motion, eq, row, -1.0, PartialBy::velocity);
       if (linear && !c.never) add_first_order(c, motion, eq, row, tau);
     }
   }
@@ -69,7 +69,7 @@ void DelayKernel::equations(const Motion& motion, Equations& eq) const {
 // − history(t − τ), or − e where nothing is delayed. Both are always put: which one counts may change on the way.
 void DelayKernel::add_history(const Call& c, const Motion& motion, Equations& eq, std::int32_t row, double tau) const {
   const bool delayed = tau > 0;
-  c.value.add(motion, eq, row, delayed ? 0.0 : -1.0, Column::velocity);
+  c.value.add(motion, eq, row, delayed ? 0.0 : -1.0, PartialBy::velocity);
   if (c.never) return;
   const std::array<Taylor, 1> time = {Taylor(motion.time - tau, 1.0, 0.0)};
   const Taylor h = c.history.evaluate<Taylor>(std::span(time).first(c.history.atoms().size()), eq.scratch.taylor);
@@ -81,7 +81,7 @@ void DelayKernel::add_history(const Call& c, const Motion& motion, Equations& eq
 void DelayKernel::add_first_order(const Call& c, const Motion& motion, Equations& eq, std::int32_t row,
                                   double tau) const {
   const bool delayed = tau > 0;
-  c.value.add_rate(motion, eq, row, delayed ? tau : 0.0, Column::velocity);
+  c.value.add_rate(motion, eq, row, delayed ? tau : 0.0, PartialBy::velocity);
   add_partials(c.lag, motion, eq, row, delayed ? c.value.rate(motion, eq.scratch) : 0.0);
 }
 
@@ -89,13 +89,13 @@ void DelayKernel::add_first_order(const Call& c, const Motion& motion, Equations
 void DelayKernel::add_state(const Call& c, const Motion& motion, Equations& eq, double tau) const {
   const std::int32_t row = eq.state_row(c.state);
   const double rate = motion.state_rate[static_cast<std::size_t>(c.state)];
-  // Without a delay nothing determines z′; fault() says so.
+  // Without a delay nothing determines z′; undefined_value() says so.
   eq.add_residual(row, tau > 0 ? tau * rate : std::numeric_limits<double>::quiet_NaN());
-  eq.add(Column::state_rate, row, c.state, tau);
+  eq.add(PartialBy::state_rate, row, c.state, tau);
   add_partials(c.lag, motion, eq, row, rate);
-  c.value.add(motion, eq, row, -1.0, Column::velocity);
+  c.value.add(motion, eq, row, -1.0, PartialBy::velocity);
   eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(c.unknown)]);
-  eq.add(Column::algebraic, row, c.unknown, 1.0);
+  eq.add(PartialBy::algebraic, row, c.unknown, 1.0);
 }
 
 void DelayKernel::remember(const Motion& motion, Memory& memory) const {
@@ -105,16 +105,18 @@ void DelayKernel::remember(const Motion& motion, Memory& memory) const {
   }
 }
 
-void DelayKernel::faults(const Motion& motion, std::vector<ElementFault>& faults) const {
+void DelayKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined_values) const {
   ExpressionScratch scratch;
   for (const Call& c : calls_) {
-    c.value.find_fault(motion, c.label, faults,
-                       c.state < 0 ? BoundExpression::Derivatives::with_rates : BoundExpression::Derivatives::first);
-    c.lag.find_fault(motion, c.label, faults);
+    c.value.find_undefined(
+        motion, c.label, undefined_values,
+        c.state < 0 ? BoundExpression::Derivatives::with_rates : BoundExpression::Derivatives::first);
+    c.lag.find_undefined(motion, c.label, undefined_values);
     if (c.state < 0) continue;
     if (const double tau = c.lag.value(motion, scratch); !(tau > 0)) {
-      faults.push_back({&c.label, fmt::format("{}: the Padé approximant needs a delay above 0, here it is {:g}",
-                                              c.label.full_text(), tau)});
+      undefined_values.push_back(
+          {&c.label,
+           fmt::format("{}: the Padé approximant needs a delay above 0, here it is {:g}", c.label.full_text(), tau)});
     }
   }
 }

@@ -33,7 +33,7 @@ class DelayKernel final : public Kernel {
   void bind(const Signals&) override;
   void equations(const Motion&, Equations&) const override;
   void remember(const Motion&, Memory&) const override;
-  void faults(const Motion&, std::vector<ElementFault>&) const override;
+  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
 
  private:
   struct Call {

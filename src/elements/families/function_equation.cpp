@@ -92,32 +92,32 @@ void FunctionEquationKernel::equations(const Motion& motion, Equations& eq) cons
     const std::int32_t n = unknowns_[k].index;
     if (items_[k].form == Form::value) {
       eq.add_residual(row_of(k), motion.algebraic[static_cast<std::size_t>(n)]);
-      eq.add(Column::algebraic, row_of(k), n, 1.0);
+      eq.add(PartialBy::algebraic, row_of(k), n, 1.0);
     } else if (items_[k].form == Form::rate && items_[k].terms.empty()) {
       eq.add_residual(row_of(k), motion.state_rate[static_cast<std::size_t>(n)]);
-      eq.add(Column::state_rate, row_of(k), n, 1.0);
+      eq.add(PartialBy::state_rate, row_of(k), n, 1.0);
     }
   }
   for (const Part& p : parts_) {
     // NODAMPIN leaves out what VARIABLEs see of velocities; the partials of a DIFF stay.
     p.function.add(motion, eq, row_of(p.item), p.factor,
-                   items_[p.item].form == Form::value ? Column::damping : Column::velocity);
+                   items_[p.item].form == Form::value ? PartialBy::damping : PartialBy::velocity);
     const auto n = static_cast<std::size_t>(p.rate.index);
     if (p.rate.kind == Channel::Kind::algebraic) {
       eq.add_residual(row_of(p.item), motion.algebraic[n]);
-      eq.add(Column::algebraic, row_of(p.item), p.rate.index, 1.0);
+      eq.add(PartialBy::algebraic, row_of(p.item), p.rate.index, 1.0);
     } else if (p.rate.kind == Channel::Kind::state_rate) {
       eq.add_residual(row_of(p.item), motion.state_rate[n]);
-      eq.add(Column::state_rate, row_of(p.item), p.rate.index, 1.0);
+      eq.add(PartialBy::state_rate, row_of(p.item), p.rate.index, 1.0);
     }
   }
   for (const RateEquation& r : rates_) {
     const std::int32_t row = eq.algebraic_row(r.rate);
     if (r.explicit_value) {
       eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(r.rate)]);
-      eq.add(Column::algebraic, row, r.rate, 1.0);
+      eq.add(PartialBy::algebraic, row, r.rate, 1.0);
     }
-    r.function.add_rate(motion, eq, row, r.factor, Column::velocity);
+    r.function.add_rate(motion, eq, row, r.factor, PartialBy::velocity);
   }
 }
 
@@ -127,15 +127,16 @@ void FunctionEquationKernel::remember(const Motion& motion, Memory& memory) cons
   for (const RateEquation& r : rates_) r.function.remember(motion, memory);
 }
 
-void FunctionEquationKernel::faults(const Motion& motion, std::vector<ElementFault>& faults) const {
-  for (const Part& p : parts_) p.function.find_fault(motion, (*labels_)[p.of], faults);
+void FunctionEquationKernel::undefined_values(const Motion& motion,
+                                              std::vector<UndefinedValue>& undefined_values) const {
+  for (const Part& p : parts_) p.function.find_undefined(motion, (*labels_)[p.of], undefined_values);
   for (const RateEquation& r : rates_) {
-    r.function.find_fault(motion, (*labels_)[r.of], faults, BoundExpression::Derivatives::with_rates);
+    r.function.find_undefined(motion, (*labels_)[r.of], undefined_values, BoundExpression::Derivatives::with_rates);
   }
 }
 
 // The rates that cancel in conditions were found at other places; here they have to cancel as well.
-std::string FunctionEquationKernel::departure(const Motion& motion) const {
+std::string FunctionEquationKernel::domain_violation(const Motion& motion) const {
   if (whole_.empty()) return {};
   ExpressionScratch scratch;
   std::map<std::int64_t, std::pair<double, double>> sums;  // of partials by DIFF, and of their sizes

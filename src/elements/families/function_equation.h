@@ -44,8 +44,8 @@ class FunctionEquationKernel final : public Kernel {
   Channel value_channel(std::size_t element) const override { return unknowns_[element]; }
   const BoundExpression* value_function(std::size_t element) const override;
   Channel state_channel(std::size_t element, std::size_t) const override { return unknowns_[element]; }
-  void faults(const Motion&, std::vector<ElementFault>&) const override;
-  std::string departure(const Motion&) const override;
+  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
+  std::string domain_violation(const Motion&) const override;
 
  private:
   // Σ factor · function stands in the row of an item.

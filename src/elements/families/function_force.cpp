@@ -34,15 +34,15 @@ void FunctionForceKernel::equations(const Motion& motion, Equations& eq) const {
     const double w = motion.algebraic[static_cast<std::size_t>(f.algebraic)];
     const std::int32_t row = eq.algebraic_row(f.algebraic);
     eq.add_residual(row, w);
-    eq.add(Column::algebraic, row, f.algebraic, 1.0);
-    f.magnitude.add(motion, eq, row, -1.0, Column::damping);
+    eq.add(PartialBy::algebraic, row, f.algebraic, 1.0);
+    f.magnitude.add(motion, eq, row, -1.0, PartialBy::damping);
 
     const PairMotion pair = pair_motion(motion, f.I, f.J);
     const PairForce force = force_of(f, pair, w, eq.wants_partials());
     apply(pair, force, eq);
-    if (!eq.wants(Column::algebraic)) continue;
+    if (!eq.wants(PartialBy::algebraic)) continue;
     const PairForce one = force_of(f, pair, 1.0, false);
-    apply_column(pair, one.force, one.torque, force.acts_on_J(), Column::algebraic, f.algebraic, eq);
+    apply_column(pair, one.force, one.torque, force.acts_on_J(), PartialBy::algebraic, f.algebraic, eq);
   }
 }
 
@@ -56,16 +56,16 @@ void FunctionForceKernel::wrench(const Motion& motion, std::size_t k, bool with_
   out.force = force_of(f, out.pair, motion.algebraic[static_cast<std::size_t>(f.algebraic)], with_partials);
   if (!with_partials) return;
   const PairForce one = force_of(f, out.pair, 1.0, false);
-  out.scalars.push_back({Column::algebraic, f.algebraic, one.force, one.torque});
+  out.scalars.push_back({PartialBy::algebraic, f.algebraic, one.force, one.torque});
 }
 
-void FunctionForceKernel::faults(const Motion& motion, std::vector<ElementFault>& faults) const {
+void FunctionForceKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined_values) const {
   for (const Force& f : forces_) {
     if (f.element.direction == Direction::along_line && norm(motion.point(f.I) - motion.point(f.J)) == 0.0) {
-      faults.push_back({&f.element.label, "the markers of " + f.element.label.full_text() +
-                                              " coincide, its line of action has no direction"});
+      undefined_values.push_back({&f.element.label, "the markers of " + f.element.label.full_text() +
+                                                        " coincide, its line of action has no direction"});
     }
-    f.magnitude.find_fault(motion, f.element.label, faults);
+    f.magnitude.find_undefined(motion, f.element.label, undefined_values);
   }
 }
 

@@ -139,7 +139,7 @@ RelativeWrench reaction(const std::array<path::NestedDual, n>& rows, std::span<c
 inline void add_multiplier(const path::NestedDual& phi, std::int32_t row, MarkerWrench& out) {
   const Matrix3 R = value(out.pair.axes_J);
   const auto g = [&](std::size_t i) { return phi.partial[i].value; };
-  out.scalars.push_back({Column::lambda, row, R * Vector{g(0), g(1), g(2)}, R * Vector{g(3), g(4), g(5)}});
+  out.scalars.push_back({PartialBy::lambda, row, R * Vector{g(0), g(1), g(2)}, R * Vector{g(3), g(4), g(5)}});
 }
 
 // What a joint asks of the start: displacement [length or rad] and velocity of its freedom.
@@ -202,7 +202,7 @@ class JointKernel final : public Kernel {
 
   void equations(const Motion& motion, Equations& eq) const override {
     // The reaction itself is added from the constraint rows; here only its variation.
-    if (!eq.wants(Column::position)) return;
+    if (!eq.wants(PartialBy::position)) return;
     for (const Placed& p : joints_) {
       eq.begin_element(p.first_row, static_cast<std::int32_t>(n));
       const PairMotion pair = pair_motion(motion, p.I, p.J);

@@ -36,7 +36,7 @@ void JointRelationKernel::constraints(const Motion& motion, ConstraintRows& rows
 }
 
 void JointRelationKernel::equations(const Motion& motion, Equations& eq) const {
-  if (!eq.wants(Column::position)) return;
+  if (!eq.wants(PartialBy::position)) return;
   for (const Relation& r : relations_) {
     eq.begin_element(r.row, 1);
     const double lambda = motion.lambda[static_cast<std::size_t>(r.row)];

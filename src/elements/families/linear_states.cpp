@@ -51,12 +51,12 @@ void LinearStatesKernel::equations(const Motion& motion, Equations& eq) const {
     for (Eigen::Index c = 0; c < M.cols(); ++c) {
       const std::int32_t z = e.first_state + static_cast<std::int32_t>(c);
       sum += M(r, c) * motion.state[static_cast<std::size_t>(z)];
-      eq.add(Column::state, row, z, -M(r, c));
+      eq.add(PartialBy::state, row, z, -M(r, c));
     }
     for (Eigen::Index c = 0; c < N.cols(); ++c) {
       const std::int32_t u = e.inputs[static_cast<std::size_t>(c)];
       sum += N(r, c) * motion.algebraic[static_cast<std::size_t>(u)];
-      eq.add(Column::algebraic, row, u, -N(r, c));
+      eq.add(PartialBy::algebraic, row, u, -N(r, c));
     }
     eq.add_residual(row, -sum);
   };
@@ -65,14 +65,14 @@ void LinearStatesKernel::equations(const Motion& motion, Equations& eq) const {
       const std::int32_t z = e.first_state + static_cast<std::int32_t>(r);
       const std::int32_t row = eq.state_row(z);
       eq.add_residual(row, motion.state_rate[static_cast<std::size_t>(z)]);
-      eq.add(Column::state_rate, row, z, 1.0);
+      eq.add(PartialBy::state_rate, row, z, 1.0);
       add_row(e, row, e.law.A, e.law.B, r);
     }
     for (Eigen::Index r = 0; r < e.law.C.rows(); ++r) {
       const std::int32_t y = e.first_output + static_cast<std::int32_t>(r);
       const std::int32_t row = eq.algebraic_row(y);
       eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(y)]);
-      eq.add(Column::algebraic, row, y, 1.0);
+      eq.add(PartialBy::algebraic, row, y, 1.0);
       add_row(e, row, e.law.C, e.law.D, r);
     }
   }
@@ -80,17 +80,17 @@ void LinearStatesKernel::equations(const Motion& motion, Equations& eq) const {
     const Element& e = elements_[r.element];
     const std::int32_t row = eq.algebraic_row(r.rate);
     eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(r.rate)]);
-    eq.add(Column::algebraic, row, r.rate, 1.0);
+    eq.add(PartialBy::algebraic, row, r.rate, 1.0);
     for (Eigen::Index c = 0; c < e.law.C.cols(); ++c) {
       const std::int32_t z = e.first_state + static_cast<std::int32_t>(c);
       eq.add_residual(row, -e.law.C(r.output, c) * motion.state_rate[static_cast<std::size_t>(z)]);
-      eq.add(Column::state_rate, row, z, -e.law.C(r.output, c));
+      eq.add(PartialBy::state_rate, row, z, -e.law.C(r.output, c));
     }
     for (std::size_t c = 0; c < r.inputs.size(); ++c) {
       if (r.inputs[c].kind != Channel::Kind::algebraic) continue;
       const double d = e.law.D(r.output, static_cast<Eigen::Index>(c));
       eq.add_residual(row, -d * motion.algebraic[static_cast<std::size_t>(r.inputs[c].index)]);
-      eq.add(Column::algebraic, row, r.inputs[c].index, -d);
+      eq.add(PartialBy::algebraic, row, r.inputs[c].index, -d);
     }
   }
 }

@@ -41,7 +41,7 @@ void VectorForceKernel::wrench(const Motion& motion, std::size_t k, bool with_pa
     const double w = motion.algebraic[static_cast<std::size_t>(c.algebraic)];
     (c.axis < 3 ? out.force.force : out.force.torque) += w * e;
     if (with_partials) {
-      out.scalars.push_back({Column::algebraic, c.algebraic, c.axis < 3 ? e : Vector{}, c.axis < 3 ? Vector{} : e});
+      out.scalars.push_back({PartialBy::algebraic, c.algebraic, c.axis < 3 ? e : Vector{}, c.axis < 3 ? Vector{} : e});
     }
   }
   if (with_partials) out.turns.push_back({f.RM.body, -skew(out.force.force), -skew(out.force.torque)});
@@ -55,8 +55,8 @@ void VectorForceKernel::equations(const Motion& motion, Equations& eq) const {
     for (const Component& c : f.components) {
       const std::int32_t row = eq.algebraic_row(c.algebraic);
       eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(c.algebraic)]);
-      eq.add(Column::algebraic, row, c.algebraic, 1.0);
-      c.expression.add(motion, eq, row, -1.0, Column::damping);
+      eq.add(PartialBy::algebraic, row, c.algebraic, 1.0);
+      c.expression.add(motion, eq, row, -1.0, PartialBy::damping);
     }
     w.clear();
     wrench(motion, k, eq.wants_partials(), w);
@@ -75,9 +75,10 @@ void VectorForceKernel::remember(const Motion& motion, Memory& memory) const {
   }
 }
 
-void VectorForceKernel::faults(const Motion& motion, std::vector<ElementFault>& faults) const {
+void VectorForceKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined_values) const {
   for (std::size_t k = 0; k < forces_.size(); ++k) {
-    for (const Component& c : forces_[k].components) c.expression.find_fault(motion, (*labels_)[k], faults);
+    for (const Component& c : forces_[k].components)
+      c.expression.find_undefined(motion, (*labels_)[k], undefined_values);
   }
 }
 

@@ -31,7 +31,7 @@ class VectorForceKernel final : public Kernel {
   MarkerId marker_J(std::size_t k) const override { return forces_[k].element.jfloat; }
   MarkerId marker_of_axes(std::size_t k) const override { return forces_[k].element.rm; }
   void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;
-  void faults(const Motion&, std::vector<ElementFault>&) const override;
+  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
 
  private:
   struct Component {

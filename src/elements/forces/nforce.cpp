@@ -112,9 +112,9 @@ class NforceKernel final : public Kernel {
           const auto c = static_cast<std::size_t>(i);
           const std::int32_t column = block.offset + first + i;
           out.scalars.push_back(
-              {Column::position, column, f.force_on_position.group[g][c], f.torque_on_position.group[g][c]});
+              {PartialBy::position, column, f.force_on_position.group[g][c], f.torque_on_position.group[g][c]});
           out.scalars.push_back(
-              {Column::damping, column, f.force_on_velocity.group[g][c], f.torque_on_velocity.group[g][c]});
+              {PartialBy::damping, column, f.force_on_velocity.group[g][c], f.torque_on_velocity.group[g][c]});
         }
       }
     }

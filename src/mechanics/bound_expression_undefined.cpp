@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "mechanics/bound_expression.h"
-#include "mechanics/seeded_frames.h"
+#include "mechanics/frame_variations.h"
 
 namespace dynalin {
 
-std::string BoundExpression::fault_of_value(const Motion& motion, const std::vector<double>& values) const {
+std::string BoundExpression::undefined_in_value(const Motion& motion, const std::vector<double>& values) const {
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (std::isfinite(values[k])) continue;
     const BoundAtom& a = atoms_[k];
@@ -18,7 +18,7 @@ std::string BoundExpression::fault_of_value(const Motion& motion, const std::vec
            (straight ? " reads the y or z axis of a marker at a point of contact where the curve is straight"
                      : " has no finite value");
   }
-  const auto found = expression_.find_fault<double>(values, FaultSearch::value);
+  const auto found = expression_.find_undefined<double>(values, UndefinedSearch::value);
   return found ? found->reason : std::string();
 }
 
@@ -28,7 +28,7 @@ bool BoundExpression::has_gradient(const BoundAtom& a, const Motion& motion) con
   };
   for (std::size_t b = 0; b < a.body_count; ++b) {
     const auto gradient_of = [&]<std::size_t N>() {
-      return finite(path::seeded_measure<N>(a.measure, a.places, motion, a.bodies[b]).value.partial);
+      return finite(path::varied_measure<N>(a.measure, a.places, motion, a.bodies[b]).value.partial);
     };
     const bool defined = a.order == 0   ? gradient_of.operator()<6>()
                          : a.order == 1 ? gradient_of.operator()<12>()
@@ -38,9 +38,10 @@ bool BoundExpression::has_gradient(const BoundAtom& a, const Motion& motion) con
   return true;
 }
 
-std::string BoundExpression::fault_of_gradient(const Motion& motion, const std::vector<double>& values,
-                                               Derivatives derivatives) const {
-  if (const auto found = expression_.find_fault<double>(values, FaultSearch::value_and_partials)) return found->reason;
+std::string BoundExpression::undefined_in_gradient(const Motion& motion, const std::vector<double>& values,
+                                                   Derivatives derivatives) const {
+  if (const auto found = expression_.find_undefined<double>(values, UndefinedSearch::value_and_partials))
+    return found->reason;
   ExpressionScratch scratch;
   scratch.partials.resize(atoms_.size());
   expression_.evaluate<double>(values, std::span(scratch.partials), scratch.plain);
@@ -59,18 +60,18 @@ std::string BoundExpression::fault_of_gradient(const Motion& motion, const std::
   }
   if (derivatives == Derivatives::first) return {};
   fill_rates(motion, scratch);
-  const auto found = expression_.find_fault<Taylor>(scratch.taylor_atoms, FaultSearch::value_and_partials);
+  const auto found = expression_.find_undefined<Taylor>(scratch.taylor_atoms, UndefinedSearch::value_and_partials);
   return found ? found->reason : std::string();
 }
 
-void BoundExpression::find_fault(const Motion& motion, const ElementLabel& of, std::vector<ElementFault>& faults,
-                                 Derivatives derivatives) const {
+void BoundExpression::find_undefined(const Motion& motion, const ElementLabel& of,
+                                     std::vector<UndefinedValue>& undefined_values, Derivatives derivatives) const {
   std::vector<double> values;
   for (const BoundAtom& a : atoms_) values.push_back(atom_value(a, motion));
-  std::string reason = fault_of_value(motion, values);
+  std::string reason = undefined_in_value(motion, values);
   const bool in_value = !reason.empty();
-  if (!in_value) reason = fault_of_gradient(motion, values, derivatives);
-  if (!reason.empty()) faults.push_back({&of, of.full_text() + ": " + reason, in_value});
+  if (!in_value) reason = undefined_in_gradient(motion, values, derivatives);
+  if (!reason.empty()) undefined_values.push_back({&of, of.full_text() + ": " + reason, in_value});
 }
 
 }  // namespace dynalin

@@ -1,34 +1,34 @@
-#include "analysis/saddle.h"
+#include "analysis/augmented_system.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace dynalin {
 
-Saddle::Saddle(const System& system)
+AugmentedSystem::AugmentedSystem(const System& system)
     : n_(system.layout().coordinate_count),
       m_(static_cast<std::int32_t>(system.layout().rows.size())),
       w_(static_cast<std::int32_t>(system.layout().algebraic.size())),
       z_(static_cast<std::int32_t>(system.layout().states.size())),
       size_(n_ + m_ + w_ + z_) {}
 
-ColumnMatrix Saddle::matrix(const Equations& eq, const ConstraintRows& rows, const std::vector<bool>& active,
-                            const SaddleColumns& columns, const std::vector<bool>& cut, const std::vector<bool>& held,
-                            std::span<const double> added_diagonal) const {
+ColumnMatrix AugmentedSystem::matrix(const Equations& eq, const ConstraintRows& rows, const std::vector<bool>& active,
+                                     const AugmentedColumns& columns, const std::vector<bool>& cut,
+                                     const std::vector<bool>& held, std::span<const double> added_diagonal) const {
   std::vector<Triplet> entries;
   const auto replaced = [&](std::int32_t r) {
     if (r < n_) return false;
     if (r < n_ + w_) return !cut.empty() && cut[static_cast<std::size_t>(r - n_)];
     return !held.empty() && held[static_cast<std::size_t>(r - n_ - w_)];
   };
-  const auto take = [&](Column family, std::int32_t offset) {
+  const auto take = [&](PartialBy family, std::int32_t offset) {
     for_each_entry(eq.matrix(family), [&](std::int32_t r, std::int32_t c, double v) {
       if (!replaced(r)) entries.push_back({equation(r), offset + c, v});
     });
   };
   if (columns.with_coordinates) take(columns.coordinates, 0);
-  take(Column::lambda, n_);
-  take(Column::algebraic, n_ + m_);
+  take(PartialBy::lambda, n_);
+  take(PartialBy::algebraic, n_ + m_);
   take(columns.states, n_ + m_ + w_);
   for (std::int32_t k = 0; k < m_; ++k) {
     if (!active[static_cast<std::size_t>(k)]) {
@@ -53,7 +53,7 @@ ColumnMatrix Saddle::matrix(const Equations& eq, const ConstraintRows& rows, con
   return compressed(size_, size_, entries);
 }
 
-std::vector<std::string> undetermined(const System& system, const Saddle& saddle, ColumnMatrix m) {
+std::vector<std::string> undetermined(const System& system, const AugmentedSystem& augmented, ColumnMatrix m) {
   // A random right-hand side, solved with a barely regularised matrix, grows along the null space.
   double largest = 0;
   for (const double v : m.value) largest = std::max(largest, std::abs(v));
@@ -62,7 +62,7 @@ std::vector<std::string> undetermined(const System& system, const Saddle& saddle
   for (std::int32_t c = 0; c < m.columns; ++c) entries.push_back({c, c, 1e-10 * largest});
   SparseLu lu;
   if (!lu.factor(compressed(m.rows, m.columns, entries))) return {};
-  Eigen::MatrixXd x(saddle.size(), 1);
+  Eigen::MatrixXd x(augmented.size(), 1);
   for (Eigen::Index k = 0; k < x.rows(); ++k) x(k, 0) = std::sin(1.0 + 1.7 * static_cast<double>(k));
   for (int pass = 0; pass < 2; ++pass) {
     lu.solve(x);
@@ -70,18 +70,18 @@ std::vector<std::string> undetermined(const System& system, const Saddle& saddle
   }
   const Layout& layout = system.layout();
   std::vector<std::pair<double, std::string>> named;
-  for (std::int32_t k = 0; k < saddle.size(); ++k) {
+  for (std::int32_t k = 0; k < augmented.size(); ++k) {
     const double size = std::abs(x(k, 0));
     if (size < 0.1) continue;
-    if (k < saddle.lambda(0)) {
+    if (k < augmented.lambda(0)) {
       named.emplace_back(size, layout.coordinate_text(k));
-    } else if (k >= saddle.algebraic(0) && k < saddle.state(0)) {
-      const auto& a = layout.algebraic[static_cast<std::size_t>(k - saddle.algebraic(0))];
+    } else if (k >= augmented.algebraic(0) && k < augmented.state(0)) {
+      const auto& a = layout.algebraic[static_cast<std::size_t>(k - augmented.algebraic(0))];
       const bool is_rate = std::any_of(layout.algebraic.begin(), layout.algebraic.end(),
-                                       [&](const auto& other) { return other.rate == k - saddle.algebraic(0); });
+                                       [&](const auto& other) { return other.rate == k - augmented.algebraic(0); });
       named.emplace_back(size, (is_rate ? "the rate of " : "the value of ") + a.owner->full_text());
-    } else if (k >= saddle.state(0)) {
-      const auto& z = layout.states[static_cast<std::size_t>(k - saddle.state(0))];
+    } else if (k >= augmented.state(0)) {
+      const auto& z = layout.states[static_cast<std::size_t>(k - augmented.state(0))];
       named.emplace_back(size, "the state of " + z.owner->full_text());
     }
   }

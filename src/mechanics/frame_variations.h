@@ -2,8 +2,8 @@
 #pragma once
 
 #include "expression/measures.h"
+#include "mechanics/marker_frame.h"
 #include "mechanics/path.h"
-#include "mechanics/placed_marker.h"
 
 namespace dynalin::path {
 
@@ -18,7 +18,7 @@ Frame<Seeded<N>> constant(const Frame<Taylor>& f) {
 // The marker frame with path variations of `body` as seeds: 6 a level, δr then δθ, levels 0 … N/6 − 1. Measures are of
 // differences: origins count from the BCS of `from`.
 template <std::size_t N>
-Frame<Seeded<N>> seeded_frame(const Motion& motion, const PlacedMarker& marker, BodyId body, BodyId from) {
+Frame<Seeded<N>> varied_frame(const Motion& motion, const MarkerFrame& marker, BodyId body, BodyId from) {
   const Frame<Taylor> plain = marker.frame(motion, from);
   Frame<Seeded<N>> f = constant<N>(plain);
   if (marker.place.body != body) return f;
@@ -38,14 +38,14 @@ Frame<Seeded<N>> seeded_frame(const Motion& motion, const PlacedMarker& marker, 
 
 // With variations of one curve parameter as seeds: one a level.
 inline constexpr std::size_t parameter_seeds = 6;
-inline Frame<Seeded<parameter_seeds>> frame_by_parameter(const Motion& motion, const PlacedMarker& marker,
+inline Frame<Seeded<parameter_seeds>> frame_by_parameter(const Motion& motion, const MarkerFrame& marker,
                                                          std::int32_t parameter, BodyId from) {
   if (!marker.curve || marker.parameter != parameter) return constant<parameter_seeds>(marker.frame(motion, from));
   Seeded<parameter_seeds> u = constant<parameter_seeds>(marker.along_motion(motion));
   u.value.partial[0] = 1.0, u.rate.partial[1] = 1.0, u.acceleration.partial[2] = 1.0;
   return marker.on_curve(constant<parameter_seeds>(motion.frame(marker.place, from)), u);
 }
-inline Seeded<parameter_seeds> measure_by_parameter(Measure measure, const std::array<PlacedMarker, 4>& places,
+inline Seeded<parameter_seeds> measure_by_parameter(Measure measure, const std::array<MarkerFrame, 4>& places,
                                                     const Motion& motion, std::int32_t parameter) {
   const auto frame = [&](std::size_t k) {
     return frame_by_parameter(motion, places[k], parameter, places[0].place.body);
@@ -54,9 +54,8 @@ inline Seeded<parameter_seeds> measure_by_parameter(Measure measure, const std::
 }
 
 template <std::size_t N>
-Seeded<N> seeded_measure(Measure measure, const std::array<PlacedMarker, 4>& places, const Motion& motion,
-                         BodyId body) {
-  const auto frame = [&](std::size_t k) { return seeded_frame<N>(motion, places[k], body, places[0].place.body); };
+Seeded<N> varied_measure(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion, BodyId body) {
+  const auto frame = [&](std::size_t k) { return varied_frame<N>(motion, places[k], body, places[0].place.body); };
   return evaluate_measure<Seeded<N>>(measure, {frame(0), frame(1), frame(2), frame(3)});
 }
 

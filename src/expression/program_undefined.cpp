@@ -109,7 +109,7 @@ std::string reason_of_value(const ExpressionNode& node, const std::vector<double
 }  // namespace
 
 template <class T>
-ExpressionFault ExpressionProgram::explain_value(std::size_t i, const std::vector<T>& value) const {
+UndefinedOperation ExpressionProgram::explain_value(std::size_t i, const std::vector<T>& value) const {
   // From the result down to a node with finite operands.
   for (bool descended = true; descended;) {
     descended = false;
@@ -135,7 +135,7 @@ ExpressionFault ExpressionProgram::explain_value(std::size_t i, const std::vecto
 }
 
 template <class T>
-ExpressionFault ExpressionProgram::explain_partial(std::size_t i, const std::vector<T>& value) const {
+UndefinedOperation ExpressionProgram::explain_partial(std::size_t i, const std::vector<T>& value) const {
   const ExpressionNode& node = nodes[i];
   bool infinite = true, in_time = true;
   visit_partials(*this, node, value, [&](std::size_t, const auto& partial) {
@@ -150,12 +150,13 @@ ExpressionFault ExpressionProgram::explain_partial(std::size_t i, const std::vec
 }
 
 template <class T>
-std::optional<ExpressionFault> ExpressionProgram::find_fault(std::span<const T> atom_values, FaultSearch search) const {
+std::optional<UndefinedOperation> ExpressionProgram::find_undefined(std::span<const T> atom_values,
+                                                                    UndefinedSearch search) const {
   ExpressionWorkspace<T> workspace;
   if (!is_finite(evaluate(atom_values, workspace))) {
     return explain_value(nodes.size() - 1, workspace.value);
   }
-  if (search == FaultSearch::value) return std::nullopt;
+  if (search == UndefinedSearch::value) return std::nullopt;
 
   sweep_back(workspace);
   // Each node is an operand of one other, so an adjoint that is not finite leads up to where it
@@ -169,14 +170,16 @@ std::optional<ExpressionFault> ExpressionProgram::find_fault(std::span<const T> 
     if (nodes[i].kind != Kind::atom || is_finite(workspace.adjoint[i])) continue;
     std::size_t cause = user[i];
     while (!is_finite(workspace.adjoint[cause])) cause = user[cause];
-    ExpressionFault found = explain_partial(cause, workspace.value);
+    UndefinedOperation found = explain_partial(cause, workspace.value);
     if (is_zero(workspace.adjoint[cause])) found.reason += ", and its factor of 0 does not vanish faster";
     return found;
   }
   return std::nullopt;
 }
 
-template std::optional<ExpressionFault> ExpressionProgram::find_fault(std::span<const double>, FaultSearch) const;
-template std::optional<ExpressionFault> ExpressionProgram::find_fault(std::span<const Taylor>, FaultSearch) const;
+template std::optional<UndefinedOperation> ExpressionProgram::find_undefined(std::span<const double>,
+                                                                             UndefinedSearch) const;
+template std::optional<UndefinedOperation> ExpressionProgram::find_undefined(std::span<const Taylor>,
+                                                                             UndefinedSearch) const;
 
 }  // namespace dynalin

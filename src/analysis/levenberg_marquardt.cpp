@@ -1,4 +1,4 @@
-#include "analysis/least_imbalance.h"
+#include "analysis/levenberg_marquardt.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +23,8 @@ std::optional<Eigen::VectorXd> damped_step(StaticEquations& equations, const Eig
     std::int32_t column;
     double value;
   };
-  const Saddle& saddle = equations.saddle();
-  const std::int32_t n = saddle.size(), first = saddle.lambda(0), m = saddle.algebraic(0) - first;
+  const AugmentedSystem& augmented = equations.augmented();
+  const std::int32_t n = augmented.size(), first = augmented.lambda(0), m = augmented.algebraic(0) - first;
   std::vector<std::vector<Entry>> rows(static_cast<std::size_t>(n));
   for_each_entry(equations.tangent(0, 0), [&](std::int32_t r, std::int32_t c, double v) {
     if (v != 0) rows[static_cast<std::size_t>(r)].push_back({c, v * row_unit(r) * column_unit(c)});
@@ -75,7 +75,7 @@ bool reduce_imbalance(StaticEquations& equations, OperatingPoint& op, int step_l
     const auto step = damped_step(equations, row_unit, column_unit, mu);
     bool taken = false;
     if (step) {
-      OperatingPoint next = moved(system, op, equations.saddle(), *step, 1.0, {0.5});
+      OperatingPoint next = moved(system, op, equations.augmented(), *step, 1.0, {0.5});
       equations.settle(next);
       equations.evaluate(next, true);
       const double after = equations.merit(force);

@@ -1,4 +1,4 @@
-// Continuation of the equations of rest F(x) = 0 from a point x₀ that is not at rest: the curve
+// Homotopy of the equations of rest F(x) = 0 from a point x₀ that is not at rest: the curve
 //
 //     H(x, s) = F(x) − (1 − s) r = 0,    r = F(x₀),
 //
@@ -12,7 +12,7 @@
 
 namespace dynalin {
 
-struct ContinuationOptions {
+struct HomotopyOptions {
   int step_limit = 250;        // along the curve
   double longest_step = 0.25;  // of arc length: model lengths, radians, units of states and of s
 };
@@ -20,6 +20,6 @@ struct ContinuationOptions {
 // The first equilibrium on the curve in the direction of growing s (`forward`) or the other; nothing if the curve
 // leaves the region where it can be followed, or is longer than the limit.
 std::optional<OperatingPoint> follow_to_rest(StaticEquations&, const OperatingPoint& start, bool forward,
-                                             const ContinuationOptions& = {});
+                                             const HomotopyOptions& = {});
 
 }  // namespace dynalin

@@ -1,4 +1,4 @@
-#include "analysis/continuation.h"
+#include "analysis/homotopy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,15 +15,15 @@ class Curve {
   Curve(StaticEquations& equations, const OperatingPoint& start) : equations_(equations), system_(equations.system()) {
     equations_.evaluate(start, true);
     load_ = equations_.residual();
-    const Saddle& saddle = equations_.saddle();
-    load_.segment(saddle.lambda(0), saddle.algebraic(0) - saddle.lambda(0)).setZero();
+    const AugmentedSystem& augmented = equations_.augmented();
+    load_.segment(augmented.lambda(0), augmented.algebraic(0) - augmented.lambda(0)).setZero();
     force_ = equations_.force_scale();
     here_ = {start, 0};
     weigh(start);
   }
 
-  std::optional<OperatingPoint> follow(bool forward, const ContinuationOptions& options) {
-    const auto n = equations_.saddle().size();
+  std::optional<OperatingPoint> follow(bool forward, const HomotopyOptions& options) {
+    const auto n = equations_.augmented().size();
     if (!load_.allFinite() || equations_.merit(force_) == 0) return std::nullopt;
     Eigen::VectorXd border = Eigen::VectorXd::Zero(n + 1);
     border(n) = forward ? 1 : -1;
@@ -67,10 +67,10 @@ class Curve {
 
   // The metric of the arc length. Reactions follow from the rest and do not count.
   void weigh(const OperatingPoint& op) {
-    const Saddle& saddle = equations_.saddle();
-    weight_ = Eigen::VectorXd::Ones(saddle.size() + 1);
-    weight_.head(saddle.size()) = equations_.column_units(op).cwiseInverse();
-    weight_.segment(saddle.lambda(0), saddle.algebraic(0) - saddle.lambda(0)).setZero();
+    const AugmentedSystem& augmented = equations_.augmented();
+    weight_ = Eigen::VectorXd::Ones(augmented.size() + 1);
+    weight_.head(augmented.size()) = equations_.column_units(op).cwiseInverse();
+    weight_.segment(augmented.lambda(0), augmented.algebraic(0) - augmented.lambda(0)).setZero();
   }
 
   // ⎡ H_x  H_s ⎤
@@ -100,13 +100,13 @@ class Curve {
   }
 
   Place at(const Place& from, const Eigen::VectorXd& tangent, double length) const {
-    return {moved(system_, from.op, equations_.saddle(), tangent, length, {1.0}),
+    return {moved(system_, from.op, equations_.augmented(), tangent, length, {1.0}),
             from.s + length * tangent(tangent.size() - 1)};
   }
 
   // Newton back to the curve across the border, or at fixed s without one.
   std::optional<Place> corrected(Place p, const Eigen::VectorXd& border, int& iterations) {
-    const auto n = equations_.saddle().size();
+    const auto n = equations_.augmented().size();
     double before = std::numeric_limits<double>::infinity();
     for (iterations = 0; iterations < 10; ++iterations) {
       equations_.evaluate(p.op, true);
@@ -135,7 +135,7 @@ class Curve {
 }  // namespace
 
 std::optional<OperatingPoint> follow_to_rest(StaticEquations& equations, const OperatingPoint& start, bool forward,
-                                             const ContinuationOptions& options) {
+                                             const HomotopyOptions& options) {
   return Curve(equations, start).follow(forward, options);
 }
 

@@ -15,15 +15,15 @@
 
 namespace dynalin {
 
-struct SaddleColumns {
-  Column coordinates = Column::acceleration;
-  Column states = Column::state_rate;
+struct AugmentedColumns {
+  PartialBy coordinates = PartialBy::acceleration;
+  PartialBy states = PartialBy::state_rate;
   bool with_coordinates = true;  // without, the diagonal that is added stands alone in their columns
 };
 
-class Saddle {
+class AugmentedSystem {
  public:
-  explicit Saddle(const System&);
+  explicit AugmentedSystem(const System&);
   std::int32_t size() const { return size_; }
   std::int32_t lambda(std::int32_t k) const { return n_ + k; }
   std::int32_t algebraic(std::int32_t k) const { return n_ + m_ + k; }
@@ -32,7 +32,7 @@ class Saddle {
   std::int32_t equation(std::int32_t r) const { return r < n_ ? r : r + m_; }
 
   // `cut` marks algebraic equations that are replaced by w = given (inputs), `held` states by z* = given.
-  ColumnMatrix matrix(const Equations&, const ConstraintRows&, const std::vector<bool>& active, const SaddleColumns&,
+  ColumnMatrix matrix(const Equations&, const ConstraintRows&, const std::vector<bool>& active, const AugmentedColumns&,
                       const std::vector<bool>& cut = {}, const std::vector<bool>& held = {},
                       std::span<const double> added_diagonal = {}) const;
 
@@ -41,6 +41,6 @@ class Saddle {
 };
 
 // The unknowns that a singular matrix leaves undetermined, largest first, by name.
-std::vector<std::string> undetermined(const System&, const Saddle&, ColumnMatrix);
+std::vector<std::string> undetermined(const System&, const AugmentedSystem&, ColumnMatrix);
 
 }  // namespace dynalin

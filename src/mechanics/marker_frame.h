@@ -10,7 +10,7 @@
 
 namespace dynalin {
 
-struct PlacedMarker {
+struct MarkerFrame {
   MarkerPlace place;
   const ParametricCurve* curve = nullptr;
   std::int32_t parameter = -1;  // among the coordinates
