@@ -1,0 +1,301 @@
+#include "linear/physical_matrices.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "analysis/augmented_system.h"
+#include "elements/controls/variable_list.h"
+#include "system/sparse_lu.h"
+#include "system/undefined_rows.h"
+
+namespace dynalin {
+
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Index = Eigen::Index;
+
+}  // namespace
+
+MotionMap& MotionMap::operator+=(const MotionMap& other) {
+  of_accelerations += other.of_accelerations;
+  of_rates += other.of_rates;
+  of_coordinates += other.of_coordinates;
+  of_states += other.of_states;
+  of_inputs += other.of_inputs;
+  return *this;
+}
+
+class PhysicalEquations::Assembly {
+ public:
+  Assembly(const System& system, const OperatingPoint& op, const LinearOptions& options)
+      : system_(system), options_(options), motion_(system.motion(op)), augmented_(system) {
+    rows_.resize(system.layout());
+    eq_.resize(system.layout());
+    eq_.note_elements(&out_.trace_);
+    out_.without_damping_ = options.without_damping;
+  }
+
+  Result<PhysicalEquations> run() {
+    system_.constraints(motion_, rows_);
+    if (const auto undefined = undefined_row(system_, motion_, rows_))
+      return tl::unexpected(Failure{"linear analysis", *undefined, {}});
+    system_.equations(motion_, rows_, eq_,
+                      {PartialBy::position, PartialBy::velocity, PartialBy::damping, PartialBy::acceleration,
+                       PartialBy::lambda, PartialBy::algebraic, PartialBy::state, PartialBy::state_rate});
+    eq_.clear_undefined();  // linearize() has refused those that count
+    auto chosen = choose_states(system_, motion_, rows_, options_);
+    if (!chosen) return tl::unexpected(chosen.error());
+    choice_ = std::move(*chosen);
+    name();
+    if (!find_motions()) return tl::unexpected(undetermined_positions());
+    if (!solve())
+      return tl::unexpected(Failure{"linear analysis", "the values of the model do not follow from its motion", {}});
+    return std::move(out_);
+  }
+
+ private:
+  PhysicalMatrices& whole() { return out_.whole_; }
+  Index rates() const { return static_cast<Index>(out_.whole_.with_rate.size()); }
+  Index coordinates() const { return static_cast<Index>(out_.whole_.coordinates.size()); }
+  Index states() const { return static_cast<Index>(choice_.differential.size()); }
+  Index inputs() const { return static_cast<Index>(inputs_.size()); }
+  // Where the columns of x′, x, z and u begin, behind those of x″.
+  Index of_rates() const { return rates(); }
+  Index of_coordinates() const { return 2 * rates(); }
+  Index of_states() const { return of_coordinates() + coordinates(); }
+  Index of_inputs() const { return of_states() + states(); }
+  Index columns() const { return of_inputs() + inputs(); }
+
+  void name() {
+    for (std::size_t k = 0; k < choice_.coordinates.size(); ++k) {
+      whole().coordinates.push_back(choice_.coordinates[k].label);
+      if (choice_.has_rate[k]) whole().with_rate.push_back(k);
+    }
+    whole().states.assign(choice_.states.begin() + choice_.first_differential, choice_.states.end());
+    const auto read = [&](const std::optional<ElementHandle>& list, std::vector<ChannelLabel>& labels,
+                          std::vector<std::int32_t>& unknowns) {
+      if (!list) return;
+      for (const VariableRef v : system_.model().get<VariableList>(*list)->variables) {
+        const ElementLabel& label = system_.model().label(v);
+        labels.push_back({label.id, label.text()});
+        unknowns.push_back(system_.signals().variable(v).index);
+      }
+    };
+    read(options_.pinput, whole().inputs, inputs_);
+    read(options_.poutput, whole().outputs, outputs_);
+    cut_.assign(system_.layout().algebraic.size(), false);
+    for (const std::int32_t u : inputs_) cut_[static_cast<std::size_t>(u)] = true;
+  }
+
+  // δq and δq′; false where the chosen coordinates do not determine them.
+  bool find_motions() {
+    bool square = false;
+    SparseLu on_positions, on_rates;
+    const std::vector<bool> every(choice_.gradient.size(), true);
+    ColumnMatrix level = level_matrix(rows_, choice_, choice_.active, every, square);
+    if (!square || !on_positions.factor(level)) return false;
+    const Index n = system_.layout().coordinate_count;
+    Variations& v = out_.variations_;
+    v.dq = v.dqdot = Matrix::Zero(n, columns());
+    Matrix moved = Matrix::Zero(n, coordinates());
+    moved.bottomRows(coordinates()).setIdentity();
+    on_positions.solve(moved);
+    v.dq.middleCols(of_coordinates(), coordinates()) = moved;
+
+    level = level_matrix(rows_, choice_, choice_.velocity_active, choice_.has_rate, square);
+    if (!square || !on_rates.factor(level)) return false;
+    Matrix right = Matrix::Zero(n, rates() + coordinates());
+    right.bottomLeftCorner(rates(), rates()).setIdentity();
+    Index r = 0;
+    const auto hold = [&](const auto& row) {
+      for (const auto& e : row) right.row(r).tail(coordinates()) -= e.c.v * moved.row(e.column);
+      ++r;
+    };
+    for_rows(hold);
+    on_rates.solve(right);
+    v.dqdot.middleCols(of_rates(), rates()) = right.leftCols(rates());
+    v.dqdot.middleCols(of_coordinates(), coordinates()) = right.rightCols(coordinates());
+    out_.velocities_ = right.leftCols(rates());
+    return true;
+  }
+
+  // Rows that hold rates: constraints, then the gradients of coordinates with a rate.
+  template <class Take>
+  void for_rows(const Take& take) const {
+    for (std::int32_t k = 0; k < rows_.size(); ++k) {
+      if (choice_.velocity_active[static_cast<std::size_t>(k)]) take(rows_.row(k));
+    }
+    for (const std::size_t k : out_.whole_.with_rate) take(choice_.gradient[k]);
+  }
+
+  bool solve() {
+    const Index n = system_.layout().coordinate_count, size = augmented_.size();
+    std::vector<Triplet> entries;
+    for_each_entry(augmented_.matrix(eq_, rows_, choice_.velocity_active, {}, cut_),
+                   [&](std::int32_t r, std::int32_t c, double v) {
+                     entries.push_back({r, c, v});
+                   });
+    for (Index k = 0; k < rates(); ++k) {
+      const auto held = static_cast<std::int32_t>(size + k);
+      for (const auto& e : choice_.gradient[whole().with_rate[static_cast<std::size_t>(k)]]) {
+        entries.push_back({held, e.column, e.c.g});
+        entries.push_back({e.column, held, -e.c.g});
+      }
+    }
+    const auto all = static_cast<std::int32_t>(size + rates());
+    SparseLu lu;
+    if (!lu.factor(compressed(all, all, entries))) return false;
+
+    Variations& v = out_.variations_;
+    v.dz = Matrix::Zero(static_cast<Index>(system_.layout().states.size()), columns());
+    for (Index k = 0; k < states(); ++k) v.dz(choice_.differential[static_cast<std::size_t>(k)], of_states() + k) = 1;
+    Matrix x = Matrix::Zero(all, columns());
+    const auto subtract = [&](PartialBy family, const Matrix& of) {
+      for_each_entry(eq_.matrix(family), [&](std::int32_t r, std::int32_t c, double value) {
+        const std::int32_t w = r - static_cast<std::int32_t>(n);
+        const bool replaced = w >= 0 && w < static_cast<std::int32_t>(cut_.size()) && cut_[static_cast<std::size_t>(w)];
+        if (!replaced) x.row(augmented_.equation(r)) -= value * of.row(c);
+      });
+    };
+    subtract(PartialBy::position, v.dq);
+    subtract(PartialBy::velocity, v.dqdot);
+    if (!options_.without_damping) subtract(PartialBy::damping, v.dqdot);
+    subtract(PartialBy::state, v.dz);
+    const auto hold = [&](Index row, const auto& gradient) {
+      for (const auto& e : gradient) x.row(row) -= e.c.a1 * v.dqdot.row(e.column) + e.c.a0 * v.dq.row(e.column);
+    };
+    for (std::int32_t k = 0; k < rows_.size(); ++k) {
+      if (choice_.velocity_active[static_cast<std::size_t>(k)]) hold(augmented_.lambda(k), rows_.row(k));
+    }
+    for (Index k = 0; k < rates(); ++k) {
+      hold(size + k, choice_.gradient[whole().with_rate[static_cast<std::size_t>(k)]]);
+      x(size + k, k) += 1;
+    }
+    for (Index k = 0; k < inputs(); ++k)
+      x(augmented_.algebraic(inputs_[static_cast<std::size_t>(k)]), of_inputs() + k) = 1;
+    lu.solve(x);
+
+    v.dqddot = x.topRows(n);
+    v.dlambda = x.middleRows(augmented_.lambda(0), rows_.size());
+    v.dw = x.middleRows(augmented_.algebraic(0), static_cast<Index>(system_.layout().algebraic.size()));
+    v.dz_rate = x.middleRows(augmented_.state(0), static_cast<Index>(system_.layout().states.size()));
+    whole().force = out_.split(x.bottomRows(rates()));
+    Matrix rate = Matrix::Zero(coordinates(), columns());
+    for (Index k = 0; k < coordinates(); ++k) {
+      for (const auto& e : choice_.gradient[static_cast<std::size_t>(k)])
+        rate.row(k) += e.c.g * v.dqdot.row(e.column) + e.c.v * v.dq.row(e.column);
+    }
+    // What is held has its own rate, but for rounding.
+    for (Index k = 0; k < rates(); ++k) {
+      auto row = rate.row(static_cast<Index>(whole().with_rate[static_cast<std::size_t>(k)]));
+      row.setZero();
+      row(of_rates() + k) = 1;
+    }
+    whole().rate = out_.split(rate);
+    Matrix state_rate(states(), columns()), output(static_cast<Index>(outputs_.size()), columns());
+    for (Index k = 0; k < states(); ++k)
+      state_rate.row(k) = v.dz_rate.row(choice_.differential[static_cast<std::size_t>(k)]);
+    whole().state_rate = out_.split(state_rate);
+    for (std::size_t k = 0; k < outputs_.size(); ++k) output.row(static_cast<Index>(k)) = v.dw.row(outputs_[k]);
+    if (options_.without_damping) see_damping(output);
+    whole().output = out_.split(output);
+    return true;
+  }
+
+  // Outputs keep what they see of velocities where damping is left out.
+  void see_damping(Matrix& outputs) const {
+    for_each_entry(eq_.matrix(PartialBy::damping), [&](std::int32_t r, std::int32_t c, double value) {
+      for (std::size_t k = 0; k < outputs_.size(); ++k) {
+        if (r == eq_.algebraic_row(outputs_[k]))
+          outputs.row(static_cast<Index>(k)) -= value * out_.variations_.dqdot.row(c);
+      }
+    });
+  }
+
+  const System& system_;
+  const LinearOptions& options_;
+  Motion motion_;
+  AugmentedSystem augmented_;
+  ConstraintRows rows_;
+  Equations eq_;
+  StateChoice choice_;
+  std::vector<std::int32_t> inputs_, outputs_;
+  std::vector<bool> cut_;  // algebraic equations that inputs replace
+  PhysicalEquations out_;
+};
+
+Result<PhysicalEquations> PhysicalEquations::make(const System& system, OperatingPoint op,
+                                                  const LinearOptions& options) {
+  op.mode = AnalysisMode::linear;
+  return Assembly(system, op, options).run();
+}
+
+MotionMap PhysicalEquations::split(const Matrix& by_all) const {
+  const auto r = static_cast<Index>(whole_.with_rate.size()), p = static_cast<Index>(whole_.coordinates.size());
+  const auto z = static_cast<Index>(whole_.states.size()), u = static_cast<Index>(whole_.inputs.size());
+  return {by_all.leftCols(r), by_all.middleCols(r, r), by_all.middleCols(2 * r, p), by_all.middleCols(2 * r + p, z),
+          by_all.rightCols(u)};
+}
+
+const Matrix& PhysicalEquations::variation(PartialBy family) const {
+  switch (family) {
+    case PartialBy::position:
+      return variations_.dq;
+    case PartialBy::velocity:
+    case PartialBy::damping:
+      return variations_.dqdot;
+    case PartialBy::acceleration:
+      return variations_.dqddot;
+    case PartialBy::lambda:
+      return variations_.dlambda;
+    case PartialBy::algebraic:
+      return variations_.dw;
+    case PartialBy::state:
+      return variations_.dz;
+    case PartialBy::state_rate:
+      break;
+  }
+  return variations_.dz_rate;
+}
+
+std::vector<const ElementLabel*> PhysicalEquations::elements() const {
+  std::vector<const ElementLabel*> list;
+  std::unordered_set<const ElementLabel*> known;
+  const auto n = static_cast<std::int32_t>(velocities_.rows());
+  for (std::size_t e = 0; e < trace_.elements.size(); ++e) {
+    const ElementTrace::Element& element = trace_.elements[e];
+    const auto first = trace_.partials.begin() + static_cast<std::ptrdiff_t>(element.first_partial),
+               last = trace_.partials.begin() + static_cast<std::ptrdiff_t>(trace_.end_of_partials(e));
+    const bool contributes = std::any_of(first, last, [&](const ElementTrace::Partial& p) { return p.row < n; });
+    if (contributes && known.insert(element.of).second) list.push_back(element.of);
+  }
+  return list;
+}
+
+MotionMap PhysicalEquations::of(const ElementLabel& label) const {
+  const auto n = static_cast<std::int32_t>(velocities_.rows());
+  Matrix sum = Matrix::Zero(velocities_.cols(), variations_.dq.cols());
+  Eigen::RowVectorXd balance(variations_.dq.cols());
+  for (std::size_t e = 0; e < trace_.elements.size(); ++e) {
+    if (!trace_.elements[e].of || !same_element(*trace_.elements[e].of, label)) continue;
+    // Row by row of the balance: few of them belong to one element.
+    std::vector<ElementTrace::Partial> partials(
+        trace_.partials.begin() + static_cast<std::ptrdiff_t>(trace_.elements[e].first_partial),
+        trace_.partials.begin() + static_cast<std::ptrdiff_t>(trace_.end_of_partials(e)));
+    std::erase_if(partials, [&](const ElementTrace::Partial& p) {
+      return p.row >= n || (without_damping_ && p.family == PartialBy::damping);
+    });
+    std::stable_sort(partials.begin(), partials.end(), [](const auto& a, const auto& b) { return a.row < b.row; });
+    for (std::size_t k = 0; k < partials.size();) {
+      const std::int32_t row = partials[k].row;
+      balance.setZero();
+      for (; k < partials.size() && partials[k].row == row; ++k)
+        balance += partials[k].value * variation(partials[k].family).row(partials[k].column);
+      sum += velocities_.row(row).transpose() * balance;
+    }
+  }
+  return split(sum);
+}
+
+}  // namespace dynalin
