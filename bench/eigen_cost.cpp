@@ -37,7 +37,8 @@ double seconds(Prepare&& prepare, Function&& work) {
 void measure(int n) {
   auto dataset = parse_dataset(std::make_shared<const SourceText>("chain.adm", hanging_chain(n)));
   auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
-  const System system{std::shared_ptr<const Model>(std::move(model.value))};
+  const auto made = System::make(std::move(model.value)).value();
+  const System& system = *made;
   Findings findings;
   const auto op = initial_conditions(system, findings);
   if (!op) return fmt::print("{}\n", op.error().message);

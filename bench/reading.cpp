@@ -106,7 +106,7 @@ int measure(const std::string& file) {
   }
   dataset->release_arguments();
   steps.done("model");
-  const System system(std::shared_ptr<const Model>(std::move(built.value)));
+  const auto system = System::make(std::move(built.value));
   steps.done("system");
   steps.all();
   return 0;

@@ -100,7 +100,8 @@ int main(int argc, char** argv) {
     return 1;
   }
   fmt::print("  model             {:8.3f} s\n", clock.lap());
-  const System system{std::shared_ptr<const Model>(std::move(built.value))};
+  const auto made = System::make(std::move(built.value)).value();
+  const System& system = *made;
   fmt::print("  system            {:8.3f} s\n", clock.lap());
 
   Findings findings;

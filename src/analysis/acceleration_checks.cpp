@@ -36,7 +36,7 @@ std::string unknown_text(const System& system, const AccelerationEquations& equa
 std::vector<std::int32_t> contradicted_accelerations(const System& system, const AccelerationEquations& equations,
                                                      const OperatingPoint& op, const Eigen::VectorXd& rounding) {
   const ConstraintRows& rows = equations.rows();
-  const double tolerance = std::max(contradiction, 100 * system.assembly_error());
+  const double tolerance = std::max(contradiction, 100 * op.redundancy_tolerance);
   std::vector<std::int32_t> contradicted;
   for (const std::int32_t k : equations.partition().redundant) {
     const bool position = rows.level(k) == RowLevel::position;

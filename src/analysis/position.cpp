@@ -174,12 +174,6 @@ Stopped stop_at_ends(const Layout& layout, OperatingPoint& op, const Eigen::Vect
 
 Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts starts, Ends ends) {
   const Layout& layout = system.layout();
-  if (layout.problems.has_errors()) {
-    Failure f{"initial conditions", layout.problems.items().front().message, {}};
-    for (std::size_t k = 1; k < layout.problems.items().size(); ++k)
-      f.details.push_back(layout.problems.items()[k].message);
-    return tl::unexpected(std::move(f));
-  }
   ConstraintRows rows;
   const std::size_t row_count = layout.row_count() + (starts == Starts::held ? system.starts().size() : 0);
   rows.resize(layout, row_count);
@@ -225,7 +219,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
       if (part.active[static_cast<std::size_t>(k)]) {
         left = std::max(left, relative);
         above_rounding = std::max(above_rounding, relative - std::max(position_tolerance, rounding));
-      } else if (relative > std::max(system.assembly_error(), position_tolerance) * (1 + 1e-6) + rounding) {
+      } else if (relative > std::max(op.redundancy_tolerance, position_tolerance) * (1 + 1e-6) + rounding) {
         if (contradicted.empty()) stuck = stuck_axes(system, rows, k);
         contradicted.push_back(system.row_text(k));
       }
@@ -237,7 +231,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
       return tl::unexpected(Failure{"initial conditions",
                                     fmt::format("the constraints contradict each other: {}{} cannot hold together "
                                                 "with the others (IC/ERROR is {:g} of a row's scale)",
-                                                contradicted.front(), stuck, system.assembly_error()),
+                                                contradicted.front(), stuck, op.redundancy_tolerance),
                                     history});
     }
     before = left;

@@ -140,8 +140,9 @@ double fastest_of(const System& system, const Eigen::VectorXd& velocity) {
 }
 
 // Whether velocities meet a condition as far as it follows from others, in the size of its own terms: those that axes
-// turned otherwise would show count as well. `rounding` is that of velocities, in lengths of the model and radians.
-bool follows(const System& system, const Condition& c, const Eigen::VectorXd& velocity, double rounding) {
+// turned otherwise would show count as well. `tolerance` is relative, `rounding` is that of velocities, in lengths of the model and radians.
+bool follows(const System& system, const Condition& c, const Eigen::VectorXd& velocity, double tolerance,
+             double rounding) {
   const Miss off = miss(c, velocity);
   double size = off.size, noise = 0;
   for (std::size_t i = 0; i < c.column.size(); ++i) {
@@ -151,7 +152,6 @@ bool follows(const System& system, const Condition& c, const Eigen::VectorXd& ve
     size = std::max(size, std::abs(c.coefficient[i]) * along);
     noise = std::max(noise, std::abs(c.coefficient[i]) * system.coordinate_scale(c.column[i]));
   }
-  const double tolerance = std::max(contradiction, 100 * system.assembly_error());
   return std::abs(off.value) <= tolerance * size + rounding * noise;
 }
 
@@ -161,7 +161,7 @@ struct LeastChange {
   std::vector<std::size_t> contradicted;
 };
 Result<LeastChange> least_change(const System& system, const Motion& motion, const std::vector<Condition>& conditions,
-                                 const Eigen::VectorXd& start) {
+                                 const Eigen::VectorXd& start, double tolerance) {
   const auto n = static_cast<Eigen::Index>(system.coordinates());
   const auto m = static_cast<Eigen::Index>(conditions.size());
   std::vector<SparseRow> scaled(conditions.size());
@@ -198,7 +198,7 @@ Result<LeastChange> least_change(const System& system, const Motion& motion, con
   LeastChange result{x.col(0).head(n), {}};
   const double rounding = solution_rounding * fastest_of(system, result.velocity);
   for (std::size_t k = 0; k < conditions.size(); ++k) {
-    if (e.pivot_column[k] < 0 && !follows(system, conditions[k], result.velocity, rounding)) {
+    if (e.pivot_column[k] < 0 && !follows(system, conditions[k], result.velocity, tolerance, rounding)) {
       result.contradicted.push_back(k);
     }
   }
@@ -300,7 +300,8 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
   }
   std::vector<Condition> conditions = constraint_conditions(system, rows);
   const std::size_t constraints = conditions.size();
-  auto hard = least_change(system, motion, conditions, start);
+  const double tolerance = std::max(contradiction, 100 * op.redundancy_tolerance);
+  auto hard = least_change(system, motion, conditions, start, tolerance);
   if (!hard) return tl::unexpected(hard.error());
   if (!hard->contradicted.empty()) {
     Failure f{"velocity initial conditions", "the constraints contradict each other on velocities", {}};
@@ -310,7 +311,7 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
   Eigen::VectorXd velocity = std::move(hard->velocity);
   if (!stated.empty()) {
     conditions.insert(conditions.end(), stated.begin(), stated.end());
-    auto kept = least_change(system, motion, conditions, start);
+    auto kept = least_change(system, motion, conditions, start, tolerance);
     if (!kept) return tl::unexpected(kept.error());
     // Where the stated values cannot all be kept, the point nearest to all of them is taken; a second pass undoes what
     // the least change has pulled it. Where some follow from others, but for a tolerance, all count alike.
@@ -327,7 +328,7 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
     const double unnoticed = contradiction * fastest_of(system, velocity);
     for (std::size_t k = constraints; k < conditions.size() && contradicted; ++k) {
       const double stated_value = conditions[k].value, value = stated_value + miss(conditions[k], velocity).value;
-      if (follows(system, conditions[k], velocity, unnoticed)) continue;
+      if (follows(system, conditions[k], velocity, tolerance, unnoticed)) continue;
       findings.warnings.warning(
           "changed-velocity", conditions[k].at,
           fmt::format("the initial velocity {} = {:g} contradicts the constraints and was changed to {:g}",

@@ -57,9 +57,15 @@ class Session {
       const auto* linear = std::get_if<LinearCommand>(&c.what);
       if (linear && !linear->file.empty()) quiet_ = quiet_ || to_standard_output(linear_path(job_, linear->file));
     }
-    for (const Job::Stage& s : job_.stages)
-      systems_.push_back(std::make_unique<System>(
-          s.model, SystemOptions{options.pade ? DelayReading::pade : DelayReading::first_order}));
+    const SystemOptions delays{options.pade ? DelayReading::pade : DelayReading::first_order};
+    for (const Job::Stage& s : job_.stages) {
+      auto system = System::make(s.model, delays);
+      if (!system) {
+        problems_ = std::move(system.error());
+        return;
+      }
+      systems_.push_back(std::move(*system));
+    }
     point_ = system().drawn();
     if (job_.xrf_digits > 0)
       results_.emplace(job_.model().title, job_.xrf_digits, job_.model().units, settings_.results);
@@ -67,12 +73,8 @@ class Session {
 
   // What only showed while the equations were made: wrong input like any other.
   bool sound() const {
-    for (const auto& s : systems_) {
-      if (!s->layout().problems.has_errors()) continue;
-      fmt::print(err_, "{}", render(s->layout().problems));
-      return false;
-    }
-    return true;
+    fmt::print(err_, "{}", render(problems_));
+    return !problems_.has_errors();
   }
 
   int run() {
@@ -121,7 +123,9 @@ class Session {
       point_ = carried_over(*systems_[before], point_, system(), job_.stages[stage].restated);
       restated_velocity_ = job_.stages[stage].restated.velocities;
     } else {
+      const double tolerance = point_.redundancy_tolerance;
       point_ = system().drawn();
+      point_.redundancy_tolerance = tolerance;
     }
     consistent_ = false;
     at_rest_.reset();
@@ -147,7 +151,7 @@ class Session {
     if (setting.equilibrium) setting.equilibrium->apply(settings_.equilibrium);
     if (setting.initial_conditions) {
       setting.initial_conditions->apply(settings_.initial_conditions);
-      for (const auto& s : systems_) s->state_settings(settings_.initial_conditions);
+      point_.redundancy_tolerance = settings_.initial_conditions.error.value_or(OperatingPoint().redundancy_tolerance);
     }
     remarks_.say(setting.remarks);
     remarks_.pass_over(setting.passed_over);
@@ -425,7 +429,8 @@ class Session {
   std::ostream& err_;
   bool quiet_;
   Settings settings_;
-  std::vector<std::unique_ptr<System>> systems_;  // of the stages
+  std::vector<std::shared_ptr<const System>> systems_;  // of the stages
+  Diagnostics problems_;                                // why there is none
   std::size_t stage_ = 0;
   std::set<std::string> inactive_;  // what is said already
   OperatingPoint point_;

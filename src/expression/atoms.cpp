@@ -29,9 +29,9 @@ constexpr AtomFunction measure(std::string_view name, int8_t order, uint8_t mini
                                FunctionText text = {}) {
   return {name, marker_measure, order, minimum, maximum, "", true, text};
 }
-constexpr AtomFunction from_data(std::string_view name, uint8_t arguments, std::string_view statement,
-                                 FunctionText text) {
-  return {name, data, by_reference, arguments, arguments, statement, true, text};
+constexpr AtomFunction from_data(std::string_view name, DataSource reads, uint8_t arguments,
+                                 std::string_view statement, FunctionText text) {
+  return {name, data, by_reference, arguments, arguments, statement, true, text, {}, reads};
 }
 constexpr AtomFunction at_marker(std::string_view name, uint8_t maximum, std::string_view meaning,
                                  std::string_view unit) {
@@ -191,19 +191,19 @@ constexpr std::array table = {
     of_element("MOTION", "MOTION", built, "a component of the reaction of a MOTION"),
     of_element("PTCV", "PTCV", built, "a component of the reaction of a PTCV"),
     of_element("CVCV", "CVCV", built, "a component of the reaction of a CVCV"),
-    from_data("VARVAL", 1, "VARIABLE", {"id", "value of a VARIABLE", "what the VARIABLE has", "id  of the VARIABLE"}),
-    from_data("ARYVAL", 2, "ARRAY",
+    from_data("VARVAL", DataSource::value, 1, "VARIABLE", {"id", "value of a VARIABLE", "what the VARIABLE has", "id  of the VARIABLE"}),
+    from_data("ARYVAL", DataSource::array_entry, 2, "ARRAY",
               {"id, n", "entry n of an ARRAY", "what the entry has",
                "id  of the ARRAY\n"
                "n   which entry, from 1"}),
-    from_data("DIF", 1, "DIFF", {"id", "state of a DIFF", "what the DIFF has", "id  of the DIFF"}),
-    from_data("DIF1", 1, "DIFF",
+    from_data("DIF", DataSource::state, 1, "DIFF", {"id", "state of a DIFF", "what the DIFF has", "id  of the DIFF"}),
+    from_data("DIF1", DataSource::state_rate, 1, "DIFF",
               {"id", "time derivative of the state of a DIFF", "that of the DIFF per time", "id  of the DIFF"}),
-    from_data("PINVAL", 2, "PINPUT",
+    from_data("PINVAL", DataSource::list_entry, 2, "PINPUT",
               {"id, n", "entry n of a PINPUT", "what the VARIABLE has",
                "id  of the PINPUT\n"
                "n   which of its VARIABLEs, from 1"}),
-    from_data("POUVAL", 2, "POUTPUT",
+    from_data("POUVAL", DataSource::list_entry, 2, "POUTPUT",
               {"id, n", "entry n of a POUTPUT", "what the VARIABLE has",
                "id  of the POUTPUT\n"
                "n   which of its VARIABLEs, from 1"}),
@@ -217,7 +217,8 @@ constexpr std::array table = {
                  true,
                  {"id", "what EVALUATE of a SENSOR gave when it last triggered, 0 before", "what EVALUATE has",
                   "id  of the SENSOR"},
-                 "EVALUATE"},
+                 "EVALUATE",
+                 DataSource::sensor},
     // Its arguments are expressions, but for an id in the fourth place.
     AtomFunction{"DELAY",
                  AtomFamily::delay,
@@ -239,7 +240,9 @@ constexpr std::array table = {
                  0,
                  "",
                  true,
-                 {"", "which analysis is at work: 3 initial conditions, 5 statics, 7 linear", "", ""}},
+                 {"", "which analysis is at work: 3 initial conditions, 5 statics, 7 linear", "", ""},
+                 {},
+                 DataSource::analysis},
 };
 
 }  // namespace

@@ -34,10 +34,22 @@ enum class ReferenceClass : std::uint8_t {
 enum class AtomFamily : std::uint8_t {
   time,
   marker_measure,  // DX … WDTM, AX, PSI, INCANG …: a function of marker motions
-  data,            // VARVAL, ARYVAL, DIF, DIF1, PINVAL, POUVAL, SENVAL; MODE, a number the analysis decides
+  data,            // AtomFunction::reads says what
   marker_force,    // FX … TM (i, j, k): sum over all elements at marker i
   element_force,   // JOINT, MOTION, SFORCE, SPDP … (id, jflag, comp, rm)
   delay,           // DELAY(e, tau, history [, id]): a quantity of its own, made of expressions
+};
+
+// What an atom of the family `data` reads.
+enum class DataSource : std::uint8_t {
+  none,
+  analysis,     // MODE: a number that the analysis decides
+  sensor,       // SENVAL
+  value,        // VARVAL
+  array_entry,  // ARYVAL
+  state,        // DIF
+  state_rate,   // DIF1
+  list_entry,   // PINVAL, POUVAL
 };
 
 // One function that yields an atom, as the parser knows it.
@@ -52,6 +64,7 @@ struct AtomFunction {
   bool built;                  // false: known to the language, not available yet
   FunctionText text{};
   std::string_view required_argument{};  // that the statement of the element must have
+  DataSource reads = DataSource::none;
 };
 
 // Table of all atom functions, in the order of the documentation.

@@ -20,7 +20,8 @@ namespace dynalin {
 struct Mechanism::State {
   SourceRef source;
   std::shared_ptr<const Model> model;
-  System system;
+  std::shared_ptr<const System> made;
+  const System& system;
   OperatingPoint point;
   bool consistent = false;
   std::optional<OperatingPoint> at_rest;  // what the last static analysis found, if no other one came after it
@@ -28,8 +29,12 @@ struct Mechanism::State {
   double static_imbalance = 0;
   std::vector<std::string> redundant, warnings;
 
-  State(SourceRef text, std::shared_ptr<const Model> m, const SystemOptions& options)
-      : source(std::move(text)), model(std::move(m)), system(model, options), point(system.drawn()) {
+  State(SourceRef text, std::shared_ptr<const Model> m, std::shared_ptr<const System> equations)
+      : source(std::move(text)),
+        model(std::move(m)),
+        made(std::move(equations)),
+        system(*made),
+        point(system.drawn()) {
     note(system.layout().remarks);
     note(model->settings.remarks);
   }
@@ -120,14 +125,14 @@ Mechanism Mechanism::from_text(std::string dataset, std::string name, const Read
   std::vector<std::string> messages;
   for (const Diagnostic& d : diagnostics.items()) messages.push_back(d.message);
   if (diagnostics.has_errors()) throw Error(render(diagnostics), std::move(messages));
-  auto state =
-      std::make_unique<State>(source, std::shared_ptr<const Model>(std::move(built.value)),
-                              SystemOptions{options.pade_delays ? DelayReading::pade : DelayReading::first_order});
-  if (const Diagnostics& problems = state->system.layout().problems; problems.has_errors()) {
+  const std::shared_ptr<const Model> model = std::move(built.value);
+  auto system = System::make(model, {options.pade_delays ? DelayReading::pade : DelayReading::first_order});
+  if (!system) {
     std::vector<std::string> reasons;
-    for (const Diagnostic& d : problems.items()) reasons.push_back(d.message);
-    throw Error(render(problems), std::move(reasons));
+    for (const Diagnostic& d : system.error().items()) reasons.push_back(d.message);
+    throw Error(render(system.error()), std::move(reasons));
   }
+  auto state = std::make_unique<State>(source, model, std::move(*system));
   state->warnings.insert(state->warnings.begin(), messages.begin(), messages.end());
   return Mechanism(std::move(state));
 }

@@ -290,15 +290,16 @@ std::vector<ModalRow<double>> ModalEnergy::force_rows(std::size_t mode, PartialB
   MarkerWrench w;
   for (const std::size_t s : sets_with_rows()) {
     const ElementSet& set = *system_.model().sets[s];
-    const Kernel& kernel = *system_.signals().element(ElementHandle{static_cast<std::int32_t>(s), 0}).kernel;
-    for (std::size_t which = 0; which < kernel.wrench_count(set.size()); ++which) {
+    const Signals::Element first = system_.signals().element(ElementHandle{static_cast<std::int32_t>(s), 0});
+    const WrenchSource& wrenches = *first.kernel->wrenches();
+    for (std::size_t which = 0; which < wrenches.wrench_count(set.size()); ++which) {
       w.clear();
-      kernel.wrench(motion_, which, true, w);
+      wrenches.wrench(motion_, which, true, w);
       const WrenchWork::Done done = work.of(w);
       without_cancellation += done.without_cancellation;
-      ModalRow<double> row{&set.labels[kernel.element_of_wrench(which)], 0, std::vector<double>(7, 0.0)};
+      ModalRow<double> row{&set.labels[wrenches.element_of_wrench(which)], 0, std::vector<double>(7, 0.0)};
       if (set.kind().energy_rows == Kind::EnergyRows::each_marker)
-        row.part = system_.model().marker(kernel.marker_I(which)).label.id;
+        row.part = system_.model().marker(wrenches.marker_I(which)).label.id;
       for (std::size_t k = 0; k < 6; ++k) {
         row.values[0] += done.along[k];
         parts += std::abs(done.along[k]);

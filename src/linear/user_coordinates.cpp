@@ -83,7 +83,7 @@ class Chain {
     Link link;
     link.variable = variable;
     const Signals::Element element = system_.signals().element(variable);
-    link.function = element.kernel->value_function(element.index);
+    link.function = element.kernel->channels()->value_function(element.index);
     link.given.resize(e.atoms().size());
     for (std::size_t k = 0; k < e.atoms().size(); ++k) {
       if (auto failure = read(e.atoms()[k], k, variable, link)) return failure;
@@ -116,8 +116,8 @@ class Chain {
       case AtomFamily::data:
         break;
     }
-    if (f.name == "DIF1") return wrong("the rate of a differential equation");
-    if (f.name == "MODE" || f.name == "SENVAL") return std::nullopt;
+    if (f.reads == DataSource::state_rate) return wrong("the rate of a differential equation");
+    if (f.reads == DataSource::analysis || f.reads == DataSource::sensor) return std::nullopt;
     const Channel channel = system_.signals().data(atom);
     if (channel.kind == Channel::Kind::constant || channel.kind == Channel::Kind::none) return std::nullopt;
     if (channel.kind != Channel::Kind::algebraic) return wrong("a differential state");

@@ -6,25 +6,22 @@
 
 #include "expression/expression.h"
 #include "expression/measures.h"
-#include "mechanics/kernel.h"
+#include "mechanics/binder.h"
 #include "mechanics/marker_frame.h"
 
 namespace dynalin {
 
-// What an expression is bound for: the equations of a system, with the time derivatives of channels for add_rate, or
-// its gradient alone, which keeps no total angles and may be bound at any time. A condition is bound with zero for
-// every DIF1: they cancel in the sum it is a term of.
-enum class Binding : std::uint8_t { equations, rates, gradient, condition, condition_rates };
+// What an expression is bound for: the equations of a system, with the time derivatives of channels for add_rate. A
+// condition is bound with zero for every DIF1: they cancel in the sum it is a term of.
+enum class Binding : std::uint8_t { equations, rates, condition, condition_rates };
 
 class BoundExpression {
  public:
   BoundExpression() = default;
-  BoundExpression(Expression, const Signals&, Binding = Binding::equations);
+  BoundExpression(Expression, Binder&, Binding = Binding::equations);
 
   // Kinematic order: 0 displacements, 1 velocities, 2 accelerations or reactions.
   int order() const { return order_; }
-  bool only_time() const { return only_time_; }
-  bool reads_channels() const { return reads_channels_; }  // algebraic values, states or their rates
   bool is_constant() const { return atoms_.empty(); }
   // The first atom that reads how a marker moves along a curve, null if none does.
   const Atom* atom_on_curve() const;
@@ -65,7 +62,7 @@ class BoundExpression {
 
  private:
   struct ForceTerm {
-    Signals::Element element;
+    Signals::Wrench wrench;
     bool on_J = false;
   };
   struct BoundAtom {
@@ -85,7 +82,7 @@ class BoundExpression {
   };
 
   static void note_parameter(BoundAtom&, const MarkerFrame&);
-  BoundAtom bind(const Atom&, const Signals&, Binding) const;
+  static BoundAtom bind(const Atom&, Binder&, Binding);
   double atom_value(const BoundAtom&, const Motion&) const;
   double force_value(const BoundAtom&, const Motion&) const;
   void fill_rates(const Motion&, ExpressionScratch&) const;  // atoms with their values and rates
@@ -116,8 +113,6 @@ class BoundExpression {
   std::vector<BodyId> bodies_;  // all that the measures see, ground left out
   std::vector<BoundAtom> atoms_;
   int order_ = 0;
-  bool only_time_ = true;
-  bool reads_channels_ = false;
 };
 
 }  // namespace dynalin

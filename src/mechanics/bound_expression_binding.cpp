@@ -77,14 +77,15 @@ bool is_constant_on_a_body(Measure m) {
 
 // Where a marker is, and its axes where they are read: a floating marker has no place of its own. One on a curve whose
 // axes do not matter is as well at the origin of the fixed marker that lies there, if there is one.
-MarkerFrame find_marker(const Signals& signals, const Atom& atom, std::int64_t id, bool axes) {
+MarkerFrame find_marker(Binder& binder, const Atom& atom, std::int64_t id, bool axes) {
+  const Signals& signals = binder.signals();
   const Layout& layout = signals.layout();
   const MarkerId m = signals.marker(id), followed = signals.place_of(m);
   if (!signals.has_place(m)) {
-    signals.problem("unplaced-marker", atom.at,
-                    std::string(atom.at.text()) + " reads " +
-                        layout.marker_labels[static_cast<std::size_t>(m.index)].full_text() +
-                        ", a floating marker that no element gives a place");
+    binder.problem("unplaced-marker", atom.at,
+                   std::string(atom.at.text()) + " reads " +
+                       layout.marker_labels[static_cast<std::size_t>(m.index)].full_text() +
+                       ", a floating marker that no element gives a place");
   }
   const CurvePoint* on = layout.curve_point(m);
   if (!on || (!axes && !(followed == m))) return {layout.marker(followed)};
@@ -93,12 +94,12 @@ MarkerFrame find_marker(const Signals& signals, const Atom& atom, std::int64_t i
 
 }  // namespace
 
-BoundExpression::BoundExpression(Expression expression, const Signals& signals, Binding binding)
-    : expression_(expression.with_curves([&](SplineUse& use) { signals.attach(use); })) {
+BoundExpression::BoundExpression(Expression expression, Binder& binder, Binding binding)
+    : expression_(expression.with_curves([&](SplineUse& use) { binder.attach(use); })) {
   std::unordered_set<std::int32_t> seen;  // of bodies_: a sum may run over all bodies of a model
   atoms_.reserve(expression_.atoms().size());
   for (const Atom& atom : expression_.atoms()) {
-    atoms_.push_back(bind(atom, signals, binding));
+    atoms_.push_back(bind(atom, binder, binding));
     const BoundAtom& a = atoms_.back();
     for (std::size_t b = 0; b < a.body_count; ++b) {
       if (seen.insert(a.bodies[b].index).second) bodies_.push_back(a.bodies[b]);
@@ -106,21 +107,19 @@ BoundExpression::BoundExpression(Expression expression, const Signals& signals, 
     using Kind = BoundAtom::Kind;
     if (a.kind == Kind::measure) order_ = std::max(order_, static_cast<int>(a.order));
     if (a.kind == Kind::force) order_ = 2;
-    if (a.kind == Kind::channel) reads_channels_ = true;
     if (binding == Binding::rates || binding == Binding::condition_rates) {
       const bool impossible = a.kind == Kind::force || (a.kind == Kind::measure && a.order == 2) ||
                               (a.kind == Kind::channel && a.channel.kind == Channel::Kind::state_rate);
       if (impossible) {
-        signals.problem("unknown-rate", atom.at,
-                        std::string(atom.at.text()) +
-                            " stands in an expression whose time derivative DIF1 or DELAY needs, and has none that is "
-                            "known",
-                        "a DELAY needs none as a Padé approximant, run with --pade");
+        binder.problem("unknown-rate", atom.at,
+                       std::string(atom.at.text()) +
+                           " stands in an expression whose time derivative DIF1 or DELAY needs, and has none that is "
+                           "known",
+                       "a DELAY needs none as a Padé approximant, run with --pade");
       } else if (a.kind == Kind::channel) {
-        atoms_.back().rate = signals.rate_of(a.channel);
+        atoms_.back().rate = binder.rate_of(a.channel);
       }
     }
-    if (a.kind != Kind::time && a.kind != Kind::mode && a.kind != Kind::constant) only_time_ = false;
   }
 }
 
@@ -138,7 +137,8 @@ const Atom* BoundExpression::atom_on_curve() const {
   return nullptr;
 }
 
-BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals& signals, Binding binding) const {
+BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binder, Binding binding) {
+  const Signals& signals = binder.signals();
   using Kind = BoundAtom::Kind;
   BoundAtom a{};
   const AtomFunction& f = *atom.function;
@@ -153,7 +153,7 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
       a.places.fill({signals.layout().marker(signals.marker(0))});
       for (std::size_t argument = 0; argument < atom.argument_count; ++argument) {
         const auto role = role_of_argument(a.measure, argument);
-        if (role) a.places[*role] = find_marker(signals, atom, atom.argument[argument], reads_axes(a.measure, *role));
+        if (role) a.places[*role] = find_marker(binder, atom, atom.argument[argument], reads_axes(a.measure, *role));
       }
       for (std::size_t k = 0; k < 4; ++k) {
         note_parameter(a, a.places[k]);
@@ -167,26 +167,26 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
       const bool one_body =
           a.places[0].place.body == a.places[1].place.body && !a.places[0].curve && !a.places[1].curve;
       if (one_body && is_constant_on_a_body(a.measure)) a.body_count = 0;
-      if (counts_turns(a.measure) && binding != Binding::gradient) a.memory = signals.add_memory(atom.at, 0.0);
+      if (counts_turns(a.measure)) a.memory = binder.add_memory(atom.at, 0.0);
       break;
     }
     case AtomFamily::data:
-      if (f.name == "MODE") {
+      if (f.reads == DataSource::analysis) {
         a.kind = Kind::mode;
         break;
       }
-      if (f.name == "SENVAL") {
+      if (f.reads == DataSource::sensor) {
         a.kind = Kind::constant;  // no analysis of ours lets a sensor trigger
         break;
       }
-      if (f.name == "DIF1" && (binding == Binding::condition || binding == Binding::condition_rates)) {
+      if (f.reads == DataSource::state_rate && (binding == Binding::condition || binding == Binding::condition_rates)) {
         a.kind = Kind::constant;
         break;
       }
-      a.channel = signals.data(atom);
+      a.channel = binder.data(atom);
       if (a.channel.kind == Channel::Kind::none) {
-        signals.problem("unfilled-entry", atom.at,
-                        std::string(atom.at.text()) + " reads an entry that does not exist, or that nothing fills");
+        binder.problem("unfilled-entry", atom.at,
+                       std::string(atom.at.text()) + " reads an entry that does not exist, or that nothing fills");
         a.channel = {Channel::Kind::constant, 0, 0};
       }
       a.kind = a.channel.kind == Channel::Kind::constant ? Kind::constant : Kind::channel;
@@ -194,15 +194,15 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
       break;
     case AtomFamily::delay:
       a.kind = Kind::channel;
-      a.channel = signals.delayed(atom);
+      a.channel = binder.delayed(atom);
       break;
     case AtomFamily::element_force:
       a.kind = Kind::force;
-      if (const Signals::Element e = signals.element(f.statement, atom.argument[0]); e.kernel) {
-        a.terms.push_back({e, atom.argument[1] == 1});  // an element taken out of the model exerts nothing
+      if (const Signals::Wrench w = signals.wrench(f.statement, atom.argument[0]); w.source) {
+        a.terms.push_back({w, atom.argument[1] == 1});  // an element taken out of the model exerts nothing
       }
       a.component = static_cast<std::uint8_t>(atom.argument[2]);
-      a.axes_marker = find_marker(signals, atom, atom.argument[3], true);
+      a.axes_marker = find_marker(binder, atom, atom.argument[3], true);
       note_parameter(a, a.axes_marker);
       break;
     case AtomFamily::marker_force: {
@@ -212,12 +212,12 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, const Signals
       const MarkerId i = signals.marker(atom.argument[0]);
       const bool from_all = atom.argument[1] == 0;
       const MarkerId j = signals.marker(atom.argument[1]);
-      for (const Signals::Element& e : signals.elements_at(i)) {
-        const bool is_I = e.kernel->marker_I(e.index) == i;
-        const MarkerId other = is_I ? e.kernel->marker_J(e.index) : e.kernel->marker_I(e.index);
-        if (from_all || other == j) a.terms.push_back({e, !is_I});
+      for (const Signals::Wrench& w : signals.wrenches_at(i)) {
+        const bool is_I = w.source->marker_I(w.which) == i;
+        const MarkerId other = is_I ? w.source->marker_J(w.which) : w.source->marker_I(w.which);
+        if (from_all || other == j) a.terms.push_back({w, !is_I});
       }
-      a.axes_marker = find_marker(signals, atom, atom.argument[2], true);
+      a.axes_marker = find_marker(binder, atom, atom.argument[2], true);
       note_parameter(a, a.axes_marker);
       break;
     }

@@ -28,7 +28,7 @@ double BoundExpression::force_value(const BoundAtom& a, const Motion& motion) co
   MarkerWrench w;
   for (const ForceTerm& t : a.terms) {
     w.clear();
-    t.element.kernel->wrench(motion, t.element.index, false, w);
+    t.wrench.source->wrench(motion, t.wrench.which, false, w);
     sum += on_marker(w, t.on_J, is_torque(a.component));
   }
   if (is_magnitude(a.component)) return norm(sum);
@@ -53,7 +53,7 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
   Vector sum{};
   for (std::size_t t = 0; t < a.terms.size(); ++t) {
     const ForceTerm& term = a.terms[t];
-    term.element.kernel->wrench(motion, term.element.index, true, wrenches[t]);
+    term.wrench.source->wrench(motion, term.wrench.which, true, wrenches[t]);
     sum += on_marker(wrenches[t], term.on_J, torque);
   }
   // The direction that picks the component: an axis of the marker, or that of the vector itself.

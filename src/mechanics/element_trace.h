@@ -9,6 +9,7 @@
 namespace dynalin {
 
 enum class PartialBy : std::uint8_t;
+struct ElementLabel;
 
 struct ElementTrace {
   struct Partial {
@@ -23,6 +24,7 @@ struct ElementTrace {
   };
   // One force, joint or body; entries up to those of the next one are its own.
   struct Element {
+    const ElementLabel* of;  // null before the first
     std::size_t first_partial, first_load;
     std::int32_t first_row, row_count;  // the constraint rows whose reactions it is, if any
   };
@@ -34,10 +36,10 @@ struct ElementTrace {
   void clear() {
     elements.clear(), partials.clear(), loads.clear(), coefficients.clear();
     term = -1;
-    begin(-1, 0);
+    begin(nullptr, -1, 0);
   }
-  void begin(std::int32_t first_row, std::int32_t row_count) {
-    elements.push_back({partials.size(), loads.size(), first_row, row_count});
+  void begin(const ElementLabel* of, std::int32_t first_row, std::int32_t row_count) {
+    elements.push_back({of, partials.size(), loads.size(), first_row, row_count});
   }
   std::size_t end_of_partials(std::size_t e) const {
     return e + 1 < elements.size() ? elements[e + 1].first_partial : partials.size();

@@ -11,6 +11,7 @@
 #include "mechanics/accumulator.h"
 #include "mechanics/element_trace.h"
 #include "mechanics/layout.h"
+#include "mechanics/pair_motion.h"
 
 namespace dynalin {
 
@@ -110,9 +111,13 @@ class Equations {
 
   // Later passes also note what each element adds on its own.
   void note_elements(ElementTrace* trace) { trace_ = trace; }
-  // What follows is added by another element; where it holds constraint rows, their reactions belong to it.
-  void begin_element(std::int32_t first_row = -1, std::int32_t row_count = 0) {
-    if (trace_) trace_->begin(first_row, row_count);
+  // What follows is added by another element, whose label outlives the trace.
+  void begin_element(const ElementLabel& of) {
+    if (trace_) trace_->begin(&of, -1, 0);
+  }
+  // The same for one that holds constraint rows: their reactions belong to it.
+  void begin_constraint(std::int32_t first_row, std::int32_t row_count = 1) {
+    if (trace_) trace_->begin(layout_->rows[static_cast<std::size_t>(first_row)].owner, first_row, row_count);
   }
 
   // What follows, until the next call, is one quantity that an algebraic or differential equation reads, times the
@@ -175,6 +180,7 @@ class Equations {
   const Layout& layout() const { return *layout_; }
 
   ExpressionScratch scratch;
+  PairScratch pair_scratch;
 
  private:
   void note(PartialBy, std::int32_t row, std::int32_t column, std::span<const double> values);

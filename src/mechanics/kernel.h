@@ -14,8 +14,8 @@
 
 namespace dynalin {
 
+class Binder;
 class BoundExpression;
-class Signals;
 
 // A force or constraint element as the force functions of expressions see it: what acts on its I marker.
 struct MarkerWrench {
@@ -35,6 +35,7 @@ struct MarkerWrench {
   };
   std::vector<Turn> turns;
   bool J_follows_I = false;  // J is a floating marker at the origin of I
+  PairScratch scratch;       // what the element keeps while it is asked
 
   void clear() { scalars.clear(), turns.clear(), J_follows_I = false; }
 };
@@ -60,17 +61,47 @@ struct UndefinedValue {
   bool in_value = true;
 };
 
+// Elements that exert a wrench, for tables, reports and the force functions of expressions.
+class WrenchSource {
+ public:
+  // How many wrenches its elements exert: one each, but where one acts on many markers.
+  virtual std::size_t wrench_count(std::size_t elements) const { return elements; }
+  virtual std::size_t element_of_wrench(std::size_t which) const { return which; }
+  virtual MarkerId marker_I(std::size_t which) const = 0;
+  virtual MarkerId marker_J(std::size_t which) const = 0;
+  // The marker along whose axes the statement gives the components.
+  virtual MarkerId marker_of_axes(std::size_t which) const { return marker_J(which); }
+  virtual void wrench(const Motion&, std::size_t which, bool with_partials, MarkerWrench&) const = 0;
+
+ protected:
+  ~WrenchSource() = default;
+};
+
+// Elements that hold values which data functions read.
+class ChannelSource {
+ public:
+  virtual Channel value_channel(std::size_t /*element*/) const { return {}; }  // VARVAL
+  // The expression that gives this value, null if none does.
+  virtual const BoundExpression* value_function(std::size_t /*element*/) const { return nullptr; }
+  virtual Channel state_channel(std::size_t /*element*/, std::size_t /*n*/) const { return {}; }
+  virtual Channel output_channel(std::size_t /*element*/, std::size_t /*n*/) const { return {}; }
+
+ protected:
+  ~ChannelSource() = default;
+};
+
 class Kernel {
  public:
   virtual ~Kernel() = default;
 
-  // Second phase of making a System, when all numbering is known: bind expressions.
-  virtual void bind(const Signals&) {}
-
+  // --- while a System is made -----------------------------------------------------------------------
+  // When all elements have their numbers: bind expressions.
+  virtual void bind(Binder&) {}
   // Adds the equation of the unknown `rate`, the time derivative of the algebraic unknown, if this kernel owns that
   // one.
-  virtual bool add_rate_equation(std::int32_t /*algebraic*/, std::int32_t /*rate*/, const Signals&) { return false; }
+  virtual bool add_rate_equation(std::int32_t /*algebraic*/, std::int32_t /*rate*/, Binder&) { return false; }
 
+  // --- equations ------------------------------------------------------------------------------------
   // Constraint rows with their values and coefficients at all levels.
   virtual void constraints(const Motion&, ConstraintRows&) const {}
   // Conditions at the start, and a position row for each: the displacement less what is asked, or zero where only the
@@ -79,65 +110,18 @@ class Kernel {
   virtual void start_rows(const Motion&, std::int32_t /*first_row*/, ConstraintRows&) const {}
   // Residuals of balance, algebraic and differential equations, and the partials that are wanted.
   virtual void equations(const Motion&, Equations&) const {}
+
+  // --- what others read of the elements, null where there is nothing ---------------------------------
+  virtual const WrenchSource* wrenches() const { return nullptr; }
+  virtual const ChannelSource* channels() const { return nullptr; }
+
+  // --- events ---------------------------------------------------------------------------------------
   // An accepted configuration: take over what the memory holds (turn counts).
   virtual void remember(const Motion&, Memory&) const {}
-
-  // --- what force functions need -------------------------------------------------------------------
-  virtual bool has_wrench() const { return false; }
-  // How many wrenches its elements exert: one each, but where one acts on many markers.
-  virtual std::size_t wrench_count(std::size_t elements) const { return elements; }
-  virtual std::size_t element_of_wrench(std::size_t which) const { return which; }
-  virtual MarkerId marker_I(std::size_t) const { return {}; }
-  virtual MarkerId marker_J(std::size_t) const { return {}; }
-  // The marker along whose axes the statement gives the components.
-  virtual MarkerId marker_of_axes(std::size_t which) const { return marker_J(which); }
-  virtual void wrench(const Motion&, std::size_t /*which*/, bool /*with_partials*/, MarkerWrench&) const {}
-
-  // --- what data functions read ----------------------------------------------------------------------
-  virtual Channel value_channel(std::size_t /*element*/) const { return {}; }  // VARVAL
-  // The expression that gives this value, null if none does.
-  virtual const BoundExpression* value_function(std::size_t /*element*/) const { return nullptr; }
-  virtual Channel state_channel(std::size_t /*element*/, std::size_t /*n*/) const { return {}; }
-  virtual Channel output_channel(std::size_t /*element*/, std::size_t /*n*/) const { return {}; }
-
   // Adds why elements yield no finite values or derivatives here.
   virtual void undefined_values(const Motion&, std::vector<UndefinedValue>&) const {}
   // A sentence on how a converged point lies outside of what an element describes, empty if it does not.
   virtual std::string domain_violation(const Motion&) const { return {}; }
-};
-
-// What expressions refer to, resolved by the system.
-class Signals {
- public:
-  virtual ~Signals() = default;
-  virtual const Layout& layout() const = 0;
-  virtual MarkerId marker(std::int64_t id) const = 0;  // global_frame for 0
-  // The fixed marker at which a floating one is, any other itself.
-  virtual MarkerId place_of(MarkerId) const = 0;
-  // Whether anything gives the marker a place: a floating one may have none.
-  virtual bool has_place(MarkerId) const = 0;
-  virtual Channel variable(VariableRef) const = 0;
-  // Entry `n` (0-based) of an ARRAY of any type.
-  virtual Channel array_entry(ArrayRef, std::size_t n) const = 0;
-  virtual std::size_t array_size(ArrayRef) const = 0;
-  // A data atom: VARVAL, ARYVAL, DIF, DIF1, PINVAL, POUVAL.
-  virtual Channel data(const Atom&) const = 0;
-  // The unknown that a DELAY is.
-  virtual Channel delayed(const Atom&) const = 0;
-  // The time derivative of a channel; that of an algebraic value becomes an unknown of its own.
-  virtual Channel rate_of(const Channel&) const = 0;
-  // Notes why the model cannot be solved as it stands, and where that is written.
-  virtual void problem(std::string_view code, const Span& at, std::string, std::string hint = {}) const = 0;
-  // Gives a call its SPLINE or CURVE.
-  virtual void attach(SplineUse&) const = 0;
-  struct Element {
-    const Kernel* kernel = nullptr;
-    std::size_t index = 0;
-  };
-  virtual Element element(std::string_view statement, std::int64_t id) const = 0;
-  virtual Element element(ElementHandle) const = 0;
-  virtual std::vector<Element> elements_at(MarkerId) const = 0;
-  virtual std::int32_t add_memory(const Span& owner, double initial) const = 0;
 };
 
 }  // namespace dynalin

@@ -17,16 +17,6 @@
 
 namespace dynalin {
 
-struct PairMotion {
-  BodyId body_I, body_J;
-  Mat3<Taylor> axes_J;             // global
-  RelativeFrame<Taylor> relative;  // I seen from J
-  Vec3<Taylor> arm_I, arm_J;       // from the BCS of the body to its marker, global axes
-  Vec3<Taylor> arm;                // from the BCS of J's body to the origin of I
-  Vec3<Taylor> delta;              // from J to I
-  Vector w_J;                      // angular velocity of J's body
-};
-
 PairMotion pair_motion(const Motion&, const MarkerPlace& I, const MarkerPlace& J);
 
 // Partials of one vector with respect to the four groups of coordinates; columns are coordinates.

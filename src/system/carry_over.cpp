@@ -72,6 +72,7 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
   OperatingPoint out = to.drawn();
   out.time = op.time;
   out.mode = op.mode;
+  out.redundancy_tolerance = op.redundancy_tolerance;
 
   const auto body_key = [](const Layout& l, std::size_t k, Keys& keys) {
     return keys.next(l.bodies[k].label.statement, l.bodies[k].label.id, "");

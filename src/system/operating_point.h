@@ -19,6 +19,8 @@ struct OperatingPoint {
   std::vector<double> algebraic;
   std::vector<double> state, state_rate;
   Memory memory;
+  // How far redundant constraint rows may be from following from the others, in scales of the row: ERROR of IC.
+  double redundancy_tolerance = 1e-10;
 };
 
 // Why an analysis did not deliver: what was tried and what is to blame, by name.

@@ -72,13 +72,13 @@ class Reading {
     for (const auto& set : model_.sets) {
       if (set->size() == 0 || !set->active) continue;
       const ElementLabel& first = set->labels.front();
-      const Kernel* kernel = system_.signals().element(first.statement, first.id).kernel;
-      if (!kernel || !kernel->has_wrench()) continue;
+      const WrenchSource* wrenches = system_.signals().wrench(first.statement, first.id).source;
+      if (!wrenches) continue;
       const std::size_t statement = order.emplace(first.statement, order.size()).first->second;
-      for (std::size_t w = 0; w < kernel->wrench_count(set->size()); ++w) {
-        const ElementLabel& label = set->labels[kernel->element_of_wrench(w)];
+      for (std::size_t w = 0; w < wrenches->wrench_count(set->size()); ++w) {
+        const ElementLabel& label = set->labels[wrenches->element_of_wrench(w)];
         const bool constraint = std::binary_search(owners.begin(), owners.end(), &label);
-        entries.push_back({statement, label.id, constraint, load(*kernel, w, *set, label)});
+        entries.push_back({statement, label.id, constraint, load(*wrenches, w, *set, label)});
       }
     }
     std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
@@ -87,17 +87,17 @@ class Reading {
     for (Entry& e : entries) (e.constraint ? state_.reactions : state_.forces).push_back(std::move(e.load));
   }
 
-  Load load(const Kernel& kernel, std::size_t which, const ElementSet& set, const ElementLabel& label) {
+  Load load(const WrenchSource& wrenches, std::size_t which, const ElementSet& set, const ElementLabel& label) {
     wrench_.clear();
-    kernel.wrench(motion_, which, false, wrench_);
+    wrenches.wrench(motion_, which, false, wrench_);
     Load l;
     l.element = label.text();
     l.variant = set.kind().variant;
     l.view_name = label.view_name;
     const auto id = [&](MarkerId m) { return m.valid() ? model_.marker(m).label.id : 0; };
-    l.marker_I = id(kernel.marker_I(which)), l.marker_J = id(kernel.marker_J(which));
+    l.marker_I = id(wrenches.marker_I(which)), l.marker_J = id(wrenches.marker_J(which));
     l.force = plain(wrench_.force.force), l.torque = plain(wrench_.force.torque);
-    const MarkerId of_axes = kernel.marker_of_axes(which);
+    const MarkerId of_axes = wrenches.marker_of_axes(which);
     const bool fixed = of_axes.valid() && !model_.marker(of_axes).floating;
     const Matrix3 R = fixed ? motion_.axes(layout_.marker(of_axes)) : Matrix3::identity();
     l.axes = fixed ? id(of_axes) : 0;

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <tl/expected.hpp>
 #include <vector>
 
 #include "elements/families/delay.h"
 #include "mechanics/equations.h"
 #include "mechanics/kernel.h"
+#include "mechanics/signals.h"
 #include "model/model.h"
 #include "system/elimination.h"
 #include "system/operating_point.h"
@@ -26,9 +28,14 @@ struct SystemOptions {
   DelayReading delays = DelayReading::first_order;
 };
 
+class SignalTable;
+
+// Finished when it is made, and never changed after: many threads may use one at a time.
 class System {
  public:
-  explicit System(std::shared_ptr<const Model>, const SystemOptions& = {});
+  // The equations of a model, or why it cannot be solved as it stands.
+  static tl::expected<std::shared_ptr<const System>, Diagnostics> make(std::shared_ptr<const Model>,
+                                                                       const SystemOptions& = {});
   ~System();
   System(const System&) = delete;
   System& operator=(const System&) = delete;
@@ -37,9 +44,6 @@ class System {
   const Layout& layout() const { return layout_; }
   const Signals& signals() const;
   double length() const { return length_; }  // by which displacements are made comparable with rotations
-  // How far redundant rows may be from following from the others, in scales of the row: ERROR of IC.
-  double assembly_error() const { return assembly_error_; }
-  void state_settings(const InitialConditionSettings& s) { assembly_error_ = s.error.value_or(1e-10); }
   std::size_t coordinates() const { return static_cast<std::size_t>(layout_.coordinate_count); }
 
   OperatingPoint drawn() const;  // poses and states as the dataset gives them, everything else zero
@@ -68,13 +72,17 @@ class System {
   std::string row_text(std::int32_t row) const;
 
  private:
-  class SystemSignals;
+  explicit System(std::shared_ptr<const Model>);
+  void number_bodies();
+  void make_kernels(DelayReading);
+  void scale_coordinates();
+
   std::shared_ptr<const Model> model_;
   Layout layout_;
   std::vector<std::unique_ptr<Kernel>> kernels_;
-  std::unique_ptr<SystemSignals> signals_;
+  std::unique_ptr<SignalTable> signals_;
   std::vector<StartCondition> starts_;
-  double length_ = 1, assembly_error_ = 0;
+  double length_ = 1;
   std::vector<double> scale_;
   std::vector<std::int32_t> preference_;
 };

@@ -91,14 +91,14 @@ constexpr Kind test_kind(std::string_view statement) {
 }
 constexpr Kind parabola = test_kind<Parabola, ParabolaKernel>("UCON");
 
-std::unique_ptr<const System> system_of(const std::string& text) {
+std::shared_ptr<const System> system_of(const std::string& text) {
   std::vector<const Kind*> kinds(catalogue().begin(), catalogue().end());
   kinds.push_back(&parabola);
   auto dataset = parse_dataset(std::make_shared<const SourceText>("test.adm", text));
   EXPECT_FALSE(dataset.diagnostics.has_errors()) << render(dataset.diagnostics);
   auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), kinds);
   EXPECT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics);
-  return std::make_unique<const System>(std::shared_ptr<const Model>(std::move(model.value)));
+  return System::make(std::move(model.value)).value();
 }
 
 const std::string bead =

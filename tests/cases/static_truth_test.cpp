@@ -225,7 +225,8 @@ TEST_F(StaticTruth, parts_without_mass_need_none_to_rest) {
   auto written = parse_dataset(std::make_shared<const SourceText>("massless.adm", text));
   auto built = build_model(std::make_shared<const Dataset>(std::move(written.value)), catalogue());
   ASSERT_FALSE(built.diagnostics.has_errors()) << render(built.diagnostics);
-  const System system{std::shared_ptr<const Model>(std::move(built.value))};
+  const auto made = System::make(std::move(built.value)).value();
+  const System& system = *made;
   Findings findings;
   StaticsReport report;
   const auto op = find_equilibrium(system, system.drawn(), {}, report, findings);

@@ -30,10 +30,10 @@ void evaluate_at(const Expression& e, const std::vector<T>& atoms) {
   demand(is_finite(value) == is_finite(again), "the value depends on whether partials are wanted");
   bool all = is_finite(value);
   for (const T& p : partials) all = all && is_finite(p);
-  const auto found = e.find_fault(at, FaultSearch::value_and_partials);
+  const auto found = e.find_undefined(at, UndefinedSearch::value_and_partials);
   demand(found.has_value() == !all, found ? "a fault where all is finite" : "no fault names what is not finite");
   demand(!found || (!found->reason.empty() && !found->function.empty()), "a fault without name or reason");
-  demand(e.find_fault(at, FaultSearch::value).has_value() == !is_finite(value), "a fault of the value alone");
+  demand(e.find_undefined(at, UndefinedSearch::value).has_value() == !is_finite(value), "a fault of the value alone");
 }
 
 // Data of four points for every SPLINE and no data for a CURVE, whose value then is a fault.

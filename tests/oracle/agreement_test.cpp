@@ -45,7 +45,8 @@ TEST_P(Agreement, state_matrices_equal_differences_of_the_nonlinear_model) {
     ASSERT_FALSE(dataset.diagnostics.has_errors()) << render(dataset.diagnostics) << text;
     auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
     ASSERT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics);
-    const System system{std::shared_ptr<const Model>(std::move(model.value))};
+    const auto made = System::make(std::move(model.value)).value();
+    const System& system = *made;
     Findings findings;
     const auto op = initial_conditions(system, findings);
     ASSERT_TRUE(op) << op.error().message << "\n" << text;

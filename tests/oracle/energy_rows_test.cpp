@@ -112,7 +112,8 @@ void compare(std::uint64_t seed, Seen& seen) {
   auto dataset = parse_dataset(std::make_shared<const SourceText>("generated.adm", dataset_text(mechanism)));
   auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
   ASSERT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics);
-  const System system{std::shared_ptr<const Model>(std::move(model.value))};
+  const auto made = System::make(std::move(model.value)).value();
+  const System& system = *made;
   Findings findings;
   const auto op = initial_conditions(system, findings);
   ASSERT_TRUE(op) << op.error().message;

@@ -39,7 +39,8 @@ TEST_P(Statics, generated_mechanisms_come_to_rest_or_say_why_not) {
     auto dataset = parse_dataset(std::make_shared<const SourceText>("generated.adm", text));
     auto built = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
     ASSERT_FALSE(built.diagnostics.has_errors()) << render(built.diagnostics);
-    const System system{std::shared_ptr<const ::dynalin::Model>(std::move(built.value))};
+    const auto made = System::make(std::move(built.value)).value();
+    const System& system = *made;
     Findings findings;
     StaticsReport report;
     const auto op = find_equilibrium(system, system.drawn(), {}, report, findings);

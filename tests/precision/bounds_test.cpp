@@ -38,7 +38,8 @@ class Bounds : public ::testing::Test {
     ASSERT_FALSE(dataset.diagnostics.has_errors()) << render(dataset.diagnostics) << text;
     auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
     ASSERT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics);
-    const System system{std::shared_ptr<const Model>(std::move(model.value))};
+    const auto made = System::make(std::move(model.value)).value();
+    const System& system = *made;
     Findings findings;
     const auto op = initial_conditions(system, findings);
     if (!op) {  // a draw whose accelerations have no solution
@@ -164,7 +165,8 @@ TEST(DataBounds, a_soft_spring_beside_stiff_ones) {
     auto dataset = parse_dataset(std::make_shared<const SourceText>("drawn.adm", two_slides(a, b, m1, m2)));
     auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
     ASSERT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics);
-    const System system{std::shared_ptr<const Model>(std::move(model.value))};
+    const auto made = System::make(std::move(model.value)).value();
+    const System& system = *made;
     Findings findings;
     const auto op = initial_conditions(system, findings);
     ASSERT_TRUE(op);

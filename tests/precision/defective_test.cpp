@@ -270,7 +270,8 @@ class Spectrum {
     ASSERT_FALSE(dataset.diagnostics.has_errors()) << render(dataset.diagnostics) << drawn.text;
     auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
     ASSERT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics) << drawn.text;
-    const System system{std::shared_ptr<const Model>(std::move(model.value))};
+    const auto made = System::make(std::move(model.value)).value();
+    const System& system = *made;
     Findings findings;
     const auto op = initial_conditions(system, findings);
     ASSERT_TRUE(op) << op.error().message << drawn.text;

@@ -44,13 +44,13 @@ class GeneralConstraintKernel final : public Kernel {
     }
   }
 
-  void bind(const Signals& signals) override {
+  void bind(Binder& binder) override {
     for (Row& r : rows_) {
-      r.function = BoundExpression(r.written, signals);
+      r.function = BoundExpression(r.written, binder);
       const Atom* atom = r.function.atom_on_curve();
       if (!atom) continue;
-      signals.problem("unfit-constraint", atom->at,
-                      fmt::format("{} follows a marker along a curve, which no constraint can", atom->at.text()));
+      binder.problem("unfit-constraint", atom->at,
+                     fmt::format("{} follows a marker along a curve, which no constraint can", atom->at.text()));
     }
   }
   void constraints(const Motion& motion, ConstraintRows& rows) const override {
@@ -62,7 +62,7 @@ class GeneralConstraintKernel final : public Kernel {
   void equations(const Motion& motion, Equations& eq) const override {
     if (!eq.wants_partials()) return;
     for (const Row& r : rows_) {
-      eq.begin_element(r.row, 1);
+      eq.begin_constraint(r.row);
       r.function.add_reaction_partials(motion, eq, motion.lambda[static_cast<std::size_t>(r.row)], r.level);
     }
   }

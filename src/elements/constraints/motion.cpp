@@ -66,7 +66,7 @@ struct PrescribedMotion {
   }
 };
 
-class MotionKernel final : public Kernel {
+class MotionKernel final : public Kernel, public WrenchSource {
  public:
   MotionKernel(const std::vector<PrescribedMotion>& elements, const std::vector<ElementLabel>& labels, Layout& layout)
       : labels_(&labels) {
@@ -78,8 +78,8 @@ class MotionKernel final : public Kernel {
     }
   }
 
-  void bind(const Signals& signals) override {
-    for (Driven& d : driven_) d.function = BoundExpression(d.element.function, signals);
+  void bind(Binder& binder) override {
+    for (Driven& d : driven_) d.function = BoundExpression(d.element.function, binder);
   }
 
   void constraints(const Motion& motion, ConstraintRows& rows) const override {
@@ -95,12 +95,12 @@ class MotionKernel final : public Kernel {
   void equations(const Motion& motion, Equations& eq) const override {
     if (!eq.wants(PartialBy::position)) return;
     for (const Driven& d : driven_) {
-      eq.begin_element(d.row, 1);
+      eq.begin_constraint(d.row);
       d.displacement.add_reaction_partials(motion, lambda(d, motion), eq);
     }
   }
 
-  bool has_wrench() const override { return true; }
+  const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return driven_[k].element.i; }
   MarkerId marker_J(std::size_t k) const override { return driven_[k].element.j; }
   void wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const override {
@@ -155,7 +155,7 @@ class CourseInTime {
   std::optional<Expression> definition(const Atom& atom) {
     if (atom.function->family == AtomFamily::time) return std::nullopt;
     const auto variable = model_.find("VARIABLE", atom.argument[0]);
-    if (atom.function->name != "VARVAL" || !variable) {
+    if (atom.function->reads != DataSource::value || !variable) {
       diagnostics_.error("function-of-state", atom.at,
                          fmt::format("{} depends on {}, it may depend on TIME only", label_.text(), atom.at.text()));
       return std::nullopt;
@@ -186,7 +186,7 @@ class MotionSet final : public TypedSet<PrescribedMotion> {
     PrescribedMotion& m = elements[k];
     if (!read_arguments(m, reader)) return;
     for (const Atom& atom : m.function.atoms()) {
-      if (atom.function->family == AtomFamily::time || atom.function->name == "VARVAL") continue;
+      if (atom.function->family == AtomFamily::time || atom.function->reads == DataSource::value) continue;
       reader.error("function-of-state", atom.at,
                    fmt::format("FUNCTION of {} depends on {}, it may depend on TIME only", reader.label().text(),
                                atom.function->name));

@@ -43,7 +43,7 @@ struct Diff {
 bool reads_own_rate(const Diff& d, std::int64_t id) {
   const auto atoms = d.function.atoms();
   return std::any_of(atoms.begin(), atoms.end(),
-                     [&](const Atom& a) { return a.function->name == "DIF1" && a.argument[0] == id; });
+                     [&](const Atom& a) { return a.function->reads == DataSource::state_rate && a.argument[0] == id; });
 }
 
 // Whether an expression can see rates of DIFFs that its own atoms do not show: through VARIABLEs, or by forces,
@@ -57,18 +57,18 @@ bool hides_rates(const Model& model, const Expression& function) {
           f.family == AtomFamily::marker_force)
         return true;
       if (f.family == AtomFamily::marker_measure && f.order == 2) return true;
-      if (f.name == "DIF1" && indirect) return true;
+      if (f.reads == DataSource::state_rate && indirect) return true;
       const auto through = [&](VariableRef v) {
         return visited.insert(model.label(v).id).second && hides(variable_function(model, v), true);
       };
-      if (f.name == "VARVAL") {
+      if (f.reads == DataSource::value) {
         const auto v = model.find("VARIABLE", a.argument[0]);
         if (v && through({*v})) return true;
-      } else if (f.name == "PINVAL" || f.name == "POUVAL") {
+      } else if (f.reads == DataSource::list_entry) {
         const auto handle = model.find(f.statement, a.argument[0]);
         const auto* list = handle ? model.get<VariableList>(*handle) : nullptr;
         if (list && std::any_of(list->variables.begin(), list->variables.end(), through)) return true;
-      } else if (f.name == "ARYVAL") {
+      } else if (f.reads == DataSource::array_entry) {
         const auto handle = model.find("ARRAY", a.argument[0]);
         const auto* array = handle ? model.get<Array>(*handle) : nullptr;
         if (!array || array->y) return true;  // outputs of controllers pass on what they are fed

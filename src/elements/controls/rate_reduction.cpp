@@ -18,8 +18,8 @@ constexpr double rank_tolerance = 1e-10;    // of rows whose largest entry is 1
 constexpr std::size_t wanted_points = 4;    // at which M is compared, the initial values among them
 constexpr std::size_t offered_points = 24;  // some lie where a function has no value
 
-bool reads_rate(const Atom& a) { return a.function->name == "DIF1"; }
-bool reads_value(const Atom& a) { return a.function->name == "DIF"; }
+bool reads_rate(const Atom& a) { return a.function->reads == DataSource::state_rate; }
+bool reads_value(const Atom& a) { return a.function->reads == DataSource::state; }
 
 // Numbers without relations between them.
 double generic(std::size_t k) {

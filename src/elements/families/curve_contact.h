@@ -69,7 +69,7 @@ bool check_start_axes(const Model&, const ElementLabel&, MarkerId axes, std::str
                       Diagnostics&);
 
 template <class E>
-class CurveContactKernel final : public Kernel {
+class CurveContactKernel final : public Kernel, public WrenchSource {
  public:
   static constexpr std::size_t n = E::row_names.size(), m = E::parameter_names.size(), seeds = 6 + m;
 
@@ -135,7 +135,7 @@ class CurveContactKernel final : public Kernel {
   void equations(const Motion& motion, Equations& eq) const override {
     if (!eq.wants(PartialBy::position)) return;
     for (const Placed& p : contacts_) {
-      eq.begin_element(p.first_row, static_cast<std::int32_t>(n));
+      eq.begin_constraint(p.first_row, static_cast<std::int32_t>(n));
       const PairMotion pair = pair_motion(motion, p.I, p.J);
       const Nested work = reaction_work(p, pair, motion);
       const Reaction at_I = reaction_at_I(work);
@@ -168,7 +168,7 @@ class CurveContactKernel final : public Kernel {
     }
   }
 
-  bool has_wrench() const override { return true; }
+  const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return contacts_[k].contact.touch_I; }
   MarkerId marker_J(std::size_t k) const override { return contacts_[k].contact.touch_J; }
   void wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const override {

@@ -31,16 +31,16 @@ Channel DelayKernel::channel_of(const Atom& atom, std::string owner, Layout& lay
   return {Channel::Kind::algebraic, call.unknown, 0};
 }
 
-void DelayKernel::bind(const Signals& signals) {
+void DelayKernel::bind(Binder& binder) {
   std::vector<Call*> order;
   for (Call& c : calls_) order.push_back(&c);
   std::sort(order.begin(), order.end(), [](const Call* a, const Call* b) { return a->at.offset < b->at.offset; });
   for (std::size_t k = 0; k < order.size(); ++k) order[k]->label.id = static_cast<std::int64_t>(k) + 1;
   for (Call* c : order) {
     const bool needs_rate = reading_ == DelayReading::first_order && !c->never;
-    c->value = BoundExpression(c->written->value, signals, needs_rate ? Binding::rates : Binding::equations);
-    c->lag = BoundExpression(c->written->lag, signals);
-    c->history = c->written->history.with_curves([&](SplineUse& use) { signals.attach(use); });
+    c->value = BoundExpression(c->written->value, binder, needs_rate ? Binding::rates : Binding::equations);
+    c->lag = BoundExpression(c->written->lag, binder);
+    c->history = c->written->history.with_curves([&](SplineUse& use) { binder.attach(use); });
   }
 }
 

@@ -30,7 +30,7 @@ class DelayKernel final : public Kernel {
   // The unknown of a call, made when it is met for the first time. `owner` names the statement it stands in.
   Channel channel_of(const Atom&, std::string owner, Layout&);
   // After all others, when every call is known.
-  void bind(const Signals&) override;
+  void bind(Binder&) override;
   void equations(const Motion&, Equations&) const override;
   void remember(const Motion&, Memory&) const override;
   void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;

@@ -37,40 +37,40 @@ FunctionEquationKernel::FunctionEquationKernel(std::vector<Item> items, const st
   }
 }
 
-void FunctionEquationKernel::bind(const Signals& signals) {
+void FunctionEquationKernel::bind(Binder& binder) {
   for (std::size_t k = 0; k < items_.size(); ++k) {
     const Item& item = items_[k];
     if (item.terms.empty()) {
       const bool value_less_function = item.form == Form::value || item.form == Form::rate;
-      parts_.push_back({k, k, value_less_function ? -1.0 : 1.0, BoundExpression(item.function, signals)});
+      parts_.push_back({k, k, value_less_function ? -1.0 : 1.0, BoundExpression(item.function, binder)});
     }
     const bool condition = item.form == Form::condition;
     for (const Term& t : item.terms) {
       const Expression& e = items_[t.of].function;
       parts_.push_back(
-          {k, t.of, t.factor, BoundExpression(e, signals, condition ? Binding::condition : Binding::equations)});
-      if (condition) whole_.push_back({k, t.of, t.factor, BoundExpression(e, signals)});
+          {k, t.of, t.factor, BoundExpression(e, binder, condition ? Binding::condition : Binding::equations)});
+      if (condition) whole_.push_back({k, t.of, t.factor, BoundExpression(e, binder)});
       if (!t.with_rate) continue;
       if (condition) {
         whole_.back().rate = unknowns_[t.of];
       } else {
-        parts_.back().rate = signals.rate_of(unknowns_[t.of]);
+        parts_.back().rate = binder.rate_of(unknowns_[t.of]);
       }
     }
   }
 }
 
-bool FunctionEquationKernel::add_rate_equation(std::int32_t algebraic, std::int32_t rate, const Signals& signals) {
+bool FunctionEquationKernel::add_rate_equation(std::int32_t algebraic, std::int32_t rate, Binder& binder) {
   for (std::size_t k = 0; k < items_.size(); ++k) {
     const Item& item = items_[k];
     if (!is_algebraic(item.form) || unknowns_[k].index != algebraic) continue;
     const bool value = item.form == Form::value;
     if (item.terms.empty()) {
-      rates_.push_back({rate, value, value ? -1.0 : 1.0, BoundExpression(item.function, signals, Binding::rates), k});
+      rates_.push_back({rate, value, value ? -1.0 : 1.0, BoundExpression(item.function, binder, Binding::rates), k});
     }
     for (const Term& t : item.terms) {
       rates_.push_back(
-          {rate, false, t.factor, BoundExpression(items_[t.of].function, signals, Binding::condition_rates), t.of});
+          {rate, false, t.factor, BoundExpression(items_[t.of].function, binder, Binding::condition_rates), t.of});
     }
     return true;
   }
@@ -149,7 +149,7 @@ std::string FunctionEquationKernel::domain_violation(const Motion& motion) const
     const auto partials = p.function.partials(motion, scratch);
     const auto atoms = items_[p.of].function.atoms();
     for (std::size_t a = 0; a < atoms.size(); ++a) {
-      if (atoms[a].function->name == "DIF1") add(atoms[a].argument[0], p.factor * partials[a]);
+      if (atoms[a].function->reads == DataSource::state_rate) add(atoms[a].argument[0], p.factor * partials[a]);
     }
     if (p.rate.kind != Channel::Kind::none) add((*labels_)[p.of].id, -p.factor);
     if (k + 1 < whole_.size() && whole_[k + 1].item == p.item) continue;

@@ -19,7 +19,7 @@
 
 namespace dynalin {
 
-class FunctionEquationKernel final : public Kernel {
+class FunctionEquationKernel final : public Kernel, public ChannelSource {
  public:
   enum class Form : std::uint8_t { value, rate, implicit_state, implicit_algebraic, condition };
   struct Term {
@@ -37,10 +37,11 @@ class FunctionEquationKernel final : public Kernel {
   };
 
   FunctionEquationKernel(std::vector<Item>, const std::vector<ElementLabel>&, Layout&);
-  void bind(const Signals&) override;
-  bool add_rate_equation(std::int32_t algebraic, std::int32_t rate, const Signals&) override;
+  void bind(Binder&) override;
+  bool add_rate_equation(std::int32_t algebraic, std::int32_t rate, Binder&) override;
   void equations(const Motion&, Equations&) const override;
   void remember(const Motion&, Memory&) const override;
+  const ChannelSource* channels() const override { return this; }
   Channel value_channel(std::size_t element) const override { return unknowns_[element]; }
   const BoundExpression* value_function(std::size_t element) const override;
   Channel state_channel(std::size_t element, std::size_t) const override { return unknowns_[element]; }

@@ -24,14 +24,14 @@ struct FunctionForce {
   Expression magnitude;
 };
 
-class FunctionForceKernel final : public Kernel {
+class FunctionForceKernel final : public Kernel, public WrenchSource {
  public:
   FunctionForceKernel(std::vector<FunctionForce>, const std::vector<ElementLabel>&, Layout&);
 
-  void bind(const Signals&) override;
+  void bind(Binder&) override;
   void equations(const Motion&, Equations&) const override;
   void remember(const Motion&, Memory&) const override;
-  bool has_wrench() const override { return true; }
+  const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return forces_[k].element.i; }
   MarkerId marker_J(std::size_t k) const override { return forces_[k].element.j; }
   void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;

@@ -19,7 +19,7 @@ InertiaKernel::InertiaKernel(const Model& model, BodyKind kind) : gravity_(model
 
 void InertiaKernel::equations(const Motion& motion, Equations& eq) const {
   for (const Mass& m : masses_) {
-    eq.begin_element();
+    eq.begin_element(eq.layout().body(m.body).label);
     const BodyMotion& b = motion.body(m.body);
     const BodyBlock& block = eq.layout().body(m.body);
     const Vector c = b.R * m.moment, cdot = b.Rdot * m.moment, cddot = b.Rddot * m.moment;

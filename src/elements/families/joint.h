@@ -164,7 +164,7 @@ struct Joint {
 };
 
 template <class E>
-class JointKernel final : public Kernel {
+class JointKernel final : public Kernel, public WrenchSource {
  public:
   static constexpr std::size_t n = Joint<E>::n;
 
@@ -204,7 +204,7 @@ class JointKernel final : public Kernel {
     // The reaction itself is added from the constraint rows; here only its variation.
     if (!eq.wants(PartialBy::position)) return;
     for (const Placed& p : joints_) {
-      eq.begin_element(p.first_row, static_cast<std::int32_t>(n));
+      eq.begin_constraint(p.first_row, static_cast<std::int32_t>(n));
       const PairMotion pair = pair_motion(motion, p.I, p.J);
       apply_partials(pair, spread(pair, reaction_of(p, pair, motion), true), eq);
     }
@@ -224,7 +224,7 @@ class JointKernel final : public Kernel {
     }
   }
 
-  bool has_wrench() const override { return true; }
+  const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return joints_[k].joint.i; }
   MarkerId marker_J(std::size_t k) const override { return joints_[k].joint.j; }
   void wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const override {

@@ -38,7 +38,7 @@ void JointRelationKernel::constraints(const Motion& motion, ConstraintRows& rows
 void JointRelationKernel::equations(const Motion& motion, Equations& eq) const {
   if (!eq.wants(PartialBy::position)) return;
   for (const Relation& r : relations_) {
-    eq.begin_element(r.row, 1);
+    eq.begin_constraint(r.row);
     const double lambda = motion.lambda[static_cast<std::size_t>(r.row)];
     for (const auto& [q, factor] : r.terms) q.add_reaction_partials(motion, factor * lambda, eq);
   }

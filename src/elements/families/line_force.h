@@ -17,7 +17,7 @@
 namespace dynalin {
 
 template <class E>
-class LineForceKernel final : public Kernel {
+class LineForceKernel final : public Kernel, public WrenchSource {
  public:
   LineForceKernel(const std::vector<E>& elements, const std::vector<ElementLabel>& labels, Layout& layout)
       : labels_(&labels) {
@@ -25,14 +25,15 @@ class LineForceKernel final : public Kernel {
   }
 
   void equations(const Motion& motion, Equations& eq) const override {
-    for (const Force& f : forces_) {
+    for (std::size_t k = 0; k < forces_.size(); ++k) {
+      const Force& f = forces_[k];
       const PairMotion pair = pair_motion(motion, f.I, f.J);
-      eq.begin_element();
+      eq.begin_element((*labels_)[k]);
       apply(pair, force_of(f, pair, eq.wants_partials()), eq);
     }
   }
 
-  bool has_wrench() const override { return true; }
+  const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return forces_[k].element.i; }
   MarkerId marker_J(std::size_t k) const override { return forces_[k].element.j; }
   void wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const override {
@@ -65,9 +66,10 @@ class LineForceKernel final : public Kernel {
 };
 
 template <class E>
-class AxisTorqueKernel final : public Kernel {
+class AxisTorqueKernel final : public Kernel, public WrenchSource {
  public:
-  AxisTorqueKernel(const std::vector<E>& elements, const std::vector<ElementLabel>& labels, Layout& layout) {
+  AxisTorqueKernel(const std::vector<E>& elements, const std::vector<ElementLabel>& labels, Layout& layout)
+      : labels_(&labels) {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const E& e = elements[k];
       torques_.push_back({e, layout.marker(e.i), layout.marker(e.j), layout.add_memory(labels[k].at)});
@@ -75,9 +77,10 @@ class AxisTorqueKernel final : public Kernel {
   }
 
   void equations(const Motion& motion, Equations& eq) const override {
-    for (const Torque& t : torques_) {
+    for (std::size_t k = 0; k < torques_.size(); ++k) {
+      const Torque& t = torques_[k];
       const PairMotion pair = pair_motion(motion, t.I, t.J);
-      eq.begin_element();
+      eq.begin_element((*labels_)[k]);
       apply(pair, torque_of(t, pair, motion, eq.wants_partials()), eq);
     }
   }
@@ -89,7 +92,7 @@ class AxisTorqueKernel final : public Kernel {
     }
   }
 
-  bool has_wrench() const override { return true; }
+  const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return torques_[k].element.i; }
   MarkerId marker_J(std::size_t k) const override { return torques_[k].element.j; }
   void wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const override {
@@ -123,6 +126,7 @@ class AxisTorqueKernel final : public Kernel {
     return force;
   }
   std::vector<Torque> torques_;
+  const std::vector<ElementLabel>* labels_;
 };
 
 template <class E, template <class> class KernelOf>

@@ -1,5 +1,7 @@
 #include "elements/families/linear_states.h"
 
+#include "mechanics/binder.h"
+
 namespace dynalin {
 
 LinearStatesKernel::LinearStatesKernel(std::vector<LinearStates> laws, const std::vector<ElementLabel>& labels,
@@ -20,13 +22,13 @@ LinearStatesKernel::LinearStatesKernel(std::vector<LinearStates> laws, const std
   }
 }
 
-void LinearStatesKernel::bind(const Signals& signals) {
+void LinearStatesKernel::bind(Binder& binder) {
   for (Element& e : elements_) {
-    for (const VariableRef u : e.law.inputs) e.inputs.push_back(signals.variable(u).index);
+    for (const VariableRef u : e.law.inputs) e.inputs.push_back(binder.signals().variable(u).index);
   }
 }
 
-bool LinearStatesKernel::add_rate_equation(std::int32_t algebraic, std::int32_t rate, const Signals& signals) {
+bool LinearStatesKernel::add_rate_equation(std::int32_t algebraic, std::int32_t rate, Binder& binder) {
   for (std::size_t k = 0; k < elements_.size(); ++k) {
     const Element& e = elements_[k];
     const Eigen::Index output = algebraic - e.first_output;
@@ -35,7 +37,7 @@ bool LinearStatesKernel::add_rate_equation(std::int32_t algebraic, std::int32_t 
     for (Eigen::Index c = 0; c < e.law.D.cols(); ++c) {
       const bool counts = e.law.D(output, c) != 0.0;
       const Channel u{Channel::Kind::algebraic, e.inputs[static_cast<std::size_t>(c)], 0};
-      r.inputs.push_back(counts ? signals.rate_of(u) : Channel());
+      r.inputs.push_back(counts ? binder.rate_of(u) : Channel());
     }
     rates_.push_back(std::move(r));
     return true;

@@ -18,12 +18,13 @@ struct LinearStates {
   bool held_in_statics = false;
 };
 
-class LinearStatesKernel final : public Kernel {
+class LinearStatesKernel final : public Kernel, public ChannelSource {
  public:
   LinearStatesKernel(std::vector<LinearStates>, const std::vector<ElementLabel>&, Layout&);
-  void bind(const Signals&) override;
-  bool add_rate_equation(std::int32_t algebraic, std::int32_t rate, const Signals&) override;
+  void bind(Binder&) override;
+  bool add_rate_equation(std::int32_t algebraic, std::int32_t rate, Binder&) override;
   void equations(const Motion&, Equations&) const override;
+  const ChannelSource* channels() const override { return this; }
   Channel state_channel(std::size_t element, std::size_t n) const override;
   Channel output_channel(std::size_t element, std::size_t n) const override;
 

@@ -59,7 +59,8 @@ std::array<double, 3> total_angles(const PairMotion& pair, std::span<const doubl
 }
 
 LinearWrenchKernel::LinearWrenchKernel(const std::vector<LinearWrench>& laws, const std::vector<ElementLabel>& labels,
-                                       Layout& layout) {
+                                       Layout& layout)
+    : labels_(&labels) {
   laws_.reserve(laws.size());
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const LinearWrench& law = laws[k];
@@ -92,8 +93,9 @@ PairForce LinearWrenchKernel::force_of(const Placed& p, const PairMotion& pair, 
 }
 
 void LinearWrenchKernel::equations(const Motion& motion, Equations& eq) const {
-  for (const Placed& p : laws_) {
-    eq.begin_element();
+  for (std::size_t k = 0; k < laws_.size(); ++k) {
+    const Placed& p = laws_[k];
+    eq.begin_element((*labels_)[k]);
     const PairMotion pair = pair_motion(motion, p.I, p.J);
     apply(pair, force_of(p, pair, motion, eq.wants_partials()), eq);
   }

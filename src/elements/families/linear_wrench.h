@@ -17,9 +17,6 @@
 
 namespace dynalin {
 
-using Array6 = std::array<double, 6>;
-using Array66 = std::array<Array6, 6>;  // [row][column]
-
 struct LinearWrench {
   MarkerId i, j;
   Array66 K{}, C{};          // stiffness and damping
@@ -29,22 +26,17 @@ struct LinearWrench {
   bool turns() const;
 };
 
-// The displacement y, its gradient by the relative pose, and the rate y′ with its gradients by pose and rate of pose.
-struct RelativeDisplacement {
-  Array6 y{}, rate{};
-  Array66 on_pose{}, rate_on_pose{}, rate_on_rate{};
-};
 // `turns` holds the total angles that AX, AY, AZ are unwrapped to.
 RelativeDisplacement relative_displacement(const PairMotion&, std::span<const double> turns);
 // Total angles for the memory.
 std::array<double, 3> total_angles(const PairMotion&, std::span<const double> turns);
 
-class LinearWrenchKernel final : public Kernel {
+class LinearWrenchKernel final : public Kernel, public WrenchSource {
  public:
   LinearWrenchKernel(const std::vector<LinearWrench>&, const std::vector<ElementLabel>&, Layout&);
   void equations(const Motion&, Equations&) const override;
   void remember(const Motion&, Memory&) const override;
-  bool has_wrench() const override { return true; }
+  const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return laws_[k].law.i; }
   MarkerId marker_J(std::size_t k) const override { return laws_[k].law.j; }
   void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;
@@ -57,6 +49,7 @@ class LinearWrenchKernel final : public Kernel {
   };
   static PairForce force_of(const Placed&, const PairMotion&, const Motion&, bool with_partials);
   std::vector<Placed> laws_;
+  const std::vector<ElementLabel>* labels_;
 };
 
 // Elements E that give `LinearWrench law(ElementReader&)` from their arguments, reporting what does not fit.

@@ -21,9 +21,9 @@ VectorForceKernel::VectorForceKernel(std::vector<VectorForce> elements, const st
   }
 }
 
-void VectorForceKernel::bind(const Signals& signals) {
+void VectorForceKernel::bind(Binder& binder) {
   for (Force& f : forces_) {
-    for (Component& c : f.components) c.expression = BoundExpression(*f.element.component[c.axis], signals);
+    for (Component& c : f.components) c.expression = BoundExpression(*f.element.component[c.axis], binder);
   }
 }
 
@@ -51,7 +51,7 @@ void VectorForceKernel::equations(const Motion& motion, Equations& eq) const {
   MarkerWrench w;
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     const Force& f = forces_[k];
-    eq.begin_element();
+    eq.begin_element((*labels_)[k]);
     for (const Component& c : f.components) {
       const std::int32_t row = eq.algebraic_row(c.algebraic);
       eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(c.algebraic)]);

@@ -20,13 +20,13 @@ struct VectorForce {
   std::array<std::optional<Expression>, 6> component;
 };
 
-class VectorForceKernel final : public Kernel {
+class VectorForceKernel final : public Kernel, public WrenchSource {
  public:
   VectorForceKernel(std::vector<VectorForce>, const std::vector<ElementLabel>&, Components, Layout&);
-  void bind(const Signals&) override;
+  void bind(Binder&) override;
   void equations(const Motion&, Equations&) const override;
   void remember(const Motion&, Memory&) const override;
-  bool has_wrench() const override { return true; }
+  const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return forces_[k].element.i; }
   MarkerId marker_J(std::size_t k) const override { return forces_[k].element.jfloat; }
   MarkerId marker_of_axes(std::size_t k) const override { return forces_[k].element.rm; }

@@ -47,10 +47,10 @@ struct Law {
   std::vector<double> K, C, length, force;
 };
 
-class NforceKernel final : public Kernel {
+class NforceKernel final : public Kernel, public WrenchSource {
  public:
   NforceKernel(const std::vector<Law>& laws, const std::vector<ElementLabel>& labels, Layout& layout)
-      : layout_(layout) {
+      : layout_(layout), labels_(&labels) {
     for (const Law& law : laws) {
       const Span& owner = labels[laws_.size()].at;
       Placed p{law, {}, layout.marker(law.j), {}};
@@ -66,16 +66,18 @@ class NforceKernel final : public Kernel {
   }
 
   void equations(const Motion& motion, Equations& eq) const override {
-    for (const Placed& p : laws_) {
-      eq.begin_element();
+    for (std::size_t law = 0; law < laws_.size(); ++law) {
+      const Placed& p = laws_[law];
+      eq.begin_element((*labels_)[law]);
       const std::size_t n = p.I.size();
-      look(p, motion);
+      PairScratch& at = eq.pair_scratch;
+      look(p, motion, at);
       for (std::size_t k = 0; k < n; ++k) {
         // The force itself turns with J and its arms move; each marker adds what its displacement changes.
-        apply(pairs_[k], spread(pairs_[k], total(p, k), eq.wants_partials()), eq);
+        apply(at.pairs[k], spread(at.pairs[k], total(p, k, at), eq.wants_partials()), eq);
         if (!eq.wants_partials()) continue;
         for (std::size_t l = 0; l < n; ++l)
-          apply_cross_partials(pairs_[k], pairs_[l], spread(pairs_[l], change(p, k, l), true), eq);
+          apply_cross_partials(at.pairs[k], at.pairs[l], spread(at.pairs[l], change(p, k, l, at), true), eq);
       }
     }
   }
@@ -91,7 +93,7 @@ class NforceKernel final : public Kernel {
   }
 
   // A wrench for each marker.
-  bool has_wrench() const override { return true; }
+  const WrenchSource* wrenches() const override { return this; }
   std::size_t wrench_count(std::size_t) const override { return wrenches_.size(); }
   std::size_t element_of_wrench(std::size_t w) const override { return wrenches_[w].first; }
   MarkerId marker_I(std::size_t w) const override { return law_of(w).markers[wrenches_[w].second]; }
@@ -99,14 +101,15 @@ class NforceKernel final : public Kernel {
   void wrench(const Motion& motion, std::size_t w, bool with_partials, MarkerWrench& out) const override {
     const auto [at, k] = wrenches_[w];
     const Placed& p = laws_[at];
-    look(p, motion);
-    out.pair = pairs_[k];
-    out.force = spread(out.pair, total(p, k), with_partials);
+    PairScratch& all = out.scratch;
+    look(p, motion, all);
+    out.pair = all.pairs[k];
+    out.force = spread(out.pair, total(p, k, all), with_partials);
     if (!with_partials) return;
     for (std::size_t l = 0; l < p.I.size(); ++l) {
-      const PairForce f = spread(pairs_[l], change(p, k, l), true);
+      const PairForce f = spread(all.pairs[l], change(p, k, l, all), true);
       for (std::size_t g = 0; g < 4; ++g) {
-        const BodyBlock& block = layout_.body(g < 2 ? pairs_[l].body_I : pairs_[l].body_J);
+        const BodyBlock& block = layout_.body(g < 2 ? all.pairs[l].body_I : all.pairs[l].body_J);
         const std::int32_t first = g % 2 == 0 ? 0 : 3;
         for (std::int32_t i = 0; i < 3 && block.count >= first + 3; ++i) {
           const auto c = static_cast<std::size_t>(i);
@@ -133,24 +136,24 @@ class NforceKernel final : public Kernel {
     return {law.K[at], law.C.empty() ? 0.0 : law.C[at]};
   }
   // Takes the motions of the pairs and their displacements.
-  void look(const Placed& p, const Motion& motion) const {
+  static void look(const Placed& p, const Motion& motion, PairScratch& at) {
     const std::size_t n = p.I.size();
-    pairs_.resize(n), displacements_.resize(n);
+    at.pairs.resize(n), at.displacements.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
       const auto turns = std::span(motion.memory).subspan(static_cast<std::size_t>(p.memory[k]), 3);
-      pairs_[k] = pair_motion(motion, p.I[k], p.J);
-      displacements_[k] = relative_displacement(pairs_[k], turns);
+      at.pairs[k] = pair_motion(motion, p.I[k], p.J);
+      at.displacements[k] = relative_displacement(at.pairs[k], turns);
     }
   }
   // What acts on marker k.
-  RelativeWrench total(const Placed& p, std::size_t k) const {
+  static RelativeWrench total(const Placed& p, std::size_t k, const PairScratch& at) {
     RelativeWrench w;
     for (std::size_t r = 0; r < 6; ++r) {
       double sum = p.law.force[6 * k + r];
       for (std::size_t l = 0; l < p.I.size(); ++l) {
         for (std::size_t c = 0; c < 6; ++c) {
           const auto [K, C] = entry(p.law, 6 * k + r, 6 * l + c);
-          sum -= K * (displacements_[l].y[c] - p.law.length[6 * l + c]) + C * displacements_[l].rate[c];
+          sum -= K * (at.displacements[l].y[c] - p.law.length[6 * l + c]) + C * at.displacements[l].rate[c];
         }
       }
       (r < 3 ? w.force[r] : w.torque[r - 3]) = sum;
@@ -158,10 +161,10 @@ class NforceKernel final : public Kernel {
     return w;
   }
   // How that changes with the displacement of marker l.
-  RelativeWrench change(const Placed& p, std::size_t k, std::size_t l) const {
+  static RelativeWrench change(const Placed& p, std::size_t k, std::size_t l, const PairScratch& at) {
     RelativeWrench w;
     w.depends_on_rate = true;
-    const RelativeDisplacement& d = displacements_[l];
+    const RelativeDisplacement& d = at.displacements[l];
     for (std::size_t r = 0; r < 6; ++r) {
       for (std::size_t c = 0; c < 6; ++c) {
         const auto [K, C] = entry(p.law, 6 * k + r, 6 * l + c);
@@ -175,10 +178,9 @@ class NforceKernel final : public Kernel {
   }
 
   const Layout& layout_;
+  const std::vector<ElementLabel>* labels_;
   std::vector<Placed> laws_;
   std::vector<std::pair<std::size_t, std::size_t>> wrenches_;  // law and marker
-  mutable std::vector<PairMotion> pairs_;
-  mutable std::vector<RelativeDisplacement> displacements_;
 };
 
 class NforceSet final : public TypedSet<Nforce> {

@@ -1,0 +1,31 @@
+// What elements need while a system is made: references become numbers, and where an expression reads what is not
+// there yet, an unknown, a state or a place in the memory is made for it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "mechanics/signals.h"
+
+namespace dynalin {
+
+class Binder {
+ public:
+  virtual ~Binder() = default;
+  virtual const Signals& signals() const = 0;
+  // The channel of a data atom, the rate that a DIF1 reads included.
+  virtual Channel data(const Atom&) = 0;
+  // The time derivative of a channel; that of an algebraic value becomes an unknown of its own.
+  virtual Channel rate_of(const Channel&) = 0;
+  // The unknown that a DELAY is.
+  virtual Channel delayed(const Atom&) = 0;
+  // Gives a call its SPLINE or CURVE.
+  virtual void attach(SplineUse&) = 0;
+  // `owner`: the place in the input that what is remembered belongs to.
+  virtual std::int32_t add_memory(const Span& owner, double initial) = 0;
+  // Notes why the model cannot be solved as it stands, and where that is written.
+  virtual void problem(std::string_view code, const Span& at, std::string, std::string hint = {}) = 0;
+};
+
+}  // namespace dynalin

@@ -1,0 +1,85 @@
+#include "system/signal_table.h"
+
+#include "elements/controls/array.h"
+#include "elements/controls/variable_list.h"
+
+namespace dynalin {
+
+SignalTable::SignalTable(const Model& model, const Layout& layout)
+    : model_(model), layout_(layout), kernel_of_set_(model.sets.size(), nullptr) {}
+
+void SignalTable::index_markers() {
+  at_marker_.resize(layout_.markers.size());
+  for (std::size_t s = 0; s < kernel_of_set_.size(); ++s) {
+    const WrenchSource* source = kernel_of_set_[s] ? kernel_of_set_[s]->wrenches() : nullptr;
+    if (!source) continue;
+    for (std::size_t k = 0; k < source->wrench_count(model_.sets[s]->size()); ++k) {
+      const MarkerId i = source->marker_I(k), j = source->marker_J(k);
+      at_marker_[static_cast<std::size_t>(i.index)].push_back({source, k});
+      if (!(i == j)) at_marker_[static_cast<std::size_t>(j.index)].push_back({source, k});
+    }
+  }
+}
+
+MarkerId SignalTable::marker(std::int64_t id) const { return model_.find_marker(id).value_or(global_frame); }
+
+MarkerId SignalTable::place_of(MarkerId m) const {
+  const MarkerId followed = model_.marker(m).follows;
+  return followed.valid() ? followed : m;
+}
+
+bool SignalTable::has_place(MarkerId m) const {
+  const Marker& marker = model_.marker(m);
+  return !marker.floating || marker.follows.valid() || layout_.curve_point(m);
+}
+
+Channel SignalTable::value_of(ElementHandle handle) const {
+  return kernel(handle)->channels()->value_channel(static_cast<std::size_t>(handle.index));
+}
+
+std::size_t SignalTable::array_size(ArrayRef ref) const { return model_.get<Array>(ref)->entries(); }
+
+Channel SignalTable::array_entry(ArrayRef ref, std::size_t n) const {
+  const Array& a = *model_.get<Array>(ref);
+  if (n >= a.entries()) return {};
+  if (a.u) return variable(a.variables[n]);
+  if ((a.x || a.y) && !a.owner.valid()) return {};
+  const auto owner = static_cast<std::size_t>(a.owner.index);
+  if (a.x) return kernel(a.owner)->channels()->state_channel(owner, n);
+  if (a.y) return kernel(a.owner)->channels()->output_channel(owner, n);
+  return {Channel::Kind::constant, 0, a.numbers[n]};
+}
+
+Channel SignalTable::data(const Atom& atom) const {
+  const AtomFunction& f = *atom.function;
+  const auto handle = model_.find(f.statement, atom.argument[0]);
+  if (!handle) return {};
+  const auto n = static_cast<std::size_t>(atom.argument[1] - 1);
+  switch (f.reads) {
+    case DataSource::value:
+      return value_of(*handle);
+    case DataSource::array_entry:
+      return array_entry({*handle}, n);
+    case DataSource::state:
+    case DataSource::state_rate:
+      return kernel(*handle)->channels()->state_channel(static_cast<std::size_t>(handle->index), 0);
+    case DataSource::list_entry: {
+      const auto* list = model_.get<VariableList>(*handle);
+      return list && n < list->variables.size() ? variable(list->variables[n]) : Channel{};
+    }
+    case DataSource::none:
+    case DataSource::analysis:
+    case DataSource::sensor:
+      break;
+  }
+  return {};
+}
+
+Signals::Wrench SignalTable::wrench(std::string_view statement, std::int64_t id) const {
+  const auto handle = model_.find(statement, id);
+  const Kernel* owner = handle ? kernel(*handle) : nullptr;
+  if (!owner) return {};
+  return {owner->wrenches(), static_cast<std::size_t>(handle->index)};
+}
+
+}  // namespace dynalin

@@ -1,0 +1,52 @@
+// Binds the kernels of a System that is being made: what their expressions read beyond the unknowns of the elements is
+// numbered here, once, and what stands in the way is noted.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "elements/families/delay.h"
+#include "mechanics/binder.h"
+#include "system/signal_table.h"
+
+namespace dynalin {
+
+class SystemBinder final : public Binder {
+ public:
+  SystemBinder(const Model& model, Layout& layout, const SignalTable& signals, DelayReading delays)
+      : model_(model),
+        layout_(layout),
+        signals_(signals),
+        own_(std::make_unique<DelayKernel>(delays)),
+        delays_(*own_) {}
+
+  // Binds all kernels, adds the one of the delays that they read, and equations for the rates.
+  void bind(std::vector<std::unique_ptr<Kernel>>&);
+
+  const Signals& signals() const override { return signals_; }
+  Channel data(const Atom&) override;
+  Channel rate_of(const Channel&) override;
+  Channel delayed(const Atom&) override;
+  void attach(SplineUse&) override;
+  std::int32_t add_memory(const Span& owner, double initial) override { return layout_.add_memory(owner, initial); }
+  void problem(std::string_view code, const Span& at, std::string text, std::string hint) override {
+    layout_.problems.error(code, at, std::move(text), std::move(hint));
+  }
+
+ private:
+  void make_rates(const std::vector<std::unique_ptr<Kernel>>&);
+  std::string statement_at(const Span&) const;
+
+  const Model& model_;
+  Layout& layout_;
+  const SignalTable& signals_;
+  std::unique_ptr<DelayKernel> own_;  // until it stands among the kernels
+  DelayKernel& delays_;
+  std::map<std::int32_t, std::int32_t> rates_;  // of algebraic unknowns
+  std::vector<std::pair<std::int32_t, std::int32_t>> rates_to_make_;
+  std::map<std::pair<std::int64_t, SplineMethod>, std::shared_ptr<const SplineCurves>> curves_;
+};
+
+}  // namespace dynalin
