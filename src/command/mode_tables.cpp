@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "linear/modal_energy.h"
+#include "linear/modal_distribution.h"
 #include "linear/modal_sums.h"
 #include "output/modal_tables.h"
 
@@ -11,7 +11,7 @@ namespace dynalin {
 Result<std::string> mode_tables(const LinearCommand& command, const System& system, const OperatingPoint& point,
                                 const LinearSystem& linear, const EigenSolution& modes) {
   std::ostringstream out;
-  const ModalEnergy energy(system, point, linear, modes);
+  const ModalDistribution distribution(system, point, linear, modes);
   const ModalTableFormat format{command.table_precision, command.names};
   std::vector<MarkerId> listed;
   for (const std::int64_t id : command.marker_list) listed.push_back(*system.model().find_marker(id));
@@ -21,15 +21,15 @@ Result<std::string> mode_tables(const LinearCommand& command, const System& syst
     const bool coordinates = in(command.coordinates), kinetic = in(command.kinetic), strain = in(command.strain),
                dissipation = in(command.dissipation), markers = in(command.markers);
     if (!coordinates && !kinetic && !strain && !dissipation && !markers) continue;
-    write_mode_header(out, k + 1, energy.header(k));
-    if (coordinates) write_shape(out, format, ShapeTable::coordinates, energy.coordinates(k));
-    if (markers) write_shape(out, format, ShapeTable::markers, energy.markers(k, listed));
-    if (kinetic) write_kinetic(out, format, energy.kinetic(k));
-    if (strain) write_forces(out, format, ForceTable::strain, energy.strain(k));
-    if (dissipation) write_forces(out, format, ForceTable::dissipation, energy.dissipation(k));
+    write_mode_header(out, k + 1, distribution.header(k));
+    if (coordinates) write_shape(out, format, ShapeTable::coordinates, distribution.coordinates(k));
+    if (markers) write_shape(out, format, ShapeTable::markers, distribution.markers(k, listed));
+    if (kinetic) write_kinetic(out, format, distribution.kinetic(k));
+    if (strain) write_forces(out, format, ForceTable::strain, distribution.strain(k));
+    if (dissipation) write_forces(out, format, ForceTable::dissipation, distribution.dissipation(k));
   }
   if (command.energy_per_mode.wanted()) {
-    const auto energies = modal_energies(system, point, linear, modes);
+    const auto energies = energy_per_mode(system, point, linear, modes);
     if (!energies) return tl::unexpected(energies.error());
     write_energies(out, format, *energies,
                    [&](std::size_t k) { return command.energy_per_mode.has(k + 1, modes.modes[k]); });

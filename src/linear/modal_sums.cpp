@@ -99,8 +99,8 @@ std::vector<std::size_t> spanning(const EigenSolution& modes, const ComplexMatri
 
 }  // namespace
 
-Result<ModalEnergies> modal_energies(const System& system, const OperatingPoint& op, const LinearSystem& linear,
-                                     const EigenSolution& modes) {
+Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint& op, const LinearSystem& linear,
+                                      const EigenSolution& modes) {
   const auto [position, rate] = pairs_of(linear);
   if (linear.first_order > 0) {
     return tl::unexpected(Failure{"energies per mode",
@@ -145,25 +145,25 @@ Result<ModalEnergies> modal_energies(const System& system, const OperatingPoint&
   const Eigen::VectorXcd eta = lu.solve(unit.cwiseProduct(x).cast<Complex>());
   const Eigen::VectorXcd eta_rate = lu.solve(unit.cwiseProduct(v).cast<Complex>());
 
-  ModalEnergies out;
+  EnergyPerMode out;
   out.modes.resize(modes.modes.size());
   out.counted.assign(modes.modes.size(), false);
   const auto share = [&](const Matrix& m, const Eigen::VectorXcd& e, Index i) {
     return std::real(std::conj(e(i)) * Phi.col(i).dot(times(m, Phi * e).col(0)));
   };
   for (Index i = 0; i < n; ++i) {
-    ModalEnergies::Share& s = out.modes[chosen[static_cast<std::size_t>(i)]];
+    EnergyPerMode::Share& s = out.modes[chosen[static_cast<std::size_t>(i)]];
     s.kinetic = 0.5 * share(M, eta_rate, i);
     s.potential = 0.5 * share(K, eta, i);
     s.power = share(C, eta_rate, i);
     out.counted[chosen[static_cast<std::size_t>(i)]] = true;
     out.total.kinetic += s.kinetic, out.total.potential += s.potential, out.total.power += s.power;
   }
-  for (double ModalEnergies::Share::*of :
-       {&ModalEnergies::Share::kinetic, &ModalEnergies::Share::potential, &ModalEnergies::Share::power}) {
+  for (double EnergyPerMode::Share::*of :
+       {&EnergyPerMode::Share::kinetic, &EnergyPerMode::Share::potential, &EnergyPerMode::Share::power}) {
     double size = 0;
-    for (const ModalEnergies::Share& s : out.modes) size += std::abs(s.*of);
-    for (ModalEnergies::Share& s : out.modes) {
+    for (const EnergyPerMode::Share& s : out.modes) size += std::abs(s.*of);
+    for (EnergyPerMode::Share& s : out.modes) {
       if (std::abs(s.*of) <= unexcited * size) s.*of = 0;
     }
   }

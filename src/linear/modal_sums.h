@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "linear/modal_energy.h"
+#include "linear/modal_distribution.h"
 
 namespace dynalin {
 
@@ -17,7 +17,7 @@ namespace dynalin {
 // x′ are the velocities of the operating point, x its displacement from where the linear model would rest,
 // K x = −(M x″ + C x′). M is the mass of the bodies seen in x′, C and K follow from A; forces of differential states
 // are not in them.
-struct ModalEnergies {
+struct EnergyPerMode {
   struct Share {
     double kinetic = 0, potential = 0;  // [mass·length²/time²]
     double power = 0;                   // dissipated [mass·length²/time³]
@@ -28,7 +28,7 @@ struct ModalEnergies {
 };
 
 // Fails for velocity constraints and where the shapes of all modes do not span the coordinates.
-Result<ModalEnergies> modal_energies(const System&, const OperatingPoint&, const LinearSystem&, const EigenSolution&);
+Result<EnergyPerMode> energy_per_mode(const System&, const OperatingPoint&, const LinearSystem&, const EigenSolution&);
 
 // With r_d the rigid-body displacement along (d = 0 … 2) and about (3 … 5) the axes of a frame and φ_i the displacement
 // shape of all bodies: L = φᴴ M r, participation Γ = L/(φᴴ M φ), effective mass |L|²/(φᴴ M φ). Shapes are scaled as in

@@ -82,7 +82,7 @@ class PerturbationEquations {
   ColumnMatrix on_states_;                                                         // [G H]
   ColumnMatrix state_rates_on_algebraic_, state_rates_on_states_;                  // P and R
   ColumnMatrix pencil_;
-  ColumnMatrix sizes_;  // of what its entries are made of, where roundings are counted (entry_sizes.h)
+  ColumnMatrix sizes_;  // of what its entries are made of, where roundings are counted (roundoff_scales.h)
 };
 
 }  // namespace dynalin

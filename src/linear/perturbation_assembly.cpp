@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "linear/entry_sizes.h"
 #include "linear/perturbation.h"
+#include "linear/roundoff_scales.h"
 
 namespace dynalin {
 
@@ -58,7 +58,7 @@ class PerturbationEquations::Assembly {
         inputs_(inputs),
         without_damping_(without_damping),
         massless_(massless),
-        entry_sizes_(system.layout(), motion),
+        roundoff_scales_(system.layout(), motion),
         n_(system.layout().coordinate_count),
         first_state_(2 * n_ + augmented_.size()),
         cut_(system.layout().algebraic.size(), false) {
@@ -251,7 +251,7 @@ class PerturbationEquations::Assembly {
     };
     for (std::int32_t k = 0; k < rows_.size(); ++k) {
       const auto row = rows_.row(k);
-      const std::vector<RowCoefficients> size = entry_sizes_.of_row(row);
+      const std::vector<RowCoefficients> size = roundoff_scales_.of_row(row);
       if (choice_.active[static_cast<std::size_t>(k)]) ++coordinate;
       if (!choice_.velocity_active[static_cast<std::size_t>(k)]) continue;
       take_rate(row, size);
@@ -262,7 +262,7 @@ class PerturbationEquations::Assembly {
     }
     for (std::size_t k = 0; k < choice_.gradient.size(); ++k) {
       const auto& row = choice_.gradient[k];
-      const std::vector<RowCoefficients> size = entry_sizes_.of_row(row);
+      const std::vector<RowCoefficients> size = roundoff_scales_.of_row(row);
       if (choice_.has_position[k]) states_.add(coordinate++, choice_.position_state[k], -1.0, 1.0);
       if (!choice_.has_rate[k]) continue;
       states_.add(n_ + rate, choice_.rate_state[k], -1.0, 1.0);
@@ -274,7 +274,7 @@ class PerturbationEquations::Assembly {
   template <class Take>
   void for_partials(PartialBy family, Take&& take) const {
     const ColumnMatrix& m = eq_.matrix(family);
-    const ColumnMatrix size = entry_sizes_.of(eq_, family);
+    const ColumnMatrix size = roundoff_scales_.of(eq_, family);
     for (std::int32_t c = 0; c < m.columns; ++c) {
       for (std::int32_t e = m.start[static_cast<std::size_t>(c)]; e < m.start[static_cast<std::size_t>(c) + 1]; ++e) {
         const auto at = static_cast<std::size_t>(e);
@@ -317,7 +317,7 @@ class PerturbationEquations::Assembly {
       if (position < 0) continue;
       if (rate >= 0) rates_on_states_.push_back({position, rate, 1.0});
       const auto& row = choice_.gradient[k];
-      const std::vector<RowCoefficients> size = entry_sizes_.of_row(row);
+      const std::vector<RowCoefficients> size = roundoff_scales_.of_row(row);
       for (std::size_t e = 0; e < row.size(); ++e) {
         const auto& [c, g] = row[e];
         if (rate >= 0) {
@@ -368,7 +368,7 @@ class PerturbationEquations::Assembly {
   const std::vector<std::int32_t>& inputs_;
   const bool without_damping_;
   const MasslessStates* massless_;  // null where everything has mass
-  const EntrySizes entry_sizes_;
+  const RoundoffScales roundoff_scales_;
   const std::int32_t n_, first_state_;
   std::vector<bool> cut_;  // algebraic equations that inputs replace
   PerturbationEquations p_;

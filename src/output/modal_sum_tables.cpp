@@ -60,9 +60,9 @@ double percent(double part, double whole) { return whole != 0 ? 100 * part / who
 
 }  // namespace
 
-void write_energies(std::ostream& out, const ModalTableFormat& format, const ModalEnergies& energies,
+void write_energies(std::ostream& out, const ModalTableFormat& format, const EnergyPerMode& energies,
                     const WantedMode& wanted) {
-  ModalEnergies::Share sum;
+  EnergyPerMode::Share sum;
   for (std::size_t k = 0; k < energies.modes.size(); ++k) {
     if (!wanted(k)) continue;
     const auto& s = energies.modes[k];
@@ -71,7 +71,7 @@ void write_energies(std::ostream& out, const ModalTableFormat& format, const Mod
   SumTable t(out, format);
   t.title("Energies per mode");
   t.head({"Kinetic", "percent", "Potential", "percent", "Diss. power", "percent"});
-  const auto row = [&](const std::string& label, const ModalEnergies::Share& s) {
+  const auto row = [&](const std::string& label, const EnergyPerMode::Share& s) {
     t.row(label, std::array{s.kinetic, percent(s.kinetic, sum.kinetic), s.potential,
                             percent(s.potential, sum.potential), s.power, percent(s.power, sum.power)});
   };

@@ -5,7 +5,7 @@
 #include <functional>
 #include <iosfwd>
 
-#include "linear/modal_energy.h"
+#include "linear/modal_distribution.h"
 #include "linear/modal_sums.h"
 
 namespace dynalin {
@@ -27,7 +27,7 @@ void write_forces(std::ostream&, const ModalTableFormat&, ForceTable, const std:
 
 // One row a wanted mode, with shares in percent of what the wanted modes hold together, and the totals.
 using WantedMode = std::function<bool(std::size_t)>;
-void write_energies(std::ostream&, const ModalTableFormat&, const ModalEnergies&, const WantedMode&);
+void write_energies(std::ostream&, const ModalTableFormat&, const EnergyPerMode&, const WantedMode&);
 // `rm` is the marker of MODAL_RM, 0 for the global frame.
 void write_masses(std::ostream&, const ModalTableFormat&, const ModalMasses&, std::int64_t rm, const WantedMode&);
 

@@ -11,7 +11,7 @@
 
 #include "elements/catalogue.h"
 #include "linear/eigen.h"
-#include "linear/modal_energy.h"
+#include "linear/modal_distribution.h"
 #include "oracle/program_point.h"
 
 namespace dynalin::oracle {
@@ -123,7 +123,7 @@ void compare(std::uint64_t seed, Seen& seen) {
   ASSERT_TRUE(modes) << modes.error().message;
   std::vector<ChosenState> states;
   for (const StateLabel& label : linear->model.states) states.push_back(chosen(label));
-  const ModalEnergy energies(system, *op, *linear, *modes);
+  const ModalDistribution energies(system, *op, *linear, *modes);
   const OraclePoint point = point_of(system, *op);
   const std::size_t count = modes->modes.size();
   for (const std::size_t mode : std::set<std::size_t>{0, count / 2, count - 1}) {

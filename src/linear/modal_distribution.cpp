@@ -1,4 +1,4 @@
-#include "linear/modal_energy.h"
+#include "linear/modal_distribution.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +19,8 @@ constexpr double rounding = 1e-10;
 
 }  // namespace
 
-ModalEnergy::ModalEnergy(const System& system, const OperatingPoint& op, const LinearSystem& linear,
-                         const EigenSolution& solution)
+ModalDistribution::ModalDistribution(const System& system, const OperatingPoint& op, const LinearSystem& linear,
+                                     const EigenSolution& solution)
     : system_(system), linear_(linear), solution_(solution), motion_(system.motion(op)) {
   motion_.mode = AnalysisMode::linear;  // a DELAY follows what it delays, as in linearize()
   ConstraintRows rows;
@@ -47,18 +47,18 @@ ModalEnergy::ModalEnergy(const System& system, const OperatingPoint& op, const L
   if (w > 0) algebraic_solved_ = algebraic_.factor(compressed(w, w, entries));
 }
 
-Eigen::VectorXcd ModalEnergy::scaled_vector(std::size_t mode) const {
+Eigen::VectorXcd ModalDistribution::scaled_vector(std::size_t mode) const {
   Eigen::VectorXcd z = solution_.vectors.col(static_cast<Eigen::Index>(mode));
   Eigen::Index largest = 0;
   z.cwiseAbs().maxCoeff(&largest);
   return z / z(largest);
 }
 
-Eigen::VectorXcd ModalEnergy::displacements(const Eigen::VectorXcd& z) const {
+Eigen::VectorXcd ModalDistribution::displacements(const Eigen::VectorXcd& z) const {
   return linear_.dq.leftCols(z.size()) * z;
 }
 
-Eigen::VectorXcd ModalEnergy::velocities(const Eigen::VectorXcd& z) const {
+Eigen::VectorXcd ModalDistribution::velocities(const Eigen::VectorXcd& z) const {
   // Without mass velocities follow from forces, which positions and differential states make as well.
   if (linear_.has_massless_states) return linear_.dqdot.leftCols(z.size()) * z;
   Eigen::VectorXcd rates = z;
@@ -68,7 +68,7 @@ Eigen::VectorXcd ModalEnergy::velocities(const Eigen::VectorXcd& z) const {
   return linear_.dqdot.leftCols(z.size()) * rates;
 }
 
-std::vector<std::size_t> ModalEnergy::bodies_by_id() const {
+std::vector<std::size_t> ModalDistribution::bodies_by_id() const {
   std::vector<std::size_t> order;
   const auto& bodies = system_.layout().bodies;
   for (std::size_t b = 1; b < bodies.size(); ++b) {
@@ -80,7 +80,7 @@ std::vector<std::size_t> ModalEnergy::bodies_by_id() const {
 }
 
 // ½ m |v_C|² and ½ ωᴴ J ω term by term, global axes.
-std::array<double, 9> ModalEnergy::kinetic_terms(std::size_t body, const Eigen::VectorXcd& v) const {
+std::array<double, 9> ModalDistribution::kinetic_terms(std::size_t body, const Eigen::VectorXcd& v) const {
   const Body& b = system_.model().bodies[body];
   const BodyBlock& block = system_.layout().bodies[body];
   std::array<double, 9> terms{};
@@ -103,7 +103,7 @@ std::array<double, 9> ModalEnergy::kinetic_terms(std::size_t body, const Eigen::
   return terms;
 }
 
-double ModalEnergy::largest_original(const Eigen::VectorXcd& z) const {
+double ModalDistribution::largest_original(const Eigen::VectorXcd& z) const {
   const Eigen::VectorXcd dq = displacements(z);
   double largest = 0;
   for (std::int32_t k = 0; k < original_->size(); ++k) {
@@ -114,7 +114,7 @@ double ModalEnergy::largest_original(const Eigen::VectorXcd& z) const {
   return largest;
 }
 
-ModeHeader ModalEnergy::header(std::size_t mode) const {
+ModeHeader ModalDistribution::header(std::size_t mode) const {
   const Complex hz = solution_.modes[mode].eigenvalue_hz;
   const double size = std::abs(hz), omega = 2 * std::numbers::pi * size;
   Eigen::VectorXcd z = scaled_vector(mode);
@@ -143,7 +143,7 @@ ModeHeader ModalEnergy::header(std::size_t mode) const {
   return h;
 }
 
-std::pair<std::vector<ModalRow<Complex>>, Complex> ModalEnergy::shape(std::size_t mode) const {
+std::pair<std::vector<ModalRow<Complex>>, Complex> ModalDistribution::shape(std::size_t mode) const {
   const Eigen::VectorXcd z = scaled_vector(mode), dq = displacements(z);
   std::vector<ModalRow<Complex>> rows;
   for (const std::size_t b : bodies_by_id()) {
@@ -176,7 +176,7 @@ std::pair<std::vector<ModalRow<Complex>>, Complex> ModalEnergy::shape(std::size_
   return {std::move(rows), largest};
 }
 
-std::vector<ModalRow<Complex>> ModalEnergy::coordinates(std::size_t mode) const {
+std::vector<ModalRow<Complex>> ModalDistribution::coordinates(std::size_t mode) const {
   auto [rows, largest] = shape(mode);
   for (auto& row : rows) {
     for (Complex& v : row.values) v = largest == Complex(0) ? Complex(0) : v / largest;
@@ -184,7 +184,7 @@ std::vector<ModalRow<Complex>> ModalEnergy::coordinates(std::size_t mode) const 
   return std::move(rows);
 }
 
-std::vector<ModalRow<Complex>> ModalEnergy::markers(std::size_t mode, std::span<const MarkerId> list) const {
+std::vector<ModalRow<Complex>> ModalDistribution::markers(std::size_t mode, std::span<const MarkerId> list) const {
   const Complex largest = shape(mode).second;
   const Eigen::VectorXcd dq = displacements(scaled_vector(mode));
   const Layout& layout = system_.layout();
@@ -208,7 +208,7 @@ std::vector<ModalRow<Complex>> ModalEnergy::markers(std::size_t mode, std::span<
   return rows;
 }
 
-std::vector<ModalRow<double>> ModalEnergy::kinetic(std::size_t mode) const {
+std::vector<ModalRow<double>> ModalDistribution::kinetic(std::size_t mode) const {
   const Eigen::VectorXcd z = scaled_vector(mode);
   const bool at_rest = solution_.modes[mode].eigenvalue_hz == Complex(0);
   const Eigen::VectorXcd v = at_rest ? displacements(z) : velocities(z);
@@ -228,7 +228,7 @@ std::vector<ModalRow<double>> ModalEnergy::kinetic(std::size_t mode) const {
   return rows;
 }
 
-Eigen::VectorXd ModalEnergy::algebraic_size(const Eigen::VectorXcd& dq, PartialBy family) const {
+Eigen::VectorXd ModalDistribution::algebraic_size(const Eigen::VectorXcd& dq, PartialBy family) const {
   const auto n = static_cast<Eigen::Index>(system_.layout().coordinate_count);
   const auto w = static_cast<Eigen::Index>(system_.layout().algebraic.size());
   if (w == 0 || !algebraic_solved_) return Eigen::VectorXd::Zero(w);
@@ -245,7 +245,7 @@ Eigen::VectorXd ModalEnergy::algebraic_size(const Eigen::VectorXcd& dq, PartialB
   return solved.cwiseAbs().cwiseMax(given).col(0);
 }
 
-Eigen::VectorXcd ModalEnergy::algebraic_change(const Eigen::VectorXcd& dq, PartialBy family) const {
+Eigen::VectorXcd ModalDistribution::algebraic_change(const Eigen::VectorXcd& dq, PartialBy family) const {
   const auto n = static_cast<Eigen::Index>(system_.layout().coordinate_count);
   const auto w = static_cast<Eigen::Index>(system_.layout().algebraic.size());
   Eigen::VectorXcd change = Eigen::VectorXcd::Zero(w);
@@ -267,7 +267,7 @@ Eigen::VectorXcd ModalEnergy::algebraic_change(const Eigen::VectorXcd& dq, Parti
 }
 
 // Sets of elements that have rows, in the order of the tables: by the name of the statement.
-std::vector<std::size_t> ModalEnergy::sets_with_rows() const {
+std::vector<std::size_t> ModalDistribution::sets_with_rows() const {
   const auto& sets = system_.model().sets;
   std::vector<std::size_t> list;
   for (std::size_t s = 0; s < sets.size(); ++s) {
@@ -279,7 +279,7 @@ std::vector<std::size_t> ModalEnergy::sets_with_rows() const {
   return list;
 }
 
-std::vector<ModalRow<double>> ModalEnergy::force_rows(std::size_t mode, PartialBy family) const {
+std::vector<ModalRow<double>> ModalDistribution::force_rows(std::size_t mode, PartialBy family) const {
   const bool strain = family == PartialBy::position;
   const Eigen::VectorXcd z = scaled_vector(mode);
   const Eigen::VectorXcd u = strain ? displacements(z) : velocities(z);

@@ -30,9 +30,9 @@ struct ModalRow {
   std::vector<T> values{};
 };
 
-class ModalEnergy {
+class ModalDistribution {
  public:
-  ModalEnergy(const System&, const OperatingPoint&, const LinearSystem&, const EigenSolution&);
+  ModalDistribution(const System&, const OperatingPoint&, const LinearSystem&, const EigenSolution&);
 
   ModeHeader header(std::size_t mode) const;
   // X Y Z of the mass centre and RX RY RZ of each body, global axes; then one value for each differential state. The

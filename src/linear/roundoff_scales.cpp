@@ -1,11 +1,11 @@
-#include "linear/entry_sizes.h"
+#include "linear/roundoff_scales.h"
 
 #include <algorithm>
 #include <numeric>
 
 namespace dynalin {
 
-EntrySizes::EntrySizes(const Layout& layout, const Motion& motion)
+RoundoffScales::RoundoffScales(const Layout& layout, const Motion& motion)
     : group_(static_cast<std::size_t>(layout.coordinate_count)), turning_(group_.size(), 0.0) {
   std::iota(group_.begin(), group_.end(), std::int32_t{0});
   for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
@@ -19,7 +19,7 @@ EntrySizes::EntrySizes(const Layout& layout, const Motion& motion)
   }
 }
 
-ColumnMatrix EntrySizes::of(const Equations& eq, PartialBy family) const {
+ColumnMatrix RoundoffScales::of(const Equations& eq, PartialBy family) const {
   ColumnMatrix m = eq.matrix(family);
   const std::span<const double> sizes = eq.sizes(family);
   std::copy(sizes.begin(), sizes.end(), m.value.begin());

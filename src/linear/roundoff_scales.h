@@ -14,9 +14,9 @@
 
 namespace dynalin {
 
-class EntrySizes {
+class RoundoffScales {
  public:
-  EntrySizes(const Layout&, const Motion&);
+  RoundoffScales(const Layout&, const Motion&);
 
   // Of partials, with the pattern of eq.matrix(family); eq must keep sizes and hold accelerations.
   ColumnMatrix of(const Equations& eq, PartialBy family) const;
