@@ -26,6 +26,10 @@ constexpr double margin = 2;
 constexpr double regular = 1e-10;
 // What the entries of a computed null direction are not exact to, relative to the largest.
 constexpr double rounding_of_entries = 64 * eps;
+// What the matrix may make of a direction that is null, in units of its roundings.
+constexpr double most_excess = 1e4;
+// LAPACK's estimates of the norm of an inverse are rarely off by more than three.
+constexpr double margin_of_estimate = 10;
 
 class Splitter {
  public:
@@ -146,7 +150,7 @@ class Splitter {
   // that they are null is proved elsewhere.
   bool split_off_sparsest(const Matrix& v) {
     const double as_given = excess(v);
-    if (!(as_given <= 1e4) || (core() * v).norm() > 1e-6 * core().norm() * v.norm()) return false;
+    if (!(as_given <= most_excess) || (core() * v).norm() > 1e-6 * core().norm() * v.norm()) return false;
     for (const double least : {1e-8, 1e-10, 1e-12, rounding_of_entries, 0.0}) {
       Matrix sparse = without_small(v, least);
       if (excess(sparse) > std::max(1.0, 2 * as_given)) continue;
@@ -184,15 +188,15 @@ class Splitter {
     return scaled;
   }
 
-  // An estimate of ‖M⁻¹‖ far below one says that no direction is shrunk to rounding.
+  // Whether no direction can be split off: |M v| of each has an entry of |v|/‖M⁻¹‖ or more, in the largest norm, which is
+  // more than split_off_sparsest takes.
   static bool surely_regular(Matrix m) {
     const auto n = static_cast<lapack_int>(m.rows());
-    const double norm = m.cwiseAbs().colwise().sum().maxCoeff();
     std::vector<lapack_int> pivots(static_cast<std::size_t>(n));
     if (LAPACKE_dgetrf(LAPACK_COL_MAJOR, n, n, m.data(), n, pivots.data()) != 0) return false;
-    double reciprocal = 0;
-    LAPACKE_dgecon(LAPACK_COL_MAJOR, '1', n, m.data(), n, norm, &reciprocal);
-    return reciprocal * norm > 1e4 * static_cast<double>(n);
+    double least = 0;  // an estimate of 1/‖M⁻¹‖
+    LAPACKE_dgecon(LAPACK_COL_MAJOR, 'I', n, m.data(), n, 1.0, &least);
+    return least > margin_of_estimate * most_excess;
   }
 
   // Brings v to [1; W] with complete pivoting; entries that cancel are zero.
