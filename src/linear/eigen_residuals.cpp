@@ -94,10 +94,12 @@ ComplexMatrix EigenResiduals::measure(const StructuredPencil& pencil) {
       w << a.col(c), x.col(c);
       const PencilResidual of = pencil.residual(value(pairs_, {first + c, false}), w);
       r.col(c) = of.value;
-      const ComplexVector out = pencil.taken_out(w);
-      floor_(first + c) = b.col(c).cwiseAbs().dot(of.rounding.head(b.rows())) +
-                          y.col(c).cwiseAbs().dot(of.rounding.tail(n)) +
-                          first_order_margin * std::abs(b.col(c).dot(out.head(b.rows())) + y.col(c).dot(out.tail(n)));
+      floor_(first + c) = of_b.dot(of.rounding.head(b.rows())) + y.col(c).cwiseAbs().dot(of.rounding.tail(n));
+      if (pencil.zero_residuals().cols() > 0) {
+        const ComplexVector out = pencil.taken_out(w);
+        floor_(first + c) +=
+            first_order_margin * std::abs(b.col(c).dot(out.head(b.rows())) + y.col(c).dot(out.tail(n)));
+      }
       const double norm = of.rounding.norm();
       column_floor_(first + c, 0) = norm;
       if (norm > 0) rounding_share_ = rounding_share_.cwiseMax(of.rounding / norm);

@@ -1,45 +1,16 @@
 #include "linear/pencil_residual.h"
 
 #include <cmath>
-#include <vector>
+
+#include "linear/transposed.h"
 
 namespace dynalin {
 
 using LongComplex = std::complex<long double>;
 
-PencilResidual pencil_residual(const ColumnMatrix& S, std::int32_t states, LongComplex lambda,
-                               const Eigen::VectorXcd& w) {
-  const auto n = static_cast<std::size_t>(S.rows);
-  std::vector<LongComplex> sum(n);
-  PencilResidual r;
-  r.rounding = Eigen::VectorXd::Zero(S.rows);
-  Eigen::VectorXd terms = Eigen::VectorXd::Constant(S.rows, 2);
-  for (std::int32_t c = 0; c < S.columns; ++c) {
-    const LongComplex x(w(c));
-    const double magnitude = std::abs(w(c).real()) + std::abs(w(c).imag());
-    if (magnitude == 0) continue;
-    for_each_in_column(S, c, [&](std::int32_t row, double v) {
-      sum[static_cast<std::size_t>(row)] += static_cast<long double>(v) * x;
-      r.rounding(row) += std::abs(v) * magnitude;
-      ++terms(row);
-    });
-  }
-  const auto modulus = static_cast<double>(std::abs(lambda));
-  for (std::int32_t c = S.columns - states; c < S.columns; ++c) {
-    sum[static_cast<std::size_t>(c)] -= lambda * LongComplex(w(c));
-    r.rounding(c) += 2 * modulus * std::abs(w(c));
-  }
-  r.rounding.array() *= long_eps * terms.array();
-  r.value.resize(S.rows);
-  for (std::size_t k = 0; k < n; ++k) {
-    r.value(static_cast<Eigen::Index>(k)) = {static_cast<double>(sum[k].real()), static_cast<double>(sum[k].imag())};
-  }
-  return r;
-}
-
 StructuredPencil::StructuredPencil(const PerturbationEquations& equations, const ZeroModes& zero,
                                    const Eigen::MatrixXd& uncertainty)
-    : equations_(equations), uncertainty_(uncertainty) {
+    : equations_(equations), uncertainty_(uncertainty), rows_(transposed(equations.pencil())) {
   const Eigen::Index z = zero.count, n = equations.states();
   const Eigen::MatrixXd T0 = zero.right().leftCols(z);
   shares_ = zero.left().leftCols(z).transpose();
@@ -49,14 +20,40 @@ StructuredPencil::StructuredPencil(const PerturbationEquations& equations, const
   for (Eigen::Index c = 0; c < z; ++c) {
     Eigen::VectorXcd w(equations.unknowns());
     w << a.col(c).cast<std::complex<double>>(), T0.col(c).cast<std::complex<double>>();
-    residuals_.col(c) = pencil_residual(equations.pencil(), equations.states(), 0, w).value.real();
+    residuals_.col(c) = as_assembled(0, w).value.real();
   }
   residuals_.bottomRows(n) -= T0 * zero.block.topLeftCorner(z, z);
 }
 
+PencilResidual StructuredPencil::as_assembled(LongComplex lambda, const Eigen::VectorXcd& w) const {
+  const Eigen::Index size = w.size(), first_state = size - equations_.states();
+  const auto modulus = static_cast<double>(std::abs(lambda));
+  const Eigen::VectorXd magnitude = w.real().cwiseAbs() + w.imag().cwiseAbs();
+  PencilResidual r{Eigen::VectorXcd(size), Eigen::VectorXd(size)};
+  for (Eigen::Index k = 0; k < size; ++k) {
+    long double re = 0, im = 0;
+    double sum = 0, terms = 2;
+    for_each_in_column(rows_, static_cast<std::int32_t>(k), [&](std::int32_t c, double v) {
+      re += static_cast<long double>(v) * static_cast<long double>(w(c).real());
+      im += static_cast<long double>(v) * static_cast<long double>(w(c).imag());
+      sum += std::abs(v) * magnitude(c);
+      terms += magnitude(c) > 0 ? 1 : 0;
+    });
+    if (k >= first_state) {
+      const auto x = static_cast<long double>(w(k).real()), y = static_cast<long double>(w(k).imag());
+      re -= lambda.real() * x - lambda.imag() * y;
+      im -= lambda.real() * y + lambda.imag() * x;
+      sum += 2 * modulus * std::abs(w(k));
+    }
+    r.value(k) = {static_cast<double>(re), static_cast<double>(im)};
+    r.rounding(k) = long_eps * terms * sum;
+  }
+  return r;
+}
+
 PencilResidual StructuredPencil::residual(LongComplex lambda, const Eigen::VectorXcd& w) const {
-  PencilResidual r = pencil_residual(equations_.pencil(), equations_.states(), lambda, w);
-  r.value -= taken_out(w);
+  PencilResidual r = as_assembled(lambda, w);
+  if (residuals_.cols() > 0) r.value -= taken_out(w);
   return r;
 }
 

@@ -17,8 +17,6 @@ struct PencilResidual {
   Eigen::VectorXcd value;
   Eigen::VectorXd rounding;
 };
-PencilResidual pencil_residual(const ColumnMatrix& S, std::int32_t states, std::complex<long double> lambda,
-                               const Eigen::VectorXcd& w);
 
 // The pencil with what is zero by the structure of the model exactly so.
 //
@@ -39,8 +37,11 @@ class StructuredPencil {
   const Eigen::MatrixXd& uncertainty() const { return uncertainty_; }
 
  private:
+  PencilResidual as_assembled(std::complex<long double> lambda, const Eigen::VectorXcd& w) const;
+
   const PerturbationEquations& equations_;
   const Eigen::MatrixXd& uncertainty_;
+  ColumnMatrix rows_;  // Sᵀ: a row's sum stays in the registers of long double
   Eigen::MatrixXd residuals_, shares_;
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "linear/dense_products.h"
+#include "linear/transposed.h"
 
 namespace dynalin {
 
@@ -22,13 +23,6 @@ std::span<double> column(Eigen::Ref<Matrix>& x, Eigen::Index c) {
 // y += factor · M x for sparse M and dense x.
 void multiply_add(const ColumnMatrix& m, const Eigen::Ref<const Matrix>& x, Eigen::Ref<Matrix> y, double factor) {
   for (Eigen::Index c = 0; c < x.cols(); ++c) m.multiply_add(column(x, c), column(y, c), factor);
-}
-
-ColumnMatrix transposed(const ColumnMatrix& m) {
-  std::vector<Triplet> entries;
-  entries.reserve(m.value.size());
-  for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) { entries.push_back({c, r, v}); });
-  return compressed(m.columns, m.rows, entries);
 }
 
 }  // namespace

@@ -188,8 +188,8 @@ class Splitter {
     return scaled;
   }
 
-  // Whether no direction can be split off: |M v| of each has an entry of |v|/‖M⁻¹‖ or more, in the largest norm, which is
-  // more than split_off_sparsest takes.
+  // Whether no direction can be split off: |M v| of each has an entry of |v|/‖M⁻¹‖ or more, in the largest norm, which
+  // is more than split_off_sparsest takes.
   static bool surely_regular(Matrix m) {
     const auto n = static_cast<lapack_int>(m.rows());
     std::vector<lapack_int> pivots(static_cast<std::size_t>(n));
