@@ -1,15 +1,14 @@
 #include "linear/inclusion.h"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "linear/clustered_schur.h"
-#include "linear/pencil_residual.h"
+#include "linear/disc_vectors.h"
+#include "linear/resolvent_bounds.h"
 
 namespace dynalin {
 
@@ -22,63 +21,10 @@ using Matrix = Eigen::MatrixXd;
 using ComplexMatrix = Eigen::MatrixXcd;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double upward = 1 + 1e-9;           // covers the rounding of bounds that are themselves sums in double
-constexpr double least_size = 1e-300;         // keeps strict inequalities strict
 constexpr double most_inverse_defect = 0.05;  // of a basis times its computed inverse
 constexpr int most_rounds_of_weights = 300;
 
 std::size_t at(Index k) { return static_cast<std::size_t>(k); }
-
-Matrix sizes(const LongComplexMatrix& m) {
-  return m.unaryExpr([](const LongComplex& v) { return static_cast<double>(std::abs(v)); });
-}
-// Of a sum of products of complex numbers, n of them, in units of Σ|a||b|.
-double rounding_of_sum(Index n) { return 2 * static_cast<double>(n + 4) * long_eps; }
-
-// Bounds of |N^l| in the Frobenius norm, l = 0 … k; that of the first is the 2-norm.
-std::vector<double> power_norms(const LongComplexMatrix& N) {
-  const Index k = N.rows();
-  std::vector<double> out{1.0};
-  const double norm = sizes(N).norm() * upward;
-  LongComplexMatrix power = N;
-  double error = 0, before = norm;
-  for (Index l = 1; l <= k; ++l) {
-    if (l > 1) {
-      power = times(power, N);
-      error = norm * (error + rounding_of_sum(k) * before);
-    }
-    before = (sizes(power).norm() + error) * upward;
-    out.push_back(before);
-  }
-  return out;
-}
-
-// A bound of |(ζ − N)⁻¹| by Σ_l |N^l|/|ζ|^(l+1) / (1 − |N^k|/|ζ|^k).
-double resolvent_bound(const std::vector<double>& powers, double distance) {
-  if (!(distance > 0)) return infinity;
-  const std::size_t k = powers.size() - 1;
-  double sum = 0, scale = 1 / distance;
-  for (std::size_t l = 0; l < k; ++l, scale /= distance) sum += powers[l] * scale;
-  const double rest = 1 - powers[k] * scale * distance;
-  return rest > 0 && std::isfinite(sum) ? sum / rest * upward : infinity;
-}
-
-// The smallest circle around the centre of a block on which |(z − D)⁻¹| tau < 1.
-double smallest_radius(const std::vector<double>& powers, double tau) {
-  if (!std::isfinite(tau)) return infinity;
-  const double need = std::max(tau, least_size) * upward;
-  double high = need;
-  while (resolvent_bound(powers, high) * need >= 1) {
-    high *= 2;
-    if (!std::isfinite(high)) return infinity;
-  }
-  double low = high / 2;
-  for (int k = 0; k < 12; ++k) {
-    const double middle = std::sqrt(low * high);
-    (resolvent_bound(powers, middle) * need < 1 ? high : low) = middle;
-  }
-  return high;
-}
 
 class Inclusion {
  public:
@@ -312,7 +258,8 @@ class Inclusion {
   Index nearest(Index i) const {
     Index best = i;
     for (Index j = 0; j < blocks(); ++j) {
-      if (j != i && (best == i || std::abs(schur_.mean(j) - schur_.mean(i)) < std::abs(schur_.mean(best) - schur_.mean(i))))
+      if (j != i &&
+          (best == i || std::abs(schur_.mean(j) - schur_.mean(i)) < std::abs(schur_.mean(best) - schur_.mean(i))))
         best = j;
     }
     return best;
@@ -377,58 +324,13 @@ class Inclusion {
       disc.powers = powers_[at(i)];
       disc.basis = Z_.middleCols(first(i), size(i)).cast<Complex>();
       disc.dual = inverse_.middleRows(first(i), size(i)).adjoint().cast<Complex>();
-      add_vectors(i, on_axis, disc);
+      add_vectors(M_, scale_, on_axis, disc);
       const Eigen::VectorXd inside = block_scale_.segment(first(i), size(i));
       disc.basis = scale_.asDiagonal() * disc.basis * inside.asDiagonal();
       disc.dual = scale_.cwiseInverse().asDiagonal() * disc.dual * inside.cwiseInverse().asDiagonal();
       out.push_back(std::move(disc));
     }
     return out;
-  }
-
-  // Vectors that D − c shrinks most, to the right and to the left.
-  void add_vectors(Index i, bool on_axis, InclusionDisc& disc) const {
-    const Index k = size(i);
-    ComplexMatrix X = disc.basis, Y = disc.dual;
-    if (on_axis && k > 1) {  // a real basis of a subspace that is its own conjugate
-      const auto real_basis = [&](const ComplexMatrix& m) -> Matrix {
-        Matrix both(n_, 2 * k);
-        both << m.real(), m.imag();
-        return Eigen::ColPivHouseholderQR<Matrix>(both).householderQ() * Matrix::Identity(n_, k);
-      };
-      const Matrix x = real_basis(X), y = real_basis(Y);
-      X = x.cast<Complex>();
-      Y = (y * (x.transpose() * y).inverse()).cast<Complex>();
-    }
-    ComplexMatrix v = ComplexMatrix::Ones(1, 1), u = v;
-    if (k > 1) {
-      const LongComplexMatrix MX = times(M_, X.cast<LongComplex>());
-      LongComplexMatrix D = times(Y.adjoint().cast<LongComplex>(), MX);
-      D.diagonal().array() -= LongComplex(disc.centre);
-      const Eigen::JacobiSVD<ComplexMatrix> svd(D.cast<Complex>(), Eigen::ComputeFullU | Eigen::ComputeFullV);
-      v = svd.matrixV().rowwise().reverse(), u = svd.matrixU().rowwise().reverse();
-      const Eigen::VectorXd s = svd.singularValues().reverse();
-      const double small = 1e-10 * s(k - 1) + 10 * s(0);
-      for (Index a = 1; a < k; ++a) {
-        if (s(a) > small) v.col(a) = v.col(0), u.col(a) = u.col(0);
-      }
-    }
-    disc.right = scale_.asDiagonal() * ComplexMatrix(X * v);
-    disc.left = scale_.cwiseInverse().asDiagonal() * ComplexMatrix(Y * u);
-    if (on_axis) {
-      const auto make_real = [](ComplexMatrix& m) {
-        for (Index a = 0; a < m.cols(); ++a) {
-          Index row = 0;
-          m.col(a).cwiseAbs().maxCoeff(&row);
-          const Complex phase = m(row, a) / std::abs(m(row, a));
-          m.col(a) /= phase;
-          m.col(a).imag().setZero();
-        }
-      };
-      make_real(disc.right), make_real(disc.left);
-    }
-    disc.right.colwise().normalize();
-    disc.left.colwise().normalize();
   }
 
   const Index n_;

@@ -1,0 +1,57 @@
+// How everything in a model changes along directions of its states: a unit of each chosen coordinate at rest in it, and
+// what makes a displacement grow as each of given earlier directions.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "linear/linear_system.h"
+#include "linear/state_choice.h"
+
+namespace dynalin {
+
+struct Directions {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  static std::size_t at(PartialBy family) { return static_cast<std::size_t>(family); }
+  // What a unit of a quantity compares with.
+  double unit(PartialBy family, std::int32_t column) const {
+    return at(family) <= at(PartialBy::acceleration) ? scale[static_cast<std::size_t>(column)] : 1.0;
+  }
+
+  Eigen::MatrixXd states, rates_of_states;  // columns x, and x′ that is wanted of it
+  std::array<RowMajor, column_families> change;
+  std::array<double, column_families> size{};  // largest change, in units of coordinates
+  std::vector<double> scale;                   // of coordinates
+};
+
+class DirectionChanges {
+ public:
+  // `motions` holds the variations of all states. `massless` names a coordinate of each freedom without mass: nothing
+  // depends on its acceleration.
+  DirectionChanges(const System&, const ConstraintRows&, const StateChoice&, const LinearSystem& motions,
+                   const std::vector<std::int32_t>& massless);
+
+  // Whether accelerations follow from those of states, and there is a coordinate to move.
+  bool known() const { return rates_known_ && !positions_.empty(); }
+  Directions beside(const Eigen::MatrixXd& earlier) const;
+
+ private:
+  void factor_rates(const std::vector<std::int32_t>& massless);
+  void set_changes(Directions&) const;
+  double scale(std::int32_t coordinate) const { return scale_[static_cast<std::size_t>(coordinate)]; }
+
+  const std::size_t state_count_;  // of the layout
+  const ConstraintRows& rows_;
+  const StateChoice& choice_;
+  const std::int32_t n_;
+  const Eigen::MatrixXd dq_, dqdot_, dlambda_, dw_;
+  std::vector<double> scale_;                     // of coordinates
+  std::vector<std::int32_t> positions_;           // states that are coordinates
+  std::vector<std::int32_t> rates_of_positions_;  // −1 for those without
+  SparseLu rates_;
+  bool rates_known_ = false;
+};
+
+}  // namespace dynalin
