@@ -30,6 +30,11 @@ const Function* find_function(std::string_view name) {
   return nullptr;
 }
 
+bool has_kinks(std::string_view name) {
+  const Function* f = find_function(name);
+  return f ? f->kinked : name == "IF";
+}
+
 std::span<const NamedConstant> named_constants() { return constants; }
 
 std::span<const std::string_view> functions_not_built() { return not_built; }

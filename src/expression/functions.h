@@ -42,6 +42,8 @@ struct Function {
   // An argument that is NaN is not known yet and never a reason.
   std::string (*domain)(std::span<const double>);
 
+  bool kinked = false;  // has kinks or jumps, whatever its arguments
+
   double operator()(std::span<const double> a) const { return on_double(a); }
   TimeTaylor<double> operator()(std::span<const TimeTaylor<double>> a) const { return on_taylor(a); }
   Seeded operator()(std::span<const Seeded> a) const { return on_seeded(a); }
@@ -64,6 +66,8 @@ std::span<const NamedConstant> named_constants();
 
 // The one of that upper-case name, nullptr if there is none.
 const Function* find_function(std::string_view name);
+// Whether the function of that name has kinks or jumps, whatever its arguments: IF and those marked so.
+bool has_kinks(std::string_view name);
 // The operator ** with an exponent that varies.
 const Function& variable_power();
 

@@ -103,27 +103,29 @@ constexpr std::array table = {
         "HAVSIN",
         {"x, x0, h0, x1, h1", "h0 up to x0, h1 from x1 on, between them half a sine wave", "as h0, h1", step_arguments},
         haversine, havsin_domain, flat),
-    function<7>("IMPACT",
-                {"x, v, x1, k, e, c, d", "the force of a stop at x1 that pushes back while x < x1, else 0", "as k·xᵉ",
-                 "x   distance, DX(20, 1) for example [length]\n"
-                 "v   its rate, VX(20, 1) [length/time]\n"
-                 "x1  where the stop begins [length]\n"
-                 "k   stiffness: the force is k (x1 − x)ᵉ [force/lengthᵉ]\n"
-                 "e   exponent, above 0; below 1 the stiffness at first contact is infinite\n"
-                 "c   largest damping coefficient [force·time/length]\n"
-                 "d   depth at which the damping is in full [length]; it grows like STEP"},
-                impact, impact_domain, flat),
-    function<8>("BISTOP",
-                {"x, v, x1, x2, k, e, c, d",
-                 "the force of two stops that push back where x < x1 and where x > x2, between them 0", "as k·xᵉ",
-                 "x       distance [length]\n"
-                 "v       its rate [length/time]\n"
-                 "x1, x2  where the stops begin, x1 ≤ x2 [length]\n"
-                 "k       stiffness: the force is k pᵉ at the depth p [force/lengthᵉ]\n"
-                 "e       exponent, above 0\n"
-                 "c       largest damping coefficient [force·time/length]\n"
-                 "d       depth at which the damping is in full [length]; it grows like STEP"},
-                two_stops, bistop_domain, flat),
+    kinked(function<7>(
+        "IMPACT",
+        {"x, v, x1, k, e, c, d", "the force of a stop at x1 that pushes back while x < x1, else 0", "as k·xᵉ",
+         "x   distance, DX(20, 1) for example [length]\n"
+         "v   its rate, VX(20, 1) [length/time]\n"
+         "x1  where the stop begins [length]\n"
+         "k   stiffness: the force is k (x1 − x)ᵉ [force/lengthᵉ]\n"
+         "e   exponent, above 0; below 1 the stiffness at first contact is infinite\n"
+         "c   largest damping coefficient [force·time/length]\n"
+         "d   depth at which the damping is in full [length]; it grows like STEP"},
+        impact, impact_domain, flat)),
+    kinked(
+        function<8>("BISTOP",
+                    {"x, v, x1, x2, k, e, c, d",
+                     "the force of two stops that push back where x < x1 and where x > x2, between them 0", "as k·xᵉ",
+                     "x       distance [length]\n"
+                     "v       its rate [length/time]\n"
+                     "x1, x2  where the stops begin, x1 ≤ x2 [length]\n"
+                     "k       stiffness: the force is k pᵉ at the depth p [force/lengthᵉ]\n"
+                     "e       exponent, above 0\n"
+                     "c       largest damping coefficient [force·time/length]\n"
+                     "d       depth at which the damping is in full [length]; it grows like STEP"},
+                    two_stops, bistop_domain, flat)),
 };
 
 }  // namespace

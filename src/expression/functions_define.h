@@ -62,6 +62,11 @@ constexpr Function list_function(std::string_view name, FunctionText text, std::
   return make_function<ArgumentList<Formula>>(name, minimum, maximum, defined_everywhere, zero, text);
 }
 
+constexpr Function kinked(Function f) {
+  f.kinked = true;
+  return f;
+}
+
 template <class T>
 T undefined() {
   return T(std::numeric_limits<double>::quiet_NaN());

@@ -148,7 +148,7 @@ std::string power_domain(std::span<const double> a) {
 
 constexpr auto flat = ZeroPartial::flat;
 constexpr std::array table = {
-    function<1>("ABS", {"a", "the size of a, |a|", "as a", "its derivative at a = 0 is taken as 0"}, absolute),
+    kinked(function<1>("ABS", {"a", "the size of a, |a|", "as a", "its derivative at a = 0 is taken as 0"}, absolute)),
     function<1>("ACOS", {"a", "the angle, 0 … π, whose cosine is a", "rad", "a  −1 … 1"}, arc_cosine, acos_domain),
     function<1>("ASIN", {"a", "the angle, −π/2 … π/2, whose sine is a", "rad", "a  −1 … 1"}, arc_sine, asin_domain),
     function<1>("ATAN", {"a", "the angle, −π/2 … π/2, whose tangent is a", "rad", ""}, arc_tangent),
@@ -167,18 +167,21 @@ constexpr std::array table = {
                 square_root, sqrt_domain),
     function<1>("LOG", {"a", "natural logarithm", "1", "a  above 0"}, natural_logarithm, log_domain),
     function<1>("LOG10", {"a", "logarithm to the base 10", "1", "a  above 0"}, decimal_logarithm, log10_domain),
-    function<1>("AINT", {"a", "a without its fraction, towards 0", "as a", "its derivative is 0"}, truncated,
-                defined_everywhere, flat),
-    function<1>("ANINT", {"a", "the whole number nearest to a, halves away from 0", "as a", "its derivative is 0"},
-                rounded, defined_everywhere, flat),
-    function<2>("DIM", {"a, b", "a − b where that is positive, else 0", "as a, b", ""}, positive_difference,
-                defined_everywhere, flat),
-    list_function("MAX", {"a, b …", "the largest", "as a, b", "two values or more"}, 2, most_arguments, largest, flat),
-    list_function("MIN", {"a, b …", "the smallest", "as a, b", "two values or more"}, 2, most_arguments, smallest,
-                  flat),
-    function<2>("MOD", {"a, b", "the remainder of a divided by b, with the sign of a", "as a", "b  not 0"},
-                remainder_of_division, mod_domain, flat),
-    function<2>("SIGN", {"a, b", "the size of a with the sign of b, plus where b = 0", "as a", ""}, with_sign_of),
+    kinked(function<1>("AINT", {"a", "a without its fraction, towards 0", "as a", "its derivative is 0"}, truncated,
+                       defined_everywhere, flat)),
+    kinked(function<1>("ANINT",
+                       {"a", "the whole number nearest to a, halves away from 0", "as a", "its derivative is 0"},
+                       rounded, defined_everywhere, flat)),
+    kinked(function<2>("DIM", {"a, b", "a − b where that is positive, else 0", "as a, b", ""}, positive_difference,
+                       defined_everywhere, flat)),
+    kinked(list_function("MAX", {"a, b …", "the largest", "as a, b", "two values or more"}, 2, most_arguments, largest,
+                         flat)),
+    kinked(list_function("MIN", {"a, b …", "the smallest", "as a, b", "two values or more"}, 2, most_arguments,
+                         smallest, flat)),
+    kinked(function<2>("MOD", {"a, b", "the remainder of a divided by b, with the sign of a", "as a", "b  not 0"},
+                       remainder_of_division, mod_domain, flat)),
+    kinked(
+        function<2>("SIGN", {"a, b", "the size of a with the sign of b, plus where b = 0", "as a", ""}, with_sign_of)),
 };
 constexpr Function power_operator = function<2>("**", {}, power_of, power_domain);
 

@@ -3,19 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
 #include "elements/controls/variable.h"
+#include "expression/functions.h"
 
 namespace dynalin {
 
 namespace {
-
-// Functions with kinks or jumps, whatever their arguments.
-constexpr std::array<std::string_view, 11> not_smooth = {"ABS",    "AINT", "ANINT", "BISTOP", "DIM", "IF",
-                                                         "IMPACT", "MAX",  "MIN",   "MOD",    "SIGN"};
 
 constexpr double coincident = 1e-12;  // distance of two points at one place, relative to the model
 
@@ -77,7 +73,7 @@ class Chain {
     place_[index] = open;
     const Expression& e = variable_function(system_.model(), variable);
     for (const Expression::Call& call : e.calls()) {
-      if (std::find(not_smooth.begin(), not_smooth.end(), call.name) == not_smooth.end()) continue;
+      if (!has_kinks(call.name)) continue;
       return refused(call.at, fmt::format("{} {}, which is not smooth", reader(variable), call.at.text()));
     }
     Link link;

@@ -175,6 +175,7 @@ const std::vector<Wrong>& table() {
     {Place::added, "COUPLER/9, JOINTS=1,1,1, SCALES=1", {"wrong-count 10:26"}},
     {Place::added, "GCON/9, FUNCTION=ACCX(20)", {"unfit-constraint 10:18"}},
     {Place::added, "GCON/9, FUNCTION=ABS(DX(20))", {"unfit-constraint 10:18"}},
+    {Place::added, "GCON/9, FUNCTION=IMPACT(DX(20),VX(20),1,1E3,1.5,0,0.1)", {"unfit-constraint 10:18"}},
     {Place::added, "GCON/9, FUNCTION=JOINT(1,0,2,0)", {"unfit-constraint 10:18"}},
     {Place::added, "SPLINE/9, X=1,2,3, Y=1,2,3", {"spline-data 10:11"}},
     {Place::added, "SPLINE/9, X=1,2,2,3, Y=1,2,3,4", {"spline-data 10:11"}},

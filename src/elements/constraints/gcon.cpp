@@ -5,6 +5,7 @@
 // λ Φ_q, or λ Ψ_q′: a constraint force does no work in a permitted motion. I only says where a force is reported.
 #include <fmt/format.h>
 
+#include "expression/functions.h"
 #include "mechanics/bound_expression.h"
 #include "model/model.h"
 #include "model/schema.h"
@@ -116,12 +117,8 @@ class GeneralConstraintSet final : public TypedSet<GeneralConstraint> {
           break;
       }
     }
-    static constexpr std::array<std::string_view, 9> kinked = {"IF",  "ABS", "SIGN", "DIM",  "MIN",
-                                                               "MAX", "MOD", "AINT", "ANINT"};
     for (const Expression::Call& call : g.function.calls()) {
-      if (std::find(kinked.begin(), kinked.end(), call.name) != kinked.end()) {
-        unfit(call.at, call.name, "which has kinks or jumps");
-      }
+      if (has_kinks(call.name)) unfit(call.at, call.name, "which has kinks or jumps");
     }
   }
 
