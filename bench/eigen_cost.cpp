@@ -64,7 +64,7 @@ void measure(int n) {
       seconds([] { return 0; }, [&](int) { (void)split_zero_modes(linear->A, linear->rounding, linear->structural_zeros.get()); });
   const Eigen::MatrixXd exact = Eigen::MatrixXd::Zero(linear->A.rows(), linear->A.cols());
   const double refining =
-      seconds([&] { return found->pairs; }, [&](EigenPairs& p) { refine(*linear->equations, found->zero, exact, p); });
+      seconds([&] { return found->pairs; }, [&](EigenPairs& p) { refine(*linear->pencil, found->zero, exact, p); });
   // Backward errors; all else that eigensolve adds is a pass over the vectors.
   const double errors = seconds([] { return 0; }, [&](int) { real_product(linear->model.A, found->pairs.right); });
   const double whole = seconds([] { return 0; }, [&](int) { (void)eigensolve(*linear); });

@@ -15,17 +15,14 @@ namespace {
 
 // A thousandth of the model away along the chosen coordinates, in different shares so that no symmetry survives.
 std::optional<OperatingPoint> nearby(const System& system, const OperatingPoint& op, const LinearSystem& linear) {
-  Eigen::VectorXd step = Eigen::VectorXd::Zero(linear.dq.rows());
+  Eigen::VectorXcd direction = Eigen::VectorXcd::Zero(linear.A.rows());
   double share = 1;
   for (std::size_t k = 0; k < linear.kinematic_states; ++k) {
     if (linear.model.states[k].is_rate) continue;
-    Eigen::VectorXd column = linear.dq.col(static_cast<Eigen::Index>(k));
-    double size = 0;
-    for (Eigen::Index c = 0; c < column.size(); ++c)
-      size = std::max(size, std::abs(column(c)) / system.coordinate_scale(static_cast<std::int32_t>(c)));
-    if (size > 0) step += share / size * column;
+    if (const double size = linear.reach[k].size; size > 0) direction(static_cast<Eigen::Index>(k)) = share / size;
     share *= -std::numbers::phi / 2;
   }
+  const Eigen::VectorXd step = linear.displacements(direction).col(0).real();
   constexpr double distance = 1e-3;
   OperatingPoint there = op;
   displace(system, there, distance * step, {1.0});
@@ -74,11 +71,8 @@ void disproportion(const System& system, const LinearSystem& linear, Diagnostics
   for (std::size_t k = 0; k < linear.kinematic_states; ++k) {
     const double unit = linear.scales[k];
     if (unit == 0) continue;
-    for (Eigen::Index r = 0; r < linear.dq.rows(); ++r) {
-      const double moved = std::abs(linear.dq(r, static_cast<Eigen::Index>(k))) * unit /
-                           system.coordinate_scale(static_cast<std::int32_t>(r));
-      if (moved > largest) largest = moved, mover = static_cast<std::int32_t>(r), chosen = k;
-    }
+    const double moved = linear.reach[k].size * unit;
+    if (moved > largest) largest = moved, mover = linear.reach[k].coordinate, chosen = k;
   }
   if (mover < 0) return;
   const StateLabel& s = linear.model.states[chosen];

@@ -69,11 +69,7 @@ Eigen::VectorXd units_of_states(const System& system, const OperatingPoint& op, 
   Eigen::VectorXd unit = Eigen::VectorXd::Ones(linear.A.rows());
   const auto n = static_cast<Eigen::Index>(linear.kinematic_states);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const bool rate = linear.model.states[static_cast<std::size_t>(k)].is_rate;
-    const Eigen::MatrixXd& moved = rate ? linear.dqdot : linear.dq;
-    double most = 0;
-    for (std::int32_t c = 0; c < moved.rows(); ++c)
-      most = std::max(most, std::abs(moved(c, k)) / system.coordinate_scale(c));
+    const double most = linear.reach[static_cast<std::size_t>(k)].size;
     if (most > 0) unit(k) = 1 / most;
   }
   double fastest = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/perturbation.h"
+#include "linear/perturbed_point.h"
 #include "system/sparse_lu.h"
 
 namespace dynalin {
@@ -14,27 +16,30 @@ using Index = Eigen::Index;
 
 }  // namespace
 
-DirectionChanges::DirectionChanges(const System& system, const ConstraintRows& rows, const StateChoice& choice,
-                                   const LinearSystem& motions, const std::vector<std::int32_t>& massless)
+DirectionChanges::DirectionChanges(const System& system, const Perturbation& perturbation)
     : state_count_(system.layout().states.size()),
-      rows_(rows),
-      choice_(choice),
+      equations_(perturbation.equations),
+      at_(perturbation.at),
+      rows_(at_->rows),
+      choice_(at_->choice),
+      first_lambda_(equations_->augmented() + AugmentedSystem(system).lambda(0)),
+      first_algebraic_(equations_->augmented() + AugmentedSystem(system).algebraic(0)),
       n_(system.layout().coordinate_count),
-      dq_(motions.dq.leftCols(choice.size())),
-      dqdot_(motions.dqdot.leftCols(choice.size())),
-      dlambda_(motions.dlambda.leftCols(choice.size())),
-      dw_(motions.dw.leftCols(choice.size())) {
-  for (std::size_t k = 0; k < choice.gradient.size(); ++k) {
-    if (choice.position_state[k] < 0) continue;
-    positions_.push_back(choice.position_state[k]);
-    rates_of_positions_.push_back(choice.rate_state[k]);
+      algebraic_count_(system.layout().algebraic.size()) {
+  for (std::size_t k = 0; k < choice_.gradient.size(); ++k) {
+    if (choice_.position_state[k] < 0) continue;
+    positions_.push_back(choice_.position_state[k]);
+    rates_of_positions_.push_back(choice_.rate_state[k]);
   }
   for (std::int32_t k = 0; k < n_; ++k) scale_.push_back(system.coordinate_scale(k));
-  factor_rates(massless);
+  factor_rates();
 }
 
 // Accelerations follow from those of states; along freedoms without mass any will do, as no force depends on them.
-void DirectionChanges::factor_rates(const std::vector<std::int32_t>& massless) {
+void DirectionChanges::factor_rates() {
+  // A coordinate of each freedom without mass: nothing depends on its acceleration.
+  std::vector<std::int32_t> massless;
+  if (at_->massless) massless = at_->massless->limit.directions.coordinate;
   bool square = false;
   const auto vacant = static_cast<std::int32_t>(massless.size());
   ColumnMatrix level = level_matrix(rows_, choice_, choice_.velocity_active, choice_.has_rate, square, vacant);
@@ -88,14 +93,8 @@ Directions DirectionChanges::beside(const Matrix& earlier) const {
 }
 
 void DirectionChanges::set_changes(Directions& d) const {
-  const Index free = static_cast<Index>(positions_.size()), more = d.states.cols() - free;
-  std::vector<Index> at_positions(positions_.begin(), positions_.end());
-  const auto image = [&](const Matrix& m) {
-    Matrix out(m.rows(), d.states.cols());
-    out << m(Eigen::all, at_positions), m * d.states.rightCols(more);
-    return out;
-  };
-  const Matrix dq = image(dq_), dqdot = image(dqdot_);
+  const Matrix all = equations_->complete(d.states);
+  const Matrix dq = all.topRows(n_), dqdot = all.middleRows(equations_->rates(), n_);
   Matrix right = Matrix::Zero(n_, d.states.cols());
   Index r = 0;
   const auto row_of = [&](const auto& row) {
@@ -116,8 +115,9 @@ void DirectionChanges::set_changes(Directions& d) const {
   d.change[Directions::at(PartialBy::position)] = dq;
   d.change[Directions::at(PartialBy::velocity)] = d.change[Directions::at(PartialBy::damping)] = dqdot;
   d.change[Directions::at(PartialBy::acceleration)] = right;
-  d.change[Directions::at(PartialBy::lambda)] = image(dlambda_);
-  d.change[Directions::at(PartialBy::algebraic)] = image(dw_);
+  d.change[Directions::at(PartialBy::lambda)] = all.middleRows(first_lambda_, rows_.size());
+  d.change[Directions::at(PartialBy::algebraic)] =
+      all.middleRows(first_algebraic_, static_cast<Index>(algebraic_count_));
   const Index states = static_cast<Index>(state_count_);
   d.change[Directions::at(PartialBy::state)] = d.change[Directions::at(PartialBy::state_rate)] =
       Directions::RowMajor::Zero(states, d.states.cols());

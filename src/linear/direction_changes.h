@@ -28,25 +28,25 @@ struct Directions {
 
 class DirectionChanges {
  public:
-  // `motions` holds the variations of all states. `massless` names a coordinate of each freedom without mass: nothing
-  // depends on its acceleration.
-  DirectionChanges(const System&, const ConstraintRows&, const StateChoice&, const LinearSystem& motions,
-                   const std::vector<std::int32_t>& massless);
+  DirectionChanges(const System&, const Perturbation&);
 
   // Whether accelerations follow from those of states, and there is a coordinate to move.
   bool known() const { return rates_known_ && !positions_.empty(); }
   Directions beside(const Eigen::MatrixXd& earlier) const;
 
  private:
-  void factor_rates(const std::vector<std::int32_t>& massless);
+  void factor_rates();
   void set_changes(Directions&) const;
   double scale(std::int32_t coordinate) const { return scale_[static_cast<std::size_t>(coordinate)]; }
 
   const std::size_t state_count_;  // of the layout
+  const std::shared_ptr<const PerturbationEquations> equations_;
+  const std::shared_ptr<const PerturbedPoint> at_;
   const ConstraintRows& rows_;
   const StateChoice& choice_;
+  const std::int32_t first_lambda_, first_algebraic_;  // among the unknowns of the equations
   const std::int32_t n_;
-  const Eigen::MatrixXd dq_, dqdot_, dlambda_, dw_;
+  const std::size_t algebraic_count_;
   std::vector<double> scale_;                     // of coordinates
   std::vector<std::int32_t> positions_;           // states that are coordinates
   std::vector<std::int32_t> rates_of_positions_;  // −1 for those without

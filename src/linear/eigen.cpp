@@ -119,7 +119,7 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   if (n > z) {
     Eigen::MatrixXd uncertainty = rounding_of_entries(linear);
     if (linear.uncertainty.size() > 0) uncertainty += linear.uncertainty;
-    trust = refine(*linear.equations, zero, uncertainty, pairs);
+    trust = refine(*linear.pencil, zero, uncertainty, pairs);
   }
 
   clear_rounding(pairs, trust);

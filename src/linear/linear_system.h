@@ -30,8 +30,19 @@ struct NearSingularity {
   std::vector<std::string> rows;
 };
 
-struct LinearSystem {
-  StateSpace model;
+struct PerturbedPoint;
+
+// How far a unit of a state moves anything: a coordinate displacements, a rate velocities, in lengths of the model and
+// radians.
+struct StateReach {
+  double size = 0;
+  std::int32_t coordinate = -1;  // that moves so far, −1 if nothing does
+};
+
+// The perturbation equations of a model at a point and what their states are called: an operator, with nothing dense of
+// the size of the model.
+struct Perturbation {
+  StateSpace model;  // states, inputs and outputs; its matrices come from reduce()
   std::size_t kinematic_states = 0, differential_states = 0;
   std::size_t first_order = 0;          // coordinates without mass whose rate is no state
   bool has_massless_states = false;     // some coordinates or rates follow from balances of forces without inertia
@@ -39,20 +50,34 @@ struct LinearSystem {
   std::vector<double> scales;           // of states: how much of a coordinate compares with the length of the model and
                                         // a radian; 0 for rates, differential states and what may have any size
   bool principal_states = false;        // those of the original implementation are in force
+  NearSingularity near_singularity;
   Diagnostics warnings;
-  // Columns of states, then inputs: variations of all coordinates, rates, accelerations, multipliers, algebraic values.
-  Eigen::MatrixXd dq, dqdot, dqddot, dlambda, dw;
+  std::shared_ptr<const PerturbationEquations> equations;
+  std::shared_ptr<const PerturbedPoint> at;  // what they were made of
+
+  // What columns of states do to all coordinates of the layout, and to their rates.
+  Eigen::MatrixXcd displacements(const Eigen::MatrixXcd& of_states) const;
+  Eigen::MatrixXcd velocities(const Eigen::MatrixXcd& of_states) const;
+};
+
+// The same with its state matrices.
+struct LinearSystem : Perturbation {
   Eigen::MatrixXd A;         // as computed; in the model, entries that are nothing but rounding are zero
   Eigen::MatrixXd rounding;  // what the entries of A may carry of rounding, element by element
   // What roundings of the velocities make of A near singular configurations, element by element; else empty.
   Eigen::MatrixXd uncertainty;
+  std::vector<StateReach> reach;  // of every state
   std::shared_ptr<const StructuralZeros> structural_zeros;
-  NearSingularity near_singularity;
-  std::shared_ptr<const PerturbationEquations> equations;
+  // Whose eigenvalues are those of A: the equations, unless the original implementation leaves a block of A out.
+  std::shared_ptr<const PerturbationEquations> pencil;
 };
 
-// The point must be consistent on all levels (solve_acceleration). Refused where its roundings alone decide the state
-// matrix, with a warning where they leave few digits of it.
+// The equations, without the state matrix. The point must be consistent on all levels (solve_acceleration).
+Result<Perturbation> perturb(const System&, const OperatingPoint&, const LinearOptions&);
+// Forms A, B, C and D.
+Result<LinearSystem> reduce(const System&, Perturbation);
+// Both. Refused where the roundings of the point alone decide the state matrix, with a warning where they leave few
+// digits of it.
 Result<LinearSystem> linearize(const System&, OperatingPoint, const LinearOptions&);
 
 }  // namespace dynalin

@@ -54,18 +54,16 @@ Eigen::VectorXcd ModalDistribution::scaled_vector(std::size_t mode) const {
   return z / z(largest);
 }
 
-Eigen::VectorXcd ModalDistribution::displacements(const Eigen::VectorXcd& z) const {
-  return linear_.dq.leftCols(z.size()) * z;
-}
+Eigen::VectorXcd ModalDistribution::displacements(const Eigen::VectorXcd& z) const { return linear_.displacements(z); }
 
 Eigen::VectorXcd ModalDistribution::velocities(const Eigen::VectorXcd& z) const {
   // Without mass velocities follow from forces, which positions and differential states make as well.
-  if (linear_.has_massless_states) return linear_.dqdot.leftCols(z.size()) * z;
+  if (linear_.has_massless_states) return linear_.velocities(z);
   Eigen::VectorXcd rates = z;
   for (Eigen::Index k = 0; k < rates.size(); ++k) {
     if (!solution_.states[static_cast<std::size_t>(k)].is_rate) rates(k) = 0;
   }
-  return linear_.dqdot.leftCols(z.size()) * rates;
+  return linear_.velocities(rates);
 }
 
 std::vector<std::size_t> ModalDistribution::bodies_by_id() const {

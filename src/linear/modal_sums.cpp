@@ -116,7 +116,8 @@ Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint
   }
   const auto n = static_cast<Index>(position.size());
   const MassRoot root(system, op);
-  const Matrix B = root.of(linear.dqdot(Eigen::all, rate));
+  const Matrix B =
+      root.of(linear.velocities(Matrix::Identity(linear.A.rows(), linear.A.rows())(Eigen::all, rate)).real());
   const Matrix M = B.transpose() * B;
   const Matrix C = -M * linear.model.A(rate, rate), K = -M * linear.model.A(rate, position);
   // Rates and accelerations of the coordinates are those of the bodies, seen in their mass.
@@ -182,7 +183,7 @@ ModalMasses modal_masses(const System& system, const OperatingPoint& op, const L
   }
   const MassRoot root(system, op);
   const Matrix rigid = root.of_rigid_motion(origin, axes);
-  const ComplexMatrix displacement = times(linear.dq.leftCols(modes.vectors.rows()), modes.vectors);
+  const ComplexMatrix displacement = linear.displacements(modes.vectors);
   ComplexMatrix shapes(rigid.rows(), displacement.cols());
   shapes.real() = root.of(displacement.real());
   shapes.imag() = root.of(displacement.imag());

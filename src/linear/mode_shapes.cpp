@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "linear/dense_products.h"
 #include "linear/mass_root.h"
 
 namespace dynalin {
@@ -63,9 +62,10 @@ void name_movers(const System& system, const OperatingPoint& op, const LinearSys
   for (Eigen::Index k = 0; k < states; ++k) {
     if (linear.model.states[static_cast<std::size_t>(k)].is_rate) rates.push_back(k);
   }
-  const Eigen::MatrixXcd displacements = real_product(linear.dq.leftCols(states), solution.vectors),
-                         velocities =
-                             real_product(linear.dqdot(Eigen::all, rates), solution.vectors(rates, Eigen::all));
+  Eigen::MatrixXcd of_rates = Eigen::MatrixXcd::Zero(states, solution.vectors.cols());
+  of_rates(rates, Eigen::all) = solution.vectors(rates, Eigen::all);
+  const Eigen::MatrixXcd displacements = linear.displacements(solution.vectors),
+                         velocities = linear.velocities(of_rates);
   for (std::size_t m = 0; m < solution.modes.size(); ++m) {
     const auto at = static_cast<Eigen::Index>(m);
     const Eigen::VectorXcd z = solution.vectors.col(at), dq = displacements.col(at);
@@ -111,9 +111,7 @@ void map_shapes(const System& system, const LinearSystem& linear, EigenSolution&
     solution.shape_labels[static_cast<std::size_t>(n + k)] = {s.owner, "", s.text};
   }
   solution.shapes.resize(n + differential, solution.vectors.cols());
-  const auto T = linear.dq.leftCols(states);
-  solution.shapes.topRows(n).real() = T * solution.vectors.real();
-  solution.shapes.topRows(n).imag() = T * solution.vectors.imag();
+  solution.shapes.topRows(n) = linear.displacements(solution.vectors);
   solution.shapes.bottomRows(differential) = solution.vectors.bottomRows(differential);
   for (Eigen::Index c = 0; c < solution.shapes.cols(); ++c) {
     Eigen::Index largest = 0;

@@ -68,6 +68,19 @@ Matrix PerturbationEquations::complete(const Matrix& x) const {
   return a;
 }
 
+Eigen::MatrixXcd PerturbationEquations::motions(const Eigen::MatrixXcd& x) const {
+  return by_parts(x, [&](const Matrix& real) -> Matrix {
+    if (whole_) return complete(real).topRows(2 * n_);
+    Matrix a = Matrix::Zero(algebraic_, real.cols()), padded = Matrix::Zero(on_states_.columns, real.cols());
+    padded.topRows(real.rows()) = real;
+    multiply_add(on_states_, padded, a, -1.0);
+    level_[0]->solve(a.topRows(n_));
+    multiply_add(rates_on_positions_, a.topRows(n_), a.middleRows(n_, n_), -1.0);
+    level_[1]->solve(a.middleRows(n_, n_));
+    return a.topRows(2 * n_);
+  });
+}
+
 Matrix PerturbationEquations::complete_left(const Matrix& y) const {
   Matrix a = Matrix::Zero(algebraic_, y.cols());
   multiply_add(transposed(state_rates_on_algebraic_), y, a, -1.0);

@@ -48,6 +48,8 @@ class PerturbationEquations {
 
   // a of columns (x; u) or x alone.
   Eigen::MatrixXd complete(const Eigen::MatrixXd& states_and_inputs) const;
+  // The part of a that is motion, δq and δq′ of columns x.
+  Eigen::MatrixXcd motions(const Eigen::MatrixXcd& of_states) const;
   // The left counterpart: y_a of the rows y_x of states, with y_aᵀ F + y_xᵀ P = 0.
   Eigen::MatrixXd complete_left(const Eigen::MatrixXd& of_states) const;
   // y with yᵀ F = bᵀ.

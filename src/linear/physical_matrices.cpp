@@ -4,9 +4,8 @@
 #include <unordered_set>
 
 #include "analysis/augmented_system.h"
-#include "elements/controls/variable_list.h"
+#include "linear/perturbed_point.h"
 #include "system/sparse_lu.h"
-#include "system/undefined_rows.h"
 
 namespace dynalin {
 
@@ -28,25 +27,20 @@ MotionMap& MotionMap::operator+=(const MotionMap& other) {
 
 class PhysicalEquations::Assembly {
  public:
-  Assembly(const System& system, const OperatingPoint& op, const LinearOptions& options)
-      : system_(system), options_(options), motion_(system.motion(op)), augmented_(system) {
-    rows_.resize(system.layout());
-    eq_.resize(system.layout());
-    eq_.note_elements(&out_.trace_);
-    out_.without_damping_ = options.without_damping;
+  Assembly(const System& system, const Perturbation& perturbation)
+      : system_(system),
+        augmented_(system),
+        at_(*perturbation.at),
+        rows_(at_.rows),
+        eq_(at_.equations),
+        choice_(at_.with_massless ? *at_.with_massless : at_.choice),
+        cut_(system.layout().algebraic.size(), false) {
+    for (const std::int32_t u : at_.inputs) cut_[static_cast<std::size_t>(u)] = true;
+    out_.at_ = perturbation.at;
+    whole().inputs = perturbation.model.inputs, whole().outputs = perturbation.model.outputs;
   }
 
   Result<PhysicalEquations> run() {
-    system_.constraints(motion_, rows_);
-    if (const auto undefined = undefined_row(system_, motion_, rows_))
-      return tl::unexpected(Failure{"linear analysis", *undefined, {}});
-    system_.equations(motion_, rows_, eq_,
-                      {PartialBy::position, PartialBy::velocity, PartialBy::damping, PartialBy::acceleration,
-                       PartialBy::lambda, PartialBy::algebraic, PartialBy::state, PartialBy::state_rate});
-    eq_.clear_undefined();  // linearize() has refused those that count
-    auto chosen = choose_states(system_, motion_, rows_, options_);
-    if (!chosen) return tl::unexpected(chosen.error());
-    choice_ = std::move(*chosen);
     name();
     if (!find_motions()) return tl::unexpected(undetermined_positions());
     if (!solve())
@@ -59,7 +53,7 @@ class PhysicalEquations::Assembly {
   Index rates() const { return static_cast<Index>(out_.whole_.with_rate.size()); }
   Index coordinates() const { return static_cast<Index>(out_.whole_.coordinates.size()); }
   Index states() const { return static_cast<Index>(choice_.differential.size()); }
-  Index inputs() const { return static_cast<Index>(inputs_.size()); }
+  Index inputs() const { return static_cast<Index>(at_.inputs.size()); }
   // Where the columns of x′, x, z and u begin, behind those of x″.
   Index of_rates() const { return rates(); }
   Index of_coordinates() const { return 2 * rates(); }
@@ -73,19 +67,6 @@ class PhysicalEquations::Assembly {
       if (choice_.has_rate[k]) whole().with_rate.push_back(k);
     }
     whole().states.assign(choice_.states.begin() + choice_.first_differential, choice_.states.end());
-    const auto read = [&](const std::optional<ElementHandle>& list, std::vector<ChannelLabel>& labels,
-                          std::vector<std::int32_t>& unknowns) {
-      if (!list) return;
-      for (const VariableRef v : system_.model().get<VariableList>(*list)->variables) {
-        const ElementLabel& label = system_.model().label(v);
-        labels.push_back({label.id, label.text()});
-        unknowns.push_back(system_.signals().variable(v).index);
-      }
-    };
-    read(options_.pinput, whole().inputs, inputs_);
-    read(options_.poutput, whole().outputs, outputs_);
-    cut_.assign(system_.layout().algebraic.size(), false);
-    for (const std::int32_t u : inputs_) cut_[static_cast<std::size_t>(u)] = true;
   }
 
   // δq and δq′; false where the chosen coordinates do not determine them.
@@ -160,7 +141,7 @@ class PhysicalEquations::Assembly {
     };
     subtract(PartialBy::position, v.dq);
     subtract(PartialBy::velocity, v.dqdot);
-    if (!options_.without_damping) subtract(PartialBy::damping, v.dqdot);
+    if (!at_.without_damping) subtract(PartialBy::damping, v.dqdot);
     subtract(PartialBy::state, v.dz);
     const auto hold = [&](Index row, const auto& gradient) {
       for (const auto& e : gradient) x.row(row) -= e.c.a1 * v.dqdot.row(e.column) + e.c.a0 * v.dq.row(e.column);
@@ -173,7 +154,7 @@ class PhysicalEquations::Assembly {
       x(size + k, k) += 1;
     }
     for (Index k = 0; k < inputs(); ++k)
-      x(augmented_.algebraic(inputs_[static_cast<std::size_t>(k)]), of_inputs() + k) = 1;
+      x(augmented_.algebraic(at_.inputs[static_cast<std::size_t>(k)]), of_inputs() + k) = 1;
     lu.solve(x);
 
     v.dqddot = x.topRows(n);
@@ -193,12 +174,12 @@ class PhysicalEquations::Assembly {
       row(of_rates() + k) = 1;
     }
     whole().rate = out_.split(rate);
-    Matrix state_rate(states(), columns()), output(static_cast<Index>(outputs_.size()), columns());
+    Matrix state_rate(states(), columns()), output(static_cast<Index>(at_.outputs.size()), columns());
     for (Index k = 0; k < states(); ++k)
       state_rate.row(k) = v.dz_rate.row(choice_.differential[static_cast<std::size_t>(k)]);
     whole().state_rate = out_.split(state_rate);
-    for (std::size_t k = 0; k < outputs_.size(); ++k) output.row(static_cast<Index>(k)) = v.dw.row(outputs_[k]);
-    if (options_.without_damping) see_damping(output);
+    for (std::size_t k = 0; k < at_.outputs.size(); ++k) output.row(static_cast<Index>(k)) = v.dw.row(at_.outputs[k]);
+    if (at_.without_damping) see_damping(output);
     whole().output = out_.split(output);
     return true;
   }
@@ -206,29 +187,25 @@ class PhysicalEquations::Assembly {
   // Outputs keep what they see of velocities where damping is left out.
   void see_damping(Matrix& outputs) const {
     for_each_entry(eq_.matrix(PartialBy::damping), [&](std::int32_t r, std::int32_t c, double value) {
-      for (std::size_t k = 0; k < outputs_.size(); ++k) {
-        if (r == eq_.algebraic_row(outputs_[k]))
+      for (std::size_t k = 0; k < at_.outputs.size(); ++k) {
+        if (r == eq_.algebraic_row(at_.outputs[k]))
           outputs.row(static_cast<Index>(k)) -= value * out_.variations_.dqdot.row(c);
       }
     });
   }
 
   const System& system_;
-  const LinearOptions& options_;
-  Motion motion_;
-  AugmentedSystem augmented_;
-  ConstraintRows rows_;
-  Equations eq_;
-  StateChoice choice_;
-  std::vector<std::int32_t> inputs_, outputs_;
+  const AugmentedSystem augmented_;
+  const PerturbedPoint& at_;
+  const ConstraintRows& rows_;
+  const Equations& eq_;
+  const StateChoice& choice_;
   std::vector<bool> cut_;  // algebraic equations that inputs replace
   PhysicalEquations out_;
 };
 
-Result<PhysicalEquations> PhysicalEquations::make(const System& system, OperatingPoint op,
-                                                  const LinearOptions& options) {
-  op.mode = AnalysisMode::linear;
-  return Assembly(system, op, options).run();
+Result<PhysicalEquations> PhysicalEquations::make(const System& system, const Perturbation& perturbation) {
+  return Assembly(system, perturbation).run();
 }
 
 MotionMap PhysicalEquations::split(const Matrix& by_all) const {
@@ -263,10 +240,10 @@ std::vector<const ElementLabel*> PhysicalEquations::elements() const {
   std::vector<const ElementLabel*> list;
   std::unordered_set<const ElementLabel*> known;
   const auto n = static_cast<std::int32_t>(velocities_.rows());
-  for (std::size_t e = 0; e < trace_.elements.size(); ++e) {
-    const ElementTrace::Element& element = trace_.elements[e];
-    const auto first = trace_.partials.begin() + static_cast<std::ptrdiff_t>(element.first_partial),
-               last = trace_.partials.begin() + static_cast<std::ptrdiff_t>(trace_.end_of_partials(e));
+  for (std::size_t e = 0; e < at_->trace.elements.size(); ++e) {
+    const ElementTrace::Element& element = at_->trace.elements[e];
+    const auto first = at_->trace.partials.begin() + static_cast<std::ptrdiff_t>(element.first_partial),
+               last = at_->trace.partials.begin() + static_cast<std::ptrdiff_t>(at_->trace.end_of_partials(e));
     const bool contributes = std::any_of(first, last, [&](const ElementTrace::Partial& p) { return p.row < n; });
     if (contributes && known.insert(element.of).second) list.push_back(element.of);
   }
@@ -277,14 +254,14 @@ MotionMap PhysicalEquations::of(const ElementLabel& label) const {
   const auto n = static_cast<std::int32_t>(velocities_.rows());
   Matrix sum = Matrix::Zero(velocities_.cols(), variations_.dq.cols());
   Eigen::RowVectorXd balance(variations_.dq.cols());
-  for (std::size_t e = 0; e < trace_.elements.size(); ++e) {
-    if (!trace_.elements[e].of || !same_element(*trace_.elements[e].of, label)) continue;
+  for (std::size_t e = 0; e < at_->trace.elements.size(); ++e) {
+    if (!at_->trace.elements[e].of || !same_element(*at_->trace.elements[e].of, label)) continue;
     // Row by row of the balance: few of them belong to one element.
     std::vector<ElementTrace::Partial> partials(
-        trace_.partials.begin() + static_cast<std::ptrdiff_t>(trace_.elements[e].first_partial),
-        trace_.partials.begin() + static_cast<std::ptrdiff_t>(trace_.end_of_partials(e)));
+        at_->trace.partials.begin() + static_cast<std::ptrdiff_t>(at_->trace.elements[e].first_partial),
+        at_->trace.partials.begin() + static_cast<std::ptrdiff_t>(at_->trace.end_of_partials(e)));
     std::erase_if(partials, [&](const ElementTrace::Partial& p) {
-      return p.row >= n || (without_damping_ && p.family == PartialBy::damping);
+      return p.row >= n || (at_->without_damping && p.family == PartialBy::damping);
     });
     std::stable_sort(partials.begin(), partials.end(), [](const auto& a, const auto& b) { return a.row < b.row; });
     for (std::size_t k = 0; k < partials.size();) {

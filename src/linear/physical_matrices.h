@@ -18,7 +18,6 @@
 #include <memory>
 
 #include "linear/linear_system.h"
-#include "linear/state_choice.h"
 
 namespace dynalin {
 
@@ -42,9 +41,8 @@ struct PhysicalMatrices {
 
 class PhysicalEquations {
  public:
-  // The point must be one that linearize() takes with the same options. Coordinates without mass stay what they are:
-  // their rows and columns of M are zero.
-  static Result<PhysicalEquations> make(const System&, OperatingPoint, const LinearOptions&);
+  // Coordinates without mass stay what they are: their rows and columns of M are zero.
+  static Result<PhysicalEquations> make(const System&, const Perturbation&);
 
   const PhysicalMatrices& whole() const { return whole_; }
   // Elements that contribute, in the order of the model; the labels are those of the system.
@@ -63,10 +61,9 @@ class PhysicalEquations {
   MotionMap split(const Eigen::MatrixXd& by_all) const;
 
   PhysicalMatrices whole_;
-  bool without_damping_ = false;
   Eigen::MatrixXd velocities_;  // V
   Variations variations_;
-  ElementTrace trace_;
+  std::shared_ptr<const PerturbedPoint> at_;
 };
 
 }  // namespace dynalin

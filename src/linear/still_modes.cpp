@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "linear/mass_root.h"
+#include "linear/perturbation.h"
 
 namespace dynalin {
 
@@ -22,12 +23,19 @@ constexpr double largest_motion = 1e-8;
 std::vector<bool> moving_mass(const MassRoot& root, const LinearSystem& linear) {
   const auto n = static_cast<Index>(linear.model.states.size());
   std::vector<bool> moves(static_cast<std::size_t>(n), false);
-  if (root.bodies() == 0 || linear.dq.rows() == 0) return moves;
-  for (const Matrix& map : {linear.dq, linear.dqdot}) {
-    const Matrix columns = map.leftCols(n);
-    const Eigen::RowVectorXd weighed = root.of(columns).cwiseAbs().colwise().maxCoeff(), size = root.size_of(columns);
-    for (Index k = 0; k < n; ++k) {
-      if (weighed(k) > 1e-12 * size(k)) moves[static_cast<std::size_t>(k)] = true;
+  if (root.bodies() == 0 || linear.equations->coordinates() == 0) return moves;
+  constexpr Index at_a_time = 64;
+  for (Index first = 0; first < n; first += at_a_time) {
+    const Index count = std::min(at_a_time, n - first);
+    Eigen::MatrixXcd units = Eigen::MatrixXcd::Zero(n, count);
+    units.middleRows(first, count).setIdentity();
+    const Matrix motions = linear.equations->motions(units).real();
+    for (const Matrix& columns :
+         {Matrix(motions.topRows(motions.rows() / 2)), Matrix(motions.bottomRows(motions.rows() / 2))}) {
+      const Eigen::RowVectorXd weighed = root.of(columns).cwiseAbs().colwise().maxCoeff(), size = root.size_of(columns);
+      for (Index k = 0; k < count; ++k) {
+        if (weighed(k) > 1e-12 * size(k)) moves[static_cast<std::size_t>(first + k)] = true;
+      }
     }
   }
   return moves;

@@ -10,6 +10,7 @@
 #include "linear/direction_changes.h"
 #include "linear/element_partials.h"
 #include "linear/null_space.h"
+#include "linear/perturbed_point.h"
 
 namespace dynalin {
 
@@ -22,18 +23,17 @@ using Index = Eigen::Index;
 
 class StructuralZeros::Contributions {
  public:
-  Contributions(const System& system, const Motion& motion, ConstraintRows rows, const ElementTrace& trace,
-                const Equations& eq, const StateChoice& choice, const LinearSystem& motions, bool without_damping,
-                const std::vector<std::int32_t>& massless)
+  Contributions(const System& system, const Perturbation& perturbation)
       : state_count_(system.layout().states.size()),
         n_(system.layout().coordinate_count),
         w_(static_cast<std::int32_t>(system.layout().algebraic.size())),
-        rows_(std::move(rows)),
-        choice_(choice),
-        changes_(system, rows_, choice_, motions, massless),
-        partials_(system, trace, without_damping),
-        forces_(system, motion, rows_, partials_) {
-    find_driven(eq);
+        at_(perturbation.at),
+        rows_(at_->rows),
+        choice_(at_->choice),
+        changes_(system, perturbation),
+        partials_(system, at_->trace, at_->without_damping),
+        forces_(system, at_->motion, rows_, partials_) {
+    find_driven(at_->equations);
   }
 
   // Whether differential state k of the layout does not act on bodies.
@@ -154,8 +154,9 @@ class StructuralZeros::Contributions {
 
   const std::size_t state_count_;
   const std::int32_t n_, w_;
-  const ConstraintRows rows_;
-  const StateChoice choice_;
+  const std::shared_ptr<const PerturbedPoint> at_;
+  const ConstraintRows& rows_;
+  const StateChoice& choice_;
   const DirectionChanges changes_;
   const ElementPartials partials_;
   const CarriedForces forces_;
@@ -163,13 +164,10 @@ class StructuralZeros::Contributions {
   std::vector<bool> driven_;
 };
 
-StructuralZeros::StructuralZeros(const System& system, const Motion& motion, ConstraintRows rows,
-                                 const ElementTrace& trace, const Equations& eq, const StateChoice& choice,
-                                 const LinearSystem& motions, bool without_damping,
-                                 const std::vector<std::int32_t>& massless)
-    : driven_(static_cast<std::size_t>(choice.size()), false),
-      contributions_(std::make_unique<const Contributions>(system, motion, std::move(rows), trace, eq, choice, motions,
-                                                           without_damping, massless)) {
+StructuralZeros::StructuralZeros(const System& system, const Perturbation& perturbation)
+    : driven_(perturbation.model.states.size(), false),
+      contributions_(std::make_unique<const Contributions>(system, perturbation)) {
+  const StateChoice& choice = perturbation.at->choice;
   for (std::size_t k = 0; k < choice.differential.size(); ++k) {
     driven_[static_cast<std::size_t>(choice.first_differential) + k] =
         contributions_->driven_states()[static_cast<std::size_t>(choice.differential[k])];

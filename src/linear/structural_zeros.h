@@ -26,11 +26,7 @@ namespace dynalin {
 
 class StructuralZeros {
  public:
-  // `motions` holds the variations of all states; the equations must have been evaluated while `trace` took notes.
-  // `massless` names a coordinate of each freedom without mass: nothing depends on its acceleration.
-  StructuralZeros(const System&, const Motion&, ConstraintRows, const ElementTrace&, const Equations&,
-                  const StateChoice&, const LinearSystem& motions, bool without_damping,
-                  const std::vector<std::int32_t>& massless);
+  StructuralZeros(const System&, const Perturbation&);
   ~StructuralZeros();
 
   // The directions of states (columns) that A maps into the span of `earlier` ones, which must come from here or be

@@ -1,5 +1,5 @@
-// Mass, damping and stiffness of chosen coordinates: they make the state matrices that linearize() finds by another way,
-// elements add up to the whole, and single ones are what a textbook says.
+// Mass, damping and stiffness of chosen coordinates: they make the state matrices that linearize() finds by another
+// way, elements add up to the whole, and single ones are what a textbook says.
 #include "linear/physical_matrices.h"
 
 #include <gtest/gtest.h>
@@ -28,6 +28,12 @@ LinearOptions options_of(const Model& model) {
   if (const auto list = model.find("PINPUT", 1)) options.pinput = *list;
   if (const auto list = model.find("POUTPUT", 1)) options.poutput = *list;
   return options;
+}
+
+Result<PhysicalEquations> physical_of(const System& system, const OperatingPoint& op) {
+  const auto perturbation = perturb(system, op, options_of(system.model()));
+  if (!perturbation) return tl::unexpected(perturbation.error());
+  return PhysicalEquations::make(system, *perturbation);
 }
 
 // [A B; C D] with states as linearize() lists them.
@@ -100,7 +106,7 @@ TEST(PhysicalMatrices, make_the_state_matrices_and_are_the_sum_of_their_elements
     const auto linear = linearize(*system, *op, options);
     ASSERT_TRUE(linear) << linear.error().message;
     if (linear->has_massless_states || linear->kinematic_states == 0) continue;
-    const auto physical = PhysicalEquations::make(*system, *op, options);
+    const auto physical = PhysicalEquations::make(*system, *linear);
     ASSERT_TRUE(physical) << physical.error().message;
     const PhysicalMatrices& p = physical->whole();
     // Row by row, beside what an entry is made of.
@@ -140,7 +146,7 @@ TEST(PhysicalMatrices, of_two_masses_are_those_of_the_textbook) {
   Findings findings;
   const auto op = initial_conditions(*system, findings);
   ASSERT_TRUE(op) << op.error().message;
-  const auto physical = PhysicalEquations::make(*system, *op, options_of(system->model()));
+  const auto physical = physical_of(*system, *op);
   ASSERT_TRUE(physical) << physical.error().message;
   const PhysicalMatrices& p = physical->whole();
   ASSERT_EQ(p.coordinates.size(), 2u);
@@ -171,7 +177,7 @@ TEST(PhysicalMatrices, of_a_pendulum_has_the_stiffness_of_its_weight) {
   Findings findings;
   const auto op = initial_conditions(*system, findings);
   ASSERT_TRUE(op) << op.error().message;
-  const auto physical = PhysicalEquations::make(*system, *op, {});
+  const auto physical = physical_of(*system, *op);
   ASSERT_TRUE(physical) << physical.error().message;
   expect_near(physical->whole().force.of_accelerations, Matrix{{0.6}}, 1e-14, "M");
   expect_near(physical->whole().force.of_coordinates, Matrix{{9.81}}, 1e-12, "K");

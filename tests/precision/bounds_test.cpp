@@ -51,7 +51,7 @@ class Bounds : public ::testing::Test {
     if (linear->model.states.empty()) return;
     const auto solution = eigensolve(*linear);
     ASSERT_TRUE(solution) << solution.error().message;
-    std::vector<Value> exact = eigenvalues(*linear->equations);
+    std::vector<Value> exact = eigenvalues(*linear->pencil);
     ASSERT_EQ(exact.size(), linear->model.states.size()) << text;
     bool finer = false, zeros = false;
     for (const EigenMode& mode : solution->modes) {
@@ -71,7 +71,7 @@ class Bounds : public ::testing::Test {
       Real error = least_distance(exact, mode);
       if (error > bound && !finer) {
         finer = true;
-        exact = eigenvalues<Finer>(*linear->equations);
+        exact = eigenvalues<Finer>(*linear->pencil);
         ASSERT_FALSE(exact.empty()) << text;
         error = least_distance(exact, mode);
       }

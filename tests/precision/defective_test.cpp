@@ -279,7 +279,7 @@ class Spectrum {
     ASSERT_TRUE(linear) << linear.error().message;
     const auto solution = eigensolve(*linear);
     ASSERT_TRUE(solution) << solution.error().message;
-    std::vector<Exact> exact = exact_values(drawn, *linear->equations);
+    std::vector<Exact> exact = exact_values(drawn, *linear->pencil);
     ASSERT_EQ(exact.size(), linear->model.states.size()) << drawn.text;
     std::vector<Printed> printed;
     std::size_t zeros = 0;

@@ -1,0 +1,34 @@
+// What the perturbation equations of a point are made of: motion, constraint rows, partials and the states that were
+// chosen. It outlives them, for what is asked of single elements.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "linear/massless_states.h"
+#include "linear/state_choice.h"
+#include "mechanics/element_trace.h"
+
+namespace dynalin {
+
+struct PerturbedPoint {
+  PerturbedPoint(const System&, const OperatingPoint&, const LinearOptions&);
+
+  // What outputs see of columns of all unknowns (perturbation.h).
+  Eigen::MatrixXd outputs_of(const PerturbationEquations&, const Eigen::MatrixXd& columns) const;
+
+  Motion motion;
+  ConstraintRows rows;
+  ElementTrace trace;
+  Equations equations;
+  StateChoice choice;
+  std::optional<StateChoice> with_massless;   // the choice before freedoms without mass lost their states, if any did
+  std::vector<std::int32_t> inputs, outputs;  // algebraic unknowns
+  std::optional<MasslessStates> massless;     // nothing where everything has mass
+  bool without_damping, without_rate_coupling;
+
+ private:
+  std::int32_t first_algebraic_;  // among the unknowns of the augmented system
+};
+
+}  // namespace dynalin
