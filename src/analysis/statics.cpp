@@ -22,7 +22,7 @@ std::string too_far_out(const System& system, const OperatingPoint& op) {
   const Layout& layout = system.layout();
   std::array<std::vector<double>, 3> at;
   for (std::size_t m = 1; m < layout.markers.size(); ++m) {
-    const MarkerPlace& place = layout.markers[m];
+    const MarkerPlace& place = *layout.markers[m];
     const Pose& pose = op.poses[static_cast<std::size_t>(place.body.index)];
     const Vector p = pose.r + pose.R * place.p_BM;
     for (std::size_t c = 0; c < 3; ++c) at[c].push_back(p[c]);

@@ -236,7 +236,7 @@ class Editor {
     const auto ends = read_integers(*range, *range->name.source, diagnostics_);
     if (!ends) return;
     if (ends->size() != 2) {
-      diagnostics_.error("wrong-count", range->value_span, fmt::format("RANGE takes 2 ids, found {}", ends->size()));
+      diagnostics_.error("wrong-count", range->value_span(), fmt::format("RANGE takes 2 ids, found {}", ends->size()));
       return;
     }
     bool any = false;
@@ -247,7 +247,7 @@ class Editor {
     }
     if (!any)
       diagnostics_.error(
-          "unknown-element", range->value_span,
+          "unknown-element", range->value_span(),
           fmt::format("no {} has an id from {} to {}", statement, ends->front().value, ends->back().value));
   }
 

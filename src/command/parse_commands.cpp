@@ -125,7 +125,7 @@ class FileParser {
     Span whole = s.at;
     if (!s.arguments.empty()) {
       const WrittenArgument& last = s.arguments.back();
-      whole = join(s.at, last.has_value && last.value_span.length > 0 ? last.value_span : last.name);
+      whole = join(s.at, last.has_value && last.value_span().length > 0 ? last.value_span() : last.name);
     }
     Command command{one_line(whole.text()), s.at, StopCommand{}};
     if (s.name == "SIMULATE") {

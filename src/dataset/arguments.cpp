@@ -173,11 +173,11 @@ void ArgumentSplitter::read_value(ArgumentDraft& draft) {
                                        : end_of_text(at_, form);
   draft.end = at_;
   if (draft.begin < draft.end) {
-    argument.value_span = join(span(draft.begin), span(draft.end - 1));
+    argument.place_value(join(span(draft.begin), span(draft.end - 1)));
     check_tokens(draft, form);
     return;
   }
-  argument.value_span = {&source_, tokens_[equals].offset + 1, 0};
+  argument.place_value({&source_, tokens_[equals].offset + 1, 0});
   if (form == ValueForm::rest_of_line) return;
   if (form == ValueForm::free_text || form == ValueForm::text_list) {
     diagnostics_.warning("missing-value", span(equals), std::string(argument.name.text()) + " has no value after '='");

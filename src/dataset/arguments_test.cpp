@@ -105,7 +105,7 @@ TEST(arguments, take_file_names_as_raw_text) {
       "MATRIX/2,\n,file=\"a, b.mat\", name=ac");
   EXPECT_EQ(problems(parsed.diagnostics), Texts{});
   const auto value = [&](std::size_t statement, std::size_t argument) {
-    return std::string(parsed.value.statements.at(statement).arguments.at(argument).value_span.text());
+    return std::string(parsed.value.statements.at(statement).arguments.at(argument).value_span().text());
   };
   EXPECT_EQ(value(0, 0), "C:\\my dir\\a(1.mnf");
   EXPECT_EQ(parsed.value.statements[0].arguments.size(), 2u);
@@ -119,7 +119,7 @@ TEST(arguments, give_a_comment_the_rest_of_its_line) {
   EXPECT_EQ(problems(parsed.diagnostics), Texts{});
   const Statement& request = parsed.value.statements.at(0);
   ASSERT_EQ(request.arguments.size(), 3u);
-  EXPECT_EQ(request.arguments[1].value_span.text(), "Peter's force: x, y (left,");
+  EXPECT_EQ(request.arguments[1].value_span().text(), "Peter's force: x, y (left,");
   EXPECT_EQ(request.arguments[2].name.text(), "F3");
 }
 
@@ -134,7 +134,7 @@ TEST(arguments, read_C_as_comment_only_where_it_is_one) {
 
 TEST(arguments, span_their_value_from_first_to_last_token) {
   const Parsed<Dataset> parsed = read("MARKER/2, QP= 1 , 0, 2 , PART=1");
-  EXPECT_EQ(parsed.value.statements.at(0).arguments.at(0).value_span.text(), "1 , 0, 2");
+  EXPECT_EQ(parsed.value.statements.at(0).arguments.at(0).value_span().text(), "1 , 0, 2");
 }
 
 // --- faults

@@ -24,13 +24,16 @@ enum class TokenKind : std::uint8_t {
   end,
 };
 
+// Eight bytes, since a dataset has as many as it has words and numbers.
 struct Token {
-  TokenKind kind = TokenKind::end;
-  bool continuation = false;  // a comma that is the continuation mark at the start of a line
-  bool degrees = false;       // a number with the suffix D
-  bool integer = false;       // a number written without point, exponent and suffix
   std::uint32_t offset = 0;
-  std::uint32_t length = 0;
+  std::uint32_t length : 26 = 0;
+  TokenKind kind : 3 = TokenKind::end;
+  bool continuation : 1 = false;  // a comma that is the continuation mark at the start of a line
+  bool degrees : 1 = false;       // a number with the suffix D
+  bool integer : 1 = false;       // a number written without point, exponent and suffix
+
+  static constexpr std::uint32_t longest = (1u << 26) - 1;
 };
 
 // Tokens in blocks, so that those which are stored stay where they are while others follow.
@@ -49,11 +52,15 @@ class TokenStore {
 struct WrittenArgument {
   Span name;
   std::span<const Token> value;  // into Dataset::tokens
-  Span value_span;               // from the first to the last token of the value; after '=' if empty
-  bool has_value = false;        // '=' was written
+  std::uint32_t value_offset = 0, value_length = 0;
+  bool has_value = false;  // '=' was written
   // An error inside of it is already reported: the readers below return nothing and add no second error, and
   // its tokens must not be parsed as an expression.
   bool damaged = false;
+
+  // From the first to the last token of the value; after '=' if empty.
+  Span value_span() const { return {name.source, value_offset, value_length}; }
+  void place_value(const Span& at) { value_offset = at.offset, value_length = at.length; }
 };
 
 struct Statement {

@@ -1,5 +1,6 @@
 #include "dataset/lexer.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -164,12 +165,16 @@ void Lexer::scan_other(std::vector<Token>& tokens) {
 }
 
 void Lexer::push(std::vector<Token>& tokens, TokenKind kind, std::size_t length) {
-  Token token;
-  token.kind = kind;
-  token.offset = static_cast<std::uint32_t>(at_);
-  token.length = static_cast<std::uint32_t>(length);
-  tokens.push_back(token);
-  at_ += length;
+  // What is longer than a token can be becomes several, none of which is what it was meant to be.
+  do {
+    const std::size_t part = std::min<std::size_t>(length, Token::longest);
+    Token token;
+    token.kind = kind;
+    token.offset = static_cast<std::uint32_t>(at_);
+    token.length = static_cast<std::uint32_t>(part) & Token::longest;
+    tokens.push_back(token);
+    at_ += part, length -= part;
+  } while (length > 0);
 }
 
 }  // namespace dynalin

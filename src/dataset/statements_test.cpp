@@ -117,7 +117,7 @@ TEST(statements, have_comments_anywhere) {
 
 TEST(statements, keep_an_exclamation_mark_in_quotes) {
   const auto parsed = read("STRING/1, STRING='a ! b' ! c");
-  EXPECT_EQ(parsed.value.statements.at(0).arguments.at(0).value_span.text(), "'a ! b'");
+  EXPECT_EQ(parsed.value.statements.at(0).arguments.at(0).value_span().text(), "'a ! b'");
 }
 
 TEST(statements, continue_behind_an_ampersand) {

@@ -113,7 +113,7 @@ std::optional<std::vector<WrittenReal>> read_numbers(const WrittenArgument& argu
   if (!has_readable_value(argument, what, diagnostics)) return std::nullopt;
   auto numbers = NumberList(argument, source, diagnostics).read();
   if (!numbers || count == 0 || numbers->size() == count) return numbers;
-  diagnostics.error("wrong-count", argument.value_span,
+  diagnostics.error("wrong-count", argument.value_span(),
                     fmt::format("{} takes {}, found {}", name_of(argument), what, numbers->size()));
   return std::nullopt;
 }
@@ -233,7 +233,7 @@ std::optional<std::vector<Span>> read_words(const WrittenArgument& argument, con
 
 std::optional<std::string> read_text(const WrittenArgument& argument, const SourceText&, Diagnostics& diagnostics) {
   if (!has_readable_value(argument, "a text", diagnostics)) return std::nullopt;
-  std::string_view text = argument.value_span.text();
+  std::string_view text = argument.value_span().text();
   const bool in_quotes = text.size() >= 2 && (text.front() == '\'' || text.front() == '"') &&
                          text.find(text.front(), 1) == text.size() - 1;
   if (in_quotes) text = text.substr(1, text.size() - 2);

@@ -21,7 +21,11 @@ std::shared_ptr<const ExpressionProgram> constant_program(double value) {
 
 }  // namespace
 
-Expression::Expression() : program_(constant_program(0.0)) {}
+// Every argument that may be an expression begins as this one.
+Expression::Expression() {
+  static const std::shared_ptr<const ExpressionProgram> zero = constant_program(0.0);
+  program_ = zero;
+}
 Expression::Expression(std::shared_ptr<const ExpressionProgram> program) : program_(std::move(program)) {}
 
 Expression Expression::constant(double value) { return Expression(constant_program(value)); }

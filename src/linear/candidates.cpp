@@ -99,7 +99,7 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
         "options-disagree", {},
         fmt::format("RM={} asks for coordinates relative to that marker: the coordinates of the original "
                     "implementation are not used",
-                    layout.marker_labels[static_cast<std::size_t>(options.rm.index)].id));
+                    layout.marker_label(options.rm).id));
   }
   set.gradients.resize(layout, count);
   set.gradients.begin();
@@ -127,7 +127,7 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
   }
 
   const MarkerPlace& b = layout.marker(options.rm);
-  const std::int64_t id = layout.marker_labels[static_cast<std::size_t>(options.rm.index)].id;
+  const std::int64_t id = layout.marker_label(options.rm).id;
   std::vector<std::int32_t> row_of(system.coordinates(), -1);
   for (std::size_t k = 1; k < layout.bodies.size(); ++k) {
     const BodyBlock& block = layout.bodies[k];

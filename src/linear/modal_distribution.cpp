@@ -197,7 +197,7 @@ std::vector<ModalRow<Complex>> ModalDistribution::markers(std::size_t mode, std:
       turned = three(dq, block.offset + 3);
       add(moved, times(-skew(motion_.body(place.body).R * place.p_BM), turned));
     }
-    ModalRow<Complex> row{&layout.marker_labels[static_cast<std::size_t>(m.index)]};
+    ModalRow<Complex> row{&layout.marker_label(m)};
     for (const ComplexVector& part : {moved, turned}) {
       for (const Complex& v : part) row.values.push_back(largest == Complex(0) ? Complex(0) : v / largest);
     }

@@ -96,14 +96,14 @@ void map_shapes(const System& system, const LinearSystem& linear, EigenSolution&
   solution.shape_labels.assign(static_cast<std::size_t>(n + differential), {});
   for (const BodyBlock& b : layout.bodies) {
     for (std::int32_t k = 0; k < b.count; ++k) {
-      solution.shape_labels[static_cast<std::size_t>(b.offset + k)] = {b.label.element(), b.label.view_name,
-                                                                       std::string(names[static_cast<std::size_t>(k)])};
+      solution.shape_labels[static_cast<std::size_t>(b.offset + k)] = {
+          b.label.element(), std::string(b.label.view_name), std::string(names[static_cast<std::size_t>(k)])};
     }
   }
   for (const ExtraBlock& e : layout.extras) {
     for (std::int32_t k = 0; k < e.count; ++k) {
-      solution.shape_labels[static_cast<std::size_t>(e.offset + k)] = {e.label.element(), e.label.view_name,
-                                                                       e.coordinates[static_cast<std::size_t>(k)].name};
+      solution.shape_labels[static_cast<std::size_t>(e.offset + k)] = {
+          e.label.element(), std::string(e.label.view_name), e.coordinates[static_cast<std::size_t>(k)].name};
     }
   }
   for (Eigen::Index k = 0; k < differential; ++k) {

@@ -84,7 +84,7 @@ MarkerFrame find_marker(Binder& binder, const Atom& atom, std::int64_t id, bool 
   if (!signals.has_place(m)) {
     binder.problem("unplaced-marker", atom.at,
                    std::string(atom.at.text()) + " reads " +
-                       layout.marker_labels[static_cast<std::size_t>(m.index)].full_text() +
+                       layout.marker_label(m).full_text() +
                        ", a floating marker that no element gives a place");
   }
   const CurvePoint* on = layout.curve_point(m);

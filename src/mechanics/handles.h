@@ -58,13 +58,13 @@ using FlexBodyRef = ElementRef<FlexBodyClass>;
 struct ElementLabel {
   std::string_view statement;  // "JOINT"
   std::int64_t id = 0;
-  std::string view_name;  // from the dataset, may be empty
+  std::string_view view_name;  // into the text of the dataset, which lives as long as the model; may be empty
   Span at;
 
   ElementId element() const { return {std::string(statement), id}; }
   // "JOINT/3", with the view name behind it when there is one.
   std::string text() const { return std::string(statement) + "/" + std::to_string(id); }
-  std::string full_text() const { return view_name.empty() ? text() : text() + " (" + view_name + ")"; }
+  std::string full_text() const { return view_name.empty() ? text() : text() + " (" + std::string(view_name) + ")"; }
 };
 inline bool same_element(const ElementLabel& a, const ElementLabel& b) {
   return a.id == b.id && a.statement == b.statement;

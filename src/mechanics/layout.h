@@ -81,9 +81,9 @@ struct DifferentialState {
 
 class Layout {
  public:
-  std::vector<BodyBlock> bodies;     // by BodyId
-  std::vector<MarkerPlace> markers;  // by MarkerId
-  std::vector<ElementLabel> marker_labels;
+  std::vector<BodyBlock> bodies;            // by BodyId
+  std::vector<const MarkerPlace*> markers;  // by MarkerId; owned by the model, as their labels are
+  std::vector<const ElementLabel*> marker_labels;
   std::vector<ExtraBlock> extras;
   std::vector<CurvePoint> curve_points;
   std::vector<ConstraintRow> rows;
@@ -96,7 +96,8 @@ class Layout {
   std::int32_t body_coordinate_count = 0;            // of the bodies alone; extras follow them
 
   const BodyBlock& body(BodyId b) const { return bodies[static_cast<std::size_t>(b.index)]; }
-  const MarkerPlace& marker(MarkerId m) const { return markers[static_cast<std::size_t>(m.index)]; }
+  const MarkerPlace& marker(MarkerId m) const { return *markers[static_cast<std::size_t>(m.index)]; }
+  const ElementLabel& marker_label(MarkerId m) const { return *marker_labels[static_cast<std::size_t>(m.index)]; }
 
   std::int32_t add_body(BodyKind, ElementLabel);
   // After all bodies; returns the first coordinate.

@@ -69,6 +69,8 @@ class ElementSet {
   virtual void append(ElementLabel label) = 0;
   virtual void reserve(std::size_t count) { labels.reserve(count); }  // so many are to come, not more
   virtual void read(std::size_t index, ElementReader&) = 0;
+  // Makes the element that is read next. Not earlier: by then the memory of statements read before is free again.
+  virtual void make(std::size_t) {}
   virtual void finish(Model&, Diagnostics&) {}
   virtual std::unique_ptr<Kernel> make_kernel(const Model&, Layout&) const { return nullptr; }
 
@@ -93,8 +95,8 @@ class TypedSet : public ElementSet {
   void append(ElementLabel label) override {
     labels.push_back(std::move(label));
     sound.push_back(true);
-    elements.emplace_back();
   }
+  void make(std::size_t k) override { elements.resize(k + 1); }
 };
 
 }  // namespace dynalin

@@ -67,7 +67,7 @@ class Table {
   void head(const std::string& text) { fmt::print(out_, "{}|{}\n", indent(), text); }
   void row(const std::string& label, const ElementLabel& element, const std::string& cells) {
     const bool named = format_.names && format_.precision != 2 && !element.view_name.empty();
-    fmt::print(out_, "  {:<{}}|{}|{}\n", label, label_width_, cells, named ? " " + element.view_name : "");
+    fmt::print(out_, "  {:<{}}|{}|{}\n", label, label_width_, cells, named ? " " + std::string(element.view_name) : "");
   }
   std::ostream& out() { return out_; }
 

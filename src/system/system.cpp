@@ -34,8 +34,8 @@ void System::number_bodies() {
   layout_.markers.reserve(model_->markers.size());
   layout_.marker_labels.reserve(model_->markers.size());
   for (const Marker& m : model_->markers) {
-    layout_.markers.push_back(m.place);
-    layout_.marker_labels.push_back(m.label);
+    layout_.markers.push_back(&m.place);
+    layout_.marker_labels.push_back(&m.label);
   }
 }
 

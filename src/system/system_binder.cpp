@@ -73,7 +73,7 @@ std::string SystemBinder::statement_at(const Span& at) const {
   for (const Statement& s : all) {
     if (at.source == s.at.source) break;
     for (const WrittenArgument& w : s.arguments) {
-      const Span& v = w.value_span;
+      const Span v = w.value_span();
       if (v.source == at.source && at.offset >= v.offset && at.offset < v.offset + v.length) return text_of(s);
     }
   }

@@ -54,14 +54,14 @@ bool allowed(const Dataset& dataset) {
     for (const WrittenArgument& a : s.arguments) {
       const std::string_view name = a.name.text();
       const bool names_file = !name.empty() && (name.front() == 'F' || name.front() == 'f');
-      if ((s.name == "MATRIX" || s.name == "SPLINE") && names_file && !allowed(a.value_span.text())) return false;
+      if ((s.name == "MATRIX" || s.name == "SPLINE") && names_file && !allowed(a.value_span().text())) return false;
     }
   }
   return true;
 }
 
-// JSON has no sign for what is not a number: null takes its place. Elsewhere null is what nobody stated, and a bound that
-// is infinite.
+// JSON has no sign for what is not a number: null takes its place. Elsewhere null is what nobody stated, and a bound
+// that is infinite.
 void demand_numbers(const nlohmann::json& value) {
   constexpr std::array<std::string_view, 4> numbers = {"real_hz", "imag_hz", "backward_error", "time"};
   for (const auto& [name, inner] : value.items()) {

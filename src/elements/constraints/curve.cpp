@@ -45,9 +45,9 @@ class CurveSet final : public TypedSet<Curve> {
  public:
   using TypedSet::TypedSet;
 
-  void append(ElementLabel label) override {
-    TypedSet::append(std::move(label));
-    written_.emplace_back();
+  void make(std::size_t k) override {
+    TypedSet::make(k);
+    written_.resize(k + 1);
   }
 
   void read(std::size_t k, ElementReader& reader) override {

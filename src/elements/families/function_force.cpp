@@ -2,12 +2,12 @@
 
 namespace dynalin {
 
-FunctionForceKernel::FunctionForceKernel(std::vector<FunctionForce> elements, const std::vector<ElementLabel>& labels,
-                                         Layout& layout) {
+FunctionForceKernel::FunctionForceKernel(std::vector<FunctionForce> elements, Layout& layout) {
   forces_.reserve(elements.size());
-  for (std::size_t k = 0; k < elements.size(); ++k) {
-    const MarkerPlace I = layout.marker(elements[k].i), J = layout.marker(elements[k].j);
-    forces_.push_back({std::move(elements[k]), I, J, layout.add_algebraic(labels[k]), {}});
+  for (FunctionForce& e : elements) {
+    const MarkerPlace &I = layout.marker(e.i), &J = layout.marker(e.j);
+    const std::int32_t algebraic = layout.add_algebraic(*e.label);
+    forces_.push_back({std::move(e), I, J, algebraic, {}});
   }
 }
 
@@ -62,10 +62,10 @@ void FunctionForceKernel::wrench(const Motion& motion, std::size_t k, bool with_
 void FunctionForceKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined_values) const {
   for (const Force& f : forces_) {
     if (f.element.direction == Direction::along_line && norm(motion.point(f.I) - motion.point(f.J)) == 0.0) {
-      undefined_values.push_back({&f.element.label, "the markers of " + f.element.label.full_text() +
+      undefined_values.push_back({f.element.label, "the markers of " + f.element.label->full_text() +
                                                         " coincide, its line of action has no direction"});
     }
-    f.magnitude.find_undefined(motion, f.element.label, undefined_values);
+    f.magnitude.find_undefined(motion, *f.element.label, undefined_values);
   }
 }
 

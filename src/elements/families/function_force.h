@@ -17,7 +17,7 @@ namespace dynalin {
 enum class Direction : std::uint8_t { along_line, along_z, about_z };
 
 struct FunctionForce {
-  ElementLabel label;
+  const ElementLabel* label;
   MarkerId i, j;
   Direction direction = Direction::along_line;
   bool action_only = false;
@@ -26,7 +26,7 @@ struct FunctionForce {
 
 class FunctionForceKernel final : public Kernel, public WrenchSource {
  public:
-  FunctionForceKernel(std::vector<FunctionForce>, const std::vector<ElementLabel>&, Layout&);
+  FunctionForceKernel(std::vector<FunctionForce>, Layout&);
 
   void bind(Binder&) override;
   void equations(const Motion&, Equations&) const override;

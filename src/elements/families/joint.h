@@ -266,8 +266,8 @@ class JointSet final : public JointSetBase {
   void append(ElementLabel label) override {
     labels.push_back(std::move(label));
     sound.push_back(true);
-    joints.emplace_back();
   }
+  void make(std::size_t k) override { joints.resize(k + 1); }
   void read(std::size_t k, ElementReader& reader) override {
     Written w;
     const bool ok = read_arguments(w, reader);

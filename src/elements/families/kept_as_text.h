@@ -5,7 +5,7 @@
 
 namespace dynalin {
 
-class TextSet final : public ElementSet {
+class TextSet : public ElementSet {
  public:
   using ElementSet::ElementSet;
   void append(ElementLabel label) override {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace dynalin {
 
 namespace {
@@ -16,14 +18,18 @@ std::array<T, 3> projected_angles(const RelativeFrame<T>& I) {
 
 }  // namespace
 
-bool LinearWrench::turns() const {
-  for (std::size_t r = 0; r < 6; ++r) {
-    if (r >= 3 && force[r] != 0) return true;
-    for (std::size_t c = 0; c < 6; ++c) {
-      if ((r >= 3 || c >= 3) && (K[r][c] != 0 || C[r][c] != 0)) return true;
+LinearWrench::LinearWrench(const LinearLaw& law) : i(law.i), j(law.j), length(law.length), force(law.force) {
+  for (std::uint8_t r = 0; r < 6; ++r) {
+    for (std::uint8_t c = 0; c < 6; ++c) {
+      if (law.K[r][c] != 0 || law.C[r][c] != 0) couplings.push_back({r, c, law.K[r][c], law.C[r][c]});
     }
   }
-  return false;
+  couplings.shrink_to_fit();
+}
+
+bool LinearWrench::turns() const {
+  return std::any_of(force.begin() + 3, force.end(), [](double f) { return f != 0; }) ||
+         std::any_of(couplings.begin(), couplings.end(), [](const Coupling& k) { return k.row >= 3 || k.column >= 3; });
 }
 
 RelativeDisplacement relative_displacement(const PairMotion& pair, std::span<const double> turns) {
@@ -64,7 +70,7 @@ LinearWrenchKernel::LinearWrenchKernel(const std::vector<LinearWrench>& laws, co
   laws_.reserve(laws.size());
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const LinearWrench& law = laws[k];
-    laws_.push_back({law, layout.marker(law.i), layout.marker(law.j), layout.add_memory(labels[k].at)});
+    laws_.push_back({&law, layout.marker(law.i), layout.marker(law.j), layout.add_memory(labels[k].at)});
     layout.add_memory(labels[k].at);
     layout.add_memory(labels[k].at);
   }
@@ -76,19 +82,16 @@ PairForce LinearWrenchKernel::force_of(const Placed& p, const PairMotion& pair, 
       relative_displacement(pair, std::span(motion.memory).subspan(static_cast<std::size_t>(p.memory), 3));
   RelativeWrench w;
   w.depends_on_rate = true;
-  for (std::size_t r = 0; r < 6; ++r) {
-    double sum = p.law.force[r];
-    for (std::size_t c = 0; c < 6; ++c) {
-      const double K = p.law.K[r][c], C = p.law.C[r][c];
-      if (K == 0 && C == 0) continue;
-      sum -= K * (d.y[c] - p.law.length[c]) + C * d.rate[c];
-      for (std::size_t k = 0; k < 6; ++k) {
-        w.on_pose[r][k] -= K * d.on_pose[c][k] + C * d.rate_on_pose[c][k];
-        w.on_rate[r][k] -= C * d.rate_on_rate[c][k];
-      }
+  Array6 load = p.law->force;
+  for (const auto& [r, c, K, C] : p.law->couplings) {
+    load[r] -= K * (d.y[c] - p.law->length[c]) + C * d.rate[c];
+    for (std::size_t k = 0; k < 6; ++k) {
+      w.on_pose[r][k] -= K * d.on_pose[c][k] + C * d.rate_on_pose[c][k];
+      w.on_rate[r][k] -= C * d.rate_on_rate[c][k];
     }
-    (r < 3 ? w.force[r] : w.torque[r - 3]) = sum;
   }
+  w.force = {load[0], load[1], load[2]};
+  w.torque = {load[3], load[4], load[5]};
   return spread(pair, w, with_partials);
 }
 

@@ -17,11 +17,25 @@
 
 namespace dynalin {
 
-struct LinearWrench {
+// As the statements give it.
+struct LinearLaw {
   MarkerId i, j;
   Array66 K{}, C{};          // stiffness and damping
   Array6 length{}, force{};  // displacement at which `force` acts
+};
 
+// As it is kept: most have a diagonal alone.
+struct LinearWrench {
+  struct Coupling {
+    std::uint8_t row, column;
+    double K, C;
+  };
+  MarkerId i, j;
+  std::vector<Coupling> couplings;  // row by row, without those that are zero
+  Array6 length{}, force{};
+
+  LinearWrench() = default;
+  explicit LinearWrench(const LinearLaw&);
   // Whether rotations or torques are in it; without them POINT_MASSes will do.
   bool turns() const;
 };
@@ -37,13 +51,13 @@ class LinearWrenchKernel final : public Kernel, public WrenchSource {
   void equations(const Motion&, Equations&) const override;
   void remember(const Motion&, Memory&) const override;
   const WrenchSource* wrenches() const override { return this; }
-  MarkerId marker_I(std::size_t k) const override { return laws_[k].law.i; }
-  MarkerId marker_J(std::size_t k) const override { return laws_[k].law.j; }
+  MarkerId marker_I(std::size_t k) const override { return laws_[k].law->i; }
+  MarkerId marker_J(std::size_t k) const override { return laws_[k].law->j; }
   void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;
 
  private:
   struct Placed {
-    LinearWrench law;
+    const LinearWrench* law;  // of the model
     MarkerPlace I, J;
     std::int32_t memory;  // of three total angles
   };
@@ -52,14 +66,14 @@ class LinearWrenchKernel final : public Kernel, public WrenchSource {
   const std::vector<ElementLabel>* labels_;
 };
 
-// Elements E that give `LinearWrench law(ElementReader&)` from their arguments, reporting what does not fit.
+// Elements E that give `LinearLaw law(ElementReader&)` from their arguments, reporting what does not fit.
 template <class E>
 class LinearWrenchSet final : public TypedSet<LinearWrench> {
  public:
   using TypedSet::TypedSet;
   void read(std::size_t k, ElementReader& reader) override {
     E written;
-    if (read_arguments(written, reader)) elements[k] = written.law(reader);
+    if (read_arguments(written, reader)) elements[k] = LinearWrench(written.law(reader));
   }
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) {

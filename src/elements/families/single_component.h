@@ -22,11 +22,12 @@ class SingleComponentSet final : public TypedSet<E> {
   }
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
     std::vector<FunctionForce> forces;
+    forces.reserve(this->elements.size());
     for (std::size_t k = 0; k < this->elements.size(); ++k) {
       const E& e = this->elements[k];
-      forces.push_back({this->labels[k], e.i, e.j, e.direction(), e.action_only, e.function});
+      forces.push_back({&this->labels[k], e.i, e.j, e.direction(), e.action_only, e.function});
     }
-    return std::make_unique<FunctionForceKernel>(std::move(forces), this->labels, layout);
+    return std::make_unique<FunctionForceKernel>(std::move(forces), layout);
   }
 };
 

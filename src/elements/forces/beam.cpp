@@ -60,8 +60,8 @@ struct Beam {
       {.name = "FORMULATION", .slot = &Beam::formulation, .help = "LINEAR"},
   }};
 
-  LinearWrench law(ElementReader& reader) const {
-    LinearWrench w{i, j, {}, {}, {length, 0, 0, 0, 0, 0}, {}};
+  LinearLaw law(ElementReader& reader) const {
+    LinearLaw w{i, j, {}, {}, {length, 0, 0, 0, 0, 0}, {}};
     const std::string name = reader.label().text();
     if (!(length > 0)) {
       reader.error("value-out-of-range", reader.at("LENGTH"), fmt::format("LENGTH of {} must be positive", name));

@@ -30,8 +30,8 @@ struct Bushing {
       {.name = "TORQUE", .slot = &Bushing::torque, .unit = unit::torque, .help = "3 values at zero displacement"},
   }};
 
-  LinearWrench law(ElementReader& reader) const {
-    LinearWrench w{i, j, {}, {}, {}, {}};
+  LinearLaw law(ElementReader& reader) const {
+    LinearLaw w{i, j, {}, {}, {}, {}};
     const auto diagonal = [&](const std::vector<double>& translation, std::string_view name,
                               const std::vector<double>& rotation, std::string_view rotation_name, auto&& put) {
       std::array<double, 3> t{}, r{};

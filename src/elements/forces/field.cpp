@@ -29,8 +29,8 @@ struct Field {
       {.name = "FUNCTION", .slot = &Field::function, .help = "USER(…): not available"},
   }};
 
-  LinearWrench law(ElementReader& reader) const {
-    LinearWrench w{i, j, {}, {}, {}, {}};
+  LinearLaw law(ElementReader& reader) const {
+    LinearLaw w{i, j, {}, {}, {}, {}};
     std::array<double, 36> K{}, C{};
     take_values(stiffness, "KMATRIX", K, reader);
     take_values(damping, "CMATRIX", C, reader);

@@ -1,5 +1,6 @@
 // GRAPHICS/id, type, …: a shape for the display. Its arguments are checked; nothing here draws it.
-#include "elements/settings/setting_set.h"
+#include "elements/families/kept_as_text.h"
+#include "model/schema.h"
 
 namespace dynalin {
 
@@ -77,10 +78,13 @@ struct WrittenGraphics {
   }};
 };
 
-class GraphicsSet final : public TypedSet<WrittenGraphics> {
+class GraphicsSet final : public TextSet {
  public:
-  using TypedSet::TypedSet;
-  void read(std::size_t k, ElementReader& reader) override { read_arguments(elements[k], reader); }
+  using TextSet::TextSet;
+  void read(std::size_t, ElementReader& reader) override {
+    WrittenGraphics checked;
+    read_arguments(checked, reader);
+  }
 };
 
 }  // namespace

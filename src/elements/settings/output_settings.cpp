@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "dataset/characters.h"
+#include "elements/families/kept_as_text.h"
 #include "elements/settings/setting_set.h"
 
 namespace dynalin {
@@ -26,11 +27,12 @@ void check_functions(ElementReader& reader) {
   }
 }
 
-class RequestSet final : public TypedSet<WrittenRequest> {
+class RequestSet final : public TextSet {
  public:
-  using TypedSet::TypedSet;
-  void read(std::size_t k, ElementReader& reader) override {
-    if (read_arguments(elements[k], reader)) check_functions(reader);
+  using TextSet::TextSet;
+  void read(std::size_t, ElementReader& reader) override {
+    WrittenRequest checked;
+    if (read_arguments(checked, reader)) check_functions(reader);
   }
 };
 
