@@ -1,5 +1,7 @@
 #include "dataset/arguments.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -14,6 +16,13 @@ namespace dynalin {
 namespace {
 
 constexpr std::size_t unmatched = std::numeric_limits<std::size_t>::max();
+
+// Symbols of units that are no beginning of any argument.
+bool is_unit(std::string_view word) {
+  static constexpr std::array<std::string_view, 16> units = {"kg", "g",  "mm", "cm", "m",   "km",  "N",  "kN",
+                                                             "mN", "Nm", "ms", "in", "rad", "deg", "lb", "lbf"};
+  return std::find(units.begin(), units.end(), word) != units.end();
+}
 
 class ArgumentSplitter {
  public:
@@ -280,6 +289,8 @@ bool ArgumentSplitter::value_ends_at_comma(std::size_t begin, std::size_t comma,
 bool ArgumentSplitter::value_ends_before_word(std::size_t begin, std::size_t i, const WrittenArgument& argument) const {
   if (i <= begin || !ends_operand(i - 1)) return false;
   if (assignment_at(i)) return true;
+  // A unit behind a number is left to the reader of the value, which says what is wrong with it.
+  if (tokens_[i - 1].kind == TokenKind::number && is_unit(token_text(tokens_[i], source_))) return false;
   return !argument.damaged && blank_before(i) && stands_alone(i);
 }
 

@@ -22,9 +22,10 @@ namespace {
 bool check_range(double value, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
   if (value >= limits.minimum && value <= limits.maximum) return true;
   const bool low = !(value >= limits.minimum);
+  const std::string owner = r.label().id > 0 ? r.label().text() : std::string(r.label().statement);
   r.error("value-out-of-range", w.value_span(),
-          fmt::format("{} of {} is {}, it must be at {} {}", limits.argument, r.label().text(), value,
-                      low ? "least" : "most", low ? limits.minimum : limits.maximum));
+          fmt::format("{} of {} is {}, it must be at {} {}", limits.argument, owner, value, low ? "least" : "most",
+                      low ? limits.minimum : limits.maximum));
   return false;
 }
 

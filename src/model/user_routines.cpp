@@ -35,13 +35,14 @@ constexpr std::array<std::string_view, 1> one = {"FUNCTION"};
 constexpr std::array<std::string_view, 3> forces = {"FX", "FY", "FZ"}, torques = {"TX", "TY", "TZ"};
 constexpr std::array<std::string_view, 6> both = {"FX", "FY", "FZ", "TX", "TY", "TZ"};
 constexpr std::array<std::string_view, 2> field = {"KMATRIX", "FORCE"};
-constexpr std::array<Stand, 8> stands = {{{"VARIABLE", one},
+constexpr std::array<Stand, 9> stands = {{{"VARIABLE", one},
                                           {"SFORCE", one},
                                           {"DIFF", one},
                                           {"MOTION", one},
                                           {"VFORCE", forces},
                                           {"VTORQUE", torques},
                                           {"GFORCE", both},
+                                          {"SENSOR", one},
                                           {"FIELD", field}}};
 
 class Replacement {

@@ -68,6 +68,14 @@ TEST_F(DatasetGrammar, a_part_may_name_a_material) {
               HasSubstr("[argument-of-ground]"));
 }
 
+TEST_F(DatasetGrammar, a_message_about_a_value_names_statements_as_they_are_written) {
+  EXPECT_THAT(with("EQUILIBRIUM/ERROR=-1\n").err, HasSubstr("ERROR of EQUILIBRIUM is -1, it must be at least 0"));
+  const RunResult kilograms = with("PART/9, MASS=1 kg\n");
+  EXPECT_THAT(kilograms.err, HasSubstr("MASS takes plain numbers, found 'kg'"));
+  EXPECT_THAT(kilograms.err, HasSubstr("hint: units are not written behind numbers"));
+  EXPECT_THAT(with("MARKER/9, FLEX_BODY=3\n").err, HasSubstr("FLEX_BODY of MARKER/9 is not available yet"));
+}
+
 TEST_F(DatasetGrammar, a_string_may_hold_anything_or_nothing) {
   expect_read("STRING/1, STRING=mdids://Foo/tab.tbl/x.rpf, and, more=things\n, over lines\n");
   const RunResult empty = with("STRING/1, STRING=\n");
@@ -131,6 +139,11 @@ TEST_F(DatasetGrammar, the_fiftieth_problem_of_a_kind_is_counted_and_other_kinds
   EXPECT_THAT(r.err, HasSubstr("[unknown-body]"));
 }
 
+// Without blanks a word behind a number is no unit, and behind a comma it is an argument.
+TEST_F(DatasetGrammar, arguments_behind_numbers_need_no_comma) {
+  expect_read("JOINT/9, I=20 J=1 REVOLUTE\nSPRINGDAMPER/9, I=20, J=1, KT=1 CT=2 ROTATIONAL\n");
+}
+
 // --- compiled routines ------------------------------------------------------------------------------
 class UserRoutines : public Cases {
  protected:
@@ -179,6 +192,14 @@ TEST_F(UserRoutines, give_way_to_a_constant_with_a_warning_for_each) {
   ASSERT_EQ(two.status, 0) << two.err;
   EXPECT_THAT(two.err, HasSubstr("VARIABLE/1 calls a compiled routine"));
   EXPECT_THAT(two.err, HasSubstr("SFORCE/1 calls a compiled routine"));
+}
+
+TEST_F(UserRoutines, of_sensors_give_way_too) {
+  const std::string sensor = "SENSOR/1, FUNCTION=USER(1), VALUE=1, HALT, ERROR=0.1, ROUTINE=a::b\n";
+  EXPECT_EQ(with(sensor, {}).status, 1);
+  const RunResult r = with(sensor, 2.0);
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("SENSOR/1 calls a compiled routine: the constant 2 takes its place"));
 }
 
 TEST_F(UserRoutines, that_no_constant_can_replace_stay_errors) {

@@ -34,13 +34,33 @@ struct MarkerStatement {
   }};
 };
 
+// Arguments of the language that are known and missing here. They must not take abbreviations from the others.
+constexpr std::array<std::string_view, 6> not_built = {"FLEX_BODY", "NODE_ID", "FE_PART",
+                                                       "CURVE",     "SURFACE", "VELOCITY"};
+
+bool names_what_is_not_built(ElementReader& reader) {
+  bool found = false;
+  for (const WrittenArgument& w : reader.statement().arguments) {
+    if (find_keyword(w.name.text(), detail::argument_names<MarkerStatement>)) continue;
+    const auto k = find_keyword(w.name.text(), not_built);
+    if (!k) continue;
+    // The rest of the statement follows from the first.
+    if (!found) {
+      reader.error("argument-not-built", w.name,
+                   fmt::format("{} of {} is not available yet", not_built[*k], reader.label().text()));
+    }
+    found = true;
+  }
+  return found;
+}
+
 class MarkerSet final : public TypedSet<MarkerStatement> {
  public:
   using TypedSet::TypedSet;
 
   void read(std::size_t k, ElementReader& reader) override {
     MarkerStatement& m = elements[k];
-    if (!read_arguments(m, reader)) return;
+    if (names_what_is_not_built(reader) || !read_arguments(m, reader)) return;
     if (m.part.valid() && m.point_mass.valid()) {
       reader.error("two-owners", reader.at("POINT_MASS"),
                    fmt::format("{} belongs to a PART and to a POINT_MASS", reader.label().text()));
