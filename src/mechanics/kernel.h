@@ -114,6 +114,8 @@ class Kernel {
   // --- what others read of the elements, null where there is nothing ---------------------------------
   virtual const WrenchSource* wrenches() const { return nullptr; }
   virtual const ChannelSource* channels() const { return nullptr; }
+  // For the report of an operating point: reactions that no function reads as well.
+  virtual const WrenchSource* reported_wrenches() const { return wrenches(); }
 
   // --- events ---------------------------------------------------------------------------------------
   // An accepted configuration: take over what the memory holds (turn counts).

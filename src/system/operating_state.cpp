@@ -69,12 +69,13 @@ class Reading {
     };
     std::vector<Entry> entries;
     std::map<std::string_view, std::size_t> order;
-    for (const auto& set : model_.sets) {
+    for (std::size_t s = 0; s < model_.sets.size(); ++s) {
+      const auto& set = model_.sets[s];
       if (set->size() == 0 || !set->active) continue;
-      const ElementLabel& first = set->labels.front();
-      const WrenchSource* wrenches = system_.signals().wrench(first.statement, first.id).source;
+      const Kernel* kernel = system_.signals().element(ElementHandle{static_cast<std::int32_t>(s), 0}).kernel;
+      const WrenchSource* wrenches = kernel ? kernel->reported_wrenches() : nullptr;
       if (!wrenches) continue;
-      const std::size_t statement = order.emplace(first.statement, order.size()).first->second;
+      const std::size_t statement = order.emplace(set->kind().statement, order.size()).first->second;
       for (std::size_t w = 0; w < wrenches->wrench_count(set->size()); ++w) {
         const ElementLabel& label = set->labels[wrenches->element_of_wrench(w)];
         const bool constraint = std::binary_search(owners.begin(), owners.end(), &label);

@@ -118,6 +118,73 @@ TEST_F(OperatingStates, hold_applied_forces_in_the_axes_of_their_markers) {
   expect_triple(s.forces[1].force, {1, -3, 2});
 }
 
+// Two wheels on the ground, coupled by q1 + 3 q2 = 0; torque 5 on the first and −6 on the second, inertias 2 and 4.
+// λ follows from 2 q1″ = 5 + λ, 4 q2″ = −6 + 3 λ: 0 = 5/2 − 18/4 + λ (1/2 + 9/4), λ = 8/11.
+const std::string wheels =
+    "Wheels\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=3,0,0\nPART/2, MASS=1, CM=20, IP=1,1,2\n"
+    "MARKER/20\nPART/3, MASS=1, CM=30, IP=1,1,4, QG=3,0,0\nMARKER/30\nJOINT/1, REVOLUTE, I=20, J=1\n"
+    "JOINT/2, REVOLUTE, I=30, J=2\nSFORCE/1, ROTATIONAL, I=20, J=1, FUNCTION=5\n"
+    "SFORCE/2, ROTATIONAL, I=30, J=2, FUNCTION=-6\n";
+
+TEST_F(OperatingStates, hold_what_a_coupler_does_to_each_of_its_joints) {
+  Mechanism m = Mechanism::from_text(wheels + "COUPLER/7, JOINTS=1,2, SCALES=1,3\nEND\n");
+  m.initial_conditions();
+  const OperatingState s = m.operating_state();
+  ASSERT_EQ(s.reactions.size(), 4u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Load& l = s.reactions[2 + k];
+    EXPECT_EQ(l.element, "COUPLER/7");
+    EXPECT_EQ(l.marker_I, k == 0 ? 20 : 30);
+    EXPECT_EQ(l.marker_J, k == 0 ? 1 : 2);
+    expect_triple(l.force, {0, 0, 0});
+    expect_triple(l.torque, {0, 0, (k == 0 ? 1 : 3) * 8.0 / 11});
+  }
+  expect_triple(s.bodies.at(0).angular_acceleration, {0, 0, (5 + 8.0 / 11) / 2});
+  expect_triple(s.bodies.at(1).angular_acceleration, {0, 0, (-6 + 24.0 / 11) / 4});
+}
+
+// The pitch point lies 1 from the first axis and −2 from the second: q1 = −2 q2, that is q1 + 2 q2 = 0 about z, and
+// 0 = 5/2 − 12/4 + λ (1/2 + 4/4).
+TEST_F(OperatingStates, hold_what_a_gear_does_to_each_of_its_joints) {
+  Mechanism m =
+      Mechanism::from_text(wheels + "MARKER/3, PART=1, QP=1,0,0, REULER=0,-90D,0\nGEAR/7, JOINTS=1,2, CV=3\nEND\n");
+  m.initial_conditions();
+  const OperatingState s = m.operating_state();
+  ASSERT_EQ(s.reactions.size(), 4u);
+  EXPECT_EQ(s.reactions[2].element, "GEAR/7");
+  expect_triple(s.reactions[2].torque, {0, 0, 1.0 / 3});
+  expect_triple(s.reactions[3].torque, {0, 0, 2.0 / 3});
+  expect_triple(s.bodies.at(0).angular_acceleration, {0, 0, (5 + 1.0 / 3) / 2});
+}
+
+// A point mass apart, an arm of length 2 held level by a force at its end: I says where it is reported.
+TEST_F(OperatingStates, hold_what_a_gcon_does_to_the_body_of_its_marker) {
+  const auto load = [](const std::string& function) {
+    Mechanism m = Mechanism::from_text(
+        "Arm\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-10\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=3, CM=20, IP=1,1,1\n"
+        "MARKER/20, QP=1,0,0\nMARKER/21, QP=2,0,0, REULER=30D,0,0\nMARKER/22\nJOINT/1, REVOLUTE, I=22, J=1\n"
+        "GCON/4, I=21, FUNCTION=" +
+        function + "\nGCON/5, FUNCTION=DZ(20)\nEND\n");
+    m.initial_conditions();
+    const OperatingState s = m.operating_state();
+    EXPECT_EQ(s.reactions.size(), 2u) << "without I there is nothing to report it at";
+    const Load l = s.reactions.at(1);
+    EXPECT_EQ(l.element, "GCON/4");
+    EXPECT_EQ(l.marker_I, 21);
+    EXPECT_EQ(l.axes, 0);
+    return l;
+  };
+  // Half the weight at the end, or all of it as a torque.
+  for (const char* at_end : {"DY(21)", "VY(21)"}) {
+    expect_triple(load(at_end).force, {0, 15, 0});
+    expect_triple(load(at_end).torque, {0, 0, 0});
+  }
+  for (const char* turning : {"AZ(21)-30D", "WZ(21)"}) {
+    expect_triple(load(turning).force, {0, 0, 0});
+    expect_triple(load(turning).torque, {0, 0, 30});
+  }
+}
+
 // Of two hinges on one axis, rows of the second are left out and have no multiplier.
 TEST_F(OperatingStates, mark_redundant_rows) {
   Mechanism m = Mechanism::from_text(

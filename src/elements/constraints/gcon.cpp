@@ -34,14 +34,16 @@ struct GeneralConstraint {
   }
 };
 
-class GeneralConstraintKernel final : public Kernel {
+class GeneralConstraintKernel final : public Kernel, public WrenchSource {
  public:
   GeneralConstraintKernel(const std::vector<GeneralConstraint>& elements, const std::vector<ElementLabel>& labels,
                           Layout& layout)
-      : labels_(&labels) {
+      : labels_(&labels), layout_(&layout) {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const RowLevel level = elements[k].level();
-      rows_.push_back({elements[k].function, {}, level, layout.add_row(labels[k], "FUNCTION", level)});
+      const std::int32_t row = layout.add_row(labels[k], "FUNCTION", level);
+      rows_.push_back({elements[k].function, {}, level, row});
+      if (elements[k].i.valid()) reported_.push_back({k, elements[k].i});
     }
   }
 
@@ -59,6 +61,32 @@ class GeneralConstraintKernel final : public Kernel {
       rows.set(r.row, r.level == RowLevel::position ? r.function.add_position(motion, rows, r.row)
                                                     : r.function.add_velocity(motion, rows, r.row));
     }
+  }
+  // What acts on the body of the marker that I names, at its origin.
+  const WrenchSource* reported_wrenches() const override { return this; }
+  std::size_t wrench_count(std::size_t) const override { return reported_.size(); }
+  std::size_t element_of_wrench(std::size_t which) const override { return reported_[which].first; }
+  MarkerId marker_I(std::size_t which) const override { return reported_[which].second; }
+  MarkerId marker_J(std::size_t) const override { return global_frame; }
+  void wrench(const Motion& motion, std::size_t which, bool, MarkerWrench& out) const override {
+    const Row& r = rows_[reported_[which].first];
+    ConstraintRows gradient;
+    gradient.resize(*layout_, 1);
+    if (r.level == RowLevel::position) {
+      r.function.add_position(motion, gradient, 0);
+    } else {
+      r.function.add_velocity(motion, gradient, 0);
+    }
+    const MarkerPlace& I = layout_->marker(reported_[which].second);
+    const BodyBlock& block = layout_->body(I.body);
+    std::array<double, 6> load{};  // at the origin of the BCS
+    for (const ConstraintRows::Entry& e : gradient.row(0)) {
+      if (e.column < block.offset || e.column >= block.offset + block.count) continue;
+      load[static_cast<std::size_t>(e.column - block.offset)] = motion.lambda[static_cast<std::size_t>(r.row)] * e.c.g;
+    }
+    out.force.force = {load[0], load[1], load[2]};
+    const Vector arm = motion.point(I) - motion.body(I.body).r;
+    out.force.torque = Vector{load[3], load[4], load[5]} - cross(arm, out.force.force);
   }
   void equations(const Motion& motion, Equations& eq) const override {
     if (!eq.wants_partials()) return;
@@ -85,7 +113,9 @@ class GeneralConstraintKernel final : public Kernel {
     std::int32_t row;
   };
   std::vector<Row> rows_;
+  std::vector<std::pair<std::size_t, MarkerId>> reported_;  // those with I
   const std::vector<ElementLabel>* labels_;
+  const Layout* layout_;
 };
 
 class GeneralConstraintSet final : public TypedSet<GeneralConstraint> {

@@ -19,6 +19,13 @@ JointRelationKernel::JointRelationKernel(const std::vector<JointRelation>& relat
       PairDisplacement q(layout.marker(t.freedom.i), layout.marker(t.freedom.j), t.freedom.kind);
       q.count_turns(layout, labels[k].at);
       r.terms.emplace_back(q, t.factor);
+      // Both freedoms of a CYLINDRICAL joint are one wrench.
+      const bool again = !joints_.empty() && joints_.back().relation == k && joints_.back().i == t.freedom.i &&
+                         joints_.back().j == t.freedom.j;
+      if (again)
+        ++joints_.back().terms;
+      else
+        joints_.push_back({k, r.terms.size() - 1, 1, t.freedom.i, t.freedom.j});
     }
     relations_.push_back(std::move(r));
   }
@@ -42,6 +49,18 @@ void JointRelationKernel::equations(const Motion& motion, Equations& eq) const {
     const double lambda = motion.lambda[static_cast<std::size_t>(r.row)];
     for (const auto& [q, factor] : r.terms) q.add_reaction_partials(motion, factor * lambda, eq);
   }
+}
+
+void JointRelationKernel::wrench(const Motion& motion, std::size_t which, bool, MarkerWrench& out) const {
+  const Joint& joint = joints_[which];
+  const Relation& r = relations_[joint.relation];
+  const double lambda = motion.lambda[static_cast<std::size_t>(r.row)];
+  Vector force, torque;
+  for (const auto& [q, factor] : std::span(r.terms).subspan(joint.first_term, joint.terms)) {
+    q.wrench(motion, factor * lambda, r.row, false, out);
+    force += out.force.force, torque += out.force.torque;
+  }
+  out.force.force = force, out.force.torque = torque;
 }
 
 void JointRelationKernel::remember(const Motion& motion, Memory& memory) const {

@@ -17,13 +17,20 @@ struct JointRelation {
 // Σ factor_k q_k as drawn, angles as principal values.
 double drawn_value(const Model&, const JointRelation&);
 
-class JointRelationKernel final : public Kernel {
+class JointRelationKernel final : public Kernel, public WrenchSource {
  public:
   JointRelationKernel(const std::vector<JointRelation>&, const std::vector<ElementLabel>&, std::string_view row_name,
                       Layout&);
   void constraints(const Motion&, ConstraintRows&) const override;
   void equations(const Motion&, Equations&) const override;
   void remember(const Motion&, Memory&) const override;
+  // What each joint bears of the relation, on its marker I with the opposite on J.
+  const WrenchSource* reported_wrenches() const override { return this; }
+  std::size_t wrench_count(std::size_t) const override { return joints_.size(); }
+  std::size_t element_of_wrench(std::size_t which) const override { return joints_[which].relation; }
+  MarkerId marker_I(std::size_t which) const override { return joints_[which].i; }
+  MarkerId marker_J(std::size_t which) const override { return joints_[which].j; }
+  void wrench(const Motion&, std::size_t which, bool with_partials, MarkerWrench&) const override;
 
  private:
   struct Relation {
@@ -32,6 +39,11 @@ class JointRelationKernel final : public Kernel {
     std::int32_t row;
   };
   std::vector<Relation> relations_;
+  struct Joint {
+    std::size_t relation, first_term, terms;
+    MarkerId i, j;
+  };
+  std::vector<Joint> joints_;
 };
 
 }  // namespace dynalin
