@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 
@@ -101,11 +102,15 @@ void motion(const System& system, const OperatingPoint& op, const EigenSolution&
     if (size > most * (1 + 1e-9)) most = size, found = {&system.layout().bodies[b].label, a, w, spin_up};
   }
   if (!found.part) return;
+  const Units& units = system.model().units;
+  const std::string time = units.time_symbol();
+  std::string length = units.length.empty() ? "length" : units.length;
+  for (char& c : length) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   out.warning("accelerating-point", found.part->at,
-              fmt::format("the point accelerates or turns, most of all {} (acceleration of its mass centre {:.5g} "
-                          "length/time², angular velocity {:.5g} rad/time, angular acceleration {:.5g} rad/time²): the "
+              fmt::format("the point accelerates or turns, most of all {0} (acceleration of its mass centre {1:.5g} "
+                          "{4}/{5}², angular velocity {2:.5g} rad/{5}, angular acceleration {3:.5g} rad/{5}²): the "
                           "eigenvalues hold for this instant, and mode shapes may be strange",
-                          found.part->full_text(), found.acceleration, found.turning, found.spin_up));
+                          found.part->full_text(), found.acceleration, found.turning, found.spin_up, length, time));
 }
 
 void overdamping(const System& system, const LinearSystem& linear, const EigenSolution& modes, Diagnostics& out) {

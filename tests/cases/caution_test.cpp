@@ -36,15 +36,19 @@ TEST_F(Caution, accelerating_and_turning_points_name_the_part) {
   pulled.replace(pulled.find("LENGTH=1"), 8, "LENGTH=.5");
   EXPECT_THAT(
       run(pulled, "LINEAR/EIGENSOL\n").err,
-      HasSubstr("most of all PART/2 (carriage) (acceleration of its mass centre 50 length/time², angular velocity 0"));
+      HasSubstr("most of all PART/2 (carriage) (acceleration of its mass centre 50 meter/s², angular velocity 0"));
+  std::string without = pulled;
+  without.erase(without.find("UNITS"), 17);
+  EXPECT_THAT(run(without, "LINEAR/EIGENSOL\n").err,
+              HasSubstr("50 length/time², angular velocity 0 rad/time, angular acceleration 0 rad/time²)"));
   EXPECT_THAT(run(pulled, "SIMULATE/STATIC\nLINEAR/EIGENSOL\n").err, Not(HasSubstr("accelerates")));
   EXPECT_THAT(run(slide(100, 0, ", VX=3"), "LINEAR/EIGENSOL\n").err, Not(HasSubstr("accelerates")));
   const RunResult top =
       run("Top\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,2, WZ=7\nMARKER/20\n"
           "JOINT/1, REVOLUTE, I=20, J=1\nEND\n",
           "LINEAR/EIGENSOL\n");
-  EXPECT_THAT(top.err, HasSubstr("PART/2 (acceleration of its mass centre 0 length/time², angular velocity 7 rad/time, "
-                                 "angular acceleration 0 rad/time²)"));
+  EXPECT_THAT(top.err, HasSubstr("PART/2 (acceleration of its mass centre 0 meter/s², angular velocity 7 rad/s, "
+                                 "angular acceleration 0 rad/s²)"));
 }
 
 // What counts of a body is its mass centre, wherever its author put the origin, and how its rotation speeds up.
@@ -57,10 +61,10 @@ TEST_F(Caution, of_acceleration_look_at_mass_centre_and_angular_acceleration) {
                "LINEAR/EIGENSOL\n")
         .err;
   };
-  EXPECT_THAT(disc("", "10"), HasSubstr("(acceleration of its mass centre 0 length/time², angular velocity 0 rad/time, "
-                                        "angular acceleration 5 rad/time²)"));
+  EXPECT_THAT(disc("", "10"), HasSubstr("(acceleration of its mass centre 0 meter/s², angular velocity 0 rad/s, "
+                                        "angular acceleration 5 rad/s²)"));
   EXPECT_THAT(disc(", WZ=2", "-9*AZ(20,1)"),
-              HasSubstr("(acceleration of its mass centre 0 length/time², angular velocity 2 "));
+              HasSubstr("(acceleration of its mass centre 0 meter/s², angular velocity 2 "));
   EXPECT_THAT(disc("", "0"), Not(HasSubstr("accelerates")));
 }
 
