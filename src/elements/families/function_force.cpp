@@ -30,7 +30,7 @@ PairForce FunctionForceKernel::force_of(const Force& f, const PairMotion& pair, 
 
 void FunctionForceKernel::equations(const Motion& motion, Equations& eq) const {
   for (const Force& f : forces_) {
-    eq.begin_element(f.element.label);
+    eq.begin_element(*f.element.label);
     const double w = motion.algebraic[static_cast<std::size_t>(f.algebraic)];
     const std::int32_t row = eq.algebraic_row(f.algebraic);
     eq.add_residual(row, w);
