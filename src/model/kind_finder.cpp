@@ -42,7 +42,9 @@ const Kind* KindFinder::find(const Statement& s, std::size_t& variant_argument, 
     diagnostics.error("statement-not-built", s.keyword, fmt::format("{} is not available yet", s.name));
     return nullptr;
   }
-  const auto& [kinds, variants] = it->second;
+  // No structured binding: clang 14 lets no lambda have one.
+  const std::vector<const Kind*>& kinds = it->second.kinds;
+  const std::vector<std::string_view>& variants = it->second.names;
   if (kinds.size() == 1 && kinds.front()->variant.empty()) return kinds.front();
 
   const Kind* found = nullptr;
