@@ -172,7 +172,7 @@ const std::vector<Wrong>& table() {
     {Place::added, "LSE/9, X=2, U=1, A=1\nMATRIX/1, FULL=RORDER, ROWS=1, COLUMNS=2, VALUES=1,2\nARRAY/1, U, VARIABLES=1\nARRAY/2, X", {"missing-argument 10:13"}},
     {Place::added, "MATRIX/9, FULL=RORDER, ROWS=2, COLUMNS=2, VALUES=1,2,3", {"wrong-count 10:43"}},
     {Place::added, "TFSISO/9, U=1, X=2, Y=3, NUM=1, DEN=1,2,0\nARRAY/1, U, VARIABLES=1\nARRAY/2, X\nARRAY/3, Y", {"zero-leading-coefficient 10:33"}},
-    {Place::added, "TFSISO/9, U=1, X=2, Y=3, NUM=1, DEN=2,8,1E-30\nARRAY/1, U, VARIABLES=1\nARRAY/2, X\nARRAY/3, Y", {"spread-poles 10:33"}},
+    {Place::added, "TFSISO/9, U=1, X=2, Y=3, NUM=1, DEN=2,8,1E-120\nARRAY/1, U, VARIABLES=1\nARRAY/2, X\nARRAY/3, Y", {"spread-poles 10:33"}},
     {Place::added, "JOINT/9, REVOLUTE, I=29, J=1\nMARKER/29, PART=2, REULER=0,180D,0", {"opposed-axes 10:1"}},
     {Place::added, "GEAR/9, JOINTS=1,1, CV=20\nJOINT/8, REVOLUTE, I=20, J=1", {"suspicious-gear 10:1", "suspicious-gear 10:1"}},
     {Place::added, "GEAR/9, JOINTS=1,1, CV=5\nMARKER/5, PART=1, QP=1,0,0", {"suspicious-gear 10:1", "suspicious-gear 10:1"}},

@@ -22,7 +22,7 @@ namespace dynalin {
 
 namespace {
 
-constexpr double widest_spread = 1e13;  // of poles: the slow ones keep a few digits beside the fast ones
+constexpr double widest_spread = 1e100;  // of poles: their squares, and sums of those, are numbers
 
 struct Tfsiso {
   ArrayRef x, u, y, initial;
@@ -97,7 +97,7 @@ class TfsisoSet final : public TypedSet<Tfsiso> {
                    fmt::format("{} has a NUMERATOR of higher degree than its DENOMINATOR", name));
     } else if (const double spread = e.spread(); spread > widest_spread) {
       reader.error("spread-poles", reader.at("DENOMINATOR"),
-                   fmt::format("the poles of {} lie a factor of {:.0e} apart, more than numbers of 16 digits hold",
+                   fmt::format("the poles of {} lie a factor of {:.0e} apart, more than numbers can hold",
                                name, spread),
                    "leave out the last coefficient, if it is meant as nothing");
     } else {
