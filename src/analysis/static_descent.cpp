@@ -46,7 +46,7 @@ bool Descent::run(OperatingPoint& op, const std::vector<bool>* loose) {
     // One yardstick for the whole search, or a step could pass by growing what it is measured against.
     force_ = std::max(force_, equations_.force_scale());
     merit_ = equations_.merit(force_);
-    history_.add(equations_.imbalance());
+    history_.add(equations_.imbalance_of_functions());
     if (!std::isfinite(merit_)) return false;
     if (iteration_ == 0) first_force_ = force_;
     if (iteration_ == 0 && !loose && balanced_to_rounding(equations_)) return true;
@@ -115,7 +115,8 @@ bool Descent::finish(OperatingPoint& op) {
     if (rest && (j->largest == 0 || stuck > 0)) break;
     if (!rest && j->largest_at >= 0) {
       doubt_ = fmt::format("{} would still have to change by {:.3g} to balance a rest of {:.3g}",
-                           equations_.equation_text(j->largest_at), j->step(j->largest_at), equations_.imbalance());
+                           equations_.equation_text(j->largest_at), j->step(j->largest_at),
+                           equations_.imbalance_of_functions());
     }
     if (j->largest > 1e-2 || stuck > 3) break;
     smallest = std::min(smallest, j->largest);

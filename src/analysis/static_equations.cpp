@@ -79,6 +79,27 @@ double StaticEquations::imbalance() const {
   return worst;
 }
 
+double StaticEquations::imbalance_of_functions() const {
+  const auto count = static_cast<std::int32_t>(system_.layout().algebraic.size());
+  Eigen::MatrixXd change = -residual_.segment(augmented_.algebraic(0), count);
+  if (change.isZero(0)) return imbalance();
+  std::vector<Triplet> own;
+  const ColumnMatrix& partials = eq_.matrix(PartialBy::algebraic);
+  for_each_entry(partials, [&](std::int32_t r, std::int32_t c, double v) {
+    if (r >= coordinates_ && r < coordinates_ + count) own.push_back({r - coordinates_, c, v});
+  });
+  SparseLu lu;
+  if (!change.allFinite() || !lu.factor(compressed(count, count, own))) return imbalance();
+  lu.solve(change);
+  Eigen::VectorXd force = residual_.head(coordinates_);
+  for_each_entry(partials, [&](std::int32_t r, std::int32_t c, double v) {
+    if (r < coordinates_) force(r) += v * change(c, 0);
+  });
+  double worst = 0;
+  for (std::int32_t k = 0; k < coordinates_; ++k) worst = std::max(worst, std::abs(force(k)) * force_unit(k));
+  return worst;
+}
+
 double StaticEquations::unit(Eigen::Index k, double force) const {
   if (yardstick_ == Yardstick::part && (k < coordinates_ || k >= augmented_.algebraic(0))) {
     const double scale = own_scale_(k);

@@ -140,6 +140,19 @@ TEST_F(StaticTruth, the_imbalance_that_is_printed_is_that_of_the_point) {
   EXPECT_LT(std::stod(r.out.substr(at + 10)), 1e-16);
 }
 
+// Not what is left of it while the value of the force itself is still to be changed: nowhere is the force below 1E-10.
+TEST_F(StaticTruth, so_is_the_imbalance_of_a_search_that_failed) {
+  for (const double least : {1e-10, 1e-3}) {
+    const RunResult r = rest(slide(fmt::format("-(DZ(20,1)-.3)**2-{}", least), 1));
+    EXPECT_EQ(r.status, 2);
+    int printed = 0;
+    for (auto at = r.err.find("imbalance "); at != std::string::npos; at = r.err.find("imbalance ", at + 1), ++printed) {
+      EXPECT_GE(std::stod(r.err.substr(at + 10)), 0.9 * least) << r.err;
+    }
+    EXPECT_GE(printed, 2) << r.err;
+  }
+}
+
 TEST_F(StaticTruth, a_mass_far_inside_a_contact_or_far_above_it_comes_to_rest_on_it) {
   for (const double exponent : {1.5, 2.2, 3.0}) {
     for (const double height : {-50.0, -0.5, 0.0999, 3.0, 1e4}) {
