@@ -26,6 +26,7 @@ ModalDistribution::ModalDistribution(const System& system, const OperatingPoint&
   ConstraintRows rows;
   rows.resize(system.layout());
   eq_.resize(system.layout());
+  eq_.keep_sizes();
   system.constraints(motion_, rows);
   system.equations(motion_, rows, eq_,
                    {PartialBy::position, PartialBy::damping, PartialBy::velocity, PartialBy::algebraic});
@@ -232,8 +233,9 @@ Eigen::VectorXd ModalDistribution::algebraic_size(const Eigen::VectorXcd& dq, Pa
   if (w == 0 || !algebraic_solved_) return Eigen::VectorXd::Zero(w);
   Eigen::VectorXd rows = Eigen::VectorXd::Zero(eq_.size());
   const auto add_sizes = [&](PartialBy c) {
+    auto size = eq_.sizes(c).begin();  // of what was added up to each partial, which may have cancelled
     for_each_entry(eq_.matrix(c),
-                   [&](std::int32_t r, std::int32_t k, double v) { rows(r) += std::abs(v) * std::abs(dq(k)); });
+                   [&](std::int32_t r, std::int32_t k, double) { rows(r) += *size++ * std::abs(dq(k)); });
   };
   add_sizes(family);
   if (family == PartialBy::damping) add_sizes(PartialBy::velocity);
