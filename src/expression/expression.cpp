@@ -33,11 +33,6 @@ Expression Expression::constant(double value) { return Expression(constant_progr
 std::span<const Atom> Expression::atoms() const { return program_->atoms; }
 const Span& Expression::at() const { return program_->at; }
 
-int Expression::order(std::span<const int> atom_orders) const {
-  assert(atom_orders.size() == atoms().size());
-  return atom_orders.empty() ? 0 : std::max(0, *std::ranges::max_element(atom_orders));
-}
-
 std::span<const SplineUse> Expression::splines() const { return program_->splines; }
 
 Expression Expression::with_curves(const std::function<void(SplineUse&)>& attach) const {

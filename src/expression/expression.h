@@ -127,10 +127,6 @@ class Expression {
   template <class T>
   bool reaches(std::size_t atom, const ExpressionWorkspace<T>&) const;
 
-  // Kinematic order, given that of each atom (Atom::function->order, or what the atom refers to
-  // where that is −1).
-  int order(std::span<const int> atom_orders) const;
-
   // Functions that are called, IF among them, each call once.
   struct Call {
     std::string_view name;

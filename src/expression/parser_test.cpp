@@ -96,13 +96,6 @@ TEST(ExpressionParser, identical_atoms_are_stored_once) {
   EXPECT_EQ(parsed.expression.at().text().size(), parsed.source->text().size());
 }
 
-TEST(ExpressionParser, order_is_the_largest_of_the_atoms) {
-  const ParsedText parsed = parse("DX(1,2)+VX(1,2)+VARVAL(3)");
-  const int orders[] = {0, 1, 2};
-  EXPECT_EQ(parsed.expression.order(orders), 2);
-  EXPECT_EQ(Expression::constant(3).order({}), 0);
-}
-
 TEST(ExpressionParser, every_atom_function_is_read_with_its_fewest_and_most_arguments) {
   for (const AtomFunction& f : atom_functions()) {
     if (f.name.find('.') != std::string_view::npos) continue;  // a component of UVX … has no name of its own

@@ -110,7 +110,6 @@ class Eliminator {
     --remaining_;
     result_.pivot_column[static_cast<std::size_t>(best)] = column;
     result_.dependent[static_cast<std::size_t>(column)] = true;
-    result_.smallest_pivot = std::min(result_.smallest_pivot, pivot.size / pivot.first_size);
     ++result_.rank;
     for (const std::int32_t r : holders) {
       if (r != best) subtract(r, pivot, column, pivot_value);

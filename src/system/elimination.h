@@ -26,7 +26,6 @@ struct EliminationOptions {
 struct Elimination {
   std::vector<std::int32_t> pivot_column;  // of each row, −1 for a redundant one
   std::vector<bool> dependent;             // of each column
-  double smallest_pivot = 1;               // relative to the row as it was at first
   std::size_t rank = 0;
 };
 

@@ -207,7 +207,6 @@ Partition System::partition(const ConstraintRows& rows, bool velocity_rows_too) 
   const std::vector<std::int32_t> order(preference_.rbegin(), preference_.rend());
   const Elimination e = eliminate(std::move(scaled), layout_.coordinate_count, order);
   Partition p;
-  p.smallest_pivot = e.smallest_pivot;
   for (std::int32_t k = 0; k < rows.size(); ++k) {
     const bool counts = velocity_rows_too || rows.level(k) == RowLevel::position;
     p.active.push_back(e.pivot_column[static_cast<std::size_t>(k)] >= 0);

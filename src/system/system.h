@@ -21,7 +21,6 @@ struct Partition {
   std::vector<bool> active;               // rows
   std::vector<std::int32_t> independent;  // coordinates, most wanted as states first
   std::vector<std::int32_t> redundant;    // rows
-  double smallest_pivot = 1;
 };
 
 struct SystemOptions {

@@ -58,9 +58,6 @@ void evaluate(const Expression& parsed) {
     evaluate_at(e, atoms);
     evaluate_at(e, moving);
   }
-  std::vector<int> orders;
-  for (const Atom& a : e.atoms()) orders.push_back(a.function->order < 0 ? 2 : a.function->order);
-  e.order(orders);
   e.calls();
 }
 
