@@ -4,7 +4,7 @@
 //     eigensolution vehicle 200           n parts in a row, two bushings between neighbours
 //     eigensolution rotor 100             a shaft of n BEAMs with discs, turning in two bearings
 //     eigensolution rotor 1000 statics    no state matrix: it is dense
-#include <dynalin/mechanism.h>
+#include <dynalin/dynalin.h>
 #include <fmt/format.h>
 
 #include <chrono>
@@ -79,18 +79,19 @@ int main(int argc, char** argv) {
                peak_megabytes());
     last = now;
   };
-  auto mechanism = dynalin::Mechanism::from_text(kind == "chain"     ? hanging_chain(n)
-                                                 : kind == "vehicle" ? vehicle(n)
-                                                                     : rotor(n));
+  const dynalin::Study study(dynalin::Model::from_text(kind == "chain"     ? hanging_chain(n)
+                                                       : kind == "vehicle" ? vehicle(n)
+                                                                           : rotor(n)));
   report("reading");
-  mechanism.initial_conditions();
+  auto point = study.initial_conditions();
   report("initial conditions");
-  const int iterations = mechanism.static_equilibrium();
+  point = study.static_equilibrium(point);
+  const int iterations = point.static_result().iterations;
   report(fmt::format("statics, {} iterations", iterations));
   if (statics_only) return 0;
-  const auto matrices = mechanism.state_space();
+  const auto matrices = study.linearize(point).state_space();
   report("state matrix");
-  const auto solution = mechanism.eigensolution();
+  const auto solution = study.linearize(point).modes();
   report("state matrix and modes");
   fmt::print("{} states, first mode at {:.12g}\n", matrices.states.size(),
              std::abs(solution.modes.front().eigenvalue_hz));

@@ -14,6 +14,7 @@
 
 #include "command/help.h"
 #include "command/session.h"
+#include "dynalin/version.h"
 #include "output/temporary_file.h"
 
 namespace {
@@ -56,7 +57,7 @@ void hint_at_usage(const CLI::App& run, int argc, char** argv) {
 int run(int argc, char** argv) {
   using namespace dynalin;
   CLI::App app{"Dynalin: linear models of mechanisms from Adams datasets"};
-  app.set_version_flag("--version", "dynalin 0.1.0");
+  app.set_version_flag("--version", std::string("dynalin ") + dynalin::version);
   app.require_subcommand(1);
 
   SessionOptions options;

@@ -1,5 +1,5 @@
 // Eigenvalues of a mechanism over a range of stiffness: ten models in ten threads.
-#include <dynalin/mechanism.h>
+#include <dynalin/dynalin.h>
 
 #include <cstdio>
 #include <string>
@@ -12,18 +12,20 @@ int main() {
   for (std::size_t k = 0; k < frequency.size(); ++k) {
     threads.emplace_back([&frequency, k] {
       const std::string stiffness = std::to_string(100 * (k + 1));
-      auto mass_on_spring = dynalin::Mechanism::from_text(
-          "A mass on a spring\n"
-          "UNITS/SYSTEM=MKS\n"
-          "PART/1, GROUND\n"
-          "MARKER/1\n"
-          "PART/2, MASS=2, CM=20, IP=1,1,1, QG=0,0,1\n"
-          "MARKER/20\n"
-          "JOINT/1, TRANSLATIONAL, I=20, J=1\n"
-          "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, LENGTH=1, K=" + stiffness + "\n"
-          "END\n");
-      mass_on_spring.static_equilibrium();
-      frequency[k] = mass_on_spring.eigensolution().modes.front().eigenvalue_hz.imag();
+      const dynalin::Study mass_on_spring(
+          dynalin::Model::from_text("A mass on a spring\n"
+                                    "UNITS/SYSTEM=MKS\n"
+                                    "PART/1, GROUND\n"
+                                    "MARKER/1\n"
+                                    "PART/2, MASS=2, CM=20, IP=1,1,1, QG=0,0,1\n"
+                                    "MARKER/20\n"
+                                    "JOINT/1, TRANSLATIONAL, I=20, J=1\n"
+                                    "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, LENGTH=1, K=" +
+                                    stiffness +
+                                    "\n"
+                                    "END\n"));
+      const auto at_rest = mass_on_spring.static_equilibrium();
+      frequency[k] = mass_on_spring.linearize(at_rest).modes().modes.front().eigenvalue_hz.imag();
     });
   }
   for (auto& thread : threads) thread.join();

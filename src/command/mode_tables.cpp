@@ -8,8 +8,11 @@
 
 namespace dynalin {
 
-Result<std::string> mode_tables(const LinearCommand& command, const System& system, const OperatingPoint& point,
-                                const LinearSystem& linear, const EigenSolution& modes) {
+StudyResult<std::string> mode_tables(const LinearCommand& command, const Linearization& of,
+                                     const EigenSolution& modes) {
+  const System& system = *of.system;
+  const OperatingPoint& point = of.point;
+  const LinearSystem& linear = of.linear;
   std::ostringstream out;
   const ModalDistribution distribution(system, point, linear, modes);
   const ModalTableFormat format{command.table_precision, command.names};
@@ -30,7 +33,7 @@ Result<std::string> mode_tables(const LinearCommand& command, const System& syst
   }
   if (command.energy_per_mode.wanted()) {
     const auto energies = energy_per_mode(system, point, linear, modes);
-    if (!energies) return tl::unexpected(energies.error());
+    if (!energies) return tl::unexpected(StudyFailure(energies.error()));
     write_energies(out, format, *energies,
                    [&](std::size_t k) { return command.energy_per_mode.has(k + 1, modes.modes[k]); });
   }

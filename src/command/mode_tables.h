@@ -4,12 +4,11 @@
 #include <iosfwd>
 
 #include "command/commands.h"
-#include "linear/linear_system.h"
+#include "study/linearization.h"
 
 namespace dynalin {
 
 // What cannot be computed is a failure that says why; nothing of it is written then.
-Result<std::string> mode_tables(const LinearCommand&, const System&, const OperatingPoint&, const LinearSystem&,
-                                const EigenSolution&);
+StudyResult<std::string> mode_tables(const LinearCommand&, const Linearization&, const EigenSolution&);
 
 }  // namespace dynalin

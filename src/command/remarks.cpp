@@ -1,19 +1,20 @@
 #include "command/remarks.h"
 
 #include <fmt/ostream.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "base/remark_of.h"
 #include "command/failure_text.h"
 #include "output/message_file.h"
+#include "study/study_point.h"
 
 namespace dynalin {
 
 void Remarks::say(const Diagnostic& d) {
   write_block(message_, Block::warning, d.message);
   err_ << render(d);
-  json_.add_warning(command_, d);
+  json_.add_warning(command_, remark_of(d));
 }
 
 void Remarks::say(const Diagnostics& all) {
@@ -39,9 +40,7 @@ void Remarks::pass_over(const std::vector<std::string>& settings) {
   for (const std::string& s : settings) {
     if (passed_over_.insert(s).second) fresh.push_back(s);
   }
-  if (!fresh.empty())
-    say("passed-over", fmt::format("nothing here acts on {}, which {} passed over", fmt::join(fresh, ", "),
-                                   fresh.size() == 1 ? "is" : "are"));
+  say(passed_over(fresh));
 }
 
 void Remarks::report(const Failure& f) {

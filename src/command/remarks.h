@@ -26,6 +26,9 @@ class Remarks {
   void say_what_is_new(const Diagnostics& now, const Diagnostics& before);
   // Settings that nothing acts on are named once a run.
   void pass_over(const std::vector<std::string>& settings);
+  void passed_over_already(const std::vector<std::string>& settings) {
+    passed_over_.insert(settings.begin(), settings.end());
+  }
   void report(const Failure&);
 
  private:

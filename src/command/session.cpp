@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "analysis/static_settings.h"
+#include "base/remark_of.h"
 #include "command/environment.h"
 #include "command/job.h"
 #include "command/mode_tables.h"
@@ -19,24 +20,17 @@
 #include "command/progress_line.h"
 #include "command/remarks.h"
 #include "command/run_files.h"
-#include "linear/cautions.h"
-#include "linear/eigen.h"
-#include "linear/mode_shapes.h"
-#include "linear/second_order.h"
-#include "linear/stability.h"
-#include "linear/still_modes.h"
+#include "dynalin/version.h"
 #include "output/json.h"
 #include "output/message_file.h"
 #include "output/operating_state_text.h"
 #include "output/results_file.h"
-#include "system/carry_over.h"
+#include "study/linearization.h"
 #include "system/operating_state.h"
 
 namespace dynalin {
 
 namespace {
-
-constexpr std::string_view version = "0.1.0";
 
 // Tables on the terminal would stand between the results that go there.
 bool to_standard_output(const std::string& path) {
@@ -66,7 +60,7 @@ class Session {
       }
       systems_.push_back(std::move(*system));
     }
-    point_ = system().drawn();
+    point_ = as_drawn(systems_.front());
     if (job_.xrf_digits > 0)
       results_.emplace(job_.model().title, job_.xrf_digits, job_.model().units, settings_.results);
   }
@@ -81,12 +75,9 @@ class Session {
     const auto start = std::chrono::steady_clock::now();
     write_banner(message_, version);
     write_title(message_, job_.model().title);
-    for (const Diagnostic& d : job_.warnings.items()) json_.add_warning("", d);
-    if (!units().stated)
-      remarks_.say("no-units", "the dataset states no UNITS: the units consistency factor is taken as 1");
-    remarks_.say(system().layout().remarks);
-    remarks_.say(settings_.remarks);
-    remarks_.pass_over(settings_.passed_over);
+    for (const Diagnostic& d : job_.warnings.items()) json_.add_warning("", remark_of(d));
+    remarks_.say(remarks_on(system()));
+    remarks_.passed_over_already(settings_.passed_over);
     for (const std::string_view name : environment_.names())
       remarks_.say("environment-variable",
                    fmt::format("the environment variable {} is set and changes what this run computes", name));
@@ -99,6 +90,7 @@ class Session {
       if (std::holds_alternative<StopCommand>(c.what)) break;
       const auto result = execute(c);
       if (result) continue;
+      remarks_.say(result.error().remarks);
       remarks_.report(result.error());
       status = analysis_failed;
       if (!options_.keep_going) break;
@@ -109,7 +101,7 @@ class Session {
   }
 
  private:
-  using Outcome = tl::expected<void, Failure>;
+  using Outcome = StudyResult<void>;
 
   const System& system() const { return *systems_[stage_]; }
   const Model& model() const { return system().model(); }
@@ -119,16 +111,7 @@ class Session {
   void enter_stage(std::size_t stage) {
     if (stage == stage_) return;
     const std::size_t before = std::exchange(stage_, stage);
-    if (started_) {
-      point_ = carried_over(*systems_[before], point_, system(), job_.stages[stage].restated);
-      restated_velocity_ = job_.stages[stage].restated.velocities;
-    } else {
-      const double tolerance = point_.redundancy_tolerance;
-      point_ = system().drawn();
-      point_.redundancy_tolerance = tolerance;
-    }
-    consistent_ = false;
-    at_rest_.reset();
+    point_ = continued(point_, systems_[stage], job_.stages[stage].restated);
     remarks_.say_what_is_new(system().layout().remarks, systems_[before]->layout().remarks);
   }
 
@@ -151,7 +134,8 @@ class Session {
     if (setting.equilibrium) setting.equilibrium->apply(settings_.equilibrium);
     if (setting.initial_conditions) {
       setting.initial_conditions->apply(settings_.initial_conditions);
-      point_.redundancy_tolerance = settings_.initial_conditions.error.value_or(OperatingPoint().redundancy_tolerance);
+      point_.values.redundancy_tolerance =
+          settings_.initial_conditions.error.value_or(OperatingPoint().redundancy_tolerance);
     }
     remarks_.say(setting.remarks);
     remarks_.pass_over(setting.passed_over);
@@ -161,9 +145,8 @@ class Session {
     enter_stage(c.stage);
     if (const auto* simulate = std::get_if<SimulateCommand>(&c.what)) {
       if (simulate->kind == SimulateCommand::Kind::statics) return statics(c);
-      at_rest_.reset();
       if (auto ready = initial(); !ready) return ready;
-      const OperatingState state = operating_state(system(), point_);
+      const OperatingState state = operating_state(system(), point_.values);
       show(StepKind::initial_conditions, state);
       json_.add(c.text, state);
       return {};
@@ -173,49 +156,41 @@ class Session {
       if (!environment_.set(variable->name))
         remarks_.say("environment-variable",
                      fmt::format("the environment variable {} means nothing here and is passed over", variable->name));
-      json_.add_plain(c.text, point_.time);
+      json_.add_plain(c.text, point_.values.time);
     }
     if (const auto* setting = std::get_if<SettingCommand>(&c.what)) {
       apply(*setting);
-      json_.add_plain(c.text, point_.time);
+      json_.add_plain(c.text, point_.values.time);
     }
     if (std::holds_alternative<EditCommand>(c.what)) {
       write_deactivated();
-      json_.add_plain(c.text, point_.time);
+      json_.add_plain(c.text, point_.values.time);
     }
     if (const auto* passive = std::get_if<PassiveCommand>(&c.what)) {
       remarks_.say("passed-over",
                    fmt::format("the command {} has no effect on linear models and is passed over", passive->name));
-      json_.add_plain(c.text, point_.time);
+      json_.add_plain(c.text, point_.values.time);
     }
     return {};
   }
 
   Outcome initial() {
-    if (consistent_) return {};
-    Findings findings;
-    write_begin(message_, "Displacement Initial Conditions");
-    auto op = assemble_position(system(), point_, findings, started_ ? Starts::ignored : Starts::held);
-    if (!op) return tl::unexpected(op.error());
-    write_end(message_, "Displacement Initial Conditions");
-    write_begin(message_, "Velocity Initial Conditions");
-    // An edited model goes on with the velocities it had.
-    const bool goes_on = started_ && !restated_velocity_;
-    op = goes_on ? reconcile_velocity(system(), std::move(*op), findings)
-                 : initial_velocity(system(), std::move(*op), findings);
-    if (!op) return tl::unexpected(op.error());
-    write_end(message_, "Velocity Initial Conditions");
-    write_begin(message_, "Acceleration Initial Conditions");
-    op = solve_acceleration(system(), std::move(*op), findings);
-    if (!op) return tl::unexpected(op.error());
-    write_end(message_, "Acceleration Initial Conditions");
-    accept(std::move(*op), findings);
+    const auto tell = [this](Level level, bool done) {
+      static constexpr std::array<std::string_view, 3> names = {"Displacement", "Velocity", "Acceleration"};
+      const std::string title = fmt::format("{} Initial Conditions", names[static_cast<std::size_t>(level)]);
+      done ? write_end(message_, title) : write_begin(message_, title);
+    };
+    const bool there = point_.consistent;
+    auto found = initial_conditions(point_, tell);
+    if (!found) return tl::unexpected(found.error());
+    if (there)
+      point_ = std::move(found->point);
+    else
+      accept(std::move(*found));
     return {};
   }
 
   Outcome statics(const Command& c) {
-    Findings findings;
-    StaticsReport report;
     write_begin(message_, "Static Solution");
     StaticsOptions options = statics_options(settings_.equilibrium);
     options.restore_velocities = !environment_.statics_stay_at_rest;
@@ -224,22 +199,21 @@ class Session {
       line.show(
           [&] { return fmt::format("static equilibrium: iteration {}, imbalance {:.2e}", iteration, imbalance); });
     };
-    auto op = static_operating_point(system(), point_, options, report, findings);
+    auto found = static_equilibrium(point_, options);
     line.clear();
-    if (!op) return tl::unexpected(op.error());
-    at_rest_ = std::move(report.at_rest);
-    write_static_result(message_, report.iterations, report.imbalance);
+    if (!found) return tl::unexpected(found.error());
+    write_static_result(message_, found->point.statics->iterations, found->point.statics->imbalance);
     write_end(message_, "Static Solution");
-    accept(std::move(*op), findings);
-    const StaticResult result{report.iterations, report.imbalance, stability_of(system(), *at_rest_),
-                              operating_state(system(), *at_rest_)};
+    accept(std::move(*found));
+    const StaticResult result = static_result(point_);
     fmt::print(message_, "  Stability: {}\n", result.stability.text());
     if (!quiet_)
       fmt::print(out_, "static equilibrium after {} iterations, imbalance {:.3e}, {}\n", result.iterations,
                  result.imbalance, result.stability.text());
     show(StepKind::statics, result.at_rest);
     // Velocities of the dataset that have come back make another point of it.
-    shown_ = std::all_of(point_.velocity.begin(), point_.velocity.end(), [](double v) { return v == 0; });
+    const std::vector<double>& velocity = point_.values.velocity;
+    shown_ = std::all_of(velocity.begin(), velocity.end(), [](double v) { return v == 0; });
     json_.add(c.text, result);
     return {};
   }
@@ -254,48 +228,40 @@ class Session {
     shown_ = true;
   }
 
-  void accept(OperatingPoint op, const Findings& findings) {
-    point_ = std::move(op);
-    consistent_ = started_ = true;
+  void accept(FoundPoint found) {
+    if (found.point.redundant_rows != point_.redundant_rows)
+      write_redundant(message_, found.point.values.time, found.point.redundant_rows);
+    point_ = std::move(found.point);
     shown_ = false;
-    restated_velocity_ = false;
-    std::vector<std::string> rows;
-    for (const std::int32_t r : findings.redundant_rows) rows.push_back(system().row_text(r));
-    if (rows != redundant_) write_redundant(message_, point_.time, rows);
-    redundant_ = std::move(rows);
-    remarks_.say(findings.warnings);
+    remarks_.say(found.remarks);
   }
 
-  // Without reconciliation LINEAR takes the static solution as it was found; any other point is consistent anyway.
-  const OperatingPoint& point_of(const LinearCommand& command) const {
-    return at_rest_ && (command.original || environment_.without_reconciliation) ? *at_rest_ : point_;
+  LinearRequest request_of(const LinearCommand& command) const {
+    LinearRequest request;
+    request.pstate = command.pstate, request.pinput = command.pinput, request.poutput = command.poutput;
+    request.rm = command.rm;
+    request.without_damping = command.without_damping;
+    request.original = command.original;
+    request.principal_states = environment_.principal_states;
+    request.without_rate_coupling = environment_.without_rate_coupling;
+    request.without_reconciliation = environment_.without_reconciliation;
+    return request;
   }
 
   Outcome run_linear(const Command& c, const LinearCommand& command) {
-    if (auto ready = initial(); !ready) return ready;
-    LinearOptions options;
-    const Model& model = this->model();
-    if (command.pstate) options.pstate = model.find("PSTATE", *command.pstate);
-    if (command.pinput) options.pinput = model.find("PINPUT", *command.pinput);
-    if (command.poutput) options.poutput = model.find("POUTPUT", *command.poutput);
-    if (command.rm) options.rm = *model.find_marker(*command.rm);
-    options.without_damping = command.without_damping;
-    options.principal_states = command.original || environment_.principal_states;
-    options.without_rate_coupling = command.original || environment_.without_rate_coupling;
-    const OperatingPoint& point = point_of(command);
-    auto linear = linearize(system(), point, options);
+    if (!point_.consistent) {
+      if (auto ready = initial(); !ready) return ready;
+    }
+    const auto linear = linearized(point_, request_of(command));
     if (!linear) return tl::unexpected(linear.error());
-    remarks_.say(linear->warnings);
-    if (linear->model.states.empty())
-      return tl::unexpected(Failure{
-          "linear analysis", "the model has no states: neither degrees of freedom nor differential states", {}});
+    remarks_.say(linear->remarks());
+    const StateSpace& state_space = linear->linear.model;
 
-    const OperatingState state = operating_state(system(), point);
-    if (!shown_ && &point == &point_) show(StepKind::initial_conditions, state);
+    const OperatingState state = operating_state(system(), linear->point);
+    if (!shown_ && !linear->at_rest_as_found) show(StepKind::initial_conditions, state);
     if (command.option == LinearOption::mkb) {
-      auto form = second_order(linear->model, linear->first_order);
+      const auto form = second_order_form(*linear);
       if (!form) return tl::unexpected(form.error());
-      note_options(*form, command);
       if (auto written = write_matrices(command, named_matrices(*form)); !written) return written;
       write_matrix_states(message_, *form);
       if (results_ && !settings_.results.without_linear) results_->add(*form);
@@ -305,35 +271,26 @@ class Session {
       return {};
     }
     if (command.option == LinearOption::statemat) {
-      note_options(linear->model, command);
-      if (auto written = write_matrices(command, named_matrices(linear->model)); !written) return written;
-      write_matrix_states(message_, linear->model);
-      json_.add(c.text, linear->model);
+      if (auto written = write_matrices(command, named_matrices(state_space)); !written) return written;
+      write_matrix_states(message_, state_space);
+      json_.add(c.text, state_space);
       json_.add_point(state);
-      if (results_ && !settings_.results.without_linear) results_->add(linear->model);
-      tell_of_matrices("state", linear->model.states.size(), command);
+      if (results_ && !settings_.results.without_linear) results_->add(state_space);
+      tell_of_matrices("state", state_space.states.size(), command);
       return {};
     }
-    if (linear->model.states.size() > 1000) {
-      fmt::print(err_, "computing the eigenvalues of {} states ...\n", linear->model.states.size());
+    if (state_space.states.size() > 1000) {
+      fmt::print(err_, "computing the eigenvalues of {} states ...\n", state_space.states.size());
     }
     const std::clock_t begun = std::clock();
-    auto modes = eigensolve(*linear, command.without_vectors ? Vectors::none : Vectors::right);
-    if (!modes) return tl::unexpected(modes.error());
+    const auto found = modes_of(*linear, command.without_vectors ? Vectors::none : Vectors::right);
+    if (!found) return tl::unexpected(found.error());
     const double cpu_seconds = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
-    if (!command.without_vectors) {
-      clear_still_modes(system(), point, *linear, *modes);
-      name_movers(system(), point, *linear, *modes);
-      map_shapes(system(), *linear, *modes);
-    }
-    modes->rm = command.rm.value_or(0);
-    modes->pstate = command.pstate.value_or(0);
-    modes->without_damping = command.without_damping;
-    modes->original = command.original;
-    remarks_.say(cautions(system(), point, *linear, *modes));
+    const EigenSolution* const modes = &found->solution;
+    remarks_.say(found->remarks);
     // All that this command has to say is in the files of the run, or nothing of it.
     if (command.wants_tables()) {
-      const auto tables = mode_tables(command, system(), point, *linear, *modes);
+      const auto tables = mode_tables(command, *linear, *modes);
       if (!tables) return tl::unexpected(tables.error());
       tables_ << *tables;
     }
@@ -356,14 +313,6 @@ class Session {
                command.format == "MATLAB" ? "*, a file each" : "");
   }
 
-  template <class Matrices>
-  static void note_options(Matrices& m, const LinearCommand& command) {
-    m.rm = command.rm.value_or(0);
-    m.pstate = command.pstate.value_or(0);
-    m.without_damping = command.without_damping;
-    m.original = command.original;
-  }
-
   // Tables of modes that are not there.
   void warn_of_missing_modes(const LinearCommand& command, std::size_t modes) {
     const auto look = [&](std::string_view name, const LinearCommand::Modes& wanted) {
@@ -382,7 +331,7 @@ class Session {
 
   Outcome write_matrices(const LinearCommand& command, const std::vector<NamedMatrix>& matrices) {
     const auto result = files_.add(matrix_files(linear_path(job_, command.file), command.format, matrices));
-    if (!result) return tl::unexpected(Failure{"linear analysis", result.error(), {}});
+    if (!result) return tl::unexpected(StudyFailure({"linear analysis", result.error(), {}}));
     return {};
   }
 
@@ -392,8 +341,7 @@ class Session {
     if (!tables_.view().empty()) last.push_back({job_.prefix + ".txt", [&](std::ostream& o) { o << tables_.view(); }});
     if (results_) {
       const auto ending = status == done ? ResultsFile::Ending::successful : ResultsFile::Ending::failed;
-      last.push_back({job_.prefix + ".res",
-                      [this, ending](std::ostream& o) { results_->write(o, std::string(version), ending); }});
+      last.push_back({job_.prefix + ".res", [this, ending](std::ostream& o) { results_->write(o, version, ending); }});
     }
     last.push_back({job_.prefix + ".msg", [&](std::ostream& o) { o << message_.view(); }});
     if (!options_.json.empty())
@@ -433,14 +381,9 @@ class Session {
   Diagnostics problems_;                                // why there is none
   std::size_t stage_ = 0;
   std::set<std::string> inactive_;  // what is said already
-  OperatingPoint point_;
-  bool consistent_ = false;
-  bool shown_ = false;              // the point, where points are shown
-  bool started_ = false;            // an analysis has been made
-  bool restated_velocity_ = false;  // and then a command stated where something starts
+  StudyPoint point_;
+  bool shown_ = false;  // the point, where points are shown
   Environment environment_ = read_environment();
-  std::optional<OperatingPoint> at_rest_;  // what the last static analysis found, if no other one came after it
-  std::vector<std::string> redundant_;
   std::ostringstream message_, tables_;
   JsonResults json_;
   Remarks remarks_{err_, message_, json_, job_.prefix + ".msg"};

@@ -145,8 +145,8 @@ void JsonResults::add(const std::string& command, const StaticResult& s) {
 
 void JsonResults::add_point(const OperatingState& s) { document_->results.back()["operating_point"] = json_of(s); }
 
-void JsonResults::add_warning(const std::string& command, const Diagnostic& d) {
-  Json warning = json_of(d);
+void JsonResults::add_warning(const std::string& command, const Remark& r) {
+  Json warning = json_of(r);
   warning["command"] = command.empty() ? Json() : Json(command);
   document_->warnings.push_back(std::move(warning));
 }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/diagnostics.h"
 #include "dynalin/operating_state.h"
+#include "dynalin/remark.h"
 #include "dynalin/results.h"
 #include "dynalin/units.h"
 
@@ -27,7 +27,7 @@ class JsonResults {
   // The point at which the last result was linearized.
   void add_point(const OperatingState&);
   // `command` is the one that it came up with, empty for what was found in reading.
-  void add_warning(const std::string& command, const Diagnostic&);
+  void add_warning(const std::string& command, const Remark&);
   void add_failure(const std::string& command, const std::string& message, const std::vector<std::string>& details);
   // What concerns the run as a whole.
   void finish(const Units&, int status, const std::vector<std::string>& files);

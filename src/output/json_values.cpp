@@ -96,13 +96,10 @@ Json json_of(const Stability& s) {
           {"reason", text_or_null(s.reason)}};
 }
 
-Json json_of(const Diagnostic& d) {
+Json json_of(const Remark& r) {
   Json at;
-  if (d.at.source) {
-    const SourceText::Place place = d.at.source->place(d.at.offset);
-    at = {{"file", d.at.source->name()}, {"line", place.line}, {"column", place.column}};
-  }
-  return {{"code", d.code}, {"message", d.message}, {"hint", text_or_null(d.hint)}, {"at", at}};
+  if (!r.file.empty()) at = {{"file", r.file}, {"line", r.line}, {"column", r.column}};
+  return {{"code", r.code}, {"message", r.message}, {"hint", text_or_null(r.hint)}, {"at", at}};
 }
 
 }  // namespace dynalin

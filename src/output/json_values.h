@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/diagnostics.h"
 #include "dynalin/operating_state.h"
+#include "dynalin/remark.h"
 #include "dynalin/units.h"
 
 namespace dynalin {
@@ -15,6 +15,6 @@ Json json_of(const Units&);
 Json json_of(const OperatingState&);
 Json json_of(const Stability&);
 // {"code", "message", "hint", "at": {"file", "line", "column"}}; `at` is null where no file states it.
-Json json_of(const Diagnostic&);
+Json json_of(const Remark&);
 
 }  // namespace dynalin

@@ -3,11 +3,12 @@
 
 #include <numbers>
 
+#include "cases/both.h"
 #include "cases/dataset_text.h"
 
 namespace dynalin::cases {
 
-class Beams : public Cases {
+class Beams : public ProgramAndLibrary {
  protected:
   // All eigenvalues, radians per unit time.
   std::vector<std::complex<double>> spectrum(const std::string& elements,

@@ -3,12 +3,12 @@
 
 #include <numbers>
 
-#include "cases/run.h"
+#include "cases/both.h"
 
 namespace dynalin::cases {
 namespace {
 
-using Benchmarks = Cases;
+using Benchmarks = ProgramAndLibrary;
 using Complex = std::complex<double>;
 constexpr double tau = 2 * std::numbers::pi;
 
@@ -28,7 +28,7 @@ std::string top(char axis, double spin) {
       inertia, reuler, static_cast<char>(std::toupper(axis)), spin, cm);
 }
 
-class SleepingTop : public Cases, public ::testing::WithParamInterface<char> {};
+class SleepingTop : public ProgramAndLibrary, public ::testing::WithParamInterface<char> {};
 
 TEST_P(SleepingTop, has_one_answer_whatever_local_axis_it_spins_about) {
   const RunResult fast = run(top(GetParam(), 200), "LINEAR/EIGENSOL\n");

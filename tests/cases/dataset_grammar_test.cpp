@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "cases/run.h"
-#include "dynalin/mechanism.h"
+#include "cases/study_of.h"
 
 namespace dynalin::cases {
 namespace {
@@ -321,12 +321,11 @@ TEST(Orient, angles_of_every_sequence_give_the_rotation_back) {
       lines += fmt::format("VARIABLE/{}, FUNCTION=ORIENT({},{},20,11)\n", 10 * (s + 1) + k, s + 1, k);
   }
   for (int k = 1; k <= 4; ++k) lines += fmt::format("VARIABLE/{}, FUNCTION=ORIENT(27,{},20,11)\n", 270 + k, k);
-  Mechanism m = Mechanism::from_text(
+  const auto study = study_of(
       "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/11, PART=1, REULER=0.3,0.7,-1.1\nPART/2, MASS=1, CM=20, "
       "IP=1,1,1, REULER=0.9,1.3,-0.4\nMARKER/20\nMARKER/2\nJOINT/1, SPHERICAL, I=20, J=1\n" +
-          lines + "END\n",
-      "orient.adm");
-  m.initial_conditions();
+      lines + "END\n");
+  const auto m = study.initial_conditions();
   const auto euler = [](double a, double b, double c) { return times(times(about(2, a), about(0, b)), about(2, c)); };
   Rotation J = euler(0.3, 0.7, -1.1), transposed{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -350,8 +349,7 @@ TEST(Orient, angles_of_every_sequence_give_the_rotation_back) {
 TEST(Orient, refuses_systems_that_are_not_known_and_components_that_are_not_there) {
   const auto error = [](const std::string& function) -> std::string {
     try {
-      Mechanism::from_text(
-          "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nVARIABLE/1, FUNCTION=" + function + "\nEND\n", "orient.adm");
+      study_of("t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nVARIABLE/1, FUNCTION=" + function + "\nEND\n");
     } catch (const Error& e) {
       return e.what();
     }

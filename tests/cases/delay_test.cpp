@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "cases/run.h"
-#include "dynalin/mechanism.h"
+#include "cases/study_of.h"
 
 namespace dynalin::cases {
 namespace {
@@ -159,35 +159,32 @@ TEST_F(Delays, nodampin_keeps_them) {
 
 TEST_F(Delays, value_is_the_history_at_the_start_and_e_at_rest) {
   const auto mechanism = [](const std::string& of_tau, bool pade) {
-    return Mechanism::from_text(
+    return study_of(
         slider("-8*" + delay("VARVAL(2)", of_tau, "7+2*TIME") + "+4",
                "VARIABLE/1, FUNCTION=" + delay("VARVAL(2)", of_tau, "7+2*TIME") + "\nVARIABLE/2, FUNCTION=" + z + "\n",
                3, 2),
-        "dataset.adm", {pade});
+        {pade});
   };
   for (const bool pade : {false, true}) {
-    Mechanism m = mechanism("0.5", pade);
-    m.initial_conditions();
-    EXPECT_NEAR(m.variable(1), 6, 1e-13);  // 7 + 2 (0 − 0.5)
-    Mechanism at_rest = mechanism("0.5", pade);
-    at_rest.static_equilibrium(false);
+    const auto study = mechanism("0.5", pade);
+    EXPECT_NEAR(study.initial_conditions().variable(1), 6, 1e-13);  // 7 + 2 (0 − 0.5)
+    StaticRequest request;
+    request.restore_velocities = false;
+    const auto at_rest = study.static_equilibrium(request);
     EXPECT_NEAR(at_rest.variable(1), 0.5, 1e-12);
     EXPECT_NEAR(at_rest.variable(2), 0.5, 1e-12);
   }
   for (const std::string none : {"0", "-0.5", "0*TIME-0.5"}) {
-    Mechanism m = mechanism(none, false);
-    m.initial_conditions();
-    EXPECT_NEAR(m.variable(1), 3, 1e-13) << none;
+    EXPECT_NEAR(mechanism(none, false).initial_conditions().variable(1), 3, 1e-13) << none;
   }
 }
 
 // w = h(−τ) = −4 τ and τ = 0.1 + w/20: w = −0.4/1.2.
 TEST_F(Delays, delay_may_depend_on_what_is_delayed) {
-  Mechanism m = Mechanism::from_text(slider("0",
-                                            "VARIABLE/1, FUNCTION=DELAY(9,VARVAL(2),4*TIME)\n"
-                                            "VARIABLE/2, FUNCTION=0.1+VARVAL(1)/20\n"));
-  m.initial_conditions();
-  EXPECT_NEAR(m.variable(1), -1.0 / 3, 1e-13);
+  const auto study = study_of(slider("0",
+                                     "VARIABLE/1, FUNCTION=DELAY(9,VARVAL(2),4*TIME)\n"
+                                     "VARIABLE/2, FUNCTION=0.1+VARVAL(1)/20\n"));
+  EXPECT_NEAR(study.initial_conditions().variable(1), -1.0 / 3, 1e-13);
 }
 
 TEST_F(Delays, constant_of_no_delay_has_no_state) {
@@ -196,9 +193,9 @@ TEST_F(Delays, constant_of_no_delay_has_no_state) {
 }
 
 TEST_F(Delays, pade_approximant_of_no_delay_is_refused) {
-  Mechanism m = Mechanism::from_text(slider("-8*" + delay(z, z)), "dataset.adm", {.pade_delays = true});
+  const auto study = study_of(slider("-8*" + delay(z, z)), {.pade_delays = true});
   try {
-    m.initial_conditions();
+    study.initial_conditions();
     FAIL();
   } catch (const Error& e) {
     EXPECT_THAT(e.what(), HasSubstr("DELAY/1 (in VFORCE/1): the Padé approximant needs a delay above 0, here it is 0"));

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "cases/run.h"
-#include "dynalin/mechanism.h"
+#include "cases/study_of.h"
 
 namespace dynalin::cases {
 namespace {
@@ -104,9 +104,7 @@ TEST_F(DiffRates, held_in_dynamics_is_a_constant) {
 
 TEST_F(DiffRates, rate_of_what_is_held_is_zero) {
   const std::string held = "DIFF/1, IC=0.7, FUNCTION=2-DIF(1), DYNAMIC_HOLD\n";
-  Mechanism m = Mechanism::from_text(slider("0", held + "VARIABLE/1, FUNCTION=DIF1(1)+3\n"));
-  m.initial_conditions();
-  EXPECT_EQ(m.variable(1), 3);
+  EXPECT_EQ(study_of(slider("0", held + "VARIABLE/1, FUNCTION=DIF1(1)+3\n")).initial_conditions().variable(1), 3);
   // DIFF/2 is algebraic, z₂ = 2 z₁ z with the rate 2 z₁ z′; DIFF/3 shares no rate with what has none.
   EXPECT_THAT(output_row(held + "DIFF/2, IMPLICIT, FUNCTION=DIF(2)-2*DIF(1)*" + z +
                          "\nVARIABLE/1, FUNCTION=DIF1(2)\nDIFF/3, IMPLICIT, FUNCTION=DIF1(3)+DIF1(1)+5*DIF(3)\n"),

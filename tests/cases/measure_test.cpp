@@ -2,7 +2,6 @@
 // constant loads move as Newton and Euler say; measures are differences of that motion in time as an observer on l sees
 // it, their partials differences of motions that begin elsewhere. Extended precision makes both as exact as the
 // product.
-#include <dynalin/mechanism.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +9,7 @@
 #include <map>
 
 #include "base/vec3.h"
+#include "cases/study_of.h"
 
 namespace dynalin {
 namespace {
@@ -213,14 +213,14 @@ std::string dataset(const std::string& more) {
   return s + more + "END\n";
 }
 
-World world_of(const Mechanism& m) {
+World world_of(const library::OperatingPoint& point) {
   World world;
   world.gravity = {0.5L, -9.81L, 1.5L};
   const std::array<Body, 3> loads = {Body{2, {0.2L, 0.3L, 0.25L}, {7, -3, 5}, {0.4L, 0.7L, -0.9L}, {}, {}, {}, {}},
                                      Body{1, {0.1L, 0.15L, 0.12L}, {-2, 4, 9}, {-0.3L, 0.2L, 0.5L}, {}, {}, {}, {}},
                                      Body{3, {0.4L, 0.35L, 0.6L}, {3, 11, -6}, {0.8L, -1.1L, 0.6L}, {}, {}, {}, {}}};
   const auto vector = [](const std::array<double, 3>& a) { return V{a[0], a[1], a[2]}; };
-  const std::vector<BodyState> states = m.bodies();
+  const std::vector<BodyState> states = point.state().bodies;
   for (std::size_t b = 0; b < 3; ++b) {
     Body body = loads[b];
     body.r = vector(states[b].position), body.v = vector(states[b].velocity);
@@ -276,20 +276,19 @@ std::vector<Call> calls() {
 
 class Measures : public ::testing::Test {
  protected:
-  Mechanism mechanism(const std::vector<Call>& list) const {
+  library::Study study(const std::vector<Call>& list) const {
     std::string more, ids;
     for (std::size_t k = 0; k < list.size(); ++k) {
       more += fmt::format("VARIABLE/{}, FUNCTION={}\n", k + 1, list[k].text);
       ids += fmt::format("{}{}", k == 0 ? "" : ",\n,", k + 1);
     }
-    return Mechanism::from_text(dataset(more + "POUTPUT/1, VARIABLES=" + ids + "\n"));
+    return study_of(dataset(more + "POUTPUT/1, VARIABLES=" + ids + "\n"));
   }
 };
 
 TEST_F(Measures, are_what_an_observer_differentiates) {
   const std::vector<Call> list = calls();
-  Mechanism m = mechanism(list);
-  m.initial_conditions();
+  const auto m = study(list).initial_conditions();
   const World world = world_of(m);
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Real expected = measure(list[k].name, world, list[k].frames);
@@ -302,11 +301,11 @@ TEST_F(Measures, are_what_an_observer_differentiates) {
 
 TEST_F(Measures, have_the_partials_of_motions_that_begin_elsewhere) {
   const std::vector<Call> list = calls();
-  Mechanism m = mechanism(list);
-  m.initial_conditions();
+  const auto study = this->study(list);
+  const auto m = study.initial_conditions();
   LinearRequest request;
   request.poutput = 1;
-  const StateSpace s = m.state_space(request);
+  const StateSpace s = study.linearize(m, request).state_space();
   ASSERT_EQ(s.states.size(), 36u);
   const World world = world_of(m);
   for (std::size_t c = 0; c < s.states.size(); ++c) {

@@ -1,12 +1,12 @@
 // The operating point as it is handed out: by the library, in JSON, in the results file, in the message file and on the
 // terminal.
-#include <dynalin/mechanism.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "cases/run.h"
+#include "cases/study_of.h"
 
 namespace dynalin::cases {
 namespace {
@@ -36,9 +36,8 @@ const std::string pendulum =
 class OperatingStates : public Cases {};
 
 TEST_F(OperatingStates, of_the_library_hold_motion_reactions_and_values) {
-  Mechanism m = Mechanism::from_text(pendulum + "END\n");
-  m.initial_conditions();
-  const OperatingState s = m.operating_state();
+  const auto study = study_of(pendulum + "END\n");
+  const OperatingState s = study.initial_conditions().state();
   EXPECT_EQ(s.time, 0);
   ASSERT_EQ(s.bodies.size(), 1u);
   const BodyState& rod = s.bodies[0];
@@ -79,15 +78,15 @@ TEST_F(OperatingStates, of_the_library_hold_motion_reactions_and_values) {
   EXPECT_EQ(s.plant_outputs[0].values.size(), 2u);
   EXPECT_NEAR(s.plant_outputs[0].values[0], 8, 1e-13);
   EXPECT_EQ(s.plant_inputs.at(0).element, "PINPUT/1");
-  EXPECT_EQ(m.units().length, "METER");
+  EXPECT_EQ(study.model().units().length, "METER");
 }
 
 TEST_F(OperatingStates, have_the_angles_of_reuler) {
   const auto angles = [](const std::string& reuler) {
-    Mechanism m = Mechanism::from_text(
-        "Angles\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nPART/2, MASS=1, CM=20, IP=1,2,2, REULER=" + reuler +
-        "\nMARKER/20\nEND\n");
-    return m.operating_state().bodies.at(0).angles;
+    const auto study =
+        study_of("Angles\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nPART/2, MASS=1, CM=20, IP=1,2,2, REULER=" + reuler +
+                 "\nMARKER/20\nEND\n");
+    return study.as_drawn().state().bodies.at(0).angles;
   };
   expect_triple(angles("20D,50D,-70D"), {20 * pi / 180, 50 * pi / 180, -70 * pi / 180});
   expect_triple(angles("-120D,130D,170D"), {-120 * pi / 180, 130 * pi / 180, 170 * pi / 180});
@@ -98,14 +97,13 @@ TEST_F(OperatingStates, have_the_angles_of_reuler) {
 
 // In the axes that each statement documents: J of a BUSHING, RM of a GFORCE.
 TEST_F(OperatingStates, hold_applied_forces_in_the_axes_of_their_markers) {
-  Mechanism m = Mechanism::from_text(
+  const auto study = study_of(
       "Forces\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, REULER=90D,0,0\nMARKER/2, FLOATING, PART=1\nMARKER/3, "
       "PART=1, REULER=0,90D,0\nPART/2, MASS=1, CM=20, IP=1,1,1, QG=0.5,0,0\nMARKER/20\n"
       "BUSHING/4, I=20, J=1, K=2,3,5, KT=1,1,1\nGFORCE/6, I=20, JFLOAT=2, RM=3, FX=1\\ FY=2\\ FZ=3\\ TX=0\\ TY=0\\ "
       "TZ=4\n"
       "END\n");
-  m.initial_conditions();
-  const OperatingState s = m.operating_state();
+  const OperatingState s = study.initial_conditions().state();
   ASSERT_EQ(s.forces.size(), 2u);
   EXPECT_EQ(s.forces[0].element, "BUSHING/4");
   EXPECT_EQ(s.forces[0].axes, 1);
@@ -187,13 +185,12 @@ TEST_F(OperatingStates, hold_what_a_gcon_does_to_the_body_of_its_marker) {
 
 // Of two hinges on one axis, rows of the second are left out and have no multiplier.
 TEST_F(OperatingStates, mark_redundant_rows) {
-  Mechanism m = Mechanism::from_text(
+  const auto study = study_of(
       "Door\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=0,0,1\nPART/2, MASS=1, CM=20, "
       "IP=1,1,1\nMARKER/20\n"
       "MARKER/21, QP=0,0,1\nJOINT/1, REVOLUTE, I=20, J=1\nJOINT/2, REVOLUTE, I=21, J=2\nEND\n");
-  m.initial_conditions();
   std::size_t redundant = 0;
-  for (const ConstraintValue& row : m.operating_state().constraints) {
+  for (const ConstraintValue& row : study.initial_conditions().state().constraints) {
     redundant += row.redundant;
     EXPECT_TRUE(!row.redundant || row.multiplier == 0);
   }
@@ -201,17 +198,17 @@ TEST_F(OperatingStates, mark_redundant_rows) {
 }
 
 TEST_F(OperatingStates, of_statics_are_those_at_rest_and_come_with_stability) {
-  Mechanism m = Mechanism::from_text(pendulum + "END\n");
-  EXPECT_THROW(static_cast<void>(m.static_result()), Error);
-  const int iterations = m.static_equilibrium();
+  const auto study = study_of(pendulum + "END\n");
+  EXPECT_THROW(static_cast<void>(study.initial_conditions().static_result()), Error);
+  const auto m = study.static_equilibrium();
   const StaticResult r = m.static_result();
-  EXPECT_EQ(r.iterations, iterations);
+  EXPECT_GT(r.iterations, 0);
   EXPECT_EQ(r.stability.verdict, Stability::Verdict::stable);
   expect_triple(r.at_rest.bodies.at(0).position, {1, 1, 0});
   expect_triple(r.at_rest.bodies.at(0).velocity, {0, 0, 0});
   expect_triple(r.at_rest.reactions.at(0).force, {0, 30, 0});
   // The point itself has the dataset's velocity again.
-  EXPECT_NEAR(m.operating_state().bodies.at(0).angular_velocity[2], 4, 1e-12);
+  EXPECT_NEAR(m.state().bodies.at(0).angular_velocity[2], 4, 1e-12);
 }
 
 TEST_F(OperatingStates, are_in_json_with_each_command) {

@@ -1,9 +1,9 @@
 // ORIGINAL and its environment variables, each alone and together: the dropped coupling of differential states to
 // rates, the static solution taken as it was found. Expected values come from closed forms.
-#include <dynalin/mechanism.h>
 #include <gmock/gmock.h>
 
 #include "cases/original_cases.h"
+#include "cases/study_of.h"
 
 namespace dynalin::cases {
 namespace {
@@ -129,23 +129,29 @@ TEST_F(OriginalOptions, library_has_options_and_looks_at_no_environment) {
   const Pendulum p;
   const double w = 1.3;
   const Variable all_set[] = {Variable(pbcs_states), Variable(nodamp_diff), Variable(no_checks), Variable(no_restore)};
-  Mechanism m = Mechanism::from_text(p.text(0, w));
-  const auto stiffness = [&](const LinearRequest& request) { return -m.state_space(request).A(0, 1); };
+  const auto study = study_of(p.text(0, w));
+  auto point = study.static_equilibrium();
+  const auto matrices = [&](const LinearRequest& request) { return study.linearize(point, request).state_space(); };
+  const auto stiffness = [&](const LinearRequest& request) { return -matrices(request).A(0, 1); };
   LinearRequest request;
-  m.static_equilibrium();
   EXPECT_NEAR(stiffness(request), p.kappa(), 1e-12);
-  EXPECT_EQ(m.state_space(request).states[0].type, StateType::part);
+  EXPECT_EQ(matrices(request).states[0].type, StateType::part);
   request.principal_states = true;
   EXPECT_NEAR(stiffness(request), p.kappa() + w * w, 1e-12);
-  EXPECT_EQ(m.state_space(request).states[0].type, StateType::part_euler);
+  EXPECT_EQ(matrices(request).states[0].type, StateType::part_euler);
   request.without_reconciliation = true;
   EXPECT_NEAR(stiffness(request), p.kappa(), 1e-12);
-  EXPECT_FALSE(m.eigensolution(request).original);
-  request.without_rate_coupling = true;
-  EXPECT_TRUE(m.eigensolution(request).original);
-  m.initial_conditions();
+  EXPECT_FALSE(study.linearize(point, request).modes().original);
+  LinearRequest original;
+  original.original = true;
+  EXPECT_NEAR(stiffness(original), p.kappa(), 1e-12);
+  EXPECT_EQ(matrices(original).states[0].type, StateType::part_euler);
+  EXPECT_TRUE(study.linearize(point, original).modes().original);
+  point = study.initial_conditions(point);
   EXPECT_NEAR(stiffness(request), p.kappa() + w * w, 1e-12);
-  m.static_equilibrium(false);
+  StaticRequest at_rest;
+  at_rest.restore_velocities = false;
+  point = study.static_equilibrium(at_rest);
   request.without_reconciliation = false;
   EXPECT_NEAR(stiffness(request), p.kappa(), 1e-12);
 }

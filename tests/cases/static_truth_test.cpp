@@ -8,7 +8,7 @@
 
 #include "analysis/statics.h"
 #include "cases/dataset_text.h"
-#include "dynalin/mechanism.h"
+#include "cases/study_of.h"
 #include "elements/catalogue.h"
 
 namespace dynalin::cases {
@@ -196,9 +196,9 @@ TEST_F(StaticTruth, equations_without_a_value_at_the_start_fail_by_name) {
     const RunResult r = rest(f.elements);
     EXPECT_EQ(r.status, 2);
     EXPECT_THAT(r.err, HasSubstr(f.named));
-    Mechanism m = Mechanism::from_text(dataset(f.elements, "KGRAV=0"));
+    const auto study = study_of(dataset(f.elements, "KGRAV=0"));
     try {
-      m.static_equilibrium();
+      study.static_equilibrium();
       ADD_FAILURE() << "no error: " << f.named;
     } catch (const Error& e) {
       EXPECT_THAT(std::string(e.what()), HasSubstr(f.named));
@@ -210,8 +210,8 @@ TEST_F(StaticTruth, without_anything_that_moves_there_is_nothing_to_find) {
   for (const std::string& elements : {std::string(), free_part + "JOINT/1, FIXED, I=20, J=1\n"}) {
     const RunResult r = run(dataset(elements, "KGRAV=-9.81"), "SIMULATE/STATIC\n");
     EXPECT_EQ(r.status, 0) << r.err;
-    Mechanism m = Mechanism::from_text(dataset(elements, "KGRAV=-9.81"));
-    EXPECT_EQ(m.static_equilibrium(), 0);
+    const auto found = study_of(dataset(elements, "KGRAV=-9.81")).static_equilibrium();
+    EXPECT_EQ(found.static_result().iterations, 0);
   }
 }
 

@@ -1,6 +1,5 @@
 // Functions where they have no derivative: refused by the name of the element and the function wherever the linear
 // model needs it, and nowhere else; and angles that together are smooth where each of them is not.
-#include <dynalin/mechanism.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -8,6 +7,7 @@
 #include <numbers>
 
 #include "cases/dataset_text.h"
+#include "cases/study_of.h"
 
 namespace dynalin::cases {
 namespace {
@@ -214,11 +214,11 @@ TEST_F(SmoothAngles, are_the_angles_they_are_made_of) {
     std::string text = two_bodies(more + "POUTPUT/1, VARIABLES=" + list + "\n");
     for (std::size_t at; (at = text.find(a)) != std::string::npos;)
       text.replace(at, a.size(), fmt::format("( {} )", markers));
-    Mechanism m = Mechanism::from_text(text);
-    m.initial_conditions();
+    const auto study = study_of(text);
+    const auto m = study.initial_conditions();
     LinearRequest request;
     request.poutput = 1;
-    const StateSpace s = m.state_space(request);
+    const StateSpace s = study.linearize(m, request).state_space();
     for (Eigen::Index r = 0; r < s.C.rows(); r += 2) {
       const double value = m.variable(100 + r), expected = m.variable(101 + r);
       EXPECT_NEAR(value, expected, 1e-13 * std::max(1.0, std::abs(expected))) << rows[r / 2].first << markers;
@@ -254,9 +254,8 @@ TEST_F(SmoothAngles, have_derivatives_where_the_angles_have_none) {
   expect("YAW(20,1)-ROLL(20,1)", {{z, 1}}, "90D,90D,-90D");
   expect("SIN(PITCH(20,1))", {}, "90D,90D,-90D");
 
-  Mechanism m = Mechanism::from_text(free_body(output("PSI(20,1)+PHI(20,1)"), ", REULER=0.3,0,0"));
-  m.initial_conditions();
-  EXPECT_NEAR(m.variable(7), 0.3, 1e-15);
+  const auto study = study_of(free_body(output("PSI(20,1)+PHI(20,1)"), ", REULER=0.3,0,0"));
+  EXPECT_NEAR(study.initial_conditions().variable(7), 0.3, 1e-15);
 }
 
 // cos θ falls as −θ²/2 and θ² grows: rates of both depend on the tilt where the model tilts.

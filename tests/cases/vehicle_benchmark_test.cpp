@@ -1,12 +1,13 @@
 // Ride, handling and lattices: closed forms and published values.
 #include <numbers>
 
+#include "cases/both.h"
 #include "cases/dataset_text.h"
 
 namespace dynalin::cases {
 namespace {
 
-class Benchmark : public Cases {
+class Benchmark : public ProgramAndLibrary {
  protected:
   // Eigenvalues in rad per unit time.
   std::vector<std::complex<double>> solve(const std::string& elements) const {

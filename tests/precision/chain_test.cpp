@@ -1,6 +1,6 @@
 // Hanging chain of n rods with a damper in its top hinge: the low modes of a long chain against a transfer recurrence
 // in 50 digits.
-#include <dynalin/mechanism.h>
+#include <dynalin/study.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -61,7 +61,7 @@ class Chain : public ::testing::TestWithParam<int> {};
 
 TEST_P(Chain, low_modes_have_all_their_digits) {
   const int n = GetParam();
-  const auto solution = Mechanism::from_text(chain(n)).eigensolution();
+  const auto solution = library::Study(library::Model::from_text(chain(n))).linearize().modes();
   int found = 0;
   const Real cycle = 2 * boost::math::constants::pi<Real>();
   for (const EigenMode& mode : solution.modes) {

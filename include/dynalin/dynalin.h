@@ -1,0 +1,25 @@
+// The library: read a mechanism, find an operating point, linearize about it, read plain values.
+//
+//     dynalin::Study study(dynalin::Model::read("model.adm"));
+//     auto point = study.static_equilibrium();
+//     auto modes = study.linearize(point).modes();
+//
+// Everything is constant once it is made; errors are thrown as dynalin::Error. This header is the one to include.
+#pragma once
+
+#include "dynalin/linear_model.h"
+#include "dynalin/model.h"
+#include "dynalin/operating_point.h"
+#include "dynalin/record.h"
+#include "dynalin/study.h"
+#include "dynalin/version.h"
+
+// Inside, namespace dynalin has a Model, a Study and an OperatingPoint of its own, which no public header shows.
+namespace dynalin {
+using library::LinearModel;
+using library::Model;
+using library::Modes;
+using library::OperatingPoint;
+using library::Record;
+using library::Study;
+}  // namespace dynalin

@@ -1,0 +1,41 @@
+// The linear model of a mechanism at an operating point.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "dynalin/linear_request.h"
+#include "dynalin/operating_point.h"
+#include "dynalin/results.h"
+
+namespace dynalin::library {
+
+struct Modes : EigenSolution {
+  std::vector<Remark> remarks;  // what makes them other than they look
+};
+
+// Constant. Results are computed when they are asked for.
+class LinearModel {
+ public:
+  // s' = A s + B u, y = C s + D u.
+  StateSpace state_space() const;
+  // M s″ + B s′ + K s = P u.
+  SecondOrder second_order() const;
+  // Eigenvalues and mode shapes, or eigenvalues alone.
+  Modes modes(bool with_shapes = true) const;
+
+  const LinearRequest& request() const;
+  // What the model is linear about.
+  const OperatingPoint& operating_point() const;
+  // Of finding the point, if it was not consistent before, and of linearizing.
+  const std::vector<Remark>& remarks() const;
+
+  struct Inside;
+  explicit LinearModel(std::shared_ptr<const Inside> inside) : inside_(std::move(inside)) {}
+  const Inside& inside() const { return *inside_; }
+
+ private:
+  std::shared_ptr<const Inside> inside_;
+};
+
+}  // namespace dynalin::library

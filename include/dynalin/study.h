@@ -1,0 +1,51 @@
+// Analyses of a model: operating points, and linear models about them.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "dynalin/linear_model.h"
+#include "dynalin/model.h"
+#include "dynalin/operating_point.h"
+
+namespace dynalin {
+
+// What a static analysis takes; a value that is not stated is that of EQUILIBRIUM in the dataset, or its default.
+struct StaticRequest {
+  bool restore_velocities = true;  // afterwards the velocities that the dataset states come back at the new pose
+  std::optional<double> error{}, imbalance{};                   // what is taken where no exact equilibrium is found
+  std::optional<double> translation_limit{}, rotation_limit{};  // of a step [length], [rad]
+  std::optional<std::int64_t> iteration_limit{};
+  std::function<void(int iteration, double imbalance)> progress{};  // called with every iteration
+};
+
+namespace library {
+
+// Holds nothing but its model: analyses take a point and return another one, so that several points of one run, and
+// studies in several threads, stand beside each other. What fails throws Error.
+class Study {
+ public:
+  explicit Study(Model model) : model_(std::move(model)) {}
+  const Model& model() const { return model_; }
+
+  OperatingPoint as_drawn() const;
+  // Positions, velocities, accelerations and reactions that agree with constraints and forces; from the point as drawn,
+  // or from another, which stays as it is if it is consistent already.
+  OperatingPoint initial_conditions() const { return initial_conditions(as_drawn()); }
+  OperatingPoint initial_conditions(const OperatingPoint& from) const;
+  // Where all forces balance at rest, from the pose of a point.
+  OperatingPoint static_equilibrium(const StaticRequest& request = {}) const {
+    return static_equilibrium(as_drawn(), request);
+  }
+  OperatingPoint static_equilibrium(const OperatingPoint& from, const StaticRequest& = {}) const;
+
+  // A point that is not consistent is made so first.
+  LinearModel linearize(const LinearRequest& request = {}) const { return linearize(as_drawn(), request); }
+  LinearModel linearize(const OperatingPoint&, const LinearRequest& = {}) const;
+
+ private:
+  Model model_;
+};
+
+}  // namespace library
+}  // namespace dynalin

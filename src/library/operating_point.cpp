@@ -1,0 +1,68 @@
+#include "dynalin/operating_point.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "library/inside.h"
+#include "system/operating_state.h"
+
+namespace dynalin::library {
+
+namespace {
+
+const dynalin::Model& model_of(const OperatingPoint& p) { return p.inside().point.system->model(); }
+
+BodyState body(const OperatingPoint& point, const std::string& statement, std::int64_t id) {
+  const std::string name = fmt::format("{}/{}", statement, id);
+  const OperatingState state = point.state();
+  const auto found = std::ranges::find(state.bodies, name, &BodyState::element);
+  if (found == state.bodies.end()) fail_for_missing(name);
+  return *found;
+}
+
+}  // namespace
+
+double OperatingPoint::time() const { return inside_->point.values.time; }
+bool OperatingPoint::is_consistent() const { return inside_->point.consistent; }
+const std::vector<std::string>& OperatingPoint::redundant_rows() const { return inside_->point.redundant_rows; }
+const std::vector<Remark>& OperatingPoint::remarks() const { return inside_->remarks; }
+
+OperatingState OperatingPoint::state() const { return operating_state(*inside_->point.system, inside_->point.values); }
+
+BodyState OperatingPoint::part(std::int64_t id) const { return body(*this, "PART", id); }
+BodyState OperatingPoint::point_mass(std::int64_t id) const { return body(*this, "POINT_MASS", id); }
+
+MarkerState OperatingPoint::marker(std::int64_t id) const {
+  const auto marker = model_of(*this).find_marker(id);
+  if (!marker) fail_for_missing(fmt::format("MARKER/{}", id));
+  if (model_of(*this).marker(*marker).floating)
+    fail(Failure{"results", fmt::format("MARKER/{} is floating: nothing fixes it on its body", id), {}});
+  return marker_state(*inside_->point.system, inside_->point.values, *marker);
+}
+
+double OperatingPoint::variable(std::int64_t id) const {
+  const auto handle = model_of(*this).find("VARIABLE", id);
+  if (!handle) fail_for_missing(fmt::format("VARIABLE/{}", id));
+  const auto index = inside_->point.system->signals().variable({*handle}).index;
+  return inside_->point.values.algebraic[static_cast<std::size_t>(index)];
+}
+
+Load OperatingPoint::load(const ElementId& id) const {
+  const OperatingState state = this->state();
+  for (const auto* loads : {&state.reactions, &state.forces}) {
+    const auto found = std::ranges::find(*loads, id.text(), &Load::element);
+    if (found != loads->end()) return *found;
+  }
+  if (!model_of(*this).find(id.statement, id.id)) fail_for_missing(id.text());
+  fail(Failure{"results", id.text() + " exerts no force and torque on a marker", {}});
+}
+
+bool OperatingPoint::is_static() const { return inside_->point.statics.has_value(); }
+
+StaticResult OperatingPoint::static_result() const {
+  if (!is_static()) fail(Failure{"results", "the point is not that of a static analysis", {}});
+  return dynalin::static_result(inside_->point);
+}
+
+}  // namespace dynalin::library

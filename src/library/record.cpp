@@ -1,0 +1,69 @@
+#include "dynalin/record.h"
+
+#include <sstream>
+
+#include "library/inside.h"
+#include "output/json.h"
+#include "system/operating_state.h"
+
+namespace dynalin::library {
+
+struct Record::Inside {
+  JsonResults json;
+  Units units;
+  bool failed = false;
+
+  void warn(const std::string& command, const std::vector<Remark>& remarks) {
+    for (const Remark& r : remarks) json.add_warning(command, r);
+  }
+  template <class Result>
+  void add_linear(const std::string& command, const LinearModel& of, const Result& result) {
+    warn(command, of.remarks());
+    json.add(command, result);
+    json.add_point(operating_state(*of.inside().linear.system, of.inside().linear.point));
+  }
+};
+
+Record::Record(const Model& model) : inside_(std::make_unique<Inside>()) {
+  inside_->units = model.units();
+  inside_->warn("", model.remarks());
+}
+Record::Record(Record&&) noexcept = default;
+Record& Record::operator=(Record&&) noexcept = default;
+Record::~Record() = default;
+
+void Record::add(const std::string& command, const OperatingPoint& point) {
+  inside_->warn(command, point.remarks());
+  if (point.is_static())
+    inside_->json.add(command, point.static_result());
+  else
+    inside_->json.add(command, point.state());
+}
+
+void Record::add(const std::string& command, const LinearModel& of, const StateSpace& result) {
+  inside_->add_linear(command, of, result);
+}
+void Record::add(const std::string& command, const LinearModel& of, const SecondOrder& result) {
+  inside_->add_linear(command, of, result);
+}
+void Record::add(const std::string& command, const LinearModel& of, const Modes& result) {
+  inside_->add_linear<EigenSolution>(command, of, result);
+  inside_->warn(command, result.remarks);
+}
+void Record::add(const std::string& command, double time) { inside_->json.add_plain(command, time); }
+
+void Record::add(const std::string& command, const Error& error) {
+  inside_->failed = true;
+  inside_->warn(command, error.remarks);
+  const std::string message = error.problems.empty() ? error.what() : error.problems.front().message;
+  inside_->json.add_failure(command, error.analysis.empty() ? message : error.analysis + ": " + message, error.details);
+}
+
+std::string Record::to_json() const {
+  inside_->json.finish(inside_->units, inside_->failed ? 2 : 0, {});
+  std::ostringstream out;
+  inside_->json.write(out);
+  return out.str();
+}
+
+}  // namespace dynalin::library

@@ -1,0 +1,84 @@
+#include "dynalin/study.h"
+
+#include <fmt/format.h>
+
+#include "analysis/static_settings.h"
+#include "library/inside.h"
+
+namespace dynalin::library {
+
+namespace {
+
+OperatingPoint handed_out(FoundPoint found, std::vector<Remark> remarks = {}) {
+  append(remarks, remarks_of(found.remarks));
+  return OperatingPoint(std::make_shared<const OperatingPoint::Inside>(
+      OperatingPoint::Inside{std::move(found.point), std::move(remarks)}));
+}
+
+StaticsOptions options_of(EquilibriumSettings settings, const StaticRequest& request) {
+  take_over(settings, {request.error, request.imbalance, std::nullopt, request.translation_limit,
+                       request.rotation_limit, request.iteration_limit});
+  StaticsOptions options = statics_options(settings);
+  options.restore_velocities = request.restore_velocities;
+  options.progress = request.progress;
+  return options;
+}
+
+}  // namespace
+
+void fail(const StudyFailure& f, std::vector<Remark> said) {
+  std::string text = f.analysis + ": " + f.message;
+  for (const std::string& d : f.details) text += "\n  " + d;
+  Remark why;
+  why.severity = Remark::Severity::error;
+  why.message = f.message;
+  Error error(text, {std::move(why)});
+  error.analysis = f.analysis;
+  error.details = f.details;
+  error.remarks = std::move(said);
+  append(error.remarks, remarks_of(f.remarks));
+  throw error;
+}
+
+void fail_for_missing(const std::string& what) { fail(Failure{"results", fmt::format("{} does not exist", what), {}}); }
+
+OperatingPoint Study::as_drawn() const { return handed_out({dynalin::as_drawn(model_.inside().system), {}}); }
+
+OperatingPoint Study::initial_conditions(const OperatingPoint& from) const {
+  return handed_out(value_or_throw(dynalin::initial_conditions(from.inside().point)));
+}
+
+OperatingPoint Study::static_equilibrium(const OperatingPoint& from, const StaticRequest& request) const {
+  const EquilibriumSettings& stated = model_.inside().system->model().settings.equilibrium;
+  return handed_out(value_or_throw(dynalin::static_equilibrium(from.inside().point, options_of(stated, request))));
+}
+
+LinearModel Study::linearize(const OperatingPoint& from, const LinearRequest& request) const {
+  const bool ready = from.is_consistent();
+  const OperatingPoint point = ready ? from : initial_conditions(from);
+  std::vector<Remark> remarks = ready ? std::vector<Remark>{} : point.remarks();
+  Linearization linear = value_or_throw(linearized(point.inside().point, request), remarks);
+  append(remarks, remarks_of(linear.remarks()));
+  OperatingPoint about = point;
+  if (linear.at_rest_as_found) {
+    OperatingPoint::Inside at_rest = point.inside();
+    at_rest.point.values = linear.point;
+    about = OperatingPoint(std::make_shared<const OperatingPoint::Inside>(std::move(at_rest)));
+  }
+  return LinearModel(std::make_shared<const LinearModel::Inside>(
+      LinearModel::Inside{std::move(linear), std::move(about), std::move(remarks)}));
+}
+
+StateSpace LinearModel::state_space() const { return inside_->linear.linear.model; }
+SecondOrder LinearModel::second_order() const { return value_or_throw(second_order_form(inside_->linear)); }
+
+Modes LinearModel::modes(bool with_shapes) const {
+  ModesFound found = value_or_throw(modes_of(inside_->linear, with_shapes ? Vectors::right : Vectors::none));
+  return {std::move(found.solution), remarks_of(found.remarks)};
+}
+
+const LinearRequest& LinearModel::request() const { return inside_->linear.request; }
+const OperatingPoint& LinearModel::operating_point() const { return inside_->about; }
+const std::vector<Remark>& LinearModel::remarks() const { return inside_->remarks; }
+
+}  // namespace dynalin::library

@@ -1,0 +1,118 @@
+#include "study/study_point.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "linear/stability.h"
+#include "system/operating_state.h"
+
+namespace dynalin {
+
+namespace {
+
+FoundPoint found(StudyPoint before, OperatingPoint values, Findings findings) {
+  std::vector<std::string> rows;
+  for (const std::int32_t r : findings.redundant_rows) rows.push_back(before.system->row_text(r));
+  return {{std::move(before.system), std::move(values), true, true, false, std::nullopt, std::move(rows)},
+          std::move(findings.warnings)};
+}
+
+}  // namespace
+
+Diagnostics passed_over(const std::vector<std::string>& settings) {
+  Diagnostics remarks;
+  if (!settings.empty())
+    remarks.warning("passed-over", {},
+                    fmt::format("nothing here acts on {}, which {} passed over", fmt::join(settings, ", "),
+                                settings.size() == 1 ? "is" : "are"));
+  return remarks;
+}
+
+Diagnostics remarks_on(const System& system) {
+  Diagnostics remarks;
+  const Settings& settings = system.model().settings;
+  if (!system.model().units.stated)
+    remarks.warning("no-units", {}, "the dataset states no UNITS: the units consistency factor is taken as 1");
+  remarks.append(system.layout().remarks);
+  remarks.append(settings.remarks);
+  remarks.append(passed_over(settings.passed_over));
+  return remarks;
+}
+
+StudyPoint as_drawn(std::shared_ptr<const System> system) {
+  OperatingPoint values = system->drawn();
+  StudyPoint point;
+  point.system = std::move(system), point.values = std::move(values);
+  return point;
+}
+
+StudyPoint continued(const StudyPoint& before, std::shared_ptr<const System> edited, const Restated& restated) {
+  StudyPoint point = as_drawn(std::move(edited));
+  point.redundant_rows = before.redundant_rows;
+  if (!before.started) {
+    point.values.redundancy_tolerance = before.values.redundancy_tolerance;
+    return point;
+  }
+  point.values = carried_over(*before.system, before.values, *point.system, restated);
+  point.started = true;
+  point.restated_velocity = before.restated_velocity || restated.velocities;
+  return point;
+}
+
+MarkerState marker_state(const System& system, const OperatingPoint& point, MarkerId id) {
+  const auto plain = [](const Vector& v) { return Triple{v.x + 0.0, v.y + 0.0, v.z + 0.0}; };
+  const MarkerPlace& place = system.model().marker(id).place;
+  const Motion motion = system.motion(point);
+  const Frame<Taylor> frame = motion.frame(place);
+  const Matrix3 axes = value(frame.axes);
+  const BodyMotion& body = motion.body(place.body);
+  return {plain(value(frame.origin)),        {plain(axes.x), plain(axes.y), plain(axes.z)},
+          plain(rate(frame.origin)),         plain(body.w),
+          plain(acceleration(frame.origin)), plain(body.wdot)};
+}
+
+StudyResult<FoundPoint> initial_conditions(StudyPoint from, const LevelWatch& watch) {
+  if (from.consistent) {
+    from.statics.reset();
+    return FoundPoint{std::move(from), {}};
+  }
+  const auto tell = [&](Level level, bool done) {
+    if (watch) watch(level, done);
+  };
+  const System& system = *from.system;
+  Findings findings;
+  tell(Level::position, false);
+  auto op = assemble_position(system, from.values, findings, from.started ? Starts::ignored : Starts::held);
+  if (!op) return tl::unexpected(StudyFailure(op.error()));
+  tell(Level::position, true);
+  tell(Level::velocity, false);
+  // An edited model goes on with the velocities it had.
+  const bool goes_on = from.started && !from.restated_velocity;
+  op = goes_on ? reconcile_velocity(system, std::move(*op), findings)
+               : initial_velocity(system, std::move(*op), findings);
+  if (!op) return tl::unexpected(StudyFailure(op.error()));
+  tell(Level::velocity, true);
+  tell(Level::acceleration, false);
+  op = solve_acceleration(system, std::move(*op), findings);
+  if (!op) return tl::unexpected(StudyFailure(op.error()));
+  tell(Level::acceleration, true);
+  return found(std::move(from), std::move(*op), std::move(findings));
+}
+
+StudyResult<FoundPoint> static_equilibrium(StudyPoint from, const StaticsOptions& options) {
+  Findings findings;
+  StaticsReport report;
+  auto op = static_operating_point(*from.system, from.values, options, report, findings);
+  if (!op) return tl::unexpected(StudyFailure(op.error()));
+  FoundPoint result = found(std::move(from), std::move(*op), std::move(findings));
+  result.point.statics = StaticSolution{report.iterations, report.imbalance, std::move(report.at_rest)};
+  return result;
+}
+
+StaticResult static_result(const StudyPoint& point) {
+  const StaticSolution& found = point.statics.value();
+  return {found.iterations, found.imbalance, stability_of(*point.system, found.at_rest),
+          operating_state(*point.system, found.at_rest)};
+}
+
+}  // namespace dynalin

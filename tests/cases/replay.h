@@ -1,0 +1,98 @@
+// What the library makes of the commands of a run, to be held against what the program made of them.
+#pragma once
+
+#include <dynalin/record.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "command/job.h"
+
+namespace dynalin::cases {
+
+// Runs the commands one by one through the library; empty where one of them is nothing that the library has: edits of
+// the model, IC, commands that are passed over.
+class Replay {
+ public:
+  explicit Replay(const SessionOptions& options) : options_(options) {}
+
+  nlohmann::ordered_json run() {
+    std::ostringstream unused;
+    const auto job = load_job(options_, unused);
+    if (!job) return {};
+    const library::Study study(
+        library::Model::read(job->stages.front().dataset->source->name(), {options_.pade, options_.user_value}));
+    library::Record record(study.model());
+    auto point = study.as_drawn();
+    for (const Command& c : job->commands.commands) {
+      if (std::holds_alternative<StopCommand>(c.what)) break;
+      try {
+        if (!execute(c, study, record, point)) return {};
+      } catch (const Error& e) {
+        record.add(c.text, e);
+        if (!options_.keep_going) break;
+      }
+    }
+    return nlohmann::ordered_json::parse(record.to_json());
+  }
+
+ private:
+  bool execute(const Command& c, const library::Study& study, library::Record& record, library::OperatingPoint& point) {
+    if (const auto* simulate = std::get_if<SimulateCommand>(&c.what)) {
+      const bool statics = simulate->kind == SimulateCommand::Kind::statics;
+      point = statics ? study.static_equilibrium(point, static_) : study.initial_conditions(point);
+      record.add(c.text, point);
+      return true;
+    }
+    if (const auto* linear = std::get_if<LinearCommand>(&c.what)) {
+      linearize(c.text, *linear, study, record, point);
+      return true;
+    }
+    if (const auto* variable = std::get_if<EnvironmentCommand>(&c.what)) {
+      const std::string& name = variable->name;
+      if (name == "MSC_LINEAR_PBCS_STATES")
+        environment_.principal_states = true;
+      else if (name == "MSC_ADAMS_SOLVER_NODAMP_DIFF")
+        environment_.without_rate_coupling = true;
+      else if (name == "MSC_ADAMS_LINEAR_NO_CHECKS_FOR_CONSISTENCY")
+        environment_.without_reconciliation = true;
+      else if (name == "MSC_ADAMS_STATICS_NO_RESTORE_VELOCITIES")
+        static_.restore_velocities = false;
+      else
+        return false;
+      record.add(c.text, point.time());
+      return true;
+    }
+    const auto* setting = std::get_if<SettingCommand>(&c.what);
+    if (!setting || !setting->equilibrium || setting->equilibrium->defaults || !setting->passed_over.empty())
+      return false;
+    const EquilibriumSettings stated = setting->equilibrium->stated();
+    take_over(static_.error, stated.error), take_over(static_.imbalance, stated.imbalance);
+    take_over(static_.translation_limit, stated.translation_limit);
+    take_over(static_.rotation_limit, stated.rotation_limit);
+    take_over(static_.iteration_limit, stated.iteration_limit);
+    record.add(c.text, point.time());
+    return true;
+  }
+
+  void linearize(const std::string& text, const LinearCommand& c, const library::Study& study, library::Record& record,
+                 library::OperatingPoint& point) {
+    LinearRequest request = environment_;
+    request.pstate = c.pstate, request.pinput = c.pinput, request.poutput = c.poutput, request.rm = c.rm;
+    request.without_damping = c.without_damping, request.original = c.original;
+    const library::LinearModel linear = study.linearize(point, request);
+    if (!point.is_consistent()) point = linear.operating_point();
+    if (c.option == LinearOption::mkb)
+      record.add(text, linear, linear.second_order());
+    else if (c.option == LinearOption::statemat)
+      record.add(text, linear, linear.state_space());
+    else
+      record.add(text, linear, linear.modes(!c.without_vectors));
+  }
+
+  const SessionOptions& options_;
+  StaticRequest static_;
+  LinearRequest environment_;
+};
+
+}  // namespace dynalin::cases
