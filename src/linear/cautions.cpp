@@ -106,11 +106,12 @@ void motion(const System& system, const OperatingPoint& op, const EigenSolution&
   const std::string time = units.time_symbol();
   std::string length = units.length.empty() ? "length" : units.length;
   for (char& c : length) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  out.warning("accelerating-point", found.part->at,
-              fmt::format("the point accelerates or turns, most of all {0} (acceleration of its mass centre {1:.5g} "
-                          "{4}/{5}², angular velocity {2:.5g} rad/{5}, angular acceleration {3:.5g} rad/{5}²): the "
-                          "eigenvalues hold for this instant, and mode shapes may be strange",
-                          found.part->full_text(), found.acceleration, found.turning, found.spin_up, length, time));
+  out.warning(
+      "accelerating-point", found.part->at,
+      fmt::format("the operating point accelerates or turns, most of all {0} (acceleration of its mass centre {1:.5g} "
+                  "{4}/{5}², angular velocity {2:.5g} rad/{5}, angular acceleration {3:.5g} rad/{5}²): the "
+                  "eigenvalues hold for this instant, and mode shapes may be strange",
+                  found.part->full_text(), found.acceleration, found.turning, found.spin_up, length, time));
 }
 
 void overdamping(const System& system, const LinearSystem& linear, const EigenSolution& modes, Diagnostics& out) {

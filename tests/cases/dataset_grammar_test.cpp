@@ -141,7 +141,7 @@ TEST_F(DatasetGrammar, the_fiftieth_problem_of_a_kind_is_counted_and_other_kinds
 
 // Without blanks a word behind a number is no unit, and behind a comma it is an argument.
 TEST_F(DatasetGrammar, arguments_behind_numbers_need_no_comma) {
-  expect_read("JOINT/9, I=20 J=1 REVOLUTE\nSPRINGDAMPER/9, I=20, J=1, KT=1 CT=2 ROTATIONAL\n");
+  expect_read("JOINT/9, I=20 J=1 CYLINDRICAL\nSPRINGDAMPER/9, I=20, J=1, KT=1 CT=2 ROTATIONAL\n");
 }
 
 // --- compiled routines ------------------------------------------------------------------------------
