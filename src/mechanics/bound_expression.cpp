@@ -58,7 +58,7 @@ Taylor BoundExpression::atom_along_motion(const BoundAtom& a, const Motion& moti
     return {atom_value(a, motion), is_state ? motion.state_rate[k] : missing, missing};
   }
   if (a.kind != Kind::measure) return {atom_value(a, motion)};
-  const auto frame = [&](std::size_t p) { return a.places[p].frame(motion, a.places[0].place.body); };
+  const auto frame = [&](std::size_t p) { return a.places[p].frame(motion, a.places[0].place().body); };
   Taylor m = evaluate_measure<Taylor>(a.measure, {frame(0), frame(1), frame(2), frame(3)});
   if (a.memory >= 0) m.value = unwrapped(m.value, motion.memory[static_cast<std::size_t>(a.memory)]);
   return m;

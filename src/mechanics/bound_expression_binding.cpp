@@ -83,13 +83,12 @@ MarkerFrame find_marker(Binder& binder, const Atom& atom, std::int64_t id, bool 
   const MarkerId m = signals.marker(id), followed = signals.place_of(m);
   if (!signals.has_place(m)) {
     binder.problem("unplaced-marker", atom.at,
-                   std::string(atom.at.text()) + " reads " +
-                       layout.marker_label(m).full_text() +
+                   std::string(atom.at.text()) + " reads " + layout.marker_label(m).full_text() +
                        ", a floating marker that no element gives a place");
   }
   const CurvePoint* on = layout.curve_point(m);
-  if (!on || (!axes && !(followed == m))) return {layout.marker(followed)};
-  return {layout.marker(on->carrier), on->curve.get(), on->coordinate, layout.extra_index(on->coordinate)};
+  if (!on || (!axes && !(followed == m))) return {&layout.marker(followed)};
+  return {&layout.marker(on->carrier), on->curve.get(), on->coordinate, layout.extra_index(on->coordinate)};
 }
 
 }  // namespace
@@ -150,14 +149,14 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binde
       a.kind = Kind::measure;
       a.measure = *find_measure(f.name);
       a.order = f.order;
-      a.places.fill({signals.layout().marker(signals.marker(0))});
+      a.places.fill({&signals.layout().marker(signals.marker(0))});
       for (std::size_t argument = 0; argument < atom.argument_count; ++argument) {
         const auto role = role_of_argument(a.measure, argument);
         if (role) a.places[*role] = find_marker(binder, atom, atom.argument[argument], reads_axes(a.measure, *role));
       }
       for (std::size_t k = 0; k < 4; ++k) {
         note_parameter(a, a.places[k]);
-        const BodyId body = a.places[k].place.body;
+        const BodyId body = a.places[k].place().body;
         const auto end = a.bodies.begin() + a.body_count;
         if (body != ground_body && std::find(a.bodies.begin(), end, body) == end) {
           a.bodies[a.body_count++] = body;
@@ -165,7 +164,7 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binde
       }
       // Rounding of what never changes is no gradient, least of all at a kink.
       const bool one_body =
-          a.places[0].place.body == a.places[1].place.body && !a.places[0].curve && !a.places[1].curve;
+          a.places[0].place().body == a.places[1].place().body && !a.places[0].curve && !a.places[1].curve;
       if (one_body && is_constant_on_a_body(a.measure)) a.body_count = 0;
       if (counts_turns(a.measure)) a.memory = binder.add_memory(atom.at, 0.0);
       break;

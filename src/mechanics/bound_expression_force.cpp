@@ -63,7 +63,7 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
     if (size > 0) e = sum / size;
   } else {
     e = a.axes_marker.axes(motion)[axis_of(a.component)];
-    const BodyBlock& block = eq.layout().body(a.axes_marker.place.body);
+    const BodyBlock& block = eq.layout().body(a.axes_marker.place().body);
     if (block.count == 6) {
       const Vector turn = cross(e, sum);
       for (std::size_t k = 0; k < 3; ++k) {
@@ -71,7 +71,8 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
       }
     }
     for (std::size_t p = 0; p < a.parameter_count; ++p) {
-      const auto axes = path::frame_by_parameter(motion, a.axes_marker, a.parameters[p], a.axes_marker.place.body).axes;
+      const auto axes =
+          path::frame_by_parameter(motion, a.axes_marker, a.parameters[p], a.axes_marker.place().body).axes;
       const auto& axis = axes[axis_of(a.component)];
       const Vector slope{axis.x.value.partial[0], axis.y.value.partial[0], axis.z.value.partial[0]};
       eq.add(PartialBy::position, row, a.parameters[p], factor * dot(slope, sum));

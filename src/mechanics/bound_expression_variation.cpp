@@ -58,7 +58,7 @@ Vec3<TimeTaylor<Dual<6>>> turned(std::size_t axis, const Vec3<TimeTaylor<Dual<6>
 // `from`.
 Frame<Nested> nested_frame(const Motion& motion, const MarkerFrame& marker, const Direction& inner,
                            const Direction& outer, BodyId from) {
-  const MarkerPlace& place = marker.place;
+  const MarkerPlace& place = marker.place();
   const Frame<Taylor> plain = marker.frame(motion, from);
   const Vec3<Taylor> arm = marker.arm(motion);
 
@@ -142,7 +142,7 @@ void BoundExpression::add_reaction_partials(const Motion& motion, Equations& eq,
         for (std::size_t c = 0; c < a.body_count; ++c) {
           const Direction inner{a.bodies[b], inner_level}, outer{a.bodies[c], outer_level};
           const auto frame = [&](std::size_t m) {
-            return nested_frame(motion, a.places[m], inner, outer, a.places[0].place.body);
+            return nested_frame(motion, a.places[m], inner, outer, a.places[0].place().body);
           };
           const NestedDual m = evaluate_measure<Nested>(a.measure, {frame(0), frame(1), frame(2), frame(3)}).value;
           const BodyBlock &forces = eq.layout().body(inner.body), &columns = eq.layout().body(outer.body);

@@ -21,7 +21,7 @@ template <std::size_t N>
 Frame<Seeded<N>> varied_frame(const Motion& motion, const MarkerFrame& marker, BodyId body, BodyId from) {
   const Frame<Taylor> plain = marker.frame(motion, from);
   Frame<Seeded<N>> f = constant<N>(plain);
-  if (marker.place.body != body) return f;
+  if (marker.place().body != body) return f;
   const Vec3<Taylor> arm = marker.arm(motion);
   for (std::size_t level = 0; 6 * level < N; ++level) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -43,19 +43,19 @@ inline Frame<Seeded<parameter_seeds>> frame_by_parameter(const Motion& motion, c
   if (!marker.curve || marker.parameter != parameter) return constant<parameter_seeds>(marker.frame(motion, from));
   Seeded<parameter_seeds> u = constant<parameter_seeds>(marker.along_motion(motion));
   u.value.partial[0] = 1.0, u.rate.partial[1] = 1.0, u.acceleration.partial[2] = 1.0;
-  return marker.on_curve(constant<parameter_seeds>(motion.frame(marker.place, from)), u);
+  return marker.on_curve(constant<parameter_seeds>(motion.frame(marker.place(), from)), u);
 }
 inline Seeded<parameter_seeds> measure_by_parameter(Measure measure, const std::array<MarkerFrame, 4>& places,
                                                     const Motion& motion, std::int32_t parameter) {
   const auto frame = [&](std::size_t k) {
-    return frame_by_parameter(motion, places[k], parameter, places[0].place.body);
+    return frame_by_parameter(motion, places[k], parameter, places[0].place().body);
   };
   return evaluate_measure<Seeded<parameter_seeds>>(measure, {frame(0), frame(1), frame(2), frame(3)});
 }
 
 template <std::size_t N>
 Seeded<N> varied_measure(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion, BodyId body) {
-  const auto frame = [&](std::size_t k) { return varied_frame<N>(motion, places[k], body, places[0].place.body); };
+  const auto frame = [&](std::size_t k) { return varied_frame<N>(motion, places[k], body, places[0].place().body); };
   return evaluate_measure<Seeded<N>>(measure, {frame(0), frame(1), frame(2), frame(3)});
 }
 

@@ -1,5 +1,5 @@
 // Where an expression finds a marker: fixed on its body, or at a point of contact that a curve parameter moves along
-// the curve that the marker `place` carries.
+// the curve that the marker carries.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,12 @@
 namespace dynalin {
 
 struct MarkerFrame {
-  MarkerPlace place;
+  const MarkerPlace* fixed = nullptr;  // of the layout
   const ParametricCurve* curve = nullptr;
   std::int32_t parameter = -1;  // among the coordinates
   std::size_t extra = 0;        // and among those in Motion::extra
 
+  const MarkerPlace& place() const { return *fixed; }
   // The frame at parameter u of the curve carried by `carrier`.
   template <class T>
   Frame<T> on_curve(const Frame<T>& carrier, const T& u) const {
@@ -27,17 +28,17 @@ struct MarkerFrame {
   }
   // Its origin from that of `from`'s BCS.
   Frame<Taylor> frame(const Motion& motion, BodyId from) const {
-    const Frame<Taylor> carrier = motion.frame(place, from);
+    const Frame<Taylor> carrier = motion.frame(*fixed, from);
     return curve ? on_curve(carrier, along_motion(motion)) : carrier;
   }
   // From the BCS of the body that carries it.
   Vec3<Taylor> arm(const Motion& motion) const {
-    const Vec3<Taylor> carrier = motion.arm(place);
+    const Vec3<Taylor> carrier = motion.arm(*fixed);
     if (!curve) return carrier;
-    return carrier + motion.axes_along(place) * curve->frame(along_motion(motion)).origin;
+    return carrier + motion.axes_along(*fixed) * curve->frame(along_motion(motion)).origin;
   }
   Matrix3 axes(const Motion& motion) const {
-    const Matrix3 carrier = motion.axes(place);
+    const Matrix3 carrier = motion.axes(*fixed);
     return curve ? carrier * curve->frame(motion.extra[extra]).axes : carrier;
   }
   // Whether its y and z axes are unknown.

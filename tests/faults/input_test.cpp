@@ -135,6 +135,45 @@ TEST_F(Memory, too_little_for_the_matrices_is_an_error) {
   EXPECT_FALSE(there("m"));
 }
 
+// As pre-processors write it: an argument a line, names in comments. What the program takes for any dataset is left
+// out.
+TEST_F(Memory, of_a_large_dataset_is_at_most_six_times_its_size) {
+  if (sanitized) GTEST_SKIP() << "a sanitizer keeps memory of its own";
+  const double of_any = run({"check", "model.adm"}).megabytes;
+  std::string dataset = "large\nUNITS/SYSTEM=MKS\nPART/1\n, GROUND\nMARKER/1\n, PART = 1\n";
+  constexpr std::size_t size = 12'000'000;
+  for (int k = 2; dataset.size() < size; ++k) {
+    const std::string id = std::to_string(k), own = std::to_string(10 * k),
+                      other = k > 2 ? std::to_string(10 * k - 8) : "1";
+    const auto statement = [&](const std::string& name, const std::string& number, const std::string& arguments) {
+      dataset += "!\n!                              adams_view_name='" + name + "_" + number + "'\n" + name + "/" +
+                 number + "\n, " + arguments + "\n";
+    };
+    const std::string place =
+        "QP = 388.746920, 501.100624, 790.430031\n, REULER = 32.674587D, -732.958541D, 544.963506D";
+    statement("PART", id,
+              "QG = -669.375994, 778.603250, 894.932655\n, REULER = -186.154693D, -475.039843D, 898.272928D\n"
+              ", MASS = 1.2345\n, CM = " +
+                  own + "\n, IP = 1.0E+003, 1.1E+003, 1.2E+003");
+    statement("MARKER", own, "PART = " + id + "\n, QP = 0, 0, 0");
+    for (int n = 1; n <= 3; ++n) statement("MARKER", std::to_string(10 * k + n), "PART = " + id + "\n, " + place);
+    const std::string i = std::to_string(10 * k + 1), pair = "I = " + i + "\n, J = " + other;
+    statement("BUSHING", id,
+              pair +
+                  "\n, C = 1.0, 1.0, 1.0\n, K = 1.0E+005, 1.0E+005, 1.0E+005\n, CT = 10, 10, 10\n"
+                  ", KT = 1.0E+006, 1.0E+006, 1.0E+006");
+    const std::string measured = "(" + i + "," + other + ")";
+    statement("SFORCE", id,
+              "TRANSLATIONAL\n, " + pair + "\n, FUNCTION = -12.5*(DM" + measured + "-100.0)\n, -0.35*VR" + measured);
+    statement("REQUEST", id, "DISPLACEMENT\n, " + pair + "\n, RM = 1\n, COMMENT = displacement of part " + id);
+    statement("GRAPHICS", id, "CYLINDER\n, CM = " + own + "\n, LENGTH = 12.5\n, RADIUS = 3.0");
+  }
+  write("large.adm", dataset + "END\n");
+  const Outcome r = run({"check", "large.adm"});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_LE((r.megabytes - of_any) * 1024 * 1024, 6 * size);
+}
+
 // --- sizes and counts that make no sense
 
 TEST_F(Memory, absurd_sizes_are_refused_at_their_place) {

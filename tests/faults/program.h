@@ -39,6 +39,7 @@ struct Outcome {
   int status = -1;  // of the exit, -1 if a signal ended it
   int signal = 0;
   std::string out, err;
+  double megabytes = 0;  // the most that was in memory
 };
 
 struct Surroundings {
@@ -100,8 +101,10 @@ class Faults : public ::testing::Test {
   }
   Outcome finish(pid_t child) const {
     int status = 0;
-    ::waitpid(child, &status, 0);
+    rusage used{};
+    ::wait4(child, &status, 0, &used);
     Outcome r;
+    r.megabytes = static_cast<double>(used.ru_maxrss) / 1024;
     if (WIFEXITED(status)) r.status = WEXITSTATUS(status);
     if (WIFSIGNALED(status)) r.signal = WTERMSIG(status);
     r.out = read_text(root_ / "out"), r.err = read_text(root_ / "err");

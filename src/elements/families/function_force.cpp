@@ -5,7 +5,7 @@ namespace dynalin {
 FunctionForceKernel::FunctionForceKernel(std::vector<FunctionForce> elements, Layout& layout) {
   forces_.reserve(elements.size());
   for (FunctionForce& e : elements) {
-    const MarkerPlace &I = layout.marker(e.i), &J = layout.marker(e.j);
+    const MarkerPlace *I = &layout.marker(e.i), *J = &layout.marker(e.j);
     const std::int32_t algebraic = layout.add_algebraic(*e.label);
     forces_.push_back({std::move(e), I, J, algebraic, {}});
   }
@@ -37,7 +37,7 @@ void FunctionForceKernel::equations(const Motion& motion, Equations& eq) const {
     eq.add(PartialBy::algebraic, row, f.algebraic, 1.0);
     f.magnitude.add(motion, eq, row, -1.0, PartialBy::damping);
 
-    const PairMotion pair = pair_motion(motion, f.I, f.J);
+    const PairMotion pair = pair_motion(motion, *f.I, *f.J);
     const PairForce force = force_of(f, pair, w, eq.wants_partials());
     apply(pair, force, eq);
     if (!eq.wants(PartialBy::algebraic)) continue;
@@ -52,7 +52,7 @@ void FunctionForceKernel::remember(const Motion& motion, Memory& memory) const {
 
 void FunctionForceKernel::wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const {
   const Force& f = forces_[k];
-  out.pair = pair_motion(motion, f.I, f.J);
+  out.pair = pair_motion(motion, *f.I, *f.J);
   out.force = force_of(f, out.pair, motion.algebraic[static_cast<std::size_t>(f.algebraic)], with_partials);
   if (!with_partials) return;
   const PairForce one = force_of(f, out.pair, 1.0, false);
@@ -61,9 +61,9 @@ void FunctionForceKernel::wrench(const Motion& motion, std::size_t k, bool with_
 
 void FunctionForceKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined_values) const {
   for (const Force& f : forces_) {
-    if (f.element.direction == Direction::along_line && norm(motion.point(f.I) - motion.point(f.J)) == 0.0) {
+    if (f.element.direction == Direction::along_line && norm(motion.point(*f.I) - motion.point(*f.J)) == 0.0) {
       undefined_values.push_back({f.element.label, "the markers of " + f.element.label->full_text() +
-                                                        " coincide, its line of action has no direction"});
+                                                       " coincide, its line of action has no direction"});
     }
     f.magnitude.find_undefined(motion, *f.element.label, undefined_values);
   }

@@ -40,7 +40,7 @@ class FunctionForceKernel final : public Kernel, public WrenchSource {
  private:
   struct Force {
     FunctionForce element;
-    MarkerPlace I, J;
+    const MarkerPlace *I, *J;  // of the layout
     std::int32_t algebraic;
     BoundExpression magnitude;
   };

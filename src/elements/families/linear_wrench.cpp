@@ -70,7 +70,7 @@ LinearWrenchKernel::LinearWrenchKernel(const std::vector<LinearWrench>& laws, co
   laws_.reserve(laws.size());
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const LinearWrench& law = laws[k];
-    laws_.push_back({&law, layout.marker(law.i), layout.marker(law.j), layout.add_memory(labels[k].at)});
+    laws_.push_back({&law, &layout.marker(law.i), &layout.marker(law.j), layout.add_memory(labels[k].at)});
     layout.add_memory(labels[k].at);
     layout.add_memory(labels[k].at);
   }
@@ -99,7 +99,7 @@ void LinearWrenchKernel::equations(const Motion& motion, Equations& eq) const {
   for (std::size_t k = 0; k < laws_.size(); ++k) {
     const Placed& p = laws_[k];
     eq.begin_element((*labels_)[k]);
-    const PairMotion pair = pair_motion(motion, p.I, p.J);
+    const PairMotion pair = pair_motion(motion, *p.I, *p.J);
     apply(pair, force_of(p, pair, motion, eq.wants_partials()), eq);
   }
 }
@@ -107,13 +107,13 @@ void LinearWrenchKernel::equations(const Motion& motion, Equations& eq) const {
 void LinearWrenchKernel::remember(const Motion& motion, Memory& memory) const {
   for (const Placed& p : laws_) {
     const auto at = static_cast<std::size_t>(p.memory);
-    const auto total = total_angles(pair_motion(motion, p.I, p.J), std::span(memory).subspan(at, 3));
+    const auto total = total_angles(pair_motion(motion, *p.I, *p.J), std::span(memory).subspan(at, 3));
     std::copy(total.begin(), total.end(), memory.begin() + static_cast<std::ptrdiff_t>(at));
   }
 }
 
 void LinearWrenchKernel::wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const {
-  out.pair = pair_motion(motion, laws_[k].I, laws_[k].J);
+  out.pair = pair_motion(motion, *laws_[k].I, *laws_[k].J);
   out.force = force_of(laws_[k], out.pair, motion, with_partials);
 }
 

@@ -57,9 +57,9 @@ class LinearWrenchKernel final : public Kernel, public WrenchSource {
 
  private:
   struct Placed {
-    const LinearWrench* law;  // of the model
-    MarkerPlace I, J;
-    std::int32_t memory;  // of three total angles
+    const LinearWrench* law;   // of the model
+    const MarkerPlace *I, *J;  // of the layout
+    std::int32_t memory;       // of three total angles
   };
   static PairForce force_of(const Placed&, const PairMotion&, const Motion&, bool with_partials);
   std::vector<Placed> laws_;
