@@ -145,6 +145,7 @@ class StructuralZeros::Contributions {
     const Eigen::ColPivHouseholderQR<Matrix> qr(fresh);
     Index rank = 0;
     while (rank < std::min(fresh.rows(), fresh.cols()) && std::abs(qr.matrixR()(rank, rank)) > 1e-6) ++rank;
+    if (rank == 0) return Matrix(found.rows(), 0);
     fresh = (fresh * qr.colsPermutation()).leftCols(rank).eval();
     for (Index k = 0; k < fresh.rows(); ++k) {
       if (kind(k) > 0) fresh.row(k) *= kind(k);

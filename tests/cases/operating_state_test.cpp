@@ -125,9 +125,7 @@ const std::string wheels =
     "SFORCE/2, ROTATIONAL, I=30, J=2, FUNCTION=-6\n";
 
 TEST_F(OperatingStates, hold_what_a_coupler_does_to_each_of_its_joints) {
-  Mechanism m = Mechanism::from_text(wheels + "COUPLER/7, JOINTS=1,2, SCALES=1,3\nEND\n");
-  m.initial_conditions();
-  const OperatingState s = m.operating_state();
+  const OperatingState s = study_of(wheels + "COUPLER/7, JOINTS=1,2, SCALES=1,3\nEND\n").initial_conditions().state();
   ASSERT_EQ(s.reactions.size(), 4u);
   for (std::size_t k = 0; k < 2; ++k) {
     const Load& l = s.reactions[2 + k];
@@ -144,10 +142,10 @@ TEST_F(OperatingStates, hold_what_a_coupler_does_to_each_of_its_joints) {
 // The pitch point lies 1 from the first axis and −2 from the second: q1 = −2 q2, that is q1 + 2 q2 = 0 about z, and
 // 0 = 5/2 − 12/4 + λ (1/2 + 4/4).
 TEST_F(OperatingStates, hold_what_a_gear_does_to_each_of_its_joints) {
-  Mechanism m =
-      Mechanism::from_text(wheels + "MARKER/3, PART=1, QP=1,0,0, REULER=0,-90D,0\nGEAR/7, JOINTS=1,2, CV=3\nEND\n");
-  m.initial_conditions();
-  const OperatingState s = m.operating_state();
+  const OperatingState s =
+      study_of(wheels + "MARKER/3, PART=1, QP=1,0,0, REULER=0,-90D,0\nGEAR/7, JOINTS=1,2, CV=3\nEND\n")
+          .initial_conditions()
+          .state();
   ASSERT_EQ(s.reactions.size(), 4u);
   EXPECT_EQ(s.reactions[2].element, "GEAR/7");
   expect_triple(s.reactions[2].torque, {0, 0, 1.0 / 3});
@@ -158,13 +156,14 @@ TEST_F(OperatingStates, hold_what_a_gear_does_to_each_of_its_joints) {
 // A point mass apart, an arm of length 2 held level by a force at its end: I says where it is reported.
 TEST_F(OperatingStates, hold_what_a_gcon_does_to_the_body_of_its_marker) {
   const auto load = [](const std::string& function) {
-    Mechanism m = Mechanism::from_text(
-        "Arm\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-10\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=3, CM=20, IP=1,1,1\n"
-        "MARKER/20, QP=1,0,0\nMARKER/21, QP=2,0,0, REULER=30D,0,0\nMARKER/22\nJOINT/1, REVOLUTE, I=22, J=1\n"
-        "GCON/4, I=21, FUNCTION=" +
-        function + "\nGCON/5, FUNCTION=DZ(20)\nEND\n");
-    m.initial_conditions();
-    const OperatingState s = m.operating_state();
+    const OperatingState s =
+        study_of(
+            "Arm\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-10\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=3, CM=20, IP=1,1,1\n"
+            "MARKER/20, QP=1,0,0\nMARKER/21, QP=2,0,0, REULER=30D,0,0\nMARKER/22\nJOINT/1, REVOLUTE, I=22, J=1\n"
+            "GCON/4, I=21, FUNCTION=" +
+            function + "\nGCON/5, FUNCTION=DZ(20)\nEND\n")
+            .initial_conditions()
+            .state();
     EXPECT_EQ(s.reactions.size(), 2u) << "without I there is nothing to report it at";
     const Load l = s.reactions.at(1);
     EXPECT_EQ(l.element, "GCON/4");
