@@ -54,12 +54,14 @@ struct Part {
   }};
 };
 
-void mark_exact(Body& body, const std::vector<std::string>& words, ElementReader& reader) {
+std::optional<std::size_t> exact_coordinate(const std::string& word) {
   static constexpr std::array<std::string_view, 6> names = {"X", "Y", "Z", "PSI", "THETA", "PHI"};
+  return find_keyword(word, names);
+}
+
+void check_exact(const std::vector<std::string>& words, ElementReader& reader) {
   for (const std::string& word : words) {
-    if (const auto k = find_keyword(word, names)) {
-      body.exact[*k] = true;
-    } else {
+    if (!exact_coordinate(word)) {
       reader.error("unknown-word", reader.at("EXACT"), fmt::format("EXACT has no coordinate {}", word),
                    "one of X, Y, Z, PSI, THETA, PHI");
     }
@@ -90,8 +92,7 @@ class PartSet final : public TypedSet<Part> {
       reader.warning("inertia-without-mass", reader.at("IP"),
                      fmt::format("{} has inertia but no mass", reader.label().text()));
     }
-    Body checked;
-    mark_exact(checked, p.exact, reader);
+    check_exact(p.exact, reader);
     const auto axes = orientation({p.angles, p.z_point, p.x_point, false, "REULER", "ZG", "XG"}, p.origin, reader);
     if (axes) p.axes = *axes;
   }
@@ -108,6 +109,7 @@ class PartSet final : public TypedSet<Part> {
       Body& body = model.bodies[static_cast<std::size_t>(id.index)];
       body.user_mass = p.mass;
       body.mass = p.mass / model.units.ucf;
+      for (const std::string& word : p.exact) body.exact[*exact_coordinate(word)] = true;
       place_mass(p, labels[k], id, model, body, diagnostics);
       body.velocity = {{p.vx, p.vy, p.vz},
                        {p.wx, p.wy, p.wz},

@@ -1,0 +1,128 @@
+// Assembly of positions: the least change, in closed form.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "analysis/initial.h"
+#include "system/model_test_support.h"
+
+namespace dynalin::analysis_test {
+namespace {
+
+using system_test::system_of;
+using ::testing::HasSubstr;
+
+Result<OperatingPoint> assembled(const System& s, Starts starts = Starts::ignored) {
+  Findings findings;
+  return assemble_position(s, s.drawn(), findings, starts);
+}
+Result<OperatingPoint> assembled(const std::string& text, Starts starts = Starts::ignored) {
+  return assembled(*system_of(text), starts);
+}
+const std::string point = "POINT_MASS/2, MASS=1, CM=20, QG=3,4,0\nMARKER/20, POINT_MASS=2\n";
+
+TEST(Position, a_point_goes_to_the_nearest_place_on_a_sphere) {
+  const auto op = assembled(point + "GCON/1, FUNCTION=DM(20,1)-2\n");
+  ASSERT_TRUE(op) << op.error().message;
+  EXPECT_NEAR(op->poses[1].r.x, 1.2, 1e-12);
+  EXPECT_NEAR(op->poses[1].r.y, 1.6, 1e-12);
+  EXPECT_EQ(op->poses[1].r.z, 0);
+}
+
+TEST(Position, two_points_share_the_change_of_what_joins_them) {
+  const auto op = assembled(point +
+                            "POINT_MASS/3, MASS=7, CM=30, QG=3,10,0\nMARKER/30, POINT_MASS=3\n"
+                            "GCON/1, FUNCTION=DM(20,30)-4\n");
+  ASSERT_TRUE(op) << op.error().message;
+  EXPECT_NEAR(op->poses[1].r.y, 5, 1e-12);  // whatever their masses
+  EXPECT_NEAR(op->poses[2].r.y, 9, 1e-12);
+}
+
+// y + a θ = c with the least (y/L)² + θ²: y = c L²/(L² + a²), θ = c a/(L² + a²).
+TEST(Position, displacements_and_rotations_change_in_proportion_to_the_length_of_the_model) {
+  const double a = 3, L = 8, c = 1e-5;
+  const auto op = assembled(
+      "MARKER/2, QP=0,0,8\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nMARKER/21, QP=3,0,0\n"
+      "GCON/1, FUNCTION=DY(21,1)-1E-5\n");
+  ASSERT_TRUE(op) << op.error().message;
+  // The longest distance between markers is from (3, 0, 0) to (0, 0, 8).
+  const double L2 = L * L + a * a;
+  EXPECT_NEAR(op->poses[1].r.y, c * L2 / (L2 + a * a), 1e-10);
+  EXPECT_NEAR(op->poses[1].R(1, 0), c * a / (L2 + a * a), 1e-10);
+}
+
+TEST(Position, coordinates_named_by_exact_stay_while_others_can_move) {
+  const std::string text = "PART/2, MASS=1, CM=20, IP=1,1,1, QG=2,2,0";
+  const std::string rest = "\nMARKER/20\nGCON/1, FUNCTION=DX(20,1)+DY(20,1)-1\n";
+  const auto free = assembled(text + rest), kept = assembled(text + ", EXACT=X" + rest),
+             both = assembled(text + ", EXACT=X:Y" + rest);
+  ASSERT_TRUE(free && kept && both);
+  EXPECT_NEAR(free->poses[1].r.x, 0.5, 1e-12);
+  EXPECT_NEAR(kept->poses[1].r.x, 2, 1e-6);
+  EXPECT_NEAR(kept->poses[1].r.y, -1, 1e-6);
+  EXPECT_NEAR(both->poses[1].r.x, 0.5, 1e-12);  // neither can be kept
+}
+
+TEST(Position, a_point_that_fits_comes_back_untouched) {
+  const auto system = system_of(
+      "POINT_MASS/2, MASS=1, CM=20, QG=0.1,0.7,0\nMARKER/20, POINT_MASS=2\n"
+      "GCON/1, FUNCTION=DX(20,1)-0.1\n");
+  const auto op = assembled(*system);
+  ASSERT_TRUE(op);
+  EXPECT_EQ(op->poses[1].r.x, 0.1);
+  EXPECT_EQ(op->poses[1].r.y, 0.7);
+}
+
+TEST(Position, conditions_of_the_start_hold_only_where_they_are_asked_for) {
+  const std::string slide =
+      "PART/2, MASS=1, CM=20, IP=1,1,1, QG=0,0,2\nMARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1, IC=0.5,0\n";
+  const auto ignored = assembled(slide), held = assembled(slide, Starts::held);
+  ASSERT_TRUE(ignored && held);
+  EXPECT_EQ(ignored->poses[1].r.z, 2);
+  EXPECT_NEAR(held->poses[1].r.z, 0.5, 1e-12);
+}
+
+TEST(Position, rows_that_contradict_each_other_are_named) {
+  const auto op = assembled(point + "GCON/1, FUNCTION=DX(20,1)-1\nGCON/2, FUNCTION=2*DX(20,1)-3\n");
+  ASSERT_FALSE(op);
+  EXPECT_THAT(op.error().message, HasSubstr("contradict"));
+  EXPECT_THAT(op.error().message, HasSubstr("GCON/"));
+}
+
+TEST(Position, redundant_rows_may_differ_by_the_error_of_ic_and_no_more) {
+  const auto system = system_of(point + "GCON/1, FUNCTION=DX(20,1)-1\nGCON/2, FUNCTION=DX(20,1)-1.0000001\n");
+  Findings findings;
+  OperatingPoint op = system->drawn();
+  op.redundancy_tolerance = 1e-6;
+  EXPECT_TRUE(assemble_position(*system, op, findings));
+  op.redundancy_tolerance = 1e-9;
+  EXPECT_FALSE(assemble_position(*system, op, findings));
+}
+
+TEST(Position, what_cannot_be_reached_is_named_with_its_violation) {
+  const auto op = assembled(point + "GCON/5, FUNCTION=DX(20,1)**2+DY(20,1)**2+1\n");
+  ASSERT_FALSE(op);
+  EXPECT_THAT(op.error().message, HasSubstr("GCON/5"));
+}
+
+TEST(Position, a_row_without_a_value_is_named) {
+  const auto op = assembled(point + "GCON/5, FUNCTION=SQRT(DX(20,1)-9)\n");
+  ASSERT_FALSE(op);
+  EXPECT_THAT(op.error().message, HasSubstr("GCON/5"));
+  EXPECT_THAT(op.error().message, HasSubstr("SQRT of -6"));
+}
+
+TEST(Position, a_violation_is_measured_in_the_scale_of_its_row) {
+  const auto system = system_of(point +
+                                "MARKER/2, QP=0,0,10\nGCON/1, FUNCTION=100*(DX(20,1)-2)\n"
+                                "GCON/2, FUNCTION=1E-3*(DY(20,1)-1)\n");
+  ConstraintRows rows;
+  rows.resize(system->layout());
+  system->constraints(system->motion(system->drawn()), rows);
+  const Violation v = position_violation(*system, rows);
+  EXPECT_EQ(v.row, 1);
+  EXPECT_NEAR(v.relative, 3 / system->length(), 1e-12);
+}
+
+}  // namespace
+}  // namespace dynalin::analysis_test
