@@ -1,0 +1,100 @@
+// Accelerations of the start and what is looked at when they are found.
+#include "analysis/acceleration_checks.h"
+
+#include <gmock/gmock.h>
+
+#include "analysis/initial.h"
+#include "system/model_test_support.h"
+
+namespace dynalin::analysis_test {
+namespace {
+
+using system_test::system_of;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::string point = "POINT_MASS/2, MASS=2, CM=20\nMARKER/20, POINT_MASS=2\n";
+
+Result<OperatingPoint> solved(const std::string& text, Findings& findings) {
+  return initial_conditions(*system_of(text), findings);
+}
+
+// m a = m g + Gᵀλ with 3 x″ + 4 y″ = 10: a = g + s (3, 4), s = (10 − 3 g_x − 4 g_y)/25.
+TEST(Accelerations, reactions_hold_what_constraints_ask) {
+  Findings findings;
+  const auto op = solved(
+      "ACCGRAV/IGRAV=1, JGRAV=-2, KGRAV=5\n" + point + "GCON/1, FUNCTION=3*DX(20,1)+4*DY(20,1)-5*TIME**2\n", findings);
+  ASSERT_TRUE(op) << op.error().message;
+  const double s = (10 - 3 + 8) / 25.0;
+  EXPECT_NEAR(op->acceleration[0], 1 + 3 * s, 1e-13);
+  EXPECT_NEAR(op->acceleration[1], -2 + 4 * s, 1e-13);
+  EXPECT_NEAR(op->acceleration[2], 5, 1e-13);
+  EXPECT_NEAR(op->lambda[0], 2 * s, 1e-13);
+}
+
+// A spinning part: ω′ = J⁻¹ (−ω × J ω).
+TEST(Accelerations, a_free_part_turns_by_eulers_equations) {
+  Findings findings;
+  const auto op = solved("PART/2, MASS=1, CM=20, IP=1,2,3, WX=0.5, WY=-1, WZ=2\nMARKER/20\n", findings);
+  ASSERT_TRUE(op) << op.error().message;
+  EXPECT_NEAR(op->acceleration[3], (2.0 - 3) / 1 * (-1 * 2), 1e-13);
+  EXPECT_NEAR(op->acceleration[4], (3.0 - 1) / 2 * (2 * 0.5), 1e-13);
+  EXPECT_NEAR(op->acceleration[5], (1.0 - 2) / 3 * (0.5 * -1), 1e-13);
+}
+
+TEST(AccelerationChecks, redundant_rows_that_differ_in_their_second_rate_contradict) {
+  for (const auto& [second, contradicts] : {std::pair{"2*DX(20,1)-2*TIME**2", false},
+                                            {"2*DX(20,1)-2.2*TIME**2", true},
+                                            {"2*DX(20,1)-2.0000001*TIME**2", true},
+                                            {"2*DX(20,1)-2*TIME**2+TIME**3", false}}) {
+    Findings findings;
+    const auto op = solved(point + "GCON/1, FUNCTION=DX(20,1)-TIME**2\nGCON/2, FUNCTION=" + second + "\n", findings);
+    EXPECT_EQ(!op, contradicts) << second;
+    if (!op) {
+      EXPECT_THAT(op.error().message, HasSubstr("contradict each other on accelerations: "));
+    }
+  }
+}
+
+TEST(AccelerationChecks, a_contradiction_is_measured_in_the_terms_of_its_row) {
+  const auto system = system_of(point + "GCON/1, FUNCTION=DX(20,1)\nGCON/2, FUNCTION=DX(20,1)\n");
+  OperatingPoint op = system->drawn();
+  AccelerationEquations equations(*system, op);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(equations.augmented().size());
+  const std::int32_t row = equations.partition().redundant.at(0);
+  const auto contradicted = [&](const Eigen::VectorXd& rounding) {
+    equations.evaluate(op, {});
+    return contradicted_accelerations(*system, equations, op, rounding);
+  };
+  EXPECT_THAT(contradicted(none), IsEmpty());
+  op.acceleration[0] = 1e-3;  // what is left is as large as its only term
+  EXPECT_THAT(contradicted(none), ElementsAre(row));
+  op.acceleration[1] = 1e6;  // along other axes this would show as well
+  EXPECT_THAT(contradicted(none), IsEmpty());
+  op.acceleration[1] = 0;
+  EXPECT_THAT(contradicted(Eigen::VectorXd::Constant(none.size(), 1e-3)), IsEmpty());
+}
+
+// w = w²/4 + c has w = 2 (1 − √(1 − c)); at c = 1 both roots meet, where dw/dc = 1/√(1 − c) has no value.
+TEST(AccelerationChecks, digits_are_lost_near_a_double_root) {
+  const auto text = [](const std::string& c) {
+    return point + "VARIABLE/1, IC=0, FUNCTION=VARVAL(1)**2/4+" + c + "\n";
+  };
+  Findings findings;
+  const auto good = solved(text("0.75"), findings);
+  ASSERT_TRUE(good) << good.error().message;
+  EXPECT_NEAR(good->algebraic[0], 1, 1e-13);
+  EXPECT_THAT(findings.warnings.items(), IsEmpty());
+  const auto near = solved(text("0.9999999999"), findings);
+  ASSERT_TRUE(near) << near.error().message;
+  ASSERT_EQ(findings.warnings.items().size(), 1u);
+  EXPECT_EQ(findings.warnings.items()[0].code, "lost-digits");
+  EXPECT_THAT(findings.warnings.items()[0].message, HasSubstr("VARIABLE/1"));
+  const auto on = solved(text("1"), findings);
+  ASSERT_FALSE(on);
+  EXPECT_THAT(on.error().message, HasSubstr("the value of VARIABLE/1"));
+}
+
+}  // namespace
+}  // namespace dynalin::analysis_test

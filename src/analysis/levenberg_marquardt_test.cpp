@@ -1,0 +1,47 @@
+// The least-squares search, alone.
+#include "analysis/levenberg_marquardt.h"
+
+#include <gtest/gtest.h>
+
+#include "analysis/statics_test_support.h"
+
+namespace dynalin::analysis_test {
+namespace {
+
+TEST(LevenbergMarquardt, finds_the_centre_round_which_a_motion_would_circle) {
+  Search s(swirl());
+  ASSERT_TRUE(reduce_imbalance(s.equations, s.op, 100));
+  EXPECT_NEAR(s.op.poses[1].r.x, 0.2, 1e-5);
+  EXPECT_NEAR(s.op.poses[1].r.y, -0.1, 1e-5);
+  EXPECT_NEAR(s.op.poses[1].r.z, 0, 1e-5);
+}
+
+TEST(LevenbergMarquardt, keeps_constraints_on_its_way) {
+  Search s(pendulum(1.2) + "SFORCE/1, ROTATIONAL, I=21, J=1, FUNCTION=12\n");
+  ASSERT_TRUE(reduce_imbalance(s.equations, s.op, 100));
+  EXPECT_NEAR(angle_of(s.op), std::asin(0.6), 1e-5);
+  EXPECT_NEAR(norm(s.op.poses[1].r), 0, 1e-12);
+}
+
+TEST(LevenbergMarquardt, ends_where_the_imbalance_is_least_and_says_that_it_is_not_zero) {
+  Search s(fold);
+  EXPECT_FALSE(reduce_imbalance(s.equations, s.op, 100));
+  EXPECT_NEAR(s.op.state[0], 1, 1e-2);
+}
+
+TEST(LevenbergMarquardt, every_step_brings_it_closer) {
+  Search s(swirl());
+  double before = s.imbalance();
+  for (int k = 0; k < 5; ++k) {
+    reduce_imbalance(s.equations, s.op, 1);
+    s.equations.evaluate(s.op, true);
+    const double now = std::sqrt(s.equations.merit(1.0));
+    if (k > 0) {
+      EXPECT_LE(now, before * (1 + 1e-12));
+    }
+    before = now;
+  }
+}
+
+}  // namespace
+}  // namespace dynalin::analysis_test

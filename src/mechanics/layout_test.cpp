@@ -1,0 +1,80 @@
+// The numbering of unknowns.
+#include "mechanics/layout.h"
+
+#include <gtest/gtest.h>
+
+#include "mechanics/paths_test_support.h"
+
+namespace dynalin::mechanics_test {
+namespace {
+
+TEST(Layout, bodies_have_the_coordinates_of_their_kind_one_after_another) {
+  const Paths p;
+  const auto& b = p.layout.bodies;
+  EXPECT_EQ(b[0].offset, -1);
+  EXPECT_EQ(b[0].count, 0);
+  EXPECT_EQ(b[1].offset, 0);
+  EXPECT_EQ(b[1].count, 6);
+  EXPECT_EQ(b[2].offset, 6);
+  EXPECT_EQ(b[3].offset, 12);
+  EXPECT_EQ(b[3].count, 3);
+  EXPECT_EQ(b[4].offset, 15);
+  EXPECT_EQ(p.layout.body_coordinate_count, 21);
+  EXPECT_EQ(p.layout.coordinate_count, 23);
+}
+
+TEST(Layout, coordinates_outside_bodies_stand_behind_them_and_keep_their_block) {
+  Paths p;
+  const ElementLabel label{"CVCV", 7, {}, {}};
+  EXPECT_EQ(p.layout.add_extra(label, StateType::cvcv, {{"S", 0.25, 2.0, 0.1}}), 23);
+  EXPECT_EQ(p.layout.coordinate_count, 24);
+  EXPECT_EQ(p.layout.body_coordinate_count, 21);
+  EXPECT_EQ(p.layout.extra_index(23), 2u);
+  EXPECT_EQ(p.layout.extras.back().offset, 23);
+  EXPECT_EQ(p.layout.extras.back().count, 1);
+  EXPECT_EQ(p.layout.extras.back().type, StateType::cvcv);
+}
+
+TEST(Layout, coordinates_are_named_by_axis_and_owner) {
+  const Paths p;
+  EXPECT_EQ(p.layout.coordinate_text(0), "DX of PART/2");
+  EXPECT_EQ(p.layout.coordinate_text(5), "AZ of PART/2");
+  EXPECT_EQ(p.layout.coordinate_text(6), "DX of PART/3");
+  EXPECT_EQ(p.layout.coordinate_text(14), "DZ of POINT_MASS/4");
+  EXPECT_EQ(p.layout.coordinate_text(15), "DX of PART/5");
+  EXPECT_EQ(p.layout.coordinate_text(22), "V of PTCV/1");
+  EXPECT_EQ(p.layout.coordinate_text(23), "coordinate 24");
+}
+
+TEST(Layout, rows_values_states_and_memory_are_counted_from_zero) {
+  Layout l;
+  const ElementLabel joint{"JOINT", 3, {}, {}}, value{"VARIABLE", 9, {}, {}};
+  EXPECT_EQ(l.add_row(joint, "Zi.Xj"), 0);
+  EXPECT_EQ(l.add_row(joint, "Zi.Yj", RowLevel::velocity), 1);
+  EXPECT_EQ(l.row_count(), 2u);
+  EXPECT_EQ(l.rows[0].level, RowLevel::position);
+  EXPECT_EQ(l.rows[1].level, RowLevel::velocity);
+  EXPECT_EQ(l.rows[1].owner, &joint);
+  EXPECT_EQ(l.add_algebraic(value), 0);
+  EXPECT_EQ(l.add_algebraic(value, 2, 0.5), 1);
+  EXPECT_EQ(l.algebraic[1].guess, 0.5);
+  EXPECT_EQ(l.algebraic[1].component, 2);
+  EXPECT_EQ(l.algebraic[1].rate, -1);
+  EXPECT_EQ(l.add_state({.owner = &value, .initial = 4}), 0);
+  EXPECT_EQ(l.states[0].initial, 4);
+  EXPECT_EQ(l.add_memory({}, 1.5), 0);
+  EXPECT_EQ(l.add_memory({}), 1);
+  EXPECT_EQ(l.memory, (Memory{1.5, 0.0}));
+  EXPECT_EQ(l.memory_owners.size(), 2u);
+}
+
+TEST(Layout, a_floating_marker_is_found_by_its_contact_alone) {
+  Layout l;
+  l.curve_points.push_back({MarkerId{4}, MarkerId{2}, nullptr, 7});
+  ASSERT_TRUE(l.curve_point(MarkerId{4}));
+  EXPECT_EQ(l.curve_point(MarkerId{4})->coordinate, 7);
+  EXPECT_EQ(l.curve_point(MarkerId{2}), nullptr);  // the carrier is no floating marker
+}
+
+}  // namespace
+}  // namespace dynalin::mechanics_test

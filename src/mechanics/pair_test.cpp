@@ -1,0 +1,431 @@
+// What pairs of markers spread over their bodies, against generalized forces computed along varied paths.
+#include "mechanics/pair.h"
+
+#include <gmock/gmock.h>
+
+#include "mechanics/paths_test_support.h"
+
+namespace dynalin::mechanics_test {
+namespace {
+
+constexpr MarkerId I{2}, J{5};  // on PART/2 and PART/3
+
+// A law of all that a pair can show, in the axes of J: f = f₀ + A d + B x + C d′ + D w with d the displacement, x the
+// first axis of I and w the relative angular velocity, each as seen from J.
+struct Law {
+  Vector constant;
+  Matrix3 on_d, on_x, on_rate, on_w;
+
+  static Law drawn(Paths& p) { return {p.vector(), p.matrix(), p.matrix(), p.matrix(), p.matrix()}; }
+  // In global axes along a path.
+  RealVector at(const Moment& m, MarkerId i, MarkerId j) const {
+    const auto d = [&](const Moment& n) { return transpose_times(n.axes(j), n.origin(i) - n.origin(j)); };
+    const RealVector x = transpose_times(m.axes(j), m.axes(i).x);
+    const RealVector w = transpose_times(m.axes(j), m.angular_velocity(i) - m.angular_velocity(j));
+    return m.axes(j) *
+           (real(constant) + real(on_d) * d(m) + real(on_x) * x + real(on_rate) * m.rate(d) + real(on_w) * w);
+  }
+  // δx = δφ × x, δw = δφ′ + δφ × w.
+  Vector add_to(const PairMotion& p, std::size_t row, RelativeWrench& wrench) const {
+    const Vector d = value(p.relative.p), rate_of_d = rate(p.relative.p), x = value(p.relative.x);
+    Vector w{};
+    for (const Vec3<Taylor>* a : {&p.relative.x, &p.relative.y, &p.relative.z}) w += 0.5 * cross(value(*a), rate(*a));
+    const Matrix3 on_phi = -(on_x * skew(x)) - on_w * skew(w);
+    for (std::size_t r = 0; r < 3; ++r) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        wrench.on_pose[row + r][c] = on_d(r, c), wrench.on_pose[row + r][3 + c] = on_phi(r, c);
+        wrench.on_rate[row + r][c] = on_rate(r, c), wrench.on_rate[row + r][3 + c] = on_w(r, c);
+      }
+    }
+    wrench.depends_on_rate = true;
+    return constant + on_d * d + on_x * x + on_rate * rate_of_d + on_w * w;
+  }
+};
+
+// A wrench by such laws on a pair.
+struct Wrench {
+  Law force, torque;
+  MarkerId i = I, j = J;
+
+  PairForce of(const Paths& p, bool with_partials = true) const {
+    const PairMotion pair = motion(p);
+    RelativeWrench w;
+    w.force = force.add_to(pair, 0, w);
+    w.torque = torque.add_to(pair, 3, w);
+    return spread(pair, w, with_partials);
+  }
+  PairMotion motion(const Paths& p) const { return pair_motion(p.motion, p.layout.marker(i), p.layout.marker(j)); }
+};
+
+std::array<std::int32_t, 4> groups(const Paths& p, MarkerId i, MarkerId j) {
+  const BodyBlock &b = p.layout.body(p.layout.marker(i).body), &c = p.layout.body(p.layout.marker(j).body);
+  return {b.offset, b.offset + 3, c.offset, c.offset + 3};
+}
+
+constexpr std::array<const char*, 4> group_names = {"origin of the body of I", "rotation of the body of I",
+                                                    "origin of the body of J", "rotation of the body of J"};
+
+// The partials of a vector of the pair by all four groups.
+template <class Function>
+void expect_partials(const Paths& p, const GroupPartials& partials, std::size_t level, const char* what,
+                     const Function& f) {
+  const auto columns = groups(p, I, J);
+  for (std::size_t g = 0; g < 4; ++g) {
+    for (std::int32_t k = 0; k < 3; ++k) {
+      const RealVector expected = p.now().partial(columns[g] + k, level, f);
+      for (std::size_t r = 0; r < 3; ++r) {
+        EXPECT_TRUE(agree(partials.group[g](r, static_cast<std::size_t>(k)), expected[r]))
+            << what << " "
+            << "xyz"[r] << " by the " << group_names[g] << " "
+            << "xyz"[k] << (level == 0 ? "" : ", its rate");
+      }
+    }
+  }
+}
+
+void expect_near(const Vector& value, const RealVector& expected, const char* what) {
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_TRUE(agree(value[k], expected[k])) << what << " "
+                                              << "xyz"[k];
+}
+
+TEST(Pair, marker_I_is_seen_from_J_with_two_rates) {
+  const Paths p;
+  const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  const auto expect_course = [&](const Vec3<Taylor>& v, const auto& f, const char* what) {
+    expect_near(value(v), f(p.now()), what);
+    expect_near(rate(v), p.now().rate(f), what);
+    expect_near(acceleration(v), p.now().second_rate(f), what);
+  };
+  expect_course(
+      pair.relative.p, [](const Moment& m) { return transpose_times(m.axes(J), m.origin(I) - m.origin(J)); },
+      "displacement seen from J");
+  const std::array<const Vec3<Taylor>*, 3> axes = {&pair.relative.x, &pair.relative.y, &pair.relative.z};
+  for (std::size_t c = 0; c < 3; ++c) {
+    expect_course(
+        *axes[c], [c](const Moment& m) { return transpose_times(m.axes(J), m.axes(I)[c]); }, "axis seen from J");
+    expect_course(
+        pair.axes_J[c], [c](const Moment& m) { return m.axes(J)[c]; }, "axis of J");
+  }
+  expect_course(
+      pair.delta, [](const Moment& m) { return m.origin(I) - m.origin(J); }, "line from J to I");
+  expect_course(
+      pair.arm_I, [](const Moment& m) { return m.arm(I); }, "arm of I");
+  expect_course(
+      pair.arm_J, [](const Moment& m) { return m.arm(J); }, "arm of J");
+  expect_course(
+      pair.arm, [](const Moment& m) { return m.origin(I) - m.origin_of(m.body(J)); }, "arm from the body of J");
+  expect_near(pair.w_J, p.now().angular_velocity(J), "angular velocity of J");
+  EXPECT_EQ(pair.body_I.index, 1);
+  EXPECT_EQ(pair.body_J.index, 2);
+}
+
+TEST(Pair, differences_stay_exact_far_from_the_global_origin) {
+  Paths p;
+  const PairMotion near = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  const Vector far{0x1p40, -0x1p41, 0x1p42};  // differences of origins are exact there
+  const Vector r = p.motion.bodies[1].r;
+  p.motion.bodies[1].r = far, p.motion.bodies[2].r = far;
+  const PairMotion away = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  p.motion.bodies[1].r = r, p.motion.bodies[2].r = r;
+  const PairMotion same = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(value(away.delta)[k], value(same.delta)[k]);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(rate(away.delta)[k], rate(near.delta)[k]);
+}
+
+TEST(Pair, a_wrench_in_the_axes_of_J_spreads_with_its_partials_by_position_and_velocity) {
+  Paths p;
+  const Wrench w{Law::drawn(p), Law::drawn(p)};
+  const PairForce f = w.of(p);
+  const auto force = [&](const Moment& m) { return w.force.at(m, I, J); };
+  const auto torque = [&](const Moment& m) { return w.torque.at(m, I, J); };
+  expect_near(f.force, force(p.now()), "force");
+  expect_near(f.torque, torque(p.now()), "torque");
+  expect_partials(p, f.force_on_position, 0, "force", force);
+  expect_partials(p, f.torque_on_position, 0, "torque", torque);
+  expect_partials(p, f.force_on_velocity, 1, "force", force);
+  expect_partials(p, f.torque_on_velocity, 1, "torque", torque);
+  EXPECT_TRUE(f.depends_on_velocity);
+  EXPECT_EQ(f.reaction, Reaction::at_I);
+}
+
+TEST(Pair, a_wrench_without_rates_has_no_partials_by_velocity) {
+  Paths p;
+  Wrench w{Law::drawn(p), Law::drawn(p)};
+  w.force.on_rate = w.force.on_w = w.torque.on_rate = w.torque.on_w = Matrix3{};
+  RelativeWrench r;
+  r.force = w.force.add_to(w.motion(p), 0, r);
+  r.torque = w.torque.add_to(w.motion(p), 3, r);
+  r.depends_on_rate = false;
+  const PairForce f = spread(w.motion(p), r, true);
+  EXPECT_FALSE(f.depends_on_velocity);
+  expect_partials(p, f.force_on_position, 0, "force", [&](const Moment& m) { return w.force.at(m, I, J); });
+  expect_partials(p, f.torque_on_velocity, 1, "torque", [](const Moment&) { return RealVector{}; });
+}
+
+// F = a + b d + c d² + e d′ d along the line.
+struct Line {
+  double a = 0.7, b = -1.3, c = 0.4, e = 0.9;
+
+  template <class T>
+  T at(const T& d, const T& rate) const {
+    return a + b * d + c * (d * d) + e * (rate * d);
+  }
+  RealVector along(const Moment& m) const {
+    const auto distance = [](const Moment& n) { return norm(n.origin(I) - n.origin(J)); };
+    return (m.origin(I) - m.origin(J)) / distance(m) * at(distance(m), m.rate(distance));
+  }
+  PairForce of(const PairMotion& pair, bool with_partials = true) const {
+    const Taylor d = norm(pair.delta);
+    return along_line(pair, {at(d.value, d.rate), b + 2 * c * d.value + e * d.rate, e * d.value}, with_partials);
+  }
+};
+
+TEST(Pair, a_force_along_the_line_has_the_stiffness_of_its_direction) {
+  const Paths p;
+  const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  for (const Line& line : {Line{}, Line{.e = 0}}) {
+    const PairForce f = line.of(pair);
+    const auto force = [&](const Moment& m) { return line.along(m); };
+    expect_near(f.force, force(p.now()), "force");
+    expect_near(f.torque, {}, "torque");
+    expect_partials(p, f.force_on_position, 0, "force", force);
+    expect_partials(p, f.force_on_velocity, 1, "force", force);
+    EXPECT_EQ(f.depends_on_velocity, line.e != 0);
+    EXPECT_EQ(f.reaction, Reaction::at_J);
+    EXPECT_EQ(f.components, Components::force);
+  }
+}
+
+TEST(Pair, partials_are_left_out_where_nobody_asks) {
+  Paths p;
+  const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  const Wrench w{Law::drawn(p), Law::drawn(p)};
+  for (const PairForce& f : {w.of(p, false), Line{}.of(pair, false)}) {
+    for (const GroupPartials* g :
+         {&f.force_on_position, &f.torque_on_position, &f.force_on_velocity, &f.torque_on_velocity}) {
+      for (const Matrix3& m : g->group) EXPECT_EQ(trace(transpose(m) * m), 0);
+    }
+  }
+}
+
+// Force and moment about the BCS of both bodies: what acts at I, and the opposite at the same point of J's body.
+struct Balance {
+  RealVector force_I, moment_I, force_J, moment_J;
+  friend Balance operator-(const Balance& a, const Balance& b) {
+    return {a.force_I - b.force_I, a.moment_I - b.moment_I, a.force_J - b.force_J, a.moment_J - b.moment_J};
+  }
+  friend Balance operator+(const Balance& a, const Balance& b) {
+    return {a.force_I + b.force_I, a.moment_I + b.moment_I, a.force_J + b.force_J, a.moment_J + b.moment_J};
+  }
+  friend Balance operator*(const Balance& a, Real s) {
+    return {a.force_I * s, a.moment_I * s, a.force_J * s, a.moment_J * s};
+  }
+  friend Balance operator/(const Balance& a, Real s) { return a * (1 / s); }
+  Real operator()(std::size_t group, std::size_t k) const {
+    return (group == 0 ? force_I : group == 1 ? moment_I : group == 2 ? force_J : moment_J)[k];
+  }
+};
+Balance balance(const Moment& m, const RealVector& f, const RealVector& t) {
+  const RealVector arm = m.origin(I) - m.origin_of(m.body(J));
+  return {f, cross(m.arm(I), f) + t, -f, -(cross(arm, f) + t)};
+}
+
+// Forces that are wanted in the balances of both bodies, where they stand with a minus.
+template <class Found>
+void expect_balance(const Paths& p, const Found& found, const Balance& expected, bool on_J, const std::string& by) {
+  const auto rows = groups(p, I, J);
+  for (std::size_t g = 0; g < 4; ++g) {
+    for (std::size_t r = 0; r < 3; ++r) {
+      const std::int32_t row = rows[g] + static_cast<std::int32_t>(r);
+      EXPECT_TRUE(agree(found(row), on_J || g < 2 ? -expected(g, r) : 0))
+          << "balance of " << coordinate_name(p.layout, row) << (by.empty() ? "" : " by ") << by;
+    }
+  }
+}
+
+template <class Function>
+void expect_applied(const Paths& p, const PairForce& f, bool on_J, PartialBy family, const Function& of) {
+  const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  const Equations eq =
+      assembled(p.layout, {PartialBy::position, family}, [&](Equations& e) { apply(pair, f, e, family); });
+  expect_balance(
+      p, [&](std::int32_t row) { return eq.residual()[static_cast<std::size_t>(row)]; }, of(p.now()), on_J, "");
+  for (std::int32_t c = 0; c < p.layout.coordinate_count; ++c) {
+    for (const std::size_t level : {0u, 1u}) {
+      const ColumnMatrix& m = eq.matrix(level == 0 ? PartialBy::position : family);
+      expect_balance(
+          p, [&](std::int32_t row) { return entry(m, row, c); }, c < 12 ? p.now().partial(c, level, of) : Balance{},
+          on_J, coordinate_name(p.layout, c, level));
+    }
+  }
+}
+
+TEST(Pair, both_bodies_feel_the_force_with_its_lever_arms_and_their_changes) {
+  Paths p;
+  Law force = Law::drawn(p), torque = Law::drawn(p);
+  force.on_w = torque.on_rate = Matrix3{};  // fewer differences
+  const Wrench w{force, torque};
+  const auto of = [&](const Moment& m) { return balance(m, w.force.at(m, I, J), w.torque.at(m, I, J)); };
+  expect_applied(p, w.of(p), true, PartialBy::damping, of);
+}
+
+TEST(Pair, a_force_along_the_line_acts_on_both_bodies_and_goes_to_the_family_that_is_named) {
+  const Paths p;
+  const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  const Line line;
+  const auto of = [&](const Moment& m) { return balance(m, line.along(m), {}); };
+  expect_applied(p, line.of(pair), true, PartialBy::velocity, of);
+}
+
+TEST(Pair, without_reaction_the_body_of_J_feels_nothing_but_moves_the_force) {
+  const Paths p;
+  const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  const Line line;
+  PairForce f = line.of(pair);
+  f.reaction = Reaction::none;
+  const auto of = [&](const Moment& m) { return balance(m, line.along(m), {}); };
+  expect_applied(p, f, false, PartialBy::damping, of);
+}
+
+TEST(Pair, a_point_mass_takes_forces_and_no_moments_and_ground_nothing) {
+  Paths p;
+  const MarkerId on_mass{6}, on_ground{1};
+  const PairMotion pair = pair_motion(p.motion, p.layout.marker(on_mass), p.layout.marker(on_ground));
+  const PairForce f = Line{}.of(pair);
+  const Equations eq = assembled(p.layout, {PartialBy::position, PartialBy::damping},
+                                 [&](Equations& e) { apply(pair, f, e, PartialBy::damping); });
+  for (std::int32_t r = 0; r < p.layout.coordinate_count; ++r) {
+    const bool own = r >= 12 && r < 15;
+    EXPECT_EQ(eq.residual()[static_cast<std::size_t>(r)], own ? -f.force[static_cast<std::size_t>(r - 12)] : 0);
+    for (std::int32_t c = 0; c < p.layout.coordinate_count; ++c) {
+      const bool both = own && c >= 12 && c < 15;
+      const auto at = [&](const GroupPartials& g) {
+        return both ? -g.group[0](static_cast<std::size_t>(r - 12), static_cast<std::size_t>(c - 12)) : 0;
+      };
+      EXPECT_EQ(entry(eq.matrix(PartialBy::position), r, c), at(f.force_on_position));
+      EXPECT_EQ(entry(eq.matrix(PartialBy::damping), r, c), at(f.force_on_velocity));
+    }
+  }
+}
+
+TEST(Pair, a_scalar_unknown_scales_what_acts_on_both_bodies) {
+  Paths p;
+  const ElementLabel owner{"SFORCE", 1, {}, {}};
+  p.layout.add_algebraic(owner);
+  p.layout.add_algebraic(owner);
+  const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  const Vector f = p.vector(), t = p.vector();
+  const Balance expected = balance(p.now(), real(f), real(t));
+  for (const bool on_J : {true, false}) {
+    const Equations eq = assembled(p.layout, {PartialBy::algebraic},
+                                   [&](Equations& e) { apply_column(pair, f, t, on_J, PartialBy::algebraic, 1, e); });
+    const ColumnMatrix& m = eq.matrix(PartialBy::algebraic);
+    expect_balance(
+        p, [&](std::int32_t row) { return entry(m, row, 1); }, expected, on_J, "its unknown");
+    expect_balance(
+        p, [&](std::int32_t row) { return entry(m, row, 0); }, {}, on_J, "another unknown");
+  }
+}
+
+// A force on the pair I, J that another pair decides: its own lever arms do not move.
+TEST(Pair, a_force_decided_by_another_pair_has_partials_by_the_bodies_of_that_one) {
+  Paths p;
+  const MarkerId other_I{8}, other_J{6};  // PART/5 and POINT_MASS/4
+  Wrench w{Law::drawn(p), Law::drawn(p), other_I, other_J};
+  w.force.on_w = w.torque.on_rate = Matrix3{};
+  const PairMotion acting = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  const PairForce f = w.of(p);
+  const Equations eq = assembled(p.layout, {PartialBy::position, PartialBy::damping}, [&](Equations& e) {
+    apply_cross_partials(acting, w.motion(p), f, e, PartialBy::damping);
+  });
+  const auto of = [&](const Moment& m) {
+    return balance(m, w.force.at(m, other_I, other_J), w.torque.at(m, other_I, other_J));
+  };
+  EXPECT_THAT(eq.residual(), ::testing::Each(0.0));
+  for (std::int32_t c = 0; c < p.layout.coordinate_count; ++c) {
+    for (const std::size_t level : {0u, 1u}) {
+      const ColumnMatrix& m = eq.matrix(level == 0 ? PartialBy::position : PartialBy::damping);
+      const bool counts = c >= 12 && c < 21;
+      expect_balance(
+          p, [&](std::int32_t row) { return entry(m, row, c); }, counts ? p.now().partial(c, level, of) : Balance{},
+          true, coordinate_name(p.layout, c, level));
+    }
+  }
+}
+
+TEST(Pair, a_wrench_that_turns_with_a_third_body_has_partials_by_its_rotation) {
+  Paths p;
+  // f and t are fixed in PART/5, so δf = δθ × f.
+  const Vector f = p.vector(), t = p.vector();
+  const BodyId third{4};
+  const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  const Equations eq = assembled(p.layout, {PartialBy::position}, [&](Equations& e) {
+    apply_turn(pair, third, -skew(f), -skew(t), e);
+    apply_turn(pair, BodyId{3}, -skew(f), -skew(t), e);  // a point mass has no rotation
+  });
+  const RealMatrix back = transpose(p.now().axes_of(third));
+  const auto of = [&](const Moment& m) {
+    const RealMatrix moved = m.axes_of(third) * back;
+    return balance(m, moved * real(f), moved * real(t));
+  };
+  const ColumnMatrix& m = eq.matrix(PartialBy::position);
+  for (std::int32_t c = 12; c < p.layout.coordinate_count; ++c) {
+    expect_balance(
+        p, [&](std::int32_t row) { return entry(m, row, c); }, p.now().partial(c, 0, of), true,
+        coordinate_name(p.layout, c));
+  }
+}
+
+// c·d + e·x as seen from J: δx = δφ × x.
+struct Row {
+  Vector c, e;
+  Real at(const Moment& m) const {
+    return dot(real(c), transpose_times(m.axes(J), m.origin(I) - m.origin(J))) +
+           dot(real(e), transpose_times(m.axes(J), m.axes(I).x));
+  }
+};
+
+TEST(Pair, the_gradient_of_a_row_reaches_both_bodies_at_all_levels) {
+  Paths p;
+  const ElementLabel owner{"JOINT", 1, {}, {}};
+  p.layout.add_row(owner, "other");
+  p.layout.add_row(owner, "row");
+  const Row row{p.vector(), p.vector()};
+  const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  ConstraintRows rows;
+  rows.resize(p.layout);
+  rows.begin();
+  const auto fixed = [](const Vector& v) { return along_motion(v, {}, {}); };
+  add_gradient(1, pair, fixed(row.c), cross(pair.relative.x, fixed(row.e)), rows);
+  EXPECT_TRUE(rows.row(0).empty());
+  for (std::int32_t c = 0; c < p.layout.coordinate_count; ++c) {
+    const RowCoefficients k = coefficients(rows, 1, c);
+    const auto gradient = [&](const Moment& m) { return m.partial(c, 0, [&](const Moment& n) { return row.at(n); }); };
+    const std::string by = coordinate_name(p.layout, c);
+    EXPECT_TRUE(agree(k.g, gradient(p.now()))) << by;
+    EXPECT_TRUE(agree(k.v, p.now().rate(gradient))) << by;
+    EXPECT_TRUE(agree(k.a1, 2 * p.now().rate(gradient))) << by;
+    EXPECT_TRUE(agree(k.a0, p.now().second_rate(gradient))) << by;
+  }
+}
+
+TEST(Pair, partials_of_one_equation_reach_both_bodies) {
+  Paths p;
+  const ElementLabel owner{"VARIABLE", 1, {}, {}};
+  p.layout.add_algebraic(owner);
+  const Row row{p.vector(), p.vector()};
+  const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  const std::int32_t at = p.layout.coordinate_count;
+  const Equations eq = assembled(p.layout, {PartialBy::position}, [&](Equations& e) {
+    add_partials(at, pair, row.c, cross(value(pair.relative.x), row.e), PartialBy::position, e);
+  });
+  for (std::int32_t c = 0; c < p.layout.coordinate_count; ++c) {
+    EXPECT_TRUE(agree(entry(eq.matrix(PartialBy::position), at, c), p.now().partial(c, 0, [&](const Moment& m) {
+      return row.at(m);
+    }))) << coordinate_name(p.layout, c);
+  }
+}
+
+}  // namespace
+}  // namespace dynalin::mechanics_test
