@@ -47,8 +47,8 @@ struct WithCurve {
   ParametricCurve curve = cubic.curve();
   MarkerId carrier{4};
 
-  MarkerFrame fixed(std::int32_t m) const { return {p.marker(m)}; }
-  MarkerFrame on_curve() const { return {p.layout.marker(carrier), &curve, p.layout.body_coordinate_count, 0}; }
+  MarkerFrame fixed(std::int32_t m) const { return {&p.marker(m)}; }
+  MarkerFrame on_curve() const { return {&p.layout.marker(carrier), &curve, p.layout.body_coordinate_count, 0}; }
   std::int32_t parameter() const { return p.layout.body_coordinate_count; }
 
   // Origin and axes of the point on the curve along a path.

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <deque>
 #include <random>
 #include <span>
 #include <vector>
@@ -142,8 +143,8 @@ class Paths {
       for (int k = 0; k < 2; ++k) {
         MarkerPlace m{BodyId{b}, {}, Matrix3::identity()};
         if (b > 0 || k > 0) m.p_BM = rounded(draw(0.7L)), m.R_BM = rotation_exponential(rounded(draw(2)));
-        layout.markers.push_back(m);
-        layout.marker_labels.push_back(label("MARKER", 2 * b + k));
+        layout.markers.push_back(&markers_.emplace_back(m));
+        layout.marker_labels.push_back(&labels_.emplace_back(label("MARKER", 2 * b + k)));
       }
     }
     layout.add_extra(label("PTCV", 1), StateType::ptcv, {{"U"}, {"V"}});
@@ -165,7 +166,7 @@ class Paths {
   Paths& operator=(const Paths&) = delete;
 
   Moment now() const { return {this}; }
-  const MarkerPlace& marker(std::int32_t m) const { return layout.markers[static_cast<std::size_t>(m)]; }
+  const MarkerPlace& marker(std::int32_t m) const { return layout.marker({m}); }
   // Numbers of double precision, so that both sides mean the same.
   RealVector draw(Real size) {
     std::uniform_real_distribution<double> number(-1, 1);
@@ -183,6 +184,8 @@ class Paths {
  private:
   static ElementLabel label(std::string_view statement, std::int64_t id) { return {statement, id, {}, {}}; }
   std::mt19937 random_;
+  std::deque<MarkerPlace> markers_;  // the layout points to them
+  std::deque<ElementLabel> labels_;
 };
 
 inline RealVector Moment::origin_of(BodyId b) const {

@@ -139,7 +139,6 @@ TEST(Elimination, the_units_of_a_row_change_nothing) {
     const Elimination a = eliminated(m, in_order(11)), b = eliminated(scaled, in_order(11));
     EXPECT_EQ(a.pivot_column, b.pivot_column);
     EXPECT_EQ(a.dependent, b.dependent);
-    EXPECT_EQ(a.smallest_pivot, b.smallest_pivot);
   }
 }
 
@@ -150,12 +149,6 @@ TEST(Elimination, rounding_is_no_rank_and_a_small_difference_is) {
   EXPECT_EQ(eliminated(m, {0, 1, 2}).rank, 1u);
   m(2, 2) = 1e-8;
   EXPECT_EQ(eliminated(m, {0, 1, 2}, {.rank_tolerance = 1e-7}).rank, 1u);
-}
-
-TEST(Elimination, the_smallest_pivot_tells_how_near_a_row_is_to_the_others) {
-  const Eigen::MatrixXd m{{1, 1, 0}, {2, 2, 1e-4}};
-  EXPECT_NEAR(eliminated(m, {0, 1, 2}).smallest_pivot, 0.5e-4, 1e-12);
-  EXPECT_EQ(eliminated(Eigen::MatrixXd{{3, 1, 0}}, {0, 1, 2}).smallest_pivot, 1);
 }
 
 }  // namespace
