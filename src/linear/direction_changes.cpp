@@ -60,7 +60,7 @@ Directions DirectionChanges::beside(const Matrix& earlier) const {
   d.states = Matrix::Zero(n, free + more);
   d.rates_of_states = d.states;
   for (Index k = 0; k < free; ++k) d.states(positions_[static_cast<std::size_t>(k)], k) = 1;
-  for (std::size_t k = 0; k < positions_.size(); ++k) {
+  for (std::size_t k = 0; k < positions_.size() && more > 0; ++k) {
     if (rates_of_positions_[k] >= 0) d.states.row(rates_of_positions_[k]).tail(more) = earlier.row(positions_[k]);
   }
   d.rates_of_states.rightCols(more) = earlier;

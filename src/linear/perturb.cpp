@@ -31,6 +31,7 @@ PerturbedPoint::PerturbedPoint(const System& system, const OperatingPoint& op, c
 Eigen::MatrixXd PerturbedPoint::outputs_of(const PerturbationEquations& p, const Eigen::MatrixXd& a) const {
   const Eigen::Index n = p.coordinates(), w = p.augmented() + first_algebraic_;
   Eigen::MatrixXd seen_of(static_cast<Eigen::Index>(outputs.size()), a.cols());
+  if (a.cols() == 0) return seen_of;
   for (std::size_t k = 0; k < outputs.size(); ++k) seen_of.row(static_cast<Eigen::Index>(k)) = a.row(w + outputs[k]);
   if (!without_damping) return seen_of;
   // Outputs keep what they see of velocities.

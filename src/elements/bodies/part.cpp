@@ -109,7 +109,9 @@ class PartSet final : public TypedSet<Part> {
       Body& body = model.bodies[static_cast<std::size_t>(id.index)];
       body.user_mass = p.mass;
       body.mass = p.mass / model.units.ucf;
-      for (const std::string& word : p.exact) body.exact[*exact_coordinate(word)] = true;
+      for (const std::string& word : p.exact) {
+        if (const auto coordinate = exact_coordinate(word)) body.exact[*coordinate] = true;
+      }
       place_mass(p, labels[k], id, model, body, diagnostics);
       body.velocity = {{p.vx, p.vy, p.vz},
                        {p.wx, p.wy, p.wz},
