@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynalin/linear_request.h"
+#include "dynalin/modal_table.h"
 #include "dynalin/operating_point.h"
 #include "dynalin/results.h"
 
@@ -23,6 +24,8 @@ class LinearModel {
   SecondOrder second_order() const;
   // Eigenvalues and mode shapes, or eigenvalues alone.
   Modes modes(bool with_shapes = true) const;
+  // What moves in them, and where the energy is; `modes` are those of this model.
+  ModalTables tables(const EigenSolution& modes, const ModalTableRequest&) const;
 
   const LinearRequest& request() const;
   // What the model is linear about.

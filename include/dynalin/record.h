@@ -20,7 +20,7 @@ class Record {
   void add(const std::string& command, const OperatingPoint&);
   void add(const std::string& command, const LinearModel&, const StateSpace&);
   void add(const std::string& command, const LinearModel&, const SecondOrder&);
-  void add(const std::string& command, const LinearModel&, const Modes&);
+  void add(const std::string& command, const LinearModel&, const Modes&, const ModalTables& = {});
   // Something that was done at a time and has no result.
   void add(const std::string& command, double time);
   // An analysis that failed.

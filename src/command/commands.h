@@ -8,7 +8,7 @@
 
 #include "base/diagnostics.h"
 #include "base/source.h"
-#include "dynalin/results.h"
+#include "dynalin/modal_table.h"
 #include "elements/settings/analysis_settings.h"
 
 namespace dynalin {
@@ -25,22 +25,8 @@ struct LinearCommand {
   std::optional<std::int64_t> rm, pstate, pinput, poutput;
   bool without_damping = false, without_vectors = false, original = false, names = false;
   std::string file, format = "MATRIXX", type, config;
-  // Which modes a table is for: numbers i1 … i2, or |imaginary part| between two frequencies.
-  struct Modes {
-    std::vector<std::int64_t> numbers;
-    std::vector<double> frequencies;
-    bool wanted() const { return !numbers.empty() || !frequencies.empty(); }
-    bool has(std::size_t number, const EigenMode&) const;
-  };
-  Modes coordinates, kinetic, strain, dissipation, markers;
-  Modes energy_per_mode, mass_per_mode;
-  std::optional<std::int64_t> modal_rm;
-  std::vector<std::int64_t> marker_list;  // MLIST
+  ModalTableRequest tables;
   int table_precision = 2;
-  bool wants_tables() const {
-    return coordinates.wanted() || kinetic.wanted() || strain.wanted() || dissipation.wanted() || markers.wanted() ||
-           energy_per_mode.wanted() || mass_per_mode.wanted();
-  }
 };
 
 // ENVIRONMENT: an environment variable for the rest of the run.

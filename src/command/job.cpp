@@ -76,8 +76,8 @@ class Loader {
     const auto dataset = std::make_shared<Dataset>(std::move(parsed.value));
     const auto edits = [](const Command& c) { return std::holds_alternative<EditCommand>(c.what); };
     const bool edited = std::ranges::any_of(job.commands.commands, edits);
-    auto built = build_model(dataset, catalogue(),
-                             {.user_value = options_.user_value, .read_once = edited ? nullptr : dataset});
+    auto built =
+        build_model(dataset, catalogue(), {.user_value = options_.user_value, .read_once = edited ? nullptr : dataset});
     // Statements that could not be read leave gaps that the model would only complain about again.
     if (read || built.diagnostics.has_errors()) diagnostics_.append(std::move(built.diagnostics));
     job.stages.push_back({dataset, std::move(built.value), {}});
@@ -182,8 +182,9 @@ class Loader {
       need(linear->pstate, "PSTATE", found(linear->pstate, "PSTATE"));
       need(linear->pinput, "PINPUT", found(linear->pinput, "PINPUT"));
       need(linear->poutput, "POUTPUT", found(linear->poutput, "POUTPUT"));
-      need(linear->modal_rm, "MARKER", linear->modal_rm && model.find_marker(*linear->modal_rm).has_value());
-      for (const std::int64_t id : linear->marker_list) {
+      const std::optional<std::int64_t> modal_rm = linear->tables.modal_rm;
+      need(modal_rm, "MARKER", modal_rm && model.find_marker(*modal_rm).has_value());
+      for (const std::int64_t id : linear->tables.markers) {
         need(id, "MARKER", id > 0 && model.find_marker(id).has_value());
       }
       const auto rm = linear->rm ? model.find_marker(*linear->rm) : std::nullopt;

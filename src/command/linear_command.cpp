@@ -111,6 +111,24 @@ Integers all_or_range(const std::string& text) {
   return in.eof() ? range : Integers{};
 }
 
+// One or two numbers, or two frequencies.
+void ask(ModalTableRequest& request, const char* name, const Integers& numbers, const std::vector<double>& hz = {}) {
+  if (!numbers.empty()) request.modes[name] = {.first = numbers.front(), .last = numbers.back()};
+  if (!hz.empty()) request.modes[name] = {.lowest_hz = hz[0], .highest_hz = hz[1]};
+}
+
+void ask_for_tables(const WrittenLinear& w, ModalTableRequest& request) {
+  ask(request, "COORDS", w.coords, w.fcoords);
+  ask(request, "KINETIC", w.kinetic, w.fkinetic);
+  ask(request, "STRAIN", w.strain, w.fstrain);
+  ask(request, "DISSIPAT", w.dissipat, w.fdissipat);
+  ask(request, "MRANGE", w.mrange);
+  ask(request, "ENERGY_PER_MODE", all_or_range(w.energy_per_mode));
+  ask(request, "MASS_PER_MODE", all_or_range(w.mass_per_mode));
+  request.markers = w.mlist;
+  request.modal_rm = w.modal_rm;
+}
+
 class Rules {
  public:
   Rules(const WrittenLinear& w, ElementReader& reader) : w_(w), reader_(reader) {}
@@ -245,15 +263,6 @@ class Rules {
 
 }  // namespace
 
-bool LinearCommand::Modes::has(std::size_t number, const EigenMode& mode) const {
-  if (!frequencies.empty()) {
-    const double f = std::abs(mode.eigenvalue_hz.imag());
-    return !mode.is_real && f >= frequencies[0] && f <= frequencies[1];
-  }
-  const auto n = static_cast<std::int64_t>(number);
-  return !numbers.empty() && n >= numbers.front() && n <= numbers.back();
-}
-
 std::span<const ArgumentInfo> linear_arguments() { return detail::argument_infos<WrittenLinear>; }
 
 std::optional<LinearCommand> read_linear(ElementReader& reader) {
@@ -277,16 +286,8 @@ std::optional<LinearCommand> read_linear(ElementReader& reader) {
     reader.error("option-not-built", reader.at("EXPORT"), "LINEAR/EXPORT is not available yet");
     return std::nullopt;
   }
-  c.coordinates = {w.coords, w.fcoords};
-  c.kinetic = {w.kinetic, w.fkinetic};
-  c.strain = {w.strain, w.fstrain};
-  c.dissipation = {w.dissipat, w.fdissipat};
-  c.markers = {w.mrange, {}};
-  c.marker_list = w.mlist;
   c.table_precision = static_cast<int>(w.table_precision.value_or(2));
-  c.energy_per_mode = {all_or_range(w.energy_per_mode), {}};
-  c.mass_per_mode = {all_or_range(w.mass_per_mode), {}};
-  c.modal_rm = w.modal_rm;
+  ask_for_tables(w, c.tables);
   return c;
 }
 

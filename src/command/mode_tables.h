@@ -1,14 +1,13 @@
-// The tables that LINEAR/EIGENSOL asks for, mode by mode, into the text file of the run.
+// The tables that LINEAR/EIGENSOL asks for, mode by mode, as the text file of the run has them.
 #pragma once
 
-#include <iosfwd>
+#include <string>
 
 #include "command/commands.h"
-#include "study/linearization.h"
+#include "study/modal_tables.h"
 
 namespace dynalin {
 
-// What cannot be computed is a failure that says why; nothing of it is written then.
-StudyResult<std::string> mode_tables(const LinearCommand&, const Linearization&, const EigenSolution&);
+std::string mode_tables_text(const LinearCommand&, const EigenSolution&, const TablesFound&);
 
 }  // namespace dynalin

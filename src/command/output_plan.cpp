@@ -25,7 +25,7 @@ std::vector<PlannedFile> planned_files(const Job& job, const SessionOptions& opt
   for (const Command& c : job.commands.commands) {
     const auto* linear = std::get_if<LinearCommand>(&c.what);
     if (!linear) continue;
-    tables = tables || linear->wants_tables();
+    tables = tables || linear->tables.any();
     if (linear->file.empty()) continue;
     const std::string base = linear_path(job, linear->file);
     if (linear->format == "MATLAB") {

@@ -289,20 +289,23 @@ class Session {
     const EigenSolution* const modes = &found->solution;
     remarks_.say(found->remarks);
     // All that this command has to say is in the files of the run, or nothing of it.
-    if (command.wants_tables()) {
-      const auto tables = mode_tables(command, *linear, *modes);
-      if (!tables) return tl::unexpected(tables.error());
-      tables_ << *tables;
+    TablesFound tables;
+    if (command.tables.any()) {
+      auto made = modal_tables(*linear, *modes, command.tables);
+      if (!made) return tl::unexpected(made.error());
+      tables = std::move(*made);
+      tables_ << mode_tables_text(command, *modes, tables);
     }
     write_eigensolution(message_, *modes, cpu_seconds);
     json_.add(c.text, *modes);
     json_.add_point(state);
-    if (results_ && !settings_.results.without_linear) results_->add(*modes);
-    warn_of_missing_modes(command, modes->modes.size());
+    json_.add_tables(tables.tables);
+    if (results_ && !settings_.results.without_linear) results_->add(*modes, tables.tables);
+    remarks_.say(tables.remarks);
     if (!quiet_) {
       fmt::print(out_, "{} at time {:g}\n", c.text, modes->time);
       write_eigen_table(out_, *modes, units().frequency(), options_.bounds);
-      if (command.wants_tables()) fmt::print(out_, "the tables of modes are in {}.txt\n", job_.prefix);
+      if (command.tables.any()) fmt::print(out_, "the tables of modes are in {}.txt\n", job_.prefix);
     }
     return {};
   }
@@ -311,22 +314,6 @@ class Session {
     if (quiet_) return;
     fmt::print(out_, "{} matrices of {} states: {}{}\n", which, states, linear_path(job_, command.file),
                command.format == "MATLAB" ? "*, a file each" : "");
-  }
-
-  // Tables of modes that are not there.
-  void warn_of_missing_modes(const LinearCommand& command, std::size_t modes) {
-    const auto look = [&](std::string_view name, const LinearCommand::Modes& wanted) {
-      if (wanted.numbers.empty()) return;
-      const auto all = std::numeric_limits<std::int64_t>::max();
-      const std::int64_t last = wanted.numbers.back(), count = static_cast<std::int64_t>(modes);
-      if (last <= count || last == all) return;
-      remarks_.say("missing-mode", fmt::format("{} asks for {} {}, the eigensolution has {} {}", name,
-                                               wanted.numbers.front() == last ? "mode" : "modes up to", last, count,
-                                               count == 1 ? "mode" : "modes"));
-    };
-    look("COORDS", command.coordinates), look("KINETIC", command.kinetic), look("STRAIN", command.strain);
-    look("DISSIPAT", command.dissipation), look("MRANGE", command.markers);
-    look("ENERGY_PER_MODE", command.energy_per_mode), look("MASS_PER_MODE", command.mass_per_mode);
   }
 
   Outcome write_matrices(const LinearCommand& command, const std::vector<NamedMatrix>& matrices) {

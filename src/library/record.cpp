@@ -46,9 +46,11 @@ void Record::add(const std::string& command, const LinearModel& of, const StateS
 void Record::add(const std::string& command, const LinearModel& of, const SecondOrder& result) {
   inside_->add_linear(command, of, result);
 }
-void Record::add(const std::string& command, const LinearModel& of, const Modes& result) {
+void Record::add(const std::string& command, const LinearModel& of, const Modes& result, const ModalTables& tables) {
   inside_->add_linear<EigenSolution>(command, of, result);
+  inside_->json.add_tables(tables.tables);
   inside_->warn(command, result.remarks);
+  inside_->warn(command, tables.remarks);
 }
 void Record::add(const std::string& command, double time) { inside_->json.add_plain(command, time); }
 

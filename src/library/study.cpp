@@ -4,6 +4,7 @@
 
 #include "analysis/static_settings.h"
 #include "library/inside.h"
+#include "study/modal_tables.h"
 
 namespace dynalin::library {
 
@@ -75,6 +76,11 @@ SecondOrder LinearModel::second_order() const { return value_or_throw(second_ord
 Modes LinearModel::modes(bool with_shapes) const {
   ModesFound found = value_or_throw(modes_of(inside_->linear, with_shapes ? Vectors::right : Vectors::none));
   return {std::move(found.solution), remarks_of(found.remarks)};
+}
+
+ModalTables LinearModel::tables(const EigenSolution& modes, const ModalTableRequest& request) const {
+  TablesFound found = value_or_throw(modal_tables(inside_->linear, modes, request));
+  return {std::move(found.tables), remarks_of(found.remarks)};
 }
 
 const LinearRequest& LinearModel::request() const { return inside_->linear.request; }

@@ -143,6 +143,13 @@ void JsonResults::add(const std::string& command, const StaticResult& s) {
                                 {"operating_point", json_of(s.at_rest)}});
 }
 
+void JsonResults::add_tables(const std::vector<ModalTable>& tables) {
+  if (tables.empty()) return;
+  Json list = Json::array();
+  for (const ModalTable& table : tables) list.push_back(json_of(table));
+  document_->results.back()["tables"] = std::move(list);
+}
+
 void JsonResults::add_point(const OperatingState& s) { document_->results.back()["operating_point"] = json_of(s); }
 
 void JsonResults::add_warning(const std::string& command, const Remark& r) {

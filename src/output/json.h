@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "dynalin/modal_table.h"
 #include "dynalin/operating_state.h"
 #include "dynalin/remark.h"
 #include "dynalin/results.h"
@@ -26,6 +27,8 @@ class JsonResults {
   void add(const std::string& command, const StaticResult&);
   // The point at which the last result was linearized.
   void add_point(const OperatingState&);
+  // Of the modes of the last result.
+  void add_tables(const std::vector<ModalTable>&);
   // `command` is the one that it came up with, empty for what was found in reading.
   void add_warning(const std::string& command, const Remark&);
   void add_failure(const std::string& command, const std::string& message, const std::vector<std::string>& details);

@@ -1,5 +1,7 @@
 #include "output/json_values.h"
 
+#include <cmath>
+
 namespace dynalin {
 
 namespace {
@@ -94,6 +96,32 @@ Json json_of(const Stability& s) {
                                                                   : "unknown"},
           {"growing_modes", known ? Json(s.growing_modes) : Json()},
           {"reason", text_or_null(s.reason)}};
+}
+
+Json json_of(const ModalTable& table) {
+  // What is missing is not a number, which JSON does not know.
+  const auto cell = [](double x) { return std::isfinite(x) ? Json(x + 0.0) : Json(); };
+  Json rows = Json::array();
+  for (const ModalTable::Row& row : table.rows) {
+    Json values = Json::array();
+    for (std::size_t k = 0; k < row.values.size(); ++k) {
+      if (row.imaginary.empty())
+        values.push_back(cell(row.values[k]));
+      else
+        values.push_back({cell(row.values[k]), cell(row.imaginary[k])});
+    }
+    Json r;
+    if (row.element.empty())
+      r["mode"] = row.part;
+    else
+      r = {{"element", row.element.text()}, {"part", row.part > 0 ? Json(row.part) : Json()}, {"name", row.name}};
+    r["values"] = std::move(values);
+    rows.push_back(std::move(r));
+  }
+  return {{"table", table.name},
+          {"mode", table.mode > 0 ? Json(table.mode) : Json()},
+          {"columns", table.columns},
+          {"rows", std::move(rows)}};
 }
 
 Json json_of(const Remark& r) {

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "dynalin/modal_table.h"
 #include "dynalin/operating_state.h"
 #include "dynalin/remark.h"
 #include "dynalin/units.h"
@@ -14,6 +15,7 @@ using Json = nlohmann::ordered_json;
 Json json_of(const Units&);
 Json json_of(const OperatingState&);
 Json json_of(const Stability&);
+Json json_of(const ModalTable&);
 // {"code", "message", "hint", "at": {"file", "line", "column"}}; `at` is null where no file states it.
 Json json_of(const Remark&);
 

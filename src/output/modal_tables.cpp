@@ -15,17 +15,14 @@ namespace {
 constexpr std::size_t label_width = 13;  // unless an id needs more
 constexpr std::size_t short_name = 4;    // of a statement, where its whole name has no room
 
-enum class LabelForm : bool { whole, abbreviated };
-
 // "PART/2", "POIN/12345678", "NFOR/3,40"; an id is never cut.
-template <class T>
-std::vector<std::string> labels_of(const std::vector<ModalRow<T>>& rows, LabelForm form) {
+std::vector<std::string> labels_of(const std::vector<ModalTable::Row>& rows, bool short_names) {
   std::vector<std::string> labels;
-  for (const auto& row : rows) {
+  for (const ModalTable::Row& row : rows) {
     const std::string id =
-        row.part > 0 ? fmt::format("{},{}", row.element->id, row.part) : std::to_string(row.element->id);
-    std::string_view name = row.element->statement;
-    if (form == LabelForm::abbreviated || name.size() + 1 + id.size() > label_width) name = name.substr(0, short_name);
+        row.part > 0 ? fmt::format("{},{}", row.element.id, row.part) : std::to_string(row.element.id);
+    std::string_view name = row.element.statement;
+    if (short_names || name.size() + 1 + id.size() > label_width) name = name.substr(0, short_name);
     labels.push_back(fmt::format("{}/{}", name, id));
   }
   return labels;
@@ -59,15 +56,15 @@ class Table {
     const std::size_t margin = text.size() < box ? (box - text.size()) / 2 : 0;
     fmt::print(out_, "{}{}{}\n\n", indent(), std::string(margin, ' '), text);
   }
-  std::string heading(std::initializer_list<std::string_view> names, int columns_each = 1) const {
+  std::string heading(std::span<const std::string_view> names, int columns_each = 1) const {
     std::string line;
     for (const std::string_view name : names) line += fmt::format("{:^{}}", name, width() * columns_each);
     return line + " |";
   }
   void head(const std::string& text) { fmt::print(out_, "{}|{}\n", indent(), text); }
-  void row(const std::string& label, const ElementLabel& element, const std::string& cells) {
-    const bool named = format_.names && format_.precision != 2 && !element.view_name.empty();
-    fmt::print(out_, "  {:<{}}|{}|{}\n", label, label_width_, cells, named ? " " + std::string(element.view_name) : "");
+  void row(const std::string& label, const std::string& view_name, const std::string& cells) {
+    const bool named = format_.names && format_.precision != 2 && !view_name.empty();
+    fmt::print(out_, "  {:<{}}|{}|{}\n", label, label_width_, cells, named ? " " + view_name : "");
   }
   std::ostream& out() { return out_; }
 
@@ -77,9 +74,8 @@ class Table {
   std::size_t label_width_ = label_width;
 };
 
-template <class Row>
-bool all_zero(const std::vector<Row>& rows) {
-  return std::all_of(rows.begin(), rows.end(), [](const Row& row) {
+bool all_zero(const std::vector<ModalTable::Row>& rows) {
+  return std::all_of(rows.begin(), rows.end(), [](const ModalTable::Row& row) {
     return std::all_of(row.values.begin(), row.values.end(), [](double x) { return x == 0 || std::isnan(x); });
   });
 }
@@ -94,6 +90,93 @@ double phase_of(const std::complex<double>& v, bool snapped) {
   return degrees;
 }
 
+// Magnitudes and phases.
+void write_shape(std::ostream& out, const ModalTableFormat& format, const ModalTableKind& kind,
+                 const std::vector<ModalTable::Row>& rows) {
+  const std::vector<std::string> labels = labels_of(rows, kind.short_names);
+  Table t(out, format, labels);
+  const bool old = format.precision == 2;
+  const auto columns = static_cast<int>(kind.columns.size());
+  t.title(kind.title, 2 * columns);
+  t.rule({2 * columns});
+  t.head(t.heading(kind.columns, 2));
+  const std::string_view magnitude = old ? "mag." : "magnitude";
+  std::string second;
+  for (int k = 0; k < columns; ++k) second += fmt::format("{:>{}}{:>{}}", magnitude, t.width(), "phase", t.width());
+  t.head(second + " |");
+  t.rule({2 * columns});
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const ModalTable::Row& row = rows[r];
+    std::string cells;
+    for (std::size_t k = 0; k < kind.columns.size(); ++k) {
+      if (k < row.values.size()) {
+        const std::complex<double> v(row.values[k], row.imaginary[k]);
+        cells += t.number(std::abs(v)) + t.number(phase_of(v, old));
+      } else {
+        cells += std::string(static_cast<std::size_t>(2 * t.width()), ' ');
+      }
+    }
+    t.row(labels[r], row.name, cells + " ");
+  }
+  t.rule({2 * columns});
+  out << '\n';
+}
+
+// The last column in a box of its own, with its sum below.
+void write_shares(std::ostream& out, const ModalTableFormat& format, const ModalTableKind& kind,
+                  const std::vector<ModalTable::Row>& rows) {
+  const std::vector<std::string> labels = labels_of(rows, kind.short_names);
+  Table t(out, format, labels);
+  const auto columns = static_cast<int>(kind.columns.size());
+  std::vector<std::string_view> names(kind.columns.begin(), kind.columns.end());
+  names.insert(names.end() - 1, "Modal");
+  t.title(kind.title, columns + 1);
+  t.rule({columns, 1});
+  t.head(t.heading(std::span(names).first(names.size() - 1)) + t.heading(std::span(names).last(1)));
+  t.rule({columns, 1});
+  double total = 0;
+  const std::string blank(static_cast<std::size_t>(t.width()), ' ');
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    std::string cells;
+    for (std::size_t k = 0; k + 1 < kind.columns.size(); ++k) cells += t.number(rows[r].values[k]);
+    const double sum = rows[r].values.back();
+    t.row(labels[r], rows[r].name, cells + blank + " |" + t.number(sum) + " ");
+    total += sum;
+  }
+  t.rule({columns, 1});
+  const std::string indent = t.indent() + std::string(static_cast<std::size_t>(columns * t.width() + 2), ' ');
+  fmt::print(out, "{}|{} |\n{}+{}+\n\n", indent, t.number(total), indent,
+             std::string(static_cast<std::size_t>(t.width() + 1), '-'));
+}
+
+void write_numbers(std::ostream& out, const ModalTableFormat& format, const ModalTableKind& kind,
+                   const std::vector<ModalTable::Row>& rows) {
+  const std::vector<std::string> labels = labels_of(rows, kind.short_names);
+  Table t(out, format, labels);
+  const auto columns = static_cast<int>(kind.columns.size());
+  t.title(kind.title, columns);
+  t.rule({columns});
+  t.head(t.heading(kind.columns));
+  t.rule({columns});
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    std::string cells;
+    for (const double x : rows[r].values) cells += t.number(x);
+    t.row(labels[r], rows[r].name, cells + " ");
+  }
+  t.rule({columns});
+  out << '\n';
+}
+
+void write_summary(std::ostream& out, const ModalTable& table) {
+  const std::string rule(79, '-');
+  fmt::print(out, "  {0}\n  Energy table for MODE {1}\n  {0}\n", rule, table.mode);
+  static constexpr std::array<std::string_view, 5> units = {"", " Cycles per unit time", " User mass/time^2",
+                                                            " User mass", " User mass/time^2"};
+  for (std::size_t k = 0; k < units.size(); ++k)
+    fmt::print(out, "  {:<22s} ={:15.5E}{}\n", table.columns[k], table.rows.front().values[k] + 0.0, units[k]);
+  out << '\n';
+}
+
 }  // namespace
 
 void write_modal_title(std::ostream& out, double time) {
@@ -101,92 +184,15 @@ void write_modal_title(std::ostream& out, double time) {
   fmt::print(out, "\n  {0}\n  Energy/Marker Mode table computation at time {1:f}\n  {0}\n\n", stars, time);
 }
 
-void write_mode_header(std::ostream& out, std::size_t number, const ModeHeader& h) {
-  const std::string rule(79, '-');
-  fmt::print(out, "  {0}\n  Energy table for MODE {1}\n  {0}\n", rule, number);
-  const auto line = [&](std::string_view name, double value, std::string_view unit) {
-    fmt::print(out, "  {:<22s} ={:15.5E}{}{}\n", name, value + 0.0, unit.empty() ? "" : " ", unit);
-  };
-  line("Damping ratio", h.damping_ratio, "");
-  line("Undamped natural freq.", h.frequency, "Cycles per unit time");
-  line("Generalized stiffness", h.stiffness, "User mass/time^2");
-  line("Generalized mass", h.mass, "User mass");
-  line("Kinetic energy", h.kinetic_energy, "User mass/time^2");
-  out << '\n';
-}
-
-void write_shape(std::ostream& out, const ModalTableFormat& format, ShapeTable kind,
-                 const std::vector<ModalRow<std::complex<double>>>& rows) {
-  const std::vector<std::string> labels = labels_of(rows, LabelForm::whole);
-  Table t(out, format, labels);
-  const bool old = format.precision == 2;
-  t.title(kind == ShapeTable::coordinates ? "Normalized coordinates in this mode" : "Marker mode table", 12);
-  t.rule({12});
-  t.head(t.heading({"X", "Y", "Z", "RX", "RY", "RZ"}, 2));
-  const std::string_view magnitude = old ? "mag." : "magnitude";
-  std::string second;
-  for (int k = 0; k < 6; ++k) second += fmt::format("{:>{}}{:>{}}", magnitude, t.width(), "phase", t.width());
-  t.head(second + " |");
-  t.rule({12});
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const auto& row = rows[r];
-    std::string cells;
-    for (std::size_t k = 0; k < 6; ++k) {
-      if (k < row.values.size()) {
-        cells += t.number(std::abs(row.values[k])) + t.number(phase_of(row.values[k], old));
-      } else {
-        cells += std::string(static_cast<std::size_t>(2 * t.width()), ' ');
-      }
-    }
-    t.row(labels[r], *row.element, cells + " ");
-  }
-  t.rule({12});
-  out << '\n';
-}
-
-void write_kinetic(std::ostream& out, const ModalTableFormat& format, const std::vector<ModalRow<double>>& rows) {
-  const std::vector<std::string> labels = labels_of(rows, LabelForm::whole);
-  Table t(out, format, labels);
-  t.title("Percentage distribution of Kinetic energy", 11);
-  t.rule({10, 1});
-  t.head(t.heading({"X", "Y", "Z", "RXX", "RYY", "RZZ", "RXY", "RXZ", "RYZ", "Modal"}) + t.heading({"Sum"}));
-  t.rule({10, 1});
-  double total = 0;
-  const std::string blank(static_cast<std::size_t>(t.width()), ' ');
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const auto& row = rows[r];
-    std::string cells;
-    for (std::size_t k = 0; k < 9; ++k) cells += t.number(row.values[k]);
-    t.row(labels[r], *row.element, cells + blank + " |" + t.number(row.values[9]) + " ");
-    total += row.values[9];
-  }
-  t.rule({10, 1});
-  const std::string indent = t.indent() + std::string(static_cast<std::size_t>(10 * t.width() + 2), ' ');
-  fmt::print(out, "{}|{} |\n{}+{}+\n\n", indent, t.number(total), indent,
-             std::string(static_cast<std::size_t>(t.width() + 1), '-'));
-  if (all_zero(rows)) fmt::print(out, "  Nothing that has mass moves in this mode.\n\n");
-}
-
-void write_forces(std::ostream& out, const ModalTableFormat& format, ForceTable kind,
-                  const std::vector<ModalRow<double>>& rows) {
-  const std::vector<std::string> labels = labels_of(rows, LabelForm::abbreviated);
-  Table t(out, format, labels);
-  t.title(kind == ForceTable::strain ? "Percentage distribution of strain energy"
-                                     : "Percentage distribution of dissipative energy",
-          7);
-  t.rule({7});
-  t.head(t.heading({"Total", "X", "Y", "Z", "RXX", "RYY", "RZZ"}));
-  t.rule({7});
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    std::string cells;
-    for (const double x : rows[r].values) cells += t.number(x);
-    t.row(labels[r], *rows[r].element, cells + " ");
-  }
-  t.rule({7});
-  out << '\n';
-  if (rows.empty() || !all_zero(rows)) return;
-  fmt::print(out, "  No force element {} in this mode.\n\n",
-             kind == ForceTable::strain ? "stores energy" : "dissipates power");
+void write_modal_table(std::ostream& out, const ModalTableFormat& format, const ModalTable& table) {
+  if (table.name == "MODE") return write_summary(out, table);
+  const ModalTableKind* kind = find_modal_table(table.name);
+  if (!kind) return;  // of all modes: write_energies, write_masses
+  const bool complex =
+      std::any_of(table.rows.begin(), table.rows.end(), [](const auto& r) { return !r.imaginary.empty(); });
+  (complex ? write_shape : kind->totals ? write_shares : write_numbers)(out, format, *kind, table.rows);
+  if (!kind->nothing.empty() && all_zero(table.rows) && (kind->totals || !table.rows.empty()))
+    fmt::print(out, "  {}\n\n", kind->nothing);
 }
 
 }  // namespace dynalin

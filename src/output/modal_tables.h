@@ -5,8 +5,7 @@
 #include <functional>
 #include <iosfwd>
 
-#include "linear/modal_distribution.h"
-#include "linear/modal_sums.h"
+#include "study/modal_tables.h"
 
 namespace dynalin {
 
@@ -16,14 +15,8 @@ struct ModalTableFormat {
 };
 
 void write_modal_title(std::ostream&, double time);
-void write_mode_header(std::ostream&, std::size_t number, const ModeHeader&);
-// Magnitudes and phases, of the bodies and states or of chosen markers.
-enum class ShapeTable : bool { coordinates, markers };
-void write_shape(std::ostream&, const ModalTableFormat&, ShapeTable,
-                 const std::vector<ModalRow<std::complex<double>>>&);
-void write_kinetic(std::ostream&, const ModalTableFormat&, const std::vector<ModalRow<double>>&);
-enum class ForceTable : bool { strain, dissipation };
-void write_forces(std::ostream&, const ModalTableFormat&, ForceTable, const std::vector<ModalRow<double>>&);
+// One of a mode, what stands above them included.
+void write_modal_table(std::ostream&, const ModalTableFormat&, const ModalTable&);
 
 // One row a wanted mode, with shares in percent of what the wanted modes hold together, and the totals.
 using WantedMode = std::function<bool(std::size_t)>;

@@ -35,7 +35,7 @@ std::string channel_map(std::string_view list, std::string_view entry, const std
 
 std::string ResultsFile::number(double x) const { return fmt::format("{:.{}g}", x + 0.0, digits_); }
 
-void ResultsFile::add(const EigenSolution& e) {
+void ResultsFile::add(const EigenSolution& e, const std::vector<ModalTable>& tables) {
   std::string s = fmt::format("<dl:Linear time=\"{}\" rm=\"{}\" pstate=\"{}\" damping=\"{}\" original=\"{}\">\n",
                               number(e.time), e.rm, e.pstate, e.without_damping ? 0 : 1, e.original ? 1 : 0);
   s += state_map(e.states);
@@ -66,7 +66,23 @@ void ResultsFile::add(const EigenSolution& e) {
     }
     s += "</dl:Mode>\n";
   }
+  for (const ModalTable& t : tables) s += table(t);
   blocks_.push_back(s + "</dl:Linear>\n");
+}
+
+std::string ResultsFile::table(const ModalTable& t) const {
+  std::string columns;
+  for (const std::string& c : t.columns) columns += (columns.empty() ? "" : ";") + c;
+  std::string s = fmt::format("<dl:Table name=\"{}\" mode=\"{}\" columns=\"{}\">\n", t.name, t.mode, escaped(columns));
+  for (const ModalTable::Row& row : t.rows) {
+    s += fmt::format("<dl:Row element=\"{}\" part=\"{}\">", escaped(row.element.text()), row.part);
+    for (std::size_t k = 0; k < row.values.size(); ++k) {
+      s += (k > 0 ? " " : "") + number(row.values[k]);
+      if (!row.imaginary.empty()) s += " " + number(row.imaginary[k]);
+    }
+    s += "</dl:Row>\n";
+  }
+  return s + "</dl:Table>\n";
 }
 
 std::string ResultsFile::matrix(std::string_view name, const Eigen::MatrixXd& m) const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dynalin/modal_table.h"
 #include "dynalin/results.h"
 #include "output/results_steps.h"
 
@@ -18,7 +19,7 @@ class ResultsFile {
   ResultsFile(std::string title, int digits, Units units, ResultsSettings settings)
       : title_(std::move(title)), digits_(digits), steps_(std::move(units), std::move(settings)) {}
   void add(StepKind kind, const OperatingState& state) { steps_.add(kind, state); }
-  void add(const EigenSolution&);
+  void add(const EigenSolution&, const std::vector<ModalTable>& tables = {});
   void add(const StateSpace&);
   void add(const SecondOrder&);
   enum class Ending : bool { successful, failed };
@@ -26,6 +27,7 @@ class ResultsFile {
 
  private:
   std::string number(double) const;
+  std::string table(const ModalTable&) const;
   std::string matrix(std::string_view name, const Eigen::MatrixXd&) const;
   // The head of what belongs to matrices: options and channels.
   template <class Matrices>

@@ -65,6 +65,23 @@ TEST_F(Both, redundant_rows_and_remarks_have_code_and_place) {
   EXPECT_EQ(r.json["warnings"][0]["code"], "passed-over");
 }
 
+TEST_F(Both, tables_of_modes_are_values_in_json) {
+  const RunResult r = run(pendulum("SPRINGDAMPER/1, ROTATIONAL, I=21, J=1, KT=2, CT=0.1\nMARKER/4, PART=2, QP=1,0,0\n"),
+                          "SIM/STAT\nLINEAR/EIGENSOL, COORDS=1, KINETIC=1,3, FSTRAIN=0.1,9, DISSIPAT=1, MLIST=20,4, "
+                          "MRANGE=1, ENERGY_PER_MODE=ALL, MASS_PER_MODE=1, MODAL_RM=20\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  std::map<std::string, nlohmann::json> tables;
+  for (const auto& table : r.result(1)["tables"]) tables[table["table"]] = table;
+  EXPECT_EQ(tables.size(), 9u);
+  EXPECT_EQ(tables["STRAIN"]["rows"][0]["element"], "SPRINGDAMPER/1");
+  EXPECT_EQ(tables["STRAIN"]["rows"][0]["values"].size(), tables["STRAIN"]["columns"].size());
+  EXPECT_NEAR(tables["KINETIC"]["rows"][0]["values"][9].get<double>(), 100, 1e-10);
+  EXPECT_EQ(tables["MRANGE"]["rows"].size(), 2u);
+  EXPECT_EQ(tables["COORDS"]["rows"][0]["values"][0].size(), 2u);
+  EXPECT_EQ(tables["EFFECTIVE_MASS"]["rows"][0]["mode"], 1);
+  EXPECT_EQ(r.json["warnings"].back()["code"], "missing-mode");
+}
+
 TEST_F(Both, settings_of_equilibrium_act_from_dataset_and_command) {
   const RunResult r = run(pendulum("EQUILIBRIUM/ALIMIT=0.5D\n"), "SIM/STAT\nEQUILIBRIUM/ALIMIT=20D\nSIM/STAT\n");
   ASSERT_EQ(r.status, 0) << r.err;

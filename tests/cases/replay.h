@@ -87,7 +87,13 @@ class Replay {
     else if (c.option == LinearOption::statemat)
       record.add(text, linear, linear.state_space());
     else
-      record.add(text, linear, linear.modes(!c.without_vectors));
+      add_modes(text, c, record, linear);
+  }
+
+  static void add_modes(const std::string& text, const LinearCommand& c, library::Record& record,
+                        const library::LinearModel& linear) {
+    const library::Modes modes = linear.modes(!c.without_vectors);
+    record.add(text, linear, modes, c.tables.any() ? linear.tables(modes, c.tables) : ModalTables{});
   }
 
   const SessionOptions& options_;

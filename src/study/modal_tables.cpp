@@ -1,0 +1,183 @@
+#include "study/modal_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace dynalin {
+
+namespace {
+
+using Row = ModalTable::Row;
+using Markers = std::span<const MarkerId>;
+
+Row row_of(const ElementLabel& label, std::int64_t part) {
+  return {{std::string(label.statement), label.id}, part, std::string(label.view_name), {}, {}};
+}
+
+std::vector<Row> plain(const std::vector<ModalRow<double>>& from) {
+  std::vector<Row> rows;
+  for (const auto& r : from) rows.emplace_back(row_of(*r.element, r.part)).values = r.values;
+  return rows;
+}
+
+std::vector<Row> plain(const std::vector<ModalRow<std::complex<double>>>& from) {
+  std::vector<Row> rows;
+  for (const auto& r : from) {
+    Row& row = rows.emplace_back(row_of(*r.element, r.part));
+    for (const std::complex<double>& v : r.values) row.values.push_back(v.real()), row.imaginary.push_back(v.imag());
+  }
+  return rows;
+}
+
+using Name = std::string_view;
+constexpr std::array<Name, 6> six = {"X", "Y", "Z", "RX", "RY", "RZ"};
+constexpr std::array<Name, 10> shares = {"X", "Y", "Z", "RXX", "RYY", "RZZ", "RXY", "RXZ", "RYZ", "Sum"};
+constexpr std::array<Name, 7> works = {"Total", "X", "Y", "Z", "RXX", "RYY", "RZZ"};
+
+constexpr std::array kinds = {
+    ModalTableKind{.name = "COORDS",
+                   .columns = six,
+                   .title = "Normalized coordinates in this mode",
+                   .rows = [](const ModalDistribution& d, std::size_t k, Markers) { return plain(d.coordinates(k)); }},
+    ModalTableKind{.name = "MRANGE",
+                   .columns = six,
+                   .title = "Marker mode table",
+                   .rows = [](const ModalDistribution& d, std::size_t k, Markers m) { return plain(d.markers(k, m)); }},
+    ModalTableKind{.name = "KINETIC",
+                   .columns = shares,
+                   .title = "Percentage distribution of Kinetic energy",
+                   .nothing = "Nothing that has mass moves in this mode.",
+                   .totals = true,
+                   .rows = [](const ModalDistribution& d, std::size_t k, Markers) { return plain(d.kinetic(k)); }},
+    ModalTableKind{.name = "STRAIN",
+                   .columns = works,
+                   .title = "Percentage distribution of strain energy",
+                   .nothing = "No force element stores energy in this mode.",
+                   .short_names = true,
+                   .rows = [](const ModalDistribution& d, std::size_t k, Markers) { return plain(d.strain(k)); }},
+    ModalTableKind{.name = "DISSIPAT",
+                   .columns = works,
+                   .title = "Percentage distribution of dissipative energy",
+                   .nothing = "No force element dissipates power in this mode.",
+                   .short_names = true,
+                   .rows = [](const ModalDistribution& d, std::size_t k, Markers) { return plain(d.dissipation(k)); }},
+};
+
+ModalTable summary_of(std::size_t mode, const ModeHeader& h) {
+  Row row;
+  row.part = static_cast<std::int64_t>(mode + 1);
+  row.values = {h.damping_ratio, h.frequency, h.stiffness, h.mass, h.kinetic_energy};
+  return {"MODE",
+          mode + 1,
+          {"Damping ratio", "Undamped natural freq.", "Generalized stiffness", "Generalized mass", "Kinetic energy"},
+          {std::move(row)}};
+}
+
+// A table of all modes: a row for each that is asked for.
+template <class Fill>
+ModalTable over_modes(std::string name, std::vector<std::string> columns, const EigenSolution& of,
+                      const ModeRange& range, const Fill& fill) {
+  ModalTable table{std::move(name), 0, std::move(columns), {}};
+  for (std::size_t k = 0; k < of.modes.size(); ++k) {
+    if (!range.has(k + 1, of.modes[k])) continue;
+    Row& row = table.rows.emplace_back();
+    row.part = static_cast<std::int64_t>(k + 1);
+    fill(k, row);
+  }
+  return table;
+}
+
+void look_for_missing(const ModalTableRequest& request, std::size_t count, Diagnostics& remarks) {
+  for (const auto& [name, range] : request.modes) {
+    if (range.last <= static_cast<std::int64_t>(count) || range.last == ModeRange::all().last) continue;
+    remarks.warning("missing-mode", {},
+                    fmt::format("{} asks for {} {}, the eigensolution has {} {}", name,
+                                range.first == range.last ? "mode" : "modes up to", range.last, count,
+                                count == 1 ? "mode" : "modes"));
+  }
+}
+
+StudyFailure no_such(std::string_view what) {
+  return StudyFailure({"linear analysis", fmt::format("{} does not exist", what), {}});
+}
+
+}  // namespace
+
+std::span<const ModalTableKind> modal_table_kinds() { return kinds; }
+
+const ModalTableKind* find_modal_table(std::string_view name) {
+  const auto found = std::ranges::find(kinds, name, &ModalTableKind::name);
+  return found == kinds.end() ? nullptr : &*found;
+}
+
+bool ModeRange::has(std::size_t number, const EigenMode& mode) const {
+  if (highest_hz > 0) {
+    const double f = std::abs(mode.eigenvalue_hz.imag());
+    return !mode.is_real && f >= lowest_hz && f <= highest_hz;
+  }
+  const auto n = static_cast<std::int64_t>(number);
+  return first > 0 && n >= first && n <= last;
+}
+
+StudyResult<TablesFound> modal_tables(const Linearization& of, const EigenSolution& modes,
+                                      const ModalTableRequest& request) {
+  TablesFound found;
+  const Model& model = of.system->model();
+  std::vector<MarkerId> markers;
+  for (const std::int64_t id : request.markers) {
+    const auto marker = model.find_marker(id);
+    if (!marker) return tl::unexpected(no_such(fmt::format("MARKER/{}", id)));
+    markers.push_back(*marker);
+  }
+  for (const auto& [name, range] : request.modes) {
+    if (!find_modal_table(name) && name != "ENERGY_PER_MODE" && name != "MASS_PER_MODE")
+      return tl::unexpected(no_such("the modal table " + name));
+  }
+  const ModalDistribution distribution(*of.system, of.point, of.linear, modes);
+  for (std::size_t k = 0; k < modes.modes.size(); ++k) {
+    bool any = false;
+    for (const ModalTableKind& kind : kinds) {
+      if (!request.of(std::string(kind.name)).has(k + 1, modes.modes[k])) continue;
+      if (!any) found.tables.push_back(summary_of(k, distribution.header(k)));
+      any = true;
+      found.tables.push_back({std::string(kind.name),
+                              k + 1,
+                              {kind.columns.begin(), kind.columns.end()},
+                              kind.rows(distribution, k, markers)});
+    }
+  }
+  if (const ModeRange range = request.of("ENERGY_PER_MODE"); range.any()) {
+    auto energies = energy_per_mode(*of.system, of.point, of.linear, modes);
+    if (!energies) return tl::unexpected(StudyFailure(energies.error()));
+    const auto fill = [&](std::size_t k, Row& row) {
+      const EnergyPerMode::Share& share = energies->modes[k];
+      row.values = {share.kinetic, share.potential, share.power};
+    };
+    found.tables.push_back(over_modes("ENERGY_PER_MODE", {"Kinetic", "Potential", "Diss. power"}, modes, range, fill));
+    found.energies = std::move(*energies);
+  }
+  if (const ModeRange range = request.of("MASS_PER_MODE"); range.any()) {
+    const auto frame = request.modal_rm ? model.find_marker(*request.modal_rm) : MarkerId{};
+    if (!frame) return tl::unexpected(no_such(fmt::format("MARKER/{}", *request.modal_rm)));
+    found.masses = modal_masses(*of.system, of.point, of.linear, modes, *frame);
+    const auto participation = [&](std::size_t k, Row& row) {
+      const ModalMasses::Row& m = found.masses->modes[k];
+      row.values = {m.generalized}, row.imaginary = {0};
+      for (const auto& f : m.participation) row.values.push_back(f.real()), row.imaginary.push_back(f.imag());
+    };
+    const auto effective = [&](std::size_t k, Row& row) {
+      const auto& masses = found.masses->modes[k].effective;
+      row.values.assign(masses.begin(), masses.end());
+    };
+    const std::vector<std::string> axes(six.begin(), six.end());
+    found.tables.push_back(
+        over_modes("PARTICIPATION", {"Gen. mass", "X", "Y", "Z", "RX", "RY", "RZ"}, modes, range, participation));
+    found.tables.push_back(over_modes("EFFECTIVE_MASS", axes, modes, range, effective));
+  }
+  look_for_missing(request, modes.modes.size(), found.remarks);
+  return found;
+}
+
+}  // namespace dynalin
