@@ -14,10 +14,9 @@ namespace {
 
 // Estimated roundings of entries below this are of no weight.
 constexpr double suspicious = 1e-9;
-constexpr int samples = 4;
-constexpr double units = 1;  // in the last place
-// A sample is seldom the worst case: where one rounding counts alone, all samples stay below a tenth of it once in 10⁴.
-constexpr double margin = 10;
+constexpr int samples = 3;
+constexpr double units = 1;   // in the last place
+constexpr double margin = 4;  // a sample is seldom the worst case
 
 }  // namespace
 
