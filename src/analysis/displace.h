@@ -23,7 +23,7 @@ inline double displace(const System& system, OperatingPoint& op, const Eigen::Re
   const Layout& layout = system.layout();
   double turn = 0, way = 0;
   for (const BodyBlock& b : layout.bodies) {
-    if (b.count == 6) turn = std::max(turn, step.segment<3>(b.offset + 3).norm());
+    if (b.turns()) turn = std::max(turn, step.segment<3>(b.offset + 3).norm());
     if (b.count > 0) way = std::max(way, step.segment<3>(b.offset).norm());
   }
   double factor = turn > limits.rotation ? limits.rotation / turn : 1.0;
@@ -41,7 +41,7 @@ inline double displace(const System& system, OperatingPoint& op, const Eigen::Re
       return factor * Vector{step(block.offset + k), step(block.offset + k + 1), step(block.offset + k + 2)};
     };
     op.poses[b].r += part(0);
-    if (block.count == 6) op.poses[b].R = orthonormalized(rotation_exponential(part(3)) * op.poses[b].R);
+    if (block.turns()) op.poses[b].R = orthonormalized(rotation_exponential(part(3)) * op.poses[b].R);
   }
   for (std::size_t k = 0; k < op.extra.size(); ++k) {
     op.extra[k] += factor * step(layout.body_coordinate_count + static_cast<Eigen::Index>(k));

@@ -60,7 +60,7 @@ void add_momentum_rows(const System& system, const Motion& motion, std::vector<S
       const Vector c = R * body.p_BC;
       for (std::size_t k = 0; k < 3; ++k) add(unit_vectors[k], cross(c, unit_vectors[k]));
     }
-    if (block.count < 6) continue;
+    if (!block.turns()) continue;
     for (const Vector& axis : axes_with_inertia(body, R)) add({}, axis);
   }
 }
@@ -227,7 +227,7 @@ bool lacks_mass(const System& system) {
     if (layout.bodies[b].count == 0) continue;
     const Body& body = system.model().bodies[b];
     if (body.mass == 0) return true;
-    if (layout.bodies[b].count < 6) continue;
+    if (!layout.bodies[b].turns()) continue;
     // Far from singular without a look at the principal values.
     const Matrix3& J = body.J_BC;
     const double mean = trace(J) / 3, determinant = dot(cross(J.x, J.y), J.z);

@@ -45,7 +45,7 @@ std::vector<Condition> stated_velocities(const System& system, const Motion& mot
         }
         conditions.push_back(std::move(s));
       }
-      if (body.velocity.angular[k] && block.count == 6) {
+      if (body.velocity.angular[k] && block.turns()) {
         const Vector a = motion.axes(system.layout().marker(body.velocity.angular_axes))[k];
         Condition s{{},
                     {},
@@ -93,7 +93,7 @@ void add_norm(const System& system, const Motion& motion, double weight, std::ve
     for (std::size_t r = 0; r < 3; ++r) {
       const auto i = block.offset + static_cast<std::int32_t>(r);
       entries.push_back({i, i, weight});
-      for (std::size_t k = 0; k < 3 && block.count == 6; ++k) {
+      for (std::size_t k = 0; k < 3 && block.turns(); ++k) {
         const auto j = block.offset + 3 + static_cast<std::int32_t>(k);
         entries.push_back({i, j, weight * C(r, k)});
         entries.push_back({j, i, weight * C(r, k)});
@@ -140,7 +140,8 @@ double fastest_of(const System& system, const Eigen::VectorXd& velocity) {
 }
 
 // Whether velocities meet a condition as far as it follows from others, in the size of its own terms: those that axes
-// turned otherwise would show count as well. `tolerance` is relative, `rounding` is that of velocities, in lengths of the model and radians.
+// turned otherwise would show count as well. `tolerance` is relative, `rounding` is that of velocities, in lengths of
+// the model and radians.
 bool follows(const System& system, const Condition& c, const Eigen::VectorXd& velocity, double tolerance,
              double rounding) {
   const Miss off = miss(c, velocity);

@@ -126,7 +126,7 @@ void CarriedForces::add(const Directions& d, std::vector<Eigen::RowVectorXd>& ro
 void CarriedForces::see_from_fixed_points(const Directions& d, std::int32_t b, OnBody& on) const {
   const BodyBlock& block = bodies_[static_cast<std::size_t>(b)];
   on.place = place_of(b);
-  on.turns = block.count == 6;
+  on.turns = block.turns();
   if (!on.turns) return;
   const auto moved = d.change[Directions::at(PartialBy::position)].middleRows(block.offset, 3);
   on.change.bottomRows(3) -= cross_matrix(on.load.head<3>()) * moved / length_;

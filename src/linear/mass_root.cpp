@@ -15,7 +15,7 @@ MassRoot::MassRoot(const System& system, const OperatingPoint& op) : length_(sys
     const BodyBlock& block = layout.bodies[b];
     const Body& body = system.model().bodies[b];
     if (block.count == 0 || body.user_mass == 0) continue;
-    Item item{b, block.offset, block.count == 6, std::sqrt(body.user_mass), op.poses[b].R * body.p_BC};
+    Item item{b, block.offset, block.turns(), std::sqrt(body.user_mass), op.poses[b].R * body.p_BC};
     item.centre = op.poses[b].r + item.arm;
     const Matrix3 J = op.poses[b].R * body.J_BC * transpose(op.poses[b].R);
     const double factor = body.user_mass / body.mass;

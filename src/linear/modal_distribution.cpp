@@ -7,6 +7,7 @@
 
 #include "linear/original_states.h"
 #include "linear/wrench_work.h"
+#include "mechanics/pair_blocks.h"
 
 namespace dynalin {
 
@@ -86,7 +87,7 @@ std::array<double, 9> ModalDistribution::kinetic_terms(std::size_t body, const E
   ComplexVector of_cm = three(v, block.offset);
   ComplexVector w{};
   const Matrix3& R = motion_.bodies[body].R;
-  if (block.count == 6) {
+  if (block.turns()) {
     w = three(v, block.offset + 3);
     add(of_cm, times(-skew(R * b.p_BC), w));
   }
@@ -148,7 +149,7 @@ std::pair<std::vector<ModalRow<Complex>>, Complex> ModalDistribution::shape(std:
   for (const std::size_t b : bodies_by_id()) {
     const BodyBlock& block = system_.layout().bodies[b];
     ComplexVector of_cm = three(dq, block.offset), turn{};
-    if (block.count == 6) {
+    if (block.turns()) {
       turn = three(dq, block.offset + 3);
       add(of_cm, times(-skew(motion_.bodies[b].R * system_.model().bodies[b].p_BC), turn));
     }
@@ -191,13 +192,13 @@ std::vector<ModalRow<Complex>> ModalDistribution::markers(std::size_t mode, std:
   for (const MarkerId m : list) {
     const MarkerPlace& place =
         layout.marker(system_.signals().place_of(m));  // a floating one is where its force puts it
-    const BodyBlock& block = layout.body(place.body);
     ComplexVector moved{}, turned{};
-    if (block.count >= 3) moved = three(dq, block.offset);
-    if (block.count == 6) {
-      turned = three(dq, block.offset + 3);
-      add(moved, times(-skew(motion_.body(place.body).R * place.p_BM), turned));
-    }
+    for_each_block(motion_, place, layout, [&](const PairBlock& b) {
+      ComplexVector moves{};
+      for (std::size_t k = 0; k < b.count; ++k) moves[k] = dq(b.column + static_cast<std::int32_t>(k));
+      add(moved, times(b.moves, moves));
+      add(turned, times(b.turns, moves));
+    });
     ModalRow<Complex> row{&layout.marker_label(m)};
     for (const ComplexVector& part : {moved, turned}) {
       for (const Complex& v : part) row.values.push_back(largest == Complex(0) ? Complex(0) : v / largest);

@@ -37,7 +37,7 @@ ComplexMatrix table_entries(const System& system, const OperatingPoint& op, cons
     const BodyBlock& block = layout.bodies[b];
     if (block.count == 0) continue;
     ComplexMatrix of = displacement.middleRows(block.offset, block.count);
-    if (block.count == 6) {
+    if (block.turns()) {
       const Matrix3 arm = skew(op.poses[b].R * system.model().bodies[b].p_BC);
       for (Index i = 0; i < 3; ++i) {
         for (Index j = 0; j < 3; ++j)

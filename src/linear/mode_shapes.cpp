@@ -29,7 +29,7 @@ const ElementLabel* furthest(const System& system, const OperatingPoint& op, con
         return imaginary ? x.imag() : x.real();
       };
       const Vector r{part(0), part(1), part(2)};
-      const Vector turn = block.count == 6 ? Vector{part(3), part(4), part(5)} : Vector{};
+      const Vector turn = block.turns() ? Vector{part(3), part(4), part(5)} : Vector{};
       const Vector of_cm = r + cross(turn, c);
       size += dot(of_cm, of_cm) + L2 * dot(turn, turn);
     }

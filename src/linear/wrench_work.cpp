@@ -1,6 +1,9 @@
 #include "linear/wrench_work.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "mechanics/pair_blocks.h"
 
 namespace dynalin {
 
@@ -9,6 +12,15 @@ namespace {
 using Complex = std::complex<double>;
 
 double size_of(const Matrix3& m) { return std::sqrt(trace(m * transpose(m))); }
+// A bound of how much longer it makes a vector, reached by the identity.
+double stretch(const Matrix3& m) {
+  double rows = 0, columns = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    rows = std::max(rows, std::abs(m(i, 0)) + std::abs(m(i, 1)) + std::abs(m(i, 2)));
+    columns = std::max(columns, std::abs(m(0, i)) + std::abs(m(1, i)) + std::abs(m(2, i)));
+  }
+  return std::sqrt(rows * columns);
+}
 double size_of(const ComplexVector& v) { return std::sqrt(std::norm(v[0]) + std::norm(v[1]) + std::norm(v[2])); }
 
 }  // namespace
@@ -27,30 +39,32 @@ WrenchWork::WrenchWork(const Layout& layout, PartialBy family, const Eigen::Vect
                        Eigen::VectorXd dw_size)
     : layout_(layout), family_(family), u_(u), dw_(std::move(dw)), dw_size_(std::move(dw_size)) {}
 
-ComplexVector WrenchWork::motion_of(BodyId body, std::int32_t first) const {
-  const BodyBlock& block = layout_.body(body);
-  return block.count >= first + 3 ? three(u_, block.offset + first) : ComplexVector{};
-}
-
 WrenchWork::Done WrenchWork::of(const MarkerWrench& w) const {
   const bool strain = family_ == PartialBy::position;
   const PairMotion& p = w.pair;
-  const std::array<ComplexVector, 4> du = {motion_of(p.body_I, 0), motion_of(p.body_I, 3), motion_of(p.body_J, 0),
-                                           motion_of(p.body_J, 3)};
-  const GroupPartials& on_force = strain ? w.force.force_on_position : w.force.force_on_velocity;
-  const GroupPartials& on_torque = strain ? w.force.torque_on_position : w.force.torque_on_velocity;
 
-  // What the motion makes of force and torque, and how much if nothing cancelled.
-  ComplexVector dF{}, dT{};
-  std::array<double, 4> du_size{};
-  double dF_size = 0, dT_size = 0;
-  for (std::size_t g = 0; g < 4; ++g) {
-    du_size[g] = size_of(du[g]);
-    dF_size += du_size[g] * size_of(on_force.group[g]);
-    dT_size += du_size[g] * size_of(on_torque.group[g]);
-    add(dF, times(on_force.group[g], du[g]));
-    add(dT, times(on_torque.group[g], du[g]));
-  }
+  // What the motion makes of force and torque, and how much if nothing cancelled; and what they work on: the origin and
+  // the axes of I, and against them those of the point that takes the opposite.
+  ComplexVector dF{}, dT{}, moved{}, turned{};
+  double dF_size = 0, dT_size = 0, moved_size = 0, turned_size = 0;
+  const Vector reach = w.force.reaction == Reaction::at_J ? Vector{} : value(p.arm) - value(p.arm_J);
+  for_each_block(p, layout_, [&](const PairBlock& b) {
+    ComplexVector du{};
+    for (std::size_t k = 0; k < b.count; ++k) du[k] = u_(b.column + static_cast<std::int32_t>(k));
+    const double du_size = size_of(du);
+    const BlockPartials on = partials_by(b, w.force);
+    const Matrix3 &on_force = strain ? on.force : on.force_by_rate, &on_torque = strain ? on.torque : on.torque_by_rate;
+    dF_size += du_size * size_of(on_force);
+    dT_size += du_size * size_of(on_torque);
+    add(dF, times(on_force, du));
+    add(dT, times(on_torque, du));
+    if (b.of_J && !w.force.acts_on_J()) return;
+    const Matrix3 moves = b.of_J ? b.moves - skew(reach) * b.turns : b.moves;
+    add(moved, times(moves, du), b.of_J ? -1.0 : 1.0);
+    add(turned, times(b.turns, du), b.of_J ? -1.0 : 1.0);
+    moved_size += du_size * stretch(moves);
+    turned_size += du_size * stretch(b.turns);
+  });
   for (const MarkerWrench::Scalar& s : w.scalars) {
     if (s.family != PartialBy::algebraic && s.family != family_) continue;
     const Complex change = s.family == family_ ? u_(s.column) : dw_(s.column);
@@ -63,23 +77,17 @@ WrenchWork::Done WrenchWork::of(const MarkerWrench& w) const {
   }
   for (const MarkerWrench::Turn& turn : w.turns) {
     if (!strain) continue;
-    const ComplexVector theta = motion_of(turn.body, 3);
-    add(dF, times(turn.force, theta));
-    add(dT, times(turn.torque, theta));
+    ComplexVector phi{};
+    for_each_turning_block(*p.motion, *turn.axes, layout_,
+                           [&](std::int32_t column, std::size_t count, const Matrix3& turns) {
+                             for (std::size_t k = 0; k < count; ++k)
+                               for (std::size_t c = 0; c < 3; ++c)
+                                 phi[c] += u_(column + static_cast<std::int32_t>(k)) * turns[k][c];
+                           });
+    add(dF, times(turn.force, phi));
+    add(dT, times(turn.torque, phi));
   }
 
-  // What they work on.
-  const Vector arm_I = value(p.arm_I), arm_J = value(w.force.reaction == Reaction::at_J ? p.arm_J : p.arm);
-  ComplexVector moved = du[0], turned = du[1];
-  add(moved, times(-skew(arm_I), du[1]));
-  double moved_size = du_size[0] + norm(arm_I) * du_size[1], turned_size = du_size[1];
-  if (w.force.acts_on_J()) {
-    add(moved, du[2], -1.0);
-    add(moved, times(-skew(arm_J), du[3]), -1.0);
-    add(turned, du[3], -1.0);
-    moved_size += du_size[2] + norm(arm_J) * du_size[3];
-    turned_size += du_size[3];
-  }
   Done done;
   done.without_cancellation = moved_size * dF_size + turned_size * dT_size;
   for (std::size_t k = 0; k < 3; ++k) {

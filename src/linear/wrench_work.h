@@ -33,8 +33,6 @@ class WrenchWork {
   Done of(const MarkerWrench&) const;
 
  private:
-  ComplexVector motion_of(BodyId, std::int32_t first) const;
-
   const Layout& layout_;
   PartialBy family_;
   const Eigen::VectorXcd& u_;

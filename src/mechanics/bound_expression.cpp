@@ -10,15 +10,15 @@ namespace dynalin {
 namespace {
 
 template <std::size_t N>
-void add_measure_gradient(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion, BodyId body,
-                          Equations& eq, std::int32_t row, double factor, bool passes_over, PartialBy velocity_family) {
-  const BodyBlock& block = eq.layout().body(body);
-  const auto g = path::varied_measure<N>(measure, places, motion, body).value.partial;
+void add_measure_gradient(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion,
+                          const CoordinateBlock& block, Equations& eq, std::int32_t row, double factor,
+                          bool passes_over, PartialBy velocity_family) {
+  const auto g = path::varied_measure<N>(measure, places, motion, block).value.partial;
   const std::array families = {PartialBy::position, velocity_family, PartialBy::acceleration};
   for (std::size_t level = 0; 6 * level < N; ++level) {
     for (std::int32_t k = 0; k < block.count; ++k) {
       const double value = g[6 * level + static_cast<std::size_t>(k)];
-      eq.add(families[level], row, block.offset + k, factor == 0.0 && passes_over ? 0.0 : factor * value);
+      eq.add(families[level], row, block.column + k, factor == 0.0 && passes_over ? 0.0 : factor * value);
     }
   }
 }
@@ -137,22 +137,13 @@ void BoundExpression::add_atom(const BoundAtom& a, const Motion& motion, Equatio
   } else if (a.kind == Kind::force) {
     add_force(a, motion, eq, row, factor, velocity_family);
   } else if (a.kind == Kind::measure) {
-    for (std::size_t b = 0; b < a.body_count; ++b) {
+    for (const CoordinateBlock& block : blocks(a)) {
       const auto add_levels = [&]<std::size_t N>() {
-        add_measure_gradient<N>(a.measure, a.places, motion, a.bodies[b], eq, row, factor, passes_over,
-                                velocity_family);
+        add_measure_gradient<N>(a.measure, a.places, motion, block, eq, row, factor, passes_over, velocity_family);
       };
       if (a.order == 0) add_levels.operator()<6>();
       if (a.order == 1) add_levels.operator()<12>();
       if (a.order == 2) add_levels.operator()<18>();
-    }
-    const std::array families = {PartialBy::position, velocity_family, PartialBy::acceleration};
-    for (std::size_t p = 0; p < a.parameter_count; ++p) {
-      const auto m = path::measure_by_parameter(a.measure, a.places, motion, a.parameters[p]);
-      for (std::size_t level = 0; level <= static_cast<std::size_t>(a.order); ++level) {
-        eq.add(families[level], row, a.parameters[p],
-               factor == 0.0 && passes_over ? 0.0 : factor * m.value.partial[level]);
-      }
     }
   }
 }
@@ -160,10 +151,10 @@ void BoundExpression::add_atom(const BoundAtom& a, const Motion& motion, Equatio
 namespace {
 
 template <std::size_t N>
-void add_measure_row(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion, BodyId body,
-                     ConstraintRows& rows, std::int32_t row, const BodyBlock& block, const Taylor& partial,
+void add_measure_row(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion,
+                     const CoordinateBlock& block, ConstraintRows& rows, std::int32_t row, const Taylor& partial,
                      RowLevel row_level) {
-  const path::Seeded<N> m = path::varied_measure<N>(measure, places, motion, body);
+  const path::Seeded<N> m = path::varied_measure<N>(measure, places, motion, block);
   const bool nothing = partial.value == 0.0 && partial.rate == 0.0 && partial.acceleration == 0.0;
   // δX = Σ X_l δq^(l) and its rate, both times the partial e_X(t) of the expression.
   for (std::int32_t k = 0; k < block.count; ++k) {
@@ -172,7 +163,7 @@ void add_measure_row(Measure measure, const std::array<MarkerFrame, 4>& places, 
       const Taylor course(m.value.partial[seed], m.rate.partial[seed], m.acceleration.partial[seed]);
       return nothing ? Taylor() : partial * course;
     };
-    const std::int32_t column = block.offset + k;
+    const std::int32_t column = block.column + k;
     if (row_level == RowLevel::position) {
       rows.add_coordinate(row, column, at(0));
     } else if constexpr (N == 6) {
@@ -189,18 +180,11 @@ void add_measure_row(Measure measure, const std::array<MarkerFrame, 4>& places, 
 
 void BoundExpression::add_measure_to_row(const BoundAtom& a, const Motion& motion, ConstraintRows& rows,
                                          std::int32_t row, const Taylor& partial, RowLevel level) const {
-  // Only rows without reactions read curve parameters, and those are rows of positions.
-  for (std::size_t p = 0; p < a.parameter_count; ++p) {
-    const auto m = path::measure_by_parameter(a.measure, a.places, motion, a.parameters[p]);
-    rows.add_coordinate(row, a.parameters[p],
-                        partial * Taylor(m.value.partial[0], m.rate.partial[0], m.acceleration.partial[0]));
-  }
-  for (std::size_t b = 0; b < a.body_count; ++b) {
-    const BodyBlock& block = rows.layout().body(a.bodies[b]);
+  for (const CoordinateBlock& block : blocks(a)) {
     if (a.order == 0) {
-      add_measure_row<6>(a.measure, a.places, motion, a.bodies[b], rows, row, block, partial, level);
+      add_measure_row<6>(a.measure, a.places, motion, block, rows, row, partial, level);
     } else {
-      add_measure_row<12>(a.measure, a.places, motion, a.bodies[b], rows, row, block, partial, level);
+      add_measure_row<12>(a.measure, a.places, motion, block, rows, row, partial, level);
     }
   }
 }

@@ -7,7 +7,7 @@
 #include "expression/expression.h"
 #include "expression/measures.h"
 #include "mechanics/binder.h"
-#include "mechanics/marker_frame.h"
+#include "mechanics/coordinate_block.h"
 
 namespace dynalin {
 
@@ -71,18 +71,19 @@ class BoundExpression {
     Channel channel, rate;  // rate: of the channel, where it is wanted
     Measure measure = Measure::DX;
     std::int8_t order = 0;
-    std::array<MarkerFrame, 4> places;         // i, j, k, l
-    std::array<BodyId, 4> bodies{};            // the distinct bodies among them that move
-    std::array<std::int32_t, 4> parameters{};  // the distinct curve parameters among them, as coordinates
-    std::uint8_t body_count = 0, parameter_count = 0;
-    std::int32_t memory = -1;  // total angle of a measure that counts turns
+    std::array<MarkerFrame, 4> places;               // i, j, k, l
+    std::uint32_t first_block = 0, block_count = 0;  // what they depend on, in atom_blocks_
+    std::int32_t memory = -1;                        // total angle of a measure that counts turns
     std::vector<ForceTerm> terms;
     std::uint8_t component = 1;  // 1–8: FM FX FY FZ TM TX TY TZ
     MarkerFrame axes_marker;
   };
 
-  static void note_parameter(BoundAtom&, const MarkerFrame&);
-  static BoundAtom bind(const Atom&, Binder&, Binding);
+  BoundAtom bind(const Atom&, Binder&, Binding);
+  void note_blocks(BoundAtom&, const MarkerFrame&, const Layout&, bool poses_too);
+  std::span<const CoordinateBlock> blocks(const BoundAtom& a) const {
+    return std::span(atom_blocks_).subspan(a.first_block, a.block_count);
+  }
   double atom_value(const BoundAtom&, const Motion&) const;
   double force_value(const BoundAtom&, const Motion&) const;
   void fill_rates(const Motion&, ExpressionScratch&) const;  // atoms with their values and rates
@@ -102,7 +103,7 @@ class BoundExpression {
   Taylor add_to_row(const Motion&, ConstraintRows&, std::int32_t row, const Factor& factor, RowLevel level,
                     std::span<const Taylor> given) const;
 
-  double gradient(const ExpressionScratch&, std::size_t atom, BodyId, std::size_t seed) const;
+  double gradient(const ExpressionScratch&, std::size_t atom, const CoordinateBlock&, std::size_t seed) const;
   // Whether a partial of zero makes the gradient of an atom vanish where that is not defined.
   bool passes_over(std::size_t atom, const ExpressionScratch&) const;
   static bool is_size(const BoundAtom&);  // of a vector: never negative
@@ -110,7 +111,8 @@ class BoundExpression {
   std::string undefined_in_gradient(const Motion&, const std::vector<double>& atoms, Derivatives) const;
 
   Expression expression_;
-  std::vector<BodyId> bodies_;  // all that the measures see, ground left out
+  std::vector<CoordinateBlock> blocks_;       // all that the measures depend on
+  std::vector<CoordinateBlock> atom_blocks_;  // the same atom by atom
   std::vector<BoundAtom> atoms_;
   int order_ = 0;
 };

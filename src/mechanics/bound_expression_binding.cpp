@@ -95,13 +95,13 @@ MarkerFrame find_marker(Binder& binder, const Atom& atom, std::int64_t id, bool 
 
 BoundExpression::BoundExpression(Expression expression, Binder& binder, Binding binding)
     : expression_(expression.with_curves([&](SplineUse& use) { binder.attach(use); })) {
-  std::unordered_set<std::int32_t> seen;  // of bodies_: a sum may run over all bodies of a model
+  std::unordered_set<std::int32_t> seen;  // of blocks_: a sum may run over all bodies of a model
   atoms_.reserve(expression_.atoms().size());
   for (const Atom& atom : expression_.atoms()) {
     atoms_.push_back(bind(atom, binder, binding));
     const BoundAtom& a = atoms_.back();
-    for (std::size_t b = 0; b < a.body_count; ++b) {
-      if (seen.insert(a.bodies[b].index).second) bodies_.push_back(a.bodies[b]);
+    for (const CoordinateBlock& b : blocks(a)) {
+      if (seen.insert(b.column).second) blocks_.push_back(b);
     }
     using Kind = BoundAtom::Kind;
     if (a.kind == Kind::measure) order_ = std::max(order_, static_cast<int>(a.order));
@@ -122,16 +122,20 @@ BoundExpression::BoundExpression(Expression expression, Binder& binder, Binding 
   }
 }
 
-void BoundExpression::note_parameter(BoundAtom& a, const MarkerFrame& marker) {
-  const auto end = a.parameters.begin() + a.parameter_count;
-  if (marker.curve && std::find(a.parameters.begin(), end, marker.parameter) == end) {
-    a.parameters[a.parameter_count++] = marker.parameter;
-  }
+void BoundExpression::note_blocks(BoundAtom& a, const MarkerFrame& marker, const Layout& layout, bool poses_too) {
+  for_each_coordinate_block(marker, layout, [&](const CoordinateBlock& b) {
+    const std::span<const CoordinateBlock> known = blocks(a);
+    if (!poses_too && b.kind != CoordinateBlock::Kind::curve_parameter) return;
+    if (std::find(known.begin(), known.end(), b) != known.end()) return;
+    atom_blocks_.push_back(b);
+    ++a.block_count;
+  });
 }
 
 const Atom* BoundExpression::atom_on_curve() const {
   for (std::size_t k = 0; k < atoms_.size(); ++k) {
-    if (atoms_[k].parameter_count > 0) return &expression_.atoms()[k];
+    for (const CoordinateBlock& b : blocks(atoms_[k]))
+      if (b.kind == CoordinateBlock::Kind::curve_parameter) return &expression_.atoms()[k];
   }
   return nullptr;
 }
@@ -140,6 +144,7 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binde
   const Signals& signals = binder.signals();
   using Kind = BoundAtom::Kind;
   BoundAtom a{};
+  a.first_block = static_cast<std::uint32_t>(atom_blocks_.size());
   const AtomFunction& f = *atom.function;
   switch (f.family) {
     case AtomFamily::time:
@@ -154,18 +159,11 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binde
         const auto role = role_of_argument(a.measure, argument);
         if (role) a.places[*role] = find_marker(binder, atom, atom.argument[argument], reads_axes(a.measure, *role));
       }
-      for (std::size_t k = 0; k < 4; ++k) {
-        note_parameter(a, a.places[k]);
-        const BodyId body = a.places[k].place().body;
-        const auto end = a.bodies.begin() + a.body_count;
-        if (body != ground_body && std::find(a.bodies.begin(), end, body) == end) {
-          a.bodies[a.body_count++] = body;
-        }
-      }
       // Rounding of what never changes is no gradient, least of all at a kink.
-      const bool one_body =
-          a.places[0].place().body == a.places[1].place().body && !a.places[0].curve && !a.places[1].curve;
-      if (one_body && is_constant_on_a_body(a.measure)) a.body_count = 0;
+      const auto rigid = [&](std::size_t k) { return !a.places[k].curve && !a.places[k].place().shapes; };
+      const bool one_body = a.places[0].place().body == a.places[1].place().body && rigid(0) && rigid(1);
+      const bool constant = one_body && is_constant_on_a_body(a.measure);
+      for (const MarkerFrame& place : a.places) note_blocks(a, place, signals.layout(), !constant);
       if (counts_turns(a.measure)) a.memory = binder.add_memory(atom.at, 0.0);
       break;
     }
@@ -202,7 +200,7 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binde
       }
       a.component = static_cast<std::uint8_t>(atom.argument[2]);
       a.axes_marker = find_marker(binder, atom, atom.argument[3], true);
-      note_parameter(a, a.axes_marker);
+      note_blocks(a, a.axes_marker, signals.layout(), false);
       break;
     case AtomFamily::marker_force: {
       a.kind = Kind::force;
@@ -217,7 +215,7 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binde
         if (from_all || other == j) a.terms.push_back({w, !is_I});
       }
       a.axes_marker = find_marker(binder, atom, atom.argument[2], true);
-      note_parameter(a, a.axes_marker);
+      note_blocks(a, a.axes_marker, signals.layout(), false);
       break;
     }
   }

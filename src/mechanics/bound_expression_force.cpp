@@ -3,6 +3,7 @@
 
 #include "mechanics/bound_expression.h"
 #include "mechanics/frame_variations.h"
+#include "mechanics/pair_blocks.h"
 
 namespace dynalin {
 
@@ -63,19 +64,17 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
     if (size > 0) e = sum / size;
   } else {
     e = a.axes_marker.axes(motion)[axis_of(a.component)];
-    const BodyBlock& block = eq.layout().body(a.axes_marker.place().body);
-    if (block.count == 6) {
-      const Vector turn = cross(e, sum);
-      for (std::size_t k = 0; k < 3; ++k) {
-        eq.add(PartialBy::position, row, block.offset + 3 + static_cast<std::int32_t>(k), factor * turn[k]);
-      }
-    }
-    for (std::size_t p = 0; p < a.parameter_count; ++p) {
-      const auto axes =
-          path::frame_by_parameter(motion, a.axes_marker, a.parameters[p], a.axes_marker.place().body).axes;
+    const Vector turn = cross(e, sum);
+    for_each_turning_block(
+        motion, a.axes_marker.place(), eq.layout(), [&](std::int32_t column, std::size_t count, const Matrix3& turns) {
+          for (std::size_t k = 0; k < count; ++k)
+            eq.add(PartialBy::position, row, column + static_cast<std::int32_t>(k), factor * dot(turns[k], turn));
+        });
+    for (const CoordinateBlock& block : blocks(a)) {
+      const auto axes = path::varied_frame<6>(motion, a.axes_marker, block, a.axes_marker.place().body).axes;
       const auto& axis = axes[axis_of(a.component)];
       const Vector slope{axis.x.value.partial[0], axis.y.value.partial[0], axis.z.value.partial[0]};
-      eq.add(PartialBy::position, row, a.parameters[p], factor * dot(slope, sum));
+      eq.add(PartialBy::position, row, block.column, factor * dot(slope, sum));
     }
   }
 
@@ -96,36 +95,30 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
       if (!torque) return on_J ? -dot(e, f) : dot(e, f);
       return on_J ? -dot(e, m) - dot(e, cross(delta, f)) : dot(e, m);
     };
-    const std::array<const BodyBlock*, 2> blocks = {&eq.layout().body(p.body_I), &eq.layout().body(p.body_J)};
-    const Matrix3 one = Matrix3::identity();
-    const std::array<Matrix3, 4> delta_groups = {one, -skew(dynalin::value(p.arm_I)), -one,
-                                                 skew(dynalin::value(p.arm_J))};
-    for (std::size_t g = 0; g < 4; ++g) {
-      const BodyBlock& block = *blocks[g / 2];
-      const std::int32_t first = g % 2 == 0 ? 0 : 3;
-      if (block.count < first + 3) continue;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::int32_t column = block.offset + first + static_cast<std::int32_t>(k);
-        double value = picked(w.force.force_on_position.group[g][k], w.force.torque_on_position.group[g][k]);
+    for_each_block(p, eq.layout(), [&](const PairBlock& block) {
+      const BlockPartials on = partials_by(block, w.force);
+      for (std::size_t k = 0; k < block.count; ++k) {
+        const std::int32_t column = block.column + static_cast<std::int32_t>(k);
+        double value = picked(on.force[k], on.torque[k]);
         if (torque && on_J && !w.J_follows_I) {
-          const Vector lever = cross(delta_groups[g][k], w.force.force);
+          const Vector lever = cross(block.of_J ? -block.moves[k] : block.moves[k], w.force.force);
           value -= kink && norm(lever) != 0.0 ? std::numeric_limits<double>::quiet_NaN() : dot(e, lever);
         }
         eq.add(PartialBy::position, row, column, factor * value);
-        eq.add(velocity_family, row, column,
-               factor * picked(w.force.force_on_velocity.group[g][k], w.force.torque_on_velocity.group[g][k]));
+        eq.add(velocity_family, row, column, factor * picked(on.force_by_rate[k], on.torque_by_rate[k]));
       }
-    }
+    });
     for (const MarkerWrench::Scalar& s : w.scalars) {
       const PartialBy family = s.family == PartialBy::damping ? velocity_family : s.family;
       eq.add(family, row, s.column, factor * picked(s.force, s.torque));
     }
     for (const MarkerWrench::Turn& turn : w.turns) {
-      const BodyBlock& block = eq.layout().body(turn.body);
-      for (std::int32_t k = 0; k < 3 && block.count == 6; ++k) {
-        const auto at = static_cast<std::size_t>(k);
-        eq.add(PartialBy::position, row, block.offset + 3 + k, factor * picked(turn.force[at], turn.torque[at]));
-      }
+      for_each_turning_block(
+          motion, *turn.axes, eq.layout(), [&](std::int32_t column, std::size_t count, const Matrix3& turns) {
+            const Matrix3 F = turn.force * turns, T = turn.torque * turns;
+            for (std::size_t k = 0; k < count; ++k)
+              eq.add(PartialBy::position, row, column + static_cast<std::int32_t>(k), factor * picked(F[k], T[k]));
+          });
     }
   }
 }

@@ -26,9 +26,9 @@ bool BoundExpression::has_gradient(const BoundAtom& a, const Motion& motion) con
   const auto finite = [](const auto& partials) {
     return std::all_of(partials.begin(), partials.end(), [](double p) { return std::isfinite(p); });
   };
-  for (std::size_t b = 0; b < a.body_count; ++b) {
+  for (const CoordinateBlock& block : blocks(a)) {
     const auto gradient_of = [&]<std::size_t N>() {
-      return finite(path::varied_measure<N>(a.measure, a.places, motion, a.bodies[b]).value.partial);
+      return finite(path::varied_measure<N>(a.measure, a.places, motion, block).value.partial);
     };
     const bool defined = a.order == 0   ? gradient_of.operator()<6>()
                          : a.order == 1 ? gradient_of.operator()<12>()

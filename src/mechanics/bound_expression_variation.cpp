@@ -4,7 +4,7 @@
 //     Q_i = λ g_i,    g_i = Σ_k e_k G_ki,    ∂g_i/∂ξ_j = Σ_k (Σ_l e_kl G_lj) G_ki + Σ_k e_k ∂G_ki/∂ξ_j
 //
 // with e_k, e_kl the derivatives of the expression by its atoms and G_ki those of atom k along unit displacement i
-// (position rows) or unit velocity i (velocity rows) in global axes.
+// (position rows) or unit velocity i (velocity rows): in global axes those of poses.
 #include "mechanics/bound_expression.h"
 #include "mechanics/frame_variations.h"
 
@@ -13,76 +13,151 @@ namespace dynalin {
 namespace {
 
 using path::NestedDual;
-using Nested = TimeTaylor<NestedDual>;
+using Varied = TimeTaylor<Dual<6>>;     // along the outer direction
+using Nested = TimeTaylor<NestedDual>;  // its inner partials are varied along the outer direction
 
-// A variation of one body: seeds δr, δθ of a path that grows with t^level / level!.
+// A variation of one block: its coordinates as seeds of a path that grows with t^level / level!.
 struct Direction {
-  BodyId body;
+  CoordinateBlock block;
   std::size_t level;
+
+  bool turns(BodyId body) const { return block.kind == CoordinateBlock::Kind::pose && block.body == body; }
 };
 
+Vec3<Taylor> without_variation(const Vec3<Varied>& v) {
+  const auto of = [](const Varied& x) { return Taylor(x.value.value, x.rate.value, x.acceleration.value); };
+  return {of(v.x), of(v.y), of(v.z)};
+}
+// The quantity itself, and its inner partial.
+Vec3<Varied> itself(const Vec3<Nested>& v) {
+  const auto of = [](const Nested& x) { return Varied(x.value.value, x.rate.value, x.acceleration.value); };
+  return {of(v.x), of(v.y), of(v.z)};
+}
+Vec3<Varied> partial(const Vec3<Nested>& v, std::size_t seed) {
+  const auto of = [&](const Nested& x) {
+    return Varied(x.value.partial[seed], x.rate.partial[seed], x.acceleration.partial[seed]);
+  };
+  return {of(v.x), of(v.y), of(v.z)};
+}
+void set_itself(Vec3<Nested>& v, const Vec3<Varied>& x) {
+  for (std::size_t c = 0; c < 3; ++c)
+    v[c].value.value = x[c].value, v[c].rate.value = x[c].rate, v[c].acceleration.value = x[c].acceleration;
+}
+void add_partial(Vec3<Nested>& v, std::size_t seed, const Vec3<Varied>& x) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    v[c].value.partial[seed] += x[c].value;
+    v[c].rate.partial[seed] += x[c].rate;
+    v[c].acceleration.partial[seed] += x[c].acceleration;
+  }
+}
+void set_partial(Vec3<Nested>& v, std::size_t seed, const Vec3<Varied>& x) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    v[c].value.partial[seed] = x[c].value;
+    v[c].rate.partial[seed] = x[c].rate;
+    v[c].acceleration.partial[seed] = x[c].acceleration;
+  }
+}
+Vec3<Nested> lifted(const Vec3<Taylor>& v) {
+  Vec3<Nested> n;
+  set_itself(n, path::constant<6>(v));
+  return n;
+}
+
 // v(t) t^level/level! as coefficients.
-Vec3<TimeTaylor<Dual<6>>> grown(const Vec3<TimeTaylor<Dual<6>>>& v, std::size_t level) {
+Vec3<Varied> grown(const Vec3<Varied>& v, std::size_t level) {
   if (level == 0) return v;
-  Vec3<TimeTaylor<Dual<6>>> g;
+  Vec3<Varied> g;
   for (std::size_t c = 0; c < 3; ++c) {
     g[c] = {Dual<6>(0.0), v[c].value, Dual<6>(2.0) * v[c].rate};
   }
   return g;
 }
 
-void set_inner(Vec3<Nested>& v, std::size_t seed, const Vec3<TimeTaylor<Dual<6>>>& direction) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    v[c].value.partial[seed] = direction[c].value;
-    v[c].rate.partial[seed] = direction[c].rate;
-    v[c].acceleration.partial[seed] = direction[c].acceleration;
+Vec3<Varied> turned(std::size_t axis, const Vec3<Varied>& v) {
+  const Varied zero{Dual<6>(0.0), Dual<6>(0.0), Dual<6>(0.0)};
+  return axis == 0   ? Vec3<Varied>{zero, -v.z, v.y}
+         : axis == 1 ? Vec3<Varied>{v.z, zero, -v.x}
+                     : Vec3<Varied>{-v.y, v.x, zero};
+}
+
+// A vector that is carried by a body turns with it: along the outer direction, then at the varied motion along the
+// inner one.
+void turn(Vec3<Nested>& v, const Direction& inner, const Direction& outer, BodyId body) {
+  if (outer.turns(body)) {
+    const auto varied = [&](Vec3<Varied> x) {
+      const Vec3<Taylor> plain = without_variation(x);
+      for (std::size_t k = 0; k < 3; ++k) path::vary(x, 3 + k, outer.level, path::turned(k, plain));
+      return x;
+    };
+    for (std::size_t k = 0; k < 6; ++k) set_partial(v, k, varied(partial(v, k)));
+    set_itself(v, varied(itself(v)));
+  }
+  if (inner.turns(body)) {
+    for (std::size_t k = 0; k < 3; ++k) add_partial(v, 3 + k, grown(turned(k, itself(v)), inner.level));
   }
 }
 
-Vec3<Nested> lifted(const Vec3<TimeTaylor<Dual<6>>>& v) {
-  Vec3<Nested> n;
-  for (std::size_t c = 0; c < 3; ++c) {
-    n[c].value.value = v[c].value, n[c].rate.value = v[c].rate, n[c].acceleration.value = v[c].acceleration;
-  }
-  return n;
-}
-
-Vec3<TimeTaylor<Dual<6>>> turned(std::size_t axis, const Vec3<TimeTaylor<Dual<6>>>& v) {
-  const TimeTaylor<Dual<6>> zero{Dual<6>(0.0), Dual<6>(0.0), Dual<6>(0.0)};
-  return axis == 0   ? Vec3<TimeTaylor<Dual<6>>>{zero, -v.z, v.y}
-         : axis == 1 ? Vec3<TimeTaylor<Dual<6>>>{v.z, zero, -v.x}
-                     : Vec3<TimeTaylor<Dual<6>>>{-v.y, v.x, zero};
+// Arm and axes of a marker, global axes, as coordinates on the body vary them.
+Frame<Nested> nested_on_body(const Motion& motion, const MarkerFrame& marker, const Direction& inner,
+                             const Direction& outer) {
+  using Of = CoordinateBlock::Kind;
+  const MarkerPlace& place = marker.place();
+  // Coordinate k of its kind.
+  const auto seeded = [&](const Taylor& q, Of kind, std::size_t k) {
+    Nested x{NestedDual(q.value), NestedDual(q.rate), NestedDual(q.acceleration)};
+    const auto among = [&](const Direction& d) {
+      return d.block.kind == kind && d.block.moves(marker) && k >= d.block.first_shape &&
+             k < d.block.first_shape + d.block.count;
+    };
+    if (among(inner)) path::vary(x, k - inner.block.first_shape, inner.level);
+    if (among(outer)) {
+      NestedDual& c = outer.level == 0 ? x.value : outer.level == 1 ? x.rate : x.acceleration;
+      c.value.partial[k - outer.block.first_shape] += 1.0;
+    }
+    return x;
+  };
+  const auto modal = [&](std::size_t k) { return seeded(motion.outside_poses(place.shapes->first + k), Of::modal, k); };
+  Nested u{};
+  if (marker.curve) u = seeded(marker.along_motion(motion), Of::curve_parameter, 0);
+  const Frame<Nested> local = marker.template on_body<Nested>(modal, u);
+  const Mat3<Taylor> R = motion.body(place.body).axes();
+  const Mat3<Nested> axes{lifted(R.x), lifted(R.y), lifted(R.z)};
+  return {axes * local.origin, axes * local.axes};
 }
 
 // The marker frame varied first along `outer`, then, at the varied motion, along `inner`; its origin from the BCS of
 // `from`.
 Frame<Nested> nested_frame(const Motion& motion, const MarkerFrame& marker, const Direction& inner,
                            const Direction& outer, BodyId from) {
-  const MarkerPlace& place = marker.place();
+  const BodyId body = marker.place().body;
   const Frame<Taylor> plain = marker.frame(motion, from);
-  const Vec3<Taylor> arm = marker.arm(motion);
-
-  Vec3<TimeTaylor<Dual<6>>> r = path::constant<6>(plain.origin), varied_arm = path::constant<6>(arm);
-  std::array<Vec3<TimeTaylor<Dual<6>>>, 3> axis;
-  for (std::size_t c = 0; c < 3; ++c) axis[c] = path::constant<6>(plain.axes[c]);
-  if (place.body == outer.body) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector e = unit_vectors[k];
-      path::vary(r, k, outer.level, {Taylor(e.x), Taylor(e.y), Taylor(e.z)});
-      path::vary(r, 3 + k, outer.level, path::turned(k, arm));
-      path::vary(varied_arm, 3 + k, outer.level, path::turned(k, arm));
-      for (std::size_t c = 0; c < 3; ++c) path::vary(axis[c], 3 + k, outer.level, path::turned(k, plain.axes[c]));
-    }
+  Frame<Nested> f{lifted(plain.origin), {lifted(plain.axes.x), lifted(plain.axes.y), lifted(plain.axes.z)}};
+  const auto changes_on_body = [&](const Direction& d) {
+    return d.block.kind != CoordinateBlock::Kind::pose && d.block.moves(marker);
+  };
+  Vec3<Nested> arm = lifted(marker.arm(motion));
+  if (changes_on_body(inner) || changes_on_body(outer)) {
+    Frame<Nested> own = nested_on_body(motion, marker, inner, outer);
+    arm = own.origin, f.axes = own.axes;
   }
-  Frame<Nested> f{lifted(r), {lifted(axis[0]), lifted(axis[1]), lifted(axis[2])}};
-  if (place.body == inner.body) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector e = unit_vectors[k];
-      const Vec3<Taylor> unit{Taylor(e.x), Taylor(e.y), Taylor(e.z)};
-      set_inner(f.origin, k, grown(path::constant<6>(unit), inner.level));
-      set_inner(f.origin, 3 + k, grown(turned(k, varied_arm), inner.level));
-      for (std::size_t c = 0; c < 3; ++c) set_inner(f.axes[c], 3 + k, grown(turned(k, axis[c]), inner.level));
+  turn(arm, inner, outer, body);
+  for (std::size_t c = 0; c < 3; ++c) turn(f.axes[c], inner, outer, body);
+  // The origin is where it is, and varies as the arm and the origin of the body do.
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Taylor at{plain.origin[c]};
+    f.origin[c] = arm[c];
+    f.origin[c].value.value.value = at.value;
+    f.origin[c].rate.value.value = at.rate;
+    f.origin[c].acceleration.value.value = at.acceleration;
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3<Taylor> unit{Taylor(unit_vectors[k].x), Taylor(unit_vectors[k].y), Taylor(unit_vectors[k].z)};
+    if (outer.turns(body)) {
+      Vec3<Varied> origin = itself(f.origin);
+      path::vary(origin, k, outer.level, unit);
+      set_itself(f.origin, origin);
     }
+    if (inner.turns(body)) add_partial(f.origin, k, grown(path::constant<6>(unit), inner.level));
   }
   return f;
 }
@@ -95,14 +170,14 @@ void BoundExpression::add_reaction_partials(const Motion& motion, Equations& eq,
   const std::size_t n = atoms_.size();
   scratch.taylor_atoms.resize(n);
   scratch.taylor_partials.resize(n);
-  // Gradients of every atom by its bodies: level 0 in 0–5, level 1 in 6–11.
-  scratch.gradients.resize(4 * n);
+  // Gradients of every atom by its blocks: level 0 in 0–5, level 1 in 6–11.
+  scratch.gradients.resize(atom_blocks_.size());
   for (std::size_t k = 0; k < n; ++k) {
     const BoundAtom& a = atoms_[k];
     scratch.taylor_atoms[k] = Taylor(atom_value(a, motion), 0.0, 0.0);
     if (a.kind != BoundAtom::Kind::measure) continue;
-    for (std::size_t b = 0; b < a.body_count; ++b) {
-      scratch.gradients[4 * k + b] = path::varied_measure<12>(a.measure, a.places, motion, a.bodies[b]).value.partial;
+    for (std::size_t b = a.first_block; b < a.first_block + a.block_count; ++b) {
+      scratch.gradients[b] = path::varied_measure<12>(a.measure, a.places, motion, atom_blocks_[b]).value.partial;
     }
   }
   const std::size_t inner_level = row_level == RowLevel::position ? 0 : 1;
@@ -111,46 +186,43 @@ void BoundExpression::add_reaction_partials(const Motion& motion, Equations& eq,
   for (std::size_t outer_level = 0; outer_level <= inner_level; ++outer_level) {
     const PartialBy family = outer_level == 0 ? PartialBy::position : PartialBy::velocity;
     if (!eq.wants(family)) continue;
-    for (const BodyId outer : bodies_) {
-      const BodyBlock& columns = eq.layout().body(outer);
+    for (const CoordinateBlock& columns : blocks_) {
       for (std::int32_t j = 0; j < columns.count; ++j) {
         for (std::size_t l = 0; l < n; ++l) {
-          scratch.taylor_atoms[l].rate = gradient(scratch, l, outer, 6 * outer_level + static_cast<std::size_t>(j));
+          scratch.taylor_atoms[l].rate = gradient(scratch, l, columns, 6 * outer_level + static_cast<std::size_t>(j));
         }
         expression_.evaluate<Taylor>(scratch.taylor_atoms, std::span(scratch.taylor_partials), scratch.taylor);
-        for (const BodyId inner : bodies_) {
-          const BodyBlock& forces = eq.layout().body(inner);
+        for (const CoordinateBlock& forces : blocks_) {
           for (std::int32_t i = 0; i < forces.count; ++i) {
             double sum = 0;
             for (std::size_t k = 0; k < n; ++k) {
-              const double g = gradient(scratch, k, inner, 6 * inner_level + static_cast<std::size_t>(i));
+              const double g = gradient(scratch, k, forces, 6 * inner_level + static_cast<std::size_t>(i));
               const double change = scratch.taylor_partials[k].rate;
               if (g != 0.0 && change != 0.0) sum += change * g;
             }
-            eq.add(family, forces.offset + i, columns.offset + j, lambda == 0.0 ? 0.0 : -lambda * sum);
+            eq.add(family, forces.column + i, columns.column + j, lambda == 0.0 ? 0.0 : -lambda * sum);
           }
         }
       }
     }
     // The variation of the gradients themselves, with the slopes e_k of the last pass.
-    if (bodies_.empty()) continue;
+    if (blocks_.empty()) continue;
     for (std::size_t k = 0; k < n; ++k) {
       const BoundAtom& a = atoms_[k];
       if (a.kind != BoundAtom::Kind::measure || (a.order == 0 && inner_level == 1)) continue;
       const double slope = scratch.taylor_partials[k].value;
-      for (std::size_t b = 0; b < a.body_count; ++b) {
-        for (std::size_t c = 0; c < a.body_count; ++c) {
-          const Direction inner{a.bodies[b], inner_level}, outer{a.bodies[c], outer_level};
+      for (const CoordinateBlock& forces : blocks(a)) {
+        for (const CoordinateBlock& columns : blocks(a)) {
+          const Direction inner{forces, inner_level}, outer{columns, outer_level};
           const auto frame = [&](std::size_t m) {
             return nested_frame(motion, a.places[m], inner, outer, a.places[0].place().body);
           };
           const NestedDual m = evaluate_measure<Nested>(a.measure, {frame(0), frame(1), frame(2), frame(3)}).value;
-          const BodyBlock &forces = eq.layout().body(inner.body), &columns = eq.layout().body(outer.body);
           for (std::int32_t i = 0; i < forces.count; ++i) {
             for (std::int32_t j = 0; j < columns.count; ++j) {
               const double change = m.partial[static_cast<std::size_t>(i)].partial[static_cast<std::size_t>(j)];
               const double force = lambda * slope;
-              eq.add(family, forces.offset + i, columns.offset + j, force == 0.0 ? 0.0 : -force * change);
+              eq.add(family, forces.column + i, columns.column + j, force == 0.0 ? 0.0 : -force * change);
             }
           }
         }
@@ -161,18 +233,18 @@ void BoundExpression::add_reaction_partials(const Motion& motion, Equations& eq,
 
 namespace {
 
-// Partials of X and X′ of a measure by δq, δq′ … of one body.
+// Partials of X and X′ of a measure by δq, δq′ … of one block.
 template <std::size_t N>
-void add_measure_rate(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion, BodyId body,
-                      Equations& eq, std::int32_t row, double by_value, double by_rate, PartialBy velocity_family) {
-  const BodyBlock& block = eq.layout().body(body);
-  const auto m = path::varied_measure<N>(measure, places, motion, body);
+void add_measure_rate(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion,
+                      const CoordinateBlock& block, Equations& eq, std::int32_t row, double by_value, double by_rate,
+                      PartialBy velocity_family) {
+  const auto m = path::varied_measure<N>(measure, places, motion, block);
   const std::array families = {PartialBy::position, velocity_family, PartialBy::acceleration};
   for (std::size_t level = 0; 6 * level < N; ++level) {
     for (std::int32_t k = 0; k < block.count; ++k) {
       const std::size_t seed = 6 * level + static_cast<std::size_t>(k);
       const auto times = [](double factor, double gradient) { return factor == 0.0 ? 0.0 : factor * gradient; };
-      eq.add(families[level], row, block.offset + k,
+      eq.add(families[level], row, block.column + k,
              times(by_value, m.value.partial[seed]) + times(by_rate, m.rate.partial[seed]));
     }
   }
@@ -216,19 +288,11 @@ void BoundExpression::add_rate(const Motion& motion, Equations& eq, std::int32_t
     const double by_value = factor * scratch.taylor_partials[k].rate,
                  by_rate = factor * scratch.taylor_partials[k].value;
     if (a.kind == Kind::measure) {
-      const std::array families = {PartialBy::position, velocity_family, PartialBy::acceleration};
-      for (std::size_t p = 0; p < a.parameter_count; ++p) {
-        const auto m = path::measure_by_parameter(a.measure, a.places, motion, a.parameters[p]);
-        for (std::size_t level = 0; level <= static_cast<std::size_t>(a.order) + 1; ++level) {
-          eq.add(families[level], row, a.parameters[p],
-                 by_value * m.value.partial[level] + by_rate * m.rate.partial[level]);
-        }
-      }
-      for (std::size_t b = 0; b < a.body_count; ++b) {
+      for (const CoordinateBlock& block : blocks(a)) {
         if (a.order == 0) {
-          add_measure_rate<12>(a.measure, a.places, motion, a.bodies[b], eq, row, by_value, by_rate, velocity_family);
+          add_measure_rate<12>(a.measure, a.places, motion, block, eq, row, by_value, by_rate, velocity_family);
         } else {
-          add_measure_rate<18>(a.measure, a.places, motion, a.bodies[b], eq, row, by_value, by_rate, velocity_family);
+          add_measure_rate<18>(a.measure, a.places, motion, block, eq, row, by_value, by_rate, velocity_family);
         }
       }
     } else if (a.kind == Kind::channel) {
@@ -245,11 +309,11 @@ void BoundExpression::add_rate(const Motion& motion, Equations& eq, std::int32_t
   }
 }
 
-double BoundExpression::gradient(const ExpressionScratch& scratch, std::size_t atom, BodyId body,
+double BoundExpression::gradient(const ExpressionScratch& scratch, std::size_t atom, const CoordinateBlock& block,
                                  std::size_t seed) const {
   const BoundAtom& a = atoms_[atom];
-  for (std::size_t b = 0; b < a.body_count; ++b) {
-    if (a.bodies[b] == body) return scratch.gradients[4 * atom + b][seed];
+  for (std::size_t b = a.first_block; b < a.first_block + a.block_count; ++b) {
+    if (atom_blocks_[b] == block) return scratch.gradients[b][seed];
   }
   return 0;
 }

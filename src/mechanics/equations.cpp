@@ -94,13 +94,13 @@ void Equations::apply(BodyId body, const Vector& force, const Vector& moment, do
   for (std::int32_t k = 0; k < 3; ++k) {
     const auto at = static_cast<std::size_t>(k);
     add_residual(block.offset + k, factor * force[at]);
-    if (block.count == 6) add_residual(block.offset + 3 + k, factor * moment[at]);
+    if (block.turns()) add_residual(block.offset + 3 + k, factor * moment[at]);
   }
 }
 
 void Equations::add_block(PartialBy family, BodyId on, std::int32_t column, const Matrix3& force, const Matrix3& moment,
-                          double factor) {
-  for (std::size_t k = 0; k < 3; ++k) {
+                          double factor, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) {
     add_column(family, on, column + static_cast<std::int32_t>(k), force[k], moment[k], factor);
   }
 }

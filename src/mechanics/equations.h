@@ -154,10 +154,10 @@ class Equations {
     if (trace_) note(family, row, column, values);
     matrices_[static_cast<std::size_t>(family)].add(row, column, values);
   }
-  // Partials of force and moment on `on` with respect to three coordinates starting at `column`:
+  // Partials of force and moment on `on` with respect to `count` coordinates starting at `column`:
   // column k of `force` and `moment` belongs to coordinate column + k.
   void add_block(PartialBy family, BodyId on, std::int32_t column, const Matrix3& force, const Matrix3& moment,
-                 double factor = -1.0);
+                 double factor = -1.0, std::size_t count = 3);
   // The same with respect to one scalar unknown.
   void add_column(PartialBy family, BodyId on, std::int32_t column, const Vector& force, const Vector& moment,
                   double factor = -1.0);

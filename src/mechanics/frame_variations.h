@@ -1,8 +1,8 @@
-// Marker frames and measures with path variations of one body as seeds (mechanics/path.h), global axes.
+// Marker frames and measures with path variations of one block of coordinates as seeds (mechanics/path.h), global axes.
 #pragma once
 
 #include "expression/measures.h"
-#include "mechanics/marker_frame.h"
+#include "mechanics/coordinate_block.h"
 #include "mechanics/path.h"
 
 namespace dynalin::path {
@@ -15,47 +15,67 @@ Frame<Seeded<N>> constant(const Frame<Taylor>& f) {
   return {constant<N>(f.origin), {constant<N>(f.axes.x), constant<N>(f.axes.y), constant<N>(f.axes.z)}};
 }
 
-// The marker frame with path variations of `body` as seeds: 6 a level, δr then δθ, levels 0 … N/6 − 1. Measures are of
+// A coordinate that is varied by t^level/level! as partial `seed`.
+template <class D>
+void vary(TimeTaylor<D>& q, std::size_t seed, std::size_t level) {
+  (level == 0 ? q.value : level == 1 ? q.rate : q.acceleration).partial[seed] += 1.0;
+}
+
+// The marker frame with path variations of a block as seeds: 6 a level, levels 0 … N/6 − 1. Measures are of
 // differences: origins count from the BCS of `from`.
 template <std::size_t N>
-Frame<Seeded<N>> varied_frame(const Motion& motion, const MarkerFrame& marker, BodyId body, BodyId from) {
+Frame<Seeded<N>> varied_frame(const Motion& motion, const MarkerFrame& marker, const CoordinateBlock& block,
+                              BodyId from) {
+  constexpr std::size_t largest = CoordinateBlock::largest, levels = N / largest;
   const Frame<Taylor> plain = marker.frame(motion, from);
   Frame<Seeded<N>> f = constant<N>(plain);
-  if (marker.place().body != body) return f;
-  const Vec3<Taylor> arm = marker.arm(motion);
-  for (std::size_t level = 0; 6 * level < N; ++level) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector e = unit_vectors[k];
-      vary(f.origin, 6 * level + k, level, {Taylor(e.x), Taylor(e.y), Taylor(e.z)});
-      vary(f.origin, 6 * level + 3 + k, level, turned(k, arm));
-      for (std::size_t c = 0; c < 3; ++c) {
-        vary(f.axes[c], 6 * level + 3 + k, level, turned(k, plain.axes[c]));
+  if (!block.moves(marker)) return f;
+  if (block.kind == CoordinateBlock::Kind::pose) {
+    const Vec3<Taylor> arm = marker.arm(motion);
+    for (std::size_t level = 0; level < levels; ++level) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vector e = unit_vectors[k];
+        vary(f.origin, largest * level + k, level, {Taylor(e.x), Taylor(e.y), Taylor(e.z)});
+        vary(f.origin, largest * level + 3 + k, level, turned(k, arm));
+        for (std::size_t c = 0; c < 3; ++c) {
+          vary(f.axes[c], largest * level + 3 + k, level, turned(k, plain.axes[c]));
+        }
       }
     }
+    return f;
   }
+  // What the coordinates do on the body, turned as the body is.
+  const auto seeded = [&](Seeded<N> q, std::size_t k) {
+    for (std::size_t level = 0; level < levels && k < block.count; ++level) vary(q, largest * level + k, level);
+    return q;
+  };
+  const auto modal = [&](std::size_t k) {
+    const Seeded<N> q = constant<N>(motion.outside_poses(marker.place().shapes->first + k));
+    const bool varied = block.kind == CoordinateBlock::Kind::modal && k >= block.first_shape;
+    return varied ? seeded(q, k - block.first_shape) : q;
+  };
+  Seeded<N> u{};
+  if (marker.curve) u = constant<N>(marker.along_motion(motion));
+  if (block.kind == CoordinateBlock::Kind::curve_parameter) u = seeded(u, 0);
+  const Frame<Seeded<N>> local = marker.template on_body<Seeded<N>>(modal, u);
+  const Mat3<Taylor> R = motion.body(marker.place().body).axes();
+  const Mat3<Seeded<N>> axes{constant<N>(R.x), constant<N>(R.y), constant<N>(R.z)};
+  const auto take_partials = [](Vec3<Seeded<N>>& to, const Vec3<Seeded<N>>& of) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      to[c].value.partial = of[c].value.partial;
+      to[c].rate.partial = of[c].rate.partial;
+      to[c].acceleration.partial = of[c].acceleration.partial;
+    }
+  };
+  take_partials(f.origin, axes * local.origin);
+  for (std::size_t c = 0; c < 3; ++c) take_partials(f.axes[c], axes * local.axes[c]);
   return f;
 }
 
-// With variations of one curve parameter as seeds: one a level.
-inline constexpr std::size_t parameter_seeds = 6;
-inline Frame<Seeded<parameter_seeds>> frame_by_parameter(const Motion& motion, const MarkerFrame& marker,
-                                                         std::int32_t parameter, BodyId from) {
-  if (!marker.curve || marker.parameter != parameter) return constant<parameter_seeds>(marker.frame(motion, from));
-  Seeded<parameter_seeds> u = constant<parameter_seeds>(marker.along_motion(motion));
-  u.value.partial[0] = 1.0, u.rate.partial[1] = 1.0, u.acceleration.partial[2] = 1.0;
-  return marker.on_curve(constant<parameter_seeds>(motion.frame(marker.place(), from)), u);
-}
-inline Seeded<parameter_seeds> measure_by_parameter(Measure measure, const std::array<MarkerFrame, 4>& places,
-                                                    const Motion& motion, std::int32_t parameter) {
-  const auto frame = [&](std::size_t k) {
-    return frame_by_parameter(motion, places[k], parameter, places[0].place().body);
-  };
-  return evaluate_measure<Seeded<parameter_seeds>>(measure, {frame(0), frame(1), frame(2), frame(3)});
-}
-
 template <std::size_t N>
-Seeded<N> varied_measure(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion, BodyId body) {
-  const auto frame = [&](std::size_t k) { return varied_frame<N>(motion, places[k], body, places[0].place().body); };
+Seeded<N> varied_measure(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion,
+                         const CoordinateBlock& block) {
+  const auto frame = [&](std::size_t k) { return varied_frame<N>(motion, places[k], block, places[0].place().body); };
   return evaluate_measure<Seeded<N>>(measure, {frame(0), frame(1), frame(2), frame(3)});
 }
 

@@ -1,5 +1,5 @@
-// Marker frames and measures varied by the coordinates of one body or by a curve parameter, against differences of
-// paths.
+// Marker frames and measures varied by one block of coordinates, of a pose, modal or a curve parameter, against
+// differences of paths.
 #include "mechanics/frame_variations.h"
 
 #include <gtest/gtest.h>
@@ -48,8 +48,23 @@ struct WithCurve {
   MarkerId carrier{4};
 
   MarkerFrame fixed(std::int32_t m) const { return {&p.marker(m)}; }
-  MarkerFrame on_curve() const { return {&p.layout.marker(carrier), &curve, p.layout.body_coordinate_count, 0}; }
-  std::int32_t parameter() const { return p.layout.body_coordinate_count; }
+  MarkerFrame on_curve() const { return {&p.layout.marker(carrier), &curve, parameter(), Paths::modal_coordinates}; }
+  std::int32_t parameter() const { return p.parameter(); }
+  CoordinateBlock pose(std::int32_t body) const {
+    const BodyBlock& block = p.layout.body({body});
+    return {CoordinateBlock::Kind::pose, {body}, block.offset, static_cast<std::uint8_t>(block.count)};
+  }
+  // All of PART/3, or from one of them on.
+  CoordinateBlock modal(std::size_t first = 0) const {
+    return {CoordinateBlock::Kind::modal,
+            {2},
+            p.layout.body_coordinate_count + 2 + static_cast<std::int32_t>(first),
+            static_cast<std::uint8_t>(4 - first),
+            first};
+  }
+  CoordinateBlock along_curve(std::int32_t k = 0) const {
+    return {CoordinateBlock::Kind::curve_parameter, {2}, p.parameter(k), 1};
+  }
 
   // Origin and axes of the point on the curve along a path.
   Frame<Real> point(const Moment& m) const {
@@ -68,56 +83,60 @@ void expect_variation(const Paths& p, const path::Seeded<N>& x, std::size_t seed
   EXPECT_TRUE(agree(x.acceleration.partial[seed], p.now().second_rate(gradient))) << "second rate of " << by;
 }
 
-TEST(FrameVariations, a_frame_moves_with_its_own_body_at_all_levels) {
+TEST(FrameVariations, a_frame_moves_with_all_that_it_depends_on_at_all_levels) {
   const WithCurve w;
-  const BodyId own{2}, from{1};
-  const std::int32_t first = w.p.layout.body(own).offset;
+  const BodyId from{1};
   for (const bool curved : {false, true}) {
     const MarkerFrame marker = curved ? w.on_curve() : w.fixed(5);
-    const auto f = path::varied_frame<all_levels>(w.p.motion, marker, own, from);
-    const auto frame = [&](const Moment& m) {
-      return curved ? w.point(m) : Frame<Real>{m.origin(MarkerId{5}), m.axes(MarkerId{5})};
-    };
-    for (std::size_t seed = 0; seed < all_levels; ++seed) {
-      const std::int32_t column = first + static_cast<std::int32_t>(seed % 6);
-      for (std::size_t k = 0; k < 3; ++k) {
-        expect_variation<all_levels>(w.p, f.origin[k], seed, column, seed / 6, "origin",
-                                     [&](const Moment& m) { return frame(m).origin[k] - m.origin_of(from)[k]; });
+    std::vector<CoordinateBlock> blocks{w.pose(2), w.modal(), w.modal(1)};
+    if (curved) blocks.push_back(w.along_curve());
+    for (const CoordinateBlock& block : blocks) {
+      const auto f = path::varied_frame<all_levels>(w.p.motion, marker, block, from);
+      const auto frame = [&](const Moment& m) {
+        return curved ? w.point(m) : Frame<Real>{m.origin(MarkerId{5}), m.axes(MarkerId{5})};
+      };
+      for (std::size_t seed = 0; seed < all_levels; ++seed) {
+        const std::size_t of_block = seed % 6;
+        if (of_block >= block.count) continue;
+        const std::int32_t column = block.column + static_cast<std::int32_t>(of_block);
+        for (std::size_t k = 0; k < 3; ++k) {
+          expect_variation<all_levels>(w.p, f.origin[k], seed, column, seed / 6, "origin",
+                                       [&](const Moment& m) { return frame(m).origin[k] - m.origin_of(from)[k]; });
+        }
+        const std::size_t r = seed % 3, c = (seed + 1) % 3;  // one entry of the axes for each seed
+        expect_variation<all_levels>(w.p, f.axes[c][r], seed, column, seed / 6, "axis",
+                                     [&](const Moment& m) { return frame(m).axes[c][r]; });
       }
-      const std::size_t r = seed % 3, c = (seed + 1) % 3;  // one entry of the axes for each seed
-      expect_variation<all_levels>(w.p, f.axes[c][r], seed, column, seed / 6, "axis",
-                                   [&](const Moment& m) { return frame(m).axes[c][r]; });
     }
   }
 }
 
-TEST(FrameVariations, a_frame_stays_where_another_body_is_varied) {
+TEST(FrameVariations, a_frame_stays_where_another_block_is_varied) {
   const WithCurve w;
-  const auto f = path::varied_frame<6>(w.p.motion, w.fixed(5), BodyId{1}, ground_body);
-  for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_EQ(f.origin[k].value.partial, (std::array<double, 6>{}));
-    EXPECT_EQ(f.axes[k].y.rate.partial, (std::array<double, 6>{}));
-    EXPECT_TRUE(
-        agree(f.origin[k].rate.value, w.p.now().rate([&](const Moment& m) { return m.origin(MarkerId{5})[k]; })));
-  }
-}
-
-TEST(FrameVariations, a_point_of_contact_moves_along_its_curve) {
-  const WithCurve w;
-  const auto f = path::frame_by_parameter(w.p.motion, w.on_curve(), w.parameter(), ground_body);
-  for (std::size_t level = 0; level < 3; ++level) {
+  for (const CoordinateBlock& block :
+       {w.pose(1), w.along_curve(), CoordinateBlock{CoordinateBlock::Kind::modal, {1}, w.modal().column - 2, 2}}) {
+    const auto f = path::varied_frame<6>(w.p.motion, w.fixed(5), block, ground_body);
     for (std::size_t k = 0; k < 3; ++k) {
-      expect_variation<path::parameter_seeds>(w.p, f.origin[k], level, w.parameter(), level, "origin",
-                                              [&](const Moment& m) { return w.point(m).origin[k]; });
+      EXPECT_EQ(f.origin[k].value.partial, (std::array<double, 6>{}));
+      EXPECT_EQ(f.axes[k].y.rate.partial, (std::array<double, 6>{}));
+      EXPECT_TRUE(
+          agree(f.origin[k].rate.value, w.p.now().rate([&](const Moment& m) { return m.origin(MarkerId{5})[k]; })));
     }
-    expect_variation<path::parameter_seeds>(w.p, f.axes.y.z, level, w.parameter(), level, "axis",
-                                            [&](const Moment& m) { return w.point(m).axes.y.z; });
   }
-  // Another parameter and a marker that is on no curve
-  for (const auto& still : {path::frame_by_parameter(w.p.motion, w.on_curve(), w.parameter() + 1, ground_body),
-                            path::frame_by_parameter(w.p.motion, w.fixed(5), w.parameter(), ground_body)}) {
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(still.origin[k].value.partial, (std::array<double, 6>{}));
-  }
+  const auto f = path::varied_frame<6>(w.p.motion, w.on_curve(), w.along_curve(1), ground_body);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(f.origin[k].value.partial, (std::array<double, 6>{}));
+}
+
+TEST(FrameVariations, a_marker_depends_on_the_pose_of_its_body_its_modal_coordinates_and_its_curve) {
+  const WithCurve w;
+  std::vector<std::array<std::int32_t, 2>> found;
+  const auto note = [&](const CoordinateBlock& b) { found.push_back({b.column, b.count}); };
+  for_each_coordinate_block(w.on_curve(), w.p.layout, note);
+  EXPECT_EQ(found, (std::vector<std::array<std::int32_t, 2>>{{6, 6}, {23, 4}, {27, 1}}));
+  found.clear();
+  for_each_coordinate_block(w.fixed(6), w.p.layout, note);
+  for_each_coordinate_block(w.fixed(1), w.p.layout, note);
+  EXPECT_EQ(found, (std::vector<std::array<std::int32_t, 2>>{{12, 3}}));
 }
 
 TEST(FrameVariations, a_contact_marker_has_the_motion_of_its_parameter) {
@@ -143,17 +162,17 @@ Real velocity_along_x(const Moment& m, MarkerId i, MarkerId j, MarkerId k, Marke
   return dot(m.axes(k).x, m.rate_seen_from(l, [&](const Moment& n) { return displacement(n, i, j); }));
 }
 
-TEST(FrameVariations, measures_are_varied_by_each_body_they_see) {
+TEST(FrameVariations, measures_are_varied_by_each_block_they_see) {
   const WithCurve w;
   const MarkerId i{2}, j{5}, k{9}, l{3};
   const std::array<MarkerFrame, 4> places{w.fixed(2), w.fixed(5), w.fixed(9), w.fixed(3)};
-  for (const BodyId body : {BodyId{1}, BodyId{2}, BodyId{4}}) {
-    const auto dx = path::varied_measure<6>(Measure::DX, places, w.p.motion, body);
-    const auto vx = path::varied_measure<12>(Measure::VX, places, w.p.motion, body);
-    const auto wy = path::varied_measure<12>(Measure::WY, places, w.p.motion, body);
-    for (std::int32_t c = 0; c < 6; ++c) {
+  for (const CoordinateBlock& block : {w.pose(1), w.pose(2), w.pose(4), w.modal()}) {
+    const auto dx = path::varied_measure<6>(Measure::DX, places, w.p.motion, block);
+    const auto vx = path::varied_measure<12>(Measure::VX, places, w.p.motion, block);
+    const auto wy = path::varied_measure<12>(Measure::WY, places, w.p.motion, block);
+    for (std::int32_t c = 0; c < block.count; ++c) {
       const auto seed = static_cast<std::size_t>(c);
-      const std::int32_t column = w.p.layout.body(body).offset + c;
+      const std::int32_t column = block.column + c;
       expect_variation<6>(w.p, dx, seed, column, 0, "DX",
                           [&](const Moment& m) { return dot(m.axes(k).x, displacement(m, i, j)); });
       const auto by_rate = [&](const Moment& m) { return velocity_along_x(m, i, j, k, l); };
@@ -171,16 +190,16 @@ TEST(FrameVariations, measures_are_varied_by_each_body_they_see) {
 TEST(FrameVariations, measures_are_varied_by_the_parameter_of_a_contact) {
   const WithCurve w;
   const std::array<MarkerFrame, 4> places{w.on_curve(), w.fixed(2), w.fixed(9), w.fixed(0)};
-  const auto dz = path::measure_by_parameter(Measure::DZ, places, w.p.motion, w.parameter());
-  const auto vz = path::measure_by_parameter(Measure::VZ, places, w.p.motion, w.parameter());
+  const auto dz = path::varied_measure<6>(Measure::DZ, places, w.p.motion, w.along_curve());
+  const auto vz = path::varied_measure<12>(Measure::VZ, places, w.p.motion, w.along_curve());
   const auto z = [&](const Moment& m) { return dot(m.axes(MarkerId{9}).z, w.point(m).origin - m.origin(MarkerId{2})); };
   const auto rate_of_z = [&](const Moment& m) {
     return dot(m.axes(MarkerId{9}).z,
                m.rate([&](const Moment& n) { return w.point(n).origin - n.origin(MarkerId{2}); }));
   };
-  expect_variation<path::parameter_seeds>(w.p, dz, 0, w.parameter(), 0, "DZ", z);
+  expect_variation<6>(w.p, dz, 0, w.parameter(), 0, "DZ", z);
   for (const std::size_t level : {0u, 1u})
-    EXPECT_TRUE(agree(vz.value.partial[level], w.p.now().partial(w.parameter(), level, rate_of_z)));
+    EXPECT_TRUE(agree(vz.value.partial[6 * level], w.p.now().partial(w.parameter(), level, rate_of_z)));
 }
 
 }  // namespace

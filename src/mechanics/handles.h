@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/source.h"
 #include "base/vec3.h"
@@ -70,11 +71,19 @@ inline bool same_element(const ElementLabel& a, const ElementLabel& b) {
   return a.id == b.id && a.statement == b.statement;
 }
 
+// How a node of a body that changes its shape moves with the modal coordinates of the body, BCS axes.
+struct NodeShapes {
+  std::size_t first = 0;                      // of these coordinates among those outside poses
+  std::vector<Vector> translation, rotation;  // of each coordinate [length, rad per unit of it]
+  Vector offset;                              // from the node to the marker, undeformed
+};
+
 // Where a marker sits on its body.
 struct MarkerPlace {
   BodyId body = ground_body;
-  Vector p_BM;                         // origin in the BCS
-  Matrix3 R_BM = Matrix3::identity();  // axes in the BCS
+  Vector p_BM;                         // origin in the BCS, undeformed
+  Matrix3 R_BM = Matrix3::identity();  // axes in the BCS, undeformed
+  const NodeShapes* shapes = nullptr;  // of the model, null on a rigid body
 };
 
 }  // namespace dynalin

@@ -28,9 +28,9 @@ struct MarkerWrench {
     Vector force, torque;
   };
   std::vector<Scalar> scalars;
-  // A body with whose rotation δθ the wrench on I turns beyond what the pair says; columns are coordinates.
+  // A marker with whose axes the wrench on I turns beyond what the pair says, by their rotation δφ in global axes.
   struct Turn {
-    BodyId body;
+    const MarkerPlace* axes;
     Matrix3 force, torque;
   };
   std::vector<Turn> turns;

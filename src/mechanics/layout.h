@@ -1,7 +1,7 @@
 // The numbering of unknowns and equations, filled by the elements when a System is made.
 //
-// Coordinates come in blocks: 6 a part (δr then δθ, global axes), 3 a point mass, any number for an
-// element that brings coordinates of its own. Nothing but a part may assume 6.
+// Coordinates come in blocks: 6 a part (δr then δθ, global axes), 3 a point mass, then outside of poses the modal
+// coordinates of bodies, in the order of these, and any number for an element that brings coordinates of its own.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,8 @@ struct BodyBlock {
   std::int32_t offset = -1;  // first coordinate, −1 for ground
   std::int32_t count = 0;    // 0, 3 or 6
   ElementLabel label;
+
+  bool turns() const { return kind == BodyKind::part; }
 };
 
 // A coordinate outside bodies.
@@ -100,7 +102,7 @@ class Layout {
   const ElementLabel& marker_label(MarkerId m) const { return *marker_labels[static_cast<std::size_t>(m.index)]; }
 
   std::int32_t add_body(BodyKind, ElementLabel);
-  // After all bodies; returns the first coordinate.
+  // After all bodies, their modal coordinates first; returns the first coordinate.
   std::int32_t add_extra(ElementLabel, StateType, std::vector<ExtraCoordinate>);
   // Where a coordinate outside bodies stands among those in Motion.
   std::size_t extra_index(std::int32_t coordinate) const {

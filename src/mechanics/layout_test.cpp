@@ -20,17 +20,17 @@ TEST(Layout, bodies_have_the_coordinates_of_their_kind_one_after_another) {
   EXPECT_EQ(b[3].count, 3);
   EXPECT_EQ(b[4].offset, 15);
   EXPECT_EQ(p.layout.body_coordinate_count, 21);
-  EXPECT_EQ(p.layout.coordinate_count, 23);
+  EXPECT_EQ(p.layout.coordinate_count, 29);
 }
 
 TEST(Layout, coordinates_outside_bodies_stand_behind_them_and_keep_their_block) {
   Paths p;
   const ElementLabel label{"CVCV", 7, {}, {}};
-  EXPECT_EQ(p.layout.add_extra(label, StateType::cvcv, {{"S", 0.25, 2.0, 0.1}}), 23);
-  EXPECT_EQ(p.layout.coordinate_count, 24);
+  EXPECT_EQ(p.layout.add_extra(label, StateType::cvcv, {{"S", 0.25, 2.0, 0.1}}), 29);
+  EXPECT_EQ(p.layout.coordinate_count, 30);
   EXPECT_EQ(p.layout.body_coordinate_count, 21);
-  EXPECT_EQ(p.layout.extra_index(23), 2u);
-  EXPECT_EQ(p.layout.extras.back().offset, 23);
+  EXPECT_EQ(p.layout.extra_index(29), 8u);
+  EXPECT_EQ(p.layout.extras.back().offset, 29);
   EXPECT_EQ(p.layout.extras.back().count, 1);
   EXPECT_EQ(p.layout.extras.back().type, StateType::cvcv);
 }
@@ -42,8 +42,9 @@ TEST(Layout, coordinates_are_named_by_axis_and_owner) {
   EXPECT_EQ(p.layout.coordinate_text(6), "DX of PART/3");
   EXPECT_EQ(p.layout.coordinate_text(14), "DZ of POINT_MASS/4");
   EXPECT_EQ(p.layout.coordinate_text(15), "DX of PART/5");
-  EXPECT_EQ(p.layout.coordinate_text(22), "V of PTCV/1");
-  EXPECT_EQ(p.layout.coordinate_text(23), "coordinate 24");
+  EXPECT_EQ(p.layout.coordinate_text(22), "Q2 of PART/2");
+  EXPECT_EQ(p.layout.coordinate_text(28), "V of PTCV/1");
+  EXPECT_EQ(p.layout.coordinate_text(29), "coordinate 30");
 }
 
 TEST(Layout, rows_values_states_and_memory_are_counted_from_zero) {

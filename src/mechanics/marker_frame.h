@@ -1,12 +1,12 @@
-// Where an expression finds a marker: fixed on its body, or at a point of contact that a curve parameter moves along
-// the curve that the marker carries.
+// Where an expression finds a marker: at its place on its body, or at a point of contact that a curve parameter moves
+// along the curve that the marker carries.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
 #include "expression/parametric_curve.h"
-#include "mechanics/motion.h"
+#include "mechanics/deformation.h"
 
 namespace dynalin {
 
@@ -22,6 +22,17 @@ struct MarkerFrame {
   Frame<T> on_curve(const Frame<T>& carrier, const T& u) const {
     const Frame<T> local = curve->frame(u);
     return {carrier.origin + carrier.axes * local.origin, carrier.axes * local.axes};
+  }
+  // The frame in the BCS, of which it knows the modal coordinates q(k) of the body and the curve parameter u.
+  template <class T, class Q>
+  Frame<T> on_body(Q&& q, const T& u) const {
+    const auto constant = [](const Vector& v) { return Vec3<T>{T(v.x), T(v.y), T(v.z)}; };
+    Frame<T> f{constant(place().p_BM), {constant(place().R_BM.x), constant(place().R_BM.y), constant(place().R_BM.z)}};
+    if (place().shapes) {
+      const Deformation<T> d = deformation<T>(*place().shapes, q);
+      f = {f.origin + d.moved, d.turned * f.axes};
+    }
+    return curve ? on_curve(f, u) : f;
   }
   Taylor along_motion(const Motion& motion) const {
     return {motion.extra[extra], motion.extra_rate[extra], motion.extra_acceleration[extra]};

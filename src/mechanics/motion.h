@@ -24,6 +24,7 @@ struct BodyMotion {
   Matrix3 R, Rdot, Rddot;  // axes and their derivatives
   Vector w, wdot;          // angular velocity and acceleration
 
+  Mat3<TimeTaylor<double>> axes() const;  // R along the motion
   // Fills the derivatives of R: R′ = ω×R, R″ = α×R + ω×(ω×R).
   void set(const Pose& pose, const Vector& v, const Vector& omega, const Vector& a, const Vector& alpha);
 };
@@ -48,13 +49,14 @@ struct Motion {
   double time = 0;
   AnalysisMode mode = AnalysisMode::initial_conditions;
   std::vector<BodyMotion> bodies;                             // ground first
-  std::vector<double> extra, extra_rate, extra_acceleration;  // coordinates outside bodies (curve parameters)
+  std::vector<double> extra, extra_rate, extra_acceleration;  // coordinates outside poses: modal, curve parameters
   std::vector<double> lambda;                                 // multipliers, one per constraint row
   std::vector<double> algebraic;                              // values of VARIABLEs, force components, outputs
   std::vector<double> state, state_rate;                      // differential states
   Memory memory;
 
   const BodyMotion& body(BodyId b) const { return bodies[static_cast<std::size_t>(b.index)]; }
+  Taylor outside_poses(std::size_t k) const { return {extra[k], extra_rate[k], extra_acceleration[k]}; }
   // Marker frame along the motion, global axes; its origin from that of `from`'s BCS, which keeps what is near exact.
   Frame<Taylor> frame(const MarkerPlace&, BodyId from = ground_body) const;
   Mat3<Taylor> axes_along(const MarkerPlace&) const;
@@ -62,9 +64,14 @@ struct Motion {
   Vec3<Taylor> arm(const MarkerPlace&) const;
   Vector point(const MarkerPlace& m) const {
     const BodyMotion& b = body(m.body);
-    return b.r + b.R * m.p_BM;
+    return b.r + b.R * (m.shapes ? origin_on_body(m) : m.p_BM);
   }
-  Matrix3 axes(const MarkerPlace& m) const { return body(m.body).R * m.R_BM; }
+  Matrix3 axes(const MarkerPlace& m) const { return body(m.body).R * (m.shapes ? axes_on_body(m) : m.R_BM); }
+
+ private:
+  // Of a marker with shapes, in the BCS.
+  Vector origin_on_body(const MarkerPlace&) const;
+  Matrix3 axes_on_body(const MarkerPlace&) const;
 };
 
 // The angle with the same sine and cosine as `principal` that lies nearest to `remembered`.

@@ -1,14 +1,10 @@
 #include "mechanics/pair.h"
 
+#include "mechanics/pair_blocks.h"
+
 namespace dynalin {
 
 namespace {
-
-// Columns of the relative displacement (or of Δ) with respect to the groups, in global components,
-// and of their rates with respect to δq.
-struct Groups {
-  std::array<Matrix3, 4> displacement, rotation;
-};
 
 Matrix3 block(const std::array<std::array<double, 6>, 6>& m, std::size_t row, std::size_t column) {
   Matrix3 b;
@@ -35,6 +31,12 @@ PairMotion pair_motion(const Motion& motion, const MarkerPlace& I, const MarkerP
   p.relative = {transpose_times(p.axes_J, p.delta), transpose_times(p.axes_J, axes_I.x),
                 transpose_times(p.axes_J, axes_I.y), transpose_times(p.axes_J, axes_I.z)};
   p.w_J = c.w;
+  if (J.shapes) {  // its axes turn against the body
+    p.w_J = {};
+    for (std::size_t k = 0; k < 3; ++k) p.w_J += 0.5 * cross(value(p.axes_J[k]), rate(p.axes_J[k]));
+  }
+  p.shapes_I = I.shapes, p.shapes_J = J.shapes;
+  p.motion = &motion;
   return p;
 }
 
@@ -46,32 +48,29 @@ PairForce spread(const PairMotion& p, const RelativeWrench& w, bool with_partial
   out.depends_on_velocity = w.depends_on_rate;
   if (!with_partials) return out;
 
-  const Matrix3 one = Matrix3::identity();
-  const Matrix3 rho = skew(value(p.arm_I)), arm = skew(value(p.arm));
-  // δξ = Rᵀ G δq, all in global components.
-  const Groups G{{one, -rho, -one, arm}, {Matrix3{}, one, Matrix3{}, -one}};
-  const auto add = [&](const std::array<std::array<double, 6>, 6>& m, const Groups& g, GroupPartials& force,
-                       GroupPartials& torque) {
-    const Matrix3 fd = congruent(R, block(m, 0, 0)), fr = congruent(R, block(m, 0, 3));
-    const Matrix3 td = congruent(R, block(m, 3, 0)), tr = congruent(R, block(m, 3, 3));
-    for (std::size_t k = 0; k < 4; ++k) {
-      force.group[k] += fd * g.displacement[k] + fr * g.rotation[k];
-      torque.group[k] += td * g.displacement[k] + tr * g.rotation[k];
-    }
+  // δξ = Rᵀ G δ(p_I, φ_I, p_J, φ_J) with G = (1, 0, −1, Δ×) for d and (0, 1, 0, −1) for φ, all in global components.
+  const Matrix3 delta = skew(value(p.delta));
+  const auto add = [&](const std::array<std::array<double, 6>, 6>& m, std::size_t row, MarkerPartials& by) {
+    const Matrix3 on_d = congruent(R, block(m, row, 0)), on_phi = congruent(R, block(m, row, 3));
+    by.origin_I += on_d, by.axes_I += on_phi;
+    by.origin_J -= on_d, by.axes_J += on_d * delta - on_phi;
   };
-  add(w.on_pose, G, out.force_on_position, out.torque_on_position);
+  add(w.on_pose, 0, out.force_on_position), add(w.on_pose, 3, out.torque_on_position);
   if (w.depends_on_rate) {
-    add(w.on_rate, G, out.force_on_velocity, out.torque_on_velocity);
-    // δξ′ = Rᵀ (G δq′ + Ġ δq) with (Rᵀ)′ = −Rᵀ ω×.
-    const Matrix3 omega = skew(p.w_J);
-    const Matrix3 rho_rate = skew(rate(p.arm_I)), arm_rate = skew(rate(p.arm));
-    const Groups G_rate{{-omega, omega * rho - rho_rate, omega, arm_rate - omega * arm},
-                        {Matrix3{}, -omega, Matrix3{}, omega}};
-    add(w.on_rate, G_rate, out.force_on_position, out.torque_on_position);
+    add(w.on_rate, 0, out.force_on_velocity), add(w.on_rate, 3, out.torque_on_velocity);
+    // δξ′ = Rᵀ (G δ(…)′ + (Ġ − ω× G) δ(…)), as (Rᵀ)′ = −Rᵀ ω×.
+    const Matrix3 omega = skew(p.w_J), turning = skew(rate(p.delta)) - omega * delta;
+    const auto add_rate = [&](std::size_t row, MarkerPartials& by) {
+      const Matrix3 on_d = congruent(R, block(w.on_rate, row, 0)), on_phi = congruent(R, block(w.on_rate, row, 3));
+      const Matrix3 d = on_d * omega, phi = on_phi * omega;
+      by.origin_I -= d, by.axes_I -= phi;
+      by.origin_J += d, by.axes_J += on_d * turning + phi;
+    };
+    add_rate(0, out.force_on_position), add_rate(3, out.torque_on_position);
   }
-  // The axes in which the wrench is given turn with J's body.
-  out.force_on_position.group[3] -= skew(out.force);
-  out.torque_on_position.group[3] -= skew(out.torque);
+  // The axes in which the wrench is given turn with J.
+  out.force_on_position.axes_J -= skew(out.force);
+  out.torque_on_position.axes_J -= skew(out.torque);
   return out;
 }
 
@@ -91,26 +90,90 @@ PairForce along_line(const PairMotion& p, const LineMagnitude& F, bool with_part
   const Matrix3 on_delta =
       F.on_distance * uu + F.on_rate * outer(u, rate(line)) + (F.value / d.value) * (Matrix3::identity() - uu);
   const Matrix3 on_delta_rate = F.on_rate * uu;
-  const Matrix3 one = Matrix3::identity();
-  const std::array<Matrix3, 4> G = {one, -skew(value(p.arm_I)), -one, skew(value(p.arm_J))};
-  for (std::size_t k = 0; k < 4; ++k) out.force_on_position.group[k] = on_delta * G[k];
-  if (out.depends_on_velocity) {
-    for (std::size_t k = 0; k < 4; ++k) out.force_on_velocity.group[k] = on_delta_rate * G[k];
-    out.force_on_position.group[1] -= on_delta_rate * skew(rate(p.arm_I));
-    out.force_on_position.group[3] += on_delta_rate * skew(rate(p.arm_J));
-  }
+  out.force_on_position.origin_I = on_delta, out.force_on_position.origin_J = -on_delta;
+  if (out.depends_on_velocity)
+    out.force_on_velocity.origin_I = on_delta_rate, out.force_on_velocity.origin_J = -on_delta_rate;
   return out;
+}
+
+BlockPartials partials_by(const PairBlock& b, const PairForce& f) {
+  const auto on_position = [&](const MarkerPartials& at, const MarkerPartials& by_rate) {
+    const Matrix3 &origin = b.of_J ? at.origin_J : at.origin_I, &axes = b.of_J ? at.axes_J : at.axes_I;
+    if (b.kind == PairBlock::Kind::translation) return origin;
+    const bool modal = b.kind == PairBlock::Kind::modal;
+    Matrix3 on = origin * b.moves + (modal ? axes * b.turns : axes);
+    if (f.depends_on_velocity) on += (b.of_J ? by_rate.origin_J : by_rate.origin_I) * b.moves_rate;
+    if (f.depends_on_velocity && modal) on += (b.of_J ? by_rate.axes_J : by_rate.axes_I) * b.turns_rate;
+    return on;
+  };
+  const auto on_velocity = [&](const MarkerPartials& at) {
+    const Matrix3 &origin = b.of_J ? at.origin_J : at.origin_I, &axes = b.of_J ? at.axes_J : at.axes_I;
+    if (b.kind == PairBlock::Kind::translation) return origin;
+    return origin * b.moves + (b.kind == PairBlock::Kind::modal ? axes * b.turns : axes);
+  };
+  BlockPartials on;
+  on.force = on_position(f.force_on_position, f.force_on_velocity);
+  on.torque = on_position(f.torque_on_position, f.torque_on_velocity);
+  if (!f.depends_on_velocity) return on;
+  on.force_by_rate = on_velocity(f.force_on_velocity);
+  on.torque_by_rate = on_velocity(f.torque_on_velocity);
+  return on;
 }
 
 namespace {
 
-std::array<std::int32_t, 4> group_columns(const PairMotion& p, const Layout& layout) {
-  const auto columns = [&](BodyId b) {
-    const BodyBlock& block = layout.body(b);
-    return std::array<std::int32_t, 2>{block.count >= 3 ? block.offset : -1, block.count == 6 ? block.offset + 3 : -1};
-  };
-  const auto B = columns(p.body_I), C = columns(p.body_J);
-  return {B[0], B[1], C[0], C[1]};
+// Force and torque on a marker of a pair at its origin.
+struct Load {
+  Vector force, torque;
+};
+Load on_J(const PairMotion& p, const Vector& force, const Vector& torque) {
+  return {-force, -(torque + cross(value(p.arm) - value(p.arm_J), force))};
+}
+
+// What a force on a marker works on the modal coordinates of its body: row by row, φᵀ F + ψᵀ T.
+template <class Visit>
+void for_each_modal_row(const PairMotion& p, bool of_J, const Layout& layout, Visit&& visit) {
+  for_each_modal_block(*p.motion, of_J ? p.body_J : p.body_I, of_J ? p.shapes_J : p.shapes_I, layout,
+                       [&](const PairBlock& b) {
+                         for (std::size_t k = 0; k < b.count; ++k)
+                           visit(b.column + static_cast<std::int32_t>(k), b.first_shape + k, b.moves[k], b.turns[k]);
+                       });
+}
+
+void add_to_modal_residuals(const PairMotion& p, bool of_J, const Load& load, Equations& eq) {
+  for_each_modal_row(p, of_J, eq.layout(),
+                     [&](std::int32_t row, std::size_t, const Vector& moves, const Vector& turns) {
+                       eq.add_residual(row, -(dot(moves, load.force) + dot(turns, load.torque)));
+                     });
+}
+
+// Partials of these rows by the coordinates of a block that changes the load; column by column.
+void add_to_modal_rows(const PairMotion& p, bool of_J, PartialBy family, const PairBlock& by, const Matrix3& force,
+                       const Matrix3& torque, Equations& eq) {
+  for_each_modal_row(p, of_J, eq.layout(),
+                     [&](std::int32_t row, std::size_t, const Vector& moves, const Vector& turns) {
+                       for (std::size_t c = 0; c < by.count; ++c)
+                         eq.add(family, row, by.column + static_cast<std::int32_t>(c),
+                                -(dot(moves, force[c]) + dot(turns, torque[c])));
+                     });
+}
+
+// How the rows themselves change under the load with the coordinates that move their marker.
+void add_change_of_modal_rows(const PairMotion& p, const PairBlock& by, const Load& load, Equations& eq) {
+  if (by.kind == PairBlock::Kind::translation) return;
+  const NodeShapes* shapes = by.of_J ? p.shapes_J : p.shapes_I;
+  for_each_modal_row(
+      p, by.of_J, eq.layout(), [&](std::int32_t row, std::size_t k, const Vector& moves, const Vector& turns) {
+        for (std::size_t c = 0; c < by.count; ++c) {
+          ModalChange change;
+          if (by.kind == PairBlock::Kind::modal)
+            change = modal_change(*p.motion, by.of_J ? p.body_J : p.body_I, *shapes, k, by.first_shape + c);
+          else
+            change = {cross(unit_vectors[c], moves), cross(unit_vectors[c], turns)};
+          eq.add(PartialBy::position, row, by.column + static_cast<std::int32_t>(c),
+                 -(dot(change.moves, load.force) + dot(change.turns, load.torque)));
+        }
+      });
 }
 
 }  // namespace
@@ -118,31 +181,42 @@ std::array<std::int32_t, 4> group_columns(const PairMotion& p, const Layout& lay
 void apply(const PairMotion& p, const PairForce& f, Equations& eq, PartialBy velocity_family) {
   eq.apply(p.body_I, f.force, cross(value(p.arm_I), f.force) + f.torque);
   if (f.acts_on_J()) eq.apply(p.body_J, -f.force, -(cross(value(p.arm), f.force) + f.torque));
+  if (p.shapes_I) add_to_modal_residuals(p, false, {f.force, f.torque}, eq);
+  if (p.shapes_J && f.acts_on_J()) add_to_modal_residuals(p, true, on_J(p, f.force, f.torque), eq);
   if (eq.wants_partials()) apply_partials(p, f, eq, velocity_family);
 }
 
 void apply_partials(const PairMotion& p, const PairForce& f, Equations& eq, PartialBy velocity_family) {
-  const Vector rho = value(p.arm_I), arm = value(p.arm);
-  const auto columns = group_columns(p, eq.layout());
-  const Matrix3 to_I = skew(rho), to_J = skew(arm), of_force = skew(f.force);
-  // Change of the lever arms under the force: δ(ρ × f) and δ(arm × f).
-  const Matrix3 turn_I = of_force * to_I;
-  const std::array<Matrix3, 4> arm_I = {Matrix3{}, turn_I, Matrix3{}, Matrix3{}};
-  const std::array<Matrix3, 4> arm_J = {-of_force, turn_I, of_force, Matrix3{}};
-  for (std::size_t k = 0; k < 4; ++k) {
-    if (columns[k] < 0) continue;
-    const Matrix3& F = f.force_on_position.group[k];
-    const Matrix3& T = f.torque_on_position.group[k];
-    eq.add_block(PartialBy::position, p.body_I, columns[k], F, to_I * F + T + arm_I[k]);
-    if (f.acts_on_J()) {
-      eq.add_block(PartialBy::position, p.body_J, columns[k], -F, -(to_J * F + T + arm_J[k]));
+  const Matrix3 to_I = skew(value(p.arm_I)), to_J = skew(value(p.arm)), of_force = skew(f.force);
+  const Matrix3 from_J = skew(value(p.arm) - value(p.arm_J));
+  const bool by_rate = eq.wants(velocity_family);
+  for_each_block(p, eq.layout(), [&](const PairBlock& b) {
+    const BlockPartials on = partials_by(b, f);
+    const bool translation = b.kind == PairBlock::Kind::translation;
+    // Change of the lever arms under the force: δ(ρ × f), δ(arm × f), and of that from the origin of J.
+    const Matrix3 none{}, moved = -(of_force * b.moves);
+    const Matrix3& arm_I = b.of_J || translation ? none : moved;
+    const Matrix3 arm_J = !b.of_J ? moved : translation ? of_force : none;
+    eq.add_block(PartialBy::position, p.body_I, b.column, on.force, to_I * on.force + on.torque + arm_I, -1.0, b.count);
+    if (f.acts_on_J())
+      eq.add_block(PartialBy::position, p.body_J, b.column, -on.force, -(to_J * on.force + on.torque + arm_J), -1.0,
+                   b.count);
+    if (p.shapes_I) {
+      add_to_modal_rows(p, false, PartialBy::position, b, on.force, on.torque, eq);
+      if (!b.of_J) add_change_of_modal_rows(p, b, {f.force, f.torque}, eq);
     }
-    if (!eq.wants(velocity_family)) continue;
-    const Matrix3& Fv = f.force_on_velocity.group[k];
-    const Matrix3& Tv = f.torque_on_velocity.group[k];
-    eq.add_block(velocity_family, p.body_I, columns[k], Fv, to_I * Fv + Tv);
-    if (f.acts_on_J()) eq.add_block(velocity_family, p.body_J, columns[k], -Fv, -(to_J * Fv + Tv));
-  }
+    if (p.shapes_J && f.acts_on_J()) {
+      add_to_modal_rows(p, true, PartialBy::position, b, -on.force,
+                        -(from_J * on.force + on.torque + (b.of_J ? -moved : moved)), eq);
+      if (b.of_J) add_change_of_modal_rows(p, b, on_J(p, f.force, f.torque), eq);
+    }
+    if (!by_rate) return;
+    const Matrix3 &Fv = on.force_by_rate, &Tv = on.torque_by_rate;
+    eq.add_block(velocity_family, p.body_I, b.column, Fv, to_I * Fv + Tv, -1.0, b.count);
+    if (f.acts_on_J()) eq.add_block(velocity_family, p.body_J, b.column, -Fv, -(to_J * Fv + Tv), -1.0, b.count);
+    if (p.shapes_I) add_to_modal_rows(p, false, velocity_family, b, Fv, Tv, eq);
+    if (p.shapes_J && f.acts_on_J()) add_to_modal_rows(p, true, velocity_family, b, -Fv, -(from_J * Fv + Tv), eq);
+  });
 }
 
 void apply_column(const PairMotion& p, const Vector& force, const Vector& torque, bool acts_on_J, PartialBy family,
@@ -151,29 +225,36 @@ void apply_column(const PairMotion& p, const Vector& force, const Vector& torque
   if (acts_on_J) {
     eq.add_column(family, p.body_J, column, -force, -(cross(value(p.arm), force) + torque));
   }
+  for (const bool of_J : {false, true}) {
+    if (of_J && !acts_on_J) continue;
+    const Load load = of_J ? on_J(p, force, torque) : Load{force, torque};
+    for_each_modal_row(p, of_J, eq.layout(),
+                       [&](std::int32_t row, std::size_t, const Vector& moves, const Vector& turns) {
+                         eq.add(family, row, column, -(dot(moves, load.force) + dot(turns, load.torque)));
+                       });
+  }
 }
 
-void apply_turn(const PairMotion& p, BodyId body, const Matrix3& force, const Matrix3& torque, Equations& eq) {
-  const BodyBlock& block = eq.layout().body(body);
-  if (block.count != 6) return;
-  eq.add_block(PartialBy::position, p.body_I, block.offset + 3, force, skew(value(p.arm_I)) * force + torque);
-  eq.add_block(PartialBy::position, p.body_J, block.offset + 3, -force, -(skew(value(p.arm)) * force + torque));
+void apply_turn(const PairMotion& p, const MarkerPlace& axes, const Matrix3& force, const Matrix3& torque,
+                Equations& eq) {
+  for_each_turning_block(
+      *p.motion, axes, eq.layout(), [&](std::int32_t column, std::size_t count, const Matrix3& turns) {
+        const Matrix3 F = force * turns, T = torque * turns;
+        for (std::size_t c = 0; c < count; ++c)
+          apply_column(p, F[c], T[c], true, PartialBy::position, column + static_cast<std::int32_t>(c), eq);
+      });
 }
 
 void apply_cross_partials(const PairMotion& acting, const PairMotion& varied, const PairForce& f, Equations& eq,
                           PartialBy velocity_family) {
-  const auto columns = group_columns(varied, eq.layout());
-  const Matrix3 to_I = skew(value(acting.arm_I)), to_J = skew(value(acting.arm));
-  const auto add = [&](PartialBy family, std::int32_t column, const Matrix3& F, const Matrix3& T) {
-    if (!eq.wants(family)) return;
-    eq.add_block(family, acting.body_I, column, F, to_I * F + T);
-    eq.add_block(family, acting.body_J, column, -F, -(to_J * F + T));
-  };
-  for (std::size_t k = 0; k < 4; ++k) {
-    if (columns[k] < 0) continue;
-    add(PartialBy::position, columns[k], f.force_on_position.group[k], f.torque_on_position.group[k]);
-    add(velocity_family, columns[k], f.force_on_velocity.group[k], f.torque_on_velocity.group[k]);
-  }
+  for_each_block(varied, eq.layout(), [&](const PairBlock& b) {
+    const BlockPartials on = partials_by(b, f);
+    for (std::size_t c = 0; c < b.count; ++c) {
+      const std::int32_t column = b.column + static_cast<std::int32_t>(c);
+      apply_column(acting, on.force[c], on.torque[c], true, PartialBy::position, column, eq);
+      apply_column(acting, on.force_by_rate[c], on.torque_by_rate[c], true, velocity_family, column, eq);
+    }
+  });
 }
 
 void add_partials(std::int32_t row, const PairMotion& p, const Vector& on_d, const Vector& on_phi, PartialBy family,
@@ -189,6 +270,13 @@ void add_partials(std::int32_t row, const PairMotion& p, const Vector& on_d, con
   };
   add(p.body_I, f, t + cross(value(p.arm_I), f));
   add(p.body_J, -f, -(t + cross(value(p.arm), f)));
+  for (const bool of_J : {false, true}) {
+    const Load gradient = of_J ? on_J(p, f, t) : Load{f, t};
+    for_each_modal_row(p, of_J, eq.layout(),
+                       [&](std::int32_t column, std::size_t, const Vector& moves, const Vector& turns) {
+                         eq.add(family, row, column, dot(moves, gradient.force) + dot(turns, gradient.torque));
+                       });
+  }
 }
 
 void add_gradient(std::int32_t row, const PairMotion& p, const Vec3<Taylor>& on_d, const Vec3<Taylor>& on_phi,
@@ -196,6 +284,17 @@ void add_gradient(std::int32_t row, const PairMotion& p, const Vec3<Taylor>& on_
   const Vec3<Taylor> f = p.axes_J * on_d, t = p.axes_J * on_phi;
   rows.add_pose(row, p.body_I, f, t + cross(p.arm_I, f));
   rows.add_pose(row, p.body_J, -f, -(t + cross(p.arm, f)));
+  for (const bool of_J : {false, true}) {
+    const NodeShapes* shapes = of_J ? p.shapes_J : p.shapes_I;
+    if (!shapes) continue;
+    const Vec3<Taylor> turning = of_J ? -(t + cross(p.arm - p.arm_J, f)) : t;
+    for (std::size_t k = 0; k < shapes->translation.size(); ++k) {
+      const ModalVariation v = modal_variation(*p.motion, of_J ? p.body_J : p.body_I, *shapes, k);
+      const Taylor moving = dot(v.moves, f);
+      rows.add_coordinate(row, rows.layout().body_coordinate_count + static_cast<std::int32_t>(shapes->first + k),
+                          (of_J ? -moving : moving) + dot(v.turns, turning));
+    }
+  }
 }
 
 }  // namespace dynalin

@@ -1,12 +1,13 @@
 // What two-marker elements share: the motion of marker I relative to marker J, and how a force on I and
 // its reaction on J spread to the two bodies, with all partial derivatives.
 //
-// Variations of the two bodies (B carries I, C carries J) come in four groups of three columns,
-// δr_B, δθ_B, δr_C, δθ_C. With ρ_I from the BCS of B to I, and `arm` from the BCS of C to the origin of I,
+// Laws know the two markers alone. Variations of their origins and axes, δp_I, δφ_I, δp_J, δφ_J in global axes, are
 //
-//     δd = R_Jᵀ (δr_B − ρ_I × δθ_B − δr_C + arm × δθ_C),     δφ = R_Jᵀ (δθ_B − δθ_C)
+//     δd = R_Jᵀ (δp_I − δp_J + Δ × δφ_J),     δφ = R_Jᵀ (δφ_I − δφ_J)
 //
-// are the variations of the relative pose ξ = (d, φ) in the axes of J.
+// of the relative pose ξ = (d, φ) in the axes of J, with Δ from J to I. Which coordinates move a marker, and how, is
+// said block by block in pair_blocks.h: translation and rotation of its body, modal coordinates where that changes its
+// shape.
 #pragma once
 
 #include <array>
@@ -19,9 +20,9 @@ namespace dynalin {
 
 PairMotion pair_motion(const Motion&, const MarkerPlace& I, const MarkerPlace& J);
 
-// Partials of one vector with respect to the four groups of coordinates; columns are coordinates.
-struct GroupPartials {
-  std::array<Matrix3, 4> group{};
+// Partials of one vector with respect to the variations of the two markers, global axes; columns are components.
+struct MarkerPartials {
+  Matrix3 origin_I, axes_I, origin_J, axes_J;
 };
 
 // What takes the opposite of the force and torque on I: J's body at the origin of I, its body at the origin of J (the
@@ -33,8 +34,8 @@ enum class Components : std::uint8_t { force, torque, force_and_torque };
 // The force and torque on I at its origin, global axes.
 struct PairForce {
   Vector force, torque;
-  GroupPartials force_on_position, torque_on_position;  // with respect to δq
-  GroupPartials force_on_velocity, torque_on_velocity;  // with respect to δq′
+  MarkerPartials force_on_position, torque_on_position;  // with respect to δp, δφ
+  MarkerPartials force_on_velocity, torque_on_velocity;  // with respect to δp′, δφ′
   bool depends_on_velocity = false;
   Reaction reaction = Reaction::at_I;
   Components components = Components::force_and_torque;
@@ -65,8 +66,8 @@ void apply_partials(const PairMotion&, const PairForce&, Equations&, PartialBy v
 void apply_column(const PairMotion&, const Vector& force, const Vector& torque, bool acts_on_J, PartialBy family,
                   std::int32_t column, Equations&);
 
-// Adds the partials of force and torque on I with respect to the rotation of any body.
-void apply_turn(const PairMotion&, BodyId body, const Matrix3& force, const Matrix3& torque, Equations&);
+// Adds the partials of force and torque on I with respect to the rotation of the axes of any marker.
+void apply_turn(const PairMotion&, const MarkerPlace& axes, const Matrix3& force, const Matrix3& torque, Equations&);
 // Adds the partials of a force on I of pair `acting` with respect to the coordinates of another pair.
 void apply_cross_partials(const PairMotion& acting, const PairMotion& varied, const PairForce&, Equations&,
                           PartialBy velocity_family = PartialBy::damping);

@@ -1,5 +1,5 @@
-// The motion of marker I as seen from marker J, and the room in which elements keep that of several pairs while they are
-// evaluated.
+// The motion of marker I as seen from marker J, and the room in which elements keep that of several pairs while they
+// are evaluated.
 #pragma once
 
 #include <array>
@@ -17,7 +17,10 @@ struct PairMotion {
   Vec3<Taylor> arm_I, arm_J;       // from the BCS of the body to its marker, global axes
   Vec3<Taylor> arm;                // from the BCS of J's body to the origin of I
   Vec3<Taylor> delta;              // from J to I
-  Vector w_J;                      // angular velocity of J's body
+  Vector w_J;                      // angular velocity of J
+  // Of markers on bodies that change their shape, and what these move by; the motion outlives the pair.
+  const NodeShapes *shapes_I = nullptr, *shapes_J = nullptr;
+  const Motion* motion = nullptr;
 };
 
 using Array6 = std::array<double, 6>;

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "mechanics/pair_blocks.h"
 #include "mechanics/paths_test_support.h"
 
 namespace dynalin::mechanics_test {
@@ -57,30 +58,26 @@ struct Wrench {
   PairMotion motion(const Paths& p) const { return pair_motion(p.motion, p.layout.marker(i), p.layout.marker(j)); }
 };
 
-std::array<std::int32_t, 4> groups(const Paths& p, MarkerId i, MarkerId j) {
-  const BodyBlock &b = p.layout.body(p.layout.marker(i).body), &c = p.layout.body(p.layout.marker(j).body);
-  return {b.offset, b.offset + 3, c.offset, c.offset + 3};
-}
-
-constexpr std::array<const char*, 4> group_names = {"origin of the body of I", "rotation of the body of I",
-                                                    "origin of the body of J", "rotation of the body of J"};
-
-// The partials of a vector of the pair by all four groups.
+// The partials of a vector on the pair by all blocks that it depends on, by `pick` out of those of a block.
 template <class Function>
-void expect_partials(const Paths& p, const GroupPartials& partials, std::size_t level, const char* what,
-                     const Function& f) {
-  const auto columns = groups(p, I, J);
-  for (std::size_t g = 0; g < 4; ++g) {
-    for (std::int32_t k = 0; k < 3; ++k) {
-      const RealVector expected = p.now().partial(columns[g] + k, level, f);
+void expect_partials(const Paths& p, const PairForce& force, Matrix3 BlockPartials::*pick, std::size_t level,
+                     const char* what, const Function& f) {
+  const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  std::size_t coordinates = 0;
+  for_each_block(pair, p.layout, [&](const PairBlock& b) {
+    const Matrix3 partials = partials_by(b, force).*pick;
+    coordinates += b.count;
+    for (std::size_t k = 0; k < b.count; ++k) {
+      const std::int32_t column = b.column + static_cast<std::int32_t>(k);
+      const RealVector expected = p.now().partial(column, level, f);
       for (std::size_t r = 0; r < 3; ++r) {
-        EXPECT_TRUE(agree(partials.group[g](r, static_cast<std::size_t>(k)), expected[r]))
+        EXPECT_TRUE(agree(partials(r, k), expected[r]))
             << what << " "
-            << "xyz"[r] << " by the " << group_names[g] << " "
-            << "xyz"[k] << (level == 0 ? "" : ", its rate");
+            << "xyz"[r] << " by " << coordinate_name(p.layout, column, level);
       }
     }
-  }
+  });
+  EXPECT_EQ(coordinates, 18u);
 }
 
 void expect_near(const Vector& value, const RealVector& expected, const char* what) {
@@ -141,10 +138,10 @@ TEST(Pair, a_wrench_in_the_axes_of_J_spreads_with_its_partials_by_position_and_v
   const auto torque = [&](const Moment& m) { return w.torque.at(m, I, J); };
   expect_near(f.force, force(p.now()), "force");
   expect_near(f.torque, torque(p.now()), "torque");
-  expect_partials(p, f.force_on_position, 0, "force", force);
-  expect_partials(p, f.torque_on_position, 0, "torque", torque);
-  expect_partials(p, f.force_on_velocity, 1, "force", force);
-  expect_partials(p, f.torque_on_velocity, 1, "torque", torque);
+  expect_partials(p, f, &BlockPartials::force, 0, "force", force);
+  expect_partials(p, f, &BlockPartials::torque, 0, "torque", torque);
+  expect_partials(p, f, &BlockPartials::force_by_rate, 1, "force", force);
+  expect_partials(p, f, &BlockPartials::torque_by_rate, 1, "torque", torque);
   EXPECT_TRUE(f.depends_on_velocity);
   EXPECT_EQ(f.reaction, Reaction::at_I);
 }
@@ -159,8 +156,8 @@ TEST(Pair, a_wrench_without_rates_has_no_partials_by_velocity) {
   r.depends_on_rate = false;
   const PairForce f = spread(w.motion(p), r, true);
   EXPECT_FALSE(f.depends_on_velocity);
-  expect_partials(p, f.force_on_position, 0, "force", [&](const Moment& m) { return w.force.at(m, I, J); });
-  expect_partials(p, f.torque_on_velocity, 1, "torque", [](const Moment&) { return RealVector{}; });
+  expect_partials(p, f, &BlockPartials::force, 0, "force", [&](const Moment& m) { return w.force.at(m, I, J); });
+  expect_partials(p, f, &BlockPartials::torque_by_rate, 1, "torque", [](const Moment&) { return RealVector{}; });
 }
 
 // F = a + b d + c d² + e d′ d along the line.
@@ -189,8 +186,8 @@ TEST(Pair, a_force_along_the_line_has_the_stiffness_of_its_direction) {
     const auto force = [&](const Moment& m) { return line.along(m); };
     expect_near(f.force, force(p.now()), "force");
     expect_near(f.torque, {}, "torque");
-    expect_partials(p, f.force_on_position, 0, "force", force);
-    expect_partials(p, f.force_on_velocity, 1, "force", force);
+    expect_partials(p, f, &BlockPartials::force, 0, "force", force);
+    expect_partials(p, f, &BlockPartials::force_by_rate, 1, "force", force);
     EXPECT_EQ(f.depends_on_velocity, line.e != 0);
     EXPECT_EQ(f.reaction, Reaction::at_J);
     EXPECT_EQ(f.components, Components::force);
@@ -202,45 +199,62 @@ TEST(Pair, partials_are_left_out_where_nobody_asks) {
   const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
   const Wrench w{Law::drawn(p), Law::drawn(p)};
   for (const PairForce& f : {w.of(p, false), Line{}.of(pair, false)}) {
-    for (const GroupPartials* g :
+    for (const MarkerPartials* by :
          {&f.force_on_position, &f.torque_on_position, &f.force_on_velocity, &f.torque_on_velocity}) {
-      for (const Matrix3& m : g->group) EXPECT_EQ(trace(transpose(m) * m), 0);
+      for (const Matrix3& m : {by->origin_I, by->axes_I, by->origin_J, by->axes_J})
+        EXPECT_EQ(trace(transpose(m) * m), 0);
     }
   }
 }
 
-// Force and moment about the BCS of both bodies: what acts at I, and the opposite at the same point of J's body.
+// Rows of the balance that a force on the pair is in: of both poses, then of the modal coordinates.
+constexpr std::size_t balance_rows = 18;
+std::int32_t row_of_balance(const Paths& p, std::size_t k) {
+  return k < 12 ? static_cast<std::int32_t>(k) : p.layout.body_coordinate_count + static_cast<std::int32_t>(k) - 12;
+}
+bool is_of_J(std::size_t k) { return k < 12 ? k >= 6 : k >= 14; }
+
+// Generalized forces of what acts at I, and of the opposite at the same point of J's body.
 struct Balance {
-  RealVector force_I, moment_I, force_J, moment_J;
-  friend Balance operator-(const Balance& a, const Balance& b) {
-    return {a.force_I - b.force_I, a.moment_I - b.moment_I, a.force_J - b.force_J, a.moment_J - b.moment_J};
+  std::array<Real, balance_rows> work{};
+
+  friend Balance operator-(Balance a, const Balance& b) { return a + b * -1; }
+  friend Balance operator+(Balance a, const Balance& b) {
+    for (std::size_t k = 0; k < balance_rows; ++k) a.work[k] += b.work[k];
+    return a;
   }
-  friend Balance operator+(const Balance& a, const Balance& b) {
-    return {a.force_I + b.force_I, a.moment_I + b.moment_I, a.force_J + b.force_J, a.moment_J + b.moment_J};
-  }
-  friend Balance operator*(const Balance& a, Real s) {
-    return {a.force_I * s, a.moment_I * s, a.force_J * s, a.moment_J * s};
+  friend Balance operator*(Balance a, Real s) {
+    for (Real& w : a.work) w *= s;
+    return a;
   }
   friend Balance operator/(const Balance& a, Real s) { return a * (1 / s); }
-  Real operator()(std::size_t group, std::size_t k) const {
-    return (group == 0 ? force_I : group == 1 ? moment_I : group == 2 ? force_J : moment_J)[k];
-  }
 };
 Balance balance(const Moment& m, const RealVector& f, const RealVector& t) {
-  const RealVector arm = m.origin(I) - m.origin_of(m.body(J));
-  return {f, cross(m.arm(I), f) + t, -f, -(cross(arm, f) + t)};
+  Balance all;
+  for (std::size_t k = 0; k < balance_rows; ++k) {
+    const bool of_J = is_of_J(k);
+    const MarkerId marker = of_J ? J : I;
+    const RealMatrix now = m.axes(marker);
+    const RealMatrix back = transpose(now);
+    const RealVector reach = back * (m.origin(I) - m.origin(marker));  // to the point at which the force acts
+    const std::int32_t column = row_of_balance(*m.paths, k);
+    const RealVector moved =
+        m.partial(column, 0, [&](const Moment& n) { return n.origin(marker) + n.axes(marker) * reach; });
+    RealVector turned{};
+    for (std::size_t c = 0; c < 3; ++c)
+      turned += cross(now[c], m.partial(column, 0, [&](const Moment& n) { return n.axes(marker)[c]; })) * 0.5L;
+    all.work[k] = (dot(f, moved) + dot(t, turned)) * (of_J ? -1 : 1);
+  }
+  return all;
 }
 
 // Forces that are wanted in the balances of both bodies, where they stand with a minus.
 template <class Found>
 void expect_balance(const Paths& p, const Found& found, const Balance& expected, bool on_J, const std::string& by) {
-  const auto rows = groups(p, I, J);
-  for (std::size_t g = 0; g < 4; ++g) {
-    for (std::size_t r = 0; r < 3; ++r) {
-      const std::int32_t row = rows[g] + static_cast<std::int32_t>(r);
-      EXPECT_TRUE(agree(found(row), on_J || g < 2 ? -expected(g, r) : 0))
-          << "balance of " << coordinate_name(p.layout, row) << (by.empty() ? "" : " by ") << by;
-    }
+  for (std::size_t k = 0; k < balance_rows; ++k) {
+    const std::int32_t row = row_of_balance(p, k);
+    EXPECT_TRUE(agree(found(row), on_J || !is_of_J(k) ? -expected.work[k] : 0))
+        << "balance of " << coordinate_name(p.layout, row) << (by.empty() ? "" : " by ") << by;
   }
 }
 
@@ -255,8 +269,8 @@ void expect_applied(const Paths& p, const PairForce& f, bool on_J, PartialBy fam
     for (const std::size_t level : {0u, 1u}) {
       const ColumnMatrix& m = eq.matrix(level == 0 ? PartialBy::position : family);
       expect_balance(
-          p, [&](std::int32_t row) { return entry(m, row, c); }, c < 12 ? p.now().partial(c, level, of) : Balance{},
-          on_J, coordinate_name(p.layout, c, level));
+          p, [&](std::int32_t row) { return entry(m, row, c); }, p.now().partial(c, level, of), on_J,
+          coordinate_name(p.layout, c, level));
     }
   }
 }
@@ -300,8 +314,8 @@ TEST(Pair, a_point_mass_takes_forces_and_no_moments_and_ground_nothing) {
     EXPECT_EQ(eq.residual()[static_cast<std::size_t>(r)], own ? -f.force[static_cast<std::size_t>(r - 12)] : 0);
     for (std::int32_t c = 0; c < p.layout.coordinate_count; ++c) {
       const bool both = own && c >= 12 && c < 15;
-      const auto at = [&](const GroupPartials& g) {
-        return both ? -g.group[0](static_cast<std::size_t>(r - 12), static_cast<std::size_t>(c - 12)) : 0;
+      const auto at = [&](const MarkerPartials& by) {
+        return both ? -by.origin_I(static_cast<std::size_t>(r - 12), static_cast<std::size_t>(c - 12)) : 0;
       };
       EXPECT_EQ(entry(eq.matrix(PartialBy::position), r, c), at(f.force_on_position));
       EXPECT_EQ(entry(eq.matrix(PartialBy::damping), r, c), at(f.force_on_velocity));
@@ -354,26 +368,27 @@ TEST(Pair, a_force_decided_by_another_pair_has_partials_by_the_bodies_of_that_on
   }
 }
 
-TEST(Pair, a_wrench_that_turns_with_a_third_body_has_partials_by_its_rotation) {
+TEST(Pair, a_wrench_that_turns_with_the_axes_of_a_marker_has_partials_by_all_that_turns_them) {
   Paths p;
-  // f and t are fixed in PART/5, so δf = δθ × f.
   const Vector f = p.vector(), t = p.vector();
-  const BodyId third{4};
   const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
-  const Equations eq = assembled(p.layout, {PartialBy::position}, [&](Equations& e) {
-    apply_turn(pair, third, -skew(f), -skew(t), e);
-    apply_turn(pair, BodyId{3}, -skew(f), -skew(t), e);  // a point mass has no rotation
-  });
-  const RealMatrix back = transpose(p.now().axes_of(third));
-  const auto of = [&](const Moment& m) {
-    const RealMatrix moved = m.axes_of(third) * back;
-    return balance(m, moved * real(f), moved * real(t));
-  };
-  const ColumnMatrix& m = eq.matrix(PartialBy::position);
-  for (std::int32_t c = 12; c < p.layout.coordinate_count; ++c) {
-    expect_balance(
-        p, [&](std::int32_t row) { return entry(m, row, c); }, p.now().partial(c, 0, of), true,
-        coordinate_name(p.layout, c));
+  // On a rigid body, on one that changes its shape, and on a point mass, which has no rotation.
+  for (const MarkerId third : {MarkerId{8}, MarkerId{4}, MarkerId{6}}) {
+    // f and t are fixed in these axes, so δf = δφ × f; the pair itself stays as it is.
+    const Equations eq = assembled(p.layout, {PartialBy::position}, [&](Equations& e) {
+      apply_turn(pair, p.layout.marker(third), -skew(f), -skew(t), e);
+    });
+    const RealMatrix back = transpose(p.now().axes(third));
+    const auto of = [&](const Moment& m) {
+      const RealMatrix moved = m.axes(third) * back;
+      return balance(p.now(), moved * real(f), moved * real(t));
+    };
+    const ColumnMatrix& m = eq.matrix(PartialBy::position);
+    for (std::int32_t c = 0; c < p.layout.coordinate_count; ++c) {
+      expect_balance(
+          p, [&](std::int32_t row) { return entry(m, row, c); }, p.now().partial(c, 0, of), true,
+          coordinate_name(p.layout, c));
+    }
   }
 }
 

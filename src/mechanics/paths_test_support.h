@@ -78,7 +78,7 @@ class Paths;
 struct Moment {
   const Paths* paths;
   Real t = 0;
-  std::array<Variation, 2> variation{};
+  std::array<Variation, 3> variation{};
   std::size_t count = 0;
 
   std::span<const Variation> variations() const { return std::span(variation).first(count); }
@@ -94,7 +94,10 @@ struct Moment {
   RealMatrix axes(MarkerId m) const;
   RealVector arm(MarkerId m) const { return origin(m) - origin_of(body(m)); }
   BodyId body(MarkerId m) const;
-  Real parameter(std::size_t extra) const;
+  Real outside_poses(std::size_t k) const;
+  Real parameter(std::size_t k = 0) const { return outside_poses(6 + k); }
+  RealVector on_body(MarkerId m) const;       // the origin in the BCS
+  RealMatrix axes_on_body(MarkerId m) const;  // the axes in it
 
   template <class Function>
   auto rate(const Function& f) const {
@@ -124,8 +127,9 @@ struct Moment {
   }
 };
 
-// Ground, three parts and a point mass that move and turn in all directions, two coordinates outside bodies, two
-// markers to a body: 2b and 2b + 1 on body b, marker 0 the global frame.
+// Ground, three parts and a point mass that move and turn in all directions, two markers to a body: 2b and 2b + 1 on
+// body b, marker 0 the global frame. PART/2 and PART/3 change their shape, with two and four modal coordinates; two
+// curve parameters follow those.
 class Paths {
  public:
   explicit Paths(unsigned seed = 1) : random_(seed) {
@@ -143,10 +147,13 @@ class Paths {
       for (int k = 0; k < 2; ++k) {
         MarkerPlace m{BodyId{b}, {}, Matrix3::identity()};
         if (b > 0 || k > 0) m.p_BM = rounded(draw(0.7L)), m.R_BM = rotation_exponential(rounded(draw(2)));
+        if (b == 1 || b == 2) m.shapes = &shapes_.emplace_back(shapes(b == 1 ? 0 : 2, b == 1 ? 2 : 4));
         layout.markers.push_back(&markers_.emplace_back(m));
         layout.marker_labels.push_back(&labels_.emplace_back(label("MARKER", 2 * b + k)));
       }
     }
+    layout.add_extra(label("PART", 2), StateType::flex_body, {{"Q1"}, {"Q2"}});
+    layout.add_extra(label("PART", 3), StateType::flex_body, {{"Q1"}, {"Q2"}, {"Q3"}, {"Q4"}});
     layout.add_extra(label("PTCV", 1), StateType::ptcv, {{"U"}, {"V"}});
     for (auto& u : extra) u = draw(0.4L);
     for (const BodyPath& p : bodies) {
@@ -178,12 +185,23 @@ class Paths {
 
   Layout layout;
   std::vector<BodyPath> bodies;
-  std::array<RealVector, 2> extra;  // u, u′, u″ of each
+  static constexpr std::size_t modal_coordinates = 6;
+  std::array<RealVector, modal_coordinates + 2> extra;  // u, u′, u″ of each coordinate outside poses
   Motion motion;
+  // The column of a curve parameter.
+  std::int32_t parameter(std::int32_t k = 0) const {
+    return layout.body_coordinate_count + static_cast<std::int32_t>(modal_coordinates) + k;
+  }
 
  private:
   static ElementLabel label(std::string_view statement, std::int64_t id) { return {statement, id, {}, {}}; }
+  NodeShapes shapes(std::size_t first, std::size_t count) {
+    NodeShapes s{first, {}, {}, vector(0.5)};
+    for (std::size_t k = 0; k < count; ++k) s.translation.push_back(vector(0.6)), s.rotation.push_back(vector(0.6));
+    return s;
+  }
   std::mt19937 random_;
+  std::deque<NodeShapes> shapes_;    // markers point to them
   std::deque<MarkerPlace> markers_;  // the layout points to them
   std::deque<ElementLabel> labels_;
 };
@@ -204,7 +222,7 @@ inline RealMatrix Moment::axes_of(BodyId b) const {
   RealMatrix R = turn(p.w * t + p.alpha * (t * t / 2)) * p.R;
   for (const Variation& v : variations()) {
     const std::int32_t k = v.column - block.offset - 3;
-    if (block.count < 6 || k < 0 || k >= 3) continue;
+    if (!block.turns() || k < 0 || k >= 3) continue;
     RealVector e{};
     e[static_cast<std::size_t>(k)] = v.at(t);
     R = turn(e) * R;
@@ -212,11 +230,27 @@ inline RealMatrix Moment::axes_of(BodyId b) const {
   return R;
 }
 inline BodyId Moment::body(MarkerId m) const { return paths->layout.marker(m).body; }
-inline RealVector Moment::origin(MarkerId m) const {
-  return origin_of(body(m)) + axes_of(body(m)) * real(paths->layout.marker(m).p_BM);
+// The sum of shapes at a node times the modal coordinates.
+inline RealVector shape_sum(const Moment& m, const NodeShapes& at, const std::vector<Vector>& shapes) {
+  RealVector sum{};
+  for (std::size_t k = 0; k < shapes.size(); ++k) sum += real(shapes[k]) * m.outside_poses(at.first + k);
+  return sum;
 }
-inline RealMatrix Moment::axes(MarkerId m) const { return axes_of(body(m)) * real(paths->layout.marker(m).R_BM); }
-inline Real Moment::parameter(std::size_t k) const {
+inline RealVector Moment::on_body(MarkerId m) const {
+  const MarkerPlace& place = paths->layout.marker(m);
+  if (!place.shapes) return real(place.p_BM);
+  const RealVector o = real(place.shapes->offset);
+  return real(place.p_BM) - o + shape_sum(*this, *place.shapes, place.shapes->translation) +
+         turn(shape_sum(*this, *place.shapes, place.shapes->rotation)) * o;
+}
+inline RealMatrix Moment::axes_on_body(MarkerId m) const {
+  const MarkerPlace& place = paths->layout.marker(m);
+  if (!place.shapes) return real(place.R_BM);
+  return turn(shape_sum(*this, *place.shapes, place.shapes->rotation)) * real(place.R_BM);
+}
+inline RealVector Moment::origin(MarkerId m) const { return origin_of(body(m)) + axes_of(body(m)) * on_body(m); }
+inline RealMatrix Moment::axes(MarkerId m) const { return axes_of(body(m)) * axes_on_body(m); }
+inline Real Moment::outside_poses(std::size_t k) const {
   const RealVector& u = paths->extra[k];
   Real sum = u.x + u.y * t + u.z * (t * t / 2);
   const auto column = paths->layout.body_coordinate_count + static_cast<std::int32_t>(k);

@@ -41,7 +41,8 @@ struct Body {
   Matrix3 J_BC;                        // dynamical inertia tensor about the CM, BCS axes
   Matrix3 R_BI = Matrix3::identity();  // axes along which the dataset gives the inertia (IM, or CM), in the BCS
   StatedVelocity velocity;
-  std::array<bool, 6> exact{};  // X Y Z PSI THETA PHI held in the assembly
+  std::array<bool, 6> exact{};         // X Y Z PSI THETA PHI held in the assembly
+  std::vector<ExtraCoordinate> modal;  // coordinates of its own, where it changes its shape
 };
 
 struct Marker {
@@ -55,10 +56,11 @@ struct Model {
   std::string title;
   Units units;
   Settings settings;
-  Vector gravity;                                 // [length/time²], global axes
-  std::vector<Body> bodies;                       // by BodyId, ground first
-  std::vector<Marker> markers;                    // by MarkerId, the global frame first
-  std::vector<std::unique_ptr<ElementSet>> sets;  // in the order of the catalogue, only kinds that occur
+  Vector gravity;                                        // [length/time²], global axes
+  std::vector<Body> bodies;                              // by BodyId, ground first
+  std::vector<std::unique_ptr<NodeShapes>> node_shapes;  // that places of markers point to
+  std::vector<Marker> markers;                           // by MarkerId, the global frame first
+  std::vector<std::unique_ptr<ElementSet>> sets;         // in the order of the catalogue, only kinds that occur
 
   std::optional<ElementHandle> find(std::string_view statement, std::int64_t id) const;
   // The element of a label, nothing if it is of another class of statements.

@@ -84,7 +84,7 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
     copy_block(op.velocity, before.offset, out.velocity, after.offset, after.count);
     copy_block(op.acceleration, before.offset, out.acceleration, after.offset, after.count);
     const Body &was = from.model().bodies[a], &is = to.model().bodies[b];
-    if ((was.origin_at.valid() || is.origin_at.valid()) && after.count == 6)
+    if ((was.origin_at.valid() || is.origin_at.valid()) && after.turns())
       move_origin(out, b, after.offset, is.origin_offset - was.origin_offset);
   }
 

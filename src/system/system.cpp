@@ -25,6 +25,9 @@ void System::number_bodies() {
   layout_.bodies.reserve(model_->bodies.size());
   for (const Body& b : model_->bodies) layout_.add_body(b.kind, b.label);
   for (const Body& b : model_->bodies) {
+    if (!b.modal.empty()) layout_.add_extra(b.label, StateType::flex_body, b.modal);
+  }
+  for (const Body& b : model_->bodies) {
     if (!b.origin_at.valid()) continue;
     layout_.remarks.warning("distant-origin", b.label.at,
                             b.label.full_text() + " has its BCS far from all its markers: the origin of " +
@@ -110,7 +113,7 @@ Motion System::motion(const OperatingPoint& op) const {
   };
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
     const BodyBlock& block = layout_.bodies[b];
-    const bool moves = block.count > 0, turns = block.count == 6;
+    const bool moves = block.count > 0, turns = block.turns();
     m.bodies[b].set(op.poses[b], moves ? vector_at(op.velocity, block.offset) : Vector{},
                     turns ? vector_at(op.velocity, block.offset + 3) : Vector{},
                     moves ? vector_at(op.acceleration, block.offset) : Vector{},

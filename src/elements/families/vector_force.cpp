@@ -44,7 +44,7 @@ void VectorForceKernel::wrench(const Motion& motion, std::size_t k, bool with_pa
       out.scalars.push_back({PartialBy::algebraic, c.algebraic, c.axis < 3 ? e : Vector{}, c.axis < 3 ? Vector{} : e});
     }
   }
-  if (with_partials) out.turns.push_back({f.RM.body, -skew(out.force.force), -skew(out.force.torque)});
+  if (with_partials) out.turns.push_back({&f.RM, -skew(out.force.force), -skew(out.force.torque)});
 }
 
 void VectorForceKernel::equations(const Motion& motion, Equations& eq) const {
@@ -65,7 +65,7 @@ void VectorForceKernel::equations(const Motion& motion, Equations& eq) const {
     for (const MarkerWrench::Scalar& s : w.scalars) {
       apply_column(w.pair, s.force, s.torque, true, s.family, s.column, eq);
     }
-    for (const MarkerWrench::Turn& t : w.turns) apply_turn(w.pair, t.body, t.force, t.torque, eq);
+    for (const MarkerWrench::Turn& t : w.turns) apply_turn(w.pair, *t.axes, t.force, t.torque, eq);
   }
 }
 

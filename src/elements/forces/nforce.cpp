@@ -11,6 +11,7 @@
 
 #include "elements/controls/matrix.h"
 #include "elements/families/linear_wrench.h"
+#include "mechanics/pair_blocks.h"
 
 namespace dynalin {
 
@@ -108,18 +109,14 @@ class NforceKernel final : public Kernel, public WrenchSource {
     if (!with_partials) return;
     for (std::size_t l = 0; l < p.I.size(); ++l) {
       const PairForce f = spread(all.pairs[l], change(p, k, l, all), true);
-      for (std::size_t g = 0; g < 4; ++g) {
-        const BodyBlock& block = layout_.body(g < 2 ? all.pairs[l].body_I : all.pairs[l].body_J);
-        const std::int32_t first = g % 2 == 0 ? 0 : 3;
-        for (std::int32_t i = 0; i < 3 && block.count >= first + 3; ++i) {
-          const auto c = static_cast<std::size_t>(i);
-          const std::int32_t column = block.offset + first + i;
-          out.scalars.push_back(
-              {PartialBy::position, column, f.force_on_position.group[g][c], f.torque_on_position.group[g][c]});
-          out.scalars.push_back(
-              {PartialBy::damping, column, f.force_on_velocity.group[g][c], f.torque_on_velocity.group[g][c]});
+      for_each_block(all.pairs[l], layout_, [&](const PairBlock& block) {
+        const BlockPartials on = partials_by(block, f);
+        for (std::size_t c = 0; c < block.count; ++c) {
+          const std::int32_t column = block.column + static_cast<std::int32_t>(c);
+          out.scalars.push_back({PartialBy::position, column, on.force[c], on.torque[c]});
+          out.scalars.push_back({PartialBy::damping, column, on.force_by_rate[c], on.torque_by_rate[c]});
         }
-      }
+      });
     }
   }
 
