@@ -48,7 +48,7 @@ ColumnMatrix AugmentedSystem::matrix(const Equations& eq, const ConstraintRows& 
   }
   for (std::size_t k = 0; k < added_diagonal.size(); ++k) {
     const auto i = static_cast<std::int32_t>(k);
-    if (added_diagonal[k] != 0.0) entries.push_back({i, i, added_diagonal[k]});
+    entries.push_back({i, i, added_diagonal[k]});
   }
   return compressed(size_, size_, entries);
 }

@@ -80,8 +80,8 @@ class Curve {
     std::vector<Triplet> entries;
     for_each_entry(J, [&](std::int32_t r, std::int32_t c, double v) { entries.push_back({r, c, v}); });
     for (std::int32_t k = 0; k < J.rows; ++k) {
-      if (load_(k) != 0) entries.push_back({k, J.columns, load_(k)});
-      if (border.size() > 0 && border(k) != 0) entries.push_back({J.rows, k, border(k)});
+      entries.push_back({k, J.columns, load_(k)});
+      if (border.size() > 0) entries.push_back({J.rows, k, border(k)});
     }
     entries.push_back({J.rows, J.columns, border.size() > 0 ? border(J.columns) : 1.0});
     return compressed(J.rows + 1, J.columns + 1, entries);
@@ -89,11 +89,10 @@ class Curve {
 
   // The unit tangent of the curve with border · t > 0.
   std::optional<Eigen::VectorXd> direction(const Eigen::VectorXd& border) {
-    SparseLu lu;
-    if (!equations_.residual().allFinite() || !equations_.factor(lu, matrix(border))) return std::nullopt;
+    if (!equations_.residual().allFinite() || !equations_.factor(lu_, matrix(border))) return std::nullopt;
     Eigen::MatrixXd t = Eigen::MatrixXd::Zero(border.size(), 1);
     t(border.size() - 1, 0) = 1;
-    lu.solve(t);
+    lu_.solve(t);
     const double size = weight_.cwiseProduct(t.col(0)).norm();
     if (!std::isfinite(size) || size == 0) return std::nullopt;
     return Eigen::VectorXd(t.col(0) / size);
@@ -116,9 +115,8 @@ class Curve {
       if (!std::isfinite(level) || level > 10 * before) return std::nullopt;
       if (level < 1e-9) return p;
       before = level;
-      SparseLu lu;
-      if (!equations_.factor(lu, matrix(border))) return std::nullopt;
-      lu.solve(step);
+      if (!equations_.factor(lu_, matrix(border))) return std::nullopt;
+      lu_.solve(step);
       if (weight_.cwiseProduct(step.col(0)).norm() > 1) return std::nullopt;
       p = at(p, step.col(0), 1);
     }
@@ -128,6 +126,7 @@ class Curve {
   StaticEquations& equations_;
   const System& system_;
   Eigen::VectorXd load_, weight_;
+  SparseLu lu_;
   double force_ = 1;
   Place here_;
 };

@@ -18,7 +18,7 @@ constexpr double progress = 0.8;
 // Equations of rest read few unknowns, so AᵀA stays sparse; the coupled form with A itself fills in without bounds, as
 // pivots leave its diagonal.
 std::optional<Eigen::VectorXd> damped_step(StaticEquations& equations, const Eigen::VectorXd& row_unit,
-                                           const Eigen::VectorXd& column_unit, double mu) {
+                                           const Eigen::VectorXd& column_unit, double mu, SparseLu& lu) {
   struct Entry {
     std::int32_t column;
     double value;
@@ -27,7 +27,7 @@ std::optional<Eigen::VectorXd> damped_step(StaticEquations& equations, const Eig
   const std::int32_t n = augmented.size(), first = augmented.lambda(0), m = augmented.algebraic(0) - first;
   std::vector<std::vector<Entry>> rows(static_cast<std::size_t>(n));
   for_each_entry(equations.tangent(0, 0), [&](std::int32_t r, std::int32_t c, double v) {
-    if (v != 0) rows[static_cast<std::size_t>(r)].push_back({c, v * row_unit(r) * column_unit(c)});
+    rows[static_cast<std::size_t>(r)].push_back({c, v * row_unit(r) * column_unit(c)});
   });
   std::vector<Triplet> entries;
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(n + m, 1);
@@ -49,7 +49,6 @@ std::optional<Eigen::VectorXd> damped_step(StaticEquations& equations, const Eig
     }
     entries.push_back({r, r, constraint ? 1e-12 : mu});
   }
-  SparseLu lu;
   if (!equations.factor(lu, compressed(n + m, n + m, entries))) return std::nullopt;
   lu.solve(x);
   if (!x.allFinite()) return std::nullopt;
@@ -66,13 +65,14 @@ bool reduce_imbalance(StaticEquations& equations, OperatingPoint& op, int step_l
   const Eigen::VectorXd row_unit = equations.row_units(force), column_unit = equations.column_units(op);
   double merit = equations.merit(force), mu = 1e-2, growth = 2;
   double earlier = std::numeric_limits<double>::infinity();
+  SparseLu lu;
   for (int k = 0; k < step_limit && std::isfinite(merit) && mu < 1e12; ++k) {
     if (std::sqrt(merit) < near_rest) return true;
     if (k % patience == 0) {
       if (merit > progress * earlier) return false;
       earlier = merit;
     }
-    const auto step = damped_step(equations, row_unit, column_unit, mu);
+    const auto step = damped_step(equations, row_unit, column_unit, mu, lu);
     bool taken = false;
     if (step) {
       OperatingPoint next = moved(system, op, equations.augmented(), *step, 1.0, {0.5});

@@ -118,7 +118,8 @@ bool beyond_an_end(const Layout& layout, const OperatingPoint& op) {
 
 // The step of least change that meets the active rows to first order; some coordinates may have to stay.
 std::optional<Eigen::VectorXd> least_step(const ConstraintRows& rows, const Partition& part,
-                                          const std::vector<double>& weight, const std::vector<bool>& fixed) {
+                                          const std::vector<double>& weight, const std::vector<bool>& fixed,
+                                          SparseLu& lu) {
   const auto n = static_cast<std::int32_t>(weight.size()), m = rows.size();
   std::vector<Triplet> entries;
   for (std::int32_t k = 0; k < n; ++k) entries.push_back({k, k, weight[static_cast<std::size_t>(k)]});
@@ -136,7 +137,6 @@ std::optional<Eigen::VectorXd> least_step(const ConstraintRows& rows, const Part
       entries.push_back({e.column, at, e.c.g});
     }
   }
-  SparseLu lu;
   if (!lu.factor(compressed(n + m, n + m, entries))) return std::nullopt;
   lu.solve(step);
   return Eigen::VectorXd(step.col(0).head(n));
@@ -188,6 +188,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
     }
   };
   std::vector<double> weight;
+  SparseLu lu;
   std::vector<std::string> history;
   double before = std::numeric_limits<double>::infinity();
 
@@ -238,11 +239,11 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
 
     if (weight.empty()) weight = assembly_weights(system);
     std::vector<bool> fixed(weight.size(), false);
-    std::optional<Eigen::VectorXd> step = least_step(rows, part, weight, fixed);
+    std::optional<Eigen::VectorXd> step = least_step(rows, part, weight, fixed, lu);
     if (step && ends == Ends::kept) {
       const Stopped stopped = stop_at_ends(layout, op, *step, fixed);
       if (stopped.moved) continue;
-      if (stopped.held) step = least_step(rows, part, weight, fixed);
+      if (stopped.held) step = least_step(rows, part, weight, fixed, lu);
     }
     if (!step) {
       return tl::unexpected(Failure{"initial conditions", "the constraints are singular at this position", history});

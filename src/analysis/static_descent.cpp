@@ -178,13 +178,12 @@ void Descent::note_move(const Eigen::VectorXd& step, double factor) {
 }
 
 std::optional<Eigen::VectorXd> Descent::solve(double hold) {
-  SparseLu lu;
-  bool factored = equations_.factor(lu, equations_.tangent(hold, held_states_));
+  bool factored = equations_.factor(lu_, equations_.tangent(hold, held_states_));
   if (!factored && !held_states_)
-    factored = (held_states_ = true) && equations_.factor(lu, equations_.tangent(hold, true));
+    factored = (held_states_ = true) && equations_.factor(lu_, equations_.tangent(hold, true));
   if (!factored) return std::nullopt;
   Eigen::MatrixXd step = -equations_.residual();
-  lu.solve(step);
+  lu_.solve(step);
   if (!step.allFinite()) return std::nullopt;
   return Eigen::VectorXd(step.col(0));
 }

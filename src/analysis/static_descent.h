@@ -46,6 +46,7 @@ class Descent {
   OperatingPoint lowest_;
   double way_ = 0, first_force_ = 0, lowest_merit_ = std::numeric_limits<double>::infinity();
   double force_ = 0, merit_ = 0, hold_ = 1, before_ = std::numeric_limits<double>::infinity();
+  SparseLu lu_;
   bool held_states_ = false, transient_ = false;
   // By unknown: the last step that was taken, relative; residuals of the last two iterations in units of rounding; and
   // whether balance came at once from far off, as where a contact opens, and not little by little.

@@ -243,6 +243,7 @@ void StaticEquations::settle(OperatingPoint& op) {
   Eigen::VectorXd a = Eigen::VectorXd::Zero(coordinates_);
   const std::vector<bool> held(held_.size(), true);
   double before = std::numeric_limits<double>::infinity();
+  SparseLu lu;
   for (int iteration = 0; iteration < 12; ++iteration) {
     evaluate(next, true);
     if (!residual_.allFinite()) return;
@@ -263,7 +264,6 @@ void StaticEquations::settle(OperatingPoint& op) {
     }
     if (level <= 4 || (level <= 1e4 && level >= 0.5 * before)) break;
     before = level;
-    SparseLu lu;
     const AugmentedColumns columns{PartialBy::position, PartialBy::state, false};
     if (!factor(lu, augmented_.matrix(eq_, rows_, part_.active, columns, {}, held, D))) return;
     lu.solve(step);

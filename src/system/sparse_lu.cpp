@@ -161,18 +161,22 @@ class MumpsFactors {
   MumpsFactors(const MumpsFactors&) = delete;
   MumpsFactors& operator=(const MumpsFactors&) = delete;
 
+  // The analysis is made once: later matrices have the same pattern.
   bool factor(ColumnMatrix& m) {
-    for_each_entry(m, [&](std::int32_t r, std::int32_t c, double) {
-      row_.push_back(r + 1);
-      column_.push_back(c + 1);
-    });
+    const bool analysed = !row_.empty();
+    if (!analysed) {
+      for_each_entry(m, [&](std::int32_t r, std::int32_t c, double) {
+        row_.push_back(r + 1);
+        column_.push_back(c + 1);
+      });
+    }
     id_.n = m.rows;
     id_.nnz = static_cast<MUMPS_INT8>(m.value.size());
     id_.irn = row_.data(), id_.jcn = column_.data(), id_.a = m.value.data();
     control(24) = 1;       // null pivots are counted, not divided by
     id_.cntl[2] = -1e-14;  // relative to the scaled matrix
     for (int tries = 0; tries < 4; ++tries) {
-      id_.job = 4;
+      id_.job = analysed ? 2 : 4;
       call();
       // −8, −9: the working space was too small for the pivots that had to be delayed.
       if (id_.infog[0] != -8 && id_.infog[0] != -9) break;
@@ -254,6 +258,22 @@ struct SparseLu::Factors {
   std::unique_ptr<MumpsFactors> mumps;
   std::optional<Units> units;  // of the matrix that was factored
 
+  // KLU or MUMPS, by the pattern alone.
+  bool analyse() {
+    klu = std::make_unique<KluFactors>();
+    if (!klu->analyse(matrix)) return false;
+    if (matrix.rows < smallest_for_mumps ||
+        klu->predicted_entries() <= klu_fill_limit * static_cast<double>(matrix.value.size()))
+      return true;
+    klu.reset();
+    mumps = std::make_unique<MumpsFactors>();
+    return true;
+  }
+  bool factor() {
+    units.reset();
+    if (mumps) return mumps->factor(matrix);
+    return (klu->factor(matrix) && klu->least_pivot() > least_pivot) || factor_balanced();
+  }
   // For units that differ so much that no pivot can be compared with another.
   bool factor_balanced() {
     units = balancing_units(matrix);
@@ -287,23 +307,18 @@ SparseLu::SparseLu(SparseLu&&) noexcept = default;
 SparseLu& SparseLu::operator=(SparseLu&&) noexcept = default;
 
 bool SparseLu::factor(ColumnMatrix matrix) {
-  auto f = std::make_unique<Factors>();
-  f->matrix = std::move(matrix);
-  ColumnMatrix& m = f->matrix;
-  if (m.rows > 0) {
-    f->klu = std::make_unique<KluFactors>();
-    if (!f->klu->analyse(m)) return false;
-    if (m.rows >= smallest_for_mumps &&
-        f->klu->predicted_entries() > klu_fill_limit * static_cast<double>(m.value.size())) {
-      f->klu.reset();
-      f->mumps = std::make_unique<MumpsFactors>();
-      if (!f->mumps->factor(m)) return false;
-    } else if (!(f->klu->factor(m) && f->klu->least_pivot() > least_pivot) && !f->factor_balanced()) {
-      return false;
-    }
+  const auto has_pattern = [&](const ColumnMatrix& m) {
+    return m.rows == matrix.rows && m.columns == matrix.columns && m.start == matrix.start && m.row == matrix.row;
+  };
+  const bool analysed = factors_ && has_pattern(factors_->matrix);
+  if (!analysed) factors_ = std::make_unique<Factors>();
+  factors_->matrix = std::move(matrix);
+  if (factors_->matrix.rows == 0) return true;
+  if (!analysed && !factors_->analyse()) {
+    factors_.reset();
+    return false;
   }
-  factors_ = std::move(f);
-  return true;
+  return factors_->factor();
 }
 
 void SparseLu::solve(Eigen::Ref<Eigen::MatrixXd> B) const {

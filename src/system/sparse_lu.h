@@ -25,8 +25,10 @@ class SparseLu {
   SparseLu(SparseLu&&) noexcept;
   SparseLu& operator=(SparseLu&&) noexcept;
 
-  // False if a pivot is nothing, or so small beside the others that it can only be rounding. Rounding may leave a singular
-  // matrix pivots that are larger: how well a solution is determined is not asked here.
+  // What follows from the pattern alone is found once for all matrices of one pattern that follow each other.
+  // False if a pivot is nothing, or so small beside the others that it can only be rounding. Rounding may leave a
+  // singular matrix pivots that are larger: how well a solution is determined is not asked here. There is nothing to
+  // solve with then.
   bool factor(ColumnMatrix);
   // Solves in place with one step of iterative refinement; every column of B is a right-hand side.
   void solve(Eigen::Ref<Eigen::MatrixXd> B) const;

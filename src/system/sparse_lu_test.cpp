@@ -46,6 +46,40 @@ TEST(Compressed, an_empty_matrix_has_columns_all_the_same) {
   EXPECT_TRUE(m.value.empty());
 }
 
+// What was analysed for one matrix serves the next of its pattern, whatever the values; another pattern and a matrix
+// that was refused in between change nothing.
+TEST(SparseLu, factors_matrices_of_one_pattern_and_of_others_one_after_another) {
+  std::mt19937 random(5);
+  for (const std::int32_t n : {30, 2500}) {  // the second has loops enough for nested dissection
+    std::vector<Triplet> t = drawn(random, n);
+    if (n > 2000) {
+      std::uniform_int_distribution<std::int32_t> place(0, n - 1);
+      for (std::int32_t k = 0; k < 2 * n; ++k) t.push_back({place(random), place(random), 0.3});
+    }
+    SparseLu lu;
+    for (int turn = 0; turn < 5; ++turn) {
+      std::uniform_real_distribution<double> number(0.5, 2);
+      for (Triplet& e : t) e.value *= number(random);
+      if (turn == 2) t.push_back({0, n - 1, 0.7});
+      if (turn == 3) {
+        std::vector<Triplet> nothing = t;
+        for (Triplet& e : nothing) e.value = 0;
+        EXPECT_FALSE(lu.factor(compressed(n, n, nothing)));
+      }
+      const ColumnMatrix A = compressed(n, n, t);
+      ASSERT_TRUE(lu.factor(A));
+      const Eigen::MatrixXd b = numbers(random, n, 2);
+      Eigen::MatrixXd x = b, left = b;
+      lu.solve(x);
+      for (Eigen::Index c = 0; c < 2; ++c) {
+        const auto size = static_cast<std::size_t>(n);
+        A.multiply_add({x.col(c).data(), size}, {left.col(c).data(), size}, -1.0);
+      }
+      EXPECT_LE(left.cwiseAbs().maxCoeff(), 1e-9) << n << " " << turn;
+    }
+  }
+}
+
 TEST(SparseLu, solves_with_the_matrix_and_with_its_transpose_for_many_right_hand_sides) {
   std::mt19937 random(2);
   for (const std::int32_t n : {1, 5, 40}) {
