@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,9 @@ namespace dynalin {
 struct Model;
 class ElementReader;
 
+// What an argument says of the start of the body, state or value that its statement defines.
+enum class StatedStart : std::uint8_t { nothing, place, velocity, value };
+
 // One argument as the manual and the reader of abbreviations see it.
 struct ArgumentInfo {
   std::string_view name;
@@ -27,6 +31,13 @@ struct ArgumentInfo {
   bool repeats = false;         // may be written several times
   bool value_optional = false;  // a bare keyword, or one with a value
   bool elsewhere = false;       // an argument of another type of the statement, known here so that it keeps its name
+  std::string_view ends{};      // arguments that go where a command states this one, blanks between: "ZG XG"
+  StatedStart start = StatedStart::nothing;
+  std::size_t count = 0;  // of numbers that it takes; 0 where that is open, and where it takes none
+  // What its numbers are where it is not stated; nothing where that depends on other arguments.
+  std::optional<double> unstated() const { return of_new ? std::optional(of_new()) : of_list; }
+  double (*of_new)() = nullptr;     // of a plain number: what its member is made with
+  std::optional<double> of_list{};  // of a list: what its table says
 };
 
 class ElementSet;
@@ -52,7 +63,29 @@ struct Kind {
   std::span<const ArgumentInfo> arguments;
   std::unique_ptr<ElementSet> (*make_set)(const Kind&) = nullptr;
   EnergyRows energy_rows = EnergyRows::none;
+  bool can_be_deactivated = false;  // a command takes elements out of the model and into it again
+  bool holds_for_good = false;      // no command defines it anew
+  std::string_view example{};       // of a command that defines arguments anew, "PART/2, MASS=3.5"
+
+  constexpr Kind deactivatable() const {
+    Kind kind = *this;
+    kind.can_be_deactivated = true;
+    return kind;
+  }
+  constexpr Kind for_good() const {
+    Kind kind = *this;
+    kind.holds_for_good = true;
+    return kind;
+  }
+  constexpr Kind with_example(std::string_view command) const {
+    Kind kind = *this;
+    kind.example = command;
+    return kind;
+  }
 };
+
+// Whether a command NAME/id, ARG=… defines arguments of such a statement anew.
+constexpr bool can_be_redefined(const Kind& kind) { return kind.role != Kind::Role::inert && !kind.holds_for_good; }
 
 using Catalogue = std::span<const Kind* const>;
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -73,6 +74,10 @@ struct Argument {
   double minimum = -std::numeric_limits<double>::infinity();
   std::string_view help{};
   double maximum = std::numeric_limits<double>::infinity();
+  std::string_view ends{};  // see ArgumentInfo
+  StatedStart start = StatedStart::nothing;
+  std::size_t count = 0;             // of a list: so many numbers
+  std::optional<double> unstated{};  // of a list: each of its numbers where it is not stated
 };
 
 // Reading one value into one member: false after a reported error.
@@ -161,6 +166,7 @@ constexpr std::string_view value_text() {
 template <class E>
 constexpr ArgumentInfo argument_info(const Argument<E>& a) {
   ArgumentInfo info{a.name, a.required, false, {}, a.unit, a.help};
+  info.ends = a.ends, info.start = a.start, info.count = a.count, info.of_list = a.unstated;
   std::visit(
       [&]<class V>(V E::*) {
         info.is_flag = std::is_same_v<V, bool>;
@@ -169,17 +175,28 @@ constexpr ArgumentInfo argument_info(const Argument<E>& a) {
         info.elsewhere = std::is_same_v<V, ElsewhereOnly>;
         info.repeats = std::is_same_v<V, std::vector<std::vector<double>>>;
         info.value = value_text<V>();
+        if (std::is_same_v<V, double> || std::is_same_v<V, std::optional<double>>) info.count = 1;
+        if (std::is_same_v<V, Vector> || std::is_same_v<V, std::optional<Vector>>) info.count = 3;
+        if (std::is_same_v<V, Vector>) info.of_list = 0;
       },
       a.slot);
   return info;
 }
 
+template <class E, std::size_t k>
+constexpr ArgumentInfo argument_info() {
+  ArgumentInfo info = argument_info(E::arguments[k]);
+  if constexpr (std::holds_alternative<double E::*>(E::arguments[k].slot)) {
+    if (!info.required) info.of_new = [] { return E{}.*std::get<double E::*>(E::arguments[k].slot); };
+  }
+  return info;
+}
+
 template <class E>
-inline constexpr auto argument_infos = [] {
-  std::array<ArgumentInfo, E::arguments.size()> infos{};
-  for (std::size_t k = 0; k < infos.size(); ++k) infos[k] = argument_info(E::arguments[k]);
-  return infos;
-}();
+inline constexpr auto argument_infos = []<std::size_t... k>(std::index_sequence<k...>) {
+  return std::array<ArgumentInfo, sizeof...(k)>{argument_info<E, k>()...};
+}
+(std::make_index_sequence<E::arguments.size()>());
 
 template <class E>
 inline constexpr auto argument_names = [] {
@@ -196,30 +213,48 @@ bool check_required(std::span<const ArgumentInfo>, ElementReader&);
 
 }  // namespace detail
 
-// Reads all arguments of the reader's statement into `element`; false if anything was wrong.
+namespace detail {
+
+// One written argument into the member of its row.
 template <class E>
-bool read_arguments(E& element, ElementReader& reader) {
+bool read_argument(E& element, const Argument<E>& a, const WrittenArgument& written, ElementReader& reader) {
+  return std::visit(
+      [&]<class V>(V E::*member) {
+        if constexpr (std::is_same_v<V, bool>) {
+          return element.*member = true;
+        } else {
+          return read_value(element.*member, written, ValueLimits{a.name, a.minimum, a.maximum}, reader);
+        }
+      },
+      a.slot);
+}
+
+// `read` takes the row of each written argument; false if anything was wrong.
+template <class Read>
+bool read_rows(std::span<const ArgumentInfo> infos, std::span<const std::string_view> names, ElementReader& reader,
+               const Read& read) {
   bool ok = true;
-  const std::span<const ArgumentInfo> infos = detail::argument_infos<E>;
   for (const WrittenArgument& written : reader.statement().arguments) {
-    const auto k = detail::find_argument(written, infos, detail::argument_names<E>, reader);
+    const auto k = find_argument(written, infos, names, reader);
     if (!k) {
       ok = false;
       continue;
     }
     if (*k >= infos.size()) continue;  // the word that selects the variant
-    const Argument<E>& a = E::arguments[*k];
-    ok &= std::visit(
-        [&]<class V>(V E::*member) {
-          if constexpr (std::is_same_v<V, bool>) {
-            return element.*member = true;
-          } else {
-            return read_value(element.*member, written, ValueLimits{a.name, a.minimum, a.maximum}, reader);
-          }
-        },
-        a.slot);
+    ok &= read(*k, written);
   }
-  return detail::check_required(infos, reader) && ok;
+  return check_required(infos, reader) && ok;
+}
+
+}  // namespace detail
+
+// Reads all arguments of the reader's statement into `element`; false if anything was wrong.
+template <class E>
+bool read_arguments(E& element, ElementReader& reader) {
+  return detail::read_rows(detail::argument_infos<E>, detail::argument_names<E>, reader,
+                           [&](std::size_t k, const WrittenArgument& written) {
+                             return detail::read_argument(element, E::arguments[k], written, reader);
+                           });
 }
 
 }  // namespace dynalin

@@ -22,13 +22,27 @@ struct MarkerStatement {
   Matrix3 axes = Matrix3::identity();
 
   static constexpr std::array<Argument<MarkerStatement>, 9> arguments = {{
-      {.name = "PART", .slot = &MarkerStatement::part, .help = "the part it belongs to"},
-      {.name = "POINT_MASS", .slot = &MarkerStatement::point_mass, .help = "the point mass it belongs to"},
+      {.name = "PART", .slot = &MarkerStatement::part, .help = "the part it belongs to", .ends = "POINT_MASS"},
+      {.name = "POINT_MASS",
+       .slot = &MarkerStatement::point_mass,
+       .help = "the point mass it belongs to",
+       .ends = "PART"},
       {.name = "QP", .slot = &MarkerStatement::origin, .unit = unit::length, .help = "origin in the body's axes"},
-      {.name = "REULER", .slot = &MarkerStatement::angles, .unit = unit::angle, .help = "3-1-3 angles"},
-      {.name = "ZP", .slot = &MarkerStatement::z_point, .unit = unit::length, .help = "point on +z"},
-      {.name = "XP", .slot = &MarkerStatement::x_point, .unit = unit::length, .help = "point in the x-z plane"},
-      {.name = "USEXP", .slot = &MarkerStatement::use_x_point, .help = "XP lies on +x, ZP fixes the plane"},
+      {.name = "REULER",
+       .slot = &MarkerStatement::angles,
+       .unit = unit::angle,
+       .help = "3-1-3 angles",
+       .ends = "ZP XP USEXP"},
+      {.name = "ZP", .slot = &MarkerStatement::z_point, .unit = unit::length, .help = "point on +z", .ends = "REULER"},
+      {.name = "XP",
+       .slot = &MarkerStatement::x_point,
+       .unit = unit::length,
+       .help = "point in the x-z plane",
+       .ends = "REULER"},
+      {.name = "USEXP",
+       .slot = &MarkerStatement::use_x_point,
+       .help = "XP lies on +x, ZP fixes the plane",
+       .ends = "REULER"},
       {.name = "FLOATING", .slot = &MarkerStatement::floating, .help = "placed by a force element"},
       {.name = "RM", .slot = &MarkerStatement::reference, .help = "marker whose frame QP and axes refer to"},
   }};
@@ -145,12 +159,14 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
 
 }  // namespace
 
-extern constinit const Kind marker = {
+extern constinit const Kind marker = Kind{
     "MARKER",
     "",
     "A point with axes on a body.",
     Kind::Role::marker,
     detail::argument_infos<MarkerStatement>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<MarkerSet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<MarkerSet>(kind);
+    }}.with_example("MARKER/20, QP=0,0,0.1");
 
 }  // namespace dynalin

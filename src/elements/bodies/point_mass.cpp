@@ -24,13 +24,44 @@ struct PointMass {
   static constexpr std::array<Argument<PointMass>, 10> arguments = {{
       {.name = "MASS", .slot = &PointMass::mass, .unit = unit::mass, .minimum = 0, .help = "0 unless stated"},
       {.name = "CM", .slot = &PointMass::cm, .help = "marker at the mass"},
-      {.name = "QG", .slot = &PointMass::origin, .unit = unit::length, .help = "origin of the BCS"},
-      {.name = "REULER", .slot = &PointMass::angles, .unit = unit::angle, .help = "3-1-3 angles of the BCS"},
-      {.name = "ZG", .slot = &PointMass::z_point, .unit = unit::length, .help = "global point on +z"},
-      {.name = "XG", .slot = &PointMass::x_point, .unit = unit::length, .help = "global point in the x-z plane"},
-      {.name = "VX", .slot = &PointMass::vx, .unit = unit::velocity, .help = "initial velocity, global axes"},
-      {.name = "VY", .slot = &PointMass::vy, .unit = unit::velocity, .help = "the same along y"},
-      {.name = "VZ", .slot = &PointMass::vz, .unit = unit::velocity, .help = "the same along z"},
+      {.name = "QG",
+       .slot = &PointMass::origin,
+       .unit = unit::length,
+       .help = "origin of the BCS",
+       .start = StatedStart::place},
+      {.name = "REULER",
+       .slot = &PointMass::angles,
+       .unit = unit::angle,
+       .help = "3-1-3 angles of the BCS",
+       .ends = "ZG XG",
+       .start = StatedStart::place},
+      {.name = "ZG",
+       .slot = &PointMass::z_point,
+       .unit = unit::length,
+       .help = "global point on +z",
+       .ends = "REULER",
+       .start = StatedStart::place},
+      {.name = "XG",
+       .slot = &PointMass::x_point,
+       .unit = unit::length,
+       .help = "global point in the x-z plane",
+       .ends = "REULER",
+       .start = StatedStart::place},
+      {.name = "VX",
+       .slot = &PointMass::vx,
+       .unit = unit::velocity,
+       .help = "initial velocity, global axes",
+       .start = StatedStart::velocity},
+      {.name = "VY",
+       .slot = &PointMass::vy,
+       .unit = unit::velocity,
+       .help = "the same along y",
+       .start = StatedStart::velocity},
+      {.name = "VZ",
+       .slot = &PointMass::vz,
+       .unit = unit::velocity,
+       .help = "the same along z",
+       .start = StatedStart::velocity},
       {.name = "EXACT", .slot = &PointMass::exact, .help = "coordinates the assembly should keep: X:Y:Z"},
   }};
 };
@@ -80,12 +111,14 @@ class PointMassSet final : public TypedSet<PointMass> {
 
 }  // namespace
 
-extern constinit const Kind point_mass = {
+extern constinit const Kind point_mass = Kind{
     "POINT_MASS",
     "",
     "A mass that translates and never turns.",
     Kind::Role::body,
     detail::argument_infos<PointMass>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<PointMassSet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<PointMassSet>(kind);
+    }}.with_example("POINT_MASS/3, MASS=2");
 
 }  // namespace dynalin

@@ -82,12 +82,14 @@ class CouplerSet final : public TypedSet<Coupler> {
 
 }  // namespace
 
-extern constinit const Kind coupler = {
+extern constinit const Kind coupler = Kind{
     "COUPLER",
     "",
     "Couples the displacements of two or three joints linearly.",
     Kind::Role::element,
     detail::argument_infos<Coupler>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<CouplerSet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<CouplerSet>(kind);
+    }}.deactivatable();
 
 }  // namespace dynalin

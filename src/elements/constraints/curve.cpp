@@ -29,11 +29,17 @@ struct WrittenCurve {
   Span at, controls_at, order_at;
 
   static constexpr std::array<Argument<WrittenCurve>, 9> arguments = {{
-      {.name = "OPEN", .slot = &WrittenCurve::open, .help = "the ends may differ"},
-      {.name = "CLOSED", .slot = &WrittenCurve::closed, .help = "the last point is the first"},
+      {.name = "OPEN", .slot = &WrittenCurve::open, .help = "the ends may differ", .ends = "CLOSED"},
+      {.name = "CLOSED", .slot = &WrittenCurve::closed, .help = "the last point is the first", .ends = "OPEN"},
       {.name = "MATRIX", .slot = &WrittenCurve::matrix, .help = "a row x, y, z for each point, at least 4"},
-      {.name = "CURVE_POINTS", .slot = &WrittenCurve::points, .help = "the curve passes the points (default)"},
-      {.name = "CONTROL_POINTS", .slot = &WrittenCurve::controls, .help = "the points control the curve"},
+      {.name = "CURVE_POINTS",
+       .slot = &WrittenCurve::points,
+       .help = "the curve passes the points (default)",
+       .ends = "CONTROL_POINTS"},
+      {.name = "CONTROL_POINTS",
+       .slot = &WrittenCurve::controls,
+       .help = "the points control the curve",
+       .ends = "CURVE_POINTS"},
       {.name = "ORDER", .slot = &WrittenCurve::order, .help = "degree + 1 of the pieces, 4 unless stated"},
       {.name = "FUNCTION", .slot = &WrittenCurve::function, .help = "USER(…): not available"},
       {.name = "MINPAR", .slot = &WrittenCurve::minimum, .help = "goes with FUNCTION"},

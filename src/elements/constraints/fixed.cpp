@@ -21,6 +21,6 @@ struct Fixed {
 
 }  // namespace
 
-extern constinit const Kind fixed = joint<Fixed>();
+extern constinit const Kind fixed = joint<Fixed>().with_example("JOINT/1, FIXED");
 
 }  // namespace dynalin

@@ -159,12 +159,14 @@ class GeneralConstraintSet final : public TypedSet<GeneralConstraint> {
 
 }  // namespace
 
-extern constinit const Kind gcon = {
-    "GCON",
-    "",
-    "Holds a function of displacements, velocities and time at zero.",
-    Kind::Role::element,
-    detail::argument_infos<GeneralConstraint>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<GeneralConstraintSet>(kind); }};
+extern constinit const Kind gcon =
+    Kind{"GCON",
+         "",
+         "Holds a function of displacements, velocities and time at zero.",
+         Kind::Role::element,
+         detail::argument_infos<GeneralConstraint>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<GeneralConstraintSet>(kind); }}
+        .deactivatable()
+        .with_example("GCON/1, FUNCTION=DX(20,1)-0.1");
 
 }  // namespace dynalin

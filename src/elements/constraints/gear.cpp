@@ -94,12 +94,14 @@ class GearSet final : public TypedSet<Gear> {
 
 }  // namespace
 
-extern constinit const Kind gear = {
+extern constinit const Kind gear = Kind{
     "GEAR",
     "",
     "Two gears on one carrier move alike at the pitch point.",
     Kind::Role::element,
     detail::argument_infos<Gear>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<GearSet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<GearSet>(kind);
+    }}.deactivatable();
 
 }  // namespace dynalin

@@ -39,22 +39,41 @@ struct PrescribedMotion {
   double start = 0;  // s
 
   using M = PrescribedMotion;
+  static constexpr std::string_view other_axes = "X Y Z B1 B2 B3";
   static constexpr std::array<Argument<M>, 17> arguments = {{
-      {.name = "JOINT", .slot = &M::joint, .help = "the joint that is driven"},
-      {.name = "I", .slot = &M::i, .help = "the marker that is driven"},
-      {.name = "J", .slot = &M::j, .help = "the marker relative to which it is driven"},
-      {.name = "ROTATIONAL", .slot = &M::rotation, .help = "drives the rotation of the joint"},
-      {.name = "TRANSLATIONAL", .slot = &M::translation, .help = "drives the translation of the joint"},
-      {.name = "X", .slot = &M::x, .help = "drives the displacement of I along x of J"},
-      {.name = "Y", .slot = &M::y, .help = "drives the displacement of I along y of J"},
-      {.name = "Z", .slot = &M::z, .help = "drives the displacement of I along z of J"},
-      {.name = "B1", .slot = &M::b1, .help = "drives the first angle of the body-fixed 1-2-3 sequence"},
-      {.name = "B2", .slot = &M::b2, .help = "drives the second angle"},
-      {.name = "B3", .slot = &M::b3, .help = "drives the third angle"},
+      {.name = "JOINT", .slot = &M::joint, .help = "the joint that is driven", .ends = "I J X Y Z B1 B2 B3"},
+      {.name = "I", .slot = &M::i, .help = "the marker that is driven", .ends = "JOINT ROTATIONAL TRANSLATIONAL"},
+      {.name = "J",
+       .slot = &M::j,
+       .help = "the marker relative to which it is driven",
+       .ends = "JOINT ROTATIONAL TRANSLATIONAL"},
+      {.name = "ROTATIONAL", .slot = &M::rotation, .help = "drives the rotation of the joint", .ends = "TRANSLATIONAL"},
+      {.name = "TRANSLATIONAL",
+       .slot = &M::translation,
+       .help = "drives the translation of the joint",
+       .ends = "ROTATIONAL"},
+      {.name = "X", .slot = &M::x, .help = "drives the displacement of I along x of J", .ends = other_axes},
+      {.name = "Y", .slot = &M::y, .help = "drives the displacement of I along y of J", .ends = other_axes},
+      {.name = "Z", .slot = &M::z, .help = "drives the displacement of I along z of J", .ends = other_axes},
+      {.name = "B1",
+       .slot = &M::b1,
+       .help = "drives the first angle of the body-fixed 1-2-3 sequence",
+       .ends = other_axes},
+      {.name = "B2", .slot = &M::b2, .help = "drives the second angle", .ends = other_axes},
+      {.name = "B3", .slot = &M::b3, .help = "drives the third angle", .ends = other_axes},
       {.name = "FUNCTION", .slot = &M::function, .required = true, .help = "a function of TIME alone"},
-      {.name = "DISPLACEMENT", .slot = &M::displacement, .help = "FUNCTION is the displacement (default)"},
-      {.name = "VELOCITY", .slot = &M::velocity, .help = "FUNCTION is the velocity"},
-      {.name = "ACCELERATION", .slot = &M::acceleration, .help = "FUNCTION is the acceleration"},
+      {.name = "DISPLACEMENT",
+       .slot = &M::displacement,
+       .help = "FUNCTION is the displacement (default)",
+       .ends = "VELOCITY ACCELERATION ICDISP ICVEL"},
+      {.name = "VELOCITY",
+       .slot = &M::velocity,
+       .help = "FUNCTION is the velocity",
+       .ends = "DISPLACEMENT ACCELERATION ICVEL"},
+      {.name = "ACCELERATION",
+       .slot = &M::acceleration,
+       .help = "FUNCTION is the acceleration",
+       .ends = "DISPLACEMENT VELOCITY"},
       {.name = "ICDISP", .slot = &M::icdisp, .unit = "length or rad", .help = "displacement at the start"},
       {.name = "ICVEL", .slot = &M::icvel, .unit = "length or rad, per time", .help = "velocity at the start"},
   }};
@@ -258,12 +277,14 @@ class MotionSet final : public TypedSet<PrescribedMotion> {
 
 }  // namespace
 
-extern constinit const Kind motion = {
-    "MOTION",
-    "",
-    "Drives a displacement of a joint or of a pair of markers by a function of time.",
-    Kind::Role::element,
-    detail::argument_infos<PrescribedMotion>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<MotionSet>(kind); }};
+extern constinit const Kind motion =
+    Kind{"MOTION",
+         "",
+         "Drives a displacement of a joint or of a pair of markers by a function of time.",
+         Kind::Role::element,
+         detail::argument_infos<PrescribedMotion>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<MotionSet>(kind); }}
+        .deactivatable()
+        .with_example("MOTION/1, FUNCTION=20*TIME");
 
 }  // namespace dynalin

@@ -81,12 +81,14 @@ const Array* input_array(const Model& model, ArrayRef ref, const ElementLabel& o
   return nullptr;
 }
 
-extern constinit const Kind array = {
+extern constinit const Kind array = Kind{
     "ARRAY",
     "",
     "A vector of constants, inputs, states or outputs.",
     Kind::Role::element,
     detail::argument_infos<Array>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<ArraySet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<ArraySet>(kind);
+    }}.with_example("ARRAY/1, NUMBERS=1,2");
 
 }  // namespace dynalin

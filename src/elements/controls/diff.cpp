@@ -32,7 +32,7 @@ struct Diff {
   bool algebraic = false;
 
   static constexpr std::array<Argument<Diff>, 5> arguments = {{
-      {.name = "IC", .slot = &Diff::initial, .help = "z [, z′] at the start"},
+      {.name = "IC", .slot = &Diff::initial, .help = "z [, z′] at the start", .start = StatedStart::value},
       {.name = "FUNCTION", .slot = &Diff::function, .required = true, .help = "z′, or with IMPLICIT what is zero"},
       {.name = "IMPLICIT", .slot = &Diff::implicit, .help = "FUNCTION = 0"},
       {.name = "STATIC_HOLD", .slot = &Diff::static_hold, .help = "z keeps its value in statics"},
@@ -187,12 +187,14 @@ class DiffSet final : public TypedSet<Diff> {
 
 }  // namespace
 
-extern constinit const Kind diff = {
+extern constinit const Kind diff = Kind{
     "DIFF",
     "",
     "One differential state given by an expression.",
     Kind::Role::element,
     detail::argument_infos<Diff>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<DiffSet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<DiffSet>(kind);
+    }}.with_example("DIFF/1, FUNCTION=-DIF(1)");
 
 }  // namespace dynalin

@@ -27,16 +27,25 @@ struct MatrixStatement {
   std::string file, name;
 
   static constexpr std::array<Argument<MatrixStatement>, 11> arguments = {{
-      {.name = "FULL", .slot = &MatrixStatement::full, .help = "RORDER: by rows; CORDER: by columns"},
+      {.name = "FULL",
+       .slot = &MatrixStatement::full,
+       .help = "RORDER: by rows; CORDER: by columns",
+       .ends = "FILE NAME SPARSE I J RORDER CORDER"},
       {.name = "RORDER", .slot = &MatrixStatement::by_rows, .help = "behind FULL: by rows"},
       {.name = "CORDER", .slot = &MatrixStatement::by_columns, .help = "behind FULL: by columns"},
-      {.name = "SPARSE", .slot = &MatrixStatement::sparse, .help = "only entries that are not zero"},
+      {.name = "SPARSE",
+       .slot = &MatrixStatement::sparse,
+       .help = "only entries that are not zero",
+       .ends = "FILE NAME FULL RORDER CORDER ROWS COLUMNS"},
       {.name = "ROWS", .slot = &MatrixStatement::rows, .minimum = 1, .help = "number of rows"},
       {.name = "COLUMNS", .slot = &MatrixStatement::columns, .minimum = 1, .help = "number of columns"},
       {.name = "VALUES", .slot = &MatrixStatement::values, .help = "the numbers"},
       {.name = "I", .slot = &MatrixStatement::row_of, .help = "rows of the VALUES"},
       {.name = "J", .slot = &MatrixStatement::column_of, .help = "columns of the VALUES"},
-      {.name = "FILE", .slot = &MatrixStatement::file, .help = "file that holds the matrix"},
+      {.name = "FILE",
+       .slot = &MatrixStatement::file,
+       .help = "file that holds the matrix",
+       .ends = "FULL RORDER CORDER SPARSE ROWS COLUMNS VALUES I J"},
       {.name = "NAME", .slot = &MatrixStatement::name, .help = "its name in the file"},
   }};
 };

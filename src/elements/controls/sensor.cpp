@@ -52,12 +52,14 @@ class SensorSet final : public TextSet {
 
 }  // namespace
 
-extern constinit const Kind sensor = {
+extern constinit const Kind sensor = Kind{
     "SENSOR",
     "",
     "Stops or changes a simulation over time; never acts on a linear model.",
     Kind::Role::element,
     detail::argument_infos<WrittenSensor>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<SensorSet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<SensorSet>(kind);
+    }}.deactivatable();
 
 }  // namespace dynalin

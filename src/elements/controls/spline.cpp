@@ -31,9 +31,12 @@ struct WrittenSpline {
   bool linear = false;
 
   static constexpr std::array<Argument<WrittenSpline>, 6> arguments = {{
-      {.name = "X", .slot = &WrittenSpline::x, .help = "at least 4 values, increasing"},
-      {.name = "Y", .slot = &WrittenSpline::y, .help = "as many; in a family z of the curve comes first"},
-      {.name = "FILE", .slot = &WrittenSpline::file, .help = "text file with the points"},
+      {.name = "X", .slot = &WrittenSpline::x, .help = "at least 4 values, increasing", .ends = "FILE BLOCK CHANNEL"},
+      {.name = "Y",
+       .slot = &WrittenSpline::y,
+       .help = "as many; in a family z of the curve comes first",
+       .ends = "FILE BLOCK CHANNEL"},
+      {.name = "FILE", .slot = &WrittenSpline::file, .help = "text file with the points", .ends = "X Y"},
       {.name = "BLOCK", .slot = &WrittenSpline::block, .help = "the block of the file, [NAME]"},
       {.name = "CHANNEL", .slot = &WrittenSpline::channel, .minimum = 1, .help = "which column behind x"},
       {.name = "LINEAR_EXTRAPOLATE",
@@ -227,12 +230,14 @@ void attach_data(const Model& model, SplineUse& use) {
   }
 }
 
-extern constinit const Kind spline = {
+extern constinit const Kind spline = Kind{
     "SPLINE",
     "",
     "Data points of a curve or of a family of curves.",
     Kind::Role::element,
     detail::argument_infos<WrittenSpline>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<SplineSet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<SplineSet>(kind);
+    }}.with_example("SPLINE/1, Y=0,1,4,9");
 
 }  // namespace dynalin

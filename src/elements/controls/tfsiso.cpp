@@ -96,10 +96,10 @@ class TfsisoSet final : public TypedSet<Tfsiso> {
       reader.error("improper-transfer-function", reader.at("NUMERATOR"),
                    fmt::format("{} has a NUMERATOR of higher degree than its DENOMINATOR", name));
     } else if (const double spread = e.spread(); spread > widest_spread) {
-      reader.error("spread-poles", reader.at("DENOMINATOR"),
-                   fmt::format("the poles of {} lie a factor of {:.0e} apart, more than numbers can hold",
-                               name, spread),
-                   "leave out the last coefficient, if it is meant as nothing");
+      reader.error(
+          "spread-poles", reader.at("DENOMINATOR"),
+          fmt::format("the poles of {} lie a factor of {:.0e} apart, more than numbers can hold", name, spread),
+          "leave out the last coefficient, if it is meant as nothing");
     } else {
       e.realize();
     }
@@ -144,12 +144,14 @@ class TfsisoSet final : public TypedSet<Tfsiso> {
 
 }  // namespace
 
-extern constinit const Kind tfsiso = {
+extern constinit const Kind tfsiso = Kind{
     "TFSISO",
     "",
     "A transfer function with one input and one output.",
     Kind::Role::element,
     detail::argument_infos<Tfsiso>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<TfsisoSet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<TfsisoSet>(kind);
+    }}.with_example("TFSISO/1, NUMERATOR=2");
 
 }  // namespace dynalin

@@ -16,7 +16,7 @@ struct Variable {
   Expression function;
 
   static constexpr std::array<Argument<Variable>, 2> arguments = {{
-      {.name = "IC", .slot = &Variable::initial, .help = "first guess of the value"},
+      {.name = "IC", .slot = &Variable::initial, .help = "first guess of the value", .start = StatedStart::value},
       {.name = "FUNCTION", .slot = &Variable::function, .required = true, .help = "the value"},
   }};
 };
@@ -38,12 +38,14 @@ class VariableSet final : public TypedSet<Variable> {
 
 const Expression& variable_function(const Model& model, VariableRef ref) { return model.get<Variable>(ref)->function; }
 
-extern constinit const Kind variable = {
+extern constinit const Kind variable = Kind{
     "VARIABLE",
     "",
     "An algebraic value given by an expression.",
     Kind::Role::element,
     detail::argument_infos<Variable>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<VariableSet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<VariableSet>(kind);
+    }}.with_example("VARIABLE/1, FUNCTION=0.5");
 
 }  // namespace dynalin

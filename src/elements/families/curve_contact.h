@@ -310,12 +310,13 @@ class CurveContactSet : public TypedSet<Written> {
 
 template <class Set, class Written>
 constexpr Kind curve_contact(std::string_view statement, std::string_view summary) {
-  return {statement,
-          "",
-          summary,
-          Kind::Role::element,
-          detail::argument_infos<Written>,
-          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<Set>(kind); }};
+  return Kind{statement,
+              "",
+              summary,
+              Kind::Role::element,
+              detail::argument_infos<Written>,
+              [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<Set>(kind); }}
+      .deactivatable();
 }
 
 }  // namespace dynalin

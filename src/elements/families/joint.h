@@ -377,26 +377,28 @@ class JointSet final : public JointSetBase {
 
 template <class E>
 constexpr Kind joint() {
-  return {"JOINT",
-          E::variant,
-          E::summary,
-          Kind::Role::element,
-          detail::argument_infos<JointArguments>,
-          [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-            return std::make_unique<JointSet<E, JointArguments>>(kind);
-          }};
+  return Kind{"JOINT",
+              E::variant,
+              E::summary,
+              Kind::Role::element,
+              detail::argument_infos<JointArguments>,
+              [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+                return std::make_unique<JointSet<E, JointArguments>>(kind);
+              }}
+      .deactivatable();
 }
 
 template <class E>
 constexpr Kind primitive() {
-  return {"JPRIM",
-          E::variant,
-          E::summary,
-          Kind::Role::element,
-          detail::argument_infos<PrimitiveArguments>,
-          [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-            return std::make_unique<JointSet<E, PrimitiveArguments>>(kind);
-          }};
+  return Kind{"JPRIM",
+              E::variant,
+              E::summary,
+              Kind::Role::element,
+              detail::argument_infos<PrimitiveArguments>,
+              [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+                return std::make_unique<JointSet<E, PrimitiveArguments>>(kind);
+              }}
+      .deactivatable();
 }
 
 }  // namespace dynalin

@@ -148,15 +148,16 @@ class TwoMarkerForceSet final : public TypedSet<E> {
 
 template <class E, template <class> class KernelOf>
 constexpr Kind two_marker_force() {
-  return {E::keyword,
-          E::variant,
-          E::summary,
-          Kind::Role::element,
-          detail::argument_infos<E>,
-          [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-            return std::make_unique<TwoMarkerForceSet<E, KernelOf>>(kind);
-          },
-          Kind::EnergyRows::one};
+  return Kind{E::keyword,
+              E::variant,
+              E::summary,
+              Kind::Role::element,
+              detail::argument_infos<E>,
+              [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+                return std::make_unique<TwoMarkerForceSet<E, KernelOf>>(kind);
+              },
+              Kind::EnergyRows::one}
+      .deactivatable();
 }
 template <class E>
 constexpr Kind line_force() {

@@ -88,13 +88,15 @@ class LinearWrenchSet final : public TypedSet<LinearWrench> {
 
 template <class E>
 constexpr Kind linear_wrench() {
-  return {E::keyword,
-          "",
-          E::summary,
-          Kind::Role::element,
-          detail::argument_infos<E>,
-          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<LinearWrenchSet<E>>(kind); },
-          Kind::EnergyRows::one};
+  return Kind{
+      E::keyword,
+      "",
+      E::summary,
+      Kind::Role::element,
+      detail::argument_infos<E>,
+      [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<LinearWrenchSet<E>>(kind); },
+      Kind::EnergyRows::one}
+      .deactivatable();
 }
 
 // Puts a list of exactly N values into an array; false after a reported error. An empty list leaves the array as it is.

@@ -33,13 +33,15 @@ class SingleComponentSet final : public TypedSet<E> {
 
 template <class E>
 constexpr Kind single_component() {
-  return {"SFORCE",
-          E::variant,
-          E::summary,
-          Kind::Role::element,
-          detail::argument_infos<E>,
-          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<SingleComponentSet<E>>(kind); },
-          Kind::EnergyRows::one};
+  return Kind{
+      "SFORCE",
+      E::variant,
+      E::summary,
+      Kind::Role::element,
+      detail::argument_infos<E>,
+      [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<SingleComponentSet<E>>(kind); },
+      Kind::EnergyRows::one}
+      .deactivatable();
 }
 
 }  // namespace dynalin

@@ -84,13 +84,14 @@ class VectorForceSet final : public TypedSet<VectorForce> {
 
 template <class E>
 constexpr Kind vector_force() {
-  return {E::keyword,
-          "",
-          E::summary,
-          Kind::Role::element,
-          detail::argument_infos<E>,
-          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<VectorForceSet<E>>(kind); },
-          Kind::EnergyRows::one};
+  return Kind{E::keyword,
+              "",
+              E::summary,
+              Kind::Role::element,
+              detail::argument_infos<E>,
+              [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<VectorForceSet<E>>(kind); },
+              Kind::EnergyRows::one}
+      .deactivatable();
 }
 
 }  // namespace dynalin

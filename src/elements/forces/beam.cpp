@@ -55,8 +55,16 @@ struct Beam {
        .help = "shear modulus"},
       {.name = "ASY", .slot = &Beam::asy, .minimum = 0, .help = "shear area ratio in y, 0: no shear deflection"},
       {.name = "ASZ", .slot = &Beam::asz, .minimum = 0, .help = "shear area ratio in z"},
-      {.name = "CMATRIX", .slot = &Beam::damping, .help = "21 values: lower triangle by columns"},
-      {.name = "CRATIO", .slot = &Beam::ratio, .unit = "time", .help = "damping as part of the stiffness"},
+      {.name = "CMATRIX",
+       .slot = &Beam::damping,
+       .help = "21 values: lower triangle by columns",
+       .ends = "CRATIO",
+       .count = 21},
+      {.name = "CRATIO",
+       .slot = &Beam::ratio,
+       .unit = "time",
+       .help = "damping as part of the stiffness",
+       .ends = "CMATRIX"},
       {.name = "FORMULATION", .slot = &Beam::formulation, .help = "LINEAR"},
   }};
 
@@ -115,6 +123,6 @@ struct Beam {
 
 }  // namespace
 
-extern constinit const Kind beam = linear_wrench<Beam>();
+extern constinit const Kind beam = linear_wrench<Beam>().with_example("BEAM/1, IXX=0.5");
 
 }  // namespace dynalin

@@ -22,12 +22,37 @@ struct Bushing {
   static constexpr std::array<Argument<Bushing>, 8> arguments = {{
       {.name = "I", .slot = &Bushing::i, .required = true, .help = "marker the force acts on"},
       {.name = "J", .slot = &Bushing::j, .required = true, .help = "marker the reaction acts on, and whose axes count"},
-      {.name = "K", .slot = &Bushing::stiffness, .unit = unit::stiffness, .help = "3 values, along x, y, z"},
-      {.name = "KT", .slot = &Bushing::angular_stiffness, .unit = unit::angular_stiffness, .help = "3 values"},
-      {.name = "C", .slot = &Bushing::damping, .unit = unit::damping, .help = "3 values"},
-      {.name = "CT", .slot = &Bushing::angular_damping, .unit = unit::angular_damping, .help = "3 values"},
-      {.name = "FORCE", .slot = &Bushing::force, .unit = unit::force, .help = "3 values at zero displacement"},
-      {.name = "TORQUE", .slot = &Bushing::torque, .unit = unit::torque, .help = "3 values at zero displacement"},
+      {.name = "K",
+       .slot = &Bushing::stiffness,
+       .unit = unit::stiffness,
+       .help = "3 values, along x, y, z",
+       .count = 3,
+       .unstated = 0},
+      {.name = "KT",
+       .slot = &Bushing::angular_stiffness,
+       .unit = unit::angular_stiffness,
+       .help = "3 values",
+       .count = 3,
+       .unstated = 0},
+      {.name = "C", .slot = &Bushing::damping, .unit = unit::damping, .help = "3 values", .count = 3, .unstated = 0},
+      {.name = "CT",
+       .slot = &Bushing::angular_damping,
+       .unit = unit::angular_damping,
+       .help = "3 values",
+       .count = 3,
+       .unstated = 0},
+      {.name = "FORCE",
+       .slot = &Bushing::force,
+       .unit = unit::force,
+       .help = "3 values at zero displacement",
+       .count = 3,
+       .unstated = 0},
+      {.name = "TORQUE",
+       .slot = &Bushing::torque,
+       .unit = unit::torque,
+       .help = "3 values at zero displacement",
+       .count = 3,
+       .unstated = 0},
   }};
 
   LinearLaw law(ElementReader& reader) const {
@@ -58,6 +83,6 @@ struct Bushing {
 
 }  // namespace
 
-extern constinit const Kind bushing = linear_wrench<Bushing>();
+extern constinit const Kind bushing = linear_wrench<Bushing>().with_example("BUSHING/1, K=0,0,500");
 
 }  // namespace dynalin

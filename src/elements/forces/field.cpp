@@ -21,12 +21,31 @@ struct Field {
   static constexpr std::array<Argument<Field>, 8> arguments = {{
       {.name = "I", .slot = &Field::i, .required = true, .help = "marker the force acts on"},
       {.name = "J", .slot = &Field::j, .required = true, .help = "marker the reaction acts on, and whose axes count"},
-      {.name = "KMATRIX", .slot = &Field::stiffness, .help = "36 values by columns: stiffness"},
-      {.name = "CMATRIX", .slot = &Field::damping, .help = "36 values by columns: damping"},
-      {.name = "CRATIO", .slot = &Field::ratio, .unit = "time", .help = "CMATRIX = CRATIO · KMATRIX"},
-      {.name = "FORCE", .slot = &Field::force, .help = "3 forces and 3 torques at LENGTH"},
-      {.name = "LENGTH", .slot = &Field::length, .help = "3 lengths and 3 angles at which FORCE acts"},
-      {.name = "FUNCTION", .slot = &Field::function, .help = "USER(…): not available"},
+      {.name = "KMATRIX",
+       .slot = &Field::stiffness,
+       .help = "36 values by columns: stiffness",
+       .ends = "FUNCTION",
+       .count = 36},
+      {.name = "CMATRIX",
+       .slot = &Field::damping,
+       .help = "36 values by columns: damping",
+       .ends = "CRATIO",
+       .count = 36},
+      {.name = "CRATIO",
+       .slot = &Field::ratio,
+       .unit = "time",
+       .help = "CMATRIX = CRATIO · KMATRIX",
+       .ends = "CMATRIX"},
+      {.name = "FORCE", .slot = &Field::force, .help = "3 forces and 3 torques at LENGTH", .count = 6, .unstated = 0},
+      {.name = "LENGTH",
+       .slot = &Field::length,
+       .help = "3 lengths and 3 angles at which FORCE acts",
+       .count = 6,
+       .unstated = 0},
+      {.name = "FUNCTION",
+       .slot = &Field::function,
+       .help = "USER(…): not available",
+       .ends = "KMATRIX CMATRIX CRATIO FORCE"},
   }};
 
   LinearLaw law(ElementReader& reader) const {
@@ -51,6 +70,6 @@ struct Field {
 
 }  // namespace
 
-extern constinit const Kind field = linear_wrench<Field>();
+extern constinit const Kind field = linear_wrench<Field>().with_example("FIELD/1, CRATIO=0.02");
 
 }  // namespace dynalin

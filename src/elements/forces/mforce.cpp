@@ -51,12 +51,14 @@ class ModalForceSet final : public TypedSet<ModalForce> {
 
 }  // namespace
 
-extern constinit const Kind mforce = {
+extern constinit const Kind mforce = Kind{
     "MFORCE",
     "",
     "Load on the modal coordinates of a flexible body.",
     Kind::Role::element,
     detail::argument_infos<ModalForce>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<ModalForceSet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<ModalForceSet>(kind);
+    }}.deactivatable();
 
 }  // namespace dynalin

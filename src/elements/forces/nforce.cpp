@@ -32,8 +32,12 @@ struct Nforce {
        .required = true,
        .help = "marker whose body balances them, and whose axes count"},
       {.name = "KMATRIX", .slot = &Nforce::stiffness, .help = "MATRIX of 6 n × 6 n: stiffness"},
-      {.name = "CMATRIX", .slot = &Nforce::damping, .help = "MATRIX of 6 n × 6 n: damping"},
-      {.name = "CRATIO", .slot = &Nforce::ratio, .unit = "time", .help = "damping as part of the stiffness"},
+      {.name = "CMATRIX", .slot = &Nforce::damping, .help = "MATRIX of 6 n × 6 n: damping", .ends = "CRATIO"},
+      {.name = "CRATIO",
+       .slot = &Nforce::ratio,
+       .unit = "time",
+       .help = "damping as part of the stiffness",
+       .ends = "CMATRIX"},
       {.name = "LENGTH", .slot = &Nforce::length, .help = "MATRIX of 6 n × 1: displacements at which FORCE acts"},
       {.name = "FORCE", .slot = &Nforce::force, .help = "MATRIX of 6 n × 1"},
       {.name = "FUNCTION", .slot = &Nforce::function, .help = "USER(…): not available"},
@@ -240,13 +244,14 @@ class NforceSet final : public TypedSet<Nforce> {
 
 }  // namespace
 
-extern constinit const Kind nforce = {
-    "NFORCE",
-    "",
-    "Linear force among several markers as seen from one.",
-    Kind::Role::element,
-    detail::argument_infos<Nforce>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<NforceSet>(kind); },
-    Kind::EnergyRows::each_marker};
+extern constinit const Kind nforce =
+    Kind{"NFORCE",
+         "",
+         "Linear force among several markers as seen from one.",
+         Kind::Role::element,
+         detail::argument_infos<Nforce>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<NforceSet>(kind); },
+         Kind::EnergyRows::each_marker}
+        .deactivatable();
 
 }  // namespace dynalin

@@ -32,6 +32,7 @@ struct SingleForce {
 
 }  // namespace
 
-extern constinit const Kind single_force = single_component<SingleForce>();
+extern constinit const Kind single_force =
+    single_component<SingleForce>().with_example("SFORCE/1, FUNCTION=-300*DZ(20,1)");
 
 }  // namespace dynalin

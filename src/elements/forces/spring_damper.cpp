@@ -49,6 +49,6 @@ struct SpringDamper {
 
 }  // namespace
 
-extern constinit const Kind spring_damper = line_force<SpringDamper>();
+extern constinit const Kind spring_damper = line_force<SpringDamper>().with_example("SPRINGDAMPER/1, K=2000");
 
 }  // namespace dynalin

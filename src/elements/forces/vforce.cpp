@@ -20,11 +20,18 @@ struct VForce : WrittenVectorForce {
        .required = true,
        .help = "floating marker on the body that takes the reaction"},
       {.name = "RM", .slot = &VForce::rm, .required = true, .help = "marker in whose axes the components are given"},
-      {.name = "FX", .slot = &VForce::fx, .unit = unit::force, .help = "along x of RM"},
-      {.name = "FY", .slot = &VForce::fy, .unit = unit::force, .help = "along y of RM"},
-      {.name = "FZ", .slot = &VForce::fz, .unit = unit::force, .help = "along z of RM"},
-      {.name = "FXYZ", .slot = &VForce::fxyz, .unit = unit::force, .help = "all three as a vector expression"},
-      {.name = "FUNCTION", .slot = &VForce::function, .help = "user subroutines are not available"},
+      {.name = "FX", .slot = &VForce::fx, .unit = unit::force, .help = "along x of RM", .ends = "FXYZ FUNCTION"},
+      {.name = "FY", .slot = &VForce::fy, .unit = unit::force, .help = "along y of RM", .ends = "FXYZ FUNCTION"},
+      {.name = "FZ", .slot = &VForce::fz, .unit = unit::force, .help = "along z of RM", .ends = "FXYZ FUNCTION"},
+      {.name = "FXYZ",
+       .slot = &VForce::fxyz,
+       .unit = unit::force,
+       .help = "all three as a vector expression",
+       .ends = "FX FY FZ FUNCTION"},
+      {.name = "FUNCTION",
+       .slot = &VForce::function,
+       .help = "user subroutines are not available",
+       .ends = "FX FY FZ FXYZ"},
   }};
 };
 

@@ -20,11 +20,18 @@ struct VTorque : WrittenVectorForce {
        .required = true,
        .help = "floating marker on the body that takes the reaction"},
       {.name = "RM", .slot = &VTorque::rm, .required = true, .help = "marker in whose axes the components are given"},
-      {.name = "TX", .slot = &VTorque::tx, .unit = unit::torque, .help = "about x of RM"},
-      {.name = "TY", .slot = &VTorque::ty, .unit = unit::torque, .help = "about y of RM"},
-      {.name = "TZ", .slot = &VTorque::tz, .unit = unit::torque, .help = "about z of RM"},
-      {.name = "TXYZ", .slot = &VTorque::txyz, .unit = unit::torque, .help = "all three as a vector expression"},
-      {.name = "FUNCTION", .slot = &VTorque::function, .help = "user subroutines are not available"},
+      {.name = "TX", .slot = &VTorque::tx, .unit = unit::torque, .help = "about x of RM", .ends = "TXYZ FUNCTION"},
+      {.name = "TY", .slot = &VTorque::ty, .unit = unit::torque, .help = "about y of RM", .ends = "TXYZ FUNCTION"},
+      {.name = "TZ", .slot = &VTorque::tz, .unit = unit::torque, .help = "about z of RM", .ends = "TXYZ FUNCTION"},
+      {.name = "TXYZ",
+       .slot = &VTorque::txyz,
+       .unit = unit::torque,
+       .help = "all three as a vector expression",
+       .ends = "TX TY TZ FUNCTION"},
+      {.name = "FUNCTION",
+       .slot = &VTorque::function,
+       .help = "user subroutines are not available",
+       .ends = "TX TY TZ TXYZ"},
   }};
 };
 

@@ -30,12 +30,14 @@ class GravitySet final : public TypedSet<Gravity> {
 
 }  // namespace
 
-extern constinit const Kind gravity = {
+extern constinit const Kind gravity = Kind{
     "ACCGRAV",
     "",
     "Gravitational acceleration in global axes.",
     Kind::Role::singleton,
     detail::argument_infos<Gravity>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<GravitySet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<GravitySet>(kind);
+    }}.with_example("ACCGRAV/KGRAV=0");
 
 }  // namespace dynalin

@@ -51,12 +51,14 @@ struct WrittenString {
 extern constinit const Kind output = setting<WrittenOutput>("OUTPUT", "What is written to which file.");
 extern constinit const Kind results = setting<WrittenResults>("RESULTS", "Contents of the results file.");
 extern constinit const Kind string = setting<WrittenString>("STRING", "Text for subroutines.");
-extern constinit const Kind request = {
+extern constinit const Kind request = Kind{
     "REQUEST",
     "",
     "Output of time histories.",
     Kind::Role::inert,
     detail::argument_infos<WrittenRequest>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<RequestSet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<RequestSet>(kind);
+    }}.deactivatable();
 
 }  // namespace dynalin

@@ -140,12 +140,14 @@ class UnitsSet final : public TypedSet<UnitsStatement> {
 
 }  // namespace
 
-extern constinit const Kind units = {
+extern constinit const Kind units = Kind{
     "UNITS",
     "",
     "Units of the dataset; they enter by the consistency factor alone.",
     Kind::Role::singleton,
     detail::argument_infos<UnitsStatement>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<UnitsSet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<UnitsSet>(kind);
+    }}.for_good();
 
 }  // namespace dynalin
