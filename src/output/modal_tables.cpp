@@ -187,7 +187,7 @@ void write_modal_title(std::ostream& out, double time) {
 void write_modal_table(std::ostream& out, const ModalTableFormat& format, const ModalTable& table) {
   if (table.name == "MODE") return write_summary(out, table);
   const ModalTableKind* kind = find_modal_table(table.name);
-  if (!kind) return;  // of all modes: write_energies, write_masses
+  if (!kind || !kind->rows) return;  // of all modes: write_energies, write_masses
   const bool complex =
       std::any_of(table.rows.begin(), table.rows.end(), [](const auto& r) { return !r.imaginary.empty(); });
   (complex ? write_shape : kind->totals ? write_shares : write_numbers)(out, format, *kind, table.rows);

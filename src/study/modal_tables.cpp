@@ -36,35 +36,6 @@ constexpr std::array<Name, 6> six = {"X", "Y", "Z", "RX", "RY", "RZ"};
 constexpr std::array<Name, 10> shares = {"X", "Y", "Z", "RXX", "RYY", "RZZ", "RXY", "RXZ", "RYZ", "Sum"};
 constexpr std::array<Name, 7> works = {"Total", "X", "Y", "Z", "RXX", "RYY", "RZZ"};
 
-constexpr std::array kinds = {
-    ModalTableKind{.name = "COORDS",
-                   .columns = six,
-                   .title = "Normalized coordinates in this mode",
-                   .rows = [](const ModalDistribution& d, std::size_t k, Markers) { return plain(d.coordinates(k)); }},
-    ModalTableKind{.name = "MRANGE",
-                   .columns = six,
-                   .title = "Marker mode table",
-                   .rows = [](const ModalDistribution& d, std::size_t k, Markers m) { return plain(d.markers(k, m)); }},
-    ModalTableKind{.name = "KINETIC",
-                   .columns = shares,
-                   .title = "Percentage distribution of Kinetic energy",
-                   .nothing = "Nothing that has mass moves in this mode.",
-                   .totals = true,
-                   .rows = [](const ModalDistribution& d, std::size_t k, Markers) { return plain(d.kinetic(k)); }},
-    ModalTableKind{.name = "STRAIN",
-                   .columns = works,
-                   .title = "Percentage distribution of strain energy",
-                   .nothing = "No force element stores energy in this mode.",
-                   .short_names = true,
-                   .rows = [](const ModalDistribution& d, std::size_t k, Markers) { return plain(d.strain(k)); }},
-    ModalTableKind{.name = "DISSIPAT",
-                   .columns = works,
-                   .title = "Percentage distribution of dissipative energy",
-                   .nothing = "No force element dissipates power in this mode.",
-                   .short_names = true,
-                   .rows = [](const ModalDistribution& d, std::size_t k, Markers) { return plain(d.dissipation(k)); }},
-};
-
 ModalTable summary_of(std::size_t mode, const ModeHeader& h) {
   Row row;
   row.part = static_cast<std::int64_t>(mode + 1);
@@ -103,6 +74,85 @@ StudyFailure no_such(std::string_view what) {
   return StudyFailure({"linear analysis", fmt::format("{} does not exist", what), {}});
 }
 
+StudyResult<void> energies_of_all(const Linearization& of, const EigenSolution& modes, const ModalTableRequest& request,
+                                  TablesFound& found) {
+  auto energies = energy_per_mode(*of.system, of.point, of.linear, modes);
+  if (!energies) return tl::unexpected(StudyFailure(energies.error()));
+  const auto fill = [&](std::size_t k, Row& row) {
+    const EnergyPerMode::Share& share = energies->modes[k];
+    row.values = {share.kinetic, share.potential, share.power};
+  };
+  found.tables.push_back(over_modes("ENERGY_PER_MODE", {"Kinetic", "Potential", "Diss. power"}, modes,
+                                    request.of("ENERGY_PER_MODE"), fill));
+  found.energies = std::move(*energies);
+  return {};
+}
+
+StudyResult<void> masses_of_all(const Linearization& of, const EigenSolution& modes, const ModalTableRequest& request,
+                                TablesFound& found) {
+  const auto frame = request.modal_rm ? of.system->model().find_marker(*request.modal_rm) : MarkerId{};
+  if (!frame) return tl::unexpected(no_such(fmt::format("MARKER/{}", *request.modal_rm)));
+  found.masses = modal_masses(*of.system, of.point, of.linear, modes, *frame);
+  const auto participation = [&](std::size_t k, Row& row) {
+    const ModalMasses::Row& m = found.masses->modes[k];
+    row.values = {m.generalized}, row.imaginary = {0};
+    for (const auto& f : m.participation) row.values.push_back(f.real()), row.imaginary.push_back(f.imag());
+  };
+  const auto effective = [&](std::size_t k, Row& row) {
+    const auto& masses = found.masses->modes[k].effective;
+    row.values.assign(masses.begin(), masses.end());
+  };
+  const std::vector<std::string> axes(six.begin(), six.end());
+  const ModeRange range = request.of("MASS_PER_MODE");
+  found.tables.push_back(
+      over_modes("PARTICIPATION", {"Gen. mass", "X", "Y", "Z", "RX", "RY", "RZ"}, modes, range, participation));
+  found.tables.push_back(over_modes("EFFECTIVE_MASS", axes, modes, range, effective));
+  return {};
+}
+
+constexpr std::array kinds = {
+    ModalTableKind{.name = "COORDS",
+                   .help = "table of mode shapes",
+                   .columns = six,
+                   .title = "Normalized coordinates in this mode",
+                   .rows = [](const ModalDistribution& d, std::size_t k, Markers) { return plain(d.coordinates(k)); }},
+    ModalTableKind{.name = "MRANGE",
+                   .help = "modes of MLIST",
+                   .asked = TableAsked::by_numbers,
+                   .columns = six,
+                   .title = "Marker mode table",
+                   .rows = [](const ModalDistribution& d, std::size_t k, Markers m) { return plain(d.markers(k, m)); }},
+    ModalTableKind{.name = "KINETIC",
+                   .help = "table of kinetic energy",
+                   .columns = shares,
+                   .title = "Percentage distribution of Kinetic energy",
+                   .nothing = "Nothing that has mass moves in this mode.",
+                   .totals = true,
+                   .rows = [](const ModalDistribution& d, std::size_t k, Markers) { return plain(d.kinetic(k)); }},
+    ModalTableKind{.name = "STRAIN",
+                   .help = "table of strain energy",
+                   .columns = works,
+                   .title = "Percentage distribution of strain energy",
+                   .nothing = "No force element stores energy in this mode.",
+                   .short_names = true,
+                   .rows = [](const ModalDistribution& d, std::size_t k, Markers) { return plain(d.strain(k)); }},
+    ModalTableKind{.name = "DISSIPAT",
+                   .help = "table of dissipated power",
+                   .columns = works,
+                   .title = "Percentage distribution of dissipative energy",
+                   .nothing = "No force element dissipates power in this mode.",
+                   .short_names = true,
+                   .rows = [](const ModalDistribution& d, std::size_t k, Markers) { return plain(d.dissipation(k)); }},
+    ModalTableKind{.name = "ENERGY_PER_MODE",
+                   .help = "table of the energies of each mode",
+                   .asked = TableAsked::all_or_by_numbers,
+                   .of_all = energies_of_all},
+    ModalTableKind{.name = "MASS_PER_MODE",
+                   .help = "table of effective masses",
+                   .asked = TableAsked::all_or_by_numbers,
+                   .of_all = masses_of_all},
+};
+
 }  // namespace
 
 std::span<const ModalTableKind> modal_table_kinds() { return kinds; }
@@ -132,14 +182,13 @@ StudyResult<TablesFound> modal_tables(const Linearization& of, const EigenSoluti
     markers.push_back(*marker);
   }
   for (const auto& [name, range] : request.modes) {
-    if (!find_modal_table(name) && name != "ENERGY_PER_MODE" && name != "MASS_PER_MODE")
-      return tl::unexpected(no_such("the modal table " + name));
+    if (!find_modal_table(name)) return tl::unexpected(no_such("the modal table " + name));
   }
   const ModalDistribution distribution(*of.system, of.point, of.linear, modes);
   for (std::size_t k = 0; k < modes.modes.size(); ++k) {
     bool any = false;
     for (const ModalTableKind& kind : kinds) {
-      if (!request.of(std::string(kind.name)).has(k + 1, modes.modes[k])) continue;
+      if (!kind.rows || !request.of(std::string(kind.name)).has(k + 1, modes.modes[k])) continue;
       if (!any) found.tables.push_back(summary_of(k, distribution.header(k)));
       any = true;
       found.tables.push_back({std::string(kind.name),
@@ -148,33 +197,9 @@ StudyResult<TablesFound> modal_tables(const Linearization& of, const EigenSoluti
                               kind.rows(distribution, k, markers)});
     }
   }
-  if (const ModeRange range = request.of("ENERGY_PER_MODE"); range.any()) {
-    auto energies = energy_per_mode(*of.system, of.point, of.linear, modes);
-    if (!energies) return tl::unexpected(StudyFailure(energies.error()));
-    const auto fill = [&](std::size_t k, Row& row) {
-      const EnergyPerMode::Share& share = energies->modes[k];
-      row.values = {share.kinetic, share.potential, share.power};
-    };
-    found.tables.push_back(over_modes("ENERGY_PER_MODE", {"Kinetic", "Potential", "Diss. power"}, modes, range, fill));
-    found.energies = std::move(*energies);
-  }
-  if (const ModeRange range = request.of("MASS_PER_MODE"); range.any()) {
-    const auto frame = request.modal_rm ? model.find_marker(*request.modal_rm) : MarkerId{};
-    if (!frame) return tl::unexpected(no_such(fmt::format("MARKER/{}", *request.modal_rm)));
-    found.masses = modal_masses(*of.system, of.point, of.linear, modes, *frame);
-    const auto participation = [&](std::size_t k, Row& row) {
-      const ModalMasses::Row& m = found.masses->modes[k];
-      row.values = {m.generalized}, row.imaginary = {0};
-      for (const auto& f : m.participation) row.values.push_back(f.real()), row.imaginary.push_back(f.imag());
-    };
-    const auto effective = [&](std::size_t k, Row& row) {
-      const auto& masses = found.masses->modes[k].effective;
-      row.values.assign(masses.begin(), masses.end());
-    };
-    const std::vector<std::string> axes(six.begin(), six.end());
-    found.tables.push_back(
-        over_modes("PARTICIPATION", {"Gen. mass", "X", "Y", "Z", "RX", "RY", "RZ"}, modes, range, participation));
-    found.tables.push_back(over_modes("EFFECTIVE_MASS", axes, modes, range, effective));
+  for (const ModalTableKind& kind : kinds) {
+    if (!kind.of_all || !request.of(std::string(kind.name)).any()) continue;
+    if (auto made = kind.of_all(of, modes, request, found); !made) return tl::unexpected(made.error());
   }
   look_for_missing(request, modes.modes.size(), found.remarks);
   return found;
