@@ -5,9 +5,17 @@
 
 namespace dynalin {
 
+struct CommandFile;
+
 class CommandReader final : public ElementReader {
  public:
-  using ElementReader::ElementReader;
+  // `file` is what was read so far.
+  CommandReader(const Statement& statement, const SourceText& source, Diagnostics& diagnostics,
+                const ElementLabel& label, CommandFile& file)
+      : ElementReader(statement, source, diagnostics, label), file_(&file) {}
+
+  CommandFile& file() { return *file_; }
+
   std::optional<MarkerId> marker(const WrittenInteger&, std::string_view) override { return std::nullopt; }
   std::optional<BodyId> body(std::string_view, const WrittenInteger&) override { return std::nullopt; }
   std::optional<ElementHandle> element(std::string_view, const WrittenInteger&) override { return std::nullopt; }
@@ -15,6 +23,9 @@ class CommandReader final : public ElementReader {
   std::optional<VectorExpression> vector_expression(const WrittenArgument&) override { return std::nullopt; }
   std::optional<BodyId> preceding_body() const override { return std::nullopt; }
   std::string folder() const override { return {}; }
+
+ private:
+  CommandFile* file_;
 };
 
 }  // namespace dynalin

@@ -1,65 +1,21 @@
 // The commands of a command file, read and checked before anything runs.
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "base/diagnostics.h"
-#include "base/source.h"
-#include "dynalin/modal_table.h"
-#include "elements/settings/analysis_settings.h"
+#include "command/command_kind.h"
 
 namespace dynalin {
-
-struct SimulateCommand {
-  enum class Kind { initial_conditions, statics } kind = Kind::initial_conditions;
-};
-
-enum class LinearOption { eigensol, statemat, mkb, nastran_export };
-
-// LINEAR with all its arguments (LINEAR command, section 4).
-struct LinearCommand {
-  LinearOption option = LinearOption::eigensol;
-  std::optional<std::int64_t> rm, pstate, pinput, poutput;
-  bool without_damping = false, without_vectors = false, original = false, names = false;
-  std::string file, format = "MATRIXX", type, config;
-  ModalTableRequest tables;
-  int table_precision = 2;
-};
-
-// ENVIRONMENT: an environment variable for the rest of the run.
-struct EnvironmentCommand {
-  std::string name;
-};
-
-// A command that changes the model: the statement in CommandFile::written (edits.h).
-struct EditCommand {
-  const Statement* statement = nullptr;
-};
-
-// A command that sets what the analyses after it work with.
-struct SettingCommand {
-  std::optional<WrittenEquilibrium> equilibrium;
-  std::optional<WrittenInitialConditions> initial_conditions;
-  std::vector<std::string> passed_over;  // "INTEGRATOR/HMAX"
-  Diagnostics remarks;
-};
-
-// A command that is known and has no effect on a linear model.
-struct PassiveCommand {
-  std::string name;
-};
-struct StopCommand {};
 
 struct Command {
   std::string text;  // as written, on one line
   Span at;
-  std::variant<SimulateCommand, LinearCommand, EnvironmentCommand, EditCommand, SettingCommand, PassiveCommand,
-               StopCommand>
-      what;
-  std::size_t stage = 0;  // which of the models of the run it works with, itself an edit included
+  const CommandKind* kind = nullptr;
+  std::shared_ptr<const CommandAction> action;  // nothing where the file is wrong
+  std::size_t stage = 0;                        // which of the models of the run it works with, itself an edit included
 };
 
 struct CommandFile {
@@ -67,6 +23,7 @@ struct CommandFile {
   Span model_at;
   std::string output_prefix;  // empty: the model's name
   std::vector<Command> commands;
+  bool stopped = false;                    // what follows is read, and does not run
   std::shared_ptr<const Dataset> written;  // the statements of the file
   SourceRef source;
 };
@@ -75,5 +32,11 @@ struct CommandFile {
 Parsed<CommandFile> parse_command_file(SourceRef);
 // Commands given one by one on the command line.
 Parsed<CommandFile> parse_commands(SourceRef);
+
+// What a command was read as, nullptr if it is another one.
+template <class Action>
+const Action* action_of(const Command& c) {
+  return dynamic_cast<const Action*>(c.action.get());
+}
 
 }  // namespace dynalin

@@ -7,7 +7,7 @@
 #include <cctype>
 
 #include "base/diagnostics.h"
-#include "command/command_table.h"
+#include "command/command_catalogue.h"
 #include "command/help_pages.h"
 #include "command/session.h"
 #include "elements/catalogue.h"
@@ -74,7 +74,7 @@ void list_commands(std::ostream& out) {
   for (const Group& group : groups) {
     fmt::print(out, "  {}\n", group.title);
     std::vector<std::string_view> bare;
-    for (const CommandRow& row : command_table()) {
+    for (const CommandKind& row : command_catalogue()) {
       if (row.use != group.use) continue;
       if (row.summary.empty() && !has_statement(row.name)) continue;
       const bool plain = row.use == CommandUse::without_effect || row.use == CommandUse::not_built;

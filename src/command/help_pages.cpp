@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "command/command_table.h"
-#include "command/edits.h"
+#include "command/command_catalogue.h"
 #include "elements/catalogue.h"
 #include "expression/function_manual.h"
 
@@ -97,7 +96,7 @@ void print_statement(std::ostream& out, const std::vector<const Kind*>& kinds) {
   }
 }
 
-void print_command(std::ostream& out, const CommandRow& row, bool is_statement) {
+void print_command(std::ostream& out, const CommandKind& row, bool is_statement) {
   if (is_statement && row.summary.empty()) {
     fmt::print(out, "As a command it defines arguments of such a statement anew, the others stay.\n");
     if (!row.example.empty()) fmt::print(out, "    {}\n", row.example);
@@ -113,14 +112,13 @@ void print_command(std::ostream& out, const CommandRow& row, bool is_statement) 
                                                        : "");
   if (!row.arguments.empty()) fmt::print(out, "  arguments\n");
   print_arguments(out, {row.arguments.begin(), row.arguments.end()});
-  if (row.name == "ACTIVATE" || row.name == "DEACTIVATE")
-    fmt::print(out, "  classes\n"),
-        print_names(out, {switchable_classes().begin(), switchable_classes().end()}, "    ");
+  if (!row.classes.empty())
+    fmt::print(out, "  classes\n"), print_names(out, {row.classes.begin(), row.classes.end()}, "    ");
   if (!row.example.empty()) fmt::print(out, "  example\n    {}\n", row.example);
 }
 
 // A setting is a statement and a command alike.
-void print_setting(std::ostream& out, const CommandRow& row) {
+void print_setting(std::ostream& out, const CommandKind& row) {
   const bool is_statement = !statement_name(row.name).empty();
   fmt::print(out, "{}/ ({})\n  {}\n", row.name, is_statement ? "statement and command" : "command", row.summary);
   std::vector<ArgumentInfo> acting;

@@ -74,7 +74,6 @@ class Loader {
     const bool read = !parsed.diagnostics.has_errors();
     diagnostics_.append(std::move(parsed.diagnostics));
     const auto dataset = std::make_shared<Dataset>(std::move(parsed.value));
-    const auto edits = [](const Command& c) { return std::holds_alternative<EditCommand>(c.what); };
     const bool edited = std::ranges::any_of(job.commands.commands, edits);
     auto built =
         build_model(dataset, catalogue(), {.user_value = options_.user_value, .read_once = edited ? nullptr : dataset});
@@ -128,22 +127,23 @@ class Loader {
     err_ << render(diagnostics_);
     return std::nullopt;
   }
+  static bool edits(const Command& c) { return c.action && c.action->edits(); }
   // Commands that edit the model end a stage of the run; neighbours share the next one. What is wrong with the dataset
   // itself is reported already.
   void make_stages(Job& job) {
     std::vector<Command>& commands = job.commands.commands;
     for (std::size_t k = 0; k < commands.size(); ++k) {
-      if (!std::holds_alternative<EditCommand>(commands[k].what)) {
+      if (!edits(commands[k])) {
         commands[k].stage = job.stages.size() - 1;
         continue;
       }
-      std::vector<const Statement*> edits;
-      for (; k < commands.size() && std::holds_alternative<EditCommand>(commands[k].what); ++k) {
-        edits.push_back(std::get<EditCommand>(commands[k].what).statement);
+      DatasetEditor editor(job.stages.back().dataset, job.commands.written, catalogue(), diagnostics_);
+      for (; k < commands.size() && edits(commands[k]); ++k) {
+        commands[k].action->edit(editor);
         commands[k].stage = job.stages.size();
       }
       --k;
-      EditedDataset now = edited(job.stages.back().dataset, job.commands.written, edits, catalogue(), diagnostics_);
+      EditedDataset now = std::move(editor).finish();
       auto built = build_model(now.dataset, catalogue(), {options_.user_value});
       const SourceText* read_before = job.stages.front().dataset->source.get();
       for (const Diagnostic& d : built.diagnostics.items()) {
@@ -167,31 +167,7 @@ class Loader {
   }
   // Ids that commands refer to must exist before anything runs.
   void check_ids(const Job& job) {
-    for (const Command& c : job.commands.commands) {
-      const auto* linear = std::get_if<LinearCommand>(&c.what);
-      if (!linear) continue;
-      const Model& model = *job.stages[c.stage].model;
-      const auto need = [&](const std::optional<std::int64_t>& id, std::string_view statement, bool exists) {
-        if (id && !exists)
-          diagnostics_.error("unknown-element", c.at,
-                             fmt::format("the command refers to {}/{}, which does not exist", statement, *id));
-      };
-      const auto found = [&](const std::optional<std::int64_t>& id, std::string_view statement) {
-        return id && model.find(statement, *id).has_value();
-      };
-      need(linear->pstate, "PSTATE", found(linear->pstate, "PSTATE"));
-      need(linear->pinput, "PINPUT", found(linear->pinput, "PINPUT"));
-      need(linear->poutput, "POUTPUT", found(linear->poutput, "POUTPUT"));
-      const std::optional<std::int64_t> modal_rm = linear->tables.modal_rm;
-      need(modal_rm, "MARKER", modal_rm && model.find_marker(*modal_rm).has_value());
-      for (const std::int64_t id : linear->tables.markers) {
-        need(id, "MARKER", id > 0 && model.find_marker(id).has_value());
-      }
-      const auto rm = linear->rm ? model.find_marker(*linear->rm) : std::nullopt;
-      need(linear->rm, "MARKER", rm.has_value());
-      if (rm && model.marker(*rm).floating)
-        diagnostics_.error("floating-marker", c.at, fmt::format("RM=MARKER/{} is floating", *linear->rm));
-    }
+    for (const Command& c : job.commands.commands) c.action->check(*job.stages[c.stage].model, c.at, diagnostics_);
   }
 
   const SessionOptions& options_;

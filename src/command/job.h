@@ -2,9 +2,9 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 
 #include "command/commands.h"
-#include "command/edits.h"
 #include "command/session.h"
 #include "model/model.h"
 

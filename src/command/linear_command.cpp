@@ -3,8 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
+#include <functional>
 #include <limits>
 #include <sstream>
+
+#include "model/schema.h"
+#include "study/modal_tables.h"
 
 namespace dynalin {
 
@@ -13,16 +18,23 @@ namespace {
 using Integers = std::vector<std::int64_t>;
 using Id = std::optional<std::int64_t>;
 
+// What asks for one table.
+struct WrittenTable {
+  Integers numbers;
+  std::vector<double> frequencies;
+  std::string all_or_numbers;
+};
+
 struct WrittenLinear {
   bool eigensol = false, statemat = false, mkb = false, nastran_export = false;
   bool no_damping = false, no_vector = false, original = false, names = false;
   Id rm, pstate, pinput, poutput, modal_rm, table_precision;
-  Integers coords, kinetic, strain, dissipat, mlist, mrange;
-  std::vector<double> fcoords, fkinetic, fstrain, fdissipat;
-  std::string energy_per_mode, mass_per_mode, file, config;
+  Integers mlist;
+  std::string file, config;
   std::vector<std::string> format, type;
+  std::vector<WrittenTable> tables = std::vector<WrittenTable>(modal_table_kinds().size());
 
-  static constexpr std::array<Argument<WrittenLinear>, 30> arguments = {{
+  static constexpr std::array<Argument<WrittenLinear>, 19> arguments = {{
       {.name = "EIGENSOL", .slot = &WrittenLinear::eigensol, .help = "eigenvalues and mode shapes"},
       {.name = "STATEMAT", .slot = &WrittenLinear::statemat, .help = "state matrices A, B, C, D"},
       {.name = "MKB", .slot = &WrittenLinear::mkb, .help = "mass, stiffness and damping matrices of second order"},
@@ -55,32 +67,7 @@ struct WrittenLinear {
        .help = "of that file: MATRIXX, one for all, or MATLAB, one a matrix"},
       {.name = "TYPE", .slot = &WrittenLinear::type, .help = "of EXPORT"},
       {.name = "CONFIG", .slot = &WrittenLinear::config, .help = "of EXPORT"},
-      {.name = "COORDS", .slot = &WrittenLinear::coords, .help = "table of mode shapes [first mode, last mode]"},
-      {.name = "KINETIC", .slot = &WrittenLinear::kinetic, .help = "table of kinetic energy [first mode, last mode]"},
-      {.name = "STRAIN", .slot = &WrittenLinear::strain, .help = "table of strain energy [first mode, last mode]"},
-      {.name = "DISSIPAT",
-       .slot = &WrittenLinear::dissipat,
-       .help = "table of dissipated power [first mode, last mode]"},
       {.name = "MLIST", .slot = &WrittenLinear::mlist, .help = "markers whose motion in the modes MRANGE is shown"},
-      {.name = "MRANGE", .slot = &WrittenLinear::mrange, .help = "modes of MLIST [first mode, last mode]"},
-      {.name = "FCOORDS",
-       .slot = &WrittenLinear::fcoords,
-       .help = "as COORDS, of modes between two frequencies [cycles per unit time]"},
-      {.name = "FKINETIC",
-       .slot = &WrittenLinear::fkinetic,
-       .help = "as KINETIC, of modes between two frequencies [cycles per unit time]"},
-      {.name = "FSTRAIN",
-       .slot = &WrittenLinear::fstrain,
-       .help = "as STRAIN, of modes between two frequencies [cycles per unit time]"},
-      {.name = "FDISSIPAT",
-       .slot = &WrittenLinear::fdissipat,
-       .help = "as DISSIPAT, of modes between two frequencies [cycles per unit time]"},
-      {.name = "ENERGY_PER_MODE",
-       .slot = &WrittenLinear::energy_per_mode,
-       .help = "table of the energies of each mode [ALL, or first mode, last mode]"},
-      {.name = "MASS_PER_MODE",
-       .slot = &WrittenLinear::mass_per_mode,
-       .help = "table of effective masses [ALL, or first mode, last mode]"},
       {.name = "MODAL_RM",
        .slot = &WrittenLinear::modal_rm,
        .minimum = 1,
@@ -92,6 +79,88 @@ struct WrittenLinear {
        .maximum = 100},
   }};
 };
+
+// One argument, and where its value goes.
+struct Row {
+  ArgumentInfo info;
+  std::function<bool(WrittenLinear&, const WrittenArgument&, ElementReader&)> read;
+};
+
+template <class V>
+Row table_row(std::string_view name, std::string_view help, std::size_t table, V WrittenTable::*slot) {
+  return {ArgumentInfo{name, false, false, detail::value_text<V>(), {}, help},
+          [=](WrittenLinear& w, const WrittenArgument& written, ElementReader& reader) {
+            constexpr double any = std::numeric_limits<double>::infinity();
+            return read_value(w.tables[table].*slot, written, ValueLimits{name, -any, any}, reader);
+          }};
+}
+
+// The arguments in the order of the manual: tables of modes stand between those of LINEAR itself.
+class Rows {
+ public:
+  Rows() {
+    own_up_to("CONFIG");
+    tables(TableAsked::by_numbers_or_frequency);
+    own_up_to("MLIST");
+    tables(TableAsked::by_numbers);
+    frequencies();
+    tables(TableAsked::all_or_by_numbers);
+    own_up_to("TABLE_PRECISION");
+    for (const Row& row : list_) infos.push_back(row.info), names.push_back(row.info.name);
+  }
+  bool read(std::size_t k, WrittenLinear& w, const WrittenArgument& written, ElementReader& reader) const {
+    return list_[k].read(w, written, reader);
+  }
+
+  std::vector<ArgumentInfo> infos;
+  std::vector<std::string_view> names;
+
+ private:
+  void own_up_to(std::string_view last) {
+    for (bool more = true; more; ++own_) {
+      const Argument<WrittenLinear>& a = WrittenLinear::arguments[own_];
+      list_.push_back({detail::argument_infos<WrittenLinear>[own_],
+                       [&a](WrittenLinear& w, const WrittenArgument& written, ElementReader& reader) {
+                         return detail::read_argument(w, a, written, reader);
+                       }});
+      more = a.name != last;
+    }
+  }
+  void tables(TableAsked asked) {
+    const auto kinds = modal_table_kinds();
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      if (kinds[k].asked != asked) continue;
+      if (asked == TableAsked::all_or_by_numbers)
+        list_.push_back(table_row(kinds[k].name, kept(kinds[k].help, " [ALL, or first mode, last mode]"), k,
+                                  &WrittenTable::all_or_numbers));
+      else
+        list_.push_back(
+            table_row(kinds[k].name, kept(kinds[k].help, " [first mode, last mode]"), k, &WrittenTable::numbers));
+    }
+  }
+  void frequencies() {
+    const auto kinds = modal_table_kinds();
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      if (kinds[k].asked != TableAsked::by_numbers_or_frequency) continue;
+      const std::string_view help =
+          kept(fmt::format("as {}", kinds[k].name), ", of modes between two frequencies [cycles per unit time]");
+      list_.push_back(table_row(kept("F", kinds[k].name), help, k, &WrittenTable::frequencies));
+    }
+  }
+  // Rows only point to their texts.
+  std::string_view kept(std::string_view a, std::string_view b) {
+    return texts_.emplace_back(std::string(a).append(b));
+  }
+
+  std::size_t own_ = 0;
+  std::vector<Row> list_;
+  std::deque<std::string> texts_;
+};
+
+const Rows& rows() {
+  static const Rows made;
+  return made;
+}
 
 constexpr std::size_t longest_file_name = 76;
 
@@ -111,20 +180,15 @@ Integers all_or_range(const std::string& text) {
   return in.eof() ? range : Integers{};
 }
 
-// One or two numbers, or two frequencies.
-void ask(ModalTableRequest& request, const char* name, const Integers& numbers, const std::vector<double>& hz = {}) {
-  if (!numbers.empty()) request.modes[name] = {.first = numbers.front(), .last = numbers.back()};
-  if (!hz.empty()) request.modes[name] = {.lowest_hz = hz[0], .highest_hz = hz[1]};
-}
-
 void ask_for_tables(const WrittenLinear& w, ModalTableRequest& request) {
-  ask(request, "COORDS", w.coords, w.fcoords);
-  ask(request, "KINETIC", w.kinetic, w.fkinetic);
-  ask(request, "STRAIN", w.strain, w.fstrain);
-  ask(request, "DISSIPAT", w.dissipat, w.fdissipat);
-  ask(request, "MRANGE", w.mrange);
-  ask(request, "ENERGY_PER_MODE", all_or_range(w.energy_per_mode));
-  ask(request, "MASS_PER_MODE", all_or_range(w.mass_per_mode));
+  const auto kinds = modal_table_kinds();
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    const WrittenTable& t = w.tables[k];
+    const std::string name(kinds[k].name);
+    const Integers numbers = t.numbers.empty() ? all_or_range(t.all_or_numbers) : t.numbers;
+    if (!numbers.empty()) request.modes[name] = {.first = numbers.front(), .last = numbers.back()};
+    if (!t.frequencies.empty()) request.modes[name] = {.lowest_hz = t.frequencies[0], .highest_hz = t.frequencies[1]};
+  }
   request.markers = w.mlist;
   request.modal_rm = w.modal_rm;
 }
@@ -172,10 +236,11 @@ class Rules {
     for (const auto name : {"RM", "PSTATE"}) only_with(name, modes || matrices, "EIGENSOL, STATEMAT and MKB");
     for (const auto name : {"CONFIG", "TYPE"}) only_with(name, w_.nastran_export, "EXPORT");
     only_with("FILE", !modes, "STATEMAT, MKB and EXPORT");
-    for (const auto name : {"COORDS", "KINETIC", "STRAIN", "DISSIPAT", "FCOORDS", "FKINETIC", "FSTRAIN", "FDISSIPAT",
-                            "MLIST", "MRANGE", "ENERGY_PER_MODE", "MASS_PER_MODE", "TABLE_PRECISION", "NAMES"}) {
-      only_with(name, modes, "EIGENSOL");
+    for (const ModalTableKind& kind : modal_table_kinds()) {
+      only_with(kind.name, modes, "EIGENSOL");
+      only_with(by_frequency(kind), modes, "EIGENSOL");
     }
+    for (const auto name : {"MLIST", "TABLE_PRECISION", "NAMES"}) only_with(name, modes, "EIGENSOL");
   }
 
   void mode_range(std::string_view name, const Integers& range) {
@@ -203,26 +268,23 @@ class Rules {
     }
   }
 
+  // The argument that asks for this table by frequency, which no other one begins with; none of some.
+  static std::string by_frequency(const ModalTableKind& kind) {
+    return kind.asked == TableAsked::by_numbers_or_frequency ? fmt::format("F{}", kind.name) : std::string();
+  }
+
   void tables() {
-    mode_range("COORDS", w_.coords);
-    mode_range("KINETIC", w_.kinetic);
-    mode_range("STRAIN", w_.strain);
-    mode_range("DISSIPAT", w_.dissipat);
-    mode_range("MRANGE", w_.mrange);
-    frequency_range("FCOORDS", w_.fcoords);
-    frequency_range("FKINETIC", w_.fkinetic);
-    frequency_range("FSTRAIN", w_.fstrain);
-    frequency_range("FDISSIPAT", w_.fdissipat);
-    all_or_range("ENERGY_PER_MODE", w_.energy_per_mode);
-    all_or_range("MASS_PER_MODE", w_.mass_per_mode);
-    excluded("COORDS", "FCOORDS");
-    excluded("KINETIC", "FKINETIC");
-    excluded("STRAIN", "FSTRAIN");
-    excluded("DISSIPAT", "FDISSIPAT");
-    for (const auto name : {"COORDS", "KINETIC", "STRAIN", "DISSIPAT", "FCOORDS", "FKINETIC", "FSTRAIN", "FDISSIPAT",
-                            "MLIST", "MRANGE", "ENERGY_PER_MODE", "MASS_PER_MODE"}) {
-      excluded("NOVECTOR", name);
+    const auto kinds = modal_table_kinds();
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      const std::string frequency = by_frequency(kinds[k]);
+      mode_range(kinds[k].name, w_.tables[k].numbers);
+      frequency_range(frequency, w_.tables[k].frequencies);
+      all_or_range(kinds[k].name, w_.tables[k].all_or_numbers);
+      excluded(kinds[k].name, frequency);
+      excluded("NOVECTOR", kinds[k].name);
+      excluded("NOVECTOR", frequency);
     }
+    excluded("NOVECTOR", "MLIST");
     if (given("MLIST") != given("MRANGE")) {
       const std::string_view there = given("MLIST") ? "MLIST" : "MRANGE";
       error("missing-argument", there, fmt::format("{} needs {}", there, given("MLIST") ? "MRANGE" : "MLIST"));
@@ -263,12 +325,14 @@ class Rules {
 
 }  // namespace
 
-std::span<const ArgumentInfo> linear_arguments() { return detail::argument_infos<WrittenLinear>; }
+std::span<const ArgumentInfo> linear_arguments() { return rows().infos; }
 
 std::optional<LinearCommand> read_linear(ElementReader& reader) {
   WrittenLinear w;
   const std::size_t before = reader.diagnostics().error_count();
-  const bool read = read_arguments(w, reader);
+  const bool read = detail::read_rows(
+      rows().infos, rows().names, reader,
+      [&](std::size_t k, const WrittenArgument& written) { return rows().read(k, w, written, reader); });
   if (read) Rules(w, reader).check();
   if (reader.diagnostics().error_count() > before) return std::nullopt;
 

@@ -1,12 +1,25 @@
+// LINEAR with all its arguments (LINEAR command, section 4), and the rules between them.
 #pragma once
 
 #include "command/command_reader.h"
-#include "command/commands.h"
+#include "dynalin/modal_table.h"
 
 namespace dynalin {
 
-// The arguments of one LINEAR command and the rules between them; reports every one that is broken.
+enum class LinearOption { eigensol, statemat, mkb, nastran_export };
+
+struct LinearCommand {
+  LinearOption option = LinearOption::eigensol;
+  std::optional<std::int64_t> rm, pstate, pinput, poutput;
+  bool without_damping = false, without_vectors = false, original = false, names = false;
+  std::string file, format = "MATRIXX", type, config;
+  ModalTableRequest tables;
+  int table_precision = 2;
+};
+
+// Reports every rule that is broken.
 std::optional<LinearCommand> read_linear(ElementReader&);
+// Those of its own, and one or two for each table of modes.
 std::span<const ArgumentInfo> linear_arguments();
 
 }  // namespace dynalin

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "command/commands.h"
+#include "command/linear_command.h"
 #include "study/modal_tables.h"
 
 namespace dynalin {

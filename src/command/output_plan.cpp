@@ -15,25 +15,20 @@ namespace fs = std::filesystem;
 
 struct PlannedFile {
   std::string path, what;
-  Span at;                 // of the command, nothing for those of the command line
-  bool of_linear = false;  // a later LINEAR may write the same file again
+  Span at;                  // of the command, nothing for those of the command line
+  bool of_command = false;  // a later command may write the same file again
 };
 
 std::vector<PlannedFile> planned_files(const Job& job, const SessionOptions& options) {
   std::vector<PlannedFile> list;
   bool tables = false;
   for (const Command& c : job.commands.commands) {
-    const auto* linear = std::get_if<LinearCommand>(&c.what);
-    if (!linear) continue;
-    tables = tables || linear->tables.any();
-    if (linear->file.empty()) continue;
-    const std::string base = linear_path(job, linear->file);
-    if (linear->format == "MATLAB") {
-      for (const std::string_view suffix : matlab_suffixes(*linear))
-        list.push_back({base + std::string(suffix), "FILE of " + c.text, c.at, true});
-    } else {
-      list.push_back({base, "FILE of " + c.text, c.at, true});
-    }
+    const CommandFiles files = c.action->files();
+    tables = tables || files.tables;
+    if (files.file.empty()) continue;
+    const std::string base = command_path(job, files.file);
+    for (const std::string_view suffix : files.suffixes)
+      list.push_back({base + std::string(suffix), "FILE of " + c.text, c.at, true});
   }
   if (tables) list.push_back({job.prefix + ".txt", "the file of modal tables", {}});
   if (job.xrf_digits > 0) list.push_back({job.prefix + ".res", "the results file", {}});
@@ -44,23 +39,8 @@ std::vector<PlannedFile> planned_files(const Job& job, const SessionOptions& opt
 
 }  // namespace
 
-std::string linear_path(const Job& job, const std::string& file) {
+std::string command_path(const Job& job, const std::string& file) {
   return file == "-" ? file : (fs::path(job.folder) / file).string();
-}
-
-std::vector<std::string_view> matlab_suffixes(const LinearCommand& c) {
-  std::vector<std::string_view> list{"st"};
-  if (c.option == LinearOption::statemat) {
-    list.push_back("a");
-    if (c.pinput) list.push_back("b");
-  } else {
-    list.insert(list.end(), {"m", "kb"});
-    if (c.pinput) list.push_back("p");
-  }
-  if (c.pinput) list.push_back("pi");
-  if (c.poutput) list.insert(list.end(), {"c", "po"});
-  if (c.pinput && c.poutput) list.push_back("d");
-  return list;
 }
 
 void check_outputs(const Job& job, const SessionOptions& options, const std::vector<SourceRef>& inputs,
@@ -86,7 +66,7 @@ void check_outputs(const Job& job, const SessionOptions& options, const std::vec
                         file.path == input->second ? "" : fmt::format("{} is the same file", file.path));
     }
     const auto [other, fresh] = known.emplace(d->place(), &file);
-    if (fresh || (file.of_linear && other->second->of_linear)) continue;
+    if (fresh || (file.of_command && other->second->of_command)) continue;
     diagnostics.error("file-in-use", other->second->at,
                       fmt::format("{} and {} are one file, {}", other->second->what, file.what, file.path));
   }

@@ -8,10 +8,8 @@
 
 namespace dynalin {
 
-// The path of a file that LINEAR names, `-` for standard output.
-std::string linear_path(const Job&, const std::string& file);
-// What is behind the base name of a MATLAB file: one matrix each.
-std::vector<std::string_view> matlab_suffixes(const LinearCommand&);
+// The path of a file that a command names, `-` for standard output.
+std::string command_path(const Job&, const std::string& file);
 
 // Reports files of the run that are among those it reads, that are not files, and that are two results at once.
 void check_outputs(const Job&, const SessionOptions&, const std::vector<SourceRef>& inputs, Diagnostics&);

@@ -7,7 +7,7 @@
 
 #include "base/diagnostics.h"
 #include "cases/run.h"
-#include "command/command_table.h"
+#include "command/command_catalogue.h"
 #include "command/commands.h"
 #include "elements/catalogue.h"
 #include "expression/function_manual.h"
@@ -43,7 +43,7 @@ TEST(Help, lists_statements_commands_and_functions) {
   const Printed all = help("");
   EXPECT_EQ(all.status, done);
   for (const Kind* kind : catalogue()) EXPECT_THAT(all.out, HasSubstr(std::string(kind->statement)));
-  for (const CommandRow& row : command_table()) EXPECT_THAT(all.out, HasSubstr(std::string(row.name)));
+  for (const CommandKind& row : command_catalogue()) EXPECT_THAT(all.out, HasSubstr(std::string(row.name)));
   for (const FunctionEntry& f : function_manual()) EXPECT_THAT(all.out, HasSubstr(std::string(f.name)));
   for (const auto title : {"Statements of a dataset", "Commands", "Functions of expressions", "not available yet"})
     EXPECT_THAT(all.out, HasSubstr(title));
@@ -57,7 +57,7 @@ TEST(Help, has_a_page_for_every_name) {
       EXPECT_THAT(help(kind->variant).out, HasSubstr(std::string(kind->variant)));
     }
   }
-  for (const CommandRow& row : command_table()) EXPECT_EQ(help(row.name).status, done) << row.name;
+  for (const CommandKind& row : command_catalogue()) EXPECT_EQ(help(row.name).status, done) << row.name;
   for (const FunctionEntry& f : function_manual()) {
     EXPECT_THAT(help(f.name).out, HasSubstr(std::string(f.name))) << f.name;
   }
@@ -115,7 +115,7 @@ TEST(Help, shows_shared_arguments_of_types_once) {
 
 TEST(Help, says_of_every_argument_of_an_analysis_what_it_does) {
   for (const auto name : {"LINEAR", "SIMULATE", "FILE", "ENVIRONMENT"}) {
-    const CommandRow* row = find_command(name);
+    const CommandKind* row = find_command(name);
     ASSERT_TRUE(row);
     const std::string page = help(name).out;
     for (const ArgumentInfo& a : row->arguments) {
@@ -137,7 +137,7 @@ TEST(Help, has_text_for_arguments_of_elements) {
 }
 
 TEST(Help, has_examples_of_commands_that_are_read) {
-  for (const CommandRow& row : command_table()) {
+  for (const CommandKind& row : command_catalogue()) {
     if (row.example.empty()) continue;
     const auto parsed = parse_commands(std::make_shared<const SourceText>("example", std::string(row.example) + "\n"));
     EXPECT_EQ(parsed.diagnostics.has_errors(), row.use == CommandUse::not_built) << row.example << '\n'

@@ -6,6 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "command/commands/environment.h"
+#include "command/commands/equilibrium.h"
+#include "command/commands/linear.h"
+#include "command/commands/simulate.h"
 #include "command/job.h"
 
 namespace dynalin::cases {
@@ -25,7 +29,7 @@ class Replay {
     library::Record record(study.model());
     auto point = study.as_drawn();
     for (const Command& c : job->commands.commands) {
-      if (std::holds_alternative<StopCommand>(c.what)) break;
+      if (c.kind->name == "STOP") break;
       try {
         if (!execute(c, study, record, point)) return {};
       } catch (const Error& e) {
@@ -38,17 +42,17 @@ class Replay {
 
  private:
   bool execute(const Command& c, const library::Study& study, library::Record& record, library::OperatingPoint& point) {
-    if (const auto* simulate = std::get_if<SimulateCommand>(&c.what)) {
-      const bool statics = simulate->kind == SimulateCommand::Kind::statics;
+    if (const auto* simulate = action_of<commands::Simulate>(c)) {
+      const bool statics = simulate->kind == commands::Simulate::Kind::statics;
       point = statics ? study.static_equilibrium(point, static_) : study.initial_conditions(point);
       record.add(c.text, point);
       return true;
     }
-    if (const auto* linear = std::get_if<LinearCommand>(&c.what)) {
-      linearize(c.text, *linear, study, record, point);
+    if (const auto* linear = action_of<commands::Linear>(c)) {
+      linearize(c.text, linear->command, study, record, point);
       return true;
     }
-    if (const auto* variable = std::get_if<EnvironmentCommand>(&c.what)) {
+    if (const auto* variable = action_of<commands::SetEnvironment>(c)) {
       const std::string& name = variable->name;
       if (name == "MSC_LINEAR_PBCS_STATES")
         environment_.principal_states = true;
@@ -63,10 +67,9 @@ class Replay {
       record.add(c.text, point.time());
       return true;
     }
-    const auto* setting = std::get_if<SettingCommand>(&c.what);
-    if (!setting || !setting->equilibrium || setting->equilibrium->defaults || !setting->passed_over.empty())
-      return false;
-    const EquilibriumSettings stated = setting->equilibrium->stated();
+    const auto* setting = action_of<commands::Equilibrium>(c);
+    if (!setting || setting->written.defaults || !setting->passed_over.empty()) return false;
+    const EquilibriumSettings stated = setting->written.stated();
     take_over(static_.error, stated.error), take_over(static_.imbalance, stated.imbalance);
     take_over(static_.translation_limit, stated.translation_limit);
     take_over(static_.rotation_limit, stated.rotation_limit);

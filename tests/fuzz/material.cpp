@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "command/command_table.h"
+#include "command/command_catalogue.h"
 #include "dataset/dataset.h"
 #include "elements/catalogue.h"
 #include "expression/expression.h"
@@ -71,7 +71,7 @@ Words expression_words() {
 
 Words command_words() {
   Words words;
-  for (const CommandRow& row : command_table()) {
+  for (const CommandKind& row : command_catalogue()) {
     words.insert(fmt::format("\n{}/", row.name));
     for (const ArgumentInfo& a : row.arguments) words.insert(fmt::format(",{}{}", a.name, a.is_flag ? "" : "="));
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "command/commands.h"
+#include "command/commands/linear.h"
 #include "command/session.h"
 #include "dataset/dataset.h"
 #include "folder.h"
@@ -41,8 +42,8 @@ bool allowed(const CommandFile& commands) {
   if (commands.commands.size() > most_commands || !allowed(commands.model) || !allowed(commands.output_prefix))
     return false;
   for (const Command& c : commands.commands) {
-    const auto* linear = std::get_if<LinearCommand>(&c.what);
-    if (linear && !(allowed(linear->file) && allowed(linear->config))) return false;
+    const auto* linear = action_of<commands::Linear>(c);
+    if (linear && !(allowed(linear->command.file) && allowed(linear->command.config))) return false;
   }
   return true;
 }

@@ -1,0 +1,12 @@
+// Every command of the language, in the order of the manual.
+#pragma once
+
+#include "command/command_kind.h"
+
+namespace dynalin {
+
+std::span<const CommandKind> command_catalogue();
+std::span<const std::string_view> command_names();
+const CommandKind* find_command(std::string_view name);  // by its whole name, nullptr if there is none
+
+}  // namespace dynalin

@@ -1,0 +1,64 @@
+// What the program knows of a command without knowing what it does: name, arguments, and a way to read it. One
+// CommandKind ends each file of `commands`; the catalogue lists them all. The reader of command files and the manual go
+// by it.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "command/command_reader.h"
+#include "model/dataset_edits.h"
+#include "study/study_point.h"
+
+namespace dynalin {
+
+class RunState;
+
+enum class CommandUse : std::uint8_t {
+  analysis,
+  model,  // changes the model: ACTIVATE, DEACTIVATE, and a class of statements, which defines one of them anew
+  setting,
+  run,             // which model, which environment, the end
+  without_effect,  // read and passed over
+  not_built,
+};
+
+// Files that a command writes besides those of every run.
+struct CommandFiles {
+  std::string file;                               // as written, "-" for standard output, empty for none
+  std::vector<std::string_view> suffixes = {""};  // a file for each, with this behind its name
+  bool tables = false;                            // it writes into the file of modal tables
+};
+
+// What one command of a file is to do: its arguments, read and checked. Constant, and nothing of a run is in it.
+class CommandAction {
+ public:
+  virtual ~CommandAction() = default;
+
+  virtual StudyResult<void> run(RunState&) const = 0;
+  // Ids it refers to must exist in its model before anything runs; reports those that do not.
+  virtual void check(const Model&, const Span& /*command*/, Diagnostics&) const {}
+  virtual CommandFiles files() const { return {}; }
+  // A command that changes the model does so before anything runs.
+  virtual bool edits() const { return false; }
+  virtual void edit(DatasetEditor&) const {}
+};
+
+struct CommandKind {
+  std::string_view name;
+  CommandUse use;
+  std::string_view summary = {};                   // empty where it defines a statement anew
+  std::string_view example = {};                   // "SIMULATE/STATICS"
+  std::span<const ArgumentInfo> arguments = {};    // where it defines a statement anew those of the statement hold
+  std::span<const std::string_view> acting = {};   // of a setting: arguments that something acts on
+  std::span<const std::string_view> classes = {};  // of elements that it takes
+
+  // Checks the arguments; nothing after a report. Without it the command is not available.
+  std::shared_ptr<const CommandAction> (*read)(CommandReader&) = nullptr;
+  // Whether there is something to run: FILE is done when it is read.
+  bool runs = true;
+};
+
+}  // namespace dynalin

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "command/command_kind.h"
+
+namespace dynalin::commands {
+
+class SetEnvironment final : public CommandAction {
+ public:
+  explicit SetEnvironment(std::string variable) : name(std::move(variable)) {}
+  StudyResult<void> run(RunState&) const override;
+
+  std::string name;
+};
+
+}  // namespace dynalin::commands

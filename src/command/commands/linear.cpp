@@ -1,0 +1,159 @@
+// LINEAR/{EIGENSOL | STATEMAT | MKB}, …: linearizes about the operating point and writes what comes out. Its arguments
+// and the rules between them are in linear_command.cpp.
+#include "command/commands/linear.h"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <ctime>
+
+#include "command/mode_tables.h"
+#include "command/output_plan.h"
+#include "command/run_state.h"
+#include "output/message_file.h"
+#include "study/linearization.h"
+#include "system/operating_state.h"
+
+namespace dynalin::commands {
+
+namespace {
+
+std::shared_ptr<const CommandAction> read(CommandReader& reader) {
+  auto command = read_linear(reader);
+  return command ? std::make_shared<Linear>(std::move(*command)) : nullptr;
+}
+
+LinearRequest request_of(const LinearCommand& command, const Environment& environment) {
+  LinearRequest request;
+  request.pstate = command.pstate, request.pinput = command.pinput, request.poutput = command.poutput;
+  request.rm = command.rm;
+  request.without_damping = command.without_damping;
+  request.original = command.original;
+  request.principal_states = environment.principal_states;
+  request.without_rate_coupling = environment.without_rate_coupling;
+  request.without_reconciliation = environment.without_reconciliation;
+  return request;
+}
+
+bool in_results(const RunState& run) { return run.results && !run.settings.results.without_linear; }
+
+// State space or second order: the file, the states in the message file, and the other results.
+template <class Form>
+StudyResult<void> write_form(const Form& form, std::string_view which, const LinearCommand& command,
+                             const OperatingState& state, RunState& run) {
+  const std::string path = command_path(run.job, command.file);
+  if (auto written = run.files.add(matrix_files(path, command.format, named_matrices(form))); !written)
+    return tl::unexpected(StudyFailure({"linear analysis", written.error(), {}}));
+  write_matrix_states(run.message, form);
+  if (in_results(run)) run.results->add(form);
+  run.json.add(run.command, form);
+  run.json.add_point(state);
+  if (run.terminal)
+    fmt::print(*run.terminal, "{} matrices of {} states: {}{}\n", which, form.states.size(), path,
+               command.format == "MATLAB" ? "*, a file each" : "");
+  return {};
+}
+
+StudyResult<void> solve_modes(const Linearization& linear, const LinearCommand& command, const OperatingState& state,
+                              RunState& run) {
+  const std::size_t states = linear.linear.model.states.size();
+  if (states > 1000) fmt::print(run.err, "computing the eigenvalues of {} states ...\n", states);
+  const std::clock_t begun = std::clock();
+  const auto found = modes_of(linear, command.without_vectors ? Vectors::none : Vectors::right);
+  if (!found) return tl::unexpected(found.error());
+  const double cpu_seconds = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
+  const EigenSolution& modes = found->solution;
+  run.remarks.say(found->remarks);
+  // All that this command has to say is in the files of the run, or nothing of it.
+  TablesFound tables;
+  if (command.tables.any()) {
+    auto made = modal_tables(linear, modes, command.tables);
+    if (!made) return tl::unexpected(made.error());
+    tables = std::move(*made);
+    run.tables << mode_tables_text(command, modes, tables);
+  }
+  write_eigensolution(run.message, modes, cpu_seconds);
+  run.json.add(run.command, modes);
+  run.json.add_point(state);
+  run.json.add_tables(tables.tables);
+  if (in_results(run)) run.results->add(modes, tables.tables);
+  run.remarks.say(tables.remarks);
+  if (run.terminal) {
+    fmt::print(*run.terminal, "{} at time {:g}\n", run.command, modes.time);
+    write_eigen_table(*run.terminal, modes, run.units().frequency(), run.options.bounds);
+    if (command.tables.any()) fmt::print(*run.terminal, "the tables of modes are in {}.txt\n", run.job.prefix);
+  }
+  return {};
+}
+
+}  // namespace
+
+StudyResult<void> Linear::run(RunState& run) const {
+  if (!run.point.consistent) {
+    if (auto ready = run.make_consistent(); !ready) return ready;
+  }
+  const auto linear = linearized(run.point, request_of(command, run.environment));
+  if (!linear) return tl::unexpected(linear.error());
+  run.remarks.say(linear->remarks());
+
+  const OperatingState state = operating_state(run.system(), linear->point);
+  if (!run.shown && !linear->at_rest_as_found) run.show(StepKind::initial_conditions, state);
+  if (command.option == LinearOption::eigensol) return solve_modes(*linear, command, state, run);
+  if (command.option == LinearOption::statemat) return write_form(linear->linear.model, "state", command, state, run);
+  const auto form = second_order_form(*linear);
+  if (!form) return tl::unexpected(form.error());
+  return write_form(*form, "second-order", command, state, run);
+}
+
+CommandFiles Linear::files() const {
+  CommandFiles files{.file = command.file, .tables = command.tables.any()};
+  if (command.format != "MATLAB") return files;
+  std::vector<std::string_view>& list = files.suffixes;
+  list = {"st"};
+  if (command.option == LinearOption::statemat) {
+    list.push_back("a");
+    if (command.pinput) list.push_back("b");
+  } else {
+    list.insert(list.end(), {"m", "kb"});
+    if (command.pinput) list.push_back("p");
+  }
+  if (command.pinput) list.push_back("pi");
+  if (command.poutput) list.insert(list.end(), {"c", "po"});
+  if (command.pinput && command.poutput) list.push_back("d");
+  return files;
+}
+
+void Linear::check(const Model& model, const Span& at, Diagnostics& diagnostics) const {
+  const auto need = [&](const std::optional<std::int64_t>& id, std::string_view statement, bool exists) {
+    if (id && !exists)
+      diagnostics.error("unknown-element", at,
+                        fmt::format("the command refers to {}/{}, which does not exist", statement, *id));
+  };
+  const auto need_element = [&](const std::optional<std::int64_t>& id, std::string_view statement) {
+    need(id, statement, id && model.find(statement, *id).has_value());
+  };
+  const auto need_marker = [&](const std::optional<std::int64_t>& id) {
+    need(id, "MARKER", id && *id > 0 && model.find_marker(*id).has_value());
+  };
+  need_element(command.pstate, "PSTATE");
+  need_element(command.pinput, "PINPUT");
+  need_element(command.poutput, "POUTPUT");
+  need_marker(command.tables.modal_rm);
+  for (const std::int64_t id : command.tables.markers) need_marker(id);
+  need_marker(command.rm);
+  const auto rm = command.rm ? model.find_marker(*command.rm) : std::nullopt;
+  if (rm && model.marker(*rm).floating)
+    diagnostics.error("floating-marker", at, fmt::format("RM=MARKER/{} is floating", *command.rm));
+}
+
+std::span<const CommandKind> linear() {
+  static const CommandKind kind = {.name = "LINEAR",
+                                   .use = CommandUse::analysis,
+                                   .summary = "linearizes about the operating point and writes what comes out",
+                                   .example = "LINEAR/EIGENSOL, RM=5, KINETIC=1,4",
+                                   .arguments = linear_arguments(),
+                                   .read = read};
+  return {&kind, 1};
+}
+
+}  // namespace dynalin::commands

@@ -1,0 +1,50 @@
+// Commands that have the arguments of a statement of settings, and set the same for the analyses after them.
+#pragma once
+
+#include "command/run_state.h"
+#include "elements/settings/setting_set.h"
+
+namespace dynalin::commands {
+
+class Setting : public CommandAction {
+ public:
+  StudyResult<void> run(RunState& run) const final {
+    apply(run);
+    run.remarks.pass_over(passed_over);
+    run.json.add_plain(run.command, run.time());
+    return {};
+  }
+
+  std::vector<std::string> passed_over;  // "INTEGRATOR/HMAX": arguments that nothing acts on
+
+ protected:
+  virtual void apply(RunState&) const {}
+};
+
+template <class Written>
+class SettingOf : public Setting {
+ public:
+  Written written;
+};
+
+template <class Action>
+std::shared_ptr<const CommandAction> read_setting(CommandReader& reader) {
+  auto action = std::make_shared<Action>();
+  if (!read_arguments(action->written, reader)) return nullptr;
+  action->passed_over = arguments_passed_over<decltype(action->written)>(reader);
+  return action;
+}
+
+template <class Action>
+constexpr CommandKind setting(std::string_view name, std::string_view summary, std::string_view example) {
+  using Written = decltype(Action::written);
+  return {.name = name,
+          .use = CommandUse::setting,
+          .summary = summary,
+          .example = example,
+          .arguments = detail::argument_infos<Written>,
+          .acting = Written::acting,
+          .read = read_setting<Action>};
+}
+
+}  // namespace dynalin::commands

@@ -1,0 +1,57 @@
+#include "command/run_state.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "output/message_file.h"
+#include "output/operating_state_text.h"
+
+namespace dynalin {
+
+RunState::RunState(const SessionOptions& of_user, const Job& to_do, std::shared_ptr<const System> system,
+                   std::ostream* to_terminal, std::ostream& errors)
+    : options(of_user),
+      job(to_do),
+      point(as_drawn(std::move(system))),
+      settings(job.model().settings),
+      terminal(to_terminal),
+      err(errors),
+      remarks(errors, message, json, job.prefix + ".msg") {
+  if (job.xrf_digits > 0) results.emplace(job.model().title, job.xrf_digits, job.model().units, settings.results);
+}
+
+StudyResult<void> RunState::make_consistent() {
+  const auto tell = [this](Level level, bool done) {
+    static constexpr std::array<std::string_view, 3> names = {"Displacement", "Velocity", "Acceleration"};
+    const std::string title = fmt::format("{} Initial Conditions", names[static_cast<std::size_t>(level)]);
+    done ? write_end(message, title) : write_begin(message, title);
+  };
+  const bool there = point.consistent;
+  auto found = initial_conditions(point, tell);
+  if (!found) return tl::unexpected(found.error());
+  if (there)
+    point = std::move(found->point);
+  else
+    accept(std::move(*found));
+  return {};
+}
+
+void RunState::accept(FoundPoint found) {
+  if (found.point.redundant_rows != point.redundant_rows)
+    write_redundant(message, found.point.values.time, found.point.redundant_rows);
+  point = std::move(found.point);
+  shown = false;
+  remarks.say(found.remarks);
+}
+
+void RunState::show(StepKind kind, const OperatingState& state) {
+  write_operating_state(message, state, units());
+  if (results) results->add(kind, state);
+  if (terminal && options.state) write_operating_state(*terminal, state, units());
+  if (terminal && !options.state && kind == StepKind::statics)
+    write_operating_state(*terminal, state, units(), short_tables);
+  shown = true;
+}
+
+}  // namespace dynalin

@@ -1,0 +1,57 @@
+// The state of a run that commands work on, and where what they find goes.
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "command/environment.h"
+#include "command/job.h"
+#include "command/remarks.h"
+#include "command/run_files.h"
+#include "dynalin/operating_state.h"
+#include "output/results_file.h"
+
+namespace dynalin {
+
+class RunState {
+ public:
+  // `system` is that of the dataset; nothing goes to the terminal of a quiet run.
+  RunState(const SessionOptions&, const Job&, std::shared_ptr<const System> system, std::ostream* terminal,
+           std::ostream& err);
+
+  const SessionOptions& options;
+  const Job& job;
+
+  // Where the run is.
+  std::string command;  // that which runs, as written
+  StudyPoint point;     // with the system of its stage
+  Settings settings;
+  Environment environment = read_environment();
+  std::set<std::string> inactive;  // elements that are out of the model, and have been said to be
+
+  // Where what it finds goes.
+  std::ostream* terminal;  // nothing in a quiet run
+  std::ostream& err;
+  std::ostringstream message, tables;  // of the message file and of the file of modal tables
+  JsonResults json;
+  Remarks remarks;
+  std::optional<ResultsFile> results;  // where the dataset has RESULTS with XRF
+  RunFiles files;
+
+  const System& system() const { return *point.system; }
+  const Units& units() const { return job.model().units; }
+  double time() const { return point.values.time; }
+
+  // A point whose levels agree, unless it is one already.
+  StudyResult<void> make_consistent();
+  // A point that an analysis has found; it is not shown yet.
+  void accept(FoundPoint);
+  // A point in all files that have it, and on the terminal as far as it is wanted there.
+  void show(StepKind, const OperatingState&);
+  bool shown = false;  // the point, where points are shown
+};
+
+}  // namespace dynalin

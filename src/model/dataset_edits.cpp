@@ -1,0 +1,231 @@
+#include "model/dataset_edits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace dynalin {
+
+namespace {
+
+using Names = std::span<const std::string_view>;
+
+std::string key(std::string_view statement, std::int64_t id) { return fmt::format("{}/{}", statement, id); }
+
+bool contains(Names names, std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+
+// Whether a list of words with blanks between them has this one.
+bool has_word(std::string_view list, std::string_view word) {
+  for (std::size_t begin = 0; begin < list.size();) {
+    const std::size_t end = std::min(list.find(' ', begin), list.size());
+    if (list.substr(begin, end - begin) == word) return true;
+    begin = end + 1;
+  }
+  return false;
+}
+
+// The argument of this kind that a written name means.
+const ArgumentInfo* info_of(const Kind* kind, std::string_view word) {
+  if (!kind) return nullptr;
+  std::vector<std::string_view> names;
+  for (const ArgumentInfo& info : kind->arguments) names.push_back(info.name);
+  const auto k = find_keyword(word, names);
+  return k ? &kind->arguments[*k] : nullptr;
+}
+
+// Its full name, or the word as written.
+std::string_view full_name(const Kind* kind, std::string_view word) {
+  const ArgumentInfo* info = info_of(kind, word);
+  return info ? info->name : word;
+}
+
+bool is_variant(const WrittenArgument& w, Names variants, const Kind* kind) {
+  if (variants.empty() || !find_keyword(w.name.text(), variants)) return false;
+  const std::string_view name = full_name(kind, w.name.text());
+  return !kind || std::none_of(kind->arguments.begin(), kind->arguments.end(),
+                               [&](const ArgumentInfo& a) { return a.name == name && a.is_flag; });
+}
+
+// LIST prints what is defined, and changes nothing.
+bool is_list(const WrittenArgument& w, const Kind* kind) {
+  return full_name(kind, w.name.text()) == w.name.text() && w.name.length == 4 &&
+         find_keyword(w.name.text(), std::array<std::string_view, 1>{"LIST"}).has_value();
+}
+
+// Takes arguments that stood there before the edit out; their places stay until all are read.
+template <class Wanted>
+void end(Statement& target, std::size_t before, const Kind* kind, const Wanted& wanted) {
+  for (std::size_t k = 0; k < before; ++k) {
+    WrittenArgument& old = target.arguments[k];
+    if (old.name.source && wanted(full_name(kind, old.name.text()))) old.name.source = nullptr;
+  }
+}
+
+}  // namespace
+
+DatasetEditor::DatasetEditor(std::shared_ptr<const Dataset> base, std::shared_ptr<const Dataset> written,
+                             Catalogue catalogue, Diagnostics& diagnostics)
+    : finder_(catalogue), out_(std::make_shared<Dataset>()), diagnostics_(diagnostics) {
+  out_->source = base->source;
+  out_->title = base->title;
+  out_->statements = base->statements;
+  for (std::size_t k = 0; k < base->statements.size(); ++k) {
+    const Statement& s = base->statements[k];
+    if (!s.name.empty()) place_.try_emplace(key(s.name, s.id.value_or(0)), k);
+  }
+  out_->origins = {std::move(base), std::move(written)};
+}
+
+Statement* DatasetEditor::find(std::string_view statement, std::int64_t id) {
+  const auto it = place_.find(key(statement, id));
+  return it == place_.end() ? nullptr : &out_->statements[it->second];
+}
+
+const Kind* DatasetEditor::kind_of(const Statement& s) const {
+  Diagnostics unused;
+  std::size_t at = 0;
+  return finder_.find(s, at, unused);
+}
+
+void DatasetEditor::redefine(const Statement& command) {
+  const auto& kinds = finder_.kinds_of(command.name);
+  const bool singleton = !kinds.empty() && kinds.front()->role == Kind::Role::singleton;
+  if (!singleton && !command.id) {
+    if (!command.damaged)
+      diagnostics_.error("missing-id", command.at, fmt::format("{} needs an id: {}/1", command.name, command.name));
+    return;
+  }
+  Statement* target = find(command.name, command.id.value_or(0));
+  if (!target && singleton) {
+    out_->statements.push_back(command);
+    place_.emplace(key(command.name, 0), out_->statements.size() - 1);
+    return;
+  }
+  if (!target) {
+    diagnostics_.error("unknown-element", command.at, fmt::format("{} does not exist", key(command.name, *command.id)),
+                       "a command changes what the dataset defines");
+    return;
+  }
+  merge(*target, command);
+}
+
+void DatasetEditor::merge(Statement& target, const Statement& command) {
+  std::vector<std::string_view> variants;
+  for (const Kind* kind : finder_.kinds_of(command.name)) {
+    if (!kind->variant.empty()) variants.push_back(kind->variant);
+  }
+  const Kind* kind = kind_of(target);
+  // Another type first: it decides what the names of the others mean.
+  for (const WrittenArgument& w : command.arguments) {
+    if (w.has_value || !is_variant(w, variants, kind)) continue;
+    std::erase_if(target.arguments,
+                  [&](const WrittenArgument& old) { return !old.has_value && is_variant(old, variants, kind); });
+    target.arguments.push_back(w);
+    kind = kind_of(target);
+  }
+  const std::size_t before = target.arguments.size();
+  for (const WrittenArgument& w : command.arguments) {
+    if (!w.has_value && (is_variant(w, variants, kind) || is_list(w, kind))) continue;
+    const ArgumentInfo* info = info_of(kind, w.name.text());
+    const std::string_view name = info ? info->name : w.name.text();
+    end(target, before, kind, [&](std::string_view old) { return old == name || (info && has_word(info->ends, old)); });
+    target.arguments.push_back(w);
+    if (info) note_start(command, *info);
+  }
+  std::erase_if(target.arguments, [](const WrittenArgument& w) { return w.name.source == nullptr; });
+  target.damaged = target.damaged || command.damaged;
+}
+
+void DatasetEditor::note_start(const Statement& command, const ArgumentInfo& argument) {
+  const StatedStart start = argument.start;
+  if (start == StatedStart::place || start == StatedStart::value)
+    restated_.starts.insert({std::string(command.name), *command.id});
+  restated_.velocities = restated_.velocities || start == StatedStart::place || start == StatedStart::velocity;
+}
+
+void DatasetEditor::switch_elements(const Statement& command, bool inactive, Names classes) {
+  std::string_view statement;
+  const WrittenArgument *ids = nullptr, *range = nullptr;
+  static constexpr std::array<std::string_view, 2> lists = {"ID", "RANGE"};
+  for (const WrittenArgument& w : command.arguments) {
+    if (!w.has_value) {
+      if (!read_class(w, command, statement, classes)) return;
+      continue;
+    }
+    const auto which = find_keyword(w.name.text(), lists);
+    if (!which) {
+      diagnostics_.error("unknown-argument", w.name, fmt::format("{} has no argument {}", command.name, w.name.text()),
+                         "its arguments are a class, and ID or RANGE");
+      return;
+    }
+    (*which == 0 ? ids : range) = &w;
+  }
+  if (statement.empty() || (!ids && !range)) {
+    if (!command.damaged)
+      diagnostics_.error("missing-argument", command.at, fmt::format("{} needs a class, and ID or RANGE", command.name),
+                         fmt::format("{}/JOINT, ID=1", command.name));
+    return;
+  }
+  if (ids && range) {
+    diagnostics_.error("excluded-arguments", range->name, "ID and RANGE exclude each other");
+    return;
+  }
+  if (range) return switch_range(*range, statement, inactive);
+  const auto list = read_integers(*ids, *ids->name.source, diagnostics_);
+  if (!list) return;
+  for (const WrittenInteger& id : *list) {
+    if (Statement* s = find(statement, id.value)) {
+      switch_one(*s, inactive, id.at);
+    } else {
+      diagnostics_.error("unknown-element", id.at, fmt::format("{} does not exist", key(statement, id.value)));
+    }
+  }
+}
+
+void DatasetEditor::switch_range(const WrittenArgument& range, std::string_view statement, bool inactive) {
+  const auto ends = read_integers(range, *range.name.source, diagnostics_);
+  if (!ends) return;
+  if (ends->size() != 2) {
+    diagnostics_.error("wrong-count", range.value_span(), fmt::format("RANGE takes 2 ids, found {}", ends->size()));
+    return;
+  }
+  bool any = false;
+  for (Statement& s : out_->statements) {
+    if (s.name != statement || !s.id || *s.id < ends->front().value || *s.id > ends->back().value) continue;
+    s.inactive = inactive;
+    any = true;
+  }
+  if (!any)
+    diagnostics_.error(
+        "unknown-element", range.value_span(),
+        fmt::format("no {} has an id from {} to {}", statement, ends->front().value, ends->back().value));
+}
+
+bool DatasetEditor::read_class(const WrittenArgument& w, const Statement& command, std::string_view& statement,
+                               Names classes) {
+  const std::string_view name = statement_name(w.name.text());
+  const auto& kinds = finder_.kinds_of(name);
+  const bool can = contains(classes, name) || (!kinds.empty() && kinds.front()->can_be_deactivated);
+  if (!can) {
+    diagnostics_.error("unknown-word", w.name, fmt::format("{} is no class that {} takes", w.name.text(), command.name),
+                       fmt::format("one of {}", fmt::join(classes, ", ")));
+    return false;
+  }
+  if (!statement.empty()) {
+    diagnostics_.error("excluded-arguments", w.name, fmt::format("{} takes one class", command.name));
+    return false;
+  }
+  statement = name;
+  return true;
+}
+
+void DatasetEditor::switch_one(Statement& s, bool inactive, const Span& at) {
+  if (s.inactive == inactive) {
+    diagnostics_.warning("already-so", at,
+                         fmt::format("{} is {} already", s.at.text(), inactive ? "inactive" : "active"));
+  }
+  s.inactive = inactive;
+}
+
+}  // namespace dynalin
