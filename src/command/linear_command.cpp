@@ -268,7 +268,7 @@ class Rules {
     }
   }
 
-  // The argument that asks for this table by frequency, which no other one begins with; none of some.
+  // The argument that asks for this table by frequency, empty where none does.
   static std::string by_frequency(const ModalTableKind& kind) {
     return kind.asked == TableAsked::by_numbers_or_frequency ? fmt::format("F{}", kind.name) : std::string();
   }
