@@ -9,109 +9,147 @@
 #include <map>
 #include <optional>
 
-#include "model/kind_finder.h"
-
 namespace dynalin {
 
 namespace {
 
-using Refusal = tl::unexpected<std::string>;
+using Refusal = tl::unexpected<Diagnostic>;
 
-// One argument of a statement that is a number or a list of them.
+Refusal refusal(std::string_view code, std::string message, std::string hint = {}) {
+  return Refusal(Diagnostic{Severity::error, code, {}, std::move(message), std::move(hint), {}});
+}
+
+std::string name_of(const ElementId& e) { return e.id == 0 ? e.statement : e.text(); }
+
+bool takes_numbers(const ArgumentInfo& a) { return a.value == "real" || a.value == "reals" || a.value == "x, y, z"; }
+
+// One argument of a statement that is a number or several.
 struct Place {
-  std::size_t statement;               // of the dataset
-  std::string_view argument;           // its whole name
-  bool is_list = false;                // of any length
-  std::size_t count = 1;               // of numbers, where it is no list
-  std::optional<std::size_t> written;  // among the arguments of the statement
+  const Statement* statement = nullptr;  // nothing where the dataset need not have it
+  const ArgumentInfo* argument = nullptr;
+  const WrittenArgument* written = nullptr;  // nothing where it is not stated
 };
-
-bool is_number(const ArgumentInfo& a) { return a.value == "real" || a.value == "reals" || a.value == "x, y, z"; }
 
 class Finder {
  public:
   Finder(const Dataset& dataset, Catalogue catalogue) : dataset_(dataset), kinds_(catalogue) {}
 
-  tl::expected<Place, std::string> find(const ParameterRef& p) const {
+  tl::expected<Place, Diagnostic> find(const ParameterRef& p) const {
     const auto& all = dataset_.statements;
     const auto found = std::find_if(all.begin(), all.end(), [&](const Statement& s) {
       return s.name == p.element.statement && s.id.value_or(0) == p.element.id;
     });
-    if (found == all.end()) return Refusal(fmt::format("{} does not exist", name_of(p.element)));
-    Diagnostics unused;
-    std::size_t variant = 0;
-    const Kind* kind = kinds_.find(*found, variant, unused);
-    if (!kind) return Refusal(fmt::format("{} is not read", name_of(p.element)));
+    Place place{found == all.end() ? nullptr : &*found, nullptr, nullptr};
+    const auto kind = kind_of(p, place.statement);
+    if (!kind) return Refusal(kind.error());
     std::vector<std::string_view> names;
-    for (const ArgumentInfo& a : kind->arguments) names.push_back(a.name);
+    for (const ArgumentInfo& a : (*kind)->arguments) names.push_back(a.name);
     const auto k = find_keyword(p.argument, names);
-    if (!k || kind->arguments[*k].elsewhere)
-      return Refusal(fmt::format("{} has no argument {}", name_of(p.element), p.argument));
-    const ArgumentInfo& a = kind->arguments[*k];
-    if (!is_number(a)) {
-      return Refusal(fmt::format("{} of {} is {}, no number", a.name, name_of(p.element),
-                                 a.is_flag ? "a bare word" : fmt::format("{}", a.value)));
+    if (!k || (*kind)->arguments[*k].elsewhere) {
+      const std::string_view near = nearest_word(p.argument, names);
+      return refusal("unknown-argument", fmt::format("{} has no argument {}", name_of(p.element), p.argument),
+                     near.empty() ? fmt::format("its arguments are {}", fmt::join(names, ", "))
+                                  : fmt::format("did you mean {}?", near));
     }
-    Place place{static_cast<std::size_t>(found - all.begin()), a.name, a.value == "reals", a.value == "real" ? 1u : 3u,
-                std::nullopt};
-    for (std::size_t i = 0; i < found->arguments.size(); ++i) {
-      const auto which = find_keyword(found->arguments[i].name.text(), names);
-      if (which && *which == *k) place.written = i;
+    place.argument = &(*kind)->arguments[*k];
+    if (!takes_numbers(*place.argument)) {
+      return refusal("expected-number",
+                     fmt::format("{} of {} is {}, no number", place.argument->name, name_of(p.element),
+                                 place.argument->is_flag ? "a bare word" : place.argument->value));
     }
-    if (p.index == 0 || (!place.is_list && p.index > place.count)) return Refusal(beyond(p, place.count));
+    if (place.statement) {
+      for (const WrittenArgument& w : place.statement->arguments) {
+        const auto which = find_keyword(w.name.text(), names);
+        if (which && *which == *k) place.written = &w;
+      }
+    }
+    const std::size_t count = place.argument->count;
+    if (p.index == 0 || (count > 0 && p.index > count)) return beyond(p, count);
     return place;
   }
 
-  // All numbers of a written argument.
-  tl::expected<std::vector<double>, std::string> numbers(const ParameterRef& p, const Place& place) const {
-    if (!place.written) return Refusal(fmt::format("{} of {} is not stated", place.argument, name_of(p.element)));
-    const WrittenArgument& w = dataset_.statements[place.statement].arguments[*place.written];
+  // All numbers of the argument: as written, else what holds without it.
+  tl::expected<std::vector<double>, Diagnostic> numbers(const ParameterRef& p, const Place& place) const {
+    const std::optional<double> unstated = place.argument->unstated();
+    if (!place.written && unstated && place.argument->count > 0)
+      return std::vector<double>(place.argument->count, *unstated);
+    if (!place.written)
+      return refusal("unstated-number", fmt::format("{} of {} is not stated", place.argument->name, name_of(p.element)),
+                     "what holds without it is no number of its own");
     Diagnostics problems;
-    auto values = read_reals(w, *w.name.source, problems);
-    if (!values) return Refusal(problems.items().front().message);
-    if (p.index > values->size()) return Refusal(beyond(p, values->size()));
+    auto values = read_reals(*place.written, *place.written->name.source, problems);
+    if (!values) return Refusal(problems.items().front());
+    if (p.index > values->size()) return beyond(p, values->size());
     return std::move(*values);
   }
 
  private:
-  static std::string name_of(const ElementId& e) { return e.id == 0 ? e.statement : e.text(); }
-  static std::string beyond(const ParameterRef& p, std::size_t count) {
-    return fmt::format("{} of {} has {} value{}, none is number {}", p.argument, name_of(p.element), count,
-                       count == 1 ? "" : "s", p.index);
+  tl::expected<const Kind*, Diagnostic> kind_of(const ParameterRef& p, const Statement* statement) const {
+    if (statement) {
+      Diagnostics unread;
+      std::size_t variant = 0;
+      if (const Kind* kind = kinds_.find(*statement, variant, unread)) return kind;
+      return Refusal(unread.items().front());
+    }
+    const auto& kinds = kinds_.kinds_of(p.element.statement);
+    if (p.element.id == 0 && !kinds.empty() && kinds.front()->role == Kind::Role::singleton) return kinds.front();
+    return refusal("unknown-element", fmt::format("{} does not exist", name_of(p.element)), nearest_id(p.element));
+  }
+
+  std::string nearest_id(const ElementId& e) const {
+    std::optional<std::int64_t> near;
+    for (const Statement& s : dataset_.statements) {
+      if (s.name == e.statement && s.id && (!near || std::abs(*s.id - e.id) < std::abs(*near - e.id))) near = s.id;
+    }
+    return near ? fmt::format("{}/{} exists", e.statement, *near) : std::string();
+  }
+
+  static Refusal beyond(const ParameterRef& p, std::size_t count) {
+    return refusal("wrong-count", fmt::format("{} of {} has {} value{}, none is number {}", p.argument,
+                                              name_of(p.element), count, count == 1 ? "" : "s", p.index));
   }
 
   const Dataset& dataset_;
   KindFinder kinds_;
 };
 
+// The new values of one argument as a statement of their own.
+std::string statement_of(const ElementId& element, std::string_view argument, const std::vector<double>& values) {
+  std::string text = fmt::format("{}{}{}=", name_of(element), element.id == 0 ? "/" : ", ", argument);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    text += fmt::format("{}{:.17g}", k == 0 ? "" : k % 4 == 0 ? ",\n, " : ", ", values[k]);
+  return text + '\n';
+}
+
 }  // namespace
 
 std::string ParameterRef::text() const {
-  const std::string list = index == 1 ? "" : fmt::format("[{}]", index);
-  return fmt::format("{} {}{}", element.id == 0 ? element.statement : element.text(), argument, list);
+  return fmt::format("{} {}{}", name_of(element), argument, index == 1 ? "" : fmt::format("[{}]", index));
 }
 
-tl::expected<ParameterRef, std::string> parse_parameter(std::string_view text) {
-  const auto wrong = [&] {
-    return Refusal(fmt::format("'{}' names no parameter: STATEMENT/id ARGUMENT, or ARGUMENT[n] of a list", text));
+tl::expected<ParameterRef, Diagnostic> parse_parameter(std::string_view text) {
+  const auto wrong = [&](std::string hint = {}) {
+    return refusal("no-parameter", fmt::format("'{}' names no parameter", text),
+                   hint.empty() ? "STATEMENT/id ARGUMENT, or ARGUMENT[n] of several numbers" : std::move(hint));
   };
   const auto number = [](std::string_view digits, auto& into) {
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), into);
     return error == std::errc() && end == digits.data() + digits.size();
   };
   const std::size_t gap = text.find_first_of(" \t");
-  if (gap == std::string_view::npos) return wrong();
-  std::string_view element = text.substr(0, gap), argument = text.substr(gap);
-  argument.remove_prefix(argument.find_first_not_of(" \t") == std::string_view::npos
-                             ? argument.size()
-                             : argument.find_first_not_of(" \t"));
+  const std::size_t name = gap == std::string_view::npos ? gap : text.find_first_not_of(" \t", gap);
+  if (name == std::string_view::npos) return wrong();
+  std::string_view element = text.substr(0, gap), argument = text.substr(name);
   ParameterRef p;
   if (const std::size_t slash = element.find('/'); slash != std::string_view::npos) {
     if (!number(element.substr(slash + 1), p.element.id) || p.element.id < 1) return wrong();
     element = element.substr(0, slash);
   }
   p.element.statement = statement_name(element);
-  if (p.element.statement.empty()) return wrong();
+  if (p.element.statement.empty()) {
+    const std::string_view near = nearest_word(element, statement_names());
+    return wrong(near.empty() ? std::string() : fmt::format("did you mean {}?", near));
+  }
   if (argument.ends_with(']')) {
     const std::size_t open = argument.find('[');
     if (open == std::string_view::npos || !number(argument.substr(open + 1, argument.size() - open - 2), p.index) ||
@@ -126,7 +164,7 @@ tl::expected<ParameterRef, std::string> parse_parameter(std::string_view text) {
   return p;
 }
 
-tl::expected<double, std::string> parameter(const Dataset& dataset, const ParameterRef& p, Catalogue catalogue) {
+tl::expected<double, Diagnostic> parameter(const Dataset& dataset, const ParameterRef& p, Catalogue catalogue) {
   const Finder finder(dataset, catalogue);
   const auto place = finder.find(p);
   if (!place) return Refusal(place.error());
@@ -135,77 +173,53 @@ tl::expected<double, std::string> parameter(const Dataset& dataset, const Parame
   return (*values)[p.index - 1];
 }
 
-tl::expected<std::shared_ptr<const Dataset>, std::vector<std::string>> with_parameters(
-    std::shared_ptr<const Dataset> base, std::span<const ParameterValue> changes, Catalogue catalogue) {
+tl::expected<EditedDataset, Diagnostics> with_parameters(std::shared_ptr<const Dataset> base,
+                                                         std::span<const ParameterChange> changes,
+                                                         Catalogue catalogue) {
   const Finder finder(*base, catalogue);
-  std::vector<std::string> problems;
+  Diagnostics problems;
+  const auto refuse = [&](const Diagnostic& d) { problems.error(d.code, d.at, d.message, d.hint); };
   // All numbers of each argument that changes.
-  struct Change {
-    Place place;
-    std::vector<double> values;
-  };
-  std::map<std::pair<std::size_t, std::string_view>, Change> arguments;
+  std::map<std::pair<ElementId, std::string_view>, std::vector<double>> arguments;
   for (const auto& [p, value] : changes) {
     const auto place = finder.find(p);
     if (!place) {
-      problems.push_back(place.error());
+      refuse(place.error());
       continue;
     }
     if (!std::isfinite(value)) {
-      problems.push_back(fmt::format("{} is to be {}, which is no finite number", p.text(), value));
+      refuse(refusal("value-out-of-range", fmt::format("{} is to be {}, which is no finite number", p.text(), value))
+                 .value());
       continue;
     }
-    const auto [it, fresh] = arguments.try_emplace({place->statement, place->argument}, Change{*place, {}});
-    if (fresh) {
-      const bool single = !place->written && !place->is_list && place->count == 1;
-      auto values = single ? std::vector<double>{value} : finder.numbers(p, *place);
-      if (!values) {
-        problems.push_back(values.error());
-        arguments.erase(it);
+    std::vector<double>& values = arguments[{p.element, place->argument->name}];
+    if (values.empty()) {
+      const bool first_statement = !place->written && place->argument->count == 1;
+      auto before = first_statement ? std::vector<double>{value} : finder.numbers(p, *place);
+      if (!before) {
+        refuse(before.error());
         continue;
       }
-      it->second.values = std::move(*values);
+      values = std::move(*before);
     }
-    if (p.index > it->second.values.size()) {
-      problems.push_back(finder.numbers(p, *place).error());
+    if (p.index > values.size()) {
+      refuse(finder.numbers(p, *place).error());
       continue;
     }
-    it->second.values[p.index - 1] = value;
+    values[p.index - 1] = value;
   }
-  if (!problems.empty()) return tl::unexpected(std::move(problems));
+  if (problems.has_errors()) return tl::unexpected(std::move(problems));
 
-  // The new values as a text of their own, a statement for each argument.
   std::string text;
-  for (const auto& [where, change] : arguments) {
-    const Statement& s = base->statements[change.place.statement];
-    text += s.id ? fmt::format("{}/{}, {}=", s.name, *s.id, change.place.argument)
-                 : fmt::format("{}/{}=", s.name, change.place.argument);
-    for (std::size_t k = 0; k < change.values.size(); ++k)
-      text += fmt::format("{}{:.17g}", k == 0 ? "" : k % 4 == 0 ? ",\n, " : ", ", change.values[k]);
-    text += '\n';
-  }
+  for (const auto& [argument, values] : arguments) text += statement_of(argument.first, argument.second, values);
   auto parsed =
       parse_statements(std::make_shared<const SourceText>("(parameters)", std::move(text)), statement_names());
-  for (const Diagnostic& d : parsed.diagnostics.items()) problems.push_back(d.message);
-  if (!problems.empty()) return tl::unexpected(std::move(problems));
+  problems.append(std::move(parsed.diagnostics));
   const auto written = std::make_shared<const Dataset>(std::move(parsed.value));
-
-  auto out = std::make_shared<Dataset>();
-  out->source = base->source;
-  out->title = base->title;
-  out->statements = base->statements;
-  out->origins = {base, written};
-  std::size_t next = 0;
-  for (const auto& [where, change] : arguments) {
-    const WrittenArgument& replacement = written->statements[next++].arguments.front();
-    auto& of = out->statements[change.place.statement].arguments;
-    if (change.place.written) {
-      of[*change.place.written] = replacement;
-    } else {
-      of.push_back(replacement);
-    }
-  }
-  return out;
+  DatasetEditor editor(std::move(base), written, catalogue, problems);
+  for (const Statement& s : written->statements) editor.redefine(s);
+  if (problems.has_errors()) return tl::unexpected(std::move(problems));
+  return std::move(editor).finish();
 }
 
 }  // namespace dynalin

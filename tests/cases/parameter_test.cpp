@@ -28,35 +28,37 @@ std::shared_ptr<const Dataset> dataset_of(const std::string& text) {
 }
 ParameterRef named(const std::string& text) {
   const auto p = parse_parameter(text);
-  EXPECT_TRUE(p) << p.error();
+  EXPECT_TRUE(p) << p.error().message;
   return p.value_or(ParameterRef());
 }
 double value_of(const Dataset& d, const std::string& name) {
   const auto value = parameter(d, named(name), catalogue());
-  EXPECT_TRUE(value) << value.error();
+  EXPECT_TRUE(value) << value.error().message;
   return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 std::string refusal_of(const Dataset& d, const std::string& name) {
   const auto value = parameter(d, named(name), catalogue());
   EXPECT_FALSE(value) << name;
-  return value ? "" : value.error();
+  return value ? "" : render(value.error());
 }
-std::shared_ptr<const Dataset> changed(const std::shared_ptr<const Dataset>& d, std::vector<ParameterValue> values) {
+std::shared_ptr<const Dataset> changed(const std::shared_ptr<const Dataset>& d, std::vector<ParameterChange> values) {
   auto out = with_parameters(d, values, catalogue());
-  EXPECT_TRUE(out) << out.error().front();
-  return out.value_or(nullptr);
+  EXPECT_TRUE(out) << render(out.error());
+  return out ? out->dataset : nullptr;
 }
 
-// λ² of the one freedom, from the state matrix.
-double squared_frequency(const std::shared_ptr<const Dataset>& d) {
+// The state matrix of the one freedom.
+Eigen::MatrixXd state_matrix(const std::shared_ptr<const Dataset>& d) {
   auto model = build_model(d, catalogue());
   EXPECT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics);
   const auto system = System::make(std::move(model.value)).value();
   Findings findings;
   const auto op = initial_conditions(*system, findings);
   const auto linear = linearize(*system, *op, {});
-  return -linear->A(0, 1);
+  return linear->A;
 }
+double squared_frequency(const std::shared_ptr<const Dataset>& d) { return -state_matrix(d)(0, 1); }
+double damping_over_mass(const std::shared_ptr<const Dataset>& d) { return -state_matrix(d)(0, 0); }
 
 TEST(Parameter, is_named_by_element_argument_and_number) {
   const ParameterRef k = named("bushing/3 k[2]");
@@ -82,15 +84,38 @@ TEST(Parameter, is_read_as_it_stands_however_it_is_written) {
   EXPECT_EQ(value_of(*d, "BUSHING/3 KT[2]"), 5);
 }
 
+TEST(Parameter, that_is_not_stated_is_what_holds_without_it) {
+  const auto d = dataset_of(oscillator);
+  EXPECT_EQ(value_of(*d, "BUSHING/3 C[2]"), 0);
+  EXPECT_EQ(value_of(*d, "SPRINGDAMPER/1 FORCE"), 0);
+  EXPECT_EQ(value_of(*d, "PART/2 QG[1]"), 0);
+  EXPECT_EQ(value_of(*d, "ACCGRAV IGRAV"), 0);
+  EXPECT_EQ(
+      refusal_of(*d, "PART/2 VX"),
+      "error: VX of PART/2 is not stated [unstated-number]\nhint: what holds without it is no number of its own\n");
+  EXPECT_THAT(refusal_of(*d, "PART/2 ZG[1]"), HasSubstr("[unstated-number]"));
+  // A statement that a dataset need not have.
+  const auto weightless = dataset_of("x\nPART/1, GROUND\nEND\n");
+  EXPECT_EQ(value_of(*weightless, "ACCGRAV KGRAV"), 0);
+  const auto heavy = changed(weightless, {{named("ACCGRAV KGRAV"), -9.81}});
+  EXPECT_EQ(value_of(*heavy, "ACCGRAV KGRAV"), -9.81);
+  EXPECT_EQ(value_of(*heavy, "ACCGRAV JGRAV"), 0);
+}
+
 TEST(Parameter, that_is_none_is_refused_with_the_reason) {
   const auto d = dataset_of(oscillator);
-  EXPECT_EQ(refusal_of(*d, "PART/9 MASS"), "PART/9 does not exist");
-  EXPECT_EQ(refusal_of(*d, "PART/2 COLOUR"), "PART/2 has no argument COLOUR");
-  EXPECT_THAT(refusal_of(*d, "SFORCE/7 FUNCTION"), HasSubstr("FUNCTION of SFORCE/7 is expression, no number"));
+  EXPECT_EQ(refusal_of(*d, "PART/9 MASS"), "error: PART/9 does not exist [unknown-element]\nhint: PART/2 exists\n");
+  EXPECT_EQ(refusal_of(*d, "PART/2 MAS5"),
+            "error: PART/2 has no argument MAS5 [unknown-argument]\nhint: did you mean MASS?\n");
+  EXPECT_THAT(refusal_of(*d, "SFORCE/7 FUNCTION"),
+              HasSubstr("FUNCTION of SFORCE/7 is expression, no number [expected-number]"));
   EXPECT_THAT(refusal_of(*d, "JOINT/1 I"), HasSubstr("I of JOINT/1 is marker, no number"));
-  EXPECT_EQ(refusal_of(*d, "BUSHING/3 C[1]"), "C of BUSHING/3 is not stated");
-  EXPECT_EQ(refusal_of(*d, "BUSHING/3 K[4]"), "K of BUSHING/3 has 3 values, none is number 4");
-  EXPECT_EQ(refusal_of(*d, "PART/2 MASS[2]"), "MASS of PART/2 has 1 value, none is number 2");
+  EXPECT_THAT(refusal_of(*d, "BUSHING/3 K[4]"),
+              HasSubstr("K of BUSHING/3 has 3 values, none is number 4 [wrong-count]"));
+  EXPECT_THAT(refusal_of(*d, "BUSHING/3 C[4]"), HasSubstr("C of BUSHING/3 has 3 values, none is number 4"));
+  EXPECT_THAT(refusal_of(*d, "PART/2 MASS[2]"), HasSubstr("MASS of PART/2 has 1 value, none is number 2"));
+  EXPECT_THAT(render(parse_parameter("SPRINGDAMPR/1 K").error()),
+              HasSubstr("names no parameter [no-parameter]\nhint: did you mean SPRINGDAMPER?"));
 }
 
 TEST(Parameter, replaced_changes_that_number_and_nothing_else) {
@@ -123,19 +148,42 @@ TEST(Parameter, replaced_reaches_the_linear_model) {
 TEST(Parameter, stated_for_the_first_time_is_taken_and_checked_by_its_reader) {
   const auto d = dataset_of(oscillator);
   EXPECT_EQ(value_of(*changed(d, {{named("SPRINGDAMPER/1 FORCE"), 3}}), "SPRINGDAMPER/1 FORCE"), 3);
+  const auto damped = changed(d, {{named("BUSHING/3 C[3]"), 0.5}});
+  EXPECT_EQ(value_of(*damped, "BUSHING/3 C[2]"), 0);
+  EXPECT_EQ(value_of(*damped, "BUSHING/3 C[3]"), 0.5);
+  EXPECT_NEAR(damping_over_mass(damped), (0.4 + 0.5) / 2, 1e-13);
+  EXPECT_EQ(value_of(*changed(d, {{named("PART/2 VX"), 7}}), "PART/2 VX"), 7);
   const auto model = build_model(changed(d, {{named("PART/2 MASS"), -1}}), catalogue());
   ASSERT_TRUE(model.diagnostics.has_errors());
   EXPECT_THAT(render(model.diagnostics), HasSubstr("(parameters):1:14: error: MASS of PART/2 is -1"));
 }
 
+// What a command that defines the argument anew would end, a parameter ends as well.
+TEST(Parameter, takes_the_place_of_other_arguments_as_a_command_does) {
+  std::string text = oscillator;
+  text.insert(text.find("END"),
+              "BEAM/5, I=20, J=1, LENGTH=1, AREA=1, IXX=1, IYY=1, IZZ=1, EMOD=1, GMOD=1, CMATRIX=21*\n");
+  std::string ones = "1";
+  for (int k = 1; k < 21; ++k) ones += ",0";
+  text.replace(text.find("21*"), 3, ones);
+  const auto d = dataset_of(text);
+  EXPECT_EQ(value_of(*d, "BEAM/5 CMATRIX[1]"), 1);
+  const auto other = changed(d, {{named("BEAM/5 CRATIO"), 0.25}});
+  EXPECT_EQ(value_of(*other, "BEAM/5 CRATIO"), 0.25);
+  EXPECT_THAT(refusal_of(*other, "BEAM/5 CMATRIX[1]"), HasSubstr("not stated"));
+  EXPECT_FALSE(build_model(other, catalogue()).diagnostics.has_errors());
+}
+
 TEST(Parameter, wrong_changes_are_reported_together) {
-  const std::vector<ParameterValue> wrong = {{named("PART/9 MASS"), 1},
-                                             {named("BUSHING/3 C[1]"), 1},
-                                             {named("PART/2 MASS"), std::numeric_limits<double>::infinity()}};
+  const std::vector<ParameterChange> wrong = {{named("PART/9 MASS"), 1},
+                                              {named("PART/2 ZG[1]"), 1},
+                                              {named("PART/2 MASS"), std::numeric_limits<double>::infinity()}};
   const auto out = with_parameters(dataset_of(oscillator), wrong, catalogue());
   ASSERT_FALSE(out);
-  EXPECT_THAT(out.error(), ElementsAre("PART/9 does not exist", "C of BUSHING/3 is not stated",
-                                       "PART/2 MASS is to be inf, which is no finite number"));
+  std::vector<std::string> said;
+  for (const Diagnostic& problem : out.error().items()) said.push_back(problem.message);
+  EXPECT_THAT(said, ElementsAre("PART/9 does not exist", "ZG of PART/2 is not stated",
+                                "PART/2 MASS is to be inf, which is no finite number"));
 }
 
 }  // namespace
