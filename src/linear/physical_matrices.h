@@ -17,27 +17,10 @@
 
 #include <memory>
 
+#include "dynalin/physical_matrices.h"
 #include "linear/linear_system.h"
 
 namespace dynalin {
-
-// What a row of results takes of the variations. [rows × accelerations, rates, coordinates, states, inputs]
-struct MotionMap {
-  Eigen::MatrixXd of_accelerations, of_rates, of_coordinates, of_states, of_inputs;
-
-  MotionMap& operator+=(const MotionMap&);
-};
-
-struct PhysicalMatrices {
-  std::vector<StateLabel> coordinates;  // x
-  std::vector<std::size_t> with_rate;   // those with x′ and x″: the rest follows from velocity constraints
-  std::vector<StateLabel> states;       // z
-  std::vector<ChannelLabel> inputs, outputs;
-  MotionMap force;       // Q, one row for each x′: M, C, K, Z and −P
-  MotionMap rate;        // x′ of all coordinates
-  MotionMap state_rate;  // z′
-  MotionMap output;      // y
-};
 
 class PhysicalEquations {
  public:
