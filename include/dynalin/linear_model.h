@@ -7,6 +7,7 @@
 #include "dynalin/linear_request.h"
 #include "dynalin/modal_table.h"
 #include "dynalin/operating_point.h"
+#include "dynalin/physical_matrices.h"
 #include "dynalin/results.h"
 
 namespace dynalin::library {
@@ -22,6 +23,10 @@ class LinearModel {
   StateSpace state_space() const;
   // M s″ + B s′ + K s = P u.
   SecondOrder second_order() const;
+  // The same as forces: M, C and K of the mechanism along the chosen coordinates, and what each element contributes to
+  // them, in the order of the dataset.
+  PhysicalMatrices physical_matrices() const;
+  std::vector<ElementMatrices> element_matrices() const;
   // Eigenvalues and mode shapes, or eigenvalues alone.
   Modes modes(bool with_shapes = true) const;
   // What moves in them, and where the energy is; `modes` are those of this model.

@@ -8,6 +8,8 @@
 
 #include "dynalin/element_id.h"
 #include "dynalin/error.h"
+#include "dynalin/parameter.h"
+#include "dynalin/statement.h"
 #include "dynalin/units.h"
 
 namespace dynalin {
@@ -27,6 +29,8 @@ class Model {
   static Model read(const std::string& path, const ReadingOptions& = {});
   // The same from text; `name` stands for the file in messages, and its folder is where MATRIX and SPLINE files lie.
   static Model from_text(std::string dataset, std::string name = "dataset.adm", const ReadingOptions& = {});
+  // The same from statements, which go through the same checks; messages show them written out, in a file "(built)".
+  static Model build(const std::string& title, const std::vector<StatedElement>&, const ReadingOptions& = {});
 
   const std::string& title() const;
   const Units& units() const;
@@ -34,6 +38,17 @@ class Model {
   std::vector<ElementId> elements() const;
   // Warnings of reading.
   const std::vector<Remark>& remarks() const;
+
+  // The number that the dataset states for a parameter, "BUSHING/1 K[2]", or that holds because it does not. Throws
+  // Error if there is no such parameter, or if what holds without it is no number.
+  double value(const ParameterRef&) const;
+  // The same mechanism with other numbers, which are stated where they were not; this one stays as it is. Throws Error
+  // with everything that is wrong, also with what the numbers lead to.
+  Model with(const ParameterRef& parameter, double value) const { return with({{parameter, value}}); }
+  Model with(const std::vector<ParameterChange>&) const;
+  // The same after commands that change a model, one a line as in a command file: ACTIVATE, DEACTIVATE, and NAME/id,
+  // ARGUMENT=… to define arguments anew.
+  Model edited(const std::string& commands) const;
 
   struct Inside;  // what the program itself works with
   const Inside& inside() const { return *inside_; }

@@ -19,6 +19,12 @@ struct StaticRequest {
   std::function<void(int iteration, double imbalance)> progress{};  // called with every iteration
 };
 
+// What finding a consistent point takes; nothing: the value of IC in the dataset, or its default.
+struct InitialConditionRequest {
+  std::optional<double>
+      error{};  // how far redundant constraints may be from agreeing: part of the model's length, or rad
+};
+
 namespace library {
 
 // Holds nothing but its model: analyses take a point and return another one, so that several points of one run, and
@@ -29,10 +35,13 @@ class Study {
   const Model& model() const { return model_; }
 
   OperatingPoint as_drawn() const;
+  // A point of the model that this one was made of by Model::edited or Model::with, as far as it goes on: by class and
+  // id of the elements. What is new, or stated anew, begins as the dataset has it. It is not consistent.
+  OperatingPoint continued(const OperatingPoint& of_the_model_before) const;
   // Positions, velocities, accelerations and reactions that agree with constraints and forces; from the point as drawn,
   // or from another, which stays as it is if it is consistent already.
   OperatingPoint initial_conditions() const { return initial_conditions(as_drawn()); }
-  OperatingPoint initial_conditions(const OperatingPoint& from) const;
+  OperatingPoint initial_conditions(const OperatingPoint& from, const InitialConditionRequest& = {}) const;
   // Where all forces balance at rest, from the pose of a point.
   OperatingPoint static_equilibrium(const StaticRequest& request = {}) const {
     return static_equilibrium(as_drawn(), request);

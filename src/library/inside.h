@@ -1,8 +1,11 @@
 // What stands behind the values that the library hands out.
 #pragma once
 
+#include <mutex>
+
 #include "base/remark_of.h"
 #include "dynalin/record.h"
+#include "model/dataset_edits.h"
 #include "study/linearization.h"
 
 namespace dynalin::library {
@@ -10,6 +13,17 @@ namespace dynalin::library {
 struct Model::Inside {
   std::shared_ptr<const System> system;  // and the model in it
   std::vector<Remark> remarks;
+  ReadingOptions options;
+  Restated restated;  // by what made it out of another model
+
+  Inside(std::shared_ptr<const System>, std::vector<Remark>, const ReadingOptions&, EditedDataset);
+  // The statements with their arguments. Those of a dataset as read have gone to bound its memory: the text, which
+  // stays, is read once more when they are asked for.
+  std::shared_ptr<const Dataset> statements() const;
+
+ private:
+  mutable std::once_flag read_;
+  mutable std::shared_ptr<const Dataset> statements_;
 };
 
 struct OperatingPoint::Inside {

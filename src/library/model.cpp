@@ -3,14 +3,66 @@
 #include "base/read_file.h"
 #include "elements/catalogue.h"
 #include "library/inside.h"
+#include "library/stated_elements.h"
+#include "model/parameter.h"
 
 namespace dynalin::library {
 
 namespace {
 
+constexpr std::string_view activate = "ACTIVATE", deactivate = "DEACTIVATE";
+
 [[noreturn]] void refuse(const Diagnostics& problems) { throw Error(render(problems), remarks_of(problems)); }
+[[noreturn]] void refuse(const Diagnostic& problem) { throw Error(render(problem), {remark_of(problem)}); }
+
+std::shared_ptr<const Model::Inside> made(std::unique_ptr<dynalin::Model> model, Diagnostics diagnostics,
+                                          const ReadingOptions& options, EditedDataset edits) {
+  if (diagnostics.has_errors()) refuse(diagnostics);
+  const auto system =
+      System::make(std::move(model), {options.pade_delays ? DelayReading::pade : DelayReading::first_order});
+  if (!system) refuse(system.error());
+  auto remarks = remarks_of(diagnostics);
+  append(remarks, remarks_of(remarks_on(**system)));
+  return std::make_shared<const Model::Inside>(*system, std::move(remarks), options, std::move(edits));
+}
+
+// A dataset whose arguments nobody needs but the model.
+std::shared_ptr<const Model::Inside> read_as(Parsed<Dataset> parsed, const ReadingOptions& options) {
+  Diagnostics diagnostics = std::move(parsed.diagnostics);
+  if (!parsed.value.source) refuse(diagnostics);
+  const bool read = !diagnostics.has_errors();
+  const auto written = std::make_shared<Dataset>(std::move(parsed.value));
+  auto built = build_model(written, catalogue(), {.user_value = options.user_value, .read_once = written});
+  if (built.value->dataset == written) written->release_arguments();
+  // Statements that could not be read leave gaps that the model would only complain about again.
+  if (read || built.diagnostics.has_errors()) diagnostics.append(std::move(built.diagnostics));
+  return made(std::move(built.value), std::move(diagnostics), options, {});
+}
+
+std::shared_ptr<const Model::Inside> rebuilt(EditedDataset edits, Diagnostics diagnostics,
+                                             const ReadingOptions& options) {
+  auto built = build_model(edits.dataset, catalogue(), {.user_value = options.user_value});
+  diagnostics.append(std::move(built.diagnostics));
+  return made(std::move(built.value), std::move(diagnostics), options, std::move(edits));
+}
 
 }  // namespace
+
+Model::Inside::Inside(std::shared_ptr<const System> made, std::vector<Remark> said, const ReadingOptions& read,
+                      EditedDataset edits)
+    : system(std::move(made)),
+      remarks(std::move(said)),
+      options(read),
+      restated(std::move(edits.restated)),
+      statements_(std::move(edits.dataset)) {}
+
+std::shared_ptr<const Dataset> Model::Inside::statements() const {
+  std::call_once(read_, [this] {
+    if (!statements_)
+      statements_ = std::make_shared<const Dataset>(parse_dataset(system->model().dataset->source).value);
+  });
+  return statements_;
+}
 
 Model Model::read(const std::string& path, const ReadingOptions& options) {
   auto text = read_file(path);
@@ -22,21 +74,45 @@ Model Model::read(const std::string& path, const ReadingOptions& options) {
 }
 
 Model Model::from_text(std::string dataset, std::string name, const ReadingOptions& options) {
-  auto parsed = parse_dataset(std::make_shared<const SourceText>(std::move(name), std::move(dataset)));
+  return Model(
+      read_as(parse_dataset(std::make_shared<const SourceText>(std::move(name), std::move(dataset))), options));
+}
+
+Model Model::build(const std::string& title, const std::vector<StatedElement>& elements,
+                   const ReadingOptions& options) {
+  return Model(read_as(dataset_of(title, elements), options));
+}
+
+Model Model::with(const std::vector<ParameterChange>& values) const {
+  auto dataset = with_parameters(inside_->statements(), values, catalogue());
+  if (!dataset) refuse(dataset.error());
+  return Model(rebuilt(std::move(*dataset), {}, inside_->options));
+}
+
+Model Model::edited(const std::string& commands) const {
+  static const auto names = [] {
+    std::vector<std::string_view> list{activate, deactivate};
+    list.insert(list.end(), redefinable_statements().begin(), redefinable_statements().end());
+    return list;
+  }();
+  auto parsed = parse_statements(std::make_shared<const SourceText>("edits", commands), names);
   Diagnostics diagnostics = std::move(parsed.diagnostics);
-  const bool read = !diagnostics.has_errors();
-  const auto written = std::make_shared<Dataset>(std::move(parsed.value));
-  auto built = build_model(written, catalogue(), {.user_value = options.user_value, .read_once = written});
-  if (built.value->dataset == written) written->release_arguments();
-  // Statements that could not be read leave gaps that the model would only complain about again.
-  if (read || built.diagnostics.has_errors()) diagnostics.append(std::move(built.diagnostics));
+  const auto written = std::make_shared<const Dataset>(std::move(parsed.value));
+  DatasetEditor editor(inside_->statements(), written, catalogue(), diagnostics);
+  for (const Statement& s : written->statements) {
+    if (s.name == activate || s.name == deactivate)
+      editor.switch_elements(s, s.name == deactivate, deactivatable_statements());
+    else if (!s.name.empty())
+      editor.redefine(s);
+  }
   if (diagnostics.has_errors()) refuse(diagnostics);
-  const auto system =
-      System::make(std::move(built.value), {options.pade_delays ? DelayReading::pade : DelayReading::first_order});
-  if (!system) refuse(system.error());
-  auto inside = std::make_shared<Inside>(Inside{*system, remarks_of(diagnostics)});
-  append(inside->remarks, remarks_of(remarks_on(**system)));
-  return Model(std::move(inside));
+  return Model(rebuilt(std::move(editor).finish(), std::move(diagnostics), inside_->options));
+}
+
+double Model::value(const ParameterRef& parameter) const {
+  const auto found = dynalin::parameter(*inside_->statements(), parameter, catalogue());
+  if (!found) refuse(found.error());
+  return *found;
 }
 
 const std::string& Model::title() const { return inside_->system->model().title; }

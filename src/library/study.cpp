@@ -4,6 +4,7 @@
 
 #include "analysis/static_settings.h"
 #include "library/inside.h"
+#include "linear/physical_matrices.h"
 #include "study/modal_tables.h"
 
 namespace dynalin::library {
@@ -23,6 +24,12 @@ StaticsOptions options_of(EquilibriumSettings settings, const StaticRequest& req
   options.restore_velocities = request.restore_velocities;
   options.progress = request.progress;
   return options;
+}
+
+PhysicalEquations equations_of(const LinearModel::Inside& inside) {
+  auto equations = PhysicalEquations::make(*inside.linear.system, inside.linear.linear);
+  if (!equations) fail(equations.error());
+  return std::move(*equations);
 }
 
 }  // namespace
@@ -45,8 +52,15 @@ void fail_for_missing(const std::string& what) { fail(Failure{"results", fmt::fo
 
 OperatingPoint Study::as_drawn() const { return handed_out({dynalin::as_drawn(model_.inside().system), {}}); }
 
-OperatingPoint Study::initial_conditions(const OperatingPoint& from) const {
-  return handed_out(value_or_throw(dynalin::initial_conditions(from.inside().point)));
+OperatingPoint Study::continued(const OperatingPoint& before) const {
+  const Model::Inside& now = model_.inside();
+  return handed_out({dynalin::continued(before.inside().point, now.system, now.restated), {}});
+}
+
+OperatingPoint Study::initial_conditions(const OperatingPoint& from, const InitialConditionRequest& request) const {
+  StudyPoint start = from.inside().point;
+  if (request.error) start.values.redundancy_tolerance = *request.error;
+  return handed_out(value_or_throw(dynalin::initial_conditions(std::move(start))));
 }
 
 OperatingPoint Study::static_equilibrium(const OperatingPoint& from, const StaticRequest& request) const {
@@ -72,6 +86,15 @@ LinearModel Study::linearize(const OperatingPoint& from, const LinearRequest& re
 
 StateSpace LinearModel::state_space() const { return inside_->linear.linear.model; }
 SecondOrder LinearModel::second_order() const { return value_or_throw(second_order_form(inside_->linear)); }
+
+PhysicalMatrices LinearModel::physical_matrices() const { return equations_of(*inside_).whole(); }
+
+std::vector<ElementMatrices> LinearModel::element_matrices() const {
+  const PhysicalEquations equations = equations_of(*inside_);
+  std::vector<ElementMatrices> list;
+  for (const ElementLabel* label : equations.elements()) list.push_back({label->element(), equations.of(*label)});
+  return list;
+}
 
 Modes LinearModel::modes(bool with_shapes) const {
   ModesFound found = value_or_throw(modes_of(inside_->linear, with_shapes ? Vectors::right : Vectors::none));

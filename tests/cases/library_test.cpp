@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <thread>
@@ -186,6 +187,177 @@ TEST(Library, records_results_as_the_program_writes_them) {
   EXPECT_EQ(json["warnings"][0]["code"], "no-units");
   EXPECT_EQ(json["errors"][0]["message"], "linear analysis: PSTATE/5 does not exist");
   EXPECT_EQ(json["status"], 2);
+}
+
+// A cart on a spring: every number by name, and the model with another one is that of the edited text.
+const std::string cart =
+    "Cart\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,1,1\nMARKER/20\nMARKER/21, "
+    "QP=0,0,1\nMARKER/3, PART=1, QP=0,0,-2\nJOINT/1, TRANSLATIONAL, I=20, J=1\nSPRINGDAMPER/1, TRANSLATIONAL, I=21, "
+    "J=3, "
+    "K=8, LENGTH=3\nBUSHING/7, I=20, J=1, K=0,0,10, KT=1,1,1\nEND\n";
+
+std::complex<double> cart_hz(const dynalin::Model& model) {
+  return dynalin::Study(model).linearize().modes().modes[0].eigenvalue_hz;
+}
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);
+}
+
+TEST(Library, reads_and_replaces_numbers_by_name) {
+  const auto model = dynalin::Model::from_text(cart);
+  EXPECT_EQ(model.value("SPRINGDAMPER/1 K"), 8);
+  EXPECT_EQ(model.value("BUSHING/7 K[3]"), 10);
+  EXPECT_EQ(model.value({{"BUSHING", 7}, "K", 3}), 10);
+  EXPECT_EQ(model.value("BUSHING/7 C[3]"), 0);
+  EXPECT_EQ(model.value("ACCGRAV KGRAV"), 0);
+  const auto stiff = model.with("SPRINGDAMPER/1 K", 50);
+  EXPECT_EQ(stiff.value("SPRINGDAMPER/1 K"), 50);
+  EXPECT_EQ(model.value("SPRINGDAMPER/1 K"), 8);
+  EXPECT_EQ(cart_hz(stiff), cart_hz(dynalin::Model::from_text(replaced(cart, "K=8", "K=50"))));
+  EXPECT_NEAR(cart_hz(stiff).imag(), std::sqrt(60 / 2.0) / (2 * std::numbers::pi), 1e-14);
+  // Several at once, and once more of what came out.
+  const auto heavy = stiff.with({{"PART/2 MASS", 5}, {"BUSHING/7 K[3]", 30}, {"BUSHING/7 C[3]", 0.25}});
+  EXPECT_EQ(cart_hz(heavy),
+            cart_hz(dynalin::Model::from_text(replaced(
+                replaced(replaced(cart, "K=8", "K=50"), "K=0,0,10", "K=0,0,30, C=0,0,0.25"), "MASS=2", "MASS=5"))));
+  EXPECT_EQ(cart_hz(heavy.with({})), cart_hz(heavy));
+  EXPECT_EQ(heavy.title(), "Cart");
+}
+
+TEST(Library, refuses_parameters_with_code_and_hint) {
+  const auto model = dynalin::Model::from_text(cart);
+  const Error spelt = error_of([&] { model.value("SPRINGDAMPER/1 LENGHT"); });
+  EXPECT_EQ(spelt.problems.at(0).code, "unknown-argument");
+  EXPECT_EQ(spelt.problems.at(0).hint, "did you mean LENGTH?");
+  EXPECT_EQ(error_of([&] { model.value("SPRINGDAMPER K"); }).problems.at(0).code, "unknown-element");
+  EXPECT_EQ(error_of([&] { model.value("K"); }).problems.at(0).code, "no-parameter");
+  const Error two = error_of([&] { model.with({{"PART/9 MASS", 1}, {"PART/2 MASS[2]", 1}}); });
+  ASSERT_EQ(two.problems.size(), 2u);
+  EXPECT_EQ(two.problems[0].hint, "PART/2 exists");
+  // What the number leads to is found by the reader of the element.
+  const Error negative = error_of([&] { model.with("PART/2 MASS", -1); });
+  EXPECT_EQ(negative.problems.at(0).code, "value-out-of-range");
+  EXPECT_THAT(negative.what(), HasSubstr("MASS of PART/2 is -1"));
+}
+
+TEST(Library, models_of_a_study_are_made_in_threads) {
+  const auto model = dynalin::Model::from_text(cart);
+  std::vector<std::complex<double>> found(8);
+  std::vector<std::thread> threads;
+  for (std::size_t k = 0; k < found.size(); ++k)
+    threads.emplace_back([&, k] { found[k] = cart_hz(model.with("SPRINGDAMPER/1 K", 10.0 * static_cast<double>(k))); });
+  for (auto& t : threads) t.join();
+  for (std::size_t k = 0; k < found.size(); ++k)
+    EXPECT_NEAR(found[k].imag(), std::sqrt((10 + 10.0 * static_cast<double>(k)) / 2) / (2 * std::numbers::pi), 1e-14);
+}
+
+TEST(Library, changes_a_model_by_commands) {
+  const auto model = dynalin::Model::from_text(cart);
+  const auto other = model.edited("SPRINGDAMPER/1, K=50\n! a lock less\ndeactivate/bush, id=7\n");
+  EXPECT_NEAR(cart_hz(other).imag(), std::sqrt(50 / 2.0) / (2 * std::numbers::pi), 1e-14);
+  EXPECT_NEAR(cart_hz(other.edited("ACTIVATE/BUSHING, ID=7")).imag(), std::sqrt(60 / 2.0) / (2 * std::numbers::pi),
+              1e-14);
+  EXPECT_EQ(cart_hz(other.with("SPRINGDAMPER/1 K", 8)), cart_hz(model.edited("DEACTIVATE/BUSHING, ID=7")));
+  EXPECT_EQ(other.value("SPRINGDAMPER/1 K"), 50);
+  const Error wrong = error_of([&] { model.edited("SPRINGDAMPER/9, K=1\nSIMULATE/STATICS\nDEACTIVATE/PART, ID=2"); });
+  ASSERT_EQ(wrong.problems.size(), 3u);
+  EXPECT_THAT(wrong.what(), HasSubstr("edits:1:1: error: SPRINGDAMPER/9 does not exist"));
+  EXPECT_EQ(error_of([&] { model.edited("PART/2, MASS=-1"); }).problems.at(0).code, "value-out-of-range");
+}
+
+// The pendulum at rest, let loose with another weight: where it hangs goes on, and so do a stated place and velocity.
+TEST(Library, takes_points_over_into_changed_models) {
+  const auto before = study_of(pendulum);
+  const auto rest = before.static_equilibrium();
+  const dynalin::Study after(before.model().with("ACCGRAV JGRAV", -2 * 9.81));
+  const auto hanging = after.continued(rest);
+  EXPECT_FALSE(hanging.is_consistent());
+  EXPECT_NEAR(hanging.part(2).position[1], -1, 1e-12);
+  EXPECT_NEAR(after.linearize(hanging).modes().modes[0].eigenvalue_hz.imag(), std::sqrt(2.0) * pendulum_hz, 1e-13);
+  const dynalin::Study drawn(before.model().edited("PART/2, QG=1,0,0, WZ=3"));
+  const auto moved = drawn.initial_conditions(drawn.continued(rest));
+  EXPECT_NEAR(moved.part(2).position[0], 1, 1e-12);
+  EXPECT_NEAR(moved.part(2).velocity[1], 3, 1e-12);
+}
+
+// A second hinge of the pendulum, further along its axis than the first one allows.
+TEST(Library, takes_how_far_redundant_constraints_may_disagree) {
+  auto text = replaced(pendulum, "MARKER/1\n", "MARKER/1\nMARKER/2, QP=0,0,1\n");
+  text = replaced(text, "MARKER/20\n", "MARKER/20\nMARKER/22, QP=-1,0,1.00001\n");
+  const auto study = study_of(replaced(text, "VARIABLE/3", "JOINT/2, REVOLUTE, I=22, J=2\nVARIABLE/3"));
+  EXPECT_EQ(error_of([&] { study.initial_conditions(); }).analysis, "initial conditions");
+  const auto point = study.initial_conditions(study.as_drawn(), {.error = 1e-3});
+  EXPECT_TRUE(point.is_consistent());
+  EXPECT_EQ(point.redundant_rows().size(), 5u);
+}
+
+TEST(Library, tells_mass_damping_and_stiffness_of_the_whole_and_of_elements) {
+  const auto model = dynalin::Model::from_text(cart).with({{"SPRINGDAMPER/1 C", 0.5}, {"BUSHING/7 C[3]", 0.25}});
+  const auto linear = dynalin::Study(model).linearize();
+  const auto whole = linear.physical_matrices();
+  ASSERT_EQ(whole.coordinates.size(), 1u);
+  EXPECT_NEAR(whole.force.of_accelerations(0, 0), 2, 1e-14);
+  EXPECT_NEAR(whole.force.of_rates(0, 0), 0.75, 1e-14);
+  EXPECT_NEAR(whole.force.of_coordinates(0, 0), 18, 1e-13);
+  double stiffness = 0;
+  for (const auto& [element, force] : linear.element_matrices()) {
+    stiffness += force.of_coordinates(0, 0);
+    if (element.statement == "SPRINGDAMPER") {
+      EXPECT_NEAR(force.of_coordinates(0, 0), 8, 1e-13);
+    }
+    if (element.statement == "BUSHING") {
+      EXPECT_NEAR(force.of_rates(0, 0), 0.25, 1e-14);
+    }
+    if (element.statement == "PART") {
+      EXPECT_NEAR(force.of_accelerations(0, 0), 2, 1e-14);
+    }
+  }
+  EXPECT_NEAR(stiffness, 18, 1e-13);
+}
+
+using Elements = std::vector<dynalin::StatedElement>;
+
+Elements cart_elements(double stiffness) {
+  return {{{"UNITS", 0}, {{"SYSTEM", "MKS"}}},
+          {{"PART", 1}, {"GROUND"}},
+          {{"MARKER", 1}, {}},
+          {{"MARKER", 3}, {{"PART", 1}, {"QP", {0.0, 0.0, -2.0}}}},
+          {{"PART", 2}, {{"MASS", 2.0}, {"CM", 20}, {"IP", {1.0, 1.0, 1.0}}}, "cart"},
+          {{"MARKER", 20}, {{"PART", 2}}},
+          {{"MARKER", 21}, {{"PART", 2}, {"QP", {0.0, 0.0, 1.0}}}},
+          {{"JOINT", 1}, {"TRANSLATIONAL", {"I", 20}, {"J", 1}}},
+          {{"SPRINGDAMPER", 1}, {"TRANSLATIONAL", {"I", 21}, {"J", 3}, {"K", stiffness}, {"LENGTH", 3.0}}},
+          {{"SFORCE", 4}, {"TRANSLATIONAL", {"I", 20}, {"J", 3}, {"FUNCTION", "-10*(DM(20,3)-2)"}}}};
+}
+
+TEST(Library, builds_models_of_statements_without_text) {
+  const auto model = dynalin::Model::build("Cart", cart_elements(1.0 / 3));
+  EXPECT_EQ(model.title(), "Cart");
+  EXPECT_EQ(model.value("SPRINGDAMPER/1 K"), 1.0 / 3);
+  EXPECT_NEAR(cart_hz(model).imag(), std::sqrt((10 + 1.0 / 3) / 2) / (2 * std::numbers::pi), 1e-14);
+  EXPECT_EQ(dynalin::Study(model).as_drawn().part(2).name, "PART/2 (cart)");
+  EXPECT_NEAR(cart_hz(model.with("SPRINGDAMPER/1 K", 8)).imag(), 3 / (2 * std::numbers::pi), 1e-14);
+}
+
+TEST(Library, names_statement_and_argument_of_what_is_built_wrongly) {
+  const auto fault = [](const dynalin::StatedElement& s) {
+    auto all = cart_elements(8);
+    all.push_back(s);
+    return std::string(error_of([&] { dynalin::Model::build("x", all); }).what());
+  };
+  EXPECT_THAT(fault({{"PART", 3}, {{"MASS", -1.0}}}), HasSubstr("error: MASS of PART/3 is -1, it must be at least 0"));
+  EXPECT_THAT(fault({{"PART", 3}, {{"MAS5", 1.0}}}), HasSubstr("PART has no argument MAS5"));
+  EXPECT_THAT(fault({{"WHEEL", 3}, {}}), HasSubstr("WHEEL"));
+  EXPECT_THAT(fault({{"BUSHING", 3}, {{"I", 20}, {"J", 77}}}), HasSubstr("MARKER/77"));
+  // What is one value cannot become two arguments, or a statement.
+  EXPECT_THAT(fault({{"VARIABLE", 3}, {{"FUNCTION", "1, IC=5"}}}), HasSubstr("is read with 2"));
+  EXPECT_THAT(fault({{"VARIABLE", 3}, {{"FUNCTION", "1\nPART/9"}}}), HasSubstr("VARIABLE/3: the value of FUNCTION"));
+  EXPECT_THAT(fault({{"PART", 3}, {{"MASS", std::numeric_limits<double>::quiet_NaN()}}}),
+              HasSubstr("no finite number"));
+  EXPECT_THAT(fault({{"PART", 3}, {"GROUND\nEND"}}), HasSubstr("no name of an argument"));
+  auto ended = cart_elements(8);
+  ended.insert(ended.begin() + 2, dynalin::StatedElement{{"END", 0}});
+  EXPECT_THAT(error_of([&] { dynalin::Model::build("x", ended); }).what(), HasSubstr("11 statements are read as 2"));
 }
 
 }  // namespace
