@@ -1,4 +1,5 @@
 // Any bytes as a command file, and as commands given one by one.
+#include "command/command_kind.h"
 #include "command/commands.h"
 
 #include <memory>
@@ -14,8 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
     fuzz::demand_sound(parsed.diagnostics);
     for (const Command& c : parsed.value.commands) {
       fuzz::demand(std::size_t{c.at.offset} + c.at.length <= source->text().size(), "a command outside its source");
-      const auto* edit = std::get_if<EditCommand>(&c.what);
-      fuzz::demand(!edit || edit->statement, "an edit without a statement");
+      fuzz::demand(c.action != nullptr, "a command without an action");
     }
   }
   return 0;
