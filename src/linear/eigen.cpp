@@ -11,7 +11,6 @@
 
 #include "linear/dense_products.h"
 #include "linear/eigen_refinement.h"
-#include "linear/perturbation.h"
 
 namespace dynalin {
 
@@ -68,27 +67,6 @@ void clear_rounding(EigenPairs& pairs, std::vector<EigenTrust>& trust) {
   }
 }
 
-// Whether a number has so few digits that it is none that was rounded.
-bool is_short(double v) {
-  int exponent = 0;
-  const double digits = std::ldexp(std::frexp(v, &exponent), 26);
-  return digits == std::trunc(digits);
-}
-
-// What the entries of the state matrix are not known to because those of the equations are sums rounded to double
-// precision. One that is a single product and short is exact: a coefficient as the dataset states it.
-Eigen::MatrixXd rounding_of_entries(const LinearSystem& linear) {
-  constexpr double roundoff = std::numeric_limits<double>::epsilon() / 2, much = 1 + 1e-9;
-  Eigen::MatrixXd off = linear.rounding / (2 * PerturbationEquations::units_of_rounding);
-  for (Eigen::Index c = 0; c < off.cols(); ++c) {
-    for (Eigen::Index r = 0; r < off.rows(); ++r) {
-      const double entry = linear.A(r, c);
-      if (is_short(entry) && off(r, c) <= much * roundoff * std::abs(entry)) off(r, c) = 0;
-    }
-  }
-  return off;
-}
-
 }  // namespace
 
 std::optional<UnrefinedPairs> unrefined_pairs(const LinearSystem& linear) {
@@ -116,11 +94,7 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   EigenPairs& pairs = found->pairs;
   const Eigen::Index n = A.rows(), z = zero.count;
   std::vector<EigenTrust> trust(pairs.values.size());
-  if (n > z) {
-    Eigen::MatrixXd uncertainty = rounding_of_entries(linear);
-    if (linear.uncertainty.size() > 0) uncertainty += linear.uncertainty;
-    trust = refine(*linear.pencil, zero, uncertainty, pairs);
-  }
+  if (n > z) trust = refine(*linear.pencil, zero, linear.uncertainty, pairs);
 
   clear_rounding(pairs, trust);
 

@@ -85,7 +85,9 @@ Result<LinearSystem> reduce(const System& system, Perturbation perturbation) {
   const Matrix a = p.complete(Matrix::Identity(states + inputs, states + inputs));
   const Matrix rates = p.state_matrices(a), outputs = at.outputs_of(p, a);
   out.reach = reach_of(system, out, a.topRows(p.coordinates()), a.middleRows(p.rates(), p.coordinates()));
-  out.rounding = p.rounding(a);
+  auto roundings = p.roundings(a);
+  out.rounding = std::move(roundings.of_sums);
+  out.uncertainty = std::move(roundings.of_coefficients);
   out.A = rates.leftCols(states);
   model.B = rates.rightCols(inputs);
   model.C = outputs.leftCols(states);
@@ -169,14 +171,14 @@ Result<LinearSystem> linearize(const System& system, OperatingPoint op, const Li
     }
   }
   op.mode = AnalysisMode::linear;
-  linear->uncertainty = rounding_of_velocities(system, op, *linear, at);
-  if (linear->uncertainty.size() == 0) return linear;
-  const double part = relative_size(system, op, *linear, linear->uncertainty);
-  constexpr double worth_a_warning = 1e-6, singular = 1e-7;
+  const Matrix of_velocities = rounding_of_velocities(system, op, *linear, at);
+  if (of_velocities.size() == 0) return linear;
+  linear->uncertainty += of_velocities;
   const NearSingularity& near = linear->near_singularity;
+  constexpr double worth_a_warning = 1e-6, worth_a_look = 1e-3, singular = 1e-7;
   // So near that accelerations, too, are lost in their own rounding, what velocities make of them tells nothing.
   const bool lost = near.distance < singular && relative_size(system, op, *linear, linear->rounding) > 10;
-  if (lost || !(part < 1)) {
+  if (lost || !(relative_size(system, op, *linear, of_velocities) < 1)) {
     return tl::unexpected(
         Failure{"linear analysis",
                 fmt::format("the configuration is too near a singular one: {} all but depend on each other (relative "
@@ -184,11 +186,13 @@ Result<LinearSystem> linearize(const System& system, OperatingPoint op, const Li
                             names_of(near), near.distance),
                 {}});
   }
-  if (part > worth_a_warning) {
+  // Elsewhere a state matrix may be nothing but rounding: that of a disc that turns freely.
+  const Matrix& unknown = near.distance < worth_a_look ? linear->uncertainty : of_velocities;
+  if (const double part = relative_size(system, op, *linear, unknown); part > worth_a_warning) {
     linear->warnings.warning(
         "near-singular", {},
         fmt::format("near a singular configuration: {} all but depend on each other (relative distance {:.1e}); "
-                    "rounding of the velocities changes the state matrix by {:.0e} of its size, which the error bounds "
+                    "rounding changes the state matrix by {:.0e} of its size, which the error bounds "
                     "of the eigenvalues hold",
                     names_of(near), near.distance, part));
   }

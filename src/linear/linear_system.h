@@ -64,7 +64,7 @@ struct Perturbation {
 struct LinearSystem : Perturbation {
   Eigen::MatrixXd A;         // as computed; in the model, entries that are nothing but rounding are zero
   Eigen::MatrixXd rounding;  // what the entries of A may carry of rounding, element by element
-  // What roundings of the velocities make of A near singular configurations, element by element; else empty.
+  // What A is not known to, by roundings of coefficients and near singular configurations of velocities.
   Eigen::MatrixXd uncertainty;
   std::vector<StateReach> reach;  // of every state
   std::shared_ptr<const StructuralZeros> structural_zeros;

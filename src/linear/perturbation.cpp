@@ -46,6 +46,7 @@ PerturbationEquations PerturbationEquations::of_state_matrix(const Matrix& A) {
   p.state_rates_on_algebraic_ = compressed(p.states_, 0, {});
   p.sizes_ = p.pencil_;
   for (double& v : p.sizes_.value) v = std::abs(v);
+  p.roundings_ = p.sizes_;
   return p;
 }
 
@@ -143,27 +144,44 @@ Matrix PerturbationEquations::state_matrices(const Matrix& a) const {
   return rates;
 }
 
-Matrix PerturbationEquations::rounding(const Matrix& a) const {
+PerturbationEquations::Roundings PerturbationEquations::roundings(const Matrix& a) const {
   // Displacements keep their digits, one by one; rates are sums where the model moves or constraints hold rates alone.
   const bool rates_are_sums = whole_ || !rates_on_positions_.value.empty() || level_[1] != level_[0];
   const Eigen::Index first_row = whole_ ? 0 : rates_are_sums ? n_ : 2 * n_, rows = algebraic_ - first_row;
-  Matrix adjoint(rows, states_);
+  Matrix adjoint(algebraic_, states_);
   for_column_blocks(states_, [&](Eigen::Index first, Eigen::Index count) {
     Matrix unit = Matrix::Zero(states_, count);
     unit.middleRows(first, count).setIdentity();
-    adjoint.middleCols(first, count) = complete_left(unit).bottomRows(rows).cwiseAbs();
+    adjoint.middleCols(first, count) = complete_left(unit).cwiseAbs();
   });
-  Matrix total(states_, states_);
+  // Rows without roundings take no part.
+  std::vector<Eigen::Index> rounded;
+  {
+    std::vector<bool> any(static_cast<std::size_t>(unknowns()), false);
+    for (const std::int32_t r : roundings_.row) any[static_cast<std::size_t>(r)] = true;
+    for (Eigen::Index r = 0; r < algebraic_; ++r) {
+      if (any[static_cast<std::size_t>(r)]) rounded.push_back(r);
+    }
+  }
+  const Matrix adjoint_of_sums = adjoint.bottomRows(rows), adjoint_of_rounded = adjoint(rounded, Eigen::all);
+  adjoint.resize(0, 0);
+  Matrix total(states_, states_), of_coefficients(states_, states_);
   const Eigen::Index summed = whole_ ? 3 * n_ : 2 * n_;  // differentiated balances are sums of accelerations as well
   for_column_blocks(states_, [&](Eigen::Index first, Eigen::Index count) {
     Matrix parts = Matrix::Zero(unknowns(), count), sums = parts;
-    parts.topRows(summed) = a.block(0, first, summed, count).cwiseAbs();
+    parts.topRows(algebraic_) = a.block(0, first, algebraic_, count).cwiseAbs();
     parts.bottomRows(states_).middleRows(first, count).setIdentity();
+    multiply_add(roundings_, parts, sums, 1.0);
+    of_coefficients.middleCols(first, count) =
+        transposed_product(adjoint_of_rounded, sums(rounded, Eigen::all).eval()) + sums.bottomRows(states_);
+    parts.middleRows(summed, algebraic_ - summed).setZero();
+    sums.setZero();
     multiply_add(sizes_, parts, sums, 1.0);
     total.middleCols(first, count) =
-        transposed_product(adjoint, sums.middleRows(first_row, rows).eval()) + sums.bottomRows(states_);
+        transposed_product(adjoint_of_sums, sums.middleRows(first_row, rows).eval()) + sums.bottomRows(states_);
   });
-  return units_of_rounding * std::numeric_limits<double>::epsilon() * total;
+  constexpr double unit = std::numeric_limits<double>::epsilon();
+  return {units_of_rounding * unit * total, unit / 2 * of_coefficients};
 }
 
 }  // namespace dynalin

@@ -62,7 +62,12 @@ class PerturbationEquations {
   // Roundings that the entries of A may carry, element by element: Σ|y||r| over the very sums that make them, in so
   // many units of the last place.
   static constexpr double units_of_rounding = 16;
-  Eigen::MatrixXd rounding(const Eigen::MatrixXd& a) const;
+  // The same of what computing the coefficients of the equations has left of them: Σ|y|·(rounding of the
+  // coefficient)·|a| over all of them.
+  struct Roundings {
+    Eigen::MatrixXd of_sums, of_coefficients;
+  };
+  Roundings roundings(const Eigen::MatrixXd& a) const;
 
   // Columns a that the equations leave open, of freedoms without mass: rates or accelerations that depend on
   // derivatives of inputs or, where the model moves, of coefficients. The states do not depend on them.
@@ -84,7 +89,9 @@ class PerturbationEquations {
   ColumnMatrix on_states_;                                                         // [G H]
   ColumnMatrix state_rates_on_algebraic_, state_rates_on_states_;                  // P and R
   ColumnMatrix pencil_;
-  ColumnMatrix sizes_;  // of what its entries are made of, where roundings are counted (roundoff_scales.h)
+  // Of its entries, where roundings are counted: the sizes of what they are made of, and in half units of the last
+  // place what computing them has left (roundoff_scales.h).
+  ColumnMatrix sizes_, roundings_;
 };
 
 }  // namespace dynalin

@@ -7,41 +7,16 @@
 
 #include "linear/perturbation.h"
 #include "linear/roundoff_scales.h"
+#include "linear/sized_block.h"
 
 namespace dynalin {
 
 namespace {
 
-using Entries = std::vector<Triplet>;
-
 // Adds a block to the triplets of a larger matrix.
 void place(Entries& entries, const ColumnMatrix& m, std::int32_t row, std::int32_t column) {
   for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) { entries.push_back({row + r, column + c, v}); });
 }
-
-// Entries of a block of the pencil, and in a list of all blocks the sizes of what they are made of.
-class SizedBlock {
- public:
-  SizedBlock(std::int32_t row, std::int32_t column, Entries& sizes) : row_(row), column_(column), sizes_(sizes) {}
-
-  Entries values;
-  void add(std::int32_t r, std::int32_t c, double value, double size) {
-    if (value != 0.0) values.push_back({r, c, value});
-    note_size(r, c, size);
-  }
-  void note_size(std::int32_t r, std::int32_t c, double size) {
-    if (size > 0) sizes_.push_back({row_ + r, column_ + c, size});
-  }
-  // The sizes of a gradient whose values stand elsewhere.
-  template <class Row>
-  void note_gradient(std::int32_t r, const Row& row, const std::vector<RowCoefficients>& size) {
-    for (std::size_t e = 0; e < row.size(); ++e) note_size(r, row[e].column, size[e].g);
-  }
-
- private:
-  std::int32_t row_, column_;
-  Entries& sizes_;
-};
 
 }  // namespace
 
@@ -142,14 +117,14 @@ class PerturbationEquations::Assembly {
     const auto row_of_damped = [&](Eigen::Index k) { return 2 * n_ - static_cast<std::int32_t>(damped - k); };
     if (!massless_->at_rest) {
       const auto hold = [&](std::int32_t row, Eigen::Index direction) {
-        balances_.add(row, 2 * n_ + limit.directions.coordinate[static_cast<std::size_t>(direction)], 1.0, 1.0);
+        balances_.add(row, 2 * n_ + limit.directions.coordinate[static_cast<std::size_t>(direction)], 1.0, 1.0, 0.0);
         open_rows_.push_back(row);
       };
       Eigen::Index lost = 0;
       for (std::size_t k = 0; k < choice_.gradient.size(); ++k) {
         if (choice_.has_position[k]) continue;
         for (const auto& [column, g] : choice_.gradient[k])
-          balances_.add(row_of_rate(lost), n_ + column, g.g, std::abs(g.g));
+          balances_.add(row_of_rate(lost), n_ + column, g.g, std::abs(g.g), 0.0);
         open_rows_.push_back(row_of_rate(lost++));
       }
       for (Eigen::Index k = 0; k < condensed; ++k)
@@ -162,7 +137,10 @@ class PerturbationEquations::Assembly {
                                const Eigen::RowVectorXd& size) {
       for (Eigen::Index c = 0; c < value.size(); ++c) {
         const bool vanishes = std::abs(value(c)) <= cancelled_units * std::numeric_limits<double>::epsilon() * size(c);
-        if (size(c) > 0) balances_.add(row, column + static_cast<std::int32_t>(c), vanishes ? 0.0 : value(c), size(c));
+        if (size(c) > 0) {
+          balances_.add(row, column + static_cast<std::int32_t>(c), vanishes ? 0.0 : value(c), size(c),
+                        RoundoffScales::along_axes * size(c));
+        }
       }
     };
     // An input in the balance would come with its derivative.
@@ -245,49 +223,63 @@ class PerturbationEquations::Assembly {
   // Constraints and chosen coordinates on the three levels, in the order of level_matrix.
   void take_rows() {
     std::int32_t coordinate = 0, rate = 0;
-    const auto take_rate = [&](const auto& row, const std::vector<RowCoefficients>& size) {
-      for (std::size_t e = 0; e < row.size(); ++e) below_10_.add(rate, row[e].column, row[e].c.v, size[e].v);
+    const auto take_rate = [&](const auto& row, const std::vector<RowCoefficients>& size,
+                               const std::vector<RowCoefficients>& rounding) {
+      for (std::size_t e = 0; e < row.size(); ++e)
+        below_10_.add(rate, row[e].column, row[e].c.v, size[e].v, rounding[e].v);
+      rates_.note_gradient_roundings(rate, row, rounding);
       rates_.note_gradient(rate++, row, size);
     };
     for (std::int32_t k = 0; k < rows_.size(); ++k) {
       const auto row = rows_.row(k);
       const std::vector<RowCoefficients> size = roundoff_scales_.of_row(row);
-      if (choice_.active[static_cast<std::size_t>(k)]) ++coordinate;
+      const std::vector<RowCoefficients> rounding = roundoff_scales_.roundings_of_row(row, size);
+      if (choice_.active[static_cast<std::size_t>(k)]) positions_.note_gradient_roundings(coordinate++, row, rounding);
       if (!choice_.velocity_active[static_cast<std::size_t>(k)]) continue;
-      take_rate(row, size);
+      take_rate(row, size, rounding);
+      coupled_.note_gradient_roundings(augmented_.lambda(k), row, rounding);
       for (std::size_t e = 0; e < row.size(); ++e) {
-        below_21_.add(augmented_.lambda(k), row[e].column, row[e].c.a1, size[e].a1);
-        below_20_.add(augmented_.lambda(k), row[e].column, row[e].c.a0, size[e].a0);
+        below_21_.add(augmented_.lambda(k), row[e].column, row[e].c.a1, size[e].a1, rounding[e].a1);
+        below_20_.add(augmented_.lambda(k), row[e].column, row[e].c.a0, size[e].a0, rounding[e].a0);
+        coupled_.note_rounding(row[e].column, augmented_.lambda(k), rounding[e].g);
       }
     }
     for (std::size_t k = 0; k < choice_.gradient.size(); ++k) {
       const auto& row = choice_.gradient[k];
       const std::vector<RowCoefficients> size = roundoff_scales_.of_row(row);
-      if (choice_.has_position[k]) states_.add(coordinate++, choice_.position_state[k], -1.0, 1.0);
+      const std::vector<RowCoefficients> rounding = roundoff_scales_.roundings_of_row(row, size);
+      if (choice_.has_position[k]) {
+        states_.add(coordinate, choice_.position_state[k], -1.0, 1.0, 0.0);
+        positions_.note_gradient_roundings(coordinate++, row, rounding);
+      }
       if (!choice_.has_rate[k]) continue;
-      states_.add(n_ + rate, choice_.rate_state[k], -1.0, 1.0);
-      take_rate(row, size);
+      states_.add(n_ + rate, choice_.rate_state[k], -1.0, 1.0, 0.0);
+      take_rate(row, size, rounding);
     }
   }
 
-  // take(row of the augmented, column, value, size) for all entries but those of equations that inputs have cut.
+  // take(row of the augmented, column, value, size, rounding) for all entries but those of equations that inputs have
+  // cut.
   template <class Take>
   void for_partials(PartialBy family, Take&& take) const {
     const ColumnMatrix& m = eq_.matrix(family);
     const ColumnMatrix size = roundoff_scales_.of(eq_, family);
+    const ColumnMatrix rounding = roundoff_scales_.roundings(eq_, family, size);
     for (std::int32_t c = 0; c < m.columns; ++c) {
       for (std::int32_t e = m.start[static_cast<std::size_t>(c)]; e < m.start[static_cast<std::size_t>(c) + 1]; ++e) {
         const auto at = static_cast<std::size_t>(e);
         const std::int32_t w = m.row[at] - n_;
         const bool replaced = w >= 0 && w < static_cast<std::int32_t>(cut_.size()) && cut_[static_cast<std::size_t>(w)];
-        if (!replaced) take(augmented_.equation(m.row[at]), c, m.value[at], size.value[at]);
+        if (!replaced) take(augmented_.equation(m.row[at]), c, m.value[at], size.value[at], rounding.value[at]);
       }
     }
   }
 
   void take_partials() {
     const auto to = [](SizedBlock& block) {
-      return [&](std::int32_t row, std::int32_t c, double v, double size) { block.add(row, c, v, size); };
+      return [&](std::int32_t row, std::int32_t c, double v, double size, double rounding) {
+        block.add(row, c, v, size, rounding);
+      };
     };
     for_partials(PartialBy::position, to(below_20_));
     for_partials(PartialBy::velocity, to(below_21_));
@@ -298,16 +290,26 @@ class PerturbationEquations::Assembly {
       state_of[static_cast<std::size_t>(choice_.differential[k])] =
           choice_.first_differential + static_cast<std::int32_t>(k);
     }
-    for_partials(PartialBy::state, [&](std::int32_t row, std::int32_t c, double v, double size) {
+    for_partials(PartialBy::state, [&](std::int32_t row, std::int32_t c, double v, double size, double rounding) {
       const std::int32_t state = state_of[static_cast<std::size_t>(c)];
-      if (state != constant) states_.add(2 * n_ + row, state, v, size);
+      if (state != constant) states_.add(2 * n_ + row, state, v, size, rounding);
     });
+    // Of what stands on the diagonal.
+    const auto unknowns = [&](PartialBy family, std::int32_t first) {
+      for_partials(family, [&, first](std::int32_t row, std::int32_t c, double, double, double rounding) {
+        coupled_.note_rounding(row, first + c, rounding);
+      });
+    };
+    unknowns(PartialBy::acceleration, 0);
+    unknowns(PartialBy::lambda, augmented_.lambda(0));
+    unknowns(PartialBy::algebraic, augmented_.algebraic(0));
+    unknowns(PartialBy::state_rate, augmented_.state(0));
   }
 
   void take_inputs() {
     for (std::size_t u = 0; u < inputs_.size(); ++u) {
       const std::int32_t column = p_.states_ + static_cast<std::int32_t>(u);
-      states_.add(2 * n_ + augmented_.algebraic(inputs_[u]), column, -1.0, 0.0);
+      states_.add(2 * n_ + augmented_.algebraic(inputs_[u]), column, -1.0, 0.0, 0.0);
     }
   }
 
@@ -317,22 +319,23 @@ class PerturbationEquations::Assembly {
       if (position < 0) continue;
       if (rate >= 0) rates_on_states_.push_back({position, rate, 1.0});
       const auto& row = choice_.gradient[k];
-      const std::vector<RowCoefficients> size = roundoff_scales_.of_row(row);
+      const std::vector<RowCoefficients> size = roundoff_scales_.of_row(row),
+                                         rounding = roundoff_scales_.roundings_of_row(row, size);
       for (std::size_t e = 0; e < row.size(); ++e) {
         const auto& [c, g] = row[e];
         if (rate >= 0) {
-          rates_on_algebraic_.add(rate, 2 * n_ + c, g.g, size[e].g);
-          rates_on_algebraic_.add(rate, n_ + c, g.a1, size[e].a1);
-          rates_on_algebraic_.add(rate, c, g.a0, size[e].a0);
+          rates_on_algebraic_.add(rate, 2 * n_ + c, g.g, size[e].g, rounding[e].g);
+          rates_on_algebraic_.add(rate, n_ + c, g.a1, size[e].a1, rounding[e].a1);
+          rates_on_algebraic_.add(rate, c, g.a0, size[e].a0, rounding[e].a0);
         } else {
-          rates_on_algebraic_.add(position, n_ + c, g.g, size[e].g);
-          rates_on_algebraic_.add(position, c, g.v, size[e].v);
+          rates_on_algebraic_.add(position, n_ + c, g.g, size[e].g, rounding[e].g);
+          rates_on_algebraic_.add(position, c, g.v, size[e].v, rounding[e].v);
         }
       }
     }
     for (std::size_t k = 0; k < choice_.differential.size(); ++k) {
       rates_on_algebraic_.add(choice_.first_differential + static_cast<std::int32_t>(k),
-                              2 * n_ + augmented_.state(choice_.differential[k]), 1.0, 1.0);
+                              2 * n_ + augmented_.state(choice_.differential[k]), 1.0, 1.0, 0.0);
     }
   }
 
@@ -343,7 +346,8 @@ class PerturbationEquations::Assembly {
     p_.on_states_ = compressed(first_state_, p_.states_ + static_cast<std::int32_t>(inputs_.size()), states_.values);
     p_.state_rates_on_algebraic_ = compressed(p_.states_, first_state_, rates_on_algebraic_.values);
     p_.state_rates_on_states_ = compressed(p_.states_, p_.states_, rates_on_states_);
-    p_.sizes_ = compressed(p_.unknowns(), p_.unknowns(), sizes_);
+    p_.sizes_ = compressed(p_.unknowns(), p_.unknowns(), roundoff_.sizes);
+    p_.roundings_ = compressed(p_.unknowns(), p_.unknowns(), roundoff_.roundings);
     Entries all;
     place(all, diagonal_[0], 0, 0);
     place(all, p_.rates_on_positions_, n_, 0);
@@ -373,13 +377,14 @@ class PerturbationEquations::Assembly {
   std::vector<bool> cut_;  // algebraic equations that inputs replace
   PerturbationEquations p_;
   std::array<ColumnMatrix, 3> diagonal_;
-  Entries sizes_, rates_on_states_;
-  // Blocks of F below the diagonal, the sizes of the second on it, [G H] and P.
-  SizedBlock below_10_{n_, 0, sizes_}, below_20_{2 * n_, 0, sizes_}, below_21_{2 * n_, n_, sizes_};
-  SizedBlock rates_{n_, n_, sizes_};
-  SizedBlock balances_{0, 0, sizes_};  // in the rows that freedoms without mass leave vacant
+  Entries rates_on_states_;
+  Roundoff roundoff_;
+  // Blocks of F below the diagonal, what is noted of those on it, [G H] and P.
+  SizedBlock below_10_{n_, 0, roundoff_}, below_20_{2 * n_, 0, roundoff_}, below_21_{2 * n_, n_, roundoff_};
+  SizedBlock positions_{0, 0, roundoff_}, rates_{n_, n_, roundoff_}, coupled_{2 * n_, 2 * n_, roundoff_};
+  SizedBlock balances_{0, 0, roundoff_};  // in the rows that freedoms without mass leave vacant
   std::vector<std::int32_t> open_rows_;
-  SizedBlock states_{0, first_state_, sizes_}, rates_on_algebraic_{first_state_, 0, sizes_};
+  SizedBlock states_{0, first_state_, roundoff_}, rates_on_algebraic_{first_state_, 0, roundoff_};
 };
 
 Result<PerturbationEquations> PerturbationEquations::make(const System& system, const Motion& motion,

@@ -62,4 +62,39 @@ ColumnMatrix RoundoffScales::of(const Equations& eq, PartialBy family) const {
   return m;
 }
 
+ColumnMatrix RoundoffScales::roundings(const Equations& eq, PartialBy family, ColumnMatrix sizes) const {
+  const ColumnMatrix& m = eq.matrix(family);
+  const std::span<const double> own = eq.sizes(family);
+  const bool by_coordinates = family <= PartialBy::acceleration;
+  const auto coordinates = static_cast<std::int32_t>(group_.size());
+  struct Block {
+    double largest = 0;
+    bool exact = true;
+  };
+  std::vector<Block> blocks(static_cast<std::size_t>(m.rows));
+  for (std::int32_t c = 0; c < m.columns;) {
+    std::int32_t end = c + 1;
+    while (by_coordinates && end < m.columns && group(end) == group(c)) ++end;
+    const auto for_block = [&](auto&& visit) {
+      for (std::int32_t k = m.start[static_cast<std::size_t>(c)]; k < m.start[static_cast<std::size_t>(end)]; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        visit(at, blocks[static_cast<std::size_t>(group(m.row[at]))]);
+      }
+    };
+    for_block([&](std::size_t k, Block& b) { b.largest = std::max(b.largest, own[k]); });
+    for_block([&](std::size_t k, Block& b) {
+      // Sums that cancel, and inertia that passes on what turns, have larger sizes than the entries.
+      if (own[k] > std::abs(m.value[k]) || sizes.value[k] > b.largest || !is_short(m.value[k], b.largest))
+        b.exact = false;
+    });
+    for_block([&](std::size_t k, Block& b) {
+      const bool measured = by_coordinates || family == PartialBy::lambda || m.row[k] < coordinates;
+      sizes.value[k] *= b.exact ? 0.0 : measured ? along_axes : as_read;
+    });
+    for_block([](std::size_t, Block& b) { b = {}; });
+    c = end;
+  }
+  return sizes;
+}
+
 }  // namespace dynalin

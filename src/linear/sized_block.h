@@ -1,0 +1,51 @@
+// A block of the perturbation equations while they are put together: its entries, and what is known of their rounding
+// (roundoff_scales.h) in lists of all blocks.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mechanics/equations.h"
+#include "system/sparse_lu.h"
+
+namespace dynalin {
+
+using Entries = std::vector<Triplet>;
+
+// The sizes of what entries are made of, and what roundings have left of them in half units of the last place.
+struct Roundoff {
+  Entries sizes, roundings;
+};
+
+class SizedBlock {
+ public:
+  SizedBlock(std::int32_t row, std::int32_t column, Roundoff& roundoff)
+      : row_(row), column_(column), roundoff_(roundoff) {}
+
+  Entries values;
+  void add(std::int32_t r, std::int32_t c, double value, double size, double rounding) {
+    if (value != 0.0) values.push_back({r, c, value});
+    if (size > 0) roundoff_.sizes.push_back({row_ + r, column_ + c, size});
+    note_rounding(r, c, rounding);
+  }
+  // Of entries whose values stand elsewhere.
+  void note_rounding(std::int32_t r, std::int32_t c, double rounding) {
+    if (rounding > 0) roundoff_.roundings.push_back({row_ + r, column_ + c, rounding});
+  }
+  template <class Row>
+  void note_gradient(std::int32_t r, const Row& row, const std::vector<RowCoefficients>& size) {
+    for (std::size_t e = 0; e < row.size(); ++e) {
+      if (size[e].g > 0) roundoff_.sizes.push_back({row_ + r, column_ + row[e].column, size[e].g});
+    }
+  }
+  template <class Row>
+  void note_gradient_roundings(std::int32_t r, const Row& row, const std::vector<RowCoefficients>& rounding) {
+    for (std::size_t e = 0; e < row.size(); ++e) note_rounding(r, row[e].column, rounding[e].g);
+  }
+
+ private:
+  std::int32_t row_, column_;
+  Roundoff& roundoff_;
+};
+
+}  // namespace dynalin
