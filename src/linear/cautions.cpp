@@ -3,65 +3,28 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <numbers>
 
-#include "analysis/displace.h"
+#include "linear/configuration.h"
 
 namespace dynalin {
 
 namespace {
 
-// A thousandth of the model away along the chosen coordinates, in different shares so that no symmetry survives.
-std::optional<OperatingPoint> nearby(const System& system, const OperatingPoint& op, const LinearSystem& linear) {
-  Eigen::VectorXcd direction = Eigen::VectorXcd::Zero(linear.A.rows());
-  double share = 1;
-  for (std::size_t k = 0; k < linear.kinematic_states; ++k) {
-    if (linear.model.states[k].is_rate) continue;
-    if (const double size = linear.reach[k].size; size > 0) direction(static_cast<Eigen::Index>(k)) = share / size;
-    share *= -std::numbers::phi / 2;
-  }
-  const Eigen::VectorXd step = linear.displacements(direction).col(0).real();
-  constexpr double distance = 1e-3;
-  OperatingPoint there = op;
-  displace(system, there, distance * step, {1.0});
-  Findings ignored;
-  auto assembled = assemble_position(system, std::move(there), ignored);
-  if (!assembled) return std::nullopt;
-  return std::move(*assembled);
-}
-
-std::vector<std::int32_t> redundant_rows(const System& system, const OperatingPoint& op) {
-  ConstraintRows rows;
-  rows.resize(system.layout());
-  const Motion motion = system.motion(op);
-  system.constraints(motion, rows);
-  return system.partition(rows, false).redundant;
-}
-
 void singular_configuration(const System& system, const OperatingPoint& op, const LinearSystem& linear,
                             Diagnostics& out) {
-  const auto here = redundant_rows(system, op);
-  if (here.empty() || linear.kinematic_states == 0) return;
-  const auto beside = nearby(system, op, linear);
-  if (!beside) return;
-  const auto there = redundant_rows(system, *beside);
-  if (there.size() >= here.size()) return;
+  const auto gained = freedoms_gained(system, op, linear);
+  if (!gained) return;
   std::vector<std::string> rows;
-  std::int32_t first = here.front();
-  for (const std::int32_t r : here) {
-    if (std::find(there.begin(), there.end(), r) != there.end()) continue;
-    if (rows.empty()) first = r;
-    rows.push_back(system.row_text(r));
-  }
-  out.warning("singular-configuration", system.layout().rows[static_cast<std::size_t>(first)].owner->at,
+  for (const std::int32_t r : gained->rows) rows.push_back(system.row_text(r));
+  out.warning("singular-configuration", system.layout().rows[static_cast<std::size_t>(gained->rows.front())].owner->at,
               fmt::format("the configuration is singular: {} {} redundant here and not right beside it; the model has "
                           "{} more degree{} of "
                           "freedom than nearby, and modes and frequencies change abruptly",
-                          fmt::join(rows, ", "), rows.size() == 1 ? "is" : "are", here.size() - there.size(),
-                          here.size() - there.size() == 1 ? "" : "s"));
+                          fmt::join(rows, ", "), rows.size() == 1 ? "is" : "are", gained->count,
+                          gained->count == 1 ? "" : "s"));
 }
 
 void disproportion(const System& system, const LinearSystem& linear, Diagnostics& out) {

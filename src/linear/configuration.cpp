@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <random>
 
 #include "analysis/acceleration_rounding.h"
+#include "analysis/displace.h"
+#include "system/elimination.h"
 #include "system/sparse_lu.h"
 
 namespace dynalin {
@@ -122,6 +126,77 @@ Eigen::MatrixXd rounding_of_velocities(const System& system, const OperatingPoin
     worst = worst.cwiseMax((other->A - linear.A).cwiseAbs());
   }
   return margin * worst;
+}
+
+namespace {
+
+// A thousandth of the model away along the chosen coordinates, in different shares so that no symmetry survives.
+std::optional<OperatingPoint> nearby(const System& system, const OperatingPoint& op, const LinearSystem& linear) {
+  Eigen::VectorXcd direction = Eigen::VectorXcd::Zero(linear.A.rows());
+  double share = 1;
+  for (std::size_t k = 0; k < linear.kinematic_states; ++k) {
+    if (linear.model.states[k].is_rate) continue;
+    if (const double size = linear.reach[k].size; size > 0) direction(static_cast<Eigen::Index>(k)) = share / size;
+    share *= -std::numbers::phi / 2;
+  }
+  const Eigen::VectorXd step = linear.displacements(direction).col(0).real();
+  constexpr double distance = 1e-3;
+  OperatingPoint there = op;
+  displace(system, there, distance * step, {1.0});
+  Findings ignored;
+  auto assembled = assemble_position(system, std::move(there), ignored);
+  if (!assembled) return std::nullopt;
+  return std::move(*assembled);
+}
+
+// Rows that depend on others to this part of their size.
+std::vector<std::int32_t> redundant_rows(const System& system, const OperatingPoint& op, double tolerance) {
+  ConstraintRows rows;
+  rows.resize(system.layout());
+  const Motion motion = system.motion(op);
+  system.constraints(motion, rows);
+  std::vector<SparseRow> scaled(static_cast<std::size_t>(rows.size()));
+  for (std::int32_t k = 0; k < rows.size(); ++k) {
+    if (rows.level(k) == RowLevel::position) scaled[static_cast<std::size_t>(k)] = scaled_row(system, rows.row(k));
+  }
+  const std::vector<std::int32_t> order(system.preference().rbegin(), system.preference().rend());
+  EliminationOptions options;
+  options.rank_tolerance = tolerance;
+  const Elimination e = eliminate(std::move(scaled), system.layout().coordinate_count, order, options);
+  std::vector<std::int32_t> redundant;
+  for (std::int32_t k = 0; k < rows.size(); ++k) {
+    if (rows.level(k) == RowLevel::position && e.pivot_column[static_cast<std::size_t>(k)] < 0) redundant.push_back(k);
+  }
+  return redundant;
+}
+
+}  // namespace
+
+double distance_from_dependence(const System& system, const OperatingPoint& op) {
+  // Poses are rounded: what depends on others to within that does so for all anybody can tell.
+  constexpr double rounding = 1e-13;
+  double tolerance = EliminationOptions{}.rank_tolerance;
+  const std::size_t dropped = redundant_rows(system, op, tolerance).size();
+  if (dropped == 0 || redundant_rows(system, op, rounding).size() == dropped) return 0;
+  while (redundant_rows(system, op, tolerance / 10).size() == dropped) tolerance /= 10;
+  return tolerance;
+}
+
+std::optional<FreedomsGained> freedoms_gained(const System& system, const OperatingPoint& op,
+                                              const LinearSystem& linear) {
+  constexpr double tolerance = EliminationOptions{}.rank_tolerance;
+  const auto here = redundant_rows(system, op, tolerance);
+  if (here.empty() || linear.kinematic_states == 0) return std::nullopt;
+  const auto beside = nearby(system, op, linear);
+  if (!beside) return std::nullopt;
+  const auto there = redundant_rows(system, *beside, tolerance);
+  if (there.size() >= here.size()) return std::nullopt;
+  FreedomsGained gained;
+  gained.count = here.size() - there.size();
+  for (const std::int32_t r : here) {
+    if (std::find(there.begin(), there.end(), r) == there.end()) gained.rows.push_back(r);
+  }
+  return gained;
 }
 
 }  // namespace dynalin

@@ -2,7 +2,9 @@
 // there.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,17 @@ NearSingularity near_singularity(const System&, const ConstraintRows&, const Sta
 // The largest entry against that of the state matrix, lengths of the model, radians and the fastest rate of model and
 // motion taken as units.
 double relative_size(const System&, const OperatingPoint&, const LinearSystem&, const Eigen::MatrixXd& of_matrix);
+
+// Degrees of freedom that the model has at the point and not a thousandth of its length beside it, as constraint rows
+// depend on others here alone. Rows that do so everywhere are redundant and no reason for any.
+struct FreedomsGained {
+  std::size_t count = 0;
+  std::vector<std::int32_t> rows;
+};
+std::optional<FreedomsGained> freedoms_gained(const System&, const OperatingPoint&, const LinearSystem&);
+// A power of ten that the constraint rows left out as redundant are at most away from depending on the others,
+// relative to their own size; zero where there are none or only rounding tells them from it.
+double distance_from_dependence(const System&, const OperatingPoint&);
 
 // How far the entries of the state matrix follow when velocities change by a unit in the last place, and accelerations
 // and reactions with them; poses are what they are. Infinite where a point that near has no such model, empty where the

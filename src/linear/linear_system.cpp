@@ -133,6 +133,12 @@ std::string names_of(const NearSingularity& near) {
   return fmt::format("{}{}", fmt::join(first, ", "), near.rows.size() > most ? " and others" : "");
 }
 
+std::string names_of(const System& system, const std::vector<std::int32_t>& rows) {
+  NearSingularity named;
+  for (const std::int32_t r : rows) named.rows.push_back(system.row_text(r));
+  return names_of(named);
+}
+
 // The linear model must not depend on what is not known of the motion of freedoms without mass.
 bool same_model(const LinearSystem& one, const LinearSystem& other) {
   constexpr double rounding = 1e-9;
@@ -171,6 +177,18 @@ Result<LinearSystem> linearize(const System& system, OperatingPoint op, const Li
     }
   }
   op.mode = AnalysisMode::linear;
+  if (const double distance = distance_from_dependence(system, op); distance > 0) {
+    if (const auto gained = freedoms_gained(system, op, *linear)) {
+      return tl::unexpected(Failure{
+          "linear analysis",
+          fmt::format(
+              "the configuration is too near a singular one: {} all but depend{} on other constraints (relative "
+              "distance below {:.0e}) and would leave {} more degree{} of freedom than right beside this point",
+              names_of(system, gained->rows), gained->rows.size() == 1 ? "s" : "", distance, gained->count,
+              gained->count == 1 ? "" : "s"),
+          {}});
+    }
+  }
   const Matrix of_velocities = rounding_of_velocities(system, op, *linear, at);
   if (of_velocities.size() == 0) return linear;
   linear->uncertainty += of_velocities;

@@ -65,6 +65,34 @@ TEST_F(NearSingular, parallelograms_near_the_flat_position) {
   }
 }
 
+// Where a row is left out as dependent that is none right beside the point, the model would have a freedom too many.
+TEST_F(NearSingular, parallelograms_that_would_gain_a_freedom_are_refused_with_the_row_and_the_distance) {
+  for (const double angle : {3e-10, 1e-11, 4e-13}) {
+    const RunResult r = run(parallelogram(angle, 0, 28), "LINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 2) << angle;
+    std::smatch stated;
+    ASSERT_TRUE(std::regex_search(
+        r.err, stated,
+        std::regex(R"(in JOINT/\d+ .*all but depend.*relative distance below ([0-9.e+-]+).*1 more degree of freedom)")))
+        << r.err;
+    EXPECT_GE(std::stod(stated[1]), angle / 10);
+    EXPECT_LE(std::stod(stated[1]), 100 * angle);
+  }
+  // A third rocker makes rows redundant everywhere, drawn as exactly as numbers are or not.
+  for (const double off : {0.0, 1e-11}) {
+    std::string text = parallelogram(0.7, 0, 28);
+    text.insert(text.find("JOINT/1"), "MARKER/3, PART=1, QP=1,0,0\nMARKER/33, PART=3, QP=1,0,0\n");
+    text.insert(text.find("JOINT/1"),
+                fmt::format("PART/5, MASS=1, CM=50, IP=1,1,1, QG={:.17g},0,0, REULER=0.7,0,0\nMARKER/50, "
+                            "QP=0.5,0,0\nMARKER/51\nMARKER/52, QP=1,0,0\n",
+                            1 + off));
+    text.insert(text.find("SPRINGDAMPER"), "JOINT/5, REVOLUTE, I=51, J=3\nJOINT/6, REVOLUTE, I=52, J=33\n");
+    const RunResult r = run(text, "LINEAR/EIGENSOL\n");
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_EQ(r.eigenvalues(0).size(), 2u);
+  }
+}
+
 // Crank of length 1 with inertia 2 about its hinge, rod of length 3 with its mass 1 and inertia 1/2 at the wrist pin,
 // slider of mass 2, a spring of stiffness 7 on the crank that is free at `free_angle`.
 std::string slider_crank(const Real& angle, double speed, double free_angle) {
