@@ -19,6 +19,23 @@ RoundoffScales::RoundoffScales(const Layout& layout, const Motion& motion)
   }
 }
 
+// work(for_entries) for the columns of each vector, which have the same rows but for those that elements leave out;
+// for_entries(visit) calls visit(entry, block) for what stands there.
+template <class Work>
+void RoundoffScales::for_blocks(const ColumnMatrix& m, bool by_coordinates, Work&& work) const {
+  for (std::int32_t c = 0; c < m.columns;) {
+    std::int32_t end = c + 1;
+    while (by_coordinates && end < m.columns && group(end) == group(c)) ++end;
+    work([&](auto&& visit) {
+      for (std::int32_t k = m.start[static_cast<std::size_t>(c)]; k < m.start[static_cast<std::size_t>(end)]; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        visit(at, static_cast<std::size_t>(group(m.row[at])));
+      }
+    });
+    c = end;
+  }
+}
+
 ColumnMatrix RoundoffScales::of(const Equations& eq, PartialBy family) const {
   ColumnMatrix m = eq.matrix(family);
   const std::span<const double> sizes = eq.sizes(family);
@@ -42,23 +59,13 @@ ColumnMatrix RoundoffScales::of(const Equations& eq, PartialBy family) const {
       }
     }
   }
-  // Columns of one group have the same rows but for those that elements leave out; the largest of a block counts.
-  const bool by_coordinates = family <= PartialBy::acceleration;
+  // The largest of a block counts.
   std::vector<double> largest(static_cast<std::size_t>(m.rows), 0.0);
-  for (std::int32_t c = 0; c < m.columns;) {
-    std::int32_t end = c + 1;
-    while (by_coordinates && end < m.columns && group(end) == group(c)) ++end;
-    const auto for_block = [&](auto&& visit) {
-      for (std::int32_t k = m.start[static_cast<std::size_t>(c)]; k < m.start[static_cast<std::size_t>(end)]; ++k) {
-        const auto at = static_cast<std::size_t>(k);
-        visit(m.value[at], largest[static_cast<std::size_t>(group(m.row[at]))]);
-      }
-    };
-    for_block([](double size, double& most) { most = std::max(most, size); });
-    for_block([](double& size, double& most) { size = most; });
-    for_block([](double, double& most) { most = 0; });
-    c = end;
-  }
+  for_blocks(m, family <= PartialBy::acceleration, [&](auto&& for_entries) {
+    for_entries([&](std::size_t k, std::size_t block) { largest[block] = std::max(largest[block], m.value[k]); });
+    for_entries([&](std::size_t k, std::size_t block) { m.value[k] = largest[block]; });
+    for_entries([&](std::size_t, std::size_t block) { largest[block] = 0; });
+  });
   return m;
 }
 
@@ -72,28 +79,19 @@ ColumnMatrix RoundoffScales::roundings(const Equations& eq, PartialBy family, Co
     bool exact = true;
   };
   std::vector<Block> blocks(static_cast<std::size_t>(m.rows));
-  for (std::int32_t c = 0; c < m.columns;) {
-    std::int32_t end = c + 1;
-    while (by_coordinates && end < m.columns && group(end) == group(c)) ++end;
-    const auto for_block = [&](auto&& visit) {
-      for (std::int32_t k = m.start[static_cast<std::size_t>(c)]; k < m.start[static_cast<std::size_t>(end)]; ++k) {
-        const auto at = static_cast<std::size_t>(k);
-        visit(at, blocks[static_cast<std::size_t>(group(m.row[at]))]);
-      }
-    };
-    for_block([&](std::size_t k, Block& b) { b.largest = std::max(b.largest, own[k]); });
-    for_block([&](std::size_t k, Block& b) {
+  for_blocks(m, by_coordinates, [&](auto&& for_entries) {
+    for_entries([&](std::size_t k, std::size_t at) { blocks[at].largest = std::max(blocks[at].largest, own[k]); });
+    for_entries([&](std::size_t k, std::size_t at) {
       // Sums that cancel, and inertia that passes on what turns, have larger sizes than the entries.
-      if (own[k] > std::abs(m.value[k]) || sizes.value[k] > b.largest || !is_short(m.value[k], b.largest))
-        b.exact = false;
+      const bool single = own[k] <= std::abs(m.value[k]) && sizes.value[k] <= blocks[at].largest;
+      if (!single || !is_short(m.value[k], blocks[at].largest)) blocks[at].exact = false;
     });
-    for_block([&](std::size_t k, Block& b) {
+    for_entries([&](std::size_t k, std::size_t at) {
       const bool measured = by_coordinates || family == PartialBy::lambda || m.row[k] < coordinates;
-      sizes.value[k] *= b.exact ? 0.0 : measured ? along_axes : as_read;
+      sizes.value[k] *= blocks[at].exact ? 0.0 : measured ? along_axes : as_read;
     });
-    for_block([](std::size_t, Block& b) { b = {}; });
-    c = end;
-  }
+    for_entries([&](std::size_t, std::size_t at) { blocks[at] = {}; });
+  });
   return sizes;
 }
 

@@ -78,6 +78,8 @@ class RoundoffScales {
     const double digits = std::ldexp(v, 26 - exponent);
     return digits == std::trunc(digits);
   }
+  template <class Work>
+  void for_blocks(const ColumnMatrix&, bool by_coordinates, Work&&) const;
   // Rows and columns of one vector of a body have the same; all others stand alone.
   std::int32_t group(std::int32_t k) const {
     const auto at = static_cast<std::size_t>(k);
