@@ -163,15 +163,18 @@ PerturbationEquations::Roundings PerturbationEquations::roundings(const Matrix& 
       if (any[static_cast<std::size_t>(r)]) rounded.push_back(r);
     }
   }
-  const Matrix adjoint_of_sums = adjoint.bottomRows(rows), adjoint_of_rounded = adjoint(rounded, Eigen::all);
+  const Matrix adjoint_of_sums = adjoint.bottomRows(rows),
+               adjoint_of_rounded = adjoint(rounded, Eigen::all).cwiseAbs2();
   adjoint.resize(0, 0);
   Matrix total(states_, states_), of_coefficients(states_, states_);
+  ColumnMatrix squares = roundings_;
+  for (double& v : squares.value) v *= v;
   const Eigen::Index summed = whole_ ? 3 * n_ : 2 * n_;  // differentiated balances are sums of accelerations as well
   for_column_blocks(states_, [&](Eigen::Index first, Eigen::Index count) {
     Matrix parts = Matrix::Zero(unknowns(), count), sums = parts;
     parts.topRows(algebraic_) = a.block(0, first, algebraic_, count).cwiseAbs();
     parts.bottomRows(states_).middleRows(first, count).setIdentity();
-    multiply_add(roundings_, parts, sums, 1.0);
+    multiply_add(squares, parts.cwiseAbs2(), sums, 1.0);
     of_coefficients.middleCols(first, count) =
         transposed_product(adjoint_of_rounded, sums(rounded, Eigen::all).eval()) + sums.bottomRows(states_);
     parts.middleRows(summed, algebraic_ - summed).setZero();
@@ -181,7 +184,7 @@ PerturbationEquations::Roundings PerturbationEquations::roundings(const Matrix& 
         transposed_product(adjoint_of_sums, sums.middleRows(first_row, rows).eval()) + sums.bottomRows(states_);
   });
   constexpr double unit = std::numeric_limits<double>::epsilon();
-  return {units_of_rounding * unit * total, unit / 2 * of_coefficients};
+  return {units_of_rounding * unit * total, unit / 2 * of_coefficients.cwiseSqrt()};
 }
 
 }  // namespace dynalin

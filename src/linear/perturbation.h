@@ -62,8 +62,9 @@ class PerturbationEquations {
   // Roundings that the entries of A may carry, element by element: Σ|y||r| over the very sums that make them, in so
   // many units of the last place.
   static constexpr double units_of_rounding = 16;
-  // The same of what computing the coefficients of the equations has left of them: Σ|y|·(rounding of the
-  // coefficient)·|a| over all of them.
+  // What computing the coefficients of the equations has left of them, √Σ(y·(rounding of the coefficient)·a)²: each may
+  // be off by all that its longest way makes (roundoff_scales.h), several times what it is in the mean, and they are
+  // off to all sides. Where a single one decides, near singular configurations, that is its own.
   struct Roundings {
     Eigen::MatrixXd of_sums, of_coefficients;
   };

@@ -5,7 +5,11 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_complex.hpp>
 #include <boost/multiprecision/eigen.hpp>
+#include <cmath>
 #include <complex>
+#include <functional>
+#include <limits>
+#include <random>
 #include <vector>
 
 #include "linear/perturbation.h"
@@ -14,21 +18,23 @@ namespace dynalin::precision {
 
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
 
-// For eigenvalues of which even that leaves nothing: of a block of two that is all but defective rounding takes the root.
+// For eigenvalues of which even that leaves nothing: of a block of two that is all but defective rounding takes the
+// root.
 using Finer = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<110>, boost::multiprecision::et_off>;
 
 struct Value {
   Real re, im;
 };
 
-// Solves F a = −G by elimination with row pivoting; rows that are zero in a column cost nothing.
-template <class Number = Real>
-Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> state_matrix(const PerturbationEquations& p) {
+// Solves F a = −G by elimination with row pivoting; rows that are zero in a column cost nothing. The coefficients of
+// the equations go through `as` first.
+template <class Number = Real, class As = std::identity>
+Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> state_matrix(const PerturbationEquations& p, As&& as = {}) {
   using Dense = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>;
   const ColumnMatrix& S = p.pencil();
   const Eigen::Index N = p.unknowns(), n = p.states(), m = N - n;
   Dense M = Dense::Zero(N, N);
-  for_each_entry(S, [&](std::int32_t r, std::int32_t c, double v) { M(r, c) += Number(v); });
+  for_each_entry(S, [&](std::int32_t r, std::int32_t c, double v) { M(r, c) += Number(as(v)); });
   std::vector<Eigen::Index> used;
   for (Eigen::Index c = 0; c < m; ++c) {
     Eigen::Index pivot = c;
@@ -61,6 +67,26 @@ std::vector<Value> eigenvalues(const PerturbationEquations& p) {
   for (Eigen::Index k = 0; k < solver.eigenvalues().size(); ++k) {
     values.push_back({Real(solver.eigenvalues()(k).real()), Real(solver.eigenvalues()(k).imag())});
   }
+  return values;
+}
+
+// Eigenvalues of the equations with every coefficient somewhere within half a unit of its last digit, as all are that a
+// computation has rounded once; those with few digits are exact. In extended precision: the differences to the
+// eigenvalues of the coefficients as they stand are some units of double precision and more.
+inline std::vector<Value> eigenvalues_within_rounding(const PerturbationEquations& p, std::mt19937_64& random) {
+  const auto drawn = [&](double v) {
+    int exponent = 0;
+    const double digits = std::ldexp(std::frexp(v, &exponent), 26);
+    if (digits == std::trunc(digits)) return Real(v);
+    std::uniform_real_distribution<double> part(-1, 1);
+    return Real(v) * (1 + Real(part(random)) * std::numeric_limits<double>::epsilon() / 2);
+  };
+  using Dense = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  const Dense A = state_matrix<Real>(p, drawn).unaryExpr([](const Real& x) { return x.convert_to<long double>(); });
+  const Eigen::EigenSolver<Dense> solver(A, false);
+  std::vector<Value> values;
+  if (solver.info() != Eigen::Success) return values;
+  for (const std::complex<long double>& v : solver.eigenvalues()) values.push_back({Real(v.real()), Real(v.imag())});
   return values;
 }
 
