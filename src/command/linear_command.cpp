@@ -333,7 +333,8 @@ std::optional<LinearCommand> read_linear(ElementReader& reader) {
   const bool read = detail::read_rows(
       rows().infos, rows().names, reader,
       [&](std::size_t k, const WrittenArgument& written) { return rows().read(k, w, written, reader); });
-  if (read) Rules(w, reader).check();
+  if (!read) return std::nullopt;  // reported, maybe when the text was read
+  Rules(w, reader).check();
   if (reader.diagnostics().error_count() > before) return std::nullopt;
 
   LinearCommand c;

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "command/command_catalogue.h"
+#include "command/command_reader.h"
 #include "command/commands.h"
 #include "command/commands/linear.h"
 #include "study/modal_tables.h"
@@ -66,6 +68,21 @@ TEST(LinearTables, of_some_kinds_are_asked_for_by_frequency) {
     EXPECT_THAT(codes_of("EIGENSOL, " + by_frequency + "=0.5,9, " + name + "=1"), Contains("excluded-arguments"));
     EXPECT_THAT(codes_of("EIGENSOL, NOVECTOR, " + by_frequency + "=0.5,9"), Contains("excluded-arguments"));
     EXPECT_THAT(codes_of("MKB, FILE=a, " + by_frequency + "=0.5,9"), Contains("wrong-option")) << name;
+  }
+}
+
+// What could not be read was reported then; nothing is made of the rest, whose rules nobody has looked at.
+TEST(LinearTables, of_a_command_that_was_not_read_whole_ask_for_nothing) {
+  for (const char* written : {"EIGENSOL, FSTRAIN==1", "EIGENSOL, COORDS==", "STATEMAT==, FSTRAIN=1"}) {
+    const SourceRef source = std::make_shared<const SourceText>("line", std::string("LINEAR/") + written + "\n");
+    const Parsed<Dataset> parsed = parse_statements(source, command_names());
+    ASSERT_TRUE(parsed.value.statements.front().damaged) << written;
+    Diagnostics diagnostics;
+    const Statement& statement = parsed.value.statements.front();
+    const ElementLabel label{statement.name, 0, "", statement.at};
+    CommandFile file;
+    CommandReader reader(statement, *source, diagnostics, label, file);
+    EXPECT_FALSE(read_linear(reader)) << written;
   }
 }
 
