@@ -30,6 +30,7 @@ struct Value {
 // the equations go through `as` first.
 template <class Number = Real, class As = std::identity>
 Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> state_matrix(const PerturbationEquations& p, As&& as = {}) {
+  using std::abs;
   using Dense = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>;
   const ColumnMatrix& S = p.pencil();
   const Eigen::Index N = p.unknowns(), n = p.states(), m = N - n;
@@ -77,13 +78,12 @@ inline std::vector<Value> eigenvalues_within_rounding(const PerturbationEquation
   const auto drawn = [&](double v) {
     int exponent = 0;
     const double digits = std::ldexp(std::frexp(v, &exponent), 26);
-    if (digits == std::trunc(digits)) return Real(v);
+    if (digits == std::trunc(digits)) return static_cast<long double>(v);
     std::uniform_real_distribution<double> part(-1, 1);
-    return Real(v) * (1 + Real(part(random)) * std::numeric_limits<double>::epsilon() / 2);
+    return v * (1.0L + part(random) * std::numeric_limits<double>::epsilon() / 2);
   };
   using Dense = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-  const Dense A = state_matrix<Real>(p, drawn).unaryExpr([](const Real& x) { return x.convert_to<long double>(); });
-  const Eigen::EigenSolver<Dense> solver(A, false);
+  const Eigen::EigenSolver<Dense> solver(state_matrix<long double>(p, drawn), false);
   std::vector<Value> values;
   if (solver.info() != Eigen::Success) return values;
   for (const std::complex<long double>& v : solver.eigenvalues()) values.push_back({Real(v.real()), Real(v.imag())});
