@@ -27,6 +27,14 @@ void singular_configuration(const System& system, const OperatingPoint& op, cons
                           gained->count == 1 ? "" : "s"));
 }
 
+void empty_rows(const System& system, const OperatingPoint& op, Diagnostics& out) {
+  for (const std::int32_t r : rows_that_hold_nothing(system, op)) {
+    out.warning("empty-constraint", system.layout().rows[static_cast<std::size_t>(r)].owner->at,
+                fmt::format("{} holds nothing here: no small motion changes it, and what it is to hold moves freely",
+                            system.row_text(r)));
+  }
+}
+
 void disproportion(const System& system, const LinearSystem& linear, Diagnostics& out) {
   constexpr double far = 1e5;
   double largest = far;
@@ -104,6 +112,7 @@ Diagnostics cautions(const System& system, const OperatingPoint& op, const Linea
                      const EigenSolution& modes) {
   Diagnostics out;
   singular_configuration(system, op, linear, out);
+  empty_rows(system, op, out);
   disproportion(system, linear, out);
   motion(system, op, modes, out);
   overdamping(system, linear, modes, out);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -172,14 +173,32 @@ std::vector<std::int32_t> redundant_rows(const System& system, const OperatingPo
 
 }  // namespace
 
-double distance_from_dependence(const System& system, const OperatingPoint& op) {
+NearDependence near_dependence(const System& system, const OperatingPoint& op) {
   // Poses are rounded: what depends on others to within that does so for all anybody can tell.
   constexpr double rounding = 1e-13;
+  NearDependence near;
   double tolerance = EliminationOptions{}.rank_tolerance;
-  const std::size_t dropped = redundant_rows(system, op, tolerance).size();
-  if (dropped == 0 || redundant_rows(system, op, rounding).size() == dropped) return 0;
-  while (redundant_rows(system, op, tolerance / 10).size() == dropped) tolerance /= 10;
-  return tolerance;
+  const std::vector<std::int32_t> dropped = redundant_rows(system, op, tolerance);
+  if (dropped.empty()) return near;
+  const std::vector<std::int32_t> always = redundant_rows(system, op, rounding);
+  if (always.size() == dropped.size()) return near;
+  std::ranges::set_difference(dropped, always, std::back_inserter(near.rows));
+  while (redundant_rows(system, op, tolerance / 10).size() == dropped.size()) tolerance /= 10;
+  near.distance = tolerance;
+  return near;
+}
+
+std::vector<std::int32_t> rows_that_hold_nothing(const System& system, const OperatingPoint& op) {
+  ConstraintRows rows;
+  rows.resize(system.layout());
+  system.constraints(system.motion(op), rows);
+  std::vector<std::int32_t> found;
+  for (std::int32_t k = 0; k < rows.size(); ++k) {
+    const auto row = rows.row(k);
+    if (!row.empty() && std::ranges::all_of(row, [](const auto& e) { return e.c.g == 0 && e.c.v == 0 && e.c.a0 == 0; }))
+      found.push_back(k);
+  }
+  return found;
 }
 
 std::optional<FreedomsGained> freedoms_gained(const System& system, const OperatingPoint& op,

@@ -28,9 +28,15 @@ struct FreedomsGained {
   std::vector<std::int32_t> rows;
 };
 std::optional<FreedomsGained> freedoms_gained(const System&, const OperatingPoint&, const LinearSystem&);
-// A power of ten that the constraint rows left out as redundant are at most away from depending on the others,
-// relative to their own size; zero where there are none or only rounding tells them from it.
-double distance_from_dependence(const System&, const OperatingPoint&);
+// Constraint rows left out as redundant that depend on the others, and not only by rounding, up to a part of their own
+// size: a power of ten that they are at most away from it, zero where there are none.
+struct NearDependence {
+  double distance = 0;
+  std::vector<std::int32_t> rows;
+};
+NearDependence near_dependence(const System&, const OperatingPoint&);
+// Constraint rows that no motion changes to first order, neither here nor beside the point: they hold nothing.
+std::vector<std::int32_t> rows_that_hold_nothing(const System&, const OperatingPoint&);
 
 // How far the entries of the state matrix follow when velocities change by a unit in the last place, and accelerations
 // and reactions with them; poses are what they are. Infinite where a point that near has no such model, empty where the

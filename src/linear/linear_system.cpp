@@ -177,17 +177,23 @@ Result<LinearSystem> linearize(const System& system, OperatingPoint op, const Li
     }
   }
   op.mode = AnalysisMode::linear;
-  if (const double distance = distance_from_dependence(system, op); distance > 0) {
+  if (const NearDependence near = near_dependence(system, op); near.distance > 0) {
     if (const auto gained = freedoms_gained(system, op, *linear)) {
       return tl::unexpected(Failure{
           "linear analysis",
           fmt::format(
               "the configuration is too near a singular one: {} all but depend{} on other constraints (relative "
               "distance below {:.0e}) and would leave {} more degree{} of freedom than right beside this point",
-              names_of(system, gained->rows), gained->rows.size() == 1 ? "s" : "", distance, gained->count,
+              names_of(system, gained->rows), gained->rows.size() == 1 ? "s" : "", near.distance, gained->count,
               gained->count == 1 ? "" : "s"),
           {}});
     }
+    linear->warnings.warning(
+        "nearly-redundant", system.layout().rows[static_cast<std::size_t>(near.rows.front())].owner->at,
+        fmt::format(
+            "{} depend{} on other constraints but for less than {:.0e} of {} size, and {} left out as redundant",
+            names_of(system, near.rows), near.rows.size() == 1 ? "s" : "", near.distance,
+            near.rows.size() == 1 ? "its" : "their", near.rows.size() == 1 ? "is" : "are"));
   }
   const Matrix of_velocities = rounding_of_velocities(system, op, *linear, at);
   if (of_velocities.size() == 0) return linear;

@@ -93,6 +93,60 @@ TEST_F(NearSingular, parallelograms_that_would_gain_a_freedom_are_refused_with_t
   }
 }
 
+// Shafts of inertia 2 and 3 on springs 5 and 7, the second `bend` away from being in line with the first.
+std::string constant_velocity(double bend, double turn, double speed) {
+  const auto along = [&](double about) {
+    return fmt::format("{:.17g},{:.17g},{:.17g}", std::numbers::pi / 2, std::numbers::pi - bend,
+                       about - std::numbers::pi / 2);
+  };
+  return fmt::format(R"(Shafts
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+MARKER/1
+MARKER/2, REULER={0}
+PART/2, MASS=1, CM=20, IP=1,1,2, WZ={2:.17g}
+MARKER/20
+MARKER/21, REULER={3:.17g},0,0
+PART/3, MASS=1, CM=30, IP=3,3,3, WZ={2:.17g}
+MARKER/30, REULER={0}
+MARKER/31, REULER={1}
+JOINT/1, REVOLUTE, I=20, J=1
+JOINT/2, REVOLUTE, I=30, J=2
+JOINT/3, CONVEL, I=21, J=31
+SPRINGDAMPER/1, ROTATIONAL, I=20, J=1, KT=5, CT=0, ANGLE=0
+SPRINGDAMPER/2, ROTATIONAL, I=30, J=2, KT=7, CT=0, ANGLE=0
+END
+)",
+                     along(0), along(turn), speed, turn);
+}
+
+TEST_F(NearSingular, constant_velocity_joints_with_their_shafts_nearly_in_line) {
+  for (int k = 1; k <= 8; ++k) {
+    for (const double turn : {0.0, 0.4}) {
+      for (const double speed : {0.0, 50.0}) {
+        const std::string dataset = constant_velocity(std::pow(10.0, -k), turn, speed);
+        EXPECT_TRUE(examine(dataset, 0, -12.0 / 5, 1e-12)) << k << ' ' << turn << ' ' << speed;
+      }
+    }
+  }
+  // Nearer than that the equation counts as redundant, and in line there is none.
+  for (const double bend : {1e-9, 1e-11}) {
+    const RunResult r = run(constant_velocity(bend, 0.4, 50), "LINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.eigenvalues(0).size(), 4u) << bend;
+    EXPECT_NE(r.err.find("JOINT/3 depends on other constraints but for less than"), std::string::npos) << r.err;
+  }
+  const RunResult r = run(constant_velocity(std::numbers::pi, 0.4, 0), "LINEAR/EIGENSOL\n");
+  EXPECT_EQ(r.eigenvalues(0).size(), 2u);
+  std::string in_line = constant_velocity(0, 0.4, 50);
+  for (const std::string_view name : {"MARKER/2,", "MARKER/30,", "MARKER/31,"}) {
+    const std::size_t at = in_line.find(name);
+    in_line.replace(at, in_line.find('\n', at) - at, std::string(name) + " REULER=0,180D,0");
+  }
+  const RunResult free = run(in_line, "LINEAR/EIGENSOL\n");
+  EXPECT_EQ(free.eigenvalues(0).size(), 4u);
+  EXPECT_NE(free.err.find("Xi.Yj-Yi.Xj in JOINT/3 holds nothing here"), std::string::npos) << free.err;
+}
+
 // Crank of length 1 with inertia 2 about its hinge, rod of length 3 with its mass 1 and inertia 1/2 at the wrist pin,
 // slider of mass 2, a spring of stiffness 7 on the crank that is free at `free_angle`.
 std::string slider_crank(const Real& angle, double speed, double free_angle) {

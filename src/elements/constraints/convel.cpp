@@ -20,7 +20,10 @@ struct Convel {
 
   template <class T>
   static std::array<T, 4> rows(const RelativeFrame<T>& I) {
-    return {I.p.x, I.p.y, I.p.z, I.x.y - I.y.x};
+    // The two forms of the last row are one for turned axes, and each keeps its digits where the other cancels: shafts
+    // in line have z axes that point away from each other, and of the difference nothing is left there.
+    const bool in_line = value_of(I.z.z) < 0;
+    return {I.p.x, I.p.y, I.p.z, in_line ? (I.z.x * I.y.z - I.z.y * I.x.z) / (1.0 - I.z.z) : I.x.y - I.y.x};
   }
 };
 
