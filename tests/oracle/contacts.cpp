@@ -89,7 +89,7 @@ Trihedron<T> trihedron(const CurveShape& curve, const T& u, const View& carrier)
 }
 
 Vector3<Jet> differentiated(const Vector3<Jet>& v) {
-  return {{v.x.d, v.x.dd, unknown}, {v.y.d, v.y.dd, unknown}, {v.z.d, v.z.dd, unknown}};
+  return {{v.x.d, v.x.dd, unknown()}, {v.y.d, v.y.dd, unknown()}, {v.z.d, v.z.dd, unknown()}};
 }
 
 }  // namespace

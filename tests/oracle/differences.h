@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "small_algebra.h"
+#include "jet.h"
 
 namespace dynalin::oracle {
 
@@ -28,7 +28,7 @@ template <class F>
     const std::vector<Real> back = f(-step);
     for (std::size_t i = 0; i < d.size(); ++i) {
       d[i] = (d[i] - back[i]) / (2 * step);
-      if (!std::isfinite(d[i])) throw std::runtime_error("a function has no value nearby");
+      if (!is_known(d[i])) throw std::runtime_error("a function has no value nearby");
     }
     T[level].push_back(d);
     for (std::size_t m = 1; m <= level; ++m) {

@@ -23,7 +23,7 @@ Real Evaluator<Real>::without_rate(Real value) {
 }
 template <>
 Jet Evaluator<Jet>::without_rate(Real value) {
-  return {value, unknown, unknown};
+  return {value, unknown(), unknown()};
 }
 
 template <>
@@ -43,7 +43,7 @@ Evaluator<Jet>::View Evaluator<Jet>::view(int id) const {
     return contact_view(static_cast<std::size_t>(model_.marker_data_[k].contact), model_.marker_data_[k].on_i);
   }
   const MarkerMotion& m = model_.markers_[k];
-  const Vec no{}, dark{unknown, unknown, unknown};
+  const Vec no{}, dark{unknown(), unknown(), unknown()};
   View out;
   if (variation_ == nullptr) {
     out = {jets(m.p, m.v, m.a),   jets(m.v, m.a, dark),   jets(m.a, dark, dark),
@@ -90,7 +90,7 @@ Real Evaluator<Real>::state(int id) const {
 template <>
 Jet Evaluator<Jet>::state(int id) const {
   const std::size_t k = model_.diff_index_.at(id);
-  return {model_.diff_value(k), model_.diff_rate(k), unknown};
+  return {model_.diff_value(k), model_.diff_rate(k), unknown()};
 }
 
 template <class T>

@@ -1,15 +1,22 @@
-// A value with its first and second derivative along one parameter: time along the motion, or a variation. What is not
-// known stands as NaN and spoils only what depends on it.
+// A value with its first and second derivative along one parameter: time along the motion, or a variation.
 #pragma once
 
 #include <cmath>
-#include <limits>
 
 #include "small_algebra.h"
 
 namespace dynalin::oracle {
 
-constexpr Real unknown = std::numeric_limits<Real>::quiet_NaN();
+// A derivative that is not known: beyond all that occurs, so that it spoils what depends on it, and another number each
+// time, so that two of them do not cancel. It stays finite in products of a few: extended precision is many times
+// slower with NaN on common processors.
+inline Real unknown() {
+  thread_local Real share = 0;
+  share += 0.6180339887498948482L;
+  if (share >= 1) share -= 1;
+  return 1e1000L * (1 + share);
+}
+[[nodiscard]] inline bool is_known(Real x) { return std::fabs(x) < 1e500L; }
 
 struct Jet {
   Real v = 0, d = 0, dd = 0;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "small_algebra.h"
+#include "jet.h"
 
 namespace dynalin::oracle {
 
@@ -64,7 +64,7 @@ void newton(Residual&& residual, std::vector<Real>& x, const NewtonScales& scale
     const std::vector<Real> scale = group_scales(scales, x);
     Real step = 0;
     for (std::size_t k = 0; k < x.size(); ++k) step = std::max(step, std::fabs(dx[k]) / scale[k]);
-    if (!std::isfinite(step)) break;
+    if (!is_known(step)) break;
     if (step < 1e-18L) return;
     stalled = step > 0.3L * before ? stalled + 1 : 0;
     if (stalled >= 2 && step < 1e-12L) return;
