@@ -14,6 +14,11 @@ enum class IdSpace : std::uint8_t {
   property,           // PBUSH, PSHELL and PROD
   coordinate_system,  // CORD2R
   material,           // MAT1
+  set,                // SET of case control
+  dynamic_load,       // DLOAD and RLOAD1
+  static_load,        // FORCE and MOMENT
+  phase,              // DPHASE
+  table,              // TABLED1
 };
 
 class Ids {
@@ -29,7 +34,7 @@ class Ids {
  private:
   using Runs = std::map<std::int64_t, std::int64_t>;  // first of a run of taken numbers to the last of it
   static Runs::const_iterator run_with(const Runs&, std::int64_t id);
-  std::array<Runs, 5> taken_;
+  std::array<Runs, 10> taken_;
 };
 
 }  // namespace dynalin::nastran
