@@ -49,8 +49,8 @@ TEST(real_text, keeps_the_digits_that_fit_whatever_the_number) {
           ASSERT_EQ(text.find('D') != std::string::npos, exponent == Exponent::letter_D) << text;
           const double read = read_real(text);
           const int digits = std::min(15, digits_promised(x, static_cast<int>(width) - (value < 0), exponent));
-          ASSERT_LE(std::abs(read - value), 0.5 * (1 + 1e-9) * std::pow(10.0, std::floor(std::log10(x)) + 1 - digits))
-              << value << " became " << text;
+          const double half_digit = 0.5 * std::pow(10.0, std::floor(std::log10(x)) + 1 - digits);
+          ASSERT_LE(std::abs(read - value), half_digit + 4e-16 * x) << value << " became " << text;
         }
       }
     }
