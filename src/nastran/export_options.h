@@ -72,7 +72,8 @@ struct ExportOptions {
   std::string title = "ADAMS2NASTRAN Export Utility";
   std::optional<std::string> subtitle;  // the time
   std::vector<std::string> verbatim;
-  std::int64_t load = 1, mpc_set = 1, spc_set = 1, tic_set = 2, initial_dmig_set = 1;
+  std::optional<std::int64_t> load;  // written only where it is asked for: a deck has no static loads of its own
+  std::int64_t mpc_set = 1, spc_set = 1, tic_set = 2, initial_dmig_set = 1;
   bool ignore_errors = false, debug = false;
 
   // Frequency response.
