@@ -32,6 +32,8 @@ class PhysicalEquations {
   std::vector<const ElementLabel*> elements() const;
   // What one of them contributes to Q; zero for one that is not among them.
   MotionMap of(const ElementLabel&) const;
+  // What the motions make of the unknowns of a family: all coordinates of the layout, their rates (`velocity`) …
+  MotionMap of_unknowns(PartialBy family) const { return split(variation(family)); }
 
  private:
   class Assembly;
