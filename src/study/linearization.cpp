@@ -49,7 +49,7 @@ void label(Value& result, const LinearRequest& request) {
 
 }  // namespace
 
-StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest& request) {
+StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest& request, Stateless stateless) {
   const auto options = options_of(at.system->model(), request);
   if (!options) return tl::unexpected(StudyFailure(options.error()));
   // Without reconciliation LINEAR takes the static solution as it was found; any other point is consistent anyway.
@@ -57,7 +57,7 @@ StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest&
   Linearization result{at.system, as_found ? at.statics->at_rest : at.values, as_found, request, {}};
   auto linear = linearize(*at.system, result.point, *options);
   if (!linear) return tl::unexpected(StudyFailure(linear.error()));
-  if (linear->model.states.empty()) {
+  if (stateless == Stateless::refused && linear->model.states.empty()) {
     constexpr auto reason = "the model has no states: neither degrees of freedom nor differential states";
     return tl::unexpected(StudyFailure({"linear analysis", reason, {}}, std::move(linear->warnings)));
   }

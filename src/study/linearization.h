@@ -18,8 +18,11 @@ struct Linearization {
   const Diagnostics& remarks() const { return linear.warnings; }
 };
 
-// Fails where there is nothing that could move. The point must be consistent (initial_conditions).
-StudyResult<Linearization> linearized(const StudyPoint&, const LinearRequest&);
+// What comes of a model without states.
+enum class Stateless : std::uint8_t { refused, taken };
+
+// The point must be consistent (initial_conditions).
+StudyResult<Linearization> linearized(const StudyPoint&, const LinearRequest&, Stateless = Stateless::refused);
 
 struct ModesFound {
   EigenSolution solution;

@@ -1,0 +1,51 @@
+// Constraint rows of an OPENBOX, exactly as they are linearized; those that follow from others are left out.
+//
+// A joint is an RJOINT where its markers coincide and its rows hold components along the axes of J and nothing else,
+// which is seen from the rows; else each row is an MPC on the grids. Rows on velocities g q′ + v q = 0 are no relation
+// of displacements: a multiplier μ on a scalar point of its own holds each, with −gᵀ μ in the balance of forces.
+#pragma once
+
+#include <array>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "linear/perturbed_point.h"
+#include "nastran/contributions.h"
+#include "nastran/marker_grids.h"
+#include "nastran/open_points.h"
+#include "nastran/wrenches.h"
+
+namespace dynalin::nastran {
+
+class OpenConstraints {
+ public:
+  // All arguments must outlive this.
+  OpenConstraints(const System&, const PerturbedPoint&, const ExportOptions&, Ids&, Deck&, OpenPoints&, MarkerGrids&,
+                  const SingleWrenches&);
+
+  // Adds joints and relations to the deck; what rows on velocities take comes back.
+  std::vector<MatrixEntry> add();
+
+ private:
+  using Row = std::map<std::int32_t, double>;  // by unknown
+  Row at_centres(std::int32_t row) const;
+  bool add_joint(const ElementLabel&, const std::vector<Row>&);
+  void add_relation(const ElementLabel&, const Row&);
+  void add_velocity_row(std::int32_t row, std::vector<MatrixEntry>&);
+  // What a row takes of force and torque on a body at a point, along given axes.
+  std::array<double, 6> on_body(const Row&, BodyId, const Vector& at, const Matrix3& axes) const;
+  std::int64_t add_grid(const ElementLabel&, MarkerId I, const Vector& at, std::int64_t system);
+
+  const System& system_;
+  const PerturbedPoint& at_;
+  const ExportOptions& options_;
+  Ids& ids_;
+  Deck& deck_;
+  OpenPoints& points_;
+  MarkerGrids& markers_;
+  const SingleWrenches& wrenches_;
+  std::set<Dof> dependent_;  // of relations
+};
+
+}  // namespace dynalin::nastran

@@ -1,0 +1,281 @@
+#include "nastran/open_forces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "nastran/names.h"
+
+namespace dynalin::nastran {
+
+namespace {
+
+// Classes of forces that directives single out by name.
+constexpr std::array<std::string_view, 9> force_types = {"sforce", "springdamper", "bushing",  "beam",  "field",
+                                                         "vforce", "vtorque",      "friction", "gforce"};
+
+std::string upper(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return out;
+}
+
+}  // namespace
+
+OpenForces::OpenForces(const System& system, const Motion& motion, const ExportOptions& options, Ids& ids, Deck& deck,
+                       OpenPoints& points, MarkerGrids& markers, const SingleWrenches& wrenches)
+    : system_(system),
+      motion_(motion),
+      options_(options),
+      ids_(ids),
+      deck_(deck),
+      points_(points),
+      markers_(markers),
+      wrenches_(wrenches) {}
+
+// --- names of matrices -----------------------------------------------------------------------------------------------
+
+// Eight characters, of which one or, of symmetric and antisymmetric parts, two come first.
+std::size_t OpenForces::longest_suffix() const { return options_.split_dmigs ? 6 : 7; }
+
+StudyResult<void> OpenForces::take_suffix(const Editable& wanted, Diagnostics& remarks) {
+  const auto refuse = [&](std::string message) -> StudyResult<void> {
+    if (!options_.ignore_errors) return tl::unexpected(StudyFailure({"export", std::move(message), {}}));
+    remarks.warning("export-left-out", {}, message + "; the export goes on without it");
+    return {};
+  };
+  if (std::ranges::find(force_types, wanted.type) == force_types.end())
+    return refuse(fmt::format("{} is no type of force that can be singled out", wanted.type));
+  const std::string statement = upper(wanted.type);
+  const std::string name = wanted.id ? fmt::format("{}/{}", statement, *wanted.id) : wanted.name;
+  const ElementLabel* found = nullptr;
+  for (const auto& set : system_.model().sets) {
+    if (set->kind().statement != statement || !set->active) continue;
+    const auto label = std::ranges::find_if(set->labels, [&](const ElementLabel& l) {
+      return wanted.id ? l.id == *wanted.id : !l.view_name.empty() && l.view_name == wanted.name;
+    });
+    if (label != set->labels.end()) found = &*label;
+  }
+  if (!found) {
+    return refuse(wanted.id ? fmt::format("{} does not exist", name)
+                            : fmt::format("no {} has the name {}", statement, wanted.name));
+  }
+  const bool plain = !wanted.suffix.empty() && std::ranges::all_of(wanted.suffix, [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0;
+  });
+  if (!plain || wanted.suffix.size() > longest_suffix()) {
+    return refuse(fmt::format("{}: names of matrices end in up to {} letters and digits, not in \"{}\"", name,
+                              longest_suffix(), wanted.suffix));
+  }
+  for (const auto& [label, suffix] : suffix_) {
+    if (suffix == upper(wanted.suffix) && !same_element(*label, *found))
+      return refuse(fmt::format("{} and {} both have the suffix {}", label->text(), name, wanted.suffix));
+  }
+  if (taken_.contains(upper(wanted.suffix)) && !suffix_.contains(found))
+    return refuse(fmt::format("{}: other matrices have the suffix {} already", name, wanted.suffix));
+  suffix_[found] = upper(wanted.suffix);
+  taken_.insert(upper(wanted.suffix));
+  return {};
+}
+
+// The beginning of the statement and the id, or a number that nobody has.
+std::string OpenForces::automatic_suffix(const ElementLabel& label) {
+  const std::string id = std::to_string(label.id);
+  std::string suffix;
+  if (label.id >= 0 && id.size() < 6) suffix = std::string(label.statement.substr(0, 6 - id.size())) + id;
+  for (int k = 1; suffix.empty() || !taken_.insert(suffix).second; ++k) suffix = fmt::format("F{:05d}", k);
+  return suffix;
+}
+
+StudyResult<void> OpenForces::choose_suffixes(const std::vector<Contribution>& elements, Diagnostics& remarks) {
+  taken_ = {options_.forces_dmig_name, options_.differentials_dmig_name};
+  for (const Editable& e : options_.force_editable) {
+    if (auto done = take_suffix(e, remarks); !done) return done;
+  }
+  // By the labels of the contributions from here on.
+  std::map<const ElementLabel*, std::string> of_contributions;
+  std::map<std::pair<std::string_view, std::int64_t>, std::string> stated;
+  for (const auto& [label, suffix] : suffix_) stated[{label->statement, label->id}] = suffix;
+  for (const Contribution& c : elements) {
+    if (c.of != Contribution::Of::force) continue;
+    const auto found = stated.find({c.element->statement, c.element->id});
+    if (found != stated.end())
+      of_contributions[c.element] = found->second;
+    else if (options_.all_forces_editable)
+      of_contributions[c.element] = automatic_suffix(*c.element);
+  }
+  suffix_ = std::move(of_contributions);
+  return {};
+}
+
+// --- bushes ----------------------------------------------------------------------------------------------------------
+
+std::int64_t OpenForces::floating_grid(const ElementLabel& label, const Place& place) {
+  Grid g;
+  g.body = points_.body_in_deck(place.body_J);
+  g.name = fmt::format("{}, J", name_of(label, options_));
+  g.id = ids_.take(IdSpace::point, options_.use_adams_ids ? options_.marker_offset : options_.grid_offset);
+  g.position = place.J;
+  RigidElement tie;
+  tie.body = g.body, tie.name = g.name;
+  tie.id = ids_.take(IdSpace::element, options_.rbe2_offset);
+  tie.independent = points_.grid(place.body_J);
+  tie.dependent = {g.id};
+  deck_.grids.push_back(g);
+  deck_.rigid_elements.push_back(std::move(tie));
+  return g.id;
+}
+
+bool OpenForces::find_place(const ElementLabel& label, Place& place) {
+  const ReportedWrench* reported = wrenches_.of(label);
+  if (!reported) return false;
+  const WrenchSource& source = *reported->source;
+  MarkerWrench wrench;
+  source.wrench(motion_, reported->which, true, wrench);
+  const MarkerId I = source.marker_I(reported->which), J = source.marker_J(reported->which);
+  const bool J_fixed = J.valid() && !system_.model().marker(J).floating;
+  if (!I.valid() || system_.model().marker(I).floating || !wrench.force.acts_on_J()) return false;
+  if (!J_fixed && !wrench.J_follows_I) return false;
+  if (wrench.pair.shapes_I || wrench.pair.shapes_J) return false;
+  place.body_I = wrench.pair.body_I, place.body_J = wrench.pair.body_J;
+  if (place.body_I == place.body_J) return false;
+  place.I = motion_.point(system_.layout().marker(I));
+  place.J = J_fixed ? motion_.point(system_.layout().marker(J)) : place.I;
+  place.axes_origin = place.J;
+
+  const MarkerId of_axes = source.marker_of_axes(reported->which);
+  const bool known_axes = of_axes.valid() && !system_.model().marker(of_axes).floating;
+  place.along_line = wrench.force.reaction == Reaction::at_J;
+  const Vector line = place.I - place.J;
+  if (place.along_line) {
+    if (!(norm(line) > 1e-9 * system_.length())) return false;
+    const Vector x = normalized(line);
+    const Vector beside = std::abs(x.x) < 0.7 ? Vector{1, 0, 0} : Vector{0, 1, 0};
+    const Vector z = normalized(cross(x, beside));
+    place.axes = {x, cross(z, x), z};
+    CoordinateSystem s;
+    s.name = fmt::format("line of {}", name_of(label, options_));
+    s.id = place.system = ids_.take(IdSpace::coordinate_system, options_.cord2r_offset);
+    s.origin = place.J, s.axes = place.axes;
+    deck_.systems.push_back(std::move(s));
+  } else if (known_axes) {
+    place.axes = motion_.axes(system_.layout().marker(of_axes));
+    place.system = markers_.system_of(of_axes);
+  } else {
+    place.axes = Matrix3::identity();
+  }
+  place.grid_I = markers_.grid_of(I, Axes::local);
+  place.grid_J = J_fixed ? markers_.grid_of(J, Axes::local) : floating_grid(label, place);
+  return true;
+}
+
+std::array<Matrix3, 2> OpenForces::at_point(const std::vector<MatrixEntry>& entries, MatrixKind kind, BodyId body,
+                                            const Vector& at, const Matrix3& axes) const {
+  const BodyBlock& block = system_.layout().body(body);
+  Matrix3 part[2][2];  // [force, moment] by [translation, rotation], at the mass centre
+  for (const MatrixEntry& e : entries) {
+    const std::int32_t r = e.row - block.offset, c = e.column - block.offset;
+    if (e.kind != kind || r < 0 || c < 0 || r >= block.count || c >= block.count) continue;
+    part[r / 3][c / 3](static_cast<std::size_t>(r % 3), static_cast<std::size_t>(c % 3)) += e.value;
+  }
+  // With a from the mass centre to the point, δr_C = δp + a × δθ and M_p = M_C − a × F.
+  const Matrix3 a = skew(at - points_.centre(body));
+  const Matrix3 force_by_turn = part[0][0] * a + part[0][1];
+  const Matrix3 moment_by_turn = part[1][0] * a + part[1][1] - a * force_by_turn;
+  return {transpose(axes) * part[0][0] * axes, transpose(axes) * moment_by_turn * axes};
+}
+
+void OpenForces::subtract(const Place& place, MatrixKind kind, const std::array<double, 6>& diagonal,
+                          std::vector<MatrixEntry>& entries) const {
+  for (std::size_t k = 0; k < 6; ++k) {
+    if (diagonal[k] == 0.0) continue;
+    const Vector axis = place.axes[k % 3];
+    std::vector<std::pair<std::int32_t, double>> row;  // of D
+    const auto take = [&](BodyId body, double sign) {
+      const BodyBlock& block = system_.layout().body(body);
+      const Vector turn = k < 3 ? cross(place.I - points_.centre(body), axis) : axis;
+      for (std::int32_t i = 0; i < block.count; ++i) {
+        const auto c = static_cast<std::size_t>(i % 3);
+        const double v = i >= 3 ? turn[c] : k < 3 ? axis[c] : 0.0;
+        if (v != 0.0) row.emplace_back(block.offset + i, sign * v);
+      }
+    };
+    take(place.body_I, 1), take(place.body_J, -1);
+    for (const auto& [r, a] : row) {
+      for (const auto& [c, b] : row) entries.push_back({kind, r, c, -diagonal[k] * a * b});
+    }
+  }
+}
+
+void OpenForces::add_bush(const ElementLabel& label, std::vector<MatrixEntry>& entries) {
+  Place place;
+  if (!find_place(label, place)) return;
+  Bush bush;
+  bush.name = name_of(label, options_);
+  const std::int64_t id = options_.use_adams_ids ? label.id : 0;
+  bush.id = ids_.take(IdSpace::element, options_.cbush_offset + id);
+  bush.property = ids_.take(IdSpace::property, options_.pbush_offset + id);
+  bush.grid_A = place.grid_J, bush.grid_B = place.grid_I, bush.system = place.system;
+  bush.location = 1;
+  const bool of_I = place.body_I != ground_body;
+  for (const MatrixKind kind : {MatrixKind::K, MatrixKind::B}) {
+    const auto [translation, rotation] =
+        at_point(entries, kind, of_I ? place.body_I : place.body_J, place.I, place.axes);
+    std::array<double, 6>& diagonal = kind == MatrixKind::K ? bush.stiffness : bush.damping;
+    double largest[2] = {0, 0};
+    for (std::size_t k = 0; k < 3; ++k) {
+      largest[0] = std::max(largest[0], std::abs(translation(k, k)));
+      largest[1] = std::max(largest[1], std::abs(rotation(k, k)));
+    }
+    for (std::size_t k = 0; k < 6; ++k) {
+      if (place.along_line && k != 0) continue;
+      const double v = k < 3 ? translation(k, k) : rotation(k - 3, k - 3);
+      diagonal[k] = v > 1e-12 * largest[k / 3] ? v : 0;
+    }
+    subtract(place, kind, diagonal, entries);
+  }
+  deck_.bushes.push_back(std::move(bush));
+  if (!options_.export_residuals) entries.clear();
+  add_up(entries, 1e-13);
+}
+
+// --- matrices --------------------------------------------------------------------------------------------------------
+
+void OpenForces::add_matrices(const std::string& name, const std::string& suffix, std::vector<MatrixEntry> entries) {
+  add_up(entries);
+  for (const MatrixKind kind : {MatrixKind::K, MatrixKind::B, MatrixKind::M}) {
+    Matrix m;
+    m.name = name;
+    m.kind = kind;
+    m.suffix = suffix;
+    for (const MatrixEntry& e : entries) {
+      if (e.kind == kind) m.entries.push_back({points_.dof(e.row), points_.dof(e.column), e.value});
+    }
+    if (!m.entries.empty()) deck_.matrices.push_back(std::move(m));
+  }
+}
+
+StudyResult<void> OpenForces::add(std::vector<Contribution> elements, std::vector<MatrixEntry> of_states,
+                                  Diagnostics& remarks) {
+  if (auto done = choose_suffixes(elements, remarks); !done) return done;
+  std::vector<MatrixEntry> in_common;
+  for (Contribution& c : elements) {
+    if (c.of == Contribution::Of::body) continue;  // at rest a rigid body is its mass and no more
+    std::vector<MatrixEntry> own;
+    for (const MatrixEntry& e : c.entries) (points_.is_coordinate(e.column) ? own : of_states).push_back(e);
+    const auto singled_out = suffix_.find(c.element);
+    if (singled_out == suffix_.end()) {
+      in_common.insert(in_common.end(), own.begin(), own.end());
+      continue;
+    }
+    if (options_.export_cbush) add_bush(*c.element, own);
+    add_matrices(name_of(*c.element, options_), singled_out->second, std::move(own));
+  }
+  add_matrices("forces", options_.forces_dmig_name, std::move(in_common));
+  add_matrices("differential states", options_.differentials_dmig_name, std::move(of_states));
+  return {};
+}
+
+}  // namespace dynalin::nastran

@@ -1,0 +1,70 @@
+// Applied forces of an OPENBOX: those that are singled out, each as CBUSH with what is left of its exact matrices or as
+// these alone, all others in common matrices with the geometric stiffness of reactions.
+//
+// A CBUSH stands between grids at the markers, along the axes that the force has its components in or, for a force
+// along the line between the markers, along that line alone. It has the diagonal of the stiffness and damping that the
+// exact matrices have for motions of I, where that is positive. As Nastran assembles it, with its spring at I,
+//
+//     K = Dᵀ diag(k) D,    D u = Rᵀ (δp_I − δp_J − δθ_J × (I − J),  δθ_I − δθ_J),
+//
+// and what the exact matrices have beside is the residual.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "nastran/contributions.h"
+#include "nastran/marker_grids.h"
+#include "nastran/open_points.h"
+#include "nastran/wrenches.h"
+
+namespace dynalin::nastran {
+
+class OpenForces {
+ public:
+  // All arguments must outlive this.
+  OpenForces(const System&, const Motion&, const ExportOptions&, Ids&, Deck&, OpenPoints&, MarkerGrids&,
+             const SingleWrenches&);
+
+  // Adds bushes and matrices to the deck; `of_states` and what forces take of differential states go into matrices of
+  // their own.
+  StudyResult<void> add(std::vector<Contribution>, std::vector<MatrixEntry> of_states, Diagnostics& remarks);
+
+ private:
+  struct Place {  // of a bush
+    BodyId body_I, body_J;
+    Vector I, J, axes_origin;
+    Matrix3 axes;
+    bool along_line = false;
+    std::int64_t grid_I = 0, grid_J = 0, system = 0;
+  };
+
+  StudyResult<void> choose_suffixes(const std::vector<Contribution>&, Diagnostics& remarks);
+  StudyResult<void> take_suffix(const Editable&, Diagnostics& remarks);
+  std::string automatic_suffix(const ElementLabel&);
+  std::size_t longest_suffix() const;
+
+  void add_bush(const ElementLabel&, std::vector<MatrixEntry>&);
+  bool find_place(const ElementLabel&, Place&);
+  std::int64_t floating_grid(const ElementLabel&, const Place&);
+  // Stiffness or damping [6 × 6] for motions of a point on a body, in force and moment there, along axes.
+  std::array<Matrix3, 2> at_point(const std::vector<MatrixEntry>&, MatrixKind, BodyId, const Vector& at,
+                                  const Matrix3& axes) const;
+  void subtract(const Place&, MatrixKind, const std::array<double, 6>&, std::vector<MatrixEntry>&) const;
+  void add_matrices(const std::string& name, const std::string& suffix, std::vector<MatrixEntry>);
+
+  const System& system_;
+  const Motion& motion_;
+  const ExportOptions& options_;
+  Ids& ids_;
+  Deck& deck_;
+  OpenPoints& points_;
+  MarkerGrids& markers_;
+  const SingleWrenches& wrenches_;
+  std::map<const ElementLabel*, std::string> suffix_;  // of forces that are singled out
+  std::set<std::string> taken_;
+};
+
+}  // namespace dynalin::nastran

@@ -1,0 +1,78 @@
+#include "nastran/open_points.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "nastran/names.h"
+
+namespace dynalin::nastran {
+
+namespace {
+
+// What the example of use_adams_ids adds to the ids of parts; no directive changes it.
+constexpr std::int64_t part_offset = 100000;
+
+}  // namespace
+
+OpenPoints::OpenPoints(const System& system, const Motion& motion, const ExportOptions& options, Ids& ids, Deck& deck)
+    : system_(system), motion_(motion), options_(options), ids_(ids), deck_(deck) {
+  const Layout& layout = system.layout();
+  body_of_.resize(system.coordinates());
+  dofs_.resize(system.coordinates());
+  for (std::size_t b = 0; b < layout.bodies.size(); ++b) add_body(b);
+  for (const ExtraBlock& extra : layout.extras) {
+    for (std::int32_t k = 0; k < extra.count; ++k) {
+      ScalarPoint p;
+      p.name =
+          fmt::format("{}, {}", name_of(extra.label, options), extra.coordinates[static_cast<std::size_t>(k)].name);
+      p.id = ids.take(IdSpace::point,
+                      options.use_adams_ids ? options.spoint_offset + extra.label.id : options.grid_offset);
+      dofs_[static_cast<std::size_t>(extra.offset + k)] = {p.id, 0};
+      deck.scalar_points.push_back(std::move(p));
+    }
+  }
+  for (const DifferentialState& z : layout.states) {
+    const bool held = z.held_in_dynamics;
+    states_.push_back(held ? -1 : static_cast<std::int32_t>(dofs_.size()));
+    if (!held) add_unknown(fmt::format("{}, state {}", name_of(*z.owner, options), z.coordinate), z.owner->id);
+  }
+}
+
+std::int32_t OpenPoints::add_unknown(std::string name, std::int64_t wanted) {
+  ScalarPoint p;
+  p.name = std::move(name);
+  p.id = ids_.take(IdSpace::point, options_.use_adams_ids ? options_.spoint_offset + wanted : options_.grid_offset);
+  dofs_.push_back({p.id, 0});
+  deck_.scalar_points.push_back(std::move(p));
+  return static_cast<std::int32_t>(dofs_.size()) - 1;
+}
+
+void OpenPoints::add_body(std::size_t b) {
+  const BodyBlock& block = system_.layout().bodies[b];
+  const dynalin::Body& body = system_.model().bodies[b];
+  arms_.push_back(motion_.bodies[b].R * body.p_BC);
+  const std::int64_t offset = block.kind == BodyKind::point_mass ? options_.pointmass_offset : part_offset;
+  Grid g;
+  g.id = ids_.take(IdSpace::point, options_.use_adams_ids ? offset + block.label.id : options_.grid_offset);
+  g.body = static_cast<std::int32_t>(b) - 1;
+  g.name = block.kind == BodyKind::ground ? name_of(block.label, options_)
+                                          : name_of("centre of mass", block.label, options_);
+  g.position = motion_.bodies[b].r + arms_.back();
+  grids_.push_back(g.id);
+  if (block.kind == BodyKind::ground) {
+    g.position = {};
+    g.fixed = "123456";
+    deck_.grids.push_back(std::move(g));
+    return;
+  }
+  deck_.bodies.push_back({name_of(block.label, options_), g.id});
+  if (!block.turns()) deck_.fixed_points.push_back({{g.body, g.name}, g.id, "456"});
+  for (std::int32_t k = 0; k < block.count; ++k) {
+    dofs_[static_cast<std::size_t>(block.offset + k)] = {g.id, k + 1};
+    body_of_[static_cast<std::size_t>(block.offset + k)] = BodyId{static_cast<std::int32_t>(b)};
+  }
+  deck_.grids.push_back(std::move(g));
+}
+
+}  // namespace dynalin::nastran
