@@ -3,8 +3,10 @@
 // by it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,8 +31,12 @@ enum class CommandUse : std::uint8_t {
 struct CommandFiles {
   std::string file;                               // as written, "-" for standard output, empty for none
   std::vector<std::string_view> suffixes = {""};  // a file for each, with this behind its name
+  std::vector<std::string> more = {};             // files with names of their own
   bool tables = false;                            // it writes into the file of modal tables
 };
+
+// The text of a file that a command names; nothing after a report.
+using InputReader = std::function<SourceRef(const std::string& name)>;
 
 // What one command of a file is to do: its arguments, read and checked. Constant, and nothing of a run is in it.
 class CommandAction {
@@ -38,6 +44,8 @@ class CommandAction {
   virtual ~CommandAction() = default;
 
   virtual StudyResult<void> run(RunState&) const = 0;
+  // The same with the files that it names read; nothing where it names none, or after a report.
+  virtual std::shared_ptr<const CommandAction> with_inputs(const InputReader&, Diagnostics&) const { return nullptr; }
   // Ids it refers to must exist in its model before anything runs; reports those that do not.
   virtual void check(const Model&, const Span& /*command*/, Diagnostics&) const {}
   virtual CommandFiles files() const { return {}; }

@@ -12,6 +12,8 @@
 #include "command/session.h"
 #include "elements/catalogue.h"
 #include "expression/function_manual.h"
+#include "nastran/directive_manual.h"
+#include "nastran/directives.h"
 
 namespace dynalin {
 
@@ -127,6 +129,7 @@ std::vector<std::string_view> nearest_names(std::string_view word) {
     if (!kind->variant.empty()) types.push_back(kind->variant);
   }
   look(statement_names()), look(command_names()), look(functions), look(types);
+  if (near.empty()) look(nastran::directive_names());
   return near;
 }
 
@@ -142,7 +145,12 @@ int print_help(std::string_view name, std::ostream& out, std::ostream& err) {
                "`dynalin explain` lists the messages, `dynalin --help` the options of the program.\n");
     return done;
   }
-  if (print_pages(upper_case(name), out)) return done;
+  if (upper_case(name) == "EXPORT") {
+    nastran::print_directives(out);
+    return done;
+  }
+  const bool found = print_pages(upper_case(name), out);
+  if (nastran::print_directive(name, out) || found) return done;
   const auto near = nearest_names(name);
   fmt::print(err, "error: there is no statement, command or function {}\n", name);
   if (!near.empty()) fmt::print(err, "hint: {} {}\n", fmt::join(near, ", "), near.size() == 1 ? "exists" : "exist");

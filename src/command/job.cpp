@@ -62,6 +62,7 @@ class Loader {
       dataset_path = (fs::path(job.folder) / job.commands.model).string();
       if (fs::path(dataset_path).extension().empty()) dataset_path += ".adm";
     }
+    read_inputs(job);
     const SourceRef source = read_source(dataset_path);
     if (!source) {
       if (is_dataset) return missing(dataset_path, why_unread_);
@@ -164,6 +165,21 @@ class Loader {
     if (results.xrf)
       job.xrf_digits = static_cast<int>(
           std::clamp<std::int64_t>(results.decimal_places.value_or(digits_that_count), 1, digits_that_count));
+  }
+  // Files that commands name, relative to where the commands are written.
+  void read_inputs(Job& job) {
+    for (Command& c : job.commands.commands) {
+      if (!c.action) continue;
+      const InputReader read = [&](const std::string& name) {
+        const SourceRef source = read_source((fs::path(job.folder) / name).string());
+        if (source)
+          keep_.push_back(source);
+        else
+          diagnostics_.error("unreadable-file", c.at, fmt::format("{} cannot be read: {}", name, why_unread_));
+        return source;
+      };
+      if (auto ready = c.action->with_inputs(read, diagnostics_)) c.action = std::move(ready);
+    }
   }
   // Ids that commands refer to must exist before anything runs.
   void check_ids(const Job& job) {

@@ -38,7 +38,7 @@ struct WrittenLinear {
       {.name = "EIGENSOL", .slot = &WrittenLinear::eigensol, .help = "eigenvalues and mode shapes"},
       {.name = "STATEMAT", .slot = &WrittenLinear::statemat, .help = "state matrices A, B, C, D"},
       {.name = "MKB", .slot = &WrittenLinear::mkb, .help = "mass, stiffness and damping matrices of second order"},
-      {.name = "EXPORT", .slot = &WrittenLinear::nastran_export, .help = "a Nastran deck: not available yet"},
+      {.name = "EXPORT", .slot = &WrittenLinear::nastran_export, .help = "a Nastran deck (`dynalin help export`)"},
       {.name = "NODAMPIN", .slot = &WrittenLinear::no_damping, .help = "damping of forces counts as zero"},
       {.name = "NOVECTOR", .slot = &WrittenLinear::no_vector, .help = "eigenvalues alone, no mode shapes and tables"},
       {.name = "ORIGINAL",
@@ -61,12 +61,18 @@ struct WrittenLinear {
        .slot = &WrittenLinear::poutput,
        .minimum = 1,
        .help = "the POUTPUT whose VARIABLEs are the outputs of C and D"},
-      {.name = "FILE", .slot = &WrittenLinear::file, .help = "where the matrices go, relative to the command file"},
+      {.name = "FILE",
+       .slot = &WrittenLinear::file,
+       .help = "where the matrices or the deck go, relative to the command file"},
       {.name = "FORMAT",
        .slot = &WrittenLinear::format,
        .help = "of that file: MATRIXX, one for all, or MATLAB, one a matrix"},
-      {.name = "TYPE", .slot = &WrittenLinear::type, .help = "of EXPORT"},
-      {.name = "CONFIG", .slot = &WrittenLinear::config, .help = "of EXPORT"},
+      {.name = "TYPE",
+       .slot = &WrittenLinear::type,
+       .help = "of EXPORT: OPENBOX, element by element, or CLOSEDBOX, matrices of the whole"},
+      {.name = "CONFIG",
+       .slot = &WrittenLinear::config,
+       .help = "of EXPORT: a file of directives, relative to the command file"},
       {.name = "MLIST", .slot = &WrittenLinear::mlist, .help = "markers whose motion in the modes MRANGE is shown"},
       {.name = "MODAL_RM",
        .slot = &WrittenLinear::modal_rm,
@@ -163,6 +169,7 @@ const Rows& rows() {
 }
 
 constexpr std::size_t longest_file_name = 76;
+constexpr std::array<std::string_view, 2> box_types = {"OPENBOX", "CLOSEDBOX"};
 
 // ALL, or one or two mode numbers; empty if it is neither.
 Integers all_or_range(const std::string& text) {
@@ -233,7 +240,7 @@ class Rules {
     only_with("NODAMPIN", modes || w_.mkb, "EIGENSOL and MKB");
     only_with("NOVECTOR", modes, "EIGENSOL");
     for (const auto name : {"PINPUT", "POUTPUT", "FORMAT"}) only_with(name, matrices, "STATEMAT and MKB");
-    for (const auto name : {"RM", "PSTATE"}) only_with(name, modes || matrices, "EIGENSOL, STATEMAT and MKB");
+    for (const auto name : {"RM", "PSTATE", "ORIGINAL"}) only_with(name, modes || matrices, "EIGENSOL, STATEMAT and MKB");
     for (const auto name : {"CONFIG", "TYPE"}) only_with(name, w_.nastran_export, "EXPORT");
     only_with("FILE", !modes, "STATEMAT, MKB and EXPORT");
     for (const ModalTableKind& kind : modal_table_kinds()) {
@@ -314,9 +321,11 @@ class Rules {
       }
     };
     one_of("FORMAT", w_.format, {"MATRIXX", "MATLAB"});
-    one_of("TYPE", w_.type, {"OPENBOX", "CLOSEDBOX"});
+    one_of("TYPE", w_.type, box_types);
     if (w_.nastran_export && !given("TYPE"))
       error("missing-argument", "EXPORT", "EXPORT needs TYPE: OPENBOX or CLOSEDBOX");
+    if (w_.nastran_export && w_.file == "-")
+      error("wrong-option", "FILE", "FILE of EXPORT is what the names of its files begin with, not standard output");
   }
 
   const WrittenLinear& w_;
@@ -347,10 +356,7 @@ std::optional<LinearCommand> read_linear(ElementReader& reader) {
   c.file = w.file, c.config = w.config;
   static constexpr std::array<std::string_view, 2> formats = {"MATRIXX", "MATLAB"};
   if (!w.format.empty()) c.format = formats[*find_keyword(w.format.front(), formats)];
-  if (c.option == LinearOption::nastran_export) {
-    reader.error("option-not-built", reader.at("EXPORT"), "LINEAR/EXPORT is not available yet");
-    return std::nullopt;
-  }
+  if (!w.type.empty()) c.type = box_types[*find_keyword(w.type.front(), box_types)];
   c.table_precision = static_cast<int>(w.table_precision.value_or(2));
   ask_for_tables(w, c.tables);
   return c;

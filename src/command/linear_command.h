@@ -12,7 +12,8 @@ struct LinearCommand {
   LinearOption option = LinearOption::eigensol;
   std::optional<std::int64_t> rm, pstate, pinput, poutput;
   bool without_damping = false, without_vectors = false, original = false, names = false;
-  std::string file, format = "MATRIXX", type, config;
+  std::string file, format = "MATRIXX", config;
+  std::string_view type;  // of an export, "OPENBOX" or "CLOSEDBOX"
   ModalTableRequest tables;
   int table_precision = 2;
 };

@@ -29,6 +29,8 @@ std::vector<PlannedFile> planned_files(const Job& job, const SessionOptions& opt
     const std::string base = command_path(job, files.file);
     for (const std::string_view suffix : files.suffixes)
       list.push_back({base + std::string(suffix), "FILE of " + c.text, c.at, true});
+    for (const std::string& name : files.more)
+      list.push_back({command_path(job, name), "FILE of " + c.text, c.at, true});
   }
   if (tables) list.push_back({job.prefix + ".txt", "the file of modal tables", {}});
   if (job.xrf_digits > 0) list.push_back({job.prefix + ".res", "the results file", {}});

@@ -18,7 +18,7 @@ struct Reason {
   std::string_view text;
   bool (*holds)(Box, const ExportOptions&);
 };
-constexpr std::array<Reason, 10> reasons = {{
+constexpr std::array<Reason, 11> reasons = {{
     {in_closed_box, "CLOSEDBOX", [](Box box, const ExportOptions&) { return box == Box::closed; }},
     {in_sol_107, "SOL 107", [](Box, const ExportOptions& o) { return o.solution_number == 107; }},
     {in_sol_108, "SOL 108", [](Box, const ExportOptions& o) { return o.solution_number == 108; }},
@@ -31,6 +31,7 @@ constexpr std::array<Reason, 10> reasons = {{
      [](Box, const ExportOptions& o) { return o.file_name_style != FileStyle::C; }},
     {with_adams_ids, "use_adams_ids = yes, but for CLOSEDBOX",
      [](Box box, const ExportOptions& o) { return box == Box::open && o.use_adams_ids; }},
+    {without_adams_ids, "use_adams_ids = no", [](Box, const ExportOptions& o) { return !o.use_adams_ids; }},
     {with_hess, "eigc_method = hess", [](Box, const ExportOptions& o) { return o.eigc_method == EigenMethod::hess; }},
 }};
 

@@ -30,6 +30,7 @@ enum Ignored : unsigned {
   outside_style_C = 128,
   with_adams_ids = 256,
   with_hess = 512,
+  without_adams_ids = 1024,
 };
 // "SOL 107, CLOSEDBOX"
 std::string ignored_text(unsigned ignored);

@@ -130,6 +130,11 @@ void JsonResults::add(const std::string& command, const SecondOrder& s) {
                                 {"outputs", channels(s.outputs)}});
 }
 
+void JsonResults::add_export(const std::string& command, std::string_view type, double time,
+                             const std::vector<std::string>& files) {
+  document_->results.push_back({{"command", command}, {"time", time}, {"export", type}, {"files", files}});
+}
+
 void JsonResults::add(const std::string& command, const OperatingState& s) {
   document_->results.push_back({{"command", command}, {"time", s.time}, {"operating_point", json_of(s)}});
 }

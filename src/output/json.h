@@ -22,6 +22,9 @@ class JsonResults {
   void add(const std::string& command, const EigenSolution&);
   void add(const std::string& command, const StateSpace&);
   void add(const std::string& command, const SecondOrder&);
+  // A deck of this type, OPENBOX or CLOSEDBOX.
+  void add_export(const std::string& command, std::string_view type, double time,
+                  const std::vector<std::string>& files);
   // SIMULATE: the point that it found.
   void add(const std::string& command, const OperatingState&);
   void add(const std::string& command, const StaticResult&);

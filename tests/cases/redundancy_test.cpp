@@ -82,12 +82,12 @@ TEST_F(WrongInput, every_problem_is_reported_at_its_place_and_nothing_is_written
   write("model.adm",
         "bad\nUNITS/SYSTEM=MKX\nPART/1, GROUND\nPART/2, MASS=1\nMARKER/3, PART=7\nJOINT/1, REVOLUTE, I=3, J=99\n"
         "VARIABLE/1, FUNCTION=SINN(2)\nSFORCE/1, TRANS, I=3, J=4\nFLEX_BODY/1\nPART/2, MASS=2\nEND\n");
-  write("model.acf", "model\nmodel\nLINEAR/EIGENSOL, STATEMAT, COORDS=0\nLINEAR/EXPORT, FILE=x, TYPE=OPENBOX\n");
+  write("model.acf", "model\nmodel\nLINEAR/EIGENSOL, STATEMAT, COORDS=0\nLINEAR/EXPORT, FILE=x, TYPE=OPENBOX, NOVECTOR\n");
   const RunResult r = run_file("model.acf");
   EXPECT_EQ(r.status, 1);
   for (const char* expected :
        {"model.acf:3:18: error: LINEAR takes exactly one", "[excluded-arguments]",
-        "model.acf:4:8: error: LINEAR/EXPORT is not available yet", "model.adm:2:7: error", "[unknown-unit]",
+        "model.acf:4:38: error: NOVECTOR goes with EIGENSOL only", "model.adm:2:7: error", "[unknown-unit]",
         "model.adm:4:1: error", "[missing-cm]", "model.adm:5:16: error", "[unknown-body]", "model.adm:6:27: error",
         "[unknown-marker]", "model.adm:7:22: error", "[unknown-function]", "model.adm:8:1: error", "[missing-argument]",
         "model.adm:9:1: error", "[statement-not-built]", "model.adm:10:1: error", "[duplicate-id]"}) {

@@ -1,15 +1,18 @@
-// LINEAR/{EIGENSOL | STATEMAT | MKB}, …: linearizes about the operating point and writes what comes out. Its arguments
-// and the rules between them are in linear_command.cpp.
+// LINEAR/{EIGENSOL | STATEMAT | MKB | EXPORT}, …: linearizes about the operating point and writes what comes out. Its
+// arguments and the rules between them are in linear_command.cpp.
 #include "command/commands/linear.h"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 
 #include <ctime>
 
 #include "command/mode_tables.h"
 #include "command/output_plan.h"
 #include "command/run_state.h"
+#include "nastran/export.h"
+#include "output/destination.h"
 #include "output/message_file.h"
 #include "study/linearization.h"
 #include "system/operating_state.h"
@@ -54,6 +57,51 @@ StudyResult<void> write_form(const Form& form, std::string_view which, const Lin
   return {};
 }
 
+nastran::Box box_of(const LinearCommand& command) {
+  return command.type == "OPENBOX" ? nastran::Box::open : nastran::Box::closed;
+}
+
+// A file of the deck that stands where one is that the run has read. Names of bodies and matrices are known only now.
+std::string overwritten_input(const std::string& path, const Job& job) {
+  const auto place = find_destination(path);
+  for (const SourceRef& source : job.sources) {
+    const auto read = find_destination(source->name());
+    if (place && read && read->kind == Destination::Kind::replaced && read->place() == place->place())
+      return source->name();
+  }
+  return {};
+}
+
+StudyResult<void> write_deck(const Linearization& linear, const LinearCommand& command, const OperatingState& state,
+                             const nastran::Configuration& configuration, RunState& run) {
+  auto deck = nastran::export_deck(linear, box_of(command), configuration.options, command.file);
+  if (!deck) return tl::unexpected(std::move(deck.error()));
+  run.remarks.say(deck->remarks);
+  std::vector<RunFiles::Planned> planned;
+  std::vector<std::string> paths;
+  for (const nastran::DeckFile& file : deck->files) {
+    paths.push_back(command_path(run.job, file.name));
+    if (const std::string input = overwritten_input(paths.back(), run.job); !input.empty())
+      return tl::unexpected(
+          StudyFailure({"export", fmt::format("the deck would overwrite {}, which the run reads", input), {}}));
+    planned.push_back({paths.back(), [&file](std::ostream& out) { out << file.text; }});
+  }
+  if (auto written = run.files.add(planned); !written)
+    return tl::unexpected(StudyFailure({"export", written.error(), {}}));
+  fmt::print(run.message, "\n  Nastran deck, {}\n", command.type);
+  for (const std::string& path : paths) fmt::print(run.message, "    {}\n", path);
+  std::vector<std::string> details = configuration.echo;
+  if (configuration.options.debug) details.insert(details.end(), deck->details.begin(), deck->details.end());
+  for (const std::string& line : details) fmt::print(run.message, "    {}\n", line);
+  run.json.add_export(run.command, command.type, linear.point.time, paths);
+  run.json.add_point(state);
+  if (run.terminal) {
+    for (const std::string& line : details) fmt::print(*run.terminal, "{}\n", line);
+    fmt::print(*run.terminal, "Nastran deck, {}: {}\n", command.type, fmt::join(paths, ", "));
+  }
+  return {};
+}
+
 StudyResult<void> solve_modes(const Linearization& linear, const LinearCommand& command, const OperatingState& state,
                               RunState& run) {
   const std::size_t states = linear.linear.model.states.size();
@@ -92,12 +140,16 @@ StudyResult<void> Linear::run(RunState& run) const {
   if (!run.point.consistent) {
     if (auto ready = run.make_consistent(); !ready) return ready;
   }
-  const auto linear = linearized(run.point, request_of(command, run.environment));
+  const bool deck = command.option == LinearOption::nastran_export;
+  // An open box has its masses and joints also where nothing can move.
+  const Stateless stateless = deck && box_of(command) == nastran::Box::open ? Stateless::taken : Stateless::refused;
+  const auto linear = linearized(run.point, request_of(command, run.environment), stateless);
   if (!linear) return tl::unexpected(linear.error());
   run.remarks.say(linear->remarks());
 
   const OperatingState state = operating_state(run.system(), linear->point);
   if (!run.shown && !linear->at_rest_as_found) run.show(StepKind::initial_conditions, state);
+  if (deck) return write_deck(*linear, command, state, configuration, run);
   if (command.option == LinearOption::eigensol) return solve_modes(*linear, command, state, run);
   if (command.option == LinearOption::statemat) return write_form(linear->linear.model, "state", command, state, run);
   const auto form = second_order_form(*linear);
@@ -105,7 +157,24 @@ StudyResult<void> Linear::run(RunState& run) const {
   return write_form(*form, "second-order", command, state, run);
 }
 
+std::shared_ptr<const CommandAction> Linear::with_inputs(const InputReader& read_text, Diagnostics& diagnostics) const {
+  if (command.config.empty()) return nullptr;
+  const SourceRef source = read_text(command.config);
+  if (!source) return nullptr;
+  auto read_file = nastran::read_configuration(source, box_of(command));
+  diagnostics.append(std::move(read_file.diagnostics));
+  auto ready = std::make_shared<Linear>(command);
+  ready->configuration = std::move(read_file.value);
+  return ready;
+}
+
 CommandFiles Linear::files() const {
+  if (command.option == LinearOption::nastran_export) {
+    std::vector<std::string> names = nastran::expected_files(box_of(command), configuration.options, command.file);
+    CommandFiles deck{.file = std::move(names.front())};
+    deck.more.assign(std::make_move_iterator(names.begin() + 1), std::make_move_iterator(names.end()));
+    return deck;
+  }
   CommandFiles files{.file = command.file, .tables = command.tables.any()};
   if (command.format != "MATLAB") return files;
   std::vector<std::string_view>& list = files.suffixes;
@@ -135,6 +204,7 @@ void Linear::check(const Model& model, const Span& at, Diagnostics& diagnostics)
   const auto need_marker = [&](const std::optional<std::int64_t>& id) {
     need(id, "MARKER", id && *id > 0 && model.find_marker(*id).has_value());
   };
+  nastran::check_references(configuration, model, diagnostics);
   need_element(command.pstate, "PSTATE");
   need_element(command.pinput, "PINPUT");
   need_element(command.poutput, "POUTPUT");

@@ -1,0 +1,199 @@
+// LINEAR/EXPORT as a command: which files it writes, what it says, and what it refuses.
+#include <gmock/gmock.h>
+
+#include "cases/run.h"
+#include "command/help.h"
+#include "nastran/directive_manual.h"
+#include "nastran/directives.h"
+
+namespace dynalin::cases {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::string model =
+    "oscillator\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n! adams_view_name='seat'\nPART/2, MASS=2, CM=20, "
+    "IP=1,1,1\n"
+    "! adams_view_name='head'\nMARKER/20\nMARKER/21, QP=0,0,1\nMARKER/22, FLOATING\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
+    "VFORCE/1, I=21, JFLOAT=22, RM=1, FX=0, FY=0, FZ=0\nBUSHING/1, I=20, J=1, K=0,0,8, C=0,0,6\nEND\n";
+const std::string response =
+    "solution_number = 108\nbegin_frequency = 1\nend_frequency = 9\nsteps_frequency = 8\n"
+    "actuator_swept_sine { name = a }\nforce_input_channel { name = in marker_id = 21 dof = z actuator_name = a }\n"
+    "displacement_output_channel { name = out marker_name = head }\n"
+    "frequency_response_subcase { number = 1 input_channel_names = in output_channel_names = out }\n";
+
+class Export : public Cases {
+ protected:
+  RunResult run_with(const std::string& configuration, const std::string& type, const std::string& file = "deck") {
+    write("export.cfg", configuration);
+    return run(model, "LINEAR/EXPORT, TYPE=" + type + ", FILE=" + file + ", CONFIG=export.cfg\n");
+  }
+};
+
+TEST_F(Export, writes_a_deck_with_a_linear_model_in_matrices) {
+  const RunResult r = run(model, "LINEAR/EXPORT, TYPE=CLOSEDBOX, FILE=deck\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.text("deck.dat"),
+              AllOf(HasSubstr("SOL 107\nCEND\n"), HasSubstr("INCLUDE 'deck_KVVV.bdf'\n"), HasSubstr("ENDDATA\n")));
+  // M s² + B s + K of the only freedom: 2, 6 and 8.
+  EXPECT_THAT(r.text("deck_MVVV.bdf"), HasSubstr("2.D0\n"));
+  EXPECT_THAT(r.text("deck_BVVV.bdf"), HasSubstr("6.D0\n"));
+  EXPECT_THAT(r.text("deck_KVVV.bdf"), HasSubstr("8.D0\n"));
+  EXPECT_THAT(r.out, AllOf(HasSubstr("Nastran deck, CLOSEDBOX: "), HasSubstr("deck_KVVV.bdf")));
+  EXPECT_THAT(r.message, HasSubstr("Nastran deck, CLOSEDBOX"));
+}
+
+TEST_F(Export, has_its_files_in_the_json) {
+  const RunResult r = run(model, "LINEAR/EXPORT, TYPE=CLOSEDBOX, FILE=deck\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.result(0).at("export"), "CLOSEDBOX");
+  EXPECT_EQ(r.result(0).at("time"), 0);
+  EXPECT_EQ(r.result(0).at("files").size(), 5u);
+  EXPECT_EQ(r.result(0).at("files").at(0), (folder_ / "deck.dat").string());
+  EXPECT_EQ(r.result(0).at("operating_point").at("bodies").size(), 1u);
+  for (const auto& file : r.result(0).at("files")) {
+    const auto& all = r.json.at("files");
+    EXPECT_NE(std::find(all.begin(), all.end(), file), all.end()) << file;
+  }
+}
+
+TEST_F(Export, writes_the_mechanism_element_by_element) {
+  const RunResult r =
+      run_with("use_long_format = no\nuse_dmig_long_format = no\nexport_markers_by_name = head\n", "OPENBOX");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.text("deck_MODEL.nas"), AllOf(HasSubstr("CONM2   "), HasSubstr("head"), HasSubstr("GRID    100002 ")));
+  EXPECT_THAT(r.text("deck.dat"), HasSubstr("PARAM,AUTOMSET,LUSOL\n"));
+}
+
+TEST_F(Export, reads_its_configuration_relative_to_the_command_file) {
+  std::filesystem::create_directories(folder_ / "sub");
+  write("sub/export.cfg", "title = from the folder below\n");
+  const RunResult r = run(model, "LINEAR/EXPORT, TYPE=CLOSEDBOX, FILE=sub/deck, CONFIG=sub/export.cfg\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.text("sub/deck.dat"),
+              AllOf(HasSubstr("TITLE = from the folder below\n"), HasSubstr("INCLUDE 'deck_MODEL.nas'\n")));
+}
+
+TEST_F(Export, has_channels_of_frequency_response) {
+  for (const std::string type : {"OPENBOX", "CLOSEDBOX"}) {
+    const RunResult r = run_with(response, type);
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_THAT(r.text("deck.dat"), AllOf(HasSubstr("SOL 108\n"), HasSubstr("SUBCASE 1\n"), HasSubstr("FREQ1*  600 "),
+                                          HasSubstr("FORCE*  300 "), Not(HasSubstr("CMETHOD"))))
+        << type;
+  }
+}
+
+TEST_F(Export, says_what_its_configuration_does) {
+  const RunResult r = run_with("debug = yes\nmpc_set = 7\nspc_set = 9\n", "CLOSEDBOX");
+  ASSERT_EQ(r.status, 0) << r.err;
+  for (const std::string* text : {&r.out, &r.message})
+    EXPECT_THAT(*text, AllOf(HasSubstr("export.cfg:2: mpc_set = 7: set of the MPC cards"), HasSubstr("matrix KVVV"),
+                             HasSubstr("deck.dat: ")));
+  EXPECT_THAT(
+      r.err,
+      HasSubstr("export.cfg:3:1: warning: without effect on this export: spc_set (CLOSEDBOX) [ignored-directive]"));
+}
+
+struct Refused {
+  std::string configuration, type, error;
+};
+
+TEST_F(Export, refuses_what_the_model_does_not_have_at_its_place) {
+  for (const Refused& w : {
+           Refused{"mpc_set = x\ngird_offset = 3\n", "OPENBOX", "export.cfg:1:11: error: mpc_set takes an integer"},
+           Refused{"mpc_set = x\ngird_offset = 3\n", "OPENBOX",
+                   "export.cfg:2:1: error: there is no directive gird_offset"},
+           Refused{"export_markers_by_id = 1-99, 7\n", "OPENBOX", "export.cfg:1:30: error: MARKER/7 does not exist"},
+           Refused{"export_markers_by_id = 22\n", "CLOSEDBOX", "export.cfg:1:24: error: MARKER/22 is floating"},
+           Refused{"export_markers_by_name = head, haed\n", "OPENBOX",
+                   "export.cfg:1:32: error: no marker has the name haed"},
+           Refused{"export_markers_by_name = head, haed\n", "OPENBOX", "hint: head exists"},
+           Refused{"force_editable_by_id = bushing, 2, B2\n", "OPENBOX",
+                   "export.cfg:1:24: error: BUSHING/2 does not exist"},
+           Refused{"force_editable_by_name = sforce, x, B2\n", "OPENBOX",
+                   "export.cfg:1:26: error: no SFORCE has the name x"},
+           Refused{"flexbody_editable_by_id = 2, B2\n", "OPENBOX",
+                   "export.cfg:1:27: error: FLEX_BODY/2 does not exist"},
+           Refused{response + "displacement_output_channel { name = o marker_id = 5 }\n", "CLOSEDBOX",
+                   "export.cfg:9:52: error: MARKER/5 does not exist"},
+           Refused{response + "force_input_channel { name = i marker_by_name = hed actuator_name = a }\n", "CLOSEDBOX",
+                   "export.cfg:9:49: error: no marker has the name hed"},
+       }) {
+    const RunResult r = run_with(w.configuration, w.type);
+    EXPECT_EQ(r.status, 1) << w.configuration;
+    EXPECT_THAT(r.err, HasSubstr(w.error));
+    EXPECT_FALSE(r.wrote("model.msg"));
+    EXPECT_FALSE(r.wrote("deck.dat"));
+  }
+}
+
+TEST_F(Export, goes_on_without_what_is_wrong_where_that_is_asked_for) {
+  const RunResult r = run_with("ignore_errors = yes\nexport_markers_by_id = 20, 7\nmpc_set = x\n", "CLOSEDBOX");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, AllOf(HasSubstr("MARKER/7 does not exist; the export goes on without it"),
+                           HasSubstr("mpc_set takes an integer, not \"x\"; it is left out")));
+  EXPECT_THAT(r.text("deck.dat"), HasSubstr("MPC = 1\n"));
+}
+
+TEST_F(Export, overwrites_nothing_that_the_run_reads) {
+  EXPECT_THAT(run_with("main_file_include_extension = .cfg\n", "CLOSEDBOX", "export").err,
+              HasSubstr("would overwrite"));
+  EXPECT_EQ(read_file(folder_ / "export.cfg"), "main_file_include_extension = .cfg\n");
+  // The name of a matrix is known only when there is one.
+  write("deck_KVVV.bdf", "title = kept\n");
+  const RunResult r = run(model, "LINEAR/EXPORT, TYPE=CLOSEDBOX, FILE=deck, CONFIG=deck_KVVV.bdf\n");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, HasSubstr("the deck would overwrite "));
+  EXPECT_EQ(read_file(folder_ / "deck_KVVV.bdf"), "title = kept\n");
+  EXPECT_FALSE(r.wrote("deck.dat"));
+}
+
+TEST_F(Export, refuses_a_closed_box_where_nothing_can_move) {
+  std::string fixed = model;
+  fixed.replace(fixed.find("TRANSLATIONAL, I=20"), 19, "FIXED, I=20");
+  EXPECT_EQ(run(fixed, "LINEAR/EXPORT, TYPE=CLOSEDBOX, FILE=deck\n").status, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "deck.dat"));
+  EXPECT_EQ(run(fixed, "LINEAR/EXPORT, TYPE=OPENBOX, FILE=deck\n").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "deck.dat"));
+}
+
+// --- the manual ---
+TEST_F(Export, has_all_directives_on_its_page_as_they_are) {
+  const auto page = std::filesystem::path(PAGES_DIR).parent_path() / "nastran.md";
+  const std::string text = read_file(page), wanted = nastran::directive_pages();
+  if (text.find(wanted) == std::string::npos) std::ofstream(folder_.parent_path() / "directives.md") << wanted;
+  EXPECT_NE(text.find(wanted), std::string::npos)
+      << "behind ## Directives " << page << " needs what is in " << folder_.parent_path() / "directives.md";
+}
+
+TEST_F(Export, runs_the_configuration_of_its_page) {
+  const std::string text = read_file(std::filesystem::path(PAGES_DIR).parent_path() / "nastran.md");
+  const auto begin = text.find("```cfg\n") + 7;
+  std::string other = model;
+  other.replace(other.find("MARKER/22, FLOATING"), 19, "MARKER/31, PART=2\nMARKER/22, FLOATING");
+  write("export.cfg", text.substr(begin, text.find("```", begin) - begin));
+  const RunResult r = run(other, "LINEAR/EXPORT, TYPE=OPENBOX, FILE=deck, CONFIG=export.cfg\n");
+  EXPECT_EQ(r.status, 0) << r.err;
+}
+
+TEST_F(Export, is_explained_on_the_terminal) {
+  std::ostringstream all, one, slip, err;
+  EXPECT_EQ(print_help("export", all, err), done);
+  for (const std::string_view name : nastran::directive_names()) {
+    EXPECT_THAT(all.str(), HasSubstr("    " + std::string(name) + " ")) << name;
+    std::ostringstream page;
+    EXPECT_EQ(print_help(name, page, err), done) << name;
+  }
+  EXPECT_EQ(print_help("grid_offset", one, err), done);
+  EXPECT_THAT(one.str(), HasSubstr("    grid_offset = integer\n        the first GRID or SPOINT, where they are "
+                                   "counted; default 1; without effect with use_adams_ids = yes"));
+  EXPECT_EQ(print_help("gird_offset", slip, err), wrong_usage);
+  EXPECT_THAT(err.str(), HasSubstr("grid_offset exists"));
+}
+
+}  // namespace
+}  // namespace dynalin::cases
