@@ -9,6 +9,7 @@
 
 #include "dynalin/linear_model.h"
 #include "dynalin/model.h"
+#include "dynalin/nastran_deck.h"
 #include "dynalin/operating_point.h"
 #include "dynalin/record.h"
 #include "dynalin/study.h"
@@ -16,9 +17,13 @@
 
 // Inside, namespace dynalin has a Model, a Study and an OperatingPoint of its own, which no public header shows.
 namespace dynalin {
+using library::export_nastran;
 using library::LinearModel;
 using library::Model;
 using library::Modes;
+using library::nastran_deck;
+using library::NastranBox;
+using library::NastranDeck;
 using library::OperatingPoint;
 using library::Record;
 using library::Study;

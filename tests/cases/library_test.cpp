@@ -1,8 +1,10 @@
 // The library as a program of others uses it.
 #include <dynalin/dynalin.h>
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -34,6 +36,37 @@ Error error_of(const Action& action) {
   }
   ADD_FAILURE() << "nothing was thrown";
   return Error("", {});
+}
+
+TEST(Library, exports_nastran_decks) {
+  const auto study = study_of(pendulum);
+  const auto linear = study.linearize(study.static_equilibrium());
+  const auto deck = dynalin::nastran_deck(linear, dynalin::NastranBox::closed, "deck", "title = mine\nspc_set = 4\n");
+  ASSERT_GE(deck.files.size(), 4u);
+  EXPECT_EQ(deck.files[0].name, "deck.dat");
+  EXPECT_THAT(deck.files[0].text, HasSubstr("TITLE = mine\n"));
+  ASSERT_FALSE(deck.remarks.empty());
+  EXPECT_EQ(deck.remarks[0].code, "ignored-directive");
+  EXPECT_EQ(deck.remarks[0].line, 2u);
+  const auto open = dynalin::nastran_deck(linear, dynalin::NastranBox::open, "deck");
+  EXPECT_THAT(open.files[1].text, HasSubstr("CONM2*"));
+
+  const auto folder = std::filesystem::temp_directory_path() / ("dynalin_deck_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  for (const auto& file :
+       dynalin::export_nastran(linear, dynalin::NastranBox::closed, (folder / "deck").string()).files)
+    EXPECT_EQ(std::filesystem::file_size(file.name), file.text.size());
+  std::filesystem::remove_all(folder);
+
+  const Error wrong = error_of([&] {
+    dynalin::nastran_deck(linear, dynalin::NastranBox::open, "deck", "mpc_set = x\nexport_markers_by_id = 99\n");
+  });
+  ASSERT_EQ(wrong.problems.size(), 2u);
+  EXPECT_EQ(wrong.problems[0].column, 11u);
+  const Error unknown = error_of(
+      [&] { dynalin::nastran_deck(linear, dynalin::NastranBox::open, "deck", "export_markers_by_id = 99\n"); });
+  EXPECT_THAT(unknown.what(), HasSubstr("configuration:1:24: error: MARKER/99 does not exist"));
+  EXPECT_THROW(dynalin::export_nastran(linear, dynalin::NastranBox::closed, (folder / "none/deck").string()), Error);
 }
 
 TEST(Library, finds_the_point_and_the_linear_model) {
