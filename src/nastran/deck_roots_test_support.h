@@ -32,7 +32,7 @@ inline Linearization linearization_of(const std::string& text, Start start = Sta
                                       const LinearRequest& request = {}) {
   auto point = value_or_throw(initial_conditions(as_drawn(system_test::system_of(text)))).point;
   if (start == Start::at_rest) point = value_or_throw(static_equilibrium(std::move(point), {})).point;
-  return value_or_throw(linearized(point, request, Stateless::taken));
+  return value_or_throw(linearized(point, request));
 }
 
 // Every eigenvalue, both of a pair. [rad/time]
