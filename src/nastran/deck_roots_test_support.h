@@ -28,11 +28,15 @@ T value_or_throw(StudyResult<T> result) {
 
 enum class Start { as_stated, at_rest };
 // The linear model of a dataset (model_test_support.h) where it starts, or in static equilibrium.
-inline Linearization linearization_of(const std::string& text, Start start = Start::at_rest,
+inline Linearization linearization_of(std::shared_ptr<const System> system, Start start = Start::at_rest,
                                       const LinearRequest& request = {}) {
-  auto point = value_or_throw(initial_conditions(as_drawn(system_test::system_of(text)))).point;
+  auto point = value_or_throw(initial_conditions(as_drawn(std::move(system)))).point;
   if (start == Start::at_rest) point = value_or_throw(static_equilibrium(std::move(point), {})).point;
   return value_or_throw(linearized(point, request));
+}
+inline Linearization linearization_of(const std::string& text, Start start = Start::at_rest,
+                                      const LinearRequest& request = {}) {
+  return linearization_of(system_test::system_of(text), start, request);
 }
 
 // Every eigenvalue, both of a pair. [rad/time]

@@ -13,9 +13,9 @@
 namespace dynalin::system_test {
 
 // A title, units and ground with the marker 1 at the origin before the text, END behind it.
-inline std::shared_ptr<const Model> model_of(const std::string& text) {
+inline std::shared_ptr<const Model> model_of(const std::string& text, const std::string& units = "SYSTEM=MKS") {
   auto written = parse_dataset(std::make_shared<const SourceText>(
-      "test.adm", "Test\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n" + text + "END\n"));
+      "test.adm", "Test\nUNITS/" + units + "\nPART/1, GROUND\nMARKER/1\n" + text + "END\n"));
   if (written.diagnostics.has_errors()) throw std::runtime_error(render(written.diagnostics));
   auto built = build_model(std::make_shared<const Dataset>(std::move(written.value)), catalogue());
   if (built.diagnostics.has_errors()) throw std::runtime_error(render(built.diagnostics));
