@@ -83,6 +83,24 @@ const Words signs = {"\n,", "&\n",   "!",      "\r\n", "\t", "=",          ":", 
 const Words matrix_words = {
     "MATRIXx VERSION 700", "ADAMSMAT", "SPARSE",      "FULL",    "RORDER",     "CORDER",
     "(1P3E25.17)",         "(3F8.5)",  "(2I8,E14.6)", "1.5D+00", "2147483647", "    1    1    0"};
+const Words facet_words = {"solid ",
+                           "endsolid a\n",
+                           "facet normal 0 0 1\n",
+                           "outer loop\n",
+                           "vertex 1 0 0\n",
+                           "endloop\n",
+                           "endfacet\n",
+                           "\nv 0 1 0",
+                           "\nf 1 2 3",
+                           "\nf -1/1 -2/1 -3/1",
+                           "\nl 1 2",
+                           "\no a",
+                           "\ng a b",
+                           "\\\n",
+                           "Version: 2\n",
+                           "1 1 1.0\n",
+                           "3 1 2 3\n",
+                           "1E300"};
 const Words spline_words = {"[B]\n", "Z 1 2 3\n", "{", "$", "#", "1E300", "-1E-300", ","};
 
 // Fences ```adm and ```acf of the pages, each dataset with the commands behind it.
@@ -125,6 +143,7 @@ int main(int argc, char** argv) {
   write_dictionary(folder / "expression.dict", {expressions, signs});
   write_dictionary(folder / "matrix.dict", {matrix_words});
   write_dictionary(folder / "spline.dict", {spline_words});
+  write_dictionary(folder / "facets.dict", {facet_words});
   write_dictionary(folder / "run.dict", {statements, expressions, commands, signs, {"\n####\n"}});
   write_inputs(folder, argv[2]);
 }
