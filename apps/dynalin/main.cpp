@@ -15,6 +15,7 @@
 #include "command/help.h"
 #include "command/session.h"
 #include "dynalin/version.h"
+#include "nastran_reader/nastran_program.h"
 #include "output/temporary_file.h"
 
 namespace {
@@ -77,6 +78,15 @@ int run(int argc, char** argv) {
     reading->add_flag("--pade", options.pade, "a DELAY is a first-order Pade approximant with a state, not e - tau e'");
     reading->add_option("--user-value", options.user_value, "a constant in the place of each compiled routine");
   }
+  nastran_reader::SolveOptions deck;
+  CLI::App* nastran = app.add_subcommand("nastran", "check or solve a Nastran deck");
+  nastran->require_subcommand(1);
+  CLI::App* check_nastran = nastran->add_subcommand("check", "read a deck and say what is wrong with it");
+  CLI::App* solve_nastran = nastran->add_subcommand("solve", "eigenvalues (SOL 107) or frequency response (SOL 108)");
+  for (CLI::App* reading : {check_nastran, solve_nastran}) reading->add_option("DECK", deck.deck)->required();
+  solve_nastran->add_option("--json", deck.json, "write the results to this file");
+  solve_nastran->add_option("--modes", deck.modes, "print the shapes of these modes");
+  solve_nastran->add_flag("--ignore-unknown", deck.ignore_unknown, "leave out cards that are not known");
   CLI::App* help = app.add_subcommand("help", "a statement, command or function, or the list of them");
   help->add_option("NAME", word, "LINEAR, JOINT, STEP …");
   CLI::App* explain = app.add_subcommand("explain", "what a message means, or the list of messages");
@@ -92,6 +102,8 @@ int run(int argc, char** argv) {
   }
   if (*run) return run_session(options, std::cout, std::cerr);
   if (*check) return check_file(options, std::cout, std::cerr);
+  if (*check_nastran) return nastran_reader::check_deck(deck.deck, std::cout, std::cerr);
+  if (*solve_nastran) return nastran_reader::solve_deck(deck, std::cout, std::cerr);
   if (*help) return print_help(word, std::cout, std::cerr);
   return print_explanation(word, std::cout, std::cerr);
 }
