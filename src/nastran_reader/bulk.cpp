@@ -135,6 +135,18 @@ class Rows {
       const Span at = span_of(begin, width);
       row.fields.push_back(read_field(begin < text.size() ? text.substr(begin, width) : std::string_view(), at));
     }
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+      // A number that begins in one field and ends in the next is two others.
+      const std::size_t border = name_width + (i + 1) * width;
+      if (border >= text.size() || text[border] == ' ' || text[border - 1] == ' ') continue;
+      if (text[border - width] != ' ' || (text.size() > border + width - 1 && text[border + width - 1] != ' '))
+        continue;
+      const std::string joined = row.fields[i].text + row.fields[i + 1].text;
+      if (read_field(joined, {}).form == Field::Form::real)
+        diagnostics_.warning("field-overflow", join(row.fields[i].at, row.fields[i + 1].at),
+                             fmt::format("{} stands on the border of two fields, {} and {}", joined, row.fields[i].text,
+                                         row.fields[i + 1].text));
+    }
     if (text.size() > 72) row.tag_out = tag_of(text.substr(72, 8));
     rows_.push_back(std::move(row));
   }

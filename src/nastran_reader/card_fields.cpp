@@ -18,6 +18,7 @@ bool numeric(const Field& f) { return f.form == Field::Form::integer || f.form =
 
 void CardFields::wrong(std::string_view code, const Span& at, std::string message, std::string hint) {
   good_ = false;
+  told_.push_back(at.offset);
   diagnostics_.error(code, at, fmt::format("{}: {}", name(), message), std::move(hint));
 }
 
@@ -35,6 +36,13 @@ void CardFields::mistaken(const Field& f, std::string_view what, std::string_vie
   std::string hint;
   if (f.form == Field::Form::integer && wanted == "a real") hint = fmt::format("write {}.", f.text);
   wrong("field-form", f.at, fmt::format("{} is {}, {}, and should be {}", what, f.text, is, wanted), hint);
+}
+
+void CardFields::refuse_unread() {
+  for (const Field& f : card_.fields) {
+    if (f.form != Field::Form::wrong || std::find(told_.begin(), told_.end(), f.at.offset) != told_.end()) continue;
+    mistaken(f, "a field that is not used", "blank");
+  }
 }
 
 Reference CardFields::id(std::size_t row, std::size_t number, std::string_view what) {

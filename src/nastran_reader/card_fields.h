@@ -47,6 +47,8 @@ class CardFields {
   std::vector<Reference> list(std::size_t index, std::string_view what, bool* range = nullptr);
 
   void wrong(std::string_view code, const Span& at, std::string message, std::string hint = {});
+  // Fields that are nothing at all and that nobody asked for.
+  void refuse_unread();
 
  private:
   void mistaken(const Field&, std::string_view what, std::string_view wanted);
@@ -54,6 +56,7 @@ class CardFields {
   const Card& card_;
   Diagnostics& diagnostics_;
   bool good_ = true;
+  std::vector<std::uint32_t> told_;  // offsets of fields
 };
 
 struct CardKind {

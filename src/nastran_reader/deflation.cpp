@@ -21,25 +21,6 @@ double rank_tolerance(Index n) { return 64 * std::sqrt(static_cast<double>(std::
 
 double reciprocal_power(double x) { return x > 0 ? std::exp2(-std::round(std::log2(x))) : 1; }
 
-struct Scales {
-  VectorXd rows, columns;
-};
-// Powers of two by which the largest entries of rows and columns come near one.
-Scales equilibrating(MatrixXd m) {
-  Scales s{VectorXd::Ones(m.rows()), VectorXd::Ones(m.cols())};
-  if (m.size() == 0) return s;
-  for (int pass = 0; pass < 8; ++pass) {
-    const VectorXd rows =
-        m.cwiseAbs().rowwise().maxCoeff().unaryExpr([](double x) { return reciprocal_power(std::sqrt(x)); });
-    const VectorXd columns = m.cwiseAbs().colwise().maxCoeff().transpose().unaryExpr(
-        [](double x) { return reciprocal_power(std::sqrt(x)); });
-    m = rows.asDiagonal() * m * columns.asDiagonal();
-    s.rows.array() *= rows.array();
-    s.columns.array() *= columns.array();
-  }
-  return s;
-}
-
 // a − x b, where entries that cancel up to rounding are zero.
 MatrixXd clean_difference(const MatrixXd& a, const MatrixXd& x, const MatrixXd& b) {
   MatrixXd difference = a - x * b;
@@ -61,10 +42,25 @@ bool solve_for(const MatrixXd& m, DependentRows& unknowns) {
 
 }  // namespace
 
+Scales equilibrating(MatrixXd m) {
+  Scales s{VectorXd::Ones(m.rows()), VectorXd::Ones(m.cols())};
+  if (m.size() == 0) return s;
+  for (int pass = 0; pass < 8; ++pass) {
+    const VectorXd rows =
+        m.cwiseAbs().rowwise().maxCoeff().unaryExpr([](double x) { return reciprocal_power(std::sqrt(x)); });
+    const VectorXd columns = m.cwiseAbs().colwise().maxCoeff().transpose().unaryExpr(
+        [](double x) { return reciprocal_power(std::sqrt(x)); });
+    m = rows.asDiagonal() * m * columns.asDiagonal();
+    s.rows.array() *= rows.array();
+    s.columns.array() *= columns.array();
+  }
+  return s;
+}
+
 DependentRows dependent_rows(const MatrixXd& m) {
   DependentRows out;
   const Scales scales = equilibrating(m);
-  MatrixXd transposed = (scales.rows.asDiagonal() * m * scales.columns.asDiagonal()).transpose();
+  MatrixXd transposed = scales.of(m).transpose();
   const Index rows = m.rows(), height = m.cols();
   std::vector<lapack_int> order(static_cast<std::size_t>(rows), 0);
   Index rank = 0;

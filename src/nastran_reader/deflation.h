@@ -10,6 +10,13 @@ struct Pencil {
   Eigen::MatrixXd E, A;
 };
 
+// Powers of two by which the largest entries of rows and columns come near one.
+struct Scales {
+  Eigen::VectorXd rows, columns;
+  Eigen::MatrixXd of(const Eigen::MatrixXd& m) const { return rows.asDiagonal() * m * columns.asDiagonal(); }
+};
+Scales equilibrating(Eigen::MatrixXd m);
+
 // Rows of `m` that depend on others: m(dependent) = factors · m(independent), up to rounding of the entries of m after
 // rows and columns have been scaled to like sizes, so that units do not matter.
 struct DependentRows {

@@ -69,15 +69,13 @@ Field read_field(std::string_view text, const Span& at) {
     return f;
   };
   if (f.text.empty()) return f;
-  if (std::isalpha(static_cast<unsigned char>(f.text[0]))) {
-    for (const char c : f.text) {
-      if (std::isspace(static_cast<unsigned char>(c))) return wrong("a blank stands within it");
-    }
-    f.form = Field::Form::word;
-    return f;
-  }
   for (const char c : f.text) {
     if (std::isspace(static_cast<unsigned char>(c))) return wrong("a blank stands within it");
+  }
+  if (std::isalpha(static_cast<unsigned char>(f.text[0]))) {
+    if (f.text.find('.') != std::string::npos) return wrong("a name has no point and a number begins with no letter");
+    f.form = Field::Form::word;
+    return f;
   }
   const Shape shape = shape_of(f.text);
   if (!shape.number) {

@@ -68,12 +68,12 @@ std::optional<std::vector<Complex>> regular_eigenvalues(const Pencil& p) {
   if (n == 0) return std::vector<Complex>{};
   const auto size = static_cast<std::size_t>(n);
   std::vector<double> re(size), im(size);
-  const VectorXd rows = p.E.cwiseAbs().rowwise().maxCoeff().cwiseInverse();
-  const Eigen::PartialPivLU<MatrixXd> factors(rows.asDiagonal() * p.E);
+  const Scales scales = equilibrating(p.E);
+  const Eigen::PartialPivLU<MatrixXd> factors(scales.of(p.E));
   std::vector<Complex> values;
   constexpr double well_conditioned = 1e-9;
   if (factors.rcond() > well_conditioned) {
-    MatrixXd S = factors.solve(rows.asDiagonal() * p.A);
+    MatrixXd S = factors.solve(scales.of(p.A));
     std::vector<double> scale(size), unused_e(size), unused_v(size);
     lapack_int low = 0, high = 0;
     double norm = 0;
@@ -133,34 +133,44 @@ VectorXcd start(Index n) {
 struct Vectors {
   VectorXcd right, left;
 };
-// Inverse iteration from both sides.
+// Inverse iteration from both sides, in rows and columns that are of like size at this value.
 Vectors inverse_iteration(const Scaled& s, Complex z) {
-  MatrixXcd Q = at(s, z);
+  const double size = std::abs(z);
+  const Scales scales = equilibrating(size * size * s.M.cwiseAbs() + size * s.B.cwiseAbs() + s.K.cwiseAbs());
+  MatrixXcd Q = scales.rows.cast<Complex>().asDiagonal() * at(s, z) * scales.columns.cast<Complex>().asDiagonal();
   // An exact eigenvalue would leave a pivot of zero.
-  Q.diagonal().array() += epsilon * 0.5 * Q.cwiseAbs().maxCoeff() * 1e-3;
+  Q.diagonal().array() += epsilon * 1e-3;
   const Eigen::PartialPivLU<MatrixXcd> factors(Q);
   Vectors out{start(Q.rows()), start(Q.rows())};
   for (int k = 0; k < 3; ++k) {
     out.right = factors.solve(out.right).normalized();
     out.left = factors.adjoint().solve(out.left).normalized();
   }
+  out.right.array() *= scales.columns.array();
+  out.left.array() *= scales.rows.array();
   return out;
 }
 
-// Newton's step on the quotient, which is exact to second order in both vectors. Values that others stand close to keep
-// what they are: there a single vector means nothing.
-Complex refined(const Scaled& s, Complex z, double distance) {
-  for (int k = 0; k < 3; ++k) {
+// Newton's steps on the quotient, which is exact to second order in both vectors. Values that others stand close to
+// keep what they are: there a single vector means nothing.
+Complex refined(const Scaled& s, const Complex first, double distance) {
+  Complex z = first;
+  constexpr double small_step = 1e-10;
+  double last = HUGE_VAL;
+  for (int k = 0; k < 6; ++k) {
     const Vectors v = inverse_iteration(s, z);
-    if (!v.right.allFinite() || !v.left.allFinite()) return z;
+    if (!v.right.allFinite() || !v.left.allFinite()) return first;
     const Wide slope = form(s, z, v.left, v.right, true);
-    if (slope == Wide(0)) return z;
+    if (slope == Wide(0)) return first;
     const Complex step(form(s, z, v.left, v.right, false) / slope);
-    if (!(std::abs(step) <= 1e-3 * distance) || !(std::abs(step) <= 1e-3 * std::abs(z))) return z;
+    const double relative = std::abs(step) / std::abs(z);
+    if (!(relative < last)) break;  // rounding, or no convergence
     z -= z.imag() == 0 ? Complex(step.real(), 0) : step;
-    if (std::abs(step) <= epsilon * std::abs(z)) break;
+    if (!(std::abs(z - first) <= 0.1 * distance) || !(std::abs(z - first) <= 0.1 * std::abs(first))) return first;
+    last = relative;
+    if (relative <= epsilon) break;
   }
-  return z;
+  return last <= small_step ? z : first;
 }
 
 void refine(const Scaled& s, std::vector<Complex>& values, Index zeros) {
