@@ -186,15 +186,15 @@ class ClosedBox {
 }  // namespace
 
 StudyResult<Deck> closed_box(const Linearization& of, const ExportOptions& options, Diagnostics& remarks) {
-  auto perturbation = perturbation_for(of, options);
-  if (!perturbation) return tl::unexpected(perturbation.error());
-  const auto physical = PhysicalEquations::make(*of.system, *perturbation);
+  const auto at = linearization_for(of, options);
+  if (!at) return tl::unexpected(at.error());
+  const auto physical = PhysicalEquations::make(*of.system, at->linear);
   if (!physical) return tl::unexpected(StudyFailure(physical.error()));
   if (physical->whole().coordinates.empty()) {
     return tl::unexpected(StudyFailure(
         {"export", "the model has no degrees of freedom: it can be exported as OPENBOX, not as CLOSEDBOX", {}}));
   }
-  return ClosedBox(*of.system, *perturbation, *physical, options, remarks).run();
+  return ClosedBox(*of.system, at->linear, *physical, options, remarks).run();
 }
 
 }  // namespace dynalin::nastran

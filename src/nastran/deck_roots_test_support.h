@@ -32,7 +32,7 @@ inline Linearization linearization_of(std::shared_ptr<const System> system, Star
                                       const LinearRequest& request = {}) {
   auto point = value_or_throw(initial_conditions(as_drawn(std::move(system)))).point;
   if (start == Start::at_rest) point = value_or_throw(static_equilibrium(std::move(point), {})).point;
-  return value_or_throw(linearized(point, request));
+  return value_or_throw(linearized(point, request, Stateless::taken));
 }
 inline Linearization linearization_of(const std::string& text, Start start = Start::at_rest,
                                       const LinearRequest& request = {}) {

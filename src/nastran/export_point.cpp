@@ -1,14 +1,36 @@
 #include "nastran/export_point.h"
 
+#include <cmath>
+
+#include "linear/perturbed_point.h"
+
 namespace dynalin::nastran {
 
-StudyResult<Perturbation> perturbation_for(const Linearization& of, const ExportOptions& options) {
-  if (of.request.without_damping == !options.use_damping) return static_cast<const Perturbation&>(of.linear);
+StudyResult<Linearization> linearization_for(const Linearization& of, const ExportOptions& options) {
+  if (of.request.without_damping == !options.use_damping) return of;
+  LinearRequest request;
+  request.without_damping = !options.use_damping;
   LinearOptions otherwise;
-  otherwise.without_damping = !options.use_damping;
-  auto again = perturb(*of.system, of.point, otherwise);
+  otherwise.without_damping = request.without_damping;
+  auto again = linearize(*of.system, of.point, otherwise);
   if (!again) return tl::unexpected(StudyFailure(again.error()));
-  return std::move(*again);
+  return Linearization{of.system, of.point, of.at_rest_as_found, request, std::move(*again)};
+}
+
+bool moves(const Linearization& of) {
+  constexpr double rounding = 1e-12, balance = 1e-7;  // a static solution leaves some of its loads
+  for (std::size_t k = 0; k < of.point.velocity.size(); ++k) {
+    if (std::abs(of.point.velocity[k]) > rounding * of.system->coordinate_scale(static_cast<std::int32_t>(k)))
+      return true;
+  }
+  // What accelerations take of the forces on each body.
+  const PerturbedPoint& at = *of.linear.at;
+  std::vector<double> inertia(static_cast<std::size_t>(at.equations.size()));
+  at.equations.matrix(PartialBy::acceleration).multiply_add(of.point.acceleration, inertia);
+  for (std::size_t k = 0; k < of.system->coordinates(); ++k) {
+    if (std::abs(inertia[k]) > balance * at.equations.magnitude()[k]) return true;
+  }
+  return false;
 }
 
 }  // namespace dynalin::nastran

@@ -1,4 +1,4 @@
-// The perturbation equations that an export is made of.
+// The linear model that an export is made of.
 #pragma once
 
 #include "nastran/export_options.h"
@@ -6,7 +6,10 @@
 
 namespace dynalin::nastran {
 
-// Those of the linearization, or the same point again where the options want damping otherwise.
-StudyResult<Perturbation> perturbation_for(const Linearization&, const ExportOptions&);
+// That of the linearization, or of the same point again where the options want damping otherwise.
+StudyResult<Linearization> linearization_for(const Linearization&, const ExportOptions&);
+
+// Whether velocities or accelerations are more than rounding, so that a deck of forces alone is not the linear model.
+bool moves(const Linearization&);
 
 }  // namespace dynalin::nastran
