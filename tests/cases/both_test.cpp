@@ -1,4 +1,4 @@
-// Where program and library once differed, and everything that is shipped.
+// Where program and library once differed.
 #include "cases/both.h"
 
 #include <gmock/gmock.h>
@@ -96,22 +96,6 @@ TEST_F(Both, failures_have_the_same_account) {
           "SIM/STAT\n");
   EXPECT_EQ(r.status, 2);
   EXPECT_FALSE(r.json["errors"].empty());
-}
-
-// Every command file under examples.
-TEST_F(Both, run_every_shipped_example) {
-  std::vector<std::filesystem::path> found;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(EXAMPLES_DIR)) {
-    if (entry.path().extension() == ".acf") found.push_back(entry.path());
-  }
-  EXPECT_GE(found.size(), 6u);
-  for (const std::filesystem::path& file : found) {
-    SCOPED_TRACE(file);
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-    const RunResult r = run_example(file.parent_path().filename(), file.filename());
-    EXPECT_EQ(r.status, 0) << r.err;
-  }
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // Every example of the LINEAR command's document whose data it gives, at the values verified to twelve digits.
-#include "cases/both.h"
+#include "cases/decks.h"
 
 namespace dynalin::cases {
 namespace {
 
-using Published = ProgramAndLibrary;
+using Published = ProgramLibraryAndDecks;
 using Complex = std::complex<double>;
 
 TEST_F(Published, rotating_slider_in_global_and_in_relative_coordinates) {

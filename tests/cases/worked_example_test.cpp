@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "cases/both.h"
+#include "cases/decks.h"
 
 namespace dynalin::cases {
 namespace {
@@ -73,7 +73,7 @@ std::vector<Expected> eigenvalues(const std::string& text) {
   return list;
 }
 
-class WorkedExample : public ProgramAndLibrary, public ::testing::WithParamInterface<std::string> {};
+class WorkedExample : public ProgramLibraryAndDecks, public ::testing::WithParamInterface<std::string> {};
 
 TEST_P(WorkedExample, has_the_eigenvalues_of_its_page) {
   const auto list = fences(read_file(fs::path(PAGES_DIR) / (GetParam() + ".md")));

@@ -9,7 +9,7 @@
 #include <iostream>
 
 #include "elements/catalogue.h"
-#include "oracle/generator.h"
+#include "oracle/resting.h"
 
 namespace dynalin::oracle {
 namespace {
@@ -20,21 +20,7 @@ TEST_P(Statics, generated_mechanisms_come_to_rest_or_say_why_not) {
   int found = 0, refused = 0;
   for (std::uint64_t seed = GetParam(); seed < GetParam() + 25; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    Mechanism mechanism = random_mechanism(seed);
-    // Ground springs hold what would float away.
-    for (const Body& b : mechanism.bodies) {
-      if (b.ref.kind == BodyKind::ground || b.cm == 0 || seed % 4 == 0) continue;
-      Marker anchor;
-      anchor.id = 9000 + b.ref.id;
-      anchor.body = ground;
-      anchor.qp = {b.qg[0] + 1.3, b.qg[1] - 0.7, b.qg[2] + 2.1};
-      mechanism.markers.push_back(anchor);
-      mechanism.springs.push_back(
-          {9000 + b.ref.id, Direction::translational, b.cm, anchor.id, 30 * b.mass / mechanism.ucf, 0, 0, 0.5});
-    }
-    // Velocity constraints say nothing at rest; motions by rate are refused there.
-    std::erase_if(mechanism.gcons, [](const Gcon& g) { return g.of_rates; });
-    for (Motion& m : mechanism.motions) m.level = 0;
+    Mechanism mechanism = random_resting_mechanism(seed);
     const std::string text = dataset_text(mechanism);
     auto dataset = parse_dataset(std::make_shared<const SourceText>("generated.adm", text));
     auto built = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());

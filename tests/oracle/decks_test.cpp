@@ -1,0 +1,82 @@
+// Decks of generated mechanisms have the eigenvalues of the program: as drawn, moving, in closed boxes, and at rest
+// after their static solution in open ones.
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "deck_roots.h"
+#include "elements/catalogue.h"
+#include "nastran/export.h"
+#include "oracle/resting.h"
+
+namespace dynalin::oracle {
+namespace {
+
+class Decks : public ::testing::TestWithParam<std::uint64_t> {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("dynalin_decks_" + std::to_string(::getpid()) + "_" + std::to_string(GetParam()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  static std::shared_ptr<const System> system_of(const Mechanism& mechanism) {
+    auto dataset = parse_dataset(std::make_shared<const SourceText>("generated.adm", dataset_text(mechanism)));
+    auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
+    EXPECT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics);
+    return System::make(std::move(model.value)).value();
+  }
+
+  // Whether there was a linear model to compare.
+  bool compare(const StudyPoint& point, nastran::Box box) const {
+    const auto linear = linearized(point, {});
+    if (!linear) return false;
+    const auto modes = modes_of(*linear, Vectors::right);
+    if (!modes) return false;
+    std::vector<ExpectedRoot> expected;
+    for (const EigenMode& m : modes->solution.modes) {
+      constexpr double cycle = 2 * std::numbers::pi;
+      const double uncertain = cycle * 1e3 * m.error_bound_hz;
+      expected.push_back({cycle * m.eigenvalue_hz, uncertain});
+      if (!m.is_real) expected.push_back({cycle * std::conj(m.eigenvalue_hz), uncertain});
+    }
+    nastran::ExportOptions options;
+    options.matrix_entry_zero_tolerance = 1e-30;
+    const std::string main = (folder_ / "deck").string();
+    const auto made = nastran::export_deck(*linear, box, options, main);
+    EXPECT_TRUE(made) << made.error().message;
+    if (!made) return false;
+    for (const nastran::DeckFile& file : made->files) std::ofstream(file.name) << file.text;
+    expect_roots(main + ".dat", expected, 1e-8);
+    return true;
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_P(Decks, of_generated_mechanisms_have_their_eigenvalues) {
+  int closed = 0, open = 0;
+  for (std::uint64_t seed = GetParam(); seed < GetParam() + 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const auto moving = system_of(random_mechanism(seed));
+    const auto point = initial_conditions(as_drawn(moving));
+    ASSERT_TRUE(point) << point.error().message;
+    closed += compare(point->point, nastran::Box::closed);
+
+    const auto resting = system_of(random_resting_mechanism(seed));
+    StaticsOptions options;
+    options.restore_velocities = false;
+    const auto found = static_equilibrium(as_drawn(resting), options);
+    if (!found) continue;
+    open += compare(found->point, nastran::Box::open);
+  }
+  EXPECT_EQ(closed, 20);
+  EXPECT_GE(open, 10);
+}
+INSTANTIATE_TEST_SUITE_P(generated, Decks, ::testing::Range<std::uint64_t>(1, 201, 20));
+
+}  // namespace
+}  // namespace dynalin::oracle
