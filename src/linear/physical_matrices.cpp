@@ -14,6 +14,13 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Index = Eigen::Index;
 
+// to −= (entries) · of
+void subtract_products(const std::vector<Triplet>& entries, const Matrix& of, Eigen::Ref<Matrix> to) {
+  for (Index k = 0; k < to.cols(); ++k) {
+    for (const Triplet& e : entries) to(e.row, k) -= e.value * of(e.column, k);
+  }
+}
+
 }  // namespace
 
 MotionMap& MotionMap::operator+=(const MotionMap& other) {
@@ -88,12 +95,13 @@ class PhysicalEquations::Assembly {
     if (!square || !on_rates.factor(level)) return false;
     Matrix right = Matrix::Zero(n, rates() + coordinates());
     right.bottomLeftCorner(rates(), rates()).setIdentity();
-    Index r = 0;
-    const auto hold = [&](const auto& row) {
-      for (const auto& e : row) right.row(r).tail(coordinates()) -= e.c.v * moved.row(e.column);
+    std::vector<Triplet> by_positions;
+    std::int32_t r = 0;
+    for_rows([&](const auto& row) {
+      for (const auto& e : row) by_positions.push_back({r, e.column, e.c.v});
       ++r;
-    };
-    for_rows(hold);
+    });
+    subtract_products(by_positions, moved, right.rightCols(coordinates()));
     on_rates.solve(right);
     v.dqdot.middleCols(of_rates(), rates()) = right.leftCols(rates());
     v.dqdot.middleCols(of_coordinates(), coordinates()) = right.rightCols(coordinates());
@@ -132,19 +140,26 @@ class PhysicalEquations::Assembly {
     v.dz = Matrix::Zero(static_cast<Index>(system_.layout().states.size()), columns());
     for (Index k = 0; k < states(); ++k) v.dz(choice_.differential[static_cast<std::size_t>(k)], of_states() + k) = 1;
     Matrix x = Matrix::Zero(all, columns());
+    // Column by column: one of either matrix fits where a row of them is spread over all of it.
     const auto subtract = [&](PartialBy family, const Matrix& of) {
+      std::vector<Triplet> counted;
       for_each_entry(eq_.matrix(family), [&](std::int32_t r, std::int32_t c, double value) {
         const std::int32_t w = r - static_cast<std::int32_t>(n);
         const bool replaced = w >= 0 && w < static_cast<std::int32_t>(cut_.size()) && cut_[static_cast<std::size_t>(w)];
-        if (!replaced) x.row(augmented_.equation(r)) -= value * of.row(c);
+        if (!replaced) counted.push_back({augmented_.equation(r), c, value});
       });
+      subtract_products(counted, of, x);
     };
     subtract(PartialBy::position, v.dq);
     subtract(PartialBy::velocity, v.dqdot);
     if (!at_.without_damping) subtract(PartialBy::damping, v.dqdot);
     subtract(PartialBy::state, v.dz);
+    std::vector<Triplet> by_rates, by_positions;
     const auto hold = [&](Index row, const auto& gradient) {
-      for (const auto& e : gradient) x.row(row) -= e.c.a1 * v.dqdot.row(e.column) + e.c.a0 * v.dq.row(e.column);
+      for (const auto& e : gradient) {
+        by_rates.push_back({static_cast<std::int32_t>(row), e.column, e.c.a1});
+        by_positions.push_back({static_cast<std::int32_t>(row), e.column, e.c.a0});
+      }
     };
     for (std::int32_t k = 0; k < rows_.size(); ++k) {
       if (choice_.velocity_active[static_cast<std::size_t>(k)]) hold(augmented_.lambda(k), rows_.row(k));
@@ -153,6 +168,8 @@ class PhysicalEquations::Assembly {
       hold(size + k, choice_.gradient[whole().with_rate[static_cast<std::size_t>(k)]]);
       x(size + k, k) += 1;
     }
+    subtract_products(by_rates, v.dqdot, x);
+    subtract_products(by_positions, v.dq, x);
     for (Index k = 0; k < inputs(); ++k)
       x(augmented_.algebraic(at_.inputs[static_cast<std::size_t>(k)]), of_inputs() + k) = 1;
     lu.solve(x);

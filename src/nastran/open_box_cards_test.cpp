@@ -157,7 +157,8 @@ TEST(OpenBoxCards, masses_are_in_units_of_force) {
   const Linearization of = linearization_of(*System::make(model));
   const Deck deck = box_of(of);
   EXPECT_NEAR(deck.masses[0].mass, 2e-3, 1e-18);
-  expect_roots(deck, eigenvalues_of(of));
+  // In these units frequencies lie five orders apart, of which the dense solution here loses digits.
+  expect_roots(deck, eigenvalues_of(of), 1e-6);
 }
 
 TEST(OpenBoxCards, a_point_without_freedoms_is_exported) {
