@@ -259,5 +259,14 @@ INSTANTIATE_TEST_SUITE_P(
             "SPRINGDAMPER/2, TRANSLATIONAL, I=30, J=20, K=300, C=2, LENGTH=1\n"}),
     [](const auto& test) { return std::string(test.param.name); });
 
+TEST(OpenBox, holds_velocities_that_depend_on_displacements) {
+  // At rest as it stands; the condition lets it move back by its own place.
+  EXPECT_EQ(expect_same("POINT_MASS/2, MASS=2, CM=20\nMARKER/20\nMARKER/13, PART=1, FLOATING\n"
+                        "VFORCE/1, I=20, JFLOAT=13, RM=1, FX=-10*DX(20)+3*DY(20)\\FY=-20*DY(20)\\FZ=-30*DZ(20)-VX(20)\n"
+                        "GCON/1, FUNCTION=VX(20)+0.4*DX(20)-0.2*VY(20)+0.3*DY(20)\n",
+                        1e-8, Start::as_stated),
+            5u);
+}
+
 }  // namespace
 }  // namespace dynalin::nastran
