@@ -142,7 +142,8 @@ int print_help(std::string_view name, std::ostream& out, std::ostream& err) {
     list_functions(out);
     fmt::print(out,
                "\n`dynalin help NAME` shows what one of them takes; names may be shortened.\n"
-               "`dynalin explain` lists the messages, `dynalin --help` the options of the program.\n");
+               "`dynalin explain` lists the messages, `dynalin --help` the options of the program,\n"
+               "`dynalin nastran --help` those for Nastran decks.\n");
     return done;
   }
   if (upper_case(name) == "EXPORT") {

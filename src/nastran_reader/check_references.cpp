@@ -234,6 +234,17 @@ void check_solvable(const Deck& deck, bool ignore_unknown, Diagnostics& diagnost
   if (solution != 0 && solution != 107 && solution != 108)
     diagnostics.error("case-selection", deck.control.solution_at,
                       fmt::format("SOL {} is not solved here, but 107 and 108 are", solution));
+  // Parameters that change all matrices.
+  for (const auto& [name, neutral] :
+       {std::pair("G", 0.0), std::pair("CK1", 1.0), std::pair("CB1", 1.0), std::pair("CM1", 1.0)}) {
+    if (deck.parameter(name, neutral) == neutral) continue;
+    diagnostics.error("unassembled-card", deck.parameters.at(name).second,
+                      fmt::format("PARAM,{} is not solved here", name));
+  }
+  for (const auto& [name, at] : deck.control.passed_over) {
+    if (name == "K42GG" || name == "TFL" || name == "A2GG" || name == "NSM")
+      diagnostics.error("unassembled-card", at, fmt::format("{} is not solved here", name));
+  }
   // What only draws has no mass.
   for (const PlainProperty& p : deck.plain_properties) {
     double density = 0;

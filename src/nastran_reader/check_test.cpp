@@ -197,6 +197,12 @@ TEST(Check, tells_of_the_solver_what_it_would_leave_out) {
   EXPECT_THAT(of_bulk(shell + "PSHELL,5,6,.1\nMAT1,6,1.,,.3\nRBE2,2,1,123456,2,3\n", Purpose::solve), IsEmpty());
   EXPECT_THAT(of_bulk(shell + "PSHELL,5,6,.1\nMAT1,6,1.,,.3,2.\nRBE2,2,1,123456,2,3\n", Purpose::solve),
               ElementsAre("error unassembled-card 10:8"));
+  EXPECT_THAT(of_bulk("PARAM,G,.02\n", Purpose::solve), ElementsAre("error unassembled-card 6:9"));
+  EXPECT_THAT(of_bulk("PARAM,G,0.\n", Purpose::solve), IsEmpty());
+  EXPECT_THAT(of_bulk("PBUSH,1,GE,.1\n", Purpose::solve), ElementsAre("error unassembled-card 6:9"));
+  EXPECT_THAT(of_bulk("PBUSH,1,GE,.1\n"), ElementsAre("warning unassembled-card 6:9"));
+  EXPECT_THAT(of_text("SOL 107\nCEND\nCMETHOD=1\nTFL=3\nBEGIN BULK\nEIGC,1,HESS\nENDDATA\n", Purpose::solve),
+              ElementsAre("error unassembled-card 4:1"));
   // Of a dependent component that stands twice the result is the same.
   EXPECT_THAT(of_bulk("GRID,1\nGRID,2\nGRID,3\nRBE2,1,1,3,3\nRJOINT,2,2,3,345\n", Purpose::solve),
               ElementsAre("warning dependent-twice 10:12"));

@@ -2,14 +2,12 @@
 
 #include <lapacke.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
-#include <optional>
 
 #include "nastran_reader/deflation.h"
+#include "nastran_reader/regular_pencil.h"
 
 namespace dynalin::nastran_reader {
 
@@ -24,7 +22,7 @@ using Eigen::VectorXd;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 // Up to this size every eigenvalue is refined with a factorization of its own.
-constexpr Index refined_up_to = 160;
+constexpr Index refined_up_to = 250;
 
 double power_near(double x) { return std::exp2(std::round(std::log2(x))); }
 double largest(const MatrixXd& m) { return m.size() == 0 ? 0 : m.cwiseAbs().maxCoeff(); }
@@ -62,42 +60,6 @@ Scaled scaled(const MatrixXd& M, const MatrixXd& B, const MatrixXd& K) {
   return s;
 }
 
-// Of A x = λ E x with a regular E.
-std::optional<std::vector<Complex>> regular_eigenvalues(const Pencil& p) {
-  const auto n = static_cast<lapack_int>(p.E.rows());
-  if (n == 0) return std::vector<Complex>{};
-  const auto size = static_cast<std::size_t>(n);
-  std::vector<double> re(size), im(size);
-  const Scales scales = equilibrating(p.E);
-  const Eigen::PartialPivLU<MatrixXd> factors(scales.of(p.E));
-  std::vector<Complex> values;
-  constexpr double well_conditioned = 1e-9;
-  if (factors.rcond() > well_conditioned) {
-    MatrixXd S = factors.solve(scales.of(p.A));
-    std::vector<double> scale(size), unused_e(size), unused_v(size);
-    lapack_int low = 0, high = 0;
-    double norm = 0;
-    const lapack_int info =
-        LAPACKE_dgeevx(LAPACK_COL_MAJOR, 'B', 'N', 'N', 'N', n, S.data(), n, re.data(), im.data(), nullptr, n, nullptr,
-                       n, &low, &high, scale.data(), &norm, unused_e.data(), unused_v.data());
-    if (info == LAPACK_WORK_MEMORY_ERROR) throw std::bad_alloc();
-    if (info != 0) return std::nullopt;
-    for (std::size_t k = 0; k < size; ++k) values.emplace_back(re[k], im[k]);
-    return values;
-  }
-  MatrixXd A = p.A, E = p.E;
-  std::vector<double> beta(size), left(size), right(size), unused_e(size), unused_v(size);
-  lapack_int low = 0, high = 0;
-  double norm_a = 0, norm_e = 0;
-  const lapack_int info = LAPACKE_dggevx(LAPACK_COL_MAJOR, 'B', 'N', 'N', 'N', n, A.data(), n, E.data(), n, re.data(),
-                                         im.data(), beta.data(), nullptr, n, nullptr, n, &low, &high, left.data(),
-                                         right.data(), &norm_a, &norm_e, unused_e.data(), unused_v.data());
-  if (info == LAPACK_WORK_MEMORY_ERROR) throw std::bad_alloc();
-  if (info != 0) return std::nullopt;
-  for (std::size_t k = 0; k < size; ++k) values.emplace_back(re[k] / beta[k], im[k] / beta[k]);
-  return values;
-}
-
 using Wide = std::complex<long double>;
 
 MatrixXcd at(const Scaled& s, Complex z) { return z * z * s.M + z * s.B + s.K.cast<Complex>(); }
@@ -130,6 +92,29 @@ VectorXcd start(Index n) {
   return v.normalized();
 }
 
+// LAPACK's, which are faster than templates for matrices that fill a cache.
+class ComplexFactors {
+ public:
+  explicit ComplexFactors(MatrixXcd m) : m_(std::move(m)), pivots_(static_cast<std::size_t>(m_.rows())) {
+    const auto n = static_cast<lapack_int>(m_.rows());
+    LAPACKE_zgetrf(LAPACK_COL_MAJOR, n, n, lapack(m_.data()), n, pivots_.data());
+  }
+  // By the matrix ('N') or its adjoint ('C'); not finite where a pivot vanishes.
+  VectorXcd solved(char of, VectorXcd v) const {
+    const auto n = static_cast<lapack_int>(m_.rows());
+    LAPACKE_zgetrs(LAPACK_COL_MAJOR, of, n, 1, lapack(m_.data()), n, pivots_.data(), lapack(v.data()), n);
+    return v;
+  }
+
+ private:
+  static lapack_complex_double* lapack(Complex* p) { return reinterpret_cast<lapack_complex_double*>(p); }
+  static const lapack_complex_double* lapack(const Complex* p) {
+    return reinterpret_cast<const lapack_complex_double*>(p);
+  }
+  MatrixXcd m_;
+  std::vector<lapack_int> pivots_;
+};
+
 struct Vectors {
   VectorXcd right, left;
 };
@@ -140,11 +125,11 @@ Vectors inverse_iteration(const Scaled& s, Complex z) {
   MatrixXcd Q = scales.rows.cast<Complex>().asDiagonal() * at(s, z) * scales.columns.cast<Complex>().asDiagonal();
   // An exact eigenvalue would leave a pivot of zero.
   Q.diagonal().array() += epsilon * 1e-3;
-  const Eigen::PartialPivLU<MatrixXcd> factors(Q);
-  Vectors out{start(Q.rows()), start(Q.rows())};
+  const ComplexFactors factors(std::move(Q));
+  Vectors out{start(s.K.rows()), start(s.K.rows())};
   for (int k = 0; k < 3; ++k) {
-    out.right = factors.solve(out.right).normalized();
-    out.left = factors.adjoint().solve(out.left).normalized();
+    out.right = factors.solved('N', std::move(out.right)).normalized();
+    out.left = factors.solved('C', std::move(out.left)).normalized();
   }
   out.right.array() *= scales.columns.array();
   out.left.array() *= scales.rows.array();
@@ -214,9 +199,10 @@ tl::expected<QuadraticEigenvalues, std::string> finite_eigenvalues(MatrixXd M, M
       return tl::unexpected(
           std::string("the matrices are singular for every frequency: something moves and nothing tells how"));
   }
-  auto values = regular_eigenvalues(p);
+  const bool small = n <= refined_up_to;
+  auto values = regular_eigenvalues(p, small ? Correction::none : Correction::by_vectors);
   if (!values) return tl::unexpected(std::string("the QR iteration did not converge"));
-  if (n <= refined_up_to) refine(s, *values, out.zeros);
+  if (small) refine(s, *values, out.zeros);
   out.values.assign(static_cast<std::size_t>(out.zeros), Complex(0, 0));
   for (const Complex& z : *values) out.values.push_back(z * s.unit);
   std::stable_sort(out.values.begin(), out.values.end(), [](const Complex& a, const Complex& b) {

@@ -147,7 +147,8 @@ tl::expected<std::vector<ResponseCase>, std::string> solve_response(const Prepar
     out.push_back(std::move(c));
   }
   Eigen::SparseLU<ComplexSparse> factors;
-  for (std::size_t f = 0; f < frequencies.size(); ++f) {
+  // Where nothing is free to move there is nothing to solve.
+  for (std::size_t f = 0; T.cols() > 0 && f < frequencies.size(); ++f) {
     const double omega = cycle * frequencies[f];
     ComplexSparse Q =
         (K + rest).cast<Complex>() + Complex(0, omega) * B.cast<Complex>() - Complex(omega * omega) * M.cast<Complex>();

@@ -91,5 +91,12 @@ TEST(Response, in_axes_of_grids_on_a_rigid_body) {
   EXPECT_NEAR(a.cases[0].displacements(p.first + 5, 0).real(), angle, 1e-13);
 }
 
+TEST(Response, is_zero_where_everything_is_held) {
+  const Answer a = answer("FREQ = 6\nDLOAD = 2\nDISP = ALL\n",
+                          "GRID,1,,,,,,123456\nFREQ,6,.3\nRLOAD1,2,3,,,1.\nFORCE,3,1,,1.,5.,0.,0.\n");
+  ASSERT_EQ(a.cases.size(), 1u);
+  EXPECT_TRUE(a.cases[0].displacements.isZero(0));
+}
+
 }  // namespace
 }  // namespace dynalin::nastran_reader

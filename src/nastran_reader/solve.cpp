@@ -13,20 +13,20 @@ namespace dynalin::nastran_reader {
 
 namespace {
 
-// What Nastran refuses and what changes no result of ours: which component is dependent.
-constexpr std::string_view harmless[] = {"dependent-twice"};
-
-Diagnostics with_harmless_as_warnings(const Diagnostics& all) {
+// The same, with errors of one code as warnings.
+Diagnostics lowered(const Diagnostics& all, std::string_view code) {
   Diagnostics out;
   for (const Diagnostic& d : all.items()) {
-    const bool lower = d.severity == Severity::error &&
-                       std::find(std::begin(harmless), std::end(harmless), d.code) != std::end(harmless);
-    Diagnostic& copy = d.severity == Severity::error && !lower ? out.error(d.code, d.at, d.message, d.hint)
-                                                               : out.warning(d.code, d.at, d.message, d.hint);
-    copy.notes = d.notes;
+    const bool error = d.severity == Severity::error && d.code != code;
+    (error ? out.error(d.code, d.at, d.message, d.hint) : out.warning(d.code, d.at, d.message, d.hint)).notes = d.notes;
   }
   return out;
 }
+
+// What Nastran refuses, and what changes no result: which component is dependent.
+constexpr std::string_view refused_for_form = "dependent-twice";
+// What is right, and nobody solves here.
+constexpr std::string_view right_elsewhere = "unassembled-card";
 
 using Row = Eigen::SparseVector<double>;
 
@@ -112,13 +112,14 @@ Prepared prepare(Deck deck, Diagnostics reading, Purpose purpose) {
   }
   if (purpose == Purpose::check) {
     warn_of_unknown(p.deck, found);
+    found = lowered(found, right_elsewhere);
   } else {
     check_solvable(p.deck, purpose == Purpose::solve_what_is_known, found);
-    found = with_harmless_as_warnings(found);
+    found = lowered(found, refused_for_form);
   }
-  const Diagnostics assemblable = with_harmless_as_warnings(found);
+  const bool assemblable = p.points && !lowered(found, refused_for_form).has_errors();
   p.diagnostics = std::move(found);
-  if (assemblable.has_errors() || !p.points) return p;
+  if (!assemblable) return p;
   p.equations = assemble(p.deck, *p.points);
   p.elimination = eliminate(p.equations);
   tell_near_redundancy(p, p.diagnostics);
