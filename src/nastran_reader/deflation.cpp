@@ -59,7 +59,10 @@ Scales equilibrating(MatrixXd m) {
 
 DependentRows dependent_rows(const MatrixXd& m) {
   DependentRows out;
-  const Scales scales = equilibrating(m);
+  Scales scales = equilibrating(m);
+  // Of rows that say the same the larger one is kept, or rounding in a row that should be zero would speak for others.
+  // The weight is so slight that it takes few digits of what is small for good.
+  scales.rows.array() *= m.cwiseAbs().rowwise().maxCoeff().array().max(1e-40).pow(1.0 / 16);
   MatrixXd transposed = scales.of(m).transpose();
   const Index rows = m.rows(), height = m.cols();
   std::vector<lapack_int> order(static_cast<std::size_t>(rows), 0);

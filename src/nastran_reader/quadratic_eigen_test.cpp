@@ -159,6 +159,22 @@ TEST(QuadraticEigenvalues, tells_a_small_mass_from_none) {
   }
 }
 
+// Rounding where a zero was meant, in the row of a state: scaled by itself it looks like any other row.
+TEST(QuadraticEigenvalues, keeps_the_large_one_of_rows_that_say_the_same) {
+  for (const double rounding : {-4e-20, 1e-18, 1e-30}) {
+    MatrixXd M(2, 2), B(2, 2), K(2, 2);
+    M << 11, 0, rounding, 0;
+    B << 1.2, 0, 4e-5, 1;
+    K << 67, 0, -3e-3, 0.48;
+    const std::vector<Complex> found = values(M, B, K);
+    ASSERT_EQ(found.size(), 3u) << rounding;
+    EXPECT_NEAR(found[0].real(), -0.48, 1e-14);
+    const double damping = 1.2 / 22;
+    EXPECT_NEAR(found[2].real(), -damping, 1e-14);
+    EXPECT_NEAR(found[2].imag(), std::sqrt(67.0 / 11 - damping * damping), 1e-13);
+  }
+}
+
 TEST(QuadraticEigenvalues, refuses_what_nothing_determines) {
   MatrixXd M = MatrixXd::Zero(2, 2), K = M;
   M(0, 0) = 1, K(0, 0) = 1;

@@ -45,13 +45,23 @@ class Decks : public ::testing::TestWithParam<std::uint64_t> {
     }
     nastran::ExportOptions options;
     options.matrix_entry_zero_tolerance = 1e-30;
-    const std::string main = (folder_ / "deck").string();
+    const std::string main = (folder_ / (box == nastran::Box::open ? "open" : "closed")).string();
     const auto made = nastran::export_deck(*linear, box, options, main);
     EXPECT_TRUE(made) << made.error().message;
     if (!made) return false;
     for (const nastran::DeckFile& file : made->files) std::ofstream(file.name) << file.text;
-    expect_roots(main + ".dat", expected, 1e-8);
+    // In a deck bodies without mass have a little, as its remark says.
+    const bool differs =
+        std::ranges::any_of(made->remarks.items(), [](const auto& d) { return d.code == "export-differs"; });
+    expect_roots(main + ".dat", expected, differs ? 1e-4 : 1e-8);
     return true;
+  }
+
+  static bool moves(const OperatingPoint& point) {
+    const auto any = [](const std::vector<double>& values) {
+      return std::ranges::any_of(values, [](double v) { return std::abs(v) > 1e-9; });
+    };
+    return any(point.velocity) || any(point.acceleration);
   }
 
   std::filesystem::path folder_;
@@ -66,11 +76,13 @@ TEST_P(Decks, of_generated_mechanisms_have_their_eigenvalues) {
     ASSERT_TRUE(point) << point.error().message;
     closed += compare(point->point, nastran::Box::closed);
 
-    const auto resting = system_of(random_resting_mechanism(seed));
+    Mechanism still = random_resting_mechanism(seed);
+    hold_motions(still);
+    const auto resting = system_of(still);
     StaticsOptions options;
     options.restore_velocities = false;
     const auto found = static_equilibrium(as_drawn(resting), options);
-    if (!found) continue;
+    if (!found || moves(found->point.values)) continue;
     open += compare(found->point, nastran::Box::open);
   }
   EXPECT_EQ(closed, 20);

@@ -24,4 +24,12 @@ inline Mechanism random_resting_mechanism(std::uint64_t seed) {
   return mechanism;
 }
 
+// A model at rest has constant motions.
+inline void hold_motions(Mechanism& mechanism) {
+  for (Motion& m : mechanism.motions) {
+    m.f.c[0] = static_cast<double>(motion_values(m.f, 0)[0]);
+    m.f.c[1] = m.f.c[2] = m.f.c[3] = m.f.amplitude = 0;
+  }
+}
+
 }  // namespace dynalin::oracle

@@ -42,11 +42,7 @@ TEST_P(Statics, generated_mechanisms_come_to_rest_or_say_why_not) {
     for (const double angle : op->memory) turned = turned || std::abs(angle) > 3.1;
     // Nor does it know splines beyond their points, where the search may have led.
     if (turned || !mechanism.splines.empty()) continue;
-    // A model at rest has constant motions.
-    for (Motion& m : mechanism.motions) {
-      m.f.c[0] = static_cast<double>(motion_values(m.f, 0)[0]);
-      m.f.c[1] = m.f.c[2] = m.f.c[3] = m.f.amplitude = 0;
-    }
+    hold_motions(mechanism);
     const Layout& layout = system.layout();
     Model model(mechanism);
     model.clock = 0;
