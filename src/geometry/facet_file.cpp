@@ -239,7 +239,7 @@ std::optional<std::size_t> obj_point(std::string_view word, std::size_t count) {
   const auto index = number<std::int64_t>(word.substr(0, word.find('/')));
   if (!index) return std::nullopt;
   const auto n = static_cast<std::int64_t>(count), k = *index < 0 ? n + *index : *index - 1;
-  if (*index == 0 || k < 0 || k >= n) return std::nullopt;
+  if (k < 0 || k >= n) return std::nullopt;
   return static_cast<std::size_t>(k);
 }
 

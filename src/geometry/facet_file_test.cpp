@@ -130,6 +130,9 @@ TEST(FacetFile, says_on_which_line_what_is_wrong) {
   EXPECT_EQ(error_of("a.shl", "2 1\n0 0 0\n"), "line 2: a point needs three numbers");
   EXPECT_EQ(error_of("a.shl", "x 1 1\n"),
             "line 1: a shell file begins with its numbers of points and polygons and a factor");
+  EXPECT_EQ(error_of("a.shl", "1 -1 1\n0 0 0\n"), error_of("a.shl", "x 1 1\n"));
+  EXPECT_EQ(error_of("a.shl", "-1 1 1\n0 0 0\n"), error_of("a.shl", "x 1 1\n"));
+  EXPECT_EQ(error_of("a.shl", "1 1 1E300\n1E300 0 0\n"), "line 2: a coordinate is too large");
   EXPECT_EQ(error_of("a.shl", "1 1 1\n0 0 0\n3 1 1 2\n"), "line 3: it refers to a point that does not exist");
   EXPECT_EQ(error_of("a.shl", "1 1 1\n0 0 0\nend"), "line 3: a polygon begins with the number of its corners");
   EXPECT_EQ(error_of("a.shl", "Version: 3\n"), "line 1: versions 1 and 2 of shell files are known");

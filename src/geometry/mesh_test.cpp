@@ -31,6 +31,12 @@ TEST(Mesh, of_two_is_closed_where_both_are) {
   EXPECT_EQ(m.segments.front(), (Mesh::Edge{16, 17}));
 }
 
+TEST(Mesh, far_from_its_origin_keeps_the_digits_of_its_volume) {
+  Mesh m = box({1, 2, 3});
+  for (Vector& p : m.vertices) p += Vector{1e6, -2e6, 3e6};
+  EXPECT_NEAR(signed_volume(m), 6, 1e-8);
+}
+
 TEST(Mesh, turned_over_bounds_a_negative_volume_and_close_turns_it_back) {
   Mesh m = box({1, 2, 3});
   turn_over(m);
@@ -62,6 +68,11 @@ TEST(Lines, arcs_begin_at_x_and_circles_close) {
   EXPECT_EQ(circle.vertices.size(), 10u);
   EXPECT_EQ(circle.segments.size(), 10u);
   expect_sound(circle);
+  for (const auto& e : circle.segments) {
+    const Vector along = circle.vertices[e[1]] - circle.vertices[e[0]];
+    EXPECT_NEAR(norm(along), 4 * std::sin(std::numbers::pi / 10), 1e-12);
+    EXPECT_GT(cross(circle.vertices[e[0]], along).z, 0);
+  }
   const Mesh quarter = arc(2, {.angle = std::numbers::pi / 2, .segments = 5});
   EXPECT_EQ(quarter.segments.size(), 5u);
   expect_sound(quarter);
@@ -94,6 +105,29 @@ TEST(SpringDamper, halves_meet_in_the_middle_and_share_nothing) {
   EXPECT_NEAR(range(halves[0]).second, 5.25, 1e-12);
   EXPECT_NEAR(range(halves[1]).first, 4.75, 1e-12);
   EXPECT_NEAR(range(halves[1]).second, 12, 1e-12);
+}
+
+TEST(SpringDamper, coils_turn_once_in_a_pitch_of_the_diameter_of_the_spring) {
+  const auto halves = spring_damper_halves({.coils = 3, .diameter = 5, .segments = 8}, 12);
+  std::size_t k = 0;
+  for (const Mesh& half : halves) {
+    ASSERT_EQ(half.vertices.size(), 2u * 13u) << "a coil and a half in pieces of an eighth";
+    for (std::size_t i = 0; i < half.vertices.size(); i += 2, ++k) {
+      const auto coil = static_cast<double>(k < 13 ? k : k - 1) / 8;  // the halves share the place of their ends
+      const double angle = 2 * std::numbers::pi * coil;
+      const Vector middle{2.5 * std::cos(angle), 2.5 * std::sin(angle), 4 * coil};
+      EXPECT_NEAR(norm(half.vertices[i] - (middle - Vector{0, 0, 0.5})), 0, 1e-12);
+      EXPECT_NEAR(norm(half.vertices[i + 1] - (middle + Vector{0, 0, 0.5})), 0, 1e-12);
+    }
+  }
+}
+
+TEST(SpringDamper, of_which_a_measure_is_missing_has_no_such_part) {
+  const auto halves = spring_damper_halves({.coils = 3, .cup_diameter = {1, 0}, .cup_length = {0, 2}}, 8);
+  for (const Mesh& half : halves) {
+    EXPECT_EQ(half.faces(), 0u);
+    EXPECT_EQ(half.segments.size(), 1u);
+  }
 }
 
 TEST(SpringDamper, tubes_begin_at_the_tips) {

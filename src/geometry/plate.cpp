@@ -10,36 +10,38 @@ namespace dynalin {
 
 namespace {
 
-constexpr double straight = 1e-9;  // [rad] a corner that turns by less is none
+constexpr double straight = 1e-9;  // of angles [rad] and of areas
 
 struct Side {
   Vector direction, outwards;
 };
 
-// Neighbours that are the same point, and corners that do not turn, left out.
-std::vector<Vector> true_corners(std::span<const Vector> corners) {
+// Neighbours that are the same point are one.
+std::vector<Vector> distinct_corners(std::span<const Vector> corners) {
   std::vector<Vector> all;
   for (const Vector& p : corners) {
-    if (all.empty() || norm(p - all.back()) > 0) all.push_back({p.x, p.y, 0});
+    if (all.empty() || norm(Vector{p.x, p.y, 0} - all.back()) > 0) all.push_back({p.x, p.y, 0});
   }
   while (all.size() > 1 && norm(all.front() - all.back()) == 0) all.pop_back();
-  if (all.size() < 3) return all;
-  std::vector<Vector> turning;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const Vector in = all[k] - all[(k + all.size() - 1) % all.size()], out = all[(k + 1) % all.size()] - all[k];
-    if (std::abs(cross(in, out).z) > straight * norm(in) * norm(out) || dot(in, out) < 0) turning.push_back(all[k]);
-  }
-  return turning;
+  return all;
+}
+
+// Twice the area, 0 where rounding may have made all of it.
+double area_of(const std::vector<Vector>& at) {
+  double around = 0;
+  for (std::size_t k = 0; k < at.size(); ++k) around += norm(at[(k + 1) % at.size()] - at[k]);
+  const double twice = 2 * vector_area(at).z;
+  return std::abs(twice) > straight * around * around ? twice : 0;
 }
 
 }  // namespace
 
 std::optional<std::vector<Vector>> rounded_outline(std::span<const Vector> corners, double radius,
                                                    std::size_t segments) {
-  std::vector<Vector> at = true_corners(corners);
+  std::vector<Vector> at = distinct_corners(corners);
   const std::size_t n = at.size();
   if (n < 2 || (n == 2 && radius == 0)) return std::nullopt;
-  const double area = vector_area(at).z;
+  const double area = area_of(at);
   if (n > 2 && area == 0) return std::nullopt;
   if (area < 0) std::reverse(at.begin(), at.end());
 

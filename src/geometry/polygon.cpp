@@ -47,7 +47,7 @@ class EarClipping {
   std::vector<std::array<std::size_t, 3>> triangles;
 
  private:
-  static constexpr std::size_t most_work = 100'000'000;  // it grows with the cube of the corners at worst
+  static constexpr std::size_t most_work = 30'000'000;  // it grows with the cube of the corners at worst
 
   bool is_ear(std::size_t a, std::size_t b, std::size_t c) {
     work_ += rest_.size();

@@ -52,6 +52,14 @@ TEST(Polygon, with_corners_on_its_sides_has_no_flat_triangle) {
   EXPECT_NEAR(area_of(f.mesh), 4.5, 1e-12);
 }
 
+TEST(Polygon, far_from_its_origin_is_as_good_as_near) {
+  for (const double far : {0.0, 1e7}) {
+    const Filled f = filled({{far, 0, 0}, {far + 1, 0, 0}, {far + 0.25, 0.25, 0}, {far, 1, 0}});
+    EXPECT_TRUE(f.added);
+    EXPECT_EQ(f.mesh.triangles.size(), 2u);
+  }
+}
+
 TEST(Polygon, without_area_or_with_crossing_sides_is_none) {
   EXPECT_FALSE(filled({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}).added);
   EXPECT_FALSE(filled({{0, 0, 0}, {1, 0, 0}}).added);

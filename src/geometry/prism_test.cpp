@@ -70,6 +70,17 @@ TEST(Plate, corners_may_run_either_way) {
   EXPECT_NEAR(volume_of(prism(*outline, Outline::closed, {0, 0, 1})), 12, 1e-12);
 }
 
+TEST(Plate, corners_that_are_said_again_or_do_not_turn_change_nothing) {
+  const std::vector<Vector> once{{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}},
+      again{{0, 0, 0}, {2, 0, 5}, {4, 0, 0}, {4, 3, 0}, {4, 3, 7}, {0, 3, 0}, {0, 0, 0}, {0, 0, 0}};
+  const auto volume = [](const std::vector<Vector>& corners) {
+    const Mesh m = prism(*rounded_outline(corners, 0.5, 12), Outline::closed, {0, 0, 1});
+    expect_closed(m, 2);
+    return volume_of(m);
+  };
+  EXPECT_NEAR(volume(once), volume(again), 1e-12);
+}
+
 TEST(Plate, concave_corners_stay_sharp) {
   const std::vector<Vector> corners{{0, 0, 0}, {6, 0, 0}, {6, 2, 0}, {2, 2, 0}, {2, 6, 0}, {0, 6, 0}};
   const auto outline = rounded_outline(corners, 0.5, 4);
@@ -94,6 +105,8 @@ TEST(Plate, of_two_corners_is_a_slot) {
 TEST(Plate, without_area_is_none) {
   const std::vector<Vector> line{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, two{{0, 0, 0}, {1, 0, 0}}, one{{1, 1, 0}, {1, 1, 0}};
   EXPECT_FALSE(rounded_outline(line, 0, 20));
+  const std::vector<Vector> rounded{{0, 0, 0}, {0.1, 0.3, 0}, {0.2, 0.6, 0}, {0.7, 2.1, 0}};
+  EXPECT_FALSE(rounded_outline(rounded, 1, 20)) << "what area it has is rounding";
   EXPECT_FALSE(rounded_outline(two, 0, 20));
   EXPECT_FALSE(rounded_outline(one, 1, 20));
 }
