@@ -1,17 +1,15 @@
 #include "nastran/graphics.h"
 
 #include <map>
+#include <utility>
 
 #include "geometry/shape_source.h"
 #include "model/model.h"
+#include "nastran/names.h"
 
 namespace dynalin::nastran {
 
 namespace {
-
-std::string name_of(const ElementLabel& label, const ExportOptions& options) {
-  return options.use_view_names && !label.view_name.empty() ? std::string(label.view_name) : label.text();
-}
 
 class Drawer {
  public:
@@ -83,19 +81,15 @@ class Drawer {
                            grids[e[0]], grids[e[1]]});
   }
 
-  std::int64_t shell_property() {
-    return property(shell_, options_.pshell_offset, false, thin * model_.characteristic_length());
-  }
-  std::int64_t rod_property() {
-    const double width = thin * model_.characteristic_length();
-    return property(rod_, options_.prod_offset, true, width * width);
-  }
-  // One for all shapes, made when first wanted, with a material of its own.
-  std::int64_t property(std::int64_t& known, std::int64_t offset, bool rod, double size) {
+  std::int64_t shell_property() { return property(shell_, options_.pshell_offset, false); }
+  std::int64_t rod_property() { return property(rod_, options_.prod_offset, true); }
+  // One for all shapes, made when first wanted, with a material of its own. A shell has a thickness, a rod an area.
+  std::int64_t property(std::int64_t& known, std::int64_t offset, bool rod) {
     if (known == 0) {
       known = ids_.take(IdSpace::property, offset);
+      const double size = thin * model_.characteristic_length();
       deck_.shape_properties.push_back(
-          {{}, known, ids_.take(IdSpace::material, options_.material_card_number), rod, size});
+          {{}, known, ids_.take(IdSpace::material, options_.material_card_number), rod, rod ? size * size : size});
     }
     return known;
   }
