@@ -10,6 +10,7 @@
 #include "linear/perturbed_point.h"
 #include "mechanics/pair_blocks.h"
 #include "nastran/export_point.h"
+#include "nastran/graphics.h"
 #include "nastran/marker_grids.h"
 #include "nastran/mode_shapes.h"
 #include "nastran/names.h"
@@ -50,6 +51,7 @@ class OpenBox {
     auto done = forces.add(contributions.of_elements(), std::move(of_states), remarks_);
     if (!done) return tl::unexpected(done.error());
     if (options_.export_tic_cards) add_velocities();
+    add_graphics(system_.model(), of_.point.poses, options_, ids_, deck_, remarks_);
     if (options_.solution_number == 108) remove_unused();
     if (options_.export_mode_shapes) {
       if (auto added = add_modes(of_, points_, deck_); !added) return tl::unexpected(added.error());

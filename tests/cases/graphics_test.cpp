@@ -1,12 +1,14 @@
 // Every type of GRAPHICS in one dataset: it is read without a word, drawn, and changes no eigenvalue.
 #include <gmock/gmock.h>
 
+#include <numbers>
 #include <set>
 
 #include "cases/run.h"
 #include "elements/catalogue.h"
 #include "geometry/shape_source.h"
 #include "model/model.h"
+#include "nastran_reader/solve.h"
 
 namespace dynalin::cases {
 namespace {
@@ -75,6 +77,49 @@ TEST_F(Graphics, change_no_eigenvalue) {
   const RunResult without = run(mechanism + "END\n", "SIMULATE/STATICS\nLINEAR/EIGENSOL\n");
   ASSERT_EQ(without.status, 0) << without.err;
   EXPECT_EQ(with.result(1).at("eigenvalues"), without.result(1).at("eigenvalues"));
+}
+
+class ExportedGraphics : public Graphics, public ::testing::WithParamInterface<const char*> {};
+
+// The deck is legal and has the eigenvalues of the mechanism, whatever its shapes are made of.
+TEST_P(ExportedGraphics, leave_the_eigenvalues_of_the_deck_alone) {
+  write("export.cfg", GetParam());
+  const RunResult r = run(mechanism + pictures + "END\n",
+                          "SIMULATE/STATICS\nLINEAR/EIGENSOL\nLINEAR/EXPORT, TYPE=OPENBOX, FILE=deck.dat, "
+                          "CONFIG=export.cfg\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, ::testing::Not(::testing::HasSubstr("GRAPHICS")));
+  std::string path;
+  for (const auto& file : r.result(2).at("files")) {
+    if (file.get<std::string>().find("_") == std::string::npos || path.empty()) path = file.get<std::string>();
+  }
+  const auto deck = nastran_reader::prepare(path, nastran_reader::Purpose::check);
+  EXPECT_FALSE(deck.diagnostics.has_errors()) << render(deck.diagnostics);
+  const auto modes = nastran_reader::solve_modes(path);
+  ASSERT_TRUE(modes) << modes.error();
+  const auto expected = r.eigenvalues(1);
+  ASSERT_EQ(modes->eigenvalues.size(), expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    const auto wanted = expected[k] * 2.0 * std::numbers::pi;
+    const auto near = std::any_of(modes->eigenvalues.begin(), modes->eigenvalues.end(), [&](const auto& value) {
+      return std::abs(value - wanted) < 1e-7 * std::abs(wanted);
+    });
+    EXPECT_TRUE(near) << wanted << " " << modes->eigenvalues.front();
+  }
+}
+INSTANTIATE_TEST_SUITE_P(styles, ExportedGraphics,
+                         ::testing::Values("", "use_plotel = yes\n", "use_wireframe = yes\n", "file_name_style = B\n",
+                                           "file_name_style = C\n", "use_adams_ids = no\nuse_includes = no\n",
+                                           "use_long_format = no\nexport_spdp = no\nexport_external = no\n",
+                                           "export_graphics = no\n"));
+
+TEST_F(Graphics, of_an_export_that_cannot_be_drawn_are_remarked) {
+  const RunResult r = run(mechanism + "GRAPHICS/1, EXTERNAL, RM=20, FILE=lid.x_t\nEND\n",
+                          "SIMULATE/STATICS\nLINEAR/EXPORT, TYPE=OPENBOX, FILE=deck\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err,
+              ::testing::HasSubstr("model.adm:13:30: warning: GRAPHICS/1 is not drawn: lid.x_t has a format that "
+                                   "is not read [geometry-format]"));
 }
 
 }  // namespace
