@@ -63,6 +63,7 @@ TEST(Graphics, round_solids_have_their_size_and_place) {
   EXPECT_NEAR(volume_of(s[1].mesh), 8 * std::sin(pi / 32) * 4 * 0.25, 1e-12) << "16 pieces of a quarter of a turn";
   expect_near(extent_of(m, s[1]).low, {0, 20, -4});
   EXPECT_NEAR(volume_of(s[2].mesh), polygon_area(8) * 4, 1e-12);
+  for (const Vector& p : s[2].mesh.vertices) EXPECT_TRUE(p.z == 0 || std::hypot(p.x, p.y) == 0) << "wide at its marker";
   expect_near(extent_of(m, s[3]).low, {-1, -2, -3});
   EXPECT_EQ(s[3].body, ground_body);
   EXPECT_NEAR(volume_of(s[4].mesh), 2 * polygon_area(16) * 5 * polygon_area(8), 1e-10);
