@@ -87,8 +87,18 @@ char root(MatrixKind kind) { return "KBM"[static_cast<std::size_t>(kind)]; }
 
 class Writer {
  public:
-  Writer(const ExportOptions& options, Diagnostics& remarks, std::vector<std::string>& details)
-      : options_(options), remarks_(remarks), details_(details) {}
+  Writer(const Deck& deck, const ExportOptions& options, Diagnostics& remarks, std::vector<std::string>& details)
+      : options_(options), remarks_(remarks), details_(details) {
+    const auto take = [this](MatrixKind kind, double value) {
+      double& most = largest_of_kind_[static_cast<std::size_t>(kind)];
+      most = std::max(most, std::abs(value));
+    };
+    for (const Matrix& m : deck.matrices) take(m.kind, largest(m.entries));
+    for (const Bush& b : deck.bushes) {
+      for (const double k : b.stiffness) take(MatrixKind::K, k);
+      for (const double c : b.damping) take(MatrixKind::B, c);
+    }
+  }
 
   void add(const Matrix& matrix) {
     const Entries sums = summed(matrix.entries);
@@ -136,9 +146,9 @@ class Writer {
             ? fmt::format("matrix {}: nothing is below the tolerance", of)
             : fmt::format("matrix {}: the largest entry that is not written is {:.3g}, the largest is {:.3g}", of,
                           dropped_, most));
-    // More than a millionth of a matrix is no rounding.
-    constexpr double worth_saying = 1e-6;
-    if (dropped_ > worth_saying * most)
+    // What is left of a force beyond its CBUSH may be rounding alone: it counts beside all of its kind.
+    constexpr double worth_saying = 1e-8;
+    if (dropped_ > worth_saying * largest_of_kind_[static_cast<std::size_t>(matrix.kind)])
       remarks_.warning(
           "dropped-entries", {},
           fmt::format("entries of {} below matrix_entry_zero_tolerance = {:g} are not written, up to {:.3g}{}", of,
@@ -152,14 +162,15 @@ class Writer {
   std::vector<std::string>& details_;
   std::vector<WrittenMatrix> list_;
   std::set<std::string> taken_;
-  double dropped_ = 0;  // the largest of a matrix
+  double dropped_ = 0;                       // the largest of a matrix
+  std::array<double, 3> largest_of_kind_{};  // K, B and M
 };
 
 }  // namespace
 
 std::vector<WrittenMatrix> written_matrices(const Deck& deck, const ExportOptions& options, Diagnostics& remarks,
                                             std::vector<std::string>& details) {
-  Writer writer(options, remarks, details);
+  Writer writer(deck, options, remarks, details);
   for (const Matrix& matrix : deck.matrices) writer.add(matrix);
   return writer.take();
 }

@@ -278,6 +278,20 @@ TEST(DeckText, continues_long_lists_behind_a_comma) {
   EXPECT_EQ(std::count(set.begin(), set.end(), 'K'), 31);
 }
 
+TEST(DeckText, keeps_every_grid_that_something_has) {
+  Deck d = sample_open_deck();
+  d.outputs = {{0, 3}};
+  d.grids.push_back({of_body(1, "an output"), 1000100, {1, 1, 1}, 0, ""});
+  d.grids.push_back({of_body(1, "rides along"), 1000101, {1, 1, 1}, 0, ""});
+  d.rigid_elements[1].dependent = {1000031, 1000100, 1000101};
+  d.outputs.push_back({1, 1000100});
+  const std::string text = all(written(d, std::string(sample_response) + "remove_unused_items = cbush, grid\n"));
+  for (const char* id : {"1 ", "2 ", "3 ", "1000021 ", "1000001 ", "1000031 ", "1000100 ", "4000003 "})
+    EXPECT_THAT(text, HasSubstr("GRID*   " + std::string(id)));
+  EXPECT_THAT(text, Not(::testing::ContainsRegex("1000099|1000101")));
+  EXPECT_THAT(text, HasSubstr("RBE2*   5               3               123456          1000031\n*       1000100\n"));
+}
+
 // --- matrices ---
 Deck with_matrix(std::vector<Matrix::Entry> entries, std::string suffix = "VVV") {
   Deck d = sample_closed_deck();
@@ -328,6 +342,10 @@ TEST(DeckMatrix, says_what_it_drops) {
   EXPECT_THAT(small.details.front(), HasSubstr("the largest entry that is not written is 5e-09"));
   const auto large = written(with_matrix({{a, a, 1}, {b, b, 5e-9}}), "");
   EXPECT_TRUE(large.remarks.items().empty());
+  // The rounding that a CBUSH leaves of a force is worth no remark.
+  Deck rest = with_matrix({{a, a, 1e-13}});
+  rest.bushes = {{of_body(-1, "BUSHING/1"), 7, 7, 4, 1, 0, 0.5, {100, 0, 0, 0, 0, 0}, {}}};
+  EXPECT_TRUE(written(rest, "").remarks.items().empty());
   EXPECT_THAT(large.details.front(), HasSubstr("5e-09"));
   EXPECT_THAT(all(large), Not(HasSubstr("5.D-9")));
   EXPECT_THAT(all(written(with_matrix({{a, a, 1}, {b, b, 5e-9}}), "matrix_entry_zero_tolerance = 0\n")),

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <set>
 
 #include "linear/perturbed_point.h"
 #include "mechanics/pair_blocks.h"
@@ -52,7 +51,6 @@ class OpenBox {
     if (!done) return tl::unexpected(done.error());
     if (options_.export_tic_cards) add_velocities();
     add_graphics(system_.model(), of_.point.poses, options_, ids_, deck_, remarks_);
-    if (options_.solution_number == 108) remove_unused();
     if (options_.export_mode_shapes) {
       if (auto added = add_modes(of_, points_, deck_); !added) return tl::unexpected(added.error());
     }
@@ -164,33 +162,6 @@ class OpenBox {
         add(-1, e.label, points_.dof(coordinate), at_.motion.extra_rate[system_.layout().extra_index(coordinate)]);
       }
     }
-  }
-
-  // Bushes that hold nothing, grids at markers that nothing refers to.
-  void remove_unused() {
-    const auto asked = [&](const char* what) {
-      return std::ranges::find(options_.remove_unused_items, what) != options_.remove_unused_items.end();
-    };
-    if (asked("cbush")) {
-      std::erase_if(deck_.bushes, [](const Bush& b) {
-        const auto none = [](double v) { return v == 0.0; };
-        return std::ranges::all_of(b.stiffness, none) && std::ranges::all_of(b.damping, none);
-      });
-    }
-    if (!asked("grid")) return;
-    std::set<std::int64_t> used;
-    for (const RigidJoint& j : deck_.rigid_joints) used.insert({j.grid_A, j.grid_B});
-    for (const Bush& b : deck_.bushes) used.insert({b.grid_A, b.grid_B});
-    for (const InputPoint& p : deck_.inputs) used.insert(p.grid);
-    for (const OutputPoint& p : deck_.outputs) used.insert(p.grid);
-    std::set<std::int64_t> unused;
-    for (const RigidElement& e : deck_.rigid_elements) {
-      for (const std::int64_t g : e.dependent) {
-        if (!used.contains(g)) unused.insert(g);
-      }
-    }
-    std::erase_if(deck_.grids, [&](const Grid& g) { return unused.contains(g.id); });
-    std::erase_if(deck_.rigid_elements, [&](const RigidElement& e) { return unused.contains(e.dependent.front()); });
   }
 
   const Linearization& of_;

@@ -13,11 +13,9 @@ std::unordered_set<std::int64_t> used_points(const Deck& deck) {
   std::unordered_set<std::int64_t> used;
   for (const ConcentratedMass& m : deck.masses) used.insert(m.grid);
   for (const RigidJoint& j : deck.rigid_joints) used.insert({j.grid_A, j.grid_B});
+  // A grid that only rides along with another is not used by that.
   for (const auto* ties : {&deck.rigid_elements, &deck.shape_ties}) {
-    for (const RigidElement& e : *ties) {
-      used.insert(e.independent);
-      used.insert(e.dependent.begin(), e.dependent.end());
-    }
+    for (const RigidElement& e : *ties) used.insert(e.independent);
   }
   for (const Relation& r : deck.relations) {
     for (const Relation::Term& t : r.terms) used.insert(t.dof.point);
@@ -53,6 +51,10 @@ void remove_unused(Deck& deck, const ExportOptions& options, std::vector<std::st
   const std::unordered_set<std::int64_t> used = used_points(deck);
   const auto unused = [&](const Grid& g) { return !used.contains(g.id); };
   const auto count = std::erase_if(deck.grids, unused) + std::erase_if(deck.shape_grids, unused);
+  for (auto* ties : {&deck.rigid_elements, &deck.shape_ties}) {
+    for (RigidElement& e : *ties) std::erase_if(e.dependent, [&](std::int64_t id) { return !used.contains(id); });
+    std::erase_if(*ties, [](const RigidElement& e) { return e.dependent.empty(); });
+  }
   details.push_back(fmt::format("GRID cards taken out: {}", count));
 }
 

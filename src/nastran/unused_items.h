@@ -9,7 +9,8 @@
 
 namespace dynalin::nastran {
 
-// Takes out bushes without stiffness and damping, and grids that nothing names, as far as it is asked for. A line of
+// Takes out bushes without stiffness and damping, and grids that nothing but a rigid element has, as far as it is asked
+// for. A line of
 // `details` for each kind.
 void remove_unused(Deck&, const ExportOptions&, std::vector<std::string>& details);
 
