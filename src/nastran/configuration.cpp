@@ -83,12 +83,13 @@ class Reader {
       if (item.block) take_place(item);
     }
     if (notes.empty()) return;
+    const Span at = notes.front().at;
+    if (notes.size() == 1) notes.clear();  // the message says it
     std::vector<std::string> reasons;
     for (const auto& [why, names] : without_effect)
       reasons.push_back(fmt::format("{} ({})", fmt::join(names, ", "), why));
     made_.diagnostics
-        .warning("ignored-directive", notes.front().at,
-                 fmt::format("without effect on this export: {}", fmt::join(reasons, "; ")))
+        .warning("ignored-directive", at, fmt::format("without effect on this export: {}", fmt::join(reasons, "; ")))
         .notes = std::move(notes);
   }
   void take_place(const WrittenItem& item) {

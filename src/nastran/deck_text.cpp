@@ -114,6 +114,10 @@ class Writer {
     write_control_cards(deck_, o_, main);
     std::vector<ResponseCase> cases;
     if (o_.solution_number == 108) cases = write_response(deck_, o_, ids, main, made_.remarks);
+    if (o_.export_spc_connectivity && o_.file_name_style == FileStyle::C)
+      made_.remarks.warning("export-differs", {},
+                            "RJOINT and CBUSH cards are comments, as export_spc_connectivity asks for: until a script "
+                            "joins the bodies again, eigenvalues are those of bodies apart");
     write_model(deck_, o_,
                 [&](CardGroup group, const Owner& owner) -> CardFile& { return files_.of(group, owner, false); });
     const FieldWidth width = o_.use_dmig_long_format ? FieldWidth::large : FieldWidth::small;

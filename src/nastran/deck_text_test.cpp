@@ -250,6 +250,13 @@ TEST(DeckText, keeps_bodies_apart_in_style_C) {
                                                              HasSubstr("PROD*   2 "), HasSubstr("MAT1*   1000")));
 }
 
+TEST(DeckText, says_that_bodies_without_their_joints_are_apart) {
+  const DeckText t = written(sample_open_deck(), "file_name_style = C\nexport_spc_connectivity = yes\n");
+  ASSERT_EQ(t.remarks.items().size(), 1u);
+  EXPECT_EQ(t.remarks.items().front().code, "export-differs");
+  EXPECT_THAT(all(t), Not(HasSubstr("SPC = 3")));
+}
+
 TEST(DeckText, selects_what_is_there_and_nothing_else) {
   Deck d = sample_closed_deck();
   d.relations.clear(), d.fixed_points.clear();
