@@ -58,22 +58,23 @@ std::string scientific(const Decimal& d, std::size_t before, Exponent exponent) 
 class RealWriter {
  public:
   RealWriter(double magnitude, std::size_t columns, Exponent exponent)
-      : magnitude_(magnitude), columns_(columns), exponent_(exponent) {}
+      : magnitude_(magnitude),
+        columns_(columns),
+        exponent_(exponent),
+        most_(static_cast<int>(columns) - (exponent == Exponent::letter_D ? 3 : 1)) {}
 
   std::string best() {
-    const int e = at(most_digits).exponent;
+    const int e = at(most_).exponent;
     if (e + 2 <= static_cast<int>(columns_) && -e < static_cast<int>(columns_))
       offer([&](const Decimal& d) { return fixed(d, exponent_); }, true);
     offer([&](const Decimal& d) { return scientific(d, 1, exponent_); }, true);
     // The point elsewhere may save a digit of the exponent; that is unusual enough to be worth a digit only.
-    offer([&](const Decimal& d) { return scientific(d, 0, exponent_); }, false);
-    offer([&](const Decimal& d) { return scientific(d, d.digits.size(), exponent_); }, false);
+    if (e <= -10) offer([&](const Decimal& d) { return scientific(d, 0, exponent_); }, false);
+    if (e >= 10) offer([&](const Decimal& d) { return scientific(d, d.digits.size(), exponent_); }, false);
     return best_;
   }
 
  private:
-  static constexpr int most_digits = 17;
-
   const Decimal& at(int digits) {
     Decimal& d = decimals_[static_cast<std::size_t>(digits)];
     if (d.digits.empty()) d = rounded(magnitude_, digits);
@@ -82,7 +83,7 @@ class RealWriter {
   // The most digits of this form that fit.
   template <class Form>
   void offer(const Form& form, bool shorter_counts) {
-    for (int n = most_digits; n > 0; --n) {
+    for (int n = most_; n > 0; --n) {
       const Decimal& d = at(n);
       std::string text = form(d);
       if (text.size() > columns_) continue;
@@ -98,7 +99,8 @@ class RealWriter {
   double magnitude_;
   std::size_t columns_;
   Exponent exponent_;
-  std::array<Decimal, most_digits + 1> decimals_;
+  int most_;                          // digits beside a point, and D0 where it must be
+  std::array<Decimal, 16> decimals_;  // by digits
   std::string best_;
   double error_ = 0;
 };
