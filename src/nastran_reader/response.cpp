@@ -116,6 +116,7 @@ std::vector<int> requested(const Prepared& p, const Subcase& s) {
 }  // namespace
 
 tl::expected<std::vector<ResponseCase>, std::string> solve_response(const Prepared& p, Diagnostics&) {
+  if (!p.assembled()) return tl::unexpected(std::string("the deck is wrong"));
   const auto& T = p.elimination.T;
   const SparseMatrix columns = T;
   const auto reduced = [&](const SparseMatrix& X) { return SparseMatrix(columns.transpose() * (X * columns)); };

@@ -134,6 +134,7 @@ Prepared prepare(const std::string& path, Purpose purpose) {
 }
 
 tl::expected<ModeSolution, std::string> solve_modes(const Prepared& p, Diagnostics& diagnostics) {
+  if (!p.assembled()) return tl::unexpected(std::string("the deck is wrong"));
   ModeSolution out;
   out.degrees_of_freedom = p.points->freedoms();
   out.reduced = reduce(p.equations, p.elimination);

@@ -19,6 +19,7 @@ struct Prepared {
   Equations equations;
   Elimination elimination;
   Diagnostics diagnostics;
+  bool assembled() const { return points && elimination.T.rows() == points->freedoms(); }
 };
 
 enum class Purpose {
@@ -37,7 +38,8 @@ struct ModeSolution {
   Eigen::Index independent = 0;                   // that constraints leave and matrices touch
   Reduced reduced;
 };
-// The error is a reason. Remarks on freedoms that nothing touches go to the diagnostics.
+// The error is a reason; a deck that is wrong has none but that. Remarks on freedoms that nothing touches go to the
+// diagnostics.
 tl::expected<ModeSolution, std::string> solve_modes(const Prepared&, Diagnostics&);
 // Of the file, in one go: the error is all that is wrong, as on the terminal.
 tl::expected<ModeSolution, std::string> solve_modes(const std::string& path);

@@ -191,5 +191,102 @@ TEST(SolvedDeck, closed_box_with_singular_mass_has_finite_eigenvalues_only) {
   for (const Complex& z : s.eigenvalues) EXPECT_LT(std::abs(z), 1000);
 }
 
+// A parallelogram of four hinges in a plane that lies askew: three rows of them follow from the others, up to rounding.
+TEST(SolvedDeck, closed_loop_with_redundant_joints) {
+  const double L = 0.7, m = 3, J = 0.05, k = 40;
+  const auto deck = [&](const std::string& joints) {
+    return head + "SPC = 1\nBEGIN BULK\n" + eigc +
+           "PARAM,AUTOMSET,YES\n"
+           "CORD2R,7,,.123,-.456,.789,1.2,.3,2.1\n,.9,-2.1,.05\n"
+           "GRID,1,7,0.,0.,0.,7\nGRID,2,7,1.3,0.,0.,7\n"     // ground
+           "GRID,10,7,0.,0.,0.,7\nGRID,11,7,0.,.7,0.,7\n"    // left crank
+           "GRID,20,7,1.3,0.,0.,7\nGRID,21,7,1.3,.7,0.,7\n"  // right crank
+           "GRID,30,7,0.,.7,0.,7\nGRID,31,7,1.3,.7,0.,7\n"   // coupler
+           "RBE2,101,10,123456,11\nRBE2,102,20,123456,21\nRBE2,103,30,123456,31\n"
+           "CONM2,201,10,7\n,.1,,.1,,,.05\nCONM2,202,20,7\n,.1,,.1,,,.05\nCONM2,203,30,,3.\n,.1,,.1,,,.1\n"
+           "SPC1,1,123456,1,2\nCELAS2,301,40.,10,6\n" +
+           joints + "ENDDATA\n";
+  };
+  const double expected = std::sqrt(k / (m * L * L + 2 * J));
+  for (const std::string joints :
+       {"RJOINT,401,1,10,12345\nRJOINT,402,2,20,12345\nRJOINT,403,11,30,12345\nRJOINT,404,21,31,12345\n",
+        "RJOINT,404,31,21,12345\nRJOINT,403,30,11,12345\nRJOINT,402,2,20,12345\nRJOINT,401,10,1,12345\n"}) {
+    Prepared p = prepared(deck(joints));
+    EXPECT_FALSE(p.diagnostics.has_errors()) << render(p.diagnostics);
+    EXPECT_EQ(p.elimination.redundant.size(), 3u);
+    EXPECT_TRUE(p.elimination.nearly_redundant.empty());
+    const std::vector<double> w = frequencies(deck(joints));
+    ASSERT_EQ(w.size(), 1u);
+    EXPECT_NEAR(w[0], expected, 1e-12 * expected);
+  }
+}
+
+// Thousands of rows are eliminated together in no time.
+TEST(SolvedDeck, long_chain_of_hinges_is_prepared) {
+  constexpr int parts = 400;
+  std::string text = head + "SPC = 1\nBEGIN BULK\n" + eigc + "PARAM,AUTOMSET,YES\nGRID,1\nSPC1,1,123456,1\n";
+  int before = 1, element = 1;
+  for (int k = 0; k < parts; ++k) {
+    const int centre = 10 + 3 * k, near = centre + 1, far = centre + 2;
+    const auto grid = [&](int id, double x) {
+      text += "GRID," + std::to_string(id) + ",," + std::to_string(x).substr(0, 7) + "\n";
+    };
+    grid(centre, k + .5), grid(near, k), grid(far, k + 1);
+    const auto e = [&] { return std::to_string(element++); };
+    text += "CONM2," + e() + "," + std::to_string(centre) + ",,1.\n,1.,,1.,,,1.\n";
+    text += "RBE2," + e() + "," + std::to_string(centre) + ",123456," + std::to_string(near) + "," +
+            std::to_string(far) + "\n";
+    text += "RJOINT," + e() + "," + std::to_string(before) + "," + std::to_string(near) + ",12345\n";
+    before = far;
+  }
+  const Prepared p = prepared(text + "ENDDATA\n");
+  EXPECT_FALSE(p.diagnostics.has_errors()) << render(p.diagnostics);
+  EXPECT_EQ(p.elimination.independent.size(), static_cast<std::size_t>(parts));
+  EXPECT_TRUE(p.elimination.redundant.empty());
+}
+
+TEST(SolvedDeck, rigid_body_in_space_has_exact_zeros) {
+  const ModeSolution s =
+      modes(head + "BEGIN BULK\n" + eigc +
+            "GRID,1,,.1,.2,.3\nGRID,2,,1.1,.2,.3\nCONM2,1,1,,2.,.3,.1\n,.2,.01,.3,,,.4\nCONM2,2,2,,3.\n,.2,,.3,,,.4\n"
+            "CBUSH,3,9,1,2,,,,0\nPBUSH,9,K,3.+5,1.+6,2.+6,7.+4,5.+5,9.+4\nENDDATA\n");
+  EXPECT_EQ(s.zeros, 12);
+  EXPECT_EQ(s.eigenvalues.size(), 24u);
+}
+
+TEST(SolvedDeck, tells_what_nothing_touches_and_takes_it_out) {
+  Prepared p = prepared(head + "BEGIN BULK\n" + eigc +
+                        "GRID,7\nCONM2,1,7,,2.\nCELAS2,2,8.,7,1\nCELAS2,3,8.,7,2\nCELAS2,4,8.,7,3\nENDDATA\n");
+  const auto s = solve_modes(p, p.diagnostics);
+  ASSERT_TRUE(s);
+  EXPECT_EQ(s->eigenvalues.size(), 6u);
+  EXPECT_THAT(render(p.diagnostics), HasSubstr("GRID 7 component 456 have no mass"));
+}
+
+TEST(SolvedDeck, singular_matrices_are_a_failure_with_a_name) {
+  Prepared p = prepared(head + "K2PP = K\nBEGIN BULK\n" + eigc +
+                        "SPOINT,1,2\nDMIG,K,0,1,1,0\nDMIG,K,1,0,,1,0,1.\n,2,0,1.\nENDDATA\n");
+  const auto s = solve_modes(p, p.diagnostics);
+  ASSERT_FALSE(s);
+  EXPECT_THAT(s.error(), HasSubstr("the column of SPOINT 2 is empty"));
+}
+
+TEST(SolvedDeck, mode_shape_of_the_first_mode) {
+  Prepared p = prepared(double_pendulum("RJOINT,31,1,3,12345\nRJOINT,32,4,6,12345\nMPC,1,2,3,1.\n"));
+  const auto s = solve_modes(p, p.diagnostics);
+  ASSERT_TRUE(s);
+  const Eigen::VectorXcd u = mode_shape(p, *s, s->eigenvalues[1]);
+  // The lower rod's centre moves furthest or a rotation does; joints stay together.
+  EXPECT_NEAR(u.cwiseAbs().maxCoeff(), 1, 1e-14);
+  const Point &a = *p.points->find(4), &b = *p.points->find(6);
+  EXPECT_NEAR(std::abs(u[a.first] - u[b.first]), 0, 1e-13);
+  const Point &one = *p.points->find(2), &two = *p.points->find(5);
+  const std::complex<double> z = s->eigenvalues[1];
+  // The second equation of motion of the rods' angles: m2 L2/2 L1 θ1″ + (I2 + m2 L2²/4) θ2″ + m2 g L2/2 θ2 = 0.
+  EXPECT_LT(
+      std::abs(z * z * (1.5 * .4 * u[one.first + 5] + (.1 + 1.5 * .16) * u[two.first + 5]) + 5.886 * u[two.first + 5]),
+      1e-12);
+}
+
 }  // namespace
 }  // namespace dynalin::nastran_reader
