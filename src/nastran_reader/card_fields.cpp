@@ -10,7 +10,7 @@ namespace {
 
 constexpr int largest_id = 99'999'999;
 // What THRU may open up: no deck has more points.
-constexpr int longest_range = 10'000'000;
+constexpr int longest_range = 1'000'000;
 
 bool numeric(const Field& f) { return f.form == Field::Form::integer || f.form == Field::Form::real; }
 
@@ -166,13 +166,12 @@ NumberOrCard CardFields::number_or_card(std::size_t row, std::size_t number, std
   return out;
 }
 
-std::vector<Reference> CardFields::list(std::size_t index, std::string_view what, bool* range) {
+std::vector<Reference> CardFields::list(std::size_t index, std::string_view what) {
   std::vector<Reference> out;
   for (std::size_t i = index; i < count(); ++i) {
     const Field& f = at(i);
     if (f.blank()) continue;
     if (f.is_word("THRU")) {
-      if (range) *range = true;
       const Field& last = i + 1 < count() ? at(i + 1) : f;
       const Reference end = reference(last, what, 1);
       int step = 1;

@@ -44,7 +44,7 @@ class CardFields {
   NumberOrCard number_or_card(std::size_t row, std::size_t number, std::string_view what);
   // Numbers one after the other from `index` on, with `1 THRU 9` and `1 THRU 9 BY 2`. `range` tells whether THRU was
   // there.
-  std::vector<Reference> list(std::size_t index, std::string_view what, bool* range = nullptr);
+  std::vector<Reference> list(std::size_t index, std::string_view what);
 
   void wrong(std::string_view code, const Span& at, std::string message, std::string hint = {});
   // Fields that are nothing at all and that nobody asked for.

@@ -121,11 +121,18 @@ void spc(CardFields& c, Deck& deck) {
 void spc1(CardFields& c, Deck& deck) {
   const Reference set = c.id(0, 2, "the number of the set");
   const Components components = c.components(c.field(0, 3), "the components");
-  bool range = false;
-  const std::vector<Reference> points = c.list(2, "the point", &range);
+  // A range may be far wider than the points that are in it, and is kept as one.
+  if (c.field(0, 5).is_word("THRU") && c.blank(0, 7)) {
+    const Reference first = c.id(0, 4, "the first point"), last = c.id(0, 6, "the last point");
+    if (c.good() && last.id <= first.id)
+      c.wrong("field-range", c.field(0, 5).at, "THRU stands between a number and a larger one", "1 THRU 9");
+    if (c.good()) deck.spcs.push_back({set, first, components, c.field(0, 3).at, 0, c.card().at, last.id});
+    return;
+  }
+  const std::vector<Reference> points = c.list(2, "the point");
   if (points.empty() && c.good()) c.wrong("field-missing", c.card().end, "no point is named");
   if (!c.good()) return;
-  for (const Reference& p : points) deck.spcs.push_back({set, p, components, c.field(0, 3).at, 0, c.card().at, range});
+  for (const Reference& p : points) deck.spcs.push_back({set, p, components, c.field(0, 3).at, 0, c.card().at, 0});
 }
 
 void sum(CardFields& c, Deck& deck) {

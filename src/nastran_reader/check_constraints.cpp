@@ -49,15 +49,15 @@ class Constraints {
   }
 
   void spc(const Spc& s) {
-    const Point* p = points_.find(s.point.id);
-    if (!p) {
-      if (!s.range)
-        diagnostics_.error("undefined-card-id", s.point.at,
-                           fmt::format("SPC refers to point {}, which does not exist", s.point.id));
-    } else if (p->scalar ? s.components > 1 : s.components == 0) {
+    if (s.last == 0 && !points_.find(s.point.id))
+      diagnostics_.error("undefined-card-id", s.point.at,
+                         fmt::format("SPC refers to point {}, which does not exist", s.point.id));
+    for (const Point* p : held_points(s, points_)) {
+      if (p->scalar ? s.components <= 1 : s.components != 0) continue;
       diagnostics_.error("wrong-component", s.components_at,
                          p->scalar ? fmt::format("SPC: {} is a scalar point, which has component 0 alone", p->id)
                                    : fmt::format("SPC: the components of GRID {} are missing", p->id));
+      return;
     }
   }
 
@@ -122,8 +122,8 @@ class Constraints {
       if (p.fixed) hold(p, p.fixed);
     }
     for (const Spc& s : deck_.spcs) {
-      const Point* p = points_.find(s.point.id);
-      if (p && sets.contains(s.set.id)) hold(*p, s.components);
+      if (!sets.contains(s.set.id)) continue;
+      for (const Point* p : held_points(s, points_)) hold(*p, s.components);
     }
     for (const DependentFreedom& d : dependent_freedoms(deck_, points_)) {
       const auto [at, is_new] = seen.emplace(d.freedom, d);

@@ -96,6 +96,10 @@ const std::vector<Wrong>& wrong_bulk() {
       {"no_material", "PSHELL,1,7,.1\n", {"error undefined-card-id 6:10"}},
       {"no_shell_property", "GRID,1\nGRID,2,,1.\nGRID,3,,,1.\nCTRIA3,1,5,1,2,3\n", {"error undefined-card-id 9:10"}},
       {"no_mpc_point", "MPC,2,7,1,1.\n", {"error undefined-card-id 6:7", "warning unselected-set 6:1"}},
+      {"range_of_points",
+       "GRID,5\nSPC1,1,,1,THRU,99999999\n",
+       {"error wrong-component 7:8", "warning unselected-set 7:1"}},
+      {"range_backwards", "SPC1,1,3,9,THRU,1\n", {"error field-range 6:12"}},
       {"component_missing", "GRID,1\nCELAS2,1,2.,1\n", {"error wrong-component 7:14"}},
       {"component_of_scalar", "SPOINT,1\nCELAS2,1,2.,1,3\n", {"error wrong-component 7:15"}},
       // 6.

@@ -119,7 +119,7 @@ struct Spc {
   Span components_at;
   double value = 0;
   Span at;
-  bool range = false;  // of ID1 THRU ID2: points that are not there are no mistake
+  int last = 0;  // of ID1 THRU ID2, which takes the points that are there; 0 for one point
 };
 
 struct SetSum {

@@ -269,8 +269,8 @@ class Assembly {
     }
     const std::set<int> sets = sets_of(deck_.control.spc, deck_.spc_sums);
     for (const Spc& s : deck_.spcs) {
-      const Point* p = points_.find(s.point.id);
-      if (p && sets.contains(s.set.id)) set(*p, s.components);
+      if (!sets.contains(s.set.id)) continue;
+      for (const Point* p : held_points(s, points_)) set(*p, s.components);
     }
   }
 

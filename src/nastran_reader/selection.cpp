@@ -19,6 +19,18 @@ std::set<int> sets_of(const std::optional<Selected>& selected, const std::vector
   return out;
 }
 
+std::vector<const Point*> held_points(const Spc& s, const Points& points) {
+  std::vector<const Point*> out;
+  if (s.last == 0) {
+    if (const Point* p = points.find(s.point.id)) out.push_back(p);
+    return out;
+  }
+  for (const Point& p : points.all()) {
+    if (s.point.id <= p.id && p.id <= s.last) out.push_back(&p);
+  }
+  return out;
+}
+
 std::vector<DependentFreedom> dependent_freedoms(const Deck& deck, const Points& points) {
   std::vector<DependentFreedom> out;
   const std::set<int> sets = sets_of(deck.control.mpc, deck.mpc_sums);

@@ -135,6 +135,9 @@ Prepared prepare(const std::string& path, Purpose purpose) {
 
 tl::expected<ModeSolution, std::string> solve_modes(const Prepared& p, Diagnostics& diagnostics) {
   if (!p.assembled()) return tl::unexpected(std::string("the deck is wrong"));
+  constexpr Eigen::Index most = 20000;  // as dense matrices
+  if (p.elimination.T.cols() > most)
+    return tl::unexpected(fmt::format("{} independent components are more than {}", p.elimination.T.cols(), most));
   ModeSolution out;
   out.degrees_of_freedom = p.points->freedoms();
   out.reduced = reduce(p.equations, p.elimination);

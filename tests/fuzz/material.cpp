@@ -16,6 +16,7 @@
 #include "elements/catalogue.h"
 #include "expression/expression.h"
 #include "expression/functions.h"
+#include "nastran_reader/card_fields.h"
 
 namespace {
 
@@ -103,6 +104,19 @@ const Words facet_words = {"solid ",
                            "1E300"};
 const Words spline_words = {"[B]\n", "Z 1 2 3\n", "{", "$", "#", "1E300", "-1E-300", ","};
 
+Words deck_words() {
+  Words words = {
+      "SOL 107\n",  "SOL 108\n",     "CEND\n",   "BEGIN BULK\n", "ENDDATA\n", "K2PP = ", "SET 1 = ", "SPC = 1\n",
+      "MPC = 1\n",  "CMETHOD = 1\n", "SUBCASE ", "DISP = ALL\n", "INCLUDE '", "THRU",    "ENDT",     "*",
+      "\n        ", "\n+",           "\n*",      ",123456",      "1.-7",      "1.D0",    "        "};
+  for (const auto family :
+       {nastran_reader::point_cards(), nastran_reader::element_cards(), nastran_reader::constraint_cards(),
+        nastran_reader::matrix_cards(), nastran_reader::response_cards(), nastran_reader::drawing_cards()}) {
+    for (const auto& kind : family) words.insert("\n" + std::string(kind.name) + ",");
+  }
+  return words;
+}
+
 // Fences ```adm and ```acf of the pages, each dataset with the commands behind it.
 void write_inputs(const fs::path& folder, const fs::path& pages) {
   for (const char* target : {"dataset", "commands", "run"}) fs::create_directories(folder / target);
@@ -144,6 +158,7 @@ int main(int argc, char** argv) {
   write_dictionary(folder / "matrix.dict", {matrix_words});
   write_dictionary(folder / "spline.dict", {spline_words});
   write_dictionary(folder / "facets.dict", {facet_words});
+  write_dictionary(folder / "deck.dict", {deck_words()});
   write_dictionary(folder / "run.dict", {statements, expressions, commands, signs, {"\n####\n"}});
   write_inputs(folder, argv[2]);
 }
