@@ -13,6 +13,20 @@ namespace dynalin::cases {
 
 class ProgramLibraryAndDecks : public ProgramAndLibrary {
  protected:
+  static std::vector<ExpectedRoot> roots_of(const nlohmann::json& result) {
+    constexpr double cycle = 2 * std::numbers::pi;
+    std::vector<ExpectedRoot> list;
+    for (const auto& mode : result.at("modes")) {
+      const auto& bound = mode.at("error_bound_hz");
+      const std::complex<double> value(mode.at("real_hz"), mode.at("imag_hz"));
+      // Entries of a deck carry a few roundings more than those of the program.
+      const double uncertain = cycle * 1e3 * (bound.is_null() ? 0 : bound.get<double>());
+      list.push_back({cycle * value, uncertain});
+      if (value.imag() != 0) list.push_back({cycle * std::conj(value), uncertain});
+    }
+    return list;
+  }
+
   RunResult run_file(const std::string& file) const { return exported(file, ProgramAndLibrary::run_file(file)); }
   RunResult run(const std::string& dataset, const std::string& commands) const {
     return exported("model.acf", ProgramAndLibrary::run(dataset, commands));
@@ -30,20 +44,6 @@ class ProgramLibraryAndDecks : public ProgramAndLibrary {
       }
     }
     return most < 1e-9;
-  }
-
-  static std::vector<ExpectedRoot> roots_of(const nlohmann::json& result) {
-    constexpr double cycle = 2 * std::numbers::pi;
-    std::vector<ExpectedRoot> list;
-    for (const auto& mode : result.at("modes")) {
-      const auto& bound = mode.at("error_bound_hz");
-      const std::complex<double> value(mode.at("real_hz"), mode.at("imag_hz"));
-      // Entries of a deck carry a few roundings more than those of the program.
-      const double uncertain = cycle * 1e3 * (bound.is_null() ? 0 : bound.get<double>());
-      list.push_back({cycle * value, uncertain});
-      if (value.imag() != 0) list.push_back({cycle * std::conj(value), uncertain});
-    }
-    return list;
   }
 
   // The same commands, each EIGENSOL followed by decks of its model; its coordinates are left to the program there.
