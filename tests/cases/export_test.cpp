@@ -17,7 +17,7 @@ using ::testing::Not;
 const std::string model =
     "oscillator\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n! adams_view_name='seat'\nPART/2, MASS=2, CM=20, "
     "IP=1,1,1\n"
-    "! adams_view_name='head'\nMARKER/20\nMARKER/21, QP=0,0,1\nMARKER/22, FLOATING\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
+    "! adams_view_name='head'\nMARKER/20\nMARKER/21, QP=0,0,1\nMARKER/22, PART=1, FLOATING\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
     "VFORCE/1, I=21, JFLOAT=22, RM=1, FX=0, FY=0, FZ=0\nBUSHING/1, I=20, J=1, K=0,0,8, C=0,0,6\nEND\n";
 const std::string response =
     "solution_number = 108\nbegin_frequency = 1\nend_frequency = 9\nsteps_frequency = 8\n"
@@ -174,7 +174,7 @@ TEST_F(Export, runs_the_configuration_of_its_page) {
   const std::string text = read_file(std::filesystem::path(PAGES_DIR).parent_path() / "nastran.md");
   const auto begin = text.find("```cfg\n") + 7;
   std::string other = model;
-  other.replace(other.find("MARKER/22, FLOATING"), 19, "MARKER/31, PART=2\nMARKER/22, FLOATING");
+  other.replace(other.find("MARKER/22, PART=1, FLOATING"), 27, "MARKER/31, PART=2\nMARKER/22, PART=1, FLOATING");
   write("export.cfg", text.substr(begin, text.find("```", begin) - begin));
   const RunResult r = run(other, "LINEAR/EXPORT, TYPE=OPENBOX, FILE=deck, CONFIG=export.cfg\n");
   EXPECT_EQ(r.status, 0) << r.err;

@@ -219,7 +219,7 @@ const std::vector<Wrong>& table() {
     {Place::command, "LINEAR/STATEMAT, FILE=x, NODAMPIN, ORIGINAL", {"wrong-option 3:26"}},
     {Place::command, "LINEAR/EXPORT, TYPE=CLOSEDBOX, FILE=-", {"wrong-option 3:32"}},
     {Place::command, "LINEAR/EXPORT, TYPE=BOX, FILE=x", {"unknown-word 3:16"}},
-    {Place::command, "LINEAR/EXPORT, TYPE=OPENBOX, FILE=x, RM=1, PINPUT=1, KINETIC=1, NODAMPIN, NAMES, ORIGINAL", {"wrong-option 3:82", "wrong-option 3:38", "wrong-option 3:44", "wrong-option 3:54", "wrong-option 3:65", "wrong-option 3:75"}},
+    {Place::command, "LINEAR/EXPORT, TYPE=OPENBOX, FILE=x, RM=1, PINPUT=1, KINETIC=1, NODAMPIN, NAMES, ORIGINAL", {"wrong-option 3:38", "wrong-option 3:44", "wrong-option 3:54", "wrong-option 3:65", "wrong-option 3:75", "wrong-option 3:82"}},
     {Place::command, "LINEAR/EXPORT, TYPE=OPENBOX, FILE=x, CONFIG=nowhere.cfg", {"unreadable-file 3:1"}},
     {Place::command, "LINEAR/MKB, FILE=x, CONFIG=a", {"wrong-option 3:21"}},
     {Place::added, "SPRINGDAMPER/9, TRANSLATIONAL, I=20, J=1, K=3, ANGLE=2", {"unexpected-argument 10:48"}},
