@@ -189,7 +189,7 @@ Result<LinearSystem> linearize(const System& system, OperatingPoint op, const Li
           {}});
     }
     linear->warnings.warning(
-        "nearly-redundant", system.layout().rows[static_cast<std::size_t>(near.rows.front())].owner->at,
+        "constraint-left-out", system.layout().rows[static_cast<std::size_t>(near.rows.front())].owner->at,
         fmt::format(
             "{} depend{} on other constraints but for less than {:.0e} of {} size, and {} left out as redundant",
             names_of(system, near.rows), near.rows.size() == 1 ? "s" : "", near.distance,

@@ -190,7 +190,7 @@ StudyResult<Deck> closed_box(const Linearization& of, const ExportOptions& optio
   if (!at) return tl::unexpected(at.error());
   const auto physical = PhysicalEquations::make(*of.system, at->linear);
   if (!physical) return tl::unexpected(StudyFailure(physical.error()));
-  if (physical->whole().coordinates.empty() && physical->whole().states.empty()) {
+  if (physical->whole().coordinates.empty()) {
     return tl::unexpected(StudyFailure(
         {"export", "the model has no degrees of freedom: it can be exported as OPENBOX, not as CLOSEDBOX", {}}));
   }

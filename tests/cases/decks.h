@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <numbers>
+#include <regex>
 
 #include "cases/both.h"
 #include "deck_roots.h"
@@ -70,7 +71,12 @@ class ProgramLibraryAndDecks : public ProgramAndLibrary {
     }
     if (decks == 0) return r;
     write("decks.acf", commands);
-    const RunResult with = Cases::run_file("decks.acf");
+    RunResult with = Cases::run_file("decks.acf");
+    const bool closed = with.err.find("OPENBOX, not as CLOSEDBOX") == std::string::npos;  // nothing can move
+    if (!closed) {
+      write("decks.acf", std::regex_replace(commands, std::regex("LINEAR/EXPORT, TYPE=CLOSEDBOX[^\n]*\n"), ""));
+      with = Cases::run_file("decks.acf");
+    }
     EXPECT_EQ(with.status, 0) << with.err;
     if (with.status != 0) return r;
     int deck = 0;
@@ -78,7 +84,7 @@ class ProgramLibraryAndDecks : public ProgramAndLibrary {
       if (!result.contains("eigenvalues")) continue;
       const std::vector<ExpectedRoot> expected = roots_of(result);
       const std::string number = std::to_string(++deck);
-      expect_roots((folder_ / ("closed" + number + ".dat")).string(), expected, 1e-8);
+      if (closed) expect_roots((folder_ / ("closed" + number + ".dat")).string(), expected, 1e-8);
       if (at_rest(result.at("operating_point")))
         expect_roots((folder_ / ("open" + number + ".dat")).string(), expected, 1e-8);
     }
