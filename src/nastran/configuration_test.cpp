@@ -370,6 +370,9 @@ TEST(Configuration, says_once_what_has_no_effect_and_leaves_it_out) {
   EXPECT_TRUE(options_of("export_residuals = no\n").export_residuals == false);
   EXPECT_TRUE(options_of("export_residuals = no\nexport_cbush = no\n").export_residuals);
   EXPECT_THAT(problems("file_include_extension = .x\nfile_name_style = B\n"), ElementsAre("ignored-directive 1:1"));
+  // What is without effect itself decides over nothing.
+  EXPECT_EQ(options_of("model_include_extension = .x\nfile_name_style = B\n", Box::closed).model_include_extension,
+            ".x");
   EXPECT_THAT(problems("actuator_swept_sine { name = a }\n"), ElementsAre("ignored-directive 1:1"));
 }
 

@@ -292,8 +292,10 @@ TEST(DeckText, keeps_every_grid_that_something_has) {
   d.grids.push_back({of_body(1, "rides along"), 1000101, {1, 1, 1}, 0, ""});
   d.rigid_elements[1].dependent = {1000031, 1000100, 1000101};
   d.outputs.push_back({1, 1000100});
+  d.grids.push_back({of_body(1, "the end of a bush"), 1000102, {1, 1, 1}, 0, ""});
+  d.bushes[0].grid_B = 1000102;
   const std::string text = all(written(d, std::string(sample_response) + "remove_unused_items = cbush, grid\n"));
-  for (const char* id : {"2 ", "3 ", "1000021 ", "1000001 ", "1000031 ", "1000100 ", "4000003 "})
+  for (const char* id : {"2 ", "3 ", "1000021 ", "1000001 ", "1000031 ", "1000100 ", "1000102 ", "4000003 "})
     EXPECT_THAT(text, HasSubstr("GRID*   " + std::string(id)));
   EXPECT_THAT(text, Not(::testing::ContainsRegex("1000099|1000101")));
   EXPECT_THAT(text, HasSubstr("RBE2*   5               3               123456          1000031\n*       1000100\n"));
@@ -406,6 +408,9 @@ TEST(DeckText, breaks_long_includes_behind_slashes) {
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().front(), HasSubstr("too long for an INCLUDE statement"));
   EXPECT_FALSE(deck_text(sample_open_deck(), {}, "it's"));
+  const auto twice = deck_text(sample_open_deck(), options_of("main_file_include_extension = _MODEL.nas\n"), "deck");
+  ASSERT_FALSE(twice);
+  EXPECT_THAT(twice.error(), ElementsAre("two files of the export have the name deck_MODEL.nas"));
 }
 
 TEST(DeckText, fails_with_everything_that_no_card_can_hold) {
