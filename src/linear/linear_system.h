@@ -76,6 +76,9 @@ struct LinearSystem : Perturbation {
 Result<Perturbation> perturb(const System&, const OperatingPoint&, const LinearOptions&);
 // Forms A, B, C and D.
 Result<LinearSystem> reduce(const System&, Perturbation);
+// The equations for who takes them as an operator: without state matrix, and so without what that tells about the
+// point, but for constraints that are left out though they are not quite redundant.
+Result<LinearSystem> linearize_unreduced(const System&, OperatingPoint, const LinearOptions&);
 // Both. Refused where the roundings of the point alone decide the state matrix, with a warning where they leave few
 // digits of it.
 Result<LinearSystem> linearize(const System&, OperatingPoint, const LinearOptions&);

@@ -12,7 +12,9 @@ StudyResult<Linearization> linearization_for(const Linearization& of, const Expo
   request.without_damping = !options.use_damping;
   LinearOptions otherwise;
   otherwise.without_damping = request.without_damping;
-  auto again = linearize(*of.system, of.point, otherwise);
+  const bool reduced = of.linear.A.rows() == static_cast<Eigen::Index>(of.linear.model.states.size());
+  auto again =
+      reduced ? linearize(*of.system, of.point, otherwise) : linearize_unreduced(*of.system, of.point, otherwise);
   if (!again) return tl::unexpected(StudyFailure(again.error()));
   return Linearization{of.system, of.point, of.at_rest_as_found, request, std::move(*again)};
 }

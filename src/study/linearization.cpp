@@ -49,13 +49,15 @@ void label(Value& result, const LinearRequest& request) {
 
 }  // namespace
 
-StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest& request, Stateless stateless) {
+StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest& request, Stateless stateless,
+                                      Reduction reduction) {
   const auto options = options_of(at.system->model(), request);
   if (!options) return tl::unexpected(StudyFailure(options.error()));
   // Without reconciliation LINEAR takes the static solution as it was found; any other point is consistent anyway.
   const bool as_found = at.statics && (request.original || request.without_reconciliation);
   Linearization result{at.system, as_found ? at.statics->at_rest : at.values, as_found, request, {}};
-  auto linear = linearize(*at.system, result.point, *options);
+  auto linear = reduction == Reduction::none ? linearize_unreduced(*at.system, result.point, *options)
+                                             : linearize(*at.system, result.point, *options);
   if (!linear) return tl::unexpected(StudyFailure(linear.error()));
   if (stateless == Stateless::refused && linear->model.states.empty()) {
     constexpr auto reason = "the model has no states: neither degrees of freedom nor differential states";

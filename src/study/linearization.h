@@ -21,8 +21,12 @@ struct Linearization {
 // What comes of a model without states.
 enum class Stateless : std::uint8_t { refused, taken };
 
+// Whether the state matrix is formed; without it the linear model is an operator of the size of the model.
+enum class Reduction : std::uint8_t { state_matrix, none };
+
 // The point must be consistent (initial_conditions).
-StudyResult<Linearization> linearized(const StudyPoint&, const LinearRequest&, Stateless = Stateless::refused);
+StudyResult<Linearization> linearized(const StudyPoint&, const LinearRequest&, Stateless = Stateless::refused,
+                                      Reduction = Reduction::state_matrix);
 
 struct ModesFound {
   EigenSolution solution;
