@@ -102,6 +102,7 @@ class DenseDeck {
                           k = free.transpose() * K * free;
     const Eigen::Index n = m.rows();
     const Eigen::FullPivLU<Eigen::MatrixXd> p(sigma * sigma * m + sigma * b + k);
+    EXPECT_TRUE(n == 0 || p.matrixLU().diagonal().cwiseAbs().minCoeff() > 0) << "nothing holds or moves some freedom";
     Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(2 * n, 2 * n);
     companion.topLeftCorner(n, n) = -p.solve(b + 2 * sigma * m);
     companion.topRightCorner(n, n) = -p.solve(m);
