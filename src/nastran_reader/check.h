@@ -1,9 +1,14 @@
 // What is wrong with a deck beyond its single fields.
 #pragma once
 
+#include <string_view>
+
 #include "nastran_reader/points.h"
 
 namespace dynalin::nastran_reader {
+
+// Whether a point and its component exist; otherwise an error that begins with the card.
+bool check_freedom(const Freedom&, std::string_view card, const Points&, Diagnostics&);
 
 // Numbers that stand twice, references that lead nowhere, rules of single cards that need others to be seen.
 void check_references(const Deck&, const Points&, Diagnostics&);

@@ -19,10 +19,10 @@ class Constraints {
 
   void run() {
     for (const Mpc& m : deck_.mpcs) {
-      for (const Mpc::Term& t : m.terms) freedom(t.freedom, "MPC");
+      for (const Mpc::Term& t : m.terms) check_freedom(t.freedom, "MPC", points_, diagnostics_);
     }
     for (const Spc& s : deck_.spcs) spc(s);
-    for (const FreedomValue& v : deck_.initial) freedom(v.freedom, "TIC");
+    for (const FreedomValue& v : deck_.initial) check_freedom(v.freedom, "TIC", points_, diagnostics_);
     for (const RigidElement& r : deck_.rigid) {
       if (r.kind == RigidElement::Kind::bar) bar(r);
     }
@@ -35,19 +35,6 @@ class Constraints {
   }
 
  private:
-  void freedom(const Freedom& f, std::string_view by) {
-    const Point* p = points_.find(f.point.id);
-    if (!p) {
-      diagnostics_.error("undefined-card-id", f.point.at,
-                         fmt::format("{} refers to point {}, which does not exist", by, f.point.id));
-    } else if (!points_.freedom(f)) {
-      diagnostics_.error(
-          "wrong-component", f.component_at.source ? f.component_at : f.point.at,
-          p->scalar ? fmt::format("{}: {} is a scalar point, which has no component {}", by, p->id, f.component)
-                    : fmt::format("{}: a component of GRID {} is missing", by, p->id));
-    }
-  }
-
   void spc(const Spc& s) {
     if (s.last == 0 && !points_.find(s.point.id))
       diagnostics_.error("undefined-card-id", s.point.at,

@@ -25,7 +25,7 @@ class Loads {
     sums();
     for (const auto& [values, card] :
          {std::pair(&deck_.areas, "DAREA"), std::pair(&deck_.phases, "DPHASE"), std::pair(&deck_.delays, "DELAY")}) {
-      for (const FreedomValue& v : *values) freedom(v.freedom, card);
+      for (const FreedomValue& v : *values) check_freedom(v.freedom, card, points_, diagnostics_);
     }
     initial();
     for (const Subcase& s : deck_.control.subcases) subcase(s, solution == 108);
@@ -61,22 +61,6 @@ class Loads {
     } else if (!selected && needed) {
       diagnostics_.error("case-selection", deck_.control.solution_at, "SOL 108 needs FREQUENCY = in case control");
     }
-  }
-
-  bool freedom(const Freedom& f, std::string_view by) {
-    const Point* p = points_.find(f.point.id);
-    if (!p) {
-      diagnostics_.error("undefined-card-id", f.point.at,
-                         fmt::format("{} refers to point {}, which does not exist", by, f.point.id));
-    } else if (!points_.freedom(f)) {
-      diagnostics_.error(
-          "wrong-component", f.component_at.source ? f.component_at : f.point.at,
-          p->scalar ? fmt::format("{}: {} is a scalar point, which has no component {}", by, p->id, f.component)
-                    : fmt::format("{}: a component of GRID {} is missing", by, p->id));
-    } else {
-      return true;
-    }
-    return false;
   }
 
   void dynamic_loads() {

@@ -93,20 +93,7 @@ class References {
           diagnostics_.error("undefined-card-id", e.property.at,
                              fmt::format("{} refers to {} {}, which does not exist", e.card, card, e.property.id));
       }
-      for (const Freedom& f : e.ends) freedom(f, e.card);
-    }
-  }
-
-  void freedom(const Freedom& f, std::string_view by) {
-    const Point* p = points_.find(f.point.id);
-    if (!p) {
-      diagnostics_.error("undefined-card-id", f.point.at,
-                         fmt::format("{} refers to point {}, which does not exist", by, f.point.id));
-    } else if (!points_.freedom(f)) {
-      diagnostics_.error(
-          "wrong-component", f.component_at.source ? f.component_at : f.point.at,
-          p->scalar ? fmt::format("{}: {} is a scalar point, which has no component {}", by, p->id, f.component)
-                    : fmt::format("{}: a component of GRID {} is missing", by, p->id));
+      for (const Freedom& f : e.ends) check_freedom(f, e.card, points_, diagnostics_);
     }
   }
 
@@ -210,6 +197,21 @@ class References {
 };
 
 }  // namespace
+
+bool check_freedom(const Freedom& f, std::string_view by, const Points& points, Diagnostics& diagnostics) {
+  const Point* p = points.find(f.point.id);
+  if (!p) {
+    diagnostics.error("undefined-card-id", f.point.at,
+                      fmt::format("{} refers to point {}, which does not exist", by, f.point.id));
+    return false;
+  }
+  if (points.freedom(f)) return true;
+  diagnostics.error("wrong-component", f.component_at.source ? f.component_at : f.point.at,
+                    p->scalar
+                        ? fmt::format("{}: {} is a scalar point, which has no component {}", by, p->id, f.component)
+                        : fmt::format("{}: a component of GRID {} is missing", by, p->id));
+  return false;
+}
 
 void check_references(const Deck& deck, const Points& points, Diagnostics& diagnostics) {
   References(deck, points, diagnostics).run();

@@ -215,7 +215,7 @@ TEST(Check, tells_of_the_solver_what_it_would_leave_out) {
 TEST(Check, tells_of_constraints_that_nearly_follow_from_others) {
   const std::string bulk = "SPOINT,1,2,3\nMPC,1,1,,1.,2,,1.\nMPC,1,2,,1.,3,,1.\nMPC,1,3,,1.,1,,";
   EXPECT_THAT(of_control("MPC = 1\n", bulk + "-1.\n"), IsEmpty());
-  EXPECT_THAT(of_control("MPC = 1\n", bulk + "-1.00001\n").back().substr(0, 24), "warning nearly-redundant");
+  EXPECT_THAT(of_control("MPC = 1\n", bulk + "-1.00001\n").back().substr(0, 28), "warning nearly-dependent-row");
 }
 
 // Files in a folder of their own.

@@ -72,7 +72,7 @@ void check_undeformed(const Prepared& p, Diagnostics& diagnostics) {
 void tell_near_redundancy(const Prepared& p, Diagnostics& diagnostics) {
   for (const auto& r : p.elimination.nearly_redundant) {
     const ConstraintRow& row = p.equations.rows[r.row];
-    diagnostics.warning("nearly-redundant", row.at,
+    diagnostics.warning("nearly-dependent-row", row.at,
                         fmt::format("{} nearly follows from other constraints: {:.1e} of it is left, which counts",
                                     row.card, r.relative));
   }
