@@ -84,6 +84,17 @@ TEST(Elimination, keeps_and_tells_rows_that_are_nearly_redundant) {
   EXPECT_EQ(f.redundant.size(), 1u);
 }
 
+// What is left of a row counts when all others have had their say: here the third row holds what the second nearly
+// does.
+TEST(Elimination, waits_with_rows_of_which_little_is_left) {
+  MatrixXd m(4, 3);
+  m << 1, 1, 0, 1, 1 + 1e-7, 0, 0, 1, 1, 0, 1, 2;
+  const Elimination e = eliminate(equations(m));
+  EXPECT_TRUE(e.nearly_redundant.empty());
+  ASSERT_EQ(e.redundant.size(), 1u);
+  EXPECT_TRUE(e.independent.empty());
+}
+
 TEST(Elimination, leaves_out_what_is_held) {
   MatrixXd m(2, 3);
   m << 1, -2, 0, 0, 1, 3;

@@ -254,6 +254,19 @@ TEST(SolvedDeck, rigid_body_in_space_has_exact_zeros) {
   EXPECT_EQ(s.eigenvalues.size(), 24u);
 }
 
+// Masses that cancel but for rounding are none: what is left is a damper and a spring.
+TEST(SolvedDeck, masses_that_cancel_leave_a_motion_of_first_order) {
+  // (.07, .32, -.39) by itself, on points that move alike.
+  const ModeSolution s = modes(head + "MPC = 1\nM2PP = M\nBEGIN BULK\n" + eigc +
+                               "SPOINT,1,2,3\nMPC,1,1,,1.,2,,-1.\nMPC,1,3,,1.,2,,-1.\nCELAS2,1,6.,1\nCDAMP2,2,2.,3\n"
+                               "DMIG,M,0,6,2,0\n"
+                               "DMIG,M,1,0,,1,0,.0049D0\n,2,0,.0224D0,,3,0,-.0273D0\n"
+                               "DMIG,M,2,0,,2,0,.1024D0\n,3,0,-.1248D0\n"
+                               "DMIG,M,3,0,,3,0,.1521D0\nENDDATA\n");
+  ASSERT_EQ(s.eigenvalues.size(), 1u);
+  EXPECT_NEAR(s.eigenvalues[0].real(), -3, 1e-14);
+}
+
 TEST(SolvedDeck, tells_what_nothing_touches_and_takes_it_out) {
   Prepared p = prepared(head + "BEGIN BULK\n" + eigc +
                         "GRID,7\nCONM2,1,7,,2.\nCELAS2,2,8.,7,1\nCELAS2,3,8.,7,2\nCELAS2,4,8.,7,3\nENDDATA\n");
