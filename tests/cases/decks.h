@@ -50,8 +50,7 @@ class ProgramLibraryAndDecks : public ProgramAndLibrary {
   // The same commands, each EIGENSOL followed by decks of its model; its coordinates are left to the program there.
   RunResult exported(const std::string& file, RunResult r) const {
     if (r.status != 0) return r;
-    write("long.cfg", "matrix_entry_zero_tolerance = 1e-30\n");
-    write("undamped.cfg", "use_damping = no\nmatrix_entry_zero_tolerance = 1e-30\n");
+    write("undamped.cfg", "use_damping = no\n");
     std::istringstream in(read_file(folder_ / file));
     std::string commands;
     int decks = 0, line_number = 0;
@@ -65,9 +64,9 @@ class ProgramLibraryAndDecks : public ProgramAndLibrary {
       }
       const bool undamped = upper.find("NODAMP") != std::string::npos;
       commands += fmt::format(
-          "LINEAR/EIGENSOL{0}\nLINEAR/EXPORT, TYPE=CLOSEDBOX, FILE=closed{1}, CONFIG={2}\n"
-          "LINEAR/EXPORT, TYPE=OPENBOX, FILE=open{1}, CONFIG={2}\n",
-          undamped ? ", NODAMPIN" : "", ++decks, undamped ? "undamped.cfg" : "long.cfg");
+          "LINEAR/EIGENSOL{0}\nLINEAR/EXPORT, TYPE=CLOSEDBOX, FILE=closed{1}{2}\n"
+          "LINEAR/EXPORT, TYPE=OPENBOX, FILE=open{1}{2}\n",
+          undamped ? ", NODAMPIN" : "", ++decks, undamped ? ", CONFIG=undamped.cfg" : "");
     }
     if (decks == 0) return r;
     write("decks.acf", commands);
