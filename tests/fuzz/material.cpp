@@ -16,6 +16,7 @@
 #include "elements/catalogue.h"
 #include "expression/expression.h"
 #include "expression/functions.h"
+#include "nastran/directives.h"
 #include "nastran_reader/card_fields.h"
 
 namespace {
@@ -104,6 +105,12 @@ const Words facet_words = {"solid ",
                            "1E300"};
 const Words spline_words = {"[B]\n", "Z 1 2 3\n", "{", "$", "#", "1E300", "-1E-300", ","};
 
+Words configuration_words() {
+  Words words = {" = ", "{\n", "}\n", "$", "yes", "no", "45D", "1, 3, 45-52", "1.E-08", "verbatim {\n"};
+  for (const std::string_view name : nastran::directive_names()) words.emplace(name);
+  return words;
+}
+
 Words deck_words() {
   Words words = {
       "SOL 107\n",  "SOL 108\n",     "CEND\n",   "BEGIN BULK\n", "ENDDATA\n", "K2PP = ", "SET 1 = ", "SPC = 1\n",
@@ -158,6 +165,7 @@ int main(int argc, char** argv) {
   write_dictionary(folder / "matrix.dict", {matrix_words});
   write_dictionary(folder / "spline.dict", {spline_words});
   write_dictionary(folder / "facets.dict", {facet_words});
+  write_dictionary(folder / "configuration.dict", {configuration_words()});
   write_dictionary(folder / "deck.dict", {deck_words()});
   write_dictionary(folder / "run.dict", {statements, expressions, commands, signs, {"\n####\n"}});
   write_inputs(folder, argv[2]);
