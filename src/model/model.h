@@ -36,7 +36,6 @@ struct Body {
   Vector origin_offset;  // of that marker from the origin written, along the axes of the BCS
   double mass = 0;       // dynamical: user mass / ucf [force·time²/length]
   double user_mass = 0;
-  bool has_cm = false;
   Vector p_BC;                         // CM in the BCS
   Matrix3 J_BC;                        // dynamical inertia tensor about the CM, BCS axes
   Matrix3 R_BI = Matrix3::identity();  // axes along which the dataset gives the inertia (IM, or CM), in the BCS

@@ -17,7 +17,8 @@ using ::testing::Not;
 const std::string model =
     "oscillator\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n! adams_view_name='seat'\nPART/2, MASS=2, CM=20, "
     "IP=1,1,1\n"
-    "! adams_view_name='head'\nMARKER/20\nMARKER/21, QP=0,0,1\nMARKER/22, PART=1, FLOATING\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
+    "! adams_view_name='head'\nMARKER/20\nMARKER/21, QP=0,0,1\nMARKER/22, PART=1, FLOATING\nJOINT/1, TRANSLATIONAL, "
+    "I=20, J=1\n"
     "VFORCE/1, I=21, JFLOAT=22, RM=1, FX=0, FY=0, FZ=0\nBUSHING/1, I=20, J=1, K=0,0,8, C=0,0,6\nEND\n";
 const std::string response =
     "solution_number = 108\nbegin_frequency = 1\nend_frequency = 9\nsteps_frequency = 8\n"
@@ -155,7 +156,9 @@ TEST_F(Export, overwrites_nothing_that_the_run_reads) {
 TEST_F(Export, refuses_a_closed_box_where_nothing_can_move) {
   std::string fixed = model;
   fixed.replace(fixed.find("TRANSLATIONAL, I=20"), 19, "FIXED, I=20");
-  EXPECT_EQ(run(fixed, "LINEAR/EXPORT, TYPE=CLOSEDBOX, FILE=deck\n").status, 2);
+  const RunResult closed = run(fixed, "LINEAR/EXPORT, TYPE=CLOSEDBOX, FILE=deck\n");
+  EXPECT_EQ(closed.status, 2);
+  EXPECT_THAT(closed.err, HasSubstr("no degrees of freedom: it can be exported as OPENBOX"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "deck.dat"));
   EXPECT_EQ(run(fixed, "LINEAR/EXPORT, TYPE=OPENBOX, FILE=deck\n").status, 0);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "deck.dat"));

@@ -141,12 +141,12 @@ StudyResult<void> Linear::run(RunState& run) const {
     if (auto ready = run.make_consistent(); !ready) return ready;
   }
   const bool deck = command.option == LinearOption::nastran_export;
-  // An open box has its masses and joints also where nothing can move.
+  // An open box has its masses and joints also where nothing can move, and a closed one says that it has nothing.
   const bool open = deck && box_of(command) == nastran::Box::open;
   // It is put together element by element, and modes alone ask for the state matrix.
   const bool as_operator = open && !configuration.options.export_mode_shapes;
   const auto linear =
-      linearized(run.point, request_of(command, run.environment), open ? Stateless::taken : Stateless::refused,
+      linearized(run.point, request_of(command, run.environment), deck ? Stateless::taken : Stateless::refused,
                  as_operator ? Reduction::none : Reduction::state_matrix);
   if (!linear) return tl::unexpected(linear.error());
   run.remarks.say(linear->remarks());

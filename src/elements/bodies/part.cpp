@@ -236,7 +236,6 @@ class PartSet final : public TypedSet<Part> {
     if (!owned(p.cm, "CM") || (p.im.valid() && !owned(p.im, "IM"))) return;
     const MarkerPlace& cm = model.marker(p.cm).place;
     const MarkerPlace& im = model.marker(p.im.valid() ? p.im : p.cm).place;
-    body.has_cm = true;
     body.p_BC = cm.p_BM;
     body.R_BI = im.R_BM;
     if (p.ip.empty()) return;

@@ -96,7 +96,6 @@ class PointMassSet final : public TypedSet<PointMass> {
           diagnostics.error("foreign-marker", labels[k].at,
                             fmt::format("CM of {} must be a marker of that point mass", labels[k].text()));
         }
-        body.has_cm = true;
         body.p_BC = model.marker(p.cm).place.p_BM;
       }
       body.velocity.of_cm = {p.vx, p.vy, p.vz};
