@@ -71,7 +71,7 @@ std::span<const Directive> item_directives() {
        .minimum = 0},
       {.name = "export_tic_cards",
        .slot = &O::export_tic_cards,
-       .help = "velocities of the operating point as TIC cards; the IC command is not written",
+       .help = "velocities as TIC cards, which a point in motion has in any case; the IC command is not written",
        .ignored = in_closed_box},
       {.name = "export_mode_shapes",
        .slot = &O::export_mode_shapes,

@@ -49,12 +49,13 @@ class OpenBox {
     OpenForces forces(system_, at_.motion, options_, ids_, deck_, points_, markers_, wrenches_);
     auto done = forces.add(contributions.of_elements(), std::move(of_states), remarks_);
     if (!done) return tl::unexpected(done.error());
-    if (options_.export_tic_cards) add_velocities();
+    const bool moving = moves(of_);
+    if (options_.export_tic_cards || moving) add_velocities();
     add_graphics(system_.model(), of_.point.poses, options_, ids_, deck_, remarks_);
     if (options_.export_mode_shapes) {
       if (auto added = add_modes(of_, points_, deck_); !added) return tl::unexpected(added.error());
     }
-    if (moves(of_)) {
+    if (moving) {
       remarks_.warning("export-differs", {},
                        "the model moves or accelerates at this point: eigenvalues of the exported deck, which has its "
                        "forces alone, need not be those of the model");
