@@ -35,7 +35,7 @@ struct NearDependence {
   std::vector<std::int32_t> rows;
 };
 NearDependence near_dependence(const System&, const OperatingPoint&);
-// Constraint rows that no motion changes to first order, neither here nor beside the point: they hold nothing.
+// Constraint rows that no motion changes to first order, neither here nor where the point moves to: they hold nothing.
 std::vector<std::int32_t> rows_that_hold_nothing(const System&, const OperatingPoint&);
 
 // How far the entries of the state matrix follow when velocities change by a unit in the last place, and accelerations

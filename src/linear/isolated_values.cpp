@@ -157,15 +157,15 @@ class Discs {
       if (r <= radius || !std::isfinite(r)) break;
       radius = 1.1 * r;
     }
-    // No eigenvalue of Λ + tE is between this radius and the one it was found for: inside are as many as there are members.
+    // No eigenvalue of Λ + tE is between this radius and the one it was found for: inside are as many as there are
+    // members.
     const bool upper = pairs_.real(group) || disc.centre.imag() > disc.radius;
     proven_[at(group)] = std::isfinite(disc.radius) && upper;
   }
   bool inside_gershgorin(Index group) const {
     const Disc& disc = disc_[at(group)];
-    return std::any_of(disc.members.begin(), disc.members.end(), [&](Index a) {
-      return std::abs(centre_(a) - disc.centre) + disc.radius <= gershgorin(a);
-    });
+    return std::any_of(disc.members.begin(), disc.members.end(),
+                       [&](Index a) { return std::abs(centre_(a) - disc.centre) + disc.radius <= gershgorin(a); });
   }
   // Whether a disc meets another, or the mirror image of one.
   bool meet(Index i, Index j) const {

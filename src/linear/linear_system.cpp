@@ -151,24 +151,17 @@ bool same_model(const LinearSystem& one, const LinearSystem& other) {
          !differs(one.model.B, other.model.B) && !differs(one.model.C, other.model.C);
 }
 
-void say_left_out(const System& system, const NearDependence& near, Diagnostics& out) {
-  out.warning(
-      "constraint-left-out", system.layout().rows[static_cast<std::size_t>(near.rows.front())].owner->at,
-      fmt::format("{} depend{} on other constraints but for less than {:.0e} of {} size, and {} left out as redundant",
-                  names_of(system, near.rows), near.rows.size() == 1 ? "s" : "", near.distance,
-                  near.rows.size() == 1 ? "its" : "their", near.rows.size() == 1 ? "is" : "are"));
-}
-
 }  // namespace
 
 Result<LinearSystem> linearize_unreduced(const System& system, OperatingPoint op, const LinearOptions& options) {
   auto perturbation = perturb(system, op, options);
   if (!perturbation) return tl::unexpected(perturbation.error());
+  // Near a singular configuration the state matrix tells whether to refuse.
+  OperatingPoint point = op;
+  point.mode = AnalysisMode::linear;
+  if (near_dependence(system, point).distance > 0) return linearize(system, std::move(op), options);
   LinearSystem linear;
   static_cast<Perturbation&>(linear) = std::move(*perturbation);
-  op.mode = AnalysisMode::linear;
-  if (const NearDependence near = near_dependence(system, op); near.distance > 0)
-    say_left_out(system, near, linear.warnings);
   return linear;
 }
 
@@ -207,7 +200,12 @@ Result<LinearSystem> linearize(const System& system, OperatingPoint op, const Li
               gained->count == 1 ? "" : "s"),
           {}});
     }
-    say_left_out(system, near, linear->warnings);
+    linear->warnings.warning(
+        "constraint-left-out", system.layout().rows[static_cast<std::size_t>(near.rows.front())].owner->at,
+        fmt::format(
+            "{} depend{} on other constraints but for less than {:.0e} of {} size, and {} left out as redundant",
+            names_of(system, near.rows), near.rows.size() == 1 ? "s" : "", near.distance,
+            near.rows.size() == 1 ? "its" : "their", near.rows.size() == 1 ? "is" : "are"));
   }
   const Matrix of_velocities = rounding_of_velocities(system, op, *linear, at);
   if (of_velocities.size() == 0) return linear;

@@ -76,8 +76,8 @@ struct LinearSystem : Perturbation {
 Result<Perturbation> perturb(const System&, const OperatingPoint&, const LinearOptions&);
 // Forms A, B, C and D.
 Result<LinearSystem> reduce(const System&, Perturbation);
-// The equations for who takes them as an operator: without state matrix, and so without what that tells about the
-// point, but for constraints that are left out though they are not quite redundant.
+// The equations for who takes them as an operator. The state matrix is formed only where constraints are left out that
+// are not quite redundant, for what linearize() has to say of that.
 Result<LinearSystem> linearize_unreduced(const System&, OperatingPoint, const LinearOptions&);
 // Both. Refused where the roundings of the point alone decide the state matrix, with a warning where they leave few
 // digits of it.

@@ -114,14 +114,7 @@ class OpenBox {
   void tie(Grid& grid, MarkerId marker, const Matrix3& axes) {
     const MarkerPlace& place = system_.layout().marker(marker);
     if (!place.shapes) {
-      RigidElement e;
-      e.body = grid.body;
-      e.name = grid.name;
-      const std::int64_t id = options_.use_adams_ids ? system_.layout().marker_label(marker).id : 0;
-      e.id = ids_.take(IdSpace::element, options_.rbe2_offset + id);
-      e.independent = points_.grid(place.body);
-      e.dependent = {grid.id};
-      deck_.rigid_elements.push_back(std::move(e));
+      points_.tie(grid, place.body, system_.layout().marker_label(marker).id);
       return;
     }
     std::array<std::map<std::int32_t, double>, 6> by;

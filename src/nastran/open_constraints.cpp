@@ -190,32 +190,12 @@ bool OpenConstraints::add_joint(const ElementLabel& owner, const std::vector<Row
   joint.name = name_of(owner, options_);
   joint.id = ids_.take(IdSpace::element, options_.rjoint_offset + (options_.use_adams_ids ? owner.id : 0));
   joint.grid_B = markers_.grid_of(J, Axes::local);
-  joint.grid_A = add_grid(owner, I, p, markers_.system_of(J));
+  // Of the body of I at the place of J and along its axes, so that components of both are the same.
+  joint.grid_A = points_.add_riding_grid(at_I.body, fmt::format("{}, I", joint.name), p, markers_.system_of(J),
+                                         system_.layout().marker_label(I).id);
   joint.components = held;
   deck_.rigid_joints.push_back(std::move(joint));
   return true;
-}
-
-// Of the body of I at the place of J and along its axes, so that components of both are the same.
-std::int64_t OpenConstraints::add_grid(const ElementLabel& owner, MarkerId I, const Vector& at, std::int64_t system) {
-  const BodyId body = system_.layout().marker(I).body;
-  Grid g;
-  g.body = points_.body_in_deck(body);
-  g.name = fmt::format("{}, I", name_of(owner, options_));
-  g.id = ids_.take(IdSpace::point, options_.use_adams_ids ? options_.marker_offset + system_.layout().marker_label(I).id
-                                                          : options_.grid_offset);
-  g.position = at;
-  g.displacement_system = system;
-  RigidElement tie;
-  tie.body = g.body;
-  tie.name = g.name;
-  tie.id = ids_.take(IdSpace::element,
-                     options_.rbe2_offset + (options_.use_adams_ids ? system_.layout().marker_label(I).id : 0));
-  tie.independent = points_.grid(body);
-  tie.dependent = {g.id};
-  deck_.grids.push_back(g);
-  deck_.rigid_elements.push_back(std::move(tie));
-  return g.id;
 }
 
 }  // namespace dynalin::nastran

@@ -35,7 +35,6 @@ class OpenConstraints {
   void add_velocity_row(std::int32_t row, std::vector<MatrixEntry>&);
   // What a row takes of force and torque on a body at a point, along given axes.
   std::array<double, 6> on_body(const Row&, BodyId, const Vector& at, const Matrix3& axes) const;
-  std::int64_t add_grid(const ElementLabel&, MarkerId I, const Vector& at, std::int64_t system);
 
   const System& system_;
   const PerturbedPoint& at_;

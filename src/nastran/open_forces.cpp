@@ -112,22 +112,6 @@ StudyResult<void> OpenForces::choose_suffixes(const std::vector<Contribution>& e
 
 // --- bushes ----------------------------------------------------------------------------------------------------------
 
-std::int64_t OpenForces::floating_grid(const ElementLabel& label, const Place& place) {
-  Grid g;
-  g.body = points_.body_in_deck(place.body_J);
-  g.name = fmt::format("{}, J", name_of(label, options_));
-  g.id = ids_.take(IdSpace::point, options_.use_adams_ids ? options_.marker_offset : options_.grid_offset);
-  g.position = place.J;
-  RigidElement tie;
-  tie.body = g.body, tie.name = g.name;
-  tie.id = ids_.take(IdSpace::element, options_.rbe2_offset);
-  tie.independent = points_.grid(place.body_J);
-  tie.dependent = {g.id};
-  deck_.grids.push_back(g);
-  deck_.rigid_elements.push_back(std::move(tie));
-  return g.id;
-}
-
 bool OpenForces::find_place(const ElementLabel& label, Place& place) {
   const ReportedWrench* reported = wrenches_.of(label);
   if (!reported) return false;
@@ -167,7 +151,9 @@ bool OpenForces::find_place(const ElementLabel& label, Place& place) {
     place.axes = Matrix3::identity();
   }
   place.grid_I = markers_.grid_of(I, Axes::local);
-  place.grid_J = J_fixed ? markers_.grid_of(J, Axes::local) : floating_grid(label, place);
+  place.grid_J =
+      J_fixed ? markers_.grid_of(J, Axes::local)
+              : points_.add_riding_grid(place.body_J, fmt::format("{}, J", name_of(label, options_)), place.J, 0, 0);
   return true;
 }
 

@@ -48,7 +48,6 @@ class OpenForces {
 
   void add_bush(const ElementLabel&, std::vector<MatrixEntry>&);
   bool find_place(const ElementLabel&, Place&);
-  std::int64_t floating_grid(const ElementLabel&, const Place&);
   // Stiffness or damping [6 × 6] for motions of a point on a body, in force and moment there, along axes.
   std::array<Matrix3, 2> at_point(const std::vector<MatrixEntry>&, MatrixKind, BodyId, const Vector& at,
                                   const Matrix3& axes) const;

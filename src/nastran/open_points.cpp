@@ -39,6 +39,28 @@ OpenPoints::OpenPoints(const System& system, const Motion& motion, const ExportO
   }
 }
 
+void OpenPoints::tie(const Grid& grid, BodyId body, std::int64_t of) {
+  RigidElement e;
+  static_cast<Owner&>(e) = grid;
+  e.id = ids_.take(IdSpace::element, options_.rbe2_offset + (options_.use_adams_ids ? of : 0));
+  e.independent = this->grid(body);
+  e.dependent = {grid.id};
+  deck_.rigid_elements.push_back(std::move(e));
+}
+
+std::int64_t OpenPoints::add_riding_grid(BodyId body, std::string name, const Vector& at, std::int64_t system,
+                                         std::int64_t of) {
+  Grid g;
+  g.body = body_in_deck(body);
+  g.name = std::move(name);
+  g.id = ids_.take(IdSpace::point, options_.use_adams_ids ? options_.marker_offset + of : options_.grid_offset);
+  g.position = at;
+  g.displacement_system = system;
+  deck_.grids.push_back(g);
+  tie(g, body, of);
+  return g.id;
+}
+
 std::int32_t OpenPoints::add_unknown(std::string name, std::int64_t wanted) {
   ScalarPoint p;
   p.name = std::move(name);

@@ -38,6 +38,10 @@ class OpenPoints {
   std::int32_t unknown_of_state(std::int32_t k) const { return states_[static_cast<std::size_t>(k)]; }
   bool is_coordinate(std::int32_t unknown) const { return unknown < coordinates(); }
   BodyId body_of(std::int32_t coordinate) const { return body_of_[static_cast<std::size_t>(coordinate)]; }
+  // An RBE2 from the grid of a body to one that rides on it, and such a grid with it. `of` is the id of the marker by
+  // which both are numbered, 0 where there is none.
+  void tie(const Grid&, BodyId, std::int64_t of);
+  std::int64_t add_riding_grid(BodyId, std::string name, const Vector& at, std::int64_t system, std::int64_t of);
   // Another scalar point.
   std::int32_t add_unknown(std::string name, std::int64_t wanted);
 
