@@ -118,6 +118,9 @@ class Kernel {
   virtual const WrenchSource* reported_wrenches() const { return wrenches(); }
 
   // --- events ---------------------------------------------------------------------------------------
+  // Appends functions of the motion that change their sign where what the elements say has a kink or a jump (the ends
+  // of a STEP, the condition of an IF, a contact that closes): as many in the same order at every motion.
+  virtual void switches(const Motion&, std::vector<double>&) const {}
   // An accepted configuration: take over what the memory holds (turn counts).
   virtual void remember(const Motion&, Memory&) const {}
   // Adds why elements yield no finite values or derivatives here.

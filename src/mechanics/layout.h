@@ -79,6 +79,7 @@ struct DifferentialState {
   bool held_in_statics = false;
   double initial_rate = 0;        // where the search for it starts
   bool held_in_dynamics = false;  // a constant of the linear model, whose rate counts as zero
+  bool course_of_motion = false;  // of a MOTION: what it integrates in time; a constant of statics and linear models
 };
 
 class Layout {

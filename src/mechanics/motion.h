@@ -45,6 +45,8 @@ enum class AnalysisMode : int { kinematics = 1, initial_conditions = 3, dynamics
 // Values that outlive an evaluation and change only with an accepted step: total angles for the turn count.
 using Memory = std::vector<double>;
 
+class DelayHistories;  // what DELAY reads: values in the past (elements/families/delay.h)
+
 struct Motion {
   double time = 0;
   AnalysisMode mode = AnalysisMode::initial_conditions;
@@ -54,6 +56,7 @@ struct Motion {
   std::vector<double> algebraic;                              // values of VARIABLEs, force components, outputs
   std::vector<double> state, state_rate;                      // differential states
   Memory memory;
+  const DelayHistories* delays = nullptr;  // null before anything has moved in time
 
   const BodyMotion& body(BodyId b) const { return bodies[static_cast<std::size_t>(b.index)]; }
   Taylor outside_poses(std::size_t k) const { return {extra[k], extra_rate[k], extra_acceleration[k]}; }

@@ -27,6 +27,24 @@ struct InitialConditionSettings {
   std::optional<std::int64_t> iteration_limit, acceleration_iteration_limit;
 };
 
+// INTEGRATOR: how dynamics integrates.
+struct IntegratorSettings {
+  std::optional<std::string> type, formulation,
+      corrector;                // as named, GSTIFF, SI2: SUNDIALS IDA integrates whatever they say
+  std::optional<double> error;  // of a step, relative and absolute
+  std::optional<double> largest_step, first_step, least_step;  // HMAX, HINIT, HMIN [time]
+  std::optional<std::int64_t> largest_order, iteration_limit;  // KMAX, MAXIT
+  std::optional<bool> interpolate;                             // steps may go beyond the next output
+};
+
+// KINEMATICS: what kinematic analyses iterate with.
+struct KinematicsSettings {
+  std::optional<double> error, acceleration_error;
+  std::optional<double> translation_limit, rotation_limit;  // TLIMIT [length], ALIMIT [rad]
+  std::optional<double> largest_step;                       // HMAX [time]
+  std::optional<std::int64_t> iteration_limit, acceleration_iteration_limit;
+};
+
 // RESULTS: contents of the results file.
 struct ResultsSettings {
   bool xrf = false;
@@ -39,6 +57,8 @@ struct ResultsSettings {
 struct Settings {
   EquilibriumSettings equilibrium;
   InitialConditionSettings initial_conditions;
+  IntegratorSettings integrator;
+  KinematicsSettings kinematics;
   ResultsSettings results;
   std::vector<std::string> passed_over;  // "INTEGRATOR/HMAX": stated, and nothing acts on it
   Diagnostics remarks;                   // worth a sentence in every run
@@ -53,6 +73,20 @@ inline void take_over(EquilibriumSettings& earlier, const EquilibriumSettings& l
   take_over(earlier.error, later.error), take_over(earlier.imbalance, later.imbalance);
   take_over(earlier.stability, later.stability), take_over(earlier.translation_limit, later.translation_limit);
   take_over(earlier.rotation_limit, later.rotation_limit), take_over(earlier.iteration_limit, later.iteration_limit);
+}
+inline void take_over(IntegratorSettings& earlier, const IntegratorSettings& later) {
+  take_over(earlier.type, later.type), take_over(earlier.formulation, later.formulation);
+  take_over(earlier.corrector, later.corrector), take_over(earlier.error, later.error);
+  take_over(earlier.largest_step, later.largest_step), take_over(earlier.first_step, later.first_step);
+  take_over(earlier.least_step, later.least_step), take_over(earlier.largest_order, later.largest_order);
+  take_over(earlier.iteration_limit, later.iteration_limit), take_over(earlier.interpolate, later.interpolate);
+}
+inline void take_over(KinematicsSettings& earlier, const KinematicsSettings& later) {
+  take_over(earlier.error, later.error), take_over(earlier.acceleration_error, later.acceleration_error);
+  take_over(earlier.translation_limit, later.translation_limit);
+  take_over(earlier.rotation_limit, later.rotation_limit), take_over(earlier.largest_step, later.largest_step);
+  take_over(earlier.iteration_limit, later.iteration_limit);
+  take_over(earlier.acceleration_iteration_limit, later.acceleration_iteration_limit);
 }
 inline void take_over(InitialConditionSettings& earlier, const InitialConditionSettings& later) {
   take_over(earlier.error, later.error), take_over(earlier.velocity_error, later.velocity_error);

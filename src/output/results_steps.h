@@ -11,7 +11,7 @@
 
 namespace dynalin {
 
-enum class StepKind { initial_conditions, statics };
+enum class StepKind { initial_conditions, statics, quasi_statics, kinematics, dynamics };
 
 class ResultsSteps {
  public:

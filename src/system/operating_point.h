@@ -1,6 +1,7 @@
 // All values of a system at one instant, and what it remembers.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct OperatingPoint {
   std::vector<double> algebraic;
   std::vector<double> state, state_rate;
   Memory memory;
+  std::shared_ptr<const DelayHistories> delays;  // of the motion that led here, null before anything has moved in time
   // How far redundant constraint rows may be from following from the others, in scales of the row: ERROR of IC.
   double redundancy_tolerance = 1e-10;
 };

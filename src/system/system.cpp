@@ -128,7 +128,13 @@ Motion System::motion(const OperatingPoint& op) const {
   m.state = op.state;
   m.state_rate = op.state_rate;
   m.memory = op.memory;
+  m.delays = op.delays.get();
   return m;
+}
+
+void System::switches(const Motion& motion, std::vector<double>& values) const {
+  values.clear();
+  for (const auto& kernel : kernels_) kernel->switches(motion, values);
 }
 
 void System::constraints(const Motion& motion, ConstraintRows& rows) const {

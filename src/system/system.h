@@ -59,6 +59,8 @@ class System {
   std::vector<UndefinedValue> undefined_values(const Motion&) const;
   std::string undefined_value(const Motion&) const;
   std::string domain_violation(const Motion&) const;
+  // Of all elements (Kernel::switches); `values` is emptied first.
+  void switches(const Motion&, std::vector<double>& values) const;
 
   // Scale of a coordinate: the model length for translations, 1 for rotations, and what moves as far for the others.
   double coordinate_scale(std::int32_t coordinate) const { return scale_[static_cast<std::size_t>(coordinate)]; }

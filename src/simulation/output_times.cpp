@@ -1,0 +1,23 @@
+#include "simulation/output_times.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dynalin {
+
+OutputTimes::OutputTimes(double start, double end, double step) : start_(start), end_(end), step_(step) {
+  // An end that is a whole number of steps away but for rounding is.
+  const double intervals = (end - start) / step, nearest = std::round(intervals);
+  const bool whole = std::abs(intervals - nearest) <= 1e-9 * std::max(1.0, nearest);
+  count_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(whole ? nearest : std::ceil(intervals)));
+}
+
+OutputTimes OutputTimes::of_count(double start, double end, std::int64_t steps) {
+  OutputTimes times(start, end, (end - start) / static_cast<double>(steps));
+  times.count_ = steps;
+  return times;
+}
+
+double OutputTimes::at(std::int64_t k) const { return k >= count_ ? end_ : start_ + step_ * static_cast<double>(k); }
+
+}  // namespace dynalin

@@ -1,0 +1,27 @@
+// The instants at which a simulation hands out points: start + k Δ up to the end, which is always one of them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace dynalin {
+
+class OutputTimes {
+ public:
+  // `step` may be longer than the whole; the last interval is what is left.
+  OutputTimes(double start, double end, double step);
+  static OutputTimes of_count(double start, double end, std::int64_t steps);
+
+  double start() const { return start_; }
+  double end() const { return end_; }
+  double step() const { return step_; }
+  std::int64_t count() const { return count_; }  // of intervals
+  // The k-th of 0 … count(), exact at both ends.
+  double at(std::int64_t k) const;
+
+ private:
+  double start_, end_, step_;
+  std::int64_t count_;
+};
+
+}  // namespace dynalin

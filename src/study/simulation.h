@@ -1,0 +1,44 @@
+// Simulations over time: a point is led through time to another, and handed out on its way.
+#pragma once
+
+#include "simulation/output_times.h"
+#include "simulation/simulation_step.h"
+#include "study/study_point.h"
+
+namespace dynalin {
+
+enum class SimulationKind : std::uint8_t {
+  kinematics,     // all motion is prescribed
+  dynamics,       // the equations of motion are integrated
+  transient,      // dynamics where there are degrees of freedom, else kinematics
+  quasi_statics,  // an equilibrium at every output time
+};
+
+struct SimulationRequest {
+  SimulationKind kind = SimulationKind::dynamics;
+  OutputTimes times;  // from the time of the point on
+  IntegratorSettings integrator{};
+  KinematicsSettings kinematics{};
+  StaticsOptions statics{};  // of each equilibrium
+};
+
+// How a simulation ended.
+enum class SimulationEnd : std::uint8_t {
+  reached,   // the end
+  returned,  // a SENSOR with RETURN
+  halted,    // a SENSOR with HALT: the run ends with it
+  stopped,   // by the watch
+};
+
+struct SimulatedPoint {
+  StudyPoint point;  // consistent, wherever it ended
+  SimulationEnd end = SimulationEnd::reached;
+  SimulationKind kind = SimulationKind::dynamics;  // what was done: never transient
+  IntegrationStatistics statistics;
+  Diagnostics remarks;
+};
+
+// A point that is not consistent is made so first. What fails leaves everything that was handed out until then.
+StudyResult<SimulatedPoint> simulate(StudyPoint from, const SimulationRequest&, const SimulationWatch& = {});
+
+}  // namespace dynalin
