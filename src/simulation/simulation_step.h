@@ -25,6 +25,14 @@ struct SimulationStep {
   const IntegrationStatistics& statistics;
 };
 
+// How a simulation ended.
+enum class SimulationEnd : std::uint8_t {
+  reached,   // the end
+  returned,  // a SENSOR with RETURN
+  halted,    // a SENSOR with HALT: the run ends with it
+  stopped,   // by the watch
+};
+
 // Called with every step; a simulation that is not to go on ends there, at a consistent point.
 enum class GoOn : bool { no, yes };
 using SimulationWatch = std::function<GoOn(const SimulationStep&)>;

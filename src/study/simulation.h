@@ -22,14 +22,6 @@ struct SimulationRequest {
   StaticsOptions statics{};  // of each equilibrium
 };
 
-// How a simulation ended.
-enum class SimulationEnd : std::uint8_t {
-  reached,   // the end
-  returned,  // a SENSOR with RETURN
-  halted,    // a SENSOR with HALT: the run ends with it
-  stopped,   // by the watch
-};
-
 struct SimulatedPoint {
   StudyPoint point;  // consistent, wherever it ended
   SimulationEnd end = SimulationEnd::reached;

@@ -1,4 +1,5 @@
-// SIMULATE/{INITIAL_CONDITIONS | STATICS}: finds an operating point at time 0. Simulations over time are refused.
+// SIMULATE/{INITIAL_CONDITIONS | STATICS}: finds an operating point. SIMULATE/{KINEMATICS | DYNAMICS | TRANSIENT |
+// STATICS}, {END= | DURATION=} [, {DTOUT= | STEPS=}]: leads it through time.
 #include "command/commands/simulate.h"
 
 #include <fmt/format.h>
@@ -23,48 +24,70 @@ struct Written {
   std::optional<std::int64_t> steps;
 
   using W = Written;
-  static constexpr std::string_view over_time = "of simulations over time, which are not available yet";
   static constexpr std::string_view level = "with INITIAL_CONDITIONS; all three levels are always made";
   static constexpr std::array<Argument<W>, 12> arguments = {{
       {.name = "INITIAL_CONDITIONS",
        .slot = &W::initial,
        .help = "positions, velocities, accelerations and reactions that agree with constraints and forces"},
-      {.name = "STATICS", .slot = &W::statics, .help = "a position of rest in which all forces balance"},
-      {.name = "KINEMATICS", .slot = &W::kinematics, .help = "not available yet"},
-      {.name = "DYNAMICS", .slot = &W::dynamics, .help = "not available yet"},
-      {.name = "TRANSIENT", .slot = &W::transient, .help = "not available yet"},
+      {.name = "STATICS",
+       .slot = &W::statics,
+       .help = "a position of rest in which all forces balance; with END or DURATION one at every output"},
+      {.name = "KINEMATICS", .slot = &W::kinematics, .help = "motion that is prescribed, through time"},
+      {.name = "DYNAMICS", .slot = &W::dynamics, .help = "integrates the equations of motion"},
+      {.name = "TRANSIENT",
+       .slot = &W::transient,
+       .help = "DYNAMICS where there are degrees of freedom, else KINEMATICS"},
       {.name = "DISPLACEMENT", .slot = &W::displacement, .help = level},
       {.name = "VELOCITY", .slot = &W::velocity, .help = level},
       {.name = "ACCELERATION", .slot = &W::acceleration, .help = level},
-      {.name = "END", .slot = &W::end, .help = over_time},
-      {.name = "DURATION", .slot = &W::duration, .help = over_time},
-      {.name = "DTOUT", .slot = &W::step, .help = over_time},
-      {.name = "STEPS", .slot = &W::steps, .minimum = 1, .help = over_time},
+      {.name = "END", .slot = &W::end, .unit = "time", .help = "the time at which it ends", .ends = "DURATION"},
+      {.name = "DURATION", .slot = &W::duration, .unit = "time", .help = "how long it goes on", .ends = "END"},
+      {.name = "DTOUT", .slot = &W::step, .unit = "time", .help = "time between outputs", .ends = "STEPS"},
+      {.name = "STEPS", .slot = &W::steps, .minimum = 1, .help = "number of outputs behind the start", .ends = "DTOUT"},
   }};
 };
 
 std::shared_ptr<const CommandAction> read(CommandReader& reader) {
   Written w;
   if (!read_arguments(w, reader)) return nullptr;
-  const int kinds = w.initial + w.statics + w.kinematics + w.dynamics + w.transient;
-  if (kinds != 1) {
-    reader.error("missing-option", reader.statement().at,
+  const Span whole = reader.statement().at;
+  if (w.initial + w.statics + w.kinematics + w.dynamics + w.transient != 1) {
+    reader.error("missing-option", whole,
                  "SIMULATE takes exactly one of INITIAL_CONDITIONS, STATICS, KINEMATICS, DYNAMICS, TRANSIENT");
     return nullptr;
   }
-  for (const auto& [flag, name] : {std::pair{w.kinematics, "KINEMATICS"}, std::pair{w.dynamics, "DYNAMICS"},
-                                   std::pair{w.transient, "TRANSIENT"}}) {
-    if (!flag) continue;
-    reader.error("command-not-built", reader.at(name), fmt::format("SIMULATE/{} is not available yet", name),
-                 "SIMULATE/STATICS and SIMULATE/INITIAL_CONDITIONS find an operating point at time 0");
-    return nullptr;
+  bool sound = true;
+  const auto refuse = [&](std::string_view code, const Span& at, std::string message) {
+    reader.error(code, at, std::move(message));
+    sound = false;
+  };
+  for (const auto& [first, second] : {std::pair{"END", "DURATION"}, std::pair{"DTOUT", "STEPS"}}) {
+    if (reader.given(first) && reader.given(second))
+      refuse("excluded-arguments", reader.at(second), fmt::format("SIMULATE takes one of {} and {}", first, second));
   }
-  for (const auto name : {"END", "DURATION", "DTOUT", "STEPS"}) {
-    if (!reader.given(name)) continue;
-    reader.error("command-not-built", reader.at(name), "simulations over time are not available yet");
-    return nullptr;
+  for (const auto& [value, name] : {std::pair{w.duration, "DURATION"}, std::pair{w.step, "DTOUT"}}) {
+    if (value && !(*value > 0)) refuse("out-of-range", reader.at(name), fmt::format("{} must be positive", name));
   }
-  return std::make_shared<Simulate>(w.statics ? Simulate::Kind::statics : Simulate::Kind::initial_conditions);
+  const bool through_time = w.end || w.duration;
+  const bool needs_time = w.kinematics || w.dynamics || w.transient;
+  if (needs_time && !through_time) refuse("missing-argument", whole, "a simulation over time needs END or DURATION");
+  for (const char* name : {"END", "DURATION", "DTOUT", "STEPS"}) {
+    if (w.initial && reader.given(name))
+      refuse("unexpected-argument", reader.at(name), fmt::format("{} does not go with INITIAL_CONDITIONS", name));
+  }
+  for (const char* name : {"DTOUT", "STEPS"}) {
+    if (w.statics && !through_time && reader.given(name))
+      refuse("missing-argument", reader.at(name), fmt::format("{} of STATICS goes with END or DURATION", name));
+  }
+  if (!sound) return nullptr;
+  auto action = std::make_shared<Simulate>();
+  action->initial_conditions = w.initial;
+  if (w.kinematics) action->kind = SimulationKind::kinematics;
+  if (w.dynamics) action->kind = SimulationKind::dynamics;
+  if (w.transient) action->kind = SimulationKind::transient;
+  if (w.statics && through_time) action->kind = SimulationKind::quasi_statics;
+  action->end = w.end, action->duration = w.duration, action->output_step = w.step, action->steps = w.steps;
+  return action;
 }
 
 StudyResult<void> find_start(RunState& run) {
@@ -102,9 +125,16 @@ StudyResult<void> find_rest(RunState& run) {
   return {};
 }
 
+// Time reached, step, order, iterations, and what is left to wait.
+std::string progress_text(const SimulationStep& at, double start, double end) {
+  const IntegrationStatistics& s = at.statistics;
+  return fmt::format("time {:.6g} of {:.6g} ({:.0f} %), step {:.2e}, order {}, {} iterations", at.point.time, end,
+                     100 * (at.point.time - start) / (end - start), s.step_size, s.order, s.iterations);
+}
+
 constexpr CommandKind kind = {.name = "SIMULATE",
                               .use = CommandUse::analysis,
-                              .summary = "finds an operating point",
+                              .summary = "finds an operating point, or leads it through time",
                               .example = "SIMULATE/STATICS",
                               .arguments = detail::argument_infos<Written>,
                               .read = read};
@@ -112,7 +142,41 @@ constexpr CommandKind kind = {.name = "SIMULATE",
 }  // namespace
 
 StudyResult<void> Simulate::run(RunState& run) const {
-  return kind == Kind::statics ? find_rest(run) : find_start(run);
+  if (kind) return run_over_time(run);
+  return initial_conditions ? find_start(run) : find_rest(run);
+}
+
+StudyResult<void> Simulate::run_over_time(RunState& run) const {
+  if (auto ready = run.make_consistent(); !ready) return ready;
+  const double start = run.time(), last = end ? *end : start + *duration;
+  if (!(last > start)) {
+    return tl::unexpected(StudyFailure(
+        Failure{"simulation", fmt::format("END={:g} is not after the present time, {:g}", last, start), {}}));
+  }
+  const double step = output_step.value_or(last - start);
+  SimulationRequest request{
+      .kind = *kind, .times = steps ? OutputTimes::of_count(start, last, *steps) : OutputTimes(start, last, step)};
+  request.integrator = run.settings.integrator;
+  request.kinematics = run.settings.kinematics;
+  request.statics = statics_options(run.settings.equilibrium);
+  ProgressLine line(run.terminal);
+  const SimulationWatch watch = [&](const SimulationStep& at) {
+    line.show([&] { return progress_text(at, start, last); });
+    return GoOn::yes;
+  };
+  auto found = simulate(run.point, request, watch);
+  line.clear();
+  if (!found) return tl::unexpected(found.error());
+  const IntegrationStatistics& s = found->statistics;
+  if (run.terminal)
+    fmt::print(*run.terminal,
+               "{} to {:g}: {} steps, {} evaluations, {} Jacobians, order {} at the end (SUNDIALS IDA)\n", "dynamics",
+               found->point.values.time, s.steps, s.evaluations, s.jacobians, s.order);
+  run.accept({std::move(found->point), std::move(found->remarks)});
+  const OperatingState state = operating_state(run.system(), run.point.values);
+  run.show(StepKind::dynamics, state);
+  run.json.add(run.command, state);
+  return {};
 }
 
 std::span<const CommandKind> simulate() { return {&dynalin::commands::kind, 1}; }

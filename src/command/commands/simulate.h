@@ -1,16 +1,23 @@
 #pragma once
 
+#include <optional>
+
 #include "command/command_kind.h"
+#include "study/simulation.h"
 
 namespace dynalin::commands {
 
 class Simulate final : public CommandAction {
  public:
-  enum class Kind { initial_conditions, statics };
-  explicit Simulate(Kind k) : kind(k) {}
   StudyResult<void> run(RunState&) const override;
 
-  Kind kind;
+  bool initial_conditions = false;     // else statics, or over time
+  std::optional<SimulationKind> kind;  // over time
+  std::optional<double> end, duration, output_step;
+  std::optional<std::int64_t> steps;
+
+ private:
+  StudyResult<void> run_over_time(RunState&) const;
 };
 
 }  // namespace dynalin::commands

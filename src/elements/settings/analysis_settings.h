@@ -91,38 +91,91 @@ struct WrittenInitialConditions {
   void apply(Settings& s) const { apply(s.initial_conditions); }
 };
 
-// Settings of what moves in time, of solvers and of diagnostic output: checked, and nothing acts on them.
+// INTEGRATOR: SUNDIALS IDA integrates the equations in stabilized index 2, whichever method is named. ERROR and the
+// bounds of its steps and order act on it; what belongs to other methods has no meaning for it.
 struct WrittenIntegrator {
-  bool flag = false;
+  bool gstiff = false, wstiff = false, hastiff = false, dstiff = false, hht = false, newmark = false, abam = false;
+  bool rkf45 = false, constant_bdf = false, i3 = false, si2 = false, si1 = false;
+  std::optional<double> error, hmax, hinit, hmin, number;
+  std::optional<std::int64_t> kmax, maxit, count;
+  std::vector<std::string> interpolate, words;
   Obsolete value;
-  std::optional<double> number;
-  std::optional<std::int64_t> count;
-  std::vector<std::string> words;
+  bool defaults = false, list = false;
 
   using E = WrittenIntegrator;
+  static constexpr std::string_view method = "a method of Adams; SUNDIALS IDA integrates instead";
+  static constexpr std::string_view form = "a form of the equations; stabilized index 2 is used instead";
   static constexpr std::array<Argument<E>, 38> arguments = {{
-      {.name = "GSTIFF", .slot = &E::flag},       {.name = "WSTIFF", .slot = &E::flag},
-      {.name = "HASTIFF", .slot = &E::flag},      {.name = "DSTIFF", .slot = &E::flag},
-      {.name = "HHT", .slot = &E::flag},          {.name = "NEWMARK", .slot = &E::flag},
-      {.name = "ABAM", .slot = &E::flag},         {.name = "RKF45", .slot = &E::flag},
-      {.name = "CONSTANT_BDF", .slot = &E::flag}, {.name = "I3", .slot = &E::flag},
-      {.name = "SI2", .slot = &E::flag},          {.name = "SI1", .slot = &E::flag},
-      {.name = "ERROR", .slot = &E::number},      {.name = "HMAX", .slot = &E::number},
-      {.name = "HINIT", .slot = &E::number},      {.name = "HMIN", .slot = &E::number},
-      {.name = "KMAX", .slot = &E::count},        {.name = "MAXIT", .slot = &E::count},
-      {.name = "CORRECTOR", .slot = &E::words},   {.name = "INTERPOLATE", .slot = &E::words},
-      {.name = "ALPHA", .slot = &E::number},      {.name = "BETA", .slot = &E::number},
-      {.name = "GAMMA", .slot = &E::number},      {.name = "PATTERN", .slot = &E::words},
-      {.name = "ADAPTIVITY", .slot = &E::number}, {.name = "SCALE", .slot = &E::value},
-      {.name = "FIXIT", .slot = &E::count},       {.name = "HRATIO", .slot = &E::number},
-      {.name = "MAXERR", .slot = &E::number},     {.name = "PHASE", .slot = &E::value},
-      {.name = "DTOL", .slot = &E::number},       {.name = "REUSE", .slot = &E::value},
-      {.name = "TRELAX", .slot = &E::value},      {.name = "VRTOL", .slot = &E::value},
-      {.name = "BETA_BDF", .slot = &E::value},    {.name = "ORDER", .slot = &E::count},
-      {.name = "DEFAULT", .slot = &E::flag},      {.name = "LIST", .slot = &E::flag},
+      {.name = "GSTIFF", .slot = &E::gstiff, .help = method},
+      {.name = "WSTIFF", .slot = &E::wstiff, .help = method},
+      {.name = "HASTIFF", .slot = &E::hastiff, .help = method},
+      {.name = "DSTIFF", .slot = &E::dstiff, .help = method},
+      {.name = "HHT", .slot = &E::hht, .help = method},
+      {.name = "NEWMARK", .slot = &E::newmark, .help = method},
+      {.name = "ABAM", .slot = &E::abam, .help = method},
+      {.name = "RKF45", .slot = &E::rkf45, .help = method},
+      {.name = "CONSTANT_BDF", .slot = &E::constant_bdf, .help = method},
+      {.name = "I3", .slot = &E::i3, .help = form},
+      {.name = "SI2", .slot = &E::si2, .help = "stabilized index 2"},
+      {.name = "SI1", .slot = &E::si1, .help = form},
+      {.name = "ERROR",
+       .slot = &E::error,
+       .minimum = 0,
+       .help = "what errors may add up to: part of the model's length, of a radian, of the fastest motion; 1e-3"},
+      {.name = "HMAX", .slot = &E::hmax, .unit = "time", .minimum = 0, .help = "longest step; an interval of output"},
+      {.name = "HINIT", .slot = &E::hinit, .unit = "time", .minimum = 0, .help = "first step"},
+      {.name = "HMIN", .slot = &E::hmin, .unit = "time", .minimum = 0, .help = "a shorter step ends the simulation"},
+      {.name = "KMAX", .slot = &E::kmax, .minimum = 1, .help = "highest order, at most 5"},
+      {.name = "MAXIT", .slot = &E::maxit, .minimum = 1, .help = "iterations of a step, 4"},
+      {.name = "CORRECTOR", .slot = &E::words},
+      {.name = "INTERPOLATE", .slot = &E::interpolate, .help = "ON: steps may be longer than an interval of output"},
+      {.name = "ALPHA", .slot = &E::number},
+      {.name = "BETA", .slot = &E::number},
+      {.name = "GAMMA", .slot = &E::number},
+      {.name = "PATTERN", .slot = &E::words},
+      {.name = "ADAPTIVITY", .slot = &E::number},
+      {.name = "SCALE", .slot = &E::value},
+      {.name = "FIXIT", .slot = &E::count},
+      {.name = "HRATIO", .slot = &E::number},
+      {.name = "MAXERR", .slot = &E::number},
+      {.name = "PHASE", .slot = &E::value},
+      {.name = "DTOL", .slot = &E::number},
+      {.name = "REUSE", .slot = &E::value},
+      {.name = "TRELAX", .slot = &E::value},
+      {.name = "VRTOL", .slot = &E::value},
+      {.name = "BETA_BDF", .slot = &E::value},
+      {.name = "ORDER", .slot = &E::count},
+      {.name = "DEFAULT", .slot = &E::defaults, .help = "all settings as they are without the statement"},
+      {.name = "LIST", .slot = &E::list},
   }};
-  static constexpr std::array<std::string_view, 1> acting = {"LIST"};
-  void apply(Settings&) const {}
+  static constexpr std::array<std::string_view, 21> acting = {
+      "GSTIFF", "WSTIFF", "HASTIFF", "DSTIFF", "HHT",  "NEWMARK", "ABAM",  "RKF45",       "CONSTANT_BDF", "I3",  "SI2",
+      "SI1",    "ERROR",  "HMAX",    "HINIT",  "HMIN", "KMAX",    "MAXIT", "INTERPOLATE", "DEFAULT",      "LIST"};
+  IntegratorSettings stated() const {
+    IntegratorSettings s;
+    s.error = error, s.largest_step = hmax, s.first_step = hinit, s.least_step = hmin;
+    const std::array<std::pair<bool, const char*>, 9> types = {{{gstiff, "GSTIFF"},
+                                                                {wstiff, "WSTIFF"},
+                                                                {hastiff, "HASTIFF"},
+                                                                {dstiff, "DSTIFF"},
+                                                                {hht, "HHT"},
+                                                                {newmark, "NEWMARK"},
+                                                                {abam, "ABAM"},
+                                                                {rkf45, "RKF45"},
+                                                                {constant_bdf, "CONSTANT_BDF"}}};
+    for (const auto& [given, name] : types) {
+      if (given) s.type = name;
+    }
+    if (i3 || si2 || si1) s.formulation = i3 ? "I3" : si2 ? "SI2" : "SI1";
+    s.largest_order = kmax, s.iteration_limit = maxit;
+    if (!interpolate.empty()) s.interpolate = interpolate.front() != "OFF";
+    return s;
+  }
+  void apply(IntegratorSettings& s) const {
+    if (defaults) s = {};
+    take_over(s, stated());
+  }
+  void apply(Settings& s) const { apply(s.integrator); }
 };
 
 struct WrittenKinematics {

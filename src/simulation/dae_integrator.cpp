@@ -1,0 +1,239 @@
+#include "simulation/dae_integrator.h"
+
+#include <ida/ida.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.h>
+#include <sunlinsol/sunlinsol_klu.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <stdexcept>
+#include <vector>
+
+namespace dynalin {
+
+namespace {
+
+constexpr int recoverable = 1, fatal = -1;
+// Of one step: convergence failures and error test failures before it is given up.
+constexpr int failure_limit = 25;
+
+std::span<double> values(N_Vector v) { return {NV_DATA_S(v), static_cast<std::size_t>(NV_LENGTH_S(v))}; }
+std::span<const double> constant(N_Vector v) { return values(v); }
+
+void check(int flag) {
+  if (flag < 0) throw std::logic_error("the integrator was not set up as it must be");
+}
+template <class T>
+T* check(T* made) {
+  if (!made) throw std::bad_alloc();
+  return made;
+}
+
+}  // namespace
+
+struct DaeIntegrator::Memory {
+  DaeProblem& problem;
+  StepBounds bounds;
+  SUNContext context = nullptr;
+  void* ida = nullptr;
+  N_Vector y = nullptr, yp = nullptr, work = nullptr, id = nullptr, weight = nullptr;
+  SUNMatrix matrix = nullptr;
+  SUNLinearSolver solver = nullptr;
+  double t = 0;
+  bool begun = false;
+  bool pattern_written = false;
+  std::vector<int> crossed;
+  std::string reason;
+  IntegrationStatistics before;  // of what was before the last start
+  std::int64_t restarts = 0;
+
+  explicit Memory(DaeProblem& p) : problem(p) {}
+  ~Memory() {
+    if (ida) IDAFree(&ida);
+    if (solver) SUNLinSolFree(solver);
+    if (matrix) SUNMatDestroy(matrix);
+    for (const N_Vector v : {y, yp, work, id, weight}) {
+      if (v) N_VDestroy(v);
+    }
+    if (context) SUNContext_Free(&context);
+  }
+
+  static Memory& of(void* self) { return *static_cast<Memory*>(self); }
+
+  static int residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* self) {
+    return of(self).problem.residual(t, constant(y), constant(yp), values(r)) ? 0 : recoverable;
+  }
+  static int jacobian(double t, double c, N_Vector y, N_Vector yp, N_Vector, SUNMatrix to, void* self, N_Vector,
+                      N_Vector, N_Vector) {
+    Memory& m = of(self);
+    const ColumnMatrix* from = m.problem.jacobian(t, c, constant(y), constant(yp));
+    return from ? m.write(*from, to) : recoverable;
+  }
+  static int weights(N_Vector y, N_Vector weight, void* self) {
+    of(self).problem.weights(constant(y), values(weight));
+    return 0;
+  }
+  static int switches(double t, N_Vector y, N_Vector yp, double* to, void* self) {
+    DaeProblem& p = of(self).problem;
+    p.switches(t, constant(y), constant(yp), {to, p.switch_count()});
+    return 0;
+  }
+  static void ignore(int, const char*, const char*, char*, void*) {}
+
+  int write(const ColumnMatrix& from, SUNMatrix to) {
+    if (static_cast<std::size_t>(SM_NNZ_S(to)) < from.value.size()) return fatal;
+    // KLU keeps what follows from the pattern, which never changes.
+    std::copy(from.start.begin(), from.start.end(), SM_INDEXPTRS_S(to));
+    std::copy(from.row.begin(), from.row.end(), SM_INDEXVALS_S(to));
+    std::copy(from.value.begin(), from.value.end(), SM_DATA_S(to));
+    return 0;
+  }
+
+  void make() {
+    const auto n = static_cast<sunindextype>(problem.size());
+    check(SUNContext_Create(nullptr, &context));
+    for (N_Vector* v : {&y, &yp, &work, &id, &weight}) *v = check(N_VNew_Serial(n, context));
+    ida = check(IDACreate(context));
+    check(IDASetErrHandlerFn(ida, &ignore, this));
+  }
+
+  void begin(double at, std::optional<double> first_step) {
+    t = at;
+    if (!begun) {
+      check(IDAInit(ida, &residual, t, y, yp));
+      check(IDASetUserData(ida, this));
+      check(IDAWFtolerances(ida, &weights));
+      std::copy(problem.differential().begin(), problem.differential().end(), values(id).begin());
+      check(IDASetId(ida, id));
+      check(IDASetSuppressAlg(ida, SUNTRUE));
+      check(IDASetMaxOrd(ida, std::clamp(bounds.largest_order, 1, 5)));
+      check(IDASetMaxNumSteps(ida, -1));
+      check(IDASetMaxErrTestFails(ida, failure_limit));
+      check(IDASetMaxConvFails(ida, failure_limit));
+      if (bounds.largest) check(IDASetMaxStep(ida, *bounds.largest));
+      const ColumnMatrix* pattern = problem.jacobian(t, 1, constant(y), constant(yp));
+      const auto entries = static_cast<sunindextype>(pattern ? pattern->value.size() : 0);
+      const auto n = static_cast<sunindextype>(problem.size());
+      matrix = check(SUNSparseMatrix(n, n, entries, CSC_MAT, context));
+      solver = check(SUNLinSol_KLU(y, matrix, context));
+      constexpr int minimum_degree = 0;
+      check(SUNLinSol_KLUSetOrdering(solver, minimum_degree));
+      check(IDASetLinearSolver(ida, solver, matrix));
+      check(IDASetJacFn(ida, &jacobian));
+      crossed.assign(problem.switch_count(), 0);
+      if (!crossed.empty()) check(IDARootInit(ida, static_cast<int>(crossed.size()), &switches));
+      check(IDASetNoInactiveRootWarn(ida));
+      begun = true;
+    } else {
+      before = total();
+      ++restarts;
+      check(IDAReInit(ida, t, y, yp));
+    }
+    if (first_step || bounds.first) check(IDASetInitStep(ida, first_step ? *first_step : *bounds.first));
+  }
+
+  // IDA counts anew from each start.
+  IntegrationStatistics total() const {
+    IntegrationStatistics s = before;
+    s.restarts = restarts;
+    if (!begun) return s;
+    long steps = 0, evaluations = 0, setups = 0, errors = 0, iterations = 0, failures = 0, extra = 0;
+    int last = 0, now = 0;
+    double first = 0, used = 0, next = 0, at = 0;
+    IDAGetIntegratorStats(ida, &steps, &evaluations, &setups, &errors, &last, &now, &first, &used, &next, &at);
+    IDAGetNonlinSolvStats(ida, &iterations, &failures);
+    IDAGetNumLinResEvals(ida, &extra);
+    s.steps += steps, s.evaluations += evaluations + extra, s.jacobians += setups;
+    s.iterations += iterations, s.failed_error_tests += errors, s.failed_iterations += failures;
+    s.step_size = used, s.order = last;
+    return s;
+  }
+};
+
+DaeIntegrator::DaeIntegrator(DaeProblem& problem, const StepBounds& bounds)
+    : memory_(std::make_unique<Memory>(problem)) {
+  memory_->bounds = bounds;
+  memory_->make();
+}
+DaeIntegrator::~DaeIntegrator() = default;
+
+void DaeIntegrator::start(double t, std::span<const double> y, std::span<const double> yp,
+                          std::optional<double> first_step) {
+  std::copy(y.begin(), y.end(), values(memory_->y).begin());
+  std::copy(yp.begin(), yp.end(), values(memory_->yp).begin());
+  memory_->begin(t, first_step);
+}
+
+DaeIntegrator::Outcome DaeIntegrator::step(double latest) {
+  Memory& m = *memory_;
+  check(IDASetStopTime(m.ida, latest));
+  const int flag = IDASolve(m.ida, latest, &m.t, m.y, m.yp, IDA_ONE_STEP);
+  switch (flag) {
+    case IDA_SUCCESS:
+    case IDA_TSTOP_RETURN:
+      break;
+    case IDA_ROOT_RETURN:
+      check(IDAGetRootInfo(m.ida, m.crossed.data()));
+      return Outcome::event;
+    case IDA_ERR_FAIL:
+      m.reason = "no step is short enough for the error that is allowed";
+      return Outcome::failed;
+    case IDA_REP_RES_ERR:
+      m.reason = "the equations have no finite values";
+      return Outcome::failed;
+    case IDA_LSETUP_FAIL:
+    case IDA_LSOLVE_FAIL:
+      m.reason = "the equations are singular";
+      return Outcome::failed;
+    default:
+      m.reason = "the iteration of a step does not converge however short it is";
+      return Outcome::failed;
+  }
+  if (m.bounds.least && m.t < latest) {
+    double used = 0, next = 0;
+    check(IDAGetLastStep(m.ida, &used));
+    check(IDAGetCurrentStep(m.ida, &next));
+    // After a start steps are short, and grow.
+    if (next < *m.bounds.least && next < used) {
+      m.reason = "the error that is allowed asks for steps shorter than HMIN";
+      return Outcome::failed;
+    }
+  }
+  return Outcome::step;
+}
+
+double DaeIntegrator::time() const { return memory_->t; }
+std::span<const double> DaeIntegrator::y() const { return constant(memory_->y); }
+std::span<const double> DaeIntegrator::yp() const { return constant(memory_->yp); }
+
+void DaeIntegrator::interpolate(double t, std::span<double> y, std::span<double> yp) const {
+  const Memory& m = *memory_;
+  const auto take = [&](int derivative, std::span<double> to) {
+    check(IDAGetDky(m.ida, t, derivative, m.work));
+    std::copy_n(values(m.work).begin(), to.size(), to.begin());
+  };
+  take(0, y);
+  take(1, yp);
+}
+
+std::span<const int> DaeIntegrator::crossed() const { return memory_->crossed; }
+const std::string& DaeIntegrator::reason() const { return memory_->reason; }
+
+std::int64_t DaeIntegrator::hardest_unknown() const {
+  const Memory& m = *memory_;
+  if (IDAGetEstLocalErrors(m.ida, m.work) < 0 || IDAGetErrWeights(m.ida, m.weight) < 0) return -1;
+  std::int64_t hardest = -1;
+  double largest = 0;
+  for (std::size_t k = 0; k < m.problem.size(); ++k) {
+    const double e = std::abs(values(m.work)[k] * values(m.weight)[k]);
+    if (e > largest) largest = e, hardest = static_cast<std::int64_t>(k);
+  }
+  return hardest;
+}
+
+IntegrationStatistics DaeIntegrator::statistics() const { return memory_->total(); }
+
+}  // namespace dynalin

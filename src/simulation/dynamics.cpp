@@ -1,0 +1,226 @@
+#include "simulation/dynamics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+
+#include "simulation/motion_equations.h"
+
+namespace dynalin {
+
+namespace {
+
+// Rows that were left out and are farther than this from being met, in their scales, do not follow from the others.
+constexpr double left_out_limit = 1e-7;
+// Events in a row with next to no time between them, after which they are passed over for a while.
+constexpr int event_limit = 100;
+constexpr double event_distance = 1e-10;  // of the whole time
+constexpr int restart_limit = 3;          // at one instant
+constexpr std::size_t remark_limit = 50;
+
+std::vector<bool> active_rows(const System& system, const OperatingPoint& op) {
+  ConstraintRows rows;
+  rows.resize(system.layout());
+  system.constraints(system.motion(op), rows);
+  return system.partition(rows, true).active;
+}
+
+class Dynamics {
+ public:
+  Dynamics(const System& system, const OutputTimes& times, const IntegratorSettings& settings,
+           IntegrationStatistics& statistics, const SimulationWatch& watch, Findings& findings)
+      : system_(system), times_(times), statistics_(statistics), watch_(watch), findings_(findings) {
+    const double error = settings.error.value_or(default_integration_error);
+    tolerance_.relative = std::clamp(part_of_error * error, 1e-13, 1e-3);
+    tolerance_.duration = times.end() - times.start();
+    bounds_.first = settings.first_step;
+    bounds_.least = settings.least_step;
+    bounds_.largest_order = static_cast<int>(std::clamp<std::int64_t>(settings.largest_order.value_or(5), 1, 5));
+    // Unless it says so, the integration does not pass over a whole interval of output.
+    bounds_.largest = settings.largest_step;
+    if (!bounds_.largest && !settings.interpolate.value_or(false)) bounds_.largest = times.step();
+  }
+
+  Result<AdvancedPoint> run(OperatingPoint from) {
+    from.mode = AnalysisMode::dynamics;
+    auto start = consistent(std::move(from));
+    if (!start) return tl::unexpected(start.error());
+    point_ = std::move(*start);
+    if (!hand_out(point_, true)) return AdvancedPoint{std::move(point_), SimulationEnd::stopped};
+    if (auto begun = begin(); !begun) return tl::unexpected(begun.error());
+    while (next_ <= times_.count()) {
+      const auto outcome = integrator_->step(times_.end());
+      count();
+      if (outcome == DaeIntegrator::Outcome::failed) {
+        if (auto again = begin_again(); !again) return tl::unexpected(again.error());
+        continue;
+      }
+      const double t = integrator_->time();
+      bool going_on = true;
+      if (auto done = hand_out_until(t, going_on); !done) return tl::unexpected(done.error());
+      if (next_ > times_.count()) break;
+      accept();
+      if (!going_on || !hand_out(point_, false)) {
+        auto stopped = consistent(std::move(point_));
+        if (!stopped) return tl::unexpected(stopped.error());
+        return AdvancedPoint{std::move(*stopped), SimulationEnd::stopped};
+      }
+      if (outcome == DaeIntegrator::Outcome::event) {
+        if (auto passed = pass_event(); !passed) return tl::unexpected(passed.error());
+      } else if (equations_->left_out_violation(point_) > left_out_limit) {
+        if (auto begun = begin_at_consistent(); !begun) return tl::unexpected(begun.error());
+      } else {
+        restarts_here_ = 0;
+      }
+    }
+    return AdvancedPoint{std::move(last_output_), SimulationEnd::reached};
+  }
+
+ private:
+  // Everything that belongs to an operating point, from positions, velocities and states that are nearly right.
+  Result<OperatingPoint> consistent(OperatingPoint op) {
+    Findings found;
+    const double t = op.time;
+    auto result = assemble_position(system_, std::move(op), found)
+                      .and_then([&](OperatingPoint p) { return reconcile_velocity(system_, std::move(p), found); })
+                      .and_then([&](OperatingPoint p) { return solve_acceleration(system_, std::move(p), found); });
+    if (!result) {
+      Failure f = std::move(result.error());
+      f.message = fmt::format("at time {:g}: {}", t, f.message);
+      f.analysis = "dynamics";
+      return tl::unexpected(std::move(f));
+    }
+    findings_.redundant_rows = std::move(found.redundant_rows);
+    for (const Diagnostic& d : found.warnings.items()) {
+      if (said_.size() < remark_limit && said_.insert(d.message).second)
+        findings_.warnings.warning(d.code, d.at, d.message, d.hint);
+    }
+    return result;
+  }
+
+  // The integration from the point, which is consistent.
+  Result<void> begin(std::optional<double> first_step = {}) {
+    std::vector<bool> active = active_rows(system_, point_);
+    if (!equations_ || equations_->active() != active) {
+      integrator_.reset();
+      counted_before_ = statistics_;
+      equations_ = std::make_unique<MotionEquations>(system_, point_, std::move(active), tolerance_);
+      integrator_ = std::make_unique<DaeIntegrator>(*equations_, bounds_);
+      y_.resize(equations_->size()), yp_.resize(equations_->size());
+    } else {
+      equations_->accept(point_);
+    }
+    equations_->watch_switches(close_events_ < event_limit);
+    equations_->unknowns().pack(point_, y_, yp_);
+    integrator_->start(point_.time, y_, yp_, first_step);
+    return {};
+  }
+
+  Result<void> begin_at_consistent() {
+    auto again = consistent(std::move(point_));
+    if (!again) return tl::unexpected(again.error());
+    point_ = std::move(*again);
+    return begin();
+  }
+
+  // After a step that failed: from the last point that was accepted, with the constraints looked at anew.
+  Result<void> begin_again() {
+    const std::string reason = integrator_->reason();
+    const std::string hardest = equations_->unknowns().text(integrator_->hardest_unknown());
+    if (++restarts_here_ <= restart_limit) {
+      if (auto begun = begin_at_consistent()) return {};
+    }
+    std::string undefined = system_.undefined_value(system_.motion(point_));
+    if (undefined.empty()) undefined = system_.domain_violation(system_.motion(point_));
+    std::vector<std::string> details;
+    if (!hardest.empty()) details.push_back("what stood in the way most is " + hardest);
+    if (!undefined.empty()) details.push_back(std::move(undefined));
+    return tl::unexpected(Failure{"dynamics", fmt::format("at time {:.9g}: {}", point_.time, reason), details});
+  }
+
+  // The integrator's step becomes the point.
+  void accept() {
+    equations_->unknowns().unpack(integrator_->time(), integrator_->y(), integrator_->yp(), point_);
+    system_.remember(point_);
+    equations_->accept(point_);
+  }
+
+  // Output times up to t.
+  Result<void> hand_out_until(double t, bool& going_on) {
+    for (; going_on && next_ <= times_.count() && times_.at(next_) <= t; ++next_) {
+      OperatingPoint at = point_;
+      integrator_->interpolate(times_.at(next_), y_, yp_);
+      equations_->unknowns().unpack(times_.at(next_), y_, yp_, at);
+      auto whole = consistent(std::move(at));
+      if (!whole) return tl::unexpected(whole.error());
+      last_output_ = std::move(*whole);
+      going_on = hand_out(last_output_, true);
+    }
+    return {};
+  }
+
+  bool hand_out(const OperatingPoint& point, bool output) {
+    return !watch_ || watch_({system_, point, output, statistics_}) == GoOn::yes;
+  }
+
+  Result<void> pass_event() {
+    const double since = point_.time - last_event_;
+    last_event_ = point_.time;
+    close_events_ = since > event_distance * tolerance_.duration ? 0 : close_events_ + 1;
+    if (close_events_ == event_limit) {
+      findings_.warnings.warning(
+          "dense-events", {},
+          fmt::format("at time {:g} switching functions change their signs without end; they are passed over from "
+                      "there on until the integration begins anew",
+                      point_.time));
+    }
+    return begin_at_consistent();
+  }
+
+  void count() {
+    const IntegrationStatistics now = integrator_->statistics();
+    statistics_ = counted_before_;
+    statistics_.steps += now.steps, statistics_.evaluations += now.evaluations;
+    statistics_.jacobians += now.jacobians, statistics_.iterations += now.iterations;
+    statistics_.failed_error_tests += now.failed_error_tests;
+    statistics_.failed_iterations += now.failed_iterations;
+    statistics_.restarts += now.restarts;
+    statistics_.step_size = now.step_size, statistics_.order = now.order;
+  }
+
+  const System& system_;
+  const OutputTimes& times_;
+  IntegrationStatistics& statistics_;
+  const SimulationWatch& watch_;
+  Findings& findings_;
+  ErrorTolerance tolerance_;
+  StepBounds bounds_;
+  std::unique_ptr<MotionEquations> equations_;
+  std::unique_ptr<DaeIntegrator> integrator_;
+  IntegrationStatistics counted_before_;
+  OperatingPoint point_, last_output_;
+  std::vector<double> y_, yp_;
+  std::int64_t next_ = 1;  // output
+  int restarts_here_ = 0, close_events_ = 0;
+  double last_event_ = -std::numeric_limits<double>::infinity();
+  std::set<std::string> said_;
+};
+
+}  // namespace
+
+Result<AdvancedPoint> advance_dynamics(const System& system, OperatingPoint from, const OutputTimes& times,
+                                       const IntegratorSettings& settings, IntegrationStatistics& statistics,
+                                       const SimulationWatch& watch, Findings& findings) {
+  return Dynamics(system, times, settings, statistics, watch, findings).run(std::move(from));
+}
+
+std::size_t degrees_of_freedom(const System& system, const OperatingPoint& op) {
+  ConstraintRows rows;
+  rows.resize(system.layout());
+  system.constraints(system.motion(op), rows);
+  return system.partition(rows, true).independent.size();
+}
+
+}  // namespace dynalin

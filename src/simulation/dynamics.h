@@ -1,0 +1,30 @@
+// Dynamics: a point is led through time by the equations of motion (motion_equations.h). It is consistent on all levels
+// at the start, at every output and at the end; between, constraints and their rates are met to the errors that are
+// allowed. A step ends where a switch of an element changes its sign, and the integration begins anew there.
+#pragma once
+
+#include "analysis/initial.h"
+#include "model/settings.h"
+#include "simulation/output_times.h"
+#include "simulation/simulation_step.h"
+
+namespace dynalin {
+
+// Of a step, errors are at most this part of ERROR: what adds up over a run stays below it.
+inline constexpr double part_of_error = 1e-3;
+inline constexpr double default_integration_error = 1e-3;
+
+struct AdvancedPoint {
+  OperatingPoint point;
+  SimulationEnd end = SimulationEnd::reached;
+};
+
+// `from` is consistent.
+Result<AdvancedPoint> advance_dynamics(const System&, OperatingPoint from, const OutputTimes&,
+                                       const IntegratorSettings&, IntegrationStatistics&, const SimulationWatch&,
+                                       Findings&);
+
+// Independent velocities that constraints leave at a point.
+std::size_t degrees_of_freedom(const System&, const OperatingPoint&);
+
+}  // namespace dynalin

@@ -1,0 +1,102 @@
+// The equations of motion of a System in time, in the form of Gear, Gupta and Leimkuhler (1985), stabilized index 2:
+//
+//     q′ = T(q) (u + S Φ_qᵀ μ),   R(q, u, u′, λ, w, z, z′) = 0,   Φ(q, t) = 0,   Φ_q u + Φ_t = 0,   Ψ(q, u, t) = 0
+//
+// with quaternions for the rotations of bodies, so that no orientation is singular; their length, which T keeps, has no
+// meaning. μ vanishes but for the errors of the integration. S makes rotations and displacements comparable.
+//
+// The Jacobian comes from the partials that elements give. They are taken along paths (δq, δq′, δq″); with δθ the
+// rotation of a body, δω and δα the variations of its angular velocity and acceleration, global axes,
+//
+//     δθ′ = δω + ω×δθ,   δθ″ = δα + α×δθ + ω×δθ′,   δθ = 2 G(p)ᵀ δp / |p|²,   p′ = ½ G(p) ω
+//
+// What μ does to it is left out: μ is as small as the errors.
+#pragma once
+
+#include <vector>
+
+#include "simulation/dae_integrator.h"
+#include "simulation/motion_unknowns.h"
+
+namespace dynalin {
+
+// What errors are allowed: the part of a coordinate's length, of a velocity, of a state.
+struct ErrorTolerance {
+  double relative = 1e-6;
+  double duration = 1;  // of the simulation [time]: a velocity counts by the way it makes
+};
+
+class MotionEquations final : public DaeProblem {
+ public:
+  // Rows that are not `active` are left out. Mode, memory and histories are those of the point.
+  MotionEquations(const System&, const OperatingPoint&, std::vector<bool> active, const ErrorTolerance&);
+
+  const MotionUnknowns& unknowns() const { return unknowns_; }
+  const std::vector<bool>& active() const { return active_; }
+  // Takes over what an accepted point remembers, and how large its velocities and states are.
+  void accept(const OperatingPoint&);
+
+  std::size_t size() const override { return unknowns_.size(); }
+  bool residual(double t, std::span<const double> y, std::span<const double> yp, std::span<double> r) override;
+  const ColumnMatrix* jacobian(double t, double c, std::span<const double> y, std::span<const double> yp) override;
+  void weights(std::span<const double> y, std::span<double> weight) const override;
+  std::span<const double> differential() const override { return differential_; }
+  std::size_t switch_count() const override { return switch_count_; }
+  void switches(double t, std::span<const double> y, std::span<const double> yp, std::span<double> values) override;
+
+  // Whether zeros of switches end steps; they do at first.
+  void watch_switches(bool watched) { switches_watched_ = watched; }
+
+  // How far the rows that are left out are from being met, in their scales.
+  double left_out_violation(const OperatingPoint&);
+
+ private:
+  using Vector6 = std::array<double, 6>;
+
+  void evaluate(double t, std::span<const double> y, std::span<const double> yp, bool with_partials);
+  void kinematic_residual(std::span<const double> y, std::span<const double> yp, std::span<double> r) const;
+  void kinematic_partials(double c, std::span<const double> y);
+  void row_partials(std::span<const double> y);
+  void balance_partials(double c, std::span<const double> y);
+  void find_differential();
+  bool holds(std::int32_t equation_row) const;
+  // δθ of a body by its quaternion, three rows of four.
+  struct Chart {
+    std::array<std::array<double, 4>, 3> rotation;  // δθ = rotation δp
+    Matrix3 w, z;                                   // [ω×], [α×] + [ω×][ω×]
+  };
+  void make_charts(std::span<const double> y);
+  // Where a coordinate stands: its body, and which of its coordinates it is.
+  struct Place {
+    std::int32_t body = -1;  // −1 outside bodies
+    std::int32_t component = 0;
+  };
+  // Adds the row of partials by δq of a coordinate and by δq′ at constant velocity, in terms of positions.
+  void add_position(std::int32_t row, std::int32_t coordinate, double on_position, double on_rate,
+                    double on_acceleration);
+  double metric(std::int32_t coordinate) const {
+    const double s = system_.coordinate_scale(coordinate);
+    return s * s;
+  }
+
+  const System& system_;
+  MotionUnknowns unknowns_;
+  std::vector<bool> active_;
+  ErrorTolerance tolerance_;
+  Motion motion_;
+  ConstraintRows rows_;
+  Equations eq_;
+  Accumulator jacobian_;
+  std::vector<Place> places_;
+  std::vector<Chart> charts_;  // by body
+  std::vector<double> differential_;
+  std::vector<double> switch_values_;
+  std::size_t switch_count_ = 0;
+  bool switches_watched_ = true;
+  mutable std::vector<double> rates_;  // of coordinates, scratch
+  double fastest_ = 0;                 // rotation or way in lengths of the model, per time
+  std::vector<double> largest_state_;  // so far
+  double dilution_ = 1;                // weights against those unknowns that no error is asked of
+};
+
+}  // namespace dynalin

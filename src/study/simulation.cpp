@@ -1,0 +1,52 @@
+#include "study/simulation.h"
+
+#include <fmt/format.h>
+
+#include "simulation/dynamics.h"
+
+namespace dynalin {
+
+namespace {
+
+tl::unexpected<StudyFailure> refused(std::string why, Diagnostics said = {}) {
+  return tl::unexpected(StudyFailure(Failure{"simulation", std::move(why), {}}, std::move(said)));
+}
+
+SimulationKind settled(SimulationKind kind, std::size_t freedoms) {
+  if (kind != SimulationKind::transient) return kind;
+  return freedoms > 0 ? SimulationKind::dynamics : SimulationKind::kinematics;
+}
+
+}  // namespace
+
+StudyResult<SimulatedPoint> simulate(StudyPoint from, const SimulationRequest& request, const SimulationWatch& watch) {
+  auto start = initial_conditions(std::move(from));
+  if (!start) return tl::unexpected(start.error());
+  SimulatedPoint result;
+  result.point = std::move(start->point), result.remarks = std::move(start->remarks);
+  const System& system = *result.point.system;
+  if (!(request.times.end() > result.point.values.time)) {
+    return refused(fmt::format("the end of a simulation, {:g}, is not after the present time, {:g}",
+                               request.times.end(), result.point.values.time));
+  }
+  const std::size_t freedoms = degrees_of_freedom(system, result.point.values);
+  result.kind = settled(request.kind, freedoms);
+  Findings findings;
+  if (result.kind == SimulationKind::dynamics && freedoms == 0 && system.coordinates() > 0) {
+    findings.warnings.warning("no-freedom-in-dynamics", {},
+                              "the model has no degree of freedom: its motion is integrated although it is prescribed; "
+                              "SIMULATE/KINEMATICS finds it exactly");
+  }
+  auto advanced = advance_dynamics(system, result.point.values, request.times, request.integrator, result.statistics,
+                                   watch, findings);
+  result.remarks.append(std::move(findings.warnings));
+  if (!advanced) return tl::unexpected(StudyFailure(advanced.error(), std::move(result.remarks)));
+  result.point.values = std::move(advanced->point);
+  result.point.redundant_rows.clear();
+  for (const std::int32_t r : findings.redundant_rows) result.point.redundant_rows.push_back(system.row_text(r));
+  result.point.statics.reset();
+  result.end = advanced->end;
+  return result;
+}
+
+}  // namespace dynalin
