@@ -56,7 +56,7 @@ TEST_F(Both, a_model_without_states_fails_with_all_remarks) {
 
 TEST_F(Both, redundant_rows_and_remarks_have_code_and_place) {
   const RunResult r = run(pendulum("MARKER/2, PART=1, QP=0,0,1\nMARKER/22, PART=2, QP=-1,0,1\n"
-                                   "JOINT/2, REVOLUTE, I=22, J=2\nINTEGRATOR/HMAX=1\n"),
+                                   "JOINT/2, REVOLUTE, I=22, J=2\nINTEGRATOR/FIXIT=1\n"),
                           "SIM/INIT\nLINEAR/EIGENSOL, PSTATE=1\nLINEAR/EIGENSOL, RM=20, NOVECTOR\n");
   ASSERT_EQ(r.status, 0) << r.err;
   std::size_t redundant = 0;

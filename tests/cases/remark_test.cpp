@@ -63,7 +63,7 @@ const std::vector<Remark>& table() {
       {"options-disagree", 0, SLIDER(BODY) "END\n", "LINEAR/EIGENSOL, RM=1, ORIGINAL\n"},
       {"overdamped-modes", 0, SLIDER(BODY) "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, K=1, C=9, LENGTH=1\nEND\n",
        "LINEAR/EIGENSOL\n"},
-      {"passed-over", 0, SLIDER(BODY) "INTEGRATOR/HMAX=1\nEND\n", "LINEAR/EIGENSOL\n"},
+      {"passed-over", 0, SLIDER(BODY) "INTEGRATOR/FIXIT=1\nEND\n", "LINEAR/EIGENSOL\n"},
       {"loose-equilibrium", 0,
        SLIDER(BODY) "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=EXP(-DZ(20))\nEQUILIBRIUM/ERROR=2\nEND\n",
        "SIMULATE/STATICS\n"},

@@ -66,7 +66,7 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
       refuse("excluded-arguments", reader.at(second), fmt::format("SIMULATE takes one of {} and {}", first, second));
   }
   for (const auto& [value, name] : {std::pair{w.duration, "DURATION"}, std::pair{w.step, "DTOUT"}}) {
-    if (value && !(*value > 0)) refuse("out-of-range", reader.at(name), fmt::format("{} must be positive", name));
+    if (value && !(*value > 0)) refuse("value-out-of-range", reader.at(name), fmt::format("{} must be positive", name));
   }
   const bool through_time = w.end || w.duration;
   const bool needs_time = w.kinematics || w.dynamics || w.transient;
