@@ -113,6 +113,7 @@ struct DaeIntegrator::Memory {
       check(IDASetMaxNumSteps(ida, -1));
       check(IDASetMaxErrTestFails(ida, failure_limit));
       check(IDASetMaxConvFails(ida, failure_limit));
+      check(IDASetMaxNonlinIters(ida, std::max(1, bounds.iterations)));
       if (bounds.largest) check(IDASetMaxStep(ida, *bounds.largest));
       const ColumnMatrix* pattern = problem.jacobian(t, 1, constant(y), constant(yp));
       const auto entries = static_cast<sunindextype>(pattern ? pattern->value.size() : 0);

@@ -33,7 +33,7 @@ class DaeProblem {
 
 struct StepBounds {
   std::optional<double> largest, first, least;  // [time]
-  int largest_order = 5;
+  int largest_order = 5, iterations = 4;        // of Newton's method in a step
 };
 
 class DaeIntegrator {

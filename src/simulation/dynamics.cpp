@@ -14,10 +14,10 @@ namespace {
 
 // Rows that were left out and are farther than this from being met, in their scales, do not follow from the others.
 constexpr double left_out_limit = 1e-7;
-// Events in a row with next to no time between them, after which they are passed over for a while.
-constexpr int event_limit = 100;
-constexpr double event_distance = 1e-10;  // of the whole time
-constexpr int restart_limit = 3;          // at one instant
+// Events in a row with hardly a step between them, after which they are passed over for some steps.
+constexpr int event_limit = 200;
+constexpr std::int64_t steps_between_events = 8, steps_without_events = 200;
+constexpr int restart_limit = 3;  // at one instant
 constexpr std::size_t remark_limit = 50;
 
 std::vector<bool> active_rows(const System& system, const OperatingPoint& op) {
@@ -38,6 +38,8 @@ class Dynamics {
     bounds_.first = settings.first_step;
     bounds_.least = settings.least_step;
     bounds_.largest_order = static_cast<int>(std::clamp<std::int64_t>(settings.largest_order.value_or(5), 1, 5));
+    bounds_.iterations =
+        static_cast<int>(std::clamp<std::int64_t>(settings.iteration_limit.value_or(bounds_.iterations), 1, 100));
     // Unless it says so, the integration does not pass over a whole interval of output.
     bounds_.largest = settings.largest_step;
     if (!bounds_.largest && !settings.interpolate.value_or(false)) bounds_.largest = times.step();
@@ -73,6 +75,10 @@ class Dynamics {
         if (auto begun = begin_at_consistent(); !begun) return tl::unexpected(begun.error());
       } else {
         restarts_here_ = 0;
+        if (close_events_ >= event_limit && statistics_.steps - last_event_ > steps_without_events) {
+          close_events_ = 0;
+          if (auto begun = begin_at_consistent(); !begun) return tl::unexpected(begun.error());
+        }
       }
     }
     return AdvancedPoint{std::move(last_output_), SimulationEnd::reached};
@@ -166,15 +172,14 @@ class Dynamics {
   }
 
   Result<void> pass_event() {
-    const double since = point_.time - last_event_;
-    last_event_ = point_.time;
-    close_events_ = since > event_distance * tolerance_.duration ? 0 : close_events_ + 1;
-    if (close_events_ == event_limit) {
-      findings_.warnings.warning(
-          "dense-events", {},
-          fmt::format("at time {:g} switching functions change their signs without end; they are passed over from "
-                      "there on until the integration begins anew",
-                      point_.time));
+    const bool close = statistics_.steps - last_event_ <= steps_between_events;
+    last_event_ = statistics_.steps;
+    close_events_ = close ? close_events_ + 1 : 0;
+    if (close_events_ == event_limit && said_.insert("dense-events").second) {
+      findings_.warnings.warning("dense-events", {},
+                                 fmt::format("at time {:g} functions switch without end: from there on kinks and jumps "
+                                             "are at times stepped over, within the error that is allowed",
+                                             point_.time));
     }
     return begin_at_consistent();
   }
@@ -204,7 +209,7 @@ class Dynamics {
   std::vector<double> y_, yp_;
   std::int64_t next_ = 1;  // output
   int restarts_here_ = 0, close_events_ = 0;
-  double last_event_ = -std::numeric_limits<double>::infinity();
+  std::int64_t last_event_ = -steps_between_events - 1;  // counted in steps
   std::set<std::string> said_;
 };
 
