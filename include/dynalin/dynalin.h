@@ -12,6 +12,7 @@
 #include "dynalin/nastran_deck.h"
 #include "dynalin/operating_point.h"
 #include "dynalin/record.h"
+#include "dynalin/simulation.h"
 #include "dynalin/study.h"
 #include "dynalin/version.h"
 
@@ -26,5 +27,8 @@ using library::NastranBox;
 using library::NastranDeck;
 using library::OperatingPoint;
 using library::Record;
+using library::Simulation;
+using library::SimulationProgress;
+using library::SimulationRequest;
 using library::Study;
 }  // namespace dynalin

@@ -7,6 +7,7 @@
 #include "dynalin/linear_model.h"
 #include "dynalin/model.h"
 #include "dynalin/operating_point.h"
+#include "dynalin/simulation.h"
 
 namespace dynalin {
 
@@ -47,6 +48,10 @@ class Study {
     return static_equilibrium(as_drawn(), request);
   }
   OperatingPoint static_equilibrium(const OperatingPoint& from, const StaticRequest& = {}) const;
+
+  // Through time, from the present one of a point on, which is made consistent first if it is not.
+  Simulation simulate(const SimulationRequest& request) const { return simulate(as_drawn(), request); }
+  Simulation simulate(const OperatingPoint& from, const SimulationRequest&) const;
 
   // A point that is not consistent is made so first.
   LinearModel linearize(const LinearRequest& request = {}) const { return linearize(as_drawn(), request); }

@@ -7,13 +7,6 @@
 
 namespace dynalin {
 
-enum class SimulationKind : std::uint8_t {
-  kinematics,     // all motion is prescribed
-  dynamics,       // the equations of motion are integrated
-  transient,      // dynamics where there are degrees of freedom, else kinematics
-  quasi_statics,  // an equilibrium at every output time
-};
-
 struct SimulationRequest {
   SimulationKind kind = SimulationKind::dynamics;
   OutputTimes times;  // from the time of the point on
