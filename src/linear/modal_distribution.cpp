@@ -157,7 +157,7 @@ std::pair<std::vector<ModalRow<Complex>>, Complex> ModalDistribution::shape(std:
   }
   const auto& states = system_.layout().states;
   for (std::size_t k = 0; k < states.size(); ++k) {
-    if (states[k].held_in_dynamics) continue;
+    if (!states[k].varies()) continue;
     // The states of the model follow the coordinates, by type and id.
     const auto found = std::find_if(solution_.states.begin(), solution_.states.end(), [&](const StateLabel& s) {
       return s.type == states[k].type && s.element == states[k].owner->id && s.coordinate == states[k].coordinate;

@@ -210,7 +210,7 @@ void list_states(const Layout& layout, StateChoice& choice) {
   choice.first_differential = next();
   // Differential states by type code, then id.
   for (std::size_t k = 0; k < layout.states.size(); ++k) {
-    if (!layout.states[k].held_in_dynamics) choice.differential.push_back(static_cast<std::int32_t>(k));
+    if (layout.states[k].varies()) choice.differential.push_back(static_cast<std::int32_t>(k));
   }
   const auto key = [&](std::int32_t k) {
     const DifferentialState& z = layout.states[static_cast<std::size_t>(k)];

@@ -108,6 +108,9 @@ class Kernel {
   // velocity is.
   virtual std::span<const StartCondition> starts() const { return {}; }
   virtual void start_rows(const Motion&, std::int32_t /*first_row*/, ConstraintRows&) const {}
+  // The rates of the courses of motions (DifferentialState::course_of_motion), by their places among all states. They
+  // depend on time and on each other.
+  virtual void course_rates(const Motion&, std::span<double> /*state_rates*/) const {}
   // Residuals of balance, algebraic and differential equations, and the partials that are wanted.
   virtual void equations(const Motion&, Equations&) const {}
 

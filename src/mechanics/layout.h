@@ -60,6 +60,9 @@ struct ConstraintRow {
   const ElementLabel* owner = nullptr;
   std::string_view name;  // "Zi.Xj"
   RowLevel level = RowLevel::position;
+  // Differential states that the row and its rate have with the factor −1: the courses of a MOTION. They enter rows
+  // nowhere else.
+  std::int32_t course = -1, course_rate = -1;
 };
 
 // A scalar value with one equation of its own: VARIABLE, FUNCTION-valued force, output of a controller.
@@ -80,6 +83,10 @@ struct DifferentialState {
   double initial_rate = 0;        // where the search for it starts
   bool held_in_dynamics = false;  // a constant of the linear model, whose rate counts as zero
   bool course_of_motion = false;  // of a MOTION: what it integrates in time; a constant of statics and linear models
+  bool goes_on = false;  // of a course: nothing states where it starts, so in a run that has begun it is where it is
+
+  // Whether it is a state of linear models, and of whatever lists states.
+  bool varies() const { return !held_in_dynamics && !course_of_motion; }
 };
 
 class Layout {

@@ -40,7 +40,14 @@ inline Vector acceleration(const Vec3<Taylor>& v) { return {v.x.acceleration, v.
 inline Matrix3 value(const Mat3<Taylor>& m) { return {value(m.x), value(m.y), value(m.z)}; }
 
 // What the expression function MODE returns.
-enum class AnalysisMode : int { kinematics = 1, initial_conditions = 3, dynamics = 4, statics = 5, linear = 7 };
+enum class AnalysisMode : int {
+  kinematics = 1,
+  initial_conditions = 3,
+  dynamics = 4,
+  statics = 5,
+  quasi_statics = 6,
+  linear = 7
+};
 
 // Values that outlive an evaluation and change only with an accepted step: total angles for the turn count.
 using Memory = std::vector<double>;

@@ -106,6 +106,9 @@ TEST(DatasetEdits, know_what_is_stated_of_the_start) {
                                                                {"DIFF/1, IC=1", true, false},
                                                                {"DIFF/1, FUNCTION=1", false, false},
                                                                {"VARIABLE/1, IC=1", true, false},
+                                                               {"MOTION/1, ICDISP=1", true, false},
+                                                               {"MOTION/1, ICVEL=1", true, false},
+                                                               {"MOTION/1, FUNCTION=1", false, false},
                                                                {"MARKER/1, QP=1,2,3", false, false}}) {
     const std::string statement = by.substr(0, by.find('/'));
     const Edited e = edit(statement + "/1", by);

@@ -33,9 +33,8 @@ OpenPoints::OpenPoints(const System& system, const Motion& motion, const ExportO
     }
   }
   for (const DifferentialState& z : layout.states) {
-    const bool held = z.held_in_dynamics;
-    states_.push_back(held ? -1 : static_cast<std::int32_t>(dofs_.size()));
-    if (!held) add_unknown(fmt::format("{}, state {}", name_of(*z.owner, options), z.coordinate), z.owner->id);
+    states_.push_back(z.varies() ? static_cast<std::int32_t>(dofs_.size()) : -1);
+    if (z.varies()) add_unknown(fmt::format("{}, state {}", name_of(*z.owner, options), z.coordinate), z.owner->id);
   }
 }
 

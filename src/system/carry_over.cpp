@@ -1,5 +1,6 @@
 #include "system/carry_over.h"
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 
@@ -48,6 +49,26 @@ void copy_block(const std::vector<double>& from, std::int32_t at, std::vector<do
                 std::int32_t count) {
   for (std::int32_t k = 0; k < count; ++k)
     to[static_cast<std::size_t>(into + k)] = from[static_cast<std::size_t>(at + k)];
+}
+
+// Courses of motions that nothing knows yet and nothing states begin with the displacement and the velocity that the
+// point has.
+void take_up_courses(const System& system, const std::vector<bool>& known, OperatingPoint& op) {
+  const Layout& layout = system.layout();
+  const auto begins = [&](std::int32_t k) {
+    return k >= 0 && !known[static_cast<std::size_t>(k)] && layout.states[static_cast<std::size_t>(k)].goes_on;
+  };
+  const auto has_course = [&](const ConstraintRow& r) { return begins(r.course) || begins(r.course_rate); };
+  if (std::none_of(layout.rows.begin(), layout.rows.end(), has_course)) return;
+  ConstraintRows rows;
+  rows.resize(layout);
+  system.constraints(system.motion(op), rows);
+  for (std::size_t k = 0; k < layout.rows.size(); ++k) {
+    const ConstraintRow& r = layout.rows[k];
+    const Taylor& off = rows.along_motion(static_cast<std::int32_t>(k));
+    if (begins(r.course)) op.state[static_cast<std::size_t>(r.course)] += off.value;
+    if (begins(r.course_rate)) op.state[static_cast<std::size_t>(r.course_rate)] += off.rate;
+  }
 }
 
 // The BCS of body k goes on at another point of the body.
@@ -116,11 +137,13 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
   const auto state_key = [](const Layout& l, std::size_t k, Keys& keys) {
     return key_of_owner(l.states[k].owner, std::to_string(l.states[k].coordinate), keys);
   };
+  std::vector<bool> known(now.states.size(), false);
   for (const auto& [a, b] : matches(old, old.states.size(), now, now.states.size(), state_key)) {
     const ElementLabel* owner = now.states[b].owner;
     if (owner && is_restated(restated, owner->statement, owner->id)) continue;
     out.state[b] = op.state[a];
     out.state_rate[b] = op.state_rate[a];
+    known[b] = true;
   }
 
   // What is remembered belongs to a place in the text, which an edit leaves where it is.
@@ -131,6 +154,7 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
   };
   for (const auto& [a, b] : matches(old, old.memory.size(), now, now.memory.size(), memory_key))
     out.memory[b] = op.memory[a];
+  take_up_courses(to, known, out);
   return out;
 }
 

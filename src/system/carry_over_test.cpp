@@ -140,5 +140,39 @@ TEST(CarryOver, turns_that_were_counted_stay_with_their_place_in_the_text) {
   EXPECT_EQ(carried_over(*s, op, *s).memory, op.memory);
 }
 
+// The course of a motion goes on under another function, and starts anew where that is stated.
+TEST(CarryOver, courses_of_motions_go_on_unless_their_start_is_stated) {
+  const auto driven = [](const std::string& motion) {
+    return system_of(part(3) + hinge + "MOTION/1, JOINT=1, " + motion + "\n");
+  };
+  const auto from = driven("ACCELERATION, FUNCTION=1, ICDISP=2");
+  OperatingPoint op = from->drawn();
+  EXPECT_EQ(op.state, (std::vector<double>{2, 0}));
+  op.state = {9, 3};
+  EXPECT_EQ(carried_over(*from, op, *driven("ACCELERATION, FUNCTION=TIME, ICDISP=2")).state,
+            (std::vector<double>{9, 3}));
+  Restated restated;
+  restated.starts = {{"MOTION", 1}};
+  EXPECT_EQ(carried_over(*from, op, *driven("ACCELERATION, FUNCTION=1, ICDISP=5, ICVEL=1"), restated).state,
+            (std::vector<double>{5, 1}));
+}
+
+// Where no course is known, it begins with the displacement and the velocity at hand, angles but for whole turns.
+TEST(CarryOver, a_motion_that_joins_a_run_goes_on_with_what_it_finds) {
+  const std::string hinged = part(3) + "JOINT/1, REVOLUTE, I=30, J=1\n";
+  const auto free = system_of(hinged);
+  OperatingPoint op = free->drawn();
+  op.poses[1].R = rotation_exponential({0, 0, 0.8});
+  op.velocity[5] = 4;
+  const auto joined = [&](const std::string& motion) {
+    return carried_over(*free, op, *system_of(hinged + "MOTION/1, JOINT=1, " + motion + "\n")).state;
+  };
+  const std::vector<double> found = joined("ACCELERATION, FUNCTION=1");
+  EXPECT_NEAR(found.at(0), 0.8, 1e-15);
+  EXPECT_NEAR(found.at(1), 4, 1e-15);
+  EXPECT_NEAR(joined("VELOCITY, FUNCTION=1").at(0), 0.8, 1e-15);
+  EXPECT_EQ(joined("ACCELERATION, FUNCTION=1, ICDISP=3, ICVEL=-2"), (std::vector<double>{3, -2}));
+}
+
 }  // namespace
 }  // namespace dynalin::system_test

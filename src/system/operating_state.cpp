@@ -153,6 +153,7 @@ class Reading {
     }
     for (std::size_t k = 0; k < layout_.states.size(); ++k) {
       const DifferentialState& z = layout_.states[k];
+      if (z.course_of_motion) continue;
       state_.states.push_back({z.owner->text(), std::string(z.owner->view_name), z.coordinate, op_.state[k] + 0.0,
                                op_.state_rate[k] + 0.0});
     }

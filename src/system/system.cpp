@@ -169,6 +169,10 @@ void System::equations(const Motion& motion, const ConstraintRows& rows, Equatio
   }
 }
 
+void System::course_rates(const Motion& motion, std::span<double> state_rates) const {
+  for (const auto& kernel : kernels_) kernel->course_rates(motion, state_rates);
+}
+
 void System::remember(OperatingPoint& op) const {
   const Motion m = motion(op);
   for (const auto& kernel : kernels_) kernel->remember(m, op.memory);

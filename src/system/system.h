@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -54,6 +55,8 @@ class System {
   void start_rows(const Motion&, std::int32_t first_row, ConstraintRows&) const;
   // Residuals with reactions included, and the wanted partials (patterns are recorded when first wanted).
   void equations(const Motion&, const ConstraintRows&, Equations&, std::initializer_list<PartialBy> wanted) const;
+  // Of courses of motions, by their places among all states; other entries stay.
+  void course_rates(const Motion&, std::span<double> state_rates) const;
   void remember(OperatingPoint&) const;
   // Where functions have no finite value or no derivative; the first that has no value, or else the first.
   std::vector<UndefinedValue> undefined_values(const Motion&) const;

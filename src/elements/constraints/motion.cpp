@@ -9,7 +9,9 @@
 //     VELOCITY       q − s = 0,   s′ = f(t)        s starts at ICDISP, or where the dataset draws it
 //     ACCELERATION   q − s = 0,   s″ = f(t)        s′ starts at ICVEL, or 0
 //
-// A linear model is taken at one instant and holds s: no state belongs to the motion.
+// s and s′ are courses (DifferentialState::course_of_motion): integrated as the model moves in time. A linear model is
+// taken at one instant and holds them: no state belongs to the motion. Where neither ICDISP nor ICVEL says so, a motion
+// that joins a run goes on with what it finds.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +38,7 @@ struct PrescribedMotion {
   // Set when the model is complete.
   Displacement kind = Displacement::rotation;
   DriveLevel level = DriveLevel::displacement;
-  double start = 0;  // s
+  double start = 0;  // of s
 
   using M = PrescribedMotion;
   static constexpr std::string_view other_axes = "X Y Z B1 B2 B3";
@@ -74,8 +76,16 @@ struct PrescribedMotion {
        .slot = &M::acceleration,
        .help = "FUNCTION is the acceleration",
        .ends = "DISPLACEMENT VELOCITY"},
-      {.name = "ICDISP", .slot = &M::icdisp, .unit = "length or rad", .help = "displacement at the start"},
-      {.name = "ICVEL", .slot = &M::icvel, .unit = "length or rad, per time", .help = "velocity at the start"},
+      {.name = "ICDISP",
+       .slot = &M::icdisp,
+       .unit = "length or rad",
+       .help = "displacement at the start",
+       .start = StatedStart::value},
+      {.name = "ICVEL",
+       .slot = &M::icvel,
+       .unit = "length or rad, per time",
+       .help = "velocity at the start",
+       .start = StatedStart::value},
   }};
 
   std::string_view kind_text() const {
@@ -91,9 +101,15 @@ class MotionKernel final : public Kernel, public WrenchSource {
       : labels_(&labels) {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const PrescribedMotion& e = elements[k];
-      if (e.level != DriveLevel::displacement) layout.velocity_driven.push_back(&labels[k]);
       driven_.push_back(
           {e, {layout.marker(e.i), layout.marker(e.j), e.kind}, layout.add_row(labels[k], e.kind_text()), {}});
+      if (e.level == DriveLevel::displacement) continue;
+      layout.velocity_driven.push_back(&labels[k]);
+      Driven& d = driven_.back();
+      ConstraintRow& row = layout.rows[static_cast<std::size_t>(d.row)];
+      d.course = row.course = layout.add_state(course(labels[k], 1, e.start, !e.icdisp));
+      if (e.level == DriveLevel::acceleration)
+        d.course_rate = row.course_rate = layout.add_state(course(labels[k], 2, e.icvel.value_or(0.0), !e.icvel));
     }
   }
 
@@ -103,7 +119,7 @@ class MotionKernel final : public Kernel, public WrenchSource {
 
   void constraints(const Motion& motion, ConstraintRows& rows) const override {
     for (const Driven& d : driven_) {
-      const Taylor q = d.displacement.along_motion(motion), f = course(d, motion, rows.scratch);
+      const Taylor q = d.displacement.along_motion(motion), f = driven_along(d, motion, rows.scratch);
       Taylor row(q.value - f.value, q.rate - f.rate, q.acceleration - f.acceleration);
       if (is_angle(d.element.kind)) row.value = std::remainder(row.value, 2 * std::numbers::pi);
       rows.set(d.row, row);
@@ -112,10 +128,21 @@ class MotionKernel final : public Kernel, public WrenchSource {
   }
 
   void equations(const Motion& motion, Equations& eq) const override {
-    if (!eq.wants(PartialBy::position)) return;
     for (const Driven& d : driven_) {
+      if (d.course >= 0) add_course(d, motion, eq);
+      if (!eq.wants(PartialBy::position)) continue;
       eq.begin_constraint(d.row);
       d.displacement.add_reaction_partials(motion, lambda(d, motion), eq);
+    }
+  }
+
+  void course_rates(const Motion& motion, std::span<double> state_rates) const override {
+    ExpressionScratch scratch;
+    for (const Driven& d : driven_) {
+      if (d.course < 0) continue;
+      const double f = d.function.value(motion, scratch);
+      if (d.course_rate >= 0) state_rates[static_cast<std::size_t>(d.course)] = state(d.course_rate, motion);
+      state_rates[static_cast<std::size_t>(d.course_rate >= 0 ? d.course_rate : d.course)] = f;
     }
   }
 
@@ -137,18 +164,43 @@ class MotionKernel final : public Kernel, public WrenchSource {
     PairDisplacement displacement;
     std::int32_t row;
     BoundExpression function;
+    std::int32_t course = -1, course_rate = -1;  // s and s′ among the differential states, −1 for what is given
   };
+  static DifferentialState course(const ElementLabel& owner, std::int32_t number, double start, bool goes_on) {
+    return {.owner = &owner,
+            .coordinate = number,
+            .initial = start,
+            .held_in_statics = true,
+            .course_of_motion = true,
+            .goes_on = goes_on};
+  }
+  static double state(std::int32_t k, const Motion& motion) { return motion.state[static_cast<std::size_t>(k)]; }
+  // s′ = f, or s′ = p and p′ = f.
+  static void add_course(const Driven& d, const Motion& motion, Equations& eq) {
+    const auto rate = [&](std::int32_t k) {
+      eq.add_residual(eq.state_row(k), motion.state_rate[static_cast<std::size_t>(k)]);
+      eq.add(PartialBy::state_rate, eq.state_row(k), k, 1.0);
+    };
+    rate(d.course);
+    std::int32_t last = d.course;
+    if (d.course_rate >= 0) {
+      eq.add_residual(eq.state_row(d.course), -state(d.course_rate, motion));
+      eq.add(PartialBy::state, eq.state_row(d.course), d.course_rate, -1.0);
+      rate(last = d.course_rate);
+    }
+    d.function.add(motion, eq, eq.state_row(last), -1.0, PartialBy::velocity);
+  }
   static double lambda(const Driven& d, const Motion& motion) { return motion.lambda[static_cast<std::size_t>(d.row)]; }
   // What the displacement is driven along, with its rates.
-  static Taylor course(const Driven& d, const Motion& motion, ExpressionScratch& scratch) {
+  static Taylor driven_along(const Driven& d, const Motion& motion, ExpressionScratch& scratch) {
     const Taylor f = d.function.along_motion(motion, scratch);
     switch (d.element.level) {
       case DriveLevel::displacement:
         return f;
       case DriveLevel::velocity:
-        return {d.element.start, f.value, f.rate};
+        return {state(d.course, motion), f.value, f.rate};
       case DriveLevel::acceleration:
-        return {d.element.start, d.element.icvel.value_or(0.0), f.value};
+        return {state(d.course, motion), state(d.course_rate, motion), f.value};
     }
     return f;
   }
