@@ -60,6 +60,22 @@ namespace {
 constexpr double klu_fill_limit = 4;
 constexpr std::int32_t smallest_for_mumps = 2000;
 
+// Whether a permutation is made of an odd number of exchanges.
+bool is_odd(std::span<const int> permutation) {
+  std::vector<bool> seen(permutation.size(), false);
+  bool odd = false;
+  for (std::size_t first = 0; first < permutation.size(); ++first) {
+    if (seen[first]) continue;
+    seen[first] = true;
+    // A cycle of n places takes n − 1 exchanges.
+    for (auto at = static_cast<std::size_t>(permutation[first]); at != first; odd = !odd) {
+      seen[at] = true;
+      at = static_cast<std::size_t>(permutation[at]);
+    }
+  }
+  return odd;
+}
+
 // KLU: left-looking LU with a block triangular form.
 class KluFactors {
  public:
@@ -126,6 +142,14 @@ class KluFactors {
     for (std::size_t k = 0; k < n; ++k) least = std::min(least, pivot[k] / (pivot[k] + taken[k]));
     return least;
   }
+  // Rows are scaled by positive numbers, and L has ones on its diagonal.
+  int determinant_sign() const {
+    const auto n = static_cast<std::size_t>(symbolic_->n);
+    const auto* pivot = static_cast<const double*>(numeric_->Udiag);
+    const auto negative = std::count_if(pivot, pivot + n, [](double p) { return p < 0; });
+    const bool odd = is_odd({numeric_->Pnum, n}) != is_odd({symbolic_->Q, n});
+    return (negative % 2 != 0) != odd ? -1 : 1;
+  }
   void solve(double* x, int n, int columns) { klu_solve(symbolic_, numeric_, n, columns, x, &common_); }
   void solve_transposed(double* x, int n, int columns) { klu_tsolve(symbolic_, numeric_, n, columns, x, &common_); }
   std::size_t entries() const {
@@ -152,6 +176,7 @@ class MumpsFactors {
     for (const int k : {1, 2, 3, 4}) control(k) = 0;  // no printing
     control(7) = 5;                                   // METIS
     control(14) = 60;                                 // room for delayed pivots, percent
+    control(33) = 1;                                  // the determinant is wanted
     id_.cntl[0] = 0.1;                                // pivot threshold
   }
   ~MumpsFactors() {
@@ -186,6 +211,7 @@ class MumpsFactors {
     if (id_.infog[0] == allocation_failed) throw std::bad_alloc();
     return id_.infog[0] == 0 && id_.infog[27] == 0;
   }
+  int determinant_sign() const { return id_.rinfog[11] < 0 ? -1 : 1; }
   void solve(double* x, int columns) { back_substitute(x, columns, 1); }
   void solve_transposed(double* x, int columns) { back_substitute(x, columns, 0); }
   std::size_t entries() const {
@@ -344,6 +370,11 @@ void SparseLu::solve_transposed(Eigen::Ref<Eigen::MatrixXd> B) const {
     f.solve_transposed(x);
     block = x;
   });
+}
+
+int SparseLu::determinant_sign() const {
+  if (factors_->matrix.rows == 0) return 1;
+  return factors_->mumps ? factors_->mumps->determinant_sign() : factors_->klu->determinant_sign();
 }
 
 std::size_t SparseLu::entries() const {

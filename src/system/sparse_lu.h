@@ -33,7 +33,8 @@ class SparseLu {
   // Solves in place with one step of iterative refinement; every column of B is a right-hand side.
   void solve(Eigen::Ref<Eigen::MatrixXd> B) const;
   void solve_transposed(Eigen::Ref<Eigen::MatrixXd> B) const;
-  std::size_t entries() const;  // of the factors
+  int determinant_sign() const;  // 1 or −1
+  std::size_t entries() const;   // of the factors
 
  private:
   struct Factors;

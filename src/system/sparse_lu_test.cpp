@@ -162,6 +162,27 @@ TEST(SparseLu, a_nearly_singular_matrix_is_solved_to_its_condition) {
   EXPECT_NEAR(x(1, 0), 1, 1e-8);
 }
 
+TEST(SparseLu, knows_the_sign_of_the_determinant) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> draw(-1, 1);
+  for (int n = 1; n < 12; ++n) {
+    for (int k = 0; k < 10; ++k) {
+      std::uniform_int_distribution<int> place(0, n - 1);
+      Eigen::MatrixXd A = Eigen::MatrixXd::NullaryExpr(n, n, [&] { return draw(random); });
+      for (int e = 0; e < n * n / 2; ++e) A(place(random), place(random)) = 0;
+      std::vector<Triplet> t;
+      for (int r = 0; r < n; ++r) {
+        for (int c = 0; c < n; ++c) {
+          if (A(r, c) != 0) t.push_back({r, c, A(r, c)});
+        }
+      }
+      SparseLu lu;
+      if (std::abs(A.determinant()) < 1e-6 || !lu.factor(compressed(n, n, t))) continue;
+      EXPECT_EQ(lu.determinant_sign(), A.determinant() > 0 ? 1 : -1) << A;
+    }
+  }
+}
+
 // A grid in space fills in so much that the other method takes over.
 TEST(SparseLu, loops_in_all_directions_are_solved_as_well) {
   constexpr std::int32_t side = 13, n = side * side * side;
@@ -188,6 +209,12 @@ TEST(SparseLu, loops_in_all_directions_are_solved_as_well) {
   });
   lu.solve(x);
   lu.solve_transposed(y);
+  EXPECT_EQ(lu.determinant_sign(), 1);  // its diagonal dominates
+  ColumnMatrix turned = A;
+  for (auto k = static_cast<std::size_t>(A.start[5]); k < static_cast<std::size_t>(A.start[6]); ++k)
+    turned.value[k] *= -1;
+  ASSERT_TRUE(lu.factor(turned));
+  EXPECT_EQ(lu.determinant_sign(), -1);
   EXPECT_LE((x - expected).cwiseAbs().maxCoeff(), 1e-13);
   EXPECT_LE((y - expected).cwiseAbs().maxCoeff(), 1e-13);
 }
