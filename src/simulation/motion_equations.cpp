@@ -227,6 +227,9 @@ void MotionEquations::row_partials(std::span<const double> y) {
     const std::int32_t lambda = unknowns_.lambda(k), mu = unknowns_.mu(k);
     jacobian_.add(lambda, lambda, active ? 0.0 : 1.0);
     if (mu >= 0) jacobian_.add(mu, mu, active ? 0.0 : 1.0);
+    const ConstraintRow& row = system_.layout().rows[static_cast<std::size_t>(k)];
+    if (row.course >= 0) jacobian_.add(mu, unknowns_.state(row.course), active ? -1.0 : 0.0);
+    if (row.course_rate >= 0) jacobian_.add(lambda, unknowns_.state(row.course_rate), active ? -1.0 : 0.0);
     for (const auto& e : rows_.row(k)) {
       const double on = active ? 1.0 : 0.0;
       const double g = on * e.c.g, v = on * e.c.v;
