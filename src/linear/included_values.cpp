@@ -71,7 +71,7 @@ Core measure(const StructuredPencil& pencil, const ZeroModes& zero) {
   const Index n = equations.states(), z = zero.count, m = n - z, N = equations.unknowns();
   const Matrix T = zero.right(), L = zero.left();
   const Matrix X = T.rightCols(m), Y = L.rightCols(m), B = zero.block.bottomRightCorner(m, m);
-  const Residuals r = residuals_of(equations.pencil(), equations.complete(X), T, zero.block.rightCols(m));
+  const Residuals r = residuals_of(equations.products(), equations.complete(X), T, zero.block.rightCols(m));
   const Matrix ya = equations.complete_left(Y), reduced = equations.reduced(r.value);
   Matrix y(N, m);
   y << ya, Y;

@@ -10,7 +10,7 @@ using LongComplex = std::complex<long double>;
 
 StructuredPencil::StructuredPencil(const PerturbationEquations& equations, const ZeroModes& zero,
                                    const Eigen::MatrixXd& uncertainty)
-    : equations_(equations), uncertainty_(uncertainty), rows_(transposed(equations.pencil())) {
+    : equations_(equations), uncertainty_(uncertainty), rows_(transposed(equations.products())) {
   const Eigen::Index z = zero.count, n = equations.states();
   const Eigen::MatrixXd T0 = zero.right().leftCols(z);
   shares_ = zero.left().leftCols(z).transpose();

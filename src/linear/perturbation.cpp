@@ -36,7 +36,7 @@ PerturbationEquations PerturbationEquations::of_state_matrix(const Matrix& A) {
       if (A(r, c) != 0.0) entries.push_back({r, c, A(r, c)});
     }
   }
-  p.pencil_ = p.state_rates_on_states_ = compressed(p.states_, p.states_, entries);
+  p.pencil_ = p.products_ = p.state_rates_on_states_ = compressed(p.states_, p.states_, entries);
   const ColumnMatrix none = compressed(0, 0, {});
   auto lu = std::make_shared<SparseLu>();
   lu->factor(none);
@@ -127,10 +127,10 @@ Matrix PerturbationEquations::state_matrices(const Matrix& a) const {
     for (Eigen::Index c = first; c < first + count; ++c) {
       std::fill(sum.begin(), sum.end(), 0.0L);
       for (std::int32_t k = 0; k < algebraic_; ++k) {
-        if (a(k, c) != 0.0) add(pencil_, k, static_cast<long double>(a(k, c)));
+        if (a(k, c) != 0.0) add(products_, k, static_cast<long double>(a(k, c)));
       }
       if (c < columns - inputs) {
-        add(pencil_, algebraic_ + static_cast<std::int32_t>(c), 1.0L);
+        add(products_, algebraic_ + static_cast<std::int32_t>(c), 1.0L);
       } else {
         add(on_states_, static_cast<std::int32_t>(c), 1.0L);
       }

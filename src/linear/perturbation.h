@@ -74,8 +74,11 @@ class PerturbationEquations {
   // derivatives of inputs or, where the model moves, of coefficients. The states do not depend on them.
   const Eigen::MatrixXd& open_directions() const { return open_; }
 
-  // [F G; P R], and where E has its ones: the last states() places of the diagonal.
+  // [F G; P R], and where E has its ones: the last states() places of the diagonal. Where its entries stand follows
+  // from the topology of the model, whatever their values at this point.
   const ColumnMatrix& pencil() const { return pencil_; }
+  // The same without entries that are zero at this point, for products.
+  const ColumnMatrix& products() const { return products_; }
 
  private:
   class Assembly;  // perturbation_assembly.cpp
@@ -86,10 +89,11 @@ class PerturbationEquations {
   std::array<std::shared_ptr<const SparseLu>, 3> level_;
   std::shared_ptr<const SparseLu> whole_;  // of F, where freedoms without mass couple the levels
   Eigen::MatrixXd open_;
+  // Blocks that are multiplied only, without entries that are zero.
   ColumnMatrix rates_on_positions_, augmented_on_positions_, augmented_on_rates_;  // below the diagonal of F
   ColumnMatrix on_states_;                                                         // [G H]
   ColumnMatrix state_rates_on_algebraic_, state_rates_on_states_;                  // P and R
-  ColumnMatrix pencil_;
+  ColumnMatrix pencil_, products_;
   // Of its entries, where roundings are counted: the sizes of what they are made of, and in half units of the last
   // place what computing them has left (roundoff_scales.h).
   ColumnMatrix sizes_, roundings_;

@@ -17,6 +17,15 @@ namespace {
 void place(Entries& entries, const ColumnMatrix& m, std::int32_t row, std::int32_t column) {
   for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) { entries.push_back({row + r, column + c, v}); });
 }
+void place(Entries& entries, const Entries& block, std::int32_t row, std::int32_t column) {
+  for (const Triplet& t : block) entries.push_back({row + t.row, column + t.column, t.value});
+}
+
+// For products, which ask for no pattern.
+ColumnMatrix without_zeros(std::int32_t rows, std::int32_t columns, Entries entries) {
+  std::erase_if(entries, [](const Triplet& t) { return t.value == 0.0; });
+  return compressed(rows, columns, entries);
+}
 
 }  // namespace
 
@@ -340,28 +349,31 @@ class PerturbationEquations::Assembly {
   }
 
   void join() {
-    p_.rates_on_positions_ = compressed(n_, n_, below_10_.values);
-    p_.augmented_on_positions_ = compressed(augmented_.size(), n_, below_20_.values);
-    p_.augmented_on_rates_ = compressed(augmented_.size(), n_, below_21_.values);
-    p_.on_states_ = compressed(first_state_, p_.states_ + static_cast<std::int32_t>(inputs_.size()), states_.values);
-    p_.state_rates_on_algebraic_ = compressed(p_.states_, first_state_, rates_on_algebraic_.values);
-    p_.state_rates_on_states_ = compressed(p_.states_, p_.states_, rates_on_states_);
-    p_.sizes_ = compressed(p_.unknowns(), p_.unknowns(), roundoff_.sizes);
-    p_.roundings_ = compressed(p_.unknowns(), p_.unknowns(), roundoff_.roundings);
-    Entries all;
-    place(all, diagonal_[0], 0, 0);
-    place(all, p_.rates_on_positions_, n_, 0);
-    place(all, diagonal_[1], n_, n_);
-    place(all, p_.augmented_on_positions_, 2 * n_, 0);
-    place(all, p_.augmented_on_rates_, 2 * n_, n_);
-    place(all, diagonal_[2], 2 * n_, 2 * n_);
-    place(all, compressed(first_state_, first_state_, balances_.values), 0, 0);
+    const std::int32_t states = p_.states_, all = p_.unknowns();
+    p_.sizes_ = compressed(all, all, roundoff_.sizes);
+    p_.roundings_ = compressed(all, all, roundoff_.roundings);
+    Entries pencil;
+    place(pencil, diagonal_[0], 0, 0);
+    place(pencil, below_10_.values, n_, 0);
+    place(pencil, diagonal_[1], n_, n_);
+    place(pencil, below_20_.values, 2 * n_, 0);
+    place(pencil, below_21_.values, 2 * n_, n_);
+    place(pencil, diagonal_[2], 2 * n_, 2 * n_);
+    place(pencil, balances_.values, 0, 0);
     for (const Triplet& t : states_.values) {
-      if (t.column < p_.states_) all.push_back({t.row, first_state_ + t.column, t.value});
+      if (t.column < states) pencil.push_back({t.row, first_state_ + t.column, t.value});
     }
-    place(all, p_.state_rates_on_algebraic_, first_state_, 0);
-    place(all, p_.state_rates_on_states_, first_state_, first_state_);
-    p_.pencil_ = compressed(p_.unknowns(), p_.unknowns(), all);
+    place(pencil, rates_on_algebraic_.values, first_state_, 0);
+    place(pencil, rates_on_states_, first_state_, first_state_);
+    p_.pencil_ = compressed(all, all, pencil);
+    p_.products_ = without_zeros(all, all, std::move(pencil));
+    p_.rates_on_positions_ = without_zeros(n_, n_, std::move(below_10_.values));
+    p_.augmented_on_positions_ = without_zeros(augmented_.size(), n_, std::move(below_20_.values));
+    p_.augmented_on_rates_ = without_zeros(augmented_.size(), n_, std::move(below_21_.values));
+    p_.on_states_ =
+        without_zeros(first_state_, states + static_cast<std::int32_t>(inputs_.size()), std::move(states_.values));
+    p_.state_rates_on_algebraic_ = without_zeros(states, first_state_, std::move(rates_on_algebraic_.values));
+    p_.state_rates_on_states_ = without_zeros(states, states, std::move(rates_on_states_));
   }
 
   const System& system_;

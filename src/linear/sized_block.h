@@ -22,9 +22,10 @@ class SizedBlock {
   SizedBlock(std::int32_t row, std::int32_t column, Roundoff& roundoff)
       : row_(row), column_(column), roundoff_(roundoff) {}
 
+  // Zeros stay: where entries stand follows from the topology of the model, at every point of it.
   Entries values;
   void add(std::int32_t r, std::int32_t c, double value, double size, double rounding) {
-    if (value != 0.0) values.push_back({r, c, value});
+    values.push_back({r, c, value});
     if (size > 0) roundoff_.sizes.push_back({row_ + r, column_ + c, size});
     note_rounding(r, c, rounding);
   }
