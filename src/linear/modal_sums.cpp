@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "linear/mass_root.h"
+#include "linear/perturbed_point.h"
+#include "linear/physical_matrices.h"
 
 namespace dynalin {
 
@@ -71,6 +73,36 @@ std::pair<std::vector<Index>, std::vector<Index>> pairs_of(const LinearSystem& l
   return {position, rate};
 }
 
+// C, K and what is taken from accelerations, of the states that are coordinates [user mass].
+struct AlongStates {
+  Matrix M, C, K;
+};
+
+// Coordinates without mass that follow from a balance of forces are no states: they go along with those that are,
+// x = T s, x′ = T s′ + T′ s, in the physical matrices and from the left, where their balance vanishes.
+Result<AlongStates> along_states(const System& system, const LinearSystem& linear, const std::vector<Index>& position) {
+  auto physical = PhysicalEquations::make(system, linear);
+  if (!physical) return tl::unexpected(physical.error());
+  const MotionMap& Q = physical->whole().force;
+  const double factor = system.model().units.ucf;
+  if (!linear.has_massless_states)
+    return AlongStates{factor * Q.of_accelerations, factor * Q.of_rates, factor * Q.of_coordinates};
+  const Index states = linear.A.rows();
+  const Eigen::MatrixXcd unit = Matrix::Identity(states, states)(Eigen::all, position).cast<Complex>();
+  const Matrix dq = linear.displacements(unit).real(), dqdot = linear.velocities(unit).real();
+  const std::vector<std::vector<StateChoice::Entry>>& gradient = linear.at->with_massless->gradient;
+  Matrix T = Matrix::Zero(static_cast<Index>(gradient.size()), dq.cols()), T_rate = T;
+  for (std::size_t k = 0; k < gradient.size(); ++k) {
+    for (const auto& [column, g] : gradient[k]) {
+      T.row(static_cast<Index>(k)) += g.g * dq.row(column);
+      T_rate.row(static_cast<Index>(k)) += g.g * dqdot.row(column) + g.v * dq.row(column);
+    }
+  }
+  const Matrix left = factor * T.transpose();
+  return AlongStates{left * Q.of_accelerations * T, left * Q.of_rates * T,
+                     left * (Q.of_coordinates * T + Q.of_rates * T_rate)};
+}
+
 // Numbers of modes whose shapes span the coordinates, vibrations before real modes. A shape that differs from earlier
 // ones by no more than rounding of A may have made of it, 1/condition being how near A is to a defective matrix, adds
 // nothing.
@@ -119,14 +151,16 @@ Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint
   const Matrix B =
       root.of(linear.velocities(Matrix::Identity(linear.A.rows(), linear.A.rows())(Eigen::all, rate)).real());
   const Matrix M = B.transpose() * B;
-  const Matrix C = -M * linear.model.A(rate, rate), K = -M * linear.model.A(rate, position);
+  const auto along = along_states(system, linear, position);
+  if (!along) return tl::unexpected(along.error());
+  const Matrix &C = along->C, &K = along->K;
   // Rates and accelerations of the coordinates are those of the bodies, seen in their mass.
   const auto seen = [&](const std::vector<double>& of_bodies) {
     const Matrix column = Eigen::Map<const Eigen::VectorXd>(of_bodies.data(), static_cast<Index>(of_bodies.size()));
     return Eigen::VectorXd(B.completeOrthogonalDecomposition().solve(root.of(column)).col(0));
   };
   const Eigen::VectorXd v = seen(op.velocity), a = seen(op.acceleration);
-  const Eigen::VectorXd x = K.completeOrthogonalDecomposition().solve(-(M * a + C * v));
+  const Eigen::VectorXd x = K.completeOrthogonalDecomposition().solve(-(along->M * a + C * v));
 
   // Rows by the root of their mass, so that lengths and angles compare.
   const Eigen::VectorXd unit = M.diagonal().cwiseSqrt().unaryExpr([](double m) { return m > 0 ? m : 1.0; });

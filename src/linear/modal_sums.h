@@ -15,8 +15,8 @@ namespace dynalin {
 // shares of all modes sum up to the energy of the model.
 //
 // x′ are the velocities of the operating point, x its displacement from where the linear model would rest,
-// K x = −(M x″ + C x′). M is the mass of the bodies seen in x′, C and K follow from A; forces of differential states
-// are not in them.
+// K x = −(M x″ + C x′). C and K are the physical matrices (physical_matrices.h), the M of kinetic energy is the mass of
+// the bodies seen in x′; forces of differential states are not in them.
 struct EnergyPerMode {
   struct Share {
     double kinetic = 0, potential = 0;  // [mass·length²/time²]

@@ -118,6 +118,19 @@ TEST_F(ModalEnergies, energies_of_a_line_in_real_modes) {
   }
 }
 
+// A force that reads the acceleration is no mass of a body, and the spring beside it keeps its stiffness.
+TEST_F(ModalEnergies, potential_energy_is_that_of_the_spring_where_a_force_reads_the_acceleration) {
+  const std::string t = tables(
+      "One mass\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,1,1, QG=0,0,1.1, VZ=0.3\n"
+      "MARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
+      "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, K=50, C=0.4, LENGTH=1\n"
+      "SFORCE/2, TRANSLATIONAL, I=20, J=1, FUNCTION=-3*ACCZ(20,1)\nEND\n",
+      "ENERGY_PER_MODE=ALL");
+  const Energies one{0.5 * 2 * 0.3 * 0.3, 0.5 * 50 * 0.1 * 0.1, 0.4 * 0.3 * 0.3};
+  expect_row(row(t, "Energies per mode", "1"), one, one);
+  expect_row(row(t, "Energies per mode", "Model"), one, one);
+}
+
 TEST_F(ModalEnergies, percentages_belong_to_the_modes_asked_for) {
   const Line line;
   const auto expected = by_real_modes(line, 0);
