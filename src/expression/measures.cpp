@@ -185,10 +185,11 @@ T theta_squared(const MeasureFrames<T>& f) {
 }
 
 // The sum or difference of the first and the last of three angles: a principal value that has a gradient where each of
-// them has none, brought to the turn they are in.
+// them has none, brought to the turn they are in. It is the angle of a point at `distance` from the origin: where that
+// is small the coordinates have cancelled, and there the angles themselves are known well.
 template <class T>
-T of_both(const T& principal, const T& first, const T& last) {
-  if (std::isnan(value_of(principal))) return first + last;  // where the other combination has a gradient
+T of_both(const T& principal, double distance, const T& first, const T& last) {
+  if (distance < 1) return first + last;
   const double turn = 2 * std::numbers::pi, together = value_of(first) + value_of(last);
   return principal + turn * std::round((together - value_of(principal)) / turn);
 }
@@ -396,12 +397,12 @@ T evaluate_measure(Measure measure, const MeasureFrames<T>& f) {
     case Measure::PSI_PLUS_PHI: case Measure::PSI_MINUS_PHI: {
       const double sign = measure == Measure::PSI_PLUS_PHI ? 1.0 : -1.0;
       const auto [psi, phi] = psi_and_phi(f);
-      return of_both(psi_with_phi(f, sign), psi, T(sign * phi));
+      return of_both(psi_with_phi(f, sign), 1 + sign * value_of(direction(f, 3, 3)), psi, T(sign * phi));
     }
     case Measure::YAW_PLUS_ROLL: case Measure::YAW_MINUS_ROLL: {
       const double sign = measure == Measure::YAW_PLUS_ROLL ? 1.0 : -1.0;
       const auto [yaw, roll] = yaw_and_roll(f);
-      return of_both(yaw_with_roll(f, sign), yaw, T(sign * roll));
+      return of_both(yaw_with_roll(f, sign), 1 + sign * value_of(direction(f, 3, 1)), yaw, T(sign * roll));
     }
     case Measure::UVX_X: case Measure::UVX_Y: case Measure::UVX_Z: case Measure::UVY_X: case Measure::UVY_Y:
     case Measure::UVY_Z: case Measure::UVZ_X: case Measure::UVZ_Y: case Measure::UVZ_Z: {

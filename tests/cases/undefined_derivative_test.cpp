@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -256,6 +257,41 @@ TEST_F(SmoothAngles, have_derivatives_where_the_angles_have_none) {
 
   const auto study = study_of(free_body(output("PSI(20,1)+PHI(20,1)"), ", REULER=0.3,0,0"));
   EXPECT_NEAR(study.initial_conditions().variable(7), 0.3, 1e-15);
+}
+
+// Beside the places where one of the two has no gradient: ω = ψ′ z + θ′ (cos ψ, sin ψ, 0) + φ′ z_i, so that φ responds
+// to turns about x and y by (sin ψ, −cos ψ)/sin θ and ψ by −cos θ of that; and ω = ψ′ z + θ′ y′ + φ′ x″ of yaw and
+// roll.
+TEST_F(SmoothAngles, keep_their_digits_beside_points_without_a_gradient) {
+  constexpr double psi = 0.3;
+  const auto compare = [&](const std::string& function, const std::string& turn,
+                           const std::array<double, 3>& expected) {
+    const auto g = gradient(free_body(output(function), ", REULER=" + turn));
+    const double size = std::max(1.0, std::abs(expected[0]));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::string axis = fmt::format("Global rotation A{}(BCS) PART/2", "XYZ"[k]);
+      EXPECT_NEAR(g.contains(axis) ? g.at(axis) : 0.0, expected[k], 1e-14 * size) << function << turn << axis;
+    }
+  };
+  for (const double tilt : {0.1, 1e-2, 1e-4, 1e-6, 2e-7, 1e-9, 1e-12}) {
+    for (const bool upside_down : {false, true}) {
+      const double theta = upside_down ? std::numbers::pi - tilt : tilt;
+      const std::string turn = fmt::format("{:.17g},{:.17g},0.5", psi, theta);
+      // (1 − cos θ)/sin θ and (1 + cos θ)/sin θ.
+      const double plus = std::tan(theta / 2), minus = 1 / std::tan(theta / 2);
+      compare("PSI(20,1)+PHI(20,1)", turn, {plus * std::sin(psi), -plus * std::cos(psi), 1});
+      compare("PSI(20,1)-PHI(20,1)", turn, {-minus * std::sin(psi), minus * std::cos(psi), 1});
+    }
+    for (const double side : {-1.0, 1.0}) {
+      const double theta = side * (std::numbers::pi / 2 - tilt), cosine = std::cos(theta);
+      const std::string turn = fmt::format("{:.17g},{:.17g},-90D", psi + std::numbers::pi / 2, theta);
+      // 1 ± sin θ, whose product is cos² θ.
+      const double large = 1 + std::abs(std::sin(theta)), small = cosine * cosine / large;
+      const double plus = (side > 0 ? large : small) / cosine, minus = (side > 0 ? -small : -large) / cosine;
+      compare("YAW(20,1)+ROLL(20,1)", turn, {plus * std::cos(psi), plus * std::sin(psi), 1});
+      compare("YAW(20,1)-ROLL(20,1)", turn, {minus * std::cos(psi), minus * std::sin(psi), 1});
+    }
+  }
 }
 
 // cos θ falls as −θ²/2 and θ² grows: rates of both depend on the tilt where the model tilts.
