@@ -42,6 +42,13 @@ Expression Expression::with_curves(const std::function<void(SplineUse&)>& attach
   return Expression(std::move(program));
 }
 
+bool Expression::has_switches() const { return !program_->switching.empty(); }
+
+void Expression::switches(std::span<const double> atom_values, ExpressionWorkspace<double>& workspace,
+                          SwitchList& out) const {
+  if (has_switches()) program_->switches(atom_values, workspace, out);
+}
+
 std::vector<Expression::Call> Expression::calls() const {
   std::vector<Call> calls;
   for (std::size_t k = 0; k < program_->nodes.size(); ++k) {

@@ -127,6 +127,11 @@ class Expression {
   template <class T>
   bool reaches(std::size_t atom, const ExpressionWorkspace<T>&) const;
 
+  // Whether it may have kinks or jumps along a motion, and functions that change their sign where it has: as many in
+  // the same order at all atom values.
+  bool has_switches() const;
+  void switches(std::span<const double> atoms, ExpressionWorkspace<double>&, SwitchList&) const;
+
   // Functions that are called, IF among them, each call once.
   struct Call {
     std::string_view name;

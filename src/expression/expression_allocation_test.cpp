@@ -58,5 +58,19 @@ TEST(ExpressionAllocation, evaluation_allocates_nothing_after_the_first) {
   EXPECT_EQ(allocations_of_second_evaluation<TimeTaylor<double>>(parsed.expression), 0u);
 }
 
+TEST(ExpressionAllocation, switches_allocate_nothing_after_the_first) {
+  const ParsedText parsed =
+      parse("IF(VARVAL(1): ABS(VARVAL(1)), 1, MAX(VARVAL(1),VARVAL(2),2))+STEP(VARVAL(1),0,0,VARVAL(2),1)");
+  const std::vector<double> x = {0.4, 0.3};
+  ExpressionWorkspace<double> workspace;
+  SwitchList list;
+  parsed.expression.switches(x, workspace, list);
+  const std::size_t before = allocations, count = list.value.size();
+  list.clear();
+  parsed.expression.switches(x, workspace, list);
+  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(list.value.size(), count);
+}
+
 }  // namespace
 }  // namespace dynalin::expression_test

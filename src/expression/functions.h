@@ -12,6 +12,7 @@
 #include "base/dual.h"
 #include "base/time_taylor.h"
 #include "expression/function_text.h"
+#include "expression/switch_list.h"
 
 namespace dynalin {
 
@@ -41,6 +42,10 @@ struct Function {
   // Says why there is no finite value at these arguments, "SQRT of -3"; empty if that is not known.
   // An argument that is NaN is not known yet and never a reason.
   std::string (*domain)(std::span<const double>);
+
+  // Adds what changes sign where the function has a kink or a jump, a number of functions that the number of arguments
+  // decides; null where it is smooth.
+  void (*switches)(std::span<const double>, SwitchList&) = nullptr;
 
   bool kinked = false;  // has kinks or jumps, whatever its arguments
 

@@ -1,6 +1,7 @@
 // Functions made of pieces: the steps STEP, STEP5, HAVSIN and the contacts IMPACT, BISTOP.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -45,6 +46,16 @@ struct Stop {
     }
     return {};
   }
+  // The sign of the force before it is held at 0; positive outside, where it is left with the contact.
+  static double hold(double p, double pdot, double k, double e, double cmax, double d) {
+    if (!(p > 0.0)) return 1.0;
+    const double push = k * std::pow(p, e), pull = -steps::cubic(p, 0.0, 0.0, d, cmax) * pdot;
+    return pull > 0.0 ? (push - pull) / (push + pull) : 1.0;
+  }
+  // Where the damping is in full; nowhere without damping, and of no consequence where the force is held.
+  static void add_full_damping(double p, double cmax, double d, double hold, SwitchList& out) {
+    out.add(cmax == 0.0 ? 1.0 : p - d, hold > 0.0);
+  }
 };
 
 // IMPACT(x, x′, x1, k, e, cmax, d): a stop below x1.
@@ -58,6 +69,13 @@ constexpr auto impact = []<class T>(const T& x, const T& xdot, const T& x1, cons
   if (value_of(x) >= value_of(x1)) return T(0.0);
   return Stop::force(T(x1 - x), T(-xdot), k, e, cmax, d);
 };
+void impact_switches(std::span<const double> a, SwitchList& out) {
+  const double p = a[2] - a[0];
+  out.add(p);
+  const double hold = Stop::hold(p, -a[1], a[3], a[4], a[5], a[6]);
+  out.add(hold);
+  Stop::add_full_damping(p, a[5], a[6], hold, out);
+}
 
 // BISTOP(x, x′, x1, x2, k, e, cmax, d): a stop below x1 and one above x2, nothing between.
 //     x > x2: MIN(0, −k (x − x2) ** e − STEP(x, x2, 0, x2 + d, cmax) x′)       x1 ≤ x ≤ x2: 0, with
@@ -71,6 +89,15 @@ constexpr auto two_stops = []<class T>(const T& x, const T& xdot, const T& x1, c
   if (value_of(x) <= value_of(x2)) return T(0.0);
   return T(-Stop::force(T(x - x2), xdot, k, e, cmax, d));
 };
+void bistop_switches(std::span<const double> a, SwitchList& out) {
+  const double below = a[2] - a[0], above = a[0] - a[3];
+  out.add(below);
+  out.add(above);
+  const double hold = Stop::hold(std::max(below, above), below > above ? -a[1] : a[1], a[4], a[5], a[6], a[7]);
+  out.add(hold);
+  Stop::add_full_damping(below, a[6], a[7], hold, out);
+  Stop::add_full_damping(above, a[6], a[7], hold, out);
+}
 
 std::string step_domain_of(std::string_view name, std::span<const double> a) {
   return a[1] == a[3] ? fmt::format("{} with x0 = x1 = {:.6g}", name, a[1]) : "";
@@ -90,30 +117,35 @@ constexpr std::string_view step_arguments =
     "x0, x1  where it begins and ends [as x]\n"
     "h0, h1  values before and behind";
 constexpr std::array table = {
-    function<5>("STEP",
-                {"x, x0, h0, x1, h1", "h0 up to x0, h1 from x1 on, between them a cubic with level ends", "as h0, h1",
-                 step_arguments},
-                steps::cubic, step_domain, flat),
-    function<5>("STEP5",
-                {"x, x0, h0, x1, h1",
-                 "h0 up to x0, h1 from x1 on, between them a quintic with ends that are level and not curved",
-                 "as h0, h1", step_arguments},
-                steps::quintic, step5_domain, flat),
-    function<5>(
-        "HAVSIN",
-        {"x, x0, h0, x1, h1", "h0 up to x0, h1 from x1 on, between them half a sine wave", "as h0, h1", step_arguments},
-        haversine, havsin_domain, flat),
+    with_switches(function<5>("STEP",
+                              {"x, x0, h0, x1, h1", "h0 up to x0, h1 from x1 on, between them a cubic with level ends",
+                               "as h0, h1", step_arguments},
+                              steps::cubic, step_domain, flat),
+                  steps::ends),
+    with_switches(
+        function<5>("STEP5",
+                    {"x, x0, h0, x1, h1",
+                     "h0 up to x0, h1 from x1 on, between them a quintic with ends that are level and not curved",
+                     "as h0, h1", step_arguments},
+                    steps::quintic, step5_domain, flat),
+        steps::ends),
+    with_switches(function<5>("HAVSIN",
+                              {"x, x0, h0, x1, h1", "h0 up to x0, h1 from x1 on, between them half a sine wave",
+                               "as h0, h1", step_arguments},
+                              haversine, havsin_domain, flat),
+                  steps::ends),
     kinked(function<7>(
-        "IMPACT",
-        {"x, v, x1, k, e, c, d", "the force of a stop at x1 that pushes back while x < x1, else 0", "as k·xᵉ",
-         "x   distance, DX(20, 1) for example [length]\n"
-         "v   its rate, VX(20, 1) [length/time]\n"
-         "x1  where the stop begins [length]\n"
-         "k   stiffness: the force is k (x1 − x)ᵉ [force/lengthᵉ]\n"
-         "e   exponent, above 0; below 1 the stiffness at first contact is infinite\n"
-         "c   largest damping coefficient [force·time/length]\n"
-         "d   depth at which the damping is in full [length]; it grows like STEP"},
-        impact, impact_domain, flat)),
+               "IMPACT",
+               {"x, v, x1, k, e, c, d", "the force of a stop at x1 that pushes back while x < x1, else 0", "as k·xᵉ",
+                "x   distance, DX(20, 1) for example [length]\n"
+                "v   its rate, VX(20, 1) [length/time]\n"
+                "x1  where the stop begins [length]\n"
+                "k   stiffness: the force is k (x1 − x)ᵉ [force/lengthᵉ]\n"
+                "e   exponent, above 0; below 1 the stiffness at first contact is infinite\n"
+                "c   largest damping coefficient [force·time/length]\n"
+                "d   depth at which the damping is in full [length]; it grows like STEP"},
+               impact, impact_domain, flat),
+           impact_switches),
     kinked(
         function<8>("BISTOP",
                     {"x, v, x1, x2, k, e, c, d",
@@ -125,7 +157,8 @@ constexpr std::array table = {
                      "e       exponent, above 0\n"
                      "c       largest damping coefficient [force·time/length]\n"
                      "d       depth at which the damping is in full [length]; it grows like STEP"},
-                    two_stops, bistop_domain, flat)),
+                    two_stops, bistop_domain, flat),
+        bistop_switches),
 };
 
 }  // namespace

@@ -62,9 +62,17 @@ constexpr Function list_function(std::string_view name, FunctionText text, std::
   return make_function<ArgumentList<Formula>>(name, minimum, maximum, defined_everywhere, zero, text);
 }
 
-constexpr Function kinked(Function f) {
-  f.kinked = true;
+using SwitchingFunctions = void (*)(std::span<const double>, SwitchList&);
+
+// Made of pieces.
+constexpr Function with_switches(Function f, SwitchingFunctions switches) {
+  f.switches = switches;
   return f;
+}
+// Of pieces that meet in kinks or jumps whatever the arguments are.
+constexpr Function kinked(Function f, SwitchingFunctions switches) {
+  f.kinked = true;
+  return with_switches(f, switches);
 }
 
 template <class T>

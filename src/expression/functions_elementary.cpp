@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
+#include <numbers>
 
 #include "expression/functions_define.h"
 #include "expression/functions_power.h"
@@ -76,6 +78,8 @@ constexpr auto angle_of_point = []<class T>(const T& y, const T& x) {
   using std::atan2;
   return atan2(T(y + 0.0), T(x + 0.0));
 };
+// Around the origin a sign cannot change once alone: it does so as well where the angle is 0, of no consequence.
+void angle_switches(std::span<const double> a, SwitchList& out) { out.add(a[0], a[1] < 0.0); }
 
 // --- functions with kinks and jumps
 // ------------------------------------------------------------------ ABS(a): at 0 the derivative is
@@ -85,16 +89,29 @@ constexpr auto absolute = []<class T>(const T& a) {
   return value_of(a) == 0.0 ? T(0.0) : a;
 };
 
+void sign_of_first(std::span<const double> a, SwitchList& out) { out.add(a[0]); }
+
+// Changes its sign at all whole numbers but 0.
+double whole_number_switch(double a) {
+  if (a == 0.0) return 1.0;
+  return std::sin(std::numbers::pi * std::remainder(a, 2.0)) / (std::numbers::pi * a);
+}
+
 // AINT(a): a without its fraction, toward 0; derivative 0 everywhere.
 constexpr auto truncated = []<class T>(const T& a) { return T(std::trunc(value_of(a))); };
+void truncation_switches(std::span<const double> a, SwitchList& out) { out.add(whole_number_switch(a[0])); }
 
 // ANINT(a): the nearest whole number, halves away from 0; derivative 0 everywhere.
 constexpr auto rounded = []<class T>(const T& a) { return T(std::round(value_of(a))); };
+void rounding_switches(std::span<const double> a, SwitchList& out) {
+  out.add(std::cos(std::numbers::pi * std::remainder(a[0], 2.0)));
+}
 
 // DIM(a, b): a − b where that is positive, else 0; at a = b the derivative is 0.
 constexpr auto positive_difference = []<class T>(const T& a, const T& b) {
   return value_of(a) <= value_of(b) ? T(0.0) : T(a - b);
 };
+void difference_switches(std::span<const double> a, SwitchList& out) { out.add(a[0] - a[1]); }
 
 // MAX(a, b, …), MIN(a, b, …): derivative of the one selected, of the first on a tie. NaN wins, to
 // be noticed.
@@ -112,6 +129,19 @@ constexpr auto smallest = []<class T>(std::span<const T> a) {
   }
   return a[selected];
 };
+// Each but the last one against the best of the others: it becomes the one selected, or stops to be it.
+template <class Better>
+void selection_switches(std::span<const double> a, SwitchList& out, Better better) {
+  for (std::size_t k = 0; k + 1 < a.size(); ++k) {
+    double rival = a[k + 1];
+    for (std::size_t j = 0; j < a.size(); ++j) {
+      if (j != k && better(a[j], rival)) rival = a[j];
+    }
+    out.add(a[k] - rival);
+  }
+}
+void largest_switches(std::span<const double> a, SwitchList& out) { selection_switches(a, out, std::greater<>()); }
+void smallest_switches(std::span<const double> a, SwitchList& out) { selection_switches(a, out, std::less<>()); }
 
 // MOD(a, b) = a − AINT(a/b) b, with the sign of a; derivative 1 and −AINT(a/b), also at the jumps.
 // The value is that of fmod, because a/b may round up to a whole number that it does not reach.
@@ -121,12 +151,17 @@ constexpr auto remainder_of_division = []<class T>(const T& a, const T& b) {
   const T r = a - quotient * b;
   return T(r + (exact - value_of(r)));
 };
+void remainder_switches(std::span<const double> a, SwitchList& out) { out.add(whole_number_switch(a[0] / a[1])); }
 
 // SIGN(a, b): |a| with the sign of b, plus for b = 0; derivative 0 at a = 0 and with respect to b.
 constexpr auto with_sign_of = []<class T>(const T& a, const T& b) {
   if (std::isnan(value_of(b))) return undefined<T>();
   return value_of(b) < 0.0 ? T(-absolute(a)) : T(absolute(a));
 };
+void sign_switches(std::span<const double> a, SwitchList& out) {
+  out.add(a[0]);
+  out.add(a[1]);
+}
 
 constexpr auto power_of = []<class T>(const T& x, const T& n) { return power(x, n); };
 
@@ -148,14 +183,16 @@ std::string power_domain(std::span<const double> a) {
 
 constexpr auto flat = ZeroPartial::flat;
 constexpr std::array table = {
-    kinked(function<1>("ABS", {"a", "the size of a, |a|", "as a", "its derivative at a = 0 is taken as 0"}, absolute)),
+    kinked(function<1>("ABS", {"a", "the size of a, |a|", "as a", "its derivative at a = 0 is taken as 0"}, absolute),
+           sign_of_first),
     function<1>("ACOS", {"a", "the angle, 0 … π, whose cosine is a", "rad", "a  −1 … 1"}, arc_cosine, acos_domain),
     function<1>("ASIN", {"a", "the angle, −π/2 … π/2, whose sine is a", "rad", "a  −1 … 1"}, arc_sine, asin_domain),
     function<1>("ATAN", {"a", "the angle, −π/2 … π/2, whose tangent is a", "rad", ""}, arc_tangent),
-    function<2>(
-        "ATAN2",
-        {"y, x", "the angle, −π … π, of the point (x, y) seen from the origin", "rad", "note the order: y comes first"},
-        angle_of_point),
+    with_switches(function<2>("ATAN2",
+                              {"y, x", "the angle, −π … π, of the point (x, y) seen from the origin", "rad",
+                               "note the order: y comes first"},
+                              angle_of_point),
+                  angle_switches),
     function<1>("COS", {"a", "cosine", "1", "a  [rad]; write COS(30D) for degrees"}, cosine),
     function<1>("SIN", {"a", "sine", "1", "a  [rad]; write SIN(30D) for degrees"}, sine),
     function<1>("TAN", {"a", "tangent", "1", "a  [rad]; write TAN(30D) for degrees"}, tangent),
@@ -168,20 +205,27 @@ constexpr std::array table = {
     function<1>("LOG", {"a", "natural logarithm", "1", "a  above 0"}, natural_logarithm, log_domain),
     function<1>("LOG10", {"a", "logarithm to the base 10", "1", "a  above 0"}, decimal_logarithm, log10_domain),
     kinked(function<1>("AINT", {"a", "a without its fraction, towards 0", "as a", "its derivative is 0"}, truncated,
-                       defined_everywhere, flat)),
-    kinked(function<1>("ANINT",
-                       {"a", "the whole number nearest to a, halves away from 0", "as a", "its derivative is 0"},
-                       rounded, defined_everywhere, flat)),
-    kinked(function<2>("DIM", {"a, b", "a − b where that is positive, else 0", "as a, b", ""}, positive_difference,
-                       defined_everywhere, flat)),
-    kinked(list_function("MAX", {"a, b …", "the largest", "as a, b", "two values or more"}, 2, most_arguments, largest,
-                         flat)),
-    kinked(list_function("MIN", {"a, b …", "the smallest", "as a, b", "two values or more"}, 2, most_arguments,
-                         smallest, flat)),
-    kinked(function<2>("MOD", {"a, b", "the remainder of a divided by b, with the sign of a", "as a", "b  not 0"},
-                       remainder_of_division, mod_domain, flat)),
+                       defined_everywhere, flat),
+           truncation_switches),
     kinked(
-        function<2>("SIGN", {"a, b", "the size of a with the sign of b, plus where b = 0", "as a", ""}, with_sign_of)),
+        function<1>("ANINT", {"a", "the whole number nearest to a, halves away from 0", "as a", "its derivative is 0"},
+                    rounded, defined_everywhere, flat),
+        rounding_switches),
+    kinked(function<2>("DIM", {"a, b", "a − b where that is positive, else 0", "as a, b", ""}, positive_difference,
+                       defined_everywhere, flat),
+           difference_switches),
+    kinked(list_function("MAX", {"a, b …", "the largest", "as a, b", "two values or more"}, 2, most_arguments, largest,
+                         flat),
+           largest_switches),
+    kinked(list_function("MIN", {"a, b …", "the smallest", "as a, b", "two values or more"}, 2, most_arguments,
+                         smallest, flat),
+           smallest_switches),
+    kinked(function<2>("MOD", {"a, b", "the remainder of a divided by b, with the sign of a", "as a", "b  not 0"},
+                       remainder_of_division, mod_domain, flat),
+           remainder_switches),
+    kinked(
+        function<2>("SIGN", {"a, b", "the size of a with the sign of b, plus where b = 0", "as a", ""}, with_sign_of),
+        sign_switches),
 };
 constexpr Function power_operator = function<2>("**", {}, power_of, power_domain);
 

@@ -81,6 +81,13 @@ constexpr auto sweep = []<class T>(const T& x, const T& a, const T& x0, const T&
   return T(ramp * a * sin(T(2.0 * std::numbers::pi * turns)));
 };
 
+// The sine comes in from x0 to x0 + dx; at x1 the frequency has its corner.
+void sweep_switches(std::span<const double> a, SwitchList& out) {
+  out.add(a[0] - a[2]);
+  out.add(a[0] - (a[2] + a[6]));
+  out.add(a[3] == a[5] ? 1.0 : a[0] - a[4]);
+}
+
 std::string sweep_domain(std::span<const double> a) {
   if (a[4] < a[2]) return fmt::format("SWEEP with x1 = {:.6g} below x0 = {:.6g}", a[4], a[2]);
   if (a[6] <= 0.0) return fmt::format("SWEEP with dx = {:.6g} where it needs dx > 0", a[6]);
@@ -114,15 +121,16 @@ constexpr std::array table = {
                  "p   phase [rad]\n"
                  "b   mean value"},
                 simple_harmonic),
-    function<7>(
-        "SWEEP",
-        {"x, a, x0, f0, x1, f1, dx", "a sine of amplitude a whose frequency goes from f0 at x0 to f1 at x1", "as a",
-         "x       often TIME\n"
-         "a       amplitude\n"
-         "x0, x1  where the frequency begins and ends to change [as x]\n"
-         "f0, f1  frequencies [cycles per unit of x]\n"
-         "dx      over which the sine comes in, from x0 on [as x]"},
-        sweep, sweep_domain),
+    with_switches(function<7>("SWEEP",
+                              {"x, a, x0, f0, x1, f1, dx",
+                               "a sine of amplitude a whose frequency goes from f0 at x0 to f1 at x1", "as a",
+                               "x       often TIME\n"
+                               "a       amplitude\n"
+                               "x0, x1  where the frequency begins and ends to change [as x]\n"
+                               "f0, f1  frequencies [cycles per unit of x]\n"
+                               "dx      over which the sine comes in, from x0 on [as x]"},
+                              sweep, sweep_domain),
+                  sweep_switches),
 };
 
 }  // namespace

@@ -18,6 +18,12 @@ T between(const T& x, const T& x0, const T& h0, const T& x1, const T& h1, Shape 
   return h0 + (h1 - h0) * shape(s);
 }
 
+// Both ends: a list of arguments that begins with x, x0, h0, x1.
+inline void ends(std::span<const double> a, SwitchList& out) {
+  out.add(a[0] - a[1]);
+  out.add(a[0] - a[3]);
+}
+
 // STEP(x, x0, h0, x1, h1): shape s² (3 − 2 s), with continuous slope.
 inline constexpr auto cubic = []<class T>(const T& x, const T& x0, const T& h0, const T& x1, const T& h1) {
   return between(x, x0, h0, x1, h1, [](const T& s) { return T(s * s * (3.0 - 2.0 * s)); });

@@ -168,6 +168,24 @@ bool ParametricCurve::corner_at(double u) const {
   return false;
 }
 
+void ParametricCurve::switches(double u, int derivative, SwitchList& out) const {
+  const int continuous = static_cast<int>(order_) - 2 - derivative;
+  if (shape_ == Shape::closed) {
+    if (continuous > 0) return;
+    // Pieces are counted on from one turn to the next.
+    const double turns = std::floor((u - breaks_.front()) / 2);
+    const auto odd = static_cast<std::size_t>(std::abs(std::fmod(turns * static_cast<double>(breaks_.size() - 1), 2)));
+    out.add(knot_switch(breaks_, u - 2 * turns, odd));
+  } else if (continuous > 0) {
+    out.add(u + 1);
+    out.add(u - 1);
+  } else {
+    // A polygon goes on as it is beyond its ends.
+    const std::span<const double> all = breaks_;
+    out.add(knot_switch(order_ == 2 ? all.subspan(1, all.size() - 2) : all, u));
+  }
+}
+
 double ParametricCurve::difference(double u, double v) const {
   return shape_ == Shape::closed ? std::remainder(u - v, 2.0) : u - v;
 }

@@ -16,6 +16,7 @@
 #include "base/dual.h"
 #include "base/time_taylor.h"
 #include "base/vec3.h"
+#include "expression/switch_list.h"
 
 namespace dynalin {
 
@@ -42,6 +43,8 @@ class ParametricCurve {
   bool reaches(double u) const { return shape_ == Shape::closed || std::abs(u) <= 1 + end_tolerance; }
   // Whether pieces of a polygon meet at u in a corner.
   bool corner_at(double u) const;
+  // Where that derivative of the curve has a kink or a jump along u, and where the curve ends.
+  void switches(double u, int derivative, SwitchList&) const;
   // u − v, by way of the closure where that is shorter.
   double difference(double u, double v) const;
 

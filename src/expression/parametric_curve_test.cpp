@@ -148,5 +148,42 @@ TEST(ParametricCurve, finds_the_nearest_point) {
   EXPECT_NEAR(c.difference(0.95, -0.95), -0.1, 1e-14);
 }
 
+// Where the switch of a curve changes its sign along u; every one has one function or, at ends alone, two.
+std::vector<double> changes(const ParametricCurve& c, int derivative, double from, double to) {
+  const auto at = [&](double u) {
+    SwitchList list;
+    c.switches(u, derivative, list);
+    return list.value;
+  };
+  std::vector<double> places;
+  for (int k = 0; k < 1009; ++k) {
+    double low = from + (to - from) * k / 1009, high = from + (to - from) * (k + 1) / 1009;
+    const auto left = at(low), right = at(high);
+    for (std::size_t f = 0; f < left.size(); ++f) {
+      if ((left[f] < 0) == (right[f] < 0)) continue;
+      for (int n = 0; n < 60; ++n) ((at(0.5 * (low + high))[f] < 0) == (left[f] < 0) ? low : high) = 0.5 * (low + high);
+      places.push_back(low);
+    }
+  }
+  return places;
+}
+
+TEST(ParametricCurve, switches_at_corners_and_ends) {
+  const auto expect = [](const std::vector<double>& found, const std::vector<double>& expected) {
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-12);
+  };
+  const Points open = scattered(5);
+  Points closed = scattered(4);
+  closed.back() = closed.front();
+  expect(changes(ParametricCurve(open, Shape::open, Data::points, 4), 0, -1.5, 1.5), {-1, 1});
+  expect(changes(ParametricCurve(open, Shape::open, Data::points, 4), 1, -1.5, 1.5), {-1, 1});
+  expect(changes(ParametricCurve(open, Shape::open, Data::points, 2), 0, -1.5, 1.5), {-0.5, 0, 0.5});
+  // Three corners a turn, at −1 + 2 k / 3.
+  expect(changes(ParametricCurve(closed, Shape::closed, Data::points, 2), 0, -1.5, 3.5),
+         {-1, -1.0 / 3, 1.0 / 3, 1, 5.0 / 3, 7.0 / 3, 3});
+  expect(changes(ParametricCurve(closed, Shape::closed, Data::points, 2), 1, -1.2, 0.9), {-1, -1.0 / 3, 1.0 / 3});
+}
+
 }  // namespace
 }  // namespace dynalin

@@ -25,16 +25,14 @@ S call(const Function& function, std::span<const std::int32_t> operands, const s
   return function(std::span<const S>(arguments.data(), operands.size()));
 }
 
-// Which branch of an IF a condition selects: 0, 1, 2 for negative, zero, positive; NaN selects
-// none.
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
 double selected_branch(double condition) {
   if (std::isnan(condition)) return condition;
   return condition < 0.0 ? 0.0 : condition == 0.0 ? 1.0 : 2.0;
 }
-
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 template <class T>
 T ExpressionProgram::value_of_call(const ExpressionNode& node, const std::vector<T>& value) const {
@@ -49,66 +47,59 @@ T ExpressionProgram::value_of_call(const ExpressionNode& node, const std::vector
 }
 
 template <class T>
+T ExpressionProgram::value_of_node(const ExpressionNode& node, std::span<const T> atom_values,
+                                   const std::vector<T>& value) const {
+  const auto a = static_cast<std::size_t>(node.a), b = static_cast<std::size_t>(node.b);
+  switch (node.kind) {
+    case Kind::constant:
+      return T(node.constant);
+    case Kind::atom:
+      return atom_values[a];
+    case Kind::negate:
+      return -value[a];
+    case Kind::add:
+      return value[a] + value[b];
+    case Kind::subtract:
+      return value[a] - value[b];
+    case Kind::multiply:
+      return value[a] * value[b];
+    case Kind::divide:
+      return quotient(value[a], value[b]);
+    case Kind::power:
+      return power_at(value[a], node.constant);
+    case Kind::call:
+      return value_of_call(node, value);
+    case Kind::spline:
+      return splines[a].evaluate(value[static_cast<std::size_t>(operands[b])],
+                                 value[static_cast<std::size_t>(operands[b + 1])]);
+    case Kind::merge: {
+      const double selection = value_of(value[a]);
+      if (std::isnan(selection)) return T(selection);
+      return value[static_cast<std::size_t>(operands[b + static_cast<std::size_t>(selection)])];
+    }
+    case Kind::branch:
+    case Kind::jump:
+      break;
+  }
+  return T(0.0);
+}
+
+template <class T>
 T ExpressionProgram::evaluate(std::span<const T> atom_values, ExpressionWorkspace<T>& workspace) const {
   assert(atom_values.size() == atoms.size());
   std::vector<T>& value = workspace.value;
   if (value.size() < nodes.size()) value.resize(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const ExpressionNode& node = nodes[i];
-    const auto a = static_cast<std::size_t>(node.a), b = static_cast<std::size_t>(node.b);
-    switch (node.kind) {
-      case Kind::constant:
-        value[i] = T(node.constant);
-        break;
-      case Kind::atom:
-        value[i] = atom_values[a];
-        break;
-      case Kind::negate:
-        value[i] = -value[a];
-        break;
-      case Kind::add:
-        value[i] = value[a] + value[b];
-        break;
-      case Kind::subtract:
-        value[i] = value[a] - value[b];
-        break;
-      case Kind::multiply:
-        value[i] = value[a] * value[b];
-        break;
-      case Kind::divide:
-        value[i] = quotient(value[a], value[b]);
-        break;
-      case Kind::power:
-        value[i] = power_at(value[a], node.constant);
-        break;
-      case Kind::call:
-        value[i] = value_of_call(node, value);
-        break;
-      case Kind::spline:
-        value[i] = splines[a].evaluate(value[static_cast<std::size_t>(operands[b])],
-                                       value[static_cast<std::size_t>(operands[b + 1])]);
-        break;
-      case Kind::branch: {
-        // The loop's increment then leads to the first node of the branch, or to the merge.
-        const double selection = selected_branch(value_of(value[a]));
-        value[i] = T(selection);
-        const std::size_t entry = std::isnan(selection) ? 3 : static_cast<std::size_t>(selection);
-        i = static_cast<std::size_t>(operands[b + entry]) - 1;
-        break;
-      }
-      case Kind::jump:
-        i = a - 1;
-        break;
-      case Kind::merge: {
-        const double selection = value_of(value[a]);
-        if (std::isnan(selection)) {
-          value[i] = T(selection);
-        } else {
-          const auto result = operands[b + static_cast<std::size_t>(selection)];
-          value[i] = value[static_cast<std::size_t>(result)];
-        }
-        break;
-      }
+    // The loop's increment then leads to the first node of a branch, or to the merge.
+    if (node.kind == Kind::branch) {
+      const double selection = selected_branch(value_of(value[static_cast<std::size_t>(node.a)]));
+      value[i] = T(selection);
+      i = first_node(node, selection) - 1;
+    } else if (node.kind == Kind::jump) {
+      i = static_cast<std::size_t>(node.a) - 1;
+    } else {
+      value[i] = value_of_node(node, atom_values, value);
     }
   }
   return value[nodes.size() - 1];
@@ -155,6 +146,8 @@ void ExpressionProgram::differentiate(std::span<T> partials, ExpressionWorkspace
   }
 }
 
+template double ExpressionProgram::value_of_node(const ExpressionNode&, std::span<const double>,
+                                                 const std::vector<double>&) const;
 template double ExpressionProgram::evaluate(std::span<const double>, ExpressionWorkspace<double>&) const;
 template Taylor ExpressionProgram::evaluate(std::span<const Taylor>, ExpressionWorkspace<Taylor>&) const;
 template void ExpressionProgram::differentiate(std::span<double>, ExpressionWorkspace<double>&) const;

@@ -42,14 +42,23 @@ struct ExpressionNode {
   double constant = 0;
 };
 
+// Which branch of an IF a condition selects: 0, 1, 2 for negative, zero, positive; NaN selects none.
+double selected_branch(double condition);
+
 class ExpressionProgram {
  public:
   std::vector<ExpressionNode> nodes;  // the last one is the result
   std::vector<std::int32_t> operands;
   std::vector<Span> places;  // of each node
   std::vector<Atom> atoms;
-  std::vector<SplineUse> splines;  // evaluate to NaN until their curves are attached
+  std::vector<SplineUse> splines;       // evaluate to NaN until their curves are attached
+  std::vector<std::int32_t> switching;  // nodes with kinks or jumps that depend on the motion
   Span at;
+
+  // Fills `switching`, when all nodes are there.
+  void find_switching();
+  // One sweep over all nodes, those of branches not taken included: as many switches whichever are.
+  void switches(std::span<const double> atom_values, ExpressionWorkspace<double>&, SwitchList&) const;
 
   // Forward sweep; afterwards the workspace holds the value of each node visited.
   template <class T>
@@ -63,6 +72,15 @@ class ExpressionProgram {
  private:
   template <class T>
   T value_of_call(const ExpressionNode&, const std::vector<T>& value) const;
+  // Of any node but branch and jump.
+  template <class T>
+  T value_of_node(const ExpressionNode&, std::span<const T> atom_values, const std::vector<T>& value) const;
+  // Where a branch goes on.
+  std::size_t first_node(const ExpressionNode& branch, double selection) const {
+    const std::size_t entry = selection >= 0 ? static_cast<std::size_t>(selection) : 3;
+    return static_cast<std::size_t>(operands[static_cast<std::size_t>(branch.b) + entry]);
+  }
+  void add_switches(const ExpressionNode&, const std::vector<double>& value, bool taken, SwitchList&) const;
   // Whether the chain rule holds for the result although a node has an infinite derivative (vanishing.cpp).
   template <class T>
   bool is_differentiable(ExpressionWorkspace<T>&) const;

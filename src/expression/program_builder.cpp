@@ -244,6 +244,7 @@ std::shared_ptr<const ExpressionProgram> ProgramBuilder::finish(const Span& at) 
   }
   kept.shrink_to_fit();
   program_.atoms = std::move(kept);
+  program_.find_switching();
   // Models have many expressions, and each lives as long as the model.
   program_.nodes.shrink_to_fit();
   program_.places.shrink_to_fit();

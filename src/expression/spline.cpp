@@ -60,7 +60,8 @@ Points cubic_slopes(const Points& x, const Points& y, const Points& m) {
 
 }  // namespace
 
-SplineCurves::SplineCurves(std::shared_ptr<const SplineData> data, SplineMethod method) : data_(std::move(data)) {
+SplineCurves::SplineCurves(std::shared_ptr<const SplineData> data, SplineMethod method)
+    : data_(std::move(data)), method_(method) {
   const Points& x = data_->x;
   const std::size_t n = x.size();
   for (const Points& y : data_->y) {
@@ -118,6 +119,25 @@ T SplineCurves::at(const T& x, const T& z, int derivative) const {
   const T share = (z - T(all[k])) * (1 / (all[k + 1] - all[k]));
   const T low = along(k);
   return low + share * (along(k + 1) - low);
+}
+
+void SplineCurves::switches(double x, double z, int derivative, SwitchList& out) const {
+  const int continuous = method_ == SplineMethod::linear ? 0 : method_ == SplineMethod::akima ? 1 : 2;
+  std::span<const double> knots = data_->x;
+  if (continuous - derivative <= 0) {
+    // Straight lines go on as they are.
+    if (method_ == SplineMethod::linear && data_->linear_extrapolation) knots = knots.subspan(1, knots.size() - 2);
+    out.add(knot_switch(knots, x));
+  } else {
+    out.add(x - knots.front());
+    out.add(x - knots.back());
+  }
+  if (data_->z.size() > 2) out.add(knot_switch(std::span(data_->z).subspan(1, data_->z.size() - 2), z));
+}
+
+void SplineUse::switches(double x, double z, SwitchList& out) const {
+  if (parametric) parametric->switches(x, derivative, out);
+  if (curves) curves->switches(x, z, derivative, out);
 }
 
 template <class T>

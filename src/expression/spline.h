@@ -19,6 +19,7 @@
 #include "base/time_taylor.h"
 #include "expression/parametric_curve.h"
 #include "expression/spectrum.h"
+#include "expression/switch_list.h"
 
 namespace dynalin {
 
@@ -39,6 +40,11 @@ class SplineCurves {
   template <class T>
   T at(const T& x, const T& z, int derivative) const;
 
+  // Where the value, or that derivative of it, has a kink or a jump, and where the data end. At the points between a
+  // jump of the second derivative is left to the error control of an integration: tables of measured data have
+  // thousands of them.
+  void switches(double x, double z, int derivative, SwitchList&) const;
+
  private:
   // Coefficients of y = c0 + c1 s + c2 s² + c3 s³ with s = x − origin.
   struct Piece {
@@ -48,6 +54,7 @@ class SplineCurves {
   const Piece& piece(std::size_t curve, double x) const;
 
   std::shared_ptr<const SplineData> data_;
+  SplineMethod method_;
   std::vector<std::vector<Piece>> pieces_;  // of each curve: left of the data, between the points, right of the data
 };
 
@@ -68,6 +75,7 @@ struct SplineUse {
   // NaN before curves are attached.
   template <class T>
   T evaluate(const T& x, const T& z) const;
+  void switches(double x, double z, SwitchList&) const;
 };
 
 }  // namespace dynalin

@@ -98,5 +98,53 @@ TEST(Spline, partial_derivatives_are_those_of_the_piece) {
   }
 }
 
+// Where switches of a use change their sign along x, or along z at x = 0.1.
+std::vector<double> changes(const SplineUse& s, double from, double to, bool along_z = false) {
+  std::vector<double> places;
+  const auto at = [&](double p) {
+    SwitchList list;
+    along_z ? s.switches(0.1, p, list) : s.switches(p, 0.0, list);
+    return list.value;
+  };
+  constexpr int cells = 1013;
+  for (int c = 0; c < cells; ++c) {
+    double low = from + (to - from) * c / cells, high = from + (to - from) * (c + 1) / cells;
+    const auto left = at(low), right = at(high);
+    EXPECT_EQ(left.size(), right.size());
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      if ((left[k] < 0) == (right[k] < 0)) continue;
+      for (int n = 0; n < 60; ++n) ((at(0.5 * (low + high))[k] < 0) == (left[k] < 0) ? low : high) = 0.5 * (low + high);
+      places.push_back(low);
+    }
+  }
+  return places;
+}
+
+using Places = std::vector<double>;
+void expect_places(const Places& found, const Places& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-12);
+}
+
+TEST(Spline, switches_where_the_value_or_its_slope_jumps_and_where_data_end) {
+  const auto curved = [](double p) { return std::sin(p) + p * p * p; };
+  const Places ends = {x.front(), x.back()}, inner(x.begin() + 1, x.end() - 1);
+  expect_places(changes(use(SplineMethod::linear, through(+curved)), -3, 6), x);
+  expect_places(changes(use(SplineMethod::akima, through(+curved)), -3, 6), ends);
+  expect_places(changes(use(SplineMethod::akima, through(+curved), 1), -3, 6), x);
+  expect_places(changes(use(SplineMethod::cubic, through(+curved), 1), -3, 6), ends);
+  expect_places(changes(use(SplineMethod::cubic, through(+curved), 2), -3, 6), x);
+  SplineData line = through(+curved);
+  line.linear_extrapolation = true;
+  expect_places(changes(use(SplineMethod::linear, line), -3, 6), inner);
+  expect_places(changes(use(SplineMethod::akima, line), -3, 6), ends);
+}
+
+TEST(Spline, switches_between_the_curves_of_a_family) {
+  SplineData family{x, {0, 1, 2, 4}, {x, x, x, x}, false};
+  for (std::size_t k = 0; k < 4; ++k) family.y[k][2] += static_cast<double>(k * k);
+  expect_places(changes(use(SplineMethod::cubic, family), -1, 6, true), {1, 2});
+}
+
 }  // namespace
 }  // namespace dynalin

@@ -130,6 +130,7 @@ Expression Expression::with_definitions(const std::function<std::optional<Expres
   }
   if (!any) return *this;
   out.finish(out.append(*program_, defined), program_->at);
+  program->find_switching();
   return Expression(std::move(program));
 }
 

@@ -1,0 +1,118 @@
+// Where an expression has kinks and jumps: what changes its sign there.
+#include <cassert>
+#include <cmath>
+
+#include "expression/program.h"
+#include "expression/program_partials.h"
+
+namespace dynalin {
+
+namespace {
+
+using Kind = ExpressionNode::Kind;
+
+// Atoms that no motion changes: a SENSOR that stores another value makes the integration begin anew by itself.
+bool stands_still(const Atom& atom) {
+  const DataSource reads = atom.function->reads;
+  return reads == DataSource::analysis || reads == DataSource::sensor;
+}
+
+}  // namespace
+
+// A condition that is constant between jumps, such as one made of IFs with constant branches, adds nothing to what
+// makes it jump.
+void ExpressionProgram::find_switching() {
+  std::vector<char> in_steps(nodes.size());
+  switching.clear();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const ExpressionNode& node = nodes[i];
+    const auto a = static_cast<std::size_t>(node.a), b = static_cast<std::size_t>(node.b);
+    const auto all_in_steps = [&](std::size_t count) {
+      for (std::size_t k = b; k < b + count; ++k)
+        if (!in_steps[static_cast<std::size_t>(operands[k])]) return false;
+      return true;
+    };
+    bool switches = false;
+    switch (node.kind) {
+      case Kind::constant:
+      case Kind::jump:
+        in_steps[i] = true;
+        break;
+      case Kind::atom:
+        in_steps[i] = stands_still(atoms[a]);
+        break;
+      case Kind::negate:
+      case Kind::power:
+        in_steps[i] = in_steps[a];
+        break;
+      case Kind::add:
+      case Kind::subtract:
+      case Kind::multiply:
+      case Kind::divide:
+        in_steps[i] = in_steps[a] && in_steps[b];
+        break;
+      case Kind::call:
+        in_steps[i] = all_in_steps(a);
+        switches = node.function->switches && !in_steps[i];
+        break;
+      case Kind::spline:
+        in_steps[i] = all_in_steps(2);
+        switches = !in_steps[i];
+        break;
+      case Kind::branch:
+        in_steps[i] = true;
+        switches = !in_steps[a];
+        break;
+      case Kind::merge:
+        in_steps[i] = all_in_steps(3);
+        break;
+    }
+    if (switches) switching.push_back(static_cast<std::int32_t>(i));
+  }
+  switching.shrink_to_fit();
+}
+
+void ExpressionProgram::add_switches(const ExpressionNode& node, const std::vector<double>& value, bool taken,
+                                     SwitchList& out) const {
+  const auto a = static_cast<std::size_t>(node.a), b = static_cast<std::size_t>(node.b);
+  const auto operand = [&](std::size_t k) { return value[static_cast<std::size_t>(operands[b + k])]; };
+  const std::size_t first = out.counts.size();
+  if (node.kind == Kind::branch) {
+    out.add(value[a]);
+  } else if (node.kind == Kind::spline) {
+    splines[a].switches(operand(0), operand(1), out);
+  } else {
+    std::array<double, most_arguments> arguments;
+    for (std::size_t k = 0; k < a; ++k) arguments[k] = operand(k);
+    node.function->switches(std::span<const double>(arguments.data(), a), out);
+  }
+  if (taken) return;
+  for (std::size_t k = first; k < out.counts.size(); ++k) out.counts[k] = false;
+}
+
+void ExpressionProgram::switches(std::span<const double> atom_values, ExpressionWorkspace<double>& workspace,
+                                 SwitchList& out) const {
+  assert(atom_values.size() == atoms.size());
+  std::vector<double>& value = workspace.value;
+  if (value.size() < nodes.size()) value.resize(nodes.size());
+  std::size_t taken = 0;  // the next node that an evaluation would visit
+  auto next = switching.begin();
+  for (std::size_t i = 0; i < nodes.size() && next != switching.end(); ++i) {
+    const ExpressionNode& node = nodes[i];
+    const bool visited = i == taken;
+    if (visited) taken = i + 1;
+    if (node.kind == Kind::branch) {
+      value[i] = selected_branch(value[static_cast<std::size_t>(node.a)]);
+      if (visited) taken = first_node(node, value[i]);
+    } else if (node.kind == Kind::jump) {
+      if (visited) taken = static_cast<std::size_t>(node.a);
+    } else {
+      value[i] = value_of_node<double>(node, atom_values, value);
+    }
+    if (static_cast<std::size_t>(*next) != i) continue;
+    add_switches(node, value, visited, out);
+    ++next;
+  }
+}
+
+}  // namespace dynalin
