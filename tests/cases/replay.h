@@ -43,8 +43,8 @@ class Replay {
  private:
   bool execute(const Command& c, const library::Study& study, library::Record& record, library::OperatingPoint& point) {
     if (const auto* simulate = action_of<commands::Simulate>(c)) {
-      const bool statics = simulate->kind == commands::Simulate::Kind::statics;
-      point = statics ? study.static_equilibrium(point, static_) : study.initial_conditions(point);
+      if (simulate->kind) return false;
+      point = simulate->initial_conditions ? study.initial_conditions(point) : study.static_equilibrium(point, static_);
       record.add(c.text, point);
       return true;
     }
