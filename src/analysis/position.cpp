@@ -7,6 +7,7 @@
 
 #include "analysis/displace.h"
 #include "analysis/initial.h"
+#include "analysis/row_sizes.h"
 #include "expression/parametric_curve.h"
 #include "system/undefined_rows.h"
 
@@ -15,39 +16,8 @@ namespace dynalin {
 namespace {
 
 constexpr double position_tolerance = 1e-13;  // relative to the scale of the row
-// Roundings of its coordinates that a row may show: it sums up some of them, and frames round as well.
-constexpr double rounding_units = 8;
 constexpr int iteration_limit = 50;
 constexpr double exact_weight = 1e8;  // of coordinates that EXACT asks to keep
-
-double row_scale(const System& system, std::span<const ConstraintRows::Entry> row) {
-  double scale = 0;
-  for (const auto& e : row) scale = std::max(scale, std::abs(e.c.g) * system.coordinate_scale(e.column));
-  return scale > 0 ? scale : 1.0;
-}
-
-// Of each coordinate, what its last place is counted from: the farthest component of an origin, a radian.
-std::vector<double> coordinate_sizes(const Layout& layout, const OperatingPoint& op) {
-  std::vector<double> size(static_cast<std::size_t>(layout.coordinate_count), 1.0);
-  for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
-    const BodyBlock& block = layout.bodies[b];
-    if (block.count == 0) continue;
-    const Vector& r = op.poses[b].r;
-    std::fill_n(size.begin() + block.offset, 3, std::max({std::abs(r.x), std::abs(r.y), std::abs(r.z)}));
-  }
-  for (std::size_t k = 0; k < op.extra.size(); ++k) {
-    const auto at = static_cast<std::size_t>(layout.body_coordinate_count) + k;
-    size[at] = std::max(1.0, std::abs(op.extra[k]));
-  }
-  return size;
-}
-
-// What the last places of the coordinates make of a row.
-double row_rounding(const std::vector<double>& sizes, std::span<const ConstraintRows::Entry> row) {
-  double sum = 0;
-  for (const auto& e : row) sum += std::abs(e.c.g) * sizes[static_cast<std::size_t>(e.column)];
-  return rounding_units * std::numeric_limits<double>::epsilon() * sum;
-}
 
 // Axes that should be perpendicular and are parallel: no turn changes their product to first order.
 std::string_view stuck_axes(const System& system, const ConstraintRows& rows, std::int32_t k) {

@@ -1,0 +1,45 @@
+// In what sizes violations of constraint rows are told from rounding.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "system/system.h"
+
+namespace dynalin {
+
+// What a row makes of a displacement by the model's length, or of a radian.
+inline double row_scale(const System& system, std::span<const ConstraintRows::Entry> row) {
+  double scale = 0;
+  for (const auto& e : row) scale = std::max(scale, std::abs(e.c.g) * system.coordinate_scale(e.column));
+  return scale > 0 ? scale : 1.0;
+}
+
+// Of each coordinate, what its last place is counted from: the farthest component of an origin, a radian.
+inline std::vector<double> coordinate_sizes(const Layout& layout, const OperatingPoint& op) {
+  std::vector<double> size(static_cast<std::size_t>(layout.coordinate_count), 1.0);
+  for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
+    const BodyBlock& block = layout.bodies[b];
+    if (block.count == 0) continue;
+    const Vector& r = op.poses[b].r;
+    std::fill_n(size.begin() + block.offset, 3, std::max({std::abs(r.x), std::abs(r.y), std::abs(r.z)}));
+  }
+  for (std::size_t k = 0; k < op.extra.size(); ++k) {
+    const auto at = static_cast<std::size_t>(layout.body_coordinate_count) + k;
+    size[at] = std::max(1.0, std::abs(op.extra[k]));
+  }
+  return size;
+}
+
+// What the last places of the coordinates make of a row: it sums up some of them, and frames round as well.
+inline double row_rounding(const std::vector<double>& sizes, std::span<const ConstraintRows::Entry> row) {
+  constexpr double rounding_units = 8;
+  double sum = 0;
+  for (const auto& e : row) sum += std::abs(e.c.g) * sizes[static_cast<std::size_t>(e.column)];
+  return rounding_units * std::numeric_limits<double>::epsilon() * sum;
+}
+
+}  // namespace dynalin
