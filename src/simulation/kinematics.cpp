@@ -1,0 +1,301 @@
+#include "simulation/kinematics.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/kinematic_equations.h"
+#include "simulation/motion_courses.h"
+#include "simulation/pose_change.h"
+
+namespace dynalin {
+
+namespace {
+
+constexpr double largest_turn = 0.5;   // of a body in a step [rad]: turns are counted by accepted points
+constexpr double least_step = 1e-10;   // of the time between outputs
+constexpr double continuation = 0.05;  // of its way: how far a step may differ from what velocities say
+constexpr double no_way = 1e-6;        // in lengths of the model and radians: branches so near are one
+constexpr double loose = 1e-3;         // what the rows hold so little is all but free
+constexpr std::size_t names_in_a_list = 6;
+
+Failure failure(double time, const std::string& message, std::vector<std::string> details = {}) {
+  return {"kinematic simulation", fmt::format("at time {:.9g}: {}", time, message), std::move(details)};
+}
+
+// A limit of zero is none that was stated.
+double stated(const std::optional<double>& value, double otherwise) { return value && *value > 0 ? *value : otherwise; }
+
+KinematicEquations::Limits limits_of(const KinematicsSettings& settings, const OperatingPoint& from) {
+  constexpr double rotation = 0.5235987755982988;
+  constexpr std::int64_t iterations = 25, most_iterations = 1'000'000;
+  return {{stated(settings.rotation_limit, rotation),
+           stated(settings.translation_limit, std::numeric_limits<double>::infinity())},
+          static_cast<int>(std::min(settings.iteration_limit.value_or(iterations), most_iterations)),
+          settings.error.value_or(from.redundancy_tolerance)};
+}
+
+std::string list(std::vector<std::string> names) {
+  if (names.size() <= names_in_a_list) return fmt::format("{}", fmt::join(names, ", "));
+  names.resize(names_in_a_list);
+  return fmt::format("{} …", fmt::join(names, ", "));
+}
+
+class Run {
+ public:
+  Run(const System& system, OperatingPoint from, const OutputTimes& times, const KinematicsSettings& settings,
+      IntegrationStatistics& statistics, const SimulationWatch& watch, Findings& findings)
+      : system_(system),
+        equations_(system),
+        times_(times),
+        limits_(limits_of(settings, from)),
+        largest_step_(stated(settings.largest_step, std::numeric_limits<double>::infinity())),
+        at_(std::move(from)),
+        statistics_(statistics),
+        watch_(watch),
+        findings_(findings) {}
+
+  Result<AdvancedPoint> run() {
+    if (auto begun = begin(); !begun) return tl::unexpected(begun.error());
+    bool goes_on = look_at_accepted(true);
+    double h = std::min(times_.step(), largest_step_);
+    for (std::int64_t k = 1; k <= times_.count() && goes_on; ++k) {
+      const double target = times_.at(k);
+      while (at_.time < target && goes_on) {
+        const double left = target - at_.time, step = std::min({h, largest_step_, step_by_turns(left)});
+        // The last two steps before an output are equal.
+        const double t = step >= left * (1 - 1e-9) ? target : at_.time + (2 * step > left ? 0.5 * left : step);
+        if (auto next = attempt(t)) {
+          h = std::max(2 * (t - at_.time), std::min(h, left));
+          statistics_.step_size = t - at_.time;
+          at_ = std::move(*next);
+          ++statistics_.steps;
+          goes_on = look_at_accepted(t == target);
+          continue;
+        }
+        if (choose_other_rows()) continue;
+        h = 0.5 * (t - at_.time);
+        const double rounding = 16 * std::numeric_limits<double>::epsilon() * std::abs(at_.time);
+        if (h < std::max(least_step * times_.step(), rounding)) return tl::unexpected(explained());
+      }
+    }
+    findings_.redundant_rows = equations_.partition().redundant;
+    return AdvancedPoint{std::move(at_), goes_on ? SimulationEnd::reached : SimulationEnd::stopped};
+  }
+
+ private:
+  Result<void> begin() {
+    at_.mode = AnalysisMode::kinematics;
+    at_.redundancy_tolerance = limits_.redundancy_tolerance;
+    if (!equations_.choose_rows(at_)) {
+      std::vector<std::string> free;
+      for (const std::int32_t k : equations_.partition().independent)
+        free.push_back(system_.layout().coordinate_text(k));
+      const std::size_t count = free.size();
+      std::string message = fmt::format(
+          "KINEMATICS needs a model without degrees of freedom, and this one has {}: nothing determines {}; "
+          "SIMULATE/DYNAMICS or SIMULATE/TRANSIENT integrates its motion",
+          count, list(free));
+      return tl::unexpected(failure(at_.time, std::move(message), std::move(free)));
+    }
+    auto complete = reconcile_velocity(system_, std::move(at_), findings_).and_then([&](OperatingPoint op) {
+      return dynalin::solve_acceleration(system_, std::move(op), findings_);
+    });
+    if (!complete) return tl::unexpected(complete.error());
+    at_ = std::move(*complete);
+    measure_orientation();
+    return {};
+  }
+
+  // Of the rows at the last accepted point.
+  void measure_orientation() {
+    OperatingPoint here = at_;
+    orientation_ = equations_.solve_position(here, limits_) ? 0 : equations_.orientation();
+  }
+
+  // Rows that were redundant may have to take the place of others on the way. Once a point.
+  bool choose_other_rows() {
+    if (equations_.partition().redundant.empty() || rows_chosen_at_ == at_.time) return false;
+    rows_chosen_at_ = at_.time;
+    const std::vector<bool> before = equations_.partition().active;
+    if (!equations_.choose_rows(at_) || equations_.partition().active == before) return false;
+    measure_orientation();
+    return true;
+  }
+
+  // The longest step in which no body turns too far.
+  double step_by_turns(double longest) const {
+    double h = longest;
+    for (const BodyBlock& b : system_.layout().bodies) {
+      if (!b.turns()) continue;
+      const double w = norm(three(at_.velocity, b.offset + 3)), a = norm(three(at_.acceleration, b.offset + 3));
+      // w h + a h²/2 = largest_turn
+      const double root = w + std::sqrt(w * w + 2 * a * largest_turn);
+      if (root > 0) h = std::min(h, 2 * largest_turn / root);
+    }
+    return h;
+  }
+
+  std::optional<OperatingPoint> attempt(double t) {
+    OperatingPoint to = at_;
+    to.time = t;
+    const double h = t - at_.time;
+    advance_courses(system_, at_, to);
+    Eigen::VectorXd way(static_cast<Eigen::Index>(system_.coordinates()));
+    for (Eigen::Index k = 0; k < way.size(); ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      way(k) = h * (at_.velocity[at] + 0.5 * h * at_.acceleration[at]);
+    }
+    missed_.reset();
+    refused_.reset();
+    const std::int64_t evaluations = equations_.evaluations(), factorizations = equations_.factorizations(),
+                       iterations = equations_.iterations();
+    const bool reached = predicted(way, to) && !(missed_ = equations_.solve_position(to, limits_)) && complete(to);
+    statistics_.evaluations += equations_.evaluations() - evaluations;
+    statistics_.jacobians += equations_.factorizations() - factorizations;
+    statistics_.iterations += equations_.iterations() - iterations;
+    if (!reached) {
+      ++statistics_.failed_iterations;
+      return std::nullopt;
+    }
+    const int orientation = equations_orientation_;
+    const bool turned = orientation_ != 0 && orientation != orientation_;
+    const Way made = way_of(to);
+    if (!made.continues || (turned && made.length > no_way)) {
+      ++statistics_.failed_error_tests;
+      return std::nullopt;
+    }
+    if (turned) {
+      findings_.warnings.warning(
+          "passed-singular", {},
+          fmt::format("at time {:.9g} the mechanism passes a singular configuration, where it could go on in more than "
+                      "one way; it goes on as it moved before",
+                      t));
+    }
+    orientation_ = orientation;
+    system_.remember(to);
+    return to;
+  }
+
+  bool predicted(const Eigen::VectorXd& way, OperatingPoint& to) {
+    return way.allFinite() &&
+           displace(system_, to, way, {2 * largest_turn, std::numeric_limits<double>::infinity()}) == 1.0;
+  }
+
+  bool complete(OperatingPoint& to) {
+    equations_orientation_ = equations_.orientation();
+    equations_.solve_velocity(to);
+    const OperatingPoint before = to;
+    if (equations_.solve_acceleration(to)) return true;
+    Findings ignored;
+    auto solved = dynalin::solve_acceleration(system_, before, ignored);
+    if (!solved) {
+      refused_ = solved.error();
+      return false;
+    }
+    to = std::move(*solved);
+    return true;
+  }
+
+  // Whether the way from the last point agrees with velocities and accelerations at both ends,
+  // Δq = h/2 (v₀ + v₁) + h²/12 (a₀ − a₁) up to the fifth order, part by part, and how long it is.
+  struct Way {
+    bool continues = true;
+    double length = 0;
+  };
+  Way way_of(const OperatingPoint& to) const {
+    const auto vector = [](const std::vector<double>& x) {
+      return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+    };
+    const double h = to.time - at_.time;
+    const Eigen::VectorXd change = change_between(system_, at_, to);
+    const Eigen::VectorXd v0 = h * vector(at_.velocity), v1 = h * vector(to.velocity);
+    const Eigen::VectorXd off =
+        change - 0.5 * (v0 + v1) - h * h / 12 * (vector(at_.acceleration) - vector(to.acceleration));
+    Way way;
+    for_each_part(system_.layout(), [&](std::int32_t first, std::int32_t count) {
+      const double scale = system_.coordinate_scale(first);
+      const double length = std::max(
+          {change.segment(first, count).norm(), v0.segment(first, count).norm(), v1.segment(first, count).norm()});
+      if (!(off.segment(first, count).norm() <= std::max(continuation * length, no_way * scale))) way.continues = false;
+      way.length = std::max(way.length, length / scale);
+    });
+    return way;
+  }
+
+  // The one place where every accepted point is looked at.
+  bool look_at_accepted(bool output) {
+    if (!watch_) return true;
+    return watch_(SimulationStep{system_, at_, output, statistics_}) == GoOn::yes;
+  }
+
+  // Why no step leads on from the last accepted point.
+  Failure explained() {
+    if (refused_) return failure(at_.time, refused_->message, refused_->details);
+    const auto missed = missed_;
+    OperatingPoint here = at_;
+    const bool known = !equations_.solve_position(here, limits_);
+    const auto loosest = known ? equations_.loosest() : KinematicEquations::Loosest{};
+    if (!known || loosest.held < loose) {
+      std::vector<std::string> details = loosest.rows;
+      return failure(at_.time,
+                     fmt::format("the mechanism comes to a singular configuration, where {} no longer determine {}",
+                                 list(loosest.rows), list(loosest.coordinates)),
+                     std::move(details));
+    }
+    if (missed == KinematicEquations::Missed::contradicted) {
+      std::vector<std::string> rows;
+      for (const std::int32_t k : equations_.partition().redundant) rows.push_back(system_.row_text(k));
+      const std::string named = list(rows);
+      return failure(at_.time,
+                     fmt::format("the constraints begin to contradict each other: {} cannot hold together with "
+                                 "the others",
+                                 named),
+                     std::move(rows));
+    }
+    const std::string undefined = system_.undefined_value(system_.motion(at_));
+    if (!undefined.empty()) return failure(at_.time, undefined);
+    return failure(at_.time, "no position of the mechanism follows: what drives it jumps");
+  }
+
+  static Vector three(const std::vector<double>& x, std::int32_t first) {
+    const auto k = static_cast<std::size_t>(first);
+    return {x[k], x[k + 1], x[k + 2]};
+  }
+
+  const System& system_;
+  KinematicEquations equations_;
+  const OutputTimes& times_;
+  KinematicEquations::Limits limits_;
+  double largest_step_;
+  OperatingPoint at_;
+  IntegrationStatistics& statistics_;
+  const SimulationWatch& watch_;
+  Findings& findings_;
+
+  int orientation_ = 0,
+      equations_orientation_ = 0;  // of the rows at the accepted point, 0 if not known, and at the last
+  double rows_chosen_at_ = std::numeric_limits<double>::quiet_NaN();
+  // Of the last attempt.
+  std::optional<KinematicEquations::Missed> missed_;
+  std::optional<Failure> refused_;
+};
+
+}  // namespace
+
+bool needs_integration(const System& system) {
+  const Layout& layout = system.layout();
+  return std::any_of(layout.states.begin(), layout.states.end(), [](const auto& z) { return z.varies(); }) ||
+         std::any_of(layout.rows.begin(), layout.rows.end(),
+                     [](const auto& r) { return r.level == RowLevel::velocity; });
+}
+
+Result<AdvancedPoint> advance_kinematics(const System& system, OperatingPoint from, const OutputTimes& times,
+                                         const KinematicsSettings& settings, IntegrationStatistics& statistics,
+                                         const SimulationWatch& watch, Findings& findings) {
+  return Run(system, std::move(from), times, settings, statistics, watch, findings).run();
+}
+
+}  // namespace dynalin

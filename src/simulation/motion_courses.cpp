@@ -1,0 +1,97 @@
+#include "simulation/motion_courses.h"
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <functional>
+
+namespace dynalin {
+
+namespace {
+
+using Integrand = std::function<Eigen::VectorXd(double)>;
+
+// ∫ and ∫ |f| by Kronrod's 15 points, and how far Gauss's 7 among them are from it.
+struct Integral {
+  Eigen::VectorXd value, size, error;
+};
+Integral kronrod(const Integrand& f, double a, double b) {
+  static constexpr std::array<double, 8> node = {
+      0.991455371120812639206854697526329, 0.949107912342758524526189684047851,
+      0.864864423359769072789712788640926, 0.741531185599394439863864773280788,
+      0.586087235467691130294144691693014, 0.405845151377397166906606412076961,
+      0.207784955007898467600689403773245, 0.0};
+  static constexpr std::array<double, 8> weight = {
+      0.022935322010529224963732008058970, 0.063092092629978553290700663189204, 0.104790010322250183839876322541518,
+      0.140653259715525918745189590510238, 0.169004726639267902826583426598550, 0.190350578064785409913256402421014,
+      0.204432940075298892414161999234649, 0.209482141084727828012999174891714};
+  static constexpr std::array<double, 4> gauss_weight = {
+      0.129484966168869693270611432679082, 0.279705391489276667901467771423780, 0.381830050505118944950369775488975,
+      0.417959183673469387755102040816327};
+  const double half = 0.5 * (b - a), middle = a + half;
+  Eigen::VectorXd value = f(middle);
+  Eigen::VectorXd size = weight[7] * value.cwiseAbs(), gauss = gauss_weight[3] * value;
+  value *= weight[7];
+  for (std::size_t k = 0; k < 7; ++k) {
+    const Eigen::VectorXd left = f(middle - half * node[k]), right = f(middle + half * node[k]);
+    value += weight[k] * (left + right);
+    size += weight[k] * (left.cwiseAbs() + right.cwiseAbs());
+    if (k % 2 == 1) gauss += gauss_weight[k / 2] * (left + right);
+  }
+  return {half * value, std::abs(half) * size, std::abs(half) * (value - gauss).cwiseAbs()};
+}
+
+// Halves intervals until all components are exact to a part of their size; a jump is closed in on to rounding.
+Eigen::VectorXd integral(const Integrand& f, double a, double b, const Eigen::VectorXd& allowed) {
+  constexpr double least_interval = 4;  // roundings of the time
+  const Integral whole = kronrod(f, a, b);
+  const double middle = a + 0.5 * (b - a);
+  const double rounding = std::numeric_limits<double>::epsilon() * std::max(std::abs(a), std::abs(b));
+  // Where 15 points are so near 7 they are themselves exact to far more.
+  const bool exact =
+      (whole.error.array() <= 1e-11 * whole.size.array()).all() || (whole.error.array() <= allowed.array()).all();
+  if (exact || std::abs(b - a) <= least_interval * rounding || !whole.value.allFinite()) return whole.value;
+  return integral(f, a, middle, allowed) + integral(f, middle, b, allowed);
+}
+
+}  // namespace
+
+void advance_courses(const System& system, const OperatingPoint& from, OperatingPoint& to) {
+  const Layout& layout = system.layout();
+  std::vector<const ConstraintRow*> driven;
+  for (const ConstraintRow& row : layout.rows) {
+    if (row.course >= 0) driven.push_back(&row);
+  }
+  if (driven.empty()) return;
+  const auto count = static_cast<Eigen::Index>(driven.size());
+  Motion motion = system.motion(from);
+  std::vector<double> rates(layout.states.size(), 0.0);
+  // f of each, and (t − τ) f.
+  const Integrand f = [&](double t) {
+    motion.time = t;
+    system.course_rates(motion, rates);
+    Eigen::VectorXd y(2 * count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const ConstraintRow& row = *driven[static_cast<std::size_t>(k)];
+      y(k) = rates[static_cast<std::size_t>(row.course_rate >= 0 ? row.course_rate : row.course)];
+      y(count + k) = (to.time - t) * y(k);
+    }
+    return y;
+  };
+  const double h = to.time - from.time;
+  const Eigen::VectorXd first = kronrod(f, from.time, to.time).size;
+  const Eigen::VectorXd change = integral(f, from.time, to.time, std::numeric_limits<double>::epsilon() * first);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const ConstraintRow& row = *driven[static_cast<std::size_t>(k)];
+    const auto s = static_cast<std::size_t>(row.course);
+    if (row.course_rate < 0) {
+      to.state[s] = from.state[s] + change(k);
+      continue;
+    }
+    const auto p = static_cast<std::size_t>(row.course_rate);
+    to.state[s] = from.state[s] + h * from.state[p] + change(count + k);
+    to.state[p] = from.state[p] + change(k);
+  }
+}
+
+}  // namespace dynalin
