@@ -97,7 +97,8 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   }
   if (const std::string far = too_far_out(system, op); !far.empty())
     return tl::unexpected(Failure{"static analysis", far, {}});
-  op.mode = AnalysisMode::statics;
+  // An equilibrium in the course of a quasi-static simulation is one of those.
+  if (op.mode != AnalysisMode::quasi_statics) op.mode = AnalysisMode::statics;
   const std::vector<double> first_state = op.state;
   for (auto* x : {&op.velocity, &op.acceleration, &op.state_rate}) std::fill(x->begin(), x->end(), 0.0);
   auto assembled = assemble_position(system, std::move(op), findings);

@@ -1,0 +1,146 @@
+// An equilibrium at every output time: closed forms, jumps, and what is not found.
+#include "simulation/quasi_statics.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "system/model_test_support.h"
+
+namespace dynalin::simulation_test {
+namespace {
+
+using system_test::system_of;
+using ::testing::HasSubstr;
+
+struct QuasiStaticRun {
+  std::shared_ptr<const System> system;
+  IntegrationStatistics statistics{};
+  Findings findings{};
+  std::vector<OperatingPoint> outputs;
+  Result<QuasiStaticEnd> end = tl::unexpected(Failure{});
+
+  QuasiStaticRun(const std::string& text, double until, std::int64_t count) : system(system_of(text)) {
+    end = advance_quasi_statics(
+        *system, system->drawn(), OutputTimes::of_count(0, until, count), {}, statistics,
+        [&](const SimulationStep& s) {
+          if (s.output) outputs.push_back(s.point);
+          return GoOn::yes;
+        },
+        findings);
+  }
+  Vector place(const OperatingPoint& op, std::int64_t marker) const {
+    return system->motion(op).point(system->layout().marker(*system->model().find_marker(marker)));
+  }
+};
+
+TEST(QuasiStatics, stretch_a_chain_of_springs_by_a_force_that_grows) {
+  // Three beads on a line, springs of stiffness 100, 50 and 25 between them; the last is pulled.
+  std::string text;
+  for (int k = 2; k <= 4; ++k) {
+    const std::string n = std::to_string(k);
+    text += "PART/" + n + ", MASS=1, CM=" + n + "0, IP=1,1,1, QG=0,0," + std::to_string(k - 1) + "\nMARKER/" + n +
+            "0\nJOINT/" + n + ", TRANSLATIONAL, I=" + n + "0, J=1\n";
+  }
+  text +=
+      "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, K=100, LENGTH=1\nSPRINGDAMPER/2, TRANSLATIONAL, I=30, J=20, K=50, "
+      "LENGTH=1\nSPRINGDAMPER/3, TRANSLATIONAL, I=40, J=30, K=25, LENGTH=1\nSFORCE/1, TRANSLATIONAL, ACTIONONLY, I=40, "
+      "J=1, "
+      "FUNCTION=4*TIME\nVARIABLE/1, FUNCTION=MODE\n";
+  QuasiStaticRun r(text, 10, 20);
+  ASSERT_TRUE(r.end) << r.end.error().message;
+  ASSERT_EQ(r.outputs.size(), 21u);
+  for (const OperatingPoint& op : r.outputs) {
+    const double f = 4 * op.time;
+    EXPECT_NEAR(r.place(op, 20).z, 1 + f / 100, 1e-12);
+    EXPECT_NEAR(r.place(op, 30).z, 2 + f / 100 + f / 50, 1e-12);
+    EXPECT_NEAR(r.place(op, 40).z, 3 + f / 100 + f / 50 + f / 25, 1e-12);
+    EXPECT_TRUE(std::all_of(op.velocity.begin(), op.velocity.end(), [](double v) { return v == 0; }));
+    EXPECT_EQ(op.algebraic.back(), 6);
+  }
+  EXPECT_TRUE(r.findings.warnings.items().empty()) << render(r.findings.warnings);
+  EXPECT_EQ(r.end->point.time, 10);
+  EXPECT_EQ(r.end->statics.at_rest.time, 10);
+}
+
+TEST(QuasiStatics, hang_a_pendulum_along_a_force_that_turns) {
+  const std::string text =
+      "PART/2, MASS=2, CM=20, IP=1,1,1, QG=0,-1,0\nMARKER/20\nMARKER/21, QP=0,1,0\nMARKER/9, PART=1\n"
+      "JOINT/1, REVOLUTE, I=21, J=1\nVFORCE/1, I=20, JFLOAT=8, RM=9, FX=5*SIN(TIME)\\ FY=-5*COS(TIME)\\ FZ=0\n"
+      "MARKER/8, PART=1, FLOATING\n";
+  QuasiStaticRun r(text, 7, 35);
+  ASSERT_TRUE(r.end) << r.end.error().message;
+  for (const OperatingPoint& op : r.outputs) {
+    EXPECT_NEAR(r.place(op, 20).x, std::sin(op.time), 1e-9) << op.time;
+    EXPECT_NEAR(r.place(op, 20).y, -std::cos(op.time), 1e-9) << op.time;
+  }
+}
+
+// Two springs in a flat roof: pushed down it snaps through at a load of K (l − w)^(3/2) …, with l the length of a
+// spring and w half the span: f = 2 k y (l/√(w² + y²) − 1).
+TEST(QuasiStatics, a_roof_that_snaps_through_is_followed_and_told) {
+  const double w = 1, y0 = 0.2, l = std::sqrt(w * w + y0 * y0), k = 1000;
+  const auto load = [&](double y) { return 2 * k * y * (l / std::sqrt(w * w + y * y) - 1); };
+  const double y_limit = std::sqrt(std::pow(l * w * w, 2.0 / 3) - w * w), limit = load(y_limit);
+  const std::string text =
+      "PART/2, MASS=1, CM=20, IP=1,1,1, QG=0,0,0.2\nMARKER/20\nMARKER/10, PART=1, QP=1,0,0\nMARKER/11, PART=1, "
+      "QP=-1,0,0\nJOINT/1, TRANSLATIONAL, I=20, J=1\nSPRINGDAMPER/1, TRANSLATIONAL, I=20, J=10, K=1000, LENGTH=" +
+      fmt::format("{:.17g}", l) +
+      "\nSPRINGDAMPER/2, TRANSLATIONAL, I=20, J=11, K=1000, LENGTH=" + fmt::format("{:.17g}", l) +
+      "\nSFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=-TIME\n";
+  QuasiStaticRun r(text, 10, 20);
+  ASSERT_TRUE(r.end) << r.end.error().message;
+  for (const OperatingPoint& op : r.outputs) {
+    const double y = r.place(op, 20).z;
+    EXPECT_NEAR(load(y), op.time, 1e-9);
+    EXPECT_EQ(y > 0, op.time < limit) << op.time << " of " << limit;
+  }
+  ASSERT_EQ(r.findings.warnings.items().size(), 1u) << render(r.findings.warnings);
+  EXPECT_EQ(r.findings.warnings.items()[0].code, "equilibrium-jump");
+  EXPECT_THAT(r.findings.warnings.items()[0].message, HasSubstr("PART/2 by"));
+}
+
+TEST(QuasiStatics, a_model_driven_in_time_stands_still_at_every_output) {
+  // An arm turned by a motion lifts a mass on a spring; nothing of its speed counts.
+  const std::string text =
+      "ACCGRAV/JGRAV=-10\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nMARKER/21, QP=2,0,0\nJOINT/1, REVOLUTE, I=20, "
+      "J=1\n"
+      "MOTION/1, JOINT=1, FUNCTION=3*TIME\nPART/3, MASS=1, CM=30, IP=1,1,1, QG=2,-1,0\nMARKER/30\nJPRIM/1, "
+      "ORIENTATION, I=30, J=1\n"
+      "BUSHING/1, I=30, J=21, K=50,50,50\n";
+  QuasiStaticRun r(text, 2, 10);
+  ASSERT_TRUE(r.end) << r.end.error().message;
+  for (const OperatingPoint& op : r.outputs) {
+    EXPECT_NEAR(r.place(op, 30).x, 2 * std::cos(3 * op.time), 1e-11);
+    EXPECT_NEAR(r.place(op, 30).y, 2 * std::sin(3 * op.time) - 10.0 / 50, 1e-11);
+    EXPECT_TRUE(std::all_of(op.velocity.begin(), op.velocity.end(), [](double v) { return v == 0; }));
+  }
+  // Afterwards it moves as it is driven.
+  EXPECT_NEAR(r.end->point.velocity[5], 3, 1e-12);
+  EXPECT_EQ(r.end->statics.at_rest.velocity[5], 0);
+}
+
+TEST(QuasiStatics, a_model_without_degrees_of_freedom_has_positions_and_forces_at_rest) {
+  const std::string text =
+      "ACCGRAV/JGRAV=-10\nPART/2, MASS=3, CM=21, IP=1,1,1\nMARKER/20\nMARKER/21, QP=2,0,0\nJOINT/1, REVOLUTE, I=20, "
+      "J=1\n"
+      "MOTION/1, JOINT=1, FUNCTION=TIME\n";
+  QuasiStaticRun r(text, 2, 10);
+  ASSERT_TRUE(r.end) << r.end.error().message;
+  for (const OperatingPoint& op : r.outputs) EXPECT_NEAR(op.lambda.back(), 60 * std::cos(op.time), 1e-11);
+}
+
+TEST(QuasiStatics, what_is_not_found_is_told_with_the_time) {
+  QuasiStaticRun r(
+      "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\nSFORCE/1, TRANSLATIONAL, "
+      "ACTIONONLY, I=20, J=1, FUNCTION=TIME-TANH(DZ(20,1))\n",
+      2, 8);
+  ASSERT_FALSE(r.end);
+  EXPECT_THAT(r.end.error().message, HasSubstr("at time 1: "));
+  EXPECT_EQ(r.end.error().analysis, "quasi-static simulation");
+  EXPECT_GE(r.outputs.size(), 4u);
+}
+
+}  // namespace
+}  // namespace dynalin::simulation_test
