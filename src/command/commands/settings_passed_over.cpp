@@ -18,8 +18,6 @@ std::shared_ptr<const CommandAction> read_request(CommandReader& reader) {
 }
 
 constexpr std::array kinds = {
-    setting<SettingOf<WrittenKinematics>>("KINEMATICS", "of kinematic simulations: checked, nothing acts on it",
-                                          "KINEMATICS/ERROR=1E-6"),
     setting<SettingOf<WrittenLinearSolver>>("LSOLVER", "of the solver of equations: checked, nothing acts on it",
                                             "LSOLVER/UMF"),
     setting<SettingOf<WrittenOutput>>("OUTPUT", "of the files of simulations: checked, nothing acts on it",

@@ -178,28 +178,45 @@ struct WrittenIntegrator {
   void apply(Settings& s) const { apply(s.integrator); }
 };
 
+// KINEMATICS: MAXIT, ALIMIT and TLIMIT bound the iteration for positions, of which a longer one halves the step, HMAX
+// the steps themselves; ERROR is how far redundant constraints may be from agreeing with the others on the way.
+// Positions and accelerations are found to rounding, whatever the rest asks.
 struct WrittenKinematics {
-  bool flag = false;
-  std::optional<double> number;
-  std::optional<std::int64_t> count;
-  std::vector<std::string> words;
+  std::optional<double> error, aerror, tlimit, alimit, hmax;
+  std::optional<std::int64_t> maxit, amaxit;
+  std::vector<std::string> pattern, apattern;
+  bool defaults = false, list = false;
 
   using E = WrittenKinematics;
   static constexpr std::array<Argument<E>, 11> arguments = {{
-      {.name = "ERROR", .slot = &E::number, .minimum = 0},
-      {.name = "AERROR", .slot = &E::number, .minimum = 0},
-      {.name = "MAXIT", .slot = &E::count, .minimum = 1},
-      {.name = "AMAXIT", .slot = &E::count, .minimum = 1},
-      {.name = "TLIMIT", .slot = &E::number, .minimum = 0},
-      {.name = "ALIMIT", .slot = &E::number, .minimum = 0},
-      {.name = "HMAX", .slot = &E::number, .minimum = 0},
-      {.name = "PATTERN", .slot = &E::words},
-      {.name = "APATTERN", .slot = &E::words},
-      {.name = "DEFAULT", .slot = &E::flag},
-      {.name = "LIST", .slot = &E::flag},
+      {.name = "ERROR", .slot = &E::error, .minimum = 0, .help = "of redundant constraints, that of IC"},
+      {.name = "AERROR", .slot = &E::aerror, .minimum = 0},
+      {.name = "MAXIT", .slot = &E::maxit, .minimum = 1, .help = "iterations for the positions of a step, 25"},
+      {.name = "AMAXIT", .slot = &E::amaxit, .minimum = 1},
+      {.name = "TLIMIT",
+       .slot = &E::tlimit,
+       .unit = unit::length,
+       .minimum = 0,
+       .help = "largest translation of an iteration"},
+      {.name = "ALIMIT",
+       .slot = &E::alimit,
+       .unit = unit::angle,
+       .minimum = 0,
+       .help = "largest rotation of an iteration, 30 degrees"},
+      {.name = "HMAX", .slot = &E::hmax, .unit = "time", .minimum = 0, .help = "largest step"},
+      {.name = "PATTERN", .slot = &E::pattern},
+      {.name = "APATTERN", .slot = &E::apattern},
+      {.name = "DEFAULT", .slot = &E::defaults, .help = "all settings as they are without the statement"},
+      {.name = "LIST", .slot = &E::list},
   }};
-  static constexpr std::array<std::string_view, 1> acting = {"LIST"};
-  void apply(Settings&) const {}
+  static constexpr std::array<std::string_view, 7> acting = {"ERROR", "MAXIT",   "TLIMIT", "ALIMIT",
+                                                             "HMAX",  "DEFAULT", "LIST"};
+  KinematicsSettings stated() const { return {error, aerror, tlimit, alimit, hmax, maxit, amaxit}; }
+  void apply(KinematicsSettings& s) const {
+    if (defaults) s = {};
+    take_over(s, stated());
+  }
+  void apply(Settings& s) const { apply(s.kinematics); }
 };
 
 struct WrittenLinearSolver {
