@@ -28,6 +28,7 @@ bool KinematicEquations::choose_rows(const OperatingPoint& op) {
   system_.constraints(system_.motion(op), rows_);
   ++evaluations_;
   partition_ = system_.partition(rows_, true);
+  loose_.resize(0);
   return partition_.independent.empty();
 }
 
@@ -107,35 +108,51 @@ void KinematicEquations::solve_velocity(OperatingPoint& op) const {
   op.velocity.assign(v.data(), v.data() + v.size());
 }
 
-// The direction that grows most under GᵀG inverted, and the combination of rows that it is.
-KinematicEquations::Loosest KinematicEquations::loosest() const {
+// One step of the power method for GᵀG inverted.
+double KinematicEquations::hold() {
   const auto n = static_cast<Eigen::Index>(system_.coordinates());
+  Eigen::MatrixXd x(n, 1), y(n, 1);
   Eigen::VectorXd scale(n), row_size(n);
-  std::vector<std::int32_t> row;
   for (std::int32_t k = 0; k < n; ++k) scale(k) = system_.coordinate_scale(k);
+  Eigen::Index at = 0;
+  for (std::int32_t k = 0; k < rows_.size(); ++k) {
+    if (partition_.active[static_cast<std::size_t>(k)]) row_size(at++) = row_scale(system_, rows_.row(k));
+  }
+  if (loose_.size() != n) {
+    loose_.resize(n);
+    for (Eigen::Index k = 0; k < n; ++k) loose_(k) = std::sin(1.0 + 1.7 * static_cast<double>(k));
+  }
+  x = row_size.cwiseProduct(loose_ / loose_.norm());
+  lu_.solve(x);
+  x = x.cwiseQuotient(scale).eval();
+  const double length = x.norm();
+  if (!(length > 0) || !std::isfinite(length)) return 0;
+  y = x.cwiseQuotient(scale) / length;
+  lu_.solve_transposed(y);
+  y = y.cwiseProduct(row_size).eval();
+  if (y.allFinite() && y.norm() > 0) loose_ = y;
+  return 1 / length;
+}
+
+KinematicEquations::Loosest KinematicEquations::loosest() {
+  for (int pass = 0; pass < 3; ++pass) hold();
+  const auto n = static_cast<Eigen::Index>(system_.coordinates());
+  Eigen::MatrixXd x(n, 1);
+  std::vector<std::int32_t> row;
   for (std::int32_t k = 0; k < rows_.size(); ++k) {
     if (!partition_.active[static_cast<std::size_t>(k)]) continue;
-    row_size(static_cast<Eigen::Index>(row.size())) = row_scale(system_, rows_.row(k));
+    const auto at = static_cast<Eigen::Index>(row.size());
+    x(at, 0) = row_scale(system_, rows_.row(k)) * loose_(at);
     row.push_back(k);
   }
-  Eigen::MatrixXd x(n, 1), y(n, 1);
-  for (Eigen::Index k = 0; k < n; ++k) y(k, 0) = std::sin(1.0 + 1.7 * static_cast<double>(k));
-  Loosest result;
-  for (int pass = 0; pass < 3; ++pass) {
-    x = row_size.asDiagonal() * (y / y.norm());
-    lu_.solve(x);
-    x = scale.cwiseInverse().asDiagonal() * x;
-    if (!x.allFinite() || x.norm() == 0) break;
-    result.held = std::min(1.0, 1 / x.norm());
-    y = scale.cwiseInverse().asDiagonal() * (x / x.norm());
-    lu_.solve_transposed(y);
-    y = row_size.asDiagonal() * y;
-  }
+  lu_.solve(x);
+  for (std::int32_t k = 0; k < n; ++k) x(k, 0) /= system_.coordinate_scale(k);
   constexpr double share = 0.3;
+  Loosest result;
   for (std::int32_t k = 0; k < n; ++k) {
     if (std::abs(x(k, 0)) >= share * x.cwiseAbs().maxCoeff())
       result.coordinates.push_back(system_.layout().coordinate_text(k));
-    if (std::abs(y(k, 0)) >= share * y.cwiseAbs().maxCoeff())
+    if (std::abs(loose_(k)) >= share * loose_.cwiseAbs().maxCoeff())
       result.rows.push_back(system_.row_text(row[static_cast<std::size_t>(k)]));
   }
   return result;

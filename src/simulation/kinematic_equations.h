@@ -35,12 +35,14 @@ class KinematicEquations {
   // singular configuration is passed, and between the two ways of joining links.
   void solve_velocity(OperatingPoint&) const;
   int orientation() const { return lu_.determinant_sign(); }
-  // What the rows determine least at that point: coordinates and rows by name, and how little, 0 to 1.
+  // How well the rows determine the coordinates at that point: the least that they change by a displacement of length
+  // one, in their scales; estimated from one call to the next.
+  double hold();
+  // What they determine least, by name.
   struct Loosest {
     std::vector<std::string> coordinates, rows;
-    double held = 1;
   };
-  Loosest loosest() const;
+  Loosest loosest();
   // Accelerations, multipliers, algebraic values and rates, from those of a point nearby. False if they are hard to
   // find; `solve_acceleration` of the initial conditions goes on then.
   bool solve_acceleration(OperatingPoint&);
@@ -59,6 +61,7 @@ class KinematicEquations {
   Partition partition_;
   ConstraintRows rows_;
   SparseLu lu_;
+  Eigen::VectorXd loose_;  // the combination of rows that `hold` has found last
 
   AugmentedSystem augmented_;
   Equations equations_;

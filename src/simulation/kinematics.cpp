@@ -8,7 +8,7 @@
 
 #include "simulation/kinematic_equations.h"
 #include "simulation/motion_courses.h"
-#include "simulation/pose_change.h"
+#include "simulation/pose_interpolation.h"
 
 namespace dynalin {
 
@@ -17,8 +17,11 @@ namespace {
 constexpr double largest_turn = 0.5;   // of a body in a step [rad]: turns are counted by accepted points
 constexpr double least_step = 1e-10;   // of the time between outputs
 constexpr double continuation = 0.05;  // of its way: how far a step may differ from what velocities say
-constexpr double no_way = 1e-6;        // in lengths of the model and radians: branches so near are one
-constexpr double loose = 1e-3;         // what the rows hold so little is all but free
+constexpr double no_way = 1e-6;        // in lengths of the model and radians: no smaller differences are looked at
+constexpr double passage = 1e-4;       // in the same: on so short a way the rows may change their orientation
+constexpr double leap = 1e-3;          // half of a way on which a singular configuration is leapt over
+constexpr double singular = 1e-5;      // rows that hold so much less than elsewhere leave nothing but rounding
+constexpr double loose = 1e-3;         // the same, for what is to blame where nothing goes on
 constexpr std::size_t names_in_a_list = 6;
 
 Failure failure(double time, const std::string& message, std::vector<std::string> details = {}) {
@@ -59,27 +62,37 @@ class Run {
 
   Result<AdvancedPoint> run() {
     if (auto begun = begin(); !begun) return tl::unexpected(begun.error());
-    bool goes_on = look_at_accepted(true);
+    bool goes_on = look_at_accepted(at_, true);
     double h = std::min(times_.step(), largest_step_);
-    for (std::int64_t k = 1; k <= times_.count() && goes_on; ++k) {
-      const double target = times_.at(k);
-      while (at_.time < target && goes_on) {
-        const double left = target - at_.time, step = std::min({h, largest_step_, step_by_turns(left)});
-        // The last two steps before an output are equal.
-        const double t = step >= left * (1 - 1e-9) ? target : at_.time + (2 * step > left ? 0.5 * left : step);
-        if (auto next = attempt(t)) {
-          h = std::max(2 * (t - at_.time), std::min(h, left));
-          statistics_.step_size = t - at_.time;
-          at_ = std::move(*next);
-          ++statistics_.steps;
-          goes_on = look_at_accepted(t == target);
-          continue;
+    std::int64_t k = 1;  // the next output
+    while (k <= times_.count() && goes_on) {
+      const double target = times_.at(k), left = target - at_.time;
+      const double step = std::min({h, largest_step_, step_by_turns(left)});
+      // The last two steps before an output are equal.
+      const double t = step >= left * (1 - 1e-9) ? target : at_.time + (2 * step > left ? 0.5 * left : step);
+      auto next = attempt(t, passage);
+      const bool leaps = !next && nears_singular_ && way_ <= leap;
+      if (leaps) next = attempt(at_.time + 2 * (t - at_.time), 4 * leap);
+      if (next) {
+        h = std::max(2 * (next->time - at_.time), std::min(h, left));
+        statistics_.step_size = next->time - at_.time;
+        ++statistics_.steps;
+        for (; leaps && k <= times_.count() && times_.at(k) <= next->time && goes_on; ++k) {
+          OperatingPoint output = interpolated(system_, at_, *next, times_.at(k));
+          goes_on = look_at_accepted(output, true);
+          if (k == times_.count() || !goes_on) next = std::move(output);
         }
-        if (choose_other_rows()) continue;
-        h = 0.5 * (t - at_.time);
-        const double rounding = 16 * std::numeric_limits<double>::epsilon() * std::abs(at_.time);
-        if (h < std::max(least_step * times_.step(), rounding)) return tl::unexpected(explained());
+        at_ = std::move(*next);
+        if (leaps && (k > times_.count() || !goes_on)) break;
+        const bool output = at_.time == target;
+        if (output) ++k;
+        goes_on = look_at_accepted(at_, output);
+        continue;
       }
+      if (choose_other_rows()) continue;
+      h = 0.5 * (t - at_.time);
+      const double rounding = 16 * std::numeric_limits<double>::epsilon() * std::abs(at_.time);
+      if (h < std::max(least_step * times_.step(), rounding)) return tl::unexpected(explained());
     }
     findings_.redundant_rows = equations_.partition().redundant;
     return AdvancedPoint{std::move(at_), goes_on ? SimulationEnd::reached : SimulationEnd::stopped};
@@ -109,10 +122,13 @@ class Run {
     return {};
   }
 
-  // Of the rows at the last accepted point.
+  // Of the rows at the last accepted point; nothing is known of how they hold elsewhere.
   void measure_orientation() {
     OperatingPoint here = at_;
-    orientation_ = equations_.solve_position(here, limits_) ? 0 : equations_.orientation();
+    const bool solved = !equations_.solve_position(here, limits_);
+    orientation_ = solved ? equations_.orientation() : 0;
+    hold_ = 0;
+    for (int pass = 0; solved && pass < 4; ++pass) hold_ = equations_.hold();
   }
 
   // Rows that were redundant may have to take the place of others on the way. Once a point.
@@ -138,7 +154,8 @@ class Run {
     return h;
   }
 
-  std::optional<OperatingPoint> attempt(double t) {
+  // The point at a time, if a step leads there. The rows may change their orientation on a way of `longest_passage`.
+  std::optional<OperatingPoint> attempt(double t, double longest_passage) {
     OperatingPoint to = at_;
     to.time = t;
     const double h = t - at_.time;
@@ -150,31 +167,37 @@ class Run {
     }
     missed_.reset();
     refused_.reset();
+    way_ = length_of(system_, way);
+    nears_singular_ = false;
     const std::int64_t evaluations = equations_.evaluations(), factorizations = equations_.factorizations(),
                        iterations = equations_.iterations();
-    const bool reached = predicted(way, to) && !(missed_ = equations_.solve_position(to, limits_)) && complete(to);
+    const bool reached = predicted(way, to) && !(missed_ = equations_.solve_position(to, limits_));
+    const double hold = reached ? equations_.hold() : 0;
+    const int orientation = reached ? equations_.orientation() : 0;
+    nears_singular_ = (reached && hold < singular * hold_) || missed_ == KinematicEquations::Missed::singular;
+    const bool completed = reached && !nears_singular_ && complete(to);
     statistics_.evaluations += equations_.evaluations() - evaluations;
     statistics_.jacobians += equations_.factorizations() - factorizations;
     statistics_.iterations += equations_.iterations() - iterations;
-    if (!reached) {
+    if (!completed) {
       ++statistics_.failed_iterations;
       return std::nullopt;
     }
-    const int orientation = equations_orientation_;
     const bool turned = orientation_ != 0 && orientation != orientation_;
     const Way made = way_of(to);
-    if (!made.continues || (turned && made.length > no_way)) {
+    if (!made.continues || (turned && made.length > longest_passage)) {
       ++statistics_.failed_error_tests;
       return std::nullopt;
     }
     if (turned) {
       findings_.warnings.warning(
           "passed-singular", {},
-          fmt::format("at time {:.9g} the mechanism passes a singular configuration, where it could go on in more than "
+          fmt::format("at time {:.6g} the mechanism passes a singular configuration, where it could go on in more than "
                       "one way; it goes on as it moved before",
-                      t));
+                      0.5 * (at_.time + t)));
     }
     orientation_ = orientation;
+    hold_ = std::max(hold_, hold);
     system_.remember(to);
     return to;
   }
@@ -185,7 +208,6 @@ class Run {
   }
 
   bool complete(OperatingPoint& to) {
-    equations_orientation_ = equations_.orientation();
     equations_.solve_velocity(to);
     const OperatingPoint before = to;
     if (equations_.solve_acceleration(to)) return true;
@@ -226,9 +248,9 @@ class Run {
   }
 
   // The one place where every accepted point is looked at.
-  bool look_at_accepted(bool output) {
+  bool look_at_accepted(const OperatingPoint& point, bool output) {
     if (!watch_) return true;
-    return watch_(SimulationStep{system_, at_, output, statistics_}) == GoOn::yes;
+    return watch_(SimulationStep{system_, point, output, statistics_}) == GoOn::yes;
   }
 
   // Why no step leads on from the last accepted point.
@@ -237,8 +259,9 @@ class Run {
     const auto missed = missed_;
     OperatingPoint here = at_;
     const bool known = !equations_.solve_position(here, limits_);
-    const auto loosest = known ? equations_.loosest() : KinematicEquations::Loosest{};
-    if (!known || loosest.held < loose) {
+    const double hold = known ? equations_.hold() : 0;
+    if (!known || hold < loose * hold_) {
+      const auto loosest = known ? equations_.loosest() : KinematicEquations::Loosest{};
       std::vector<std::string> details = loosest.rows;
       return failure(at_.time,
                      fmt::format("the mechanism comes to a singular configuration, where {} no longer determine {}",
@@ -275,10 +298,12 @@ class Run {
   const SimulationWatch& watch_;
   Findings& findings_;
 
-  int orientation_ = 0,
-      equations_orientation_ = 0;  // of the rows at the accepted point, 0 if not known, and at the last
+  int orientation_ = 0;  // of the rows at the accepted point, 0 if not known
+  double hold_ = 0;      // most of what the rows have held so far
   double rows_chosen_at_ = std::numeric_limits<double>::quiet_NaN();
-  // Of the last attempt.
+  // Of the last attempt: how long its way was to be, whether it came to where the rows hold nothing, what went wrong.
+  double way_ = 0;
+  bool nears_singular_ = false;
   std::optional<KinematicEquations::Missed> missed_;
   std::optional<Failure> refused_;
 };

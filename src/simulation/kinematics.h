@@ -4,8 +4,8 @@
 // to rounding; velocities, accelerations and reactions follow. A step is halved where the iteration does not converge,
 // and where the new point is not on the branch of the old one: where displacements do not agree with the velocities at
 // both ends, or the rows have changed their orientation. A change point is passed so along the branch that continues
-// the motion, with a remark; at a dead point, beyond which there is no position, and at an output time that meets a
-// singular configuration, the analysis ends with an error.
+// the motion, with a remark; what an output time that meets it hands out lies between the points on both sides. At a
+// dead point, beyond which there is no position, the analysis ends with an error.
 #pragma once
 
 #include "simulation/dynamics.h"
