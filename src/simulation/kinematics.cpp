@@ -77,11 +77,7 @@ class Run {
         h = std::max(2 * (next->time - at_.time), std::min(h, left));
         statistics_.step_size = next->time - at_.time;
         ++statistics_.steps;
-        for (; leaps && k <= times_.count() && times_.at(k) <= next->time && goes_on; ++k) {
-          OperatingPoint output = interpolated(system_, at_, *next, times_.at(k));
-          goes_on = look_at_accepted(output, true);
-          if (k == times_.count() || !goes_on) next = std::move(output);
-        }
+        if (leaps) goes_on = look_at_leapt(*next, k);
         at_ = std::move(*next);
         if (leaps && (k > times_.count() || !goes_on)) break;
         const bool output = at_.time == target;
@@ -251,6 +247,19 @@ class Run {
   bool look_at_accepted(const OperatingPoint& point, bool output) {
     if (!watch_) return true;
     return watch_(SimulationStep{system_, point, output, statistics_}) == GoOn::yes;
+  }
+
+  // Outputs on a leap lie between its ends; the run may end with one of them.
+  bool look_at_leapt(OperatingPoint& next, std::int64_t& k) {
+    for (; k <= times_.count() && times_.at(k) <= next.time; ++k) {
+      OperatingPoint output = interpolated(system_, at_, next, times_.at(k));
+      const bool goes_on = look_at_accepted(output, true), last = k == times_.count();
+      if (goes_on && !last) continue;
+      next = std::move(output);
+      ++k;
+      return goes_on;
+    }
+    return true;
   }
 
   // Why no step leads on from the last accepted point.

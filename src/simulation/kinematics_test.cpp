@@ -175,6 +175,13 @@ TEST(Kinematics, of_gears_keep_their_ratio_over_many_turns) {
   }
 }
 
+TEST(Kinematics, have_values_of_functions_where_nothing_can_move) {
+  KinematicRun r("VARIABLE/1, FUNCTION=TIME**2\n", 3, 6);
+  ASSERT_TRUE(r.end) << r.end.error().message;
+  ASSERT_EQ(r.outputs.size(), 7u);
+  for (const OperatingPoint& op : r.outputs) EXPECT_DOUBLE_EQ(r.variable(op, 1), op.time * op.time);
+}
+
 std::string wheel(const std::string& motion) {
   return "PART/2, MASS=1, CM=20, IP=3,3,4\nMARKER/20\nJOINT/1, REVOLUTE, I=20, J=1\nVARIABLE/1, FUNCTION=AZ(20,1)\n"
          "MOTION/1, JOINT=1, " +
