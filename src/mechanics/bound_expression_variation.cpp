@@ -259,7 +259,8 @@ void BoundExpression::fill_rates(const Motion& motion, ExpressionScratch& scratc
   for (std::size_t k = 0; k < atoms_.size(); ++k) {
     const BoundAtom& a = atoms_[k];
     Taylor& x = scratch.taylor_atoms[k] = Taylor(atom_value(a, motion), 0.0, 0.0);
-    if (a.kind == Kind::time) x.rate = motion.mode == AnalysisMode::statics ? 0.0 : 1.0;
+    const bool rests = motion.mode == AnalysisMode::statics || motion.mode == AnalysisMode::quasi_statics;
+    if (a.kind == Kind::time) x.rate = rests ? 0.0 : 1.0;
     if (a.kind == Kind::measure) x.rate = atom_along_motion(a, motion).rate;
     if (a.kind != Kind::channel) continue;
     const auto n = static_cast<std::size_t>(a.rate.index);

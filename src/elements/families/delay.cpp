@@ -50,7 +50,8 @@ void DelayKernel::equations(const Motion& motion, Equations& eq) const {
     eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(c.unknown)]);
     eq.add(PartialBy::algebraic, row, c.unknown, 1.0);
     const double tau = c.never ? 0.0 : c.lag.value(motion, eq.scratch);
-    const bool rests = motion.mode == AnalysisMode::statics, linear = motion.mode == AnalysisMode::linear;
+    const bool rests = motion.mode == AnalysisMode::statics || motion.mode == AnalysisMode::quasi_statics;
+    const bool linear = motion.mode == AnalysisMode::linear;
     if (c.state >= 0) add_state(c, motion, eq, tau);
     if (!rests && !linear) {
       add_history(c, motion, eq, row, tau);
