@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "simulation/dynamics.h"
+#include "simulation/kinematics.h"
+#include "simulation/quasi_statics.h"
 
 namespace dynalin {
 
@@ -15,6 +17,21 @@ tl::unexpected<StudyFailure> refused(std::string why, Diagnostics said = {}) {
 SimulationKind settled(SimulationKind kind, std::size_t freedoms) {
   if (kind != SimulationKind::transient) return kind;
   return freedoms > 0 ? SimulationKind::dynamics : SimulationKind::kinematics;
+}
+
+Result<AdvancedPoint> advance(const System& system, const SimulationRequest& request, std::size_t freedoms,
+                              const SimulationWatch& watch, SimulatedPoint& result, Findings& findings) {
+  const OperatingPoint& from = result.point.values;
+  if (result.kind == SimulationKind::quasi_statics) {
+    auto end = advance_quasi_statics(system, from, request.times, request.statics, result.statistics, watch, findings);
+    if (!end) return tl::unexpected(end.error());
+    StaticsReport& s = end->statics;
+    result.point.statics = StaticSolution{s.iterations, s.imbalance, std::move(s.at_rest)};
+    return AdvancedPoint{std::move(end->point), end->end};
+  }
+  if (result.kind == SimulationKind::kinematics && (freedoms > 0 || !needs_integration(system)))
+    return advance_kinematics(system, from, request.times, request.kinematics, result.statistics, watch, findings);
+  return advance_dynamics(system, from, request.times, request.integrator, result.statistics, watch, findings);
 }
 
 }  // namespace
@@ -37,14 +54,13 @@ StudyResult<SimulatedPoint> simulate(StudyPoint from, const SimulationRequest& r
                               "the model has no degree of freedom: its motion is integrated although it is prescribed; "
                               "SIMULATE/KINEMATICS finds it exactly");
   }
-  auto advanced = advance_dynamics(system, result.point.values, request.times, request.integrator, result.statistics,
-                                   watch, findings);
+  result.point.statics.reset();
+  auto advanced = advance(system, request, freedoms, watch, result, findings);
   result.remarks.append(std::move(findings.warnings));
   if (!advanced) return tl::unexpected(StudyFailure(advanced.error(), std::move(result.remarks)));
   result.point.values = std::move(advanced->point);
   result.point.redundant_rows.clear();
   for (const std::int32_t r : findings.redundant_rows) result.point.redundant_rows.push_back(system.row_text(r));
-  result.point.statics.reset();
   result.end = advanced->end;
   return result;
 }

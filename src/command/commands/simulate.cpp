@@ -132,6 +132,16 @@ std::string progress_text(const SimulationStep& at, double start, double end) {
                      100 * (at.point.time - start) / (end - start), s.step_size, s.order, s.iterations);
 }
 
+struct KindOfRun {
+  std::string_view name;
+  StepKind step;
+};
+KindOfRun kind_of_run(SimulationKind kind) {
+  if (kind == SimulationKind::kinematics) return {"kinematics", StepKind::kinematics};
+  if (kind == SimulationKind::quasi_statics) return {"quasi-statics", StepKind::quasi_statics};
+  return {"dynamics", StepKind::dynamics};
+}
+
 constexpr CommandKind kind = {.name = "SIMULATE",
                               .use = CommandUse::analysis,
                               .summary = "finds an operating point, or leads it through time",
@@ -168,13 +178,15 @@ StudyResult<void> Simulate::run_over_time(RunState& run) const {
   line.clear();
   if (!found) return tl::unexpected(found.error());
   const IntegrationStatistics& s = found->statistics;
+  const KindOfRun done = kind_of_run(found->kind);
   if (run.terminal)
-    fmt::print(*run.terminal,
-               "{} to {:g}: {} steps, {} evaluations, {} Jacobians, order {} at the end (SUNDIALS IDA)\n", "dynamics",
-               found->point.values.time, s.steps, s.evaluations, s.jacobians, s.order);
+    fmt::print(*run.terminal, "{} to {:g}: {} steps, {} evaluations, {} Jacobians{}\n", done.name,
+               found->point.values.time, s.steps, s.evaluations, s.jacobians,
+               s.order > 0 ? fmt::format(", order {} at the end (SUNDIALS IDA)", s.order) : "");
   run.accept({std::move(found->point), std::move(found->remarks)});
-  const OperatingState state = operating_state(run.system(), run.point.values);
-  run.show(StepKind::dynamics, state);
+  const bool rests = run.point.statics.has_value();
+  const OperatingState state = operating_state(run.system(), rests ? run.point.statics->at_rest : run.point.values);
+  run.show(done.step, state);
   run.json.add(run.command, state);
   return {};
 }
