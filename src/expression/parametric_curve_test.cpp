@@ -6,6 +6,8 @@
 
 #include <numbers>
 
+#include "expression/switch_test_support.h"
+
 namespace dynalin {
 namespace {
 
@@ -148,24 +150,13 @@ TEST(ParametricCurve, finds_the_nearest_point) {
   EXPECT_NEAR(c.difference(0.95, -0.95), -0.1, 1e-14);
 }
 
-// Where the switch of a curve changes its sign along u; every one has one function or, at ends alone, two.
 std::vector<double> changes(const ParametricCurve& c, int derivative, double from, double to) {
   const auto at = [&](double u) {
     SwitchList list;
     c.switches(u, derivative, list);
-    return list.value;
+    return list;
   };
-  std::vector<double> places;
-  for (int k = 0; k < 1009; ++k) {
-    double low = from + (to - from) * k / 1009, high = from + (to - from) * (k + 1) / 1009;
-    const auto left = at(low), right = at(high);
-    for (std::size_t f = 0; f < left.size(); ++f) {
-      if ((left[f] < 0) == (right[f] < 0)) continue;
-      for (int n = 0; n < 60; ++n) ((at(0.5 * (low + high))[f] < 0) == (left[f] < 0) ? low : high) = 0.5 * (low + high);
-      places.push_back(low);
-    }
-  }
-  return places;
+  return expression_test::sign_changes(at, from, to);
 }
 
 TEST(ParametricCurve, switches_at_corners_and_ends) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "expression/functions.h"
+#include "expression/switch_test_support.h"
 
 namespace dynalin {
 namespace {
@@ -100,24 +101,12 @@ TEST(Spline, partial_derivatives_are_those_of_the_piece) {
 
 // Where switches of a use change their sign along x, or along z at x = 0.1.
 std::vector<double> changes(const SplineUse& s, double from, double to, bool along_z = false) {
-  std::vector<double> places;
   const auto at = [&](double p) {
     SwitchList list;
     along_z ? s.switches(0.1, p, list) : s.switches(p, 0.0, list);
-    return list.value;
+    return list;
   };
-  constexpr int cells = 1013;
-  for (int c = 0; c < cells; ++c) {
-    double low = from + (to - from) * c / cells, high = from + (to - from) * (c + 1) / cells;
-    const auto left = at(low), right = at(high);
-    EXPECT_EQ(left.size(), right.size());
-    for (std::size_t k = 0; k < left.size(); ++k) {
-      if ((left[k] < 0) == (right[k] < 0)) continue;
-      for (int n = 0; n < 60; ++n) ((at(0.5 * (low + high))[k] < 0) == (left[k] < 0) ? low : high) = 0.5 * (low + high);
-      places.push_back(low);
-    }
-  }
-  return places;
+  return expression_test::sign_changes(at, from, to);
 }
 
 using Places = std::vector<double>;

@@ -8,6 +8,7 @@
 
 #include "expression/expression_test_support.h"
 #include "expression/functions.h"
+#include "expression/switch_test_support.h"
 
 namespace dynalin::expression_test {
 namespace {
@@ -35,28 +36,8 @@ class Course {
     const Taylor atom(x, 1.0, 0.0);
     return parsed_.expression.evaluate<Taylor>(std::span(&atom, parsed_.expression.atoms().size()), taylor_);
   }
-  // Where functions change their sign that count there; those that do not as well, if wanted.
-  std::vector<double> changes(double from, double to, bool all = false) {
-    std::vector<double> places;
-    constexpr int cells = 997;
-    for (int c = 0; c < cells; ++c) {
-      const double low = from + (to - from) * c / cells, high = from + (to - from) * (c + 1) / cells;
-      const std::vector<double> left = switches(low).value, right = switches(high).value;
-      EXPECT_EQ(left.size(), right.size());
-      for (std::size_t k = 0; k < left.size(); ++k) {
-        if ((left[k] < 0) == (right[k] < 0)) continue;
-        double a = low, b = high;
-        while (b - a > 1e-13 * (1 + std::abs(a))) {
-          const double middle = 0.5 * (a + b);
-          ((switches(middle).value[k] < 0) == (left[k] < 0) ? a : b) = middle;
-        }
-        if (all || switches(a).counts[k] || switches(b).counts[k]) places.push_back(a);
-      }
-    }
-    std::sort(places.begin(), places.end());
-    places.erase(std::unique(places.begin(), places.end(), [](double a, double b) { return b - a < 1e-9; }),
-                 places.end());
-    return places;
+  std::vector<double> changes(double from, double to) {
+    return sign_changes([&](double x) { return switches(x); }, from, to);
   }
   // The lowest derivative that jumps at x, up to the third; 4 if none does.
   int jump(double x) {
