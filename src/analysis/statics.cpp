@@ -99,6 +99,7 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
     return tl::unexpected(Failure{"static analysis", far, {}});
   // An equilibrium in the course of a quasi-static simulation is one of those.
   if (op.mode != AnalysisMode::quasi_statics) op.mode = AnalysisMode::statics;
+  op.delays.reset();  // at rest the past is the present
   const std::vector<double> first_state = op.state;
   for (auto* x : {&op.velocity, &op.acceleration, &op.state_rate}) std::fill(x->begin(), x->end(), 0.0);
   auto assembled = assemble_position(system, std::move(op), findings);

@@ -20,6 +20,10 @@ class Binder {
   virtual Channel rate_of(const Channel&) = 0;
   // The unknown that a DELAY is.
   virtual Channel delayed(const Atom&) = 0;
+  // Where the memory holds what the SENSOR of that id gave when it last triggered.
+  virtual std::int32_t sensor_value(std::int64_t id) = 0;
+  // An expression with kinks or jumps that is part of the equations.
+  virtual void note_switches(const BoundExpression&) = 0;
   // Gives a call its SPLINE or CURVE.
   virtual void attach(SplineUse&) = 0;
   // `owner`: the place in the input that what is remembered belongs to.

@@ -92,12 +92,15 @@ class SmallSystem final : public Signals, public Binder {
   }
   Channel delayed(const Atom&) override { return {Channel::Kind::algebraic, 1}; }
   void attach(SplineUse&) override {}
+  std::int32_t sensor_value(std::int64_t) override { return p.layout.add_memory({}, 0.0); }
+  void note_switches(const BoundExpression& e) override { switching.push_back(e); }
   std::int32_t add_memory(const Span& at, double initial) override { return p.layout.add_memory(at, initial); }
   void problem(std::string_view code, const Span&, std::string, std::string) override { problems.emplace_back(code); }
 
   Paths p;
   Spring spring;
   std::vector<std::string> problems;
+  std::vector<BoundExpression> switching;
   std::int32_t unplaced = -1;  // a floating marker that nothing gives a place
 
  private:

@@ -34,6 +34,8 @@ double BoundExpression::atom_value(const BoundAtom& a, const Motion& motion) con
       return static_cast<double>(motion.mode);
     case Kind::constant:
       return a.constant;
+    case Kind::remembered:
+      return motion.memory[static_cast<std::size_t>(a.kept)];
     case Kind::channel: {
       const auto k = static_cast<std::size_t>(a.channel.index);
       if (a.channel.kind == Channel::Kind::algebraic) return motion.algebraic[k];
@@ -218,6 +220,30 @@ void BoundExpression::add_position(const Motion& motion, ConstraintRows& rows, s
 Taylor BoundExpression::add_velocity(const Motion& motion, ConstraintRows& rows, std::int32_t row,
                                      double factor) const {
   return add_to_row(motion, rows, row, factor, RowLevel::velocity, {});
+}
+
+namespace {
+// Principal values of angles that go on half a turn further on the other side.
+bool jumps_by_a_turn(Measure m) {
+  return m == Measure::PSI || m == Measure::PHI || m == Measure::YAW || m == Measure::ROLL;
+}
+}  // namespace
+
+bool BoundExpression::has_switches() const {
+  return expression_.has_switches() || std::any_of(atoms_.begin(), atoms_.end(), [](const BoundAtom& a) {
+           return a.kind == BoundAtom::Kind::measure && jumps_by_a_turn(a.measure);
+         });
+}
+
+void BoundExpression::switches(const Motion& motion, ExpressionScratch& scratch, SwitchList& out) const {
+  scratch.atoms.resize(atoms_.size());
+  for (std::size_t k = 0; k < atoms_.size(); ++k) {
+    const BoundAtom& a = atoms_[k];
+    scratch.atoms[k] = atom_value(a, motion);
+    const bool jumps = a.kind == BoundAtom::Kind::measure && jumps_by_a_turn(a.measure);
+    if (jumps) out.add(std::sin(scratch.atoms[k]), std::cos(scratch.atoms[k]) < 0.0);
+  }
+  expression_.switches(scratch.atoms, scratch.plain, out);
 }
 
 void BoundExpression::remember(const Motion& motion, Memory& memory) const {

@@ -12,8 +12,9 @@
 namespace dynalin {
 
 // What an expression is bound for: the equations of a system, with the time derivatives of channels for add_rate. A
-// condition is bound with zero for every DIF1: they cancel in the sum it is a term of.
-enum class Binding : std::uint8_t { equations, rates, condition, condition_rates };
+// condition is bound with zero for every DIF1: they cancel in the sum it is a term of. An observation is part of no
+// equation: its kinks are none of the motion.
+enum class Binding : std::uint8_t { equations, rates, condition, condition_rates, observation };
 
 class BoundExpression {
  public:
@@ -53,6 +54,10 @@ class BoundExpression {
   // Adds the variation of the generalized forces that a multiplier exerts through a row made by the two above.
   void add_reaction_partials(const Motion&, Equations&, double lambda, RowLevel) const;
 
+  // Functions that change their sign where it has a kink or a jump along the motion.
+  bool has_switches() const;
+  void switches(const Motion&, ExpressionScratch&, SwitchList&) const;
+
   void remember(const Motion&, Memory&) const;
   // Adds what is wrong when a value or partial is not finite: function, argument and reason.
   // With rates also what its time derivative or a second derivative does not have.
@@ -66,7 +71,7 @@ class BoundExpression {
     bool on_J = false;
   };
   struct BoundAtom {
-    enum class Kind : std::uint8_t { time, mode, constant, channel, measure, force } kind;
+    enum class Kind : std::uint8_t { time, mode, constant, remembered, channel, measure, force } kind;
     double constant = 0;
     Channel channel, rate;  // rate: of the channel, where it is wanted
     Measure measure = Measure::DX;
@@ -74,6 +79,7 @@ class BoundExpression {
     std::array<MarkerFrame, 4> places;               // i, j, k, l
     std::uint32_t first_block = 0, block_count = 0;  // what they depend on, in atom_blocks_
     std::int32_t memory = -1;                        // total angle of a measure that counts turns
+    std::int32_t kept = -1;                          // where the memory holds what is remembered
     std::vector<ForceTerm> terms;
     std::uint8_t component = 1;  // 1–8: FM FX FY FZ TM TX TY TZ
     MarkerFrame axes_marker;

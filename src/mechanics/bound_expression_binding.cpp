@@ -120,6 +120,8 @@ BoundExpression::BoundExpression(Expression expression, Binder& binder, Binding 
       }
     }
   }
+  // What is bound for rates or conditions is bound for the equations as well.
+  if (binding == Binding::equations && has_switches()) binder.note_switches(*this);
 }
 
 void BoundExpression::note_blocks(BoundAtom& a, const MarkerFrame& marker, const Layout& layout, bool poses_too) {
@@ -173,7 +175,8 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binde
         break;
       }
       if (f.reads == DataSource::sensor) {
-        a.kind = Kind::constant;  // no analysis of ours lets a sensor trigger
+        a.kind = Kind::remembered;
+        a.kept = binder.sensor_value(atom.argument[0]);
         break;
       }
       if (f.reads == DataSource::state_rate && (binding == Binding::condition || binding == Binding::condition_rates)) {

@@ -420,5 +420,54 @@ TEST(BoundExpression, what_has_no_value_or_derivative_is_named_with_its_reason) 
   EXPECT_EQ(reason("0*SQRT(1+VARVAL(1))"), "");
 }
 
+// --- switches -------------------------------------------------------------------------------------------------------
+
+TEST(BoundExpression, with_kinks_is_noted_where_it_is_part_of_an_equation) {
+  SmallSystem s;
+  s.bound("SIN(TIME)+DX(2,5)");
+  EXPECT_TRUE(s.switching.empty());
+  const BoundExpression e = s.bound("ABS(DX(2,5)-1)");
+  ASSERT_EQ(s.switching.size(), 1u);
+  s.bound("ABS(DX(2,5)-1)", Binding::rates);
+  s.bound("ABS(DX(2,5)-1)", Binding::observation);
+  EXPECT_EQ(s.switching.size(), 1u);
+  ExpressionScratch scratch;
+  SwitchList list;
+  s.switching[0].switches(s.p.motion, scratch, list);
+  const BoundExpression inner = s.bound("DX(2,5)-1");
+  ASSERT_EQ(list.value.size(), 1u);
+  EXPECT_EQ(list.value[0], inner.value(s.p.motion, scratch));
+}
+
+// The principal value of an angle goes on half a turn further on the other side; AX counts turns.
+TEST(BoundExpression, switches_where_an_angle_jumps_by_a_turn) {
+  SmallSystem s;
+  for (const std::string name : {"PSI", "PHI", "YAW", "ROLL"}) {
+    const BoundExpression e = s.bound("2*" + name + "(2,5)"), angle = s.bound(name + "(2,5)");
+    ASSERT_TRUE(e.has_switches()) << name;
+    ExpressionScratch scratch;
+    SwitchList list;
+    e.switches(s.p.motion, scratch, list);
+    const double value = angle.value(s.p.motion, scratch);
+    ASSERT_EQ(list.value.size(), 1u);
+    EXPECT_DOUBLE_EQ(list.value[0], std::sin(value));
+    EXPECT_EQ(list.counts[0], std::abs(value) > 0.5 * std::numbers::pi);
+  }
+  for (const std::string text : {"AX(2,5)", "THETA(2,5)", "PSI(2,5)+PHI(2,5)"})
+    EXPECT_FALSE(s.bound(text).has_switches());
+}
+
+TEST(BoundExpression, senval_is_what_the_memory_holds) {
+  SmallSystem s;
+  const BoundExpression e = s.bound("3*SENVAL(1)");
+  s.p.motion.memory.back() = 1.5;
+  ExpressionScratch scratch;
+  EXPECT_EQ(e.value(s.p.motion, scratch), 4.5);
+  EXPECT_FALSE(e.has_switches());
+  Memory memory = s.p.motion.memory;
+  e.remember(s.p.motion, memory);
+  EXPECT_EQ(memory, s.p.motion.memory);
+}
+
 }  // namespace
 }  // namespace dynalin::mechanics_test

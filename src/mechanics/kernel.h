@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "expression/switch_list.h"
 #include "mechanics/equations.h"
 #include "mechanics/pair.h"
 
@@ -16,6 +18,7 @@ namespace dynalin {
 
 class Binder;
 class BoundExpression;
+class EventSource;
 
 // A force or constraint element as the force functions of expressions see it: what acts on its I marker.
 struct MarkerWrench {
@@ -121,9 +124,16 @@ class Kernel {
   virtual const WrenchSource* reported_wrenches() const { return wrenches(); }
 
   // --- events ---------------------------------------------------------------------------------------
-  // Appends functions of the motion that change their sign where what the elements say has a kink or a jump (the ends
-  // of a STEP, the condition of an IF, a contact that closes): as many in the same order at every motion.
-  virtual void switches(const Motion&, std::vector<double>&) const {}
+  // Adds functions of the motion that change their sign where what the elements say has a kink or a jump of their own:
+  // as many in the same order at every motion. Those of bound expressions (the ends of a STEP, the condition of an IF)
+  // are known without.
+  virtual void switches(const Motion&, ExpressionScratch&, SwitchList&) const {}
+  // Elements that watch the motion and act on its simulation.
+  virtual const EventSource* events() const { return nullptr; }
+  // An accepted instant of a motion in time: what is read of the past is kept.
+  virtual void record(const Motion&, DelayHistories&) const {}
+  // The longest step in time that resolves what the elements do here.
+  virtual double longest_step(const Motion&) const { return std::numeric_limits<double>::infinity(); }
   // An accepted configuration: take over what the memory holds (turn counts).
   virtual void remember(const Motion&, Memory&) const {}
   // Adds why elements yield no finite values or derivatives here.

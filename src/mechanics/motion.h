@@ -52,7 +52,7 @@ enum class AnalysisMode : int {
 // Values that outlive an evaluation and change only with an accepted step: total angles for the turn count.
 using Memory = std::vector<double>;
 
-class DelayHistories;  // what DELAY reads: values in the past (elements/families/delay.h)
+class DelayHistories;  // what DELAY reads: values in the past (mechanics/delay_history.h)
 
 struct Motion {
   double time = 0;

@@ -33,8 +33,8 @@ MotionEquations::MotionEquations(const System& system, const OperatingPoint& at,
     for (std::int32_t k = 0; k < layout.bodies[b].count; ++k)
       places_[static_cast<std::size_t>(layout.bodies[b].offset + k)] = {static_cast<std::int32_t>(b), k};
   }
-  system.switches(motion_, switch_values_);
-  switch_count_ = switch_values_.size();
+  system.switches(motion_, switch_scratch_, switches_);
+  switch_count_ = switches_.value.size();
   accept(at);
   find_differential();
 }
@@ -357,8 +357,8 @@ void MotionEquations::switches(double t, std::span<const double> y, std::span<co
     return;
   }
   unknowns_.unpack(t, y, yp, motion_);
-  system_.switches(motion_, switch_values_);
-  std::copy(switch_values_.begin(), switch_values_.end(), values.begin());
+  system_.switches(motion_, switch_scratch_, switches_);
+  std::copy(switches_.value.begin(), switches_.value.end(), values.begin());
 }
 
 double MotionEquations::left_out_violation(const OperatingPoint& op) {

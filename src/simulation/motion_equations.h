@@ -90,7 +90,8 @@ class MotionEquations final : public DaeProblem {
   std::vector<Place> places_;
   std::vector<Chart> charts_;  // by body
   std::vector<double> differential_;
-  std::vector<double> switch_values_;
+  SwitchList switches_;
+  ExpressionScratch switch_scratch_;
   std::size_t switch_count_ = 0;
   bool switches_watched_ = true;
   mutable std::vector<double> rates_;  // of coordinates, scratch

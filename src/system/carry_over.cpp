@@ -41,6 +41,10 @@ Key key_of_owner(const ElementLabel* owner, std::string_view name, Keys& keys) {
   return owner ? keys.next(owner->statement, owner->id, name) : keys.next("", 0, name);
 }
 
+Key key_of_place(const Span& at, Keys& keys) {
+  return keys.next(at.source ? at.source->name() : std::string(), static_cast<std::int64_t>(at.offset), "");
+}
+
 bool is_restated(const Restated& restated, std::string_view statement, std::int64_t id) {
   return restated.starts.contains({std::string(statement), id});
 }
@@ -148,13 +152,24 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
 
   // What is remembered belongs to a place in the text, which an edit leaves where it is.
   const auto memory_key = [](const Layout& l, std::size_t k, Keys& keys) {
-    const Span& s = l.memory_owners[k];
-    const std::string name = s.source ? s.source->name() : std::string();
-    return keys.next(name, static_cast<std::int64_t>(s.offset), "");
+    return key_of_place(l.memory_owners[k], keys);
   };
   for (const auto& [a, b] : matches(old, old.memory.size(), now, now.memory.size(), memory_key))
     out.memory[b] = op.memory[a];
+<<<<<<< HEAD
   take_up_courses(to, known, out);
+=======
+
+  if (op.delays && !now.delay_calls.empty()) {
+    const auto call_key = [](const Layout& l, std::size_t k, Keys& keys) {
+      return key_of_place(l.delay_calls[k], keys);
+    };
+    auto delays = std::make_shared<DelayHistories>(now.delay_calls.size());
+    for (const auto& [a, b] : matches(old, old.delay_calls.size(), now, now.delay_calls.size(), call_key))
+      delays->of_call[b] = op.delays->of_call[a];
+    out.delays = std::move(delays);
+  }
+>>>>>>> d280f87 (DELAY reads the past of a motion in time; the system knows all switches of its elements and expressions)
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include "system/system.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "system/signal_table.h"
 #include "system/system_binder.h"
@@ -51,8 +52,11 @@ void System::make_kernels(DelayReading delays) {
     }
   }
   signals_->index_markers();
-  SystemBinder(*model_, layout_, *signals_, delays).bind(kernels_);
+  SystemBinder binder(*model_, layout_, *signals_, delays);
+  binder.bind(kernels_);
+  switching_ = binder.take_switching();
   for (const auto& kernel : kernels_) {
+    if (const EventSource* events = kernel->events()) event_sources_.push_back(events);
     const auto own = kernel->starts();
     starts_.insert(starts_.end(), own.begin(), own.end());
   }
@@ -132,9 +136,25 @@ Motion System::motion(const OperatingPoint& op) const {
   return m;
 }
 
-void System::switches(const Motion& motion, std::vector<double>& values) const {
-  values.clear();
-  for (const auto& kernel : kernels_) kernel->switches(motion, values);
+void System::switches(const Motion& motion, ExpressionScratch& scratch, SwitchList& list) const {
+  list.clear();
+  for (const auto& kernel : kernels_) kernel->switches(motion, scratch, list);
+  for (const BoundExpression& e : switching_) e.switches(motion, scratch, list);
+}
+
+void System::record(OperatingPoint& op) const {
+  if (layout_.delay_calls.empty()) return;
+  auto histories = op.delays ? std::make_shared<DelayHistories>(*op.delays)
+                             : std::make_shared<DelayHistories>(layout_.delay_calls.size());
+  const Motion m = motion(op);
+  for (const auto& kernel : kernels_) kernel->record(m, *histories);
+  op.delays = std::move(histories);
+}
+
+double System::longest_step(const Motion& motion) const {
+  double longest = std::numeric_limits<double>::infinity();
+  for (const auto& kernel : kernels_) longest = std::min(longest, kernel->longest_step(motion));
+  return longest;
 }
 
 void System::constraints(const Motion& motion, ConstraintRows& rows) const {

@@ -8,6 +8,7 @@
 
 #include "elements/families/delay.h"
 #include "mechanics/equations.h"
+#include "mechanics/event_source.h"
 #include "mechanics/kernel.h"
 #include "mechanics/signals.h"
 #include "model/model.h"
@@ -62,8 +63,15 @@ class System {
   std::vector<UndefinedValue> undefined_values(const Motion&) const;
   std::string undefined_value(const Motion&) const;
   std::string domain_violation(const Motion&) const;
-  // Of all elements (Kernel::switches); `values` is emptied first.
-  void switches(const Motion&, std::vector<double>& values) const;
+  // Of all elements and their expressions, as many in the same order at every motion; the list is emptied first.
+  void switches(const Motion&, ExpressionScratch&, SwitchList&) const;
+  // Elements that watch the motion (SENSOR), kind by kind.
+  std::span<const EventSource* const> event_sources() const { return event_sources_; }
+  // Of an accepted instant of a motion in time, the start included: keeps what DELAYs will read. At an event, once
+  // before and once behind it.
+  void record(OperatingPoint&) const;
+  // The longest step in time that resolves what elements do here; infinite if all is resolved by the error control.
+  double longest_step(const Motion&) const;
 
   // Scale of a coordinate: the model length for translations, 1 for rotations, and what moves as far for the others.
   double coordinate_scale(std::int32_t coordinate) const { return scale_[static_cast<std::size_t>(coordinate)]; }
@@ -86,6 +94,8 @@ class System {
   std::vector<std::unique_ptr<Kernel>> kernels_;
   std::unique_ptr<SignalTable> signals_;
   std::vector<StartCondition> starts_;
+  std::vector<BoundExpression> switching_;  // those with kinks or jumps
+  std::vector<const EventSource*> event_sources_;
   double length_ = 1;
   std::vector<double> scale_;
   std::vector<std::int32_t> preference_;

@@ -42,6 +42,13 @@ Channel SystemBinder::delayed(const Atom& atom) {
   return delays_.channel_of(atom, "in " + statement_at(atom.at), layout_);
 }
 
+// One that is taken out of the model keeps its value.
+std::int32_t SystemBinder::sensor_value(std::int64_t id) {
+  const auto [it, fresh] = sensor_values_.emplace(id, -1);
+  if (fresh) it->second = layout_.add_memory(model_.label(*model_.find("SENSOR", id)).at, 0.0);
+  return it->second;
+}
+
 // Calls of one SPLINE by one method share their curves.
 void SystemBinder::attach(SplineUse& use) {
   const bool shares = !use.component && !use.spectrum;

@@ -9,6 +9,7 @@
 
 #include "elements/families/delay.h"
 #include "mechanics/binder.h"
+#include "mechanics/bound_expression.h"
 #include "system/signal_table.h"
 
 namespace dynalin {
@@ -25,11 +26,16 @@ class SystemBinder final : public Binder {
   // Binds all kernels, adds the one of the delays that they read, and equations for the rates.
   void bind(std::vector<std::unique_ptr<Kernel>>&);
 
+  // All expressions with kinks or jumps: copies, for those of the kernels may move.
+  std::vector<BoundExpression> take_switching() { return std::move(switching_); }
+
   const Signals& signals() const override { return signals_; }
   Channel data(const Atom&) override;
   Channel rate_of(const Channel&) override;
   Channel delayed(const Atom&) override;
   void attach(SplineUse&) override;
+  std::int32_t sensor_value(std::int64_t id) override;
+  void note_switches(const BoundExpression& e) override { switching_.push_back(e); }
   std::int32_t add_memory(const Span& owner, double initial) override { return layout_.add_memory(owner, initial); }
   void problem(std::string_view code, const Span& at, std::string text, std::string hint) override {
     layout_.problems.error(code, at, std::move(text), std::move(hint));
@@ -44,7 +50,9 @@ class SystemBinder final : public Binder {
   const SignalTable& signals_;
   std::unique_ptr<DelayKernel> own_;  // until it stands among the kernels
   DelayKernel& delays_;
-  std::map<std::int32_t, std::int32_t> rates_;  // of algebraic unknowns
+  std::map<std::int32_t, std::int32_t> rates_;          // of algebraic unknowns
+  std::map<std::int64_t, std::int32_t> sensor_values_;  // in the memory
+  std::vector<BoundExpression> switching_;
   std::vector<std::pair<std::int32_t, std::int32_t>> rates_to_make_;
   std::map<std::pair<std::int64_t, SplineMethod>, std::shared_ptr<const SplineCurves>> curves_;
 };

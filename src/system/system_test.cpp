@@ -255,5 +255,50 @@ TEST(SignalTable, markers_know_where_they_are_and_what_acts_on_them) {
   EXPECT_EQ(t.wrench("SPRINGDAMPER", 2).source, nullptr);
 }
 
+// --- switches -------------------------------------------------------------------------------------------------------
+
+std::vector<double> switches_of(const System& s, const OperatingPoint& op) {
+  ExpressionScratch scratch;
+  SwitchList list;
+  s.switches(s.motion(op), scratch, list);
+  EXPECT_EQ(list.value.size(), list.counts.size());
+  return list.value;
+}
+
+// Whatever element an expression stands in; those that rates are made of count once.
+TEST(System, switches_of_all_expressions_are_known) {
+  const auto s = system_of(bodies + hinge +
+                           "MOTION/1, JOINT=1, ROTATION, FUNCTION=STEP(TIME,1,0,2,1)\nMARKER/32, PART=3\n"
+                           "SFORCE/1, TRANSLATION, I=20, J=1, FUNCTION=ABS(TIME-3)\nMARKER/33, PART=1, FLOATING\n"
+                           "VFORCE/1, I=20, JFLOAT=33, RM=1, FX=MAX(TIME,4)\\FY=0\\FZ=MIN(TIME,5)\n"
+                           "GCON/1, FUNCTION=DX(20,1)-STEP5(TIME,6,0,7,1)\n"
+                           "VARIABLE/1, FUNCTION=IF(TIME-8:0,0,1)\nVARIABLE/2, FUNCTION=SIN(VARVAL(1))\n"
+                           "DIFF/1, IMPLICIT, IC=0, FUNCTION=DIM(TIME,9)-DIF(1)\nDIFF/2, FUNCTION=DIF1(1)\n");
+  OperatingPoint op = s->drawn();
+  op.time = 100;
+  EXPECT_THAT(switches_of(*s, op), testing::UnorderedElementsAre(99, 98, 97, 96, 95, 94, 93, 92, 91));
+  op.time = -1;
+  EXPECT_EQ(switches_of(*s, op).size(), 9u);
+  // Those of elements that a command has taken out of the model are none.
+  EXPECT_THAT(switches_of(*system_of(bodies), op), IsEmpty());
+}
+
+TEST(System, a_contact_switches_at_the_corners_of_its_curve) {
+  const auto s = system_of(
+      bodies +
+      "MARKER/9, PART=1, FLOATING\nMATRIX/1, FULL=RORDER, ROWS=4, COLUMNS=3, VALUES=0,0,0,4,0,0,8,3,0,12,3,0\n"
+      "CURVE/1, OPEN, MATRIX=1, ORDER=2\nPTCV/1, I=20, JFLOAT=9, CURVE=1, RM=1\n");
+  OperatingPoint op = s->drawn();
+  const auto at = [&](double u) {
+    op.extra[0] = u;
+    return switches_of(*s, op);
+  };
+  for (const double corner : {-1.0 / 3, 1.0 / 3}) {
+    ASSERT_EQ(at(corner - 0.01).size(), 1u);
+    EXPECT_LT(at(corner - 0.01)[0] * at(corner + 0.01)[0], 0);
+  }
+  EXPECT_GT(at(0.4)[0] * at(1.4)[0], 0);
+}
+
 }  // namespace
 }  // namespace dynalin::system_test

@@ -204,6 +204,13 @@ class CurveContactKernel final : public Kernel, public WrenchSource {
     }
   }
 
+  // Where the direction of the curve has a kink or a jump at the contact, and where the curve ends.
+  void switches(const Motion& motion, ExpressionScratch&, SwitchList& list) const override {
+    for (const Placed& p : contacts_) {
+      for (std::size_t a = 0; a < m; ++a)
+        p.contact.element.curves[a]->switches(motion.extra[p.first_extra + a], 1, list);
+    }
+  }
   std::string domain_violation(const Motion& motion) const override {
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
       if constexpr (requires { &E::undetermined; }) {

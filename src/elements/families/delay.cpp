@@ -27,6 +27,8 @@ Channel DelayKernel::channel_of(const Atom& atom, std::string owner, Layout& lay
   ExpressionWorkspace<double> workspace;
   call.never = lag.is_constant() && lag.splines().empty() && !(lag.evaluate<double>({}, workspace) > 0);
   call.unknown = known->second = layout.add_algebraic(call.label);
+  call.index = layout.delay_calls.size();
+  layout.delay_calls.push_back(call.at);
   if (reading_ == DelayReading::pade && !call.never) call.state = layout.add_state({&call.label, StateType::delay});
   return {Channel::Kind::algebraic, call.unknown, 0};
 }
@@ -37,8 +39,9 @@ void DelayKernel::bind(Binder& binder) {
   std::sort(order.begin(), order.end(), [](const Call* a, const Call* b) { return a->at.offset < b->at.offset; });
   for (std::size_t k = 0; k < order.size(); ++k) order[k]->label.id = static_cast<std::int64_t>(k) + 1;
   for (Call* c : order) {
-    const bool needs_rate = reading_ == DelayReading::first_order && !c->never;
-    c->value = BoundExpression(c->written->value, binder, needs_rate ? Binding::rates : Binding::equations);
+    c->with_rate = reading_ == DelayReading::first_order && !c->never;
+    c->value = BoundExpression(c->written->value, binder, c->with_rate ? Binding::rates : Binding::equations);
+    if (c->with_rate && c->value.has_switches()) binder.note_switches(c->value);
     c->lag = BoundExpression(c->written->lag, binder);
     c->history = c->written->history.with_curves([&](SplineUse& use) { binder.attach(use); });
   }
@@ -54,7 +57,7 @@ void DelayKernel::equations(const Motion& motion, Equations& eq) const {
     const bool linear = motion.mode == AnalysisMode::linear;
     if (c.state >= 0) add_state(c, motion, eq, tau);
     if (!rests && !linear) {
-      add_history(c, motion, eq, row, tau);
+      add_past(c, motion, eq, row, tau);
     } else if (c.state >= 0) {
       const double z = motion.state[static_cast<std::size_t>(c.state)];
       eq.add_residual(row, -2.0 * z);
@@ -67,15 +70,37 @@ void DelayKernel::equations(const Motion& motion, Equations& eq) const {
   }
 }
 
-// − history(t − τ), or − e where nothing is delayed. Both are always put: which one counts may change on the way.
-void DelayKernel::add_history(const Call& c, const Motion& motion, Equations& eq, std::int32_t row, double tau) const {
-  const bool delayed = tau > 0;
-  c.value.add(motion, eq, row, delayed ? 0.0 : -1.0, PartialBy::velocity);
+const DelayHistory* DelayKernel::kept(const Call& c, const Motion& motion) {
+  if (!motion.delays || motion.delays->of_call[c.index].empty()) return nullptr;
+  return &motion.delays->of_call[c.index];
+}
+
+DelayHistory::Reading DelayKernel::before_start(const Call& c, double time, ExpressionScratch& scratch) {
+  const std::array<Taylor, 1> at = {Taylor(time, 1.0, 0.0)};
+  const Taylor h = c.history.evaluate<Taylor>(std::span(at).first(c.history.atoms().size()), scratch.taylor);
+  return {h.value, h.rate, 0};
+}
+
+// − e(t − τ), or − e where nothing is delayed. Both are always put: which one counts may change on the way.
+void DelayKernel::add_past(const Call& c, const Motion& motion, Equations& eq, std::int32_t row, double tau) const {
+  DelayHistory::Reading past{0, 0, 1};
+  if (tau > 0) {
+    const double s = motion.time - tau;
+    const DelayHistory* history = kept(c, motion);
+    if (!history || s < history->start()) {
+      past = before_start(c, s, eq.scratch);
+    } else if (s <= history->end()) {
+      past = history->at(s);
+    } else {
+      const double present = c.value.value(motion, eq.scratch);
+      past = history->at(s, motion.time, present);
+      past.value -= past.by_present * present;
+    }
+  }
+  c.value.add(motion, eq, row, -past.by_present, PartialBy::velocity);
   if (c.never) return;
-  const std::array<Taylor, 1> time = {Taylor(motion.time - tau, 1.0, 0.0)};
-  const Taylor h = c.history.evaluate<Taylor>(std::span(time).first(c.history.atoms().size()), eq.scratch.taylor);
-  if (delayed) eq.add_residual(row, -h.value);
-  add_partials(c.lag, motion, eq, row, delayed ? h.rate : 0.0);
+  eq.add_residual(row, -past.value);
+  add_partials(c.lag, motion, eq, row, past.slope);
 }
 
 // + τ e′
@@ -104,6 +129,42 @@ void DelayKernel::remember(const Motion& motion, Memory& memory) const {
     c.value.remember(motion, memory);
     c.lag.remember(motion, memory);
   }
+}
+
+void DelayKernel::switches(const Motion& motion, ExpressionScratch& scratch, SwitchList& out) const {
+  for (const Call& c : calls_) {
+    if (c.never) continue;
+    const double tau = c.lag.value(motion, scratch), s = motion.time - tau;
+    const DelayHistory* history = kept(c, motion);
+    out.add(history ? history->switching(s) : -1.0, tau > 0);
+    if (!c.lag.is_constant()) out.add(tau);
+    if (!c.history.has_switches()) continue;
+    const std::size_t first = out.counts.size();
+    c.history.switches(std::span(&s, c.history.atoms().size()), scratch.plain, out);
+    for (std::size_t k = first; k < out.counts.size(); ++k)
+      out.counts[k] = out.counts[k] && tau > 0 && (!history || s < history->start());
+  }
+}
+
+void DelayKernel::record(const Motion& motion, DelayHistories& histories) const {
+  ExpressionScratch scratch;
+  for (const Call& c : calls_) {
+    if (c.never) continue;
+    const double slope = c.with_rate ? c.value.rate(motion, scratch) : std::numeric_limits<double>::quiet_NaN();
+    const double oldest =
+        c.lag.is_constant() ? motion.time - c.lag.value(motion, scratch) : -std::numeric_limits<double>::infinity();
+    histories.of_call[c.index].append(motion.time, c.value.value(motion, scratch), slope, oldest);
+  }
+}
+
+double DelayKernel::longest_step(const Motion& motion) const {
+  ExpressionScratch scratch;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Call& c : calls_) {
+    const double tau = c.never ? 0.0 : c.lag.value(motion, scratch);
+    if (tau > 0) shortest = std::min(shortest, tau);
+  }
+  return shortest;
 }
 
 void DelayKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined_values) const {

@@ -1,14 +1,14 @@
 // DELAY(e, tau, history) in expressions: w = e(t − τ) is an unknown of its own with one equation.
 //
-// No analysis here moves in time, so t − τ lies before the start wherever τ > 0:
-//
-//     initial conditions     w = history(t − τ)
+//     before the start       w = history(t − τ)
+//     motion in time         w from what is kept of e at accepted instants (mechanics/delay_history.h)
 //     statics                w = e, for nothing varies in time
 //     linear models          first order in τ:  δw = δe − τ δe′ − e′ δτ, with e′ the exact time derivative along the
 //     motion
 //                            or (1 − τs/2)/(1 + τs/2), one state z:  τ z′ = e − w,  w = 2 z − e
 //
-// A τ of zero or less is no delay, w = e.
+// A τ of zero or less is no delay, w = e. What is kept reaches back by the longest delay: by τ where that is a number,
+// to the start of the motion where it varies.
 #pragma once
 
 #include <deque>
@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "mechanics/bound_expression.h"
+#include "mechanics/delay_history.h"
 #include "mechanics/kernel.h"
 
 namespace dynalin {
@@ -33,6 +34,10 @@ class DelayKernel final : public Kernel {
   void bind(Binder&) override;
   void equations(const Motion&, Equations&) const override;
   void remember(const Motion&, Memory&) const override;
+  // Where t − τ passes a jump or a kink of e, a kink of the history before the start, or τ zero.
+  void switches(const Motion&, ExpressionScratch&, SwitchList&) const override;
+  void record(const Motion&, DelayHistories&) const override;
+  double longest_step(const Motion&) const override;  // the shortest delay
   void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
 
  private:
@@ -42,11 +47,15 @@ class DelayKernel final : public Kernel {
     std::string owner;
     ElementLabel label;  // DELAY/1, DELAY/2 … in the order of the dataset
     std::int32_t unknown = -1, state = -1;
-    bool never = false;  // τ is a constant that is no delay
+    std::size_t index = 0;  // among Layout::delay_calls
+    bool never = false;     // τ is a constant that is no delay
+    bool with_rate = false;
     BoundExpression value{}, lag{};
     Expression history{};
   };
-  void add_history(const Call&, const Motion&, Equations&, std::int32_t row, double tau) const;
+  static const DelayHistory* kept(const Call&, const Motion&);  // null where nothing is
+  static DelayHistory::Reading before_start(const Call&, double time, ExpressionScratch&);
+  void add_past(const Call&, const Motion&, Equations&, std::int32_t row, double tau) const;
   void add_first_order(const Call&, const Motion&, Equations&, std::int32_t row, double tau) const;
   void add_state(const Call&, const Motion&, Equations&, double tau) const;
 
