@@ -233,7 +233,7 @@ void MotionEquations::row_partials(std::span<const double> y) {
     for (const auto& e : rows_.row(k)) {
       const double on = active ? 1.0 : 0.0;
       const double g = on * e.c.g, v = on * e.c.v;
-      jacobian_.add(unknowns_.velocity(e.column), lambda, -g);
+      jacobian_.add(unknowns_.velocity(e.column), lambda, -e.c.g);
       jacobian_.add(lambda, unknowns_.velocity(e.column), g);
       add_position(lambda, e.column, v, g, 0.0);
       if (mu < 0) continue;

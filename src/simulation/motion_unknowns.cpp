@@ -115,7 +115,7 @@ void MotionUnknowns::unpack(double t, std::span<const double> y, std::span<const
   for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
     const BodyBlock& block = layout.bodies[b];
     if (block.count == 0) continue;
-    Pose pose{vector_at(y, position(b))};
+    Pose pose{vector_at(y, position(b)), motion.bodies[b].R};  // what does not turn keeps its axes
     const std::int32_t v = velocity(block.offset), w = v + 3;
     if (block.turns()) pose.R = rotation_of(quaternion_at(y, quaternion(b)));
     motion.bodies[b].set(pose, vector_at(y, v), block.turns() ? vector_at(y, w) : Vector{}, vector_at(yp, v),
