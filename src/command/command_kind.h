@@ -33,6 +33,8 @@ struct CommandFiles {
   std::vector<std::string_view> suffixes = {""};  // a file for each, with this behind its name
   std::vector<std::string> more = {};             // files with names of their own
   bool tables = false;                            // it writes into the file of modal tables
+  // It asks for files that points of the run go to: .req, .out and .gra.
+  bool requests = false, request_tables = false, graphics = false;
 };
 
 // The text of a file that a command names; nothing after a report.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "elements/settings/output_settings.h"
 #include "output/destination.h"
 
 namespace dynalin {
@@ -22,9 +23,14 @@ struct PlannedFile {
 std::vector<PlannedFile> planned_files(const Job& job, const SessionOptions& options) {
   std::vector<PlannedFile> list;
   bool tables = false;
+  const OutputSettings of_dataset = output_settings(job.model());
+  bool requests = of_dataset.request_file, graphics = of_dataset.graphics_file,
+       request_tables = of_dataset.writes_tables();
   for (const Command& c : job.commands.commands) {
     const CommandFiles files = c.action->files();
     tables = tables || files.tables;
+    requests = requests || files.requests, graphics = graphics || files.graphics;
+    request_tables = request_tables || files.request_tables;
     if (files.file.empty()) continue;
     const std::string base = command_path(job, files.file);
     for (const std::string_view suffix : files.suffixes)
@@ -34,6 +40,10 @@ std::vector<PlannedFile> planned_files(const Job& job, const SessionOptions& opt
   }
   if (tables) list.push_back({job.prefix + ".txt", "the file of modal tables", {}});
   if (job.xrf_digits > 0) list.push_back({job.prefix + ".res", "the results file", {}});
+  if (requests) list.push_back({job.prefix + ".req", "the request file", {}});
+  if (graphics) list.push_back({job.prefix + ".gra", "the graphics file", {}});
+  if (request_tables && (job.model().has("REQUEST") || job.model().has("MREQUEST")))
+    list.push_back({job.prefix + ".out", "the file of request tables", {}});
   list.push_back({job.prefix + ".msg", "the message file", {}});
   if (!options.json.empty()) list.push_back({options.json, "--json", {}});
   return list;

@@ -7,24 +7,30 @@ namespace dynalin {
 RunFiles::Result RunFiles::add(const std::vector<Planned>& planned) {
   std::vector<std::unique_ptr<OutputFile>> made;
   for (const Planned& p : planned) {
-    auto destination = find_destination(p.path);
-    if (!destination) return tl::unexpected("cannot write " + p.path + ": " + destination.error());
-    auto file = OutputFile::create(std::move(*destination));
+    auto file = create_output(p.path);
     if (!file) return tl::unexpected(file.error());
     p.content((*file)->stream());
     if (auto complete = (*file)->complete(); !complete) return complete;
     made.push_back(std::move(*file));
   }
-  for (auto& file : made) {
-    const Destination& d = file->destination();
-    const auto [place, fresh] = place_of_file_.emplace(d.place(), files_.size());
-    if (d.kind == Destination::Kind::replaced && !fresh) {
-      files_[place->second] = std::move(file);
-    } else {
-      files_.push_back(std::move(file));
-    }
-  }
+  for (auto& file : made) keep(std::move(file));
   return {};
+}
+
+RunFiles::Result RunFiles::add(std::unique_ptr<OutputFile> file) {
+  if (auto complete = file->complete(); !complete) return complete;
+  keep(std::move(file));
+  return {};
+}
+
+void RunFiles::keep(std::unique_ptr<OutputFile> file) {
+  const Destination& d = file->destination();
+  const auto [place, fresh] = place_of_file_.emplace(d.place(), files_.size());
+  if (d.kind == Destination::Kind::replaced && !fresh) {
+    files_[place->second] = std::move(file);
+  } else {
+    files_.push_back(std::move(file));
+  }
 }
 
 std::vector<std::string> RunFiles::names() const {

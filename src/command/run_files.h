@@ -23,12 +23,16 @@ class RunFiles {
   };
   // All of them, or none. A file that an earlier call made under the same name is replaced.
   Result add(const std::vector<Planned>&);
+  // One that grew as the run went on.
+  Result add(std::unique_ptr<OutputFile>);
   // Under their names, or after an error none.
   Result commit(std::ostream& standard_output) { return dynalin::commit(files_, standard_output); }
   // Of files that are replaced as a whole, as the user wrote them, in the order of their making.
   std::vector<std::string> names() const;
 
  private:
+  void keep(std::unique_ptr<OutputFile>);
+
   std::vector<std::unique_ptr<OutputFile>> files_;
   std::map<Destination::Place, std::size_t> place_of_file_;  // among files_
 };

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "output/message_file.h"
 #include "output/operating_state_text.h"
@@ -17,8 +19,9 @@ RunState::RunState(const SessionOptions& of_user, const Job& to_do, std::shared_
       settings(job.model().settings),
       terminal(to_terminal),
       err(errors),
-      remarks(errors, message, json, job.prefix + ".msg") {
-  if (job.xrf_digits > 0) results.emplace(job.model().title, job.xrf_digits, job.model().units, settings.results);
+      remarks(errors, message, json, job.prefix + ".msg"),
+      steps(job, remarks) {
+  steps.settings = output_settings(job.model());
 }
 
 StudyResult<void> RunState::make_consistent() {
@@ -45,13 +48,28 @@ void RunState::accept(FoundPoint found) {
   remarks.say(found.remarks);
 }
 
-void RunState::show(StepKind kind, const OperatingState& state) {
+void RunState::show(StepKind kind, const OperatingState& state, const OperatingPoint& values) {
   write_operating_state(message, state, units());
-  if (results) results->add(kind, state);
+  steps.begin(kind);
+  const PointRequests requests = requests_at(system(), values);
+  steps.add(system().model(), state, requests);
+  steps.end();
+  say_undefined_requests(system(), values, requests);
   if (terminal && options.state) write_operating_state(*terminal, state, units());
   if (terminal && !options.state && kind == StepKind::statics)
     write_operating_state(*terminal, state, units(), short_tables);
   shown = true;
+}
+
+void RunState::say_undefined_requests(const System& of, const OperatingPoint& at, const PointRequests& requests) {
+  const auto undefined = [&](const RequestValues& r) {
+    return !undefined_requests_.contains(r.element) &&
+           !std::all_of(r.values.begin(), r.values.end(), [](double v) { return std::isfinite(v); });
+  };
+  if (std::none_of(requests.values.begin(), requests.values.end(), undefined)) return;
+  for (const UndefinedRequest& u : undefined_requests(of, at)) {
+    if (undefined_requests_.insert(u.element).second) remarks.say("undefined-request", u.reason);
+  }
 }
 
 }  // namespace dynalin

@@ -11,8 +11,8 @@
 #include "command/job.h"
 #include "command/remarks.h"
 #include "command/run_files.h"
+#include "command/step_files.h"
 #include "dynalin/operating_state.h"
-#include "output/results_file.h"
 
 namespace dynalin {
 
@@ -35,10 +35,12 @@ class RunState {
   // Where what it finds goes.
   std::ostream* terminal;  // nothing in a quiet run
   std::ostream& err;
-  std::ostringstream message, tables;  // of the message file and of the file of modal tables
+  std::ostream message{nullptr};  // into the message file, which grows as the run goes on
+  std::ostringstream tables;      // of the file of modal tables
   JsonResults json;
   Remarks remarks;
-  std::optional<ResultsFile> results;  // where the dataset has RESULTS with XRF
+  StepFiles steps;  // that get every point that is shown
+  ResultsFile* results() { return steps.results(); }
   RunFiles files;
 
   const System& system() const { return *point.system; }
@@ -49,9 +51,14 @@ class RunState {
   StudyResult<void> make_consistent();
   // A point that an analysis has found; it is not shown yet.
   void accept(FoundPoint);
-  // A point in all files that have it, and on the terminal as far as it is wanted there.
-  void show(StepKind, const OperatingState&);
+  // A point in all files that have it, and on the terminal as far as it is wanted there; `values` is that of the state.
+  void show(StepKind, const OperatingState&, const OperatingPoint& values);
+  // Requests without a finite value are named once a run.
+  void say_undefined_requests(const System&, const OperatingPoint&, const PointRequests&);
   bool shown = false;  // the point, where points are shown
+
+ private:
+  std::set<std::string> undefined_requests_;
 };
 
 }  // namespace dynalin

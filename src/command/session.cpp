@@ -52,6 +52,13 @@ class Session {
 
   int run() {
     const auto start = std::chrono::steady_clock::now();
+    auto opened = create_output(job_.prefix + ".msg");
+    if (!opened) {
+      fmt::print(err_, "error: {}\n", opened.error());
+      return analysis_failed;
+    }
+    message_ = std::move(*opened);
+    run_->message.rdbuf(message_->stream().rdbuf());
     begin();
     int status = done;
     for (const Command& c : job_.commands.commands) {
@@ -73,6 +80,7 @@ class Session {
 
  private:
   void begin() {
+    run_->steps.open_results();
     write_banner(run_->message, version);
     write_title(run_->message, job_.model().title);
     for (const Diagnostic& d : job_.warnings.items()) run_->json.add_warning("", remark_of(d));
@@ -99,22 +107,28 @@ class Session {
     std::vector<RunFiles::Planned> last;
     if (!run_->tables.view().empty())
       last.push_back({job_.prefix + ".txt", [&](std::ostream& o) { o << run_->tables.view(); }});
-    if (run_->results) {
-      const auto ending = status == done ? ResultsFile::Ending::successful : ResultsFile::Ending::failed;
-      last.push_back(
-          {job_.prefix + ".res", [this, ending](std::ostream& o) { run_->results->write(o, version, ending); }});
-    }
-    last.push_back({job_.prefix + ".msg", [&](std::ostream& o) { o << run_->message.view(); }});
-    if (!options_.json.empty())
-      last.push_back({options_.json, [&, status](std::ostream& o) {
-                        run_->json.finish(job_.model().units, status, planned_names(last));
-                        run_->json.write(o);
-                      }});
     auto result = run_->files.add(last);
+    if (result) result = add_growing_files(status);
+    if (result && !options_.json.empty()) {
+      std::vector<std::string> names = run_->files.names();
+      names.push_back(options_.json);
+      run_->json.finish(job_.model().units, status, names);
+      result = run_->files.add({{options_.json, [&](std::ostream& o) { run_->json.write(o); }}});
+    }
     if (result) result = run_->files.commit(out_);
     if (!result) fmt::print(err_, "error: {}\n", result.error());
     if (result) tell_of_files(status);
     return result.has_value();
+  }
+  RunFiles::Result add_growing_files(int status) {
+    if (std::string error = run_->steps.error(); !error.empty()) return tl::unexpected(std::move(error));
+    auto files = run_->steps.finish(status == done ? ResultsFile::Ending::successful : ResultsFile::Ending::failed);
+    run_->message.rdbuf(nullptr);
+    files.push_back(std::move(message_));
+    for (auto& file : files) {
+      if (auto added = run_->files.add(std::move(file)); !added) return added;
+    }
+    return {};
   }
   void tell_of_files(int status) const {
     const std::vector<std::string> names = run_->files.names();
@@ -125,12 +139,6 @@ class Session {
     }
     for (const std::string& name : names) fmt::print(out_, "wrote {}\n", name);
   }
-  // Of all files of the run.
-  std::vector<std::string> planned_names(const std::vector<RunFiles::Planned>& last) const {
-    std::vector<std::string> list = run_->files.names();
-    for (const RunFiles::Planned& p : last) list.push_back(p.path);
-    return list;
-  }
 
   const SessionOptions& options_;
   Job job_;
@@ -139,6 +147,7 @@ class Session {
   std::vector<std::shared_ptr<const System>> systems_;  // of the stages
   Diagnostics problems_;                                // why there is none
   std::size_t stage_ = 0;
+  std::unique_ptr<OutputFile> message_;
   std::optional<RunState> run_;
 };
 

@@ -5,6 +5,7 @@
 #include "library/inside.h"
 #include "output/json.h"
 #include "system/operating_state.h"
+#include "system/request_values.h"
 
 namespace dynalin::library {
 
@@ -20,7 +21,9 @@ struct Record::Inside {
   void add_linear(const std::string& command, const LinearModel& of, const Result& result) {
     warn(command, of.remarks());
     json.add(command, result);
-    json.add_point(operating_state(*of.inside().linear.system, of.inside().linear.point));
+    const Linearization& linear = of.inside().linear;
+    json.add_point(operating_state(*linear.system, linear.point));
+    json.add_requests(requests_at(*linear.system, linear.point).values);
   }
 };
 
@@ -38,6 +41,8 @@ void Record::add(const std::string& command, const OperatingPoint& point) {
     inside_->json.add(command, point.static_result());
   else
     inside_->json.add(command, point.state());
+  const StudyPoint& p = point.inside().point;
+  inside_->json.add_requests(requests_at(*p.system, point.is_static() ? p.statics->at_rest : p.values).values);
 }
 
 void Record::add(const std::string& command, const LinearModel& of, const StateSpace& result) {

@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "mechanics/bound_expression.h"
+#include "mechanics/marker_references.h"
 
 namespace dynalin {
 
@@ -75,20 +76,16 @@ bool is_constant_on_a_body(Measure m) {
   }
 }
 
-// Where a marker is, and its axes where they are read: a floating marker has no place of its own. One on a curve whose
-// axes do not matter is as well at the origin of the fixed marker that lies there, if there is one.
+// A floating marker has no place of its own.
 MarkerFrame find_marker(Binder& binder, const Atom& atom, std::int64_t id, bool axes) {
   const Signals& signals = binder.signals();
-  const Layout& layout = signals.layout();
-  const MarkerId m = signals.marker(id), followed = signals.place_of(m);
+  const MarkerId m = signals.marker(id);
   if (!signals.has_place(m)) {
     binder.problem("unplaced-marker", atom.at,
-                   std::string(atom.at.text()) + " reads " + layout.marker_label(m).full_text() +
+                   std::string(atom.at.text()) + " reads " + signals.layout().marker_label(m).full_text() +
                        ", a floating marker that no element gives a place");
   }
-  const CurvePoint* on = layout.curve_point(m);
-  if (!on || (!axes && !(followed == m))) return {&layout.marker(followed)};
-  return {&layout.marker(on->carrier), on->curve.get(), on->coordinate, layout.extra_index(on->coordinate)};
+  return frame_of_marker(signals, m, axes ? Axes::read : Axes::unread);
 }
 
 }  // namespace
@@ -211,12 +208,8 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binde
       a.component = static_cast<std::uint8_t>(std::find(names.begin(), names.end(), f.name) - names.begin() + 1);
       const MarkerId i = signals.marker(atom.argument[0]);
       const bool from_all = atom.argument[1] == 0;
-      const MarkerId j = signals.marker(atom.argument[1]);
-      for (const Signals::Wrench& w : signals.wrenches_at(i)) {
-        const bool is_I = w.source->marker_I(w.which) == i;
-        const MarkerId other = is_I ? w.source->marker_J(w.which) : w.source->marker_I(w.which);
-        if (from_all || other == j) a.terms.push_back({w, !is_I});
-      }
+      const auto j = from_all ? std::nullopt : std::optional(signals.marker(atom.argument[1]));
+      for (const MarkerLoad& l : loads_on(signals, i, j)) a.terms.push_back({l.wrench, l.on_J});
       a.axes_marker = find_marker(binder, atom, atom.argument[2], true);
       note_blocks(a, a.axes_marker, signals.layout(), false);
       break;

@@ -3,22 +3,14 @@
 
 #include "mechanics/bound_expression.h"
 #include "mechanics/frame_variations.h"
+#include "mechanics/marker_references.h"
 #include "mechanics/pair_blocks.h"
 
 namespace dynalin {
 
 namespace {
 
-// Force or torque on the marker of a term, global axes.
-Vector on_marker(const MarkerWrench& w, bool on_J, bool torque) {
-  if (!on_J) return torque ? w.force.torque : w.force.force;
-  if (!w.force.acts_on_J()) return {};
-  if (!torque) return -w.force.force;
-  const Vector delta = value(w.pair.delta);
-  return -w.force.torque - cross(delta, w.force.force);
-}
-
-bool is_torque(std::uint8_t component) { return component > 4; }
+LoadPart part_of(std::uint8_t component) { return component > 4 ? LoadPart::torque : LoadPart::force; }
 bool is_magnitude(std::uint8_t component) { return component == 1 || component == 5; }
 std::size_t axis_of(std::uint8_t component) { return (component - 2u) % 4u; }
 
@@ -30,7 +22,7 @@ double BoundExpression::force_value(const BoundAtom& a, const Motion& motion) co
   for (const ForceTerm& t : a.terms) {
     w.clear();
     t.wrench.source->wrench(motion, t.wrench.which, false, w);
-    sum += on_marker(w, t.on_J, is_torque(a.component));
+    sum += on_marker(w, t.on_J, part_of(a.component));
   }
   if (is_magnitude(a.component)) return norm(sum);
   return dot(a.axes_marker.axes(motion)[axis_of(a.component)], sum);
@@ -49,13 +41,14 @@ bool BoundExpression::is_size_of_nothing(const BoundAtom& a, const Motion& motio
 
 void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equations& eq, std::int32_t row,
                                 double factor, PartialBy velocity_family) const {
-  const bool torque = is_torque(a.component);
+  const LoadPart part = part_of(a.component);
+  const bool torque = part == LoadPart::torque;
   std::vector<MarkerWrench> wrenches(a.terms.size());
   Vector sum{};
   for (std::size_t t = 0; t < a.terms.size(); ++t) {
     const ForceTerm& term = a.terms[t];
     term.wrench.source->wrench(motion, term.wrench.which, true, wrenches[t]);
-    sum += on_marker(wrenches[t], term.on_J, torque);
+    sum += on_marker(wrenches[t], term.on_J, part);
   }
   // The direction that picks the component: an axis of the marker, or that of the vector itself.
   Vector e{};

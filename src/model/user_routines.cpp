@@ -35,15 +35,17 @@ constexpr std::array<std::string_view, 1> one = {"FUNCTION"};
 constexpr std::array<std::string_view, 3> forces = {"FX", "FY", "FZ"}, torques = {"TX", "TY", "TZ"};
 constexpr std::array<std::string_view, 6> both = {"FX", "FY", "FZ", "TX", "TY", "TZ"};
 constexpr std::array<std::string_view, 2> field = {"KMATRIX", "FORCE"};
-constexpr std::array<Stand, 9> stands = {{{"VARIABLE", one},
-                                          {"SFORCE", one},
-                                          {"DIFF", one},
-                                          {"MOTION", one},
-                                          {"VFORCE", forces},
-                                          {"VTORQUE", torques},
-                                          {"GFORCE", both},
-                                          {"SENSOR", one},
-                                          {"FIELD", field}}};
+constexpr std::array<std::string_view, 8> request = {"F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"};
+constexpr std::array<Stand, 10> stands = {{{"REQUEST", request},
+                                           {"VARIABLE", one},
+                                           {"SFORCE", one},
+                                           {"DIFF", one},
+                                           {"MOTION", one},
+                                           {"VFORCE", forces},
+                                           {"VTORQUE", torques},
+                                           {"GFORCE", both},
+                                           {"SENSOR", one},
+                                           {"FIELD", field}}};
 
 class Replacement {
  public:
@@ -51,7 +53,8 @@ class Replacement {
       : catalogue_(catalogue), value_(value), diagnostics_(diagnostics) {
     if (!value) return;
     std::string text = "CONSTANT/1";
-    for (const std::string_view name : {"FUNCTION", "FX", "FY", "FZ", "TX", "TY", "TZ"})
+    for (const std::string_view name :
+         {"FUNCTION", "FX", "FY", "FZ", "TX", "TY", "TZ", "F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"})
       text += fmt::format(", {}={:.17g}", name, *value);
     text += ", KMATRIX=0";
     for (int k = 1; k < 36; ++k) text += ",0";
@@ -71,6 +74,8 @@ class Replacement {
         std::find_if(catalogue_.begin(), catalogue_.end(), [&](const Kind* k) { return k->statement == s.name; });
     if (kind == catalogue_.end() || (*kind)->role == Kind::Role::inert) return;
     const auto call = std::find_if(s.arguments.begin(), s.arguments.end(), calls_routine);
+    // Without what it requests it is left out, where it is read.
+    if (s.name == "REQUEST" && (!value_ || call == s.arguments.end())) return;
     if (call != s.arguments.end()) {
       replace(s, static_cast<std::size_t>(call - s.arguments.begin()));
     } else if (const auto code = std::find_if(s.arguments.begin(), s.arguments.end(), names_code);

@@ -148,6 +148,10 @@ void JsonResults::add(const std::string& command, const StaticResult& s) {
                                 {"operating_point", json_of(s.at_rest)}});
 }
 
+void JsonResults::add(const std::string& command, double time, const History& h) {
+  document_->results.push_back({{"command", command}, {"time", time}, {"history", json_of(h)}});
+}
+
 void JsonResults::add_tables(const std::vector<ModalTable>& tables) {
   if (tables.empty()) return;
   Json list = Json::array();
@@ -156,6 +160,10 @@ void JsonResults::add_tables(const std::vector<ModalTable>& tables) {
 }
 
 void JsonResults::add_point(const OperatingState& s) { document_->results.back()["operating_point"] = json_of(s); }
+
+void JsonResults::add_requests(const std::vector<RequestValues>& requests) {
+  document_->results.back()["operating_point"]["requests"] = json_of(requests);
+}
 
 void JsonResults::add_warning(const std::string& command, const Remark& r) {
   Json warning = json_of(r);

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "dynalin/history.h"
 #include "dynalin/modal_table.h"
 #include "dynalin/operating_state.h"
 #include "dynalin/remark.h"
+#include "dynalin/request_values.h"
 #include "dynalin/results.h"
 #include "dynalin/units.h"
 
@@ -28,8 +30,12 @@ class JsonResults {
   // SIMULATE: the point that it found.
   void add(const std::string& command, const OperatingState&);
   void add(const std::string& command, const StaticResult&);
+  // SIMULATE over time: where it ended, and what it left behind.
+  void add(const std::string& command, double time, const History&);
   // The point at which the last result was linearized.
   void add_point(const OperatingState&);
+  // Of the point of the last result.
+  void add_requests(const std::vector<RequestValues>&);
   // Of the modes of the last result.
   void add_tables(const std::vector<ModalTable>&);
   // `command` is the one that it came up with, empty for what was found in reading.

@@ -44,6 +44,11 @@ Json list_of(const std::vector<Value>& values, const Make& make) {
   return list;
 }
 
+// What is missing is not a number, which JSON does not know.
+Json finite(const std::vector<double>& values) {
+  return list_of(values, [](double v) { return std::isfinite(v) ? Json(v) : Json(); });
+}
+
 Json channels(const ChannelValues& c) { return {{"element", c.element}, {"name", c.view_name}, {"values", c.values}}; }
 
 }  // namespace
@@ -87,6 +92,25 @@ Json json_of(const OperatingState& s) {
                })},
       {"plant_inputs", list_of(s.plant_inputs, channels)},
       {"plant_outputs", list_of(s.plant_outputs, channels)}};
+}
+
+Json json_of(const std::vector<RequestValues>& requests) {
+  return list_of(requests, [](const RequestValues& r) -> Json {
+    return {{"element", r.element}, {"name", r.view_name}, {"components", r.components}, {"values", finite(r.values)}};
+  });
+}
+
+Json json_of(const History& h) {
+  Json variables = Json::object(), requests = Json::object();
+  for (const VariableHistory& v : h.variables) variables[std::to_string(v.id)] = finite(v.values);
+  for (const RequestHistory& r : h.requests) {
+    Json values = Json::array();
+    for (const std::vector<double>& step : r.values) values.push_back(finite(step));
+    constexpr std::string_view own = "REQUEST/";
+    requests[r.element.starts_with(own) ? r.element.substr(own.size()) : r.element] = {{"components", r.components},
+                                                                                       {"values", std::move(values)}};
+  }
+  return {{"times", h.times}, {"variables", std::move(variables)}, {"requests", std::move(requests)}};
 }
 
 Json json_of(const Stability& s) {

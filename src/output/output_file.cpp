@@ -76,6 +76,17 @@ tl::expected<std::unique_ptr<OutputFile>, std::string> OutputFile::create(Destin
   return file;
 }
 
+tl::expected<std::unique_ptr<OutputFile>, std::string> create_output(const std::string& path) {
+  auto destination = find_destination(path);
+  if (!destination) return tl::unexpected("cannot write " + path + ": " + destination.error());
+  return OutputFile::create(std::move(*destination));
+}
+
+tl::expected<void, std::string> OutputFile::so_far() const {
+  if (buffer_ && buffer_->error() != 0) return failed(buffer_->error());
+  return {};
+}
+
 tl::expected<void, std::string> OutputFile::complete() {
   if (!buffer_) return {};
   stream_->flush();

@@ -22,6 +22,8 @@ class OutputFile {
 
   const Destination& destination() const { return destination_; }
   std::ostream& stream() { return *stream_; }
+  // Whether what was written until now could be written.
+  tl::expected<void, std::string> so_far() const;
   // Nothing more is written to it: all bytes are on the disk, under a temporary name, and it is closed.
   tl::expected<void, std::string> complete();
 
@@ -54,6 +56,9 @@ class OutputFile {
   std::unique_ptr<std::ostream> stream_;  // into the buffer, or for all others into memory
   bool replaced_another_ = false;
 };
+
+// A file under a name as the user writes it.
+tl::expected<std::unique_ptr<OutputFile>, std::string> create_output(const std::string& path);
 
 // All of them or, after an error, none: what stood under their names before is back.
 tl::expected<void, std::string> commit(const std::vector<std::unique_ptr<OutputFile>>&, std::ostream& standard_output);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -33,7 +34,12 @@ std::string channel_map(std::string_view list, std::string_view entry, const std
 
 }  // namespace
 
-std::string ResultsFile::number(double x) const { return fmt::format("{:.{}g}", x + 0.0, digits_); }
+// As XML names what is no finite number.
+std::string ResultsFile::number(double x) const {
+  if (std::isnan(x)) return "NaN";
+  if (std::isinf(x)) return x > 0 ? "INF" : "-INF";
+  return fmt::format("{:.{}g}", x + 0.0, head_.digits);
+}
 
 void ResultsFile::add(const EigenSolution& e, const std::vector<ModalTable>& tables) {
   std::string s = fmt::format("<dl:Linear time=\"{}\" rm=\"{}\" pstate=\"{}\" damping=\"{}\" original=\"{}\">\n",
@@ -120,17 +126,74 @@ void ResultsFile::add(const SecondOrder& model) {
   blocks_.push_back(s + "</dl:Linear>\n");
 }
 
-void ResultsFile::write(std::ostream& out, const std::string& version, Ending ending) const {
-  fmt::print(out,
+ResultsFile::ResultsFile(std::ostream& out, ResultsHead head)
+    : out_(out), head_(std::move(head)), steps_(head_.units, head_.contents) {
+  fmt::print(out_,
              "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Results xmlns=\"http://www.mscsoftware.com/:xrf10\" "
              "xmlns:dl=\"urn:dynalin:linear:1\">\n");
-  fmt::print(out, "<Bibliography>\n<File schema=\"xrf\" version=\"2.0.0.0\" />\n</Bibliography>\n");
-  fmt::print(out, "<Analysis name=\"ANALYSIS_01\" Solver=\"Dynalin {}\">\n<ModelInfo title=\"{}\" />\n", version,
-             escaped(title_));
-  out << steps_.text([this](double x) { return number(x); });
-  for (const std::string& block : blocks_) out << block;
-  fmt::print(out, "<TerminationStatus runTermObject=\"\" runStatus=\"{}\" />\n</Analysis>\n</Results>\n",
+  fmt::print(out_, "<Bibliography>\n<File schema=\"xrf\" version=\"2.0.0.0\" />\n");
+  if (!head_.contents.comment.empty())
+    fmt::print(out_, "<Revision version=\"1\" derivedFrom=\"-unknown-\"><Comment>{}</Comment></Revision>\n",
+               escaped(head_.contents.comment));
+  fmt::print(out_, "</Bibliography>\n");
+}
+
+void ResultsFile::begin_analysis() {
+  in_analysis_ = true;
+  fmt::print(out_, "<Analysis name=\"ANALYSIS_{:02d}\" Solver=\"Dynalin {}\">\n<ModelInfo title=\"{}\" />\n{}",
+             ++analyses_, head_.version, escaped(head_.title), steps_.units());
+}
+
+void ResultsFile::end_analysis(Ending ending) {
+  for (const std::string& block : blocks_) out_ << block;
+  blocks_.clear(), map_.clear();
+  in_analysis_ = false;
+  fmt::print(out_, "<TerminationStatus runTermObject=\"\" runStatus=\"{}\" />\n</Analysis>\n",
              ending == Ending::successful ? "Successful" : "Failed");
+}
+
+namespace {
+
+std::string_view data_name(StepKind kind) {
+  static constexpr std::array<std::string_view, 5> names = {"initialConditions", "static", "quasiStatic", "kinematic",
+                                                            "dynamic"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+}  // namespace
+
+void ResultsFile::begin(StepKind kind) {
+  end();
+  kind_ = kind;
+}
+
+void ResultsFile::add(const OperatingState& state, const PointRequests& requests) {
+  if (!in_data_) {
+    std::string map = steps_.map(state, requests);
+    if (in_analysis_ && !map_.empty() && map != map_) end_analysis(Ending::successful);
+    if (!in_analysis_) begin_analysis();
+    if (map_.empty()) {
+      map_ = std::move(map);
+      fmt::print(out_, "<StepMap name=\"map_{:03d}\">\n{}</StepMap>\n", analyses_, map_);
+    }
+    const std::string_view name = data_name(kind_);
+    fmt::print(out_, "<Data name=\"{}_{:03d}\" id=\"{}\">\n", name, ++count_[name], ++data_);
+    in_data_ = true;
+  }
+  fmt::print(out_, "<Step type=\"{}\">\n{}</Step>\n", data_name(kind_),
+             steps_.numbers(state, requests, [this](double x) { return number(x); }));
+}
+
+void ResultsFile::end() {
+  if (in_data_) out_ << "</Data>\n";
+  in_data_ = false;
+}
+
+void ResultsFile::finish(Ending ending) {
+  end();
+  if (!in_analysis_) begin_analysis();
+  end_analysis(ending);
+  out_ << "</Results>\n";
 }
 
 }  // namespace dynalin

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,17 +14,27 @@
 
 namespace dynalin {
 
+struct ResultsHead {
+  std::string title, version;
+  int digits = 17;  // significant decimals of every number (DECIMALPLACES)
+  Units units;
+  ResultsContents contents;
+};
+
+// Written as the run goes on. Steps follow each other in blocks; steps of a model with other entities stand in an
+// <Analysis> of their own. What linear analyses found is kept until the end of the analysis that it belongs to.
 class ResultsFile {
  public:
-  // `digits` significant decimals of every number (DECIMALPLACES).
-  ResultsFile(std::string title, int digits, Units units, ResultsSettings settings)
-      : title_(std::move(title)), digits_(digits), steps_(std::move(units), std::move(settings)) {}
-  void add(StepKind kind, const OperatingState& state) { steps_.add(kind, state); }
+  ResultsFile(std::ostream&, ResultsHead);
+  // A block of steps of one kind, and its end.
+  void begin(StepKind);
+  void add(const OperatingState&, const PointRequests&);
+  void end();
   void add(const EigenSolution&, const std::vector<ModalTable>& tables = {});
   void add(const StateSpace&);
   void add(const SecondOrder&);
   enum class Ending : bool { successful, failed };
-  void write(std::ostream&, const std::string& version, Ending) const;
+  void finish(Ending);
 
  private:
   std::string number(double) const;
@@ -32,9 +43,17 @@ class ResultsFile {
   // The head of what belongs to matrices: options and channels.
   template <class Matrices>
   std::string head(const Matrices&, std::string_view option) const;
-  std::string title_;
-  int digits_;
+  void begin_analysis();
+  void end_analysis(Ending);
+
+  std::ostream& out_;
+  ResultsHead head_;
   ResultsSteps steps_;
+  std::string map_;  // of the analysis, empty before its first step
+  int analyses_ = 0, data_ = 0;
+  bool in_analysis_ = false, in_data_ = false;
+  StepKind kind_ = StepKind::initial_conditions;
+  std::map<std::string_view, int> count_;  // of blocks by kind
   std::vector<std::string> blocks_;
 };
 

@@ -24,21 +24,23 @@ std::string unit_name(const std::string& keyword) {
   return name;
 }
 
-std::string statement_of(const std::string& element) { return element.substr(0, element.find('/')); }
-std::int64_t id_of(const std::string& element) { return std::stoll(element.substr(element.find('/') + 1)); }
+std::string_view statement_of(std::string_view element) { return element.substr(0, element.find('/')); }
+std::string id_of(const std::string& element) { return element.substr(element.find('/') + 1); }
 
 // The last part of a view name, or "PART_2".
 std::string entity_name(const std::string& element, const std::string& view_name) {
   if (const auto dot = view_name.rfind('.'); !view_name.empty())
     return dot == std::string::npos ? view_name : view_name.substr(dot + 1);
   std::string name = element;
-  std::replace(name.begin(), name.end(), '/', '_');
+  std::ranges::replace_if(
+      name, [](char c) { return c == '/' || c == ' '; }, '_');
   return name;
 }
 
-// Those of PART, JOINT, SFORCE, VARIABLE, PINPUT and POUTPUT are seen in files of others; the rest is formed like them.
-std::string entity_type(const std::string& statement) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 16> types = {
+// Those of PART, JOINT, SFORCE, VARIABLE, PINPUT, POUTPUT and REQUEST are seen in files of others; the rest is formed
+// like them.
+std::string_view entity_type(std::string_view statement) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 18> types = {
       {{"PART", "Part"},
        {"POINT_MASS", "Point_Mass"},
        {"JOINT", "Joint"},
@@ -54,15 +56,17 @@ std::string entity_type(const std::string& statement) {
        {"GFORCE", "General_Force"},
        {"VARIABLE", "ADAMS_Variable"},
        {"PINPUT", "Plant_Input"},
-       {"POUTPUT", "Plant_Output"}}};
+       {"POUTPUT", "Plant_Output"},
+       {"REQUEST", "Request"},
+       {"MREQUEST", "Request"}}};
   const auto found = std::find_if(types.begin(), types.end(), [&](const auto& t) { return t.first == statement; });
-  return found == types.end() ? statement : std::string(found->second);
+  return found == types.end() ? statement : found->second;
 }
 
-constexpr std::array<std::string_view, 6> displacement = {"X", "Y", "Z", "PSI", "THETA", "PHI"};
-constexpr std::array<std::string_view, 6> velocity = {"VX", "VY", "VZ", "WX", "WY", "WZ"};
-constexpr std::array<std::string_view, 6> acceleration = {"ACCX", "ACCY", "ACCZ", "WDX", "WDY", "WDZ"};
-constexpr std::array<std::string_view, 6> wrench = {"FX", "FY", "FZ", "TX", "TY", "TZ"};
+constexpr std::array<std::string_view, 6> position_names = {"X", "Y", "Z", "PSI", "THETA", "PHI"};
+constexpr std::array<std::string_view, 6> velocity_names = {"VX", "VY", "VZ", "WX", "WY", "WZ"};
+constexpr std::array<std::string_view, 6> acceleration_names = {"ACCX", "ACCY", "ACCZ", "WDX", "WDY", "WDZ"};
+constexpr std::array<std::string_view, 6> wrench_names = {"FX", "FY", "FZ", "TX", "TY", "TZ"};
 
 }  // namespace
 
@@ -89,128 +93,164 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-void ResultsSteps::add(StepKind kind, const OperatingState& state) { steps_.push_back({kind, quantities(state)}); }
-
-void ResultsSteps::add_loads(const std::vector<Load>& loads, Section section, std::vector<Quantity>& out) const {
-  const std::string force = unit_name(units_.force), length = unit_name(units_.length);
-  const std::string torque = force.empty() ? "" : force + "*" + length;
-  std::map<std::string, int> count;
-  for (const Load& l : loads) ++count[l.element];
-  for (const Load& l : loads) {
-    std::string name = entity_name(l.element, l.view_name);
-    if (count[l.element] > 1) name += "_MARKER_" + std::to_string(l.marker_I);
-    const Entity entity{name, name, entity_type(statement_of(l.element)), id_of(l.element)};
-    for (std::size_t k = 0; k < 6; ++k)
-      out.push_back(
-          {section, entity, std::string(wrench[k]), k < 3 ? force : torque, k < 3 ? l.force[k] : l.torque[k - 3]});
-  }
-}
-
-std::vector<ResultsSteps::Quantity> ResultsSteps::quantities(const OperatingState& state) const {
-  const std::string length = unit_name(units_.length), time = unit_name(units_.time);
+ResultsSteps::ResultsSteps(Units units, ResultsContents contents)
+    : units_(std::move(units)), contents_(std::move(contents)) {
+  const std::string meters = unit_name(units_.length), seconds = unit_name(units_.time),
+                    newtons = unit_name(units_.force);
   const auto per_time = [&](const std::string& unit, std::string_view power) {
-    return unit.empty() || time.empty() ? std::string() : unit + "/" + time + std::string(power);
+    return unit.empty() || seconds.empty() ? std::string() : unit + "/" + seconds + std::string(power);
   };
-  std::vector<Quantity> list{{Section::time, {"time", "", "", 0}, "TIME", time, state.time}};
-  const auto motion = [&](bool omitted, Section section, const auto& names, Triple BodyState::*first,
-                          Triple BodyState::*second, const std::string& unit, const std::string& angular) {
-    for (const BodyState& b : state.bodies) {
-      const std::string name = entity_name(b.element, b.view_name), statement = statement_of(b.element);
-      const std::size_t count = statement == "PART" ? 6 : 3;
-      for (std::size_t k = 0; k < count && !omitted; ++k)
-        list.push_back({section,
-                        {name + "_XFORM", name, entity_type(statement), id_of(b.element)},
-                        std::string(names[k]),
-                        k < 3 ? unit : angular,
-                        k < 3 ? (b.*first)[k] : (b.*second)[k - 3]});
-    }
-  };
-  motion(settings_.without_displacements, Section::positions, displacement, &BodyState::position, &BodyState::angles,
-         length, "rad");
-  motion(settings_.without_velocities, Section::velocities, velocity, &BodyState::velocity,
-         &BodyState::angular_velocity, per_time(length, ""), per_time("rad", ""));
-  motion(settings_.without_accelerations, Section::accelerations, acceleration, &BodyState::acceleration,
-         &BodyState::angular_acceleration, per_time(length, "**2"), per_time("rad", "**2"));
-  if (!settings_.without_reactions) add_loads(state.reactions, Section::reactions, list);
-  if (!settings_.without_forces) add_loads(state.forces, Section::forces, list);
-  if (settings_.without_system_elements) return list;
-  const auto value = [&](const std::string& element, const std::string& view_name, const std::string& component,
-                         double v) {
-    const std::string name = entity_name(element, view_name);
-    list.push_back(
-        {Section::values, {name, name, entity_type(statement_of(element)), id_of(element)}, component, "", v});
-  };
-  for (const VariableValue& v : state.variables) value("VARIABLE/" + std::to_string(v.id), v.view_name, "Q", v.value);
-  for (const ChannelValues& c : state.plant_inputs) {
-    for (std::size_t k = 0; k < c.values.size(); ++k)
-      value(c.element, c.view_name, fmt::format("IN{}", k + 1), c.values[k]);
-  }
-  for (const ChannelValues& c : state.plant_outputs) {
-    for (std::size_t k = 0; k < c.values.size(); ++k)
-      value(c.element, c.view_name, fmt::format("OUT{}", k + 1), c.values[k]);
-  }
-  for (const StateValue& z : state.states) {
-    value(z.element, z.view_name, fmt::format("Q{}", z.number), z.value);
-    value(z.element, z.view_name, fmt::format("QDOT{}", z.number), z.rate);
-  }
-  return list;
+  unit_names_ = {"",
+                 meters,
+                 "rad",
+                 per_time(meters, ""),
+                 per_time("rad", ""),
+                 per_time(meters, "**2"),
+                 per_time("rad", "**2"),
+                 newtons,
+                 newtons.empty() ? "" : newtons + "*" + meters,
+                 seconds};
 }
 
-std::string ResultsSteps::text(const std::function<std::string(double)>& number) const {
+template <class Use>
+void ResultsSteps::loads(const std::vector<Load>& list, const Use& use) const {
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const Load& l = list[k];
+    // Those of one element follow each other.
+    const bool one_of_many =
+        (k > 0 && list[k - 1].element == l.element) || (k + 1 < list.size() && list[k + 1].element == l.element);
+    const Owner owner{&l.element, &l.view_name, false, one_of_many ? l.marker_I : 0, nullptr};
+    for (std::size_t c = 0; c < 6; ++c)
+      use(owner, Component{wrench_names[c], 0, c < 3 ? force : torque, nullptr}, c < 3 ? l.force[c] : l.torque[c - 3]);
+  }
+}
+
+template <class Use>
+void ResultsSteps::for_each(const OperatingState& state, const PointRequests& requests, const Use& use) const {
+  use(Owner{}, Component{"TIME", 0, time, nullptr}, state.time);
+  const ResultsSettings& less = contents_.settings;
+  const auto motion = [&](bool omitted, const auto& names, Triple BodyState::*first, Triple BodyState::*second,
+                          Unit unit, Unit angular) {
+    for (std::size_t b = 0; b < state.bodies.size() && !omitted; ++b) {
+      const BodyState& body = state.bodies[b];
+      const std::size_t count = statement_of(body.element) == "PART" ? 6 : 3;
+      for (std::size_t k = 0; k < count; ++k)
+        use(Owner{&body.element, &body.view_name, true, 0, nullptr},
+            Component{names[k], 0, k < 3 ? unit : angular, nullptr}, k < 3 ? (body.*first)[k] : (body.*second)[k - 3]);
+    }
+  };
+  motion(less.without_displacements, position_names, &BodyState::position, &BodyState::angles, length, angle);
+  motion(less.without_velocities, velocity_names, &BodyState::velocity, &BodyState::angular_velocity, velocity,
+         angular_velocity);
+  motion(less.without_accelerations, acceleration_names, &BodyState::acceleration, &BodyState::angular_acceleration,
+         acceleration, angular_acceleration);
+  if (!less.without_reactions) loads(state.reactions, use);
+  if (!less.without_forces) loads(state.forces, use);
+  if (!less.without_system_elements) {
+    std::string name;
+    for (const VariableValue& v : state.variables) {
+      name = "VARIABLE/" + std::to_string(v.id);
+      use(Owner{&name, &v.view_name, false, 0, nullptr}, Component{"Q", 0, none, nullptr}, v.value);
+    }
+    const auto channels = [&](const std::vector<ChannelValues>& list, std::string_view component) {
+      for (const ChannelValues& c : list) {
+        for (std::size_t k = 0; k < c.values.size(); ++k)
+          use(Owner{&c.element, &c.view_name, false, 0, nullptr},
+              Component{component, static_cast<int>(k) + 1, none, nullptr}, c.values[k]);
+      }
+    };
+    channels(state.plant_inputs, "IN");
+    channels(state.plant_outputs, "OUT");
+    for (const StateValue& z : state.states) {
+      const Owner owner{&z.element, &z.view_name, false, 0, nullptr};
+      use(owner, Component{"Q", z.number, none, nullptr}, z.value);
+      use(owner, Component{"QDOT", z.number, none, nullptr}, z.rate);
+    }
+  }
+  for (std::size_t r = 0; r < requests.infos.size() && contents_.requests; ++r) {
+    const RequestInfo& info = *requests.infos[r];
+    const auto unit_at = [&](int place) {
+      const bool rotation = place > 4;
+      switch (info.kind) {
+        case RequestKind::displacement:
+          return rotation ? angle : length;
+        case RequestKind::velocity:
+          return rotation ? angular_velocity : velocity;
+        case RequestKind::acceleration:
+          return rotation ? angular_acceleration : acceleration;
+        case RequestKind::force:
+          return rotation ? torque : force;
+        case RequestKind::functions:
+          break;
+      }
+      return none;
+    };
+    for (std::size_t k = 0; k < info.components().size(); ++k) {
+      const RequestComponent& c = info.components()[k];
+      if (c.in_results)
+        use(Owner{&info.element, &info.view_name, false, 0, &info}, Component{c.called(), 0, unit_at(c.place), &c},
+            requests.values[r].values[k]);
+    }
+  }
+}
+
+std::string ResultsSteps::component(const Component& c, std::size_t id) const {
+  std::string s = fmt::format("<Component name=\"{}", escaped(c.name));
+  if (c.number > 0) s += std::to_string(c.number);
+  s += '"';
+  const bool given = c.requested && !c.requested->unit.empty();
+  const std::string& unit = given ? c.requested->unit : unit_names_[c.unit];
+  if (!unit.empty()) s += fmt::format(" unitsValue=\"{}\"", escaped(unit));
+  if (c.requested && !c.requested->label.empty()) s += fmt::format(" plotLabel=\"{}\"", escaped(c.requested->label));
+  return s + fmt::format(" id=\"{}\" />\n", id);
+}
+
+std::string ResultsSteps::map(const OperatingState& state, const PointRequests& requests) const {
+  struct Entity {
+    std::string head, components;
+  };
+  std::vector<Entity> entities;
+  std::map<std::string, std::size_t> place;
+  std::size_t id = 0;
+  for_each(state, requests, [&](const Owner& owner, const Component& c, double) {
+    std::string head = "<Entity name=\"time\">\n";
+    if (owner.element) {
+      std::string name = entity_name(*owner.element, *owner.view_name);
+      if (owner.marker) name += "_MARKER_" + std::to_string(owner.marker);
+      if (owner.request && !owner.request->results_name.empty()) name = owner.request->results_name;
+      const std::string object = owner.request ? std::to_string(owner.request->id) : id_of(*owner.element);
+      head = fmt::format("<Entity name=\"{}{}\" entity=\"{}\" entType=\"{}\" objectId=\"{}\">\n", escaped(name),
+                         owner.is_pose ? "_XFORM" : "", escaped(name),
+                         escaped(entity_type(statement_of(*owner.element))), object);
+    }
+    const auto [at, fresh] = place.emplace(head, entities.size());
+    if (fresh) entities.push_back({std::move(head), {}});
+    entities[at->second].components += component(c, ++id);
+  });
   std::string s;
-  if (!units_.length.empty()) {
-    s += fmt::format("<Units angle=\"rad\" length=\"{}\" mass=\"{}\" time=\"{}\" />\n", unit_name(units_.length),
-                     unit_name(units_.mass), unit_name(units_.time));
-  }
-  if (steps_.empty()) return s;
-  // Places by section, then in the order of their first appearance.
-  using Key = std::pair<std::string, std::string>;  // entity and component
-  const auto key = [](const Quantity& q) { return Key(q.entity.type + q.entity.name, q.component); };
-  std::map<Key, std::size_t> place;
-  std::vector<const Quantity*> known;
-  for (const Step& step : steps_) {
-    for (const Quantity& q : step.quantities) {
-      if (place.emplace(key(q), 0).second) known.push_back(&q);
-    }
-  }
-  std::stable_sort(known.begin(), known.end(), [](auto* a, auto* b) { return a->section < b->section; });
-  std::map<std::string, std::vector<const Quantity*>> of_entity;
-  std::vector<std::string> entities;
-  for (std::size_t k = 0; k < known.size(); ++k) {
-    place[key(*known[k])] = k;
-    auto& members = of_entity[key(*known[k]).first];
-    if (members.empty()) entities.push_back(key(*known[k]).first);
-    members.push_back(known[k]);
-  }
-  s += "<StepMap name=\"map_001\">\n";
-  for (const std::string& name : entities) {
-    const Entity& e = of_entity[name].front()->entity;
-    s += fmt::format("<Entity name=\"{}\"", escaped(e.name));
-    if (!e.type.empty())
-      s += fmt::format(" entity=\"{}\" entType=\"{}\" objectId=\"{}\"", escaped(e.element), escaped(e.type), e.id);
-    s += ">\n";
-    for (const Quantity* q : of_entity[name]) {
-      s += fmt::format("<Component name=\"{}\"", q->component);
-      if (!q->unit.empty()) s += fmt::format(" unitsValue=\"{}\"", escaped(q->unit));
-      s += fmt::format(" id=\"{}\" />\n", place[key(*q)] + 1);
-    }
-    s += "</Entity>\n";
-  }
-  s += "</StepMap>\n";
-  std::map<std::string_view, int> count;
-  int id = 0;
-  for (const Step& step : steps_) {
-    const std::string_view kind = step.kind == StepKind::statics ? "static" : "initialConditions";
-    std::vector<double> values(known.size(), 0.0);
-    for (const Quantity& q : step.quantities) values[place.at(key(q))] = q.value;
-    s += fmt::format("<Data name=\"{0}_{1:03d}\" id=\"{2}\">\n<Step type=\"{0}\">\n", kind, ++count[kind], ++id);
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      const bool ends = k + 1 == values.size() || key(*known[k]).first != key(*known[k + 1]).first;
-      s += number(values[k]) + (ends ? "\n" : " ");
-    }
-    s += "</Step>\n</Data>\n";
-  }
+  for (const Entity& e : entities) s += e.head + e.components + "</Entity>\n";
   return s;
+}
+
+std::string ResultsSteps::numbers(const OperatingState& state, const PointRequests& requests,
+                                  const std::function<std::string(double)>& number) const {
+  std::string s;
+  Owner before;
+  std::string name_before;
+  for_each(state, requests, [&](const Owner& owner, const Component&, double value) {
+    const std::string_view name = owner.element ? std::string_view(*owner.element) : std::string_view();
+    const bool same = name == name_before && owner.marker == before.marker && owner.request == before.request;
+    if (!s.empty()) s += same ? ' ' : '\n';
+    s += number(value);
+    before = owner, name_before = name;
+  });
+  return s + "\n";
+}
+
+std::string ResultsSteps::units() const {
+  if (units_.length.empty()) return {};
+  return fmt::format("<Units angle=\"rad\" length=\"{}\" mass=\"{}\" time=\"{}\" />\n", unit_name(units_.length),
+                     unit_name(units_.mass), unit_name(units_.time));
 }
 
 }  // namespace dynalin

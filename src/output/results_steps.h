@@ -1,4 +1,4 @@
-// Operating points as the steps of a results file: a map that says which number is what, and behind it the numbers.
+// An operating point as a step of a results file: a map that says which number is what, and the numbers.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,8 @@
 
 #include "dynalin/operating_state.h"
 #include "dynalin/units.h"
-#include "model/settings.h"
+#include "elements/settings/output_settings.h"
+#include "system/request_values.h"
 
 namespace dynalin {
 
@@ -15,36 +16,53 @@ enum class StepKind { initial_conditions, statics, quasi_statics, kinematics, dy
 
 class ResultsSteps {
  public:
-  ResultsSteps(Units units, ResultsSettings settings) : units_(std::move(units)), settings_(std::move(settings)) {}
-  void add(StepKind, const OperatingState&);
+  ResultsSteps(Units units, ResultsContents contents);
 
-  // <Units>, <StepMap> and all <Data>; elements that a step does not have are zero there.
-  std::string text(const std::function<std::string(double)>& number) const;
+  // <StepMap>: the same text for all points of one model.
+  std::string map(const OperatingState&, const PointRequests&) const;
+  // The numbers in the order of the map, a line for the neighbours that belong to one element.
+  std::string numbers(const OperatingState&, const PointRequests&,
+                      const std::function<std::string(double)>& number) const;
+  // <Units>, empty where the dataset does not name them.
+  std::string units() const;
 
  private:
-  // The part of a step that a number stands in; all numbers of one part follow each other.
-  enum class Section { time, positions, velocities, accelerations, reactions, forces, values };
-  struct Entity {
-    std::string name, element, type;
-    std::int64_t id = 0;
+  enum Unit {
+    none,
+    length,
+    angle,
+    velocity,
+    angular_velocity,
+    acceleration,
+    angular_acceleration,
+    force,
+    torque,
+    time
   };
-  struct Quantity {
-    Section section;
-    Entity entity;
-    std::string component, unit;
-    double value;
+  // Whose a number is: nobody's is the time.
+  struct Owner {
+    const std::string* element = nullptr;
+    const std::string* view_name = nullptr;
+    bool is_pose = false;     // of a body
+    std::int64_t marker = 0;  // of one of several wrenches
+    const RequestInfo* request = nullptr;
   };
-  struct Step {
-    StepKind kind;
-    std::vector<Quantity> quantities;
+  struct Component {
+    std::string_view name;
+    int number = 0;  // behind the name, 0 for none
+    Unit unit = none;
+    const RequestComponent* requested = nullptr;
   };
-
-  std::vector<Quantity> quantities(const OperatingState&) const;
-  void add_loads(const std::vector<Load>&, Section, std::vector<Quantity>&) const;
+  // use(owner, component, value) for every number of a step.
+  template <class Use>
+  void for_each(const OperatingState&, const PointRequests&, const Use&) const;
+  template <class Use>
+  void loads(const std::vector<Load>&, const Use&) const;
+  std::string component(const Component&, std::size_t id) const;
 
   Units units_;
-  ResultsSettings settings_;
-  std::vector<Step> steps_;
+  ResultsContents contents_;
+  std::vector<std::string> unit_names_;  // by Unit
 };
 
 // For attributes and contents of XML.

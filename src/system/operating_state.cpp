@@ -12,24 +12,19 @@ namespace {
 
 Triple plain(const Vector& v) { return {v.x + 0.0, v.y + 0.0, v.z + 0.0}; }
 
-// ψ, θ, φ with R = Rz(ψ) Rx(θ) Rz(φ) and 0 ≤ θ ≤ π. Where z is vertical only ψ ± φ is determined, and φ is 0.
-Triple angles_313(const Matrix3& R) {
-  const double sine = std::hypot(R.z.x, R.z.y), theta = std::atan2(sine, R.z.z);
-  constexpr double vertical = 1e-12;
-  if (sine <= vertical) return {std::atan2(R.x.y, R.x.x), R.z.z > 0 ? 0.0 : theta, 0.0};
-  return {std::atan2(R.z.x, -R.z.y), theta, std::atan2(R.x.z, R.y.z)};
-}
-
 class Reading {
  public:
   Reading(const System& system, const OperatingPoint& op)
       : system_(system), model_(system.model()), layout_(system.layout()), op_(op), motion_(system.motion(op)) {}
 
   OperatingState read() {
+    read_constraints();
+    return read_over_time();
+  }
+  OperatingState read_over_time() {
     state_.time = op_.time;
     read_bodies();
     read_loads();
-    read_constraints();
     read_values();
     return std::move(state_);
   }
@@ -177,6 +172,17 @@ class Reading {
 
 }  // namespace
 
+Triple angles_313(const Matrix3& R) {
+  const double sine = std::hypot(R.z.x, R.z.y), theta = std::atan2(sine, R.z.z);
+  constexpr double vertical = 1e-12;
+  if (sine <= vertical) return {std::atan2(R.x.y, R.x.x), R.z.z > 0 ? 0.0 : theta, 0.0};
+  return {std::atan2(R.z.x, -R.z.y), theta, std::atan2(R.x.z, R.y.z)};
+}
+
 OperatingState operating_state(const System& system, const OperatingPoint& op) { return Reading(system, op).read(); }
+
+OperatingState state_over_time(const System& system, const OperatingPoint& op) {
+  return Reading(system, op).read_over_time();
+}
 
 }  // namespace dynalin

@@ -7,5 +7,11 @@
 namespace dynalin {
 
 OperatingState operating_state(const System&, const OperatingPoint&);
+// The same without the rows of constraints: telling which of them are redundant costs more than all else, too much for
+// every step of a simulation.
+OperatingState state_over_time(const System&, const OperatingPoint&);
+
+// ψ, θ, φ with R = Rz(ψ) Rx(θ) Rz(φ) and 0 ≤ θ ≤ π. Where z is vertical only ψ ± φ is determined, and φ is 0.
+Triple angles_313(const Matrix3& R);
 
 }  // namespace dynalin

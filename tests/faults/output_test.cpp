@@ -256,6 +256,62 @@ TEST_F(Disks, a_linear_command_that_fails_leaves_nothing_of_its_result) {
   EXPECT_FALSE(there("model.txt"));
 }
 
+// --- files that grow as the run goes on
+
+class GrowingFiles : public Disks {
+ protected:
+  void SetUp() override {
+    Disks::SetUp();
+    if (sanitized) return;
+    std::string dataset = pendulum;
+    dataset.insert(dataset.rfind("END"), "OUTPUT/REQSAVE, GRSAVE\nRESULTS/XRF\nREQUEST/1, VELOCITY, I=20\n");
+    write("model.adm", dataset);
+  }
+  std::size_t temporary_files() const {
+    const auto all = names();
+    return static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [](const std::string& n) { return n.starts_with(".dynalin-"); }));
+  }
+  // The program has written all and waits for a reader of the pipe.
+  pid_t started() const {
+    EXPECT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+    const pid_t child = start({"run", "model.acf", "--json", "pipe"});
+    for (int k = 0; k < 500 && temporary_files() < 6; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_EQ(temporary_files(), 6u);
+    return child;
+  }
+};
+
+TEST_F(GrowingFiles, are_all_there_at_the_end) {
+  EXPECT_EQ(run({"run", "model.acf"}).status, 0);
+  EXPECT_THAT(names(), ElementsAre("m", "model.acf", "model.adm", "model.gra", "model.msg", "model.out", "model.req",
+                                   "model.res"));
+}
+
+TEST_F(GrowingFiles, have_no_name_of_the_run_after_a_kill) {
+  const pid_t child = started();
+  ::kill(child, SIGKILL);
+  EXPECT_EQ(finish(child).signal, SIGKILL);
+  for (const std::string& name : names())
+    EXPECT_TRUE(name.starts_with(".dynalin-") || name == "m" || name == "model.acf" || name == "model.adm" ||
+                name == "pipe")
+        << name;
+  EXPECT_EQ(text("m"), "old matrices");
+}
+
+TEST_F(GrowingFiles, go_with_a_signal) {
+  const pid_t child = started();
+  ::kill(child, SIGTERM);
+  EXPECT_EQ(finish(child).signal, SIGTERM);
+  EXPECT_THAT(names(), ElementsAre("m", "model.acf", "model.adm", "pipe"));
+}
+
+TEST_F(GrowingFiles, of_a_full_disk_are_not_there) {
+  for (const std::string bytes : {"0", "300", "1500", "4000"}) {
+    expect_untouched(run({"run", "model.acf"}, fault("FAULT_WRITE", "/.dynalin-", bytes)), "No space left on device");
+  }
+}
+
 // --- signals
 
 TEST_F(Disks, a_signal_takes_the_temporary_files_with_it) {

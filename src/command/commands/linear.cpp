@@ -38,7 +38,7 @@ LinearRequest request_of(const LinearCommand& command, const Environment& enviro
   return request;
 }
 
-bool in_results(const RunState& run) { return run.results && !run.settings.results.without_linear; }
+bool in_results(RunState& run) { return run.results() && !run.settings.results.without_linear; }
 
 // State space or second order: the file, the states in the message file, and the other results.
 template <class Form>
@@ -48,7 +48,7 @@ StudyResult<void> write_form(const Form& form, std::string_view which, const Lin
   if (auto written = run.files.add(matrix_files(path, command.format, named_matrices(form))); !written)
     return tl::unexpected(StudyFailure({"linear analysis", written.error(), {}}));
   write_matrix_states(run.message, form);
-  if (in_results(run)) run.results->add(form);
+  if (in_results(run)) run.results()->add(form);
   run.json.add(run.command, form);
   run.json.add_point(state);
   if (run.terminal)
@@ -124,7 +124,7 @@ StudyResult<void> solve_modes(const Linearization& linear, const LinearCommand& 
   run.json.add(run.command, modes);
   run.json.add_point(state);
   run.json.add_tables(tables.tables);
-  if (in_results(run)) run.results->add(modes, tables.tables);
+  if (in_results(run)) run.results()->add(modes, tables.tables);
   run.remarks.say(tables.remarks);
   if (run.terminal) {
     fmt::print(*run.terminal, "{} at time {:g}\n", run.command, modes.time);
@@ -152,13 +152,17 @@ StudyResult<void> Linear::run(RunState& run) const {
   run.remarks.say(linear->remarks());
 
   const OperatingState state = operating_state(run.system(), linear->point);
-  if (!run.shown && !linear->at_rest_as_found) run.show(StepKind::initial_conditions, state);
-  if (deck) return write_deck(*linear, command, state, configuration, run);
-  if (command.option == LinearOption::eigensol) return solve_modes(*linear, command, state, run);
-  if (command.option == LinearOption::statemat) return write_form(linear->linear.model, "state", command, state, run);
-  const auto form = second_order_form(*linear);
-  if (!form) return tl::unexpected(form.error());
-  return write_form(*form, "second-order", command, state, run);
+  if (!run.shown && !linear->at_rest_as_found) run.show(StepKind::initial_conditions, state, linear->point);
+  const auto written = [&]() -> StudyResult<void> {
+    if (deck) return write_deck(*linear, command, state, configuration, run);
+    if (command.option == LinearOption::eigensol) return solve_modes(*linear, command, state, run);
+    if (command.option == LinearOption::statemat) return write_form(linear->linear.model, "state", command, state, run);
+    const auto form = second_order_form(*linear);
+    if (!form) return tl::unexpected(form.error());
+    return write_form(*form, "second-order", command, state, run);
+  }();
+  if (written) run.json.add_requests(requests_at(run.system(), linear->point).values);
+  return written;
 }
 
 std::shared_ptr<const CommandAction> Linear::with_inputs(const InputReader& read_text, Diagnostics& diagnostics) const {

@@ -93,8 +93,9 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
 StudyResult<void> find_start(RunState& run) {
   if (auto ready = run.make_consistent(); !ready) return ready;
   const OperatingState state = operating_state(run.system(), run.point.values);
-  run.show(StepKind::initial_conditions, state);
+  run.show(StepKind::initial_conditions, state, run.point.values);
   run.json.add(run.command, state);
+  run.json.add_requests(requests_at(run.system(), run.point.values).values);
   return {};
 }
 
@@ -117,11 +118,13 @@ StudyResult<void> find_rest(RunState& run) {
   if (run.terminal)
     fmt::print(*run.terminal, "static equilibrium after {} iterations, imbalance {:.3e}, {}\n", result.iterations,
                result.imbalance, result.stability.text());
-  run.show(StepKind::statics, result.at_rest);
+  const OperatingPoint& at_rest = run.point.statics->at_rest;
+  run.show(StepKind::statics, result.at_rest, at_rest);
   // Velocities of the dataset that have come back make another point of it.
   const std::vector<double>& velocity = run.point.values.velocity;
   run.shown = std::all_of(velocity.begin(), velocity.end(), [](double v) { return v == 0; });
   run.json.add(run.command, result);
+  run.json.add_requests(requests_at(run.system(), at_rest).values);
   return {};
 }
 

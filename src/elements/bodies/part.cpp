@@ -5,6 +5,8 @@
 // off its diagonal, about the origin and along the axes of IM (CM if IM is absent). Initial velocities are those of the
 // CM along the axes of VM (global) and the angular velocity along those of WM (CM); a component that is not stated
 // may change freely.
+#include "elements/bodies/part.h"
+
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
@@ -146,6 +148,8 @@ class PartSet final : public TypedSet<Part> {
     if (axes) p.axes = *axes;
   }
 
+  std::vector<MarkerId> centres;  // CM of each
+
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       if (!elements[k].ground) body_of(model, k).pose = {elements[k].origin, elements[k].axes};
@@ -173,6 +177,8 @@ class PartSet final : public TypedSet<Part> {
                           fmt::format("{} states an angular velocity but neither WM nor CM", labels[k].text()));
       }
     }
+    centres.clear();
+    for (const Part& p : elements) centres.push_back(p.cm);
     std::vector<Part>().swap(elements);  // all that counts is in the model now
   }
 
@@ -284,6 +290,16 @@ class PartSet final : public TypedSet<Part> {
 };
 
 }  // namespace
+
+std::vector<PartCentre> part_centres(const Model& model) {
+  std::vector<PartCentre> list;
+  for (const auto& set : model.sets) {
+    const auto* parts = dynamic_cast<const PartSet*>(set.get());
+    for (std::size_t k = 0; parts && k < parts->centres.size(); ++k)
+      list.push_back({&parts->labels[k], parts->centres[k]});
+  }
+  return list;
+}
 
 extern constinit const Kind part = Kind{
     "PART",

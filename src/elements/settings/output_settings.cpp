@@ -2,39 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "dataset/characters.h"
-#include "elements/families/kept_as_text.h"
 #include "elements/settings/setting_set.h"
 
 namespace dynalin {
 
 namespace {
-
-// A function of a REQUEST that no one will evaluate: what is wrong in it is worth a warning, and no more.
-void check_functions(ElementReader& reader) {
-  for (const WrittenArgument& w : reader.statement().arguments) {
-    const bool function = w.name.length >= 2 && (w.name.text()[0] == 'F' || w.name.text()[0] == 'f') && w.has_value;
-    if (!function || w.damaged || w.value.empty()) continue;
-    const SourceText& source = *w.name.source;
-    if (equal_ignoring_case(Span{&source, w.value[0].offset, w.value[0].length}.text(), "USER")) continue;
-    Diagnostics found;
-    parse_expression(w.value, source, found);
-    for (const Diagnostic& d : found.items()) {
-      if (d.severity != Severity::error || d.code == "function-not-built" || d.code == "vector-mismatch") continue;
-      reader.warning(d.code, d.at, d.message + fmt::format("; {} is passed over", reader.label().text()), d.hint);
-      break;
-    }
-  }
-}
-
-class RequestSet final : public TextSet {
- public:
-  using TextSet::TextSet;
-  void read(std::size_t, ElementReader& reader) override {
-    WrittenRequest checked;
-    if (read_arguments(checked, reader)) check_functions(reader);
-  }
-};
 
 // STRING/id, STRING=text: for subroutines.
 struct WrittenString {
@@ -46,19 +18,64 @@ struct WrittenString {
   void apply(Settings&) const {}
 };
 
+template <class E, class Use>
+void for_each_statement(const Model& model, const Use& use) {
+  for (const auto& set : model.sets) {
+    if (const auto* typed = dynamic_cast<const TypedSet<E>*>(set.get())) {
+      for (const E& e : typed->elements) use(e);
+    }
+  }
+}
+
 }  // namespace
+
+bool WrittenOutput::check(const E& e, ElementReader& reader) {
+  bool ok = true;
+  for (const auto& [list, name] : {std::pair{&e.dscale, "DSCALE"}, std::pair{&e.vscale, "VSCALE"},
+                                   std::pair{&e.ascale, "ASCALE"}, std::pair{&e.fscale, "FSCALE"}}) {
+    if (list->size() <= 2) continue;
+    reader.error(
+        "wrong-count", reader.at(name),
+        fmt::format("{} takes one factor, or one of translations and one of rotations, found {}", name, list->size()));
+    ok = false;
+  }
+  return ok;
+}
+
+void WrittenOutput::apply(OutputSettings& s) const {
+  if (defaults) s = {};
+  // LIST alone asks for nothing.
+  s.stated = s.stated || requests || graphics || print || fixed || yaw_pitch_roll || !list;
+  if (requests || no_requests) s.request_file = requests;
+  if (graphics || no_graphics) s.graphics_file = graphics;
+  if (print || no_print) s.tables = print;
+  s.fixed = s.fixed || fixed;
+  if (yaw_pitch_roll || euler) s.yaw_pitch_roll = yaw_pitch_roll;
+  const std::array scales = {&dscale, &vscale, &ascale, &fscale};
+  const std::array zeros = {&dzero, &vzero, &azero, &fzero};
+  for (std::size_t k = 0; k < scales.size(); ++k) {
+    std::copy(scales[k]->begin(), scales[k]->end(), s.scale[k].begin());
+    if (*zeros[k]) s.zero[k] = **zeros[k];
+  }
+}
+
+OutputSettings output_settings(const Model& model) {
+  OutputSettings s;
+  for_each_statement<WrittenOutput>(model, [&](const WrittenOutput& o) { o.apply(s); });
+  return s;
+}
+
+ResultsContents results_contents(const Model& model) {
+  ResultsContents c{model.settings.results, true, {}};
+  for_each_statement<WrittenResults>(model, [&](const WrittenResults& r) {
+    c.requests = c.requests && !r.no_requests;
+    if (!r.comment.empty()) c.comment = r.comment;
+  });
+  return c;
+}
 
 extern constinit const Kind output = setting<WrittenOutput>("OUTPUT", "What is written to which file.");
 extern constinit const Kind results = setting<WrittenResults>("RESULTS", "Contents of the results file.");
 extern constinit const Kind string = setting<WrittenString>("STRING", "Text for subroutines.");
-extern constinit const Kind request = Kind{
-    "REQUEST",
-    "",
-    "Output of time histories.",
-    Kind::Role::inert,
-    detail::argument_infos<WrittenRequest>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-      return std::make_unique<RequestSet>(kind);
-    }}.deactivatable();
 
 }  // namespace dynalin

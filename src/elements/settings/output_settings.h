@@ -1,41 +1,82 @@
-// OUTPUT, RESULTS and REQUEST as written, in datasets and as commands.
+// OUTPUT and RESULTS as written, in datasets and as commands.
 #pragma once
 
+#include "model/model.h"
 #include "model/schema.h"
 #include "model/settings.h"
 
 namespace dynalin {
 
+// What OUTPUT says of the files over time. Tables are written where there is an OUTPUT without NOPRINT.
+struct OutputSettings {
+  bool stated = false;
+  bool request_file = false, graphics_file = false, tables = true;
+  bool fixed = false;           // numbers of tables without exponents
+  bool yaw_pitch_roll = false;  // orientations of DISPLACEMENT in tables and request file
+  // Of DISPLACEMENT, VELOCITY, ACCELERATION and FORCE in tables and request file: factors of translation and rotation,
+  // and below what size a value is written as zero.
+  std::array<std::array<double, 2>, 4> scale = {{{1, 1}, {1, 1}, {1, 1}, {1, 1}}};
+  std::array<double, 4> zero{};
+
+  bool writes_tables() const { return stated && tables; }
+};
+
 struct WrittenOutput {
-  bool flag = false;
+  bool requests = false, graphics = false, no_requests = false, no_graphics = false;
+  bool print = false, no_print = false, fixed = false, yaw_pitch_roll = false, euler = false, defaults = false;
+  bool list = false, flag = false;
+  std::vector<double> dscale, vscale, ascale, fscale;
+  std::optional<double> dzero, vzero, azero, fzero;
   Obsolete value;
 
   using E = WrittenOutput;
-  static constexpr std::array<Argument<E>, 27> arguments = {{
-      {.name = "REQSAVE", .slot = &E::flag},     {.name = "GRSAVE", .slot = &E::flag},
-      {.name = "NOREQSAVE", .slot = &E::flag},   {.name = "NOGRSAVE", .slot = &E::flag},
-      {.name = "NOPRINT", .slot = &E::flag},     {.name = "PRINT", .slot = &E::flag},
-      {.name = "TELETYPE", .slot = &E::flag},    {.name = "OSFORMAT", .slot = &E::flag},
-      {.name = "FIXED", .slot = &E::flag},       {.name = "CHART", .slot = &E::value},
-      {.name = "NOSEPARATOR", .slot = &E::flag}, {.name = "SEPARATOR", .slot = &E::flag},
-      {.name = "DSCALE", .slot = &E::value},     {.name = "DZERO", .slot = &E::value},
-      {.name = "VSCALE", .slot = &E::value},     {.name = "VZERO", .slot = &E::value},
-      {.name = "ASCALE", .slot = &E::value},     {.name = "AZERO", .slot = &E::value},
-      {.name = "FSCALE", .slot = &E::value},     {.name = "FZERO", .slot = &E::value},
-      {.name = "YPR", .slot = &E::flag},         {.name = "VPR", .slot = &E::flag},
-      {.name = "EULER", .slot = &E::flag},       {.name = "TITLE", .slot = &E::value},
-      {.name = "OLDREQ", .slot = &E::flag},      {.name = "DEFAULT", .slot = &E::flag},
-      {.name = "LIST", .slot = &E::flag},
+  static constexpr std::string_view scale = "factor of translations [and rotations] in tables and request file";
+  static constexpr std::string_view zero = "what is smaller is written there as 0";
+  static constexpr std::array<Argument<E>, 28> arguments = {{
+      {.name = "REQSAVE", .slot = &E::requests, .help = "the request file (.req)"},
+      {.name = "GRSAVE", .slot = &E::graphics, .help = "the graphics file (.gra)"},
+      {.name = "NOREQSAVE", .slot = &E::no_requests, .help = "no request file"},
+      {.name = "NOGRSAVE", .slot = &E::no_graphics, .help = "no graphics file"},
+      {.name = "NOPRINT", .slot = &E::no_print, .help = "no tables of requests (.out)"},
+      {.name = "PRINT", .slot = &E::print, .help = "these tables, which every OUTPUT asks for"},
+      {.name = "TELETYPE", .slot = &E::flag},
+      {.name = "OSFORMAT", .slot = &E::flag},
+      {.name = "FIXED", .slot = &E::fixed, .help = "numbers of tables without exponents, as far as they fit"},
+      {.name = "CHART", .slot = &E::value},
+      {.name = "NOCHART", .slot = &E::flag},
+      {.name = "NOSEPARATOR", .slot = &E::flag},
+      {.name = "SEPARATOR", .slot = &E::flag},
+      {.name = "DSCALE", .slot = &E::dscale, .help = scale},
+      {.name = "DZERO", .slot = &E::dzero, .minimum = 0, .help = zero},
+      {.name = "VSCALE", .slot = &E::vscale, .help = scale},
+      {.name = "VZERO", .slot = &E::vzero, .minimum = 0, .help = zero},
+      {.name = "ASCALE", .slot = &E::ascale, .help = scale},
+      {.name = "AZERO", .slot = &E::azero, .minimum = 0, .help = zero},
+      {.name = "FSCALE", .slot = &E::fscale, .help = scale},
+      {.name = "FZERO", .slot = &E::fzero, .minimum = 0, .help = zero},
+      {.name = "YPR", .slot = &E::yaw_pitch_roll, .help = "yaw, pitch and roll in tables and request file"},
+      {.name = "VPR", .slot = &E::flag},
+      {.name = "EULER", .slot = &E::euler, .help = "3-1-3 angles there (default)"},
+      {.name = "TITLE", .slot = &E::value},
+      {.name = "OLDREQ", .slot = &E::flag},
+      {.name = "DEFAULT", .slot = &E::defaults, .help = "everything as without the statement"},
+      {.name = "LIST", .slot = &E::list},
   }};
-  static constexpr std::array<std::string_view, 1> acting = {"LIST"};
-  void apply(Settings&) const {}
+  static constexpr std::array<std::string_view, 20> acting = {
+      "REQSAVE", "GRSAVE", "NOREQSAVE", "NOGRSAVE", "NOPRINT", "PRINT", "FIXED", "NOCHART", "DSCALE",  "DZERO",
+      "VSCALE",  "VZERO",  "ASCALE",    "AZERO",    "FSCALE",  "FZERO", "YPR",   "EULER",   "DEFAULT", "LIST"};
+  static bool check(const E&, ElementReader&);
+  void apply(OutputSettings&) const;
+  void apply(Settings&) const {}  // where output_settings finds it
 };
+// As the dataset has them.
+OutputSettings output_settings(const Model&);
 
 // RESULTS: XRF asks for the results file in XML; the switches keep parts of its contents out of it.
 struct WrittenResults {
   bool xrf = false, no_linear = false, flag = false;
   bool no_displacements = false, no_velocities = false, no_accelerations = false;
-  bool no_reactions = false, no_forces = false, no_system_elements = false;
+  bool no_reactions = false, no_forces = false, no_system_elements = false, no_requests = false;
   std::optional<std::int64_t> decimal_places;
   std::string comment;
 
@@ -50,7 +91,7 @@ struct WrittenResults {
       {.name = "NOLINEAR", .slot = &E::no_linear, .help = "no linear results in the file"},
       {.name = "FORMATTED", .slot = &E::flag},
       {.name = "UNFORMATTED", .slot = &E::flag},
-      {.name = "COMMENT", .slot = &E::comment},
+      {.name = "COMMENT", .slot = &E::comment, .help = "a line at the head of the file"},
       {.name = "NODISPLACEMENTS", .slot = &E::no_displacements},
       {.name = "NOVELOCITIES", .slot = &E::no_velocities},
       {.name = "NOACCELERATIONS", .slot = &E::no_accelerations},
@@ -60,9 +101,9 @@ struct WrittenResults {
       {.name = "NODATASTRUCTURES", .slot = &E::flag},
       {.name = "NOSYSTEMELEMENTS", .slot = &E::no_system_elements},
       {.name = "NOTIRES", .slot = &E::flag},
-      {.name = "NOREQUESTS", .slot = &E::flag},
+      {.name = "NOREQUESTS", .slot = &E::no_requests, .help = "no requests in the file"},
   }};
-  // What concerns time histories alone needs no word: there are none.
+  // Of floating markers, data structures and tires there is nothing in the file.
   static constexpr std::array<std::string_view, 14> acting = {"XRF",
                                                               "DECIMALPLACES",
                                                               "NOLINEAR",
@@ -88,43 +129,12 @@ struct WrittenResults {
   }
 };
 
-// REQUEST: time histories, of which there are none here.
-struct WrittenRequest {
-  bool flag = false;
-  std::optional<std::int64_t> i, j, rm;
-  Obsolete value;
-  std::string text;
-  std::vector<std::int64_t> variables;
-
-  using E = WrittenRequest;
-  static constexpr std::array<Argument<E>, 26> arguments = {{
-      {.name = "DISPLACEMENT", .slot = &E::flag},
-      {.name = "VELOCITY", .slot = &E::flag},
-      {.name = "ACCELERATION", .slot = &E::flag},
-      {.name = "FORCE", .slot = &E::flag},
-      {.name = "I", .slot = &E::i},
-      {.name = "J", .slot = &E::j},
-      {.name = "RM", .slot = &E::rm},
-      {.name = "F1", .slot = &E::value},
-      {.name = "F2", .slot = &E::value},
-      {.name = "F3", .slot = &E::value},
-      {.name = "F4", .slot = &E::value},
-      {.name = "F5", .slot = &E::value},
-      {.name = "F6", .slot = &E::value},
-      {.name = "F7", .slot = &E::value},
-      {.name = "F8", .slot = &E::value},
-      {.name = "FUNCTION", .slot = &E::value},
-      {.name = "ROUTINE", .slot = &E::text},
-      {.name = "VARIABLES", .slot = &E::variables},
-      {.name = "COMMENT", .slot = &E::value},
-      {.name = "TITLE", .slot = &E::value},
-      {.name = "CNAMES", .slot = &E::value},
-      {.name = "CUNITS", .slot = &E::value},
-      {.name = "CLABELS", .slot = &E::value},
-      {.name = "RESULTS_NAME", .slot = &E::value},
-      {.name = "LABEL", .slot = &E::value},
-      {.name = "LIST", .slot = &E::flag},
-  }};
+// What RESULTS lets into the results file.
+struct ResultsContents {
+  ResultsSettings settings;
+  bool requests = true;
+  std::string comment;
 };
+ResultsContents results_contents(const Model&);
 
 }  // namespace dynalin

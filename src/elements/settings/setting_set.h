@@ -25,12 +25,21 @@ std::vector<std::string> arguments_passed_over(const ElementReader& reader) {
   return list;
 }
 
+// What tables of arguments cannot say of the values, where a statement has such rules.
+template <class E>
+bool check_setting(const E& e, ElementReader& reader) {
+  if constexpr (requires { E::check(e, reader); })
+    return E::check(e, reader);
+  else
+    return true;
+}
+
 template <class E>
 class SettingSet final : public TypedSet<E> {
  public:
   using TypedSet<E>::TypedSet;
   void read(std::size_t k, ElementReader& reader) override {
-    if (!read_arguments(this->elements[k], reader)) return;
+    if (!read_arguments(this->elements[k], reader) || !check_setting(this->elements[k], reader)) return;
     const auto list = arguments_passed_over<E>(reader);
     passed_over_.insert(passed_over_.end(), list.begin(), list.end());
   }

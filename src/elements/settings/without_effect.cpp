@@ -11,8 +11,6 @@ constexpr Kind inert(std::string_view statement, std::string_view summary) {
 
 }  // namespace
 
-extern constinit const Kind mrequest =
-    inert("MREQUEST", "Output of time histories for groups of elements.").deactivatable();
 extern constinit const Kind femdata = inert("FEMDATA", "Output of loads for finite-element programs.");
 extern constinit const Kind timgraphics = inert("TIMGRAPHICS", "Graphics over time.");
 extern constinit const Kind material = inert("MATERIAL", "Material data.");

@@ -1,0 +1,235 @@
+// REQUEST/id, {DISPLACEMENT | VELOCITY | ACCELERATION | FORCE}, I= [, J=] [, RM=]   or   F1=e\ … F8=e   or   VARIABLES=
+//
+// Values to be written over time; nothing depends on them. Of markers: marker I as seen from J (global origin), along
+// the axes of RM (global), with the values of the functions
+//
+//     DISPLACEMENT   DM DX DY DZ     PSI THETA PHI of I in J
+//     VELOCITY       VM VX VY VZ  WM WX WY WZ
+//     ACCELERATION   ACCM ACCX ACCY ACCZ  WDTM WDTX WDTY WDTZ
+//     FORCE          FM FX FY FZ  TM TX TY TZ: on I of all elements between I and J, of all on I without J
+//
+// CNAMES, CUNITS and CLABELS say what the components are called in the results file, RESULTS_NAME what they are
+// together, TITLE the heads of the columns of a table.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "elements/requests/lenient.h"
+#include "elements/requests/request_kernel.h"
+#include "model/model.h"
+#include "model/schema.h"
+
+namespace dynalin {
+
+namespace {
+
+// One way of asking ends the others.
+constexpr std::string_view ended_by_functions = "DISPLACEMENT VELOCITY ACCELERATION FORCE I J RM VARIABLES FUNCTION";
+constexpr std::string_view ended_by_variables =
+    "DISPLACEMENT VELOCITY ACCELERATION FORCE I J RM F1 F2 F3 F4 F5 F6 F7 F8 FUNCTION";
+constexpr std::string_view ended_by_markers =
+    "DISPLACEMENT VELOCITY ACCELERATION FORCE F1 F2 F3 F4 F5 F6 F7 F8 VARIABLES FUNCTION";
+
+struct Request {
+  bool displacement = false, velocity = false, acceleration = false, force = false;
+  std::optional<std::int64_t> i, j, rm;
+  Obsolete function;  // F1 … F8 and texts are read by themselves
+  Obsolete text;
+  std::string routine;
+  std::vector<std::int64_t> variables;
+  // What they come to; without a list of components the request is left out.
+  RequestInfo info;
+  std::vector<Expression> functions;
+
+  static constexpr std::array<Argument<Request>, 25> arguments = {{
+      {.name = "DISPLACEMENT",
+       .slot = &Request::displacement,
+       .help = "of I from J, and its orientation",
+       .ends = ended_by_markers},
+      {.name = "VELOCITY", .slot = &Request::velocity, .help = "of I relative to J", .ends = ended_by_markers},
+      {.name = "ACCELERATION", .slot = &Request::acceleration, .help = "of I relative to J", .ends = ended_by_markers},
+      {.name = "FORCE",
+       .slot = &Request::force,
+       .help = "on I of all elements between I and J",
+       .ends = ended_by_markers},
+      {.name = "I", .slot = &Request::i, .help = "marker, 0 for the global frame"},
+      {.name = "J", .slot = &Request::j, .help = "marker from which I is seen; the global frame"},
+      {.name = "RM", .slot = &Request::rm, .help = "marker along whose axes the values are; the global frame"},
+      {.name = "F1", .slot = &Request::function, .help = "a value", .ends = ended_by_functions},
+      {.name = "F2", .slot = &Request::function, .help = "a value", .ends = ended_by_functions},
+      {.name = "F3", .slot = &Request::function, .help = "a value", .ends = ended_by_functions},
+      {.name = "F4", .slot = &Request::function, .help = "a value", .ends = ended_by_functions},
+      {.name = "F5", .slot = &Request::function, .help = "a value", .ends = ended_by_functions},
+      {.name = "F6", .slot = &Request::function, .help = "a value", .ends = ended_by_functions},
+      {.name = "F7", .slot = &Request::function, .help = "a value", .ends = ended_by_functions},
+      {.name = "F8", .slot = &Request::function, .help = "a value", .ends = ended_by_functions},
+      {.name = "FUNCTION", .slot = &Request::text, .help = "USER(…), a compiled routine: left out"},
+      {.name = "ROUTINE", .slot = &Request::routine, .help = "of FUNCTION"},
+      {.name = "VARIABLES",
+       .slot = &Request::variables,
+       .help = "VARIABLEs whose values are requested",
+       .ends = ended_by_variables},
+      {.name = "COMMENT", .slot = &Request::text, .help = "one line above a table"},
+      {.name = "TITLE", .slot = &Request::text, .help = "heads of the columns of a table, colons between them"},
+      {.name = "CNAMES",
+       .slot = &Request::text,
+       .help = "names of the components in the results file; one without letters is not in it"},
+      {.name = "CUNITS", .slot = &Request::text, .help = "their units"},
+      {.name = "CLABELS", .slot = &Request::text, .help = "their labels in plots"},
+      {.name = "RESULTS_NAME", .slot = &Request::text, .help = "name of the request in the results file"},
+      {.name = "LABEL", .slot = &Request::text, .help = "a name"},
+  }};
+
+  std::vector<RequestKind> kinds() const {
+    std::vector<RequestKind> list;
+    if (displacement) list.push_back(RequestKind::displacement);
+    if (velocity) list.push_back(RequestKind::velocity);
+    if (acceleration) list.push_back(RequestKind::acceleration);
+    if (force) list.push_back(RequestKind::force);
+    return list;
+  }
+};
+
+std::string text_of(const ElementReader& reader, std::string_view name) {
+  const WrittenArgument* w = written_argument(reader, name);
+  if (!w || !w->has_value) return {};
+  const auto list = split_texts(w->value_span().text(), '\0');
+  return list.empty() ? std::string() : list.front();
+}
+
+std::vector<std::string> texts_of(const ElementReader& reader, std::string_view name, char separator) {
+  const WrittenArgument* w = written_argument(reader, name);
+  return w && w->has_value ? split_texts(w->value_span().text(), separator) : std::vector<std::string>();
+}
+
+class RequestSet final : public TypedSet<Request> {
+ public:
+  using TypedSet::TypedSet;
+
+  void read(std::size_t k, ElementReader& reader) override {
+    Request& r = elements[k];
+    if (!read_arguments(r, reader)) return;
+    r.info.element = reader.label().text(), r.info.id = reader.label().id;
+    r.info.view_name = reader.label().view_name;
+    leniently(reader, [&] { return read_components(r, reader); });
+    if (r.info.list) read_texts(r.info, reader);
+  }
+
+  std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
+    std::vector<WantedRequest> wanted;
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      const Request& r = elements[k];
+      if (r.info.list) wanted.push_back({&r.info, &labels[k], &r.functions});
+    }
+    return std::make_unique<RequestKernel>(std::move(wanted), layout);
+  }
+
+ private:
+  static bool wrong(ElementReader& reader, std::string text, std::string hint = {}) {
+    reader.error("request-left-out", reader.statement().at, std::move(text), std::move(hint));
+    return false;
+  }
+
+  static bool read_components(Request& r, ElementReader& reader) {
+    RequestInfo info = r.info;
+    const auto kinds = r.kinds();
+    bool any_function = false;
+    for (const std::string_view name : column_names(RequestKind::functions))
+      any_function = any_function || reader.given(name);
+    if (reader.given("FUNCTION"))
+      return wrong(reader, "it calls a compiled routine, and compiled routines cannot be called here",
+                   "--user-value X puts the constant X in the place of each call");
+    if (kinds.size() + any_function + !r.variables.empty() != 1)
+      return wrong(reader, kinds.empty() && !any_function && r.variables.empty()
+                               ? "it asks for nothing: neither markers nor functions nor VARIABLES"
+                               : "it asks for more than one of markers, functions and VARIABLES");
+    if (any_function) return read_functions(r, reader);
+    if (!r.variables.empty()) return read_variables(r, reader);
+    if (!r.i) return wrong(reader, "it needs the marker I");
+    for (const auto& [id, name] : {std::pair{r.i, "I"}, std::pair{r.j, "J"}, std::pair{r.rm, "RM"}}) {
+      if (id && *id != 0 && !reader.marker({*id, reader.at(name)}, name)) return false;
+    }
+    info.kind = kinds.front();
+    info.marker_I = *r.i, info.marker_J = r.j.value_or(0), info.axes = r.rm.value_or(0);
+    info.list = components_of(info.kind);
+    r.info = std::move(info);
+    return true;
+  }
+
+  static bool read_functions(Request& r, ElementReader& reader) {
+    std::vector<RequestComponent> components;
+    int place = 0;
+    for (const std::string_view name : column_names(RequestKind::functions)) {
+      ++place;
+      const WrittenArgument* w = written_argument(reader, name);
+      if (!w) continue;
+      auto e = reader.expression(*w);
+      if (!e) {
+        if (w->damaged) wrong(reader, std::string(name) + " cannot be read");
+        return false;
+      }
+      r.functions.push_back(std::move(*e));
+      components.push_back({.name = std::string(name), .place = place});
+    }
+    r.info.list = std::make_shared<const std::vector<RequestComponent>>(std::move(components));
+    return true;
+  }
+
+  // Six of them stand where the six values of a request file are.
+  static bool read_variables(Request& r, ElementReader& reader) {
+    constexpr std::array<int, 8> places = {2, 3, 4, 6, 7, 8, 1, 5};
+    std::string text = "REQUEST/1";
+    for (std::size_t k = 0; k < r.variables.size(); ++k) {
+      const std::int64_t id = r.variables[k];
+      if (!reader.element("VARIABLE", {id, reader.at("VARIABLES")})) return false;
+      text += fmt::format(", FUNCTION=VARVAL({})", id);
+    }
+    const auto source = std::make_shared<const SourceText>("VARIABLES of " + reader.label().text(), text + "\n");
+    reader.keep(source);
+    static constexpr std::array<std::string_view, 1> keywords = {"REQUEST"};
+    const Dataset read = parse_statements(source, keywords).value;
+    std::vector<RequestComponent> components;
+    for (const WrittenArgument& w : read.statements.front().arguments) {
+      const std::size_t k = components.size();
+      r.functions.push_back(*reader.expression(w));
+      components.push_back(
+          {.name = fmt::format("VARIABLE/{}", r.variables[k]), .place = k < places.size() ? places[k] : 0});
+    }
+    r.info.list = std::make_shared<const std::vector<RequestComponent>>(std::move(components));
+    return true;
+  }
+
+  // Texts belong to places, those of VARIABLES to the VARIABLEs in order.
+  static void read_texts(RequestInfo& info, const ElementReader& reader) {
+    info.comment = text_of(reader, "COMMENT"), info.results_name = text_of(reader, "RESULTS_NAME");
+    const bool in_order = reader.given("VARIABLES");
+    const auto names = texts_of(reader, "CNAMES", ','), units = texts_of(reader, "CUNITS", ','),
+               labels = texts_of(reader, "CLABELS", ',');
+    info.heads = texts_of(reader, "TITLE", ':');
+    info.heads.resize(std::min<std::size_t>(info.heads.size(), 8));
+    if (names.empty() && units.empty() && labels.empty()) return;
+    std::vector<RequestComponent> components = info.components();
+    for (std::size_t k = 0; k < components.size(); ++k) {
+      RequestComponent& c = components[k];
+      const std::size_t at = in_order ? k : static_cast<std::size_t>(c.place - 1);
+      const auto of = [&](const std::vector<std::string>& list) { return at < list.size() ? list[at] : std::string(); };
+      c.given = of(names), c.unit = of(units), c.label = of(labels);
+      c.in_results = at >= names.size() || !c.given.empty();
+    }
+    info.list = std::make_shared<const std::vector<RequestComponent>>(std::move(components));
+  }
+};
+
+}  // namespace
+
+extern constinit const Kind request =
+    Kind{"REQUEST",
+         "",
+         "Values that are written over time.",
+         Kind::Role::element,
+         detail::argument_infos<Request>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<RequestSet>(kind); }}
+        .deactivatable()
+        .with_example("REQUEST/1, DISPLACEMENT, I=20, J=1");
+
+}  // namespace dynalin
