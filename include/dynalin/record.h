@@ -18,6 +18,7 @@ class Record {
   // `command` names the result, "SIMULATE/STATICS" or whatever tells it from others. A point that a static analysis
   // found is recorded with that result, a matrix or modes with the point they belong to; all with their remarks.
   void add(const std::string& command, const OperatingPoint&);
+  void add(const std::string& command, const Simulation&);
   void add(const std::string& command, const LinearModel&, const StateSpace&);
   void add(const std::string& command, const LinearModel&, const SecondOrder&);
   void add(const std::string& command, const LinearModel&, const Modes&, const ModalTables& = {});

@@ -8,6 +8,7 @@
 
 #include "output/message_file.h"
 #include "output/operating_state_text.h"
+#include "system/operating_state.h"
 
 namespace dynalin {
 
@@ -58,6 +59,13 @@ void RunState::show(StepKind kind, const OperatingState& state, const OperatingP
   if (terminal && options.state) write_operating_state(*terminal, state, units());
   if (terminal && !options.state && kind == StepKind::statics)
     write_operating_state(*terminal, state, units(), short_tables);
+  shown = true;
+}
+
+void RunState::show_where_it_ended() {
+  const OperatingState state = operating_state(system(), point.statics ? point.statics->at_rest : point.values);
+  write_operating_state(message, state, units());
+  if (terminal && options.state) write_operating_state(*terminal, state, units());
   shown = true;
 }
 

@@ -55,7 +55,10 @@ class RunState {
   void show(StepKind, const OperatingState&, const OperatingPoint& values);
   // Requests without a finite value are named once a run.
   void say_undefined_requests(const System&, const OperatingPoint&, const PointRequests&);
-  bool shown = false;  // the point, where points are shown
+  // The point that a simulation has ended at; the files of steps have it already.
+  void show_where_it_ended();
+  bool halted = false;  // by a SENSOR: no further command is run
+  bool shown = false;   // the point, where points are shown
 
  private:
   std::set<std::string> undefined_requests_;

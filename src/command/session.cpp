@@ -67,6 +67,7 @@ class Session {
       run_->remarks.begin(c.text);
       enter_stage(c.stage);
       const auto result = c.action->run(*run_);
+      if (result && run_->halted) break;
       if (result) continue;
       run_->remarks.say(result.error().remarks);
       run_->remarks.report(result.error());

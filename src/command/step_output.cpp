@@ -16,6 +16,7 @@ StepOutput::StepOutput(RunState& run, StepKind kind, const OutputTimes& times, c
 GoOn StepOutput::add(const SimulationStep& step) {
   time_ = step.point.time;
   message_.add(step.point.time, step.statistics);
+  if (!step.text.empty()) run_.message << step.text;
   if (!step.output) return GoOn::yes;
   const PointRequests requests = requests_at(step.system, step.point);
   if (run_.steps.wanted()) run_.steps.add(step.system.model(), state_over_time(step.system, step.point), requests);

@@ -45,6 +45,11 @@ void Record::add(const std::string& command, const OperatingPoint& point) {
   inside_->json.add_requests(requests_at(*p.system, point.is_static() ? p.statics->at_rest : p.values).values);
 }
 
+void Record::add(const std::string& command, const Simulation& simulation) {
+  inside_->warn(command, simulation.point.remarks());
+  inside_->json.add(command, simulation.point.time(), simulation.history);
+}
+
 void Record::add(const std::string& command, const LinearModel& of, const StateSpace& result) {
   inside_->add_linear(command, of, result);
 }

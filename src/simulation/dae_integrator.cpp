@@ -168,6 +168,8 @@ void DaeIntegrator::start(double t, std::span<const double> y, std::span<const d
   memory_->begin(t, first_step);
 }
 
+void DaeIntegrator::limit_steps(double longest) { check(IDASetMaxStep(memory_->ida, longest)); }
+
 DaeIntegrator::Outcome DaeIntegrator::step(double latest) {
   Memory& m = *memory_;
   check(IDASetStopTime(m.ida, latest));

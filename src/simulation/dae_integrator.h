@@ -47,6 +47,8 @@ class DaeIntegrator {
   void start(double t, std::span<const double> y, std::span<const double> yp, std::optional<double> first_step = {});
 
   enum class Outcome : std::uint8_t { step, event, failed };
+  // Of the steps from here on.
+  void limit_steps(double longest);
   // One step, which does not go beyond `latest`, or up to the first zero of a switch in it.
   Outcome step(double latest);
 

@@ -31,7 +31,7 @@ class Dynamics {
  public:
   Dynamics(const System& system, const OutputTimes& times, const IntegratorSettings& settings,
            IntegrationStatistics& statistics, const SimulationWatch& watch, Findings& findings)
-      : system_(system), times_(times), statistics_(statistics), watch_(watch), findings_(findings) {
+      : system_(system), times_(times), statistics_(statistics), watch_(watch), findings_(findings), events_(system) {
     const double error = settings.error.value_or(default_integration_error);
     tolerance_.relative = std::clamp(part_of_error * error, 1e-13, 1e-3);
     tolerance_.duration = times.end() - times.start();
@@ -50,38 +50,37 @@ class Dynamics {
     auto start = consistent(std::move(from));
     if (!start) return tl::unexpected(start.error());
     point_ = std::move(*start);
-    if (!hand_out(point_, true)) return AdvancedPoint{std::move(point_), SimulationEnd::stopped};
-    if (auto begun = begin(); !begun) return tl::unexpected(begun.error());
-    while (next_ <= times_.count()) {
+    const EventAction at_start = events_.at_start(point_);
+    system_.record(point_);
+    if (!hand_out(point_, true, at_start.text)) return AdvancedPoint{std::move(point_), SimulationEnd::stopped};
+    if (at_start.ends()) return AdvancedPoint{std::move(point_), end_of(at_start)};
+    if (at_start.output_step) change_outputs(*at_start.output_step);
+    if (auto begun = begin(at_start.step_size); !begun) return tl::unexpected(begun.error());
+    while (true) {
+      limit_steps();
       const auto outcome = integrator_->step(times_.end());
       count();
       if (outcome == DaeIntegrator::Outcome::failed) {
         if (auto again = begin_again(); !again) return tl::unexpected(again.error());
         continue;
       }
-      const double t = integrator_->time();
       bool going_on = true;
-      if (auto done = hand_out_until(t, going_on); !done) return tl::unexpected(done.error());
-      if (next_ > times_.count()) break;
+      if (auto done = hand_out_until(integrator_->time(), going_on); !done) return tl::unexpected(done.error());
       accept();
-      if (!going_on || !hand_out(point_, false)) {
-        auto stopped = consistent(std::move(point_));
-        if (!stopped) return tl::unexpected(stopped.error());
-        return AdvancedPoint{std::move(*stopped), SimulationEnd::stopped};
+      if (going_on && next_ > times_.count() && outcome != DaeIntegrator::Outcome::event) {
+        last_output_.memory = point_.memory, last_output_.delays = point_.delays;
+        return AdvancedPoint{std::move(last_output_), SimulationEnd::reached};
       }
+      if (!going_on || !hand_out(point_, false)) return ended(SimulationEnd::stopped);
       if (outcome == DaeIntegrator::Outcome::event) {
-        if (auto passed = pass_event(); !passed) return tl::unexpected(passed.error());
-      } else if (equations_->left_out_violation(point_) > left_out_limit) {
-        if (auto begun = begin_at_consistent(); !begun) return tl::unexpected(begun.error());
-      } else {
-        restarts_here_ = 0;
-        if (close_events_ >= event_limit && statistics_.steps - last_event_ > steps_without_events) {
-          close_events_ = 0;
-          if (auto begun = begin_at_consistent(); !begun) return tl::unexpected(begun.error());
-        }
+        auto action = pass_event();
+        if (!action) return tl::unexpected(action.error());
+        if (action->ends()) return AdvancedPoint{std::move(point_), end_of(*action)};
+        if (next_ > times_.count()) return AdvancedPoint{std::move(point_), SimulationEnd::reached};
+      } else if (auto followed = follow(); !followed) {
+        return tl::unexpected(followed.error());
       }
     }
-    return AdvancedPoint{std::move(last_output_), SimulationEnd::reached};
   }
 
  private:
@@ -112,8 +111,9 @@ class Dynamics {
     if (!equations_ || equations_->active() != active) {
       integrator_.reset();
       counted_before_ = statistics_;
-      equations_ = std::make_unique<MotionEquations>(system_, point_, std::move(active), tolerance_);
+      equations_ = std::make_unique<MotionEquations>(system_, events_, point_, std::move(active), tolerance_);
       integrator_ = std::make_unique<DaeIntegrator>(*equations_, bounds_);
+      longest_ = 0;
       y_.resize(equations_->size()), yp_.resize(equations_->size());
     } else {
       equations_->accept(point_);
@@ -128,6 +128,7 @@ class Dynamics {
     auto again = consistent(std::move(point_));
     if (!again) return tl::unexpected(again.error());
     point_ = std::move(*again);
+    system_.record(point_);
     return begin();
   }
 
@@ -150,7 +151,19 @@ class Dynamics {
   void accept() {
     equations_->unknowns().unpack(integrator_->time(), integrator_->y(), integrator_->yp(), point_);
     system_.remember(point_);
+    system_.record(point_);
     equations_->accept(point_);
+  }
+
+  // After a step without event: whether the constraints that were left out still follow from the others, and whether
+  // events may be looked for again.
+  Result<void> follow() {
+    const bool strayed = equations_->left_out_violation(point_) > left_out_limit;
+    const bool look_again = close_events_ >= event_limit && statistics_.steps - last_event_ > steps_without_events;
+    if (look_again) close_events_ = 0;
+    if (strayed || look_again) return begin_at_consistent();
+    restarts_here_ = 0;
+    return {};
   }
 
   // Output times up to t.
@@ -167,11 +180,50 @@ class Dynamics {
     return {};
   }
 
-  bool hand_out(const OperatingPoint& point, bool output) {
-    return !watch_ || watch_({system_, point, output, statistics_}) == GoOn::yes;
+  bool hand_out(const OperatingPoint& point, bool output, std::string_view text = {}) {
+    return !watch_ || watch_({system_, point, output, statistics_, text}) == GoOn::yes;
   }
 
-  Result<void> pass_event() {
+  Result<AdvancedPoint> ended(SimulationEnd end) {
+    auto whole = consistent(std::move(point_));
+    if (!whole) return tl::unexpected(whole.error());
+    return AdvancedPoint{std::move(*whole), end};
+  }
+  SimulationEnd end_of(const EventAction& action) const {
+    if (stopped_) return SimulationEnd::stopped;
+    return action.halts ? SimulationEnd::halted : SimulationEnd::returned;
+  }
+
+  // The point is where functions have changed their signs; behind it, that of the new side.
+  Result<EventAction> pass_event() {
+    const std::vector<int> crossed(integrator_->crossed().begin(), integrator_->crossed().end());
+    auto behind = consistent(point_);
+    if (!behind) return tl::unexpected(behind.error());
+    const EventAction action = events_.at(crossed, *behind);
+    const bool restart = action.restart || action.refactor || action.step_size || action.output_step;
+    if (restart || action.ends() || action.output) {
+      point_ = std::move(*behind);
+    } else {
+      point_.memory = std::move(behind->memory);
+    }
+    if ((action.output || !action.text.empty()) && !hand_out(point_, action.output, action.text)) {
+      EventAction last = action;
+      last.returns = stopped_ = true;
+      return last;
+    }
+    if (action.ends()) return action;
+    if (action.output_step) change_outputs(*action.output_step);
+    if (!restart) {
+      equations_->accept(point_);
+      return action;
+    }
+    note_density();
+    system_.record(point_);
+    if (auto begun = begin(action.step_size); !begun) return tl::unexpected(begun.error());
+    return action;
+  }
+
+  void note_density() {
     const bool close = statistics_.steps - last_event_ <= steps_between_events;
     last_event_ = statistics_.steps;
     close_events_ = close ? close_events_ + 1 : 0;
@@ -181,7 +233,22 @@ class Dynamics {
                                              "are at times stepped over, within the error that is allowed",
                                              point_.time));
     }
-    return begin_at_consistent();
+  }
+
+  // From the point on, to the same end.
+  void change_outputs(double step) {
+    if (point_.time >= times_.end()) return;
+    if (bounds_.largest == times_.step()) bounds_.largest = step;
+    times_ = OutputTimes(point_.time, times_.end(), step);
+    next_ = 1;
+  }
+
+  void limit_steps() {
+    const double longest =
+        std::min(bounds_.largest.value_or(tolerance_.duration), system_.longest_step(equations_->motion()));
+    if (longest == longest_) return;
+    longest_ = longest;
+    integrator_->limit_steps(longest);
   }
 
   void count() {
@@ -196,12 +263,14 @@ class Dynamics {
   }
 
   const System& system_;
-  const OutputTimes& times_;
+  OutputTimes times_;
   IntegrationStatistics& statistics_;
   const SimulationWatch& watch_;
   Findings& findings_;
+  Events events_;
   ErrorTolerance tolerance_;
   StepBounds bounds_;
+  double longest_ = 0;  // step, as the integrator has it
   std::unique_ptr<MotionEquations> equations_;
   std::unique_ptr<DaeIntegrator> integrator_;
   IntegrationStatistics counted_before_;
@@ -209,6 +278,7 @@ class Dynamics {
   std::vector<double> y_, yp_;
   std::int64_t next_ = 1;  // output
   int restarts_here_ = 0, close_events_ = 0;
+  bool stopped_ = false;                                 // by the watch
   std::int64_t last_event_ = -steps_between_events - 1;  // counted in steps
   std::set<std::string> said_;
 };

@@ -321,7 +321,10 @@ class Run {
 
 bool needs_integration(const System& system) {
   const Layout& layout = system.layout();
-  return std::any_of(layout.states.begin(), layout.states.end(), [](const auto& z) { return z.varies(); }) ||
+  const auto sources = system.event_sources();
+  return std::any_of(sources.begin(), sources.end(), [](const auto* s) { return s->event_count() > 0; }) ||
+         !layout.delay_calls.empty() ||
+         std::any_of(layout.states.begin(), layout.states.end(), [](const auto& z) { return z.varies(); }) ||
          std::any_of(layout.rows.begin(), layout.rows.end(),
                      [](const auto& r) { return r.level == RowLevel::velocity; });
 }

@@ -12,8 +12,8 @@
 
 namespace dynalin {
 
-// Whether positions or values follow from what happened before: differential states but for the courses of motions, or
-// constraints on velocities. Kinematics is dynamics then, without a degree of freedom.
+// Whether something follows from what happened before, or on the way: differential states but for the courses of
+// motions, constraints on velocities, DELAYs, SENSORs. Kinematics is dynamics then, without a degree of freedom.
 bool needs_integration(const System&);
 
 // From a consistent point to the end of `times`, or to where the watch does not go on. The watch is called with the

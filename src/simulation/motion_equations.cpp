@@ -14,9 +14,10 @@ constexpr double no_weight = 1e-30;
 
 }  // namespace
 
-MotionEquations::MotionEquations(const System& system, const OperatingPoint& at, std::vector<bool> active,
-                                 const ErrorTolerance& tolerance)
+MotionEquations::MotionEquations(const System& system, Events& events, const OperatingPoint& at,
+                                 std::vector<bool> active, const ErrorTolerance& tolerance)
     : system_(system),
+      events_(events),
       unknowns_(system),
       active_(std::move(active)),
       tolerance_(tolerance),
@@ -33,8 +34,6 @@ MotionEquations::MotionEquations(const System& system, const OperatingPoint& at,
     for (std::int32_t k = 0; k < layout.bodies[b].count; ++k)
       places_[static_cast<std::size_t>(layout.bodies[b].offset + k)] = {static_cast<std::int32_t>(b), k};
   }
-  system.switches(motion_, switch_scratch_, switches_);
-  switch_count_ = switches_.value.size();
   accept(at);
   find_differential();
 }
@@ -357,8 +356,7 @@ void MotionEquations::switches(double t, std::span<const double> y, std::span<co
     return;
   }
   unknowns_.unpack(t, y, yp, motion_);
-  system_.switches(motion_, switch_scratch_, switches_);
-  std::copy(switches_.value.begin(), switches_.value.end(), values.begin());
+  events_.values(motion_, values);
 }
 
 double MotionEquations::left_out_violation(const OperatingPoint& op) {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "simulation/dae_integrator.h"
+#include "simulation/events.h"
 #include "simulation/motion_unknowns.h"
 
 namespace dynalin {
@@ -29,8 +30,9 @@ struct ErrorTolerance {
 class MotionEquations final : public DaeProblem {
  public:
   // Rows that are not `active` are left out. Mode, memory and histories are those of the point.
-  MotionEquations(const System&, const OperatingPoint&, std::vector<bool> active, const ErrorTolerance&);
+  MotionEquations(const System&, Events&, const OperatingPoint&, std::vector<bool> active, const ErrorTolerance&);
 
+  const Motion& motion() const { return motion_; }  // where it was evaluated last
   const MotionUnknowns& unknowns() const { return unknowns_; }
   const std::vector<bool>& active() const { return active_; }
   // Takes over what an accepted point remembers, and how large its velocities and states are.
@@ -41,7 +43,7 @@ class MotionEquations final : public DaeProblem {
   const ColumnMatrix* jacobian(double t, double c, std::span<const double> y, std::span<const double> yp) override;
   void weights(std::span<const double> y, std::span<double> weight) const override;
   std::span<const double> differential() const override { return differential_; }
-  std::size_t switch_count() const override { return switch_count_; }
+  std::size_t switch_count() const override { return events_.size(); }
   void switches(double t, std::span<const double> y, std::span<const double> yp, std::span<double> values) override;
 
   // Whether zeros of switches end steps; they do at first.
@@ -80,6 +82,7 @@ class MotionEquations final : public DaeProblem {
   }
 
   const System& system_;
+  Events& events_;
   MotionUnknowns unknowns_;
   std::vector<bool> active_;
   ErrorTolerance tolerance_;
@@ -90,9 +93,6 @@ class MotionEquations final : public DaeProblem {
   std::vector<Place> places_;
   std::vector<Chart> charts_;  // by body
   std::vector<double> differential_;
-  SwitchList switches_;
-  ExpressionScratch switch_scratch_;
-  std::size_t switch_count_ = 0;
   bool switches_watched_ = true;
   mutable std::vector<double> rates_;  // of coordinates, scratch
   double fastest_ = 0;                 // rotation or way in lengths of the model, per time

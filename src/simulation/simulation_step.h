@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string_view>
 
 #include "dynalin/simulation.h"
 #include "system/system.h"
@@ -16,6 +17,7 @@ struct SimulationStep {
   const OperatingPoint& point;
   bool output = false;  // an output time: the start, each step of output, the end
   const IntegrationStatistics& statistics;
+  std::string_view text{};  // of SENSORs, for the message file: whole lines
 };
 
 // Called with every step; a simulation that is not to go on ends there, at a consistent point.

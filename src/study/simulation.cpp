@@ -14,11 +14,6 @@ tl::unexpected<StudyFailure> refused(std::string why, Diagnostics said = {}) {
   return tl::unexpected(StudyFailure(Failure{"simulation", std::move(why), {}}, std::move(said)));
 }
 
-SimulationKind settled(SimulationKind kind, std::size_t freedoms) {
-  if (kind != SimulationKind::transient) return kind;
-  return freedoms > 0 ? SimulationKind::dynamics : SimulationKind::kinematics;
-}
-
 Result<AdvancedPoint> advance(const System& system, const SimulationRequest& request, std::size_t freedoms,
                               const SimulationWatch& watch, SimulatedPoint& result, Findings& findings) {
   const OperatingPoint& from = result.point.values;
@@ -36,6 +31,11 @@ Result<AdvancedPoint> advance(const System& system, const SimulationRequest& req
 
 }  // namespace
 
+SimulationKind kind_at(const StudyPoint& point, SimulationKind asked) {
+  if (asked != SimulationKind::transient) return asked;
+  return degrees_of_freedom(*point.system, point.values) > 0 ? SimulationKind::dynamics : SimulationKind::kinematics;
+}
+
 StudyResult<SimulatedPoint> simulate(StudyPoint from, const SimulationRequest& request, const SimulationWatch& watch) {
   auto start = initial_conditions(std::move(from));
   if (!start) return tl::unexpected(start.error());
@@ -47,7 +47,7 @@ StudyResult<SimulatedPoint> simulate(StudyPoint from, const SimulationRequest& r
                                request.times.end(), result.point.values.time));
   }
   const std::size_t freedoms = degrees_of_freedom(system, result.point.values);
-  result.kind = settled(request.kind, freedoms);
+  result.kind = kind_at(result.point, request.kind);
   Findings findings;
   if (result.kind == SimulationKind::dynamics && freedoms == 0 && system.coordinates() > 0) {
     findings.warnings.warning("no-freedom-in-dynamics", {},

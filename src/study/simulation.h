@@ -23,6 +23,9 @@ struct SimulatedPoint {
   Diagnostics remarks;
 };
 
+// What is done at a point where that is asked for: never transient.
+SimulationKind kind_at(const StudyPoint&, SimulationKind asked);
+
 // A point that is not consistent is made so first. What fails leaves everything that was handed out until then.
 StudyResult<SimulatedPoint> simulate(StudyPoint from, const SimulationRequest&, const SimulationWatch& = {});
 

@@ -43,7 +43,7 @@ class Replay {
  private:
   bool execute(const Command& c, const library::Study& study, library::Record& record, library::OperatingPoint& point) {
     if (const auto* simulate = action_of<commands::Simulate>(c)) {
-      if (simulate->kind) return false;
+      if (simulate->kind) return through_time(c.text, *simulate, study, record, point);
       point = simulate->initial_conditions ? study.initial_conditions(point) : study.static_equilibrium(point, static_);
       record.add(c.text, point);
       return true;
@@ -75,6 +75,18 @@ class Replay {
     take_over(static_.rotation_limit, stated.rotation_limit);
     take_over(static_.iteration_limit, stated.iteration_limit);
     record.add(c.text, point.time());
+    return true;
+  }
+
+  bool through_time(const std::string& text, const commands::Simulate& simulate, const library::Study& study,
+                    library::Record& record, library::OperatingPoint& point) const {
+    if (!simulate.end && !simulate.duration) return false;
+    library::SimulationRequest request{.kind = *simulate.kind};
+    request.end = simulate.end ? *simulate.end : point.time() + *simulate.duration;
+    request.output_step = simulate.output_step, request.steps = simulate.steps;
+    library::Simulation found = study.simulate(point, request);
+    record.add(text, found);
+    point = found.point;
     return true;
   }
 

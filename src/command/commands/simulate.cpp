@@ -10,6 +10,7 @@
 #include "analysis/static_settings.h"
 #include "command/progress_line.h"
 #include "command/run_state.h"
+#include "command/step_output.h"
 #include "output/message_file.h"
 #include "system/operating_state.h"
 
@@ -135,14 +136,34 @@ std::string progress_text(const SimulationStep& at, double start, double end) {
                      100 * (at.point.time - start) / (end - start), s.step_size, s.order, s.iterations);
 }
 
-struct KindOfRun {
-  std::string_view name;
-  StepKind step;
-};
-KindOfRun kind_of_run(SimulationKind kind) {
-  if (kind == SimulationKind::kinematics) return {"kinematics", StepKind::kinematics};
-  if (kind == SimulationKind::quasi_statics) return {"quasi-statics", StepKind::quasi_statics};
-  return {"dynamics", StepKind::dynamics};
+StepKind step_kind(SimulationKind kind) {
+  if (kind == SimulationKind::kinematics) return StepKind::kinematics;
+  return kind == SimulationKind::quasi_statics ? StepKind::quasi_statics : StepKind::dynamics;
+}
+
+// One line of what was done, for the terminal.
+std::string summary_of(const SimulatedPoint& found) {
+  const IntegrationStatistics& s = found.statistics;
+  const double t = found.point.values.time;
+  if (found.kind == SimulationKind::quasi_statics) return fmt::format("quasi-statics to {:g}: {} steps", t, s.steps);
+  const std::string_view name = found.kind == SimulationKind::kinematics ? "kinematics" : "dynamics";
+  const std::string by = s.order > 0 ? fmt::format(", order {} at the end (SUNDIALS IDA)", s.order) : "";
+  return fmt::format("{} to {:g}: {} steps, {} evaluations, {} Jacobians{}", name, t, s.steps, s.evaluations,
+                     s.jacobians, by);
+}
+
+std::string_view ending_of(SimulationEnd end) {
+  switch (end) {
+    case SimulationEnd::reached:
+      return "";
+    case SimulationEnd::returned:
+      return ", ended by a SENSOR with RETURN";
+    case SimulationEnd::halted:
+      return ", the run ended by a SENSOR with HALT";
+    case SimulationEnd::stopped:
+      return ", interrupted";
+  }
+  return "";
 }
 
 constexpr CommandKind kind = {.name = "SIMULATE",
@@ -172,25 +193,20 @@ StudyResult<void> Simulate::run_over_time(RunState& run) const {
   request.integrator = run.settings.integrator;
   request.kinematics = run.settings.kinematics;
   request.statics = statics_options(run.settings.equilibrium);
+  StepOutput output(run, step_kind(kind_at(run.point, *kind)), request.times, request.integrator);
   ProgressLine line(run.terminal);
-  const SimulationWatch watch = [&](const SimulationStep& at) {
+  const auto found = simulate(run.point, request, [&](const SimulationStep& at) {
     line.show([&] { return progress_text(at, start, last); });
-    return GoOn::yes;
-  };
-  auto found = simulate(run.point, request, watch);
+    return output.add(at);
+  });
   line.clear();
+  const auto written = output.end();
   if (!found) return tl::unexpected(found.error());
-  const IntegrationStatistics& s = found->statistics;
-  const KindOfRun done = kind_of_run(found->kind);
-  if (run.terminal)
-    fmt::print(*run.terminal, "{} to {:g}: {} steps, {} evaluations, {} Jacobians{}\n", done.name,
-               found->point.values.time, s.steps, s.evaluations, s.jacobians,
-               s.order > 0 ? fmt::format(", order {} at the end (SUNDIALS IDA)", s.order) : "");
-  run.accept({std::move(found->point), std::move(found->remarks)});
-  const bool rests = run.point.statics.has_value();
-  const OperatingState state = operating_state(run.system(), rests ? run.point.statics->at_rest : run.point.values);
-  run.show(done.step, state);
-  run.json.add(run.command, state);
+  if (!written) return written;
+  if (run.terminal) fmt::print(*run.terminal, "{}{}\n", summary_of(*found), ending_of(found->end));
+  if (found->end == SimulationEnd::halted) run.halted = true;
+  run.accept({found->point, found->remarks});
+  run.show_where_it_ended();
   return {};
 }
 
