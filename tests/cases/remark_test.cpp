@@ -66,6 +66,11 @@ const std::vector<Remark>& table() {
       {"options-disagree", 0, SLIDER(BODY) "END\n", "LINEAR/EIGENSOL, RM=1, ORIGINAL\n"},
       {"overdamped-modes", 0, SLIDER(BODY) "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, K=1, C=9, LENGTH=1\nEND\n",
        "LINEAR/EIGENSOL\n"},
+      {"no-freedom-in-dynamics", 0, SLIDER(BODY) "MOTION/1, JOINT=1, FUNCTION=1+TIME\nEND\n",
+       "SIMULATE/DYNAMICS, END=0.1\n"},
+      {"dense-events", 0,
+       SLIDER(BODY) "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=0.5-IF(VZ(20): -1, 0, 1)\nEND\n",
+       "SIMULATE/DYNAMICS, END=1E-3\n"},
       {"passed-over", 0, SLIDER(BODY) "INTEGRATOR/FIXIT=1\nEND\n", "LINEAR/EIGENSOL\n"},
       {"loose-equilibrium", 0,
        SLIDER(BODY) "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=EXP(-DZ(20))\nEQUILIBRIUM/ERROR=2\nEND\n",
@@ -107,10 +112,10 @@ INSTANTIATE_TEST_SUITE_P(table, Remarks, ::testing::Range<std::size_t>(0, table(
 
 TEST(RemarkTable, has_every_code_but_those_that_other_tests_hold) {
   std::set<std::string> covered = {
-      "lost-digits",       // initial_conditions_test
-      "near-singular",     // near_singular_test
+      "lost-digits",          // initial_conditions_test
+      "near-singular",        // near_singular_test
       "constraint-left-out",  // near_singular_test
-      "export-differs",    // nastran/closed_box_test, open_box_test
+      "export-differs",       // nastran/closed_box_test, open_box_test
       "export-left-out",
       "geometry-file",     // elements/graphics/graphics_test
       "geometry-format",   // the same

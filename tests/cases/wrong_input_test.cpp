@@ -201,7 +201,7 @@ const std::vector<Wrong>& table() {
     {Place::command, "FOO/1", {"unknown-command 3:1"}},
     {Place::command, "SIMULATE/TRANSIENT", {"missing-argument 3:1"}},
     {Place::command, "SIMULATE/DYNAMICS, END=1, DURATION=1", {"excluded-arguments 3:27"}},
-    {Place::command, "SIMULATE/DYNAMICS, END=1, STEPS=2, DTOUT=1", {"excluded-arguments 3:36"}},
+    {Place::command, "SIMULATE/DYNAMICS, END=1, STEPS=2, DTOUT=1", {"excluded-arguments 3:27"}},
     {Place::command, "SIMULATE/DYNAMICS, DURATION=-1, DTOUT=0", {"value-out-of-range 3:20", "value-out-of-range 3:33"}},
     {Place::command, "SIMULATE/STATICS, STEPS=3", {"missing-argument 3:19"}},
     {Place::command, "SIMULATE/INITIAL_CONDITIONS, END=3", {"unexpected-argument 3:30"}},
