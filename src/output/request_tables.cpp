@@ -70,10 +70,11 @@ RequestTables::Result RequestTables::end() {
       if (table.has[c]) fmt::print(out_, " {:>{}.{}}", table.columns[c], width - 1, width - 1);
     }
     out_ << '\n';
+    const auto field = settings_.fixed ? fixed_field : number_field;
     const int error = steps_->read([&](std::span<const double> row) {
-      out_ << number_field(row[0], width);
+      out_ << field(row[0], width);
       for (std::size_t c = 0; c < 8; ++c) {
-        if (table.has[c]) out_ << (settings_.fixed ? fixed_field : number_field)(row[1 + 8 * k + c], width);
+        if (table.has[c]) out_ << field(row[1 + 8 * k + c], width);
       }
       out_ << '\n';
     });
