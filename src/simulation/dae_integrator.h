@@ -22,8 +22,9 @@ class DaeProblem {
   virtual bool residual(double t, std::span<const double> y, std::span<const double> yp, std::span<double> r) = 0;
   // ∂F/∂y + c ∂F/∂y′, always of the same pattern; null like above.
   virtual const ColumnMatrix* jacobian(double t, double c, std::span<const double> y, std::span<const double> yp) = 0;
-  // Reciprocals of the errors that are allowed in each unknown; next to nothing for those that no error is asked of.
-  virtual void weights(std::span<const double> y, std::span<double> weight) const = 0;
+  // Reciprocals of the errors that are allowed in each unknown in a step of this length (0: not known yet); next to
+  // nothing for those that no error is asked of.
+  virtual void weights(double step, std::span<const double> y, std::span<double> weight) const = 0;
   // 1 where the rate of an unknown counts, 0 for algebraic ones, whose error nobody controls.
   virtual std::span<const double> differential() const = 0;
   // Functions whose zeros end a step.

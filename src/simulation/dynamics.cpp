@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <set>
 
@@ -17,7 +19,10 @@ constexpr double left_out_limit = 1e-7;
 // Events in a row with hardly a step between them, after which they are passed over for some steps.
 constexpr int event_limit = 200;
 constexpr std::int64_t steps_between_events = 8, steps_without_events = 200;
-constexpr int restart_limit = 3;  // at one instant
+// Steps that fail on hardly any way, after which there is no going on.
+constexpr int failure_limit = 4;
+constexpr double hardly_any_way = 1e-4;  // of the whole time
+constexpr double just_beyond = 1e-6;     // of the whole time
 constexpr std::size_t remark_limit = 50;
 
 std::vector<bool> active_rows(const System& system, const OperatingPoint& op) {
@@ -33,7 +38,7 @@ class Dynamics {
            IntegrationStatistics& statistics, const SimulationWatch& watch, Findings& findings)
       : system_(system), times_(times), statistics_(statistics), watch_(watch), findings_(findings), events_(system) {
     const double error = settings.error.value_or(default_integration_error);
-    tolerance_.relative = std::clamp(part_of_error * error, 1e-13, 1e-3);
+    tolerance_.relative = std::clamp(part_of_error * std::pow(error, power_of_error), 1e-14, 1e-3);
     tolerance_.duration = times.end() - times.start();
     bounds_.first = settings.first_step;
     bounds_.least = settings.least_step;
@@ -55,6 +60,7 @@ class Dynamics {
     if (!hand_out(point_, true, at_start.text)) return AdvancedPoint{std::move(point_), SimulationEnd::stopped};
     if (at_start.ends()) return AdvancedPoint{std::move(point_), end_of(at_start)};
     if (at_start.output_step) change_outputs(*at_start.output_step);
+    if (MotionUnknowns(system_).size() == 0) return pass_time();
     if (auto begun = begin(at_start.step_size); !begun) return tl::unexpected(begun.error());
     while (true) {
       limit_steps();
@@ -105,6 +111,15 @@ class Dynamics {
     return result;
   }
 
+  // Where there is nothing to integrate.
+  Result<AdvancedPoint> pass_time() {
+    for (; next_ <= times_.count(); ++next_) {
+      point_.time = times_.at(next_);
+      if (!hand_out(point_, true)) return AdvancedPoint{std::move(point_), SimulationEnd::stopped};
+    }
+    return AdvancedPoint{std::move(point_), SimulationEnd::reached};
+  }
+
   // The integration from the point, which is consistent.
   Result<void> begin(std::optional<double> first_step = {}) {
     std::vector<bool> active = active_rows(system_, point_);
@@ -134,17 +149,32 @@ class Dynamics {
 
   // After a step that failed: from the last point that was accepted, with the constraints looked at anew.
   Result<void> begin_again() {
-    const std::string reason = integrator_->reason();
-    const std::string hardest = equations_->unknowns().text(integrator_->hardest_unknown());
-    if (++restarts_here_ <= restart_limit) {
+    Failure why = failure();
+    if (point_.time - first_failure_ > hardly_any_way * tolerance_.duration) {
+      first_failure_ = point_.time;
+      failures_ = 0;
+    }
+    if (++failures_ < failure_limit) {
       if (auto begun = begin_at_consistent()) return {};
     }
-    std::string undefined = system_.undefined_value(system_.motion(point_));
-    if (undefined.empty()) undefined = system_.domain_violation(system_.motion(point_));
-    std::vector<std::string> details;
-    if (!hardest.empty()) details.push_back("what stood in the way most is " + hardest);
-    if (!undefined.empty()) details.push_back(std::move(undefined));
-    return tl::unexpected(Failure{"dynamics", fmt::format("at time {:.9g}: {}", point_.time, reason), details});
+    return tl::unexpected(std::move(why));
+  }
+
+  // Why the last step failed, as far as it can be told: what the integrator says, what has no value, and whether the
+  // constraints can be met at all a little later.
+  Failure failure() const {
+    Failure f{"dynamics", fmt::format("at time {:.9g}: {}", point_.time, integrator_->reason()), {}};
+    const std::string hardest = equations_->unknowns().text(integrator_->hardest_unknown());
+    if (!hardest.empty()) f.details.push_back("what stood in the way most is " + hardest);
+    if (!equations_->undefined().empty()) f.details.push_back(equations_->undefined());
+    std::string outside = system_.domain_violation(system_.motion(point_));
+    if (!outside.empty()) f.details.push_back(std::move(outside));
+    OperatingPoint later = point_;
+    later.time += just_beyond * tolerance_.duration;
+    Findings unused;
+    if (const auto met = assemble_position(system_, std::move(later), unused); !met)
+      f.details.push_back("a little later " + met.error().message);
+    return f;
   }
 
   // The integrator's step becomes the point.
@@ -162,7 +192,6 @@ class Dynamics {
     const bool look_again = close_events_ >= event_limit && statistics_.steps - last_event_ > steps_without_events;
     if (look_again) close_events_ = 0;
     if (strayed || look_again) return begin_at_consistent();
-    restarts_here_ = 0;
     return {};
   }
 
@@ -277,9 +306,10 @@ class Dynamics {
   OperatingPoint point_, last_output_;
   std::vector<double> y_, yp_;
   std::int64_t next_ = 1;  // output
-  int restarts_here_ = 0, close_events_ = 0;
-  bool stopped_ = false;                                 // by the watch
-  std::int64_t last_event_ = -steps_between_events - 1;  // counted in steps
+  int failures_ = 0, close_events_ = 0;
+  bool stopped_ = false;                                             // by the watch
+  double first_failure_ = -std::numeric_limits<double>::infinity();  // of those that are counted [time]
+  std::int64_t last_event_ = -steps_between_events - 1;              // counted in steps
   std::set<std::string> said_;
 };
 

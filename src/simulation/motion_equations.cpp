@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dynalin {
 
@@ -11,6 +12,9 @@ namespace {
 constexpr double least_state = 1e-6;
 // Of what no error is asked.
 constexpr double no_weight = 1e-30;
+constexpr double some_steps = 10;
+// Of a value, what rounding makes of its differences from step to step.
+constexpr double rounding = 100 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -108,7 +112,9 @@ bool MotionEquations::residual(double t, std::span<const double> y, std::span<co
     const auto state = static_cast<std::size_t>(unknowns_.state(static_cast<std::int32_t>(k)));
     if (system_.layout().states[k].held_in_dynamics) r[state] = yp[state];
   }
-  return std::all_of(r.begin(), r.end(), [](double v) { return std::isfinite(v); });
+  if (std::all_of(r.begin(), r.end(), [](double v) { return std::isfinite(v); })) return true;
+  undefined_ = system_.undefined_value(motion_);
+  return false;
 }
 
 // q′ − T(q) (u + S Φ_qᵀ μ)
@@ -323,12 +329,14 @@ const ColumnMatrix* MotionEquations::jacobian(double t, double c, std::span<cons
   return finite ? &m : nullptr;
 }
 
-void MotionEquations::weights(std::span<const double>, std::span<double> weight) const {
+void MotionEquations::weights(double step, std::span<const double> y, std::span<double> weight) const {
   const Layout& layout = system_.layout();
   std::fill(weight.begin(), weight.end(), no_weight);
   const double part = dilution_ / tolerance_.relative;
-  // A velocity counts by the way it makes until the end, or as a part of the fastest.
-  const double fastest = std::max(fastest_, 1 / tolerance_.duration);
+  // A velocity counts by the way it makes until the end, or as a part of the fastest. In short steps it counts by the
+  // way that it makes in some of them: errors of velocities that stiff springs hold do not shrink with the step.
+  double fastest = std::max(fastest_, 1 / tolerance_.duration);
+  if (step > 0) fastest = std::max(fastest, 1 / (some_steps * step));
   for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
     const BodyBlock& block = layout.bodies[b];
     if (block.count == 0) continue;
@@ -347,6 +355,7 @@ void MotionEquations::weights(std::span<const double>, std::span<double> weight)
     const auto at = static_cast<std::size_t>(unknowns_.state(static_cast<std::int32_t>(k)));
     if (differential_[at] != 0.0) weight[at] = part / std::max(largest_state_[k], least_state);
   }
+  for (std::size_t k = 0; k < y.size(); ++k) weight[k] = std::min(weight[k], dilution_ / (rounding * std::abs(y[k])));
 }
 
 void MotionEquations::switches(double t, std::span<const double> y, std::span<const double> yp,

@@ -13,6 +13,7 @@
 // What μ does to it is left out: μ is as small as the errors.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "simulation/dae_integrator.h"
@@ -41,13 +42,16 @@ class MotionEquations final : public DaeProblem {
   std::size_t size() const override { return unknowns_.size(); }
   bool residual(double t, std::span<const double> y, std::span<const double> yp, std::span<double> r) override;
   const ColumnMatrix* jacobian(double t, double c, std::span<const double> y, std::span<const double> yp) override;
-  void weights(std::span<const double> y, std::span<double> weight) const override;
+  void weights(double step, std::span<const double> y, std::span<double> weight) const override;
   std::span<const double> differential() const override { return differential_; }
   std::size_t switch_count() const override { return events_.size(); }
   void switches(double t, std::span<const double> y, std::span<const double> yp, std::span<double> values) override;
 
   // Whether zeros of switches end steps; they do at first.
   void watch_switches(bool watched) { switches_watched_ = watched; }
+
+  // What has no finite value, of the last residual that had none; empty before.
+  const std::string& undefined() const { return undefined_; }
 
   // How far the rows that are left out are from being met, in their scales.
   double left_out_violation(const OperatingPoint&);
@@ -94,6 +98,7 @@ class MotionEquations final : public DaeProblem {
   std::vector<Chart> charts_;  // by body
   std::vector<double> differential_;
   bool switches_watched_ = true;
+  std::string undefined_;
   mutable std::vector<double> rates_;  // of coordinates, scratch
   double fastest_ = 0;                 // rotation or way in lengths of the model, per time
   std::vector<double> largest_state_;  // so far
