@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "dynalin/linear_model.h"
 #include "dynalin/model.h"
@@ -17,6 +18,11 @@ struct StaticRequest {
   std::optional<double> error{}, imbalance{};                   // what is taken where no exact equilibrium is found
   std::optional<double> translation_limit{}, rotation_limit{};  // of a step [length], [rad]
   std::optional<std::int64_t> iteration_limit{};
+  std::optional<bool> newton{};                // Newton's method first, as METHOD=ORIGINAL says
+  std::optional<double> stability{};           // of it, a multiple of masses and dampings that holds what is free
+  std::optional<std::vector<bool>> pattern{};  // of it, which iterations evaluate the Jacobian, over and over
+  std::optional<bool> by_motion{};             // a damped motion first, as DYNAMIC says
+  std::optional<double> global_damping{}, acceleration_error{}, kinetic_energy_error{}, settling_time{};  // of it
   std::function<void(int iteration, double imbalance)> progress{};  // called with every iteration
 };
 

@@ -1,7 +1,10 @@
 #include "analysis/rest_judgement.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+
+#include "analysis/comparable_scales.h"
 
 namespace dynalin {
 
@@ -32,59 +35,36 @@ Eigen::MatrixXd random_signs(const Eigen::VectorXd& size, Eigen::Index columns) 
   return x;
 }
 
-// Rows and columns of comparable size, so that a small stiffness of its own is told from none: R J C.
 class ScaledTangent {
  public:
-  explicit ScaledTangent(ColumnMatrix J) : matrix_(std::move(J)) {
-    const Eigen::Index n = matrix_.rows;
-    row_ = Eigen::VectorXd::Ones(n);
-    column_ = Eigen::VectorXd::Ones(n);
-    for (int pass = 0; pass < 3; ++pass) {
-      for (const bool by_column : {true, false}) {
-        Eigen::VectorXd largest = Eigen::VectorXd::Zero(n);
-        for_each_entry(matrix_, [&](std::int32_t r, std::int32_t c, double v) {
-          double& m = largest(by_column ? c : r);
-          m = std::max(m, std::abs(v) * row_(r) * column_(c));
-        });
-        Eigen::VectorXd& scale = by_column ? column_ : row_;
-        for (Eigen::Index k = 0; k < n; ++k) {
-          if (largest(k) > 0) scale(k) /= largest(k);
-        }
-      }
-    }
-  }
+  explicit ScaledTangent(const ColumnMatrix& J) : scales_(J), matrix_(scales_.of(J)) {}
 
   // Where a direction is indifferent, with a little of the identity.
   bool factor(StaticEquations& equations, double identity) {
-    ColumnMatrix m = matrix_;
-    std::size_t at = 0;
+    if (identity == 0) return equations.factor(lu_, matrix_);
     std::vector<Triplet> entries;
-    entries.reserve(m.value.size() + static_cast<std::size_t>(m.rows));
-    for_each_entry(matrix_, [&](std::int32_t r, std::int32_t c, double v) {
-      m.value[at++] = v * row_(r) * column_(c);
-      if (identity > 0) entries.push_back({r, c, m.value[at - 1]});
-    });
-    if (identity == 0) return equations.factor(lu_, std::move(m));
-    for (std::int32_t k = 0; k < m.rows; ++k) {
+    entries.reserve(matrix_.value.size() + static_cast<std::size_t>(matrix_.rows));
+    for_each_entry(matrix_, [&](std::int32_t r, std::int32_t c, double v) { entries.push_back({r, c, v}); });
+    for (std::int32_t k = 0; k < matrix_.rows; ++k) {
       if (row_counts(equations, k)) entries.push_back({k, k, identity});
     }
-    return equations.factor(lu_, compressed(m.rows, m.columns, entries));
+    return equations.factor(lu_, compressed(matrix_.rows, matrix_.columns, entries));
   }
   void solve(Eigen::MatrixXd& x) const {
-    x = row_.asDiagonal() * x;
+    x = scales_.row.asDiagonal() * x;
     lu_.solve(x);
-    x = column_.asDiagonal() * x;
+    x = scales_.column.asDiagonal() * x;
   }
   // How much unknowns answer to a change of all equations by about their largest coefficient, in units of their scale.
   Eigen::VectorXd answer() const {
-    Eigen::MatrixXd x = random_signs(Eigen::VectorXd::Ones(row_.size()), 2);
+    Eigen::MatrixXd x = random_signs(Eigen::VectorXd::Ones(matrix_.rows), 2);
     lu_.solve(x);
     return x.cwiseAbs().rowwise().maxCoeff();
   }
 
  private:
+  ComparableScales scales_;
   ColumnMatrix matrix_;
-  Eigen::VectorXd row_, column_;
   SparseLu lu_;
 };
 
@@ -119,6 +99,57 @@ bool balanced_to_rounding(const StaticEquations& equations) {
     if (std::abs(equations.residual()(k)) > roundings * equations.rounding()(k)) return false;
   }
   return true;
+}
+
+std::vector<bool> free_unknowns(StaticEquations& equations, const OperatingPoint& op) {
+  equations.evaluate(op, true);
+  const auto count = static_cast<std::size_t>(equations.residual().size());
+  const auto judgement = judge(equations, op);
+  if (!judgement) return std::vector<bool>(count, true);
+  std::vector<bool> free = judgement->indifferent;
+  // Along axes that turn with each part, r′ = r − δθ × r: a vehicle that turns as a whole changes nothing there.
+  const ColumnMatrix J = equations.tangent(0, 0);
+  std::vector<Triplet> entries;
+  for_each_entry(J, [&](std::int32_t r, std::int32_t c, double v) { entries.push_back({r, c, v}); });
+  const Layout& layout = equations.system().layout();
+  for (const BodyBlock& b : layout.bodies) {
+    if (!b.turns()) continue;
+    for (std::int32_t first = b.offset; first < b.offset + 6; first += 3) {
+      const Eigen::Vector3d r = equations.residual().segment<3>(first);
+      for (std::int32_t axis = 0; axis < 3; ++axis) {
+        const Eigen::Vector3d turned = Eigen::Vector3d::Unit(axis).cross(r);
+        for (std::int32_t k = 0; k < 3; ++k) entries.push_back({first + k, b.offset + 3 + axis, -turned(k)});
+      }
+    }
+  }
+  ScaledTangent tangent(compressed(J.rows, J.columns, entries));
+  if (tangent.factor(equations, 0) || tangent.factor(equations, 1e-12)) {
+    const Eigen::VectorXd answer = tangent.answer();
+    for (Eigen::Index k = 0; k < answer.size(); ++k) {
+      if (row_counts(equations, k) && !(answer(k) < softest)) free[static_cast<std::size_t>(k)] = true;
+    }
+  }
+  // What is free may point elsewhere when its part has turned.
+  for (const BodyBlock& b : layout.bodies) {
+    for (std::int32_t first = b.offset; first < b.offset + b.count; first += 3) {
+      const auto from = free.begin() + first;
+      if (std::find(from, from + 3, true) != from + 3) std::fill(from, from + 3, true);
+    }
+  }
+  return free;
+}
+
+Eigen::VectorXd undetermined_part(StaticEquations& equations, Eigen::VectorXd move) {
+  constexpr double identity = 1e-10;  // far above rounding, far below what holds anything
+  const AugmentedSystem& augmented = equations.augmented();
+  move.segment(augmented.lambda(0), augmented.state(0) - augmented.lambda(0)).setZero();
+  const ColumnMatrix J = equations.tangent(0, 0);
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(move.size(), 1);
+  for_each_entry(J, [&](std::int32_t r, std::int32_t c, double v) { x(r, 0) += v * move(c); });
+  ScaledTangent tangent(J);
+  if (!tangent.factor(equations, identity)) return move;
+  tangent.solve(x);
+  return x.allFinite() ? Eigen::VectorXd(move - x.col(0)) : move;
 }
 
 std::optional<RestJudgement> judge(StaticEquations& equations, const OperatingPoint& op) {

@@ -23,6 +23,13 @@ struct RestJudgement {
 // At the point of the last evaluation, which was with partials. Nothing if no step can be computed.
 std::optional<RestJudgement> judge(StaticEquations&, const OperatingPoint&);
 
+// Unknowns that nothing holds at a point that need not be balanced: forces that turn with their parts do not hold them.
+std::vector<bool> free_unknowns(StaticEquations&, const OperatingPoint&);
+
+// What the tangent of the last evaluation does not determine of a move of coordinates and states; what an unknown that
+// is indifferent moved may be determined all the same, together with others.
+Eigen::VectorXd undetermined_part(StaticEquations&, Eigen::VectorXd move);
+
 // Every equation balances but for rounding: nothing can be said against the point.
 bool balanced_to_rounding(const StaticEquations&);
 

@@ -36,8 +36,7 @@ bool escaped(const System& system, const OperatingPoint& from, const OperatingPo
 bool Descent::run(OperatingPoint& op, const std::vector<bool>* loose) {
   loose_ = loose;
   equations_.measure_by(Yardstick::model);
-  const OperatingPoint first = op;
-  lowest_ = op;
+  first_ = lowest_ = op;
   for (iteration_ = 0; iteration_ < options_.iteration_limit; ++iteration_) {
     // A motion that comes closer to rest goes on even in a model so large that the effort is soon spent.
     const bool spent = equations_.effort() > options_.effort_limit;
@@ -50,13 +49,18 @@ bool Descent::run(OperatingPoint& op, const std::vector<bool>* loose) {
     if (!std::isfinite(merit_)) return false;
     if (iteration_ == 0) first_force_ = force_;
     if (iteration_ == 0 && !loose && balanced_to_rounding(equations_)) return true;
-    if (escaped(system_, first, op)) return false;
+    if (escaped(system_, first_, op)) return false;
     note_arrivals();
     // Against the first yardstick: forces that grow without end do not make a point better.
     const double merit = equations_.merit(first_force_);
     if (merit < 0.8 * lowest_merit_ || merit == 0) improved_ = iteration_;
     // What falls freely comes no closer to rest until it lands.
-    if (const double way = farthest(first, op); way > 1.2 * way_) way_ = way, improved_ = iteration_;
+    if (const double way = farthest(first_, op); way > 1.2 * way_) way_ = way, improved_ = iteration_;
+    // Nor does what turns under a steady load, until it meets a stop.
+    if (turned_ > 1.2 * turned_before_ && turned_ > 1) {
+      if (std::abs(merit - steady_) <= 0.02 * merit) improved_ = iteration_;
+      turned_before_ = turned_, steady_ = merit;
+    }
     if (merit < lowest_merit_ || (merit == 0 && equations_.yardstick() == Yardstick::part))
       lowest_merit_ = merit, lowest_ = op;
     if (iteration_ > improved_ + (spent ? patience / 4 : patience)) return false;
@@ -110,7 +114,7 @@ bool Descent::finish(OperatingPoint& op) {
     }
     stuck = j->largest < 0.95 * smallest ? 0 : stuck + 1;
     // What Newton's method cannot improve any more is determined as well as it can be.
-    const bool exact = j->largest <= 1e-12 && stuck >= 3;
+    const bool exact = (j->largest <= 1e-12 && stuck >= 3) || j->largest <= std::numeric_limits<double>::epsilon();
     if ((j->balanced || exact) && j->determined && came_to_rest(*j)) rest = here;
     if (rest && (j->largest == 0 || stuck > 0)) break;
     if (!rest && j->largest_at >= 0) {
@@ -123,7 +127,9 @@ bool Descent::finish(OperatingPoint& op) {
     double taken = 0;
     here = moved(system_, here, equations_.augmented(), j->step, 1.0, options_.limits, &taken);
     for (Eigen::Index i = 0; i < j->step.size(); ++i) {
-      if (j->step(i) != 0 && move_.size() > 0) move_(i) = std::abs(taken * j->step(i)) / j->size(i);
+      if (j->step(i) == 0 || move_.size() == 0) continue;
+      move_(i) = std::abs(taken * j->step(i)) / j->size(i);
+      moved_at_[static_cast<std::size_t>(i)] = -1;
     }
   }
   if (rest) {
@@ -138,14 +144,52 @@ bool Descent::finish(OperatingPoint& op) {
 
 // What nothing but rounding determines may be anywhere. It is where it is because nothing moved it, or because what
 // moved it ended; where a force only fades, the steps stay large until the force is lost in rounding.
-bool Descent::came_to_rest(const RestJudgement& j) const {
+bool Descent::came_to_rest(const RestJudgement& j) {
+  constexpr double lost = 1e-5;  // of a step, in what is found of it
+  struct Drift {
+    Eigen::VectorXd way;
+    bool driven = false;
+  };
+  std::array<Drift, 4> drifts;
+  const auto drift_of = [&](std::size_t n) -> const Drift& {
+    Drift& d = drifts[n];
+    if (d.way.size() > 0) return d;
+    const Move& move = moves_[n];
+    d.way = undetermined_part(equations_, move.step);
+    double work = 0, unseen = 0;
+    for (Eigen::Index k = 0; k < d.way.size(); ++k) {
+      if (k >= equations_.augmented().lambda(0) && k < equations_.augmented().state(0)) continue;
+      work += move.residual(k) * d.way(k);
+      unseen += move.rounding(k) * std::abs(d.way(k));
+    }
+    d.driven = std::abs(work) > noise * unseen;
+    return d;
+  };
   for (Eigen::Index k = 0; k < move_.size(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     if (!j.indifferent[i]) continue;
-    if (!arrived_[i] && move_(k) > settled_move) return false;
     if (loose_ && !(*loose_)[i]) return false;
+    if (arrived_[i] || move_(k) <= settled_move) continue;
+    // A part that may spin about any axis leaves its angles about all of them open, but not each alone; and one that
+    // nothing pushes along what is open drifts there as a matrix that is all but singular has it.
+    const auto n = static_cast<std::size_t>(moved_at_[i]) % moves_.size();
+    if (moved_at_[i] < 0 || moves_[n].at != moved_at_[i]) return false;
+    const Drift& drift = drift_of(n);
+    const double longest =
+        moves_[n].step.cwiseQuotient(j.size).head(system_.layout().coordinate_count).cwiseAbs().maxCoeff();
+    if (drift.driven && std::abs(drift.way(k)) / j.size(k) > std::max(settled_move, lost * longest)) return false;
   }
   return true;
+}
+
+bool Descent::polish(OperatingPoint& op, const std::vector<bool>& loose) {
+  loose_ = &loose;
+  equations_.measure_by(Yardstick::model);
+  equations_.evaluate(op, true);
+  if (!equations_.residual().allFinite()) return false;
+  first_ = lowest_ = op;
+  note_arrivals();
+  return finish(op);
 }
 
 void Descent::note_arrivals() {
@@ -155,6 +199,7 @@ void Descent::note_arrivals() {
     excess_before_ = Eigen::VectorXd::Zero(n);
     excess_ = Eigen::VectorXd::Zero(n);
     arrived_.assign(static_cast<std::size_t>(n), false);
+    moved_at_.assign(static_cast<std::size_t>(n), -1);
   }
   for (Eigen::Index k = 0; k < n; ++k) {
     const double r = std::abs(equations_.residual()(k));
@@ -164,17 +209,30 @@ void Descent::note_arrivals() {
     excess_before_(k) = excess_(k);
     excess_(k) = now;
   }
+  pushing_ = equations_.residual();
+  blur_ = equations_.rounding();
 }
 
 void Descent::note_move(const Eigen::VectorXd& step, double factor) {
   const AugmentedSystem& augmented = equations_.augmented();
+  bool pushed = false;
+  double turn = 0;
+  for (const BodyBlock& b : system_.layout().bodies) {
+    if (b.turns()) turn = std::max(turn, factor * step.segment<3>(b.offset + 3).norm());
+  }
+  turned_ += turn;
   for (Eigen::Index k = 0; k < step.size(); ++k) {
     if (excess_(k) <= noise) continue;  // nothing pushed there, whatever a nearly singular matrix makes of it
     const auto i = static_cast<std::int32_t>(k);
     const bool pose = i < augmented.lambda(0);
-    if (pose || i >= augmented.state(0))
-      move_(k) = std::abs(factor * step(k)) / (pose ? system_.coordinate_scale(i) : 1.0);
+    if (!pose && i < augmented.state(0)) continue;
+    move_(k) = std::abs(factor * step(k)) / (pose ? system_.coordinate_scale(i) : 1.0);
+    moved_at_[static_cast<std::size_t>(k)] = pushes_;
+    pushed = true;
   }
+  if (!pushed) return;
+  moves_[static_cast<std::size_t>(pushes_) % moves_.size()] = {pushes_, factor * step, pushing_, blur_};
+  ++pushes_;
 }
 
 std::optional<Eigen::VectorXd> Descent::solve(double hold) {
@@ -198,6 +256,8 @@ bool Descent::newton(OperatingPoint& op, double level) {
   for (const double fraction : {1.0, 0.5, 0.25}) {
     double taken = 0;
     OperatingPoint next = moved(system_, op, equations_.augmented(), *step, fraction, options_.limits, &taken);
+    // A matrix that is all but singular sends what nothing holds beyond everything.
+    if (escaped(system_, first_, next)) break;
     if (level > 1e-6) equations_.settle(next);
     equations_.evaluate(next, false);
     const double after = equations_.merit(force_);

@@ -1,7 +1,9 @@
 // One way downhill from a point to rest: Newton's method where it helps, else implicit steps of a damped motion.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <vector>
 
 #include "analysis/rest_judgement.h"
 #include "analysis/static_history.h"
@@ -21,6 +23,10 @@ class Descent {
   // nothing holds may then rest where it is. Otherwise only unknowns that `loose` marks may be held by nothing.
   bool run(OperatingPoint& op, const std::vector<bool>* loose = nullptr);
 
+  // Whether a point that another search has come near is at rest; it is taken there exactly. Only unknowns that `loose`
+  // marks may be held by nothing.
+  bool polish(OperatingPoint& op, const std::vector<bool>& loose);
+
   const OperatingPoint& lowest() const { return lowest_; }
   bool held_states() const { return held_states_; }
   // What kept the last points that were nearly balanced from being accepted, empty if there were none.
@@ -31,7 +37,7 @@ class Descent {
   bool newton(OperatingPoint& op, double level);
   bool implicit(OperatingPoint& op);
   bool finish(OperatingPoint& op);
-  bool came_to_rest(const RestJudgement&) const;
+  bool came_to_rest(const RestJudgement&);
   void note_arrivals();
   void note_move(const Eigen::VectorXd& step, double factor);
   void change_yardstick();
@@ -43,7 +49,7 @@ class Descent {
   StaticHistory& history_;
   const std::vector<bool>* loose_ = nullptr;
   int iteration_ = 0, improved_ = 0, converging_ = 0, stalled_ = 0;
-  OperatingPoint lowest_;
+  OperatingPoint first_, lowest_;
   double way_ = 0, first_force_ = 0, lowest_merit_ = std::numeric_limits<double>::infinity();
   double force_ = 0, merit_ = 0, hold_ = 1, before_ = std::numeric_limits<double>::infinity();
   SparseLu lu_;
@@ -52,6 +58,17 @@ class Descent {
   // whether balance came at once from far off, as where a contact opens, and not little by little.
   Eigen::VectorXd move_, excess_, excess_before_;
   std::vector<bool> arrived_;
+  // The last steps that forces made, and by unknown the number of the one that is its last.
+  struct Move {
+    int at = -1;
+    Eigen::VectorXd step;
+    Eigen::VectorXd residual, rounding;  // before it
+  };
+  std::array<Move, 4> moves_;
+  std::vector<int> moved_at_;
+  int pushes_ = 0;
+  Eigen::VectorXd pushing_, blur_;
+  double turned_ = 0, turned_before_ = 0, steady_ = 0;
   double smallest_move_ = std::numeric_limits<double>::infinity();
   std::string doubt_;
 };

@@ -30,8 +30,13 @@ void StaticEquations::evaluate(const OperatingPoint& op, bool with_partials) {
   system_.constraints(motion, rows_);
   if (with_partials || part_.active.empty()) part_ = system_.partition(rows_, false);
   if (with_partials) {
-    system_.equations(motion, rows_, eq_,
-                      {PartialBy::position, PartialBy::lambda, PartialBy::algebraic, PartialBy::state});
+    using P = PartialBy;
+    if (motion_)
+      system_.equations(
+          motion, rows_, eq_,
+          {P::position, P::lambda, P::algebraic, P::state, P::velocity, P::damping, P::acceleration, P::state_rate});
+    else
+      system_.equations(motion, rows_, eq_, {P::position, P::lambda, P::algebraic, P::state});
     undefined_ = !eq_.clear_undefined().empty();
   } else {
     system_.equations(motion, rows_, eq_, {});
@@ -310,6 +315,50 @@ ColumnMatrix StaticEquations::tangent(double hold, double hold_states) const {
     diagonal[static_cast<std::size_t>(augmented_.state(static_cast<std::int32_t>(k)))] = held_[k] ? 0.0 : hold_states;
   }
   return augmented_.matrix(eq_, rows_, part_.active, {PartialBy::position, PartialBy::state}, {}, held_, diagonal);
+}
+
+ColumnMatrix StaticEquations::tangent_of_motion(double by_velocity, double by_acceleration, double by_rate,
+                                                double hold) const {
+  const ColumnMatrix J = tangent(hold, 0);
+  std::vector<Triplet> entries;
+  entries.reserve(J.value.size());
+  for_each_entry(J, [&](std::int32_t r, std::int32_t c, double v) { entries.push_back({r, c, v}); });
+  const auto held = [&](std::int32_t r) {
+    const std::int32_t k = r - augmented_.state(0);
+    return k >= 0 && held_[static_cast<std::size_t>(k)];
+  };
+  const auto add = [&](PartialBy family, double factor, std::int32_t offset) {
+    for_each_entry(eq_.matrix(family), [&](std::int32_t r, std::int32_t c, double v) {
+      const std::int32_t row = augmented_.equation(r);
+      if (!held(row) && !held(offset + c)) entries.push_back({row, offset + c, factor * v});
+    });
+  };
+  add(PartialBy::velocity, by_velocity, 0);
+  add(PartialBy::damping, by_velocity, 0);
+  add(PartialBy::acceleration, by_acceleration, 0);
+  add(PartialBy::state_rate, by_rate, augmented_.state(0));
+  return compressed(J.rows, J.columns, entries);
+}
+
+Eigen::VectorXd StaticEquations::inertia(const Eigen::VectorXd& acceleration) const {
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(augmented_.size());
+  for_each_entry(eq_.matrix(PartialBy::acceleration),
+                 [&](std::int32_t r, std::int32_t c, double v) { f(augmented_.equation(r)) += v * acceleration(c); });
+  return f;
+}
+
+Eigen::VectorXd StaticEquations::forces_of_motion(const Eigen::VectorXd& velocity,
+                                                  const Eigen::VectorXd& acceleration) const {
+  Eigen::VectorXd f = inertia(acceleration);
+  for (const PartialBy family : {PartialBy::velocity, PartialBy::damping}) {
+    for_each_entry(eq_.matrix(family),
+                   [&](std::int32_t r, std::int32_t c, double v) { f(augmented_.equation(r)) += v * velocity(c); });
+  }
+  Eigen::VectorXd balance = f.head(coordinates_);
+  for_each_entry(eq_.matrix(PartialBy::algebraic), [&](std::int32_t r, std::int32_t c, double v) {
+    if (r < coordinates_) balance(r) -= v * f(augmented_.algebraic(c));
+  });
+  return balance;
 }
 
 // The largest entry of the first tangent as force per length; one yardstick for the whole search.

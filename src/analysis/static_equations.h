@@ -73,6 +73,16 @@ class StaticEquations {
   // states.
   ColumnMatrix tangent(double hold, double hold_states) const;
 
+  // From now on evaluations with partials have those by velocities, accelerations and rates as well.
+  void look_at_motion() { motion_ = true; }
+  // The tangent of a motion on which velocities, accelerations and rates change by multiples of the displacement: the
+  // stiffness with these multiples of dampings, masses and the coefficients of rates.
+  ColumnMatrix tangent_of_motion(double by_velocity, double by_acceleration, double by_rate, double hold = 0) const;
+  // What accelerations add to the equations, in the order of the matrix.
+  Eigen::VectorXd inertia(const Eigen::VectorXd& acceleration) const;
+  // What velocities and accelerations add to the balance of the coordinates, through functions as well.
+  Eigen::VectorXd forces_of_motion(const Eigen::VectorXd& velocity, const Eigen::VectorXd& acceleration) const;
+
   // Factors and keeps count of the work so far, about the number of products.
   bool factor(SparseLu&, ColumnMatrix);
   double effort() const { return effort_; }
@@ -91,7 +101,7 @@ class StaticEquations {
   void measure_rounding(const OperatingPoint&);
   void measure_parts();
 
-  bool undefined_ = false;
+  bool undefined_ = false, motion_ = false;
   const System& system_;
   AugmentedSystem augmented_;
   std::int32_t coordinates_;

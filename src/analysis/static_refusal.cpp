@@ -6,37 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
+
+#include "analysis/joined_sets.h"
+#include "analysis/part_names.h"
 
 namespace dynalin {
 
 namespace {
 
-constexpr std::size_t named_parts = 6;
 constexpr double negligible = 1e-9;  // of stiffnesses and forces, relative
-
-// Bodies in groups that no column of the tangent connects.
-class Groups {
- public:
-  explicit Groups(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::size_t of(std::size_t b) {
-    while (parent_[b] != b) b = parent_[b] = parent_[parent_[b]];
-    return b;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[of(a)] = of(b); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
-std::string part_names(const Layout& layout, const std::vector<std::size_t>& bodies) {
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < std::min(bodies.size(), named_parts); ++k)
-    names.push_back(layout.bodies[bodies[k]].label.full_text());
-  std::string text = fmt::format("{}", fmt::join(names, ", "));
-  if (bodies.size() > named_parts) text += fmt::format(" and {} more", bodies.size() - named_parts);
-  return text;
-}
 
 }  // namespace
 
@@ -58,7 +36,7 @@ std::vector<std::string> unheld_parts(StaticEquations& equations, const Operatin
 
   // The sum of forces on a group changes by Σ_columns s_c δ_c. Along a direction e with e · s_c = 0 for all c it is
   // constant, reactions between the parts of the group included.
-  Groups groups(layout.bodies.size());
+  JoinedSets groups(layout.bodies.size());  // of bodies that a column of the tangent connects
   std::vector<std::size_t> touched(static_cast<std::size_t>(J.columns), 0);
   std::vector<Eigen::Vector3d> sum(static_cast<std::size_t>(J.columns), Eigen::Vector3d::Zero());
   double largest = 0;
@@ -91,8 +69,13 @@ std::vector<std::string> unheld_parts(StaticEquations& equations, const Operatin
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> directions(resistance[g]);
     Eigen::Vector3d left = Eigen::Vector3d::Zero();
     for (Eigen::Index k = 0; k < 3; ++k) {
+      // The eigenvalue itself is a square, whose rounding would hide what is small.
       const Eigen::Vector3d e = directions.eigenvectors().col(k);
-      if (std::sqrt(std::max(0.0, directions.eigenvalues()(k))) <= negligible * largest) left += e.dot(force[g]) * e;
+      double most = 0;
+      for (std::size_t c = 0; c < sum.size(); ++c) {
+        if (touched[c] != 0 && groups.of(touched[c]) == g) most = std::max(most, std::abs(e.dot(sum[c])));
+      }
+      if (most <= negligible * largest) left += e.dot(force[g]) * e;
     }
     if (!(left.norm() > negligible * equations.force_scale())) continue;
     for (Eigen::Index k = 0; k < 3; ++k) {
@@ -104,10 +87,11 @@ std::vector<std::string> unheld_parts(StaticEquations& equations, const Operatin
   return sentences;
 }
 
-Failure static_refusal(StaticEquations& equations, OperatingPoint op, std::vector<std::string> history) {
+Failure static_refusal(StaticEquations& equations, OperatingPoint op, const std::vector<std::string>& proof,
+                       std::vector<std::string> history) {
   const System& system = equations.system();
   Failure f{"statics", "no equilibrium was found", std::move(history)};
-  if (const auto unheld = unheld_parts(equations, op); !unheld.empty()) {
+  if (const auto unheld = proof.empty() ? unheld_parts(equations, op) : proof; !unheld.empty()) {
     f.message += fmt::format(": {}", fmt::join(unheld, "; "));
     return f;
   }

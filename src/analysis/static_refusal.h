@@ -12,7 +12,8 @@ namespace dynalin {
 // pose, the sum of these forces stays. One sentence for every such group, none if everything is held.
 std::vector<std::string> unheld_parts(StaticEquations&, const OperatingPoint&);
 
-// At a point that is not at rest.
-Failure static_refusal(StaticEquations&, OperatingPoint, std::vector<std::string> history);
+// At a point that is not at rest; `proof`: sentences that say why there is no equilibrium at all.
+Failure static_refusal(StaticEquations&, OperatingPoint, const std::vector<std::string>& proof,
+                       std::vector<std::string> history);
 
 }  // namespace dynalin

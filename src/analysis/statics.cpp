@@ -7,10 +7,13 @@
 #include <cmath>
 #include <random>
 
+#include "analysis/damped_motion.h"
 #include "analysis/homotopy.h"
 #include "analysis/levenberg_marquardt.h"
+#include "analysis/original_method.h"
 #include "analysis/static_descent.h"
 #include "analysis/static_refusal.h"
+#include "analysis/unheld_motion.h"
 
 namespace dynalin {
 
@@ -29,19 +32,24 @@ std::string too_far_out(const System& system, const OperatingPoint& op) {
   }
   if (at[0].size() < 3) return {};
   const auto half = static_cast<std::ptrdiff_t>(at[0].size() / 2);
+  const auto middle = [&](std::vector<double>& x, std::ptrdiff_t k) {
+    std::nth_element(x.begin(), x.begin() + k, x.end());
+    return x[static_cast<std::size_t>(k)];
+  };
   double spread = 0;
   for (std::vector<double>& x : at) {
-    const auto middle = [&] {
-      std::nth_element(x.begin(), x.begin() + half, x.end());
-      return x[static_cast<std::size_t>(half)];
-    };
-    const double centre = middle();
+    const double centre = middle(x, half);
     for (double& v : x) v = std::abs(v - centre);
-    spread = std::max(spread, middle());
+    spread = std::max(spread, middle(x, half));
   }
+  // Markers that are drawn in one place say nothing of the size.
+  std::vector<double> distance;
+  for (const Pose& pose : op.poses) distance.push_back(norm(pose.r));
+  const double coincide =
+      4 * std::numeric_limits<double>::epsilon() * middle(distance, static_cast<std::ptrdiff_t>(distance.size() / 2));
   for (std::size_t b = 1; b < op.poses.size(); ++b) {
     const double off = norm(op.poses[b].r) * std::numeric_limits<double>::epsilon();
-    if (off <= 1e-6 * spread || spread == 0) continue;
+    if (off <= 1e-6 * spread || spread <= coincide) continue;
     return fmt::format(
         "{} is so far out that its position is known to {:.1e} only, in a model of which half lies within "
         "{:.3g}",
@@ -86,6 +94,34 @@ std::optional<OperatingPoint> within(const StaticTolerance& tolerance, StaticEqu
   return op;
 }
 
+bool settles(StaticEquations& equations, OperatingPoint& op, const StaticsOptions& options, const DampedMotion& motion,
+             const std::vector<bool>& loose, StaticHistory& history) {
+  return relax_by_motion(equations, op, motion, history, options.effort_limit, [&](OperatingPoint& here) {
+    return Descent(equations, options, history).polish(here, loose);
+  });
+}
+
+// The search that METHOD=ORIGINAL or DYNAMIC asks for, exactly at rest in the end.
+bool asked_for(StaticEquations& equations, OperatingPoint& op, const StaticsOptions& options, StaticHistory& history,
+               Findings& findings) {
+  if (!options.original && !options.motion) return false;
+  const OperatingPoint first = op;
+  const std::vector<bool> loose = free_unknowns(equations, first);
+  const bool found = options.original ? iterate_by_newton(equations, op, *options.original, history) &&
+                                            Descent(equations, options, history).polish(op, loose)
+                                      : settles(equations, op, options, *options.motion, loose, history);
+  if (found && !escaped(equations.system(), first, op)) return true;
+  findings.warnings.warning(
+      "other-search", {},
+      options.original
+          ? fmt::format("Newton's method of EQUILIBRIUM/METHOD=ORIGINAL came to no equilibrium in {} iterations: the "
+                        "default search goes on from the first point",
+                        options.original->iteration_limit)
+          : "the damped motion of EQUILIBRIUM/DYNAMIC did not settle: the default search goes on from the first point");
+  equations.measure_by(Yardstick::model);
+  return false;
+}
+
 }  // namespace
 
 Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op, const StaticsOptions& options,
@@ -111,11 +147,13 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   Descent descent(equations, options, history);
   equations.settle(op);
   const OperatingPoint drawn = op;
-  bool found = descent.run(op);
+  bool found = asked_for(equations, op, options, history, findings);
+  if (!found) op = drawn, found = descent.run(op);
   const OperatingPoint lowest = descent.lowest();
+  std::vector<std::string> proof;
   const auto refuse = [&] {
     equations.measure_by(Yardstick::model);
-    Failure f = static_refusal(equations, lowest, history.lines());
+    Failure f = static_refusal(equations, lowest, proof, history.lines());
     if (!descent.doubt().empty()) f.message += "; " + descent.doubt();
     report.iterations = history.iterations();
     report.imbalance = equations.imbalance();
@@ -130,13 +168,11 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
     const auto unheld = unheld_parts(equations, drawn);
     if (!unheld.empty() && unheld == unheld_parts(equations, lowest) && unheld == unheld_parts(equations, op))
       return tl::unexpected(refuse());
+    proof = unheld_everywhere(equations, {drawn, lowest, op});
+    if (!proof.empty()) return tl::unexpected(refuse());
   }
   std::vector<bool> loose;  // what nothing held to begin with
-  if (!found) {
-    equations.evaluate(drawn, true);
-    const auto j = judge(equations, drawn);
-    loose = j ? j->indifferent : std::vector<bool>(static_cast<std::size_t>(equations.augmented().size()), true);
-  }
+  if (!found) loose = free_unknowns(equations, drawn);
   bool held_states = descent.held_states();
   const auto descend = [&](OperatingPoint start) {
     op = std::move(start);
@@ -155,6 +191,11 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
       if (!go_on()) break;
       if (auto rest = follow_to_rest(equations, *start, forward)) descend(std::move(*rest));
     }
+  }
+  for (const OperatingPoint* start : {&drawn, &lowest}) {
+    if (!go_on()) break;
+    OperatingPoint moving = *start;
+    if (settles(equations, moving, options, {}, loose, history)) descend(std::move(moving));
   }
   if (!found && options.tolerance) {
     for (const OperatingPoint* near : {&lowest, &drawn}) {

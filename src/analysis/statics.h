@@ -3,12 +3,15 @@
 //
 // The search, each step only where the one before it fails: (1) downhill, by Newton's method and implicit steps of a
 // damped motion (`static_descent.h`); (2) least squares (`levenberg_marquardt.h`); (3) continuation (`homotopy.h`); (4)
-// least squares from other places. A point that is balanced to rounding is accepted as it stands. A tolerance that is
-// stated never ends the search early, but before (4) a point within it is accepted. What cannot be found is explained
-// (`static_refusal.h`).
+// a damped motion with the model's masses (`damped_motion.h`); (5) least squares from other places. Newton's method as
+// it is (`original_method.h`) or (4) come before all of them where they are asked for. A point that is balanced to
+// rounding is accepted as it stands. A tolerance that is stated never ends the search early, but before (5) a point
+// within it is accepted. What cannot be found is explained (`static_refusal.h`, `unheld_motion.h`).
 #pragma once
 
+#include <limits>
 #include <optional>
+#include <vector>
 
 #include "analysis/displace.h"
 #include "analysis/initial.h"
@@ -22,6 +25,23 @@ struct StaticTolerance {
   double imbalance = 1e-4;  // IMBALANCE: any unbalanced force, or moment by length
 };
 
+// METHOD=ORIGINAL: Newton's method as it is, within limits.
+struct OriginalMethod {
+  int iteration_limit = 25;
+  double stability = 1e-5;    // of the mass and damping matrices, added to the stiffness
+  std::vector<bool> pattern;  // whether an iteration evaluates the Jacobian, over and over; empty: each does
+  StepLimits limits{0.17453292519943295, 20};
+  StaticTolerance tolerance{};  // both must be met
+};
+
+// DYNAMIC: a damped motion of the model with its own masses, as the first search.
+struct DampedMotion {
+  double global_damping = 0;         // of every coordinate [force·time/length]
+  double acceleration_error = 1e-2;  // below both, rest is looked for by Newton's method
+  double kinetic_energy_error = 1e-2;
+  double longest_time = std::numeric_limits<double>::infinity();
+};
+
 struct StaticsOptions {
   int iteration_limit = 500;
   StepLimits limits{0.17453292519943295};  // of a step downhill: ALIMIT, TLIMIT
@@ -30,6 +50,8 @@ struct StaticsOptions {
   double effort_limit = 1e10;              // products, some ten seconds: what was not found by then is not
   StaticProgress progress{};               // called with every iteration
   std::optional<StaticTolerance> tolerance;
+  std::optional<OriginalMethod> original;  // the first search, where asked for
+  std::optional<DampedMotion> motion;
 };
 
 struct StaticsReport {

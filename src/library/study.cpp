@@ -18,8 +18,10 @@ OperatingPoint handed_out(FoundPoint found, std::vector<Remark> remarks = {}) {
 }
 
 StaticsOptions options_of(EquilibriumSettings settings, const StaticRequest& request) {
-  take_over(settings, {request.error, request.imbalance, std::nullopt, request.translation_limit,
-                       request.rotation_limit, request.iteration_limit});
+  take_over(settings,
+            {request.error, request.imbalance, request.stability, request.translation_limit, request.rotation_limit,
+             request.iteration_limit, request.pattern, request.newton, request.by_motion, request.global_damping,
+             request.acceleration_error, request.kinetic_energy_error, request.settling_time});
   StaticsOptions options = statics_options(settings);
   options.restore_velocities = request.restore_velocities;
   options.progress = request.progress;

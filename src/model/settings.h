@@ -17,6 +17,11 @@ struct EquilibriumSettings {
   std::optional<double> translation_limit;  // TLIMIT [length]
   std::optional<double> rotation_limit;     // ALIMIT [rad]
   std::optional<std::int64_t> iteration_limit;
+  std::optional<std::vector<bool>> pattern;  // of iterations, over and over: whether the Jacobian is evaluated anew
+  std::optional<bool> newton;                // METHOD: ORIGINAL, or another
+  std::optional<bool> by_motion;             // DYNAMIC, or STATIC
+  std::optional<double> global_damping, acceleration_error, kinetic_energy_error;
+  std::optional<double> settling_time;  // SETTLING_TIME, TEND: the longest that a damped motion may last [time]
 };
 
 // IC: what the analyses of initial conditions iterate with.
@@ -73,6 +78,11 @@ inline void take_over(EquilibriumSettings& earlier, const EquilibriumSettings& l
   take_over(earlier.error, later.error), take_over(earlier.imbalance, later.imbalance);
   take_over(earlier.stability, later.stability), take_over(earlier.translation_limit, later.translation_limit);
   take_over(earlier.rotation_limit, later.rotation_limit), take_over(earlier.iteration_limit, later.iteration_limit);
+  take_over(earlier.pattern, later.pattern), take_over(earlier.newton, later.newton);
+  take_over(earlier.by_motion, later.by_motion), take_over(earlier.global_damping, later.global_damping);
+  take_over(earlier.acceleration_error, later.acceleration_error);
+  take_over(earlier.kinetic_energy_error, later.kinetic_energy_error);
+  take_over(earlier.settling_time, later.settling_time);
 }
 inline void take_over(IntegratorSettings& earlier, const IntegratorSettings& later) {
   take_over(earlier.type, later.type), take_over(earlier.formulation, later.formulation);

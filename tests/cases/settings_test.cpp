@@ -43,14 +43,13 @@ TEST_F(Settings, of_every_statement_are_read) {
       "MREQUEST/1, WHAT=EVER\nMATERIAL/1, NAME=steel\n");
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_EQ(count(r.err, "nothing here acts on"), 1u) << r.err;
-  for (const char* name :
-       {"EQUILIBRIUM/STABILITY", "EQUILIBRIUM/PATTERN", "IC/MAXIT", "INTEGRATOR/CORRECTOR", "KINEMATICS/AERROR",
-        "KINEMATICS/PATTERN", "OUTPUT/OSFORMAT", "DEBUG/EPRINT", "LSOLVER/AUTO", "EQUILIBRIUM/METHOD"})
+  for (const char* name : {"EQUILIBRIUM/ATOL", "IC/MAXIT", "INTEGRATOR/CORRECTOR", "KINEMATICS/AERROR",
+                           "KINEMATICS/PATTERN", "OUTPUT/OSFORMAT", "DEBUG/EPRINT", "LSOLVER/AUTO"})
     EXPECT_EQ(count(r.err, name), 1u) << name;
   for (const char* acting :
        {"EQUILIBRIUM/MAXIT", "EQUILIBRIUM/ALIMIT", "EQUILIBRIUM/TLIMIT", "EQUILIBRIUM/ERROR", "EQUILIBRIUM/IMBALANCE",
-        "KINEMATICS/ERROR", "KINEMATICS/MAXIT", "KINEMATICS/HMAX", "RESULTS", "GRAPHICS", "OUTPUT/REQSAVE",
-        "OUTPUT/DSCALE"})
+        "EQUILIBRIUM/STABILITY", "EQUILIBRIUM/PATTERN", "EQUILIBRIUM/METHOD", "KINEMATICS/ERROR", "KINEMATICS/MAXIT",
+        "KINEMATICS/HMAX", "RESULTS", "GRAPHICS", "OUTPUT/REQSAVE", "OUTPUT/DSCALE"})
     EXPECT_THAT(r.err, Not(HasSubstr(acting)));
 }
 
@@ -63,6 +62,10 @@ TEST_F(Settings, that_do_not_exist_are_errors_at_their_place) {
   EXPECT_THAT(error("EQUILIBRIUM/FOO=1"), HasSubstr("model.adm:10:13: error"));
   EXPECT_THAT(error("EQUILIBRIUM/MAXIT=0"), HasSubstr("[value-out-of-range]"));
   EXPECT_THAT(error("EQUILIBRIUM/ERROR=abc"), HasSubstr("[expected-number]"));
+  EXPECT_THAT(error("EQUILIBRIUM/MAXIT=20, METHOD=NEWTON"), HasSubstr("model.adm:10:23: error"));
+  EXPECT_THAT(error("EQUILIBRIUM/METHOD=A"), HasSubstr("[unknown-word]"));
+  EXPECT_THAT(error("EQUILIBRIUM/PATTERN=T:X"), HasSubstr("PATTERN of EQUILIBRIUM takes TRUE or FALSE, not X"));
+  EXPECT_THAT(error("EQUILIBRIUM/PATTERN=T:T:T:T:T:T:T:T:T:T:T"), HasSubstr("[value-out-of-range]"));
   EXPECT_THAT(error("IC/HMAX=1"), HasSubstr("[unknown-argument]"));
   EXPECT_THAT(error("INTEGRATOR/GSTIF, HHH"), HasSubstr("model.adm:10:19: error"));
   EXPECT_THAT(error("OUTPUT/REQSAV, GR521SAV"), HasSubstr("model.adm:10:16: error"));
@@ -83,7 +86,7 @@ TEST_F(Settings, of_commands_replace_those_of_the_dataset_and_are_named_once) {
            "error=1e-5\ninte/list\nequilibrium/list\noutput/noprint\nic/list\nsim/stat\nlin/eig\n");
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_EQ(count(r.err, "EQUILIBRIUM/ERROR"), 0u) << r.err;
-  EXPECT_EQ(count(r.err, "EQUILIBRIUM/STABILITY"), 1u) << r.err;
+  EXPECT_EQ(count(r.err, "EQUILIBRIUM/STABILITY"), 0u) << r.err;
   EXPECT_EQ(count(r.err, "INTEGRATOR/HHT"), 0u) << r.err;
   EXPECT_EQ(count(r.err, "OUTPUT/NOPRINT"), 0u) << r.err;
   expect_eigenvalues(r.eigenvalues(8), {{0, 2 / (2 * std::numbers::pi)}}, 1e-11);
@@ -127,6 +130,58 @@ TEST_F(StaticSettings, a_translation_limit_bounds_the_steps) {
   EXPECT_GE(iterations("EQUILIBRIUM/TLIMIT=2\n"), 50);
   EXPECT_LT(iterations("EQUILIBRIUM/TLIMIT=2\n"), 60);
   EXPECT_LT(iterations("EQUILIBRIUM/TLIMIT=50\n"), 8);
+}
+
+// A pendulum that leans 0.5 rad from upright: Newton's method climbs, everything else falls.
+class StaticMethods : public Settings {
+ protected:
+  RunResult leaning(const std::string& settings, const std::string& commands = "") const {
+    return run(
+        "Leaning\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-10\nPART/1, GROUND\nMARKER/1, REULER=0,90D,0\nPART/2, "
+        "REULER=0,0.5,0, QG=0,-0.479425538604203,0.877582561890373, MASS=1, CM=20, IP=0.1,0.1,0.1\nMARKER/20\n"
+        "MARKER/21, QP=0,0,-1, REULER=90D,90D,0\nMARKER/2, PART=1, REULER=90D,90D,0\n"
+        "JOINT/1, REVOLUTE, I=21, J=2\n" +
+            settings + "END\n",
+        commands + "SIMULATE/STATICS\n");
+  }
+};
+
+TEST_F(StaticMethods, newtons_comes_first_where_it_is_asked_for) {
+  for (const char* settings : {"EQUILIBRIUM/METHOD=ORIGINAL\n", "EQUILIBRIUM/METH=ORIG, STAB=1E-3, PATTERN=T:F\n",
+                               "EQUILIBRIUM/STABILITY=1E-4\n", "EQUILIBRIUM/PATTERN=TRUE\n"}) {
+    const RunResult r = leaning(settings);
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_THAT(r.out, HasSubstr("unstable: 1 mode grows")) << settings;
+  }
+  for (const char* settings : {"", "EQUILIBRIUM/MAXIT=200\n", "EQUILIBRIUM/STABILITY=1E-4, METHOD=ADVANCED\n",
+                               "EQUILIBRIUM/METHOD=ORIGINAL\nEQUILIBRIUM/DEFAULT\n"}) {
+    const RunResult r = leaning(settings);
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_THAT(r.out, HasSubstr("nothing grows")) << settings;
+  }
+}
+
+TEST_F(StaticMethods, where_newtons_fails_the_others_follow_and_a_remark_says_so) {
+  const RunResult r = leaning("EQUILIBRIUM/METHOD=ORIGINAL, MAXIT=2\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("came to no equilibrium in 2 iterations"));
+  EXPECT_EQ(r.json.at("warnings").at(0).at("code"), "other-search");
+  EXPECT_THAT(r.out, HasSubstr("nothing grows"));
+}
+
+TEST_F(StaticMethods, a_damped_motion_comes_first_where_it_is_asked_for) {
+  const RunResult r = leaning("EQUILIBRIUM/DYNAMIC, GLOBAL_DAMPING=3\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.err.find("other-search"), std::string::npos) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("nothing grows"));
+  for (const char* settings : {"EQUILIBRIUM/DYNAMIC, SETTLING_TIME=1E-9\n", "EQUILIBRIUM/DYNAMIC, TEND=1E-9\n"}) {
+    const RunResult brief = leaning(settings);
+    ASSERT_EQ(brief.status, 0) << brief.err;
+    EXPECT_THAT(brief.err, HasSubstr("did not settle")) << settings;
+    EXPECT_THAT(brief.out, HasSubstr("nothing grows"));
+  }
+  const RunResult still = leaning("EQUILIBRIUM/DYNAMIC, SETTLING_TIME=1E-9\nEQUILIBRIUM/STATIC\n");
+  EXPECT_EQ(still.err.find("did not settle"), std::string::npos) << still.err;
 }
 
 // 0.01 + 100 |z − 1.001| has no zero: the step to its kink is of 1e-4, and 0.01 stays out of balance there. A force

@@ -30,7 +30,7 @@ class SettingOf : public Setting {
 template <class Action>
 std::shared_ptr<const CommandAction> read_setting(CommandReader& reader) {
   auto action = std::make_shared<Action>();
-  if (!read_arguments(action->written, reader) || !check_setting(action->written, reader)) return nullptr;
+  if (!read_setting_arguments(action->written, reader)) return nullptr;
   action->passed_over = arguments_passed_over<decltype(action->written)>(reader);
   return action;
 }

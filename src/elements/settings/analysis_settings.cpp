@@ -1,8 +1,75 @@
 #include "elements/settings/analysis_settings.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "elements/settings/setting_set.h"
 
 namespace dynalin {
+
+namespace {
+
+constexpr std::array<std::string_view, 4> methods = {"ORIGINAL", "ADVANCED", "AGGRESSIVE", "ALL"};
+constexpr std::array<std::string_view, 2> yes_or_no = {"TRUE", "FALSE"};
+constexpr std::size_t longest_pattern = 10;
+
+bool begins(std::string_view word, std::string_view written) { return !written.empty() && word.starts_with(written); }
+
+// The word that a beginning of it means.
+template <std::size_t n>
+std::optional<std::size_t> found(const std::array<std::string_view, n>& words, std::string_view written) {
+  std::optional<std::size_t> one;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!begins(words[k], written)) continue;
+    if (one) return std::nullopt;
+    one = k;
+  }
+  return one;
+}
+
+template <std::size_t n>
+bool check_words(const std::vector<std::string>& written, const std::array<std::string_view, n>& words,
+                 std::string_view argument, ElementReader& reader) {
+  for (const std::string& w : written) {
+    if (found(words, w)) continue;
+    reader.error("unknown-word", reader.at(argument),
+                 fmt::format("{} of {} takes {}, not {}", argument, reader.label().statement,
+                             fmt::join(words, n == 2 ? " or " : ", "), w));
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool WrittenEquilibrium::check(ElementReader& reader) const {
+  if (!check_words(method, methods, "METHOD", reader) || !check_words(pattern, yes_or_no, "PATTERN", reader))
+    return false;
+  if (method.size() > 1) {
+    reader.error("unknown-word", reader.at("METHOD"), "METHOD of EQUILIBRIUM takes one word");
+    return false;
+  }
+  if (pattern.size() <= longest_pattern) return true;
+  reader.error("value-out-of-range", reader.at("PATTERN"),
+               fmt::format("PATTERN of EQUILIBRIUM has at most {} entries", longest_pattern));
+  return false;
+}
+
+EquilibriumSettings WrittenEquilibrium::stated() const {
+  EquilibriumSettings s;
+  s.error = error, s.imbalance = imbalance, s.stability = stability;
+  s.translation_limit = tlimit, s.rotation_limit = alimit, s.iteration_limit = maxit;
+  if (!pattern.empty()) {
+    auto& anew = s.pattern.emplace();
+    for (const std::string& w : pattern) anew.push_back(found(yes_or_no, w) == 0u);
+  }
+  if (!method.empty()) s.newton = found(methods, method.front()) == 0u;
+  if (is_static || is_dynamic) s.by_motion = is_dynamic;
+  s.global_damping = global_damping, s.acceleration_error = acceleration_error;
+  s.kinetic_energy_error = kinetic_energy_error;
+  s.settling_time = settling_time && end ? std::min(*settling_time, *end) : settling_time ? settling_time : end;
+  return s;
+}
 
 extern constinit const Kind equilibrium = setting<WrittenEquilibrium>("EQUILIBRIUM", "Settings of static analyses.");
 extern constinit const Kind ic = setting<WrittenInitialConditions>("IC", "Settings of the initial conditions.");

@@ -6,16 +6,18 @@
 
 namespace dynalin {
 
-// EQUILIBRIUM: MAXIT, ALIMIT and TLIMIT bound the search of statics, which goes on to rounding; ERROR and IMBALANCE say
-// what is taken where that is not reached. STABILITY, PATTERN and METHOD have no meaning for that search.
+// EQUILIBRIUM: statics search on to rounding; ERROR and IMBALANCE say what is taken where that is not reached. METHOD,
+// STABILITY and PATTERN ask for Newton's method first, DYNAMIC for a damped motion.
 struct WrittenEquilibrium {
   std::optional<double> error, imbalance, stability, tlimit, alimit;
+  std::optional<double> global_damping, acceleration_error, kinetic_energy_error, settling_time, end;
   std::optional<std::int64_t> maxit;
   std::vector<std::string> pattern, method;
   Obsolete other;
   bool is_static = false, is_dynamic = false, defaults = false, list = false;
 
   using E = WrittenEquilibrium;
+  static constexpr std::string_view of_iterative_solver = "of an iterative linear solver; the one here is direct";
   static constexpr std::array<Argument<E>, 22> arguments = {{
       {.name = "ERROR",
        .slot = &E::error,
@@ -25,34 +27,74 @@ struct WrittenEquilibrium {
        .slot = &E::imbalance,
        .minimum = 0,
        .help = "largest force out of balance where no exact equilibrium is found; 1e-4"},
-      {.name = "MAXIT", .slot = &E::maxit, .minimum = 1, .help = "iterations of the search downhill"},
-      {.name = "ALIMIT", .slot = &E::alimit, .unit = unit::angle, .minimum = 0, .help = "largest rotation of a step"},
+      {.name = "MAXIT",
+       .slot = &E::maxit,
+       .minimum = 1,
+       .help = "iterations of the search downhill, 500, or of Newton's method, 25"},
+      {.name = "ALIMIT",
+       .slot = &E::alimit,
+       .unit = unit::angle,
+       .minimum = 0,
+       .help = "largest rotation of a step, 10D"},
       {.name = "TLIMIT",
        .slot = &E::tlimit,
        .unit = unit::length,
        .minimum = 0,
-       .help = "largest translation of a step"},
-      {.name = "STABILITY", .slot = &E::stability, .minimum = 0},
-      {.name = "PATTERN", .slot = &E::pattern},
-      {.name = "METHOD", .slot = &E::method},
-      {.name = "ATOL", .slot = &E::other},
-      {.name = "RTOL", .slot = &E::other},
-      {.name = "MAXITL", .slot = &E::other},
-      {.name = "ETA", .slot = &E::other},
-      {.name = "ETAMAX", .slot = &E::other},
-      {.name = "STATIC", .slot = &E::is_static},
-      {.name = "DYNAMIC", .slot = &E::is_dynamic},
-      {.name = "ACCELERATION_ERROR", .slot = &E::other},
-      {.name = "KINETIC_ENERGY_ERROR", .slot = &E::other},
-      {.name = "GLOBAL_DAMPING", .slot = &E::other},
-      {.name = "SETTLING_TIME", .slot = &E::other},
-      {.name = "TEND", .slot = &E::other},
+       .help = "largest translation of a step; of Newton's method 20"},
+      {.name = "STABILITY",
+       .slot = &E::stability,
+       .minimum = 0,
+       .help = "multiple of the mass and damping matrices in the Jacobian of Newton's method, 1e-5"},
+      {.name = "PATTERN",
+       .slot = &E::pattern,
+       .help = "T or F for each iteration of Newton's method: whether the Jacobian is evaluated anew"},
+      {.name = "METHOD",
+       .slot = &E::method,
+       .help = "ORIGINAL: Newton's method before the other searches; ADVANCED, AGGRESSIVE, ALL: those alone"},
+      {.name = "ATOL", .slot = &E::other, .help = of_iterative_solver},
+      {.name = "RTOL", .slot = &E::other, .help = of_iterative_solver},
+      {.name = "MAXITL", .slot = &E::other, .help = of_iterative_solver},
+      {.name = "ETA", .slot = &E::other, .help = of_iterative_solver},
+      {.name = "ETAMAX", .slot = &E::other, .help = of_iterative_solver},
+      {.name = "STATIC", .slot = &E::is_static, .help = "without the damped motion of DYNAMIC"},
+      {.name = "DYNAMIC", .slot = &E::is_dynamic, .help = "a damped motion before the other searches"},
+      {.name = "ACCELERATION_ERROR",
+       .slot = &E::acceleration_error,
+       .minimum = 0,
+       .help = "of that motion: the largest acceleration that may be rest, 1e-2"},
+      {.name = "KINETIC_ENERGY_ERROR",
+       .slot = &E::kinetic_energy_error,
+       .minimum = 0,
+       .help = "of that motion: the largest kinetic energy that may be rest, 1e-2"},
+      {.name = "GLOBAL_DAMPING",
+       .slot = &E::global_damping,
+       .unit = unit::damping,
+       .minimum = 0,
+       .help = "of every part in that motion, 0"},
+      {.name = "SETTLING_TIME", .slot = &E::settling_time, .minimum = 0, .help = "longest time of that motion"},
+      {.name = "TEND", .slot = &E::end, .minimum = 0, .help = "the same"},
       {.name = "DEFAULT", .slot = &E::defaults, .help = "all settings as they are without the statement"},
       {.name = "LIST", .slot = &E::list},
   }};
-  static constexpr std::array<std::string_view, 8> acting = {"ERROR",  "IMBALANCE", "MAXIT",   "ALIMIT",
-                                                             "TLIMIT", "STATIC",    "DEFAULT", "LIST"};
-  EquilibriumSettings stated() const { return {error, imbalance, stability, tlimit, alimit, maxit}; }
+  static constexpr std::array<std::string_view, 17> acting = {"ERROR",
+                                                              "IMBALANCE",
+                                                              "MAXIT",
+                                                              "ALIMIT",
+                                                              "TLIMIT",
+                                                              "STABILITY",
+                                                              "PATTERN",
+                                                              "METHOD",
+                                                              "STATIC",
+                                                              "DYNAMIC",
+                                                              "DEFAULT",
+                                                              "GLOBAL_DAMPING",
+                                                              "ACCELERATION_ERROR",
+                                                              "KINETIC_ENERGY_ERROR",
+                                                              "SETTLING_TIME",
+                                                              "TEND",
+                                                              "LIST"};
+  bool check(ElementReader&) const;
+  EquilibriumSettings stated() const;
   void apply(EquilibriumSettings& s) const {
     if (defaults) s = {};
     take_over(s, stated());

@@ -29,10 +29,10 @@ void for_each_statement(const Model& model, const Use& use) {
 
 }  // namespace
 
-bool WrittenOutput::check(const E& e, ElementReader& reader) {
+bool WrittenOutput::check(ElementReader& reader) const {
   bool ok = true;
-  for (const auto& [list, name] : {std::pair{&e.dscale, "DSCALE"}, std::pair{&e.vscale, "VSCALE"},
-                                   std::pair{&e.ascale, "ASCALE"}, std::pair{&e.fscale, "FSCALE"}}) {
+  for (const auto& [list, name] : {std::pair{&dscale, "DSCALE"}, std::pair{&vscale, "VSCALE"},
+                                   std::pair{&ascale, "ASCALE"}, std::pair{&fscale, "FSCALE"}}) {
     if (list->size() <= 2) continue;
     reader.error(
         "wrong-count", reader.at(name),

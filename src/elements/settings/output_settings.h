@@ -65,7 +65,7 @@ struct WrittenOutput {
   static constexpr std::array<std::string_view, 20> acting = {
       "REQSAVE", "GRSAVE", "NOREQSAVE", "NOGRSAVE", "NOPRINT", "PRINT", "FIXED", "NOCHART", "DSCALE",  "DZERO",
       "VSCALE",  "VZERO",  "ASCALE",    "AZERO",    "FSCALE",  "FZERO", "YPR",   "EULER",   "DEFAULT", "LIST"};
-  static bool check(const E&, ElementReader&);
+  bool check(ElementReader&) const;
   void apply(OutputSettings&) const;
   void apply(Settings&) const {}  // where output_settings finds it
 };

@@ -4,6 +4,10 @@
 //
 //     static constexpr std::array<std::string_view, n> acting;   // arguments that something acts on, or that need no
 //     word void apply(Settings&) const;
+//
+// and, where a word may be wrong,
+//
+//     bool check(ElementReader&) const;   // false after a reported error
 #pragma once
 
 #include <algorithm>
@@ -25,13 +29,12 @@ std::vector<std::string> arguments_passed_over(const ElementReader& reader) {
   return list;
 }
 
-// What tables of arguments cannot say of the values, where a statement has such rules.
+// The arguments of a statement, and what tables cannot say of their values, where it has such rules.
 template <class E>
-bool check_setting(const E& e, ElementReader& reader) {
-  if constexpr (requires { E::check(e, reader); })
-    return E::check(e, reader);
-  else
-    return true;
+bool read_setting_arguments(E& element, ElementReader& reader) {
+  if (!read_arguments(element, reader)) return false;
+  if constexpr (requires { element.check(reader); }) return element.check(reader);
+  return true;
 }
 
 template <class E>
@@ -39,7 +42,7 @@ class SettingSet final : public TypedSet<E> {
  public:
   using TypedSet<E>::TypedSet;
   void read(std::size_t k, ElementReader& reader) override {
-    if (!read_arguments(this->elements[k], reader) || !check_setting(this->elements[k], reader)) return;
+    if (!read_setting_arguments(this->elements[k], reader)) return;
     const auto list = arguments_passed_over<E>(reader);
     passed_over_.insert(passed_over_.end(), list.begin(), list.end());
   }
