@@ -55,8 +55,11 @@ class Dynamics {
     auto start = consistent(std::move(from));
     if (!start) return tl::unexpected(start.error());
     point_ = std::move(*start);
-    const EventAction at_start = events_.at_start(point_);
     system_.record(point_);
+    const EventAction at_start = events_.at_start(point_);
+    if (at_start.restart) {
+      if (auto again = make_consistent(); !again) return tl::unexpected(again.error());
+    }
     if (!hand_out(point_, true, at_start.text)) return AdvancedPoint{std::move(point_), SimulationEnd::stopped};
     if (at_start.ends()) return AdvancedPoint{std::move(point_), end_of(at_start)};
     if (at_start.output_step) change_outputs(*at_start.output_step);
@@ -82,7 +85,7 @@ class Dynamics {
         auto action = pass_event();
         if (!action) return tl::unexpected(action.error());
         if (action->ends()) return AdvancedPoint{std::move(point_), end_of(*action)};
-        if (next_ > times_.count()) return AdvancedPoint{std::move(point_), SimulationEnd::reached};
+        if (next_ > times_.count()) return ended(SimulationEnd::reached);
       } else if (auto followed = follow(); !followed) {
         return tl::unexpected(followed.error());
       }
@@ -139,11 +142,15 @@ class Dynamics {
     return {};
   }
 
-  Result<void> begin_at_consistent() {
+  Result<void> make_consistent() {
     auto again = consistent(std::move(point_));
     if (!again) return tl::unexpected(again.error());
     point_ = std::move(*again);
     system_.record(point_);
+    return {};
+  }
+  Result<void> begin_at_consistent() {
+    if (auto made = make_consistent(); !made) return made;
     return begin();
   }
 
@@ -223,32 +230,23 @@ class Dynamics {
     return action.halts ? SimulationEnd::halted : SimulationEnd::returned;
   }
 
-  // The point is where functions have changed their signs; behind it, that of the new side.
+  // What follows from switches and sensors at the point; where nothing does the integration goes on.
   Result<EventAction> pass_event() {
-    const std::vector<int> crossed(integrator_->crossed().begin(), integrator_->crossed().end());
-    auto behind = consistent(point_);
-    if (!behind) return tl::unexpected(behind.error());
-    const EventAction action = events_.at(crossed, *behind);
-    const bool restart = action.restart || action.refactor || action.step_size || action.output_step;
-    if (restart || action.ends() || action.output) {
-      point_ = std::move(*behind);
-    } else {
-      point_.memory = std::move(behind->memory);
+    EventAction action = events_.at(integrator_->crossed(), point_);
+    const bool anew = action.restart || action.output || action.ends() || action.refactor || action.step_size;
+    if (anew) {
+      if (auto made = make_consistent(); !made) return tl::unexpected(made.error());
     }
-    if ((action.output || !action.text.empty()) && !hand_out(point_, action.output, action.text)) {
-      EventAction last = action;
-      last.returns = stopped_ = true;
-      return last;
-    }
+    const bool output = action.output || action.ends();
+    if ((output || !action.text.empty()) && !hand_out(point_, output, action.text)) action.returns = stopped_ = true;
     if (action.ends()) return action;
     if (action.output_step) change_outputs(*action.output_step);
-    if (!restart) {
+    if (action.restart) note_density();
+    if (!anew) {
       equations_->accept(point_);
-      return action;
+    } else if (auto begun = begin(action.step_size); !begun) {
+      return tl::unexpected(begun.error());
     }
-    note_density();
-    system_.record(point_);
-    if (auto begun = begin(action.step_size); !begun) return tl::unexpected(begun.error());
     return action;
   }
 

@@ -18,6 +18,7 @@ class Events {
   explicit Events(const System&);
 
   std::size_t size() const { return switches_ + sensors_; }
+  std::size_t switch_count() const { return switches_; }  // which come first
   // Functions that change their sign at an event: all switches of the system, then those of its sensors.
   void values(const Motion&, std::span<double>);
   // Where a simulation begins: sensors whose condition holds trigger at once.

@@ -66,7 +66,8 @@ void MotionEquations::find_differential() {
 void MotionEquations::accept(const OperatingPoint& op) {
   motion_.mode = op.mode;
   motion_.memory = op.memory;
-  motion_.delays = op.delays.get();
+  delays_ = op.delays;
+  motion_.delays = delays_.get();
   for (std::size_t k = 0; k < op.velocity.size(); ++k) {
     fastest_ = std::max(fastest_, std::abs(op.velocity[k]) / system_.coordinate_scale(static_cast<std::int32_t>(k)));
   }
@@ -360,12 +361,9 @@ void MotionEquations::weights(double step, std::span<const double> y, std::span<
 
 void MotionEquations::switches(double t, std::span<const double> y, std::span<const double> yp,
                                std::span<double> values) {
-  if (!switches_watched_) {
-    std::fill(values.begin(), values.end(), 1.0);
-    return;
-  }
   unknowns_.unpack(t, y, yp, motion_);
   events_.values(motion_, values);
+  if (!switches_watched_) std::ranges::fill(values.first(events_.switch_count()), 1.0);
 }
 
 double MotionEquations::left_out_violation(const OperatingPoint& op) {

@@ -47,7 +47,7 @@ class MotionEquations final : public DaeProblem {
   std::size_t switch_count() const override { return events_.size(); }
   void switches(double t, std::span<const double> y, std::span<const double> yp, std::span<double> values) override;
 
-  // Whether zeros of switches end steps; they do at first.
+  // Whether zeros of switches end steps; they do at first. Those of sensors always do.
   void watch_switches(bool watched) { switches_watched_ = watched; }
 
   // What has no finite value, of the last residual that had none; empty before.
@@ -91,6 +91,7 @@ class MotionEquations final : public DaeProblem {
   std::vector<bool> active_;
   ErrorTolerance tolerance_;
   Motion motion_;
+  std::shared_ptr<const DelayHistories> delays_;  // that the motion reads
   ConstraintRows rows_;
   Equations eq_;
   Accumulator jacobian_;
