@@ -293,6 +293,41 @@ TEST_F(StepOutputs, are_scaled_in_request_file_and_tables_as_output_says) {
   EXPECT_THAT(tables, HasSubstr("        1.0000     1000.0000        0.0000      841.4710        0.0000"));
 }
 
+TEST_F(StepOutputs, have_a_scale_for_each_kind_of_request) {
+  prepare(
+      "OUTPUT/REQSAVE, NOPRINT, DSCALE=9, VSCALE=2,3, ASCALE=5, AZERO=1, FSCALE=7,11, FZERO=14\nREQUEST/1, V, I=20\n"
+      "REQUEST/2, A, I=20\nREQUEST/3, F, I=21, J=1\nREQUEST/4, F2=1\nREQUEST/5, F, I=20, J=1, RM=1\n"
+      "SFORCE/2, ROTATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=2\n");
+  simulate(StepKind::kinematics, 0, 1, 1);
+  finish();
+  const auto lines = lines_of(text("model.req"));
+  // Velocity 1 along y, acceleration −1 along x, reaction −2 along x, of the torque 2 and of that which holds it −2.
+  EXPECT_EQ(lines.at(14), "   0.00000E+00  2.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00  3.00000E+00");
+  EXPECT_EQ(lines.at(15), "  -5.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00");
+  EXPECT_EQ(lines.at(16), "  -1.40000E+01  0.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00 -2.20000E+01");
+  EXPECT_EQ(lines.at(17), "   1.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00");
+  EXPECT_EQ(lines.at(18), "   0.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00  2.20000E+01");
+}
+
+TEST(OutputSettingsOfCommands, are_put_back_by_default) {
+  OutputSettings settings;
+  WrittenOutput first, list, second;
+  first.requests = first.fixed = first.yaw_pitch_roll = true, first.fscale = {2}, first.dzero = 3;
+  first.apply(settings);
+  EXPECT_TRUE(settings.request_file && settings.fixed && settings.yaw_pitch_roll && settings.writes_tables());
+  EXPECT_EQ(settings.scale[3], (std::array<double, 2>{2, 1}));
+  EXPECT_EQ(settings.zero[0], 3);
+  second.defaults = second.no_print = true;
+  second.apply(settings);
+  EXPECT_FALSE(settings.request_file || settings.fixed || settings.yaw_pitch_roll || settings.writes_tables());
+  EXPECT_EQ(settings.scale[3], (std::array<double, 2>{1, 1}));
+  EXPECT_EQ(settings.zero[0], 0);
+  OutputSettings untouched;
+  list.list = true;
+  list.apply(untouched);
+  EXPECT_FALSE(untouched.writes_tables());
+}
+
 TEST_F(StepOutputs, have_yaw_pitch_and_roll_as_the_functions_of_these_names) {
   prepare(
       "OUTPUT/REQSAVE, YPR, NOPRINT\nMARKER/22, PART=2, REULER=200D,70D,-40D\nMARKER/23, PART=2, REULER=0,90D,90D\n"
