@@ -156,10 +156,6 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
   };
   for (const auto& [a, b] : matches(old, old.memory.size(), now, now.memory.size(), memory_key))
     out.memory[b] = op.memory[a];
-<<<<<<< HEAD
-  take_up_courses(to, known, out);
-=======
-
   if (op.delays && !now.delay_calls.empty()) {
     const auto call_key = [](const Layout& l, std::size_t k, Keys& keys) {
       return key_of_place(l.delay_calls[k], keys);
@@ -169,7 +165,7 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
       delays->of_call[b] = op.delays->of_call[a];
     out.delays = std::move(delays);
   }
->>>>>>> d280f87 (DELAY reads the past of a motion in time; the system knows all switches of its elements and expressions)
+  take_up_courses(to, known, out);
   return out;
 }
 
