@@ -235,18 +235,24 @@ T pitch(const MeasureFrames<T>& f) {
   return atan2(direction(f, 3, 1), magnitude(cosine_of_pitch(f), 1.0));
 }
 
-// Between the segments from j to i and to k.
+// Between the segments from j to i and to k. The cross product of two sides of a triangle is that of any two: the
+// longest side takes no part, so that i and k may be close to each other and far from j.
 template <class T>
 struct Segments {
-  Vec3<T> a, b;
-  explicit Segments(const MeasureFrames<T>& f) : a(f.i.origin - f.j.origin), b(f.k.origin - f.j.origin) {
+  Vec3<T> a, b, third;
+  explicit Segments(const MeasureFrames<T>& f)
+      : a(f.i.origin - f.j.origin), b(f.k.origin - f.j.origin), third(f.k.origin - f.i.origin) {
     const double size = rounding * (largest(f.i.origin) + largest(f.j.origin) + largest(f.k.origin));
     if (largest(a) <= size || largest(b) <= size) a = {unknown<T>(), unknown<T>(), unknown<T>()};
   }
-  T angle() const { return angle_of(cross(a, b), dot(a, b), largest(a) * largest(b)); }
+  Vec3<T> sine() const {
+    if (largest(third) >= std::max(largest(a), largest(b))) return cross(a, b);
+    return largest(a) < largest(b) ? cross(a, third) : cross(b, third);
+  }
+  T angle() const { return angle_of(sine(), dot(a, b), largest(a) * largest(b)); }
   T cosine() const { return dot(a, b) / (norm(a) * norm(b)); }
   T squared_angle() const {
-    const Vec3<T> c = cross(a, b);
+    const Vec3<T> c = sine();
     return dynalin::squared_angle(SmoothAngle<T>{cosine(), dot(c, c) / (dot(a, a) * dot(b, b))}, angle());
   }
 };

@@ -294,6 +294,27 @@ TEST_F(SmoothAngles, keep_their_digits_beside_points_without_a_gradient) {
   }
 }
 
+// At j, far away along u, between i at the origin and k, beside it along −v: the angle grows by v·δr/L.
+TEST_F(SmoothAngles, of_markers_close_to_each_other_and_far_from_the_third_keep_their_digits) {
+  constexpr std::array<double, 3> u{0.36, 0.48, 0.8}, v{0.8, -0.6, 0};
+  for (const double length : {10.0, 1e3, 1e6}) {
+    for (const double apart : {1e-1, 1e-3, 1e-6}) {
+      const std::string markers =
+          fmt::format("MARKER/22, PART=1, QP={:.17g},{:.17g},0\nMARKER/23, PART=1, QP={:.17g},{:.17g},{:.17g}\n",
+                      -apart * v[0], -apart * v[1], length * u[0], length * u[1], length * u[2]);
+      const double angle = std::atan(apart / length);
+      for (const auto& [function, slope] :
+           {std::pair("INCANG(20,23,22)", 1 / length), std::pair("INCANG(20,23,22)**2", 2 * angle / length)}) {
+        const auto g = gradient(free_body(markers + output(function)));
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::string axis = fmt::format("Global displacement D{}(BCS) PART/2", "XYZ"[k]);
+          EXPECT_NEAR(g.contains(axis) ? g.at(axis) : 0.0, slope * v[k], 1e-14 * slope) << function << markers << axis;
+        }
+      }
+    }
+  }
+}
+
 // cos θ falls as −θ²/2 and θ² grows: rates of both depend on the tilt where the model tilts.
 TEST_F(SmoothAngles, have_rates_too) {
   const std::string x = "Global rotation AX(BCS) PART/2";
