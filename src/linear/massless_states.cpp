@@ -141,8 +141,8 @@ class Taker {
   void measure() {
     unit_ = Eigen::VectorXd::Zero(count_);
     for (Index k = 0; k < count_; ++k) {
-      for (const auto& [column, g] : choice_.gradient[static_cast<std::size_t>(k)])
-        unit_(k) = std::max(unit_(k), std::abs(g.g * system_.coordinate_scale(column)));
+      for (const StateChoice::Entry& e : choice_.gradient[static_cast<std::size_t>(k)])
+        unit_(k) = std::max(unit_(k), std::abs(e.c.g * system_.coordinate_scale(e.column)));
     }
   }
 
@@ -173,8 +173,8 @@ class Taker {
   Matrix moved_along(const Matrix& directions) const {
     Matrix out = Matrix::Zero(directions.cols(), count_);
     for (Index k = 0; k < count_; ++k) {
-      for (const auto& [column, g] : choice_.gradient[static_cast<std::size_t>(k)])
-        out.col(k) += g.g * directions.row(column).transpose() / unit_(k);
+      for (const StateChoice::Entry& e : choice_.gradient[static_cast<std::size_t>(k)])
+        out.col(k) += e.c.g * directions.row(e.column).transpose() / unit_(k);
     }
     return out;
   }

@@ -93,9 +93,9 @@ Result<AlongStates> along_states(const System& system, const LinearSystem& linea
   const std::vector<std::vector<StateChoice::Entry>>& gradient = linear.at->with_massless->gradient;
   Matrix T = Matrix::Zero(static_cast<Index>(gradient.size()), dq.cols()), T_rate = T;
   for (std::size_t k = 0; k < gradient.size(); ++k) {
-    for (const auto& [column, g] : gradient[k]) {
-      T.row(static_cast<Index>(k)) += g.g * dq.row(column);
-      T_rate.row(static_cast<Index>(k)) += g.g * dqdot.row(column) + g.v * dq.row(column);
+    for (const StateChoice::Entry& e : gradient[k]) {
+      T.row(static_cast<Index>(k)) += e.c.g * dq.row(e.column);
+      T_rate.row(static_cast<Index>(k)) += e.c.g * dqdot.row(e.column) + e.c.v * dq.row(e.column);
     }
   }
   const Matrix left = factor * T.transpose();

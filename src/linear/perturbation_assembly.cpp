@@ -132,8 +132,8 @@ class PerturbationEquations::Assembly {
       Eigen::Index lost = 0;
       for (std::size_t k = 0; k < choice_.gradient.size(); ++k) {
         if (choice_.has_position[k]) continue;
-        for (const auto& [column, g] : choice_.gradient[k])
-          balances_.add(row_of_rate(lost), n_ + column, g.g, std::abs(g.g), 0.0);
+        for (const StateChoice::Entry& e : choice_.gradient[k])
+          balances_.add(row_of_rate(lost), n_ + e.column, e.c.g, std::abs(e.c.g), 0.0);
         open_rows_.push_back(row_of_rate(lost++));
       }
       for (Eigen::Index k = 0; k < condensed; ++k)
@@ -331,7 +331,8 @@ class PerturbationEquations::Assembly {
       const std::vector<RowCoefficients> size = roundoff_scales_.of_row(row),
                                          rounding = roundoff_scales_.roundings_of_row(row, size);
       for (std::size_t e = 0; e < row.size(); ++e) {
-        const auto& [c, g] = row[e];
+        const std::int32_t c = row[e].column;
+        const RowCoefficients& g = row[e].c;
         if (rate >= 0) {
           rates_on_algebraic_.add(rate, 2 * n_ + c, g.g, size[e].g, rounding[e].g);
           rates_on_algebraic_.add(rate, n_ + c, g.a1, size[e].a1, rounding[e].a1);

@@ -57,7 +57,7 @@ class RoundoffScales {
       RowCoefficients s;
       for (const auto& other : row) {
         if (group(other.column) != group(e.column)) continue;
-        s.g = std::max(s.g, std::abs(other.c.g));
+        s.g = std::max({s.g, std::abs(other.c.g), static_cast<double>(other.size_of_g)});
         s.v = std::max(s.v, std::abs(other.c.v));
         s.a1 = std::max(s.a1, std::abs(other.c.a1));
         s.a0 = std::max(s.a0, std::abs(other.c.a0));

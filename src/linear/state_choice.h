@@ -11,10 +11,7 @@
 namespace dynalin {
 
 struct StateChoice {
-  struct Entry {  // of the gradient of a chosen coordinate
-    std::int32_t column;
-    RowCoefficients c;
-  };
+  using Entry = ConstraintRows::Entry;        // of the gradient of a chosen coordinate
   std::vector<StateCoordinate> coordinates;   // the chosen ones, in the order in which they are wanted
   std::vector<std::vector<Entry>> gradient;   // x = gradient · q, along the motion
   std::vector<bool> has_position;             // whether x is a state; without mass its forces may determine it

@@ -150,15 +150,15 @@ class Preference {
 }  // namespace
 
 std::vector<StateChoice::Entry> gradient_of(const CandidateSet& candidates, const Candidate& c) {
-  if (c.row < 0) return {{c.coordinate, {1.0, 0.0, 0.0, 0.0}}};
-  std::vector<StateChoice::Entry> gradient;
-  for (const auto& entry : candidates.gradients.row(c.row)) gradient.push_back({entry.column, entry.c});
-  return gradient;
+  if (c.row < 0) return {{.column = c.coordinate, .size_of_g = 1.0F, .c = {1.0, 0.0, 0.0, 0.0}}};
+  const auto row = candidates.gradients.row(c.row);
+  return {row.begin(), row.end()};
 }
 
 double unit_of(const System& system, const std::vector<StateChoice::Entry>& gradient) {
   double unit = 0;
-  for (const auto& [column, g] : gradient) unit = std::max(unit, std::abs(g.g * system.coordinate_scale(column)));
+  for (const StateChoice::Entry& e : gradient)
+    unit = std::max(unit, std::abs(e.c.g * system.coordinate_scale(e.column)));
   return unit;
 }
 

@@ -10,18 +10,17 @@ void ConstraintRows::resize(const Layout& layout, std::size_t count) {
   rows_.assign(count, {});
 }
 
-RowCoefficients& ConstraintRows::entry(std::int32_t row, std::int32_t column) {
+ConstraintRows::Entry& ConstraintRows::entry(std::int32_t row, std::int32_t column) {
   auto& entries = rows_[static_cast<std::size_t>(row)];
   // The first touch of a row in a pass clears it; its places stay, so nothing is allocated again.
   if (row != scratch_row_) {
-    for (Entry& e : entries) e.c = {};
+    for (Entry& e : entries) e = {.column = e.column};
     scratch_row_ = row;
   }
   for (Entry& e : entries) {
-    if (e.column == column) return e.c;
+    if (e.column == column) return e;
   }
-  entries.push_back({column, {}});
-  return entries.back().c;
+  return entries.emplace_back(Entry{.column = column});
 }
 
 void ConstraintRows::add_pose(std::int32_t row, BodyId body, const Vec3<Taylor>& on_r, const Vec3<Taylor>& on_theta) {

@@ -44,8 +44,9 @@ class ConstraintRows {
   // Value, rate and acceleration of a position row; of a velocity row Ψ, Ψ′ and nothing.
   void set(std::int32_t row, const Taylor& along_motion) { value_[static_cast<std::size_t>(row)] = along_motion; }
   void add(std::int32_t row, std::int32_t column, const RowCoefficients& c) {
-    RowCoefficients& e = entry(row, column);
-    e.g += c.g, e.v += c.v, e.a1 += c.a1, e.a0 += c.a0;
+    Entry& e = entry(row, column);
+    e.c.g += c.g, e.c.v += c.v, e.c.a1 += c.a1, e.c.a0 += c.a0;
+    e.size_of_g += static_cast<float>(std::abs(c.g));
   }
   // Gradient of a position row with respect to the pose of a body, along the motion.
   void add_pose(std::int32_t row, BodyId body, const Vec3<Taylor>& on_r, const Vec3<Taylor>& on_theta);
@@ -54,12 +55,13 @@ class ConstraintRows {
   // Makes a row empty: it holds nothing.
   void drop(std::int32_t row) {
     value_[static_cast<std::size_t>(row)] = Taylor();
-    for (Entry& e : rows_[static_cast<std::size_t>(row)]) e.c = {};
+    for (Entry& e : rows_[static_cast<std::size_t>(row)]) e = {.column = e.column};
   }
 
   struct Entry {
     std::int32_t column;
-    RowCoefficients c;
+    float size_of_g = 0;  // of all that was added up to g, which may have cancelled
+    RowCoefficients c{};
   };
   std::span<const Entry> row(std::int32_t k) const { return rows_[static_cast<std::size_t>(k)]; }
   const Taylor& along_motion(std::int32_t k) const { return value_[static_cast<std::size_t>(k)]; }
@@ -74,10 +76,11 @@ class ConstraintRows {
   ExpressionScratch scratch;
 
  private:
-  static void accumulate(RowCoefficients& c, const Taylor& g) {
-    c.g += g.value, c.v += g.rate, c.a1 += 2.0 * g.rate, c.a0 += g.acceleration;
+  static void accumulate(Entry& e, const Taylor& g) {
+    e.c.g += g.value, e.c.v += g.rate, e.c.a1 += 2.0 * g.rate, e.c.a0 += g.acceleration;
+    e.size_of_g += static_cast<float>(std::abs(g.value));
   }
-  RowCoefficients& entry(std::int32_t row, std::int32_t column);
+  Entry& entry(std::int32_t row, std::int32_t column);
 
   const Layout* layout_ = nullptr;
   std::vector<Taylor> value_;
