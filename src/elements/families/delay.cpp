@@ -161,8 +161,7 @@ double DelayKernel::longest_step(const Motion& motion) const {
   ExpressionScratch scratch;
   double shortest = std::numeric_limits<double>::infinity();
   for (const Call& c : calls_) {
-    const double tau = c.never ? 0.0 : c.lag.value(motion, scratch);
-    if (tau > 0) shortest = std::min(shortest, tau);
+    if (!c.never && c.lag.is_constant()) shortest = std::min(shortest, c.lag.value(motion, scratch));
   }
   return shortest;
 }

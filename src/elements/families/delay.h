@@ -37,7 +37,8 @@ class DelayKernel final : public Kernel {
   // Where t − τ passes a jump or a kink of e, a kink of the history before the start, or τ zero.
   void switches(const Motion&, ExpressionScratch&, SwitchList&) const override;
   void record(const Motion&, DelayHistories&) const override;
-  double longest_step(const Motion&) const override;  // the shortest delay
+  // The shortest delay that is a number. One that varies may vanish on the way, and steps must not with it.
+  double longest_step(const Motion&) const override;
   void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
 
  private:

@@ -179,9 +179,12 @@ TEST(DelayInTime, a_kink_of_what_is_delayed_is_one_of_the_motion) {
   EXPECT_EQ(list.value.size(), 2u);  // its own, and where the past has one
 }
 
-TEST(DelayInTime, steps_are_no_longer_than_the_shortest_delay) {
+TEST(DelayInTime, steps_are_no_longer_than_the_shortest_delay_that_does_not_vary) {
   Led led(delay_of(written_e, "0.3", "0") + "VARIABLE/2, FUNCTION=DELAY(TIME,0.2,0)+DELAY(TIME,-1,0)\n");
   EXPECT_EQ(led.system->longest_step(led.system->motion(led.op)), 0.2);
+  Led varying(delay_of(written_e, "1-TIME", "0"));
+  varying.op.time = 0.999;
+  EXPECT_EQ(varying.system->longest_step(varying.system->motion(varying.op)), std::numeric_limits<double>::infinity());
   EXPECT_EQ(system_of("VARIABLE/1, FUNCTION=1\n")->longest_step({}), std::numeric_limits<double>::infinity());
 }
 
