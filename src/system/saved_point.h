@@ -1,0 +1,53 @@
+// An operating point by what its values belong to: a plain value that can be written down and put into the system of
+// another run, as far as the same elements are there.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "system/entry_keys.h"
+#include "system/system.h"
+
+namespace dynalin {
+
+struct SavedPoint {
+  struct Body {
+    EntryKey of;
+    Pose pose;
+    Vector origin_offset;  // see Body of the model
+    std::vector<double> velocity, acceleration;
+  };
+  struct Coordinates {  // outside bodies
+    EntryKey of;
+    std::vector<double> values, velocity, acceleration;
+  };
+  struct Value {
+    EntryKey of;
+    double value = 0;
+  };
+  struct State {
+    EntryKey of;
+    double value = 0, rate = 0;
+  };
+
+  double time = 0;
+  AnalysisMode mode = AnalysisMode::initial_conditions;
+  double redundancy_tolerance = 0;
+  std::vector<Body> bodies;
+  std::vector<Coordinates> coordinates;
+  std::vector<Value> multipliers, values, memory;
+  std::vector<State> states;
+
+  // Histories of DELAYs (OperatingPoint::delays) have their place here.
+};
+
+SavedPoint saved_point(const System&, const OperatingPoint&);
+
+struct RestoredPoint {
+  OperatingPoint point;
+  std::vector<std::string> not_here;   // elements that were saved and are not in this system
+  std::vector<std::string> not_saved;  // elements of this system that start as they are drawn
+};
+RestoredPoint restored_point(const SavedPoint&, const System&);
+
+}  // namespace dynalin
