@@ -22,9 +22,10 @@ enum class CommandUse : std::uint8_t {
   analysis,
   model,  // changes the model: ACTIVATE, DEACTIVATE, and a class of statements, which defines one of them anew
   setting,
+  information,     // prints something of the point or of the run
   run,             // which model, which environment, the end
   without_effect,  // read and passed over
-  not_built,
+  refused,
 };
 
 // Files that a command writes besides those of every run.
@@ -35,6 +36,7 @@ struct CommandFiles {
   bool tables = false;                            // it writes into the file of modal tables
   // It asks for files that points of the run go to: .req, .out and .gra.
   bool requests = false, request_tables = false, graphics = false;
+  bool at_once = false;                           // they are there when the command has run, not at the end
 };
 
 // The text of a file that a command names; nothing after a report.
@@ -54,6 +56,15 @@ class CommandAction {
   // A command that changes the model does so before anything runs.
   virtual bool edits() const { return false; }
   virtual void edit(DatasetEditor&) const {}
+  // Whether it looks at the statements of the model as they are written when it runs.
+  virtual bool reads_statements() const { return edits(); }
+  // What can stand before a model is named waits for one.
+  virtual bool needs_model() const { return true; }
+  // Whether it sets something for all that follows, and does so again, without a word, where a saved system is loaded.
+  virtual bool sets() const { return false; }
+  virtual void restore(RunState&) const {}
+  // Whether it ends the session.
+  virtual bool stops() const { return false; }
 };
 
 struct CommandKind {
@@ -65,10 +76,8 @@ struct CommandKind {
   std::span<const std::string_view> acting = {};   // of a setting: arguments that something acts on
   std::span<const std::string_view> classes = {};  // of elements that it takes
 
-  // Checks the arguments; nothing after a report. Without it the command is not available.
+  // Checks the arguments; nothing after a report. Without it the command is refused, for the reason in `summary`.
   std::shared_ptr<const CommandAction> (*read)(CommandReader&) = nullptr;
-  // Whether there is something to run: FILE is done when it is read.
-  bool runs = true;
 };
 
 }  // namespace dynalin

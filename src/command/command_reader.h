@@ -5,16 +5,9 @@
 
 namespace dynalin {
 
-struct CommandFile;
-
 class CommandReader final : public ElementReader {
  public:
-  // `file` is what was read so far.
-  CommandReader(const Statement& statement, const SourceText& source, Diagnostics& diagnostics,
-                const ElementLabel& label, CommandFile& file)
-      : ElementReader(statement, source, diagnostics, label), file_(&file) {}
-
-  CommandFile& file() { return *file_; }
+  using ElementReader::ElementReader;
 
   std::optional<MarkerId> marker(const WrittenInteger&, std::string_view) override { return std::nullopt; }
   std::optional<BodyId> body(std::string_view, const WrittenInteger&) override { return std::nullopt; }
@@ -23,9 +16,6 @@ class CommandReader final : public ElementReader {
   std::optional<VectorExpression> vector_expression(const WrittenArgument&) override { return std::nullopt; }
   std::optional<BodyId> preceding_body() const override { return std::nullopt; }
   std::string folder() const override { return {}; }
-
- private:
-  CommandFile* file_;
 };
 
 }  // namespace dynalin

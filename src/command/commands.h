@@ -13,9 +13,15 @@ namespace dynalin {
 struct Command {
   std::string text;  // as written, on one line
   Span at;
+  Span whole;  // with its arguments
+  const Statement* statement = nullptr;
   const CommandKind* kind = nullptr;
   std::shared_ptr<const CommandAction> action;  // nothing where the file is wrong
-  std::size_t stage = 0;                        // which of the models of the run it works with, itself an edit included
+  std::size_t stage = known_when_run;           // which of the models of its job it works with, an edit included
+  std::string folder;                           // that names of files in it are relative to
+  std::shared_ptr<const Dataset> written;       // the statements among which it stands
+
+  static constexpr std::size_t known_when_run = static_cast<std::size_t>(-1);
 };
 
 struct CommandFile {
@@ -23,12 +29,11 @@ struct CommandFile {
   Span model_at;
   std::string output_prefix;  // empty: the model's name
   std::vector<Command> commands;
-  bool stopped = false;                    // what follows is read, and does not run
   std::shared_ptr<const Dataset> written;  // the statements of the file
   SourceRef source;
 };
 
-// A whole .acf in either shape: model and prefix on two lines, or FILE/MODEL= among the commands.
+// A whole .acf in either shape: model and prefix on two lines, or commands alone, FILE/MODEL= among them.
 Parsed<CommandFile> parse_command_file(SourceRef);
 // Commands given one by one on the command line.
 Parsed<CommandFile> parse_commands(SourceRef);

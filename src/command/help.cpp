@@ -64,22 +64,23 @@ void list_commands(std::ostream& out) {
     CommandUse use;
     std::string_view title;
   };
-  static constexpr std::array<Group, 6> groups = {{
+  static constexpr std::array<Group, 7> groups = {{
       {CommandUse::run, "of a run"},
       {CommandUse::analysis, "analyses"},
       {CommandUse::model, "changes of the model"},
       {CommandUse::setting, "settings"},
+      {CommandUse::information, "information"},
       {CommandUse::without_effect, "read, without effect"},
-      {CommandUse::not_built, "not available yet"},
+      {CommandUse::refused, "refused"},
   }};
-  fmt::print(out, "\nCommands\n");
+  fmt::print(out, "Commands\n");
   for (const Group& group : groups) {
     fmt::print(out, "  {}\n", group.title);
     std::vector<std::string_view> bare;
     for (const CommandKind& row : command_catalogue()) {
       if (row.use != group.use) continue;
       if (row.summary.empty() && !has_statement(row.name)) continue;
-      const bool plain = row.use == CommandUse::without_effect || row.use == CommandUse::not_built;
+      const bool plain = row.use == CommandUse::without_effect || row.use == CommandUse::refused;
       if (row.summary.empty() || plain)
         bare.push_back(row.name);
       else
@@ -138,6 +139,7 @@ std::vector<std::string_view> nearest_names(std::string_view word) {
 int print_help(std::string_view name, std::ostream& out, std::ostream& err) {
   if (name.empty()) {
     list_statements(out);
+    fmt::print(out, "\n");
     list_commands(out);
     list_functions(out);
     fmt::print(out,
@@ -158,6 +160,8 @@ int print_help(std::string_view name, std::ostream& out, std::ostream& err) {
   fmt::print(err, "hint: `dynalin help` lists all of them\n");
   return wrong_usage;
 }
+
+void print_commands(std::ostream& out) { list_commands(out); }
 
 int print_explanation(std::string_view code, std::ostream& out, std::ostream& err) {
   if (code.empty()) {

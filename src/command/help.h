@@ -8,6 +8,8 @@ namespace dynalin {
 
 // What a statement, command or function of this name is and takes; without a name the list of all of them. Exit status.
 int print_help(std::string_view name, std::ostream& out, std::ostream& err);
+// The list of commands.
+void print_commands(std::ostream& out);
 // What a code of a message means; without a code the list of all codes.
 int print_explanation(std::string_view code, std::ostream& out, std::ostream& err);
 

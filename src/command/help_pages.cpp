@@ -107,7 +107,7 @@ void print_command(std::ostream& out, const CommandKind& row, bool is_statement)
     fmt::print(out, "  such a statement is not available yet\n");
   else
     fmt::print(out, "  {}{}\n", row.summary,
-               row.use == CommandUse::not_built        ? "; not available yet"
+               row.use == CommandUse::refused          ? ", and is refused"
                : row.use == CommandUse::without_effect ? "; read and passed over here"
                                                        : "");
   if (!row.arguments.empty()) fmt::print(out, "  arguments\n");

@@ -1,37 +1,39 @@
-// What a run is to do: the command file and the dataset it names, read and checked against each other.
+// A model of a run, the commands that work with it, and where their results go. A run has one of them, or several where
+// FILE/MODEL names another model or RELOAD begins further output files.
 #pragma once
 
-#include <iosfwd>
-#include <optional>
+#include <string>
+#include <vector>
 
 #include "command/commands.h"
 #include "command/session.h"
 #include "model/model.h"
+#include "system/system.h"
 
 namespace dynalin {
 
-// Everything a run needs, read and checked.
 struct Job {
-  CommandFile commands;
-  // The models of the run in order: that of the dataset, then one more for each group of commands that edit it.
+  std::vector<Command> commands;
+  // The models of the job in order: that of the dataset, then one more for each group of commands that edit it, and
+  // those that RELOAD/SYSTEM brings. Empty as long as the first of them is in a file that the run has yet to write.
   struct Stage {
     std::shared_ptr<const Dataset> dataset;
     std::shared_ptr<const Model> model;
-    Restated restated;  // elements whose start the edits state
+    std::shared_ptr<const System> system;
+    Restated restated;               // elements whose start the edits state
+    std::vector<std::string> edits;  // all commands that have changed the dataset, as written
+    bool anew = false;               // nothing of the stage before goes on in it
   };
   std::vector<Stage> stages;
   const Model& model() const { return *stages.front().model; }
-  std::string prefix;
-  int xrf_digits = 0;              // decimals of the results file, 0 for none
-  bool from_command_line = false;  // the commands
-  // Names are relative to where they are written: in a command file to its folder, on the command line to the current
-  // one, which is empty here.
-  std::string folder;
-  Diagnostics warnings;            // of reading
-  std::vector<SourceRef> sources;  // that were read
-};
+  std::string title;  // of RELOAD; where it is empty that of the model counts
+  const std::string& title_shown() const { return title.empty() ? model().title : title; }
 
-// Every problem found goes to `err`; then there is no job.
-std::optional<Job> load_job(const SessionOptions&, std::ostream& err);
+  std::string prefix;                // of its output files
+  int xrf_digits = 0;                // decimals of the results file, 0 for none
+  std::vector<std::string> opening;  // commands that led to it, as written
+  bool goes_on = false;              // with the settings of the job before: further files for its model
+  std::vector<SourceRef> sources;    // that were read for it
+};
 
 }  // namespace dynalin

@@ -80,8 +80,7 @@ TEST(LinearTables, of_a_command_that_was_not_read_whole_ask_for_nothing) {
     Diagnostics diagnostics;
     const Statement& statement = parsed.value.statements.front();
     const ElementLabel label{statement.name, 0, "", statement.at};
-    CommandFile file;
-    CommandReader reader(statement, *source, diagnostics, label, file);
+    CommandReader reader(statement, *source, diagnostics, label);
     EXPECT_FALSE(read_linear(reader)) << written;
   }
 }

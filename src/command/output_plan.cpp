@@ -20,42 +20,43 @@ struct PlannedFile {
   bool of_command = false;  // a later command may write the same file again
 };
 
-std::vector<PlannedFile> planned_files(const Job& job, const SessionOptions& options) {
+std::vector<PlannedFile> planned_files(const std::deque<Job>& jobs, const SessionOptions& options) {
   std::vector<PlannedFile> list;
-  bool tables = false;
-  const OutputSettings of_dataset = output_settings(job.model());
-  bool requests = of_dataset.request_file, graphics = of_dataset.graphics_file,
-       request_tables = of_dataset.writes_tables();
-  for (const Command& c : job.commands.commands) {
-    const CommandFiles files = c.action->files();
-    tables = tables || files.tables;
-    requests = requests || files.requests, graphics = graphics || files.graphics;
-    request_tables = request_tables || files.request_tables;
-    if (files.file.empty()) continue;
-    const std::string base = command_path(job, files.file);
-    for (const std::string_view suffix : files.suffixes)
-      list.push_back({base + std::string(suffix), "FILE of " + c.text, c.at, true});
-    for (const std::string& name : files.more)
-      list.push_back({command_path(job, name), "FILE of " + c.text, c.at, true});
+  for (const Job& job : jobs) {
+    const OutputSettings of_dataset = job.stages.empty() ? OutputSettings{} : output_settings(job.model());
+    bool tables = false, requests = of_dataset.request_file, graphics = of_dataset.graphics_file,
+         request_tables = of_dataset.writes_tables();
+    for (const Command& c : job.commands) {
+      const CommandFiles files = c.action->files();
+      tables = tables || files.tables;
+      requests = requests || files.requests, graphics = graphics || files.graphics;
+      request_tables = request_tables || files.request_tables;
+      if (files.file.empty()) continue;
+      const std::string base = command_path(c.folder, files.file);
+      for (const std::string_view suffix : files.suffixes)
+        list.push_back({base + std::string(suffix), "FILE of " + c.text, c.at, true});
+      for (const std::string& name : files.more)
+        list.push_back({command_path(c.folder, name), "FILE of " + c.text, c.at, true});
+    }
+    if (tables) list.push_back({job.prefix + ".txt", "the file of modal tables", {}});
+    if (job.xrf_digits > 0) list.push_back({job.prefix + ".res", "the results file", {}});
+    if (requests) list.push_back({job.prefix + ".req", "the request file", {}});
+    if (graphics) list.push_back({job.prefix + ".gra", "the graphics file", {}});
+    const bool has_requests = !job.stages.empty() && (job.model().has("REQUEST") || job.model().has("MREQUEST"));
+    if (request_tables && has_requests) list.push_back({job.prefix + ".out", "the file of request tables", {}});
+    list.push_back({job.prefix + ".msg", "the message file", {}});
   }
-  if (tables) list.push_back({job.prefix + ".txt", "the file of modal tables", {}});
-  if (job.xrf_digits > 0) list.push_back({job.prefix + ".res", "the results file", {}});
-  if (requests) list.push_back({job.prefix + ".req", "the request file", {}});
-  if (graphics) list.push_back({job.prefix + ".gra", "the graphics file", {}});
-  if (request_tables && (job.model().has("REQUEST") || job.model().has("MREQUEST")))
-    list.push_back({job.prefix + ".out", "the file of request tables", {}});
-  list.push_back({job.prefix + ".msg", "the message file", {}});
   if (!options.json.empty()) list.push_back({options.json, "--json", {}});
   return list;
 }
 
 }  // namespace
 
-std::string command_path(const Job& job, const std::string& file) {
-  return file == "-" ? file : (fs::path(job.folder) / file).string();
+std::string command_path(const std::string& folder, const std::string& file) {
+  return file == "-" ? file : (fs::path(folder) / file).string();
 }
 
-void check_outputs(const Job& job, const SessionOptions& options, const std::vector<SourceRef>& inputs,
+void check_outputs(const std::deque<Job>& jobs, const SessionOptions& options, const std::vector<SourceRef>& inputs,
                    Diagnostics& diagnostics) {
   std::map<Destination::Place, std::string> read;
   for (const SourceRef& source : inputs) {
@@ -63,7 +64,7 @@ void check_outputs(const Job& job, const SessionOptions& options, const std::vec
       read.emplace(d->place(), source->name());
   }
   std::map<Destination::Place, const PlannedFile*> known;
-  const std::vector<PlannedFile> files = planned_files(job, options);
+  const std::vector<PlannedFile> files = planned_files(jobs, options);
   for (const PlannedFile& file : files) {
     const auto d = find_destination(file.path);
     if (!d) {
@@ -79,13 +80,15 @@ void check_outputs(const Job& job, const SessionOptions& options, const std::vec
     }
     const auto [other, fresh] = known.emplace(d->place(), &file);
     if (fresh || (file.of_command && other->second->of_command)) continue;
-    diagnostics.error("file-in-use", other->second->at,
-                      fmt::format("{} and {} are one file, {}", other->second->what, file.what, file.path));
+    diagnostics.error(
+        "file-in-use", other->second->at,
+        fmt::format("{} and {} are one file, {}", other->second->what, file.what, file.path),
+        file.what == other->second->what ? "OUTPUT_PREFIX gives the files of a further model names of their own" : "");
   }
 }
 
-void check_permissions(const Job& job, const SessionOptions& options, Diagnostics& diagnostics) {
-  for (const PlannedFile& file : planned_files(job, options)) {
+void check_permissions(const std::deque<Job>& jobs, const SessionOptions& options, Diagnostics& diagnostics) {
+  for (const PlannedFile& file : planned_files(jobs, options)) {
     const auto d = find_destination(file.path);
     const std::string reason = d ? why_not_writable(*d) : d.error();
     if (!reason.empty())

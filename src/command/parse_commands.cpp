@@ -32,10 +32,10 @@ class FileParser {
     Parsed<Dataset> parsed = parse_statements(commands, command_names());
     diagnostics_.append(std::move(parsed.diagnostics));
     keep_ = std::make_shared<Dataset>(std::move(parsed.value));
+    file_.written = keep_;
     for (const Statement& s : keep_->statements) {
       if (!s.name.empty()) read(s);
     }
-    file_.written = keep_;
     return {std::move(file_), std::move(diagnostics_)};
   }
   void name_model(std::string model, Span at, std::string prefix) {
@@ -45,7 +45,7 @@ class FileParser {
  private:
   void read(const Statement& s) {
     const ElementLabel label{s.name, s.id.value_or(0), "", s.at};
-    CommandReader reader(s, *keep_->source, diagnostics_, label, file_);
+    CommandReader reader(s, *keep_->source, diagnostics_, label);
     Span whole = s.at;
     if (!s.arguments.empty()) {
       const WrittenArgument& last = s.arguments.back();
@@ -53,12 +53,15 @@ class FileParser {
     }
     const CommandKind& kind = *find_command(s.name);
     if (!kind.read) {
-      diagnostics_.error("command-not-built", s.keyword, fmt::format("the command {} is not available yet", s.name));
+      diagnostics_.error("refused-command", s.keyword, fmt::format("{} is refused: {}", s.name, kind.summary));
       return;
     }
-    const bool stopped = file_.stopped;
     auto action = kind.read(reader);
-    if (kind.runs && !stopped) file_.commands.push_back({one_line(whole.text()), s.at, &kind, std::move(action)});
+    Command command;
+    command.text = one_line(whole.text()), command.at = s.at, command.whole = whole;
+    command.statement = &s, command.kind = &kind;
+    command.action = std::move(action), command.written = file_.written;
+    file_.commands.push_back(std::move(command));
   }
 
   CommandFile file_;

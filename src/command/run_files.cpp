@@ -33,8 +33,16 @@ void RunFiles::keep(std::unique_ptr<OutputFile> file) {
   }
 }
 
+RunFiles::Result RunFiles::commit(std::ostream& standard_output) {
+  auto result = dynalin::commit(files_, standard_output);
+  if (result) committed_ = names();
+  files_.clear();
+  place_of_file_.clear();
+  return result;
+}
+
 std::vector<std::string> RunFiles::names() const {
-  std::vector<std::string> list;
+  std::vector<std::string> list = committed_;
   for (const auto& file : files_) {
     if (file->destination().kind == Destination::Kind::replaced) list.push_back(file->destination().name);
   }

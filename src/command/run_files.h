@@ -25,14 +25,15 @@ class RunFiles {
   Result add(const std::vector<Planned>&);
   // One that grew as the run went on.
   Result add(std::unique_ptr<OutputFile>);
-  // Under their names, or after an error none.
-  Result commit(std::ostream& standard_output) { return dynalin::commit(files_, standard_output); }
+  // Under their names, or after an error none. What is added later is committed by itself.
+  Result commit(std::ostream& standard_output);
   // Of files that are replaced as a whole, as the user wrote them, in the order of their making.
   std::vector<std::string> names() const;
 
  private:
   void keep(std::unique_ptr<OutputFile>);
 
+  std::vector<std::string> committed_;
   std::vector<std::unique_ptr<OutputFile>> files_;
   std::map<Destination::Place, std::size_t> place_of_file_;  // among files_
 };

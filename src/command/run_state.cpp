@@ -12,17 +12,34 @@
 
 namespace dynalin {
 
-RunState::RunState(const SessionOptions& of_user, const Job& to_do, std::shared_ptr<const System> system,
-                   std::ostream* to_terminal, std::ostream& errors)
+RunState::RunState(const SessionOptions& of_user, const Job& to_do, std::ostream* to_terminal, std::ostream& errors,
+                   JsonResults& all_results, RunFiles& all_files)
     : options(of_user),
       job(to_do),
-      point(as_drawn(std::move(system))),
+      point(as_drawn(job.stages.front().system)),
       settings(job.model().settings),
       terminal(to_terminal),
       err(errors),
+      json(all_results),
       remarks(errors, message, json, job.prefix + ".msg"),
-      steps(job, remarks) {
+      steps(job, remarks),
+      files(all_files) {
   steps.settings = output_settings(job.model());
+}
+
+void RunState::count(const IntegrationStatistics& s) {
+  last_simulation = s;
+  IntegrationStatistics& all = all_simulations;
+  all.steps += s.steps, all.evaluations += s.evaluations, all.jacobians += s.jacobians;
+  all.iterations += s.iterations, all.failed_error_tests += s.failed_error_tests;
+  all.failed_iterations += s.failed_iterations, all.restarts += s.restarts;
+  all.step_size = s.step_size, all.order = s.order;
+}
+
+void RunState::print(const std::string& text) {
+  message << text;
+  if (terminal) *terminal << text;
+  json.add_printed(command, time(), text);
 }
 
 StudyResult<void> RunState::make_consistent() {

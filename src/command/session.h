@@ -9,16 +9,17 @@
 namespace dynalin {
 
 struct SessionOptions {
-  std::string file;                   // .acf, or .adm together with `commands`
+  std::string file;                   // .acf, or .adm together with `commands`; - for `standard_input`
   std::vector<std::string> commands;  // of -c
   std::string json;                   // path of --json, empty for none
   std::string output_prefix;          // of --output, empty for the name in the file
   bool keep_going = false;
   bool bounds = false;  // of eigenvalues, in the table on the terminal
   bool quiet = false;
-  bool state = false;                // every operating point in full on the terminal
-  std::optional<double> user_value;  // in the place of compiled routines
-  bool pade = false;                 // a DELAY as a Padé approximant with a state of its own
+  bool state = false;                         // every operating point in full on the terminal
+  std::optional<double> user_value;           // in the place of compiled routines
+  bool pade = false;                          // a DELAY as a Padé approximant with a state of its own
+  std::optional<std::string> standard_input;  // its text, where that is the command file or has the commands for `file`
 };
 
 enum ExitStatus : int { done = 0, wrong_input = 1, analysis_failed = 2, wrong_usage = 3 };

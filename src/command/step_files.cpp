@@ -33,7 +33,7 @@ void StepFiles::open_results() {
   auto output = make(".res");
   if (!output) return;
   std::ostream& out = output->stream();
-  ResultsHead head{job_.model().title, version, job_.xrf_digits, job_.model().units, results_contents(job_.model())};
+  ResultsHead head{job_.title_shown(), version, job_.xrf_digits, job_.model().units, results_contents(job_.model())};
   results_.reset(new Open<ResultsFile>{std::move(output), ResultsFile(out, std::move(head))});
 }
 
@@ -83,7 +83,7 @@ void StepFiles::add_to_tables(double time, const PointRequests& requests) {
     auto output = make(".out");
     if (!output) return;
     std::ostream& out = output->stream();
-    RequestTables tables(out, job_.model().title, output->destination().folder);
+    RequestTables tables(out, job_.title_shown(), output->destination().folder);
     tables_.reset(new Open<RequestTables>{std::move(output), std::move(tables)});
   }
   if (!in_tables_) tables_->file.begin(std::string(title_of(kind_)));

@@ -130,6 +130,14 @@ void JsonResults::add(const std::string& command, const SecondOrder& s) {
                                 {"outputs", channels(s.outputs)}});
 }
 
+void JsonResults::add_printed(const std::string& command, double time, const std::string& text) {
+  document_->results.push_back({{"command", command}, {"time", time}, {"text", text}});
+}
+
+void JsonResults::add_model(const std::string& command, const std::string& title, const Units& units) {
+  document_->results.push_back({{"command", command}, {"time", 0.0}, {"model", title}, {"units", json_of(units)}});
+}
+
 void JsonResults::add_export(const std::string& command, std::string_view type, double time,
                              const std::vector<std::string>& files) {
   document_->results.push_back({{"command", command}, {"time", time}, {"export", type}, {"files", files}});

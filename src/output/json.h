@@ -21,6 +21,10 @@ class JsonResults {
   JsonResults();
   ~JsonResults();
   void add_plain(const std::string& command, double time);  // a command without numbers of its own
+  // One that prints something.
+  void add_printed(const std::string& command, double time, const std::string& text);
+  // A further model of the run, whose results follow.
+  void add_model(const std::string& command, const std::string& title, const Units&);
   void add(const std::string& command, const EigenSolution&);
   void add(const std::string& command, const StateSpace&);
   void add(const std::string& command, const SecondOrder&);

@@ -152,9 +152,11 @@ void write_eigensolution(std::ostream& out, const EigenSolution& e, double cpu_s
   fmt::print(out, "\n  Eigensolution computation finished.\n\n");
 }
 
-void write_footer(std::ostream& out, bool complete, double elapsed) {
-  fmt::print(out, "\n\n{}\nElapsed time = {:.2f}s\n", complete ? "Finished -----" : "Ended early: the run failed -----",
-             elapsed);
+void write_footer(std::ostream& out, RunEnding ending, double elapsed) {
+  const std::string_view text = ending == RunEnding::finished ? "Finished -----"
+                                : ending == RunEnding::failed ? "Ended early: the run failed -----"
+                                                              : "Ended early: the run was interrupted -----";
+  fmt::print(out, "\n\n{}\nElapsed time = {:.2f}s\n", text, elapsed);
 }
 
 void write_eigen_table(std::ostream& out, const EigenSolution& e, const std::string& unit, bool with_bounds) {

@@ -24,7 +24,8 @@ void write_eigensolution(std::ostream&, const EigenSolution&, double cpu_seconds
 // States and options of the matrices of STATEMAT and MKB.
 void write_matrix_states(std::ostream&, const StateSpace&);
 void write_matrix_states(std::ostream&, const SecondOrder&);
-void write_footer(std::ostream&, bool complete, double elapsed);
+enum class RunEnding { finished, failed, interrupted };
+void write_footer(std::ostream&, RunEnding, double elapsed);
 
 // A table for the terminal: frequency, damping ratio, real and imaginary part; on request how far each eigenvalue may
 // be off and its condition number. `unit` is that of frequencies, "cycles/s".

@@ -31,6 +31,8 @@ class TemporaryFile {
   int descriptor_;
 };
 
+// In a handler of this signal, which is not handled any more: takes the temporary files with it and ends the process.
+void remove_temporary_files(int signal);
 // Signals that end the process (SIGINT, SIGTERM, SIGHUP), but for those ignored, take the temporary files with them.
 void remove_temporary_files_on_signals();
 

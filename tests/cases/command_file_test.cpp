@@ -49,12 +49,12 @@ TEST_F(CommandFiles, a_file_named_twice_holds_what_the_last_command_wrote) {
   EXPECT_EQ(files, 0u);
 }
 
-TEST_F(CommandFiles, a_second_model_is_an_error_at_its_place) {
-  const RunResult r = commands("FILE/MODEL=model\nLINEAR/EIGENSOL\nFILE/MODEL=other\nLINEAR/EIGENSOL\n");
+TEST_F(CommandFiles, a_command_before_the_model_is_an_error_at_its_place) {
+  const RunResult r = commands("LINEAR/EIGENSOL\nFILE/MODEL=model\nLINEAR/EIGENSOL\n");
   EXPECT_EQ(r.status, 1);
-  EXPECT_THAT(r.err, HasSubstr("run.acf:3:6: error: the model model is already loaded"));
-  EXPECT_THAT(r.err, HasSubstr("[second-model]"));
-  EXPECT_THAT(commands("LINEAR/EIGENSOL\nFILE/MODEL=model\n").err, HasSubstr("run.acf:2:6: error"));
+  EXPECT_THAT(r.err, HasSubstr("run.acf:1:1: error: LINEAR/EIGENSOL needs a model, and none is named before it"));
+  EXPECT_THAT(r.err, HasSubstr("[missing-model]"));
+  EXPECT_FALSE(r.wrote("run.msg"));
 }
 
 TEST_F(CommandFiles, a_model_that_is_not_there_is_named_at_its_place) {

@@ -10,7 +10,7 @@
 #include "command/commands/equilibrium.h"
 #include "command/commands/linear.h"
 #include "command/commands/simulate.h"
-#include "command/job.h"
+#include "command/planner.h"
 
 namespace dynalin::cases {
 
@@ -22,13 +22,14 @@ class Replay {
 
   nlohmann::ordered_json run() {
     std::ostringstream unused;
-    const auto job = load_job(options_, unused);
-    if (!job) return {};
+    const auto plan = planned(options_, unused);
+    if (!plan || plan->jobs.size() != 1) return {};
+    const Job& job = plan->jobs.front();
     const library::Study study(
-        library::Model::read(job->stages.front().dataset->source->name(), {options_.pade, options_.user_value}));
+        library::Model::read(job.stages.front().dataset->source->name(), {options_.pade, options_.user_value}));
     library::Record record(study.model());
     auto point = study.as_drawn();
-    for (const Command& c : job->commands.commands) {
+    for (const Command& c : job.commands) {
       if (c.kind->name == "STOP") break;
       try {
         if (!execute(c, study, record, point)) return {};

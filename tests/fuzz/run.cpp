@@ -11,7 +11,10 @@
 #include <vector>
 
 #include "command/commands.h"
+#include "command/commands/file.h"
 #include "command/commands/linear.h"
+#include "command/commands/reload.h"
+#include "command/commands/save.h"
 #include "command/session.h"
 #include "dataset/dataset.h"
 #include "folder.h"
@@ -44,6 +47,12 @@ bool allowed(const CommandFile& commands) {
   for (const Command& c : commands.commands) {
     const auto* linear = action_of<commands::Linear>(c);
     if (linear && !(allowed(linear->command.file) && allowed(linear->command.config))) return false;
+    const auto* save = action_of<commands::Save>(c);
+    if (save && !allowed(save->file)) return false;
+    const auto* reload = action_of<commands::Reload>(c);
+    if (reload && !(allowed(reload->file) && allowed(reload->prefix))) return false;
+    const auto* file = action_of<commands::File>(c);
+    if (file && !(allowed(file->command) && allowed(file->model) && allowed(file->prefix))) return false;
   }
   return true;
 }

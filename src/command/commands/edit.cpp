@@ -10,15 +10,20 @@ StudyResult<void> Edit::run(RunState& run) const {
   const std::set<std::string> before = std::exchange(run.inactive, {});
   for (const auto& set : run.system().model().sets) {
     if (set->active) continue;
+    // What reads the model and acts on nothing has no force that a function could ask for.
+    const bool exerts = set->kind().role != Kind::Role::inert && set->kind().statement != "SENSOR";
     for (const ElementLabel& label : set->labels) {
       const std::string name = label.full_text();
       run.inactive.insert(name);
       if (before.contains(name)) continue;
-      fmt::print(run.message,
-                 "   Deactivated {}, force/torque values will be zero in function-expression references.\n", name);
+      fmt::print(run.message, "   Deactivated {}{}.\n", name,
+                 exerts ? ", force/torque values will be zero in function-expression references" : "");
     }
   }
-  run.json.add_plain(run.command, run.time());
+  for (const std::string& name : before) {
+    if (!run.inactive.contains(name)) fmt::print(run.message, "   Activated {}.\n", name);
+  }
+  if (!tell(run)) run.json.add_plain(run.command, run.time());
   return {};
 }
 

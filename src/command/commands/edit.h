@@ -17,6 +17,8 @@ class Edit : public CommandAction {
   const Statement& statement() const { return *statement_; }
 
  private:
+  // Whether it has printed something of the model that it made.
+  virtual bool tell(RunState&) const { return false; }
   const Statement* statement_;
 };
 

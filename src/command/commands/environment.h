@@ -8,6 +8,7 @@ class SetEnvironment final : public CommandAction {
  public:
   explicit SetEnvironment(std::string variable) : name(std::move(variable)) {}
   StudyResult<void> run(RunState&) const override;
+  bool needs_model() const override { return false; }
 
   std::string name;
 };

@@ -1,5 +1,5 @@
-// FILE/MODEL=, OUTPUT_PREFIX=: names the dataset, while the commands are read.
-#include <fmt/format.h>
+// FILE/{COMMAND= | MODEL=, OUTPUT_PREFIX=}: commands of another file in this place, or a model for those that follow.
+#include "command/commands/file.h"
 
 #include "command/commands.h"
 
@@ -12,42 +12,38 @@ struct Written {
 
   using W = Written;
   static constexpr std::array<Argument<W>, 3> arguments = {{
-      {.name = "COMMAND", .slot = &W::command, .help = "another command file: not available yet"},
-      {.name = "MODEL", .slot = &W::model, .help = "the dataset, .adm unless it says otherwise"},
+      {.name = "COMMAND",
+       .slot = &W::command,
+       .help = "a command file whose commands run here, .acf unless it says otherwise"},
+      {.name = "MODEL", .slot = &W::model, .help = "the dataset for what follows, .adm unless it says otherwise"},
       {.name = "OUTPUT_PREFIX",
        .slot = &W::prefix,
-       .help = "how the names of output files begin; else the model's name"},
+       .help = "how the names of the model's output files begin; else its name"},
   }};
 };
 
 std::shared_ptr<const CommandAction> read(CommandReader& reader) {
   Written w;
   if (!read_arguments(w, reader)) return nullptr;
-  if (!w.command.empty()) {
-    reader.error("command-not-built", reader.at("COMMAND"), "command files within command files are not available yet");
+  const bool names_none = w.command.empty() && w.model.empty();
+  if (names_none || (w.model.empty() && !w.prefix.empty())) {
+    reader.error("missing-option", reader.statement().at,
+                 names_none ? "FILE needs COMMAND= or MODEL=" : "OUTPUT_PREFIX of FILE needs MODEL=",
+                 "FILE/MODEL=car, OUTPUT_PREFIX=run_1");
+    return nullptr;
   }
-  if (w.model.empty()) return nullptr;
-  CommandFile& file = reader.file();
-  if (!file.model.empty()) {
-    reader.error("second-model", reader.at("MODEL"),
-                 fmt::format("the model {} is already loaded, a run has one model", file.model),
-                 "run the commands for the other model from a command file of its own");
-  } else if (!file.commands.empty()) {
-    reader.error("second-model", reader.at("MODEL"), "commands that need the model stand before it is named",
-                 "name the model first");
-  } else {
-    file.model = w.model, file.model_at = reader.at("MODEL"), file.output_prefix = w.prefix;
-  }
-  return nullptr;
+  auto action = std::make_shared<File>();
+  action->command_at = reader.at("COMMAND"), action->model_at = reader.at("MODEL");
+  action->command = std::move(w.command), action->model = std::move(w.model), action->prefix = std::move(w.prefix);
+  return action;
 }
 
 constexpr CommandKind kind = {.name = "FILE",
                               .use = CommandUse::run,
-                              .summary = "names the dataset",
+                              .summary = "names the dataset, or a further command file",
                               .example = "FILE/MODEL=car, OUTPUT_PREFIX=car_loaded",
                               .arguments = detail::argument_infos<Written>,
-                              .read = read,
-                              .runs = false};
+                              .read = read};
 
 }  // namespace
 

@@ -44,7 +44,7 @@ bool in_results(RunState& run) { return run.results() && !run.settings.results.w
 template <class Form>
 StudyResult<void> write_form(const Form& form, std::string_view which, const LinearCommand& command,
                              const OperatingState& state, RunState& run) {
-  const std::string path = command_path(run.job, command.file);
+  const std::string path = command_path(run.folder, command.file);
   if (auto written = run.files.add(matrix_files(path, command.format, named_matrices(form))); !written)
     return tl::unexpected(StudyFailure({"linear analysis", written.error(), {}}));
   write_matrix_states(run.message, form);
@@ -80,7 +80,7 @@ StudyResult<void> write_deck(const Linearization& linear, const LinearCommand& c
   std::vector<RunFiles::Planned> planned;
   std::vector<std::string> paths;
   for (const nastran::DeckFile& file : deck->files) {
-    paths.push_back(command_path(run.job, file.name));
+    paths.push_back(command_path(run.folder, file.name));
     if (const std::string input = overwritten_input(paths.back(), run.job); !input.empty())
       return tl::unexpected(
           StudyFailure({"export", fmt::format("the deck would overwrite {}, which the run reads", input), {}}));

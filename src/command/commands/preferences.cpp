@@ -1,4 +1,5 @@
-// PREFERENCES/SOLVER=: which solver the model was written for is worth a word.
+// PREFERENCES/SOLVER=, SIMEXIT=, STATUS_MESSAGE=: which solver the model was written for is worth a word; whether a
+// command that failed ends the session; whether a line shows how far a command is.
 #include "command/commands/setting.h"
 #include "elements/settings/analysis_settings.h"
 
@@ -6,20 +7,26 @@ namespace dynalin::commands {
 
 namespace {
 
+bool is_on(const OptionalWord& w) {
+  return w.word.empty() || !find_keyword(w.word, std::array<std::string_view, 2>{"OFF", "NO"});
+}
+
 class Preferences final : public SettingOf<WrittenPreferences> {
  protected:
   void apply(RunState& run) const override {
     Diagnostics remarks;
     written.note(remarks);
     run.remarks.say(remarks);
+    if (written.simexit.given) run.preferences.ends_after_failure = is_on(written.simexit);
+    if (written.status_message.given) run.preferences.status_messages = is_on(written.status_message);
   }
 };
 
 }  // namespace
 
 std::span<const CommandKind> preferences() {
-  static constexpr CommandKind kind =
-      setting<Preferences>("PREFERENCES", "which solver the model was written for", "PREFERENCES/SOLVER=CXX");
+  static constexpr CommandKind kind = setting<Preferences>(
+      "PREFERENCES", "of the session: its end after a failure, its status line", "PREFERENCES/SIMEXIT=ON");
   return {&kind, 1};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "command/run_state.h"
+#include "command/settings_list.h"
 #include "elements/settings/setting_set.h"
 
 namespace dynalin::commands {
@@ -11,11 +12,16 @@ class Setting : public CommandAction {
   StudyResult<void> run(RunState& run) const final {
     apply(run);
     run.remarks.pass_over(passed_over);
-    run.json.add_plain(run.command, run.time());
+    list.empty() ? run.json.add_plain(run.command, run.time()) : run.print(settings_list(list, run));
     return {};
   }
+  bool reads_statements() const final { return !list.empty(); }
+  bool needs_model() const final { return false; }
+  bool sets() const final { return true; }
+  void restore(RunState& run) const final { apply(run); }
 
   std::vector<std::string> passed_over;  // "INTEGRATOR/HMAX": arguments that nothing acts on
+  std::string_view list;                 // the command whose settings it lists, nothing where it does not
 
  protected:
   virtual void apply(RunState&) const {}
@@ -32,6 +38,7 @@ std::shared_ptr<const CommandAction> read_setting(CommandReader& reader) {
   auto action = std::make_shared<Action>();
   if (!read_setting_arguments(action->written, reader)) return nullptr;
   action->passed_over = arguments_passed_over<decltype(action->written)>(reader);
+  if (reader.given("LIST")) action->list = reader.statement().name;
   return action;
 }
 

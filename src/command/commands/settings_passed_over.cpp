@@ -9,8 +9,6 @@ namespace {
 constexpr std::array kinds = {
     setting<SettingOf<WrittenLinearSolver>>("LSOLVER", "of the solver of equations: checked, nothing acts on it",
                                             "LSOLVER/UMF"),
-    setting<SettingOf<WrittenDebug>>("DEBUG", "of what a solver prints of its work: checked, nothing acts on it",
-                                     "DEBUG/EPRINT"),
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "analysis/static_settings.h"
+#include "command/interruption.h"
 #include "command/progress_line.h"
 #include "command/run_state.h"
 #include "command/step_output.h"
@@ -104,8 +105,10 @@ StudyResult<void> find_rest(RunState& run) {
   write_begin(run.message, "Static Solution");
   StaticsOptions options = statics_options(run.settings.equilibrium);
   options.restore_velocities = !run.environment.statics_stay_at_rest;
-  ProgressLine line(run.terminal);
+  ProgressLine line(run.status_line());
+  if (run.preferences.iterations) fmt::print(run.message, "  Iteration   Imbalance\n");
   options.progress = [&](int iteration, double imbalance) {
+    if (run.preferences.iterations) fmt::print(run.message, "  {:9d}   {:.5E}\n", iteration, imbalance);
     line.show([&] { return fmt::format("static equilibrium: iteration {}, imbalance {:.2e}", iteration, imbalance); });
   };
   auto found = static_equilibrium(run.point, options);
@@ -194,15 +197,18 @@ StudyResult<void> Simulate::run_over_time(RunState& run) const {
   request.kinematics = run.settings.kinematics;
   request.statics = statics_options(run.settings.equilibrium);
   StepOutput output(run, step_kind(kind_at(run.point, *kind)), request.times, request.integrator);
-  ProgressLine line(run.terminal);
+  ProgressLine line(run.status_line());
+  const Interruptible stop_on_request;
   const auto found = simulate(run.point, request, [&](const SimulationStep& at) {
     line.show([&] { return progress_text(at, start, last); });
-    return output.add(at);
+    const GoOn written = output.add(at);
+    return interrupted() ? GoOn::no : written;
   });
   line.clear();
   const auto written = output.end();
   if (!found) return tl::unexpected(found.error());
   if (!written) return written;
+  run.count(found->statistics);
   if (run.terminal) fmt::print(*run.terminal, "{}{}\n", summary_of(*found), ending_of(found->end));
   if (found->end == SimulationEnd::halted) run.halted = true;
   run.accept({found->point, found->remarks});

@@ -1,5 +1,5 @@
-// STOP: ends the file. What follows is read and checked, and does not run.
-#include "command/commands.h"
+// STOP: ends the run, also where it stands in a command file within another one. What follows is not read.
+#include "command/run_state.h"
 
 namespace dynalin::commands {
 
@@ -8,16 +8,20 @@ namespace {
 class Stop final : public CommandAction {
  public:
   StudyResult<void> run(RunState&) const override { return {}; }
+  bool needs_model() const override { return false; }
+  bool stops() const override { return true; }
 };
 
 std::shared_ptr<const CommandAction> read(CommandReader& reader) {
-  reader.file().stopped = true;
+  Diagnostics& diagnostics = reader.diagnostics();
+  for (const WrittenArgument& w : reader.statement().arguments)
+    diagnostics.error("unknown-argument", w.name, "STOP takes no arguments");
   return std::make_shared<Stop>();
 }
 
 constexpr CommandKind kind = {.name = "STOP",
                               .use = CommandUse::run,
-                              .summary = "ends the file; what stands behind it is not read",
+                              .summary = "ends the run; what stands behind it is not read",
                               .example = "STOP",
                               .read = read};
 

@@ -280,28 +280,42 @@ struct WrittenLinearSolver {
 };
 
 struct WrittenDebug {
-  bool flag = false;
+  bool eprint = false, noeprint = false, flag = false;
 
   using E = WrittenDebug;
   static constexpr std::array<Argument<E>, 20> arguments = {{
-      {.name = "EPRINT", .slot = &E::flag},   {.name = "NOEPRINT", .slot = &E::flag},
-      {.name = "VERBOSE", .slot = &E::flag},  {.name = "NOVERBOSE", .slot = &E::flag},
-      {.name = "DUMP", .slot = &E::flag},     {.name = "NODUMP", .slot = &E::flag},
-      {.name = "RHSDUMP", .slot = &E::flag},  {.name = "NORHSDUMP", .slot = &E::flag},
-      {.name = "JMDUMP", .slot = &E::flag},   {.name = "NOJMDUMP", .slot = &E::flag},
-      {.name = "REQDUMP", .slot = &E::flag},  {.name = "NOREQDUMP", .slot = &E::flag},
-      {.name = "TOPOLOGY", .slot = &E::flag}, {.name = "NOTOPOLOGY", .slot = &E::flag},
-      {.name = "DOF", .slot = &E::flag},      {.name = "NODOF", .slot = &E::flag},
-      {.name = "SCREEN", .slot = &E::flag},   {.name = "NOSCREEN", .slot = &E::flag},
-      {.name = "YYDUMP", .slot = &E::flag},   {.name = "LIST", .slot = &E::flag},
+      {.name = "EPRINT", .slot = &E::eprint, .help = "as a command: iterations of statics in the message file"},
+      {.name = "NOEPRINT", .slot = &E::noeprint, .help = "without them"},
+      {.name = "VERBOSE", .slot = &E::flag},
+      {.name = "NOVERBOSE", .slot = &E::flag},
+      {.name = "DUMP", .slot = &E::flag},
+      {.name = "NODUMP", .slot = &E::flag},
+      {.name = "RHSDUMP", .slot = &E::flag},
+      {.name = "NORHSDUMP", .slot = &E::flag},
+      {.name = "JMDUMP", .slot = &E::flag},
+      {.name = "NOJMDUMP", .slot = &E::flag},
+      {.name = "REQDUMP", .slot = &E::flag},
+      {.name = "NOREQDUMP", .slot = &E::flag},
+      {.name = "TOPOLOGY", .slot = &E::flag},
+      {.name = "NOTOPOLOGY", .slot = &E::flag},
+      {.name = "DOF", .slot = &E::flag},
+      {.name = "NODOF", .slot = &E::flag},
+      {.name = "SCREEN", .slot = &E::flag},
+      {.name = "NOSCREEN", .slot = &E::flag},
+      {.name = "YYDUMP", .slot = &E::flag},
+      {.name = "LIST", .slot = &E::flag},
   }};
-  static constexpr std::array<std::string_view, 1> acting = {"LIST"};
-  void apply(Settings&) const {}
+  static constexpr std::array<std::string_view, 3> acting = {"EPRINT", "NOEPRINT", "LIST"};
+  // As a statement: tables of iterations are for the eye that waits for them.
+  void apply(Settings& s) const {
+    if (eprint) s.passed_over.push_back("DEBUG/EPRINT");
+  }
 };
 
 // PREFERENCES: which solver a dataset was written for is worth a word, for it decides on the states of LINEAR.
 struct WrittenPreferences {
   std::vector<std::string> solver;
+  OptionalWord simexit, status_message;
   bool flag = false;
   Obsolete value;
   std::string text;
@@ -310,8 +324,10 @@ struct WrittenPreferences {
   static constexpr std::array<Argument<E>, 14> arguments = {{
       {.name = "SOLVER", .slot = &E::solver, .help = "F77 or CXX"},
       {.name = "LIST", .slot = &E::flag},
-      {.name = "STATUS_MESSAGE", .slot = &E::value},
-      {.name = "SIMEXIT", .slot = &E::value},
+      {.name = "STATUS_MESSAGE",
+       .slot = &E::status_message,
+       .help = "as a command: OFF takes away the line that shows how far a command is"},
+      {.name = "SIMEXIT", .slot = &E::simexit, .help = "as a command: a command that fails ends the session"},
       {.name = "LIBPATH", .slot = &E::text},
       {.name = "CONTACT_GEOMETRY_LIBRARY", .slot = &E::text},
       {.name = "CONTACT_FACETING_TOLERANCE", .slot = &E::value},
@@ -323,14 +339,19 @@ struct WrittenPreferences {
       {.name = "FLEX_LIMIT_CHECK_CRITERIA", .slot = &E::value},
       {.name = "FUNCTION_ERROR", .slot = &E::value},
   }};
-  static constexpr std::array<std::string_view, 2> acting = {"SOLVER", "LIST"};
+  static constexpr std::array<std::string_view, 4> acting = {"SOLVER", "LIST", "SIMEXIT", "STATUS_MESSAGE"};
   void note(Diagnostics& remarks) const {
     if (solver.empty() || !(solver.front().starts_with("F77") || solver.front().starts_with("FOR"))) return;
     remarks.warning("fortran-solver", {},
                     "PREFERENCES/SOLVER=F77 asks for the FORTRAN solver: LINEAR with ORIGINAL gives the states and the "
                     "coupling of that solver");
   }
-  void apply(Settings& s) const { note(s.remarks); }
+  // The session is no matter of the dataset.
+  void apply(Settings& s) const {
+    note(s.remarks);
+    if (simexit.given) s.passed_over.push_back("PREFERENCES/SIMEXIT");
+    if (status_message.given) s.passed_over.push_back("PREFERENCES/STATUS_MESSAGE");
+  }
 };
 
 }  // namespace dynalin

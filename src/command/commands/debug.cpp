@@ -1,0 +1,23 @@
+// DEBUG/EPRINT: iterations of statics in the message file.
+#include "command/commands/setting.h"
+#include "elements/settings/analysis_settings.h"
+
+namespace dynalin::commands {
+
+namespace {
+
+class Debug final : public SettingOf<WrittenDebug> {
+ protected:
+  void apply(RunState& run) const override {
+    if (written.eprint || written.noeprint) run.preferences.iterations = written.eprint;
+  }
+};
+
+}  // namespace
+
+std::span<const CommandKind> debug() {
+  static constexpr CommandKind kind = setting<Debug>("DEBUG", "how much of its work a solver prints", "DEBUG/EPRINT");
+  return {&kind, 1};
+}
+
+}  // namespace dynalin::commands

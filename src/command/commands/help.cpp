@@ -1,0 +1,74 @@
+// HELP [name] and MENU, at a prompt: the pages of `dynalin help`, and the commands that there are.
+#include "command/help.h"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+#include "command/help_pages.h"
+#include "command/run_state.h"
+
+namespace dynalin::commands {
+
+namespace {
+
+class Help final : public CommandAction {
+ public:
+  Help(std::string name, bool menu) : name_(std::move(name)), menu_(menu) {}
+  bool needs_model() const override { return false; }
+  StudyResult<void> run(RunState& run) const override {
+    if (!run.preferences.at_prompt) {
+      run.remarks.say("passed-over",
+                      fmt::format("{} is for a session at a prompt and is passed over", menu_ ? "MENU" : "HELP"));
+      run.json.add_plain(run.command, run.time());
+      return {};
+    }
+    std::ostringstream out;
+    if (menu_)
+      print_commands(out);
+    else
+      print_help(name_, out, out);
+    if (run.terminal) *run.terminal << out.view();
+    run.json.add_plain(run.command, run.time());
+    return {};
+  }
+
+ private:
+  std::string name_;
+  bool menu_;
+};
+
+std::shared_ptr<const CommandAction> read(CommandReader& reader) {
+  const auto& arguments = reader.statement().arguments;
+  const bool menu = reader.statement().name == "MENU";
+  const std::size_t most = menu ? 0 : 1;
+  if (arguments.size() > most || (!arguments.empty() && arguments.front().has_value)) {
+    reader.error("unknown-argument", arguments[std::min(most, arguments.size() - 1)].name,
+                 menu ? "MENU takes no arguments" : "HELP takes one name");
+    return nullptr;
+  }
+  return std::make_shared<Help>(arguments.empty() ? std::string() : std::string(arguments.front().name.text()), menu);
+}
+
+constexpr std::array<ArgumentInfo, 1> help_arguments = {
+    {{"name", false, true, "", "", "a statement, command or function; without one the list of all"}}};
+
+constexpr std::array kinds = {
+    CommandKind{.name = "HELP",
+                .use = CommandUse::information,
+                .summary = "at a prompt: what a statement, command or function takes",
+                .example = "HELP LINEAR",
+                .arguments = help_arguments,
+                .read = read},
+    CommandKind{.name = "MENU",
+                .use = CommandUse::information,
+                .summary = "at a prompt: the commands that there are",
+                .example = "MENU",
+                .read = read},
+};
+
+}  // namespace
+
+std::span<const CommandKind> help() { return kinds; }
+
+}  // namespace dynalin::commands

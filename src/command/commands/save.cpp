@@ -1,0 +1,107 @@
+// SAVE/{SYSTEM | STATES}, FILE=, TITLE=: writes the point, or the model with its settings and the point, so that RELOAD
+// goes on from there. The file is there at once, whatever becomes of the run.
+#include "command/commands/save.h"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <filesystem>
+
+#include "command/output_plan.h"
+#include "command/run_state.h"
+#include "output/saved_file.h"
+
+namespace dynalin::commands {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Written {
+  bool system = false, states = false;
+  std::string file, title;
+
+  using W = Written;
+  static constexpr std::array<Argument<W>, 4> arguments = {{
+      {.name = "SYSTEM", .slot = &W::system, .help = "the model as it is now, its settings, and the states"},
+      {.name = "STATES", .slot = &W::states, .help = "time and all values of the point"},
+      {.name = "FILE", .slot = &W::file, .required = true, .help = "written at once, whole or not at all"},
+      {.name = "TITLE", .slot = &W::title, .help = "any text, kept in the file"},
+  }};
+};
+
+std::shared_ptr<const CommandAction> read(CommandReader& reader) {
+  Written w;
+  if (!read_arguments(w, reader)) return nullptr;
+  if (w.system == w.states) {
+    reader.error("missing-option", reader.statement().at, "SAVE takes exactly one of SYSTEM and STATES");
+    return nullptr;
+  }
+  auto action = std::make_shared<Save>();
+  action->system = w.system, action->file = std::move(w.file), action->title = std::move(w.title);
+  return action;
+}
+
+SavedFile::Model saved_model(const RunState& run, const Job::Stage& stage) {
+  SavedFile::Model model;
+  const SourceText& source = *stage.dataset->source;
+  std::error_code unknown;
+  const fs::path absolute = fs::absolute(source.name(), unknown);
+  model.path = unknown ? source.name() : absolute.lexically_normal().string();
+  model.text = source.text();
+  model.edits = stage.edits;
+  model.pade = run.options.pade;
+  for (const SourceRef& file : stage.model->further_sources) {
+    const fs::path path = fs::absolute(file->name(), unknown);
+    model.further.push_back({unknown ? file->name() : path.lexically_normal().string(), fingerprint(file->text())});
+  }
+  for (const Command& c : run.settings_done) model.settings.emplace_back(c.whole.text());
+  for (const std::string_view name : run.environment.names()) model.environment.emplace_back(name);
+  return model;
+}
+
+StudyFailure failure(std::string why) { return StudyFailure({"saving", std::move(why), {}}); }
+
+constexpr CommandKind kind = {.name = "SAVE",
+                              .use = CommandUse::run,
+                              .summary = "writes the point, or model and point, for RELOAD",
+                              .example = "SAVE/STATES, FILE=braking.save",
+                              .arguments = detail::argument_infos<Written>,
+                              .read = read};
+
+}  // namespace
+
+StudyResult<void> Save::run(RunState& run) const {
+  const Job::Stage& stage = run.job.stages[run.stage];
+  const StudyPoint& point = run.point;
+  SavedFile saved;
+  saved.title = title, saved.model_title = stage.model->title;
+  saved.fingerprint = fingerprint(stage.dataset->source->text(), stage.edits);
+  if (system) saved.system = saved_model(run, stage);
+  saved.started = point.started, saved.consistent = point.consistent;
+  saved.restated_velocity = point.restated_velocity, saved.redundant_rows = point.redundant_rows;
+  saved.point = saved_point(run.system(), point.values);
+  if (point.statics)
+    saved.statics = {point.statics->iterations, point.statics->imbalance,
+                     saved_point(run.system(), point.statics->at_rest)};
+  if (point.values.delays)
+    run.remarks.say("saved-without-past",
+                    "the past that DELAYs read is not part of what SAVE writes: after RELOAD they begin anew");
+  const auto text = saved_text(saved);
+  if (!text) return tl::unexpected(failure(text.error()));
+  const std::string path = command_path(run.folder, file);
+  RunFiles files;
+  auto written = files.add({{path, [&](std::ostream& out) { out << *text; }}});
+  if (written) written = files.commit(run.terminal ? *run.terminal : run.message);
+  if (!written) return tl::unexpected(failure(written.error()));
+  run.saved_files.push_back(path);
+  fmt::print(run.message, "  Saved {} at time {:.9E} to {}\n", system ? "the system" : "the states", run.time(), path);
+  if (run.terminal)
+    fmt::print(*run.terminal, "saved {} at time {:g} to {}\n", system ? "the system" : "the states", run.time(), path);
+  run.json.add_plain(run.command, run.time());
+  return {};
+}
+
+std::span<const CommandKind> save() { return {&kind, 1}; }
+
+}  // namespace dynalin::commands

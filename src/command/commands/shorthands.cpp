@@ -1,0 +1,39 @@
+// GSTIFF/… and WSTIFF/…: INTEGRATOR/GSTIFF, … in short.
+#include "command/command_catalogue.h"
+#include "elements/settings/analysis_settings.h"
+
+namespace dynalin::commands {
+
+namespace {
+
+std::shared_ptr<const CommandAction> read(CommandReader& reader) {
+  Statement whole = reader.statement();
+  whole.name = "INTEGRATOR";
+  WrittenArgument type;
+  type.name = whole.keyword;
+  whole.arguments.insert(whole.arguments.begin(), type);
+  const ElementLabel label{whole.name, 0, "", whole.at};
+  CommandReader integrator(whole, reader.source(), reader.diagnostics(), label);
+  return find_command(whole.name)->read(integrator);
+}
+
+constexpr CommandKind shorthand(std::string_view name, std::string_view summary, std::string_view example) {
+  return {.name = name,
+          .use = CommandUse::setting,
+          .summary = summary,
+          .example = example,
+          .arguments = detail::argument_infos<WrittenIntegrator>,
+          .acting = WrittenIntegrator::acting,
+          .read = read};
+}
+
+constexpr std::array kinds = {
+    shorthand("GSTIFF", "INTEGRATOR/GSTIFF in short", "GSTIFF/ERROR=1E-4"),
+    shorthand("WSTIFF", "INTEGRATOR/WSTIFF in short", "WSTIFF/ERROR=1E-4"),
+};
+
+}  // namespace
+
+std::span<const CommandKind> shorthands() { return kinds; }
+
+}  // namespace dynalin::commands

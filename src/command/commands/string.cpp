@@ -1,0 +1,44 @@
+// STRING/id, STRING=text: text for compiled routines, of which there are none. Read and passed over, with a word.
+#include <fmt/format.h>
+
+#include "command/run_state.h"
+
+namespace dynalin::commands {
+
+namespace {
+
+struct Written {
+  Obsolete text;
+  bool list = false;
+
+  using W = Written;
+  static constexpr std::array<Argument<W>, 2> arguments = {{
+      {.name = "STRING", .slot = &W::text, .help = "any text up to the end of the command"},
+      {.name = "LIST", .slot = &W::list, .help = "nothing here has a use for it"},
+  }};
+};
+
+class PassOver final : public CommandAction {
+ public:
+  StudyResult<void> run(RunState& run) const override {
+    run.remarks.say("passed-over", "nothing here acts on STRING, a text for compiled routines, which is passed over");
+    run.json.add_plain(run.command, run.time());
+    return {};
+  }
+};
+
+constexpr CommandKind kind = {.name = "STRING",
+                              .use = CommandUse::without_effect,
+                              .summary = "text for compiled routines",
+                              .example = "STRING/1, STRING=text",
+                              .arguments = detail::argument_infos<Written>,
+                              .read = [](CommandReader& reader) -> std::shared_ptr<const CommandAction> {
+                                Written w;
+                                return read_arguments(w, reader) ? std::make_shared<PassOver>() : nullptr;
+                              }};
+
+}  // namespace
+
+std::span<const CommandKind> string() { return {&kind, 1}; }
+
+}  // namespace dynalin::commands

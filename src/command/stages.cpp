@@ -1,0 +1,107 @@
+#include "command/stages.h"
+
+#include <fmt/format.h>
+
+#include "elements/catalogue.h"
+
+namespace dynalin {
+
+namespace {
+
+// The equations, which show what is wrong with a model that can be read.
+bool add_system(Job::Stage& stage, const SessionOptions& options, Diagnostics& diagnostics) {
+  auto system = System::make(stage.model, {options.pade ? DelayReading::pade : DelayReading::first_order});
+  if (!system) {
+    diagnostics.append(std::move(system.error()));
+    return false;
+  }
+  stage.system = std::move(*system);
+  return true;
+}
+
+}  // namespace
+
+std::optional<Job::Stage> stage_of_dataset(SourceRef source, const SessionOptions& options, Statements statements,
+                                           Diagnostics& diagnostics) {
+  auto parsed = parse_dataset(std::move(source));
+  const bool read = !parsed.diagnostics.has_errors();
+  diagnostics.append(std::move(parsed.diagnostics));
+  const auto dataset = std::make_shared<Dataset>(std::move(parsed.value));
+  const bool kept = statements == Statements::kept;
+  auto built =
+      build_model(dataset, catalogue(), {.user_value = options.user_value, .read_once = kept ? nullptr : dataset});
+  const bool sound = read && !built.diagnostics.has_errors();
+  // Statements that could not be read leave gaps that the model would only complain about again.
+  if (read || built.diagnostics.has_errors()) diagnostics.append(std::move(built.diagnostics));
+  Job::Stage stage;
+  stage.dataset = dataset, stage.model = std::move(built.value);
+  if (!kept) dataset->release_arguments();
+  if (!sound || !add_system(stage, options, diagnostics)) return std::nullopt;
+  return stage;
+}
+
+std::optional<Job::Stage> edited_stage(const Job::Stage& from, std::span<const Command> edits,
+                                       const SessionOptions& options, Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.error_count();
+  DatasetEditor editor(from.dataset, edits.front().written, catalogue(), diagnostics);
+  Job::Stage stage;
+  stage.edits = from.edits;
+  for (const Command& c : edits) {
+    c.action->edit(editor);
+    stage.edits.emplace_back(c.whole.text());
+  }
+  EditedDataset now = std::move(editor).finish();
+  auto built = build_model(now.dataset, catalogue(), {options.user_value});
+  const SourceText* read_before = from.dataset->source.get();
+  for (const Diagnostic& d : built.diagnostics.items()) {
+    if (d.severity == Severity::error) {
+      diagnostics.error(d.code, d.at, d.message, d.hint).notes = d.notes;
+    } else if (d.at.source != read_before) {
+      diagnostics.warning(d.code, d.at, d.message, d.hint).notes = d.notes;
+    }
+  }
+  stage.dataset = std::move(now.dataset), stage.model = std::move(built.value);
+  stage.restated = std::move(now.restated);
+  if (diagnostics.error_count() > errors || !add_system(stage, options, diagnostics)) return std::nullopt;
+  return stage;
+}
+
+std::optional<Job::Stage> saved_stage(const SavedFile::Model& saved, const std::string& name,
+                                      const SessionOptions& options, std::vector<SourceRef>& texts,
+                                      Diagnostics& diagnostics) {
+  if (saved.pade != options.pade)
+    diagnostics.warning("reloaded-in-part", {},
+                        fmt::format("{} was saved {} --pade, and this run is {} it: DELAYs have other states", name,
+                                    saved.pade ? "with" : "without", options.pade ? "with" : "without"));
+  const SourceRef source = texts.emplace_back(std::make_shared<const SourceText>(saved.path, saved.text));
+  Diagnostics said;  // in the run that saved it
+  auto stage = stage_of_dataset(source, options, Statements::kept, said);
+  if (!stage) {
+    diagnostics.append(std::move(said));
+    return std::nullopt;
+  }
+  if (!saved.edits.empty()) {
+    std::string text;
+    for (const std::string& edit : saved.edits) text += edit + "\n";
+    auto parsed = parse_commands(texts.emplace_back(std::make_shared<const SourceText>(name, text)));
+    const bool readable = !parsed.diagnostics.has_errors();
+    if (!readable) diagnostics.append(std::move(parsed.diagnostics));
+    stage = readable ? edited_stage(*stage, parsed.value.commands, options, diagnostics) : std::nullopt;
+    if (!stage) return std::nullopt;
+    stage->edits = saved.edits;
+  }
+  for (const SourceRef& file : stage->model->further_sources) {
+    for (const auto& known : saved.further) {
+      const bool same_name = known.path == file->name();
+      if (same_name && known.fingerprint != fingerprint(file->text()))
+        diagnostics.warning(
+            "reloaded-in-part", {},
+            fmt::format("{} has changed since {} was saved, and counts as it is now", known.path, name));
+    }
+  }
+  stage->anew = true;
+  stage->restated = {};
+  return stage;
+}
+
+}  // namespace dynalin

@@ -1,0 +1,60 @@
+#include "study/measured.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "elements/catalogue.h"
+
+namespace dynalin {
+
+namespace {
+
+// The dataset with a VARIABLE for each function, which have ids that no other one has.
+std::shared_ptr<const Dataset> with_variables(const std::shared_ptr<const Dataset>& base,
+                                              std::span<const std::string> functions, std::int64_t& first) {
+  first = 1;
+  for (const Statement& s : base->statements) {
+    if (s.name == "VARIABLE" && s.id) first = std::max(first, *s.id + 1);
+  }
+  std::string text = "functions\n";
+  for (std::size_t k = 0; k < functions.size(); ++k)
+    text += fmt::format("VARIABLE/{}, FUNCTION={}\n", first + static_cast<std::int64_t>(k), functions[k]);
+  auto parsed = parse_dataset(std::make_shared<const SourceText>("functions", text + "END\n"));
+  const auto added = std::make_shared<const Dataset>(std::move(parsed.value));
+  auto all = std::make_shared<Dataset>();
+  all->source = base->source;
+  all->title = base->title;
+  all->statements = base->statements;
+  all->statements.insert(all->statements.end(), added->statements.begin(), added->statements.end());
+  all->origins = {base, added};
+  return all;
+}
+
+StudyFailure failure(const Diagnostics& why) { return StudyFailure({"measuring", render(why), {}}); }
+
+}  // namespace
+
+StudyResult<std::vector<double>> measured(const StudyPoint& point, std::span<const std::string> functions,
+                                          std::optional<double> user_value, bool pade) {
+  std::int64_t first = 0;
+  const auto dataset = with_variables(point.system->model().dataset, functions, first);
+  auto model = build_model(dataset, catalogue(), {user_value});
+  if (model.diagnostics.has_errors()) return tl::unexpected(failure(model.diagnostics));
+  const auto system = System::make(std::move(model.value), {pade ? DelayReading::pade : DelayReading::first_order});
+  if (!system) return tl::unexpected(failure(system.error()));
+  StudyPoint here = continued(point, *system, {});
+  here.restated_velocity = point.restated_velocity;
+  auto found = initial_conditions(std::move(here));
+  if (!found) return tl::unexpected(found.error());
+  const Layout& layout = (*system)->layout();
+  std::vector<double> values(functions.size());
+  for (std::size_t k = 0; k < layout.algebraic.size(); ++k) {
+    const ElementLabel* owner = layout.algebraic[k].owner;
+    if (!owner || owner->statement != "VARIABLE" || owner->id < first) continue;
+    values[static_cast<std::size_t>(owner->id - first)] = found->point.values.algebraic[k];
+  }
+  return values;
+}
+
+}  // namespace dynalin

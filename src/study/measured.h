@@ -1,0 +1,16 @@
+// Values of function expressions at a point, of which the model knows nothing.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "study/study_point.h"
+
+namespace dynalin {
+
+// The statements of the model must have their arguments. Where the point is not consistent the values are those of the
+// one that agrees with the constraints; the point itself stays.
+StudyResult<std::vector<double>> measured(const StudyPoint&, std::span<const std::string> functions,
+                                          std::optional<double> user_value = {}, bool pade = false);
+
+}  // namespace dynalin
