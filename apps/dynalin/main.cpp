@@ -1,5 +1,6 @@
 // The command-line program: arguments in, exit status out; everything else is the library's.
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -8,13 +9,16 @@
 #include <csignal>
 #include <cstring>
 #include <iostream>
+#include <iterator>
 #include <new>
 #include <string_view>
 #include <vector>
 
 #include "command/help.h"
+#include "command/prompt.h"
 #include "command/session.h"
 #include "dynalin/version.h"
+#include "line_editor.h"
 #include "nastran_reader/nastran_program.h"
 #include "output/temporary_file.h"
 
@@ -28,6 +32,12 @@ void open_standard_streams() {
     const int opened = ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
     if (opened >= 0 && opened != stream) ::close(opened);
   }
+}
+
+// Commands that another program or a file gives; nobody waits for a device.
+bool has_piped_input() {
+  struct stat input {};
+  return ::fstat(STDIN_FILENO, &input) == 0 && (S_ISFIFO(input.st_mode) || S_ISREG(input.st_mode));
 }
 
 // Without memory for a stream.
@@ -59,10 +69,12 @@ int run(int argc, char** argv) {
   using namespace dynalin;
   CLI::App app{"Dynalin: linear models of mechanisms from Adams datasets"};
   app.set_version_flag("--version", std::string("dynalin ") + dynalin::version);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
+  app.footer("Without a subcommand: a prompt, for commands one by one; dynalin model.adm opens it with a model.");
 
   SessionOptions options;
   std::string word;
+  app.add_option("FILE", options.file, "a dataset or command file for a session at a prompt");
   CLI::App* run = app.add_subcommand("run", "run a command file (.acf), or a dataset (.adm) with commands given by -c");
   run->add_option("FILE", options.file)->required();
   run->add_option("-c", options.commands, "a command, may be repeated")->allow_extra_args(false);
@@ -100,6 +112,22 @@ int run(int argc, char** argv) {
     hint_at_usage(*run, argc, argv);
     return wrong_usage;
   }
+  const bool command_given = !app.get_subcommands().empty();
+  if (!command_given) {
+    if (::isatty(STDIN_FILENO) != 0) {
+      LineEditor lines;
+      return run_prompt(options, lines, std::cout, std::cerr);
+    }
+    if (!has_piped_input()) {
+      std::cerr << app.help();
+      hint_at_usage(*run, argc, argv);
+      return wrong_usage;
+    }
+    options.standard_input = std::string(std::istreambuf_iterator<char>(std::cin), {});
+    if (options.file.empty()) options.file = "-";
+    return run_session(options, std::cout, std::cerr);
+  }
+  if (*run && options.file == "-") options.standard_input = std::string(std::istreambuf_iterator<char>(std::cin), {});
   if (*run) return run_session(options, std::cout, std::cerr);
   if (*check) return check_file(options, std::cout, std::cerr);
   if (*check_nastran) return nastran_reader::check_deck(deck.deck, std::cout, std::cerr);

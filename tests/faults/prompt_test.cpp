@@ -1,0 +1,183 @@
+// The prompt, as a user has it: a terminal of its own for the program, keys in, a screen out. And commands by a pipe.
+#include <gmock/gmock.h>
+#include <poll.h>
+#include <pty.h>
+
+#include <array>
+#include <chrono>
+
+#include "program.h"
+
+namespace dynalin::faults {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class Terminal {
+ public:
+  Terminal(const fs::path& folder, const std::vector<std::string>& arguments) {
+    child_ = ::forkpty(&screen_, nullptr, nullptr, nullptr);
+    if (child_ != 0) return;
+    if (::chdir(folder.c_str()) != 0) ::_exit(99);
+    ::setenv("DYNALIN_HISTORY", (folder / "history").c_str(), 1);
+    ::setenv("TERM", "dumb", 1);
+    ::setenv("OPENBLAS_NUM_THREADS", "1", 1);
+    ::alarm(50);
+    std::vector<std::string> words{DYNALIN_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> list;
+    for (std::string& word : words) list.push_back(word.data());
+    list.push_back(nullptr);
+    ::execv(list[0], list.data());
+    ::_exit(98);
+  }
+  ~Terminal() {
+    ::close(screen_);
+    if (child_ > 0) ::kill(child_, SIGKILL), ::waitpid(child_, nullptr, 0);
+  }
+
+  void type(const std::string& keys) const {
+    ASSERT_EQ(::write(screen_, keys.data(), keys.size()), ssize_t(keys.size()));
+  }
+  // What the screen shows up to a text that is awaited; all that came where it does not.
+  std::string until(const std::string& awaited) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(15);
+    std::size_t at = 0;
+    while ((at = unread_.find(awaited)) == std::string::npos && std::chrono::steady_clock::now() < end) {
+      pollfd ready{screen_, POLLIN, 0};
+      if (::poll(&ready, 1, 100) <= 0) continue;
+      std::array<char, 4096> bytes{};
+      const ssize_t count = ::read(screen_, bytes.data(), bytes.size());
+      if (count <= 0) break;
+      unread_.append(bytes.data(), static_cast<std::size_t>(count));
+    }
+    EXPECT_THAT(unread_, HasSubstr(awaited));
+    const std::size_t length = at == std::string::npos ? unread_.size() : at + awaited.size();
+    const std::string shown = unread_.substr(0, length);
+    unread_.erase(0, length);
+    return shown;
+  }
+  // The status of its exit, or minus the signal that ended it.
+  int wait() {
+    int status = 0;
+    until_end();
+    ::waitpid(child_, &status, 0);
+    child_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+ private:
+  void until_end() const {
+    std::array<char, 4096> bytes{};
+    while (::read(screen_, bytes.data(), bytes.size()) > 0) {
+    }
+  }
+  std::string unread_;
+  int screen_ = -1;
+  pid_t child_ = -1;
+};
+
+class Prompt : public Faults {};
+constexpr const char* ready = "dynalin> ";
+
+TEST_F(Prompt, runs_commands_one_by_one_and_passes_by_what_is_wrong) {
+  Terminal t(folder_, {"model.adm"});
+  t.until(ready);
+  t.type("LINEAR/EIGENSOL\n");
+  EXPECT_THAT(t.until("PART/2"), HasSubstr("0.3524"));
+  t.until(ready);
+  t.type("LINEAR/EIGENSOL, RM=99\n");
+  EXPECT_THAT(t.until(ready), HasSubstr("refers to MARKER/99, which does not exist"));
+  t.type("PART/2, MASS=4\n");
+  t.until(ready);
+  t.type("LINEAR/EIGENSOL\n");
+  EXPECT_THAT(t.until("PART/2"), HasSubstr("0.4458")) << "the edit counts at once";
+  t.until(ready);
+  t.type("LINEAR/STATEMAT, FILE=matrix\n");
+  t.until("wrote matrix");
+  EXPECT_TRUE(there("matrix")) << "while the session goes on";
+  t.until(ready);
+  t.type("STOP\n");
+  EXPECT_EQ(t.wait(), 0);
+  EXPECT_THAT(text("model.msg"), HasSubstr("Finished -----"));
+  EXPECT_THAT(text("history"), HasSubstr("MASS=4"));
+}
+
+TEST_F(Prompt, opens_without_a_model_and_loads_one) {
+  Terminal t(folder_, {});
+  t.until(ready);
+  t.type("LINEAR/EIGENSOL\n");
+  EXPECT_THAT(t.until(ready), HasSubstr("needs a model"));
+  t.type("FILE/MODEL=model\n");
+  t.until(ready);
+  t.type("INFO/DISPL, I=20\n");
+  EXPECT_THAT(t.until("PHI"), HasSubstr("Displacement of MARKER/20"));
+  t.until(ready);
+  t.type("\x04");  // the end of input is that of the session
+  EXPECT_EQ(t.wait(), 0);
+  EXPECT_TRUE(there("model.msg"));
+}
+
+TEST_F(Prompt, completes_names_arguments_and_ids) {
+  Terminal t(folder_, {"model.adm"});
+  t.until(ready);
+  t.type("LINE\tEIGENS\t\n");
+  t.until("PART/2");
+  t.until(ready);
+  t.type("JOINT/\t, LIST\n");  // there is one joint
+  t.until("Current JOINT/1 data are");
+  t.until(ready);
+  t.type("MARKER/2\t");
+  const std::string list = t.until("21");
+  EXPECT_THAT(list, HasSubstr("20"));
+  t.type("\x03");
+  t.until("^C");
+  t.until(ready);
+  t.type("STOP\n");
+  EXPECT_EQ(t.wait(), 0);
+}
+
+TEST_F(Prompt, is_interrupted_at_a_line_and_goes_on) {
+  Terminal t(folder_, {"model.adm"});
+  t.until(ready);
+  t.type("LINEAR/EIG");
+  t.type("\x03");
+  t.until("^C");
+  t.until(ready);
+  t.type("TIME\n");
+  t.until("The present time is");
+  t.type("STOP\n");
+  EXPECT_EQ(t.wait(), 0);
+}
+
+TEST_F(Prompt, ends_after_a_failure_where_simexit_asks_for_it) {
+  std::string dataset = pendulum;
+  dataset.insert(dataset.rfind("END"),
+                 "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=10, FUNCTION=SQRT(-1-DX(20)**2)\n");
+  write("model.adm", dataset);
+  Terminal t(folder_, {"model.adm"});
+  t.until(ready);
+  t.type("LINEAR/EIGENSOL\n");
+  EXPECT_THAT(t.until(ready), HasSubstr("failed"));
+  t.type("PREF/SIMEXIT=ON\n");
+  t.until(ready);
+  t.type("LINEAR/EIGENSOL\n");
+  EXPECT_EQ(t.wait(), 2);
+}
+
+TEST_F(Prompt, a_pipe_has_the_commands_for_a_dataset) {
+  write("commands", "LINEAR/EIGENSOL\nSTOP\n");
+  Surroundings piped;
+  piped.prepare = [] { redirect(STDIN_FILENO, "commands", O_RDONLY); };
+  const Outcome r = run({"model.adm"}, piped);
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("0.3524"));
+  write("commands", "model\npiped\nLINEAR/EIGENSOL\n");
+  EXPECT_EQ(run({"run", "-"}, piped).status, 0);
+  EXPECT_TRUE(there("piped.msg"));
+  EXPECT_EQ(run({}).status, 3) << "nothing is waited for";
+}
+
+}  // namespace
+}  // namespace dynalin::faults
