@@ -36,6 +36,8 @@ class ReadingBinder final : public Binder {
             "a VARIABLE with this DELAY can be requested");
     return {Channel::Kind::constant, 0, 0};
   }
+  std::int32_t sensor_value(std::int64_t id) override { return of_.sensor_value(id); }
+  void note_switches(const BoundExpression&) override {}  // nothing follows from a request
   void attach(SplineUse& use) override { of_.attach(use); }
   std::int32_t add_memory(const Span& owner, double initial) override { return of_.add_memory(owner, initial); }
   void problem(std::string_view code, const Span& at, std::string text, std::string hint) override {
@@ -115,7 +117,7 @@ void RequestKernel::bind_functions(const WantedRequest& w, Binder& binder) {
   ReadingBinder reading(binder);
   Functions functions;
   functions.reserve(w.functions->size());
-  for (const Expression& e : *w.functions) functions.emplace_back(e, reading);
+  for (const Expression& e : *w.functions) functions.emplace_back(e, reading, Binding::observation);
   if (reading.problem())
     leave_out(*w.label, w.info->element, *reading.problem());
   else
