@@ -1,0 +1,49 @@
+// What conservative mechanisms lose over many periods, at the ERROR that is there when nothing is stated.
+#include "time/conservative.h"
+#include "time/course.h"
+
+namespace dynalin::in_time {
+namespace {
+
+struct Bound {
+  Conservative (*mechanism)();
+  double periods;
+  double energy;                      // largest change, as a part of that of the motion
+  double position, velocity;          // of constraints between outputs
+  std::vector<std::int64_t> momenta;  // VARIABLEs that stay as they are
+  double momentum = 0;                // their largest change, as a part of the largest
+};
+
+class Drift : public ::testing::TestWithParam<Bound> {};
+
+TEST_P(Drift, over_many_periods_is_small) {
+  const Bound& bound = GetParam();
+  const Conservative mechanism = bound.mechanism();
+  const Course c = led_through_time(mechanism.dataset, {bound.periods * mechanism.period, 100});
+  ASSERT_TRUE(c.ok()) << c.failure;
+  EXPECT_LE(c.drift(90) / mechanism.energy_unit, bound.energy);
+  EXPECT_LE(c.position_drift, bound.position);
+  EXPECT_LE(c.velocity_drift, bound.velocity);
+  double size = 0;
+  for (const std::int64_t v : bound.momenta) size = std::max(size, std::abs(c.variables.at(v)[0]));
+  for (const std::int64_t v : bound.momenta) EXPECT_LE(c.drift(v), bound.momentum * size) << v;
+}
+
+// docs/simulation.md, Accuracy, has what was measured.
+const Bound bounds[] = {
+    {pendulum, 1000, 1e-2, 1e-12, 1e-12, {}},
+    {tumbling_body, 1000, 1e-2, 1e-12, 1e-12, {4, 5, 6}, 1e-2},
+    {heavy_top, 1000, 1e-2, 1e-12, 1e-12, {4, 5}, 1e-2},
+    {spatial_four_bar, 100, 1e-2, 1e-5, 1e-5, {}},
+    {slider_crank, 100, 1e-2, 1e-5, 1e-5, {}},
+    {gyroscope, 100, 1e-2, 1e-5, 1e-5, {4, 5}, 1e-2},
+};
+
+INSTANTIATE_TEST_SUITE_P(Time, Drift, ::testing::ValuesIn(bounds), [](const auto& its) {
+  std::string name = its.param.mechanism().name;
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return name;
+});
+
+}  // namespace
+}  // namespace dynalin::in_time
