@@ -31,12 +31,12 @@ void for_each_statement(const Model& model, const Use& use) {
 
 bool WrittenOutput::check(ElementReader& reader) const {
   bool ok = true;
-  for (const auto& [scale, name] : {std::pair{&dscale, "DSCALE"}, std::pair{&vscale, "VSCALE"},
-                                    std::pair{&ascale, "ASCALE"}, std::pair{&fscale, "FSCALE"}}) {
-    if (scale->size() <= 2) continue;
-    reader.error(
-        "wrong-count", reader.at(name),
-        fmt::format("{} takes one factor, or one of translations and one of rotations, found {}", name, scale->size()));
+  for (const auto& [factors, name] : {std::pair{&dscale, "DSCALE"}, std::pair{&vscale, "VSCALE"},
+                                      std::pair{&ascale, "ASCALE"}, std::pair{&fscale, "FSCALE"}}) {
+    if (factors->size() <= 2) continue;
+    reader.error("wrong-count", reader.at(name),
+                 fmt::format("{} takes one factor, or one of translations and one of rotations, found {}", name,
+                             factors->size()));
     ok = false;
   }
   return ok;
