@@ -146,6 +146,23 @@ void DelayHistory::append(double time, double value, double slope, double oldest
   drop(oldest);
 }
 
+std::vector<DelayHistory::Instant> DelayHistory::instants() const {
+  std::vector<Instant> list;
+  for (std::size_t k = 0; k < size(); ++k) list.push_back(instant(k));
+  return list;
+}
+
+DelayHistory DelayHistory::of(double start, const std::vector<Instant>& instants) {
+  DelayHistory h;
+  h.start_ = start;
+  for (const Instant& i : instants) {
+    h.largest_value_ = std::max(h.largest_value_, std::abs(i.value));
+    if (std::isfinite(i.slope)) h.largest_slope_ = std::max(h.largest_slope_, std::abs(i.slope));
+    h.add(i);
+  }
+  return h;
+}
+
 void DelayHistory::add(const Instant& i) {
   end_ = i.time;
   if (i.begins) breaks_.push_back(i.time);

@@ -42,6 +42,10 @@ class DelayHistory {
   // begins anew if the value or the slope has jumped. Where time has gone back everything does.
   void append(double time, double value, double slope, double oldest);
 
+  // What is kept, and the history that consists of that.
+  std::vector<Instant> instants() const;
+  static DelayHistory of(double start, const std::vector<Instant>&);
+
   std::size_t size() const { return full_.size() * chunk_size + recent_.size(); }  // of instants kept
 
  private:

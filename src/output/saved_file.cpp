@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "output/json_values.h"
 
@@ -90,7 +91,7 @@ std::vector<SavedPoint::Value> values_of(const Json& json) {
 }
 
 Json json_of(const SavedPoint& p) {
-  Json bodies = Json::array(), coordinates = Json::array(), states = Json::array();
+  Json bodies = Json::array(), coordinates = Json::array(), states = Json::array(), delays = Json::array();
   for (const SavedPoint::Body& b : p.bodies) {
     bodies.push_back({{"of", json_of(b.of)},
                       {"position", json_of(b.pose.r)},
@@ -105,6 +106,12 @@ Json json_of(const SavedPoint& p) {
   }
   for (const SavedPoint::State& s : p.states)
     states.push_back({{"of", json_of(s.of)}, {"value", s.value}, {"rate", s.rate}});
+  for (const SavedPoint::Delay& d : p.delays) {
+    Json instants = Json::array();
+    for (const DelayHistory::Instant& i : d.instants)
+      instants.push_back({i.time, i.value, std::isfinite(i.slope) ? Json(i.slope) : Json(), i.begins});
+    delays.push_back({{"of", json_of(d.of)}, {"start", d.start}, {"instants", std::move(instants)}});
+  }
   return {{"time", p.time},
           {"analysis", static_cast<int>(p.mode)},
           {"redundancy_tolerance", p.redundancy_tolerance},
@@ -114,7 +121,7 @@ Json json_of(const SavedPoint& p) {
           {"values", json_of(p.values)},
           {"states", std::move(states)},
           {"memory", json_of(p.memory)},
-          {"delays", Json::array()}};
+          {"delays", std::move(delays)}};
 }
 
 SavedPoint point_of(const Json& json) {
@@ -135,6 +142,14 @@ SavedPoint point_of(const Json& json) {
   p.multipliers = values_of(json.at("multipliers")), p.values = values_of(json.at("values"));
   p.memory = values_of(json.at("memory"));
   for (const Json& s : json.at("states")) p.states.push_back({key_of(s.at("of")), s.at("value"), s.at("rate")});
+  for (const Json& d : json.at("delays")) {
+    SavedPoint::Delay delay{key_of(d.at("of")), d.at("start"), {}};
+    for (const Json& i : d.at("instants")) {
+      const double slope = i.at(2).is_null() ? std::numeric_limits<double>::quiet_NaN() : i.at(2).get<double>();
+      delay.instants.push_back({i.at(0), i.at(1), slope, i.at(3)});
+    }
+    p.delays.push_back(std::move(delay));
+  }
   return p;
 }
 

@@ -18,10 +18,9 @@ void put(const std::vector<double>& values, std::vector<double>& all, std::int32
   std::copy(values.begin(), values.end(), all.begin() + offset);
 }
 
-// What is remembered belongs to an expression, or to an element as a whole; the element is the statement that it stands
-// in. Statements that edits changed have arguments in other texts.
-std::vector<EntryKey> memory_keys(const System& system) {
-  const std::vector<Span>& owners = system.layout().memory_owners;
+// What is remembered belongs to an expression, or to an element as a whole, and a past to a call of DELAY; the element
+// is the statement that it stands in. Statements that edits changed have arguments in other texts.
+std::vector<EntryKey> keys_by_place(const System& system, const std::vector<Span>& owners) {
   std::map<std::pair<const SourceText*, std::uint32_t>, const Statement*> in;
   for (const Span& owner : owners) in.emplace(std::pair(owner.source, owner.offset), nullptr);
   const auto claim = [&](const Statement& s, const Span& from, std::uint32_t end) {
@@ -108,10 +107,17 @@ SavedPoint saved_point(const System& system, const OperatingPoint& op) {
   }
   saved.multipliers = saved_values(row_keys(layout), op.lambda);
   saved.values = saved_values(value_keys(layout), op.algebraic);
-  saved.memory = saved_values(memory_keys(system), op.memory);
+  saved.memory = saved_values(keys_by_place(system, layout.memory_owners), op.memory);
   keys = state_keys(layout);
   for (std::size_t k = 0; k < keys.size(); ++k)
     saved.states.push_back({std::move(keys[k]), op.state[k], op.state_rate[k]});
+  if (op.delays) {
+    keys = keys_by_place(system, layout.delay_calls);
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      const DelayHistory& past = op.delays->of_call[k];
+      saved.delays.push_back({std::move(keys[k]), past.start(), past.instants()});
+    }
+  }
   return saved;
 }
 
@@ -150,11 +156,20 @@ RestoredPoint restored_point(const SavedPoint& saved, const System& system) {
   };
   restorer.restore(saved.multipliers, row_keys(layout), into(op.lambda));
   restorer.restore(saved.values, value_keys(layout), into(op.algebraic));
-  restorer.restore(saved.memory, memory_keys(system), into(op.memory));
+  restorer.restore(saved.memory, keys_by_place(system, layout.memory_owners), into(op.memory));
   restorer.restore(saved.states, state_keys(layout), [&](const SavedPoint::State& from, std::size_t k) {
     op.state[k] = from.value, op.state_rate[k] = from.rate;
     return true;
   });
+  if (!saved.delays.empty()) {
+    auto delays = std::make_shared<DelayHistories>(layout.delay_calls.size());
+    restorer.restore(saved.delays, keys_by_place(system, layout.delay_calls),
+                     [&](const SavedPoint::Delay& from, std::size_t k) {
+                       delays->of_call[k] = DelayHistory::of(from.start, from.instants);
+                       return true;
+                     });
+    op.delays = std::move(delays);
+  }
   return std::move(restorer).finish();
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanics/delay_history.h"
 #include "system/entry_keys.h"
 #include "system/system.h"
 
@@ -30,6 +31,12 @@ struct SavedPoint {
     double value = 0, rate = 0;
   };
 
+  struct Delay {  // the past that a call of DELAY reads
+    EntryKey of;
+    double start = 0;  // of the motion
+    std::vector<DelayHistory::Instant> instants;
+  };
+
   double time = 0;
   AnalysisMode mode = AnalysisMode::initial_conditions;
   double redundancy_tolerance = 0;
@@ -37,8 +44,7 @@ struct SavedPoint {
   std::vector<Coordinates> coordinates;
   std::vector<Value> multipliers, values, memory;
   std::vector<State> states;
-
-  // Histories of DELAYs (OperatingPoint::delays) have their place here.
+  std::vector<Delay> delays;  // none before anything has moved in time
 };
 
 SavedPoint saved_point(const System&, const OperatingPoint&);

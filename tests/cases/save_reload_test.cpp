@@ -65,6 +65,22 @@ TEST_F(SaveReload, a_system_reloads_without_its_dataset_and_goes_on_with_edits_a
   EXPECT_TRUE(r.wrote("whole.msg"));
 }
 
+// Method of steps: y' = -y(t - 0.5) with y = 1 before the start goes on from its past, which no state shows.
+TEST_F(SaveReload, the_past_that_delays_read_goes_on) {
+  const std::string late =
+      "Late\nPART/1, GROUND\nDIFF/1, FUNCTION=-DELAY(DIF(1), 0.5, 1), IC=1\n"
+      "VARIABLE/1, FUNCTION=DIF(1)\nEND\n";
+  const RunResult first = run(late,
+                              "SIMULATE/DYNAMICS, END=0.75, STEPS=3\nSAVE/SYSTEM, FILE=past.save\n"
+                              "SIMULATE/DYNAMICS, END=2, STEPS=5\n");
+  ASSERT_EQ(first.status, 0) << first.err;
+  const RunResult r = commands("later.acf", "RELOAD/SYSTEM, FILE=past.save\nSIMULATE/DYNAMICS, END=2, STEPS=5\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.result(1).at("history"), first.result(2).at("history"));
+  const double half = first.result(0).at("history").at("variables").at("1").back();
+  EXPECT_NEAR(half, 0.25 + 0.5 * 0.25 * 0.25, 1e-4) << "1 - t to 0.5, then with the slope -(1 - (t - 0.5))";
+}
+
 TEST_F(SaveReload, a_system_that_the_run_itself_saves_is_loaded_when_its_turn_comes) {
   const RunResult r =
       run(pendulum,

@@ -84,9 +84,6 @@ StudyResult<void> Save::run(RunState& run) const {
   if (point.statics)
     saved.statics = {point.statics->iterations, point.statics->imbalance,
                      saved_point(run.system(), point.statics->at_rest)};
-  if (point.values.delays)
-    run.remarks.say("saved-without-past",
-                    "the past that DELAYs read is not part of what SAVE writes: after RELOAD they begin anew");
   const auto text = saved_text(saved);
   if (!text) return tl::unexpected(failure(text.error()));
   const std::string path = command_path(run.folder, file);
