@@ -143,7 +143,7 @@ class Dynamics {
   }
 
   Result<void> make_consistent() {
-    auto again = consistent(std::move(point_));
+    auto again = consistent(point_);  // a copy: what goes wrong is said of the point
     if (!again) return tl::unexpected(again.error());
     point_ = std::move(*again);
     system_.record(point_);

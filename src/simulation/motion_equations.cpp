@@ -231,8 +231,11 @@ void MotionEquations::row_partials(std::span<const double> y) {
   for (std::int32_t k = 0; k < rows_.size(); ++k) {
     const bool active = active_[static_cast<std::size_t>(k)];
     const std::int32_t lambda = unknowns_.lambda(k), mu = unknowns_.mu(k);
-    jacobian_.add(lambda, lambda, active ? 0.0 : 1.0);
-    if (mu >= 0) jacobian_.add(mu, mu, active ? 0.0 : 1.0);
+    // A zero that may be left out would be taken for a pivot where the order of elimination is chosen.
+    if (!active) {
+      jacobian_.add(lambda, lambda, 1.0);
+      if (mu >= 0) jacobian_.add(mu, mu, 1.0);
+    }
     const ConstraintRow& row = system_.layout().rows[static_cast<std::size_t>(k)];
     if (row.course >= 0) jacobian_.add(mu, unknowns_.state(row.course), active ? -1.0 : 0.0);
     if (row.course_rate >= 0) jacobian_.add(lambda, unknowns_.state(row.course_rate), active ? -1.0 : 0.0);
