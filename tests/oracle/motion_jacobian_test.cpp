@@ -134,7 +134,8 @@ void examine(const NamedModel& model, Tally& tally) {
   ConstraintRows rows;
   rows.resize(system->layout());
   system->constraints(system->motion(*op), rows);
-  MotionEquations equations(*system, *op, system->partition(rows, true).active, {});
+  Events events(*system);
+  MotionEquations equations(*system, events, *op, system->partition(rows, true).active, {});
   Differences differences(equations, *system, *op);
   differences.compare(0);
   differences.compare(20);
