@@ -99,7 +99,7 @@ class Dynamics {
     const double t = op.time;
     auto result = assemble_position(system_, std::move(op), found)
                       .and_then([&](OperatingPoint p) { return reconcile_velocity(system_, std::move(p), found); })
-                      .and_then([&](OperatingPoint p) { return solve_acceleration(system_, std::move(p), found); });
+                      .and_then([&](OperatingPoint p) { return accelerations(std::move(p), found); });
     if (!result) {
       Failure f = std::move(result.error());
       f.message = fmt::format("at time {:g}: {}", t, f.message);
@@ -112,6 +112,17 @@ class Dynamics {
         findings_.warnings.warning(d.code, d.at, d.message, d.hint);
     }
     return result;
+  }
+
+  // From those at hand; where that fails, as from a point as drawn.
+  Result<OperatingPoint> accelerations(OperatingPoint op, Findings& found) const {
+    auto near = solve_acceleration(system_, op, found);
+    if (near) return near;
+    const OperatingPoint drawn = system_.drawn();
+    op.acceleration = drawn.acceleration, op.lambda = drawn.lambda;
+    op.algebraic = drawn.algebraic, op.state_rate = drawn.state_rate;
+    auto far = solve_acceleration(system_, std::move(op), found);
+    return far ? std::move(far) : std::move(near);
   }
 
   // Where there is nothing to integrate.
