@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "cases/run.h"
+#include "command/planner.h"
 #include "system/operating_state.h"
 
 namespace dynalin::cases {
@@ -37,10 +38,12 @@ class StepOutputs : public Cases {
     options_.file = (folder_ / "model.acf").string();
     options_.json = (folder_ / "results.json").string();
     std::ostringstream err;
-    job_ = load_job(options_, err);
-    ASSERT_TRUE(job_) << err.str();
-    for (const Job::Stage& stage : job_->stages) systems_.push_back(*System::make(stage.model));
-    run_.emplace(options_, *job_, systems_.front(), nullptr, err_);
+    auto plan = planned(options_, err);
+    ASSERT_TRUE(plan) << err.str();
+    plan_.emplace(std::move(*plan));
+    job_ = &plan_->jobs.front();
+    for (const Job::Stage& stage : job_->stages) systems_.push_back(stage.system);
+    run_.emplace(options_, *job_, nullptr, err_, json_, files_);
     run_->message.rdbuf(message_.rdbuf());
     run_->command = "SIMULATE/KINEMATICS";
     run_->steps.open_results();
@@ -61,7 +64,7 @@ class StepOutputs : public Cases {
     statistics.order = 1, statistics.step_size = (end - start) / steps / 2;
     for (int k = 0; k <= 2 * steps; ++k) {
       run_->point = at(start + (end - start) * k / (2 * steps), stage);
-      EXPECT_EQ(output.add({run_->system(), run_->point.values, k % 2 == 0, statistics}), GoOn::yes);
+      EXPECT_EQ(output.add({run_->system(), run_->point.values, k % 2 == 0, statistics, {}}), GoOn::yes);
       ++statistics.steps, statistics.evaluations += 2;
     }
     const auto ended = output.end();
@@ -89,7 +92,10 @@ class StepOutputs : public Cases {
   }
 
   SessionOptions options_;
-  std::optional<Job> job_;
+  std::optional<Planner> plan_;
+  const Job* job_ = nullptr;  // of the plan
+  JsonResults json_;
+  RunFiles files_;
   std::vector<std::shared_ptr<const System>> systems_;
   std::optional<RunState> run_;
   std::ostringstream message_, err_;
