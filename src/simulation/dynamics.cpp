@@ -24,6 +24,7 @@ constexpr int failure_limit = 4;
 constexpr double hardly_any_way = 1e-4;  // of the whole time
 constexpr double just_beyond = 1e-6;     // of the whole time
 constexpr std::size_t remark_limit = 50;
+constexpr double shortest_bound = 1e-2;  // of steps, by what elements have to resolve: of the whole time
 
 std::vector<bool> active_rows(const System& system, const OperatingPoint& op) {
   ConstraintRows rows;
@@ -282,8 +283,9 @@ class Dynamics {
   }
 
   void limit_steps() {
-    const double longest =
-        std::min(bounds_.largest.value_or(tolerance_.duration), system_.longest_step(equations_->motion()));
+    // What is far shorter than the whole converges without bounding steps (delay_history.h).
+    const double resolved = std::max(system_.longest_step(equations_->motion()), shortest_bound * tolerance_.duration);
+    const double longest = std::min(bounds_.largest.value_or(tolerance_.duration), resolved);
     if (longest == longest_) return;
     longest_ = longest;
     integrator_->limit_steps(longest);
