@@ -26,8 +26,9 @@ constexpr double rounding_units_of_step = 8;
 // an expression. A root of ninefold multiplicity still comes closer than that.
 constexpr int patience = 8;
 constexpr double progress = 0.4;
-// Beyond the smallest numbers that still have all their digits.
-constexpr double least_step = 1e-290;
+// Of the largest unknown: next to nothing. What is zero but started as such has next to no terms either, and would go
+// on to vanish without end.
+constexpr double next_to_nothing = 1e-60;
 // Of an unknown, or of its known rounding: what such steps may be for the point to count as found.
 constexpr double largest_hidden_rounding = 1e-6, hidden_units = 1e3;
 // Of a derivative: lost digits worth a warning, and so many that no derivative is left.
@@ -114,9 +115,7 @@ class StepLength {
   bool settled(const Eigen::VectorXd& step, Eigen::VectorXd& rounding, const Eigen::VectorXd& size,
                const std::function<Eigen::VectorXd()>& rounding_of_point) {
     constexpr double unit = 4 * std::numeric_limits<double>::epsilon();
-    // What is zero but started as next to nothing has next to no terms either, and would go on to vanish.
-    const double nothing = std::max(unit * unit * size.maxCoeff(), least_step);
-    Eigen::VectorXd allowed = rounding.cwiseMax(unit * size).cwiseMax(nothing);
+    Eigen::VectorXd allowed = rounding.cwiseMax(unit * size).cwiseMax(next_to_nothing * size.lpNorm<Eigen::Infinity>());
     double now = longest(step, allowed);
     if (now > 1 && now > 0.1 * last_) {
       allowed = allowed.cwiseMax(rounding_units_of_step * rounding_of_point());

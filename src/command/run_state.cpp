@@ -83,6 +83,7 @@ void RunState::show_where_it_ended() {
   const OperatingState state = operating_state(system(), point.statics ? point.statics->at_rest : point.values);
   write_operating_state(message, state, units());
   if (terminal && options.state) write_operating_state(*terminal, state, units());
+  json.add_point(state);
   shown = true;
 }
 

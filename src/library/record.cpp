@@ -48,6 +48,8 @@ void Record::add(const std::string& command, const OperatingPoint& point) {
 void Record::add(const std::string& command, const Simulation& simulation) {
   inside_->warn(command, simulation.point.remarks());
   inside_->json.add(command, simulation.point.time(), simulation.history);
+  inside_->json.add_point(simulation.point.is_static() ? simulation.point.static_result().at_rest
+                                                       : simulation.point.state());
 }
 
 void Record::add(const std::string& command, const LinearModel& of, const StateSpace& result) {

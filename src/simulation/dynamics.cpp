@@ -16,9 +16,9 @@ namespace {
 
 // Rows that were left out and are farther than this from being met, in their scales, do not follow from the others.
 constexpr double left_out_limit = 1e-7;
-// Events in a row with hardly a step between them, after which they are passed over for some steps.
+// Events in a row with hardly time to gather speed between them, after which they are passed over for some steps.
 constexpr int event_limit = 200;
-constexpr std::int64_t steps_between_events = 8, steps_without_events = 200;
+constexpr std::int64_t steps_between_events = 20, steps_without_events = 200;
 // Steps that fail on hardly any way, after which there is no going on.
 constexpr int failure_limit = 4;
 constexpr double hardly_any_way = 1e-4;  // of the whole time

@@ -25,6 +25,7 @@ inline OraclePoint point_of(const System& system, const OperatingPoint& op) {
   }
   for (std::size_t k = 0; k < layout.states.size(); ++k) {
     const DifferentialState& z = layout.states[k];
+    if (z.course_of_motion) continue;  // a constant of the instant
     point.z.push_back({static_cast<ElementClass>(z.type), static_cast<int>(z.owner->id), z.coordinate, op.state[k]});
   }
   return point;

@@ -11,7 +11,9 @@ StudyResult<void> Edit::run(RunState& run) const {
   for (const auto& set : run.system().model().sets) {
     if (set->active) continue;
     // What reads the model and acts on nothing has no force that a function could ask for.
-    const bool exerts = set->kind().role != Kind::Role::inert && set->kind().statement != "SENSOR";
+    const std::string_view statement = set->kind().statement;
+    const bool exerts = set->kind().role != Kind::Role::inert && statement != "SENSOR" && statement != "REQUEST" &&
+                        statement != "MREQUEST";
     for (const ElementLabel& label : set->labels) {
       const std::string name = label.full_text();
       run.inactive.insert(name);
