@@ -54,7 +54,6 @@ struct DaeIntegrator::Memory {
   double t = 0;
   bool begun = false;
   int standing = 0;  // steps in a row in which time did not go on
-  bool pattern_written = false;
   std::vector<int> crossed;
   std::string reason;
   IntegrationStatistics before;  // of what was before the last start

@@ -108,7 +108,8 @@ TEST_F(CommandTable, commands_act_or_are_named) {
        "Current EQUILIBRIUM settings are:\n   ALIMIT    = 0.008727 (rad)\n   ERROR     = 0.500000\n   IMBALANCE = "
        "0.000100\n   MAXIT     = 20\n"},
       {"INTEGRATOR/HHT, I3, ERROR=1E-5, LIST",
-       "Current INTEGRATOR settings are:\n   TYPE        = HHT\n   FORMULATION = I3\n   CORRECTOR   = ORIGINAL\n   "
+       "Current INTEGRATOR settings are:\n   TYPE        = HHT\n   FORMULATION = I3\n   CORRECTOR   = without effect\n "
+       "  "
        "ERROR       =    1.000000e-05\n"},
       {"WSTIFF/HMAX=0.1, LIST", "   TYPE        = WSTIFF"},
       {"GSTIFF/ERROR=1E-4", "GSTIFF"},

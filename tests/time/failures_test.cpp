@@ -75,17 +75,17 @@ END
   EXPECT_EQ(c.times.size(), 2u);
 }
 
+// A part on a hinge, and what drives it.
+std::string hinge(const std::string& motions) {
+  return "t\nPART/1, GROUND\nMARKER/1, PART=1\nPART/2, MASS=1, CM=2, IP=1,1,1\nMARKER/2, PART=2\n"
+         "JOINT/1, REVOLUTE, I=2, J=1\n" +
+         motions + "END\n";
+}
+
 TEST(Failures, motions_that_contradict_each_other_later_are_named) {
-  const Course c = led_through_time(R"(t
-PART/1, GROUND
-MARKER/1, PART=1
-PART/2, MASS=1, CM=2, IP=1,1,1
-MARKER/2, PART=2
-JOINT/1, REVOLUTE, I=2, J=1
-MOTION/1, JOINT=1, FUNCTION=TIME
+  const Course c = led_through_time(hinge(R"(MOTION/1, JOINT=1, FUNCTION=TIME
 MOTION/2, I=2, J=1, B3, FUNCTION=TIME+STEP(TIME,1,0,2,0.1)
-END
-)",
+)"),
                                     {3, 6});
   ASSERT_FALSE(c.ok());
   EXPECT_THAT(c.failure, HasSubstr("contradict"));
@@ -94,15 +94,8 @@ END
 }
 
 TEST(Failures, a_motion_that_jumps_ends_the_run_where_it_jumps) {
-  const Course c = led_through_time(R"(t
-PART/1, GROUND
-MARKER/1, PART=1
-PART/2, MASS=1, CM=2, IP=1,1,1
-MARKER/2, PART=2
-JOINT/1, REVOLUTE, I=2, J=1
-MOTION/1, JOINT=1, FUNCTION=IF(TIME-1: 0, 0.5, 0.5)
-END
-)",
+  const Course c = led_through_time(hinge(R"(MOTION/1, JOINT=1, FUNCTION=IF(TIME-1: 0, 0.5, 0.5)
+)"),
                                     {3, 4});
   ASSERT_FALSE(c.ok());
   EXPECT_THAT(c.failure, HasSubstr("at time 1"));

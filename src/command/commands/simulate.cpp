@@ -6,6 +6,7 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "analysis/static_settings.h"
 #include "command/interruption.h"
@@ -132,12 +133,24 @@ StudyResult<void> find_rest(RunState& run) {
   return {};
 }
 
-// Time reached, step, order, iterations, and what is left to wait.
-std::string progress_text(const SimulationStep& at, double start, double end) {
-  const IntegrationStatistics& s = at.statistics;
-  return fmt::format("time {:.6g} of {:.6g} ({:.0f} %), step {:.2e}, order {}, {} iterations", at.point.time, end,
-                     100 * (at.point.time - start) / (end - start), s.step_size, s.order, s.iterations);
-}
+// Time reached, step, order, iterations, and what is left to wait at the pace so far.
+class Progress {
+ public:
+  Progress(double start, double end) : start_(start), end_(end) {}
+  std::string text(const SimulationStep& at) const {
+    const IntegrationStatistics& s = at.statistics;
+    const double done = (at.point.time - start_) / (end_ - start_);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begun_;
+    const std::string left =
+        done > 0 ? fmt::format(", {} left", seconds_text(elapsed.count() * (1 - done) / done)) : "";
+    return fmt::format("time {:.6g} of {:.6g} ({:.0f} %), step {:.2e}, order {}, {} iterations{}", at.point.time, end_,
+                       100 * done, s.step_size, s.order, s.iterations, left);
+  }
+
+ private:
+  double start_, end_;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+};
 
 StepKind step_kind(SimulationKind kind) {
   if (kind == SimulationKind::kinematics) return StepKind::kinematics;
@@ -198,9 +211,10 @@ StudyResult<void> Simulate::run_over_time(RunState& run) const {
   request.statics = statics_options(run.settings.equilibrium);
   StepOutput output(run, step_kind(kind_at(run.point, *kind)), request.times, request.integrator);
   ProgressLine line(run.status_line());
+  const Progress progress(start, last);
   const Interruptible stop_on_request;
   const auto found = simulate(run.point, request, [&](const SimulationStep& at) {
-    line.show([&] { return progress_text(at, start, last); });
+    line.show([&] { return progress.text(at); });
     const GoOn written = output.add(at);
     return interrupted() ? GoOn::no : written;
   });
