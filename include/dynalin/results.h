@@ -5,10 +5,12 @@
 #include <Eigen/Core>
 #include <complex>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "dynalin/element_id.h"
+#include "dynalin/mode_selection.h"
 
 namespace dynalin {
 
@@ -110,6 +112,7 @@ struct EigenSolution {
   std::size_t differential_states = 0;
   std::vector<StateLabel> states;  // in the order of A
   std::vector<EigenMode> modes;
+  std::optional<SelectedModes> selected;  // nothing: these are all modes
   // Eigenvectors of A, one column a mode in the same order, of length 1; empty if they were not asked for.
   Eigen::MatrixXcd vectors;
   // The same motions in all coordinates of the model and the differential states, one column a mode; the entry of
