@@ -11,6 +11,7 @@
 
 #include "nastran/configuration.h"
 #include "nastran/sample_deck_test_support.h"
+#include "places/source_tree.h"
 
 namespace dynalin::nastran {
 namespace {
@@ -72,7 +73,7 @@ std::vector<Golden> goldens() {
 TEST(DeckText, is_that_of_the_decks_of_this_folder) {
   const bool write = std::getenv("DYNALIN_WRITE_DECKS") != nullptr;
   for (const Golden& golden : goldens()) {
-    const auto folder = std::filesystem::path(NASTRAN_DECKS) / golden.folder;
+    const auto folder = nastran_decks() / golden.folder;
     const DeckText text =
         written(golden.open ? sample_open_deck() : sample_closed_deck(), golden.configuration, golden.file);
     if (write) std::filesystem::create_directories(folder);

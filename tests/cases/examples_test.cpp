@@ -1,5 +1,6 @@
 // Everything that is shipped, through the program, the library and decks of its models.
 #include "cases/decks.h"
+#include "places/source_tree.h"
 
 namespace dynalin::cases {
 namespace {
@@ -9,7 +10,7 @@ using Examples = ProgramLibraryAndDecks;
 // Every command file under examples.
 TEST_F(Examples, run_through_program_library_and_decks) {
   std::vector<std::filesystem::path> found;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(EXAMPLES_DIR)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(examples_folder())) {
     if (entry.path().extension() == ".acf") found.push_back(entry.path());
   }
   EXPECT_GE(found.size(), 6u);

@@ -5,6 +5,7 @@
 #include "command/help.h"
 #include "nastran/directive_manual.h"
 #include "nastran/directives.h"
+#include "places/source_tree.h"
 
 namespace dynalin::cases {
 namespace {
@@ -166,7 +167,7 @@ TEST_F(Export, refuses_a_closed_box_where_nothing_can_move) {
 
 // --- the manual ---
 TEST_F(Export, has_all_directives_on_its_page_as_they_are) {
-  const auto page = std::filesystem::path(PAGES_DIR).parent_path() / "nastran.md";
+  const auto page = element_pages().parent_path() / "nastran.md";
   const std::string text = read_file(page), wanted = nastran::directive_pages();
   if (text.find(wanted) == std::string::npos) std::ofstream(folder_.parent_path() / "directives.md") << wanted;
   EXPECT_NE(text.find(wanted), std::string::npos)
@@ -174,7 +175,7 @@ TEST_F(Export, has_all_directives_on_its_page_as_they_are) {
 }
 
 TEST_F(Export, runs_the_configuration_of_its_page) {
-  const std::string text = read_file(std::filesystem::path(PAGES_DIR).parent_path() / "nastran.md");
+  const std::string text = read_file(element_pages().parent_path() / "nastran.md");
   const auto begin = text.find("```cfg\n") + 7;
   std::string other = model;
   other.replace(other.find("MARKER/22, PART=1, FLOATING"), 27, "MARKER/31, PART=2\nMARKER/22, PART=1, FLOATING");

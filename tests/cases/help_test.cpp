@@ -11,6 +11,7 @@
 #include "command/commands.h"
 #include "elements/catalogue.h"
 #include "expression/function_manual.h"
+#include "places/source_tree.h"
 
 namespace dynalin::cases {
 namespace {
@@ -141,7 +142,7 @@ TEST(Help, has_examples_of_commands_that_are_read) {
     if (row.example.empty()) continue;
     const auto parsed = parse_commands(std::make_shared<const SourceText>("example", std::string(row.example) + "\n"));
     EXPECT_EQ(parsed.diagnostics.has_errors(), row.use == CommandUse::refused) << row.example << '\n'
-                                                                                 << render(parsed.diagnostics);
+                                                                               << render(parsed.diagnostics);
   }
 }
 
@@ -177,7 +178,7 @@ TEST(Explain, says_more_than_the_message) {
 
 // A code that nothing reports has no business in the list, and every code that is reported is listed.
 TEST(Explain, covers_the_codes_of_the_program) {
-  const auto source = std::filesystem::path(ELEMENTS_DIR).parent_path();
+  const auto source = element_sources().parent_path();
   std::string all;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(source)) {
     const auto extension = entry.path().extension();

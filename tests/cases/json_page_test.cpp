@@ -3,6 +3,7 @@
 #include <set>
 
 #include "cases/run.h"
+#include "places/source_tree.h"
 
 namespace dynalin::cases {
 namespace {
@@ -11,7 +12,7 @@ using Json = nlohmann::ordered_json;
 
 class JsonPage : public Cases {
  protected:
-  static std::string page() { return read_file(std::filesystem::path(PAGES_DIR).parent_path() / "json.md"); }
+  static std::string page() { return read_file(element_pages().parent_path() / "json.md"); }
   static std::string fence(const std::string& text, const std::string& kind) {
     const auto start = text.find("\n```" + kind + "\n") + 5 + kind.size();
     return text.substr(start, text.find("\n```", start) - start + 1);

@@ -7,6 +7,7 @@
 #include "command/command_catalogue.h"
 #include "elements/catalogue.h"
 #include "expression/function_manual.h"
+#include "places/source_tree.h"
 
 namespace dynalin::cases {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const fs::path pages = fs::path(PAGES_DIR);  // docs/elements
+const fs::path pages = element_pages();  // docs/elements
 const fs::path docs = pages.parent_path();
 
 std::vector<std::string> lines_of(const std::string& text) {

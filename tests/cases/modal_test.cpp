@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "cases/dataset_text.h"
+#include "places/source_tree.h"
 
 namespace dynalin::cases {
 namespace {
@@ -60,7 +61,7 @@ TEST_F(Modal, header_of_two_masses_between_walls) {
 }
 
 TEST_F(Modal, published_headers_of_the_pendulum_in_both_coordinates) {
-  std::filesystem::copy(std::filesystem::path(EXAMPLES_DIR) / "spring_pendulum", folder_,
+  std::filesystem::copy(examples_folder() / "spring_pendulum", folder_,
                         std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
   const std::string file = "spring_pendulum.acf";
   std::string commands = read_file(folder_ / file);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "cases/original_cases.h"
+#include "places/source_tree.h"
 
 namespace dynalin::cases {
 namespace {
@@ -13,7 +14,7 @@ using Complex = std::complex<double>;
 using OriginalStates = OriginalCases;
 
 TEST_F(OriginalStates, gives_the_published_block_of_the_original_implementation) {
-  const auto example = read_file(std::filesystem::path(EXAMPLES_DIR) / "spring_pendulum/spring_pendulum.adm");
+  const auto example = read_file(examples_folder() / "spring_pendulum/spring_pendulum.adm");
   const RunResult r = run(example, "SIM/STAT\nLINEAR/EIGENSOL, ORIGINAL, COORDS=1\n");
   ASSERT_EQ(r.status, 0) << r.err;
   expect_eigenvalues(r.eigenvalues(1), {Complex(-0.0448686373285978, 0.95828903953554)}, 1e-12);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "cases/run.h"
+#include "places/source_tree.h"
 
 namespace dynalin::cases {
 namespace {
@@ -141,7 +142,7 @@ TEST_F(OutputPlaces, frequencies_have_the_unit_of_the_dataset) {
 
 // In a checkout: what running the examples writes is ignored.
 TEST_F(OutputPlaces, of_examples_leave_nothing_that_git_would_add) {
-  const fs::path examples = EXAMPLES_DIR, copy = folder_ / "checkout";
+  const fs::path examples = examples_folder(), copy = folder_ / "checkout";
   fs::create_directories(copy);
   fs::copy(examples, copy / "examples", fs::copy_options::recursive);
   fs::copy_file(examples.parent_path() / ".gitignore", copy / ".gitignore");

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cases/dataset_text.h"
+#include "places/source_tree.h"
 
 namespace dynalin::cases {
 namespace {
@@ -134,7 +135,7 @@ TEST_F(Invariance, any_marker_and_any_user_coordinates_give_the_same_eigenvalues
 
 TEST_F(Properties, a_frame_that_turns_with_the_rotor_gives_one_answer_for_all_its_coordinates) {
   // A turning arm with a slider at relative equilibrium: coordinates that move along agree.
-  const std::string dataset = read_file(std::filesystem::path(EXAMPLES_DIR) / "rotating_slider/rotating_slider.adm");
+  const std::string dataset = read_file(examples_folder() / "rotating_slider/rotating_slider.adm");
   std::string text = dataset.substr(0, dataset.rfind("END"));
   text +=
       "VARIABLE/1, FUNCTION=DX(8,6,5)\nVARIABLE/2, FUNCTION=DZ(9,10,10)\nPSTATE/1, VARIABLES=1\nPSTATE/2, "

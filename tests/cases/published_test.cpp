@@ -1,5 +1,6 @@
 // Every example of the LINEAR command's document whose data it gives, at the values verified to twelve digits.
 #include "cases/decks.h"
+#include "places/source_tree.h"
 
 namespace dynalin::cases {
 namespace {
@@ -19,7 +20,7 @@ TEST_F(Published, rotating_slider_in_global_and_in_relative_coordinates) {
 }
 
 TEST_F(Published, rotating_slider_state_matrices_have_the_closed_form) {
-  const auto dataset = read_file(std::filesystem::path(EXAMPLES_DIR) / "rotating_slider/rotating_slider.adm");
+  const auto dataset = read_file(examples_folder() / "rotating_slider/rotating_slider.adm");
   const RunResult r = run(dataset, "LINEAR/STATEMAT, FILE=a\nLINEAR/STATEMAT, FILE=b, RM=5\n");
   ASSERT_EQ(r.status, 0) << r.err;
   // J α″ = −2 m u u′ α′ with J = 323; the default coordinate adds −α′² to the spring.
@@ -47,7 +48,7 @@ TEST_F(Published, driven_blade_in_the_angle_and_in_a_coordinate_of_its_own) {
 }
 
 TEST_F(Published, spring_pendulum_finds_its_equilibrium_and_eigenvalue) {
-  const auto example = read_file(std::filesystem::path(EXAMPLES_DIR) / "spring_pendulum/spring_pendulum.adm");
+  const auto example = read_file(examples_folder() / "spring_pendulum/spring_pendulum.adm");
   const RunResult r = run_example("spring_pendulum", "spring_pendulum.acf");
   ASSERT_EQ(r.status, 0) << r.err;
   const Complex expected(-0.0448686373285978, 0.95828903953554);
@@ -138,8 +139,7 @@ TEST_F(Published, state_matrix_file_has_the_fsave_layout) {
 }
 
 TEST_F(Published, matlab_format_writes_one_matrix_a_file) {
-  std::filesystem::copy(std::filesystem::path(EXAMPLES_DIR) / "cart_pendulum", folder_,
-                        std::filesystem::copy_options::recursive);
+  std::filesystem::copy(examples_folder() / "cart_pendulum", folder_, std::filesystem::copy_options::recursive);
   write("model.acf", "open_loop\nmodel\nSIM/STAT\nLINEAR/STATEMAT, PINPUT=1, POUTPUT=1, FORMAT=MATLAB FILE=plant\n");
   const RunResult r = run_file("model.acf");
   ASSERT_EQ(r.status, 0) << r.err;

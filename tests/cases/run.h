@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "command/session.h"
+#include "places/source_tree.h"
 
 namespace dynalin::cases {
 
@@ -83,7 +84,7 @@ class Cases : public ::testing::Test {
     return run_file("model.acf");
   }
   RunResult run_example(const std::string& folder, const std::string& file) const {
-    std::filesystem::copy(std::filesystem::path(EXAMPLES_DIR) / folder, folder_,
+    std::filesystem::copy(examples_folder() / folder, folder_,
                           std::filesystem::copy_options::recursive);
     return run_file(file);
   }

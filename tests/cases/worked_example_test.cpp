@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "cases/decks.h"
+#include "places/source_tree.h"
 
 namespace dynalin::cases {
 namespace {
@@ -76,7 +77,7 @@ std::vector<Expected> eigenvalues(const std::string& text) {
 class WorkedExample : public ProgramLibraryAndDecks, public ::testing::WithParamInterface<std::string> {};
 
 TEST_P(WorkedExample, has_the_eigenvalues_of_its_page) {
-  const auto list = fences(read_file(fs::path(PAGES_DIR) / (GetParam() + ".md")));
+  const auto list = fences(read_file(element_pages() / (GetParam() + ".md")));
   std::size_t examples = 0;
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (list[k].language != "adm") continue;
@@ -104,10 +105,10 @@ TEST_P(WorkedExample, has_the_eigenvalues_of_its_page) {
 // Pages with a dataset, and those of all forces and constraints.
 std::vector<std::string> pages() {
   std::vector<std::string> list;
-  for (const auto& entry : fs::directory_iterator(PAGES_DIR)) {
+  for (const auto& entry : fs::directory_iterator(element_pages())) {
     const auto name = entry.path().stem().string();
-    const bool required = fs::exists(fs::path(ELEMENTS_DIR) / "forces" / (name + ".cpp")) ||
-                          fs::exists(fs::path(ELEMENTS_DIR) / "constraints" / (name + ".cpp"));
+    const bool required = fs::exists(element_sources() / "forces" / (name + ".cpp")) ||
+                          fs::exists(element_sources() / "constraints" / (name + ".cpp"));
     if (name == "mforce") continue;  // it acts on flexible bodies, which are not available
     if (required || read_file(entry.path()).find("```adm") != std::string::npos) list.push_back(name);
   }

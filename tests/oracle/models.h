@@ -10,6 +10,7 @@
 
 #include "elements/catalogue.h"
 #include "oracle/mechanism.h"
+#include "places/source_tree.h"
 #include "system/system.h"
 
 namespace dynalin::oracle {
@@ -35,11 +36,11 @@ inline std::string contents_of(const std::filesystem::path& file) {
 // Every dataset of the examples and every one in the fences of a page.
 inline std::vector<NamedModel> shipped_models() {
   std::vector<NamedModel> models;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(EXAMPLES_DIR)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(examples_folder())) {
     if (entry.path().extension() == ".adm") models.push_back({entry.path(), contents_of(entry.path())});
   }
   const std::string fence = "```", opening = "\n```adm\n";
-  for (const auto& entry : std::filesystem::directory_iterator(PAGES_DIR)) {
+  for (const auto& entry : std::filesystem::directory_iterator(element_pages())) {
     const std::string page = contents_of(entry.path());
     for (auto at = page.find(opening); at != std::string::npos; at = page.find(opening, at)) {
       at += opening.size();
