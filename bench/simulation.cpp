@@ -2,6 +2,7 @@
 //
 //     simulation chain 1000        links on hinges, drawn askew, swing under gravity
 //     simulation fall 100          the same drawn level: they fall
+//     simulation spatial 1000      the same askew, every second hinge about another axis: nothing stays in a plane
 //     simulation vehicle 100       parts in a row, two bushings between neighbours, every fifth on a rough road
 //     simulation fourbars 10       windows of the IFToMM benchmark, side by side: redundant hinges
 //     simulation contact 1         balls that bounce, an IMPACT of stiffness 1e8 each
@@ -27,17 +28,19 @@ using namespace dynalin;
 
 const std::string head = "bench\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-9.81\nPART/1, GROUND\nMARKER/1, REULER=0,90D,0\n";
 
-// Links of length 0.1 on hinges about the y axis, each turned by the angle.
-std::string chain(int n, double angle) {
+// Links of length 0.1 on hinges, each turned by the angle about the y axis, which is that of the hinges; every second
+// one is turned from it by `askew` degrees.
+std::string chain(int n, double angle, double askew = 0) {
   std::string text = head;
   const double length = 0.1, s = std::sin(angle), c = std::cos(angle);
   for (int k = 1; k <= n; ++k) {
     text += fmt::format(
         "PART/{0}, MASS=0.1, CM={0}0, IP=1E-4,1E-4,1E-5, QG={1:.17g},0,{2:.17g}, REULER=90D,{3:.17g},-90D\n"
-        "MARKER/{0}0, QP=0,0,{4:.17g}\nMARKER/{0}1, REULER=0,90D,0\nMARKER/{0}2, QP=0,0,{5:.17g}, REULER=0,90D,0\n"
+        "MARKER/{0}0, QP=0,0,{4:.17g}\nMARKER/{0}1, REULER={7}D,90D,0\nMARKER/{0}2, QP=0,0,{5:.17g}, "
+        "REULER={8}D,90D,0\n"
         "JOINT/{0}, REVOLUTE, I={0}1, J={6}\n",
         k + 1, (k - 1) * length * s, -(k - 1) * length * c, -angle, -length / 2, -length,
-        k == 1 ? std::string("1") : fmt::format("{}2", k));
+        k == 1 ? std::string("1") : fmt::format("{}2", k), k % 2 == 0 ? askew : 0.0, k % 2 == 1 ? askew : 0.0);
   }
   return text + "END\n";
 }
@@ -170,14 +173,14 @@ int measure(const Case& c, double error) {
 
 int main(int argc, char** argv) {
   if (argc < 3)
-    return fmt::print(stderr, "usage: simulation chain|fall|vehicle|fourbars|contact N [TIME [INTERVALS [ERROR]]]\n"),
+    return fmt::print(stderr,
+                      "usage: simulation chain|fall|spatial|vehicle|fourbars|contact N [TIME [INTERVALS [ERROR]]]\n"),
            3;
   const int n = std::atoi(argv[2]);
-  const std::map<std::string, Case> cases = {{"chain", {chain(n, 0.3), 1, 100}},
-                                             {"fall", {chain(n, 1.5707963267948966), 1, 100}},
-                                             {"vehicle", {vehicle(n), 1, 100}},
-                                             {"fourbars", {fourbars(n), 1, 100}},
-                                             {"contact", {contact(n), 1, 100}}};
+  const std::map<std::string, Case> cases = {
+      {"chain", {chain(n, 0.3), 1, 100}},       {"fall", {chain(n, 1.5707963267948966), 1, 100}},
+      {"spatial", {chain(n, 0.3, 60), 1, 100}}, {"vehicle", {vehicle(n), 1, 100}},
+      {"fourbars", {fourbars(n), 1, 100}},      {"contact", {contact(n), 1, 100}}};
   const auto found = cases.find(argv[1]);
   if (found == cases.end()) return fmt::print(stderr, "no such model: {}\n", argv[1]), 3;
   Case c = found->second;

@@ -3,8 +3,8 @@
 #include <ida/ida.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
-#include <sunlinsol/sunlinsol_klu.h>
-#include <sunmatrix/sunmatrix_sparse.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,11 +13,13 @@
 #include <stdexcept>
 #include <vector>
 
+#include "simulation/step_factors.h"
+
 namespace dynalin {
 
 namespace {
 
-constexpr int recoverable = 1, fatal = -1;
+constexpr int recoverable = 1;
 // Of one step: convergence failures and error test failures before it is given up.
 constexpr int failure_limit = 25;
 constexpr int standing_limit = 20;
@@ -49,8 +51,10 @@ struct DaeIntegrator::Memory {
   SUNContext context = nullptr;
   void* ida = nullptr;
   N_Vector y = nullptr, yp = nullptr, work = nullptr, id = nullptr, weight = nullptr;
+  // Shells: what IDA asks of a matrix and of what solves with it comes from the factors.
   SUNMatrix matrix = nullptr;
   SUNLinearSolver solver = nullptr;
+  StepFactors factors;
   double t = 0;
   bool begun = false;
   int standing = 0;  // steps in a row in which time did not go on
@@ -62,8 +66,8 @@ struct DaeIntegrator::Memory {
   explicit Memory(DaeProblem& p) : problem(p) {}
   ~Memory() {
     if (ida) IDAFree(&ida);
-    if (solver) SUNLinSolFree(solver);
-    if (matrix) SUNMatDestroy(matrix);
+    if (solver) SUNLinSolFreeEmpty(solver);
+    if (matrix) SUNMatFreeEmpty(matrix);
     for (const N_Vector v : {y, yp, work, id, weight}) {
       if (v) N_VDestroy(v);
     }
@@ -75,11 +79,16 @@ struct DaeIntegrator::Memory {
   static int residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* self) {
     return of(self).problem.residual(t, constant(y), constant(yp), values(r)) ? 0 : recoverable;
   }
-  static int jacobian(double t, double c, N_Vector y, N_Vector yp, N_Vector, SUNMatrix to, void* self, N_Vector,
-                      N_Vector, N_Vector) {
+  static int jacobian(double t, double c, N_Vector y, N_Vector yp, N_Vector, SUNMatrix, void* self, N_Vector, N_Vector,
+                      N_Vector) {
     Memory& m = of(self);
-    const ColumnMatrix* from = m.problem.jacobian(t, c, constant(y), constant(yp));
-    return from ? m.write(*from, to) : recoverable;
+    const ColumnMatrix* matrix = m.problem.jacobian(t, c, constant(y), constant(yp));
+    return matrix && m.factors.factor(*matrix) ? 0 : recoverable;
+  }
+  static int solve(SUNLinearSolver by, SUNMatrix, N_Vector x, N_Vector b, double) {
+    std::ranges::copy(constant(b), values(x).begin());
+    of(by->content).factors.solve(values(x));
+    return 0;
   }
   static int weights(N_Vector y, N_Vector weight, void* self) {
     double step = 0;
@@ -94,13 +103,17 @@ struct DaeIntegrator::Memory {
   }
   static void ignore(int, const char*, const char*, char*, void*) {}
 
-  int write(const ColumnMatrix& from, SUNMatrix to) {
-    if (static_cast<std::size_t>(SM_NNZ_S(to)) < from.value.size()) return fatal;
-    // KLU keeps what follows from the pattern, which never changes.
-    std::copy(from.start.begin(), from.start.end(), SM_INDEXPTRS_S(to));
-    std::copy(from.row.begin(), from.row.end(), SM_INDEXVALS_S(to));
-    std::copy(from.value.begin(), from.value.end(), SM_DATA_S(to));
-    return 0;
+  void attach_solver() {
+    matrix = check(SUNMatNewEmpty(context));
+    matrix->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
+    matrix->ops->zero = [](SUNMatrix) { return 0; };
+    solver = check(SUNLinSolNewEmpty(context));
+    solver->content = this;
+    solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
+    solver->ops->solve = &solve;
+    check(IDASetLinearSolver(ida, solver, matrix));
+    check(IDASetJacFn(ida, &jacobian));
+    check(IDASetDeltaCjLSetup(ida, stale_coefficient));
   }
 
   void make() {
@@ -127,16 +140,7 @@ struct DaeIntegrator::Memory {
       check(IDASetNonlinConvCoef(ida, left_by_iteration));
       check(IDASetMaxNonlinIters(ida, std::max(1, bounds.iterations)));
       if (bounds.largest) check(IDASetMaxStep(ida, *bounds.largest));
-      const ColumnMatrix* pattern = problem.jacobian(t, 1, constant(y), constant(yp));
-      const auto entries = static_cast<sunindextype>(pattern ? pattern->value.size() : 0);
-      const auto n = static_cast<sunindextype>(problem.size());
-      matrix = check(SUNSparseMatrix(n, n, entries, CSC_MAT, context));
-      solver = check(SUNLinSol_KLU(y, matrix, context));
-      constexpr int minimum_degree = 0;
-      check(SUNLinSol_KLUSetOrdering(solver, minimum_degree));
-      check(IDASetLinearSolver(ida, solver, matrix));
-      check(IDASetJacFn(ida, &jacobian));
-      check(IDASetDeltaCjLSetup(ida, stale_coefficient));
+      attach_solver();
       crossed.assign(problem.switch_count(), 0);
       if (!crossed.empty()) check(IDARootInit(ida, static_cast<int>(crossed.size()), &switches));
       check(IDASetNoInactiveRootWarn(ida));

@@ -1,5 +1,5 @@
 // Integrates F(t, y, y′) = 0 in time: SUNDIALS IDA, backward differentiation of orders 1 … 5 with steps of any size,
-// its linear systems solved by KLU. Nothing of IDA is seen from outside.
+// its linear systems solved by StepFactors. Nothing of IDA is seen from outside.
 #pragma once
 
 #include <cstdint>

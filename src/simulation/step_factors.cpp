@@ -1,0 +1,119 @@
+#include "simulation/step_factors.h"
+
+#include <klu.h>
+
+#include <algorithm>
+#include <new>
+
+namespace dynalin {
+
+namespace {
+
+// Entries have appeared this often: from then on all of the pattern count.
+constexpr std::int64_t analysis_limit = 40;
+// The pivots of an earlier matrix serve a later one as long as factors do not grow by more than this over those that
+// they were chosen for.
+constexpr double further_growth = 1e-2;
+
+}  // namespace
+
+struct StepFactors::Klu {
+  klu_common common{};
+  klu_symbolic* symbolic = nullptr;
+  klu_numeric* numeric = nullptr;
+
+  Klu() {
+    klu_defaults(&common);
+    constexpr int minimum_degree = 0;
+    common.ordering = minimum_degree;
+  }
+  ~Klu() { clear(); }
+  Klu(const Klu&) = delete;
+  Klu& operator=(const Klu&) = delete;
+
+  void clear() {
+    klu_free_numeric(&numeric, &common);
+    klu_free_symbolic(&symbolic, &common);
+  }
+  // A matrix that does not fit is not a singular one.
+  void throw_if_out_of_memory() const {
+    if (common.status == KLU_OUT_OF_MEMORY || common.status == KLU_TOO_LARGE) throw std::bad_alloc();
+  }
+  void analyse(ColumnMatrix& m) {
+    symbolic = klu_analyze(m.columns, m.start.data(), m.row.data(), &common);
+    throw_if_out_of_memory();
+  }
+  // With the pivots of the factors before.
+  bool refactor(ColumnMatrix& m) {
+    return klu_refactor(m.start.data(), m.row.data(), m.value.data(), symbolic, numeric, &common) != 0 &&
+           common.status != KLU_SINGULAR;
+  }
+  bool factor(ColumnMatrix& m) {
+    klu_free_numeric(&numeric, &common);
+    numeric = klu_factor(m.start.data(), m.row.data(), m.value.data(), symbolic, &common);
+    throw_if_out_of_memory();
+    if (numeric && common.status != KLU_SINGULAR) return true;
+    klu_free_numeric(&numeric, &common);
+    return false;
+  }
+  // Of entries, by the largest of each column: that of the matrix beside that of U.
+  double reciprocal_growth(ColumnMatrix& m) {
+    klu_rgrowth(m.start.data(), m.row.data(), m.value.data(), symbolic, numeric, &common);
+    return common.rgrowth;
+  }
+};
+
+StepFactors::StepFactors() : klu_(std::make_unique<Klu>()) {}
+StepFactors::~StepFactors() = default;
+
+bool StepFactors::note_entries(const ColumnMatrix& m) {
+  kept_.resize(m.value.size(), 0);
+  const bool all = analyses_ >= analysis_limit;
+  bool found = false;
+  for (std::size_t k = 0; k < kept_.size(); ++k) {
+    if (kept_[k] || m.value[k] == 0.0) continue;
+    kept_[k] = 1;
+    found = true;
+  }
+  if (found && all) std::ranges::fill(kept_, char{1});
+  return found || !klu_->symbolic;
+}
+
+void StepFactors::analyse(const ColumnMatrix& m) {
+  klu_->clear();
+  matrix_ = {.rows = m.rows, .columns = m.columns, .start = {0}, .row = {}, .value = {}};
+  entries_.clear();
+  for (std::size_t c = 0; c < static_cast<std::size_t>(m.columns); ++c) {
+    for (auto k = static_cast<std::size_t>(m.start[c]); k < static_cast<std::size_t>(m.start[c + 1]); ++k) {
+      if (!kept_[k]) continue;
+      entries_.push_back(k);
+      matrix_.row.push_back(m.row[k]);
+    }
+    matrix_.start.push_back(static_cast<std::int32_t>(entries_.size()));
+  }
+  matrix_.value.resize(entries_.size());
+  klu_->analyse(matrix_);
+  ++analyses_;
+}
+
+bool StepFactors::factor(const ColumnMatrix& m) {
+  if (note_entries(m)) analyse(m);
+  if (!klu_->symbolic) return false;
+  std::ranges::transform(entries_, matrix_.value.begin(), [&](std::size_t k) { return m.value[k]; });
+  if (klu_->numeric && klu_->refactor(matrix_) && klu_->reciprocal_growth(matrix_) >= further_growth * growth_)
+    return true;
+  if (!klu_->factor(matrix_)) return false;
+  growth_ = klu_->reciprocal_growth(matrix_);
+  return true;
+}
+
+void StepFactors::solve(std::span<double> x) {
+  klu_solve(klu_->symbolic, klu_->numeric, matrix_.columns, 1, x.data(), &klu_->common);
+}
+
+std::size_t StepFactors::entries() const {
+  const klu_numeric* n = klu_->numeric;
+  return n ? static_cast<std::size_t>(n->lnz) + static_cast<std::size_t>(n->unz) : 0;
+}
+
+}  // namespace dynalin
