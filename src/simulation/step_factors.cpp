@@ -3,7 +3,10 @@
 #include <klu.h>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
+
+#include "simulation/row_matching.h"
 
 namespace dynalin {
 
@@ -11,6 +14,9 @@ namespace {
 
 // Entries have appeared this often: from then on all of the pattern count.
 constexpr std::int64_t analysis_limit = 40;
+// Of the largest entry in the same row, and of that in the same column: one that is less is what cancellation leaves
+// where there is nothing, and nothing to an iteration. Such ones alone are no reason for an analysis.
+constexpr double next_to_nothing = 1e-14;
 // The pivots of an earlier matrix serve a later one as long as factors do not grow by more than this over those that
 // they were chosen for.
 constexpr double further_growth = 1e-2;
@@ -66,25 +72,40 @@ struct StepFactors::Klu {
 StepFactors::StepFactors() : klu_(std::make_unique<Klu>()) {}
 StepFactors::~StepFactors() = default;
 
-bool StepFactors::note_entries(const ColumnMatrix& m) {
-  kept_.resize(m.value.size(), 0);
-  const bool all = analyses_ >= analysis_limit;
-  bool found = false;
-  for (std::size_t k = 0; k < kept_.size(); ++k) {
-    if (kept_[k] || m.value[k] == 0.0) continue;
-    kept_[k] = 1;
-    found = true;
+bool StepFactors::needs_analysis(const ColumnMatrix& m) const {
+  if (!klu_->symbolic) return true;
+  const auto is_new = [&](std::size_t k) { return !kept_[k] && m.value[k] != 0.0; };
+  std::vector<double> in_row;  // the largest
+  for (std::size_t k = 0; k < kept_.size() && in_row.empty(); ++k) {
+    if (is_new(k)) in_row.assign(static_cast<std::size_t>(m.rows), 0.0);
   }
-  if (found && all) std::ranges::fill(kept_, char{1});
-  return found || !klu_->symbolic;
+  if (in_row.empty()) return false;
+  for (std::size_t k = 0; k < kept_.size(); ++k) {
+    double& largest = in_row[static_cast<std::size_t>(m.row[k])];
+    largest = std::max(largest, std::abs(m.value[k]));
+  }
+  for (std::size_t c = 0; c < static_cast<std::size_t>(m.columns); ++c) {
+    const auto first = static_cast<std::size_t>(m.start[c]), last = static_cast<std::size_t>(m.start[c + 1]);
+    double in_column = 0;
+    for (std::size_t k = first; k < last; ++k) in_column = std::max(in_column, std::abs(m.value[k]));
+    for (std::size_t k = first; k < last; ++k) {
+      const double size = std::abs(m.value[k]);
+      if (is_new(k) && size > next_to_nothing * std::min(in_column, in_row[static_cast<std::size_t>(m.row[k])]))
+        return true;
+    }
+  }
+  return false;
 }
 
 void StepFactors::analyse(const ColumnMatrix& m) {
   klu_->clear();
+  kept_.resize(m.value.size(), 0);
+  const bool all = analyses_ >= analysis_limit;
   matrix_ = {.rows = m.rows, .columns = m.columns, .start = {0}, .row = {}, .value = {}};
   entries_.clear();
   for (std::size_t c = 0; c < static_cast<std::size_t>(m.columns); ++c) {
     for (auto k = static_cast<std::size_t>(m.start[c]); k < static_cast<std::size_t>(m.start[c + 1]); ++k) {
+      if (all || m.value[k] != 0.0) kept_[k] = 1;
       if (!kept_[k]) continue;
       entries_.push_back(k);
       matrix_.row.push_back(m.row[k]);
@@ -92,12 +113,31 @@ void StepFactors::analyse(const ColumnMatrix& m) {
     matrix_.start.push_back(static_cast<std::int32_t>(entries_.size()));
   }
   matrix_.value.resize(entries_.size());
+  put_matched_rows_on_diagonal();
   klu_->analyse(matrix_);
   ++analyses_;
 }
 
+// And first in their columns: there KLU finds them without a search of its own, which would go through the whole model
+// for each column.
+void StepFactors::put_matched_rows_on_diagonal() {
+  row_ = matched_rows(matrix_);
+  std::vector<std::int32_t> place(row_.size());
+  for (std::size_t k = 0; k < row_.size(); ++k) place[static_cast<std::size_t>(row_[k])] = static_cast<std::int32_t>(k);
+  for (std::int32_t& r : matrix_.row) r = place[static_cast<std::size_t>(r)];
+  for (std::size_t c = 0; c < row_.size(); ++c) {
+    const auto first = static_cast<std::size_t>(matrix_.start[c]);
+    for (auto k = first; k < static_cast<std::size_t>(matrix_.start[c + 1]); ++k) {
+      if (matrix_.row[k] != static_cast<std::int32_t>(c)) continue;
+      std::swap(matrix_.row[k], matrix_.row[first]);
+      std::swap(entries_[k], entries_[first]);
+    }
+  }
+  permuted_.resize(row_.size());
+}
+
 bool StepFactors::factor(const ColumnMatrix& m) {
-  if (note_entries(m)) analyse(m);
+  if (needs_analysis(m)) analyse(m);
   if (!klu_->symbolic) return false;
   std::ranges::transform(entries_, matrix_.value.begin(), [&](std::size_t k) { return m.value[k]; });
   if (klu_->numeric && klu_->refactor(matrix_) && klu_->reciprocal_growth(matrix_) >= further_growth * growth_)
@@ -108,7 +148,9 @@ bool StepFactors::factor(const ColumnMatrix& m) {
 }
 
 void StepFactors::solve(std::span<double> x) {
-  klu_solve(klu_->symbolic, klu_->numeric, matrix_.columns, 1, x.data(), &klu_->common);
+  for (std::size_t k = 0; k < row_.size(); ++k) permuted_[k] = x[static_cast<std::size_t>(row_[k])];
+  klu_solve(klu_->symbolic, klu_->numeric, matrix_.columns, 1, permuted_.data(), &klu_->common);
+  std::ranges::copy(permuted_, x.begin());
 }
 
 std::size_t StepFactors::entries() const {

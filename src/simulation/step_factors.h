@@ -1,6 +1,6 @@
 // Sparse LU of the matrices of one integration, which follow each other: all of one pattern, most of them near the one
-// before. KLU factors the entries that have been other than zero so far. Most of what the partials of elements reserve
-// never is: of the links of a plane chain three quarters.
+// before. KLU factors the entries that have been other than zero, or rounding, so far. Most of what the partials of
+// elements reserve never is: for links in a plane three quarters.
 #pragma once
 
 #include <cstdint>
@@ -28,14 +28,17 @@ class StepFactors {
   std::int64_t analyses() const { return analyses_; }  // so far
 
  private:
-  bool note_entries(const ColumnMatrix&);  // whether there are new ones
+  bool needs_analysis(const ColumnMatrix&) const;  // entries that count are not among those that are kept
   void analyse(const ColumnMatrix&);
+  void put_matched_rows_on_diagonal();
 
   struct Klu;
   std::unique_ptr<Klu> klu_;
   std::vector<char> kept_;            // by entry of the matrix: whether it counts
   std::vector<std::size_t> entries_;  // those that do
-  ColumnMatrix matrix_;               // of them alone
+  ColumnMatrix matrix_;               // of them alone, its rows in an order that leaves no zero on the diagonal
+  std::vector<std::int32_t> row_;     // of the matrix, by row of this one
+  std::vector<double> permuted_;      // right-hand side, scratch
   double growth_ = 0;                 // reciprocal, of the factors whose pivots are in use
   std::int64_t analyses_ = 0;
 };

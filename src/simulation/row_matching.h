@@ -1,0 +1,16 @@
+// A row for each column of a square matrix, such that the entries at these places are in its pattern: what an ordering
+// for sparse elimination begins with where diagonals are zero.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mechanics/accumulator.h"
+
+namespace dynalin {
+
+// By column. Diagonals are taken where they are in the pattern. A matrix that is singular by its pattern alone has as
+// many pairs as it can, and the rows that are left in any order.
+std::vector<std::int32_t> matched_rows(const ColumnMatrix&);
+
+}  // namespace dynalin

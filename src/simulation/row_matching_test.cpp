@@ -1,0 +1,40 @@
+#include "simulation/row_matching.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "system/sparse_lu.h"
+
+namespace dynalin {
+namespace {
+
+// How many columns have a row of their own that is in the pattern; every row is given once.
+std::size_t pairs(const ColumnMatrix& m) {
+  const std::vector<std::int32_t> rows = matched_rows(m);
+  EXPECT_EQ(std::set(rows.begin(), rows.end()).size(), static_cast<std::size_t>(m.columns));
+  std::size_t n = 0;
+  for (std::int32_t c = 0; c < m.columns; ++c)
+    for_each_in_column(m, c, [&](std::int32_t r, double) { n += r == rows[static_cast<std::size_t>(c)]; });
+  return n;
+}
+
+// Columns k and k + 1 in row k, the first column in the last row: with the diagonal taken for as long as there is one,
+// the last column is only matched along a path through all of them.
+TEST(RowMatching, goes_through_the_whole_of_a_matrix_where_it_must) {
+  constexpr std::int32_t n = 50;
+  std::vector<Triplet> entries;
+  for (std::int32_t k = 0; k + 1 < n; ++k) {
+    entries.push_back({k, k, 1});
+    entries.push_back({k, k + 1, 1});
+  }
+  entries.push_back({n - 1, 0, 1});
+  EXPECT_EQ(pairs(compressed(n, n, entries)), 50u);
+}
+
+TEST(RowMatching, pairs_as_many_as_there_are_in_a_singular_matrix) {
+  EXPECT_EQ(pairs(compressed(3, 3, std::vector<Triplet>{{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}, {0, 2, 1}})), 2u);
+}
+
+}  // namespace
+}  // namespace dynalin
