@@ -9,6 +9,7 @@
 #include <set>
 
 #include "simulation/motion_equations.h"
+#include "simulation/point_refinement.h"
 
 namespace dynalin {
 
@@ -141,6 +142,7 @@ class Dynamics {
     if (!equations_ || equations_->active() != active) {
       integrator_.reset();
       counted_before_ = statistics_;
+      refinement_ = std::make_unique<PointRefinement>(system_, active);
       equations_ = std::make_unique<MotionEquations>(system_, events_, point_, std::move(active), tolerance_);
       integrator_ = std::make_unique<DaeIntegrator>(*equations_, bounds_);
       longest_ = 0;
@@ -214,15 +216,19 @@ class Dynamics {
     return {};
   }
 
-  // Output times up to t.
+  // Output times up to t. At the last the constraints are looked at anew: others may go on from there.
   Result<void> hand_out_until(double t, bool& going_on) {
     for (; going_on && next_ <= times_.count() && times_.at(next_) <= t; ++next_) {
       OperatingPoint at = point_;
       integrator_->interpolate(times_.at(next_), y_, yp_);
       equations_->unknowns().unpack(times_.at(next_), y_, yp_, at);
-      auto whole = consistent(std::move(at));
-      if (!whole) return tl::unexpected(whole.error());
-      last_output_ = std::move(*whole);
+      auto found = next_ < times_.count() ? refinement_->refined(at) : std::nullopt;
+      if (!found) {
+        auto whole = consistent(std::move(at));
+        if (!whole) return tl::unexpected(whole.error());
+        found = std::move(*whole);
+      }
+      last_output_ = std::move(*found);
       going_on = hand_out(last_output_, true);
     }
     return {};
@@ -313,6 +319,7 @@ class Dynamics {
   double longest_ = 0;  // step, as the integrator has it
   std::unique_ptr<MotionEquations> equations_;
   std::unique_ptr<DaeIntegrator> integrator_;
+  std::unique_ptr<PointRefinement> refinement_;
   IntegrationStatistics counted_before_;
   OperatingPoint point_, last_output_;
   std::vector<double> y_, yp_;

@@ -73,7 +73,7 @@ StepFactors::StepFactors() : klu_(std::make_unique<Klu>()) {}
 StepFactors::~StepFactors() = default;
 
 bool StepFactors::needs_analysis(const ColumnMatrix& m) const {
-  if (!klu_->symbolic) return true;
+  if (!klu_->symbolic || kept_.size() != m.value.size()) return true;
   const auto is_new = [&](std::size_t k) { return !kept_[k] && m.value[k] != 0.0; };
   std::vector<double> in_row;  // the largest
   for (std::size_t k = 0; k < kept_.size() && in_row.empty(); ++k) {
@@ -99,7 +99,7 @@ bool StepFactors::needs_analysis(const ColumnMatrix& m) const {
 
 void StepFactors::analyse(const ColumnMatrix& m) {
   klu_->clear();
-  kept_.resize(m.value.size(), 0);
+  if (kept_.size() != m.value.size()) kept_.assign(m.value.size(), 0);
   const bool all = analyses_ >= analysis_limit;
   matrix_ = {.rows = m.rows, .columns = m.columns, .start = {0}, .row = {}, .value = {}};
   entries_.clear();
