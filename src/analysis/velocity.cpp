@@ -16,8 +16,8 @@ struct Condition {
   std::vector<std::int32_t> column;
   std::vector<double> coefficient;
   double value = 0;
-  std::string text;
-  Span at;  // of the statement
+  std::string text;  // of what is stated; rows have their own
+  Span at;           // of the statement
 };
 
 // What the dataset states, as conditions: the CM velocity along an axis a is a·(v + ω × c).
@@ -271,20 +271,27 @@ Result<Eigen::VectorXd> nearest(const System& system, const Motion& motion, cons
 }
 
 // Φ′ = g·u + Φ_t = 0 at u: the rate at zero velocity is Φ_t; rows at rest.
-std::vector<Condition> constraint_conditions(const System& system, const ConstraintRows& rows) {
-  std::vector<Condition> conditions;
-  for (std::int32_t k = 0; k < rows.size(); ++k) {
-    Condition c;
-    const bool position = rows.level(k) == RowLevel::position;
-    c.value = position ? -rows.along_motion(k).rate : -rows.along_motion(k).value;
-    c.text = system.row_text(k);
-    for (const auto& e : rows.row(k)) {
-      c.column.push_back(e.column);
-      c.coefficient.push_back(e.c.g);
-    }
-    conditions.push_back(std::move(c));
+void set_condition(const ConstraintRows& rows, std::int32_t k, Condition& c) {
+  const bool position = rows.level(k) == RowLevel::position;
+  c.value = position ? -rows.along_motion(k).rate : -rows.along_motion(k).value;
+  c.column.clear(), c.coefficient.clear();
+  for (const auto& e : rows.row(k)) {
+    c.column.push_back(e.column);
+    c.coefficient.push_back(e.c.g);
   }
+}
+std::vector<Condition> constraint_conditions(const ConstraintRows& rows) {
+  std::vector<Condition> conditions(static_cast<std::size_t>(rows.size()));
+  for (std::int32_t k = 0; k < rows.size(); ++k) set_condition(rows, k, conditions[static_cast<std::size_t>(k)]);
   return conditions;
+}
+bool constraints_met(const ConstraintRows& rows, const Eigen::VectorXd& velocity) {
+  Condition c;
+  for (std::int32_t k = 0; k < rows.size(); ++k) {
+    set_condition(rows, k, c);
+    if (!met_to_rounding(c, velocity)) return false;
+  }
+  return true;
 }
 
 Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std::vector<Condition>& stated,
@@ -299,18 +306,26 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
   if (const auto reason = undefined_row(system, motion, rows)) {
     return tl::unexpected(Failure{"velocity initial conditions", *reason, {}});
   }
-  std::vector<Condition> conditions = constraint_conditions(system, rows);
+  Eigen::VectorXd velocity = start;
+  const auto met = [&](const Condition& c) { return met_to_rounding(c, velocity); };
+  const bool holds = constraints_met(rows, start);
+  const bool as_stated = std::all_of(stated.begin(), stated.end(), met);
+  std::vector<Condition> conditions;
+  if (!holds || !as_stated) conditions = constraint_conditions(rows);
   const std::size_t constraints = conditions.size();
   const double tolerance = std::max(contradiction, 100 * op.redundancy_tolerance);
-  auto hard = least_change(system, motion, conditions, start, tolerance);
-  if (!hard) return tl::unexpected(hard.error());
-  if (!hard->contradicted.empty()) {
-    Failure f{"velocity initial conditions", "the constraints contradict each other on velocities", {}};
-    for (const std::size_t k : hard->contradicted) f.details.push_back(conditions[k].text);
-    return tl::unexpected(f);
+  if (!holds) {
+    auto hard = least_change(system, motion, conditions, start, tolerance);
+    if (!hard) return tl::unexpected(hard.error());
+    if (!hard->contradicted.empty()) {
+      Failure f{"velocity initial conditions", "the constraints contradict each other on velocities", {}};
+      for (const std::size_t k : hard->contradicted)
+        f.details.push_back(system.row_text(static_cast<std::int32_t>(k)));
+      return tl::unexpected(f);
+    }
+    velocity = std::move(hard->velocity);
   }
-  Eigen::VectorXd velocity = std::move(hard->velocity);
-  if (!stated.empty()) {
+  if (!stated.empty() && !(holds && as_stated)) {
     conditions.insert(conditions.end(), stated.begin(), stated.end());
     auto kept = least_change(system, motion, conditions, start, tolerance);
     if (!kept) return tl::unexpected(kept.error());
@@ -318,7 +333,6 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
     // the least change has pulled it. Where some follow from others, but for a tolerance, all count alike.
     const bool contradicted = !kept->contradicted.empty();
     velocity = contradicted ? start : std::move(kept->velocity);
-    const auto met = [&](const Condition& c) { return met_to_rounding(c, velocity); };
     for (int pass = 0; pass < (contradicted ? 2 : 1); ++pass) {
       if (std::all_of(conditions.begin(), conditions.end(), met)) break;
       auto found = nearest(system, motion, conditions, velocity);
