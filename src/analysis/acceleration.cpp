@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "analysis/acceleration_checks.h"
+#include "analysis/acceleration_corrections.h"
 #include "analysis/acceleration_equations.h"
 #include "analysis/acceleration_rounding.h"
 #include "analysis/augmented_system.h"
@@ -20,8 +21,6 @@ constexpr int iteration_limit = 100;
 // Solutions with undefined equations held, after which a reason is named.
 constexpr int held_limit = 5;
 constexpr int halving_limit = 40;
-// A step no longer than this, in units of what roundings of the point make of it, corrects nothing.
-constexpr double rounding_units_of_step = 8;
 // Steps of which none is shorter than a part of all before them have met a rounding that no sum of terms shows, inside
 // an expression. A root of ninefold multiplicity still comes closer than that.
 constexpr int patience = 8;
@@ -33,22 +32,6 @@ constexpr double next_to_nothing = 1e-60;
 constexpr double largest_hidden_rounding = 1e-6, hidden_units = 1e3;
 // Of a derivative: lost digits worth a warning, and so many that no derivative is left.
 constexpr double material_loss = 1e-9, loss_of_all = 0.1;
-
-// Corrects values that are already exact to rounding. What all but vanishes was rounding alone and is zero.
-void correct(std::vector<double>& values, std::int32_t offset, const Eigen::MatrixXd& step) {
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const double change = step(offset + static_cast<Eigen::Index>(k), 0);
-    values[k] += change;
-    if (std::abs(values[k]) <= 1e-3 * std::abs(change)) values[k] = 0;
-  }
-}
-
-// What is zero but for the rounding of the point is zero.
-void drop_rounding(std::vector<double>& values, std::int32_t offset, const Eigen::VectorXd& rounding) {
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    if (std::abs(values[k]) <= rounding(offset + static_cast<Eigen::Index>(k))) values[k] = 0;
-  }
-}
 
 // The algebraic or differential equation that is farthest from being met, relative to its own terms; empty if all are.
 std::string farthest_equation(const Layout& layout, const Equations& eq) {
@@ -84,11 +67,12 @@ tl::unexpected<Failure> failure(std::string message, std::vector<std::string> de
   return tl::unexpected(Failure{"acceleration initial conditions", std::move(message), std::move(details)});
 }
 
-// What a converged iteration leaves behind.
+// What an iteration leaves behind.
 struct Solution {
   OperatingPoint op;
   SparseLu lu;
-  ColumnMatrix factored;
+  bool settled = false;         // else corrections have to show that the first step was all
+  ColumnMatrix factored;        // from the second step on
   bool linear = true;           // every point had the same matrix
   Eigen::VectorXd terms;        // of each equation
   Eigen::VectorXd uncertainty;  // of each unknown
@@ -142,9 +126,11 @@ class StepLength {
 
 // At λ = 0 a force of reactions may have no derivative: it waits until the others have made reactions.
 enum class Start : std::uint8_t { undefined_held, reactions_held };
+// Linear equations are solved by one step, but for roundings.
+enum class Steps : std::uint8_t { one_if_linear, until_settled };
 
 tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquations& equations, OperatingPoint op,
-                                        Start start) {
+                                        Start start, Steps steps) {
   const AugmentedSystem& augmented = equations.augmented();
   std::vector<std::string> history;
   Solution found;
@@ -181,9 +167,11 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
     regular = !holds;
     halved = 0;
     step = next;
+    const bool one_step = steps == Steps::one_if_linear && !undefined && equations.linear();
     if (!same(matrix, found.factored)) {
       found.linear = found.linear && found.factored.value.empty();
-      if (!found.lu.factor(matrix)) {
+      if (!one_step) found.factored = matrix;
+      if (!found.lu.factor(std::move(matrix))) {
         if (undefined) {
           if (const std::string reason = system.undefined_value(system.motion(op)); !reason.empty())
             return failure(reason);
@@ -194,9 +182,13 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
         const std::string named = free.empty() ? "" : fmt::format(": nothing fixes {}", fmt::join(free, ", "));
         return failure("the accelerations are not determined" + named, free);
       }
-      found.factored = std::move(matrix);
     }
     found.lu.solve(step);
+    if (one_step) {
+      equations.move(op, step.col(0));
+      found.op = std::move(op);
+      return found;
+    }
     if (iteration > 0 && !holds) {
       found.terms = equations.terms(found.factored, op);
       Eigen::VectorXd rounding = rounding_of_solution(found.lu, found.terms), size = equations.values(op).cwiseAbs();
@@ -210,6 +202,7 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
       if (settled) {
         equations.move(op, step.col(0));
         found.op = std::move(op);
+        found.settled = true;
         found.uncertainty = std::move(rounding);
         return found;
       }
@@ -228,46 +221,45 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
                  history);
 }
 
-}  // namespace
-
-Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint op, Findings& findings) {
+Result<OperatingPoint> solve(const System& system, OperatingPoint op, Steps steps, Findings& findings) {
   const Layout& layout = system.layout();
   AccelerationEquations equations(system, op);
   if (const auto reason = undefined_row(system, system.motion(op), equations.rows())) return failure(*reason);
-  const AugmentedSystem& augmented = equations.augmented();
   findings.redundant_rows = equations.partition().redundant;
   for (const std::int32_t r : findings.redundant_rows) op.lambda[static_cast<std::size_t>(r)] = 0.0;
   const std::vector<double> first_values = op.algebraic;
   const std::vector<double> first_velocity = op.velocity;
 
-  auto solution = iterate(system, equations, op, Start::undefined_held);
+  auto solution = iterate(system, equations, op, Start::undefined_held, steps);
   if (!solution) {
-    if (auto again = iterate(system, equations, std::move(op), Start::reactions_held)) solution = std::move(again);
+    if (auto again = iterate(system, equations, op, Start::reactions_held, steps)) solution = std::move(again);
   }
   if (!solution) return tl::unexpected(solution.error());
+  // Where one step and corrections turn out not to be enough.
+  const auto go_on = [&, before = solution->settled ? OperatingPoint() : op] {
+    return solve(system, before, Steps::until_settled, findings);
+  };
   op = std::move(solution->op);
   const SparseLu& lu = solution->lu;
   if (const std::string reason = system.domain_violation(system.motion(op)); !reason.empty()) return failure(reason);
   warn_of_changed_starts(layout, first_values, op.algebraic, findings);
 
-  // What is zero by the structure of the model, such as the load of a body in free fall, becomes exactly zero.
-  for (int correction = 0; correction < 2; ++correction) {
-    Eigen::MatrixXd step = equations.evaluate(op, {});
-    lu.solve(step);
-    correct(op.acceleration, 0, step);
-    correct(op.lambda, augmented.lambda(0), step);
-  }
-  const Eigen::VectorXd rounding = rounding_of_accelerations(
-      system, lu, op, [&](const OperatingPoint& at) -> Eigen::VectorXd { return equations.evaluate(at, {}); });
-  drop_rounding(op.acceleration, 0, rounding);
-  drop_rounding(op.lambda, augmented.lambda(0), rounding);
+  AccelerationCorrections corrections(system, equations, lu, op);
+  if (!solution->settled && !corrections.settled()) return go_on();
+  corrections.drop_rounding();
 
   if (equations.massless().any() || !findings.redundant_rows.empty()) equations.evaluate(op, {});
   if (auto accepted = equations.massless().accept(first_velocity, op, equations.equations(), findings); !accepted)
     return tl::unexpected(accepted.error());
   if (!findings.redundant_rows.empty()) {
-    const auto contradicted =
-        contradicted_accelerations(system, equations, op, rounding.cwiseMax(solution->uncertainty));
+    // Where the rows agree as they are it does not matter what rounding may make of them.
+    auto contradicted = contradicted_accelerations(
+        system, equations, op, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(op.acceleration.size())));
+    if (!contradicted.empty()) {
+      if (!solution->settled) return go_on();
+      contradicted =
+          contradicted_accelerations(system, equations, op, corrections.rounding().cwiseMax(solution->uncertainty));
+    }
     std::vector<std::string> names;
     for (const std::int32_t k : contradicted) names.push_back(system.row_text(k));
     if (!names.empty()) {
@@ -293,6 +285,12 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
     }
   }
   return op;
+}
+
+}  // namespace
+
+Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint op, Findings& findings) {
+  return solve(system, std::move(op), Steps::one_if_linear, findings);
 }
 
 Result<OperatingPoint> initial_conditions(const System& system, Findings& findings) {

@@ -100,6 +100,12 @@ bool AccelerationEquations::hold_reactions(Eigen::VectorXd& missing) {
   return hold(follows, missing);
 }
 
+bool AccelerationEquations::linear() const {
+  const Layout& layout = system_.layout();
+  return !massless_.any() && layout.algebraic.empty() && layout.states.empty() &&
+         equations_.matrix(PartialBy::lambda).value.empty();
+}
+
 ColumnMatrix AccelerationEquations::augmented_matrix() const {
   return augmented_.matrix(equations_, rows_, partition_.active, {}, cut_, held_);
 }

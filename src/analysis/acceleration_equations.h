@@ -39,9 +39,14 @@ class AccelerationEquations {
   // So do those that reactions or accelerations enter.
   bool hold_reactions(Eigen::VectorXd& missing);
   void release();
+  // Whether the unknowns enter linearly: accelerations and reactions are all of them, and no force depends on them. The
+  // last point must have been evaluated with partials.
+  bool linear() const;
   // Partials without a finite value become zero; whether there are any.
   bool clear_undefined() { return !equations_.clear_undefined().empty(); }
-  ColumnMatrix matrix() const { return massless_.bordered(augmented_matrix()); }
+  ColumnMatrix matrix() const {
+    return massless_.size() > 0 ? massless_.bordered(augmented_matrix()) : augmented_matrix();
+  }
   ColumnMatrix augmented_matrix() const;
   // Of each equation, the sizes of the terms it was added up from.
   Eigen::VectorXd terms(const ColumnMatrix&, const OperatingPoint&) const;

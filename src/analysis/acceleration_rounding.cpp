@@ -74,6 +74,13 @@ Eigen::VectorXd rounding_of_accelerations(const System& system, const SparseLu& 
   return margin / units * worst;
 }
 
+Eigen::VectorXd missing_beside(const System& system, const OperatingPoint& op, const MissingForces& missing) {
+  std::minstd_rand random(1);
+  return missing(shaken(system, op, shake(system.layout(), op, units, random), 1));
+}
+
+double rounding_of_answer() { return margin / units; }
+
 Eigen::VectorXd rounding_of_solution(const SparseLu& lu, const Eigen::VectorXd& terms) {
   Eigen::MatrixXd answers(terms.size(), samples);
   std::minstd_rand random(1);

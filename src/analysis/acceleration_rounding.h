@@ -25,6 +25,11 @@ using MissingForces = std::function<Eigen::VectorXd(const OperatingPoint&)>;
 // switches at the point itself does not count.
 Eigen::VectorXd rounding_of_accelerations(const System&, const SparseLu&, const OperatingPoint&, const MissingForces&);
 
+// One sample of that, to see whether roundings of the point matter at all: the forces that are missing beside the
+// point, and what a unit of the answer to them counts for.
+Eigen::VectorXd missing_beside(const System&, const OperatingPoint&, const MissingForces&);
+double rounding_of_answer();
+
 // The same of what rounds in solving and evaluating the equations: their answer to some units in the last place of the
 // terms of each.
 Eigen::VectorXd rounding_of_solution(const SparseLu&, const Eigen::VectorXd& terms);
