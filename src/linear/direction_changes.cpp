@@ -55,11 +55,24 @@ void DirectionChanges::factor_rates() {
 }
 
 Directions DirectionChanges::beside(const Matrix& earlier) const {
-  const Index n = choice_.size(), free = static_cast<Index>(positions_.size()), more = earlier.cols();
+  const auto free = static_cast<Index>(positions_.size());
+  Matrix at_rest = Matrix::Zero(choice_.size(), free);
+  for (Index k = 0; k < free; ++k) at_rest(positions_[static_cast<std::size_t>(k)], k) = 1;
+  return with_changes(std::move(at_rest), earlier);
+}
+
+Directions DirectionChanges::beside(const Matrix& earlier, const Matrix& columns) const {
+  Matrix at_rest = Matrix::Zero(choice_.size(), columns.cols());
+  for (const std::int32_t k : positions_) at_rest.row(k) = columns.row(k);
+  return with_changes(std::move(at_rest), earlier);
+}
+
+Directions DirectionChanges::with_changes(Matrix at_rest, const Matrix& earlier) const {
+  const Index free = at_rest.cols(), more = earlier.cols();
   Directions d;
-  d.states = Matrix::Zero(n, free + more);
+  d.states = Matrix::Zero(choice_.size(), free + more);
   d.rates_of_states = d.states;
-  for (Index k = 0; k < free; ++k) d.states(positions_[static_cast<std::size_t>(k)], k) = 1;
+  d.states.leftCols(free) = at_rest;
   for (std::size_t k = 0; k < positions_.size() && more > 0; ++k) {
     if (rates_of_positions_[k] >= 0) d.states.row(rates_of_positions_[k]).tail(more) = earlier.row(positions_[k]);
   }

@@ -33,10 +33,13 @@ class DirectionChanges {
   // Whether accelerations follow from those of states, and there is a coordinate to move.
   bool known() const { return rates_known_ && !positions_.empty(); }
   Directions beside(const Eigen::MatrixXd& earlier) const;
+  // The same of the displacements in columns of states instead of each coordinate's.
+  Directions beside(const Eigen::MatrixXd& earlier, const Eigen::MatrixXd& columns) const;
 
  private:
   void factor_rates();
   void set_changes(Directions&) const;
+  Directions with_changes(Eigen::MatrixXd at_rest, const Eigen::MatrixXd& earlier) const;
   double scale(std::int32_t coordinate) const { return scale_[static_cast<std::size_t>(coordinate)]; }
 
   const std::size_t state_count_;  // of the layout

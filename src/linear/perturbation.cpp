@@ -187,4 +187,13 @@ PerturbationEquations::Roundings PerturbationEquations::roundings(const Matrix& 
   return {units_of_rounding * unit * total, unit / 2 * of_coefficients.cwiseSqrt()};
 }
 
+Matrix PerturbationEquations::coefficient_roundings(const Eigen::MatrixXcd& left, const Eigen::MatrixXcd& right) const {
+  ColumnMatrix squares = roundings_;
+  for (double& v : squares.value) v *= v;
+  Matrix sums = Matrix::Zero(unknowns(), right.cols());
+  multiply_add(squares, right.cwiseAbs2(), sums, 1.0);
+  const Matrix of_left = left.cwiseAbs2();
+  return std::numeric_limits<double>::epsilon() / 2 * transposed_product(of_left, sums).cwiseSqrt();
+}
+
 }  // namespace dynalin

@@ -69,6 +69,8 @@ class PerturbationEquations {
     Eigen::MatrixXd of_sums, of_coefficients;
   };
   Roundings roundings(const Eigen::MatrixXd& a) const;
+  // The same of the coefficients alone between unknowns (a; x), one column each: √Σ(left·(rounding)·right)².
+  Eigen::MatrixXd coefficient_roundings(const Eigen::MatrixXcd& left, const Eigen::MatrixXcd& right) const;
 
   // Columns a that the equations leave open, of freedoms without mass: rates or accelerations that depend on
   // derivatives of inputs or, where the model moves, of coefficients. The states do not depend on them.

@@ -41,16 +41,23 @@ class StructuralZeros::Contributions {
 
   Matrix beyond(const Matrix& earlier) const {
     if (!changes_.known()) return Matrix(choice_.size(), 0);
-    const Directions d = changes_.beside(earlier);
+    return beyond(earlier, changes_.beside(earlier), vanishing);
+  }
+  Matrix beyond(const Matrix& earlier, const Matrix& columns, double rounding) const {
+    if (!changes_.known()) return Matrix(choice_.size(), 0);
+    return beyond(earlier, changes_.beside(earlier, columns), rounding);
+  }
+
+ private:
+  Matrix beyond(const Matrix& earlier, const Directions& d, double limit) const {
     std::vector<Eigen::RowVectorXd> rows;
     add_rates_that_follow(d, rows);
     add_readings(d, rows);
     forces_.add(d, rows);
-    const Matrix null = null_space(rows, d.states.cols(), vanishing * std::sqrt(static_cast<double>(d.states.cols())));
+    const Matrix null = null_space(rows, d.states.cols(), limit * std::sqrt(static_cast<double>(d.states.cols())));
     return without(earlier, d.states * null);
   }
 
- private:
   // Which states act on bodies, and which algebraic unknowns bodies or such states read directly.
   void find_driven(const Equations& eq) {
     std::vector<bool> acts(static_cast<std::size_t>(eq.size()), false);  // equations that bodies depend on
@@ -179,6 +186,10 @@ StructuralZeros::~StructuralZeros() = default;
 
 Eigen::MatrixXd StructuralZeros::beyond(const Eigen::MatrixXd& earlier) const {
   return contributions_->beyond(earlier);
+}
+
+Eigen::MatrixXd StructuralZeros::beyond(const Matrix& earlier, const Matrix& columns, double rounding) const {
+  return contributions_->beyond(earlier, columns, rounding);
 }
 
 }  // namespace dynalin

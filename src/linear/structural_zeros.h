@@ -32,6 +32,8 @@ class StructuralZeros {
   // The directions of states (columns) that A maps into the span of `earlier` ones, which must come from here or be
   // exact themselves, without those that are in it.
   Eigen::MatrixXd beyond(const Eigen::MatrixXd& earlier) const;
+  // The same among the displacements of computed columns of states, which are exact to `rounding`.
+  Eigen::MatrixXd beyond(const Eigen::MatrixXd& earlier, const Eigen::MatrixXd& columns, double rounding) const;
 
   // States that the motion of bodies does not depend on: what a direction does to them follows from it.
   const std::vector<bool>& driven() const { return driven_; }

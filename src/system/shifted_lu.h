@@ -1,4 +1,5 @@
-// Sparse LU of S − σ E for a complex shift, E the identity in the last places of the diagonal and zero elsewhere.
+// Sparse LU of S − σ E for a complex shift, E the identity in the last places of the diagonal and zero elsewhere: KLU,
+// or MUMPS where loops would fill it in (lu_choice.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -22,6 +23,8 @@ class ShiftedLu {
   bool factor(std::complex<double> shift);
   void solve(Eigen::VectorXcd&) const;
   void solve_adjoint(Eigen::VectorXcd&) const;  // (S − σ E)ᴴ
+  // log det (S − σ E): its imaginary part to multiples of 2π, and to a constant that all shifts share.
+  std::complex<double> log_determinant() const;
 
  private:
   struct Factors;

@@ -9,6 +9,9 @@
 #include <new>
 #include <optional>
 
+#include "system/lu_choice.h"
+#include "system/mumps_lock.h"
+
 namespace dynalin {
 
 ColumnMatrix compressed(std::int32_t rows, std::int32_t columns, std::span<const Triplet> triplets) {
@@ -54,27 +57,6 @@ ColumnMatrix compressed(std::int32_t rows, std::int32_t columns, std::span<const
 }
 
 namespace {
-
-// Without loops KLU fills in almost nothing and is the fastest; its prediction of more than this many entries for each
-// of the matrix means loops in all directions, where nested dissection (MUMPS with METIS) wins by orders.
-constexpr double klu_fill_limit = 4;
-constexpr std::int32_t smallest_for_mumps = 2000;
-
-// Whether a permutation is made of an odd number of exchanges.
-bool is_odd(std::span<const int> permutation) {
-  std::vector<bool> seen(permutation.size(), false);
-  bool odd = false;
-  for (std::size_t first = 0; first < permutation.size(); ++first) {
-    if (seen[first]) continue;
-    seen[first] = true;
-    // A cycle of n places takes n − 1 exchanges.
-    for (auto at = static_cast<std::size_t>(permutation[first]); at != first; odd = !odd) {
-      seen[at] = true;
-      at = static_cast<std::size_t>(permutation[at]);
-    }
-  }
-  return odd;
-}
 
 // KLU: left-looking LU with a block triangular form.
 class KluFactors {
@@ -167,7 +149,7 @@ class KluFactors {
   klu_numeric* numeric_ = nullptr;
 };
 
-// MUMPS: multifrontal LU with nested dissection. Its Fortran core keeps state of its own: one call at a time.
+// MUMPS: multifrontal LU with nested dissection.
 class MumpsFactors {
  public:
   MumpsFactors() {
@@ -229,8 +211,7 @@ class MumpsFactors {
     call();
   }
   void call() {
-    static std::mutex one_at_a_time;
-    const std::lock_guard lock(one_at_a_time);
+    const std::lock_guard lock(mumps_lock());
     dmumps_c(&id_);
   }
   DMUMPS_STRUC_C id_{};
@@ -288,9 +269,7 @@ struct SparseLu::Factors {
   bool analyse() {
     klu = std::make_unique<KluFactors>();
     if (!klu->analyse(matrix)) return false;
-    if (matrix.rows < smallest_for_mumps ||
-        klu->predicted_entries() <= klu_fill_limit * static_cast<double>(matrix.value.size()))
-      return true;
+    if (!wants_nested_dissection(matrix, klu->predicted_entries())) return true;
     klu.reset();
     mumps = std::make_unique<MumpsFactors>();
     return true;

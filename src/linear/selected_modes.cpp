@@ -1,0 +1,387 @@
+#include "linear/selected_modes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "linear/dense_products.h"
+#include "linear/eigenvalue_search.h"
+#include "linear/mode_region.h"
+#include "linear/near_zero.h"
+#include "linear/perturbed_point.h"
+#include "linear/selected_pairs.h"
+
+namespace dynalin {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Index = Eigen::Index;
+using Matrix = Eigen::MatrixXd;
+using ComplexMatrix = Eigen::MatrixXcd;
+using Side = EigenvalueSearch::Side;
+
+constexpr double cycle = 2 * std::numbers::pi;
+constexpr double beside_axis = 0.0137;  // shifts keep off the axis that undamped modes are on
+constexpr double next_to_zero = 0.05;   // of a shift: what may be a zero, as far as it is computed
+constexpr int most_rounds = 24;
+
+Failure no_convergence(std::string what) { return {"eigensolution", std::move(what), {}}; }
+
+std::vector<Complex> joined(std::vector<Complex> a, const std::vector<Complex>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+class Solution {
+ public:
+  Solution(const System& system, const Perturbation& perturbation, const ModeSelection& wanted)
+      : system_(system),
+        perturbation_(perturbation),
+        equations_(*perturbation.equations),
+        wanted_(wanted),
+        op_(equations_),
+        right_(op_, Side::right),
+        left_(op_, Side::left) {
+    zero_.directions.resize(op_.states(), 0);
+    int differential = 2;
+    for (std::size_t k = 0; k < perturbation.model.states.size(); ++k) {
+      const bool kinematic = k < perturbation.kinematic_states;
+      kind_.push_back(!kinematic ? differential++ : perturbation.model.states[k].is_rate ? 1 : 0);
+    }
+  }
+
+  Result<EigenSolution> run(Vectors vectors) {
+    selected_.wanted = wanted_;
+    if (!find_zeros()) return tl::unexpected(no_convergence("no shift near zero could be factored"));
+    const auto* nearest = std::get_if<NearestModes>(&wanted_);
+    const bool found = nearest ? find_nearest(*nearest) : find_band(std::get<ModesInBand>(wanted_));
+    if (!found) return tl::unexpected(no_convergence("the Krylov iteration did not converge"));
+    auto bounded = bound();
+    if (!bounded) return tl::unexpected(no_convergence("left and right vectors do not belong together"));
+    return solution(*bounded, vectors);
+  }
+
+ private:
+  // A shift on the positive real axis that is small against all that is not zero, and not too small.
+  bool place_near_zero() {
+    double shift = 1.0137;
+    for (int tries = 0; tries < 16; ++tries) {
+      if (!op_.move_to(shift)) {
+        shift *= 1.3719;
+        continue;
+      }
+      double least = std::numeric_limits<double>::infinity();
+      for (int round = 0; round < 3 && !std::isfinite(least); ++round) {
+        for (const Complex& v : EigenvalueSearch(op_, Side::right).glance(4 + 8 * round)) {
+          if (std::abs(v) > 1e-3 * shift) least = std::min(least, std::abs(v));
+        }
+      }
+      if (!std::isfinite(least) || (least >= 2 * shift && least <= 1e3 * shift)) break;
+      shift = 0.2137 * least;
+    }
+    op_.find_units(kind_);
+    return true;
+  }
+
+  bool find_zeros() {
+    if (!place_near_zero()) return false;
+    const double shift = std::abs(op_.shift()), near = near_ = next_to_zero * shift;
+    // All that are no farther from the shift than what is near zero, and once more from elsewhere.
+    for (int round = 0, empty = 0; round < most_rounds && empty < 2 && !right_.everything(); ++round) {
+      const Index before = right_.found();
+      right_.run(8, shift + near);
+      const auto values = right_.values();
+      const bool any =
+          std::any_of(values.begin() + before, values.end(), [&](Complex v) { return std::abs(v) <= near; });
+      empty = any ? 0 : empty + 1;
+    }
+    const auto part = right_.part([&](Complex v) { return std::abs(v) <= near; });
+    if (part.basis.cols() == 0) return true;
+    zero_ = structural_zeros_near(system_, perturbation_, op_.units().asDiagonal() * part.basis, op_.units());
+    return true;
+  }
+
+  // Structural zeros are exactly that.
+  std::vector<Complex> values() const {
+    std::vector<Complex> all = right_.values();
+    std::stable_sort(all.begin(), all.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
+    const double near = std::max(near_, 1e-6 * std::abs(op_.shift()));
+    for (std::size_t k = 0; k < all.size() && k < static_cast<std::size_t>(zero_.count()); ++k) {
+      if (std::abs(all[k]) <= near) all[k] = 0;
+    }
+    return all;
+  }
+  KnownModes known() const { return KnownModes(values()); }
+  // From shifts on the real axis both members of every pair are found.
+  bool both_members() const { return region_.centre.imag() == 0 && region_.low == 0; }
+  Index count_in(const ModeRegion& region) const {
+    if (!both_members()) return region.count(known());
+    const auto all = values();
+    return static_cast<Index>(std::count_if(all.begin(), all.end(), [&](Complex v) { return region.has(v); }));
+  }
+  // Also what is in sight: no matter for the count, it only makes the determinant smoother.
+  std::vector<Complex> places() const {
+    const std::vector<Complex> beyond = KnownModes(right_.in_sight()).all();
+    return joined(both_members() ? values() : known().all(), beyond);
+  }
+
+  // The modes in region_ and how many there ought to be; the search goes on where they differ.
+  bool count() {
+    bool agreed = false;
+    const Complex shift = op_.shift();
+    std::optional<Index> counted;
+    for (int attempt = 0; attempt < 5 && !counted; ++attempt) {
+      counted_region_ = countable(region_, KnownModes(joined(values(), right_.in_sight())), attempt);
+      counted = eigenvalues_inside(op_.factors(), counted_region_.border(), places(),
+                                   [&](Complex v) { return counted_region_.has(v); });
+    }
+    op_.move_to(shift);
+    if (counted) {
+      const Index inside = count_in(region_), around = count_in(counted_region_);
+      selected_.by = CountedBy::winding_number;
+      selected_.found = static_cast<std::size_t>(inside);
+      selected_.counted = static_cast<std::size_t>(std::max<Index>(0, *counted - (around - inside)));
+      missing_ = *counted - around;
+      agreed = missing_ == 0;
+    }
+    selected_.complete = agreed;
+    return agreed;
+  }
+
+  bool find_nearest(const NearestModes& nearest) {
+    if (nearest.frequency > 0) {
+      const double modulus = cycle * nearest.frequency;
+      right_ = EigenvalueSearch(op_, Side::right);
+      if (!op_.move_to(Complex(beside_axis * modulus, modulus))) return false;
+      op_.find_units(kind_);
+    }
+    const Index per_mode = nearest.frequency > 0 ? 1 : 2;
+    Index target = static_cast<Index>(std::min(nearest.count, static_cast<std::size_t>(op_.states()))) * per_mode + 4;
+    if (nearest.frequency == 0) target += zero_.count();
+    int fruitless = 0;
+    for (int round = 0; round < most_rounds; ++round) {
+      const Index before = right_.found();
+      if (right_.found() < target && !right_.everything()) right_.run(target - right_.found(), 0);
+      const bool progress = right_.found() > before;
+      const KnownModes modes = known();
+      const auto zeros = std::count(modes.upper().begin(), modes.upper().end(), Complex(0));
+      const auto disc = disc_of(nearest, modes, std::min<Index>(zero_.count(), zeros), right_.everything());
+      if (!disc) {
+        if (!progress && ++fruitless > 2) return false;
+        target = std::max(target, right_.found()) + 6;
+        continue;
+      }
+      region_ = *disc;
+      if (nearest.count == 0 || modes.upper().empty()) {
+        selected_.complete = true;
+        return true;
+      }
+      if (count() || right_.everything()) break;
+      // From another start vector, as far as the border.
+      const Index found = right_.found();
+      right_.run(std::max<Index>(2, missing_ + 1), region_.radius + std::abs(op_.shift() - region_.centre));
+      if (right_.found() == found && ++fruitless > 2) break;
+    }
+    selected_.radius_hz = region_.radius / cycle;
+    return true;
+  }
+  bool find_band(const ModesInBand& band) {
+    region_ = region_of(band);
+    right_ = EigenvalueSearch(op_, Side::right);
+    constexpr Index at_a_time = 30, most_from_a_shift = 90;
+    // The middle of the band, then of its halves, quarters …; on the real axis, for all from there.
+    for (int level = 0; level < 6; ++level) {
+      const int parts = both_members() ? 1 : 1 << level;
+      for (int part = 0; part < parts; ++part) {
+        const double half = 0.5 * (region_.high - region_.low) / parts;
+        const double middle = region_.low + (2 * part + 1) * half;
+        const Complex shift =
+            both_members() ? Complex(beside_axis * region_.high) : Complex(beside_axis * middle, middle);
+        if (!op_.move_to(shift)) continue;
+        if (level == 0) op_.find_units(kind_);
+        right_.follow_shift();
+        shifts_.push_back(shift);
+        const double all = std::hypot(region_.right + shift.real(), both_members() ? region_.high : half);
+        for (Index from_here = 0; from_here < most_from_a_shift && !right_.everything();) {
+          const Index before = right_.found();
+          right_.run(at_a_time, all);
+          from_here += right_.found() - before;
+          if (right_.found() == before || right_.reached() >= all || (level > 0 && right_.reached() > 1.5 * half))
+            break;
+        }
+      }
+      if (shifts_.empty()) continue;
+      if (count() || right_.everything()) return true;
+    }
+    return !shifts_.empty();
+  }
+
+  // Left vectors of the same eigenvalues, and what both say.
+  std::optional<BoundedPairs> bound() {
+    // All of a region between whose border and them there is a gap.
+    const bool upper_half = region_.low > 0;
+    const auto in_part = [&](Complex v) { return counted_region_.has(v) && (!upper_half || v.imag() > 0); };
+    if (counted_region_.is_disc && counted_region_.radius == 0) counted_region_ = region_;
+    const auto inside = [&](const EigenvalueSearch& search) {
+      const auto values = search.values();
+      return static_cast<Index>(std::count_if(values.begin(), values.end(), in_part));
+    };
+    if (shifts_.empty()) shifts_.push_back(op_.shift());
+    for (int round = 0, fruitless = 0; round < most_rounds && fruitless < 4; ++round) {
+      const Complex shift = shifts_[static_cast<std::size_t>(round) % shifts_.size()];
+      if (shift != op_.shift() && !op_.move_to(shift)) continue;
+      right_.follow_shift(), left_.follow_shift();
+      const Index of_right = inside(right_), of_left = inside(left_);
+      if (of_left == of_right) break;
+      EigenvalueSearch& behind = of_left < of_right ? left_ : right_;
+      const Index before = behind.found();
+      double radius = 0;
+      for (const Complex& v : (of_left < of_right ? right_ : left_).values()) {
+        if (in_part(v)) radius = std::max(radius, std::abs(v - op_.shift()));
+      }
+      behind.run(std::abs(of_right - of_left) + 2, 1.01 * radius);
+      if (behind.found() == before) ++fruitless;
+    }
+    if (inside(left_) != inside(right_)) return std::nullopt;
+    selected_.found = static_cast<std::size_t>(count_in(region_));
+
+    auto right = right_.part(in_part);
+    const auto left = left_.part(in_part);
+    double distance = std::numeric_limits<double>::infinity();
+    for (const Complex& v : right_.values()) {
+      if (in_part(v)) distance = std::min(distance, std::max(counted_region_.distance_to_border(v), 1e-300));
+    }
+    const NearZero zero = counted_region_.has(0) ? zero_ : NearZero{Matrix(op_.states(), 0), Matrix(0, 0)};
+    return bounded_pairs(equations_, op_, {std::move(right.basis), std::move(right.matrix), left.basis}, zero,
+                         distance);
+  }
+
+  // A value, or a part of one, that is no more than its bound and than rounding of the fastest rate, or of the other
+  // part, is zero as far as anybody can tell.
+  static void clear_rounding(BoundedPairs& found) {
+    constexpr double rounding = 1e-13;
+    double fastest = 0;
+    for (const Complex& v : found.pairs.values) fastest = std::max(fastest, std::abs(v));
+    for (std::size_t k = 0; k < found.trust.size(); ++k) {
+      Complex& v = found.pairs.values[k];
+      const double unit = rounding * (v.imag() == 0 ? fastest : std::abs(v.imag())), re = std::abs(v.real());
+      if (re > found.trust[k].bound || re > unit) continue;
+      v.real(0);
+      found.trust[k].bound += re;
+    }
+  }
+
+  EigenSolution solution(BoundedPairs& found, Vectors vectors) {
+    clear_rounding(found);
+    EigenSolution out;
+    out.time = perturbation_.model.time;
+    out.kinematic_states = perturbation_.kinematic_states;
+    out.differential_states = perturbation_.differential_states;
+    out.states = perturbation_.model.states;
+    const EigenPairs& pairs = found.pairs;
+    std::vector<std::size_t> order;
+    for (std::size_t k = 0; k < pairs.values.size(); ++k) {
+      if (region_.has(pairs.values[k]) || std::abs(pairs.values[k] - region_.centre) <= found.trust[k].bound)
+        order.push_back(k);
+    }
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      const Complex x = pairs.values[a], y = pairs.values[b];
+      const bool x_real = x.imag() == 0, y_real = y.imag() == 0;
+      if (x_real != y_real) return x_real;
+      return x_real ? std::abs(x.real()) < std::abs(y.real()) : x.imag() < y.imag();
+    });
+    const Index z = zero_.count();
+    out.vectors.resize(op_.states(), z + static_cast<Index>(order.size()));
+    if (z > 0) out.vectors.leftCols(z) = zero_.vectors().cast<Complex>();
+    for (Index k = 0; k < z; ++k) {
+      EigenMode mode;
+      mode.is_real = mode.structural_zero = true;
+      mode.condition = zero_.defective() ? std::numeric_limits<double>::infinity() : 1.0;
+      out.modes.push_back(std::move(mode));
+    }
+    for (const std::size_t k : order) {
+      EigenMode mode;
+      mode.eigenvalue_hz = pairs.values[k] / cycle;
+      mode.is_real = pairs.values[k].imag() == 0;
+      const auto at = static_cast<Index>(k);
+      out.vectors.col(static_cast<Index>(out.modes.size())) = pairs.right.col(at);
+      mode.condition = 1 / std::abs(pairs.left.col(at).dot(pairs.right.col(at)));
+      mode.error_bound_hz = found.trust[k].bound / cycle;
+      mode.refined = found.trust[k].refined;
+      mode.cluster_size = static_cast<std::size_t>(found.trust[k].cluster);
+      out.modes.push_back(std::move(mode));
+    }
+    add_backward_errors(out);
+    out.selected = selected_;
+    if (vectors == Vectors::none) out.vectors.resize(0, 0);
+    return out;
+  }
+
+  ComplexMatrix image(const ComplexMatrix& x) const {  // A x
+    return by_parts(x, [&](const Matrix& m) -> Matrix {
+      Matrix w(equations_.unknowns(), m.cols()), rates = Matrix::Zero(equations_.unknowns(), m.cols());
+      w << equations_.complete(m), m;
+      const auto size = static_cast<std::size_t>(w.rows());
+      for (Index c = 0; c < m.cols(); ++c) {
+        equations_.products().multiply_add({w.col(c).data(), size}, {rates.col(c).data(), size});
+      }
+      return equations_.reduced(rates);
+    });
+  }
+  // Against ‖A‖, estimated from what A makes of a few vectors of signs where it has many columns.
+  void add_backward_errors(EigenSolution& out) const {
+    constexpr Index probes = 16;
+    const Index n = op_.states();
+    Matrix signs = Matrix::Identity(n, n <= 4 * probes ? n : probes);
+    if (n > 4 * probes) {
+      for (Index c = 0; c < probes; ++c) {
+        const Eigen::VectorXcd v = arbitrary_vector(n, static_cast<unsigned>(51 + c));
+        for (Index k = 0; k < n; ++k) signs(k, c) = v(k).real() < 0 ? -0.25 : 0.25;
+      }
+    }
+    const double size = image(signs.cast<Complex>()).norm();
+    if (!(size > 0)) return;
+    const ComplexMatrix images = image(out.vectors);
+    for (std::size_t k = 0; k < out.modes.size(); ++k) {
+      const auto at = static_cast<Index>(k);
+      const Complex lambda = out.modes[k].eigenvalue_hz * cycle;
+      out.modes[k].backward_error = (images.col(at) - lambda * out.vectors.col(at)).norm() / size;
+    }
+  }
+
+  const System& system_;
+  const Perturbation& perturbation_;
+  const PerturbationEquations& equations_;
+  const ModeSelection wanted_;
+  std::vector<int> kind_;
+  ShiftInverse op_;
+  EigenvalueSearch right_, left_;
+  std::vector<Complex> shifts_;  // where right vectors were found
+  NearZero zero_;
+  ModeRegion region_, counted_region_;
+  Index missing_ = 0;
+  double near_ = 0;  // the modulus of what may be a zero
+  SelectedModes selected_;
+};
+
+}  // namespace
+
+Result<EigenSolution> eigensolve_selected(const System& system, const Perturbation& perturbation,
+                                          const ModeSelection& wanted, Vectors vectors) {
+  const PerturbedPoint& at = *perturbation.at;
+  // No sparse equations have a block missing that the original implementation leaves out.
+  const bool all_states = at.without_damping && at.without_rate_coupling && perturbation.differential_states > 0;
+  if (all_states || perturbation.model.states.empty()) {
+    auto linear = reduce(system, perturbation);
+    if (!linear) return tl::unexpected(linear.error());
+    auto all = eigensolve(*linear, vectors);
+    if (!all) return all;
+    return selected_of(*all, wanted);
+  }
+  return Solution(system, perturbation, wanted).run(vectors);
+}
+
+}  // namespace dynalin

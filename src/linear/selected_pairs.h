@@ -1,0 +1,28 @@
+// Eigenvalues of a computed invariant subspace with vectors and bounds: clusters of its Schur form as directions, their
+// small matrix on the sparse equations (subspace_pencil.h), discs that certainly hold its eigenvalues (inclusion.h).
+#pragma once
+
+#include <optional>
+
+#include "linear/eigen_pairs.h"
+#include "linear/near_zero.h"
+#include "linear/shift_inverse.h"
+
+namespace dynalin {
+
+// In units of the operator: A Q = Q B, Aᴴ P = P (…), both orthonormal and of the same eigenvalues.
+struct TwoSided {
+  Eigen::MatrixXcd Q, B, P;
+};
+
+struct BoundedPairs {
+  EigenPairs pairs;  // those with Im ≥ 0; right and left vectors of states, unit length
+  std::vector<EigenTrust> trust;
+};
+
+// `zero` are structural zeros in the subspace; `distance` is that of other eigenvalues of the model from those of the
+// subspace. Nothing if left and right vectors do not belong together.
+std::optional<BoundedPairs> bounded_pairs(const PerturbationEquations&, const ShiftInverse&, const TwoSided&,
+                                          const NearZero& zero, double distance);
+
+}  // namespace dynalin

@@ -1,0 +1,43 @@
+// (A − σ)⁻¹ as an operator on states, by the factors of the sparse pencil:
+//
+//     x ↦ the states in (S − σ E)⁻¹ (0; x)
+//
+// in units in which the states of modes are of like size, so that lengths and angles in vectors of states mean
+// something.
+#pragma once
+
+#include "linear/perturbation.h"
+#include "system/shifted_lu.h"
+
+namespace dynalin {
+
+class ShiftInverse {
+ public:
+  explicit ShiftInverse(const PerturbationEquations&);
+
+  // False if the shift is an eigenvalue, as far as the factors can tell.
+  bool move_to(std::complex<double> shift);
+  std::complex<double> shift() const { return shift_; }
+  // Of the states, from what the operator makes of arbitrary vectors; coordinates and rates have at least a share of
+  // the largest of their kind.
+  void find_units(const std::vector<int>& kind);
+  const Eigen::VectorXd& units() const { return unit_; }
+
+  Eigen::Index states() const { return unit_.size(); }
+  // On vectors in these units.
+  void apply(Eigen::VectorXcd& x) const;
+  void apply_adjoint(Eigen::VectorXcd& y) const;
+  const ShiftedLu& factors() const { return lu_; }
+  ShiftedLu& factors() { return lu_; }  // for other shifts meanwhile; move_to() takes them back
+
+ private:
+  Eigen::Index unknowns_;
+  ShiftedLu lu_;
+  std::complex<double> shift_;
+  Eigen::VectorXd unit_;
+};
+
+// Vectors without preferred direction, the same ones in every run.
+Eigen::VectorXcd arbitrary_vector(Eigen::Index size, unsigned number);
+
+}  // namespace dynalin

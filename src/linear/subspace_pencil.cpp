@@ -1,0 +1,173 @@
+#include "linear/subspace_pencil.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "linear/dense_products.h"
+#include "linear/transposed.h"
+
+namespace dynalin {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Index = Eigen::Index;
+using Matrix = Eigen::MatrixXd;
+using ComplexMatrix = Eigen::MatrixXcd;
+using ComplexVector = Eigen::VectorXcd;
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double upward = 1 + 1e-6;
+// Two ways to the same product err by no more than a few times what they differ, unless both err alike.
+constexpr double margin_of_difference = 4;
+// The norms of what the operator does beside the subspace are estimates.
+constexpr double margin_of_norms = 10;
+
+ComplexMatrix with_algebraic(const ComplexMatrix& algebraic, const ComplexMatrix& states) {
+  ComplexMatrix all(algebraic.rows() + states.rows(), states.cols());
+  all << algebraic, states;
+  return all;
+}
+
+struct Residuals {
+  ComplexMatrix value;
+  Matrix rounding;
+};
+
+// Sum of real factors with complex numbers, in long double.
+struct LongSum {
+  long double re = 0, im = 0;
+  double size = 0, terms = 2;
+
+  void add(double factor, Complex v) {
+    re += static_cast<long double>(factor) * static_cast<long double>(v.real());
+    im += static_cast<long double>(factor) * static_cast<long double>(v.imag());
+    size += std::abs(factor) * (std::abs(v.real()) + std::abs(v.imag()));
+    ++terms;
+  }
+  void subtract(Complex a, Complex b) {
+    if (a == 0.0 || b == 0.0) return;
+    const long double ar = a.real(), ai = a.imag(), br = b.real(), bi = b.imag();
+    re -= ar * br - ai * bi;
+    im -= ar * bi + ai * br;
+    size += 2 * (std::abs(a.real()) + std::abs(a.imag())) * (std::abs(b.real()) + std::abs(b.imag()));
+    terms += 2;
+  }
+};
+
+// M w − E U F column by column, given the rows of M: the states of U stand in the last places.
+Residuals residuals(const ColumnMatrix& rows, const ComplexMatrix& w, const ComplexMatrix& U, const ComplexMatrix& F) {
+  const Index size = w.rows(), first_state = size - U.rows();
+  Residuals r{ComplexMatrix(size, w.cols()), Matrix(size, w.cols())};
+  for (Index c = 0; c < w.cols(); ++c) {
+    for (Index k = 0; k < size; ++k) {
+      LongSum sum;
+      for_each_in_column(rows, static_cast<std::int32_t>(k),
+                         [&](std::int32_t from, double v) { sum.add(v, w(from, c)); });
+      if (k >= first_state) {
+        for (Index j = 0; j < F.rows(); ++j) sum.subtract(U(k - first_state, j), F(j, c));
+      }
+      r.value(k, c) = {static_cast<double>(sum.re), static_cast<double>(sum.im)};
+      r.rounding(k, c) = long_eps * sum.terms * sum.size + eps * std::abs(r.value(k, c));
+    }
+  }
+  return r;
+}
+
+// The largest that (A_c − σ)⁻¹ makes of a vector of unit length, by power iteration in the units of the operator.
+double norm_beside(const ShiftInverse& op, const ComplexMatrix& X, const ComplexMatrix& Y) {
+  constexpr int steps = 6;
+  const Eigen::VectorXd& unit = op.units();
+  const ComplexMatrix right = unit.cwiseInverse().asDiagonal() * X, left = unit.asDiagonal() * Y;
+  ComplexVector v = arbitrary_vector(op.states(), 7);
+  double norm = 0;
+  for (int s = 0; s < steps; ++s) {
+    v -= right * (left.adjoint() * v);
+    const double size = v.norm();
+    if (!(size > 0)) return norm;
+    v /= size;
+    op.apply(v);
+    v -= right * (left.adjoint() * v);
+    norm = std::max(norm, v.norm());
+    v -= left * (right.adjoint() * v);
+    op.apply_adjoint(v);
+    v -= left * (right.adjoint() * v);
+  }
+  return norm;
+}
+
+}  // namespace
+
+SubspacePencil measured(const PerturbationEquations& equations, const ShiftInverse& op, const Subspace& of,
+                        double distance, double reach) {
+  const Index n = equations.states(), p = of.X.cols(), z = of.V.cols(), algebraic = equations.unknowns() - n;
+  const auto completed = [&](const ComplexMatrix& x) {
+    return with_algebraic(by_parts(x, [&](const Matrix& m) { return equations.complete(m); }), x);
+  };
+  const ComplexMatrix w = completed(of.X);
+  const ComplexMatrix y =
+      with_algebraic(by_parts(of.Y, [&](const Matrix& m) { return equations.complete_left(m); }), of.Y);
+  ComplexMatrix U(n, p + z), F(p + z, p);
+  U << of.X, of.V.cast<Complex>();
+  F << of.B, of.C;
+  const ColumnMatrix rows = transposed(equations.products());
+  Residuals right = residuals(rows, w, U, F);
+  const ComplexMatrix onto = of.B.adjoint();
+  const Residuals left = residuals(equations.products(), y, of.Y, onto);
+  const ComplexMatrix reduced = by_parts(right.value, [&](const Matrix& m) { return equations.reduced(m); });
+  const ComplexMatrix G = adjoint_product(y, right.value), other = adjoint_product(of.Y, reduced);
+
+  SubspacePencil out;
+  out.value = of.B.cast<std::complex<long double>>() + G.cast<std::complex<long double>>();
+  const Matrix size_of_y = y.cwiseAbs();
+  out.uncertainty =
+      transposed_product(size_of_y, right.rounding) + margin_of_difference * (G - other).cwiseAbs() +
+      static_cast<double>(n + algebraic) * eps * transposed_product(size_of_y, Matrix(right.value.cwiseAbs())) +
+      long_eps * (of.B.cwiseAbs() + G.cwiseAbs());
+  // Yᴴ X and Yᴴ V as computed.
+  ComplexMatrix off = adjoint_product(of.Y, U);
+  off.leftCols(p).diagonal().array() -= 1.0;
+  const Matrix defect =
+      off.cwiseAbs() + static_cast<double>(n) * eps * transposed_product(Matrix(of.Y.cwiseAbs()), Matrix(U.cwiseAbs()));
+  out.uncertainty += 1.1 * defect.leftCols(p) * G.cwiseAbs();
+  if (z > 0) {
+    // The equations hold the zeros to rounding only: to first order Yᴴ (A V − V N)(λ − N)⁻¹ C.
+    ComplexMatrix of_zero = of.V.cast<Complex>();
+    const Residuals zero = residuals(rows, completed(of_zero), of_zero, of.N.cast<Complex>());
+    const Matrix from_zero = adjoint_product(y, zero.value).cwiseAbs();
+    Matrix through(z, p);
+    for (Index j = 0; j < p; ++j) {
+      ComplexMatrix shifted = -of.N.cast<Complex>();
+      shifted.diagonal().array() += of.B(j, j);
+      through.col(j) = shifted.partialPivLu().solve(of.C.col(j)).cwiseAbs();
+    }
+    out.uncertainty += first_order_margin * (from_zero * through);
+  }
+
+  // What goes through the rest of the model.
+  const Eigen::VectorXd& unit = op.units();
+  ComplexMatrix R = std::move(right.value), L = left.value;
+  const double beside = norm_beside(op, of.X, of.Y);
+  Eigen::VectorXd size_of_right(p), size_of_left(p);
+  const ComplexMatrix dual = of.Y.adjoint();
+  for (Index j = 0; j < p; ++j) {
+    ComplexVector c = R.col(j);
+    op.factors().solve(c);
+    c -= w * (dual * c.tail(n));
+    R.col(j) = c;
+    size_of_right(j) = c.tail(n).cwiseQuotient(unit).norm();
+    ComplexVector l = L.col(j);
+    op.factors().solve_adjoint(l);
+    size_of_left(j) = (l.tail(n) - of.Y * (of.X.adjoint() * l.tail(n))).cwiseProduct(unit).norm();
+  }
+  const double amplified = 1 + margin_of_norms * reach * std::max(beside, 1 / distance);
+  out.uncertainty += adjoint_product(L, R).cwiseAbs() + reach * amplified * size_of_left * size_of_right.transpose();
+
+  out.unknown = equations.coefficient_roundings(y, w);
+  out.uncertainty = upward * (out.uncertainty + out.unknown);
+  return out;
+}
+
+}  // namespace dynalin
