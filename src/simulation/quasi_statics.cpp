@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/displace.h"
+#include "simulation/events.h"
 #include "simulation/pose_change.h"
 
 namespace dynalin {
@@ -16,6 +17,10 @@ constexpr double least_step = 1.0 / 256;  // of the time between outputs
 // A step is no jump if it ends as near as this, in lengths of the model and radians, to where the last steps lead, or
 // within this part of its way.
 constexpr double near = 0.05, near_of_way = 0.5;
+// How near the instant at which a sensor triggers is found, as a part of the whole time, in how many equilibria at
+// most.
+constexpr double instant = 1e-12;
+constexpr int location_limit = 60;
 
 Failure at_time(double time, Failure f) {
   f.analysis = "quasi-static simulation";
@@ -47,7 +52,13 @@ class Run {
  public:
   Run(const System& system, const OutputTimes& times, const StaticsOptions& options, IntegrationStatistics& statistics,
       const SimulationWatch& watch, Findings& findings)
-      : system_(system), times_(times), options_(options), statistics_(statistics), watch_(watch), findings_(findings) {
+      : system_(system),
+        times_(times),
+        options_(options),
+        statistics_(statistics),
+        watch_(watch),
+        findings_(findings),
+        events_(system) {
     nearby_ = options_;
     nearby_.restarts = 0;
     nearby_.tolerance.reset();
@@ -61,36 +72,37 @@ class Run {
     } else {
       return tl::unexpected(at_time(times_.start(), first.error()));
     }
-    bool goes_on = look_at_accepted(true);
+    auto begun = follow(events_.at_start(at_), true);
     double h = times_.step();
-    for (std::int64_t k = 1; k <= times_.count() && goes_on; ++k) {
-      const double target = times_.at(k);
-      while (at_.time < target && goes_on) {
-        const double left = target - at_.time;
-        const double t = h >= left * (1 - 1e-9) ? target : at_.time + (2 * h > left ? 0.5 * left : h);
-        const double step = t - at_.time;
-        const bool least = step <= 1.5 * least_step * times_.step();
-        auto next = solve(predicted(t), nearby_);
-        if (!next && least) next = solve(from_here(t), options_);
-        if (!next && least) return tl::unexpected(at_time(t, next.error()));
-        const Eigen::VectorXd change = next ? change_between(system_, at_, *next) : Eigen::VectorXd();
-        const bool jumps = next && is_jump(change, step);
-        if (!least && (!next || jumps)) {
-          ++(next ? statistics_.failed_error_tests : statistics_.failed_iterations);
-          h = 0.5 * step;
-          continue;
-        }
-        if (jumps) tell_jump(t, change);
-        // Nothing leads on from a jump.
-        speed_ = jumps ? Eigen::VectorXd() : Eigen::VectorXd(change / step);
-        at_ = std::move(*next);
-        ++statistics_.steps;
-        statistics_.step_size = step;
-        h = std::max(2 * step, std::min(h, left));
-        goes_on = look_at_accepted(t == target);
+    while (begun && !end_) {
+      const double target = times_.at(next_);
+      const double left = target - at_.time;
+      const double t = h >= left * (1 - 1e-9) ? target : at_.time + (2 * h > left ? 0.5 * left : h);
+      const double step = t - at_.time;
+      const bool least = step <= 1.5 * least_step * times_.step();
+      auto next = solve(predicted(t), nearby_);
+      if (!next && least) next = solve(from_here(t), options_);
+      if (!next && least) return tl::unexpected(at_time(t, next.error()));
+      const Eigen::VectorXd change = next ? change_between(system_, at_, *next) : Eigen::VectorXd();
+      const bool jumps = next && is_jump(change, step);
+      if (!least && (!next || jumps)) {
+        ++(next ? statistics_.failed_error_tests : statistics_.failed_iterations);
+        h = 0.5 * step;
+        continue;
       }
+      if (jumps) tell_jump(t, change);
+      const bool crosses = cross(*next, jumps);
+      // Nothing leads on from a jump.
+      speed_ =
+          jumps ? Eigen::VectorXd() : Eigen::VectorXd(change_between(system_, at_, *next) / (next->time - at_.time));
+      at_ = std::move(*next);
+      ++statistics_.steps;
+      statistics_.step_size = step;
+      h = std::max(2 * step, std::min(h, left));
+      begun = follow(crosses ? events_.at(crossed_, at_) : EventAction{}, at_.time == target);
     }
-    return end(goes_on ? SimulationEnd::reached : SimulationEnd::stopped);
+    if (!begun) return tl::unexpected(at_time(at_.time, begun.error()));
+    return end(*end_);
   }
 
  private:
@@ -129,10 +141,77 @@ class Run {
                     at_.time, t, farthest(system_, change)));
   }
 
-  // The one place where every equilibrium is looked at.
-  bool look_at_accepted(bool output) {
-    if (!watch_) return true;
-    return watch_(SimulationStep{system_, at_, output, statistics_}) == GoOn::yes;
+  std::vector<double> watched(const OperatingPoint& op) {
+    std::vector<double> values(events_.size());
+    events_.values(system_.motion(op), values);
+    return values;
+  }
+  // Of sensors alone: kinks and jumps of forces need no step of their own.
+  bool crosses(const std::vector<double>& from, const std::vector<double>& to) {
+    crossed_.assign(events_.size(), 0);
+    const auto sign = [](double v) { return (v > 0) - (v < 0); };
+    bool any = false;
+    for (std::size_t k = events_.switch_count(); k < from.size(); ++k) {
+      if (sign(from[k]) == 0 || sign(from[k]) == sign(to[k])) continue;
+      crossed_[k] = -sign(from[k]);
+      any = true;
+    }
+    return any;
+  }
+
+  // Whether what sensors watch passes what it is compared with on the way to the next equilibrium, which then becomes
+  // the first behind that. Nothing is located within a jump.
+  bool cross(OperatingPoint& next, bool jumps) {
+    if (events_.size() == events_.switch_count()) return false;
+    std::vector<double> before = watched(at_), after = watched(next);
+    double from = at_.time;
+    const double width = instant * (times_.end() - times_.start());
+    double beyond = 1e-3;  // of what is left: in turns on both sides of where a straight line meets zero
+    for (int k = 0; k < location_limit && !jumps && crosses(before, after) && next.time - from > width; ++k) {
+      double part = 1;
+      for (std::size_t i = 0; i < before.size(); ++i) {
+        if (crossed_[i] != 0) part = std::min(part, std::abs(before[i]) / std::abs(before[i] - after[i]));
+      }
+      part = std::clamp(part + beyond, 1e-3, 1 - 1e-3);
+      beyond = -beyond;
+      const double t = from + part * (next.time - from);
+      if (!(t > from && t < next.time)) break;
+      auto between = solve(predicted(t), nearby_);
+      if (!between) break;
+      std::vector<double> values = watched(*between);
+      if (crosses(before, values)) {
+        next = std::move(*between), after = std::move(values);
+      } else {
+        from = t, before = std::move(values);
+      }
+    }
+    return crosses(before, after);
+  }
+
+  // Hands out the equilibrium at hand, as every one is, and does what sensors ask for there.
+  Result<void> follow(const EventAction& action, bool output) {
+    if (action.restart) {
+      auto again = solve(at_, options_);
+      if (!again) return tl::unexpected(again.error());
+      at_ = std::move(*again);
+      speed_ = {};
+    }
+    const bool handed_out = output || action.output || action.ends();
+    const bool goes_on =
+        !watch_ || watch_(SimulationStep{system_, at_, handed_out, statistics_, action.text}) == GoOn::yes;
+    if (!goes_on) {
+      end_ = SimulationEnd::stopped;
+    } else if (action.ends()) {
+      end_ = action.halts ? SimulationEnd::halted : SimulationEnd::returned;
+    } else if (at_.time >= times_.end()) {
+      end_ = SimulationEnd::reached;
+    } else if (action.output_step) {
+      times_ = OutputTimes(at_.time, times_.end(), *action.output_step);
+      next_ = 1;
+    } else {
+      while (times_.at(next_) <= at_.time) ++next_;
+    }
+    return {};
   }
 
   Result<QuasiStaticEnd> end(SimulationEnd how) {
@@ -146,13 +225,17 @@ class Run {
   }
 
   const System& system_;
-  const OutputTimes& times_;
+  OutputTimes times_;
   StaticsOptions options_, nearby_;
   IntegrationStatistics& statistics_;
   const SimulationWatch& watch_;
   Findings& findings_;
+  Events events_;
 
   OperatingPoint at_;
+  std::int64_t next_ = 1;  // output
+  std::vector<int> crossed_;
+  std::optional<SimulationEnd> end_;
   StaticsReport report_;
   Eigen::VectorXd speed_;  // of the last step, empty if there is none
 };

@@ -151,5 +151,41 @@ TEST(QuasiStatics, what_is_not_found_is_told_with_the_time) {
   EXPECT_GE(r.outputs.size(), 4u);
 }
 
+// A spring of 100 pulled by 4 t: 4 t/100 passes 0.1 at t = 2.5, between two outputs. From there on SENVAL pulls as
+// well.
+TEST(QuasiStatics, end_where_a_sensor_says_and_follow_what_it_evaluates) {
+  const std::string text =
+      "PART/2, MASS=1, CM=20, IP=1,1,1, QG=0,0,1\nMARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
+      "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, K=100, LENGTH=1\n"
+      "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=4*TIME+SENVAL(2)\n"
+      "SENSOR/2, FUNCTION=DZ(20,1)**2, VALUE=1.21, GE, EVALUATE=7, PRINT\n"
+      "SENSOR/1, FUNCTION=DZ(20,1), VALUE=1.25, GE, ";
+  for (const auto& [word, how] : {std::pair{"RETURN", SimulationEnd::returned}, {"HALT", SimulationEnd::halted}}) {
+    QuasiStaticRun r(text + word + "\n", 10, 10);
+    ASSERT_TRUE(r.end) << r.end.error().message;
+    EXPECT_EQ(r.end->end, how);
+    // (4 t + 7)/100 = 0.25
+    EXPECT_NEAR(r.end->point.time, 4.5, 1e-9);
+    EXPECT_NEAR(r.place(r.end->point, 20).z, 1.25, 1e-9);
+    ASSERT_EQ(r.outputs.size(), 7u);  // 0, 1, 2, 2.5, 3, 4, 4.5
+    EXPECT_NEAR(r.outputs[3].time, 2.5, 1e-9);
+    EXPECT_NEAR(r.place(r.outputs[3], 20).z, 1.17, 1e-9);
+    EXPECT_NEAR(r.place(r.outputs[5], 20).z, 1.23, 1e-12);
+  }
+}
+
+TEST(QuasiStatics, change_the_time_between_outputs_where_a_sensor_says) {
+  QuasiStaticRun r(
+      "PART/2, MASS=1, CM=20, IP=1,1,1, QG=0,0,1\nMARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
+      "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, K=100, LENGTH=1\n"
+      "SENSOR/1, FUNCTION=TIME, VALUE=2, GE, DT=0.5\n",
+      3, 3);
+  ASSERT_TRUE(r.end) << r.end.error().message;
+  std::vector<double> times;
+  for (const OperatingPoint& op : r.outputs) times.push_back(op.time);
+  ASSERT_EQ(times.size(), 5u);
+  for (const double t : {0.0, 1.0, 2.0, 2.5, 3.0}) EXPECT_THAT(times, testing::Contains(testing::DoubleNear(t, 1e-9)));
+}
+
 }  // namespace
 }  // namespace dynalin::simulation_test
