@@ -103,16 +103,16 @@ int main(int argc, char** argv) {
   fmt::print("  model             {:8.3f} s\n", clock.lap());
   const auto made = System::make(std::move(built.value)).value();
   const System& system = *made;
-  fmt::print("  system            {:8.3f} s\n", clock.lap());
+  fmt::print("  system            {:8.3f} s   {:.0f} MB\n", clock.lap(), peak_megabytes());
 
   Findings findings;
   auto op = assemble_position(system, system.drawn(), findings);
   if (op) op = initial_velocity(system, std::move(*op), findings);
   if (!op) return fmt::print("failed: {}\n", op.error().message), 2;
-  fmt::print("  position, velocity{:8.3f} s\n", clock.lap());
+  fmt::print("  position, velocity{:8.3f} s   {:.0f} MB\n", clock.lap(), peak_megabytes());
   op = solve_acceleration(system, std::move(*op), findings);
   if (!op) return fmt::print("failed: {}\n", op.error().message), 2;
-  fmt::print("  acceleration      {:8.3f} s\n", clock.lap());
+  fmt::print("  acceleration      {:8.3f} s   {:.0f} MB\n", clock.lap(), peak_megabytes());
 
   ConstraintRows rows;
   rows.resize(system.layout());

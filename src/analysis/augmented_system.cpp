@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "system/column_builder.h"
+
 namespace dynalin {
 
 AugmentedSystem::AugmentedSystem(const System& system)
@@ -15,42 +17,42 @@ AugmentedSystem::AugmentedSystem(const System& system)
 ColumnMatrix AugmentedSystem::matrix(const Equations& eq, const ConstraintRows& rows, const std::vector<bool>& active,
                                      const AugmentedColumns& columns, const std::vector<bool>& cut,
                                      const std::vector<bool>& held, std::span<const double> added_diagonal) const {
-  std::vector<Triplet> entries;
   const auto replaced = [&](std::int32_t r) {
     if (r < n_) return false;
     if (r < n_ + w_) return !cut.empty() && cut[static_cast<std::size_t>(r - n_)];
     return !held.empty() && held[static_cast<std::size_t>(r - n_ - w_)];
   };
-  const auto take = [&](PartialBy family, std::int32_t offset) {
-    for_each_entry(eq.matrix(family), [&](std::int32_t r, std::int32_t c, double v) {
-      if (!replaced(r)) entries.push_back({equation(r), offset + c, v});
-    });
-  };
-  if (columns.with_coordinates) take(columns.coordinates, 0);
-  take(PartialBy::lambda, n_);
-  take(PartialBy::algebraic, n_ + m_);
-  take(columns.states, n_ + m_ + w_);
-  for (std::int32_t k = 0; k < m_; ++k) {
-    if (!active[static_cast<std::size_t>(k)]) {
-      entries.push_back({lambda(k), lambda(k), 1.0});
-      continue;
+  return compressed_columns(size_, size_, [&](auto&& take) {
+    const auto take_family = [&](PartialBy family, std::int32_t offset) {
+      for_each_entry(eq.matrix(family), [&](std::int32_t r, std::int32_t c, double v) {
+        if (!replaced(r)) take(equation(r), offset + c, v);
+      });
+    };
+    if (columns.with_coordinates) take_family(columns.coordinates, 0);
+    take_family(PartialBy::lambda, n_);
+    take_family(PartialBy::algebraic, n_ + m_);
+    take_family(columns.states, n_ + m_ + w_);
+    for (std::int32_t k = 0; k < m_; ++k) {
+      if (!active[static_cast<std::size_t>(k)]) {
+        take(lambda(k), lambda(k), 1.0);
+        continue;
+      }
+      for (const auto& e : rows.row(k)) {
+        take(lambda(k), e.column, e.c.g);
+        take(e.column, lambda(k), -e.c.g);
+      }
     }
-    for (const auto& e : rows.row(k)) {
-      entries.push_back({lambda(k), e.column, e.c.g});
-      entries.push_back({e.column, lambda(k), -e.c.g});
+    for (std::int32_t k = 0; k < w_; ++k) {
+      if (replaced(n_ + k)) take(algebraic(k), algebraic(k), 1.0);
     }
-  }
-  for (std::int32_t k = 0; k < w_; ++k) {
-    if (replaced(n_ + k)) entries.push_back({algebraic(k), algebraic(k), 1.0});
-  }
-  for (std::int32_t k = 0; k < z_; ++k) {
-    if (replaced(n_ + w_ + k)) entries.push_back({state(k), state(k), 1.0});
-  }
-  for (std::size_t k = 0; k < added_diagonal.size(); ++k) {
-    const auto i = static_cast<std::int32_t>(k);
-    entries.push_back({i, i, added_diagonal[k]});
-  }
-  return compressed(size_, size_, entries);
+    for (std::int32_t k = 0; k < z_; ++k) {
+      if (replaced(n_ + w_ + k)) take(state(k), state(k), 1.0);
+    }
+    for (std::size_t k = 0; k < added_diagonal.size(); ++k) {
+      const auto i = static_cast<std::int32_t>(k);
+      take(i, i, added_diagonal[k]);
+    }
+  });
 }
 
 std::vector<std::string> undetermined(const System& system, const AugmentedSystem& augmented, ColumnMatrix m) {

@@ -11,6 +11,7 @@
 
 #include "system/lu_choice.h"
 #include "system/mumps_lock.h"
+#include "system/nested_dissection.h"
 
 namespace dynalin {
 
@@ -156,7 +157,6 @@ class MumpsFactors {
     id_.job = -1, id_.par = 1, id_.sym = 0, id_.comm_fortran = use_comm_world;
     call();
     for (const int k : {1, 2, 3, 4}) control(k) = 0;  // no printing
-    control(7) = 5;                                   // METIS
     control(14) = 60;                                 // room for delayed pivots, percent
     control(33) = 1;                                  // the determinant is wanted
     id_.cntl[0] = 0.1;                                // pivot threshold
@@ -176,6 +176,7 @@ class MumpsFactors {
         row_.push_back(r + 1);
         column_.push_back(c + 1);
       });
+      choose_order(m);
     }
     id_.n = m.rows;
     id_.nnz = static_cast<MUMPS_INT8>(m.value.size());
@@ -202,6 +203,17 @@ class MumpsFactors {
   }
 
  private:
+  // Its own analysis sees every unknown for itself, which takes several times as long.
+  void choose_order(const ColumnMatrix& m) {
+    constexpr int as_given = 1, automatic = 7;
+    control(7) = automatic;
+    const auto found = nested_dissection(m);
+    if (!found) return;
+    for (const std::int32_t place : *found) place_.push_back(place + 1);
+    control(7) = as_given;
+    id_.perm_in = place_.data();
+  }
+
   static constexpr int use_comm_world = -987654;
   int& control(int k) { return id_.icntl[k - 1]; }
   void back_substitute(double* x, int columns, int plain) {
@@ -215,7 +227,7 @@ class MumpsFactors {
     dmumps_c(&id_);
   }
   DMUMPS_STRUC_C id_{};
-  std::vector<int> row_, column_;
+  std::vector<int> row_, column_, place_;
 };
 
 // Several right-hand sides at a time go through the factors once, few enough to stay in the cache.
@@ -257,6 +269,44 @@ Units balancing_units(const ColumnMatrix& m) {
   return u;
 }
 
+// The entries of `m` that stand in a pattern, zero where there are none; nothing if others are not zero.
+bool take_values(const ColumnMatrix& m, ColumnMatrix& pattern) {
+  if (m.rows != pattern.rows || m.columns != pattern.columns) return false;
+  for (std::int32_t c = 0; c < m.columns; ++c) {
+    const auto column = static_cast<std::size_t>(c);
+    auto k = static_cast<std::size_t>(pattern.start[column]);
+    const auto end = static_cast<std::size_t>(pattern.start[column + 1]);
+    for (auto e = static_cast<std::size_t>(m.start[column]); e < static_cast<std::size_t>(m.start[column + 1]); ++e) {
+      for (; k < end && pattern.row[k] < m.row[e]; ++k) pattern.value[k] = 0;
+      if (k < end && pattern.row[k] == m.row[e]) {
+        pattern.value[k++] = m.value[e];
+      } else if (m.value[e] != 0) {
+        return false;
+      }
+    }
+    for (; k < end; ++k) pattern.value[k] = 0;
+  }
+  return true;
+}
+
+ColumnMatrix without_zeros(ColumnMatrix m) {
+  std::size_t kept = 0;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(m.columns); ++c) {
+    const auto first = static_cast<std::size_t>(m.start[c]), last = static_cast<std::size_t>(m.start[c + 1]);
+    m.start[c] = static_cast<std::int32_t>(kept);
+    // Behind `first`, which the column before has not reached.
+    for (std::size_t k = first; k < last; ++k) {
+      if (m.value[k] == 0) continue;
+      m.row[kept] = m.row[k];
+      m.value[kept++] = m.value[k];
+    }
+  }
+  m.start.back() = static_cast<std::int32_t>(kept);
+  m.row.resize(kept), m.value.resize(kept);
+  m.row.shrink_to_fit(), m.value.shrink_to_fit();
+  return m;
+}
+
 }  // namespace
 
 struct SparseLu::Factors {
@@ -264,6 +314,7 @@ struct SparseLu::Factors {
   std::unique_ptr<KluFactors> klu;
   std::unique_ptr<MumpsFactors> mumps;
   std::optional<Units> units;  // of the matrix that was factored
+  bool keeps_zeros = false;
 
   // KLU or MUMPS, by the pattern alone.
   bool analyse() {
@@ -271,6 +322,9 @@ struct SparseLu::Factors {
     if (!klu->analyse(matrix)) return false;
     if (!wants_nested_dissection(matrix, klu->predicted_entries())) return true;
     klu.reset();
+    // Bodies that stand along the axes leave most entries of their constraints zero. What turns up later among them is
+    // taken for a sign that all will. KLU's matching of rows and columns may take n² steps without them.
+    if (!keeps_zeros) matrix = without_zeros(std::move(matrix));
     mumps = std::make_unique<MumpsFactors>();
     return true;
   }
@@ -312,12 +366,12 @@ SparseLu::SparseLu(SparseLu&&) noexcept = default;
 SparseLu& SparseLu::operator=(SparseLu&&) noexcept = default;
 
 bool SparseLu::factor(ColumnMatrix matrix) {
-  const auto has_pattern = [&](const ColumnMatrix& m) {
-    return m.rows == matrix.rows && m.columns == matrix.columns && m.start == matrix.start && m.row == matrix.row;
-  };
-  const bool analysed = factors_ && has_pattern(factors_->matrix);
-  if (!analysed) factors_ = std::make_unique<Factors>();
-  factors_->matrix = std::move(matrix);
+  const bool analysed = factors_ && take_values(matrix, factors_->matrix);
+  if (!analysed) {
+    const bool again = factors_ && factors_->matrix.rows == matrix.rows;
+    factors_ = std::make_unique<Factors>();
+    factors_->matrix = std::move(matrix), factors_->keeps_zeros = again;
+  }
   if (factors_->matrix.rows == 0) return true;
   if (!analysed && !factors_->analyse()) {
     factors_.reset();

@@ -96,6 +96,27 @@ TEST(SparseLu, solves_with_the_matrix_and_with_its_transpose_for_many_right_hand
   }
 }
 
+// Entries that are zero when a large pattern is analysed and not later, and others that become zero.
+TEST(SparseLu, zeros_of_a_pattern_may_change_their_places) {
+  std::mt19937 random(8);
+  const std::int32_t n = 2500;
+  std::vector<Triplet> t = drawn(random, n);
+  std::uniform_int_distribution<std::int32_t> place(0, n - 1);
+  for (std::int32_t k = 0; k < 2 * n; ++k) t.push_back({place(random), place(random), 0.3});
+  SparseLu lu;
+  for (const std::size_t zero : {3u, 4u, 3u, 100000u}) {
+    std::vector<Triplet> now = t;
+    for (std::size_t k = static_cast<std::size_t>(n); k < now.size(); k += zero) now[k].value = 0;
+    const ColumnMatrix A = compressed(n, n, now);
+    ASSERT_TRUE(lu.factor(A));
+    const Eigen::MatrixXd b = numbers(random, n, 1);
+    Eigen::MatrixXd x = b, left = b;
+    lu.solve(x);
+    A.multiply_add({x.data(), static_cast<std::size_t>(n)}, {left.data(), static_cast<std::size_t>(n)}, -1.0);
+    EXPECT_LE(left.cwiseAbs().maxCoeff(), 1e-9) << zero;
+  }
+}
+
 TEST(SparseLu, a_matrix_without_rows_has_nothing_to_solve) {
   SparseLu lu;
   ASSERT_TRUE(lu.factor(compressed(0, 0, {})));
