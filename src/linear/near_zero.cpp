@@ -6,6 +6,7 @@
 
 #include "linear/perturbation.h"
 #include "linear/structural_zeros.h"
+#include "linear/zero_modes.h"
 
 namespace dynalin {
 
@@ -26,11 +27,13 @@ class Search {
     // A real basis of the same space: it holds the conjugate of each of its vectors.
     Matrix both(basis.rows(), 2 * basis.cols());
     both << basis.real(), basis.imag();
-    both = units.cwiseInverse().asDiagonal() * both;
-    const Eigen::ColPivHouseholderQR<Matrix> qr(both);
-    Index rank = 0;
-    while (rank < std::min(both.rows(), both.cols()) && std::abs(qr.matrixR()(rank, rank)) > 1e-6) ++rank;
-    Q_ = qr.householderQ() * Matrix::Identity(both.rows(), rank);
+    Q_ = range(units.cwiseInverse().asDiagonal() * both);
+    Matrix displacements = Q_;
+    for (std::size_t k = 0; k < perturbation.model.states.size(); ++k) {
+      if (k >= perturbation.kinematic_states || perturbation.model.states[k].is_rate)
+        displacements.row(static_cast<Index>(k)).setZero();
+    }
+    displacements_ = units.asDiagonal() * range(displacements);
     found_.directions = Matrix(basis.rows(), 0);
   }
 
@@ -56,6 +59,13 @@ class Search {
   }
 
  private:
+  // An orthonormal basis of what columns of about unit length span.
+  static Matrix range(const Matrix& columns) {
+    const Eigen::ColPivHouseholderQR<Matrix> qr(columns);
+    Index rank = 0;
+    while (rank < std::min(columns.rows(), columns.cols()) && std::abs(qr.matrixR()(rank, rank)) > 1e-6) ++rank;
+    return qr.householderQ() * Matrix::Identity(columns.rows(), rank);
+  }
   Matrix image(const Matrix& x) const {  // A x
     const Matrix a = equations_.complete(x);
     Matrix rates = Matrix::Zero(equations_.unknowns(), x.cols()), w(equations_.unknowns(), x.cols());
@@ -91,8 +101,7 @@ class Search {
   bool is_taken(Index k) const { return std::find(taken_.begin(), taken_.end(), k) != taken_.end(); }
 
   bool take_motions() {
-    Matrix columns = units_.asDiagonal() * Q_;
-    const Matrix motions = zeros_.beyond(found_.directions, columns, rounding_of_directions);
+    const Matrix motions = zeros_.beyond(found_.directions, displacements_, rounding_of_directions);
     bool any = false;
     const std::vector<bool>& driven = zeros_.driven();
     Matrix seen = Q_;
@@ -134,7 +143,8 @@ class Search {
   const PerturbationEquations& equations_;
   const StructuralZeros zeros_;
   const RealVector units_;
-  Matrix Q_;  // in units
+  Matrix Q_;              // in units
+  Matrix displacements_;  // that there are in it
   std::vector<Index> taken_, fresh_;
   NearZero found_;
 };
@@ -149,6 +159,11 @@ Matrix NearZero::vectors() const {
   v = (directions * v).eval();
   v.colwise().normalize();
   return v;
+}
+
+NearZero all_structural_zeros(const LinearSystem& linear) {
+  const ZeroModes zero = split_zero_modes(linear.A, linear.rounding, linear.structural_zeros.get());
+  return {zero.right().leftCols(zero.count), zero.block.topLeftCorner(zero.count, zero.count)};
 }
 
 NearZero structural_zeros_near(const System& system, const Perturbation& perturbation, const Eigen::MatrixXcd& basis,

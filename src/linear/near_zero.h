@@ -18,6 +18,9 @@ struct NearZero {
   Eigen::MatrixXd vectors() const;
 };
 
+// Where the state matrix is affordable: all that eigensolve() finds (zero_modes.h).
+NearZero all_structural_zeros(const LinearSystem&);
+
 // `basis` holds the invariant subspace in columns of states that are orthonormal in `units`.
 NearZero structural_zeros_near(const System&, const Perturbation&, const Eigen::MatrixXcd& basis,
                                const Eigen::VectorXd& units);

@@ -46,11 +46,6 @@ class Solution {
         right_(op_, Side::right),
         left_(op_, Side::left) {
     zero_.directions.resize(op_.states(), 0);
-    int differential = 2;
-    for (std::size_t k = 0; k < perturbation.model.states.size(); ++k) {
-      const bool kinematic = k < perturbation.kinematic_states;
-      kind_.push_back(!kinematic ? differential++ : perturbation.model.states[k].is_rate ? 1 : 0);
-    }
   }
 
   Result<EigenSolution> run(Vectors vectors) {
@@ -82,7 +77,7 @@ class Solution {
       if (!std::isfinite(least) || (least >= 2 * shift && least <= 1e3 * shift)) break;
       shift = 0.2137 * least;
     }
-    op_.find_units(kind_);
+    op_.find_units();
     return true;
   }
 
@@ -100,7 +95,12 @@ class Solution {
     }
     const auto part = right_.part([&](Complex v) { return std::abs(v) <= near; });
     if (part.basis.cols() == 0) return true;
-    zero_ = structural_zeros_near(system_, perturbation_, op_.units().asDiagonal() * part.basis, op_.units());
+    constexpr Index most_for_state_matrix = 300;
+    if (op_.states() <= most_for_state_matrix) {
+      if (const auto linear = reduce(system_, perturbation_)) zero_ = all_structural_zeros(*linear);
+    } else {
+      zero_ = structural_zeros_near(system_, perturbation_, op_.units().asDiagonal() * part.basis, op_.units());
+    }
     return true;
   }
 
@@ -108,7 +108,15 @@ class Solution {
   std::vector<Complex> values() const {
     std::vector<Complex> all = right_.values();
     std::stable_sort(all.begin(), all.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
-    const double near = std::max(near_, 1e-6 * std::abs(op_.shift()));
+    // What is not real by no more than values are computed to is.
+    for (Complex& v : all) {
+      if (std::abs(v.imag()) <= 1e-10 * std::abs(v - op_.shift())) v.imag(0);
+    }
+    // So small they are zeros of long chains, or next to it, scattered by rounding.
+    const double near = std::max(near_, 1e-6 * std::abs(op_.shift())), scattered = 2e-3 * near;
+    for (Complex& v : all) {
+      if (std::abs(v) <= scattered) v.imag(0);
+    }
     for (std::size_t k = 0; k < all.size() && k < static_cast<std::size_t>(zero_.count()); ++k) {
       if (std::abs(all[k]) <= near) all[k] = 0;
     }
@@ -156,7 +164,7 @@ class Solution {
       const double modulus = cycle * nearest.frequency;
       right_ = EigenvalueSearch(op_, Side::right);
       if (!op_.move_to(Complex(beside_axis * modulus, modulus))) return false;
-      op_.find_units(kind_);
+      op_.find_units();
     }
     const Index per_mode = nearest.frequency > 0 ? 1 : 2;
     Index target = static_cast<Index>(std::min(nearest.count, static_cast<std::size_t>(op_.states()))) * per_mode + 4;
@@ -190,6 +198,7 @@ class Solution {
   }
   bool find_band(const ModesInBand& band) {
     region_ = region_of(band);
+    if (region_.high == 0) return find_nearest({0, 0});  // structural zeros alone
     right_ = EigenvalueSearch(op_, Side::right);
     constexpr Index at_a_time = 30, most_from_a_shift = 90;
     // The middle of the band, then of its halves, quarters …; on the real axis, for all from there.
@@ -201,7 +210,7 @@ class Solution {
         const Complex shift =
             both_members() ? Complex(beside_axis * region_.high) : Complex(beside_axis * middle, middle);
         if (!op_.move_to(shift)) continue;
-        if (level == 0) op_.find_units(kind_);
+        if (level == 0) op_.find_units();
         right_.follow_shift();
         shifts_.push_back(shift);
         const double all = std::hypot(region_.right + shift.real(), both_members() ? region_.high : half);
@@ -356,7 +365,6 @@ class Solution {
   const Perturbation& perturbation_;
   const PerturbationEquations& equations_;
   const ModeSelection wanted_;
-  std::vector<int> kind_;
   ShiftInverse op_;
   EigenvalueSearch right_, left_;
   std::vector<Complex> shifts_;  // where right vectors were found

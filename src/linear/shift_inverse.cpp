@@ -1,6 +1,5 @@
 #include "linear/shift_inverse.h"
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -34,33 +33,20 @@ bool ShiftInverse::move_to(Complex shift) {
   return probe.allFinite();
 }
 
-void ShiftInverse::find_units(const std::vector<int>& kind) {
-  constexpr int probes = 3, steps = 2;
-  constexpr double least_share = 1e-3;
-  Eigen::VectorXd size = Eigen::VectorXd::Zero(states());
-  for (int p = 0; p < probes; ++p) {
-    ComplexVector x = arbitrary_vector(states(), static_cast<unsigned>(11 + p)).cwiseProduct(unit_);
-    for (int s = 0; s < steps; ++s) {
-      x = x.cwiseQuotient(unit_);
-      apply(x);
-      x = x.cwiseProduct(unit_);
-      const double largest = x.cwiseAbs().maxCoeff();
-      if (!(largest > 0) || !std::isfinite(largest)) return;
-      x /= largest;
+void ShiftInverse::find_units() {
+  constexpr int rounds = 5;
+  constexpr double least_share = 1e-8;
+  for (int round = 0; round < rounds; ++round) {
+    ComplexVector of_rows = arbitrary_vector(states(), static_cast<unsigned>(11 + round)), of_columns = of_rows;
+    apply(of_rows), apply_adjoint(of_columns);
+    const Eigen::VectorXd row = of_rows.cwiseAbs(), column = of_columns.cwiseAbs();
+    if (!row.allFinite() || !column.allFinite()) return;
+    const double least_row = least_share * row.maxCoeff(), least_column = least_share * column.maxCoeff();
+    for (Eigen::Index k = 0; k < states(); ++k) {
+      if (!(row(k) > 0 && column(k) > 0) || (row(k) < least_row && column(k) < least_column)) continue;
+      // Powers of two: nothing is rounded by units.
+      unit_(k) *= std::exp2(std::round(0.5 * std::log2(row(k) / column(k))));
     }
-    size += x.cwiseAbs2();
-  }
-  size = size.cwiseSqrt();
-  std::vector<double> most(1 + static_cast<std::size_t>(*std::max_element(kind.begin(), kind.end())), 0.0);
-  const auto of = [&](Eigen::Index k) -> double& {
-    return most[static_cast<std::size_t>(kind[static_cast<std::size_t>(k)])];
-  };
-  for (Eigen::Index k = 0; k < states(); ++k) of(k) = std::max(of(k), size(k));
-  const double all = size.maxCoeff();
-  for (Eigen::Index k = 0; k < states(); ++k) {
-    // Powers of two: nothing is rounded by units.
-    const double unit = std::max({size(k), least_share * of(k), 1e-12 * all});
-    unit_(k) = std::exp2(std::round(std::log2(unit)));
   }
 }
 

@@ -18,9 +18,9 @@ class ShiftInverse {
   // False if the shift is an eigenvalue, as far as the factors can tell.
   bool move_to(std::complex<double> shift);
   std::complex<double> shift() const { return shift_; }
-  // Of the states, from what the operator makes of arbitrary vectors; coordinates and rates have at least a share of
-  // the largest of their kind.
-  void find_units(const std::vector<int>& kind);
+  // Balances the operator: what it makes of arbitrary vectors tells the sizes of its rows and columns (Chen and Demmel,
+  // Linear Algebra Appl. 309, 2000).
+  void find_units();
   const Eigen::VectorXd& units() const { return unit_; }
 
   Eigen::Index states() const { return unit_.size(); }
