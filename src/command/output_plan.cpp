@@ -42,7 +42,7 @@ std::vector<PlannedFile> planned_files(const std::deque<Job>& jobs, const Sessio
     if (job.xrf_digits > 0) list.push_back({job.prefix + ".res", "the results file", {}});
     if (requests) list.push_back({job.prefix + ".req", "the request file", {}});
     if (graphics) list.push_back({job.prefix + ".gra", "the graphics file", {}});
-    const bool has_requests = !job.stages.empty() && (job.model().has("REQUEST") || job.model().has("MREQUEST"));
+    const bool has_requests = !job.stages.empty() && job.model().has(Kind::Gives::requests);
     if (request_tables && has_requests) list.push_back({job.prefix + ".out", "the file of request tables", {}});
     list.push_back({job.prefix + ".msg", "the message file", {}});
   }

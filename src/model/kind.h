@@ -56,6 +56,9 @@ struct Kind {
   // or on each of its I markers.
   enum class EnergyRows : std::uint8_t { none, one, each_marker };
 
+  // What of its elements is known at an operating point. What only watches the model exerts nothing.
+  enum class Gives : std::uint8_t { forces, value, plant_inputs, plant_outputs, events, requests };
+
   std::string_view statement;  // "JOINT"
   std::string_view variant;    // "REVOLUTE", empty if the statement has one kind only
   std::string_view summary;    // one sentence for the help
@@ -65,6 +68,7 @@ struct Kind {
   EnergyRows energy_rows = EnergyRows::none;
   bool can_be_deactivated = false;  // a command takes elements out of the model and into it again
   bool holds_for_good = false;      // no command defines it anew
+  Gives gives = Gives::forces;
   std::string_view example{};       // of a command that defines arguments anew, "PART/2, MASS=3.5"
 
   constexpr Kind deactivatable() const {
@@ -82,10 +86,20 @@ struct Kind {
     kind.example = command;
     return kind;
   }
+  constexpr Kind giving(Gives what) const {
+    Kind kind = *this;
+    kind.gives = what;
+    return kind;
+  }
 };
 
 // Whether a command NAME/id, ARG=… defines arguments of such a statement anew.
 constexpr bool can_be_redefined(const Kind& kind) { return kind.role != Kind::Role::inert && !kind.holds_for_good; }
+
+// Whether functions may ask for the force of an element.
+constexpr bool can_exert(const Kind& kind) {
+  return kind.role != Kind::Role::inert && kind.gives == Kind::Gives::forces;
+}
 
 using Catalogue = std::span<const Kind* const>;
 

@@ -12,9 +12,9 @@ std::optional<ElementHandle> Model::find(std::string_view statement, std::int64_
   return it->second;
 }
 
-bool Model::has(std::string_view statement) const {
+bool Model::has(Kind::Gives what) const {
   return std::any_of(sets.begin(), sets.end(),
-                     [&](const auto& set) { return set->kind().statement == statement && set->size() > 0; });
+                     [&](const auto& set) { return set->kind().gives == what && set->size() > 0; });
 }
 
 std::optional<MarkerId> Model::find_marker(std::int64_t id) const {

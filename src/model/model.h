@@ -72,7 +72,7 @@ struct Model {
   std::optional<MarkerId> find_marker(std::int64_t id) const;  // 0 is the global frame
   std::optional<BodyId> find_body(std::string_view statement, std::int64_t id) const;
 
-  bool has(std::string_view statement) const;  // whether any element of that statement is there
+  bool has(Kind::Gives what) const;  // whether any element gives that
   const ElementSet& set(ElementHandle h) const { return *sets[static_cast<std::size_t>(h.set)]; }
   const ElementLabel& label(ElementHandle h) const { return set(h).labels[static_cast<std::size_t>(h.index)]; }
   // The element of a handle, nothing if it is of another type.

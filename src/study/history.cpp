@@ -13,7 +13,7 @@ std::vector<Variable> variables_of(const Model& model) {
   std::vector<Variable> list;
   for (std::size_t s = 0; s < model.sets.size(); ++s) {
     const ElementSet& set = *model.sets[s];
-    if (!set.active || set.kind().statement != "VARIABLE") continue;
+    if (!set.active || set.kind().gives != Kind::Gives::value) continue;
     for (std::size_t k = 0; k < set.size(); ++k)
       list.push_back({{static_cast<std::int32_t>(s), static_cast<std::int32_t>(k)}, &set.labels[k]});
   }

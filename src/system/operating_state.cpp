@@ -131,18 +131,18 @@ class Reading {
     for (std::size_t s = 0; s < model_.sets.size(); ++s) {
       const ElementSet& set = *model_.sets[s];
       if (!set.active) continue;
-      const std::string_view statement = set.kind().statement;
+      const Kind::Gives gives = set.kind().gives;
       for (std::size_t k = 0; k < set.size(); ++k) {
         const ElementLabel& label = set.labels[k];
         const ElementHandle handle{static_cast<std::int32_t>(s), static_cast<std::int32_t>(k)};
-        if (statement == "VARIABLE") {
+        if (gives == Kind::Gives::value) {
           state_.variables.push_back(
               {label.id, std::string(label.view_name), value(system_.signals().variable({handle}))});
-        } else if (statement == "PINPUT" || statement == "POUTPUT") {
+        } else if (gives == Kind::Gives::plant_inputs || gives == Kind::Gives::plant_outputs) {
           ChannelValues c{label.text(), std::string(label.view_name), {}};
           for (const VariableRef v : model_.get<VariableList>(handle)->variables)
             c.values.push_back(value(system_.signals().variable(v)));
-          (statement == "PINPUT" ? state_.plant_inputs : state_.plant_outputs).push_back(std::move(c));
+          (gives == Kind::Gives::plant_inputs ? state_.plant_inputs : state_.plant_outputs).push_back(std::move(c));
         }
       }
     }

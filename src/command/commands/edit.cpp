@@ -10,10 +10,7 @@ StudyResult<void> Edit::run(RunState& run) const {
   const std::set<std::string> before = std::exchange(run.inactive, {});
   for (const auto& set : run.system().model().sets) {
     if (set->active) continue;
-    // What reads the model and acts on nothing has no force that a function could ask for.
-    const std::string_view statement = set->kind().statement;
-    const bool exerts = set->kind().role != Kind::Role::inert && statement != "SENSOR" && statement != "REQUEST" &&
-                        statement != "MREQUEST";
+    const bool exerts = can_exert(set->kind());
     for (const ElementLabel& label : set->labels) {
       const std::string name = label.full_text();
       run.inactive.insert(name);

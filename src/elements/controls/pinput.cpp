@@ -6,6 +6,7 @@
 
 namespace dynalin {
 
-extern constinit const Kind pinput = variable_list("PINPUT", "Plant inputs: columns of B and D.");
+extern constinit const Kind pinput =
+    variable_list("PINPUT", "Plant inputs: columns of B and D.").giving(Kind::Gives::plant_inputs);
 
 }  // namespace dynalin

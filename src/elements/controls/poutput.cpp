@@ -6,6 +6,7 @@
 
 namespace dynalin {
 
-extern constinit const Kind poutput = variable_list("POUTPUT", "Plant outputs: rows of C and D.");
+extern constinit const Kind poutput =
+    variable_list("POUTPUT", "Plant outputs: rows of C and D.").giving(Kind::Gives::plant_outputs);
 
 }  // namespace dynalin

@@ -204,6 +204,7 @@ extern constinit const Kind sensor =
          detail::argument_infos<Sensor>,
          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<SensorSet>(kind); }}
         .deactivatable()
+        .giving(Kind::Gives::events)
         .with_example("SENSOR/1, VALUE=0.5");
 
 }  // namespace dynalin

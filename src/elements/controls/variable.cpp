@@ -38,14 +38,14 @@ class VariableSet final : public TypedSet<Variable> {
 
 const Expression& variable_function(const Model& model, VariableRef ref) { return model.get<Variable>(ref)->function; }
 
-extern constinit const Kind variable = Kind{
-    "VARIABLE",
-    "",
-    "An algebraic value given by an expression.",
-    Kind::Role::element,
-    detail::argument_infos<Variable>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-      return std::make_unique<VariableSet>(kind);
-    }}.with_example("VARIABLE/1, FUNCTION=0.5");
+extern constinit const Kind variable =
+    Kind{"VARIABLE",
+         "",
+         "An algebraic value given by an expression.",
+         Kind::Role::element,
+         detail::argument_infos<Variable>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<VariableSet>(kind); }}
+        .giving(Kind::Gives::value)
+        .with_example("VARIABLE/1, FUNCTION=0.5");
 
 }  // namespace dynalin

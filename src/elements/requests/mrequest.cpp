@@ -230,6 +230,7 @@ extern constinit const Kind mrequest =
          detail::argument_infos<ManyRequests>,
          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<ManyRequestsSet>(kind); }}
         .deactivatable()
+        .giving(Kind::Gives::requests)
         .with_example("MREQUEST/1, FORCE, JOINTS=ALL");
 
 }  // namespace dynalin

@@ -230,6 +230,7 @@ extern constinit const Kind request =
          detail::argument_infos<Request>,
          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<RequestSet>(kind); }}
         .deactivatable()
+        .giving(Kind::Gives::requests)
         .with_example("REQUEST/1, DISPLACEMENT, I=20, J=1");
 
 }  // namespace dynalin
