@@ -14,5 +14,5 @@ configure_package_config_file(cmake/DynalinConfig.cmake.in DynalinConfig.cmake I
 write_basic_package_version_file(DynalinConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/DynalinConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/DynalinConfigVersion.cmake
-  cmake/FindKLU.cmake cmake/FindMUMPS.cmake cmake/FindMETIS.cmake
+  cmake/FindKLU.cmake cmake/FindMUMPS.cmake cmake/FindMETIS.cmake cmake/FindMATIO.cmake
   DESTINATION ${package})

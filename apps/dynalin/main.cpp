@@ -80,6 +80,11 @@ int run(int argc, char** argv) {
   run->add_option("-c", options.commands, "a command, may be repeated")->allow_extra_args(false);
   run->add_option("--json", options.json, "write everything computed to this file");
   run->add_option("--output", options.output_prefix, "prefix of the output files");
+  run->add_option("--modes", options.modes, "so many of the lowest modes of every LINEAR/EIGENSOL instead of all")
+      ->check(CLI::PositiveNumber);
+  run->add_option("--dense-up-to", options.dense_up_to,
+                  "states up to which selected modes are taken out of all (400) and state matrices are formed (5000)")
+      ->check(CLI::NonNegativeNumber);
   run->add_flag("--keep-going", options.keep_going, "go on after a command that failed");
   run->add_flag("--bounds", options.bounds, "say how exact each eigenvalue is");
   run->add_flag("--state", options.state, "print every operating point: positions, velocities, reactions, forces ...");

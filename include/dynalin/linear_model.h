@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "dynalin/descriptor_form.h"
 #include "dynalin/linear_request.h"
 #include "dynalin/modal_table.h"
 #include "dynalin/operating_point.h"
@@ -16,20 +17,25 @@ struct Modes : EigenSolution {
   std::vector<Remark> remarks;  // what makes them other than they look
 };
 
-// Constant. Results are computed when they are asked for.
+// Constant. Results are computed when they are asked for; whatever needs the state matrix forms it, once.
 class LinearModel {
  public:
-  // s' = A s + B u, y = C s + D u.
+  // s' = A s + B u, y = C s + D u. These and the next throw above LinearRequest::dense_up_to states.
   StateSpace state_space() const;
   // M s″ + B s′ + K s = P u.
   SecondOrder second_order() const;
+  // The same with all equations kept, sparse, whatever the size of the model.
+  DescriptorForm descriptor_form() const;
   // The same as forces: M, C and K of the mechanism along the chosen coordinates, and what each element contributes to
   // them, in the order of the dataset.
   PhysicalMatrices physical_matrices() const;
   std::vector<ElementMatrices> element_matrices() const;
   // Eigenvalues and mode shapes, or eigenvalues alone.
   Modes modes(bool with_shapes = true) const;
-  // What moves in them, and where the energy is; `modes` are those of this model.
+  // Some of them, with the same values, vectors and bounds; `selected` says whether they are all that was asked for.
+  // Large models are solved for these alone: time and memory grow with the model, not with the cube and square of it.
+  Modes modes(const ModeSelection&, bool with_shapes = true) const;
+  // What moves in them, and where the energy is; `modes` are those of this model. ENERGY_PER_MODE needs all of them.
   ModalTables tables(const EigenSolution& modes, const ModalTableRequest&) const;
 
   const LinearRequest& request() const;

@@ -21,6 +21,7 @@ class Record {
   void add(const std::string& command, const Simulation&);
   void add(const std::string& command, const LinearModel&, const StateSpace&);
   void add(const std::string& command, const LinearModel&, const SecondOrder&);
+  void add(const std::string& command, const LinearModel&, const DescriptorForm&);
   void add(const std::string& command, const LinearModel&, const Modes&, const ModalTables& = {});
   // Something that was done at a time and has no result.
   void add(const std::string& command, double time);

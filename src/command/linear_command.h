@@ -3,6 +3,7 @@
 
 #include "command/command_reader.h"
 #include "dynalin/modal_table.h"
+#include "dynalin/mode_selection.h"
 
 namespace dynalin {
 
@@ -16,6 +17,8 @@ struct LinearCommand {
   std::string_view type;  // of an export, "OPENBOX" or "CLOSEDBOX"
   ModalTableRequest tables;
   int table_precision = 2;
+  std::optional<ModeSelection> selection;  // nothing: all modes
+  bool descriptor = false;
 };
 
 // Reports every rule that is broken.

@@ -71,6 +71,60 @@ TEST(LinearTables, of_some_kinds_are_asked_for_by_frequency) {
   }
 }
 
+std::optional<ModeSelection> selection_of(const std::string& arguments) {
+  const auto parsed = read("EIGENSOL, " + arguments);
+  EXPECT_FALSE(parsed.diagnostics.has_errors()) << render(parsed.diagnostics);
+  if (parsed.diagnostics.has_errors()) return std::nullopt;
+  return action_of<commands::Linear>(parsed.value.commands.front())->command.selection;
+}
+// The code of the only problem and the column of its caret.
+std::pair<std::string, std::size_t> problem_of(const std::string& arguments) {
+  const auto parsed = read(arguments);
+  EXPECT_EQ(parsed.diagnostics.items().size(), 1u) << arguments << "\n" << render(parsed.diagnostics);
+  if (parsed.diagnostics.items().empty()) return {};
+  const Diagnostic& d = parsed.diagnostics.items().front();
+  return {std::string(d.code), d.at.offset + 1};
+}
+
+TEST(LinearSelection, is_a_number_of_modes_near_a_frequency_or_a_band) {
+  const auto nearest = std::get<NearestModes>(selection_of("NMODES=20, NEAR=3.5").value());
+  EXPECT_EQ(nearest.count, 20u);
+  EXPECT_EQ(nearest.frequency, 3.5);
+  EXPECT_EQ(std::get<NearestModes>(selection_of("NMODES=1").value()).frequency, 0);
+  const auto band = std::get<ModesInBand>(selection_of("BAND=0,2.5").value());
+  EXPECT_EQ(band.low, 0);
+  EXPECT_EQ(band.high, 2.5);
+  EXPECT_FALSE(selection_of("COORDS=1,3").has_value());
+}
+
+TEST(LinearSelection, is_held_to_rules_each_of_which_points_at_its_argument) {
+  using Problem = std::pair<std::string, std::size_t>;
+  EXPECT_EQ(problem_of("EIGENSOL, NMODES=3, BAND=1,2"), Problem("excluded-arguments", 28));
+  EXPECT_EQ(problem_of("EIGENSOL, NEAR=2"), Problem("missing-argument", 18));
+  EXPECT_EQ(problem_of("EIGENSOL, BAND=2,1"), Problem("value-out-of-range", 18));
+  EXPECT_EQ(problem_of("EIGENSOL, BAND=-1,1"), Problem("value-out-of-range", 18));
+  EXPECT_EQ(problem_of("EIGENSOL, BAND=1,1"), Problem("value-out-of-range", 18));
+  EXPECT_EQ(problem_of("EIGENSOL, BAND=1"), Problem("wrong-count", 18));
+  EXPECT_EQ(problem_of("EIGENSOL, BAND=1,2,3"), Problem("wrong-count", 18));
+  EXPECT_EQ(problem_of("EIGENSOL, NMODES=0").first, "value-out-of-range");
+  EXPECT_EQ(problem_of("EIGENSOL, NMODES=-5").first, "value-out-of-range");
+  EXPECT_EQ(problem_of("EIGENSOL, NMODES=1, NEAR=-5").first, "value-out-of-range");
+  EXPECT_EQ(problem_of("EIGENSOL, NMODES=1.5").first, "expected-integer");
+  EXPECT_EQ(problem_of("EIGENSOL, NMODES=5, ENERGY_PER_MODE=ALL"), Problem("excluded-arguments", 28));
+  EXPECT_EQ(problem_of("STATEMAT, FILE=a, NMODES=3"), Problem("wrong-option", 26));
+  EXPECT_EQ(problem_of("MKB, FILE=a, BAND=1,3"), Problem("wrong-option", 21));
+  EXPECT_EQ(problem_of("EIGENSOL, DESCRIPTOR"), Problem("wrong-option", 18));
+  EXPECT_EQ(problem_of("MKB, FILE=a, DESCRIPTOR"), Problem("wrong-option", 21));
+  EXPECT_EQ(problem_of("STATEMAT, FILE=a, FORMAT=MATLAB, DESCRIPTOR"), Problem("excluded-arguments", 41));
+  EXPECT_EQ(problem_of("STATEMAT, FILE=-, DESCRIPTOR"), Problem("wrong-option", 18));
+}
+
+// Short forms of the original arguments mean what they did before there were others.
+TEST(LinearSelection, leaves_abbreviations_what_they_were) {
+  EXPECT_TRUE(request_of("EIGENSOL, D=1").modes.contains("DISSIPAT"));
+  EXPECT_TRUE(request_of("EIGENSOL, K=1, ENERGY=1").modes.contains("ENERGY_PER_MODE"));
+}
+
 // What could not be read was reported then; nothing is made of the rest, whose rules nobody has looked at.
 TEST(LinearTables, of_a_command_that_was_not_read_whole_ask_for_nothing) {
   for (const char* written : {"EIGENSOL, FSTRAIN==1", "EIGENSOL, COORDS==", "STATEMAT==, FSTRAIN=1"}) {

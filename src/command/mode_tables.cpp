@@ -17,6 +17,10 @@ std::string mode_tables_text(const LinearCommand& command, const EigenSolution& 
   if (found.energies) write_energies(out, format, *found.energies, wanted("ENERGY_PER_MODE"));
   if (found.masses)
     write_masses(out, format, *found.masses, command.tables.modal_rm.value_or(0), wanted("MASS_PER_MODE"));
+  if (found.masses && modes.selected) {
+    out << "  Sums and percentages are those of selected modes: what Sum lacks of Model is in modes that were not "
+           "asked for.\n\n";
+  }
   return out.str();
 }
 

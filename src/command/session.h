@@ -1,6 +1,7 @@
 // One run of the program: reads and checks everything, runs the commands, writes the files.
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -19,6 +20,8 @@ struct SessionOptions {
   bool state = false;                         // every operating point in full on the terminal
   std::optional<double> user_value;           // in the place of compiled routines
   bool pade = false;                          // a DELAY as a Padé approximant with a state of its own
+  std::optional<std::int64_t> modes;          // NMODES of every EIGENSOL that selects none itself
+  std::optional<std::size_t> dense_up_to;     // states (LinearRequest)
   std::optional<std::string> standard_input;  // its text, where that is the command file or has the commands for `file`
 };
 

@@ -56,6 +56,7 @@ constexpr auto short_forms = std::to_array<ShortForm>({
     {"C", "COLUMNS"},
     {"FLE", "FLEX_BODY"},
     {"A", "ACTIONONLY"},
+    {"D", "DISSIPAT"},
     // kinds of joints
     {"C", "CYLINDRICAL"},
     {"T", "TRANSLATIONAL"},

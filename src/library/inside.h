@@ -32,9 +32,21 @@ struct OperatingPoint::Inside {
 };
 
 struct LinearModel::Inside {
-  Linearization linear;
+  Linearization linear;  // without state matrix where selected modes are cheaper without
   OperatingPoint about;
   std::vector<Remark> remarks;
+
+  Inside(Linearization, OperatingPoint about, std::vector<Remark>);
+  // With the state matrix; throws where there is none.
+  const Linearization& whole() const;
+  // For who asks for matrices: throws where they are too large.
+  const Linearization& whole_of_matrices() const;
+  // What forming it had to say; nothing where nobody has asked for it.
+  std::vector<Remark> remarks_of_whole() const;
+
+ private:
+  mutable std::once_flag formed_;
+  mutable std::optional<Linearization> whole_;
 };
 
 // `said` are remarks that came before, and that the error takes along.

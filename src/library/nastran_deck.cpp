@@ -11,11 +11,13 @@ namespace dynalin::library {
 
 NastranDeck nastran_deck(const LinearModel& model, NastranBox which, const std::string& name,
                          const std::string& configuration) {
-  const Linearization& linear = model.inside().linear;
   const nastran::Box box = which == NastranBox::open ? nastran::Box::open : nastran::Box::closed;
   auto read = nastran::read_configuration(std::make_shared<const SourceText>("configuration", configuration), box);
-  nastran::check_references(read.value, linear.system->model(), read.diagnostics);
+  nastran::check_references(read.value, model.inside().linear.system->model(), read.diagnostics);
   if (read.diagnostics.has_errors()) throw Error(render(read.diagnostics), remarks_of(read.diagnostics));
+  // An open box is put together element by element.
+  const bool of_elements = box == nastran::Box::open && !read.value.options.export_mode_shapes;
+  const Linearization& linear = of_elements ? model.inside().linear : model.inside().whole();
   NastranDeck deck;
   deck.remarks = remarks_of(read.diagnostics);
   nastran::ExportedDeck made =

@@ -54,8 +54,13 @@ void Record::add(const std::string& command, const Simulation& simulation) {
 
 void Record::add(const std::string& command, const LinearModel& of, const StateSpace& result) {
   inside_->add_linear(command, of, result);
+  inside_->warn(command, of.inside().remarks_of_whole());
 }
 void Record::add(const std::string& command, const LinearModel& of, const SecondOrder& result) {
+  inside_->add_linear(command, of, result);
+  inside_->warn(command, of.inside().remarks_of_whole());
+}
+void Record::add(const std::string& command, const LinearModel& of, const DescriptorForm& result) {
   inside_->add_linear(command, of, result);
 }
 void Record::add(const std::string& command, const LinearModel& of, const Modes& result, const ModalTables& tables) {

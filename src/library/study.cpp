@@ -74,7 +74,9 @@ LinearModel Study::linearize(const OperatingPoint& from, const LinearRequest& re
   const bool ready = from.is_consistent();
   const OperatingPoint point = ready ? from : initial_conditions(from);
   std::vector<Remark> remarks = ready ? std::vector<Remark>{} : point.remarks();
-  Linearization linear = value_or_throw(linearized(point.inside().point, request), remarks);
+  const Reduction reduction{request.dense_up_to.value_or(selected_from_all_up_to)};
+  Linearization linear =
+      value_or_throw(linearized(point.inside().point, request, Stateless::refused, reduction), remarks);
   append(remarks, remarks_of(linear.remarks()));
   OperatingPoint about = point;
   if (linear.at_rest_as_found) {
@@ -82,12 +84,14 @@ LinearModel Study::linearize(const OperatingPoint& from, const LinearRequest& re
     at_rest.point.values = linear.point;
     about = OperatingPoint(std::make_shared<const OperatingPoint::Inside>(std::move(at_rest)));
   }
-  return LinearModel(std::make_shared<const LinearModel::Inside>(
-      LinearModel::Inside{std::move(linear), std::move(about), std::move(remarks)}));
+  return LinearModel(
+      std::make_shared<const LinearModel::Inside>(std::move(linear), std::move(about), std::move(remarks)));
 }
 
-StateSpace LinearModel::state_space() const { return inside_->linear.linear.model; }
-SecondOrder LinearModel::second_order() const { return value_or_throw(second_order_form(inside_->linear)); }
+StateSpace LinearModel::state_space() const { return inside_->whole_of_matrices().linear.model; }
+SecondOrder LinearModel::second_order() const {
+  return value_or_throw(second_order_form(inside_->whole_of_matrices()));
+}
 
 PhysicalMatrices LinearModel::physical_matrices() const { return equations_of(*inside_).whole(); }
 
@@ -99,7 +103,17 @@ std::vector<ElementMatrices> LinearModel::element_matrices() const {
 }
 
 Modes LinearModel::modes(bool with_shapes) const {
-  ModesFound found = value_or_throw(modes_of(inside_->linear, with_shapes ? Vectors::right : Vectors::none));
+  std::vector<Remark> remarks = remarks_of(cost_of_all_modes(inside_->linear.states()));
+  const Linearization& whole = inside_->whole();
+  append(remarks, inside_->remarks_of_whole());
+  ModesFound found = value_or_throw(modes_of(whole, with_shapes ? Vectors::right : Vectors::none), remarks);
+  append(remarks, remarks_of(found.remarks));
+  return {std::move(found.solution), std::move(remarks)};
+}
+
+Modes LinearModel::modes(const ModeSelection& selection, bool with_shapes) const {
+  const Vectors wanted = with_shapes ? Vectors::right : Vectors::none;
+  ModesFound found = value_or_throw(modes_of(inside_->linear, wanted, selection));
   return {std::move(found.solution), remarks_of(found.remarks)};
 }
 

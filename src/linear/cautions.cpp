@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "linear/configuration.h"
+#include "linear/reach.h"
 
 namespace dynalin {
 
@@ -37,20 +38,12 @@ void empty_rows(const System& system, const OperatingPoint& op, Diagnostics& out
 
 void disproportion(const System& system, const LinearSystem& linear, Diagnostics& out) {
   constexpr double far = 1e5;
-  double largest = far;
-  std::int32_t mover = -1;
-  std::size_t chosen = 0;
-  for (std::size_t k = 0; k < linear.kinematic_states; ++k) {
-    const double unit = linear.scales[k];
-    if (unit == 0) continue;
-    const double moved = linear.reach[k].size * unit;
-    if (moved > largest) largest = moved, mover = linear.reach[k].coordinate, chosen = k;
-  }
-  if (mover < 0) return;
-  const StateLabel& s = linear.model.states[chosen];
+  const auto found = largest_disproportion(system, linear, far);
+  if (!found) return;
+  const StateLabel& s = linear.model.states[found->state];
   out.warning("near-singular", {},
               fmt::format("near a singular configuration: {} moves {:.1e} times as far as the chosen {} of {}",
-                          system.layout().coordinate_text(mover), largest, s.text, s.owner.text()));
+                          system.layout().coordinate_text(found->coordinate), found->times, s.text, s.owner.text()));
 }
 
 void motion(const System& system, const OperatingPoint& op, const EigenSolution& modes, Diagnostics& out) {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <random>
 
 #include "analysis/acceleration_rounding.h"
 #include "analysis/displace.h"
+#include "linear/reach.h"
 #include "system/elimination.h"
 #include "system/sparse_lu.h"
 
@@ -131,16 +131,9 @@ Eigen::MatrixXd rounding_of_velocities(const System& system, const OperatingPoin
 
 namespace {
 
-// A thousandth of the model away along the chosen coordinates, in different shares so that no symmetry survives.
+// A thousandth of the model away along the chosen coordinates, so that no symmetry survives.
 std::optional<OperatingPoint> nearby(const System& system, const OperatingPoint& op, const LinearSystem& linear) {
-  Eigen::VectorXcd direction = Eigen::VectorXcd::Zero(linear.A.rows());
-  double share = 1;
-  for (std::size_t k = 0; k < linear.kinematic_states; ++k) {
-    if (linear.model.states[k].is_rate) continue;
-    if (const double size = linear.reach[k].size; size > 0) direction(static_cast<Eigen::Index>(k)) = share / size;
-    share *= -std::numbers::phi / 2;
-  }
-  const Eigen::VectorXd step = linear.displacements(direction).col(0).real();
+  const Eigen::VectorXd step = uneven_motion(system, linear);
   constexpr double distance = 1e-3;
   OperatingPoint there = op;
   displace(system, there, distance * step, {1.0});

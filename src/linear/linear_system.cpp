@@ -151,27 +151,63 @@ bool same_model(const LinearSystem& one, const LinearSystem& other) {
          !differs(one.model.B, other.model.B) && !differs(one.model.C, other.model.C);
 }
 
+// Whether constraints are left out that are not quite redundant: refused where the model has more freedoms for it than
+// beside this point, a warning elsewhere.
+Result<void> look_at_near_dependence(const System& system, OperatingPoint op, LinearSystem& linear) {
+  op.mode = AnalysisMode::linear;
+  const NearDependence near = near_dependence(system, op);
+  if (!(near.distance > 0)) return {};
+  if (const auto gained = freedoms_gained(system, op, linear)) {
+    return tl::unexpected(Failure{
+        "linear analysis",
+        fmt::format("the configuration is too near a singular one: {} all but depend{} on other constraints (relative "
+                    "distance below {:.0e}) and would leave {} more degree{} of freedom than right beside this point",
+                    names_of(system, gained->rows), gained->rows.size() == 1 ? "s" : "", near.distance, gained->count,
+                    gained->count == 1 ? "" : "s"),
+        {}});
+  }
+  linear.warnings.warning(
+      "constraint-left-out", system.layout().rows[static_cast<std::size_t>(near.rows.front())].owner->at,
+      fmt::format("{} depend{} on other constraints but for less than {:.0e} of {} size, and {} left out as redundant",
+                  names_of(system, near.rows), near.rows.size() == 1 ? "s" : "", near.distance,
+                  near.rows.size() == 1 ? "its" : "their", near.rows.size() == 1 ? "is" : "are"));
+  return {};
+}
+
+Result<LinearSystem> unreduced(const System& system, const OperatingPoint& op, Perturbation perturbation) {
+  LinearSystem linear;
+  static_cast<Perturbation&>(linear) = std::move(perturbation);
+  if (auto looked = look_at_near_dependence(system, op, linear); !looked) return tl::unexpected(looked.error());
+  return linear;
+}
+
+// Some things are seen in the state matrix alone: whether freedoms without mass that move have a linear model, and the
+// block that the original implementation takes out of it.
+bool needs_state_matrix(const Perturbation& p) {
+  if (p.at->massless && !p.at->massless->at_rest) return true;
+  return p.at->without_damping && p.at->without_rate_coupling && p.differential_states > 0;
+}
+
 }  // namespace
 
 Result<LinearSystem> linearize_unreduced(const System& system, OperatingPoint op, const LinearOptions& options) {
   auto perturbation = perturb(system, op, options);
   if (!perturbation) return tl::unexpected(perturbation.error());
-  // Near a singular configuration the state matrix tells whether to refuse.
-  OperatingPoint point = op;
-  point.mode = AnalysisMode::linear;
-  if (near_dependence(system, point).distance > 0) return linearize(system, std::move(op), options);
-  LinearSystem linear;
-  static_cast<Perturbation&>(linear) = std::move(*perturbation);
-  return linear;
+  return unreduced(system, op, std::move(*perturbation));
 }
 
-Result<LinearSystem> linearize(const System& system, OperatingPoint op, const LinearOptions& options) {
+Result<LinearSystem> linearize(const System& system, OperatingPoint op, const LinearOptions& options,
+                               std::size_t up_to) {
   const auto at = [&](const OperatingPoint& point) -> Result<LinearSystem> {
     auto perturbation = perturb(system, point, options);
     if (!perturbation) return tl::unexpected(perturbation.error());
     return reduce(system, std::move(*perturbation));
   };
-  auto linear = at(op);
+  auto perturbation = perturb(system, op, options);
+  if (!perturbation) return tl::unexpected(perturbation.error());
+  if (perturbation->model.states.size() > up_to && !needs_state_matrix(*perturbation))
+    return unreduced(system, op, std::move(*perturbation));
+  auto linear = reduce(system, std::move(*perturbation));
   if (!linear) return linear;
   if (const auto& massless = linear->at->massless; massless && !massless->at_rest) {
     const MasslessLimit& limit = massless->limit;
@@ -188,25 +224,8 @@ Result<LinearSystem> linearize(const System& system, OperatingPoint op, const Li
                   {}});
     }
   }
+  if (auto looked = look_at_near_dependence(system, op, *linear); !looked) return tl::unexpected(looked.error());
   op.mode = AnalysisMode::linear;
-  if (const NearDependence near = near_dependence(system, op); near.distance > 0) {
-    if (const auto gained = freedoms_gained(system, op, *linear)) {
-      return tl::unexpected(Failure{
-          "linear analysis",
-          fmt::format(
-              "the configuration is too near a singular one: {} all but depend{} on other constraints (relative "
-              "distance below {:.0e}) and would leave {} more degree{} of freedom than right beside this point",
-              names_of(system, gained->rows), gained->rows.size() == 1 ? "s" : "", near.distance, gained->count,
-              gained->count == 1 ? "" : "s"),
-          {}});
-    }
-    linear->warnings.warning(
-        "constraint-left-out", system.layout().rows[static_cast<std::size_t>(near.rows.front())].owner->at,
-        fmt::format(
-            "{} depend{} on other constraints but for less than {:.0e} of {} size, and {} left out as redundant",
-            names_of(system, near.rows), near.rows.size() == 1 ? "s" : "", near.distance,
-            near.rows.size() == 1 ? "its" : "their", near.rows.size() == 1 ? "is" : "are"));
-  }
   const Matrix of_velocities = rounding_of_velocities(system, op, *linear, at);
   if (of_velocities.size() == 0) return linear;
   linear->uncertainty += of_velocities;

@@ -2,6 +2,7 @@
 // chosen coordinates (state_choice.h).
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -76,11 +77,12 @@ struct LinearSystem : Perturbation {
 Result<Perturbation> perturb(const System&, const OperatingPoint&, const LinearOptions&);
 // Forms A, B, C and D.
 Result<LinearSystem> reduce(const System&, Perturbation);
-// The equations for who takes them as an operator. The state matrix is formed only where constraints are left out that
-// are not quite redundant, for what linearize() has to say of that.
+// The equations for who takes no more than what elements contribute to them.
 Result<LinearSystem> linearize_unreduced(const System&, OperatingPoint, const LinearOptions&);
 // Both. Refused where the roundings of the point alone decide the state matrix, with a warning where they leave few
-// digits of it.
-Result<LinearSystem> linearize(const System&, OperatingPoint, const LinearOptions&);
+// digits of it. A model of more than `up_to` states remains an operator without state matrix, unless that alone tells
+// whether it has a linear model: where freedoms without mass move.
+Result<LinearSystem> linearize(const System&, OperatingPoint, const LinearOptions&,
+                               std::size_t up_to = std::numeric_limits<std::size_t>::max());
 
 }  // namespace dynalin

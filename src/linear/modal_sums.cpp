@@ -87,7 +87,7 @@ Result<AlongStates> along_states(const System& system, const LinearSystem& linea
   const double factor = system.model().units.ucf;
   if (!linear.has_massless_states)
     return AlongStates{factor * Q.of_accelerations, factor * Q.of_rates, factor * Q.of_coordinates};
-  const Index states = linear.A.rows();
+  const auto states = static_cast<Index>(linear.model.states.size());
   const Eigen::MatrixXcd unit = Matrix::Identity(states, states)(Eigen::all, position).cast<Complex>();
   const Matrix dq = linear.displacements(unit).real(), dqdot = linear.velocities(unit).real();
   const std::vector<std::vector<StateChoice::Entry>>& gradient = linear.at->with_massless->gradient;
@@ -146,10 +146,9 @@ Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint
                                   "not share out its energy",
                                   {}});
   }
-  const auto n = static_cast<Index>(position.size());
+  const auto n = static_cast<Index>(position.size()), states = static_cast<Index>(linear.model.states.size());
   const MassRoot root(system, op);
-  const Matrix B =
-      root.of(linear.velocities(Matrix::Identity(linear.A.rows(), linear.A.rows())(Eigen::all, rate)).real());
+  const Matrix B = root.of(linear.velocities(Matrix::Identity(states, states)(Eigen::all, rate)).real());
   const Matrix M = B.transpose() * B;
   const auto along = along_states(system, linear, position);
   if (!along) return tl::unexpected(along.error());

@@ -28,24 +28,27 @@ PerturbedPoint::PerturbedPoint(const System& system, const OperatingPoint& op, c
                     PartialBy::lambda, PartialBy::algebraic, PartialBy::state, PartialBy::state_rate});
 }
 
-Eigen::MatrixXd PerturbedPoint::outputs_of(const PerturbationEquations& p, const Eigen::MatrixXd& a) const {
-  const Eigen::Index n = p.coordinates(), w = p.augmented() + first_algebraic_;
-  Eigen::MatrixXd seen_of(static_cast<Eigen::Index>(outputs.size()), a.cols());
-  if (a.cols() == 0) return seen_of;
-  for (std::size_t k = 0; k < outputs.size(); ++k) seen_of.row(static_cast<Eigen::Index>(k)) = a.row(w + outputs[k]);
-  if (!without_damping) return seen_of;
-  // Outputs keep what they see of velocities.
-  Eigen::VectorXd seen(equations.size());
-  for (Eigen::Index c = 0; c < a.cols(); ++c) {
-    const Eigen::VectorXd rates = a.col(c).segment(p.rates(), n);
-    seen.setZero();
-    equations.matrix(PartialBy::damping)
-        .multiply_add({rates.data(), static_cast<std::size_t>(n)}, {seen.data(), static_cast<std::size_t>(seen.size())},
-                      -1.0);
-    for (std::size_t k = 0; k < outputs.size(); ++k)
-      seen_of(static_cast<Eigen::Index>(k), c) += seen(equations.algebraic_row(outputs[k]));
+ColumnMatrix PerturbedPoint::outputs_by_unknowns(const PerturbationEquations& p) const {
+  std::vector<Triplet> entries;
+  for (std::size_t k = 0; k < outputs.size(); ++k)
+    entries.push_back({static_cast<std::int32_t>(k), p.augmented() + first_algebraic_ + outputs[k], 1.0});
+  if (without_damping) {
+    // Outputs keep what they see of velocities.
+    for_each_entry(equations.matrix(PartialBy::damping), [&](std::int32_t row, std::int32_t rate, double v) {
+      for (std::size_t k = 0; k < outputs.size(); ++k) {
+        if (row == equations.algebraic_row(outputs[k]))
+          entries.push_back({static_cast<std::int32_t>(k), p.rates() + rate, -v});
+      }
+    });
   }
-  return seen_of;
+  return compressed(static_cast<std::int32_t>(outputs.size()), p.state_columns(), entries);
+}
+
+Eigen::MatrixXd PerturbedPoint::outputs_of(const PerturbationEquations& p, const Eigen::MatrixXd& a) const {
+  Eigen::MatrixXd seen = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(outputs.size()), a.cols());
+  for_each_entry(outputs_by_unknowns(p),
+                 [&](std::int32_t output, std::int32_t unknown, double v) { seen.row(output) += v * a.row(unknown); });
+  return seen;
 }
 
 namespace {

@@ -81,6 +81,8 @@ class PerturbationEquations {
   const ColumnMatrix& pencil() const { return pencil_; }
   // The same without entries that are zero at this point, for products.
   const ColumnMatrix& products() const { return products_; }
+  // [G H] without such entries.
+  const ColumnMatrix& by_states_and_inputs() const { return on_states_; }
 
  private:
   class Assembly;  // perturbation_assembly.cpp

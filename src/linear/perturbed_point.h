@@ -14,7 +14,8 @@ namespace dynalin {
 struct PerturbedPoint {
   PerturbedPoint(const System&, const OperatingPoint&, const LinearOptions&);
 
-  // What outputs see of columns of all unknowns (perturbation.h).
+  // What outputs see of all unknowns a, a row each, and of columns of them (perturbation.h).
+  ColumnMatrix outputs_by_unknowns(const PerturbationEquations&) const;
   Eigen::MatrixXd outputs_of(const PerturbationEquations&, const Eigen::MatrixXd& columns) const;
 
   Motion motion;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "linear/mass_root.h"
 #include "linear/perturbation.h"
@@ -19,16 +21,17 @@ constexpr double residual_tolerance = 1e-11;
 // Motions of a still mode are roundings beside its own states.
 constexpr double largest_motion = 1e-8;
 
-// States whose columns of T move something that has mass.
-std::vector<bool> moving_mass(const MassRoot& root, const LinearSystem& linear) {
+constexpr Index at_a_time = 64;
+
+// Which of some states have columns of T that move something that has mass.
+std::vector<bool> moving_mass(const MassRoot& root, const LinearSystem& linear, const std::vector<Index>& states) {
   const auto n = static_cast<Index>(linear.model.states.size());
-  std::vector<bool> moves(static_cast<std::size_t>(n), false);
+  std::vector<bool> moves(states.size(), false);
   if (root.bodies() == 0 || linear.equations->coordinates() == 0) return moves;
-  constexpr Index at_a_time = 64;
-  for (Index first = 0; first < n; first += at_a_time) {
-    const Index count = std::min(at_a_time, n - first);
+  for (Index first = 0; first < static_cast<Index>(states.size()); first += at_a_time) {
+    const Index count = std::min(at_a_time, static_cast<Index>(states.size()) - first);
     Eigen::MatrixXcd units = Eigen::MatrixXcd::Zero(n, count);
-    units.middleRows(first, count).setIdentity();
+    for (Index k = 0; k < count; ++k) units(states[static_cast<std::size_t>(first + k)], k) = 1;
     const Matrix motions = linear.equations->motions(units).real();
     for (const Matrix& columns :
          {Matrix(motions.topRows(motions.rows() / 2)), Matrix(motions.bottomRows(motions.rows() / 2))}) {
@@ -39,6 +42,21 @@ std::vector<bool> moving_mass(const MassRoot& root, const LinearSystem& linear) 
     }
   }
   return moves;
+}
+
+// Columns of the state matrix; the whole of it is not needed for that.
+Matrix state_matrix_columns(const PerturbationEquations& p, const std::vector<Index>& states) {
+  Matrix columns(p.states(), static_cast<Index>(states.size()));
+  for (Index first = 0; first < columns.cols(); first += at_a_time) {
+    const Index count = std::min(at_a_time, columns.cols() - first);
+    Matrix of_equations = Matrix::Zero(p.unknowns(), count);
+    for (Index k = 0; k < count; ++k) {
+      const auto column = p.state_columns() + static_cast<std::int32_t>(states[static_cast<std::size_t>(first + k)]);
+      for_each_in_column(p.products(), column, [&](std::int32_t r, double v) { of_equations(r, k) += v; });
+    }
+    columns.middleCols(first, count) = p.reduced(of_equations);
+  }
+  return columns;
 }
 
 // States that nothing on the way to those marked can see.
@@ -79,20 +97,82 @@ Eigen::VectorXd balancing(const Matrix& A) {
   return unit;
 }
 
+// States that form a system of their own in which nothing that has mass moves, and its matrix.
+struct OwnSystem {
+  std::vector<Index> states;
+  Matrix A;
+};
+
+OwnSystem own_system(const Matrix& A, const MassRoot& root, const LinearSystem& linear) {
+  std::vector<Index> all(static_cast<std::size_t>(A.rows()));
+  std::iota(all.begin(), all.end(), Index{0});
+  OwnSystem own{without_influence(A, moving_mass(root, linear, all)), {}};
+  own.A = A(own.states, own.states);
+  return own;
+}
+
+// The same without the state matrix, of the states that may belong to it: those that no mass goes along with.
+OwnSystem own_system(const MassRoot& root, const LinearSystem& linear, const EigenSolution& solution) {
+  const std::vector<StateLabel>& states = linear.model.states;
+  std::vector<Index> candidates;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const bool differential = k >= linear.kinematic_states;
+    // A coordinate whose rate stands before it is one of bodies that have mass.
+    const bool without_rate =
+        linear.first_order > 0 && !differential && !states[k].is_rate && (k == 0 || !states[k - 1].is_rate);
+    if (differential || without_rate) candidates.push_back(static_cast<Index>(k));
+  }
+  // Seldom does a mode consist of them so far that the question comes up.
+  const auto still = [&](Index m) {
+    Eigen::VectorXd size = solution.vectors.col(m).cwiseAbs();
+    double of_candidates = 0;
+    for (const Index k : candidates) of_candidates = std::max(of_candidates, std::exchange(size(k), 0.0));
+    return size.maxCoeff() <= largest_motion * of_candidates;
+  };
+  bool any = false;
+  for (Index m = 0; m < solution.vectors.cols() && !candidates.empty(); ++m) any = any || still(m);
+  if (!any) return {};
+  std::vector<bool> moves(states.size(), true);
+  const std::vector<bool> of_candidates = moving_mass(root, linear, candidates);
+  for (std::size_t k = 0; k < candidates.size(); ++k) moves[static_cast<std::size_t>(candidates[k])] = of_candidates[k];
+  // What the others see of them: those that are seen join the others until none is.
+  const Matrix columns = state_matrix_columns(*linear.equations, candidates);
+  for (bool joined = true; joined;) {
+    joined = false;
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+      const auto k = static_cast<std::size_t>(candidates[c]);
+      for (std::size_t r = 0; r < states.size() && !moves[k]; ++r) {
+        if (moves[r] && columns(static_cast<Index>(r), static_cast<Index>(c)) != 0.0) moves[k] = joined = true;
+      }
+    }
+  }
+  OwnSystem own;
+  std::vector<Index> of_columns;
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    if (moves[static_cast<std::size_t>(candidates[c])]) continue;
+    own.states.push_back(candidates[c]);
+    of_columns.push_back(static_cast<Index>(c));
+  }
+  own.A = columns(own.states, of_columns);
+  return own;
+}
+
 }  // namespace
 
 void clear_still_modes(const System& system, const OperatingPoint& op, const LinearSystem& linear,
                        EigenSolution& solution) {
   if (solution.vectors.cols() == 0) return;
-  const Matrix& A = linear.model.A;
-  const std::vector<Index> inner = without_influence(A, moving_mass(MassRoot(system, op), linear));
-  if (inner.empty() || static_cast<Index>(inner.size()) == A.rows()) return;
+  const MassRoot root(system, op);
+  const Index states = solution.vectors.rows();
+  const auto [inner, A] =
+      linear.A.rows() == states ? own_system(linear.model.A, root, linear) : own_system(root, linear, solution);
+  if (inner.empty() || static_cast<Index>(inner.size()) == states) return;
   std::vector<Index> outer;
-  for (Index k = 0; k < A.rows(); ++k) {
+  for (Index k = 0; k < states; ++k) {
     if (!std::binary_search(inner.begin(), inner.end(), k)) outer.push_back(k);
   }
-  const Eigen::VectorXd unit = balancing(A(inner, inner));
-  const Matrix own = unit.cwiseInverse().asDiagonal() * A(inner, inner) * unit.asDiagonal();
+  const Eigen::VectorXd unit = balancing(A);
+  const Matrix own = unit.cwiseInverse().asDiagonal() * A * unit.asDiagonal();
   const Eigen::VectorXd row_size = own.cwiseAbs().rowwise().sum();
   for (std::size_t m = 0; m < solution.modes.size(); ++m) {
     auto vector = solution.vectors.col(static_cast<Index>(m));

@@ -1,5 +1,6 @@
 #include "output/json.h"
 
+#include <array>
 #include <cmath>
 #include <ostream>
 
@@ -53,6 +54,22 @@ Json shape_labels(const std::vector<ShapeLabel>& labels) {
   return list;
 }
 
+Json selected(const SelectedModes& s) {
+  static constexpr std::array<std::string_view, 4> names = {"nothing", "full_solution", "inertia", "winding_number"};
+  Json region;
+  if (const auto* nearest = std::get_if<NearestModes>(&s.wanted)) {
+    region = {{"nearest", nearest->count}, {"frequency_hz", nearest->frequency}, {"radius_hz", s.radius_hz}};
+  } else {
+    const auto& band = std::get<ModesInBand>(s.wanted);
+    region = {{"band_hz", {band.low, band.high}}};
+  }
+  region["found"] = s.found;
+  region["counted"] = s.by == CountedBy::nothing ? Json() : Json(s.counted);
+  region["counted_by"] = names[static_cast<std::size_t>(s.by)];
+  region["complete"] = s.complete;
+  return region;
+}
+
 Json channels(const std::vector<ChannelLabel>& labels) {
   Json list = Json::array();
   for (const ChannelLabel& c : labels) list.push_back({{"label", c.text}, {"variable", c.variable}});
@@ -99,6 +116,7 @@ void JsonResults::add(const std::string& command, const EigenSolution& e) {
                                 {"shape_entries", shape_labels(e.shape_labels)},
                                 {"eigenvalues", std::move(values)},
                                 {"modes", std::move(modes)}});
+  if (e.selected) document_->results.back()["selected"] = selected(*e.selected);
 }
 
 void JsonResults::add(const std::string& command, const StateSpace& s) {
@@ -125,6 +143,17 @@ void JsonResults::add(const std::string& command, const SecondOrder& s) {
                                 {"P", matrix(s.P)},
                                 {"C", matrix(s.C)},
                                 {"D", matrix(s.D)},
+                                {"states", states(s.states)},
+                                {"inputs", channels(s.inputs)},
+                                {"outputs", channels(s.outputs)}});
+}
+
+void JsonResults::add(const std::string& command, const DescriptorForm& s) {
+  document_->results.push_back({{"command", command},
+                                {"time", s.time},
+                                {"unknowns", s.A.rows()},
+                                {"entries", s.A.nonZeros()},
+                                {"first_state", s.first_state + 1},
                                 {"states", states(s.states)},
                                 {"inputs", channels(s.inputs)},
                                 {"outputs", channels(s.outputs)}});

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "dynalin/descriptor_form.h"
 #include "dynalin/history.h"
 #include "dynalin/modal_table.h"
 #include "dynalin/operating_state.h"
@@ -28,6 +29,7 @@ class JsonResults {
   void add(const std::string& command, const EigenSolution&);
   void add(const std::string& command, const StateSpace&);
   void add(const std::string& command, const SecondOrder&);
+  void add(const std::string& command, const DescriptorForm&);  // but for its matrices
   // A deck of this type, OPENBOX or CLOSEDBOX.
   void add_export(const std::string& command, std::string_view type, double time,
                   const std::vector<std::string>& files);

@@ -2,6 +2,7 @@
 
 #include <fmt/ostream.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -127,11 +128,38 @@ void write_matrix_states(std::ostream& out, const SecondOrder& s) {
   fmt::print(out, "\n  Second-order matrices computation finished.\n\n");
 }
 
+std::string_view name_of(CountedBy by) {
+  static constexpr std::array<std::string_view, 4> names = {"not counted", "all eigenvalues computed",
+                                                            "inertia of a factorization", "winding number"};
+  return names[static_cast<std::size_t>(by)];
+}
+
+std::string selection_text(const SelectedModes& s, const std::string& unit) {
+  std::string text;
+  if (const auto* nearest = std::get_if<NearestModes>(&s.wanted)) {
+    text = fmt::format("  the {} modes nearest to {:g} {}, within {:.6g}", nearest->count, nearest->frequency, unit,
+                       s.radius_hz);
+  } else {
+    const auto& band = std::get<ModesInBand>(s.wanted);
+    text = fmt::format("  all modes from {:g} to {:g} {}", band.low, band.high, unit);
+  }
+  text += ", and zeros that follow from the structure\n";
+  text += fmt::format("  eigenvalues there: {} found, ", s.found);
+  text += s.by == CountedBy::nothing ? "not counted\n" : fmt::format("{} counted ({})\n", s.counted, name_of(s.by));
+  return text + fmt::format("  complete: {}\n", s.complete);
+}
+
 void write_eigensolution(std::ostream& out, const EigenSolution& e, double cpu_seconds) {
-  fmt::print(out, "\n  Eigensolution Using: QR eigen solver for {} values\n", e.states.size());
+  if (e.selected && e.selected->by != CountedBy::full_solution) {
+    fmt::print(out, "\n  Eigensolution Using: shift-invert iteration for {} of {} values\n", e.selected->found,
+               e.states.size());
+  } else {
+    fmt::print(out, "\n  Eigensolution Using: QR eigen solver for {} values\n", e.states.size());
+  }
   fmt::print(out, "\n  EigenSolution computation started.\n\n");
   write_chosen_states(
       out, {e.states, e.kinematic_states, e.differential_states, e.rm, e.pstate, e.without_damping, e.original});
+  if (e.selected) fmt::print(out, "\n  Selected modes:\n{}", selection_text(*e.selected, "cycles/unit time"));
   fmt::print(out, "\n{:17}E I G E N V A L U E S  at time = {:.5E}\n", "", e.time);
   fmt::print(out, "      Number    Real(cycles/unit time)   Imag.(cycles/unit time)\n");
   int number = 0;

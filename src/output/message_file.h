@@ -19,6 +19,8 @@ void write_static_result(std::ostream&, int iterations, double imbalance);
 void write_redundant(std::ostream&, double time, const std::vector<std::string>& rows);
 enum class Block { warning, error };
 void write_block(std::ostream&, Block, std::string_view text);
+// Where selected modes were looked for, how many there are, and whether that is all; three lines.
+std::string selection_text(const SelectedModes&, const std::string& unit);
 // From the solver and "EigenSolution computation started." to the table, the CPU time and the end.
 void write_eigensolution(std::ostream&, const EigenSolution&, double cpu_seconds);
 // States and options of the matrices of STATEMAT and MKB.

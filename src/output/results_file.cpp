@@ -45,6 +45,7 @@ void ResultsFile::add(const EigenSolution& e, const std::vector<ModalTable>& tab
   std::string s = fmt::format("<dl:Linear time=\"{}\" rm=\"{}\" pstate=\"{}\" damping=\"{}\" original=\"{}\">\n",
                               number(e.time), e.rm, e.pstate, e.without_damping ? 0 : 1, e.original ? 1 : 0);
   s += state_map(e.states);
+  if (e.selected) s += selection(*e.selected);
   for (std::size_t k = 0; k < e.modes.size(); ++k) {
     const EigenMode& m = e.modes[k];
     const double size = std::abs(m.eigenvalue_hz);
@@ -74,6 +75,19 @@ void ResultsFile::add(const EigenSolution& e, const std::vector<ModalTable>& tab
   }
   for (const ModalTable& t : tables) s += table(t);
   blocks_.push_back(s + "</dl:Linear>\n");
+}
+
+std::string ResultsFile::selection(const SelectedModes& of) const {
+  std::string region;
+  if (const auto* nearest = std::get_if<NearestModes>(&of.wanted)) {
+    region = fmt::format("nearest=\"{}\" frequency=\"{}\" radius=\"{}\"", nearest->count, number(nearest->frequency),
+                         number(of.radius_hz));
+  } else {
+    const auto& band = std::get<ModesInBand>(of.wanted);
+    region = fmt::format("low=\"{}\" high=\"{}\"", number(band.low), number(band.high));
+  }
+  return fmt::format("<dl:Selected {} found=\"{}\" counted=\"{}\" complete=\"{}\" />\n", region, of.found, of.counted,
+                     of.complete ? 1 : 0);
 }
 
 std::string ResultsFile::table(const ModalTable& t) const {

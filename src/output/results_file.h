@@ -39,6 +39,7 @@ class ResultsFile {
  private:
   std::string number(double) const;
   std::string table(const ModalTable&) const;
+  std::string selection(const SelectedModes&) const;
   std::string matrix(std::string_view name, const Eigen::MatrixXd&) const;
   // The head of what belongs to matrices: options and channels.
   template <class Matrices>

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "linear/cautions.h"
 #include "linear/mode_shapes.h"
 #include "linear/second_order.h"
+#include "linear/selected_modes.h"
 #include "linear/still_modes.h"
 
 namespace dynalin {
@@ -56,8 +59,8 @@ StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest&
   // Without reconciliation LINEAR takes the static solution as it was found; any other point is consistent anyway.
   const bool as_found = at.statics && (request.original || request.without_reconciliation);
   Linearization result{at.system, as_found ? at.statics->at_rest : at.values, as_found, request, {}};
-  auto linear = reduction == Reduction::none ? linearize_unreduced(*at.system, result.point, *options)
-                                             : linearize(*at.system, result.point, *options);
+  auto linear = reduction.has_linear_model ? linearize(*at.system, result.point, *options, reduction.up_to)
+                                           : linearize_unreduced(*at.system, result.point, *options);
   if (!linear) return tl::unexpected(StudyFailure(linear.error()));
   if (stateless == Stateless::refused && linear->model.states.empty()) {
     constexpr auto reason = "the model has no states: neither degrees of freedom nor differential states";
@@ -68,8 +71,10 @@ StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest&
   return result;
 }
 
-StudyResult<ModesFound> modes_of(const Linearization& of, Vectors wanted) {
-  auto modes = eigensolve(of.linear, wanted);
+namespace {
+
+// Named, labelled and commented, whichever way they were found.
+StudyResult<ModesFound> presented(const Linearization& of, Result<EigenSolution> modes, Vectors wanted) {
   if (!modes) return tl::unexpected(StudyFailure(modes.error()));
   if (wanted != Vectors::none) {
     clear_still_modes(*of.system, of.point, of.linear, *modes);
@@ -79,6 +84,115 @@ StudyResult<ModesFound> modes_of(const Linearization& of, Vectors wanted) {
   label(*modes, of.request);
   Diagnostics remarks = cautions(*of.system, of.point, of.linear, *modes);
   return ModesFound{std::move(*modes), std::move(remarks)};
+}
+
+Result<EigenSolution> selected_of_all(const Linearization& of, Vectors wanted, const ModeSelection& selection) {
+  auto all = eigensolve(of.linear, wanted);
+  if (!all) return all;
+  return selected_of(*all, selection);
+}
+
+// What was asked for and is not there.
+Diagnostics shortcomings(const EigenSolution& modes) {
+  Diagnostics remarks;
+  const SelectedModes& s = *modes.selected;
+  const auto there = static_cast<std::size_t>(std::ranges::count(modes.modes, false, &EigenMode::structural_zero));
+  const auto* nearest = std::get_if<NearestModes>(&s.wanted);
+  if (nearest && s.complete && there < nearest->count) {
+    remarks.warning("missing-mode", {},
+                    fmt::format("{} modes are asked for, the model has {} besides {} that are zero by structure",
+                                nearest->count, there, modes.modes.size() - there));
+  }
+  if (!s.complete) {
+    remarks.warning(
+        "incomplete-modes", {},
+        s.by == CountedBy::nothing
+            ? fmt::format("{} eigenvalues were found where modes are asked for, and whether these are all "
+                          "of them is not known",
+                          s.found)
+            : fmt::format("{} eigenvalues were found where modes are asked for, and {} are there", s.found, s.counted));
+  }
+  return remarks;
+}
+
+}  // namespace
+
+StudyResult<ModesFound> modes_of(const Linearization& of, Vectors wanted) {
+  return presented(of, eigensolve(of.linear, wanted), wanted);
+}
+
+StudyResult<ModesFound> modes_of(const Linearization& of, Vectors wanted, const ModeSelection& selection) {
+  Result<EigenSolution> modes = tl::unexpected(Failure{});
+  if (of.has_state_matrix()) {
+    modes = selected_of_all(of, wanted, selection);
+  } else {
+    const auto reduced = with_state_matrix(of);
+    if (!reduced) return tl::unexpected(reduced.error());
+    modes = selected_of_all(*reduced, wanted, selection);
+  }
+  auto found = presented(of, std::move(modes), wanted);
+  if (found) found->remarks.append(shortcomings(found->solution));
+  return found;
+}
+
+StudyResult<Linearization> with_state_matrix(Linearization of) {
+  if (of.has_state_matrix()) return of;
+  const auto options = options_of(of.system->model(), of.request);
+  if (!options) return tl::unexpected(StudyFailure(options.error()));
+  auto linear = linearize(*of.system, of.point, *options);
+  if (!linear) return tl::unexpected(StudyFailure(linear.error()));
+  of.linear = std::move(*linear);
+  label(of.linear.model, of.request);
+  return of;
+}
+
+Diagnostics new_remarks(const Linearization& now, const Linearization& before) {
+  Diagnostics fresh;
+  for (const Diagnostic& d : now.remarks().items()) {
+    const bool said = std::ranges::any_of(
+        before.remarks().items(), [&](const Diagnostic& b) { return b.code == d.code && b.message == d.message; });
+    if (!said) fresh.warning(d.code, d.at, d.message, d.hint);
+  }
+  return fresh;
+}
+
+namespace {
+
+std::string duration(double seconds) {
+  if (seconds < 120) return fmt::format("{:.0f} s", seconds);
+  return seconds < 7200 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.0f} h", seconds / 3600);
+}
+std::string memory(double bytes) {
+  return bytes < 10e9 ? fmt::format("{:.1f} GB", bytes / 1e9) : fmt::format("{:.0f} GB", bytes / 1e9);
+}
+
+}  // namespace
+
+Diagnostics cost_of_all_modes(std::size_t states) {
+  // docs/performance.md: 28 s for 2400 states, 4.2 GB for 4000.
+  constexpr double seconds_of_cube = 2e-9, bytes_of_square = 260;
+  Diagnostics remarks;
+  if (states <= all_modes_unannounced_up_to) return remarks;
+  const auto n = static_cast<double>(states);
+  remarks.warning(
+      "large-eigensolution", {},
+      fmt::format("all eigenvalues of {} states take about {} and {}", states, duration(seconds_of_cube * n * n * n),
+                  memory(bytes_of_square * n * n)),
+      "LINEAR/EIGENSOL, NMODES=20 finds the 20 lowest modes alone, BAND=f1,f2 those between two frequencies");
+  return remarks;
+}
+
+StudyResult<void> check_size_of_matrices(std::size_t states, const LinearRequest& request) {
+  const std::size_t most = request.dense_up_to.value_or(state_matrices_up_to);
+  if (states <= most) return {};
+  const auto n = static_cast<double>(states);
+  return tl::unexpected(StudyFailure(
+      {"linear analysis",
+       fmt::format(
+           "the state matrix of {} states has {} and is formed up to {} states only; LINEAR/STATEMAT, DESCRIPTOR "
+           "writes the sparse equations instead, --dense-up-to {} forms it",
+           states, memory(8 * n * n), most, states),
+       {}}));
 }
 
 StudyResult<SecondOrder> second_order_form(const Linearization& of) {

@@ -76,6 +76,12 @@ StudyFailure no_such(std::string_view what) {
 
 StudyResult<void> energies_of_all(const Linearization& of, const EigenSolution& modes, const ModalTableRequest& request,
                                   TablesFound& found) {
+  if (modes.selected) {
+    return tl::unexpected(StudyFailure({"energies per mode",
+                                        "they share out the energy of the model among all of its modes, and these are "
+                                        "selected ones",
+                                        {}}));
+  }
   auto energies = energy_per_mode(*of.system, of.point, of.linear, modes);
   if (!energies) return tl::unexpected(StudyFailure(energies.error()));
   const auto fill = [&](std::size_t k, Row& row) {

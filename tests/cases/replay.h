@@ -96,10 +96,13 @@ class Replay {
     LinearRequest request = environment_;
     request.pstate = c.pstate, request.pinput = c.pinput, request.poutput = c.poutput, request.rm = c.rm;
     request.without_damping = c.without_damping, request.original = c.original;
+    request.dense_up_to = options_.dense_up_to;
     const library::LinearModel linear = study.linearize(point, request);
     if (!point.is_consistent()) point = linear.operating_point();
     if (c.option == LinearOption::mkb)
       record.add(text, linear, linear.second_order());
+    else if (c.descriptor)
+      record.add(text, linear, linear.descriptor_form());
     else if (c.option == LinearOption::statemat)
       record.add(text, linear, linear.state_space());
     else
@@ -108,7 +111,8 @@ class Replay {
 
   static void add_modes(const std::string& text, const LinearCommand& c, library::Record& record,
                         const library::LinearModel& linear) {
-    const library::Modes modes = linear.modes(!c.without_vectors);
+    const library::Modes modes =
+        c.selection ? linear.modes(*c.selection, !c.without_vectors) : linear.modes(!c.without_vectors);
     record.add(text, linear, modes, c.tables.any() ? linear.tables(modes, c.tables) : ModalTables{});
   }
 

@@ -11,7 +11,9 @@
 #include "command/mode_tables.h"
 #include "command/output_plan.h"
 #include "command/run_state.h"
+#include "linear/descriptor_form.h"
 #include "nastran/export.h"
+#include "output/descriptor_files.h"
 #include "output/destination.h"
 #include "output/message_file.h"
 #include "study/linearization.h"
@@ -26,7 +28,8 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
   return command ? std::make_shared<Linear>(std::move(*command)) : nullptr;
 }
 
-LinearRequest request_of(const LinearCommand& command, const Environment& environment) {
+LinearRequest request_of(const LinearCommand& command, const RunState& run) {
+  const Environment& environment = run.environment;
   LinearRequest request;
   request.pstate = command.pstate, request.pinput = command.pinput, request.poutput = command.poutput;
   request.rm = command.rm;
@@ -35,7 +38,44 @@ LinearRequest request_of(const LinearCommand& command, const Environment& enviro
   request.principal_states = environment.principal_states;
   request.without_rate_coupling = environment.without_rate_coupling;
   request.without_reconciliation = environment.without_reconciliation;
+  request.dense_up_to = run.options.dense_up_to;
   return request;
+}
+
+// --modes stands for NMODES where the command says nothing itself and asks for nothing that needs all modes.
+std::optional<ModeSelection> selection_of(const LinearCommand& command, const SessionOptions& options) {
+  if (command.option != LinearOption::eigensol) return std::nullopt;
+  if (command.selection || !options.modes || command.tables.of("ENERGY_PER_MODE").any()) return command.selection;
+  return NearestModes{static_cast<std::size_t>(*options.modes), 0};
+}
+
+nastran::Box box_of(const LinearCommand& command) {
+  return command.type == "OPENBOX" ? nastran::Box::open : nastran::Box::closed;
+}
+
+// Up to how many states the state matrix is wanted.
+Reduction reduction_of(const Linear& linear, const LinearRequest& request, bool selected) {
+  const LinearCommand& command = linear.command;
+  switch (command.option) {
+    case LinearOption::eigensol:
+      return {selected ? request.dense_up_to.value_or(selected_from_all_up_to) : all_modes_unannounced_up_to};
+    case LinearOption::nastran_export:
+      // An open box is put together element by element, and modes alone ask for the state matrix.
+      return box_of(command) == nastran::Box::open && !linear.configuration.options.export_mode_shapes
+                 ? Reduction::none
+                 : Reduction::state_matrix;
+    default:
+      return {command.descriptor ? 0 : request.dense_up_to.value_or(state_matrices_up_to)};
+  }
+}
+
+std::vector<std::string_view> descriptor_suffixes(const LinearCommand& command) {
+  std::vector<std::string_view> list = {"_E.mtx", "_A.mtx"};
+  if (command.pinput) list.push_back("_B.mtx");
+  if (command.poutput) list.push_back("_C.mtx");
+  if (command.pinput && command.poutput) list.push_back("_D.mtx");
+  list.insert(list.end(), {".mat", "_labels.txt"});
+  return list;
 }
 
 bool in_results(RunState& run) { return run.results() && !run.settings.results.without_linear; }
@@ -57,8 +97,40 @@ StudyResult<void> write_form(const Form& form, std::string_view which, const Lin
   return {};
 }
 
-nastran::Box box_of(const LinearCommand& command) {
-  return command.type == "OPENBOX" ? nastran::Box::open : nastran::Box::closed;
+// The sparse equations, matrix by matrix and as a whole, and what their unknowns are.
+StudyResult<void> write_descriptor(const Linearization& linear, const LinearCommand& command,
+                                   const OperatingState& state, RunState& run) {
+  const DescriptorForm form = descriptor_form(linear.linear);
+  const std::string base = command_path(run.folder, command.file);
+  const std::string equations =
+      fmt::format("of E w' = A w + B u, y = C w + D u; the states are the unknowns from {} on", form.first_state + 1);
+  std::vector<RunFiles::Planned> planned;
+  for (const std::string_view suffix : descriptor_suffixes(command)) {
+    planned.push_back({base + std::string(suffix), [&form, &equations, suffix](std::ostream& out) {
+                         if (suffix == ".mat") return write_mat_file(out, form);
+                         if (suffix == "_labels.txt") return write_labels(out, form);
+                         const char name = suffix[1];
+                         const auto& matrix = name == 'E'   ? form.E
+                                              : name == 'A' ? form.A
+                                              : name == 'B' ? form.B
+                                              : name == 'C' ? form.C
+                                                            : form.D;
+                         write_matrix_market(out, matrix, fmt::format("{} {}", name, equations));
+                       }});
+  }
+  if (auto written = run.files.add(planned); !written)
+    return tl::unexpected(StudyFailure({"linear analysis", written.error(), {}}));
+  write_matrix_states(run.message, linear.linear.model);
+  fmt::print(run.message, "  Sparse equations: {} unknowns, {} entries, states from {} on\n\n", form.A.rows(),
+             form.A.nonZeros(), form.first_state + 1);
+  if (in_results(run)) run.results()->add(linear.linear.model);
+  run.json.add(run.command, form);
+  run.json.add_point(state);
+  if (run.terminal) {
+    fmt::print(*run.terminal, "sparse equations of {} states in {} unknowns: {}_E.mtx and others, {}.mat\n",
+               form.states.size(), form.A.rows(), base, base);
+  }
+  return {};
 }
 
 // A file of the deck that stands where one is that the run has read. Names of bodies and matrices are known only now.
@@ -102,12 +174,15 @@ StudyResult<void> write_deck(const Linearization& linear, const LinearCommand& c
   return {};
 }
 
-StudyResult<void> solve_modes(const Linearization& linear, const LinearCommand& command, const OperatingState& state,
+StudyResult<void> solve_modes(const Linearization& linear, const LinearCommand& command,
+                              const std::optional<ModeSelection>& selection, const OperatingState& state,
                               RunState& run) {
-  const std::size_t states = linear.linear.model.states.size();
-  if (states > 1000) fmt::print(run.err, "computing the eigenvalues of {} states ...\n", states);
+  if (linear.states() > 1000) {
+    fmt::print(run.err, "computing {} eigenvalues of {} states ...\n", selection ? "selected" : "the", linear.states());
+  }
   const std::clock_t begun = std::clock();
-  const auto found = modes_of(linear, command.without_vectors ? Vectors::none : Vectors::right);
+  const Vectors vectors = command.without_vectors ? Vectors::none : Vectors::right;
+  const auto found = selection ? modes_of(linear, vectors, *selection) : modes_of(linear, vectors);
   if (!found) return tl::unexpected(found.error());
   const double cpu_seconds = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
   const EigenSolution& modes = found->solution;
@@ -128,6 +203,7 @@ StudyResult<void> solve_modes(const Linearization& linear, const LinearCommand& 
   run.remarks.say(tables.remarks);
   if (run.terminal) {
     fmt::print(*run.terminal, "{} at time {:g}\n", run.command, modes.time);
+    if (modes.selected) fmt::print(*run.terminal, "{}", selection_text(*modes.selected, run.units().frequency()));
     write_eigen_table(*run.terminal, modes, run.units().frequency(), run.options.bounds);
     if (command.tables.any()) fmt::print(*run.terminal, "the tables of modes are in {}.txt\n", run.job.prefix);
   }
@@ -140,22 +216,34 @@ StudyResult<void> Linear::run(RunState& run) const {
   if (!run.point.consistent) {
     if (auto ready = run.make_consistent(); !ready) return ready;
   }
-  const bool deck = command.option == LinearOption::nastran_export;
   // An open box has its masses and joints also where nothing can move, and a closed one says that it has nothing.
-  const bool open = deck && box_of(command) == nastran::Box::open;
-  // It is put together element by element, and modes alone ask for the state matrix.
-  const bool as_operator = open && !configuration.options.export_mode_shapes;
-  const auto linear =
-      linearized(run.point, request_of(command, run.environment), deck ? Stateless::taken : Stateless::refused,
-                 as_operator ? Reduction::none : Reduction::state_matrix);
+  const bool deck = command.option == LinearOption::nastran_export;
+  const LinearRequest request = request_of(command, run);
+  const std::optional<ModeSelection> selection = selection_of(command, run.options);
+  auto linear = linearized(run.point, request, deck ? Stateless::taken : Stateless::refused,
+                           reduction_of(*this, request, selection.has_value()));
   if (!linear) return tl::unexpected(linear.error());
   run.remarks.say(linear->remarks());
+  const bool matrices = command.option == LinearOption::statemat || command.option == LinearOption::mkb;
+  if (matrices && !command.descriptor) {
+    if (auto fits = check_size_of_matrices(linear->states(), request); !fits) return fits;
+  }
+  if (command.option == LinearOption::eigensol && !selection) {
+    run.remarks.say(cost_of_all_modes(linear->states()));
+    if (!linear->has_state_matrix()) {
+      auto whole = with_state_matrix(*linear);
+      if (!whole) return tl::unexpected(whole.error());
+      run.remarks.say(new_remarks(*whole, *linear));
+      linear = std::move(whole);
+    }
+  }
 
   const OperatingState state = operating_state(run.system(), linear->point);
   if (!run.shown && !linear->at_rest_as_found) run.show(StepKind::initial_conditions, state, linear->point);
   const auto written = [&]() -> StudyResult<void> {
     if (deck) return write_deck(*linear, command, state, configuration, run);
-    if (command.option == LinearOption::eigensol) return solve_modes(*linear, command, state, run);
+    if (command.option == LinearOption::eigensol) return solve_modes(*linear, command, selection, state, run);
+    if (command.descriptor) return write_descriptor(*linear, command, state, run);
     if (command.option == LinearOption::statemat) return write_form(linear->linear.model, "state", command, state, run);
     const auto form = second_order_form(*linear);
     if (!form) return tl::unexpected(form.error());
@@ -184,7 +272,8 @@ CommandFiles Linear::files() const {
     return deck;
   }
   CommandFiles files{.file = command.file, .tables = command.tables.any()};
-  if (command.format != "MATLAB") return files;
+  if (command.descriptor) files.suffixes = descriptor_suffixes(command);
+  if (command.descriptor || command.format != "MATLAB") return files;
   std::vector<std::string_view>& list = files.suffixes;
   list = {"st"};
   if (command.option == LinearOption::statemat) {

@@ -1,0 +1,85 @@
+// Which of all modes a selection takes: the rules that any other way to them has to keep.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "linear/selected_modes.h"
+
+namespace dynalin {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+// Distances and borders that differ by less, relative to the eigenvalue, are equal: roots of multiplicity three come
+// with roundings of their own.
+constexpr double equal = 1e-9;
+
+struct Region {
+  Complex centre;
+  double radius = 0;                  // of a disc
+  const ModesInBand* band = nullptr;  // instead of it
+
+  bool has(Complex hz) const {
+    const double slack = equal * std::abs(hz);
+    if (!band) return std::abs(hz - centre) <= radius;
+    const double f = std::abs(hz.imag());
+    return f >= band->low - slack && f <= band->high + slack && std::abs(hz.real()) <= band->high + slack;
+  }
+};
+
+// Of the disc that holds the nearest modes and no other: halfway to the next one.
+double radius_of(const std::vector<EigenMode>& modes, Complex centre, std::size_t count) {
+  std::vector<std::pair<double, double>> distances;  // and what makes no difference
+  for (const EigenMode& m : modes) {
+    if (!m.structural_zero)
+      distances.emplace_back(std::abs(m.eigenvalue_hz - centre),
+                             equal * std::max(std::abs(m.eigenvalue_hz), std::abs(centre)));
+  }
+  if (distances.empty() || count == 0) return 0;
+  std::sort(distances.begin(), distances.end());
+  std::size_t last = std::min(count, distances.size()) - 1;
+  while (last + 1 < distances.size() && distances[last + 1].first <= distances[last].first + distances[last].second)
+    ++last;
+  const double inside = distances[last].first;
+  return last + 1 < distances.size() ? (inside + distances[last + 1].first) / 2 : 2 * inside;
+}
+
+}  // namespace
+
+EigenSolution selected_of(const EigenSolution& all, const ModeSelection& wanted) {
+  Region region;
+  if (const auto* nearest = std::get_if<NearestModes>(&wanted)) {
+    region.centre = {0, nearest->frequency};
+    region.radius = radius_of(all.modes, region.centre, nearest->count);
+  } else {
+    region.band = &std::get<ModesInBand>(wanted);
+  }
+  SelectedModes selected{.wanted = wanted, .radius_hz = region.radius, .by = CountedBy::full_solution};
+  std::vector<Eigen::Index> chosen;
+  EigenSolution out;
+  for (std::size_t k = 0; k < all.modes.size(); ++k) {
+    const EigenMode& m = all.modes[k];
+    const bool inside = region.has(m.eigenvalue_hz);
+    selected.found += inside;
+    if (!m.is_real) selected.found += region.has(std::conj(m.eigenvalue_hz));
+    if (!inside && !m.structural_zero) continue;
+    chosen.push_back(static_cast<Eigen::Index>(k));
+    out.modes.push_back(m);
+  }
+  selected.counted = selected.found;
+  selected.complete = true;
+
+  out.time = all.time;
+  out.rm = all.rm, out.pstate = all.pstate;
+  out.without_damping = all.without_damping, out.original = all.original;
+  out.kinematic_states = all.kinematic_states, out.differential_states = all.differential_states;
+  out.states = all.states;
+  out.selected = std::move(selected);
+  if (all.vectors.size() > 0) out.vectors = all.vectors(Eigen::all, chosen);
+  out.shape_labels = all.shape_labels;
+  if (all.shapes.size() > 0) out.shapes = all.shapes(Eigen::all, chosen);
+  return out;
+}
+
+}  // namespace dynalin
