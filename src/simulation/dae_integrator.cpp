@@ -5,14 +5,18 @@
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
+#include <sunnonlinsol/sunnonlinsol_newton.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
+#include <random>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
+#include "simulation/newton_convergence.h"
 #include "simulation/step_factors.h"
 
 namespace dynalin {
@@ -30,6 +34,11 @@ constexpr double left_by_iteration = 0.01;
 // How far the leading coefficient of the method may be from that of the Jacobian. With IDA's own, 0.25, iterations of
 // stiff models end at their limit in every fifth step.
 constexpr double stale_coefficient = 0.1;
+// How far what rounding makes of an unknown may be from a random sample.
+constexpr double rounding_margin = 8;
+// The error that is allowed in an unknown is no less than so much of its rounding, up to a bound.
+constexpr double error_over_rounding = 4;
+constexpr double part_of_way = 1e-3;  // a first step is no longer than this
 
 std::span<double> values(N_Vector v) { return {NV_DATA_S(v), static_cast<std::size_t>(NV_LENGTH_S(v))}; }
 std::span<const double> constant(N_Vector v) { return values(v); }
@@ -55,17 +64,26 @@ struct DaeIntegrator::Memory {
   SUNMatrix matrix = nullptr;
   SUNLinearSolver solver = nullptr;
   StepFactors factors;
+  SUNNonlinearSolver newton = nullptr;
+  NewtonConvergence convergence;
+  std::minstd_rand random{1};
   double t = 0;
-  bool begun = false;
+  bool begun = false, fresh = false;  // fresh: no step has been made since the last start
+  std::optional<double> stated_first;
   int standing = 0;  // steps in a row in which time did not go on
   std::vector<int> crossed;
   std::string reason;
-  IntegrationStatistics before;  // of what was before the last start
+  std::int64_t at_its_rounding = -1;  // the unknown of which rounding leaves more than may be allowed
+  IntegrationStatistics before;       // of what was before the last start
   std::int64_t restarts = 0;
 
-  explicit Memory(DaeProblem& p) : problem(p) {}
+  Memory(DaeProblem& p, const StepBounds& b)
+      : problem(p),
+        bounds(b),
+        convergence(p.size(), std::max(1, b.iterations), [this](auto to) { return rounding(to); }) {}
   ~Memory() {
     if (ida) IDAFree(&ida);
+    if (newton) SUNNonlinSolFree(newton);
     if (solver) SUNLinSolFreeEmpty(solver);
     if (matrix) SUNMatFreeEmpty(matrix);
     for (const N_Vector v : {y, yp, work, id, weight}) {
@@ -82,6 +100,7 @@ struct DaeIntegrator::Memory {
   static int jacobian(double t, double c, N_Vector y, N_Vector yp, N_Vector, SUNMatrix, void* self, N_Vector, N_Vector,
                       N_Vector) {
     Memory& m = of(self);
+    m.convergence.begin_matrix();
     const ColumnMatrix* matrix = m.problem.jacobian(t, c, constant(y), constant(yp));
     return matrix && m.factors.factor(*matrix) ? 0 : recoverable;
   }
@@ -93,8 +112,48 @@ struct DaeIntegrator::Memory {
   static int weights(N_Vector y, N_Vector weight, void* self) {
     double step = 0;
     IDAGetCurrentStep(of(self).ida, &step);
-    of(self).problem.weights(step, constant(y), values(weight));
+    Memory& m = of(self);
+    m.problem.weights(step, constant(y), values(weight));
+    m.allow_rounding(values(weight));
     return 0;
+  }
+  static int converged(SUNNonlinearSolver newton, N_Vector, N_Vector correction, double left, N_Vector weight,
+                       void* self) {
+    double c = 0;
+    IDAGetCurrentCj(of(self).ida, &c);
+    return of(self).convergence.test(newton, c, correction, left, weight);
+  }
+
+  void allow_rounding(std::span<double> weights) {
+    const std::span<const double> rounding = convergence.rounding();
+    at_its_rounding = -1;
+    double most = 1 + 1e-6;
+    for (std::size_t k = 0; k < rounding.size(); ++k) {
+      double& w = weights[k];
+      w = std::max(w / bounds.loosest, std::min(w, 1 / (error_over_rounding * rounding[k])));
+      const double part = w * error_over_rounding * rounding[k];
+      if (problem.differential()[k] != 0.0 && part > most) most = part, at_its_rounding = static_cast<std::int64_t>(k);
+    }
+  }
+
+  Outcome fail(std::string why) {
+    reason = at_its_rounding < 0 ? std::move(why) : "rounding alone is more than the error that is allowed";
+    return Outcome::failed;
+  }
+
+  // Of each unknown, what rounding of the terms of all equations makes of it.
+  bool rounding(std::span<double> to) {
+    N_Vector at = nullptr, rate = nullptr;
+    if (IDAGetCurrentY(ida, &at) < 0 || IDAGetCurrentYp(ida, &rate) < 0) return false;
+    const std::span<double> error = values(work);
+    problem.terms(constant(at), constant(rate), error);
+    std::uniform_real_distribution<double> part(-1, 1);
+    constexpr double unit = std::numeric_limits<double>::epsilon();
+    for (double& e : error) e *= unit * part(random);
+    factors.solve(error);
+    for (std::size_t k = 0; k < to.size(); ++k)
+      to[k] = std::max(unit * std::abs(constant(at)[k]), rounding_margin * std::abs(error[k]));
+    return std::ranges::all_of(to, [](double v) { return std::isfinite(v); });
   }
   static int switches(double t, N_Vector y, N_Vector yp, double* to, void* self) {
     DaeProblem& p = of(self).problem;
@@ -138,6 +197,9 @@ struct DaeIntegrator::Memory {
       check(IDASetMaxErrTestFails(ida, failure_limit));
       check(IDASetMaxConvFails(ida, failure_limit));
       check(IDASetNonlinConvCoef(ida, left_by_iteration));
+      newton = check(SUNNonlinSol_Newton(y, context));
+      check(IDASetNonlinearSolver(ida, newton));
+      check(SUNNonlinSolSetConvTestFn(newton, &converged, this));
       check(IDASetMaxNonlinIters(ida, std::max(1, bounds.iterations)));
       if (bounds.largest) check(IDASetMaxStep(ida, *bounds.largest));
       attach_solver();
@@ -150,7 +212,19 @@ struct DaeIntegrator::Memory {
       ++restarts;
       check(IDAReInit(ida, t, y, yp));
     }
-    if (first_step || bounds.first) check(IDASetInitStep(ida, first_step ? *first_step : *bounds.first));
+    stated_first = first_step ? first_step : bounds.first;
+    fresh = true;
+  }
+
+  // IDA's own choice takes the errors of the first step to be as large as what it changes: the shorter by far than they
+  // need to be, the less is allowed, down to where rounding is all there is. An error like h² of something that changes
+  // in a thousandth of the way ahead allows the mean of both.
+  double first_step(double latest) {
+    problem.weights(0, constant(y), values(weight));
+    for (std::size_t k = 0; k < problem.size(); ++k)
+      values(work)[k] = problem.differential()[k] != 0.0 ? values(yp)[k] : 0.0;
+    const double change = 2 * N_VWrmsNorm(work, weight), longest = part_of_way * (latest - t);
+    return change * longest > 1 ? std::sqrt(longest / change) : longest;
   }
 
   // IDA counts anew from each start.
@@ -172,8 +246,7 @@ struct DaeIntegrator::Memory {
 };
 
 DaeIntegrator::DaeIntegrator(DaeProblem& problem, const StepBounds& bounds)
-    : memory_(std::make_unique<Memory>(problem)) {
-  memory_->bounds = bounds;
+    : memory_(std::make_unique<Memory>(problem, bounds)) {
   memory_->make();
 }
 DaeIntegrator::~DaeIntegrator() = default;
@@ -190,6 +263,8 @@ void DaeIntegrator::limit_steps(double longest) { check(IDASetMaxStep(memory_->i
 DaeIntegrator::Outcome DaeIntegrator::step(double latest) {
   Memory& m = *memory_;
   check(IDASetStopTime(m.ida, latest));
+  if (std::exchange(m.fresh, false))
+    check(IDASetInitStep(m.ida, m.stated_first ? *m.stated_first : m.first_step(latest)));
   const double before = m.t;
   const int flag = IDASolve(m.ida, latest, &m.t, m.y, m.yp, IDA_ONE_STEP);
   switch (flag) {
@@ -200,8 +275,7 @@ DaeIntegrator::Outcome DaeIntegrator::step(double latest) {
       check(IDAGetRootInfo(m.ida, m.crossed.data()));
       return Outcome::event;
     case IDA_ERR_FAIL:
-      m.reason = "no step is short enough for the error that is allowed";
-      return Outcome::failed;
+      return m.fail("no step is short enough for the error that is allowed");
     case IDA_REP_RES_ERR:
       m.reason = "the equations have no finite values";
       return Outcome::failed;
@@ -210,15 +284,13 @@ DaeIntegrator::Outcome DaeIntegrator::step(double latest) {
       m.reason = "the equations are singular";
       return Outcome::failed;
     default:
-      m.reason = "the iteration of a step does not converge however short it is";
-      return Outcome::failed;
+      return m.fail("the iteration of a step does not converge however short it is");
   }
   // Steps that differ from none by rounding alone lead nowhere.
   const bool moved = m.t - before > 4 * std::numeric_limits<double>::epsilon() * std::abs(m.t);
   m.standing = moved ? 0 : m.standing + 1;
   if (m.standing > standing_limit) {
-    m.reason = "time stands still: no step is short enough";
-    return Outcome::failed;
+    return m.fail("time stands still: no step is short enough");
   }
   if (m.bounds.least && m.t < latest) {
     double used = 0, next = 0;
@@ -250,8 +322,11 @@ void DaeIntegrator::interpolate(double t, std::span<double> y, std::span<double>
 std::span<const int> DaeIntegrator::crossed() const { return memory_->crossed; }
 const std::string& DaeIntegrator::reason() const { return memory_->reason; }
 
+std::int64_t DaeIntegrator::at_its_rounding() const { return memory_->at_its_rounding; }
+
 std::int64_t DaeIntegrator::hardest_unknown() const {
   const Memory& m = *memory_;
+  if (m.at_its_rounding >= 0) return m.at_its_rounding;
   if (IDAGetEstLocalErrors(m.ida, m.work) < 0 || IDAGetErrWeights(m.ida, m.weight) < 0) return -1;
   std::int64_t hardest = -1;
   double largest = 0;

@@ -25,6 +25,8 @@ class DaeProblem {
   // Reciprocals of the errors that are allowed in each unknown in a step of this length (0: not known yet); next to
   // nothing for those that no error is asked of.
   virtual void weights(double step, std::span<const double> y, std::span<double> weight) const = 0;
+  // Sizes of the terms of each equation as they were evaluated last, which was here: rounding is a part of them.
+  virtual void terms(std::span<const double> y, std::span<const double> yp, std::span<double> size) const = 0;
   // 1 where the rate of an unknown counts, 0 for algebraic ones, whose error nobody controls.
   virtual std::span<const double> differential() const = 0;
   // Functions whose zeros end a step.
@@ -35,6 +37,8 @@ class DaeProblem {
 struct StepBounds {
   std::optional<double> largest, first, least;  // [time]
   int largest_order = 5, iterations = 4;        // of Newton's method in a step
+  // How many times the error that is asked for may be allowed in unknowns that rounding leaves no more exact.
+  double loosest = 1e3;
 };
 
 class DaeIntegrator {
@@ -64,6 +68,9 @@ class DaeIntegrator {
   // none.
   const std::string& reason() const;
   std::int64_t hardest_unknown() const;
+  // The unknown of which rounding leaves more than the error that is allowed of it, −1: none. Steps become shorter for
+  // its sake, if that helps, or fail.
+  std::int64_t at_its_rounding() const;
   IntegrationStatistics statistics() const;  // since it was made
 
  private:

@@ -22,8 +22,10 @@ constexpr int event_limit = 200;
 constexpr std::int64_t steps_between_events = 20, steps_without_events = 200;
 // Steps that fail on hardly any way, after which there is no going on.
 constexpr int failure_limit = 4;
-constexpr double hardly_any_way = 1e-4;  // of the whole time
-constexpr double just_beyond = 1e-6;     // of the whole time
+constexpr double hardly_any_way = 1e-4;        // of the whole time
+constexpr double just_beyond = 1e-6;           // of the whole time
+constexpr double largest_part_of_error = 0.1;  // in a step, of what rounding leaves no more exact
+constexpr int steps_held_by_rounding = 500;
 constexpr std::size_t remark_limit = 50;
 constexpr double shortest_bound = 1e-2;  // of steps, by what elements have to resolve: of the whole time
 
@@ -42,6 +44,7 @@ class Dynamics {
     const double error = settings.error.value_or(default_integration_error);
     tolerance_.relative = std::clamp(part_of_error * std::pow(error, power_of_error), 1e-14, 1e-3);
     tolerance_.duration = times.end() - times.start();
+    bounds_.loosest = std::max(1.0, largest_part_of_error * error / tolerance_.relative);
     bounds_.first = settings.first_step;
     bounds_.least = settings.least_step;
     bounds_.largest_order = static_cast<int>(std::clamp<std::int64_t>(settings.largest_order.value_or(5), 1, 5));
@@ -209,6 +212,7 @@ class Dynamics {
   // After a step without event: whether the constraints that were left out still follow from the others, and whether
   // events may be looked for again.
   Result<void> follow() {
+    note_rounding();
     const bool strayed = equations_->left_out_violation(point_) > left_out_limit;
     const bool look_again = close_events_ >= event_limit && statistics_.steps - last_event_ > steps_without_events;
     if (look_again) close_events_ = 0;
@@ -268,6 +272,17 @@ class Dynamics {
     return action;
   }
 
+  // Steps in a row that rounding held short.
+  void note_rounding() {
+    const std::int64_t unknown = integrator_->at_its_rounding();
+    steps_at_rounding_ = unknown < 0 ? 0 : steps_at_rounding_ + 1;
+    if (steps_at_rounding_ != steps_held_by_rounding || !said_.insert("rounding-above-error").second) return;
+    findings_.warnings.warning("rounding-above-error", {},
+                               fmt::format("at time {:g} rounding leaves more of {} than the error that is allowed: "
+                                           "steps are as short as it makes them, and a larger ERROR loses nothing",
+                                           point_.time, equations_->unknowns().text(unknown)));
+  }
+
   void note_density() {
     const bool close = statistics_.steps - last_event_ <= steps_between_events;
     last_event_ = statistics_.steps;
@@ -324,7 +339,7 @@ class Dynamics {
   OperatingPoint point_, last_output_;
   std::vector<double> y_, yp_;
   std::int64_t next_ = 1;  // output
-  int failures_ = 0, close_events_ = 0;
+  int failures_ = 0, close_events_ = 0, steps_at_rounding_ = 0;
   bool stopped_ = false;                                             // by the watch
   double first_failure_ = -std::numeric_limits<double>::infinity();  // of those that are counted [time]
   std::int64_t last_event_ = -steps_between_events - 1;              // counted in steps

@@ -43,6 +43,7 @@ class MotionEquations final : public DaeProblem {
   bool residual(double t, std::span<const double> y, std::span<const double> yp, std::span<double> r) override;
   const ColumnMatrix* jacobian(double t, double c, std::span<const double> y, std::span<const double> yp) override;
   void weights(double step, std::span<const double> y, std::span<double> weight) const override;
+  void terms(std::span<const double> y, std::span<const double> yp, std::span<double> size) const override;
   std::span<const double> differential() const override { return differential_; }
   std::size_t switch_count() const override { return events_.size(); }
   void switches(double t, std::span<const double> y, std::span<const double> yp, std::span<double> values) override;

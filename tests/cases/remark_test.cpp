@@ -71,6 +71,10 @@ const std::vector<Remark>& table() {
       {"dense-events", 0,
        SLIDER(BODY) "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=IF(SIN(1E6*TIME): -1, 0, 1)\nEND\n",
        "SIMULATE/DYNAMICS, END=2E-3\n"},
+      {"rounding-above-error", 0,
+       SLIDER(
+           BODY) "VARIABLE/1, FUNCTION=1E9+DIF(1)\nDIFF/1, IC=1, FUNCTION=1E9-VARVAL(1)\nINTEGRATOR/ERROR=1E-14\nEND\n",
+       "SIMULATE/DYNAMICS, END=1E-3\n"},
       {"passed-over", 0, SLIDER(BODY) "INTEGRATOR/FIXIT=1\nEND\n", "LINEAR/EIGENSOL\n"},
       {"loose-equilibrium", 0,
        SLIDER(BODY) "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=EXP(-DZ(20))\nEQUILIBRIUM/ERROR=2\nEND\n",
