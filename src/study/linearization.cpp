@@ -122,15 +122,10 @@ StudyResult<ModesFound> modes_of(const Linearization& of, Vectors wanted) {
 }
 
 StudyResult<ModesFound> modes_of(const Linearization& of, Vectors wanted, const ModeSelection& selection) {
-  Result<EigenSolution> modes = tl::unexpected(Failure{});
-  if (of.has_state_matrix()) {
-    modes = selected_of_all(of, wanted, selection);
-  } else {
-    const auto reduced = with_state_matrix(of);
-    if (!reduced) return tl::unexpected(reduced.error());
-    modes = selected_of_all(*reduced, wanted, selection);
-  }
-  auto found = presented(of, std::move(modes), wanted);
+  auto found = presented(of,
+                         of.has_state_matrix() ? selected_of_all(of, wanted, selection)
+                                               : eigensolve_selected(*of.system, of.linear, selection, wanted),
+                         wanted);
   if (found) found->remarks.append(shortcomings(found->solution));
   return found;
 }
