@@ -21,14 +21,18 @@ Refusal refusal(std::string_view code, std::string message, std::string hint = {
 
 std::string name_of(const ElementId& e) { return e.id == 0 ? e.statement : e.text(); }
 
-bool takes_numbers(const ArgumentInfo& a) { return a.value == "real" || a.value == "reals" || a.value == "x, y, z"; }
+bool takes_numbers(const ArgumentInfo& a) {
+  return a.repeats || a.value == "real" || a.value == "reals" || a.value == "x, y, z";
+}
 
 // One argument of a statement that is a number or several.
 struct Place {
   const Statement* statement = nullptr;  // nothing where the dataset need not have it
   const ArgumentInfo* argument = nullptr;
-  const WrittenArgument* written = nullptr;  // nothing where it is not stated
+  std::vector<const WrittenArgument*> written{};  // several of one that repeats; empty where it is not stated
 };
+
+using Lists = std::vector<std::vector<double>>;
 
 class Finder {
  public:
@@ -39,7 +43,7 @@ class Finder {
     const auto found = std::find_if(all.begin(), all.end(), [&](const Statement& s) {
       return s.name == p.element.statement && s.id.value_or(0) == p.element.id;
     });
-    Place place{found == all.end() ? nullptr : &*found, nullptr, nullptr};
+    Place place{found == all.end() ? nullptr : &*found, nullptr};
     const auto kind = kind_of(p, place.statement);
     if (!kind) return Refusal(kind.error());
     std::vector<std::string_view> names;
@@ -60,27 +64,45 @@ class Finder {
     if (place.statement) {
       for (const WrittenArgument& w : place.statement->arguments) {
         const auto which = find_keyword(w.name.text(), names);
-        if (which && *which == *k) place.written = &w;
+        if (which && *which == *k) place.written.push_back(&w);
       }
     }
     const std::size_t count = place.argument->count;
+    if (p.list != 1 && !place.argument->repeats)
+      return refusal("wrong-count", fmt::format("{} of {} is written once, none is number {}", place.argument->name,
+                                                name_of(p.element), p.list));
     if (p.index == 0 || (count > 0 && p.index > count)) return beyond(p, count);
     return place;
   }
 
-  // All numbers of the argument: as written, else what holds without it.
-  tl::expected<std::vector<double>, Diagnostic> numbers(const ParameterRef& p, const Place& place) const {
+  // All numbers of the argument, list by list: as written, else what holds without it.
+  tl::expected<Lists, Diagnostic> numbers(const ParameterRef& p, const Place& place) const {
     const std::optional<double> unstated = place.argument->unstated();
-    if (!place.written && unstated && place.argument->count > 0)
-      return std::vector<double>(place.argument->count, *unstated);
-    if (!place.written)
+    if (place.written.empty() && unstated && place.argument->count > 0)
+      return Lists{std::vector<double>(place.argument->count, *unstated)};
+    if (place.written.empty())
       return refusal("unstated-number", fmt::format("{} of {} is not stated", place.argument->name, name_of(p.element)),
                      "what holds without it is no number of its own");
     Diagnostics problems;
-    auto values = read_reals(*place.written, *place.written->name.source, problems);
-    if (!values) return Refusal(problems.items().front());
-    if (p.index > values->size()) return beyond(p, values->size());
-    return std::move(*values);
+    Lists lists;
+    for (const WrittenArgument* w : place.written) {
+      auto values = read_reals(*w, *w->name.source, problems);
+      if (!values) return Refusal(problems.items().front());
+      lists.push_back(std::move(*values));
+    }
+    if (const auto wrong = beyond(p, lists)) return Refusal(*wrong);
+    return lists;
+  }
+
+  // Why the lists have no such number, nothing if they have it.
+  static std::optional<Diagnostic> beyond(const ParameterRef& p, const Lists& lists) {
+    if (p.list == 0 || p.list > lists.size()) {
+      return refusal("wrong-count", fmt::format("{} of {} is written {} time{}, none is number {}", p.argument,
+                                                name_of(p.element), lists.size(), lists.size() == 1 ? "" : "s", p.list))
+          .value();
+    }
+    const std::size_t count = lists[p.list - 1].size();
+    return p.index == 0 || p.index > count ? std::optional(beyond(p, count).value()) : std::nullopt;
   }
 
  private:
@@ -113,24 +135,32 @@ class Finder {
   KindFinder kinds_;
 };
 
-// The new values of one argument as a statement of their own.
-std::string statement_of(const ElementId& element, std::string_view argument, const std::vector<double>& values) {
-  std::string text = fmt::format("{}{}{}=", name_of(element), element.id == 0 ? "/" : ", ", argument);
-  for (std::size_t k = 0; k < values.size(); ++k)
-    text += fmt::format("{}{:.17g}", k == 0 ? "" : k % 4 == 0 ? ",\n, " : ", ", values[k]);
+// The new values of one argument, of one that repeats all its lists, as a statement of their own.
+std::string statement_of(const ElementId& element, std::string_view argument, const Lists& lists) {
+  std::string text = name_of(element);
+  for (std::size_t n = 0; n < lists.size(); ++n) {
+    text += fmt::format("{}{}=", n > 0 ? ",\n, " : element.id == 0 ? "/" : ", ", argument);
+    const std::vector<double>& values = lists[n];
+    for (std::size_t k = 0; k < values.size(); ++k)
+      text += fmt::format("{}{:.17g}", k == 0 ? "" : k % 4 == 0 ? ",\n, " : ", ", values[k]);
+  }
   return text + '\n';
 }
 
 }  // namespace
 
 std::string ParameterRef::text() const {
-  return fmt::format("{} {}{}", name_of(element), argument, index == 1 ? "" : fmt::format("[{}]", index));
+  const std::string which = list == 1 ? "" : fmt::format("[{}]", list);
+  const std::string number = list == 1 && index == 1 ? "" : fmt::format("[{}]", index);
+  return fmt::format("{} {}{}{}", name_of(element), argument, which, number);
 }
 
 tl::expected<ParameterRef, Diagnostic> parse_parameter(std::string_view text) {
   const auto wrong = [&](std::string hint = {}) {
     return refusal("no-parameter", fmt::format("'{}' names no parameter", text),
-                   hint.empty() ? "STATEMENT/id ARGUMENT, or ARGUMENT[n] of several numbers" : std::move(hint));
+                   hint.empty()
+                       ? "STATEMENT/id ARGUMENT, ARGUMENT[n] of several numbers, ARGUMENT[m][n] of several lists"
+                       : std::move(hint));
   };
   const auto number = [](std::string_view digits, auto& into) {
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), into);
@@ -150,11 +180,14 @@ tl::expected<ParameterRef, Diagnostic> parse_parameter(std::string_view text) {
     const std::string_view near = nearest_word(element, statement_names());
     return wrong(near.empty() ? std::string() : fmt::format("did you mean {}?", near));
   }
-  if (argument.ends_with(']')) {
-    const std::size_t open = argument.find('[');
-    if (open == std::string_view::npos || !number(argument.substr(open + 1, argument.size() - open - 2), p.index) ||
-        p.index < 1)
+  if (const std::size_t open = argument.find('['); open != std::string_view::npos) {
+    const std::string_view places = argument.substr(open);
+    const std::size_t next = places.find("][");
+    const bool of_lists = next != std::string_view::npos;
+    if (!places.ends_with(']') || (of_lists && (!number(places.substr(1, next - 1), p.list) || p.list < 1)))
       return wrong();
+    const std::size_t digits = of_lists ? next + 2 : 1;
+    if (!number(places.substr(digits, places.size() - digits - 1), p.index) || p.index < 1) return wrong();
     argument = argument.substr(0, open);
   }
   if (argument.empty() || argument.find_first_of(" \t/[],") != std::string_view::npos) return wrong();
@@ -170,7 +203,7 @@ tl::expected<double, Diagnostic> parameter(const Dataset& dataset, const Paramet
   if (!place) return Refusal(place.error());
   const auto values = finder.numbers(p, *place);
   if (!values) return Refusal(values.error());
-  return (*values)[p.index - 1];
+  return (*values)[p.list - 1][p.index - 1];
 }
 
 tl::expected<EditedDataset, Diagnostics> with_parameters(std::shared_ptr<const Dataset> base,
@@ -180,7 +213,7 @@ tl::expected<EditedDataset, Diagnostics> with_parameters(std::shared_ptr<const D
   Diagnostics problems;
   const auto refuse = [&](const Diagnostic& d) { problems.error(d.code, d.at, d.message, d.hint); };
   // All numbers of each argument that changes.
-  std::map<std::pair<ElementId, std::string_view>, std::vector<double>> arguments;
+  std::map<std::pair<ElementId, std::string_view>, Lists> arguments;
   for (const auto& [p, value] : changes) {
     const auto place = finder.find(p);
     if (!place) {
@@ -192,26 +225,26 @@ tl::expected<EditedDataset, Diagnostics> with_parameters(std::shared_ptr<const D
                  .value());
       continue;
     }
-    std::vector<double>& values = arguments[{p.element, place->argument->name}];
-    if (values.empty()) {
-      const bool first_statement = !place->written && place->argument->count == 1;
-      auto before = first_statement ? std::vector<double>{value} : finder.numbers(p, *place);
+    Lists& lists = arguments[{p.element, place->argument->name}];
+    if (lists.empty()) {
+      const bool first_statement = place->written.empty() && place->argument->count == 1;
+      auto before = first_statement ? Lists{{value}} : finder.numbers(p, *place);
       if (!before) {
         refuse(before.error());
         continue;
       }
-      values = std::move(*before);
+      lists = std::move(*before);
     }
-    if (p.index > values.size()) {
-      refuse(finder.numbers(p, *place).error());
+    if (const auto missing = Finder::beyond(p, lists)) {
+      refuse(*missing);
       continue;
     }
-    values[p.index - 1] = value;
+    lists[p.list - 1][p.index - 1] = value;
   }
   if (problems.has_errors()) return tl::unexpected(std::move(problems));
 
   std::string text;
-  for (const auto& [argument, values] : arguments) text += statement_of(argument.first, argument.second, values);
+  for (const auto& [argument, lists] : arguments) text += statement_of(argument.first, argument.second, lists);
   auto parsed =
       parse_statements(std::make_shared<const SourceText>("(parameters)", std::move(text)), statement_names());
   problems.append(std::move(parsed.diagnostics));

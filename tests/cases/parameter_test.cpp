@@ -102,6 +102,54 @@ TEST(Parameter, that_is_not_stated_is_what_holds_without_it) {
   EXPECT_EQ(value_of(*heavy, "ACCGRAV JGRAV"), 0);
 }
 
+const std::string splines =
+    "Splines\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,1,1\nMARKER/20\n"
+    "JOINT/1, TRANSLATIONAL, I=20, J=1\nSPLINE/1, X=-2,-1,1,2, Y=-6,-3,3,6\n"
+    "SPLINE/2, X=-2,-1,1,2, Y=0,-6,-3,3,6,\n, Y=1,-8,-4,4,8\nSPLINE/3, FILE=points.txt\n"
+    "SFORCE/1, TRANSLATIONAL, I=20, J=1, ACTIONONLY, FUNCTION=-AKISPL(DZ(20,1,1),0,1)-AKISPL(DZ(20,1,1),1,2)\nEND\n";
+
+TEST(Parameter, of_an_argument_that_is_written_several_times_is_a_number_of_one_of_its_lists) {
+  EXPECT_EQ(named("SPLINE/2 Y[2][5]").list, 2u);
+  EXPECT_EQ(named("SPLINE/2 Y[2][5]").index, 5u);
+  EXPECT_EQ(named("SPLINE/2 Y[2][5]").text(), "SPLINE/2 Y[2][5]");
+  EXPECT_EQ(named("SPLINE/2 Y[2][1]").text(), "SPLINE/2 Y[2][1]");
+  EXPECT_EQ(named("SPLINE/2 Y[1][3]").text(), "SPLINE/2 Y[3]");
+  for (const char* wrong : {"SPLINE/2 Y[2][", "SPLINE/2 Y[][1]", "SPLINE/2 Y[0][1]", "SPLINE/2 Y[1][0]",
+                            "SPLINE/2 Y[1][2][3]", "SPLINE/2 Y[1]x[2]"})
+    EXPECT_FALSE(parse_parameter(wrong)) << wrong;
+
+  const auto d = dataset_of(splines);
+  EXPECT_EQ(value_of(*d, "SPLINE/1 Y[3]"), 3);
+  EXPECT_EQ(value_of(*d, "SPLINE/1 X[4]"), 2);
+  EXPECT_EQ(value_of(*d, "SPLINE/2 Y[4]"), 3);
+  EXPECT_EQ(value_of(*d, "SPLINE/2 Y[2][1]"), 1);
+  EXPECT_EQ(value_of(*d, "SPLINE/2 Y[2][5]"), 8);
+  EXPECT_THAT(refusal_of(*d, "SPLINE/2 Y[3][1]"), HasSubstr("Y of SPLINE/2 is written 2 times, none is number 3"));
+  EXPECT_THAT(refusal_of(*d, "SPLINE/2 Y[2][6]"), HasSubstr("Y of SPLINE/2 has 5 values, none is number 6"));
+  EXPECT_THAT(refusal_of(*d, "SPLINE/2 X[2][1]"), HasSubstr("X of SPLINE/2 is written once, none is number 2"));
+  EXPECT_THAT(refusal_of(*d, "SPLINE/3 Y[2]"), HasSubstr("[unstated-number]"));
+}
+
+TEST(Parameter, of_a_spline_replaced_reaches_the_linear_model) {
+  const auto d = dataset_of(std::string(splines).erase(splines.find("SPLINE/3"), 26));
+  const auto stiffness = [](const std::shared_ptr<const Dataset>& of) { return 2 * squared_frequency(of); };
+  EXPECT_NEAR(stiffness(d), 3 + 4, 1e-13);
+  // Both curves stay straight.
+  const auto other = changed(d, {{named("SPLINE/1 Y[1]"), -10},
+                                 {named("SPLINE/1 Y[2]"), -5},
+                                 {named("SPLINE/1 Y[3]"), 5},
+                                 {named("SPLINE/1 Y[4]"), 10},
+                                 {named("SPLINE/2 Y[2][2]"), -14},
+                                 {named("SPLINE/2 Y[2][3]"), -7},
+                                 {named("SPLINE/2 Y[2][4]"), 7},
+                                 {named("SPLINE/2 Y[2][5]"), 14}});
+  EXPECT_NEAR(stiffness(other), 5 + 7, 1e-13);
+  EXPECT_EQ(value_of(*other, "SPLINE/2 Y[2]"), -6);
+  EXPECT_EQ(value_of(*other, "SPLINE/2 Y[2][1]"), 1);
+  // The z of a curve is its first number, and the reader checks that they ascend.
+  EXPECT_EQ(value_of(*changed(other, {{named("SPLINE/2 Y[2][1]"), 3}}), "SPLINE/2 Y[2][5]"), 14);
+}
+
 TEST(Parameter, that_is_none_is_refused_with_the_reason) {
   const auto d = dataset_of(oscillator);
   EXPECT_EQ(refusal_of(*d, "PART/9 MASS"), "error: PART/9 does not exist [unknown-element]\nhint: PART/2 exists\n");
