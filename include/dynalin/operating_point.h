@@ -9,6 +9,7 @@
 #include "dynalin/marker_state.h"
 #include "dynalin/operating_state.h"
 #include "dynalin/remark.h"
+#include "dynalin/request_values.h"
 
 namespace dynalin::library {
 
@@ -29,6 +30,9 @@ class OperatingPoint {
   // What an element exerts on its marker I: a constraint its reaction, or a force element (on the first of its I
   // markers, where there are several).
   Load load(const ElementId&) const;
+  // What the REQUESTs have here in the order of the dataset, then those of MREQUESTs; without those that cannot be
+  // evaluated, which remarks of the model name. A component without a finite value is not finite.
+  std::vector<RequestValues> requests() const;
 
   // Constraint rows that depend on others, "Zi.Xj of JOINT/3".
   const std::vector<std::string>& redundant_rows() const;

@@ -42,9 +42,11 @@ class Study {
   const Model& model() const { return model_; }
 
   OperatingPoint as_drawn() const;
-  // A point of the model that this one was made of by Model::edited or Model::with, as far as it goes on: by class and
-  // id of the elements. What is new, or stated anew, begins as the dataset has it. It is not consistent.
-  OperatingPoint continued(const OperatingPoint& of_the_model_before) const;
+  // A point of a model that this one was made of by Model::edited and Model::with, once or several times, as far as it
+  // goes on: by class and id of the elements. What is new, or was stated anew since, begins as the dataset has it;
+  // since the first of the models, if the point is of none of them. It is not consistent; one of this model stays as it
+  // is.
+  OperatingPoint continued(const OperatingPoint& of_a_model_before) const;
   // Positions, velocities, accelerations and reactions that agree with constraints and forces; from the point as drawn,
   // or from another, which stays as it is if it is consistent already.
   OperatingPoint initial_conditions() const { return initial_conditions(as_drawn()); }

@@ -5,7 +5,7 @@
 
 #include "base/remark_of.h"
 #include "dynalin/record.h"
-#include "model/dataset_edits.h"
+#include "library/edit_history.h"
 #include "study/linearization.h"
 
 namespace dynalin::library {
@@ -14,9 +14,10 @@ struct Model::Inside {
   std::shared_ptr<const System> system;  // and the model in it
   std::vector<Remark> remarks;
   ReadingOptions options;
-  Restated restated;  // by what made it out of another model
+  EditHistory edits;  // that made it out of other models
 
-  Inside(std::shared_ptr<const System>, std::vector<Remark>, const ReadingOptions&, EditedDataset);
+  Inside(std::shared_ptr<const System>, std::vector<Remark>, const ReadingOptions&,
+         std::shared_ptr<const Dataset> statements, EditHistory);
   // The statements with their arguments. Those of a dataset as read have gone to bound its memory: the text, which
   // stays, is read once more when they are asked for.
   std::shared_ptr<const Dataset> statements() const;

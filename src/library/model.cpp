@@ -16,14 +16,16 @@ constexpr std::string_view activate = "ACTIVATE", deactivate = "DEACTIVATE";
 [[noreturn]] void refuse(const Diagnostic& problem) { throw Error(render(problem), {remark_of(problem)}); }
 
 std::shared_ptr<const Model::Inside> made(std::unique_ptr<dynalin::Model> model, Diagnostics diagnostics,
-                                          const ReadingOptions& options, EditedDataset edits) {
+                                          const ReadingOptions& options, std::shared_ptr<const Dataset> statements = {},
+                                          EditHistory edits = {}) {
   if (diagnostics.has_errors()) refuse(diagnostics);
   const auto system =
       System::make(std::move(model), {options.pade_delays ? DelayReading::pade : DelayReading::first_order});
   if (!system) refuse(system.error());
   auto remarks = remarks_of(diagnostics);
   append(remarks, remarks_of(remarks_on(**system)));
-  return std::make_shared<const Model::Inside>(*system, std::move(remarks), options, std::move(edits));
+  return std::make_shared<const Model::Inside>(*system, std::move(remarks), options, std::move(statements),
+                                               std::move(edits));
 }
 
 // A dataset whose arguments nobody needs but the model.
@@ -36,25 +38,26 @@ std::shared_ptr<const Model::Inside> read_as(Parsed<Dataset> parsed, const Readi
   if (built.value->dataset == written) written->release_arguments();
   // Statements that could not be read leave gaps that the model would only complain about again.
   if (read || built.diagnostics.has_errors()) diagnostics.append(std::move(built.diagnostics));
-  return made(std::move(built.value), std::move(diagnostics), options, {});
+  return made(std::move(built.value), std::move(diagnostics), options);
 }
 
-std::shared_ptr<const Model::Inside> rebuilt(EditedDataset edits, Diagnostics diagnostics,
-                                             const ReadingOptions& options) {
-  auto built = build_model(edits.dataset, catalogue(), {.user_value = options.user_value});
+std::shared_ptr<const Model::Inside> rebuilt(const Model::Inside& before, EditedDataset edit,
+                                             Diagnostics diagnostics = {}) {
+  auto built = build_model(edit.dataset, catalogue(), {.user_value = before.options.user_value});
   diagnostics.append(std::move(built.diagnostics));
-  return made(std::move(built.value), std::move(diagnostics), options, std::move(edits));
+  return made(std::move(built.value), std::move(diagnostics), before.options, std::move(edit.dataset),
+              before.edits.after(before.system, std::move(edit.restated)));
 }
 
 }  // namespace
 
 Model::Inside::Inside(std::shared_ptr<const System> made, std::vector<Remark> said, const ReadingOptions& read,
-                      EditedDataset edits)
+                      std::shared_ptr<const Dataset> statements, EditHistory history)
     : system(std::move(made)),
       remarks(std::move(said)),
       options(read),
-      restated(std::move(edits.restated)),
-      statements_(std::move(edits.dataset)) {}
+      edits(std::move(history)),
+      statements_(std::move(statements)) {}
 
 std::shared_ptr<const Dataset> Model::Inside::statements() const {
   std::call_once(read_, [this] {
@@ -86,7 +89,7 @@ Model Model::build(const std::string& title, const std::vector<StatedElement>& e
 Model Model::with(const std::vector<ParameterChange>& values) const {
   auto dataset = with_parameters(inside_->statements(), values, catalogue());
   if (!dataset) refuse(dataset.error());
-  return Model(rebuilt(std::move(*dataset), {}, inside_->options));
+  return Model(rebuilt(*inside_, std::move(*dataset)));
 }
 
 Model Model::edited(const std::string& commands) const {
@@ -106,7 +109,7 @@ Model Model::edited(const std::string& commands) const {
       editor.redefine(s);
   }
   if (diagnostics.has_errors()) refuse(diagnostics);
-  return Model(rebuilt(std::move(editor).finish(), std::move(diagnostics), inside_->options));
+  return Model(rebuilt(*inside_, std::move(editor).finish(), std::move(diagnostics)));
 }
 
 double Model::value(const ParameterRef& parameter) const {

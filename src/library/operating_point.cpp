@@ -6,6 +6,7 @@
 
 #include "library/inside.h"
 #include "system/operating_state.h"
+#include "system/request_values.h"
 
 namespace dynalin::library {
 
@@ -56,6 +57,10 @@ Load OperatingPoint::load(const ElementId& id) const {
   }
   if (!model_of(*this).find(id.statement, id.id)) fail_for_missing(id.text());
   fail(Failure{"results", id.text() + " exerts no force and torque on a marker", {}});
+}
+
+std::vector<RequestValues> OperatingPoint::requests() const {
+  return requests_at(*inside_->point.system, inside_->point.values).values;
 }
 
 bool OperatingPoint::is_static() const { return inside_->point.statics.has_value(); }

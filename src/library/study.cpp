@@ -56,7 +56,9 @@ OperatingPoint Study::as_drawn() const { return handed_out({dynalin::as_drawn(mo
 
 OperatingPoint Study::continued(const OperatingPoint& before) const {
   const Model::Inside& now = model_.inside();
-  return handed_out({dynalin::continued(before.inside().point, now.system, now.restated), {}});
+  const StudyPoint& point = before.inside().point;
+  if (point.system == now.system) return before;
+  return handed_out({dynalin::continued(point, now.system, now.edits.restated_since(point.system)), {}});
 }
 
 OperatingPoint Study::initial_conditions(const OperatingPoint& from, const InitialConditionRequest& request) const {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -313,6 +315,44 @@ TEST(Library, takes_points_over_into_changed_models) {
   EXPECT_NEAR(moved.part(2).velocity[1], 3, 1e-12);
 }
 
+// What any of the edits has stated anew since begins so; what was stated before the point was found does not again.
+TEST(Library, takes_points_over_through_several_edits) {
+  const auto before = study_of(pendulum);
+  const auto rest = before.static_equilibrium();
+  const auto stated = before.model().edited("PART/2, QG=1,0,0, WZ=3");
+  const auto heavy = stated.with("ACCGRAV JGRAV", -2 * 9.81);
+  const dynalin::Study after(heavy.edited("VARIABLE/3, FUNCTION=2*DX(20,1)"));
+  const auto moved = after.initial_conditions(after.continued(rest));
+  EXPECT_NEAR(moved.part(2).position[0], 1, 1e-12);
+  EXPECT_NEAR(moved.part(2).velocity[1], 3, 1e-12);
+  const auto hanging = dynalin::Study(heavy).static_equilibrium();
+  EXPECT_NEAR(after.continued(hanging).part(2).position[1], -1, 1e-12);
+  // Beside each other: nothing of the one is stated in the other.
+  const dynalin::Study beside(before.model().with("ACCGRAV JGRAV", -5));
+  EXPECT_NEAR(beside.continued(rest).part(2).position[1], -1, 1e-12);
+  EXPECT_NEAR(after.continued(beside.static_equilibrium()).part(2).position[0], 1, 1e-12);
+  // A point of the model itself stays what it is.
+  EXPECT_TRUE(after.continued(moved).is_consistent());
+}
+
+TEST(Library, has_the_values_of_requests_at_a_point) {
+  const auto study = study_of(replaced(
+      pendulum, "VARIABLE/3", "REQUEST/1, DISPLACEMENT, I=20, J=1\nREQUEST/2, F2=2*DX(20,1)\\F6=VZ(20,1)\nVARIABLE/3"));
+  const auto drawn = study.initial_conditions();
+  const auto requests = drawn.requests();
+  ASSERT_EQ(requests.size(), 2u);
+  EXPECT_EQ(requests[0].element, "REQUEST/1");
+  EXPECT_EQ(requests[0].components.size(), requests[0].values.size());
+  const auto value = [](const dynalin::RequestValues& r, const std::string& component) {
+    const auto found = std::find(r.components.begin(), r.components.end(), component);
+    return r.values.at(static_cast<std::size_t>(found - r.components.begin()));
+  };
+  EXPECT_NEAR(value(requests[0], "X"), drawn.marker(20).position[0], 1e-14);
+  EXPECT_NEAR(value(requests[1], "F2"), 2 * drawn.marker(20).position[0], 1e-14);
+  const auto hanging = study.static_equilibrium().requests();
+  EXPECT_NEAR(value(hanging[0], "Y"), -1, 1e-12);
+}
+
 // A second hinge of the pendulum, further along its axis than the first one allows.
 TEST(Library, takes_how_far_redundant_constraints_may_disagree) {
   auto text = replaced(pendulum, "MARKER/1\n", "MARKER/1\nMARKER/2, QP=0,0,1\n");
@@ -346,6 +386,45 @@ TEST(Library, tells_mass_damping_and_stiffness_of_the_whole_and_of_elements) {
     }
   }
   EXPECT_NEAR(stiffness, 18, 1e-13);
+}
+
+// A body on an unloaded bushing, along x, y, z of its mass centre and ψ, θ, φ of its principal axes: turned by
+// J (ψ′, θ′, φ′) with the columns z of the ground, the line of nodes and z of the body, so that M = Jᵀ R I Rᵀ J and
+// K = Jᵀ KT J.
+TEST(Library, tells_mass_damping_and_stiffness_along_original_coordinates) {
+  const double psi = 0.4, theta = 1.1, phi = -0.7;
+  const auto study = study_of(
+      "Body\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,2,3\n"
+      "MARKER/20, REULER=0.4,1.1,-0.7\nMARKER/21\n"
+      "BUSHING/1, I=21, J=1, K=5,6,7, KT=8,9,10, C=0.5,0.6,0.7, CT=0.8,0.9,1\nEND\n");
+  const auto found = study.linearize(study.static_equilibrium(), {.original = true}).physical_matrices();
+  ASSERT_EQ(found.coordinates.size(), 6u);
+  Eigen::Matrix3d J, R;
+  J << 0, std::cos(psi), std::sin(psi) * std::sin(theta), 0, std::sin(psi), -std::cos(psi) * std::sin(theta), 1, 0,
+      std::cos(theta);
+  const auto about = [](const Eigen::Vector3d& axis, double angle) {
+    return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+  };
+  R = about(Eigen::Vector3d::UnitZ(), psi) * about(Eigen::Vector3d::UnitX(), theta) *
+      about(Eigen::Vector3d::UnitZ(), phi);
+  const auto of_turns = [&](const Eigen::Matrix3d& m) -> Eigen::Matrix3d { return J.transpose() * m * J; };
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(6, 6), C = M, K = M;
+  M.topLeftCorner(3, 3) = 2 * Eigen::Matrix3d::Identity();
+  M.bottomRightCorner(3, 3) = of_turns(R * Eigen::Vector3d(1, 2, 3).asDiagonal() * R.transpose());
+  C.topLeftCorner(3, 3) = Eigen::Vector3d(0.5, 0.6, 0.7).asDiagonal();
+  C.bottomRightCorner(3, 3) = of_turns(Eigen::Vector3d(0.8, 0.9, 1).asDiagonal());
+  K.topLeftCorner(3, 3) = Eigen::Vector3d(5, 6, 7).asDiagonal();
+  K.bottomRightCorner(3, 3) = of_turns(Eigen::Vector3d(8, 9, 10).asDiagonal());
+  std::vector<Eigen::Index> order;  // x, y, z, ψ, θ, φ
+  for (const auto& label : found.coordinates) order.push_back(label.coordinate - 1);
+  for (Eigen::Index r = 0; r < 6; ++r) {
+    for (Eigen::Index c = 0; c < 6; ++c) {
+      const auto i = order[static_cast<std::size_t>(r)], j = order[static_cast<std::size_t>(c)];
+      EXPECT_NEAR(found.force.of_accelerations(r, c), M(i, j), 1e-13) << i << ' ' << j;
+      EXPECT_NEAR(found.force.of_rates(r, c), C(i, j), 1e-13) << i << ' ' << j;
+      EXPECT_NEAR(found.force.of_coordinates(r, c), K(i, j), 1e-12) << i << ' ' << j;
+    }
+  }
 }
 
 using Elements = std::vector<dynalin::StatedElement>;
