@@ -88,6 +88,26 @@ TEST_F(Both, settings_of_equilibrium_act_from_dataset_and_command) {
   EXPECT_GT(r.result(0)["iterations"], 3 * r.result(2)["iterations"].get<int>());
 }
 
+// A weight of its own, a spring taken out and in again, a place and a velocity stated anew: the point goes on.
+TEST_F(Both, edits_by_command_change_the_same) {
+  const RunResult r =
+      run(pendulum("SPRINGDAMPER/1, ROTATIONAL, I=21, J=1, KT=2, CT=0.1\nREQUEST/1, F2=VARVAL(3)\n"
+                   "DIFF/1, FUNCTION=VX(20,1)-DIF(1), IC=0.3\n"),
+          "SIM/STAT\nLINEAR/EIGENSOL\nDEACTIVATE/SPRING, ID=1\nACCGRAV/JGRAV=-20\nLINEAR/EIGENSOL\n"
+          "PART/2, MASS=3, QG=0.8,0.6,0\nACTIVATE/SPRING, ID=1\nPART/2, WZ=2\nSIM/INITIAL\nLINEAR/STATEMAT, FILE=a\n"
+          "DIFF/1, IC=0.7\nSIM/INITIAL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.json["results"].back()["operating_point"]["states"][0]["value"], 0.7);
+}
+
+TEST_F(Both, redundant_constraints_may_disagree_as_far_as_IC_says) {
+  const RunResult r = run(pendulum("MARKER/2, PART=1, QP=0,0,1\nMARKER/22, PART=2, QP=-1,0,1.00001\n"
+                                   "JOINT/2, REVOLUTE, I=22, J=2\n"),
+                          "IC/ERROR=1E-3\nSIM/INITIAL\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.result(1)["operating_point"]["constraints"].size(), 10u);
+}
+
 // What is searched in vain says the same on both sides.
 TEST_F(Both, failures_have_the_same_account) {
   const RunResult r =

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "command/commands/edit.h"
 #include "command/commands/environment.h"
 #include "command/commands/equilibrium.h"
 #include "command/commands/linear.h"
@@ -14,8 +15,8 @@
 
 namespace dynalin::cases {
 
-// Runs the commands one by one through the library; empty where one of them is nothing that the library has: edits of
-// the model, IC, commands that are passed over.
+// Runs the commands one by one through the library; empty where one of them is nothing that the library has, such as
+// commands that are passed over.
 class Replay {
  public:
   explicit Replay(const SessionOptions& options) : options_(options) {}
@@ -25,7 +26,7 @@ class Replay {
     const auto plan = planned(options_, unused);
     if (!plan || plan->jobs.size() != 1) return {};
     const Job& job = plan->jobs.front();
-    const library::Study study(
+    library::Study study(
         library::Model::read(job.stages.front().dataset->source->name(), {options_.pade, options_.user_value}));
     library::Record record(study.model());
     auto point = study.as_drawn();
@@ -42,10 +43,20 @@ class Replay {
   }
 
  private:
-  bool execute(const Command& c, const library::Study& study, library::Record& record, library::OperatingPoint& point) {
+  bool execute(const Command& c, library::Study& study, library::Record& record, library::OperatingPoint& point) {
+    if (action_of<commands::Edit>(c)) {
+      study = library::Study(study.model().edited(c.text));
+      // A point of the first model goes through all edits at once.
+      if (!analysed_) analysed_ = point;
+      point = study.continued(*analysed_);
+      record.add(c.text, point.time());
+      return true;
+    }
+    analysed_.reset();
     if (const auto* simulate = action_of<commands::Simulate>(c)) {
       if (simulate->kind) return through_time(c.text, *simulate, study, record, point);
-      point = simulate->initial_conditions ? study.initial_conditions(point) : study.static_equilibrium(point, static_);
+      point = simulate->initial_conditions ? study.initial_conditions(point, initial_)
+                                           : study.static_equilibrium(point, static_);
       record.add(c.text, point);
       return true;
     }
@@ -65,6 +76,11 @@ class Replay {
         static_.restore_velocities = false;
       else
         return false;
+      record.add(c.text, point.time());
+      return true;
+    }
+    if (const auto* setting = action_of<commands::SettingOf<WrittenInitialConditions>>(c)) {
+      initial_.error = setting->written.error;
       record.add(c.text, point.time());
       return true;
     }
@@ -97,7 +113,9 @@ class Replay {
     request.pstate = c.pstate, request.pinput = c.pinput, request.poutput = c.poutput, request.rm = c.rm;
     request.without_damping = c.without_damping, request.original = c.original;
     request.dense_up_to = options_.dense_up_to;
-    const library::LinearModel linear = study.linearize(point, request);
+    const bool within = initial_.error && !point.is_consistent();
+    const library::LinearModel linear =
+        study.linearize(within ? study.initial_conditions(point, initial_) : point, request);
     if (!point.is_consistent()) point = linear.operating_point();
     if (c.option == LinearOption::mkb)
       record.add(text, linear, linear.second_order());
@@ -117,6 +135,8 @@ class Replay {
   }
 
   const SessionOptions& options_;
+  std::optional<library::OperatingPoint> analysed_;  // before the edits that come one after the other
+  InitialConditionRequest initial_;
   StaticRequest static_;
   LinearRequest environment_;
 };
