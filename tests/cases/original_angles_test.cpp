@@ -1,6 +1,8 @@
 // ORIGINAL near the singularity of its angles, and what its numbers of a mode refer to.
 #include <gmock/gmock.h>
 
+#include <map>
+
 #include "cases/original_cases.h"
 
 namespace dynalin::cases {
@@ -37,6 +39,44 @@ TEST_F(OriginalAngles, near_the_singularity_states_are_still_those_of_the_origin
       ASSERT_EQ(codes(r, 1).size(), states);
       for (const auto& code : codes(r, 1)) EXPECT_EQ(code[0], 1);
     }
+  }
+}
+
+// By hand, at ψ = 0 and the nutation θ, c = cos θ, s = sin θ: a unit of ψ turns about Z, one of θ about X, one of φ
+// about the third axis (0, −s, c). A body of inertia 1 about all axes, held by 4, 9 and 16 about X, Y and Z:
+//
+//     turn about X    δθ                      δθ″ = −4 δθ
+//     turn about Y    −s δφ                −s δφ″ = 9 s δφ
+//     turn about Z    δψ + c δφ    δψ″ + c δφ″ = −16 (δψ + c δφ)
+//
+// so that δφ″ = −9 δφ and δψ″ = −16 δψ − 7 c δφ, however small θ is. All states are of type 1, the angles 4 ψ, 5 θ, 6
+// φ, their rates 10, 11, 12.
+TEST_F(OriginalAngles, of_a_body_on_springs_have_the_equations_found_by_hand) {
+  for (const double degrees : {0.06, 0.3, 1.0, 4.9, 30.0}) {
+    SCOPED_TRACE(degrees);
+    const double theta = degrees * std::numbers::pi / 180;
+    const RunResult r =
+        run(fmt::format("Held\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,1,1\n"
+                        "MARKER/20, REULER=0,{:.17g},0.4\nMARKER/21\n"
+                        "BUSHING/1, I=21, J=1, K=50,72,98, KT=4,9,16, C=0,0,0, CT=0,0,0\nEND\n",
+                        theta),
+            "SIMULATE/STATIC\nLINEAR/STATEMAT, ORIGINAL, FILE=a\n");
+    ASSERT_EQ(r.status, 0) << r.err;
+    const auto states = codes(r, 1);
+    ASSERT_EQ(states.size(), 12u);
+    std::map<int, std::size_t> at;
+    for (std::size_t k = 0; k < states.size(); ++k) {
+      EXPECT_EQ(states[k][0], 1);
+      EXPECT_EQ(states[k][1], 2);
+      at[states[k][2]] = k;
+    }
+    ASSERT_EQ(at.size(), 12u);
+    std::vector<std::vector<double>> expected(12, std::vector<double>(12, 0.0));
+    for (int n = 1; n <= 6; ++n) expected[at.at(n)][at.at(n + 6)] = 1;
+    const std::array<double, 6> diagonal = {-25, -36, -49, -16, -4, -9};
+    for (int n = 1; n <= 6; ++n) expected[at.at(n + 6)][at.at(n)] = diagonal[static_cast<std::size_t>(n - 1)];
+    expected[at.at(10)][at.at(6)] = -7 * std::cos(theta);
+    expect_matrices(r.matrix(1, "A"), expected, 1e-12);
   }
 }
 
