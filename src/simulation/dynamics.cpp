@@ -9,14 +9,16 @@
 #include <set>
 
 #include "simulation/motion_equations.h"
+#include "simulation/moving_rows.h"
 #include "simulation/point_refinement.h"
 
 namespace dynalin {
 
 namespace {
 
-// Rows that were left out and are farther than this from being met, in their scales, do not follow from the others.
-constexpr double left_out_limit = 1e-7;
+// Rows that were left out and are farther than this from being met, in their scales, do not follow from the others;
+// the same in errors that a step may have, which leave them so far where they hardly follow.
+constexpr double least_left_out = 1e-7, left_out_errors = 100;
 // Events in a row with hardly time to gather speed between them, after which they are passed over for some steps.
 constexpr int event_limit = 200;
 constexpr std::int64_t steps_between_events = 20, steps_without_events = 200;
@@ -28,13 +30,6 @@ constexpr double largest_part_of_error = 0.1;  // in a step, of what rounding le
 constexpr int steps_held_by_rounding = 500;
 constexpr std::size_t remark_limit = 50;
 constexpr double shortest_bound = 1e-2;  // of steps, by what elements have to resolve: of the whole time
-
-std::vector<bool> active_rows(const System& system, const OperatingPoint& op) {
-  ConstraintRows rows;
-  rows.resize(system.layout());
-  system.constraints(system.motion(op), rows);
-  return system.partition(rows, true).active;
-}
 
 class Dynamics {
  public:
@@ -101,7 +96,8 @@ class Dynamics {
   // Everything that belongs to an operating point, from positions, velocities and states that are nearly right.
   Result<OperatingPoint> consistent(OperatingPoint op) {
     Findings found;
-    const double t = op.time;
+    const double t = op.time, tolerance = op.redundancy_tolerance;
+    if (equations_) op.redundancy_tolerance = std::max(tolerance, left_out_limit());
     auto result = assemble_position(system_, std::move(op), found)
                       .and_then([&](OperatingPoint p) { return reconcile_velocity(system_, std::move(p), found); })
                       .and_then([&](OperatingPoint p) { return accelerations(std::move(p), found); });
@@ -111,6 +107,7 @@ class Dynamics {
       f.analysis = "dynamics";
       return tl::unexpected(std::move(f));
     }
+    result->redundancy_tolerance = tolerance;
     findings_.redundant_rows = std::move(found.redundant_rows);
     for (const Diagnostic& d : found.warnings.items()) {
       if (said_.size() < remark_limit && said_.insert(d.message).second)
@@ -118,6 +115,8 @@ class Dynamics {
     }
     return result;
   }
+
+  double left_out_limit() const { return std::max(least_left_out, left_out_errors * tolerance_.relative); }
 
   // From those at hand; where that fails, as from a point as drawn.
   Result<OperatingPoint> accelerations(OperatingPoint op, Findings& found) const {
@@ -141,7 +140,7 @@ class Dynamics {
 
   // The integration from the point, which is consistent.
   Result<void> begin(std::optional<double> first_step = {}) {
-    std::vector<bool> active = active_rows(system_, point_);
+    std::vector<bool> active = rows_of_motion(system_, point_);
     if (!equations_ || equations_->active() != active) {
       integrator_.reset();
       counted_before_ = statistics_;
@@ -213,7 +212,7 @@ class Dynamics {
   // events may be looked for again.
   Result<void> follow() {
     note_rounding();
-    const bool strayed = equations_->left_out_violation(point_) > left_out_limit;
+    const bool strayed = equations_->left_out_violation(point_) > left_out_limit();
     const bool look_again = close_events_ >= event_limit && statistics_.steps - last_event_ > steps_without_events;
     if (look_again) close_events_ = 0;
     if (strayed || look_again) return begin_at_consistent();

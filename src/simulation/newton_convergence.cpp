@@ -27,7 +27,7 @@ NewtonConvergence::NewtonConvergence(std::size_t unknowns, int iterations, Round
       still_to_come_(still_to_come_at_first) {}
 
 void NewtonConvergence::begin_matrix() {
-  known_ = false;
+  known_ = false, new_matrix_ = true;
   still_to_come_ = still_to_come_at_first;
 }
 
@@ -38,18 +38,19 @@ int NewtonConvergence::test(SUNNonlinearSolver solver, double coefficient, N_Vec
   int iteration = 0;
   SUNNonlinSolGetCurIter(solver, &iteration);
   if (iteration == 0) {
-    if (coefficient != coefficient_) still_to_come_ = still_to_come_at_change;
-    coefficient_ = coefficient;
+    if (coefficient != coefficient_ && !new_matrix_) still_to_come_ = still_to_come_at_change;
+    coefficient_ = coefficient, new_matrix_ = false;
     first_ = last_ = size;
     if (size <= nothing_left * left) return SUN_NLS_SUCCESS;
     return still_to_come_ * size <= left ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
   }
   const double rate = std::pow(size / first_, 1.0 / iteration);
   const bool stands = size > hardly_shorter * last_ || iteration + 1 >= iterations_;
+  const double contraction = std::min(rate, worst_rate);
+  still_to_come_ = contraction / (1 - contraction);
   last_ = size;
-  if (stands && is_rounding(correction, left, weight)) return SUN_NLS_SUCCESS;
+  if (stands && still_to_come_ * size_beyond_rounding(correction, weight) <= left) return SUN_NLS_SUCCESS;
   if (!(rate <= worst_rate)) return SUN_NLS_CONV_RECVR;
-  still_to_come_ = rate / (1 - rate);
   return still_to_come_ * size <= left ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
 }
 
@@ -59,14 +60,14 @@ void NewtonConvergence::look_at_rounding() {
   for (std::size_t k = 0; k < here_.size(); ++k) rounding_[k] = std::max(here_[k], kept * rounding_[k]);
 }
 
-bool NewtonConvergence::is_rounding(N_Vector correction, double left, N_Vector weight) const {
+double NewtonConvergence::size_beyond_rounding(N_Vector correction, N_Vector weight) const {
   const double *c = NV_DATA_S(correction), *w = NV_DATA_S(weight);
   double sum = 0;
   for (std::size_t k = 0; k < rounding_.size(); ++k) {
     const double beyond = std::max(0.0, std::abs(c[k]) - rounding_[k]) * w[k];
     sum += beyond * beyond;
   }
-  return std::sqrt(sum / static_cast<double>(rounding_.size())) <= left;
+  return std::sqrt(sum / static_cast<double>(rounding_.size()));
 }
 
 }  // namespace dynalin

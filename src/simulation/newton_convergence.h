@@ -29,15 +29,15 @@ class NewtonConvergence {
 
  private:
   void look_at_rounding();
-  bool is_rounding(N_Vector correction, double left, N_Vector weight) const;
+  double size_beyond_rounding(N_Vector correction, N_Vector weight) const;
 
   int iterations_;
   Rounding find_;
   std::vector<double> rounding_, here_;
-  bool known_ = false;           // of the matrix at hand
-  double first_ = 0, last_ = 0;  // sizes of corrections of the iteration
-  double coefficient_ = 0;       // of the last step
-  double still_to_come_;         // at most this many times the last correction
+  bool known_ = false, new_matrix_ = true;  // rounding of the matrix at hand; no iteration has begun with it
+  double first_ = 0, last_ = 0;             // sizes of corrections of the iteration
+  double coefficient_ = 0;                  // of the last step
+  double still_to_come_;                    // at most this many times the last correction
 };
 
 }  // namespace dynalin

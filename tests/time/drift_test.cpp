@@ -36,7 +36,7 @@ const Bound bounds[] = {
     {heavy_top, 1000, 1e-2, 1e-12, 1e-12, {4, 5}, 1e-2},
     {spatial_four_bar, 100, 2e-3, 2e-6, 4e-6, {}},
     {slider_crank, 100, 1e-3, 2e-6, 4e-6, {}},
-    {gyroscope, 100, 5e-4, 5e-6, 5e-6, {4, 5}, 3e-5},
+    {gyroscope, 100, 1e-3, 5e-6, 5e-6, {4, 5}, 3e-5},
 };
 
 INSTANTIATE_TEST_SUITE_P(Time, Drift, ::testing::ValuesIn(bounds), [](const auto& its) {

@@ -1,0 +1,12 @@
+// Which constraint rows hold a motion. Rows that depend on others at one instant alone, as where all links of a
+// parallelogram lie in one line, hold it before and behind: they are told from redundant ones a little ahead.
+#pragma once
+
+#include "system/system.h"
+
+namespace dynalin {
+
+// 1 for rows that are independent at the point or, if more of them are, a little later on its way.
+std::vector<bool> rows_of_motion(const System&, const OperatingPoint&);
+
+}  // namespace dynalin
