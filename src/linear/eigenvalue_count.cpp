@@ -1,5 +1,6 @@
 #include "linear/eigenvalue_count.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,8 +12,9 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double pi = std::numbers::pi;
 constexpr double largest_step = 1.0;  // of log; a phase is lost at π
-constexpr int most_divisions = 24;
-constexpr int pieces = 4;  // between two corners, to begin with
+constexpr int pieces = 4;             // between two corners, to begin with
+constexpr std::size_t most_points = 600;
+constexpr double least_piece = 1e-9;  // of the border
 
 class Winding {
  public:
@@ -21,53 +23,89 @@ class Winding {
 
   // Of the smoothed determinant; nothing if the border is too near an eigenvalue.
   std::optional<double> phase() {
-    double sum = 0;
     for (std::size_t c = 0; c + 1 < border_.corners.size(); ++c) {
       const double from = border_.corners[c], to = border_.corners[c + 1];
-      for (int k = 0; k < pieces; ++k) {
-        const double a = from + (to - from) * k / pieces, b = from + (to - from) * (k + 1) / pieces;
-        if (!last_ && !(last_ = logarithm(a))) return std::nullopt;
-        const auto next = logarithm(b);
-        if (!next) return std::nullopt;
-        const auto change = between(a, *last_, b, *next, 0);
-        if (!change) return std::nullopt;
-        sum += *change;
-        last_ = next;
+      for (int k = c == 0 ? 0 : 1; k <= pieces; ++k) {
+        if (!add(points_.end(), from + (to - from) * k / pieces)) return std::nullopt;
       }
     }
-    return sum;
+    for (;;) {
+      smooth();
+      double sum = 0;
+      std::vector<double> between;
+      for (std::size_t k = 0; k + 1 < points_.size(); ++k) {
+        const Complex change = points_[k + 1].rest - points_[k].rest;
+        const double turned = std::remainder(change.imag(), 2 * pi);
+        sum += turned;
+        if (std::abs(turned) <= largest_step && std::abs(change.real()) <= largest_step) continue;
+        if (points_[k + 1].t - points_[k].t < least_piece) return std::nullopt;
+        between.push_back(0.5 * (points_[k].t + points_[k + 1].t));
+      }
+      if (between.empty()) return sum;
+      for (const double t : between) {
+        const auto next = std::find_if(points_.begin(), points_.end(), [&](const Point& p) { return p.t > t; });
+        if (points_.size() >= most_points || !add(next, t)) return std::nullopt;
+      }
+    }
   }
 
  private:
-  std::optional<Complex> logarithm(double t) {
+  struct Point {
+    double t;
+    Complex place;      // in units of the region
+    Complex logarithm;  // of the determinant without what is known
+    Complex rest;       // without the polynomial
+  };
+
+  bool add(std::vector<Point>::iterator before, double t) {
     const Complex sigma = border_.at(t);
-    if (!lu_.factor(sigma)) return std::nullopt;
+    if (!lu_.factor(sigma)) return false;
     Complex value = lu_.log_determinant();
     for (const Complex& p : known_) {
-      if (sigma == p) return std::nullopt;
+      if (sigma == p) return false;
       value -= std::log(sigma - p);
     }
-    if (!std::isfinite(value.real()) || !std::isfinite(value.imag())) return std::nullopt;
-    return value;
+    if (!std::isfinite(value.real()) || !std::isfinite(value.imag())) return false;
+    points_.insert(before, {t, (sigma - border_.centre) / border_.radius, value, value});
+    return true;
   }
-  std::optional<double> between(double a, Complex at_a, double b, Complex at_b, int divisions) {
-    const double turned = std::remainder(at_b.imag() - at_a.imag(), 2 * pi);
-    if (std::abs(turned) <= largest_step && std::abs(at_b.real() - at_a.real()) <= largest_step) return turned;
-    if (divisions == most_divisions) return std::nullopt;
-    const double m = 0.5 * (a + b);
-    const auto middle = logarithm(m);
-    if (!middle) return std::nullopt;
-    const auto first = between(a, at_a, m, *middle, divisions + 1);
-    if (!first) return std::nullopt;
-    const auto second = between(m, *middle, b, at_b, divisions + 1);
-    if (!second) return std::nullopt;
-    return *first + *second;
+
+  // The polynomial of least squares for the moduli; its coefficients are real where half a border stands for all.
+  void smooth() {
+    const auto rows = static_cast<Eigen::Index>(points_.size());
+    const Eigen::Index degree = border_.upper_half ? rows / 2 : rows / 4, per_power = border_.upper_half ? 1 : 2;
+    Eigen::MatrixXd powers(rows, 1 + per_power * degree);
+    Eigen::VectorXd moduli(rows);
+    std::vector<std::vector<Complex>> of_point;
+    for (Eigen::Index r = 0; r < rows; ++r) {
+      const Point& p = points_[static_cast<std::size_t>(r)];
+      std::vector<Complex>& power = of_point.emplace_back(1, Complex(1));
+      for (Eigen::Index k = 1; k <= degree; ++k) power.push_back(power.back() * p.place);
+      moduli(r) = p.logarithm.real();
+      powers(r, 0) = 1;
+      for (Eigen::Index k = 1; k <= degree; ++k) {
+        const Complex v = power[static_cast<std::size_t>(k)];
+        powers(r, 1 + per_power * (k - 1)) = v.real();
+        if (per_power == 2) powers(r, 2 * k) = -v.imag();
+      }
+    }
+    const Eigen::VectorXd c = powers.colPivHouseholderQr().solve(moduli);
+    for (Eigen::Index r = 0; r < rows; ++r) {
+      Point& p = points_[static_cast<std::size_t>(r)];
+      Complex sum = c(0);
+      for (Eigen::Index k = 1; k <= degree; ++k) {
+        const Eigen::Index at = 1 + per_power * (k - 1);
+        sum += Complex(c(at), per_power == 2 ? c(at + 1) : 0) *
+               of_point[static_cast<std::size_t>(r)][static_cast<std::size_t>(k)];
+      }
+      p.rest = p.logarithm - sum;
+    }
   }
 
   ShiftedLu& lu_;
   const Border& border_;
   const std::vector<Complex>& known_;
-  std::optional<Complex> last_;
+  std::vector<Point> points_;
 };
 
 }  // namespace
@@ -78,9 +116,13 @@ Border circle(Complex centre, double radius) {
       if (t == 0 || t == 1) return centre.real() + (t == 0 ? radius : -radius);
       return centre + std::polar(radius, pi * t);
     };
-    return {at, true, {0, 0.5, 1}};
+    return {at, true, {0, 0.5, 1}, centre, radius};
   }
-  return {[=](double t) { return centre + std::polar(radius, 2 * pi * t); }, false, {0, 0.25, 0.5, 0.75, 1}};
+  return {[=](double t) { return centre + std::polar(radius, 2 * pi * t); },
+          false,
+          {0, 0.25, 0.5, 0.75, 1},
+          centre,
+          radius};
 }
 
 Border rectangle(double left, double right, double low, double high) {
@@ -100,7 +142,8 @@ Border rectangle(double left, double right, double low, double high) {
     const double share = (t - place[k - 1]) / (place[k] - place[k - 1]);
     return share <= 0 ? corner[k - 1] : share >= 1 ? corner[k] : corner[k - 1] + share * (corner[k] - corner[k - 1]);
   };
-  return {at, half, place};
+  const Complex centre(0.5 * (left + right), half ? 0 : 0.5 * (low + high));
+  return {at, half, place, centre, std::abs(Complex(right, high) - centre)};
 }
 
 std::optional<Eigen::Index> eigenvalues_inside(ShiftedLu& lu, const Border& border, const std::vector<Complex>& known,

@@ -2,9 +2,11 @@
 // det(S − σ E) along it, σ turning to the left.
 //
 // The determinant is divided by ∏(σ − p) over all places p where an eigenvalue is known or guessed to be. That changes
-// the winding number by as many of them as are inside, wherever they are, and leaves a function that changes little
-// from point to point. Between two points its logarithm may change by no more than `largest_step`, phase and modulus;
-// where it does, the border is divided.
+// the winding number by as many of them as are inside, wherever they are. What is left is divided by exp(polynomial),
+// which does not wind at all: the polynomial is fitted to the moduli on the border, and as all that is far away makes a
+// function without zeros inside, its phase follows it. So little is left to change from point to point: between two of
+// them the logarithm may change by no more than `largest_step`, phase and modulus; where it does, the border is
+// divided.
 #pragma once
 
 #include <functional>
@@ -20,6 +22,8 @@ struct Border {
   // Only the half above the real axis, from the right end to the left end, of a region that is its own mirror image.
   bool upper_half = false;
   std::vector<double> corners;  // where pieces of it meet, 0 and 1 among them
+  std::complex<double> centre;  // of what is inside
+  double radius = 1;            // its size
 };
 Border circle(std::complex<double> centre, double radius);  // its upper half if the centre is real
 // left ≤ Re ≤ right, low ≤ Im ≤ high; with low = 0 the upper half of one twice as high.

@@ -131,10 +131,7 @@ class Solution {
     return static_cast<Index>(std::count_if(all.begin(), all.end(), [&](Complex v) { return region.has(v); }));
   }
   // Also what is in sight: no matter for the count, it only makes the determinant smoother.
-  std::vector<Complex> places() const {
-    const std::vector<Complex> beyond = KnownModes(right_.in_sight()).all();
-    return joined(both_members() ? values() : known().all(), beyond);
-  }
+  std::vector<Complex> places() const { return joined(known().all(), KnownModes(right_.in_sight()).all()); }
 
   // The modes in region_ and how many there ought to be; the search goes on where they differ.
   bool count() {
@@ -187,15 +184,21 @@ class Solution {
         selected_.complete = true;
         return true;
       }
-      if (count() || right_.everything()) break;
-      // From another start vector, as far as the border.
-      const Index found = right_.found();
-      right_.run(std::max<Index>(2, missing_ + 1), region_.radius + std::abs(op_.shift() - region_.centre));
-      if (right_.found() == found && ++fruitless > 2) break;
+      // From other start vectors as far as the border, until there is nothing more.
+      if (look_for_more(region_.radius + std::abs(op_.shift() - region_.centre))) continue;
+      if (count() || right_.everything() || ++fruitless > 2) break;
     }
     selected_.radius_hz = region_.radius / cycle;
     return true;
   }
+  // Whether another start vector has found something in the region.
+  bool look_for_more(double radius) {
+    if (right_.everything()) return false;
+    const Index before = right_.found(), inside = count_in(region_);
+    right_.run(std::max<Index>(2, missing_ + 1), radius);
+    return right_.found() > before && count_in(region_) > inside;
+  }
+
   bool find_band(const ModesInBand& band) {
     region_ = region_of(band);
     if (region_.high == 0) return find_nearest({0, 0});  // structural zeros alone
@@ -223,6 +226,9 @@ class Solution {
         }
       }
       if (shifts_.empty()) continue;
+      for (int round = 0; round < most_rounds; ++round) {
+        if (!look_for_more(std::hypot(region_.right, 0.5 * (region_.high - region_.low)))) break;
+      }
       if (count() || right_.everything()) return true;
     }
     return !shifts_.empty();
