@@ -29,6 +29,7 @@ constexpr double just_beyond = 1e-6;           // of the whole time
 constexpr double largest_part_of_error = 0.1;  // in a step, of what rounding leaves no more exact
 constexpr int steps_held_by_rounding = 500;
 constexpr std::size_t remark_limit = 50;
+constexpr double part_that_jumps = 0.1;  // of a value, beside what changes with the point
 constexpr double shortest_bound = 1e-2;  // of steps, by what elements have to resolve: of the whole time
 
 class Dynamics {
@@ -256,7 +257,9 @@ class Dynamics {
     EventAction action = events_.at(integrator_->crossed(), point_);
     const bool anew = action.restart || action.output || action.ends() || action.refactor || action.step_size;
     if (anew) {
+      const std::vector<double> values = point_.algebraic, rates = point_.state_rate;
       if (auto made = make_consistent(); !made) return tl::unexpected(made.error());
+      if (action.restart) note_jumps(values, rates);
     }
     const bool output = action.output || action.ends();
     if ((output || !action.text.empty()) && !hand_out(point_, output, action.text)) action.returns = stopped_ = true;
@@ -282,15 +285,33 @@ class Dynamics {
                                            point_.time, equations_->unknowns().text(unknown)));
   }
 
+  // What is on the other side of the event not what it was before.
+  void note_jumps(const std::vector<double>& values, const std::vector<double>& rates) {
+    jumping_.clear();
+    const auto note = [&](double from, double to, const ElementLabel& owner) {
+      if (std::abs(to - from) > part_that_jumps * std::max(std::abs(from), std::abs(to)))
+        jumping_.insert(owner.full_text());
+    };
+    const Layout& layout = system_.layout();
+    for (std::size_t k = 0; k < values.size(); ++k) note(values[k], point_.algebraic[k], *layout.algebraic[k].owner);
+    for (std::size_t k = 0; k < rates.size(); ++k) note(rates[k], point_.state_rate[k], *layout.states[k].owner);
+  }
+
   void note_density() {
     const bool close = statistics_.steps - last_event_ <= steps_between_events;
     last_event_ = statistics_.steps;
     close_events_ = close ? close_events_ + 1 : 0;
     if (close_events_ == event_limit && said_.insert("dense-events").second) {
-      findings_.warnings.warning("dense-events", {},
-                                 fmt::format("at time {:g} functions switch without end: from there on kinks and jumps "
-                                             "are at times stepped over, within the error that is allowed",
-                                             point_.time));
+      const std::string names = fmt::format("{}", fmt::join(jumping_, ", "));
+      findings_.warnings.warning(
+          "dense-events", {},
+          fmt::format("at time {:g} functions switch without end: from there on kinks and jumps are at times stepped "
+                      "over, within the error that is allowed{}",
+                      point_.time, names.empty() ? "" : "; what jumps to and fro is " + names),
+          names.empty()
+              ? ""
+              : "a jump that holds the motion at its own edge, like dry friction by SIGN or IF, asks for steps "
+                "of next to nothing: give it a slope (STEP)");
     }
   }
 
@@ -342,7 +363,7 @@ class Dynamics {
   bool stopped_ = false;                                             // by the watch
   double first_failure_ = -std::numeric_limits<double>::infinity();  // of those that are counted [time]
   std::int64_t last_event_ = -steps_between_events - 1;              // counted in steps
-  std::set<std::string> said_;
+  std::set<std::string> said_, jumping_;  // remarks so far; what had another value behind the last event
 };
 
 }  // namespace
