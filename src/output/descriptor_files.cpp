@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 
 #include "output/matrices.h"
@@ -106,9 +107,15 @@ bool wrote_mat_file(const char* path, const DescriptorForm& form) {
 void write_matrix_market(std::ostream& out, const Eigen::SparseMatrix<double>& m, const std::string& comment) {
   fmt::print(out, "%%MatrixMarket matrix coordinate real general\n% {}\n{} {} {}\n", comment, m.rows(), m.cols(),
              m.nonZeros());
+  // Streams are slow line by line.
+  fmt::memory_buffer lines;
   for (Eigen::Index c = 0; c < m.outerSize(); ++c) {
     for (Eigen::SparseMatrix<double>::InnerIterator entry(m, c); entry; ++entry)
-      fmt::print(out, "{} {} {}\n", entry.row() + 1, entry.col() + 1, entry.value());
+      fmt::format_to(std::back_inserter(lines), "{} {} {}\n", entry.row() + 1, entry.col() + 1, entry.value());
+    if (lines.size() > 60000 || c + 1 == m.outerSize()) {
+      out.write(lines.data(), static_cast<std::streamsize>(lines.size()));
+      lines.clear();
+    }
   }
 }
 
