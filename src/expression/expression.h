@@ -113,6 +113,8 @@ class Expression {
   std::span<const Atom> atoms() const;                  // each distinct atom once
   bool is_constant() const { return atoms().empty(); }  // a spline at constant arguments is
   const Span& at() const;
+  // For what looks at how it is made, instead of evaluating it.
+  const ExpressionProgram& program() const { return *program_; }
 
   // Value at the given atom values. T is double or TimeTaylor<double>. Only the selected branch of
   // an IF is evaluated.
