@@ -11,6 +11,7 @@
 #include "simulation/motion_equations.h"
 #include "simulation/moving_rows.h"
 #include "simulation/point_refinement.h"
+#include "simulation/pose_change.h"
 
 namespace dynalin {
 
@@ -24,8 +25,10 @@ constexpr int event_limit = 200;
 constexpr std::int64_t steps_between_events = 20, steps_without_events = 200;
 // Steps that fail on hardly any way, after which there is no going on.
 constexpr int failure_limit = 4;
-constexpr double hardly_any_way = 1e-4;        // of the whole time
-constexpr double just_beyond = 1e-6;           // of the whole time
+constexpr double hardly_any_way = 1e-4;  // of the whole time
+constexpr double just_beyond = 1e-6;     // of the whole time
+constexpr double least_limit_of_moves =
+    1e-8;  // of points that are made consistent, in lengths of the model and radians
 constexpr double largest_part_of_error = 0.1;  // in a step, of what rounding leaves no more exact
 constexpr int steps_held_by_rounding = 500;
 constexpr std::size_t remark_limit = 50;
@@ -37,7 +40,7 @@ class Dynamics {
   Dynamics(const System& system, const OutputTimes& times, const IntegratorSettings& settings,
            IntegrationStatistics& statistics, const SimulationWatch& watch, Findings& findings)
       : system_(system), times_(times), statistics_(statistics), watch_(watch), findings_(findings), events_(system) {
-    const double error = settings.error.value_or(default_integration_error);
+    const double error = error_ = settings.error.value_or(default_integration_error);
     tolerance_.relative = std::clamp(part_of_error * std::pow(error, power_of_error), 1e-14, 1e-3);
     tolerance_.duration = times.end() - times.start();
     bounds_.loosest = std::max(1.0, largest_part_of_error * error / tolerance_.relative);
@@ -115,6 +118,17 @@ class Dynamics {
         findings_.warnings.warning(d.code, d.at, d.message, d.hint);
     }
     return result;
+  }
+
+  // By more than the errors of a run. At a singular configuration constraints say nothing of motions that they hold
+  // everywhere else: there the integrator knows better.
+  bool moved_far(const OperatingPoint& from, const OperatingPoint& to) const {
+    const double limit = std::max(error_, least_limit_of_moves);
+    Eigen::VectorXd faster(static_cast<Eigen::Index>(system_.coordinates()));
+    for (std::size_t k = 0; k < to.velocity.size(); ++k)
+      faster(static_cast<Eigen::Index>(k)) = to.velocity[k] - from.velocity[k];
+    return length_of(system_, change_between(system_, from, to)) > limit ||
+           length_of(system_, faster) > limit * equations_->fastest();
   }
 
   double left_out_limit() const { return std::max(least_left_out, left_out_errors * tolerance_.relative); }
@@ -228,11 +242,11 @@ class Dynamics {
       equations_->unknowns().unpack(times_.at(next_), y_, yp_, at);
       auto found = next_ < times_.count() ? refinement_->refined(at) : std::nullopt;
       if (!found) {
-        auto whole = consistent(std::move(at));
+        auto whole = consistent(at);
         if (!whole) return tl::unexpected(whole.error());
         found = std::move(*whole);
       }
-      last_output_ = std::move(*found);
+      last_output_ = moved_far(at, *found) ? std::move(at) : std::move(*found);
       going_on = hand_out(last_output_, true);
     }
     return {};
@@ -349,6 +363,7 @@ class Dynamics {
   const SimulationWatch& watch_;
   Findings& findings_;
   Events events_;
+  double error_;  // ERROR
   ErrorTolerance tolerance_;
   StepBounds bounds_;
   double longest_ = 0;  // step, as the integrator has it

@@ -36,6 +36,7 @@ class MotionEquations final : public DaeProblem {
   const Motion& motion() const { return motion_; }  // where it was evaluated last
   const MotionUnknowns& unknowns() const { return unknowns_; }
   const std::vector<bool>& active() const { return active_; }
+  double fastest() const { return fastest_; }  // of what was accepted: radians or lengths of the model, per time
   // Takes over what an accepted point remembers, and how large its velocities and states are.
   void accept(const OperatingPoint&);
 

@@ -1,4 +1,8 @@
 // Models that integrators stumble over, against what is known of them.
+#include <fmt/format.h>
+
+#include <numbers>
+
 #include "time/course.h"
 
 namespace dynalin::in_time {
@@ -66,6 +70,57 @@ TEST(Hard, a_parallelogram_stays_one_through_its_change_points) {
     EXPECT_LT(largest(c, 1), 1e-9) << start;
     EXPECT_LT(largest(c, 2), 1e-9) << start;
     EXPECT_LT(largest(c, 3), 1e-3) << start;
+  }
+}
+
+// As many cranks as are asked for, side by side with their pins a unit apart under one bar, each of this mass, turning
+// at 1 rad/s from this angle.
+std::string cranks(int count, double mass, double angle, double gravity) {
+  std::string text = fmt::format("t\nACCGRAV/JGRAV={}\nPART/1, GROUND\n", -gravity), energy;
+  const auto body = [&](int marker, double m, double inertia) {
+    energy += fmt::format("0.5*({1}*VM({0})**2+{2}*WZ({0})**2)+{3}*DY({0})+\n, ", marker, m, inertia, m * gravity);
+  };
+  for (int k = 0; k < count; ++k) {
+    const std::string inertia = mass > 0 ? fmt::format("MASS={}, IP=1,1,{}, ", mass, mass / 12) : "";
+    text += fmt::format(
+        "MARKER/{0}, PART=1, QP={3},0,0\nPART/{1}, {2}CM=2{1}, QG={3},0,0, REULER={4},0,0, WZ=1\n"
+        "MARKER/1{1}, PART={1}\nMARKER/2{1}, PART={1}, QP=0.5,0,0\nMARKER/3{1}, PART={1}, QP=1,0,0\n"
+        "JOINT/{1}, REVOLUTE, I=1{1}, J={0}\n",
+        1000 + k, 100 + k, inertia, k, angle);
+    body(2000 + 100 + k, mass, mass / 12);
+  }
+  text += fmt::format("PART/500, MASS=1, CM=501, IP=1,1,0.3, QG={},{},0\nMARKER/501, PART=500, QP={},0,0\n",
+                      std::cos(angle), std::sin(angle), 0.5 * (count - 1));
+  body(501, 1, 0.3);
+  for (int k = 0; k < count; ++k)
+    text += fmt::format("MARKER/{0}, PART=500, QP={1},0,0\nJOINT/{0}, REVOLUTE, I={0}, J={2}\n", 510 + k, k, 3100 + k);
+  return text + "VARIABLE/1, FUNCTION=AZ(1100,1000)\nVARIABLE/2, FUNCTION=AZ(501)\nVARIABLE/3, FUNCTION=WZ(1100)\n" +
+         "VARIABLE/90, FUNCTION=" + energy + "0\nEND\n";
+}
+
+// With rows that are chosen where all bars lie in one line, the cranks go their own ways until others are missed.
+TEST(Hard, cranks_released_at_a_change_point_stay_parallel_and_keep_their_energy) {
+  for (const double mass : {0.0, 1.0}) {
+    for (const auto& [error, limit] : {std::pair{1e-3, 1e-2}, std::pair{1e-6, 3e-5}}) {
+      const Course c = led_through_time(cranks(3, mass, 0, 9.81), {10, 100, error});
+      ASSERT_TRUE(c.ok()) << c.failure;
+      EXPECT_LT(largest(c, 2), 1e-9) << mass << ", " << error;
+      EXPECT_LT(c.drift(90), limit) << mass << ", " << error;
+      EXPECT_EQ(c.simulated.statistics.restarts, 0);
+    }
+  }
+}
+
+// Where constraints leave velocities open they are those of the motion.
+TEST(Hard, an_output_at_a_change_point_goes_on_as_those_beside_it) {
+  constexpr double pi = std::numbers::pi;
+  for (const int count : {2, 3}) {
+    const Course c = led_through_time(cranks(count, 1, pi / 2, 0), {3 * pi, 12, 1e-6});
+    ASSERT_TRUE(c.ok()) << c.failure;
+    for (std::size_t k = 0; k < c.times.size(); ++k) {
+      EXPECT_NEAR(c.variables.at(1)[k], pi / 2 + c.times[k], 1e-6) << count;
+      EXPECT_NEAR(c.variables.at(3)[k], 1, 1e-6) << count << " at " << c.times[k];
+    }
   }
 }
 
