@@ -42,8 +42,18 @@ Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
 Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
   return multiply(CblasConjTrans, a, b);
 }
-Eigen::MatrixXcd transposed_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
-  return multiply(CblasTrans, a, b);
+BothProducts both_products(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
+  const Eigen::Index rows = a.cols(), columns = b.cols();
+  Eigen::MatrixXd left(a.rows(), 2 * rows), right(b.rows(), 2 * columns);
+  left << a.real(), a.imag();
+  right << b.real(), b.imag();
+  const Eigen::MatrixXd parts = multiply(CblasTrans, left, right);
+  const auto rr = parts.topLeftCorner(rows, columns), ri = parts.topRightCorner(rows, columns),
+             ir = parts.bottomLeftCorner(rows, columns), ii = parts.bottomRightCorner(rows, columns);
+  BothProducts out{Eigen::MatrixXcd(rows, columns), Eigen::MatrixXcd(rows, columns)};
+  out.adjoint.real() = rr + ii, out.adjoint.imag() = ri - ir;
+  out.transposed.real() = rr - ii, out.transposed.imag() = ri + ir;
+  return out;
 }
 
 }  // namespace dynalin

@@ -9,7 +9,12 @@ namespace dynalin {
 
 Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);             // A B
 Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);     // Aᴴ B
-Eigen::MatrixXcd transposed_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);  // Aᵀ B
+
+// Aᴴ B and Aᵀ B at once, out of the same products of their parts.
+struct BothProducts {
+  Eigen::MatrixXcd adjoint, transposed;
+};
+BothProducts both_products(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
 
 Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 

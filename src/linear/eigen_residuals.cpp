@@ -51,11 +51,11 @@ ComplexVector products_of_pairs(const EigenPairs& pairs) {
 
 EigenResiduals::EigenResiduals(const StructuredPencil& pencil, const ZeroModes& zero, const EigenPairs& pairs)
     : pairs_(pairs), floor_(Eigen::VectorXd::Zero(pairs.right.cols())) {
-  product_ = adjoint_product(pairs.left, pairs.right);
   unit_ = products_of_pairs(pairs);
   complete_ = pairs.right.allFinite() && pairs.left.allFinite() && unit_.cwiseAbs().minCoeff() > least_product;
   if (!complete_) return;
-  product_conjugate_ = transposed_product(pairs.left, pairs.right);
+  BothProducts products = both_products(pairs.left, pairs.right);
+  product_ = std::move(products.adjoint), product_conjugate_ = std::move(products.transposed);
   row_floor_.resize(count(), 3), column_floor_.resize(count(), 3);
   const ComplexVector of_unit = unit_.cwiseInverse();
   const Matrix onto = pencil.uncertainty().transpose(), right = pairs.right.cwiseAbs(), left = pairs.left.cwiseAbs();
@@ -65,8 +65,8 @@ EigenResiduals::EigenResiduals(const StructuredPencil& pencil, const ZeroModes& 
     plain = of_unit.asDiagonal() * plain;
     crossed = of_unit.conjugate().asDiagonal() * crossed;
   };
-  along_ = adjoint_product(pairs.left, reduced);
-  along_conjugate_ = transposed_product(pairs.left, reduced);
+  products = both_products(pairs.left, reduced);
+  along_ = std::move(products.adjoint), along_conjugate_ = std::move(products.transposed);
   in_units(along_, along_conjugate_);
   in_units(product_, product_conjugate_);
   measure_floors(pencil, reduced);

@@ -1,9 +1,10 @@
 // An order of the unknowns of a sparse matrix in which elimination fills in little: nested dissection by METIS of what
 // the matrix connects.
 //
-// Unknowns with the same neighbours, as the coordinates of a body, are one vertex of the graph. Those that do not enter
-// their own equation, as multipliers of constraints, have no pivot before a neighbour of theirs is eliminated: they
-// stand right behind one of them.
+// Unknowns with the same neighbours, as the coordinates of a body or the multipliers of a joint, are one vertex of the
+// graph. Unknowns that do not enter their own equation, as multipliers, have no pivot before a neighbour of theirs is
+// eliminated. Bodies that are connected by nothing but multipliers are therefore no vertices: each comes right before
+// the first of its multipliers, which are connected through it. A multiplier between others stands behind one of them.
 #pragma once
 
 #include <cstdint>

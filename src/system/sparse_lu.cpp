@@ -169,14 +169,21 @@ class MumpsFactors {
   MumpsFactors& operator=(const MumpsFactors&) = delete;
 
   // The analysis is made once: later matrices have the same pattern.
-  bool factor(ColumnMatrix& m) {
+  // `place` of each unknown in the order of elimination, where one is known to be good: MUMPS sees every unknown for
+  // itself, which takes it several times as long.
+  bool factor(ColumnMatrix& m, const std::optional<std::vector<std::int32_t>>& place) {
     const bool analysed = !row_.empty();
     if (!analysed) {
       for_each_entry(m, [&](std::int32_t r, std::int32_t c, double) {
         row_.push_back(r + 1);
         column_.push_back(c + 1);
       });
-      choose_order(m);
+      constexpr int as_given = 1, automatic = 7;
+      control(7) = place ? as_given : automatic;
+      if (place) {
+        for (const std::int32_t p : *place) place_.push_back(p + 1);
+        id_.perm_in = place_.data();
+      }
     }
     id_.n = m.rows;
     id_.nnz = static_cast<MUMPS_INT8>(m.value.size());
@@ -203,17 +210,6 @@ class MumpsFactors {
   }
 
  private:
-  // Its own analysis sees every unknown for itself, which takes several times as long.
-  void choose_order(const ColumnMatrix& m) {
-    constexpr int as_given = 1, automatic = 7;
-    control(7) = automatic;
-    const auto found = nested_dissection(m);
-    if (!found) return;
-    for (const std::int32_t place : *found) place_.push_back(place + 1);
-    control(7) = as_given;
-    id_.perm_in = place_.data();
-  }
-
   static constexpr int use_comm_world = -987654;
   int& control(int k) { return id_.icntl[k - 1]; }
   void back_substitute(double* x, int columns, int plain) {
@@ -315,6 +311,7 @@ struct SparseLu::Factors {
   std::unique_ptr<MumpsFactors> mumps;
   std::optional<Units> units;  // of the matrix that was factored
   bool keeps_zeros = false;
+  std::optional<std::vector<std::int32_t>> order;  // for MUMPS
 
   // KLU or MUMPS, by the pattern alone.
   bool analyse() {
@@ -324,13 +321,14 @@ struct SparseLu::Factors {
     klu.reset();
     // Bodies that stand along the axes leave most entries of their constraints zero. What turns up later among them is
     // taken for a sign that all will. KLU's matching of rows and columns may take n² steps without them.
+    order = nested_dissection(matrix);
     if (!keeps_zeros) matrix = without_zeros(std::move(matrix));
     mumps = std::make_unique<MumpsFactors>();
     return true;
   }
   bool factor() {
     units.reset();
-    if (mumps) return mumps->factor(matrix);
+    if (mumps) return mumps->factor(matrix, order);
     return (klu->factor(matrix) && klu->least_pivot() > least_pivot) || factor_balanced();
   }
   // For units that differ so much that no pivot can be compared with another.
