@@ -27,6 +27,8 @@ constexpr double cycle = 2 * std::numbers::pi;
 constexpr double beside_axis = 0.0137;  // shifts keep off the axis that undamped modes are on
 constexpr double next_to_zero = 0.05;   // of a shift: what may be a zero, as far as it is computed
 constexpr int most_rounds = 24;
+// States of a model whose state matrix costs nothing.
+constexpr Index most_for_state_matrix = 300;
 
 Failure no_convergence(std::string what) { return {"eigensolution", std::move(what), {}}; }
 
@@ -95,7 +97,6 @@ class Solution {
     }
     const auto part = right_.part([&](Complex v) { return std::abs(v) <= near; });
     if (part.basis.cols() == 0) return true;
-    constexpr Index most_for_state_matrix = 300;
     if (op_.states() <= most_for_state_matrix) {
       if (const auto linear = reduce(system_, perturbation_)) zero_ = all_structural_zeros(*linear);
     } else {
@@ -386,16 +387,21 @@ class Solution {
 Result<EigenSolution> eigensolve_selected(const System& system, const Perturbation& perturbation,
                                           const ModeSelection& wanted, Vectors vectors) {
   const PerturbedPoint& at = *perturbation.at;
-  // No sparse equations have a block missing that the original implementation leaves out.
-  const bool all_states = at.without_damping && at.without_rate_coupling && perturbation.differential_states > 0;
-  if (all_states || perturbation.model.states.empty()) {
+  const auto states = static_cast<Index>(perturbation.model.states.size());
+  const auto from_all = [&]() -> Result<EigenSolution> {
     auto linear = reduce(system, perturbation);
     if (!linear) return tl::unexpected(linear.error());
     auto all = eigensolve(*linear, vectors);
     if (!all) return all;
     return selected_of(*all, wanted);
-  }
-  return Solution(system, perturbation, wanted).run(vectors);
+  };
+  // No sparse equations have a block missing that the original implementation leaves out.
+  const bool block_missing = at.without_damping && at.without_rate_coupling && perturbation.differential_states > 0;
+  if (block_missing || states == 0) return from_all();
+  auto solution = Solution(system, perturbation, wanted).run(vectors);
+  const bool settled = solution && solution->selected->complete;
+  if (!settled && states <= most_for_state_matrix) return from_all();
+  return solution;
 }
 
 }  // namespace dynalin

@@ -22,6 +22,7 @@ using ComplexVector = Eigen::VectorXcd;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 // How nearly parts of a basis may depend on each other before they become one.
 constexpr double most_oblique = 1e4;
+constexpr double equal_values = 1e-9;
 
 ComplexMatrix complement(const ComplexMatrix& columns) {
   const Eigen::HouseholderQR<ComplexMatrix> qr(columns);
@@ -167,12 +168,16 @@ class Mirror {
   void add(std::size_t at, bool conjugate, Complex value, double radius, Index count, Index cluster = 0) {
     const InclusionDisc& d = discs_[at];
     if (conjugate) value = std::conj(value);
+    // Equal values of independent vectors: any basis of their space is one of eigenvectors.
+    const bool equal = count > 1 && d.powers[1] <= equal_values * std::abs(d.centre);
     for (Index k = 0; k < count; ++k) {
-      ComplexVector x = s_.X * d.right.col(k), y = s_.Y * d.left.col(k);
+      const ComplexVector of_right = equal ? d.basis.col(k) : d.right.col(k);
+      const ComplexVector of_left = equal ? d.dual.col(k) : d.left.col(k);
+      ComplexVector x = s_.X * of_right, y = s_.Y * of_left;
       if (zero_.count() > 0 && std::abs(d.centre) > d.radius) {
         ComplexMatrix shifted = zero_.chains.cast<Complex>();
         shifted.diagonal().array() -= d.centre;
-        const ComplexVector along = -(s_.C * d.right.col(k));
+        const ComplexVector along = -(s_.C * of_right);
         x += s_.V.cast<Complex>() * shifted.partialPivLu().solve(along);
       }
       if (conjugate) x = x.conjugate().eval(), y = y.conjugate().eval();

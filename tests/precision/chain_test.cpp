@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "elements/catalogue.h"
+#include "linear/selected_modes.h"
 #include "precision/precise.h"
 
 namespace dynalin::precision {
@@ -79,6 +81,37 @@ TEST_P(Chain, low_modes_have_all_their_digits) {
 INSTANTIATE_TEST_SUITE_P(lengths, Chain, ::testing::Values(5, 100, 500));
 // Minutes, and all the memory of its dense matrices (docs/performance.md): on request only.
 INSTANTIATE_TEST_SUITE_P(DISABLED_long, Chain, ::testing::Values(2000));
+
+// Without the state matrix, and counted.
+class SelectedOfChain : public ::testing::TestWithParam<int> {};
+
+TEST_P(SelectedOfChain, modes_have_all_their_digits) {
+  const int n = GetParam();
+  auto dataset = parse_dataset(std::make_shared<const SourceText>("chain.adm", chain(n)));
+  auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
+  ASSERT_FALSE(model.diagnostics.has_errors());
+  const auto system = System::make(std::move(model.value)).value();
+  Findings findings;
+  const auto point = initial_conditions(*system, findings);
+  ASSERT_TRUE(point);
+  const auto perturbation = perturb(*system, *point, {});
+  ASSERT_TRUE(perturbation);
+  const auto solution = eigensolve_selected(*system, *perturbation, NearestModes{10, 0});
+  ASSERT_TRUE(solution) << solution.error().message;
+  EXPECT_TRUE(solution->selected->complete);
+  ASSERT_EQ(solution->modes.size(), 10u);
+  const Real cycle = 2 * boost::math::constants::pi<Real>();
+  for (const EigenMode& mode : solution->modes) {
+    const std::complex<double> start = mode.eigenvalue_hz;
+    const Complex exact = root(n, Complex(Real(start.real()) * cycle, Real(start.imag()) * cycle)) / cycle;
+    EXPECT_NEAR(static_cast<double>((Real(start.imag()) - exact.imag()) / exact.imag()), 0, 1e-12) << start;
+    EXPECT_NEAR(static_cast<double>((Real(start.real()) - exact.real()) / exact.real()), 0, 1e-6);
+    // The numbers of the dataset are rounded as well.
+    EXPECT_LE(static_cast<double>(abs(exact - Complex(start.real(), start.imag()))),
+              mode.error_bound_hz + 1e-12 * std::abs(start));
+  }
+}
+INSTANTIATE_TEST_SUITE_P(lengths, SelectedOfChain, ::testing::Values(50, 500, 2000));
 
 }  // namespace
 }  // namespace dynalin::precision

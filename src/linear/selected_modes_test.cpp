@@ -1,0 +1,150 @@
+#include "linear/selected_modes.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "system/model_test_support.h"
+
+namespace dynalin {
+namespace {
+
+struct Selected {
+  std::shared_ptr<const System> system;
+  Perturbation perturbation;
+  EigenSolution solution;
+};
+Selected selected_of_text(const std::string& text, const ModeSelection& wanted) {
+  Selected s;
+  s.system = system_test::system_of(text);
+  Findings findings;
+  const auto op = initial_conditions(*s.system, findings);
+  if (!op) throw std::runtime_error(op.error().message);
+  auto perturbation = perturb(*s.system, *op, {});
+  if (!perturbation) throw std::runtime_error(perturbation.error().message);
+  s.perturbation = std::move(*perturbation);
+  auto solution = eigensolve_selected(*s.system, s.perturbation, wanted);
+  if (!solution) throw std::runtime_error(solution.error().message);
+  s.solution = std::move(*solution);
+  return s;
+}
+
+// Point masses of 1 at the inner points of a grid, each tied to its six neighbours by 1E4 in all directions.
+std::string lattice(int nx, int ny, int nz) {
+  std::string masses, ties;
+  int tie = 0, wall = 1000000;
+  const auto at = [&](int i, int j, int k) { return 2 + ((i - 1) * ny + j - 1) * nz + k - 1; };
+  const auto inside = [&](int i, int j, int k) { return i >= 1 && j >= 1 && k >= 1 && i <= nx && j <= ny && k <= nz; };
+  for (int i = 1; i <= nx; ++i) {
+    for (int j = 1; j <= ny; ++j) {
+      for (int k = 1; k <= nz; ++k) {
+        const int own = at(i, j, k);
+        masses += fmt::format("POINT_MASS/{0}, MASS=1, QG={1},{2},{3}\nMARKER/{0}, POINT_MASS={0}\n", own, i, j, k);
+        for (int direction = 0; direction < 6; ++direction) {
+          const int step = direction < 3 ? 1 : -1;
+          const int a = i + (direction % 3 == 0) * step, b = j + (direction % 3 == 1) * step,
+                    c = k + (direction % 3 == 2) * step;
+          const bool neighbour = inside(a, b, c);
+          if (neighbour && step < 0) continue;
+          const int other = neighbour ? at(a, b, c) : ++wall;
+          if (!neighbour) ties += fmt::format("MARKER/{}, PART=1, QP={},{},{}\n", other, a, b, c);
+          ties += fmt::format("BUSHING/{}, I={}, J={}, K=1E4,1E4,1E4\n", ++tie, own, other);
+        }
+      }
+    }
+  }
+  return masses + ties;
+}
+
+TEST(SelectedModes, of_a_lattice_have_all_their_multiplicities) {
+  constexpr int n = 4;
+  const double pi = std::numbers::pi;
+  std::vector<double> exact;
+  for (int i = 1; i <= n; ++i) {
+    for (int j = 1; j <= n; ++j) {
+      for (int k = 1; k <= n; ++k) {
+        double sum = 0;
+        for (const int m : {i, j, k}) sum += std::pow(std::sin(m * pi / 2 / (n + 1)), 2);
+        exact.insert(exact.end(), 3, std::sqrt(4e4 * sum) / 2 / pi);
+      }
+    }
+  }
+  std::sort(exact.begin(), exact.end());
+  // Three in x, y and z, nine more by symmetry, of which the selection takes all.
+  const Selected s = selected_of_text(lattice(n, n, n), NearestModes{7, 0});
+  ASSERT_EQ(s.solution.modes.size(), 12u);
+  for (std::size_t k = 0; k < 12; ++k) {
+    EXPECT_NEAR(s.solution.modes[k].eigenvalue_hz.imag(), exact[k], 1e-12 * exact[k]) << k;
+    EXPECT_EQ(s.solution.modes[k].eigenvalue_hz.real(), 0) << k;
+    EXPECT_LE(s.solution.modes[k].error_bound_hz, 1e-10 * exact[k]) << k;
+  }
+  ASSERT_TRUE(s.solution.selected);
+  EXPECT_TRUE(s.solution.selected->complete);
+  EXPECT_EQ(s.solution.selected->found, 24u);
+  EXPECT_EQ(s.solution.selected->counted, 24u);
+  EXPECT_EQ(s.solution.selected->by, CountedBy::winding_number);
+  const double radius = s.solution.selected->radius_hz;
+  EXPECT_TRUE(radius > exact[11] && radius < exact[12]);
+  // The vectors of equal values are independent.
+  const Eigen::MatrixXcd v = s.solution.vectors;
+  EXPECT_GT(Eigen::MatrixXcd(v.adjoint() * v).ldlt().vectorD().cwiseAbs().minCoeff(), 1e-8);
+}
+
+// Copies of a mechanism that do not know of each other: a Krylov space sees one of each.
+TEST(SelectedModes, of_twins_are_found_twice) {
+  std::string text;
+  for (int twin = 0; twin < 2; ++twin) {
+    for (int k = 1; k <= 8; ++k) {
+      const int id = 100 * (twin + 1) + k;
+      text += fmt::format(
+          "PART/{0}, MASS=2, CM={0}0, IP=1,1,1, QG={1},0,0\nMARKER/{0}0\nJOINT/{0}, TRANSLATIONAL, I={0}1, J={0}2\n"
+          "MARKER/{0}1, REULER=90D,90D,0\nMARKER/{0}2, PART=1, QP={1},0,0, REULER=90D,90D,0\n"
+          "SPRINGDAMPER/{0}, TRANSLATION, I={0}3, J={2}, K=100, C=0.1, LENGTH=1\nMARKER/{0}3\n",
+          id, k, k == 1 ? std::string("1") : fmt::format("{}3", id - 1));
+    }
+  }
+  for (const ModeSelection& wanted :
+       {ModeSelection(NearestModes{5, 0}), ModeSelection(NearestModes{4, 1.0}), ModeSelection(ModesInBand{0.3, 1.2})}) {
+    const Selected s = selected_of_text(text, wanted);
+    const auto& modes = s.solution.modes;
+    ASSERT_GE(modes.size(), 4u);
+    ASSERT_EQ(modes.size() % 2, 0u);
+    for (std::size_t k = 0; k < modes.size(); k += 2)
+      EXPECT_LE(std::abs(modes[k].eigenvalue_hz - modes[k + 1].eigenvalue_hz),
+                modes[k].error_bound_hz + modes[k + 1].error_bound_hz);
+    EXPECT_TRUE(s.solution.selected->complete);
+  }
+}
+
+// Six free motions and their drifts beside a spring between two bodies, with more states than a state matrix is formed
+// of for the sake of zeros.
+TEST(SelectedModes, come_with_the_structural_zeros_of_a_free_row_of_bodies) {
+  std::string text = "PART/2, MASS=2, CM=20, IP=1,2,3\nMARKER/20\n";
+  constexpr int n = 30;
+  for (int k = 3; k < n + 2; ++k) {
+    text += fmt::format(
+        "PART/{0}, MASS=2, CM={0}0, IP=1,2,3, QG={1},0,0\nMARKER/{0}0\n"
+        "BUSHING/{0}, I={0}0, J={2}0, K=100,200,300, KT=10,20,30, C=.1,.1,.1, CT=.1,.1,.1\n",
+        k, 0.01 * (k - 2), k - 1);
+  }
+  const Selected s = selected_of_text(text, NearestModes{4, 0});
+  std::size_t zeros = 0;
+  for (const EigenMode& m : s.solution.modes) zeros += m.structural_zero;
+  const auto linear = reduce(*s.system, s.perturbation);
+  ASSERT_TRUE(linear);
+  const auto all = eigensolve(*linear);
+  ASSERT_TRUE(all);
+  std::size_t of_all = 0;
+  for (const EigenMode& m : all->modes) of_all += m.structural_zero;
+  EXPECT_GE(of_all, 6u);
+  EXPECT_EQ(zeros, of_all);
+  EXPECT_EQ(s.solution.modes.size(), zeros + 4);
+  EXPECT_TRUE(s.solution.selected->complete);
+}
+
+}  // namespace
+}  // namespace dynalin

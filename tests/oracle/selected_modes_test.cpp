@@ -1,0 +1,103 @@
+// Selected modes of generated mechanisms against all modes of their state matrices, at regions drawn at random:
+// clusters, defective values and structural zeros included.
+#include "linear/selected_modes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "elements/catalogue.h"
+#include "linear/eigen.h"
+#include "oracle/oracle.h"
+
+namespace dynalin::oracle {
+namespace {
+
+std::string text_of(const ModeSelection& wanted) {
+  if (const auto* nearest = std::get_if<NearestModes>(&wanted))
+    return "the " + std::to_string(nearest->count) + " nearest to " + std::to_string(nearest->frequency);
+  const auto& band = std::get<ModesInBand>(wanted);
+  return "from " + std::to_string(band.low) + " to " + std::to_string(band.high);
+}
+
+// Every mode found has one of its own among all that its bound and the other's reach.
+void expect_same(const EigenSolution& found, const EigenSolution& expected) {
+  ASSERT_TRUE(found.selected);
+  EXPECT_TRUE(found.selected->complete);
+  EXPECT_EQ(found.selected->found, expected.selected->found);
+  EXPECT_EQ(found.selected->counted, expected.selected->counted);
+  // Where values are not told apart, pairs may be taken for two real ones.
+  const bool sharp = std::all_of(found.modes.begin(), found.modes.end(), [](const EigenMode& m) {
+    return m.error_bound_hz <= 1e-3 * std::abs(m.eigenvalue_hz) || std::abs(m.eigenvalue_hz) < 1e-6;
+  });
+  if (sharp) {
+    ASSERT_EQ(found.modes.size(), expected.modes.size());
+  }
+  std::vector<bool> taken(expected.modes.size(), false);
+  std::size_t left = taken.size();
+  for (const EigenMode& m : found.modes) {
+    if (left == 0) break;
+    std::size_t best = taken.size();
+    const auto distance = [&](std::size_t k) {
+      const EigenMode& e = expected.modes[k];
+      return std::abs(e.eigenvalue_hz - m.eigenvalue_hz) - e.error_bound_hz - m.error_bound_hz;
+    };
+    for (std::size_t k = 0; k < taken.size(); ++k) {
+      if (!taken[k] && (best == taken.size() || distance(k) < distance(best))) best = k;
+    }
+    taken[best] = true, --left;
+    EXPECT_LE(distance(best), 0) << m.eigenvalue_hz << " against " << expected.modes[best].eigenvalue_hz;
+  }
+}
+
+class SelectedModesOfMechanisms : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(SelectedModesOfMechanisms, are_those_of_the_full_solution) {
+  int by_winding = 0, tried = 0;
+  for (std::uint64_t seed = GetParam(); seed < GetParam() + 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    auto dataset =
+        parse_dataset(std::make_shared<const SourceText>("generated.adm", dataset_text(random_mechanism(seed))));
+    ASSERT_FALSE(dataset.diagnostics.has_errors()) << render(dataset.diagnostics);
+    auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
+    ASSERT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics);
+    const auto system = System::make(std::move(model.value)).value();
+    Findings findings;
+    const auto op = initial_conditions(*system, findings);
+    ASSERT_TRUE(op) << op.error().message;
+    auto linear = linearize(*system, *op, {});
+    ASSERT_TRUE(linear) << linear.error().message;
+    const auto all = eigensolve(*linear);
+    ASSERT_TRUE(all) << all.error().message;
+    std::vector<double> moduli;
+    for (const EigenMode& m : all->modes) {
+      if (std::abs(m.eigenvalue_hz) > 1e-6) moduli.push_back(std::abs(m.eigenvalue_hz));
+    }
+    if (moduli.empty()) continue;
+
+    std::mt19937_64 random(seed);
+    const auto drawn = [&] {
+      const double modulus = moduli[random() % moduli.size()];
+      return modulus * (0.5 + std::ldexp(static_cast<double>(random() >> 11U), -53));
+    };
+    std::vector<ModeSelection> selections{NearestModes{1 + random() % moduli.size(), 0},
+                                          NearestModes{1 + random() % moduli.size(), drawn()}};
+    const double one = drawn(), other = drawn();
+    selections.emplace_back(ModesInBand{std::min(one, other), std::max(one, other)});
+    selections.emplace_back(ModesInBand{0, drawn()});
+    for (const ModeSelection& wanted : selections) {
+      SCOPED_TRACE(text_of(wanted));
+      const auto found = eigensolve_selected(*system, *linear, wanted);
+      ASSERT_TRUE(found) << found.error().message;
+      expect_same(*found, selected_of(*all, wanted));
+      by_winding += found->selected->by == CountedBy::winding_number, ++tried;
+    }
+  }
+  EXPECT_GE(by_winding, 0.95 * tried) << "the full solution stands in for few";
+}
+INSTANTIATE_TEST_SUITE_P(generated, SelectedModesOfMechanisms, ::testing::Range<std::uint64_t>(1, 201, 20));
+
+}  // namespace
+}  // namespace dynalin::oracle
