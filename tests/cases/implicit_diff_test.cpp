@@ -173,22 +173,36 @@ TEST_F(ImplicitDiffs, what_cannot_be_reduced_is_refused_by_name) {
       "DIFF/1, IMPLICIT, FUNCTION=DIF1(1)+DIF1(2)+2*DIF(1)\n"
       "DIFF/2, IMPLICIT, FUNCTION=2*DIF1(1)+2*DIF1(2)+DIF(1)-3*DIF(2)\n",
       {"DIFF/1", "DIFF/2", "higher index"});
-  // z₁ (first) − (second) has no rates: its factor is not constant.
+  // z₁ (first) − (second) has no rates, but nothing of what is written cancels.
   expect_refused(
       "DIFF/1, IMPLICIT, IC=1, FUNCTION=DIF1(1)+DIF1(2)+DIF(1)\n"
       "DIFF/2, IMPLICIT, IC=1, FUNCTION=DIF(1)*(DIF1(1)+DIF1(2))+DIF(2)\n",
-      {"DIFF/1", "DIFF/2", "change with the state"});
+      {"the equations of DIFF/1, DIFF/2 do not determine their DIF1 here", "depend on each other"});
   // z₂² = −1 has no root.
   expect_refused(
       "DIFF/1, IMPLICIT, IC=1, FUNCTION=DIF1(1)+DIF1(2)+DIF(1)\n"
       "DIFF/2, IMPLICIT, IC=0.7, FUNCTION=DIF1(1)+DIF1(2)+DIF(1)+DIF(2)**2+1\n",
       {"DIFF/2", "did not converge"});
-  // Rates that cancel everywhere but where the model is.
-  expect_refused(
-      "DIFF/1, IMPLICIT, IC=100, FUNCTION=DIF1(1)+DIF1(2)+DIF(1)\n"
-      "DIFF/2, IMPLICIT, IC=1, FUNCTION=DIF1(1)+DIF1(2)+DIF(2)+IF(VARVAL(1)-1000: 0, 0, DIF1(1))\n"
-      "VARIABLE/1, FUNCTION=2000\n",
-      {"DIFF/2"});
+}
+
+// The second equation reads z₁′ once more beyond a threshold: z₁′ = z₁ − z₂ and z₂′ = z₂ − 2 z₁ there, and no rates
+// below it, where the equations depend on each other.
+TEST_F(ImplicitDiffs, rank_is_asked_for_where_the_model_stands) {
+  const auto switched = [](int threshold) {
+    return "DIFF/1, IMPLICIT, IC=100, FUNCTION=DIF1(1)+DIF1(2)+DIF(1)\n"
+           "DIFF/2, IMPLICIT, IC=1, FUNCTION=DIF1(1)+DIF1(2)+DIF(2)+IF(DIF(1)-" +
+           std::to_string(threshold) + ": 0, 0, DIF1(1))\n";
+  };
+  expect_same(rates(switched(50)), {{1 - std::numbers::sqrt2, 0}, {1 + std::numbers::sqrt2, 0}}, 1e-12);
+  expect_refused(switched(1000), {"DIFF/1, DIFF/2", "depend on each other"});
+}
+
+// A factor that is the same in both equations cancels as it is written, also where both have no value at other places.
+TEST_F(ImplicitDiffs, combinations_are_found_by_how_equations_are_written) {
+  const std::string factor = "*SQRT(DIF(1)-0.2)*LOG(5-DIF(1))";
+  expect_same(rates("DIFF/1, IMPLICIT, IC=0.4, FUNCTION=(DIF1(1)+DIF1(2))" + factor + "+DIF(1)-0.4\n" +
+                    "DIFF/2, IMPLICIT, IC=0.8, FUNCTION=(DIF1(1)+DIF1(2))" + factor + "+3*DIF(1)-DIF(2)-0.4\n"),
+              rates("DIFF/1, IC=0.4, FUNCTION=-(DIF(1)-0.4)/(3*SQRT(DIF(1)-0.2)*LOG(5-DIF(1)))\n"), 1e-12);
 }
 
 }  // namespace

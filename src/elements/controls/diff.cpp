@@ -152,7 +152,9 @@ class DiffSet final : public TypedSet<Diff> {
       }
       items.push_back(std::move(item));
     }
-    return std::make_unique<FunctionEquationKernel>(std::move(items), labels, layout);
+    auto kernel = std::make_unique<FunctionEquationKernel>(std::move(items), labels, layout);
+    kernel->couple(reduction.coupled);
+    return kernel;
   }
 
  private:
@@ -165,11 +167,10 @@ class DiffSet final : public TypedSet<Diff> {
   }
 
   std::string text(const RateReduction::Refusal& r) const {
-    const bool varying = r.fault == RateReduction::Fault::varying;
     return fmt::format(
-        "the equations of {} do not determine their rates: {}", names(r.members),
-        varying ? "fewer of them are independent in DIF1, and the combinations without DIF1 change with the state"
-                : "even with the derivatives of the combinations without DIF1 some stay free (higher index)");
+        "the equations of {} do not determine their rates: even with the derivatives of the combinations without DIF1 "
+        "some stay free (higher index)",
+        names(r.members));
   }
 
   std::string remark(std::size_t k, const RateReduction::Role& role) const {

@@ -1,11 +1,16 @@
 #include "elements/controls/rate_reduction.h"
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <string>
+#include <optional>
+#include <utility>
+
+#include "elements/controls/signature_method.h"
+#include "elements/controls/structural_matrix.h"
+#include "expression/formal_partials.h"
 
 namespace dynalin {
 
@@ -13,32 +18,41 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 using Coefficients = Eigen::VectorXd;
+using Sum = FormalPartials::Sum;
+using Sums = std::vector<std::vector<Sum>>;  // by equation and unknown
 
-constexpr double rank_tolerance = 1e-10;    // of rows whose largest entry is 1
-constexpr std::size_t wanted_points = 4;    // at which M is compared, the initial values among them
-constexpr std::size_t offered_points = 24;  // some lie where a function has no value
+constexpr double rank_tolerance = 1e-10;  // of rows whose largest entry is 1
 
 bool reads_rate(const Atom& a) { return a.function->reads == DataSource::state_rate; }
 bool reads_value(const Atom& a) { return a.function->reads == DataSource::state; }
 
-// Numbers without relations between them.
-double generic(std::size_t k) {
-  const double x = static_cast<double>(k + 1) * 0.6180339887498949;
-  return 0.25 + (x - std::floor(x));
+void add(Sum& to, const Sum& more, double factor) {
+  for (const auto& [term, number] : more) to[term] += factor * number;
 }
 
-Matrix scaled_rows(Matrix m) {
-  for (Eigen::Index r = 0; r < m.rows(); ++r) {
-    const double size = m.row(r).cwiseAbs().maxCoeff();
-    if (size > 0) m.row(r) /= size;
+// The terms of a row beside each other: a combination of rows vanishes whatever the terms are if it vanishes here.
+Matrix by_terms(const Sums& sums) {
+  std::map<FormalPartials::Term, Eigen::Index> place;
+  for (const auto& row : sums) {
+    for (const Sum& sum : row) {
+      for (const auto& [term, number] : sum) place.emplace(term, static_cast<Eigen::Index>(place.size()));
+    }
   }
-  return m;
+  const auto m = static_cast<Eigen::Index>(sums.size());
+  Matrix all = Matrix::Zero(m, m * static_cast<Eigen::Index>(place.size()));
+  for (Eigen::Index r = 0; r < m; ++r) {
+    for (Eigen::Index c = 0; c < m; ++c) {
+      for (const auto& [term, number] : sums[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)])
+        all(r, place.at(term) * m + c) = number;
+    }
+  }
+  return all;
 }
 
-bool is_regular(const Matrix& m) {
-  Eigen::FullPivLU<Matrix> lu(scaled_rows(m));
-  lu.setThreshold(rank_tolerance);
-  return lu.isInvertible();
+StructuralEntry entry_of(const Sum& sum) {
+  if (sum.empty()) return {};
+  const auto number = sum.find(FormalPartials::one);
+  return sum.size() == 1 && number != sum.end() ? StructuralEntry{number->second} : StructuralEntry::any();
 }
 
 // Rows in the given order that depend on those before them, each with the combination of rows that vanishes: 1 for the
@@ -128,133 +142,138 @@ class Reducer {
     return list;
   }
 
-  // ∂h/∂z′ and ∂h/∂z of the members at a point; false where something has no value.
-  bool partials(const std::vector<std::size_t>& members, std::size_t point, Matrix& on_rates, Matrix& on_values) const {
-    const auto m = static_cast<Eigen::Index>(members.size());
-    on_rates = on_values = Matrix::Zero(m, m);
-    std::vector<double> atoms, slopes;
-    ExpressionWorkspace<double> workspace;
-    std::map<std::string, double, std::less<>> seen;  // an atom has one value in all equations
-    for (Eigen::Index r = 0; r < m; ++r) {
-      const DiffEquation& d = all_[members[static_cast<std::size_t>(r)]];
-      if (!d.implicit) on_rates(r, r) = 1;
+  // ∂h/∂z′ and ∂h/∂z of the members.
+  struct Partials {
+    Sums on_rates, on_values;
+  };
+  Partials partials(const std::vector<std::size_t>& members) const {
+    const std::size_t m = members.size();
+    FormalPartials formal;
+    Partials found{Sums(m, std::vector<Sum>(m)), Sums(m, std::vector<Sum>(m))};
+    for (std::size_t r = 0; r < m; ++r) {
+      const DiffEquation& d = all_[members[r]];
       if (d.opaque) {
         // Nothing is known: independent of all others.
-        for (Eigen::Index c = 0; c < m; ++c) on_rates(r, c) = generic(static_cast<std::size_t>(7 * r + c) + 31 * point);
+        for (Sum& sum : found.on_rates[r]) sum[formal.unlike_any()] = 1;
         continue;
       }
-      const auto list = d.function.atoms();
-      atoms.clear();
-      for (const Atom& a : list) atoms.push_back(atom_value(a, point, seen));
-      slopes.assign(list.size(), 0.0);
-      if (!std::isfinite(d.function.evaluate<double>(atoms, slopes, workspace))) return false;
-      for (std::size_t k = 0; k < list.size(); ++k) {
-        if (!std::isfinite(slopes[k])) return false;
-        if (!reads_rate(list[k]) && !reads_value(list[k])) continue;
-        const auto known = index_.find(list[k].argument[0]);
+      if (!d.implicit) found.on_rates[r][r][FormalPartials::one] = 1;
+      const auto atoms = d.function.atoms();
+      const std::vector<Sum> slopes = formal.of(d.function);
+      for (std::size_t k = 0; k < atoms.size(); ++k) {
+        if (!reads_rate(atoms[k]) && !reads_value(atoms[k])) continue;
+        const auto known = index_.find(atoms[k].argument[0]);
         const auto it =
             known == index_.end() ? members.end() : std::find(members.begin(), members.end(), known->second);
         if (it == members.end()) continue;
-        Matrix& into = reads_rate(list[k]) ? on_rates : on_values;
-        into(r, it - members.begin()) += d.implicit ? slopes[k] : -slopes[k];
+        Sums& into = reads_rate(atoms[k]) ? found.on_rates : found.on_values;
+        add(into[r][static_cast<std::size_t>(it - members.begin())], slopes[k], d.implicit ? 1 : -1);
       }
     }
-    return true;
-  }
-
-  double atom_value(const Atom& a, std::size_t point, std::map<std::string, double, std::less<>>& seen) const {
-    const auto known = index_.find(a.argument[0]);
-    const bool is_diff = (reads_rate(a) || reads_value(a)) && known != index_.end();
-    if (point == 0 && is_diff) {
-      const DiffEquation& d = all_[known->second];
-      return reads_rate(a) ? d.initial_rate : d.initial;
-    }
-    std::string name(a.function->name);
-    for (std::size_t k = 0; k < a.argument_count; ++k) name += "," + std::to_string(a.argument[k]);
-    const auto [it, fresh] = seen.emplace(std::move(name), 0.0);
-    if (fresh) it->second = (point % 2 == 0 ? 1.0 : -1.0) * generic(17 * point + seen.size());
-    if (fresh && point >= offered_points / 2) it->second *= it->second * static_cast<double>(point);
-    return it->second;
+    return found;
   }
 
   void reduce(const std::vector<std::size_t>& members) {
     for (const std::size_t k : members) {
       if (is_algebraic(k) && all_[k].opaque) return;  // whether its rates take part in the rank is not known
     }
-    const auto m = static_cast<Eigen::Index>(members.size());
-    std::vector<Matrix> on_rates, on_values;
-    for (std::size_t p = 0; p < offered_points && on_rates.size() < wanted_points; ++p) {
-      Matrix rates, values;
-      if (!partials(members, p, rates, values)) continue;
-      on_rates.push_back(std::move(rates));
-      on_values.push_back(std::move(values));
-    }
-    if (on_rates.size() < 2) return;
-    Matrix everywhere(m, m * static_cast<Eigen::Index>(on_rates.size()));
-    for (std::size_t p = 0; p < on_rates.size(); ++p)
-      everywhere.middleCols(static_cast<Eigen::Index>(p) * m, m) = on_rates[p];
+    const Partials of = partials(members);
     std::vector<std::size_t> order(members.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const LeftNullSpace conditions = left_null_space(everywhere, order);
-
-    const bool as_it_stands =
-        std::none_of(members.begin(), members.end(), [&](std::size_t k) { return is_algebraic(k) || all_[k].opaque; });
-    const auto refuse = [&](RateReduction::Fault fault) {
-      // Algebraic ones may have rates that are known without this.
-      if (as_it_stands) result_.refusals.push_back({fault, members});
-    };
-    const bool varies = std::all_of(on_rates.begin(), on_rates.end(), [&](const Matrix& M) {
-      return left_null_space(M, order).row.size() > conditions.row.size();
-    });
-    if (varies) return refuse(RateReduction::Fault::varying);
-    const std::size_t at = on_rates.size() - 1;  // any point but the first, where entries may vanish
-    const std::vector<Eigen::Index> eliminated = eliminate(conditions, on_rates[at], on_values[at], members);
-    if (eliminated.size() < conditions.row.size() || std::count(eliminated.begin(), eliminated.end(), -1) > 0)
-      return refuse(RateReduction::Fault::higher_index);
-    assign(members, conditions, eliminated);
+    const LeftNullSpace conditions = left_null_space(by_terms(of.on_rates), order);
+    auto eliminated = eliminate(conditions, of, members, Unseen::left_out);
+    if (!eliminated) eliminated = eliminate(conditions, of, members, Unseen::anything);
+    if (eliminated) return assign(members, conditions, *eliminated);
+    // Algebraic ones may have rates that are known without this.
+    if (std::none_of(members.begin(), members.end(), [&](std::size_t k) { return is_algebraic(k) || all_[k].opaque; }))
+      result_.refusals.push_back({members});
   }
 
-  // The z that each condition determines, those wanted least first; none where the rates stay undetermined. What is
-  // read through VARIABLEs and arrays is not followed: where that has to count, it counts as something, so that the
-  // equations themselves decide.
-  std::vector<Eigen::Index> eliminate(const LeftNullSpace& conditions, const Matrix& on_rates, const Matrix& on_values,
-                                      const std::vector<std::size_t>& members) const {
-    const Eigen::Index m = on_rates.rows(), k = static_cast<Eigen::Index>(conditions.row.size());
-    Matrix C(k, m), unseen = Matrix::Zero(k, m), all(m, m);
-    for (Eigen::Index r = 0; r < k; ++r) {
-      const Coefficients& y = conditions.combination[static_cast<std::size_t>(r)];
-      C.row(r) = y.transpose() * on_values;
-      for (Eigen::Index j = 0; j < m; ++j) {
-        if (y(j) == 0.0 || !reads_others(all_[members[static_cast<std::size_t>(j)]])) continue;
-        for (Eigen::Index c = 0; c < m; ++c) unseen(r, c) = generic(static_cast<std::size_t>(m * r + c));
+  // What is read through VARIABLEs and arrays is not followed: where that has to count, it counts as something, so that
+  // the equations themselves decide.
+  enum class Unseen : std::uint8_t { left_out, anything };
+
+  // The z that each condition determines, those wanted least first; nothing where the rates stay undetermined.
+  std::optional<std::vector<std::size_t>> eliminate(const LeftNullSpace& conditions, const Partials& of,
+                                                    const std::vector<std::size_t>& members, Unseen unseen) const {
+    const std::size_t m = members.size(), k = conditions.row.size();
+    StructuralMatrix C(k, m);
+    for (std::size_t r = 0; r < k; ++r) {
+      const Coefficients& y = conditions.combination[r];
+      bool others = false;
+      for (std::size_t j = 0; j < m; ++j)
+        others = others || (y(static_cast<Eigen::Index>(j)) != 0.0 && reads_others(all_[members[j]]));
+      for (std::size_t c = 0; c < m; ++c)
+        C(r, c) = others && unseen == Unseen::anything ? StructuralEntry::any() : entry_of(combined(of, y, c));
+    }
+    // Equations that stay are differentiated not at all, conditions once.
+    StructuralMatrix jacobian(m, m);
+    Signature signature(m, std::vector<std::optional<int>>(m));
+    std::size_t next = 0;
+    for (std::size_t r = 0; r < m; ++r) {
+      if (std::find(conditions.row.begin(), conditions.row.end(), r) != conditions.row.end()) continue;
+      for (std::size_t c = 0; c < m; ++c) {
+        jacobian(next, c) = entry_of(of.on_rates[r][c]);
+        if (!jacobian(next, c).is_zero())
+          signature[next][c] = 1;
+        else if (!of.on_values[r][c].empty())
+          signature[next][c] = 0;
+      }
+      ++next;
+    }
+    for (std::size_t r = 0; r < k; ++r, ++next) {
+      for (std::size_t c = 0; c < m; ++c) {
+        jacobian(next, c) = C(r, c);
+        if (!C(r, c).is_zero()) signature[next][c] = 0;
       }
     }
-    C = scaled_rows(C);
-    Eigen::Index next = 0;
-    for (Eigen::Index r = 0; r < m; ++r) {
-      const auto dropped = std::find(conditions.row.begin(), conditions.row.end(), static_cast<std::size_t>(r));
-      if (dropped == conditions.row.end()) all.row(next++) = on_rates.row(r);
-    }
-    all.bottomRows(k) = C;
-    if (!is_regular(all)) {
-      all.bottomRows(k) = C += unseen;
-      if (!is_regular(all)) return {};
-    }
-    std::vector<Eigen::Index> of(static_cast<std::size_t>(k), -1);
-    for (Eigen::Index c = m; c-- > 0;) {
-      Eigen::Index pivot = -1;
-      for (Eigen::Index r = 0; r < k; ++r) {
-        const bool taken = of[static_cast<std::size_t>(r)] >= 0 || std::abs(C(r, c)) <= rank_tolerance;
-        if (!taken && (pivot < 0 || std::abs(C(r, c)) > std::abs(C(pivot, c)))) pivot = r;
-      }
-      if (pivot < 0) continue;
-      of[static_cast<std::size_t>(pivot)] = c;
-      const Eigen::RowVectorXd row = C.row(pivot) / C(pivot, c);
-      for (Eigen::Index r = 0; r < k; ++r) {
-        if (r != pivot) C.row(r) -= C(r, c) * row;
+    const auto index = structural_index(signature);
+    if (!index || *std::max_element(index->differentiated.begin(), index->differentiated.end()) > 1 ||
+        index->freedoms != static_cast<int>(m - k) || jacobian.rank() < m)
+      return std::nullopt;
+    return dependent_columns(C, conditions);
+  }
+
+  // ∂(yᵀh)/∂z
+  static Sum combined(const Partials& of, const Coefficients& y, std::size_t unknown) {
+    std::map<FormalPartials::Term, std::pair<double, double>> terms;  // their sum, and the sum of sizes
+    for (std::size_t j = 0; j < of.on_values.size(); ++j) {
+      for (const auto& [term, number] : of.on_values[j][unknown]) {
+        const double part = y(static_cast<Eigen::Index>(j)) * number;
+        terms[term].first += part, terms[term].second += std::abs(part);
       }
     }
-    return of;
+    Sum sum;
+    for (const auto& [term, c] : terms) {
+      if (std::abs(c.first) > rank_tolerance * c.second) sum[term] = c.first;
+    }
+    return sum;
+  }
+
+  // From the last column on those that raise the rank, and for each the row that determines it: if it can, its own.
+  static std::optional<std::vector<std::size_t>> dependent_columns(const StructuralMatrix& C,
+                                                                   const LeftNullSpace& conditions) {
+    std::vector<std::size_t> columns;
+    for (std::size_t c = C.columns(); c-- > 0 && columns.size() < C.rows();) {
+      columns.push_back(c);
+      if (C.columns_only(columns).rank() < columns.size()) columns.pop_back();
+    }
+    if (columns.size() < C.rows()) return std::nullopt;
+    const StructuralMatrix all = C.columns_only(columns);
+    StructuralMatrix own = all;
+    for (std::size_t r = 0; r < C.rows(); ++r) {
+      const auto place = std::find(columns.begin(), columns.end(), conditions.row[r]);
+      if (place == columns.end() || C(r, *place).is_zero()) continue;
+      const auto at = static_cast<std::size_t>(place - columns.begin());
+      for (std::size_t k = 0; k < C.rows(); ++k) {
+        if (k != at) own(r, k) = {};
+        if (k != r) own(k, at) = {};
+      }
+    }
+    std::vector<std::size_t> row_of, column_of(C.rows());
+    if (own.term_rank(row_of) < C.rows() && all.term_rank(row_of) < C.rows()) return std::nullopt;
+    for (std::size_t k = 0; k < columns.size(); ++k) column_of[row_of[k]] = columns[k];
+    return column_of;
   }
 
   static bool reads_others(const DiffEquation& d) {
@@ -265,10 +284,10 @@ class Reducer {
   }
 
   void assign(const std::vector<std::size_t>& members, const LeftNullSpace& conditions,
-              const std::vector<Eigen::Index>& eliminated) {
+              const std::vector<std::size_t>& eliminated) {
     std::vector<bool> is_state(members.size(), true), free(members.size(), true);
     for (std::size_t r = 0; r < eliminated.size(); ++r) {
-      const auto z = static_cast<std::size_t>(eliminated[r]);
+      const std::size_t z = eliminated[r];
       is_state[z] = false;
       free[conditions.row[r]] = false;
       RateReduction::Role& role = result_.roles[members[z]];
@@ -281,6 +300,7 @@ class Reducer {
         if (factor != 0.0) role.condition.push_back({members[j], factor});
       }
     }
+    result_.coupled.push_back(members);
     // Equations that stay go to their own state, what is left over to the states without one.
     std::vector<std::size_t> without;
     for (std::size_t j = 0; j < members.size(); ++j) {

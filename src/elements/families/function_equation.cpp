@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,7 +11,8 @@ namespace dynalin {
 
 namespace {
 
-constexpr double rates_cancel = 1e-9;  // of the sum of their sizes
+constexpr double rates_cancel = 1e-9;           // of the sum of their sizes
+constexpr double singular_to_rounding = 1e-14;  // of rows whose largest entry is 1
 
 bool is_algebraic(FunctionEquationKernel::Form form) {
   using Form = FunctionEquationKernel::Form;
@@ -135,8 +137,13 @@ void FunctionEquationKernel::undefined_values(const Motion& motion,
   }
 }
 
-// The rates that cancel in conditions were found at other places; here they have to cancel as well.
 std::string FunctionEquationKernel::domain_violation(const Motion& motion) const {
+  std::string reason = uncancelled_rate(motion);
+  return reason.empty() ? singular_group(motion) : reason;
+}
+
+// The rates that cancel in conditions do so as they are written; here they have to, to the last digits.
+std::string FunctionEquationKernel::uncancelled_rate(const Motion& motion) const {
   if (whole_.empty()) return {};
   ExpressionScratch scratch;
   std::map<std::int64_t, std::pair<double, double>> sums;  // of partials by DIFF, and of their sizes
@@ -159,6 +166,54 @@ std::string FunctionEquationKernel::domain_violation(const Motion& motion) const
                          (*labels_)[p.item].full_text(), id);
     }
     sums.clear();
+  }
+  return {};
+}
+
+// The rank that the structure of equations promises, asked for with their partials here: by rates, of conditions by
+// what these are the rates of. Of groups that read others' values it is not known.
+std::string FunctionEquationKernel::singular_group(const Motion& motion) const {
+  ExpressionScratch scratch;
+  for (const std::vector<std::size_t>& group : coupled_) {
+    const auto m = static_cast<Eigen::Index>(group.size());
+    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(m, m);
+    bool known = true;
+    const auto place = [&](std::size_t item) { return std::find(group.begin(), group.end(), item) - group.begin(); };
+    for (const Part& p : parts_) {
+      const Eigen::Index row = place(p.item);
+      if (row == m) continue;
+      const bool by_value = is_algebraic(items_[p.item].form);
+      const auto partials = p.function.partials(motion, scratch);
+      const auto atoms = items_[p.of].function.atoms();
+      for (std::size_t a = 0; a < atoms.size(); ++a) {
+        const DataSource reads = atoms[a].function->reads;
+        if (by_value && (atoms[a].function->family != AtomFamily::data || reads == DataSource::state_rate)) continue;
+        if (reads == (by_value ? DataSource::state : DataSource::state_rate)) {
+          const auto of = std::find_if(group.begin(), group.end(),
+                                       [&](std::size_t k) { return (*labels_)[k].id == atoms[a].argument[0]; });
+          if (of != group.end()) jacobian(row, of - group.begin()) += p.factor * partials[a];
+        } else if (by_value) {
+          known = false;
+        }
+      }
+      const bool own_rate = items_[p.item].form == Form::rate && items_[p.item].terms.empty();
+      if (own_rate) jacobian(row, row) += 1;
+      if (p.rate.kind != Channel::Kind::none) jacobian(row, place(p.of)) += 1;
+    }
+    if (!known || !jacobian.allFinite()) continue;
+    for (Eigen::Index r = 0; r < m; ++r) {
+      if (const double size = jacobian.row(r).cwiseAbs().maxCoeff(); size > 0) jacobian.row(r) /= size;
+    }
+    Eigen::FullPivLU<Eigen::MatrixXd> lu(jacobian);
+    lu.setThreshold(singular_to_rounding);
+    if (lu.isInvertible()) continue;
+    std::vector<std::string> names;
+    for (const std::size_t k : group) names.push_back((*labels_)[k].full_text());
+    std::sort(names.begin(), names.end());
+    return fmt::format(
+        "the equations of {} do not determine their DIF1 here: what stands in them would be enough, but at this point "
+        "they depend on each other",
+        fmt::join(names, ", "));
   }
   return {};
 }

@@ -37,6 +37,8 @@ class FunctionEquationKernel final : public Kernel, public ChannelSource {
   };
 
   FunctionEquationKernel(std::vector<Item>, const std::vector<ElementLabel>&, Layout&);
+  // Elements whose equations determine their rates together, each group as the structure of its equations says.
+  void couple(std::vector<std::vector<std::size_t>> groups) { coupled_ = std::move(groups); }
   void bind(Binder&) override;
   bool add_rate_equation(std::int32_t algebraic, std::int32_t rate, Binder&) override;
   void equations(const Motion&, Equations&) const override;
@@ -63,11 +65,15 @@ class FunctionEquationKernel final : public Kernel, public ChannelSource {
     BoundExpression function;
     std::size_t of;  // the item whose function it is
   };
+  std::string uncancelled_rate(const Motion&) const;
+  std::string singular_group(const Motion&) const;
+
   std::vector<Item> items_;
   std::vector<Channel> unknowns_;
   std::vector<Part> parts_;
   std::vector<Part> whole_;  // terms of conditions with their rates, which have to cancel
   std::vector<RateEquation> rates_;
+  std::vector<std::vector<std::size_t>> coupled_;
   const std::vector<ElementLabel>* labels_;
 };
 
