@@ -72,11 +72,13 @@ class Solution {
       }
       double least = std::numeric_limits<double>::infinity();
       for (int round = 0; round < 3 && !std::isfinite(least); ++round) {
+        zeros_in_sight_ = false;
         for (const Complex& v : EigenvalueSearch(op_, Side::right).glance(4 + 8 * round)) {
           if (std::abs(v) > 1e-3 * shift) least = std::min(least, std::abs(v));
+          zeros_in_sight_ = zeros_in_sight_ || std::abs(v) <= next_to_zero * shift;
         }
       }
-      if (!std::isfinite(least) || (least >= 2 * shift && least <= 1e3 * shift)) break;
+      if (!std::isfinite(least) || (least >= 0.5 * shift && least <= 1e3 * shift)) break;
       shift = 0.2137 * least;
     }
     op_.find_units();
@@ -86,6 +88,8 @@ class Solution {
   bool find_zeros() {
     if (!place_near_zero()) return false;
     const double shift = std::abs(op_.shift()), near = near_ = next_to_zero * shift;
+    // Zeros are the nearest to this shift: an arbitrary vector shows the first of them at a glance.
+    if (!zeros_in_sight_) return true;
     // All that are no farther from the shift than what is near zero, and once more from elsewhere.
     for (int round = 0, empty = 0; round < most_rounds && empty < 2 && !right_.everything(); ++round) {
       const Index before = right_.found();
@@ -378,6 +382,7 @@ class Solution {
   NearZero zero_;
   ModeRegion region_, counted_region_;
   Index missing_ = 0;
+  bool zeros_in_sight_ = false;
   double near_ = 0;  // the modulus of what may be a zero
   SelectedModes selected_;
 };
