@@ -14,7 +14,12 @@ namespace dynalin {
 
 LiveSession::LiveSession(const SessionOptions& options, Planner& plan, std::ostream* terminal, std::ostream& out,
                          std::ostream& err)
-    : options_(options), plan_(plan), terminal_(terminal), out_(out), err_(err) {
+    : options_(options),
+      plan_(plan),
+      terminal_(terminal),
+      out_(out),
+      err_(err),
+      json_(options.json.empty() ? JsonResults::Kept::nothing : JsonResults::Kept::results) {
   for (const Diagnostic& d : plan.diagnostics.items()) json_.add_warning("", remark_of(d));
 }
 

@@ -78,14 +78,16 @@ Json channels(const std::vector<ChannelLabel>& labels) {
 
 }  // namespace
 
-JsonResults::JsonResults() : document_(std::make_unique<Document>()) {}
+JsonResults::JsonResults(Kept kept) : document_(kept == Kept::results ? std::make_unique<Document>() : nullptr) {}
 JsonResults::~JsonResults() = default;
 
 void JsonResults::add_plain(const std::string& command, double time) {
+  if (!document_) return;
   document_->results.push_back({{"command", command}, {"time", time}});
 }
 
 void JsonResults::add(const std::string& command, const EigenSolution& e) {
+  if (!document_) return;
   Json values = Json::array();
   for (const EigenMode& m : e.modes) {
     const double re = m.eigenvalue_hz.real() + 0.0, im = m.eigenvalue_hz.imag();
@@ -120,6 +122,7 @@ void JsonResults::add(const std::string& command, const EigenSolution& e) {
 }
 
 void JsonResults::add(const std::string& command, const StateSpace& s) {
+  if (!document_) return;
   document_->results.push_back({{"command", command},
                                 {"time", s.time},
                                 {"A", matrix(s.A)},
@@ -132,6 +135,7 @@ void JsonResults::add(const std::string& command, const StateSpace& s) {
 }
 
 void JsonResults::add(const std::string& command, const SecondOrder& s) {
+  if (!document_) return;
   Eigen::MatrixXd KB(s.K.rows(), s.K.cols() + s.B.cols());
   KB << s.K, s.B;
   document_->results.push_back({{"command", command},
@@ -149,6 +153,7 @@ void JsonResults::add(const std::string& command, const SecondOrder& s) {
 }
 
 void JsonResults::add(const std::string& command, const DescriptorForm& s) {
+  if (!document_) return;
   document_->results.push_back({{"command", command},
                                 {"time", s.time},
                                 {"unknowns", s.A.rows()},
@@ -160,23 +165,28 @@ void JsonResults::add(const std::string& command, const DescriptorForm& s) {
 }
 
 void JsonResults::add_printed(const std::string& command, double time, const std::string& text) {
+  if (!document_) return;
   document_->results.push_back({{"command", command}, {"time", time}, {"text", text}});
 }
 
 void JsonResults::add_model(const std::string& command, const std::string& title, const Units& units) {
+  if (!document_) return;
   document_->results.push_back({{"command", command}, {"time", 0.0}, {"model", title}, {"units", json_of(units)}});
 }
 
 void JsonResults::add_export(const std::string& command, std::string_view type, double time,
                              const std::vector<std::string>& files) {
+  if (!document_) return;
   document_->results.push_back({{"command", command}, {"time", time}, {"export", type}, {"files", files}});
 }
 
 void JsonResults::add(const std::string& command, const OperatingState& s) {
+  if (!document_) return;
   document_->results.push_back({{"command", command}, {"time", s.time}, {"operating_point", json_of(s)}});
 }
 
 void JsonResults::add(const std::string& command, const StaticResult& s) {
+  if (!document_) return;
   document_->results.push_back({{"command", command},
                                 {"time", s.at_rest.time},
                                 {"iterations", s.iterations},
@@ -186,23 +196,30 @@ void JsonResults::add(const std::string& command, const StaticResult& s) {
 }
 
 void JsonResults::add(const std::string& command, double time, const History& h) {
+  if (!document_) return;
   document_->results.push_back({{"command", command}, {"time", time}, {"history", json_of(h)}});
 }
 
 void JsonResults::add_tables(const std::vector<ModalTable>& tables) {
+  if (!document_) return;
   if (tables.empty()) return;
   Json list = Json::array();
   for (const ModalTable& table : tables) list.push_back(json_of(table));
   document_->results.back()["tables"] = std::move(list);
 }
 
-void JsonResults::add_point(const OperatingState& s) { document_->results.back()["operating_point"] = json_of(s); }
+void JsonResults::add_point(const OperatingState& s) {
+  if (!document_) return;
+  document_->results.back()["operating_point"] = json_of(s);
+}
 
 void JsonResults::add_requests(const std::vector<RequestValues>& requests) {
+  if (!document_) return;
   document_->results.back()["operating_point"]["requests"] = json_of(requests);
 }
 
 void JsonResults::add_warning(const std::string& command, const Remark& r) {
+  if (!document_) return;
   Json warning = json_of(r);
   warning["command"] = command.empty() ? Json() : Json(command);
   document_->warnings.push_back(std::move(warning));
@@ -210,10 +227,12 @@ void JsonResults::add_warning(const std::string& command, const Remark& r) {
 
 void JsonResults::add_failure(const std::string& command, const std::string& message,
                               const std::vector<std::string>& details) {
+  if (!document_) return;
   document_->errors.push_back({{"command", command}, {"message", message}, {"details", details}});
 }
 
 void JsonResults::finish(const Units& units, int status, const std::vector<std::string>& files) {
+  if (!document_) return;
   document_->units = json_of(units);
   document_->status = status;
   document_->files = files;

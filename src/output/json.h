@@ -19,7 +19,9 @@ namespace dynalin {
 
 class JsonResults {
  public:
-  JsonResults();
+  // Where nobody will write them results are not kept: shapes of large models take more memory than all else.
+  enum class Kept : bool { nothing, results };
+  explicit JsonResults(Kept = Kept::results);
   ~JsonResults();
   void add_plain(const std::string& command, double time);  // a command without numbers of its own
   // One that prints something.
@@ -49,7 +51,7 @@ class JsonResults {
   void add_failure(const std::string& command, const std::string& message, const std::vector<std::string>& details);
   // What concerns the run as a whole.
   void finish(const Units&, int status, const std::vector<std::string>& files);
-  void write(std::ostream&) const;
+  void write(std::ostream&) const;  // of what was kept
 
  private:
   struct Document;
