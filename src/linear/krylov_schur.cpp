@@ -126,11 +126,14 @@ bool KrylovSchur::run(const Operator& op, Index wanted, double least, int restar
     Index done = 0;
     while (done < most && std::abs(b(done)) <= std::max(converged * std::abs(H(done, done)), 4 * eps * largest)) ++done;
     const bool below = done > 0 && std::abs(H(done - 1, done - 1)) < least;
+    // The first that is to come is surely smaller.
+    const bool ended = done < most && std::abs(b(done)) < 0.1 * std::abs(H(done, done)) &&
+                       std::abs(H(done, done)) + std::abs(b(done)) < 0.9 * least;
     // The first that is to come moves no longer: rounding has the last word.
     const double now = done < most ? std::abs(b(done)) / std::abs(H(done, done)) : 0;
     stagnant = now > 0.9 * before && now < 1e-6 ? stagnant + 1 : 0;
     before = now;
-    if (done >= wanted || below || done == most || restart + 1 == restarts || stagnant >= 12) {
+    if (done >= wanted || below || ended || done == most || restart + 1 == restarts || stagnant >= 12) {
       if (done < most && std::abs(b(done)) > 0) {
         for (Index k = done; k < most; ++k) in_sight_.push_back(H(k, k));
       }
@@ -140,7 +143,7 @@ bool KrylovSchur::run(const Operator& op, Index wanted, double least, int restar
       T.bottomRightCorner(done, done) = H.topLeftCorner(done, done);
       T_ = std::move(T);
       Q_ = V.leftCols(locked + done);
-      return done >= wanted || below || done == most;
+      return done >= wanted || below || ended || done == most;
     }
     // What has converged stays in the space that is gone on from, and half of the rest.
     kept = std::min(most - 1, done + std::max<Index>(1, (most - done) / 2));
