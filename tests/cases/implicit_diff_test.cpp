@@ -197,6 +197,14 @@ TEST_F(ImplicitDiffs, rank_is_asked_for_where_the_model_stands) {
   expect_refused(switched(1000), {"DIFF/1, DIFF/2", "depend on each other"});
 }
 
+// z₁ z₁′ + z₁ = 0 says nothing of z₁′ at zero; a rate that is read through a VARIABLE counts, though nothing shows it.
+TEST_F(ImplicitDiffs, one_alone_has_a_rank_too) {
+  expect_refused("DIFF/1, IMPLICIT, FUNCTION=DIF(1)*DIF1(1)+DIF(1)\n",
+                 {"the equation of DIFF/1 does not determine its DIF1 here"});
+  expect_same(rates("DIFF/1, IMPLICIT, FUNCTION=0*DIF1(1)+VARVAL(1)+3*DIF(1)\nVARIABLE/1, FUNCTION=DIF1(1)\n"),
+              {{-3, 0}}, 1e-12);
+}
+
 // A factor that is the same in both equations cancels as it is written, also where both have no value at other places.
 TEST_F(ImplicitDiffs, combinations_are_found_by_how_equations_are_written) {
   const std::string factor = "*SQRT(DIF(1)-0.2)*LOG(5-DIF(1))";

@@ -300,7 +300,9 @@ class Reducer {
         if (factor != 0.0) role.condition.push_back({members[j], factor});
       }
     }
-    result_.coupled.push_back(members);
+    // What reads rates in hidden ways is not seen by its partials either.
+    if (std::none_of(members.begin(), members.end(), [&](std::size_t k) { return all_[k].opaque; }))
+      result_.coupled.push_back(members);
     // Equations that stay go to their own state, what is left over to the states without one.
     std::vector<std::size_t> without;
     for (std::size_t j = 0; j < members.size(); ++j) {

@@ -60,6 +60,13 @@ void FunctionEquationKernel::bind(Binder& binder) {
       }
     }
   }
+  std::vector<Group*> group_of(items_.size(), nullptr);
+  for (Group& g : coupled_) {
+    for (const std::size_t k : g.items) group_of[k] = &g;
+  }
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    if (Group* g = group_of[parts_[k].item]) g->parts.push_back(k);
+  }
 }
 
 bool FunctionEquationKernel::add_rate_equation(std::int32_t algebraic, std::int32_t rate, Binder& binder) {
@@ -174,14 +181,14 @@ std::string FunctionEquationKernel::uncancelled_rate(const Motion& motion) const
 // what these are the rates of. Of groups that read others' values it is not known.
 std::string FunctionEquationKernel::singular_group(const Motion& motion) const {
   ExpressionScratch scratch;
-  for (const std::vector<std::size_t>& group : coupled_) {
+  for (const auto& [group, parts] : coupled_) {
     const auto m = static_cast<Eigen::Index>(group.size());
     Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(m, m);
     bool known = true;
     const auto place = [&](std::size_t item) { return std::find(group.begin(), group.end(), item) - group.begin(); };
-    for (const Part& p : parts_) {
+    for (const std::size_t part : parts) {
+      const Part& p = parts_[part];
       const Eigen::Index row = place(p.item);
-      if (row == m) continue;
       const bool by_value = is_algebraic(items_[p.item].form);
       const auto partials = p.function.partials(motion, scratch);
       const auto atoms = items_[p.of].function.atoms();
@@ -207,6 +214,10 @@ std::string FunctionEquationKernel::singular_group(const Motion& motion) const {
     Eigen::FullPivLU<Eigen::MatrixXd> lu(jacobian);
     lu.setThreshold(singular_to_rounding);
     if (lu.isInvertible()) continue;
+    if (m == 1) {
+      return fmt::format("the equation of {} does not determine its DIF1 here: its derivative by DIF1 is zero",
+                         (*labels_)[group.front()].full_text());
+    }
     std::vector<std::string> names;
     for (const std::size_t k : group) names.push_back((*labels_)[k].full_text());
     std::sort(names.begin(), names.end());

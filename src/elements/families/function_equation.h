@@ -38,7 +38,9 @@ class FunctionEquationKernel final : public Kernel, public ChannelSource {
 
   FunctionEquationKernel(std::vector<Item>, const std::vector<ElementLabel>&, Layout&);
   // Elements whose equations determine their rates together, each group as the structure of its equations says.
-  void couple(std::vector<std::vector<std::size_t>> groups) { coupled_ = std::move(groups); }
+  void couple(const std::vector<std::vector<std::size_t>>& groups) {
+    for (const auto& items : groups) coupled_.push_back({items, {}});
+  }
   void bind(Binder&) override;
   bool add_rate_equation(std::int32_t algebraic, std::int32_t rate, Binder&) override;
   void equations(const Motion&, Equations&) const override;
@@ -73,7 +75,10 @@ class FunctionEquationKernel final : public Kernel, public ChannelSource {
   std::vector<Part> parts_;
   std::vector<Part> whole_;  // terms of conditions with their rates, which have to cancel
   std::vector<RateEquation> rates_;
-  std::vector<std::vector<std::size_t>> coupled_;
+  struct Group {
+    std::vector<std::size_t> items, parts;
+  };
+  std::vector<Group> coupled_;
   const std::vector<ElementLabel>* labels_;
 };
 
