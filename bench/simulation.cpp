@@ -110,7 +110,7 @@ std::string contact(int n) {
   for (int k = 1; k <= n; ++k) {
     text += fmt::format(
         "PART/{0}, MASS=1, CM={0}0, IP=0.01,0.01,0.01, QG={1},0,{2:.17g}\nMARKER/{0}0\nSFORCE/{0}, TRANSLATIONAL, "
-        "ACTIONONLY, I={0}0, J=5000{0}\n, FUNCTION=IMPACT(DZ({0}0,1),VZ({0}0,1),0.1,1E8,1.5,1E3,1E-4)\nMARKER/5{0}, "
+        "ACTIONONLY, I={0}0, J=5000{0}\n, FUNCTION=IMPACT(DZ({0}0,1),VZ({0}0,1),0.1,1E8,1.5,1E3,1E-4)\nMARKER/5000{0}, "
         "PART=1, QP={1},0,0\n",
         k + 1, k, 0.2 + 0.01 * (k % 7));
   }
