@@ -15,7 +15,7 @@ using testing::HasSubstr;
 struct Led {
   AdvancedPoint end;
   std::vector<double> outputs, steps;  // times
-  std::string said;
+  std::string said, warned;
   IntegrationStatistics statistics;
 };
 
@@ -36,6 +36,7 @@ Led lead(const std::string& text, double end, double step, double error = 1e-4) 
   auto found = advance_dynamics(*system, *start, OutputTimes(0, end, step), settings, r.statistics, watch, findings);
   if (!found) throw std::runtime_error(found.error().message);
   r.end = std::move(*found);
+  for (const Diagnostic& d : findings.warnings.items()) r.warned += d.message + '\n';
   return r;
 }
 
@@ -83,6 +84,13 @@ TEST(DynamicsWithEvents, a_jump_is_located) {
 }
 
 // x′ = −x(t − 1) with x = 1 before the start: 1 − t up to t = 1, then 1 − t + (t − 1)²/2, at t = 2 a cubic more.
+TEST(DynamicsWithEvents, what_jumps_to_and_fro_is_named_where_there_is_no_end_to_it) {
+  const Led r = lead(decay + "DIFF/2, IC=0, FUNCTION=IF(SIN(1E4*TIME): -1, 1, 1)\n", 0.1, 0.1);
+  EXPECT_THAT(r.warned, HasSubstr("functions switch without end"));
+  EXPECT_THAT(r.warned, HasSubstr("what jumps to and fro is DIFF/2\n"));
+  EXPECT_THAT(lead(decay, 0.1, 0.1).warned, "");
+}
+
 TEST(DynamicsWithEvents, late_feedback_follows_the_method_of_steps) {
   const std::string text = "DIFF/1, IC=1, FUNCTION=-DELAY(DIF(1),1,1)\n";
   EXPECT_NEAR(lead(text, 1, 0.1).end.point.state[0], 0, 1e-7);
