@@ -69,7 +69,9 @@ struct Reached {
   std::int64_t at_its_rounding = -1;
 };
 Reached led(DaeProblem& problem, std::array<double, 2> y, double loosest) {
-  DaeIntegrator integrator(problem, {.loosest = loosest});
+  StepBounds bounds;
+  bounds.loosest = loosest;
+  DaeIntegrator integrator(problem, bounds);
   const std::array yp{-1.0, 0.0};
   integrator.start(0, y, yp);
   Reached r;
