@@ -1,8 +1,9 @@
 // Published mechanisms: Andrews' squeezer (its solution at 30 ms in "Test Set for Initial Value Problem Solvers", Bari
 // and Amsterdam), and of the IFToMM collection the chain of N four-bars and Bricard's mechanism, which are a matter of
-// redundant constraints.
+// redundant constraints, and the slider-crank in space.
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <numbers>
 
 #include "time/course.h"
@@ -166,6 +167,72 @@ END
   ASSERT_TRUE(c.ok()) << c.failure;
   EXPECT_GT(c.drift(8), 0.1);  // it does move
   EXPECT_LT(c.drift(90), 1e-4);
+}
+
+// The crank turns about x at A, its pin leads a rod whose other end is on a slider along x, by a cross of which one bar
+// is along x. One freedom, and nothing takes energy: ½ m(θ) θ′² + V(θ) stays what it is.
+TEST(Published, slider_crank_in_space_follows_its_energy) {
+  constexpr double crank = 0.08, rod = 0.3, ya = 0.1, za = 0.12, gravity = 9.81;
+  constexpr double rod_mass = 0.5, slider_mass = 2, crank_inertia = 1e-4, across = 0.004, along = 0.0004, start = 6;
+  const std::string text = R"(slider-crank in space
+UNITS/SYSTEM=MKS
+ACCGRAV/KGRAV=-9.81
+PART/1, GROUND
+MARKER/11, PART=1, QP=0,0.1,0.12, ZP=1,0.1,0.12
+MARKER/12, PART=1, ZP=1,0,0
+PART/2, MASS=0.12, CM=20, IP=0.0001,0.00001,0.0001, QG=0,0.1,0.12, WX=6
+MARKER/20, PART=2
+MARKER/21, PART=2, ZP=1,0,0
+MARKER/22, PART=2, QP=0,0,0.08
+PART/3, MASS=0.5, CM=30, IP=0.004,0.004,0.0004, QG=0.1,0.05,0.1
+MARKER/30, PART=3, ZP=0.1,-0.05,-0.1
+MARKER/31, PART=3, QP=-0.1,0.05,0.1
+MARKER/32, PART=3, QP=0.1,-0.05,-0.1, ZP=0.1,0.15,-0.2
+PART/4, MASS=2, CM=40, IP=0.0001,0.0001,0.0001, QG=0.2,0,0
+MARKER/40, PART=4, ZP=1,0,0
+JOINT/1, REVOLUTE, I=21, J=11
+JOINT/2, SPHERICAL, I=22, J=31
+JOINT/3, UNIVERSAL, I=40, J=32
+JOINT/4, TRANSLATIONAL, I=40, J=12
+VARIABLE/1, FUNCTION=AZ(21,11)
+VARIABLE/2, FUNCTION=WX(20)
+VARIABLE/3, FUNCTION=DX(40)
+END
+)";
+  using Vector = Eigen::Vector3d;
+  struct Place {
+    double slider, inertia, potential;
+  };
+  // Places and speeds for θ′ = 1.
+  const auto place = [&](double angle) {
+    const Vector x = Vector::UnitX(), pin(0, ya - crank * std::sin(angle), za + crank * std::cos(angle));
+    const Vector pin_rate(0, -crank * std::cos(angle), -crank * std::sin(angle));
+    const double slider = std::sqrt(rod * rod - pin.squaredNorm()), slider_rate = -pin.dot(pin_rate) / slider;
+    const Vector direction = (slider * x - pin) / rod, turning = (slider_rate * x - pin_rate) / rod;
+    const Vector bar = x.cross(direction).normalized(), tilt = direction.cross(turning);
+    const double spin = -x.dot(tilt.cross(bar)) / x.dot(direction.cross(bar));
+    const Vector middle_rate = 0.5 * (pin_rate + slider_rate * x);
+    return Place{slider,
+                 crank_inertia + rod_mass * middle_rate.squaredNorm() + across * tilt.squaredNorm() +
+                     along * spin * spin + slider_mass * slider_rate * slider_rate,
+                 rod_mass * gravity * 0.5 * pin.z()};
+  };
+  const double energy = 0.5 * place(0).inertia * start * start + place(0).potential;
+  const auto rate = [&](double, const Values& v) {
+    const Place at = place(v[0]);
+    return Values{std::sqrt(2 * (energy - at.potential) / at.inertia)};
+  };
+  for (const double error : {1e-4, 1e-7}) {
+    const Course c = led_through_time(text, {5, 50, error});
+    ASSERT_TRUE(c.ok()) << c.failure;
+    const auto truth = integrated(rate, {0}, c.times);
+    EXPECT_GT(truth.back()[0], 2 * pi);
+    for (std::size_t k = 0; k < c.times.size(); ++k) {
+      EXPECT_NEAR(c.variables.at(1)[k], truth[k][0], 20 * error) << error << " at " << c.times[k];
+      EXPECT_NEAR(c.variables.at(2)[k], rate(0, truth[k])[0], 100 * error) << error << " at " << c.times[k];
+      EXPECT_NEAR(c.variables.at(3)[k], place(truth[k][0]).slider, 2 * error) << error << " at " << c.times[k];
+    }
+  }
 }
 
 }  // namespace
