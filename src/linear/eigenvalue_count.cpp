@@ -16,6 +16,7 @@ constexpr double largest_step = 1.0;  // of log; a phase is lost at π
 // Where pieces between two corners end, to begin with. In even pieces 16 eigenvalues missing in the middle of a circle
 // would turn the phase of each by 2π, and be seen in none; in these nothing below 399 does.
 constexpr std::array<double, 5> pieces{0, 0.2, 0.37, 0.68, 1};
+constexpr double uneven_middle = 0.43;
 constexpr std::size_t most_points = 600;
 constexpr double least_piece = 1e-9;  // of the border
 
@@ -33,20 +34,27 @@ class Winding {
         if (!add(points_.end(), from + (to - from) * share)) return std::nullopt;
       }
     }
+    // Of changes that are not seen for what they are, by 2π or more, some would be seen between these points: what half
+    // as long pieces say again is taken.
+    std::optional<double> before;
     for (;;) {
       smooth();
       double sum = 0;
-      std::vector<double> between;
+      std::vector<double> all, large;
       for (std::size_t k = 0; k + 1 < points_.size(); ++k) {
         const Complex change = points_[k + 1].rest - points_[k].rest;
-        const double turned = std::remainder(change.imag(), 2 * pi);
+        const double turned = std::remainder(change.imag(), 2 * pi), length = points_[k + 1].t - points_[k].t;
         sum += turned;
+        all.push_back(points_[k].t + uneven_middle * length);
         if (std::abs(turned) <= largest_step && std::abs(change.real()) <= largest_step) continue;
-        if (points_[k + 1].t - points_[k].t < least_piece) return std::nullopt;
-        between.push_back(0.5 * (points_[k].t + points_[k + 1].t));
+        if (length < least_piece) return std::nullopt;
+        large.push_back(all.back());
       }
-      if (between.empty()) return sum;
-      for (const double t : between) {
+      if (large.empty()) {
+        if (before && std::abs(*before - sum) < 1) return sum;
+        before = sum;
+      }
+      for (const double t : large.empty() ? all : large) {
         const auto next = std::find_if(points_.begin(), points_.end(), [&](const Point& p) { return p.t > t; });
         if (points_.size() >= most_points || !add(next, t)) return std::nullopt;
       }

@@ -12,6 +12,7 @@ namespace {
 class CancellingTerms : public DaeProblem {
  public:
   CancellingTerms(double b, double allowed) : b_(b), allowed_(allowed) {
+    matrix_.rows = matrix_.columns = 2;
     matrix_.start = {0, 2, 4}, matrix_.row = {0, 1, 0, 1};
   }
   std::size_t size() const override { return 2; }

@@ -337,5 +337,15 @@ TEST_F(SelectedModes, cost_of_the_full_solution_is_said_above_a_size) {
   EXPECT_THAT(said.items()[0].hint, HasSubstr("BAND=f1,f2"));
 }
 
+TEST(LargeEigensolutions, say_beforehand_what_they_cost) {
+  EXPECT_TRUE(cost_of_all_modes(3000).items().empty());
+  const Diagnostics said = cost_of_all_modes(4000);
+  ASSERT_EQ(said.items().size(), 1u);
+  const Diagnostic& remark = said.items()[0];
+  EXPECT_EQ(remark.code, "large-eigensolution");
+  EXPECT_THAT(remark.message, HasSubstr("4000 states take about 2 min and 4.2 GB"));
+  EXPECT_THAT(remark.hint, HasSubstr("NMODES=20"));
+}
+
 }  // namespace
 }  // namespace dynalin::cases
