@@ -8,6 +8,8 @@ show_end() { tail -n "$2" "$1" >&2; }
 
 # build PRESET: configures and builds it in build/PRESET. The whole output is in build/PRESET/build.log.
 build() {
+  # A compiler cache serves all checkouts, wherever they are.
+  export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
   local folder=build/$1 log=build/$1/build.log start=$SECONDS
   mkdir -p "$folder"
   if ! cmake --preset "$1" >"$log" 2>&1; then

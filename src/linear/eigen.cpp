@@ -52,21 +52,6 @@ bool solve_core(Eigen::MatrixXd core, EigenPairs& pairs) {
   return true;
 }
 
-// A value, or a part of one, that is no more than its bound and than rounding of the model's fastest rate, or of the
-// other part, is zero as far as anybody can tell.
-void clear_rounding(EigenPairs& pairs, std::vector<EigenTrust>& trust) {
-  constexpr double rounding = 1e-13;
-  double fastest = 0;
-  for (const Complex& v : pairs.values) fastest = std::max(fastest, std::abs(v));
-  for (std::size_t k = 0; k < trust.size(); ++k) {
-    Complex& v = pairs.values[k];
-    const double unit = rounding * (v.imag() == 0 ? fastest : std::abs(v.imag())), re = std::abs(v.real());
-    if (re > trust[k].bound || re > unit) continue;
-    v.real(0);
-    trust[k].bound += re;
-  }
-}
-
 }  // namespace
 
 std::optional<UnrefinedPairs> unrefined_pairs(const LinearSystem& linear) {
@@ -98,15 +83,7 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
 
   clear_rounding(pairs, trust);
 
-  std::vector<std::size_t> order;
-  for (std::size_t k = 0; k < pairs.values.size(); ++k) order.push_back(k);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const Complex x = pairs.values[a], y = pairs.values[b];
-    const bool x_real = x.imag() == 0, y_real = y.imag() == 0;
-    if (x_real != y_real) return x_real;
-    return x_real ? std::abs(x.real()) < std::abs(y.real()) : x.imag() < y.imag();
-  });
-
+  const std::vector<std::size_t> order = printed_order(pairs.values);
   out.vectors.resize(n, z + static_cast<Eigen::Index>(order.size()));
   out.vectors.leftCols(z) = zero.vectors().cast<Complex>();
   out.vectors.leftCols(z).colwise().normalize();

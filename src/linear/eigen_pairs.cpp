@@ -1,5 +1,9 @@
 #include "linear/eigen_pairs.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
 #include "linear/dense_products.h"
 
 namespace dynalin {
@@ -20,6 +24,31 @@ Eigen::VectorXcd direction(const Eigen::MatrixXcd& N, const Eigen::VectorXcd& co
 }
 
 }  // namespace
+
+void clear_rounding(EigenPairs& pairs, std::vector<EigenTrust>& trust) {
+  constexpr double rounding = 1e-13;
+  double fastest = 0;
+  for (const std::complex<double>& v : pairs.values) fastest = std::max(fastest, std::abs(v));
+  for (std::size_t k = 0; k < trust.size(); ++k) {
+    std::complex<double>& v = pairs.values[k];
+    const double unit = rounding * (v.imag() == 0 ? fastest : std::abs(v.imag())), re = std::abs(v.real());
+    if (re > trust[k].bound || re > unit) continue;
+    v.real(0);
+    trust[k].bound += re;
+  }
+}
+
+std::vector<std::size_t> printed_order(const std::vector<std::complex<double>>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const std::complex<double> x = values[a], y = values[b];
+    const bool x_real = x.imag() == 0, y_real = y.imag() == 0;
+    if (x_real != y_real) return x_real;
+    return x_real ? std::abs(x.real()) < std::abs(y.real()) : x.imag() < y.imag();
+  });
+  return order;
+}
 
 void map_to_states(const ZeroModes& zero, EigenPairs& pairs) {
   const Eigen::Index n = zero.block.rows(), z = zero.count;

@@ -36,6 +36,14 @@ inline std::complex<double> value(const EigenPairs& pairs, const Member& m) {
   return m.conjugate ? std::conj(v) : v;
 }
 
+// A value, or a part of one, that is no more than its bound and than rounding of the model's fastest rate among these,
+// or of the other part, is zero as far as anybody can tell; what it was is in the bound then.
+void clear_rounding(EigenPairs&, std::vector<EigenTrust>&);
+
+// Places of values in the order in which modes are printed: real ones first by ascending modulus, then complex pairs by
+// ascending imaginary part.
+std::vector<std::size_t> printed_order(const std::vector<std::complex<double>>& values);
+
 // From [N C; 0 B] to A: vectors of B become unit vectors of A. The part of a right one in the space of the zero modes
 // follows from (N − λ) u = −C y.
 void map_to_states(const ZeroModes&, EigenPairs&);

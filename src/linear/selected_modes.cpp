@@ -279,39 +279,17 @@ class Solution {
                          distance);
   }
 
-  // A value, or a part of one, that is no more than its bound and than rounding of the fastest rate, or of the other
-  // part, is zero as far as anybody can tell.
-  static void clear_rounding(BoundedPairs& found) {
-    constexpr double rounding = 1e-13;
-    double fastest = 0;
-    for (const Complex& v : found.pairs.values) fastest = std::max(fastest, std::abs(v));
-    for (std::size_t k = 0; k < found.trust.size(); ++k) {
-      Complex& v = found.pairs.values[k];
-      const double unit = rounding * (v.imag() == 0 ? fastest : std::abs(v.imag())), re = std::abs(v.real());
-      if (re > found.trust[k].bound || re > unit) continue;
-      v.real(0);
-      found.trust[k].bound += re;
-    }
-  }
-
   EigenSolution solution(BoundedPairs& found, Vectors vectors) {
-    clear_rounding(found);
+    clear_rounding(found.pairs, found.trust);
     EigenSolution out;
     out.time = perturbation_.model.time;
     out.kinematic_states = perturbation_.kinematic_states;
     out.differential_states = perturbation_.differential_states;
     out.states = perturbation_.model.states;
     const EigenPairs& pairs = found.pairs;
-    std::vector<std::size_t> order;
-    for (std::size_t k = 0; k < pairs.values.size(); ++k) {
-      if (region_.has(pairs.values[k]) || std::abs(pairs.values[k] - region_.centre) <= found.trust[k].bound)
-        order.push_back(k);
-    }
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      const Complex x = pairs.values[a], y = pairs.values[b];
-      const bool x_real = x.imag() == 0, y_real = y.imag() == 0;
-      if (x_real != y_real) return x_real;
-      return x_real ? std::abs(x.real()) < std::abs(y.real()) : x.imag() < y.imag();
+    std::vector<std::size_t> order = printed_order(pairs.values);
+    std::erase_if(order, [&](std::size_t k) {
+      return !region_.has(pairs.values[k]) && std::abs(pairs.values[k] - region_.centre) > found.trust[k].bound;
     });
     const Index z = zero_.count();
     out.vectors.resize(op_.states(), z + static_cast<Index>(order.size()));
