@@ -13,6 +13,7 @@
 
 #include "analysis/initial.h"
 #include "elements/catalogue.h"
+#include "hinged_lattice.h"
 #include "linear/state_choice.h"
 #include "peak_memory.h"
 #include "system/system.h"
@@ -54,33 +55,8 @@ std::string chain(int n, bool tangled) {
 }
 
 std::string lattice(int n) {
-  const int side = 3, layers = std::max(1, n / (side * side));
-  std::string text = "lattice\nUNITS/SYSTEM=MKS\nPART/1, GROUND\n";
-  const auto body = [&](int x, int y, int z) { return (z * side + y) * side + x + 2; };
-  int joint = 0;
-  std::string joints;
-  text += "MARKER/1\n";
-  for (int z = 0; z < layers; ++z) {
-    for (int y = 0; y < side; ++y) {
-      for (int x = 0; x < side; ++x) {
-        const int b = body(x, y, z), m = 10 * b;
-        text += fmt::format("PART/{}, MASS=1, CM={}, IP=0.1,0.1,0.1, QG={},{},{}\nMARKER/{}\n", b, m, x, y, z, m);
-        // Hinges halfway to the six neighbours; axes along the next direction in turn.
-        static constexpr const char* places[] = {"0.5,0,0", "-0.5,0,0", "0,0.5,0", "0,-0.5,0", "0,0,0.5", "0,0,-0.5"};
-        static constexpr const char* axes[] = {"0,0,0", "0,0,0", "90D,90D,0", "90D,90D,0", "0,90D,0", "0,90D,0"};
-        for (int k = 0; k < 6; ++k) text += fmt::format("MARKER/{}, QP={}, REULER={}\n", m + 1 + k, places[k], axes[k]);
-        const auto hinge = [&](int other, int k) {
-          joints += fmt::format("JOINT/{}, REVOLUTE, I={}, J={}\n", ++joint, m + 1 + k, 10 * other + 2 + k);
-        };
-        if (x + 1 < side) hinge(body(x + 1, y, z), 0);
-        if (y + 1 < side) hinge(body(x, y + 1, z), 2);
-        if (z + 1 < layers) hinge(body(x, y, z + 1), 4);
-      }
-    }
-  }
-  joints += fmt::format("MARKER/2, PART=1, QP=0,0,-0.5, REULER=0,90D,0\nJOINT/{}, REVOLUTE, I={}, J=2\n", ++joint,
-                        10 * body(0, 0, 0) + 6);
-  return text + joints + "END\n";
+  constexpr int side = 3;
+  return hinged_lattice(side, side, std::max(1, n / (side * side)));
 }
 
 }  // namespace

@@ -17,10 +17,13 @@
 #include "command/help.h"
 #include "command/prompt.h"
 #include "command/session.h"
+#include "distributed/team.h"
 #include "dynalin/version.h"
 #include "line_editor.h"
 #include "nastran_reader/nastran_program.h"
 #include "output/temporary_file.h"
+#include "reduction/reduce_program.h"
+#include "routine/routine_context.h"
 
 namespace {
 
@@ -94,6 +97,13 @@ int run(int argc, char** argv) {
   for (CLI::App* reading : {run, check}) {
     reading->add_flag("--pade", options.pade, "a DELAY is a first-order Pade approximant with a state, not e - tau e'");
     reading->add_option("--user-value", options.user_value, "a constant in the place of each compiled routine");
+    reading
+        ->add_option(
+            "--user-library", options.user_libraries,
+            "a shared library with compiled routines, or a folder with those that ROUTINE= names; may be repeated")
+        ->allow_extra_args(false);
+    reading->add_flag("--difference-user-routines", options.difference_user_routines,
+                      "differences where a compiled routine gives no derivatives, in linear models too");
   }
   nastran_reader::SolveOptions deck;
   CLI::App* nastran = app.add_subcommand("nastran", "check or solve a Nastran deck");
@@ -104,6 +114,26 @@ int run(int argc, char** argv) {
   solve_nastran->add_option("--json", deck.json, "write the results to this file");
   solve_nastran->add_option("--modes", deck.modes, "print the shapes of these modes");
   solve_nastran->add_flag("--ignore-unknown", deck.ignore_unknown, "leave out cards that are not known");
+  reduction::ReduceOptions body;
+  CLI::App* reduce = app.add_subcommand("reduce", "a flexible body out of matrices of a finite-element program");
+  reduce->add_option("--stiffness", body.stiffness, "CalculiX .sti, Matrix Market, or DMIG")->required();
+  reduce->add_option("--mass", body.mass, "CalculiX .mas, Matrix Market, or DMIG")->required();
+  reduce->add_option("--freedoms", body.freedoms, "node.direction of each row; otherwise .dof beside the stiffness");
+  reduce->add_option("--nodes", body.nodes, "lines of node, x, y, z, an input deck with *NODE, or one with GRID")
+      ->required();
+  reduce->add_option("--stiffness-name", body.stiffness_name, "of DMIG where there are several");
+  reduce->add_option("--mass-name", body.mass_name, "of DMIG where there are several");
+  reduce->add_option("--interface", body.interface, "nodes for markers, 1,17 or, with a rotation node, 1001:1002")
+      ->delimiter(',')
+      ->required();
+  reduce->add_option("--also", body.also, "further nodes that the body file has")->delimiter(',');
+  reduce->add_option("--modes", body.modes, "fixed-interface modes, at most (20)")->check(CLI::NonNegativeNumber);
+  reduce->add_option("--frequency-limit", body.frequency_limit, "of these, cycles per unit of time");
+  reduce->add_flag("--translations-only", body.translations_only, "interface nodes may be without rotations");
+  reduce->add_option("--length-factor", body.length_factor, "1000 for metres to millimetres");
+  reduce->add_option("--mass-factor", body.mass_factor, "1000 for tonnes to kilograms");
+  reduce->add_option("--force-factor", body.force_factor, "between units of force");
+  reduce->add_option("--output", body.output, "the body file (.fem)")->required();
   CLI::App* help = app.add_subcommand("help", "a statement, command or function, or the list of them");
   help->add_option("NAME", word, "LINEAR, JOINT, STEP …");
   CLI::App* explain = app.add_subcommand("explain", "what a message means, or the list of messages");
@@ -117,6 +147,7 @@ int run(int argc, char** argv) {
     hint_at_usage(*run, argc, argv);
     return wrong_usage;
   }
+  if (!options.user_libraries.empty()) name_routine_of_crash();
   const bool command_given = !app.get_subcommands().empty();
   if (!command_given) {
     if (::isatty(STDIN_FILENO) != 0) {
@@ -137,18 +168,16 @@ int run(int argc, char** argv) {
   if (*check) return check_file(options, std::cout, std::cerr);
   if (*check_nastran) return nastran_reader::check_deck(deck.deck, std::cout, std::cerr);
   if (*solve_nastran) return nastran_reader::solve_deck(deck, std::cout, std::cerr);
+  if (*reduce) return reduction::reduce(body, std::cout, std::cerr);
+  if (*help && word == "reduce") {  // no name of the language: its options say it all
+    std::cout << reduce->help();
+    return done;
+  }
   if (*help) return print_help(word, std::cout, std::cerr);
   return print_explanation(word, std::cout, std::cerr);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  open_standard_streams();
-  // A reader that has gone and a limit on the size of files are errors of writing like any other.
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
-  dynalin::remove_temporary_files_on_signals();
+int run_to_the_end(int argc, char** argv) {
   try {
     const int status = run(argc, argv);
     errno = 0;
@@ -165,4 +194,17 @@ int main(int argc, char** argv) {
   } catch (const std::exception& e) {
     return fail(std::string("unexpected: ") + e.what());
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  open_standard_streams();
+  dynalin::Team team;
+  if (!team.leads()) return team.serve();
+  // A reader that has gone and a limit on the size of files are errors of writing like any other.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  dynalin::remove_temporary_files_on_signals();
+  return team.end(run_to_the_end(argc, argv));
 }

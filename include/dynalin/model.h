@@ -18,6 +18,13 @@ namespace dynalin {
 struct ReadingOptions {
   bool pade_delays = false;  // a DELAY as (1 − τs/2)/(1 + τs/2) with a state of its own, else as e − τ e′
   std::optional<double> user_value{};  // what takes the place of compiled user routines; nothing: they are errors
+  // Shared libraries whose routines are called (dynalin/user_routine.h), or folders with libraries that ROUTINE= names.
+  // A program that links the library must export the utilities that such routines call; CMake targets that link
+  // dynalin do.
+  std::vector<std::string> user_libraries{};
+  // Differences take the place of derivatives that a routine does not give, in linear models as well, where they are
+  // errors else.
+  bool difference_user_routines = false;
 };
 
 namespace library {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "elements/bodies/flex_body.h"
+
 namespace dynalin {
 
 namespace {
@@ -40,13 +42,47 @@ std::vector<Vector> axes_with_inertia(const Body& body, const Matrix3& R) {
   return axes;
 }
 
+// The same of a flexible body: what its mass matrix tells from zero, in coordinates that have a unit each on its
+// diagonal.
+void add_momentum_rows(const Layout& layout, const FlexibleBody& f, const Motion& motion,
+                       std::vector<SparseRow>& rows) {
+  const Index n = f.flexible->modes();
+  const Matrix3& R = motion.body(f.body).R;
+  const Matrix mass = f.flexible->inertia.matrix(Eigen::Map<const Eigen::VectorXd>(motion.extra.data() + f.first, n));
+  const Eigen::VectorXd unit = mass.diagonal().cwiseSqrt();
+  const Eigen::VectorXd inverse = unit.unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(inverse.asDiagonal() * mass * inverse.asDiagonal());
+  const double zero = inertia_units * epsilon * static_cast<double>(6 + n);
+  const std::int32_t offset = layout.body(f.body).offset;
+  for (Index k = 0; k < 6 + n; ++k) {
+    if (solver.eigenvalues()(k) <= zero) continue;
+    const Eigen::VectorXd v = unit.cwiseProduct(solver.eigenvectors().col(k));
+    SparseRow row;
+    for (std::int32_t i = 0; i < 6; i += 3) {
+      const Vector global = R * Vector{v(i), v(i + 1), v(i + 2)};
+      for (std::int32_t c = 0; c < 3; ++c) {
+        row.column.push_back(offset + i + c);
+        row.value.push_back(global[static_cast<std::size_t>(c)]);
+      }
+    }
+    for (Index i = 0; i < n; ++i) {
+      row.column.push_back(layout.body_coordinate_count + static_cast<std::int32_t>(f.first) +
+                           static_cast<std::int32_t>(i));
+      row.value.push_back(v(6 + i));
+    }
+    rows.push_back(std::move(row));
+  }
+}
+
 // Rows of velocities that have momentum.
 void add_momentum_rows(const System& system, const Motion& motion, std::vector<SparseRow>& rows) {
   const Layout& layout = system.layout();
+  const std::vector<const ModalBody*> flexible = flexible_by_body(system.model());
+  for (const FlexibleBody& f : flexible_bodies(system.model())) add_momentum_rows(layout, f, motion, rows);
   for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
     const BodyBlock& block = layout.bodies[b];
     const Body& body = system.model().bodies[b];
-    if (block.count == 0) continue;
+    if (block.count == 0 || flexible[b]) continue;
     const Matrix3& R = motion.bodies[b].R;
     const auto add = [&](const Vector& on_r, const Vector& on_theta) {
       SparseRow row;
@@ -223,8 +259,13 @@ bool has_virtual_mass(const ColumnMatrix& m, const MasslessDirections& d, const 
 
 bool lacks_mass(const System& system) {
   const Layout& layout = system.layout();
+  const std::vector<const ModalBody*> flexible = flexible_by_body(system.model());
   for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
     if (layout.bodies[b].count == 0) continue;
+    if (flexible[b]) {
+      if (flexible[b]->lacks_inertia) return true;
+      continue;
+    }
     const Body& body = system.model().bodies[b];
     if (body.mass == 0) return true;
     if (!layout.bodies[b].turns()) continue;
@@ -234,7 +275,8 @@ bool lacks_mass(const System& system) {
     if (determinant > 1e-9 * mean * mean * mean && mean > 1e-9 * body.mass * dot(body.p_BC, body.p_BC)) continue;
     if (axes_with_inertia(body, Matrix3::identity()).size() < 3) return true;
   }
-  return !layout.extras.empty();  // coordinates outside bodies have no inertia
+  // Other coordinates outside bodies than modal ones have no inertia.
+  return std::ranges::any_of(layout.extras, [](const ExtraBlock& e) { return e.type != StateType::flex_body; });
 }
 
 MasslessDirections massless_directions(const System& system, const Motion& motion, const ConstraintRows& rows,

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "analysis/displace.h"
 #include "analysis/initial.h"
+#include "analysis/outside_weight.h"
 #include "analysis/row_sizes.h"
 #include "expression/parametric_curve.h"
 #include "system/undefined_rows.h"
@@ -36,10 +38,11 @@ std::vector<double> assembly_weights(const System& system) {
   for (std::size_t k = 0; k < weight.size(); ++k) {
     const double s = system.coordinate_scale(static_cast<std::int32_t>(k));
     weight[k] = 1.0 / (s * s);
-    // Coordinates outside bodies follow them.
-    if (k >= static_cast<std::size_t>(system.layout().body_coordinate_count)) weight[k] *= follower_weight;
   }
   const Layout& layout = system.layout();
+  for (const ExtraBlock& e : layout.extras) {
+    for (std::int32_t k = 0; k < e.count; ++k) weight[static_cast<std::size_t>(e.offset + k)] *= outside_weight(e.type);
+  }
   for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
     const BodyBlock& block = layout.bodies[b];
     for (std::int32_t k = 0; k < block.count; ++k) {
@@ -128,7 +131,9 @@ struct Stopped {
 };
 Stopped stop_at_ends(const Layout& layout, OperatingPoint& op, const Eigen::VectorXd& step, std::vector<bool>& fixed) {
   Stopped s;
+  std::int32_t last = -1;
   for (const CurvePoint& c : layout.curve_points) {
+    if (std::exchange(last, c.coordinate) == c.coordinate) continue;  // of two markers at one point of contact
     double& u = op.extra[layout.extra_index(c.coordinate)];
     const double most = largest_step(layout, c.coordinate);
     const double next = u + std::clamp(step(c.coordinate), -most, most);

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "analysis/initial.h"
+#include "analysis/outside_weight.h"
+#include "elements/bodies/flex_body.h"
 #include "system/undefined_rows.h"
 
 namespace dynalin {
@@ -46,7 +48,8 @@ std::vector<Condition> stated_velocities(const System& system, const Motion& mot
         conditions.push_back(std::move(s));
       }
       if (body.velocity.angular[k] && block.turns()) {
-        const Vector a = motion.axes(system.layout().marker(body.velocity.angular_axes))[k];
+        const MarkerId axes = body.velocity.angular_axes;  // those of the BCS, where no marker has them
+        const Vector a = (axes.valid() ? motion.axes(system.layout().marker(axes)) : motion.bodies[b].R)[k];
         Condition s{{},
                     {},
                     *body.velocity.angular[k],
@@ -102,11 +105,11 @@ void add_norm(const System& system, const Motion& motion, double weight, std::ve
       }
     }
   }
-  // Coordinates outside bodies follow them: a weight that only keeps the matrix regular where nothing moves them.
+  // Points of contact follow them: a weight that only keeps the matrix regular where nothing moves them.
   for (const ExtraBlock& e : system.layout().extras) {
     for (std::int32_t k = 0; k < e.count; ++k) {
       const double s = system.length() / system.coordinate_scale(e.offset + k);
-      entries.push_back({e.offset + k, e.offset + k, follower_weight * weight * s * s});
+      entries.push_back({e.offset + k, e.offset + k, outside_weight(e.type) * weight * s * s});
     }
   }
 }
@@ -319,8 +322,7 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
     if (!hard) return tl::unexpected(hard.error());
     if (!hard->contradicted.empty()) {
       Failure f{"velocity initial conditions", "the constraints contradict each other on velocities", {}};
-      for (const std::size_t k : hard->contradicted)
-        f.details.push_back(system.row_text(static_cast<std::int32_t>(k)));
+      for (const std::size_t k : hard->contradicted) f.details.push_back(system.row_text(static_cast<std::int32_t>(k)));
       return tl::unexpected(f);
     }
     velocity = std::move(hard->velocity);
@@ -358,8 +360,12 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
 
 Result<OperatingPoint> initial_velocity(const System& system, OperatingPoint op, Findings& findings) {
   const auto stated = stated_velocities(system, system.motion(op));
-  return solve(system, std::move(op), stated, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(system.coordinates())),
-               findings);
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(system.coordinates()));
+  for (const FlexibleBody& f : flexible_bodies(system.model())) {
+    start.segment(system.layout().body_coordinate_count + static_cast<Eigen::Index>(f.first), f.flexible->modes()) =
+        f.flexible->rate;
+  }
+  return solve(system, std::move(op), stated, start, findings);
 }
 
 Result<OperatingPoint> reconcile_velocity(const System& system, OperatingPoint op, Findings& findings) {

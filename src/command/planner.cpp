@@ -145,7 +145,7 @@ void Planner::open(const Opening& o) {
   job().sources = sources;
   known_ = true;
   const bool sound = sound_;
-  auto stage = stage_of_dataset(source, options_, statements_, diagnostics);
+  auto stage = stage_of_dataset(source, options_, statements_, texts, diagnostics);
   sound_ = sound && stage.has_value();
   if (stage) finish_stage(job(), std::move(stage)), sound_ = sound;
   for (Command& c : std::exchange(early_, {})) add(std::move(c));
@@ -156,7 +156,7 @@ void Planner::finish_edits() {
   std::vector<Command> edits = std::exchange(edits_, {});
   std::size_t stage = Command::known_when_run;
   if (known() && sound_) {
-    auto made = edited_stage(job().stages.back(), edits, options_, diagnostics);
+    auto made = edited_stage(job().stages.back(), edits, options_, texts, diagnostics);
     if (finish_stage(job(), std::move(made))) stage = job().stages.size() - 1;
   }
   for (Command& c : edits) {
@@ -299,7 +299,7 @@ bool Planner::resolve(Job& of, std::size_t first, std::optional<std::size_t> sta
   std::size_t last = first;
   while (last < of.commands.size() && of.commands[last].action->edits()) ++last;
   const std::span<Command> group(of.commands.data() + first, last - first);
-  if (!finish_stage(of, edited_stage(of.stages[*stage], group, options_, diagnostics))) return false;
+  if (!finish_stage(of, edited_stage(of.stages[*stage], group, options_, texts, diagnostics))) return false;
   for (Command& edit : group) edit.stage = of.stages.size() - 1;
   return ok();
 }

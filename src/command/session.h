@@ -19,6 +19,8 @@ struct SessionOptions {
   bool quiet = false;
   bool state = false;                         // every operating point in full on the terminal
   std::optional<double> user_value;           // in the place of compiled routines
+  std::vector<std::string> user_libraries;    // with compiled routines
+  bool difference_user_routines = false;      // in linear models too
   bool pade = false;                          // a DELAY as a Padé approximant with a state of its own
   std::optional<std::int64_t> modes;          // NMODES of every EIGENSOL that selects none itself
   std::optional<std::size_t> dense_up_to;     // states (LinearRequest)

@@ -8,6 +8,10 @@ namespace dynalin {
 
 namespace {
 
+void keep_texts(const Job::Stage& stage, std::vector<SourceRef>& texts) {
+  texts.insert(texts.end(), stage.model->further_sources.begin(), stage.model->further_sources.end());
+}
+
 // The equations, which show what is wrong with a model that can be read.
 bool add_system(Job::Stage& stage, const SessionOptions& options, Diagnostics& diagnostics) {
   auto system = System::make(stage.model, {options.pade ? DelayReading::pade : DelayReading::first_order});
@@ -21,27 +25,34 @@ bool add_system(Job::Stage& stage, const SessionOptions& options, Diagnostics& d
 
 }  // namespace
 
+RoutineOptions routine_options(const SessionOptions& options) {
+  return {options.user_libraries, options.difference_user_routines};
+}
+
 std::optional<Job::Stage> stage_of_dataset(SourceRef source, const SessionOptions& options, Statements statements,
-                                           Diagnostics& diagnostics) {
+                                           std::vector<SourceRef>& texts, Diagnostics& diagnostics) {
   auto parsed = parse_dataset(std::move(source));
   const bool read = !parsed.diagnostics.has_errors();
   diagnostics.append(std::move(parsed.diagnostics));
   const auto dataset = std::make_shared<Dataset>(std::move(parsed.value));
   const bool kept = statements == Statements::kept;
   auto built =
-      build_model(dataset, catalogue(), {.user_value = options.user_value, .read_once = kept ? nullptr : dataset});
+      build_model(dataset, catalogue(), {.user_value = options.user_value, .read_once = kept ? nullptr : dataset},
+                  routine_options(options));
   const bool sound = read && !built.diagnostics.has_errors();
   // Statements that could not be read leave gaps that the model would only complain about again.
   if (read || built.diagnostics.has_errors()) diagnostics.append(std::move(built.diagnostics));
   Job::Stage stage;
   stage.dataset = dataset, stage.model = std::move(built.value);
+  keep_texts(stage, texts);
   if (!kept) dataset->release_arguments();
   if (!sound || !add_system(stage, options, diagnostics)) return std::nullopt;
   return stage;
 }
 
 std::optional<Job::Stage> edited_stage(const Job::Stage& from, std::span<const Command> edits,
-                                       const SessionOptions& options, Diagnostics& diagnostics) {
+                                       const SessionOptions& options, std::vector<SourceRef>& texts,
+                                       Diagnostics& diagnostics) {
   const std::size_t errors = diagnostics.error_count();
   DatasetEditor editor(from.dataset, edits.front().written, catalogue(), diagnostics);
   Job::Stage stage;
@@ -51,7 +62,7 @@ std::optional<Job::Stage> edited_stage(const Job::Stage& from, std::span<const C
     stage.edits.emplace_back(c.whole.text());
   }
   EditedDataset now = std::move(editor).finish();
-  auto built = build_model(now.dataset, catalogue(), {options.user_value});
+  auto built = build_model(now.dataset, catalogue(), {options.user_value}, routine_options(options));
   const SourceText* read_before = from.dataset->source.get();
   for (const Diagnostic& d : built.diagnostics.items()) {
     if (d.severity == Severity::error) {
@@ -61,6 +72,7 @@ std::optional<Job::Stage> edited_stage(const Job::Stage& from, std::span<const C
     }
   }
   stage.dataset = std::move(now.dataset), stage.model = std::move(built.value);
+  keep_texts(stage, texts);
   stage.restated = std::move(now.restated);
   if (diagnostics.error_count() > errors || !add_system(stage, options, diagnostics)) return std::nullopt;
   return stage;
@@ -75,7 +87,7 @@ std::optional<Job::Stage> saved_stage(const SavedFile::Model& saved, const std::
                                     saved.pade ? "with" : "without", options.pade ? "with" : "without"));
   const SourceRef source = texts.emplace_back(std::make_shared<const SourceText>(saved.path, saved.text));
   Diagnostics said;  // in the run that saved it
-  auto stage = stage_of_dataset(source, options, Statements::kept, said);
+  auto stage = stage_of_dataset(source, options, Statements::kept, texts, said);
   if (!stage) {
     diagnostics.append(std::move(said));
     return std::nullopt;
@@ -86,7 +98,7 @@ std::optional<Job::Stage> saved_stage(const SavedFile::Model& saved, const std::
     auto parsed = parse_commands(texts.emplace_back(std::make_shared<const SourceText>(name, text)));
     const bool readable = !parsed.diagnostics.has_errors();
     if (!readable) diagnostics.append(std::move(parsed.diagnostics));
-    stage = readable ? edited_stage(*stage, parsed.value.commands, options, diagnostics) : std::nullopt;
+    stage = readable ? edited_stage(*stage, parsed.value.commands, options, texts, diagnostics) : std::nullopt;
     if (!stage) return std::nullopt;
     stage->edits = saved.edits;
   }

@@ -11,19 +11,6 @@ namespace dynalin {
 
 namespace {
 
-// Every statement of the dataset language, also those that other parts of the program refuse.
-constexpr auto statements = std::to_array<std::string_view>({
-    // clang-format off
-    "ACCGRAV", "ARRAY", "BEAM", "BUSHING", "CONTACT", "COUPLER", "CURVE", "CVCV", "DEBUG", "DIFF", "END",
-    "EQUILIBRIUM", "FE_LOAD", "FE_PART", "FEMDATA", "FIELD", "FLEX_BODY", "FRICTION", "GCON", "GEAR",
-    "GFORCE", "GRAPHICS", "GSE", "IC", "INTEGRATOR", "JOINT", "JPRIM", "KINEMATICS", "LSE", "LSOLVER",
-    "MARKER", "MATERIAL", "MATRIX", "MFORCE", "MOTION", "MREQUEST", "NFORCE", "OUTPUT", "PART", "PINPUT",
-    "POINT_MASS", "POUTPUT", "PREFERENCES", "PSTATE", "PTCV", "REQUEST", "RESULTS", "SENSOR", "SFORCE", "SPLINE",
-    "SPRINGDAMPER", "STRING", "SURFACE", "TFSISO", "TIMGRAPHICS", "TIRE", "UCON", "UNITS", "VARIABLE",
-    "VFORCE", "VTORQUE",
-    // clang-format on
-});
-
 // A documented short form that is no unique prefix: from `minimum` on, every beginning of `full`
 // means it. Where several rows fit, the first whose full word is among the candidates counts.
 struct ShortForm {
@@ -131,11 +118,10 @@ std::optional<std::size_t> find_keyword(std::string_view word, std::span<const s
 }
 
 std::string_view statement_name(std::string_view word) {
-  const std::optional<std::size_t> found = find_keyword(word, statements);
-  return found ? statements[*found] : std::string_view{};
+  const std::span<const std::string_view> names = statement_names();
+  const std::optional<std::size_t> found = find_keyword(word, names);
+  return found ? names[*found] : std::string_view{};
 }
-
-std::span<const std::string_view> statement_names() { return statements; }
 
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> candidates) {
   constexpr std::size_t longest = 40;  // longer words are no misspelt keywords

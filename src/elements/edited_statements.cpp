@@ -9,8 +9,7 @@ namespace dynalin {
 namespace {
 
 constexpr Kind to_come(std::string_view statement) { return {statement, "", "", Kind::Role::element, {}, nullptr}; }
-constexpr std::array to_come_later = {to_come("CONTACT").deactivatable(), to_come("FLEX_BODY"),
-                                      to_come("FRICTION").deactivatable(), to_come("GSE")};
+constexpr std::array to_come_later = {to_come("GSE")};
 
 template <class Wanted>
 std::vector<std::string_view> names_of(const Wanted& wanted) {

@@ -29,8 +29,8 @@ constexpr AtomFunction measure(std::string_view name, int8_t order, uint8_t mini
                                FunctionText text = {}) {
   return {name, marker_measure, order, minimum, maximum, "", true, text};
 }
-constexpr AtomFunction from_data(std::string_view name, DataSource reads, uint8_t arguments,
-                                 std::string_view statement, FunctionText text) {
+constexpr AtomFunction from_data(std::string_view name, DataSource reads, uint8_t arguments, std::string_view statement,
+                                 FunctionText text) {
   return {name, data, by_reference, arguments, arguments, statement, true, text, {}, reads};
 }
 constexpr AtomFunction at_marker(std::string_view name, uint8_t maximum, std::string_view meaning,
@@ -184,14 +184,15 @@ constexpr std::array table = {
     of_element("VTORQ", "VTORQUE", built, "a component of the force or torque of a VTORQUE"),
     of_element("GFORCE", "GFORCE", built, "a component of the force or torque of a GFORCE"),
     of_element("NFORCE", "NFORCE", not_built, "a component of the force or torque of a NFORCE"),
-    of_element("CONTACT", "CONTACT", not_built, "a component of the force or torque of a CONTACT"),
-    of_element("FRICTION", "FRICTION", not_built, "a component of the force or torque of a FRICTION"),
+    of_element("CONTACT", "CONTACT", built, "a component of the force or torque of a CONTACT"),
+    of_element("FRICTION", "FRICTION", built, "a component of the force or torque of a FRICTION"),
     of_element("JOINT", "JOINT", built, "a component of the reaction of a JOINT"),
     of_element("JPRIM", "JPRIM", built, "a component of the reaction of a JPRIM"),
     of_element("MOTION", "MOTION", built, "a component of the reaction of a MOTION"),
     of_element("PTCV", "PTCV", built, "a component of the reaction of a PTCV"),
     of_element("CVCV", "CVCV", built, "a component of the reaction of a CVCV"),
-    from_data("VARVAL", DataSource::value, 1, "VARIABLE", {"id", "value of a VARIABLE", "what the VARIABLE has", "id  of the VARIABLE"}),
+    from_data("VARVAL", DataSource::value, 1, "VARIABLE",
+              {"id", "value of a VARIABLE", "what the VARIABLE has", "id  of the VARIABLE"}),
     from_data("ARYVAL", DataSource::array_entry, 2, "ARRAY",
               {"id, n", "entry n of an ARRAY", "what the entry has",
                "id  of the ARRAY\n"

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "expression/parser.h"
 #include "expression/program.h"
 
 namespace dynalin {
@@ -29,6 +30,27 @@ Expression::Expression() {
 Expression::Expression(std::shared_ptr<const ExpressionProgram> program) : program_(std::move(program)) {}
 
 Expression Expression::constant(double value) { return Expression(constant_program(value)); }
+
+Expression ExpressionParser::of_routine(std::vector<Atom> inputs, std::shared_ptr<const Routine> routine,
+                                        std::size_t which, const Span& at) {
+  auto program = std::make_shared<ExpressionProgram>();
+  program->at = at;
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    const auto number = static_cast<std::int32_t>(k);
+    program->nodes.push_back({.kind = ExpressionNode::Kind::atom, .a = number});
+    program->operands.push_back(number);
+  }
+  program->routines.push_back({std::move(routine), which, inputs.size(), at});
+  program->nodes.push_back({.kind = ExpressionNode::Kind::routine});
+  program->places.assign(program->nodes.size(), at);
+  program->atoms = std::move(inputs);
+  return Expression(std::move(program));
+}
+
+Expression routine_expression(std::vector<Atom> inputs, std::shared_ptr<const Routine> routine, std::size_t which,
+                              const Span& at) {
+  return ExpressionParser::of_routine(std::move(inputs), std::move(routine), which, at);
+}
 
 std::span<const Atom> Expression::atoms() const { return program_->atoms; }
 const Span& Expression::at() const { return program_->at; }

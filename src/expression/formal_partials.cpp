@@ -107,6 +107,12 @@ FormalPartials::Value FormalPartials::node_value(const ExpressionProgram& progra
       add_operands(2);
       break;
     }
+    case Kind::routine: {
+      const RoutineUse& use = program.routines[at(node.a)];
+      all.insert(all.end(), {word(use.routine.get()), word(use.which)});
+      add_operands(static_cast<std::int32_t>(use.inputs));
+      break;
+    }
     case Kind::branch:
       return of(node.a);
     case Kind::jump:
@@ -175,6 +181,8 @@ void FormalPartials::spread(const ExpressionProgram& program, std::size_t k, con
       return pass_slopes(key(slope, node.function), node.a);
     case Kind::spline:
       return pass_slopes(key(slope, values[k]), 2);
+    case Kind::routine:
+      return pass_slopes(key(slope, values[k]), static_cast<std::int32_t>(program.routines[at(node.a)].inputs));
     case Kind::merge:
       for (std::int32_t i = 0; i < 3; ++i)
         pass(program.operands[at(node.b + i)], times(whole, value(key(selected, of(node.a), i))));

@@ -36,6 +36,10 @@ class ExpressionParser {
     return parse();
   }
 
+  // Takes the place of what is parsed: value `which` of a compiled routine that reads these atoms in this order.
+  static Expression of_routine(std::vector<Atom> inputs, std::shared_ptr<const Routine>, std::size_t which,
+                               const Span& at);
+
  private:
   // What was begun and waits for its end.
   struct Pending {

@@ -72,6 +72,8 @@ T ExpressionProgram::value_of_node(const ExpressionNode& node, std::span<const T
     case Kind::spline:
       return splines[a].evaluate(value[static_cast<std::size_t>(operands[b])],
                                  value[static_cast<std::size_t>(operands[b + 1])]);
+    case Kind::routine:
+      return routines[a].routine->value(inputs_of(node, value), routines[a].which);
     case Kind::merge: {
       const double selection = value_of(value[a]);
       if (std::isnan(selection)) return T(selection);

@@ -16,6 +16,7 @@
 
 #include "expression/expression.h"
 #include "expression/functions.h"
+#include "expression/routine.h"
 #include "expression/spline.h"
 
 namespace dynalin {
@@ -32,6 +33,7 @@ struct ExpressionNode {
     power,     // a ** constant
     call,      // function of operands[b] … operands[b + a − 1]
     spline,    // spline number a at x = operands[b], z = operands[b + 1]
+    routine,   // routine number a, reads routines[a].inputs nodes from operands[b] on
     branch,    // looks at node a; operands[b …]: first node of each of three branches, then the merge
     jump,      // to node a
     merge,     // of branch a; operands[b …]: result node of each of three branches
@@ -51,7 +53,8 @@ class ExpressionProgram {
   std::vector<std::int32_t> operands;
   std::vector<Span> places;  // of each node
   std::vector<Atom> atoms;
-  std::vector<SplineUse> splines;       // evaluate to NaN until their curves are attached
+  std::vector<SplineUse> splines;  // evaluate to NaN until their curves are attached
+  std::vector<RoutineUse> routines;
   std::vector<std::int32_t> switching;  // nodes with kinks or jumps that depend on the motion
   Span at;
 
@@ -68,6 +71,13 @@ class ExpressionProgram {
   void differentiate(std::span<T> partials, ExpressionWorkspace<T>&) const;
   template <class T>
   std::optional<UndefinedOperation> find_undefined(std::span<const T> atom_values, UndefinedSearch) const;
+
+  // What a node of a routine reads.
+  template <class T>
+  RoutineInputs<T> inputs_of(const ExpressionNode& node, const std::vector<T>& value) const {
+    const std::size_t count = routines[static_cast<std::size_t>(node.a)].inputs;
+    return {value, std::span(operands).subspan(static_cast<std::size_t>(node.b), count)};
+  }
 
  private:
   template <class T>

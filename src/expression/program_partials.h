@@ -166,6 +166,16 @@ void visit_partials(const ExpressionProgram& program, const ExpressionNode& node
       if (varies(z)) visit(z, Scalar::partial(result, 1));
       return;
     }
+    // An input that it does not read here is none, so that no undefined gradient of it counts.
+    case Kind::routine: {
+      const RoutineUse& use = program.routines[a];
+      const auto inputs = program.inputs_of(node, value);
+      const auto partials = use.routine->partials(inputs, use.which);
+      for (std::size_t k = 0; k < inputs.size(); ++k) {
+        if (!is_zero(partials[k])) visit(static_cast<std::size_t>(inputs.read[k]), partials[k]);
+      }
+      return;
+    }
     case Kind::merge: {
       const double selection = value_of(value[a]);
       if (std::isnan(selection)) return;

@@ -59,6 +59,8 @@ void ExpressionProgram::find_switching() {
         in_steps[i] = all_in_steps(2);
         switches = !in_steps[i];
         break;
+      case Kind::routine:  // its kinks are its own
+        break;
       case Kind::branch:
         in_steps[i] = true;
         switches = !in_steps[a];

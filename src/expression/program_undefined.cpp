@@ -30,6 +30,8 @@ std::string operator_name(const ExpressionNode& node) {
       return std::string(node.function->name);
     case Kind::spline:
       return "the spline";
+    case Kind::routine:
+      return "USER";
     case Kind::merge:
     case Kind::branch:
     case Kind::jump:
@@ -65,6 +67,11 @@ std::vector<std::size_t> operands_in_use(const ExpressionProgram& program, const
       for (std::size_t k = b; k < b + a; ++k) {
         all.push_back(static_cast<std::size_t>(program.operands[k]));
       }
+      return all;
+    }
+    case Kind::routine: {
+      std::vector<std::size_t> all;
+      for (const std::int32_t k : program.inputs_of(node, value).read) all.push_back(static_cast<std::size_t>(k));
       return all;
     }
     case Kind::spline:
@@ -130,6 +137,8 @@ UndefinedOperation ExpressionProgram::explain_value(std::size_t i, const std::ve
   }
   const std::vector<double> arguments = argument_values(*this, node, value);
   const std::string name = operator_name(node);
+  if (!value_is_finite && node.kind == Kind::routine)
+    return {name, places[i], routines[static_cast<std::size_t>(node.a)].routine->reason_of_value(arguments)};
   if (!value_is_finite) return {name, places[i], reason_of_value(node, arguments)};
   return {name, places[i], fmt::format("a time derivative of {} is infinite at {}", name, in_words(arguments))};
 }
@@ -144,6 +153,10 @@ UndefinedOperation ExpressionProgram::explain_partial(std::size_t i, const std::
     infinite = infinite && !std::isnan(p);
   });
   const std::string name = operator_name(node);
+  if (node.kind == Kind::routine) {
+    const Routine& routine = *routines[static_cast<std::size_t>(node.a)].routine;
+    return {name, places[i], routine.reason_of_partials(argument_values(*this, node, value))};
+  }
   return {name, places[i],
           fmt::format("the {}derivative of {} is {} at {}", in_time ? "second " : "", name,
                       infinite ? "infinite" : "not defined", in_words(argument_values(*this, node, value)))};

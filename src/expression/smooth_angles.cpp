@@ -238,6 +238,8 @@ class Rewriting {
         return listed(n.a);
       case Kind::spline:
         return listed(2);
+      case Kind::routine:
+        return listed(static_cast<std::int32_t>(p_.routines[static_cast<std::size_t>(n.a)].inputs));
       case Kind::merge:
         visit(n.a);
         return listed(3);

@@ -87,6 +87,13 @@ class Substitution {
         node.a = static_cast<std::int32_t>(out_.splines.size()) - 1;
         move_operands(2, false);
         break;
+      case Kind::routine: {
+        const RoutineUse& use = program.routines[static_cast<std::size_t>(node.a)];
+        move_operands(static_cast<std::int32_t>(use.inputs), false);
+        out_.routines.push_back(use);
+        node.a = static_cast<std::int32_t>(out_.routines.size()) - 1;
+        break;
+      }
       case Kind::branch:
         node.a = value(node.a);
         move_operands(4, true);

@@ -5,6 +5,7 @@
 #include "library/inside.h"
 #include "library/stated_elements.h"
 #include "model/parameter.h"
+#include "model/routine_options.h"
 
 namespace dynalin::library {
 
@@ -19,6 +20,7 @@ std::shared_ptr<const Model::Inside> made(std::unique_ptr<dynalin::Model> model,
                                           const ReadingOptions& options, std::shared_ptr<const Dataset> statements = {},
                                           EditHistory edits = {}) {
   if (diagnostics.has_errors()) refuse(diagnostics);
+  const std::vector<SourceRef> texts = model->further_sources;  // that messages point into
   const auto system =
       System::make(std::move(model), {options.pade_delays ? DelayReading::pade : DelayReading::first_order});
   if (!system) refuse(system.error());
@@ -28,13 +30,18 @@ std::shared_ptr<const Model::Inside> made(std::unique_ptr<dynalin::Model> model,
                                                std::move(edits));
 }
 
+RoutineOptions routine_options(const ReadingOptions& options) {
+  return {options.user_libraries, options.difference_user_routines};
+}
+
 // A dataset whose arguments nobody needs but the model.
 std::shared_ptr<const Model::Inside> read_as(Parsed<Dataset> parsed, const ReadingOptions& options) {
   Diagnostics diagnostics = std::move(parsed.diagnostics);
   if (!parsed.value.source) refuse(diagnostics);
   const bool read = !diagnostics.has_errors();
   const auto written = std::make_shared<Dataset>(std::move(parsed.value));
-  auto built = build_model(written, catalogue(), {.user_value = options.user_value, .read_once = written});
+  auto built = build_model(written, catalogue(), {.user_value = options.user_value, .read_once = written},
+                           routine_options(options));
   if (built.value->dataset == written) written->release_arguments();
   // Statements that could not be read leave gaps that the model would only complain about again.
   if (read || built.diagnostics.has_errors()) diagnostics.append(std::move(built.diagnostics));
@@ -43,7 +50,8 @@ std::shared_ptr<const Model::Inside> read_as(Parsed<Dataset> parsed, const Readi
 
 std::shared_ptr<const Model::Inside> rebuilt(const Model::Inside& before, EditedDataset edit,
                                              Diagnostics diagnostics = {}) {
-  auto built = build_model(edit.dataset, catalogue(), {.user_value = before.options.user_value});
+  auto built = build_model(edit.dataset, catalogue(), {.user_value = before.options.user_value},
+                           routine_options(before.options));
   diagnostics.append(std::move(built.diagnostics));
   return made(std::move(built.value), std::move(diagnostics), before.options, std::move(edit.dataset),
               before.edits.after(before.system, std::move(edit.restated)));

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <set>
 
+#include "elements/bodies/flex_body.h"
 #include "elements/controls/variable_list.h"
 #include "linear/original_states.h"
 #include "linear/user_coordinates.h"
@@ -12,12 +14,15 @@ namespace dynalin {
 
 namespace {
 
+// Modal coordinates of bodies are numbered behind it as states, their rates behind the double of it.
+constexpr std::int32_t first_modal_number = 1000000;
 constexpr std::array names = {"DX", "DY", "DZ", "AX", "AY", "AZ"};
 
 // Each coordinate of the layout as a state, those of bodies as they are seen from marker `rm` (0: global axes), which
 // `owner` carries.
 std::vector<StateCoordinate> listed_coordinates(const System& system, std::int64_t rm, BodyId owner) {
   const Layout& layout = system.layout();
+  const std::vector<const ModalBody*> flexible = flexible_by_body(system.model());
   std::vector<StateCoordinate> list(system.coordinates());
   const auto put = [&](std::int32_t at, StateType type, const ElementLabel& of, std::int32_t k, std::int32_t rates,
                        std::string text) {
@@ -29,8 +34,12 @@ std::vector<StateCoordinate> listed_coordinates(const System& system, std::int64
     const BodyBlock& block = layout.bodies[b];
     const bool point = block.kind == BodyKind::point_mass;
     const bool owns_marker = owner == BodyId{static_cast<std::int32_t>(b)};
-    const StateType type = rm == 0 ? (point ? StateType::point_mass : StateType::part)
-                                   : (point ? StateType::point_mass_relative : StateType::part_relative);
+    const StateType type = rm == 0 ? (point         ? StateType::point_mass
+                                      : flexible[b] ? StateType::flex_body
+                                                    : StateType::part)
+                                   : (point         ? StateType::point_mass_relative
+                                      : flexible[b] ? StateType::flex_body_relative
+                                                    : StateType::part_relative);
     for (std::int32_t k = 0; k < block.count; ++k) {
       const bool turns = k >= 3;
       const std::string_view what = turns ? "rotation" : "displacement", name = names[static_cast<std::size_t>(k)];
@@ -41,7 +50,20 @@ std::vector<StateCoordinate> listed_coordinates(const System& system, std::int64
                   : fmt::format("Relative {} {}({},{},{})", what, name, seen, rm, rm));
     }
   }
+  std::set<std::int32_t> modal;
+  for (const FlexibleBody& f : flexible_bodies(system.model())) {
+    const ElementLabel& of = layout.body(f.body).label;
+    const StateType type = rm == 0 ? StateType::flex_body : StateType::flex_body_relative;
+    for (std::int32_t k = 0; k < static_cast<std::int32_t>(f.flexible->modes()); ++k) {
+      const std::int32_t at = layout.body_coordinate_count + static_cast<std::int32_t>(f.first) + k;
+      const auto number = static_cast<std::int32_t>(f.flexible->number[static_cast<std::size_t>(k)]) - 1;
+      put(at, type, of, first_modal_number + number, first_modal_number,
+          fmt::format("Modal generalized coordinate Q{}", number + 1));
+      modal.insert(at);
+    }
+  }
   for (const ExtraBlock& e : layout.extras) {
+    if (modal.contains(e.offset)) continue;
     for (std::int32_t k = 0; k < e.count; ++k)
       put(e.offset + k, e.type, e.label, k, 0, e.coordinates[static_cast<std::size_t>(k)].name);
   }
@@ -139,7 +161,7 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
     const auto at = static_cast<std::size_t>(coordinate);
     // Coordinates outside bodies know no frame: they are wanted as they are.
     if (row_of[at] < 0) {
-      set.wanted.push_back(as_it_is(coordinate));
+      set.wanted.push_back({coordinate, -1, std::move(seen[at])});
       continue;
     }
     set.wanted.push_back({-1, row_of[at], std::move(seen[at])});

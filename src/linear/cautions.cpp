@@ -9,6 +9,7 @@
 
 #include "linear/configuration.h"
 #include "linear/reach.h"
+#include "linear/stiction_caution.h"
 
 namespace dynalin {
 
@@ -109,6 +110,7 @@ Diagnostics cautions(const System& system, const OperatingPoint& op, const Linea
   disproportion(system, linear, out);
   motion(system, op, modes, out);
   overdamping(system, linear, modes, out);
+  stiction_cautions(system, op, linear, modes, out);
   return out;
 }
 

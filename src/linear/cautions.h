@@ -9,7 +9,7 @@ namespace dynalin {
 //   a singular configuration, whose dependent rows are independent right beside it: frequencies of nearby points
 //   differ, a coordinate that moves out of all proportion to the chosen ones, as near such a configuration, parts that
 //   accelerate or turn at the point: the eigenvalues hold for this instant, overdamped modes: real pairs where
-//   vibrations would be without damping.
+//   vibrations would be without damping, joints in stiction, whose stiffness may make modes of its own.
 Diagnostics cautions(const System&, const OperatingPoint&, const LinearSystem&, const EigenSolution&);
 
 }  // namespace dynalin

@@ -7,31 +7,46 @@
 
 namespace dynalin {
 
-class EigenvalueSearch {
+class ModeSearch {
  public:
-  enum class Side : bool { right, left };
-
-  EigenvalueSearch(ShiftInverse& op, Side side) : op_(&op), side_(side), space_(op.states()) {}
+  virtual ~ModeSearch() = default;
 
   // The operator has a new shift.
-  void follow_shift();
+  virtual void follow_shift() = 0;
   // From a new start vector: `wanted` more, or all within `radius` of the shift that this vector sees.
-  bool run(Eigen::Index wanted, double radius);
+  virtual bool run(Eigen::Index wanted, double radius) = 0;
   // Where eigenvalues may be, after a single pass: nothing is kept.
-  std::vector<std::complex<double>> glance(Eigen::Index values);
+  virtual std::vector<std::complex<double>> glance(Eigen::Index values) = 0;
 
-  Eigen::Index found() const { return space_.found(); }
-  bool everything() const { return space_.everything(); }
-  std::vector<std::complex<double>> values() const;    // λ of what was found
-  std::vector<std::complex<double>> in_sight() const;  // and of what has not converged
+  virtual Eigen::Index found() const = 0;
+  virtual bool everything() const = 0;
+  virtual std::vector<std::complex<double>> values() const = 0;    // λ of what was found
+  virtual std::vector<std::complex<double>> in_sight() const = 0;  // and of what has not converged
   // How far from the shift the last run has got.
-  double reached() const { return reached_; }
+  virtual double reached() const = 0;
 
   // The invariant subspace of the values that `which` says, in units of the operator, and for right vectors A on it.
   struct Part {
     Eigen::MatrixXcd basis, matrix;
   };
-  Part part(const std::function<bool(std::complex<double>)>& which);
+  virtual Part part(const std::function<bool(std::complex<double>)>& which) = 0;
+};
+
+class EigenvalueSearch : public ModeSearch {
+ public:
+  enum class Side : bool { right, left };
+
+  EigenvalueSearch(ShiftInverse& op, Side side) : op_(&op), side_(side), space_(op.states()) {}
+
+  void follow_shift() override;
+  bool run(Eigen::Index wanted, double radius) override;
+  std::vector<std::complex<double>> glance(Eigen::Index values) override;
+  Eigen::Index found() const override { return space_.found(); }
+  bool everything() const override { return space_.everything(); }
+  std::vector<std::complex<double>> values() const override;
+  std::vector<std::complex<double>> in_sight() const override;
+  double reached() const override { return reached_; }
+  Part part(const std::function<bool(std::complex<double>)>& which) override;
 
  private:
   std::complex<double> shift() const { return side_ == Side::right ? op_->shift() : std::conj(op_->shift()); }

@@ -65,7 +65,7 @@ void refine_by_inverse_iteration(const StructuredPencil& pencil, std::vector<Ind
     return std::abs(value(pairs, {a, false})) < std::abs(value(pairs, {b, false}));
   });
   if (wanted.size() > most_refined) wanted.resize(most_refined);
-  ShiftedLu lu(pencil.equations().pencil(), pencil.equations().states());
+  ShiftedLu lu(pencil.equations().products(), pencil.equations().states());
   if (lu.predicted_entries() > most_factor_entries) return;
   for (const Index i : wanted) refine_one(pencil, lu, i, pairs, trust[static_cast<std::size_t>(i)]);
 }

@@ -64,6 +64,12 @@ bool KrylovSchur::run(const Operator& op, Index wanted, double least, int restar
   if (locked == size_) return true;
   const Index most = std::min(size_ - locked, std::max<Index>(2 * wanted + 6, wanted + 20));
   wanted = std::min(wanted, most);
+  const KrylovTask task{Q_, arbitrary_vector(size_, 100 + starts_), wanted, most, least, restarts};
+  if (const auto of_team = krylov_run_of_team(op, task); of_team && take(*of_team)) {
+    ++starts_;
+    in_sight_ = of_team->in_sight;
+    return of_team->converged;
+  }
   ComplexMatrix V(size_, locked + most + 1), C = ComplexMatrix::Zero(locked, most), H = ComplexMatrix::Zero(most, most);
   V.leftCols(locked) = Q_;
   // Without its parts along the first `columns` of V, which are added to `share`.
@@ -154,6 +160,30 @@ bool KrylovSchur::run(const Operator& op, Index wanted, double least, int restar
     H.row(kept).head(kept) = b.head(kept);
   }
   return false;
+}
+
+bool KrylovSchur::take(const KrylovRun& run) {
+  constexpr double invariant = 1e-9;  // what others call converged may be a little more than it is here
+  const Index locked = found(), more = run.basis.cols();
+  ComplexMatrix Q(size_, locked + more);
+  Q << Q_, run.basis;
+  const ComplexMatrix H = adjoint_product(Q, run.images);
+  ComplexMatrix triangle = H.bottomRows(more), U;
+  const double outside = (run.images - product(Q, H)).norm();
+  if (more > 0) {
+    if (!schur(triangle, U)) return false;
+    sort_by_size(triangle, U);
+    if (!(outside <= invariant * std::abs(triangle(more - 1, more - 1)))) return false;
+    Q.rightCols(more) = product(run.basis, U);
+  }
+  ComplexMatrix T = ComplexMatrix::Zero(locked + more, locked + more);
+  T.topLeftCorner(locked, locked) = T_;
+  if (more > 0) {
+    T.topRightCorner(locked, more) = H.topRows(locked) * U;
+    T.bottomRightCorner(more, more) = triangle.triangularView<Eigen::Upper>();
+  }
+  T_ = std::move(T), Q_ = std::move(Q);
+  return true;
 }
 
 Index KrylovSchur::order(const std::function<bool(Complex)>& first) {

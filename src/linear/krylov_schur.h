@@ -12,6 +12,8 @@
 #include <functional>
 #include <vector>
 
+#include "linear/krylov_run.h"
+
 namespace dynalin {
 
 class KrylovSchur {
@@ -37,6 +39,9 @@ class KrylovSchur {
   void set_triangle(Eigen::MatrixXcd T) { T_ = std::move(T); }
 
  private:
+  // What a team of processes has found; false if it is not invariant.
+  bool take(const KrylovRun&);
+
   Eigen::Index size_;
   Eigen::MatrixXcd Q_, T_;
   std::vector<std::complex<double>> in_sight_;

@@ -11,12 +11,24 @@ using Index = Eigen::Index;
 
 MassRoot::MassRoot(const System& system, const OperatingPoint& op) : length_(system.length()) {
   const Layout& layout = system.layout();
+  const std::vector<FlexibleBody> flexible = flexible_bodies(system.model());
+  Index next = 0;
   for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
     const BodyBlock& block = layout.bodies[b];
     const Body& body = system.model().bodies[b];
     if (block.count == 0 || body.user_mass == 0) continue;
     Item item{b, block.offset, block.turns(), std::sqrt(body.user_mass), op.poses[b].R * body.p_BC};
     item.centre = op.poses[b].r + item.arm;
+    item.first_row = next;
+    const auto found =
+        std::ranges::find(flexible, static_cast<std::int32_t>(b), [](const FlexibleBody& f) { return f.body.index; });
+    if (found != flexible.end()) {
+      add_flexible(system, op, *found, item);
+      next += 6 + item.modes;
+      items_.push_back(std::move(item));
+      continue;
+    }
+    next += 6;
     const Matrix3 J = op.poses[b].R * body.J_BC * transpose(op.poses[b].R);
     const double factor = body.user_mass / body.mass;
     Eigen::Matrix3d inertia;
@@ -30,10 +42,36 @@ MassRoot::MassRoot(const System& system, const OperatingPoint& op) : length_(sys
   }
 }
 
+void MassRoot::add_flexible(const System& system, const OperatingPoint& op, const FlexibleBody& f, Item& item) {
+  item.modes = f.flexible->modes();
+  item.first_mode = system.layout().body_coordinate_count + static_cast<std::int32_t>(f.first);
+  const Matrix mass =
+      f.flexible->inertia.matrix(Eigen::Map<const Eigen::VectorXd>(op.extra.data() + f.first, item.modes));
+  const Eigen::VectorXd unit = mass.diagonal().cwiseSqrt().unaryExpr([](double x) { return x > 0 ? x : 1.0; });
+  const Eigen::SelfAdjointEigenSolver<Matrix> parts(unit.cwiseInverse().asDiagonal() * mass *
+                                                    unit.cwiseInverse().asDiagonal());
+  item.root =
+      parts.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * parts.eigenvectors().transpose() * unit.asDiagonal();
+  // Along the axes of the BCS: Rᵀ of what is along global ones.
+  Eigen::Matrix3d R;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c)
+      R(r, c) = op.poses[item.body].R(static_cast<std::size_t>(r), static_cast<std::size_t>(c));
+  }
+  item.root.leftCols(3) = (item.root.leftCols(3) * R.transpose()).eval();
+  item.root.middleCols(3, 3) = (item.root.middleCols(3, 3) * R.transpose()).eval();
+}
+
 Matrix MassRoot::of(const Matrix& columns) const {
-  Matrix out = Matrix::Zero(6 * static_cast<Index>(items_.size()), columns.cols());
+  Matrix out = Matrix::Zero(row_count(), columns.cols());
   for (std::size_t k = 0; k < items_.size(); ++k) {
     const Item& item = items_[k];
+    if (item.root.size() > 0) {
+      out.middleRows(item.first_row, 6 + item.modes) =
+          item.root.leftCols(6) * columns.middleRows(item.offset, 6) +
+          item.root.rightCols(item.modes) * columns.middleRows(item.first_mode, item.modes);
+      continue;
+    }
     Matrix move = columns.middleRows(item.offset, 3);
     if (item.turns) {
       const Matrix turn = columns.middleRows(item.offset + 3, 3);
@@ -41,9 +79,9 @@ Matrix MassRoot::of(const Matrix& columns) const {
         const Vector v = cross(Vector{turn(0, c), turn(1, c), turn(2, c)}, item.arm);
         for (std::size_t i = 0; i < 3; ++i) move(static_cast<Index>(i), c) += v[i];
       }
-      out.middleRows(6 * static_cast<Index>(k) + 3, 3) = item.inertia_root * turn;
+      out.middleRows(item.first_row + 3, 3) = item.inertia_root * turn;
     }
-    out.middleRows(6 * static_cast<Index>(k), 3) = item.mass_root * move;
+    out.middleRows(item.first_row, 3) = item.mass_root * move;
   }
   return out;
 }
@@ -55,13 +93,21 @@ Eigen::RowVectorXd MassRoot::size_of(const Matrix& columns) const {
 }
 
 Matrix MassRoot::of_rigid_motion(const Vector& origin, const Matrix3& axes) const {
-  Matrix out = Matrix::Zero(6 * static_cast<Index>(items_.size()), 6);
+  Matrix out = Matrix::Zero(row_count(), 6);
   for (std::size_t k = 0; k < items_.size(); ++k) {
-    const auto at = 6 * static_cast<Index>(k);
+    const Index at = items_[k].first_row;
     for (std::size_t d = 0; d < 3; ++d) {
       const Vector e{axes(0, d), axes(1, d), axes(2, d)};
       const Vector by_turn = cross(e, items_[k].centre - origin);
       const Eigen::Vector3d axis(e[0], e[1], e[2]);
+      if (items_[k].root.size() > 0) {
+        const Matrix& root = items_[k].root;
+        const auto column = static_cast<Index>(d);
+        out.block(at, column, root.rows(), 1) = root.leftCols(3) * axis;
+        out.block(at, column + 3, root.rows(), 1) =
+            root.leftCols(3) * Eigen::Vector3d(by_turn[0], by_turn[1], by_turn[2]) + root.middleCols(3, 3) * axis;
+        continue;
+      }
       out.block(at, static_cast<Index>(d), 3, 1) = items_[k].mass_root * axis;
       out.block(at, static_cast<Index>(d) + 3, 3, 1) =
           items_[k].mass_root * Eigen::Vector3d(by_turn[0], by_turn[1], by_turn[2]);

@@ -4,18 +4,22 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "elements/bodies/flex_body.h"
 #include "system/system.h"
 
 namespace dynalin {
 
 // Columns of coordinates become columns of √mass · motion: six rows for each body that has mass, the displacement of
-// its mass centre and its rotation in principal axes. User units: no factor of consistency.
+// its mass centre and its rotation in principal axes; one more for each mode of a flexible body, whose rows are the
+// parts of its mass matrix. User units: no factor of consistency.
 class MassRoot {
  public:
   MassRoot(const System&, const OperatingPoint&);
 
   std::size_t bodies() const { return items_.size(); }
-  std::size_t body(std::size_t k) const { return items_[k].body; }  // whose rows are 6k … 6k + 5
+  std::size_t body(std::size_t k) const { return items_[k].body; }
+  Eigen::Index first_row(std::size_t k) const { return items_[k].first_row; }
+  Eigen::Index rows(std::size_t k) const { return 6 + items_[k].modes; }
 
   Eigen::MatrixXd of(const Eigen::MatrixXd& columns) const;
   // What `of` would give if nothing cancelled, column by column: its rounding is measured against this.
@@ -31,7 +35,16 @@ class MassRoot {
     double mass_root;
     Vector arm, centre{};
     Eigen::Matrix3d inertia_root{};
+    Eigen::Index first_row = 0;
+    // Of a flexible body: its modes, where they stand among the coordinates, and the root of its mass matrix for
+    // motions along global axes.
+    Eigen::Index modes = 0;
+    std::int32_t first_mode = 0;
+    Eigen::MatrixXd root{};
   };
+  void add_flexible(const System&, const OperatingPoint&, const FlexibleBody&, Item&);
+  Eigen::Index row_count() const { return items_.empty() ? 0 : items_.back().first_row + rows(items_.size() - 1); }
+
   double length_;
   std::vector<Item> items_;
 };

@@ -22,7 +22,12 @@ constexpr double rounding = 1e-10;
 
 ModalDistribution::ModalDistribution(const System& system, const OperatingPoint& op, const LinearSystem& linear,
                                      const EigenSolution& solution)
-    : system_(system), linear_(linear), solution_(solution), motion_(system.motion(op)) {
+    : system_(system),
+      linear_(linear),
+      solution_(solution),
+      motion_(system.motion(op)),
+      flexible_(system.model().bodies.size()) {
+  for (const FlexibleBody& f : flexible_bodies(system.model())) flexible_[static_cast<std::size_t>(f.body.index)] = f;
   motion_.mode = AnalysisMode::linear;  // a DELAY follows what it delays, as in linearize()
   ConstraintRows rows;
   rows.resize(system.layout());
@@ -94,13 +99,51 @@ std::array<double, 9> ModalDistribution::kinetic_terms(std::size_t body, const E
   // In user units: no factor of consistency.
   const double factor = b.mass > 0 ? b.user_mass / b.mass : 1.0;
   for (std::size_t k = 0; k < 3; ++k) terms[k] = 0.5 * b.user_mass * std::norm(of_cm[k]);
-  const Matrix3 J = R * b.J_BC * transpose(R);
-  for (std::size_t k = 0; k < 3; ++k) terms[3 + k] = 0.5 * factor * J(k, k) * std::norm(w[k]);
-  const auto product = [&](std::size_t i, std::size_t j) {
-    return factor * J(i, j) * std::real(w[i] * std::conj(w[j]));
-  };
+  const Matrix3 about = flexible_[body]
+                            ? flexible_[body]->flexible->inertia.tensor_at(modal_coordinates(*flexible_[body]))
+                            : factor * b.J_BC;
+  const Matrix3 J = R * about * transpose(R);
+  for (std::size_t k = 0; k < 3; ++k) terms[3 + k] = 0.5 * J(k, k) * std::norm(w[k]);
+  const auto product = [&](std::size_t i, std::size_t j) { return J(i, j) * std::real(w[i] * std::conj(w[j])); };
   terms[6] = product(0, 1), terms[7] = product(0, 2), terms[8] = product(1, 2);
   return terms;
+}
+
+Eigen::VectorXd ModalDistribution::modal_coordinates(const FlexibleBody& f) const {
+  return Eigen::Map<const Eigen::VectorXd>(motion_.extra.data() + f.first, f.flexible->modes());
+}
+
+double ModalDistribution::flexible_energy(const FlexibleBody& f, const Eigen::VectorXcd& v) const {
+  const BodyBlock& block = system_.layout().body(f.body);
+  const Matrix3& R = motion_.body(f.body).R;
+  Eigen::VectorXcd local(6 + f.flexible->modes());
+  for (std::size_t part = 0; part < 2; ++part) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      Complex sum = 0;
+      for (std::size_t c = 0; c < 3; ++c) sum += R(c, k) * v(block.offset + static_cast<Eigen::Index>(3 * part + c));
+      local(static_cast<Eigen::Index>(3 * part + k)) = sum;
+    }
+  }
+  local.tail(f.flexible->modes()) =
+      v.segment(system_.layout().body_coordinate_count + static_cast<Eigen::Index>(f.first), f.flexible->modes());
+  const Eigen::MatrixXd M = f.flexible->inertia.matrix(modal_coordinates(f));
+  return 0.5 * (local.real().dot(M * local.real()) + local.imag().dot(M * local.imag()));
+}
+
+std::vector<ModalRow<double>> ModalDistribution::flexible_rows(const Eigen::VectorXcd& u, PartialBy family) const {
+  std::vector<ModalRow<double>> rows;
+  for (const auto& f : flexible_) {
+    if (!f) continue;
+    const Eigen::VectorXcd q =
+        u.segment(system_.layout().body_coordinate_count + static_cast<Eigen::Index>(f->first), f->flexible->modes());
+    const Eigen::MatrixXd& m = family == PartialBy::position ? f->flexible->stiffness : f->flexible->damping;
+    ModalRow<double> row{&system_.layout().body(f->body).label, 0,
+                         std::vector<double>(7, std::numeric_limits<double>::quiet_NaN())};
+    row.values[0] = 0.5 * (q.real().dot(m * q.real()) + q.imag().dot(m * q.imag()));
+    rows.push_back(std::move(row));
+  }
+  std::ranges::stable_sort(rows, {}, [](const ModalRow<double>& r) { return r.element->id; });
+  return rows;
 }
 
 double ModalDistribution::largest_original(const Eigen::VectorXcd& z) const {
@@ -126,6 +169,10 @@ ModeHeader ModalDistribution::header(std::size_t mode) const {
   const auto energy = [&](const Eigen::VectorXcd& v) {
     double sum = 0;
     for (const std::size_t b : bodies_by_id()) {
+      if (flexible_[b]) {
+        sum += flexible_energy(*flexible_[b], v);
+        continue;
+      }
       for (const double term : kinetic_terms(b, v)) sum += term;
     }
     return sum;
@@ -217,9 +264,18 @@ std::vector<ModalRow<double>> ModalDistribution::kinetic(std::size_t mode) const
   for (const std::size_t b : bodies_by_id()) {
     const auto terms = kinetic_terms(b, v);
     ModalRow<double> row{&system_.layout().bodies[b].label, 0, {terms.begin(), terms.end()}};
-    row.values.push_back(0);
-    for (const double t : terms) row.values.back() += t;
-    total += row.values.back();
+    double sum = 0;
+    for (const double t : terms) sum += t;
+    const bool any_flexible = std::ranges::any_of(flexible_, [](const auto& f) { return f.has_value(); });
+    if (flexible_[b]) {
+      const double whole = flexible_energy(*flexible_[b], v);
+      row.values.push_back(whole - sum);
+      sum = whole;
+    } else if (any_flexible) {
+      row.values.push_back(std::numeric_limits<double>::quiet_NaN());
+    }
+    row.values.push_back(sum);
+    total += sum;
     rows.push_back(std::move(row));
   }
   for (auto& row : rows) {
@@ -310,6 +366,16 @@ std::vector<ModalRow<double>> ModalDistribution::force_rows(std::size_t mode, Pa
       total += row.values[0];
       rows.push_back(std::move(row));
     }
+  }
+  if (auto of_bodies = flexible_rows(u, family); !of_bodies.empty()) {
+    for (const ModalRow<double>& row : of_bodies) {
+      total += row.values[0];
+      parts += std::abs(row.values[0]);
+      without_cancellation += std::abs(row.values[0]);
+    }
+    const auto behind = std::ranges::find_if(
+        rows, [](const ModalRow<double>& r) { return r.element->statement > std::string_view("FLEX_BODY"); });
+    rows.insert(behind, of_bodies.begin(), of_bodies.end());
   }
   // No share of nothing: motions of rigid bodies leave roundings in every element. A spring that is slack but for the
   // rounding of its own force, which is that of the places it joins, does work in a turn of the model.

@@ -9,6 +9,7 @@
 
 #include <optional>
 
+#include "elements/bodies/flex_body.h"
 #include "linear/linear_system.h"
 #include "system/sparse_lu.h"
 
@@ -40,10 +41,12 @@ class ModalDistribution {
   std::vector<ModalRow<std::complex<double>>> coordinates(std::size_t mode) const;
   // X Y Z of the origin and RX RY RZ of each marker, global axes, with the scale of `coordinates`.
   std::vector<ModalRow<std::complex<double>>> markers(std::size_t mode, std::span<const MarkerId>) const;
-  // X Y Z RXX RYY RZZ RXY RXZ RYZ and the sum, in percent of the model.
+  // X Y Z RXX RYY RZZ RXY RXZ RYZ and the sum, in percent of the model. With flexible bodies the sum has before it what
+  // is left of theirs, the modal part; the rest is that of the BCS with mass and inertia about it.
   std::vector<ModalRow<double>> kinetic(std::size_t mode) const;
   // Total X Y Z RX RY RZ in percent of the model, global axes; a missing entry is NaN. Forces follow displacements
-  // (strain) or velocities (dissipation) also through other forces, VARIABLEs and algebraic DIFFs.
+  // (strain) or velocities (dissipation) also through other forces, VARIABLEs and algebraic DIFFs. Flexible bodies have
+  // rows with the total alone.
   std::vector<ModalRow<double>> strain(std::size_t mode) const { return force_rows(mode, PartialBy::position); }
   std::vector<ModalRow<double>> dissipation(std::size_t mode) const { return force_rows(mode, PartialBy::damping); }
 
@@ -57,6 +60,10 @@ class ModalDistribution {
   // Rows of bodies and states before they are scaled, and the largest value among them.
   std::pair<std::vector<ModalRow<std::complex<double>>>, std::complex<double>> shape(std::size_t mode) const;
   std::array<double, 9> kinetic_terms(std::size_t body, const Eigen::VectorXcd& v) const;
+  // ½ vᴴ M v of a flexible body.
+  double flexible_energy(const FlexibleBody&, const Eigen::VectorXcd& v) const;
+  std::vector<ModalRow<double>> flexible_rows(const Eigen::VectorXcd& u, PartialBy family) const;
+  Eigen::VectorXd modal_coordinates(const FlexibleBody&) const;
   std::vector<std::size_t> sets_with_rows() const;
   std::vector<ModalRow<double>> force_rows(std::size_t mode, PartialBy family) const;
   Eigen::VectorXcd algebraic_change(const Eigen::VectorXcd& dq, PartialBy family) const;
@@ -66,6 +73,7 @@ class ModalDistribution {
   const LinearSystem& linear_;
   const EigenSolution& solution_;
   Motion motion_;
+  std::vector<std::optional<FlexibleBody>> flexible_;  // by body
   Equations eq_;
   std::optional<ConstraintRows> original_;  // gradients of the coordinates of the original implementation
   SparseLu algebraic_;

@@ -46,7 +46,7 @@ const ElementLabel* most_energetic(const System& system, const MassRoot& root, c
   double most = 0;
   const ElementLabel* mover = nullptr;
   for (std::size_t k = 0; k < root.bodies(); ++k) {
-    const double energy = weighed.middleRows(6 * static_cast<Eigen::Index>(k), 6).squaredNorm();
+    const double energy = weighed.middleRows(root.first_row(k), root.rows(k)).squaredNorm();
     if (energy > most * (1 + equal_shares)) most = energy, mover = &system.layout().bodies[root.body(k)].label;
   }
   return mover;

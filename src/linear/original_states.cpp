@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elements/bodies/flex_body.h"
+
 namespace dynalin {
 
 namespace {
@@ -73,10 +75,13 @@ CandidateSet::Moves moves_of(const BodyBlock& block, std::size_t k, const Vector
   return moves;
 }
 
-StateCoordinate principal_coordinate(const System& system, const BodyBlock& block, std::int32_t k, bool renamed) {
+StateCoordinate principal_coordinate(const System& system, const BodyBlock& block, std::int32_t k, bool renamed,
+                                     bool flexible) {
   static constexpr std::array names = {"DX", "DY", "DZ", "PSI", "THETA", "PHI"};
   StateLabel label;
-  label.type = block.kind == BodyKind::point_mass ? StateType::point_mass_original : StateType::part_euler;
+  label.type = block.kind == BodyKind::point_mass ? StateType::point_mass_original
+               : flexible                         ? StateType::flex_body_euler
+                                                  : StateType::part_euler;
   label.element = block.label.id;
   label.owner = block.label.element();
   label.coordinate = k + 1;
@@ -120,6 +125,7 @@ std::int32_t add_principal_candidates(const System& system, const Motion& motion
   }
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return layout.bodies[a].label.id < layout.bodies[b].label.id; });
+  const std::vector<const ModalBody*> flexible = flexible_by_body(system.model());
   const Vec3<Taylor> none{};
   for (const std::size_t b : order) {
     const BodyBlock& block = layout.bodies[b];
@@ -143,7 +149,7 @@ std::int32_t add_principal_candidates(const System& system, const Motion& motion
       } else {
         set.gradients.add_pose(row, id, none, angles[i - 3]);
       }
-      set.wanted.push_back({-1, row, principal_coordinate(system, block, k, renamed)});
+      set.wanted.push_back({-1, row, principal_coordinate(system, block, k, renamed, flexible[b])});
       set.moves.push_back(moves_of(block, i, moving.R * axes.z, moving.R * body.p_BC));
     }
   }

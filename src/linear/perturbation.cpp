@@ -36,7 +36,7 @@ PerturbationEquations PerturbationEquations::of_state_matrix(const Matrix& A) {
       if (A(r, c) != 0.0) entries.push_back({r, c, A(r, c)});
     }
   }
-  p.pencil_ = p.products_ = p.state_rates_on_states_ = compressed(p.states_, p.states_, entries);
+  p.products_ = p.state_rates_on_states_ = compressed(p.states_, p.states_, entries);
   const ColumnMatrix none = compressed(0, 0, {});
   auto lu = std::make_shared<SparseLu>();
   lu->factor(none);
@@ -44,7 +44,7 @@ PerturbationEquations PerturbationEquations::of_state_matrix(const Matrix& A) {
   p.rates_on_positions_ = p.augmented_on_positions_ = p.augmented_on_rates_ = none;
   p.on_states_ = compressed(0, p.states_, {});
   p.state_rates_on_algebraic_ = compressed(p.states_, 0, {});
-  p.sizes_ = p.pencil_;
+  p.sizes_ = p.products_;
   for (double& v : p.sizes_.value) v = std::abs(v);
   p.roundings_ = p.sizes_;
   return p;

@@ -76,12 +76,9 @@ class PerturbationEquations {
   // derivatives of inputs or, where the model moves, of coefficients. The states do not depend on them.
   const Eigen::MatrixXd& open_directions() const { return open_; }
 
-  // [F G; P R], and where E has its ones: the last states() places of the diagonal. Where its entries stand follows
-  // from the topology of the model, whatever their values at this point.
-  const ColumnMatrix& pencil() const { return pencil_; }
-  // The same without entries that are zero at this point, for products.
+  // [F G; P R] without entries that are zero at this point. E has its ones in the last states() places of the diagonal.
   const ColumnMatrix& products() const { return products_; }
-  // [G H] without such entries.
+  // [G H] in the same way.
   const ColumnMatrix& by_states_and_inputs() const { return on_states_; }
 
  private:
@@ -97,7 +94,7 @@ class PerturbationEquations {
   ColumnMatrix rates_on_positions_, augmented_on_positions_, augmented_on_rates_;  // below the diagonal of F
   ColumnMatrix on_states_;                                                         // [G H]
   ColumnMatrix state_rates_on_algebraic_, state_rates_on_states_;                  // P and R
-  ColumnMatrix pencil_, products_;
+  ColumnMatrix products_;
   // Of its entries, where roundings are counted: the sizes of what they are made of, and in half units of the last
   // place what computing them has left (roundoff_scales.h).
   ColumnMatrix sizes_, roundings_;

@@ -8,23 +8,27 @@
 #include "linear/perturbation.h"
 #include "linear/roundoff_scales.h"
 #include "linear/sized_block.h"
+#include "system/column_builder.h"
 
 namespace dynalin {
 
 namespace {
 
-// Adds a block to the triplets of a larger matrix.
-void place(Entries& entries, const ColumnMatrix& m, std::int32_t row, std::int32_t column) {
-  for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) { entries.push_back({row + r, column + c, v}); });
-}
-void place(Entries& entries, const Entries& block, std::int32_t row, std::int32_t column) {
-  for (const Triplet& t : block) entries.push_back({row + t.row, column + t.column, t.value});
+// A matrix of entries that are needed no more.
+ColumnMatrix taken(std::int32_t rows, std::int32_t columns, Entries& entries) {
+  ColumnMatrix m = compressed_columns(rows, columns, [&](auto&& take) {
+    for (const Triplet& t : entries) take(t.row, t.column, t.value);
+  });
+  Entries().swap(entries);
+  return m;
 }
 
-// For products, which ask for no pattern.
-ColumnMatrix without_zeros(std::int32_t rows, std::int32_t columns, Entries entries) {
-  std::erase_if(entries, [](const Triplet& t) { return t.value == 0.0; });
-  return compressed(rows, columns, entries);
+ColumnMatrix without_zeros(const ColumnMatrix& m) {
+  return compressed_columns(m.rows, m.columns, [&](auto&& take) {
+    for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) {
+      if (v != 0.0) take(r, c, v);
+    });
+  });
 }
 
 }  // namespace
@@ -71,19 +75,20 @@ class PerturbationEquations::Assembly {
  private:
   // The diagonal of F.
   Result<void> factor_diagonal() {
-    const auto factor = [&](std::size_t level) {
+    const auto factor = [&](std::size_t level, ColumnMatrix m) {
+      diagonal_[level] = without_zeros(m);
       auto lu = std::make_shared<SparseLu>();
-      if (!lu->factor(diagonal_[level])) return false;
+      if (!lu->factor(std::move(m))) return false;
       p_.level_[level] = std::move(lu);
       return true;
     };
     bool square = false;
     const std::vector<bool> every(choice_.gradient.size(), true);
-    diagonal_[0] = level_matrix(rows_, choice_, choice_.active, every, square);
-    if (!square || !factor(0)) return tl::unexpected(undetermined_positions());
+    ColumnMatrix positions = level_matrix(rows_, choice_, choice_.active, every, square);
+    if (!square || !factor(0, std::move(positions))) return tl::unexpected(undetermined_positions());
     if (choice_.splits_unequally()) {
-      diagonal_[1] = level_matrix(rows_, choice_, choice_.velocity_active, choice_.has_rate, square);
-      if (!square || !factor(1)) {
+      ColumnMatrix rates = level_matrix(rows_, choice_, choice_.velocity_active, choice_.has_rate, square);
+      if (!square || !factor(1, std::move(rates))) {
         return tl::unexpected(
             Failure{"linear analysis", "the chosen rates do not determine the velocities of the model", {}});
       }
@@ -91,10 +96,10 @@ class PerturbationEquations::Assembly {
       diagonal_[1] = diagonal_[0];
       p_.level_[1] = p_.level_[0];
     }
-    diagonal_[2] = augmented_.matrix(eq_, rows_, choice_.velocity_active, {}, cut_);
-    if (!factor(2)) {
+    const auto augmented = [&] { return augmented_.matrix(eq_, rows_, choice_.velocity_active, {}, cut_); };
+    if (!factor(2, augmented())) {
       return tl::unexpected(Failure{"linear analysis", "the accelerations are not determined",
-                                    undetermined(system_, augmented_, diagonal_[2])});
+                                    undetermined(system_, augmented_, augmented())});
     }
     return {};
   }
@@ -104,10 +109,11 @@ class PerturbationEquations::Assembly {
     const auto condensed = static_cast<std::int32_t>(massless_->limit.condensed());
     const auto all = static_cast<std::int32_t>(massless_->limit.count());
     bool square = false, square_rates = false;
-    diagonal_[0] = level_matrix(rows_, choice_, choice_.active, choice_.has_position, square, condensed);
-    diagonal_[1] = level_matrix(rows_, choice_, choice_.velocity_active, choice_.has_rate, square_rates, all);
+    diagonal_[0] = without_zeros(level_matrix(rows_, choice_, choice_.active, choice_.has_position, square, condensed));
+    diagonal_[1] =
+        without_zeros(level_matrix(rows_, choice_, choice_.velocity_active, choice_.has_rate, square_rates, all));
     if (!square || !square_rates) return tl::unexpected(undetermined_positions());
-    diagonal_[2] = augmented_.matrix(eq_, rows_, choice_.velocity_active, {}, cut_);
+    diagonal_[2] = without_zeros(augmented_.matrix(eq_, rows_, choice_.velocity_active, {}, cut_));
     return {};
   }
 
@@ -189,7 +195,7 @@ class PerturbationEquations::Assembly {
 
   Result<void> factor_whole() {
     std::vector<Triplet> entries;
-    for_each_entry(p_.pencil_, [&](std::int32_t r, std::int32_t c, double v) {
+    for_each_entry(p_.products_, [&](std::int32_t r, std::int32_t c, double v) {
       if (r < first_state_ && c < first_state_) entries.push_back({r, c, v});
     });
     auto lu = std::make_shared<SparseLu>();
@@ -272,14 +278,14 @@ class PerturbationEquations::Assembly {
   template <class Take>
   void for_partials(PartialBy family, Take&& take) const {
     const ColumnMatrix& m = eq_.matrix(family);
-    const ColumnMatrix size = roundoff_scales_.of(eq_, family);
-    const ColumnMatrix rounding = roundoff_scales_.roundings(eq_, family, size);
+    const std::vector<double> size = roundoff_scales_.of(eq_, family);
+    const std::vector<double> rounding = roundoff_scales_.roundings(eq_, family, size);
     for (std::int32_t c = 0; c < m.columns; ++c) {
       for (std::int32_t e = m.start[static_cast<std::size_t>(c)]; e < m.start[static_cast<std::size_t>(c) + 1]; ++e) {
         const auto at = static_cast<std::size_t>(e);
         const std::int32_t w = m.row[at] - n_;
         const bool replaced = w >= 0 && w < static_cast<std::int32_t>(cut_.size()) && cut_[static_cast<std::size_t>(w)];
-        if (!replaced) take(augmented_.equation(m.row[at]), c, m.value[at], size.value[at], rounding.value[at]);
+        if (!replaced) take(augmented_.equation(m.row[at]), c, m.value[at], size[at], rounding[at]);
       }
     }
   }
@@ -351,30 +357,35 @@ class PerturbationEquations::Assembly {
 
   void join() {
     const std::int32_t states = p_.states_, all = p_.unknowns();
-    p_.sizes_ = compressed(all, all, roundoff_.sizes);
-    p_.roundings_ = compressed(all, all, roundoff_.roundings);
-    Entries pencil;
-    place(pencil, diagonal_[0], 0, 0);
-    place(pencil, below_10_.values, n_, 0);
-    place(pencil, diagonal_[1], n_, n_);
-    place(pencil, below_20_.values, 2 * n_, 0);
-    place(pencil, below_21_.values, 2 * n_, n_);
-    place(pencil, diagonal_[2], 2 * n_, 2 * n_);
-    place(pencil, balances_.values, 0, 0);
-    for (const Triplet& t : states_.values) {
-      if (t.column < states) pencil.push_back({t.row, first_state_ + t.column, t.value});
-    }
-    place(pencil, rates_on_algebraic_.values, first_state_, 0);
-    place(pencil, rates_on_states_, first_state_, first_state_);
-    p_.pencil_ = compressed(all, all, pencil);
-    p_.products_ = without_zeros(all, all, std::move(pencil));
-    p_.rates_on_positions_ = without_zeros(n_, n_, std::move(below_10_.values));
-    p_.augmented_on_positions_ = without_zeros(augmented_.size(), n_, std::move(below_20_.values));
-    p_.augmented_on_rates_ = without_zeros(augmented_.size(), n_, std::move(below_21_.values));
-    p_.on_states_ =
-        without_zeros(first_state_, states + static_cast<std::int32_t>(inputs_.size()), std::move(states_.values));
-    p_.state_rates_on_algebraic_ = without_zeros(states, first_state_, std::move(rates_on_algebraic_.values));
-    p_.state_rates_on_states_ = without_zeros(states, states, std::move(rates_on_states_));
+    p_.sizes_ = taken(all, all, roundoff_.sizes);
+    p_.roundings_ = taken(all, all, roundoff_.roundings);
+    p_.products_ = compressed_columns(all, all, [&](auto&& take) {
+      const auto place = [&](const Entries& block, std::int32_t row, std::int32_t column) {
+        for (const Triplet& t : block) take(row + t.row, column + t.column, t.value);
+      };
+      const auto place_level = [&](std::size_t level, std::int32_t first) {
+        for_each_entry(diagonal_[level],
+                       [&](std::int32_t r, std::int32_t c, double v) { take(first + r, first + c, v); });
+      };
+      place_level(0, 0);
+      place(below_10_.values, n_, 0);
+      place_level(1, n_);
+      place(below_20_.values, 2 * n_, 0);
+      place(below_21_.values, 2 * n_, n_);
+      place_level(2, 2 * n_);
+      place(balances_.values, 0, 0);
+      for (const Triplet& t : states_.values) {
+        if (t.column < states) take(t.row, first_state_ + t.column, t.value);
+      }
+      place(rates_on_algebraic_.values, first_state_, 0);
+      place(rates_on_states_, first_state_, first_state_);
+    });
+    p_.rates_on_positions_ = taken(n_, n_, below_10_.values);
+    p_.augmented_on_positions_ = taken(augmented_.size(), n_, below_20_.values);
+    p_.augmented_on_rates_ = taken(augmented_.size(), n_, below_21_.values);
+    p_.on_states_ = taken(first_state_, states + static_cast<std::int32_t>(inputs_.size()), states_.values);
+    p_.state_rates_on_algebraic_ = taken(states, first_state_, rates_on_algebraic_.values);
+    p_.state_rates_on_states_ = taken(states, states, rates_on_states_);
   }
 
   const System& system_;

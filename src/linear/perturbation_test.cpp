@@ -28,17 +28,15 @@ Result<Perturbation> links_turning(double rate) {
   return perturb(*system, *op, {});
 }
 
-TEST(Perturbation, has_its_entries_in_the_same_places_at_rest_and_in_motion) {
+TEST(Perturbation, holds_no_entry_that_is_zero_and_more_of_them_in_motion) {
   const auto at_rest = links_turning(0), turning = links_turning(1.5);
   ASSERT_TRUE(at_rest) << at_rest.error().message;
   ASSERT_TRUE(turning) << turning.error().message;
-  const ColumnMatrix &one = at_rest->equations->pencil(), &other = turning->equations->pencil();
-  EXPECT_EQ(one.start, other.start);
-  EXPECT_EQ(one.row, other.row);
+  const ColumnMatrix &one = at_rest->equations->products(), &other = turning->equations->products();
   const auto zeros = [](const ColumnMatrix& m) { return std::count(m.value.begin(), m.value.end(), 0.0); };
-  EXPECT_GT(zeros(one), zeros(other)) << "what motion makes is nothing at rest";
-  EXPECT_EQ(zeros(at_rest->equations->products()), 0);
-  EXPECT_EQ(static_cast<std::size_t>(zeros(one)) + at_rest->equations->products().value.size(), one.value.size());
+  EXPECT_EQ(zeros(one), 0);
+  EXPECT_EQ(zeros(other), 0);
+  EXPECT_LT(one.value.size(), other.value.size()) << "what motion makes is nothing at rest";
 }
 
 }  // namespace

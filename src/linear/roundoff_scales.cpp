@@ -36,10 +36,10 @@ void RoundoffScales::for_blocks(const ColumnMatrix& m, bool by_coordinates, Work
   }
 }
 
-ColumnMatrix RoundoffScales::of(const Equations& eq, PartialBy family) const {
-  ColumnMatrix m = eq.matrix(family);
-  const std::span<const double> sizes = eq.sizes(family);
-  std::copy(sizes.begin(), sizes.end(), m.value.begin());
+std::vector<double> RoundoffScales::of(const Equations& eq, PartialBy family) const {
+  const ColumnMatrix& m = eq.matrix(family);
+  const std::span<const double> own = eq.sizes(family);
+  std::vector<double> sizes(own.begin(), own.end());
   // Inertia gives partials by displacements and rates what is derived from those by accelerations.
   const double order = family == PartialBy::position ? 2 : family == PartialBy::velocity ? 1 : 0;
   if (order > 0) {
@@ -54,7 +54,7 @@ ColumnMatrix RoundoffScales::of(const Equations& eq, PartialBy family) const {
            k < inertia.start[static_cast<std::size_t>(c) + 1]; ++k) {
         const auto at = std::lower_bound(first, last, inertia.row[static_cast<std::size_t>(k)]);
         if (at == last || *at != inertia.row[static_cast<std::size_t>(k)]) continue;
-        double& size = m.value[static_cast<std::size_t>(at - m.row.begin())];
+        double& size = sizes[static_cast<std::size_t>(at - m.row.begin())];
         size = std::max(size, order * factor * inertia_sizes[static_cast<std::size_t>(k)]);
       }
     }
@@ -62,14 +62,14 @@ ColumnMatrix RoundoffScales::of(const Equations& eq, PartialBy family) const {
   // The largest of a block counts.
   std::vector<double> largest(static_cast<std::size_t>(m.rows), 0.0);
   for_blocks(m, family <= PartialBy::acceleration, [&](auto&& for_entries) {
-    for_entries([&](std::size_t k, std::size_t block) { largest[block] = std::max(largest[block], m.value[k]); });
-    for_entries([&](std::size_t k, std::size_t block) { m.value[k] = largest[block]; });
+    for_entries([&](std::size_t k, std::size_t block) { largest[block] = std::max(largest[block], sizes[k]); });
+    for_entries([&](std::size_t k, std::size_t block) { sizes[k] = largest[block]; });
     for_entries([&](std::size_t, std::size_t block) { largest[block] = 0; });
   });
-  return m;
+  return sizes;
 }
 
-ColumnMatrix RoundoffScales::roundings(const Equations& eq, PartialBy family, ColumnMatrix sizes) const {
+std::vector<double> RoundoffScales::roundings(const Equations& eq, PartialBy family, std::vector<double> sizes) const {
   const ColumnMatrix& m = eq.matrix(family);
   const std::span<const double> own = eq.sizes(family);
   const bool by_coordinates = family <= PartialBy::acceleration;
@@ -83,12 +83,12 @@ ColumnMatrix RoundoffScales::roundings(const Equations& eq, PartialBy family, Co
     for_entries([&](std::size_t k, std::size_t at) { blocks[at].largest = std::max(blocks[at].largest, own[k]); });
     for_entries([&](std::size_t k, std::size_t at) {
       // Sums that cancel, and inertia that passes on what turns, have larger sizes than the entries.
-      const bool single = own[k] <= std::abs(m.value[k]) && sizes.value[k] <= blocks[at].largest;
+      const bool single = own[k] <= std::abs(m.value[k]) && sizes[k] <= blocks[at].largest;
       if (!single || !is_short(m.value[k], blocks[at].largest)) blocks[at].exact = false;
     });
     for_entries([&](std::size_t k, std::size_t at) {
       const bool measured = by_coordinates || family == PartialBy::lambda || m.row[k] < coordinates;
-      sizes.value[k] *= blocks[at].exact ? 0.0 : measured ? along_axes : as_read;
+      sizes[k] *= blocks[at].exact ? 0.0 : measured ? along_axes : as_read;
     });
     for_entries([&](std::size_t, std::size_t at) { blocks[at] = {}; });
   });

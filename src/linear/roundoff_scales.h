@@ -28,11 +28,11 @@ class RoundoffScales {
 
   RoundoffScales(const Layout&, const Motion&);
 
-  // Of partials, with the pattern of eq.matrix(family); eq must keep sizes and hold accelerations.
-  ColumnMatrix of(const Equations& eq, PartialBy family) const;
+  // Of partials, entry by entry of eq.matrix(family); eq must keep sizes and hold accelerations.
+  std::vector<double> of(const Equations& eq, PartialBy family) const;
   // What roundings have left of the entries of a family, in half units of the last place, from their sizes. Blocks of
   // numbers that are so short that they were never rounded count nothing.
-  ColumnMatrix roundings(const Equations& eq, PartialBy family, ColumnMatrix sizes) const;
+  std::vector<double> roundings(const Equations& eq, PartialBy family, std::vector<double> sizes) const;
   template <class Entries>
   std::vector<RowCoefficients> roundings_of_row(const Entries& row, const std::vector<RowCoefficients>& sizes) const {
     constexpr double of_value = 15, of_rate = 19, of_acceleration = 23;

@@ -6,8 +6,9 @@
 #include <numbers>
 #include <optional>
 
+#include "linear/conservative_search.h"
 #include "linear/dense_products.h"
-#include "linear/eigenvalue_search.h"
+#include "linear/inertia_count.h"
 #include "linear/mode_region.h"
 #include "linear/near_zero.h"
 #include "linear/perturbed_point.h"
@@ -44,9 +45,9 @@ class Solution {
         perturbation_(perturbation),
         equations_(*perturbation.equations),
         wanted_(wanted),
-        op_(equations_),
-        right_(op_, Side::right),
-        left_(op_, Side::left) {
+        conservative_(ConservativeModel::make(perturbation)),
+        op_(equations_, conservative_) {
+    start_anew();
     zero_.directions.resize(op_.states(), 0);
   }
 
@@ -56,12 +57,28 @@ class Solution {
     const auto* nearest = std::get_if<NearestModes>(&wanted_);
     const bool found = nearest ? find_nearest(*nearest) : find_band(std::get<ModesInBand>(wanted_));
     if (!found) return tl::unexpected(no_convergence("the Krylov iteration did not converge"));
+    by_inertia_.reset();
     auto bounded = bound();
     if (!bounded) return tl::unexpected(no_convergence("left and right vectors do not belong together"));
     return solution(*bounded, vectors);
   }
 
  private:
+  void start_anew() {
+    if (conservative_) {
+      auto right = std::make_unique<ConservativeSearch>(conservative_, op_);
+      left_ = std::make_unique<LeftOfConservative>(*right);
+      right_ = std::move(right);
+    } else {
+      right_ = std::make_unique<EigenvalueSearch>(op_, Side::right);
+      left_ = std::make_unique<EigenvalueSearch>(op_, Side::left);
+    }
+  }
+  // Near the imaginary axis at that height, where no undamped mode is; symmetric factors exist on it alone.
+  Complex shift_at(double height) const {
+    return conservative_ ? Complex(0, (1 + beside_axis) * height) : Complex(beside_axis * height, height);
+  }
+
   // A shift on the positive real axis that is small against all that is not zero, and not too small.
   bool place_near_zero() {
     double shift = 1.0137;
@@ -73,7 +90,7 @@ class Solution {
       double least = std::numeric_limits<double>::infinity();
       for (int round = 0; round < 3 && !std::isfinite(least); ++round) {
         zeros_in_sight_ = false;
-        for (const Complex& v : EigenvalueSearch(op_, Side::right).glance(4 + 8 * round)) {
+        for (const Complex& v : right_->glance(4 + 8 * round)) {
           if (std::abs(v) > 1e-3 * shift) least = std::min(least, std::abs(v));
           zeros_in_sight_ = zeros_in_sight_ || std::abs(v) <= next_to_zero * shift;
         }
@@ -91,15 +108,15 @@ class Solution {
     // Zeros are the nearest to this shift: an arbitrary vector shows the first of them at a glance.
     if (!zeros_in_sight_) return true;
     // All that are no farther from the shift than what is near zero, and once more from elsewhere.
-    for (int round = 0, empty = 0; round < most_rounds && empty < 2 && !right_.everything(); ++round) {
-      const Index before = right_.found();
-      right_.run(8, shift + near);
-      const auto values = right_.values();
+    for (int round = 0, empty = 0; round < most_rounds && empty < 2 && !right_->everything(); ++round) {
+      const Index before = right_->found();
+      right_->run(8, shift + near);
+      const auto values = right_->values();
       const bool any =
           std::any_of(values.begin() + before, values.end(), [&](Complex v) { return std::abs(v) <= near; });
       empty = any ? 0 : empty + 1;
     }
-    const auto part = right_.part([&](Complex v) { return std::abs(v) <= near; });
+    const auto part = right_->part([&](Complex v) { return std::abs(v) <= near; });
     if (part.basis.cols() == 0) return true;
     if (op_.states() <= most_for_state_matrix) {
       if (const auto linear = reduce(system_, perturbation_)) zero_ = all_structural_zeros(*linear);
@@ -111,7 +128,7 @@ class Solution {
 
   // Structural zeros are exactly that.
   std::vector<Complex> values() const {
-    std::vector<Complex> all = right_.values();
+    std::vector<Complex> all = right_->values();
     std::stable_sort(all.begin(), all.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
     // What is not real by no more than values are computed to is.
     for (Complex& v : all) {
@@ -136,22 +153,37 @@ class Solution {
     return static_cast<Index>(std::count_if(all.begin(), all.end(), [&](Complex v) { return region.has(v); }));
   }
   // Also what is in sight: no matter for the count, it only makes the determinant smoother.
-  std::vector<Complex> places() const { return joined(known().all(), KnownModes(right_.in_sight()).all()); }
+  std::vector<Complex> places() const { return joined(known().all(), KnownModes(right_->in_sight()).all()); }
 
-  // The modes in region_ and how many there ought to be; the search goes on where they differ.
-  bool count() {
-    bool agreed = false;
+  ModeRegion countable_region(int attempt) const {
+    return countable(region_, KnownModes(joined(values(), right_->in_sight())), attempt);
+  }
+  std::optional<Index> counted_by_inertia() {
+    counted_region_ = countable_region(0);
+    return by_inertia_->eigenvalues_inside(counted_region_);
+  }
+  std::optional<Index> counted_by_winding() {
     const Complex shift = op_.shift();
     std::optional<Index> counted;
     for (int attempt = 0; attempt < 5 && !counted; ++attempt) {
-      counted_region_ = countable(region_, KnownModes(joined(values(), right_.in_sight())), attempt);
+      counted_region_ = countable_region(attempt);
       counted = eigenvalues_inside(op_.factors(), counted_region_.border(), places(),
                                    [&](Complex v) { return counted_region_.has(v); });
     }
     op_.move_to(shift);
+    return counted;
+  }
+
+  // The modes in region_ and how many there ought to be; the search goes on where they differ.
+  bool count() {
+    bool agreed = false;
+    if (!by_inertia_ && conservative_) by_inertia_ = std::make_unique<InertiaCount>(conservative_);
+    std::optional<Index> counted = by_inertia_ ? counted_by_inertia() : std::nullopt;
+    const bool of_inertia = counted.has_value();
+    if (!counted) counted = counted_by_winding();
     if (counted) {
       const Index inside = count_in(region_), around = count_in(counted_region_);
-      selected_.by = CountedBy::winding_number;
+      selected_.by = of_inertia ? CountedBy::inertia : CountedBy::winding_number;
       selected_.found = static_cast<std::size_t>(inside);
       selected_.counted = static_cast<std::size_t>(std::max<Index>(0, *counted - (around - inside)));
       missing_ = *counted - around;
@@ -164,8 +196,8 @@ class Solution {
   bool find_nearest(const NearestModes& nearest) {
     if (nearest.frequency > 0) {
       const double modulus = cycle * nearest.frequency;
-      right_ = EigenvalueSearch(op_, Side::right);
-      if (!op_.move_to(Complex(beside_axis * modulus, modulus))) return false;
+      start_anew();
+      if (!op_.move_to(shift_at(modulus))) return false;
       op_.find_units();
     }
     const Index per_mode = nearest.frequency > 0 ? 1 : 2;
@@ -173,15 +205,15 @@ class Solution {
     if (nearest.frequency == 0) target += zero_.count();
     int fruitless = 0;
     for (int round = 0; round < most_rounds; ++round) {
-      const Index before = right_.found();
-      if (right_.found() < target && !right_.everything()) right_.run(target - right_.found(), 0);
-      const bool progress = right_.found() > before;
+      const Index before = right_->found();
+      if (right_->found() < target && !right_->everything()) right_->run(target - right_->found(), 0);
+      const bool progress = right_->found() > before;
       const KnownModes modes = known();
       const auto zeros = std::count(modes.upper().begin(), modes.upper().end(), Complex(0));
-      const auto disc = disc_of(nearest, modes, std::min<Index>(zero_.count(), zeros), right_.everything());
+      const auto disc = disc_of(nearest, modes, std::min<Index>(zero_.count(), zeros), right_->everything());
       if (!disc) {
         if (!progress && ++fruitless > 2) return false;
-        target = std::max(target, right_.found()) + 6;
+        target = std::max(target, right_->found()) + 6;
         continue;
       }
       region_ = *disc;
@@ -191,23 +223,23 @@ class Solution {
       }
       // From other start vectors as far as the border, until there is nothing more.
       if (look_for_more(region_.radius + std::abs(op_.shift() - region_.centre))) continue;
-      if (count() || right_.everything() || ++fruitless > 2) break;
+      if (count() || right_->everything() || ++fruitless > 2) break;
     }
     selected_.radius_hz = region_.radius / cycle;
     return true;
   }
   // Whether another start vector has found something in the region.
   bool look_for_more(double radius) {
-    if (right_.everything()) return false;
-    const Index before = right_.found(), inside = count_in(region_);
-    right_.run(std::max<Index>(2, missing_ + 1), radius);
-    return right_.found() > before && count_in(region_) > inside;
+    if (right_->everything()) return false;
+    const Index before = right_->found(), inside = count_in(region_);
+    right_->run(std::max<Index>(2, missing_ + 1), radius);
+    return right_->found() > before && count_in(region_) > inside;
   }
 
   bool find_band(const ModesInBand& band) {
     region_ = region_of(band);
     if (region_.high == 0) return find_nearest({0, 0});  // structural zeros alone
-    right_ = EigenvalueSearch(op_, Side::right);
+    start_anew();
     constexpr Index at_a_time = 30, most_from_a_shift = 90;
     // The middle of the band, then of its halves, quarters …; on the real axis, for all from there.
     for (int level = 0; level < 6; ++level) {
@@ -215,18 +247,17 @@ class Solution {
       for (int part = 0; part < parts; ++part) {
         const double half = 0.5 * (region_.high - region_.low) / parts;
         const double middle = region_.low + (2 * part + 1) * half;
-        const Complex shift =
-            both_members() ? Complex(beside_axis * region_.high) : Complex(beside_axis * middle, middle);
+        const Complex shift = both_members() ? Complex(beside_axis * region_.high) : shift_at(middle);
         if (!op_.move_to(shift)) continue;
         if (level == 0) op_.find_units();
-        right_.follow_shift();
+        right_->follow_shift();
         shifts_.push_back(shift);
         const double all = std::hypot(region_.right + shift.real(), both_members() ? region_.high : half);
-        for (Index from_here = 0; from_here < most_from_a_shift && !right_.everything();) {
-          const Index before = right_.found();
-          right_.run(at_a_time, all);
-          from_here += right_.found() - before;
-          if (right_.found() == before || right_.reached() >= all || (level > 0 && right_.reached() > 1.5 * half))
+        for (Index from_here = 0; from_here < most_from_a_shift && !right_->everything();) {
+          const Index before = right_->found();
+          right_->run(at_a_time, all);
+          from_here += right_->found() - before;
+          if (right_->found() == before || right_->reached() >= all || (level > 0 && right_->reached() > 1.5 * half))
             break;
         }
       }
@@ -234,7 +265,7 @@ class Solution {
       for (int round = 0; round < most_rounds; ++round) {
         if (!look_for_more(std::hypot(region_.right, 0.5 * (region_.high - region_.low)))) break;
       }
-      if (count() || right_.everything()) return true;
+      if (count() || right_->everything()) return true;
     }
     return !shifts_.empty();
   }
@@ -245,7 +276,7 @@ class Solution {
     const bool upper_half = region_.low > 0;
     const auto in_part = [&](Complex v) { return counted_region_.has(v) && (!upper_half || v.imag() > 0); };
     if (counted_region_.is_disc && counted_region_.radius == 0) counted_region_ = region_;
-    const auto inside = [&](const EigenvalueSearch& search) {
+    const auto inside = [&](const ModeSearch& search) {
       const auto values = search.values();
       return static_cast<Index>(std::count_if(values.begin(), values.end(), in_part));
     };
@@ -253,26 +284,31 @@ class Solution {
     for (int round = 0, fruitless = 0; round < most_rounds && fruitless < 4; ++round) {
       const Complex shift = shifts_[static_cast<std::size_t>(round) % shifts_.size()];
       if (shift != op_.shift() && !op_.move_to(shift)) continue;
-      right_.follow_shift(), left_.follow_shift();
-      const Index of_right = inside(right_), of_left = inside(left_);
+      right_->follow_shift(), left_->follow_shift();
+      const Index of_right = inside(*right_), of_left = inside(*left_);
       if (of_left == of_right) break;
-      EigenvalueSearch& behind = of_left < of_right ? left_ : right_;
+      ModeSearch& behind = of_left < of_right ? *left_ : *right_;
       const Index before = behind.found();
       double radius = 0;
-      for (const Complex& v : (of_left < of_right ? right_ : left_).values()) {
+      for (const Complex& v : (of_left < of_right ? right_ : left_)->values()) {
         if (in_part(v)) radius = std::max(radius, std::abs(v - op_.shift()));
       }
       behind.run(std::abs(of_right - of_left) + 2, 1.01 * radius);
       if (behind.found() == before) ++fruitless;
     }
-    if (inside(left_) != inside(right_)) return std::nullopt;
+    if (inside(*left_) != inside(*right_)) return std::nullopt;
     selected_.found = static_cast<std::size_t>(count_in(region_));
 
-    auto right = right_.part(in_part);
-    const auto left = left_.part(in_part);
+    // Of undamped pairs one member says all: the other is no nearer than twice its modulus.
+    const auto is_mirror = [&](Complex v) { return conservative_ && v.imag() < 0 && -v.imag() > near_; };
+    const auto chosen = [&](Complex v) { return in_part(v) && !is_mirror(v); };
+    auto right = right_->part(chosen);
+    const auto left = left_->part(chosen);
     double distance = std::numeric_limits<double>::infinity();
-    for (const Complex& v : right_.values()) {
-      if (in_part(v)) distance = std::min(distance, std::max(counted_region_.distance_to_border(v), 1e-300));
+    for (const Complex& v : right_->values()) {
+      if (!in_part(v)) continue;
+      distance = std::min(distance, std::max(counted_region_.distance_to_border(v), 1e-300));
+      if (is_mirror(v)) distance = std::min(distance, 2 * std::abs(v));
     }
     const NearZero zero = counted_region_.has(0) ? zero_ : NearZero{Matrix(op_.states(), 0), Matrix(0, 0)};
     return bounded_pairs(equations_, op_, {std::move(right.basis), std::move(right.matrix), left.basis}, zero,
@@ -354,11 +390,13 @@ class Solution {
   const Perturbation& perturbation_;
   const PerturbationEquations& equations_;
   const ModeSelection wanted_;
+  const std::shared_ptr<const ConservativeModel> conservative_;
   ShiftInverse op_;
-  EigenvalueSearch right_, left_;
+  std::unique_ptr<ModeSearch> right_, left_;
   std::vector<Complex> shifts_;  // where right vectors were found
   NearZero zero_;
   ModeRegion region_, counted_region_;
+  std::unique_ptr<InertiaCount> by_inertia_;  // while it is counted
   Index missing_ = 0;
   bool zeros_in_sight_ = false;
   double near_ = 0;  // the modulus of what may be a zero

@@ -86,7 +86,7 @@ TEST(SelectedModes, of_a_lattice_have_all_their_multiplicities) {
   EXPECT_TRUE(s.solution.selected->complete);
   EXPECT_EQ(s.solution.selected->found, 24u);
   EXPECT_EQ(s.solution.selected->counted, 24u);
-  EXPECT_EQ(s.solution.selected->by, CountedBy::winding_number);
+  EXPECT_EQ(s.solution.selected->by, CountedBy::inertia);
   const double radius = s.solution.selected->radius_hz;
   EXPECT_TRUE(radius > exact[11] && radius < exact[12]);
   // The vectors of equal values are independent.

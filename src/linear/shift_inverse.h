@@ -6,6 +6,9 @@
 // something.
 #pragma once
 
+#include <optional>
+
+#include "linear/conservative_model.h"
 #include "linear/perturbation.h"
 #include "system/shifted_lu.h"
 
@@ -13,7 +16,9 @@ namespace dynalin {
 
 class ShiftInverse {
  public:
-  explicit ShiftInverse(const PerturbationEquations&);
+  // A conservative model has real symmetric factors for shifts on the axes, which are a fraction of those of the
+  // pencil.
+  explicit ShiftInverse(const PerturbationEquations&, std::shared_ptr<const ConservativeModel> = nullptr);
 
   // False if the shift is an eigenvalue, as far as the factors can tell.
   bool move_to(std::complex<double> shift);
@@ -27,12 +32,18 @@ class ShiftInverse {
   // On vectors in these units.
   void apply(Eigen::VectorXcd& x) const;
   void apply_adjoint(Eigen::VectorXcd& y) const;
-  const ShiftedLu& factors() const { return lu_; }
-  ShiftedLu& factors() { return lu_; }  // for other shifts meanwhile; move_to() takes them back
+  ShiftedLu& factors();  // of the pencil, for other shifts meanwhile; move_to() takes them back
+  // Those that are in force instead, if any.
+  const ConservativeFactors* symmetric() const { return symmetric_ ? &*symmetric_ : nullptr; }
 
  private:
+  void apply_symmetric(Eigen::VectorXcd& x) const;
+  void apply_symmetric_adjoint(Eigen::VectorXcd& y) const;
+
+  const PerturbationEquations& equations_;
   Eigen::Index unknowns_;
-  ShiftedLu lu_;
+  std::optional<ShiftedLu> lu_;
+  std::optional<ConservativeFactors> symmetric_;
   std::complex<double> shift_;
   Eigen::VectorXd unit_;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "mechanics/equations.h"
@@ -10,7 +11,8 @@
 
 namespace dynalin {
 
-using Entries = std::vector<Triplet>;
+// Grows without being copied: of a large model it is the largest of all lists.
+using Entries = std::deque<Triplet>;
 
 // The sizes of what entries are made of, and what roundings have left of them in half units of the last place.
 struct Roundoff {
@@ -22,10 +24,10 @@ class SizedBlock {
   SizedBlock(std::int32_t row, std::int32_t column, Roundoff& roundoff)
       : row_(row), column_(column), roundoff_(roundoff) {}
 
-  // Zeros stay: where entries stand follows from the topology of the model, at every point of it.
+  // What is zero at this point is left out, most entries of a chain at rest.
   Entries values;
   void add(std::int32_t r, std::int32_t c, double value, double size, double rounding) {
-    values.push_back({r, c, value});
+    if (value != 0.0) values.push_back({r, c, value});
     if (size > 0) roundoff_.sizes.push_back({row_ + r, column_ + c, size});
     note_rounding(r, c, rounding);
   }

@@ -146,24 +146,35 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
     out.uncertainty += first_order_margin * (from_zero * through);
   }
 
-  // What goes through the rest of the model.
+  // What goes through the rest of the model: (S − σ E)⁻¹ by (A − σ)⁻¹, with the algebraic unknowns taken out on both
+  // sides.
   const Eigen::VectorXd& unit = op.units();
-  ComplexMatrix R = std::move(right.value), L = left.value;
   const double beside = norm_beside(op, of.X, of.Y);
   Eigen::VectorXd size_of_right(p), size_of_left(p);
-  const ComplexMatrix dual = of.Y.adjoint();
-  for (Index j = 0; j < p; ++j) {
-    ComplexVector c = R.col(j);
-    op.factors().solve(c);
-    c -= w * (dual * c.tail(n));
-    R.col(j) = c;
-    size_of_right(j) = c.tail(n).cwiseQuotient(unit).norm();
-    ComplexVector l = L.col(j);
-    op.factors().solve_adjoint(l);
-    size_of_left(j) = (l.tail(n) - of.Y * (of.X.adjoint() * l.tail(n))).cwiseProduct(unit).norm();
+  const ComplexMatrix L_a = by_parts(ComplexMatrix(left.value.topRows(algebraic)),
+                                     [&](const Matrix& m) { return equations.solve_transposed(m); });
+  ComplexMatrix L = left.value.bottomRows(n);
+  for (Index k = 0; k < n; ++k) {
+    for_each_in_column(equations.by_states_and_inputs(), static_cast<std::int32_t>(k),
+                       [&](std::int32_t r, double v) { L.row(k) -= v * L_a.row(r); });
   }
+  ComplexMatrix R(n, p);
+  for (Index j = 0; j < p; ++j) {
+    ComplexVector c = reduced.col(j).cwiseQuotient(unit);
+    op.apply(c);
+    c = c.cwiseProduct(unit).eval();
+    c -= of.X * (of.Y.adjoint() * c);
+    R.col(j) = c;
+    size_of_right(j) = c.cwiseQuotient(unit).norm();
+    ComplexVector l = L.col(j).cwiseProduct(unit);
+    op.apply_adjoint(l);
+    l = l.cwiseQuotient(unit).eval();
+    size_of_left(j) = (l - of.Y * (of.X.adjoint() * l)).cwiseProduct(unit).norm();
+  }
+  const Matrix between =
+      (adjoint_product(L_a, ComplexMatrix(right.value.topRows(algebraic))) + adjoint_product(L, R)).cwiseAbs();
   const double amplified = 1 + margin_of_norms * reach * std::max(beside, 1 / distance);
-  out.uncertainty += adjoint_product(L, R).cwiseAbs() + reach * amplified * size_of_left * size_of_right.transpose();
+  out.uncertainty += between + reach * amplified * size_of_left * size_of_right.transpose();
 
   out.unknown = equations.coefficient_roundings(y, w);
   out.uncertainty = upward * (out.uncertainty + out.unknown);

@@ -41,12 +41,13 @@ bool is_examined(std::string_view statement) {
 
 class Reader final : public ElementReader {
  public:
-  Reader(Model& model, const Placement& placement, const ExaminedStatements& examined, const SourceText& source,
-         Diagnostics& diagnostics)
+  Reader(Model& model, const Placement& placement, const ExaminedStatements& examined,
+         const DatasetWithRoutines& routines, const SourceText& source, Diagnostics& diagnostics)
       : ElementReader(*placement.statement, source, diagnostics, placement.set->labels[placement.at()]),
         model_(model),
         placement_(placement),
-        examined_(examined) {
+        examined_(examined),
+        routines_(routines) {
     if (placement.variant_argument != no_variant) {
       const auto& w = placement.statement->arguments[static_cast<std::size_t>(placement.variant_argument)];
       assignments.push_back({placement.set->kind().variant, w.name});
@@ -80,7 +81,9 @@ class Reader final : public ElementReader {
   std::optional<Expression> expression(const WrittenArgument& written) override {
     if (written.damaged) return std::nullopt;  // reported when the text was read
     const std::size_t before = diagnostics().error_count();
-    Expression e = parse_expression(written.value, *written.name.source, diagnostics());
+    Expression e = written.name.source == routines_.calls.get()
+                       ? routine_at(written)
+                       : parse_expression(written.value, *written.name.source, diagnostics());
     if (diagnostics().error_count() == before) check_references(e);
     if (diagnostics().error_count() > before) return std::nullopt;
     return e;
@@ -104,6 +107,11 @@ class Reader final : public ElementReader {
   std::string folder() const override { return std::filesystem::path(source().name()).parent_path().string(); }
 
  private:
+  const Expression& routine_at(const WrittenArgument& written) const {
+    Diagnostics ignored;
+    return routines_.functions[static_cast<std::size_t>(read_integer(written, *written.name.source, ignored)->value)];
+  }
+
   void report_missing(std::string_view statement, std::string_view code, const WrittenInteger& id, std::string_view) {
     error(code, id.at, fmt::format("{} refers to {}/{}, which does not exist", label().text(), statement, id.value),
           near_ids(statement, id.value));
@@ -217,6 +225,7 @@ class Reader final : public ElementReader {
   Model& model_;
   const Placement& placement_;
   const ExaminedStatements& examined_;
+  const DatasetWithRoutines& routines_;
 };
 
 bool is_ground(const Statement& s) {
@@ -228,9 +237,11 @@ bool is_ground(const Statement& s) {
 
 class Builder {
  public:
-  Builder(std::shared_ptr<const Dataset> dataset, Catalogue catalogue, const BuildOptions& options)
+  Builder(std::shared_ptr<const Dataset> dataset, Catalogue catalogue, const BuildOptions& options,
+          const RoutineOptions& routines)
       : catalogue_(catalogue), finder_(catalogue), model_(std::make_unique<Model>()) {
-    model_->dataset = without_user_routines(std::move(dataset), catalogue, options.user_value, diagnostics_);
+    routines_ = with_user_routines(std::move(dataset), catalogue, options, routines, diagnostics_);
+    model_->dataset = routines_.dataset;
     if (model_->dataset == options.read_once) read_once_ = options.read_once.get();
     model_->title = model_->dataset->title;
     model_->markers.push_back({{"MARKER", 0, "", {}}, {}, false});
@@ -293,7 +304,7 @@ class Builder {
       return static_cast<std::size_t>(std::ranges::count(statements, name, &Statement::name));
     };
     model_->markers.reserve(1 + count("MARKER"));
-    model_->bodies.reserve(1 + count("PART") + count("POINT_MASS"));
+    model_->bodies.reserve(1 + count("PART") + count("POINT_MASS") + count("FLEX_BODY"));
     // Sets in the order of the catalogue, whatever the order of the dataset, so that finishing works.
     for (const Kind* kind : catalogue_) set_of(*kind, true);
     find_kinds();
@@ -320,7 +331,9 @@ class Builder {
             .notes.push_back({set->labels.front().at, "the first one is here"});
         continue;
       }
-      if (needs_id && !register_id(*kind, label, *set, s, preceding, ground)) continue;
+      // What has no effect of its own may be named all the same: the GRAPHICS of a CONTACT.
+      const bool has_id = needs_id || (kind->role == Kind::Role::inert && s.id);
+      if (has_id && !register_id(*kind, label, *set, s, preceding, ground)) continue;
       if (kind->role == Kind::Role::element && s.id && is_examined(s.name))
         examined_.emplace(std::pair(s.name, *s.id), &s);
       p.set = set;
@@ -385,7 +398,7 @@ class Builder {
       }
       if (!p.set) continue;
       Diagnostics own;
-      Reader reader(*model_, p, examined_, *model_->dataset->source, own);
+      Reader reader(*model_, p, examined_, routines_, *model_->dataset->source, own);
       p.set->make(p.at());
       p.set->read(p.at(), reader);
       if (own.has_errors()) p.set->sound[p.at()] = false;
@@ -400,6 +413,7 @@ class Builder {
   std::map<std::pair<const Kind*, bool>, std::int32_t> set_of_kind_;  // and whether its elements are active
   Diagnostics diagnostics_;
   std::vector<Placement> placements_;
+  DatasetWithRoutines routines_;
   ExaminedStatements examined_;
 };
 
@@ -407,7 +421,12 @@ class Builder {
 
 Parsed<std::unique_ptr<Model>> build_model(std::shared_ptr<const Dataset> dataset, Catalogue catalogue,
                                            const BuildOptions& options) {
-  return Builder(std::move(dataset), catalogue, options).build();
+  return build_model(std::move(dataset), catalogue, options, {});
+}
+
+Parsed<std::unique_ptr<Model>> build_model(std::shared_ptr<const Dataset> dataset, Catalogue catalogue,
+                                           const BuildOptions& options, const RoutineOptions& routines) {
+  return Builder(std::move(dataset), catalogue, options, routines).build();
 }
 
 }  // namespace dynalin

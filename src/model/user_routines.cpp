@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
+
+#include "model/called_routines.h"
 
 namespace dynalin {
 
@@ -49,45 +52,94 @@ constexpr std::array<Stand, 10> stands = {{{"REQUEST", request},
 
 class Replacement {
  public:
-  Replacement(const Dataset& base, Catalogue catalogue, const std::optional<double>& value, Diagnostics& diagnostics)
-      : catalogue_(catalogue), value_(value), diagnostics_(diagnostics) {
-    if (!value) return;
+  Replacement(const Dataset& base, Catalogue catalogue, const BuildOptions& options, const RoutineOptions& routines,
+              Diagnostics& diagnostics)
+      : catalogue_(catalogue),
+        value_(options.user_value),
+        diagnostics_(diagnostics),
+        called_(base, catalogue, routines, diagnostics) {
+    if (!value_) return;
     std::string text = "CONSTANT/1";
     for (const std::string_view name :
          {"FUNCTION", "FX", "FY", "FZ", "TX", "TY", "TZ", "F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"})
-      text += fmt::format(", {}={:.17g}", name, *value);
+      text += fmt::format(", {}={:.17g}", name, *value_);
     text += ", KMATRIX=0";
     for (int k = 1; k < 36; ++k) text += ",0";
-    text += fmt::format(", FORCE={:.17g}", *value);
-    for (int k = 1; k < 6; ++k) text += fmt::format(",{:.17g}", *value);
-    static constexpr std::array<std::string_view, 1> keywords = {"CONSTANT"};
-    constants_ = std::make_shared<const Dataset>(
-        parse_statements(std::make_shared<const SourceText>("--user-value of " + base.source->name(), text + "\n"),
-                         keywords)
-            .value);
+    text += fmt::format(", FORCE={:.17g}", *value_);
+    for (int k = 1; k < 6; ++k) text += fmt::format(",{:.17g}", *value_);
+    constants_ = generated("--user-value of " + base.source->name(), text + "\n");
   }
-
-  const std::shared_ptr<const Dataset>& constants() const { return constants_; }
 
   void apply(Statement& s) {
     const auto kind =
         std::find_if(catalogue_.begin(), catalogue_.end(), [&](const Kind* k) { return k->statement == s.name; });
     if (kind == catalogue_.end() || (*kind)->role == Kind::Role::inert) return;
     const auto call = std::find_if(s.arguments.begin(), s.arguments.end(), calls_routine);
+    if (call != s.arguments.end() && call_library(s, static_cast<std::size_t>(call - s.arguments.begin()))) return;
     // Without what it requests it is left out, where it is read.
     if (s.name == "REQUEST" && (!value_ || call == s.arguments.end())) return;
     if (call != s.arguments.end()) {
       replace(s, static_cast<std::size_t>(call - s.arguments.begin()));
     } else if (const auto code = std::find_if(s.arguments.begin(), s.arguments.end(), names_code);
                code != s.arguments.end()) {
-      diagnostics_.error(
-          "missing-routine", code->name,
-          fmt::format("{} names a compiled routine, and compiled routines cannot be called here", s.at.text()));
+      diagnostics_.error("missing-routine", code->name,
+                         fmt::format("{} names a compiled routine, and calls none with USER(…)", s.at.text()));
     }
     std::erase_if(s.arguments, names_code);
   }
 
+  // Writes the calls into their statements.
+  DatasetWithRoutines finish(std::shared_ptr<Dataset> out) {
+    if (constants_) out->origins.push_back(constants_);
+    DatasetWithRoutines all;
+    if (!calls_.empty()) {
+      std::string text;
+      for (const auto& [statement, arguments] : calls_) text += "CONSTANT/1" + arguments + "\n";
+      const auto written = generated("calls of routines by " + out->source->name(), text);
+      for (std::size_t k = 0; k < calls_.size(); ++k) {
+        auto& arguments = calls_[k].first->arguments;
+        const auto& more = written->statements[k].arguments;
+        arguments.insert(arguments.end(), more.begin(), more.end());
+      }
+      out->origins.push_back(written);
+      all.calls = written->source;
+      all.functions = std::move(called_.functions);
+    }
+    all.dataset = std::move(out);
+    return all;
+  }
+
  private:
+  static std::shared_ptr<const Dataset> generated(std::string name, std::string text) {
+    static constexpr std::array<std::string_view, 1> keywords = {"CONSTANT"};
+    return std::make_shared<const Dataset>(
+        parse_statements(std::make_shared<const SourceText>(std::move(name), std::move(text)), keywords).value);
+  }
+
+  // Whether that is done, or cannot be for a reason that is reported.
+  bool call_library(Statement& s, std::size_t k) {
+    if (!called_.has_libraries()) return false;
+    WrittenArgument& call = s.arguments[k];
+    std::string wanted;
+    const std::size_t errors = diagnostics_.error_count();
+    const auto routine = called_.find(s, call, wanted);
+    if (!routine) {
+      if (diagnostics_.error_count() > errors) call.damaged = true;
+      if (call.damaged) std::erase_if(s.arguments, names_code);
+      if (call.damaged || value_ || wanted.empty()) return call.damaged;
+      diagnostics_.error("missing-routine", span_of(call.value[0], *call.name.source),
+                         fmt::format("{} calls {}, and no library has it", s.at.text(), wanted),
+                         "--user-library names libraries; nm -D FILE.so lists what is in one");
+      call.damaged = true;
+      std::erase_if(s.arguments, names_code);
+      return true;
+    }
+    calls_.emplace_back(&s, called_.written(s, routine, call.value_span()));
+    s.arguments.erase(s.arguments.begin() + static_cast<std::ptrdiff_t>(k));
+    std::erase_if(s.arguments, names_code);
+    return true;
+  }
+
   void replace(Statement& s, std::size_t k) {
     WrittenArgument& call = s.arguments[k];
     const Span at = span_of(call.value[0], *call.name.source);
@@ -96,9 +148,10 @@ class Replacement {
     if (!value_ || stand == stands.end()) {
       diagnostics_.error(
           "missing-routine", at,
-          fmt::format("{} calls a compiled routine, and compiled routines cannot be called here", s.at.text()),
-          stand == stands.end() ? "no constant can take its place"
-                                : "--user-value X puts the constant X in the place of each call");
+          fmt::format("{} calls a compiled routine, and no library that has it is named", s.at.text()),
+          stand == stands.end()
+              ? "no constant can take its place"
+              : "--user-library FILE.so names a library, --user-value X puts the constant X in the place of each call");
       call.damaged = true;
       return;
     }
@@ -113,9 +166,11 @@ class Replacement {
   }
 
   Catalogue catalogue_;
-  const std::optional<double>& value_;
+  std::optional<double> value_;
   Diagnostics& diagnostics_;
+  CalledRoutines called_;
   std::shared_ptr<const Dataset> constants_;
+  std::vector<std::pair<Statement*, std::string>> calls_;  // and what takes the place of USER(…)
 };
 
 bool concerns_code(const Statement& s) {
@@ -125,10 +180,11 @@ bool concerns_code(const Statement& s) {
 
 }  // namespace
 
-std::shared_ptr<const Dataset> without_user_routines(std::shared_ptr<const Dataset> base, Catalogue catalogue,
-                                                     const std::optional<double>& value, Diagnostics& diagnostics) {
-  if (std::none_of(base->statements.begin(), base->statements.end(), concerns_code)) return base;
-  Replacement replacement(*base, catalogue, value, diagnostics);
+DatasetWithRoutines with_user_routines(std::shared_ptr<const Dataset> base, Catalogue catalogue,
+                                       const BuildOptions& options, const RoutineOptions& routines,
+                                       Diagnostics& diagnostics) {
+  if (std::none_of(base->statements.begin(), base->statements.end(), concerns_code)) return {base, nullptr, {}};
+  Replacement replacement(*base, catalogue, options, routines, diagnostics);
   auto out = std::make_shared<Dataset>();
   out->source = base->source;
   out->title = base->title;
@@ -137,8 +193,7 @@ std::shared_ptr<const Dataset> without_user_routines(std::shared_ptr<const Datas
     if (concerns_code(s)) replacement.apply(s);
   }
   out->origins = {base};
-  if (replacement.constants()) out->origins.push_back(replacement.constants());
-  return out;
+  return replacement.finish(std::move(out));
 }
 
 }  // namespace dynalin

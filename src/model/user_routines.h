@@ -1,17 +1,22 @@
-// FUNCTION=USER(…) calls a routine that the user compiled into another program. None can be called here: each call is
-// an error, or a constant takes its place where the user asks for one.
+// FUNCTION=USER(…) calls a routine that the user compiled. Shared libraries that are named for it are called; where
+// none has the routine each call is an error, or a constant takes its place where the user asks for one.
 #pragma once
 
 #include <memory>
-#include <optional>
+#include <vector>
 
-#include "model/kind.h"
+#include "model/routine_options.h"
 
 namespace dynalin {
 
-// The dataset itself if it calls no routine; else one whose calls are replaced by `value`, each with a warning, or
-// reported as errors.
-std::shared_ptr<const Dataset> without_user_routines(std::shared_ptr<const Dataset>, Catalogue,
-                                                     const std::optional<double>& value, Diagnostics&);
+struct DatasetWithRoutines {
+  // The dataset itself if it calls no routine; else one whose calls are replaced, or reported as errors.
+  std::shared_ptr<const Dataset> dataset;
+  // An argument whose value stands in this text is a number: that of one of the functions.
+  SourceRef calls;
+  std::vector<Expression> functions;
+};
+DatasetWithRoutines with_user_routines(std::shared_ptr<const Dataset>, Catalogue, const BuildOptions&,
+                                       const RoutineOptions&, Diagnostics&);
 
 }  // namespace dynalin

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "elements/bodies/flex_body.h"
 #include "linear/perturbed_point.h"
 #include "mechanics/pair_blocks.h"
 #include "nastran/export_point.h"
@@ -38,6 +39,13 @@ class OpenBox {
   StudyResult<Deck> run() {
     if (!options_.flexbody_editable.empty() && !options_.ignore_errors)
       return tl::unexpected(StudyFailure({"export", "the model has no FLEX_BODY to be singled out", {}}));
+    if (const auto flexible = flexible_bodies(system_.model()); !flexible.empty()) {
+      return tl::unexpected(
+          StudyFailure({"export",
+                        fmt::format("{} is a flexible body: an open box of these is not available, a closed box is",
+                                    system_.layout().body(flexible.front().body).label.full_text()),
+                        {}}));
+    }
     add_masses();
     if (auto done = markers_.add_asked(remarks_); !done) return tl::unexpected(done.error());
     if (auto done = markers_.add_channels(remarks_); !done) return tl::unexpected(done.error());

@@ -4,12 +4,60 @@
 #include <cmath>
 #include <ostream>
 
+#include "output/json_text.h"
 #include "output/json_values.h"
 
 namespace dynalin {
 
+namespace {
+
+// What belongs to one command, key by key; long lists of numbers as the text that will be written.
+class Result {
+ public:
+  Result(std::initializer_list<std::pair<const char*, Json>> values) {
+    for (const auto& [key, value] : values) members_.push_back({key, value, {}});
+  }
+  Result& add(const char* key, Json value) {
+    members_.push_back({key, std::move(value), {}});
+    return *this;
+  }
+  template <class Write>
+  Result& write(const char* key, Write&& write) {
+    JsonText text(depth_of_values);
+    write(text);
+    members_.push_back({key, {}, text.take()});
+    return *this;
+  }
+  Json& operator[](std::string_view key) {
+    for (Member& m : members_) {
+      if (m.key == key) return m.value;
+    }
+    return members_.emplace_back(Member{std::string(key), {}, {}}).value;
+  }
+  void write_to(JsonText& out) const {
+    out.open('{');
+    for (const Member& m : members_) {
+      out.key(m.key);
+      m.text.empty() ? out.value(m.value) : out.text(m.text);
+    }
+    out.close('}');
+  }
+
+ private:
+  static constexpr std::size_t depth_of_values = 3;  // {"results": [{"key": …
+  struct Member {
+    std::string key;
+    Json value;
+    std::string text;  // instead of the value, unless empty
+  };
+  std::vector<Member> members_;
+};
+
+}  // namespace
+
 struct JsonResults::Document {
-  Json results = Json::array(), warnings = Json::array(), errors = Json::array();
+  std::vector<Result> results;
+  Json warnings = Json::array(), errors = Json::array();
   Json units, status, files = Json::array();
 };
 
@@ -26,23 +74,97 @@ Json states(const std::vector<StateLabel>& labels) {
   return list;
 }
 
-Json matrix(const Eigen::MatrixXd& m) {
-  Json rows = Json::array();
-  for (Eigen::Index r = 0; r < m.rows(); ++r) {
-    Json row = Json::array();
-    for (Eigen::Index c = 0; c < m.cols(); ++c) row.push_back(m(r, c) + 0.0);
-    rows.push_back(std::move(row));
+// Writes a list, and each(k) its entries.
+template <class Each>
+void write_list(JsonText& out, std::size_t count, Each&& each) {
+  out.open('[');
+  for (std::size_t k = 0; k < count; ++k) {
+    out.element();
+    each(k);
   }
-  return rows;
+  out.close(']');
 }
 
-Json column(const Eigen::MatrixXcd& m, std::size_t k) {
-  Json list = Json::array();
-  for (Eigen::Index r = 0; r < m.rows(); ++r) {
-    const std::complex<double> v = m(r, static_cast<Eigen::Index>(k));
-    list.push_back({v.real() + 0.0, v.imag() + 0.0});
+auto matrix(const Eigen::MatrixXd& m) {
+  return [&](JsonText& out) {
+    write_list(out, static_cast<std::size_t>(m.rows()), [&](std::size_t r) {
+      write_list(out, static_cast<std::size_t>(m.cols()),
+                 [&](std::size_t c) { out.number(m(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c))); });
+    });
+  };
+}
+
+void write_column(JsonText& out, const Eigen::MatrixXcd& m, std::size_t k) {
+  write_list(out, static_cast<std::size_t>(m.rows()),
+             [&](std::size_t r) { out.complex(m(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k))); });
+}
+
+void write_eigenvalue(JsonText& out, double real, double imaginary) {
+  out.key("real_hz"), out.number(real);
+  out.key("imag_hz"), out.number(imaginary);
+}
+
+void write_eigenvalues(JsonText& out, const EigenSolution& e) {
+  out.open('[');
+  for (const EigenMode& m : e.modes) {
+    const double re = m.eigenvalue_hz.real(), im = m.eigenvalue_hz.imag();
+    const auto one = [&](double imaginary) {
+      out.element();
+      out.open('{');
+      write_eigenvalue(out, re, imaginary);
+      out.close('}');
+    };
+    one(m.is_real ? 0.0 : im);
+    if (!m.is_real) one(-im);
   }
-  return list;
+  out.close(']');
+}
+
+void write_mode(JsonText& out, const EigenSolution& e, std::size_t k) {
+  const EigenMode& m = e.modes[k];
+  out.open('{');
+  write_eigenvalue(out, m.eigenvalue_hz.real(), m.is_real ? 0.0 : m.eigenvalue_hz.imag());
+  // A defective eigenvalue has no finite condition number or bound; JSON knows no infinity.
+  out.key("condition"), out.number(m.condition);
+  out.key("backward_error"), out.number(m.backward_error);
+  out.key("error_bound_hz"), out.number(m.error_bound_hz);
+  out.key("cluster_size"), out.value(m.cluster_size);
+  out.key("structural_zero"), out.value(m.structural_zero);
+  out.key("refined"), out.value(m.refined);
+  if (e.vectors.size() > 0) {
+    out.key("moves_most"), out.value(m.moves_most);
+    out.key("vector"), write_column(out, e.vectors, k);
+    if (e.shapes.size() > 0) out.key("shape"), write_column(out, e.shapes, k);
+  }
+  out.close('}');
+}
+
+void write_table(JsonText& out, const ModalTable& table) {
+  out.open('{');
+  out.key("table"), out.value(table.name);
+  out.key("mode"), out.value(table.mode > 0 ? Json(table.mode) : Json());
+  out.key("columns"), out.value(table.columns);
+  out.key("rows");
+  write_list(out, table.rows.size(), [&](std::size_t r) {
+    const ModalTable::Row& row = table.rows[r];
+    out.open('{');
+    if (row.element.empty()) {
+      out.key("mode"), out.value(row.part);
+    } else {
+      out.key("element"), out.value(row.element.text());
+      out.key("part"), out.value(row.part > 0 ? Json(row.part) : Json());
+      out.key("name"), out.value(row.name);
+    }
+    out.key("values");
+    write_list(out, row.values.size(), [&](std::size_t k) {
+      if (row.imaginary.empty())
+        out.number(row.values[k]);
+      else
+        out.complex({row.values[k], row.imaginary[k]});
+    });
+    out.close('}');
+  });
+  out.close('}');
 }
 
 Json shape_labels(const std::vector<ShapeLabel>& labels) {
@@ -76,6 +198,13 @@ Json channels(const std::vector<ChannelLabel>& labels) {
   return list;
 }
 
+template <class Matrices>
+Result& with_channels(Result& result, const Matrices& of) {
+  return result.add("states", states(of.states))
+      .add("inputs", channels(of.inputs))
+      .add("outputs", channels(of.outputs));
+}
+
 }  // namespace
 
 JsonResults::JsonResults(Kept kept) : document_(kept == Kept::results ? std::make_unique<Document>() : nullptr) {}
@@ -83,129 +212,92 @@ JsonResults::~JsonResults() = default;
 
 void JsonResults::add_plain(const std::string& command, double time) {
   if (!document_) return;
-  document_->results.push_back({{"command", command}, {"time", time}});
+  document_->results.push_back(Result{{"command", command}, {"time", time}});
 }
 
 void JsonResults::add(const std::string& command, const EigenSolution& e) {
   if (!document_) return;
-  Json values = Json::array();
-  for (const EigenMode& m : e.modes) {
-    const double re = m.eigenvalue_hz.real() + 0.0, im = m.eigenvalue_hz.imag();
-    values.push_back({{"real_hz", re}, {"imag_hz", m.is_real ? 0.0 : im}});
-    if (!m.is_real) values.push_back({{"real_hz", re}, {"imag_hz", -im}});
-  }
-  Json modes = Json::array();
-  for (std::size_t k = 0; k < e.modes.size(); ++k) {
-    const EigenMode& m = e.modes[k];
-    Json mode = {{"real_hz", m.eigenvalue_hz.real() + 0.0}, {"imag_hz", m.is_real ? 0.0 : m.eigenvalue_hz.imag()}};
-    // A defective eigenvalue has no finite condition number or bound; JSON knows no infinity.
-    mode["condition"] = std::isfinite(m.condition) ? Json(m.condition) : Json();
-    mode["backward_error"] = m.backward_error;
-    mode["error_bound_hz"] = std::isfinite(m.error_bound_hz) ? Json(m.error_bound_hz) : Json();
-    mode["cluster_size"] = m.cluster_size;
-    mode["structural_zero"] = m.structural_zero;
-    mode["refined"] = m.refined;
-    if (e.vectors.size() > 0) {
-      mode["moves_most"] = m.moves_most;
-      mode["vector"] = column(e.vectors, k);
-      if (e.shapes.size() > 0) mode["shape"] = column(e.shapes, k);
-    }
-    modes.push_back(std::move(mode));
-  }
-  document_->results.push_back({{"command", command},
-                                {"time", e.time},
-                                {"states", states(e.states)},
-                                {"shape_entries", shape_labels(e.shape_labels)},
-                                {"eigenvalues", std::move(values)},
-                                {"modes", std::move(modes)}});
-  if (e.selected) document_->results.back()["selected"] = selected(*e.selected);
+  Result result = {{"command", command},
+                   {"time", e.time},
+                   {"states", states(e.states)},
+                   {"shape_entries", shape_labels(e.shape_labels)}};
+  result.write("eigenvalues", [&](JsonText& out) { write_eigenvalues(out, e); });
+  result.write("modes",
+               [&](JsonText& out) { write_list(out, e.modes.size(), [&](std::size_t k) { write_mode(out, e, k); }); });
+  if (e.selected) result.add("selected", selected(*e.selected));
+  document_->results.push_back(std::move(result));
 }
 
 void JsonResults::add(const std::string& command, const StateSpace& s) {
   if (!document_) return;
-  document_->results.push_back({{"command", command},
-                                {"time", s.time},
-                                {"A", matrix(s.A)},
-                                {"B", matrix(s.B)},
-                                {"C", matrix(s.C)},
-                                {"D", matrix(s.D)},
-                                {"states", states(s.states)},
-                                {"inputs", channels(s.inputs)},
-                                {"outputs", channels(s.outputs)}});
+  Result result = {{"command", command}, {"time", s.time}};
+  result.write("A", matrix(s.A)).write("B", matrix(s.B)).write("C", matrix(s.C)).write("D", matrix(s.D));
+  document_->results.push_back(std::move(with_channels(result, s)));
 }
 
 void JsonResults::add(const std::string& command, const SecondOrder& s) {
   if (!document_) return;
   Eigen::MatrixXd KB(s.K.rows(), s.K.cols() + s.B.cols());
   KB << s.K, s.B;
-  document_->results.push_back({{"command", command},
-                                {"time", s.time},
-                                {"M", matrix(s.M)},
-                                {"KB", matrix(KB)},
-                                {"B", matrix(s.B)},
-                                {"K", matrix(s.K)},
-                                {"P", matrix(s.P)},
-                                {"C", matrix(s.C)},
-                                {"D", matrix(s.D)},
-                                {"states", states(s.states)},
-                                {"inputs", channels(s.inputs)},
-                                {"outputs", channels(s.outputs)}});
+  Result result = {{"command", command}, {"time", s.time}};
+  result.write("M", matrix(s.M)).write("KB", matrix(KB)).write("B", matrix(s.B)).write("K", matrix(s.K));
+  result.write("P", matrix(s.P)).write("C", matrix(s.C)).write("D", matrix(s.D));
+  document_->results.push_back(std::move(with_channels(result, s)));
 }
 
 void JsonResults::add(const std::string& command, const DescriptorForm& s) {
   if (!document_) return;
-  document_->results.push_back({{"command", command},
-                                {"time", s.time},
-                                {"unknowns", s.A.rows()},
-                                {"entries", s.A.nonZeros()},
-                                {"first_state", s.first_state + 1},
-                                {"states", states(s.states)},
-                                {"inputs", channels(s.inputs)},
-                                {"outputs", channels(s.outputs)}});
+  Result result = {{"command", command},
+                   {"time", s.time},
+                   {"unknowns", s.A.rows()},
+                   {"entries", s.A.nonZeros()},
+                   {"first_state", s.first_state + 1}};
+  document_->results.push_back(std::move(with_channels(result, s)));
 }
 
 void JsonResults::add_printed(const std::string& command, double time, const std::string& text) {
   if (!document_) return;
-  document_->results.push_back({{"command", command}, {"time", time}, {"text", text}});
+  document_->results.push_back(Result{{"command", command}, {"time", time}, {"text", text}});
 }
 
 void JsonResults::add_model(const std::string& command, const std::string& title, const Units& units) {
   if (!document_) return;
-  document_->results.push_back({{"command", command}, {"time", 0.0}, {"model", title}, {"units", json_of(units)}});
+  document_->results.push_back(
+      Result{{"command", command}, {"time", 0.0}, {"model", title}, {"units", json_of(units)}});
 }
 
 void JsonResults::add_export(const std::string& command, std::string_view type, double time,
                              const std::vector<std::string>& files) {
   if (!document_) return;
-  document_->results.push_back({{"command", command}, {"time", time}, {"export", type}, {"files", files}});
+  document_->results.push_back(Result{{"command", command}, {"time", time}, {"export", type}, {"files", files}});
 }
 
 void JsonResults::add(const std::string& command, const OperatingState& s) {
   if (!document_) return;
-  document_->results.push_back({{"command", command}, {"time", s.time}, {"operating_point", json_of(s)}});
+  document_->results.push_back(Result{{"command", command}, {"time", s.time}, {"operating_point", json_of(s)}});
 }
 
 void JsonResults::add(const std::string& command, const StaticResult& s) {
   if (!document_) return;
-  document_->results.push_back({{"command", command},
-                                {"time", s.at_rest.time},
-                                {"iterations", s.iterations},
-                                {"imbalance", s.imbalance},
-                                {"stability", json_of(s.stability)},
-                                {"operating_point", json_of(s.at_rest)}});
+  document_->results.push_back(Result{{"command", command},
+                                      {"time", s.at_rest.time},
+                                      {"iterations", s.iterations},
+                                      {"imbalance", s.imbalance},
+                                      {"stability", json_of(s.stability)},
+                                      {"operating_point", json_of(s.at_rest)}});
 }
 
 void JsonResults::add(const std::string& command, double time, const History& h) {
   if (!document_) return;
-  document_->results.push_back({{"command", command}, {"time", time}, {"history", json_of(h)}});
+  document_->results.push_back(Result{{"command", command}, {"time", time}, {"history", json_of(h)}});
 }
 
 void JsonResults::add_tables(const std::vector<ModalTable>& tables) {
   if (!document_) return;
   if (tables.empty()) return;
-  Json list = Json::array();
-  for (const ModalTable& table : tables) list.push_back(json_of(table));
-  document_->results.back()["tables"] = std::move(list);
+  document_->results.back().write("tables", [&](JsonText& out) {
+    write_list(out, tables.size(), [&](std::size_t k) { write_table(out, tables[k]); });
+  });
 }
 
 void JsonResults::add_point(const OperatingState& s) {
@@ -239,10 +331,21 @@ void JsonResults::finish(const Units& units, int status, const std::vector<std::
 }
 
 void JsonResults::write(std::ostream& out) const {
-  const Json all = {{"results", document_->results}, {"units", document_->units},   {"warnings", document_->warnings},
-                    {"errors", document_->errors},   {"status", document_->status}, {"files", document_->files}};
-  // Commands are kept as written; bytes that are no UTF-8 become replacement characters.
-  out << all.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+  JsonText text;
+  text.open('{');
+  text.key("results");
+  text.open('[');
+  for (const Result& r : document_->results) {
+    text.element();
+    r.write_to(text);
+    out << text.take();
+  }
+  text.close(']');
+  const auto of_run = [&](const char* key, const Json& value) { text.key(key), text.value(value); };
+  of_run("units", document_->units), of_run("warnings", document_->warnings), of_run("errors", document_->errors);
+  of_run("status", document_->status), of_run("files", document_->files);
+  text.close('}');
+  out << text.take() << '\n';
 }
 
 }  // namespace dynalin

@@ -122,32 +122,6 @@ Json json_of(const Stability& s) {
           {"reason", text_or_null(s.reason)}};
 }
 
-Json json_of(const ModalTable& table) {
-  // What is missing is not a number, which JSON does not know.
-  const auto cell = [](double x) { return std::isfinite(x) ? Json(x + 0.0) : Json(); };
-  Json rows = Json::array();
-  for (const ModalTable::Row& row : table.rows) {
-    Json values = Json::array();
-    for (std::size_t k = 0; k < row.values.size(); ++k) {
-      if (row.imaginary.empty())
-        values.push_back(cell(row.values[k]));
-      else
-        values.push_back({cell(row.values[k]), cell(row.imaginary[k])});
-    }
-    Json r;
-    if (row.element.empty())
-      r["mode"] = row.part;
-    else
-      r = {{"element", row.element.text()}, {"part", row.part > 0 ? Json(row.part) : Json()}, {"name", row.name}};
-    r["values"] = std::move(values);
-    rows.push_back(std::move(r));
-  }
-  return {{"table", table.name},
-          {"mode", table.mode > 0 ? Json(table.mode) : Json()},
-          {"columns", table.columns},
-          {"rows", std::move(rows)}};
-}
-
 Json json_of(const Remark& r) {
   Json at;
   if (!r.file.empty()) at = {{"file", r.file}, {"line", r.line}, {"column", r.column}};

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "dynalin/history.h"
-#include "dynalin/modal_table.h"
 #include "dynalin/operating_state.h"
 #include "dynalin/remark.h"
 #include "dynalin/request_values.h"
@@ -19,7 +18,6 @@ Json json_of(const OperatingState&);
 Json json_of(const Stability&);
 Json json_of(const std::vector<RequestValues>&);
 Json json_of(const History&);
-Json json_of(const ModalTable&);
 // {"code", "message", "hint", "at": {"file", "line", "column"}}; `at` is null where no file states it.
 Json json_of(const Remark&);
 

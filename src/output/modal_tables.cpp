@@ -140,7 +140,9 @@ void write_shares(std::ostream& out, const ModalTableFormat& format, const Modal
     std::string cells;
     for (std::size_t k = 0; k + 1 < kind.columns.size(); ++k) cells += t.number(rows[r].values[k]);
     const double sum = rows[r].values.back();
-    t.row(labels[r], rows[r].name, cells + blank + " |" + t.number(sum) + " ");
+    const bool split = rows[r].values.size() > kind.columns.size();  // of flexible bodies and their models
+    const std::string modal = split ? t.number(rows[r].values[kind.columns.size() - 1]) : blank;
+    t.row(labels[r], rows[r].name, cells + modal + " |" + t.number(sum) + " ");
     total += sum;
   }
   t.rule({columns, 1});

@@ -7,6 +7,7 @@
 #include "analysis/displace.h"
 #include "analysis/initial.h"
 #include "analysis/massless.h"
+#include "analysis/outside_weight.h"
 #include "analysis/row_sizes.h"
 
 namespace dynalin {
@@ -43,10 +44,13 @@ bool PointRefinement::find_nearest(const OperatingPoint& op) {
   const Motion motion = system_.motion(op);
   system_.constraints(motion, rows_);
   const std::int32_t n = system_.layout().coordinate_count, m = rows_.size();
+  std::vector<double> weight(static_cast<std::size_t>(n), 1.0);
+  for (const ExtraBlock& e : system_.layout().extras)
+    std::fill_n(weight.begin() + e.offset, e.count, outside_weight(e.type));
   std::vector<Triplet> entries;
   for (std::int32_t k = 0; k < n; ++k) {
     const double s = system_.coordinate_scale(k);
-    entries.push_back({k, k, (k < system_.layout().body_coordinate_count ? 1.0 : follower_weight) / (s * s)});
+    entries.push_back({k, k, weight[static_cast<std::size_t>(k)] / (s * s)});
   }
   for (std::int32_t k = 0; k < m; ++k) {
     if (!active_[static_cast<std::size_t>(k)]) {

@@ -9,6 +9,7 @@
 #include "linear/second_order.h"
 #include "linear/selected_modes.h"
 #include "linear/still_modes.h"
+#include "model/linear_remarks.h"
 
 namespace dynalin {
 
@@ -68,6 +69,11 @@ StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest&
   }
   result.linear = std::move(*linear);
   label(result.linear.model, request);
+  const Motion motion = at.system->motion(result.point);
+  for (const auto& set : at.system->model().sets) {
+    const auto* source = set->active ? dynamic_cast<const LinearRemarks*>(set.get()) : nullptr;
+    if (source) source->remark_at(at.system->model(), motion, at.system->length(), result.linear.warnings);
+  }
   return result;
 }
 

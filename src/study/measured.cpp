@@ -36,11 +36,12 @@ StudyFailure failure(const Diagnostics& why) { return StudyFailure({"measuring",
 }  // namespace
 
 StudyResult<std::vector<double>> measured(const StudyPoint& point, std::span<const std::string> functions,
-                                          std::optional<double> user_value, bool pade) {
+                                          std::optional<double> user_value, const RoutineOptions& routines, bool pade) {
   std::int64_t first = 0;
   const auto dataset = with_variables(point.system->model().dataset, functions, first);
-  auto model = build_model(dataset, catalogue(), {user_value});
+  auto model = build_model(dataset, catalogue(), {user_value}, routines);
   if (model.diagnostics.has_errors()) return tl::unexpected(failure(model.diagnostics));
+  const std::vector<SourceRef> texts = model.value->further_sources;  // that messages point into
   const auto system = System::make(std::move(model.value), {pade ? DelayReading::pade : DelayReading::first_order});
   if (!system) return tl::unexpected(failure(system.error()));
   StudyPoint here = continued(point, *system, {});

@@ -201,6 +201,10 @@ StudyResult<TablesFound> modal_tables(const Linearization& of, const EigenSoluti
                               k + 1,
                               {kind.columns.begin(), kind.columns.end()},
                               kind.rows(distribution, k, markers)});
+      // Models with flexible bodies have their modal part before the sum.
+      ModalTable& table = found.tables.back();
+      if (kind.totals && !table.rows.empty() && table.rows.front().values.size() > table.columns.size())
+        table.columns.insert(table.columns.end() - 1, "Modal");
     }
   }
   for (const ModalTableKind& kind : kinds) {

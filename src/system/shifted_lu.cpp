@@ -1,16 +1,14 @@
 #include "system/shifted_lu.h"
 
 #include <klu.h>
-#include <zmumps_c.h>
 
 #include <cmath>
-#include <mutex>
 #include <new>
 #include <numbers>
 #include <optional>
 
 #include "system/lu_choice.h"
-#include "system/mumps_lock.h"
+#include "system/mumps_call.h"
 #include "system/sparse_lu.h"
 
 namespace dynalin {
@@ -22,7 +20,7 @@ using Complex = std::complex<double>;
 class ComplexMumps {
  public:
   explicit ComplexMumps(const ColumnMatrix& m) {
-    id_.job = -1, id_.par = 1, id_.sym = 0, id_.comm_fortran = use_comm_world;
+    id_.job = -1, id_.par = 1, id_.sym = 0;
     call();
     for (const int k : {1, 2, 3, 4}) control(k) = 0;  // no printing
     control(7) = 5;                                   // METIS
@@ -70,12 +68,8 @@ class ComplexMumps {
   }
 
  private:
-  static constexpr int use_comm_world = -987654;
   int& control(int k) { return id_.icntl[k - 1]; }
-  void call() {
-    const std::lock_guard lock(mumps_lock());
-    zmumps_c(&id_);
-  }
+  void call() { call_mumps(id_); }
   ZMUMPS_STRUC_C id_{};
   std::vector<int> row_, column_;
   bool analysed_ = false;

@@ -1,16 +1,14 @@
 #include "system/sparse_lu.h"
 
-#include <dmumps_c.h>
 #include <klu.h>
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <new>
 #include <optional>
 
 #include "system/lu_choice.h"
-#include "system/mumps_lock.h"
+#include "system/mumps_call.h"
 #include "system/nested_dissection.h"
 
 namespace dynalin {
@@ -154,7 +152,7 @@ class KluFactors {
 class MumpsFactors {
  public:
   MumpsFactors() {
-    id_.job = -1, id_.par = 1, id_.sym = 0, id_.comm_fortran = use_comm_world;
+    id_.job = -1, id_.par = 1, id_.sym = 0;
     call();
     for (const int k : {1, 2, 3, 4}) control(k) = 0;  // no printing
     control(14) = 60;                                 // room for delayed pivots, percent
@@ -210,7 +208,6 @@ class MumpsFactors {
   }
 
  private:
-  static constexpr int use_comm_world = -987654;
   int& control(int k) { return id_.icntl[k - 1]; }
   void back_substitute(double* x, int columns, int plain) {
     id_.rhs = x, id_.nrhs = columns, id_.lrhs = id_.n;
@@ -218,10 +215,7 @@ class MumpsFactors {
     id_.job = 3;
     call();
   }
-  void call() {
-    const std::lock_guard lock(mumps_lock());
-    dmumps_c(&id_);
-  }
+  void call() { call_mumps(id_); }
   DMUMPS_STRUC_C id_{};
   std::vector<int> row_, column_, place_;
 };

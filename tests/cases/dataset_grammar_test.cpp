@@ -73,7 +73,7 @@ TEST_F(DatasetGrammar, a_message_about_a_value_names_statements_as_they_are_writ
   const RunResult kilograms = with("PART/9, MASS=1 kg\n");
   EXPECT_THAT(kilograms.err, HasSubstr("MASS takes plain numbers, found 'kg'"));
   EXPECT_THAT(kilograms.err, HasSubstr("hint: units are not written behind numbers"));
-  EXPECT_THAT(with("MARKER/9, FLEX_BODY=3\n").err, HasSubstr("FLEX_BODY of MARKER/9 is not available yet"));
+  EXPECT_THAT(with("MARKER/9, FLEX_BODY=3\n").err, HasSubstr("MARKER/9 refers to FLEX_BODY/3, which does not exist"));
 }
 
 TEST_F(DatasetGrammar, a_string_may_hold_anything_or_nothing) {

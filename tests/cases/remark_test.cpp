@@ -31,6 +31,8 @@ const std::vector<Remark>& table() {
        SLIDER(BODY) "DIFF/1, IMPLICIT, IC=0.3, FUNCTION=DIF1(1)+DIF1(2)+2*DIF(1)\nDIFF/2, IMPLICIT, IC=3, "
                     "FUNCTION=2*DIF1(1)+2*DIF1(2)+DIF(1)-2*DIF(2)\nEND\n",
        "LINEAR/EIGENSOL\n"},
+      {"joint-in-stiction", 8, SLIDER(BODY) "FRICTION/1, JOINT=1, FRICTION_FORCE_PRELOAD=3\nEND\n",
+       "LINEAR/EIGENSOL\n"},
       {"implicit-diff", 8, SLIDER(BODY) "DIFF/1, IMPLICIT, FUNCTION=2*DIF(1)-DIF(2)\nDIFF/2, FUNCTION=-DIF(2)\nEND\n",
        "LINEAR/EIGENSOL\n"},
       {"dependent-coordinate", 0, SLIDER(BODY) "VARIABLE/1, FUNCTION=DX(20)\nPSTATE/1, VARIABLES=1\nEND\n",
@@ -130,6 +132,7 @@ TEST(RemarkTable, has_every_code_but_those_that_other_tests_hold) {
       "incomplete-modes",     // no model is known that brings it about
       "large-eigensolution",  // selected_modes_test
       "reloaded-in-part",     // save_reload_test
+      "touching-contact",     // contact_test
   };
   for (const Remark& r : table()) covered.insert(r.code);
   static constexpr std::string_view codes[] = {

@@ -128,7 +128,7 @@ TEST_F(Requests, that_cannot_be_evaluated_are_left_out_with_a_reason) {
   };
   EXPECT_THAT(reason("REQUEST/1, D, I=99"), HasSubstr("it refers to MARKER/99, which does not exist"));
   EXPECT_THAT(reason("REQUEST/1, F2=DX(20)\\F3=DX(98)"), HasSubstr("MARKER/98"));
-  EXPECT_THAT(reason("REQUEST/1, F2=CONTACT(1,0,2,0)"), HasSubstr("CONTACT"));
+  EXPECT_THAT(reason("REQUEST/1, F2=FRICTION(1,0,2,0)"), HasSubstr("FRICTION"));
   EXPECT_THAT(reason("REQUEST/1, F2=1+*2"), HasSubstr("model.adm:13:17: warning"));
   EXPECT_THAT(reason("REQUEST/1, VARIABLES=7"), HasSubstr("VARIABLE/7"));
   EXPECT_THAT(reason("REQUEST/1, COMMENT=nothing"), HasSubstr("it asks for nothing"));

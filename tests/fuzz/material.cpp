@@ -103,6 +103,18 @@ const Words facet_words = {"solid ",
                            "1 1 1.0\n",
                            "3 1 2 3\n",
                            "1E300"};
+const Words finite_element_words = {"%%MatrixMarket matrix coordinate real symmetric\n",
+                                    "general",
+                                    "*NODE\n",
+                                    "*RIGID BODY, REF NODE=",
+                                    "ROT NODE=",
+                                    "DMIG,KAAX,0,6,2,0\n",
+                                    "DMIG,MAAX,",
+                                    "GRID,",
+                                    "1 1 2.0\n",
+                                    "1.1\n",
+                                    "1.D0",
+                                    "1E300"};
 const Words spline_words = {"[B]\n", "Z 1 2 3\n", "{", "$", "#", "1E300", "-1E-300", ","};
 
 Words configuration_words() {
@@ -167,6 +179,7 @@ int main(int argc, char** argv) {
   write_dictionary(folder / "facets.dict", {facet_words});
   write_dictionary(folder / "configuration.dict", {configuration_words()});
   write_dictionary(folder / "deck.dict", {deck_words()});
+  write_dictionary(folder / "finite_elements.dict", {finite_element_words});
   write_dictionary(folder / "run.dict", {statements, expressions, commands, signs, {"\n####\n"}});
   write_inputs(folder, argv[2]);
 }

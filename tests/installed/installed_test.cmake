@@ -19,7 +19,7 @@ run("installing" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
 # The public headers and nothing else, and none of them reaches for another.
 file(GLOB_RECURSE headers ${WORK}/installed/include/*)
 foreach(header IN LISTS headers)
-  if(NOT header MATCHES "/include/dynalin/[a-z_]+\\.h$")
+  if(NOT header MATCHES "/include/dynalin/[a-z_]+\\.h(pp)?$")
     message(FATAL_ERROR "${header} is installed")
   endif()
   file(STRINGS ${header} inward REGEX "#include \"")
@@ -40,7 +40,8 @@ foreach(file IN LISTS targets)
   endif()
 endforeach()
 
-run("configuring" ${CMAKE_COMMAND} -S ${PROJECT} -B ${WORK}/build -DCMAKE_BUILD_TYPE=Release
+# The build program that is there: a bare machine has no other.
+run("configuring" ${CMAKE_COMMAND} -G ${GENERATOR} -S ${PROJECT} -B ${WORK}/build -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${WORK}/installed)
 run("building" ${CMAKE_COMMAND} --build ${WORK}/build)
 run("running" ${WORK}/build/suspension)

@@ -143,6 +143,10 @@ void Model::capture_offsets() {
     if (!of_joint) ++relation;
     if (of_joint || of_gear) row.offset = evaluate(row.function);
   }
+  for (const Friction& f : mechanism_.frictions) {
+    const auto [i, j] = joint_markers_[static_cast<std::size_t>(joint_index_.at(f.joint))];
+    friction_start_.push_back(dot(between(i, j), markers_[static_cast<std::size_t>(j)].axis[2]));
+  }
 }
 
 // The gradient of an expression by body displacements, or by body velocities for a velocity row: one variation at a

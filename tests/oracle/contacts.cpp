@@ -1,7 +1,7 @@
 // Contacts along curves, without coordinates of their own: two conditions that hold wherever the bodies are find the
 // points of contact, two distances are the constraint. PTCV: the foot of the point on the curve; how far it is across
-// the curve. CVCV: tangents that are parallel in the plane of J, and no distance along them; the distance across them,
-// and out of the plane.
+// the curve. PLCV: where the curve runs along the plane; how far it is above it. CVCV: tangents that are parallel in
+// the plane of J, and no distance along them; the distance across them, and out of the plane.
 #include <stdexcept>
 
 #include "evaluation.h"
@@ -14,7 +14,7 @@ namespace {
 // Of I, in axes of J.
 template <class T>
 struct Relative {
-  Vector3<T> p, x, y;
+  Vector3<T> p, x, y, z;
   [[nodiscard]] Vector3<T> turned(const Vector3<T>& v) const { return v.x * x + v.y * y; }
 };
 
@@ -25,8 +25,15 @@ auto relative(const View& i, const View& j) {
     out.x = dot(v, j.axis[0]), out.y = dot(v, j.axis[1]), out.z = dot(v, j.axis[2]);
     return out;
   };
-  return Relative<std::decay_t<decltype(i.p.x)>>{seen(i.p - j.p), seen(i.axis[0]), seen(i.axis[1])};
+  return Relative<std::decay_t<decltype(i.p.x)>>{seen(i.p - j.p), seen(i.axis[0]), seen(i.axis[1]), seen(i.axis[2])};
 }
+
+// Which two touch: a curve of I, its x-y plane, or its origin, and a curve of J.
+struct Touching {
+  const CurveShape* a;
+  bool plane;
+  const CurveShape& b;
+};
 
 template <class T>
 T cross_z(const Vector3<T>& a, const Vector3<T>& b) {
@@ -38,34 +45,33 @@ using Parameters = std::array<T, 2>;
 
 // From the curve of J to what touches it.
 template <class T>
-Vector3<T> gap_vector(const CurveShape* a, const CurveShape& b, const Relative<T>& I, const Parameters<T>& u) {
-  return (a != nullptr ? I.p + I.turned(a->at(u[0])) : I.p) - b.at(u[1]);
+Vector3<T> gap_vector(const Touching& t, const Relative<T>& I, const Parameters<T>& u) {
+  return (t.a != nullptr ? I.p + I.turned(t.a->at(u[0])) : I.p) - t.b.at(u[1]);
 }
 
 template <class T>
-Parameters<T> conditions(const CurveShape* a, const CurveShape& b, const Relative<T>& I, const Parameters<T>& u) {
-  const Vector3<T> d = gap_vector(a, b, I, u), s = b.at(u[1], 1);
-  if (a == nullptr) return {u[0], dot(d, s)};
-  return {cross_z(I.turned(a->at(u[0], 1)), s), d.x * s.x + d.y * s.y};
+Parameters<T> conditions(const Touching& t, const Relative<T>& I, const Parameters<T>& u) {
+  const Vector3<T> d = gap_vector(t, I, u), s = t.b.at(u[1], 1);
+  if (t.plane) return {u[0], dot(I.z, s)};
+  if (t.a == nullptr) return {u[0], dot(d, s)};
+  return {cross_z(I.turned(t.a->at(u[0], 1)), s), d.x * s.x + d.y * s.y};
 }
 
 using Slopes = std::array<std::array<Real, 2>, 2>;
 
 // Of the parameters by the conditions.
-Slopes inverse_slopes(const CurveShape* a, const CurveShape& b, const Relative<Real>& here,
-                      const Parameters<Real>& at) {
+Slopes inverse_slopes(const Touching& t, const Relative<Real>& here, const Parameters<Real>& at) {
   const auto constant = [](const Vec& v) { return Vector3<Jet>{v.x, v.y, v.z}; };
-  const Relative<Jet> still{constant(here.p), constant(here.x), constant(here.y)};
-  const auto by_u = conditions<Jet>(a, b, still, {Jet(at[0], 1, 0), Jet(at[1])});
-  const auto by_v = conditions<Jet>(a, b, still, {Jet(at[0]), Jet(at[1], 1, 0)});
+  const Relative<Jet> still{constant(here.p), constant(here.x), constant(here.y), constant(here.z)};
+  const auto by_u = conditions<Jet>(t, still, {Jet(at[0], 1, 0), Jet(at[1])});
+  const auto by_v = conditions<Jet>(t, still, {Jet(at[0]), Jet(at[1], 1, 0)});
   const Real determinant = by_u[0].d * by_v[1].d - by_v[0].d * by_u[1].d;
   return {{{by_v[1].d / determinant, -by_v[0].d / determinant}, {-by_u[1].d / determinant, by_u[0].d / determinant}}};
 }
 
 template <class T>
-Parameters<T> improved(const CurveShape* a, const CurveShape& b, const Slopes& s, const Relative<T>& I,
-                       const Parameters<T>& u) {
-  const Parameters<T> g = conditions(a, b, I, u);
+Parameters<T> improved(const Touching& t, const Slopes& s, const Relative<T>& I, const Parameters<T>& u) {
+  const Parameters<T> g = conditions(t, I, u);
   return {u[0] - T(s[0][0]) * g[0] - T(s[0][1]) * g[1], u[1] - T(s[1][0]) * g[0] - T(s[1][1]) * g[1]};
 }
 
@@ -98,7 +104,7 @@ void Model::read_contacts() {
   for (const Curve& c : mechanism_.curves) curves_.emplace(c.id, CurveShape(c, number_matrix(c.matrix)));
   for (std::size_t k = 0; k < mechanism_.contacts.size(); ++k) {
     const Contact& c = mechanism_.contacts[k];
-    ContactData data{c.two_curves, marker_index(c.i), marker_index(c.j), c.icurve, c.jcurve, {}, {}, {}};
+    ContactData data{c.two_curves, c.plane, marker_index(c.i), marker_index(c.j), c.icurve, c.jcurve, {}, {}, {}};
     const Vec along = curves_.at(c.jcurve).at<Real>(c.v, 1);
     const Vec aside = std::fabs(along.x) > std::fabs(along.z) ? Vec{0, 0, 1} : Vec{1, 0, 0};
     data.across[0] = cross(along, aside);
@@ -106,11 +112,11 @@ void Model::read_contacts() {
     data.across[1] = (1 / norm(along)) * cross(along, data.across[0]);
     contact_data_.push_back(data);
     for (const bool on_i : {false, true}) {
-      if (on_i && !c.two_curves) continue;
+      if (on_i && !c.floats_on_i()) continue;
       MarkerData& floating = marker_data_[static_cast<std::size_t>(marker_index(on_i ? c.ifloat : c.jfloat))];
-      floating.contact = static_cast<int>(k), floating.on_i = on_i;
+      floating.contact = static_cast<int>(k), floating.on_i = on_i && !c.plane;
     }
-    for (const int r : {0, 1}) {
+    for (int r = 0; r < c.equations(); ++r) {
       Row row{Row::Type::expression};
       row.function = contact_gap(static_cast<int>(k), r);
       rows.push_back(row);
@@ -121,26 +127,26 @@ void Model::read_contacts() {
 void Model::solve_contacts() {
   for (std::size_t k = 0; k < contact_data_.size(); ++k) {
     ContactData& c = contact_data_[k];
-    const CurveShape* a = c.two_curves ? &curves_.at(c.icurve) : nullptr;
-    const CurveShape& b = curves_.at(c.jcurve);
+    const Touching touching{c.two_curves ? &curves_.at(c.icurve) : nullptr, c.plane, curves_.at(c.jcurve)};
     const auto I = relative(markers_[static_cast<std::size_t>(c.i)], markers_[static_cast<std::size_t>(c.j)]);
     c.parameter = {mechanism_.contacts[k].u, mechanism_.contacts[k].v};
-    if (a == nullptr) c.parameter[0] = 0;
+    if (!c.two_curves) c.parameter[0] = 0;
     Real step = 1;
     for (int iteration = 0; iteration < 40 && step > 1e-17L; ++iteration) {
-      c.slopes = inverse_slopes(a, b, I, c.parameter);
-      const auto next = improved<Real>(a, b, c.slopes, I, c.parameter);
+      c.slopes = inverse_slopes(touching, I, c.parameter);
+      const auto next = improved<Real>(touching, c.slopes, I, c.parameter);
       step = std::fabs(next[0] - c.parameter[0]) + std::fabs(next[1] - c.parameter[1]);
       c.parameter = next;
       if (iteration > 10 && step < 1e-14L) break;
     }
     if (!(step < 1e-14L)) throw std::runtime_error("a point of contact is lost");
     for (const bool on_i : {false, true}) {
-      if (on_i && !c.two_curves) continue;
       const Contact& contact = mechanism_.contacts[k];
+      if (on_i && !contact.floats_on_i()) continue;
       MarkerMotion& floating = markers_[static_cast<std::size_t>(marker_index(on_i ? contact.ifloat : contact.jfloat))];
-      const Trihedron<Real> at = trihedron(curves_.at(on_i ? c.icurve : c.jcurve), c.parameter[on_i ? 0 : 1],
-                                           markers_[static_cast<std::size_t>(on_i ? c.i : c.j)]);
+      const bool along_i = on_i && c.two_curves;
+      const Trihedron<Real> at = trihedron(curves_.at(along_i ? c.icurve : c.jcurve), c.parameter[along_i ? 0 : 1],
+                                           markers_[static_cast<std::size_t>(along_i ? c.i : c.j)]);
       floating.p = at.p, floating.axis = at.axis;
     }
   }
@@ -155,6 +161,11 @@ bool Model::touches(std::size_t contact, int body) const {
 Vec Model::contact_point(std::size_t k) const {
   const ContactData& c = contact_data_[k];
   const MarkerMotion& i = markers_[static_cast<std::size_t>(c.i)];
+  if (c.plane) {
+    const MarkerMotion& j = markers_[static_cast<std::size_t>(c.j)];
+    const Vec at = curves_.at(c.jcurve).at(c.parameter[1]);
+    return j.p + at.x * j.axis[0] + at.y * j.axis[1] + at.z * j.axis[2];
+  }
   if (!c.two_curves) return i.p;
   const Vec at = curves_.at(c.icurve).at(c.parameter[0]);
   return i.p + at.x * i.axis[0] + at.y * i.axis[1];
@@ -178,12 +189,12 @@ std::array<T, 2> Evaluator<T>::contact_parameters(std::size_t k) const {
   const auto& c = model_.contact_data_[k];
   Parameters<T> u{T(c.parameter[0]), T(c.parameter[1])};
   if constexpr (std::is_same_v<T, Jet>) {
-    const CurveShape* a = c.two_curves ? &model_.curves_.at(c.icurve) : nullptr;
-    const CurveShape& b = model_.curves_.at(c.jcurve);
+    const Touching touching{c.two_curves ? &model_.curves_.at(c.icurve) : nullptr, c.plane,
+                            model_.curves_.at(c.jcurve)};
     const Contact& contact = model_.mechanism_.contacts[k];
     const Relative<T> I = relative(view(contact.i), view(contact.j));
     // Each step makes one more derivative exact.
-    for (int order = 0; order < 2; ++order) u = improved<T>(a, b, c.slopes, I, u);
+    for (int order = 0; order < 2; ++order) u = improved<T>(touching, c.slopes, I, u);
   }
   return u;
 }
@@ -192,18 +203,18 @@ template <class T>
 T Evaluator<T>::gap(const Node& n) const {
   const auto k = static_cast<std::size_t>(n.ids[0]);
   const auto& c = model_.contact_data_[k];
-  const CurveShape* a = c.two_curves ? &model_.curves_.at(c.icurve) : nullptr;
-  const CurveShape& b = model_.curves_.at(c.jcurve);
+  const Touching touching{c.two_curves ? &model_.curves_.at(c.icurve) : nullptr, c.plane, model_.curves_.at(c.jcurve)};
   const Contact& contact = model_.mechanism_.contacts[k];
   const Relative<T> I = relative(view(contact.i), view(contact.j));
   const Parameters<T> u = contact_parameters(k);
-  const Vector3<T> d = gap_vector(a, b, I, u);
-  if (a == nullptr) {
+  const Vector3<T> d = gap_vector(touching, I, u);
+  if (c.plane) return dot(I.z, d);
+  if (!c.two_curves) {
     const Vec& e = c.across[static_cast<std::size_t>(n.ids[1])];
     return dot(d, Vector3<T>{T(e.x), T(e.y), T(e.z)});
   }
   if (n.ids[1] == 0) return d.z;
-  const Vector3<T> s = b.at(u[1], 1);
+  const Vector3<T> s = touching.b.at(u[1], 1);
   using std::sqrt;
   return cross_z(s, d) / sqrt(s.x * s.x + s.y * s.y);
 }

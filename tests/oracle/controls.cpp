@@ -39,6 +39,11 @@ Real Model::load_value(const Node& n) const {
       if (mechanism_.sforces[k].reaction == Reaction::action_only && n.ids[1] == 1) return 0;
       return wrench_component(sforce_wrench(k), between(i, j), n.ids);
     }
+    case Op::friction: {
+      const std::size_t k = numbered(mechanism_.frictions, has_id);
+      const auto [i, j] = joint_markers_[static_cast<std::size_t>(joint_index_.at(mechanism_.frictions[k].joint))];
+      return wrench_component(friction_wrench(k), between(i, j), n.ids);
+    }
     case Op::spring: {
       const std::size_t k = numbered(mechanism_.springs, has_id);
       const auto [i, j] = spring_markers_[k];
@@ -54,8 +59,9 @@ Real Model::load_value(const Node& n) const {
     case Op::gforce:
       return wrench_component(general_wrench(numbered(mechanism_.gforces, has_id)), Vec{}, n.ids);
     case Op::contact: {
-      const std::size_t k = numbered(
-          mechanism_.contacts, [&](const Contact& c) { return c.id == n.ids[0] && c.two_curves == (n.ids[4] != 0); });
+      const std::size_t k = numbered(mechanism_.contacts, [&](const Contact& c) {
+        return c.id == n.ids[0] && !c.plane && c.two_curves == (n.ids[4] != 0);
+      });
       return wrench_component(contact_wrench(k), Vec{}, n.ids);
     }
     case Op::marker_force:
@@ -89,6 +95,10 @@ Wrench Model::net_wrench(int i_id, int j_id) const {
     const bool reacts = mechanism_.sforces[k].reaction == Reaction::on_j;
     add(sforce_markers_[k][0], sforce_markers_[k][1], sforce_wrench(k), reacts);
   }
+  for (std::size_t k = 0; k < mechanism_.frictions.size(); ++k) {
+    const auto [a, b] = joint_markers_[static_cast<std::size_t>(joint_index_.at(mechanism_.frictions[k].joint))];
+    add(a, b, friction_wrench(k), true);
+  }
   for (const LinearForce& f : mechanism_.linears) add(marker_index(f.i), marker_index(f.j), linear_wrench(f), true);
   for (std::size_t k = 0; k < mechanism_.gforces.size(); ++k) {
     // The floating marker stands at the origin of I.
@@ -100,7 +110,7 @@ Wrench Model::net_wrench(int i_id, int j_id) const {
   for (std::size_t k = 0; k < mechanism_.contacts.size(); ++k) {
     // Floating markers stand at the contact, and so does I of a PTCV.
     const Contact& c = mechanism_.contacts[k];
-    const int on_i = marker_index(c.two_curves ? c.ifloat : c.i), on_j = marker_index(c.jfloat);
+    const int on_i = marker_index(c.floats_on_i() ? c.ifloat : c.i), on_j = marker_index(c.jfloat);
     const Wrench w = contact_wrench(k);
     if (on_i == i && (j < 0 || on_j == j)) sum.f += w.f, sum.t += w.t;
     if (on_j == i && (j < 0 || on_i == j)) sum.f += -w.f, sum.t += -w.t;
@@ -232,6 +242,7 @@ std::vector<Real> Model::differential_rates() const {
   for (std::size_t k = 0; k < mechanism_.diffs.size(); ++k) {
     if (mechanism_.diffs[k].kind != DiffKind::algebraic) rates.push_back(diff_rate(k));
   }
+  for (std::size_t k = 0; k < mechanism_.frictions.size(); ++k) append(creep_rates(k));
   return rates;
 }
 

@@ -101,13 +101,15 @@ std::string curve_text(const Curve& c) {
 }
 
 std::string contact_text(const Contact& c) {
-  Statement t(c.two_curves ? "CVCV" : "PTCV", c.id);
+  Statement t(c.two_curves ? "CVCV" : c.plane ? "PLCV" : "PTCV", c.id);
   const auto start = [&](const std::string& prefix, const auto& at, int axes, const auto& speed) {
     if (at) t.set(prefix + "DISP", *at).set(prefix + "ICM", axes);
     if (speed) t.set(prefix + "VEL", *speed);
   };
   if (!c.two_curves) {
-    t.set("I", c.i).set("JFLOAT", c.jfloat).set("CURVE", c.jcurve).set("RM", c.j);
+    t.set("I", c.i);
+    if (c.plane) t.set("IFLOAT", c.ifloat);
+    t.set("JFLOAT", c.jfloat).set("CURVE", c.jcurve).set("RM", c.j);
     start("", c.at_j, c.axes_j, c.speed_j);
     return t.text();
   }
@@ -147,6 +149,41 @@ std::string sforce_text(const Sforce& s) {
   t.word(s.direction == Direction::translational ? "TRANSLATIONAL" : "ROTATIONAL");
   if (s.reaction == Reaction::action_only) t.word("ACTIONONLY");
   return t.set("I", s.i).set("J", s.j).set("FUNCTION", expression_text(s.function)).text();
+}
+
+std::string friction_text(const Mechanism& m, const Friction& f) {
+  const JointType type =
+      std::find_if(m.joints.begin(), m.joints.end(), [&](const Joint& j) { return j.id == f.joint; })->type;
+  const bool slides = type == JointType::translational, both = type == JointType::cylindrical;
+  const bool crosses = type == JointType::hooke || type == JointType::universal, ball = type == JointType::spherical;
+  Statement t("FRICTION", f.id);
+  t.set("JOINT", f.joint).set("MU_STATIC", f.mu_static).set("MU_DYNAMIC", f.mu_dynamic);
+  t.set("STICTION_TRANSITION_VELOCITY", f.velocity).set("TRANSITION_VELOCITY_COEFFICIENT", f.ratio);
+  t.set("MAX_STICTION_DEFORMATION", f.deformation);
+  if (!slides && !ball) t.set("PIN_RADIUS", f.pin);
+  if (!slides && !ball && !both) t.set("FRICTION_ARM", f.arm).set("BENDING_REACTION_ARM", f.bending);
+  if (ball) t.set("BALL_RADIUS", f.ball);
+  if (slides) t.set("REACTION_ARM", f.reaction);
+  if (slides || both) {
+    t.set("INITIAL_OVERLAP", f.overlap).set("FRICTION_FORCE_PRELOAD", f.force_preload);
+    t.set("OVERLAP_DELTA", std::string(f.delta == 0 ? "CONSTANT" : f.delta > 0 ? "INCREASE" : "DECREASE"));
+  }
+  if (!slides) t.set("FRICTION_TORQUE_PRELOAD", f.torque_preload);
+  if (f.lugre) {
+    t.set("FORMULATION", std::string("LUGRE")).set("BRISTLE_STIFFNESS_COEFFICIENT", f.bristles);
+    t.set("DAMPING_COEFFICIENT", f.bristle_damping).set("VISCOUS_FRICTION_COEFFICIENT", f.viscosity);
+  }
+  if (f.effect != 0) t.set("EFFECT", std::string(f.effect == 1 ? "STICTION" : "SLIDING"));
+  if (f.inputs != 15) {
+    constexpr const char* names[] = {"REACTION_FORCE", "BENDING_MOMENT", "TORSIONAL_MOMENT", "PRELOAD"};
+    std::string words;
+    for (int k = 0; k < 4; ++k) {
+      if ((f.inputs >> k & 1) != 0) words += (words.empty() ? "" : ":") + std::string(names[k]);
+    }
+    t.set("INPUTS", words.empty() ? "NONE" : words);
+  }
+  if (crosses && f.on_j) t.word("J_YOKE");
+  return t.text();
 }
 
 std::string linear_text(const LinearForce& f) {
@@ -206,6 +243,16 @@ std::string nforce_text(const Nforce& f) {
   t.set("IMARKERS", integers(f.i)).set("J", f.j).set("KMATRIX", f.k).set("CMATRIX", f.c);
   if (f.ratio != 0) t.set("CRATIO", f.ratio);
   return t.set("LENGTH", f.length).set("FORCE", f.force).text();
+}
+
+std::string cable_text(const Cable& f) {
+  Statement t("CABLE", f.id);
+  return t.set("MARKERS", integers(f.markers))
+      .set("K", f.k)
+      .set("C", f.c)
+      .set("LENGTH", f.length)
+      .set("FORCE", f.force)
+      .text();
 }
 
 std::string diff_text(const Diff& d) {
@@ -340,8 +387,10 @@ std::string dataset_text(const Mechanism& m) {
   for (const Motion& k : m.motions) text += motion_text(m, k);
   for (const SpringDamper& s : m.springs) text += spring_text(s);
   for (const Sforce& s : m.sforces) text += sforce_text(s);
+  for (const Friction& f : m.frictions) text += friction_text(m, f);
   for (const LinearForce& f : m.linears) text += linear_text(f);
   for (const Nforce& f : m.nforces) text += nforce_text(f);
+  for (const Cable& f : m.cables) text += cable_text(f);
   for (const GeneralForce& f : m.gforces) text += gforce_text(f);
   return text + controls_text(m) + "END\n";
 }

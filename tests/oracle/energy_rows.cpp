@@ -30,6 +30,13 @@ std::vector<ForceLoad> Model::force_loads() const {
           {"NFORCE", f.id, f.i[m], marker_index(f.i[m]), marker_index(f.j), wrenches[m], Taker::body_at_i, true, true});
     }
   }
+  for (const Cable& f : mechanism_.cables) {
+    const std::vector<Wrench> wrenches = cable_wrenches(f);
+    for (std::size_t m = 1; m < f.markers.size(); ++m) {
+      all.push_back({"CABLE", f.id, f.markers[m], marker_index(f.markers[m]), marker_index(f.markers[m - 1]),
+                     wrenches[m - 1], Taker::body_at_j, true, false});
+    }
+  }
   for (std::size_t k = 0; k < mechanism_.sforces.size(); ++k) {
     const Sforce& s = mechanism_.sforces[k];
     const bool turns = s.direction == Direction::rotational;
@@ -43,6 +50,13 @@ std::vector<ForceLoad> Model::force_loads() const {
     const bool turns = mechanism_.springs[k].direction == Direction::rotational;
     all.push_back({"SPRINGDAMPER", mechanism_.springs[k].id, 0, spring_markers_[k][0], spring_markers_[k][1],
                    spring_wrench(k), turns ? Taker::body_at_i : Taker::body_at_j, !turns, turns});
+  }
+  for (std::size_t k = 0; k < mechanism_.frictions.size(); ++k) {
+    const auto joint = static_cast<std::size_t>(joint_index_.at(mechanism_.frictions[k].joint));
+    const JointType type = mechanism_.joints[joint].type;
+    const bool slides = type == JointType::translational, both = type == JointType::cylindrical;
+    all.push_back({"FRICTION", mechanism_.frictions[k].id, 0, joint_markers_[joint][0], joint_markers_[joint][1],
+                   friction_wrench(k), Taker::body_at_i, slides || both, !slides});
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const ForceLoad& a, const ForceLoad& b) { return a.statement < b.statement; });

@@ -119,6 +119,9 @@ Expr motion_reaction(int id, int jflag, int component, int rm) {
   return make(Op::motion, {}, {id, jflag, component, rm});
 }
 Expr sforce_load(int id, int jflag, int component, int rm) { return make(Op::sforce, {}, {id, jflag, component, rm}); }
+Expr friction_load(int id, int jflag, int component, int rm) {
+  return make(Op::friction, {}, {id, jflag, component, rm});
+}
 Expr spring_load(int id, int jflag, int component, int rm) { return make(Op::spring, {}, {id, jflag, component, rm}); }
 Expr linear_load(LinearKind kind, int id, int jflag, int component, int rm) {
   return make(Op::linear, {}, {id, jflag, component, rm, static_cast<int>(kind)});
@@ -207,6 +210,8 @@ std::string expression_text(const Expr& expression) {
       return with_ids("MOTION", 4);
     case Op::sforce:
       return with_ids("SFORCE", 4);
+    case Op::friction:
+      return with_ids("FRICTION", 4);
     case Op::spring:
       return with_ids("SPDP", 4);
     case Op::linear:

@@ -196,6 +196,35 @@ void Model::apply_nforces(std::vector<Wrench>& loads) const {
   }
 }
 
+Real Model::cable_tension(const Cable& f) const {
+  Real tension = f.force - f.k * f.length;
+  for (std::size_t m = 1; m < f.markers.size(); ++m) {
+    const Pair span = line_of_sight(marker_index(f.markers[m]), marker_index(f.markers[m - 1]));
+    tension += f.k * span.distance + f.c * span.rate;
+  }
+  return tension;
+}
+
+std::vector<Wrench> Model::cable_wrenches(const Cable& f) const {
+  const Real tension = std::max<Real>(0, cable_tension(f));
+  std::vector<Wrench> wrenches;
+  for (std::size_t m = 1; m < f.markers.size(); ++m)
+    wrenches.push_back({-tension * line_of_sight(marker_index(f.markers[m]), marker_index(f.markers[m - 1])).e, Vec{}});
+  return wrenches;
+}
+
+void Model::apply_cables(std::vector<Wrench>& loads) const {
+  for (const Cable& f : mechanism_.cables) {
+    const std::vector<Wrench> wrenches = cable_wrenches(f);
+    for (std::size_t m = 1; m < f.markers.size(); ++m) {
+      for (const auto& [marker, sign] : {std::pair(f.markers[m], 1), std::pair(f.markers[m - 1], -1)}) {
+        const int at = marker_index(marker);
+        apply(loads, at, markers_[static_cast<std::size_t>(at)].p, wrenches[m - 1], sign);
+      }
+    }
+  }
+}
+
 Wrench Model::general_wrench(std::size_t k) const {
   const MarkerMotion& rm = markers_[static_cast<std::size_t>(marker_index(mechanism_.gforces[k].rm))];
   Wrench out;
@@ -276,6 +305,8 @@ std::vector<Real> Model::algebra_residual() const {
   apply_sforces(loads);
   apply_linears(loads);
   apply_nforces(loads);
+  apply_cables(loads);
+  apply_frictions(loads);
   for (const int k : active) apply_row(loads, rows[static_cast<std::size_t>(k)], lambda[static_cast<std::size_t>(k)]);
   const Vec g = to_vec(mechanism_.gravity);
   const Real ucf = mechanism_.ucf;

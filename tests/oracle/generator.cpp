@@ -171,7 +171,8 @@ int Draw::mobility() const {
     count += b.ref.kind == BodyKind::part ? 6 : (b.ref.kind == BodyKind::point_mass ? 3 : 0);
   }
   for (const Joint& j : m_.joints) count -= equations_of(j.type);
-  count -= static_cast<int>(m_.couplers.size() + m_.gears.size() + m_.gcons.size() + 2 * m_.contacts.size());
+  for (const Contact& c : m_.contacts) count -= c.equations();
+  count -= static_cast<int>(m_.couplers.size() + m_.gears.size() + m_.gcons.size());
   return count - static_cast<int>(m_.motions.size());
 }
 
@@ -297,6 +298,7 @@ Mechanism Draw::mechanism() {
   draw_couplers();
   draw_gears();
   draw_contacts();
+  if (whole_language_) draw_planes();
   draw_motions();
   draw_measure_markers();
   draw_position_gcon();
@@ -308,11 +310,14 @@ Mechanism Draw::mechanism() {
   draw_springs();
   draw_linear_forces();
   draw_nforces();
+  if (whole_language_) draw_cable();
   draw_controls();
   draw_sforces();
   draw_general_forces();
   draw_outputs();
   check();
+  draw_frictions();
+  if (!m_.frictions.empty()) check();
   return m_;
 }
 

@@ -23,8 +23,11 @@ class Draw {
  public:
   Draw(std::uint64_t seed, std::uint64_t attempt)
       : random_(seed * 1000003U + attempt * 7919U + 17U),
+        friction_random_(seed * 7368787U + attempt * 104729U + 5U),
         wanted_loops_(seed % 10 == 0 ? 2 : (seed % 5 < 2 ? 1 : 0)),
-        wanted_motions_(seed % 3 == 0 ? 1 : 0) {}
+        wanted_motions_(seed % 3 == 0 ? 1 : 0),
+        whole_language_(seed > 200),
+        may_rub_(seed % 2 == 0) {}
   [[nodiscard]] Mechanism mechanism();
 
  private:
@@ -51,6 +54,8 @@ class Draw {
   int draw_curve(bool plane);
   void draw_contacts();
   void place_contact(const BodyRef& i_body, const BodyRef& j_body, bool two_curves);
+  void draw_planes();
+  void place_plane(const BodyRef& i_body, const BodyRef& j_body);
   void draw_contact_starts();
   void draw_motions();
   void draw_position_gcon();
@@ -61,6 +66,7 @@ class Draw {
   void draw_springs();
   void draw_linear_forces();
   void draw_nforces();
+  void draw_cable();
   void draw_general_forces();
   void draw_controls();
   void draw_differential_elements();
@@ -68,6 +74,8 @@ class Draw {
   void draw_algebraic_diffs();
   void draw_sforces();
   void draw_outputs();
+  void draw_frictions();
+  void check_frictions(const Model& model) const;
   void check_structure() const;
   void check() const;
   void check_nodes(const Model& model, const Expr& e) const;
@@ -116,9 +124,12 @@ class Draw {
     return next_variable_++;
   }
 
-  std::mt19937_64 random_;
+  // Frictions have numbers of their own: what else a seed draws is what it was before there were any.
+  std::mt19937_64 random_, friction_random_;
   // Rejection starves loops and motions; some seeds insist on them.
   int wanted_loops_ = 0, wanted_motions_ = 0;
+  bool whole_language_ = false;  // the first 200 stay as they were drawn when there were fewer elements
+  bool may_rub_ = false;         // every second seed
   Mechanism m_;
   double L_ = 1, F_ = 10;  // natural length and force
   std::vector<BodyRef> bodies_{ground};

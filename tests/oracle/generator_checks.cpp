@@ -161,6 +161,7 @@ void Draw::check() const {
   for (const BodyMotion& b : model.motion) {
     if (norm(b.al) > 150 || norm(b.a) > 150 * L_) throw std::runtime_error("a body accelerates too fast");
   }
+  check_frictions(model);
   for (const Row& row : model.rows) {
     if (row.type == Row::Type::expression) check_nodes(model, row.function);
   }
@@ -174,6 +175,9 @@ void Draw::check() const {
   }
   for (const LinearForce& f : m_.linears) {
     for (const Measure a : {Measure::AX, Measure::AY, Measure::AZ}) check_nodes(model, measure(a, {f.i, f.j}));
+  }
+  for (const Cable& f : m_.cables) {
+    if (model.cable_tension(f) < 0.05L * F_) throw std::runtime_error("a cable is slack or nearly so");
   }
   for (const Nforce& f : m_.nforces) {
     for (const int i : f.i) {

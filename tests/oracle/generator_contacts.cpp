@@ -142,6 +142,54 @@ void Draw::draw_contacts() {
   }
 }
 
+void Draw::draw_planes() {
+  for (int attempt = 0; attempt < 20 && mobility() > 2; ++attempt) {
+    const BodyRef a = one_of(bodies_), b = one_of(bodies_);
+    if (a == b || a.kind == BodyKind::point_mass || b.kind == BodyKind::point_mass) continue;
+    const Mechanism before = m_;
+    const int marker = next_marker_, matrix = next_matrix_;
+    try {
+      return place_plane(a, b);
+    } catch (const std::runtime_error&) {
+      m_ = before;
+      next_marker_ = marker, next_matrix_ = matrix;
+    }
+  }
+}
+
+// A plane along the tangent anywhere on the curve, which bends away from it.
+void Draw::place_plane(const BodyRef& i_body, const BodyRef& j_body) {
+  Contact c;
+  c.id = static_cast<int>(m_.contacts.size()) + 1;
+  c.plane = true;
+  c.v = uniform(-0.9, 0.9);
+  const Vec at = 0.5L * (to_vec(body(i_body).qg) + to_vec(body(j_body).qg)) + box(0.4 * L_);
+  c.jcurve = draw_curve(false);
+  const CurveShape b = shape_of(m_, c.jcurve);
+  Frame J{at, orientation()};
+  J.p = at - J.R * b.at<Real>(c.v);
+  const Vec s = b.at<Real>(c.v, 1), s2 = b.at<Real>(c.v, 2);
+  const Vec x = (1 / norm(s)) * s;
+  const Vec drawn = box(1), aside = drawn - dot(drawn, x) * x;
+  const Vec z = (1 / norm(aside)) * aside;
+  if (!(b.clearance(c.v) > 0.05L && norm(s) > 0.4L * L_ && norm(s2) < 6 * L_) || std::fabs(dot(z, s2)) < 0.4L * L_) {
+    throw std::runtime_error("the contact is near a knot or hardly determined");
+  }
+  const Mat R = J.R * Mat{{x, cross(z, x), z}};
+  const Frame I{at + uniform(-0.5, 0.5) * L_ * R.column[0] + uniform(-0.5, 0.5) * L_ * R.column[1],
+                R * rotation_313(uniform(-3, 3), 0, 0)};
+  c.i = add_marker(i_body, I), c.j = add_marker(j_body, J);
+  for (const auto& [body, marker] : {std::pair(i_body, &c.ifloat), std::pair(j_body, &c.jfloat)}) {
+    Marker floating;
+    floating.id = *marker = next_marker_++;
+    floating.body = body;
+    floating.floating = true;
+    m_.markers.push_back(floating);
+  }
+  m_.contacts.push_back(c);
+  if (norm(cross(s, s2)) > 0.4L * std::pow(norm(s), 3.0L) / L_) floating_.push_back(c.jfloat);
+}
+
 // Some contacts are stated where they are, in the axes of the curve or of another marker, and as fast as they are.
 void Draw::draw_contact_starts() {
   const Mechanism drawn = m_;

@@ -113,6 +113,29 @@ void Draw::draw_nforces() {
   m_.nforces.push_back(f);
 }
 
+// The markers serve it alone; two that follow each other may be on one body.
+void Draw::draw_cable() {
+  Cable f;
+  f.id = 1;
+  const std::size_t n = 2 + static_cast<std::size_t>(pick(4));
+  double length = 0;
+  Vec last;
+  for (std::size_t k = 0; k < n; ++k) {
+    const BodyRef on = one_of(bodies_);
+    const Vec at = to_vec(body(on).qg) + (on.kind == BodyKind::point_mass ? Vec{} : box(0.6 * L_));
+    f.markers.push_back(add_marker(on, {at, orientation()}));
+    if (k > 0) length += static_cast<double>(norm(at - last));
+    last = at;
+  }
+  const bool joins =
+      std::any_of(f.markers.begin(), f.markers.end(), [&](int m) { return body_of(m) != body_of(f.markers.front()); });
+  f.k = F_ / L_ * uniform(0.3, 4);
+  f.c = F_ / L_ * uniform(0, 0.3);
+  f.length = length * uniform(0.7, 1);
+  f.force = F_ * uniform(0.2, 1.5);
+  if (joins) m_.cables.push_back(f);
+}
+
 void Draw::draw_general_forces() {
   if (!chance(0.4)) return;
   GeneralForce f;

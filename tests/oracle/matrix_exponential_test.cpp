@@ -195,7 +195,13 @@ void expect_small(std::shared_ptr<const System> system, OperatingPoint at, int& 
     return;
   }
   ++compared;
-  EXPECT_LE(*left, tolerance);
+  if (*left <= tolerance) return;
+  // Bristles that are near their end bend within a few millionths of a turn: a difference of first order would stay.
+  const auto half = p.discrepancy(0.5 * small_change), quarter = p.discrepancy(0.25 * small_change);
+  ASSERT_TRUE(half && quarter) << p.failure;
+  EXPECT_LE(*half, 0.35 * *left);
+  EXPECT_LE(*quarter, 0.35 * *half);
+  EXPECT_LE(*quarter, tolerance);
 }
 
 TEST(MatrixExponential, is_what_perturbed_motions_of_shipped_models_are_to_first_order) {

@@ -97,18 +97,22 @@ struct Curve {
   bool closed = false, controls = false;
   int order = 4;
 };
-// Of a curve on marker j and the origin of marker i (PTCV), or of another curve on marker i (CVCV), in their x-y
-// planes.
+// Of a curve on marker j and the origin of marker i (PTCV), the x-y plane of marker i (PLCV), or another curve on
+// marker i (CVCV), in their x-y planes.
 struct Contact {
   int id = 0;
   bool two_curves = false;
   int i = 0, j = 0;
   int ifloat = 0, jfloat = 0;            // PTCV: the latter alone
-  int icurve = 0, jcurve = 0;            // PTCV: the latter alone
+  int icurve = 0, jcurve = 0;            // but for CVCV the latter alone
   double u = 0, v = 0;                   // near the parameters of the contact on i and on j; not written
   std::optional<Triple> at_i{}, at_j{};  // IDISP, and JDISP or DISP
   int axes_i = 0, axes_j = 0;            // IICM, and JICM or ICM
   std::optional<double> speed_i{}, speed_j{};
+  bool plane = false;
+
+  [[nodiscard]] bool floats_on_i() const { return two_curves || plane; }
+  [[nodiscard]] int equations() const { return plane ? 1 : 2; }
 };
 
 // c0 + c1 t + c2 t^2 + c3 t^3 + amplitude sin(frequency t + phase)
@@ -159,6 +163,12 @@ struct Nforce {
   int k = 0, c = 0, length = 0, force = 0;
   double ratio = 0;  // CRATIO
 };
+// One tension force + k (L - length) + c L' along markers, L the sum of their distances.
+struct Cable {
+  int id = 0;
+  std::vector<int> markers;
+  double k = 0, c = 0, length = 0, force = 0;
+};
 // Six components on I in the axes of RM; a component without expression is zero.
 struct GeneralForce {
   int id = 0, i = 0, jfloat = 0, rm = 0;
@@ -167,6 +177,19 @@ struct GeneralForce {
 
 // Which statement it is written as: 1, without torques, is a VFORCE, 2, without forces, a VTORQUE, 0 a GFORCE.
 [[nodiscard]] int general_statement(const GeneralForce& force);
+
+// In a joint. effect: 1 stiction, 2 sliding, 0 both; inputs: 1 force, 2 bending, 4 torsion, 8 preload; delta: how the
+// overlap goes with displacement.
+struct Friction {
+  int id = 0, joint = 0;
+  double mu_static = 0.3, mu_dynamic = 0.2, velocity = 1, ratio = 1.5, deformation = 1;
+  double pin = 1, arm = 1, bending = 1, ball = 1, reaction = 1, overlap = 1000;
+  double force_preload = 0, torque_preload = 0;
+  int delta = 0, effect = 0, inputs = 15;
+  bool on_j = false;  // the bar of the cross
+  bool lugre = false;
+  double bristles = 1, bristle_damping = 0, viscosity = 0;
+};
 
 struct Variable {
   int id = 0;
@@ -229,7 +252,9 @@ struct Mechanism {
   std::vector<Sforce> sforces;
   std::vector<LinearForce> linears;
   std::vector<Nforce> nforces;
+  std::vector<Cable> cables;
   std::vector<GeneralForce> gforces;
+  std::vector<Friction> frictions;
   std::vector<SplinePoints> splines;
   std::vector<Variable> variables;
   std::vector<Diff> diffs;
@@ -256,7 +281,7 @@ struct Features {
   bool algebraic_loop = false, separate_im = false, units_factor = false;
   bool deep_reaction = false;  // a force reads a reaction through at least three VARVALs in a row
   int velocity_constraints = 0, algebraic_diffs = 0;
-  int points_on_curves = 0, curves_on_curves = 0;
+  int points_on_curves = 0, curves_on_curves = 0, planes_on_curves = 0;
 };
 [[nodiscard]] Features features_of(const Mechanism& mechanism);
 

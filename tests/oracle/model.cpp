@@ -170,6 +170,13 @@ void Model::read_controls() {
     diff_index_[diff.id] = k;
     if (diff.kind != DiffKind::algebraic) slots.push_back({ElementClass::diff, diff.id, 1});
   }
+  for (const Friction& f : mechanism_.frictions) {
+    friction_slot_.push_back(slots.size());
+    const int count =
+        f.effect == 2 ? 0
+                      : surface_directions(mechanism_.joints[static_cast<std::size_t>(joint_index_.at(f.joint))].type);
+    for (int k = 1; k <= count; ++k) slots.push_back({ElementClass::friction, f.id, k});
+  }
   algebraic_values.assign(mechanism_.diffs.size(), 0);
   algebraic_rates.assign(mechanism_.diffs.size(), 0);
   z.assign(slots.size(), 0);

@@ -128,7 +128,17 @@ class Model {
   // All force elements, statement by statement in alphabetical order.
   [[nodiscard]] std::vector<ForceLoad> force_loads() const;
   [[nodiscard]] Real evaluate(const Expr& expression) const;
+  // A direction in which the surfaces of a friction slip, and the lever of what rubs along it.
+  struct Slip {
+    Vec axis;
+    bool turns = false;
+    Real lever = 1, speed = 0;
+  };
+  [[nodiscard]] std::vector<Slip> slips(const Friction& friction) const;
+  // Sizes of the reaction: force across and along the axis, moment across and along it.
+  [[nodiscard]] std::array<Real, 4> pressing(const Friction& friction) const;
   [[nodiscard]] Vec contact_point(std::size_t k) const;
+  [[nodiscard]] Real cable_tension(const Cable& f) const;
   // Where on the curves of i and of j the search for the point of contact begins from now on.
   void look_for_contact_at(std::size_t k, double u, double v) {
     mechanism_.contacts[k].u = u, mechanism_.contacts[k].v = v;
@@ -179,12 +189,18 @@ class Model {
   void apply_sforces(std::vector<Wrench>& loads) const;
   void apply_linears(std::vector<Wrench>& loads) const;
   void apply_nforces(std::vector<Wrench>& loads) const;
+  void apply_cables(std::vector<Wrench>& loads) const;
+  void apply_frictions(std::vector<Wrench>& loads) const;
   // Wrenches on I, torque about p_I.
   [[nodiscard]] Wrench spring_wrench(std::size_t k) const;
   [[nodiscard]] Wrench sforce_wrench(std::size_t k) const;
   [[nodiscard]] Wrench linear_wrench(const LinearForce& f) const;
   [[nodiscard]] std::vector<Wrench> nforce_wrenches(const Nforce& f) const;  // on each marker
+  // On the second marker of each span.
+  [[nodiscard]] std::vector<Wrench> cable_wrenches(const Cable& f) const;
   [[nodiscard]] Wrench general_wrench(std::size_t k) const;
+  [[nodiscard]] Wrench friction_wrench(std::size_t k) const;
+  [[nodiscard]] std::vector<Real> creep_rates(std::size_t k) const;
   [[nodiscard]] Wrench joint_wrench(int joint) const;
   [[nodiscard]] Wrench motion_wrench(int motion) const;
   [[nodiscard]] Wrench contact_wrench(std::size_t k) const;  // torque about the point of contact
@@ -213,10 +229,11 @@ class Model {
   std::map<int, int> marker_index_, variable_index_, sforce_index_, joint_index_, array_index_, gforce_index_;
   std::map<int, std::size_t> diff_index_;
   std::vector<std::array<int, 2>> spring_markers_, sforce_markers_, joint_markers_;
-  std::vector<std::size_t> tfsiso_slot_, lse_slot_, diff_slot_;
-  bool has_expressions_ = false;  // among the rows
+  std::vector<std::size_t> tfsiso_slot_, lse_slot_, diff_slot_, friction_slot_;
+  std::vector<Real> friction_start_;  // displacement along z of J as drawn
+  bool has_expressions_ = false;      // among the rows
   struct ContactData {
-    bool two_curves = false;
+    bool two_curves = false, plane = false;
     int i = 0, j = 0;             // marker indices
     int icurve = 0, jcurve = 0;   // ids
     std::array<Vec, 2> across{};  // of PTCV: normal to the curve where it was drawn, axes of j
@@ -227,6 +244,11 @@ class Model {
   std::map<int, CurveShape> curves_;
   std::vector<ContactData> contact_data_;
 };
+
+// In how many directions the surfaces of a joint slip.
+[[nodiscard]] constexpr int surface_directions(JointType type) {
+  return type == JointType::spherical ? 3 : type == JointType::cylindrical ? 2 : 1;
+}
 
 // f, f' and f'' of a motion.
 [[nodiscard]] std::array<Real, 3> motion_values(const TimeFunction& f, Real t);

@@ -19,7 +19,7 @@ namespace dynalin::oracle {
 
 using Matrix = std::vector<std::vector<double>>;
 
-enum class ElementClass { lse = 2, tfsiso = 3, diff = 5 };  // the type codes of STATES
+enum class ElementClass { lse = 2, tfsiso = 3, diff = 5, friction = 102 };  // the type codes of STATES
 
 struct ChosenState {
   enum class Kind { coordinate, rate, differential };

@@ -32,7 +32,7 @@ template <class Number = Real, class As = std::identity>
 Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> state_matrix(const PerturbationEquations& p, As&& as = {}) {
   using std::abs;
   using Dense = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>;
-  const ColumnMatrix& S = p.pencil();
+  const ColumnMatrix& S = p.products();
   const Eigen::Index N = p.unknowns(), n = p.states(), m = N - n;
   Dense M = Dense::Zero(N, N);
   for_each_entry(S, [&](std::int32_t r, std::int32_t c, double v) { M(r, c) += Number(as(v)); });

@@ -1,9 +1,14 @@
-// MARKER/id, {PART= | POINT_MASS=}, QP=, {REULER= | ZP=, XP= [, USEXP]}, FLOATING, RM=
+// MARKER/id, {PART= | POINT_MASS= | FLEX_BODY=, NODE_ID=}, QP=, {REULER= | ZP=, XP= [, USEXP]}, FLOATING, RM=
 //
 // A point with axes on a body. QP is its origin and REULER (3-1-3) or the points ZP, XP its axes, all in the body
-// coordinate system, or in the frame of marker RM. Without an owner it belongs to the body stated before it.
+// coordinate system, or in the frame of marker RM. Without an owner it belongs to the body stated before it. On a
+// flexible body it is carried by a node, from which QP counts.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <tuple>
+
+#include "elements/bodies/flex_body.h"
 #include "elements/families/orientation.h"
 #include "model/model.h"
 #include "model/schema.h"
@@ -13,20 +18,30 @@ namespace dynalin {
 namespace {
 
 struct MarkerStatement {
-  BodyId part, point_mass;
+  BodyId part, point_mass, flex_body;
+  std::optional<std::int64_t> node;
   Vector origin;
   std::optional<Vector> angles, z_point, x_point;
   bool use_x_point = false, floating = false;
   MarkerId reference;
   BodyId owner;
+  Span node_at;
   Matrix3 axes = Matrix3::identity();
 
-  static constexpr std::array<Argument<MarkerStatement>, 9> arguments = {{
-      {.name = "PART", .slot = &MarkerStatement::part, .help = "the part it belongs to", .ends = "POINT_MASS"},
+  static constexpr std::array<Argument<MarkerStatement>, 11> arguments = {{
+      {.name = "PART",
+       .slot = &MarkerStatement::part,
+       .help = "the part it belongs to",
+       .ends = "POINT_MASS FLEX_BODY NODE_ID"},
       {.name = "POINT_MASS",
        .slot = &MarkerStatement::point_mass,
        .help = "the point mass it belongs to",
-       .ends = "PART"},
+       .ends = "PART FLEX_BODY NODE_ID"},
+      {.name = "FLEX_BODY",
+       .slot = &MarkerStatement::flex_body,
+       .help = "the flexible body it belongs to",
+       .ends = "PART POINT_MASS"},
+      {.name = "NODE_ID", .slot = &MarkerStatement::node, .help = "node of the flexible body that carries it"},
       {.name = "QP", .slot = &MarkerStatement::origin, .unit = unit::length, .help = "origin in the body's axes"},
       {.name = "REULER",
        .slot = &MarkerStatement::angles,
@@ -49,8 +64,7 @@ struct MarkerStatement {
 };
 
 // Arguments of the language that are known and missing here. They must not take abbreviations from the others.
-constexpr std::array<std::string_view, 6> not_built = {"FLEX_BODY", "NODE_ID", "FE_PART",
-                                                       "CURVE",     "SURFACE", "VELOCITY"};
+constexpr std::array<std::string_view, 4> not_built = {"FE_PART", "CURVE", "SURFACE", "VELOCITY"};
 
 bool names_what_is_not_built(ElementReader& reader) {
   bool found = false;
@@ -75,11 +89,14 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
   void read(std::size_t k, ElementReader& reader) override {
     MarkerStatement& m = elements[k];
     if (names_what_is_not_built(reader) || !read_arguments(m, reader)) return;
-    if (m.part.valid() && m.point_mass.valid()) {
-      reader.error("two-owners", reader.at("POINT_MASS"),
-                   fmt::format("{} belongs to a PART and to a POINT_MASS", reader.label().text()));
+    for (const auto& [one, other, both] : {std::tuple{"PART", "POINT_MASS", m.part.valid() && m.point_mass.valid()},
+                                           {"PART", "FLEX_BODY", m.part.valid() && m.flex_body.valid()},
+                                           {"POINT_MASS", "FLEX_BODY", m.point_mass.valid() && m.flex_body.valid()}}) {
+      if (!both) continue;
+      reader.error("two-owners", reader.at(other),
+                   fmt::format("{} belongs to a {} and to a {}", reader.label().text(), one, other));
     }
-    m.owner = m.part.valid() ? m.part : m.point_mass;
+    m.owner = m.part.valid() ? m.part : m.point_mass.valid() ? m.point_mass : m.flex_body;
     if (!m.owner.valid()) {
       const auto body = reader.preceding_body();
       if (!body) {
@@ -97,6 +114,7 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
       reader.error("missing-argument", reader.at("USEXP"), "USEXP needs XP");
       return;
     }
+    m.node_at = reader.at("NODE_ID");
     const auto axes =
         orientation({m.angles, m.z_point, m.x_point, m.use_x_point, "REULER", "ZP", "XP"}, m.origin, reader);
     if (axes) m.axes = *axes;
@@ -110,7 +128,10 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
       marker.floating = elements[k].floating;
       marker.place = {elements[k].owner, elements[k].origin, elements[k].axes};
     }
+    const std::vector<FlexibleBody> flexible = flexible_bodies(model);
+    for (std::size_t k = 0; k < elements.size(); ++k) put_on_node(k, flexible, model, diagnostics);
     for (std::size_t k = 0; k < elements.size(); ++k) refer(k, model, diagnostics);
+    for (std::size_t k = 0; k < elements.size(); ++k) add_shapes(k, flexible, model);
     // All that counts is in the model now.
     std::vector<MarkerStatement>().swap(elements);
     std::vector<State>().swap(state_);
@@ -120,6 +141,68 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
   enum class State : std::uint8_t { as_written, on_the_way, placed, faulty };
 
   std::size_t reference_of(std::size_t k) const { return static_cast<std::size_t>(elements[k].reference.index) - 1; }
+
+  static const FlexibleBody* owner_of(const MarkerStatement& m, const std::vector<FlexibleBody>& flexible) {
+    const auto found = std::ranges::find(flexible, m.owner, &FlexibleBody::body);
+    return found == flexible.end() ? nullptr : &*found;
+  }
+
+  // On a flexible body QP counts from the node, but for one that is placed in the frame of another marker.
+  void put_on_node(std::size_t k, const std::vector<FlexibleBody>& flexible, Model& model,
+                   Diagnostics& diagnostics) const {
+    const MarkerStatement& m = elements[k];
+    const FlexibleBody* owner = owner_of(m, flexible);
+    const std::string name = labels[k].text();
+    if (!owner) {
+      if (m.node)
+        diagnostics.error(
+            "unknown-node", m.node_at,
+            fmt::format("{} names a node, but {} is no FLEX_BODY", name, model.body(m.owner).label.text()));
+      return;
+    }
+    if (m.floating) {
+      diagnostics.error("argument-not-built", labels[k].at,
+                        fmt::format("{} floats on {}: forces act on nodes of a flexible body", name,
+                                    model.body(m.owner).label.text()));
+      return;
+    }
+    if (!m.node) {
+      diagnostics.error("missing-argument", labels[k].at,
+                        fmt::format("{} on {} needs NODE_ID", name, model.body(m.owner).label.text()),
+                        "the node of the body that carries it");
+      return;
+    }
+    const auto node = owner->flexible->node(*m.node);
+    if (!node) {
+      diagnostics.error("unknown-node", m.node_at,
+                        fmt::format("{} has no node {}", model.body(m.owner).label.text(), *m.node),
+                        owner->flexible->near_nodes(*m.node));
+      return;
+    }
+    if (!m.reference.valid()) model.markers[k + 1].place.p_BM += owner->flexible->position[*node];
+  }
+
+  void add_shapes(std::size_t k, const std::vector<FlexibleBody>& flexible, Model& model) const {
+    const MarkerStatement& m = elements[k];
+    const FlexibleBody* owner = owner_of(m, flexible);
+    const auto node = owner && m.node ? owner->flexible->node(*m.node) : std::nullopt;
+    if (!node || owner->flexible->modes() == 0) return;
+    const ModalBody& body = *owner->flexible;
+    MarkerPlace& place = model.markers[k + 1].place;
+    auto shapes = std::make_unique<NodeShapes>();
+    shapes->first = owner->first;
+    shapes->offset = place.p_BM - body.position[*node];
+    const auto row = 3 * static_cast<Eigen::Index>(*node);
+    for (Eigen::Index mode = 0; mode < body.modes(); ++mode) {
+      const auto of = [&](const Eigen::MatrixXd& x) {
+        return Vector{x(row, mode), x(row + 1, mode), x(row + 2, mode)};
+      };
+      shapes->translation.push_back(of(body.translation));
+      shapes->rotation.push_back(of(body.rotation));
+    }
+    place.shapes = shapes.get();
+    model.node_shapes.push_back(std::move(shapes));
+  }
 
   // The place in the body's axes of a marker given in the frame of another, which may be given so itself. Each is
   // placed once, however long the chain.

@@ -150,13 +150,8 @@ class CvcvSet final : public CurveContactSet<Cvcv, CurveOnCurve> {
   void read(std::size_t k, ElementReader& reader) override {
     const Cvcv& e = elements[k];
     if (!read_arguments(elements[k], reader)) return;
-    const auto needs = [&](bool given, bool has_point, std::string_view axes, std::string_view point) {
-      if (!given || has_point) return;
-      reader.error("unexpected-argument", reader.at(axes),
-                   fmt::format("{} of {} goes with {}", axes, reader.label().text(), point));
-    };
-    needs(e.iicm.valid(), e.idisp.has_value(), "IICM", "IDISP");
-    needs(e.jicm.valid(), e.jdisp.has_value(), "JICM", "JDISP");
+    check_start_point(reader, e.iicm.valid(), e.idisp.has_value(), "IICM", "IDISP");
+    check_start_point(reader, e.jicm.valid(), e.jdisp.has_value(), "JICM", "JDISP");
   }
 
   void finish(Model& model, Diagnostics& diagnostics) override {
@@ -179,7 +174,7 @@ class CvcvSet final : public CurveContactSet<Cvcv, CurveOnCurve> {
                            e.jrm,
                            e.ifloat,
                            e.jfloat,
-                           {{{e.ifloat, e.irm}, {e.jfloat, e.jrm}}},
+                           {{e.ifloat, e.irm, 0}, {e.jfloat, e.jrm, 1}},
                            start(model, e, *a, *b, element)});
     }
   }

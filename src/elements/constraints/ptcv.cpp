@@ -52,9 +52,8 @@ class PtcvSet final : public CurveContactSet<Ptcv, PointOnCurve> {
   using CurveContactSet::CurveContactSet;
 
   void read(std::size_t k, ElementReader& reader) override {
-    if (!read_arguments(elements[k], reader) || !elements[k].icm.valid() || elements[k].disp) return;
-    reader.error("unexpected-argument", reader.at("ICM"),
-                 fmt::format("ICM of {} goes with DISP", reader.label().text()));
+    if (read_arguments(elements[k], reader))
+      check_start_point(reader, elements[k].icm.valid(), elements[k].disp.has_value(), "ICM", "DISP");
   }
 
   void finish(Model& model, Diagnostics& diagnostics) override {
@@ -70,7 +69,7 @@ class PtcvSet final : public CurveContactSet<Ptcv, PointOnCurve> {
       model.markers[static_cast<std::size_t>(e.jfloat.index)].follows = e.i;
       ContactStart start{curve->shape->nearest(drawn_frame(model, e.i, e.rm).p), e.disp.has_value(), e.vel};
       if (e.disp) start.parameter = stated_parameter(model, *curve, *e.disp, e.rm, e.icm);
-      contacts_.push_back({{{curve->shape}}, e.i, e.rm, e.i, e.jfloat, {{{e.jfloat, e.rm}}}, {start}});
+      contacts_.push_back({{{curve->shape}}, e.i, e.rm, e.i, e.jfloat, {{e.jfloat, e.rm, 0}}, {start}});
     }
   }
 };

@@ -29,6 +29,13 @@ bool check_contact_marker(Model& model, const ElementLabel& label, MarkerId floa
   return true;
 }
 
+void check_start_point(ElementReader& reader, bool has_axes, bool has_point, std::string_view axes,
+                       std::string_view point) {
+  if (!has_axes || has_point) return;
+  reader.error("unexpected-argument", reader.at(axes),
+               fmt::format("{} of {} goes with {}", axes, reader.label().text(), point));
+}
+
 bool check_start_axes(const Model& model, const ElementLabel& label, MarkerId axes, std::string_view argument,
                       MarkerId own, Diagnostics& diagnostics) {
   if (!axes.valid()) return true;

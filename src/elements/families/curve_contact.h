@@ -1,4 +1,4 @@
-// Constraints with curve parameters as coordinates: PTCV and CVCV.
+// Constraints with curve parameters as coordinates: PTCV, CVCV and PLCV.
 //
 // Marker I and marker J carry what touches; the parameters u of the points of contact are coordinates of the system
 // beside those of the bodies, without inertia. A member of the family gives
@@ -50,11 +50,12 @@ struct CurveContact {
   E element;
   MarkerId i, j;              // the frames
   MarkerId touch_I, touch_J;  // the markers at the point of contact that force functions name
-  // The floating markers there, and the markers that carry their curves, one for each parameter.
+  // The floating markers there, the markers that carry the curves they run along, and their parameters.
   struct Floating {
     MarkerId marker, carrier;
+    std::size_t parameter = 0;
   };
-  std::array<Floating, m> floating;
+  std::vector<Floating> floating;
   std::array<ContactStart, m> start;
 };
 
@@ -65,6 +66,8 @@ double stated_parameter(const Model&, const Curve&, const Vector& point, MarkerI
 // either.
 bool check_contact_marker(Model&, const ElementLabel&, MarkerId floating, std::string_view argument, MarkerId own,
                           Diagnostics&);
+// Reports axes of a point at the start that is not stated.
+void check_start_point(ElementReader&, bool has_axes, bool has_point, std::string_view axes, std::string_view point);
 bool check_start_axes(const Model&, const ElementLabel&, MarkerId axes, std::string_view argument, MarkerId own,
                       Diagnostics&);
 
@@ -90,9 +93,9 @@ class CurveContactKernel final : public Kernel, public WrenchSource {
                0,
                0};
       p.first_extra = layout.extra_index(p.first_coordinate);
-      for (std::size_t a = 0; a < m; ++a) {
-        layout.curve_points.push_back({c.floating[a].marker, c.floating[a].carrier, c.element.curves[a],
-                                       p.first_coordinate + static_cast<std::int32_t>(a)});
+      for (const auto& floating : c.floating) {
+        layout.curve_points.push_back({floating.marker, floating.carrier, c.element.curves[floating.parameter],
+                                       coordinate(p, floating.parameter)});
       }
       for (std::size_t r = 0; r < n; ++r) {
         const std::int32_t row = layout.add_row(labels[k], E::row_names[r]);

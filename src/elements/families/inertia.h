@@ -23,7 +23,7 @@ namespace dynalin {
 
 class InertiaKernel final : public Kernel {
  public:
-  // All bodies of one kind in the model.
+  // All rigid bodies of one kind in the model.
   InertiaKernel(const Model&, BodyKind);
   void equations(const Motion&, Equations&) const override;
 

@@ -1,8 +1,7 @@
 // MFORCE/id, FLEX_BODY= [, JFLOAT=], {CASE_INDEX=, SCALE= | FUNCTION=USER(…) | FORCE=USER(…)}
 //
 // A load on the modal coordinates of a flexible body: column CASE_INDEX of the body's modal loads times SCALE. It acts
-// on flexible bodies alone, which this program does not have yet: the statement is read and checked, and refused by the
-// name of the body it needs.
+// on flexible bodies whose data hold such loads; files of modes hold none: the statement is read, checked and refused.
 #include <fmt/format.h>
 
 #include "model/model.h"
@@ -13,7 +12,7 @@ namespace dynalin {
 namespace {
 
 struct ModalForce {
-  FlexBodyRef body;
+  BodyId body;
   MarkerId jfloat;
   std::optional<std::int64_t> index;
   Expression scale;
@@ -43,9 +42,8 @@ class ModalForceSet final : public TypedSet<ModalForce> {
                                        : fmt::format("{} needs CASE_INDEX and SCALE", name));
       return;
     }
-    reader.error(
-        "statement-not-built", reader.at("FLEX_BODY"),
-        fmt::format("{} acts on the modal coordinates of a flexible body; FLEX_BODY is not available yet", name));
+    reader.error("statement-not-built", reader.at("CASE_INDEX"),
+                 fmt::format("{} takes a modal load of its body, and modal body files hold none", name));
   }
 };
 

@@ -1,4 +1,5 @@
-// GRAPHICS/id, type, …: a shape on a body, for the eye and for exports. It has no effect on the linear model.
+// GRAPHICS/id, type, …: a shape on a body, for the eye, for exports and for CONTACTs. Alone it has no effect on the
+// linear model.
 //
 // The types and their arguments are in types.h. Datasets of all ages write arguments of one type into another: those
 // are passed over.
@@ -23,6 +24,8 @@ class Drawing {
   virtual Shape::Origin origin() const = 0;
   virtual void check(const Model&, const ElementLabel&, Diagnostics&) const = 0;
   virtual void draw(Canvas&) const = 0;
+  virtual std::optional<ContactShape> contact_shape() const = 0;
+  virtual std::string_view type() const = 0;
 };
 
 template <class T>
@@ -37,6 +40,11 @@ class DrawingOf final : public Drawing {
     if constexpr (requires { value.check(model, label, diagnostics); }) value.check(model, label, diagnostics);
   }
   void draw(Canvas& canvas) const override { value.draw(canvas); }
+  std::optional<ContactShape> contact_shape() const override {
+    if constexpr (requires { value.contact_shape(); }) return value.contact_shape();
+    return std::nullopt;
+  }
+  std::string_view type() const override { return T::type; }
   T value;
 };
 
@@ -189,7 +197,7 @@ std::unique_ptr<Drawing> read_drawing(ElementReader& reader, std::vector<std::st
   return nullptr;
 }
 
-class GraphicsSet final : public ElementSet, public ShapeSource {
+class GraphicsSet final : public ElementSet, public ShapeSource, public ContactShapeSource {
  public:
   using ElementSet::ElementSet;
 
@@ -218,6 +226,12 @@ class GraphicsSet final : public ElementSet, public ShapeSource {
     }
   }
 
+  std::optional<ContactShape> contact_shape(std::size_t k, const Model&, std::string& why) const override {
+    if (!drawings_[k]) return std::nullopt;
+    why = fmt::format("a {}", drawings_[k]->type());
+    return drawings_[k]->contact_shape();
+  }
+
  private:
   void check_markers(std::size_t k, const Model& model, Diagnostics& diagnostics) const {
     if (!drawings_[k]) return;
@@ -240,7 +254,7 @@ class GraphicsSet final : public ElementSet, public ShapeSource {
 extern constinit const Kind graphics = {
     "GRAPHICS",
     "",
-    "A shape on a body, for the eye and for exports.",
+    "A shape on a body, for the eye, for exports and for contacts.",
     Kind::Role::inert,
     argument_list,
     [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<GraphicsSet>(kind); }};

@@ -13,6 +13,7 @@
 //
 //     static constexpr Shape::Origin origin;                                        // if no plain statement
 //     void check(const Model&, const ElementLabel&, Diagnostics&) const;            // errors that need other ones
+//     std::optional<ContactShape> contact_shape() const;                            // what CONTACTs can touch
 #pragma once
 
 #include <array>
@@ -24,6 +25,7 @@
 
 #include "elements/graphics/arguments.h"
 #include "elements/graphics/canvas.h"
+#include "geometry/contact_shape.h"
 
 namespace dynalin::drawing {
 
@@ -42,6 +44,7 @@ struct Box {
   void complete(ElementReader&);
   std::vector<MarkerId> markers() const { return {corner}; }
   void draw(Canvas&) const;
+  std::optional<ContactShape> contact_shape() const;
 };
 
 // CYLINDER, CM=, LENGTH=, RADIUS= [, RANGLE=] [, SEG=, SIDES=]: from the centre of the bottom along z, which LENGTH may
@@ -63,6 +66,7 @@ struct Cylinder {
   void complete(ElementReader&);
   std::vector<MarkerId> markers() const { return {cm}; }
   void draw(Canvas&) const;
+  std::optional<ContactShape> contact_shape() const;
 };
 
 // FRUSTUM, CM=, LENGTH=, TOP=, BOTTOM= [, RANGLE=] [, SEG=, SIDES=]: like a cylinder with two radii, one of which may
@@ -95,6 +99,7 @@ struct Frustum {
   void complete(ElementReader&);
   std::vector<MarkerId> markers() const { return {cm}; }
   void draw(Canvas&) const;
+  std::optional<ContactShape> contact_shape() const;
 };
 
 // ELLIPSOID, CM=, XSCALE=, YSCALE=, ZSCALE= [, SEG=]: whole lengths along the axes; three that are equal make a sphere.
@@ -114,6 +119,7 @@ struct Ellipsoid {
   void complete(ElementReader&);
   std::vector<MarkerId> markers() const { return {cm}; }
   void draw(Canvas&) const;
+  std::optional<ContactShape> contact_shape() const;
 };
 
 // TORUS, CM=, MAJOR_RADIUS=, MINOR_RADIUS= [, RANGLE=] [, SEG=]: about z. RMAJOR and RMINOR are other names.
@@ -140,6 +146,7 @@ struct Torus {
   void complete(ElementReader&);
   std::vector<MarkerId> markers() const { return {cm}; }
   void draw(Canvas&) const;
+  std::optional<ContactShape> contact_shape() const;
 };
 
 // CIRCLE, CM=, RADIUS= [, SEG=]: a line in the plane of x and y.
@@ -225,6 +232,7 @@ struct Plane {
   void complete(ElementReader&);
   std::vector<MarkerId> markers() const { return {rm}; }
   void draw(Canvas&) const;
+  std::optional<ContactShape> contact_shape() const;
 };
 
 // POINT, RM=
@@ -238,6 +246,7 @@ struct Point {
   void complete(ElementReader&) {}
   std::vector<MarkerId> markers() const { return {rm}; }
   void draw(Canvas&) const;
+  std::optional<ContactShape> contact_shape() const;
 };
 
 // EXTERNAL, RM=, FILE= [, ELEMENT=]: what a file of facets holds, in the axes of a marker. The file is read when

@@ -137,8 +137,9 @@ class RequestSet final : public TypedSet<Request> {
     for (const std::string_view name : column_names(RequestKind::functions))
       any_function = any_function || reader.given(name);
     if (reader.given("FUNCTION"))
-      return wrong(reader, "it calls a compiled routine, and compiled routines cannot be called here",
-                   "--user-value X puts the constant X in the place of each call");
+      return wrong(
+          reader, "it calls a compiled routine, and no library that has it is named",
+          "--user-library FILE.so names a library, --user-value X puts the constant X in the place of each call");
     if (kinds.size() + any_function + !r.variables.empty() != 1)
       return wrong(reader, kinds.empty() && !any_function && r.variables.empty()
                                ? "it asks for nothing: neither markers nor functions nor VARIABLES"

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "elements/settings/time_unit.h"
 #include "model/model.h"
 #include "model/schema.h"
 
@@ -139,6 +140,11 @@ class UnitsSet final : public TypedSet<UnitsStatement> {
 };
 
 }  // namespace
+
+double seconds_in(std::string_view unit_of_time) {
+  const auto found = std::ranges::find(time_units, unit_of_time, &UnitName::name);
+  return found == time_units.end() ? 1.0 : found->si;
+}
 
 extern constinit const Kind units = Kind{
     "UNITS",

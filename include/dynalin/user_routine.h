@@ -1,0 +1,128 @@
+/* What compiled user routines and the program say to each other. For C and C++; Fortran reaches the same without it.
+ *
+ * A routine gives the value of FUNCTION = USER(r1, ...) of a statement. It stands in a shared library, which
+ * --user-library names, or ROUTINE = library::function of the statement. What it reads of the model it asks for with
+ * the utilities below: the program must know all of it before it evaluates anything, so it calls the routine first with
+ * iflag = 1 and 3, in which utilities give zeros and note what is asked for. A routine must be a function of what it
+ * asks for, of time and of its constants, and of nothing else: no memory from call to call.
+ *
+ * Each routine may be written in two ways, which its name tells apart:
+ *
+ *     void sfosub(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+ *                 const int* iflag, double* value);                      lower case, also sfosub_ as Fortran names it
+ *     void Sfosub(const struct sAdamsSforce*, double time, int dflag, int iflag, double* value);       first letter
+ * only
+ *
+ *     statement   routine      values     between npar (or time) and the values
+ *     VARIABLE    varsub       1          dflag, iflag
+ *     SFORCE      sfosub       1          dflag, iflag
+ *     GFORCE      gfosub       6          dflag, iflag
+ *     VFORCE      vfosub       3          dflag, iflag
+ *     VTORQUE     vtosub       3          dflag, iflag
+ *     DIFF        difsub       1          dflag, iflag
+ *     MOTION      motsub       1          iord, iflag: derivative 0, 1 or 2 with respect to time
+ *     REQUEST     reqsub       8          iflag
+ *     SENSOR      sensub       1          iflag
+ *
+ * id is that of the statement, par and npar are the constants between the parentheses of USER, dflag is 1 where
+ * derivatives are wanted. iflag is 0 where the values are wanted, 1 and 3 as above.
+ */
+#ifndef DYNALIN_USER_ROUTINE_H
+#define DYNALIN_USER_ROUTINE_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What a statement says, for routines with a capital. Ids are 0 where nothing is written. */
+struct sAdamsVariable {
+  int ID, NPAR;
+  const double* PAR;
+  double IC;
+};
+struct sAdamsSforce {
+  int ID, NPAR;
+  const double* PAR;
+  int I, J, ACTION_ONLY;
+  const char* Type; /* "TRANSLATION" or "ROTATION" */
+};
+struct sAdamsGforce {
+  int ID, NPAR;
+  const double* PAR;
+  int I, RM, JFLOAT;
+};
+struct sAdamsVforce {
+  int ID, NPAR;
+  const double* PAR;
+  int I, JFLOAT, RM;
+};
+struct sAdamsVtorque {
+  int ID, NPAR;
+  const double* PAR;
+  int I, JFLOAT, RM;
+};
+struct sAdamsDiff {
+  int ID, NPAR;
+  const double* PAR;
+  int STATIC_HOLD, IMPLICIT;
+  double IC_R1, IC_R2;
+};
+/* Of these the first three members alone are filled in. */
+struct sAdamsMotion {
+  int ID, NPAR;
+  const double* PAR;
+};
+struct sAdamsRequest {
+  int ID, NPAR;
+  const double* PAR;
+};
+struct sAdamsSensor {
+  int ID, NPAR;
+  const double* PAR;
+};
+
+/* A measure of the model by the name of a function of expressions, "DX", "VR", "VARVAL", "JOINT" ..., with its
+ * arguments in ipar. errflg is 1 if there is none, or if it was not asked for when iflag was 1 or 3. */
+void c_sysfnc(const char* name, const int* ipar, int nsize, double* state, int* errflg);
+/* Several at once; nstates is how many, and states may be a null pointer for that alone. ipar in parentheses, ids of
+ * markers if nothing else is said: DISP (i, j, k) 6    TDISP (i, j, k) 3     RDISP (i, j) 3: PSI, THETA, PHI VEL (i, j,
+ * k, l) 6  TVEL (i, j, k, l) 3   RVEL (i, j, k) 3 ACC (i, j, k, l) 6  TACC (i, j, k, l) 3   RACC (i, j, k, l) 3 FORCE
+ * (i, j, k) 6   TFORCE (i, j, k) 3    RFORCE (i, j, k) 3 UVX, UVY, UVZ (i, j) 3                    DC (i, j) 9, row by
+ * row: components along the axes of j ARRAY (id)          PINPUT (id)           POUTPUT (id) */
+void c_sysary(const char* name, const int* ipar, int nsize, double* states, int* nstates, int* errflg);
+/* Whether partial derivatives are wanted, and what they are: partial[v + values * s] of value v of the routine with
+ * respect to number s of what c_sysary or c_sysfnc gives for the same name and ipar. npartial is how many; 0 arguments
+ * and the name "TIME" give those with respect to time. A routine that gives them for all that it asked for is exact;
+ * one that does not is differenced where the program is allowed to. */
+void c_adams_needs_partials(int* wanted);
+void c_syspar(const char* name, const int* ipar, int nsize, const double* partial, int npartial, int* errflg);
+/* If errflg is not 0 and endflg is "STOP": the routine has no value here, for the reason given. */
+void c_errmes(int errflg, const char* message, int id, const char* endflg);
+void c_usrmes(int msgflg, const char* message, int id, const char* endflg);
+/* Time, and which analysis is at work, as the function MODE gives it: 3 initial conditions, 4 dynamics, 5 statics,
+ * 6 quasi-statics, 7 linear. */
+void c_timget(double* time);
+void c_getmod(int* mode);
+
+/* A second entry "<routine>_derivatives" takes the place of c_syspar, and gives derivatives of any order that the
+ * program needs. dynalin/user_routine.hpp writes it by itself. */
+struct dynalin_course {
+  int id, npar;
+  const double* par;
+  int inputs;          /* time, and after it what was asked for, each number once, in the order of asking */
+  int values;          /* of the routine */
+  int order;           /* 0: values and their partial derivatives; 2: also two time derivatives of both */
+  const double* input; /* [(order + 1) * k + d]: derivative d of input k with respect to time */
+  double* value;       /* [(order + 1) * v + d] */
+  double* partial; /* [(order + 1) * (inputs * v + k) + d]: derivative d of the partial of v with respect to input k */
+};
+/* Which input c_sysfnc of the same arguments reads; for arrays the first. -1: none. Inside of that entry alone. */
+int dynalin_input(const char* name, const int* ipar, int nsize);
+/* The same of number n of what c_sysary gives. */
+int dynalin_input_of_array(const char* name, const int* ipar, int nsize, int n);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,434 @@
+// Compiled user routines written once, with all derivatives that the program needs: a formula over any scalar.
+//
+//     #include <dynalin/user_routine.hpp>
+//
+//     struct Friction {
+//       template <class T>
+//       void operator()(const dynalin::user::Call<T>& call, T* value) const {
+//         const T v = call.measure("VX", {10, 20, 20});
+//         value[0] = -call.parameter(0) * tanh(v / call.parameter(1));
+//       }
+//     };
+//     DYNALIN_USER_ROUTINE(sfosub, Friction)
+//
+// The formula is called with T = double for values, and with scalars that carry derivatives beside them. It takes
+// elementary functions without a namespace in front of them (sin, not std::sin), and compares scalars by their values.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <vector>
+
+#include "dynalin/user_routine.h"
+
+namespace dynalin::user {
+
+// Inputs that are differentiated in one pass.
+inline constexpr int pass = 8;
+
+// A number with its partial derivatives with respect to `pass` inputs.
+struct Partials {
+  double x = 0;
+  std::array<double, pass> d{};
+  Partials() = default;
+  Partials(double number) : x(number) {}  // NOLINT
+  friend Partials operator+(Partials a, const Partials& b) {
+    a.x += b.x;
+    for (int k = 0; k < pass; ++k) a.d[k] += b.d[k];
+    return a;
+  }
+  friend Partials operator*(const Partials& a, const Partials& b) {
+    Partials out(a.x * b.x);
+    for (int k = 0; k < pass; ++k) out.d[k] = a.d[k] * b.x + a.x * b.d[k];
+    return out;
+  }
+  friend double value_of(const Partials& a) { return a.x; }
+};
+inline double value_of(double a) { return a; }
+
+// A number along the motion: with its first and second time derivative, and the partial derivatives of all three.
+struct Course {
+  Partials x, x1, x2;
+  Course() = default;
+  Course(double number) : x(number) {}  // NOLINT
+  Course(const Partials& v, const Partials& v1, const Partials& v2) : x(v), x1(v1), x2(v2) {}
+  friend Course operator+(const Course& a, const Course& b) { return {a.x + b.x, a.x1 + b.x1, a.x2 + b.x2}; }
+  friend Course operator*(const Course& a, const Course& b) {
+    return {a.x * b.x, a.x1 * b.x + a.x * b.x1, a.x2 * b.x + Partials(2) * (a.x1 * b.x1) + a.x * b.x2};
+  }
+  friend double value_of(const Course& a) { return a.x.x; }
+};
+
+// f(a), of which `Function::of` gives value, slope and second derivative on any scalar.
+template <class Function>
+Partials apply(const Partials& a, const Function& function) {
+  const std::array<double, 3> f = function.of(a.x);
+  Partials out(f[0]);
+  for (int k = 0; k < pass; ++k) out.d[k] = a.d[k] == 0.0 ? 0.0 : f[1] * a.d[k];
+  return out;
+}
+template <class Function>
+Course apply(const Course& a, const Function& function) {
+  const std::array<Partials, 3> f = function.of(a.x);
+  return {f[0], f[1] * a.x1, f[2] * (a.x1 * a.x1) + f[1] * a.x2};
+}
+
+template <class T>
+concept Scalar = std::same_as<T, Partials> || std::same_as<T, Course>;
+
+namespace slopes {
+using std::cos, std::sin, std::exp, std::log, std::sqrt, std::tanh, std::atan, std::pow, std::sinh, std::cosh;
+struct Inverse {
+  template <class T>
+  std::array<T, 3> of(const T& x) const;
+};
+}  // namespace slopes
+
+template <Scalar T>
+T operator-(const T& a) {
+  return T(-1.0) * a;
+}
+template <Scalar T>
+T operator-(const T& a, const T& b) {
+  return a + T(-1.0) * b;
+}
+template <Scalar T>
+T operator+(const T& a, double b) {
+  return a + T(b);
+}
+template <Scalar T>
+T operator+(double a, const T& b) {
+  return T(a) + b;
+}
+template <Scalar T>
+T operator-(const T& a, double b) {
+  return a + T(-b);
+}
+template <Scalar T>
+T operator-(double a, const T& b) {
+  return T(a) - b;
+}
+template <Scalar T>
+T operator*(const T& a, double b) {
+  return a * T(b);
+}
+template <Scalar T>
+T operator*(double a, const T& b) {
+  return T(a) * b;
+}
+template <Scalar T>
+T operator/(const T& a, double b) {
+  return a * T(1.0 / b);
+}
+inline double inverse(double x) { return 1.0 / x; }
+template <Scalar T>
+T inverse(const T& a) {
+  return apply(a, slopes::Inverse{});
+}
+template <class T>
+std::array<T, 3> slopes::Inverse::of(const T& x) const {
+  const T i = inverse(x);
+  return {i, -(i * i), 2.0 * (i * i * i)};
+}
+template <Scalar T>
+T operator/(const T& a, const T& b) {
+  return a * inverse(b);
+}
+template <Scalar T>
+T operator/(double a, const T& b) {
+  return T(a) * inverse(b);
+}
+template <Scalar T, class B>
+T& operator+=(T& a, const B& b) {
+  return a = a + b;
+}
+template <Scalar T, class B>
+T& operator-=(T& a, const B& b) {
+  return a = a - b;
+}
+template <Scalar T, class B>
+T& operator*=(T& a, const B& b) {
+  return a = a * b;
+}
+template <Scalar T, class B>
+T& operator/=(T& a, const B& b) {
+  return a = a / b;
+}
+
+// Comparisons look at values alone.
+template <class A, class B>
+concept Compared = (Scalar<A> && (Scalar<B> || std::same_as<B, double> || std::same_as<B, int>)) ||
+                   (Scalar<B> && (std::same_as<A, double> || std::same_as<A, int>));
+template <class A, class B>
+requires Compared<A, B>
+bool operator<(const A& a, const B& b) { return value_of(a) < value_of(b); }
+template <class A, class B>
+requires Compared<A, B>
+bool operator>(const A& a, const B& b) { return value_of(a) > value_of(b); }
+template <class A, class B>
+requires Compared<A, B>
+bool operator<=(const A& a, const B& b) { return value_of(a) <= value_of(b); }
+template <class A, class B>
+requires Compared<A, B>
+bool operator>=(const A& a, const B& b) { return value_of(a) >= value_of(b); }
+
+template <Scalar T>
+T sin(const T& a);
+template <Scalar T>
+T cos(const T& a);
+template <Scalar T>
+T exp(const T& a);
+template <Scalar T>
+T log(const T& a);
+template <Scalar T>
+T sqrt(const T& a);
+template <Scalar T>
+T tanh(const T& a);
+template <Scalar T>
+T atan(const T& a);
+template <Scalar T>
+T pow(const T& a, double n);
+
+namespace slopes {
+struct Sin {
+  template <class T>
+  std::array<T, 3> of(const T& x) const {
+    const T s = sin(x), c = cos(x);
+    return {s, c, -s};
+  }
+};
+struct Cos {
+  template <class T>
+  std::array<T, 3> of(const T& x) const {
+    const T s = sin(x), c = cos(x);
+    return {c, -s, -c};
+  }
+};
+struct Exp {
+  template <class T>
+  std::array<T, 3> of(const T& x) const {
+    const T e = exp(x);
+    return {e, e, e};
+  }
+};
+struct Log {
+  template <class T>
+  std::array<T, 3> of(const T& x) const {
+    const T i = inverse(x);
+    return {log(x), i, -(i * i)};
+  }
+};
+struct Sqrt {
+  template <class T>
+  std::array<T, 3> of(const T& x) const {
+    const T r = sqrt(x), slope = 0.5 * inverse(r);
+    return {r, slope, -0.5 * (slope * inverse(x))};
+  }
+};
+struct Tanh {
+  template <class T>
+  std::array<T, 3> of(const T& x) const {
+    const T t = tanh(x), slope = 1.0 - t * t;
+    return {t, slope, -2.0 * (t * slope)};
+  }
+};
+struct Atan {
+  template <class T>
+  std::array<T, 3> of(const T& x) const {
+    const T slope = inverse(1.0 + x * x);
+    return {atan(x), slope, -2.0 * (x * (slope * slope))};
+  }
+};
+struct Pow {
+  double n;
+  template <class T>
+  std::array<T, 3> of(const T& x) const {
+    const auto term = [&](double factor, double exponent) {
+      return factor == 0.0 ? T(0.0) : factor * pow(x, exponent);
+    };
+    return {pow(x, n), term(n, n - 1), term(n * (n - 1), n - 2)};
+  }
+};
+}  // namespace slopes
+
+template <Scalar T>
+T sin(const T& a) {
+  return apply(a, slopes::Sin{});
+}
+template <Scalar T>
+T cos(const T& a) {
+  return apply(a, slopes::Cos{});
+}
+template <Scalar T>
+T tan(const T& a) {
+  return sin(a) / cos(a);
+}
+template <Scalar T>
+T exp(const T& a) {
+  return apply(a, slopes::Exp{});
+}
+template <Scalar T>
+T log(const T& a) {
+  return apply(a, slopes::Log{});
+}
+template <Scalar T>
+T sqrt(const T& a) {
+  return apply(a, slopes::Sqrt{});
+}
+template <Scalar T>
+T tanh(const T& a) {
+  return apply(a, slopes::Tanh{});
+}
+template <Scalar T>
+T atan(const T& a) {
+  return apply(a, slopes::Atan{});
+}
+template <Scalar T>
+T pow(const T& a, double n) {
+  return apply(a, slopes::Pow{n});
+}
+template <Scalar T>
+T pow(const T& a, const T& b) {
+  return exp(b * log(a));
+}
+template <Scalar T>
+T sinh(const T& a) {
+  return 0.5 * (exp(a) - exp(-a));
+}
+template <Scalar T>
+T cosh(const T& a) {
+  return 0.5 * (exp(a) + exp(-a));
+}
+template <Scalar T>
+T abs(const T& a) {
+  return value_of(a) < 0.0 ? -a : a;
+}
+template <Scalar T>
+T fabs(const T& a) {
+  return abs(a);
+}
+template <Scalar T>
+T atan2(const T& y, const T& x) {
+  // The branch from the values, the slope from the quotient that is defined here.
+  const double angle = std::atan2(value_of(y), value_of(x));
+  const T plain = std::abs(value_of(x)) > std::abs(value_of(y)) ? atan(y / x) : -atan(x / y);
+  return plain + (angle - value_of(plain));
+}
+inline double min(double a, double b) { return std::min(a, b); }
+inline double max(double a, double b) { return std::max(a, b); }
+template <Scalar T>
+T min(const T& a, const T& b) {
+  return value_of(b) < value_of(a) ? b : a;
+}
+template <Scalar T>
+T max(const T& a, const T& b) {
+  return value_of(a) < value_of(b) ? b : a;
+}
+
+// What a formula reads. All it asks for must be the same each time, whatever the values are.
+template <class T>
+class Call {
+ public:
+  Call(const dynalin_course& course, int first) : course_(&course), first_(first) {}
+  int id() const { return course_->id; }
+  double parameter(int k) const { return course_->par[k]; }
+  int parameters() const { return course_->npar; }
+  T time() const { return input(0); }
+  // As c_sysfnc gives it.
+  T measure(const char* name, std::initializer_list<int> ids) const {
+    return input(dynalin_input(name, ids.begin(), static_cast<int>(ids.size())));
+  }
+  // Number n of what c_sysary gives.
+  T measure(const char* name, std::initializer_list<int> ids, int n) const {
+    return input(dynalin_input_of_array(name, ids.begin(), static_cast<int>(ids.size()), n));
+  }
+
+ private:
+  T input(int k) const {
+    if (k < 0) return T(std::nan(""));
+    const int stride = course_->order + 1;
+    T x(course_->input[stride * k]);
+    const int seed = k - first_;
+    const bool seeded = seed >= 0 && seed < pass;
+    if constexpr (std::same_as<T, Course>) {
+      x.x1 = course_->input[stride * k + 1], x.x2 = course_->input[stride * k + 2];
+      if (seeded) x.x.d[static_cast<std::size_t>(seed)] = 1.0;
+    } else if (seeded) {
+      x.d[static_cast<std::size_t>(seed)] = 1.0;
+    }
+    return x;
+  }
+  const dynalin_course* course_;
+  int first_;
+};
+
+template <>
+class Call<double> {
+ public:
+  Call(int id, double time, const double* par, int npar) : id_(id), time_(time), par_(par), npar_(npar) {}
+  int id() const { return id_; }
+  double parameter(int k) const { return par_[k]; }
+  int parameters() const { return npar_; }
+  double time() const { return time_; }
+  double measure(const char* name, std::initializer_list<int> ids) const {
+    double state = 0;
+    int error = 0;
+    c_sysfnc(name, ids.begin(), static_cast<int>(ids.size()), &state, &error);
+    return state;
+  }
+  double measure(const char* name, std::initializer_list<int> ids, int n) const {
+    int error = 0, count = 0;
+    c_sysary(name, ids.begin(), static_cast<int>(ids.size()), nullptr, &count, &error);
+    std::vector<double> states(static_cast<std::size_t>(std::max(count, 1)));
+    c_sysary(name, ids.begin(), static_cast<int>(ids.size()), states.data(), &count, &error);
+    return n < count ? states[static_cast<std::size_t>(n)] : std::nan("");
+  }
+
+ private:
+  int id_;
+  double time_;
+  const double* par_;
+  int npar_;
+};
+
+// Fills in the values and derivatives of a course, a pass of inputs at a time.
+template <class Formula>
+void fill_course(const dynalin_course& c) {
+  const int stride = c.order + 1;
+  for (int first = 0; first < c.inputs; first += pass) {
+    const auto take = [&]<class T>(T) {
+      std::vector<T> value(static_cast<std::size_t>(c.values));
+      Formula{}(Call<T>(c, first), value.data());
+      for (int v = 0; v < c.values; ++v) {
+        const auto put = [&](const Partials& p, int d) {
+          c.value[stride * v + d] = p.x;
+          for (int k = first; k < std::min(first + pass, c.inputs); ++k)
+            c.partial[stride * (c.inputs * v + k) + d] = p.d[static_cast<std::size_t>(k - first)];
+        };
+        const T& of = value[static_cast<std::size_t>(v)];
+        if constexpr (std::same_as<T, Course>) {
+          put(of.x, 0), put(of.x1, 1), put(of.x2, 2);
+        } else {
+          put(of, 0);
+        }
+      }
+    };
+    if (c.order == 0) {
+      take(Partials());
+    } else {
+      take(Course());
+    }
+  }
+}
+
+}  // namespace dynalin::user
+
+// The routine `name` of a VARIABLE, SFORCE, GFORCE, VFORCE, VTORQUE, DIFF or MOTION, and its entry with derivatives.
+#define DYNALIN_USER_ROUTINE(name, Formula)                                                                           \
+  extern "C" void name(const int* id, const double* time, const double* par, const int* npar, const int*, const int*, \
+                       double* value) {                                                                               \
+    Formula{}(dynalin::user::Call<double>(*id, *time, par, *npar), value);                                            \
+  }                                                                                                                   \
+  extern "C" void name##_derivatives(const dynalin_course* course) { dynalin::user::fill_course<Formula>(*course); }

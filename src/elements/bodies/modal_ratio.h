@@ -1,0 +1,23 @@
+// The damping of the modes of a flexible body in parts of the critical one: CRATIO, or what holds where it is absent.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.h"
+
+namespace dynalin {
+
+// Whose damping is looked for: its modes by ascending frequency [cycles/s], and their numbers.
+struct RatioModes {
+  std::string owner;
+  std::vector<double> frequency, number;
+};
+// CRATIO as it is written at a place: a function of FXFREQ, the frequency of the mode in cycles per second, and of
+// FXMODE, its number. Reports what is not one; nothing then.
+std::optional<std::vector<double>> written_ratios(const Span&, const RatioModes&, Diagnostics&);
+// 1 % below 100 cycles per second, 10 % below 1000, 100 % above.
+double default_ratio(double frequency);
+
+}  // namespace dynalin

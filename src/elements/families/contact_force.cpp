@@ -1,0 +1,216 @@
+#include "elements/families/contact_force.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace dynalin {
+
+namespace {
+
+using Seeded = Dual<12>;
+constexpr std::size_t most_touches = 8;  // of one pair of shapes
+
+template <class T>
+RelativeFrame<T> at_instant(const RelativeFrame<TimeTaylor<T>>& f, T TimeTaylor<T>::*part) {
+  const auto pick = [&](const Vec3<TimeTaylor<T>>& v) { return Vec3<T>{v.x.*part, v.y.*part, v.z.*part}; };
+  return {pick(f.p), pick(f.x), pick(f.y), pick(f.z)};
+}
+
+template <class T, class U>
+Vec3<T> along(const RelativeFrame<T>& f, const Vec3<U>& v) {
+  return f.x * v.x + f.y * v.y + f.z * v.z;
+}
+
+// One shape seen from another, out of the first marker of I seen from that of J.
+template <class T>
+RelativeFrame<T> shape_from_shape(const RelativeFrame<T>& I, const PlacedSide& on_I, const PlacedSide& on_J) {
+  RelativeFrame<T> f = I;
+  if (!on_I.is_first) {
+    const Frame<double>& a = on_I.from_first;
+    f = {I.p + along(I, a.origin), along(I, a.axes.x), along(I, a.axes.y), along(I, a.axes.z)};
+  }
+  if (!on_J.is_first) {
+    const Frame<double>& b = on_J.from_first;
+    f = {transpose_times(b.axes, f.p - b.origin), transpose_times(b.axes, f.x), transpose_times(b.axes, f.y),
+         transpose_times(b.axes, f.z)};
+  }
+  return f;
+}
+
+// How far the balls about both shapes are apart, negative where they overlap.
+template <class T>
+double apart(const RelativeFrame<T>& f, const solid::Side& I, const solid::Side& J) {
+  const solid::Bounds a = solid::bounds(I), b = solid::bounds(J);
+  const Vec3<T> between = f.p + along(f, a.centre) - b.centre;
+  return std::hypot(value_of(between.x), value_of(between.y), value_of(between.z)) - a.radius - b.radius;
+}
+
+// visit(pair of shapes, touches of it in the axes of J's first marker): those of all pairs that may be near each other.
+// far(pair of shapes, number of its touches, at least how far apart) of all others.
+template <class T, class Visit, class Far>
+void for_each_pair(const ContactForce& c, const RelativeFrame<T>& I, const Visit& visit, const Far& far) {
+  std::array<Touch<T>, most_touches> room;
+  for (const PlacedSide& on_I : c.I) {
+    for (const PlacedSide& on_J : c.J) {
+      const RelativeFrame<T> f = shape_from_shape(I, on_I, on_J);
+      const std::span<Touch<T>> touches(room.data(), touch_count(on_I.side, on_J.side));
+      if (const double gap = apart(f, on_I.side, on_J.side); gap > 0) {
+        far(touches.size(), gap);
+        continue;
+      }
+      find_touches(on_I.side, on_J.side, f, touches);
+      if (!on_J.is_first) {
+        const Frame<double>& b = on_J.from_first;
+        for (Touch<T>& t : touches) t.normal = b.axes * t.normal, t.point = b.origin + b.axes * t.point;
+      }
+      visit(touches);
+    }
+  }
+}
+template <class T, class Visit>
+void for_each_touch(const ContactForce& c, const RelativeFrame<T>& I, const Visit& visit) {
+  for_each_pair(
+      c, I, [&](std::span<Touch<T>> touches) { std::for_each(touches.begin(), touches.end(), visit); },
+      [](std::size_t, double) {});
+}
+
+bool is_closed(const ContactForce& c, const RelativeFrame<double>& I) {
+  bool closed = false;
+  for_each_touch(c, I, [&](const Touch<double>& t) { closed = closed || t.closed(); });
+  return closed;
+}
+
+// The velocity of I's material at a point, seen from J.
+template <class T>
+Vec3<T> velocity_at(const Vec3<T>& point, const RelativeFrame<T>& I, const RelativeFrame<T>& rate) {
+  const Vec3<T> arm = point - I.p;
+  return rate.p + along(rate, Vec3<T>{dot(I.x, arm), dot(I.y, arm), dot(I.z, arm)});
+}
+
+template <class T>
+struct ForceAndTorque {
+  Vec3<T> force{T(0.0), T(0.0), T(0.0)}, torque{T(0.0), T(0.0), T(0.0)};  // on I at its origin, axes of J
+};
+
+template <class T>
+ForceAndTorque<T> contact_wrench(const ContactForce& c, const RelativeFrame<TimeTaylor<T>>& along_motion, bool rubs) {
+  const RelativeFrame<T> I = at_instant(along_motion, &TimeTaylor<T>::value);
+  const RelativeFrame<T> rate = at_instant(along_motion, &TimeTaylor<T>::rate);
+  ForceAndTorque<T> sum;
+  for_each_touch(c, I, [&](const Touch<T>& t) {
+    if (!t.closed()) return;
+    const Vec3<T> v = velocity_at(t.point, I, rate);
+    const T apart = dot(t.normal, v);
+    const T N = pressure(c.pressure, T(-t.gap), T(-apart));
+    if (!(value_of(N) > 0)) return;
+    if (!t.defined) {  // undefined_values says what it is
+      const T no(std::numeric_limits<double>::quiet_NaN());
+      sum.force = sum.torque = {no, no, no};
+      return;
+    }
+    Vec3<T> F = t.normal * N;
+    if (rubs) {
+      const Vec3<T> slip = v - t.normal * apart;
+      F -= slip * (friction_slope(*c.friction, slip) * N);
+    }
+    sum.force += F;
+    sum.torque += cross(t.point - I.p, F);
+  });
+  return sum;
+}
+
+RelativeFrame<double> plain(const PairMotion& pair) { return at_instant(pair.relative, &Taylor::value); }
+
+}  // namespace
+
+double least_gap(const ContactForce& c, const Motion& motion, const MarkerPlace& I, const MarkerPlace& J) {
+  double least = std::numeric_limits<double>::infinity();
+  for_each_touch(c, plain(pair_motion(motion, I, J)), [&](const Touch<double>& t) {
+    if (t.inside >= 0) least = std::min(least, t.gap);
+  });
+  return least;
+}
+
+ContactKernel::ContactKernel(const std::vector<ContactForce>& laws, const std::vector<ElementLabel>& labels,
+                             Layout& layout)
+    : labels_(&labels) {
+  for (const ContactForce& law : laws) forces_.push_back({&law, &layout.marker(law.i), &layout.marker(law.j)});
+}
+
+PairForce ContactKernel::force_of(const Placed& p, const PairMotion& pair, const Motion& motion, bool with_partials) {
+  const ContactForce& c = *p.law;
+  const bool at_rest = motion.mode == AnalysisMode::statics || motion.mode == AnalysisMode::quasi_statics;
+  const bool rubs = c.friction && (c.friction_in_statics || !at_rest);
+  RelativeWrench w;
+  w.depends_on_rate = true;
+  if (with_partials && is_closed(c, plain(pair))) {
+    const ForceAndTorque<Seeded> sum = contact_wrench(c, path::seeded<12>(pair.relative), rubs);
+    for (std::size_t r = 0; r < 6; ++r) {
+      const Seeded& component = r < 3 ? sum.force[r] : sum.torque[r - 3];
+      (r < 3 ? w.force[r] : w.torque[r - 3]) = component.value;
+      for (std::size_t k = 0; k < 6; ++k) {
+        w.on_pose[r][k] = component.partial[k];
+        w.on_rate[r][k] = component.partial[6 + k];
+      }
+    }
+  } else if (!with_partials) {
+    const ForceAndTorque<double> sum = contact_wrench(c, pair.relative, rubs);
+    w.force = sum.force, w.torque = sum.torque;
+  }
+  return spread(pair, w, with_partials);
+}
+
+void ContactKernel::equations(const Motion& motion, Equations& eq) const {
+  for (std::size_t k = 0; k < forces_.size(); ++k) {
+    const Placed& p = forces_[k];
+    eq.begin_element((*labels_)[k]);
+    const PairMotion pair = pair_motion(motion, *p.I, *p.J);
+    apply(pair, force_of(p, pair, motion, eq.wants_partials()), eq);
+  }
+}
+
+void ContactKernel::wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const {
+  out.pair = pair_motion(motion, *forces_[k].I, *forces_[k].J);
+  out.force = force_of(forces_[k], out.pair, motion, with_partials);
+}
+
+void ContactKernel::switches(const Motion& motion, ExpressionScratch&, SwitchList& list) const {
+  for (const Placed& p : forces_) {
+    const ContactForce& c = *p.law;
+    const PairMotion pair = pair_motion(motion, *p.I, *p.J);
+    const RelativeFrame<double> I = plain(pair), rate = at_instant(pair.relative, &Taylor::rate);
+    const auto add = [&](const Touch<double>& t) {
+      const bool closed = t.closed();
+      list.add(t.gap, t.inside >= 0);
+      list.add(closed ? pressure(c.pressure, -t.gap, -dot(t.normal, velocity_at(t.point, I, rate))) : 1.0, closed);
+      list.add(std::isfinite(t.inside) ? t.inside : 1.0, t.gap < 0);
+    };
+    for_each_pair(
+        c, I, [&](std::span<Touch<double>> touches) { std::for_each(touches.begin(), touches.end(), add); },
+        [&](std::size_t count, double gap) {
+          Touch<double> t;
+          t.gap = gap;
+          for (std::size_t k = 0; k < count; ++k) add(t);
+        });
+  }
+}
+
+void ContactKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& values) const {
+  for (std::size_t k = 0; k < forces_.size(); ++k) {
+    const Placed& p = forces_[k];
+    bool undefined = false;
+    for_each_touch(*p.law, plain(pair_motion(motion, *p.I, *p.J)),
+                   [&](const Touch<double>& t) { undefined = undefined || (t.closed() && !t.defined); });
+    if (!undefined) continue;
+    const ElementLabel& label = (*labels_)[k];
+    values.push_back({&label, fmt::format("the shapes of {} touch all around, at no place in particular: its force has "
+                                          "no one direction or place",
+                                          label.full_text())});
+  }
+}
+
+}  // namespace dynalin

@@ -1,0 +1,58 @@
+// Contact between the shapes of two bodies: where they overlap, a pressure and friction at each place
+// (families/contact_law.h, geometry/touch.h). All of it is one wrench on the marker of I's first shape, at its origin;
+// the opposite acts on J's body there. Every formula is that of the motion of one marker seen from the other, so that
+// the turning of the normal and the travel of the place of contact are in all derivatives.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "elements/families/contact_law.h"
+#include "geometry/touch.h"
+#include "mechanics/kernel.h"
+#include "model/model.h"
+
+namespace dynalin {
+
+// A shape on one of the two bodies, placed in the axes of the marker of the first one.
+struct PlacedSide {
+  solid::Side side;
+  Frame<double> from_first;
+  bool is_first = true;  // there
+};
+
+struct ContactForce {
+  MarkerId i, j;
+  std::vector<PlacedSide> I, J;
+  Pressure pressure;
+  std::optional<SlipFriction> friction;
+  bool friction_in_statics = true;
+};
+
+class ContactKernel final : public Kernel, public WrenchSource {
+ public:
+  ContactKernel(const std::vector<ContactForce>&, const std::vector<ElementLabel>&, Layout&);
+
+  void equations(const Motion&, Equations&) const override;
+  const WrenchSource* wrenches() const override { return this; }
+  MarkerId marker_I(std::size_t k) const override { return forces_[k].law->i; }
+  MarkerId marker_J(std::size_t k) const override { return forces_[k].law->j; }
+  void wrench(const Motion&, std::size_t k, bool with_partials, MarkerWrench&) const override;
+  // Where surfaces meet or part, where they hold each other no more, and where a plane ends.
+  void switches(const Motion&, ExpressionScratch&, SwitchList&) const override;
+  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
+
+ private:
+  struct Placed {
+    const ContactForce* law;   // of the model
+    const MarkerPlace *I, *J;  // of the layout
+  };
+  static PairForce force_of(const Placed&, const PairMotion&, const Motion&, bool with_partials);
+  std::vector<Placed> forces_;
+  const std::vector<ElementLabel>* labels_;
+};
+
+// The least gap of all places of a contact, negative where it is closed. [length]
+double least_gap(const ContactForce&, const Motion&, const MarkerPlace& I, const MarkerPlace& J);
+
+}  // namespace dynalin

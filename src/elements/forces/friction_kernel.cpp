@@ -1,0 +1,311 @@
+#include "elements/forces/friction_kernel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mechanics/binder.h"
+#include "mechanics/pair_blocks.h"
+
+namespace dynalin {
+
+namespace {
+
+// How bristles are listed among the states: after those that the published list names.
+constexpr auto bristles = static_cast<StateType>(102);
+
+bool at_rest(const Motion& motion) {
+  return motion.mode == AnalysisMode::statics || motion.mode == AnalysisMode::quasi_statics;
+}
+
+// The size of a vector. At zero it has a derivative by what leaves the vector as it is, and by nothing else.
+template <class T, std::size_t n>
+T size(const std::array<T, n>& v) {
+  const T s = squared(v);
+  if (s.value > 0) return sqrt(s);
+  T none(0.0);
+  for (const T& x : v) {
+    for (std::size_t k = 0; k < x.partial.size(); ++k)
+      if (x.partial[k] != 0.0) none.partial[k] = std::numeric_limits<double>::quiet_NaN();
+  }
+  return none;
+}
+template <class T>
+T size(const Vec3<T>& v) {
+  return size(std::array{v.x, v.y, v.z});
+}
+
+// a b, where b may be without slip: then a needs no derivative.
+template <class T>
+T product(const T& a, const T& b) {
+  T r = b * a.value;
+  if (b.value == 0.0) return r;
+  for (std::size_t k = 0; k < r.partial.size(); ++k) r.partial[k] += a.partial[k] * b.value;
+  return r;
+}
+
+// Angular velocity of I in the axes of J, ½ Σ a × a′ over the axes of I.
+template <class T>
+Vec3<T> turning(const RelativeFrame<TimeTaylor<T>>& I) {
+  Vec3<T> w{T(0.0), T(0.0), T(0.0)};
+  for (const auto* a : {&I.x, &I.y, &I.z}) {
+    w += cross(Vec3<T>{a->x.value, a->y.value, a->z.value}, Vec3<T>{a->x.rate, a->y.rate, a->z.rate}) * 0.5;
+  }
+  return w;
+}
+
+// The axis of the joint on which friction acts, in the axes of J.
+template <class T>
+Vec3<T> axis_of(const JointFriction& f, const RelativeFrame<TimeTaylor<T>>& I) {
+  if (f.surface == FrictionSurface::yoke_of_I) {
+    const auto& a = f.axis == 0 ? I.x : f.axis == 1 ? I.y : I.z;
+    return {a.x.value, a.y.value, a.z.value};
+  }
+  const Vector e = f.surface == FrictionSurface::yoke_of_J ? unit_vectors[f.axis] : unit_vectors[2];
+  return {T(e.x), T(e.y), T(e.z)};
+}
+
+template <class T>
+T overlap(const JointFriction& f, const T& displacement) {
+  return f.overlap + f.overlap_growth * (displacement - f.drawn_displacement);
+}
+
+// What presses the surfaces together: a force, or where the joint only turns its torque for a coefficient of 1.
+template <class T>
+T load(const JointFriction& f, const Vec3<T>& force, const Vec3<T>& torque, const Vec3<T>& axis,
+       const T& displacement) {
+  T sum(0.0);
+  if (f.surface == FrictionSurface::ball) {
+    if (f.of_force) sum += f.ball_radius * size(force);
+    return sum;
+  }
+  const T along = dot(force, axis), about = dot(torque, axis);
+  const Vec3<T> across = force - axis * along, bending = torque - axis * about;
+  switch (f.surface) {
+    case FrictionSurface::slide:
+    case FrictionSurface::sleeve:
+      if (f.of_force) sum += size(across);
+      if (f.of_bending) sum += size(bending) / overlap(f, displacement);
+      if (f.of_torsion && f.surface == FrictionSurface::slide) sum += size(std::array{about}) * (1.0 / f.reaction_arm);
+      break;
+    default:
+      if (f.of_force) sum += f.pin_radius * size(across) + f.friction_arm * size(std::array{along});
+      if (f.of_bending) sum += (f.pin_radius / f.bending_arm) * size(bending);
+  }
+  return sum;
+}
+
+template <class T, std::size_t n>
+void take(const JointFriction& f, const T& load, const std::array<T, n>& u, const std::array<T, n>& z,
+          std::array<double, n> preload, std::array<double, n> lever, std::array<T, 3>& w, std::array<T, 3>& rate,
+          double& speed) {
+  speed = std::sqrt(squared(u).value);
+  const T pressed = product(load, f.law.coefficient(size_beside_itself(u)));
+  const std::array<T, n> s = f.law.direction(u, z);
+  for (std::size_t k = 0; k < n; ++k) w[k] = -(product(pressed, s[k]) * lever[k] + s[k] * preload[k]);
+  if (!f.law.has_bristles()) return;
+  const std::array<T, n> moves = f.law.creep_rate(u, z);
+  for (std::size_t k = 0; k < n; ++k) rate[k] = moves[k];
+}
+
+}  // namespace
+
+JointFrictionKernel::JointFrictionKernel(const std::vector<JointFriction>& elements,
+                                         const std::vector<ElementLabel>& labels, Layout& layout)
+    : labels_(&labels) {
+  for (std::size_t k = 0; k < elements.size(); ++k) {
+    const JointFriction& f = elements[k];
+    const std::size_t n = f.component_count();
+    Placed p{&f, &layout.marker(f.i), &layout.marker(f.j), static_cast<std::int32_t>(layout.algebraic.size()), -1};
+    for (std::size_t c = 0; c < n; ++c) layout.add_algebraic(labels[k], n == 1 ? 0 : static_cast<std::int32_t>(c) + 1);
+    if (f.law.has_bristles()) {
+      p.first_state = static_cast<std::int32_t>(layout.states.size());
+      // Nothing at rest says where bristles are: they stay as they are.
+      for (std::size_t c = 0; c < n; ++c)
+        layout.add_state({&labels[k], bristles, static_cast<std::int32_t>(c) + 1, 0.0, true});
+    }
+    placed_.push_back(p);
+  }
+}
+
+void JointFrictionKernel::bind(Binder& binder) {
+  for (Placed& p : placed_) {
+    const Signals::Wrench w = binder.signals().wrench("JOINT", p.element->joint);
+    p.joint = w.source, p.which = w.which;
+  }
+}
+
+JointFrictionKernel::Evaluated JointFrictionKernel::evaluate(const Placed& p, const PairMotion& pair,
+                                                             const Motion& motion) const {
+  const JointFriction& f = *p.element;
+  Evaluated out;
+  const auto I = path::seeded<std::tuple_size_v<decltype(D::partial)>>(pair.relative);
+
+  // The reaction on I in the axes of J: a function of the pose and linear in the multipliers.
+  MarkerWrench reaction;
+  p.joint->wrench(motion, p.which, true, reaction);
+  const Matrix3 R = value(reaction.pair.axes_J), back = transpose(R);
+  const auto seen_from_J = [&](const Vector& v, const MarkerPartials& by) {
+    const Vector at_J = back * v;
+    const Matrix3 on_d = back * by.origin_I * R, on_phi = back * by.axes_I * R;
+    Vec3<D> seeded{D(at_J.x), D(at_J.y), D(at_J.z)};
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t c = 0; c < 3; ++c) seeded[k].partial[c] = on_d(k, c), seeded[k].partial[3 + c] = on_phi(k, c);
+    }
+    return seeded;
+  };
+  Vec3<D> force = seen_from_J(reaction.force.force, reaction.force.force_on_position);
+  Vec3<D> torque = seen_from_J(reaction.force.torque, reaction.force.torque_on_position);
+  for (const MarkerWrench::Scalar& s : reaction.scalars) {
+    const Vector on_force = back * s.force, on_torque = back * s.torque;
+    for (std::size_t k = 0; k < 3; ++k) {
+      force[k].partial[first_row_seed + out.row_count] = on_force[k];
+      torque[k].partial[first_row_seed + out.row_count] = on_torque[k];
+    }
+    out.rows[out.row_count++] = s.column;
+  }
+
+  const auto creep = [&](std::size_t c) {
+    if (p.first_state < 0) return D(0.0);
+    return D(motion.state[static_cast<std::size_t>(p.first_state) + c], first_creep_seed + c);
+  };
+  const Vec3<D> axis = axis_of(f, I), w = turning(I);
+  const D pressing = load(f, force, torque, axis, I.p.z.value);
+  const auto one = [&](const D& u, double preload) {
+    take<D, 1>(f, pressing, {u}, {creep(0)}, {preload}, {1.0}, out.w, out.creep_rate, out.speed);
+  };
+  switch (f.surface) {
+    case FrictionSurface::slide:
+      one(I.p.z.rate, f.force_preload);
+      break;
+    case FrictionSurface::sleeve:
+      take<D, 2>(f, pressing, {I.p.z.rate, f.pin_radius * w.z}, {creep(0), creep(1)},
+                 {f.force_preload, f.torque_preload}, {1.0, f.pin_radius}, out.w, out.creep_rate, out.speed);
+      break;
+    case FrictionSurface::ball: {
+      const double r = f.ball_radius, T = f.torque_preload;
+      take<D, 3>(f, pressing, {r * w.x, r * w.y, r * w.z}, {creep(0), creep(1), creep(2)}, {T, T, T}, {1.0, 1.0, 1.0},
+                 out.w, out.creep_rate, out.speed);
+      break;
+    }
+    default:
+      one(f.pin_radius * dot(axis, w), f.torque_preload);
+  }
+  return out;
+}
+
+// Subtracts `value` from an equation.
+void JointFrictionKernel::add_row(std::int32_t row, const D& value, const Evaluated& at, const Placed& p,
+                                  const PairMotion& pair, PartialBy velocity_family, Equations& eq) const {
+  eq.add_residual(row, -value.value);
+  if (!eq.wants_partials()) return;
+  // The value as a force along x of J: that direction is at right angles to its own turn, and drops out.
+  RelativeWrench carrier;
+  carrier.force.x = value.value;
+  carrier.depends_on_rate = true;
+  for (std::size_t k = 0; k < 6; ++k)
+    carrier.on_pose[0][k] = value.partial[k], carrier.on_rate[0][k] = value.partial[6 + k];
+  const PairForce spread_out = spread(pair, carrier, true);
+  const Vector x = dynalin::value(pair.axes_J).x;
+  for_each_block(pair, eq.layout(), [&](const PairBlock& b) {
+    const BlockPartials on = partials_by(b, spread_out);
+    for (std::size_t k = 0; k < b.count; ++k) {
+      const std::int32_t column = b.column + static_cast<std::int32_t>(k);
+      eq.add(PartialBy::position, row, column, -dot(x, on.force[k]));
+      eq.add(velocity_family, row, column, -dot(x, on.force_by_rate[k]));
+    }
+  });
+  for (std::size_t k = 0; k < at.row_count; ++k)
+    eq.add(PartialBy::lambda, row, at.rows[k], -value.partial[first_row_seed + k]);
+  if (p.first_state < 0) return;
+  for (std::size_t k = 0; k < p.element->component_count(); ++k)
+    eq.add(PartialBy::state, row, p.first_state + static_cast<std::int32_t>(k), -value.partial[first_creep_seed + k]);
+}
+
+void JointFrictionKernel::equations(const Motion& motion, Equations& eq) const {
+  MarkerWrench w;
+  for (std::size_t k = 0; k < placed_.size(); ++k) {
+    const Placed& p = placed_[k];
+    const JointFriction& f = *p.element;
+    eq.begin_element((*labels_)[k]);
+    w.clear();
+    wrench(motion, k, eq.wants_partials(), w);
+    const bool acts = p.joint && !(f.rests_in_statics && at_rest(motion));
+    const Evaluated at = acts ? evaluate(p, w.pair, motion) : Evaluated{};
+    for (std::size_t c = 0; c < f.component_count(); ++c) {
+      const std::int32_t a = p.first_algebraic + static_cast<std::int32_t>(c), row = eq.algebraic_row(a);
+      eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(a)]);
+      eq.add(PartialBy::algebraic, row, a, 1.0);
+      add_row(row, at.w[c], at, p, w.pair, PartialBy::damping, eq);
+      if (p.first_state < 0) continue;
+      const std::int32_t z = p.first_state + static_cast<std::int32_t>(c), of_z = eq.state_row(z);
+      eq.add_residual(of_z, motion.state_rate[static_cast<std::size_t>(z)]);
+      eq.add(PartialBy::state_rate, of_z, z, 1.0);
+      add_row(of_z, at.creep_rate[c], at, p, w.pair, PartialBy::velocity, eq);
+    }
+    apply(w.pair, w.force, eq);
+    for (const MarkerWrench::Scalar& s : w.scalars)
+      apply_column(w.pair, s.force, s.torque, true, s.family, s.column, eq);
+  }
+}
+
+void JointFrictionKernel::wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const {
+  const Placed& p = placed_[k];
+  const JointFriction& f = *p.element;
+  out.pair = pair_motion(motion, *p.I, *p.J);
+  const Vec3<Dual<6>> axis = axis_of(f, path::seeded<6>(out.pair.relative));
+  const Matrix3 R = value(out.pair.axes_J);
+  RelativeWrench sum;
+  for (std::size_t c = 0; c < f.component_count(); ++c) {
+    const std::int32_t a = p.first_algebraic + static_cast<std::int32_t>(c);
+    const double w = motion.algebraic[static_cast<std::size_t>(a)];
+    Vector force, torque;
+    if (f.pushes() && c == 0) {
+      force.z = 1;
+    } else if (f.surface == FrictionSurface::ball) {
+      torque = unit_vectors[c];
+    } else {
+      torque = {axis.x.value, axis.y.value, axis.z.value};
+      for (std::size_t r = 0; r < 3; ++r) {
+        for (std::size_t n = 0; n < 6; ++n) sum.on_pose[3 + r][n] += w * axis[r].partial[n];
+      }
+    }
+    sum.force += force * w, sum.torque += torque * w;
+    if (with_partials) out.scalars.push_back({PartialBy::algebraic, a, R * force, R * torque});
+  }
+  out.force = spread(out.pair, sum, with_partials);
+  out.force.components = f.surface == FrictionSurface::sleeve ? Components::force_and_torque
+                         : f.pushes()                         ? Components::force
+                                                              : Components::torque;
+}
+
+std::string JointFrictionKernel::domain_violation(const Motion& motion) const {
+  for (std::size_t k = 0; k < placed_.size(); ++k) {
+    const JointFriction& f = *placed_[k].element;
+    if (!f.pushes() || f.overlap_growth == 0 || !placed_[k].joint) continue;
+    const double left = overlap(f, pair_motion(motion, *placed_[k].I, *placed_[k].J).relative.p.z.value);
+    if (left > 0) continue;
+    return fmt::format("the parts of {} have slid apart: their overlap is {:g}", (*labels_)[k].full_text(), left);
+  }
+  return {};
+}
+
+void JointFrictionKernel::sticking(const Motion& motion, std::vector<Stiction>& out) const {
+  for (std::size_t k = 0; k < placed_.size(); ++k) {
+    const Placed& p = placed_[k];
+    const JointFriction& f = *p.element;
+    if (!p.joint || p.first_state < 0) continue;
+    const Evaluated at = evaluate(p, pair_motion(motion, *p.I, *p.J), motion);
+    Stiction s{k, fmt::format("JOINT/{}", f.joint), p.first_state, {}, f.component_count()};
+    double stiffest = 0;
+    for (std::size_t c = 0; c < s.directions; ++c) {
+      s.stiffness[c] = -at.w[c].partial[first_creep_seed + c] / f.lever(c);
+      stiffest = std::max(stiffest, s.stiffness[c]);
+    }
+    if (f.law.sticks(at.speed) && stiffest > 0) out.push_back(s);
+  }
+}
+
+}  // namespace dynalin

@@ -1,0 +1,179 @@
+#include "geometry/touch.h"
+
+#include <algorithm>
+
+#include "geometry/common_normal.h"
+#include "geometry/distance.h"
+
+namespace dynalin {
+
+namespace {
+
+using namespace solid;  // NOLINT: the shapes of this file
+
+// --- which pairs there are: A with B, A not a cavity
+
+template <class A, class B>
+std::size_t count_of(const A&, const B&, bool B_reversed) {
+  if constexpr (std::is_same_v<A, Ball>) {
+    if constexpr (std::is_same_v<B, Frustum>) return B_reversed ? 3 : 1;
+    if constexpr (std::is_same_v<B, Box>) return B_reversed ? 6 : 1;
+    return 1;
+  } else if constexpr (std::is_same_v<A, Plane>) {
+    return 0;
+  } else if constexpr (std::is_same_v<B, Plane>) {
+    if constexpr (std::is_same_v<A, Frustum>) return 2;
+    if constexpr (std::is_same_v<A, Box>) return 8;
+    return 1;
+  } else {
+    return std::is_same_v<A, Ellipsoid> && std::is_same_v<B, Ellipsoid> && !B_reversed ? 1 : 0;
+  }
+}
+std::size_t direct_count(const Side& A, const Side& B) {
+  if (A.reversed) return 0;
+  return std::visit([&](const auto& a, const auto& b) { return count_of(a, b, B.reversed); }, A.shape, B.shape);
+}
+
+// --- a ball and anything
+
+template <class T>
+Touch<T> touch_of_ball(double radius, const Vec3<T>& centre, Distance<T> d, bool reversed) {
+  if (reversed) d.value = -d.value, d.direction = -d.direction;
+  const Vec3<T> point = centre - d.direction * (0.5 * (d.value + radius));
+  return {d.value - radius, d.direction, point, std::numeric_limits<double>::infinity(), d.defined};
+}
+
+template <class T>
+double inside(const Plane& p, const Vec3<T>& at) {
+  const double x = value_of(at.x), y = value_of(at.y);
+  return std::min({x - p.xmin, p.xmax - x, y - p.ymin, p.ymax - y});
+}
+
+template <class T, class B>
+void touch_ball(double radius, const Vec3<T>& c, const B& b, bool reversed, std::span<Touch<T>> out) {
+  if constexpr (std::is_same_v<B, Plane>) {
+    out[0] = touch_of_ball(radius, c, {c.z, {T(0.0), T(0.0), T(1.0)}}, reversed);
+    out[0].inside = inside(b, c);
+    return;
+  } else if constexpr (std::is_same_v<B, Frustum>) {
+    if (reversed) {
+      const FrustumFaces faces(b);
+      out[0] = touch_of_ball(radius, c, faces.mantle(Meridional<T>(c), c), true);
+      out[1] = touch_of_ball(radius, c, faces.below(c), true);
+      out[2] = touch_of_ball(radius, c, faces.above(c), true);
+      return;
+    }
+  } else if constexpr (std::is_same_v<B, Box>) {
+    if (reversed) {
+      for (std::size_t k = 0; k < 6; ++k) out[k] = touch_of_ball(radius, c, face(b, k / 2, k % 2 == 1, c), true);
+      return;
+    }
+  }
+  if constexpr (!std::is_same_v<B, Plane>) out[0] = touch_of_ball(radius, c, distance(b, c), reversed);
+}
+
+// --- what reaches deepest through a plane
+
+template <class T>
+Touch<T> touch_on_plane(const Vec3<T>& lowest, double up, const Plane& plane, bool defined = true) {
+  Touch<T> t;
+  t.gap = lowest.z * up;
+  t.normal = {T(0.0), T(0.0), T(up)};
+  t.point = {lowest.x, lowest.y, lowest.z * 0.5};
+  t.inside = inside(plane, lowest);
+  t.defined = defined;
+  return t;
+}
+
+// The lowest point of a circle about `centre`, across the unit vector `axis`.
+template <class T>
+std::pair<Vec3<T>, bool> lowest_of_circle(const Vec3<T>& centre, const Vec3<T>& axis, double radius, double up) {
+  using std::sqrt;
+  if (radius == 0) return {centre, true};
+  // Down, less what of it is along the axis.
+  const Vec3<T> down{axis.z * axis.x * up, axis.z * axis.y * up, (axis.z * axis.z - 1.0) * up};
+  const T size = dot(down, down);
+  if (!(value_of(size) > 0)) return {centre, false};
+  return {centre + down * (radius / sqrt(size)), true};
+}
+
+template <class T>
+void touch_plane(const Ellipsoid& e, const RelativeFrame<T>& I, const Plane& plane, double up,
+                 std::span<Touch<T>> out) {
+  const Vector& a = e.semi_axes;
+  const Vec3<T> n{I.x.z * (a.x * up), I.y.z * (a.y * up), I.z.z * (a.z * up)};
+  const Vec3<T> from_centre = I.x * (n.x * a.x) + I.y * (n.y * a.y) + I.z * (n.z * a.z);
+  out[0] = touch_on_plane(I.p - from_centre / norm(n), up, plane);
+}
+template <class T>
+void touch_plane(const Frustum& f, const RelativeFrame<T>& I, const Plane& plane, double up, std::span<Touch<T>> out) {
+  for (const bool upper : {false, true}) {
+    const Vec3<T> centre = I.p + I.z * (upper ? f.high : f.low);
+    const auto [lowest, defined] = lowest_of_circle(centre, I.z, upper ? f.high_radius : f.low_radius, up);
+    out[upper ? 1 : 0] = touch_on_plane(lowest, up, plane, defined);
+  }
+}
+template <class T>
+void touch_plane(const Torus& t, const RelativeFrame<T>& I, const Plane& plane, double up, std::span<Touch<T>> out) {
+  auto [lowest, defined] = lowest_of_circle(I.p, I.z, t.major, up);
+  lowest.z -= T(t.minor * up);
+  out[0] = touch_on_plane(lowest, up, plane, defined);
+}
+template <class T>
+void touch_plane(const Box& b, const RelativeFrame<T>& I, const Plane& plane, double up, std::span<Touch<T>> out) {
+  for (std::size_t k = 0; k < 8; ++k) {
+    const Vec3<T> corner = I.p + I.x * (k & 1 ? b.high.x : b.low.x) + I.y * (k & 2 ? b.high.y : b.low.y) +
+                           I.z * (k & 4 ? b.high.z : b.low.z);
+    out[k] = touch_on_plane(corner, up, plane);
+  }
+}
+
+template <class T>
+void touch_ellipsoids(const Ellipsoid& a, const RelativeFrame<T>& I, const Ellipsoid& b, std::span<Touch<T>> out) {
+  const auto c = common_normal(a, I, b);
+  Touch<T>& t = out[0];
+  if (!c) {
+    t = {T(-1.0) * norm(I.p), {T(0.0), T(0.0), T(1.0)}, I.p * 0.5};
+    t.defined = false;
+    return;
+  }
+  t = {dot(c->normal, c->on_first - c->on_second), c->normal, (c->on_first + c->on_second) * 0.5};
+}
+
+template <class T>
+void direct(const Side& A, const Side& B, const RelativeFrame<T>& A_from_B, std::span<Touch<T>> out) {
+  std::visit(
+      [&]<class S, class U>(const S& a, const U& b) {
+        if constexpr (std::is_same_v<S, Ball>)
+          touch_ball(a.radius, A_from_B.p, b, B.reversed, out);
+        else if constexpr (std::is_same_v<U, Plane> && !std::is_same_v<S, Plane>)
+          touch_plane(a, A_from_B, b, B.reversed ? -1.0 : 1.0, out);
+        else if constexpr (std::is_same_v<S, Ellipsoid> && std::is_same_v<U, Ellipsoid>)
+          touch_ellipsoids(a, A_from_B, b, out);
+      },
+      A.shape, B.shape);
+}
+
+}  // namespace
+
+std::size_t touch_count(const Side& I, const Side& J) {
+  const std::size_t count = direct_count(I, J);
+  return count > 0 ? count : direct_count(J, I);
+}
+
+template <class T>
+void find_touches(const Side& I, const Side& J, const RelativeFrame<T>& R, std::span<Touch<T>> out) {
+  if (direct_count(I, J) > 0) return direct(I, J, R, out);
+  const auto from_I = [&](const Vec3<T>& v) { return Vec3<T>{dot(R.x, v), dot(R.y, v), dot(R.z, v)}; };
+  const RelativeFrame<T> J_from_I{-from_I(R.p), {R.x.x, R.y.x, R.z.x}, {R.x.y, R.y.y, R.z.y}, {R.x.z, R.y.z, R.z.z}};
+  direct(J, I, J_from_I, out);
+  for (Touch<T>& t : out) {
+    t.normal = -(R.x * t.normal.x + R.y * t.normal.y + R.z * t.normal.z);
+    t.point = R.p + R.x * t.point.x + R.y * t.point.y + R.z * t.point.z;
+  }
+}
+
+template void find_touches(const Side&, const Side&, const RelativeFrame<double>&, std::span<Touch<double>>);
+template void find_touches(const Side&, const Side&, const RelativeFrame<Dual<12>>&, std::span<Touch<Dual<12>>>);
+
+}  // namespace dynalin

@@ -1,0 +1,254 @@
+#include "model/called_routines.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+namespace dynalin {
+
+namespace {
+
+// The words in which a statement takes values one by one.
+std::span<const std::string_view> components_of(std::string_view statement) {
+  static constexpr std::array<std::string_view, 1> one = {"FUNCTION"};
+  static constexpr std::array<std::string_view, 6> both = {"FX", "FY", "FZ", "TX", "TY", "TZ"};
+  static constexpr std::array<std::string_view, 8> request = {"F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"};
+  if (statement == "GFORCE") return both;
+  if (statement == "VFORCE") return std::span(both).first(3);
+  if (statement == "VTORQUE") return std::span(both).last(3);
+  if (statement == "REQUEST") return request;
+  return one;
+}
+
+const RoutineKind* kind_for(std::string_view statement) {
+  const auto kinds = routine_kinds();
+  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.statement == statement; });
+  return found == kinds.end() ? nullptr : &*found;
+}
+
+// "friction", "libfriction.so" and "friction.so" are one.
+std::string stem(std::string_view file) {
+  std::string name = std::filesystem::path(file).filename().string();
+  if (const auto dot = name.find(".so"); dot != std::string::npos) name.resize(dot);
+  if (name.starts_with("lib")) name.erase(0, 3);
+  return name;
+}
+
+std::string unquoted(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\'' || text.front() == '"')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\'' || text.back() == '"')) text.remove_suffix(1);
+  return std::string(text);
+}
+
+}  // namespace
+
+CalledRoutines::CalledRoutines(const Dataset& dataset, Catalogue catalogue, const RoutineOptions& options,
+                               Diagnostics& diagnostics)
+    : dataset_(dataset),
+      catalogue_(catalogue),
+      differences_(options.differences ? RoutineDifferences::everywhere : RoutineDifferences::not_in_linear_models),
+      diagnostics_(diagnostics) {
+  for (const std::string& file : options.libraries) {
+    if (std::error_code none; std::filesystem::is_directory(file, none)) {
+      folders_.push_back(file);
+      continue;
+    }
+    std::string reason;
+    if (auto library = RoutineLibrary::load(file, reason)) {
+      libraries_.push_back(std::move(library));
+    } else {
+      diagnostics_.error("unusable-library", {}, fmt::format("{} cannot be loaded: {}", file, reason));
+    }
+  }
+}
+
+// A dataset alone makes nothing run that the user did not name.
+std::vector<CalledRoutines::Library> CalledRoutines::libraries_named(std::string_view name) {
+  std::vector<Library> found;
+  for (const Library& l : libraries_) {
+    if (stem(l->file()) == stem(name)) found.push_back(l);
+  }
+  for (const std::string& folder : folders_) {
+    const std::string wanted = stem(name);
+    for (const std::string& file :
+         {std::filesystem::path(name).filename().string(), wanted + ".so", "lib" + wanted + ".so"}) {
+      const auto path = std::filesystem::path(folder) / file;
+      std::error_code none;
+      if (!std::filesystem::is_regular_file(path, none)) continue;
+      std::string reason;
+      if (auto library = RoutineLibrary::load(path.string(), reason)) {
+        found.push_back(std::move(library));
+      } else {
+        diagnostics_.error("unusable-library", {}, fmt::format("{} cannot be loaded: {}", path.string(), reason));
+      }
+      break;
+    }
+  }
+  return found;
+}
+
+std::string_view CalledRoutines::full_name(const Statement& s, const WrittenArgument& w) const {
+  std::vector<std::string_view> names = {"ROUTINE", "INTERFACE"};
+  for (const Kind* kind : catalogue_) {
+    if (kind->statement != s.name) continue;
+    for (const ArgumentInfo& a : kind->arguments) names.push_back(a.name);
+  }
+  const auto k = find_keyword(w.name.text(), names);
+  return k ? names[*k] : std::string_view();
+}
+
+const WrittenArgument* CalledRoutines::argument(const Statement& s, std::string_view name) const {
+  const auto found = std::find_if(s.arguments.begin(), s.arguments.end(),
+                                  [&](const WrittenArgument& w) { return full_name(s, w) == name; });
+  return found == s.arguments.end() ? nullptr : &*found;
+}
+
+// 0 where nothing or no number is written: whoever reads the statement says so.
+int CalledRoutines::integer(const Statement& s, std::string_view name) const {
+  const WrittenArgument* w = argument(s, name);
+  if (!w || !w->has_value || w->damaged) return 0;
+  Diagnostics ignored;
+  const auto value = read_integer(*w, *w->name.source, ignored);
+  return value ? static_cast<int>(value->value) : 0;
+}
+
+std::optional<std::size_t> CalledRoutines::size_of_list(std::string_view statement, std::int32_t id) const {
+  const auto find = [&](std::string_view name, std::int64_t of) -> const Statement* {
+    const auto found = std::find_if(dataset_.statements.begin(), dataset_.statements.end(),
+                                    [&](const Statement& s) { return s.name == name && s.id == of; });
+    return found == dataset_.statements.end() ? nullptr : &*found;
+  };
+  const Statement* s = find(statement, id);
+  if (!s) return std::nullopt;
+  Diagnostics ignored;
+  if (const auto* w = argument(*s, "VARIABLES"); w && !w->damaged) {
+    const auto list = read_integers(*w, *w->name.source, ignored);
+    return list ? std::optional(list->size()) : std::nullopt;
+  }
+  if (const auto* w = argument(*s, "NUMBERS"); w && !w->damaged) {
+    const auto list = read_reals(*w, *w->name.source, ignored);
+    return list ? std::optional(list->size()) : std::nullopt;
+  }
+  if (const int size = integer(*s, "SIZE"); size > 0) return static_cast<std::size_t>(size);
+  // Of states or outputs: the element that has them says how many.
+  for (const Statement& e : dataset_.statements) {
+    if (e.name != "GSE" && e.name != "LSE" && e.name != "TFSISO") continue;
+    if (integer(e, "X") == id) {
+      if (e.name == "GSE") return static_cast<std::size_t>(std::max(integer(e, "NS"), 0));
+      if (e.name == "TFSISO") {
+        const auto* w = argument(e, "DENOMINATOR");
+        const auto list = w && !w->damaged ? read_reals(*w, *w->name.source, ignored) : std::nullopt;
+        return list && !list->empty() ? std::optional(list->size() - 1) : std::nullopt;
+      }
+      const Statement* a = find("MATRIX", integer(e, "A"));
+      if (a && integer(*a, "ROWS") > 0) return static_cast<std::size_t>(integer(*a, "ROWS"));
+    }
+    if (e.name == "GSE" && integer(e, "XD") == id) return static_cast<std::size_t>(std::max(integer(e, "ND"), 0));
+    if (integer(e, "Y") == id) {
+      if (e.name == "GSE") return static_cast<std::size_t>(std::max(integer(e, "NO"), 0));
+      if (e.name == "TFSISO") return std::size_t{1};
+      const Statement* c = find("MATRIX", integer(e, integer(e, "C") > 0 ? "C" : "D"));
+      if (c && integer(*c, "ROWS") > 0) return static_cast<std::size_t>(integer(*c, "ROWS"));
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<RoutineStatement> CalledRoutines::says(const Statement& s, const WrittenArgument& call) {
+  RoutineStatement out;
+  out.label = fmt::format("{}/{}", s.name, s.id.value_or(0));
+  out.id = static_cast<int>(s.id.value_or(0));
+  const SourceText& source = *call.name.source;
+  const auto text = [&](const Token& t) { return source.text().substr(t.offset, t.length); };
+  const auto tokens = call.value;
+  if (text(tokens.back()) != ")") {
+    diagnostics_.error("unbalanced-parenthesis", {&source, tokens[0].offset, tokens[0].length},
+                       fmt::format("the parenthesis of USER in {} is not closed behind its constants", out.label));
+    return std::nullopt;
+  }
+  if (tokens.size() > 3) {
+    WrittenArgument constants = call;
+    constants.value = tokens.subspan(2, tokens.size() - 3);
+    constants.place_value(
+        {&source, constants.value.front().offset,
+         constants.value.back().offset + constants.value.back().length - constants.value.front().offset});
+    const auto list = read_reals(constants, source, diagnostics_);
+    if (!list) return std::nullopt;
+    out.parameters = *list;
+  }
+  out.I = integer(s, "I"), out.J = integer(s, "J"), out.RM = integer(s, "RM"), out.JFLOAT = integer(s, "JFLOAT");
+  out.action_only = argument(s, "ACTIONONLY") != nullptr;
+  out.rotation = argument(s, "ROTATION") != nullptr || argument(s, "ROTATIONAL") != nullptr;
+  out.static_hold = argument(s, "STATIC_HOLD") != nullptr;
+  out.implicit = argument(s, "IMPLICIT") != nullptr;
+  if (const auto* w = argument(s, "IC"); w && (s.name == "VARIABLE" || s.name == "DIFF") && !w->damaged) {
+    Diagnostics ignored;
+    if (const auto list = read_reals(*w, *w->name.source, ignored); list && !list->empty()) {
+      out.initial = list->front();
+      if (list->size() > 1) out.initial_rate = (*list)[1];
+    }
+  }
+  return out;
+}
+
+std::shared_ptr<const CompiledRoutine> CalledRoutines::find(const Statement& s, const WrittenArgument& call,
+                                                            std::string& wanted) {
+  const RoutineKind* kind = kind_for(s.name);
+  if (!kind || !has_libraries()) return nullptr;
+  wanted = kind->routine;
+  FoundRoutine found;
+  if (const auto* named = argument(s, "ROUTINE"); named && named->has_value) {
+    const std::string text = unquoted(named->value_span().text());
+    const auto colon = text.find(':');
+    wanted = text;
+    if (colon == std::string::npos) {
+      found = find_routine(libraries_, text);
+    } else {
+      const auto last = text.find_last_of(':');
+      if (last + 1 < text.size()) wanted = text.substr(last + 1) + " of " + text.substr(0, colon);
+      found = find_routine(libraries_named(text.substr(0, colon)), text.substr(last + 1));
+    }
+  } else {
+    found = find_routine(libraries_, kind->routine);
+  }
+  if (!found) return nullptr;
+  auto what = says(s, call);
+  if (!what) return nullptr;
+  const auto size_of = [this](std::string_view statement, std::int32_t id) { return size_of_list(statement, id); };
+  auto routine = std::make_shared<const CompiledRoutine>(std::move(found), *kind, kind->values, std::move(*what),
+                                                         differences_, size_of);
+  const Span at = call.value_span();
+  if (!routine->problem().empty()) {
+    diagnostics_.error("routine-failed", at,
+                       fmt::format("{} of {} cannot be used: {}", routine->name(), s.at.text(), routine->problem()));
+    return nullptr;
+  }
+  if (!routine->gives_derivatives() && kind->arguments != RoutineArguments::plain) {
+    const bool everywhere = differences_ == RoutineDifferences::everywhere;
+    diagnostics_.warning(
+        "differenced-routine", at,
+        fmt::format("{} of {} gives no derivatives: {}", routine->name(), s.at.text(),
+                    everywhere ? "differences take their place, and no bound of an eigenvalue knows how wrong they are"
+                               : "statics and dynamics take differences in their iterations, LINEAR refuses it"));
+  }
+  return routine;
+}
+
+std::string CalledRoutines::written(const Statement& s, std::shared_ptr<const CompiledRoutine> routine,
+                                    const Span& at) {
+  std::vector<Atom> inputs = routine->inputs();
+  for (Atom& a : inputs) {
+    a.at = at;
+    a.argument_at.fill(at);
+  }
+  std::string text;
+  for (std::size_t v = 0; v < routine->values(); ++v) {
+    text += fmt::format(", {}={}", components_of(s.name)[v], functions.size());
+    functions.push_back(routine_expression(inputs, routine, v, at));
+  }
+  return text;
+}
+
+}  // namespace dynalin

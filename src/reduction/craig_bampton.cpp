@@ -1,0 +1,234 @@
+#include "reduction/craig_bampton.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "reduction/interface_rows.h"
+#include "reduction/lowest_modes.h"
+#include "reduction/symmetric_factors.h"
+
+namespace dynalin::reduction {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// 1/ω² below this part of the largest is rounding of a shape without mass.
+constexpr double massless = 1e-15;
+
+// The rows and columns of these places.
+SparseMatrix part(const SparseMatrix& matrix, const std::vector<Index>& rows, const std::vector<Index>& columns) {
+  std::vector<Index> place(static_cast<std::size_t>(matrix.rows()), -1);
+  for (std::size_t k = 0; k < rows.size(); ++k) place[static_cast<std::size_t>(rows[k])] = static_cast<Index>(k);
+  std::vector<Eigen::Triplet<double, std::int32_t>> entries;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    for (SparseMatrix::InnerIterator it(matrix, columns[c]); it; ++it) {
+      const Index row = place[static_cast<std::size_t>(it.row())];
+      if (row >= 0) entries.emplace_back(static_cast<std::int32_t>(row), static_cast<std::int32_t>(c), it.value());
+    }
+  }
+  SparseMatrix result(static_cast<Index>(rows.size()), static_cast<Index>(columns.size()));
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+// Whether the interface at rest holds the body: no free motion leaves all interface freedoms where they are.
+bool interface_holds(const MatrixXd& rigid_of_interface) {
+  if (rigid_of_interface.cols() == 0) return true;
+  if (rigid_of_interface.rows() < rigid_of_interface.cols()) return false;
+  const VectorXd sizes = rigid_of_interface.colwise().norm();
+  if (sizes.minCoeff() <= 0) return false;
+  const Eigen::JacobiSVD<MatrixXd> svd(rigid_of_interface * sizes.cwiseInverse().asDiagonal());
+  return svd.singularValues().minCoeff() > 1e-8 * svd.singularValues().maxCoeff();
+}
+
+struct Orthogonal {
+  MatrixXd coordinates;  // shapes out of columns of T
+  VectorXd squares;
+  Index massless = 0;
+  double off_diagonal = 0;
+};
+
+// The modes of k, m in what is orthogonal in m to the columns of `rigid`.
+std::optional<Orthogonal> orthogonal_shapes(const MatrixXd& k, const MatrixXd& m, const MatrixXd& rigid) {
+  // Translations, rotations and modes have units of their own.
+  VectorXd unit(m.rows());
+  for (Index c = 0; c < unit.size(); ++c) unit[c] = 1 / std::sqrt(m(c, c) > 0 ? m(c, c) : k(c, c));
+  const auto D = unit.asDiagonal();
+  const MatrixXd ms = D * m * D, ks = D * k * D;
+  MatrixXd basis = MatrixXd::Identity(m.rows(), m.rows());
+  if (rigid.cols() > 0) {
+    MatrixXd z = unit.cwiseInverse().asDiagonal() * rigid;
+    z.colwise().normalize();
+    const Eigen::HouseholderQR<MatrixXd> qr(ms * z);
+    basis = MatrixXd(qr.householderQ()).rightCols(m.rows() - rigid.cols());
+  }
+  const MatrixXd kq = basis.transpose() * ks * basis, mq = basis.transpose() * ms * basis;
+  const Eigen::LLT<MatrixXd> root(0.5 * (kq + kq.transpose()));
+  if (root.info() != Eigen::Success) return std::nullopt;
+  MatrixXd inverse = root.matrixL().solve(mq);
+  inverse = root.matrixL().solve(inverse.transpose()).eval();
+  // 1/ω² and not ω²: the lowest are the most exact ones, and shapes without mass end at zero.
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(0.5 * (inverse + inverse.transpose()));
+  const VectorXd values = eigen.eigenvalues().reverse();
+  Index count = 0;
+  while (count < values.size() && values[count] > massless * values[0]) ++count;
+  if (count == 0 || values[values.size() - 1] < -1e-8 * values[0]) return std::nullopt;
+  MatrixXd v = basis * root.matrixU().solve(eigen.eigenvectors().rowwise().reverse().leftCols(count));
+  // Rounding of the high shapes is taken out by the low ones: Cholesky in ascending order.
+  for (int pass = 0; pass < 2; ++pass) {
+    const VectorXd size = (v.transpose() * ms * v).diagonal().cwiseSqrt();
+    v = v * size.cwiseInverse().asDiagonal();
+    const MatrixXd m_of_v = v.transpose() * ms * v;
+    const Eigen::LLT<MatrixXd> m_root(0.5 * (m_of_v + m_of_v.transpose()));
+    if (m_root.info() != Eigen::Success) return std::nullopt;
+    v = m_root.matrixL().solve(v.transpose()).transpose();
+  }
+  Orthogonal result;
+  const MatrixXd k_of_v = v.transpose() * ks * v, m_of_v = v.transpose() * ms * v;
+  result.squares = k_of_v.diagonal();
+  result.massless = values.size() - count;
+  for (Index c = 0; c < count; ++c) {
+    for (Index r = 0; r < count; ++r) {
+      if (r == c) continue;
+      const double in_k = std::abs(k_of_v(r, c)) / std::sqrt(result.squares[r] * result.squares[c]);
+      result.off_diagonal = std::max({result.off_diagonal, std::abs(m_of_v(r, c)), in_k});
+    }
+  }
+  result.coordinates = D * v;
+  return result;
+}
+
+// The largest displacement of each shape is positive: signs do not depend on the solver.
+void settle_signs(MatrixXd& shapes) {
+  for (Index c = 0; c < shapes.cols(); ++c) {
+    Index largest = 0;
+    shapes.col(c).cwiseAbs().maxCoeff(&largest);
+    if (shapes(largest, c) < 0) shapes.col(c) = -shapes.col(c);
+  }
+}
+
+class Reducer {
+ public:
+  Reducer(const FiniteElementModel& model, const ReductionRequest& request, Diagnostics& diagnostics)
+      : model_(model), request_(request), diagnostics_(diagnostics) {}
+
+  tl::expected<Reduction, std::string> run() {
+    const tl::unexpected<std::string> told{std::string()};
+    if (!check_diagonals()) return told;
+    const auto rows = interface_rows(model_.freedoms, request_.interface, request_.rotations_required, diagnostics_);
+    if (!rows) return told;
+    const std::vector<Index>&b = rows->interface, &i = rows->interior;
+    const MatrixXd rigid = rigid_motions(model_);
+    const FreeMotions free = free_motions(model_, rigid);
+    reduction_.properties = mass_properties(model_, rigid);
+    reduction_.strain_of_rigid = free.strain;
+    reduction_.rigid_removed = free.directions.cols();
+    reduction_.constraint_modes = static_cast<Index>(b.size());
+    const MatrixXd rigid_of_interface = MatrixXd(rigid(b, Eigen::all)) * free.directions;
+    if (!interface_holds(rigid_of_interface)) {
+      diagnostics_.error("fe-interface", Span{},
+                         "the body can move as a rigid body while its interface nodes stand still",
+                         "one node with rotations, or three nodes that are not on a line, hold it");
+      return told;
+    }
+    MatrixXd shapes = MatrixXd::Zero(rigid.rows(), reduction_.constraint_modes);
+    for (std::size_t k = 0; k < b.size(); ++k) shapes(b[k], static_cast<Index>(k)) = 1;
+    if (!i.empty()) {
+      const auto modes = add_interior(b, i, shapes);
+      if (!modes) return tl::unexpected(modes.error());
+    }
+    const MatrixXd m = shapes.transpose() * (model_.mass * shapes),
+                   k = shapes.transpose() * (model_.stiffness * shapes);
+    MatrixXd rigid_coordinates = MatrixXd::Zero(shapes.cols(), free.directions.cols());
+    rigid_coordinates.topRows(rigid_of_interface.rows()) = rigid_of_interface;
+    if (shapes.cols() == rigid_coordinates.cols()) {
+      reduction_.shapes.resize(shapes.rows(), 0), reduction_.squares.resize(0);
+      return std::move(reduction_);
+    }
+    auto orthogonal = orthogonal_shapes(0.5 * (k + k.transpose()), 0.5 * (m + m.transpose()), rigid_coordinates);
+    if (!orthogonal) {
+      diagnostics_.error("fe-matrix-not-positive", Span{},
+                         "stiffness or mass is not positive in the shapes of the reduction",
+                         "a part that is not connected, or a mechanism, can move without being strained");
+      return told;
+    }
+    reduction_.shapes = shapes * orthogonal->coordinates;
+    reduction_.squares = std::move(orthogonal->squares);
+    reduction_.massless = orthogonal->massless;
+    reduction_.off_diagonal = orthogonal->off_diagonal;
+    settle_signs(reduction_.shapes);
+    return std::move(reduction_);
+  }
+
+ private:
+  bool check_diagonals() {
+    const auto refuse = [&](const SparseMatrix& matrix, std::string_view what) {
+      const VectorXd diagonal = matrix.diagonal();
+      if (diagonal.minCoeff() >= 0) return true;
+      Index row = 0;
+      diagonal.minCoeff(&row);
+      const Freedom& f = model_.freedoms[static_cast<std::size_t>(row)];
+      diagnostics_.error(
+          "fe-matrix-not-positive", Span{},
+          fmt::format("the {} of node {}, direction {} is negative: {:.6g}", what, f.node, f.direction, diagonal[row]));
+      return false;
+    };
+    return refuse(model_.stiffness, "stiffness") && refuse(model_.mass, "mass");
+  }
+
+  // Fills the constraint modes inside the body and appends the fixed-interface modes.
+  tl::expected<void, std::string> add_interior(const std::vector<Index>& b, const std::vector<Index>& i,
+                                               MatrixXd& shapes) {
+    const SparseMatrix k_ii = part(model_.stiffness, i, i), m_ii = part(model_.mass, i, i);
+    const SymmetricFactors factors(k_ii);
+    if (factors.null_pivots() > 0 || factors.negative() > 0) {
+      diagnostics_.error("fe-matrix-not-positive", Span{},
+                         factors.negative() > 0
+                             ? fmt::format("the stiffness inside has {} negative eigenvalues", factors.negative())
+                             : fmt::format("with the interface held, {} motions strain nothing", factors.null_pivots()),
+                         "a part that is not connected, or a mechanism, can move without being strained");
+      return tl::unexpected(std::string());
+    }
+    MatrixXd inside = -MatrixXd(part(model_.stiffness, i, b));
+    factors.solve(inside);
+    constexpr double cycle = 2 * std::numbers::pi;
+    const double w = cycle * request_.highest_frequency;
+    auto modes = lowest_modes(k_ii, m_ii, factors, {request_.modes, w * w});
+    if (!modes) return tl::unexpected(modes.error());
+    const Index first = shapes.cols();
+    shapes.conservativeResize(Eigen::NoChange, first + modes->shapes.cols());
+    shapes.rightCols(modes->shapes.cols()).setZero();
+    for (std::size_t k = 0; k < i.size(); ++k) {
+      const auto row = static_cast<Index>(k);
+      shapes.row(i[k]).head(first) = inside.row(row);
+      shapes.row(i[k]).tail(modes->shapes.cols()) = modes->shapes.row(row);
+    }
+    reduction_.fixed_interface = std::move(modes->squares);
+    return {};
+  }
+
+  const FiniteElementModel& model_;
+  const ReductionRequest& request_;
+  Diagnostics& diagnostics_;
+  Reduction reduction_;
+};
+
+}  // namespace
+
+tl::expected<Reduction, std::string> reduce_model(const FiniteElementModel& model, const ReductionRequest& request,
+                                                  Diagnostics& diagnostics) {
+  return Reducer(model, request, diagnostics).run();
+}
+
+}  // namespace dynalin::reduction

@@ -1,0 +1,231 @@
+#include "reduction/reduce_program.h"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "base/read_file.h"
+#include "output/output_file.h"
+#include "reduction/body_file_writer.h"
+#include "reduction/coordinate_matrix.h"
+#include "reduction/craig_bampton.h"
+#include "reduction/direct_matrices.h"
+#include "reduction/freedom_list.h"
+#include "reduction/inertia_invariants.h"
+#include "reduction/node_list.h"
+#include "reduction/reduction_report.h"
+#include "reduction/text_scanner.h"
+
+namespace dynalin::reduction {
+
+namespace {
+
+enum Status : int { done = 0, wrong_input = 1, failed = 2, wrong_usage = 3 };
+
+// Bulk data begin with letters or $, coordinates with digits or %.
+bool has_cards(const SourceText& file) {
+  TextScanner scanner(file);
+  while (scanner.next_line()) {
+    const std::string_view word = scanner.word();
+    if (word.empty()) continue;
+    const auto c = static_cast<unsigned char>(word[0]);
+    return c == '$' || std::isalpha(c) != 0;
+  }
+  return false;
+}
+
+std::string beside(const std::string& path, std::string_view extension) {
+  const std::size_t slash = path.find_last_of('/'), point = path.find_last_of('.');
+  const bool has_extension = point != std::string::npos && (slash == std::string::npos || point > slash);
+  return (has_extension ? path.substr(0, point) : path) + std::string(extension);
+}
+
+class Program {
+ public:
+  Program(const ReduceOptions& options, std::ostream& out, std::ostream& err)
+      : options_(options), out_(out), err_(err) {}
+
+  int run() {
+    if (!check_usage()) return wrong_usage;
+    auto destination = find_destination(options_.output);
+    if (!destination) {
+      fmt::print(err_, "error: {} cannot be written: {}\n", options_.output, destination.error());
+      return wrong_input;
+    }
+    if (!read_model()) return tell(wrong_input);
+    auto reduction = reduce_model(model_, request_, diagnostics_);
+    if (!reduction) {
+      if (!diagnostics_.has_errors()) fmt::print(err_, "error: the reduction failed: {}\n", reduction.error());
+      return tell(diagnostics_.has_errors() ? wrong_input : failed);
+    }
+    err_ << render(diagnostics_);
+    print_report(out_, model_, request_, *reduction);
+    const bool condensed =
+        std::any_of(model_.freedoms.begin(), model_.freedoms.end(), [](const Freedom& f) { return f.direction == 0; });
+    if (condensed)
+      fmt::print(out_,
+                 "the matrices were condensed before: the inertia of the body file does not follow its deformation\n");
+    std::vector<NodeLabel> nodes = request_.interface;
+    nodes.insert(nodes.end(), also_.begin(), also_.end());
+    const BodyFile body = in_other_units(
+        body_of(model_, *reduction, nodes, condensed ? InertiaOrder::undeformed : InertiaOrder::follows_deformation,
+                fmt::format("reduced from {} freedoms", model_.freedoms.size())),
+        {options_.length_factor, options_.mass_factor, options_.force_factor});
+    return write(body, std::move(*destination));
+  }
+
+ private:
+  int tell(Status status) const {
+    err_ << render(diagnostics_);
+    return status;
+  }
+
+  bool check_usage() {
+    const auto usage = [&](const std::string& what) {
+      fmt::print(err_, "error: {}\n", what);
+      return false;
+    };
+    for (const double factor : {options_.length_factor, options_.mass_factor, options_.force_factor}) {
+      if (!(factor > 0) || !std::isfinite(factor)) return usage("factors of units are positive numbers");
+    }
+    if (!(options_.frequency_limit > 0)) return usage("the frequency up to which modes are taken is positive");
+    for (const std::string& word : options_.interface) {
+      const std::size_t colon = word.find(':');
+      const auto node = TextScanner::integer<NodeLabel>(std::string_view(word).substr(0, colon));
+      if (!node) return usage(fmt::format("'{}' is not a node, or node:rotation-node", word));
+      request_.interface.push_back(*node);
+      if (colon == std::string::npos) continue;
+      const auto rotation = TextScanner::integer<NodeLabel>(std::string_view(word).substr(colon + 1));
+      if (!rotation) return usage(fmt::format("'{}' is not a node, or node:rotation-node", word));
+      rotations_.push_back({*node, *rotation});
+    }
+    for (const std::string& word : options_.also) {
+      const auto node = TextScanner::integer<NodeLabel>(word);
+      if (!node) return usage(fmt::format("'{}' is not a node", word));
+      if (std::find(request_.interface.begin(), request_.interface.end(), *node) == request_.interface.end() &&
+          std::find(also_.begin(), also_.end(), *node) == also_.end())
+        also_.push_back(*node);
+    }
+    constexpr Eigen::Index usual = 20;
+    const bool limited = std::isfinite(options_.frequency_limit);
+    request_.modes = options_.modes >= 0 ? options_.modes : limited ? std::numeric_limits<Eigen::Index>::max() : usual;
+    request_.highest_frequency = options_.frequency_limit;
+    request_.rotations_required = !options_.translations_only;
+    return true;
+  }
+
+  // Sources live as long as the diagnostics that point into them.
+  const SourceText* open(const std::string& path) {
+    auto text = read_file(path);
+    if (!text) {
+      diagnostics_.error("fe-file", Span{}, fmt::format("{} cannot be read: {}", path, text.error()));
+      return nullptr;
+    }
+    return sources_.emplace_back(std::make_unique<SourceText>(path, std::move(*text))).get();
+  }
+
+  bool read_model() {
+    const SourceText* nodes = open(options_.nodes);
+    const SourceText* stiffness = open(options_.stiffness);
+    const SourceText* mass = options_.mass == options_.stiffness ? stiffness : open(options_.mass);
+    if (!nodes || !stiffness || !mass) return false;
+    auto list = read_nodes(*nodes, diagnostics_);
+    if (!list) return false;
+    model_.nodes = std::move(list->nodes);
+    rotations_.insert(rotations_.end(), list->rotation_nodes.begin(), list->rotation_nodes.end());
+    if (has_cards(*stiffness)) {
+      auto matrices =
+          read_direct_matrices(*stiffness, options_.stiffness_name, *mass, options_.mass_name, diagnostics_);
+      if (!matrices) return false;
+      model_.freedoms = std::move(matrices->freedoms);
+      model_.stiffness = std::move(matrices->stiffness), model_.mass = std::move(matrices->mass);
+    } else if (!read_coordinates(*stiffness, *mass)) {
+      return false;
+    }
+    return turn_rotation_nodes() && check_nodes();
+  }
+
+  bool read_coordinates(const SourceText& stiffness, const SourceText& mass) {
+    const SourceText* freedoms =
+        open(options_.freedoms.empty() ? beside(options_.stiffness, ".dof") : options_.freedoms);
+    if (!freedoms) return false;
+    auto rows = read_freedoms(*freedoms, diagnostics_);
+    if (!rows) return false;
+    model_.freedoms = std::move(*rows);
+    const auto n = static_cast<Eigen::Index>(model_.freedoms.size());
+    auto k = read_coordinate_matrix(stiffness, n, diagnostics_);
+    auto m = k ? read_coordinate_matrix(mass, n, diagnostics_) : std::nullopt;
+    if (!m) return false;
+    model_.stiffness = std::move(*k), model_.mass = std::move(*m);
+    return true;
+  }
+
+  // Translations of a rotation node are rotations of the node it turns.
+  bool turn_rotation_nodes() {
+    std::map<NodeLabel, NodeLabel> reference;
+    for (const RotationNode& r : rotations_) reference[r.rotation] = r.reference;
+    std::map<Freedom, int> seen;
+    for (Freedom& f : model_.freedoms) {
+      const auto turned = reference.find(f.node);
+      if (turned != reference.end() && f.direction >= 1 && f.direction <= 3) f = {turned->second, f.direction + 3};
+      if (++seen[f] == 1) continue;
+      diagnostics_.error("fe-freedom", Span{},
+                         fmt::format("node {} has two freedoms in direction {}: its own and one of a rotation node",
+                                     f.node, f.direction));
+      return false;
+    }
+    return true;
+  }
+
+  bool check_nodes() {
+    const auto refuse = [&](NodeLabel label, std::string_view what) {
+      diagnostics_.error("fe-node", Span{}, fmt::format("{} {} is not in {}", what, label, options_.nodes));
+      return false;
+    };
+    for (const Freedom& f : model_.freedoms) {
+      if (f.direction != 0 && !model_.nodes.contains(f.node)) return refuse(f.node, "the place of node");
+    }
+    for (const NodeLabel label : also_) {
+      if (!model_.nodes.contains(label)) return refuse(label, "node");
+    }
+    return true;
+  }
+
+  int write(const BodyFile& body, Destination destination) {
+    const auto fail = [&](const std::string& reason) {
+      fmt::print(err_, "error: {}\n", reason);
+      return static_cast<int>(failed);
+    };
+    auto file = OutputFile::create(std::move(destination));
+    if (!file) return fail(file.error());
+    write_body_file((*file)->stream(), body);
+    if (const auto complete = (*file)->complete(); !complete) return fail(complete.error());
+    std::vector<std::unique_ptr<OutputFile>> files;
+    files.push_back(std::move(*file));
+    if (const auto written = commit(files, out_); !written) return fail(written.error());
+    return done;
+  }
+
+  const ReduceOptions& options_;
+  std::ostream& out_;
+  std::ostream& err_;
+  Diagnostics diagnostics_;
+  std::vector<std::unique_ptr<SourceText>> sources_;
+  ReductionRequest request_;
+  std::vector<NodeLabel> also_;
+  std::vector<RotationNode> rotations_;
+  FiniteElementModel model_;
+};
+
+}  // namespace
+
+int reduce(const ReduceOptions& options, std::ostream& out, std::ostream& err) {
+  return Program(options, out, err).run();
+}
+
+}  // namespace dynalin::reduction

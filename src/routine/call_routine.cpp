@@ -1,0 +1,69 @@
+#include "routine/call_routine.h"
+
+namespace dynalin {
+
+namespace {
+
+template <class Signature>
+Signature* as(void* address) {
+  return reinterpret_cast<Signature*>(address);
+}
+
+void call_with_addresses(void* address, RoutineArguments arguments, const RoutineStatement& s,
+                         const RoutineArgumentsNow& now, double* values) {
+  const auto npar = static_cast<int>(s.parameters.size());
+  const double* par = s.parameters.data();
+  switch (arguments) {
+    case RoutineArguments::function:
+    case RoutineArguments::of_time:
+      return as<void(const int*, const double*, const double*, const int*, const int*, const int*, double*)>(address)(
+          &s.id, &now.time, par, &npar, &now.flag, &now.iflag, values);
+    case RoutineArguments::plain:
+      return as<void(const int*, const double*, const double*, const int*, const int*, double*)>(address)(
+          &s.id, &now.time, par, &npar, &now.iflag, values);
+  }
+}
+
+// Every one of these begins with id and constants.
+union WhatItSays {
+  sAdamsVariable variable;
+  sAdamsSforce sforce;
+  sAdamsGforce gforce;
+  sAdamsVforce vforce;
+  sAdamsDiff diff;
+};
+
+WhatItSays what_it_says(std::string_view statement, const RoutineStatement& s) {
+  const auto npar = static_cast<int>(s.parameters.size());
+  const double* par = s.parameters.data();
+  WhatItSays all{};
+  all.variable = {s.id, npar, par, s.initial};
+  if (statement == "SFORCE")
+    all.sforce = {s.id, npar, par, s.I, s.J, s.action_only, s.rotation ? "ROTATION" : "TRANSLATION"};
+  if (statement == "GFORCE") all.gforce = {s.id, npar, par, s.I, s.RM, s.JFLOAT};
+  if (statement == "VFORCE" || statement == "VTORQUE") all.vforce = {s.id, npar, par, s.I, s.JFLOAT, s.RM};
+  if (statement == "DIFF") all.diff = {s.id, npar, par, s.static_hold, s.implicit, s.initial, s.initial_rate};
+  return all;
+}
+
+void call_with_statement(void* address, RoutineArguments arguments, const WhatItSays& s, const RoutineArgumentsNow& now,
+                         double* values) {
+  switch (arguments) {
+    case RoutineArguments::function:
+    case RoutineArguments::of_time:
+      return as<void(const void*, double, int, int, double*)>(address)(&s, now.time, now.flag, now.iflag, values);
+    case RoutineArguments::plain:
+      return as<void(const void*, double, int, double*)>(address)(&s, now.time, now.iflag, values);
+  }
+}
+
+}  // namespace
+
+void call_routine(const FoundRoutine& found, const RoutineKind& kind, const RoutineStatement& statement,
+                  const RoutineArgumentsNow& now, double* values) {
+  if (found.convention == RoutineConvention::addresses)
+    return call_with_addresses(found.address, kind.arguments, statement, now, values);
+  call_with_statement(found.address, kind.arguments, what_it_says(kind.statement, statement), now, values);
+}
+
+}  // namespace dynalin

@@ -1,0 +1,294 @@
+#include "routine/compiled_routine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "routine/call_routine.h"
+#include "routine/differences.h"
+#include "routine/utilities.h"
+
+namespace dynalin {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double linear_mode = 7;  // of the function MODE
+
+std::uint64_t next_serial() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
+
+bool same_bits(std::span<const double> a, std::span<const double> b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
+}
+
+Atom atom_without_ids(std::string_view name) {
+  Atom atom;
+  atom.function = find_atom_function(name);
+  return atom;
+}
+
+}  // namespace
+
+// Components of a force follow each other, and each asks for all values again: the last call is remembered.
+struct CompiledRoutine::Memory {
+  std::uint64_t serial = 0;
+  bool has_partials = false;
+  std::vector<double> inputs, values, partials;  // partials: [value * inputs + input]
+  std::vector<char> given;
+};
+struct CompiledRoutine::CourseMemory {
+  std::uint64_t serial = 0;
+  std::vector<double> inputs;  // [3 input + derivative]
+  std::vector<Taylor> values, partials;
+};
+
+CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, std::size_t values,
+                                 RoutineStatement statement, RoutineDifferences differences, const SizeOfList& size_of)
+    : found_(std::move(found)),
+      kind_(&kind),
+      values_(values),
+      statement_(std::move(statement)),
+      differences_(differences),
+      size_of_(size_of),
+      serial_(next_serial()) {
+  keep_utilities();
+  what_ = fmt::format("{}, called for {}", name(), statement_.label);
+  requests_.inputs = {atom_without_ids("TIME"), atom_without_ids(knows_mode() ? "MODE" : "TIME")};
+  std::vector<double> ignored(values_);
+  // Routines that pass over one of the first two ask when they are called for a value.
+  for (const int iflag : {1, 3, 0}) {
+    RoutineContext asking = context(RoutineContext::Phase::asking);
+    asking.asked = &requests_;
+    asking.size_of = &size_of_;
+    const RoutineContext::Scope scope(asking, what_.c_str());
+    try {
+      call(0, 0, iflag, ignored.data());
+    } catch (...) {
+      asking.fail("it threw an exception when it was asked what it reads");
+    }
+    if (problem_.empty()) problem_ = asking.failure;
+  }
+  size_of_ = nullptr;
+  if (found_.derivatives != nullptr || kind.arguments == RoutineArguments::of_time) gives_derivatives_ = true;
+  if (gives_derivatives_ || !problem_.empty()) return;
+  // A trial at zero: what counts is whether it gives them, not what they are there.
+  std::vector<double> at_zero(requests_.inputs.size()), partials(values_ * at_zero.size());
+  std::vector<char> given(at_zero.size());
+  evaluate(at_zero, ignored, partials, given);
+  gives_derivatives_ = std::all_of(given.begin() + 2, given.end(), [](char g) { return g != 0; });
+}
+
+std::string CompiledRoutine::name() const {
+  return fmt::format("the routine {} of {}", found_.name, found_.library->file());
+}
+
+RoutineContext CompiledRoutine::context(RoutineContext::Phase phase) const {
+  RoutineContext c;
+  c.phase = phase;
+  c.requests = &requests_;
+  c.values = values_;
+  return c;
+}
+
+void CompiledRoutine::call(double time, int flag, int iflag, double* values) const {
+  call_routine(found_, *kind_, statement_, {time, flag, iflag, static_cast<int>(values_)}, values);
+}
+
+std::string CompiledRoutine::evaluate(std::span<const double> inputs, std::span<double> values,
+                                      std::span<double> partials, std::span<char> given) const {
+  RoutineContext c = context(RoutineContext::Phase::evaluating);
+  c.inputs = inputs;
+  c.partials = partials;
+  c.given = given;
+  std::fill(values.begin(), values.end(), unknown);
+  const bool derivatives = !partials.empty() && kind_->arguments != RoutineArguments::of_time;
+  const RoutineContext::Scope scope(c, what_.c_str());
+  try {
+    call(inputs[0], derivatives ? 1 : 0, 0, values.data());
+  } catch (...) {
+    c.fail("it threw an exception");
+  }
+  if (!c.failure.empty()) std::fill(values.begin(), values.end(), unknown);
+  return c.failure;
+}
+
+std::string CompiledRoutine::evaluate_course(std::span<const double> inputs, int order, std::span<double> values,
+                                             std::span<double> partials) const {
+  RoutineContext c = context(RoutineContext::Phase::evaluating);
+  // A routine that asks c_sysfnc here as well gets the values.
+  thread_local std::vector<double> plain;
+  const auto stride = static_cast<std::size_t>(order) + 1;
+  plain.clear();
+  for (std::size_t k = 0; k < inputs.size(); k += stride) plain.push_back(inputs[k]);
+  c.inputs = plain;
+  std::fill(values.begin(), values.end(), unknown);
+  std::fill(partials.begin(), partials.end(), unknown);
+  const dynalin_course course = {statement_.id,
+                                 static_cast<int>(statement_.parameters.size()),
+                                 statement_.parameters.data(),
+                                 static_cast<int>(requests_.inputs.size()),
+                                 static_cast<int>(values_),
+                                 order,
+                                 inputs.data(),
+                                 values.data(),
+                                 partials.data()};
+  const RoutineContext::Scope scope(c, what_.c_str());
+  try {
+    found_.derivatives(&course);
+  } catch (...) {
+    c.fail("it threw an exception");
+  }
+  return c.failure;
+}
+
+bool CompiledRoutine::may_difference(double mode) const {
+  return differences_ == RoutineDifferences::everywhere || mode != linear_mode;
+}
+
+// Differences of one input for all values at once.
+void CompiledRoutine::difference(std::span<const double> inputs, std::size_t input, std::span<double> partials) const {
+  std::vector<double> moved(inputs.begin(), inputs.end());
+  const auto at = [&](double x, std::span<double> values) {
+    moved[input] = x;
+    evaluate(moved, values, {}, {});
+  };
+  const std::vector<double> slope = extrapolated_slope(at, inputs[input], values_);
+  for (std::size_t v = 0; v < values_; ++v) partials[v * inputs.size() + input] = slope[v];
+}
+
+const CompiledRoutine::Memory& CompiledRoutine::remembered(const RoutineInputs<double>& read,
+                                                           bool with_partials) const {
+  thread_local Memory memory;
+  thread_local std::vector<double> inputs;
+  inputs.clear();
+  for (std::size_t k = 0; k < read.size(); ++k) inputs.push_back(read[k]);
+  if (!knows_mode()) inputs[1] = 0;
+  const bool same = memory.serial == serial_ && same_bits(memory.inputs, inputs);
+  if (same && (memory.has_partials || !with_partials)) return memory;
+  memory.serial = serial_;
+  memory.has_partials = with_partials;
+  memory.inputs = inputs;
+  memory.values.resize(values_);
+  if (!with_partials) {
+    evaluate(memory.inputs, memory.values, {}, {});
+    return memory;
+  }
+  const std::size_t n = memory.inputs.size();
+  memory.partials.assign(values_ * n, 0.0);
+  memory.given.assign(n, false);
+  if (found_.derivatives) {
+    if (!evaluate_course(memory.inputs, 0, memory.values, memory.partials).empty())
+      std::fill(memory.values.begin(), memory.values.end(), unknown);
+    for (std::size_t v = 0; v < values_; ++v) memory.partials[v * n + 1] = 0.0;  // nothing depends on MODE smoothly
+    return memory;
+  }
+  evaluate(memory.inputs, memory.values, memory.partials, memory.given);
+  // No equation has an unknown for time: what is not said of it is not asked for.
+  for (std::size_t k = 2; k < n; ++k) {
+    if (memory.given[k]) continue;
+    if (may_difference(memory.inputs[1])) {
+      difference(memory.inputs, k, memory.partials);
+    } else {
+      for (std::size_t v = 0; v < values_; ++v) memory.partials[v * n + k] = unknown;
+    }
+  }
+  return memory;
+}
+
+double CompiledRoutine::value(const RoutineInputs<double>& inputs, std::size_t which) const {
+  return remembered(inputs, false).values[which];
+}
+
+std::span<const double> CompiledRoutine::partials(const RoutineInputs<double>& inputs, std::size_t which) const {
+  return std::span(remembered(inputs, true).partials).subspan(which * inputs.size(), inputs.size());
+}
+
+void CompiledRoutine::fill_course(CourseMemory& m) const {
+  const std::size_t n = m.inputs.size() / 3;
+  std::vector<double> values, partials;
+  if (found_.derivatives) {
+    values.resize(3 * values_), partials.resize(3 * values_ * n);
+    evaluate_course(m.inputs, 2, values, partials);
+    for (std::size_t v = 0; v < values_; ++v) m.values[v] = {values[3 * v], values[3 * v + 1], values[3 * v + 2]};
+    for (std::size_t k = 0; k < m.partials.size(); ++k)
+      m.partials[k] = {partials[3 * k], partials[3 * k + 1], partials[3 * k + 2]};
+    for (std::size_t v = 0; v < values_; ++v) m.partials[v * n + 1] = Taylor(0.0);
+    return;
+  }
+  if (kind_->arguments == RoutineArguments::of_time && n == 2) {
+    std::array<double, 3> course{};
+    RoutineContext c = context(RoutineContext::Phase::evaluating);
+    const std::array<double, 2> at = {m.inputs[0], m.inputs[3]};
+    c.inputs = at;
+    const RoutineContext::Scope scope(c, what_.c_str());
+    for (int order = 0; order < 3; ++order) {
+      course[static_cast<std::size_t>(order)] = unknown;
+      call(at[0], order, 0, &course[static_cast<std::size_t>(order)]);
+    }
+    m.values[0] = {course[0], course[1], course[2]};
+    return;
+  }
+  // Values and what the chain rule makes of first derivatives; of second ones nothing is known.
+  std::vector<double> at(n);
+  std::vector<char> given(n, false);
+  for (std::size_t k = 0; k < n; ++k) at[k] = m.inputs[3 * k];
+  values.resize(values_), partials.assign(values_ * n, 0.0);
+  evaluate(at, values, partials, given);
+  for (std::size_t v = 0; v < values_; ++v) {
+    double rate = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const bool still = k == 1 || m.inputs[3 * k + 1] == 0.0;
+      const double p = k == 1 ? 0.0 : given[k] ? partials[v * n + k] : unknown;
+      m.partials[v * n + k] = k == 1 ? Taylor(0.0) : Taylor(p, unknown, unknown);
+      if (!still) rate += p * m.inputs[3 * k + 1];
+    }
+    m.values[v] = {values[v], rate, unknown};
+  }
+}
+
+const CompiledRoutine::CourseMemory& CompiledRoutine::remembered(const RoutineInputs<Taylor>& read) const {
+  thread_local CourseMemory memory;
+  thread_local std::vector<double> inputs;
+  inputs.clear();
+  for (std::size_t k = 0; k < read.size(); ++k)
+    inputs.insert(inputs.end(), {read[k].value, read[k].rate, read[k].acceleration});
+  if (!knows_mode()) std::fill_n(inputs.begin() + 3, 3, 0.0);
+  if (memory.serial == serial_ && same_bits(memory.inputs, inputs)) return memory;
+  memory.serial = serial_;
+  memory.inputs = inputs;
+  memory.values.assign(values_, Taylor(unknown));
+  memory.partials.assign(values_ * read.size(), Taylor(0.0));
+  fill_course(memory);
+  return memory;
+}
+
+TimeTaylor<double> CompiledRoutine::value(const RoutineInputs<Taylor>& inputs, std::size_t which) const {
+  return remembered(inputs).values[which];
+}
+
+std::span<const TimeTaylor<double>> CompiledRoutine::partials(const RoutineInputs<Taylor>& inputs,
+                                                              std::size_t which) const {
+  return std::span(remembered(inputs).partials).subspan(which * inputs.size(), inputs.size());
+}
+
+std::string CompiledRoutine::reason_of_value(std::span<const double> inputs) const {
+  std::vector<double> values(values_);
+  std::string reason = evaluate(inputs, values, {}, {});
+  if (reason.empty()) reason = "its value is no finite number";
+  return fmt::format("{} has no value at TIME {:g}: {}", name(), inputs[0], reason);
+}
+
+std::string CompiledRoutine::reason_of_partials(std::span<const double> inputs) const {
+  if (gives_derivatives_) return fmt::format("{} gives no finite derivatives at TIME {:g}", name(), inputs[0]);
+  return fmt::format("{} gives no derivatives, and a linear model needs them: {}", name(),
+                     "c_syspar, an entry with them, or --difference-user-routines");
+}
+
+}  // namespace dynalin

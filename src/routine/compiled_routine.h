@@ -1,0 +1,86 @@
+// A routine of a shared library, called for one statement.
+//
+// It is called first to learn what it reads. Its derivatives come from an entry of its own (dynalin_course), else from
+// what it tells c_syspar; what of them is missing is differenced where that is allowed: never in a linear model, unless
+// the user asks for it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "expression/routine.h"
+#include "routine/routine_context.h"
+#include "routine/routine_kinds.h"
+#include "routine/routine_library.h"
+
+namespace dynalin {
+
+enum class RoutineDifferences : std::uint8_t { not_in_linear_models, everywhere };
+
+// What the statement says to its routine.
+struct RoutineStatement {
+  std::string label;  // "SFORCE/3"
+  int id = 0;
+  std::vector<double> parameters;
+  int I = 0, J = 0, RM = 0, JFLOAT = 0;
+  bool action_only = false, rotation = false, static_hold = false, implicit = false;
+  double initial = 0, initial_rate = 0;
+};
+
+class CompiledRoutine final : public Routine {
+ public:
+  // Calls the routine to learn what it reads, where sizes of ARRAYs are needed.
+  CompiledRoutine(FoundRoutine, const RoutineKind&, std::size_t values, RoutineStatement, RoutineDifferences,
+                  const SizeOfList&);
+
+  // TIME, MODE but for a MOTION, and what it asked for.
+  const std::vector<Atom>& inputs() const { return requests_.inputs; }
+  std::size_t values() const { return values_; }
+  // What was wrong when it was asked what it reads, empty if nothing was.
+  const std::string& problem() const { return problem_; }
+  // Whether it gave derivatives with respect to all that it asked for, when it was called to try.
+  bool gives_derivatives() const { return gives_derivatives_; }
+
+  double value(const RoutineInputs<double>&, std::size_t which) const override;
+  TimeTaylor<double> value(const RoutineInputs<TimeTaylor<double>>&, std::size_t which) const override;
+  std::span<const double> partials(const RoutineInputs<double>&, std::size_t which) const override;
+  std::span<const TimeTaylor<double>> partials(const RoutineInputs<TimeTaylor<double>>&,
+                                               std::size_t which) const override;
+  std::string name() const override;
+  std::string reason_of_value(std::span<const double> inputs) const override;
+  std::string reason_of_partials(std::span<const double> inputs) const override;
+
+ private:
+  // A MOTION depends on nothing but time, so that TIME takes the place of MODE, which is 0 to its routine.
+  bool knows_mode() const { return kind_->arguments != RoutineArguments::of_time; }
+  using Taylor = TimeTaylor<double>;
+  struct Memory;        // of the last call in this thread
+  struct CourseMemory;  // the same along the motion
+  void call(double time, int flag, int iflag, double* values) const;
+  // All values, and with partials those too; says why there are none.
+  std::string evaluate(std::span<const double> inputs, std::span<double> values, std::span<double> partials,
+                       std::span<char> given) const;
+  std::string evaluate_course(std::span<const double> inputs, int order, std::span<double> values,
+                              std::span<double> partials) const;
+  void difference(std::span<const double> inputs, std::size_t input, std::span<double> partials) const;
+  bool may_difference(double mode) const;
+  const Memory& remembered(const RoutineInputs<double>&, bool with_partials) const;
+  const CourseMemory& remembered(const RoutineInputs<Taylor>&) const;
+  void fill_course(CourseMemory&) const;
+  RoutineContext context(RoutineContext::Phase) const;
+
+  FoundRoutine found_;
+  const RoutineKind* kind_;
+  std::size_t values_;
+  RoutineStatement statement_;
+  RoutineDifferences differences_;
+  RoutineRequests requests_;
+  SizeOfList size_of_;
+  std::string what_;  // for a crash
+  std::string problem_;
+  bool gives_derivatives_ = false;
+  std::uint64_t serial_;  // of this one among all that ever were
+};
+
+}  // namespace dynalin

@@ -1,0 +1,94 @@
+#include "routine/measures.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace dynalin {
+
+namespace {
+
+std::string upper_case(std::string_view text) {
+  std::string upper(text);
+  for (char& c : upper) {
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  }
+  return upper;
+}
+
+// A list of measures of markers, and how many of the ids each of them takes.
+struct MarkerList {
+  std::string_view name;
+  std::array<std::string_view, 9> functions;
+  std::size_t first_count, first_ids, further_ids;  // of the first functions, of those that follow
+};
+constexpr std::array<MarkerList, 16> marker_lists = {{
+    {"DISP", {"DX", "DY", "DZ", "PSI", "THETA", "PHI"}, 3, 3, 2},
+    {"TDISP", {"DX", "DY", "DZ"}, 3, 3, 0},
+    {"RDISP", {"PSI", "THETA", "PHI"}, 3, 2, 0},
+    {"VEL", {"VX", "VY", "VZ", "WX", "WY", "WZ"}, 3, 4, 3},
+    {"TVEL", {"VX", "VY", "VZ"}, 3, 4, 0},
+    {"RVEL", {"WX", "WY", "WZ"}, 3, 3, 0},
+    {"ACC", {"ACCX", "ACCY", "ACCZ", "WDTX", "WDTY", "WDTZ"}, 3, 4, 4},
+    {"TACC", {"ACCX", "ACCY", "ACCZ"}, 3, 4, 0},
+    {"RACC", {"WDTX", "WDTY", "WDTZ"}, 3, 4, 0},
+    {"FORCE", {"FX", "FY", "FZ", "TX", "TY", "TZ"}, 6, 3, 0},
+    {"TFORCE", {"FX", "FY", "FZ"}, 3, 3, 0},
+    {"RFORCE", {"TX", "TY", "TZ"}, 3, 3, 0},
+    {"UVX", {"UVX.X", "UVX.Y", "UVX.Z"}, 3, 2, 0},
+    {"UVY", {"UVY.X", "UVY.Y", "UVY.Z"}, 3, 2, 0},
+    {"UVZ", {"UVZ.X", "UVZ.Y", "UVZ.Z"}, 3, 2, 0},
+    {"DC", {"UVX.X", "UVY.X", "UVZ.X", "UVX.Y", "UVY.Y", "UVZ.Y", "UVX.Z", "UVY.Z", "UVZ.Z"}, 9, 2, 0},
+}};
+
+struct ElementList {
+  std::string_view name, statement, function;
+};
+constexpr std::array<ElementList, 3> element_lists = {
+    {{"ARRAY", "ARRAY", "ARYVAL"}, {"PINPUT", "PINPUT", "PINVAL"}, {"POUTPUT", "POUTPUT", "POUVAL"}}};
+
+std::optional<Atom> atom_of(std::string_view function, std::span<const int> ids) {
+  Atom atom;
+  atom.function = find_atom_function(function);
+  if (!atom.function || !atom.function->built || atom.function->family == AtomFamily::delay) return std::nullopt;
+  if (ids.size() < atom.function->minimum_arguments || ids.size() > atom.function->maximum_arguments)
+    return std::nullopt;
+  std::copy(ids.begin(), ids.end(), atom.argument.begin());
+  atom.argument_count = static_cast<std::uint8_t>(ids.size());
+  return atom;
+}
+
+}  // namespace
+
+std::optional<Atom> single_measure(std::string_view name, std::span<const int> ids) {
+  if (name.find('.') != std::string_view::npos) return std::nullopt;  // not of the language
+  return atom_of(upper_case(name), ids);
+}
+
+std::optional<std::vector<Atom>> measure_list(std::string_view name, std::span<const int> ids,
+                                              const SizeOfList& size_of) {
+  const std::string wanted = upper_case(name);
+  std::vector<Atom> list;
+  for (const MarkerList& m : marker_lists) {
+    if (m.name != wanted) continue;
+    if (ids.empty() || ids.size() > 4) return std::nullopt;
+    for (std::size_t k = 0; k < m.functions.size() && !m.functions[k].empty(); ++k) {
+      const std::size_t most = k < m.first_count ? m.first_ids : m.further_ids;
+      const auto atom = atom_of(m.functions[k], ids.subspan(0, std::min(ids.size(), most)));
+      if (!atom) return std::nullopt;
+      list.push_back(*atom);
+    }
+    return list;
+  }
+  for (const ElementList& e : element_lists) {
+    if (e.name != wanted) continue;
+    const auto count = ids.size() == 1 ? size_of(e.statement, ids[0]) : std::nullopt;
+    if (!count) return std::nullopt;
+    for (std::size_t n = 1; n <= *count; ++n)
+      list.push_back(*atom_of(e.function, std::array{ids[0], static_cast<int>(n)}));
+    return list;
+  }
+  return std::nullopt;
+}
+
+}  // namespace dynalin

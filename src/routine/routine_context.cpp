@@ -1,0 +1,122 @@
+#include "routine/routine_context.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstring>
+
+namespace dynalin {
+
+namespace {
+
+thread_local RoutineContext* at_work = nullptr;
+thread_local const char* volatile what_is_at_work = nullptr;
+
+bool same_name(std::string_view a, std::string_view b) {
+  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) {
+           const auto upper = [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; };
+           return upper(x) == upper(y);
+         });
+}
+
+bool is_it(const RoutineRequest& r, std::string_view name, std::span<const int> ids, bool single) {
+  return r.single == single && std::ranges::equal(r.ids, ids) && same_name(r.name, name);
+}
+
+void write_all(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t n = ::write(STDERR_FILENO, text.data(), text.size());
+    if (n <= 0) return;
+    text.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+// Nothing but what a signal handler may do; the disposition is the default again (SA_RESETHAND).
+void on_crash(int signal) {
+  if (const char* what = what_is_at_work) {
+    write_all("dynalin: a signal ended the program in ");
+    write_all(std::string_view(what, std::strlen(what)));
+    write_all("\n");
+  }
+  ::raise(signal);
+}
+
+}  // namespace
+
+RoutineContext* RoutineContext::current() { return at_work; }
+
+RoutineContext::Scope::Scope(RoutineContext& context, const char* what)
+    : before_(at_work), what_before_(what_is_at_work) {
+  at_work = &context;
+  what_is_at_work = what;
+}
+RoutineContext::Scope::~Scope() {
+  at_work = before_;
+  what_is_at_work = what_before_;
+}
+
+const RoutineRequest* RoutineContext::known(std::string_view name, std::span<const int> ids, bool single) const {
+  const RoutineRequests* all = phase == Phase::asking ? asked : requests;
+  const std::size_t count = all->list.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t at = (next_ + k) % count;
+    if (!is_it(all->list[at], name, ids, single)) continue;
+    next_ = at + 1;
+    return &all->list[at];
+  }
+  return nullptr;
+}
+
+const RoutineRequest* RoutineContext::request(std::string_view name, std::span<const int> ids, bool single) {
+  if (const RoutineRequest* r = known(name, ids, single)) return r;
+  if (phase == Phase::asking) return ask(name, ids, single);
+  fail(fmt::format("it reads {}({}), for which it did not ask when iflag was 1 or 3", name, fmt::join(ids, ", ")));
+  return nullptr;
+}
+
+const RoutineRequest* RoutineContext::ask(std::string_view name, std::span<const int> ids, bool single) {
+  std::vector<Atom> atoms;
+  if (single) {
+    if (const auto atom = single_measure(name, ids)) atoms.push_back(*atom);
+  } else if (auto list = measure_list(name, ids, *size_of)) {
+    atoms = std::move(*list);
+  } else if (const auto atom = single_measure(name, ids)) {
+    atoms.push_back(*atom);
+  }
+  if (atoms.empty()) {
+    fail(fmt::format("it asks for {}({}), which is no quantity of the model", name, fmt::join(ids, ", ")));
+    return nullptr;
+  }
+  RoutineRequest r{std::string(name), single, {ids.begin(), ids.end()}, {}};
+  for (const Atom& a : atoms) {
+    const auto found = std::find_if(asked->inputs.begin(), asked->inputs.end(), [&](const Atom& other) {
+      return other.function == a.function && other.argument == a.argument;
+    });
+    r.inputs.push_back(static_cast<std::int32_t>(found - asked->inputs.begin()));
+    if (found == asked->inputs.end()) asked->inputs.push_back(a);
+  }
+  asked->list.push_back(std::move(r));
+  return &asked->list.back();
+}
+
+void name_routine_of_crash() {
+  // A routine that runs out of stack needs another one to say so.
+  static std::array<char, 65536> spare;
+  stack_t stack{};
+  stack.ss_sp = spare.data();
+  stack.ss_size = spare.size();
+  ::sigaltstack(&stack, nullptr);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
+    struct sigaction before {};
+    if (::sigaction(signal, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) continue;
+    struct sigaction action {};
+    action.sa_handler = on_crash;
+    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_ONSTACK | SA_NODEFER);
+    ::sigaction(signal, &action, nullptr);
+  }
+}
+
+}  // namespace dynalin

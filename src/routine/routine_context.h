@@ -1,0 +1,76 @@
+// What a compiled routine is asked at this moment, in this thread: the utilities that it calls look here.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "routine/measures.h"
+
+namespace dynalin {
+
+// Something that a routine asked for, and which of its inputs that is.
+struct RoutineRequest {
+  std::string name;
+  bool single = false;  // by SYSFNC
+  std::vector<int> ids;
+  std::vector<std::int32_t> inputs;
+};
+
+// What a routine reads, in the order in which it asked first. The first two are TIME and MODE.
+struct RoutineRequests {
+  std::vector<Atom> inputs;
+  std::vector<RoutineRequest> list;
+};
+
+class RoutineContext {
+ public:
+  enum class Phase : std::uint8_t { asking, evaluating };
+
+  Phase phase = Phase::evaluating;
+  RoutineRequests* asked = nullptr;           // while asking: to be added to
+  const RoutineRequests* requests = nullptr;  // while evaluating
+  const SizeOfList* size_of = nullptr;
+  std::span<const double> inputs;
+  std::size_t values = 1;
+  // Partial derivatives of all values with respect to all inputs, [value * inputs + input], and which inputs have them.
+  std::span<double> partials;
+  std::span<char> given;
+  std::string failure;
+
+  bool wants_partials() const { return !partials.empty(); }
+  // Null, with the failure noted, if there is no such quantity or it was not asked for in time.
+  const RoutineRequest* request(std::string_view name, std::span<const int> ids, bool single);
+  // The same without a failure, for partial derivatives.
+  const RoutineRequest* known(std::string_view name, std::span<const int> ids, bool single) const;
+  void fail(std::string reason) {
+    if (failure.empty()) failure = std::move(reason);
+  }
+
+  // The one at work in this thread, null if none is.
+  static RoutineContext* current();
+  // Makes one current as long as it lives. `what` names statement and routine if the process dies in it; it must
+  // outlive this.
+  class Scope {
+   public:
+    Scope(RoutineContext&, const char* what);
+    ~Scope();
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    RoutineContext* before_;
+    const char* what_before_;
+  };
+
+ private:
+  const RoutineRequest* ask(std::string_view name, std::span<const int> ids, bool single);
+  mutable std::size_t next_ = 0;  // routines ask in the same order each time
+};
+
+// From now on a signal that kills the process in a routine says first which one that was, on the standard error
+// output. For programs; a library leaves signals alone.
+void name_routine_of_crash();
+
+}  // namespace dynalin

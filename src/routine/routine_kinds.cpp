@@ -1,0 +1,30 @@
+#include "routine/routine_kinds.h"
+
+#include <algorithm>
+#include <array>
+
+namespace dynalin {
+
+namespace {
+using enum RoutineArguments;
+constexpr std::array<RoutineKind, 9> kinds = {{
+    {"VARIABLE", "varsub", 1, function},
+    {"SFORCE", "sfosub", 1, function},
+    {"GFORCE", "gfosub", 6, function},
+    {"VFORCE", "vfosub", 3, function},
+    {"VTORQUE", "vtosub", 3, function},
+    {"DIFF", "difsub", 1, function},
+    {"MOTION", "motsub", 1, of_time},
+    {"REQUEST", "reqsub", 8, plain},
+    {"SENSOR", "sensub", 1, plain},
+}};
+}  // namespace
+
+std::span<const RoutineKind> routine_kinds() { return kinds; }
+
+const RoutineKind* find_routine_kind(std::string_view routine) {
+  const auto* found = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.routine == routine; });
+  return found == kinds.end() ? nullptr : found;
+}
+
+}  // namespace dynalin

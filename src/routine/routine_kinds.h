@@ -1,0 +1,27 @@
+// The routines that statements call: default names, how many values they give, which arguments they take.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace dynalin {
+
+enum class RoutineArguments : std::uint8_t {
+  function,  // dflag, iflag
+  of_time,   // iord, iflag
+  plain,     // iflag
+};
+
+struct RoutineKind {
+  std::string_view statement, routine;
+  std::size_t values;  // 0: the statement says how many
+  RoutineArguments arguments;
+};
+
+std::span<const RoutineKind> routine_kinds();
+// By the default name of the routine in lower case, nullptr if there is none.
+const RoutineKind* find_routine_kind(std::string_view routine);
+
+}  // namespace dynalin

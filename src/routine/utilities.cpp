@@ -1,0 +1,155 @@
+// The utilities of include/dynalin/user_routine.h, and the same under the names by which Fortran calls them.
+#include "routine/utilities.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstring>
+
+#include "routine/routine_context.h"
+
+namespace dynalin {
+
+namespace {
+
+std::span<const int> ids_of(const int* ipar, int nsize) {
+  return nsize > 0 && ipar ? std::span(ipar, static_cast<std::size_t>(nsize)) : std::span<const int>();
+}
+
+// Texts of Fortran have a length and blanks behind them.
+std::string_view text_of(const char* text, std::size_t length) {
+  std::string_view all(text, length);
+  if (const auto end = all.find('\0'); end != std::string_view::npos) all = all.substr(0, end);
+  while (!all.empty() && all.back() == ' ') all.remove_suffix(1);
+  return all;
+}
+
+double input_value(const RoutineContext& c, std::int32_t input) {
+  return c.phase == RoutineContext::Phase::asking ? 0.0 : c.inputs[static_cast<std::size_t>(input)];
+}
+
+void read(std::string_view name, const int* ipar, int nsize, bool single, double* out, int* count, int* errflg) {
+  RoutineContext* c = RoutineContext::current();
+  const RoutineRequest* r = c ? c->request(name, ids_of(ipar, nsize), single) : nullptr;
+  *errflg = r == nullptr;
+  if (count) *count = r ? static_cast<int>(r->inputs.size()) : 0;
+  if (!r) {
+    if (single) *out = 0;
+    return;
+  }
+  if (!out) return;  // who only wants to know how many
+  for (std::size_t k = 0; k < r->inputs.size(); ++k) out[k] = input_value(*c, r->inputs[k]);
+}
+
+void give_partials(RoutineContext& c, std::span<const std::int32_t> inputs, const double* partial, int count) {
+  if (!c.wants_partials()) return;
+  const std::size_t given = static_cast<std::size_t>(std::max(count, 0)) / c.values;
+  for (std::size_t s = 0; s < std::min(inputs.size(), given); ++s) {
+    const auto input = static_cast<std::size_t>(inputs[s]);
+    // What is asked for twice depends on the sum of both.
+    for (std::size_t v = 0; v < c.values; ++v) c.partials[v * c.inputs.size() + input] += partial[v + c.values * s];
+    c.given[input] = true;
+  }
+}
+
+void give(std::string_view name, const int* ipar, int nsize, const double* partial, int count, int* errflg) {
+  RoutineContext* c = RoutineContext::current();
+  *errflg = 1;
+  if (!c) return;
+  const auto ids = ids_of(ipar, nsize);
+  if (ids.empty() && (name == "TIME" || name == "time")) {
+    constexpr std::array<std::int32_t, 1> time = {0};
+    give_partials(*c, time, partial, count);
+    *errflg = 0;
+    return;
+  }
+  const RoutineRequest* r = c->known(name, ids, false);
+  if (!r) r = c->known(name, ids, true);
+  if (!r) return;
+  give_partials(*c, r->inputs, partial, count);
+  *errflg = 0;
+}
+
+void message(int flag, std::string_view text, std::string_view end) {
+  RoutineContext* c = RoutineContext::current();
+  if (!c || flag == 0 || c->phase == RoutineContext::Phase::asking) return;
+  std::string word(end);
+  std::ranges::transform(word, word.begin(), [](unsigned char x) { return static_cast<char>(std::toupper(x)); });
+  if (word == "STOP") c->fail(fmt::format("it says: {}", text));
+}
+
+}  // namespace
+
+void keep_utilities() {}
+
+}  // namespace dynalin
+
+using namespace dynalin;
+
+extern "C" {
+
+void c_sysfnc(const char* name, const int* ipar, int nsize, double* state, int* errflg) {
+  read(name, ipar, nsize, true, state, nullptr, errflg);
+}
+void sysfnc_(const char* name, const int* ipar, const int* nsize, double* state, int* errflg, std::size_t length) {
+  read(text_of(name, length), ipar, *nsize, true, state, nullptr, errflg);
+}
+
+void c_sysary(const char* name, const int* ipar, int nsize, double* states, int* nstates, int* errflg) {
+  read(name, ipar, nsize, false, states, nstates, errflg);
+}
+void sysary_(const char* name, const int* ipar, const int* nsize, double* states, int* nstates, int* errflg,
+             std::size_t length) {
+  read(text_of(name, length), ipar, *nsize, false, states, nstates, errflg);
+}
+
+void c_adams_needs_partials(int* wanted) {
+  const RoutineContext* c = RoutineContext::current();
+  *wanted = c && c->wants_partials();
+}
+void adams_needs_partials_(int* wanted) { c_adams_needs_partials(wanted); }
+
+void c_syspar(const char* name, const int* ipar, int nsize, const double* partial, int npartial, int* errflg) {
+  give(name, ipar, nsize, partial, npartial, errflg);
+}
+void syspar_(const char* name, const int* ipar, const int* nsize, const double* partial, const int* npartial,
+             int* errflg, std::size_t length) {
+  give(text_of(name, length), ipar, *nsize, partial, *npartial, errflg);
+}
+
+void c_errmes(int errflg, const char* text, int, const char* endflg) { message(errflg, text, endflg); }
+void errmes_(const int* errflg, const char* text, const int*, const char* endflg, std::size_t length,
+             std::size_t end_length) {
+  message(*errflg, text_of(text, length), text_of(endflg, end_length));
+}
+void c_usrmes(int msgflg, const char* text, int, const char* endflg) { message(msgflg, text, endflg); }
+void usrmes_(const int* msgflg, const char* text, const int*, const char* endflg, std::size_t length,
+             std::size_t end_length) {
+  message(*msgflg, text_of(text, length), text_of(endflg, end_length));
+}
+
+void c_timget(double* time) {
+  const RoutineContext* c = RoutineContext::current();
+  *time = c ? input_value(*c, 0) : 0.0;
+}
+void timget_(double* time) { c_timget(time); }
+void c_getmod(int* mode) {
+  const RoutineContext* c = RoutineContext::current();
+  *mode = c ? static_cast<int>(input_value(*c, 1)) : 0;
+}
+void getmod_(int* mode) { c_getmod(mode); }
+
+int dynalin_input(const char* name, const int* ipar, int nsize) {
+  const RoutineContext* c = RoutineContext::current();
+  const RoutineRequest* r = c ? c->known(name, ids_of(ipar, nsize), true) : nullptr;
+  return r ? r->inputs.front() : -1;
+}
+int dynalin_input_of_array(const char* name, const int* ipar, int nsize, int n) {
+  const RoutineContext* c = RoutineContext::current();
+  const RoutineRequest* r = c ? c->known(name, ids_of(ipar, nsize), false) : nullptr;
+  return r && n >= 0 && static_cast<std::size_t>(n) < r->inputs.size() ? r->inputs[static_cast<std::size_t>(n)] : -1;
+}
+
+}  // extern "C"

@@ -1,0 +1,8 @@
+// What compiled routines call is not called by anything else: whoever loads them asks for it to be linked.
+#pragma once
+
+namespace dynalin {
+
+void keep_utilities();
+
+}  // namespace dynalin

@@ -1,0 +1,187 @@
+// CONTACT against the same force written as an expression, against closed forms, and against what must be conserved.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "cases/run.h"
+#include "cases/study_of.h"
+
+namespace dynalin::cases {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const std::string head = "Contact\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-10\nPART/1, GROUND\nMARKER/1\n";
+const std::string ball =
+    "PART/2, MASS=2, CM=2, IP=0.008,0.008,0.008, QG=0.1,0.05,{}\nMARKER/2\n"
+    "GRAPHICS/2, ELLIPSOID, CM=2, XSCALE=0.2, YSCALE=0.2, ZSCALE=0.2\n";
+const std::string floor = "GRAPHICS/1, PLANE, RM=1, XMIN=-9, XMAX=9, YMIN=-9, YMAX=9\n";
+
+class Contacts : public Cases {
+ protected:
+  std::vector<std::complex<double>> at_rest(const std::string& model) const {
+    const RunResult r = run(model + "END\n", "SIMULATE/STATICS\nLINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.status == 0 ? sorted(r.eigenvalues(1)) : std::vector<std::complex<double>>{};
+  }
+  static std::vector<std::complex<double>> sorted(std::vector<std::complex<double>> v) {
+    std::sort(v.begin(), v.end(),
+              [](auto a, auto b) { return std::pair(std::abs(a), a.imag()) < std::pair(std::abs(b), b.imag()); });
+    return v;
+  }
+  static void expect_same(const std::vector<std::complex<double>>& a, const std::vector<std::complex<double>>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    ASSERT_FALSE(a.empty());
+    const double size = std::abs(a.back());
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_LE(std::abs(a[k] - b[k]), 1e-9 * size) << a[k] << b[k];
+  }
+  std::string refused(const std::string& lines) const {
+    const RunResult r =
+        run(head + floor + fmt::format(fmt::runtime(ball), 0.15) + lines + "\nEND\n", "LINEAR/EIGENSOL\n");
+    EXPECT_NE(r.status, 0);
+    return r.err;
+  }
+};
+
+const std::string impact = "IMPACT, STIFFNESS=2E4, EXPONENT=1.5, DAMPING=40, DMAX=0.001";
+
+// A sphere on a plane with friction: the same wrench as a GFORCE at its centre, the friction at half the penetration.
+TEST_F(Contacts, sphere_on_plane_is_the_force_of_its_expression) {
+  const std::string model = head + floor + fmt::format(fmt::runtime(ball), 0.15);
+  const std::string depth = "(0.1-DZ(2,1))", N = "IMPACT(DZ(2,1),VZ(2,1),0.1,2E4,1.5,40,0.001)";
+  // Arm from the centre down to half-way between both surfaces, (DZ + 0.1)/2, and the slip there.
+  const std::string arm = "((DZ(2,1)+0.1)/2)";
+  const std::string sx = "(VX(2,1)-WY(2,1)*" + arm + ")", sy = "(VY(2,1)+WX(2,1)*" + arm + ")";
+  const std::string mu = "(0.15*(3-(" + sx + "**2+" + sy + "**2)/0.01)/0.1)";
+  const std::string fx = "-" + mu + "*" + N + "*" + sx, fy = "-" + mu + "*" + N + "*" + sy;
+  const std::string written = "MARKER/3, PART=1, FLOATING\nGFORCE/1, I=2, JFLOAT=3, RM=1\n, FX=" + fx +
+                              "\\\n, FY=" + fy + "\\\n, FZ=" + N + "\\\n, TX=" + arm + "*(" + fy + ")\\\n, TY=-" + arm +
+                              "*(" + fx + ")\\\n, TZ=0\n";
+  const std::string friction =
+      ", COULOMB_FRICTION=ON, MU_STATIC=0.3, MU_DYNAMIC=0.1, STICTION_TRANSITION_VELOCITY=0.1, "
+      "FRICTION_TRANSITION_VELOCITY=1\n";
+  expect_same(at_rest(model + "CONTACT/1, IGEOM=2, JGEOM=1, " + impact + "\n" + friction), at_rest(model + written));
+  expect_same(at_rest(model + "CONTACT/1, IGEOM=1, JGEOM=2, " + impact + "\n" + friction), at_rest(model + written));
+}
+
+// A ball in a cone whose axis lies level rests on the lowest line, where the distance from the mantle is (r − z tan α)
+// cos α: the same as a force between the ball and a point that slides along the axis.
+TEST_F(Contacts, sphere_in_a_cone_is_the_force_of_its_distance) {
+  const std::string model = head + fmt::format(fmt::runtime(ball), -0.3) +
+                            "MARKER/9, PART=1, QP=-1,0,0, REULER=90D,90D,0\n"
+                            "GRAPHICS/9, FRUSTUM, CM=9, LENGTH=3, BOTTOM=0.4, TOP=0.6\n"
+                            // Held along the axis, which it would roll down.
+                            "MARKER/4, PART=2\nJPRIM/1, INPLANE, I=4, J=9\n"
+                            // The contact without friction leaves it to turn.
+                            "BUSHING/9, I=2, J=9, K=0,0,0, KT=1,2,3, C=0,0,0, CT=0,0,0\n";
+  const std::string radius = "SQRT(DX(2,9,9)**2+DY(2,9,9)**2)";
+  const double slope = 0.2 / 3, cosine = 1 / std::sqrt(1 + slope * slope);
+  const std::string gap = fmt::format("((0.4+{:.17g}*DZ(2,9,9)-{})*{:.17g})", slope, radius, cosine);
+  const std::string rate =
+      fmt::format("(({:.17g}*VZ(2,9,9)-(DX(2,9,9)*VX(2,9,9)+DY(2,9,9)*VY(2,9,9))/{})*{:.17g})", slope, radius, cosine);
+  const std::string N = "IMPACT(" + gap + "," + rate + ",0.1,2E4,1.5,40,0.001)";
+  const std::string written = fmt::format(
+      "MARKER/3, PART=1, FLOATING\nGFORCE/1, I=2, JFLOAT=3, RM=9\n, FX=-{1}*{0:.17g}*DX(2,9,9)/{2}\\\n"
+      ", FY=-{1}*{0:.17g}*DY(2,9,9)/{2}\\\n, FZ={1}*{3:.17g}\\\n, TX=0\\\n, TY=0\\\n, TZ=0\n",
+      cosine, N, radius, slope * cosine);
+  expect_same(at_rest(model + "CONTACT/1, IGEOM=2, JGEOM=9, JFLIP_GEOMETRY=9, " + impact + "\n"),
+              at_rest(model + written));
+}
+
+// A cylinder that lies on a plane and rocks on its rims: two forces at the lowest points.
+TEST_F(Contacts, cylinder_on_plane_rolls_and_rocks) {
+  const std::string model = head + floor +
+                            "PART/2, MASS=2, CM=2, IP=0.1,0.02,0.1, QG=0,0,0.12\nMARKER/2\n"
+                            "MARKER/3, PART=2, QP=0,-0.3,0, REULER=180D,90D,0\n"
+                            "GRAPHICS/2, CYLINDER, CM=3, LENGTH=0.6, RADIUS=0.1\n"
+                            "CONTACT/1, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=1E4, EXPONENT=1, DAMPING=0, DMAX=1\n";
+  const auto values = at_rest(model);
+  ASSERT_EQ(values.size(), 12u);
+  const double up = std::sqrt(2e4 / 2) / (2 * std::numbers::pi);
+  // Tilted by t, both rims lie r cos t ± 0.3 sin t about the centre: 2·10⁴ · 0.3² t − N r t.
+  const double rock = std::sqrt((2e4 * 0.09 - 20 * 0.1) / 0.1) / (2 * std::numbers::pi);
+  EXPECT_NEAR(std::abs(values[9]), std::min(up, rock), 1e-9 * up);
+  EXPECT_NEAR(std::abs(values[11]), std::max(up, rock), 1e-9 * up);
+  EXPECT_NEAR(std::abs(values[7]), 0, 1e-6);
+}
+
+// POISSON: a bounce leaves r of the speed, and a ball without loss comes back to where it fell from.
+TEST(ContactsInTime, ball_bounces_with_the_coefficient_of_restitution) {
+  for (const double r : {1.0, 0.8, 0.3}) {
+    const auto study = study_of(fmt::format(
+        fmt::runtime("Ball\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n" + floor +
+                     "PART/2, MASS=2, CM=2, IP=0.008,0.008,0.008, QG=0,0,0.15, VZ=-1\nMARKER/2\n"
+                     "GRAPHICS/2, ELLIPSOID, CM=2, XSCALE=0.2, YSCALE=0.2, ZSCALE=0.2\n"
+                     "CONTACT/1, IGEOM=2, JGEOM=1, POISSON, PENALTY=2E5, RESTITUTION_COEFFICIENT={}\nEND\n"),
+        r));
+    library::SimulationRequest request;
+    request.end = 0.2;
+    request.error = 1e-8;
+    const BodyState ball_state = study.simulate(request).point.state().bodies.at(0);
+    EXPECT_NEAR(ball_state.velocity[2], r, 2e-4) << r;
+    EXPECT_NEAR(ball_state.velocity[0], 0, 1e-9);
+  }
+}
+
+TEST_F(Contacts, one_that_is_just_touching_is_named) {
+  const std::string model =
+      head + floor + fmt::format(fmt::runtime(ball), 0.1) + "CONTACT/7, IGEOM=2, JGEOM=1, " + impact + "\nEND\n";
+  const RunResult r = run(model, "LINEAR/EIGENSOL\n");
+  EXPECT_THAT(r.err, AllOf(HasSubstr("CONTACT/7 is just touching"), HasSubstr("[touching-contact]")));
+  const RunResult settled = run(model, "SIMULATE/STATICS\nLINEAR/EIGENSOL\n");
+  EXPECT_THAT(settled.err, Not(HasSubstr("touching-contact")));
+}
+
+TEST_F(Contacts, goes_when_it_is_deactivated) {
+  const RunResult r =
+      run(head + floor + fmt::format(fmt::runtime(ball), 0.0995) + "CONTACT/7, IGEOM=2, JGEOM=1, " + impact + "\nEND\n",
+          "LINEAR/EIGENSOL\nDEACTIVATE/CONTACT, ID=7\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_GT(std::abs(sorted(r.eigenvalues(0)).back()), 1);
+  EXPECT_EQ(std::abs(sorted(r.eigenvalues(2)).back()), 0);
+}
+
+TEST_F(Contacts, what_cannot_touch_is_an_error_at_its_place) {
+  const auto with = [&](const std::string& geometry) { return refused("CONTACT/7, " + geometry + ", " + impact); };
+  EXPECT_THAT(with("IGEOM=2, JGEOM=5"), AllOf(HasSubstr("[unknown-element]"), HasSubstr("model.adm:10:27")));
+  EXPECT_THAT(with("IGEOM=2, JGEOM=2"), HasSubstr("[same-body]"));
+  EXPECT_THAT(with("IGEOM=2, 1, JGEOM=1"), HasSubstr("[foreign-marker]"));
+  EXPECT_THAT(with("IGEOM=2, JGEOM=3\nGRAPHICS/3, CIRCLE, CM=1, RADIUS=1\n!"), AllOf(HasSubstr("[missing-variant]")));
+  EXPECT_THAT(refused("GRAPHICS/3, CIRCLE, CM=1, RADIUS=1\nCONTACT/7, IGEOM=2, JGEOM=3, " + impact),
+              AllOf(HasSubstr("[contact-shape]"), HasSubstr("model.adm:11:27"), HasSubstr("a CIRCLE")));
+  EXPECT_THAT(refused("GRAPHICS/3, BOX, CORNER=1, X=1, Y=1, Z=1\nGRAPHICS/4, BOX, CORNER=2, X=1, Y=1, Z=1\n"
+                      "CONTACT/7, IGEOM=4, JGEOM=3, " +
+                      impact),
+              HasSubstr("[contact-pair-not-built]"));
+  EXPECT_THAT(with("IGEOM=2, JGEOM=1, IFLIP_GEOMETRY=1"), HasSubstr("[unexpected-value]"));
+  EXPECT_THAT(with("IGEOM=2, JGEOM=1, JFLIP_GEOMETRY=1, JFLIP_NORMAL=1"), HasSubstr("[excluded-arguments]"));
+  EXPECT_THAT(with("IGEOM=2, JGEOM=1, 1"), HasSubstr("[duplicate-argument]"));
+  EXPECT_THAT(with("IGEOM=2, JGEOM=1, COULOMB_FRICTION=ON"), HasSubstr("[missing-argument]"));
+  EXPECT_THAT(with("IGEOM=2, JGEOM=1, MU_STATIC=0.3"), HasSubstr("[unexpected-argument]"));
+  EXPECT_THAT(refused("CONTACT/7, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=1, EXPONENT=0.5, DAMPING=0, DMAX=1"),
+              HasSubstr("[value-out-of-range]"));
+  EXPECT_THAT(refused("CONTACT/7, IGEOM=2, JGEOM=1, POISSON, PENALTY=1, RESTITUTION_COEFFICIENT=0"),
+              HasSubstr("[value-out-of-range]"));
+  EXPECT_THAT(refused("PART/5\nMARKER/55, PART=5\nGRAPHICS/5, POINT, RM=55\n"
+                      "CONTACT/7, IGEOM=5, JGEOM=1, POISSON, PENALTY=1, RESTITUTION_COEFFICIENT=0.5"),
+              HasSubstr("[contact-without-mass]"));
+}
+
+// Where a cylinder stands upright no point of its rim is the one.
+TEST_F(Contacts, one_that_touches_all_around_is_named) {
+  const RunResult r = run(head + floor +
+                              "PART/2, MASS=2, CM=2, IP=0.1,0.1,0.02, QG=0,0,0.1\nMARKER/2\n"
+                              "MARKER/3, PART=2, QP=0,0,-0.101\nGRAPHICS/2, CYLINDER, CM=3, LENGTH=0.2, RADIUS=0.1\n"
+                              "CONTACT/1, IGEOM=2, JGEOM=1, " +
+                              impact + "\nEND\n",
+                          "LINEAR/EIGENSOL\n");
+  EXPECT_NE(r.status, 0);
+  EXPECT_THAT(r.err, AllOf(HasSubstr("CONTACT/1"), HasSubstr("touch all around")));
+}
+
+}  // namespace
+}  // namespace dynalin::cases

@@ -1,0 +1,165 @@
+/* Routines as users write them, with addresses for arguments and with a statement first. */
+#include <dynalin/user_routine.h>
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+/* -(k x + h x^3 + c v), x and v of marker par[0] from par[1]; with derivatives where `exact`. */
+static void spring(const double* par, double* value, int exact) {
+  const int i = (int)par[0], j = (int)par[1];
+  const int at[3] = {i, j, j}, moving[4] = {i, j, j, j};
+  double x, v;
+  int error, wanted;
+  c_sysfnc("DX", at, 3, &x, &error);
+  c_errmes(error, "DX is not there", 0, "STOP");
+  c_sysfnc("vx", moving, 4, &v, &error);
+  *value = -(par[2] * x + par[3] * x * x * x + par[4] * v);
+  c_adams_needs_partials(&wanted);
+  if (!wanted || !exact) return;
+  const double by_x = -(par[2] + 3 * par[3] * x * x), by_v = -par[4];
+  c_syspar("DX", at, 3, &by_x, 1, &error);
+  c_syspar("VX", moving, 4, &by_v, 1, &error);
+}
+
+void sfosub(const int* id, const double* time, const double* par, const int* npar, const int* dflag, const int* iflag,
+            double* value) {
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  spring(par, value, 1);
+}
+void spring_without_derivatives(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                                const int* iflag, double* value) {
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  spring(par, value, 0);
+}
+/* A statement first: the markers are those of the SFORCE. */
+void Springc(const struct sAdamsSforce* s, double time, int dflag, int iflag, double* value) {
+  const double par[5] = {s->I, s->J, s->PAR[0], s->PAR[1], s->PAR[2]};
+  (void)time, (void)dflag, (void)iflag;
+  spring(par, value, s->NPAR == 3 && s->ID == 1 && s->ACTION_ONLY == 1 && strcmp(s->Type, "TRANSLATION") == 0);
+}
+
+/* par[0] VARVAL(par[1])^2 + par[2] TIME */
+void varsub(const int* id, const double* time, const double* par, const int* npar, const int* dflag, const int* iflag,
+            double* value) {
+  const int of = (int)par[1];
+  double other;
+  int error, wanted;
+  (void)id, (void)npar, (void)dflag, (void)iflag;
+  c_sysfnc("VARVAL", &of, 1, &other, &error);
+  *value = par[0] * other * other + par[2] * *time;
+  c_adams_needs_partials(&wanted);
+  if (!wanted) return;
+  const double by_other = 2 * par[0] * other, by_time = par[2];
+  c_syspar("VARVAL", &of, 1, &by_other, 1, &error);
+  c_syspar("TIME", NULL, 0, &by_time, 1, &error);
+}
+
+/* A linear spring in all six directions by lists: -par[2] times DISP of (par[0], par[1], par[1]). */
+void gfosub(const int* id, const double* time, const double* par, const int* npar, const int* dflag, const int* iflag,
+            double* value) {
+  const int at[3] = {(int)par[0], (int)par[1], (int)par[1]};
+  double x[3], w[3], by_x[18] = {0}, by_w[18] = {0};
+  int n, error, wanted;
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  c_sysary("TDISP", at, 3, x, &n, &error);
+  c_sysary("RVEL", at, 3, w, &n, &error);
+  for (int k = 0; k < 3; ++k) {
+    value[k] = -par[2] * x[k], value[3 + k] = -par[3] * w[k];
+    by_x[6 * k + k] = -par[2], by_w[6 * k + 3 + k] = -par[3];
+  }
+  c_adams_needs_partials(&wanted);
+  if (!wanted) return;
+  c_syspar("TDISP", at, 3, by_x, 18, &error);
+  c_syspar("RVEL", at, 3, by_w, 18, &error);
+}
+void vfosub(const int* id, const double* time, const double* par, const int* npar, const int* dflag, const int* iflag,
+            double* value) {
+  double all[6];
+  int error, wanted;
+  const int at[3] = {(int)par[0], (int)par[1], (int)par[1]};
+  double by_x[9] = {0}, x[3];
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag, (void)all;
+  c_sysary("TDISP", at, 3, x, &error, &wanted);
+  for (int k = 0; k < 3; ++k) value[k] = -par[2] * x[k], by_x[3 * k + k] = -par[2];
+  c_syspar("TDISP", at, 3, by_x, 9, &error);
+}
+void vtosub(const int* id, const double* time, const double* par, const int* npar, const int* dflag, const int* iflag,
+            double* value) {
+  const int at[3] = {(int)par[0], (int)par[1], (int)par[1]};
+  double by_w[9] = {0}, w[3];
+  int n, error;
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  c_sysary("RVEL", at, 3, w, &n, &error);
+  for (int k = 0; k < 3; ++k) value[k] = -par[2] * w[k], by_w[3 * k + k] = -par[2];
+  c_syspar("RVEL", at, 3, by_w, 9, &error);
+}
+
+/* x' = (VARVAL(par[0]) - x) / par[1] */
+void difsub(const int* id, const double* time, const double* par, const int* npar, const int* dflag, const int* iflag,
+            double* value) {
+  const int of = (int)par[0];
+  double u, x;
+  int error;
+  (void)time, (void)npar, (void)dflag, (void)iflag;
+  c_sysfnc("VARVAL", &of, 1, &u, &error);
+  c_sysfnc("DIF", id, 1, &x, &error);
+  *value = (u - x) / par[1];
+  const double by_u = 1 / par[1], by_x = -1 / par[1];
+  c_syspar("VARVAL", &of, 1, &by_u, 1, &error);
+  c_syspar("DIF", id, 1, &by_x, 1, &error);
+}
+
+/* par[0] sin(par[1] t) and its derivatives */
+void motsub(const int* id, const double* time, const double* par, const int* npar, const int* iord, const int* iflag,
+            double* value) {
+  (void)id, (void)npar, (void)iflag;
+  const double a = par[1] * *time;
+  *value = *iord == 0 ? par[0] * sin(a) : *iord == 1 ? par[0] * par[1] * cos(a) : -par[0] * par[1] * par[1] * sin(a);
+}
+
+void reqsub(const int* id, const double* time, const double* par, const int* npar, const int* iflag, double* value) {
+  const int at[2] = {(int)par[0], (int)par[1]};
+  double x;
+  int error;
+  (void)id, (void)time, (void)npar, (void)iflag;
+  c_sysfnc("DX", at, 2, &x, &error);
+  for (int k = 0; k < 8; ++k) value[k] = k + x;
+}
+void sensub(const int* id, const double* time, const double* par, const int* npar, const int* iflag, double* value) {
+  (void)id, (void)npar, (void)iflag;
+  *value = par[0] * *time;
+}
+
+/* What goes wrong. */
+void gives_no_number(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                     const int* iflag, double* value) {
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  *value = sqrt(-par[0]);
+}
+void says_stop(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+               const int* iflag, double* value) {
+  (void)time, (void)par, (void)npar, (void)dflag, (void)iflag;
+  *value = 1;
+  c_errmes(1, "the table is missing", *id, "STOP");
+}
+void asks_too_late(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                   const int* iflag, double* value) {
+  static int calls = 0;
+  const int at[2] = {(int)par[0], (int)par[1]};
+  int error;
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  *value = 0;
+  if (++calls > 4) c_sysfnc("DX", at, 2, value, &error);
+}
+void asks_nonsense(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                   const int* iflag, double* value) {
+  int error;
+  (void)time, (void)par, (void)npar, (void)dflag, (void)iflag;
+  c_sysfnc("HEIGHT", id, 1, value, &error);
+}
+void crashes(const int* id, const double* time, const double* par, const int* npar, const int* dflag, const int* iflag,
+             double* value) {
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  double* volatile nowhere = NULL;
+  *value = par[0] > 0 ? *nowhere : 0;
+}

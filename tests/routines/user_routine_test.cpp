@@ -1,0 +1,221 @@
+// Compiled routines: the same as expressions, in C, Fortran and by formulas that are differentiated; and what goes
+// wrong.
+#include <gmock/gmock.h>
+
+#include <csignal>
+
+#include "cases/run.h"
+#include "routine/routine_context.h"
+#include "routines/robot.h"
+
+namespace dynalin::cases {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::string oscillator = R"(oscillator
+UNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH=METER, TIME=SECOND
+PART/1, GROUND
+MARKER/1, PART=1
+MARKER/2, PART=1, REULER=90D,90D,0D
+PART/2, MASS=2, CM=20, IP=1,2,3, VX=0.4
+MARKER/20, PART=2, QP=0.1,0,0
+MARKER/21, PART=2, REULER=90D,90D,0D
+)";
+const std::string slider = oscillator + "JOINT/1, TRANSLATIONAL, I=21, J=2\n";
+const std::string along = "SFORCE/1, TRANSLATION, ACTIONONLY, I=21, J=2, ";
+const std::string spring = along + "FUNCTION=-(50*DX(20,1,1)+30*DX(20,1,1)**3+2*VX(20,1,1))\n";
+
+class UserRoutines : public Cases {
+ protected:
+  RunResult with(const std::string& dataset, const std::vector<std::string>& libraries = {C_ROUTINES, CPP_ROUTINES},
+                 bool differences = false, const std::vector<std::string>& commands = {"LINEAR/EIGENSOL"}) const {
+    write("model.adm", dataset + (dataset.ends_with("END\n") ? "" : "END\n"));
+    SessionOptions options;
+    options.file = (folder_ / "model.adm").string();
+    options.commands = commands;
+    options.json = (folder_ / "results.json").string();
+    options.user_libraries = libraries;
+    options.difference_user_routines = differences;
+    std::ostringstream out, err;
+    RunResult r;
+    r.status = run_session(options, out, err);
+    r.out = out.str(), r.err = err.str();
+    if (std::filesystem::exists(options.json)) r.json = nlohmann::json::parse(read_file(options.json));
+    return r;
+  }
+  static void expect_same(const RunResult& a, const RunResult& b, double tolerance, std::size_t result = 0) {
+    ASSERT_EQ(a.status, 0) << a.err;
+    ASSERT_EQ(b.status, 0) << b.err;
+    const auto x = a.eigenvalues(result), y = b.eigenvalues(result);
+    ASSERT_EQ(x.size(), y.size());
+    double largest = 0;
+    for (const auto& v : y) largest = std::max(largest, std::abs(v));
+    EXPECT_GT(largest, 0);
+    for (std::size_t k = 0; k < x.size(); ++k) EXPECT_LE(std::abs(x[k] - y[k]), tolerance * largest) << k;
+  }
+};
+
+TEST_F(UserRoutines, give_the_eigenvalues_of_the_same_expression) {
+  const RunResult expression = with(slider + spring);
+  expect_same(with(slider + along + "FUNCTION=USER(20,1,50,30,2)\n"), expression, 1e-14);
+  expect_same(with(slider + along + "FUNCTION=USER(20,1,50,30,2), ROUTINE=formulas::spring_by_formula\n"), expression,
+              1e-14);
+  // A statement comes first, with the markers of the SFORCE; they are those of the slider, x is along their z axes.
+  const std::string at_slider = along + "FUNCTION=-(50*DX(21,2,2)+30*DX(21,2,2)**3+2*VX(21,2,2))-7*DX(20,1)\n";
+  const std::string called =
+      along +
+      "FUNCTION=USER(50,30,2), ROUTINE=routines::Springc\nSFORCE/2, TRANSLATION, ACTIONONLY, I=21, J=2, "
+      "FUNCTION=-7*DX(20,1)\n";
+  expect_same(with(slider + called), with(slider + at_slider), 1e-14);
+}
+
+TEST_F(UserRoutines, without_derivatives_are_refused_in_linear_models_unless_differences_are_asked_for) {
+  const std::string called =
+      slider + along + "FUNCTION=USER(20,1,50,30,2), ROUTINE=routines::spring_without_derivatives\n";
+  const RunResult refused = with(called);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("[differenced-routine]"), HasSubstr("LINEAR refuses it"),
+                                 HasSubstr("SFORCE/1: the routine spring_without_derivatives"),
+                                 HasSubstr("--difference-user-routines")));
+  const RunResult differenced = with(called, {C_ROUTINES}, true);
+  EXPECT_THAT(differenced.err, AllOf(HasSubstr("[differenced-routine]"), HasSubstr("no bound of an eigenvalue")));
+  expect_same(differenced, with(slider + spring), 1e-9);
+  // An equilibrium needs derivatives for its iteration alone.
+  const std::string statics = slider + along +
+                              "FUNCTION=USER(20,1,50,30,2), ROUTINE=routines::spring_without_derivatives\n"
+                              "VARIABLE/1, FUNCTION=DX(20,1)\nREQUEST/1, VARIABLES=1\n";
+  const RunResult found = with(statics, {C_ROUTINES}, false, {"SIMULATE/STATIC"});
+  EXPECT_EQ(found.status, 0) << found.err;
+}
+
+TEST_F(UserRoutines, of_forces_torques_values_and_states_are_their_expressions) {
+  const std::string fixed = oscillator +
+                            "MARKER/3, PART=1, FLOATING\nMARKER/4, PART=1, FLOATING\n"
+                            "MARKER/5, PART=1, FLOATING\nVARIABLE/1, FUNCTION=0.3+DX(20,1)\n";
+  const auto at = [](std::string_view f) { return std::string(f) + "(20,1,1)"; };
+  const std::string called = fixed +
+                             "GFORCE/1, I=20, JFLOAT=3, RM=1, FUNCTION=USER(20,1,70,6)\n"
+                             "VFORCE/1, I=20, JFLOAT=4, RM=1, FUNCTION=USER(20,1,9)\n"
+                             "VTORQUE/1, I=20, JFLOAT=5, RM=1, FUNCTION=USER(20,1,4)\n"
+                             "VARIABLE/2, FUNCTION=USER(3,1,5)\nDIFF/1, FUNCTION=USER(2,0.25)\n";
+  std::string g = "GFORCE/1, I=20, JFLOAT=3, RM=1", f = "VFORCE/1, I=20, JFLOAT=4, RM=1",
+              t = "VTORQUE/1, I=20, JFLOAT=5, RM=1";
+  for (const std::string axis : {"X", "Y", "Z"}) {
+    g += ", F" + axis + "=-70*" + at("D" + axis) + "\\";
+    f += ", F" + axis + "=-9*" + at("D" + axis) + "\\";
+    t += ", T" + axis + "=-4*" + at("W" + axis) + "\\";
+  }
+  for (const std::string axis : {"X", "Y", "Z"}) g += ", T" + axis + "=-6*" + at("W" + axis) + "\\";
+  const std::string written = fixed + g + "\n" + f + "\n" + t +
+                              "\nVARIABLE/2, FUNCTION=3*VARVAL(1)**2+5*TIME\n"
+                              "DIFF/1, FUNCTION=(VARVAL(2)-DIF(1))/0.25\n";
+  const std::string driven = "SFORCE/1, TRANSLATION, ACTIONONLY, I=20, J=2, FUNCTION=DIF(1)\n";
+  const RunResult a = with(called + driven), b = with(written + driven);
+  expect_same(a, b, 1e-13);
+  // Many components of one formula, with slopes that the header finds: against differences of the same values.
+  const std::string formula = fixed +
+                              "GFORCE/1, I=20, JFLOAT=3, RM=1, FUNCTION=USER(20,1), "
+                              "ROUTINE=formulas::wrench_by_formula\n";
+  const std::string smooth =
+      fixed +
+      "GFORCE/1, I=20, JFLOAT=3, RM=1, FX=-100*SIN(DX(20,1,1))-5*VX(20,1,1,1)/SQRT(1+DX(20,1,1)**2)\\, "
+      "FY=-200*SIN(DY(20,1,1))-5*VY(20,1,1,1)/SQRT(1+DY(20,1,1)**2)\\, "
+      "FZ=-300*SIN(DZ(20,1,1))-5*VZ(20,1,1,1)/SQRT(1+DZ(20,1,1)**2)\\, "
+      "TX=-TANH(WX(20,1,1))-3*ATAN(UVX(20,1)*[1,0,0])*EXP(-0.5*DX(20,1,1))\\, "
+      "TY=-TANH(WY(20,1,1))-3*ATAN(UVX(20,1)*[0,1,0])*EXP(-0.5*DY(20,1,1))\\, "
+      "TZ=-TANH(WZ(20,1,1))-3*ATAN(UVX(20,1)*[0,0,1])*EXP(-0.5*DZ(20,1,1))\\\n";
+  expect_same(with(formula), with(smooth), 1e-13);
+}
+
+TEST_F(UserRoutines, of_motions_give_velocity_and_acceleration) {
+  const std::string model = slider +
+                            "PART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30, PART=3, QP=0.3,0,0\n"
+                            "MARKER/31, PART=3, REULER=90D,90D,0D\nMARKER/22, PART=2, REULER=90D,90D,0D\n"
+                            "JOINT/2, TRANSLATIONAL, I=31, J=22\n"
+                            "SPRINGDAMPER/1, TRANSLATION, I=30, J=20, K=40, C=1, LENGTH=0.1\n"
+                            "REQUEST/1, F2=VX(20)\\F3=ACCX(20)\\F4=MOTION(1,0,2,0)\n";
+  const auto values = [&](const std::string& motion) {
+    const RunResult r = with(model + "MOTION/1, JOINT=1, TRANSLATION, " + motion + "\n", {C_ROUTINES, CPP_ROUTINES},
+                             false, {"SIMULATE/TRANSIENT, END=0.5, STEPS=2", "SIMULATE/INITIAL"});
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.result(1).at("operating_point").at("requests").at(0).at("values").get<std::vector<double>>();
+  };
+  const auto expression = values("FUNCTION=0.4/3*SIN(3*TIME)");
+  for (const std::string called : {"FUNCTION=USER(0.13333333333333333,3)",
+                                   "FUNCTION=USER(0.13333333333333333,3), ROUTINE=formulas::course_by_formula"}) {
+    const auto found = values(called);
+    ASSERT_EQ(found.size(), expression.size());
+    for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expression[k], 1e-7) << called << k;
+  }
+}
+
+TEST_F(UserRoutines, of_requests_and_sensors_are_called) {
+  const RunResult r =
+      with(slider + spring + "REQUEST/1, FUNCTION=USER(20,1)\n", {C_ROUTINES}, false, {"SIMULATE/INITIAL"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto values = r.result(0).at("operating_point").at("requests").at(0).at("values").get<std::vector<double>>();
+  ASSERT_EQ(values.size(), 8u);
+  for (std::size_t k = 0; k < 8; ++k) EXPECT_NEAR(values[k], static_cast<double>(k) + 0.1, 1e-15);
+  const RunResult stopped = with(slider + spring + "SENSOR/1, GE, VALUE=0.5, ERROR=1E-3, HALT, FUNCTION=USER(2)\n",
+                                 {C_ROUTINES}, false, {"SIMULATE/TRANSIENT, END=1, STEPS=10", "SIMULATE/INITIAL"});
+  ASSERT_FALSE(stopped.json.is_null()) << stopped.err;
+  EXPECT_THAT(stopped.err + stopped.out, HasSubstr("dynamics to 0.25:"));
+}
+
+TEST_F(UserRoutines, move_a_robot_with_friction_as_expressions_do) {
+  const std::vector<std::string> commands = {"SIMULATE/TRANSIENT, END=0.3, STEPS=10", "LINEAR/EIGENSOL"};
+  const RunResult expression = with(robot(Friction::expression), {}, false, commands);
+  expect_same(with(robot(Friction::routine), {C_FRICTION}, false, commands), expression, 1e-9, 1);
+#ifdef FORTRAN_FRICTION
+  expect_same(with(robot(Friction::routine), {FORTRAN_FRICTION}, false, commands), expression, 1e-9, 1);
+#endif
+}
+
+TEST_F(UserRoutines, that_have_no_value_name_their_element) {
+  const auto said = [&](const std::string& routine, int status) {
+    const RunResult r = with(slider + along + "FUNCTION=USER(20,1), ROUTINE=routines::" + routine + "\n");
+    EXPECT_EQ(r.status, status) << r.err;
+    return r.err;
+  };
+  EXPECT_THAT(said("gives_no_number", 2),
+              AllOf(HasSubstr("SFORCE/1: the routine gives_no_number"), HasSubstr("no finite number")));
+  EXPECT_THAT(said("says_stop", 2), AllOf(HasSubstr("SFORCE/1"), HasSubstr("the table is missing")));
+  EXPECT_THAT(said("asks_too_late", 2), AllOf(HasSubstr("SFORCE/1"), HasSubstr("it reads DX(20, 1), for which")));
+  EXPECT_THAT(said("asks_nonsense", 1), AllOf(HasSubstr("[routine-failed]"), HasSubstr("HEIGHT(1)")));
+  EXPECT_THAT(said("is_not_there", 1), AllOf(HasSubstr("[missing-routine]"), HasSubstr("is_not_there of routines")));
+}
+
+TEST_F(UserRoutines, read_markers_that_exist) {
+  const RunResult r = with(slider + along + "FUNCTION=USER(99,1,50,30,2)\n");
+  EXPECT_EQ(r.status, 1);
+  EXPECT_THAT(r.err, AllOf(HasSubstr("[unknown-marker]"), HasSubstr("SFORCE/1 refers to MARKER/99")));
+}
+
+TEST_F(UserRoutines, run_only_from_libraries_that_the_user_names) {
+  const std::string file = C_ROUTINES;
+  const RunResult r =
+      with(slider + along + "FUNCTION=USER(20,1,50,30,2), ROUTINE=" + file + "::sfosub\n", {CPP_ROUTINES});
+  EXPECT_EQ(r.status, 1);
+  EXPECT_THAT(r.err, HasSubstr("[missing-routine]"));
+  const std::string folder = std::filesystem::path(file).parent_path().string();
+  expect_same(with(slider + along + "FUNCTION=USER(20,1,50,30,2), ROUTINE=routines::sfosub\n", {folder}),
+              with(slider + spring), 1e-14);
+  EXPECT_THAT(with(slider + spring + "VARIABLE/1, FUNCTION=USER(1)\n", {"nowhere.so"}).err,
+              HasSubstr("[unusable-library]"));
+}
+
+TEST_F(UserRoutines, that_crash_are_named_before_the_program_dies) {
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_EXIT(
+      {
+        name_routine_of_crash();
+        with(slider + along + "FUNCTION=USER(20,1), ROUTINE=routines::crashes\n");
+      },
+      ::testing::KilledBySignal(SIGSEGV), "the routine crashes of .*, called for SFORCE/1");
+}
+
+}  // namespace
+}  // namespace dynalin::cases
