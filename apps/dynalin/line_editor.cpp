@@ -24,6 +24,7 @@ std::string history_file() {
 }
 
 constexpr int lines_kept = 1000;
+constexpr wchar_t end_of_input = 4;  // Ctrl-D
 
 }  // namespace
 
@@ -59,6 +60,8 @@ int LineEditor::Inside::read_character(EditLine*, wchar_t* character) {
     const std::size_t length = std::mbrtowc(character, &byte, 1, &state);
     if (length == static_cast<std::size_t>(-2)) continue;  // more bytes belong to it
     if (length == static_cast<std::size_t>(-1)) *character = static_cast<unsigned char>(byte);
+    // The end of input typed while a command ran comes as a zero: the terminal's own line discipline had it then.
+    if (byte == 0) *character = end_of_input;
     return 1;
   }
 }

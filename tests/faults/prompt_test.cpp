@@ -5,6 +5,7 @@
 
 #include <array>
 #include <chrono>
+#include <thread>
 
 #include "program.h"
 
@@ -117,6 +118,17 @@ TEST_F(Prompt, opens_without_a_model_and_loads_one) {
   t.type("\x04");  // the end of input is that of the session
   EXPECT_EQ(t.wait(), 0);
   EXPECT_TRUE(there("model.msg"));
+}
+
+TEST_F(Prompt, takes_the_end_of_input_typed_while_a_command_runs) {
+  Terminal t(folder_, {"model.adm"});
+  t.until(ready);
+  t.type("SIMULATE/DYNAMIC, END=1000, STEPS=10000\n");
+  t.until("10000");
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  t.type("\x04");
+  EXPECT_EQ(t.wait(), 0);
+  EXPECT_THAT(text("model.msg"), HasSubstr("Finished -----"));
 }
 
 TEST_F(Prompt, completes_names_arguments_and_ids) {
