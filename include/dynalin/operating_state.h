@@ -64,7 +64,7 @@ struct StateValue {
   double value = 0, rate = 0;
 };
 
-// A coordinate outside bodies: a parameter of a curve at a point of contact.
+// A coordinate beside the poses of bodies: a parameter of a curve at a point of contact, a modal coordinate.
 struct ParameterValue {
   std::string element;  // "PTCV/1"
   std::string name;

@@ -51,7 +51,7 @@ class Tables {
            [](const VariableValue& v) { return fmt::format("{:>14.6g}", v.value); });
     column("differential states", "value           rate", state_.states,
            [](const StateValue& z) { return fmt::format("{:>14.6g} {:>14.6g}", z.value, z.rate); });
-    column("curve parameters", "value           rate", state_.parameters,
+    column("further coordinates", "value           rate", state_.parameters,
            [](const ParameterValue& p) { return fmt::format("{:>14.6g} {:>14.6g}", p.value, p.rate); });
   }
 

@@ -109,7 +109,6 @@ std::vector<std::string> pages() {
     const auto name = entry.path().stem().string();
     const bool required = fs::exists(element_sources() / "forces" / (name + ".cpp")) ||
                           fs::exists(element_sources() / "constraints" / (name + ".cpp"));
-    if (name == "mforce") continue;  // it acts on flexible bodies, which are not available
     if (required || read_file(entry.path()).find("```adm") != std::string::npos) list.push_back(name);
   }
   std::sort(list.begin(), list.end());

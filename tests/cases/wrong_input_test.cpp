@@ -318,7 +318,7 @@ const std::vector<Wrong>& table() {
     {Place::added, "FIELD/9, I=20, J=1, FUNCTION=3*DX(20,1)", {"unknown-word 10:30"}},
     {Place::added, "FIELD/9, I=20, J=1, NONLINEAR, KMATRIX=1", {"unknown-argument 10:21"}},
     {Place::added, "VARIABLE/9, FUNCTION=NFORCE(1,0,2,0)", {"function-not-built 10:22"}},
-    {Place::added, "FLEX_BODY/9\nMFORCE/9, FLEX_BODY=9, CASE_INDEX=1, SCALE=SIN(TIME)", {"missing-argument 10:1", "statement-not-built 11:24"}},
+    {Place::added, "FLEX_BODY/9\nMFORCE/9, FLEX_BODY=9, CASE_INDEX=1, SCALE=SIN(TIME)", {"missing-argument 10:1"}},
     {Place::added, "MFORCE/9, FLEX_BODY=9, CASE_INDEX=1, SCALE=1", {"unknown-body 10:21"}},
     {Place::added, "FLEX_BODY/9\nMFORCE/9, FLEX_BODY=9, CASE_INDEX=1", {"missing-argument 10:1", "missing-argument 11:24"}},
     {Place::added, "FLEX_BODY/9\nMFORCE/9, FLEX_BODY=9, FORCE=USER(1)", {"missing-argument 10:1", "missing-routine 11:30"}},

@@ -115,6 +115,7 @@ const Words finite_element_words = {"%%MatrixMarket matrix coordinate real symme
                                     "1.1\n",
                                     "1.D0",
                                     "1E300"};
+const Words modal_words = {"** RECORD GROUP ", "** END OF FILE\n", "**\n", " R1.0 2 1 0 0 0\n", "1.D0", "1E300", "-1E-300"};
 const Words spline_words = {"[B]\n", "Z 1 2 3\n", "{", "$", "#", "1E300", "-1E-300", ","};
 
 Words configuration_words() {
@@ -180,6 +181,7 @@ int main(int argc, char** argv) {
   write_dictionary(folder / "configuration.dict", {configuration_words()});
   write_dictionary(folder / "deck.dict", {deck_words()});
   write_dictionary(folder / "finite_elements.dict", {finite_element_words});
+  write_dictionary(folder / "modal_body.dict", {modal_words});
   write_dictionary(folder / "run.dict", {statements, expressions, commands, signs, {"\n####\n"}});
   write_inputs(folder, argv[2]);
 }

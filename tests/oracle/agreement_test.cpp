@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(generated, Agreement, ::testing::Range<std::uint64_t>(1
 TEST(Generated, mechanisms_hold_every_element_and_function_of_the_program) {
   std::string text;
   for (std::uint64_t seed = 1; seed <= 220; ++seed) text += dataset_text(random_mechanism(seed));
-  // The oracle has no solids and no flexible bodies, and no part can take an MFORCE.
+  // The oracle has no solids and no flexible bodies, which alone can take an MFORCE.
   const std::set<std::string_view> apart = {"CONTACT", "FLEX_BODY", "MFORCE"};
   const auto holds = [&](const std::string& word) {
     return apart.count(std::string_view(word).substr(word[0] == '\n', word.find_first_of("(/") - (word[0] == '\n'))) ||

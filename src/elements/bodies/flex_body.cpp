@@ -1,8 +1,8 @@
-// FLEX_BODY/id, MNF_FILE= [, QG=, {REULER= | ZG=, XG=}, VX= … WZ=, VM=, WM=, EXACT=, CRATIO=, GENERALIZED_DAMPING=,
+// FLEX_BODY/id, {MNF_FILE= | MATRICES=} [, QG=, {REULER= | ZG=, XG=}, VX= … WZ=, VM=, WM=, EXACT=, CRATIO=, GENERALIZED_DAMPING=,
 // DMODE=, VMODE=, MODAL_EXACT_DISP=, MODAL_EXACT_VEL=, INVARIANTS=, CHAR_LEN=, REPRESENTATION=]
 //
 // An elastic body by its modes: it moves as a whole with its BCS and deforms by the modal coordinates q, of which the
-// file has shapes, generalized mass and stiffness. Deflections are small, motions of the whole are not. Velocities are
+// file, or MATRIX statements, have shapes, generalized mass and stiffness. Deflections are small, motions of the whole are not. Velocities are
 // those of the BCS, along the axes of VM (global) and WM (its own).
 #include "elements/bodies/flex_body.h"
 
@@ -16,9 +16,11 @@
 #include "base/read_file.h"
 #include "dataset/characters.h"
 #include "elements/bodies/modal_ratio.h"
+#include "elements/controls/matrix.h"
 #include "elements/families/flexible_body.h"
 #include "elements/families/orientation.h"
 #include "elements/settings/time_unit.h"
+#include "flexible/modal_matrices.h"
 #include "model/schema.h"
 
 namespace dynalin {
@@ -41,7 +43,10 @@ struct FlexBody {
   std::optional<double> dynamic_limit, stability_factor;
   double length = 0;
   Matrix3 axes = Matrix3::identity();
-  Span ratio_at;  // the expression of CRATIO, whose frequencies are known when the units are
+  std::vector<ElementHandle> data;  // the MATRIX statements
+  // Where arguments stand that are looked at when the modes are known, and the expression of CRATIO, whose frequencies
+  // are known when the units are.
+  Span matrices_at, displacements_at, rates_at, held_displacements_at, held_rates_at, damping_at, invariants_at, ratio_at;
   bool adds_generalized_damping = false;
   std::shared_ptr<ModalBody> flexible;
 
@@ -50,7 +55,10 @@ struct FlexBody {
        .slot = &FlexBody::file,
        .help = "modal body file: text of nodes, shapes, generalized mass and stiffness",
        .ends = "MATRICES"},
-      {.name = "MATRICES", .slot = &FlexBody::matrices, .help = "MATRIX data of the body: not available"},
+      {.name = "MATRICES",
+       .slot = &FlexBody::matrices,
+       .help = "MATRIX statements that hold the body, each by its NAME",
+       .ends = "MNF_FILE"},
       {.name = "DB_FILE", .slot = &FlexBody::database, .help = "database of bodies: not available"},
       {.name = "INDEX_IN_DB", .slot = &FlexBody::index_in_database, .help = "which of DB_FILE: not available"},
       {.name = "BDF_FILE", .slot = &FlexBody::deck, .help = "nonlinear body: not available"},
@@ -198,15 +206,15 @@ class FlexBodySet final : public TypedSet<FlexBody> {
     if (!read_arguments(f, reader)) return;
     const std::string name = reader.label().text();
     for (const std::string_view word :
-         {"MATRICES", "DB_FILE", "INDEX_IN_DB", "BDF_FILE", "DYNAMIC_LIMIT", "STABILITY_FACTOR"}) {
+         {"DB_FILE", "INDEX_IN_DB", "BDF_FILE", "DYNAMIC_LIMIT", "STABILITY_FACTOR"}) {
       if (!reader.given(word)) continue;
       reader.error(
           "argument-not-built", reader.at(word), fmt::format("{} of {} is not available", word, name),
           word == "DYNAMIC_LIMIT" || word == "STABILITY_FACTOR" ? "" : "MNF_FILE= names a modal text file (.fem)");
       return;
     }
-    if (f.file.empty()) {
-      reader.error("missing-argument", reader.statement().at, fmt::format("{} needs MNF_FILE", name));
+    if (f.file.empty() == f.matrices.empty()) {
+      reader.error("missing-argument", reader.statement().at, fmt::format("{} needs MNF_FILE or MATRICES", name));
       return;
     }
     if (!f.representation.empty() && !equal_ignoring_case(f.representation, "MODAL")) {
@@ -221,17 +229,30 @@ class FlexBodySet final : public TypedSet<FlexBody> {
     }
     const auto axes = orientation({f.angles, f.z_point, f.x_point, false, "REULER", "ZG", "XG"}, f.origin, reader);
     if (axes) f.axes = *axes;
-    f.flexible = read_body(f.file, reader);
-    if (!f.flexible) return;
-    read_start(f, reader);
+    for (const auto& [word, at] : {std::pair{"MATRICES", &f.matrices_at},
+                                   {"DMODE", &f.displacements_at},
+                                   {"VMODE", &f.rates_at},
+                                   {"MODAL_EXACT_DISP", &f.held_displacements_at},
+                                   {"MODAL_EXACT_VEL", &f.held_rates_at},
+                                   {"GENERALIZED_DAMPING", &f.damping_at},
+                                   {"INVARIANTS", &f.invariants_at}}) {
+      if (reader.given(word)) *at = reader.at(word);
+    }
     read_damping(f, reader);
-    read_invariants(f, reader);
+    for (const std::int64_t id : f.matrices) {
+      if (const auto matrix = reader.element("MATRIX", {id, f.matrices_at})) f.data.push_back(*matrix);
+    }
+    if (!f.matrices.empty()) return;
+    f.flexible = read_body(f.file, reader);
+    if (f.flexible) use_modes(f, reader.label().text(), reader.diagnostics());
   }
 
-  // Damping needs the units of the model.
+  // Other statements have been read by now; damping needs the units of the model.
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       FlexBody& f = elements[k];
+      if (!f.data.empty()) f.flexible = of_matrices(f, labels[k].text(), model, diagnostics);
+      if (!f.flexible) continue;
       Body& body = model.bodies[static_cast<std::size_t>(model.find_body("FLEX_BODY", labels[k].id)->index)];
       body.pose = {f.origin, f.axes};
       const ModalInertia& I = f.flexible->inertia;
@@ -257,34 +278,59 @@ class FlexBodySet final : public TypedSet<FlexBody> {
   }
 
  private:
-  static void read_start(FlexBody& f, ElementReader& reader) {
+  static std::shared_ptr<ModalBody> of_matrices(FlexBody& f, const std::string& name, const Model& model,
+                                                Diagnostics& diagnostics) {
+    std::vector<NamedMatrix> matrices;
+    for (const ElementHandle& h : f.data) {
+      const Matrix& m = *model.get<Matrix>(h);
+      matrices.push_back({m.name, model.label(h).text(),
+                          {m.values.data(), static_cast<Eigen::Index>(m.rows), static_cast<Eigen::Index>(m.columns)}});
+    }
+    auto body = modal_body_of(matrices, f.matrices_at, name, diagnostics);
+    if (!body) return nullptr;
+    f.flexible = std::make_shared<ModalBody>(std::move(*body));
+    use_modes(f, name, diagnostics);
+    return f.flexible;
+  }
+
+  // What the statement says of the modes; no body is left after an error in its inertia.
+  static void use_modes(FlexBody& f, const std::string& name, Diagnostics& diagnostics) {
+    read_start(f, name, diagnostics);
+    if (f.adds_generalized_damping && f.flexible->generalized_damping.size() == 0 && f.flexible->modes() > 0) {
+      diagnostics.error("missing-argument", f.damping_at,
+                        f.matrices.empty() ? fmt::format("the file of {} has no damping, RECORD GROUP 13", name)
+                                           : fmt::format("{} has no damping, a MATRIX named GENDAMP", name));
+    }
+    read_invariants(f, diagnostics);
+  }
+
+  static void read_start(FlexBody& f, const std::string& name, Diagnostics& diagnostics) {
     ModalBody& b = *f.flexible;
     const auto count = static_cast<std::size_t>(b.modes());
-    const auto take = [&](const std::vector<double>& given, std::string_view name, Eigen::VectorXd& start) {
+    const auto take = [&](const std::vector<double>& given, std::string_view word, const Span& at,
+                          Eigen::VectorXd& start) {
       if (given.empty()) return;
       if (given.size() == count) {
         start = Eigen::Map<const Eigen::VectorXd>(given.data(), b.modes());
       } else {
-        reader.error(
-            "wrong-count", reader.at(name),
-            fmt::format("{} has {} values, {} has {} modes", name, given.size(), reader.label().text(), count));
+        diagnostics.error("wrong-count", at,
+                          fmt::format("{} has {} values, {} has {} modes", word, given.size(), name, count));
       }
     };
-    take(f.displacements, "DMODE", b.displacement);
-    take(f.rates, "VMODE", b.rate);
-    const auto hold = [&](const std::vector<std::int64_t>& modes, std::string_view name, std::vector<bool>& held) {
+    take(f.displacements, "DMODE", f.displacements_at, b.displacement);
+    take(f.rates, "VMODE", f.rates_at, b.rate);
+    const auto hold = [&](const std::vector<std::int64_t>& modes, const Span& at, std::vector<bool>& held) {
       for (const std::int64_t m : modes) {
         const auto found = std::ranges::find(b.number, m);
         if (found != b.number.end()) {
           held[static_cast<std::size_t>(found - b.number.begin())] = true;
         } else {
-          reader.error("value-out-of-range", reader.at(name),
-                       fmt::format("{} has no mode {}", reader.label().text(), m));
+          diagnostics.error("value-out-of-range", at, fmt::format("{} has no mode {}", name, m));
         }
       }
     };
-    hold(f.held_displacements, "MODAL_EXACT_DISP", b.holds_displacement);
-    hold(f.held_rates, "MODAL_EXACT_VEL", b.holds_rate);
+    hold(f.held_displacements, f.held_displacements_at, b.holds_displacement);
+    hold(f.held_rates, f.held_rates_at, b.holds_rate);
   }
 
   static void read_damping(FlexBody& f, ElementReader& reader) {
@@ -298,38 +344,33 @@ class FlexBodySet final : public TypedSet<FlexBody> {
     static constexpr std::array<std::string_view, 3> words = {"OFF", "FULL", "INTERNAL_ONLY"};
     const auto word = find_keyword(f.generalized_damping, words);
     if (!word) {
-      reader.error("unknown-word", reader.at("GENERALIZED_DAMPING"),
+      reader.error("unknown-word", f.damping_at,
                    fmt::format("GENERALIZED_DAMPING is OFF, FULL or INTERNAL_ONLY, not {}", f.generalized_damping));
       return;
     }
     f.adds_generalized_damping = *word > 0;
-    if (f.adds_generalized_damping && f.flexible->generalized_damping.size() == 0 && f.flexible->modes() > 0) {
-      reader.error("missing-argument", reader.at("GENERALIZED_DAMPING"),
-                   fmt::format("the file of {} has no damping, RECORD GROUP 13", reader.label().text()));
-    }
   }
 
-  static void read_invariants(FlexBody& f, ElementReader& reader) {
+  static void read_invariants(FlexBody& f, Diagnostics& diagnostics) {
     if (f.invariants.empty()) return;
     static constexpr std::array<std::string_view, 2> words = {"TRUE", "FALSE"};
     std::array<bool, 9> which{};
+    const Span& at = f.invariants_at;
     if (f.invariants.size() != which.size()) {
-      reader.error("wrong-count", reader.at("INVARIANTS"),
-                   fmt::format("INVARIANTS has {} values, it takes 9", f.invariants.size()));
+      diagnostics.error("wrong-count", at, fmt::format("INVARIANTS has {} values, it takes 9", f.invariants.size()));
       return;
     }
     for (std::size_t k = 0; k < which.size(); ++k) {
       const auto word = find_keyword(f.invariants[k], words);
       if (!word) {
-        reader.error("unknown-word", reader.at("INVARIANTS"),
-                     fmt::format("INVARIANTS is T or F nine times, not {}", f.invariants[k]));
+        diagnostics.error("unknown-word", at,
+                          fmt::format("INVARIANTS is T or F nine times, not {}", f.invariants[k]));
         return;
       }
       which[k] = *word == 0;
     }
     f.flexible->inertia.keep(which);
-    const Span at = reader.at("INVARIANTS");
-    if (!check_modal_body(*f.flexible, {at, at, at, "what INVARIANTS leaves of the body"}, reader.diagnostics()))
+    if (!check_modal_body(*f.flexible, {at, at, at, "what INVARIANTS leaves of the body"}, diagnostics))
       f.flexible = nullptr;
   }
 

@@ -152,6 +152,7 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
                    Diagnostics& diagnostics) const {
     const MarkerStatement& m = elements[k];
     const FlexibleBody* owner = owner_of(m, flexible);
+    if (owner && !owner->flexible) return;  // its own statement has errors
     const std::string name = labels[k].text();
     if (!owner) {
       if (m.node)
@@ -185,7 +186,7 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
   void add_shapes(std::size_t k, const std::vector<FlexibleBody>& flexible, Model& model) const {
     const MarkerStatement& m = elements[k];
     const FlexibleBody* owner = owner_of(m, flexible);
-    const auto node = owner && m.node ? owner->flexible->node(*m.node) : std::nullopt;
+    const auto node = owner && owner->flexible && m.node ? owner->flexible->node(*m.node) : std::nullopt;
     if (!node || owner->flexible->modes() == 0) return;
     const ModalBody& body = *owner->flexible;
     MarkerPlace& place = model.markers[k + 1].place;

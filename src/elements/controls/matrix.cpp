@@ -1,5 +1,5 @@
 // MATRIX/id, {FULL={RORDER | CORDER} (also FULL RORDER, as two words), ROWS=, COLUMNS=, VALUES= | SPARSE, I=, J=,
-// VALUES= | FILE=, NAME=}
+// VALUES= | FILE=} [, NAME=]
 //
 // A table of numbers for LSE and others: by rows or columns, by its entries that are not zero, or out of a file.
 #include "elements/controls/matrix.h"
@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "base/read_file.h"
+#include "dataset/characters.h"
 #include "dataset/matrix_file.h"
 #include "model/model.h"
 #include "model/schema.h"
@@ -30,13 +31,13 @@ struct MatrixStatement {
       {.name = "FULL",
        .slot = &MatrixStatement::full,
        .help = "RORDER: by rows; CORDER: by columns",
-       .ends = "FILE NAME SPARSE I J RORDER CORDER"},
+       .ends = "FILE SPARSE I J RORDER CORDER"},
       {.name = "RORDER", .slot = &MatrixStatement::by_rows, .help = "behind FULL: by rows"},
       {.name = "CORDER", .slot = &MatrixStatement::by_columns, .help = "behind FULL: by columns"},
       {.name = "SPARSE",
        .slot = &MatrixStatement::sparse,
        .help = "only entries that are not zero",
-       .ends = "FILE NAME FULL RORDER CORDER ROWS COLUMNS"},
+       .ends = "FILE FULL RORDER CORDER ROWS COLUMNS"},
       {.name = "ROWS", .slot = &MatrixStatement::rows, .minimum = 1, .help = "number of rows"},
       {.name = "COLUMNS", .slot = &MatrixStatement::columns, .minimum = 1, .help = "number of columns"},
       {.name = "VALUES", .slot = &MatrixStatement::values, .help = "the numbers"},
@@ -46,7 +47,7 @@ struct MatrixStatement {
        .slot = &MatrixStatement::file,
        .help = "file that holds the matrix",
        .ends = "FULL RORDER CORDER SPARSE ROWS COLUMNS VALUES I J"},
-      {.name = "NAME", .slot = &MatrixStatement::name, .help = "its name in the file"},
+      {.name = "NAME", .slot = &MatrixStatement::name, .help = "its name in the file, and what FLEX_BODY knows it by"},
   }};
 };
 
@@ -71,6 +72,8 @@ class MatrixSet final : public TypedSet<Matrix> {
     } else {
       read_full(m, elements[k], reader);
     }
+    elements[k].name = m.name;
+    for (char& c : elements[k].name) c = to_upper(c);
   }
 
  private:
@@ -95,7 +98,7 @@ class MatrixSet final : public TypedSet<Matrix> {
                    fmt::format("{} × {} values are needed, {} are given", rows, columns, m.values.size()));
       return;
     }
-    out = {rows, columns, m.values};
+    out = {rows, columns, m.values, {}};
     if (order && *order == 1) return;
     for (std::size_t r = 0; r < rows; ++r) {
       for (std::size_t c = 0; c < columns; ++c) out.values[c * rows + r] = m.values[r * columns + c];
@@ -150,7 +153,7 @@ class MatrixSet final : public TypedSet<Matrix> {
     auto matrix = read_matrix(*source, m.name, reader.at("NAME"), reader.diagnostics());
     if (matrix)
       out = {static_cast<std::size_t>(matrix->rows), static_cast<std::size_t>(matrix->columns),
-             std::move(matrix->values)};
+             std::move(matrix->values), {}};
   }
 };
 
