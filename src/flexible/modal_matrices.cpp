@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -16,8 +18,8 @@ using Index = Eigen::Index;
 using Eigen::MatrixXd;
 using Values = Eigen::Map<const MatrixXd>;
 
-constexpr std::array<std::string_view, 16> known = {"SELNOD", "T_MODE", "R_MODE", "GENSTIFF", "INVAR1", "INVAR2",
-                                                    "INVAR3", "INVAR4", "INVAR5", "INVAR6",   "INVAR7", "INVAR8",
+constexpr std::array<std::string_view, 16> known = {"SELNOD", "T_MODE", "R_MODE",  "GENSTIFF", "INVAR1", "INVAR2",
+                                                    "INVAR3", "INVAR4", "INVAR5",  "INVAR6",   "INVAR7", "INVAR8",
                                                     "INVAR9", "SELMOD", "GENDAMP", "MODLOAD"};
 constexpr std::array<std::string_view, 10> required = {"SELNOD", "T_MODE", "R_MODE", "GENSTIFF", "INVAR1",
                                                        "INVAR2", "INVAR3", "INVAR4", "INVAR6",   "INVAR7"};
@@ -40,9 +42,11 @@ class Reader {
         fail(fmt::format("{} ({}) of {} has a number that is not finite", m.name, m.label, owner_), "");
       }
     }
-    for (const std::string_view name : required) {
-      if (!has(name)) fail(fmt::format("{} needs the matrix {} among its MATRICES", owner_, name), names());
-    }
+    std::vector<std::string_view> missing;
+    std::ranges::copy_if(required, std::back_inserter(missing), [&](std::string_view name) { return !has(name); });
+    if (!missing.empty())
+      fail(fmt::format("{} lacks {} among its MATRICES", owner_, fmt::join(missing, ", ")),
+           "MATRIX statements with these NAMEs");
     return sound_;
   }
 
@@ -148,7 +152,7 @@ std::optional<ModalBody> modal_body_of(const std::vector<NamedMatrix>& all, cons
   b.translation = in.take("T_MODE", 3 * nodes, n), b.rotation = in.take("R_MODE", 3 * nodes, n);
   b.inertia = inertia_of(in, n);
   b.stiffness = in.columns("GENSTIFF") == 1 && n != 1 ? MatrixXd(in.take("GENSTIFF", n, 1).col(0).asDiagonal())
-                                                       : in.take_symmetric("GENSTIFF", n);
+                                                      : in.take_symmetric("GENSTIFF", n);
   b.damping = MatrixXd::Zero(n, n);
   if (in.has("GENDAMP")) b.generalized_damping = in.take_symmetric("GENDAMP", n);
   b.loads = in.has("MODLOAD") ? in.take("MODLOAD", 6 + n, in.columns("MODLOAD")) : MatrixXd(6 + n, 0);

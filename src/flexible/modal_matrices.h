@@ -1,5 +1,5 @@
-// A flexible body out of matrices with names, as translators of finite-element results write them. With n nodes, N modes
-// and v^ the matrix of the cross product by v, symbols as in modal_inertia.h:
+// A flexible body out of matrices with names, as translators of finite-element results write them. With n nodes, N
+// modes and v^ the matrix of the cross product by v, symbols as in modal_inertia.h:
 //
 //     SELNOD    n × 4     of each node its label and its place in the BCS
 //     T_MODE    3n × N    x, y, z of each node in turn by a unit of each mode

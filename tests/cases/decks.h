@@ -82,6 +82,12 @@ class ProgramLibraryAndDecks : public ProgramAndLibrary {
       write("decks.acf", std::regex_replace(commands, std::regex("LINEAR/EXPORT, TYPE=CLOSEDBOX[^\n]*\n"), ""));
       with = Cases::run_file("decks.acf");
     }
+    const bool open =
+        with.err.find("an open box of these is not available") == std::string::npos;  // as of flexible bodies
+    if (!open) {
+      write("decks.acf", std::regex_replace(commands, std::regex("LINEAR/EXPORT, TYPE=OPENBOX[^\n]*\n"), ""));
+      with = Cases::run_file("decks.acf");
+    }
     EXPECT_EQ(with.status, 0) << with.err;
     if (with.status != 0) return r;
     int deck = 0;
@@ -90,7 +96,7 @@ class ProgramLibraryAndDecks : public ProgramAndLibrary {
       const std::vector<ExpectedRoot> expected = roots_of(result);
       const std::string number = std::to_string(++deck);
       if (closed) expect_roots((folder_ / ("closed" + number + ".dat")).string(), expected, 1e-8);
-      if (!at_rest(result.at("operating_point"))) continue;
+      if (!open || !at_rest(result.at("operating_point"))) continue;
       expect_roots((folder_ / ("open" + number + ".dat")).string(), expected, 1e-8);
       expect_roots((folder_ / ("short" + number + ".dat")).string(), expected, 1e-3);
     }

@@ -1,5 +1,5 @@
-// A flexible body of lumps that slide, against the mechanism of rigid parts that it is: by a file, by matrices, with modal
-// loads.
+// A flexible body of lumps that slide, against the mechanism of rigid parts that it is: by a file, by matrices, with
+// modal loads.
 #include <gmock/gmock.h>
 
 #include <Eigen/Dense>
@@ -176,13 +176,13 @@ void expect_equal_models(const RunResult& found_run, const RunResult& expected_r
     ASSERT_EQ(found.rows(), expected.rows()) << name;
     ASSERT_EQ(found.cols(), expected.cols()) << name;
     const double scale = 1 + expected.cwiseAbs().maxCoeff();
-    EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), tolerance * scale) << name << "\n" << found << "\n\n" << expected;
+    EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), tolerance * scale) << name << "\n"
+                                                                           << found << "\n\n"
+                                                                           << expected;
   }
 }
 
-constexpr const char* linear_of_lumps =
-    "SIM/INITIAL\nLINEAR/STATEMAT, PSTATE=1, PINPUT=1, POUTPUT=1, FILE=x\nSTOP\n";
-
+constexpr const char* linear_of_lumps = "SIM/INITIAL\nLINEAR/STATEMAT, PSTATE=1, PINPUT=1, POUTPUT=1, FILE=x\nSTOP\n";
 
 TEST_F(SlidingLumps, lumps_that_slide_on_a_turning_body_have_the_linear_model_of_parts) {
   write("lumps.fem", modal_text(nodes_of_lumps(), stiffness));
@@ -205,7 +205,8 @@ TEST_F(SlidingLumps, lumps_move_like_parts) {
 }
 
 // The same body by MATRIX statements, from the formulas of the manual.
-std::string matrices_of(const std::vector<FlexibleNode>& nodes, const Eigen::MatrixXd& K, const Eigen::MatrixXd& loads) {
+std::string matrices_of(const std::vector<FlexibleNode>& nodes, const Eigen::MatrixXd& K,
+                        const Eigen::MatrixXd& loads) {
   using Eigen::MatrixXd;
   const Eigen::Index n = K.rows(), count = static_cast<Eigen::Index>(nodes.size());
   const auto vector = [](const Vector& v) { return Eigen::Vector3d(v.x, v.y, v.z); };
@@ -249,7 +250,8 @@ std::string matrices_of(const std::vector<FlexibleNode>& nodes, const Eigen::Mat
   std::string text;
   int id = 100;
   for (const auto& [name, m] : all) {
-    text += fmt::format("MATRIX/{}, NAME={}, FULL=CORDER, ROWS={}, COLUMNS={}, VALUES=", id++, name, m.rows(), m.cols());
+    text +=
+        fmt::format("MATRIX/{}, NAME={}, FULL=CORDER, ROWS={}, COLUMNS={}, VALUES=", id++, name, m.rows(), m.cols());
     for (Eigen::Index k = 0; k < m.size(); ++k) text += fmt::format("{}{:.17g}", k > 0 ? "\n," : "", m.data()[k]);
     text += "\n";
   }
@@ -283,8 +285,9 @@ TEST_F(SlidingLumps, takes_modal_loads_as_parts_take_forces) {
   loads.col(1).head(6) << force.x, force.y, force.z, torque.x, torque.y, torque.z;
   const std::string floating = "MARKER/7, PART=5, FLOATING\n";
   const RunResult flexible =
-      run(lumps_with(false, floating + "MFORCE/1, FLEX_BODY=2, CASE_INDEX=1, SCALE=" + first +
-                                "\nMFORCE/2, FLEX_BODY=2, JFLOAT=7, CASE_INDEX=2, SCALE=" + second + "\n",
+      run(lumps_with(false,
+                     floating + "MFORCE/1, FLEX_BODY=2, CASE_INDEX=1, SCALE=" + first +
+                         "\nMFORCE/2, FLEX_BODY=2, JFLOAT=7, CASE_INDEX=2, SCALE=" + second + "\n",
                      loads),
           linear_of_lumps);
   std::string vforce = "VFORCE/8, I=32, JFLOAT=6, RM=22", gforce = "GFORCE/9, I=24, JFLOAT=7, RM=24";
@@ -305,12 +308,13 @@ TEST_F(SlidingLumps, matrices_that_do_not_fit_are_errors) {
   std::string data = matrices_of(nodes_of_lumps(), stiffness, {});
   const auto said = [&](const std::string& text) { return run(head + text + "END\n", "LINEAR/EIGENSOL\nSTOP\n").err; };
   EXPECT_THAT(said(body + std::string(data).replace(data.find("NAME=INVAR3"), 11, "NAME=GENDAMP")),
-              HasSubstr("needs the matrix INVAR3"));
+              HasSubstr("FLEX_BODY/2 lacks INVAR3 among its MATRICES"));
   EXPECT_THAT(said(body + std::string(data).replace(data.find("NAME=INVAR3"), 11, "NAME=INVAR33")),
               HasSubstr("is named INVAR33, which is none"));
   EXPECT_THAT(said(body + std::string(data).replace(data.find("NAME=INVAR4"), 11, "NAME=INVAR3")),
               HasSubstr("has two matrices INVAR3"));
-  const std::string size = "NAME=INVAR3, FULL=CORDER, ROWS=3, COLUMNS=3", turned = "NAME=INVAR3, FULL=CORDER, ROWS=9, COLUMNS=1";
+  const std::string size = "NAME=INVAR3, FULL=CORDER, ROWS=3, COLUMNS=3",
+                    turned = "NAME=INVAR3, FULL=CORDER, ROWS=9, COLUMNS=1";
   EXPECT_THAT(said(body + std::string(data).replace(data.find(size), size.size(), turned)),
               HasSubstr("INVAR3 (MATRIX/103) of FLEX_BODY/2 must be 3 × 3, it is 9 × 1"));
   EXPECT_THAT(said("FLEX_BODY/2, MATRICES=100,999\n" + data), HasSubstr("999"));

@@ -319,6 +319,19 @@ const std::vector<Wrong>& table() {
     {Place::added, "FIELD/9, I=20, J=1, NONLINEAR, KMATRIX=1", {"unknown-argument 10:21"}},
     {Place::added, "VARIABLE/9, FUNCTION=NFORCE(1,0,2,0)", {"function-not-built 10:22"}},
     {Place::added, "FLEX_BODY/9\nMFORCE/9, FLEX_BODY=9, CASE_INDEX=1, SCALE=SIN(TIME)", {"missing-argument 10:1"}},
+    {Place::added, "FLEX_BODY/9, MATRICES=9\nMATRIX/9, FULL=RORDER, ROWS=1, COLUMNS=1, VALUES=1", {"body-matrices 10:14", "body-matrices 10:14"}},
+    {Place::added, "FLEX_BODY/9, MATRICES=91,92,93,94,95,96,97,98,99,90\nMFORCE/9, FLEX_BODY=9, CASE_INDEX=1, SCALE=1\n"
+     "MATRIX/91, NAME=SELNOD, FULL=RORDER, ROWS=1, COLUMNS=4, VALUES=1,0,0,0\n"
+     "MATRIX/92, NAME=T_MODE, FULL=RORDER, ROWS=3, COLUMNS=1, VALUES=1,0,0\n"
+     "MATRIX/93, NAME=R_MODE, FULL=RORDER, ROWS=3, COLUMNS=1, VALUES=0,0,0\n"
+     "MATRIX/94, NAME=GENSTIFF, FULL=RORDER, ROWS=1, COLUMNS=1, VALUES=8\n"
+     "MATRIX/95, NAME=INVAR1, FULL=RORDER, ROWS=1, COLUMNS=1, VALUES=3\n"
+     "MATRIX/96, NAME=INVAR2, FULL=RORDER, ROWS=3, COLUMNS=1, VALUES=0,0,0\n"
+     "MATRIX/97, NAME=INVAR3, FULL=RORDER, ROWS=3, COLUMNS=1, VALUES=0,0,0\n"
+     "MATRIX/98, NAME=INVAR4, FULL=RORDER, ROWS=3, COLUMNS=1, VALUES=0,0,0\n"
+     "MATRIX/99, NAME=INVAR6, FULL=RORDER, ROWS=1, COLUMNS=1, VALUES=2\n"
+     "MATRIX/90, NAME=INVAR7, FULL=RORDER, ROWS=3, COLUMNS=3, VALUES=1,0,0,0,1,0,0,0,1",
+     {"body-file-doubt 10:14", "missing-load 11:24"}},
     {Place::added, "MFORCE/9, FLEX_BODY=9, CASE_INDEX=1, SCALE=1", {"unknown-body 10:21"}},
     {Place::added, "FLEX_BODY/9\nMFORCE/9, FLEX_BODY=9, CASE_INDEX=1", {"missing-argument 10:1", "missing-argument 11:24"}},
     {Place::added, "FLEX_BODY/9\nMFORCE/9, FLEX_BODY=9, FORCE=USER(1)", {"missing-argument 10:1", "missing-routine 11:30"}},

@@ -1,5 +1,6 @@
 // Any bytes as the file of a flexible body: a body that can be simulated, or an error at its line.
 #include "flexible/modal_body.h"
+
 #include "target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {

@@ -1,9 +1,9 @@
-// FLEX_BODY/id, {MNF_FILE= | MATRICES=} [, QG=, {REULER= | ZG=, XG=}, VX= … WZ=, VM=, WM=, EXACT=, CRATIO=, GENERALIZED_DAMPING=,
-// DMODE=, VMODE=, MODAL_EXACT_DISP=, MODAL_EXACT_VEL=, INVARIANTS=, CHAR_LEN=, REPRESENTATION=]
+// FLEX_BODY/id, {MNF_FILE= | MATRICES=} [, QG=, {REULER= | ZG=, XG=}, VX= … WZ=, VM=, WM=, EXACT=, CRATIO=,
+// GENERALIZED_DAMPING=, DMODE=, VMODE=, MODAL_EXACT_DISP=, MODAL_EXACT_VEL=, INVARIANTS=, CHAR_LEN=, REPRESENTATION=]
 //
 // An elastic body by its modes: it moves as a whole with its BCS and deforms by the modal coordinates q, of which the
-// file, or MATRIX statements, have shapes, generalized mass and stiffness. Deflections are small, motions of the whole are not. Velocities are
-// those of the BCS, along the axes of VM (global) and WM (its own).
+// file, or MATRIX statements, have shapes, generalized mass and stiffness. Deflections are small, motions of the whole
+// are not. Velocities are those of the BCS, along the axes of VM (global) and WM (its own).
 #include "elements/bodies/flex_body.h"
 
 #include <fmt/format.h>
@@ -46,7 +46,8 @@ struct FlexBody {
   std::vector<ElementHandle> data;  // the MATRIX statements
   // Where arguments stand that are looked at when the modes are known, and the expression of CRATIO, whose frequencies
   // are known when the units are.
-  Span matrices_at, displacements_at, rates_at, held_displacements_at, held_rates_at, damping_at, invariants_at, ratio_at;
+  Span matrices_at, displacements_at, rates_at, held_displacements_at, held_rates_at, damping_at, invariants_at,
+      ratio_at;
   bool adds_generalized_damping = false;
   std::shared_ptr<ModalBody> flexible;
 
@@ -205,8 +206,7 @@ class FlexBodySet final : public TypedSet<FlexBody> {
     FlexBody& f = elements[k];
     if (!read_arguments(f, reader)) return;
     const std::string name = reader.label().text();
-    for (const std::string_view word :
-         {"DB_FILE", "INDEX_IN_DB", "BDF_FILE", "DYNAMIC_LIMIT", "STABILITY_FACTOR"}) {
+    for (const std::string_view word : {"DB_FILE", "INDEX_IN_DB", "BDF_FILE", "DYNAMIC_LIMIT", "STABILITY_FACTOR"}) {
       if (!reader.given(word)) continue;
       reader.error(
           "argument-not-built", reader.at(word), fmt::format("{} of {} is not available", word, name),
@@ -283,7 +283,8 @@ class FlexBodySet final : public TypedSet<FlexBody> {
     std::vector<NamedMatrix> matrices;
     for (const ElementHandle& h : f.data) {
       const Matrix& m = *model.get<Matrix>(h);
-      matrices.push_back({m.name, model.label(h).text(),
+      matrices.push_back({m.name,
+                          model.label(h).text(),
                           {m.values.data(), static_cast<Eigen::Index>(m.rows), static_cast<Eigen::Index>(m.columns)}});
     }
     auto body = modal_body_of(matrices, f.matrices_at, name, diagnostics);
@@ -363,8 +364,7 @@ class FlexBodySet final : public TypedSet<FlexBody> {
     for (std::size_t k = 0; k < which.size(); ++k) {
       const auto word = find_keyword(f.invariants[k], words);
       if (!word) {
-        diagnostics.error("unknown-word", at,
-                          fmt::format("INVARIANTS is T or F nine times, not {}", f.invariants[k]));
+        diagnostics.error("unknown-word", at, fmt::format("INVARIANTS is T or F nine times, not {}", f.invariants[k]));
         return;
       }
       which[k] = *word == 0;

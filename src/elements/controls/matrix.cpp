@@ -152,8 +152,10 @@ class MatrixSet final : public TypedSet<Matrix> {
     reader.keep(source);
     auto matrix = read_matrix(*source, m.name, reader.at("NAME"), reader.diagnostics());
     if (matrix)
-      out = {static_cast<std::size_t>(matrix->rows), static_cast<std::size_t>(matrix->columns),
-             std::move(matrix->values), {}};
+      out = {static_cast<std::size_t>(matrix->rows),
+             static_cast<std::size_t>(matrix->columns),
+             std::move(matrix->values),
+             {}};
   }
 };
 

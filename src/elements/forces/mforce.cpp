@@ -1,7 +1,7 @@
 // MFORCE/id, FLEX_BODY= [, JFLOAT=], {CASE_INDEX=, SCALE= | FUNCTION=USER(…) | FORCE=USER(…)}
 //
-// A load on the coordinates of a flexible body: column CASE_INDEX of its modal loads, a force f and a torque t about the
-// BCS, along its axes A, and Q of the modes, times SCALE. With w = SCALE
+// A load on the coordinates of a flexible body: column CASE_INDEX of its modal loads, a force f and a torque t about
+// the BCS, along its axes A, and Q of the modes, times SCALE. With w = SCALE
 //
 //     F = w A f,   L = w A t   on the body at the BCS,   Q w   on its modal coordinates
 //
@@ -44,8 +44,15 @@ class ModalForceKernel final : public Kernel {
     const std::vector<FlexibleBody> flexible = flexible_bodies(model);
     for (std::size_t k = 0; k < forces.size(); ++k) {
       const FlexibleBody& f = *std::ranges::find(flexible, forces[k].body, &FlexibleBody::body);
-      Load load{f.body, std::nullopt, {}, {}, {}, layout.body_coordinate_count + static_cast<std::int32_t>(f.first),
-                layout.add_algebraic(labels[k]), forces[k].scale, {}};
+      Load load{f.body,
+                std::nullopt,
+                {},
+                {},
+                {},
+                layout.body_coordinate_count + static_cast<std::int32_t>(f.first),
+                layout.add_algebraic(labels[k]),
+                forces[k].scale,
+                {}};
       const Eigen::VectorXd column = f.flexible->loads.col(*forces[k].index - 1);
       load.force = {column(0), column(1), column(2)}, load.torque = {column(3), column(4), column(5)};
       load.of_modes.assign(column.data() + 6, column.data() + column.size());
@@ -79,7 +86,8 @@ class ModalForceKernel final : public Kernel {
       }
       const std::int32_t own = eq.layout().body(l.body).offset;
       for (std::size_t a = 0; a < 3; ++a) {
-        const Vector turned_force = w * cross(unit_vectors[a], force), turned_torque = w * cross(unit_vectors[a], torque);
+        const Vector turned_force = w * cross(unit_vectors[a], force),
+                     turned_torque = w * cross(unit_vectors[a], torque);
         eq.add_column(PartialBy::position, l.body, own + 3 + static_cast<std::int32_t>(a), turned_force, turned_torque);
       }
       if (l.reacts_on) react(l, motion, w, force, torque, eq);
@@ -179,9 +187,9 @@ class ModalForceSet final : public TypedSet<ModalForce> {
                         fmt::format("JFLOAT of {}, {}, must be a floating marker", label.text(), floating.label.text()),
                         "write FLOATING into the MARKER statement");
     } else if (floating.place.body == f.body) {
-      diagnostics.error("same-body", label.at,
-                        fmt::format("JFLOAT of {} is on {}, which it acts on", label.text(),
-                                    model.body(f.body).label.text()));
+      diagnostics.error(
+          "same-body", label.at,
+          fmt::format("JFLOAT of {} is on {}, which it acts on", label.text(), model.body(f.body).label.text()));
     } else if (model.body(floating.place.body).kind == BodyKind::point_mass) {
       diagnostics.error("rotation-of-point-mass", label.at,
                         fmt::format("{} acts on the rotation of {}, which has none", label.text(),
