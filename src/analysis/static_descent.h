@@ -34,6 +34,7 @@ class Descent {
 
  private:
   std::optional<Eigen::VectorXd> solve(double hold);
+  void keep_what_nothing_moves(Eigen::VectorXd& step);
   bool newton(OperatingPoint& op, double level);
   bool implicit(OperatingPoint& op);
   bool finish(OperatingPoint& op);

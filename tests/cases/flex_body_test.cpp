@@ -161,7 +161,7 @@ TEST_F(FlexBody, stiff_modes_make_a_part) {
   for (const auto& e : expected) {
     double nearest = 1e300;
     for (const auto& f : found) nearest = std::min(nearest, std::abs(e - f));
-    EXPECT_LE(nearest, 1e-5 * std::abs(e)) << e;  // an equilibrium of stiff modes is met to the tolerance of statics
+    EXPECT_LE(nearest, 1e-8 * std::abs(e)) << e;
   }
 }
 
