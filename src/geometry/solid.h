@@ -1,10 +1,13 @@
-// Solids and surfaces in closed form, each in the axes of a frame of its own: what contacts are calculated from.
+// Solids, surfaces and curves in closed form, each in the axes of a frame of its own: what contacts are calculated
+// from.
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <variant>
 
 #include "base/vec3.h"
+#include "geometry/plane_curve.h"
 
 namespace dynalin::solid {
 
@@ -32,7 +35,12 @@ struct Plane {
   double xmin = 0, xmax = 0, ymin = 0, ymax = 0;
 };
 
-using Shape = std::variant<Ball, Ellipsoid, Frustum, Torus, Box, Plane>;
+// What a curve in the plane z = 0 bounds there: no solid. It touches others of its kind and points.
+struct Profile {
+  std::shared_ptr<const PlaneCurve> curve;
+};
+
+using Shape = std::variant<Ball, Ellipsoid, Frustum, Torus, Box, Plane, Profile>;
 
 // One side of a contact: a shape, or what is left when it is taken out of space.
 struct Side {
@@ -46,5 +54,7 @@ struct Bounds {
   double radius = 0;
 };
 Bounds bounds(const Side&);
+
+inline bool is_profile(const Side& s) { return std::holds_alternative<Profile>(s.shape); }
 
 }  // namespace dynalin::solid

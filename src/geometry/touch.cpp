@@ -4,6 +4,7 @@
 
 #include "geometry/common_normal.h"
 #include "geometry/distance.h"
+#include "geometry/plane_touch.h"
 
 namespace dynalin {
 
@@ -14,8 +15,13 @@ using namespace solid;  // NOLINT: the shapes of this file
 // --- which pairs there are: A with B, A not a cavity
 
 template <class A, class B>
-std::size_t count_of(const A&, const B&, bool B_reversed) {
-  if constexpr (std::is_same_v<A, Ball>) {
+std::size_t count_of([[maybe_unused]] const A& a, const B&, bool B_reversed) {
+  if constexpr (std::is_same_v<B, Profile>) {
+    if constexpr (std::is_same_v<A, Ball>) return a.radius == 0 ? 1 : 0;
+    return std::is_same_v<A, Profile> ? most_plane_touches : 0;
+  } else if constexpr (std::is_same_v<A, Profile>) {
+    return 0;
+  } else if constexpr (std::is_same_v<A, Ball>) {
     if constexpr (std::is_same_v<B, Frustum>) return B_reversed ? 3 : 1;
     if constexpr (std::is_same_v<B, Box>) return B_reversed ? 6 : 1;
     return 1;
@@ -30,6 +36,11 @@ std::size_t count_of(const A&, const B&, bool B_reversed) {
   }
 }
 std::size_t direct_count(const Side& A, const Side& B) {
+  if (const auto* profile = std::get_if<Profile>(&A.shape)) {
+    // An open one has matter on one side or the other.
+    const bool cavity = A.reversed && profile->curve->closed();
+    return cavity ? 0 : std::visit([&](const auto& b) { return count_of(*profile, b, B.reversed); }, B.shape);
+  }
   if (A.reversed) return 0;
   return std::visit([&](const auto& a, const auto& b) { return count_of(a, b, B.reversed); }, A.shape, B.shape);
 }
@@ -144,7 +155,14 @@ template <class T>
 void direct(const Side& A, const Side& B, const RelativeFrame<T>& A_from_B, std::span<Touch<T>> out) {
   std::visit(
       [&]<class S, class U>(const S& a, const U& b) {
-        if constexpr (std::is_same_v<S, Ball>)
+        if constexpr (std::is_same_v<U, Profile>) {
+          if constexpr (std::is_same_v<S, Profile>)
+            touch_curves(*a.curve, A.reversed, A_from_B, *b.curve, B.reversed, out);
+          else if constexpr (std::is_same_v<S, Ball>)
+            out[0] = touch_point(A_from_B.p, *b.curve, B.reversed);
+        } else if constexpr (std::is_same_v<S, Profile>)
+          return;
+        else if constexpr (std::is_same_v<S, Ball>)
           touch_ball(a.radius, A_from_B.p, b, B.reversed, out);
         else if constexpr (std::is_same_v<U, Plane> && !std::is_same_v<S, Plane>)
           touch_plane(a, A_from_B, b, B.reversed ? -1.0 : 1.0, out);

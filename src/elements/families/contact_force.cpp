@@ -7,12 +7,14 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/plane_touch.h"
+
 namespace dynalin {
 
 namespace {
 
 using Seeded = Dual<12>;
-constexpr std::size_t most_touches = 8;  // of one pair of shapes
+constexpr std::size_t most_touches = most_plane_touches;  // of one pair of shapes; solids have up to 8
 
 template <class T>
 RelativeFrame<T> at_instant(const RelativeFrame<TimeTaylor<T>>& f, T TimeTaylor<T>::*part) {
@@ -41,12 +43,21 @@ RelativeFrame<T> shape_from_shape(const RelativeFrame<T>& I, const PlacedSide& o
   return f;
 }
 
-// How far the balls about both shapes are apart, negative where they overlap.
+template <class T>
+Vector axis(const Vec3<T>& v) {
+  return {value_of(v.x), value_of(v.y), value_of(v.z)};
+}
+
+// How far the balls about both shapes are apart, negative where they overlap. A curve reaches along its z as far as
+// the other shape goes.
 template <class T>
 double apart(const RelativeFrame<T>& f, const solid::Side& I, const solid::Side& J) {
   const solid::Bounds a = solid::bounds(I), b = solid::bounds(J);
   const Vec3<T> between = f.p + along(f, a.centre) - b.centre;
-  return std::hypot(value_of(between.x), value_of(between.y), value_of(between.z)) - a.radius - b.radius;
+  Vector distance{value_of(between.x), value_of(between.y), value_of(between.z)};
+  if (solid::is_profile(I)) distance = distance - dot(distance, axis(f.z)) * axis(f.z);
+  if (solid::is_profile(J)) distance.z = 0;
+  return norm(distance) - a.radius - b.radius;
 }
 
 // visit(pair of shapes, touches of it in the axes of J's first marker): those of all pairs that may be near each other.
@@ -207,9 +218,10 @@ void ContactKernel::undefined_values(const Motion& motion, std::vector<Undefined
                    [&](const Touch<double>& t) { undefined = undefined || (t.closed() && !t.defined); });
     if (!undefined) continue;
     const ElementLabel& label = (*labels_)[k];
-    values.push_back({&label, fmt::format("the shapes of {} touch all around, at no place in particular: its force has "
-                                          "no one direction or place",
-                                          label.full_text())});
+    values.push_back(
+        {&label, fmt::format("the shapes of {} touch all around or in more places than can be told apart, at "
+                             "no place in particular: its force has no one direction or place",
+                             label.full_text())});
   }
 }
 

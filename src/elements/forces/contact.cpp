@@ -12,12 +12,16 @@
 // with the ζ that lets two free bodies that meet centrally part with the RESTITUTION_COEFFICIENT of the speed at which
 // they met: −ln r = 2 ζ acos ζ / √(1 − ζ²), of acosh where ζ > 1. The masses are those of the bodies, ground has no end
 // of it.
+//
+// The GRAPHICS are all solids (geometry/touch.h) or all curves in a plane (geometry/plane_touch.h); POINTs go with
+// both.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include "elements/families/contact_force.h"
 #include "elements/families/markers.h"
@@ -138,7 +142,7 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
       const std::size_t errors = diagnostics.error_count();
       const bool placed = place(model, k, 0, f.I, f.i, diagnostics) && place(model, k, 1, f.J, f.j, diagnostics);
       if (!placed || diagnostics.error_count() > errors) continue;
-      if (!check_pairs(model, k, diagnostics)) continue;
+      if (!check_pairs(model, k, diagnostics) || !check_planes(model, k, diagnostics)) continue;
       check_pair(model, labels[k], f.i, f.j, {true, turns(model, k, 0), turns(model, k, 1)}, diagnostics);
       if (elements[k].poisson) finish_poisson(model, k, diagnostics);
     }
@@ -302,10 +306,12 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
           source ? source->contact_shape(static_cast<std::size_t>(l.graphics.index), model, what) : std::nullopt;
       if (!shape) {
         if (what.empty()) return false;
-        diagnostics.error("contact-shape", l.at,
-                          fmt::format("{} names {}, {}, which nothing can touch", labels[k].text(),
-                                      model.label(l.graphics).text(), what),
-                          "whole ELLIPSOIDs, CYLINDERs, FRUSTUMs and TORUSes, BOX, PLANE and POINT can be touched");
+        diagnostics.error(
+            "contact-shape", l.at,
+            fmt::format("{} names {}, {}, which nothing can touch", labels[k].text(), model.label(l.graphics).text(),
+                        what),
+            "whole ELLIPSOIDs, CYLINDERs, FRUSTUMs and TORUSes, BOX, PLANE and POINT can be touched, or in a "
+            "plane CURVE, CIRCLE, ARC, OUTLINE and POINT");
         return false;
       }
       const Marker& marker = model.marker(shape->marker);
@@ -341,12 +347,45 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
       for (std::size_t b = 0; b < f.J.size(); ++b) {
         if (touch_count(f.I[a].side, f.J[b].side) > 0) continue;
         const Listed &I = sides_[k][0][a], &J = sides_[k][1][b];
+        if (solid::is_profile(f.I[a].side) != solid::is_profile(f.J[b].side)) {
+          const bool curve_is_I = solid::is_profile(f.I[a].side);
+          diagnostics.error("contact-shape", J.at,
+                            fmt::format("{} lets {}, a curve, touch {}, which is no curve", labels[k].text(),
+                                        model.label((curve_is_I ? I : J).graphics).text(),
+                                        model.label((curve_is_I ? J : I).graphics).text()),
+                            "curves touch curves and POINTs, solids touch solids and POINTs");
+          return false;
+        }
         diagnostics.error(
             "contact-pair-not-built", J.at,
             fmt::format("contact of {} of {} with {} of {} is not available yet", model.label(J.graphics).text(),
                         labels[k].text(), model.label(I.graphics).text(), labels[k].text()),
-            "spheres and points touch every shape, every shape touches a PLANE, ELLIPSOIDs touch each "
-            "other; of a cavity the other one must be a sphere or a point");
+            "spheres and points touch every solid, every solid touches a PLANE, ELLIPSOIDs touch each "
+            "other; of a cavity the other one must be a sphere or a point; only one of two closed curves is a cavity");
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // Curves are seen along z of each other: that says nothing where their planes stand across each other.
+  bool check_planes(const Model& model, std::size_t k, Diagnostics& diagnostics) const {
+    static constexpr double least_cosine = 0.98;
+    const ContactForce& f = forces_[k];
+    const RelativeFrame<double> I = drawn_frame(model, f.i, f.j);
+    const auto z_of = [](const PlacedSide& s) { return s.from_first.axes.z; };
+    for (std::size_t a = 0; a < f.I.size(); ++a) {
+      for (std::size_t b = 0; b < f.J.size(); ++b) {
+        if (!solid::is_profile(f.I[a].side) || !solid::is_profile(f.J[b].side)) continue;
+        const Vector z = z_of(f.I[a]);
+        const double cosine = std::abs(dot(I.x * z.x + I.y * z.y + I.z * z.z, z_of(f.J[b])));
+        if (cosine >= least_cosine) continue;
+        diagnostics.error(
+            "contact-shape", sides_[k][1][b].at,
+            fmt::format("the planes of {} and {}, curves of {}, incline by {:.3g} degrees",
+                        model.label(sides_[k][0][a].graphics).text(), model.label(sides_[k][1][b].graphics).text(),
+                        labels[k].text(), std::acos(std::min(cosine, 1.0)) * 180 / std::numbers::pi),
+            "curves touch in one plane: z of their markers is the same or opposite");
         return false;
       }
     }

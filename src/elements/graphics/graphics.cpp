@@ -24,7 +24,7 @@ class Drawing {
   virtual Shape::Origin origin() const = 0;
   virtual void check(const Model&, const ElementLabel&, Diagnostics&) const = 0;
   virtual void draw(Canvas&) const = 0;
-  virtual std::optional<ContactShape> contact_shape() const = 0;
+  virtual std::optional<ContactShape> contact_shape(const Model&, std::string& why) const = 0;
   virtual std::string_view type() const = 0;
 };
 
@@ -40,8 +40,9 @@ class DrawingOf final : public Drawing {
     if constexpr (requires { value.check(model, label, diagnostics); }) value.check(model, label, diagnostics);
   }
   void draw(Canvas& canvas) const override { value.draw(canvas); }
-  std::optional<ContactShape> contact_shape() const override {
+  std::optional<ContactShape> contact_shape(const Model& model, std::string& why) const override {
     if constexpr (requires { value.contact_shape(); }) return value.contact_shape();
+    if constexpr (requires { value.contact_shape(model, why); }) return value.contact_shape(model, why);
     return std::nullopt;
   }
   std::string_view type() const override { return T::type; }
@@ -226,10 +227,10 @@ class GraphicsSet final : public ElementSet, public ShapeSource, public ContactS
     }
   }
 
-  std::optional<ContactShape> contact_shape(std::size_t k, const Model&, std::string& why) const override {
+  std::optional<ContactShape> contact_shape(std::size_t k, const Model& model, std::string& why) const override {
     if (!drawings_[k]) return std::nullopt;
     why = fmt::format("a {}", drawings_[k]->type());
-    return drawings_[k]->contact_shape();
+    return drawings_[k]->contact_shape(model, why);
   }
 
  private:

@@ -14,6 +14,8 @@
 //     static constexpr Shape::Origin origin;                                        // if no plain statement
 //     void check(const Model&, const ElementLabel&, Diagnostics&) const;            // errors that need other ones
 //     std::optional<ContactShape> contact_shape() const;                            // what CONTACTs can touch
+// or, where it needs other statements,
+//     std::optional<ContactShape> contact_shape(const Model&, std::string& why) const;
 #pragma once
 
 #include <array>
@@ -164,6 +166,7 @@ struct Circle {
   void complete(ElementReader&);
   std::vector<MarkerId> markers() const { return {cm}; }
   void draw(Canvas&) const;
+  std::optional<ContactShape> contact_shape() const;
 };
 
 // ARC, CM=, RADIUS=, RANGLE= [, SEG=]: a line in the plane of x and y, from x on about z.
@@ -182,6 +185,7 @@ struct Arc {
   void complete(ElementReader&);
   std::vector<MarkerId> markers() const { return {cm}; }
   void draw(Canvas&) const;
+  std::optional<ContactShape> contact_shape() const;
 };
 
 // OUTLINE=id, id, …: lines from marker to marker, which may be on several bodies.
@@ -197,6 +201,7 @@ struct OutlineOf {
   void complete(ElementReader&);
   std::vector<MarkerId> markers() const { return points; }
   void draw(Canvas&) const;
+  std::optional<ContactShape> contact_shape(const Model&, std::string& why) const;
 };
 
 // CURVE, CID=, CRM= [, SEG=]: a CURVE in the axes of a marker.
@@ -214,6 +219,7 @@ struct CurveLine {
   void complete(ElementReader&) {}
   std::vector<MarkerId> markers() const { return {rm}; }
   void draw(Canvas&) const;
+  std::optional<ContactShape> contact_shape(const Model&, std::string& why) const;
 };
 
 // PLANE, RM=, XMIN=, XMAX=, YMIN=, YMAX=: a rectangle in the plane of x and y, seen from z.
