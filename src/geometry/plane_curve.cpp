@@ -110,20 +110,36 @@ void PlaneCurve::finish() {
   radius_ *= 1.05;  // what bulges between samples
 }
 
+namespace {
+
+std::size_t nearest_sample(const PlaneCurve::Piece& piece, const Vector& p) {
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < piece.points.size(); ++k) {
+    const double x = piece.points[k].x - p.x, y = piece.points[k].y - p.y, square = x * x + y * y;
+    if (square < least) best = k, least = square;
+  }
+  return best;
+}
+
+}  // namespace
+
+double PlaneCurve::nearly_nearest(const Piece& piece, const Vector& p) const {
+  if (piece.kind != Piece::Kind::spline) return nearest(piece, p);
+  const double u = piece.samples[nearest_sample(piece, p)];
+  const Vector d = at(piece, u) - p, slope = at(piece, u, 1), bend = at(piece, u, 2);
+  const double g = dot(d, slope), square = dot(slope, slope), h = square + dot(d, bend);
+  const double most = (piece.to - piece.from) / static_cast<double>(piece.samples.size() - 1);
+  return u - std::clamp(g / (h > 0 ? h : square), -most, most);
+}
+
 double PlaneCurve::nearest(const Piece& piece, const Vector& p) const {
   if (!piece.curved()) return dot(p - piece.start, piece.along) / dot(piece.along, piece.along);
   if (piece.kind == Piece::Kind::circle) {
     const double angle = std::atan2(p.y, p.x), middle = 0.5 * (piece.from + piece.to);
     return middle + std::remainder(angle - middle, 2 * std::numbers::pi);
   }
-  const auto distance = [&](std::size_t k) {
-    const Vector d = piece.points[k] - p;
-    return d.x * d.x + d.y * d.y;
-  };
-  std::size_t best = 0;
-  for (std::size_t k = 1; k < piece.points.size(); ++k) {
-    if (distance(k) < distance(best)) best = k;
-  }
+  const std::size_t best = nearest_sample(piece, p);
   const std::size_t n = piece.samples.size();
   const double period = piece.to - piece.from;
   double low = best > 0 ? piece.samples[best - 1] : piece.round ? piece.samples[n - 1] - period : -1e300;

@@ -53,6 +53,8 @@ class PlaneCurve {
   Vec3<T> at(const Piece&, const T& u, int derivative = 0) const;
   // The parameter of the point of a piece next to p, beyond free ends of it and of every line as it goes on there.
   double nearest(const Piece&, const Vector& p) const;
+  // The same but for what is of no account: from the nearest sample one step of Newton's method.
+  double nearly_nearest(const Piece&, const Vector& p) const;
   // How far p is from matter there, negative within.
   double height(const Piece&, double u, const Vector& p) const;
   // How far u is from the nearest free end, negative beyond it. [length]

@@ -54,6 +54,15 @@ struct Placed {
   bool solid(const Corner& c) const { return c.convex != reversed; }
 };
 
+// A whole circle does not turn about its centre: in axes that its z alone gives, no rounding says that it does.
+template <class T>
+RelativeFrame<T> untwisted(const PlaneCurve& curve, const RelativeFrame<T>& f) {
+  if (curve.pieces().front().kind != Piece::Kind::circle || !curve.closed()) return f;
+  const Vec3<T> along{T(1.0) - f.z.x * f.z.x, -f.z.y * f.z.x, -f.z.z * f.z.x};
+  const Vec3<T> x = along / norm(along);
+  return {f.p, x, cross(f.z, x), f.z};
+}
+
 Vector local(const Placed<double>& c, const Vector& p) {
   const Vector d = p - c.frame.p;
   return {dot(c.frame.x, d), dot(c.frame.y, d), 0};
@@ -192,7 +201,7 @@ class Places {
     };
     const auto above = [&](std::size_t k) {
       const Vector p = local(Y, X.frame.p + X.turned(x.points[k]));
-      const double at = Y.curve.nearest(y, p);
+      const double at = Y.curve.nearly_nearest(y, p);
       return Sample{Y.curve.height(y, at, p) * (Y.reversed ? -1 : 1), at};
     };
     const Sample first = above(0), second = above(1);
@@ -352,9 +361,9 @@ void touch_curves(const PlaneCurve& I, bool I_reversed, const RelativeFrame<T>& 
     return RelativeFrame<U>{
         {U(0.0), U(0.0), U(0.0)}, {U(1.0), U(0.0), U(0.0)}, {U(0.0), U(1.0), U(0.0)}, {U(0.0), U(0.0), U(1.0)}};
   };
-  const Placed<double> I_here{I, I_reversed, from}, J_here{J, J_reversed, still(0.0)};
+  const Placed<double> I_here{I, I_reversed, untwisted(I, from)}, J_here{J, J_reversed, still(0.0)};
   const Places places(I_here, J_here);
-  const Placed<T> I_seen{I, I_reversed, at}, J_seen{J, J_reversed, still(T(0.0))};
+  const Placed<T> I_seen{I, I_reversed, untwisted(I, at)}, J_seen{J, J_reversed, still(T(0.0))};
   const std::span<const Place> all = places.all();
   for (std::size_t k = 0; k < out.size(); ++k) {
     if (k < all.size()) {

@@ -152,7 +152,11 @@ TEST_F(Contacts, what_cannot_touch_is_an_error_at_its_place) {
   EXPECT_THAT(with("IGEOM=2, 1, JGEOM=1"), HasSubstr("[foreign-marker]"));
   EXPECT_THAT(with("IGEOM=2, JGEOM=3\nGRAPHICS/3, CIRCLE, CM=1, RADIUS=1\n!"), AllOf(HasSubstr("[missing-variant]")));
   EXPECT_THAT(refused("GRAPHICS/3, CIRCLE, CM=1, RADIUS=1\nCONTACT/7, IGEOM=2, JGEOM=3, " + impact),
-              AllOf(HasSubstr("[contact-shape]"), HasSubstr("model.adm:11:27"), HasSubstr("a CIRCLE")));
+              AllOf(HasSubstr("[contact-shape]"), HasSubstr("model.adm:11:27"), HasSubstr("no curve")));
+  EXPECT_THAT(refused("MARKER/12, PART=1\nGRAPHICS/3, LINK, I=1, J=12, WIDTH=1, DEPTH=1\n"
+                      "CONTACT/7, IGEOM=2, JGEOM=3, " +
+                      impact),
+              AllOf(HasSubstr("[contact-shape]"), HasSubstr("a LINK")));
   EXPECT_THAT(refused("GRAPHICS/3, BOX, CORNER=1, X=1, Y=1, Z=1\nGRAPHICS/4, BOX, CORNER=2, X=1, Y=1, Z=1\n"
                       "CONTACT/7, IGEOM=4, JGEOM=3, " +
                       impact),
