@@ -44,6 +44,11 @@ Real Model::load_value(const Node& n) const {
       const auto [i, j] = joint_markers_[static_cast<std::size_t>(joint_index_.at(mechanism_.frictions[k].joint))];
       return wrench_component(friction_wrench(k), between(i, j), n.ids);
     }
+    case Op::touch: {
+      const std::size_t k = numbered(mechanism_.touches, has_id);
+      const Touch& t = mechanism_.touches[k];
+      return wrench_component(touch_wrench(k), between(marker_index(t.i), marker_index(t.j)), n.ids);
+    }
     case Op::spring: {
       const std::size_t k = numbered(mechanism_.springs, has_id);
       const auto [i, j] = spring_markers_[k];
@@ -98,6 +103,10 @@ Wrench Model::net_wrench(int i_id, int j_id) const {
   for (std::size_t k = 0; k < mechanism_.frictions.size(); ++k) {
     const auto [a, b] = joint_markers_[static_cast<std::size_t>(joint_index_.at(mechanism_.frictions[k].joint))];
     add(a, b, friction_wrench(k), true);
+  }
+  for (std::size_t k = 0; k < mechanism_.touches.size(); ++k) {
+    const Touch& t = mechanism_.touches[k];
+    add(marker_index(t.i), marker_index(t.j), touch_wrench(k), true);
   }
   for (const LinearForce& f : mechanism_.linears) add(marker_index(f.i), marker_index(f.j), linear_wrench(f), true);
   for (std::size_t k = 0; k < mechanism_.gforces.size(); ++k) {

@@ -186,6 +186,39 @@ std::string friction_text(const Mechanism& m, const Friction& f) {
   return t.text();
 }
 
+std::string touch_text(const Touch& c) {
+  const int on_i = 2 * c.id - 1, on_j = 2 * c.id;
+  const auto ball = [](int id, int marker, double radius) {
+    Statement t("GRAPHICS", id);
+    t.word("ELLIPSOID").set("CM", marker).set("XSCALE", 2 * radius).set("YSCALE", 2 * radius);
+    return t.set("ZSCALE", 2 * radius).text();
+  };
+  std::string text;
+  if (c.kind == TouchKind::disc_on_curve) {
+    text = Statement("GRAPHICS", on_i).word("CIRCLE").set("CM", c.i).set("RADIUS", c.radius_i).text() +
+           Statement("GRAPHICS", on_j).word("CURVE").set("CID", c.curve).set("CRM", c.j).text();
+  } else {
+    text = ball(on_i, c.i, c.radius_i);
+    const double far = 50 * c.radius_i;
+    Statement plane("GRAPHICS", on_j);
+    plane.word("PLANE").set("RM", c.j).set("XMIN", -far).set("XMAX", far).set("YMIN", -far).set("YMAX", far);
+    text += c.kind == TouchKind::balls ? ball(on_j, c.j, c.radius_j) : plane.text();
+  }
+  Statement t("CONTACT", c.id);
+  t.set("IGEOM", on_i).set("JGEOM", on_j);
+  if (c.restitution) {
+    t.word("POISSON").set("PENALTY", c.stiffness).set("RESTITUTION_COEFFICIENT", *c.restitution);
+  } else {
+    t.word("IMPACT").set("STIFFNESS", c.stiffness).set("EXPONENT", c.exponent);
+    t.set("DAMPING", c.damping).set("DMAX", c.full_damping);
+  }
+  if (c.rubs) {
+    t.set("COULOMB_FRICTION", std::string("ON")).set("MU_STATIC", c.mu_static).set("MU_DYNAMIC", c.mu_dynamic);
+    t.set("STICTION_TRANSITION_VELOCITY", c.stiction_speed).set("FRICTION_TRANSITION_VELOCITY", c.sliding_speed);
+  }
+  return text + t.text();
+}
+
 std::string linear_text(const LinearForce& f) {
   constexpr const char* keywords[] = {"BUSHING", "FIELD", "BEAM"};
   Statement t(keywords[static_cast<int>(f.kind)], f.id);
@@ -388,6 +421,7 @@ std::string dataset_text(const Mechanism& m) {
   for (const SpringDamper& s : m.springs) text += spring_text(s);
   for (const Sforce& s : m.sforces) text += sforce_text(s);
   for (const Friction& f : m.frictions) text += friction_text(m, f);
+  for (const Touch& t : m.touches) text += touch_text(t);
   for (const LinearForce& f : m.linears) text += linear_text(f);
   for (const Nforce& f : m.nforces) text += nforce_text(f);
   for (const Cable& f : m.cables) text += cable_text(f);

@@ -58,6 +58,11 @@ std::vector<ForceLoad> Model::force_loads() const {
     all.push_back({"FRICTION", mechanism_.frictions[k].id, 0, joint_markers_[joint][0], joint_markers_[joint][1],
                    friction_wrench(k), Taker::body_at_i, slides || both, !slides});
   }
+  for (std::size_t k = 0; k < mechanism_.touches.size(); ++k) {
+    const Touch& t = mechanism_.touches[k];
+    all.push_back(
+        {"CONTACT", t.id, 0, marker_index(t.i), marker_index(t.j), touch_wrench(k), Taker::body_at_i, true, true});
+  }
   std::stable_sort(all.begin(), all.end(),
                    [](const ForceLoad& a, const ForceLoad& b) { return a.statement < b.statement; });
   return all;

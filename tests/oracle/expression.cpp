@@ -119,6 +119,7 @@ Expr motion_reaction(int id, int jflag, int component, int rm) {
   return make(Op::motion, {}, {id, jflag, component, rm});
 }
 Expr sforce_load(int id, int jflag, int component, int rm) { return make(Op::sforce, {}, {id, jflag, component, rm}); }
+Expr touch_load(int id, int jflag, int component, int rm) { return make(Op::touch, {}, {id, jflag, component, rm}); }
 Expr friction_load(int id, int jflag, int component, int rm) {
   return make(Op::friction, {}, {id, jflag, component, rm});
 }
@@ -212,6 +213,8 @@ std::string expression_text(const Expr& expression) {
       return with_ids("SFORCE", 4);
     case Op::friction:
       return with_ids("FRICTION", 4);
+    case Op::touch:
+      return with_ids("CONTACT", 4);
     case Op::spring:
       return with_ids("SPDP", 4);
     case Op::linear:

@@ -34,6 +34,7 @@ enum class Op {
   motion,
   sforce,
   friction,
+  touch,
   spring,  // SPDP
   linear,  // BUSH, FIELD, BEAM
   gforce,
@@ -102,6 +103,7 @@ struct Node {
 [[nodiscard]] Expr motion_reaction(int id, int jflag, int component, int rm);
 [[nodiscard]] Expr sforce_load(int id, int jflag, int component, int rm);
 [[nodiscard]] Expr friction_load(int id, int jflag, int component, int rm);
+[[nodiscard]] Expr touch_load(int id, int jflag, int component, int rm);
 [[nodiscard]] Expr spring_load(int id, int jflag, int component, int rm);
 [[nodiscard]] Expr linear_load(LinearKind kind, int id, int jflag, int component, int rm);
 // Component 1..8 of the net force or torque on marker i, of what acts between i and j, or of everything with j = 0.

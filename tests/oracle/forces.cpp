@@ -307,6 +307,7 @@ std::vector<Real> Model::algebra_residual() const {
   apply_nforces(loads);
   apply_cables(loads);
   apply_frictions(loads);
+  apply_touches(loads);
   for (const int k : active) apply_row(loads, rows[static_cast<std::size_t>(k)], lambda[static_cast<std::size_t>(k)]);
   const Vec g = to_vec(mechanism_.gravity);
   const Real ucf = mechanism_.ucf;

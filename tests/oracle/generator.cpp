@@ -318,6 +318,7 @@ Mechanism Draw::mechanism() {
   check();
   draw_frictions();
   if (!m_.frictions.empty()) check();
+  draw_touches();
   return m_;
 }
 

@@ -24,9 +24,11 @@ class Draw {
   Draw(std::uint64_t seed, std::uint64_t attempt)
       : random_(seed * 1000003U + attempt * 7919U + 17U),
         friction_random_(seed * 7368787U + attempt * 104729U + 5U),
+        touch_random_(seed * 1299709U + attempt * 15485863U + 3U),
         wanted_loops_(seed % 10 == 0 ? 2 : (seed % 5 < 2 ? 1 : 0)),
         wanted_motions_(seed % 3 == 0 ? 1 : 0),
         whole_language_(seed > 200),
+        must_touch_(seed > 220),
         may_rub_(seed % 2 == 0) {}
   [[nodiscard]] Mechanism mechanism();
 
@@ -75,6 +77,9 @@ class Draw {
   void draw_sforces();
   void draw_outputs();
   void draw_frictions();
+  void draw_touches();
+  void draw_touch();
+  void draw_touch_law(Touch& touch);
   void check_frictions(const Model& model) const;
   void check_structure() const;
   void check() const;
@@ -125,10 +130,11 @@ class Draw {
   }
 
   // Frictions have numbers of their own: what else a seed draws is what it was before there were any.
-  std::mt19937_64 random_, friction_random_;
+  std::mt19937_64 random_, friction_random_, touch_random_;
   // Rejection starves loops and motions; some seeds insist on them.
   int wanted_loops_ = 0, wanted_motions_ = 0;
   bool whole_language_ = false;  // the first 200 stay as they were drawn when there were fewer elements
+  bool must_touch_ = false;      // shapes, after 220
   bool may_rub_ = false;         // every second seed
   Mechanism m_;
   double L_ = 1, F_ = 10;  // natural length and force

@@ -191,6 +191,21 @@ struct Friction {
   double bristles = 1, bristle_damping = 0, viscosity = 0;
 };
 
+// A CONTACT: a ball on marker i with a plane or a ball on marker j, or a disc with a curve in their x-y planes.
+enum class TouchKind { ball_on_plane, balls, disc_on_curve };
+struct Touch {
+  int id = 0;
+  TouchKind kind = TouchKind::ball_on_plane;
+  int i = 0, j = 0;
+  double radius_i = 1, radius_j = 1;
+  int curve = 0;
+  double v = 0;  // near the parameter of the place on the curve; not written
+  double stiffness = 0, exponent = 1, damping = 0, full_damping = 1;  // IMPACT
+  std::optional<double> restitution{};                                // or POISSON: the stiffness is its PENALTY
+  bool rubs = false;
+  double mu_static = 0, mu_dynamic = 0, stiction_speed = 1, sliding_speed = 2;
+};
+
 struct Variable {
   int id = 0;
   Expr function;
@@ -255,6 +270,7 @@ struct Mechanism {
   std::vector<Cable> cables;
   std::vector<GeneralForce> gforces;
   std::vector<Friction> frictions;
+  std::vector<Touch> touches;
   std::vector<SplinePoints> splines;
   std::vector<Variable> variables;
   std::vector<Diff> diffs;

@@ -137,6 +137,13 @@ class Model {
   [[nodiscard]] std::vector<Slip> slips(const Friction& friction) const;
   // Sizes of the reaction: force across and along the axis, moment across and along it.
   [[nodiscard]] std::array<Real, 4> pressing(const Friction& friction) const;
+  // The place of a CONTACT, global axes: the normal out of J, I's material seen from J's half-way between.
+  struct TouchState {
+    Vec normal, point, velocity;
+    Real gap = 0, pressure = 0;
+    [[nodiscard]] Vec slip() const { return velocity - dot(velocity, normal) * normal; }
+  };
+  [[nodiscard]] TouchState touch_state(std::size_t k) const;
   [[nodiscard]] Vec contact_point(std::size_t k) const;
   [[nodiscard]] Real cable_tension(const Cable& f) const;
   // Where on the curves of i and of j the search for the point of contact begins from now on.
@@ -191,6 +198,7 @@ class Model {
   void apply_nforces(std::vector<Wrench>& loads) const;
   void apply_cables(std::vector<Wrench>& loads) const;
   void apply_frictions(std::vector<Wrench>& loads) const;
+  void apply_touches(std::vector<Wrench>& loads) const;
   // Wrenches on I, torque about p_I.
   [[nodiscard]] Wrench spring_wrench(std::size_t k) const;
   [[nodiscard]] Wrench sforce_wrench(std::size_t k) const;
@@ -200,6 +208,7 @@ class Model {
   [[nodiscard]] std::vector<Wrench> cable_wrenches(const Cable& f) const;
   [[nodiscard]] Wrench general_wrench(std::size_t k) const;
   [[nodiscard]] Wrench friction_wrench(std::size_t k) const;
+  [[nodiscard]] Wrench touch_wrench(std::size_t k) const;
   [[nodiscard]] std::vector<Real> creep_rates(std::size_t k) const;
   [[nodiscard]] Wrench joint_wrench(int joint) const;
   [[nodiscard]] Wrench motion_wrench(int motion) const;
