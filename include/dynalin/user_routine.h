@@ -23,6 +23,16 @@
  *     MOTION      motsub       1          iord, iflag: derivative 0, 1 or 2 with respect to time
  *     REQUEST     reqsub       8          iflag
  *     SENSOR      sensub       1          iflag
+ *     GSE         gse_deriv    NS         dflag, iflag, how many values: x', or with IMPLICIT what is zero
+ *                 gse_output   NO         the same: y
+ *                 gse_update   ND         the same: discrete states behind a sample
+ *                 gse_samp     1          iflag: time to the next sample (also gse_sample)
+ *
+ * A GSE may have gsesub instead of the first two, with gsexx, gsexu, gseyx and gseyu for its partial derivatives, each
+ * a matrix column by column: of x' with respect to states and inputs, of y with respect to the same.
+ *
+ *     gsesub: id, time, par, npar, dflag, iflag, ns, x, ni, u, no, x', y         gsexx: id, time, par, npar, iflag, ns,
+ *     Gsesub: const struct sAdamsGSE*, time, dflag, iflag, ns, x, ni, u, no, x', y      x, ni, u, no, matrix
  *
  * id is that of the statement, par and npar are the constants between the parentheses of USER, dflag is 1 where
  * derivatives are wanted. iflag is 0 where the values are wanted, 1 and 3 as above.
@@ -80,6 +90,15 @@ struct sAdamsSensor {
   int ID, NPAR;
   const double* PAR;
 };
+struct sAdamsGSE {
+  int ID, NPAR;
+  const double* PAR;
+  int NI, NO, U, Y; /* numbers of inputs and outputs, and their ARRAYs */
+  int NS, X, IC;    /* of continuous states */
+  int STATIC_HOLD, IMPLICIT, STATICS_ONLY;
+  int ND, XD, ICD; /* of discrete states */
+  double SAMPLE_OFFSET;
+};
 
 /* A measure of the model by the name of a function of expressions, "DX", "VR", "VARVAL", "JOINT" ..., with its
  * arguments in ipar. errflg is 1 if there is none, or if it was not asked for when iflag was 1 or 3. */
@@ -104,6 +123,21 @@ void c_usrmes(int msgflg, const char* message, int id, const char* endflg);
 void c_timget(double* time);
 void c_getmod(int* mode);
 
+/* Of the GSE that a routine is called for: how many states, discrete states, inputs and outputs, their values, and x'
+ * of an implicit one. Partial derivatives with respect to them as c_syspar takes them. From Fortran: GSE_NS(ns),
+ * GSE_X(x, ns), GSEPAR_X(partial, n) ... */
+int c_gse_ns(void);
+int c_gse_nd(void);
+int c_gse_ni(void);
+int c_gse_no(void);
+void c_gse_x(double* x, int ns);
+void c_gse_xdot(double* xdot, int ns);
+void c_gse_xd(double* xd, int nd);
+void c_gse_u(double* u, int ni);
+void c_gsepar_x(const double* partial, int npartial);
+void c_gsepar_xdot(const double* partial, int npartial);
+void c_gsepar_u(const double* partial, int npartial);
+
 /* A second entry "<routine>_derivatives" takes the place of c_syspar, and gives derivatives of any order that the
  * program needs. dynalin/user_routine.hpp writes it by itself. */
 struct dynalin_course {
@@ -120,6 +154,8 @@ struct dynalin_course {
 int dynalin_input(const char* name, const int* ipar, int nsize);
 /* The same of number n of what c_sysary gives. */
 int dynalin_input_of_array(const char* name, const int* ipar, int nsize, int n);
+/* The id of the ARRAY of a GSE that 'X', 'D' (discrete states) or 'U' names, 0 if there is none. */
+int dynalin_gse_array(int which);
 
 #ifdef __cplusplus
 }

@@ -327,26 +327,39 @@ T max(const T& a, const T& b) {
   return value_of(a) < value_of(b) ? b : a;
 }
 
+// What formulas of a GSE read: its states, inputs and discrete states by their places, counted from 0, and x′ of an
+// implicit one.
+template <class Self, class T>
+struct CallOfStateEquations {
+  T state(int k) const { return self().measure("ARRAY", {dynalin_gse_array('X')}, k); }
+  T rate(int k) const { return self().measure("GSE_XDOT", {self().id()}, k); }
+  T input(int k) const { return self().measure("ARRAY", {dynalin_gse_array('U')}, k); }
+  T discrete(int k) const { return self().measure("ARRAY", {dynalin_gse_array('D')}, k); }
+
+ private:
+  const Self& self() const { return static_cast<const Self&>(*this); }
+};
+
 // What a formula reads. All it asks for must be the same each time, whatever the values are.
 template <class T>
-class Call {
+class Call : public CallOfStateEquations<Call<T>, T> {
  public:
   Call(const dynalin_course& course, int first) : course_(&course), first_(first) {}
   int id() const { return course_->id; }
   double parameter(int k) const { return course_->par[k]; }
   int parameters() const { return course_->npar; }
-  T time() const { return input(0); }
+  T time() const { return number(0); }
   // As c_sysfnc gives it.
   T measure(const char* name, std::initializer_list<int> ids) const {
-    return input(dynalin_input(name, ids.begin(), static_cast<int>(ids.size())));
+    return number(dynalin_input(name, ids.begin(), static_cast<int>(ids.size())));
   }
   // Number n of what c_sysary gives.
   T measure(const char* name, std::initializer_list<int> ids, int n) const {
-    return input(dynalin_input_of_array(name, ids.begin(), static_cast<int>(ids.size()), n));
+    return number(dynalin_input_of_array(name, ids.begin(), static_cast<int>(ids.size()), n));
   }
 
  private:
-  T input(int k) const {
+  T number(int k) const {
     if (k < 0) return T(std::nan(""));
     const int stride = course_->order + 1;
     T x(course_->input[stride * k]);
@@ -365,7 +378,7 @@ class Call {
 };
 
 template <>
-class Call<double> {
+class Call<double> : public CallOfStateEquations<Call<double>, double> {
  public:
   Call(int id, double time, const double* par, int npar) : id_(id), time_(time), par_(par), npar_(npar) {}
   int id() const { return id_; }
@@ -429,6 +442,14 @@ void fill_course(const dynalin_course& c) {
 #define DYNALIN_USER_ROUTINE(name, Formula)                                                                           \
   extern "C" void name(const int* id, const double* time, const double* par, const int* npar, const int*, const int*, \
                        double* value) {                                                                               \
+    Formula{}(dynalin::user::Call<double>(*id, *time, par, *npar), value);                                            \
+  }                                                                                                                   \
+  extern "C" void name##_derivatives(const dynalin_course* course) { dynalin::user::fill_course<Formula>(*course); }
+
+// The same of a routine gse_deriv, gse_output or gse_update of a GSE.
+#define DYNALIN_USER_STATE_EQUATIONS(name, Formula)                                                                   \
+  extern "C" void name(const int* id, const double* time, const double* par, const int* npar, const int*, const int*, \
+                       const int*, double* value) {                                                                   \
     Formula{}(dynalin::user::Call<double>(*id, *time, par, *npar), value);                                            \
   }                                                                                                                   \
   extern "C" void name##_derivatives(const dynalin_course* course) { dynalin::user::fill_course<Formula>(*course); }

@@ -234,7 +234,8 @@ std::size_t ArgumentSplitter::end_of_text_list(std::size_t begin) const {
     if (next >= tokens_.size() || assignment_at(next)) return i;
     const bool belongs =
         symbol_at(next, ',') ||
-        (in_quotes ? quoted_at(next) : !(stands_alone(next) && ends_text_list(token_text(tokens_[next], source_))));
+        (in_quotes ? quoted_at(next)
+                   : !(stands_alone(next) && ends_text_list(statement_, token_text(tokens_[next], source_))));
     if (!belongs) return i;
     i = next;
   }

@@ -21,6 +21,8 @@ constexpr auto raw_arguments = std::to_array<RawArgument>({
     {"", "MNF_FILE", 3},
     {"", "DB_FILE", 4},
     {"", "BDF_FILE", 4},
+    {"GSE", "ROUTINE", 4, ValueForm::text_list},
+    {"GSE", "INTERFACE", 6, ValueForm::text_list},
     {"", "ROUTINE", 4},
     {"", "INTERFACE", 6},
     {"", "LABEL", 3},
@@ -62,7 +64,16 @@ constexpr auto after_comment =
     std::to_array<std::string_view>({"I", "J", "RM", "F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "FUNCTION",
                                      "TITLE", "CNAMES", "CUNITS", "CLABELS", "RESULTS_NAME", "VARIABLES"});
 
-constexpr auto after_text_list = std::to_array<std::string_view>({"DISPLACEMENT", "VELOCITY", "ACCELERATION", "FORCE"});
+struct Follower {
+  std::string_view statement, name;
+};
+constexpr auto after_text_list = std::to_array<Follower>({{"REQUEST", "DISPLACEMENT"},
+                                                          {"REQUEST", "VELOCITY"},
+                                                          {"REQUEST", "ACCELERATION"},
+                                                          {"REQUEST", "FORCE"},
+                                                          {"GSE", "IMPLICIT"},
+                                                          {"GSE", "STATIC_HOLD"},
+                                                          {"GSE", "STATICS_ONLY"}});
 
 }  // namespace
 
@@ -78,11 +89,11 @@ ValueForm value_form(std::string_view statement, std::string_view argument) {
 }
 
 // Fewer letters are rather one of the texts.
-bool ends_text_list(std::string_view word) {
+bool ends_text_list(std::string_view statement, std::string_view word) {
   constexpr std::size_t enough = 4;
-  return word.size() >= enough &&
-         std::any_of(after_text_list.begin(), after_text_list.end(),
-                     [&](std::string_view name) { return begins_with_ignoring_case(name, word); });
+  return word.size() >= enough && std::any_of(after_text_list.begin(), after_text_list.end(), [&](const Follower& f) {
+           return f.statement == statement && begins_with_ignoring_case(f.name, word);
+         });
 }
 
 bool ends_comment(std::string_view name) {

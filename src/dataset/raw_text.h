@@ -21,6 +21,6 @@ ValueForm value_form(std::string_view statement, std::string_view argument);
 bool ends_comment(std::string_view name);
 
 // Whether a bare word behind a list of texts without quotes is an argument of the statement.
-bool ends_text_list(std::string_view word);
+bool ends_text_list(std::string_view statement, std::string_view word);
 
 }  // namespace dynalin

@@ -8,8 +8,6 @@ namespace dynalin {
 Catalogue catalogue();
 // Where a kind of the catalogue stands in the manual: the folder of its source, or "without effect".
 std::string_view catalogue_group(const Kind&);
-// Statements that are not read yet and that commands take already.
-std::span<const Kind> statements_to_come();
 
 // Names of statements, each once, in alphabetical order: those of which a command defines arguments anew, and the
 // classes of elements that commands take out of the model.

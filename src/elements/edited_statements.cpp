@@ -1,6 +1,5 @@
 // What commands may do with which statements, as their Kinds say it.
 #include <algorithm>
-#include <array>
 
 #include "elements/catalogue.h"
 
@@ -8,17 +7,11 @@ namespace dynalin {
 
 namespace {
 
-constexpr Kind to_come(std::string_view statement) { return {statement, "", "", Kind::Role::element, {}, nullptr}; }
-constexpr std::array to_come_later = {to_come("GSE")};
-
 template <class Wanted>
 std::vector<std::string_view> names_of(const Wanted& wanted) {
   std::vector<std::string_view> names;
   for (const Kind* kind : catalogue()) {
     if (wanted(*kind)) names.push_back(kind->statement);
-  }
-  for (const Kind& kind : statements_to_come()) {
-    if (wanted(kind)) names.push_back(kind.statement);
   }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -26,8 +19,6 @@ std::vector<std::string_view> names_of(const Wanted& wanted) {
 }
 
 }  // namespace
-
-std::span<const Kind> statements_to_come() { return to_come_later; }
 
 std::span<const std::string_view> redefinable_statements() {
   static const auto names = names_of(can_be_redefined);

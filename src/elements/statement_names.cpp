@@ -11,7 +11,7 @@ namespace dynalin {
 namespace {
 
 // Words that no Kind reads, or not yet.
-constexpr std::array<std::string_view, 7> without_kind = {"END",     "FE_LOAD", "FE_PART", "GSE",
+constexpr std::array<std::string_view, 6> without_kind = {"END",     "FE_LOAD", "FE_PART",
                                                           "SURFACE", "TIRE",    "UCON"};
 
 std::vector<std::string_view> all_names() {

@@ -44,6 +44,14 @@ std::string unquoted(std::string_view text) {
 
 }  // namespace
 
+bool calls_routine(const WrittenArgument& w) {
+  static constexpr std::array<std::string_view, 1> user = {"USER"};
+  if (w.damaged || w.value.size() < 2) return false;
+  const auto text = [&](std::size_t k) { return w.name.source->text().substr(w.value[k].offset, w.value[k].length); };
+  return w.value[0].kind == TokenKind::word && find_keyword(text(0), user) == 0 && text(0).size() == user[0].size() &&
+         text(1) == "(";
+}
+
 CalledRoutines::CalledRoutines(const Dataset& dataset, Catalogue catalogue, const RoutineOptions& options,
                                Diagnostics& diagnostics)
     : dataset_(dataset),
@@ -131,7 +139,7 @@ std::optional<std::size_t> CalledRoutines::size_of_list(std::string_view stateme
     const auto list = read_reals(*w, *w->name.source, ignored);
     return list ? std::optional(list->size()) : std::nullopt;
   }
-  if (const int size = integer(*s, "SIZE"); size > 0) return static_cast<std::size_t>(size);
+  if (statement == "GSE") return static_cast<std::size_t>(std::max(integer(*s, "NS"), 0));
   // Of states or outputs: the element that has them says how many.
   for (const Statement& e : dataset_.statements) {
     if (e.name != "GSE" && e.name != "LSE" && e.name != "TFSISO") continue;
@@ -153,30 +161,37 @@ std::optional<std::size_t> CalledRoutines::size_of_list(std::string_view stateme
       if (c && integer(*c, "ROWS") > 0) return static_cast<std::size_t>(integer(*c, "ROWS"));
     }
   }
+  if (const int size = integer(*s, "SIZE"); size > 0) return static_cast<std::size_t>(size);
   return std::nullopt;
 }
 
-std::optional<RoutineStatement> CalledRoutines::says(const Statement& s, const WrittenArgument& call) {
+// Between the parentheses of USER(…).
+std::optional<std::vector<double>> CalledRoutines::constants_of(const WrittenArgument& call, const std::string& label) {
+  const SourceText& source = *call.name.source;
+  const auto tokens = call.value;
+  const Token& last = tokens.back();
+  if (source.text().substr(last.offset, last.length) != ")") {
+    diagnostics_.error("unbalanced-parenthesis", {&source, tokens[0].offset, tokens[0].length},
+                       fmt::format("the parenthesis of USER in {} is not closed behind its constants", label));
+    return std::nullopt;
+  }
+  if (tokens.size() <= 3) return std::vector<double>();
+  WrittenArgument constants = call;
+  constants.value = tokens.subspan(2, tokens.size() - 3);
+  constants.place_value(
+      {&source, constants.value.front().offset,
+       constants.value.back().offset + constants.value.back().length - constants.value.front().offset});
+  return read_reals(constants, source, diagnostics_);
+}
+
+std::optional<RoutineStatement> CalledRoutines::says(const Statement& s, const WrittenArgument* call) {
   RoutineStatement out;
   out.label = fmt::format("{}/{}", s.name, s.id.value_or(0));
   out.id = static_cast<int>(s.id.value_or(0));
-  const SourceText& source = *call.name.source;
-  const auto text = [&](const Token& t) { return source.text().substr(t.offset, t.length); };
-  const auto tokens = call.value;
-  if (text(tokens.back()) != ")") {
-    diagnostics_.error("unbalanced-parenthesis", {&source, tokens[0].offset, tokens[0].length},
-                       fmt::format("the parenthesis of USER in {} is not closed behind its constants", out.label));
-    return std::nullopt;
-  }
-  if (tokens.size() > 3) {
-    WrittenArgument constants = call;
-    constants.value = tokens.subspan(2, tokens.size() - 3);
-    constants.place_value(
-        {&source, constants.value.front().offset,
-         constants.value.back().offset + constants.value.back().length - constants.value.front().offset});
-    const auto list = read_reals(constants, source, diagnostics_);
-    if (!list) return std::nullopt;
-    out.parameters = *list;
+  if (call) {
+    auto constants = constants_of(*call, out.label);
+    if (!constants) return std::nullopt;
+    out.parameters = std::move(*constants);
   }
   out.I = integer(s, "I"), out.J = integer(s, "J"), out.RM = integer(s, "RM"), out.JFLOAT = integer(s, "JFLOAT");
   out.action_only = argument(s, "ACTIONONLY") != nullptr;
@@ -201,31 +216,48 @@ std::shared_ptr<const CompiledRoutine> CalledRoutines::find(const Statement& s, 
   FoundRoutine found;
   if (const auto* named = argument(s, "ROUTINE"); named && named->has_value) {
     const std::string text = unquoted(named->value_span().text());
-    const auto colon = text.find(':');
     wanted = text;
-    if (colon == std::string::npos) {
-      found = find_routine(libraries_, text);
-    } else {
-      const auto last = text.find_last_of(':');
-      if (last + 1 < text.size()) wanted = text.substr(last + 1) + " of " + text.substr(0, colon);
-      found = find_routine(libraries_named(text.substr(0, colon)), text.substr(last + 1));
-    }
+    if (const auto last = text.find_last_of(':'); last != std::string::npos && last + 1 < text.size())
+      wanted = text.substr(last + 1) + " of " + text.substr(0, text.find(':'));
+    found = find_named(text, {});
   } else {
     found = find_routine(libraries_, kind->routine);
   }
   if (!found) return nullptr;
-  auto what = says(s, call);
+  auto what = says(s, &call);
   if (!what) return nullptr;
+  return made(s, call.value_span(), std::move(found), *kind, kind->values, std::move(*what));
+}
+
+FoundRoutine CalledRoutines::find_named(std::string_view written, std::span<const std::string_view> default_names) {
+  const auto colon = written.find(':');
+  std::vector<Library> named;
+  if (colon != std::string_view::npos && colon > 0) named = libraries_named(written.substr(0, colon));
+  const std::vector<Library>& libraries = colon != std::string_view::npos && colon > 0 ? named : libraries_;
+  const auto last = written.find_last_of(':');
+  const std::string_view name = last == std::string_view::npos ? written : written.substr(last + 1);
+  if (!name.empty()) return find_routine(libraries, name);
+  for (const std::string_view by_default : default_names) {
+    if (FoundRoutine found = find_routine(libraries, by_default)) return found;
+  }
+  return {};
+}
+
+// Null after an error.
+std::shared_ptr<const CompiledRoutine> CalledRoutines::made(const Statement& s, const Span& at, FoundRoutine found,
+                                                            const RoutineKind& kind, std::size_t values,
+                                                            RoutineStatement what, StatePartialRoutines partials) {
   const auto size_of = [this](std::string_view statement, std::int32_t id) { return size_of_list(statement, id); };
-  auto routine = std::make_shared<const CompiledRoutine>(std::move(found), *kind, kind->values, std::move(*what),
-                                                         differences_, size_of);
-  const Span at = call.value_span();
+  auto routine = std::make_shared<const CompiledRoutine>(std::move(found), kind, values, std::move(what), differences_,
+                                                         size_of, std::move(partials));
   if (!routine->problem().empty()) {
     diagnostics_.error("routine-failed", at,
                        fmt::format("{} of {} cannot be used: {}", routine->name(), s.at.text(), routine->problem()));
     return nullptr;
   }
-  if (!routine->gives_derivatives() && kind->arguments != RoutineArguments::plain) {
+  // What is called once in a while has nobody who asks for its derivatives.
+  const bool has_slopes = kind.arguments != RoutineArguments::plain && &kind != &state_equation_kinds().update;
+  if (!routine->gives_derivatives() && has_slopes) {
     const bool everywhere = differences_ == RoutineDifferences::everywhere;
     diagnostics_.warning(
         "differenced-routine", at,

@@ -9,8 +9,12 @@
 
 #include "model/routine_options.h"
 #include "routine/compiled_routine.h"
+#include "routine/state_equations.h"
 
 namespace dynalin {
+
+// USER(…) and nothing else, or the beginning of it.
+bool calls_routine(const WrittenArgument&);
 
 class CalledRoutines {
  public:
@@ -21,8 +25,14 @@ class CalledRoutines {
   // The routine that the statement calls, null if no library has it (`wanted` says what was looked for) or after an
   // error.
   std::shared_ptr<const CompiledRoutine> find(const Statement&, const WrittenArgument& call, std::string& wanted);
+  // The routines of a GSE, null after an error. `call` is null where INTERFACE stands without USER(…).
+  std::shared_ptr<const StateEquations> find_state_equations(const Statement&, const WrittenArgument* call);
+  // Its functions in the words of the statement.
+  std::string written(std::shared_ptr<const StateEquations>, const Span& at);
   // Value by value of a routine, in the words of the statement: FX=3, FY=4 … by numbers of functions.
   std::string written(const Statement&, std::shared_ptr<const CompiledRoutine>, const Span& at);
+  // The written argument of that full name, null if there is none.
+  const WrittenArgument* argument(const Statement&, std::string_view name) const;
 
   std::vector<Expression> functions;
 
@@ -30,10 +40,20 @@ class CalledRoutines {
   using Library = std::shared_ptr<const RoutineLibrary>;
   std::vector<Library> libraries_named(std::string_view name);
   std::string_view full_name(const Statement&, const WrittenArgument&) const;
-  const WrittenArgument* argument(const Statement&, std::string_view name) const;
   int integer(const Statement&, std::string_view name) const;
   std::optional<std::size_t> size_of_list(std::string_view statement, std::int32_t id) const;
-  std::optional<RoutineStatement> says(const Statement&, const WrittenArgument& call);
+  std::optional<RoutineStatement> says(const Statement&, const WrittenArgument* call);
+  std::optional<std::vector<double>> constants_of(const WrittenArgument& call, const std::string& label);
+
+  // "friction::slip", "slip", "friction::" or "" (the default name) in what libraries it may stand in.
+  FoundRoutine find_named(std::string_view written, std::span<const std::string_view> default_names);
+  sAdamsGSE says_of_states(const Statement&, const RoutineStatement&) const;
+  std::shared_ptr<const CompiledRoutine> made(const Statement&, const Span& at, FoundRoutine, const RoutineKind&,
+                                              std::size_t values, RoutineStatement, StatePartialRoutines = {});
+  struct StateRoutineNames;
+  StateRoutineNames state_routine_names(const Statement&) const;
+  std::vector<Expression> functions_of(const std::shared_ptr<const CompiledRoutine>&, std::size_t first,
+                                       std::size_t count, const Span& at) const;
 
   const Dataset& dataset_;
   Catalogue catalogue_;

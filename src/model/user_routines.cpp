@@ -12,18 +12,9 @@ namespace dynalin {
 
 namespace {
 
-constexpr std::array<std::string_view, 1> user = {"USER"};
 constexpr std::array<std::string_view, 2> names_of_code = {"ROUTINE", "INTERFACE"};
 
 Span span_of(const Token& token, const SourceText& source) { return {&source, token.offset, token.length}; }
-
-// USER(…) and nothing else, or the beginning of it.
-bool calls_routine(const WrittenArgument& w) {
-  if (w.damaged || w.value.size() < 2) return false;
-  const SourceText& source = *w.name.source;
-  return w.value[0].kind == TokenKind::word && find_keyword(span_of(w.value[0], source).text(), user) == 0 &&
-         span_of(w.value[0], source).length == user[0].size() && span_of(w.value[1], source).text() == "(";
-}
 
 bool names_code(const WrittenArgument& w) {
   return w.has_value && w.name.length >= 4 && find_keyword(w.name.text(), names_of_code).has_value();
@@ -74,6 +65,7 @@ class Replacement {
     const auto kind =
         std::find_if(catalogue_.begin(), catalogue_.end(), [&](const Kind* k) { return k->statement == s.name; });
     if (kind == catalogue_.end() || (*kind)->role == Kind::Role::inert) return;
+    if (s.name == state_equation_kinds().system.statement) return apply_to_state_equations(s);
     const auto call = std::find_if(s.arguments.begin(), s.arguments.end(), calls_routine);
     if (call != s.arguments.end() && call_library(s, static_cast<std::size_t>(call - s.arguments.begin()))) return;
     // Without what it requests it is left out, where it is read.
@@ -114,6 +106,33 @@ class Replacement {
     static constexpr std::array<std::string_view, 1> keywords = {"CONSTANT"};
     return std::make_shared<const Dataset>(
         parse_statements(std::make_shared<const SourceText>(std::move(name), std::move(text)), keywords).value);
+  }
+
+  void apply_to_state_equations(Statement& s) {
+    const WrittenArgument* call = called_.argument(s, "FUNCTION");
+    if (call && !calls_routine(*call)) {  // whoever reads it says what is wrong
+      std::erase_if(s.arguments, names_code);
+      return;
+    }
+    const Span at = call ? span_of(call->value[0], *call->name.source) : s.at;
+    std::shared_ptr<const StateEquations> equations;
+    if (called_.has_libraries()) {
+      equations = called_.find_state_equations(s, call);
+    } else {
+      diagnostics_.error("missing-routine", at,
+                         fmt::format("{} calls compiled routines, and no library that has them is named", s.at.text()),
+                         "--user-library FILE.so names a library; no constant can take its place");
+    }
+    if (equations) calls_.emplace_back(&s, called_.written(equations, call ? call->value_span() : s.at));
+    std::vector<WrittenArgument> kept;
+    for (WrittenArgument& w : s.arguments) {
+      if (names_code(w) || (equations && calls_routine(w))) continue;
+      if (calls_routine(w)) w.damaged = true;
+      kept.push_back(w);
+    }
+    s.arguments = std::move(kept);
+    // Without FUNCTION the statement has no second error of its own.
+    if (!equations && !call) s.damaged = true;
   }
 
   // Whether that is done, or cannot be for a reason that is reported.

@@ -21,6 +21,14 @@ void call_with_addresses(void* address, RoutineArguments arguments, const Routin
     case RoutineArguments::plain:
       return as<void(const int*, const double*, const double*, const int*, const int*, double*)>(address)(
           &s.id, &now.time, par, &npar, &now.iflag, values);
+    case RoutineArguments::counted:
+      return as<void(const int*, const double*, const double*, const int*, const int*, const int*, const int*,
+                     double*)>(address)(&s.id, &now.time, par, &npar, &now.flag, &now.iflag, &now.values, values);
+    case RoutineArguments::system:
+      return as<void(const int*, const double*, const double*, const int*, const int*, const int*, const int*,
+                     const double*, const int*, const double*, const int*, double*, double*)>(address)(
+          &s.id, &now.time, par, &npar, &now.flag, &now.iflag, &s.gse->NS, now.states.data(), &s.gse->NI,
+          now.inputs.data(), &s.gse->NO, values, values + s.gse->NS);
   }
 }
 
@@ -31,6 +39,7 @@ union WhatItSays {
   sAdamsGforce gforce;
   sAdamsVforce vforce;
   sAdamsDiff diff;
+  sAdamsGSE gse;
 };
 
 WhatItSays what_it_says(std::string_view statement, const RoutineStatement& s) {
@@ -43,6 +52,10 @@ WhatItSays what_it_says(std::string_view statement, const RoutineStatement& s) {
   if (statement == "GFORCE") all.gforce = {s.id, npar, par, s.I, s.RM, s.JFLOAT};
   if (statement == "VFORCE" || statement == "VTORQUE") all.vforce = {s.id, npar, par, s.I, s.JFLOAT, s.RM};
   if (statement == "DIFF") all.diff = {s.id, npar, par, s.static_hold, s.implicit, s.initial, s.initial_rate};
+  if (statement == "GSE") {
+    all.gse = *s.gse;
+    all.gse.ID = s.id, all.gse.NPAR = npar, all.gse.PAR = par;
+  }
   return all;
 }
 
@@ -54,6 +67,13 @@ void call_with_statement(void* address, RoutineArguments arguments, const WhatIt
       return as<void(const void*, double, int, int, double*)>(address)(&s, now.time, now.flag, now.iflag, values);
     case RoutineArguments::plain:
       return as<void(const void*, double, int, double*)>(address)(&s, now.time, now.iflag, values);
+    case RoutineArguments::counted:
+      return as<void(const void*, double, int, int, int, double*)>(address)(&s, now.time, now.flag, now.iflag,
+                                                                            now.values, values);
+    case RoutineArguments::system:
+      return as<void(const void*, double, int, int, int, const double*, int, const double*, int, double*, double*)>(
+          address)(&s, now.time, now.flag, now.iflag, s.gse.NS, now.states.data(), s.gse.NI, now.inputs.data(),
+                   s.gse.NO, values, values + s.gse.NS);
   }
 }
 
@@ -64,6 +84,20 @@ void call_routine(const FoundRoutine& found, const RoutineKind& kind, const Rout
   if (found.convention == RoutineConvention::addresses)
     return call_with_addresses(found.address, kind.arguments, statement, now, values);
   call_with_statement(found.address, kind.arguments, what_it_says(kind.statement, statement), now, values);
+}
+
+void call_state_partials(const FoundRoutine& found, const RoutineStatement& s, const RoutineArgumentsNow& now,
+                         double* matrix) {
+  const auto npar = static_cast<int>(s.parameters.size());
+  if (found.convention == RoutineConvention::addresses) {
+    return as<void(const int*, const double*, const double*, const int*, const int*, const int*, const double*,
+                   const int*, const double*, const int*, double*)>(found.address)(
+        &s.id, &now.time, s.parameters.data(), &npar, &now.iflag, &s.gse->NS, now.states.data(), &s.gse->NI,
+        now.inputs.data(), &s.gse->NO, matrix);
+  }
+  const WhatItSays all = what_it_says("GSE", s);
+  as<void(const void*, double, int, int, const double*, int, const double*, int, double*)>(found.address)(
+      &all, now.time, now.iflag, s.gse->NS, now.states.data(), s.gse->NI, now.inputs.data(), s.gse->NO, matrix);
 }
 
 }  // namespace dynalin

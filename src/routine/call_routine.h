@@ -10,9 +10,12 @@ struct RoutineArgumentsNow {
   int flag;  // dflag, or iord of a MOTION
   int iflag;
   int values;
+  std::span<const double> states = {}, inputs = {};  // of a whole GSE, whose values are x′ and behind it y
 };
 
 void call_routine(const FoundRoutine&, const RoutineKind&, const RoutineStatement&, const RoutineArgumentsNow&,
                   double* values);
+// One of those with partial derivatives of a GSE: a matrix column by column.
+void call_state_partials(const FoundRoutine&, const RoutineStatement&, const RoutineArgumentsNow&, double* matrix);
 
 }  // namespace dynalin

@@ -50,12 +50,14 @@ struct CompiledRoutine::CourseMemory {
 };
 
 CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, std::size_t values,
-                                 RoutineStatement statement, RoutineDifferences differences, const SizeOfList& size_of)
+                                 RoutineStatement statement, RoutineDifferences differences, const SizeOfList& size_of,
+                                 StatePartialRoutines state_partials)
     : found_(std::move(found)),
       kind_(&kind),
       values_(values),
       statement_(std::move(statement)),
       differences_(differences),
+      state_partials_(std::move(state_partials)),
       size_of_(size_of),
       serial_(next_serial()) {
   keep_utilities();
@@ -67,6 +69,12 @@ CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, st
     RoutineContext asking = context(RoutineContext::Phase::asking);
     asking.asked = &requests_;
     asking.size_of = &size_of_;
+    // What comes as arguments it need not ask for.
+    if (kind.arguments == RoutineArguments::system) {
+      for (const int array : {statement_.gse->X, statement_.gse->U}) {
+        if (array != 0) asking.request("ARRAY", {&array, 1}, false);
+      }
+    }
     const RoutineContext::Scope scope(asking, what_.c_str());
     try {
       call(0, 0, iflag, ignored.data());
@@ -94,11 +102,63 @@ RoutineContext CompiledRoutine::context(RoutineContext::Phase phase) const {
   c.phase = phase;
   c.requests = &requests_;
   c.values = values_;
+  c.gse = statement_.gse ? &*statement_.gse : nullptr;
   return c;
 }
 
+namespace {
+
+// The ARRAY of states or inputs of a GSE among what its routine reads, and its values at this moment.
+struct ReadArray {
+  const RoutineRequest* request = nullptr;
+  std::vector<double> values;
+};
+ReadArray read_array(const RoutineContext& c, int array, int size) {
+  ReadArray out;
+  out.values.assign(static_cast<std::size_t>(size), 0.0);
+  out.request = array == 0 ? nullptr : c.known("ARRAY", {&array, 1}, false);
+  if (!out.request || c.phase == RoutineContext::Phase::asking) return out;
+  for (std::size_t k = 0; k < out.values.size(); ++k)
+    out.values[k] = c.inputs[static_cast<std::size_t>(out.request->inputs[k])];
+  return out;
+}
+
+}  // namespace
+
 void CompiledRoutine::call(double time, int flag, int iflag, double* values) const {
-  call_routine(found_, *kind_, statement_, {time, flag, iflag, static_cast<int>(values_)}, values);
+  RoutineArgumentsNow now{time, flag, iflag, static_cast<int>(values_)};
+  if (kind_->arguments != RoutineArguments::system) return call_routine(found_, *kind_, statement_, now, values);
+  const sAdamsGSE& gse = *statement_.gse;
+  const RoutineContext& c = *RoutineContext::current();
+  const ReadArray states = read_array(c, gse.X, gse.NS), inputs = read_array(c, gse.U, gse.NI);
+  now.states = states.values, now.inputs = inputs.values;
+  call_routine(found_, *kind_, statement_, now, values);
+}
+
+void CompiledRoutine::call_partials(double time, std::span<double> partials, std::span<char> given) const {
+  const sAdamsGSE& gse = *statement_.gse;
+  const RoutineContext& c = *RoutineContext::current();
+  const ReadArray states = read_array(c, gse.X, gse.NS), inputs = read_array(c, gse.U, gse.NI);
+  const RoutineArgumentsNow now{time, 1, 0, static_cast<int>(values_), states.values, inputs.values};
+  const auto take = [&](const ReadArray& by, const FoundRoutine& of_x, const FoundRoutine& of_y) {
+    const bool whole = (of_x || gse.NS == 0) && (of_y || gse.NO == 0);
+    if (!by.request || !whole) return;
+    const std::size_t inputs_in_all = requests_.inputs.size();
+    const auto place = [&](const FoundRoutine& routine, int first, int rows) {
+      const auto count = static_cast<std::size_t>(rows);
+      std::vector<double> matrix(count * by.values.size(), unknown);
+      if (matrix.empty()) return;
+      call_state_partials(routine, statement_, now, matrix.data());
+      for (std::size_t k = 0; k < matrix.size(); ++k) {
+        const std::size_t value = static_cast<std::size_t>(first) + k % count;
+        partials[value * inputs_in_all + static_cast<std::size_t>(by.request->inputs[k / count])] += matrix[k];
+      }
+    };
+    place(of_x, 0, gse.NS), place(of_y, gse.NS, gse.NO);
+    for (const std::int32_t k : by.request->inputs) given[static_cast<std::size_t>(k)] = true;
+  };
+  take(states, state_partials_.of_x_by_x, state_partials_.of_y_by_x);
+  take(inputs, state_partials_.of_x_by_u, state_partials_.of_y_by_u);
 }
 
 std::string CompiledRoutine::evaluate(std::span<const double> inputs, std::span<double> values,
@@ -112,6 +172,7 @@ std::string CompiledRoutine::evaluate(std::span<const double> inputs, std::span<
   const RoutineContext::Scope scope(c, what_.c_str());
   try {
     call(inputs[0], derivatives ? 1 : 0, 0, values.data());
+    if (derivatives && kind_->arguments == RoutineArguments::system) call_partials(inputs[0], partials, given);
   } catch (...) {
     c.fail("it threw an exception");
   }

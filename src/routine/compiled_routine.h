@@ -26,13 +26,20 @@ struct RoutineStatement {
   int I = 0, J = 0, RM = 0, JFLOAT = 0;
   bool action_only = false, rotation = false, static_hold = false, implicit = false;
   double initial = 0, initial_rate = 0;
+  std::optional<sAdamsGSE> gse{};
+};
+
+// Routines that give the partial derivatives of a whole GSE: of x′ and of y, with respect to states and to inputs. One
+// that is not there has no address.
+struct StatePartialRoutines {
+  FoundRoutine of_x_by_x, of_x_by_u, of_y_by_x, of_y_by_u;
 };
 
 class CompiledRoutine final : public Routine {
  public:
   // Calls the routine to learn what it reads, where sizes of ARRAYs are needed.
   CompiledRoutine(FoundRoutine, const RoutineKind&, std::size_t values, RoutineStatement, RoutineDifferences,
-                  const SizeOfList&);
+                  const SizeOfList&, StatePartialRoutines = {});
 
   // TIME, MODE but for a MOTION, and what it asked for.
   const std::vector<Atom>& inputs() const { return requests_.inputs; }
@@ -58,6 +65,8 @@ class CompiledRoutine final : public Routine {
   struct Memory;        // of the last call in this thread
   struct CourseMemory;  // the same along the motion
   void call(double time, int flag, int iflag, double* values) const;
+  // Of a whole GSE: partial derivatives that routines of their own give.
+  void call_partials(double time, std::span<double> partials, std::span<char> given) const;
   // All values, and with partials those too; says why there are none.
   std::string evaluate(std::span<const double> inputs, std::span<double> values, std::span<double> partials,
                        std::span<char> given) const;
@@ -75,6 +84,7 @@ class CompiledRoutine final : public Routine {
   std::size_t values_;
   RoutineStatement statement_;
   RoutineDifferences differences_;
+  StatePartialRoutines state_partials_;
   RoutineRequests requests_;
   SizeOfList size_of_;
   std::string what_;  // for a crash

@@ -47,6 +47,16 @@ struct ElementList {
 constexpr std::array<ElementList, 3> element_lists = {
     {{"ARRAY", "ARRAY", "ARYVAL"}, {"PINPUT", "PINPUT", "PINVAL"}, {"POUTPUT", "POUTPUT", "POUVAL"}}};
 
+// x′ of a GSE, which no expression of the language reads.
+constexpr AtomFunction rate_of_state_equations = {.name = "GSE_XDOT",
+                                                  .family = AtomFamily::data,
+                                                  .order = -1,
+                                                  .minimum_arguments = 2,
+                                                  .maximum_arguments = 2,
+                                                  .statement = "GSE",
+                                                  .built = true,
+                                                  .reads = DataSource::state_rate};
+
 std::optional<Atom> atom_of(std::string_view function, std::span<const int> ids) {
   Atom atom;
   atom.function = find_atom_function(function);
@@ -86,6 +96,18 @@ std::optional<std::vector<Atom>> measure_list(std::string_view name, std::span<c
     if (!count) return std::nullopt;
     for (std::size_t n = 1; n <= *count; ++n)
       list.push_back(*atom_of(e.function, std::array{ids[0], static_cast<int>(n)}));
+    return list;
+  }
+  if (wanted == rate_of_state_equations.name && ids.size() == 1) {
+    const auto count = size_of(rate_of_state_equations.statement, ids[0]);
+    if (!count) return std::nullopt;
+    for (std::size_t n = 1; n <= *count; ++n) {
+      Atom atom;
+      atom.function = &rate_of_state_equations;
+      atom.argument = {ids[0], static_cast<std::int32_t>(n)};
+      atom.argument_count = 2;
+      list.push_back(atom);
+    }
     return list;
   }
   return std::nullopt;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dynalin/user_routine.h"
 #include "routine/measures.h"
 
 namespace dynalin {
@@ -32,6 +33,7 @@ class RoutineContext {
   RoutineRequests* asked = nullptr;           // while asking: to be added to
   const RoutineRequests* requests = nullptr;  // while evaluating
   const SizeOfList* size_of = nullptr;
+  const sAdamsGSE* gse = nullptr;  // of a routine that is called for one
   std::span<const double> inputs;
   std::size_t values = 1;
   // Partial derivatives of all values with respect to all inputs, [value * inputs + input], and which inputs have them.

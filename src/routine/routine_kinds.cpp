@@ -18,7 +18,14 @@ constexpr std::array<RoutineKind, 9> kinds = {{
     {"REQUEST", "reqsub", 8, plain},
     {"SENSOR", "sensub", 1, plain},
 }};
+constexpr StateEquationKinds of_gse = {{"GSE", "gse_deriv", 0, counted},
+                                       {"GSE", "gse_output", 0, counted},
+                                       {"GSE", "gse_update", 0, counted},
+                                       {"GSE", "gse_samp", 1, plain},
+                                       {"GSE", "gsesub", 0, RoutineArguments::system}};
 }  // namespace
+
+const StateEquationKinds& state_equation_kinds() { return of_gse; }
 
 std::span<const RoutineKind> routine_kinds() { return kinds; }
 

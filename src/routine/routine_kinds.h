@@ -12,6 +12,8 @@ enum class RoutineArguments : std::uint8_t {
   function,  // dflag, iflag
   of_time,   // iord, iflag
   plain,     // iflag
+  counted,   // dflag, iflag, how many values
+  system,    // of a whole GSE: states and inputs come with it
 };
 
 struct RoutineKind {
@@ -21,6 +23,12 @@ struct RoutineKind {
 };
 
 std::span<const RoutineKind> routine_kinds();
+// Of a GSE, which has several: x′, outputs, discrete states behind a sample, the time between samples, and x′ with
+// outputs in one.
+struct StateEquationKinds {
+  RoutineKind derivatives, outputs, update, sample, system;
+};
+const StateEquationKinds& state_equation_kinds();
 // By the default name of the routine in lower case, nullptr if there is none.
 const RoutineKind* find_routine_kind(std::string_view routine);
 

@@ -72,6 +72,31 @@ void give(std::string_view name, const int* ipar, int nsize, const double* parti
   *errflg = 0;
 }
 
+// Of the GSE at work: 0 where none is.
+int number_of(int sAdamsGSE::*member) {
+  const RoutineContext* c = RoutineContext::current();
+  return c && c->gse ? c->gse->*member : 0;
+}
+
+constexpr std::string_view rates_of_states = "GSE_XDOT";
+
+// A list of the GSE at work, by the id of its ARRAY or by its own.
+void read_list(std::string_view name, int id, double* out, int size, int expected) {
+  RoutineContext* c = RoutineContext::current();
+  if (!c || size == 0) return;
+  if (!c->gse) return c->fail("it asks for states or inputs of a GSE, and is called for none");
+  if (size != expected) {
+    return c->fail(fmt::format("it asks for {} numbers where its GSE has {}", size, expected));
+  }
+  int count = 0, errflg = 0;
+  read(name, &id, 1, false, out, &count, &errflg);
+}
+
+void give_list(std::string_view name, int id, const double* partial, int count) {
+  int errflg = 0;
+  give(name, &id, 1, partial, count, &errflg);
+}
+
 void message(int flag, std::string_view text, std::string_view end) {
   RoutineContext* c = RoutineContext::current();
   if (!c || flag == 0 || c->phase == RoutineContext::Phase::asking) return;
@@ -140,6 +165,37 @@ void c_getmod(int* mode) {
   *mode = c ? static_cast<int>(input_value(*c, 1)) : 0;
 }
 void getmod_(int* mode) { c_getmod(mode); }
+
+int c_gse_ns(void) { return number_of(&sAdamsGSE::NS); }
+int c_gse_nd(void) { return number_of(&sAdamsGSE::ND); }
+int c_gse_ni(void) { return number_of(&sAdamsGSE::NI); }
+int c_gse_no(void) { return number_of(&sAdamsGSE::NO); }
+void gse_ns_(int* n) { *n = c_gse_ns(); }
+void gse_nd_(int* n) { *n = c_gse_nd(); }
+void gse_ni_(int* n) { *n = c_gse_ni(); }
+void gse_no_(int* n) { *n = c_gse_no(); }
+
+void c_gse_x(double* x, int ns) { read_list("ARRAY", number_of(&sAdamsGSE::X), x, ns, c_gse_ns()); }
+void c_gse_xdot(double* xdot, int ns) { read_list(rates_of_states, number_of(&sAdamsGSE::ID), xdot, ns, c_gse_ns()); }
+void c_gse_xd(double* xd, int nd) { read_list("ARRAY", number_of(&sAdamsGSE::XD), xd, nd, c_gse_nd()); }
+void c_gse_u(double* u, int ni) { read_list("ARRAY", number_of(&sAdamsGSE::U), u, ni, c_gse_ni()); }
+void gse_x_(double* x, const int* ns) { c_gse_x(x, *ns); }
+void gse_xdot_(double* xdot, const int* ns) { c_gse_xdot(xdot, *ns); }
+void gse_xd_(double* xd, const int* nd) { c_gse_xd(xd, *nd); }
+void gse_u_(double* u, const int* ni) { c_gse_u(u, *ni); }
+
+void c_gsepar_x(const double* partial, int n) { give_list("ARRAY", number_of(&sAdamsGSE::X), partial, n); }
+void c_gsepar_xdot(const double* partial, int n) { give_list(rates_of_states, number_of(&sAdamsGSE::ID), partial, n); }
+void c_gsepar_u(const double* partial, int n) { give_list("ARRAY", number_of(&sAdamsGSE::U), partial, n); }
+void gsepar_x_(const double* partial, const int* n) { c_gsepar_x(partial, *n); }
+void gsepar_xdot_(const double* partial, const int* n) { c_gsepar_xdot(partial, *n); }
+void gsepar_u_(const double* partial, const int* n) { c_gsepar_u(partial, *n); }
+
+int dynalin_gse_array(int which) {
+  if (which == 'X') return number_of(&sAdamsGSE::X);
+  if (which == 'D') return number_of(&sAdamsGSE::XD);
+  return which == 'U' ? number_of(&sAdamsGSE::U) : 0;
+}
 
 int dynalin_input(const char* name, const int* ipar, int nsize) {
   const RoutineContext* c = RoutineContext::current();

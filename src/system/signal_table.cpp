@@ -45,7 +45,7 @@ Channel SignalTable::array_entry(ArrayRef ref, std::size_t n) const {
   if (a.u) return variable(a.variables[n]);
   if ((a.x || a.y) && !a.owner.valid()) return {};
   const auto owner = static_cast<std::size_t>(a.owner.index);
-  if (a.x) return kernel(a.owner)->channels()->state_channel(owner, n);
+  if (a.x) return kernel(a.owner)->channels()->state_channel(owner, a.owned_first + n);
   if (a.y) return kernel(a.owner)->channels()->output_channel(owner, n);
   return {Channel::Kind::constant, 0, a.numbers[n]};
 }
@@ -62,7 +62,8 @@ Channel SignalTable::data(const Atom& atom) const {
       return array_entry({*handle}, n);
     case DataSource::state:
     case DataSource::state_rate:
-      return kernel(*handle)->channels()->state_channel(static_cast<std::size_t>(handle->index), 0);
+      return kernel(*handle)->channels()->state_channel(static_cast<std::size_t>(handle->index),
+                                                        atom.argument_count > 1 ? n : 0);
     case DataSource::list_entry: {
       const auto* list = model_.get<VariableList>(*handle);
       return list && n < list->variables.size() ? variable(list->variables[n]) : Channel{};

@@ -4,9 +4,9 @@
 
 #include <csignal>
 
-#include "cases/run.h"
 #include "routine/routine_context.h"
 #include "routines/robot.h"
+#include "routines/with_libraries.h"
 
 namespace dynalin::cases {
 namespace {
@@ -28,33 +28,11 @@ const std::string slider = oscillator + "JOINT/1, TRANSLATIONAL, I=21, J=2\n";
 const std::string along = "SFORCE/1, TRANSLATION, ACTIONONLY, I=21, J=2, ";
 const std::string spring = along + "FUNCTION=-(50*DX(20,1,1)+30*DX(20,1,1)**3+2*VX(20,1,1))\n";
 
-class UserRoutines : public Cases {
+class UserRoutines : public WithLibraries {
  protected:
   RunResult with(const std::string& dataset, const std::vector<std::string>& libraries = {C_ROUTINES, CPP_ROUTINES},
                  bool differences = false, const std::vector<std::string>& commands = {"LINEAR/EIGENSOL"}) const {
-    write("model.adm", dataset + (dataset.ends_with("END\n") ? "" : "END\n"));
-    SessionOptions options;
-    options.file = (folder_ / "model.adm").string();
-    options.commands = commands;
-    options.json = (folder_ / "results.json").string();
-    options.user_libraries = libraries;
-    options.difference_user_routines = differences;
-    std::ostringstream out, err;
-    RunResult r;
-    r.status = run_session(options, out, err);
-    r.out = out.str(), r.err = err.str();
-    if (std::filesystem::exists(options.json)) r.json = nlohmann::json::parse(read_file(options.json));
-    return r;
-  }
-  static void expect_same(const RunResult& a, const RunResult& b, double tolerance, std::size_t result = 0) {
-    ASSERT_EQ(a.status, 0) << a.err;
-    ASSERT_EQ(b.status, 0) << b.err;
-    const auto x = a.eigenvalues(result), y = b.eigenvalues(result);
-    ASSERT_EQ(x.size(), y.size());
-    double largest = 0;
-    for (const auto& v : y) largest = std::max(largest, std::abs(v));
-    EXPECT_GT(largest, 0);
-    for (std::size_t k = 0; k < x.size(); ++k) EXPECT_LE(std::abs(x[k] - y[k]), tolerance * largest) << k;
+    return WithLibraries::with(dataset, libraries, differences, commands);
   }
 };
 

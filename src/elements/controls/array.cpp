@@ -1,7 +1,7 @@
 // ARRAY/id, {IC | U | X | Y} [, SIZE=], {NUMBERS= | VARIABLES=}
 //
 // A vector: constants (IC, or no type), values of VARIABLEs (U), or the states (X) or outputs (Y) of exactly one
-// LSE or TFSISO. ARYVAL(id, n) reads entry n.
+// LSE, GSE or TFSISO. ARYVAL(id, n) reads entry n.
 #include "elements/controls/array.h"
 
 #include <fmt/format.h>
@@ -45,8 +45,9 @@ class ArraySet final : public TypedSet<Array> {
 
 }  // namespace
 
-void claim_array(Model& model, ArrayRef ref, char type, std::size_t size, ElementHandle owner,
+void claim_array(Model& model, ArrayRef ref, const OwnedEntries& entries, ElementHandle owner,
                  const ElementLabel& owner_label, Diagnostics& diagnostics) {
+  const auto& [type, size, argument, first] = entries;
   auto* set = dynamic_cast<TypedSet<Array>*>(model.sets[static_cast<std::size_t>(ref.set)].get());
   if (!set) return;
   Array& a = set->elements[static_cast<std::size_t>(ref.index)];
@@ -54,7 +55,9 @@ void claim_array(Model& model, ArrayRef ref, char type, std::size_t size, Elemen
   if (type == 'X' ? !a.x : !a.y) {
     diagnostics
         .error("wrong-array-type", owner_label.at,
-               fmt::format("{} of {} must be of type {}, {} is not", type, owner_label.text(), type, label.text()))
+               fmt::format("{} of {} must be of type {}, {} is not",
+                           argument.empty() ? std::string_view(&type, 1) : argument, owner_label.text(), type,
+                           label.text()))
         .notes.push_back({label.at, "it is defined here"});
     return;
   }
@@ -71,6 +74,7 @@ void claim_array(Model& model, ArrayRef ref, char type, std::size_t size, Elemen
   }
   a.owner = owner;
   a.owned_size = size;
+  a.owned_first = first;
 }
 
 const Array* input_array(const Model& model, ArrayRef ref, const ElementLabel& owner_label, Diagnostics& diagnostics) {

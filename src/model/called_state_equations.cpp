@@ -1,0 +1,164 @@
+// The routines of a GSE: which of the two sets it calls, and under which names.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "model/called_routines.h"
+
+namespace dynalin {
+
+namespace {
+
+constexpr int most_numbers = 10000;  // of one kind
+
+// Names that stand in a list, with a library each or without: "control::deriv, ::update".
+std::vector<std::string> names_in(std::string_view text) {
+  std::vector<std::string> names(1);
+  for (const char c : text) {
+    const bool between =
+        c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\'' || c == '"' || c == '(' || c == ')' || c == '&';
+    if (c == ',') {
+      names.emplace_back();
+    } else if (!between) {
+      names.back() += c;
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+// By the order in which the language lists them.
+struct CalledRoutines::StateRoutineNames {
+  std::array<std::string, 4> interface {};  // gse_deriv, gse_update, gse_output, gse_samp
+  std::array<std::string, 5> system{};      // gsesub, gsexx, gsexu, gseyx, gseyu
+  bool asks_for_interface = false, asks_for_system = false;
+};
+
+CalledRoutines::StateRoutineNames CalledRoutines::state_routine_names(const Statement& s) const {
+  StateRoutineNames names;
+  const auto take = [&](std::string_view word, auto& into) {
+    const WrittenArgument* w = argument(s, word);
+    if (!w || !w->has_value) return false;
+    const auto list = names_in(w->value_span().text());
+    std::copy_n(list.begin(), std::min(list.size(), into.size()), into.begin());
+    return true;
+  };
+  names.asks_for_interface = take("INTERFACE", names.interface);
+  names.asks_for_system = take("ROUTINE", names.system);
+  return names;
+}
+
+sAdamsGSE CalledRoutines::says_of_states(const Statement& s, const RoutineStatement& what) const {
+  sAdamsGSE gse{};
+  gse.ID = what.id;
+  gse.NO = std::max(integer(s, "NO"), 0), gse.NS = std::max(integer(s, "NS"), 0);
+  gse.ND = std::max(integer(s, "ND"), 0);
+  gse.U = integer(s, "U"), gse.Y = integer(s, "Y"), gse.X = integer(s, "X"), gse.IC = integer(s, "IC");
+  gse.XD = integer(s, "XD"), gse.ICD = integer(s, "ICD");
+  gse.NI = gse.U == 0 ? 0 : static_cast<int>(size_of_list("ARRAY", gse.U).value_or(0));
+  gse.STATIC_HOLD = what.static_hold, gse.IMPLICIT = what.implicit;
+  gse.STATICS_ONLY = argument(s, "STATICS_ONLY") != nullptr;
+  if (const WrittenArgument* w = argument(s, "SAMPLE_OFFSET"); w && w->has_value && !w->damaged) {
+    Diagnostics ignored;
+    const auto list = read_reals(*w, *w->name.source, ignored);
+    if (list && !list->empty()) gse.SAMPLE_OFFSET = list->front();
+  }
+  return gse;
+}
+
+std::vector<Expression> CalledRoutines::functions_of(const std::shared_ptr<const CompiledRoutine>& routine,
+                                                     std::size_t first, std::size_t count, const Span& at) const {
+  std::vector<Atom> inputs = routine->inputs();
+  for (Atom& a : inputs) {
+    a.at = at;
+    a.argument_at.fill(at);
+  }
+  std::vector<Expression> values;
+  for (std::size_t v = first; v < first + count; ++v) values.push_back(routine_expression(inputs, routine, v, at));
+  return values;
+}
+
+std::shared_ptr<const StateEquations> CalledRoutines::find_state_equations(const Statement& s,
+                                                                           const WrittenArgument* call) {
+  auto what = says(s, call);
+  if (!what) return nullptr;
+  what->gse = says_of_states(s, *what);
+  const sAdamsGSE& gse = *what->gse;
+  // Whoever reads the statement says that these are too many, or that their ARRAYs are missing.
+  const bool placed = (gse.NS == 0 || gse.X != 0) && (gse.ND == 0 || gse.XD != 0);
+  if (!placed || std::max({gse.NS, gse.NO, gse.ND}) > most_numbers) return nullptr;
+  const auto ns = static_cast<std::size_t>(gse.NS), no = static_cast<std::size_t>(gse.NO),
+             nd = static_cast<std::size_t>(gse.ND);
+  const Span at = call ? call->value_span() : s.at;
+  const StateEquationKinds& kinds = state_equation_kinds();
+  const StateRoutineNames names = state_routine_names(s);
+  const auto find = [&](const std::string& written, std::initializer_list<std::string_view> by_default) {
+    return find_named(written, {by_default.begin(), by_default.size()});
+  };
+  const auto missing = [&](const std::string& written, std::string_view by_default, std::string_view hint = {}) {
+    const bool named = !written.empty() && written.back() != ':';
+    diagnostics_.error(
+        "missing-routine", at,
+        fmt::format("{} calls {}, and no library has it", s.at.text(), named ? written : by_default),
+        hint.empty() ? "--user-library names libraries; nm -D FILE.so lists what is in one" : std::string(hint));
+    return nullptr;
+  };
+
+  auto out = std::make_shared<StateEquations>();
+  FoundRoutine derivatives = find(names.interface[0], {kinds.derivatives.routine});
+  FoundRoutine outputs = find(names.interface[2], {kinds.outputs.routine});
+  FoundRoutine system = names.asks_for_interface ? FoundRoutine{} : find(names.system[0], {kinds.system.routine});
+  const bool separate =
+      names.asks_for_interface || (!names.asks_for_system && ((derivatives && ns > 0) || (outputs && no > 0)));
+  if (ns + no > 0 && !separate && names.asks_for_system && !system) return missing(names.system[0], "gsesub");
+  if (ns + no > 0 && !separate && system) {
+    StatePartialRoutines partials = {find(names.system[1], {"gsexx"}), find(names.system[2], {"gsexu"}),
+                                     find(names.system[3], {"gseyx"}), find(names.system[4], {"gseyu"})};
+    const auto routine = made(s, at, std::move(system), kinds.system, ns + no, *what, std::move(partials));
+    if (!routine) return nullptr;
+    out->derivatives = functions_of(routine, 0, ns, at), out->outputs = functions_of(routine, ns, no, at);
+  } else {
+    constexpr std::string_view either = "a GSE calls gse_deriv and gse_output, or gsesub alone";
+    if (ns > 0 && !derivatives) return missing(names.interface[0], kinds.derivatives.routine, either);
+    if (no > 0 && !outputs) return missing(names.interface[2], kinds.outputs.routine, either);
+    const auto take = [&](FoundRoutine found, const RoutineKind& kind, std::size_t count, std::vector<Expression>& to) {
+      if (count == 0) return true;
+      const auto routine = made(s, at, std::move(found), kind, count, *what);
+      if (routine) to = functions_of(routine, 0, count, at);
+      return routine != nullptr;
+    };
+    const bool first = take(std::move(derivatives), kinds.derivatives, ns, out->derivatives);
+    if (!take(std::move(outputs), kinds.outputs, no, out->outputs) || !first) return nullptr;
+  }
+  if (nd == 0) return out;
+
+  FoundRoutine update = find(names.interface[1], {kinds.update.routine});
+  if (!update) return missing(names.interface[1], kinds.update.routine, "ND discrete states need gse_update");
+  const auto updates = made(s, at, std::move(update), kinds.update, nd, *what);
+  if (!updates) return nullptr;
+  out->update = functions_of(updates, 0, nd, at), out->update_name = updates->name();
+  const WrittenArgument* period = argument(s, "SAMPLE_PERIOD");
+  if (period && !calls_routine(*period)) return out;
+  FoundRoutine sample = find(names.interface[3], {kinds.sample.routine, "gse_sample"});
+  if (!sample) {
+    return missing(names.interface[3], kinds.sample.routine, "SAMPLE_PERIOD= gives the time between samples as well");
+  }
+  if (period) {
+    auto constants = constants_of(*period, what->label);
+    if (!constants) return nullptr;
+    what->parameters = std::move(*constants);
+  }
+  const auto samples = made(s, at, std::move(sample), kinds.sample, 1, *what);
+  if (!samples) return nullptr;
+  out->period = functions_of(samples, 0, 1, at).front(), out->period_name = samples->name();
+  return out;
+}
+
+std::string CalledRoutines::written(std::shared_ptr<const StateEquations> equations, const Span& at) {
+  functions.push_back(StateEquations::written(std::move(equations), at));
+  return fmt::format(", FUNCTION={}", functions.size() - 1);
+}
+
+}  // namespace dynalin
