@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "elements/bodies/fe_part.h"
 #include "elements/bodies/flex_body.h"
 
 namespace dynalin {
@@ -79,10 +80,19 @@ void add_momentum_rows(const System& system, const Motion& motion, std::vector<S
   const Layout& layout = system.layout();
   const std::vector<const ModalBody*> flexible = flexible_by_body(system.model());
   for (const FlexibleBody& f : flexible_bodies(system.model())) add_momentum_rows(layout, f, motion, rows);
+  // Each coordinate of a beam has inertia: density, areas and second moments are positive.
+  const std::vector<bool> of_beams = beam_nodes(system.model());
+  const auto add_coordinates = [&](std::int32_t first, std::int32_t count) {
+    for (std::int32_t k = first; k < first + count; ++k) rows.push_back({{k}, {1.0}});
+  };
+  for (const ExtraBlock& e : layout.extras) {
+    if (e.type == StateType::fe_part) add_coordinates(e.offset, e.count);
+  }
   for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
     const BodyBlock& block = layout.bodies[b];
     const Body& body = system.model().bodies[b];
-    if (block.count == 0 || flexible[b]) continue;
+    if (of_beams[b]) add_coordinates(block.offset, block.count);
+    if (block.count == 0 || flexible[b] || of_beams[b]) continue;
     const Matrix3& R = motion.bodies[b].R;
     const auto add = [&](const Vector& on_r, const Vector& on_theta) {
       SparseRow row;
@@ -260,8 +270,9 @@ bool has_virtual_mass(const ColumnMatrix& m, const MasslessDirections& d, const 
 bool lacks_mass(const System& system) {
   const Layout& layout = system.layout();
   const std::vector<const ModalBody*> flexible = flexible_by_body(system.model());
+  const std::vector<bool> of_beams = beam_nodes(system.model());
   for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
-    if (layout.bodies[b].count == 0) continue;
+    if (layout.bodies[b].count == 0 || of_beams[b]) continue;
     if (flexible[b]) {
       if (flexible[b]->lacks_inertia) return true;
       continue;
@@ -275,8 +286,10 @@ bool lacks_mass(const System& system) {
     if (determinant > 1e-9 * mean * mean * mean && mean > 1e-9 * body.mass * dot(body.p_BC, body.p_BC)) continue;
     if (axes_with_inertia(body, Matrix3::identity()).size() < 3) return true;
   }
-  // Other coordinates outside bodies than modal ones have no inertia.
-  return std::ranges::any_of(layout.extras, [](const ExtraBlock& e) { return e.type != StateType::flex_body; });
+  // Other coordinates outside bodies than modal ones and those of beams have no inertia.
+  return std::ranges::any_of(layout.extras, [](const ExtraBlock& e) {
+    return e.type != StateType::flex_body && e.type != StateType::fe_part;
+  });
 }
 
 MasslessDirections massless_directions(const System& system, const Motion& motion, const ConstraintRows& rows,

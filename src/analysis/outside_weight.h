@@ -6,10 +6,11 @@
 namespace dynalin {
 
 // A body moves as a whole before it deforms, which costs energy; it deforms before a coordinate leaves where EXACT
-// holds it. All others follow.
+// holds it. What a beam has
+// beside its nodes counts as they do. All others follow.
 constexpr double deformation_weight = 1e8;
 constexpr double outside_weight(StateType of) {
-  return of == StateType::flex_body ? deformation_weight : follower_weight;
+  return of == StateType::flex_body ? deformation_weight : of == StateType::fe_part ? 1.0 : follower_weight;
 }
 
 }  // namespace dynalin

@@ -6,6 +6,7 @@
 
 #include "analysis/initial.h"
 #include "analysis/outside_weight.h"
+#include "elements/bodies/fe_part.h"
 #include "elements/bodies/flex_body.h"
 #include "system/undefined_rows.h"
 
@@ -359,12 +360,14 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
 }  // namespace
 
 Result<OperatingPoint> initial_velocity(const System& system, OperatingPoint op, Findings& findings) {
-  const auto stated = stated_velocities(system, system.motion(op));
+  const Motion motion = system.motion(op);
+  const auto stated = stated_velocities(system, motion);
   Eigen::VectorXd start = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(system.coordinates()));
   for (const FlexibleBody& f : flexible_bodies(system.model())) {
     start.segment(system.layout().body_coordinate_count + static_cast<Eigen::Index>(f.first), f.flexible->modes()) =
         f.flexible->rate;
   }
+  start_beams(system.model(), system.layout(), motion, {start.data(), static_cast<std::size_t>(start.size())});
   return solve(system, std::move(op), stated, start, findings);
 }
 

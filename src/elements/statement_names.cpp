@@ -11,8 +11,7 @@ namespace dynalin {
 namespace {
 
 // Words that no Kind reads, or not yet.
-constexpr std::array<std::string_view, 6> without_kind = {"END",     "FE_LOAD", "FE_PART",
-                                                          "SURFACE", "TIRE",    "UCON"};
+constexpr std::array<std::string_view, 5> without_kind = {"END", "FE_LOAD", "SURFACE", "TIRE", "UCON"};
 
 std::vector<std::string_view> all_names() {
   std::vector<std::string_view> names(without_kind.begin(), without_kind.end());

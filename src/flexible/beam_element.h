@@ -63,6 +63,7 @@ class BeamElement {
 
   double length() const { return length_; }
   double mass() const;
+  bool damped() const { return material_.damping > 0; }
   // Of the part that one node stands for, along its axes, about it: half of the mass and of ∫S.
   double nodal_mass(std::size_t node) const;
   Matrix3 nodal_inertia(std::size_t node) const;

@@ -5,8 +5,10 @@
 #include <array>
 #include <set>
 
+#include "elements/bodies/fe_part.h"
 #include "elements/bodies/flex_body.h"
 #include "elements/controls/variable_list.h"
+#include "linear/beam_states.h"
 #include "linear/original_states.h"
 #include "linear/user_coordinates.h"
 
@@ -67,6 +69,7 @@ std::vector<StateCoordinate> listed_coordinates(const System& system, std::int64
     for (std::int32_t k = 0; k < e.count; ++k)
       put(e.offset + k, e.type, e.label, k, 0, e.coordinates[static_cast<std::size_t>(k)].name);
   }
+  for (auto& [at, state] : beam_state_coordinates(system)) list[static_cast<std::size_t>(at)] = std::move(state);
   return list;
 }
 
@@ -151,15 +154,20 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
   const MarkerPlace& b = layout.marker(options.rm);
   const std::int64_t id = layout.marker_label(options.rm).id;
   std::vector<std::int32_t> row_of(system.coordinates(), -1);
+  const std::vector<bool> of_beams = beam_nodes(system.model());
   for (std::size_t k = 1; k < layout.bodies.size(); ++k) {
     const BodyBlock& block = layout.bodies[k];
+    if (of_beams[k]) {
+      row += block.count;
+      continue;
+    }
     add_relative_rows(motion, block, BodyId{static_cast<std::int32_t>(k)}, b, row, set.gradients);
     for (std::int32_t i = 0; i < block.count; ++i) row_of[static_cast<std::size_t>(block.offset + i)] = row++;
   }
   std::vector<StateCoordinate> seen = listed_coordinates(system, id, b.body);
   for (const std::int32_t coordinate : system.preference()) {
     const auto at = static_cast<std::size_t>(coordinate);
-    // Coordinates outside bodies know no frame: they are wanted as they are.
+    // Coordinates outside bodies and those of beams know no frame: they are wanted as they are.
     if (row_of[at] < 0) {
       set.wanted.push_back({coordinate, -1, std::move(seen[at])});
       continue;

@@ -12,11 +12,21 @@ using Index = Eigen::Index;
 MassRoot::MassRoot(const System& system, const OperatingPoint& op) : length_(system.length()) {
   const Layout& layout = system.layout();
   const std::vector<FlexibleBody> flexible = flexible_bodies(system.model());
+  const std::vector<bool> of_beams = beam_nodes(system.model());
   Index next = 0;
+  const Motion motion = system.motion(op);
+  for (const BeamBody& beam : beam_bodies(system.model(), layout)) {
+    const auto first = static_cast<std::size_t>(beam.nodes.front().index);
+    Item item{first, layout.bodies[first].offset, true, 0, {}};
+    item.first_row = next;
+    add_beam(system, motion, beam, item);
+    next += 6 + item.modes;
+    items_.push_back(std::move(item));
+  }
   for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
     const BodyBlock& block = layout.bodies[b];
     const Body& body = system.model().bodies[b];
-    if (block.count == 0 || body.user_mass == 0) continue;
+    if (block.count == 0 || body.user_mass == 0 || of_beams[b]) continue;
     Item item{b, block.offset, block.turns(), std::sqrt(body.user_mass), op.poses[b].R * body.p_BC};
     item.centre = op.poses[b].r + item.arm;
     item.first_row = next;
@@ -62,10 +72,36 @@ void MassRoot::add_flexible(const System& system, const OperatingPoint& op, cons
   item.root.middleCols(3, 3) = (item.root.middleCols(3, 3) * R.transpose()).eval();
 }
 
+void MassRoot::add_beam(const System& system, const Motion& motion, const BeamBody& beam, Item& item) {
+  double mass = 0;
+  for (std::size_t e = 0; e < beam.elements->size(); ++e) {
+    const BeamElement& element = (*beam.elements)[e];
+    Item::Element& of = item.elements.emplace_back();
+    of.columns = beam.columns(system.layout(), e);
+    of.motion = beam.motion(motion, e);
+    of.places = {motion.body(beam.nodes[e]).r, motion.body(beam.nodes[e + 1]).r};
+    const BeamMatrix M = system.model().units.ucf * element.mass_matrix(of.motion);
+    const BeamVector unit = M.diagonal().cwiseSqrt();
+    const Eigen::SelfAdjointEigenSolver<BeamMatrix> parts(unit.cwiseInverse().asDiagonal() * M *
+                                                          unit.cwiseInverse().asDiagonal());
+    of.root =
+        parts.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * parts.eigenvectors().transpose() * unit.asDiagonal();
+    mass += system.model().units.ucf * element.mass();
+  }
+  item.mass_root = std::sqrt(mass);
+  item.modes = static_cast<Index>(beam_coordinates * beam.elements->size()) - 6;
+}
+
 Matrix MassRoot::of(const Matrix& columns) const {
   Matrix out = Matrix::Zero(row_count(), columns.cols());
   for (std::size_t k = 0; k < items_.size(); ++k) {
     const Item& item = items_[k];
+    for (std::size_t e = 0; e < item.elements.size(); ++e) {
+      const Item::Element& element = item.elements[e];
+      constexpr auto n = static_cast<Index>(beam_coordinates);
+      out.middleRows(item.first_row + n * static_cast<Index>(e), n) = element.root * columns(element.columns, Eigen::all);
+    }
+    if (!item.elements.empty()) continue;
     if (item.root.size() > 0) {
       out.middleRows(item.first_row, 6 + item.modes) =
           item.root.leftCols(6) * columns.middleRows(item.offset, 6) +
@@ -92,10 +128,37 @@ Eigen::RowVectorXd MassRoot::size_of(const Matrix& columns) const {
   return heaviest * std::max(length_, 1.0) * columns.cwiseAbs().colwise().maxCoeff();
 }
 
+void MassRoot::weigh_rigid_motion(const Item& item, const Vector& origin, const Matrix3& axes, Matrix& out) {
+  constexpr auto n = static_cast<Index>(beam_coordinates);
+  for (std::size_t e = 0; e < item.elements.size(); ++e) {
+    const Item::Element& element = item.elements[e];
+    Eigen::Matrix<double, beam_coordinates, 6> motion = Eigen::Matrix<double, beam_coordinates, 6>::Zero();
+    for (std::size_t d = 0; d < 3; ++d) {
+      const Vector axis = axes[d];
+      const auto put = [&](Index row, Index column, const Vector& v) {
+        for (std::size_t i = 0; i < 3; ++i) motion(row + static_cast<Index>(i), column) = v[i];
+      };
+      const auto moved = static_cast<Index>(d), turned = moved + 3;
+      for (std::size_t node = 0; node < 2; ++node) {
+        const auto first = static_cast<Index>(6 * node);
+        put(first, moved, axis);
+        put(first, turned, cross(axis, element.places[node] - origin));
+        put(first + 3, turned, axis);
+        put(12 + static_cast<Index>(3 * node), turned, cross(axis, value(element.motion.slope[node])));
+      }
+    }
+    out.block(item.first_row + n * static_cast<Index>(e), 0, n, 6) = element.root * motion;
+  }
+}
+
 Matrix MassRoot::of_rigid_motion(const Vector& origin, const Matrix3& axes) const {
   Matrix out = Matrix::Zero(row_count(), 6);
   for (std::size_t k = 0; k < items_.size(); ++k) {
     const Index at = items_[k].first_row;
+    if (!items_[k].elements.empty()) {
+      weigh_rigid_motion(items_[k], origin, axes, out);
+      continue;
+    }
     for (std::size_t d = 0; d < 3; ++d) {
       const Vector e{axes(0, d), axes(1, d), axes(2, d)};
       const Vector by_turn = cross(e, items_[k].centre - origin);

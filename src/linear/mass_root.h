@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "elements/bodies/fe_part.h"
 #include "elements/bodies/flex_body.h"
 #include "system/system.h"
 
@@ -11,7 +12,7 @@ namespace dynalin {
 
 // Columns of coordinates become columns of √mass · motion: six rows for each body that has mass, the displacement of
 // its mass centre and its rotation in principal axes; one more for each mode of a flexible body, whose rows are the
-// parts of its mass matrix. User units: no factor of consistency.
+// parts of its mass matrix, and those of each element of a beam. User units: no factor of consistency.
 class MassRoot {
  public:
   MassRoot(const System&, const OperatingPoint&);
@@ -41,7 +42,17 @@ class MassRoot {
     Eigen::Index modes = 0;
     std::int32_t first_mode = 0;
     Eigen::MatrixXd root{};
+    // Of a beam: its elements, which weigh its nodes and what it has beside them.
+    struct Element {
+      std::array<std::int32_t, beam_coordinates> columns;
+      BeamMatrix root;
+      BeamMotion motion;
+      std::array<Vector, 2> places;
+    };
+    std::vector<Element> elements{};
   };
+  void add_beam(const System&, const Motion&, const BeamBody&, Item&);
+  static void weigh_rigid_motion(const Item&, const Vector& origin, const Matrix3& axes, Eigen::MatrixXd& out);
   void add_flexible(const System&, const OperatingPoint&, const FlexibleBody&, Item&);
   Eigen::Index row_count() const { return items_.empty() ? 0 : items_.back().first_row + rows(items_.size() - 1); }
 

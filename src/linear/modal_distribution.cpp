@@ -28,6 +28,13 @@ ModalDistribution::ModalDistribution(const System& system, const OperatingPoint&
       motion_(system.motion(op)),
       flexible_(system.model().bodies.size()) {
   for (const FlexibleBody& f : flexible_bodies(system.model())) flexible_[static_cast<std::size_t>(f.body.index)] = f;
+  beams_ = beam_bodies(system.model(), system.layout());
+  beam_of_.assign(flexible_.size(), nullptr);
+  node_.assign(flexible_.size(), 0);
+  for (const BeamBody& b : beams_) {
+    beam_of_[static_cast<std::size_t>(b.nodes.front().index)] = &b;
+    for (std::size_t k = 0; k < b.nodes.size(); ++k) node_[static_cast<std::size_t>(b.nodes[k].index)] = b.numbers[k];
+  }
   motion_.mode = AnalysisMode::linear;  // a DELAY follows what it delays, as in linearize()
   ConstraintRows rows;
   rows.resize(system.layout());
@@ -86,6 +93,8 @@ std::vector<std::size_t> ModalDistribution::bodies_by_id() const {
 
 // ½ m |v_C|² and ½ ωᴴ J ω term by term, global axes.
 std::array<double, 9> ModalDistribution::kinetic_terms(std::size_t body, const Eigen::VectorXcd& v) const {
+  if (beam_of_[body]) return beam_terms(*beam_of_[body], v);
+  if (node_[body] > 0) return {};  // the first one has it all
   const Body& b = system_.model().bodies[body];
   const BodyBlock& block = system_.layout().bodies[body];
   std::array<double, 9> terms{};
@@ -107,6 +116,31 @@ std::array<double, 9> ModalDistribution::kinetic_terms(std::size_t body, const E
   const auto product = [&](std::size_t i, std::size_t j) { return J(i, j) * std::real(w[i] * std::conj(w[j])); };
   terms[6] = product(0, 1), terms[7] = product(0, 2), terms[8] = product(1, 2);
   return terms;
+}
+
+std::array<double, 9> ModalDistribution::beam_terms(const BeamBody& b, const Eigen::VectorXcd& v) const {
+  std::array<double, 9> terms{};
+  for (std::size_t e = 0; e < b.elements->size(); ++e) {
+    const BeamMotion motion = b.motion(motion_, e);
+    const Eigen::VectorXcd own = v(b.columns(system_.layout(), e));
+    for (const BeamVector& part : {BeamVector(own.real()), BeamVector(own.imag())}) {
+      const auto twice = (*b.elements)[e].kinetic_terms(motion, part);
+      for (std::size_t k = 0; k < terms.size(); ++k) terms[k] += 0.5 * system_.model().units.ucf * twice[k];
+    }
+  }
+  return terms;
+}
+
+double ModalDistribution::beam_work(const BeamBody& b, const Eigen::VectorXcd& u, PartialBy family) const {
+  double sum = 0;
+  BeamForces f;
+  for (std::size_t e = 0; e < b.elements->size(); ++e) {
+    (*b.elements)[e].forces(b.motion(motion_, e), {}, true, f);
+    const Eigen::VectorXcd own = u(b.columns(system_.layout(), e));
+    const BeamMatrix& m = family == PartialBy::position ? f.stiffness : f.damping;
+    sum += own.real().dot(m * own.real()) + own.imag().dot(m * own.imag());
+  }
+  return sum;
 }
 
 Eigen::VectorXd ModalDistribution::modal_coordinates(const FlexibleBody& f) const {
@@ -142,7 +176,13 @@ std::vector<ModalRow<double>> ModalDistribution::flexible_rows(const Eigen::Vect
     row.values[0] = 0.5 * (q.real().dot(m * q.real()) + q.imag().dot(m * q.imag()));
     rows.push_back(std::move(row));
   }
-  std::ranges::stable_sort(rows, {}, [](const ModalRow<double>& r) { return r.element->id; });
+  for (const BeamBody& b : beams_) {
+    ModalRow<double> row{b.label, 0, std::vector<double>(7, std::numeric_limits<double>::quiet_NaN())};
+    row.values[0] = 0.5 * beam_work(b, u, family);
+    rows.push_back(std::move(row));
+  }
+  std::ranges::stable_sort(rows, {},
+                           [](const ModalRow<double>& r) { return std::pair(r.element->statement, r.element->id); });
   return rows;
 }
 
@@ -200,7 +240,7 @@ std::pair<std::vector<ModalRow<Complex>>, Complex> ModalDistribution::shape(std:
       turn = three(dq, block.offset + 3);
       add(of_cm, times(-skew(motion_.bodies[b].R * system_.model().bodies[b].p_BC), turn));
     }
-    rows.push_back({&block.label, 0, {of_cm[0], of_cm[1], of_cm[2], turn[0], turn[1], turn[2]}});
+    rows.push_back({&block.label, node_[b], {of_cm[0], of_cm[1], of_cm[2], turn[0], turn[1], turn[2]}});
   }
   const auto& states = system_.layout().states;
   for (std::size_t k = 0; k < states.size(); ++k) {
@@ -262,6 +302,7 @@ std::vector<ModalRow<double>> ModalDistribution::kinetic(std::size_t mode) const
   std::vector<ModalRow<double>> rows;
   double total = 0;
   for (const std::size_t b : bodies_by_id()) {
+    if (node_[b] > 0 && !beam_of_[b]) continue;
     const auto terms = kinetic_terms(b, v);
     ModalRow<double> row{&system_.layout().bodies[b].label, 0, {terms.begin(), terms.end()}};
     double sum = 0;

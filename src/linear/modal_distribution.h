@@ -9,6 +9,7 @@
 
 #include <optional>
 
+#include "elements/bodies/fe_part.h"
 #include "elements/bodies/flex_body.h"
 #include "linear/linear_system.h"
 #include "system/sparse_lu.h"
@@ -42,11 +43,12 @@ class ModalDistribution {
   // X Y Z of the origin and RX RY RZ of each marker, global axes, with the scale of `coordinates`.
   std::vector<ModalRow<std::complex<double>>> markers(std::size_t mode, std::span<const MarkerId>) const;
   // X Y Z RXX RYY RZZ RXY RXZ RYZ and the sum, in percent of the model. With flexible bodies the sum has before it what
-  // is left of theirs, the modal part; the rest is that of the BCS with mass and inertia about it.
+  // is left of theirs, the modal part; the rest is that of the BCS with mass and inertia about it. Beams have one row
+  // each, summed up along them.
   std::vector<ModalRow<double>> kinetic(std::size_t mode) const;
   // Total X Y Z RX RY RZ in percent of the model, global axes; a missing entry is NaN. Forces follow displacements
-  // (strain) or velocities (dissipation) also through other forces, VARIABLEs and algebraic DIFFs. Flexible bodies have
-  // rows with the total alone.
+  // (strain) or velocities (dissipation) also through other forces, VARIABLEs and algebraic DIFFs. Flexible bodies and
+  // beams have rows with the total alone.
   std::vector<ModalRow<double>> strain(std::size_t mode) const { return force_rows(mode, PartialBy::position); }
   std::vector<ModalRow<double>> dissipation(std::size_t mode) const { return force_rows(mode, PartialBy::damping); }
 
@@ -62,6 +64,9 @@ class ModalDistribution {
   std::array<double, 9> kinetic_terms(std::size_t body, const Eigen::VectorXcd& v) const;
   // ½ vᴴ M v of a flexible body.
   double flexible_energy(const FlexibleBody&, const Eigen::VectorXcd& v) const;
+  // The kinetic energy of a beam by its terms, and twice what its stiffness or damping works.
+  std::array<double, 9> beam_terms(const BeamBody&, const Eigen::VectorXcd& v) const;
+  double beam_work(const BeamBody&, const Eigen::VectorXcd& u, PartialBy family) const;
   std::vector<ModalRow<double>> flexible_rows(const Eigen::VectorXcd& u, PartialBy family) const;
   Eigen::VectorXd modal_coordinates(const FlexibleBody&) const;
   std::vector<std::size_t> sets_with_rows() const;
@@ -74,6 +79,9 @@ class ModalDistribution {
   const EigenSolution& solution_;
   Motion motion_;
   std::vector<std::optional<FlexibleBody>> flexible_;  // by body
+  std::vector<BeamBody> beams_;
+  std::vector<const BeamBody*> beam_of_;  // by body: of the first node
+  std::vector<std::int64_t> node_;        // by body: number in its beam, else 0
   Equations eq_;
   std::optional<ConstraintRows> original_;  // gradients of the coordinates of the original implementation
   SparseLu algebraic_;

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elements/bodies/fe_part.h"
 #include "elements/bodies/flex_body.h"
+#include "linear/beam_states.h"
 
 namespace dynalin {
 
@@ -126,9 +128,20 @@ std::int32_t add_principal_candidates(const System& system, const Motion& motion
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return layout.bodies[a].label.id < layout.bodies[b].label.id; });
   const std::vector<const ModalBody*> flexible = flexible_by_body(system.model());
+  const std::vector<bool> of_beams = beam_nodes(system.model());
+  const auto states_of_beams = beam_state_coordinates(system);
   const Vec3<Taylor> none{};
   for (const std::size_t b : order) {
     const BodyBlock& block = layout.bodies[b];
+    if (of_beams[b]) {  // as they are
+      for (std::int32_t k = block.offset; k < block.offset + block.count; ++k, ++row) {
+        set.gradients.set(row, Taylor());
+        set.gradients.add_coordinate(row, k, Taylor(1.0));
+        set.wanted.push_back({k, -1, states_of_beams.at(k)});
+        set.moves.push_back({{k, 1.0}});
+      }
+      continue;
+    }
     const Body& body = system.model().bodies[b];
     const BodyId id{static_cast<std::int32_t>(b)};
     const BodyMotion& moving = motion.body(id);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "elements/bodies/fe_part.h"
 #include "elements/bodies/flex_body.h"
 #include "linear/perturbed_point.h"
 #include "mechanics/pair_blocks.h"
@@ -44,6 +45,14 @@ class OpenBox {
           StudyFailure({"export",
                         fmt::format("{} is a flexible body: an open box of these is not available, a closed box is",
                                     system_.layout().body(flexible.front().body).label.full_text()),
+                        {}}));
+    }
+    if (const auto beams = beam_bodies(system_.model()); !beams.empty()) {
+      return tl::unexpected(
+          StudyFailure({"export",
+                        fmt::format("{} is a beam of finite elements: an open box of these is not available, a closed "
+                                    "box is",
+                                    beams.front().label->full_text()),
                         {}}));
     }
     add_masses();

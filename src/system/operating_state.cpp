@@ -1,9 +1,12 @@
 #include "system/operating_state.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "elements/bodies/fe_part.h"
 #include "elements/controls/variable_list.h"
 
 namespace dynalin {
@@ -31,12 +34,20 @@ class Reading {
 
  private:
   void read_bodies() {
+    std::vector<std::int64_t> node(motion_.bodies.size(), 0);  // of beams, whose nodes share a label
+    for (const BeamBody& b : beam_bodies(model_)) {
+      for (std::size_t k = 0; k < b.nodes.size(); ++k) node[static_cast<std::size_t>(b.nodes[k].index)] = b.numbers[k];
+    }
     for (std::size_t b = 1; b < motion_.bodies.size(); ++b) {
       const BodyMotion& m = motion_.bodies[b];
       const BodyBlock& block = layout_.bodies[b];
       BodyState s;
       s.name = block.label.full_text();
       s.element = block.label.text();
+      if (node[b] > 0) {
+        s.name += fmt::format(" node {}", node[b]);
+        s.element += fmt::format(" node {}", node[b]);
+      }
       s.view_name = block.label.view_name;
       s.position = plain(m.r);
       s.axes = {plain(m.R[0]), plain(m.R[1]), plain(m.R[2])};

@@ -1,13 +1,15 @@
-// MARKER/id, {PART= | POINT_MASS= | FLEX_BODY=, NODE_ID=}, QP=, {REULER= | ZP=, XP= [, USEXP]}, FLOATING, RM=
+// MARKER/id, {PART= | POINT_MASS= | FLEX_BODY=, NODE_ID= | FE_PART=, NODE_LABEL=}, QP=, {REULER= | ZP=, XP= [, USEXP]}, FLOATING, RM=
 //
 // A point with axes on a body. QP is its origin and REULER (3-1-3) or the points ZP, XP its axes, all in the body
 // coordinate system, or in the frame of marker RM. Without an owner it belongs to the body stated before it. On a
-// flexible body it is carried by a node, from which QP counts.
+// flexible body or a beam it is carried by a node, from which QP counts.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <tuple>
+#include <array>
 
+#include "elements/bodies/fe_part.h"
 #include "elements/bodies/flex_body.h"
 #include "elements/families/orientation.h"
 #include "model/model.h"
@@ -18,8 +20,8 @@ namespace dynalin {
 namespace {
 
 struct MarkerStatement {
-  BodyId part, point_mass, flex_body;
-  std::optional<std::int64_t> node;
+  BodyId part, point_mass, flex_body, beam;
+  std::optional<std::int64_t> node, label_of_node;
   Vector origin;
   std::optional<Vector> angles, z_point, x_point;
   bool use_x_point = false, floating = false;
@@ -28,20 +30,31 @@ struct MarkerStatement {
   Span node_at;
   Matrix3 axes = Matrix3::identity();
 
-  static constexpr std::array<Argument<MarkerStatement>, 11> arguments = {{
+  static constexpr std::array<Argument<MarkerStatement>, 13> arguments = {{
       {.name = "PART",
        .slot = &MarkerStatement::part,
        .help = "the part it belongs to",
-       .ends = "POINT_MASS FLEX_BODY NODE_ID"},
+       .ends = "POINT_MASS FLEX_BODY NODE_ID FE_PART NODE_LABEL"},
       {.name = "POINT_MASS",
        .slot = &MarkerStatement::point_mass,
        .help = "the point mass it belongs to",
-       .ends = "PART FLEX_BODY NODE_ID"},
+       .ends = "PART FLEX_BODY NODE_ID FE_PART NODE_LABEL"},
       {.name = "FLEX_BODY",
        .slot = &MarkerStatement::flex_body,
        .help = "the flexible body it belongs to",
-       .ends = "PART POINT_MASS"},
-      {.name = "NODE_ID", .slot = &MarkerStatement::node, .help = "node of the flexible body that carries it"},
+       .ends = "PART POINT_MASS FE_PART NODE_LABEL"},
+      {.name = "NODE_ID",
+       .slot = &MarkerStatement::node,
+       .help = "node of the flexible body or of the beam that carries it",
+       .ends = "NODE_LABEL"},
+      {.name = "FE_PART",
+       .slot = &MarkerStatement::beam,
+       .help = "the beam it belongs to",
+       .ends = "PART POINT_MASS FLEX_BODY"},
+      {.name = "NODE_LABEL",
+       .slot = &MarkerStatement::label_of_node,
+       .help = "the same as NODE_ID of a beam",
+       .ends = "NODE_ID"},
       {.name = "QP", .slot = &MarkerStatement::origin, .unit = unit::length, .help = "origin in the body's axes"},
       {.name = "REULER",
        .slot = &MarkerStatement::angles,
@@ -64,7 +77,7 @@ struct MarkerStatement {
 };
 
 // Arguments of the language that are known and missing here. They must not take abbreviations from the others.
-constexpr std::array<std::string_view, 4> not_built = {"FE_PART", "CURVE", "SURFACE", "VELOCITY"};
+constexpr std::array<std::string_view, 3> not_built = {"CURVE", "SURFACE", "VELOCITY"};
 
 bool names_what_is_not_built(ElementReader& reader) {
   bool found = false;
@@ -89,14 +102,18 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
   void read(std::size_t k, ElementReader& reader) override {
     MarkerStatement& m = elements[k];
     if (names_what_is_not_built(reader) || !read_arguments(m, reader)) return;
-    for (const auto& [one, other, both] : {std::tuple{"PART", "POINT_MASS", m.part.valid() && m.point_mass.valid()},
-                                           {"PART", "FLEX_BODY", m.part.valid() && m.flex_body.valid()},
-                                           {"POINT_MASS", "FLEX_BODY", m.point_mass.valid() && m.flex_body.valid()}}) {
-      if (!both) continue;
-      reader.error("two-owners", reader.at(other),
-                   fmt::format("{} belongs to a {} and to a {}", reader.label().text(), one, other));
+    const std::array<std::pair<std::string_view, BodyId>, 4> owners = {
+        {{"PART", m.part}, {"POINT_MASS", m.point_mass}, {"FLEX_BODY", m.flex_body}, {"FE_PART", m.beam}}};
+    std::string_view first;
+    for (const auto& [word, owner] : owners) {
+      if (!owner.valid()) continue;
+      if (m.owner.valid()) {
+        reader.error("two-owners", reader.at(word),
+                     fmt::format("{} belongs to a {} and to a {}", reader.label().text(), first, word));
+        break;
+      }
+      m.owner = owner, first = word;
     }
-    m.owner = m.part.valid() ? m.part : m.point_mass.valid() ? m.point_mass : m.flex_body;
     if (!m.owner.valid()) {
       const auto body = reader.preceding_body();
       if (!body) {
@@ -114,7 +131,11 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
       reader.error("missing-argument", reader.at("USEXP"), "USEXP needs XP");
       return;
     }
-    m.node_at = reader.at("NODE_ID");
+    m.node_at = reader.at(m.label_of_node ? "NODE_LABEL" : "NODE_ID");
+    if (m.node && m.label_of_node) {
+      reader.error("two-owners", m.node_at, fmt::format("{} has NODE_ID and NODE_LABEL", reader.label().text()));
+    }
+    if (m.label_of_node) m.node = m.label_of_node;
     const auto axes =
         orientation({m.angles, m.z_point, m.x_point, m.use_x_point, "REULER", "ZP", "XP"}, m.origin, reader);
     if (axes) m.axes = *axes;
@@ -129,7 +150,14 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
       marker.place = {elements[k].owner, elements[k].origin, elements[k].axes};
     }
     const std::vector<FlexibleBody> flexible = flexible_bodies(model);
-    for (std::size_t k = 0; k < elements.size(); ++k) put_on_node(k, flexible, model, diagnostics);
+    const std::vector<BeamBody> beams = beam_bodies(model);
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      if (const BeamBody* beam = beam_of(elements[k], beams)) {
+        put_on_beam(k, *beam, model, diagnostics);
+      } else {
+        put_on_node(k, flexible, model, diagnostics);
+      }
+    }
     for (std::size_t k = 0; k < elements.size(); ++k) refer(k, model, diagnostics);
     for (std::size_t k = 0; k < elements.size(); ++k) add_shapes(k, flexible, model);
     // All that counts is in the model now.
@@ -147,6 +175,35 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
     return found == flexible.end() ? nullptr : &*found;
   }
 
+  static const BeamBody* beam_of(const MarkerStatement& m, const std::vector<BeamBody>& beams) {
+    const auto found = std::ranges::find(beams, m.owner, [](const BeamBody& b) { return b.nodes.front(); });
+    return found == beams.end() ? nullptr : &*found;
+  }
+
+  // A node of a beam is a body of its own: QP counts from it along the axes of the BCS, and so do the axes.
+  void put_on_beam(std::size_t k, const BeamBody& beam, Model& model, Diagnostics& diagnostics) {
+    const MarkerStatement& m = elements[k];
+    const std::string name = labels[k].text(), owner = beam.label->text();
+    if (!m.node) {
+      diagnostics.error("missing-argument", labels[k].at, fmt::format("{} on {} needs NODE_LABEL", name, owner),
+                        "the node of the beam that carries it");
+      return;
+    }
+    const auto node = std::ranges::find(beam.numbers, *m.node);
+    if (node == beam.numbers.end()) {
+      diagnostics.error("unknown-node", m.node_at, fmt::format("{} has no node {}", owner, *m.node),
+                        fmt::format("its nodes are {}", fmt::join(beam.numbers, ", ")));
+      return;
+    }
+    elements[k].owner = beam.nodes[static_cast<std::size_t>(node - beam.numbers.begin())];
+    MarkerPlace& place = model.markers[k + 1].place;
+    place.body = elements[k].owner;
+    if (m.reference.valid()) return;  // in the frame of a marker of the same node
+    const Matrix3 from_bcs = transpose(model.body(elements[k].owner).pose.R) * beam.drawn.R;
+    place.p_BM = from_bcs * place.p_BM;
+    place.R_BM = from_bcs * place.R_BM;
+  }
+
   // On a flexible body QP counts from the node, but for one that is placed in the frame of another marker.
   void put_on_node(std::size_t k, const std::vector<FlexibleBody>& flexible, Model& model,
                    Diagnostics& diagnostics) const {
@@ -158,7 +215,8 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
       if (m.node)
         diagnostics.error(
             "unknown-node", m.node_at,
-            fmt::format("{} names a node, but {} is no FLEX_BODY", name, model.body(m.owner).label.text()));
+            fmt::format("{} names a node, but {} is no FLEX_BODY and no FE_PART", name,
+                        model.body(m.owner).label.text()));
       return;
     }
     if (m.floating) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "elements/bodies/fe_part.h"
 #include "elements/bodies/flex_body.h"
 
 namespace dynalin {
@@ -9,9 +10,10 @@ namespace dynalin {
 InertiaKernel::InertiaKernel(const Model& model, BodyKind kind) : gravity_(model.gravity) {
   masses_.reserve(static_cast<std::size_t>(std::ranges::count(model.bodies, kind, &Body::kind)));
   const std::vector<const ModalBody*> flexible = flexible_by_body(model);
+  const std::vector<bool> of_beams = beam_nodes(model);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
-    if (body.kind != kind || flexible[b]) continue;
+    if (body.kind != kind || flexible[b] || of_beams[b]) continue;
     const Vector& c = body.p_BC;
     const Matrix3& J = body.J_BC;
     // ∫ρρᵀ about the CM is tr(J)/2 − J; moving the point adds m c cᵀ.

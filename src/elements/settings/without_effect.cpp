@@ -13,6 +13,5 @@ constexpr Kind inert(std::string_view statement, std::string_view summary) {
 
 extern constinit const Kind femdata = inert("FEMDATA", "Output of loads for finite-element programs.");
 extern constinit const Kind timgraphics = inert("TIMGRAPHICS", "Graphics over time.");
-extern constinit const Kind material = inert("MATERIAL", "Material data.");
 
 }  // namespace dynalin

@@ -1,0 +1,40 @@
+// What others ask of FE_PART statements. Each node is a body of the model with the label of its FE_PART: the first has the
+// place that the statement has among bodies, the others stand behind those of all statements. Mass and inertia of these
+// Bodies are what each node stands for, a scale for those who compare; the beam itself has the inertia.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "flexible/beam_element.h"
+#include "model/model.h"
+
+namespace dynalin {
+
+struct BeamBody {
+  const ElementLabel* label = nullptr;
+  std::vector<BodyId> nodes;
+  std::vector<std::int64_t> numbers;           // of the nodes, as written
+  const std::vector<BeamElement>* elements = nullptr;  // between neighbours
+  Pose drawn;                                  // BCS
+  StatedVelocity velocity;                     // of the BCS, the whole moving as if rigid
+  std::size_t first_extra = 0;                 // among coordinates outside poses: slopes of all nodes, then middles
+
+  std::size_t slope(std::size_t node) const { return first_extra + 3 * node; }
+  std::size_t middle(std::size_t element) const { return first_extra + 3 * (nodes.size() + element); }
+  // The coordinates of an element, in the order of flexible/beam_element.h.
+  std::array<std::int32_t, beam_coordinates> columns(const Layout&, std::size_t element) const;
+  BeamMotion motion(const Motion&, std::size_t element) const;
+};
+// All of the model, without the places of their coordinates outside poses.
+std::vector<BeamBody> beam_bodies(const Model&);
+// The same with them, when the layout has all coordinates.
+std::vector<BeamBody> beam_bodies(const Model&, const Layout&);
+// By BodyId: whether it is a node.
+std::vector<bool> beam_nodes(const Model&);
+
+// Writes the velocities at the start that the statements state into `start`, of all coordinates.
+void start_beams(const Model&, const Layout&, const Motion&, std::span<double> start);
+
+}  // namespace dynalin
