@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -73,6 +74,7 @@ double implicit(const Side& s, const Vector& p) {
       return std::max({p.x - b.high.x, b.low.x - p.x, p.y - b.high.y, b.low.y - p.y, p.z - b.high.z, b.low.z - p.z});
     }
     double operator()(const Plane&) const { return p.z; }
+    double operator()(const Profile&) const { return std::numeric_limits<double>::quiet_NaN(); }  // no solid
   } at{p};
   return std::visit(at, s.shape);
 }

@@ -63,6 +63,7 @@ Matrix null_space(const std::vector<Eigen::RowVectorXd>& rows, Index columns, do
     return Matrix(columns, 0);
   const Factors f = factored(std::move(m), limit);
   const Index rank = f.rank;
+  if (rank == columns) return Matrix(columns, 0);
   Matrix v = Matrix::Zero(columns, columns - rank);
   v.topRows(rank) = -f.m.topRightCorner(rank, columns - rank);
   f.m.topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(v.topRows(rank));

@@ -67,7 +67,7 @@ void Contributions::take(const std::vector<std::size_t>& pieces, std::vector<Mat
     }
   }
   for (const auto& [row, form] : rows) {
-    points_.by_centres(row, [&](std::int32_t r, double along) { add(form, r, along, entries); });
+    points_.by_centres(row, [&, &of_row = form](std::int32_t r, double along) { add(of_row, r, along, entries); });
   }
   for (const auto& [b, force] : forces) {
     const Matrix3 turn = -(skew(force) * skew(points_.arm({b})));

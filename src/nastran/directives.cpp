@@ -60,6 +60,8 @@ template <class... F>
 struct Cases : F... {
   using F::operator()...;
 };
+template <class... F>
+Cases(F...) -> Cases<F...>;  // clang 14 does not deduce it by itself
 
 // Value and text of each kind of slot.
 class Taker {

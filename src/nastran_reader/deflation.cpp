@@ -82,7 +82,7 @@ DependentRows dependent_rows(const MatrixXd& m) {
     (k < rank ? out.independent : out.dependent).push_back(at);
   }
   MatrixXd factors = transposed.topRightCorner(rank, rows - rank);
-  if (rank > 0) transposed.topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(factors);
+  if (factors.size() > 0) transposed.topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(factors);
   factors = (factors.array().abs() <= rank_tolerance(rows)).select(0, factors);
   // Back to rows as they are: scaled row k is rows(k) times it.
   out.factors = scales.rows(out.dependent).cwiseInverse().asDiagonal() * factors.transpose() *
