@@ -23,6 +23,7 @@
  *     MOTION      motsub       1          iord, iflag: derivative 0, 1 or 2 with respect to time
  *     REQUEST     reqsub       8          iflag
  *     SENSOR      sensub       1          iflag
+ *                 sevsub       1          iflag: what EVALUATE = USER is when it triggers
  *     GSE         gse_deriv    NS         dflag, iflag, how many values: x', or with IMPLICIT what is zero
  *                 gse_output   NO         the same: y
  *                 gse_update   ND         the same: discrete states behind a sample

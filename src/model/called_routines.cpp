@@ -11,21 +11,26 @@ namespace dynalin {
 namespace {
 
 // The words in which a statement takes values one by one.
-std::span<const std::string_view> components_of(std::string_view statement) {
-  static constexpr std::array<std::string_view, 1> one = {"FUNCTION"};
+std::span<const std::string_view> components_of(const RoutineKind& kind) {
+  const std::string_view statement = kind.statement;
   static constexpr std::array<std::string_view, 6> both = {"FX", "FY", "FZ", "TX", "TY", "TZ"};
   static constexpr std::array<std::string_view, 8> request = {"F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"};
   if (statement == "GFORCE") return both;
   if (statement == "VFORCE") return std::span(both).first(3);
   if (statement == "VTORQUE") return std::span(both).last(3);
   if (statement == "REQUEST") return request;
-  return one;
+  return {&kind.argument, 1};
 }
 
-const RoutineKind* kind_for(std::string_view statement) {
-  const auto kinds = routine_kinds();
-  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.statement == statement; });
-  return found == kinds.end() ? nullptr : &*found;
+// By the argument that calls it; most have one such argument alone.
+const RoutineKind* kind_for(std::string_view statement, std::string_view argument) {
+  const RoutineKind* first = nullptr;
+  for (const RoutineKind& k : routine_kinds()) {
+    if (k.statement != statement) continue;
+    if (k.argument == argument) return &k;
+    if (!first) first = &k;
+  }
+  return first;
 }
 
 // "friction", "libfriction.so" and "friction.so" are one.
@@ -210,11 +215,11 @@ std::optional<RoutineStatement> CalledRoutines::says(const Statement& s, const W
 
 std::shared_ptr<const CompiledRoutine> CalledRoutines::find(const Statement& s, const WrittenArgument& call,
                                                             std::string& wanted) {
-  const RoutineKind* kind = kind_for(s.name);
+  const RoutineKind* kind = kind_for(s.name, full_name(s, call));
   if (!kind || !has_libraries()) return nullptr;
   wanted = kind->routine;
   FoundRoutine found;
-  if (const auto* named = argument(s, "ROUTINE"); named && named->has_value) {
+  if (const auto* named = argument(s, kind->names_routine); named && named->has_value) {
     const std::string text = unquoted(named->value_span().text());
     wanted = text;
     if (const auto last = text.find_last_of(':'); last != std::string::npos && last + 1 < text.size())
@@ -268,8 +273,10 @@ std::shared_ptr<const CompiledRoutine> CalledRoutines::made(const Statement& s, 
   return routine;
 }
 
-std::string CalledRoutines::written(const Statement& s, std::shared_ptr<const CompiledRoutine> routine,
-                                    const Span& at) {
+std::string CalledRoutines::written(const Statement& s, const WrittenArgument& call,
+                                    std::shared_ptr<const CompiledRoutine> routine) {
+  const Span at = call.value_span();
+  const RoutineKind& kind = *kind_for(s.name, full_name(s, call));
   std::vector<Atom> inputs = routine->inputs();
   for (Atom& a : inputs) {
     a.at = at;
@@ -277,7 +284,7 @@ std::string CalledRoutines::written(const Statement& s, std::shared_ptr<const Co
   }
   std::string text;
   for (std::size_t v = 0; v < routine->values(); ++v) {
-    text += fmt::format(", {}={}", components_of(s.name)[v], functions.size());
+    text += fmt::format(", {}={}", components_of(kind)[v], functions.size());
     functions.push_back(routine_expression(inputs, routine, v, at));
   }
   return text;

@@ -30,7 +30,9 @@ class CalledRoutines {
   // Its functions in the words of the statement.
   std::string written(std::shared_ptr<const StateEquations>, const Span& at);
   // Value by value of a routine, in the words of the statement: FX=3, FY=4 … by numbers of functions.
-  std::string written(const Statement&, std::shared_ptr<const CompiledRoutine>, const Span& at);
+  std::string written(const Statement&, const WrittenArgument& call, std::shared_ptr<const CompiledRoutine>);
+  // Of an argument that may be abbreviated.
+  std::string_view full_name(const Statement&, const WrittenArgument&) const;
   // The written argument of that full name, null if there is none.
   const WrittenArgument* argument(const Statement&, std::string_view name) const;
 
@@ -39,7 +41,6 @@ class CalledRoutines {
  private:
   using Library = std::shared_ptr<const RoutineLibrary>;
   std::vector<Library> libraries_named(std::string_view name);
-  std::string_view full_name(const Statement&, const WrittenArgument&) const;
   int integer(const Statement&, std::string_view name) const;
   std::optional<std::size_t> size_of_list(std::string_view statement, std::int32_t id) const;
   std::optional<RoutineStatement> says(const Statement&, const WrittenArgument* call);

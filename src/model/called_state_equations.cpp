@@ -87,7 +87,12 @@ std::shared_ptr<const StateEquations> CalledRoutines::find_state_equations(const
   what->gse = says_of_states(s, *what);
   const sAdamsGSE& gse = *what->gse;
   // Whoever reads the statement says that these are too many, or that their ARRAYs are missing.
-  const bool placed = (gse.NS == 0 || gse.X != 0) && (gse.ND == 0 || gse.XD != 0);
+  const auto exists = [&](int array) {
+    return std::any_of(dataset_.statements.begin(), dataset_.statements.end(),
+                       [&](const Statement& a) { return a.name == "ARRAY" && a.id == array; });
+  };
+  const bool placed = (gse.NS == 0 || exists(gse.X)) && (gse.ND == 0 || exists(gse.XD)) &&
+                      (argument(s, "U") == nullptr || exists(gse.U));
   if (!placed || std::max({gse.NS, gse.NO, gse.ND}) > most_numbers) return nullptr;
   const auto ns = static_cast<std::size_t>(gse.NS), no = static_cast<std::size_t>(gse.NO),
              nd = static_cast<std::size_t>(gse.ND);

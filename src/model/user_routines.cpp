@@ -52,7 +52,7 @@ class Replacement {
     if (!value_) return;
     std::string text = "CONSTANT/1";
     for (const std::string_view name :
-         {"FUNCTION", "FX", "FY", "FZ", "TX", "TY", "TZ", "F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"})
+         {"FUNCTION", "EVALUATE", "FX", "FY", "FZ", "TX", "TY", "TZ", "F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"})
       text += fmt::format(", {}={:.17g}", name, *value_);
     text += ", KMATRIX=0";
     for (int k = 1; k < 36; ++k) text += ",0";
@@ -66,14 +66,20 @@ class Replacement {
         std::find_if(catalogue_.begin(), catalogue_.end(), [&](const Kind* k) { return k->statement == s.name; });
     if (kind == catalogue_.end() || (*kind)->role == Kind::Role::inert) return;
     if (s.name == state_equation_kinds().system.statement) return apply_to_state_equations(s);
-    const auto call = std::find_if(s.arguments.begin(), s.arguments.end(), calls_routine);
-    if (call != s.arguments.end() && call_library(s, static_cast<std::size_t>(call - s.arguments.begin()))) return;
-    // Without what it requests it is left out, where it is read.
-    if (s.name == "REQUEST" && (!value_ || call == s.arguments.end())) return;
-    if (call != s.arguments.end()) {
-      replace(s, static_cast<std::size_t>(call - s.arguments.begin()));
-    } else if (const auto code = std::find_if(s.arguments.begin(), s.arguments.end(), names_code);
-               code != s.arguments.end()) {
+    bool calls = false;
+    for (std::size_t k = 0; k < s.arguments.size();) {
+      if (!calls_routine(s.arguments[k])) {
+        ++k;
+        continue;
+      }
+      calls = true;
+      if (call_library(s, k)) continue;
+      if (s.name == "REQUEST" && !value_) return;  // without what it requests it is left out, where it is read
+      replace(s, k);
+    }
+    const auto code = std::find_if(s.arguments.begin(), s.arguments.end(), names_code);
+    if (!calls && code != s.arguments.end()) {
+      if (s.name == "REQUEST") return;
       diagnostics_.error("missing-routine", code->name,
                          fmt::format("{} names a compiled routine, and calls none with USER(…)", s.at.text()));
     }
@@ -144,18 +150,15 @@ class Replacement {
     const auto routine = called_.find(s, call, wanted);
     if (!routine) {
       if (diagnostics_.error_count() > errors) call.damaged = true;
-      if (call.damaged) std::erase_if(s.arguments, names_code);
       if (call.damaged || value_ || wanted.empty()) return call.damaged;
       diagnostics_.error("missing-routine", span_of(call.value[0], *call.name.source),
                          fmt::format("{} calls {}, and no library has it", s.at.text(), wanted),
                          "--user-library names libraries; nm -D FILE.so lists what is in one");
       call.damaged = true;
-      std::erase_if(s.arguments, names_code);
       return true;
     }
-    calls_.emplace_back(&s, called_.written(s, routine, call.value_span()));
+    calls_.emplace_back(&s, called_.written(s, call, routine));
     s.arguments.erase(s.arguments.begin() + static_cast<std::ptrdiff_t>(k));
-    std::erase_if(s.arguments, names_code);
     return true;
   }
 
@@ -177,10 +180,15 @@ class Replacement {
     diagnostics_.warning(
         "missing-routine", at,
         fmt::format("{} calls a compiled routine: the constant {:g} takes its place", s.at.text(), *value_));
+    // One value stands in the place of its own call, several in that of the one call that gives them all.
+    const std::string_view own = called_.full_name(s, call);
+    const bool single = stand->arguments.size() == 1;
     s.arguments.erase(s.arguments.begin() + static_cast<std::ptrdiff_t>(k));
     for (const WrittenArgument& w : constants_->statements.front().arguments) {
-      if (std::find(stand->arguments.begin(), stand->arguments.end(), w.name.text()) != stand->arguments.end())
-        s.arguments.push_back(w);
+      const bool wanted =
+          single ? w.name.text() == own
+                 : std::find(stand->arguments.begin(), stand->arguments.end(), w.name.text()) != stand->arguments.end();
+      if (wanted) s.arguments.push_back(w);
     }
   }
 

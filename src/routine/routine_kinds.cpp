@@ -7,7 +7,7 @@ namespace dynalin {
 
 namespace {
 using enum RoutineArguments;
-constexpr std::array<RoutineKind, 9> kinds = {{
+constexpr std::array<RoutineKind, 10> kinds = {{
     {"VARIABLE", "varsub", 1, function},
     {"SFORCE", "sfosub", 1, function},
     {"GFORCE", "gfosub", 6, function},
@@ -17,6 +17,7 @@ constexpr std::array<RoutineKind, 9> kinds = {{
     {"MOTION", "motsub", 1, of_time},
     {"REQUEST", "reqsub", 8, plain},
     {"SENSOR", "sensub", 1, plain},
+    {"SENSOR", "sevsub", 1, plain, "EVALUATE", "EVALUATE_ROUTINE"},
 }};
 constexpr StateEquationKinds of_gse = {{"GSE", "gse_deriv", 0, counted},
                                        {"GSE", "gse_output", 0, counted},

@@ -20,6 +20,7 @@ struct RoutineKind {
   std::string_view statement, routine;
   std::size_t values;  // 0: the statement says how many
   RoutineArguments arguments;
+  std::string_view argument = "FUNCTION", names_routine = "ROUTINE";  // that call it, that name it
 };
 
 std::span<const RoutineKind> routine_kinds();

@@ -130,6 +130,21 @@ void sensub(const int* id, const double* time, const double* par, const int* npa
   *value = par[0] * *time;
 }
 
+/* par[0] DX(par[1], par[2]) at the instant at which a SENSOR triggers */
+void sevsub(const int* id, const double* time, const double* par, const int* npar, const int* iflag, double* value) {
+  const int at[2] = {(int)par[1], (int)par[2]};
+  double x;
+  int error;
+  (void)id, (void)time, (void)npar, (void)iflag;
+  c_sysfnc("DX", at, 2, &x, &error);
+  *value = par[0] * x;
+}
+void doubled_sevsub(const int* id, const double* time, const double* par, const int* npar, const int* iflag,
+                    double* value) {
+  sevsub(id, time, par, npar, iflag, value);
+  *value *= 2;
+}
+
 /* What goes wrong. */
 void gives_no_number(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
                      const int* iflag, double* value) {

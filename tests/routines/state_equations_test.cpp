@@ -366,7 +366,10 @@ TEST_F(StateEquations, that_do_not_fit_are_refused_at_their_place) {
   EXPECT_THAT(said("GSE/1, NO=1, Y=3, NS=2, X=1, U=1" + call), HasSubstr("U of GSE/1 must be of type U"));
   EXPECT_THAT(said("ARRAY/5, X, SIZE=3\nGSE/1, NO=1, Y=3, NS=2, X=5, U=2" + call),
               HasSubstr("SIZE of ARRAY/5 is 3, GSE/1 needs 2"));
-  EXPECT_THAT(said("GSE/1, NO=1, Y=3, NS=2, X=1, U=77" + call), HasSubstr("ARRAY/77"));
+  for (const std::string missing : {"X=77, U=2", "X=1, U=77"}) {
+    EXPECT_THAT(said("GSE/1, NO=1, Y=3, NS=2, " + missing + call),
+                AllOf(HasSubstr("GSE/1 refers to ARRAY/77, which does not exist"), Not(HasSubstr("routine"))));
+  }
   EXPECT_THAT(said("GSE/1, NO=1, Y=3, FUNCTION=DX(20,1)"), HasSubstr("FUNCTION of GSE/1 is USER(…)"));
   EXPECT_THAT(said("GSE/1, NO=1, Y=3"), HasSubstr("GSE/1 needs FUNCTION"));
   EXPECT_THAT(said("GSE/1, NO=1, Y=3, NS=20000, X=1, U=2" + call), HasSubstr("[value-out-of-range]"));

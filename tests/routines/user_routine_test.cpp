@@ -143,6 +143,23 @@ TEST_F(UserRoutines, of_requests_and_sensors_are_called) {
   EXPECT_THAT(stopped.err + stopped.out, HasSubstr("dynamics to 0.25:"));
 }
 
+// Nothing pushes the slider: it goes on at 0.4 from 0.1, and is at 0.2 when the time is 0.25.
+TEST_F(UserRoutines, of_sensors_say_what_they_evaluate) {
+  const auto kept = [&](const std::string& sensor) {
+    const RunResult r = with(slider + "VARIABLE/1, FUNCTION=SENVAL(1)\nREQUEST/1, F2=SENVAL(1)\nSENSOR/1, GE, " +
+                                 "VALUE=0.5, ERROR=1E-9, RETURN, " + sensor + "\n",
+                             {C_ROUTINES}, false, {"SIMULATE/TRANSIENT, END=1, STEPS=10", "SIMULATE/INITIAL"});
+    EXPECT_FALSE(r.json.is_null()) << r.err;
+    if (r.json.is_null()) return 0.0;
+    return r.result(1).at("operating_point").at("requests").at(0).at("values").at(0).get<double>();
+  };
+  EXPECT_NEAR(kept("FUNCTION=2*TIME, EVALUATE=USER(3,20,1)"), 3 * 0.2, 1e-9);
+  EXPECT_NEAR(kept("FUNCTION=USER(2), EVALUATE=USER(3,20,1)"), 3 * 0.2, 1e-9);
+  EXPECT_NEAR(kept("EVALUATE=USER(3,20,1), EVALUATE_ROUTINE=routines::doubled_sevsub, FUNCTION=USER(2), "
+                   "ROUTINE=routines::sensub"),
+              6 * 0.2, 1e-9);
+}
+
 TEST_F(UserRoutines, move_a_robot_with_friction_as_expressions_do) {
   const std::vector<std::string> commands = {"SIMULATE/TRANSIENT, END=0.3, STEPS=10", "LINEAR/EIGENSOL"};
   const RunResult expression = with(robot(Friction::expression), {}, false, commands);

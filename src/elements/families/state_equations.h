@@ -40,7 +40,7 @@ class StateEquationsKernel final : public Kernel, public ChannelSource, public E
   Channel state_channel(std::size_t element, std::size_t n) const override;
   Channel output_channel(std::size_t element, std::size_t n) const override;
 
-  const EventSource* events() const override { return this; }
+  const EventSource* events() const override { return sampled_.empty() ? nullptr : this; }
   std::size_t event_count() const override { return sampled_.size(); }
   void crossings(const Motion&, ExpressionScratch&, SwitchList&) const override;
   void act(const Motion&, std::span<const int> crossed, Memory&, EventAction&) const override;
