@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <iterator>
+#include <optional>
 
 #include "routine/routine_context.h"
 #include "routines/with_libraries.h"
@@ -196,6 +198,47 @@ TEST_F(StateEquations, without_derivatives_are_refused_in_linear_models_unless_d
   expect_same_course(with(bare, course), with(rest + lse, course), 2e-8);
 }
 
+// Words of a deck: what stands between commas and blanks.
+std::vector<std::string> words_of(std::string text) {
+  std::replace(text.begin(), text.end(), ',', ' ');
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+std::optional<double> number_in(std::string word) {
+  std::replace(word.begin(), word.end(), 'D', 'E');
+  char* end = nullptr;
+  const double value = std::strtod(word.c_str(), &end);
+  return end != word.c_str() && *end == '\0' ? std::optional(value) : std::nullopt;
+}
+
+TEST_F(StateEquations, are_exported_as_the_lse_is) {
+  const std::string rest = plant + pushed + arrays + read_arrays;
+  for (const std::string type : {"CLOSEDBOX", "OPENBOX"}) {
+    const auto decks = [&](const std::string& controller) {
+      const RunResult r = with(rest + controller, {"LINEAR/EXPORT, TYPE=" + type + ", FILE=deck"});
+      EXPECT_EQ(r.status, 0) << r.err;
+      std::vector<std::string> words;
+      if (r.status != 0) return words;
+      for (const auto& file : r.result(0).at("files")) {
+        const auto more = words_of(read_file(file.get<std::string>()));
+        words.insert(words.end(), more.begin(), more.end());
+      }
+      return words;
+    };
+    const auto of_gse = decks(gse()), of_lse = decks(lse);
+    ASSERT_EQ(of_gse.size(), of_lse.size()) << type;
+    std::size_t numbers = 0;
+    for (std::size_t k = 0; k < of_gse.size(); ++k) {
+      const auto a = number_in(of_gse[k]), b = number_in(of_lse[k]);
+      if (a && b) {
+        EXPECT_NEAR(*a, *b, 1e-12 * std::max(1.0, std::abs(*b))) << type << k;
+        ++numbers;
+      }
+    }
+    EXPECT_GT(numbers, 30u) << type;
+  }
+}
+
 // Between samples the force is constant, so that motion and samples have a recursion in closed form.
 TEST_F(StateEquations, that_are_sampled_follow_their_recursion) {
   constexpr double mass = 2, period = 0.1, offset = 0.05, k1 = -30, k2 = -4, sum = 0.5;
@@ -223,7 +266,10 @@ TEST_F(StateEquations, that_are_sampled_follow_their_recursion) {
   const std::vector<std::vector<std::string>> ways = {
       {"INTEGRATOR/GSTIFF, ERROR=1E-7", "SIMULATE/TRANSIENT, END=1, STEPS=13", "SIMULATE/INITIAL"},
       {"INTEGRATOR/GSTIFF, ERROR=1E-7", "SIMULATE/TRANSIENT, END=0.32, STEPS=2",
-       "SIMULATE/TRANSIENT, END=0.55, STEPS=4", "SIMULATE/TRANSIENT, END=1, STEPS=2", "SIMULATE/INITIAL"}};
+       "SIMULATE/TRANSIENT, END=0.55, STEPS=4", "SIMULATE/TRANSIENT, END=1, STEPS=2", "SIMULATE/INITIAL"},
+      {"INTEGRATOR/GSTIFF, ERROR=1E-7", "SIMULATE/TRANSIENT, END=0.32, STEPS=2", "SAVE/STATES, FILE=there.save",
+       "SIMULATE/TRANSIENT, END=0.9, STEPS=2", "RELOAD/STATES, FILE=there.save", "SIMULATE/TRANSIENT, END=1, STEPS=2",
+       "SIMULATE/INITIAL"}};
   for (const auto& commands : ways) {
     const RunResult r = with(model, commands);
     const auto found = requested(r, commands.size() - 1);
@@ -264,6 +310,30 @@ TEST_F(StateEquations, are_sampled_when_their_routine_says_so_and_never_warn_of_
   EXPECT_THAT(dense.err, Not(HasSubstr("dense-events")));
 }
 
+// What is read at the same instant as it is sampled is what it was before, however the instants are rounded.
+TEST_F(StateEquations, of_two_elements_are_sampled_at_once) {
+  const auto controller = [](int id, int u, int xd, const std::string& instants) {
+    return fmt::format(
+        "ARRAY/{2}, X\nARRAY/{1}3, Y\nGSE/{0}, NO=1, Y={1}3, U={1}, ND=2, XD={2}, {3}, FUNCTION=USER(1,0,0), "
+        "INTERFACE=::,held_update,held_output\n",
+        id, u, xd, instants);
+  };
+  const std::string model =
+      slider +
+      "SFORCE/1, TRANSLATION, ACTIONONLY, I=21, J=2, FUNCTION=-50*DX(20,1,1)\nVARIABLE/1, FUNCTION=TIME\n"
+      "VARIABLE/2, FUNCTION=ARYVAL(5,1)\nARRAY/1, U, VARIABLES=1\nARRAY/2, U, VARIABLES=2\n"
+      "REQUEST/1, F2=ARYVAL(5,1)\\F3=ARYVAL(6,1)\n";
+  const std::string one = "SAMPLE_PERIOD=0.1, SAMPLE_OFFSET=0.1", other = "SAMPLE_PERIOD=0.3/3, SAMPLE_OFFSET=0.1";
+  for (const auto& [first, second] : {std::pair{one, other}, std::pair{other, one}}) {
+    const auto found = requested(with(model + controller(1, 1, 5, first) + controller(2, 2, 6, second),
+                                      {"SIMULATE/TRANSIENT, END=0.85, STEPS=10", "SIMULATE/INITIAL"}),
+                                 1);
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_NEAR(found[0], 0.8, 1e-11);
+    EXPECT_NEAR(found[1], 0.7, 1e-11);
+  }
+}
+
 // An output at the instant of a sample shows what was before it, one where a run begins what is then.
 TEST_F(StateEquations, show_at_the_instant_of_a_sample_what_was_before) {
   const std::string model = slider +
@@ -297,6 +367,11 @@ TEST_F(StateEquations, rest_in_statics_unless_they_are_held) {
     EXPECT_NEAR(held[k], held_reference[k], 1e-10) << k;
   }
   EXPECT_GT(std::abs(free[0] - held[0]), 1e-3);
+  // A command may say the same.
+  const auto commanded =
+      requested(with(rest + gse(), {"GSE/1, STATIC_HOLD", "SIMULATE/STATIC", "SIMULATE/INITIAL"}), 2);
+  ASSERT_EQ(commanded.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(commanded[k], held[k], 1e-12) << k;
   // Implicit equations are solved with x′ = 0.
   const auto implicit = requested(with(rest + gse(", INTERFACE=::implicit_deriv, IMPLICIT"), statics), 1);
   ASSERT_EQ(implicit.size(), 3u);
