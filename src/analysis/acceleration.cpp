@@ -30,6 +30,8 @@ constexpr double progress = 0.4;
 constexpr double next_to_nothing = 1e-60;
 // Of an unknown, or of its known rounding: what such steps may be for the point to count as found.
 constexpr double largest_hidden_rounding = 1e-6, hidden_units = 1e3;
+// Of the largest unknown, the same: what a sum of forces that cancel leaves of a ball's spin is beneath its own digits.
+constexpr double hidden_remainder = 1e-32;
 // Of a derivative: lost digits worth a warning, and so many that no derivative is left.
 constexpr double material_loss = 1e-9, loss_of_all = 0.1;
 
@@ -112,7 +114,9 @@ class StepLength {
     if (std::ssize(steps_) <= recent) return false;
     const double before = *std::min_element(steps_.begin(), steps_.end() - recent);
     const double since = *std::min_element(steps_.end() - recent, steps_.end());
-    const Eigen::VectorXd most = (largest_hidden_rounding * size).cwiseMax(hidden_units * allowed);
+    const Eigen::VectorXd most = (largest_hidden_rounding * size)
+                                     .cwiseMax(hidden_units * allowed)
+                                     .cwiseMax(hidden_remainder * size.lpNorm<Eigen::Infinity>());
     if (since <= progress * before || longest(step, most) > 1) return false;
     rounding = rounding.cwiseMax(step.cwiseAbs());
     return true;

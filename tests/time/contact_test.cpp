@@ -168,28 +168,30 @@ struct TenBalls {
 };
 
 TEST(ContactInTime, ten_balls_in_a_box_keep_their_energy_and_momentum) {
-  const Course c = led_through_time(TenBalls{}.text(), {.end = 0.5, .steps = 500, .error = 1e-8});
+  const Course c = led_through_time(TenBalls{}.text(), {.end = 0.3, .steps = 300, .error = 1e-8});
   ASSERT_TRUE(c.ok()) << c.failure;
   const double energy = c.variables.at(1)[0];
   EXPECT_GT(energy, 5);
   EXPECT_LT(c.drift(1), 2e-5 * energy);
   for (const int k : {2, 3, 4}) EXPECT_LT(c.drift(k), 1e-5) << k;
-  // They did meet, more than once.
+  // They did meet, and often.
   int blows = 0;
   const std::vector<double>& springs = c.variables.at(5);
-  for (std::size_t k = 1; k < springs.size(); ++k) blows += springs[k - 1] < 1e-6 && springs[k] >= 1e-6;
+  for (std::size_t k = 2; k < springs.size(); ++k)
+    blows += springs[k - 1] > 0.01 * energy && springs[k - 1] > springs[k] && springs[k - 1] >= springs[k - 2];
   EXPECT_GT(blows, 5);
 }
 
-// Dampers take energy, never momentum.
+// Dampers take energy, never momentum. On the way there are instants at which a spin is 1e-50 of what it takes to see
+// it.
 TEST(ContactInTime, ten_balls_that_damp_lose_energy_alone) {
   TenBalls balls;
   balls.damping = 20;
-  const Course c = led_through_time(balls.text(), {.end = 0.3, .steps = 300, .error = 1e-7});
+  const Course c = led_through_time(balls.text(), {.end = 0.2, .steps = 100, .error = 1e-7});
   ASSERT_TRUE(c.ok()) << c.failure;
   const std::vector<double>& energy = c.variables.at(1);
   for (std::size_t k = 1; k < energy.size(); ++k) EXPECT_LT(energy[k], energy[k - 1] + 1e-4 * energy[0]);
-  EXPECT_LT(energy.back(), 0.95 * energy[0]);
+  EXPECT_LT(energy.back(), 0.98 * energy[0]);
   for (const int k : {2, 3, 4}) EXPECT_LT(c.drift(k), 1e-4) << k;
 }
 
