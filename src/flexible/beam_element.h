@@ -1,17 +1,16 @@
 // One element of a geometrically exact beam: forces, inertia and all their partials.
 //
-// Two nodes with positions r, axes R and slopes r_s of the centre line, and a rotation φ of the middle
-// (flexible/rotation_field.h). The centre line is the cubic of both r and r_s along the undeformed length s. The strains
+// Two nodes with positions r, axes R and slopes r_s of the line of centroids, and a rotation φ of the middle
+// (flexible/rotation_field.h). The strains are those of a geometrically exact beam (Reissner 1981, Simo 1985),
 //
-//     Γ = Rᵀ r′ − (Rᵀ r′)₀,     κ = axial(Rᵀ R′) − κ₀
+//     Γ = Rᵀ r′ − e_x,     κ = axial(Rᵀ R′)     less those of the undeformed element,
 //
-// (Reissner 1981, Simo 1985) are those of stretch, shear, twist and bending without restriction to their rotations. r′
-// and the rotation are of the same degree, so that shear vanishes where it should: nothing locks, with three Gauss
-// points. The stresses N = C_Γ (Γ + c Γ̇), M = C_κ (κ + c κ̇) work on
-//
-//     δΓ = Rᵀ(δr′ + r′ × w),     δκ = Rᵀ w′,     w the spin of the section,
-//
-// and an inertia of the section with the second moments S has the moment Σ S_ab a_a × a_b″ of its axes a.
+// of stretch and shear, twist and bending, without restriction to their rotations. Γ is a parabola along the element: at
+// the ends it is that of the slopes, in the middle such that r′ = R (e_x + Γ) leads from one node to the other. A pure
+// bending has Γ = 0, however far it goes, so that nothing locks; for small strains of a straight element r is the cubic of
+// places and slopes, which is that of inertia and weight always. The stresses N = C_Γ (Γ + c Γ̇), M = C_κ (κ + c κ̇) are
+// integrated over three Gauss points. An inertia of the section with the second moments S has the moment Σ S_ab a_a × a_b″
+// of its axes a; it works on the spin of the section.
 #pragma once
 
 #include <Eigen/Core>
@@ -80,17 +79,33 @@ class BeamElement {
   // One Gauss point of strain and rotational inertia.
   struct Point {
     double x, weight;                // from −1 to 1; along the length
-    std::array<double, 4> slope;     // of the cubics of the chord (0 and that), r_s1, r_s2
-    Vector strain, curvature;        // undeformed Rᵀ r′, κ
+    Vector strain, curvature;        // undeformed Γ + e_x, κ
     Vector stretching;               // EA, GA_y, GA_z
     double torsion, yy, zz, yz;      // G J, E I
     Matrix3 second_moments;          // S [mass·length], section axes
   };
   static constexpr std::size_t point_count = 3;
+  using Scalar = BeamMotion::Scalar;
+  using Turning = Dual<rotation_seeds>;
 
-  void find_length(const Vector& chord, const std::array<Matrix3, 2>& axes);
-  void add_point(const Point&, const BeamMotion&, const RotationField<BeamMotion::Scalar>&,
-                 const RotationField<Dual<rotation_seeds>>*, BeamForces&) const;
+  // Γ + e_x and κ at the points along a motion, and what each coordinate makes of them.
+  struct Strains {
+    std::array<Vec3<Scalar>, point_count> strain, curvature;
+    std::array<std::array<Vec3<Scalar>, beam_coordinates>, point_count> of_strain, of_curvature;
+  };
+  struct Stresses {  // times the weights of the points
+    std::array<Vector, point_count> force, moment;
+  };
+
+  Strains strains_of(const BeamMotion&, const std::array<SectionRotation<Scalar>, point_count>&) const;
+  static Vector stretching(const Point&, const Vector&);
+  static Vector bending(const Point&, const Vector&);
+  Stresses stresses_of(const Strains&) const;
+  void add_stiffness(const Strains&, BeamForces&) const;
+  void add_held_stresses(const BeamMotion&, const std::array<SectionRotation<Turning>, point_count>&, const Stresses&,
+                         BeamForces&) const;
+  void add_spin(const Point&, const SectionRotation<Scalar>&, const SectionRotation<Turning>*, BeamForces&) const;
+  void add_translation(const BeamMotion&, const Vector& gravity, bool with_partials, BeamForces&) const;
 
   BeamMaterial material_;
   std::array<BeamSection, 2> sections_;

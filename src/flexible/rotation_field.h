@@ -156,6 +156,7 @@ struct SectionRotation {
   Vec3<T> curvature;  // κ = axial(Rᵀ R′), section axes
   std::array<Vec3<T>, rotation_seeds> spin, spin_slope;
 
+  SectionRotation() = default;
   // x from −1 to 1 along an element of length l.
   SectionRotation(const RotationField<T>& field, double x, double length) {
     const double N1 = 0.5 * x * (x - 1), N2 = 0.5 * x * (x + 1);
