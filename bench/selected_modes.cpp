@@ -1,8 +1,12 @@
-// Processor time of each step from the dataset to the lowest modes without a state matrix, and the memory it has taken.
+// Processor time of each step from the dataset to selected modes without a state matrix, and the memory it has taken.
 //
-//     selected_modes chain 2000 10            n links on hinges, so many modes
+//     selected_modes chain 2000 10            n links on hinges, the lowest modes
+//     selected_modes damped 2000 10           the same with springs and dampers in the hinges, which are those of peers
 //     selected_modes lattice 10 12 14 20      point masses in space, tied to their neighbours and to walls
+//     selected_modes hinged 9 9 9 1           bodies in space, hinged to their neighbours
+//     selected_modes rotor 1000 10 200        a turning shaft of n BEAMs in damped bearings, the modes from 10 to 200 Hz
 //     selected_modes chain 2000 0             no modes: up to the perturbation equations
+//     selected_modes chain 2000 write         the dataset alone, for the program itself
 #include "linear/selected_modes.h"
 
 #include <fmt/format.h>
@@ -10,9 +14,13 @@
 #include <cstdlib>
 #include <ctime>
 #include <string>
+#include <vector>
 
+#include "analysis/statics.h"
+#include "beam_rotor.h"
 #include "elements/catalogue.h"
 #include "hanging_chain.h"
+#include "hinged_lattice.h"
 #include "mass_lattice.h"
 #include "peak_memory.h"
 
@@ -20,16 +28,31 @@ namespace {
 
 using namespace dynalin;
 
+struct Problem {
+  std::string text;
+  ModeSelection wanted;
+  bool statics = false, modes = true;
+};
+
+Problem problem(const std::string& kind, const std::vector<double>& v) {
+  const auto n = [&](std::size_t k) { return static_cast<int>(v[k]); };
+  const auto nearest = [&](std::size_t k, std::string text) {
+    return Problem{std::move(text), NearestModes{static_cast<std::size_t>(v[k]), 0}, false, v[k] > 0};
+  };
+  if (kind == "chain" && v.size() == 2) return nearest(1, hanging_chain(n(0)));
+  if (kind == "damped" && v.size() == 2) return nearest(1, damped_chain(n(0)));
+  if (kind == "lattice" && v.size() == 4) return nearest(3, mass_lattice(n(0), n(1), n(2)));
+  if (kind == "hinged" && v.size() == 4) return nearest(3, hinged_lattice(n(0), n(1), n(2)));
+  if (kind == "rotor" && v.size() == 3) return {beam_rotor(n(0)), ModesInBand{v[1], v[2]}, true};
+  return {};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string kind = argc > 1 ? argv[1] : "";
-  const bool chain = kind == "chain" && argc == 4;
-  if (!chain && !(kind == "lattice" && argc == 6)) {
-    fmt::print("usage: selected_modes chain NUMBER MODES\n       selected_modes lattice NX NY NZ MODES\n");
-    return 3;
-  }
-  const auto number = [&](int k) { return std::atoi(argv[k]); };
+  const std::string kind = argc > 1 ? argv[1] : "", last_word = argc > 1 ? argv[argc - 1] : "";
+  std::vector<double> numbers;
+  for (int k = 2; k < argc; ++k) numbers.push_back(std::atof(argv[k]));
   std::clock_t last = std::clock();
   const auto report = [&](const char* what) {
     const std::clock_t now = std::clock();
@@ -37,28 +60,43 @@ int main(int argc, char** argv) {
                peak_megabytes());
     last = now;
   };
-  const std::string text = chain ? hanging_chain(number(2)) : mass_lattice(number(2), number(3), number(4));
+  const auto [text, wanted, statics, modes] = problem(kind, numbers);
+  if (text.empty()) {
+    fmt::print(
+        "usage: selected_modes chain|damped NUMBER MODES\n       selected_modes lattice|hinged NX NY NZ MODES\n"
+        "       selected_modes rotor NUMBER LOW HIGH\n");
+    return 3;
+  }
+  if (last_word == "write") return fmt::print("{}", text), 0;
   report("text");
   auto dataset = parse_dataset(std::make_shared<const SourceText>("bench.adm", text));
   auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
   const auto system = System::make(std::move(model.value)).value();
   report("system");
   Findings findings;
-  const auto point = initial_conditions(*system, findings);
+  auto point = initial_conditions(*system, findings);
   if (!point) {
     fmt::print("{}\n", point.error().message);
     return 2;
   }
   report("initial conditions");
+  if (statics) {
+    StaticsReport ignored;
+    point = static_operating_point(*system, std::move(*point), {}, ignored, findings);
+    if (!point) {
+      fmt::print("{}\n", point.error().message);
+      return 2;
+    }
+    report("statics");
+  }
   const auto perturbation = perturb(*system, *point, {});
   if (!perturbation) {
     fmt::print("{}\n", perturbation.error().message);
     return 2;
   }
   report("perturbation equations");
-  if (number(chain ? 3 : 5) == 0) return 0;
-  const auto modes = static_cast<std::size_t>(number(chain ? 3 : 5));
-  const auto solution = eigensolve_selected(*system, *perturbation, NearestModes{modes, 0});
+  if (!modes) return 0;
+  const auto solution = eigensolve_selected(*system, *perturbation, wanted);
   if (!solution) {
     fmt::print("{}\n", solution.error().message);
     return 2;

@@ -55,13 +55,13 @@ class ConservativeModel {
 // Factors of [K − σM Gᵀ; G 0].
 class ConservativeFactors {
  public:
-  explicit ConservativeFactors(std::shared_ptr<const ConservativeModel> model)
-      : model_(std::move(model)), factors_(model_->stiffness()) {}
+  ConservativeFactors(std::shared_ptr<const ConservativeModel> model, FactorsFor use)
+      : model_(std::move(model)), factors_(model_->stiffness(), use) {}
 
   const ConservativeModel& model() const { return *model_; }
   bool factor(double sigma);
   double sigma() const { return sigma_; }
-  // As many modes have ω² < σ.
+  // As many modes have ω² < σ; of factors for inertia.
   Eigen::Index below() const { return factors_.negative_pivots() - model_->rows(); }
   // Coordinates of columns of forces: the constraints hold.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& forces) const;

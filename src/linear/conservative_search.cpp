@@ -88,27 +88,32 @@ bool ConservativeSearch::extend(Index wanted, double least, int restarts) {
   Matrix V(n, locked + most + at_a_time);
   V.leftCols(locked) = vectors_;
   const auto op = [&](const Matrix& v) { return op_->symmetric()->solve(model_->forces(v)); };
-  // Orthogonal to the first columns, to which `share` are its parts; 0 if nothing is left of it.
-  const auto without = [&](Eigen::Ref<Eigen::VectorXd> w, Index columns, Eigen::Ref<Eigen::VectorXd> share) {
-    share.setZero();
-    double size = 0, before = 0;
-    for (int pass = 0; pass < 3; ++pass) {
+  // Orthogonal to the first columns, whose parts in it are added to `share`; 0 if nothing is left of what it was. Twice
+  // is enough, unless the second time takes away much again.
+  const auto without = [&](Eigen::Ref<Eigen::VectorXd> w, Index columns, Eigen::Ref<Eigen::VectorXd> share, int fewest,
+                           double before) {
+    constexpr int most_passes = 3;
+    double size = 0;
+    for (int pass = 0;; ++pass) {
       const Eigen::VectorXd f = model_->forces(w).col(0);
-      if (pass == 0) before = std::sqrt(std::abs(w.dot(f)));
+      const double now = std::sqrt(std::abs(w.dot(f)));
+      if (pass == 0) before = std::max(before, now);
+      const bool settled = pass >= fewest && now > 0.7 * size;
+      size = now;
+      if (settled || pass == most_passes) break;
       const Eigen::VectorXd along = V.leftCols(columns).transpose() * f;
       w.noalias() -= V.leftCols(columns) * along;
       share += along;
     }
-    size = std::sqrt(std::abs(w.dot(model_->forces(w).col(0))));
     if (!(size > 1e3 * eps * before)) return 0.0;
     w /= size;
     return size;
   };
   const auto start_at = [&](Index column) {
-    Eigen::VectorXd ignored(column);
+    Eigen::VectorXd ignored = Eigen::VectorXd::Zero(column);
     for (int tries = 0; tries < 20; ++tries) {
       V.col(column) = op(arbitrary_vector(n, 500 + starts_++).real()).col(0);
-      if (without(V.col(column), column, ignored) > 0) return true;
+      if (without(V.col(column), column, ignored, 2, 0) > 0) return true;
     }
     return false;
   };
@@ -124,11 +129,18 @@ bool ConservativeSearch::extend(Index wanted, double least, int restarts) {
     while (processed < most) {
       const Index block = std::min({at_a_time, most - processed, size - processed});
       if (block <= 0) break;
-      const Matrix images = op(V.middleCols(locked + processed, block));
+      Matrix images = op(V.middleCols(locked + processed, block));
       if (!images.allFinite()) return false;
+      // The first time for all columns of the block at once.
+      const Index known = locked + size;
+      const Matrix of_images = model_->forces(images);
+      const Eigen::RowVectorXd squares = images.cwiseProduct(of_images).colwise().sum();
+      const Matrix along = V.leftCols(known).transpose() * of_images;
+      images.noalias() -= V.leftCols(known) * along;
       for (Index b = 0; b < block; ++b, ++processed) {
-        Eigen::VectorXd w = images.col(b), share(locked + size);
-        const double rest = without(w, locked + size, share);
+        Eigen::VectorXd w = images.col(b), share = Eigen::VectorXd::Zero(locked + size);
+        share.head(known) = along.col(b);
+        const double rest = without(w, locked + size, share, 1, std::sqrt(std::abs(squares(b))));
         H.col(processed).head(size) = share.tail(size);
         if (rest == 0 || locked + size >= V.cols() || size >= left) continue;
         V.col(locked + size) = w;

@@ -36,7 +36,7 @@ bool InertiaCount::stands_for_the_equations(double sigma) const {
 std::optional<Index> InertiaCount::below(double sigma) {
   const auto [known, is_new] = below_.try_emplace(sigma);
   if (!is_new) return known->second;
-  if (!factors_) factors_ = std::make_unique<ConservativeFactors>(model_);
+  if (!factors_) factors_ = std::make_unique<ConservativeFactors>(model_, FactorsFor::inertia);
   if (!factors_->factor(sigma) || !stands_for_the_equations(sigma)) return std::nullopt;
   return known->second = factors_->below();
 }

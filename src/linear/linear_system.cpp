@@ -65,13 +65,26 @@ std::vector<StateReach> reach_of(const System& system, const Perturbation& p, co
   return reach;
 }
 
+// part(columns) of motions, few columns at a time: all unknowns of a large model are many.
+template <class Part>
+Eigen::MatrixXcd of_motions(const PerturbationEquations& equations, const Eigen::MatrixXcd& of_states, Part&& part) {
+  constexpr Eigen::Index at_a_time = 4;
+  Eigen::MatrixXcd all(equations.coordinates(), of_states.cols());
+  for (Eigen::Index first = 0; first < of_states.cols(); first += at_a_time) {
+    const Eigen::Index count = std::min(at_a_time, of_states.cols() - first);
+    const Eigen::MatrixXcd motions = equations.motions(of_states.middleCols(first, count));
+    all.middleCols(first, count) = part(motions);
+  }
+  return all;
+}
+
 }  // namespace
 
 Eigen::MatrixXcd Perturbation::displacements(const Eigen::MatrixXcd& of_states) const {
-  return equations->motions(of_states).topRows(equations->coordinates());
+  return of_motions(*equations, of_states, [&](const auto& m) { return m.topRows(equations->coordinates()); });
 }
 Eigen::MatrixXcd Perturbation::velocities(const Eigen::MatrixXcd& of_states) const {
-  return equations->motions(of_states).bottomRows(equations->coordinates());
+  return of_motions(*equations, of_states, [&](const auto& m) { return m.bottomRows(equations->coordinates()); });
 }
 
 Result<LinearSystem> reduce(const System& system, Perturbation perturbation) {
@@ -85,7 +98,7 @@ Result<LinearSystem> reduce(const System& system, Perturbation perturbation) {
   const Matrix a = p.complete(Matrix::Identity(states + inputs, states + inputs));
   const Matrix rates = p.state_matrices(a), outputs = at.outputs_of(p, a);
   out.reach = reach_of(system, out, a.topRows(p.coordinates()), a.middleRows(p.rates(), p.coordinates()));
-  auto roundings = p.roundings(a);
+  auto roundings = p.roundings(a, PerturbationEquations::sizes(system, at));
   out.rounding = std::move(roundings.of_sums);
   out.uncertainty = std::move(roundings.of_coefficients);
   out.A = rates.leftCols(states);

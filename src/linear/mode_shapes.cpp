@@ -62,16 +62,15 @@ void name_movers(const System& system, const OperatingPoint& op, const LinearSys
   for (Eigen::Index k = 0; k < states; ++k) {
     if (linear.model.states[static_cast<std::size_t>(k)].is_rate) rates.push_back(k);
   }
-  Eigen::MatrixXcd of_rates = Eigen::MatrixXcd::Zero(states, solution.vectors.cols());
-  of_rates(rates, Eigen::all) = solution.vectors(rates, Eigen::all);
-  const Eigen::MatrixXcd displacements = linear.displacements(solution.vectors),
-                         velocities = linear.velocities(of_rates);
   for (std::size_t m = 0; m < solution.modes.size(); ++m) {
-    const auto at = static_cast<Eigen::Index>(m);
-    const Eigen::VectorXcd z = solution.vectors.col(at), dq = displacements.col(at);
+    const Eigen::VectorXcd z = solution.vectors.col(static_cast<Eigen::Index>(m)),
+                           dq = linear.displacements(z).col(0);
     EigenMode& mode = solution.modes[m];
     const bool at_rest = mode.eigenvalue_hz == std::complex<double>(0);
-    const ElementLabel* body = most_energetic(system, root, at_rest ? dq : Eigen::VectorXcd(velocities.col(at)));
+    Eigen::VectorXcd of_rates = Eigen::VectorXcd::Zero(states);
+    of_rates(rates) = z(rates);
+    const ElementLabel* body =
+        most_energetic(system, root, at_rest ? dq : Eigen::VectorXcd(linear.velocities(of_rates).col(0)));
     // A freedom without mass is what a mode may consist of; controllers that turn it are named before it.
     if (!body && z.tail(differential).norm() <= 1e-9 * z.norm()) body = furthest(system, op, dq);
     if (body) {

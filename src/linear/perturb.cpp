@@ -12,20 +12,38 @@
 
 namespace dynalin {
 
+namespace {
+
+void evaluate(const System& system, const Motion& motion, const ConstraintRows& rows, Equations& equations) {
+  system.equations(motion, rows, equations,
+                   {PartialBy::position, PartialBy::velocity, PartialBy::damping, PartialBy::acceleration,
+                    PartialBy::lambda, PartialBy::algebraic, PartialBy::state, PartialBy::state_rate});
+}
+
+}  // namespace
+
 PerturbedPoint::PerturbedPoint(const System& system, const OperatingPoint& op, const LinearOptions& options)
     : motion(system.motion(op)),
       without_damping(options.without_damping),
       without_rate_coupling(options.without_rate_coupling),
+      system_(system),
       first_algebraic_(AugmentedSystem(system).algebraic(0)) {
   motion.mode = AnalysisMode::linear;
   rows.resize(system.layout());
   equations.resize(system.layout());
   equations.keep_sizes();
-  equations.note_elements(&trace);
   system.constraints(motion, rows);
-  system.equations(motion, rows, equations,
-                   {PartialBy::position, PartialBy::velocity, PartialBy::damping, PartialBy::acceleration,
-                    PartialBy::lambda, PartialBy::algebraic, PartialBy::state, PartialBy::state_rate});
+  evaluate(system, motion, rows, equations);
+}
+
+const ElementTrace& PerturbedPoint::trace() const {
+  std::call_once(traced_, [&] {
+    Equations again;
+    again.resize(system_.layout());
+    again.note_elements(&trace_);
+    evaluate(system_, motion, rows, again);
+  });
+  return trace_;
 }
 
 ColumnMatrix PerturbedPoint::outputs_by_unknowns(const PerturbationEquations& p) const {

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "linear/dense_products.h"
-#include "linear/transposed.h"
 
 namespace dynalin {
 
@@ -23,6 +22,18 @@ std::span<double> column(Eigen::Ref<Matrix>& x, Eigen::Index c) {
 // y += factor · M x for sparse M and dense x.
 void multiply_add(const ColumnMatrix& m, const Eigen::Ref<const Matrix>& x, Eigen::Ref<Matrix> y, double factor) {
   for (Eigen::Index c = 0; c < x.cols(); ++c) m.multiply_add(column(x, c), column(y, c), factor);
+}
+
+// y += factor · Mᵀ x
+void multiply_transposed_add(const ColumnMatrix& m, const Eigen::Ref<const Matrix>& x, Eigen::Ref<Matrix> y,
+                             double factor) {
+  for (Eigen::Index c = 0; c < x.cols(); ++c) {
+    for (std::int32_t k = 0; k < m.columns; ++k) {
+      double sum = 0;
+      for_each_in_column(m, k, [&](std::int32_t r, double v) { sum += v * x(r, c); });
+      y(k, c) += factor * sum;
+    }
+  }
 }
 
 }  // namespace
@@ -44,9 +55,8 @@ PerturbationEquations PerturbationEquations::of_state_matrix(const Matrix& A) {
   p.rates_on_positions_ = p.augmented_on_positions_ = p.augmented_on_rates_ = none;
   p.on_states_ = compressed(0, p.states_, {});
   p.state_rates_on_algebraic_ = compressed(p.states_, 0, {});
-  p.sizes_ = p.products_;
-  for (double& v : p.sizes_.value) v = std::abs(v);
-  p.roundings_ = p.sizes_;
+  p.roundings_ = p.products_;
+  for (double& v : p.roundings_.value) v = std::abs(v);
   return p;
 }
 
@@ -72,19 +82,24 @@ Matrix PerturbationEquations::complete(const Matrix& x) const {
 Eigen::MatrixXcd PerturbationEquations::motions(const Eigen::MatrixXcd& x) const {
   return by_parts(x, [&](const Matrix& real) -> Matrix {
     if (whole_) return complete(real).topRows(2 * n_);
-    Matrix a = Matrix::Zero(algebraic_, real.cols()), padded = Matrix::Zero(on_states_.columns, real.cols());
-    padded.topRows(real.rows()) = real;
-    multiply_add(on_states_, padded, a, -1.0);
+    Matrix a = Matrix::Zero(2 * n_, real.cols());
+    for (Eigen::Index c = 0; c < real.cols(); ++c) {
+      for (std::int32_t k = 0; k < states_; ++k) {
+        for_each_in_column(on_states_, k, [&](std::int32_t r, double v) {
+          if (r < 2 * n_) a(r, c) -= v * real(k, c);
+        });
+      }
+    }
     level_[0]->solve(a.topRows(n_));
-    multiply_add(rates_on_positions_, a.topRows(n_), a.middleRows(n_, n_), -1.0);
-    level_[1]->solve(a.middleRows(n_, n_));
-    return a.topRows(2 * n_);
+    multiply_add(rates_on_positions_, a.topRows(n_), a.bottomRows(n_), -1.0);
+    level_[1]->solve(a.bottomRows(n_));
+    return a;
   });
 }
 
 Matrix PerturbationEquations::complete_left(const Matrix& y) const {
   Matrix a = Matrix::Zero(algebraic_, y.cols());
-  multiply_add(transposed(state_rates_on_algebraic_), y, a, -1.0);
+  multiply_transposed_add(state_rates_on_algebraic_, y, a, -1.0);
   return solve_transposed(std::move(a));
 }
 
@@ -93,11 +108,16 @@ Matrix PerturbationEquations::solve_transposed(Matrix a) const {
     whole_->solve_transposed(a);
     return a;
   }
-  level_[2]->solve_transposed(a.bottomRows(augmented_size_));
-  multiply_add(transposed(augmented_on_rates_), a.bottomRows(augmented_size_), a.middleRows(n_, n_), -1.0);
-  level_[1]->solve_transposed(a.middleRows(n_, n_));
-  multiply_add(transposed(augmented_on_positions_), a.bottomRows(augmented_size_), a.topRows(n_), -1.0);
-  multiply_add(transposed(rates_on_positions_), a.middleRows(n_, n_), a.topRows(n_), -1.0);
+  // Of right-hand sides on the coordinates alone the upper levels have nothing.
+  if (!a.bottomRows(augmented_size_).isZero(0)) {
+    level_[2]->solve_transposed(a.bottomRows(augmented_size_));
+    multiply_transposed_add(augmented_on_rates_, a.bottomRows(augmented_size_), a.middleRows(n_, n_), -1.0);
+    multiply_transposed_add(augmented_on_positions_, a.bottomRows(augmented_size_), a.topRows(n_), -1.0);
+  }
+  if (!a.middleRows(n_, n_).isZero(0)) {
+    level_[1]->solve_transposed(a.middleRows(n_, n_));
+    multiply_transposed_add(rates_on_positions_, a.middleRows(n_, n_), a.topRows(n_), -1.0);
+  }
   level_[0]->solve_transposed(a.topRows(n_));
   return a;
 }
@@ -144,7 +164,7 @@ Matrix PerturbationEquations::state_matrices(const Matrix& a) const {
   return rates;
 }
 
-PerturbationEquations::Roundings PerturbationEquations::roundings(const Matrix& a) const {
+PerturbationEquations::Roundings PerturbationEquations::roundings(const Matrix& a, const ColumnMatrix& sizes) const {
   // Displacements keep their digits, one by one; rates are sums where the model moves or constraints hold rates alone.
   const bool rates_are_sums = whole_ || !rates_on_positions_.value.empty() || level_[1] != level_[0];
   const Eigen::Index first_row = whole_ ? 0 : rates_are_sums ? n_ : 2 * n_, rows = algebraic_ - first_row;
@@ -179,7 +199,7 @@ PerturbationEquations::Roundings PerturbationEquations::roundings(const Matrix& 
         transposed_product(adjoint_of_rounded, sums(rounded, Eigen::all).eval()) + sums.bottomRows(states_);
     parts.middleRows(summed, algebraic_ - summed).setZero();
     sums.setZero();
-    multiply_add(sizes_, parts, sums, 1.0);
+    multiply_add(sizes, parts, sums, 1.0);
     total.middleCols(first, count) =
         transposed_product(adjoint_of_sums, sums.middleRows(first_row, rows).eval()) + sums.bottomRows(states_);
   });
@@ -188,12 +208,20 @@ PerturbationEquations::Roundings PerturbationEquations::roundings(const Matrix& 
 }
 
 Matrix PerturbationEquations::coefficient_roundings(const Eigen::MatrixXcd& left, const Eigen::MatrixXcd& right) const {
-  ColumnMatrix squares = roundings_;
-  for (double& v : squares.value) v *= v;
   Matrix sums = Matrix::Zero(unknowns(), right.cols());
-  multiply_add(squares, right.cwiseAbs2(), sums, 1.0);
-  const Matrix of_left = left.cwiseAbs2();
-  return std::numeric_limits<double>::epsilon() / 2 * transposed_product(of_left, sums).cwiseSqrt();
+  for (Eigen::Index c = 0; c < right.cols(); ++c) {
+    for_each_entry(roundings_, [&](std::int32_t r, std::int32_t k, double v) {
+      sums(r, c) += v * v * std::norm(right(k, c));
+    });
+  }
+  constexpr Eigen::Index at_a_time = 4096;  // without a copy of all that is left
+  Matrix squares = Matrix::Zero(left.cols(), right.cols());
+  for (Eigen::Index first = 0; first < left.rows(); first += at_a_time) {
+    const Eigen::Index count = std::min(at_a_time, left.rows() - first);
+    squares += transposed_product(Matrix(left.middleRows(first, count).cwiseAbs2()),
+                                  Matrix(sums.middleRows(first, count)));
+  }
+  return std::numeric_limits<double>::epsilon() / 2 * squares.cwiseSqrt();
 }
 
 }  // namespace dynalin

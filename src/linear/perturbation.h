@@ -26,6 +26,8 @@
 
 namespace dynalin {
 
+struct PerturbedPoint;
+
 class PerturbationEquations {
  public:
   // `inputs` are algebraic unknowns that are cut free of their own equation.
@@ -68,7 +70,10 @@ class PerturbationEquations {
   struct Roundings {
     Eigen::MatrixXd of_sums, of_coefficients;
   };
-  Roundings roundings(const Eigen::MatrixXd& a) const;
+  Roundings roundings(const Eigen::MatrixXd& a, const ColumnMatrix& sizes) const;
+  // Of the entries of products() where roundings are counted: the sizes of what they are made of (roundoff_scales.h).
+  // They are found anew, as large as the equations themselves; selected modes of large models do not ask for them.
+  static ColumnMatrix sizes(const System&, const PerturbedPoint&);
   // The same of the coefficients alone between unknowns (a; x), one column each: √Σ(left·(rounding)·right)².
   Eigen::MatrixXd coefficient_roundings(const Eigen::MatrixXcd& left, const Eigen::MatrixXcd& right) const;
 
@@ -95,9 +100,9 @@ class PerturbationEquations {
   ColumnMatrix on_states_;                                                         // [G H]
   ColumnMatrix state_rates_on_algebraic_, state_rates_on_states_;                  // P and R
   ColumnMatrix products_;
-  // Of its entries, where roundings are counted: the sizes of what they are made of, and in half units of the last
-  // place what computing them has left (roundoff_scales.h).
-  ColumnMatrix sizes_, roundings_;
+  // Of its entries, where roundings are counted, in half units of the last place: what computing them has left
+  // (roundoff_scales.h).
+  ColumnMatrix roundings_;
 };
 
 }  // namespace dynalin

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "linear/perturbation.h"
+#include "linear/perturbed_point.h"
 #include "linear/roundoff_scales.h"
 #include "linear/sized_block.h"
 #include "system/column_builder.h"
@@ -60,11 +61,7 @@ class PerturbationEquations::Assembly {
   Result<PerturbationEquations> run() {
     if (auto factored = massless_ ? set_diagonal() : factor_diagonal(); !factored)
       return tl::unexpected(factored.error());
-    take_rows();
-    take_partials();
-    take_inputs();
-    take_rates_of_states();
-    if (massless_) take_balances();
+    take();
     join();
     if (massless_) {
       if (auto factored = factor_whole(); !factored) return tl::unexpected(factored.error());
@@ -72,13 +69,29 @@ class PerturbationEquations::Assembly {
     return std::move(p_);
   }
 
+  ColumnMatrix sizes() {
+    roundoff_.noted = Roundoff::Noted::sizes;
+    take();
+    return taken(p_.unknowns(), p_.unknowns(), roundoff_.entries);
+  }
+
  private:
+  void take() {
+    take_rows();
+    take_partials();
+    take_inputs();
+    take_rates_of_states();
+    if (massless_) take_balances();
+  }
+
   // The diagonal of F.
   Result<void> factor_diagonal() {
     const auto factor = [&](std::size_t level, ColumnMatrix m) {
+      // Factored once: what elements reserve and is zero here would only fill the factors.
       diagonal_[level] = without_zeros(m);
+      m = {};
       auto lu = std::make_shared<SparseLu>();
-      if (!lu->factor(std::move(m))) return false;
+      if (!lu->factor(diagonal_[level])) return false;
       p_.level_[level] = std::move(lu);
       return true;
     };
@@ -357,8 +370,7 @@ class PerturbationEquations::Assembly {
 
   void join() {
     const std::int32_t states = p_.states_, all = p_.unknowns();
-    p_.sizes_ = taken(all, all, roundoff_.sizes);
-    p_.roundings_ = taken(all, all, roundoff_.roundings);
+    p_.roundings_ = taken(all, all, roundoff_.entries);
     p_.products_ = compressed_columns(all, all, [&](auto&& take) {
       const auto place = [&](const Entries& block, std::int32_t row, std::int32_t column) {
         for (const Triplet& t : block) take(row + t.row, column + t.column, t.value);
@@ -417,6 +429,12 @@ Result<PerturbationEquations> PerturbationEquations::make(const System& system, 
                                                           const std::vector<std::int32_t>& inputs, bool without_damping,
                                                           const MasslessStates* massless) {
   return Assembly(system, motion, rows, eq, choice, inputs, without_damping, massless).run();
+}
+
+ColumnMatrix PerturbationEquations::sizes(const System& system, const PerturbedPoint& at) {
+  return Assembly(system, at.motion, at.rows, at.equations, at.choice, at.inputs, at.without_damping,
+                  at.massless ? &*at.massless : nullptr)
+      .sizes();
 }
 
 }  // namespace dynalin

@@ -2,6 +2,7 @@
 // chosen. It outlives them, for what is asked of single elements.
 #pragma once
 
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -17,10 +18,12 @@ struct PerturbedPoint {
   // What outputs see of all unknowns a, a row each, and of columns of them (perturbation.h).
   ColumnMatrix outputs_by_unknowns(const PerturbationEquations&) const;
   Eigen::MatrixXd outputs_of(const PerturbationEquations&, const Eigen::MatrixXd& columns) const;
+  // What each element adds, evaluated when it is asked for first: beside a large model it would be the longest of all
+  // lists, and few ask.
+  const ElementTrace& trace() const;
 
   Motion motion;
   ConstraintRows rows;
-  ElementTrace trace;
   Equations equations;
   StateChoice choice;
   std::optional<StateChoice> with_massless;   // the choice before freedoms without mass lost their states, if any did
@@ -29,7 +32,10 @@ struct PerturbedPoint {
   bool without_damping, without_rate_coupling;
 
  private:
+  const System& system_;
   std::int32_t first_algebraic_;  // among the unknowns of the augmented system
+  mutable std::once_flag traced_;
+  mutable ElementTrace trace_;
 };
 
 }  // namespace dynalin

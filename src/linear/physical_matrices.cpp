@@ -257,10 +257,10 @@ std::vector<const ElementLabel*> PhysicalEquations::elements() const {
   std::vector<const ElementLabel*> list;
   std::unordered_set<const ElementLabel*> known;
   const auto n = static_cast<std::int32_t>(velocities_.rows());
-  for (std::size_t e = 0; e < at_->trace.elements.size(); ++e) {
-    const ElementTrace::Element& element = at_->trace.elements[e];
-    const auto first = at_->trace.partials.begin() + static_cast<std::ptrdiff_t>(element.first_partial),
-               last = at_->trace.partials.begin() + static_cast<std::ptrdiff_t>(at_->trace.end_of_partials(e));
+  for (std::size_t e = 0; e < at_->trace().elements.size(); ++e) {
+    const ElementTrace::Element& element = at_->trace().elements[e];
+    const auto first = at_->trace().partials.begin() + static_cast<std::ptrdiff_t>(element.first_partial),
+               last = at_->trace().partials.begin() + static_cast<std::ptrdiff_t>(at_->trace().end_of_partials(e));
     const bool contributes = std::any_of(first, last, [&](const ElementTrace::Partial& p) { return p.row < n; });
     if (contributes && known.insert(element.of).second) list.push_back(element.of);
   }
@@ -271,12 +271,12 @@ MotionMap PhysicalEquations::of(const ElementLabel& label) const {
   const auto n = static_cast<std::int32_t>(velocities_.rows());
   Matrix sum = Matrix::Zero(velocities_.cols(), variations_.dq.cols());
   Eigen::RowVectorXd balance(variations_.dq.cols());
-  for (std::size_t e = 0; e < at_->trace.elements.size(); ++e) {
-    if (!at_->trace.elements[e].of || !same_element(*at_->trace.elements[e].of, label)) continue;
+  for (std::size_t e = 0; e < at_->trace().elements.size(); ++e) {
+    if (!at_->trace().elements[e].of || !same_element(*at_->trace().elements[e].of, label)) continue;
     // Row by row of the balance: few of them belong to one element.
     std::vector<ElementTrace::Partial> partials(
-        at_->trace.partials.begin() + static_cast<std::ptrdiff_t>(at_->trace.elements[e].first_partial),
-        at_->trace.partials.begin() + static_cast<std::ptrdiff_t>(at_->trace.end_of_partials(e)));
+        at_->trace().partials.begin() + static_cast<std::ptrdiff_t>(at_->trace().elements[e].first_partial),
+        at_->trace().partials.begin() + static_cast<std::ptrdiff_t>(at_->trace().end_of_partials(e)));
     std::erase_if(partials, [&](const ElementTrace::Partial& p) {
       return p.row >= n || (at_->without_damping && p.family == PartialBy::damping);
     });

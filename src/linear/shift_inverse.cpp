@@ -22,7 +22,7 @@ ComplexVector arbitrary_vector(Eigen::Index size, unsigned number) {
 
 ShiftInverse::ShiftInverse(const PerturbationEquations& equations, std::shared_ptr<const ConservativeModel> model)
     : equations_(equations), unknowns_(equations.unknowns()), unit_(Eigen::VectorXd::Ones(equations.states())) {
-  if (model) symmetric_.emplace(std::move(model));
+  if (model) symmetric_.emplace(std::move(model), FactorsFor::solving);
 }
 
 ShiftedLu& ShiftInverse::factors() {

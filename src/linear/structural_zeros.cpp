@@ -31,7 +31,7 @@ class StructuralZeros::Contributions {
         rows_(at_->rows),
         choice_(at_->choice),
         changes_(system, perturbation),
-        partials_(system, at_->trace, at_->without_damping),
+        partials_(system, at_->trace(), at_->without_damping),
         forces_(system, at_->motion, rows_, partials_) {
     find_driven(at_->equations);
   }

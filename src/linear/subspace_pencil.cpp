@@ -42,6 +42,7 @@ struct LongSum {
   double size = 0, terms = 2;
 
   void add(double factor, Complex v) {
+    if (v == 0.0) return;
     re += static_cast<long double>(factor) * static_cast<long double>(v.real());
     im += static_cast<long double>(factor) * static_cast<long double>(v.imag());
     size += std::abs(factor) * (std::abs(v.real()) + std::abs(v.imag()));
@@ -98,6 +99,52 @@ double norm_beside(const ShiftInverse& op, const ComplexMatrix& X, const Complex
   return norm;
 }
 
+// |a|ᵀ b without a copy of a.
+Matrix sizes_product(const ComplexMatrix& a, const Matrix& b) {
+  constexpr Index at_a_time = 4096;
+  Matrix sum = Matrix::Zero(a.cols(), b.cols());
+  for (Index first = 0; first < a.rows(); first += at_a_time) {
+    const Index count = std::min(at_a_time, a.rows() - first);
+    sum += transposed_product(Matrix(a.middleRows(first, count).cwiseAbs()), Matrix(b.middleRows(first, count)));
+  }
+  return sum;
+}
+
+// visit(first, count): all unknowns of a large model are many, even for the columns of a few modes.
+template <class Function>
+void for_few_columns(Index columns, Function&& visit) {
+  constexpr Index most = 4;
+  for (Index first = 0; first < columns; first += most) visit(first, std::min(most, columns - first));
+}
+
+// All unknowns of the left vectors, and their residuals Aᴴ Y − Y Bᴴ with the algebraic unknowns taken out.
+struct LeftResiduals {
+  ComplexMatrix y, of_algebraic, of_states;
+};
+
+LeftResiduals left_residuals(const PerturbationEquations& equations, const Subspace& of) {
+  const Index n = equations.states(), p = of.Y.cols(), algebraic = equations.unknowns() - n;
+  LeftResiduals left{ComplexMatrix(n + algebraic, p), ComplexMatrix(algebraic, p), ComplexMatrix(n, p)};
+  const ComplexMatrix onto = of.B.adjoint();
+  for_few_columns(p, [&](Index first, Index count) {
+    const ComplexMatrix Y = of.Y.middleCols(first, count);
+    const ComplexMatrix y =
+        with_algebraic(by_parts(Y, [&](const Matrix& m) { return equations.complete_left(m); }), Y);
+    const ComplexMatrix value = residuals(equations.products(), y, of.Y, onto.middleCols(first, count)).value;
+    const ComplexMatrix L_a = by_parts(ComplexMatrix(value.topRows(algebraic)),
+                                       [&](const Matrix& m) { return equations.solve_transposed(m); });
+    auto L = left.of_states.middleCols(first, count);
+    L = value.bottomRows(n);
+    for (Index k = 0; k < n; ++k) {
+      for_each_in_column(equations.by_states_and_inputs(), static_cast<std::int32_t>(k),
+                         [&](std::int32_t r, double v) { L.row(k) -= v * L_a.row(r); });
+    }
+    left.y.middleCols(first, count) = y;
+    left.of_algebraic.middleCols(first, count) = L_a;
+  });
+  return left;
+}
+
 }  // namespace
 
 SubspacePencil measured(const PerturbationEquations& equations, const ShiftInverse& op, const Subspace& of,
@@ -106,31 +153,51 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
   const auto completed = [&](const ComplexMatrix& x) {
     return with_algebraic(by_parts(x, [&](const Matrix& m) { return equations.complete(m); }), x);
   };
-  const ComplexMatrix w = completed(of.X);
-  const ComplexMatrix y =
-      with_algebraic(by_parts(of.Y, [&](const Matrix& m) { return equations.complete_left(m); }), of.Y);
+  const LeftResiduals left = left_residuals(equations, of);
+  const ComplexMatrix& y = left.y;
   ComplexMatrix U(n, p + z), F(p + z, p);
   U << of.X, of.V.cast<Complex>();
   F << of.B, of.C;
   const ColumnMatrix rows = transposed(equations.products());
-  Residuals right = residuals(rows, w, U, F);
-  const ComplexMatrix onto = of.B.adjoint();
-  const Residuals left = residuals(equations.products(), y, of.Y, onto);
-  const ComplexMatrix reduced = by_parts(right.value, [&](const Matrix& m) { return equations.reduced(m); });
-  const ComplexMatrix G = adjoint_product(y, right.value), other = adjoint_product(of.Y, reduced);
+  const Eigen::VectorXd& unit = op.units();
 
+  ComplexMatrix G(p, p);
+  Matrix between(p, p);
+  Eigen::VectorXd size_of_right(p), size_of_left(p);
   SubspacePencil out;
+  out.uncertainty.resize(p, p), out.unknown.resize(p, p);
+  for_few_columns(p, [&](Index first, Index count) {
+    const ComplexMatrix w = completed(of.X.middleCols(first, count));
+    const Residuals right = residuals(rows, w, U, F.middleCols(first, count));
+    const ComplexMatrix reduced = by_parts(right.value, [&](const Matrix& m) { return equations.reduced(m); });
+    const ComplexMatrix of_block = adjoint_product(y, right.value), other = adjoint_product(of.Y, reduced);
+    G.middleCols(first, count) = of_block;
+    out.uncertainty.middleCols(first, count) =
+        sizes_product(y, right.rounding) + margin_of_difference * (of_block - other).cwiseAbs() +
+        static_cast<double>(n + algebraic) * eps * sizes_product(y, right.value.cwiseAbs());
+    out.unknown.middleCols(first, count) = equations.coefficient_roundings(y, w);
+    // What goes through the rest of the model: (S − σ E)⁻¹ by (A − σ)⁻¹, with the algebraic unknowns taken out on both
+    // sides.
+    ComplexMatrix R(n, count);
+    for (Index j = 0; j < count; ++j) {
+      ComplexVector c = reduced.col(j).cwiseQuotient(unit);
+      op.apply(c);
+      c = c.cwiseProduct(unit).eval();
+      c -= of.X * (of.Y.adjoint() * c);
+      R.col(j) = c;
+      size_of_right(first + j) = c.cwiseQuotient(unit).norm();
+    }
+    between.middleCols(first, count) =
+        (adjoint_product(left.of_algebraic, ComplexMatrix(right.value.topRows(algebraic))) +
+         adjoint_product(left.of_states, R))
+            .cwiseAbs();
+  });
+  out.uncertainty += long_eps * (of.B.cwiseAbs() + G.cwiseAbs());
   out.value = of.B.cast<std::complex<long double>>() + G.cast<std::complex<long double>>();
-  const Matrix size_of_y = y.cwiseAbs();
-  out.uncertainty =
-      transposed_product(size_of_y, right.rounding) + margin_of_difference * (G - other).cwiseAbs() +
-      static_cast<double>(n + algebraic) * eps * transposed_product(size_of_y, Matrix(right.value.cwiseAbs())) +
-      long_eps * (of.B.cwiseAbs() + G.cwiseAbs());
   // Yᴴ X and Yᴴ V as computed.
   ComplexMatrix off = adjoint_product(of.Y, U);
   off.leftCols(p).diagonal().array() -= 1.0;
-  const Matrix defect =
-      off.cwiseAbs() + static_cast<double>(n) * eps * transposed_product(Matrix(of.Y.cwiseAbs()), Matrix(U.cwiseAbs()));
+  const Matrix defect = off.cwiseAbs() + static_cast<double>(n) * eps * sizes_product(of.Y, U.cwiseAbs());
   out.uncertainty += 1.1 * defect.leftCols(p) * G.cwiseAbs();
   if (z > 0) {
     // The equations hold the zeros to rounding only: to first order Yᴴ (A V − V N)(λ − N)⁻¹ C.
@@ -146,37 +213,14 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
     out.uncertainty += first_order_margin * (from_zero * through);
   }
 
-  // What goes through the rest of the model: (S − σ E)⁻¹ by (A − σ)⁻¹, with the algebraic unknowns taken out on both
-  // sides.
-  const Eigen::VectorXd& unit = op.units();
-  const double beside = norm_beside(op, of.X, of.Y);
-  Eigen::VectorXd size_of_right(p), size_of_left(p);
-  const ComplexMatrix L_a = by_parts(ComplexMatrix(left.value.topRows(algebraic)),
-                                     [&](const Matrix& m) { return equations.solve_transposed(m); });
-  ComplexMatrix L = left.value.bottomRows(n);
-  for (Index k = 0; k < n; ++k) {
-    for_each_in_column(equations.by_states_and_inputs(), static_cast<std::int32_t>(k),
-                       [&](std::int32_t r, double v) { L.row(k) -= v * L_a.row(r); });
-  }
-  ComplexMatrix R(n, p);
   for (Index j = 0; j < p; ++j) {
-    ComplexVector c = reduced.col(j).cwiseQuotient(unit);
-    op.apply(c);
-    c = c.cwiseProduct(unit).eval();
-    c -= of.X * (of.Y.adjoint() * c);
-    R.col(j) = c;
-    size_of_right(j) = c.cwiseQuotient(unit).norm();
-    ComplexVector l = L.col(j).cwiseProduct(unit);
+    ComplexVector l = left.of_states.col(j).cwiseProduct(unit);
     op.apply_adjoint(l);
     l = l.cwiseQuotient(unit).eval();
     size_of_left(j) = (l - of.Y * (of.X.adjoint() * l)).cwiseProduct(unit).norm();
   }
-  const Matrix between =
-      (adjoint_product(L_a, ComplexMatrix(right.value.topRows(algebraic))) + adjoint_product(L, R)).cwiseAbs();
-  const double amplified = 1 + margin_of_norms * reach * std::max(beside, 1 / distance);
+  const double amplified = 1 + margin_of_norms * reach * std::max(norm_beside(op, of.X, of.Y), 1 / distance);
   out.uncertainty += between + reach * amplified * size_of_left * size_of_right.transpose();
-
-  out.unknown = equations.coefficient_roundings(y, w);
   out.uncertainty = upward * (out.uncertainty + out.unknown);
   return out;
 }

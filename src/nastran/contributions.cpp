@@ -49,7 +49,7 @@ void Contributions::add(const MotionForm& form, std::int32_t row, double factor,
 
 void Contributions::take(const std::vector<std::size_t>& pieces, std::vector<MatrixEntry>& entries) const {
   const std::int32_t n = points_.coordinates();
-  const ElementTrace& trace = at_.trace;
+  const ElementTrace& trace = at_.trace();
   std::map<std::int32_t, MotionForm> rows;
   std::map<std::int32_t, Vector> forces;  // on bodies, as they stand in the balance
   for (const std::size_t e : pieces) {
@@ -88,8 +88,8 @@ std::vector<Contribution> Contributions::of_elements() const {
   // One element may have several places in the trace: its forces, its reactions.
   std::vector<std::pair<const ElementLabel*, std::vector<std::size_t>>> elements;
   std::unordered_map<const ElementLabel*, std::size_t> known;
-  for (std::size_t e = 0; e < at_.trace.elements.size(); ++e) {
-    const ElementLabel* of = at_.trace.elements[e].of;
+  for (std::size_t e = 0; e < at_.trace().elements.size(); ++e) {
+    const ElementLabel* of = at_.trace().elements[e].of;
     if (!of) continue;
     const auto [place, is_new] = known.emplace(of, elements.size());
     if (is_new) elements.emplace_back(of, std::vector<std::size_t>{});

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <new>
 
-#include "simulation/row_matching.h"
+#include "system/row_matching.h"
 
 namespace dynalin {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace dynalin {
 
@@ -16,6 +17,7 @@ struct WorkRow {
   double first_size = 0;                                 // largest entry as given
   double size = 0;                                       // largest entry now
   std::int32_t reach = 0;                                // the latest place in the order among its columns
+  std::int32_t listed_for = -1;                          // the column that was offered last with this row
   bool active = true;
 
   const double* find(std::int32_t column) const {
@@ -83,25 +85,26 @@ class Eliminator {
 
   void offer(std::int32_t column) {
     auto& holders = holders_[static_cast<std::size_t>(column)];
-    std::sort(holders.begin(), holders.end());
-    holders.erase(std::unique(holders.begin(), holders.end()), holders.end());
     // Rows that end soonest in the order go first: what loops leave over then lives on few columns, and dependent rows
-    // vanish there instead of being carried through the whole model. Among equals the sparsest.
+    // vanish there instead of being carried through the whole model. Among equals the sparsest,
+    // then the first. Lists name rows that lost the column, and some twice.
     std::int32_t best = -1;
-    auto best_key = std::pair(std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::size_t>::max());
+    auto best_key = std::tuple(std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::size_t>::max(), 0);
     std::size_t kept = 0;
     for (const std::int32_t r : holders) {
-      const WorkRow& row = rows_[static_cast<std::size_t>(r)];
-      const double* v = row.active ? row.find(column) : nullptr;
+      WorkRow& row = rows_[static_cast<std::size_t>(r)];
+      const double* v = row.active && row.listed_for != column ? row.find(column) : nullptr;
       if (!v) continue;
+      row.listed_for = column;
       holders[kept++] = r;
-      const auto key = std::pair(row.reach, row.entries.size());
+      const auto key = std::tuple(row.reach, row.entries.size(), r);
       if (std::abs(*v) >= options_.pivot_threshold * row.size && key < best_key) {
         best = r;
         best_key = key;
       }
     }
     holders.resize(kept);
+    for (const std::int32_t r : holders) rows_[static_cast<std::size_t>(r)].listed_for = -1;
     if (best < 0) return;
 
     WorkRow& pivot = rows_[static_cast<std::size_t>(best)];

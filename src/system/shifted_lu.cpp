@@ -9,6 +9,7 @@
 
 #include "system/lu_choice.h"
 #include "system/mumps_call.h"
+#include "system/row_matching.h"
 #include "system/sparse_lu.h"
 
 namespace dynalin {
@@ -101,7 +102,8 @@ ShiftedLu::ShiftedLu(const ColumnMatrix& S, std::int32_t shifted) : factors_(std
   }
   klu_defaults(&f.common);
   f.common.tol = 0.1;
-  f.symbolic = klu_analyze(f.matrix.columns, f.matrix.start.data(), f.matrix.row.data(), &f.common);
+  std::vector<std::int32_t> rows = rows_with_matched_first(f.matrix);
+  f.symbolic = klu_analyze(f.matrix.columns, f.matrix.start.data(), rows.data(), &f.common);
   if (f.common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
   if (f.symbolic && wants_nested_dissection(f.matrix, predicted_entries())) f.mumps.emplace(f.matrix);
 }

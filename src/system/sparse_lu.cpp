@@ -1,12 +1,11 @@
 #include "system/sparse_lu.h"
 
-#include <klu.h>
-
 #include <algorithm>
 #include <cmath>
 #include <new>
 #include <optional>
 
+#include "system/klu_factors.h"
 #include "system/lu_choice.h"
 #include "system/mumps_call.h"
 #include "system/nested_dissection.h"
@@ -56,97 +55,6 @@ ColumnMatrix compressed(std::int32_t rows, std::int32_t columns, std::span<const
 }
 
 namespace {
-
-// KLU: left-looking LU with a block triangular form.
-class KluFactors {
- public:
-  KluFactors() { klu_defaults(&common_); }
-  ~KluFactors() {
-    klu_free_numeric(&numeric_, &common_);
-    klu_free_symbolic(&symbolic_, &common_);
-  }
-  KluFactors(const KluFactors&) = delete;
-  KluFactors& operator=(const KluFactors&) = delete;
-
-  bool analyse(ColumnMatrix& m) {
-    // A stricter pivot choice than KLU's default: accuracy of the state matrix is worth the fill.
-    common_.tol = 0.1;
-    symbolic_ = klu_analyze(m.columns, m.start.data(), m.row.data(), &common_);
-    throw_if_out_of_memory();
-    return symbolic_ != nullptr;
-  }
-  double predicted_entries() const { return symbolic_->lnz + symbolic_->unz; }
-  // False if a pivot is nothing.
-  bool factor(ColumnMatrix& m) {
-    klu_free_numeric(&numeric_, &common_);
-    numeric_ = klu_factor(m.start.data(), m.row.data(), m.value.data(), symbolic_, &common_);
-    throw_if_out_of_memory();
-    return numeric_ && common_.status != KLU_SINGULAR;
-  }
-  // The smallest pivot beside the largest.
-  double least_pivot() {
-    klu_rcond(symbolic_, numeric_, &common_);
-    return common_.rcond;
-  }
-  // The smallest pivot beside the terms Σ |l||u| that were taken from its place: what cancellation has left of it.
-  double most_cancelled() {
-    const auto n = static_cast<std::size_t>(symbolic_->n);
-    std::vector<int> lp(n + 1), up(n + 1), li(static_cast<std::size_t>(numeric_->lnz)),
-        ui(static_cast<std::size_t>(numeric_->unz));
-    std::vector<double> lx(li.size()), ux(ui.size());
-    if (!klu_extract(numeric_, symbolic_, lp.data(), li.data(), lx.data(), up.data(), ui.data(), ux.data(), nullptr,
-                     nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, &common_)) {
-      throw_if_out_of_memory();
-      return 0;
-    }
-    // Row k of L meets column k of U: both by columns, so L is gone through once and U looked up by rows.
-    std::vector<std::vector<std::pair<int, double>>> u_rows(n);
-    std::vector<double> pivot(n, 0.0), taken(n, 0.0);
-    for (std::size_t c = 0; c < n; ++c) {
-      for (auto k = static_cast<std::size_t>(up[c]); k < static_cast<std::size_t>(up[c + 1]); ++k) {
-        const auto r = static_cast<std::size_t>(ui[k]);
-        if (r == c) {
-          pivot[c] = std::abs(ux[k]);
-        } else {
-          u_rows[r].emplace_back(static_cast<int>(c), std::abs(ux[k]));
-        }
-      }
-    }
-    std::vector<double> below(n, 0.0);
-    for (std::size_t i = 0; i < n; ++i) {
-      const auto first = static_cast<std::size_t>(lp[i]), last = static_cast<std::size_t>(lp[i + 1]);
-      for (std::size_t k = first; k < last; ++k) below[static_cast<std::size_t>(li[k])] = std::abs(lx[k]);
-      for (const auto& [c, u] : u_rows[i]) taken[static_cast<std::size_t>(c)] += below[static_cast<std::size_t>(c)] * u;
-      for (std::size_t k = first; k < last; ++k) below[static_cast<std::size_t>(li[k])] = 0;
-    }
-    double least = 1;
-    for (std::size_t k = 0; k < n; ++k) least = std::min(least, pivot[k] / (pivot[k] + taken[k]));
-    return least;
-  }
-  // Rows are scaled by positive numbers, and L has ones on its diagonal.
-  int determinant_sign() const {
-    const auto n = static_cast<std::size_t>(symbolic_->n);
-    const auto* pivot = static_cast<const double*>(numeric_->Udiag);
-    const auto negative = std::count_if(pivot, pivot + n, [](double p) { return p < 0; });
-    const bool odd = is_odd({numeric_->Pnum, n}) != is_odd({symbolic_->Q, n});
-    return (negative % 2 != 0) != odd ? -1 : 1;
-  }
-  void solve(double* x, int n, int columns) { klu_solve(symbolic_, numeric_, n, columns, x, &common_); }
-  void solve_transposed(double* x, int n, int columns) { klu_tsolve(symbolic_, numeric_, n, columns, x, &common_); }
-  std::size_t entries() const {
-    return static_cast<std::size_t>(numeric_->lnz) + static_cast<std::size_t>(numeric_->unz);
-  }
-
- private:
-  // A matrix that does not fit is not a singular one.
-  void throw_if_out_of_memory() const {
-    if (common_.status == KLU_OUT_OF_MEMORY || common_.status == KLU_TOO_LARGE) throw std::bad_alloc();
-  }
-
-  klu_common common_{};
-  klu_symbolic* symbolic_ = nullptr;
-  klu_numeric* numeric_ = nullptr;
-};
 
 // MUMPS: multifrontal LU with nested dissection.
 class MumpsFactors {

@@ -20,12 +20,12 @@ TEST(SymmetricFactors, count_negative_eigenvalues_and_solve) {
   }
   for (std::int32_t k = 0; k < held; ++k) entries.push_back({n + k, 2 * k, 3.0});
   const ColumnMatrix lower = compressed(n + held, n + held, entries);
-  SymmetricFactors factors(lower);
+  SymmetricFactors factors(lower), solving(lower, FactorsFor::solving);
   // What is left: thirty masses, each with 2 − σ.
   for (const double sigma : {1.5, 2.5, -1.0}) {
     std::vector<double> value;
     for_each_entry(lower, [&](std::int32_t r, std::int32_t c, double v) { value.push_back(r == c ? v - sigma : v); });
-    ASSERT_TRUE(factors.factor(value));
+    ASSERT_TRUE(factors.factor(value) && solving.factor(value));
     EXPECT_EQ(factors.negative_pivots(), held + (sigma > 2 ? n - held : 0));
     std::mt19937 random(1);
     Eigen::MatrixXd x(n + held, 2), b = Eigen::MatrixXd::Zero(n + held, 2);
@@ -36,8 +36,10 @@ TEST(SymmetricFactors, count_negative_eigenvalues_and_solve) {
       if (r != c) b.row(c) += value[k] * x.row(r);
       ++k;
     });
-    factors.solve(b);
+    Eigen::MatrixXd again = b;
+    factors.solve(b), solving.solve(again);
     EXPECT_LT((b - x).norm(), 1e-12 * x.norm());
+    EXPECT_LT((again - x).norm(), 1e-12 * x.norm());
   }
 }
 

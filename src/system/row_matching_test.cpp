@@ -1,7 +1,8 @@
-#include "simulation/row_matching.h"
+#include "system/row_matching.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "system/sparse_lu.h"
@@ -34,6 +35,24 @@ TEST(RowMatching, goes_through_the_whole_of_a_matrix_where_it_must) {
 
 TEST(RowMatching, pairs_as_many_as_there_are_in_a_singular_matrix) {
   EXPECT_EQ(pairs(compressed(3, 3, std::vector<Triplet>{{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}, {0, 2, 1}})), 2u);
+}
+
+TEST(RowMatching, puts_the_row_of_each_column_first_and_keeps_the_others) {
+  // A cycle, so that no row stands first in its column of itself.
+  constexpr std::int32_t n = 6;
+  std::vector<Triplet> entries;
+  for (std::int32_t k = 0; k < n; ++k) {
+    entries.push_back({k, (k + 1) % n, 1});
+    entries.push_back({0, k, 1});
+  }
+  const ColumnMatrix m = compressed(n, n, entries);
+  const auto matched = matched_rows(m);
+  const auto rows = rows_with_matched_first(m);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(n); ++c) {
+    const auto first = m.start[c], last = m.start[c + 1];
+    EXPECT_EQ(rows[static_cast<std::size_t>(first)], matched[c]);
+    EXPECT_TRUE(std::is_permutation(rows.begin() + first, rows.begin() + last, m.row.begin() + first));
+  }
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
-#include "simulation/row_matching.h"
+#include "system/row_matching.h"
+
+#include <algorithm>
 
 namespace dynalin {
 
@@ -99,5 +101,15 @@ class Matching {
 }  // namespace
 
 std::vector<std::int32_t> matched_rows(const ColumnMatrix& m) { return Matching(m).rows(); }
+
+std::vector<std::int32_t> rows_with_matched_first(const ColumnMatrix& m) {
+  const std::vector<std::int32_t> matched = matched_rows(m);
+  std::vector<std::int32_t> rows = m.row;
+  for (std::size_t c = 0; c < matched.size(); ++c) {
+    const auto first = rows.begin() + m.start[c], last = rows.begin() + m.start[c + 1];
+    if (const auto at = std::find(first, last, matched[c]); at != last) std::iter_swap(first, at);
+  }
+  return rows;
+}
 
 }  // namespace dynalin
