@@ -102,10 +102,12 @@ std::shared_ptr<const StateEquations> CalledRoutines::find_state_equations(const
   const auto find = [&](const std::string& written, std::initializer_list<std::string_view> by_default) {
     return find_named(written, {by_default.begin(), by_default.size()});
   };
+  // Where it is named, or else where it is called.
   const auto missing = [&](const std::string& written, std::string_view by_default, std::string_view hint = {}) {
     const bool named = !written.empty() && written.back() != ':';
+    const WrittenArgument* naming = named ? argument(s, names.asks_for_interface ? "INTERFACE" : "ROUTINE") : nullptr;
     diagnostics_.error(
-        "missing-routine", at,
+        "missing-routine", naming ? naming->value_span() : at,
         fmt::format("{} calls {}, and no library has it", s.at.text(), named ? written : by_default),
         hint.empty() ? "--user-library names libraries; nm -D FILE.so lists what is in one" : std::string(hint));
     return nullptr;
