@@ -388,6 +388,15 @@ TEST_F(StateEquations, rest_in_statics_unless_they_are_held) {
   const double hz = std::sqrt(50.0 / 2) / (2 * M_PI);
   ASSERT_EQ(linear.eigenvalues(1).size(), 2u);
   EXPECT_NEAR(std::abs(linear.eigenvalues(1)[0]), hz, 1e-10);
+  // Nor is it sampled.
+  const std::string clock =
+      slider +
+      "SFORCE/1, TRANSLATION, ACTIONONLY, I=21, J=2, FUNCTION=-50*DX(20,1,1)\n"
+      "ARRAY/3, Y\nARRAY/5, X\nARRAY/6, IC, NUMBERS=7,8\nREQUEST/1, F2=ARYVAL(5,1)\\F3=ARYVAL(5,2)\n"
+      "GSE/1, NO=2, Y=3, ND=2, XD=5, ICD=6, INTERFACE=::,clock_update,sampled_output, STATICS_ONLY, "
+      "FUNCTION=USER(0,0,0,5), SAMPLE_PERIOD=0.1\n";
+  const std::vector<double> initial = {7, 8};
+  EXPECT_EQ(requested(with(clock, {"SIMULATE/TRANSIENT, END=0.5, STEPS=5", "SIMULATE/INITIAL"}), 1), initial);
 }
 
 TEST_F(StateEquations, that_have_no_value_name_their_element) {
