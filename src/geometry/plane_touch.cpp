@@ -73,21 +73,28 @@ struct Foot {
   const Piece* piece = nullptr;
   const Corner* corner = nullptr;
   double u = 0, away = std::numeric_limits<double>::infinity();
+  bool tied = false;  // something elsewhere is as near
 };
 
 Foot nearest(const PlaneCurve& curve, const Vector& p) {
   Foot best;
+  Vector best_at;
+  const double rounding = 1e-12 * curve.radius(), elsewhere = 1e-6 * curve.radius();
+  const auto consider = [&](Foot foot, const Vector& at) {
+    foot.away = norm(p - at);
+    if (!(foot.away <= best.away + rounding)) return;
+    const bool as_near = foot.away >= best.away - rounding;
+    foot.tied = as_near && (best.tied || norm(at - best_at) > elsewhere);
+    if (foot.away < best.away) best = foot, best_at = at;
+    best.tied = foot.tied;
+  };
   for (const Piece& piece : curve.pieces()) {
     const double u = curve.nearest(piece, p);
     const bool before = !piece.round && u < piece.from, beyond = !piece.round && u > piece.to;
     if ((before && !piece.start_free) || (beyond && !piece.end_free)) continue;
-    const double away = norm(p - curve.at(piece, before ? piece.from : beyond ? piece.to : u));
-    if (away < best.away) best = {&piece, nullptr, u, away};
+    consider({&piece, nullptr, u}, curve.at(piece, before ? piece.from : beyond ? piece.to : u));
   }
-  for (const Corner& c : curve.corners()) {
-    const double away = norm(p - c.at);
-    if (away < best.away) best = {nullptr, &c, 0, away};
-  }
+  for (const Corner& c : curve.corners()) consider({nullptr, &c}, c.at);
   return best;
 }
 
@@ -108,6 +115,7 @@ OverFoot<T> over_foot(const Placed<T>& c, const Foot& foot, const Vec3<T>& p) {
     over.normal = {T(1.0), T(0.0), T(0.0)};
     over.defined = value_of(d.x) != 0 || value_of(d.y) != 0;
     if (!over.defined) return over;
+    over.defined = !foot.tied;
     over.gap = norm_xy(d) * side;
     over.normal = d / norm_xy(d);
     return over;
@@ -121,6 +129,7 @@ OverFoot<T> over_foot(const Placed<T>& c, const Foot& foot, const Vec3<T>& p) {
   over.at = c.at(*foot.piece, u);
   over.normal = c.normal(c.at(*foot.piece, u, 1));
   over.gap = dot_xy(p - over.at, over.normal);
+  over.defined = over.defined && !foot.tied;
   return over;
 }
 
@@ -291,7 +300,10 @@ class Places {
     p.foot = nearest(Y.curve, local(Y, at));
     refine(Y, p.foot, at);
     const OverFoot<double> over = over_foot(Y, p.foot, at);
-    if (!over.defined) return;
+    if (!over.defined) {
+      if (over.gap < 0) add(undefined_at(at, over.gap));
+      return;
+    }
     if (p.foot.piece != nullptr && p.foot.piece->curved()) {
       if (dot_xy(over.normal, X.turned(c.back)) < 0 || dot_xy(over.normal, X.turned(c.on)) < 0) return;
     }

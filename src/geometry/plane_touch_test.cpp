@@ -197,6 +197,17 @@ TEST(plane_touch, says_where_curves_are_too_deep_in_each_other) {
   EXPECT_FALSE(deep[0].defined);
 }
 
+// Half-way between two sides no direction is the one.
+TEST(plane_touch, has_no_place_where_two_edges_are_as_near) {
+  const PlaneCurve square = box(0.4, 0.4);
+  EXPECT_FALSE(touch_point<double>({0.35, 0.35, 0}, square, false).defined);
+  EXPECT_TRUE(touch_point<double>({0.35, 0.351, 0}, square, false).defined);
+  EXPECT_TRUE(touch_point<double>({0.45, 0.45, 0}, square, false).defined);
+  const auto tips = closed(touches(square, turned(0.78, 0.78, 0), square));
+  ASSERT_FALSE(tips.empty());
+  EXPECT_FALSE(tips[0].defined);
+}
+
 TEST(plane_touch, of_a_point_is_the_nearest_place) {
   const PlaneCurve square = box(0.4, 0.3);
   const auto at = [&](double x, double y, bool reversed = false) {
