@@ -14,10 +14,10 @@ using Turning = Dual<rotation_seeds>;
 // for the products of cubics with an area that varies along it.
 constexpr std::array<double, 3> three_places = {-0.77459666924148337704, 0.0, 0.77459666924148337704};
 constexpr std::array<double, 3> three_weights = {5.0 / 9, 8.0 / 9, 5.0 / 9};
-constexpr std::array<double, 4> four_places = {-0.86113631159405257522, -0.33998104358485626480,
-                                               0.33998104358485626480, 0.86113631159405257522};
-constexpr std::array<double, 4> four_weights = {0.34785484513745385737, 0.65214515486254614263,
-                                                0.65214515486254614263, 0.34785484513745385737};
+constexpr std::array<double, 4> four_places = {-0.86113631159405257522, -0.33998104358485626480, 0.33998104358485626480,
+                                               0.86113631159405257522};
+constexpr std::array<double, 4> four_weights = {0.34785484513745385737, 0.65214515486254614263, 0.65214515486254614263,
+                                                0.34785484513745385737};
 
 // Where the coordinates of the cubics r₁, r_s1, r₂, r_s2 and those of the spins stand.
 constexpr std::array<Eigen::Index, 4> cubic_at = {0, 12, 6, 15};
@@ -30,7 +30,7 @@ std::array<double, 4> cubics(double x, double length) {
 }
 BeamSection between(const std::array<BeamSection, 2>& ends, double x) {
   const double b = 0.5 * (1 + x), a = 1 - b;
-  const auto mean = [&](double BeamSection::* what) { return a * (ends[0].*what) + b * (ends[1].*what); };
+  const auto mean = [&](double BeamSection::*what) { return a * (ends[0].*what) + b * (ends[1].*what); };
   return {mean(&BeamSection::area), mean(&BeamSection::torsion), mean(&BeamSection::yy),     mean(&BeamSection::zz),
           mean(&BeamSection::yz),   mean(&BeamSection::shear_y), mean(&BeamSection::shear_z)};
 }
@@ -76,13 +76,13 @@ Mat3<S> inverse(const Mat3<S>& m) {
   return transpose(Mat3<S>{yz * factor, cross(m.z, m.x) * factor, cross(m.x, m.y) * factor});
 }
 
-// The strains Γ + e_x at both ends and in the middle between them: at the ends out of the slopes, in the middle what leads
-// from one node to the other, Σ_g w_g R_g (Γ + e_x)_g = 2 chord/l over the points g.
+// The strains Γ + e_x at both ends and in the middle between them: at the ends out of the slopes, in the middle what
+// leads from one node to the other, Σ_g w_g R_g (Γ + e_x)_g = 2 chord/l over the points g.
 template <class S>
 struct Line {
   std::array<Vec3<S>, 3> strain;
-  std::array<Mat3<S>, 3> share;  // Σ w_g N_j(x_g) R_g
-  Mat3<S> to_middle;             // inverse of the middle one
+  std::array<Mat3<S>, 3> share;                    // Σ w_g N_j(x_g) R_g
+  Mat3<S> to_middle;                               // inverse of the middle one
   std::array<Vec3<S>, three_places.size()> slope;  // r′ at the points
 
   Line(const std::array<Mat3<S>, 2>& ends, const std::array<Vec3<S>, 2>& end_slopes, const Vec3<S>& chord,
@@ -275,7 +275,8 @@ void BeamElement::add_stiffness(const Strains& s, BeamForces& out) const {
     for (std::size_t b = 0; b < beam_coordinates; ++b) {
       const auto column = static_cast<Eigen::Index>(b);
       const Vec3<Scalar>&strain = s.of_strain[k][b], &curvature = s.of_curvature[k][b];
-      const Vector by_rate = p.weight * stretching(p, values(strain)), by_rate_M = p.weight * bending(p, values(curvature));
+      const Vector by_rate = p.weight * stretching(p, values(strain)),
+                   by_rate_M = p.weight * bending(p, values(curvature));
       const Vector by_place = by_rate + (c * p.weight) * stretching(p, rates(strain)),
                    by_place_M = by_rate_M + (c * p.weight) * bending(p, rates(curvature));
       for (std::size_t a = 0; a < beam_coordinates; ++a) {
@@ -327,7 +328,8 @@ void BeamElement::add_held_stresses(const BeamMotion& m,
     for (std::size_t k = 0; k < 3; ++k) work[3 * end + k] += couple[k];
   }
   for (std::size_t g = 0; g < point_count; ++g) {
-    const Vec3<Turning> couple = cross(n, line.slope[g]) * three_weights[g], moment = sections[g].R * stresses.moment[g];
+    const Vec3<Turning> couple = cross(n, line.slope[g]) * three_weights[g],
+                        moment = sections[g].R * stresses.moment[g];
     for (std::size_t i = 0; i < rotation_seeds; ++i)
       work[i] += dot(couple, sections[g].spin[i]) + dot(moment, sections[g].spin_slope[i]);
   }

@@ -5,12 +5,12 @@
 //
 //     Γ = Rᵀ r′ − e_x,     κ = axial(Rᵀ R′)     less those of the undeformed element,
 //
-// of stretch and shear, twist and bending, without restriction to their rotations. Γ is a parabola along the element: at
-// the ends it is that of the slopes, in the middle such that r′ = R (e_x + Γ) leads from one node to the other. A pure
-// bending has Γ = 0, however far it goes, so that nothing locks; for small strains of a straight element r is the cubic of
-// places and slopes, which is that of inertia and weight always. The stresses N = C_Γ (Γ + c Γ̇), M = C_κ (κ + c κ̇) are
-// integrated over three Gauss points. An inertia of the section with the second moments S has the moment Σ S_ab a_a × a_b″
-// of its axes a; it works on the spin of the section.
+// of stretch and shear, twist and bending, without restriction to their rotations. Γ is a parabola along the element:
+// at the ends it is that of the slopes, in the middle such that r′ = R (e_x + Γ) leads from one node to the other. A
+// pure bending has Γ = 0, however far it goes, so that nothing locks; for small strains of a straight element r is the
+// cubic of places and slopes, which is that of inertia and weight always. The stresses N = C_Γ (Γ + c Γ̇), M = C_κ (κ +
+// c κ̇) are integrated over three Gauss points. An inertia of the section with the second moments S has the moment Σ
+// S_ab a_a × a_b″ of its axes a; it works on the spin of the section.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,14 +21,14 @@
 namespace dynalin {
 
 struct BeamSection {
-  double area = 0;              // [length²]
-  double torsion = 0;           // J [length⁴]
-  double yy = 0, zz = 0, yz = 0;  // ∫z², ∫y², ∫yz [length⁴]
+  double area = 0;                  // [length²]
+  double torsion = 0;               // J [length⁴]
+  double yy = 0, zz = 0, yz = 0;    // ∫z², ∫y², ∫yz [length⁴]
   double shear_y = 1, shear_z = 1;  // area by the area that carries shear
 };
 
 struct BeamMaterial {
-  double density = 0;  // dynamical [force·time²/length⁴]
+  double density = 0;   // dynamical [force·time²/length⁴]
   double E = 0, G = 0;  // [force/length²]
   double damping = 0;   // c [time]
 };
@@ -36,11 +36,11 @@ struct BeamMaterial {
 // Where an element is along a motion; global axes.
 struct BeamMotion {
   using Scalar = TimeTaylor<double>;
-  Vec3<Scalar> chord;                // r₂ − r₁
+  Vec3<Scalar> chord;                  // r₂ − r₁
   std::array<Vector, 2> acceleration;  // of r₁, r₂
   std::array<Mat3<Scalar>, 2> axes;
   std::array<Vec3<Scalar>, 2> slope;
-  Vec3<Scalar> middle;               // φ
+  Vec3<Scalar> middle;  // φ
 };
 
 // Coordinates: r₁, θ₁, r₂, θ₂, the slopes of both, φ.
@@ -78,11 +78,11 @@ class BeamElement {
  private:
   // One Gauss point of strain and rotational inertia.
   struct Point {
-    double x, weight;                // from −1 to 1; along the length
-    Vector strain, curvature;        // undeformed Γ + e_x, κ
-    Vector stretching;               // EA, GA_y, GA_z
-    double torsion, yy, zz, yz;      // G J, E I
-    Matrix3 second_moments;          // S [mass·length], section axes
+    double x, weight;            // from −1 to 1; along the length
+    Vector strain, curvature;    // undeformed Γ + e_x, κ
+    Vector stretching;           // EA, GA_y, GA_z
+    double torsion, yy, zz, yz;  // G J, E I
+    Matrix3 second_moments;      // S [mass·length], section axes
   };
   static constexpr std::size_t point_count = 3;
   using Scalar = BeamMotion::Scalar;

@@ -42,13 +42,26 @@ Place<T> moved(Place<T> p, std::size_t coordinate, const T& by) {
   Vec3<T> e{T(0.0), T(0.0), T(0.0)};
   e[coordinate % 3] = by;
   switch (coordinate / 3) {
-    case 0: p.r[0] += e; break;
-    case 1: p.axes[0] = rotation::exponential(e) * p.axes[0]; break;
-    case 2: p.r[1] += e; break;
-    case 3: p.axes[1] = rotation::exponential(e) * p.axes[1]; break;
-    case 4: p.slope[0] += e; break;
-    case 5: p.slope[1] += e; break;
-    default: p.middle += e;
+    case 0:
+      p.r[0] += e;
+      break;
+    case 1:
+      p.axes[0] = rotation::exponential(e) * p.axes[0];
+      break;
+    case 2:
+      p.r[1] += e;
+      break;
+    case 3:
+      p.axes[1] = rotation::exponential(e) * p.axes[1];
+      break;
+    case 4:
+      p.slope[0] += e;
+      break;
+    case 5:
+      p.slope[1] += e;
+      break;
+    default:
+      p.middle += e;
   }
   return p;
 }
@@ -81,8 +94,7 @@ double strain_energy(const BeamElement& e, const Place<double>& p) {
   const std::array<double, 3> places = {-std::sqrt(0.6), 0, std::sqrt(0.6)}, weights = {5. / 9, 8. / 9, 5. / 9};
   const auto strains = [&](const Vector& chord, const std::array<Matrix3, 2>& R, const std::array<Vector, 2>& slope,
                            const Vector& phi, double x) {
-    const Matrix3 middle =
-        R[0] * turn(0.5 * rotation::logarithm(transpose(R[0]) * R[1])) * turn(phi);
+    const Matrix3 middle = R[0] * turn(0.5 * rotation::logarithm(transpose(R[0]) * R[1])) * turn(phi);
     const auto axes = [&](double y) {
       return middle * turn((0.5 * y * (y - 1)) * rotation::logarithm(transpose(middle) * R[0]) +
                            (0.5 * y * (y + 1)) * rotation::logarithm(transpose(middle) * R[1]));
@@ -116,7 +128,7 @@ double strain_energy(const BeamElement& e, const Place<double>& p) {
     const auto now = strains(p.r[1] - p.r[0], p.axes, p.slope, p.middle, x);
     const auto before = strains({1.9, 0.2, -0.1}, drawn, {drawn[0].x, drawn[1].x}, {}, x);
     const Vector g = now.first - before.first, c = now.second - before.second;
-    const auto mean = [&](double BeamSection::* what) { return a * (thick.*what) + b * (thin.*what); };
+    const auto mean = [&](double BeamSection::*what) { return a * (thick.*what) + b * (thin.*what); };
     const double A = mean(&BeamSection::area), E = material.E, G = material.G;
     energy += 0.25 * l * weights[k] *
               (E * A * g.x * g.x + G * A / mean(&BeamSection::shear_y) * g.y * g.y +
@@ -160,8 +172,9 @@ TEST(beam_element, partials_are_those_of_the_forces_along_varied_motions) {
       const BeamVector elastic = (plus.elastic - minus.elastic) / (2 * h),
                        inertia = (plus.inertia - minus.inertia) / (2 * h);
       const BeamVector zero = BeamVector::Zero();
-      const BeamVector& want_elastic =
-          level == 0 ? BeamVector(f.stiffness.col(at_k)) : level == 1 ? BeamVector(f.damping.col(at_k)) : zero;
+      const BeamVector& want_elastic = level == 0   ? BeamVector(f.stiffness.col(at_k))
+                                       : level == 1 ? BeamVector(f.damping.col(at_k))
+                                                    : zero;
       const BeamVector want_inertia = level == 0   ? BeamVector(f.by_position.col(at_k))
                                       : level == 1 ? BeamVector(f.by_rate.col(at_k))
                                                    : BeamVector(f.mass.col(at_k));
@@ -225,8 +238,8 @@ TEST(beam_element, weight_and_inertia_of_a_translation_are_those_of_its_mass) {
   BeamForces f;
   e.forces(m, gravity, false, f);
   for (Eigen::Index k = 0; k < 3; ++k) {
-    EXPECT_NEAR(f.inertia(k) + f.inertia(6 + k), e.mass() * (static_cast<double>(k) + 1 - gravity[static_cast<std::size_t>(k)]),
-                1e-6 * e.mass());
+    EXPECT_NEAR(f.inertia(k) + f.inertia(6 + k),
+                e.mass() * (static_cast<double>(k) + 1 - gravity[static_cast<std::size_t>(k)]), 1e-6 * e.mass());
   }
   EXPECT_NEAR(e.nodal_mass(0) + e.nodal_mass(1), e.mass(), 1e-14 * e.mass());
 }

@@ -21,8 +21,8 @@
 
 namespace dynalin {
 
-// Functions of x = |a|² that are smooth at a = 0, from their power series: these end by factorials, so that fifteen terms
-// are exact to rounding for angles up to π and six below a fifth.
+// Functions of x = |a|² that are smooth at a = 0, from their power series: these end by factorials, so that fifteen
+// terms are exact to rounding for angles up to π and six below a fifth.
 namespace rotation {
 
 template <class T>
@@ -52,9 +52,8 @@ T third(const T& x) {
 }
 template <class T>
 T fourth(const T& x) {
-  return power_series(x, [](int k) {
-    return sign(k) * (inverse_factorial(2 * k + 3) - 2 * inverse_factorial(2 * k + 4));
-  });
+  return power_series(
+      x, [](int k) { return sign(k) * (inverse_factorial(2 * k + 3) - 2 * inverse_factorial(2 * k + 4)); });
 }
 
 // 1 + f skew(a) + g skew(a)²
@@ -128,8 +127,7 @@ struct RotationField {
     const Mat3<T> before = R1 * rotation::exponential(half);
     middle = before * rotation::exponential(phi);
     // exp(½ψ) turns with the second end by ½ J(½ψ) J(ψ)⁻¹ of its spin seen from the first, and with that by the rest.
-    const Mat3<T> share =
-        R1 * (0.5 * (rotation::jacobian(half) * rotation::inverse_jacobian(apart)) * transpose(R1));
+    const Mat3<T> share = R1 * (0.5 * (rotation::jacobian(half) * rotation::inverse_jacobian(apart)) * transpose(R1));
     const Mat3<T> by_phi = before * rotation::jacobian(phi);
     for (std::size_t k = 0; k < 3; ++k) {
       spin[3 + k] = share[k];

@@ -17,8 +17,8 @@ std::map<std::int32_t, StateCoordinate> beam_state_coordinates(const System& sys
     const auto nodes = static_cast<int>(b.nodes.size()), count = 12 * nodes - 3;
     const auto put = [&](std::int32_t at, int number, std::string text) {
       StateLabel label{StateType::fe_part, b.label->id, number, std::move(text), b.label->element(), false};
-      list.emplace(at, state_coordinate(std::move(label), StateType::fe_part, number + count,
-                                        system.coordinate_scale(at)));
+      list.emplace(at,
+                   state_coordinate(std::move(label), StateType::fe_part, number + count, system.coordinate_scale(at)));
     };
     const auto extra = [&](std::size_t at, int number) {
       for (const ExtraBlock& e : layout.extras) {

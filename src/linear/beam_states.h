@@ -1,5 +1,5 @@
-// Coordinates of beams as states: position, rotation and slope of each node, global axes, numbered node by node, then the
-// rotations between nodes. A reference marker has no influence on them.
+// Coordinates of beams as states: position, rotation and slope of each node, global axes, numbered node by node, then
+// the rotations between nodes. A reference marker has no influence on them.
 #pragma once
 
 #include <map>

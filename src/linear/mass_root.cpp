@@ -99,7 +99,8 @@ Matrix MassRoot::of(const Matrix& columns) const {
     for (std::size_t e = 0; e < item.elements.size(); ++e) {
       const Item::Element& element = item.elements[e];
       constexpr auto n = static_cast<Index>(beam_coordinates);
-      out.middleRows(item.first_row + n * static_cast<Index>(e), n) = element.root * columns(element.columns, Eigen::all);
+      out.middleRows(item.first_row + n * static_cast<Index>(e), n) =
+          element.root * columns(element.columns, Eigen::all);
     }
     if (!item.elements.empty()) continue;
     if (item.root.size() > 0) {

@@ -41,11 +41,21 @@ struct FePart {
   static constexpr std::array<Argument<FePart>, 29> arguments = {{
       {.name = "TYPE", .slot = &FePart::type, .required = true, .help = "3DBEAM; the plane ones are not available"},
       {.name = "MATERIAL", .slot = &FePart::material, .required = true, .help = "the MATERIAL that it is made of"},
-      {.name = "NODE_LABELS", .slot = &FePart::numbers, .required = true, .help = "numbers of the nodes, from end to end"},
-      {.name = "X", .slot = &FePart::x, .required = true, .unit = unit::length, .help = "places of the nodes in the BCS"},
+      {.name = "NODE_LABELS",
+       .slot = &FePart::numbers,
+       .required = true,
+       .help = "numbers of the nodes, from end to end"},
+      {.name = "X",
+       .slot = &FePart::x,
+       .required = true,
+       .unit = unit::length,
+       .help = "places of the nodes in the BCS"},
       {.name = "Y", .slot = &FePart::y, .unit = unit::length, .help = "the same along y; 0 unless stated"},
       {.name = "Z", .slot = &FePart::z, .unit = unit::length, .help = "the same along z; 0 unless stated"},
-      {.name = "PSI", .slot = &FePart::psi, .unit = unit::angle, .help = "axes of the nodes in the BCS, 3-1-3 angles: about z"},
+      {.name = "PSI",
+       .slot = &FePart::psi,
+       .unit = unit::angle,
+       .help = "axes of the nodes in the BCS, 3-1-3 angles: about z"},
       {.name = "THETA", .slot = &FePart::theta, .unit = unit::angle, .help = "then about x"},
       {.name = "PHI", .slot = &FePart::phi, .unit = unit::angle, .help = "then about z"},
       {.name = "AREA", .slot = &FePart::area, .required = true, .unit = "length²", .help = "of the section"},
@@ -131,14 +141,17 @@ double at(const std::vector<double>& list, std::size_t k, double unstated) {
 Matrix3 axes_of_node(const FePart& f, std::size_t k) {
   const auto about = [](double angle, const Vector& axis) { return rotation::exponential(angle * axis); };
   // From −π to π, where the series of the exponential is exact.
-  const auto angle = [&](const std::vector<double>& list) { return std::remainder(at(list, k, 0), 2 * 3.14159265358979323846); };
+  const auto angle = [&](const std::vector<double>& list) {
+    return std::remainder(at(list, k, 0), 2 * 3.14159265358979323846);
+  };
   return about(angle(f.psi), {0, 0, 1}) * about(angle(f.theta), {1, 0, 0}) * about(angle(f.phi), {0, 0, 1});
 }
 Vector place_of_node(const FePart& f, std::size_t k) { return {at(f.x, k, 0), at(f.y, k, 0), at(f.z, k, 0)}; }
 
 BeamSection section_of(const FePart& f, std::size_t k) {
   const double yy = at(f.yy, k, 0), zz = at(f.zz, k, 0);
-  return {at(f.area, k, 0), at(f.torsion, k, yy + zz), yy, zz, at(f.yz, k, 0), at(f.shear_y, k, 1.2), at(f.shear_z, k, 1.2)};
+  return {at(f.area, k, 0),      at(f.torsion, k, yy + zz), yy, zz, at(f.yz, k, 0),
+          at(f.shear_y, k, 1.2), at(f.shear_z, k, 1.2)};
 }
 
 // The type as a word; the lexer takes 3D for an angle, so that blanks may have come between.
@@ -191,11 +204,16 @@ bool has_counts(const FePart& f, ElementReader& reader) {
 
 bool has_sections(const FePart& f, ElementReader& reader) {
   const std::string name = reader.label().text();
-  for (const auto& [word, list] : {std::pair{"AREA", &f.area}, {"IXX", &f.torsion}, {"IYY", &f.yy}, {"IZZ", &f.zz},
-                                   {"ASY", &f.shear_y}, {"ASZ", &f.shear_z}}) {
+  for (const auto& [word, list] : {std::pair{"AREA", &f.area},
+                                   {"IXX", &f.torsion},
+                                   {"IYY", &f.yy},
+                                   {"IZZ", &f.zz},
+                                   {"ASY", &f.shear_y},
+                                   {"ASZ", &f.shear_z}}) {
     for (const double v : *list) {
       if (v > 0) continue;
-      reader.error("value-out-of-range", reader.at(word), fmt::format("{} of {} is {:g}, it must be positive", word, name, v));
+      reader.error("value-out-of-range", reader.at(word),
+                   fmt::format("{} of {} is {:g}, it must be positive", word, name, v));
       return false;
     }
   }
@@ -239,7 +257,8 @@ class FePartSet final : public TypedSet<FePart> {
   void read(std::size_t k, ElementReader& reader) override {
     FePart& f = elements[k];
     if (!read_arguments(f, reader)) return;
-    if (!takes_type(f, reader) || !has_counts(f, reader) || !has_sections(f, reader) || !lies_along_its_nodes(f, reader))
+    if (!takes_type(f, reader) || !has_counts(f, reader) || !has_sections(f, reader) ||
+        !lies_along_its_nodes(f, reader))
       return;
     f.material_at = reader.at("MATERIAL");
     const auto made_of = reader.element("MATERIAL", {*f.material, f.material_at});
@@ -386,9 +405,9 @@ void start_beams(const Model& model, const Layout& layout, const Motion& motion,
       return sum;
     };
     const Vector v = along(b.velocity.of_cm, motion.axes(layout.marker(b.velocity.cm_axes)));
-    const Vector w = along(b.velocity.angular, b.velocity.angular_axes.valid()
-                                                   ? motion.axes(layout.marker(b.velocity.angular_axes))
-                                                   : b.drawn.R);
+    const Vector w =
+        along(b.velocity.angular,
+              b.velocity.angular_axes.valid() ? motion.axes(layout.marker(b.velocity.angular_axes)) : b.drawn.R);
     const auto put = [&](std::int32_t at, const Vector& x) {
       for (std::size_t k = 0; k < 3; ++k) start[static_cast<std::size_t>(at) + k] = x[k];
     };

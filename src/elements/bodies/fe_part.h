@@ -1,6 +1,6 @@
-// What others ask of FE_PART statements. Each node is a body of the model with the label of its FE_PART: the first has the
-// place that the statement has among bodies, the others stand behind those of all statements. Mass and inertia of these
-// Bodies are what each node stands for, a scale for those who compare; the beam itself has the inertia.
+// What others ask of FE_PART statements. Each node is a body of the model with the label of its FE_PART: the first has
+// the place that the statement has among bodies, the others stand behind those of all statements. Mass and inertia of
+// these Bodies are what each node stands for, a scale for those who compare; the beam itself has the inertia.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@ namespace dynalin {
 struct BeamBody {
   const ElementLabel* label = nullptr;
   std::vector<BodyId> nodes;
-  std::vector<std::int64_t> numbers;           // of the nodes, as written
+  std::vector<std::int64_t> numbers;                   // of the nodes, as written
   const std::vector<BeamElement>* elements = nullptr;  // between neighbours
-  Pose drawn;                                  // BCS
-  StatedVelocity velocity;                     // of the BCS, the whole moving as if rigid
-  std::size_t first_extra = 0;                 // among coordinates outside poses: slopes of all nodes, then middles
+  Pose drawn;                                          // BCS
+  StatedVelocity velocity;                             // of the BCS, the whole moving as if rigid
+  std::size_t first_extra = 0;  // among coordinates outside poses: slopes of all nodes, then middles
 
   std::size_t slope(std::size_t node) const { return first_extra + 3 * node; }
   std::size_t middle(std::size_t element) const { return first_extra + 3 * (nodes.size() + element); }

@@ -1,4 +1,5 @@
-// MARKER/id, {PART= | POINT_MASS= | FLEX_BODY=, NODE_ID= | FE_PART=, NODE_LABEL=}, QP=, {REULER= | ZP=, XP= [, USEXP]}, FLOATING, RM=
+// MARKER/id, {PART= | POINT_MASS= | FLEX_BODY=, NODE_ID= | FE_PART=, NODE_LABEL=}, QP=, {REULER= | ZP=, XP= [, USEXP]},
+// FLOATING, RM=
 //
 // A point with axes on a body. QP is its origin and REULER (3-1-3) or the points ZP, XP its axes, all in the body
 // coordinate system, or in the frame of marker RM. Without an owner it belongs to the body stated before it. On a
@@ -213,10 +214,9 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
     const std::string name = labels[k].text();
     if (!owner) {
       if (m.node)
-        diagnostics.error(
-            "unknown-node", m.node_at,
-            fmt::format("{} names a node, but {} is no FLEX_BODY and no FE_PART", name,
-                        model.body(m.owner).label.text()));
+        diagnostics.error("unknown-node", m.node_at,
+                          fmt::format("{} names a node, but {} is no FLEX_BODY and no FE_PART", name,
+                                      model.body(m.owner).label.text()));
       return;
     }
     if (m.floating) {

@@ -41,8 +41,9 @@ BeamBodyKernel::BeamBodyKernel(const Model& model, Layout& layout) : gravity_(mo
     }
     for (std::size_t e = 0; e < b.elements->size(); ++e) {
       for (std::size_t i = 0; i < 3; ++i) {
-        coordinates.push_back({fmt::format("Rotation B{} between nodes {} and {}", axes[i], b.numbers[e], b.numbers[e + 1]),
-                               0, 0, largest_middle_step});
+        coordinates.push_back(
+            {fmt::format("Rotation B{} between nodes {} and {}", axes[i], b.numbers[e], b.numbers[e + 1]), 0, 0,
+             largest_middle_step});
       }
     }
     layout.add_extra(*b.label, StateType::fe_part, std::move(coordinates));
@@ -78,9 +79,10 @@ std::string BeamBodyKernel::domain_violation(const Motion& motion) const {
     for (std::size_t e = 0; e < b.elements->size(); ++e) {
       const double turn = BeamElement::largest_turn(b.motion(motion, e));
       if (turn < widest_turn) continue;
-      return fmt::format("nodes {} and {} of {} are turned against each other by {:.4g} degrees: the beam between them "
-                         "needs more nodes",
-                         b.numbers[e], b.numbers[e + 1], b.label->full_text(), turn * 180 / std::numbers::pi);
+      return fmt::format(
+          "nodes {} and {} of {} are turned against each other by {:.4g} degrees: the beam between them "
+          "needs more nodes",
+          b.numbers[e], b.numbers[e + 1], b.label->full_text(), turn * 180 / std::numbers::pi);
     }
   }
   return {};

@@ -1,7 +1,7 @@
 // MATERIAL/id, NAME=, DENSITY=, YOUNGS_MODULUS=, POISSONS_RATIO=
 //
-// An elastic material that is the same in all directions, G = E/(2 (1 + ν)). An FE_PART is made of it; on a rigid part it
-// has no effect, so that what else old datasets state here is passed over unless an FE_PART asks for it.
+// An elastic material that is the same in all directions, G = E/(2 (1 + ν)). An FE_PART is made of it; on a rigid part
+// it has no effect, so that what else old datasets state here is passed over unless an FE_PART asks for it.
 #include "elements/settings/material.h"
 
 #include "model/schema.h"

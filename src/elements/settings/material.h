@@ -8,7 +8,7 @@
 namespace dynalin {
 
 struct MaterialData {
-  double density = 0;                                  // [mass/length³]
+  double density = 0;                                    // [mass/length³]
   std::optional<double> youngs_modulus, poissons_ratio;  // [force/length²]
   Span other;  // the first argument that is not known, none where its source is null
 };

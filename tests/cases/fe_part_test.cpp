@@ -1,0 +1,220 @@
+// Beams of finite elements in motion: spectra of closed form and published, loads at which they buckle, large motions.
+#include <dynalin/study.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cases/fe_parts.h"
+#include "cases/run.h"
+#include "cases/study_of.h"
+
+namespace dynalin::cases {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// Angular frequencies in ascending order, and how many eigenvalues are zero.
+struct Spectrum {
+  std::vector<double> frequencies;
+  std::size_t zeros = 0;
+};
+Spectrum spectrum(const library::LinearModel& linear) {
+  Spectrum s;
+  for (const EigenMode& m : linear.modes(false).modes) {
+    if (m.eigenvalue_hz == std::complex<double>(0)) {
+      ++s.zeros;
+    } else if (m.eigenvalue_hz.imag() > 0) {
+      s.frequencies.push_back(2 * pi * m.eigenvalue_hz.imag());
+    }
+  }
+  std::ranges::sort(s.frequencies);
+  return s;
+}
+Spectrum spectrum(const std::string& dataset) { return spectrum(study_of(dataset).linearize()); }
+
+library::OperatingPoint equilibrium(const std::string& dataset) { return study_of(dataset).static_equilibrium(); }
+
+}  // namespace
+
+// h/L = 0.1, E/G = 2.6, shear factor 5/6: numbers of an independent program of the same element; each doubling divides
+// what is left of the first three by 16 in the end. Bending has each value twice, in two planes.
+TEST(FePart, clamped_frequencies_converge_by_the_fourth_power_to_timoshenko) {
+  struct Row {
+    int n;
+    double first, second, third;
+  };
+  std::vector<std::array<double, 3>> found;
+  for (const Row& row : {Row{1, 3.50464996, 31.496, 0},
+                         {2, 3.49000783, 21.07447, 64.870},
+                         {4, 3.48846671, 20.928917, 55.34094},
+                         {8, 3.48836207, 20.908418, 55.01557}}) {
+    const std::vector<double> all =
+        spectrum(clamped_beam({.elements = row.n, .height = 0.1, .width = 0.1})).frequencies;
+    std::vector<double> bending;
+    for (std::size_t k = 0; k + 1 < all.size(); ++k) {
+      if (std::abs(all[k + 1] - all[k]) < 1e-7 * all[k]) bending.push_back(all[k]);
+    }
+    EXPECT_NEAR(bending[0], row.first, 1e-8);
+    EXPECT_NEAR(bending[1], row.second, row.n == 1 ? 1e-3 : 1e-5);
+    if (row.n > 1) {
+      EXPECT_NEAR(bending[2], row.third, row.n == 2 ? 1e-3 : 1e-5);
+    }
+    found.push_back({bending[0], bending[1], bending[2]});
+  }
+  EXPECT_NEAR((found[1][0] - found[2][0]) / (found[2][0] - found[3][0]), 16, 2);
+}
+
+TEST(FePart, free_in_space_it_has_twelve_zeros_and_the_frequencies_of_euler) {
+  const Spectrum s = spectrum(beam_model(StraightBeam{.elements = 6, .height = 2e-3, .width = 1e-3}.text()));
+  EXPECT_EQ(s.zeros, 12u);
+  // EI about z is 1, about y a quarter of it.
+  EXPECT_NEAR(s.frequencies[0], 0.5 * 4.73004074 * 4.73004074, 3e-4 * 11);
+  EXPECT_NEAR(s.frequencies[1], 4.73004074 * 4.73004074, 3e-4 * 22);
+}
+
+TEST(FePart, spectra_do_not_know_where_the_model_stands_or_in_which_units) {
+  const auto beam = [](const std::string& place, const std::string& moment) {
+    StraightBeam b{.elements = 4, .height = 0.04, .width = 0.03};
+    b.further = place;
+    return beam_model(b.text() + "MARKER/3, PART=1" + (place.empty() ? "" : ", QP=3,-2,5, REULER=40D,70D,-25D") +
+                      "\nJOINT/1, FIXED, I=21, J=3\nVTORQUE/1, I=22, JFLOAT=2, RM=3" + moment + "\n");
+  };
+  const auto bent = [&](const std::string& place) {
+    const auto study = study_of(beam(place, ", TX=0.2, TY=0.3, TZ=2"));
+    return spectrum(study.linearize(study.static_equilibrium())).frequencies;
+  };
+  const std::vector<double> here = bent(""), there = bent(", QG=3,-2,5, REULER=40D,70D,-25D");
+  ASSERT_EQ(here.size(), there.size());
+  for (std::size_t k = 0; k < 8; ++k) EXPECT_NEAR(here[k], there[k], 1e-7 * here[k]) << k;
+
+  const StraightBeam steel{.elements = 3, .height = 0.02, .width = 0.03, .E = 2.1e11, .density = 7800};
+  StraightBeam in_millimetres = steel;
+  in_millimetres.length *= 1e3, in_millimetres.height *= 1e3, in_millimetres.width *= 1e3;
+  in_millimetres.E *= 1e-6, in_millimetres.density *= 1e-9;
+  std::string mm = clamped_beam(in_millimetres);
+  mm.replace(mm.find("UNITS/SYSTEM=MKS"), 16, "UNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH=MILLIMETER, TIME=SECOND");
+  const auto m = spectrum(clamped_beam(steel)).frequencies, millimetres = spectrum(mm).frequencies;
+  for (std::size_t k = 0; k < 8; ++k) EXPECT_NEAR(m[k], millimetres[k], 1e-8 * m[k]) << k;
+}
+
+// π² EI/(4 L²), a load that keeps its direction.
+TEST(FePart, a_column_buckles_under_eulers_load) {
+  const auto lowest = [](double part) {
+    const auto study =
+        study_of(clamped_beam({.elements = 4, .height = 1e-3, .width = 2e-3},
+                              fmt::format("VFORCE/1, I=22, JFLOAT=2, RM=1, FX={:.17g}\n", -part * pi * pi / 4)));
+    const auto point = study.static_equilibrium();
+    double least = 1e300;
+    for (const EigenMode& m : study.linearize(point).modes(false).modes) {
+      const std::complex<double> square = m.eigenvalue_hz * m.eigenvalue_hz;
+      least = std::min(least, -square.real());
+    }
+    return least;
+  };
+  EXPECT_GT(lowest(0.999), 0);
+  EXPECT_NEAR(lowest(0.5) / lowest(0.0), 0.5, 0.02);
+}
+
+TEST(FePart, deflects_like_a_chain_of_beams_where_that_is_little) {
+  const double P = 1e-5;
+  const auto here = equilibrium(
+      clamped_beam({.elements = 2, .height = 0.05, .width = 0.05, .further = ", IXX=1.04166666666667E-6"},
+                   fmt::format("GFORCE/1, I=22, JFLOAT=2, RM=1, FX=0\\FY={0}\\FZ={0}\\TX={0}\\TY=0\\TZ={0}\n", P)));
+  const double I = std::pow(0.05, 4) / 12;
+  std::string chain;
+  for (int k = 1; k <= 2; ++k) {
+    chain += fmt::format(
+        "PART/{0}, MASS=1, CM={1}, IP=1,1,1, QG={2},0,0\nMARKER/{1}\nBEAM/{3}, I={1}, J={4}, LENGTH=0.5, AREA=0.0025, "
+        "IXX=1.04166666666667E-6, IYY={5:.17g}, IZZ={5:.17g}, ASY=1.2, ASZ=1.2, EMODULUS={6:.17g}, GMODULUS={7:.17g}\n",
+        k + 1, 10 + k, 0.5 * k, k, k == 1 ? 1 : 11, I, 1 / I, 1 / I / 2.6);
+  }
+  const auto there = equilibrium(beam_model(
+      chain + fmt::format("GFORCE/1, I=12, JFLOAT=2, RM=1, FX=0\\FY={0}\\FZ={0}\\TX={0}\\TY=0\\TZ={0}\n", P)));
+  for (std::size_t k = 1; k < 3; ++k) {
+    EXPECT_NEAR(here.marker(22).position[k], there.marker(12).position[k], 1e-4 * P);
+    EXPECT_NEAR(here.marker(22).axes[0][k], there.marker(12).axes[0][k], 1e-4 * P);
+  }
+  EXPECT_NEAR(here.marker(22).axes[1][2], there.marker(12).axes[1][2], 1e-4 * P);
+}
+
+TEST(FePart, damping_by_stiffness_grows_with_the_frequency) {
+  const StraightBeam beam{.elements = 2, .height = 0.1, .width = 0.1, .further = ", CRATIO=0.002"};
+  const std::vector<double> undamped = spectrum(clamped_beam({.elements = 2, .height = 0.1, .width = 0.1})).frequencies;
+  const auto linear = study_of(clamped_beam(beam)).linearize();
+  std::vector<double> real;
+  for (const EigenMode& m : linear.modes(false).modes) {
+    if (!m.is_real) real.push_back(-2 * pi * m.eigenvalue_hz.real());
+  }
+  std::ranges::sort(real);
+  EXPECT_NEAR(real[0], 0.001 * undamped[0] * undamped[0], 1e-7);
+  LinearRequest request;
+  request.without_damping = true;
+  EXPECT_NEAR(spectrum(study_of(clamped_beam(beam)).linearize(request)).frequencies[0], undamped[0], 1e-8);
+}
+
+// A stiff beam on a hinge swings like the rod that it is.
+TEST(FePart, swings_like_a_rigid_rod) {
+  const std::string hinge = "ACCGRAV/JGRAV=-9.81\nMARKER/3, PART=1\nJOINT/1, REVOLUTE, I=21, J=3\n";
+  const StraightBeam beam{.elements = 2, .height = 0.05, .width = 0.05, .E = 2e9, .density = 2000, .further = ", WZ=2"};
+  const double m = 2000 * 0.0025, J = m / 12 * (1 + 0.0025), Jx = m / 6 * 0.0025;
+  const std::string rod = fmt::format(
+      "PART/2, MASS={:.17g}, CM=20, IP={:.17g},{:.17g},{:.17g}, WZ=2, VY=1\nMARKER/20, QP=0.5,0,0\n"
+      "MARKER/21\nMARKER/22, QP=1,0,0\n",
+      m, Jx, J, J);
+  const auto end = [&](const std::string& body) {
+    return study_of(beam_model(body + hinge)).simulate({.end = 0.7, .error = 1e-6}).point.marker(22).position;
+  };
+  const Triple a = end(beam.text()), b = end(rod);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], 2e-3) << k;
+}
+
+// λ = Ω √(ρA L⁴/EI) = 6: 7.36037302 and 26.80908169 of flapping (Wright, Smith, Thresher, Wang 1982). The spin
+// stretches the beam in a damped run.
+TEST(FePart, a_rotating_beam_flaps_as_fast_as_published) {
+  const StraightBeam beam{.elements = 6, .height = 0.02, .width = 0.02, .further = ", WZ=6, CRATIO=0.002"};
+  const auto study = study_of(
+      beam_model(beam.text() + "JOINT/1, REVOLUTE, I=21, J=1\nMOTION/1, JOINT=1, ROTATION, FUNCTION=6*TIME\n"));
+  const auto start = study.initial_conditions();
+  EXPECT_NEAR(start.marker(22).velocity[1], 6, 1e-12);
+  const auto point = study.simulate(start, {.end = 0.15, .error = 1e-5}).point;
+  LinearRequest request;
+  request.without_damping = true;
+  const std::vector<double> all = spectrum(study.linearize(point, request)).frequencies;
+  for (const double flap : {7.36037302, 26.80908169}) {
+    double nearest = 1e300;
+    for (const double x : all) nearest = std::abs(x - flap) < std::abs(nearest - flap) ? x : nearest;
+    EXPECT_NEAR(nearest, flap, 4e-3 * flap);
+  }
+}
+
+class FePartFiles : public Cases {};
+
+TEST_F(FePartFiles, states_have_code_27_and_energies_a_row) {
+  const RunResult r = run(clamped_beam({.elements = 1, .height = 0.1, .width = 0.1}),
+                          "LINEAR/EIGENSOL, KINETIC=1, STRAIN=1, COORDS=1\nLINEAR/STATEMAT, RM=1, FILE=m\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto labels = r.labels(1);
+  ASSERT_EQ(labels.size(), 30u);  // 21 coordinates less six
+  EXPECT_EQ(labels[0], "derivative of Global rotation AX(node 2) FE_PART/2");
+  EXPECT_EQ(labels[1], "Global rotation AX(node 2) FE_PART/2");
+  const std::string states = r.text("m");
+  EXPECT_NE(states.find("STATES"), std::string::npos);
+  const std::string tables = r.text("model.txt");
+  EXPECT_NE(tables.find("FE_PART/2,2"), std::string::npos) << tables;
+  EXPECT_NE(tables.find("FE_P/2       | 100.00"), std::string::npos) << tables;
+}
+
+TEST_F(FePartFiles, results_files_and_faults_name_its_nodes) {
+  const StraightBeam beam{.elements = 1, .height = 0.1, .width = 0.1};
+  const RunResult r = run(clamped_beam(beam, "RESULTS/XRF\n"), "SIMULATE/DYNAMIC, END=0.01, STEPS=1\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_NE(r.text("model.res").find("node 2"), std::string::npos);
+  const RunResult marker = run(clamped_beam(beam, "MARKER/9, FE_PART=2, NODE_LABEL=7\n"), "LINEAR/EIG\n");
+  EXPECT_EQ(marker.status, 1);
+  EXPECT_NE(marker.err.find("FE_PART/2 has no node 7"), std::string::npos) << marker.err;
+  const RunResult box = run(clamped_beam(beam), "LINEAR/EXPORT, FILE=x, TYPE=OPENBOX\n");
+  EXPECT_NE(box.err.find("FE_PART/2 is a beam of finite elements"), std::string::npos) << box.err;
+}
+
+}  // namespace dynalin::cases
