@@ -1,5 +1,5 @@
-// A steel shaft 2 long and 0.1 thick at 100 rad/s, of n BEAMs: ten discs on it; bearings at both ends, one of which holds
-// it along, and a soft drive that holds its angle. Twelve states a part.
+// A steel shaft 2 long and 0.1 thick at 100 rad/s, of n BEAMs: ten discs on it; bearings at both ends, one of which
+// holds it along, and a soft drive that holds its angle. Twelve states a part.
 #pragma once
 
 #include <fmt/format.h>

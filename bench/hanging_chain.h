@@ -1,5 +1,5 @@
-// n rods on hinges, hanging under gravity: two states a rod. Without damping, 1 long and of mass 1; or with a rotational
-// spring and damper in every hinge, 10 long and of mass 10 (k = EI/l, EI = 1, c = 1e-3 s · k).
+// n rods on hinges, hanging under gravity: two states a rod. Without damping, 1 long and of mass 1; or with a
+// rotational spring and damper in every hinge, 10 long and of mass 10 (k = EI/l, EI = 1, c = 1e-3 s · k).
 #pragma once
 
 #include <fmt/format.h>

@@ -63,8 +63,7 @@ void name_movers(const System& system, const OperatingPoint& op, const LinearSys
     if (linear.model.states[static_cast<std::size_t>(k)].is_rate) rates.push_back(k);
   }
   for (std::size_t m = 0; m < solution.modes.size(); ++m) {
-    const Eigen::VectorXcd z = solution.vectors.col(static_cast<Eigen::Index>(m)),
-                           dq = linear.displacements(z).col(0);
+    const Eigen::VectorXcd z = solution.vectors.col(static_cast<Eigen::Index>(m)), dq = linear.displacements(z).col(0);
     EigenMode& mode = solution.modes[m];
     const bool at_rest = mode.eigenvalue_hz == std::complex<double>(0);
     Eigen::VectorXcd of_rates = Eigen::VectorXcd::Zero(states);

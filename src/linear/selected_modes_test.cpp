@@ -146,8 +146,8 @@ TEST(SelectedModes, come_with_the_structural_zeros_of_a_free_row_of_bodies) {
   EXPECT_TRUE(s.solution.selected->complete);
 }
 
-// A turning shaft of BEAMs in damped bearings: nothing is symmetric and everything is damped or turns. Values are those of
-// the full solution, in a band and around a frequency, and every one of them.
+// A turning shaft of BEAMs in damped bearings: nothing is symmetric and everything is damped or turns. Values are those
+// of the full solution, in a band and around a frequency, and every one of them.
 TEST(SelectedModes, of_a_turning_damped_shaft_are_those_of_the_full_solution) {
   constexpr int n = 30;
   constexpr double spin = 100, d = 0.1, length = 2, h = length / n, pi = std::numbers::pi;
@@ -155,21 +155,25 @@ TEST(SelectedModes, of_a_turning_damped_shaft_are_those_of_the_full_solution) {
   std::string text;
   for (int k = 0; k <= n; ++k) {
     const double m = 7810 * area * h + (k % 10 == 5 ? 20 : 0);
-    text += fmt::format("PART/{0}, MASS={1:.17g}, CM={0}, IP={2:.17g},{3:.17g},{3:.17g}, QG={4:.17g},0,0, WX={5}\n"
-                        "MARKER/{0}\n",
-                        k + 2, m, 0.02 * m, 0.01 * m, h * k, spin);
+    text += fmt::format(
+        "PART/{0}, MASS={1:.17g}, CM={0}, IP={2:.17g},{3:.17g},{3:.17g}, QG={4:.17g},0,0, WX={5}\n"
+        "MARKER/{0}\n",
+        k + 2, m, 0.02 * m, 0.01 * m, h * k, spin);
     if (k > 0) {
-      text += fmt::format("BEAM/{0}, I={1}, J={2}, LENGTH={3:.17g}, AREA={4:.17g}, IXX={5:.17g}, IYY={6:.17g}, "
-                          "IZZ={6:.17g}, EMODULUS=211E9, GMODULUS=81.2E9, CRATIO=1E-5\n",
-                          k, k + 2, k + 1, h, area, 2 * I, I);
+      text += fmt::format(
+          "BEAM/{0}, I={1}, J={2}, LENGTH={3:.17g}, AREA={4:.17g}, IXX={5:.17g}, IYY={6:.17g}, "
+          "IZZ={6:.17g}, EMODULUS=211E9, GMODULUS=81.2E9, CRATIO=1E-5\n",
+          k, k + 2, k + 1, h, area, 2 * I, I);
     }
   }
   for (const int k : {0, n}) {
-    text += fmt::format("MARKER/{0}, PART=1, QP={1:.17g},0,0\nMARKER/{2}, PART={3}\n"
-                        "BUSHING/{0}, I={2}, J={0}, K=1E6,1E8,2E8, C=0,1E4,2E4, KT=1E6,0,0\n",
-                        1000 + k, h * k, 2000 + k, k + 2);
+    text += fmt::format(
+        "MARKER/{0}, PART=1, QP={1:.17g},0,0\nMARKER/{2}, PART={3}\n"
+        "BUSHING/{0}, I={2}, J={0}, K=1E6,1E8,2E8, C=0,1E4,2E4, KT=1E6,0,0\n",
+        1000 + k, h * k, 2000 + k, k + 2);
   }
-  const Selected band = selected_of_text(text, ModesInBand{20, 200}), near = selected_of_text(text, NearestModes{5, 90});
+  const Selected band = selected_of_text(text, ModesInBand{20, 200}),
+                 near = selected_of_text(text, NearestModes{5, 90});
   const auto linear = reduce(*band.system, band.perturbation);
   ASSERT_TRUE(linear);
   ASSERT_EQ(linear->A.rows(), 12 * (n + 1));

@@ -128,8 +128,7 @@ LeftResiduals left_residuals(const PerturbationEquations& equations, const Subsp
   const ComplexMatrix onto = of.B.adjoint();
   for_few_columns(p, [&](Index first, Index count) {
     const ComplexMatrix Y = of.Y.middleCols(first, count);
-    const ComplexMatrix y =
-        with_algebraic(by_parts(Y, [&](const Matrix& m) { return equations.complete_left(m); }), Y);
+    const ComplexMatrix y = with_algebraic(by_parts(Y, [&](const Matrix& m) { return equations.complete_left(m); }), Y);
     const ComplexMatrix value = residuals(equations.products(), y, of.Y, onto.middleCols(first, count)).value;
     const ComplexMatrix L_a = by_parts(ComplexMatrix(value.topRows(algebraic)),
                                        [&](const Matrix& m) { return equations.solve_transposed(m); });

@@ -40,9 +40,8 @@ struct SymmetricFactors::Inertia {
     control(13) = 1;                                  // all pivots are counted
     control(14) = 60;                                 // room for delayed pivots, percent
     id.cntl[0] = 0.1;                                 // pivot threshold
-    for_each_entry(lower, [&](std::int32_t r, std::int32_t c, double) {
-      row.push_back(r + 1), column.push_back(c + 1);
-    });
+    for_each_entry(lower,
+                   [&](std::int32_t r, std::int32_t c, double) { row.push_back(r + 1), column.push_back(c + 1); });
     const auto order = nested_dissection(both);
     constexpr int as_given = 1, automatic = 7;
     control(7) = order ? as_given : automatic;
@@ -90,8 +89,8 @@ struct SymmetricFactors::Inertia {
 
 struct SymmetricFactors::Solving {
   KluFactors klu;
-  ColumnMatrix matrix;                                           // both triangles
-  std::vector<std::pair<std::int32_t, std::int32_t>> place;      // of each entry of the lower one
+  ColumnMatrix matrix;                                       // both triangles
+  std::vector<std::pair<std::int32_t, std::int32_t>> place;  // of each entry of the lower one
   bool serves = false;
 
   Solving(const ColumnMatrix& lower, ColumnMatrix both) : matrix(std::move(both)) {
