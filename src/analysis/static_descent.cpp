@@ -246,25 +246,15 @@ std::optional<Eigen::VectorXd> Descent::solve(double hold) {
   return Eigen::VectorXd(step.col(0));
 }
 
-// Where a part may turn or slide freely a matrix that is all but singular makes any step of the rounding of residuals:
-// the part stays where it is unless something pushes it along.
-void Descent::keep_what_nothing_moves(Eigen::VectorXd& step) {
-  constexpr double visible = 1e-9;  // of an unknown's size
-  const AugmentedSystem& augmented = equations_.augmented();
-  const Eigen::VectorXd& rounding = equations_.rounding();
-  Eigen::MatrixXd noise_step = rounding;
-  for (Eigen::Index k = 1; k < noise_step.rows(); k += 2) noise_step(k, 0) = -noise_step(k, 0);
-  lu_.solve(noise_step);
-  bool indifferent = false;
-  for (std::int32_t k = 0; k < augmented.lambda(0) && !indifferent; ++k) {
-    const double size = visible * system_.coordinate_scale(k);
-    indifferent = std::abs(noise_step(k, 0)) > size && std::abs(step(k)) > size;
-  }
-  if (!indifferent) return;
-  Eigen::VectorXd way = undetermined_part(equations_, step);
-  way.segment(augmented.lambda(0), augmented.state(0) - augmented.lambda(0)).setZero();
-  const double unseen = rounding.dot(way.cwiseAbs());
-  if (way.allFinite() && std::abs(equations_.residual().dot(way)) <= noise * unseen) step -= way;
+// Which coordinates rounding of the residuals moves as far as one sees, by the factors of the last `solve`.
+std::vector<bool> Descent::blown_about() const {
+  Eigen::MatrixXd step = equations_.rounding();
+  for (Eigen::Index k = 1; k < step.rows(); k += 2) step(k, 0) = -step(k, 0);
+  lu_.solve(step);
+  std::vector<bool> blown(static_cast<std::size_t>(step.rows()), false);
+  for (std::int32_t k = 0; k < equations_.augmented().lambda(0); ++k)
+    blown[static_cast<std::size_t>(k)] = std::abs(step(k, 0)) > visible_move * system_.coordinate_scale(k);
+  return blown;
 }
 
 // Where it goes downhill, so that it does not climb to an unstable equilibrium; close to the solution rounding
@@ -273,7 +263,7 @@ bool Descent::newton(OperatingPoint& op, double level) {
   if (transient_ && level >= 1e-3) return false;
   transient_ = true;
   auto step = solve(0);
-  if (step) keep_what_nothing_moves(*step);
+  if (step) keep_what_nothing_moves(equations_, blown_about(), *step);
   if (!step || (level >= 1e-6 && equations_.slope(*step) >= 0)) return false;
   for (const double fraction : {1.0, 0.5, 0.25}) {
     double taken = 0;

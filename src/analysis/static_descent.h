@@ -34,7 +34,7 @@ class Descent {
 
  private:
   std::optional<Eigen::VectorXd> solve(double hold);
-  void keep_what_nothing_moves(Eigen::VectorXd& step);
+  std::vector<bool> blown_about() const;
   bool newton(OperatingPoint& op, double level);
   bool implicit(OperatingPoint& op);
   bool finish(OperatingPoint& op);

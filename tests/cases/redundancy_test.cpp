@@ -81,7 +81,7 @@ TEST_F(Redundancy, stated_velocities_that_contradict_a_joint_are_changed_with_a_
 TEST_F(WrongInput, every_problem_is_reported_at_its_place_and_nothing_is_written) {
   write("model.adm",
         "bad\nUNITS/SYSTEM=MKX\nPART/1, GROUND\nPART/2, MASS=1\nMARKER/3, PART=7\nJOINT/1, REVOLUTE, I=3, J=99\n"
-        "VARIABLE/1, FUNCTION=SINN(2)\nSFORCE/1, TRANS, I=3, J=4\nGSE/1\nPART/2, MASS=2\nEND\n");
+        "VARIABLE/1, FUNCTION=SINN(2)\nSFORCE/1, TRANS, I=3, J=4\nUCON/1\nPART/2, MASS=2\nEND\n");
   write("model.acf",
         "model\nmodel\nLINEAR/EIGENSOL, STATEMAT, COORDS=0\nLINEAR/EXPORT, FILE=x, TYPE=OPENBOX, NOVECTOR\n");
   const RunResult r = run_file("model.acf");
