@@ -176,6 +176,14 @@ class Solution {
 
   // The modes in region_ and how many there ought to be; the search goes on where they differ.
   bool count() {
+    if (right_->everything()) {
+      // As many as there are states: factors have nothing to add.
+      counted_region_ = countable_region(0);
+      selected_.by = CountedBy::full_solution;
+      selected_.found = selected_.counted = static_cast<std::size_t>(count_in(region_));
+      missing_ = 0;
+      return selected_.complete = true;
+    }
     bool agreed = false;
     if (!by_inertia_ && conservative_) by_inertia_ = std::make_unique<InertiaCount>(conservative_);
     std::optional<Index> counted = by_inertia_ ? counted_by_inertia() : std::nullopt;
