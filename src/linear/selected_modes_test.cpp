@@ -146,6 +146,16 @@ TEST(SelectedModes, come_with_the_structural_zeros_of_a_free_row_of_bodies) {
   EXPECT_TRUE(s.solution.selected->complete);
 }
 
+// All eigenvalues that there are: as many as states, which nothing has to count.
+TEST(SelectedModes, that_are_everything_are_complete_without_a_count) {
+  const Selected s = selected_of_text(lattice(1, 1, 2), NearestModes{20, 0});
+  EXPECT_EQ(s.solution.modes.size(), 6u);
+  EXPECT_TRUE(s.solution.selected->complete);
+  EXPECT_EQ(s.solution.selected->by, CountedBy::full_solution);
+  EXPECT_EQ(s.solution.selected->found, 12u);
+  EXPECT_EQ(s.solution.selected->counted, 12u);
+}
+
 // A turning shaft of BEAMs in damped bearings: nothing is symmetric and everything is damped or turns. Values are those
 // of the full solution, in a band and around a frequency, and every one of them.
 TEST(SelectedModes, of_a_turning_damped_shaft_are_those_of_the_full_solution) {
