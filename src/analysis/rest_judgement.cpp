@@ -152,20 +152,6 @@ Eigen::VectorXd undetermined_part(StaticEquations& equations, Eigen::VectorXd mo
   return x.allFinite() ? Eigen::VectorXd(move - x.col(0)) : move;
 }
 
-void keep_what_nothing_moves(StaticEquations& equations, const std::vector<bool>& indifferent, Eigen::VectorXd& step) {
-  const AugmentedSystem& augmented = equations.augmented();
-  bool moves = false;
-  for (std::int32_t k = 0; k < augmented.lambda(0) && !moves; ++k) {
-    moves = indifferent[static_cast<std::size_t>(k)] &&
-            std::abs(step(k)) > visible_move * equations.system().coordinate_scale(k);
-  }
-  if (!moves) return;
-  Eigen::VectorXd way = undetermined_part(equations, step);
-  way.segment(augmented.lambda(0), augmented.state(0) - augmented.lambda(0)).setZero();
-  const double unseen = equations.rounding().dot(way.cwiseAbs());
-  if (way.allFinite() && std::abs(equations.residual().dot(way)) <= roundings * unseen) step -= way;
-}
-
 std::optional<RestJudgement> judge(StaticEquations& equations, const OperatingPoint& op) {
   const Eigen::VectorXd& residual = equations.residual();
   const Eigen::VectorXd& rounding = equations.rounding();
@@ -192,17 +178,13 @@ std::optional<RestJudgement> judge(StaticEquations& equations, const OperatingPo
   tangent.solve(x);
   if (!x.allFinite()) return std::nullopt;
   j.step = x.col(0);
-  const Eigen::VectorXd answer = tangent.answer(),
-                        by_rounding = x.rightCols(samples.cols()).cwiseAbs().rowwise().maxCoeff();
+  const Eigen::VectorXd answer = tangent.answer();
   for (Eigen::Index k = 0; k < residual.size(); ++k) {
-    j.indifferent[static_cast<std::size_t>(k)] =
-        row_counts(equations, k) && (by_rounding(k) > indifference * j.size(k) || !(answer(k) < softest));
-  }
-  keep_what_nothing_moves(equations, j.indifferent, j.step);
-  for (Eigen::Index k = 0; k < residual.size(); ++k) {
+    const double by_rounding = x.row(k).tail(samples.cols()).cwiseAbs().maxCoeff();
+    const bool noise = std::abs(j.step(k)) <= explained * by_rounding;
     if (!row_counts(equations, k)) continue;
-    const bool noise = std::abs(j.step(k)) <= explained * by_rounding(k);
-    if (noise && by_rounding(k) > small_step * j.size(k)) j.step(k) = 0;
+    j.indifferent[static_cast<std::size_t>(k)] = by_rounding > indifference * j.size(k) || !(answer(k) < softest);
+    if (noise && by_rounding > small_step * j.size(k)) j.step(k) = 0;
     if (noise) continue;
     const double relative = std::abs(j.step(k)) / j.size(k);
     j.determined = j.determined && relative <= small_step;

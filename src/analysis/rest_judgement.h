@@ -30,11 +30,6 @@ std::vector<bool> free_unknowns(StaticEquations&, const OperatingPoint&);
 // is indifferent moved may be determined all the same, together with others.
 Eigen::VectorXd undetermined_part(StaticEquations&, Eigen::VectorXd move);
 
-// Where a part may turn or slide freely, a matrix that is all but singular makes any step of rounding: takes out of it
-// what nothing determines of unknowns that are indifferent, unless something pushes them along.
-void keep_what_nothing_moves(StaticEquations&, const std::vector<bool>& indifferent, Eigen::VectorXd& step);
-constexpr double visible_move = 1e-9;  // of the size of an unknown: less of a step is left as it is
-
 // Every equation balances but for rounding: nothing can be said against the point.
 bool balanced_to_rounding(const StaticEquations&);
 

@@ -246,24 +246,12 @@ std::optional<Eigen::VectorXd> Descent::solve(double hold) {
   return Eigen::VectorXd(step.col(0));
 }
 
-// Which coordinates rounding of the residuals moves as far as one sees, by the factors of the last `solve`.
-std::vector<bool> Descent::blown_about() const {
-  Eigen::MatrixXd step = equations_.rounding();
-  for (Eigen::Index k = 1; k < step.rows(); k += 2) step(k, 0) = -step(k, 0);
-  lu_.solve(step);
-  std::vector<bool> blown(static_cast<std::size_t>(step.rows()), false);
-  for (std::int32_t k = 0; k < equations_.augmented().lambda(0); ++k)
-    blown[static_cast<std::size_t>(k)] = std::abs(step(k, 0)) > visible_move * system_.coordinate_scale(k);
-  return blown;
-}
-
 // Where it goes downhill, so that it does not climb to an unstable equilibrium; close to the solution rounding
 // decides and the step is taken as it is.
 bool Descent::newton(OperatingPoint& op, double level) {
   if (transient_ && level >= 1e-3) return false;
   transient_ = true;
-  auto step = solve(0);
-  if (step) keep_what_nothing_moves(equations_, blown_about(), *step);
+  const auto step = solve(0);
   if (!step || (level >= 1e-6 && equations_.slope(*step) >= 0)) return false;
   for (const double fraction : {1.0, 0.5, 0.25}) {
     double taken = 0;

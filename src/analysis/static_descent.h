@@ -34,7 +34,6 @@ class Descent {
 
  private:
   std::optional<Eigen::VectorXd> solve(double hold);
-  std::vector<bool> blown_about() const;
   bool newton(OperatingPoint& op, double level);
   bool implicit(OperatingPoint& op);
   bool finish(OperatingPoint& op);

@@ -144,13 +144,20 @@ TEST_F(FlexBody, stiff_modes_make_a_part) {
   for (const FlexibleNode& p : body.nodes) {
     mass += p.mass, inertia += p.mass * (p.at.x - 0.3) * (p.at.x - 0.3), own += p.own.x;
   }
-  const std::string rest = "JOINT/1, SPHERICAL, I=21, J=1\nSPRINGDAMPER/1, ROT, I=21, J=1, KT=2, CT=0.1\nEND\n";
-  const std::string head = "Pendulum\nUNITS/SYSTEM=MKS\nACCGRAV/IGRAV=9.81\nPART/1, GROUND\nMARKER/1\n";
-  const RunResult flexible = run(head + "FLEX_BODY/2, MNF_FILE=beam.fem, CRATIO=0\nMARKER/21, NODE_ID=1\n" + rest,
-                                 "SIM/STATIC\nLINEAR/EIGENSOL\nSTOP\n");
+  // Held about its own axis as well: a centre that modes move off it by 1e-17 would turn it by any angle else.
+  const std::string rest =
+      "JOINT/1, SPHERICAL, I=21, J=1\nSPRINGDAMPER/1, ROT, I=21, J=1, KT=2, CT=0.1\n"
+      "SPRINGDAMPER/2, ROT, I=22, J=2, KT=3\nEND\n";
+  const std::string head =
+      "Pendulum\nUNITS/SYSTEM=MKS\nACCGRAV/IGRAV=9.81\nPART/1, GROUND\nMARKER/1\nMARKER/2, REULER=90D,90D,0\n";
+  const RunResult flexible = run(
+      head +
+          "FLEX_BODY/2, MNF_FILE=beam.fem, CRATIO=0\nMARKER/21, NODE_ID=1\nMARKER/22, NODE_ID=1, REULER=90D,90D,0\n" +
+          rest,
+      "SIM/STATIC\nLINEAR/EIGENSOL\nSTOP\n");
   const RunResult rigid = run(head +
                                   fmt::format("PART/2, MASS={:.17g}, CM=20, IP={:.17g},{:.17g},{:.17g}\nMARKER/20, "
-                                              "QP=0.3,0,0\nMARKER/21\n",
+                                              "QP=0.3,0,0\nMARKER/21\nMARKER/22, REULER=90D,90D,0\n",
                                               mass, own, inertia + 0.6 * own, inertia + 0.7 * own) +
                                   rest,
                               "SIM/STATIC\nLINEAR/EIGENSOL\nSTOP\n");
