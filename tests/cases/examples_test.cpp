@@ -1,19 +1,15 @@
 // Everything that is shipped, through the program, the library and decks of its models.
 #include "cases/decks.h"
-#include "places/source_tree.h"
+#include "places/examples.h"
 
 namespace dynalin::cases {
 namespace {
 
 using Examples = ProgramLibraryAndDecks;
 
-// Every command file under examples. What a folder has to `prepare` first has a test of its own (tests/scripts).
+// Every command file under examples.
 TEST_F(Examples, run_through_program_library_and_decks) {
-  std::vector<std::filesystem::path> found;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(examples_folder())) {
-    const auto prepare = entry.path().parent_path() / "prepare";
-    if (entry.path().extension() == ".acf" && !std::filesystem::exists(prepare)) found.push_back(entry.path());
-  }
+  const std::vector<std::filesystem::path> found = files_of_examples(examples_folder(), ".acf");
   EXPECT_GE(found.size(), 6u);
   for (const std::filesystem::path& file : found) {
     SCOPED_TRACE(file);

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "cases/run.h"
-#include "places/source_tree.h"
+#include "places/examples.h"
 
 namespace dynalin::cases {
 namespace {
@@ -149,10 +149,9 @@ TEST_F(OutputPlaces, of_examples_leave_nothing_that_git_would_add) {
   fs::current_path(copy);
   if (std::system("git init -q . 2>/dev/null && git add -A") != 0) GTEST_SKIP() << "git is not here";
   std::size_t runs = 0;
-  for (const auto& entry : fs::recursive_directory_iterator("examples")) {
-    if (entry.path().extension() != ".acf" || fs::exists(entry.path().parent_path() / "prepare")) continue;
+  for (const fs::path& file : files_of_examples("examples", ".acf")) {
     SessionOptions options;
-    options.file = entry.path().string();
+    options.file = file.string();
     const Ran r = ran(options);
     EXPECT_EQ(r.status, 0) << options.file << r.err;
     ++runs;

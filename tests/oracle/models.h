@@ -10,7 +10,7 @@
 
 #include "elements/catalogue.h"
 #include "oracle/mechanism.h"
-#include "places/source_tree.h"
+#include "places/examples.h"
 #include "system/system.h"
 
 namespace dynalin::oracle {
@@ -36,9 +36,7 @@ inline std::string contents_of(const std::filesystem::path& file) {
 // Every dataset of the examples and every one in the fences of a page.
 inline std::vector<NamedModel> shipped_models() {
   std::vector<NamedModel> models;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(examples_folder())) {
-    if (entry.path().extension() == ".adm") models.push_back({entry.path(), contents_of(entry.path())});
-  }
+  for (const auto& file : files_of_examples(examples_folder(), ".adm")) models.push_back({file, contents_of(file)});
   const std::string fence = "```", opening = "\n```adm\n";
   for (const auto& entry : std::filesystem::directory_iterator(element_pages())) {
     const std::string page = contents_of(entry.path());
