@@ -39,7 +39,7 @@ Atom atom_without_ids(std::string_view name) {
 // Components of a force follow each other, and each asks for all values again: the last call is remembered.
 struct CompiledRoutine::Memory {
   std::uint64_t serial = 0;
-  bool has_partials = false;
+  bool has_partials = false, differenced = false;
   std::vector<double> inputs, values, partials;  // partials: [value * inputs + input]
   std::vector<char> given;
 };
@@ -235,6 +235,7 @@ const CompiledRoutine::Memory& CompiledRoutine::remembered(const RoutineInputs<d
   if (same && (memory.has_partials || !with_partials)) return memory;
   memory.serial = serial_;
   memory.has_partials = with_partials;
+  memory.differenced = false;
   memory.inputs = inputs;
   memory.values.resize(values_);
   if (!with_partials) {
@@ -256,6 +257,7 @@ const CompiledRoutine::Memory& CompiledRoutine::remembered(const RoutineInputs<d
     if (memory.given[k]) continue;
     if (may_difference(memory.inputs[1])) {
       difference(memory.inputs, k, memory.partials);
+      memory.differenced = true;
     } else {
       for (std::size_t v = 0; v < values_; ++v) memory.partials[v * n + k] = unknown;
     }
@@ -268,7 +270,9 @@ double CompiledRoutine::value(const RoutineInputs<double>& inputs, std::size_t w
 }
 
 std::span<const double> CompiledRoutine::partials(const RoutineInputs<double>& inputs, std::size_t which) const {
-  return std::span(remembered(inputs, true).partials).subspan(which * inputs.size(), inputs.size());
+  const Memory& memory = remembered(inputs, true);
+  if (memory.differenced && memory.inputs[1] == linear_mode) count_difference_in_linear_model();
+  return std::span(memory.partials).subspan(which * inputs.size(), inputs.size());
 }
 
 void CompiledRoutine::fill_course(CourseMemory& m) const {

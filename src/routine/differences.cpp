@@ -10,6 +10,8 @@ namespace {
 constexpr double first_step = 1.0 / 128;  // of the size of x, 1 at least
 constexpr std::size_t most_steps = 24, most_orders = 4;
 constexpr double good_enough = 1e-11;  // relative change of the last extrapolation
+
+thread_local std::uint64_t counted_in_linear_models = 0;
 }  // namespace
 
 // Central differences are even in the step h, so that halving it removes h², h⁴ ... one after the other. The row whose
@@ -46,5 +48,8 @@ std::vector<double> extrapolated_slope(const std::function<void(double, std::spa
   for (const Column& c : columns) slope.push_back(c.best);
   return slope;
 }
+
+std::uint64_t differences_in_linear_models() { return counted_in_linear_models; }
+void count_difference_in_linear_model() { ++counted_in_linear_models; }
 
 }  // namespace dynalin

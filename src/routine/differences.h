@@ -1,6 +1,7 @@
 // The slope of a function that knows no derivatives, by differences of ever smaller steps and their extrapolation.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -10,5 +11,10 @@ namespace dynalin {
 // Of all values of f at x, each with the best row of its own (Ridders). f writes its values into the span.
 std::vector<double> extrapolated_slope(const std::function<void(double, std::span<double>)>& f, double x,
                                        std::size_t values);
+
+// How often this thread took slopes that are differences for a linear model. What is counted while a model is
+// linearized says whether differences are in it.
+std::uint64_t differences_in_linear_models();
+void count_difference_in_linear_model();
 
 }  // namespace dynalin

@@ -10,6 +10,7 @@
 #include "linear/selected_modes.h"
 #include "linear/still_modes.h"
 #include "model/linear_remarks.h"
+#include "routine/differences.h"
 
 namespace dynalin {
 
@@ -60,6 +61,7 @@ StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest&
   // Without reconciliation LINEAR takes the static solution as it was found; any other point is consistent anyway.
   const bool as_found = at.statics && (request.original || request.without_reconciliation);
   Linearization result{at.system, as_found ? at.statics->at_rest : at.values, as_found, request, {}};
+  const std::uint64_t differences = differences_in_linear_models();
   auto linear = reduction.has_linear_model ? linearize(*at.system, result.point, *options, reduction.up_to)
                                            : linearize_unreduced(*at.system, result.point, *options);
   if (!linear) return tl::unexpected(StudyFailure(linear.error()));
@@ -68,6 +70,7 @@ StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest&
     return tl::unexpected(StudyFailure({"linear analysis", reason, {}}, std::move(linear->warnings)));
   }
   result.linear = std::move(*linear);
+  result.differenced = differences_in_linear_models() != differences;
   label(result.linear.model, request);
   const Motion motion = at.system->motion(result.point);
   for (const auto& set : at.system->model().sets) {
@@ -79,6 +82,13 @@ StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest&
 
 namespace {
 
+// How far differences are off nobody knows. Zeros by structure are zeros whatever slopes there are.
+void forget_bounds(EigenSolution& modes) {
+  for (EigenMode& m : modes.modes) {
+    if (!m.structural_zero) m.error_bound_hz = std::numeric_limits<double>::infinity();
+  }
+}
+
 // Named, labelled and commented, whichever way they were found.
 StudyResult<ModesFound> presented(const Linearization& of, Result<EigenSolution> modes, Vectors wanted) {
   if (!modes) return tl::unexpected(StudyFailure(modes.error()));
@@ -89,6 +99,7 @@ StudyResult<ModesFound> presented(const Linearization& of, Result<EigenSolution>
   }
   label(*modes, of.request);
   Diagnostics remarks = cautions(*of.system, of.point, of.linear, *modes);
+  if (of.differenced) forget_bounds(*modes);
   return ModesFound{std::move(*modes), std::move(remarks)};
 }
 

@@ -15,7 +15,8 @@ struct Linearization {
   OperatingPoint point;
   bool at_rest_as_found = false;  // the point is not that of the study
   LinearRequest request;
-  LinearSystem linear;  // its state space is labelled by the request
+  LinearSystem linear;       // its state space is labelled by the request
+  bool differenced = false;  // slopes in it are differences of compiled routines
 
   const Diagnostics& remarks() const { return linear.warnings; }
   std::size_t states() const { return linear.model.states.size(); }

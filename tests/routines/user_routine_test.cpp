@@ -60,7 +60,14 @@ TEST_F(UserRoutines, without_derivatives_are_refused_in_linear_models_unless_dif
                                  HasSubstr("--difference-user-routines")));
   const RunResult differenced = with(called, {C_ROUTINES}, true);
   EXPECT_THAT(differenced.err, AllOf(HasSubstr("[differenced-routine]"), HasSubstr("no bound of an eigenvalue")));
-  expect_same(differenced, with(slider + spring), 1e-9);
+  const RunResult exact = with(slider + spring);
+  expect_same(differenced, exact, 1e-9);
+  // What bounds the error of the one says nothing of the other.
+  const auto mode_of = [](const RunResult& r) { return r.result(0).at("modes").at(0); };
+  EXPECT_LT(mode_of(exact).at("error_bound_hz").get<double>(), 1e-12);
+  EXPECT_TRUE(mode_of(differenced).at("error_bound_hz").is_null());
+  EXPECT_THAT(differenced.out, HasSubstr("?"));
+  EXPECT_THAT(exact.out, Not(HasSubstr("?")));
   // An equilibrium needs derivatives for its iteration alone.
   const std::string statics = slider + along +
                               "FUNCTION=USER(20,1,50,30,2), ROUTINE=routines::spring_without_derivatives\n"
