@@ -176,7 +176,8 @@ class Solution {
 
   // The modes in region_ and how many there ought to be; the search goes on where they differ.
   bool count() {
-    if (right_->everything()) {
+    constexpr Index few_unknowns = 10000;  // a count costs nothing there, and is a second opinion
+    if (right_->everything() && equations_.unknowns() > few_unknowns) {
       // As many as there are states: factors have nothing to add.
       counted_region_ = countable_region(0);
       selected_.by = CountedBy::full_solution;
