@@ -19,6 +19,7 @@
  *     GFORCE      gfosub       6          dflag, iflag
  *     VFORCE      vfosub       3          dflag, iflag
  *     VTORQUE     vtosub       3          dflag, iflag
+ *     FIELD       fiesub       6          disp, velo, dflag, iflag; behind the values dfddis and dfdvel
  *     DIFF        difsub       1          dflag, iflag
  *     MOTION      motsub       1          iord, iflag: derivative 0, 1 or 2 with respect to time
  *     REQUEST     reqsub       8          iflag
@@ -34,6 +35,10 @@
  *
  *     gsesub: id, time, par, npar, dflag, iflag, ns, x, ni, u, no, x', y         gsexx: id, time, par, npar, iflag, ns,
  *     Gsesub: const struct sAdamsGSE*, time, dflag, iflag, ns, x, ni, u, no, x', y      x, ni, u, no, matrix
+ *
+ * fiesub gives force and torque on I along the axes of J as a function of disp (DX, DY, DZ, AX, AY, AZ of I from J less
+ * LENGTH), of velo (VX, VY, VZ, WX, WY, WZ) and of time, and calls no utility for more. dfddis and dfdvel are 6 x 6,
+ * column by column: dfddis[i + 6 * j] of force i by displacement j; where dflag is 1 all 72 are written.
  *
  * id is that of the statement, par and npar are the constants between the parentheses of USER, dflag is 1 where
  * derivatives are wanted. iflag is 0 where the values are wanted, 1 and 3 as above.
@@ -71,6 +76,11 @@ struct sAdamsVtorque {
   int ID, NPAR;
   const double* PAR;
   int I, JFLOAT, RM;
+};
+struct sAdamsField {
+  int ID, NPAR;
+  const double* PAR;
+  int I, J;
 };
 struct sAdamsDiff {
   int ID, NPAR;
@@ -144,7 +154,8 @@ void c_gsepar_u(const double* partial, int npartial);
 struct dynalin_course {
   int id, npar;
   const double* par;
-  int inputs;          /* time, and after it what was asked for, each number once, in the order of asking */
+  int inputs;          /* time, a number without meaning, what was asked for, each once, in the order of asking; of a
+                          FIELD disp and velo instead */
   int values;          /* of the routine */
   int order;           /* 0: values and their partial derivatives; 2: also two time derivatives of both */
   const double* input; /* [(order + 1) * k + d]: derivative d of input k with respect to time */

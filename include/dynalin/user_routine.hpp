@@ -349,6 +349,9 @@ class Call : public CallOfStateEquations<Call<T>, T> {
   double parameter(int k) const { return course_->par[k]; }
   int parameters() const { return course_->npar; }
   T time() const { return number(0); }
+  // Of a FIELD: number k of disp and of velo, counted from 0.
+  T displacement(int k) const { return number(2 + k); }
+  T velocity(int k) const { return number(8 + k); }
   // As c_sysfnc gives it.
   T measure(const char* name, std::initializer_list<int> ids) const {
     return number(dynalin_input(name, ids.begin(), static_cast<int>(ids.size())));
@@ -380,11 +383,14 @@ class Call : public CallOfStateEquations<Call<T>, T> {
 template <>
 class Call<double> : public CallOfStateEquations<Call<double>, double> {
  public:
-  Call(int id, double time, const double* par, int npar) : id_(id), time_(time), par_(par), npar_(npar) {}
+  Call(int id, double time, const double* par, int npar, const double* disp = nullptr, const double* velo = nullptr)
+      : id_(id), time_(time), par_(par), npar_(npar), disp_(disp), velo_(velo) {}
   int id() const { return id_; }
   double parameter(int k) const { return par_[k]; }
   int parameters() const { return npar_; }
   double time() const { return time_; }
+  double displacement(int k) const { return disp_[k]; }
+  double velocity(int k) const { return velo_[k]; }
   double measure(const char* name, std::initializer_list<int> ids) const {
     double state = 0;
     int error = 0;
@@ -404,6 +410,7 @@ class Call<double> : public CallOfStateEquations<Call<double>, double> {
   double time_;
   const double* par_;
   int npar_;
+  const double *disp_, *velo_;
 };
 
 // Fills in the values and derivatives of a course, a pass of inputs at a time.
@@ -451,5 +458,13 @@ void fill_course(const dynalin_course& c) {
   extern "C" void name(const int* id, const double* time, const double* par, const int* npar, const int*, const int*, \
                        const int*, double* value) {                                                                   \
     Formula{}(dynalin::user::Call<double>(*id, *time, par, *npar), value);                                            \
+  }                                                                                                                   \
+  extern "C" void name##_derivatives(const dynalin_course* course) { dynalin::user::fill_course<Formula>(*course); }
+
+// The same of a routine fiesub of a FIELD: a formula of call.displacement and call.velocity, with six values.
+#define DYNALIN_USER_FIELD(name, Formula)                                                                             \
+  extern "C" void name(const int* id, const double* time, const double* par, const int* npar, const double* disp,     \
+                       const double* velo, const int*, const int*, double* field, double*, double*) {                 \
+    Formula{}(dynalin::user::Call<double>(*id, *time, par, *npar, disp, velo), field);                                \
   }                                                                                                                   \
   extern "C" void name##_derivatives(const dynalin_course* course) { dynalin::user::fill_course<Formula>(*course); }

@@ -124,6 +124,12 @@ void ExpressionParser::report_unknown(const Span& name, const std::string& upper
 }
 
 void ExpressionParser::report_not_built(const Span& at, std::string_view name) {
+  if (name == "USER") {
+    diagnostics_.error("routine-in-expression", at,
+                       "USER(…) calls a compiled routine and is the whole of FUNCTION, and no part of an expression",
+                       "VARIABLE/id, FUNCTION=USER(…) calls a routine, and expressions read VARVAL(id)");
+    return;
+  }
   diagnostics_.error("function-not-built", at, fmt::format("{} is not available yet", name));
 }
 

@@ -207,7 +207,7 @@ TEST(ExpressionParser, errors_point_at_their_places) {
       {"DELAY(2*DELAY(TIME,1,0),1,0)", {"function-not-built 1:9"}},
       {"SENVAL(1,2)", {"wrong-argument-count 1:1"}},
       {"FXFREQ*2", {"function-not-built 1:1"}},
-      {"USER(1,2,3)", {"function-not-built 1:1"}},
+      {"2*USER(1,2,3)", {"routine-in-expression 1:3"}},
       {"[1,2", {"unbalanced-parenthesis 1:1"}},
       {"[1)", {"unbalanced-parenthesis 1:3"}},
       {"(1]", {"unbalanced-parenthesis 1:3"}},

@@ -57,6 +57,16 @@ bool calls_routine(const WrittenArgument& w) {
          text(1) == "(";
 }
 
+const Token* behind_call(const WrittenArgument& w) {
+  int depth = 0;
+  for (std::size_t k = 1; k < w.value.size(); ++k) {
+    const std::string_view text = w.name.source->text().substr(w.value[k].offset, w.value[k].length);
+    depth += text == "(" ? 1 : text == ")" ? -1 : 0;
+    if (depth == 0) return k + 1 < w.value.size() ? &w.value[k + 1] : nullptr;
+  }
+  return nullptr;
+}
+
 CalledRoutines::CalledRoutines(const Dataset& dataset, Catalogue catalogue, const RoutineOptions& options,
                                Diagnostics& diagnostics)
     : dataset_(dataset),
@@ -283,7 +293,8 @@ std::string CalledRoutines::written(const Statement& s, const WrittenArgument& c
     a.argument_at.fill(at);
   }
   std::string text;
-  for (std::size_t v = 0; v < routine->values(); ++v) {
+  // A FIELD takes the routine with all of its values over from the first.
+  for (std::size_t v = 0; v < components_of(kind).size(); ++v) {
     text += fmt::format(", {}={}", components_of(kind)[v], functions.size());
     functions.push_back(routine_expression(inputs, routine, v, at));
   }

@@ -16,6 +16,9 @@ namespace dynalin {
 // USER(…) and nothing else, or the beginning of it.
 bool calls_routine(const WrittenArgument&);
 
+// What stands behind the parenthesis that closes USER(…), null if nothing does.
+const Token* behind_call(const WrittenArgument&);
+
 class CalledRoutines {
  public:
   // Loads the libraries; those that cannot be are errors.

@@ -12,6 +12,8 @@ namespace dynalin {
 
 namespace {
 
+constexpr std::string_view hint_of_routine_in_expression =
+    "VARIABLE/id, FUNCTION=USER(…) calls a routine, and expressions read VARVAL(id)";
 constexpr std::array<std::string_view, 2> names_of_code = {"ROUTINE", "INTERFACE"};
 
 Span span_of(const Token& token, const SourceText& source) { return {&source, token.offset, token.length}; }
@@ -65,8 +67,8 @@ class Replacement {
     const auto kind =
         std::find_if(catalogue_.begin(), catalogue_.end(), [&](const Kind* k) { return k->statement == s.name; });
     if (kind == catalogue_.end() || (*kind)->role == Kind::Role::inert) return;
+    bool calls = refuses_expression(s);
     if (s.name == state_equation_kinds().system.statement) return apply_to_state_equations(s);
-    bool calls = false;
     for (std::size_t k = 0; k < s.arguments.size();) {
       if (!calls_routine(s.arguments[k])) {
         ++k;
@@ -108,6 +110,21 @@ class Replacement {
   }
 
  private:
+  // Calls stand alone.
+  bool refuses_expression(Statement& s) {
+    bool refused = false;
+    for (WrittenArgument& w : s.arguments) {
+      const Token* more = calls_routine(w) ? behind_call(w) : nullptr;
+      if (!more) continue;
+      diagnostics_.error("routine-in-expression", span_of(*more, *w.name.source),
+                         fmt::format("USER(…) of {} is the whole of {}, and no part of an expression", s.at.text(),
+                                     called_.full_name(s, w)),
+                         std::string(hint_of_routine_in_expression));
+      refused = w.damaged = true;
+    }
+    return refused;
+  }
+
   static std::shared_ptr<const Dataset> generated(std::string name, std::string text) {
     static constexpr std::array<std::string_view, 1> keywords = {"CONSTANT"};
     return std::make_shared<const Dataset>(

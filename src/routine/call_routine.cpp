@@ -29,6 +29,11 @@ void call_with_addresses(void* address, RoutineArguments arguments, const Routin
                      const double*, const int*, const double*, const int*, double*, double*)>(address)(
           &s.id, &now.time, par, &npar, &now.flag, &now.iflag, &s.gse->NS, now.states.data(), &s.gse->NI,
           now.inputs.data(), &s.gse->NO, values, values + s.gse->NS);
+    case RoutineArguments::field:
+      return as<void(const int*, const double*, const double*, const int*, const double*, const double*, const int*,
+                     const int*, double*, double*, double*)>(address)(&s.id, &now.time, par, &npar, now.displacement,
+                                                                      now.velocity, &now.flag, &now.iflag, values,
+                                                                      now.by_displacement, now.by_velocity);
   }
 }
 
@@ -39,6 +44,7 @@ union WhatItSays {
   sAdamsGforce gforce;
   sAdamsVforce vforce;
   sAdamsDiff diff;
+  sAdamsField field;
   sAdamsGSE gse;
 };
 
@@ -51,6 +57,7 @@ WhatItSays what_it_says(std::string_view statement, const RoutineStatement& s) {
     all.sforce = {s.id, npar, par, s.I, s.J, s.action_only, s.rotation ? "ROTATION" : "TRANSLATION"};
   if (statement == "GFORCE") all.gforce = {s.id, npar, par, s.I, s.RM, s.JFLOAT};
   if (statement == "VFORCE" || statement == "VTORQUE") all.vforce = {s.id, npar, par, s.I, s.JFLOAT, s.RM};
+  if (statement == "FIELD") all.field = {s.id, npar, par, s.I, s.J};
   if (statement == "DIFF") all.diff = {s.id, npar, par, s.static_hold, s.implicit, s.initial, s.initial_rate};
   if (statement == "GSE") {
     all.gse = *s.gse;
@@ -74,6 +81,10 @@ void call_with_statement(void* address, RoutineArguments arguments, const WhatIt
       return as<void(const void*, double, int, int, int, const double*, int, const double*, int, double*, double*)>(
           address)(&s, now.time, now.flag, now.iflag, s.gse.NS, now.states.data(), s.gse.NI, now.inputs.data(),
                    s.gse.NO, values, values + s.gse.NS);
+    case RoutineArguments::field:
+      return as<void(const void*, double, const double*, const double*, int, int, double*, double*, double*)>(address)(
+          &s, now.time, now.displacement, now.velocity, now.flag, now.iflag, values, now.by_displacement,
+          now.by_velocity);
   }
 }
 

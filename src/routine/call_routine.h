@@ -11,6 +11,9 @@ struct RoutineArgumentsNow {
   int iflag;
   int values;
   std::span<const double> states = {}, inputs = {};  // of a whole GSE, whose values are x′ and behind it y
+  // Of a FIELD: six numbers each, and 6 × 6 derivatives of the force by them, column by column.
+  const double *displacement = nullptr, *velocity = nullptr;
+  double *by_displacement = nullptr, *by_velocity = nullptr;
 };
 
 void call_routine(const FoundRoutine&, const RoutineKind&, const RoutineStatement&, const RoutineArgumentsNow&,

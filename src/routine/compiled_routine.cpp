@@ -1,6 +1,7 @@
 #include "routine/compiled_routine.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -36,6 +37,19 @@ Atom atom_without_ids(std::string_view name) {
 
 }  // namespace
 
+// What the routine of a FIELD gets as arguments, in their order.
+std::vector<Atom> field_inputs(int i, int j) {
+  const std::array<int, 4> ids = {i, j, j, j};
+  std::vector<Atom> inputs;
+  const auto take = [&](std::initializer_list<std::string_view> names, std::size_t count) {
+    for (const std::string_view name : names) inputs.push_back(*single_measure(name, std::span(ids).first(count)));
+  };
+  take({"DX", "DY", "DZ"}, 3), take({"AX", "AY", "AZ"}, 2);
+  take({"VX", "VY", "VZ"}, 4), take({"WX", "WY", "WZ"}, 3);
+  return inputs;
+}
+constexpr std::size_t first_of_field = 2, inputs_of_field = 12;
+
 // Components of a force follow each other, and each asks for all values again: the last call is remembered.
 struct CompiledRoutine::Memory {
   std::uint64_t serial = 0;
@@ -63,6 +77,9 @@ CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, st
   keep_utilities();
   what_ = fmt::format("{}, called for {}", name(), statement_.label);
   requests_.inputs = {atom_without_ids("TIME"), atom_without_ids(knows_mode() ? "MODE" : "TIME")};
+  if (kind.arguments == RoutineArguments::field) {
+    for (const Atom& a : field_inputs(statement_.I, statement_.J)) requests_.inputs.push_back(a);
+  }
   std::vector<double> ignored(values_);
   // Routines that pass over one of the first two ask when they are called for a value.
   for (const int iflag : {1, 3, 0}) {
@@ -84,6 +101,12 @@ CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, st
     if (problem_.empty()) problem_ = asking.failure;
   }
   size_of_ = nullptr;
+  if (kind.arguments == RoutineArguments::field && problem_.empty() && !requests_.list.empty()) {
+    problem_ = fmt::format(
+        "it asks for {}({}); the force of a FIELD is a function of the displacement and the velocity "
+        "that its routine gets, and of time",
+        requests_.list.front().name, fmt::join(requests_.list.front().ids, ", "));
+  }
   if (found_.derivatives != nullptr || kind.arguments == RoutineArguments::of_time) gives_derivatives_ = true;
   if (gives_derivatives_ || !problem_.empty()) return;
   // A trial at zero: what counts is whether it gives them, not what they are there.
@@ -127,12 +150,34 @@ ReadArray read_array(const RoutineContext& c, int array, int size) {
 
 void CompiledRoutine::call(double time, int flag, int iflag, double* values) const {
   RoutineArgumentsNow now{time, flag, iflag, static_cast<int>(values_)};
+  if (kind_->arguments == RoutineArguments::field) return call_field(now, values);
   if (kind_->arguments != RoutineArguments::system) return call_routine(found_, *kind_, statement_, now, values);
   const sAdamsGSE& gse = *statement_.gse;
   const RoutineContext& c = *RoutineContext::current();
   const ReadArray states = read_array(c, gse.X, gse.NS), inputs = read_array(c, gse.U, gse.NI);
   now.states = states.values, now.inputs = inputs.values;
   call_routine(found_, *kind_, statement_, now, values);
+}
+
+// A column of derivatives counts if all of it is written.
+void CompiledRoutine::call_field(RoutineArgumentsNow now, double* values) const {
+  RoutineContext& c = *RoutineContext::current();
+  std::array<double, inputs_of_field> arguments{};
+  if (c.phase != RoutineContext::Phase::asking) {
+    std::ranges::copy(c.inputs.subspan(first_of_field, inputs_of_field), arguments.begin());
+  }
+  std::array<double, 72> partials{};
+  partials.fill(unknown);
+  now.displacement = arguments.data(), now.velocity = &arguments[6];
+  now.by_displacement = partials.data(), now.by_velocity = &partials[36];
+  call_routine(found_, *kind_, statement_, now, values);
+  if (!c.wants_partials()) return;
+  for (std::size_t k = 0; k < inputs_of_field; ++k) {
+    const auto column = std::span(partials).subspan(6 * k, 6);
+    if (!std::ranges::all_of(column, [](double p) { return std::isfinite(p); })) continue;
+    for (std::size_t v = 0; v < 6; ++v) c.partials[v * c.inputs.size() + first_of_field + k] = column[v];
+    c.given[first_of_field + k] = true;
+  }
 }
 
 void CompiledRoutine::call_partials(double time, std::span<double> partials, std::span<char> given) const {
@@ -353,7 +398,9 @@ std::string CompiledRoutine::reason_of_value(std::span<const double> inputs) con
 std::string CompiledRoutine::reason_of_partials(std::span<const double> inputs) const {
   if (gives_derivatives_) return fmt::format("{} gives no finite derivatives at TIME {:g}", name(), inputs[0]);
   return fmt::format("{} gives no derivatives, and a linear model needs them: {}", name(),
-                     "c_syspar, an entry with them, or --difference-user-routines");
+                     kind_->arguments == RoutineArguments::field
+                         ? "all of dfddis and dfdvel, an entry with them, or --difference-user-routines"
+                         : "c_syspar, an entry with them, or --difference-user-routines");
 }
 
 }  // namespace dynalin

@@ -16,6 +16,8 @@
 
 namespace dynalin {
 
+struct RoutineArgumentsNow;
+
 enum class RoutineDifferences : std::uint8_t { not_in_linear_models, everywhere };
 
 // What the statement says to its routine.
@@ -41,7 +43,7 @@ class CompiledRoutine final : public Routine {
   CompiledRoutine(FoundRoutine, const RoutineKind&, std::size_t values, RoutineStatement, RoutineDifferences,
                   const SizeOfList&, StatePartialRoutines = {});
 
-  // TIME, MODE but for a MOTION, and what it asked for.
+  // TIME, MODE but for a MOTION, and what it asked for. Of a FIELD: displacement and velocity instead.
   const std::vector<Atom>& inputs() const { return requests_.inputs; }
   std::size_t values() const { return values_; }
   // What was wrong when it was asked what it reads, empty if nothing was.
@@ -65,6 +67,7 @@ class CompiledRoutine final : public Routine {
   struct Memory;        // of the last call in this thread
   struct CourseMemory;  // the same along the motion
   void call(double time, int flag, int iflag, double* values) const;
+  void call_field(RoutineArgumentsNow, double* values) const;
   // Of a whole GSE: partial derivatives that routines of their own give.
   void call_partials(double time, std::span<double> partials, std::span<char> given) const;
   // All values, and with partials those too; says why there are none.

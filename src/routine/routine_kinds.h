@@ -14,6 +14,7 @@ enum class RoutineArguments : std::uint8_t {
   plain,     // iflag
   counted,   // dflag, iflag, how many values
   system,    // of a whole GSE: states and inputs come with it
+  field,     // displacement, velocity, dflag, iflag, force, its derivatives by both
 };
 
 struct RoutineKind {

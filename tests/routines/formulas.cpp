@@ -26,6 +26,23 @@ struct Wrench {
 };
 DYNALIN_USER_ROUTINE(wrench_by_formula, Wrench)
 
+// What fiesub of routines.c is.
+struct Field {
+  template <class T>
+  void operator()(const dynalin::user::Call<T>& call, T* value) const {
+    const double ratio = call.parameter(0);
+    const auto against = [&](int k) { return -(call.displacement(k) + ratio * call.velocity(k)); };
+    const T x = call.displacement(0);
+    value[0] = 100.0 * against(0) - call.parameter(1) * pow(x, 3);
+    value[1] = 12.0 * against(1) - 6.0 * against(5);
+    value[2] = 36.0 * against(2);
+    value[3] = 25.0 * against(3);
+    value[4] = 9.0 * against(4);
+    value[5] = 3.0 * against(0) - 6.0 * against(1) + 4.0 * against(5);
+  }
+};
+DYNALIN_USER_FIELD(field_by_formula, Field)
+
 struct Course {
   template <class T>
   void operator()(const dynalin::user::Call<T>& call, T* value) const {

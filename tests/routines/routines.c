@@ -94,6 +94,66 @@ void vtosub(const int* id, const double* time, const double* par, const int* npa
   c_syspar("RVEL", at, 3, by_w, 9, &error);
 }
 
+/* A stiffness that is not symmetric, par[0] times it as damping, and par[1] disp[0]^3 against x. */
+static const double field_stiffness[6][6] = {{100, 0, 0, 0, 0, 0}, {0, 12, 0, 0, 0, -6}, {0, 0, 36, 0, 0, 0},
+                                             {0, 0, 0, 25, 0, 0},  {0, 0, 0, 0, 9, 0},   {3, -6, 0, 0, 0, 4}};
+static void field(const double* par, const double* disp, const double* velo, double* value) {
+  for (int i = 0; i < 6; ++i) {
+    value[i] = 0;
+    for (int j = 0; j < 6; ++j) value[i] -= field_stiffness[i][j] * (disp[j] + par[0] * velo[j]);
+  }
+  value[0] -= par[1] * disp[0] * disp[0] * disp[0];
+}
+void field_without_derivatives(const int* id, const double* time, const double* par, const int* npar,
+                               const double* disp, const double* velo, const int* dflag, const int* iflag,
+                               double* value, double* dfddis, double* dfdvel) {
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag, (void)dfddis, (void)dfdvel;
+  field(par, disp, velo, value);
+}
+void fiesub(const int* id, const double* time, const double* par, const int* npar, const double* disp,
+            const double* velo, const int* dflag, const int* iflag, double* value, double* dfddis, double* dfdvel) {
+  (void)id, (void)time, (void)npar, (void)iflag;
+  field(par, disp, velo, value);
+  if (!*dflag) return;
+  for (int j = 0; j < 6; ++j) {
+    for (int i = 0; i < 6; ++i) {
+      dfddis[i + 6 * j] = -field_stiffness[i][j];
+      dfdvel[i + 6 * j] = -par[0] * field_stiffness[i][j];
+    }
+  }
+  dfddis[0] -= 3 * par[1] * disp[0] * disp[0];
+}
+void Fieldc(const struct sAdamsField* f, double time, const double* disp, const double* velo, int dflag, int iflag,
+            double* value, double* dfddis, double* dfdvel) {
+  const int markers = f->ID == 1 && f->I == 20 && f->J == 2;
+  fiesub(&f->ID, &time, f->PAR, &f->NPAR, disp, velo, &dflag, &iflag, value, dfddis, dfdvel);
+  if (!markers) value[0] = sqrt(-1.0);
+}
+/* A column that is not written: nobody may take it for zeros. */
+void field_with_gap(const int* id, const double* time, const double* par, const int* npar, const double* disp,
+                    const double* velo, const int* dflag, const int* iflag, double* value, double* dfddis,
+                    double* dfdvel) {
+  double velocity[36];
+  fiesub(id, time, par, npar, disp, velo, dflag, iflag, value, dfddis, velocity);
+  if (*dflag) memcpy(dfdvel, velocity, 30 * sizeof(double));
+}
+void field_without_number(const int* id, const double* time, const double* par, const int* npar, const double* disp,
+                          const double* velo, const int* dflag, const int* iflag, double* value, double* dfddis,
+                          double* dfdvel) {
+  fiesub(id, time, par, npar, disp, velo, dflag, iflag, value, dfddis, dfdvel);
+  value[4] = sqrt(par[0]);
+}
+void field_that_asks(const int* id, const double* time, const double* par, const int* npar, const double* disp,
+                     const double* velo, const int* dflag, const int* iflag, double* value, double* dfddis,
+                     double* dfdvel) {
+  const int at[2] = {20, 1};
+  double x;
+  int error;
+  fiesub(id, time, par, npar, disp, velo, dflag, iflag, value, dfddis, dfdvel);
+  c_sysfnc("DM", at, 2, &x, &error);
+  value[0] += x;
+}
+
 /* x' = (VARVAL(par[0]) - x) / par[1] */
 void difsub(const int* id, const double* time, const double* par, const int* npar, const int* dflag, const int* iflag,
             double* value) {

@@ -115,6 +115,85 @@ TEST_F(UserRoutines, of_forces_torques_values_and_states_are_their_expressions) 
   expect_same(with(formula), with(smooth), 1e-13);
 }
 
+class UserFields : public UserRoutines {
+ protected:
+  // On marker 2, which is turned and carried along by a body of its own.
+  static std::string model(const std::string& field, const std::string& more = "") {
+    return R"(a field between two bodies
+UNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH=METER, TIME=SECOND
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=2, CM=20, IP=1,2,3, QG=0.3,0.1,0.2, REULER=0.2,0.3,0.1, WX=0.3, WZ=0.2, VY=0.1
+MARKER/20, PART=2, QP=0.05,0.02,0
+PART/3, MASS=3, CM=30, IP=2,1,2, WY=0.2
+MARKER/30, PART=3, QP=0,0.1,0
+MARKER/2, PART=3, REULER=0.1,0.2,0.3
+BUSHING/1, I=30, J=1, K=90,80,70, KT=20,30,40, C=1,1,1, CT=1,1,1
+FIELD/1, I=20, J=2, LENGTH=0.1,0.2,0.05,0.01,0.02,0.03, )" +
+           field + "\n" + more;
+  }
+  static std::string matrices() {
+    return "KMATRIX=100,0,0,0,0,3, 0,12,0,0,0,-6, 0,0,36,0,0,0, 0,0,0,25,0,0, 0,0,0,0,9,0\n,"
+           " 0,-6,0,0,0,4, CRATIO=0.01";
+  }
+};
+
+TEST_F(UserFields, are_those_with_matrices) {
+  const RunResult written = with(model(matrices()));
+  for (const std::string routine : {"", ", ROUTINE=routines::Fieldc", ", ROUTINE=formulas::field_by_formula"})
+    expect_same(with(model("FUNCTION=USER(0.01,0)" + routine)), written, 1e-12);
+  // What acts on the markers is the same too.
+  const std::string requests = "REQUEST/1, FORCE, I=20, J=2, RM=2\n";
+  const auto forces = [&](const std::string& field) {
+    const RunResult r = with(model(field, requests), {C_ROUTINES}, false, {"SIMULATE/INITIAL"});
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.result(0).at("operating_point").at("requests").at(0).at("values").get<std::vector<double>>();
+  };
+  const auto a = forces("FUNCTION=USER(0.01,0)"), b = forces(matrices());
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_GT(std::abs(b.at(1)), 1);
+  for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 1e-12) << k;
+}
+
+TEST_F(UserFields, may_be_nonlinear) {
+  // A stiff spring along x that grows with the third power beside the field is the sum of both.
+  const std::string cubic = "MARKER/4, PART=3, FLOATING\nGFORCE/1, I=20, JFLOAT=4, RM=2, FX=-500*(DX(20,2,2)-0.1)**3\n";
+  const RunResult sum = with(model(matrices(), cubic));
+  const std::vector<std::string> motion = {"SIMULATE/TRANSIENT, END=0.2, STEPS=4", "LINEAR/EIGENSOL"};
+  const RunResult moved = with(model(matrices(), cubic), {C_ROUTINES, CPP_ROUTINES}, false, motion);
+  for (const std::string routine : {"", ", ROUTINE=formulas::field_by_formula"}) {
+    expect_same(with(model("FUNCTION=USER(0.01,500)" + routine)), sum, 1e-12);
+    expect_same(with(model("FUNCTION=USER(0.01,500)" + routine), {C_ROUTINES, CPP_ROUTINES}, false, motion), moved,
+                1e-5, 1);
+  }
+}
+
+TEST_F(UserFields, without_all_derivatives_are_refused_in_linear_models_unless_differences_are_asked_for) {
+  for (const std::string name : {"field_without_derivatives", "field_with_gap"}) {
+    const std::string called = model("FUNCTION=USER(0.01,500), ROUTINE=routines::" + name);
+    const RunResult refused = with(called);
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_THAT(refused.err, AllOf(HasSubstr("[differenced-routine]"), HasSubstr("FIELD/1: the routine " + name),
+                                   HasSubstr("dfddis and dfdvel"), HasSubstr("--difference-user-routines")));
+    const RunResult differenced = with(called, {C_ROUTINES}, true);
+    expect_same(differenced, with(model("FUNCTION=USER(0.01,500)")), 1e-9);
+    EXPECT_TRUE(differenced.result(0).at("modes").at(0).at("error_bound_hz").is_null());
+  }
+}
+
+TEST_F(UserFields, that_cannot_be_say_why) {
+  const auto said = [&](const std::string& field, int status) {
+    const RunResult r = with(model(field));
+    EXPECT_EQ(r.status, status) << r.err;
+    return r.err;
+  };
+  EXPECT_THAT(said("FUNCTION=USER(0.01,0), ROUTINE=routines::field_that_asks", 1),
+              AllOf(HasSubstr("[routine-failed]"), HasSubstr("DM(20, 1)"), HasSubstr("FIELD/1")));
+  EXPECT_THAT(said("FUNCTION=3*TIME", 1), AllOf(HasSubstr("[unknown-word]"), HasSubstr("USER(")));
+  EXPECT_THAT(said("FUNCTION=USER(-1,0), ROUTINE=routines::field_without_number", 2),
+              AllOf(HasSubstr("FIELD/1: the routine field_without_number"), HasSubstr("no finite number")));
+}
+
 TEST_F(UserRoutines, of_motions_give_velocity_and_acceleration) {
   const std::string model = slider +
                             "PART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30, PART=3, QP=0.3,0,0\n"
@@ -188,6 +267,22 @@ TEST_F(UserRoutines, that_have_no_value_name_their_element) {
   EXPECT_THAT(said("asks_too_late", 2), AllOf(HasSubstr("SFORCE/1"), HasSubstr("it reads DX(20, 1), for which")));
   EXPECT_THAT(said("asks_nonsense", 1), AllOf(HasSubstr("[routine-failed]"), HasSubstr("HEIGHT(1)")));
   EXPECT_THAT(said("is_not_there", 1), AllOf(HasSubstr("[missing-routine]"), HasSubstr("is_not_there of routines")));
+}
+
+TEST_F(UserRoutines, are_no_part_of_expressions) {
+  const auto said = [&](const std::string& function) {
+    const RunResult r = with(slider + along + "FUNCTION=" + function + "\n");
+    EXPECT_EQ(r.status, 1) << r.err;
+    return r.err;
+  };
+  for (const std::string function : {"2*USER(20,1,50,30,2)", "USER(20,1,50,30,2)+DX(20,1)", "USER(20,1,50,30,2)*(3)"})
+    EXPECT_THAT(said(function), AllOf(HasSubstr("[routine-in-expression]"), HasSubstr("VARVAL"),
+                                      Not(HasSubstr("[unbalanced-parenthesis]"))));
+  // What the hint says.
+  expect_same(with(slider + along +
+                   "FUNCTION=2*VARVAL(7)\nVARIABLE/7, FUNCTION=USER(20,1,25,15,1), "
+                   "ROUTINE=routines::sfosub\n"),
+              with(slider + spring), 1e-14);
 }
 
 TEST_F(UserRoutines, read_markers_that_exist) {

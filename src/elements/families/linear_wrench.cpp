@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace dynalin {
 
@@ -16,9 +17,40 @@ std::array<T, 3> projected_angles(const RelativeFrame<T>& I) {
   return {atan2(-I.z.y, I.z.z), atan2(I.z.x, I.z.z), atan2(I.x.y, I.x.x)};
 }
 
+// What a routine reads: time, mode, y − LENGTH and y′.
+using Read = std::array<double, 14>;
+
+Read read_by_routine(const LinearWrench& law, const RelativeDisplacement& d, const Motion& motion) {
+  Read read{motion.time, static_cast<double>(motion.mode)};
+  for (std::size_t k = 0; k < 6; ++k) read[2 + k] = d.y[k] - law.length[k], read[8 + k] = d.rate[k];
+  return read;
+}
+
+RoutineInputs<double> inputs(const Read& read) {
+  static constexpr std::array<std::int32_t, 14> order = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13};
+  return {read, order};
+}
+
+void add_routine(const LinearWrench& law, const RelativeDisplacement& d, const Motion& motion, bool with_partials,
+                 Array6& load, RelativeWrench& w) {
+  const Read read = read_by_routine(law, d, motion);
+  for (std::size_t r = 0; r < 6; ++r) {
+    load[r] = law.routine->value(inputs(read), r);
+    if (!with_partials) continue;
+    const std::span<const double> slope = law.routine->partials(inputs(read), r);
+    for (std::size_t c = 0; c < 6; ++c) {
+      for (std::size_t k = 0; k < 6; ++k) {
+        w.on_pose[r][k] += slope[2 + c] * d.on_pose[c][k] + slope[8 + c] * d.rate_on_pose[c][k];
+        w.on_rate[r][k] += slope[8 + c] * d.rate_on_rate[c][k];
+      }
+    }
+  }
+}
+
 }  // namespace
 
-LinearWrench::LinearWrench(const LinearLaw& law) : i(law.i), j(law.j), length(law.length), force(law.force) {
+LinearWrench::LinearWrench(const LinearLaw& law)
+    : i(law.i), j(law.j), length(law.length), force(law.force), routine(law.routine) {
   for (std::uint8_t r = 0; r < 6; ++r) {
     for (std::uint8_t c = 0; c < 6; ++c) {
       if (law.K[r][c] != 0 || law.C[r][c] != 0) couplings.push_back({r, c, law.K[r][c], law.C[r][c]});
@@ -28,7 +60,7 @@ LinearWrench::LinearWrench(const LinearLaw& law) : i(law.i), j(law.j), length(la
 }
 
 bool LinearWrench::turns() const {
-  return std::any_of(force.begin() + 3, force.end(), [](double f) { return f != 0; }) ||
+  return routine || std::any_of(force.begin() + 3, force.end(), [](double f) { return f != 0; }) ||
          std::any_of(couplings.begin(), couplings.end(), [](const Coupling& k) { return k.row >= 3 || k.column >= 3; });
 }
 
@@ -90,6 +122,7 @@ PairForce LinearWrenchKernel::force_of(const Placed& p, const PairMotion& pair, 
       w.on_rate[r][k] -= C * d.rate_on_rate[c][k];
     }
   }
+  if (p.law->routine) add_routine(*p.law, d, motion, with_partials, load, w);
   w.force = {load[0], load[1], load[2]};
   w.torque = {load[3], load[4], load[5]};
   return spread(pair, w, with_partials);
@@ -115,6 +148,25 @@ void LinearWrenchKernel::remember(const Motion& motion, Memory& memory) const {
 void LinearWrenchKernel::wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const {
   out.pair = pair_motion(motion, *laws_[k].I, *laws_[k].J);
   out.force = force_of(laws_[k], out.pair, motion, with_partials);
+}
+
+void LinearWrenchKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const {
+  const auto finite = [](double x) { return std::isfinite(x); };
+  for (std::size_t k = 0; k < laws_.size(); ++k) {
+    const Placed& p = laws_[k];
+    if (!p.law->routine) continue;
+    const auto turns = std::span(motion.memory).subspan(static_cast<std::size_t>(p.memory), 3);
+    const Read read = read_by_routine(*p.law, relative_displacement(pair_motion(motion, *p.I, *p.J), turns), motion);
+    bool has_values = true, has_slopes = true;
+    for (std::size_t r = 0; r < 6; ++r) has_values = has_values && finite(p.law->routine->value(inputs(read), r));
+    for (std::size_t r = 0; r < 6 && has_values; ++r) {
+      has_slopes = has_slopes && std::ranges::all_of(p.law->routine->partials(inputs(read), r).subspan(2), finite);
+    }
+    if (has_values && has_slopes) continue;
+    const std::string reason =
+        has_values ? p.law->routine->reason_of_partials(read) : p.law->routine->reason_of_value(read);
+    undefined.push_back({&(*labels_)[k], (*labels_)[k].full_text() + ": " + reason, !has_values});
+  }
 }
 
 template <std::size_t N>

@@ -3,8 +3,9 @@
 //     (F, T) = FORCE − K (y − LENGTH) − C y′        on I, in the axes of J
 //     y = (DX, DY, DZ, AX, AY, AZ)(I,J) in the axes of J,   y′ = (velocity seen from J, relative angular velocity)
 //
-// The opposite acts on J's body at the origin of I, which is −F and −T − p × F at the origin of J. The angles are
-// projections and count whole turns; y′ holds the angular velocity itself, not their rates.
+// or what a compiled routine of the user says of y − LENGTH and y′, if it has one. The opposite acts on J's body at the
+// origin of I, which is −F and −T − p × F at the origin of J. The angles are projections and count whole turns; y′
+// holds the angular velocity itself, not their rates.
 #pragma once
 
 #include <array>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "elements/families/markers.h"
+#include "expression/routine.h"
 #include "mechanics/kernel.h"
 #include "model/schema.h"
 
@@ -22,6 +24,7 @@ struct LinearLaw {
   MarkerId i, j;
   Array66 K{}, C{};          // stiffness and damping
   Array6 length{}, force{};  // displacement at which `force` acts
+  std::shared_ptr<const Routine> routine{};
 };
 
 // As it is kept: most have a diagonal alone.
@@ -33,6 +36,8 @@ struct LinearWrench {
   MarkerId i, j;
   std::vector<Coupling> couplings;  // row by row, without those that are zero
   Array6 length{}, force{};
+  // Force of time, mode, y − LENGTH and y′ in this order, in the place of `couplings` and `force`.
+  std::shared_ptr<const Routine> routine;
 
   LinearWrench() = default;
   explicit LinearWrench(const LinearLaw&);
@@ -54,6 +59,7 @@ class LinearWrenchKernel final : public Kernel, public WrenchSource {
   MarkerId marker_I(std::size_t k) const override { return laws_[k].law->i; }
   MarkerId marker_J(std::size_t k) const override { return laws_[k].law->j; }
   void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;
+  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
 
  private:
   struct Placed {

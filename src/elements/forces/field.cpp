@@ -1,10 +1,13 @@
-// FIELD/id, I=, J=, KMATRIX= [, CMATRIX= | CRATIO=] [, FORCE=] [, LENGTH=]
+// FIELD/id, I=, J=, {KMATRIX= [, CMATRIX= | CRATIO=] [, FORCE=] | FUNCTION=USER(…)} [, LENGTH=]
 //
 // A linear force of all six displacements (families/linear_wrench.h): KMATRIX and CMATRIX are 6 × 6 and entered by
 // columns, they need not be symmetric. FORCE acts at the displacement LENGTH. CRATIO: CMATRIX = CRATIO · KMATRIX.
+// FUNCTION calls a compiled routine of the user, which says force and torque as a function of displacement and
+// velocity.
 #include <fmt/format.h>
 
 #include "elements/families/linear_wrench.h"
+#include "expression/program.h"
 
 namespace dynalin {
 
@@ -14,7 +17,7 @@ struct Field {
   MarkerId i, j;
   std::vector<double> stiffness, damping, force, length;
   std::optional<double> ratio;
-  UserSubroutine function{"FIESUB"};
+  Expression function;
 
   static constexpr std::string_view keyword = "FIELD";
   static constexpr std::string_view summary = "Linear force of all six displacements, with full matrices.";
@@ -44,7 +47,7 @@ struct Field {
        .unstated = 0},
       {.name = "FUNCTION",
        .slot = &Field::function,
-       .help = "USER(…): not available",
+       .help = "USER(…): calls a compiled routine",
        .ends = "KMATRIX CMATRIX CRATIO FORCE"},
   }};
 
@@ -55,7 +58,9 @@ struct Field {
     take_values(damping, "CMATRIX", C, reader);
     take_values(force, "FORCE", w.force, reader);
     take_values(length, "LENGTH", w.length, reader);
-    if (!reader.given("KMATRIX")) {
+    if (reader.given("FUNCTION")) {
+      w.routine = routine(reader);
+    } else if (!reader.given("KMATRIX")) {
       reader.error("missing-argument", reader.statement().at, fmt::format("{} needs KMATRIX", reader.label().text()));
     }
     if (ratio && !damping.empty()) {
@@ -65,6 +70,16 @@ struct Field {
     w.K = by_columns(K);
     w.C = ratio ? scaled(w.K, *ratio) : by_columns(C);
     return w;
+  }
+
+  // Null after an error.
+  std::shared_ptr<const Routine> routine(ElementReader& reader) const {
+    const auto& routines = function.program().routines;
+    if (!routines.empty()) return routines.front().routine;
+    reader.error("unknown-word", reader.at("FUNCTION"),
+                 fmt::format("FUNCTION of {} is USER(…), the call of a compiled routine, and no expression",
+                             reader.label().text()));
+    return nullptr;
   }
 };
 
