@@ -11,7 +11,7 @@ namespace dynalin {
 namespace {
 
 // Words that no Kind reads, or not yet.
-constexpr std::array<std::string_view, 5> without_kind = {"END", "FE_LOAD", "SURFACE", "TIRE", "UCON"};
+constexpr std::array<std::string_view, 4> without_kind = {"END", "SURFACE", "TIRE", "UCON"};
 
 std::vector<std::string_view> all_names() {
   std::vector<std::string_view> names(without_kind.begin(), without_kind.end());

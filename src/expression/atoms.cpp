@@ -244,6 +244,16 @@ constexpr std::array table = {
                  {"", "which analysis is at work: 3 initial conditions, 5 statics, 7 linear", "", ""},
                  {},
                  DataSource::analysis},
+    // An FE_LOAD puts numbers in its place; nothing else has any.
+    AtomFunction{"S",
+                 data,
+                 0,
+                 0,
+                 0,
+                 "",
+                 true,
+                 {"", "place along the beam that an FE_LOAD acts on: 0 at its first node, 1 at its last", "",
+                  "in FE_LOAD alone"}},
 };
 
 }  // namespace

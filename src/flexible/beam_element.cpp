@@ -3,31 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flexible/beam_points.h"
+
 namespace dynalin {
+
+using beam::cubic_at, beam::cubics, beam::four_places, beam::four_weights, beam::spin_place, beam::three_places,
+    beam::three_weights, beam::turned, beam::Turning, beam::values, beam::varied;
 
 namespace {
 
 using Scalar = BeamMotion::Scalar;
-using Turning = Dual<rotation_seeds>;
 
-// Gauss points from −1 to 1. Three are exact for the strains of a straight element and for its rotational inertia, four
-// for the products of cubics with an area that varies along it.
-constexpr std::array<double, 3> three_places = {-0.77459666924148337704, 0.0, 0.77459666924148337704};
-constexpr std::array<double, 3> three_weights = {5.0 / 9, 8.0 / 9, 5.0 / 9};
-constexpr std::array<double, 4> four_places = {-0.86113631159405257522, -0.33998104358485626480, 0.33998104358485626480,
-                                               0.86113631159405257522};
-constexpr std::array<double, 4> four_weights = {0.34785484513745385737, 0.65214515486254614263, 0.65214515486254614263,
-                                                0.34785484513745385737};
-
-// Where the coordinates of the cubics r₁, r_s1, r₂, r_s2 and those of the spins stand.
-constexpr std::array<Eigen::Index, 4> cubic_at = {0, 12, 6, 15};
-constexpr std::array<Eigen::Index, 3> spin_at = {3, 9, 18};
-constexpr Eigen::Index spin_place(std::size_t i) { return spin_at[i / 3] + static_cast<Eigen::Index>(i % 3); }
-
-std::array<double, 4> cubics(double x, double length) {
-  const double a = 0.5 * (1 + x), a2 = a * a, a3 = a2 * a;
-  return {1 - 3 * a2 + 2 * a3, length * (a - 2 * a2 + a3), 3 * a2 - 2 * a3, length * (a3 - a2)};
-}
 BeamSection between(const std::array<BeamSection, 2>& ends, double x) {
   const double b = 0.5 * (1 + x), a = 1 - b;
   const auto mean = [&](double BeamSection::*what) { return a * (ends[0].*what) + b * (ends[1].*what); };
@@ -35,36 +21,8 @@ BeamSection between(const std::array<BeamSection, 2>& ends, double x) {
           mean(&BeamSection::yz),   mean(&BeamSection::shear_y), mean(&BeamSection::shear_z)};
 }
 
-template <class T>
-Vector values(const Vec3<T>& v) {
-  return {value_of(v.x), value_of(v.y), value_of(v.z)};
-}
-template <class T>
-Matrix3 values(const Mat3<T>& m) {
-  return {values(m.x), values(m.y), values(m.z)};
-}
 Vector rates(const Vec3<Scalar>& v) { return {v.x.rate, v.y.rate, v.z.rate}; }
 Vector accelerations(const Vec3<Scalar>& v) { return {v.x.acceleration, v.y.acceleration, v.z.acceleration}; }
-
-Mat3<Turning> turned(const Mat3<Scalar>& R, std::size_t first) {
-  Mat3<Turning> out;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const Vector axis = values(R[c]);
-    for (std::size_t r = 0; r < 3; ++r) out(r, c) = Turning(axis[r]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      Vector e;
-      e[k] = 1;
-      const Vector by = cross(e, axis);
-      for (std::size_t r = 0; r < 3; ++r) out(r, c).partial[first + k] = by[r];
-    }
-  }
-  return out;
-}
-RotationField<Turning> varied(const BeamMotion& m) {
-  Vec3<Turning> phi;
-  for (std::size_t k = 0; k < 3; ++k) phi[k] = Turning(m.middle[k].value, 6 + k);
-  return {turned(m.axes[0], 0), turned(m.axes[1], 3), phi};
-}
 
 // The parabolas that are 1 at the first end, in the middle, at the second end, and 0 at the others of these.
 std::array<double, 3> parabolas(double x) { return {0.5 * x * (x - 1), 1 - x * x, 0.5 * x * (x + 1)}; }

@@ -180,6 +180,12 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binde
         a.kind = Kind::constant;
         break;
       }
+      if (f.reads == DataSource::none) {
+        binder.problem("misplaced-function", atom.at,
+                       std::string(f.name) + " is a place along a beam, which only the components of an FE_LOAD have");
+        a.kind = Kind::constant;
+        break;
+      }
       a.channel = binder.data(atom);
       if (a.channel.kind == Channel::Kind::none) {
         binder.problem("unfilled-entry", atom.at,

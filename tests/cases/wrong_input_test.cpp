@@ -342,6 +342,18 @@ const std::vector<Wrong>& table() {
      "MATRIX/90, NAME=INVAR7, FULL=RORDER, ROWS=3, COLUMNS=3, VALUES=1,0,0,0,1,0,0,0,1",
      {"body-file-doubt 10:14", "missing-load 11:24"}},
     {Place::added, "MFORCE/9, FLEX_BODY=9, CASE_INDEX=1, SCALE=1", {"unknown-body 10:21"}},
+    {Place::added, "FE_LOAD/9, FE_PART=3, FX=1", {"unknown-body 10:20"}},
+    {Place::added, "FE_LOAD/9, FX=1", {"missing-argument 10:1"}},
+    {Place::added, "FE_PART/9, TYPE=3DBEAM, MATERIAL=9, NODE_LABELS=1,2, X=0,1, AREA=1, IYY=1, IZZ=1\n"
+     "MATERIAL/9, DENSITY=1, YOUNGS_MODULUS=1, POISSONS_RATIO=0\nMARKER/9, PART=2, FLOATING\n"
+     "FE_LOAD/1, FE_PART=9\nFE_LOAD/2, FE_PART=9, RM=77, FX=1\nFE_LOAD/3, FE_PART=9, FX=SD(1)\n"
+     "FE_LOAD/4, FE_PART=9, FUNCTION=USER(1)\nFE_LOAD/5, FE_PART=9, FUNCTION=3\nFE_LOAD/6, FE_PART=2, FX=1",
+     {"missing-argument 13:1", "unknown-marker 14:26", "function-not-built 15:26", "missing-routine 16:32",
+      "argument-not-built 17:23", "unknown-body 18:20"}},
+    {Place::added, "FE_PART/9, TYPE=3DBEAM, MATERIAL=9, NODE_LABELS=1,2, X=0,1, AREA=1, IYY=1, IZZ=1\n"
+     "MATERIAL/9, DENSITY=1, YOUNGS_MODULUS=1, POISSONS_RATIO=0\nMARKER/9, PART=2, FLOATING\n"
+     "FE_LOAD/1, FE_PART=9, RM=9, FX=1", {"floating-marker 13:1"}},
+    {Place::added, "VARIABLE/9, FUNCTION=1+S", {"misplaced-function 10:24"}},
     {Place::added, "FLEX_BODY/9\nMFORCE/9, FLEX_BODY=9, CASE_INDEX=1", {"missing-argument 10:1", "missing-argument 11:24"}},
     {Place::added, "FLEX_BODY/9\nMFORCE/9, FLEX_BODY=9, FORCE=USER(1)", {"missing-argument 10:1", "missing-routine 11:30"}},
     {Place::added, "PART/, MASS=1", {"missing-id 10:1"}},

@@ -1,0 +1,260 @@
+// FE_LOAD/id, FE_PART= [, RM=] {, FX=\FY=\FZ=\TX=\TY=\TZ=}
+//
+// A force f and a moment m per undeformed length along a beam of finite elements, components in the axes of RM or
+// global ones, without a reaction. They work on the motion of the beam's line and on the spin of its sections
+// (flexible/beam_load.h). Components may read S, the place along the undeformed beam from 0 to 1.
+//
+// A component w is an algebraic unknown with w − e = 0; one that reads S is an unknown at each load point.
+#include <fmt/format.h>
+
+#include "elements/bodies/fe_part.h"
+#include "flexible/beam_load.h"
+#include "mechanics/binder.h"
+#include "mechanics/bound_expression.h"
+#include "mechanics/kernel.h"
+#include "mechanics/pair_blocks.h"
+#include "model/schema.h"
+
+namespace dynalin {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> component_names = {"FX", "FY", "FZ", "TX", "TY", "TZ"};
+
+struct BeamLoad {
+  BodyId beam;
+  MarkerId rm;
+  Expression fx, fy, fz, tx, ty, tz, function;
+  std::array<std::optional<Expression>, 6> component;
+
+  static constexpr std::array<Argument<BeamLoad>, 9> arguments = {{
+      {.name = "FE_PART", .slot = &BeamLoad::beam, .required = true, .help = "the beam it acts on"},
+      {.name = "RM", .slot = &BeamLoad::rm, .help = "marker in whose axes the components are given; global by default"},
+      {.name = "FX", .slot = &BeamLoad::fx, .unit = "force/length", .help = "along x of RM", .ends = "FUNCTION"},
+      {.name = "FY", .slot = &BeamLoad::fy, .unit = "force/length", .help = "along y of RM", .ends = "FUNCTION"},
+      {.name = "FZ", .slot = &BeamLoad::fz, .unit = "force/length", .help = "along z of RM", .ends = "FUNCTION"},
+      {.name = "TX", .slot = &BeamLoad::tx, .unit = unit::force, .help = "about x of RM", .ends = "FUNCTION"},
+      {.name = "TY", .slot = &BeamLoad::ty, .unit = unit::force, .help = "about y of RM", .ends = "FUNCTION"},
+      {.name = "TZ", .slot = &BeamLoad::tz, .unit = unit::force, .help = "about z of RM", .ends = "FUNCTION"},
+      {.name = "FUNCTION",
+       .slot = &BeamLoad::function,
+       .help = "user subroutines are not available",
+       .ends = "FX FY FZ TX TY TZ"},
+  }};
+};
+
+bool is_place_along_beam(const Atom& a) { return a.function == find_atom_function("S"); }
+
+// The same at a place along the beam.
+Expression at_place(const Expression& e, double place) {
+  return e.with_definitions([&](const Atom& a) -> std::optional<Expression> {
+    return is_place_along_beam(a) ? std::optional(Expression::constant(place)) : std::nullopt;
+  });
+}
+
+class BeamLoadKernel final : public Kernel {
+ public:
+  BeamLoadKernel(const std::vector<BeamLoad>& loads, const std::vector<ElementLabel>& labels, const Model& model,
+                 Layout& layout)
+      : labels_(&labels) {
+    const std::vector<BeamBody> beams = beam_bodies(model, layout);
+    for (std::size_t k = 0; k < loads.size(); ++k) {
+      const auto is_its = [&](const BeamBody& b) { return b.nodes.front() == loads[k].beam; };
+      Load load{*std::ranges::find_if(beams, is_its), std::nullopt, {}, {}};
+      if (loads[k].rm.valid()) load.rm = layout.marker(loads[k].rm);
+      const std::vector<double> places = places_along(load.beam);
+      for (std::size_t axis = 0; axis < component_names.size(); ++axis) {
+        const auto& e = loads[k].component[axis];
+        if (!e) continue;
+        const bool varies = std::ranges::any_of(e->atoms(), is_place_along_beam);
+        Component c{axis, load.unknowns.size(), varies};
+        for (std::size_t p = 0; p < (varies ? places.size() : 1); ++p) {
+          const std::int32_t algebraic = layout.add_algebraic(labels[k], static_cast<std::int32_t>(axis) + 1);
+          load.unknowns.push_back({algebraic, varies ? at_place(*e, places[p]) : *e, {}});
+        }
+        load.components.push_back(c);
+      }
+      loads_.push_back(std::move(load));
+    }
+  }
+
+  void bind(Binder& binder) override {
+    for (Load& l : loads_) {
+      for (Unknown& u : l.unknowns) u.bound = BoundExpression(u.expression, binder);
+    }
+  }
+
+  void equations(const Motion& motion, Equations& eq) const override {
+    for (std::size_t k = 0; k < loads_.size(); ++k) {
+      const Load& l = loads_[k];
+      eq.begin_element((*labels_)[k]);
+      for (const Unknown& u : l.unknowns) {
+        const std::int32_t row = eq.algebraic_row(u.algebraic);
+        eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(u.algebraic)]);
+        eq.add(PartialBy::algebraic, row, u.algebraic, 1.0);
+        u.bound.add(motion, eq, row, -1.0, PartialBy::damping);
+      }
+      for (std::size_t e = 0; e < l.beam.elements->size(); ++e) load_element(l, e, motion, eq);
+    }
+  }
+
+  void remember(const Motion& motion, Memory& memory) const override {
+    for (const Load& l : loads_) {
+      for (const Unknown& u : l.unknowns) u.bound.remember(motion, memory);
+    }
+  }
+  void undefined_values(const Motion& motion, std::vector<UndefinedValue>& values) const override {
+    for (std::size_t k = 0; k < loads_.size(); ++k) {
+      for (const Unknown& u : loads_[k].unknowns) u.bound.find_undefined(motion, (*labels_)[k], values);
+    }
+  }
+
+ private:
+  struct Unknown {
+    std::int32_t algebraic;
+    Expression expression;
+    BoundExpression bound;
+  };
+  struct Component {
+    std::size_t axis;           // 0–2 force, 3–5 moment
+    std::size_t first_unknown;  // of the load, one for each load point of the beam if it varies along it
+    bool varies;
+    bool is_force() const { return axis < 3; }
+  };
+  struct Load {
+    BeamBody beam;
+    std::optional<MarkerPlace> rm;
+    std::vector<Component> components;
+    std::vector<Unknown> unknowns;
+  };
+  using Columns = std::array<std::int32_t, beam_coordinates>;
+
+  // Of all load points of the beam, by its undeformed length.
+  static std::vector<double> places_along(const BeamBody& beam) {
+    std::vector<double> places;
+    double whole = 0, before = 0;
+    for (const BeamElement& e : *beam.elements) whole += e.length();
+    for (const BeamElement& e : *beam.elements) {
+      for (std::size_t g = 0; g < beam_load_points; ++g)
+        places.push_back((before + beam_load_place(g) * e.length()) / whole);
+      before += e.length();
+    }
+    return places;
+  }
+
+  static std::int32_t unknown_at(const Load& l, const Component& c, std::size_t point) {
+    return l.unknowns[c.first_unknown + (c.varies ? point : 0)].algebraic;
+  }
+
+  static void load_element(const Load& l, std::size_t element, const Motion& motion, Equations& eq) {
+    const BeamElement& e = (*l.beam.elements)[element];
+    const BeamMotion m = l.beam.motion(motion, element);
+    const Columns at = l.beam.columns(eq.layout(), element);
+    const bool forces = std::ranges::any_of(l.components, &Component::is_force),
+               moments = !std::ranges::all_of(l.components, &Component::is_force);
+    const Matrix3 axes = l.rm ? motion.axes(*l.rm) : Matrix3::identity();
+    const auto points = beam_load_points_of(e, m, moments);
+    std::array<Vector, beam_load_points> force, moment;
+    BeamVector load = BeamVector::Zero();
+    for (std::size_t g = 0; g < beam_load_points; ++g) {
+      for (const Component& c : l.components) {
+        const std::int32_t unknown = unknown_at(l, c, element * beam_load_points + g);
+        const Vector& axis = axes[c.axis % 3];
+        (c.is_force() ? force[g] : moment[g]) += motion.algebraic[static_cast<std::size_t>(unknown)] * axis;
+        if (!eq.wants(PartialBy::algebraic)) continue;
+        BeamVector by = BeamVector::Zero();
+        points[g].add(c.is_force() ? axis : Vector{}, c.is_force() ? Vector{} : axis, by);
+        add_column(PartialBy::algebraic, unknown, by, c.is_force(), !c.is_force(), at, eq);
+      }
+      points[g].add(force[g], moment[g], load);
+    }
+    for (std::size_t k = 0; k < beam_coordinates; ++k) eq.add_residual(at[k], -load(static_cast<Eigen::Index>(k)));
+    if (!eq.wants(PartialBy::position)) return;
+    if (moments) {
+      const BeamMatrix by_position = beam_moments_by_position(e, m, moment);
+      for (std::size_t k = 0; k < beam_coordinates; ++k) {
+        if (is_spin(k)) {
+          add_column(PartialBy::position, at[k], by_position.col(static_cast<Eigen::Index>(k)), false, true, at, eq);
+        }
+      }
+    }
+    if (!l.rm) return;
+    for_each_turning_block(
+        motion, *l.rm, eq.layout(), [&](std::int32_t column, std::size_t count, const Matrix3& turns) {
+          for (std::size_t c = 0; c < count; ++c) {
+            BeamVector by = BeamVector::Zero();
+            for (std::size_t g = 0; g < beam_load_points; ++g)
+              points[g].add(cross(turns[c], force[g]), cross(turns[c], moment[g]), by);
+            add_column(PartialBy::position, column + static_cast<std::int32_t>(c), by, forces, moments, at, eq);
+          }
+        });
+  }
+
+  static constexpr bool is_spin(std::size_t coordinate) {
+    return (coordinate >= 3 && coordinate < 6) || (coordinate >= 9 && coordinate < 12) || coordinate >= 18;
+  }
+  // Forces work on places and slopes, moments on spins.
+  static void add_column(PartialBy family, std::int32_t column, const BeamVector& by, bool forces, bool moments,
+                         const Columns& at, Equations& eq) {
+    for (std::size_t k = 0; k < beam_coordinates; ++k) {
+      if (is_spin(k) ? moments : forces) eq.add(family, at[k], column, -by(static_cast<Eigen::Index>(k)));
+    }
+  }
+
+  const std::vector<ElementLabel>* labels_;
+  std::vector<Load> loads_;
+};
+
+class BeamLoadSet final : public TypedSet<BeamLoad> {
+ public:
+  using TypedSet::TypedSet;
+
+  void read(std::size_t k, ElementReader& reader) override {
+    BeamLoad& l = elements[k];
+    if (!read_arguments(l, reader)) return;
+    const std::string name = reader.label().text();
+    if (reader.given("FUNCTION")) {
+      reader.error("argument-not-built", reader.at("FUNCTION"), "user subroutines are not available");
+      return;
+    }
+    bool any = false;
+    const std::array<const Expression*, 6> written = {&l.fx, &l.fy, &l.fz, &l.tx, &l.ty, &l.tz};
+    for (std::size_t c = 0; c < component_names.size(); ++c) {
+      if (!reader.given(component_names[c])) continue;
+      l.component[c] = *written[c];
+      any = true;
+    }
+    if (!any && !reader.statement().damaged) {
+      reader.error("missing-argument", reader.statement().at, fmt::format("{} has no component", name),
+                   "one or more of FX, FY, FZ, TX, TY, TZ");
+    }
+  }
+
+  void finish(Model& model, Diagnostics& diagnostics) override {
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      const MarkerId rm = elements[k].rm;
+      if (!rm.valid() || !model.marker(rm).floating) continue;
+      diagnostics.error("floating-marker", labels[k].at,
+                        fmt::format("RM of {}, {}, is floating", labels[k].text(), model.marker(rm).label.text()),
+                        "a fixed marker is needed here");
+    }
+  }
+
+  std::unique_ptr<Kernel> make_kernel(const Model& model, Layout& layout) const override {
+    return std::make_unique<BeamLoadKernel>(elements, labels, model, layout);
+  }
+};
+
+}  // namespace
+
+extern constinit const Kind fe_load = Kind{
+    "FE_LOAD",
+    "",
+    "A force and moment per length along a beam of finite elements.",
+    Kind::Role::element,
+    detail::argument_infos<BeamLoad>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<BeamLoadSet>(kind);
+    }}.deactivatable();
+
+}  // namespace dynalin
