@@ -277,7 +277,7 @@ std::shared_ptr<const CompiledRoutine> CalledRoutines::made(const Statement& s, 
     diagnostics_.warning(
         "differenced-routine", at,
         fmt::format("{} of {} gives no derivatives: {}", routine->name(), s.at.text(),
-                    everywhere ? "differences take their place, and no bound of an eigenvalue knows how wrong they are"
+                    everywhere ? "differences take their place, and eigenvalues have no bound"
                                : "statics and dynamics take differences in their iterations, LINEAR refuses it"));
   }
   return routine;

@@ -38,7 +38,7 @@ struct GForce : WrittenVectorForce {
        .ends = "TX TY TZ FUNCTION"},
       {.name = "FUNCTION",
        .slot = &GForce::function,
-       .help = "user subroutines are not available",
+       .help = "USER(…): a compiled routine gives them all",
        .ends = "FX FY FZ TX TY TZ FXYZ TXYZ"},
   }};
 };

@@ -30,7 +30,7 @@ struct VForce : WrittenVectorForce {
        .ends = "FX FY FZ FUNCTION"},
       {.name = "FUNCTION",
        .slot = &VForce::function,
-       .help = "user subroutines are not available",
+       .help = "USER(…): a compiled routine gives them all",
        .ends = "FX FY FZ FXYZ"},
   }};
 };

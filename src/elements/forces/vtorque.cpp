@@ -30,7 +30,7 @@ struct VTorque : WrittenVectorForce {
        .ends = "TX TY TZ FUNCTION"},
       {.name = "FUNCTION",
        .slot = &VTorque::function,
-       .help = "user subroutines are not available",
+       .help = "USER(…): a compiled routine gives them all",
        .ends = "TX TY TZ TXYZ"},
   }};
 };
