@@ -76,6 +76,7 @@ const std::vector<Wrong>& table() {
     {Place::added, "VARIABLE/9, FUNCTION=", {"missing-value 10:21"}},
     {Place::added, "VARIABLE/9, FUNCTION=SQRT(-3)", {"function-domain 10:22"}},
     {Place::added, "VARIABLE/9, FUNCTION=USER(1)", {"missing-routine 10:22"}},
+    {Place::added, "VARIABLE/9, FUNCTION=2*USER(1)", {"routine-in-expression 10:24"}},
     {Place::added, "VARIABLE/9, FUNCTION=SENVAL(3)", {"unknown-element 10:29"}},
     {Place::added, "VARIABLE/9, FUNCTION=SENVAL(3)\nSENSOR/3, FUNCTION=TIME, VALUE=1, HALT", {"missing-argument 10:29"}},
     {Place::added, "SENSOR/3, FUNCTION=TIME\nSENSOR/3, FUNCTION=TIME", {"duplicate-id 11:1"}},
