@@ -325,7 +325,7 @@ const std::vector<Wrong>& table() {
     {Place::added, "VARIABLE/9, FUNCTION=ARYVAL(9,1)\nARRAY/9, X", {"unfilled-entry 10:22"}},
     {Place::added, "GCON/9, FUNCTION=DX(20,1,9)\nPTCV/9, I=20, JFLOAT=9, RM=1, CURVE=9\nMARKER/9, PART=1, FLOATING\nCURVE/9, OPEN, MATRIX=9\nMATRIX/9, FULL=RORDER, ROWS=4, COLUMNS=3, VALUES=1,2,3,4,5,6,7,8,9,1,2,4", {"unfit-constraint 10:18"}},
     {Place::added, "FIELD/9, I=20, J=1, FUNCTION=USER(1,2), LENGTH=1,2,3,4,5,6", {"missing-routine 10:30"}},
-    {Place::added, "FIELD/9, I=20, J=1, FUNCTION=3*DX(20,1)", {"unknown-word 10:30"}},
+    {Place::added, "FIELD/9, I=20, J=1, FUNCTION=3*DX(20,1)", {"unknown-word 10:21"}},
     {Place::added, "FIELD/9, I=20, J=1, NONLINEAR, KMATRIX=1", {"unknown-argument 10:21"}},
     {Place::added, "VARIABLE/9, FUNCTION=NFORCE(1,0,2,0)", {"function-not-built 10:22"}},
     {Place::added, "FLEX_BODY/9\nMFORCE/9, FLEX_BODY=9, CASE_INDEX=1, SCALE=SIN(TIME)", {"missing-argument 10:1"}},
