@@ -14,9 +14,7 @@ namespace dynalin {
 bool KluFactors::analyse(ColumnMatrix& m) {
   // A stricter pivot choice than KLU's default: accuracy of the state matrix is worth the fill.
   common_.tol = 0.1;
-  // KLU's own search for a row of each column takes n² steps in long chains. In small models it costs nothing.
-  constexpr std::int32_t large = 5000;
-  std::vector<std::int32_t> rows = m.columns < large ? m.row : rows_with_matched_first(m);
+  std::vector<std::int32_t> rows = rows_for_analysis(m);
   symbolic_ = klu_analyze(m.columns, m.start.data(), rows.data(), &common_);
   throw_if_out_of_memory();
   return symbolic_ != nullptr;

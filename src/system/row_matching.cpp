@@ -112,4 +112,9 @@ std::vector<std::int32_t> rows_with_matched_first(const ColumnMatrix& m) {
   return rows;
 }
 
+std::vector<std::int32_t> rows_for_analysis(const ColumnMatrix& m) {
+  constexpr std::int32_t large = 5000;
+  return m.columns < large ? m.row : rows_with_matched_first(m);
+}
+
 }  // namespace dynalin

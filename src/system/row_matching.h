@@ -17,4 +17,7 @@ std::vector<std::int32_t> matched_rows(const ColumnMatrix&);
 // its own, which may go through the whole model for each column: n² steps for the equations of a chain.
 std::vector<std::int32_t> rows_with_matched_first(const ColumnMatrix&);
 
+// What KLU's analysis is given: those of large models; small ones as they are, whose search costs nothing.
+std::vector<std::int32_t> rows_for_analysis(const ColumnMatrix&);
+
 }  // namespace dynalin

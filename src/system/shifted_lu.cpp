@@ -102,8 +102,7 @@ ShiftedLu::ShiftedLu(const ColumnMatrix& S, std::int32_t shifted) : factors_(std
   }
   klu_defaults(&f.common);
   f.common.tol = 0.1;
-  constexpr std::int32_t large = 5000;  // as in klu_factors.cpp
-  std::vector<std::int32_t> rows = f.matrix.columns < large ? f.matrix.row : rows_with_matched_first(f.matrix);
+  std::vector<std::int32_t> rows = rows_for_analysis(f.matrix);
   f.symbolic = klu_analyze(f.matrix.columns, f.matrix.start.data(), rows.data(), &f.common);
   if (f.common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
   if (f.symbolic && wants_nested_dissection(f.matrix, predicted_entries())) f.mumps.emplace(f.matrix);
