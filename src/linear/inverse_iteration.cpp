@@ -18,41 +18,93 @@ using ComplexVector = Eigen::VectorXcd;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr std::size_t most_refined = 100;
 constexpr double most_factor_entries = 2e7;
+constexpr int most_rounds = 6;
+constexpr double most_contraction = 0.5;  // of the error of a vector in a round
+constexpr double settled = 64 * eps;      // of a vector of unit length
+
+// One pair (λ, w, y) of the pencil, w and y with their algebraic parts.
+class Refinement {
+ public:
+  Refinement(const StructuredPencil& pencil, const ShiftedLu& lu, Complex start)
+      : pencil_(pencil), lu_(lu), states_(pencil.equations().states()), lambda_(start) {}
+
+  // False where the vectors do not converge.
+  bool run(const ComplexVector& right, const ComplexVector& left) {
+    const Index N = pencil_.equations().unknowns();
+    w_ = ComplexVector::Zero(N), y_ = w_;
+    w_.tail(states_) = right, y_.tail(states_) = left;
+    lu_.solve(w_), lu_.solve_adjoint(y_);
+    if (!normalized()) return false;
+    double before = std::numeric_limits<double>::infinity();
+    for (int round = 0;; ++round) {
+      lambda_ += LongComplex(quotient());
+      // The error of w as its residual shows it, and not as another solution with these factors would repeat it.
+      ComplexVector z = pencil_.residual(lambda_, w_).value, v = pencil_.left_residual(lambda_, y_);
+      const Eigen::VectorXd of_left = v.cwiseAbs();
+      lu_.solve(z), lu_.solve_adjoint(v);
+      z -= w_ * (of_states(y_, z) / unit_);
+      v -= y_ * (of_states(w_, v) / std::conj(unit_));
+      const double size = z.tail(states_).norm();
+      second_order_ = of_left.dot(z.cwiseAbs()) / std::abs(unit_);
+      const bool contracts = size <= most_contraction * before || size <= settled;
+      const bool enough = second_order_ <= floor_ + eps * std::abs(value());
+      if (round > 0 && (enough || !contracts || round == most_rounds)) return contracts;
+      before = size;
+      w_ -= z, y_ -= v;
+      if (!normalized()) return false;
+    }
+  }
+
+  Complex value() const { return {static_cast<double>(lambda_.real()), static_cast<double>(lambda_.imag())}; }
+  ComplexVector right() const { return w_.tail(states_); }
+  ComplexVector left() const { return y_.tail(states_); }
+  // |(S − λE)ᴴ y| · |z| with z the error of w is all that the quotient misses; z is known to a few digits.
+  double error() const { return first_order_margin * second_order_ + floor_ + eps * std::abs(value()); }
+  // By what is not known of the state matrix.
+  double unknown() const {
+    return left().cwiseAbs().dot(pencil_.uncertainty() * right().cwiseAbs()) / std::abs(unit_);
+  }
+
+ private:
+  Complex of_states(const ComplexVector& a, const ComplexVector& b) const {
+    return a.tail(states_).dot(b.tail(states_));
+  }
+  bool normalized() {
+    w_ /= w_.tail(states_).norm(), y_ /= y_.tail(states_).norm();
+    unit_ = of_states(y_, w_);
+    return w_.allFinite() && y_.allFinite() && unit_ != 0.0;
+  }
+  // What the generalized Rayleigh quotient changes of λ.
+  Complex quotient() {
+    const PencilResidual r = pencil_.residual(lambda_, w_);
+    floor_ = (y_.cwiseAbs().dot(r.rounding) + first_order_margin * std::abs(y_.dot(pencil_.taken_out(w_)))) /
+             std::abs(unit_);
+    return y_.dot(r.value) / unit_;
+  }
+
+  const StructuredPencil& pencil_;
+  const ShiftedLu& lu_;
+  const Index states_;
+  LongComplex lambda_;
+  ComplexVector w_, y_;
+  Complex unit_ = 0;
+  double floor_ = 0, second_order_ = 0;
+};
 
 void refine_one(const StructuredPencil& pencil, ShiftedLu& lu, Index i, EigenPairs& pairs, EigenTrust& trust) {
   Complex& value = pairs.values[static_cast<std::size_t>(i)];
-  const Complex start = value;
-  if (!lu.factor(start)) return;
-  const Index n = pencil.equations().states(), N = pencil.equations().unknowns();
-  ComplexVector w = ComplexVector::Zero(N), y = w;
-  w.tail(n) = pairs.right.col(i);
-  y.tail(n) = pairs.left.col(i);
-  LongComplex lambda(start);
-  double change = std::numeric_limits<double>::infinity(), floor = 0, unknown = 0;
-  for (int round = 0; round < 4; ++round) {
-    w.head(N - n).setZero(), y.head(N - n).setZero();
-    lu.solve(w), lu.solve_adjoint(y);
-    w /= w.tail(n).norm(), y /= y.tail(n).norm();
-    if (!w.allFinite() || !y.allFinite()) return;
-    const PencilResidual r = pencil.residual(lambda, w);
-    const Complex unit = y.tail(n).dot(w.tail(n));
-    if (unit == 0.0) return;
-    const Complex delta = y.dot(r.value) / unit;
-    floor = (y.cwiseAbs().dot(r.rounding) + first_order_margin * std::abs(y.dot(pencil.taken_out(w)))) / std::abs(unit);
-    unknown = y.tail(n).cwiseAbs().dot(pencil.uncertainty() * w.tail(n).cwiseAbs()) / std::abs(unit);
-    lambda += LongComplex(delta);
-    change = std::abs(delta);
-    if (round > 0 && change <= floor + eps * std::abs(start)) break;
-  }
-  Complex refined(static_cast<double>(lambda.real()), static_cast<double>(lambda.imag()));
+  if (!lu.factor(value)) return;
+  Refinement refinement(pencil, lu, value);
+  if (!refinement.run(pairs.right.col(i), pairs.left.col(i))) return;
+  Complex refined = refinement.value();
   if (pairs.real(i)) refined.imag(0);
-  const double bound = 4 * change + floor + unknown + eps * std::abs(refined);
+  const double unknown = refinement.unknown(), bound = refinement.error() + unknown;
   // The disc around the start holds this eigenvalue and no other; farther away another one was found.
-  if (!(std::abs(refined - start) <= trust.bound && bound <= trust.bound)) return;
+  if (!(std::abs(refined - value) <= trust.bound && bound <= trust.bound)) return;
   if (!pairs.real(i) && refined.imag() <= 0) return;
   value = refined;
-  pairs.right.col(i) = w.tail(n);
-  pairs.left.col(i) = y.tail(n);
+  pairs.right.col(i) = refinement.right();
+  pairs.left.col(i) = refinement.left();
   trust = {bound, unknown, true, 1};
 }
 

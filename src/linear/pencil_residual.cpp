@@ -57,6 +57,21 @@ PencilResidual StructuredPencil::residual(LongComplex lambda, const Eigen::Vecto
   return r;
 }
 
+Eigen::VectorXcd StructuredPencil::left_residual(LongComplex lambda, const Eigen::VectorXcd& y) const {
+  const Eigen::Index size = y.size(), first_state = size - equations_.states();
+  Eigen::VectorXcd out(size);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    LongComplex sum = 0;
+    for_each_in_column(equations_.products(), static_cast<std::int32_t>(k), [&](std::int32_t r, double v) {
+      sum += static_cast<long double>(v) * LongComplex(y(r));
+    });
+    if (k >= first_state) sum -= std::conj(lambda) * LongComplex(y(k));
+    out(k) = {static_cast<double>(sum.real()), static_cast<double>(sum.imag())};
+  }
+  if (residuals_.cols() > 0) out.tail(equations_.states()) -= shares_.transpose() * (residuals_.transpose() * y);
+  return out;
+}
+
 Eigen::VectorXcd StructuredPencil::taken_out(const Eigen::VectorXcd& w) const {
   const Eigen::VectorXcd along = shares_ * w.tail(equations_.states());
   return residuals_ * along;

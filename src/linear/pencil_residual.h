@@ -29,6 +29,8 @@ class StructuredPencil {
 
   const PerturbationEquations& equations() const { return equations_; }
   PencilResidual residual(std::complex<long double> lambda, const Eigen::VectorXcd& w) const;
+  // (S − λ E)ᴴ y.
+  Eigen::VectorXcd left_residual(std::complex<long double> lambda, const Eigen::VectorXcd& y) const;
   // R T₀⁺ of the states in w: what the pencil as assembled would add.
   Eigen::VectorXcd taken_out(const Eigen::VectorXcd& w) const;
   // R of the zero modes, and T₀⁺.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <random>
 
@@ -157,6 +158,13 @@ Eigen::MatrixXd frank(int n) {
     if (j + 1 < i) return 0.0;
     return static_cast<double>(j + 1 == i ? n - i : n - std::max(i, j));
   });
+}
+// The same states in another order, which takes other pivots.
+Eigen::MatrixXd shuffled(const Eigen::MatrixXd& A, Random& random) {
+  std::vector<int> order(static_cast<std::size_t>(A.rows()));
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), random);
+  return A(order, order);
 }
 Eigen::MatrixXd grcar(int n) {
   return Eigen::MatrixXd::NullaryExpr(
@@ -385,6 +393,8 @@ const Family families[] = {
      any},
     {"lags", [](Random& r) { return many(60, [&](int) { return lags(r); }); }, any},
     {"frank", [](Random&) { return many(14, [](int k) { return state_equation(frank(5 + k)); }); }, 1000},
+    {"shuffled_frank",
+     [](Random& r) { return many(60, [&](int k) { return state_equation(shuffled(frank(11 + k % 7), r)); }); }, any},
     {"grcar", [](Random&) { return many(16, [](int k) { return state_equation(grcar(5 + k)); }); }, 1000},
     {"wilkinson", [](Random&) { return many(16, [](int k) { return state_equation(wilkinson(5 + k)); }); }, 1000},
     {"kahan",
