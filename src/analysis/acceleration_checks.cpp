@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "analysis/acceleration_rounding.h"
+
 namespace dynalin {
 
 namespace {
@@ -91,10 +93,14 @@ LostDigits lost_digits(const System& system, AccelerationEquations& equations, c
   }
   Eigen::VectorXd size = answer.col(0).cwiseAbs();
   equations.spread_over_axes(size);
+  Eigen::VectorXd rounding = rounding_of_solution(lu, terms);
+  equations.spread_over_axes(rounding);
   const Eigen::VectorXd value = equations.values(op).cwiseAbs();
   std::vector<double> parts(n, 0.0);
   for (std::int32_t k = 0; k < static_cast<std::int32_t>(count); ++k) {
-    // An algebraic value that is nothing but rounding has no derivative to lose.
+    // An answer that is nothing but rounding is zero, and so has no digits to lose.
+    if (size(k) <= 1e3 * rounding(k)) continue;
+    // Nor has an algebraic value that is nothing but rounding a derivative to lose.
     const bool algebraic = k >= augmented.algebraic(0) && k < augmented.state(0);
     if (!(size(k) > 0) || !std::isfinite(change(k)) || (algebraic && value(k) <= 1e3 * bend(k))) continue;
     parts[static_cast<std::size_t>(k)] = change(k) / size(k);
