@@ -14,6 +14,14 @@ constexpr FunctionText if_text = {
     "c        what decides; a colon stands behind it\n"
     "a, b, d  only the one that is chosen is evaluated and differentiated: IF(DX(1,2) : 0, 0, -100*DX(1,2))"};
 
+// What a statement reads where it may call a routine; no expression has it.
+constexpr FunctionText user_text = {
+    "p1 [, p2, …]", "what a compiled routine gives: the whole of FUNCTION, and no part of an expression",
+    "of what the statement needs",
+    "p1, …  numbers for the routine\n"
+    "ROUTINE=library::name beside FUNCTION says which one is meant, --user-library where libraries are.\n"
+    "Expressions read VARVAL(id) of a VARIABLE/id, FUNCTION=USER(…)"};
+
 std::string_view group_of(const AtomFunction& f) {
   switch (f.family) {
     case AtomFamily::marker_measure:
@@ -61,8 +69,12 @@ std::vector<FunctionEntry> gathered() {
                        f.maximum_arguments});
     }
   }
+  constexpr std::string_view user = "USER";
+  all.push_back({user, "compiled routines", user_text, 1, 30});
   for (const auto& names : {functions_not_built(), names_not_built()}) {
-    for (const std::string_view name : names) all.push_back({name, "not available yet", {}, 0, 0, false});
+    for (const std::string_view name : names) {
+      if (name != user) all.push_back({name, "not available yet", {}, 0, 0, false});
+    }
   }
   return all;
 }

@@ -75,7 +75,8 @@ TEST(Help, shows_what_a_function_takes) {
   EXPECT_THAT(step.out, AllOf(HasSubstr("STEP(x, x0, h0, x1, h1)"), HasSubstr("where it begins and ends"),
                               HasSubstr("[as h0, h1]")));
   EXPECT_THAT(help("DX").out, AllOf(HasSubstr("DX(i [, j [, k]])"), HasSubstr("[length]")));
-  EXPECT_THAT(help("USER").out, HasSubstr("not available yet"));
+  EXPECT_THAT(help("USER").out, AllOf(HasSubstr("compiled routine"), HasSubstr("ROUTINE=")));
+  EXPECT_THAT(help("SD").out, HasSubstr("not available yet"));
 }
 
 // Names outside of brackets are required, those inside may be left out.
