@@ -22,13 +22,15 @@ inline std::shared_ptr<const Model> model_of(const std::string& text, const std:
   return std::move(built.value);
 }
 inline std::shared_ptr<const System> system_of(const std::string& text, const SystemOptions& options = {}) {
-  auto made = System::make(model_of(text), options);
+  const auto model = model_of(text);  // problems point into its text
+  auto made = System::make(model, options);
   if (!made) throw std::runtime_error(render(made.error()));
   return *made;
 }
 // "code line" of the problems that stand in the way of a System; the text begins on line 5.
 inline std::vector<std::string> problems_of(const std::string& text, const SystemOptions& options = {}) {
-  const auto made = System::make(model_of(text), options);
+  const auto model = model_of(text);  // problems point into its text
+  const auto made = System::make(model, options);
   std::vector<std::string> list;
   if (made) return list;
   for (const Diagnostic& d : made.error().items())
