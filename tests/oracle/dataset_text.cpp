@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanism.h"
+#include "model.h"
 #include "text.h"
 
 namespace dynalin::oracle {
@@ -36,6 +37,7 @@ class Statement {
 std::string owner_keyword(BodyKind kind) { return kind == BodyKind::point_mass ? "POINT_MASS" : "PART"; }
 
 std::string body_text(const Body& body) {
+  if (of_beam(body.ref.kind)) return {};  // of an FE_PART
   Statement s(owner_keyword(body.ref.kind), body.ref.id);
   if (body.ref.kind == BodyKind::ground) return s.word("GROUND").text();
   const bool part = body.ref.kind == BodyKind::part;
@@ -49,6 +51,40 @@ std::string body_text(const Body& body) {
   for (std::size_t k = 0; k < 3 && body.v; ++k) s.set(v_names[k], (*body.v)[k]);
   for (std::size_t k = 0; k < 3 && body.w; ++k) s.set(w_names[k], (*body.w)[k]);
   return s.text();
+}
+
+std::string beam_text(const Beam& b) {
+  Statement material("MATERIAL", b.id);
+  material.set("DENSITY", b.density).set("YOUNGS_MODULUS", b.youngs_modulus).set("POISSONS_RATIO", b.poissons_ratio);
+  Statement s("FE_PART", b.id);
+  std::string labels;
+  for (std::size_t k = 1; k <= b.nodes(); ++k) labels += (k > 1 ? "," : "") + std::to_string(k);
+  s.set("TYPE", "3DBEAM").set("MATERIAL", b.id).set("NODE_LABELS", labels).set("QG", b.qg).set("REULER", b.reuler);
+  const auto by_node = [&](const std::array<const char*, 3>& names, const std::vector<Triple>& list) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::vector<double> values;
+      for (const Triple& t : list) values.push_back(t[axis]);
+      s.set(names[axis], numbers(values));
+    }
+  };
+  by_node({"X", "Y", "Z"}, b.places);
+  by_node({"PSI", "THETA", "PHI"}, b.angles);
+  s.set("AREA", numbers(b.area)).set("IXX", numbers(b.torsion)).set("IYY", numbers(b.yy)).set("IZZ", numbers(b.zz));
+  s.set("IYZ", numbers(b.yz)).set("ASY", numbers(b.shear_y)).set("ASZ", numbers(b.shear_z));
+  return material.text() + s.set("CRATIO", b.damping).text();
+}
+
+std::string beam_load_text(const BeamLoad& l) {
+  Statement s("FE_LOAD", l.id);
+  s.set("FE_PART", l.beam).set("RM", l.rm);
+  static constexpr std::array<const char*, 6> names = {"FX", "FY", "FZ", "TX", "TY", "TZ"};
+  std::string components;
+  for (std::size_t c = 0; c < 6; ++c) {
+    if (l.component[c])
+      components +=
+          (components.empty() ? "" : "\\\n, ") + std::string(names[c]) + " = " + expression_text(*l.component[c]);
+  }
+  return s.word(components).text();
 }
 
 // The derivative of order `level`.
@@ -397,17 +433,24 @@ std::string dataset_text(const Mechanism& m) {
   text += "ACCGRAV/IGRAV=" + number(m.gravity[0]) + ", JGRAV=" + number(m.gravity[1]) +
           ", KGRAV=" + number(m.gravity[2]) + "\n";
   for (const Body& body : m.bodies) text += body_text(body);
+  for (const Beam& b : m.beams) text += beam_text(b);
   for (const Marker& k : m.markers) {
-    if (k.floating) {
-      text +=
-          Statement("MARKER", k.id).set(owner_keyword(k.body.kind), std::to_string(k.body.id)).word("FLOATING").text();
-      continue;
+    Statement s("MARKER", k.id);
+    if (k.body.kind == BodyKind::beam_node) {
+      s.set("FE_PART", k.body.id / 100).set("NODE_LABEL", k.body.id % 100 + 1);
+    } else {
+      s.set(owner_keyword(k.body.kind), std::to_string(k.body.id));
     }
-    text += Statement("MARKER", k.id)
-                .set(owner_keyword(k.body.kind), std::to_string(k.body.id))
-                .set("QP", k.qp)
-                .set("REULER", k.reuler)
-                .text();
+    if (!k.floating && k.body.kind == BodyKind::beam_node) {
+      // Along the axes of the BCS, undeformed.
+      const Beam& b =
+          *std::find_if(m.beams.begin(), m.beams.end(), [&](const Beam& x) { return x.id == k.body.id / 100; });
+      const Mat node = rotation_313(b.angles[static_cast<std::size_t>(k.body.id % 100)]);
+      s.set("QP", to_triple(node * to_vec(k.qp))).set("REULER", angles_313(node * rotation_313(k.reuler)));
+    } else if (!k.floating) {
+      s.set("QP", k.qp).set("REULER", k.reuler);
+    }
+    text += (k.floating ? s.word("FLOATING") : s).text();
   }
   for (const Joint& j : m.joints) text += joint_text(j);
   for (const Coupler& c : m.couplers) text += coupler_text(c);
@@ -426,6 +469,7 @@ std::string dataset_text(const Mechanism& m) {
   for (const Nforce& f : m.nforces) text += nforce_text(f);
   for (const Cable& f : m.cables) text += cable_text(f);
   for (const GeneralForce& f : m.gforces) text += gforce_text(f);
+  for (const BeamLoad& l : m.beam_loads) text += beam_load_text(l);
   return text + controls_text(m) + "END\n";
 }
 

@@ -17,6 +17,11 @@ Stated place_stated_velocities(Model& model) {
     const auto b = static_cast<std::size_t>(model.body_index(body.ref));
     BodyMotion& m = model.motion[b];
     m.v = m.w = Vec{};
+    if (of_beam(body.ref.kind)) {
+      m.v = to_vec(body.v.value_or(Triple{})), m.w = to_vec(body.w.value_or(Triple{}));
+      stated.v[b] = body.v.has_value(), stated.w[b] = body.w.has_value() || model.bodies[b].dof == 3;
+      continue;
+    }
     if (body.w) {
       const auto cm = static_cast<std::size_t>(model.marker_index(body.cm));
       m.w = Mat{model.markers()[cm].axis} * to_vec(*body.w);
@@ -121,7 +126,7 @@ OraclePoint drawn_point(const Mechanism& mechanism) {
     const BodyRef& ref = model.bodies[b].ref;
     const BodyMotion& m = model.motion[b];
     point.bodies.push_back(
-        {ref.id, ref.kind == BodyKind::point_mass, to_triple(m.p), rows_of(m.R), to_triple(m.v), to_triple(m.w)});
+        {ref.id, ref.kind, to_triple(m.p), rows_of(m.R), to_triple(m.v), to_triple(m.w)});
   }
   for (const DifferentialSlot& slot : model.slots) {
     point.z.push_back({slot.element, slot.element_id, slot.index, initial_value(mechanism, slot)});
@@ -193,7 +198,7 @@ std::vector<ChosenState> choose_states(const Mechanism& mechanism, const OracleP
       if (coordinates[k] == 0) continue;
       ChosenState s;
       s.body_id = body.ref.id;
-      s.is_point_mass = body.ref.kind == BodyKind::point_mass;
+      s.body_kind = body.ref.kind;
       s.coordinate = c;
       s.kind = ChosenState::Kind::rate;
       if (rates[k] != 0) states.push_back(s);

@@ -98,7 +98,7 @@ class Works {
     for (std::size_t k = 0; k < states.size(); ++k) {
       const ChosenState& s = states[k];
       if (s.kind != (strain ? Kind::coordinate : Kind::rate)) continue;
-      const BodyRef ref{s.is_point_mass ? BodyKind::point_mass : BodyKind::part, s.body_id};
+      const BodyRef ref{s.body_kind, s.body_id};
       const auto b = static_cast<std::size_t>(model_.body_index(ref));
       square(r, static_cast<std::size_t>(model_.bodies[b].offset + s.coordinate)) = 1;
       right[r++] = x[k];

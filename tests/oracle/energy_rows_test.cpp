@@ -126,7 +126,7 @@ void compare(std::uint64_t seed, Seen& seen) {
   const auto modes = eigensolve(*linear);
   ASSERT_TRUE(modes) << modes.error().message;
   std::vector<ChosenState> states;
-  for (const StateLabel& label : linear->model.states) states.push_back(chosen(label));
+  for (const StateLabel& label : linear->model.states) states.push_back(chosen(label, mechanism));
   const ModalDistribution energies(system, *op, *linear, *modes);
   const OraclePoint point = point_of(system, *op);
   const std::size_t count = modes->modes.size();

@@ -102,6 +102,8 @@ T Evaluator<T>::node(const Node& n) const {
     case Op::time:
       if constexpr (std::is_same_v<T, Jet>) return {model_.time, variation_ == nullptr ? model_.clock : 0, 0};
       return T(model_.time);
+    case Op::place:
+      throw std::logic_error("a place along a beam is asked for elsewhere");
     case Op::add:
       return argument(0) + argument(1);
     case Op::subtract:

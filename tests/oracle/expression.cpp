@@ -97,6 +97,13 @@ Expr constant(double value) {
   return make(std::move(node));
 }
 Expr time_now() { return make(Op::time, {}); }
+Expr place_along_beam() { return make(Op::place, {}); }
+Expr at_place(const Expr& e, double place) {
+  if (e.node->op == Op::place) return constant(place);
+  Node copy = *e.node;
+  for (Expr& argument : copy.arguments) argument = at_place(argument, place);
+  return {std::make_shared<const Node>(std::move(copy))};
+}
 Expr operator+(const Expr& a, const Expr& b) { return make(Op::add, {a, b}); }
 Expr operator-(const Expr& a, const Expr& b) { return make(Op::subtract, {a, b}); }
 Expr operator*(const Expr& a, const Expr& b) { return make(Op::multiply, {a, b}); }
@@ -179,6 +186,8 @@ std::string expression_text(const Expr& expression) {
       return n.value < 0 ? "(" + number(n.value) + ")" : number(n.value);
     case Op::time:
       return "TIME";
+    case Op::place:
+      return "S";
     case Op::add:
       return infix(" + ");
     case Op::subtract:

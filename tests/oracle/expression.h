@@ -17,6 +17,7 @@ struct Expr {
 enum class Op {
   constant,
   time,
+  place,  // S, along a beam
   add,
   subtract,
   multiply,
@@ -82,6 +83,9 @@ struct Node {
 
 [[nodiscard]] Expr constant(double value);
 [[nodiscard]] Expr time_now();
+[[nodiscard]] Expr place_along_beam();
+// The same with a number for that place.
+[[nodiscard]] Expr at_place(const Expr& e, double place);
 [[nodiscard]] Expr operator+(const Expr& a, const Expr& b);
 [[nodiscard]] Expr operator-(const Expr& a, const Expr& b);
 [[nodiscard]] Expr operator*(const Expr& a, const Expr& b);

@@ -22,6 +22,7 @@ Dense Model::mass_matrix() const {
       }
     }
   }
+  add_beam_masses(M);
   return M;
 }
 
@@ -266,7 +267,7 @@ std::size_t Model::algebra_size() const {
 std::vector<int> Model::algebra_groups() const {
   std::vector<int> groups;
   for (const BodyData& body : bodies) {
-    for (int c = 0; c < body.dof; ++c) groups.push_back(c < 3 ? 0 : 1);
+    for (int c = 0; c < body.dof; ++c) groups.push_back(c < 3 && body.ref.kind < BodyKind::beam_slope ? 0 : 1);
   }
   for (const int k : active) {
     const Row::Type type = rows[static_cast<std::size_t>(k)].type;
@@ -308,6 +309,7 @@ std::vector<Real> Model::algebra_residual() const {
   apply_cables(loads);
   apply_frictions(loads);
   apply_touches(loads);
+  apply_beams(loads);
   for (const int k : active) apply_row(loads, rows[static_cast<std::size_t>(k)], lambda[static_cast<std::size_t>(k)]);
   const Vec g = to_vec(mechanism_.gravity);
   const Real ucf = mechanism_.ucf;

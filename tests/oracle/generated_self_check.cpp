@@ -46,7 +46,7 @@ std::vector<double> rates_along(const OraclePoint& point, const OracleLinearMode
     }
     for (std::size_t b = 0; b < point.bodies.size(); ++b) {
       const BodyPoint& p = point.bodies[b];
-      if (p.body_id != s.body_id || p.is_point_mass != s.is_point_mass) continue;
+      if (p.body_id != s.body_id || p.body_kind != s.body_kind) continue;
       const auto c = static_cast<std::size_t>(s.coordinate % 3);
       const BodyAcceleration& acceleration = at.accelerations[b];
       const Triple& velocity = s.coordinate < 3 ? p.velocity : p.angular_velocity;

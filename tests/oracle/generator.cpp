@@ -11,16 +11,6 @@
 
 namespace dynalin::oracle {
 
-namespace {
-
-Triple angles_313(const Mat& R) {
-  const auto& c = R.column;
-  return to_triple(
-      {std::atan2(c[2].x, -c[2].y), std::atan2(std::hypot(c[2].x, c[2].y), c[2].z), std::atan2(c[0].z, c[1].z)});
-}
-
-}  // namespace
-
 void Draw::draw_units() {
   const double r = uniform(0, 1);
   if (r >= 0.5) m_.ucf = r < 0.75 ? 1000 : 386.0885826771654;
@@ -274,13 +264,18 @@ void Draw::draw_velocities() {
   Model model(m_);
   const Stated free{std::vector<bool>(model.bodies.size(), false), std::vector<bool>(model.bodies.size(), false)};
   for (std::size_t b = 1; b < model.bodies.size(); ++b) {
-    model.motion[b].v = box(1.5 * L_);
+    model.motion[b].v = box(model.bodies[b].ref.kind < BodyKind::beam_slope ? 1.5 * L_ : 1);
     model.motion[b].w = model.bodies[b].dof == 6 ? box(2.5) : Vec{};
   }
   model.update_velocities();
   complete_velocities(model, free);
   model.update_velocities();
   for (Body& b : m_.bodies) {
+    if (of_beam(b.ref.kind)) {
+      const BodyMotion& m = model.motion[static_cast<std::size_t>(model.body_index(b.ref))];
+      b.v = to_triple(m.v);
+      if (turns(b.ref.kind)) b.w = to_triple(m.w);
+    }
     if (b.cm == 0) continue;
     const MarkerMotion& cm = model.markers()[static_cast<std::size_t>(model.marker_index(b.cm))];
     b.v = to_triple(cm.v);
@@ -305,6 +300,7 @@ Mechanism Draw::mechanism() {
   draw_velocity_gcon();
   check_structure();
   draw_massless();
+  draw_beams();
   draw_velocities();
   draw_contact_starts();
   draw_springs();
@@ -319,6 +315,7 @@ Mechanism Draw::mechanism() {
   draw_frictions();
   if (!m_.frictions.empty()) check();
   draw_touches();
+  draw_beam_load();
   return m_;
 }
 

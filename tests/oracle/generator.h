@@ -25,10 +25,12 @@ class Draw {
       : random_(seed * 1000003U + attempt * 7919U + 17U),
         friction_random_(seed * 7368787U + attempt * 104729U + 5U),
         touch_random_(seed * 1299709U + attempt * 15485863U + 3U),
+        beam_random_(seed * 179424673U + attempt * 32452843U + 11U),
         wanted_loops_(seed % 10 == 0 ? 2 : (seed % 5 < 2 ? 1 : 0)),
         wanted_motions_(seed % 3 == 0 ? 1 : 0),
         whole_language_(seed > 200),
-        must_touch_(seed > 220),
+        must_touch_(seed > 220 && seed <= 240),
+        must_bend_(seed > 240),
         may_rub_(seed % 2 == 0) {}
   [[nodiscard]] Mechanism mechanism();
 
@@ -80,6 +82,11 @@ class Draw {
   void draw_touches();
   void draw_touch();
   void draw_touch_law(Touch& touch);
+  void draw_beams();
+  void draw_beam();
+  void add_bodies_of(const Beam& beam);
+  void join_beam(const Beam& beam);
+  void draw_beam_load();
   void check_frictions(const Model& model) const;
   void check_structure() const;
   void check() const;
@@ -130,11 +137,12 @@ class Draw {
   }
 
   // Frictions have numbers of their own: what else a seed draws is what it was before there were any.
-  std::mt19937_64 random_, friction_random_, touch_random_;
+  std::mt19937_64 random_, friction_random_, touch_random_, beam_random_;
   // Rejection starves loops and motions; some seeds insist on them.
   int wanted_loops_ = 0, wanted_motions_ = 0;
   bool whole_language_ = false;  // the first 200 stay as they were drawn when there were fewer elements
   bool must_touch_ = false;      // shapes, after 220
+  bool must_bend_ = false;       // a beam, after 240
   bool may_rub_ = false;         // every second seed
   Mechanism m_;
   double L_ = 1, F_ = 10;  // natural length and force

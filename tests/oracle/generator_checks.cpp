@@ -84,7 +84,7 @@ std::vector<std::vector<Real>> admissible(const Model& model, const std::vector<
   const std::size_t dependent = row;
   for (const ChosenState& s : states) {
     if (s.kind != kind) continue;
-    const BodyRef ref{s.is_point_mass ? BodyKind::point_mass : BodyKind::part, s.body_id};
+    const BodyRef ref{s.body_kind, s.body_id};
     const auto b = static_cast<std::size_t>(model.body_index(ref));
     P(row++, static_cast<std::size_t>(model.bodies[b].offset + s.coordinate)) = 1;
   }
@@ -106,6 +106,7 @@ void check_conditioning(Model& model, const std::vector<ChosenState>& states) {
   const auto n = static_cast<std::size_t>(model.dofs);
   std::vector<Real> scale(n, 1);
   for (const Model::BodyData& b : model.bodies) {
+    if (b.ref.kind >= BodyKind::beam_slope) continue;
     for (int c = 0; c < std::min(3, b.dof); ++c) scale[static_cast<std::size_t>(b.offset + c)] = model.length;
   }
   (void)admissible(model, states, scale, ChosenState::Kind::coordinate);
@@ -120,11 +121,13 @@ void check_conditioning(Model& model, const std::vector<ChosenState>& states) {
       for (std::size_t b = 0; b < f; ++b) R(b, a) += N[b][i] * scale[i] * sum;
     }
   }
-  // Pivots of the reduced mass matrix: a small one is an admissible motion that carries hardly any mass.
+  // Pivots of the reduced mass matrix: a small one is an admissible motion that carries hardly any mass. Slopes and
+  // middles of beams, of no length, carry little of it.
+  const Real least = model.mechanism().beams.empty() ? 3e-3L : 1e-7L;
   Real largest = 0;
   for (std::size_t k = 0; k < f; ++k) largest = std::max(largest, R(k, k));
   for (std::size_t k = 0; k < f; ++k) {
-    if (R(k, k) < 3e-3L * largest) throw std::runtime_error("an admissible motion carries no mass");
+    if (R(k, k) < least * largest) throw std::runtime_error("an admissible motion carries no mass");
     for (std::size_t i = k + 1; i < f; ++i) {
       const Real factor = R(i, k) / R(k, k);
       for (std::size_t j = k; j < f; ++j) R(i, j) -= factor * R(k, j);
@@ -158,8 +161,13 @@ void Draw::check() const {
     if (norm(b.w) > 8 || norm(b.v) > 6 * L_) throw std::runtime_error("a body moves too fast");
   }
   solve_algebra(model);
-  for (const BodyMotion& b : model.motion) {
-    if (norm(b.al) > 150 || norm(b.a) > 150 * L_) throw std::runtime_error("a body accelerates too fast");
+  for (std::size_t k = 0; k < model.motion.size(); ++k) {
+    const BodyMotion& b = model.motion[k];
+    // The ends of a beam weigh little; slopes and rotations of middles have no length.
+    const BodyKind kind = model.bodies[k].ref.kind;
+    const double limit = of_beam(kind) ? 3000 : 150;
+    if (norm(b.al) > limit || norm(b.a) > limit * (kind < BodyKind::beam_slope ? L_ : 1))
+      throw std::runtime_error("a body accelerates too fast");
   }
   check_frictions(model);
   for (const Row& row : model.rows) {
@@ -171,6 +179,11 @@ void Draw::check() const {
   for (const GeneralForce& f : m_.gforces) {
     for (const auto& e : f.component) {
       if (e) check_nodes(model, *e);
+    }
+  }
+  for (const BeamLoad& l : m_.beam_loads) {
+    for (const auto& e : l.component) {
+      if (e) check_nodes(model, at_place(*e, 0.5));
     }
   }
   for (const LinearForce& f : m_.linears) {

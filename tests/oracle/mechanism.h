@@ -14,7 +14,11 @@ namespace dynalin::oracle {
 
 using Triple = std::array<double, 3>;
 
-enum class BodyKind { ground, part, point_mass };
+// A node of a beam turns as a part does; its slopes and the rotations of the middles of its elements are triples, moved
+// as point masses are. All of them take what inertia and loads they have from their beam (see Beam).
+enum class BodyKind { ground, part, point_mass, beam_node, beam_slope, beam_middle };
+[[nodiscard]] constexpr bool turns(BodyKind kind) { return kind == BodyKind::part || kind == BodyKind::beam_node; }
+[[nodiscard]] constexpr bool of_beam(BodyKind kind) { return kind >= BodyKind::beam_node; }
 
 struct BodyRef {
   BodyKind kind = BodyKind::part;
@@ -28,8 +32,8 @@ struct Body {
   std::array<double, 6> ip{};  // xx yy zz xy xz yz, product integrals positive
   int cm = 0, im = 0;          // marker ids, 0 = not given
   Triple qg{}, reuler{};
-  std::optional<Triple> v;  // of the CM marker, global axes
-  std::optional<Triple> w;  // in the axes of the CM marker
+  // Of the CM marker, global axes, and in the axes of the CM marker; of what belongs to a beam both global.
+  std::optional<Triple> v, w;
 };
 
 struct Marker {
@@ -206,6 +210,26 @@ struct Touch {
   double mu_static = 0, mu_dynamic = 0, stiction_speed = 1, sliding_speed = 2;
 };
 
+// FE_PART, and the MATERIAL of the same id that it is made of. Undeformed, in its BCS; numbers by node.
+struct Beam {
+  int id = 0;
+  Triple qg{}, reuler{};
+  std::vector<Triple> places, angles;
+  std::vector<double> area, torsion, yy, zz, yz, shear_y, shear_z;
+  double damping = 0, density = 1, youngs_modulus = 1, poissons_ratio = 0;
+
+  [[nodiscard]] std::size_t nodes() const { return places.size(); }
+  // Its bodies: of node k, its slope, and the middle between it and the next; nodes are labelled from 1.
+  [[nodiscard]] BodyRef node(std::size_t k) const { return {BodyKind::beam_node, 100 * id + static_cast<int>(k)}; }
+  [[nodiscard]] BodyRef slope(std::size_t k) const { return {BodyKind::beam_slope, 100 * id + static_cast<int>(k)}; }
+  [[nodiscard]] BodyRef middle(std::size_t k) const { return {BodyKind::beam_middle, 100 * id + static_cast<int>(k)}; }
+};
+// FE_LOAD: forces and moments by length along the axes of rm (0: global); components may read the place.
+struct BeamLoad {
+  int id = 0, beam = 0, rm = 0;
+  std::array<std::optional<Expr>, 6> component;
+};
+
 struct Variable {
   int id = 0;
   Expr function;
@@ -271,6 +295,8 @@ struct Mechanism {
   std::vector<GeneralForce> gforces;
   std::vector<Friction> frictions;
   std::vector<Touch> touches;
+  std::vector<Beam> beams;
+  std::vector<BeamLoad> beam_loads;
   std::vector<SplinePoints> splines;
   std::vector<Variable> variables;
   std::vector<Diff> diffs;

@@ -58,6 +58,7 @@ std::vector<int> independent_rows(const Dense& m, Real tolerance) {
 
 Model::Model(const Mechanism& mechanism) : mechanism_(mechanism) {
   read_bodies();
+  read_beams();
   read_rows();
   read_controls();
   motion.resize(bodies.size());
@@ -97,7 +98,7 @@ void Model::read_bodies() {
     }
   }
   for (BodyData& body : bodies) {
-    body.dof = body.ref.kind == BodyKind::ground ? 0 : (body.ref.kind == BodyKind::part ? 6 : 3);
+    body.dof = body.ref.kind == BodyKind::ground ? 0 : (turns(body.ref.kind) ? 6 : 3);
     body.offset = dofs;
     dofs += body.dof;
   }
@@ -199,6 +200,7 @@ void Model::update_positions() {
   }
   solve_contacts();
   refresh_gradients();
+  beam_directions_.clear();
 }
 
 void Model::update_velocities() {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "beams.h"
 #include "curves.h"
 #include "jet.h"
 #include "mechanism.h"
@@ -180,6 +181,7 @@ class Model {
   void read_relations();
   void read_motions();
   void read_contacts();
+  void read_beams();
   void read_controls();
   void capture_offsets();
   void solve_contacts();
@@ -199,6 +201,9 @@ class Model {
   void apply_cables(std::vector<Wrench>& loads) const;
   void apply_frictions(std::vector<Wrench>& loads) const;
   void apply_touches(std::vector<Wrench>& loads) const;
+  // Of beams on their nodes, torques about them, and on slopes and middles: elasticity, inertia, weight and FE_LOADs.
+  void apply_beams(std::vector<Wrench>& loads) const;
+  void add_beam_masses(Dense& mass) const;
   // Wrenches on I, torque about p_I.
   [[nodiscard]] Wrench spring_wrench(std::size_t k) const;
   [[nodiscard]] Wrench sforce_wrench(std::size_t k) const;
@@ -250,6 +255,16 @@ class Model {
     std::array<Real, 2> parameter{};
     std::array<std::array<Real, 2>, 2> slopes{};
   };
+  struct BeamPiece {  // between two nodes
+    BeamElement element;
+    std::array<std::size_t, 5> body{};   // both nodes, both slopes, the middle
+    std::vector<std::size_t> loads;      // places in the mechanism
+    std::array<double, 4> load_place{};  // S
+  };
+  [[nodiscard]] BeamPose<Jet> pose_along_motion(const BeamPiece& piece) const;
+  [[nodiscard]] const BeamDirections& directions(std::size_t piece) const;
+  std::vector<BeamPiece> pieces_;
+  mutable std::vector<BeamDirections> beam_directions_;  // of the present positions, once asked for
   std::map<int, CurveShape> curves_;
   std::vector<ContactData> contact_data_;
 };
@@ -266,6 +281,14 @@ class Model {
 [[nodiscard]] inline Triple to_triple(const Vec& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
+
+// Psi, theta, phi of rotation_313.
+[[nodiscard]] inline Triple angles_313(const Mat& R) {
+  const auto& c = R.column;
+  return to_triple(
+      {std::atan2(c[2].x, -c[2].y), std::atan2(std::hypot(c[2].x, c[2].y), c[2].z), std::atan2(c[0].z, c[1].z)});
+}
+[[nodiscard]] inline Mat rotation_313(const Triple& angles) { return rotation_313(angles[0], angles[1], angles[2]); }
 
 // Rows in the given order that add rank; a dependent row keeps less than `tolerance` of its own length.
 [[nodiscard]] std::vector<int> independent_rows(const Dense& m, Real tolerance);

@@ -14,8 +14,6 @@ Mat orthonormal(const std::array<Triple, 3>& rows) {
   return R;
 }
 
-BodyRef ref_of(int id, bool is_point_mass) { return {is_point_mass ? BodyKind::point_mass : BodyKind::part, id}; }
-
 NewtonScales algebra_scales(const Model& model) {
   const std::vector<int> groups = model.algebra_groups();
   return {groups, std::vector<Real>(groups.size(), 1e-3L)};
@@ -27,12 +25,12 @@ void place(Model& model, const OraclePoint& point) {
   model.time = point.time;
   std::size_t placed = 0;
   for (const BodyPoint& given : point.bodies) {
-    const int b = model.body_index(ref_of(given.body_id, given.is_point_mass));
+    const int b = model.body_index({given.body_kind, given.body_id});
     BodyMotion& m = model.motion[static_cast<std::size_t>(b)];
     m = {to_vec(given.position),
          orthonormal(given.rotation),
          to_vec(given.velocity),
-         given.is_point_mass ? Vec{} : to_vec(given.angular_velocity),
+         turns(given.body_kind) ? to_vec(given.angular_velocity) : Vec{},
          Vec{},
          Vec{}};
     ++placed;
@@ -88,7 +86,7 @@ void Neighbourhood::read_states() {
       column.nominal = model_.evaluate_along(column.function);
       (s.kind == Kind::coordinate ? chosen_ : chosen_rates_).push_back(k);
     } else {
-      const auto b = static_cast<std::size_t>(model_.body_index(ref_of(s.body_id, s.is_point_mass)));
+      const auto b = static_cast<std::size_t>(model_.body_index({s.body_kind, s.body_id}));
       if (s.coordinate < 0 || s.coordinate >= model_.bodies[b].dof) {
         throw std::runtime_error("no such coordinate");
       }

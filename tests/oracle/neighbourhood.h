@@ -25,8 +25,9 @@ class Neighbourhood {
       const Model::BodyData& body = model_.bodies[b];
       for (int c = 0; c < body.dof; ++c) {
         const auto k = static_cast<std::size_t>(body.offset + c);
-        scales_.group[k] = c < 3 ? 0 : 1;
-        scales_.floor[k] = c < 3 ? model_.length : 1;
+        const bool is_length = c < 3 && body.ref.kind < BodyKind::beam_slope;
+        scales_.group[k] = is_length ? 0 : 1;
+        scales_.floor[k] = is_length ? model_.length : 1;
       }
     }
     polish();
@@ -43,6 +44,7 @@ class Neighbourhood {
     const ChosenState& s = states_[state];
     if (s.variable != 0) return columns_[state].function.node->measure <= Measure::DM ? model_.length / 4 : 1;
     if (s.kind == ChosenState::Kind::differential || s.coordinate >= 3) return 1;
+    if (s.body_kind >= BodyKind::beam_slope) return 0.5;
     return model_.length / 4;
   }
 

@@ -73,7 +73,7 @@ OracleLinearModel oracle_linearize(const Mechanism& mechanism, const OraclePoint
   for (std::size_t b = 1; b < near.model().bodies.size(); ++b) {
     const BodyRef& ref = near.model().bodies[b].ref;
     const BodyMotion& m = near.nominal()[b];
-    result.accelerations.push_back({ref.id, ref.kind == BodyKind::point_mass, to_triple(m.a), to_triple(m.al)});
+    result.accelerations.push_back({ref.id, ref.kind, to_triple(m.a), to_triple(m.al)});
   }
   for (const Real v : near.model().differential_rates()) {
     result.differential_rates.push_back(static_cast<double>(v));

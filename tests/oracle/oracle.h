@@ -25,7 +25,7 @@ struct ChosenState {
   enum class Kind { coordinate, rate, differential };
   Kind kind = Kind::coordinate;
   int body_id = 0;
-  bool is_point_mass = false;
+  BodyKind body_kind = BodyKind::part;
   int coordinate = 0;  // 0..5: x y z rx ry rz, global axes
   ElementClass element = ElementClass::diff;
   int element_id = 0;
@@ -35,7 +35,7 @@ struct ChosenState {
 
 struct BodyPoint {
   int body_id = 0;
-  bool is_point_mass = false;
+  BodyKind body_kind = BodyKind::part;
   Triple position{};                      // of the BCS
   std::array<Triple, 3> rotation{};       // rows of R: components in BCS to components in global
   Triple velocity{}, angular_velocity{};  // of the BCS, global axes
@@ -54,7 +54,7 @@ struct OraclePoint {
 
 struct BodyAcceleration {
   int body_id = 0;
-  bool is_point_mass = false;
+  BodyKind body_kind = BodyKind::part;
   Triple acceleration{}, angular_acceleration{};  // of the BCS, global axes
 };
 

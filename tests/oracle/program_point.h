@@ -1,20 +1,45 @@
 // A point and the states of the program as the oracle takes them.
 #pragma once
 
+#include <algorithm>
+#include <map>
+
 #include "linear/linear_system.h"
 #include "oracle/oracle.h"
 
 namespace dynalin::oracle {
 
+inline bool is_beam(const ElementLabel& label) { return label.statement == "FE_PART"; }
+
+// Slopes of nodes, then middles of elements: visit(which, place among coordinates outside poses, column).
+template <class Visit>
+void for_each_triple_of_beams(const Layout& layout, Visit&& visit) {
+  for (const ExtraBlock& block : layout.extras) {
+    if (!is_beam(block.label)) continue;
+    const int id = 100 * static_cast<int>(block.label.id), nodes = (block.count / 3 + 1) / 2;
+    for (int k = 0; k < block.count / 3; ++k) {
+      const BodyRef ref =
+          k < nodes ? BodyRef{BodyKind::beam_slope, id + k} : BodyRef{BodyKind::beam_middle, id + k - nodes};
+      visit(ref, layout.extra_index(block.offset) + static_cast<std::size_t>(3 * k),
+            static_cast<std::size_t>(block.offset + 3 * k));
+    }
+  }
+}
+
 inline OraclePoint point_of(const System& system, const OperatingPoint& op) {
   OraclePoint point;
   point.time = op.time;
   const Layout& layout = system.layout();
+  std::map<int, int> nodes_seen;
   for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
     const BodyBlock& block = layout.bodies[b];
     BodyPoint body;
     body.body_id = static_cast<int>(block.label.id);
-    body.is_point_mass = block.kind == ::dynalin::BodyKind::point_mass;
+    body.body_kind = block.kind == ::dynalin::BodyKind::point_mass ? BodyKind::point_mass : BodyKind::part;
+    if (is_beam(block.label)) {
+      body.body_kind = BodyKind::beam_node;
+      body.body_id = 100 * body.body_id + nodes_seen[body.body_id]++;
+    }
     for (std::size_t k = 0; k < 3; ++k) {
       body.position[k] = op.poses[b].r[k];
       for (std::size_t c = 0; c < 3; ++c) body.rotation[k][c] = op.poses[b].R(k, c);
@@ -23,6 +48,15 @@ inline OraclePoint point_of(const System& system, const OperatingPoint& op) {
     }
     point.bodies.push_back(body);
   }
+  for_each_triple_of_beams(layout, [&](const BodyRef& ref, std::size_t extra, std::size_t column) {
+    BodyPoint triple;
+    triple.body_kind = ref.kind, triple.body_id = ref.id;
+    for (std::size_t k = 0; k < 3; ++k) {
+      triple.position[k] = op.extra[extra + k], triple.velocity[k] = op.velocity[column + k];
+      triple.rotation[k][k] = 1;
+    }
+    point.bodies.push_back(triple);
+  });
   for (std::size_t k = 0; k < layout.states.size(); ++k) {
     const DifferentialState& z = layout.states[k];
     if (z.course_of_motion) continue;  // a constant of the instant
@@ -31,14 +65,53 @@ inline OraclePoint point_of(const System& system, const OperatingPoint& op) {
   return point;
 }
 
-inline ChosenState chosen(const StateLabel& label) {
+// Puts the beams into the shapes that were drawn, which no statement states, and gives all bodies the velocities drawn.
+inline void put_beams(const Mechanism& mechanism, const System& system, OperatingPoint& op) {
+  if (mechanism.beams.empty()) return;
+  const OraclePoint drawn = drawn_point(mechanism);
+  const auto at = [&](const BodyRef& ref) {
+    return *std::find_if(drawn.bodies.begin(), drawn.bodies.end(), [&](const BodyPoint& b) {
+      return BodyRef{b.body_kind, b.body_id} == ref;
+    });
+  };
+  const Layout& layout = system.layout();
+  const OraclePoint before = point_of(system, op);
+  for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
+    const BodyPoint to = at({before.bodies[b - 1].body_kind, before.bodies[b - 1].body_id});
+    const auto column = static_cast<std::size_t>(layout.bodies[b].offset);
+    for (std::size_t k = 0; k < 3; ++k) {
+      op.velocity[column + k] = to.velocity[k];
+      if (turns(to.body_kind)) op.velocity[column + 3 + k] = to.angular_velocity[k];
+      if (!of_beam(to.body_kind)) continue;
+      op.poses[b].r[k] = to.position[k];
+      for (std::size_t c = 0; c < 3; ++c) op.poses[b].R(k, c) = to.rotation[k][c];
+    }
+  }
+  for_each_triple_of_beams(layout, [&](const BodyRef& ref, std::size_t extra, std::size_t column) {
+    const BodyPoint to = at(ref);
+    for (std::size_t k = 0; k < 3; ++k) op.extra[extra + k] = to.position[k], op.velocity[column + k] = to.velocity[k];
+  });
+}
+
+inline ChosenState chosen(const StateLabel& label, const Mechanism& mechanism) {
   ChosenState s;
   if (label.type == StateType::part || label.type == StateType::point_mass) {
     const bool point = label.type == StateType::point_mass;
     s.kind = label.is_rate ? ChosenState::Kind::rate : ChosenState::Kind::coordinate;
     s.body_id = static_cast<int>(label.element);
-    s.is_point_mass = point;
+    s.body_kind = point ? BodyKind::point_mass : BodyKind::part;
     s.coordinate = label.coordinate - 1 - (label.is_rate ? (point ? 3 : 6) : 0);
+  } else if (label.type == StateType::fe_part) {
+    const Beam& beam = *std::find_if(mechanism.beams.begin(), mechanism.beams.end(),
+                                     [&](const Beam& b) { return b.id == static_cast<int>(label.element); });
+    const int nodes = static_cast<int>(beam.nodes());
+    const int c = label.coordinate - 1 - (label.is_rate ? 12 * nodes - 3 : 0), beyond = c - 9 * nodes;
+    s.kind = label.is_rate ? ChosenState::Kind::rate : ChosenState::Kind::coordinate;
+    const BodyRef ref = beyond >= 0  ? beam.middle(static_cast<std::size_t>(beyond / 3))
+                        : c % 9 >= 6 ? beam.slope(static_cast<std::size_t>(c / 9))
+                                     : beam.node(static_cast<std::size_t>(c / 9));
+    s.body_id = ref.id, s.body_kind = ref.kind;
+    s.coordinate = beyond >= 0 ? beyond % 3 : c % 9 >= 6 ? c % 9 - 6 : c % 9;
   } else if (label.type == StateType::pstate || label.type == StateType::pstate_rate) {
     s.kind = label.is_rate ? ChosenState::Kind::rate : ChosenState::Kind::coordinate;
     s.variable = static_cast<int>(label.element);

@@ -1,0 +1,80 @@
+// An element of a beam by its energies: strains and sections along it as functions of its pose, over numbers or jets.
+// Rotations are quaternions; forces are what virtual work along each of its coordinates says, by jets.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "jet.h"
+#include "mechanism.h"
+
+namespace dynalin::oracle {
+
+inline constexpr std::size_t strain_points = 3, line_points = 4;  // of Gauss
+
+template <class T>
+struct BeamPose {
+  std::array<Vector3<T>, 2> r, s;                 // places and slopes of the ends
+  std::array<std::array<Vector3<T>, 3>, 2> axis;  // of the ends
+  Vector3<T> phi;                                 // of the middle
+};
+
+// Along an element: strains and axes of sections at the points of strains, axes and places at the points of the line.
+template <class T>
+struct BeamShape {
+  std::array<Vector3<T>, strain_points> stretch, curvature;  // Gamma + e_x, kappa
+  std::array<std::array<Vector3<T>, 3>, strain_points> axis;
+  std::array<std::array<Vector3<T>, 3>, line_points> line_axis;
+  std::array<Vector3<T>, line_points> place;
+};
+
+// The coordinates: r1, spin of 1, r2, spin of 2, s1, s2, phi.
+inline constexpr std::size_t beam_freedoms = 21;
+
+// What a unit of each coordinate makes of strains, and the spins of sections.
+struct BeamDirections {
+  struct One {
+    std::array<Vec, strain_points> stretch, curvature, spin;
+    std::array<Vec, line_points> line_spin, place;
+  };
+  std::array<One, beam_freedoms> by;
+};
+
+class BeamElement {
+ public:
+  BeamElement() = default;
+  // Between nodes k and k + 1.
+  BeamElement(const Beam& beam, std::size_t k, Real ucf);
+
+  // What acts on each coordinate: less than elasticity and damping, inertia and weight, for jets along the motion.
+  [[nodiscard]] std::array<Real, beam_freedoms> loads(const BeamPose<Jet>& along, const BeamDirections& by,
+                                                      const Vec& gravity) const;
+  // Of forces and moments by length, global axes, at the points of the line.
+  [[nodiscard]] std::array<Real, beam_freedoms> loads(const std::array<Vec, line_points>& force,
+                                                      const std::array<Vec, line_points>& moment,
+                                                      const BeamDirections& by) const;
+  [[nodiscard]] BeamDirections directions(const BeamPose<Real>& pose) const;
+  [[nodiscard]] Real mass(const BeamPose<Real>& pose, const BeamDirections& by, std::size_t a, std::size_t b) const;
+  [[nodiscard]] Real length() const { return length_; }
+  // Where a point of the line is, 0 to 1 along the element.
+  [[nodiscard]] static Real line_place(std::size_t point);
+
+ private:
+  template <class T>
+  [[nodiscard]] BeamShape<T> shape(const BeamPose<T>& pose) const;
+  [[nodiscard]] Vec spun(std::size_t point, const std::array<Vec, 3>& axes, const Vec& w) const;  // inertia times w
+
+  Real length_ = 1;
+  struct StrainPoint {
+    Real weight = 0;
+    Vec stretch, curvature;                    // undeformed
+    Vec stretching;                            // EA, GA/ASY, GA/ASZ
+    Real torsion = 0, yy = 0, zz = 0, yz = 0;  // GJ, E times second moments
+    std::array<Real, 3> second{};              // density times the integrals of z z, y y, y z
+  };
+  std::array<StrainPoint, strain_points> strain_{};
+  std::array<Real, line_points> line_weight_{}, line_mass_{};
+  Real damping_ = 0;
+};
+
+}  // namespace dynalin::oracle
