@@ -100,7 +100,8 @@ TEST(Oracle, bead_on_a_parabola_swings) {
   m.matrices = {points(1, parabola(a))};
   m.curves = {{1, 1}};
   m.contacts = {{1, false, 1, 2, 0, 3, 0, 1, 0, 0.05}};
-  const ChosenState place{Kind::coordinate, 1, BodyKind::point_mass, 0, {}, 0, 1}, speed{Kind::rate, 1, BodyKind::point_mass, 0, {}, 0, 1};
+  const ChosenState place{Kind::coordinate, 1, BodyKind::point_mass, 0, {}, 0, 1},
+      speed{Kind::rate, 1, BodyKind::point_mass, 0, {}, 0, 1};
   expect_matrix(linearize_drawn(m, {speed, place}).A, {{0, -2 * a * g}, {1, 0}}, 1e-12);
   // Above the vertex by a x^2, at the speed v along the wire.
   Model model(m);

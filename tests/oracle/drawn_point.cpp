@@ -125,8 +125,7 @@ OraclePoint drawn_point(const Mechanism& mechanism) {
   for (std::size_t b = 1; b < model.bodies.size(); ++b) {
     const BodyRef& ref = model.bodies[b].ref;
     const BodyMotion& m = model.motion[b];
-    point.bodies.push_back(
-        {ref.id, ref.kind, to_triple(m.p), rows_of(m.R), to_triple(m.v), to_triple(m.w)});
+    point.bodies.push_back({ref.id, ref.kind, to_triple(m.p), rows_of(m.R), to_triple(m.v), to_triple(m.w)});
   }
   for (const DifferentialSlot& slot : model.slots) {
     point.z.push_back({slot.element, slot.element_id, slot.index, initial_value(mechanism, slot)});

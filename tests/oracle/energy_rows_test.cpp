@@ -168,8 +168,8 @@ TEST(EnergyRowKinds, are_all_compared) {
         std::string(kind->statement) + (kind->variant.empty() ? "" : " ") + std::string(kind->variant);
     for (const Energy energy : {Energy::strain, Energy::dissipation}) missing.insert(key_of(name, energy));
   }
-  EXPECT_EQ(missing.size(), 28u)
-      << "BEAM, BUSHING, CABLE, CONTACT, FIELD, FRICTION, GFORCE, NFORCE, VFORCE, VTORQUE, two each of SFORCE and SPRINGDAMPER";
+  EXPECT_EQ(missing.size(), 28u) << "BEAM, BUSHING, CABLE, CONTACT, FIELD, FRICTION, GFORCE, NFORCE, VFORCE, VTORQUE, "
+                                    "two each of SFORCE and SPRINGDAMPER";
   for (std::uint64_t seed = 1; seed <= 240 && !missing.empty(); ++seed) {
     // Only mechanisms that hold one of those.
     const std::string text = dataset_text(random_mechanism(seed));

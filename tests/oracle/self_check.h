@@ -24,8 +24,12 @@ constexpr Triple z_along_y{pi, pi / 2, 0};
 using Kind = ChosenState::Kind;
 
 inline ChosenState rate(int body, int coordinate) { return {Kind::rate, body, BodyKind::part, coordinate, {}, 0, 1}; }
-inline ChosenState value(int body, int coordinate) { return {Kind::coordinate, body, BodyKind::part, coordinate, {}, 0, 1}; }
-inline ChosenState tfsiso_state(int id) { return {Kind::differential, 0, BodyKind::part, 0, ElementClass::tfsiso, id, 1}; }
+inline ChosenState value(int body, int coordinate) {
+  return {Kind::coordinate, body, BodyKind::part, coordinate, {}, 0, 1};
+}
+inline ChosenState tfsiso_state(int id) {
+  return {Kind::differential, 0, BodyKind::part, 0, ElementClass::tfsiso, id, 1};
+}
 
 inline Mechanism with_ground() {
   Mechanism m;
