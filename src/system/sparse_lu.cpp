@@ -128,10 +128,11 @@ class MumpsFactors {
   std::vector<int> row_, column_, place_;
 };
 
-// Several right-hand sides at a time go through the factors once, few enough to stay in the cache.
+// Several right-hand sides at a time go through the factors once, as many as KLU takes together, or few enough to stay
+// in the cache.
+constexpr Eigen::Index at_once_by_klu = 4, at_once_by_mumps = 16;
 template <class Function>
-void for_blocks(Eigen::Ref<Eigen::MatrixXd>& B, Function&& solve) {
-  constexpr Eigen::Index most = 16;
+void for_blocks(Eigen::Ref<Eigen::MatrixXd>& B, Eigen::Index most, Function&& solve) {
   for (Eigen::Index first = 0; first < B.cols(); first += most) {
     solve(B.middleCols(first, std::min(most, B.cols() - first)));
   }
@@ -246,6 +247,7 @@ struct SparseLu::Factors {
     return klu->factor(balanced) && klu->most_cancelled() > least_left_by_cancellation;
   }
 
+  Eigen::Index at_once() const { return mumps ? at_once_by_mumps : at_once_by_klu; }
   void solve(Eigen::MatrixXd& x) const {
     const auto columns = static_cast<int>(x.cols());
     if (units) x = units->row.asDiagonal() * x;
@@ -284,8 +286,9 @@ void SparseLu::solve(Eigen::Ref<Eigen::MatrixXd> B) const {
   const Factors& f = *factors_;
   const auto n = static_cast<std::size_t>(f.matrix.rows);
   if (n == 0) return;
-  for_blocks(B, [&](auto&& block) {
-    Eigen::MatrixXd b = block, x = b;
+  Eigen::MatrixXd b, x;
+  for_blocks(B, f.at_once(), [&](auto&& block) {
+    b = block, x = b;
     f.solve(x);
     for (Eigen::Index c = 0; c < b.cols(); ++c) {
       f.matrix.multiply_add({x.col(c).data(), n}, {b.col(c).data(), n}, -1.0);
@@ -298,8 +301,9 @@ void SparseLu::solve(Eigen::Ref<Eigen::MatrixXd> B) const {
 void SparseLu::solve_transposed(Eigen::Ref<Eigen::MatrixXd> B) const {
   const Factors& f = *factors_;
   if (f.matrix.rows == 0) return;
-  for_blocks(B, [&](auto&& block) {
-    Eigen::MatrixXd x = block;
+  Eigen::MatrixXd x;
+  for_blocks(B, f.at_once(), [&](auto&& block) {
+    x = block;
     f.solve_transposed(x);
     block = x;
   });
