@@ -33,8 +33,9 @@ ComplexMatrix with_algebraic(const ComplexMatrix& algebraic, const ComplexMatrix
 
 struct Residuals {
   ComplexMatrix value;
-  Matrix rounding;
+  Matrix rounding;  // no columns if it is not asked for
 };
+enum class Rounding : bool { left_out, wanted };
 
 // Sum of real factors with complex numbers, in long double.
 struct LongSum {
@@ -59,9 +60,10 @@ struct LongSum {
 };
 
 // M w − E U F column by column, given the rows of M: the states of U stand in the last places.
-Residuals residuals(const ColumnMatrix& rows, const ComplexMatrix& w, const ComplexMatrix& U, const ComplexMatrix& F) {
+Residuals residuals(const ColumnMatrix& rows, const Eigen::Ref<const ComplexMatrix>& w, const ComplexMatrix& U,
+                    const ComplexMatrix& F, Rounding rounding = Rounding::wanted) {
   const Index size = w.rows(), first_state = size - U.rows();
-  Residuals r{ComplexMatrix(size, w.cols()), Matrix(size, w.cols())};
+  Residuals r{ComplexMatrix(size, w.cols()), Matrix(size, rounding == Rounding::wanted ? w.cols() : 0)};
   for (Index c = 0; c < w.cols(); ++c) {
     for (Index k = 0; k < size; ++k) {
       LongSum sum;
@@ -71,7 +73,8 @@ Residuals residuals(const ColumnMatrix& rows, const ComplexMatrix& w, const Comp
         for (Index j = 0; j < F.rows(); ++j) sum.subtract(U(k - first_state, j), F(j, c));
       }
       r.value(k, c) = {static_cast<double>(sum.re), static_cast<double>(sum.im)};
-      r.rounding(k, c) = long_eps * sum.terms * sum.size + eps * std::abs(r.value(k, c));
+      if (rounding == Rounding::wanted)
+        r.rounding(k, c) = long_eps * sum.terms * sum.size + eps * std::abs(r.value(k, c));
     }
   }
   return r;
@@ -105,7 +108,9 @@ Matrix sizes_product(const ComplexMatrix& a, const Matrix& b) {
   Matrix sum = Matrix::Zero(a.cols(), b.cols());
   for (Index first = 0; first < a.rows(); first += at_a_time) {
     const Index count = std::min(at_a_time, a.rows() - first);
-    sum += transposed_product(Matrix(a.middleRows(first, count).cwiseAbs()), Matrix(b.middleRows(first, count)));
+    // Not by hypot: coefficient_roundings() squares the same numbers.
+    sum += transposed_product(Matrix(a.middleRows(first, count).cwiseAbs2().cwiseSqrt()),
+                              Matrix(b.middleRows(first, count)));
   }
   return sum;
 }
@@ -117,29 +122,65 @@ void for_few_columns(Index columns, Function&& visit) {
   for (Index first = 0; first < columns; first += most) visit(first, std::min(most, columns - first));
 }
 
-// All unknowns of the left vectors, and their residuals Aᴴ Y − Y Bᴴ with the algebraic unknowns taken out.
+// Columns of which a few digits are enough, each in a unit of its own: half the memory.
+class ShortColumns {
+ public:
+  ShortColumns(Index rows, Index columns) : value_(rows, columns), unit_(columns) {}
+
+  void set(Index first, const ComplexMatrix& columns) {
+    for (Index c = 0; c < columns.cols(); ++c) {
+      const double largest = columns.rows() > 0 ? columns.col(c).cwiseAbs2().maxCoeff() : 0.0;
+      unit_(first + c) = largest > 0 ? std::sqrt(largest) : 1.0;
+      value_.col(first + c) = (columns.col(c) / unit_(first + c)).cast<std::complex<float>>();
+    }
+  }
+  // Aᴴ b for the first rows of b.
+  ComplexMatrix adjoint_times(const ComplexMatrix& b) const {
+    constexpr Index at_a_time = 4096;
+    ComplexMatrix sum = ComplexMatrix::Zero(value_.cols(), b.cols());
+    for (Index first = 0; first < value_.rows(); first += at_a_time) {
+      const Index count = std::min(at_a_time, value_.rows() - first);
+      sum += adjoint_product(value_.middleRows(first, count).cast<Complex>(), b.middleRows(first, count));
+    }
+    return unit_.asDiagonal() * sum;
+  }
+
+ private:
+  Eigen::MatrixXcf value_;
+  Eigen::VectorXd unit_;
+};
+
+// All unknowns of the left vectors, and their residuals Aᴴ Y − Y Bᴴ with the algebraic unknowns taken out. Those of
+// algebraic unknowns only meet other residuals, in what those may do at most.
 struct LeftResiduals {
-  ComplexMatrix y, of_algebraic, of_states;
+  ComplexMatrix y;
+  ShortColumns of_algebraic;
+  ComplexMatrix of_states;
 };
 
 LeftResiduals left_residuals(const PerturbationEquations& equations, const Subspace& of) {
   const Index n = equations.states(), p = of.Y.cols(), algebraic = equations.unknowns() - n;
-  LeftResiduals left{ComplexMatrix(n + algebraic, p), ComplexMatrix(algebraic, p), ComplexMatrix(n, p)};
+  LeftResiduals left{ComplexMatrix(n + algebraic, p), ShortColumns(algebraic, p), ComplexMatrix(n, p)};
   const ComplexMatrix onto = of.B.adjoint();
   for_few_columns(p, [&](Index first, Index count) {
     const ComplexMatrix Y = of.Y.middleCols(first, count);
-    const ComplexMatrix y = with_algebraic(by_parts(Y, [&](const Matrix& m) { return equations.complete_left(m); }), Y);
-    const ComplexMatrix value = residuals(equations.products(), y, of.Y, onto.middleCols(first, count)).value;
-    const ComplexMatrix L_a = by_parts(ComplexMatrix(value.topRows(algebraic)),
-                                       [&](const Matrix& m) { return equations.solve_transposed(m); });
+    auto y = left.y.middleCols(first, count);
+    y.topRows(algebraic) = by_parts(Y, [&](const Matrix& m) { return equations.complete_left(m); });
+    y.bottomRows(n) = Y;
     auto L = left.of_states.middleCols(first, count);
-    L = value.bottomRows(n);
+    ComplexMatrix L_a;
+    {
+      const ComplexMatrix value =
+          residuals(equations.products(), y, of.Y, onto.middleCols(first, count), Rounding::left_out).value;
+      L = value.bottomRows(n);
+      L_a = value.topRows(algebraic);
+    }
+    L_a = by_parts(L_a, [&](const Matrix& m) { return equations.solve_transposed(m); });
     for (Index k = 0; k < n; ++k) {
       for_each_in_column(equations.by_states_and_inputs(), static_cast<std::int32_t>(k),
                          [&](std::int32_t r, double v) { L.row(k) -= v * L_a.row(r); });
     }
-    left.y.middleCols(first, count) = y;
-    left.of_algebraic.middleCols(first, count) = L_a;
+    left.of_algebraic.set(first, L_a);
   });
   return left;
 }
@@ -172,8 +213,8 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
     const ComplexMatrix of_block = adjoint_product(y, right.value), other = adjoint_product(of.Y, reduced);
     G.middleCols(first, count) = of_block;
     out.uncertainty.middleCols(first, count) =
-        sizes_product(y, right.rounding) + margin_of_difference * (of_block - other).cwiseAbs() +
-        static_cast<double>(n + algebraic) * eps * sizes_product(y, right.value.cwiseAbs());
+        sizes_product(y, right.rounding + static_cast<double>(n + algebraic) * eps * right.value.cwiseAbs()) +
+        margin_of_difference * (of_block - other).cwiseAbs();
     out.unknown.middleCols(first, count) = equations.coefficient_roundings(y, w);
     // What goes through the rest of the model: (S − σ E)⁻¹ by (A − σ)⁻¹, with the algebraic unknowns taken out on both
     // sides.
@@ -187,9 +228,7 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
       size_of_right(first + j) = c.cwiseQuotient(unit).norm();
     }
     between.middleCols(first, count) =
-        (adjoint_product(left.of_algebraic, ComplexMatrix(right.value.topRows(algebraic))) +
-         adjoint_product(left.of_states, R))
-            .cwiseAbs();
+        (left.of_algebraic.adjoint_times(right.value) + adjoint_product(left.of_states, R)).cwiseAbs();
   });
   out.uncertainty += long_eps * (of.B.cwiseAbs() + G.cwiseAbs());
   out.value = of.B.cast<std::complex<long double>>() + G.cast<std::complex<long double>>();
