@@ -230,9 +230,11 @@ class Solution {
         selected_.complete = true;
         return true;
       }
+      // Inertia counts whatever was found: where it agrees, there is nothing to look for.
+      if (conservative_ && count()) break;
       // From other start vectors as far as the border, until there is nothing more.
       if (look_for_more(region_.radius + std::abs(op_.shift() - region_.centre))) continue;
-      if (count() || right_->everything() || ++fruitless > 2) break;
+      if ((!conservative_ && count()) || right_->everything() || ++fruitless > 2) break;
     }
     selected_.radius_hz = region_.radius / cycle;
     return true;
@@ -363,15 +365,17 @@ class Solution {
     return out;
   }
 
-  Matrix image(const Matrix& x) const {  // A x
+  Matrix rates_of(const Matrix& x) const {  // what the equations leave, of all unknowns of x
     Matrix w(equations_.unknowns(), x.cols()), rates = Matrix::Zero(equations_.unknowns(), x.cols());
-    w << equations_.complete(x), x;
+    w.topRows(equations_.state_columns()) = equations_.complete(x);
+    w.bottomRows(x.rows()) = x;
     const auto size = static_cast<std::size_t>(w.rows());
     for (Index c = 0; c < x.cols(); ++c) {
       equations_.products().multiply_add({w.col(c).data(), size}, {rates.col(c).data(), size});
     }
-    return equations_.reduced(rates);
+    return rates;
   }
+  Matrix image(const Matrix& x) const { return equations_.reduced(rates_of(x)); }  // A x
   // Against ‖A‖, estimated from what A makes of a few vectors of signs where it has many columns.
   void add_backward_errors(EigenSolution& out) const {
     constexpr Index probes = 16;
@@ -387,7 +391,8 @@ class Solution {
     constexpr Index at_a_time = 4;
     double squares = 0;
     for (Index first = 0; first < signs.cols(); first += 2 * at_a_time)
-      squares += image(signs.middleCols(first, std::min(2 * at_a_time, signs.cols() - first))).squaredNorm();
+      squares +=
+          rates_of(signs.middleCols(first, std::min(2 * at_a_time, signs.cols() - first))).bottomRows(n).squaredNorm();
     const double size = std::sqrt(squares);
     if (!(size > 0)) return;
     for (Index first = 0; first < out.vectors.cols(); first += at_a_time) {
