@@ -1,5 +1,8 @@
 // The command-line program: arguments in, exit status out; everything else is the library's.
 #include <fcntl.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -196,10 +199,21 @@ int run_to_the_end(int argc, char** argv) {
   }
 }
 
+// Columns of all unknowns of large models come and go: given back to the system each time, they would have to be
+// cleared, page by page, a sixth of a run for selected modes. What is larger than this goes back: it would leave holes.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int mebibyte = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);
+  mallopt(M_TRIM_THRESHOLD, 256 * mebibyte);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   open_standard_streams();
+  keep_freed_memory();
   dynalin::Team team;
   if (!team.leads()) return team.serve();
   // A reader that has gone and a limit on the size of files are errors of writing like any other.
