@@ -110,7 +110,7 @@ LineEditor::LineEditor() {
   ::el_set(el, EL_EDITOR, "emacs");
   ::el_set(el, EL_SIGNAL, 0);
   ::el_set(el, EL_GETCFN, &Inside::read_character);
-  ::el_set(el, EL_ADDFN, "dynalin-complete", "what may stand next", &Inside::complete);
+  ::el_wset(el, EL_ADDFN, L"dynalin-complete", L"what may stand next", &Inside::complete);  // el_set leaks its copies
   ::el_set(el, EL_BIND, "^I", "dynalin-complete", nullptr);
   ::history(inside_->history, &inside_->event, H_SETSIZE, lines_kept);
   ::history(inside_->history, &inside_->event, H_SETUNIQUE, 1);

@@ -18,15 +18,11 @@
 #include <utility>
 #include <vector>
 
+#include "places/sanitizers.h"
+
 namespace dynalin::faults {
 
 namespace fs = std::filesystem;
-
-#if defined(__SANITIZE_ADDRESS__)
-inline constexpr bool sanitized = true;  // needs to be loaded first, and terabytes of addresses
-#else
-inline constexpr bool sanitized = false;
-#endif
 
 inline std::string read_text(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);

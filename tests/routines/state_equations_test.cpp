@@ -9,6 +9,7 @@
 #include <iterator>
 #include <optional>
 
+#include "places/sanitizers.h"
 #include "routine/routine_context.h"
 #include "routines/with_libraries.h"
 
@@ -473,6 +474,7 @@ TEST_F(StateEquations, that_do_not_fit_are_refused_at_their_place) {
 }
 
 TEST_F(StateEquations, that_crash_are_named_before_the_program_dies) {
+  if (sanitized) GTEST_SKIP() << "the sanitizer takes the signal";
   ::testing::FLAGS_gtest_death_test_style = "threadsafe";
   EXPECT_EXIT(
       {

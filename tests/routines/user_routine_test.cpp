@@ -4,6 +4,7 @@
 
 #include <csignal>
 
+#include "places/sanitizers.h"
 #include "routine/routine_context.h"
 #include "routines/robot.h"
 #include "routines/with_libraries.h"
@@ -305,6 +306,7 @@ TEST_F(UserRoutines, run_only_from_libraries_that_the_user_names) {
 }
 
 TEST_F(UserRoutines, that_crash_are_named_before_the_program_dies) {
+  if (sanitized) GTEST_SKIP() << "the sanitizer takes the signal";
   ::testing::FLAGS_gtest_death_test_style = "threadsafe";
   EXPECT_EXIT(
       {

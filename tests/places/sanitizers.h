@@ -1,0 +1,13 @@
+// Whether this program is built with sanitizers: they take a multiple of the time, handle signals themselves, need to be
+// loaded first, and terabytes of addresses.
+#pragma once
+
+namespace dynalin {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool sanitized = true;
+#else
+inline constexpr bool sanitized = false;
+#endif
+
+}  // namespace dynalin
