@@ -46,6 +46,16 @@ bool has_piped_input() {
   return ::fstat(STDIN_FILENO, &input) == 0 && (S_ISFIFO(input.st_mode) || S_ISREG(input.st_mode));
 }
 
+// Columns of all unknowns of large models come and go: given back to the system each time, they would have to be
+// cleared, page by page, a sixth of a run for selected modes. What is larger than this goes back: it would leave holes.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int mebibyte = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);
+  mallopt(M_TRIM_THRESHOLD, 256 * mebibyte);
+#endif
+}
+
 // Without memory for a stream.
 int fail(std::string_view text) {
   for (const std::string_view part : {std::string_view("error: "), text, std::string_view("\n")}) {
@@ -167,7 +177,10 @@ int run(int argc, char** argv) {
     return run_session(options, std::cout, std::cerr);
   }
   if (*run && options.file == "-") options.standard_input = std::string(std::istreambuf_iterator<char>(std::cin), {});
-  if (*run) return run_session(options, std::cout, std::cerr);
+  if (*run) {
+    keep_freed_memory();
+    return run_session(options, std::cout, std::cerr);
+  }
   if (*check) return check_file(options, std::cout, std::cerr);
   if (*check_nastran) return nastran_reader::check_deck(deck.deck, std::cout, std::cerr);
   if (*solve_nastran) return nastran_reader::solve_deck(deck, std::cout, std::cerr);
@@ -199,21 +212,10 @@ int run_to_the_end(int argc, char** argv) {
   }
 }
 
-// Columns of all unknowns of large models come and go: given back to the system each time, they would have to be
-// cleared, page by page, a sixth of a run for selected modes. What is larger than this goes back: it would leave holes.
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  constexpr int mebibyte = 1 << 20;
-  mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);
-  mallopt(M_TRIM_THRESHOLD, 256 * mebibyte);
-#endif
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   open_standard_streams();
-  keep_freed_memory();
   dynalin::Team team;
   if (!team.leads()) return team.serve();
   // A reader that has gone and a limit on the size of files are errors of writing like any other.

@@ -30,7 +30,7 @@ class Draw {
         wanted_motions_(seed % 3 == 0 ? 1 : 0),
         whole_language_(seed > 200),
         must_touch_(seed > 220 && seed <= 240),
-        must_bend_(seed > 240),
+        must_bend_(seed > 240 && seed <= 260),
         may_rub_(seed % 2 == 0) {}
   [[nodiscard]] Mechanism mechanism();
 
@@ -141,8 +141,8 @@ class Draw {
   // Rejection starves loops and motions; some seeds insist on them.
   int wanted_loops_ = 0, wanted_motions_ = 0;
   bool whole_language_ = false;  // the first 200 stay as they were drawn when there were fewer elements
-  bool must_touch_ = false;      // shapes, after 220
-  bool must_bend_ = false;       // a beam, after 240
+  bool must_touch_ = false;      // shapes, from 221 to 240
+  bool must_bend_ = false;       // a beam, from 241 to 260
   bool may_rub_ = false;         // every second seed
   Mechanism m_;
   double L_ = 1, F_ = 10;  // natural length and force

@@ -91,11 +91,12 @@ class Bounds : public ::testing::Test {
     RecordProperty("median_of_bound_over_error", fmt::format("{:.3g}", median));
     // Bounds cover the rounding of coefficients: what is off is the distance to equations with others of the same
     // digits, not to those that stand there.
-    EXPECT_LE(median, 1000);
+    EXPECT_LE(median, most_median_);
     EXPECT_LE(unbounded_, examined_ / 100);
     EXPECT_LE(refused_, 1);
   }
 
+  double most_median_ = 1000;
   int examined_ = 0, unbounded_ = 0, refused_ = 0;
   std::vector<double> ratio_;
   std::mt19937_64 random_{4};
@@ -111,6 +112,15 @@ TEST_P(GeneratedBounds, hold_for_generated_mechanisms) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(seeds, GeneratedBounds, ::testing::Range<std::uint64_t>(1001, 2001, 100));
+
+// The nodes of a beam weigh little beside what they carry, and a bound from the sizes of all coefficients is wider there.
+TEST_F(Bounds, hold_for_beams_of_finite_elements) {
+  most_median_ = 10000;
+  for (std::uint64_t seed = 241; seed < 251; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    examine(oracle::dataset_text(oracle::random_mechanism(seed)));
+  }
+}
 
 // Slides on a line, coupled by springs and dampers whose sizes spread over many decades.
 std::string stiff_chain(std::mt19937_64& random, int n, double decades) {
