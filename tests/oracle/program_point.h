@@ -75,6 +75,7 @@ inline void put_beams(const Mechanism& mechanism, const System& system, Operatin
     });
   };
   const Layout& layout = system.layout();
+  op.memory = layout.memory;  // turns count from here: where the dataset starts is another point
   const OraclePoint before = point_of(system, op);
   for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
     const BodyPoint to = at({before.bodies[b - 1].body_kind, before.bodies[b - 1].body_id});
