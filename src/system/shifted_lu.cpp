@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "system/lu_choice.h"
-#include "system/mumps_call.h"
+#include "system/mumps_matrix.h"
 #include "system/row_matching.h"
 #include "system/sparse_lu.h"
 
@@ -20,60 +20,23 @@ using Complex = std::complex<double>;
 
 class ComplexMumps {
  public:
-  explicit ComplexMumps(const ColumnMatrix& m) {
-    id_.job = -1, id_.par = 1, id_.sym = 0;
-    call();
-    for (const int k : {1, 2, 3, 4}) control(k) = 0;  // no printing
-    control(7) = 5;                                   // METIS
-    control(14) = 60;                                 // room for delayed pivots, percent
-    control(33) = 1;                                  // the determinant is wanted
-    id_.cntl[0] = 0.1;                                // pivot threshold
-    for_each_entry(m, [&](std::int32_t r, std::int32_t c, double) {
-      row_.push_back(r + 1);
-      column_.push_back(c + 1);
-    });
-    id_.n = m.rows;
-    id_.nnz = static_cast<MUMPS_INT8>(row_.size());
-    id_.irn = row_.data(), id_.jcn = column_.data();
+  explicit ComplexMumps(const ColumnMatrix& m) : rows_(m.rows) {
+    mumps_.eliminate_by_metis();
+    mumps_.control(33) = 1;        // the determinant is wanted
+    mumps_.real_control(1) = 0.1;  // pivot threshold
+    for_each_entry(m, [&](std::int32_t r, std::int32_t c, double) { mumps_.add_place(r, c); });
   }
-  ~ComplexMumps() {
-    id_.job = -2;
-    call();
-  }
-  ComplexMumps(const ComplexMumps&) = delete;
-  ComplexMumps& operator=(const ComplexMumps&) = delete;
-
-  bool factor(std::vector<Complex>& value) {
-    id_.a = reinterpret_cast<ZMUMPS_COMPLEX*>(value.data());
-    for (int tries = 0; tries < 4; ++tries) {
-      id_.job = analysed_ ? 2 : 4;
-      call();
-      analysed_ = analysed_ || id_.infog[0] >= 0 || id_.infog[0] == -8 || id_.infog[0] == -9;
-      // −8, −9: the working space was too small for the pivots that had to be delayed.
-      if (id_.infog[0] != -8 && id_.infog[0] != -9) break;
-      control(14) *= 3;
-    }
-    constexpr int allocation_failed = -13;
-    if (id_.infog[0] == allocation_failed) throw std::bad_alloc();
-    return id_.infog[0] == 0;
-  }
-  void solve(Complex* x, int columns, bool transposed) {
-    id_.rhs = reinterpret_cast<ZMUMPS_COMPLEX*>(x), id_.nrhs = columns, id_.lrhs = id_.n;
-    control(9) = transposed ? 0 : 1;
-    id_.job = 3;
-    call();
-  }
+  bool factor(std::vector<Complex>& value) { return mumps_.factor(rows_, value.data()) == 0; }
+  void solve(Complex* x, int columns, bool transposed) { mumps_.solve(x, columns, transposed); }
   Complex log_determinant() const {
-    const Complex mantissa(id_.rinfog[11], id_.rinfog[12]);
-    return std::log(mantissa) + static_cast<double>(id_.infog[33]) * std::numbers::ln2;
+    const ZMUMPS_STRUC_C& id = mumps_.problem();
+    const Complex mantissa(id.rinfog[11], id.rinfog[12]);
+    return std::log(mantissa) + static_cast<double>(id.infog[33]) * std::numbers::ln2;
   }
 
  private:
-  int& control(int k) { return id_.icntl[k - 1]; }
-  void call() { call_mumps(id_); }
-  ZMUMPS_STRUC_C id_{};
-  std::vector<int> row_, column_;
-  bool analysed_ = false;
+  std::int32_t rows_;
+  MumpsMatrix<ZMUMPS_STRUC_C> mumps_{MumpsSymmetry::none, 60};
 };
 
 }  // namespace

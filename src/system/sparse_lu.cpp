@@ -7,7 +7,7 @@
 
 #include "system/klu_factors.h"
 #include "system/lu_choice.h"
-#include "system/mumps_call.h"
+#include "system/mumps_matrix.h"
 #include "system/nested_dissection.h"
 
 namespace dynalin {
@@ -60,72 +60,32 @@ namespace {
 class MumpsFactors {
  public:
   MumpsFactors() {
-    id_.job = -1, id_.par = 1, id_.sym = 0;
-    call();
-    for (const int k : {1, 2, 3, 4}) control(k) = 0;  // no printing
-    control(14) = 60;                                 // room for delayed pivots, percent
-    control(33) = 1;                                  // the determinant is wanted
-    id_.cntl[0] = 0.1;                                // pivot threshold
+    mumps_.control(33) = 1;           // the determinant is wanted
+    mumps_.real_control(1) = 0.1;     // pivot threshold
+    mumps_.control(24) = 1;           // null pivots are counted, not divided by
+    mumps_.real_control(3) = -1e-14;  // relative to the scaled matrix
   }
-  ~MumpsFactors() {
-    id_.job = -2;
-    call();
-  }
-  MumpsFactors(const MumpsFactors&) = delete;
-  MumpsFactors& operator=(const MumpsFactors&) = delete;
 
-  // The analysis is made once: later matrices have the same pattern.
-  // `place` of each unknown in the order of elimination, where one is known to be good: MUMPS sees every unknown for
-  // itself, which takes it several times as long.
+  // Later matrices have the same pattern.
   bool factor(ColumnMatrix& m, const std::optional<std::vector<std::int32_t>>& place) {
-    const bool analysed = !row_.empty();
-    if (!analysed) {
-      for_each_entry(m, [&](std::int32_t r, std::int32_t c, double) {
-        row_.push_back(r + 1);
-        column_.push_back(c + 1);
-      });
-      constexpr int as_given = 1, automatic = 7;
-      control(7) = place ? as_given : automatic;
-      if (place) {
-        for (const std::int32_t p : *place) place_.push_back(p + 1);
-        id_.perm_in = place_.data();
-      }
+    if (!known_) {
+      for_each_entry(m, [&](std::int32_t r, std::int32_t c, double) { mumps_.add_place(r, c); });
+      mumps_.eliminate_in(place);
+      known_ = true;
     }
-    id_.n = m.rows;
-    id_.nnz = static_cast<MUMPS_INT8>(m.value.size());
-    id_.irn = row_.data(), id_.jcn = column_.data(), id_.a = m.value.data();
-    control(24) = 1;       // null pivots are counted, not divided by
-    id_.cntl[2] = -1e-14;  // relative to the scaled matrix
-    for (int tries = 0; tries < 4; ++tries) {
-      id_.job = analysed ? 2 : 4;
-      call();
-      // −8, −9: the working space was too small for the pivots that had to be delayed.
-      if (id_.infog[0] != -8 && id_.infog[0] != -9) break;
-      control(14) *= 3;
-    }
-    constexpr int allocation_failed = -13;
-    if (id_.infog[0] == allocation_failed) throw std::bad_alloc();
-    return id_.infog[0] == 0 && id_.infog[27] == 0;
+    return mumps_.factor(m.rows, m.value.data()) == 0 && mumps_.problem().infog[27] == 0;
   }
-  int determinant_sign() const { return id_.rinfog[11] < 0 ? -1 : 1; }
-  void solve(double* x, int columns) { back_substitute(x, columns, 1); }
-  void solve_transposed(double* x, int columns) { back_substitute(x, columns, 0); }
+  int determinant_sign() const { return mumps_.problem().rinfog[11] < 0 ? -1 : 1; }
+  void solve(double* x, int columns) { mumps_.solve(x, columns); }
+  void solve_transposed(double* x, int columns) { mumps_.solve(x, columns, true); }
   std::size_t entries() const {
-    return id_.infog[28] < 0 ? static_cast<std::size_t>(-id_.infog[28]) * 1000000u
-                             : static_cast<std::size_t>(id_.infog[28]);
+    const int count = mumps_.problem().infog[28];
+    return count < 0 ? static_cast<std::size_t>(-count) * 1000000u : static_cast<std::size_t>(count);
   }
 
  private:
-  int& control(int k) { return id_.icntl[k - 1]; }
-  void back_substitute(double* x, int columns, int plain) {
-    id_.rhs = x, id_.nrhs = columns, id_.lrhs = id_.n;
-    control(9) = plain;
-    id_.job = 3;
-    call();
-  }
-  void call() { call_mumps(id_); }
-  DMUMPS_STRUC_C id_{};
-  std::vector<int> row_, column_, place_;
+  MumpsMatrix<DMUMPS_STRUC_C> mumps_{MumpsSymmetry::none, 60};
+  bool known_ = false;  // the pattern
 };
 
 // Several right-hand sides at a time go through the factors once, as many as KLU takes together, or few enough to stay

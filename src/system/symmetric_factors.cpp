@@ -1,12 +1,11 @@
 #include "system/symmetric_factors.h"
 
 #include <cassert>
-#include <new>
 #include <vector>
 
 #include "system/klu_factors.h"
 #include "system/lu_choice.h"
-#include "system/mumps_call.h"
+#include "system/mumps_matrix.h"
 #include "system/nested_dissection.h"
 #include "system/sparse_lu.h"
 
@@ -26,64 +25,26 @@ ColumnMatrix both_triangles(const ColumnMatrix& lower) {
 }  // namespace
 
 struct SymmetricFactors::Inertia {
-  DMUMPS_STRUC_C id{};
-  std::vector<int> row, column, place;
+  MumpsMatrix<DMUMPS_STRUC_C> mumps{MumpsSymmetry::symmetric, 60};
+  std::int32_t rows;
   std::vector<double> value;
-  bool analysed = false;
   std::int64_t negative = 0;
 
-  Inertia(const ColumnMatrix& lower, const ColumnMatrix& both) {
-    constexpr int general_symmetric = 2;
-    id.par = 1, id.sym = general_symmetric;
-    call(-1);
-    for (const int k : {1, 2, 3, 4}) control(k) = 0;  // no printing
-    control(13) = 1;                                  // all pivots are counted
-    control(14) = 60;                                 // room for delayed pivots, percent
-    id.cntl[0] = 0.1;                                 // pivot threshold
-    for_each_entry(lower,
-                   [&](std::int32_t r, std::int32_t c, double) { row.push_back(r + 1), column.push_back(c + 1); });
-    const auto order = nested_dissection(both);
-    constexpr int as_given = 1, automatic = 7;
-    control(7) = order ? as_given : automatic;
-    if (order) {
-      for (const std::int32_t p : *order) place.push_back(p + 1);
-      id.perm_in = place.data();
-    }
-    id.n = lower.rows;
-    id.nnz = static_cast<MUMPS_INT8>(row.size());
-    id.irn = row.data(), id.jcn = column.data();
+  Inertia(const ColumnMatrix& lower, const ColumnMatrix& both) : rows(lower.rows) {
+    mumps.control(13) = 1;        // all pivots are counted
+    mumps.real_control(1) = 0.1;  // pivot threshold
+    for_each_entry(lower, [&](std::int32_t r, std::int32_t c, double) { mumps.add_place(r, c); });
+    mumps.eliminate_in(nested_dissection(both));
   }
-  ~Inertia() { call(-2); }
-  Inertia(const Inertia&) = delete;
-  Inertia& operator=(const Inertia&) = delete;
-
-  int& control(int k) { return id.icntl[k - 1]; }
-  void call(int job) {
-    id.job = job;
-    call_mumps(id);
-  }
-
   bool factor(std::vector<double> values) {
     value = std::move(values);
-    id.a = value.data();
-    constexpr int analyse_and_factor = 4, factor_again = 2, allocation_failed = -13;
-    for (int tries = 0; tries < 4; ++tries) {
-      call(analysed ? factor_again : analyse_and_factor);
-      // −8, −9: the working space was too small for the pivots that had to be delayed.
-      const bool too_small = id.infog[0] == -8 || id.infog[0] == -9;
-      analysed = analysed || id.infog[0] >= 0 || too_small;
-      if (!too_small) break;
-      control(14) *= 3;
-    }
-    if (id.infog[0] == allocation_failed) throw std::bad_alloc();
-    negative = id.infog[11];
-    return id.infog[0] == 0;
+    const int status = mumps.factor(rows, value.data());
+    negative = mumps.problem().infog[11];
+    return status == 0;
   }
   void solve(Eigen::MatrixXd& b) {
-    id.rhs = b.data(), id.nrhs = static_cast<int>(b.cols()), id.lrhs = id.n;
-    constexpr int solve_all = 3;
-    control(27) = static_cast<int>(b.cols());  // at once
-    call(solve_all);
+    mumps.control(27) = static_cast<int>(b.cols());  // at once
+    mumps.solve(b.data(), static_cast<int>(b.cols()));
   }
 };
 
