@@ -28,6 +28,11 @@ class Contacts : public Cases {
     EXPECT_EQ(r.status, 0) << r.err;
     return r.status == 0 ? sorted(r.eigenvalues(1)) : std::vector<std::complex<double>>{};
   }
+  std::vector<std::complex<double>> where_it_starts(const std::string& model) const {
+    const RunResult r = run(model + "END\n", "LINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.status == 0 ? sorted(r.eigenvalues(0)) : std::vector<std::complex<double>>{};
+  }
   static std::vector<std::complex<double>> sorted(std::vector<std::complex<double>> v) {
     std::sort(v.begin(), v.end(),
               [](auto a, auto b) { return std::pair(std::abs(a), a.imag()) < std::pair(std::abs(b), b.imag()); });
@@ -66,6 +71,30 @@ TEST_F(Contacts, sphere_on_plane_is_the_force_of_its_expression) {
       "FRICTION_TRANSITION_VELOCITY=1\n";
   expect_same(at_rest(model + "CONTACT/1, IGEOM=2, JGEOM=1, " + impact + "\n" + friction), at_rest(model + written));
   expect_same(at_rest(model + "CONTACT/1, IGEOM=1, JGEOM=2, " + impact + "\n" + friction), at_rest(model + written));
+}
+
+// Beyond the stiction velocity the coefficient falls by STEP from the static to the dynamic one.
+TEST_F(Contacts, friction_of_a_sliding_sphere_is_the_force_of_its_expression) {
+  for (const double speed : {0.4, 0.7, 3.0}) {
+    const std::string model = head + floor +
+                              fmt::format(
+                                  "PART/2, MASS=2, CM=2, IP=0.008,0.008,0.008, QG=0.1,0.05,0.099, VX={0}, "
+                                  "VY={1}, VZ=-0.01\nMARKER/2\n"
+                                  "GRAPHICS/2, ELLIPSOID, CM=2, XSCALE=0.2, YSCALE=0.2, ZSCALE=0.2\n",
+                                  speed * 0.8, speed * 0.6);
+    const std::string N = "IMPACT(DZ(2,1),VZ(2,1),0.1,2E4,1.5,40,0.001)", arm = "((DZ(2,1)+0.1)/2)";
+    const std::string sx = "(VX(2,1)-WY(2,1)*" + arm + ")", sy = "(VY(2,1)+WX(2,1)*" + arm + ")";
+    const std::string v = "SQRT(" + sx + "**2+" + sy + "**2)";
+    const std::string along = "STEP(" + v + ",0.1,0.3,1,0.1)*" + N + "/" + v;
+    const std::string fx = "-" + along + "*" + sx, fy = "-" + along + "*" + sy;
+    const std::string written = "MARKER/3, PART=1, FLOATING\nGFORCE/1, I=2, JFLOAT=3, RM=1\n, FX=" + fx +
+                                "\\\n, FY=" + fy + "\\\n, FZ=" + N + "\\\n, TX=" + arm + "*(" + fy + ")\\\n, TY=-" +
+                                arm + "*(" + fx + ")\\\n, TZ=0\n";
+    const std::string contact = "CONTACT/1, IGEOM=2, JGEOM=1, " + impact +
+                                "\n, COULOMB_FRICTION=ON, MU_STATIC=0.3, MU_DYNAMIC=0.1, "
+                                "STICTION_TRANSITION_VELOCITY=0.1, FRICTION_TRANSITION_VELOCITY=1\n";
+    expect_same(where_it_starts(model + contact), where_it_starts(model + written));
+  }
 }
 
 // A ball in a cone whose axis lies level rests on the lowest line, where the distance from the mantle is (r − z tan α)

@@ -146,6 +146,7 @@ TEST_F(ModalTableRows, labels_never_lose_digits_of_an_id) {
       rule = line;
     if (line.find('/') != std::string::npos && line.find('|') != std::string::npos) {
       EXPECT_EQ(line.find('|'), rule.find('+')) << line << "\n" << rule;
+      EXPECT_EQ(line.rfind('|'), rule.rfind('+')) << line << "\n" << rule;
     }
   }
 }

@@ -66,6 +66,7 @@ TEST_F(UndefinedDerivatives, of_outputs_name_the_variable_and_the_function) {
       {"PSI(20,1)-PHI(20,1)", "VARIABLE/7: PSI(20,1)-PHI(20,1) has no derivative where THETA is 0"},
       {"THETA(20,1)", "VARIABLE/7: THETA(20,1) has no derivative where it is 0 or π"},
       {"SIN(THETA(20,1))", "VARIABLE/7: THETA(20,1) has no derivative where it is 0 or π"},
+      {"DX(20,1)+VX(20,1)*DY(20,1)+THETA(20,1)", "VARIABLE/7: THETA(20,1) has no derivative where it is 0 or π"},
       {"INCANG(21,1,22)", "VARIABLE/7: INCANG(21,1,22) has no derivative where it is 0 or π"},
       {"MAG(DXYZ(20,1))", "VARIABLE/7: the derivative of SQRT is infinite at 0"},
   };
