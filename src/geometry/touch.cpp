@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geometry/box_touch.h"
 #include "geometry/common_normal.h"
 #include "geometry/distance.h"
 #include "geometry/plane_touch.h"
@@ -31,6 +32,8 @@ std::size_t count_of([[maybe_unused]] const A& a, const B&, bool B_reversed) {
     if constexpr (std::is_same_v<A, Frustum>) return 2;
     if constexpr (std::is_same_v<A, Box>) return 8;
     return 1;
+  } else if constexpr (std::is_same_v<A, Box> && std::is_same_v<B, Box>) {
+    return B_reversed ? 0 : box_touches;
   } else {
     return std::is_same_v<A, Ellipsoid> && std::is_same_v<B, Ellipsoid> && !B_reversed ? 1 : 0;
   }
@@ -168,6 +171,8 @@ void direct(const Side& A, const Side& B, const RelativeFrame<T>& A_from_B, std:
           touch_plane(a, A_from_B, b, B.reversed ? -1.0 : 1.0, out);
         else if constexpr (std::is_same_v<S, Ellipsoid> && std::is_same_v<U, Ellipsoid>)
           touch_ellipsoids(a, A_from_B, b, out);
+        else if constexpr (std::is_same_v<S, Box> && std::is_same_v<U, Box>)
+          touch_boxes(a, A_from_B, b, out);
       },
       A.shape, B.shape);
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -186,7 +187,7 @@ TEST_F(Contacts, what_cannot_touch_is_an_error_at_its_place) {
                       "CONTACT/7, IGEOM=2, JGEOM=3, " +
                       impact),
               AllOf(HasSubstr("[contact-shape]"), HasSubstr("a LINK")));
-  EXPECT_THAT(refused("GRAPHICS/3, BOX, CORNER=1, X=1, Y=1, Z=1\nGRAPHICS/4, BOX, CORNER=2, X=1, Y=1, Z=1\n"
+  EXPECT_THAT(refused("GRAPHICS/3, CYLINDER, CM=1, LENGTH=1, RADIUS=1\nGRAPHICS/4, BOX, CORNER=2, X=1, Y=1, Z=1\n"
                       "CONTACT/7, IGEOM=4, JGEOM=3, " +
                       impact),
               HasSubstr("[contact-pair-not-built]"));
@@ -202,6 +203,79 @@ TEST_F(Contacts, what_cannot_touch_is_an_error_at_its_place) {
   EXPECT_THAT(refused("PART/5\nMARKER/55, PART=5\nGRAPHICS/5, POINT, RM=55\n"
                       "CONTACT/7, IGEOM=5, JGEOM=1, POISSON, PENALTY=1, RESTITUTION_COEFFICIENT=0.5"),
               HasSubstr("[contact-without-mass]"));
+}
+
+// A box of 2 x 1 x 1 on a larger one, off its middle: four places, a table on springs.
+TEST_F(Contacts, box_on_box_stands_on_the_four_corners_of_the_smaller_one) {
+  const std::string boxes =
+      "MARKER/3, PART=1, QP=-2,-2,-1\nGRAPHICS/1, BOX, CORNER=3, X=4, Y=4, Z=1\n"
+      "PART/2, MASS=20, CM=2, IP=2,6,5, QG=0.3,0.2,0.499\nMARKER/2\nMARKER/4, PART=2, QP=-1,-0.5,-0.5\n"
+      "GRAPHICS/2, BOX, CORNER=4, X=2, Y=1, Z=1\n";
+  const std::string law = ", IMPACT, STIFFNESS=5E4, EXPONENT=1, DAMPING=0, DMAX=1\n";
+  const auto one = at_rest(head + boxes + "CONTACT/1, IGEOM=2, JGEOM=1" + law);
+  // 4 · 5E4 g = 200, g = 0.001. Each force N = 50 acts half-way between the surfaces, as on a plane.
+  expect_same(one, at_rest(head + floor +
+                           "PART/2, MASS=20, CM=2, IP=2,6,5, QG=0.3,0.2,0.499\nMARKER/2\n"
+                           "MARKER/4, PART=2, QP=-1,-0.5,-0.5\n"
+                           "GRAPHICS/2, BOX, CORNER=4, X=2, Y=1, Z=1\n"
+                           "CONTACT/1, IGEOM=2, JGEOM=1" +
+                           law));
+  expect_same(one, at_rest(head + boxes + "CONTACT/1, IGEOM=1, JGEOM=2" + law));
+  ASSERT_EQ(one.size(), 12u);
+  const double cycles = 2 * std::numbers::pi, h = 0.5, W = 200;
+  // About x and y: the corners' stiffness at their arms, less W at the height of the centre above them.
+  const std::array<double, 3> squares{(2E5 * 0.25 - W * h) / 2, 2E5 / 20, (2E5 - W * h) / 6};
+  std::vector<double> expected;
+  for (const double s : squares) expected.push_back(std::sqrt(s) / cycles);
+  std::sort(expected.begin(), expected.end());
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(std::abs(one[6 + 2 * k]), expected[k], 1e-7 * expected[k]);
+}
+
+// Boxes of one size, flush: a little smaller, the upper one stands on its own corners, a little larger on those of the
+// lower one. What stands on edges has the mean of both in each direction.
+TEST_F(Contacts, a_stack_of_equal_boxes_stands) {
+  const auto squares = [&](double x, double y, double turn) {
+    const std::string boxes = fmt::format(
+        "MARKER/3, PART=1, QP=-0.5,-0.5,-1\nGRAPHICS/1, BOX, CORNER=3, X=1, Y=1, Z=1\n"
+        "PART/2, MASS=20, CM=2, IP=2,4,3, QG=0,0,0.499, REULER={2:.17g},0,0\nMARKER/2\n"
+        "MARKER/4, PART=2, QP={0:.17g},{1:.17g},-0.5\nGRAPHICS/2, BOX, CORNER=4, X={3:.17g}, Y={4:.17g}, Z=1\n"
+        "CONTACT/1, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=5E4, EXPONENT=1, DAMPING=0, DMAX=1\n",
+        -x / 2, -y / 2, turn, x, y);
+    std::vector<double> list;
+    for (const auto v : where_it_starts(head + boxes)) {
+      if (v.imag() > 1) list.push_back(v.imag() * v.imag());  // slower ones slide
+    }
+    EXPECT_EQ(list.size(), 3u);
+    list.resize(3);
+    return list;
+  };
+  constexpr double off = 1e-7;
+  std::array<double, 3> mean{};
+  for (const double x : {1 - off, 1 + off}) {
+    for (const double y : {1 - off, 1 + off}) {
+      const auto of = squares(x, y, 0);
+      for (std::size_t k = 0; k < 3; ++k) mean[k] += of[k] / 4;
+    }
+  }
+  const auto flush = squares(1, 1, 0);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(flush[k], mean[k], 1e-5 * mean[k]);
+  EXPECT_GT(std::abs(squares(1 - off, 1 - off, 0)[1] / mean[1] - 1), 1e-3);
+  // Turned about the vertical it stands on crossings of edges as firmly.
+  const double up = 2e5 / 20 / std::pow(2 * std::numbers::pi, 2);
+  const auto has_up = [&](const std::vector<double>& list) {
+    return std::any_of(list.begin(), list.end(), [&](double s) { return std::abs(s - up) < 1e-9 * up; });
+  };
+  for (const double turn : {0.0, 1e-6, 0.2, 0.7}) EXPECT_TRUE(has_up(squares(1, 1, turn))) << turn;
+}
+
+// As deep in each other sideways as from above there is no telling which way they part.
+TEST_F(Contacts, boxes_as_deep_along_two_directions_are_named) {
+  const std::string said = refused(
+      "MARKER/3, PART=1, QP=5,0,0\nGRAPHICS/3, BOX, CORNER=3, X=1, Y=1, Z=1\n"
+      "PART/5, MASS=1, CM=5, IP=1,1,1, QG=5.75,0.2,0.75\nMARKER/5\nGRAPHICS/5, BOX, CORNER=5, X=1, Y=1, Z=1\n"
+      "CONTACT/7, IGEOM=5, JGEOM=3, " +
+      impact);
+  EXPECT_THAT(said, AllOf(HasSubstr("CONTACT/7"), HasSubstr("no place in particular")));
 }
 
 // Where a cylinder stands upright no point of its rim is the one.

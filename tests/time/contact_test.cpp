@@ -195,5 +195,31 @@ TEST(ContactInTime, ten_balls_that_damp_lose_energy_alone) {
   for (const int k : {2, 3, 4}) EXPECT_LT(c.drift(k), 1e-4) << k;
 }
 
+// Two boxes of one size in space, a corner of the one beside an edge of the other: what one loses the other gets.
+TEST(ContactInTime, boxes_that_meet_keep_their_momentum_and_spin) {
+  std::string text =
+      "Two boxes\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n"
+      "PART/2, MASS=2, CM=2, IP=0.3,0.3,0.3, QG=0.4,0.3,0.9, REULER=0.3,0.4,0.5, VZ=-3, WX=1, WY=2\nMARKER/2\n"
+      "MARKER/4, PART=2, QP=-0.5,-0.5,-0.5\nGRAPHICS/2, BOX, CORNER=4, X=1, Y=1, Z=1\n"
+      "PART/3, MASS=3, CM=5, IP=0.5,0.5,0.5, QG=0,0,-0.5\nMARKER/5, PART=3\n"
+      "MARKER/6, PART=3, QP=-0.5,-0.5,-0.5\nGRAPHICS/3, BOX, CORNER=6, X=1, Y=1, Z=1\n"
+      "CONTACT/1, IGEOM=2, JGEOM=3, IMPACT, STIFFNESS=2E5, EXPONENT=1.5, DAMPING=100, DMAX=0.001\n"
+      ", COULOMB_FRICTION=ON, MU_STATIC=0.3, MU_DYNAMIC=0.2, STICTION_TRANSITION_VELOCITY=0.1"
+      ", FRICTION_TRANSITION_VELOCITY=1\nVARIABLE/9, FUNCTION=VZ(5)\n";
+  const std::string axes = "XYZ";
+  for (std::size_t k = 0; k < 3; ++k) {
+    const char x = axes[k], y = axes[(k + 1) % 3], z = axes[(k + 2) % 3];
+    text += fmt::format("VARIABLE/{0}, FUNCTION=2*V{1}(2)+3*V{1}(5)\n", k + 1, x);
+    text += fmt::format(
+        "VARIABLE/{0}, FUNCTION=2*(D{2}(2)*V{3}(2)-D{3}(2)*V{2}(2))+3*(D{2}(5)*V{3}(5)-D{3}(5)*V{2}(5))"
+        "+0.3*W{1}(2)+0.5*W{1}(5)\n",
+        k + 4, x, y, z);
+  }
+  const Course c = led_through_time(text + "END\n", {.end = 0.3, .steps = 60, .error = 1e-8});
+  ASSERT_TRUE(c.ok()) << c.failure;
+  for (const int k : {1, 2, 3, 4, 5, 6}) EXPECT_LT(c.drift(k), 1e-6) << k;
+  EXPECT_LT(c.variables.at(9).back(), -1);
+}
+
 }  // namespace
 }  // namespace dynalin::in_time

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/box_touch.h"
 #include "geometry/plane_touch.h"
 
 namespace dynalin {
@@ -14,7 +15,7 @@ namespace dynalin {
 namespace {
 
 using Seeded = Dual<12>;
-constexpr std::size_t most_touches = most_plane_touches;  // of one pair of shapes; solids have up to 8
+constexpr std::size_t most_touches = std::max(most_plane_touches, box_touches);  // of one pair of shapes
 
 template <class T>
 RelativeFrame<T> at_instant(const RelativeFrame<TimeTaylor<T>>& f, T TimeTaylor<T>::*part) {
@@ -123,10 +124,11 @@ ForceAndTorque<T> contact_wrench(const ContactForce& c, const RelativeFrame<Time
       sum.force = sum.torque = {no, no, no};
       return;
     }
-    Vec3<T> F = t.normal * N;
+    const T share = N * t.weight;
+    Vec3<T> F = t.normal * share;
     if (rubs) {
       const Vec3<T> slip = v - t.normal * apart;
-      F -= slip * (friction_slope(*c.friction, slip) * N);
+      F -= slip * (friction_slope(*c.friction, slip) * share);
     }
     sum.force += F;
     sum.torque += cross(t.point - I.p, F);

@@ -360,8 +360,9 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
             "contact-pair-not-built", J.at,
             fmt::format("contact of {} of {} with {} of {} is not available yet", model.label(J.graphics).text(),
                         labels[k].text(), model.label(I.graphics).text(), labels[k].text()),
-            "spheres and points touch every solid, every solid touches a PLANE, ELLIPSOIDs touch each "
-            "other; of a cavity the other one must be a sphere or a point; only one of two closed curves is a cavity");
+            "spheres and points touch every solid, every solid touches a PLANE, ELLIPSOIDs and BOXes "
+            "touch each other; of a cavity the other one must be a sphere or a point; only one of two closed curves is "
+            "a cavity");
         return false;
       }
     }

@@ -1,0 +1,240 @@
+#include "geometry/box_touch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace dynalin {
+
+namespace {
+
+constexpr double far = std::numeric_limits<double>::infinity();
+constexpr double least_cosine = 0.9;      // of two directions that are taken for one
+constexpr double least_sine = 1e-6;       // of two edges that cross
+constexpr double edge_preference = 1e-6;  // of the size: by how much a direction across two edges must part more
+constexpr double coincidence = 1e-9;      // of the size
+
+template <class T>
+struct Placed {
+  solid::Box box;
+  Vec3<T> origin;
+  std::array<Vec3<T>, 3> axes;
+
+  Vec3<T> at(const Vector& p) const { return origin + axes[0] * p.x + axes[1] * p.y + axes[2] * p.z; }
+  double size() const { return norm(box.high - box.low); }
+};
+
+template <class T>
+Vector plain(const Vec3<T>& v) {
+  return {value_of(v.x), value_of(v.y), value_of(v.z)};
+}
+Vector half_of(const solid::Box& b) { return 0.5 * (b.high - b.low); }
+
+// --- the direction in which they part soonest
+
+template <class T>
+struct Parting {
+  Vec3<T> normal;        // out of J towards I
+  bool definite = true;  // no other direction is as near
+  bool faces = false;    // of both are parallel: either normal is that
+};
+
+// Normals of faces and of edges of both.
+template <class T>
+Parting<T> parting(const Placed<T>& I, const Placed<T>& J) {
+  const Vector between = plain(I.at(0.5 * (I.box.low + I.box.high))) - plain(J.at(0.5 * (J.box.low + J.box.high)));
+  const Vector h = half_of(I.box), g = half_of(J.box);
+  const auto separation = [&](const Vector& n) {
+    double reach = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      reach += h[k] * std::abs(dot(plain(I.axes[k]), n)) + g[k] * std::abs(dot(plain(J.axes[k]), n));
+    return std::abs(dot(between, n)) - reach;
+  };
+  const double size = std::min(I.size(), J.size());
+  double best = -far;
+  Vec3<T> normal;
+  // Where others part as soon, faces of J decide, then those of I.
+  const auto try_one = [&](const Vec3<T>& n) {
+    const double s = separation(plain(n));
+    if (s > best + edge_preference * size) best = s, normal = n;
+    return s;
+  };
+  std::array<double, 6> of_faces;
+  for (std::size_t k = 0; k < 6; ++k) of_faces[k] = try_one(k < 3 ? J.axes[k] : I.axes[k - 3]);
+  for (const Vec3<T>& a : I.axes) {
+    for (const Vec3<T>& b : J.axes) {
+      const Vec3<T> n = cross(a, b);
+      using std::sqrt;
+      const T sine = sqrt(dot(n, n));
+      if (value_of(sine) > least_sine) try_one(n / sine);
+    }
+  }
+  Parting<T> found{dot(between, plain(normal)) < 0 ? -normal : normal};
+  bool of_I = false, of_J = false;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const double cosine = dot(plain(k < 3 ? J.axes[k] : I.axes[k - 3]), plain(normal));
+    const double less = std::abs(of_faces[k] - best);
+    if (std::abs(cosine) < least_cosine)
+      found.definite = found.definite && less > coincidence * size;
+    else if (less <= edge_preference * size)
+      (k < 3 ? of_J : of_I) = true;
+  }
+  found.faces = of_I && of_J;
+  return found;
+}
+
+// --- faces, their corners and edges
+
+template <class T>
+struct Edge {
+  Vec3<T> from, along;  // unit vector
+  double length = 0;
+};
+
+// The one that looks most in a direction, with its corners and edges one after the other around it.
+template <class T>
+struct Face {
+  const Placed<T>& box;
+  std::size_t axis = 0;
+  bool upper = true;
+  std::array<Vec3<T>, 4> corners;
+  std::array<Edge<T>, 4> edges;
+
+  Face(const Placed<T>& of, const Vector& direction) : box(of) {
+    double most = -far;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double c = dot(plain(box.axes[k]), direction);
+      if (std::abs(c) > most) most = std::abs(c), axis = k, upper = c > 0;
+    }
+    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const auto& [low, high] = box.box;
+    std::array<Vector, 4> place;
+    for (std::size_t n = 0; n < 4; ++n) {
+      place[n][axis] = height();
+      place[n][u] = n == 1 || n == 2 ? high[u] : low[u];
+      place[n][v] = n >= 2 ? high[v] : low[v];
+      corners[n] = box.at(place[n]);
+    }
+    for (std::size_t n = 0; n < 4; ++n) {
+      const std::size_t way = n % 2 == 0 ? u : v;
+      const double sign = n < 2 ? 1 : -1;
+      edges[n] = {corners[n], box.axes[way] * sign, high[way] - low[way]};
+    }
+  }
+  Vec3<T> normal() const { return upper ? box.axes[axis] : -box.axes[axis]; }
+  double height() const { return upper ? box.box.high[axis] : box.box.low[axis]; }
+};
+
+// --- places, all along one normal: what one of them loses where it ends another has
+
+// Of a place on an edge neither side holds for motions both ways: what is given is the mean of both.
+double share_inside(double depth, double tolerance) { return depth > tolerance ? 1 : depth >= -tolerance ? 0.5 : 0; }
+
+template <class T>
+Touch<T> between(const Vec3<T>& on_J, const T& gap, const Vec3<T>& normal) {
+  Touch<T> t;
+  t.gap = gap, t.normal = normal, t.point = on_J + normal * (gap * 0.5);
+  return t;
+}
+
+// How far a point of the plane of a face is within it.
+template <class T>
+void keep_within(const Face<T>& face, const Vec3<T>& point, double tolerance, Touch<T>& t) {
+  const Vector from = plain(point - face.box.origin);
+  double share = 1;
+  for (const std::size_t k : {(face.axis + 1) % 3, (face.axis + 2) % 3}) {
+    const double along = dot(from, plain(face.box.axes[k]));
+    for (const double depth : {along - face.box.box.low[k], face.box.box.high[k] - along})
+      t.inside = std::min(t.inside, depth), share *= share_inside(depth, tolerance);
+  }
+  t.weight = T(share);
+}
+
+// From a point along the normal to the plane of a face.
+template <class T>
+T to_face(const Vec3<T>& point, const Face<T>& face, const Vec3<T>& normal) {
+  const Vec3<T>& across = face.box.axes[face.axis];
+  return (T(face.height()) - dot(point - face.box.origin, across)) / dot(normal, across);
+}
+template <class T>
+Touch<T> corner_of_I(const Vec3<T>& corner, const Face<T>& J, const Vec3<T>& normal, double tolerance) {
+  const T gap = -to_face(corner, J, normal);
+  const Vec3<T> on_J = corner - normal * gap;
+  Touch<T> t = between(on_J, gap, normal);
+  keep_within(J, on_J, tolerance, t);
+  return t;
+}
+template <class T>
+Touch<T> corner_of_J(const Vec3<T>& corner, const Face<T>& I, const Vec3<T>& normal, double tolerance) {
+  const T gap = to_face(corner, I, normal);
+  Touch<T> t = between(corner, gap, normal);
+  keep_within(I, corner + normal * gap, tolerance, t);
+  return t;
+}
+
+// Two edges that cross, seen along the normal. It counts with the square of the sine of their angle: where a corner
+// leaves over an edge, its two edges cross that one, and sin² and cos² of the same angle add up to what the corner had.
+template <class T>
+Touch<T> crossing(const Edge<T>& I, const Edge<T>& J, const Vec3<T>& normal, double tolerance) {
+  const Vec3<T>&u = I.along, &v = J.along;
+  const T area = dot(cross(u, v), normal);
+  const T un = dot(u, normal), vn = dot(v, normal);
+  const T weight = area * area / ((1.0 - un * un) * (1.0 - vn * vn));
+  if (!(value_of(weight) > least_sine * least_sine)) {
+    Touch<T> none = between(J.from, T(I.length + J.length), normal);
+    none.inside = -far;
+    return none;
+  }
+  const Vec3<T> d = I.from - J.from;
+  const T s = -dot(d, cross(v, normal)) / area, r = -dot(d, cross(u, normal)) / area;
+  const T gap = dot(d + u * s - v * r, normal);
+  Touch<T> t = between(J.from + v * r, gap, normal);
+  t.weight = weight;
+  for (const double depth : {value_of(s), I.length - value_of(s), value_of(r), J.length - value_of(r)})
+    t.inside = std::min(t.inside, depth), t.weight *= T(share_inside(depth, tolerance));
+  return t;
+}
+
+// Of parallel faces the one that holds more corners of the other one is the one whose normal stays where the boxes
+// tilt.
+template <class T>
+Vec3<T> common_normal(const Face<T>& I, const Face<T>& J, double tolerance) {
+  using std::sqrt;
+  double by_I = 0, by_J = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    by_J += value_of(corner_of_I(I.corners[k], J, J.normal(), tolerance).weight);
+    by_I += value_of(corner_of_J(J.corners[k], I, J.normal(), tolerance).weight);
+  }
+  if (by_I + by_J == 0) by_I = by_J = 1;
+  const Vec3<T> sum = J.normal() * by_J - I.normal() * by_I;
+  return sum / sqrt(dot(sum, sum));
+}
+
+}  // namespace
+
+template <class T>
+void touch_boxes(const solid::Box& I_box, const RelativeFrame<T>& R, const solid::Box& J_box, std::span<Touch<T>> out) {
+  const Vec3<T> x{T(1.0), T(0.0), T(0.0)}, y{T(0.0), T(1.0), T(0.0)}, z{T(0.0), T(0.0), T(1.0)};
+  const Placed<T> I{I_box, R.p, {R.x, R.y, R.z}}, J{J_box, {T(0.0), T(0.0), T(0.0)}, {x, y, z}};
+  const Parting<T> part = parting(I, J);
+  const Face<T> of_I(I, -plain(part.normal)), of_J(J, plain(part.normal));
+  const double tolerance = coincidence * std::min(I.size(), J.size());
+  const Vec3<T> normal = part.faces ? common_normal(of_I, of_J, tolerance) : part.normal;
+  std::size_t count = 0;
+  for (const Vec3<T>& c : of_I.corners) out[count++] = corner_of_I(c, of_J, normal, tolerance);
+  for (const Vec3<T>& c : of_J.corners) out[count++] = corner_of_J(c, of_I, normal, tolerance);
+  for (const Edge<T>& e : of_I.edges) {
+    for (const Edge<T>& f : of_J.edges) out[count++] = crossing(e, f, normal, tolerance);
+  }
+  for (Touch<T>& t : out.first(count)) {
+    t.defined = part.definite;
+    if (std::abs(t.inside) <= tolerance) t.inside = 0;
+  }
+}
+
+template void touch_boxes(const solid::Box&, const RelativeFrame<double>&, const solid::Box&, std::span<Touch<double>>);
+template void touch_boxes(const solid::Box&, const RelativeFrame<Dual<12>>&, const solid::Box&,
+                          std::span<Touch<Dual<12>>>);
+
+}  // namespace dynalin
