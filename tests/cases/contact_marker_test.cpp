@@ -64,14 +64,19 @@ TEST_F(ContactMarkers, markers_of_two_curves_meet_at_the_contact) {
 }
 
 TEST_F(ContactMarkers, a_straight_curve_has_no_axes_across_it) {
-  const RunResult r = run("Contact\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/9, FLOATING\n" + parabola(1, 0) +
-                              "PART/2, MASS=3, CM=2, IP=1,1,1\nMARKER/2\nPTCV/1, I=2, JFLOAT=9, CURVE=1, RM=1\n"
-                              "VARIABLE/1, FUNCTION=DY(2,1,9)\nEND\n",
-                          "LINEAR/EIGENSOL\n");
-  EXPECT_EQ(r.status, 2);
-  EXPECT_NE(r.err.find("DY(2,1,9) reads the y or z axis of a marker at a point of contact where the curve is straight"),
-            std::string::npos)
-      << r.err;
+  for (const std::string function : {"DY(2,1,9)", "SFORCE(5,0,3,9)", "FY(2,0,9)"}) {
+    const RunResult r =
+        run("Contact\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/9, FLOATING\n" + parabola(1, 0) +
+                "PART/2, MASS=3, CM=2, IP=1,1,1\nMARKER/2\nPTCV/1, I=2, JFLOAT=9, CURVE=1, RM=1\n"
+                "SFORCE/5, TRANSLATIONAL, ACTIONONLY, I=2, J=1, FUNCTION=3\nVARIABLE/1, FUNCTION=" +
+                function + "\nEND\n",
+            "LINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 2) << function;
+    EXPECT_NE(
+        r.err.find(function + " reads the y or z axis of a marker at a point of contact where the curve is straight"),
+        std::string::npos)
+        << r.err;
+  }
 }
 
 TEST_F(ContactMarkers, curves_that_osculate_are_refused_by_name) {

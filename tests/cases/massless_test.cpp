@@ -421,5 +421,20 @@ TEST_F(Massless, links_in_space_under_load_are_the_limit_of_small_masses) {
   }
 }
 
+// A lever of no mass that turns with a damper, θ′ = −(3 + 2) θ/2, pushes a slider that hangs between two equal springs:
+// of turns and displacements the lever has 1, the slider half.
+TEST_F(Massless, what_moves_most_is_found_by_displacements_and_turns) {
+  const RunResult r = run(
+      "Lever and slider\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=0,1,0, REULER=90D,90D,0\n"
+      "MARKER/3, QP=-1,1,0\nPART/2\nMARKER/20, PART=2\nMARKER/21, PART=2, QP=0,1,0\nJOINT/1, REVOLUTE, I=20, J=1\n"
+      "PART/3, QG=1,1,0\nMARKER/30, PART=3\nMARKER/31, PART=3, REULER=90D,90D,0\nJOINT/2, TRANSLATIONAL, I=31, J=2\n"
+      "SPRINGDAMPER/1, ROTATION, I=20, J=1, KT=3, CT=2\nSPRINGDAMPER/2, TRANSLATION, I=30, J=21, K=4, LENGTH=1\n"
+      "SPRINGDAMPER/3, TRANSLATION, I=30, J=3, K=4, LENGTH=2\nEND\n",
+      "LINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_NEAR(r.eigenvalues(0)[0].real(), -2.5 / (2 * pi), 1e-14);
+  EXPECT_EQ(r.result(0).at("modes")[0].at("moves_most"), "PART/2");
+}
+
 }  // namespace
 }  // namespace dynalin::cases

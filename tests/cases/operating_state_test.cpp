@@ -158,10 +158,11 @@ TEST_F(OperatingStates, hold_what_a_gcon_does_to_the_body_of_its_marker) {
   const auto load = [](const std::string& function) {
     const OperatingState s =
         study_of(
-            "Arm\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-10\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=3, CM=20, IP=1,1,1\n"
+            "Arm\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-10\nPART/1, GROUND\nMARKER/1, QP=3,-7,4\n"
+            "PART/2, MASS=3, CM=20, IP=1,1,1, QG=3,-7,4\n"
             "MARKER/20, QP=1,0,0\nMARKER/21, QP=2,0,0, REULER=30D,0,0\nMARKER/22\nJOINT/1, REVOLUTE, I=22, J=1\n"
             "GCON/4, I=21, FUNCTION=" +
-            function + "\nGCON/5, FUNCTION=DZ(20)\nEND\n")
+            function + "\nGCON/5, FUNCTION=DZ(20,1)\nEND\n")
             .initial_conditions()
             .state();
     EXPECT_EQ(s.reactions.size(), 2u) << "without I there is nothing to report it at";
@@ -172,7 +173,7 @@ TEST_F(OperatingStates, hold_what_a_gcon_does_to_the_body_of_its_marker) {
     return l;
   };
   // Half the weight at the end, or all of it as a torque.
-  for (const char* at_end : {"DY(21)", "VY(21)"}) {
+  for (const char* at_end : {"DY(21,1)", "VY(21)"}) {
     expect_triple(load(at_end).force, {0, 15, 0});
     expect_triple(load(at_end).torque, {0, 0, 0});
   }
