@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "cases/fe_parts.h"
+#include "cases/modal_sums_cases.h"
 #include "cases/run.h"
 #include "cases/study_of.h"
 
@@ -231,7 +232,31 @@ TEST(FePart, a_rotating_beam_flaps_and_lags_as_fast_as_published) {
   }
 }
 
-class FePartFiles : public Cases {};
+// Its velocity is that of the origin of the part, about which it turns.
+TEST(FePart, starts_in_motion_about_its_own_origin) {
+  const StraightBeam beam{.elements = 2, .height = 0.1, .width = 0.1, .further = ", QG=2,3,5, WZ=4, VX=1"};
+  const auto start = study_of(beam_model(beam.text())).initial_conditions();
+  for (const auto& [marker, velocity] : {std::pair<int, Triple>{21, {1, 0, 0}}, {22, {1, 4, 0}}}) {
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(start.marker(marker).velocity[k], velocity[k], 1e-13) << marker;
+  }
+}
+
+class FePartFiles : public ModalSumCases {};
+
+// A beam of mass 1 with bodies of 2 and 3 at its ends, and another beam: all of their modes together carry all of them.
+TEST_F(FePartFiles, effective_masses_of_beams_and_bodies_add_up) {
+  const StraightBeam first{.elements = 2, .height = 0.1, .width = 0.1},
+      second{.elements = 1, .length = 2, .height = 0.1, .width = 0.1, .further = ", QG=1,0,0", .id = 3};
+  const std::string model = beam_model(
+      first.text() + second.text() +
+      "PART/4, MASS=2, CM=40, IP=1,1,1\nMARKER/40\nPART/5, MASS=3, CM=50, IP=1,1,1, QG=3,0,0\nMARKER/50\n"
+      "JOINT/1, FIXED, I=21, J=40\nJOINT/2, FIXED, I=22, J=31\nJOINT/3, SPHERICAL, I=32, J=50\n"
+      "BUSHING/1, I=40, J=1, K=3,4,5, KT=1,2,3, C=0,0,0, CT=0,0,0\nBUSHING/2, I=50, J=6, K=7,2,1, KT=3,2,1, C=0,0,0"
+      ", CT=0,0,0\nMARKER/6, PART=1, QP=3,0,0\n");
+  const std::string text = tables(model, "MASS_PER_MODE=ALL");
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(row(text, "Modal effective mass", "Sum")[k], 1 + 2 + 2 + 3, 1e-6) << k;
+}
 
 TEST_F(FePartFiles, states_have_code_27_and_energies_a_row) {
   const RunResult r = run(clamped_beam({.elements = 1, .height = 0.1, .width = 0.1}),
