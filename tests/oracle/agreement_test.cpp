@@ -13,6 +13,7 @@
 #include "expression/functions.h"
 #include "expression/vector_functions.h"
 #include "linear/linear_system.h"
+#include "model/routine_options.h"
 #include "oracle/model.h"
 #include "oracle/program_point.h"
 
@@ -55,7 +56,8 @@ void compare(std::uint64_t seed) {
   const std::string text = dataset_text(mechanism);
   auto dataset = parse_dataset(std::make_shared<const SourceText>("generated.adm", text));
   ASSERT_FALSE(dataset.diagnostics.has_errors()) << render(dataset.diagnostics) << text;
-  auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue());
+  auto model = build_model(std::make_shared<const Dataset>(std::move(dataset.value)), catalogue(), {},
+                           {.libraries = {GENERATED_ROUTINES}});
   ASSERT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics);
   const auto made = System::make(std::move(model.value)).value();
   const System& system = *made;
@@ -114,12 +116,19 @@ class BeamAgreement : public ::testing::TestWithParam<std::uint64_t> {};
 TEST_P(BeamAgreement, state_matrices_equal_differences_of_the_nonlinear_model) { compare(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(generated, BeamAgreement, ::testing::Range<std::uint64_t>(241, 247));
 
+// With state equations of compiled routines.
+class GseAgreement : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(GseAgreement, state_matrices_equal_differences_of_the_nonlinear_model) { compare(GetParam()); }
+INSTANTIATE_TEST_SUITE_P(generated, GseAgreement, ::testing::Range<std::uint64_t>(261, 267));
+
 // A new element or function without a place in the generator fails here.
 TEST(Generated, mechanisms_hold_every_element_and_function_of_the_program) {
   std::string text;
   for (std::uint64_t seed = 1; seed <= 246; ++seed) text += dataset_text(random_mechanism(seed));
-  // The oracle has no flexible bodies, which alone can take an MFORCE, and no routines.
-  const std::set<std::string_view> apart = {"FLEX_BODY", "GSE", "MFORCE"};
+  text += dataset_text(random_mechanism(261));
+  // The oracle has no flexible bodies, which alone can take an MFORCE.
+  const std::set<std::string_view> apart = {"FLEX_BODY", "MFORCE"};
   const auto holds = [&](const std::string& word) {
     return apart.count(std::string_view(word).substr(word[0] == '\n', word.find_first_of("(/") - (word[0] == '\n'))) ||
            text.find(word) != std::string::npos;

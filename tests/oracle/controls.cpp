@@ -1,5 +1,6 @@
 // What control elements and loads read as: arrays, states, rates, and the force functions.
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "model.h"
@@ -198,6 +199,10 @@ Real Model::array_entry(int id, int index) const {
     times(lse.d, [&](std::size_t c) { return input_entry(lse.u, c); });
     return sum;
   }
+  for (std::size_t k = 0; k < mechanism_.gses.size(); ++k) {
+    if (mechanism_.gses[k].x == id) return z[gse_slot_[k] + at];
+    if (mechanism_.gses[k].y == id) return gse_output(k, at);
+  }
   throw std::runtime_error("an ARRAY belongs to no element");
 }
 
@@ -237,6 +242,29 @@ std::vector<Real> Model::lse_rates(std::size_t k) const {
   return rates;
 }
 
+Real Model::gse_output(std::size_t k, std::size_t row) const {
+  const Gse& e = mechanism_.gses[k];
+  const auto n = static_cast<std::size_t>(e.states), m = static_cast<std::size_t>(e.inputs);
+  Real y = e.g[row] * std::tanh(z[gse_slot_[k]]);
+  for (std::size_t c = 0; c < n; ++c) y += e.c[row * n + c] * z[gse_slot_[k] + c];
+  for (std::size_t c = 0; c < m; ++c) y += e.d[row * m + c] * input_entry(e.u, c);
+  return y;
+}
+
+std::vector<Real> Model::gse_rates(std::size_t k) const {
+  const Gse& e = mechanism_.gses[k];
+  const auto n = static_cast<std::size_t>(e.states), m = static_cast<std::size_t>(e.inputs);
+  const Real* x = z.data() + gse_slot_[k];
+  std::vector<Real> rates(n);
+  for (std::size_t r = 0; r < n; ++r) {
+    rates[r] = e.e[r] * std::sin(x[r]) * input_entry(e.u, 0);
+    for (std::size_t c = 0; c < n; ++c) rates[r] += e.a[r * n + c] * x[c];
+    for (std::size_t c = 0; c < m; ++c) rates[r] += e.b[r * m + c] * input_entry(e.u, c);
+    if (e.implicit) rates[r] /= 2 + std::sin(x[r]);
+  }
+  return rates;
+}
+
 std::vector<Real> Model::diff_rates() const {
   std::vector<Real> rates;
   for (std::size_t k = 0; k < mechanism_.diffs.size(); ++k) rates.push_back(diff_rate(k));
@@ -247,6 +275,7 @@ std::vector<Real> Model::differential_rates() const {
   std::vector<Real> rates;
   const auto append = [&](const std::vector<Real>& more) { rates.insert(rates.end(), more.begin(), more.end()); };
   for (std::size_t k = 0; k < mechanism_.lses.size(); ++k) append(lse_rates(k));
+  for (std::size_t k = 0; k < mechanism_.gses.size(); ++k) append(gse_rates(k));
   for (std::size_t k = 0; k < mechanism_.tfsisos.size(); ++k) append(tfsiso_rates(k));
   for (std::size_t k = 0; k < mechanism_.diffs.size(); ++k) {
     if (mechanism_.diffs[k].kind != DiffKind::algebraic) rates.push_back(diff_rate(k));

@@ -364,6 +364,17 @@ std::string array_text(const Array& a) {
   return {};
 }
 
+std::string gse_text(const Gse& e) {
+  Statement t("GSE", e.id);
+  t.set("NS", e.states).set("X", e.x).set("U", e.u).set("NO", e.outputs).set("Y", e.y).set("IC", e.ic);
+  std::vector<double> constants = {static_cast<double>(e.states), static_cast<double>(e.inputs),
+                                   static_cast<double>(e.outputs)};
+  for (const auto* part : {&e.a, &e.b, &e.c, &e.d, &e.e, &e.g})
+    constants.insert(constants.end(), part->begin(), part->end());
+  if (e.implicit) t.word("IMPLICIT").set("INTERFACE", std::string("::balance_deriv"));
+  return t.set("FUNCTION", "USER(" + numbers(constants) + ")").text();
+}
+
 std::string controls_text(const Mechanism& m) {
   std::string text;
   for (const Variable& v : m.variables) {
@@ -404,6 +415,7 @@ std::string controls_text(const Mechanism& m) {
                 .set("D", e.d)
                 .text();
   }
+  for (const Gse& e : m.gses) text += gse_text(e);
   if (m.pinput.id != 0) text += Statement("PINPUT", m.pinput.id).set("VARIABLES", integers(m.pinput.variables)).text();
   if (m.pstate.id != 0) text += Statement("PSTATE", m.pstate.id).set("VARIABLES", integers(m.pstate.variables)).text();
   if (m.poutput.id != 0)

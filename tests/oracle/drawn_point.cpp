@@ -45,14 +45,17 @@ double initial_value(const Mechanism& mechanism, const DifferentialSlot& slot) {
       if (diff.id == slot.element_id) return diff.ic;
     }
   }
-  if (slot.element == ElementClass::lse) {
-    for (const Lse& lse : mechanism.lses) {
-      if (lse.id != slot.element_id || lse.ic == 0) continue;
+  const auto by_array = [&](const auto& elements) -> double {
+    for (const auto& e : elements) {
+      if (e.id != slot.element_id || e.ic == 0) continue;
       for (const Array& a : mechanism.arrays) {
-        if (a.id == lse.ic) return a.numbers.at(static_cast<std::size_t>(slot.index - 1));
+        if (a.id == e.ic) return a.numbers.at(static_cast<std::size_t>(slot.index - 1));
       }
     }
-  }
+    return 0;
+  };
+  if (slot.element == ElementClass::lse) return by_array(mechanism.lses);
+  if (slot.element == ElementClass::gse) return by_array(mechanism.gses);
   return 0;
 }
 

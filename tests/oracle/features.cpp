@@ -85,6 +85,7 @@ Features features_of(const Mechanism& m) {
   for (const Lse& e : m.lses) {
     for (const NumberMatrix& a : m.matrices) f.differential_states += a.id == e.a ? a.rows : 0;
   }
+  for (const Gse& e : m.gses) f.differential_states += e.states;
   f.inputs = static_cast<int>(m.pinput.variables.size());
   f.outputs = static_cast<int>(m.poutput.variables.size());
   f.units_factor = m.ucf != 1;

@@ -309,6 +309,7 @@ Mechanism Draw::mechanism() {
   if (whole_language_) draw_cable();
   draw_controls();
   draw_sforces();
+  read_gse();
   draw_general_forces();
   draw_outputs();
   check();

@@ -93,6 +93,7 @@ void Draw::draw_differential_elements() {
     m_.lses.push_back(e);
     states_.push_back(aryval(e.y, 1 + pick(2)));
   }
+  draw_gse();
   const int diffs = chance(0.5) ? 1 + pick(2) : 0;
   for (int k = 1; k <= diffs; ++k) {
     m_.diffs.push_back({k, uniform(-1, 1), {}});

@@ -264,6 +264,13 @@ struct Lse {
   int id = 0, x = 0, u = 0, y = 0, ic = 0;  // 0 = not given
   int a = 0, b = 0, c = 0, d = 0;           // MATRIX ids, 0 = not given
 };
+// GSE with the routines of tests/routines/generated_states.cpp, which say what the constants are.
+struct Gse {
+  int id = 0, x = 0, u = 0, y = 0, ic = 0;  // 0 = not given
+  int states = 1, inputs = 1, outputs = 1;
+  bool implicit = false;
+  std::vector<double> a, b, c, d, e, g;  // matrices row by row
+};
 struct SplinePoints {
   int id = 0;
   std::vector<double> x, y;
@@ -304,6 +311,7 @@ struct Mechanism {
   std::vector<NumberMatrix> matrices;
   std::vector<Tfsiso> tfsisos;
   std::vector<Lse> lses;
+  std::vector<Gse> gses;
   VariableList pinput, poutput, pstate;  // id 0: none
 };
 

@@ -159,6 +159,10 @@ void Model::read_controls() {
       slots.push_back({ElementClass::lse, lse.id, k});
     }
   }
+  for (const Gse& e : mechanism_.gses) {
+    gse_slot_.push_back(slots.size());
+    for (int k = 1; k <= e.states; ++k) slots.push_back({ElementClass::gse, e.id, k});
+  }
   for (const Tfsiso& tf : mechanism_.tfsisos) {
     tfsiso_slot_.push_back(slots.size());
     for (std::size_t k = 1; k < tf.denominator.size(); ++k) {

@@ -232,6 +232,8 @@ class Model {
   [[nodiscard]] Real array_entry(int id, int index) const;
   [[nodiscard]] std::vector<Real> tfsiso_rates(std::size_t k) const;
   [[nodiscard]] std::vector<Real> lse_rates(std::size_t k) const;
+  [[nodiscard]] std::vector<Real> gse_rates(std::size_t k) const;
+  [[nodiscard]] Real gse_output(std::size_t k, std::size_t row) const;
   [[nodiscard]] Real input_entry(int array, std::size_t index) const;
   [[nodiscard]] const NumberMatrix& number_matrix(int id) const;
   [[nodiscard]] Real diff_value(std::size_t k) const;
@@ -243,7 +245,7 @@ class Model {
   std::map<int, int> marker_index_, variable_index_, sforce_index_, joint_index_, array_index_, gforce_index_;
   std::map<int, std::size_t> diff_index_;
   std::vector<std::array<int, 2>> spring_markers_, sforce_markers_, joint_markers_;
-  std::vector<std::size_t> tfsiso_slot_, lse_slot_, diff_slot_, friction_slot_;
+  std::vector<std::size_t> tfsiso_slot_, lse_slot_, gse_slot_, diff_slot_, friction_slot_;
   std::vector<Real> friction_start_;  // displacement along z of J as drawn
   bool has_expressions_ = false;      // among the rows
   struct ContactData {

@@ -19,7 +19,7 @@ namespace dynalin::oracle {
 
 using Matrix = std::vector<std::vector<double>>;
 
-enum class ElementClass { lse = 2, tfsiso = 3, diff = 5, friction = 102 };  // the type codes of STATES
+enum class ElementClass { lse = 2, tfsiso = 3, gse = 4, diff = 5, friction = 102 };  // the type codes of STATES
 
 struct ChosenState {
   enum class Kind { coordinate, rate, differential };
@@ -80,7 +80,7 @@ struct OracleLinearModel {
 [[nodiscard]] OraclePoint drawn_point(const Mechanism& mechanism);
 
 // A well-conditioned set of states at the drawn point: rate, where it is free, and coordinate of each, then
-// differential states in the order LSE, TFSISO, DIFF.
+// differential states in the order LSE, GSE, TFSISO, DIFF, FRICTION.
 [[nodiscard]] std::vector<ChosenState> choose_states(const Mechanism& mechanism, const OraclePoint& point);
 
 }  // namespace dynalin::oracle
