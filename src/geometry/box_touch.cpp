@@ -52,16 +52,20 @@ Parting<T> parting(const Placed<T>& I, const Placed<T>& J) {
     return std::abs(dot(between, n)) - reach;
   };
   const double size = std::min(I.size(), J.size());
-  double best = -far;
-  Vec3<T> normal;
-  // Where others part as soon, faces of J decide, then those of I.
-  const auto try_one = [&](const Vec3<T>& n) {
-    const double s = separation(plain(n));
-    if (s > best + edge_preference * size) best = s, normal = n;
-    return s;
+  struct Direction {
+    Vec3<T> normal;
+    double separation = 0;
   };
-  std::array<double, 6> of_faces;
-  for (std::size_t k = 0; k < 6; ++k) of_faces[k] = try_one(k < 3 ? J.axes[k] : I.axes[k - 3]);
+  std::array<Direction, 15> all;
+  std::size_t count = 0, best = 0;
+  // Where others part as soon, faces decide.
+  const auto try_one = [&](const Vec3<T>& n) {
+    all[count] = {n, separation(plain(n))};
+    if (all[count].separation > all[best].separation + edge_preference * size) best = count;
+    ++count;
+  };
+  for (const Vec3<T>& b : J.axes) try_one(b);
+  for (const Vec3<T>& a : I.axes) try_one(a);
   for (const Vec3<T>& a : I.axes) {
     for (const Vec3<T>& b : J.axes) {
       const Vec3<T> n = cross(a, b);
@@ -70,15 +74,14 @@ Parting<T> parting(const Placed<T>& I, const Placed<T>& J) {
       if (value_of(sine) > least_sine) try_one(n / sine);
     }
   }
+  const auto& [normal, most] = all[best];
   Parting<T> found{dot(between, plain(normal)) < 0 ? -normal : normal};
   bool of_I = false, of_J = false;
-  for (std::size_t k = 0; k < 6; ++k) {
-    const double cosine = dot(plain(k < 3 ? J.axes[k] : I.axes[k - 3]), plain(normal));
-    const double less = std::abs(of_faces[k] - best);
-    if (std::abs(cosine) < least_cosine)
-      found.definite = found.definite && less > coincidence * size;
-    else if (less <= edge_preference * size)
-      (k < 3 ? of_J : of_I) = true;
+  for (std::size_t k = 0; k < count; ++k) {
+    const bool alike = std::abs(dot(plain(all[k].normal), plain(normal))) >= least_cosine;
+    const double less = std::abs(all[k].separation - most);
+    found.definite = found.definite && (alike || less > coincidence * size);
+    if (alike && k < 6 && less <= edge_preference * size) (k < 3 ? of_J : of_I) = true;
   }
   found.faces = of_I && of_J;
   return found;

@@ -203,6 +203,9 @@ TEST_F(ImplicitDiffs, one_alone_has_a_rank_too) {
                  {"the equation of DIFF/1 does not determine its DIF1 here"});
   expect_same(rates("DIFF/1, IMPLICIT, FUNCTION=0*DIF1(1)+VARVAL(1)+3*DIF(1)\nVARIABLE/1, FUNCTION=DIF1(1)\n"),
               {{-3, 0}}, 1e-12);
+  expect_same(rates("DIFF/1, IMPLICIT, FUNCTION=0*DIF1(1)+POUVAL(7,1)+3*DIF(1)\nVARIABLE/1, "
+                    "FUNCTION=DIF1(1)\nPOUTPUT/7, VARIABLES=1\n"),
+              {{-3, 0}}, 1e-12);
 }
 
 // A factor that is the same in both equations cancels as it is written, also where both have no value at other places.
