@@ -208,6 +208,18 @@ TEST_F(ImplicitDiffs, one_alone_has_a_rank_too) {
               {{-3, 0}}, 1e-12);
 }
 
+// z₁ = 3 z₂ at every instant: IC is where its search begins.
+TEST_F(ImplicitDiffs, one_that_does_not_read_its_rate_is_no_state_and_says_so) {
+  const RunResult r = run(at_rest("DIFF/1, IMPLICIT, IC=0.7, FUNCTION=DIF(1)-3*DIF(2)\nDIFF/2, FUNCTION=-DIF(1)\n"),
+                          "SIMULATE/INITIAL\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  expect_same({r.eigenvalues(1)[0] * (2 * std::numbers::pi)}, {{-3, 0}}, 1e-12);
+  EXPECT_NE(r.err.find("DIFF/1 does not read its own DIF1: it is algebraic and contributes no state"),
+            std::string::npos)
+      << r.err;
+  EXPECT_EQ(r.err.find("warning:"), r.err.rfind("warning:")) << r.err;
+}
+
 // A factor that is the same in both equations cancels as it is written, also where both have no value at other places.
 TEST_F(ImplicitDiffs, combinations_are_found_by_how_equations_are_written) {
   const std::string factor = "*SQRT(DIF(1)-0.2)*LOG(5-DIF(1))";
