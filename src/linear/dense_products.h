@@ -3,12 +3,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <algorithm>
 
 namespace dynalin {
 
-Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);             // A B
-Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);     // Aᴴ B
+Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);          // A B
+Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);  // Aᴴ B
 
 // Aᴴ B and Aᵀ B at once, out of the same products of their parts.
 struct BothProducts {
@@ -17,6 +18,19 @@ struct BothProducts {
 BothProducts both_products(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
 
 Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+// Aᵀ times block after block of columns. Where most of A is zero, as the inverse of a block-diagonal mass matrix is,
+// its zeros are left out.
+class TransposedFactor {
+ public:
+  explicit TransposedFactor(Eigen::MatrixXd a);
+  Eigen::MatrixXd operator*(const Eigen::MatrixXd& b) const;
+
+ private:
+  bool sparse_;
+  Eigen::MatrixXd dense_;
+  Eigen::SparseMatrix<double> entries_;  // by columns of A
+};
 
 // visit(first, count) for all columns, as many at a time as make good use of a matrix product while what belongs to
 // them stays small.

@@ -183,8 +183,8 @@ PerturbationEquations::Roundings PerturbationEquations::roundings(const Matrix& 
       if (any[static_cast<std::size_t>(r)]) rounded.push_back(r);
     }
   }
-  const Matrix adjoint_of_sums = adjoint.bottomRows(rows),
-               adjoint_of_rounded = adjoint(rounded, Eigen::all).cwiseAbs2();
+  const TransposedFactor adjoint_of_sums(adjoint.bottomRows(rows)),
+      adjoint_of_rounded(adjoint(rounded, Eigen::all).cwiseAbs2());
   adjoint.resize(0, 0);
   Matrix total(states_, states_), of_coefficients(states_, states_);
   ColumnMatrix squares = roundings_;
@@ -196,12 +196,12 @@ PerturbationEquations::Roundings PerturbationEquations::roundings(const Matrix& 
     parts.bottomRows(states_).middleRows(first, count).setIdentity();
     multiply_add(squares, parts.cwiseAbs2(), sums, 1.0);
     of_coefficients.middleCols(first, count) =
-        transposed_product(adjoint_of_rounded, sums(rounded, Eigen::all).eval()) + sums.bottomRows(states_);
+        adjoint_of_rounded * sums(rounded, Eigen::all).eval() + sums.bottomRows(states_);
     parts.middleRows(summed, algebraic_ - summed).setZero();
     sums.setZero();
     multiply_add(sizes, parts, sums, 1.0);
     total.middleCols(first, count) =
-        transposed_product(adjoint_of_sums, sums.middleRows(first_row, rows).eval()) + sums.bottomRows(states_);
+        adjoint_of_sums * sums.middleRows(first_row, rows).eval() + sums.bottomRows(states_);
   });
   constexpr double unit = std::numeric_limits<double>::epsilon();
   return {units_of_rounding * unit * total, unit / 2 * of_coefficients.cwiseSqrt()};

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "accepted_draws.h"
+
 namespace dynalin::oracle {
 
 void Draw::draw_units() {
@@ -321,10 +323,12 @@ Mechanism Draw::mechanism() {
 }
 
 Mechanism random_mechanism(std::uint64_t seed) {
-  for (std::uint64_t attempt = 0; attempt < 2000; ++attempt) {
+  const std::optional<std::uint64_t> known = accepted_attempt(seed);
+  for (std::uint64_t attempt = known.value_or(0); attempt < 2000; ++attempt) {
     try {
       Mechanism m = Draw(seed, attempt).mechanism();
       m.title = "Random mechanism, seed " + std::to_string(seed);
+      if (!known) remember_accepted_attempt(seed, attempt);
       return m;
     } catch (const std::runtime_error&) {
       // Rejected: the next draw of the same seed.

@@ -1,0 +1,27 @@
+#include "linear/dense_products.h"
+
+#include <gtest/gtest.h>
+
+namespace dynalin {
+namespace {
+
+TEST(TransposedFactor, is_the_product_whether_most_entries_are_zero_or_none) {
+  Eigen::MatrixXd dense(40, 30), b(40, 5);
+  for (Eigen::Index k = 0; k < dense.size(); ++k) dense.data()[k] = static_cast<double>(k % 17) - 7.5;
+  for (Eigen::Index k = 0; k < b.size(); ++k) b.data()[k] = static_cast<double>(k % 13) - 5;
+  Eigen::MatrixXd sparse = Eigen::MatrixXd::Zero(40, 30);
+  sparse.diagonal() = dense.diagonal();
+  sparse(39, 2) = 3;
+  for (const Eigen::MatrixXd& a : {dense, sparse}) {
+    EXPECT_LT((TransposedFactor(a) * b - a.transpose() * b).cwiseAbs().maxCoeff(), 1e-12);
+  }
+}
+
+TEST(TransposedFactor, of_no_rows_gives_nothing_in_its_size) {
+  const Eigen::MatrixXd product = TransposedFactor(Eigen::MatrixXd(0, 3)) * Eigen::MatrixXd(0, 2);
+  EXPECT_EQ(product, Eigen::MatrixXd::Zero(3, 2));
+  EXPECT_EQ(TransposedFactor(Eigen::MatrixXd::Zero(4, 3)) * Eigen::MatrixXd::Ones(4, 2), Eigen::MatrixXd::Zero(3, 2));
+}
+
+}  // namespace
+}  // namespace dynalin

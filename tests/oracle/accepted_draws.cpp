@@ -1,0 +1,33 @@
+#include "accepted_draws.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace dynalin::oracle {
+
+namespace {
+
+std::filesystem::path file_of(std::uint64_t seed) {
+  return std::filesystem::path(ACCEPTED_DRAWS) / std::to_string(seed);
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> accepted_attempt(std::uint64_t seed) {
+  std::uint64_t attempt = 0;
+  if (std::ifstream(file_of(seed)) >> attempt) return attempt;
+  return std::nullopt;
+}
+
+void remember_accepted_attempt(std::uint64_t seed, std::uint64_t attempt) {
+  // Others read while this is written: whole files take the place of none. What can't be written is found again.
+  std::filesystem::path written = file_of(seed);
+  written += "." + std::to_string(getpid());
+  std::error_code ignored;
+  if (std::ofstream(written) << attempt << '\n') std::filesystem::rename(written, file_of(seed), ignored);
+}
+
+}  // namespace dynalin::oracle
