@@ -50,6 +50,13 @@ void Model::read_joint(std::size_t k) {
 
 // Position rows first, velocity rows last: a position row that is independent of the positions before it stays so.
 void Model::read_rows() {
+  for (std::size_t k = 0; k < carried_.size(); ++k) {
+    for (int component = 0; component < 6; ++component) {
+      Row row{Row::Type::shape};
+      row.carried = k, row.component = component;
+      rows.push_back(row);
+    }
+  }
   for (std::size_t k = 0; k < mechanism_.joints.size(); ++k) read_joint(k);
   read_relations();
   read_motions();
@@ -175,6 +182,7 @@ Real Model::drive(const Row& row, std::size_t derivative) const {
 }
 
 Real Model::row_position(const Row& row) const {
+  if (row.type == Row::Type::shape) return shape_row(row)[0];
   const MarkerMotion& i = markers_[static_cast<std::size_t>(row.i)];
   const MarkerMotion& j = markers_[static_cast<std::size_t>(row.j)];
   const Vec& e_j = j.axis[static_cast<std::size_t>(row.axis_j)];
@@ -191,6 +199,7 @@ Real Model::row_position(const Row& row) const {
 }
 
 Real Model::row_velocity(const Row& row) const {
+  if (row.type == Row::Type::shape) return shape_row(row)[1];
   const MarkerMotion& i = markers_[static_cast<std::size_t>(row.i)];
   const MarkerMotion& j = markers_[static_cast<std::size_t>(row.j)];
   const auto ai = static_cast<std::size_t>(row.axis_i), aj = static_cast<std::size_t>(row.axis_j);
@@ -210,6 +219,7 @@ Real Model::row_velocity(const Row& row) const {
 }
 
 Real Model::row_acceleration(const Row& row) const {
+  if (row.type == Row::Type::shape) return shape_row(row)[2];
   const MarkerMotion& i = markers_[static_cast<std::size_t>(row.i)];
   const MarkerMotion& j = markers_[static_cast<std::size_t>(row.j)];
   const auto ai = static_cast<std::size_t>(row.axis_i), aj = static_cast<std::size_t>(row.axis_j);
@@ -243,6 +253,7 @@ Wrench Model::row_wrench(const Row& row) const {
     case Row::Type::angle:
       return {Vec{}, j.axis[2]};
     case Row::Type::expression:
+    case Row::Type::shape:
       break;
   }
   // Of an expression of I and J alone: what it does to the body of I, moved to the origin of I.
@@ -259,6 +270,7 @@ void Model::apply_row(std::vector<Wrench>& loads, const Row& row, Real size) con
     }
     return;
   }
+  if (row.type == Row::Type::shape) return apply_shape(loads, row, size);
   const Wrench unit = row_wrench(row);
   const Vec at = markers_[static_cast<std::size_t>(row.i)].p;
   apply(loads, row.i, at, unit, size);

@@ -37,7 +37,7 @@ class Statement {
 std::string owner_keyword(BodyKind kind) { return kind == BodyKind::point_mass ? "POINT_MASS" : "PART"; }
 
 std::string body_text(const Body& body) {
-  if (of_beam(body.ref.kind)) return {};  // of an FE_PART
+  if (is_elastic(body.ref.kind)) return {};  // of an FE_PART or FLEX_BODY
   Statement s(owner_keyword(body.ref.kind), body.ref.id);
   if (body.ref.kind == BodyKind::ground) return s.word("GROUND").text();
   const bool part = body.ref.kind == BodyKind::part;
@@ -446,10 +446,13 @@ std::string dataset_text(const Mechanism& m) {
           ", KGRAV=" + number(m.gravity[2]) + "\n";
   for (const Body& body : m.bodies) text += body_text(body);
   for (const Beam& b : m.beams) text += beam_text(b);
+  for (const Flexible& f : m.flexibles) text += flexible_text(m, f);
   for (const Marker& k : m.markers) {
     Statement s("MARKER", k.id);
     if (k.body.kind == BodyKind::beam_node) {
       s.set("FE_PART", k.body.id / 100).set("NODE_LABEL", k.body.id % 100 + 1);
+    } else if (of_flexible(k.body.kind)) {
+      s.set("FLEX_BODY", k.body.id / 100).set("NODE_ID", k.body.id % 100 + 1);
     } else {
       s.set(owner_keyword(k.body.kind), std::to_string(k.body.id));
     }
@@ -482,6 +485,7 @@ std::string dataset_text(const Mechanism& m) {
   for (const Cable& f : m.cables) text += cable_text(f);
   for (const GeneralForce& f : m.gforces) text += gforce_text(f);
   for (const BeamLoad& l : m.beam_loads) text += beam_load_text(l);
+  for (const ModalForce& f : m.mforces) text += modal_force_text(f);
   return text + controls_text(m) + "END\n";
 }
 

@@ -17,7 +17,7 @@ Stated place_stated_velocities(Model& model) {
     const auto b = static_cast<std::size_t>(model.body_index(body.ref));
     BodyMotion& m = model.motion[b];
     m.v = m.w = Vec{};
-    if (of_beam(body.ref.kind)) {
+    if (is_elastic(body.ref.kind)) {
       m.v = to_vec(body.v.value_or(Triple{})), m.w = to_vec(body.w.value_or(Triple{}));
       stated.v[b] = body.v.has_value(), stated.w[b] = body.w.has_value() || model.bodies[b].dof == 3;
       continue;

@@ -23,6 +23,7 @@ Dense Model::mass_matrix() const {
     }
   }
   add_beam_masses(M);
+  add_flexible_masses(M);
   return M;
 }
 
@@ -271,7 +272,7 @@ std::vector<int> Model::algebra_groups() const {
   }
   for (const int k : active) {
     const Row::Type type = rows[static_cast<std::size_t>(k)].type;
-    groups.push_back(type == Row::Type::point ? 2 : type == Row::Type::expression ? 4 : 3);
+    groups.push_back(type == Row::Type::point || type == Row::Type::shape ? 2 : type == Row::Type::expression ? 4 : 3);
   }
   int next = 5;
   while (groups.size() < algebra_size()) groups.push_back(next++);
@@ -310,6 +311,7 @@ std::vector<Real> Model::algebra_residual() const {
   apply_frictions(loads);
   apply_touches(loads);
   apply_beams(loads);
+  apply_flexibles(loads);
   for (const int k : active) apply_row(loads, rows[static_cast<std::size_t>(k)], lambda[static_cast<std::size_t>(k)]);
   const Vec g = to_vec(mechanism_.gravity);
   const Real ucf = mechanism_.ucf;

@@ -273,7 +273,7 @@ void Draw::draw_velocities() {
   complete_velocities(model, free);
   model.update_velocities();
   for (Body& b : m_.bodies) {
-    if (of_beam(b.ref.kind)) {
+    if (is_elastic(b.ref.kind)) {
       const BodyMotion& m = model.motion[static_cast<std::size_t>(model.body_index(b.ref))];
       b.v = to_triple(m.v);
       if (turns(b.ref.kind)) b.w = to_triple(m.w);
@@ -303,6 +303,7 @@ Mechanism Draw::mechanism() {
   check_structure();
   draw_massless();
   draw_beams();
+  draw_flexibles();
   draw_velocities();
   draw_contact_starts();
   draw_springs();
@@ -319,6 +320,7 @@ Mechanism Draw::mechanism() {
   if (!m_.frictions.empty()) check();
   draw_touches();
   draw_beam_load();
+  draw_modal_forces();
   return m_;
 }
 

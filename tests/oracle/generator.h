@@ -27,12 +27,14 @@ class Draw {
         touch_random_(seed * 1299709U + attempt * 15485863U + 3U),
         beam_random_(seed * 179424673U + attempt * 32452843U + 11U),
         state_random_(seed * 86028121U + attempt * 49979687U + 7U),
+        flexible_random_(seed * 122949823U + attempt * 67867967U + 13U),
         wanted_loops_(seed % 10 == 0 ? 2 : (seed % 5 < 2 ? 1 : 0)),
         wanted_motions_(seed % 3 == 0 ? 1 : 0),
         whole_language_(seed > 200),
         must_touch_(seed > 220 && seed <= 240),
         must_bend_(seed > 240 && seed <= 260),
         must_call_(seed > 260 && seed <= 270),
+        must_deform_(seed > 270 && seed <= 280),
         may_rub_(seed % 2 == 0) {}
   [[nodiscard]] Mechanism mechanism();
 
@@ -91,6 +93,10 @@ class Draw {
   void add_bodies_of(const Beam& beam);
   void join_beam(const Beam& beam);
   void draw_beam_load();
+  void draw_flexibles();
+  void draw_flexible();
+  void join_flexible(const Flexible& flexible);
+  void draw_modal_forces();
   void check_frictions(const Model& model) const;
   void check_structure() const;
   void check() const;
@@ -141,13 +147,14 @@ class Draw {
   }
 
   // Frictions have numbers of their own: what else a seed draws is what it was before there were any.
-  std::mt19937_64 random_, friction_random_, touch_random_, beam_random_, state_random_;
+  std::mt19937_64 random_, friction_random_, touch_random_, beam_random_, state_random_, flexible_random_;
   // Rejection starves loops and motions; some seeds insist on them.
   int wanted_loops_ = 0, wanted_motions_ = 0;
   bool whole_language_ = false;  // the first 200 stay as they were drawn when there were fewer elements
   bool must_touch_ = false;      // shapes, from 221 to 240
   bool must_bend_ = false;       // a beam, from 241 to 260
   bool must_call_ = false;       // compiled routines, from 261 to 270
+  bool must_deform_ = false;     // a flexible body, from 271 to 280
   bool may_rub_ = false;         // every second seed
   Mechanism m_;
   double L_ = 1, F_ = 10;  // natural length and force

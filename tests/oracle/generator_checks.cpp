@@ -165,7 +165,7 @@ void Draw::check() const {
     const BodyMotion& b = model.motion[k];
     // The ends of a beam weigh little; slopes and rotations of middles have no length.
     const BodyKind kind = model.bodies[k].ref.kind;
-    const double limit = of_beam(kind) ? 3000 : 150;
+    const double limit = is_elastic(kind) ? 3000 : 150;
     if (norm(b.al) > limit || norm(b.a) > limit * (kind < BodyKind::beam_slope ? L_ : 1))
       throw std::runtime_error("a body accelerates too fast");
   }
@@ -186,6 +186,7 @@ void Draw::check() const {
       if (e) check_nodes(model, at_place(*e, 0.5));
     }
   }
+  for (const ModalForce& f : m_.mforces) check_nodes(model, f.scale);
   for (const LinearForce& f : m_.linears) {
     for (const Measure a : {Measure::AX, Measure::AY, Measure::AZ}) check_nodes(model, measure(a, {f.i, f.j}));
   }

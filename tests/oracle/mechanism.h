@@ -15,10 +15,27 @@ namespace dynalin::oracle {
 using Triple = std::array<double, 3>;
 
 // A node of a beam turns as a part does; its slopes and the rotations of the middles of its elements are triples, moved
-// as point masses are. All of them take what inertia and loads they have from their beam (see Beam).
-enum class BodyKind { ground, part, point_mass, beam_node, beam_slope, beam_middle };
-[[nodiscard]] constexpr bool turns(BodyKind kind) { return kind == BodyKind::part || kind == BodyKind::beam_node; }
-[[nodiscard]] constexpr bool of_beam(BodyKind kind) { return kind >= BodyKind::beam_node; }
+// as point masses are. All of them take what inertia and loads they have from their beam (see Beam). So do the frame
+// of a flexible body, the triple of its modal coordinates and the nodes that carry markers (see Flexible).
+enum class BodyKind {
+  ground,
+  part,
+  point_mass,
+  beam_node,
+  flexible_frame,
+  flexible_node,
+  flexible_modes,
+  beam_slope,
+  beam_middle
+};
+[[nodiscard]] constexpr bool turns(BodyKind kind) {
+  return kind == BodyKind::part || (kind >= BodyKind::beam_node && kind <= BodyKind::flexible_node);
+}
+[[nodiscard]] constexpr bool of_flexible(BodyKind kind) {
+  return kind >= BodyKind::flexible_frame && kind <= BodyKind::flexible_modes;
+}
+[[nodiscard]] constexpr bool is_elastic(BodyKind kind) { return kind >= BodyKind::beam_node; }
+[[nodiscard]] constexpr bool of_beam(BodyKind kind) { return is_elastic(kind) && !of_flexible(kind); }
 
 struct BodyRef {
   BodyKind kind = BodyKind::part;
@@ -230,6 +247,31 @@ struct BeamLoad {
   std::array<std::optional<Expr>, 6> component;
 };
 
+// FLEX_BODY of three modes, whose coordinates are lengths: nodes with masses and inertias, in its frame, and how a unit
+// of each coordinate shifts and turns them.
+struct Flexible {
+  struct Node {
+    Triple place{};
+    double mass = 0;
+    std::array<double, 6> inertia{};  // xx yy zz xy xz yz about itself, product integrals positive
+    std::array<Triple, 3> shift{}, turn{};
+  };
+  int id = 0;
+  std::vector<Node> nodes;
+  std::array<std::array<double, 3>, 3> stiffness{}, damping{};
+  double ratio = 0;                            // CRATIO
+  std::vector<std::array<double, 9>> loads{};  // each a column of MODLOAD
+
+  [[nodiscard]] BodyRef frame() const { return {BodyKind::flexible_frame, id}; }
+  [[nodiscard]] BodyRef modes() const { return {BodyKind::flexible_modes, id}; }
+  [[nodiscard]] BodyRef node(std::size_t k) const { return {BodyKind::flexible_node, 100 * id + static_cast<int>(k)}; }
+};
+// MFORCE: `scale` times a load of its body; jfloat 0: without reaction.
+struct ModalForce {
+  int id = 0, flexible = 0, load = 0, jfloat = 0;
+  Expr scale;
+};
+
 struct Variable {
   int id = 0;
   Expr function;
@@ -304,6 +346,8 @@ struct Mechanism {
   std::vector<Touch> touches;
   std::vector<Beam> beams;
   std::vector<BeamLoad> beam_loads;
+  std::vector<Flexible> flexibles;
+  std::vector<ModalForce> mforces;
   std::vector<SplinePoints> splines;
   std::vector<Variable> variables;
   std::vector<Diff> diffs;
@@ -315,6 +359,9 @@ struct Mechanism {
   VariableList pinput, poutput, pstate;  // id 0: none
 };
 
+// The statements of a flexible body and of a load on it.
+[[nodiscard]] std::string flexible_text(const Mechanism& mechanism, const Flexible& flexible);
+[[nodiscard]] std::string modal_force_text(const ModalForce& force);
 // The mechanism as a dataset, numbers with 17 digits, title first and END last.
 [[nodiscard]] std::string dataset_text(const Mechanism& mechanism);
 

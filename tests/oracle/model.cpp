@@ -59,6 +59,7 @@ std::vector<int> independent_rows(const Dense& m, Real tolerance) {
 Model::Model(const Mechanism& mechanism) : mechanism_(mechanism) {
   read_bodies();
   read_beams();
+  read_flexibles();
   read_rows();
   read_controls();
   motion.resize(bodies.size());

@@ -35,9 +35,9 @@ struct Wrench {
 
 // One scalar constraint. point: (p_I - p_J) . e_J;  direction: e_I . e_J, or e_I . e_J - e_J' . e_I' with the axes
 // swapped; angle: AZ(I,J); expression: any function of displacements, or one of velocities. A motion subtracts its
-// function of time.
+// function of time. shape: a node stands and is turned as the modal coordinates say, three rows each.
 struct Row {
-  enum class Type { point, direction, angle, expression };
+  enum class Type { point, direction, angle, expression, shape };
   Type type = Type::point;
   int i = 0, j = 0;  // marker indices
   int axis_i = 0, axis_j = 0;
@@ -45,6 +45,8 @@ struct Row {
   bool swapped = false;         // less the product of the same axes of the other marker
   bool of_rates = false;        // an expression of velocities: no position row
   Expr function{};
+  std::size_t carried = 0;  // of a shape: which node, of those that are bodies, and which of its six rows
+  int component = 0;
   Real offset = 0;                 // subtracted from an expression
   std::vector<Wrench> gradient{};  // of an expression, on each body, t about its BCS
 };
@@ -102,6 +104,7 @@ class Model {
   std::vector<int> cut;                                 // per variable: 1 when it is an independent input
   std::vector<Real> cut_values;
 
+  void place_nodes();           // of flexible bodies, and their velocities, by the motion of frame and modes
   void update_positions();      // markers from poses
   void update_velocities();     // markers from body velocities
   void update_accelerations();  // markers from body accelerations
@@ -204,6 +207,9 @@ class Model {
   // Of beams on their nodes, torques about them, and on slopes and middles: elasticity, inertia, weight and FE_LOADs.
   void apply_beams(std::vector<Wrench>& loads) const;
   void add_beam_masses(Dense& mass) const;
+  void read_flexibles();
+  void apply_flexibles(std::vector<Wrench>& loads) const;
+  void add_flexible_masses(Dense& mass) const;
   // Wrenches on I, torque about p_I.
   [[nodiscard]] Wrench spring_wrench(std::size_t k) const;
   [[nodiscard]] Wrench sforce_wrench(std::size_t k) const;
@@ -263,6 +269,25 @@ class Model {
     std::vector<std::size_t> loads;      // places in the mechanism
     std::array<double, 4> load_place{};  // S
   };
+  struct FlexibleData {
+    std::size_t frame = 0, modes = 0;  // bodies
+    Mat damping;
+  };
+  struct Carried {  // a node that is a body
+    std::size_t flexible = 0, node = 0, body = 0;
+  };
+  struct ShapeMotion {
+    Vec arm;  // from the origin of the frame
+    Vec p, v, a, w, al;
+    Mat T;
+    std::array<Vec, 3> shift, turn;  // velocities by the rates of the modes
+  };
+  [[nodiscard]] ShapeMotion shape_motion(std::size_t flexible, std::size_t node) const;
+  // Of a row: itself and its first and second rate; what it does to node, frame and modes.
+  [[nodiscard]] std::array<Real, 3> shape_row(const Row& row) const;
+  void apply_shape(std::vector<Wrench>& loads, const Row& row, Real size) const;
+  std::vector<FlexibleData> flexible_data_;
+  std::vector<Carried> carried_;
   [[nodiscard]] BeamPose<Jet> pose_along_motion(const BeamPiece& piece) const;
   [[nodiscard]] const BeamDirections& directions(std::size_t piece) const;
   std::vector<BeamPiece> pieces_;

@@ -35,6 +35,14 @@ void place(Model& model, const OraclePoint& point) {
          Vec{}};
     ++placed;
   }
+  model.place_nodes();
+  placed = 0;
+  for (const Model::BodyData& body : model.bodies) {
+    const bool given = std::any_of(point.bodies.begin(), point.bodies.end(), [&](const BodyPoint& p) {
+      return BodyRef{p.body_kind, p.body_id} == body.ref;
+    });
+    placed += given || body.ref.kind == BodyKind::flexible_node ? 1 : 0;
+  }
   if (placed + 1 != model.bodies.size()) throw std::runtime_error("the point lacks a body");
   for (std::size_t k = 0; k < model.slots.size(); ++k) {
     const auto found = std::find_if(point.z.begin(), point.z.end(), [&](const DifferentialPoint& d) {

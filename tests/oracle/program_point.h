@@ -26,6 +26,8 @@ void for_each_triple_of_beams(const Layout& layout, Visit&& visit) {
   }
 }
 
+inline bool is_flexible(const ElementLabel& label) { return label.statement == "FLEX_BODY"; }
+
 inline OraclePoint point_of(const System& system, const OperatingPoint& op) {
   OraclePoint point;
   point.time = op.time;
@@ -40,6 +42,7 @@ inline OraclePoint point_of(const System& system, const OperatingPoint& op) {
       body.body_kind = BodyKind::beam_node;
       body.body_id = 100 * body.body_id + nodes_seen[body.body_id]++;
     }
+    if (is_flexible(block.label)) body.body_kind = BodyKind::flexible_frame;
     for (std::size_t k = 0; k < 3; ++k) {
       body.position[k] = op.poses[b].r[k];
       for (std::size_t c = 0; c < 3; ++c) body.rotation[k][c] = op.poses[b].R(k, c);
@@ -57,6 +60,17 @@ inline OraclePoint point_of(const System& system, const OperatingPoint& op) {
     }
     point.bodies.push_back(triple);
   });
+  for (const ExtraBlock& block : layout.extras) {
+    if (!is_flexible(block.label)) continue;
+    BodyPoint modes;
+    modes.body_kind = BodyKind::flexible_modes, modes.body_id = static_cast<int>(block.label.id);
+    for (std::size_t k = 0; k < 3; ++k) {
+      modes.position[k] = op.extra[layout.extra_index(block.offset) + k];
+      modes.velocity[k] = op.velocity[static_cast<std::size_t>(block.offset) + k];
+      modes.rotation[k][k] = 1;
+    }
+    point.bodies.push_back(modes);
+  }
   for (std::size_t k = 0; k < layout.states.size(); ++k) {
     const DifferentialState& z = layout.states[k];
     if (z.course_of_motion) continue;  // a constant of the instant
@@ -102,6 +116,12 @@ inline ChosenState chosen(const StateLabel& label, const Mechanism& mechanism) {
     s.body_id = static_cast<int>(label.element);
     s.body_kind = point ? BodyKind::point_mass : BodyKind::part;
     s.coordinate = label.coordinate - 1 - (label.is_rate ? (point ? 3 : 6) : 0);
+  } else if (label.type == StateType::flex_body) {
+    s.kind = label.is_rate ? ChosenState::Kind::rate : ChosenState::Kind::coordinate;
+    s.body_id = static_cast<int>(label.element);
+    const bool modal = label.coordinate > 1000000;
+    s.body_kind = modal ? BodyKind::flexible_modes : BodyKind::flexible_frame;
+    s.coordinate = modal ? label.coordinate % 1000000 - 1 : label.coordinate - 1 - (label.is_rate ? 6 : 0);
   } else if (label.type == StateType::fe_part) {
     const Beam& beam = *std::find_if(mechanism.beams.begin(), mechanism.beams.end(),
                                      [&](const Beam& b) { return b.id == static_cast<int>(label.element); });
