@@ -414,9 +414,8 @@ std::vector<ModalRow<double>> ModalDistribution::force_rows(std::size_t mode, Pa
       parts += std::abs(row.values[0]);
       without_cancellation += std::abs(row.values[0]);
     }
-    const auto behind = std::ranges::find_if(
-        rows, [](const ModalRow<double>& r) { return r.element->statement > std::string_view("FLEX_BODY"); });
-    rows.insert(behind, of_bodies.begin(), of_bodies.end());
+    rows.insert(rows.end(), of_bodies.begin(), of_bodies.end());
+    std::ranges::stable_sort(rows, {}, [](const ModalRow<double>& r) { return r.element->statement; });
   }
   // No share of nothing: motions of rigid bodies leave roundings in every element. A spring that is slack but for the
   // rounding of its own force, which is that of the places it joins, does work in a turn of the model.

@@ -243,6 +243,13 @@ TEST(FePart, starts_in_motion_about_its_own_origin) {
 
 class FePartFiles : public ModalSumCases {};
 
+// Of a FIELD, by columns.
+std::string diagonal_of_field(double value) {
+  std::string text;
+  for (int k = 0; k < 36; ++k) text += fmt::format("{}{}", k == 0 ? "" : ",", k % 7 == 0 ? value : 0.0);
+  return text;
+}
+
 // A beam of mass 1 with bodies of 2 and 3 at its ends, and another beam: all of their modes together carry all of them.
 TEST_F(FePartFiles, effective_masses_of_beams_and_bodies_add_up) {
   const StraightBeam first{.elements = 2, .height = 0.1, .width = 0.1},
@@ -271,6 +278,22 @@ TEST_F(FePartFiles, states_have_code_27_and_energies_a_row) {
   const std::string tables = r.text("model.txt");
   EXPECT_NE(tables.find("FE_PART/2,2"), std::string::npos) << tables;
   EXPECT_NE(tables.find("FE_P/2       | 100.00"), std::string::npos) << tables;
+}
+
+TEST_F(FePartFiles, rows_of_energy_stand_in_the_order_of_statements) {
+  const RunResult r = run(clamped_beam({.elements = 1, .height = 0.1, .width = 0.1},
+                                       "MARKER/8, PART=1\nFIELD/1, I=22, J=8, CMATRIX=" + diagonal_of_field(1) +
+                                           ", KMATRIX=" + diagonal_of_field(100) +
+                                           "\nBUSHING/1, I=22, J=8, K=1,1,1, C=1,1,1, KT=1,1,1, CT=1,1,1\n"
+                                           "VFORCE/1, I=22, JFLOAT=9, RM=8, FX=-DX(22,8)\\FY=0\\FZ=0\n"
+                                           "MARKER/9, PART=1, FLOATING\n"),
+                          "LINEAR/EIGENSOL, STRAIN=1\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  std::vector<std::string> statements;
+  for (const auto& table : r.result(0).at("tables")) {
+    for (const auto& line : table.at("rows")) statements.push_back(line.at("element"));
+  }
+  EXPECT_THAT(statements, ::testing::ElementsAre("BUSHING/1", "FE_PART/2", "FIELD/1", "VFORCE/1"));
 }
 
 TEST_F(FePartFiles, results_files_and_faults_name_its_nodes) {
