@@ -122,6 +122,10 @@ class Works {
       for (const ForceLoad& load : model_.force_loads()) {
         for (const Vec& v : {load.on_i.f, load.on_i.t}) all.insert(all.end(), {v.x, v.y, v.z});
       }
+      for (std::size_t b = 0; b < model_.mechanism().flexibles.size(); ++b) {
+        const Vec v = model_.elastic_force(b);
+        all.insert(all.end(), {v.x, v.y, v.z});
+      }
       return all;
     };
     const Extrapolated slope = differentiate(wrenches, 0x1p-6L);
@@ -151,6 +155,16 @@ class Works {
             static_cast<double>(std::fabs(slope.value[6 * k + c]) * size * (c < 3 ? moved_size : turned_size));
       }
     }
+    for (std::size_t b = 0; b < model_.mechanism().flexibles.size(); ++b) {
+      const Vec moved = at(model_.modes_of(b), 0);
+      EnergyRow& row = rows[loads.size() + b];
+      for (std::size_t c = 0; c < 3; ++c) {
+        const Real work = slope.value[6 * loads.size() + 3 * b + c] * size * component(moved, static_cast<int>(c)) / 2;
+        row.along[c] -= static_cast<double>(work);
+        row.error[c] += static_cast<double>(slope.error[6 * loads.size() + 3 * b + c] * size * norm(moved) / 2);
+        row.without_cancellation += static_cast<double>(std::fabs(work));
+      }
+    }
   }
 
   [[nodiscard]] std::vector<EnergyRow> empty_rows() const {
@@ -158,6 +172,8 @@ class Works {
     for (const ForceLoad& load : model_.force_loads()) {
       rows.push_back({std::string(load.statement), load.id, load.marker, {}, {}, load.forces, load.torques, 0});
     }
+    for (const Flexible& f : model_.mechanism().flexibles)
+      rows.push_back({"FLEX_BODY", f.id, 0, {}, {}, false, false, 0});
     return rows;
   }
 
@@ -186,6 +202,7 @@ class Works {
       }
       if (body.dof == 6) x[o + 3] = alpha.x, x[o + 4] = alpha.y, x[o + 5] = alpha.z;
     }
+    move_nodes(x);
     model_.update_positions();
     model_.update_velocities();
     const auto first = static_cast<std::ptrdiff_t>(static_cast<std::size_t>(model_.dofs) + model_.active.size());
@@ -201,6 +218,22 @@ class Works {
     newton(residual, w, scales, factors_, "algebraic");
     std::copy(w.begin(), w.end(), x.begin() + first);
     model_.unpack_algebra(x);
+  }
+
+  // What is held of a flexible body are rates and accelerations of its frame and modes; its nodes follow.
+  void move_nodes(std::vector<Real>& x) {
+    if (model_.mechanism().flexibles.empty()) return;
+    model_.unpack_algebra(x);
+    model_.place_nodes();
+    for (std::size_t b = 1; b < model_.bodies.size(); ++b) {
+      if (model_.bodies[b].ref.kind != BodyKind::flexible_node) continue;
+      const auto o = static_cast<std::size_t>(model_.bodies[b].offset);
+      const BodyMotion& m = model_.motion[b];
+      for (int c = 0; c < 3; ++c) {
+        x[o + static_cast<std::size_t>(c)] = component(m.a, c);
+        x[o + 3 + static_cast<std::size_t>(c)] = component(m.al, c);
+      }
+    }
   }
 
   Model model_;

@@ -16,8 +16,9 @@ enum class Energy { strain, dissipation };
 
 struct EnergyRow {
   std::string statement;
-  int id = 0, marker = 0;         // marker: I, where the element has a row for each of its markers
-  std::array<double, 6> along{};  // X Y Z of the force, RX RY RZ of the torque, global axes
+  int id = 0, marker = 0;  // marker: I, where the element has a row for each of its markers
+  std::array<double, 6>
+      along{};  // X Y Z of the force, RX RY RZ of the torque, global axes; of a FLEX_BODY its three modes
   std::array<double, 6> error{};  // of the differences
   bool shows_force = true, shows_torque = true;
   double without_cancellation = 0;  // size of the work if no motions cancelled

@@ -146,8 +146,14 @@ void Model::place_nodes() {
   for (const Carried& c : carried_) {
     const ShapeMotion s = shape_motion(c.flexible, c.node);
     BodyMotion& n = motion[c.body];
-    n.p = s.p, n.R = s.T, n.v = s.v, n.w = s.w;
+    n = {s.p, s.T, s.v, s.w, s.a, s.al};
   }
+}
+
+Vec Model::elastic_force(std::size_t flexible) const {
+  const FlexibleData& data = flexible_data_[flexible];
+  const BodyMotion& q = motion[data.modes];
+  return -(matrix(mechanism_.flexibles[flexible].stiffness) * q.p) - data.damping * q.v;
 }
 
 void Model::apply_flexibles(std::vector<Wrench>& loads) const {
@@ -160,7 +166,7 @@ void Model::apply_flexibles(std::vector<Wrench>& loads) const {
     const Mat back = transpose(f.R);
     Wrench& frame = loads[data.frame];
     Vec& modes = loads[data.modes].f;
-    modes += -(matrix(body.stiffness) * q.p) - data.damping * q.v;
+    modes += elastic_force(b);
     for (std::size_t k = 0; k < body.nodes.size(); ++k) {
       const Flexible::Node& n = body.nodes[k];
       const ShapeMotion s = shape_motion(b, k);

@@ -131,6 +131,9 @@ class Model {
   [[nodiscard]] std::vector<Real> diff_rates() const;  // of every DIFF
   // All force elements, statement by statement in alphabetical order.
   [[nodiscard]] std::vector<ForceLoad> force_loads() const;
+  // Of a flexible body on its modal coordinates, by its stiffness and damping.
+  [[nodiscard]] Vec elastic_force(std::size_t flexible) const;
+  [[nodiscard]] std::size_t modes_of(std::size_t flexible) const { return flexible_data_[flexible].modes; }
   [[nodiscard]] Real evaluate(const Expr& expression) const;
   // A direction in which the surfaces of a friction slip, and the lever of what rubs along it.
   struct Slip {
