@@ -1,4 +1,5 @@
-// STRING/id, STRING=text: text for compiled routines, which have no utility here that reads it. Read and passed over, with a word.
+// STRING/id, STRING=text: text for compiled routines, which have no utility here that reads it. Read and passed over,
+// with a word.
 #include <fmt/format.h>
 
 #include "command/run_state.h"
@@ -21,7 +22,8 @@ struct Written {
 class PassOver final : public CommandAction {
  public:
   StudyResult<void> run(RunState& run) const override {
-    run.remarks.say("passed-over", "nothing here acts on STRING, a text that compiled routines cannot read yet; it is passed over");
+    run.remarks.say("passed-over",
+                    "nothing here acts on STRING, a text that compiled routines cannot read yet; it is passed over");
     run.json.add_plain(run.command, run.time());
     return {};
   }
