@@ -1,8 +1,5 @@
 // The command-line program: arguments in, exit status out; everything else is the library's.
 #include <fcntl.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -17,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/freed_memory.h"
 #include "command/help.h"
 #include "command/prompt.h"
 #include "command/session.h"
@@ -44,16 +42,6 @@ void open_standard_streams() {
 bool has_piped_input() {
   struct stat input {};
   return ::fstat(STDIN_FILENO, &input) == 0 && (S_ISFIFO(input.st_mode) || S_ISREG(input.st_mode));
-}
-
-// Columns of all unknowns of large models come and go: given back to the system each time, they would have to be
-// cleared, page by page, a sixth of a run for selected modes. What is larger than this goes back: it would leave holes.
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  constexpr int mebibyte = 1 << 20;
-  mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);
-  mallopt(M_TRIM_THRESHOLD, 256 * mebibyte);
-#endif
 }
 
 // Without memory for a stream.

@@ -1,0 +1,21 @@
+// How a program keeps memory that it has freed. For the main function of programs: it holds for the whole process.
+#pragma once
+
+#include <cstdlib>  // says whether the C library is glibc
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+namespace dynalin {
+
+// Columns of all unknowns of large models come and go: given back to the system each time, they would have to be
+// cleared, page by page, a sixth of a run for selected modes. What is larger than this goes back: it would leave holes.
+inline void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int mebibyte = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);
+  mallopt(M_TRIM_THRESHOLD, 256 * mebibyte);
+#endif
+}
+
+}  // namespace dynalin
