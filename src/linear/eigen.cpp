@@ -82,6 +82,7 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   if (n > z) trust = refine(*linear.pencil, zero, linear.uncertainty, pairs);
 
   clear_rounding(pairs, trust);
+  split_pairs_of_zeros(pairs, trust);
 
   const std::vector<std::size_t> order = printed_order(pairs.values);
   out.vectors.resize(n, z + static_cast<Eigen::Index>(order.size()));

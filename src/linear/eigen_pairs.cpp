@@ -1,7 +1,9 @@
 #include "linear/eigen_pairs.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "linear/dense_products.h"
@@ -35,6 +37,34 @@ void clear_rounding(EigenPairs& pairs, std::vector<EigenTrust>& trust) {
     if (re > trust[k].bound || re > unit) continue;
     v.real(0);
     trust[k].bound += re;
+  }
+}
+
+void split_pairs_of_zeros(EigenPairs& pairs, std::vector<EigenTrust>& trust) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  double fastest = 0;
+  for (const std::complex<double>& v : pairs.values) fastest = std::max(fastest, std::abs(v));
+  const std::size_t count = pairs.values.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const double modulus = std::abs(pairs.values[k]);
+    if (pairs.values[k].imag() == 0 || modulus > epsilon * epsilon * fastest || modulus > trust[k].bound) continue;
+    const auto at = static_cast<Eigen::Index>(k);
+    Eigen::MatrixXd right(pairs.right.rows(), 2), left(pairs.left.rows(), 2);
+    right << pairs.right.col(at).real(), pairs.right.col(at).imag();
+    left << pairs.left.col(at).real(), pairs.left.col(at).imag();
+    const Eigen::Matrix2d products = left.transpose() * right;
+    if (!(std::abs(products.determinant()) > epsilon * products.squaredNorm())) continue;
+    left = (left * products.inverse().transpose()).eval();  // each sees one of the right ones alone
+    right.colwise().normalize(), left.colwise().normalize();
+    const Eigen::Index added = pairs.right.cols();
+    for (auto* vectors : {&pairs.right, &pairs.left}) vectors->conservativeResize(Eigen::NoChange, added + 1);
+    pairs.right.col(at) = right.col(0).cast<std::complex<double>>(),
+    pairs.right.col(added) = right.col(1).cast<std::complex<double>>();
+    pairs.left.col(at) = left.col(0).cast<std::complex<double>>(),
+    pairs.left.col(added) = left.col(1).cast<std::complex<double>>();
+    pairs.values[k] = 0, pairs.values.emplace_back(0);
+    trust[k].bound += modulus;
+    trust.push_back(trust[k]);
   }
 }
 

@@ -40,6 +40,11 @@ inline std::complex<double> value(const EigenPairs& pairs, const Member& m) {
 // or of the other part, is zero as far as anybody can tell; what it was is in the bound then.
 void clear_rounding(EigenPairs&, std::vector<EigenTrust>&);
 
+// Two zeros beside each other may be computed as a conjugate pair, refined down to next to nothing: where a modulus is
+// no more than its bound and than the square of double precision of the fastest rate, the pair becomes two real zeros.
+// The new one stands last.
+void split_pairs_of_zeros(EigenPairs&, std::vector<EigenTrust>&);
+
 // Places of values in the order in which modes are printed: real ones first by ascending modulus, then complex pairs by
 // ascending imaginary part.
 std::vector<std::size_t> printed_order(const std::vector<std::complex<double>>& values);

@@ -27,5 +27,46 @@ TEST(eigen_pairs, vectors_of_tiny_values_beside_long_chains_of_zeros_are_numbers
   EXPECT_EQ(pairs.left(chain, 0), 1.0);
 }
 
+// Of [0 0; 0 0] beside a rate of one, computed as a pair: vectors (1 ± j), (2 ± j).
+EigenPairs pair_next_to_zero(double modulus) {
+  using Complex = std::complex<double>;
+  EigenPairs pairs;
+  pairs.values = {1.0, Complex(-0.6 * modulus, 0.8 * modulus)};
+  pairs.right = pairs.left = Eigen::MatrixXcd::Zero(3, 2);
+  pairs.right(0, 0) = pairs.left(0, 0) = 1;
+  pairs.right.col(1) << 0, Complex(1, 1), Complex(2, -1);
+  pairs.left.col(1) << 0, Complex(1, 2), Complex(1, -1);
+  pairs.right.col(1).normalize(), pairs.left.col(1).normalize();
+  return pairs;
+}
+
+TEST(eigen_pairs, a_pair_next_to_zero_is_two_zeros) {
+  EigenPairs pairs = pair_next_to_zero(1e-33);
+  std::vector<EigenTrust> trust(2, {1e-15, 0, true, 1});
+  split_pairs_of_zeros(pairs, trust);
+  ASSERT_EQ(pairs.values.size(), 3u);
+  ASSERT_EQ(trust.size(), 3u);
+  EXPECT_EQ(pairs.values[0], 1.0);
+  for (const Eigen::Index k : {1, 2}) {
+    EXPECT_EQ(pairs.values[static_cast<std::size_t>(k)], 0.0);
+    EXPECT_GE(trust[static_cast<std::size_t>(k)].bound, 1e-15);
+    EXPECT_EQ(pairs.right.col(k).imag().norm() + pairs.left.col(k).imag().norm(), 0);
+    EXPECT_NEAR(pairs.right.col(k).norm(), 1, 1e-15);
+    EXPECT_NEAR(pairs.left.col(k).norm(), 1, 1e-15);
+    EXPECT_GT(std::abs(pairs.left.col(k).dot(pairs.right.col(k))), 0.1);
+    EXPECT_NEAR(std::abs(pairs.left.col(3 - k).dot(pairs.right.col(k))), 0, 1e-15);
+  }
+}
+
+// What is small but refined to digits of its own stays, and what its bound does not reach.
+TEST(eigen_pairs, slow_pairs_stay_pairs) {
+  EigenPairs slow = pair_next_to_zero(1e-30), certain = pair_next_to_zero(1e-33);
+  std::vector<EigenTrust> wide(2, {1e-15, 0, true, 1}), narrow(2, {1e-34, 0, true, 1});
+  split_pairs_of_zeros(slow, wide);
+  split_pairs_of_zeros(certain, narrow);
+  EXPECT_EQ(slow.values.size(), 2u);
+  EXPECT_EQ(certain.values.size(), 2u);
+}
+
 }  // namespace
 }  // namespace dynalin
