@@ -143,8 +143,12 @@ std::optional<OperatingPoint> nearby(const System& system, const OperatingPoint&
   return std::move(*assembled);
 }
 
-// Rows that depend on others to this part of their size.
-std::vector<std::int32_t> redundant_rows(const System& system, const OperatingPoint& op, double tolerance) {
+// Rows that depend on others to this part of their size, and the largest part that was left of any.
+struct RedundantRows {
+  std::vector<std::int32_t> rows;
+  double left = 0;
+};
+RedundantRows redundant_rows(const System& system, const OperatingPoint& op, double tolerance) {
   ConstraintRows rows;
   rows.resize(system.layout());
   const Motion motion = system.motion(op);
@@ -157,9 +161,10 @@ std::vector<std::int32_t> redundant_rows(const System& system, const OperatingPo
   EliminationOptions options;
   options.rank_tolerance = tolerance;
   const Elimination e = eliminate(std::move(scaled), system.layout().coordinate_count, order, options);
-  std::vector<std::int32_t> redundant;
+  RedundantRows redundant{{}, e.largest_dropped};
   for (std::int32_t k = 0; k < rows.size(); ++k) {
-    if (rows.level(k) == RowLevel::position && e.pivot_column[static_cast<std::size_t>(k)] < 0) redundant.push_back(k);
+    if (rows.level(k) == RowLevel::position && e.pivot_column[static_cast<std::size_t>(k)] < 0)
+      redundant.rows.push_back(k);
   }
   return redundant;
 }
@@ -171,12 +176,14 @@ NearDependence near_dependence(const System& system, const OperatingPoint& op) {
   constexpr double rounding = 1e-13;
   NearDependence near;
   double tolerance = EliminationOptions{}.rank_tolerance;
-  const std::vector<std::int32_t> dropped = redundant_rows(system, op, tolerance);
-  if (dropped.empty()) return near;
-  const std::vector<std::int32_t> always = redundant_rows(system, op, rounding);
-  if (always.size() == dropped.size()) return near;
-  std::ranges::set_difference(dropped, always, std::back_inserter(near.rows));
-  while (redundant_rows(system, op, tolerance / 10).size() == dropped.size()) tolerance /= 10;
+  const RedundantRows dropped = redundant_rows(system, op, tolerance);
+  near.left_out = dropped.rows;
+  // With the smaller tolerance the same rows would go at the same time.
+  if (dropped.left <= rounding) return near;
+  const std::vector<std::int32_t> always = redundant_rows(system, op, rounding).rows;
+  if (always.size() == dropped.rows.size()) return near;
+  std::ranges::set_difference(dropped.rows, always, std::back_inserter(near.rows));
+  while (redundant_rows(system, op, tolerance / 10).rows.size() == dropped.rows.size()) tolerance /= 10;
   near.distance = tolerance;
   return near;
 }
@@ -196,12 +203,11 @@ std::vector<std::int32_t> rows_that_hold_nothing(const System& system, const Ope
 
 std::optional<FreedomsGained> freedoms_gained(const System& system, const OperatingPoint& op,
                                               const LinearSystem& linear) {
-  constexpr double tolerance = EliminationOptions{}.rank_tolerance;
-  const auto here = redundant_rows(system, op, tolerance);
+  const auto& here = linear.left_out;
   if (here.empty() || linear.kinematic_states == 0) return std::nullopt;
   const auto beside = nearby(system, op, linear);
   if (!beside) return std::nullopt;
-  const auto there = redundant_rows(system, *beside, tolerance);
+  const auto there = redundant_rows(system, *beside, EliminationOptions{}.rank_tolerance).rows;
   if (there.size() >= here.size()) return std::nullopt;
   FreedomsGained gained;
   gained.count = here.size() - there.size();

@@ -22,7 +22,8 @@ NearSingularity near_singularity(const System&, const ConstraintRows&, const Sta
 double relative_size(const System&, const OperatingPoint&, const LinearSystem&, const Eigen::MatrixXd& of_matrix);
 
 // Degrees of freedom that the model has at the point and not a thousandth of its length beside it, as constraint rows
-// depend on others here alone. Rows that do so everywhere are redundant and no reason for any.
+// depend on others here alone (those that the linear system has left out). Rows that do so everywhere are redundant and
+// no reason for any.
 struct FreedomsGained {
   std::size_t count = 0;
   std::vector<std::int32_t> rows;
@@ -33,6 +34,7 @@ std::optional<FreedomsGained> freedoms_gained(const System&, const OperatingPoin
 struct NearDependence {
   double distance = 0;
   std::vector<std::int32_t> rows;
+  std::vector<std::int32_t> left_out;  // all that are redundant, by rounding or not
 };
 NearDependence near_dependence(const System&, const OperatingPoint&);
 // Constraint rows that no motion changes to first order, neither here nor where the point moves to: they hold nothing.

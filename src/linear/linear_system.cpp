@@ -169,6 +169,7 @@ bool same_model(const LinearSystem& one, const LinearSystem& other) {
 Result<void> look_at_near_dependence(const System& system, OperatingPoint op, LinearSystem& linear) {
   op.mode = AnalysisMode::linear;
   const NearDependence near = near_dependence(system, op);
+  linear.left_out = near.left_out;
   if (!(near.distance > 0)) return {};
   if (const auto gained = freedoms_gained(system, op, linear)) {
     return tl::unexpected(Failure{

@@ -145,6 +145,7 @@ class Eliminator {
     row.entries.assign(merged_.begin(), merged_.end());
     row.measure(place_);
     if (row.size <= options_.rank_tolerance * row.first_size) {
+      result_.largest_dropped = std::max(result_.largest_dropped, row.size / row.first_size);
       row.active = false;
       row.entries.clear();
       --remaining_;

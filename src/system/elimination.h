@@ -26,6 +26,7 @@ struct EliminationOptions {
 struct Elimination {
   std::vector<std::int32_t> pivot_column;  // of each row, −1 for a redundant one
   std::vector<bool> dependent;             // of each column
+  double largest_dropped = 0;              // of rows that depend on others: what was left, against the first size
   std::size_t rank = 0;
 };
 

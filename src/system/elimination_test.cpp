@@ -142,6 +142,16 @@ TEST(Elimination, the_units_of_a_row_change_nothing) {
   }
 }
 
+// What a redundant row is away from the others tells whether a smaller tolerance would keep it.
+TEST(Elimination, says_how_far_redundant_rows_are_from_depending_on_others) {
+  EXPECT_EQ(eliminated(Eigen::MatrixXd{{1, 0}, {0, 1}}, {0, 1}).largest_dropped, 0);
+  const Eigen::MatrixXd m{{1, 2, 0}, {2, 4, 6e-11}, {3, 6, 6e-13}};
+  const Elimination e = eliminated(m, {0, 1, 2});
+  EXPECT_EQ(e.rank, 1u);
+  EXPECT_NEAR(e.largest_dropped, 1.5e-11, 1e-15);
+  EXPECT_EQ(eliminated(m, {0, 1, 2}, {.rank_tolerance = 1e-11}).rank, 2u);
+}
+
 TEST(Elimination, rounding_is_no_rank_and_a_small_difference_is) {
   Eigen::MatrixXd m{{1.0 / 3, 1, 0}, {2.0 / 3, 2, 1e-15}, {1, 3, 1e-6}};
   EXPECT_EQ(eliminated(m, {0, 1, 2}).rank, 2u);
