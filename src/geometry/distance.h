@@ -2,6 +2,7 @@
 // by face, for a ball in one may touch several of them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -161,8 +162,10 @@ Distance<T> distance(const Ellipsoid& e, const Vec3<T>& p) {
   }
   const double middle = a[least] * a[least];
   const Vector plain{value_of(p.x), value_of(p.y), value_of(p.z)};
-  // At least 1 there, and Newton's method comes from above: the function is convex and falls.
-  double lambda = -middle + a[least] * std::abs(plain[least]);
+  // There one of the terms is 1, so that the sum is not less, and Newton's method comes from above: the function is
+  // convex and falls.
+  double lambda = -middle;
+  for (std::size_t k = 0; k < 3; ++k) lambda = std::max(lambda, a[k] * (std::abs(plain[k]) - a[k]));
   const auto terms = [&](double at) {
     std::array<double, 2> f{-1, 0};
     for (std::size_t k = 0; k < 3; ++k) {

@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "geometry/box_touch.h"
+#include "geometry/cavity_touch.h"
 #include "geometry/common_normal.h"
-#include "geometry/distance.h"
+#include "geometry/ellipsoid_touch.h"
 #include "geometry/plane_touch.h"
 
 namespace dynalin {
@@ -15,27 +16,33 @@ using namespace solid;  // NOLINT: the shapes of this file
 
 // --- which pairs there are: A with B, A not a cavity
 
+// In a cavity: all of what is convex, but an ellipsoid meets flat walls and mantles alone, and a tube is no convex one.
 template <class A, class B>
-std::size_t count_of([[maybe_unused]] const A& a, const B&, bool B_reversed) {
+std::size_t count_in_cavity(const A& a, const B& b) {
+  if constexpr (std::is_same_v<A, Ellipsoid>) {
+    return std::is_same_v<B, Box> || std::is_same_v<B, Frustum> ? walls(b) : 0;
+  } else {
+    const bool in_tube = std::is_same_v<B, Torus> && !std::is_same_v<A, Ball> && !std::is_same_v<A, Torus>;
+    return in_tube ? 0 : outermost(a) * walls(b);
+  }
+}
+
+template <class A, class B>
+std::size_t count_of([[maybe_unused]] const A& a, [[maybe_unused]] const B& b, bool B_reversed) {
   if constexpr (std::is_same_v<B, Profile>) {
     if constexpr (std::is_same_v<A, Ball>) return a.radius == 0 ? 1 : 0;
     return std::is_same_v<A, Profile> ? most_plane_touches : 0;
-  } else if constexpr (std::is_same_v<A, Profile>) {
-    return 0;
-  } else if constexpr (std::is_same_v<A, Ball>) {
-    if constexpr (std::is_same_v<B, Frustum>) return B_reversed ? 3 : 1;
-    if constexpr (std::is_same_v<B, Box>) return B_reversed ? 6 : 1;
-    return 1;
-  } else if constexpr (std::is_same_v<A, Plane>) {
+  } else if constexpr (std::is_same_v<A, Profile> || std::is_same_v<A, Plane>) {
     return 0;
   } else if constexpr (std::is_same_v<B, Plane>) {
     if constexpr (std::is_same_v<A, Frustum>) return 2;
     if constexpr (std::is_same_v<A, Box>) return 8;
     return 1;
-  } else if constexpr (std::is_same_v<A, Box> && std::is_same_v<B, Box>) {
-    return B_reversed ? 0 : box_touches;
   } else {
-    return std::is_same_v<A, Ellipsoid> && std::is_same_v<B, Ellipsoid> && !B_reversed ? 1 : 0;
+    if (B_reversed) return count_in_cavity(a, b);
+    if constexpr (std::is_same_v<A, Box> && std::is_same_v<B, Box>) return box_touches;
+    if constexpr (std::is_same_v<A, Ellipsoid>) return std::is_same_v<B, Torus> || std::is_same_v<B, Ball> ? 0 : 1;
+    return std::is_same_v<A, Ball> || (std::is_same_v<A, Torus> && !std::is_same_v<B, Ball>) ? 1 : 0;
   }
 }
 std::size_t direct_count(const Side& A, const Side& B) {
@@ -48,14 +55,7 @@ std::size_t direct_count(const Side& A, const Side& B) {
   return std::visit([&](const auto& a, const auto& b) { return count_of(a, b, B.reversed); }, A.shape, B.shape);
 }
 
-// --- a ball and anything
-
-template <class T>
-Touch<T> touch_of_ball(double radius, const Vec3<T>& centre, Distance<T> d, bool reversed) {
-  if (reversed) d.value = -d.value, d.direction = -d.direction;
-  const Vec3<T> point = centre - d.direction * (0.5 * (d.value + radius));
-  return {d.value - radius, d.direction, point, std::numeric_limits<double>::infinity(), d.defined};
-}
+// --- a ball or a torus and anything
 
 template <class T>
 double inside(const Plane& p, const Vec3<T>& at) {
@@ -63,27 +63,22 @@ double inside(const Plane& p, const Vec3<T>& at) {
   return std::min({x - p.xmin, p.xmax - x, y - p.ymin, p.ymax - y});
 }
 
+template <class T>
+void touch_ball(double radius, const Vec3<T>& c, const Plane& plane, bool reversed, std::span<Touch<T>> out) {
+  out[0] = touch_of_ball(radius, c, {c.z, {T(0.0), T(0.0), T(1.0)}}, reversed);
+  out[0].inside = inside(plane, c);
+}
 template <class T, class B>
-void touch_ball(double radius, const Vec3<T>& c, const B& b, bool reversed, std::span<Touch<T>> out) {
-  if constexpr (std::is_same_v<B, Plane>) {
-    out[0] = touch_of_ball(radius, c, {c.z, {T(0.0), T(0.0), T(1.0)}}, reversed);
-    out[0].inside = inside(b, c);
-    return;
-  } else if constexpr (std::is_same_v<B, Frustum>) {
-    if (reversed) {
-      const FrustumFaces faces(b);
-      out[0] = touch_of_ball(radius, c, faces.mantle(Meridional<T>(c), c), true);
-      out[1] = touch_of_ball(radius, c, faces.below(c), true);
-      out[2] = touch_of_ball(radius, c, faces.above(c), true);
-      return;
-    }
-  } else if constexpr (std::is_same_v<B, Box>) {
-    if (reversed) {
-      for (std::size_t k = 0; k < 6; ++k) out[k] = touch_of_ball(radius, c, face(b, k / 2, k % 2 == 1, c), true);
-      return;
-    }
-  }
-  if constexpr (!std::is_same_v<B, Plane>) out[0] = touch_of_ball(radius, c, distance(b, c), reversed);
+void touch_ball(double radius, const Vec3<T>& c, const B& b, bool, std::span<Touch<T>> out) {
+  out[0] = touch_of_ball(radius, c, distance(b, c), false);
+}
+
+// A torus is what is about its circle.
+template <class T, class B>
+void touch_torus(const Torus& t, const RelativeFrame<T>& I, const B& b, std::span<Touch<T>> out) {
+  const OnCircle<T> nearest =
+      nearest_on_circle(Circle<T>{I.p, I.x, I.y, t.major}, [&](const auto& p) { return distance(b, p); });
+  out[0] = touch_of_ball(t.minor, nearest.point, nearest.distance, false);
 }
 
 // --- what reaches deepest through a plane
@@ -163,16 +158,29 @@ void direct(const Side& A, const Side& B, const RelativeFrame<T>& A_from_B, std:
             touch_curves(*a.curve, A.reversed, A_from_B, *b.curve, B.reversed, out);
           else if constexpr (std::is_same_v<S, Ball>)
             out[0] = touch_point(A_from_B.p, *b.curve, B.reversed);
-        } else if constexpr (std::is_same_v<S, Profile>)
+        } else if constexpr (std::is_same_v<S, Profile> || std::is_same_v<S, Plane>) {
           return;
-        else if constexpr (std::is_same_v<S, Ball>)
-          touch_ball(a.radius, A_from_B.p, b, B.reversed, out);
-        else if constexpr (std::is_same_v<U, Plane> && !std::is_same_v<S, Plane>)
-          touch_plane(a, A_from_B, b, B.reversed ? -1.0 : 1.0, out);
-        else if constexpr (std::is_same_v<S, Ellipsoid> && std::is_same_v<U, Ellipsoid>)
-          touch_ellipsoids(a, A_from_B, b, out);
-        else if constexpr (std::is_same_v<S, Box> && std::is_same_v<U, Box>)
-          touch_boxes(a, A_from_B, b, out);
+        } else if constexpr (std::is_same_v<U, Plane>) {
+          if constexpr (std::is_same_v<S, Ball>)
+            touch_ball(a.radius, A_from_B.p, b, B.reversed, out);
+          else
+            touch_plane(a, A_from_B, b, B.reversed ? -1.0 : 1.0, out);
+        } else {
+          if (B.reversed) {
+            if constexpr (!std::is_same_v<S, Ellipsoid> || std::is_same_v<U, Box> || std::is_same_v<U, Frustum>)
+              touch_cavity(a, A_from_B, b, out);
+          } else if constexpr (std::is_same_v<S, Ball>) {
+            touch_ball(a.radius, A_from_B.p, b, false, out);
+          } else if constexpr (std::is_same_v<S, Torus>) {
+            touch_torus(a, A_from_B, b, out);
+          } else if constexpr (std::is_same_v<S, Ellipsoid> && std::is_same_v<U, Ellipsoid>) {
+            touch_ellipsoids(a, A_from_B, b, out);
+          } else if constexpr (std::is_same_v<S, Ellipsoid> && (std::is_same_v<U, Box> || std::is_same_v<U, Frustum>)) {
+            out[0] = touch_ellipsoid(a, A_from_B, b);
+          } else if constexpr (std::is_same_v<S, Box> && std::is_same_v<U, Box>) {
+            touch_boxes(a, A_from_B, b, out);
+          }
+        }
       },
       A.shape, B.shape);
 }

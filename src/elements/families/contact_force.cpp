@@ -15,7 +15,8 @@ namespace dynalin {
 namespace {
 
 using Seeded = Dual<12>;
-constexpr std::size_t most_touches = std::max(most_plane_touches, box_touches);  // of one pair of shapes
+// Of one pair of shapes.
+constexpr std::size_t most_touches = std::max({most_plane_touches, box_touches, most_touches_in_space});
 
 template <class T>
 RelativeFrame<T> at_instant(const RelativeFrame<TimeTaylor<T>>& f, T TimeTaylor<T>::*part) {

@@ -360,9 +360,8 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
             "contact-pair-not-built", J.at,
             fmt::format("contact of {} of {} with {} of {} is not available yet", model.label(J.graphics).text(),
                         labels[k].text(), model.label(I.graphics).text(), labels[k].text()),
-            "spheres and points touch every solid, every solid touches a PLANE, ELLIPSOIDs and BOXes "
-            "touch each other; of a cavity the other one must be a sphere or a point; only one of two closed curves is "
-            "a cavity");
+            "spheres, points and TORUSes touch every solid, ELLIPSOIDs all, every solid a PLANE and the walls of a "
+            "cavity, and BOXes each other; only one of two closed curves is a cavity");
         return false;
       }
     }

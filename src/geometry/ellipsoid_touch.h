@@ -1,0 +1,204 @@
+// An ellipsoid and a solid with faces, edges and corners: the direction n in which the ellipsoid separates from the
+// solid most, or overlaps it least, and where. n is the normal of a face, or stands across a mantle, or lies between
+// the normals of the faces that meet at an edge or a corner: of each of these features the best direction is found on
+// its own, and the feature with the largest gap of those whose direction belongs to it is the one.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+#include "geometry/least_on_circle.h"
+#include "geometry/touch.h"
+
+namespace dynalin::solid {
+
+// As seen from the other solid.
+template <class T>
+struct PlacedEllipsoid {
+  Vector semi_axes;
+  RelativeFrame<T> at;
+
+  // Of its surface, in a direction of any length.
+  template <class S>
+  Vec3<S> farthest(const Vec3<S>& n) const {
+    const Vec3<S> x = as<S>(at.x), y = as<S>(at.y), z = as<S>(at.z);
+    const Vec3<S> m{dot(x, n) * semi_axes.x, dot(y, n) * semi_axes.y, dot(z, n) * semi_axes.z};
+    const S size = norm(m);
+    return as<S>(at.p) + (x * (m.x * semi_axes.x) + y * (m.y * semi_axes.y) + z * (m.z * semi_axes.z)) / size;
+  }
+  Vec3<T> in_its_axes(const Vec3<T>& v) const { return {dot(at.x, v), dot(at.y, v), dot(at.z, v)}; }
+  Vec3<T> from_its_axes(const Vec3<T>& v) const { return at.x * v.x + at.y * v.y + at.z * v.z; }
+  PlacedEllipsoid<double> plain() const {
+    return {semi_axes, {as<double>(at.p), as<double>(at.x), as<double>(at.y), as<double>(at.z)}};
+  }
+};
+
+template <class T>
+Touch<T> touch_between(const Vec3<T>& on_ellipsoid, const T& gap, const Vec3<T>& normal) {
+  return {gap, normal, on_ellipsoid - normal * (gap * 0.5)};
+}
+
+// Across a plane n·x = offset, with n out of the solid towards the ellipsoid.
+template <class T>
+Touch<T> touch_face(const PlacedEllipsoid<T>& e, const Vec3<T>& n, double offset) {
+  const Vec3<T> nearest = e.farthest(-n);
+  return touch_between(nearest, T(dot(n, nearest) - offset), n);
+}
+
+// Across a mantle, outside of it or in the cavity that it bounds: in the meridional plane in which the ellipsoid is
+// farthest from it, or deepest in it.
+template <class T>
+Touch<T> touch_mantle(const PlacedEllipsoid<T>& e, const FrustumFaces& faces, bool cavity) {
+  using std::cos, std::sin;
+  const double up = cavity ? -1 : 1, offset = faces.f.low_radius * faces.along_z - faces.f.low * faces.along_radius;
+  const auto normal = [&](const auto& s) {
+    using S = std::decay_t<decltype(s)>;
+    return Vec3<S>{S(cos(s) * (up * faces.along_z)), S(sin(s) * (up * faces.along_z)), S(-up * faces.along_radius)};
+  };
+  const auto turned = [&](const auto& s) {
+    using S = std::decay_t<decltype(s)>;
+    return Vec3<S>{S(sin(s) * (-up * faces.along_z)), S(cos(s) * (up * faces.along_z)), S(0.0)};
+  };
+  // The gap grows where it is outside and falls in a cavity: there the least is meant.
+  const PlacedEllipsoid<double> plain = e.plain();
+  const auto value = [&](double s) { return -up * dot(normal(s), plain.farthest(-normal(s))); };
+  const auto slope = [&](const auto& s) { return dot(turned(s), plain.farthest(-normal(s))) * -up; };
+  const LeastAngle least = least_on_turn(value, slope, norm(e.semi_axes));
+  T s(least.at);
+  if (least.definite) s = s + dot(turned(s), e.farthest(-normal(s))) * (up / least.curvature);
+  Touch<T> t = touch_face(e, normal(s), up * offset);
+  t.defined = least.definite;
+  return t;
+}
+
+// With a point of the solid, given in the axes of the ellipsoid: there the distance from the ellipsoid says all.
+template <class T>
+Touch<T> touch_point_of_solid(const PlacedEllipsoid<T>& e, const Vec3<T>& in_its_axes, const Distance<T>& d) {
+  const Vec3<T> normal = -e.from_its_axes(d.direction);
+  Touch<T> t{d.value, normal, e.at.p + e.from_its_axes(in_its_axes) + normal * (d.value * 0.5)};
+  t.defined = d.defined;
+  return t;
+}
+
+// --- features of solids: how many, and the touch of one if its direction belongs to it
+
+inline constexpr double belongs = -1e-9;  // sines of directions
+
+inline std::size_t features(const Frustum&) { return 5; }
+template <class T>
+std::optional<Touch<T>> touch_feature(const PlacedEllipsoid<T>& e, const Frustum& f, std::size_t which) {
+  const FrustumFaces faces(f);
+  const double tolerance = 1e-9 * (f.high - f.low);
+  const auto radius_of = [](const Vec3<T>& p) { return std::hypot(value_of(p.x), value_of(p.y)); };
+  if (which < 2) {  // below, above
+    const bool upper = which == 1;
+    const Touch<T> t = touch_face(e, {T(0.0), T(0.0), T(upper ? 1.0 : -1.0)}, upper ? f.high : -f.low);
+    if (radius_of(t.point) > (upper ? f.high_radius : f.low_radius)) return std::nullopt;
+    return t;
+  }
+  if (which == 2) {
+    const Touch<T> t = touch_mantle(e, faces, false);
+    const Vec3<T> on_mantle = t.point - t.normal * (t.gap * 0.5);
+    const double along = faces.along_mantle(radius_of(on_mantle), value_of(on_mantle.z));
+    // On the other side of the axis, too, there is no mantle of a cone.
+    const double outward = value_of(on_mantle.x) * value_of(t.normal.x) + value_of(on_mantle.y) * value_of(t.normal.y);
+    if (along < -tolerance || along > faces.length + tolerance || outward < 0) return std::nullopt;
+    return t;
+  }
+  const bool upper = which == 4;
+  const double radius = upper ? f.high_radius : f.low_radius, height = upper ? f.high : f.low;
+  const auto axis = [&](double x, double y, double z) { return e.in_its_axes({T(x), T(y), T(z)}); };
+  const Circle<T> rim{e.in_its_axes(Vec3<T>{T(0.0), T(0.0), T(height)} - e.at.p), axis(1, 0, 0), axis(0, 1, 0), radius};
+  const OnCircle<T> nearest =
+      nearest_on_circle(rim, [&](const auto& p) { return distance(Ellipsoid{e.semi_axes}, p); });
+  const Touch<T> t = touch_point_of_solid(e, nearest.point, nearest.distance);
+  // Between the normal of the end and that of the mantle.
+  const Vec3<T> on_rim = t.point - t.normal * (t.gap * 0.5);
+  const double nx = value_of(t.normal.x), ny = value_of(t.normal.y);
+  const double outward = radius > 0 ? (value_of(on_rim.x) * nx + value_of(on_rim.y) * ny) / radius : std::hypot(nx, ny);
+  const double of_mantle = outward / faces.along_z,
+               of_end = (value_of(t.normal.z) + of_mantle * faces.along_radius) * (upper ? 1 : -1);
+  if (of_mantle < belongs || of_end < belongs) return std::nullopt;
+  return t;
+}
+
+// Six faces, twelve edges, eight corners.
+inline std::size_t features(const Box&) { return 26; }
+template <class T>
+std::optional<Touch<T>> touch_feature(const PlacedEllipsoid<T>& e, const Box& b, std::size_t which) {
+  const auto side = [&](std::size_t axis, bool upper) { return upper ? b.high[axis] : b.low[axis]; };
+  const auto looks = [&](const Touch<T>& t, std::size_t axis, bool upper) {
+    return value_of(t.normal[axis]) * (upper ? 1 : -1) >= belongs;
+  };
+  const auto from_ellipsoid = [&](const auto& p) { return distance(Ellipsoid{e.semi_axes}, p); };
+  if (which < 6) {
+    const std::size_t axis = which / 2;
+    const bool upper = which % 2 == 1;
+    Vec3<T> n{T(0.0), T(0.0), T(0.0)};
+    n[axis] = T(upper ? 1.0 : -1.0);
+    const Touch<T> t = touch_face(e, n, upper ? b.high[axis] : -b.low[axis]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (k != axis && (value_of(t.point[k]) < b.low[k] || value_of(t.point[k]) > b.high[k])) return std::nullopt;
+    }
+    return t;
+  }
+  if (which >= 18) {
+    Vec3<T> corner;
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = T(side(k, (which - 18) >> k & 1));
+    const Vec3<T> seen = e.in_its_axes(corner - e.at.p);
+    const Touch<T> t = touch_point_of_solid(e, seen, from_ellipsoid(seen));
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!looks(t, k, (which - 18) >> k & 1)) return std::nullopt;
+    }
+    return t;
+  }
+  const std::size_t axis = (which - 6) / 4, one = (axis + 1) % 3, other = (axis + 2) % 3;
+  const bool one_upper = (which - 6) % 2 == 1, other_upper = (which - 6) / 2 % 2 == 1;
+  Vec3<T> from, along{T(0.0), T(0.0), T(0.0)};
+  from[axis] = T(b.low[axis]), from[one] = T(side(one, one_upper)), from[other] = T(side(other, other_upper));
+  along[axis] = T(b.high[axis] - b.low[axis]);
+  const Vec3<T> start = e.in_its_axes(from - e.at.p), way = e.in_its_axes(along);
+  const auto plain = [](const Vec3<T>& v) { return Vector{value_of(v.x), value_of(v.y), value_of(v.z)}; };
+  const Vector start0 = plain(start), way0 = plain(way);
+  const auto slope = [&](const auto& s) {
+    using S = std::decay_t<decltype(s)>;
+    const Vec3<S> p{S(start0.x + s * way0.x), S(start0.y + s * way0.y), S(start0.z + s * way0.z)};
+    return dot(from_ellipsoid(p).direction, way0);
+  };
+  // The distance from what is convex is convex along a line.
+  double low = 0, high = 1;
+  if (!(slope(low) < 0) || !(slope(high) > 0)) return std::nullopt;
+  for (int k = 0; k < 100 && high - low > 1e-16; ++k) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) break;
+    (slope(middle) > 0 ? high : low) = middle;
+  }
+  T s(0.5 * (low + high));
+  const double curvature = slope(Dual<1>(value_of(s), std::size_t{0})).partial[0];
+  s = s - dot(from_ellipsoid(Vec3<T>(start + way * s)).direction, way) * (1 / curvature);
+  const Vec3<T> seen = start + way * s;
+  const Touch<T> t = touch_point_of_solid(e, seen, from_ellipsoid(seen));
+  if (!looks(t, one, one_upper) || !looks(t, other, other_upper)) return std::nullopt;
+  return t;
+}
+
+template <class T, class Solid>
+Touch<T> touch_ellipsoid(const Ellipsoid& ellipsoid, const RelativeFrame<T>& at, const Solid& s) {
+  const PlacedEllipsoid<T> e{ellipsoid.semi_axes, at};
+  const PlacedEllipsoid<double> plain = e.plain();
+  std::size_t best = features(s);
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < features(s); ++k) {
+    const auto t = touch_feature(plain, s, k);
+    if (t && t->gap > most) most = t->gap, best = k;
+  }
+  if (best < features(s)) {
+    if (const auto t = touch_feature(e, s, best)) return *t;
+  }
+  // As deep in each other as they are wide: no direction is the one.
+  Touch<T> t{T(-norm(ellipsoid.semi_axes)), {T(0.0), T(0.0), T(1.0)}, at.p};
+  t.defined = false;
+  return t;
+}
+
+}  // namespace dynalin::solid

@@ -1,0 +1,96 @@
+// Where along a circle a function is least, and how that place follows what the function depends on.
+//
+// A function of an angle s is given by its slope g(s; q). The least one is searched for on plain numbers; there one
+// step of Newton's method on duals, s − g(s; q)/g′(s), has the derivatives of the implicit function theorem.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "geometry/distance.h"
+
+namespace dynalin::solid {
+
+struct LeastAngle {
+  double at = 0;
+  double curvature = 0;  // g′ there
+  bool definite = true;  // false where the function is level or has a kink
+};
+
+// `value` of a double; `slope` of a double and of a Dual<1>. `size`: what values compare with.
+template <class Value, class Slope>
+LeastAngle least_on_turn(const Value& value, const Slope& slope, double size) {
+  // Between neighbours of the least of so many the slope changes its sign.
+  constexpr int samples = 48;
+  constexpr double step = 2 * std::numbers::pi / samples, level = 1e-9;
+  double best = 0, least = value(0.0);
+  for (int k = 1; k < samples; ++k) {
+    if (const double v = value(k * step); v < least) least = v, best = k * step;
+  }
+  double low = best - step, high = best + step;
+  for (int k = 0; k < 200 && high - low > 1e-16 * (1 + std::abs(high)); ++k) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) break;
+    (slope(middle) > 0 ? high : low) = middle;
+  }
+  LeastAngle found{0.5 * (low + high)};
+  const Dual<1> there = slope(Dual<1>(found.at, std::size_t{0}));
+  found.curvature = there.partial[0];
+  found.definite = found.curvature > level * size && std::abs(there.value) < level * size;
+  return found;
+}
+
+// The same vector over the scalar S, without what it depends on where that is another one.
+template <class S, class T>
+Vec3<S> as(const Vec3<T>& v) {
+  if constexpr (std::is_same_v<S, T>) {
+    return v;
+  } else {
+    return {S(value_of(v.x)), S(value_of(v.y)), S(value_of(v.z))};
+  }
+}
+
+// About `centre`, from the unit vector `first` towards `second`.
+template <class T>
+struct Circle {
+  Vec3<T> centre, first, second;
+  double radius = 0;
+
+  template <class S>
+  Vec3<S> at(const S& s) const {
+    using std::cos, std::sin;
+    return as<S>(centre) + as<S>(first) * S(cos(s) * radius) + as<S>(second) * S(sin(s) * radius);
+  }
+  template <class S>
+  Vec3<S> tangent(const S& s) const {
+    using std::cos, std::sin;
+    return as<S>(second) * S(cos(s) * radius) - as<S>(first) * S(sin(s) * radius);
+  }
+  // The same without what it depends on.
+  Circle<double> plain() const { return {as<double>(centre), as<double>(first), as<double>(second), radius}; }
+};
+
+template <class T>
+struct OnCircle {
+  Vec3<T> point;
+  Distance<T> distance;
+};
+
+// The point of a circle with the least distance, `distance_of(point)` of any scalar, whose direction is its gradient.
+template <class T, class DistanceOf>
+OnCircle<T> nearest_on_circle(const Circle<T>& circle, const DistanceOf& distance_of) {
+  const Circle<double> plain = circle.plain();
+  const auto slope = [&](const auto& s) { return dot(distance_of(plain.at(s)).direction, plain.tangent(s)); };
+  const LeastAngle least =
+      circle.radius > 0 ? least_on_turn([&](double s) { return distance_of(plain.at(s)).value; }, slope, circle.radius)
+                        : LeastAngle{};
+  T s(least.at);
+  if (circle.radius > 0 && least.definite)
+    s = s - dot(distance_of(circle.at(s)).direction, circle.tangent(s)) * (1 / least.curvature);
+  OnCircle<T> found{circle.at(s), {}};
+  found.distance = distance_of(found.point);
+  found.distance.defined = found.distance.defined && least.definite;
+  return found;
+}
+
+}  // namespace dynalin::solid
