@@ -80,7 +80,7 @@ void add_momentum_rows(const System& system, const Motion& motion, std::vector<S
   const Layout& layout = system.layout();
   const std::vector<const ModalBody*> flexible = flexible_by_body(system.model());
   for (const FlexibleBody& f : flexible_bodies(system.model())) add_momentum_rows(layout, f, motion, rows);
-  // Each coordinate of a beam has inertia: density, areas and second moments are positive.
+  // Each coordinate of a beam has inertia, as density, areas and second moments are positive, or follows one that has.
   const std::vector<bool> of_beams = beam_nodes(system.model());
   const auto add_coordinates = [&](std::int32_t first, std::int32_t count) {
     for (std::int32_t k = first; k < first + count; ++k) rows.push_back({{k}, {1.0}});

@@ -11,15 +11,13 @@
 
 namespace dynalin {
 
-inline constexpr std::size_t beam_load_points = 4;
-
 // Where a load point lies along the undeformed element, from 0 to 1.
 double beam_load_place(std::size_t point);
 
 // δr and w there by the coordinates of the element, times W_g.
 struct BeamLoadPoint {
-  std::array<double, 4> line{};                  // r₁, r_s1, r₂, r_s2, each axis alike
-  std::array<Vector, rotation_seeds> turning{};  // the spins of both ends and φ
+  std::array<double, 4> line{};                    // r₁, r_s1, r₂, r_s2, each axis alike
+  std::array<Vector, beam_coordinates> turning{};  // by each coordinate
 
   // Adds the loads of a force and a moment by length on the coordinates.
   void add(const Vector& force, const Vector& moment, BeamVector&) const;

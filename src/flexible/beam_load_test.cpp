@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "flexible/plane_beam.h"
+#include "flexible/spatial_beam.h"
+
 namespace dynalin {
 
 namespace {
 
-BeamElement bent_element() {
+SpatialBeam bent_element() {
   const BeamSection section{1.5, 0.9, 0.4, 0.7, 0.15, 1.2, 1.3};
   return {{3.0, 200.0, 80.0, 0},
           {section, section},
@@ -45,7 +48,7 @@ constexpr double step = 1e-5;
 }  // namespace
 
 TEST(BeamLoad, forces_work_on_the_cubic_and_moments_on_the_spin_of_the_section) {
-  const BeamElement e = bent_element();
+  const SpatialBeam e = bent_element();
   const auto points = beam_load_points_of(e, motion_of(moved(0, 0)), true);
   double whole = 0;
   for (std::size_t g = 0; g < beam_load_points; ++g) {
@@ -59,14 +62,15 @@ TEST(BeamLoad, forces_work_on_the_cubic_and_moments_on_the_spin_of_the_section) 
         return SectionRotation<double>(RotationField<double>(m.R1, m.R2, m.phi), 2 * x - 1, e.length()).R;
       };
       const Vector spin = (0.5 / step) * rotation::logarithm(axes(step) * transpose(axes(-step)));
-      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(points[g].turning[i][k], weight * spin[k], 1e-9) << i;
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(points[g].turning[static_cast<std::size_t>(coordinate[i])][k], weight * spin[k], 1e-9) << i;
     }
   }
   EXPECT_NEAR(whole, e.length(), 1e-14);
 }
 
 TEST(BeamLoad, of_moments_changes_with_the_turning_of_sections) {
-  const BeamElement e = bent_element();
+  const SpatialBeam e = bent_element();
   const std::array<Vector, beam_load_points> moments = {Vector{1, -2, 3}, {0.5, 2, -1}, {-2, 1, 1}, {0.3, -1, 0.7}};
   const BeamMatrix partials = beam_moments_by_position(e, motion_of(moved(0, 0)), moments);
   const auto loads = [&](std::size_t seed, double by) {

@@ -14,11 +14,15 @@ std::map<std::int32_t, StateCoordinate> beam_state_coordinates(const System& sys
   const Layout& layout = system.layout();
   std::map<std::int32_t, StateCoordinate> list;
   for (const BeamBody& b : beam_bodies(system.model(), layout)) {
-    const auto nodes = static_cast<int>(b.nodes.size()), count = 12 * nodes - 3;
+    const auto nodes = static_cast<int>(b.nodes.size()), count = b.plane ? 4 * nodes : 12 * nodes - 3;
     const auto put = [&](std::int32_t at, int number, std::string text) {
       StateLabel label{StateType::fe_part, b.label->id, number, std::move(text), b.label->element(), false};
       list.emplace(at,
                    state_coordinate(std::move(label), StateType::fe_part, number + count, system.coordinate_scale(at)));
+    };
+    const auto pose = [&](std::size_t node, std::size_t i, int number) {
+      put(layout.body(b.nodes[node]).offset + static_cast<std::int32_t>(i), number,
+          fmt::format("Global {}(node {})", names[i], b.numbers[node]));
     };
     const auto extra = [&](std::size_t at, int number) {
       for (const ExtraBlock& e : layout.extras) {
@@ -27,13 +31,23 @@ std::map<std::int32_t, StateCoordinate> beam_state_coordinates(const System& sys
           put(coordinate, number, e.coordinates[static_cast<std::size_t>(coordinate - e.offset)].name);
       }
     };
-    for (std::size_t k = 0; k < b.nodes.size(); ++k) {
-      const int first = 9 * static_cast<int>(k) + 1;
-      for (int i = 0; i < 6; ++i) {
-        put(layout.body(b.nodes[k]).offset + i, first + i,
-            fmt::format("Global {}(node {})", names[static_cast<std::size_t>(i)], b.numbers[k]));
+    if (b.plane) {
+      // Place and slope in the plane; the others, which rows hold, have numbers behind all states.
+      const auto [first, second, normal] = *b.plane;
+      int behind = 2 * count;
+      for (std::size_t k = 0; k < b.nodes.size(); ++k) {
+        const int number = 4 * static_cast<int>(k);
+        pose(k, first, number + 1), pose(k, second, number + 2);
+        extra(b.slope(k) + first, number + 3), extra(b.slope(k) + second, number + 4);
+        pose(k, normal, ++behind), extra(b.slope(k) + normal, ++behind);
+        for (std::size_t i = 3; i < 6; ++i) pose(k, i, ++behind);
       }
-      for (std::size_t i = 0; i < 3; ++i) extra(b.slope(k) + i, first + 6 + static_cast<int>(i));
+      continue;
+    }
+    for (std::size_t k = 0; k < b.nodes.size(); ++k) {
+      const int number = 9 * static_cast<int>(k) + 1;
+      for (std::size_t i = 0; i < 6; ++i) pose(k, i, number + static_cast<int>(i));
+      for (std::size_t i = 0; i < 3; ++i) extra(b.slope(k) + i, number + 6 + static_cast<int>(i));
     }
     for (std::size_t e = 0; e < b.elements->size(); ++e) {
       for (std::size_t i = 0; i < 3; ++i)

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <set>
 
@@ -100,6 +101,22 @@ void add_relative_rows(const Motion& motion, const BodyBlock& block, BodyId body
   }
 }
 
+// As the default preference has them.
+void put_followers_last(const Layout& layout, CandidateSet& set) {
+  std::vector<Candidate> last;
+  std::vector<CandidateSet::Moves> last_moves;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < set.wanted.size(); ++k) {
+    if (layout.followers.contains(set.wanted[k].coordinate)) {
+      last.push_back(std::move(set.wanted[k])), last_moves.push_back(std::move(set.moves[k]));
+    } else if (kept++ != k) {
+      set.wanted[kept - 1] = std::move(set.wanted[k]), set.moves[kept - 1] = std::move(set.moves[k]);
+    }
+  }
+  std::ranges::move(last, set.wanted.begin() + static_cast<std::ptrdiff_t>(kept));
+  std::ranges::move(last_moves, set.moves.begin() + static_cast<std::ptrdiff_t>(kept));
+}
+
 }  // namespace
 
 StateCoordinate state_coordinate(StateLabel label, StateType rate_type, int rate_number, double scale) {
@@ -144,6 +161,7 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
       set.wanted.push_back(as_it_is(k));
       set.moves.push_back({{k, 1.0}});
     }
+    put_followers_last(layout, set);
     return set;
   }
   if (!relative) {

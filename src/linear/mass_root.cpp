@@ -9,6 +9,11 @@ namespace dynalin {
 using Matrix = Eigen::MatrixXd;
 using Index = Eigen::Index;
 
+namespace {
+// Coordinates without mass have no unit of their own.
+double size_or_one(double x) { return x > 0 ? x : 1.0; }
+}  // namespace
+
 MassRoot::MassRoot(const System& system, const OperatingPoint& op) : length_(system.length()) {
   const Layout& layout = system.layout();
   const std::vector<FlexibleBody> flexible = flexible_bodies(system.model());
@@ -57,7 +62,7 @@ void MassRoot::add_flexible(const System& system, const OperatingPoint& op, cons
   item.first_mode = system.layout().body_coordinate_count + static_cast<std::int32_t>(f.first);
   const Matrix mass =
       f.flexible->inertia.matrix(Eigen::Map<const Eigen::VectorXd>(op.extra.data() + f.first, item.modes));
-  const Eigen::VectorXd unit = mass.diagonal().cwiseSqrt().unaryExpr([](double x) { return x > 0 ? x : 1.0; });
+  const Eigen::VectorXd unit = mass.diagonal().cwiseSqrt().unaryExpr(&size_or_one);
   const Eigen::SelfAdjointEigenSolver<Matrix> parts(unit.cwiseInverse().asDiagonal() * mass *
                                                     unit.cwiseInverse().asDiagonal());
   item.root =
@@ -75,13 +80,13 @@ void MassRoot::add_flexible(const System& system, const OperatingPoint& op, cons
 void MassRoot::add_beam(const System& system, const Motion& motion, const BeamBody& beam, Item& item) {
   double mass = 0;
   for (std::size_t e = 0; e < beam.elements->size(); ++e) {
-    const BeamElement& element = (*beam.elements)[e];
+    const BeamElement& element = *(*beam.elements)[e];
     Item::Element& of = item.elements.emplace_back();
     of.columns = beam.columns(system.layout(), e);
     of.motion = beam.motion(motion, e);
     of.places = {motion.body(beam.nodes[e]).r, motion.body(beam.nodes[e + 1]).r};
     const BeamMatrix M = system.model().units.ucf * element.mass_matrix(of.motion);
-    const BeamVector unit = M.diagonal().cwiseSqrt();
+    const BeamVector unit = M.diagonal().cwiseSqrt().unaryExpr(&size_or_one);
     const Eigen::SelfAdjointEigenSolver<BeamMatrix> parts(unit.cwiseInverse().asDiagonal() * M *
                                                           unit.cwiseInverse().asDiagonal());
     of.root =
@@ -99,8 +104,7 @@ Matrix MassRoot::of(const Matrix& columns) const {
     for (std::size_t e = 0; e < item.elements.size(); ++e) {
       const Item::Element& element = item.elements[e];
       constexpr auto n = static_cast<Index>(beam_coordinates);
-      out.middleRows(item.first_row + n * static_cast<Index>(e), n) =
-          element.root * columns(element.columns, Eigen::all);
+      out.middleRows(item.first_row + n * static_cast<Index>(e), n) = element.root * rows_of(element.columns, columns);
     }
     if (!item.elements.empty()) continue;
     if (item.root.size() > 0) {

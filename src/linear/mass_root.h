@@ -44,7 +44,7 @@ class MassRoot {
     Eigen::MatrixXd root{};
     // Of a beam: its elements, which weigh its nodes and what it has beside them.
     struct Element {
-      std::array<std::int32_t, beam_coordinates> columns;
+      BeamColumns columns;
       BeamMatrix root;
       BeamMotion motion;
       std::array<Vector, 2> places;

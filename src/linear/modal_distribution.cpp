@@ -122,9 +122,9 @@ std::array<double, 9> ModalDistribution::beam_terms(const BeamBody& b, const Eig
   std::array<double, 9> terms{};
   for (std::size_t e = 0; e < b.elements->size(); ++e) {
     const BeamMotion motion = b.motion(motion_, e);
-    const Eigen::VectorXcd own = v(b.columns(system_.layout(), e));
+    const auto own = rows_of(b.columns(system_.layout(), e), v);
     for (const BeamVector& part : {BeamVector(own.real()), BeamVector(own.imag())}) {
-      const auto twice = (*b.elements)[e].kinetic_terms(motion, part);
+      const auto twice = (*b.elements)[e]->kinetic_terms(motion, part);
       for (std::size_t k = 0; k < terms.size(); ++k) terms[k] += 0.5 * system_.model().units.ucf * twice[k];
     }
   }
@@ -135,10 +135,10 @@ double ModalDistribution::beam_work(const BeamBody& b, const Eigen::VectorXcd& u
   double sum = 0;
   BeamForces f;
   for (std::size_t e = 0; e < b.elements->size(); ++e) {
-    (*b.elements)[e].forces(b.motion(motion_, e), {}, true, f);
-    const Eigen::VectorXcd own = u(b.columns(system_.layout(), e));
+    (*b.elements)[e]->forces(b.motion(motion_, e), {}, true, f);
+    const auto own = rows_of(b.columns(system_.layout(), e), u);
     const BeamMatrix& m = family == PartialBy::position ? f.stiffness : f.damping;
-    sum += own.real().dot(m * own.real()) + own.imag().dot(m * own.imag());
+    for (const BeamVector& part : {BeamVector(own.real()), BeamVector(own.imag())}) sum += part.dot(m * part);
   }
   return sum;
 }

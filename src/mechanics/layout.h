@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -95,6 +96,7 @@ class Layout {
   std::vector<const MarkerPlace*> markers;  // by MarkerId; owned by the model, as their labels are
   std::vector<const ElementLabel*> marker_labels;
   std::vector<ExtraBlock> extras;
+  std::set<std::int32_t> followers;  // coordinates that rows of their own element give: the last to become states
   std::vector<CurvePoint> curve_points;
   std::vector<ConstraintRow> rows;
   std::vector<AlgebraicUnknown> algebraic;

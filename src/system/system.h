@@ -77,7 +77,7 @@ class System {
   double coordinate_scale(std::int32_t coordinate) const { return scale_[static_cast<std::size_t>(coordinate)]; }
   // Elimination of the position rows (or of all rows on velocities) with columns in the default preference.
   Partition partition(const ConstraintRows&, bool velocity_rows_too) const;
-  // Coordinates in the order in which they are wanted as states: by element id, rotations first.
+  // Coordinates in the order in which they are wanted as states: by element id, rotations first, followers last.
   const std::vector<std::int32_t>& preference() const { return preference_; }
 
   // "Zi.Xj of JOINT/3"; rows beyond the constraints are conditions at the start

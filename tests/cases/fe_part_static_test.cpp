@@ -15,18 +15,6 @@ constexpr double pi = std::numbers::pi;
 
 Triple place_of(const library::OperatingPoint& p, std::int64_t marker) { return p.marker(marker).position; }
 
-// In steps of the load, each from the equilibrium before.
-library::OperatingPoint loaded(const std::function<std::string(double)>& dataset, int steps) {
-  auto study = study_of(dataset(1.0 / steps));
-  auto point = study.static_equilibrium();
-  for (int k = 2; k <= steps; ++k) {
-    auto next = study_of(dataset(static_cast<double>(k) / steps));
-    point = next.static_equilibrium(next.continued(point));
-    study = next;
-  }
-  return point;
-}
-
 }  // namespace
 
 TEST(FePartStatics, a_small_force_at_the_tip_bends_one_element_as_timoshenko_says) {

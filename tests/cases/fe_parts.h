@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "cases/study_of.h"
+
 namespace dynalin::cases {
 
 // A straight beam along x of its BCS with nodes at equal distances, a rectangle of height h (along y) and width w.
@@ -19,6 +21,7 @@ struct StraightBeam {
   double poisson = 0.3;
   std::string further{};  // arguments
   int id = 2;
+  std::string type = "3DBEAM";
 
   double area() const { return height * width; }
   double zz() const { return width * height * height * height / 12; }
@@ -36,11 +39,11 @@ struct StraightBeam {
     }
     return fmt::format(
         "MATERIAL/{0}, DENSITY={1:.17g}, YOUNGS_MODULUS={2:.17g}, POISSONS_RATIO={3:.17g}\n"
-        "FE_PART/{0}, TYPE=3DBEAM, MATERIAL={0}, NODE_LABELS={4}\n, X={5}\n, AREA={6:.17g}, IYY={7:.17g}, "
+        "FE_PART/{0}, TYPE={11}, MATERIAL={0}, NODE_LABELS={4}\n, X={5}\n, AREA={6:.17g}, IYY={7:.17g}, "
         "IZZ={8:.17g}{9}\n"
         "MARKER/{0}1, FE_PART={0}, NODE_LABEL=1\nMARKER/{0}2, FE_PART={0}, NODE_LABEL={10}\n",
         id, mass_by_volume(), modulus(), poisson, fmt::join(labels, ","), fmt::join(places, "\n, "), area(), yy(), zz(),
-        further, elements + 1);
+        further, elements + 1, type);
   }
 };
 
@@ -50,6 +53,18 @@ inline std::string beam_model(const std::string& statements) {
 // Clamped at its first node, with a force or moment on the last one, of ground's axes or of those of the marker RM.
 inline std::string clamped_beam(const StraightBeam& beam, const std::string& further = "") {
   return beam_model(beam.text() + fmt::format("JOINT/1, FIXED, I={}1, J=1\n", beam.id) + further);
+}
+
+// In steps of the load, each from the equilibrium before.
+inline library::OperatingPoint loaded(const std::function<std::string(double)>& dataset, int steps) {
+  auto study = study_of(dataset(1.0 / steps));
+  auto point = study.static_equilibrium();
+  for (int k = 2; k <= steps; ++k) {
+    auto next = study_of(dataset(static_cast<double>(k) / steps));
+    point = next.static_equilibrium(next.continued(point));
+    study = next;
+  }
+  return point;
 }
 
 }  // namespace dynalin::cases

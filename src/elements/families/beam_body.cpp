@@ -15,14 +15,16 @@ constexpr double largest_middle_step = 0.3;
 // What a unit of slope at an end moves of an element, in lengths of it: the largest value of its cubic.
 constexpr double slope_reach = 4.0 / 27;
 
-void add(PartialBy family, const BeamMatrix& m, const std::array<std::int32_t, beam_coordinates>& at, Equations& eq) {
+void add(PartialBy family, const BeamMatrix& m, std::size_t coordinates, const BeamColumns& at, Equations& eq) {
   if (!eq.wants(family)) return;
   // Rows in runs that stand next to each other: both poses, both slopes, the middle.
   static constexpr std::array<std::pair<std::size_t, std::size_t>, 5> runs = {
       {{0, 6}, {6, 6}, {12, 3}, {15, 3}, {18, 3}}};
-  for (std::size_t c = 0; c < beam_coordinates; ++c) {
+  for (std::size_t c = 0; c < coordinates; ++c) {
     const double* column = m.data() + c * beam_coordinates;
-    for (const auto& [first, count] : runs) eq.add(family, at[first], at[c], {column + first, count});
+    for (const auto& [first, count] : runs) {
+      if (first < coordinates) eq.add(family, at[first], at[c], {column + first, count});
+    }
   }
 }
 
@@ -34,12 +36,14 @@ BeamBodyKernel::BeamBodyKernel(const Model& model, Layout& layout) : gravity_(mo
     std::vector<ExtraCoordinate> coordinates;
     for (std::size_t k = 0; k < b.nodes.size(); ++k) {
       const auto& elements = *b.elements;
-      const double l = elements[std::min(k, elements.size() - 1)].length();
+      const double l = elements[std::min(k, elements.size() - 1)]->length();
       const Vector slope = model.body(b.nodes[k]).pose.R.x;
+      // In a plane the node turns with its slope, which is like an angle.
+      const double speed = b.plane ? 0 : slope_reach * l;
       for (std::size_t i = 0; i < 3; ++i)
-        coordinates.push_back({fmt::format("Slope S{} of node {}", axes[i], b.numbers[k]), slope[i], slope_reach * l});
+        coordinates.push_back({fmt::format("Slope S{} of node {}", axes[i], b.numbers[k]), slope[i], speed});
     }
-    for (std::size_t e = 0; e < b.elements->size(); ++e) {
+    for (std::size_t e = 0; !b.plane && e < b.elements->size(); ++e) {
       for (std::size_t i = 0; i < 3; ++i) {
         coordinates.push_back(
             {fmt::format("Rotation B{} between nodes {} and {}", axes[i], b.numbers[e], b.numbers[e + 1]), 0, 0,
@@ -49,6 +53,13 @@ BeamBodyKernel::BeamBodyKernel(const Model& model, Layout& layout) : gravity_(mo
     layout.add_extra(*b.label, StateType::fe_part, std::move(coordinates));
   }
   beams_ = beam_bodies(model, layout);
+  for (const BeamBody& b : beams_) {
+    if (b.plane) plane_rows_.emplace_back(b, model, layout);
+  }
+}
+
+void BeamBodyKernel::constraints(const Motion& motion, ConstraintRows& rows) const {
+  for (const PlaneBeamRows& beam : plane_rows_) beam.constraints(motion, rows);
 }
 
 void BeamBodyKernel::equations(const Motion& motion, Equations& eq) const {
@@ -58,26 +69,29 @@ void BeamBodyKernel::equations(const Motion& motion, Equations& eq) const {
     eq.begin_element(eq.layout().body(b.nodes.front()).label);
     for (std::size_t e = 0; e < b.elements->size(); ++e) {
       const auto at = b.columns(eq.layout(), e);
-      (*b.elements)[e].forces(b.motion(motion, e), gravity_, partials, f);
-      for (std::size_t k = 0; k < beam_coordinates; ++k) {
+      const BeamElement& element = *(*b.elements)[e];
+      const std::size_t n = element.coordinates();
+      element.forces(b.motion(motion, e), gravity_, partials, f);
+      for (std::size_t k = 0; k < n; ++k) {
         const auto i = static_cast<Eigen::Index>(k);
         eq.add_residual(at[k], f.elastic(i));
         eq.add_residual(at[k], f.inertia(i));
       }
       if (!partials) continue;
-      add(PartialBy::position, f.stiffness, at, eq);
-      add(PartialBy::position, f.by_position, at, eq);
-      if ((*b.elements)[e].damped()) add(PartialBy::damping, f.damping, at, eq);
-      add(PartialBy::velocity, f.by_rate, at, eq);
-      add(PartialBy::acceleration, f.mass, at, eq);
+      add(PartialBy::position, f.stiffness, n, at, eq);
+      add(PartialBy::position, f.by_position, n, at, eq);
+      if (element.damped()) add(PartialBy::damping, f.damping, n, at, eq);
+      add(PartialBy::velocity, f.by_rate, n, at, eq);
+      add(PartialBy::acceleration, f.mass, n, at, eq);
     }
   }
+  for (const PlaneBeamRows& beam : plane_rows_) beam.equations(motion, eq);
 }
 
 std::string BeamBodyKernel::domain_violation(const Motion& motion) const {
   for (const BeamBody& b : beams_) {
     for (std::size_t e = 0; e < b.elements->size(); ++e) {
-      const double turn = BeamElement::largest_turn(b.motion(motion, e));
+      const double turn = (*b.elements)[e]->largest_turn(b.motion(motion, e));
       if (turn < widest_turn) continue;
       return fmt::format(
           "nodes {} and {} of {} are turned against each other by {:.4g} degrees: the beam between them "

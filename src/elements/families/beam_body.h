@@ -1,8 +1,9 @@
 // Beams: inertia, weight, stiffness and damping of each element between two nodes (flexible/beam_element.h). Their
-// coordinates outside poses are the slopes of the nodes and the rotations of the middles of elements.
+// coordinates outside poses are the slopes of the nodes and, in space, the rotations of the middles of elements; in a
+// plane rows hold them there (elements/families/plane_beam_rows.h).
 #pragma once
 
-#include "elements/bodies/fe_part.h"
+#include "elements/families/plane_beam_rows.h"
 #include "mechanics/kernel.h"
 
 namespace dynalin {
@@ -11,11 +12,13 @@ class BeamBodyKernel final : public Kernel {
  public:
   // All beams of the model; adds their coordinates to the layout.
   BeamBodyKernel(const Model&, Layout&);
+  void constraints(const Motion&, ConstraintRows&) const override;
   void equations(const Motion&, Equations&) const override;
   std::string domain_violation(const Motion&) const override;
 
  private:
   std::vector<BeamBody> beams_;
+  std::vector<PlaneBeamRows> plane_rows_;
   Vector gravity_;
 };
 

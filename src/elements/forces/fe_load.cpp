@@ -127,17 +127,16 @@ class BeamLoadKernel final : public Kernel {
     std::vector<Component> components;
     std::vector<Unknown> unknowns;
   };
-  using Columns = std::array<std::int32_t, beam_coordinates>;
 
   // Of all load points of the beam, by its undeformed length.
   static std::vector<double> places_along(const BeamBody& beam) {
     std::vector<double> places;
     double whole = 0, before = 0;
-    for (const BeamElement& e : *beam.elements) whole += e.length();
-    for (const BeamElement& e : *beam.elements) {
+    for (const auto& e : *beam.elements) whole += e->length();
+    for (const auto& e : *beam.elements) {
       for (std::size_t g = 0; g < beam_load_points; ++g)
-        places.push_back((before + beam_load_place(g) * e.length()) / whole);
-      before += e.length();
+        places.push_back((before + beam_load_place(g) * e->length()) / whole);
+      before += e->length();
     }
     return places;
   }
@@ -147,9 +146,9 @@ class BeamLoadKernel final : public Kernel {
   }
 
   static void load_element(const Load& l, std::size_t element, const Motion& motion, Equations& eq) {
-    const BeamElement& e = (*l.beam.elements)[element];
+    const BeamElement& e = *(*l.beam.elements)[element];
     const BeamMotion m = l.beam.motion(motion, element);
-    const Columns at = l.beam.columns(eq.layout(), element);
+    const BeamColumns at = l.beam.columns(eq.layout(), element);
     const bool forces = std::ranges::any_of(l.components, &Component::is_force),
                moments = !std::ranges::all_of(l.components, &Component::is_force);
     const Matrix3 axes = l.rm ? motion.axes(*l.rm) : Matrix3::identity();
@@ -164,18 +163,18 @@ class BeamLoadKernel final : public Kernel {
         if (!eq.wants(PartialBy::algebraic)) continue;
         BeamVector by = BeamVector::Zero();
         points[g].add(c.is_force() ? axis : Vector{}, c.is_force() ? Vector{} : axis, by);
-        add_column(PartialBy::algebraic, unknown, by, c.is_force(), !c.is_force(), at, eq);
+        add_column(PartialBy::algebraic, unknown, by, {e, c.is_force(), !c.is_force()}, at, eq);
       }
       points[g].add(force[g], moment[g], load);
     }
-    for (std::size_t k = 0; k < beam_coordinates; ++k) eq.add_residual(at[k], -load(static_cast<Eigen::Index>(k)));
+    for (std::size_t k = 0; k < e.coordinates(); ++k) eq.add_residual(at[k], -load(static_cast<Eigen::Index>(k)));
     if (!eq.wants(PartialBy::position)) return;
     if (moments) {
       const BeamMatrix by_position = beam_moments_by_position(e, m, moment);
-      for (std::size_t k = 0; k < beam_coordinates; ++k) {
-        if (is_spin(k)) {
-          add_column(PartialBy::position, at[k], by_position.col(static_cast<Eigen::Index>(k)), false, true, at, eq);
-        }
+      for (std::size_t k = 0; k < e.coordinates(); ++k) {
+        if (e.turns_sections(k))
+          add_column(PartialBy::position, at[k], by_position.col(static_cast<Eigen::Index>(k)), {e, false, true}, at,
+                     eq);
       }
     }
     if (!l.rm) return;
@@ -185,19 +184,25 @@ class BeamLoadKernel final : public Kernel {
             BeamVector by = BeamVector::Zero();
             for (std::size_t g = 0; g < beam_load_points; ++g)
               points[g].add(cross(turns[c], force[g]), cross(turns[c], moment[g]), by);
-            add_column(PartialBy::position, column + static_cast<std::int32_t>(c), by, forces, moments, at, eq);
+            add_column(PartialBy::position, column + static_cast<std::int32_t>(c), by, {e, forces, moments}, at, eq);
           }
         });
   }
 
-  static constexpr bool is_spin(std::size_t coordinate) {
-    return (coordinate >= 3 && coordinate < 6) || (coordinate >= 9 && coordinate < 12) || coordinate >= 18;
-  }
-  // Forces work on places and slopes, moments on spins.
-  static void add_column(PartialBy family, std::int32_t column, const BeamVector& by, bool forces, bool moments,
-                         const Columns& at, Equations& eq) {
-    for (std::size_t k = 0; k < beam_coordinates; ++k) {
-      if (is_spin(k) ? moments : forces) eq.add(family, at[k], column, -by(static_cast<Eigen::Index>(k)));
+  // Forces work on places and slopes, moments on what turns the sections.
+  struct Reach {
+    const BeamElement& element;
+    bool forces, moments;
+
+    bool contains(std::size_t coordinate) const {
+      const bool spin = (coordinate >= 3 && coordinate < 6) || (coordinate >= 9 && coordinate < 12) || coordinate >= 18;
+      return (forces && !spin) || (moments && element.turns_sections(coordinate));
+    }
+  };
+  static void add_column(PartialBy family, std::int32_t column, const BeamVector& by, const Reach& reach,
+                         const BeamColumns& at, Equations& eq) {
+    for (std::size_t k = 0; k < reach.element.coordinates(); ++k) {
+      if (reach.contains(k)) eq.add(family, at[k], column, -by(static_cast<Eigen::Index>(k)));
     }
   }
 

@@ -1,4 +1,4 @@
-#include "flexible/beam_element.h"
+#include "flexible/spatial_beam.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ const BeamSection thick{1.5, 0.9, 0.4, 0.7, 0.15, 1.2, 1.3}, thin{1.1, 0.6, 0.3,
 
 Matrix3 turn(const Vector& a) { return rotation::exponential(a); }
 
-BeamElement element() {
+SpatialBeam element() {
   return {material, {thick, thin}, {1.9, 0.2, -0.1}, {turn({0.1, 0.05, -0.1}), turn({-0.2, -0.1, 0.3})}};
 }
 
@@ -88,7 +88,7 @@ BeamMotion still(const Place<double>& p) {
 const Vector gravity{0.3, -0.7, 1.1};
 
 // Strain energy of a place by the formulas of the header alone: curvatures by differences.
-double strain_energy(const BeamElement& e, const Place<double>& p) {
+double strain_energy(const SpatialBeam& e, const Place<double>& p) {
   const std::array<Matrix3, 2> drawn = {turn({0.1, 0.05, -0.1}), turn({-0.2, -0.1, 0.3})};
   const double l = e.length();
   const std::array<double, 3> places = {-std::sqrt(0.6), 0, std::sqrt(0.6)}, weights = {5. / 9, 8. / 9, 5. / 9};
@@ -141,8 +141,8 @@ double strain_energy(const BeamElement& e, const Place<double>& p) {
 
 }  // namespace
 
-TEST(beam_element, forces_are_the_slopes_of_the_strain_energy) {
-  const BeamElement e = element();
+TEST(spatial_beam, forces_are_the_slopes_of_the_strain_energy) {
+  const SpatialBeam e = element();
   const Place<double> p = at(0.2);
   BeamForces f;
   e.forces(still(p), {}, false, f);
@@ -154,8 +154,8 @@ TEST(beam_element, forces_are_the_slopes_of_the_strain_energy) {
 }
 
 // The path of all coordinates is varied as the partials mean it: places by ε, rates by ε t, accelerations by ½ ε t².
-TEST(beam_element, partials_are_those_of_the_forces_along_varied_motions) {
-  const BeamElement e = element();
+TEST(spatial_beam, partials_are_those_of_the_forces_along_varied_motions) {
+  const SpatialBeam e = element();
   constexpr double t0 = 0.2, h = 1e-6;
   BeamForces f;
   e.forces(motion_of(at(time_at(t0))), gravity, true, f);
@@ -184,8 +184,8 @@ TEST(beam_element, partials_are_those_of_the_forces_along_varied_motions) {
   }
 }
 
-TEST(beam_element, power_of_its_inertia_is_the_rate_of_kinetic_energy) {
-  const BeamElement e = element();
+TEST(spatial_beam, power_of_its_inertia_is_the_rate_of_kinetic_energy) {
+  const SpatialBeam e = element();
   constexpr double t0 = 0.2, h = 1e-4;
   const auto velocity = [&](double t) {
     const Place<Scalar> p = at(time_at(t));
@@ -219,8 +219,8 @@ TEST(beam_element, power_of_its_inertia_is_the_rate_of_kinetic_energy) {
   EXPECT_NEAR(0.5 * v.dot(e.mass_matrix(motion_of(at(time_at(t0)))) * v), energy(t0), 1e-12 * energy(t0));
 }
 
-TEST(beam_element, turned_and_moved_as_a_whole_is_not_strained) {
-  const BeamElement e = element();
+TEST(spatial_beam, turned_and_moved_as_a_whole_is_not_strained) {
+  const SpatialBeam e = element();
   const Matrix3 R = turn({2.1, -1.3, 0.8});
   Place<double> p;
   const std::array<Matrix3, 2> drawn = {turn({0.1, 0.05, -0.1}), turn({-0.2, -0.1, 0.3})};
@@ -231,8 +231,8 @@ TEST(beam_element, turned_and_moved_as_a_whole_is_not_strained) {
   EXPECT_LT(f.elastic.norm(), 1e-12 * material.E);
 }
 
-TEST(beam_element, weight_and_inertia_of_a_translation_are_those_of_its_mass) {
-  const BeamElement e = element();
+TEST(spatial_beam, weight_and_inertia_of_a_translation_are_those_of_its_mass) {
+  const SpatialBeam e = element();
   BeamMotion m = still(at(0.2));
   m.acceleration = {Vector{1, 2, 3}, Vector{1, 2, 3}};
   BeamForces f;
@@ -244,10 +244,10 @@ TEST(beam_element, weight_and_inertia_of_a_translation_are_those_of_its_mass) {
   EXPECT_NEAR(e.nodal_mass(0) + e.nodal_mass(1), e.mass(), 1e-14 * e.mass());
 }
 
-TEST(beam_element, between_nodes_of_an_arc_is_as_long_as_the_arc) {
+TEST(spatial_beam, between_nodes_of_an_arc_is_as_long_as_the_arc) {
   for (const double angle : {0.05, 0.2}) {
     const Vector chord{std::sin(angle), 1 - std::cos(angle), 0};
-    const BeamElement e(material, {thick, thick}, chord, {Matrix3::identity(), turn({0, 0, angle})});
+    const SpatialBeam e(material, {thick, thick}, chord, {Matrix3::identity(), turn({0, 0, angle})});
     EXPECT_NEAR(e.length(), angle, 1e-5 * std::pow(angle, 6));
   }
 }

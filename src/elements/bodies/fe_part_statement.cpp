@@ -1,0 +1,183 @@
+#include "elements/bodies/fe_part_statement.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dataset/characters.h"
+#include "flexible/rotation_field.h"
+
+namespace dynalin {
+
+namespace {
+
+double at(const std::vector<double>& list, std::size_t k, double unstated) {
+  return list.empty() ? unstated : list.size() == 1 ? list.front() : list[k];
+}
+
+// The type as a word; the lexer takes 3D for an angle, so that blanks may have come between.
+bool is_type(const std::string& written, std::string_view name) {
+  std::string text;
+  for (const char c : written) {
+    if (c != ' ') text += c;
+  }
+  return equal_ignoring_case(text, name);
+}
+
+struct PlaneType {
+  std::string_view name;
+  BeamPlane plane;
+};
+constexpr std::array<PlaneType, 3> plane_types = {
+    {{"2DBEAMXY", {0, 1, 2}}, {"2DBEAMYZ", {1, 2, 0}}, {"2DBEAMZX", {2, 0, 1}}}};
+
+bool takes_type(FePart& f, ElementReader& reader) {
+  f.plane.reset();
+  if (is_type(f.type, "3DBEAM")) return true;
+  for (const auto& [name, plane] : plane_types) {
+    if (!is_type(f.type, name)) continue;
+    f.type = name, f.plane = plane;
+    return true;
+  }
+  reader.error("unknown-word", reader.at("TYPE"),
+               fmt::format("TYPE is 3DBEAM, 2DBEAMXY, 2DBEAMYZ or 2DBEAMZX, not {}", f.type));
+  return false;
+}
+
+bool has_counts(const FePart& f, ElementReader& reader) {
+  const std::size_t n = f.numbers.size();
+  const std::string name = reader.label().text();
+  if (n < 2) {
+    reader.error("wrong-count", reader.at("NODE_LABELS"), fmt::format("{} has {} node, it needs two or more", name, n));
+    return false;
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    if (std::count(f.numbers.begin(), f.numbers.end(), f.numbers[k]) == 1 && f.numbers[k] > 0) continue;
+    reader.error("value-out-of-range", reader.at("NODE_LABELS"),
+                 fmt::format("NODE_LABELS of {} are positive numbers, each once: {}", name, f.numbers[k]));
+    return false;
+  }
+  bool ok = true;
+  for (const Argument<FePart>& a : FePart::arguments) {
+    const auto* list = std::get_if<std::vector<double> FePart::*>(&a.slot);
+    if (!list || (f.**list).size() <= 1 || (f.**list).size() == n) continue;
+    reader.error("wrong-count", reader.at(a.name),
+                 fmt::format("{} has {} values, {} has {} nodes", a.name, (f.**list).size(), name, n),
+                 "one value for each node, or one for all");
+    ok = false;
+  }
+  return ok;
+}
+
+bool has_sections(const FePart& f, ElementReader& reader) {
+  const std::string name = reader.label().text();
+  for (const auto& [word, list] : {std::pair{"AREA", &f.area},
+                                   {"IXX", &f.torsion},
+                                   {"IYY", &f.yy},
+                                   {"IZZ", &f.zz},
+                                   {"ASY", &f.shear_y},
+                                   {"ASZ", &f.shear_z}}) {
+    for (const double v : *list) {
+      if (v > 0) continue;
+      reader.error("value-out-of-range", reader.at(word),
+                   fmt::format("{} of {} is {:g}, it must be positive", word, name, v));
+      return false;
+    }
+  }
+  for (std::size_t k = 0; k < f.numbers.size(); ++k) {
+    const BeamSection s = section_of(f, k);
+    if (s.yz * s.yz < s.yy * s.zz) continue;
+    reader.error("value-out-of-range", reader.at("IYZ"),
+                 fmt::format("IYZ of {} is {:g}, its square must be below IYY times IZZ", name, s.yz));
+    return false;
+  }
+  return true;
+}
+
+bool lies_along_its_nodes(const FePart& f, ElementReader& reader) {
+  constexpr double steepest = 0.5;  // cos 60 degrees
+  const std::string name = reader.label().text();
+  for (std::size_t k = 0; k + 1 < f.numbers.size(); ++k) {
+    const Vector chord = place_of_node(f, k + 1) - place_of_node(f, k);
+    const double l = norm(chord);
+    if (!(l > 0)) {
+      reader.error("value-out-of-range", reader.at("X"),
+                   fmt::format("nodes {} and {} of {} are at one place", f.numbers[k], f.numbers[k + 1], name));
+      return false;
+    }
+    for (const std::size_t node : {k, k + 1}) {
+      if (dot(axes_of_node(f, node).x, chord) >= steepest * l) continue;
+      reader.error("value-out-of-range", reader.at("PSI"),
+                   fmt::format("the x axis of node {} of {} must lead from node {} to node {}", f.numbers[node], name,
+                               f.numbers[k], f.numbers[k + 1]),
+                   "PSI, THETA and PHI are angles of the axes of nodes in the BCS, 0 unless stated");
+      return false;
+    }
+  }
+  return true;
+}
+
+bool lies_in_its_plane(const FePart& f, ElementReader& reader) {
+  constexpr double flat = 1e-6;
+  static constexpr std::array<std::string_view, 3> normals = {"x", "y", "z"};
+  const std::string name = reader.label().text();
+  const auto error = [&](std::string_view argument, const std::string& what) {
+    reader.error("value-out-of-range", reader.at(argument),
+                 fmt::format("{} of {} must lie in a plane across the global {} axis: its TYPE is {}", what, name,
+                             normals[f.plane->normal], f.type),
+                 "QG, REULER, ZG and XG place the BCS; a 3DBEAM lies as it will");
+  };
+  for (std::size_t k = 0; k < f.numbers.size(); ++k) {
+    const Vector from_first = f.axes * (place_of_node(f, k) - place_of_node(f, 0));
+    if (std::abs(from_first[f.plane->normal]) > flat * norm(from_first)) {
+      error("X", fmt::format("nodes {} and {}", f.numbers[0], f.numbers[k]));
+      return false;
+    }
+    if (std::abs((f.axes * axes_of_node(f, k).x)[f.plane->normal]) > flat) {
+      error(reader.given("PSI") ? "PSI" : "TYPE", fmt::format("the x axis of node {}", f.numbers[k]));
+      return false;
+    }
+  }
+  return true;
+}
+
+void warn_of_unused(ElementReader& reader) {
+  std::vector<std::string_view> unused;
+  for (const std::string_view name : {"IXX", "ASY", "ASZ"}) {
+    if (reader.given(name)) unused.push_back(name);
+  }
+  if (unused.empty()) return;
+  reader.warning("passed-over", reader.at(unused.front()),
+                 fmt::format("{} of {} {} no influence: a beam in a plane neither twists nor shears",
+                             fmt::join(unused, ", "), reader.label().text(), unused.size() == 1 ? "has" : "have"));
+}
+
+}  // namespace
+
+Matrix3 axes_of_node(const FePart& f, std::size_t k) {
+  const auto about = [](double angle, const Vector& axis) { return rotation::exponential(angle * axis); };
+  // From −π to π, where the series of the exponential is exact.
+  const auto angle = [&](const std::vector<double>& list) {
+    return std::remainder(at(list, k, 0), 2 * 3.14159265358979323846);
+  };
+  return about(angle(f.psi), {0, 0, 1}) * about(angle(f.theta), {1, 0, 0}) * about(angle(f.phi), {0, 0, 1});
+}
+Vector place_of_node(const FePart& f, std::size_t k) { return {at(f.x, k, 0), at(f.y, k, 0), at(f.z, k, 0)}; }
+
+BeamSection section_of(const FePart& f, std::size_t k) {
+  const double yy = at(f.yy, k, 0), zz = at(f.zz, k, 0);
+  return {at(f.area, k, 0),      at(f.torsion, k, yy + zz), yy, zz, at(f.yz, k, 0),
+          at(f.shear_y, k, 1.2), at(f.shear_z, k, 1.2)};
+}
+
+bool describes_beam(FePart& f, ElementReader& reader) {
+  return takes_type(f, reader) && has_counts(f, reader) && has_sections(f, reader) && lies_along_its_nodes(f, reader);
+}
+
+void check_plane(const FePart& f, ElementReader& reader) {
+  if (lies_in_its_plane(f, reader)) warn_of_unused(reader);
+}
+
+}  // namespace dynalin
