@@ -6,21 +6,6 @@ namespace dynalin::oracle {
 
 namespace {
 
-// Where Gauss points are in 0..1, with weights that sum to 1, from their closed forms.
-struct GaussPoint {
-  Real at, weight;
-};
-std::array<GaussPoint, 3> three_points() {
-  const Real a = std::sqrt(0.6L) / 2;
-  return {{{0.5L - a, 5 / 18.0L}, {0.5L, 8 / 18.0L}, {0.5L + a, 5 / 18.0L}}};
-}
-std::array<GaussPoint, 4> four_points() {
-  const Real root = 2 * std::sqrt(1.2L) / 7, near = std::sqrt(3 / 7.0L - root) / 2,
-             far = std::sqrt(3 / 7.0L + root) / 2;
-  const Real heavy = (18 + std::sqrt(30.0L)) / 72, light = (18 - std::sqrt(30.0L)) / 72;
-  return {{{0.5L - far, light}, {0.5L - near, heavy}, {0.5L + near, heavy}, {0.5L + far, light}}};
-}
-
 template <class T>
 struct Quaternion {
   T w;
@@ -194,8 +179,6 @@ std::array<Real, 4> cubics(Real x, Real length) {
 
 }  // namespace
 
-Real BeamElement::line_place(std::size_t point) { return four_points()[point].at; }
-
 template <class T>
 BeamShape<T> BeamElement::shape(const BeamPose<T>& p) const {
   BeamShape<T> out;
@@ -310,13 +293,11 @@ std::array<Real, beam_freedoms> BeamElement::loads(const BeamPose<Jet>& along, c
   return out;
 }
 
-std::array<Real, beam_freedoms> BeamElement::loads(const std::array<Vec, line_points>& force,
-                                                   const std::array<Vec, line_points>& moment,
-                                                   const BeamDirections& by) const {
+std::array<Real, beam_freedoms> BeamElement::loads(const LineLoads& on, const BeamDirections& by) const {
   std::array<Real, beam_freedoms> out{};
   for (std::size_t g = 0; g < line_points; ++g) {
     for (std::size_t a = 0; a < beam_freedoms; ++a)
-      out[a] += line_weight_[g] * (dot(force[g], by.by[a].place[g]) + dot(moment[g], by.by[a].line_spin[g]));
+      out[a] += line_weight_[g] * (dot(on.force[g], by.by[a].place[g]) + dot(on.moment[g], by.by[a].line_spin[g]));
   }
   return out;
 }
@@ -334,26 +315,52 @@ Real BeamElement::mass(const BeamPose<Real>& pose, const BeamDirections& by, std
 
 void Model::read_beams() {
   for (const Beam& b : mechanism_.beams) {
-    Real whole = 0, before = 0;
+    if (b.is_plane()) continue;
+    std::vector<Real> lengths;
     const std::size_t first_piece = pieces_.size();
     for (std::size_t k = 0; k + 1 < b.nodes(); ++k) {
       BeamPiece piece;
       piece.element = BeamElement(b, k, mechanism_.ucf);
       const std::array<BodyRef, 5> parts = {b.node(k), b.node(k + 1), b.slope(k), b.slope(k + 1), b.middle(k)};
       for (std::size_t p = 0; p < parts.size(); ++p) piece.body[p] = static_cast<std::size_t>(body_index(parts[p]));
-      for (std::size_t l = 0; l < mechanism_.beam_loads.size(); ++l) {
-        if (mechanism_.beam_loads[l].beam == b.id) piece.loads.push_back(l);
-      }
-      whole += piece.element.length();
+      lengths.push_back(piece.element.length());
       pieces_.push_back(piece);
     }
-    for (std::size_t k = first_piece; k < pieces_.size(); ++k) {
-      const Real span = pieces_[k].element.length();
-      for (std::size_t g = 0; g < line_points; ++g)
-        pieces_[k].load_place[g] = static_cast<double>((before + BeamElement::line_place(g) * span) / whole);
-      before += span;
+    const std::vector<LoadedSpan> spans = loaded_spans(b, lengths);
+    for (std::size_t k = 0; k < spans.size(); ++k) pieces_[first_piece + k].span = spans[k];
+  }
+}
+
+std::vector<Model::LoadedSpan> Model::loaded_spans(const Beam& beam, const std::vector<Real>& lengths) const {
+  Real whole = 0, before = 0;
+  for (const Real l : lengths) whole += l;
+  std::vector<LoadedSpan> spans;
+  for (const Real l : lengths) {
+    LoadedSpan span;
+    for (std::size_t k = 0; k < mechanism_.beam_loads.size(); ++k) {
+      if (mechanism_.beam_loads[k].beam == beam.id) span.loads.push_back(k);
+    }
+    for (std::size_t g = 0; g < line_points; ++g)
+      span.place[g] = static_cast<double>((before + four_points()[g].at * l) / whole);
+    before += l;
+    spans.push_back(span);
+  }
+  return spans;
+}
+
+LineLoads Model::line_loads(const LoadedSpan& span) const {
+  LineLoads out;
+  for (const std::size_t l : span.loads) {
+    const BeamLoad& load = mechanism_.beam_loads[l];
+    const auto& axis = markers_[static_cast<std::size_t>(marker_index(load.rm))].axis;
+    for (std::size_t g = 0; g < line_points; ++g) {
+      for (std::size_t c = 0; c < 6; ++c) {
+        if (!load.component[c]) continue;
+        (c < 3 ? out.force : out.moment)[g] += evaluate(at_place(*load.component[c], span.place[g])) * axis[c % 3];
+      }
     }
   }
+  return out;
 }
 
 BeamPose<Jet> Model::pose_along_motion(const BeamPiece& piece) const {
@@ -410,19 +417,8 @@ void Model::apply_beams(std::vector<Wrench>& loads) const {
     const BeamPiece& piece = pieces_[k];
     const BeamDirections& by = directions(k);
     std::array<Real, beam_freedoms> all = piece.element.loads(pose_along_motion(piece), by, to_vec(mechanism_.gravity));
-    for (const std::size_t l : piece.loads) {
-      const BeamLoad& load = mechanism_.beam_loads[l];
-      const auto& axis = markers_[static_cast<std::size_t>(marker_index(load.rm))].axis;
-      std::array<Vec, line_points> force, moment;
-      for (std::size_t g = 0; g < line_points; ++g) {
-        for (std::size_t c = 0; c < 6; ++c) {
-          if (!load.component[c]) continue;
-          (c < 3 ? force : moment)[g] += evaluate(at_place(*load.component[c], piece.load_place[g])) * axis[c % 3];
-        }
-      }
-      const auto more = piece.element.loads(force, moment, by);
-      for (std::size_t a = 0; a < beam_freedoms; ++a) all[a] += more[a];
-    }
+    const auto more = piece.element.loads(line_loads(piece.span), by);
+    for (std::size_t a = 0; a < beam_freedoms; ++a) all[a] += more[a];
     for (std::size_t t = 0; t < triples.size(); ++t) {
       Wrench& on = loads[piece.body[triples[t].part]];
       (triples[t].turns ? on.t : on.f) += Vec{all[3 * t], all[3 * t + 1], all[3 * t + 2]};

@@ -5,12 +5,16 @@
 #include <array>
 #include <vector>
 
+#include "gauss_points.h"
 #include "jet.h"
 #include "mechanism.h"
 
 namespace dynalin::oracle {
 
-inline constexpr std::size_t strain_points = 3, line_points = 4;  // of Gauss
+// Forces and moments by length, global axes, at the points of the line.
+struct LineLoads {
+  std::array<Vec, line_points> force, moment;
+};
 
 template <class T>
 struct BeamPose {
@@ -49,15 +53,10 @@ class BeamElement {
   // What acts on each coordinate: less than elasticity and damping, inertia and weight, for jets along the motion.
   [[nodiscard]] std::array<Real, beam_freedoms> loads(const BeamPose<Jet>& along, const BeamDirections& by,
                                                       const Vec& gravity) const;
-  // Of forces and moments by length, global axes, at the points of the line.
-  [[nodiscard]] std::array<Real, beam_freedoms> loads(const std::array<Vec, line_points>& force,
-                                                      const std::array<Vec, line_points>& moment,
-                                                      const BeamDirections& by) const;
+  [[nodiscard]] std::array<Real, beam_freedoms> loads(const LineLoads& on, const BeamDirections& by) const;
   [[nodiscard]] BeamDirections directions(const BeamPose<Real>& pose) const;
   [[nodiscard]] Real mass(const BeamPose<Real>& pose, const BeamDirections& by, std::size_t a, std::size_t b) const;
   [[nodiscard]] Real length() const { return length_; }
-  // Where a point of the line is, 0 to 1 along the element.
-  [[nodiscard]] static Real line_place(std::size_t point);
 
  private:
   template <class T>

@@ -57,6 +57,13 @@ void Model::read_rows() {
       rows.push_back(row);
     }
   }
+  for (std::size_t k = 0; k < plane_nodes_.size(); ++k) {
+    for (int component = 0; component < 5; ++component) {
+      Row row{Row::Type::plane};
+      row.carried = k, row.component = component;
+      rows.push_back(row);
+    }
+  }
   for (std::size_t k = 0; k < mechanism_.joints.size(); ++k) read_joint(k);
   read_relations();
   read_motions();
@@ -183,6 +190,7 @@ Real Model::drive(const Row& row, std::size_t derivative) const {
 
 Real Model::row_position(const Row& row) const {
   if (row.type == Row::Type::shape) return shape_row(row)[0];
+  if (row.type == Row::Type::plane) return plane_row(row)[0];
   const MarkerMotion& i = markers_[static_cast<std::size_t>(row.i)];
   const MarkerMotion& j = markers_[static_cast<std::size_t>(row.j)];
   const Vec& e_j = j.axis[static_cast<std::size_t>(row.axis_j)];
@@ -200,6 +208,7 @@ Real Model::row_position(const Row& row) const {
 
 Real Model::row_velocity(const Row& row) const {
   if (row.type == Row::Type::shape) return shape_row(row)[1];
+  if (row.type == Row::Type::plane) return plane_row(row)[1];
   const MarkerMotion& i = markers_[static_cast<std::size_t>(row.i)];
   const MarkerMotion& j = markers_[static_cast<std::size_t>(row.j)];
   const auto ai = static_cast<std::size_t>(row.axis_i), aj = static_cast<std::size_t>(row.axis_j);
@@ -220,6 +229,7 @@ Real Model::row_velocity(const Row& row) const {
 
 Real Model::row_acceleration(const Row& row) const {
   if (row.type == Row::Type::shape) return shape_row(row)[2];
+  if (row.type == Row::Type::plane) return plane_row(row)[2];
   const MarkerMotion& i = markers_[static_cast<std::size_t>(row.i)];
   const MarkerMotion& j = markers_[static_cast<std::size_t>(row.j)];
   const auto ai = static_cast<std::size_t>(row.axis_i), aj = static_cast<std::size_t>(row.axis_j);
@@ -254,6 +264,7 @@ Wrench Model::row_wrench(const Row& row) const {
       return {Vec{}, j.axis[2]};
     case Row::Type::expression:
     case Row::Type::shape:
+    case Row::Type::plane:
       break;
   }
   // Of an expression of I and J alone: what it does to the body of I, moved to the origin of I.
@@ -271,6 +282,7 @@ void Model::apply_row(std::vector<Wrench>& loads, const Row& row, Real size) con
     return;
   }
   if (row.type == Row::Type::shape) return apply_shape(loads, row, size);
+  if (row.type == Row::Type::plane) return apply_plane_row(loads, row, size);
   const Wrench unit = row_wrench(row);
   const Vec at = markers_[static_cast<std::size_t>(row.i)].p;
   apply(loads, row.i, at, unit, size);

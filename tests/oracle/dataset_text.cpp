@@ -59,7 +59,12 @@ std::string beam_text(const Beam& b) {
   Statement s("FE_PART", b.id);
   std::string labels;
   for (std::size_t k = 1; k <= b.nodes(); ++k) labels += (k > 1 ? "," : "") + std::to_string(k);
-  s.set("TYPE", "3DBEAM").set("MATERIAL", b.id).set("NODE_LABELS", labels).set("QG", b.qg).set("REULER", b.reuler);
+  constexpr const char* types[] = {"3DBEAM", "2DBEAMXY", "2DBEAMYZ", "2DBEAMZX"};
+  s.set("TYPE", types[static_cast<int>(b.plane)])
+      .set("MATERIAL", b.id)
+      .set("NODE_LABELS", labels)
+      .set("QG", b.qg)
+      .set("REULER", b.reuler);
   const auto by_node = [&](const std::array<const char*, 3>& names, const std::vector<Triple>& list) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       std::vector<double> values;
@@ -224,24 +229,10 @@ std::string friction_text(const Mechanism& m, const Friction& f) {
 
 std::string touch_text(const Touch& c) {
   const int on_i = 2 * c.id - 1, on_j = 2 * c.id;
-  const auto ball = [](int id, int marker, double radius) {
-    Statement t("GRAPHICS", id);
-    t.word("ELLIPSOID").set("CM", marker).set("XSCALE", 2 * radius).set("YSCALE", 2 * radius);
-    return t.set("ZSCALE", 2 * radius).text();
-  };
-  std::string text;
-  if (c.kind == TouchKind::disc_on_curve) {
-    text = Statement("GRAPHICS", on_i).word("CIRCLE").set("CM", c.i).set("RADIUS", c.radius_i).text() +
-           Statement("GRAPHICS", on_j).word("CURVE").set("CID", c.curve).set("CRM", c.j).text();
-  } else {
-    text = ball(on_i, c.i, c.radius_i);
-    const double far = 50 * c.radius_i;
-    Statement plane("GRAPHICS", on_j);
-    plane.word("PLANE").set("RM", c.j).set("XMIN", -far).set("XMAX", far).set("YMIN", -far).set("YMAX", far);
-    text += c.kind == TouchKind::balls ? ball(on_j, c.j, c.radius_j) : plane.text();
-  }
   Statement t("CONTACT", c.id);
   t.set("IGEOM", on_i).set("JGEOM", on_j);
+  if (c.cavity == Cavity::i) t.set("IFLIP_GEOMETRY", on_i);
+  if (c.cavity == Cavity::j) t.set("JFLIP_GEOMETRY", on_j);
   if (c.restitution) {
     t.word("POISSON").set("PENALTY", c.stiffness).set("RESTITUTION_COEFFICIENT", *c.restitution);
   } else {
@@ -252,7 +243,7 @@ std::string touch_text(const Touch& c) {
     t.set("COULOMB_FRICTION", std::string("ON")).set("MU_STATIC", c.mu_static).set("MU_DYNAMIC", c.mu_dynamic);
     t.set("STICTION_TRANSITION_VELOCITY", c.stiction_speed).set("FRICTION_TRANSITION_VELOCITY", c.sliding_speed);
   }
-  return text + t.text();
+  return shapes_text(c) + t.text();
 }
 
 std::string linear_text(const LinearForce& f) {

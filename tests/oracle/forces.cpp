@@ -23,6 +23,7 @@ Dense Model::mass_matrix() const {
     }
   }
   add_beam_masses(M);
+  add_plane_beam_masses(M);
   add_flexible_masses(M);
   return M;
 }
@@ -271,8 +272,11 @@ std::vector<int> Model::algebra_groups() const {
     for (int c = 0; c < body.dof; ++c) groups.push_back(c < 3 && body.ref.kind < BodyKind::beam_slope ? 0 : 1);
   }
   for (const int k : active) {
-    const Row::Type type = rows[static_cast<std::size_t>(k)].type;
-    groups.push_back(type == Row::Type::point || type == Row::Type::shape ? 2 : type == Row::Type::expression ? 4 : 3);
+    const Row& row = rows[static_cast<std::size_t>(k)];
+    const Row::Type type = row.type;
+    const bool force =
+        type == Row::Type::point || type == Row::Type::shape || (type == Row::Type::plane && row.component == 0);
+    groups.push_back(force ? 2 : type == Row::Type::expression ? 4 : 3);
   }
   int next = 5;
   while (groups.size() < algebra_size()) groups.push_back(next++);
@@ -311,6 +315,7 @@ std::vector<Real> Model::algebra_residual() const {
   apply_frictions(loads);
   apply_touches(loads);
   apply_beams(loads);
+  apply_plane_beams(loads);
   apply_flexibles(loads);
   for (const int k : active) apply_row(loads, rows[static_cast<std::size_t>(k)], lambda[static_cast<std::size_t>(k)]);
   const Vec g = to_vec(mechanism_.gravity);

@@ -19,6 +19,17 @@ struct Frame {
 
 constexpr BodyRef ground{BodyKind::ground, 1};
 
+// Solids that touch, the second one as a cavity or not, and where on it. Regular: a frustum that is a cylinder, an
+// ellipsoid that is a sphere.
+enum class Spot { any, face, edge, mantle, end };
+struct Meeting {
+  SolidShape first;
+  bool first_regular;
+  SolidShape second;
+  bool second_regular, in_cavity;
+  Spot spot;
+};
+
 class Draw {
  public:
   Draw(std::uint64_t seed, std::uint64_t attempt)
@@ -35,6 +46,8 @@ class Draw {
         must_bend_(seed > 240 && seed <= 260),
         must_call_(seed > 260 && seed <= 270),
         must_deform_(seed > 270 && seed <= 280),
+        plane_(seed > 280 && seed <= 290 ? static_cast<BeamPlane>(1 + seed % 3) : BeamPlane::none),
+        meeting_(seed > 290 && seed <= 310 ? static_cast<int>((seed - 291) % 10) : -1),
         may_rub_(seed % 2 == 0) {}
   [[nodiscard]] Mechanism mechanism();
 
@@ -88,10 +101,16 @@ class Draw {
   void draw_touches();
   void draw_touch();
   void draw_touch_law(Touch& touch);
+  void draw_meetings();
+  void draw_meeting(const Meeting& meeting);
+  Solid solid(SolidShape shape, bool regular, double size);
+  void check_regimes(const Touch& touch) const;
   void draw_beams();
   void draw_beam();
   void add_bodies_of(const Beam& beam);
   void join_beam(const Beam& beam);
+  void draw_plane_beam();
+  void join_plane_beam(const Beam& beam);
   void draw_beam_load();
   void draw_flexibles();
   void draw_flexible();
@@ -150,12 +169,14 @@ class Draw {
   std::mt19937_64 random_, friction_random_, touch_random_, beam_random_, state_random_, flexible_random_;
   // Rejection starves loops and motions; some seeds insist on them.
   int wanted_loops_ = 0, wanted_motions_ = 0;
-  bool whole_language_ = false;  // the first 200 stay as they were drawn when there were fewer elements
-  bool must_touch_ = false;      // shapes, from 221 to 240
-  bool must_bend_ = false;       // a beam, from 241 to 260
-  bool must_call_ = false;       // compiled routines, from 261 to 270
-  bool must_deform_ = false;     // a flexible body, from 271 to 280
-  bool may_rub_ = false;         // every second seed
+  bool whole_language_ = false;        // the first 200 stay as they were drawn when there were fewer elements
+  bool must_touch_ = false;            // shapes, from 221 to 240
+  bool must_bend_ = false;             // a beam, from 241 to 260
+  bool must_call_ = false;             // compiled routines, from 261 to 270
+  bool must_deform_ = false;           // a flexible body, from 271 to 280
+  BeamPlane plane_ = BeamPlane::none;  // of a beam, from 281 to 290: each in turn
+  int meeting_ = -1;                   // the first of three pairs of solids, from 291 to 310
+  bool may_rub_ = false;               // every second seed
   Mechanism m_;
   double L_ = 1, F_ = 10;  // natural length and force
   std::vector<BodyRef> bodies_{ground};

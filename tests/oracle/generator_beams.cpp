@@ -55,7 +55,7 @@ void Draw::add_bodies_of(const Beam& b) {
     const Mat R = axes * rotation_313(b.angles[k]);
     add(b.node(k), to_triple(to_vec(b.qg) + axes * to_vec(b.places[k])), angles_313(R));
     add(b.slope(k), to_triple(R.column[0]), {});
-    if (k + 1 < b.nodes()) add(b.middle(k), {}, {});
+    if (k + 1 < b.nodes() && !b.is_plane()) add(b.middle(k), {}, {});
   }
 }
 
@@ -92,15 +92,15 @@ void Draw::join_beam(const Beam& b) {
 }
 
 void Draw::draw_beams() {
-  if (!must_bend_) return;
+  if (!must_bend_ && plane_ == BeamPlane::none) return;
   std::swap(random_, beam_random_);
-  draw_beam();
+  must_bend_ ? draw_beam() : draw_plane_beam();
   std::swap(random_, beam_random_);
 }
 
 // At least one of them varies along the beam.
 void Draw::draw_beam_load() {
-  if (!must_bend_) return;
+  if (m_.beams.empty()) return;
   std::swap(random_, beam_random_);
   const Expr S = place_along_beam();
   BeamLoad load{1, 1, chance(0.5) ? one_of(oriented_) : 0, {}};

@@ -137,6 +137,21 @@ void check_conditioning(Model& model, const std::vector<ChosenState>& states) {
 
 }  // namespace
 
+namespace {
+
+// By turns that move what is far as far as a shift does.
+Dense gradient_by_lengths(const Model& model) {
+  Dense G = model.gradient();
+  for (const Model::BodyData& b : model.bodies) {
+    for (int c = 3; c < b.dof; ++c) {
+      for (std::size_t k = 0; k < G.rows(); ++k) G(k, static_cast<std::size_t>(b.offset + c)) /= model.length;
+    }
+  }
+  return G;
+}
+
+}  // namespace
+
 void Draw::check_structure() const {
   if (mobility() < 1 || mobility() > 9) throw std::runtime_error("the mobility is out of range");
   const Features f = features_of(m_);
@@ -148,7 +163,7 @@ void Draw::check() const {
   Model model(m_);
   const OraclePoint point = drawn_point(m_);
   place(model, point);
-  const Dense G = model.gradient();
+  const Dense G = plane_ == BeamPlane::none ? model.gradient() : gradient_by_lengths(model);
   if (independent_rows(G, 0.02L).size() != G.rows()) throw std::runtime_error("constraints are nearly redundant");
   check_conditioning(model, choose_states(m_, point));
   for (const Row& row : model.rows) {

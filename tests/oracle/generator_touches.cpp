@@ -28,12 +28,20 @@ bool touches_once(const CurveShape& curve, double v, const Vec& centre, Real rad
   return near == 1;
 }
 
+Model::TouchState deepest(const std::vector<Model::TouchState>& places) {
+  return *std::min_element(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
+}
+
 }  // namespace
 
 void Draw::draw_touches() {
-  if (!must_touch_) return;
+  if (!must_touch_ && meeting_ < 0) return;
   std::swap(random_, touch_random_);
-  for (int k = 1 + pick(2); k > 0; --k) draw_touch();
+  if (meeting_ >= 0) {
+    draw_meetings();
+  } else {
+    for (int k = 1 + pick(2); k > 0; --k) draw_touch();
+  }
   const Touch& t = m_.touches.back();
   const int component = 1 + pick(8);
   const Expr read = (1 / (component > 4 ? F_ * L_ : F_)) *
@@ -84,12 +92,12 @@ void Draw::draw_touch() {
   draw_touch_law(t);
 }
 
-// By how deep it is, how fast it goes deeper and how fast it slips here.
+// By how deep it is at its deepest place, how fast it goes deeper and how fast it slips there.
 void Draw::draw_touch_law(Touch& t) {
   m_.touches.push_back(t);
   Model here(m_);
   place(here, drawn_point(m_));
-  const Model::TouchState s = here.touch_state(m_.touches.size() - 1);
+  const Model::TouchState s = deepest(here.touch_states(m_.touches.size() - 1));
   m_.touches.pop_back();
   const double depth = static_cast<double>(-s.gap), rate = static_cast<double>(std::fabs(dot(s.velocity, s.normal)));
   const double pressed = F_ * uniform(0.5, 2);
@@ -117,7 +125,7 @@ void Draw::draw_touch_law(Touch& t) {
   m_.touches.push_back(t);
   Model with_law(m_);
   place(with_law, drawn_point(m_));
-  if (with_law.touch_state(m_.touches.size() - 1).pressure < 0.3 * pressed)
+  if (deepest(with_law.touch_states(m_.touches.size() - 1)).pressure < 0.3 * pressed)
     throw std::runtime_error("a contact is nearly open");
 }
 

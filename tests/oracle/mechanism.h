@@ -212,8 +212,18 @@ struct Friction {
   double bristles = 1, bristle_damping = 0, viscosity = 0;
 };
 
-// A CONTACT: a ball on marker i with a plane or a ball on marker j, or a disc with a curve in their x-y planes.
-enum class TouchKind { ball_on_plane, balls, disc_on_curve };
+// A GRAPHICS that bounds a volume, with its numbers as they are written: scales; X, Y, Z; LENGTH, BOTTOM, TOP, a
+// CYLINDER where these agree; radii of the centre circle and of the tube.
+enum class SolidShape { ellipsoid, box, frustum, torus };
+struct Solid {
+  SolidShape shape = SolidShape::ellipsoid;
+  Triple size{1, 1, 1};
+};
+
+// A CONTACT: a ball on marker i with a plane or a ball on marker j, a disc with a curve in their x-y planes, or solids,
+// of which one may be a cavity for the other.
+enum class TouchKind { ball_on_plane, balls, disc_on_curve, solids };
+enum class Cavity { none, i, j };
 struct Touch {
   int id = 0;
   TouchKind kind = TouchKind::ball_on_plane;
@@ -221,21 +231,27 @@ struct Touch {
   double radius_i = 1, radius_j = 1;
   int curve = 0;
   double v = 0;  // near the parameter of the place on the curve; not written
+  Solid solid_i{}, solid_j{};
+  Cavity cavity = Cavity::none;
   double stiffness = 0, exponent = 1, damping = 0, full_damping = 1;  // IMPACT
   std::optional<double> restitution{};                                // or POISSON: the stiffness is its PENALTY
   bool rubs = false;
   double mu_static = 0, mu_dynamic = 0, stiction_speed = 1, sliding_speed = 2;
 };
 
-// FE_PART, and the MATERIAL of the same id that it is made of. Undeformed, in its BCS; numbers by node.
+enum class BeamPlane { none, xy, yz, zx };
+// FE_PART, and the MATERIAL of the same id that it is made of. Undeformed, in its BCS; numbers by node. One that stays
+// in a plane has no middles.
 struct Beam {
   int id = 0;
+  BeamPlane plane = BeamPlane::none;
   Triple qg{}, reuler{};
   std::vector<Triple> places, angles;
   std::vector<double> area, torsion, yy, zz, yz, shear_y, shear_z;
   double damping = 0, density = 1, youngs_modulus = 1, poissons_ratio = 0;
 
   [[nodiscard]] std::size_t nodes() const { return places.size(); }
+  [[nodiscard]] bool is_plane() const { return plane != BeamPlane::none; }
   // Its bodies: of node k, its slope, and the middle between it and the next; nodes are labelled from 1.
   [[nodiscard]] BodyRef node(std::size_t k) const { return {BodyKind::beam_node, 100 * id + static_cast<int>(k)}; }
   [[nodiscard]] BodyRef slope(std::size_t k) const { return {BodyKind::beam_slope, 100 * id + static_cast<int>(k)}; }
@@ -359,6 +375,8 @@ struct Mechanism {
   VariableList pinput, poutput, pstate;  // id 0: none
 };
 
+// The GRAPHICS of the two sides of a CONTACT.
+[[nodiscard]] std::string shapes_text(const Touch& touch);
 // The statements of a flexible body and of a load on it.
 [[nodiscard]] std::string flexible_text(const Mechanism& mechanism, const Flexible& flexible);
 [[nodiscard]] std::string modal_force_text(const ModalForce& force);

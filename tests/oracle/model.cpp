@@ -59,6 +59,7 @@ std::vector<int> independent_rows(const Dense& m, Real tolerance) {
 Model::Model(const Mechanism& mechanism) : mechanism_(mechanism) {
   read_bodies();
   read_beams();
+  read_plane_beams();
   read_flexibles();
   read_rows();
   read_controls();
@@ -203,6 +204,7 @@ void Model::update_positions() {
     markers_[k].p = k == 0 ? Vec{} : body.p + body.R * data.p;
     markers_[k].axis = R.column;
   }
+  touch_places_.assign(mechanism_.touches.size(), {});
   solve_contacts();
   refresh_gradients();
   beam_directions_.clear();

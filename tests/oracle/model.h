@@ -13,7 +13,9 @@
 #include "jet.h"
 #include "mechanism.h"
 #include "oracle.h"
+#include "plane_beams.h"
 #include "small_algebra.h"
+#include "solids.h"
 
 namespace dynalin::oracle {
 
@@ -35,9 +37,10 @@ struct Wrench {
 
 // One scalar constraint. point: (p_I - p_J) . e_J;  direction: e_I . e_J, or e_I . e_J - e_J' . e_I' with the axes
 // swapped; angle: AZ(I,J); expression: any function of displacements, or one of velocities. A motion subtracts its
-// function of time. shape: a node stands and is turned as the modal coordinates say, three rows each.
+// function of time. shape: a node stands and is turned as the modal coordinates say, three rows each. plane: a node of
+// a plane beam stays in its plane and turns with its slope.
 struct Row {
-  enum class Type { point, direction, angle, expression, shape };
+  enum class Type { point, direction, angle, expression, shape, plane };
   Type type = Type::point;
   int i = 0, j = 0;  // marker indices
   int axis_i = 0, axis_j = 0;
@@ -45,7 +48,7 @@ struct Row {
   bool swapped = false;         // less the product of the same axes of the other marker
   bool of_rates = false;        // an expression of velocities: no position row
   Expr function{};
-  std::size_t carried = 0;  // of a shape: which node, of those that are bodies, and which of its six rows
+  std::size_t carried = 0;  // of a shape or plane: which node, of those that are bodies, and which of its rows
   int component = 0;
   Real offset = 0;                 // subtracted from an expression
   std::vector<Wrench> gradient{};  // of an expression, on each body, t about its BCS
@@ -144,13 +147,13 @@ class Model {
   [[nodiscard]] std::vector<Slip> slips(const Friction& friction) const;
   // Sizes of the reaction: force across and along the axis, moment across and along it.
   [[nodiscard]] std::array<Real, 4> pressing(const Friction& friction) const;
-  // The place of a CONTACT, global axes: the normal out of J, I's material seen from J's half-way between.
+  // A place of a CONTACT, global axes: the normal out of J, I's material seen from J's half-way between.
   struct TouchState {
     Vec normal, point, velocity;
     Real gap = 0, pressure = 0;
     [[nodiscard]] Vec slip() const { return velocity - dot(velocity, normal) * normal; }
   };
-  [[nodiscard]] TouchState touch_state(std::size_t k) const;
+  [[nodiscard]] std::vector<TouchState> touch_states(std::size_t k) const;
   [[nodiscard]] Vec contact_point(std::size_t k) const;
   [[nodiscard]] Real cable_tension(const Cable& f) const;
   // Where on the curves of i and of j the search for the point of contact begins from now on.
@@ -210,6 +213,9 @@ class Model {
   // Of beams on their nodes, torques about them, and on slopes and middles: elasticity, inertia, weight and FE_LOADs.
   void apply_beams(std::vector<Wrench>& loads) const;
   void add_beam_masses(Dense& mass) const;
+  void read_plane_beams();
+  void apply_plane_beams(std::vector<Wrench>& loads) const;
+  void add_plane_beam_masses(Dense& mass) const;
   void read_flexibles();
   void apply_flexibles(std::vector<Wrench>& loads) const;
   void add_flexible_masses(Dense& mass) const;
@@ -223,6 +229,9 @@ class Model {
   [[nodiscard]] Wrench general_wrench(std::size_t k) const;
   [[nodiscard]] Wrench friction_wrench(std::size_t k) const;
   [[nodiscard]] Wrench touch_wrench(std::size_t k) const;
+  [[nodiscard]] const std::vector<TouchPlace>& touch_places(std::size_t k) const;
+  [[nodiscard]] TouchPlace place_of_ball(const Touch& touch, const MarkerMotion& i, const MarkerMotion& j) const;
+  [[nodiscard]] TouchState touch_state(const Touch& touch, const TouchPlace& place) const;
   [[nodiscard]] std::vector<Real> creep_rates(std::size_t k) const;
   [[nodiscard]] Wrench joint_wrench(int joint) const;
   [[nodiscard]] Wrench motion_wrench(int motion) const;
@@ -266,12 +275,32 @@ class Model {
     std::array<Real, 2> parameter{};
     std::array<std::array<Real, 2>, 2> slopes{};
   };
+  struct LoadedSpan {                         // of an element of a beam
+    std::vector<std::size_t> loads;           // places in the mechanism
+    std::array<double, line_points> place{};  // S
+  };
+  [[nodiscard]] std::vector<LoadedSpan> loaded_spans(const Beam& beam, const std::vector<Real>& lengths) const;
+  [[nodiscard]] LineLoads line_loads(const LoadedSpan& span) const;
   struct BeamPiece {  // between two nodes
     BeamElement element;
-    std::array<std::size_t, 5> body{};   // both nodes, both slopes, the middle
-    std::vector<std::size_t> loads;      // places in the mechanism
-    std::array<double, 4> load_place{};  // S
+    std::array<std::size_t, 5> body{};  // both nodes, both slopes, the middle
+    LoadedSpan span;
   };
+  struct PlanePiece {
+    BeamPlane plane;
+    PlaneElement element;
+    std::array<std::size_t, 4> body{};  // node, slope, node, slope
+    LoadedSpan span;
+  };
+  struct PlaneNode {  // what a node of a plane beam keeps of where it was drawn
+    BeamPlane plane;
+    std::size_t node = 0, slope = 0;  // bodies
+    Real height = 0;                  // along the normal
+    Vec normal, across;               // in its own axes
+  };
+  // Each node of a plane beam has five rows: itself and its first and second rate; what it does to node and slope.
+  [[nodiscard]] std::array<Real, 3> plane_row(const Row& row) const;
+  void apply_plane_row(std::vector<Wrench>& loads, const Row& row, Real size) const;
   struct FlexibleData {
     std::size_t frame = 0, modes = 0;  // bodies
     Mat damping;
@@ -292,9 +321,13 @@ class Model {
   std::vector<FlexibleData> flexible_data_;
   std::vector<Carried> carried_;
   [[nodiscard]] BeamPose<Jet> pose_along_motion(const BeamPiece& piece) const;
+  [[nodiscard]] PlanePose<Jet> pose_along_motion(const PlanePiece& piece) const;
   [[nodiscard]] const BeamDirections& directions(std::size_t piece) const;
   std::vector<BeamPiece> pieces_;
-  mutable std::vector<BeamDirections> beam_directions_;  // of the present positions, once asked for
+  std::vector<PlanePiece> plane_pieces_;
+  std::vector<PlaneNode> plane_nodes_;
+  mutable std::vector<BeamDirections> beam_directions_;        // of the present positions, once asked for
+  mutable std::vector<std::vector<TouchPlace>> touch_places_;  // the same; none: not asked for
   std::map<int, CurveShape> curves_;
   std::vector<ContactData> contact_data_;
 };
@@ -315,8 +348,10 @@ class Model {
 // Psi, theta, phi of rotation_313.
 [[nodiscard]] inline Triple angles_313(const Mat& R) {
   const auto& c = R.column;
-  return to_triple(
-      {std::atan2(c[2].x, -c[2].y), std::atan2(std::hypot(c[2].x, c[2].y), c[2].z), std::atan2(c[0].z, c[1].z)});
+  const Real off = std::hypot(c[2].x, c[2].y), theta = std::atan2(off, c[2].z);
+  // Where z leads along itself one of the turns about it says all.
+  if (off < 1e-12L) return to_triple({std::atan2(c[0].y, c[0].x), theta, 0});
+  return to_triple({std::atan2(c[2].x, -c[2].y), theta, std::atan2(c[0].z, c[1].z)});
 }
 [[nodiscard]] inline Mat rotation_313(const Triple& angles) { return rotation_313(angles[0], angles[1], angles[2]); }
 

@@ -6,17 +6,23 @@
 
 #include "linear/linear_system.h"
 #include "oracle/oracle.h"
+#include "oracle/plane_beams.h"
 
 namespace dynalin::oracle {
 
 inline bool is_beam(const ElementLabel& label) { return label.statement == "FE_PART"; }
 
-// Slopes of nodes, then middles of elements: visit(which, place among coordinates outside poses, column).
+// Slopes of nodes, then middles of elements where it has any, one less than nodes: visit(which, place among coordinates
+// outside poses, column).
 template <class Visit>
 void for_each_triple_of_beams(const Layout& layout, Visit&& visit) {
   for (const ExtraBlock& block : layout.extras) {
     if (!is_beam(block.label)) continue;
-    const int id = 100 * static_cast<int>(block.label.id), nodes = (block.count / 3 + 1) / 2;
+    const int id = 100 * static_cast<int>(block.label.id);
+    const auto nodes =
+        static_cast<int>(std::count_if(layout.bodies.begin(), layout.bodies.end(), [&](const BodyBlock& body) {
+          return is_beam(body.label) && body.label.id == block.label.id;
+        }));
     for (int k = 0; k < block.count / 3; ++k) {
       const BodyRef ref =
           k < nodes ? BodyRef{BodyKind::beam_slope, id + k} : BodyRef{BodyKind::beam_middle, id + k - nodes};
@@ -108,6 +114,19 @@ inline void put_beams(const Mechanism& mechanism, const System& system, Operatin
   });
 }
 
+// Of the states of a plane beam: places and slopes of its nodes along the axes of the plane.
+inline ChosenState chosen_of_plane(const StateLabel& label, const Beam& beam) {
+  const int nodes = static_cast<int>(beam.nodes()), c = label.coordinate - 1 - (label.is_rate ? 4 * nodes : 0);
+  const PlaneAxes axes = axes_of(beam.plane);
+  const auto k = static_cast<std::size_t>(c / 4);
+  const BodyRef ref = c % 4 < 2 ? beam.node(k) : beam.slope(k);
+  ChosenState s;
+  s.kind = label.is_rate ? ChosenState::Kind::rate : ChosenState::Kind::coordinate;
+  s.body_id = ref.id, s.body_kind = ref.kind;
+  s.coordinate = c % 2 == 0 ? axes.a : axes.b;
+  return s;
+}
+
 inline ChosenState chosen(const StateLabel& label, const Mechanism& mechanism) {
   ChosenState s;
   if (label.type == StateType::part || label.type == StateType::point_mass) {
@@ -125,6 +144,7 @@ inline ChosenState chosen(const StateLabel& label, const Mechanism& mechanism) {
   } else if (label.type == StateType::fe_part) {
     const Beam& beam = *std::find_if(mechanism.beams.begin(), mechanism.beams.end(),
                                      [&](const Beam& b) { return b.id == static_cast<int>(label.element); });
+    if (beam.is_plane()) return chosen_of_plane(label, beam);
     const int nodes = static_cast<int>(beam.nodes());
     const int c = label.coordinate - 1 - (label.is_rate ? 12 * nodes - 3 : 0), beyond = c - 9 * nodes;
     s.kind = label.is_rate ? ChosenState::Kind::rate : ChosenState::Kind::coordinate;

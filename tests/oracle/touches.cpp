@@ -1,5 +1,6 @@
-// Contact of shapes: a ball or disc about marker i with what marker j carries, from positions and velocities in global
-// axes. A disc turns no curve: what of it is nearest lies against the normal, in its own plane.
+// Contact of shapes: a ball or disc about marker i with what marker j carries, or solids (solids.h), from positions and
+// velocities in global axes. A disc turns no curve: what of it is nearest lies against the normal, in its own plane.
+// Every place has a force of its own, by its own depth, approach and slip.
 #include <algorithm>
 
 #include "model.h"
@@ -25,12 +26,9 @@ Real twice_damping_ratio(Real r) {
 
 }  // namespace
 
-Model::TouchState Model::touch_state(std::size_t k) const {
-  const Touch& t = mechanism_.touches[k];
-  const auto on_i = static_cast<std::size_t>(marker_index(t.i)), on_j = static_cast<std::size_t>(marker_index(t.j));
-  const MarkerMotion &i = markers_[on_i], &j = markers_[on_j];
+TouchPlace Model::place_of_ball(const Touch& t, const MarkerMotion& i, const MarkerMotion& j) const {
   const Real r = t.radius_i;
-  TouchState s;
+  TouchPlace s;
   const Vec d = i.p - j.p;
   if (t.kind == TouchKind::ball_on_plane) {
     const Real height = dot(d, j.axis[2]);
@@ -64,6 +62,27 @@ Model::TouchState Model::touch_state(std::size_t k) const {
     const Vec across = dot(from_curve, j.axis[0]) * j.axis[0] + dot(from_curve, j.axis[1]) * j.axis[1];
     s.point = disc - 0.5L * across;
   }
+  return s;
+}
+
+const std::vector<TouchPlace>& Model::touch_places(std::size_t k) const {
+  std::vector<TouchPlace>& places = touch_places_[k];
+  if (!places.empty()) return places;
+  const Touch& t = mechanism_.touches[k];
+  const MarkerMotion& i = markers_[static_cast<std::size_t>(marker_index(t.i))];
+  const MarkerMotion& j = markers_[static_cast<std::size_t>(marker_index(t.j))];
+  if (t.kind == TouchKind::solids) {
+    places = places_of_solids(t, {i.p, {i.axis}}, {j.p, {j.axis}});
+  } else {
+    places = {place_of_ball(t, i, j)};
+  }
+  return places;
+}
+
+Model::TouchState Model::touch_state(const Touch& t, const TouchPlace& place) const {
+  const auto on_i = static_cast<std::size_t>(marker_index(t.i)), on_j = static_cast<std::size_t>(marker_index(t.j));
+  const MarkerMotion &i = markers_[on_i], &j = markers_[on_j];
+  TouchState s{place.normal, place.point, {}, place.gap, 0};
   s.velocity = i.v + cross(i.w, s.point - i.p) - j.v - cross(j.w, s.point - j.p);
   const Real g = -s.gap, rate = -dot(s.velocity, s.normal);
   if (g <= 0) return s;
@@ -81,19 +100,30 @@ Model::TouchState Model::touch_state(std::size_t k) const {
   return s;
 }
 
+std::vector<Model::TouchState> Model::touch_states(std::size_t k) const {
+  std::vector<TouchState> states;
+  for (const TouchPlace& place : touch_places(k)) states.push_back(touch_state(mechanism_.touches[k], place));
+  return states;
+}
+
 Wrench Model::touch_wrench(std::size_t k) const {
   const Touch& t = mechanism_.touches[k];
-  const TouchState s = touch_state(k);
-  Vec force = s.pressure * s.normal;
-  const Vec slip = s.slip();
-  const Real speed = norm(slip);
-  if (t.rubs && speed > 0) {
-    const Real vs = t.stiction_speed, vd = t.sliding_speed;
-    const Real mu = speed < vs ? t.mu_static * (2 * step((speed + vs) / (2 * vs)) - 1)
-                               : t.mu_static + (t.mu_dynamic - t.mu_static) * step((speed - vs) / (vd - vs));
-    force = force - (mu * s.pressure / speed) * slip;
+  const Vec about = markers_[static_cast<std::size_t>(marker_index(t.i))].p;
+  Wrench sum;
+  for (const TouchState& s : touch_states(k)) {
+    Vec force = s.pressure * s.normal;
+    const Vec slip = s.slip();
+    const Real speed = norm(slip);
+    if (t.rubs && speed > 0) {
+      const Real vs = t.stiction_speed, vd = t.sliding_speed;
+      const Real mu = speed < vs ? t.mu_static * (2 * step((speed + vs) / (2 * vs)) - 1)
+                                 : t.mu_static + (t.mu_dynamic - t.mu_static) * step((speed - vs) / (vd - vs));
+      force = force - (mu * s.pressure / speed) * slip;
+    }
+    sum.f += force;
+    sum.t += cross(s.point - about, force);
   }
-  return {force, cross(s.point - markers_[static_cast<std::size_t>(marker_index(t.i))].p, force)};
+  return sum;
 }
 
 void Model::apply_touches(std::vector<Wrench>& loads) const {
