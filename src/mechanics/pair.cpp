@@ -1,5 +1,7 @@
 #include "mechanics/pair.h"
 
+#include <optional>
+
 #include "mechanics/pair_blocks.h"
 
 namespace dynalin {
@@ -130,50 +132,47 @@ Load on_J(const PairMotion& p, const Vector& force, const Vector& torque) {
   return {-force, -(torque + cross(value(p.arm) - value(p.arm_J), force))};
 }
 
-// What a force on a marker works on the modal coordinates of its body: row by row, φᵀ F + ψᵀ T.
-template <class Visit>
-void for_each_modal_row(const PairMotion& p, bool of_J, const Layout& layout, Visit&& visit) {
-  for_each_modal_block(*p.motion, of_J ? p.body_J : p.body_I, of_J ? p.shapes_J : p.shapes_I, layout,
-                       [&](const PairBlock& b) {
-                         for (std::size_t k = 0; k < b.count; ++k)
-                           visit(b.column + static_cast<std::int32_t>(k), b.first_shape + k, b.moves[k], b.turns[k]);
-                       });
+// One marker of a pair on a body that changes its shape, and how it follows the modal coordinates of that.
+struct Deformed {
+  const NodeShapes& shapes;
+  BodyId body;
+  NodeVariations variations;
+};
+std::optional<Deformed> deformed(const PairMotion& p, bool of_J) {
+  const NodeShapes* shapes = of_J ? p.shapes_J : p.shapes_I;
+  if (!shapes) return std::nullopt;
+  const BodyId body = of_J ? p.body_J : p.body_I;
+  return Deformed{*shapes, body, NodeVariations(*p.motion, body, *shapes)};
 }
 
-void add_to_modal_residuals(const PairMotion& p, bool of_J, const Load& load, Equations& eq) {
-  for_each_modal_row(p, of_J, eq.layout(),
-                     [&](std::int32_t row, std::size_t, const Vector& moves, const Vector& turns) {
-                       eq.add_residual(row, -(dot(moves, load.force) + dot(turns, load.torque)));
-                     });
+void add_to_modal_residuals(const Deformed& of, const Load& load, Equations& eq) {
+  const ModalWork work = of.variations.work(load.force, load.torque);
+  const std::int32_t first = eq.layout().body_coordinate_count + static_cast<std::int32_t>(of.shapes.first);
+  for (std::size_t k = 0; k < of.shapes.translation.size(); ++k)
+    eq.add_residual(first + static_cast<std::int32_t>(k), -work.of(of.shapes, k));
 }
 
 // Partials of these rows by the coordinates of a block that changes the load; column by column.
-void add_to_modal_rows(const PairMotion& p, bool of_J, PartialBy family, const PairBlock& by, const Matrix3& force,
+void add_to_modal_rows(const Deformed& of, PartialBy family, const PairBlock& by, const Matrix3& force,
                        const Matrix3& torque, Equations& eq) {
-  for_each_modal_row(p, of_J, eq.layout(),
-                     [&](std::int32_t row, std::size_t, const Vector& moves, const Vector& turns) {
-                       for (std::size_t c = 0; c < by.count; ++c)
-                         eq.add(family, row, by.column + static_cast<std::int32_t>(c),
-                                -(dot(moves, force[c]) + dot(turns, torque[c])));
-                     });
+  for (std::size_t c = 0; c < by.count; ++c)
+    add_modal_rows(family, by.column + static_cast<std::int32_t>(c), of.shapes, of.variations.work(force[c], torque[c]),
+                   -1, eq);
 }
 
-// How the rows themselves change under the load with the coordinates that move their marker.
-void add_change_of_modal_rows(const PairMotion& p, const PairBlock& by, const Load& load, Equations& eq) {
+// How the rows themselves change under the load with the coordinates that move their marker; `change` is that of its
+// work with the modal ones.
+void add_change_of_modal_rows(const Deformed& of, const PairBlock& by, const Load& load, const Matrix3& change,
+                              Equations& eq) {
   if (by.kind == PairBlock::Kind::translation) return;
-  const NodeShapes* shapes = by.of_J ? p.shapes_J : p.shapes_I;
-  for_each_modal_row(
-      p, by.of_J, eq.layout(), [&](std::int32_t row, std::size_t k, const Vector& moves, const Vector& turns) {
-        for (std::size_t c = 0; c < by.count; ++c) {
-          ModalChange change;
-          if (by.kind == PairBlock::Kind::modal)
-            change = modal_change(*p.motion, by.of_J ? p.body_J : p.body_I, *shapes, k, by.first_shape + c);
-          else
-            change = {cross(unit_vectors[c], moves), cross(unit_vectors[c], turns)};
-          eq.add(PartialBy::position, row, by.column + static_cast<std::int32_t>(c),
-                 -(dot(change.moves, load.force) + dot(change.turns, load.torque)));
-        }
-      });
+  for (std::size_t c = 0; c < by.count; ++c) {
+    // Variations turn with the body: (e × δp)·F = δp·(F × e).
+    const ModalWork work =
+        by.kind == PairBlock::Kind::modal
+            ? ModalWork{{}, change * of.shapes.rotation[by.first_shape + c]}
+            : of.variations.work(cross(load.force, unit_vectors[c]), cross(load.torque, unit_vectors[c]));
+    add_modal_rows(PartialBy::position, by.column + static_cast<std::int32_t>(c), of.shapes, work, -1, eq);
+  }
 }
 
 }  // namespace
@@ -181,8 +180,10 @@ void add_change_of_modal_rows(const PairMotion& p, const PairBlock& by, const Lo
 void apply(const PairMotion& p, const PairForce& f, Equations& eq, PartialBy velocity_family) {
   eq.apply(p.body_I, f.force, cross(value(p.arm_I), f.force) + f.torque);
   if (f.acts_on_J()) eq.apply(p.body_J, -f.force, -(cross(value(p.arm), f.force) + f.torque));
-  if (p.shapes_I) add_to_modal_residuals(p, false, {f.force, f.torque}, eq);
-  if (p.shapes_J && f.acts_on_J()) add_to_modal_residuals(p, true, on_J(p, f.force, f.torque), eq);
+  if (const auto I = deformed(p, false)) add_to_modal_residuals(*I, {f.force, f.torque}, eq);
+  if (f.acts_on_J()) {
+    if (const auto J = deformed(p, true)) add_to_modal_residuals(*J, on_J(p, f.force, f.torque), eq);
+  }
   if (eq.wants_partials()) apply_partials(p, f, eq, velocity_family);
 }
 
@@ -190,6 +191,12 @@ void apply_partials(const PairMotion& p, const PairForce& f, Equations& eq, Part
   const Matrix3 to_I = skew(value(p.arm_I)), to_J = skew(value(p.arm)), of_force = skew(f.force);
   const Matrix3 from_J = skew(value(p.arm) - value(p.arm_J));
   const bool by_rate = eq.wants(velocity_family);
+  const std::optional<Deformed> I = deformed(p, false), J = f.acts_on_J() ? deformed(p, true) : std::nullopt;
+  const Load load_I{f.force, f.torque}, load_J = on_J(p, f.force, f.torque);
+  const auto change_of = [&](const std::optional<Deformed>& side, const Load& load) {
+    return side ? change_of_work(*p.motion, side->body, side->shapes, load.force, load.torque) : Matrix3{};
+  };
+  const Matrix3 change_I = change_of(I, load_I), change_J = change_of(J, load_J);
   for_each_block(p, eq.layout(), [&](const PairBlock& b) {
     const BlockPartials on = partials_by(b, f);
     const bool translation = b.kind == PairBlock::Kind::translation;
@@ -201,21 +208,21 @@ void apply_partials(const PairMotion& p, const PairForce& f, Equations& eq, Part
     if (f.acts_on_J())
       eq.add_block(PartialBy::position, p.body_J, b.column, -on.force, -(to_J * on.force + on.torque + arm_J), -1.0,
                    b.count);
-    if (p.shapes_I) {
-      add_to_modal_rows(p, false, PartialBy::position, b, on.force, on.torque, eq);
-      if (!b.of_J) add_change_of_modal_rows(p, b, {f.force, f.torque}, eq);
+    if (I) {
+      add_to_modal_rows(*I, PartialBy::position, b, on.force, on.torque, eq);
+      if (!b.of_J) add_change_of_modal_rows(*I, b, load_I, change_I, eq);
     }
-    if (p.shapes_J && f.acts_on_J()) {
-      add_to_modal_rows(p, true, PartialBy::position, b, -on.force,
+    if (J) {
+      add_to_modal_rows(*J, PartialBy::position, b, -on.force,
                         -(from_J * on.force + on.torque + (b.of_J ? -moved : moved)), eq);
-      if (b.of_J) add_change_of_modal_rows(p, b, on_J(p, f.force, f.torque), eq);
+      if (b.of_J) add_change_of_modal_rows(*J, b, load_J, change_J, eq);
     }
     if (!by_rate) return;
     const Matrix3 &Fv = on.force_by_rate, &Tv = on.torque_by_rate;
     eq.add_block(velocity_family, p.body_I, b.column, Fv, to_I * Fv + Tv, -1.0, b.count);
     if (f.acts_on_J()) eq.add_block(velocity_family, p.body_J, b.column, -Fv, -(to_J * Fv + Tv), -1.0, b.count);
-    if (p.shapes_I) add_to_modal_rows(p, false, velocity_family, b, Fv, Tv, eq);
-    if (p.shapes_J && f.acts_on_J()) add_to_modal_rows(p, true, velocity_family, b, -Fv, -(from_J * Fv + Tv), eq);
+    if (I) add_to_modal_rows(*I, velocity_family, b, Fv, Tv, eq);
+    if (J) add_to_modal_rows(*J, velocity_family, b, -Fv, -(from_J * Fv + Tv), eq);
   });
 }
 
@@ -227,11 +234,10 @@ void apply_column(const PairMotion& p, const Vector& force, const Vector& torque
   }
   for (const bool of_J : {false, true}) {
     if (of_J && !acts_on_J) continue;
+    const auto side = deformed(p, of_J);
+    if (!side) continue;
     const Load load = of_J ? on_J(p, force, torque) : Load{force, torque};
-    for_each_modal_row(p, of_J, eq.layout(),
-                       [&](std::int32_t row, std::size_t, const Vector& moves, const Vector& turns) {
-                         eq.add(family, row, column, -(dot(moves, load.force) + dot(turns, load.torque)));
-                       });
+    add_modal_rows(family, column, side->shapes, side->variations.work(load.force, load.torque), -1, eq);
   }
 }
 
@@ -271,11 +277,13 @@ void add_partials(std::int32_t row, const PairMotion& p, const Vector& on_d, con
   add(p.body_I, f, t + cross(value(p.arm_I), f));
   add(p.body_J, -f, -(t + cross(value(p.arm), f)));
   for (const bool of_J : {false, true}) {
+    const auto side = deformed(p, of_J);
+    if (!side) continue;
     const Load gradient = of_J ? on_J(p, f, t) : Load{f, t};
-    for_each_modal_row(p, of_J, eq.layout(),
-                       [&](std::int32_t column, std::size_t, const Vector& moves, const Vector& turns) {
-                         eq.add(family, row, column, dot(moves, gradient.force) + dot(turns, gradient.torque));
-                       });
+    const ModalWork work = side->variations.work(gradient.force, gradient.torque);
+    const std::int32_t first = eq.layout().body_coordinate_count + static_cast<std::int32_t>(side->shapes.first);
+    for (std::size_t k = 0; k < side->shapes.translation.size(); ++k)
+      eq.add(family, row, first + static_cast<std::int32_t>(k), work.of(side->shapes, k));
   }
 }
 
@@ -285,13 +293,13 @@ void add_gradient(std::int32_t row, const PairMotion& p, const Vec3<Taylor>& on_
   rows.add_pose(row, p.body_I, f, t + cross(p.arm_I, f));
   rows.add_pose(row, p.body_J, -f, -(t + cross(p.arm, f)));
   for (const bool of_J : {false, true}) {
-    const NodeShapes* shapes = of_J ? p.shapes_J : p.shapes_I;
-    if (!shapes) continue;
+    const auto side = deformed(p, of_J);
+    if (!side) continue;
     const Vec3<Taylor> turning = of_J ? -(t + cross(p.arm - p.arm_J, f)) : t;
-    for (std::size_t k = 0; k < shapes->translation.size(); ++k) {
-      const ModalVariation v = modal_variation(*p.motion, of_J ? p.body_J : p.body_I, *shapes, k);
+    for (std::size_t k = 0; k < side->shapes.translation.size(); ++k) {
+      const NodeVariations::One v = side->variations.by(k);
       const Taylor moving = dot(v.moves, f);
-      rows.add_coordinate(row, rows.layout().body_coordinate_count + static_cast<std::int32_t>(shapes->first + k),
+      rows.add_coordinate(row, rows.layout().body_coordinate_count + static_cast<std::int32_t>(side->shapes.first + k),
                           (of_J ? -moving : moving) + dot(v.turns, turning));
     }
   }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "mechanics/deformation.h"
+#include "mechanics/node_variations.h"
 #include "mechanics/pair.h"
 
 namespace dynalin {
@@ -32,6 +32,7 @@ template <class Visit>
 void for_each_modal_block(const Motion& motion, BodyId body, const NodeShapes* shapes, const Layout& layout,
                           Visit&& visit) {
   if (!shapes) return;
+  const NodeVariations variations(motion, body, *shapes);
   const std::size_t count = shapes->translation.size();
   for (std::size_t first = 0; first < count; first += 3) {
     PairBlock b;
@@ -40,7 +41,7 @@ void for_each_modal_block(const Motion& motion, BodyId body, const NodeShapes* s
     b.count = std::min<std::size_t>(3, count - first);
     b.first_shape = first;
     for (std::size_t k = 0; k < b.count; ++k) {
-      const ModalVariation v = modal_variation(motion, body, *shapes, first + k);
+      const NodeVariations::One v = variations.by(first + k);
       b.moves[k] = value(v.moves), b.moves_rate[k] = rate(v.moves);
       b.turns[k] = value(v.turns), b.turns_rate[k] = rate(v.turns);
     }
