@@ -143,11 +143,7 @@ std::optional<OperatingPoint> nearby(const System& system, const OperatingPoint&
   return std::move(*assembled);
 }
 
-// Rows that depend on others to this part of their size, and the largest part that was left of any.
-struct RedundantRows {
-  std::vector<std::int32_t> rows;
-  double left = 0;
-};
+// Rows that depend on others to this part of their size.
 RedundantRows redundant_rows(const System& system, const OperatingPoint& op, double tolerance) {
   ConstraintRows rows;
   rows.resize(system.layout());
@@ -171,12 +167,12 @@ RedundantRows redundant_rows(const System& system, const OperatingPoint& op, dou
 
 }  // namespace
 
-NearDependence near_dependence(const System& system, const OperatingPoint& op) {
+NearDependence near_dependence(const System& system, const OperatingPoint& op, const StateChoice& choice) {
   // Poses are rounded: what depends on others to within that does so for all anybody can tell.
   constexpr double rounding = 1e-13;
   NearDependence near;
   double tolerance = EliminationOptions{}.rank_tolerance;
-  const RedundantRows dropped = redundant_rows(system, op, tolerance);
+  const RedundantRows dropped = choice.redundant ? *choice.redundant : redundant_rows(system, op, tolerance);
   near.left_out = dropped.rows;
   // With the smaller tolerance the same rows would go at the same time.
   if (dropped.left <= rounding) return near;

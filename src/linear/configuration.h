@@ -30,13 +30,13 @@ struct FreedomsGained {
 };
 std::optional<FreedomsGained> freedoms_gained(const System&, const OperatingPoint&, const LinearSystem&);
 // Constraint rows left out as redundant that depend on the others, and not only by rounding, up to a part of their own
-// size: a power of ten that they are at most away from it, zero where there are none.
+// size: a power of ten that they are at most away from it, zero where there are none. The choice is that of the point.
 struct NearDependence {
   double distance = 0;
   std::vector<std::int32_t> rows;
   std::vector<std::int32_t> left_out;  // all that are redundant, by rounding or not
 };
-NearDependence near_dependence(const System&, const OperatingPoint&);
+NearDependence near_dependence(const System&, const OperatingPoint&, const StateChoice&);
 // Constraint rows that no motion changes to first order, neither here nor where the point moves to: they hold nothing.
 std::vector<std::int32_t> rows_that_hold_nothing(const System&, const OperatingPoint&);
 

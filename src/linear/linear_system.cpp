@@ -168,7 +168,7 @@ bool same_model(const LinearSystem& one, const LinearSystem& other) {
 // beside this point, a warning elsewhere.
 Result<void> look_at_near_dependence(const System& system, OperatingPoint op, LinearSystem& linear) {
   op.mode = AnalysisMode::linear;
-  const NearDependence near = near_dependence(system, op);
+  const NearDependence near = near_dependence(system, op, linear.at->choice);
   linear.left_out = near.left_out;
   if (!(near.distance > 0)) return {};
   if (const auto gained = freedoms_gained(system, op, linear)) {

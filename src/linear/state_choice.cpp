@@ -81,10 +81,20 @@ class Chooser {
     for (std::int32_t k = 0; k < rows_.size(); ++k) {
       choice_.active.push_back(e.pivot_column[static_cast<std::size_t>(k)] >= 0);
     }
+    if (next == n_) note_redundant(e.largest_dropped);
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const bool dependent = e.dependent[static_cast<std::size_t>(columns[k])];
       const bool unused = all[k].row >= 0 && is_constant(all[k]);
       if (!dependent && !unused) take(all[k]);
+    }
+  }
+
+  // As `near_dependence` wants to know it, which would find the same.
+  void note_redundant(double left) {
+    choice_.redundant.emplace().left = left;
+    for (std::int32_t k = 0; k < rows_.size(); ++k) {
+      if (rows_.level(k) == RowLevel::position && !choice_.active[static_cast<std::size_t>(k)])
+        choice_.redundant->rows.push_back(k);
     }
   }
 

@@ -5,10 +5,18 @@
 // mass (massless_states.h), which may take positions as well.
 #pragma once
 
+#include <optional>
+
 #include "linear/candidates.h"
 #include "system/sparse_lu.h"
 
 namespace dynalin {
+
+// Rows on positions that depend on others to rounding or nearly so, and the largest part of their size that was left.
+struct RedundantRows {
+  std::vector<std::int32_t> rows;
+  double left = 0;
+};
 
 struct StateChoice {
   using Entry = ConstraintRows::Entry;        // of the gradient of a chosen coordinate
@@ -17,6 +25,7 @@ struct StateChoice {
   std::vector<bool> has_position;             // whether x is a state; without mass its forces may determine it
   std::vector<bool> has_rate;                 // whether x′ is a state as well
   std::vector<bool> active, velocity_active;  // rows that hold positions, and rates
+  std::optional<RedundantRows> redundant;     // where the default coordinates were those to choose from
   // Places in the list of states.
   std::vector<std::int32_t> position_state, rate_state;  // of chosen coordinates; −1 for what is no state
   std::vector<std::int32_t> differential;                // differential state k of the list is state differential[k]

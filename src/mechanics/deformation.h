@@ -57,16 +57,4 @@ Deformation<T> deformation(const NodeShapes& shapes, Q&& q) {
   return {moved + turned * o - Vec3<T>{T(o.x), T(o.y), T(o.z)}, turned};
 }
 
-// How a marker follows one modal coordinate: δp = moves δq, δφ = turns δq, global axes, along the motion.
-struct ModalVariation {
-  Vec3<Taylor> moves, turns;
-};
-ModalVariation modal_variation(const Motion&, BodyId, const NodeShapes&, std::size_t k);
-// How that variation changes with another modal coordinate of the body; what it changes with the body's rotation is
-// that it turns with it.
-struct ModalChange {
-  Vector moves, turns;
-};
-ModalChange modal_change(const Motion&, BodyId, const NodeShapes&, std::size_t k, std::size_t by);
-
 }  // namespace dynalin
