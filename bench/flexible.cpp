@@ -1,7 +1,7 @@
 // What flexible bodies cost: processor time and memory, by their modes.
 //
-//     flexible vehicle 200 50      a body of 200 modes, 400 mass points, on 50 bushings: read, at rest, linear model,
-//     modes flexible rod 20 2            a slider-crank at 100 rad/s whose rod has 20 modes, for two turns of the crank
+//     flexible vehicle 200 50      a body of 200 modes on 50 bushings: read, at rest, linear model, modes
+//     flexible rod 20 2            a slider-crank at 100 rad/s whose rod has 20 modes, for two turns of the crank
 #include <dynalin/study.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,7 @@ Body box(const Eigen::Vector3d& size, const Eigen::Vector3i& points, int modes, 
     for (int k = 0; k < 3; ++k) b.places(k, p) = size(k) * part(p, k);
   }
   for (int waves = 2; static_cast<int>(b.shapes.size()) < modes; ++waves) {
+    if (waves > points.sum()) throw std::invalid_argument("the points of this body have no more modes");
     for (int i = 0; i <= waves && i < points(0); ++i) {
       for (int j = 0; i + j <= waves && j < points(1); ++j) {
         const int k = waves - i - j;
@@ -172,7 +174,8 @@ int main(int argc, char** argv) {
     which == "vehicle" ? vehicle(std::atoi(argv[2]), std::atoi(argv[3]), file)
                        : rod(std::atoi(argv[2]), std::atof(argv[3]), file);
   } catch (const std::exception& e) {
-    fmt::print(stderr, "{}\n", e.what());
+    std::filesystem::remove(file);
+    return fmt::print(stderr, "{}\n", e.what()), 1;
   }
   std::filesystem::remove(file);
   return 0;

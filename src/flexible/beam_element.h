@@ -39,6 +39,10 @@ struct BeamMotion {
 // Coordinates: r₁, θ₁, r₂, θ₂, the slopes of both, φ.
 inline constexpr std::size_t beam_coordinates = 21;
 using BeamVector = Eigen::Matrix<double, beam_coordinates, 1>;
+// θ₁, θ₂ or φ.
+constexpr bool is_beam_rotation(std::size_t coordinate) {
+  return (coordinate >= 3 && coordinate < 6) || (coordinate >= 9 && coordinate < 12) || coordinate >= 18;
+}
 using BeamMatrix = Eigen::Matrix<double, beam_coordinates, beam_coordinates>;
 
 struct BeamForces {

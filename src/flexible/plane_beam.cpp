@@ -153,8 +153,7 @@ void PlaneBeam::forces(const BeamMotion& m, const Vector& gravity, bool with_par
 double PlaneBeam::largest_turn(const BeamMotion& m) const { return 2 * angles(directions(m)).cwiseAbs().maxCoeff(); }
 
 bool PlaneBeam::turns_sections(std::size_t coordinate) const {
-  const bool spin = (coordinate >= 3 && coordinate < 6) || (coordinate >= 9 && coordinate < 12);
-  return coordinate < coordinates() && !spin && coordinate % 3 != plane_.normal;
+  return !is_beam_rotation(coordinate) && coordinate % 3 != plane_.normal;
 }
 
 BeamElement::Spins PlaneBeam::spins(const BeamMotion& m) const {

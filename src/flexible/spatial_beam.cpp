@@ -323,9 +323,7 @@ double SpatialBeam::largest_turn(const BeamMotion& m) const {
   return std::max(norm(apart), 2 * norm(values(m.middle)));
 }
 
-bool SpatialBeam::turns_sections(std::size_t coordinate) const {
-  return (coordinate >= 3 && coordinate < 6) || (coordinate >= 9 && coordinate < 12) || coordinate >= 18;
-}
+bool SpatialBeam::turns_sections(std::size_t coordinate) const { return is_beam_rotation(coordinate); }
 
 BeamElement::Spins SpatialBeam::spins(const BeamMotion& m) const {
   Spins out{};

@@ -35,9 +35,10 @@ std::size_t count_of([[maybe_unused]] const A& a, [[maybe_unused]] const B& b, b
   } else if constexpr (std::is_same_v<A, Profile> || std::is_same_v<A, Plane>) {
     return 0;
   } else if constexpr (std::is_same_v<B, Plane>) {
-    if constexpr (std::is_same_v<A, Frustum>) return 2;
-    if constexpr (std::is_same_v<A, Box>) return 8;
-    return 1;
+    if constexpr (std::is_same_v<A, Ellipsoid>)
+      return 1;
+    else
+      return outermost(a);
   } else {
     if (B_reversed) return count_in_cavity(a, b);
     if constexpr (std::is_same_v<A, Box> && std::is_same_v<B, Box>) return box_touches;
@@ -55,23 +56,7 @@ std::size_t direct_count(const Side& A, const Side& B) {
   return std::visit([&](const auto& a, const auto& b) { return count_of(a, b, B.reversed); }, A.shape, B.shape);
 }
 
-// --- a ball or a torus and anything
-
-template <class T>
-double inside(const Plane& p, const Vec3<T>& at) {
-  const double x = value_of(at.x), y = value_of(at.y);
-  return std::min({x - p.xmin, p.xmax - x, y - p.ymin, p.ymax - y});
-}
-
-template <class T>
-void touch_ball(double radius, const Vec3<T>& c, const Plane& plane, bool reversed, std::span<Touch<T>> out) {
-  out[0] = touch_of_ball(radius, c, {c.z, {T(0.0), T(0.0), T(1.0)}}, reversed);
-  out[0].inside = inside(plane, c);
-}
-template <class T, class B>
-void touch_ball(double radius, const Vec3<T>& c, const B& b, bool, std::span<Touch<T>> out) {
-  out[0] = touch_of_ball(radius, c, distance(b, c), false);
-}
+// --- a torus and anything
 
 // A torus is what is about its circle.
 template <class T, class B>
@@ -82,6 +67,12 @@ void touch_torus(const Torus& t, const RelativeFrame<T>& I, const B& b, std::spa
 }
 
 // --- what reaches deepest through a plane
+
+template <class T>
+double inside(const Plane& p, const Vec3<T>& at) {
+  const double x = value_of(at.x), y = value_of(at.y);
+  return std::min({x - p.xmin, p.xmax - x, y - p.ymin, p.ymax - y});
+}
 
 template <class T>
 Touch<T> touch_on_plane(const Vec3<T>& lowest, double up, const Plane& plane, bool defined = true) {
@@ -107,6 +98,11 @@ std::pair<Vec3<T>, bool> lowest_of_circle(const Vec3<T>& centre, const Vec3<T>& 
 }
 
 template <class T>
+void touch_plane(const Ball& b, const RelativeFrame<T>& I, const Plane& plane, double up, std::span<Touch<T>> out) {
+  out[0] = touch_of_ball(b.radius, I.p, {I.p.z, {T(0.0), T(0.0), T(1.0)}}, up < 0);
+  out[0].inside = inside(plane, I.p);
+}
+template <class T>
 void touch_plane(const Ellipsoid& e, const RelativeFrame<T>& I, const Plane& plane, double up,
                  std::span<Touch<T>> out) {
   const Vector& a = e.semi_axes;
@@ -130,11 +126,10 @@ void touch_plane(const Torus& t, const RelativeFrame<T>& I, const Plane& plane, 
 }
 template <class T>
 void touch_plane(const Box& b, const RelativeFrame<T>& I, const Plane& plane, double up, std::span<Touch<T>> out) {
-  for (std::size_t k = 0; k < 8; ++k) {
-    const Vec3<T> corner = I.p + I.x * (k & 1 ? b.high.x : b.low.x) + I.y * (k & 2 ? b.high.y : b.low.y) +
-                           I.z * (k & 4 ? b.high.z : b.low.z);
-    out[k] = touch_on_plane(corner, up, plane);
-  }
+  std::size_t next = 0;
+  for_each_outermost(
+      b, I, [&](const Vec3<T>& corner, double) { out[next++] = touch_on_plane(corner, up, plane); },
+      [](const Circle<T>&, double) {});
 }
 
 template <class T>
@@ -161,16 +156,13 @@ void direct(const Side& A, const Side& B, const RelativeFrame<T>& A_from_B, std:
         } else if constexpr (std::is_same_v<S, Profile> || std::is_same_v<S, Plane>) {
           return;
         } else if constexpr (std::is_same_v<U, Plane>) {
-          if constexpr (std::is_same_v<S, Ball>)
-            touch_ball(a.radius, A_from_B.p, b, B.reversed, out);
-          else
-            touch_plane(a, A_from_B, b, B.reversed ? -1.0 : 1.0, out);
+          touch_plane(a, A_from_B, b, B.reversed ? -1.0 : 1.0, out);
         } else {
           if (B.reversed) {
             if constexpr (!std::is_same_v<S, Ellipsoid> || std::is_same_v<U, Box> || std::is_same_v<U, Frustum>)
               touch_cavity(a, A_from_B, b, out);
           } else if constexpr (std::is_same_v<S, Ball>) {
-            touch_ball(a.radius, A_from_B.p, b, false, out);
+            out[0] = touch_of_ball(a.radius, A_from_B.p, distance(b, A_from_B.p), false);
           } else if constexpr (std::is_same_v<S, Torus>) {
             touch_torus(a, A_from_B, b, out);
           } else if constexpr (std::is_same_v<S, Ellipsoid> && std::is_same_v<U, Ellipsoid>) {

@@ -160,11 +160,23 @@ void add_to_modal_rows(const Deformed& of, PartialBy family, const PairBlock& by
                    -1, eq);
 }
 
-// How the rows themselves change under the load with the coordinates that move their marker; `change` is that of its
-// work with the modal ones.
-void add_change_of_modal_rows(const Deformed& of, const PairBlock& by, const Load& load, const Matrix3& change,
-                              Equations& eq) {
+// The same under the load of a force on I, and how the work of that changes with the modal coordinates.
+struct Loaded {
+  Deformed marker;
+  Load load;
+  Matrix3 change;
+};
+std::optional<Loaded> loaded(const PairMotion& p, bool of_J, const PairForce& f) {
+  const auto marker = deformed(p, of_J);
+  if (!marker) return std::nullopt;
+  const Load load = of_J ? on_J(p, f.force, f.torque) : Load{f.force, f.torque};
+  return Loaded{*marker, load, change_of_work(*p.motion, marker->body, marker->shapes, load.force, load.torque)};
+}
+
+// How the rows themselves change under the load with the coordinates that move their marker.
+void add_change_of_modal_rows(const Loaded& on, const PairBlock& by, Equations& eq) {
   if (by.kind == PairBlock::Kind::translation) return;
+  const auto& [of, load, change] = on;
   for (std::size_t c = 0; c < by.count; ++c) {
     // Variations turn with the body: (e × δp)·F = δp·(F × e).
     const ModalWork work =
@@ -191,12 +203,7 @@ void apply_partials(const PairMotion& p, const PairForce& f, Equations& eq, Part
   const Matrix3 to_I = skew(value(p.arm_I)), to_J = skew(value(p.arm)), of_force = skew(f.force);
   const Matrix3 from_J = skew(value(p.arm) - value(p.arm_J));
   const bool by_rate = eq.wants(velocity_family);
-  const std::optional<Deformed> I = deformed(p, false), J = f.acts_on_J() ? deformed(p, true) : std::nullopt;
-  const Load load_I{f.force, f.torque}, load_J = on_J(p, f.force, f.torque);
-  const auto change_of = [&](const std::optional<Deformed>& side, const Load& load) {
-    return side ? change_of_work(*p.motion, side->body, side->shapes, load.force, load.torque) : Matrix3{};
-  };
-  const Matrix3 change_I = change_of(I, load_I), change_J = change_of(J, load_J);
+  const std::optional<Loaded> I = loaded(p, false, f), J = f.acts_on_J() ? loaded(p, true, f) : std::nullopt;
   for_each_block(p, eq.layout(), [&](const PairBlock& b) {
     const BlockPartials on = partials_by(b, f);
     const bool translation = b.kind == PairBlock::Kind::translation;
@@ -209,20 +216,20 @@ void apply_partials(const PairMotion& p, const PairForce& f, Equations& eq, Part
       eq.add_block(PartialBy::position, p.body_J, b.column, -on.force, -(to_J * on.force + on.torque + arm_J), -1.0,
                    b.count);
     if (I) {
-      add_to_modal_rows(*I, PartialBy::position, b, on.force, on.torque, eq);
-      if (!b.of_J) add_change_of_modal_rows(*I, b, load_I, change_I, eq);
+      add_to_modal_rows(I->marker, PartialBy::position, b, on.force, on.torque, eq);
+      if (!b.of_J) add_change_of_modal_rows(*I, b, eq);
     }
     if (J) {
-      add_to_modal_rows(*J, PartialBy::position, b, -on.force,
+      add_to_modal_rows(J->marker, PartialBy::position, b, -on.force,
                         -(from_J * on.force + on.torque + (b.of_J ? -moved : moved)), eq);
-      if (b.of_J) add_change_of_modal_rows(*J, b, load_J, change_J, eq);
+      if (b.of_J) add_change_of_modal_rows(*J, b, eq);
     }
     if (!by_rate) return;
     const Matrix3 &Fv = on.force_by_rate, &Tv = on.torque_by_rate;
     eq.add_block(velocity_family, p.body_I, b.column, Fv, to_I * Fv + Tv, -1.0, b.count);
     if (f.acts_on_J()) eq.add_block(velocity_family, p.body_J, b.column, -Fv, -(to_J * Fv + Tv), -1.0, b.count);
-    if (I) add_to_modal_rows(*I, velocity_family, b, Fv, Tv, eq);
-    if (J) add_to_modal_rows(*J, velocity_family, b, -Fv, -(from_J * Fv + Tv), eq);
+    if (I) add_to_modal_rows(I->marker, velocity_family, b, Fv, Tv, eq);
+    if (J) add_to_modal_rows(J->marker, velocity_family, b, -Fv, -(from_J * Fv + Tv), eq);
   });
 }
 

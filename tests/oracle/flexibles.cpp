@@ -102,12 +102,6 @@ Axes axes_of(int component) {
   const auto k = static_cast<std::size_t>(component - 3);
   return {k, (k + 1) % 3};
 }
-Vec unit(int k) {
-  Vec e;
-  set_component(e, k, 1);
-  return e;
-}
-
 }  // namespace
 
 std::array<Real, 3> Model::shape_row(const Row& row) const {

@@ -107,6 +107,10 @@ class Draw {
   void check_regimes(const Touch& touch) const;
   void draw_beams();
   void draw_beam();
+  struct SectionDraw {
+    double flatness, skewed, lightest, heaviest;  // IZZ by IYY, how often there is an IYZ, mass by length
+  };
+  void draw_sections(Beam& b, std::size_t n, const SectionDraw& d);
   void add_bodies_of(const Beam& beam);
   void join_beam(const Beam& beam);
   void draw_plane_beam();

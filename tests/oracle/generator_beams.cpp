@@ -25,22 +25,26 @@ void Draw::draw_beam() {
     b.places.push_back(to_triple(at));
     b.angles.push_back({heading, arc != 0 ? uniform(-0.3, 0.3) : 0, chance(0.5) ? uniform(-0.3, 0.3) : 0});
   }
+  draw_sections(b, n, {.flatness = 0.6, .skewed = 0.5, .lightest = 0.5, .heaviest = 1.5});
+  m_.beams.push_back(b);
+  add_bodies_of(b);
+  join_beam(b);
+}
+
+void Draw::draw_sections(Beam& b, std::size_t n, const SectionDraw& d) {
   const double area = L_ * L_ * uniform(0.03, 0.1), radius2 = L_ * L_ * uniform(0.03, 0.06);
   const bool tapered = chance(0.5);
   for (std::size_t k = 0; k < n; ++k) {
     const auto size = [&] { return tapered ? uniform(0.7, 1.4) : 1.0; };
     b.area.push_back(area * size());
-    b.yy.push_back(area * radius2 * size()), b.zz.push_back(0.6 * area * radius2 * size());
-    b.yz.push_back(area * radius2 * (chance(0.5) ? uniform(-0.2, 0.2) : 0));
+    b.yy.push_back(area * radius2 * size()), b.zz.push_back(d.flatness * area * radius2 * size());
+    b.yz.push_back(area * radius2 * (chance(d.skewed) ? uniform(-0.2, 0.2) : 0));
     b.torsion.push_back(area * radius2 * 1.2 * size());
     b.shear_y.push_back(1.2 * size()), b.shear_z.push_back(1.3 * size());
   }
   b.youngs_modulus = F_ / (L_ * L_) * uniform(50, 150), b.poissons_ratio = uniform(0, 0.4);
-  b.density = uniform(0.5, 1.5) / (area * L_);
+  b.density = uniform(d.lightest, d.heaviest) / (area * L_);
   b.damping = chance(0.6) ? uniform(0, 0.03) : 0;
-  m_.beams.push_back(b);
-  add_bodies_of(b);
-  join_beam(b);
 }
 
 // Where the dataset has them.

@@ -11,11 +11,6 @@ namespace dynalin::oracle {
 
 namespace {
 
-Vec unit(int axis) {
-  Vec e;
-  set_component(e, axis, 1);
-  return e;
-}
 // Columns along a, b and the normal.
 Mat axes_of_plane(BeamPlane plane) {
   const PlaneAxes axes = axes_of(plane);
@@ -55,19 +50,7 @@ void Draw::draw_plane_beam() {
     const Mat section = plane * rotation_z(heading) * rotation_x(roll + static_cast<double>(k) * twist);
     b.angles.push_back(angles_313(transpose(bcs) * section));
   }
-  const double area = L_ * L_ * uniform(0.03, 0.1), radius2 = L_ * L_ * uniform(0.03, 0.06);
-  const bool tapered = chance(0.5);
-  for (std::size_t k = 0; k < n; ++k) {
-    const auto size = [&] { return tapered ? uniform(0.7, 1.4) : 1.0; };
-    b.area.push_back(area * size());
-    b.yy.push_back(area * radius2 * size()), b.zz.push_back(0.5 * area * radius2 * size());
-    b.yz.push_back(area * radius2 * (chance(0.7) ? uniform(-0.2, 0.2) : 0));
-    b.torsion.push_back(area * radius2 * 1.2 * size());
-    b.shear_y.push_back(1.2 * size()), b.shear_z.push_back(1.3 * size());
-  }
-  b.youngs_modulus = F_ / (L_ * L_) * uniform(50, 150), b.poissons_ratio = uniform(0, 0.4);
-  b.density = uniform(1, 3) / (area * L_);
-  b.damping = chance(0.6) ? uniform(0, 0.03) : 0;
+  draw_sections(b, n, {.flatness = 0.5, .skewed = 0.7, .lightest = 1, .heaviest = 3});
   m_.beams.push_back(b);
   join_plane_beam(b);
 }

@@ -9,12 +9,6 @@ namespace dynalin::oracle {
 
 namespace {
 
-Vec unit(int axis) {
-  Vec e;
-  set_component(e, axis, 1);
-  return e;
-}
-
 PlanePose<Real> still(const PlanePose<Jet>& p) {
   const auto values = [](const Vector3<Jet>& v) { return Vec{v.x.v, v.y.v, v.z.v}; };
   return {{values(p.r[0]), values(p.r[1])}, {values(p.s[0]), values(p.s[1])}};

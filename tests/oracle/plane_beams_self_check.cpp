@@ -45,7 +45,7 @@ const Pose bent{Complex{0.35L, -0.2L}, Complex{1.05L, 0.1L}, Complex{0.9L, 0.4L}
 const Pose speed{Complex{0.3L, -1.2L}, Complex{0.5L, -0.8L}, Complex{-0.9L, 0.4L}, Complex{1.1L, 0.7L}};
 constexpr double roll = 0.6;
 
-// All of an element as the specification says it, from the dataset's numbers.
+// All of an element as its definition says it, from the dataset's numbers.
 struct ByHand {
   Real length = 0;
   std::array<Real, 2> moment{};

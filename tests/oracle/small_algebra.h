@@ -60,6 +60,12 @@ template <class T>
   return k == 0 ? a.x : (k == 1 ? a.y : a.z);
 }
 inline void set_component(Vec& a, int k, Real value) { (k == 0 ? a.x : (k == 1 ? a.y : a.z)) = value; }
+[[nodiscard]] inline Vec normalized(const Vec& v) { return (1 / norm(v)) * v; }
+[[nodiscard]] inline Vec unit(int axis) {
+  Vec e;
+  set_component(e, axis, 1);
+  return e;
+}
 
 // A 3 x 3 matrix by columns: the columns of a rotation are the axes of the rotated frame.
 struct Mat {

@@ -10,8 +10,6 @@ namespace dynalin::oracle {
 
 namespace {
 
-Vec unit(const Vec& v) { return (1 / norm(v)) * v; }
-
 // The directions of an ellipsoid and another solid. With less of it by some thickness everywhere, no more than its
 // least radius of curvature, an ellipsoid is convex still and no longer overlaps; then the largest separation is
 // the distance of both, which has one minimum and a direction without doubt: from the nearest point of the other one.
@@ -21,7 +19,7 @@ struct Thinned {
   DistanceOf other;
   Real thickness;
 
-  [[nodiscard]] Vec nearest(const Vec& n) const { return support(ellipsoid, pose, -n) + thickness * unit(n); }
+  [[nodiscard]] Vec nearest(const Vec& n) const { return support(ellipsoid, pose, -n) + thickness * normalized(n); }
   [[nodiscard]] Real distance(const Vec& n) const { return other(nearest(n)).value; }
   // n less the direction that its own nearest point has from the other solid.
   [[nodiscard]] Vec error(const Vec& n) const { return n - other(nearest(n)).gradient; }
@@ -44,11 +42,11 @@ struct Thinned {
     }
     for (Real size = 0.1L; size > 1e-5L;) {
       const Vec aside = std::fabs(best.x) < 0.6L ? Vec{1, 0, 0} : Vec{0, 1, 0};
-      const Vec e = unit(cross(best, aside)), f = cross(best, e), centre = best;
+      const Vec e = normalized(cross(best, aside)), f = cross(best, e), centre = best;
       bool better = false;
       for (int k = 0; k < 8; ++k) {
         const Real angle = k * std::numbers::pi_v<Real> / 4;
-        better = offer(unit(centre + size * (std::cos(angle) * e + std::sin(angle) * f))) || better;
+        better = offer(normalized(centre + size * (std::cos(angle) * e + std::sin(angle) * f))) || better;
       }
       if (!better) size /= 2;
     }

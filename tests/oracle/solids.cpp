@@ -10,9 +10,7 @@ namespace dynalin::oracle {
 
 namespace {
 
-Vec unit(const Vec& v) { return (1 / norm(v)) * v; }
 Real sign(Real x) { return x < 0 ? -1 : 1; }
-Vec axis(int k) { return {k == 0 ? 1.0L : 0.0L, k == 1 ? 1.0L : 0.0L, k == 2 ? 1.0L : 0.0L}; }
 
 // The foot y with x = y + t N y, where y is on the surface y.N y = 1, of N = diag(1/a^2). Of those t the nearest foot
 // has the largest. From below the root the sum of squares falls and is convex: Newton comes up to it.
@@ -40,7 +38,7 @@ Distance from_ellipsoid(const Triple& scales, const Vec& x) {
     set_component(foot, k, half * half * n);
     set_component(normal, k, n);
   }
-  normal = unit(normal);
+  normal = normalized(normal);
   return {dot(x - foot, normal), normal};
 }
 
@@ -54,8 +52,8 @@ Distance from_box(const Triple& extents, const Vec& x) {
     if (d > 0) set_component(outside, k, sign(m) * d);
     if (d > component(beyond, nearest)) nearest = k;
   }
-  if (norm(outside) > 0) return {norm(outside), unit(outside)};
-  return {component(beyond, nearest), sign(component(middle, nearest)) * axis(nearest)};
+  if (norm(outside) > 0) return {norm(outside), normalized(outside)};
+  return {component(beyond, nearest), sign(component(middle, nearest)) * unit(nearest)};
 }
 
 // In the half-plane through its axis, r outwards and z from the bottom towards the top: bottom, mantle, top.
@@ -85,9 +83,9 @@ struct HalfPlane {
   Real up = 1;
   Profile::Point x;
   HalfPlane(const Triple& size, const Vec& p) : up(size[0] < 0 ? -1 : 1), x{std::hypot(p.x, p.y), up * p.z} {
-    outwards = x.r > 0 ? Vec{p.x / x.r, p.y / x.r, 0} : axis(0);
+    outwards = x.r > 0 ? Vec{p.x / x.r, p.y / x.r, 0} : unit(0);
   }
-  [[nodiscard]] Vec turned(const Profile::Point& n) const { return n.r * outwards + (up * n.z) * axis(2); }
+  [[nodiscard]] Vec turned(const Profile::Point& n) const { return n.r * outwards + (up * n.z) * unit(2); }
 };
 
 Distance from_frustum(const Triple& size, const Vec& p) {
@@ -156,8 +154,8 @@ std::vector<DistanceOf> walls_of(const Solid& cavity, const MarkerPose& pose) {
     for (int k = 0; k < 3; ++k) {
       const Real extent = cavity.size[static_cast<std::size_t>(k)];
       for (const bool far : {false, true}) {
-        const Vec inwards = (sign(extent) * (far ? -1 : 1)) * (pose.R * axis(k));
-        const Vec on_wall = pose.at((far ? extent : 0) * axis(k));
+        const Vec inwards = (sign(extent) * (far ? -1 : 1)) * (pose.R * unit(k));
+        const Vec on_wall = pose.at((far ? extent : 0) * unit(k));
         walls.emplace_back([=](const Vec& x) { return Distance{dot(inwards, x - on_wall), inwards}; });
       }
     }
@@ -198,7 +196,7 @@ Vec support(const Solid& ellipsoid, const MarkerPose& pose, const Vec& along) {
   for (int k = 0; k < 3; ++k) {
     set_component(stretched, k, component(stretched, k) * ellipsoid.size[static_cast<std::size_t>(k)] / 2);
   }
-  stretched = unit(stretched);
+  stretched = normalized(stretched);
   for (int k = 0; k < 3; ++k) {
     set_component(stretched, k, component(stretched, k) * ellipsoid.size[static_cast<std::size_t>(k)] / 2);
   }

@@ -1,4 +1,4 @@
-// Beams of finite elements (FE_PART): nodes and elements out of the statements.
+// Beams of finite elements (FE_PART): nodes and elements out of the statements (fe_part_statement.h).
 #include "elements/bodies/fe_part.h"
 
 #include <fmt/format.h>

@@ -20,8 +20,8 @@ class PlaneBeamRows {
   void equations(const Motion&, Equations&) const;
 
  private:
-  static constexpr std::array<std::string_view, 5> row_names = {"out of plane", "tilt about the first axis",
-                                                                "tilt about the second axis", "slope out of plane",
+  static constexpr std::array<std::string_view, 5> row_names = {"out of plane", "tilt along the first axis",
+                                                                "tilt along the second axis", "slope out of plane",
                                                                 "direction of the slope"};
   struct Node {
     BodyId body;

@@ -195,8 +195,7 @@ class BeamLoadKernel final : public Kernel {
     bool forces, moments;
 
     bool contains(std::size_t coordinate) const {
-      const bool spin = (coordinate >= 3 && coordinate < 6) || (coordinate >= 9 && coordinate < 12) || coordinate >= 18;
-      return (forces && !spin) || (moments && element.turns_sections(coordinate));
+      return (forces && !is_beam_rotation(coordinate)) || (moments && element.turns_sections(coordinate));
     }
   };
   static void add_column(PartialBy family, std::int32_t column, const BeamVector& by, const Reach& reach,
