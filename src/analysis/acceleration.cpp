@@ -17,14 +17,14 @@ namespace dynalin {
 
 namespace {
 
-constexpr int iteration_limit = 100;
+constexpr int acceleration_iterations = 100;
 // Solutions with undefined equations held, after which a reason is named.
 constexpr int held_limit = 5;
 constexpr int halving_limit = 40;
 // Steps of which none is shorter than a part of all before them have met a rounding that no sum of terms shows, inside
 // an expression. A root of ninefold multiplicity still comes closer than that.
-constexpr int patience = 8;
-constexpr double progress = 0.4;
+constexpr int search_patience = 8;
+constexpr double search_progress = 0.4;
 // Of the largest unknown: next to nothing. What is zero but started as such has next to no terms either, and would go
 // on to vanish without end.
 constexpr double next_to_nothing = 1e-60;
@@ -110,14 +110,14 @@ class StepLength {
     last_ = now;
     if (now <= 1) return true;
     steps_.push_back(now);
-    const auto recent = static_cast<std::ptrdiff_t>(patience);
+    const auto recent = static_cast<std::ptrdiff_t>(search_patience);
     if (std::ssize(steps_) <= recent) return false;
     const double before = *std::min_element(steps_.begin(), steps_.end() - recent);
     const double since = *std::min_element(steps_.end() - recent, steps_.end());
     const Eigen::VectorXd most = (largest_hidden_rounding * size)
                                      .cwiseMax(hidden_units * allowed)
                                      .cwiseMax(hidden_remainder * size.lpNorm<Eigen::Infinity>());
-    if (since <= progress * before || longest(step, most) > 1) return false;
+    if (since <= search_progress * before || longest(step, most) > 1) return false;
     rounding = rounding.cwiseMax(step.cwiseAbs());
     return true;
   }
@@ -144,7 +144,7 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
   bool undefined = false;
   int held = 0, halved = 0;
   StepLength length;
-  for (int iteration = 0; iteration < iteration_limit; ++iteration) {
+  for (int iteration = 0; iteration < acceleration_iterations; ++iteration) {
     equations.release();
     if (auto looked = equations.look_at_massless(op); !looked) {
       const std::string reason = system.domain_violation(system.motion(op));

@@ -11,7 +11,7 @@ namespace dynalin {
 namespace {
 
 // Redundant rows are combinations of the others to 1e-9 of themselves, and so is what follows for their rates.
-constexpr double contradiction = 1e-8;
+constexpr double contradicting_acceleration = 1e-8;
 
 // The largest of the three components of a vector of a body that a coordinate belongs to, or its own size.
 double along_axes(const Layout& layout, const std::vector<double>& values, std::int32_t coordinate) {
@@ -38,7 +38,7 @@ std::string unknown_text(const System& system, const AccelerationEquations& equa
 std::vector<std::int32_t> contradicted_accelerations(const System& system, const AccelerationEquations& equations,
                                                      const OperatingPoint& op, const Eigen::VectorXd& rounding) {
   const ConstraintRows& rows = equations.rows();
-  const double tolerance = std::max(contradiction, 100 * op.redundancy_tolerance);
+  const double tolerance = std::max(contradicting_acceleration, 100 * op.redundancy_tolerance);
   std::vector<std::int32_t> contradicted;
   for (const std::int32_t k : equations.partition().redundant) {
     const bool position = rows.level(k) == RowLevel::position;

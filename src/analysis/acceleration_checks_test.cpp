@@ -6,7 +6,7 @@
 #include "analysis/initial.h"
 #include "system/model_test_support.h"
 
-namespace dynalin::analysis_test {
+namespace dynalin::analysis_test::acceleration_checks_test {
 namespace {
 
 using system_test::system_of;
@@ -97,4 +97,4 @@ TEST(AccelerationChecks, digits_are_lost_near_a_double_root) {
 }
 
 }  // namespace
-}  // namespace dynalin::analysis_test
+}  // namespace dynalin::analysis_test::acceleration_checks_test

@@ -6,7 +6,7 @@
 #include "analysis/displace.h"
 #include "system/model_test_support.h"
 
-namespace dynalin::analysis_test {
+namespace dynalin::analysis_test::augmented_system_test {
 namespace {
 
 using system_test::system_of;
@@ -167,4 +167,4 @@ TEST(AugmentedSystem, unknowns_that_nothing_determines_are_named) {
 }
 
 }  // namespace
-}  // namespace dynalin::analysis_test
+}  // namespace dynalin::analysis_test::augmented_system_test

@@ -7,12 +7,12 @@ namespace dynalin {
 
 namespace {
 
-constexpr double near_balance = 1e-9;           // of the forces at play
+constexpr double moving_near_balance = 1e-9;    // of the forces at play
 constexpr double first_way = 0.02;              // of the first step, in model lengths or radians
-constexpr StepLimits largest_step{0.3, 1e300};  // of a step; translations are limited by the length of the model
+constexpr StepLimits longest_step{0.3, 1e300};  // of a step; translations are limited by the length of the model
 constexpr double hold = 1e-12;                  // of a typical stiffness: what has neither mass nor stiffness
 constexpr int most_steps = 600;
-constexpr int patience = 120;  // steps without coming closer to rest
+constexpr int motion_patience = 120;  // steps without coming closer to rest
 
 class Relaxation {
  public:
@@ -31,7 +31,7 @@ class Relaxation {
     velocity_ = Eigen::VectorXd::Zero(coordinates_);
     int improved = 0, asked = -1;
     double lowest = std::numeric_limits<double>::infinity(), force = 0;
-    for (int k = 0; k < most_steps && k <= improved + patience; ++k) {
+    for (int k = 0; k < most_steps && k <= improved + motion_patience; ++k) {
       if (equations_.effort() > effort_limit) return false;
       equations_.evaluate(op, true);
       force = std::max(force, equations_.force_scale());
@@ -41,8 +41,8 @@ class Relaxation {
       if (level < 0.9 * lowest) lowest = level, improved = k;
       const bool slow =
           k > 0 && acceleration_ <= options_.acceleration_error && energy_ <= options_.kinetic_energy_error;
-      if ((level <= near_balance || (slow && level <= 1e-3)) && k > asked) {
-        asked = k + (level <= near_balance ? 0 : 4);
+      if ((level <= moving_near_balance || (slow && level <= 1e-3)) && k > asked) {
+        asked = k + (level <= moving_near_balance ? 0 : 4);
         OperatingPoint here = op;
         if (at_rest(here)) {
           op = std::move(here);
@@ -104,7 +104,7 @@ class Relaxation {
     for (int k = 0; k < 40; ++k) {
       const auto d = solve();
       if (d) {
-        StepLimits limits = largest_step;
+        StepLimits limits = longest_step;
         limits.translation = 0.5 * system_.length();
         const double before = equations_.slope(*d), motion = work_of_motion(*d);
         // A step so long that masses do not hold it against a stiffness that is negative goes the wrong way.

@@ -6,7 +6,7 @@
 
 #include "analysis/statics_test_support.h"
 
-namespace dynalin::analysis_test {
+namespace dynalin::analysis_test::damped_motion_test {
 namespace {
 
 bool relaxes(Search& s, const DampedMotion& motion = {}) {
@@ -64,4 +64,4 @@ TEST(DampedMotion, does_not_settle_what_falls_for_ever) {
 }
 
 }  // namespace
-}  // namespace dynalin::analysis_test
+}  // namespace dynalin::analysis_test::damped_motion_test

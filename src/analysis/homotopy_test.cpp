@@ -6,7 +6,7 @@
 #include "analysis/levenberg_marquardt.h"
 #include "analysis/statics_test_support.h"
 
-namespace dynalin::analysis_test {
+namespace dynalin::analysis_test::homotopy_test {
 namespace {
 
 TEST(Homotopy, passes_the_fold_at_which_least_squares_stop) {
@@ -51,4 +51,4 @@ TEST(Homotopy, is_no_search_from_a_point_at_rest) {
 }
 
 }  // namespace
-}  // namespace dynalin::analysis_test
+}  // namespace dynalin::analysis_test::homotopy_test

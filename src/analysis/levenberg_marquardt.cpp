@@ -9,8 +9,8 @@ namespace {
 
 constexpr double near_rest = 1e-6;  // of the forces at play: Newton's method takes over
 // Steps after which the sum of squares must have fallen to the given part, or the search has come to its least.
-constexpr int patience = 12;
-constexpr double progress = 0.8;
+constexpr int trial_patience = 12;
+constexpr double trial_progress = 0.8;
 
 // ⎡ AᵀA + μ   Bᵀ ⎤ ⎡ y ⎤   ⎡ −Aᵀ U r ⎤      A, B: rows of U J C but for constraints, and those of constraints, with the
 // ⎣ B         0  ⎦ ⎣ p ⎦ = ⎣ −U r_c  ⎦      units U, C of equations and unknowns; δ = C y. μ does not hold reactions.
@@ -68,8 +68,8 @@ bool reduce_imbalance(StaticEquations& equations, OperatingPoint& op, int step_l
   SparseLu lu;
   for (int k = 0; k < step_limit && std::isfinite(merit) && mu < 1e12; ++k) {
     if (std::sqrt(merit) < near_rest) return true;
-    if (k % patience == 0) {
-      if (merit > progress * earlier) return false;
+    if (k % trial_patience == 0) {
+      if (merit > trial_progress * earlier) return false;
       earlier = merit;
     }
     const auto step = damped_step(equations, row_unit, column_unit, mu, lu);

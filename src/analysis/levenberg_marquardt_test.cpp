@@ -5,7 +5,7 @@
 
 #include "analysis/statics_test_support.h"
 
-namespace dynalin::analysis_test {
+namespace dynalin::analysis_test::levenberg_marquardt_test {
 namespace {
 
 TEST(LevenbergMarquardt, finds_the_centre_round_which_a_motion_would_circle) {
@@ -44,4 +44,4 @@ TEST(LevenbergMarquardt, every_step_brings_it_closer) {
 }
 
 }  // namespace
-}  // namespace dynalin::analysis_test
+}  // namespace dynalin::analysis_test::levenberg_marquardt_test

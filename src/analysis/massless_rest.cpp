@@ -12,7 +12,7 @@ namespace {
 using Index = Eigen::Index;
 
 // Of the sums of the balance, what a unit in the last place of positions may make of stiff elements.
-constexpr double rounding = cancelled_units * std::numeric_limits<double>::epsilon();
+constexpr double cancelled_rounding = cancelled_units * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -49,7 +49,7 @@ bool at_rest(const System& system, const OperatingPoint& op, const MasslessDirec
       far[static_cast<std::size_t>(layout.bodies[b].offset + k)] += norm(op.poses[b].r);
   }
   for_each_entry(eq.matrix(PartialBy::position), [&](std::int32_t r, std::int32_t c, double v) {
-    blurred[static_cast<std::size_t>(r)] += rounding * std::abs(v) * far[static_cast<std::size_t>(c)];
+    blurred[static_cast<std::size_t>(r)] += cancelled_rounding * std::abs(v) * far[static_cast<std::size_t>(c)];
   });
   // Forces that are functions pass on what their values are rounded by.
   const std::vector<double> direct = blurred;

@@ -6,7 +6,7 @@
 #include "analysis/acceleration_equations.h"
 #include "system/model_test_support.h"
 
-namespace dynalin::analysis_test {
+namespace dynalin::analysis_test::massless_test {
 namespace {
 
 using system_test::system_of;
@@ -194,4 +194,4 @@ TEST(MasslessBalance, a_condensed_point_must_stand_where_its_forces_balance) {
 }
 
 }  // namespace
-}  // namespace dynalin::analysis_test
+}  // namespace dynalin::analysis_test::massless_test

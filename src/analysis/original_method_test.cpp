@@ -6,7 +6,7 @@
 
 #include "analysis/statics_test_support.h"
 
-namespace dynalin::analysis_test {
+namespace dynalin::analysis_test::original_method_test {
 namespace {
 
 // A mass of 1 on a spring of stiffness 1 that pulls to z = 101, from z = 1.
@@ -80,4 +80,4 @@ TEST(OriginalMethod, ends_after_maxit) {
 }
 
 }  // namespace
-}  // namespace dynalin::analysis_test
+}  // namespace dynalin::analysis_test::original_method_test

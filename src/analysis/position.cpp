@@ -18,7 +18,7 @@ namespace dynalin {
 namespace {
 
 constexpr double position_tolerance = 1e-13;  // relative to the scale of the row
-constexpr int iteration_limit = 50;
+constexpr int position_iterations = 50;
 constexpr double exact_weight = 1e8;  // of coordinates that EXACT asks to keep
 
 // Axes that should be perpendicular and are parallel: no turn changes their product to first order.
@@ -167,7 +167,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
   std::vector<std::string> history;
   double before = std::numeric_limits<double>::infinity();
 
-  for (int iteration = 0; iteration < iteration_limit; ++iteration) {
+  for (int iteration = 0; iteration < position_iterations; ++iteration) {
     evaluate();
     const Violation v = position_violation(system, rows);
     history.push_back(fmt::format("iteration {}: largest violation {:.3e}", iteration, v.relative));

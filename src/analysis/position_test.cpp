@@ -6,7 +6,7 @@
 #include "analysis/initial.h"
 #include "system/model_test_support.h"
 
-namespace dynalin::analysis_test {
+namespace dynalin::analysis_test::position_test {
 namespace {
 
 using system_test::system_of;
@@ -125,4 +125,4 @@ TEST(Position, a_violation_is_measured_in_the_scale_of_its_row) {
 }
 
 }  // namespace
-}  // namespace dynalin::analysis_test
+}  // namespace dynalin::analysis_test::position_test

@@ -7,7 +7,7 @@
 #include "system/model_test_support.h"
 #include "system/operating_state.h"
 
-namespace dynalin::analysis_test {
+namespace dynalin::analysis_test::prescribed_motion_test {
 namespace {
 
 using system_test::system_of;
@@ -88,4 +88,4 @@ TEST(PrescribedMotion, has_no_state_that_is_listed) {
 }
 
 }  // namespace
-}  // namespace dynalin::analysis_test
+}  // namespace dynalin::analysis_test::prescribed_motion_test

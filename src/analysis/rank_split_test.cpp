@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace dynalin {
+namespace dynalin::rank_split_test {
 namespace {
 
 Eigen::MatrixXd drawn(std::mt19937& random, Eigen::Index rows, Eigen::Index columns) {
@@ -72,4 +72,4 @@ TEST(RankSplit, of_nothing_is_nothing) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::rank_split_test

@@ -11,7 +11,7 @@ namespace dynalin {
 namespace {
 
 constexpr double balance = 1e-9;       // of the terms of an equation
-constexpr double small_step = 1e-9;    // of the size of an unknown; what is left after the step is far less
+constexpr double rest_step = 1e-9;     // of the size of an unknown; what is left after the step is far less
 constexpr double roundings = 100;      // that residuals may be off: the estimate counts each number once
 constexpr double explained = 30;       // times the largest step that rounding was seen to make
 constexpr double softest = 1e9;        // answer of an unknown that anything holds
@@ -184,10 +184,10 @@ std::optional<RestJudgement> judge(StaticEquations& equations, const OperatingPo
     const bool noise = std::abs(j.step(k)) <= explained * by_rounding;
     if (!row_counts(equations, k)) continue;
     j.indifferent[static_cast<std::size_t>(k)] = by_rounding > indifference * j.size(k) || !(answer(k) < softest);
-    if (noise && by_rounding > small_step * j.size(k)) j.step(k) = 0;
+    if (noise && by_rounding > rest_step * j.size(k)) j.step(k) = 0;
     if (noise) continue;
     const double relative = std::abs(j.step(k)) / j.size(k);
-    j.determined = j.determined && relative <= small_step;
+    j.determined = j.determined && relative <= rest_step;
     if (relative > j.largest) j.largest = relative, j.largest_at = k;
   }
   return j;

@@ -10,12 +10,12 @@ namespace dynalin {
 namespace {
 
 // Iterations after which a motion that has come no closer to rest goes round in a circle or away.
-constexpr int patience = 80;
+constexpr int descent_patience = 80;
 // Iterations near balance after which steps that do not become smaller never will: a force that fades or misses zero.
 constexpr int patience_with_steps = 40;
-constexpr double near_balance = 1e-9;  // of the forces at play: judged from here on
-constexpr double noise = 100;          // residuals in units of rounding that say nothing
-constexpr double settled_move = 1e-6;  // of the size of an unknown
+constexpr double near_balance = 1e-9;   // of the forces at play: judged from here on
+constexpr double residual_noise = 100;  // residuals in units of rounding that say nothing
+constexpr double settled_move = 1e-6;   // of the size of an unknown
 
 double farthest(const OperatingPoint& from, const OperatingPoint& to) {
   double largest = 0;
@@ -63,7 +63,7 @@ bool Descent::run(OperatingPoint& op, const std::vector<bool>* loose) {
     }
     if (merit < lowest_merit_ || (merit == 0 && equations_.yardstick() == Yardstick::part))
       lowest_merit_ = merit, lowest_ = op;
-    if (iteration_ > improved_ + (spent ? patience / 4 : patience)) return false;
+    if (iteration_ > improved_ + (spent ? descent_patience / 4 : descent_patience)) return false;
     const double level = std::sqrt(merit_);
     if (level <= near_balance || equations_.excess() <= 1e4) {
       if (finish(op)) return true;
@@ -162,7 +162,7 @@ bool Descent::came_to_rest(const RestJudgement& j) {
       work += move.residual(k) * d.way(k);
       unseen += move.rounding(k) * std::abs(d.way(k));
     }
-    d.driven = std::abs(work) > noise * unseen;
+    d.driven = std::abs(work) > residual_noise * unseen;
     return d;
   };
   for (Eigen::Index k = 0; k < move_.size(); ++k) {
@@ -204,7 +204,8 @@ void Descent::note_arrivals() {
   for (Eigen::Index k = 0; k < n; ++k) {
     const double r = std::abs(equations_.residual()(k));
     const double now = r == 0 ? 0.0 : r / equations_.rounding()(k);
-    if (now <= noise && std::max(excess_(k), excess_before_(k)) >= 1e5) arrived_[static_cast<std::size_t>(k)] = true;
+    if (now <= residual_noise && std::max(excess_(k), excess_before_(k)) >= 1e5)
+      arrived_[static_cast<std::size_t>(k)] = true;
     if (now > 1e4) arrived_[static_cast<std::size_t>(k)] = false;
     excess_before_(k) = excess_(k);
     excess_(k) = now;
@@ -222,7 +223,7 @@ void Descent::note_move(const Eigen::VectorXd& step, double factor) {
   }
   turned_ += turn;
   for (Eigen::Index k = 0; k < step.size(); ++k) {
-    if (excess_(k) <= noise) continue;  // nothing pushed there, whatever a nearly singular matrix makes of it
+    if (excess_(k) <= residual_noise) continue;  // nothing pushed there, whatever a nearly singular matrix makes of it
     const auto i = static_cast<std::int32_t>(k);
     const bool pose = i < augmented.lambda(0);
     if (!pose && i < augmented.state(0)) continue;

@@ -7,7 +7,7 @@
 
 #include "analysis/statics_test_support.h"
 
-namespace dynalin::analysis_test {
+namespace dynalin::analysis_test::static_descent_test {
 namespace {
 
 TEST(StaticDescent, goes_down_and_not_to_the_unstable_rest_nearby) {
@@ -78,4 +78,4 @@ TEST(StaticDescent, what_is_a_million_lengths_away_has_escaped) {
 }
 
 }  // namespace
-}  // namespace dynalin::analysis_test
+}  // namespace dynalin::analysis_test::static_descent_test

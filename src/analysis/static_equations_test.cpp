@@ -5,7 +5,7 @@
 
 #include "analysis/statics_test_support.h"
 
-namespace dynalin::analysis_test {
+namespace dynalin::analysis_test::static_equations_test {
 namespace {
 
 TEST(StaticEquations, settling_finds_the_reactions_that_do_no_work) {
@@ -88,4 +88,4 @@ TEST(StaticEquations, a_step_is_shortened_as_a_whole_to_the_largest_turn) {
 }
 
 }  // namespace
-}  // namespace dynalin::analysis_test
+}  // namespace dynalin::analysis_test::static_equations_test

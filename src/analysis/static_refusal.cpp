@@ -14,7 +14,7 @@ namespace dynalin {
 
 namespace {
 
-constexpr double negligible = 1e-9;  // of stiffnesses and forces, relative
+constexpr double negligible_force = 1e-9;  // of stiffnesses and forces, relative
 
 }  // namespace
 
@@ -75,9 +75,9 @@ std::vector<std::string> unheld_parts(StaticEquations& equations, const Operatin
       for (std::size_t c = 0; c < sum.size(); ++c) {
         if (touched[c] != 0 && groups.of(touched[c]) == g) most = std::max(most, std::abs(e.dot(sum[c])));
       }
-      if (most <= negligible * largest) left += e.dot(force[g]) * e;
+      if (most <= negligible_force * largest) left += e.dot(force[g]) * e;
     }
-    if (!(left.norm() > negligible * equations.force_scale())) continue;
+    if (!(left.norm() > negligible_force * equations.force_scale())) continue;
     for (Eigen::Index k = 0; k < 3; ++k) {
       if (std::abs(left(k)) < 1e-6 * left.norm()) left(k) = 0;
     }

@@ -130,7 +130,7 @@ Miss miss(const Condition& c, const Eigen::VectorXd& velocity) {
 }
 
 // Redundant rows are combinations of the others to 1e-9 of themselves, and so is what they ask of velocities.
-constexpr double contradiction = 1e-8;
+constexpr double contradicting_velocity = 1e-8;
 // Of the fastest of all: what solving may leave of it elsewhere.
 constexpr double solution_rounding = 1e-12;
 
@@ -317,7 +317,7 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
   std::vector<Condition> conditions;
   if (!holds || !as_stated) conditions = constraint_conditions(rows);
   const std::size_t constraints = conditions.size();
-  const double tolerance = std::max(contradiction, 100 * op.redundancy_tolerance);
+  const double tolerance = std::max(contradicting_velocity, 100 * op.redundancy_tolerance);
   if (!holds) {
     auto hard = least_change(system, motion, conditions, start, tolerance);
     if (!hard) return tl::unexpected(hard.error());
@@ -343,7 +343,7 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
       velocity = std::move(*found);
     }
     if (!contradicted) keep_as_stated(conditions, constraints, velocity);
-    const double unnoticed = contradiction * fastest_of(system, velocity);
+    const double unnoticed = contradicting_velocity * fastest_of(system, velocity);
     for (std::size_t k = constraints; k < conditions.size() && contradicted; ++k) {
       const double stated_value = conditions[k].value, value = stated_value + miss(conditions[k], velocity).value;
       if (follows(system, conditions[k], velocity, tolerance, unnoticed)) continue;

@@ -4,7 +4,7 @@
 #include "analysis/initial.h"
 #include "system/model_test_support.h"
 
-namespace dynalin::analysis_test {
+namespace dynalin::analysis_test::velocity_test {
 namespace {
 
 using system_test::system_of;
@@ -136,4 +136,4 @@ TEST(Velocity, reconciling_changes_a_point_least_and_states_nothing) {
 }
 
 }  // namespace
-}  // namespace dynalin::analysis_test
+}  // namespace dynalin::analysis_test::velocity_test

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-namespace dynalin {
+namespace dynalin::diagnostics_test {
 namespace {
 
 constexpr std::string_view any_code = "unexpected-text";
@@ -156,4 +156,4 @@ TEST(diagnostics_death, catches_a_code_that_is_not_listed) {
 #endif
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::diagnostics_test

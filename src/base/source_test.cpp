@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dynalin {
+namespace dynalin::source_test {
 namespace {
 
 TEST(source_text, counts_lines_and_columns_from_one) {
@@ -63,4 +63,4 @@ TEST(span, joins_from_the_start_of_the_first_to_the_end_of_the_last) {
 TEST(span, without_source_has_no_text) { EXPECT_EQ(Span{}.text(), ""); }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::source_test

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/dual.h"
+
 namespace dynalin {
 
 template <class T>
@@ -145,6 +147,11 @@ Mat3<A> skew(const Vec3<A>& a) {
 
 using Vector = Vec3<double>;
 using Matrix3 = Mat3<double>;
+
+template <class T>
+Vector value_of(const Vec3<T>& v) {
+  return {value_of(v.x), value_of(v.y), value_of(v.z)};
+}
 
 // Origin and axes of a marker, in global or another stated frame.
 template <class T>

@@ -14,12 +14,6 @@ namespace {
 
 bool is_part_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-std::string upper_case(std::string_view text) {
-  std::string upper(text);
-  for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return upper;
-}
-
 class Completion {
  public:
   Completion(std::string_view begun, const Model* model) : begun_(upper_case(begun)), model_(model) {}

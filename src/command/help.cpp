@@ -10,6 +10,7 @@
 #include "command/command_catalogue.h"
 #include "command/help_pages.h"
 #include "command/session.h"
+#include "dataset/characters.h"
 #include "elements/catalogue.h"
 #include "expression/function_manual.h"
 #include "nastran/directive_manual.h"
@@ -18,12 +19,6 @@
 namespace dynalin {
 
 namespace {
-
-std::string upper_case(std::string_view text) {
-  std::string upper(text);
-  for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return upper;
-}
 
 bool has_statement(std::string_view name) {
   return std::any_of(catalogue().begin(), catalogue().end(), [&](const Kind* kind) { return kind->statement == name; });

@@ -6,18 +6,18 @@ namespace dynalin {
 
 namespace {
 
-volatile std::sig_atomic_t asked = 0;
+volatile std::sig_atomic_t interruption_asked = 0;
 
 // The first one asks, and the next one ends the program as a signal does that nobody waits for.
 void note(int signal) {
-  if (asked != 0) {
+  if (interruption_asked != 0) {
     struct sigaction ending {};
     ending.sa_handler = SIG_DFL;
     ::sigaction(signal, &ending, nullptr);
     remove_temporary_files(signal);
     return;
   }
-  asked = 1;
+  interruption_asked = 1;
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ Interruptible::~Interruptible() {
   if (set_) ::sigaction(SIGINT, &before_, nullptr);
 }
 
-bool interrupted() { return asked != 0; }
-void forget_interruption() { asked = 0; }
+bool interrupted() { return interruption_asked != 0; }
+void forget_interruption() { interruption_asked = 0; }
 
 }  // namespace dynalin

@@ -10,7 +10,7 @@
 #include "command/commands/linear.h"
 #include "study/modal_tables.h"
 
-namespace dynalin {
+namespace dynalin::linear_command_test {
 namespace {
 
 using ::testing::Contains;
@@ -150,4 +150,4 @@ TEST(LinearTables, have_their_help_in_the_list_of_tables) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::linear_command_test

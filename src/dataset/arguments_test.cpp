@@ -4,7 +4,7 @@
 
 #include "dataset/test_reading.h"
 
-namespace dynalin::testing {
+namespace dynalin::testing::arguments_test {
 namespace {
 
 // The arguments of one statement that is read without any complaint.
@@ -212,4 +212,4 @@ TEST(arguments, warn_when_D_looks_like_an_exponent) {
 }
 
 }  // namespace
-}  // namespace dynalin::testing
+}  // namespace dynalin::testing::arguments_test

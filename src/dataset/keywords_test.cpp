@@ -7,7 +7,7 @@
 
 #include "dataset/dataset.h"
 
-namespace dynalin {
+namespace dynalin::keywords_test {
 namespace {
 
 TEST(statement_name, knows_the_documented_short_forms) {
@@ -79,4 +79,4 @@ TEST(nearest_word, finds_nothing_for_strange_words) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::keywords_test

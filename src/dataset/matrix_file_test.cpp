@@ -5,7 +5,7 @@
 #include "dataset/fortran_format.h"
 #include "dataset/test_reading.h"
 
-namespace dynalin::testing {
+namespace dynalin::testing::matrix_file_test {
 namespace {
 
 using Values = std::vector<double>;
@@ -236,4 +236,4 @@ TEST(fortran_format, refuses_what_it_does_not_know) {
 }
 
 }  // namespace
-}  // namespace dynalin::testing
+}  // namespace dynalin::testing::matrix_file_test

@@ -6,7 +6,7 @@
 #include "dataset/matrix_file.h"
 #include "dataset/test_reading.h"
 
-namespace dynalin::testing {
+namespace dynalin::testing::robustness_test {
 namespace {
 
 const std::string deck = R"(Swing with an actuator
@@ -167,4 +167,4 @@ TEST(reading, takes_time_in_proportion_to_the_length) {
 }
 
 }  // namespace
-}  // namespace dynalin::testing
+}  // namespace dynalin::testing::robustness_test

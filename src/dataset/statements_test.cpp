@@ -5,7 +5,7 @@
 #include "dataset/dataset.h"
 #include "dataset/test_reading.h"
 
-namespace dynalin::testing {
+namespace dynalin::testing::statements_test {
 namespace {
 
 // "MARKER/5" for each statement: full name and id.
@@ -287,4 +287,4 @@ TEST(statements, give_their_arguments_back_one_after_the_other) {
 }
 
 }  // namespace
-}  // namespace dynalin::testing
+}  // namespace dynalin::testing::statements_test

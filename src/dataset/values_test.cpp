@@ -5,7 +5,7 @@
 #include "dataset/dataset.h"
 #include "dataset/test_reading.h"
 
-namespace dynalin::testing {
+namespace dynalin::testing::values_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -179,4 +179,4 @@ TEST(read_text, keeps_file_names_as_they_are) {
 }
 
 }  // namespace
-}  // namespace dynalin::testing
+}  // namespace dynalin::testing::values_test

@@ -48,7 +48,7 @@ constexpr AtomFunction of_element(std::string_view name, std::string_view statem
       4,    statement,     availability, {"id, jflag, comp, rm", meaning, "force, or force·length", element_of_force}};
 }
 
-constexpr std::array table = {
+constexpr std::array atom_table = {
     AtomFunction{"TIME",
                  AtomFamily::time,
                  0,
@@ -258,10 +258,10 @@ constexpr std::array table = {
 
 }  // namespace
 
-std::span<const AtomFunction> atom_functions() { return table; }
+std::span<const AtomFunction> atom_functions() { return atom_table; }
 
 const AtomFunction* find_atom_function(std::string_view name) {
-  for (const AtomFunction& f : table) {
+  for (const AtomFunction& f : atom_table) {
     if (f.name == name) return &f;
   }
   return nullptr;

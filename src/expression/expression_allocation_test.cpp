@@ -27,7 +27,7 @@ std::atomic<std::size_t> allocations{0};
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
 
-namespace dynalin::expression_test {
+namespace dynalin::expression_test::expression_allocation_test {
 namespace {
 
 template <class T>
@@ -73,4 +73,4 @@ TEST(ExpressionAllocation, switches_allocate_nothing_after_the_first) {
 }
 
 }  // namespace
-}  // namespace dynalin::expression_test
+}  // namespace dynalin::expression_test::expression_allocation_test

@@ -8,7 +8,7 @@
 #include "expression/expression_test_support.h"
 #include "expression/functions.h"
 
-namespace dynalin::expression_test {
+namespace dynalin::expression_test::expression_fuzz_test {
 namespace {
 
 using Taylor = TimeTaylor<double>;
@@ -120,4 +120,4 @@ TEST(ExpressionFuzz, any_sequence_of_tokens_gives_a_program_or_an_error) {
 }
 
 }  // namespace
-}  // namespace dynalin::expression_test
+}  // namespace dynalin::expression_test::expression_fuzz_test

@@ -4,7 +4,7 @@
 
 #include "expression/expression_test_support.h"
 
-namespace dynalin {
+namespace dynalin::formal_partials_test {
 namespace {
 
 using Sum = FormalPartials::Sum;
@@ -65,4 +65,4 @@ TEST(FormalPartials, of_what_is_not_linear_have_terms_of_their_own) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::formal_partials_test

@@ -15,9 +15,9 @@ constexpr std::array constants = {
     NamedConstant{"RTOD", 180.0 / std::numbers::pi, {"", "180/π: radians times RTOD are degrees", "", ""}},
 };
 
-constexpr std::array<std::string_view, 4> not_built = {"SA", "SD", "SV", "USER"};
-constexpr std::array<std::string_view, 7> bare_not_built = {"CPU",   "HSIZE",  "NJAC",  "NRHS",
-                                                            "ORDER", "FXFREQ", "FXMODE"};
+constexpr std::array<std::string_view, 4> calls_not_built = {"SA", "SD", "SV", "USER"};
+constexpr std::array<std::string_view, 7> names_alone_not_built = {"CPU",   "HSIZE",  "NJAC",  "NRHS",
+                                                                   "ORDER", "FXFREQ", "FXMODE"};
 
 }  // namespace
 
@@ -37,7 +37,7 @@ bool has_kinks(std::string_view name) {
 
 std::span<const NamedConstant> named_constants() { return constants; }
 
-std::span<const std::string_view> functions_not_built() { return not_built; }
-std::span<const std::string_view> names_not_built() { return bare_not_built; }
+std::span<const std::string_view> functions_not_built() { return calls_not_built; }
+std::span<const std::string_view> names_not_built() { return names_alone_not_built; }
 
 }  // namespace dynalin

@@ -111,28 +111,27 @@ std::string bistop_domain(std::span<const double> a) {
   return Stop::domain("BISTOP", a.subspan(4));
 }
 
-constexpr auto flat = ZeroPartial::flat;
 constexpr std::string_view step_arguments =
     "x       what the step depends on, often TIME\n"
     "x0, x1  where it begins and ends [as x]\n"
     "h0, h1  values before and behind";
-constexpr std::array table = {
+constexpr std::array contact_table = {
     with_switches(function<5>("STEP",
                               {"x, x0, h0, x1, h1", "h0 up to x0, h1 from x1 on, between them a cubic with level ends",
                                "as h0, h1", step_arguments},
-                              steps::cubic, step_domain, flat),
+                              steps::cubic, step_domain, ZeroPartial::flat),
                   steps::ends),
     with_switches(
         function<5>("STEP5",
                     {"x, x0, h0, x1, h1",
                      "h0 up to x0, h1 from x1 on, between them a quintic with ends that are level and not curved",
                      "as h0, h1", step_arguments},
-                    steps::quintic, step5_domain, flat),
+                    steps::quintic, step5_domain, ZeroPartial::flat),
         steps::ends),
     with_switches(function<5>("HAVSIN",
                               {"x, x0, h0, x1, h1", "h0 up to x0, h1 from x1 on, between them half a sine wave",
                                "as h0, h1", step_arguments},
-                              haversine, havsin_domain, flat),
+                              haversine, havsin_domain, ZeroPartial::flat),
                   steps::ends),
     kinked(function<7>(
                "IMPACT",
@@ -144,7 +143,7 @@ constexpr std::array table = {
                 "e   exponent, above 0; below 1 the stiffness at first contact is infinite\n"
                 "c   largest damping coefficient [force·time/length]\n"
                 "d   depth at which the damping is in full [length]; it grows like STEP"},
-               impact, impact_domain, flat),
+               impact, impact_domain, ZeroPartial::flat),
            impact_switches),
     kinked(
         function<8>("BISTOP",
@@ -157,12 +156,12 @@ constexpr std::array table = {
                      "e       exponent, above 0\n"
                      "c       largest damping coefficient [force·time/length]\n"
                      "d       depth at which the damping is in full [length]; it grows like STEP"},
-                    two_stops, bistop_domain, flat),
+                    two_stops, bistop_domain, ZeroPartial::flat),
         bistop_switches),
 };
 
 }  // namespace
 
-std::span<const Function> contact_functions() { return table; }
+std::span<const Function> contact_functions() { return contact_table; }
 
 }  // namespace dynalin

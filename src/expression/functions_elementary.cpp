@@ -181,8 +181,7 @@ std::string power_domain(std::span<const double> a) {
   return no_value && !std::isnan(a[1]) ? fmt::format("{:.6g} to the power {:.6g}", a[0], a[1]) : "";
 }
 
-constexpr auto flat = ZeroPartial::flat;
-constexpr std::array table = {
+constexpr std::array elementary_table = {
     kinked(function<1>("ABS", {"a", "the size of a, |a|", "as a", "its derivative at a = 0 is taken as 0"}, absolute),
            sign_of_first),
     function<1>("ACOS", {"a", "the angle, 0 … π, whose cosine is a", "rad", "a  −1 … 1"}, arc_cosine, acos_domain),
@@ -205,23 +204,23 @@ constexpr std::array table = {
     function<1>("LOG", {"a", "natural logarithm", "1", "a  above 0"}, natural_logarithm, log_domain),
     function<1>("LOG10", {"a", "logarithm to the base 10", "1", "a  above 0"}, decimal_logarithm, log10_domain),
     kinked(function<1>("AINT", {"a", "a without its fraction, towards 0", "as a", "its derivative is 0"}, truncated,
-                       defined_everywhere, flat),
+                       defined_everywhere, ZeroPartial::flat),
            truncation_switches),
     kinked(
         function<1>("ANINT", {"a", "the whole number nearest to a, halves away from 0", "as a", "its derivative is 0"},
-                    rounded, defined_everywhere, flat),
+                    rounded, defined_everywhere, ZeroPartial::flat),
         rounding_switches),
     kinked(function<2>("DIM", {"a, b", "a − b where that is positive, else 0", "as a, b", ""}, positive_difference,
-                       defined_everywhere, flat),
+                       defined_everywhere, ZeroPartial::flat),
            difference_switches),
     kinked(list_function("MAX", {"a, b …", "the largest", "as a, b", "two values or more"}, 2, most_arguments, largest,
-                         flat),
+                         ZeroPartial::flat),
            largest_switches),
     kinked(list_function("MIN", {"a, b …", "the smallest", "as a, b", "two values or more"}, 2, most_arguments,
-                         smallest, flat),
+                         smallest, ZeroPartial::flat),
            smallest_switches),
     kinked(function<2>("MOD", {"a, b", "the remainder of a divided by b, with the sign of a", "as a", "b  not 0"},
-                       remainder_of_division, mod_domain, flat),
+                       remainder_of_division, mod_domain, ZeroPartial::flat),
            remainder_switches),
     kinked(
         function<2>("SIGN", {"a, b", "the size of a with the sign of b, plus where b = 0", "as a", ""}, with_sign_of),
@@ -231,7 +230,7 @@ constexpr Function power_operator = function<2>("**", {}, power_of, power_domain
 
 }  // namespace
 
-std::span<const Function> elementary_functions() { return table; }
+std::span<const Function> elementary_functions() { return elementary_table; }
 const Function& variable_power() { return power_operator; }
 
 }  // namespace dynalin

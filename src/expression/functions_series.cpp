@@ -94,7 +94,7 @@ std::string sweep_domain(std::span<const double> a) {
   return {};
 }
 
-constexpr std::array table = {
+constexpr std::array series_table = {
     list_function(
         "POLY",
         {"x, x0, a0 [, a1 …]", "a0 + a1 (x − x0) + a2 (x − x0)² + …", "as a0", "x0  where it is expanded [as x]"}, 3,
@@ -135,6 +135,6 @@ constexpr std::array table = {
 
 }  // namespace
 
-std::span<const Function> series_functions() { return table; }
+std::span<const Function> series_functions() { return series_table; }
 
 }  // namespace dynalin

@@ -13,7 +13,7 @@
 
 #include "expression/expression_test_support.h"
 
-namespace dynalin::expression_test {
+namespace dynalin::expression_test::functions_test {
 namespace {
 
 using Taylor = TimeTaylor<double>;
@@ -284,4 +284,4 @@ TEST(ExpressionFunctions, undefined_arguments_give_no_number) {
 }
 
 }  // namespace
-}  // namespace dynalin::expression_test
+}  // namespace dynalin::expression_test::functions_test

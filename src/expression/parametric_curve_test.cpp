@@ -8,7 +8,7 @@
 
 #include "expression/switch_test_support.h"
 
-namespace dynalin {
+namespace dynalin::parametric_curve_test {
 namespace {
 
 using Shape = ParametricCurve::Shape;
@@ -177,4 +177,4 @@ TEST(ParametricCurve, switches_at_corners_and_ends) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::parametric_curve_test

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "dataset/characters.h"
 #include "dataset/tokens.h"
 #include "expression/function_manual.h"
 #include "expression/parser.h"
@@ -15,14 +16,6 @@
 namespace dynalin {
 
 namespace {
-
-std::string upper_case(std::string_view text) {
-  std::string upper(text);
-  for (char& c : upper) {
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  }
-  return upper;
-}
 
 bool contains(std::span<const std::string_view> names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();

@@ -9,7 +9,7 @@
 
 #include "expression/expression_test_support.h"
 
-namespace dynalin::expression_test {
+namespace dynalin::expression_test::parser_test {
 namespace {
 
 using testing::ElementsAre;
@@ -285,4 +285,4 @@ TEST(ExpressionParser, nesting_has_no_limit) {
 }
 
 }  // namespace
-}  // namespace dynalin::expression_test
+}  // namespace dynalin::expression_test::parser_test

@@ -9,7 +9,7 @@
 
 #include "expression/expression_test_support.h"
 
-namespace dynalin::expression_test {
+namespace dynalin::expression_test::program_test {
 namespace {
 
 using Taylor = TimeTaylor<double>;
@@ -194,4 +194,4 @@ TEST(ExpressionProgram, faults_in_time_derivatives_are_found_on_taylor) {
 }
 
 }  // namespace
-}  // namespace dynalin::expression_test
+}  // namespace dynalin::expression_test::program_test

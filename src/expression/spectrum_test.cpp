@@ -9,7 +9,7 @@
 #include "expression/functions.h"
 #include "expression/spline.h"
 
-namespace dynalin::expression_test {
+namespace dynalin::expression_test::spectrum_test {
 namespace {
 
 SplineData points(std::vector<double> x, double (*density)(double)) {
@@ -117,4 +117,4 @@ TEST(Spectrum, data_that_are_no_density_are_told) {
 }
 
 }  // namespace
-}  // namespace dynalin::expression_test
+}  // namespace dynalin::expression_test::spectrum_test

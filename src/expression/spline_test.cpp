@@ -7,7 +7,7 @@
 #include "expression/functions.h"
 #include "expression/switch_test_support.h"
 
-namespace dynalin {
+namespace dynalin::spline_test {
 namespace {
 
 SplineUse use(SplineMethod method, SplineData data, int derivative = 0) {
@@ -136,4 +136,4 @@ TEST(Spline, switches_between_the_curves_of_a_family) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::spline_test

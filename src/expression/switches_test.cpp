@@ -10,7 +10,7 @@
 #include "expression/functions.h"
 #include "expression/switch_test_support.h"
 
-namespace dynalin::expression_test {
+namespace dynalin::expression_test::switches_test {
 namespace {
 
 using Taylor = TimeTaylor<double>;
@@ -206,4 +206,4 @@ TEST(KnotSwitch, changes_its_sign_at_each_knot) {
 }
 
 }  // namespace
-}  // namespace dynalin::expression_test
+}  // namespace dynalin::expression_test::switches_test

@@ -5,7 +5,7 @@
 
 #include "expression/expression_test_support.h"
 
-namespace dynalin::expression_test {
+namespace dynalin::expression_test::vector_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -100,4 +100,4 @@ TEST(SplineFunctions, have_no_value_until_their_curves_are_attached) {
 }
 
 }  // namespace
-}  // namespace dynalin::expression_test
+}  // namespace dynalin::expression_test::vector_test

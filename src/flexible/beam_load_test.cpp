@@ -5,7 +5,7 @@
 #include "flexible/plane_beam.h"
 #include "flexible/spatial_beam.h"
 
-namespace dynalin {
+namespace dynalin::beam_load_test {
 
 namespace {
 
@@ -86,4 +86,4 @@ TEST(BeamLoad, of_moments_changes_with_the_turning_of_sections) {
   }
 }
 
-}  // namespace dynalin
+}  // namespace dynalin::beam_load_test

@@ -25,9 +25,9 @@ constexpr std::array<std::string_view, 10> required = {"SELNOD", "T_MODE", "R_MO
                                                        "INVAR2", "INVAR3", "INVAR4", "INVAR6",   "INVAR7"};
 constexpr double as_written = 1e-8;  // of a symmetric matrix, by its largest entry
 
-class Reader {
+class MatrixReader {
  public:
-  Reader(const Span& at, const std::string& owner, Diagnostics& out) : at_(at), owner_(owner), out_(out) {}
+  MatrixReader(const Span& at, const std::string& owner, Diagnostics& out) : at_(at), owner_(owner), out_(out) {}
 
   bool collect(const std::vector<NamedMatrix>& all) {
     for (const NamedMatrix& m : all) {
@@ -113,7 +113,7 @@ Matrix3 block(const MatrixXd& m, Index at) {
 }
 Vector column(const MatrixXd& m, Index at) { return {m(0, at), m(1, at), m(2, at)}; }
 
-ModalInertia inertia_of(Reader& in, Index n) {
+ModalInertia inertia_of(MatrixReader& in, Index n) {
   ModalInertia I = empty_inertia(static_cast<std::size_t>(n));
   I.mass = in.take("INVAR1", 1, 1)(0, 0);
   I.first = column(in.take("INVAR2", 3, 1), 0);
@@ -144,7 +144,7 @@ ModalInertia inertia_of(Reader& in, Index n) {
 
 std::optional<ModalBody> modal_body_of(const std::vector<NamedMatrix>& all, const Span& at, const std::string& owner,
                                        Diagnostics& out) {
-  Reader in(at, owner, out);
+  MatrixReader in(at, owner, out);
   if (!in.collect(all)) return std::nullopt;
   const Index nodes = in.rows("SELNOD"), n = in.columns("T_MODE");
   ModalBody b;

@@ -17,9 +17,9 @@ using Index = Eigen::Index;
 constexpr std::string_view header = "** RECORD GROUP ", end_mark = "** END OF FILE";
 constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-class Reader {
+class TextReader {
  public:
-  Reader(const SourceText& file, Diagnostics& diagnostics) : file_(file), text_(file.text()), out_(diagnostics) {}
+  TextReader(const SourceText& file, Diagnostics& diagnostics) : file_(file), text_(file.text()), out_(diagnostics) {}
 
   std::optional<ModalText> read() {
     while (!failed_ && next_record()) read_record();
@@ -333,7 +333,7 @@ BodyFileType body_file_type(std::string_view bytes) {
 }
 
 std::optional<ModalText> read_modal_text(const SourceText& file, Diagnostics& diagnostics) {
-  return Reader(file, diagnostics).read();
+  return TextReader(file, diagnostics).read();
 }
 
 }  // namespace dynalin

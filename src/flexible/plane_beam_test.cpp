@@ -7,7 +7,7 @@
 
 #include "flexible/beam_load.h"
 
-namespace dynalin {
+namespace dynalin::plane_beam_test {
 
 namespace {
 
@@ -313,4 +313,4 @@ TEST(plane_beam, moments_work_on_the_turning_of_sections) {
   }
 }
 
-}  // namespace dynalin
+}  // namespace dynalin::plane_beam_test

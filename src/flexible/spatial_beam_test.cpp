@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-namespace dynalin {
+namespace dynalin::spatial_beam_test {
 
 namespace {
 
@@ -252,4 +252,4 @@ TEST(spatial_beam, between_nodes_of_an_arc_is_as_long_as_the_arc) {
   }
 }
 
-}  // namespace dynalin
+}  // namespace dynalin::spatial_beam_test

@@ -16,7 +16,7 @@ constexpr double edge_preference = 1e-6;  // of the size: by how much a directio
 constexpr double coincidence = 1e-9;      // of the size
 
 template <class T>
-struct Placed {
+struct PlacedBox {
   solid::Box box;
   Vec3<T> origin;
   std::array<Vec3<T>, 3> axes;
@@ -25,10 +25,6 @@ struct Placed {
   double size() const { return norm(box.high - box.low); }
 };
 
-template <class T>
-Vector plain(const Vec3<T>& v) {
-  return {value_of(v.x), value_of(v.y), value_of(v.z)};
-}
 Vector half_of(const solid::Box& b) { return 0.5 * (b.high - b.low); }
 
 // --- the direction in which they part soonest
@@ -42,13 +38,14 @@ struct Parting {
 
 // Normals of faces and of edges of both.
 template <class T>
-Parting<T> parting(const Placed<T>& I, const Placed<T>& J) {
-  const Vector between = plain(I.at(0.5 * (I.box.low + I.box.high))) - plain(J.at(0.5 * (J.box.low + J.box.high)));
+Parting<T> parting(const PlacedBox<T>& I, const PlacedBox<T>& J) {
+  const Vector between =
+      value_of(I.at(0.5 * (I.box.low + I.box.high))) - value_of(J.at(0.5 * (J.box.low + J.box.high)));
   const Vector h = half_of(I.box), g = half_of(J.box);
   const auto separation = [&](const Vector& n) {
     double reach = 0;
     for (std::size_t k = 0; k < 3; ++k)
-      reach += h[k] * std::abs(dot(plain(I.axes[k]), n)) + g[k] * std::abs(dot(plain(J.axes[k]), n));
+      reach += h[k] * std::abs(dot(value_of(I.axes[k]), n)) + g[k] * std::abs(dot(value_of(J.axes[k]), n));
     return std::abs(dot(between, n)) - reach;
   };
   const double size = std::min(I.size(), J.size());
@@ -60,7 +57,7 @@ Parting<T> parting(const Placed<T>& I, const Placed<T>& J) {
   std::size_t count = 0, best = 0;
   // Where others part as soon, faces decide.
   const auto try_one = [&](const Vec3<T>& n) {
-    all[count] = {n, separation(plain(n))};
+    all[count] = {n, separation(value_of(n))};
     if (all[count].separation > all[best].separation + edge_preference * size) best = count;
     ++count;
   };
@@ -75,10 +72,10 @@ Parting<T> parting(const Placed<T>& I, const Placed<T>& J) {
     }
   }
   const auto& [normal, most] = all[best];
-  Parting<T> found{dot(between, plain(normal)) < 0 ? -normal : normal};
+  Parting<T> found{dot(between, value_of(normal)) < 0 ? -normal : normal};
   bool of_I = false, of_J = false;
   for (std::size_t k = 0; k < count; ++k) {
-    const bool alike = std::abs(dot(plain(all[k].normal), plain(normal))) >= least_cosine;
+    const bool alike = std::abs(dot(value_of(all[k].normal), value_of(normal))) >= least_cosine;
     const double less = std::abs(all[k].separation - most);
     found.definite = found.definite && (alike || less > coincidence * size);
     if (alike && k < 6 && less <= edge_preference * size) (k < 3 ? of_J : of_I) = true;
@@ -98,16 +95,16 @@ struct Edge {
 // The one that looks most in a direction, with its corners and edges one after the other around it.
 template <class T>
 struct Face {
-  const Placed<T>& box;
+  const PlacedBox<T>& box;
   std::size_t axis = 0;
   bool upper = true;
   std::array<Vec3<T>, 4> corners;
   std::array<Edge<T>, 4> edges;
 
-  Face(const Placed<T>& of, const Vector& direction) : box(of) {
+  Face(const PlacedBox<T>& of, const Vector& direction) : box(of) {
     double most = -far;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double c = dot(plain(box.axes[k]), direction);
+      const double c = dot(value_of(box.axes[k]), direction);
       if (std::abs(c) > most) most = std::abs(c), axis = k, upper = c > 0;
     }
     const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -144,10 +141,10 @@ Touch<T> between(const Vec3<T>& on_J, const T& gap, const Vec3<T>& normal) {
 // How far a point of the plane of a face is within it.
 template <class T>
 void keep_within(const Face<T>& face, const Vec3<T>& point, double tolerance, Touch<T>& t) {
-  const Vector from = plain(point - face.box.origin);
+  const Vector from = value_of(point - face.box.origin);
   double share = 1;
   for (const std::size_t k : {(face.axis + 1) % 3, (face.axis + 2) % 3}) {
-    const double along = dot(from, plain(face.box.axes[k]));
+    const double along = dot(from, value_of(face.box.axes[k]));
     for (const double depth : {along - face.box.box.low[k], face.box.box.high[k] - along})
       t.inside = std::min(t.inside, depth), share *= share_inside(depth, tolerance);
   }
@@ -219,9 +216,9 @@ Vec3<T> common_normal(const Face<T>& I, const Face<T>& J, double tolerance) {
 template <class T>
 void touch_boxes(const solid::Box& I_box, const RelativeFrame<T>& R, const solid::Box& J_box, std::span<Touch<T>> out) {
   const Vec3<T> x{T(1.0), T(0.0), T(0.0)}, y{T(0.0), T(1.0), T(0.0)}, z{T(0.0), T(0.0), T(1.0)};
-  const Placed<T> I{I_box, R.p, {R.x, R.y, R.z}}, J{J_box, {T(0.0), T(0.0), T(0.0)}, {x, y, z}};
+  const PlacedBox<T> I{I_box, R.p, {R.x, R.y, R.z}}, J{J_box, {T(0.0), T(0.0), T(0.0)}, {x, y, z}};
   const Parting<T> part = parting(I, J);
-  const Face<T> of_I(I, -plain(part.normal)), of_J(J, plain(part.normal));
+  const Face<T> of_I(I, -value_of(part.normal)), of_J(J, value_of(part.normal));
   const double tolerance = coincidence * std::min(I.size(), J.size());
   const Vec3<T> normal = part.faces ? common_normal(of_I, of_J, tolerance) : part.normal;
   std::size_t count = 0;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace dynalin {
+namespace dynalin::box_touch_test {
 namespace {
 
 using Axes = std::array<Vector, 3>;
@@ -175,4 +175,4 @@ TEST(BoxTouch, duals_are_the_derivatives) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::box_touch_test

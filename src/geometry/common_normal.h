@@ -78,8 +78,7 @@ template <class T>
 std::optional<CommonNormal<T>> common_normal(const Ellipsoid& first, const RelativeFrame<T>& at,
                                              const Ellipsoid& second) {
   using std::sqrt;
-  const auto plain = [](const Vec3<T>& v) { return Vector{value_of(v.x), value_of(v.y), value_of(v.z)}; };
-  const RelativeFrame<double> frame{plain(at.p), plain(at.x), plain(at.y), plain(at.z)};
+  const RelativeFrame<double> frame{value_of(at.p), value_of(at.x), value_of(at.y), value_of(at.z)};
   const auto found = common_normal(first.semi_axes, frame, second.semi_axes);
   if (!found) return std::nullopt;
   const Vector& a = first.semi_axes;
@@ -100,7 +99,7 @@ std::optional<CommonNormal<T>> common_normal(const Ellipsoid& first, const Relat
   const Vec3<T> gradient = here.on_first - here.on_second;
   const Matrix3 R{frame.x, frame.y, frame.z};
   const Matrix3 curvature = reach(a, R, n).slope + reach(b, Matrix3::identity(), n).slope;
-  const double h = dot(n, plain(gradient));
+  const double h = dot(n, value_of(gradient));
   const Vector u = std::abs(n.x) < 0.6 ? cross(n, unit_vectors[0]) : cross(n, unit_vectors[1]);
   const Vector t1 = u / norm(u), t2 = cross(n, t1);
   const double c11 = dot(t1, curvature * t1) + h, c12 = dot(t1, curvature * t2), c22 = dot(t2, curvature * t2) + h;

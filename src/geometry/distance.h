@@ -161,7 +161,7 @@ Distance<T> distance(const Ellipsoid& e, const Vec3<T>& p) {
     if (a[k] < a[least]) least = k;
   }
   const double middle = a[least] * a[least];
-  const Vector plain{value_of(p.x), value_of(p.y), value_of(p.z)};
+  const Vector plain = value_of(p);
   // There one of the terms is 1, so that the sum is not less, and Newton's method comes from above: the function is
   // convex and falls.
   double lambda = -middle;

@@ -158,8 +158,7 @@ std::optional<Touch<T>> touch_feature(const PlacedEllipsoid<T>& e, const Box& b,
   from[axis] = T(b.low[axis]), from[one] = T(side(one, one_upper)), from[other] = T(side(other, other_upper));
   along[axis] = T(b.high[axis] - b.low[axis]);
   const Vec3<T> start = e.in_its_axes(from - e.at.p), way = e.in_its_axes(along);
-  const auto plain = [](const Vec3<T>& v) { return Vector{value_of(v.x), value_of(v.y), value_of(v.z)}; };
-  const Vector start0 = plain(start), way0 = plain(way);
+  const Vector start0 = value_of(start), way0 = value_of(way);
   const auto slope = [&](const auto& s) {
     using S = std::decay_t<decltype(s)>;
     const Vec3<S> p{S(start0.x + s * way0.x), S(start0.y + s * way0.y), S(start0.z + s * way0.z)};

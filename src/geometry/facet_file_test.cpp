@@ -4,7 +4,7 @@
 
 #include "geometry/mesh_test_support.h"
 
-namespace dynalin {
+namespace dynalin::facet_file_test {
 namespace {
 
 const std::vector<std::array<double, 3>> corner_points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -146,4 +146,4 @@ TEST(FacetFile, knows_its_formats_by_the_ending) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::facet_file_test

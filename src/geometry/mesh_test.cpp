@@ -7,7 +7,7 @@
 #include "geometry/prism.h"
 #include "geometry/spring_damper_shape.h"
 
-namespace dynalin {
+namespace dynalin::mesh_test {
 namespace {
 
 TEST(Mesh, lists_each_edge_once) {
@@ -149,4 +149,4 @@ TEST(SpringDamper, without_anything_is_a_line_in_two_pieces) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::mesh_test

@@ -23,14 +23,10 @@ T norm_xy(const Vec3<T>& a) {
   using std::sqrt;
   return sqrt(dot_xy(a, a));
 }
-template <class T>
-Vector plain(const Vec3<T>& v) {
-  return {value_of(v.x), value_of(v.y), value_of(v.z)};
-}
 
 // A curve where it stands, seen along z.
 template <class T>
-struct Placed {
+struct PlacedCurve {
   const PlaneCurve& curve;
   bool reversed;
   RelativeFrame<T> frame;
@@ -63,7 +59,7 @@ RelativeFrame<T> untwisted(const PlaneCurve& curve, const RelativeFrame<T>& f) {
   return {f.p, x, cross(f.z, x), f.z};
 }
 
-Vector local(const Placed<double>& c, const Vector& p) {
+Vector local(const PlacedCurve<double>& c, const Vector& p) {
   const Vector d = p - c.frame.p;
   return {dot(c.frame.x, d), dot(c.frame.y, d), 0};
 }
@@ -106,7 +102,7 @@ struct OverFoot {
   bool defined = true;
 };
 template <class T>
-OverFoot<T> over_foot(const Placed<T>& c, const Foot& foot, const Vec3<T>& p) {
+OverFoot<T> over_foot(const PlacedCurve<T>& c, const Foot& foot, const Vec3<T>& p) {
   OverFoot<T> over;
   if (foot.corner != nullptr) {
     over.at = c.corner(*foot.corner);
@@ -134,7 +130,7 @@ OverFoot<T> over_foot(const Placed<T>& c, const Foot& foot, const Vec3<T>& p) {
 }
 
 // Where planes incline, the foot as it is seen is not that in the plane of the curve.
-void refine(const Placed<double>& c, Foot& foot, const Vector& p) {
+void refine(const PlacedCurve<double>& c, Foot& foot, const Vector& p) {
   if (foot.piece == nullptr) return;
   for (int k = 0; k < 20; ++k) {
     const Vector d = c.at(*foot.piece, foot.u) - p;
@@ -159,7 +155,7 @@ struct Place {
 
 // Both curves have parallel tangents in a line across them: f of the parameters, and its slopes.
 template <class T>
-std::array<T, 2> conditions(const Placed<T>& I, const Placed<T>& J, const Place& p, const T& u, const T& v) {
+std::array<T, 2> conditions(const PlacedCurve<T>& I, const PlacedCurve<T>& J, const Place& p, const T& u, const T& v) {
   const Vec3<T> s = J.at(*p.on_J, v, 1);
   return {dot_xy(I.at(*p.on_I, u) - J.at(*p.on_J, v), s), cross_z(I.at(*p.on_I, u, 1), s)};
 }
@@ -167,7 +163,7 @@ struct Slopes {
   double a, b, c, d;
   double determinant() const { return a * d - b * c; }
 };
-Slopes slopes(const Placed<double>& I, const Placed<double>& J, const Place& p) {
+Slopes slopes(const PlacedCurve<double>& I, const PlacedCurve<double>& J, const Place& p) {
   const Vector t = I.at(*p.on_I, p.u, 1), tt = I.at(*p.on_I, p.u, 2), s = J.at(*p.on_J, p.v, 1);
   const Vector ss = J.at(*p.on_J, p.v, 2), gap = I.at(*p.on_I, p.u) - J.at(*p.on_J, p.v);
   return {dot_xy(t, s), dot_xy(gap, ss) - dot_xy(s, s), cross_z(tt, s), cross_z(t, ss)};
@@ -175,7 +171,7 @@ Slopes slopes(const Placed<double>& I, const Placed<double>& J, const Place& p) 
 
 class Places {
  public:
-  Places(const Placed<double>& I, const Placed<double>& J)
+  Places(const PlacedCurve<double>& I, const PlacedCurve<double>& J)
       : I_(I), J_(J), size_(std::max(I.curve.radius(), J.curve.radius())) {
     for (const Piece& a : I.curve.pieces()) {
       for (const Piece& b : J.curve.pieces()) find_between(a, b);
@@ -203,7 +199,8 @@ class Places {
   }
 
   // Along the samples of one piece, where it is lowest above the other one.
-  void find_along(const Placed<double>& X, const Piece& x, const Placed<double>& Y, const Piece& y, bool X_is_I) {
+  void find_along(const PlacedCurve<double>& X, const Piece& x, const PlacedCurve<double>& Y, const Piece& y,
+                  bool X_is_I) {
     const std::size_t n = x.samples.size();
     struct Sample {
       double height, parameter;
@@ -253,7 +250,7 @@ class Places {
     // One curve is in the other, but no place of it is the deepest.
     if (at_end || height >= lost_.gap || !in_range(*p.on_I, start_u) || !in_range(*p.on_J, start_v)) return;
     const Vector where = X_is_I ? I_.at(x, at_x) : J_.at(x, at_x);
-    const Placed<double>& other = X_is_I ? J_ : I_;
+    const PlacedCurve<double>& other = X_is_I ? J_ : I_;
     const Foot foot = nearest(other.curve, local(other, where));
     if (foot.piece == nullptr || other.curve.inside(*foot.piece, foot.u) < 0) return;
     if (over_foot(other, foot, where).gap < -1e-6 * size_) lost_ = undefined_at(where, height);
@@ -287,13 +284,13 @@ class Places {
     return true;
   }
 
-  static double height(const Placed<double>& c, const Vector& p) {
+  static double height(const PlacedCurve<double>& c, const Vector& p) {
     return over_foot(c, nearest(c.curve, local(c, p)), p).gap;
   }
 
   // A corner of X over Y. On what is flat, and in a notch, each corner stands for itself, so that two hold an edge;
   // on what bends only one that is lowest among its neighbours.
-  void add_corner(const Placed<double>& X, const Corner& c, const Placed<double>& Y, bool X_is_I) {
+  void add_corner(const PlacedCurve<double>& X, const Corner& c, const PlacedCurve<double>& Y, bool X_is_I) {
     Place p;
     (X_is_I ? p.corner_I : p.corner_J) = &c;
     const Vector at = X.corner(c);
@@ -327,7 +324,7 @@ class Places {
     if (count_ < most) all_[count_++] = p;
   }
 
-  const Placed<double>&I_, &J_;
+  const PlacedCurve<double>&I_, &J_;
   double size_;
   Place lost_;
   std::array<Place, most> all_;
@@ -335,7 +332,7 @@ class Places {
 };
 
 template <class T>
-Touch<T> touch_at(const Place& p, const Placed<T>& I, const Placed<T>& J, const Slopes& m) {
+Touch<T> touch_at(const Place& p, const PlacedCurve<T>& I, const PlacedCurve<T>& J, const Slopes& m) {
   Touch<T> t;
   t.inside = p.inside, t.defined = p.defined;
   Vec3<T> A, B;
@@ -368,14 +365,14 @@ Touch<T> touch_at(const Place& p, const Placed<T>& I, const Placed<T>& J, const 
 template <class T>
 void touch_curves(const PlaneCurve& I, bool I_reversed, const RelativeFrame<T>& at, const PlaneCurve& J,
                   bool J_reversed, std::span<Touch<T>> out) {
-  const RelativeFrame<double> from{plain(at.p), plain(at.x), plain(at.y), plain(at.z)};
+  const RelativeFrame<double> from{value_of(at.p), value_of(at.x), value_of(at.y), value_of(at.z)};
   const auto still = []<class U>(U) {
     return RelativeFrame<U>{
         {U(0.0), U(0.0), U(0.0)}, {U(1.0), U(0.0), U(0.0)}, {U(0.0), U(1.0), U(0.0)}, {U(0.0), U(0.0), U(1.0)}};
   };
-  const Placed<double> I_here{I, I_reversed, untwisted(I, from)}, J_here{J, J_reversed, still(0.0)};
+  const PlacedCurve<double> I_here{I, I_reversed, untwisted(I, from)}, J_here{J, J_reversed, still(0.0)};
   const Places places(I_here, J_here);
-  const Placed<T> I_seen{I, I_reversed, untwisted(I, at)}, J_seen{J, J_reversed, still(T(0.0))};
+  const PlacedCurve<T> I_seen{I, I_reversed, untwisted(I, at)}, J_seen{J, J_reversed, still(T(0.0))};
   const std::span<const Place> all = places.all();
   for (std::size_t k = 0; k < out.size(); ++k) {
     if (k < all.size()) {
@@ -394,9 +391,9 @@ template <class T>
 Touch<T> touch_point(const Vec3<T>& point, const PlaneCurve& curve, bool reversed) {
   const RelativeFrame<T> still{
       {T(0.0), T(0.0), T(0.0)}, {T(1.0), T(0.0), T(0.0)}, {T(0.0), T(1.0), T(0.0)}, {T(0.0), T(0.0), T(1.0)}};
-  const Vector at = plain(point);
+  const Vector at = value_of(point);
   const Foot foot = nearest(curve, {at.x, at.y, 0});
-  const OverFoot<T> over = over_foot(Placed<T>{curve, reversed, still}, foot, point);
+  const OverFoot<T> over = over_foot(PlacedCurve<T>{curve, reversed, still}, foot, point);
   Touch<T> t;
   t.gap = over.gap, t.normal = over.normal, t.defined = over.defined;
   t.point = {(point.x + over.at.x) * 0.5, (point.y + over.at.y) * 0.5, point.z};

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace dynalin {
+namespace dynalin::plane_touch_test {
 namespace {
 
 using Points = ParametricCurve::Points;
@@ -384,4 +384,4 @@ std::string test_name(const ::testing::TestParamInfo<Pair>& info) {
 INSTANTIATE_TEST_SUITE_P(pairs, PlaneTouches, ::testing::ValuesIn(pairs()), test_name);
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::plane_touch_test

@@ -5,7 +5,7 @@
 
 #include "geometry/mesh_test_support.h"
 
-namespace dynalin {
+namespace dynalin::polygon_test {
 namespace {
 
 struct Filled {
@@ -91,4 +91,4 @@ TEST(Polygon, of_any_shape_is_covered_once) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::polygon_test

@@ -3,7 +3,7 @@
 #include "geometry/mesh_test_support.h"
 #include "geometry/plate.h"
 
-namespace dynalin {
+namespace dynalin::prism_test {
 namespace {
 
 TEST(Prism, boxes_have_six_sides_whatever_the_signs) {
@@ -112,4 +112,4 @@ TEST(Plate, without_area_is_none) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::prism_test

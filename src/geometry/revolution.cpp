@@ -11,10 +11,10 @@ namespace dynalin {
 namespace {
 
 using Index = Mesh::Index;
-constexpr double turn = 2 * std::numbers::pi;
+constexpr double full_turn = 2 * std::numbers::pi;
 
 std::size_t pieces(const Sweep& sweep) {
-  const auto fewest = static_cast<std::size_t>(std::ceil(3 * std::min(std::abs(sweep.angle) / turn, 1.0) - 1e-9));
+  const auto fewest = static_cast<std::size_t>(std::ceil(3 * std::min(std::abs(sweep.angle) / full_turn, 1.0) - 1e-9));
   return std::max({sweep.segments, fewest, std::size_t{1}});
 }
 
@@ -23,7 +23,7 @@ class Revolving {
  public:
   Revolving(std::span<const Meridian> profile, bool ring, const Sweep& sweep)
       : profile_(profile), ring_(ring), full_(sweep.full()), pieces_(pieces(sweep)) {
-    const double angle = full_ ? turn : sweep.angle;
+    const double angle = full_ ? full_turn : sweep.angle;
     for (const Meridian& m : profile_) {
       first_.push_back(static_cast<Index>(mesh_.vertices.size()));
       const std::size_t count = m.radius > 0 ? columns() : 1;
@@ -81,7 +81,7 @@ class Revolving {
 
 bool Sweep::full() const {
   constexpr double rounding = 1e-9;  // 360D has some
-  return std::abs(angle) >= turn * (1 - rounding);
+  return std::abs(angle) >= full_turn * (1 - rounding);
 }
 
 Mesh revolved(std::span<const Meridian> profile, bool ring, const Sweep& sweep) {
@@ -116,7 +116,7 @@ Mesh torus(double major_radius, double minor_radius, const Sweep& sweep) {
   const std::size_t around = std::max<std::size_t>(sweep.segments / 2, 3);
   std::vector<Meridian> profile;
   for (std::size_t k = 0; k < around; ++k) {
-    const double angle = turn * static_cast<double>(k) / static_cast<double>(around);
+    const double angle = full_turn * static_cast<double>(k) / static_cast<double>(around);
     profile.push_back({major_radius + minor_radius * std::cos(angle), minor_radius * std::sin(angle)});
   }
   return revolved(profile, true, sweep);

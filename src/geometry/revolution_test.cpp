@@ -4,7 +4,7 @@
 
 #include "geometry/mesh_test_support.h"
 
-namespace dynalin {
+namespace dynalin::revolution_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -114,4 +114,4 @@ TEST(Revolution, a_ring_along_the_axis_is_solid) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::revolution_test

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace dynalin {
+namespace dynalin::touch_test {
 namespace {
 
 using namespace solid;
@@ -368,4 +368,4 @@ TEST(touch, has_pairs_without_a_formula) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::touch_test

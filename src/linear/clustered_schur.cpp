@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "linear/index.h"
+
 namespace dynalin {
 
 namespace {
@@ -18,9 +20,7 @@ using LongComplex = std::complex<long double>;
 using ComplexMatrix = Eigen::MatrixXcd;
 using LongReal = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
-constexpr Index most_in_long_double = 60;  // for the QR iteration
-
-std::size_t at(Index k) { return static_cast<std::size_t>(k); }
+constexpr Index most_for_qr_iteration = 60;  // in long double
 
 }  // namespace
 
@@ -37,7 +37,7 @@ bool ClusteredSchur::compute(const LongComplexMatrix& M) {
   label_.resize(at(size));
   std::iota(label_.begin(), label_.end(), Index{0});
   first_ = label_;
-  if (size <= most_in_long_double) {
+  if (size <= most_for_qr_iteration) {
     const Eigen::ComplexSchur<LongComplexMatrix> found(M);
     if (found.info() != Eigen::Success) return false;
     T_ = found.matrixT(), Q_ = found.matrixU();

@@ -20,8 +20,8 @@ namespace {
 // Estimated roundings of entries below this are of no weight.
 constexpr double suspicious = 1e-9;
 constexpr int samples = 3;
-constexpr double units = 1;   // in the last place
-constexpr double margin = 4;  // a sample is seldom the worst case
+constexpr double units = 1;          // in the last place
+constexpr double sample_margin = 4;  // a sample is seldom the worst case
 
 }  // namespace
 
@@ -126,7 +126,7 @@ Eigen::MatrixXd rounding_of_velocities(const System& system, const OperatingPoin
       return worst.setConstant(std::numeric_limits<double>::infinity());
     worst = worst.cwiseMax((other->A - linear.A).cwiseAbs());
   }
-  return margin * worst;
+  return sample_margin * worst;
 }
 
 namespace {

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "linear/rounding.h"
+
 namespace dynalin {
 
 namespace {
@@ -16,7 +18,6 @@ using Index = Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 using ComplexMatrix = Eigen::MatrixXcd;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double converged = 1e-11;
 constexpr Index at_a_time = 4;  // columns of the block
 

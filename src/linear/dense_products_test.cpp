@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dynalin {
+namespace dynalin::dense_products_test {
 namespace {
 
 TEST(TransposedFactor, is_the_product_whether_most_entries_are_zero_or_none) {
@@ -24,4 +24,4 @@ TEST(TransposedFactor, of_no_rows_gives_nothing_in_its_size) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::dense_products_test

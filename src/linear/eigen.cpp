@@ -9,6 +9,7 @@
 #include <new>
 #include <numbers>
 
+#include "base/cycle.h"
 #include "linear/dense_products.h"
 #include "linear/eigen_refinement.h"
 
@@ -17,7 +18,6 @@ namespace dynalin {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double cycle = 2 * std::numbers::pi;
 
 // Pairs of a real matrix without zero modes, in coordinates of their own.
 bool solve_core(Eigen::MatrixXd core, EigenPairs& pairs) {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dynalin {
+namespace dynalin::eigen_pairs_test {
 namespace {
 
 // A chain of five zeros, at whose end a value of 1e-90: the vector is [1/λ⁵ … 1/λ 1] in its direction, and 1/λ⁵ no
@@ -69,4 +69,4 @@ TEST(eigen_pairs, slow_pairs_stay_pairs) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::eigen_pairs_test

@@ -73,7 +73,7 @@ std::vector<Index> inexact(const EigenPairs& pairs, const std::vector<EigenTrust
   return found;
 }
 
-double largest(const std::vector<EigenTrust>& trust) {
+double largest_bound(const std::vector<EigenTrust>& trust) {
   double bound = 0;
   for (const EigenTrust& t : trust) bound = std::max(bound, t.bound);
   return bound;
@@ -119,7 +119,7 @@ std::vector<EigenTrust> refine(const PerturbationEquations& equations, const Zer
   }
   if (!all_apart) {
     std::optional<IncludedValues> found = included_values(pencil, zero);
-    if (found && largest(found->trust) <= largest(trust)) {
+    if (found && largest_bound(found->trust) <= largest_bound(trust)) {
       pairs = std::move(found->pairs), trust = std::move(found->trust);
       for (std::size_t i = 0; i < trust.size(); ++i) {
         const auto at = static_cast<Index>(i);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "linear/dense_products.h"
+#include "linear/rounding.h"
 
 namespace dynalin {
 
@@ -16,11 +17,7 @@ using Matrix = Eigen::MatrixXd;
 using ComplexMatrix = Eigen::MatrixXcd;
 using ComplexVector = Eigen::VectorXcd;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double least_product = 1e-12;  // |yᴴ x| of unit vectors
-// A sum of residuals with the solution of the constraints on the left and the same with it on the right differ by as
-// much as either is off; unless both err alike.
-constexpr double margin_of_difference = 4;
 
 // The part that a row may have in any column of unit length, at most.
 Eigen::VectorXd largest_share(const Matrix& sizes) {
@@ -123,13 +120,12 @@ void EigenResiduals::measure_floors(const StructuredPencil& pencil, const Comple
   const Index n = pencil.equations().states();
   const double relative = margin_of_difference * column_floor_.col(1).maxCoeff() + static_cast<double>(n) * eps;
   const Eigen::VectorXd sum_share = largest_share(reduced.cwiseAbs());
-  constexpr double upward = 1 + 1e-6;  // from single precision
   const Index algebraic = left_shares_.rows();
   for (Index i = 0; i < count(); ++i) {
     const double unit = std::abs(unit_(i));
     const Eigen::VectorXd y = pairs_.left.col(i).cwiseAbs();
     const double shares = left_shares_.col(i).cast<double>().dot(rounding_share_.head(algebraic));
-    row_floor_(i, 0) = (upward * left_units_(i) * shares + y.dot(rounding_share_.tail(n))) / unit;
+    row_floor_(i, 0) = (upward_from_single * left_units_(i) * shares + y.dot(rounding_share_.tail(n))) / unit;
     row_floor_(i, 1) = y.dot(sum_share) / unit;
   }
   left_shares_.resize(0, 0);

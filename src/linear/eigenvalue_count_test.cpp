@@ -8,7 +8,7 @@
 
 #include "system/sparse_lu.h"
 
-namespace dynalin {
+namespace dynalin::eigenvalue_count_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -118,4 +118,4 @@ TEST(EigenvalueCount, is_right_or_none_whatever_is_missing) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::eigenvalue_count_test

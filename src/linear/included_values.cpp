@@ -6,6 +6,7 @@
 
 #include "linear/dense_products.h"
 #include "linear/inclusion.h"
+#include "linear/rounding.h"
 
 namespace dynalin {
 
@@ -18,11 +19,7 @@ using ComplexMatrix = Eigen::MatrixXcd;
 using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double upward = 1 + 1e-6;
 constexpr Index most_in_long_double = 300;
-// Two ways to the same product err by no more than a few times what they differ, unless both err alike.
-constexpr double margin_of_difference = 4;
 
 // The lower right block of T⁻¹ A T as the sparse equations have it.
 struct Core {
@@ -89,7 +86,7 @@ Core measure(const StructuredPencil& pencil, const ZeroModes& zero) {
   off = off.cwiseAbs() + static_cast<double>(n) * long_eps * (Y.cwiseAbs().transpose() * T.cwiseAbs());
   core.uncertainty += 1.1 * off * (L.transpose() * reduced).cwiseAbs();
   core.uncertainty += transposed_product(Matrix(Y.cwiseAbs()), Matrix(pencil.uncertainty() * X.cwiseAbs()));
-  core.uncertainty *= upward;
+  core.uncertainty *= upward_from_single;
   return core;
 }
 

@@ -8,6 +8,7 @@
 
 #include "linear/clustered_schur.h"
 #include "linear/disc_vectors.h"
+#include "linear/index.h"
 #include "linear/resolvent_bounds.h"
 
 namespace dynalin {
@@ -20,11 +21,8 @@ using LongComplex = std::complex<long double>;
 using Matrix = Eigen::MatrixXd;
 using ComplexMatrix = Eigen::MatrixXcd;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most_inverse_defect = 0.05;  // of a basis times its computed inverse
 constexpr int most_rounds_of_weights = 300;
-
-std::size_t at(Index k) { return static_cast<std::size_t>(k); }
 
 class Inclusion {
  public:

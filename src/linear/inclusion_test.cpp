@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace dynalin {
+namespace dynalin::inclusion_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -127,4 +127,4 @@ TEST(Inclusion, equal_oscillators_share_a_disc_above_the_axis) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::inclusion_test

@@ -11,7 +11,7 @@
 #include "system/model_test_support.h"
 #include "system/shifted_lu.h"
 
-namespace dynalin {
+namespace dynalin::inertia_count_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -170,4 +170,4 @@ TEST(InertiaCount, is_not_trusted_away_from_an_equilibrium) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::inertia_count_test

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "linear/rounding.h"
 #include "system/shifted_lu.h"
 
 namespace dynalin {
@@ -15,10 +16,9 @@ using LongComplex = std::complex<long double>;
 using Index = Eigen::Index;
 using ComplexVector = Eigen::VectorXcd;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr std::size_t most_refined = 100;
 constexpr double most_factor_entries = 2e7;
-constexpr int most_rounds = 6;
+constexpr int most_refinements = 6;
 constexpr double most_contraction = 0.5;  // of the error of a vector in a round
 constexpr double settled = 64 * eps;      // of a vector of unit length
 
@@ -48,7 +48,7 @@ class Refinement {
       second_order_ = of_left.dot(z.cwiseAbs()) / std::abs(unit_);
       const bool contracts = size <= most_contraction * before || size <= settled;
       const bool enough = second_order_ <= floor_ + eps * std::abs(value());
-      if (round > 0 && (enough || !contracts || round == most_rounds)) return contracts;
+      if (round > 0 && (enough || !contracts || round == most_refinements)) return contracts;
       before = size;
       w_ -= z, y_ -= v;
       if (!normalized()) return false;
@@ -61,9 +61,7 @@ class Refinement {
   // |(S − λE)ᴴ y| · |z| with z the error of w is all that the quotient misses; z is known to a few digits.
   double error() const { return first_order_margin * second_order_ + floor_ + eps * std::abs(value()); }
   // By what is not known of the state matrix.
-  double unknown() const {
-    return left().cwiseAbs().dot(pencil_.uncertainty() * right().cwiseAbs()) / std::abs(unit_);
-  }
+  double unknown() const { return left().cwiseAbs().dot(pencil_.uncertainty() * right().cwiseAbs()) / std::abs(unit_); }
 
  private:
   Complex of_states(const ComplexVector& a, const ComplexVector& b) const {

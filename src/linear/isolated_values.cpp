@@ -5,6 +5,9 @@
 #include <limits>
 #include <numeric>
 
+#include "linear/index.h"
+#include "linear/rounding.h"
+
 namespace dynalin {
 
 namespace {
@@ -12,12 +15,7 @@ namespace {
 using Complex = std::complex<double>;
 using Index = Eigen::Index;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double upward = 1 + 1e-9;
 constexpr double least_relative_width = 1e-11;  // of a group: closer inspection may tell wider ones apart
-
-std::size_t at(Index k) { return static_cast<std::size_t>(k); }
 
 class Discs {
  public:

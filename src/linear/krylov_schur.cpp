@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "linear/dense_products.h"
+#include "linear/rounding.h"
 #include "linear/shift_inverse.h"
 
 namespace dynalin {
@@ -20,8 +21,7 @@ using Index = Eigen::Index;
 using ComplexVector = Eigen::VectorXcd;
 using ComplexMatrix = Eigen::MatrixXcd;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double converged = 1e-11;  // |b_k| against the value; what is left is measured in long double later
+constexpr double ritz_tolerance = 1e-11;  // |b_k| against the value; what is left is measured in long double later
 
 lapack_complex_double* raw(ComplexMatrix& m) { return reinterpret_cast<lapack_complex_double*>(m.data()); }
 
@@ -130,7 +130,8 @@ bool KrylovSchur::run(const Operator& op, Index wanted, double least, int restar
     if (locked > 0) C = (C * U).eval();
     const double largest = std::abs(H(0, 0));
     Index done = 0;
-    while (done < most && std::abs(b(done)) <= std::max(converged * std::abs(H(done, done)), 4 * eps * largest)) ++done;
+    while (done < most && std::abs(b(done)) <= std::max(ritz_tolerance * std::abs(H(done, done)), 4 * eps * largest))
+      ++done;
     const bool below = done > 0 && std::abs(H(done - 1, done - 1)) < least;
     // The first that is to come is surely smaller.
     const bool ended = done < most && std::abs(b(done)) < 0.1 * std::abs(H(done, done)) &&

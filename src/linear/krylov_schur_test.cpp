@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace dynalin {
+namespace dynalin::krylov_schur_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -70,4 +70,4 @@ TEST(KrylovSchur, ends_with_everything) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::krylov_schur_test

@@ -98,8 +98,8 @@ std::array<double, 9> ModalDistribution::kinetic_terms(std::size_t body, const E
   const Body& b = system_.model().bodies[body];
   const BodyBlock& block = system_.layout().bodies[body];
   std::array<double, 9> terms{};
-  ComplexVector of_cm = three(v, block.offset);
-  ComplexVector w{};
+  ComplexVector3 of_cm = three(v, block.offset);
+  ComplexVector3 w{};
   const Matrix3& R = motion_.bodies[body].R;
   if (block.turns()) {
     w = three(v, block.offset + 3);
@@ -235,7 +235,7 @@ std::pair<std::vector<ModalRow<Complex>>, Complex> ModalDistribution::shape(std:
   std::vector<ModalRow<Complex>> rows;
   for (const std::size_t b : bodies_by_id()) {
     const BodyBlock& block = system_.layout().bodies[b];
-    ComplexVector of_cm = three(dq, block.offset), turn{};
+    ComplexVector3 of_cm = three(dq, block.offset), turn{};
     if (block.turns()) {
       turn = three(dq, block.offset + 3);
       add(of_cm, times(-skew(motion_.bodies[b].R * system_.model().bodies[b].p_BC), turn));
@@ -279,15 +279,15 @@ std::vector<ModalRow<Complex>> ModalDistribution::markers(std::size_t mode, std:
   for (const MarkerId m : list) {
     const MarkerPlace& place =
         layout.marker(system_.signals().place_of(m));  // a floating one is where its force puts it
-    ComplexVector moved{}, turned{};
+    ComplexVector3 moved{}, turned{};
     for_each_block(motion_, place, layout, [&](const PairBlock& b) {
-      ComplexVector moves{};
+      ComplexVector3 moves{};
       for (std::size_t k = 0; k < b.count; ++k) moves[k] = dq(b.column + static_cast<std::int32_t>(k));
       add(moved, times(b.moves, moves));
       add(turned, times(b.turns, moves));
     });
     ModalRow<Complex> row{&layout.marker_label(m)};
-    for (const ComplexVector& part : {moved, turned}) {
+    for (const ComplexVector3& part : {moved, turned}) {
       for (const Complex& v : part) row.values.push_back(largest == Complex(0) ? Complex(0) : v / largest);
     }
     rows.push_back(std::move(row));

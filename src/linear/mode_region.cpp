@@ -4,12 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/cycle.h"
+
 namespace dynalin {
 
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double cycle = 2 * std::numbers::pi;
 
 }  // namespace
 

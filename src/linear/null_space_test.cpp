@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace dynalin {
+namespace dynalin::null_space_test {
 namespace {
 
 using Rows = std::vector<Eigen::RowVectorXd>;
@@ -42,4 +42,4 @@ TEST(NullSpace, looks_at_small_rows_where_the_large_ones_do_not_decide) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::null_space_test

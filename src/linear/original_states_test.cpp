@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace dynalin {
+namespace dynalin::original_states_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -128,4 +128,4 @@ TEST(PrincipalAxes, angles_are_singular_where_z_is_vertical) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::original_states_test

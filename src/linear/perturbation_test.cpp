@@ -8,7 +8,7 @@
 #include "linear/linear_system.h"
 #include "system/model_test_support.h"
 
-namespace dynalin {
+namespace dynalin::perturbation_test {
 namespace {
 
 // A link on a ball joint, a second one hinged to it about an oblique axis, a spring and a controller.
@@ -40,4 +40,4 @@ TEST(Perturbation, holds_no_entry_that_is_zero_and_more_of_them_in_motion) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::perturbation_test

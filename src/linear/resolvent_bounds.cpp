@@ -14,8 +14,6 @@ using LongComplex = std::complex<long double>;
 using Matrix = Eigen::MatrixXd;
 using Index = Eigen::Index;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 }  // namespace
 
 Matrix sizes(const LongComplexMatrix& m) {

@@ -6,10 +6,10 @@
 
 #include "linear/inclusion.h"
 #include "linear/pencil_residual.h"
+#include "linear/rounding.h"
 
 namespace dynalin {
 
-constexpr double upward = 1 + 1e-9;    // covers the rounding of bounds that are themselves sums in double
 constexpr double least_size = 1e-300;  // keeps strict inequalities strict
 
 Eigen::MatrixXd sizes(const LongComplexMatrix&);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/cycle.h"
 #include "linear/conservative_search.h"
 #include "linear/dense_products.h"
 #include "linear/inertia_count.h"
@@ -24,7 +25,6 @@ using Matrix = Eigen::MatrixXd;
 using ComplexMatrix = Eigen::MatrixXcd;
 using Side = EigenvalueSearch::Side;
 
-constexpr double cycle = 2 * std::numbers::pi;
 constexpr double beside_axis = 0.0137;  // shifts keep off the axis that undamped modes are on
 constexpr double next_to_zero = 0.05;   // of a shift: what may be a zero, as far as it is computed
 constexpr int most_rounds = 24;

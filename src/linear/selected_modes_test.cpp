@@ -10,7 +10,7 @@
 
 #include "system/model_test_support.h"
 
-namespace dynalin {
+namespace dynalin::selected_modes_test {
 namespace {
 
 struct Selected {
@@ -220,4 +220,4 @@ TEST(SelectedModes, of_a_turning_damped_shaft_are_those_of_the_full_solution) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::selected_modes_test

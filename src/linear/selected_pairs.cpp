@@ -8,6 +8,7 @@
 
 #include "linear/clustered_schur.h"
 #include "linear/dense_products.h"
+#include "linear/rounding.h"
 #include "linear/subspace_pencil.h"
 
 namespace dynalin {
@@ -19,7 +20,6 @@ using Index = Eigen::Index;
 using ComplexMatrix = Eigen::MatrixXcd;
 using ComplexVector = Eigen::VectorXcd;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 // How nearly parts of a basis may depend on each other before they become one.
 constexpr double most_oblique = 1e4;
 constexpr double equal_values = 1e-9;

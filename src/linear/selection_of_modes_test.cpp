@@ -3,7 +3,7 @@
 
 #include "linear/selected_modes.h"
 
-namespace dynalin {
+namespace dynalin::selection_of_modes_test {
 namespace {
 
 EigenMode mode(double re, double im, bool zero = false) {
@@ -86,4 +86,4 @@ TEST(SelectionOfModes, leaves_out_strong_damping_beyond_the_band) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::selection_of_modes_test

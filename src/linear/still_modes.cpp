@@ -21,15 +21,15 @@ constexpr double residual_tolerance = 1e-11;
 // Motions of a still mode are roundings beside its own states.
 constexpr double largest_motion = 1e-8;
 
-constexpr Index at_a_time = 64;
+constexpr Index columns_at_a_time = 64;
 
 // Which of some states have columns of T that move something that has mass.
 std::vector<bool> moving_mass(const MassRoot& root, const LinearSystem& linear, const std::vector<Index>& states) {
   const auto n = static_cast<Index>(linear.model.states.size());
   std::vector<bool> moves(states.size(), false);
   if (root.bodies() == 0 || linear.equations->coordinates() == 0) return moves;
-  for (Index first = 0; first < static_cast<Index>(states.size()); first += at_a_time) {
-    const Index count = std::min(at_a_time, static_cast<Index>(states.size()) - first);
+  for (Index first = 0; first < static_cast<Index>(states.size()); first += columns_at_a_time) {
+    const Index count = std::min(columns_at_a_time, static_cast<Index>(states.size()) - first);
     Eigen::MatrixXcd units = Eigen::MatrixXcd::Zero(n, count);
     for (Index k = 0; k < count; ++k) units(states[static_cast<std::size_t>(first + k)], k) = 1;
     const Matrix motions = linear.equations->motions(units).real();
@@ -47,8 +47,8 @@ std::vector<bool> moving_mass(const MassRoot& root, const LinearSystem& linear, 
 // Columns of the state matrix; the whole of it is not needed for that.
 Matrix state_matrix_columns(const PerturbationEquations& p, const std::vector<Index>& states) {
   Matrix columns(p.states(), static_cast<Index>(states.size()));
-  for (Index first = 0; first < columns.cols(); first += at_a_time) {
-    const Index count = std::min(at_a_time, columns.cols() - first);
+  for (Index first = 0; first < columns.cols(); first += columns_at_a_time) {
+    const Index count = std::min(columns_at_a_time, columns.cols() - first);
     Matrix of_equations = Matrix::Zero(p.unknowns(), count);
     for (Index k = 0; k < count; ++k) {
       const auto column = p.state_columns() + static_cast<std::int32_t>(states[static_cast<std::size_t>(first + k)]);

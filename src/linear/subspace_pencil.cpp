@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "linear/dense_products.h"
+#include "linear/rounding.h"
 #include "linear/transposed.h"
 
 namespace dynalin {
@@ -18,10 +19,6 @@ using Matrix = Eigen::MatrixXd;
 using ComplexMatrix = Eigen::MatrixXcd;
 using ComplexVector = Eigen::VectorXcd;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double upward = 1 + 1e-6;
-// Two ways to the same product err by no more than a few times what they differ, unless both err alike.
-constexpr double margin_of_difference = 4;
 // The norms of what the operator does beside the subspace are estimates.
 constexpr double margin_of_norms = 10;
 
@@ -259,7 +256,7 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
   }
   const double amplified = 1 + margin_of_norms * reach * std::max(norm_beside(op, of.X, of.Y), 1 / distance);
   out.uncertainty += between + reach * amplified * size_of_left * size_of_right.transpose();
-  out.uncertainty = upward * (out.uncertainty + out.unknown);
+  out.uncertainty = upward_from_single * (out.uncertainty + out.unknown);
   return out;
 }
 

@@ -12,7 +12,7 @@ namespace dynalin {
 namespace {
 
 using Index = Eigen::Index;
-using Vector = Eigen::VectorXd;
+using DenseVector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
 // Relative to its gradient, the part of a motion that is no rounding, and one that is worth a word.
@@ -40,7 +40,7 @@ class Preference {
 
  private:
   // What the coordinate makes of the motions of the chosen ones, in their units.
-  Vector motion_of(const std::vector<StateChoice::Entry>& gradient) const {
+  DenseVector motion_of(const std::vector<StateChoice::Entry>& gradient) const {
     Matrix row = Matrix::Zero(static_cast<Index>(system_.coordinates()), 1);
     for (const auto& e : gradient) row(e.column, 0) += e.c.g;
     lu_.solve_transposed(row);
@@ -50,11 +50,11 @@ class Preference {
   void consider(const Candidate& c) {
     std::vector<StateChoice::Entry> gradient = gradient_of(candidates_, c);
     const double given = unit_of(system_, gradient);
-    const Vector motion = given > 0 ? motion_of(gradient) : Vector::Zero(count_);
+    const DenseVector motion = given > 0 ? motion_of(gradient) : DenseVector::Zero(count_);
     const double size = std::max(given, motion.norm());
-    Vector rest = motion, along = Vector::Zero(basis_.cols());
+    DenseVector rest = motion, along = DenseVector::Zero(basis_.cols());
     for (int twice = 0; twice < 2; ++twice) {
-      const Vector part = basis_.transpose() * rest;
+      const DenseVector part = basis_.transpose() * rest;
       rest -= basis_ * part;
       along += part;
     }
@@ -80,8 +80,8 @@ class Preference {
     choice_.warnings.warning("dependent-coordinate", {}, fmt::format("{} was not taken: {}", c.state.label.text, why));
   }
 
-  void take(const Candidate& c, std::vector<StateChoice::Entry> gradient, const Vector& motion, const Vector& rest,
-            const Vector& along) {
+  void take(const Candidate& c, std::vector<StateChoice::Entry> gradient, const DenseVector& motion,
+            const DenseVector& rest, const DenseVector& along) {
     const Index m = basis_.cols();
     basis_.conservativeResize(Eigen::NoChange, m + 1);
     basis_.col(m) = rest.normalized();
@@ -95,8 +95,8 @@ class Preference {
   }
 
   // Of those taken before, the ones that make it up.
-  std::string names_of(const Vector& along, double size) const {
-    const Vector factors = triangle_.triangularView<Eigen::Upper>().solve(along);
+  std::string names_of(const DenseVector& along, double size) const {
+    const DenseVector factors = triangle_.triangularView<Eigen::Upper>().solve(along);
     std::vector<std::string> names;
     std::size_t more = 0;
     for (std::size_t k = 0; k < taken_.size(); ++k) {
@@ -140,7 +140,7 @@ class Preference {
   StateChoice& choice_;
   Index count_;  // of the chosen coordinates
   SparseLu lu_;
-  Vector unit_;
+  DenseVector unit_;
   Matrix basis_, triangle_;  // motions of those taken, in rows: their transpose is basis · triangle
   std::vector<double> sizes_, units_;
   std::vector<StateCoordinate> taken_;

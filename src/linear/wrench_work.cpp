@@ -21,17 +21,17 @@ double stretch(const Matrix3& m) {
   }
   return std::sqrt(rows * columns);
 }
-double size_of(const ComplexVector& v) { return std::sqrt(std::norm(v[0]) + std::norm(v[1]) + std::norm(v[2])); }
+double size_of(const ComplexVector3& v) { return std::sqrt(std::norm(v[0]) + std::norm(v[1]) + std::norm(v[2])); }
 
 }  // namespace
 
-ComplexVector times(const Matrix3& m, const ComplexVector& v) {
-  ComplexVector r;
+ComplexVector3 times(const Matrix3& m, const ComplexVector3& v) {
+  ComplexVector3 r;
   for (std::size_t i = 0; i < 3; ++i) r[i] = m(i, 0) * v[0] + m(i, 1) * v[1] + m(i, 2) * v[2];
   return r;
 }
 
-void add(ComplexVector& a, const ComplexVector& b, Complex factor) {
+void add(ComplexVector3& a, const ComplexVector3& b, Complex factor) {
   for (std::size_t k = 0; k < 3; ++k) a[k] += factor * b[k];
 }
 
@@ -45,11 +45,11 @@ WrenchWork::Done WrenchWork::of(const MarkerWrench& w) const {
 
   // What the motion makes of force and torque, and how much if nothing cancelled; and what they work on: the origin and
   // the axes of I, and against them those of the point that takes the opposite.
-  ComplexVector dF{}, dT{}, moved{}, turned{};
+  ComplexVector3 dF{}, dT{}, moved{}, turned{};
   double dF_size = 0, dT_size = 0, moved_size = 0, turned_size = 0;
   const Vector reach = w.force.reaction == Reaction::at_J ? Vector{} : value(p.arm) - value(p.arm_J);
   for_each_block(p, layout_, [&](const PairBlock& b) {
-    ComplexVector du{};
+    ComplexVector3 du{};
     for (std::size_t k = 0; k < b.count; ++k) du[k] = u_(b.column + static_cast<std::int32_t>(k));
     const double du_size = size_of(du);
     const BlockPartials on = partials_by(b, w.force);
@@ -77,7 +77,7 @@ WrenchWork::Done WrenchWork::of(const MarkerWrench& w) const {
   }
   for (const MarkerWrench::Turn& turn : w.turns) {
     if (!strain) continue;
-    ComplexVector phi{};
+    ComplexVector3 phi{};
     for_each_turning_block(*p.motion, *turn.axes, layout_,
                            [&](std::int32_t column, std::size_t count, const Matrix3& turns) {
                              for (std::size_t k = 0; k < count; ++k)

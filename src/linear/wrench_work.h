@@ -14,11 +14,11 @@
 
 namespace dynalin {
 
-using ComplexVector = std::array<std::complex<double>, 3>;
+using ComplexVector3 = std::array<std::complex<double>, 3>;
 
-inline ComplexVector three(const Eigen::VectorXcd& x, std::int32_t at) { return {x(at), x(at + 1), x(at + 2)}; }
-ComplexVector times(const Matrix3&, const ComplexVector&);
-void add(ComplexVector& a, const ComplexVector& b, std::complex<double> factor = 1.0);
+inline ComplexVector3 three(const Eigen::VectorXcd& x, std::int32_t at) { return {x(at), x(at + 1), x(at + 2)}; }
+ComplexVector3 times(const Matrix3&, const ComplexVector3&);
+void add(ComplexVector3& a, const ComplexVector3& b, std::complex<double> factor = 1.0);
 
 class WrenchWork {
  public:

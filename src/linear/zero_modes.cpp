@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "linear/balanced.h"
+#include "linear/rounding.h"
 #include "linear/structural_zeros.h"
 #include "linear/triangular_form.h"
 
@@ -19,7 +20,6 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 using Index = Eigen::Index;
-constexpr double eps = std::numeric_limits<double>::epsilon();
 // Entries of the blocks that are made in the splitting carry a few roundings more.
 constexpr double margin = 2;
 // What states drive is solved for where it is no nearer to a singular matrix.

@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-namespace dynalin {
+namespace dynalin::accumulator_test {
 namespace {
 
 struct Addition {
@@ -156,4 +156,4 @@ TEST(ColumnMatrix, a_product_adds_factor_times_the_matrix) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::accumulator_test

@@ -5,7 +5,7 @@
 
 #include "mechanics/binding_test_support.h"
 
-namespace dynalin::mechanics_test {
+namespace dynalin::mechanics_test::bound_expression_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -470,4 +470,4 @@ TEST(BoundExpression, senval_is_what_the_memory_holds) {
 }
 
 }  // namespace
-}  // namespace dynalin::mechanics_test
+}  // namespace dynalin::mechanics_test::bound_expression_test

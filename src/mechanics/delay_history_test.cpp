@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace dynalin {
+namespace dynalin::delay_history_test {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -168,4 +168,4 @@ TEST(DelayHistory, begins_anew_where_time_goes_back) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::delay_history_test

@@ -6,7 +6,7 @@
 
 #include "mechanics/paths_test_support.h"
 
-namespace dynalin::mechanics_test {
+namespace dynalin::mechanics_test::frame_variations_test {
 namespace {
 
 constexpr std::size_t all_levels = 18;
@@ -203,4 +203,4 @@ TEST(FrameVariations, measures_are_varied_by_the_parameter_of_a_contact) {
 }
 
 }  // namespace
-}  // namespace dynalin::mechanics_test
+}  // namespace dynalin::mechanics_test::frame_variations_test

@@ -5,7 +5,7 @@
 
 #include "mechanics/paths_test_support.h"
 
-namespace dynalin::mechanics_test {
+namespace dynalin::mechanics_test::layout_test {
 namespace {
 
 TEST(Layout, bodies_have_the_coordinates_of_their_kind_one_after_another) {
@@ -78,4 +78,4 @@ TEST(Layout, a_floating_marker_is_found_by_its_contact_alone) {
 }
 
 }  // namespace
-}  // namespace dynalin::mechanics_test
+}  // namespace dynalin::mechanics_test::layout_test

@@ -7,7 +7,7 @@
 
 #include "mechanics/paths_test_support.h"
 
-namespace dynalin::mechanics_test {
+namespace dynalin::mechanics_test::motion_test {
 namespace {
 
 void expect_near(const Vector& value, const RealVector& expected, const char* what) {
@@ -77,4 +77,4 @@ TEST(Motion, an_angle_is_unwrapped_to_the_turn_that_is_remembered) {
 }
 
 }  // namespace
-}  // namespace dynalin::mechanics_test
+}  // namespace dynalin::mechanics_test::motion_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace dynalin {
+namespace dynalin::node_variations_test {
 namespace {
 
 constexpr std::size_t modes = 5;
@@ -101,4 +101,4 @@ TEST(NodeVariations, work_and_how_it_changes_is_that_of_each_coordinate) {
   }
 }
 
-}  // namespace dynalin
+}  // namespace dynalin::node_variations_test

@@ -6,7 +6,7 @@
 #include "mechanics/pair_blocks.h"
 #include "mechanics/paths_test_support.h"
 
-namespace dynalin::mechanics_test {
+namespace dynalin::mechanics_test::pair_test {
 namespace {
 
 constexpr MarkerId I{2}, J{5};  // on PART/2 and PART/3
@@ -443,4 +443,4 @@ TEST(Pair, partials_of_one_equation_reach_both_bodies) {
 }
 
 }  // namespace
-}  // namespace dynalin::mechanics_test
+}  // namespace dynalin::mechanics_test::pair_test

@@ -6,7 +6,7 @@
 #include "mechanics/pair.h"
 #include "mechanics/paths_test_support.h"
 
-namespace dynalin::mechanics_test {
+namespace dynalin::mechanics_test::path_test {
 namespace {
 
 constexpr MarkerId I{2}, J{5};
@@ -96,4 +96,4 @@ TEST(PathVariations, gradients_of_gradients_are_taken_at_the_pose_that_is_varied
 }
 
 }  // namespace
-}  // namespace dynalin::mechanics_test
+}  // namespace dynalin::mechanics_test::path_test

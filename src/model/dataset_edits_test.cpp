@@ -7,7 +7,7 @@
 
 #include "elements/catalogue.h"
 
-namespace dynalin {
+namespace dynalin::dataset_edits_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -80,8 +80,7 @@ TEST(DatasetEdits, take_what_another_argument_excludes) {
            {"CURVE/1, OPEN, CURVE_POINTS", "CLOSED, CONTROL_POINTS", "CLOSED CONTROL_POINTS"},
            {"CURVE/1, CLOSED, CONTROL_POINTS", "OPEN, CURVE_POINTS", "OPEN CURVE_POINTS"},
            {"MATRIX/1, FULL=RORDER, ROWS=1, COLUMNS=1, VALUES=1", "FILE=a, NAME=b", "FILE=a NAME=b"},
-           {"MATRIX/1, FILE=a, NAME=b", "SPARSE, I=1, J=1, VALUES=1",
-            "NAME=b SPARSE I=1 J=1 VALUES=1"},
+           {"MATRIX/1, FILE=a, NAME=b", "SPARSE, I=1, J=1, VALUES=1", "NAME=b SPARSE I=1 J=1 VALUES=1"},
            {"MATRIX/1, SPARSE, I=1, J=1, VALUES=1", "FULL, RORDER, ROWS=1, COLUMNS=1",
             "VALUES=1 FULL RORDER ROWS=1 COLUMNS=1"}}) {
     const std::string element = before.substr(0, before.find(','));
@@ -133,4 +132,4 @@ TEST(DatasetEdits, end_arguments_of_their_own_statement) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::dataset_edits_test

@@ -7,7 +7,7 @@
 #include <random>
 #include <regex>
 
-namespace dynalin::nastran {
+namespace dynalin::nastran::cards_test {
 namespace {
 
 // As Nastran reads it, or NaN: a point there must be, an exponent has a sign or a letter.
@@ -141,4 +141,4 @@ TEST(Card, names_what_does_not_fit) {
 TEST(Card, of_parameters_is_free) { EXPECT_EQ(parameter_card("POST", "0"), "PARAM,POST,0\n"); }
 
 }  // namespace
-}  // namespace dynalin::nastran
+}  // namespace dynalin::nastran::cards_test

@@ -6,7 +6,7 @@
 #include "mechanics/pair_blocks.h"
 #include "nastran/deck_roots_test_support.h"
 
-namespace dynalin::nastran {
+namespace dynalin::nastran::closed_box_test {
 namespace {
 
 using namespace nastran_test;
@@ -233,4 +233,4 @@ TEST(ClosedBox, floating_markers_cannot_be_exported) {
 }
 
 }  // namespace
-}  // namespace dynalin::nastran
+}  // namespace dynalin::nastran::closed_box_test

@@ -286,7 +286,7 @@ class References {
         if (label.statement == statement && label.view_name == e.name) return;
       }
     }
-    for (const Body& body : model_.bodies) {
+    for (const auto& body : model_.bodies) {
       if (body.label.statement == statement && body.label.view_name == e.name) return;
     }
     unknown(at, fmt::format("no {} has the name {}", statement, e.name), "names are those of adams_view_name comments");

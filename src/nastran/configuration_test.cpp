@@ -5,7 +5,7 @@
 #include <numbers>
 #include <set>
 
-namespace dynalin::nastran {
+namespace dynalin::nastran::configuration_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -416,4 +416,4 @@ TEST(Configuration, survives_the_end_of_the_file_at_any_place) {
 }
 
 }  // namespace
-}  // namespace dynalin::nastran
+}  // namespace dynalin::nastran::configuration_test

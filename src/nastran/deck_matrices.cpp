@@ -85,9 +85,9 @@ std::string own_name(std::string wanted, std::set<std::string>& taken) {
 
 char root(MatrixKind kind) { return "KBM"[static_cast<std::size_t>(kind)]; }
 
-class Writer {
+class MatrixWriter {
  public:
-  Writer(const Deck& deck, const ExportOptions& options, Diagnostics& remarks, std::vector<std::string>& details)
+  MatrixWriter(const Deck& deck, const ExportOptions& options, Diagnostics& remarks, std::vector<std::string>& details)
       : options_(options), remarks_(remarks), details_(details) {
     const auto take = [this](MatrixKind kind, double value) {
       double& most = largest_of_kind_[static_cast<std::size_t>(kind)];
@@ -170,7 +170,7 @@ class Writer {
 
 std::vector<WrittenMatrix> written_matrices(const Deck& deck, const ExportOptions& options, Diagnostics& remarks,
                                             std::vector<std::string>& details) {
-  Writer writer(deck, options, remarks, details);
+  MatrixWriter writer(deck, options, remarks, details);
   for (const Matrix& matrix : deck.matrices) writer.add(matrix);
   return writer.take();
 }

@@ -97,9 +97,9 @@ class Files {
   std::map<std::string, CardFile*> named_;
 };
 
-class Writer {
+class TextWriter {
  public:
-  Writer(Deck deck, const ExportOptions& options, const std::string& file)
+  TextWriter(Deck deck, const ExportOptions& options, const std::string& file)
       : deck_(std::move(deck)), o_(options), files_(deck_, options, file) {}
 
   tl::expected<DeckText, std::vector<std::string>> write() {
@@ -168,7 +168,7 @@ class Writer {
 
 tl::expected<DeckText, std::vector<std::string>> deck_text(Deck deck, const ExportOptions& options,
                                                            const std::string& file) {
-  return Writer(std::move(deck), options, file).write();
+  return TextWriter(std::move(deck), options, file).write();
 }
 
 }  // namespace dynalin::nastran

@@ -13,7 +13,7 @@
 #include "nastran/sample_deck_test_support.h"
 #include "places/source_tree.h"
 
-namespace dynalin::nastran {
+namespace dynalin::nastran::deck_text_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -477,4 +477,4 @@ TEST(DeckText, has_mode_shapes_in_records_of_a_punch_file) {
 }
 
 }  // namespace
-}  // namespace dynalin::nastran
+}  // namespace dynalin::nastran::deck_text_test

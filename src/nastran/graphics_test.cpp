@@ -7,7 +7,7 @@
 
 #include "elements/graphics/drawn_model_test_support.h"
 
-namespace dynalin::nastran {
+namespace dynalin::nastran::graphics_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -222,4 +222,4 @@ TEST(DeckGraphics, name_the_first_card_of_each_shape) {
 }
 
 }  // namespace
-}  // namespace dynalin::nastran
+}  // namespace dynalin::nastran::graphics_test

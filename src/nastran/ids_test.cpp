@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-namespace dynalin::nastran {
+namespace dynalin::nastran::ids_test {
 namespace {
 
 TEST(ids, families_with_the_same_offset_follow_each_other) {
@@ -43,4 +43,4 @@ TEST(ids, each_is_the_first_free_one_from_where_it_is_wanted) {
 }
 
 }  // namespace
-}  // namespace dynalin::nastran
+}  // namespace dynalin::nastran::ids_test

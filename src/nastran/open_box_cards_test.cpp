@@ -6,7 +6,7 @@
 #include "nastran/open_box.h"
 #include "nastran/unused_items.h"
 
-namespace dynalin::nastran {
+namespace dynalin::nastran::open_box_cards_test {
 namespace {
 
 using namespace nastran_test;
@@ -352,4 +352,4 @@ TEST(OpenBoxCards, mode_shapes_are_those_of_the_deck) {
 }
 
 }  // namespace
-}  // namespace dynalin::nastran
+}  // namespace dynalin::nastran::open_box_cards_test

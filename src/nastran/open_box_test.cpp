@@ -4,7 +4,7 @@
 
 #include "nastran/deck_roots_test_support.h"
 
-namespace dynalin::nastran {
+namespace dynalin::nastran::open_box_test {
 namespace {
 
 using namespace nastran_test;
@@ -269,4 +269,4 @@ TEST(OpenBox, holds_velocities_that_depend_on_displacements) {
 }
 
 }  // namespace
-}  // namespace dynalin::nastran
+}  // namespace dynalin::nastran::open_box_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dynalin::nastran_reader {
+namespace dynalin::nastran_reader::bulk_test {
 namespace {
 
 struct Read {
@@ -85,4 +85,4 @@ TEST(Bulk, long_values_in_free_field_and_lines_with_too_many) {
 }
 
 }  // namespace
-}  // namespace dynalin::nastran_reader
+}  // namespace dynalin::nastran_reader::bulk_test

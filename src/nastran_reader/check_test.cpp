@@ -10,7 +10,7 @@
 
 #include "nastran_reader/solve.h"
 
-namespace dynalin::nastran_reader {
+namespace dynalin::nastran_reader::check_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -259,4 +259,4 @@ TEST_F(Included, files_that_are_wrong_are_told) {
 }
 
 }  // namespace
-}  // namespace dynalin::nastran_reader
+}  // namespace dynalin::nastran_reader::check_test

@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <random>
 
-namespace dynalin::nastran_reader {
+namespace dynalin::nastran_reader::elimination_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -108,4 +108,4 @@ TEST(Elimination, leaves_out_what_is_held) {
 }
 
 }  // namespace
-}  // namespace dynalin::nastran_reader
+}  // namespace dynalin::nastran_reader::elimination_test

@@ -7,7 +7,7 @@
 
 #include "nastran_reader/solve.h"
 
-namespace dynalin::nastran_reader {
+namespace dynalin::nastran_reader::equations_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -219,4 +219,4 @@ TEST(Card, sets_of_constraints_count_where_they_are_selected) {
 }
 
 }  // namespace
-}  // namespace dynalin::nastran_reader
+}  // namespace dynalin::nastran_reader::equations_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace dynalin::nastran_reader {
+namespace dynalin::nastran_reader::field_test {
 namespace {
 
 Field field(std::string_view text) { return read_field(text, {}); }
@@ -73,4 +73,4 @@ TEST(Field, reads_random_reals_back) {
 }
 
 }  // namespace
-}  // namespace dynalin::nastran_reader
+}  // namespace dynalin::nastran_reader::field_test

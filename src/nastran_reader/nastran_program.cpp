@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "base/cycle.h"
 #include "nastran_reader/solve.h"
 #include "output/output_file.h"
 
@@ -17,7 +18,6 @@ namespace {
 using Complex = std::complex<double>;
 using Json = nlohmann::ordered_json;
 
-constexpr double cycle = 2 * std::numbers::pi;
 enum Status : int { done = 0, wrong_input = 1, failed = 2, wrong_usage = 3 };
 
 std::size_t warnings(const Diagnostics& all) { return all.items().size() - all.error_count(); }

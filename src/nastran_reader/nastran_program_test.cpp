@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace dynalin::nastran_reader {
+namespace dynalin::nastran_reader::nastran_program_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -92,4 +92,4 @@ TEST_F(NastranProgram, tells_by_its_exit_status_what_happened) {
 }
 
 }  // namespace
-}  // namespace dynalin::nastran_reader
+}  // namespace dynalin::nastran_reader::nastran_program_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace dynalin::nastran_reader {
+namespace dynalin::nastran_reader::quadratic_eigen_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -186,4 +186,4 @@ TEST(QuadraticEigenvalues, refuses_what_nothing_determines) {
 }
 
 }  // namespace
-}  // namespace dynalin::nastran_reader
+}  // namespace dynalin::nastran_reader::quadratic_eigen_test

@@ -8,7 +8,7 @@
 
 #include "nastran_reader/quadratic_eigen.h"
 
-namespace dynalin::nastran_reader {
+namespace dynalin::nastran_reader::regular_pencil_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -99,4 +99,4 @@ TEST(RegularPencil, with_ill_conditioned_masses_goes_by_qz) {
 }
 
 }  // namespace
-}  // namespace dynalin::nastran_reader
+}  // namespace dynalin::nastran_reader::regular_pencil_test

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/cycle.h"
 #include "nastran_reader/selection.h"
 #include "nastran_reader/solve.h"
 
@@ -16,8 +17,6 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::VectorXcd;
 using ComplexSparse = Eigen::SparseMatrix<Complex>;
-
-constexpr double cycle = 2 * std::numbers::pi;
 
 // Static loads of a set on all freedoms.
 Eigen::VectorXd excitation(const Prepared& p, int set) {

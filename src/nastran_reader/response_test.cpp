@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/cycle.h"
 #include "nastran_reader/solve.h"
 
-namespace dynalin::nastran_reader {
+namespace dynalin::nastran_reader::response_test {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double cycle = 2 * std::numbers::pi;
 
 struct Answer {
   Prepared p;
@@ -99,4 +99,4 @@ TEST(Response, is_zero_where_everything_is_held) {
 }
 
 }  // namespace
-}  // namespace dynalin::nastran_reader
+}  // namespace dynalin::nastran_reader::response_test

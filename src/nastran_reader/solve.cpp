@@ -30,7 +30,7 @@ constexpr std::string_view right_elsewhere = "unassembled-card";
 
 using Row = Eigen::SparseVector<double>;
 
-double largest(const Row& row) {
+double largest_entry(const Row& row) {
   double most = 0;
   for (Row::InnerIterator it(row); it; ++it) most = std::max(most, std::abs(it.value()));
   return most;
@@ -56,11 +56,11 @@ void check_undeformed(const Prepared& p, Diagnostics& diagnostics) {
         for (int j = 0; j < 6; ++j) {
           if (map(c, j) == 0) continue;
           expected += map(c, j) * moves[j];
-          size = std::max(size, std::abs(map(c, j)) * largest(moves[j]));
+          size = std::max(size, std::abs(map(c, j)) * largest_entry(moves[j]));
         }
         const Row is = motion(*other, c);
-        size = std::max(size, largest(is));
-        rigid = largest(is - expected) <= 1e-8 * size;
+        size = std::max(size, largest_entry(is));
+        rigid = largest_entry(is - expected) <= 1e-8 * size;
       }
     }
     if (!rigid)

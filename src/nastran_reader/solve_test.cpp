@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dynalin::nastran_reader {
+namespace dynalin::nastran_reader::solve_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -302,4 +302,4 @@ TEST(SolvedDeck, mode_shape_of_the_first_mode) {
 }
 
 }  // namespace
-}  // namespace dynalin::nastran_reader
+}  // namespace dynalin::nastran_reader::solve_test

@@ -12,17 +12,17 @@ namespace dynalin {
 namespace {
 
 // What belongs to one command, key by key; long lists of numbers as the text that will be written.
-class Result {
+class CommandResult {
  public:
-  Result(std::initializer_list<std::pair<const char*, Json>> values) {
+  CommandResult(std::initializer_list<std::pair<const char*, Json>> values) {
     for (const auto& [key, value] : values) members_.push_back({key, value, {}});
   }
-  Result& add(const char* key, Json value) {
+  CommandResult& add(const char* key, Json value) {
     members_.push_back({key, std::move(value), {}});
     return *this;
   }
   template <class Write>
-  Result& write(const char* key, Write&& write) {
+  CommandResult& write(const char* key, Write&& write) {
     JsonText text(depth_of_values);
     write(text);
     members_.push_back({key, {}, text.take()});
@@ -56,7 +56,7 @@ class Result {
 }  // namespace
 
 struct JsonResults::Document {
-  std::vector<Result> results;
+  std::vector<CommandResult> results;
   Json warnings = Json::array(), errors = Json::array();
   Json units, status, files = Json::array();
 };
@@ -192,17 +192,17 @@ Json selected(const SelectedModes& s) {
   return region;
 }
 
-Json channels(const std::vector<ChannelLabel>& labels) {
+Json names_of_channels(const std::vector<ChannelLabel>& labels) {
   Json list = Json::array();
   for (const ChannelLabel& c : labels) list.push_back({{"label", c.text}, {"variable", c.variable}});
   return list;
 }
 
 template <class Matrices>
-Result& with_channels(Result& result, const Matrices& of) {
+CommandResult& with_channels(CommandResult& result, const Matrices& of) {
   return result.add("states", states(of.states))
-      .add("inputs", channels(of.inputs))
-      .add("outputs", channels(of.outputs));
+      .add("inputs", names_of_channels(of.inputs))
+      .add("outputs", names_of_channels(of.outputs));
 }
 
 }  // namespace
@@ -212,15 +212,15 @@ JsonResults::~JsonResults() = default;
 
 void JsonResults::add_plain(const std::string& command, double time) {
   if (!document_) return;
-  document_->results.push_back(Result{{"command", command}, {"time", time}});
+  document_->results.push_back(CommandResult{{"command", command}, {"time", time}});
 }
 
 void JsonResults::add(const std::string& command, const EigenSolution& e) {
   if (!document_) return;
-  Result result = {{"command", command},
-                   {"time", e.time},
-                   {"states", states(e.states)},
-                   {"shape_entries", shape_labels(e.shape_labels)}};
+  CommandResult result = {{"command", command},
+                          {"time", e.time},
+                          {"states", states(e.states)},
+                          {"shape_entries", shape_labels(e.shape_labels)}};
   result.write("eigenvalues", [&](JsonText& out) { write_eigenvalues(out, e); });
   result.write("modes",
                [&](JsonText& out) { write_list(out, e.modes.size(), [&](std::size_t k) { write_mode(out, e, k); }); });
@@ -230,7 +230,7 @@ void JsonResults::add(const std::string& command, const EigenSolution& e) {
 
 void JsonResults::add(const std::string& command, const StateSpace& s) {
   if (!document_) return;
-  Result result = {{"command", command}, {"time", s.time}};
+  CommandResult result = {{"command", command}, {"time", s.time}};
   result.write("A", matrix(s.A)).write("B", matrix(s.B)).write("C", matrix(s.C)).write("D", matrix(s.D));
   document_->results.push_back(std::move(with_channels(result, s)));
 }
@@ -239,7 +239,7 @@ void JsonResults::add(const std::string& command, const SecondOrder& s) {
   if (!document_) return;
   Eigen::MatrixXd KB(s.K.rows(), s.K.cols() + s.B.cols());
   KB << s.K, s.B;
-  Result result = {{"command", command}, {"time", s.time}};
+  CommandResult result = {{"command", command}, {"time", s.time}};
   result.write("M", matrix(s.M)).write("KB", matrix(KB)).write("B", matrix(s.B)).write("K", matrix(s.K));
   result.write("P", matrix(s.P)).write("C", matrix(s.C)).write("D", matrix(s.D));
   document_->results.push_back(std::move(with_channels(result, s)));
@@ -247,49 +247,49 @@ void JsonResults::add(const std::string& command, const SecondOrder& s) {
 
 void JsonResults::add(const std::string& command, const DescriptorForm& s) {
   if (!document_) return;
-  Result result = {{"command", command},
-                   {"time", s.time},
-                   {"unknowns", s.A.rows()},
-                   {"entries", s.A.nonZeros()},
-                   {"first_state", s.first_state + 1}};
+  CommandResult result = {{"command", command},
+                          {"time", s.time},
+                          {"unknowns", s.A.rows()},
+                          {"entries", s.A.nonZeros()},
+                          {"first_state", s.first_state + 1}};
   document_->results.push_back(std::move(with_channels(result, s)));
 }
 
 void JsonResults::add_printed(const std::string& command, double time, const std::string& text) {
   if (!document_) return;
-  document_->results.push_back(Result{{"command", command}, {"time", time}, {"text", text}});
+  document_->results.push_back(CommandResult{{"command", command}, {"time", time}, {"text", text}});
 }
 
 void JsonResults::add_model(const std::string& command, const std::string& title, const Units& units) {
   if (!document_) return;
   document_->results.push_back(
-      Result{{"command", command}, {"time", 0.0}, {"model", title}, {"units", json_of(units)}});
+      CommandResult{{"command", command}, {"time", 0.0}, {"model", title}, {"units", json_of(units)}});
 }
 
 void JsonResults::add_export(const std::string& command, std::string_view type, double time,
                              const std::vector<std::string>& files) {
   if (!document_) return;
-  document_->results.push_back(Result{{"command", command}, {"time", time}, {"export", type}, {"files", files}});
+  document_->results.push_back(CommandResult{{"command", command}, {"time", time}, {"export", type}, {"files", files}});
 }
 
 void JsonResults::add(const std::string& command, const OperatingState& s) {
   if (!document_) return;
-  document_->results.push_back(Result{{"command", command}, {"time", s.time}, {"operating_point", json_of(s)}});
+  document_->results.push_back(CommandResult{{"command", command}, {"time", s.time}, {"operating_point", json_of(s)}});
 }
 
 void JsonResults::add(const std::string& command, const StaticResult& s) {
   if (!document_) return;
-  document_->results.push_back(Result{{"command", command},
-                                      {"time", s.at_rest.time},
-                                      {"iterations", s.iterations},
-                                      {"imbalance", s.imbalance},
-                                      {"stability", json_of(s.stability)},
-                                      {"operating_point", json_of(s.at_rest)}});
+  document_->results.push_back(CommandResult{{"command", command},
+                                             {"time", s.at_rest.time},
+                                             {"iterations", s.iterations},
+                                             {"imbalance", s.imbalance},
+                                             {"stability", json_of(s.stability)},
+                                             {"operating_point", json_of(s.at_rest)}});
 }
 
 void JsonResults::add(const std::string& command, double time, const History& h) {
   if (!document_) return;
-  document_->results.push_back(Result{{"command", command}, {"time", time}, {"history", json_of(h)}});
+  document_->results.push_back(CommandResult{{"command", command}, {"time", time}, {"history", json_of(h)}});
 }
 
 void JsonResults::add_tables(const std::vector<ModalTable>& tables) {
@@ -335,7 +335,7 @@ void JsonResults::write(std::ostream& out) const {
   text.open('{');
   text.key("results");
   text.open('[');
-  for (const Result& r : document_->results) {
+  for (const CommandResult& r : document_->results) {
     text.element();
     r.write_to(text);
     out << text.take();

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace dynalin {
+namespace dynalin::json_test {
 namespace {
 
 std::string text_of(const JsonResults& results) {
@@ -62,4 +62,4 @@ TEST(JsonResults, are_the_text_of_their_values) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::json_test

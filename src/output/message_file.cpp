@@ -12,7 +12,7 @@ namespace dynalin {
 
 namespace {
 
-const std::string rule(79, '-');
+const std::string full_line(79, '-');
 
 // A value that is zero is as certain as its bound is small against the fastest of the model.
 double largest_modulus(const EigenSolution& e) {
@@ -44,13 +44,13 @@ void write_doubts(std::ostream& out, const EigenSolution& e, int digits) {
 }  // namespace
 
 void write_banner(std::ostream& out, std::string_view version) {
-  fmt::print(out, "{0}\n|{1:^77}|\n|{2:^77}|\n{0}\n\n", rule, "Dynalin: linear models of mechanisms",
+  fmt::print(out, "{0}\n|{1:^77}|\n|{2:^77}|\n{0}\n\n", full_line, "Dynalin: linear models of mechanisms",
              fmt::format("Version: {}", version));
 }
 
 void write_title(std::ostream& out, std::string_view title) {
-  fmt::print(out, "{0}\n|{1:^77}|\n|{2}|\n|{3:77}|\n|{4:^77}|\n{0}\n\n", rule, "Model Title", std::string(77, '='), "",
-             title.substr(0, 77));
+  fmt::print(out, "{0}\n|{1:^77}|\n|{2}|\n|{3:77}|\n|{4:^77}|\n{0}\n\n", full_line, "Model Title", std::string(77, '='),
+             "", title.substr(0, 77));
 }
 
 void write_command(std::ostream& out, std::string_view line) { fmt::print(out, " command: {}\n", line); }
@@ -66,7 +66,7 @@ void write_redundant(std::ostream& out, double time, const std::vector<std::stri
   if (rows.empty()) return;
   fmt::print(out,
              "\n  Time T={:.9E}.\n  Degree-of-freedom analysis identified redundant constraints in the model:\n  {}\n",
-             time, rule.substr(2));
+             time, full_line.substr(2));
   for (const std::string& row : rows) fmt::print(out, "   -  deactivating constraint equation  {}\n", row);
 }
 

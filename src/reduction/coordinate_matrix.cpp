@@ -15,7 +15,7 @@ namespace dynalin::reduction {
 namespace {
 
 // Both triangles of a matrix that is said to be symmetric agree to this much of the geometric mean of the diagonal.
-constexpr double symmetric_to = 1e-8;
+constexpr double mirrored_to = 1e-8;
 
 struct Entry {
   std::int32_t row, column;  // from 0
@@ -147,7 +147,7 @@ bool refuse_unsymmetric(const SparseMatrix& matrix, const SourceText& file, Diag
   for (Eigen::Index c = 0; c < difference.cols(); ++c) {
     for (SparseMatrix::InnerIterator it(difference, c); it; ++it) {
       const double scale = std::sqrt(diagonal[it.row()] * diagonal[c]) + least;
-      if (std::abs(it.value()) <= symmetric_to * scale) continue;
+      if (std::abs(it.value()) <= mirrored_to * scale) continue;
       const auto row = static_cast<std::int32_t>(it.row()), column = static_cast<std::int32_t>(c);
       diagnostics.error("fe-matrix-unsymmetric", place_of(file, matrix.rows(), row, column, true),
                         fmt::format("row {}, column {} is {:.6g}, and row {}, column {} is {:.6g}", row + 1, column + 1,

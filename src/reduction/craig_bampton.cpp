@@ -11,6 +11,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/cycle.h"
 #include "reduction/interface_rows.h"
 #include "reduction/lowest_modes.h"
 #include "reduction/symmetric_factors.h"
@@ -202,7 +203,6 @@ class Reducer {
     }
     MatrixXd inside = -MatrixXd(part(model_.stiffness, i, b));
     factors.solve(inside);
-    constexpr double cycle = 2 * std::numbers::pi;
     const double w = cycle * request_.highest_frequency;
     auto modes = lowest_modes(k_ii, m_ii, factors, {request_.modes, w * w});
     if (!modes) return tl::unexpected(modes.error());

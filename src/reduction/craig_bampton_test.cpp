@@ -6,7 +6,7 @@
 
 #include "reduction/test_models.h"
 
-namespace dynalin::reduction {
+namespace dynalin::reduction::craig_bampton_test {
 namespace {
 
 using Eigen::Index;
@@ -228,4 +228,4 @@ TEST(CraigBampton, refuses_matrices_that_are_not_positive) {
 }
 
 }  // namespace
-}  // namespace dynalin::reduction
+}  // namespace dynalin::reduction::craig_bampton_test

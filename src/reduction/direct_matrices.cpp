@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "dataset/characters.h"
 #include "nastran_reader/deck.h"
 
 namespace dynalin::reduction {
@@ -19,11 +20,6 @@ using nastran_reader::DirectMatrix;
 constexpr double symmetric_to = 1e-8;
 
 Freedom freedom_of(const nastran_reader::Freedom& f) { return {f.point.id, f.component}; }
-
-std::string upper_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
 
 // A deck and where its places are in the text that the caller holds.
 class Punched {

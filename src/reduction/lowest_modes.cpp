@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 // Up to so many freedoms with mass, dense matrices of them are faster than a subspace.
 constexpr Index dense_up_to = 400;
 // 1/ω² below this part of the largest is rounding of a freedom without mass.
-constexpr double massless = 1e-13;
+constexpr double massless_ratio = 1e-13;
 // Frequencies that differ by less belong to one mode, as those of a square section.
 constexpr double same_square = 1e-6;
 
@@ -78,7 +78,7 @@ class Search {
       return tl::unexpected<std::string>("the mass has a negative eigenvalue");
     LowestModes modes;
     Index count = 0;
-    while (count < r && inverse_squares[r - 1 - count] > massless * largest) ++count;
+    while (count < r && inverse_squares[r - 1 - count] > massless_ratio * largest) ++count;
     modes.squares.resize(count);
     MatrixXd loads(r, count);
     for (Index k = 0; k < count; ++k) {

@@ -4,7 +4,7 @@
 
 #include "reduction/test_models.h"
 
-namespace dynalin::reduction {
+namespace dynalin::reduction::lowest_modes_test {
 namespace {
 
 using Eigen::Index;
@@ -115,4 +115,4 @@ TEST(LowestModes, are_no_more_than_masses) {
 }
 
 }  // namespace
-}  // namespace dynalin::reduction
+}  // namespace dynalin::reduction::lowest_modes_test

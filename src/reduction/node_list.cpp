@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 
+#include "dataset/characters.h"
 #include "nastran_reader/deck.h"
 #include "reduction/text_scanner.h"
 
@@ -14,12 +15,6 @@ namespace dynalin::reduction {
 namespace {
 
 enum class Kind { list, input_deck, nastran };
-
-std::string upper_case(std::string_view text) {
-  std::string upper(text);
-  for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return upper;
-}
 
 // By the first line that says anything.
 Kind kind_of(const SourceText& file) {

@@ -13,7 +13,7 @@
 
 #include "reduction/test_models.h"
 
-namespace dynalin::reduction {
+namespace dynalin::reduction::reduce_program_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -299,4 +299,4 @@ TEST_F(Reduce, says_where_the_input_is_wrong) {
 }
 
 }  // namespace
-}  // namespace dynalin::reduction
+}  // namespace dynalin::reduction::reduce_program_test

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/cycle.h"
+
 namespace dynalin::reduction {
 
 namespace {
-
-constexpr double cycle = 2 * std::numbers::pi;
 
 void print_frequencies(std::ostream& out, std::string_view title, const Eigen::VectorXd& squares) {
   fmt::print(out, "{}, cycles per unit of time\n", title);

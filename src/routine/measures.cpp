@@ -4,17 +4,11 @@
 #include <array>
 #include <string>
 
+#include "dataset/characters.h"
+
 namespace dynalin {
 
 namespace {
-
-std::string upper_case(std::string_view text) {
-  std::string upper(text);
-  for (char& c : upper) {
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  }
-  return upper;
-}
 
 // A list of measures of markers, and how many of the ids each of them takes.
 struct MarkerList {

@@ -25,7 +25,7 @@ namespace {
 
 constexpr int recoverable = 1;
 // Of one step: convergence failures and error test failures before it is given up.
-constexpr int failure_limit = 25;
+constexpr int integrator_failures = 25;
 constexpr int standing_limit = 20;
 constexpr double of_no_weight = 1e-20;
 // What an iteration may leave, as a part of the error of a step. IDA's own, 0.33, costs more than it saves: what is
@@ -194,8 +194,8 @@ struct DaeIntegrator::Memory {
       check(IDASetSuppressAlg(ida, SUNTRUE));
       check(IDASetMaxOrd(ida, std::clamp(bounds.largest_order, 1, 5)));
       check(IDASetMaxNumSteps(ida, -1));
-      check(IDASetMaxErrTestFails(ida, failure_limit));
-      check(IDASetMaxConvFails(ida, failure_limit));
+      check(IDASetMaxErrTestFails(ida, integrator_failures));
+      check(IDASetMaxConvFails(ida, integrator_failures));
       check(IDASetNonlinConvCoef(ida, left_by_iteration));
       newton = check(SUNNonlinSol_Newton(y, context));
       check(IDASetNonlinearSolver(ida, newton));

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace dynalin {
+namespace dynalin::dae_integrator_test {
 namespace {
 
 // Terms as large as b that cancel.
@@ -109,4 +109,4 @@ TEST(DaeIntegrator, says_when_rounding_is_more_than_may_be_allowed) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::dae_integrator_test

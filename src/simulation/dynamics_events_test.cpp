@@ -7,7 +7,7 @@
 #include "simulation/dynamics.h"
 #include "system/model_test_support.h"
 
-namespace dynalin::system_test {
+namespace dynalin::system_test::dynamics_events_test {
 namespace {
 
 using testing::HasSubstr;
@@ -117,4 +117,4 @@ TEST(DynamicsWithEvents, a_delay_shorter_than_the_steps_converges) {
 }
 
 }  // namespace
-}  // namespace dynalin::system_test
+}  // namespace dynalin::system_test::dynamics_events_test

@@ -7,7 +7,7 @@
 #include "system/carry_over.h"
 #include "system/model_test_support.h"
 
-namespace dynalin::system_test {
+namespace dynalin::system_test::events_test {
 namespace {
 
 using testing::ElementsAre;
@@ -211,4 +211,4 @@ TEST(Events, change_the_point_they_are_given) {
 }
 
 }  // namespace
-}  // namespace dynalin::system_test
+}  // namespace dynalin::system_test::events_test

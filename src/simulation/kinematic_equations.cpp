@@ -11,7 +11,7 @@ namespace dynalin {
 
 namespace {
 
-constexpr double rounding = std::numeric_limits<double>::epsilon();
+constexpr double closure_rounding = std::numeric_limits<double>::epsilon();
 // Newton's method has found a position if its step is shorter than this, in lengths of the model and radians. Where
 // rounding keeps steps from shrinking they may be as long as the second.
 constexpr double found = 1e-13, longest_rounding = 1e-9;
@@ -199,7 +199,7 @@ bool KinematicEquations::solve_acceleration(OperatingPoint& op) {
       for (std::int32_t r = 0; r < equations_.size(); ++r)
         terms(augmented_.equation(r)) = equations_.magnitude()[static_cast<std::size_t>(r)];
       for_each_entry(factored, [&](std::int32_t r, std::int32_t c, double v) { terms(r) += std::abs(v * x(c)); });
-      const Eigen::VectorXd allowed = rounding_of_solution(augmented_lu_, terms) + 4 * rounding * x.cwiseAbs();
+      const Eigen::VectorXd allowed = rounding_of_solution(augmented_lu_, terms) + 4 * closure_rounding * x.cwiseAbs();
       settled = (step.col(0).cwiseAbs().array() <= allowed.array()).all();
     }
     Eigen::Index at = 0;

@@ -46,10 +46,10 @@ std::string list(std::vector<std::string> names) {
   return fmt::format("{} …", fmt::join(names, ", "));
 }
 
-class Run {
+class KinematicRun {
  public:
-  Run(const System& system, OperatingPoint from, const OutputTimes& times, const KinematicsSettings& settings,
-      IntegrationStatistics& statistics, const SimulationWatch& watch, Findings& findings)
+  KinematicRun(const System& system, OperatingPoint from, const OutputTimes& times, const KinematicsSettings& settings,
+               IntegrationStatistics& statistics, const SimulationWatch& watch, Findings& findings)
       : system_(system),
         equations_(system),
         times_(times),
@@ -332,7 +332,7 @@ bool needs_integration(const System& system) {
 Result<AdvancedPoint> advance_kinematics(const System& system, OperatingPoint from, const OutputTimes& times,
                                          const KinematicsSettings& settings, IntegrationStatistics& statistics,
                                          const SimulationWatch& watch, Findings& findings) {
-  return Run(system, std::move(from), times, settings, statistics, watch, findings).run();
+  return KinematicRun(system, std::move(from), times, settings, statistics, watch, findings).run();
 }
 
 }  // namespace dynalin

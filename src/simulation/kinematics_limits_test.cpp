@@ -6,7 +6,7 @@
 #include "simulation/kinematics.h"
 #include "simulation/kinematics_test_support.h"
 
-namespace dynalin::simulation_test {
+namespace dynalin::simulation_test::kinematics_limits_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -163,4 +163,4 @@ TEST(KinematicLimits, states_and_rows_on_velocities_have_to_be_integrated) {
 }
 
 }  // namespace
-}  // namespace dynalin::simulation_test
+}  // namespace dynalin::simulation_test::kinematics_limits_test

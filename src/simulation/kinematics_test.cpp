@@ -6,7 +6,7 @@
 
 #include "simulation/kinematics_test_support.h"
 
-namespace dynalin::simulation_test {
+namespace dynalin::simulation_test::kinematics_test {
 namespace {
 
 // A crank of length 1 about z, driven along φ(t), and a rod of length 3 without mass; a slider of mass 2 along x.
@@ -218,4 +218,4 @@ TEST(Kinematics, go_over_a_velocity_that_jumps) {
 }
 
 }  // namespace
-}  // namespace dynalin::simulation_test
+}  // namespace dynalin::simulation_test::kinematics_test

@@ -14,7 +14,7 @@ constexpr double least_state = 1e-6;
 constexpr double no_weight = 1e-30;
 constexpr double some_steps = 10;
 // Of a value, what rounding makes of its differences from step to step.
-constexpr double rounding = 100 * std::numeric_limits<double>::epsilon();
+constexpr double motion_rounding = 100 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -359,7 +359,8 @@ void MotionEquations::weights(double step, std::span<const double> y, std::span<
     const auto at = static_cast<std::size_t>(unknowns_.state(static_cast<std::int32_t>(k)));
     if (differential_[at] != 0.0) weight[at] = part / std::max(largest_state_[k], least_state);
   }
-  for (std::size_t k = 0; k < y.size(); ++k) weight[k] = std::min(weight[k], dilution_ / (rounding * std::abs(y[k])));
+  for (std::size_t k = 0; k < y.size(); ++k)
+    weight[k] = std::min(weight[k], dilution_ / (motion_rounding * std::abs(y[k])));
 }
 
 void MotionEquations::switches(double t, std::span<const double> y, std::span<const double> yp,

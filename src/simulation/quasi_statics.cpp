@@ -13,7 +13,7 @@ namespace dynalin {
 
 namespace {
 
-constexpr double least_step = 1.0 / 256;  // of the time between outputs
+constexpr double least_rest_step = 1.0 / 256;  // of the time between outputs
 // A step is no jump if it ends as near as this, in lengths of the model and radians, to where the last steps lead, or
 // within this part of its way.
 constexpr double near = 0.05, near_of_way = 0.5;
@@ -48,10 +48,10 @@ std::string farthest(const System& system, const Eigen::VectorXd& change) {
   return text;
 }
 
-class Run {
+class QuasiStaticRun {
  public:
-  Run(const System& system, const OutputTimes& times, const StaticsOptions& options, IntegrationStatistics& statistics,
-      const SimulationWatch& watch, Findings& findings)
+  QuasiStaticRun(const System& system, const OutputTimes& times, const StaticsOptions& options,
+                 IntegrationStatistics& statistics, const SimulationWatch& watch, Findings& findings)
       : system_(system),
         times_(times),
         options_(options),
@@ -79,7 +79,7 @@ class Run {
       const double left = target - at_.time;
       const double t = h >= left * (1 - 1e-9) ? target : at_.time + (2 * h > left ? 0.5 * left : h);
       const double step = t - at_.time;
-      const bool least = step <= 1.5 * least_step * times_.step();
+      const bool least = step <= 1.5 * least_rest_step * times_.step();
       auto next = solve(predicted(t), nearby_);
       if (!next && least) next = solve(from_here(t), options_);
       if (!next && least) return tl::unexpected(at_time(t, next.error()));
@@ -245,7 +245,7 @@ class Run {
 Result<QuasiStaticEnd> advance_quasi_statics(const System& system, OperatingPoint from, const OutputTimes& times,
                                              const StaticsOptions& options, IntegrationStatistics& statistics,
                                              const SimulationWatch& watch, Findings& findings) {
-  return Run(system, times, options, statistics, watch, findings).run(std::move(from));
+  return QuasiStaticRun(system, times, options, statistics, watch, findings).run(std::move(from));
 }
 
 }  // namespace dynalin

@@ -8,7 +8,7 @@
 
 #include "system/model_test_support.h"
 
-namespace dynalin::simulation_test {
+namespace dynalin::simulation_test::quasi_statics_test {
 namespace {
 
 using system_test::system_of;
@@ -188,4 +188,4 @@ TEST(QuasiStatics, change_the_time_between_outputs_where_a_sensor_says) {
 }
 
 }  // namespace
-}  // namespace dynalin::simulation_test
+}  // namespace dynalin::simulation_test::quasi_statics_test

@@ -6,7 +6,7 @@
 
 #include "system/sparse_lu.h"
 
-namespace dynalin {
+namespace dynalin::step_factors_test {
 namespace {
 
 // 3 × 3 with all entries, those that are zero as well.
@@ -54,4 +54,4 @@ TEST(StepFactors, say_that_a_matrix_is_singular_and_go_on_after_it) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::step_factors_test

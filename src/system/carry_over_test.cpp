@@ -5,7 +5,7 @@
 
 #include "system/model_test_support.h"
 
-namespace dynalin::system_test {
+namespace dynalin::system_test::carry_over_test {
 namespace {
 
 const std::string hinge = "MARKER/31, PART=3\nMARKER/5, PART=1, QP=4,0,0\nJOINT/1, REVOLUTE, I=31, J=5\n";
@@ -175,4 +175,4 @@ TEST(CarryOver, a_motion_that_joins_a_run_goes_on_with_what_it_finds) {
 }
 
 }  // namespace
-}  // namespace dynalin::system_test
+}  // namespace dynalin::system_test::carry_over_test

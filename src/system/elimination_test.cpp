@@ -9,7 +9,7 @@
 #include <numeric>
 #include <random>
 
-namespace dynalin {
+namespace dynalin::elimination_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -162,4 +162,4 @@ TEST(Elimination, rounding_is_no_rank_and_a_small_difference_is) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::elimination_test

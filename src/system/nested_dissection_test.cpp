@@ -10,7 +10,7 @@
 
 #include "system/sparse_lu.h"
 
-namespace dynalin {
+namespace dynalin::nested_dissection_test {
 namespace {
 
 // A grid of side × side bodies of three coordinates each, and a multiplier between neighbours; numbered at random.
@@ -97,4 +97,4 @@ TEST(NestedDissection, only_of_symmetric_patterns) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::nested_dissection_test

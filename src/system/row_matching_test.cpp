@@ -7,7 +7,7 @@
 
 #include "system/sparse_lu.h"
 
-namespace dynalin {
+namespace dynalin::row_matching_test {
 namespace {
 
 // How many columns have a row of their own that is in the pattern; every row is given once.
@@ -56,4 +56,4 @@ TEST(RowMatching, puts_the_row_of_each_column_first_and_keeps_the_others) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::row_matching_test

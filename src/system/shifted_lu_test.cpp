@@ -8,7 +8,7 @@
 
 #include "system/sparse_lu.h"
 
-namespace dynalin {
+namespace dynalin::shifted_lu_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -80,4 +80,4 @@ TEST(ShiftedLu, without_shifted_places_the_shift_does_nothing) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::shifted_lu_test

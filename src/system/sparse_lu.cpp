@@ -103,12 +103,12 @@ void for_blocks(Eigen::Ref<Eigen::MatrixXd>& B, Eigen::Index most, Function&& so
 constexpr double least_pivot = 1e-17, least_left_by_cancellation = 1e-14;
 
 // Units, powers of two, in which every row and every column of a matrix has a largest entry near 1.
-struct Units {
+struct BalancingUnits {
   Eigen::VectorXd row, column;
 };
-Units balancing_units(const ColumnMatrix& m) {
+BalancingUnits balancing_units(const ColumnMatrix& m) {
   constexpr int sweeps = 12;
-  Units u{Eigen::VectorXd::Ones(m.rows), Eigen::VectorXd::Ones(m.columns)};
+  BalancingUnits u{Eigen::VectorXd::Ones(m.rows), Eigen::VectorXd::Ones(m.columns)};
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     Eigen::VectorXd row = Eigen::VectorXd::Zero(m.rows), column = Eigen::VectorXd::Zero(m.columns);
     for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) {
@@ -172,7 +172,7 @@ struct SparseLu::Factors {
   ColumnMatrix matrix;
   std::unique_ptr<KluFactors> klu;
   std::unique_ptr<MumpsFactors> mumps;
-  std::optional<Units> units;  // of the matrix that was factored
+  std::optional<BalancingUnits> units;  // of the matrix that was factored
   bool keeps_zeros = false;
   std::optional<std::vector<std::int32_t>> order;  // for MUMPS
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace dynalin {
+namespace dynalin::sparse_lu_test {
 namespace {
 
 // Entries at random places with a full diagonal somewhere; rows and columns in the units given.
@@ -259,4 +259,4 @@ TEST(SparseLu, refuses_a_singular_grid_too) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::sparse_lu_test

@@ -6,7 +6,7 @@
 
 #include "system/sparse_lu.h"
 
-namespace dynalin {
+namespace dynalin::symmetric_factors_test {
 namespace {
 
 // A row of masses on springs with every second one held by a multiplier, less a multiple of the masses: the negative
@@ -44,4 +44,4 @@ TEST(SymmetricFactors, count_negative_eigenvalues_and_solve) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::symmetric_factors_test

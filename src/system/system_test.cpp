@@ -7,7 +7,7 @@
 #include "system/model_test_support.h"
 #include "system/signal_table.h"
 
-namespace dynalin::system_test {
+namespace dynalin::system_test::system_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -301,4 +301,4 @@ TEST(System, a_contact_switches_at_the_corners_of_its_curve) {
 }
 
 }  // namespace
-}  // namespace dynalin::system_test
+}  // namespace dynalin::system_test::system_test

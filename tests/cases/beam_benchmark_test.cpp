@@ -3,7 +3,7 @@
 #include "cases/beam_model.h"
 #include "cases/beams.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::beam_benchmark_test {
 namespace {
 
 // Unit bending stiffness about both axes.
@@ -222,4 +222,4 @@ TEST_F(Spinning, flap_frequencies_lead_to_those_of_the_continuous_beam) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::beam_benchmark_test

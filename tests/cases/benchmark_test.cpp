@@ -5,7 +5,7 @@
 
 #include "cases/both.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::benchmark_test {
 namespace {
 
 using Benchmarks = ProgramAndLibrary;
@@ -124,4 +124,4 @@ TEST_F(Benchmarks, cart_pole_state_and_input_matrix) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::benchmark_test

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace dynalin::cases {
+namespace dynalin::cases::both_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -119,4 +119,4 @@ TEST_F(Both, failures_have_the_same_account) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::both_test

@@ -4,7 +4,7 @@
 #include "cases/chain.h"
 #include "cases/study_of.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::cable_test {
 namespace {
 
 class Cables : public Cases {
@@ -113,4 +113,4 @@ TEST_F(Cables, wants_markers_on_bodies_that_can_move_apart) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::cable_test

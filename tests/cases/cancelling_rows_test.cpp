@@ -7,7 +7,7 @@
 
 #include "cases/dataset_text.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::cancelling_rows_test {
 namespace {
 
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
@@ -102,4 +102,4 @@ TEST_F(CancellingRows, of_two_universal_joints_in_series_near_their_square_bends
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::cancelling_rows_test

@@ -1,7 +1,7 @@
 // Elements that commands take away and bring back between simulations over time, against closed forms.
 #include "cases/run.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::changed_on_the_way_test {
 namespace {
 
 class ChangedOnTheWay : public Cases {};
@@ -53,4 +53,4 @@ END
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::changed_on_the_way_test

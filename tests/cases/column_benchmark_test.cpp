@@ -3,7 +3,7 @@
 #include "cases/beam_model.h"
 #include "cases/beams.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::column_benchmark_test {
 namespace {
 
 enum class Load { dead, follower };
@@ -123,4 +123,4 @@ TEST_F(Columns, under_a_follower_load_flutter_where_two_frequencies_meet) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::column_benchmark_test

@@ -3,7 +3,7 @@
 
 #include "cases/run.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::command_file_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -63,4 +63,4 @@ TEST_F(CommandFiles, a_model_that_is_not_there_is_named_at_its_place) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::command_file_test

@@ -8,7 +8,7 @@
 #include "command/command_catalogue.h"
 #include "elements/catalogue.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::command_table_test {
 namespace {
 
 using ::testing::AnyOf;
@@ -184,4 +184,4 @@ TEST_F(CommandTable, shorthands_set_what_integrator_sets) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::command_table_test

@@ -6,7 +6,7 @@
 #include "elements/catalogue.h"
 #include "model/model.h"
 
-namespace dynalin {
+namespace dynalin::completion_test {
 namespace {
 
 using ::testing::Contains;
@@ -58,4 +58,4 @@ TEST_F(Completions, know_the_ids_of_the_model) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::completion_test

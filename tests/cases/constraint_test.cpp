@@ -4,7 +4,7 @@
 
 #include "cases/chain.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::constraint_test {
 namespace {
 
 const Matrix3 one = Matrix3::identity();
@@ -266,4 +266,4 @@ TEST_F(ClosedForm, joints_start_where_and_as_fast_as_they_are_asked) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::constraint_test

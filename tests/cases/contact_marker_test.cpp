@@ -1,7 +1,7 @@
 // Floating markers at points of contact, read by measures, and contacts that are not determined.
 #include "cases/curves.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::contact_marker_test {
 namespace {
 
 class ContactMarkers : public CurveCases {
@@ -98,4 +98,4 @@ TEST_F(ContactMarkers, curves_that_osculate_are_refused_by_name) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::contact_marker_test

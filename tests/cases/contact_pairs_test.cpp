@@ -8,7 +8,7 @@
 
 #include "cases/run.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::contact_pairs_test {
 namespace {
 
 const std::string head = "Contact\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-10\nPART/1, GROUND\nMARKER/1\n";
@@ -147,4 +147,4 @@ TEST_F(ContactPairs, an_egg_that_is_nearly_round_is_a_ball) {
   }
 }
 
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::contact_pairs_test

@@ -2,7 +2,7 @@
 // primitive.
 #include "cases/curves.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::curve_functions_test {
 namespace {
 
 // The parameters that the GCONs need: x and y of a particle without mass, times `scale`. A large one makes its motion
@@ -160,4 +160,4 @@ TEST_F(CurveCases, straight_curve_is_an_inline_primitive_with_its_reaction) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::curve_functions_test

@@ -2,7 +2,7 @@
 // flat follower.
 #include "cases/curves.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::curve_test {
 namespace {
 
 TEST_F(CurveCases, bead_on_a_parabola) {
@@ -209,4 +209,4 @@ TEST_F(CurveCases, function_curve_reads_points_and_slopes) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::curve_test

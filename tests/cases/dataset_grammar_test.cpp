@@ -9,7 +9,7 @@
 #include "cases/run.h"
 #include "cases/study_of.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::dataset_grammar_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -364,4 +364,4 @@ TEST(Orient, refuses_systems_that_are_not_known_and_components_that_are_not_ther
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::dataset_grammar_test

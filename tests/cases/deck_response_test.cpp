@@ -6,7 +6,7 @@
 #include "cases/decks.h"
 #include "nastran_reader/nastran_program.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::deck_response_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -104,4 +104,4 @@ TEST_F(FewDigits, of_short_fields_and_single_precision_are_those_of_the_eigenval
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::deck_response_test

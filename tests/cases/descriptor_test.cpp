@@ -9,7 +9,7 @@
 
 #include "cases/both.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::descriptor_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -194,4 +194,4 @@ TEST_F(Descriptor, is_offered_where_state_matrices_are_too_large) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::descriptor_test

@@ -6,7 +6,7 @@
 #include "cases/run.h"
 #include "cases/study_of.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::diff_rates_test {
 namespace {
 
 using ::testing::DoubleNear;
@@ -122,4 +122,4 @@ TEST_F(DiffRates, friction_in_a_joint_is_obsolete_and_changes_nothing) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::diff_rates_test

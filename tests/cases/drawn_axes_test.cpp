@@ -3,7 +3,7 @@
 
 #include "cases/run.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::drawn_axes_test {
 namespace {
 
 using ::testing::AllOf;
@@ -85,4 +85,4 @@ TEST_F(DrawnAxes, nothing_runs_where_they_are_impossible) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::drawn_axes_test

@@ -6,7 +6,7 @@
 
 #include "cases/run.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::eigen_doubt_test {
 namespace {
 
 class EigenDoubt : public Cases {};
@@ -59,8 +59,8 @@ TEST_F(EigenDoubt, without_vectors_values_and_bounds_are_the_same) {
   }
 }
 
-// Two equal parts on equal mounts, with and without a critically damped slide beside them: that nothing tells the slide's
-// two values apart, nor equal ones from each other, costs no digit of the frequencies of the parts.
+// Two equal parts on equal mounts, with and without a critically damped slide beside them: that nothing tells the
+// slide's two values apart, nor equal ones from each other, costs no digit of the frequencies of the parts.
 TEST_F(EigenDoubt, equal_parts_keep_their_frequencies_beside_a_defective_value) {
   std::string parts = "Parts\nUNITS/SYSTEM=MKS\nPART/1, GROUND\n";
   for (const int k : {2, 3}) {
@@ -88,4 +88,4 @@ TEST_F(EigenDoubt, equal_parts_keep_their_frequencies_beside_a_defective_value) 
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::eigen_doubt_test

@@ -3,7 +3,7 @@
 
 #include "cases/dataset_text.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::equivalence_test {
 namespace {
 
 class Equivalence : public Cases {
@@ -126,4 +126,4 @@ TEST_F(Equivalence, bricards_mechanism_has_one_freedom_and_names_one_row) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::equivalence_test

@@ -1,8 +1,9 @@
 // Everything that is shipped, through the program, the library and decks of its models.
-#include "cases/decks.h"
 #include "places/examples.h"
 
-namespace dynalin::cases {
+#include "cases/decks.h"
+
+namespace dynalin::cases::examples_test {
 namespace {
 
 using Examples = ProgramLibraryAndDecks;
@@ -21,4 +22,4 @@ TEST_F(Examples, run_through_program_library_and_decks) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::examples_test

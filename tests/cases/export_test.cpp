@@ -7,7 +7,7 @@
 #include "nastran/directives.h"
 #include "places/source_tree.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::export_test {
 namespace {
 
 using ::testing::AllOf;
@@ -200,4 +200,4 @@ TEST_F(Export, is_explained_on_the_terminal) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::export_test

@@ -1,7 +1,7 @@
 // Expressions inside models: vectors against their components, splines against the functions they run through.
 #include "cases/dataset_text.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::expression_test {
 namespace {
 
 class Expressions : public Cases {
@@ -126,4 +126,4 @@ TEST_F(Expressions, entries_that_do_not_exist_are_errors) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::expression_test

@@ -8,7 +8,7 @@
 #include "cases/run.h"
 #include "cases/study_of.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::fe_load_test {
 namespace {
 
 library::OperatingPoint equilibrium(const std::string& dataset) { return study_of(dataset).static_equilibrium(); }
@@ -215,8 +215,8 @@ class FeLoadCommands : public Cases {};
 
 TEST_F(FeLoadCommands, is_taken_out_and_a_delay_along_the_beam_is_refused) {
   const StraightBeam beam{.elements = 1, .height = 0.1, .width = 0.1};
-  const RunResult r =
-      run(clamped_beam(beam, load("FY=-9*DY(22), FZ=-9*DZ(22)")), "LINEAR/EIGENSOL\nDEACTIVATE/FE_LOAD, ID=1\nLINEAR/EIGENSOL\n");
+  const RunResult r = run(clamped_beam(beam, load("FY=-9*DY(22), FZ=-9*DZ(22)")),
+                          "LINEAR/EIGENSOL\nDEACTIVATE/FE_LOAD, ID=1\nLINEAR/EIGENSOL\n");
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_NE(r.eigenvalues(0)[0], r.eigenvalues(2)[0]);
   const RunResult delayed = run(clamped_beam(beam, load("FX=DELAY(S*TIME,0.1,0)")), "LINEAR/EIGENSOL\n");
@@ -224,4 +224,4 @@ TEST_F(FeLoadCommands, is_taken_out_and_a_delay_along_the_beam_is_refused) {
   EXPECT_NE(delayed.err.find("[misplaced-function]"), std::string::npos) << delayed.err;
 }
 
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::fe_load_test

@@ -8,7 +8,7 @@
 #include "cases/fe_parts.h"
 #include "cases/study_of.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::fe_part_stability_test {
 namespace {
 
 // Squares of the eigenvalues [1/time²] of an upper half plane, those nearest to zero first.
@@ -69,4 +69,4 @@ TEST(FePartStability, becks_column_flutters) {
   EXPECT_NEAR(std::sqrt(std::abs(above[0])), 11.0156, 0.06);
 }
 
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::fe_part_stability_test

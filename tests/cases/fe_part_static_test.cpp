@@ -8,7 +8,7 @@
 #include "cases/fe_parts.h"
 #include "cases/study_of.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::fe_part_static_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -144,4 +144,4 @@ TEST(FePartStatics, its_weight_is_carried_by_the_clamp) {
   EXPECT_NEAR(place_of(point, 22)[2], -(q * 16 / (8 * EI) + q * 4 / (2 * GA)), 2e-3 * q * 16 / (8 * EI));
 }
 
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::fe_part_static_test

@@ -12,7 +12,7 @@
 #include "cases/run.h"
 #include "cases/study_of.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::fe_part_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -311,4 +311,4 @@ TEST_F(FePartFiles, results_files_and_faults_name_its_nodes) {
   EXPECT_NE(box.err.find("FE_PART/2 is a beam of finite elements"), std::string::npos) << box.err;
 }
 
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::fe_part_test

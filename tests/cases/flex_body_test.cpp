@@ -7,7 +7,7 @@
 #include "flexible.h"
 #include "run.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::flex_body_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -286,4 +286,4 @@ TEST_F(FlexBody, states_have_their_codes) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::flex_body_test

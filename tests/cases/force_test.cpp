@@ -5,7 +5,7 @@
 
 #include "cases/dataset_text.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::force_test {
 namespace {
 
 class Forces : public Cases {
@@ -296,4 +296,4 @@ INSTANTIATE_TEST_SUITE_P(
                   "unknown-marker")));
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::force_test

@@ -10,7 +10,7 @@
 #include "model/model.h"
 #include "nastran_reader/solve.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::graphics_test {
 namespace {
 
 const std::string mechanism =
@@ -123,4 +123,4 @@ TEST_F(Graphics, of_an_export_that_cannot_be_drawn_are_remarked) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::graphics_test

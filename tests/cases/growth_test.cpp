@@ -8,7 +8,7 @@
 #include "cases/run.h"
 #include "places/sanitizers.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::growth_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -94,4 +94,4 @@ TEST_F(Growth, markers_that_refer_to_a_circle_or_to_a_faulty_marker_are_reported
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::growth_test

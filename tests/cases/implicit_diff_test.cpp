@@ -3,7 +3,7 @@
 
 #include "cases/dataset_text.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::implicit_diff_test {
 namespace {
 
 class ImplicitDiffs : public Cases {
@@ -229,4 +229,4 @@ TEST_F(ImplicitDiffs, combinations_are_found_by_how_equations_are_written) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::implicit_diff_test

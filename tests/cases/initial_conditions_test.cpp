@@ -7,7 +7,7 @@
 
 #include "cases/run.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::initial_conditions_test {
 namespace {
 
 using InitialConditions = Cases;
@@ -379,4 +379,4 @@ TEST_F(InitialConditions, take_a_controller_with_a_very_fast_pole) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::initial_conditions_test

@@ -5,7 +5,7 @@
 #include "cases/run.h"
 #include "places/source_tree.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::json_page_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -95,4 +95,4 @@ TEST_F(JsonPage, names_every_key) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::json_page_test

@@ -5,7 +5,7 @@
 
 #include "cases/study_of.h"
 
-namespace dynalin {
+namespace dynalin::linear_after_dynamics_test {
 namespace {
 
 struct Start {
@@ -57,4 +57,4 @@ TEST(LinearAfterDynamics, is_that_of_the_same_state_given_as_initial_conditions)
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::linear_after_dynamics_test

@@ -7,7 +7,7 @@
 
 #include "cases/dataset_text.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::massless_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -437,4 +437,4 @@ TEST_F(Massless, what_moves_most_is_found_by_displacements_and_turns) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::massless_test

@@ -3,7 +3,7 @@
 
 #include "cases/run.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::matrix_output_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -103,4 +103,4 @@ TEST_F(MatrixOutput, energies_of_a_model_at_rest_are_explained) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::matrix_output_test

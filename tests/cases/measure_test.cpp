@@ -11,7 +11,7 @@
 #include "base/vec3.h"
 #include "cases/study_of.h"
 
-namespace dynalin {
+namespace dynalin::measure_test {
 namespace {
 
 using Real = long double;
@@ -342,4 +342,4 @@ TEST_F(Measures, have_the_partials_of_motions_that_begin_elsewhere) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::measure_test

@@ -12,7 +12,7 @@
 #include "mechanics/pair.h"
 #include "system/system.h"
 
-namespace dynalin {
+namespace dynalin::modal_body_test {
 namespace {
 
 constexpr double speed = 11;  // of the whole about the global z axis
@@ -245,4 +245,4 @@ TEST(ModalBody, has_the_linear_model_of_its_rigid_twin) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::modal_body_test

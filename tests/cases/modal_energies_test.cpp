@@ -6,7 +6,7 @@
 
 #include "cases/modal_sums_cases.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::modal_energies_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
@@ -264,4 +264,4 @@ TEST_F(ModalEnergies, velocity_constraints_are_refused) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::modal_energies_test

@@ -6,7 +6,7 @@
 
 #include "cases/modal_sums_cases.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::modal_masses_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::MatrixXd, Eigen::Vector3d, Eigen::VectorXd;
@@ -293,4 +293,4 @@ TEST_F(ModalMasses, first_mode_of_a_cantilever) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::modal_masses_test

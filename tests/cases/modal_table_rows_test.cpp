@@ -7,7 +7,7 @@
 
 #include "cases/modal_sums_cases.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::modal_table_rows_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -191,4 +191,4 @@ TEST_F(ModalTableRows, a_mode_is_named_after_the_body_with_most_kinetic_energy) 
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::modal_table_rows_test

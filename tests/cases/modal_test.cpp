@@ -7,7 +7,7 @@
 #include "cases/dataset_text.h"
 #include "places/source_tree.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::modal_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -293,4 +293,4 @@ TEST_F(Modal, every_mode_says_how_sensitive_and_how_exact_it_is) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::modal_test

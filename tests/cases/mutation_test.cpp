@@ -3,7 +3,7 @@
 
 #include "cases/dataset_text.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::mutation_test {
 namespace {
 
 class Mutation : public Cases {};
@@ -100,4 +100,4 @@ TEST_F(Mutation, ten_thousand_mutilated_datasets_neither_crash_nor_leave_files) 
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::mutation_test

@@ -9,7 +9,7 @@
 
 #include "cases/dataset_text.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::near_singular_test {
 namespace {
 
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
@@ -358,4 +358,4 @@ TEST_F(NearSingular, a_disc_that_turns_freely_about_an_axis_away_from_its_origin
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::near_singular_test

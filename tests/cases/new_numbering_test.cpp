@@ -12,7 +12,7 @@
 #include "mechanics/kernel.h"
 #include "model/schema.h"
 
-namespace dynalin {
+namespace dynalin::new_numbering_test {
 namespace {
 
 // UCON/id, I=, DISP=a: x_I = s, y_I = a s² in global coordinates, with s a coordinate of its own.
@@ -144,4 +144,4 @@ TEST(NewNumbering, bead_on_a_parabola_swings_with_the_curvature) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::new_numbering_test

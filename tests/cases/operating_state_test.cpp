@@ -8,7 +8,7 @@
 #include "cases/run.h"
 #include "cases/study_of.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::operating_state_test {
 namespace {
 
 using ::testing::AllOf;
@@ -362,4 +362,4 @@ TEST_F(OperatingStates, on_the_terminal_stop_after_some_rows_where_there_are_man
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::operating_state_test

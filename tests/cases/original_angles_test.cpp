@@ -5,7 +5,7 @@
 
 #include "cases/original_cases.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::original_angles_test {
 namespace {
 
 using OriginalAngles = OriginalCases;
@@ -122,4 +122,4 @@ TEST_F(OriginalAngles, generalized_mass_refers_to_the_largest_of_all_coordinates
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::original_angles_test

@@ -5,7 +5,7 @@
 #include "cases/original_cases.h"
 #include "cases/study_of.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::original_options_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -185,4 +185,4 @@ TEST_F(OriginalOptions, statics_stay_at_rest_where_the_environment_says_so) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::original_options_test

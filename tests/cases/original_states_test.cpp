@@ -5,7 +5,7 @@
 #include "cases/original_cases.h"
 #include "places/source_tree.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::original_states_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -279,4 +279,4 @@ TEST_F(OriginalStates, a_sleigh_has_fewer_rates_than_principal_coordinates) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::original_states_test

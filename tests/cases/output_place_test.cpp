@@ -7,7 +7,7 @@
 #include "cases/run.h"
 #include "places/examples.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::output_place_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -162,4 +162,4 @@ TEST_F(OutputPlaces, of_examples_leave_nothing_that_git_would_add) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::output_place_test

@@ -9,7 +9,7 @@
 #include "elements/catalogue.h"
 #include "linear/linear_system.h"
 
-namespace dynalin {
+namespace dynalin::parameter_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -235,4 +235,4 @@ TEST(Parameter, wrong_changes_are_reported_together) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::parameter_test

@@ -11,7 +11,7 @@
 #include "cases/modal_sums_cases.h"
 #include "cases/study_of.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::plane_beam_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -286,4 +286,4 @@ TEST_F(PlaneBeamFiles, says_which_arguments_have_no_influence) {
   EXPECT_NE(r.err.find("IXX, ASY of FE_PART/2 have no influence"), std::string::npos) << r.err;
 }
 
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::plane_beam_test

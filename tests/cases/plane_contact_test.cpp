@@ -10,7 +10,7 @@
 #include "cases/run.h"
 #include "cases/study_of.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::plane_contact_test {
 namespace {
 
 using ::testing::AllOf;
@@ -263,4 +263,4 @@ TEST(PlaneContactsInTime, disc_bounces_with_the_coefficient_of_restitution) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::plane_contact_test

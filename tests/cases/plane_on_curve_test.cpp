@@ -1,7 +1,7 @@
 // PLCV against closed forms and against a CVCV with a straight line.
 #include "cases/curves.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::plane_on_curve_test {
 namespace {
 
 // A body with the edge of curve 1 on a floor whose normal is y, its mass centre H above the vertex.
@@ -102,4 +102,4 @@ TEST_F(PlanesOnCurves, wants_its_floating_markers_where_the_bodies_are) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::plane_on_curve_test

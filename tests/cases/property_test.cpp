@@ -7,7 +7,7 @@
 #include "cases/dataset_text.h"
 #include "places/source_tree.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::property_test {
 namespace {
 
 using Properties = Cases;
@@ -149,4 +149,4 @@ TEST_F(Properties, a_frame_that_turns_with_the_rotor_gives_one_answer_for_all_it
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::property_test

@@ -2,7 +2,7 @@
 #include "cases/decks.h"
 #include "places/source_tree.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::published_test {
 namespace {
 
 using Published = ProgramLibraryAndDecks;
@@ -176,4 +176,4 @@ TEST_F(Published, message_file_lists_states_and_eigenvalues) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::published_test

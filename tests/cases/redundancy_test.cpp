@@ -6,7 +6,7 @@
 
 #include "cases/run.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::redundancy_test {
 namespace {
 
 using Redundancy = Cases;
@@ -99,4 +99,4 @@ TEST_F(WrongInput, every_problem_is_reported_at_its_place_and_nothing_is_written
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::redundancy_test

@@ -5,7 +5,7 @@
 
 #include "cases/run.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::remark_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -181,4 +181,4 @@ TEST_F(JsonWarnings, stand_beside_errors_and_the_status_of_a_run_that_fails) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::remark_test

@@ -8,7 +8,7 @@
 #include "cases/run.h"
 #include "elements/requests/lenient.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::request_test {
 namespace {
 
 using nlohmann::json;
@@ -237,4 +237,4 @@ TEST(TextsOfRequests, are_split_at_commas_outside_of_quotes) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::request_test

@@ -8,7 +8,7 @@
 
 #include "cases/run.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::rolling_test {
 namespace {
 
 // Eigenvalues in rad per unit time by size, largest first; `rates` counts the states that are velocities.
@@ -213,4 +213,4 @@ INSTANTIATE_TEST_SUITE_P(
                       Ride{10, -24.624596350174000, 0.16105338653171554, -3.7201684043728757, 10.906811394762882}));
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::rolling_test

@@ -8,7 +8,7 @@
 
 #include "cases/dataset_text.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::rotating_blade_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -223,4 +223,4 @@ TEST_F(UndampedTips, strain_energy) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::rotating_blade_test

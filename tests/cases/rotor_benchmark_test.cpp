@@ -4,7 +4,7 @@
 #include "cases/beam_model.h"
 #include "cases/beams.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::rotor_benchmark_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -207,4 +207,4 @@ TEST_F(TwoDiscs, lead_to_the_limit_of_the_published_model) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::rotor_benchmark_test

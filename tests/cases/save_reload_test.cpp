@@ -5,7 +5,7 @@
 #include "cases/run.h"
 #include "output/saved_file.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::save_reload_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -189,4 +189,4 @@ TEST(SavedFile, keeps_texts_byte_by_byte_and_numbers_bit_by_bit) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::save_reload_test

@@ -14,7 +14,7 @@
 #include "library/inside.h"
 #include "linear/reach.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::selected_modes_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -348,4 +348,4 @@ TEST(LargeEigensolutions, say_beforehand_what_they_cost) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::selected_modes_test

@@ -9,7 +9,7 @@
 #include "flexible.h"
 #include "run.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::sliding_lumps_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -323,4 +323,4 @@ TEST_F(SlidingLumps, matrices_that_do_not_fit_are_errors) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::sliding_lumps_test

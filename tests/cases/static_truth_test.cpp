@@ -12,7 +12,7 @@
 #include "elements/catalogue.h"
 #include "places/sanitizers.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::static_truth_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -302,4 +302,4 @@ TEST_F(StaticTruth, a_part_so_far_out_that_rounding_is_larger_than_the_model_is_
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::static_truth_test

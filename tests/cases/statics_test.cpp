@@ -6,7 +6,7 @@
 
 #include "cases/dataset_text.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::statics_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -192,4 +192,4 @@ TEST_F(Statics, a_torque_turns_a_pendulum_as_far_as_its_weight_allows) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::statics_test

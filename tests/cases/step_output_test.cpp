@@ -11,7 +11,7 @@
 #include "command/planner.h"
 #include "system/operating_state.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::step_output_test {
 namespace {
 
 using nlohmann::json;
@@ -500,4 +500,4 @@ TEST_F(StepOutputs, refuse_factors_that_mean_nothing) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::step_output_test

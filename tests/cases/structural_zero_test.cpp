@@ -6,7 +6,7 @@
 
 #include "cases/dataset_text.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::structural_zero_test {
 namespace {
 
 class StructuralZeros : public Cases {
@@ -168,4 +168,4 @@ TEST_F(StructuralZeros, a_parallelogram_without_a_spring_moves_freely) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::structural_zero_test

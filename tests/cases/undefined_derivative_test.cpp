@@ -10,7 +10,7 @@
 #include "cases/dataset_text.h"
 #include "cases/study_of.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::undefined_derivative_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -328,4 +328,4 @@ TEST_F(SmoothAngles, have_rates_too) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::undefined_derivative_test

@@ -7,7 +7,7 @@
 
 #include "cases/dataset_text.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::user_coordinates_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -324,4 +324,4 @@ TEST_F(UserCoordinates, a_rotor_in_multiblade_coordinates_has_one_matrix_at_ever
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::user_coordinates_test

@@ -4,7 +4,7 @@
 #include "cases/both.h"
 #include "cases/dataset_text.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::vehicle_benchmark_test {
 namespace {
 
 class Benchmark : public ProgramAndLibrary {
@@ -168,4 +168,4 @@ TEST_F(Lattice, cube_of_point_masses_has_triple_values) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::vehicle_benchmark_test

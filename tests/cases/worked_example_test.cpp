@@ -11,7 +11,7 @@
 #include "cases/decks.h"
 #include "places/source_tree.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::worked_example_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -118,4 +118,4 @@ INSTANTIATE_TEST_SUITE_P(page, WorkedExample, ::testing::ValuesIn(pages()),
                          [](const auto& page) { return page.param; });
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::worked_example_test

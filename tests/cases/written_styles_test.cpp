@@ -6,7 +6,7 @@
 
 #include "cases/run.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::written_styles_test {
 namespace {
 
 struct Style {
@@ -163,4 +163,4 @@ TEST_P(WrittenStyles, of_datasets_and_command_files_are_read) {
 INSTANTIATE_TEST_SUITE_P(all, WrittenStyles, ::testing::Range<std::size_t>(0, styles().size()));
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::written_styles_test

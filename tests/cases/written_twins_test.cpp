@@ -5,7 +5,7 @@
 #include "cases/dataset_text.h"
 #include "cases/run.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::written_twins_test {
 namespace {
 
 struct Twins {
@@ -494,4 +494,4 @@ TEST_P(WrittenTwins, have_the_same_eigenvalues) {
 INSTANTIATE_TEST_SUITE_P(all, WrittenTwins, ::testing::Range<std::size_t>(0, twins().size()));
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::written_twins_test

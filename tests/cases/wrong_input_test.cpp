@@ -7,7 +7,7 @@
 #include "base/diagnostics.h"
 #include "cases/run.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::wrong_input_test {
 namespace {
 
 // Where the text stands: behind nine lines of a sound dataset, as the whole dataset, or as commands from line 3 on.
@@ -456,4 +456,4 @@ TEST(WrongInputTable, has_every_code_but_those_that_unit_tests_hold) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::wrong_input_test

@@ -6,7 +6,7 @@
 
 #include "cases/dataset_text.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::zero_modes_test {
 namespace {
 
 class ZeroModes : public Cases {
@@ -226,4 +226,4 @@ TEST_F(ZeroModes, soft_directions_are_not_rigid) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::zero_modes_test

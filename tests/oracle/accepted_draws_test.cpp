@@ -7,7 +7,7 @@
 
 #include "generator.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::accepted_draws_test {
 namespace {
 
 std::string after_title(const std::string& dataset) { return dataset.substr(dataset.find('\n')); }
@@ -25,4 +25,4 @@ TEST(AcceptedDraws, remembered_is_the_first_draw_of_a_seed_that_is_acceptable) {
 }
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::accepted_draws_test

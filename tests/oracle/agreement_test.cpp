@@ -16,7 +16,7 @@
 #include "oracle/model.h"
 #include "oracle/program_point.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::agreement_test {
 namespace {
 
 // Largest difference of an entry beyond what the extrapolation leaves open, relative to the largest entry.
@@ -165,4 +165,4 @@ TEST(Generated, mechanisms_hold_every_element_and_function_of_the_program) {
 }
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::agreement_test

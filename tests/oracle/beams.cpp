@@ -172,11 +172,6 @@ Vec spin_rate(const std::array<Vector3<Jet>, 3>& axis) {
   return al;
 }
 
-std::array<Real, 4> cubics(Real x, Real length) {
-  return {(1 + 2 * x) * (1 - x) * (1 - x), length * x * (1 - x) * (1 - x), x * x * (3 - 2 * x),
-          length * x * x * (x - 1)};
-}
-
 }  // namespace
 
 template <class T>

@@ -16,6 +16,12 @@ struct LineLoads {
   std::array<Vec, line_points> force, moment;
 };
 
+// Of r1, s1, r2, s2; x from 0 to 1.
+inline std::array<Real, 4> cubics(Real x, Real length) {
+  const Real y = 1 - x;
+  return {y * y * (1 + 2 * x), length * x * y * y, x * x * (1 + 2 * y), -length * x * x * y};
+}
+
 template <class T>
 struct BeamPose {
   std::array<Vector3<T>, 2> r, s;                 // places and slopes of the ends

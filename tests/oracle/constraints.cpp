@@ -77,8 +77,6 @@ void Model::read_rows() {
       rows.push_back(row);
     }
   }
-  has_expressions_ =
-      std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.type == Row::Type::expression; });
 }
 
 void Model::read_relations() {
@@ -165,22 +163,20 @@ void Model::capture_offsets() {
 
 // The gradient of an expression by body displacements, or by body velocities for a velocity row: one variation at a
 // time. Velocity rows are affine, so that it needs no velocities.
-void Model::refresh_gradients() {
-  if (!has_expressions_) return;
-  for (Row& row : rows) {
-    if (row.type != Row::Type::expression) continue;
-    row.gradient.assign(bodies.size(), Wrench{});
-    const Node& node = *row.function.node;
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      if (node.op == Op::gap && !touches(static_cast<std::size_t>(node.ids[0]), static_cast<int>(b))) continue;
-      for (int c = 0; c < 6; ++c) {
-        Variation variation{static_cast<int>(b), Vec{}, Vec{}, row.of_rates};
-        set_component(c < 3 ? variation.shift : variation.turn, c % 3, 1);
-        const Real slope = Evaluator<Jet>(*this, &variation)(row.function).d;
-        set_component(c < 3 ? row.gradient[b].f : row.gradient[b].t, c % 3, slope);
-      }
+const std::vector<Wrench>& Model::gradient_of(const Row& row) const {
+  if (!row.gradient.empty()) return row.gradient;
+  row.gradient.assign(bodies.size(), Wrench{});
+  const Node& node = *row.function.node;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (node.op == Op::gap && !touches(static_cast<std::size_t>(node.ids[0]), static_cast<int>(b))) continue;
+    for (int c = 0; c < 6; ++c) {
+      Variation variation{static_cast<int>(b), Vec{}, Vec{}, row.of_rates};
+      set_component(c < 3 ? variation.shift : variation.turn, c % 3, 1);
+      const Real slope = Evaluator<Jet>(*this, &variation)(row.function).d;
+      set_component(c < 3 ? row.gradient[b].f : row.gradient[b].t, c % 3, slope);
     }
   }
+  return row.gradient;
 }
 
 Real Model::drive(const Row& row, std::size_t derivative) const {
@@ -269,15 +265,16 @@ Wrench Model::row_wrench(const Row& row) const {
   }
   // Of an expression of I and J alone: what it does to the body of I, moved to the origin of I.
   const auto b = static_cast<std::size_t>(marker_data_[static_cast<std::size_t>(row.i)].body);
-  const Wrench& on_body = row.gradient[b];
+  const Wrench& on_body = gradient_of(row)[b];
   return {on_body.f, on_body.t - cross(i.p - motion[b].p, on_body.f)};
 }
 
 void Model::apply_row(std::vector<Wrench>& loads, const Row& row, Real size) const {
   if (row.type == Row::Type::expression) {
+    const std::vector<Wrench>& gradient = gradient_of(row);
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-      loads[b].f += size * row.gradient[b].f;
-      loads[b].t += size * row.gradient[b].t;
+      loads[b].f += size * gradient[b].f;
+      loads[b].t += size * gradient[b].t;
     }
     return;
   }

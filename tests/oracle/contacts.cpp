@@ -105,7 +105,7 @@ void Model::read_contacts() {
   for (std::size_t k = 0; k < mechanism_.contacts.size(); ++k) {
     const Contact& c = mechanism_.contacts[k];
     ContactData data{c.two_curves, c.plane, marker_index(c.i), marker_index(c.j), c.icurve, c.jcurve, {}, {}, {}};
-    const Vec along = curves_.at(c.jcurve).at<Real>(c.v, 1);
+    const Vec along = curves_.at(c.jcurve).at(c.v, 1);
     const Vec aside = std::fabs(along.x) > std::fabs(along.z) ? Vec{0, 0, 1} : Vec{1, 0, 0};
     data.across[0] = cross(along, aside);
     data.across[0] = (1 / norm(data.across[0])) * data.across[0];
@@ -177,8 +177,9 @@ Wrench Model::contact_wrench(std::size_t k) const {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (!rows[r].function.node || rows[r].function.node->op != Op::gap) continue;
     if (rows[r].function.node->ids[0] != static_cast<int>(k)) continue;
-    sum.f += lambda[r] * rows[r].gradient[b].f;
-    sum.t += lambda[r] * rows[r].gradient[b].t;
+    const Wrench& on_body = gradient_of(rows[r])[b];
+    sum.f += lambda[r] * on_body.f;
+    sum.t += lambda[r] * on_body.t;
   }
   sum.t = sum.t - cross(contact_point(k) - motion[b].p, sum.f);
   return sum;

@@ -2,7 +2,7 @@
 #include "curves.h"
 #include "self_check.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::contacts_self_check {
 namespace {
 
 void expect_near(const Vec& a, const Vec& b, double tolerance) {
@@ -135,4 +135,4 @@ TEST(Oracle, parabola_rocks_on_a_table) {
 }
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::contacts_self_check

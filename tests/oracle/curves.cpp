@@ -6,6 +6,13 @@ namespace dynalin::oracle {
 
 namespace {
 
+// n (n - 1) ... of `count` factors.
+Real falling(std::size_t n, int count) {
+  Real product = 1;
+  for (int k = 0; k < count; ++k) product *= static_cast<Real>(n) - static_cast<Real>(k);
+  return product;
+}
+
 // B-spline i of order k on the knots t by its recursive definition.
 Real b_spline(const std::vector<Real>& t, std::size_t i, std::size_t k, Real u) {
   if (k == 1) return u >= t[i] && u < t[i + 1] ? 1 : 0;
@@ -116,6 +123,32 @@ void CurveShape::interpolate(const std::vector<Real>& parameters, const std::vec
     const std::vector<Real> x = lu.solve(b);
     for (std::size_t j = 0; j < n; ++j) set_component(coefficient_[j], c, x[j]);
   }
+}
+
+Vec CurveShape::at(Real u, int derivative) const {
+  if (!closed_ && std::fabs(u) > 1) {
+    const Real end = u > 0 ? 1 : -1;
+    if (derivative > 1) return {};
+    const Vec slope = at(end, 1);
+    return derivative == 1 ? slope : at(end) + (u - end) * slope;
+  }
+  const Real s = u - (closed_ ? first_ + 2 * std::floor((u - first_) / 2) : first_);
+  Vec sum{};
+  const auto lowest = static_cast<std::size_t>(derivative);
+  for (std::size_t j = order_; j-- > lowest;) sum = s * sum + falling(j, derivative) * coefficient_[j];
+  for (std::size_t k = 0; k < knots_.size(); ++k) {
+    const Real beyond = s - (knots_[k] - first_);
+    if (beyond <= 0) break;
+    Real power = falling(order_ - 1, derivative);
+    for (std::size_t j = lowest; j + 1 < order_; ++j) power *= beyond;
+    sum += power * coefficient_[order_ + k];
+  }
+  return sum;
+}
+
+Vector3<Jet> CurveShape::at(const Jet& u, int derivative) const {
+  const Vec c = at(u.v, derivative), c1 = at(u.v, derivative + 1), c2 = at(u.v, derivative + 2);
+  return {chain(u, c.x, c1.x, c2.x), chain(u, c.y, c1.y, c2.y), chain(u, c.z, c1.z, c2.z)};
 }
 
 Real CurveShape::clearance(Real u) const {

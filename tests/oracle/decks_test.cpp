@@ -11,7 +11,7 @@
 #include "nastran/export.h"
 #include "oracle/resting.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::decks_test {
 namespace {
 
 class Decks : public ::testing::TestWithParam<std::uint64_t> {
@@ -91,4 +91,4 @@ TEST_P(Decks, of_generated_mechanisms_have_their_eigenvalues) {
 INSTANTIATE_TEST_SUITE_P(generated, Decks, ::testing::Range<std::uint64_t>(1, 201, 20));
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::decks_test

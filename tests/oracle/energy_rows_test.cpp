@@ -14,7 +14,7 @@
 #include "linear/modal_distribution.h"
 #include "oracle/program_point.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::energy_rows_test {
 namespace {
 
 // What was compared, over many mechanisms.
@@ -168,8 +168,8 @@ TEST(FlexibleEnergyRows, equal_the_work_of_forces_by_differences) {
 // Each in both tables, with a share that is not nothing.
 TEST(EnergyRowKinds, are_all_compared) {
   std::set<std::string> missing;
-  for (const Kind* kind : catalogue()) {
-    if (kind->energy_rows == Kind::EnergyRows::none) continue;
+  for (const dynalin::Kind* kind : catalogue()) {
+    if (kind->energy_rows == dynalin::Kind::EnergyRows::none) continue;
     if (kind->statement == "FLEX_BODY") continue;  // above
     const std::string name =
         std::string(kind->statement) + (kind->variant.empty() ? "" : " ") + std::string(kind->variant);
@@ -192,4 +192,4 @@ TEST(EnergyRowKinds, are_all_compared) {
 }
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::energy_rows_test

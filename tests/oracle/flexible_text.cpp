@@ -25,13 +25,6 @@ Real entry_of(const Mat& m, std::size_t row, std::size_t column) {
   return component(m.column[column], static_cast<int>(row));
 }
 
-Mat inertia_of(const Flexible::Node& n) {
-  const auto& j = n.inertia;
-  return {{Vec{j[0], -static_cast<Real>(j[3]), -static_cast<Real>(j[4])},
-           Vec{-static_cast<Real>(j[3]), j[1], -static_cast<Real>(j[5])},
-           Vec{-static_cast<Real>(j[4]), -static_cast<Real>(j[5]), j[2]}}};
-}
-
 }  // namespace
 
 std::string flexible_text(const Mechanism& m, const Flexible& f) {

@@ -10,14 +10,14 @@
 
 namespace dynalin::oracle {
 
-namespace {
-
 Mat inertia_of(const Flexible::Node& node) {
   const auto& j = node.inertia;
   return {{Vec{j[0], -static_cast<Real>(j[3]), -static_cast<Real>(j[4])},
            Vec{-static_cast<Real>(j[3]), j[1], -static_cast<Real>(j[5])},
            Vec{-static_cast<Real>(j[4]), -static_cast<Real>(j[5]), j[2]}}};
 }
+
+namespace {
 
 Vec sum_of(const std::array<Triple, 3>& by_mode, const Vec& q) {
   return q.x * to_vec(by_mode[0]) + q.y * to_vec(by_mode[1]) + q.z * to_vec(by_mode[2]);

@@ -4,7 +4,7 @@
 #include "evaluation.h"
 #include "self_check.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::functions_self_check {
 namespace {
 
 Real value_at(Function f, const std::vector<double>& a) {
@@ -250,4 +250,4 @@ TEST(Oracle, net_force_of_a_marker_is_the_sum_of_what_names_it) {
 }
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::functions_self_check

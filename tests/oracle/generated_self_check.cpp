@@ -4,7 +4,7 @@
 
 #include "self_check.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::generated_self_check {
 namespace {
 
 // The point a short time along its own motion. Terms even in h are wrong from h^2 on and cancel in a
@@ -162,4 +162,4 @@ TEST(Oracle, two_hundred_seeds_are_varied_and_every_fourth_is_accurate) {
 }
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::generated_self_check

@@ -28,8 +28,16 @@ const Body& Draw::body(const BodyRef& ref) const {
   return *std::find_if(m_.bodies.begin(), m_.bodies.end(), [&](const Body& b) { return b.ref == ref; });
 }
 
-BodyRef Draw::body_of(int marker) const {
-  return std::find_if(m_.markers.begin(), m_.markers.end(), [&](const Marker& k) { return k.id == marker; })->body;
+const Marker& Draw::marker(int id) const {
+  return *std::find_if(m_.markers.begin(), m_.markers.end(), [&](const Marker& k) { return k.id == id; });
+}
+
+BodyRef Draw::body_of(int marker_id) const { return marker(marker_id).body; }
+
+Vec Draw::place_of(int marker_id) const {
+  const Marker& k = marker(marker_id);
+  const Body& owner = body(k.body);
+  return to_vec(owner.qg) + rotation_313(owner.reuler[0], owner.reuler[1], owner.reuler[2]) * to_vec(k.qp);
 }
 
 int Draw::add_marker(const BodyRef& ref, const Frame& global) {

@@ -17,8 +17,6 @@ struct Frame {
   Mat R;
 };
 
-constexpr BodyRef ground{BodyKind::ground, 1};
-
 // Solids that touch, the second one as a cavity or not, and where on it. Regular: a frustum that is a cylinder, an
 // ellipsoid that is a sphere.
 enum class Spot { any, face, edge, mantle, end };
@@ -161,7 +159,10 @@ class Draw {
   std::pair<int, int> distant_pair(bool oriented_j);
   // Alone against ground only a marker that moves says anything.
   [[nodiscard]] int moving(int i, int j) const { return body_of(i) == ground ? j : i; }
-  [[nodiscard]] BodyRef body_of(int marker) const;
+  [[nodiscard]] const Marker& marker(int id) const;
+  [[nodiscard]] BodyRef body_of(int marker_id) const;
+  // In the global frame, of one that is fixed on its body.
+  [[nodiscard]] Vec place_of(int marker_id) const;
   [[nodiscard]] const Body& body(const BodyRef& ref) const;
   [[nodiscard]] int mobility() const;
   int variable(const Expr& e) {

@@ -53,13 +53,13 @@ void Draw::place_contact(const BodyRef& i_body, const BodyRef& j_body, bool two_
   Frame I{at, orientation()}, J{at, orientation()};
   c.jcurve = draw_curve(two_curves);
   const CurveShape b = shape_of(m_, c.jcurve);
-  J.p = at - J.R * b.at<Real>(c.v);
-  const Vec s = b.at<Real>(c.v, 1), s2 = b.at<Real>(c.v, 2);
+  J.p = at - J.R * b.at(c.v);
+  const Vec s = b.at(c.v, 1), s2 = b.at(c.v, 2);
   bool good = b.clearance(c.v) > 0.05L && norm(s) > 0.4L * L_ && norm(s2) < 6 * L_;
   if (two_curves) {
     c.icurve = draw_curve(true);
     const CurveShape a = shape_of(m_, c.icurve);
-    const Vec t = a.at<Real>(c.u, 1), t2 = a.at<Real>(c.u, 2);
+    const Vec t = a.at(c.u, 1), t2 = a.at(c.u, 2);
     good = good && a.clearance(c.u) > 0.05L && norm(t) > 0.4L * L_ && norm(t2) < 6 * L_;
     // Seen along z_J the tangents agree: e1 is that of I, in axes of J, and I is turned about it.
     const Real rise = uniform(-0.4, 0.4), turn = uniform(-0.5, 0.5) + (chance(0.3) ? std::numbers::pi : 0);
@@ -71,7 +71,7 @@ void Draw::place_contact(const BodyRef& i_body, const BodyRef& j_body, bool two_
     const Mat from{{along, Vec{-along.y, along.x, 0}, Vec{0, 0, 1}}}, to{{e1, e2, cross(e1, e2)}};
     const Mat R = to * transpose(from);
     I.R = J.R * R;
-    I.p = at - I.R * a.at<Real>(c.u);
+    I.p = at - I.R * a.at(c.u);
     const auto curvature = [](const Vec& d, const Vec& dd) {
       return (d.x * dd.y - d.y * dd.x) / std::pow(std::hypot(d.x, d.y), 3.0L);
     };
@@ -92,8 +92,8 @@ void Draw::place_contact(const BodyRef& i_body, const BodyRef& j_body, bool two_
   if (two_curves) c.ifloat = floating(i_body);
   m_.contacts.push_back(c);
   const auto note = [&](int marker, const CurveShape& shape, Real u) {
-    const Vec d = shape.at<Real>(u, 1);
-    if (norm(cross(d, shape.at<Real>(u, 2))) > 0.4L * std::pow(norm(d), 3.0L) / L_) floating_.push_back(marker);
+    const Vec d = shape.at(u, 1);
+    if (norm(cross(d, shape.at(u, 2))) > 0.4L * std::pow(norm(d), 3.0L) / L_) floating_.push_back(marker);
   };
   note(c.jfloat, b, c.v);
   if (two_curves) note(c.ifloat, shape_of(m_, c.icurve), c.u);
@@ -167,8 +167,8 @@ void Draw::place_plane(const BodyRef& i_body, const BodyRef& j_body) {
   c.jcurve = draw_curve(false);
   const CurveShape b = shape_of(m_, c.jcurve);
   Frame J{at, orientation()};
-  J.p = at - J.R * b.at<Real>(c.v);
-  const Vec s = b.at<Real>(c.v, 1), s2 = b.at<Real>(c.v, 2);
+  J.p = at - J.R * b.at(c.v);
+  const Vec s = b.at(c.v, 1), s2 = b.at(c.v, 2);
   const Vec x = (1 / norm(s)) * s;
   const Vec drawn = box(1), aside = drawn - dot(drawn, x) * x;
   const Vec z = (1 / norm(aside)) * aside;
@@ -197,7 +197,7 @@ void Draw::draw_contact_starts() {
     Contact& c = m_.contacts[k];
     const auto start = [&](int on, int curve, double u, std::optional<Triple>& at, int& axes) {
       if (!chance(0.4)) return;
-      at = to_triple(shape_of(m_, curve).at<Real>(u));
+      at = to_triple(shape_of(m_, curve).at(u));
       if (!chance(0.5)) return;
       // The same point from a marker of the same body.
       const auto other = std::find_if(m_.markers.begin(), m_.markers.end(), [&](const Marker& a) {

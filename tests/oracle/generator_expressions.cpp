@@ -9,13 +9,10 @@ namespace dynalin::oracle {
 // ------------------------------------------------------------------------------------------- atoms
 
 std::pair<int, int> Draw::distant_pair(bool oriented_j) {
-  const Model model(m_);
   for (int attempt = 0; attempt < 200; ++attempt) {
     const int i = one_of(all_), j = one_of(oriented_j ? oriented_ : all_);
     if (body_of(i) == body_of(j)) continue;
-    const Vec d = model.markers()[static_cast<std::size_t>(model.marker_index(i))].p -
-                  model.markers()[static_cast<std::size_t>(model.marker_index(j))].p;
-    if (norm(d) > 0.4 * L_) return {i, j};
+    if (norm(place_of(i) - place_of(j)) > 0.4 * L_) return {i, j};
   }
   throw std::runtime_error("no two markers are far enough apart");
 }

@@ -15,7 +15,7 @@ namespace {
 bool touches_once(const CurveShape& curve, double v, const Vec& centre, Real radius, Real room) {
   constexpr int samples = 800;
   const auto away = [&](int k) {
-    const Vec d = curve.at<Real>(-1 + 2.0L * k / samples) - centre;
+    const Vec d = curve.at(-1 + 2.0L * k / samples) - centre;
     return std::hypot(d.x, d.y);
   };
   int near = 0;
@@ -75,9 +75,9 @@ void Draw::draw_touch() {
     t.curve = draw_curve(true);
     t.v = uniform(-0.7, 0.7);
     const CurveShape curve(m_.curves.back(), m_.matrices.back());
-    const Vec p = curve.at<Real>(t.v), s = curve.at<Real>(t.v, 1);
+    const Vec p = curve.at(t.v), s = curve.at(t.v, 1);
     const Vec centre = p + ((t.radius_i - depth) / std::hypot(s.x, s.y)) * Vec{s.y, -s.x, 0};
-    const Vec bend = curve.at<Real>(t.v, 2);
+    const Vec bend = curve.at(t.v, 2);
     const Real curvature = (s.x * bend.y - s.y * bend.x) / std::pow(std::hypot(s.x, s.y), 3.0L);
     const Real together = 1 / Real(t.radius_i) + curvature * (1 - depth / t.radius_i);
     if (curve.clearance(t.v) < 0.08L || std::hypot(s.x, s.y) < 0.4L * L_ || together < 0.7L / L_ ||

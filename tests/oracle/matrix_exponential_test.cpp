@@ -14,7 +14,7 @@
 #include "oracle/models.h"
 #include "study/simulation.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::matrix_exponential_test {
 namespace {
 
 using Eigen::Index;
@@ -255,4 +255,4 @@ TEST(MatrixExponential, differences_go_with_the_square_of_the_amplitude) {
 }
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::matrix_exponential_test

@@ -13,6 +13,9 @@
 namespace dynalin::oracle {
 
 using Triple = std::array<double, 3>;
+// 3-1-3 angles that turn the z axis of a marker onto a global axis.
+inline constexpr Triple z_along_x{1.5707963267948966, 1.5707963267948966, 0};
+inline constexpr Triple z_along_y{3.141592653589793, 1.5707963267948966, 0};
 
 // A node of a beam turns as a part does; its slopes and the rotations of the middles of its elements are triples, moved
 // as point masses are. All of them take what inertia and loads they have from their beam (see Beam). So do the frame
@@ -42,6 +45,7 @@ struct BodyRef {
   int id = 0;
   friend bool operator==(const BodyRef&, const BodyRef&) = default;
 };
+inline constexpr BodyRef ground{BodyKind::ground, 1};
 
 struct Body {
   BodyRef ref;

@@ -206,7 +206,7 @@ void Model::update_positions() {
   }
   touch_places_.assign(mechanism_.touches.size(), {});
   solve_contacts();
-  refresh_gradients();
+  for (Row& row : rows) row.gradient.clear();
   beam_directions_.clear();
 }
 

@@ -50,8 +50,9 @@ struct Row {
   Expr function{};
   std::size_t carried = 0;  // of a shape or plane: which node, of those that are bodies, and which of its rows
   int component = 0;
-  Real offset = 0;                 // subtracted from an expression
-  std::vector<Wrench> gradient{};  // of an expression, on each body, t about its BCS
+  Real offset = 0;  // subtracted from an expression
+  // Of an expression, on each body, t about its BCS: once asked for at the present positions (Model::gradient_of).
+  mutable std::vector<Wrench> gradient{};
 };
 
 // A force element as it acts: a wrench on I, its torque about p_I, and what takes the opposite.
@@ -195,7 +196,7 @@ class Model {
   void capture_offsets();
   void solve_contacts();
   [[nodiscard]] bool touches(std::size_t contact, int body) const;
-  void refresh_gradients();
+  [[nodiscard]] const std::vector<Wrench>& gradient_of(const Row& row) const;
   [[nodiscard]] Pair line_of_sight(int i, int j) const;
   [[nodiscard]] Real angle_z(int i, int j) const;
   [[nodiscard]] Real drive(const Row& row, std::size_t derivative) const;
@@ -265,7 +266,6 @@ class Model {
   std::vector<std::array<int, 2>> spring_markers_, sforce_markers_, joint_markers_;
   std::vector<std::size_t> tfsiso_slot_, lse_slot_, gse_slot_, diff_slot_, friction_slot_;
   std::vector<Real> friction_start_;  // displacement along z of J as drawn
-  bool has_expressions_ = false;      // among the rows
   struct ContactData {
     bool two_curves = false, plane = false;
     int i = 0, j = 0;             // marker indices
@@ -373,5 +373,8 @@ void complete_velocities(Model& model, const Stated& stated);
 // Solves accelerations, multipliers, variables and forces at the placed instant from zero. Throws when Newton
 // fails.
 std::vector<Real> solve_algebra(Model& model);
+
+// About the axes of the node, out of the six numbers of the body file.
+[[nodiscard]] Mat inertia_of(const Flexible::Node& node);
 
 }  // namespace dynalin::oracle

@@ -10,7 +10,7 @@
 #include "oracle/models.h"
 #include "simulation/motion_equations.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::motion_jacobian_test {
 namespace {
 
 using Vector = std::vector<double>;
@@ -165,4 +165,4 @@ TEST(MotionJacobian, is_exact_for_generated_mechanisms) {
 }
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::motion_jacobian_test

@@ -64,11 +64,15 @@ std::vector<Real> solve_algebra(Model& model) {
     return model.algebra_residual();
   };
   const NewtonScales scales = algebra_scales(model);
-  // Away from the solution factors go stale quickly: a few full Newton steps first.
+  // Away from the solution factors go stale quickly: full Newton steps, until the factors of one serve for the next.
   for (int k = 0; k < 4; ++k) {
-    const Lu lu(difference_jacobian(residual, x, group_scales(scales, x)));
-    const std::vector<Real> dx = lu.solve(residual(x));
+    factors = Lu(difference_jacobian(residual, x, group_scales(scales, x)));
+    const std::vector<Real> dx = factors.solve(residual(x));
     for (std::size_t i = 0; i < x.size(); ++i) x[i] -= dx[i];
+    const std::vector<Real> next = factors.solve(residual(x)), scale = group_scales(scales, x);
+    Real size = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) size = std::max(size, std::fabs(next[i]) / scale[i]);
+    if (size < 1e-2L) break;
   }
   newton(residual, x, scales, factors, "acceleration");
   model.unpack_algebra(x);

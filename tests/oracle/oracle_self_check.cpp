@@ -2,7 +2,7 @@
 // suspect only.
 #include "self_check.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::oracle_self_check {
 namespace {
 
 TEST(Oracle, pendulum_about_any_axis_swings_at_the_frequency_of_the_compound_pendulum) {
@@ -277,4 +277,4 @@ TEST(Oracle, redundant_constraints_leave_the_motion_unchanged) {
 }
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::oracle_self_check

@@ -9,7 +9,7 @@
 #include "elements/catalogue.h"
 #include "oracle/mechanism.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::physical_matrices_test {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
@@ -23,7 +23,7 @@ std::shared_ptr<const System> system_of(const std::string& text) {
   return System::make(std::move(model.value)).value();
 }
 
-LinearOptions options_of(const Model& model) {
+LinearOptions options_of(const dynalin::Model& model) {
   LinearOptions options;
   if (const auto list = model.find("PINPUT", 1)) options.pinput = *list;
   if (const auto list = model.find("POUTPUT", 1)) options.poutput = *list;
@@ -185,4 +185,4 @@ TEST(PhysicalMatrices, of_a_pendulum_has_the_stiffness_of_its_weight) {
 }
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::physical_matrices_test

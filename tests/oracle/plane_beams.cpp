@@ -18,12 +18,6 @@ Vector3<T> middle_slope(const PlanePose<T>& p, Real length) {
   return T(1.5L / length) * (p.r[1] - p.r[0]) - T(0.25L) * (p.s[0] + p.s[1]);
 }
 
-// Of r1, s1, r2, s2; x from 0 to 1.
-std::array<Real, 4> cubics(Real x, Real length) {
-  const Real y = 1 - x;
-  return {y * y * (1 + 2 * x), length * x * y * y, x * x * (1 + 2 * y), -length * x * x * y};
-}
-
 // Which coordinate: of the triples r1, s1, r2, s2, and along a or b.
 struct Coordinate {
   std::size_t end;

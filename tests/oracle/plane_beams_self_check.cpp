@@ -4,7 +4,7 @@
 
 #include "self_check.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::plane_beams_self_check {
 namespace {
 
 using Complex = std::complex<Real>;
@@ -396,4 +396,4 @@ TEST(PlaneBeams, drawn_ones_are_accurate_and_varied) {
 }
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::plane_beams_self_check

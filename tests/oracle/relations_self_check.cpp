@@ -3,7 +3,7 @@
 
 #include "self_check.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::relations_self_check {
 namespace {
 
 // The bodies along r + v t + a t^2/2, exp((w t + al t^2/2)^) R, which has these velocities and accelerations at t = 0.
@@ -236,4 +236,4 @@ TEST(Oracle, rolling_disk_leans_and_steers_as_tabulated) {
 }
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::relations_self_check

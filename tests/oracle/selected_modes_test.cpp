@@ -12,7 +12,7 @@
 #include "linear/eigen.h"
 #include "oracle/oracle.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::selected_modes_test {
 namespace {
 
 std::string text_of(const ModeSelection& wanted) {
@@ -101,4 +101,4 @@ TEST_P(SelectedModesOfMechanisms, are_those_of_the_full_solution) {
 INSTANTIATE_TEST_SUITE_P(generated, SelectedModesOfMechanisms, ::testing::Range<std::uint64_t>(1, 221, 20));
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::selected_modes_test

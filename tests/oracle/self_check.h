@@ -15,11 +15,7 @@
 namespace dynalin::oracle {
 
 constexpr double pi = std::numbers::pi;
-constexpr BodyRef ground{BodyKind::ground, 99};
 constexpr Triple origin{0, 0, 0};
-// 3-1-3 angles that turn the z axis of a marker onto a global axis.
-constexpr Triple z_along_x{pi / 2, pi / 2, 0};
-constexpr Triple z_along_y{pi, pi / 2, 0};
 
 using Kind = ChosenState::Kind;
 

@@ -5,7 +5,7 @@
 #include "self_check.h"
 #include "solids.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::solids_self_check {
 namespace {
 
 const Solid egg{SolidShape::ellipsoid, {0.9, 1.3, 1.1}}, brick{SolidShape::box, {0.8, -1.1, 0.9}},
@@ -242,4 +242,4 @@ TEST(Oracle, drawn_solids_linearize_sharply) {
 }
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::solids_self_check

@@ -22,9 +22,6 @@ struct StaticModel {
 [[nodiscard]] std::vector<StaticModel> static_models();
 
 // Along x and along y of the part that carries the marker: where z of a marker points.
-inline constexpr Triple z_along_x{1.5707963267948966, 1.5707963267948966, 0};
-inline constexpr Triple z_along_y{3.141592653589793, 1.5707963267948966, 0};
-
 // Puts a mechanism together. Ground is body 1; bodies have their mass centre in their origin.
 class Draft {
  public:

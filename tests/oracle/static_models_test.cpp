@@ -13,7 +13,7 @@
 #include "elements/catalogue.h"
 #include "model.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::static_models_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -165,4 +165,4 @@ TEST_P(StaticModels, come_to_rest_or_say_what_makes_rest_impossible) {
 INSTANTIATE_TEST_SUITE_P(generated, StaticModels, ::testing::Range<std::size_t>(0, static_models().size()));
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::static_models_test

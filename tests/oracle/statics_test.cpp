@@ -11,7 +11,7 @@
 #include "elements/catalogue.h"
 #include "oracle/resting.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::statics_test {
 namespace {
 
 class Statics : public ::testing::TestWithParam<std::uint64_t> {};
@@ -106,4 +106,4 @@ TEST_P(Statics, generated_mechanisms_come_to_rest_or_say_why_not) {
 INSTANTIATE_TEST_SUITE_P(generated, Statics, ::testing::Range<std::uint64_t>(1, 101, 25));
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::statics_test

@@ -11,7 +11,7 @@
 #include "oracle/mechanism.h"
 #include "oracle/program_point.h"
 
-namespace dynalin::oracle {
+namespace dynalin::oracle::threads_test {
 namespace {
 
 struct Numbers {
@@ -70,4 +70,4 @@ TEST(Threads, share_a_system_and_get_the_same_numbers) {
 }
 
 }  // namespace
-}  // namespace dynalin::oracle
+}  // namespace dynalin::oracle::threads_test

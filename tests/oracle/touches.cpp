@@ -44,13 +44,13 @@ TouchPlace Model::place_of_ball(const Touch& t, const MarkerMotion& i, const Mar
     const Real x = dot(d, j.axis[0]), y = dot(d, j.axis[1]);
     Real v = t.v;
     for (int n = 0; n < 60; ++n) {
-      const Vec b = curve.at<Real>(v), b1 = curve.at<Real>(v, 1), b2 = curve.at<Real>(v, 2);
+      const Vec b = curve.at(v), b1 = curve.at(v, 1), b2 = curve.at(v, 2);
       const Real dx = b.x - x, dy = b.y - y;
       const Real change = (dx * b1.x + dy * b1.y) / (b1.x * b1.x + b1.y * b1.y + dx * b2.x + dy * b2.y);
       v -= change;
       if (std::fabs(change) < 1e-19L) break;
     }
-    const Vec b = curve.at<Real>(v), b1 = curve.at<Real>(v, 1);
+    const Vec b = curve.at(v), b1 = curve.at(v, 1);
     // Matter is to the left.
     const Real size = std::hypot(b1.x, b1.y);
     s.normal = (b1.y / size) * j.axis[0] - (b1.x / size) * j.axis[1];

@@ -14,7 +14,7 @@
 #include "oracle/mechanism.h"
 #include "precision/precise.h"
 
-namespace dynalin::precision {
+namespace dynalin::precision::bounds_test {
 namespace {
 
 std::string listing(const std::vector<Value>& exact) {
@@ -72,7 +72,7 @@ class Bounds : public ::testing::Test {
       Real error = least_distance(exact, mode);
       if (error > bound && !finer) {
         finer = true;
-        exact = eigenvalues<Finer>(*linear->pencil);
+        exact = finer_eigenvalues(*linear->pencil);
         ASSERT_FALSE(exact.empty()) << text;
         error = least_distance(exact, mode);
       }
@@ -113,7 +113,8 @@ TEST_P(GeneratedBounds, hold_for_generated_mechanisms) {
 }
 INSTANTIATE_TEST_SUITE_P(seeds, GeneratedBounds, ::testing::Range<std::uint64_t>(1001, 2001, 100));
 
-// The nodes of a beam weigh little beside what they carry, and a bound from the sizes of all coefficients is wider there.
+// The nodes of a beam weigh little beside what they carry, and a bound from the sizes of all coefficients is wider
+// there.
 TEST_F(Bounds, hold_for_beams_of_finite_elements) {
   most_median_ = 10000;
   for (std::uint64_t seed = 241; seed < 251; ++seed) {
@@ -238,4 +239,4 @@ TEST_F(Bounds, hold_for_ill_conditioned_models) {
 }
 
 }  // namespace
-}  // namespace dynalin::precision
+}  // namespace dynalin::precision::bounds_test

@@ -8,7 +8,7 @@
 #include "linear/selected_modes.h"
 #include "precision/precise.h"
 
-namespace dynalin::precision {
+namespace dynalin::precision::chain_test {
 namespace {
 
 using Complex =
@@ -116,4 +116,4 @@ TEST_P(SelectedOfChain, modes_have_all_their_digits) {
 INSTANTIATE_TEST_SUITE_P(lengths, SelectedOfChain, ::testing::Values(50, 500));
 
 }  // namespace
-}  // namespace dynalin::precision
+}  // namespace dynalin::precision::chain_test

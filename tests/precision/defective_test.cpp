@@ -14,7 +14,7 @@
 #include "linear/eigen.h"
 #include "precision/precise.h"
 
-namespace dynalin::precision {
+namespace dynalin::precision::defective_test {
 namespace {
 
 // Eigenvalues of A as assembled; a cluster of k that rounding has spread over 1e-16^(1/k) has conditions of about the
@@ -435,4 +435,4 @@ INSTANTIATE_TEST_SUITE_P(families, Defective, ::testing::ValuesIn(families),
                          [](const auto& family) { return std::string(family.param.name); });
 
 }  // namespace
-}  // namespace dynalin::precision
+}  // namespace dynalin::precision::defective_test

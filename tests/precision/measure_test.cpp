@@ -11,7 +11,7 @@
 #include "mechanics/binding_test_support.h"
 #include "precision/precise.h"
 
-namespace dynalin::precision {
+namespace dynalin::precision::measure_test {
 namespace {
 
 using mechanics_test::SmallSystem;
@@ -401,4 +401,4 @@ TEST(Measures, squares_of_angles_lose_nothing_where_they_are_small) {
 }
 
 }  // namespace
-}  // namespace dynalin::precision
+}  // namespace dynalin::precision::measure_test

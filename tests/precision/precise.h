@@ -8,7 +8,6 @@
 #include <cmath>
 #include <complex>
 #include <functional>
-#include <limits>
 #include <random>
 #include <vector>
 
@@ -56,39 +55,15 @@ Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> state_matrix(const Perturb
   return M.bottomRightCorner(n, n);
 }
 
-// Empty if the QR iteration does not converge, neither for the matrix nor for its transpose.
-template <class Number = Real>
-std::vector<Value> eigenvalues(const PerturbationEquations& p) {
-  using Dense = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>;
-  const Dense A = state_matrix<Number>(p);
-  Eigen::EigenSolver<Dense> solver(A, false);
-  if (solver.info() != Eigen::Success) solver.compute(A.transpose(), false);
-  if (solver.info() != Eigen::Success) return {};
-  std::vector<Value> values;
-  for (Eigen::Index k = 0; k < solver.eigenvalues().size(); ++k) {
-    values.push_back({Real(solver.eigenvalues()(k).real()), Real(solver.eigenvalues()(k).imag())});
-  }
-  return values;
-}
+// With 50 digits, or with 110 where that leaves nothing. Empty if the QR iteration does not converge, neither for the
+// matrix nor for its transpose.
+std::vector<Value> eigenvalues(const PerturbationEquations& p);
+std::vector<Value> finer_eigenvalues(const PerturbationEquations& p);
 
 // Eigenvalues of the equations with every coefficient somewhere within half a unit of its last digit, as all are that a
 // computation has rounded once; those with few digits are exact. In extended precision: the differences to the
 // eigenvalues of the coefficients as they stand are some units of double precision and more.
-inline std::vector<Value> eigenvalues_within_rounding(const PerturbationEquations& p, std::mt19937_64& random) {
-  const auto drawn = [&](double v) {
-    int exponent = 0;
-    const double digits = std::ldexp(std::frexp(v, &exponent), 26);
-    if (digits == std::trunc(digits)) return static_cast<long double>(v);
-    std::uniform_real_distribution<double> part(-1, 1);
-    return v * (1.0L + part(random) * std::numeric_limits<double>::epsilon() / 2);
-  };
-  using Dense = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-  const Eigen::EigenSolver<Dense> solver(state_matrix<long double>(p, drawn), false);
-  std::vector<Value> values;
-  if (solver.info() != Eigen::Success) return values;
-  for (const std::complex<long double>& v : solver.eigenvalues()) values.push_back({Real(v.real()), Real(v.imag())});
-  return values;
-}
+std::vector<Value> eigenvalues_within_rounding(const PerturbationEquations& p, std::mt19937_64& random);
 
 // |λ/2π − given| with the given value in cycles per unit time.
 inline Real distance(const Value& exact, const std::complex<double>& hz) {

@@ -27,6 +27,12 @@ struct Course {
 
   bool ok() const { return failure.empty(); }
   double last(std::int64_t variable) const { return variables.at(variable).back(); }
+  // The largest size of a VARIABLE.
+  double largest(std::int64_t variable) const {
+    double value = 0;
+    for (const double v : variables.at(variable)) value = std::max(value, std::abs(v));
+    return value;
+  }
   // The largest distance of a VARIABLE from its value at the start.
   double drift(std::int64_t variable) const {
     double largest = 0;

@@ -8,12 +8,6 @@
 namespace dynalin::in_time {
 namespace {
 
-double largest(const Course& c, std::int64_t variable) {
-  double value = 0;
-  for (const double v : c.variables.at(variable)) value = std::max(value, std::abs(v));
-  return value;
-}
-
 // A thin disk that leans by 30 degrees rolls around a circle: with the precession Ω and β the angle of its axle to the
 // vertical, its rate n about the axle follows from n Ω sin β (C + m r²) − A Ω² sin β cos β + m g r cos β = 0, and the
 // centre goes around at −n r/Ω from the middle.
@@ -37,7 +31,7 @@ TEST(Mechanisms, a_disk_rolls_around_a_circle) {
                   precession + c * (n - precession * c), radius, radius),
       {3, 30, 1e-6});
   ASSERT_TRUE(rolled.ok()) << rolled.failure;
-  for (const std::int64_t k : {1, 2, 3}) EXPECT_LT(largest(rolled, k), 1e-6) << k;
+  for (const std::int64_t k : {1, 2, 3}) EXPECT_LT(rolled.largest(k), 1e-6) << k;
 }
 
 // The parabola y = a x² rocks on a table without friction. Its mass centre, H above the vertex, is at the height
@@ -65,9 +59,9 @@ TEST(Mechanisms, a_parabola_rocks_on_a_table) {
       {10, 50, 1e-6});
   ASSERT_TRUE(c.ok()) << c.failure;
   // The curve is a spline through points 0.02 apart.
-  EXPECT_LT(largest(c, 1), 1e-5);
-  EXPECT_LT(largest(c, 2), 1e-5);
-  EXPECT_LT(largest(c, 3), 1e-6);
+  EXPECT_LT(c.largest(1), 1e-5);
+  EXPECT_LT(c.largest(2), 1e-5);
+  EXPECT_LT(c.largest(3), 1e-6);
   EXPECT_LT(c.drift(90), 1e-6);
 }
 
@@ -96,9 +90,9 @@ END
 )",
                                     {20, 40, 1e-5});
   ASSERT_TRUE(c.ok()) << c.failure;
-  EXPECT_LT(largest(c, 1), 1e-5);
-  EXPECT_LT(largest(c, 2), 1e-5);
-  EXPECT_LT(largest(c, 3), 1e-11);
+  EXPECT_LT(c.largest(1), 1e-5);
+  EXPECT_LT(c.largest(2), 1e-5);
+  EXPECT_LT(c.largest(3), 1e-11);
 }
 
 // With a SENSOR, or with a DELAY that is read, a model without freedoms is led by the integrator: what constraints

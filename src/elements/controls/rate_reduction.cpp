@@ -16,7 +16,7 @@ namespace dynalin {
 
 namespace {
 
-using Matrix = Eigen::MatrixXd;
+using Dense = Eigen::MatrixXd;
 using Coefficients = Eigen::VectorXd;
 using Sum = FormalPartials::Sum;
 using Sums = std::vector<std::vector<Sum>>;  // by equation and unknown
@@ -31,7 +31,7 @@ void add(Sum& to, const Sum& more, double factor) {
 }
 
 // The terms of a row beside each other: a combination of rows vanishes whatever the terms are if it vanishes here.
-Matrix by_terms(const Sums& sums) {
+Dense by_terms(const Sums& sums) {
   std::map<FormalPartials::Term, Eigen::Index> place;
   for (const auto& row : sums) {
     for (const Sum& sum : row) {
@@ -39,7 +39,7 @@ Matrix by_terms(const Sums& sums) {
     }
   }
   const auto m = static_cast<Eigen::Index>(sums.size());
-  Matrix all = Matrix::Zero(m, m * static_cast<Eigen::Index>(place.size()));
+  Dense all = Dense::Zero(m, m * static_cast<Eigen::Index>(place.size()));
   for (Eigen::Index r = 0; r < m; ++r) {
     for (Eigen::Index c = 0; c < m; ++c) {
       for (const auto& [term, number] : sums[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)])
@@ -61,7 +61,7 @@ struct LeftNullSpace {
   std::vector<std::size_t> row;
   std::vector<Coefficients> combination;
 };
-LeftNullSpace left_null_space(const Matrix& m, const std::vector<std::size_t>& order) {
+LeftNullSpace left_null_space(const Dense& m, const std::vector<std::size_t>& order) {
   LeftNullSpace result;
   struct Step {
     Coefficients row, combination;

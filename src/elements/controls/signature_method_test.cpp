@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace dynalin {
+namespace dynalin::signature_method_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -81,4 +81,4 @@ TEST(SignatureMethod, transversal_is_the_best_and_offsets_fit) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::signature_method_test

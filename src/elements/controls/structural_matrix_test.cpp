@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dynalin {
+namespace dynalin::structural_matrix_test {
 namespace {
 
 constexpr double x = -1e99;  // stands for an entry that may be anything
@@ -43,4 +43,4 @@ TEST(StructuralMatrix, finds_a_row_for_each_column) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::structural_matrix_test

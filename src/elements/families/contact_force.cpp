@@ -45,19 +45,14 @@ RelativeFrame<T> shape_from_shape(const RelativeFrame<T>& I, const PlacedSide& o
   return f;
 }
 
-template <class T>
-Vector axis(const Vec3<T>& v) {
-  return {value_of(v.x), value_of(v.y), value_of(v.z)};
-}
-
 // How far the balls about both shapes are apart, negative where they overlap. A curve reaches along its z as far as
 // the other shape goes.
 template <class T>
 double apart(const RelativeFrame<T>& f, const solid::Side& I, const solid::Side& J) {
   const solid::Bounds a = solid::bounds(I), b = solid::bounds(J);
   const Vec3<T> between = f.p + along(f, a.centre) - b.centre;
-  Vector distance{value_of(between.x), value_of(between.y), value_of(between.z)};
-  if (solid::is_profile(I)) distance = distance - dot(distance, axis(f.z)) * axis(f.z);
+  Vector distance = value_of(between);
+  if (solid::is_profile(I)) distance = distance - dot(distance, value_of(f.z)) * value_of(f.z);
   if (solid::is_profile(J)) distance.z = 0;
   return norm(distance) - a.radius - b.radius;
 }

@@ -161,10 +161,10 @@ class CurveContactKernel final : public Kernel, public WrenchSource {
     for (std::size_t k = 0; k < starts_.size(); ++k) {
       const auto [at, a] = start_places_[k];
       const Placed& p = contacts_[at];
-      const ParametricCurve& curve = *p.contact.element.curves[a];
+      const ParametricCurve& drawn = *p.contact.element.curves[a];
       const Taylor u = along_motion(p, a, motion);
-      const Taylor speed = norm(curve.at(u, 1));
-      const double away = curve.difference(u.value, p.contact.start[a].parameter);
+      const Taylor speed = norm(drawn.at(u, 1));
+      const double away = drawn.difference(u.value, p.contact.start[a].parameter);
       const std::int32_t row = first + static_cast<std::int32_t>(k);
       rows.set(row, {speed.value * away, speed.value * u.rate, speed.rate * u.rate + speed.value * u.acceleration});
       rows.add_coordinate(row, coordinate(p, a), speed);

@@ -8,7 +8,7 @@
 #include "system/carry_over.h"
 #include "system/model_test_support.h"
 
-namespace dynalin::system_test {
+namespace dynalin::system_test::delay_test {
 namespace {
 
 double e(double t) { return std::sin(2 * t) + 0.5 * t; }
@@ -202,4 +202,4 @@ TEST(DelayInTime, histories_are_carried_over) {
 }
 
 }  // namespace
-}  // namespace dynalin::system_test
+}  // namespace dynalin::system_test::delay_test

@@ -11,8 +11,8 @@ namespace dynalin {
 
 namespace {
 
-constexpr double rates_cancel = 1e-9;           // of the sum of their sizes
-constexpr double singular_to_rounding = 1e-14;  // of rows whose largest entry is 1
+constexpr double rates_cancel = 1e-9;             // of the sum of their sizes
+constexpr double singular_implicit_rate = 1e-14;  // of rows whose largest entry is 1
 
 bool is_algebraic(FunctionEquationKernel::Form form) {
   using Form = FunctionEquationKernel::Form;
@@ -212,7 +212,7 @@ std::string FunctionEquationKernel::singular_group(const Motion& motion) const {
       if (const double size = jacobian.row(r).cwiseAbs().maxCoeff(); size > 0) jacobian.row(r) /= size;
     }
     Eigen::FullPivLU<Eigen::MatrixXd> lu(jacobian);
-    lu.setThreshold(singular_to_rounding);
+    lu.setThreshold(singular_implicit_rate);
     if (lu.isInvertible()) continue;
     if (m == 1) {
       return fmt::format("the equation of {} does not determine its DIF1 here: its derivative by DIF1 is zero",

@@ -5,7 +5,7 @@
 
 #include "elements/forces/friction_law.h"
 
-namespace dynalin {
+namespace dynalin::friction_test {
 namespace {
 
 using One = std::array<double, 1>;
@@ -109,4 +109,4 @@ TEST(FrictionLaw, lugre_slides_with_its_coefficient_and_the_viscous_part) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::friction_test

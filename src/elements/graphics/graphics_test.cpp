@@ -8,7 +8,7 @@
 
 #include "elements/graphics/drawn_model_test_support.h"
 
-namespace dynalin {
+namespace dynalin::graphics_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -345,4 +345,4 @@ TEST_F(ExternalGraphics, that_cannot_be_read_is_remarked_where_the_file_is_named
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::graphics_test

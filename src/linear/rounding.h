@@ -1,0 +1,15 @@
+// What computed numbers of the eigensolution are uncertain by.
+#pragma once
+
+#include <limits>
+
+namespace dynalin {
+
+inline constexpr double eps = std::numeric_limits<double>::epsilon();
+inline constexpr double upward = 1 + 1e-9;              // covers the rounding of bounds that are sums in double
+inline constexpr double upward_from_single = 1 + 1e-6;  // and of sizes kept in single precision
+inline constexpr double infinity = std::numeric_limits<double>::infinity();  // of a bound: there is none
+// Two ways to the same product err by no more than a few times what they differ, unless both err alike.
+inline constexpr double margin_of_difference = 4;
+
+}  // namespace dynalin
