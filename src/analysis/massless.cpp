@@ -52,7 +52,7 @@ void add_momentum_rows(const Layout& layout, const FlexibleBody& f, const Motion
   const Matrix mass = f.flexible->inertia.matrix(Eigen::Map<const Eigen::VectorXd>(motion.extra.data() + f.first, n));
   const Eigen::VectorXd unit = mass.diagonal().cwiseSqrt();
   const Eigen::VectorXd inverse = unit.unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(inverse.asDiagonal() * mass * inverse.asDiagonal());
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(Matrix(inverse.asDiagonal() * mass * inverse.asDiagonal()));
   const double zero = inertia_units * epsilon * static_cast<double>(6 + n);
   const std::int32_t offset = layout.body(f.body).offset;
   for (Index k = 0; k < 6 + n; ++k) {

@@ -227,7 +227,7 @@ bool check_modal_body(const ModalBody& b, const ModalPlaces& at, Diagnostics& ou
   }
   // What the modes have beside motions of the body as a whole, in parts of what they have.
   const MatrixXd whole = b.inertia.matrix(VectorXd::Zero(n));
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> rigid(whole.topLeftCorner(6, 6));
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> rigid(MatrixXd(whole.topLeftCorner(6, 6)));
   const double none = 1e-14 * std::max(rigid.eigenvalues().maxCoeff(), 1e-300);
   const VectorXd inverse = rigid.eigenvalues().unaryExpr([&](double x) { return x > none ? 1 / x : 0.0; });
   const MatrixXd coupling = rigid.eigenvectors().transpose() * whole.topRightCorner(6, n);
@@ -258,7 +258,7 @@ bool lacks_inertia(const ModalInertia& I) {
   const MatrixXd M = I.matrix(VectorXd::Zero(static_cast<Index>(I.modes())));
   if (!(M.diagonal().minCoeff() > 0)) return true;
   const VectorXd unit = M.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(unit.asDiagonal() * M * unit.asDiagonal(),
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(MatrixXd(unit.asDiagonal() * M * unit.asDiagonal()),
                                                        Eigen::EigenvaluesOnly);
   return !(solver.eigenvalues()(0) > not_positive);
 }

@@ -6,6 +6,8 @@
 #include <map>
 #include <numeric>
 
+#include "base/dense_solvers.h"
+
 namespace dynalin {
 
 namespace {
@@ -155,7 +157,7 @@ void CarriedForces::add_group(const std::vector<const OnBody*>& on, const Eigen:
         if (const double s = g.col(c).norm(); s > 0) g.col(c) /= s;
       }
       const Eigen::ColPivHouseholderQR<Matrix> qr(g);
-      Matrix Q = qr.householderQ() * Matrix::Identity(6, qr.rank());
+      Matrix Q = columns_of_q(qr, qr.rank());
       left -= Q * Q.transpose();
     }
     carried.middleRows(6 * e, 6) = left * by_motion / part.size;

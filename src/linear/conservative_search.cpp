@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/dense_solvers.h"
 #include "linear/rounding.h"
 
 namespace dynalin {
@@ -236,7 +237,7 @@ ModeSearch::Part ConservativeSearch::part(const std::function<bool(Complex)>& wh
   D = (norm.asDiagonal() * D * norm.cwiseInverse().asDiagonal()).eval();
   const Eigen::HouseholderQR<ComplexMatrix> qr(W);
   Part out;
-  out.basis = qr.householderQ() * ComplexMatrix::Identity(W.rows(), p);
+  out.basis = columns_of_q(qr, p);
   if (left) return out;
   const ComplexMatrix R = qr.matrixQR().topRows(p).triangularView<Eigen::Upper>();
   // R D R⁻¹

@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
+#include "base/dense_solvers.h"
 #include "linear/clustered_schur.h"
 
 namespace dynalin {
@@ -25,7 +26,7 @@ void add_vectors(const LongComplexMatrix& M, const Eigen::VectorXd& scale, bool 
     const auto real_basis = [&](const ComplexMatrix& m) -> Matrix {
       Matrix both(n, 2 * k);
       both << m.real(), m.imag();
-      return Eigen::ColPivHouseholderQR<Matrix>(both).householderQ() * Matrix::Identity(n, k);
+      return columns_of_q(Eigen::ColPivHouseholderQR<Matrix>(both), k);
     };
     const Matrix x = real_basis(X), y = real_basis(Y);
     X = x.cast<Complex>();

@@ -63,8 +63,8 @@ void MassRoot::add_flexible(const System& system, const OperatingPoint& op, cons
   const Matrix mass =
       f.flexible->inertia.matrix(Eigen::Map<const Eigen::VectorXd>(op.extra.data() + f.first, item.modes));
   const Eigen::VectorXd unit = mass.diagonal().cwiseSqrt().unaryExpr(&size_or_one);
-  const Eigen::SelfAdjointEigenSolver<Matrix> parts(unit.cwiseInverse().asDiagonal() * mass *
-                                                    unit.cwiseInverse().asDiagonal());
+  const Eigen::SelfAdjointEigenSolver<Matrix> parts(
+      Matrix(unit.cwiseInverse().asDiagonal() * mass * unit.cwiseInverse().asDiagonal()));
   item.root =
       parts.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * parts.eigenvectors().transpose() * unit.asDiagonal();
   // Along the axes of the BCS: Rᵀ of what is along global ones.
@@ -87,8 +87,8 @@ void MassRoot::add_beam(const System& system, const Motion& motion, const BeamBo
     of.places = {motion.body(beam.nodes[e]).r, motion.body(beam.nodes[e + 1]).r};
     const BeamMatrix M = system.model().units.ucf * element.mass_matrix(of.motion);
     const BeamVector unit = M.diagonal().cwiseSqrt().unaryExpr(&size_or_one);
-    const Eigen::SelfAdjointEigenSolver<BeamMatrix> parts(unit.cwiseInverse().asDiagonal() * M *
-                                                          unit.cwiseInverse().asDiagonal());
+    const Eigen::SelfAdjointEigenSolver<Matrix> parts(
+        Matrix(unit.cwiseInverse().asDiagonal() * M * unit.cwiseInverse().asDiagonal()));
     of.root =
         parts.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * parts.eigenvectors().transpose() * unit.asDiagonal();
     mass += system.model().units.ucf * element.mass();

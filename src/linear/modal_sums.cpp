@@ -156,10 +156,10 @@ Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint
   // Rates and accelerations of the coordinates are those of the bodies, seen in their mass.
   const auto seen = [&](const std::vector<double>& of_bodies) {
     const Matrix column = Eigen::Map<const Eigen::VectorXd>(of_bodies.data(), static_cast<Index>(of_bodies.size()));
-    return Eigen::VectorXd(B.completeOrthogonalDecomposition().solve(root.of(column)).col(0));
+    return Eigen::VectorXd(B.completeOrthogonalDecomposition().solve(Eigen::VectorXd(root.of(column).col(0))));
   };
   const Eigen::VectorXd v = seen(op.velocity), a = seen(op.acceleration);
-  const Eigen::VectorXd x = K.completeOrthogonalDecomposition().solve(-(along->M * a + C * v));
+  const Eigen::VectorXd x = K.completeOrthogonalDecomposition().solve(Eigen::VectorXd(-(along->M * a + C * v)));
 
   // Rows by the root of their mass, so that lengths and angles compare.
   const Eigen::VectorXd unit = M.diagonal().cwiseSqrt().unaryExpr([](double m) { return m > 0 ? m : 1.0; });
@@ -176,8 +176,8 @@ Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint
   for (Index c = 0; c < n; ++c)
     Phi.col(c) = modes.vectors(position, static_cast<Index>(chosen[static_cast<std::size_t>(c)]));
   const Eigen::FullPivLU<ComplexMatrix> lu(unit.cast<Complex>().asDiagonal() * Phi);
-  const Eigen::VectorXcd eta = lu.solve(unit.cwiseProduct(x).cast<Complex>());
-  const Eigen::VectorXcd eta_rate = lu.solve(unit.cwiseProduct(v).cast<Complex>());
+  const Eigen::VectorXcd eta = lu.solve(Eigen::VectorXcd(unit.cwiseProduct(x).cast<Complex>()));
+  const Eigen::VectorXcd eta_rate = lu.solve(Eigen::VectorXcd(unit.cwiseProduct(v).cast<Complex>()));
 
   EnergyPerMode out;
   out.modes.resize(modes.modes.size());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense_solvers.h"
 #include "linear/perturbation.h"
 #include "linear/structural_zeros.h"
 #include "linear/zero_modes.h"
@@ -64,7 +65,7 @@ class Search {
     const Eigen::ColPivHouseholderQR<Matrix> qr(columns);
     Index rank = 0;
     while (rank < std::min(columns.rows(), columns.cols()) && std::abs(qr.matrixR()(rank, rank)) > 1e-6) ++rank;
-    return qr.householderQ() * Matrix::Identity(columns.rows(), rank);
+    return columns_of_q(qr, rank);
   }
   Matrix image(const Matrix& x) const {  // A x
     const Matrix a = equations_.complete(x);

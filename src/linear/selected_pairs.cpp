@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/dense_solvers.h"
 #include "linear/clustered_schur.h"
 #include "linear/dense_products.h"
 #include "linear/rounding.h"
@@ -26,7 +27,7 @@ constexpr double equal_values = 1e-9;
 
 ComplexMatrix complement(const ComplexMatrix& columns) {
   const Eigen::HouseholderQR<ComplexMatrix> qr(columns);
-  const ComplexMatrix Q = qr.householderQ() * ComplexMatrix::Identity(columns.rows(), columns.rows());
+  const ComplexMatrix Q = columns_of_q(qr, columns.rows());
   return Q.rightCols(columns.rows() - columns.cols());
 }
 
@@ -52,7 +53,7 @@ std::optional<Subspace> without_zeros(const ShiftInverse& op, const TwoSided& of
   // (P K⁻ᴴ)ᴴ Q = K⁻¹ Pᴴ Q
   P = product(P, lu.inverse().adjoint());
   s.B = adjoint_product(P, product(of.Q, BR));
-  s.C = z > 0 ? ComplexMatrix(alpha.colPivHouseholderQr().solve(BR - R * s.B)) : ComplexMatrix(0, p);
+  s.C = z > 0 ? ComplexMatrix(alpha.colPivHouseholderQr().solve(ComplexMatrix(BR - R * s.B))) : ComplexMatrix(0, p);
   s.X = unit.asDiagonal() * Q;
   s.Y = unit.cwiseInverse().asDiagonal() * P;
   return s;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/dense_solvers.h"
 #include "linear/carried_forces.h"
 #include "linear/direction_changes.h"
 #include "linear/element_partials.h"
@@ -145,7 +146,7 @@ class StructuralZeros::Contributions {
     fresh.colwise().normalize();
     if (earlier.cols() > 0) {
       const Eigen::ColPivHouseholderQR<Matrix> known(all.leftCols(earlier.cols()));
-      const Matrix Q = known.householderQ() * Matrix::Identity(all.rows(), known.rank());
+      const Matrix Q = columns_of_q(known, known.rank());
       for (int pass = 0; pass < 2; ++pass) fresh -= Q * (Q.transpose() * fresh);
     }
     if (fresh.cols() == 0 || !fresh.allFinite()) return Matrix(found.rows(), 0);

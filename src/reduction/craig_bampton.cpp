@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "base/cycle.h"
+#include "base/dense_solvers.h"
 #include "reduction/interface_rows.h"
 #include "reduction/lowest_modes.h"
 #include "reduction/symmetric_factors.h"
@@ -72,15 +73,15 @@ std::optional<Orthogonal> orthogonal_shapes(const MatrixXd& k, const MatrixXd& m
     MatrixXd z = unit.cwiseInverse().asDiagonal() * rigid;
     z.colwise().normalize();
     const Eigen::HouseholderQR<MatrixXd> qr(ms * z);
-    basis = MatrixXd(qr.householderQ()).rightCols(m.rows() - rigid.cols());
+    basis = columns_of_q(qr, m.rows()).rightCols(m.rows() - rigid.cols());
   }
   const MatrixXd kq = basis.transpose() * ks * basis, mq = basis.transpose() * ms * basis;
-  const Eigen::LLT<MatrixXd> root(0.5 * (kq + kq.transpose()));
+  const Eigen::LLT<MatrixXd> root(MatrixXd(0.5 * (kq + kq.transpose())));
   if (root.info() != Eigen::Success) return std::nullopt;
   MatrixXd inverse = root.matrixL().solve(mq);
   inverse = root.matrixL().solve(inverse.transpose()).eval();
   // 1/ω² and not ω²: the lowest are the most exact ones, and shapes without mass end at zero.
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(0.5 * (inverse + inverse.transpose()));
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(0.5 * (inverse + inverse.transpose())));
   const VectorXd values = eigen.eigenvalues().reverse();
   Index count = 0;
   while (count < values.size() && values[count] > massless * values[0]) ++count;
@@ -91,7 +92,7 @@ std::optional<Orthogonal> orthogonal_shapes(const MatrixXd& k, const MatrixXd& m
     const VectorXd size = (v.transpose() * ms * v).diagonal().cwiseSqrt();
     v = v * size.cwiseInverse().asDiagonal();
     const MatrixXd m_of_v = v.transpose() * ms * v;
-    const Eigen::LLT<MatrixXd> m_root(0.5 * (m_of_v + m_of_v.transpose()));
+    const Eigen::LLT<MatrixXd> m_root(MatrixXd(0.5 * (m_of_v + m_of_v.transpose())));
     if (m_root.info() != Eigen::Success) return std::nullopt;
     v = m_root.matrixL().solve(v.transpose()).transpose();
   }

@@ -66,12 +66,12 @@ class Search {
     for (Index k = 0; k < r; ++k) flexible(with_mass[static_cast<std::size_t>(k)], k) = 1;
     factors_.solve(flexible);
     const MatrixXd own = flexible(with_mass, Eigen::all);
-    const Eigen::LLT<MatrixXd> root(0.5 * (own + own.transpose()));
+    const Eigen::LLT<MatrixXd> root(MatrixXd(0.5 * (own + own.transpose())));
     if (root.info() != Eigen::Success) return tl::unexpected<std::string>("the stiffness is not positive definite");
     MatrixXd mass(r, r);
     for (Index c = 0; c < r; ++c) mass.col(c) = VectorXd(mass_.col(with_mass[static_cast<std::size_t>(c)]))(with_mass);
     const MatrixXd L = root.matrixL();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(L.transpose() * mass * L);
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(L.transpose() * mass * L));
     const VectorXd& inverse_squares = eigen.eigenvalues();
     const double largest = inverse_squares.maxCoeff();
     if (inverse_squares.minCoeff() < -1e-8 * largest)
@@ -158,7 +158,7 @@ class Search {
     const MatrixXd basis = overlap.eigenvectors().rightCols(kept) *
                            overlap.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
     const MatrixXd reduced = basis.transpose() * k * basis;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(0.5 * (reduced + reduced.transpose()));
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(MatrixXd(0.5 * (reduced + reduced.transpose())));
     modes_.squares = ritz.eigenvalues();
     modes_.shapes = all * (basis * ritz.eigenvectors());
   }

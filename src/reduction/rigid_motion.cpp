@@ -46,7 +46,7 @@ FreeMotions free_motions(const FiniteElementModel& model, const Eigen::MatrixXd&
     if (scale[k] > 0) about_middle.col(k) /= scale[k], motions.col(k) /= scale[k];
   }
   const Eigen::MatrixXd forces = model.stiffness * motions;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> strain(forces.transpose() * forces);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> strain(Eigen::MatrixXd(forces.transpose() * forces));
   FreeMotions free;
   Eigen::Index r = 0;
   while (r < 6 && std::sqrt(std::max(0.0, strain.eigenvalues()[r])) < strains_nothing) ++r;

@@ -51,7 +51,7 @@ struct Line {
     for (std::size_t n = 0; n < 3; ++n)
       load(static_cast<Index>(n)) = factor * (k[n] * free[n] - k[n + 1] * free[n + 1]) - m[n] * gravity;
     load(2) += factor * k[3] * height;
-    return Vector3d(at[0], at[1], at[2]) - tridiagonal(k).ldlt().solve(load);
+    return Vector3d(at[0], at[1], at[2]) - tridiagonal(k).inverse() * load;
   }
   Vector3d rates() const { return {velocity[0], velocity[1], velocity[2]}; }
 };
@@ -78,7 +78,7 @@ Energies total(const std::vector<Energies>& list) {
 // Stiffness-proportional damping (or none): real modes of K φ = ω² M φ with φᵀ M φ = 1, in which everything is a sum
 // of squares.
 std::vector<Energies> by_real_modes(const Line& line, double beta) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3d> solver(line.tridiagonal(line.k), line.mass());
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(line.tridiagonal(line.k), line.mass());
   const Vector3d eta = solver.eigenvectors().transpose() * line.mass() * line.displacement(),
                  rate = solver.eigenvectors().transpose() * line.mass() * line.rates();
   std::vector<Energies> list;
@@ -154,11 +154,11 @@ TEST_F(ModalEnergies, energies_of_a_line_in_complex_modes) {
   Line line;
   line.c = {9, 0.5, 6, 0};
   const Matrix3d M = line.mass(), K = line.tridiagonal(line.k), C = line.tridiagonal(line.c);
-  Eigen::Matrix<double, 6, 6> A = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(6, 6);
   A.topRightCorner<3, 3>().setIdentity();
   A.bottomLeftCorner<3, 3>() = -M.inverse() * K;
   A.bottomRightCorner<3, 3>() = -M.inverse() * C;
-  const Eigen::EigenSolver<Eigen::Matrix<double, 6, 6>> solver(A);
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
   std::vector<std::pair<double, Index>> order;
   for (Index i = 0; i < 6; ++i) {
     if (solver.eigenvalues()(i).imag() > 0) order.emplace_back(solver.eigenvalues()(i).imag(), i);

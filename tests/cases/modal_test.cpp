@@ -109,12 +109,12 @@ TEST_F(Modal, dissipation_of_a_damped_chain_by_hand) {
     return T;
   };
   K = tri(k), C = tri(c);
-  Eigen::Matrix<double, 6, 6> A = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(6, 6);
   const Eigen::Vector3d inverse(1 / m[0], 1 / m[1], 1 / m[2]);
   A.topRightCorner<3, 3>().setIdentity();
   A.bottomLeftCorner<3, 3>() = -(inverse.asDiagonal() * K);
   A.bottomRightCorner<3, 3>() = -(inverse.asDiagonal() * C);
-  const Eigen::EigenSolver<Eigen::Matrix<double, 6, 6>> solver(A);
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
   std::vector<std::pair<double, Eigen::Index>> order;
   for (Eigen::Index n = 0; n < 6; ++n) {
     if (solver.eigenvalues()(n).imag() > 0) order.emplace_back(solver.eigenvalues()(n).imag(), n);

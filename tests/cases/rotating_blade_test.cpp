@@ -66,11 +66,11 @@ class RotatingBlade : public Cases {
     ASSERT_EQ(r.status, 0) << r.err;
     values_ = r.eigenvalues(0);
     text_ = r.text("model.txt");
-    Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(4, 4);
     A.topRightCorner<2, 2>().setIdentity();
     A.bottomLeftCorner<2, 2>() = -(rotor_.mass().cwiseInverse().asDiagonal() * rotor_.stiffness());
     A.bottomRightCorner<2, 2>() = -(rotor_.mass().cwiseInverse().asDiagonal() * rotor_.damping());
-    const Eigen::EigenSolver<Eigen::Matrix4d> solver(A);
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
     std::vector<std::pair<double, Eigen::Index>> order;
     for (Eigen::Index i = 0; i < 4; ++i) {
       if (solver.eigenvalues()(i).imag() > 0) order.emplace_back(solver.eigenvalues()(i).imag(), i);
