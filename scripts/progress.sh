@@ -18,7 +18,11 @@ build() {
     return 1
   fi
   if ninja -C "$folder" -n 2>/dev/null | grep -q 'no work to do'; then return 0; fi
-  if [ ! -e "$folder/dynalin" ]; then say "building Dynalin, which takes a quarter of an hour or so the first time"; fi
+  if [ ! -e "$folder/dynalin" ]; then
+    local long="a quarter of an hour or so"
+    [ "$1" != test ] || long="nearly half an hour, with all tests,"
+    say "building Dynalin, which takes $long the first time"
+  fi
   if [ -t 2 ]; then
     # Ninja sees a terminal and keeps its status on one line.
     NINJA_STATUS='building %f of %t: ' cmake --build --preset "$1" >&2 || return 1
