@@ -3,27 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "geometry/placed_box.h"
 
 namespace dynalin {
 
 namespace {
 
-constexpr double far = std::numeric_limits<double>::infinity();
-constexpr double least_cosine = 0.9;      // of two directions that are taken for one
 constexpr double least_sine = 1e-6;       // of two edges that cross
 constexpr double edge_preference = 1e-6;  // of the size: by how much a direction across two edges must part more
-constexpr double coincidence = 1e-9;      // of the size
-
-template <class T>
-struct PlacedBox {
-  solid::Box box;
-  Vec3<T> origin;
-  std::array<Vec3<T>, 3> axes;
-
-  Vec3<T> at(const Vector& p) const { return origin + axes[0] * p.x + axes[1] * p.y + axes[2] * p.z; }
-  double size() const { return norm(box.high - box.low); }
-};
 
 Vector half_of(const solid::Box& b) { return 0.5 * (b.high - b.low); }
 
@@ -84,72 +72,7 @@ Parting<T> parting(const PlacedBox<T>& I, const PlacedBox<T>& J) {
   return found;
 }
 
-// --- faces, their corners and edges
-
-template <class T>
-struct Edge {
-  Vec3<T> from, along;  // unit vector
-  double length = 0;
-};
-
-// The one that looks most in a direction, with its corners and edges one after the other around it.
-template <class T>
-struct Face {
-  const PlacedBox<T>& box;
-  std::size_t axis = 0;
-  bool upper = true;
-  std::array<Vec3<T>, 4> corners;
-  std::array<Edge<T>, 4> edges;
-
-  Face(const PlacedBox<T>& of, const Vector& direction) : box(of) {
-    double most = -far;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double c = dot(value_of(box.axes[k]), direction);
-      if (std::abs(c) > most) most = std::abs(c), axis = k, upper = c > 0;
-    }
-    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const auto& [low, high] = box.box;
-    std::array<Vector, 4> place;
-    for (std::size_t n = 0; n < 4; ++n) {
-      place[n][axis] = height();
-      place[n][u] = n == 1 || n == 2 ? high[u] : low[u];
-      place[n][v] = n >= 2 ? high[v] : low[v];
-      corners[n] = box.at(place[n]);
-    }
-    for (std::size_t n = 0; n < 4; ++n) {
-      const std::size_t way = n % 2 == 0 ? u : v;
-      const double sign = n < 2 ? 1 : -1;
-      edges[n] = {corners[n], box.axes[way] * sign, high[way] - low[way]};
-    }
-  }
-  Vec3<T> normal() const { return upper ? box.axes[axis] : -box.axes[axis]; }
-  double height() const { return upper ? box.box.high[axis] : box.box.low[axis]; }
-};
-
 // --- places, all along one normal: what one of them loses where it ends another has
-
-// Of a place on an edge neither side holds for motions both ways: what is given is the mean of both.
-double share_inside(double depth, double tolerance) { return depth > tolerance ? 1 : depth >= -tolerance ? 0.5 : 0; }
-
-template <class T>
-Touch<T> between(const Vec3<T>& on_J, const T& gap, const Vec3<T>& normal) {
-  Touch<T> t;
-  t.gap = gap, t.normal = normal, t.point = on_J + normal * (gap * 0.5);
-  return t;
-}
-
-// How far a point of the plane of a face is within it.
-template <class T>
-void keep_within(const Face<T>& face, const Vec3<T>& point, double tolerance, Touch<T>& t) {
-  const Vector from = value_of(point - face.box.origin);
-  double share = 1;
-  for (const std::size_t k : {(face.axis + 1) % 3, (face.axis + 2) % 3}) {
-    const double along = dot(from, value_of(face.box.axes[k]));
-    for (const double depth : {along - face.box.box.low[k], face.box.box.high[k] - along})
-      t.inside = std::min(t.inside, depth), share *= share_inside(depth, tolerance);
-  }
-  t.weight = T(share);
-}
 
 // From a point along the normal to the plane of a face.
 template <class T>
@@ -183,7 +106,7 @@ Touch<T> crossing(const Edge<T>& I, const Edge<T>& J, const Vec3<T>& normal, dou
   const T weight = area * area / ((1.0 - un * un) * (1.0 - vn * vn));
   if (!(value_of(weight) > least_sine * least_sine)) {
     Touch<T> none = between(J.from, T(I.length + J.length), normal);
-    none.inside = -far;
+    none.inside = -unbounded;
     return none;
   }
   const Vec3<T> d = I.from - J.from;

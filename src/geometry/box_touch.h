@@ -1,5 +1,5 @@
-// Where two boxes overlap. All places have the normal along which the boxes part soonest (separating axes); seen along it
-// they are the corners of either face within the other one and the crossings of their edges.
+// Where two boxes overlap. All places have the normal along which the boxes part soonest (separating axes); seen along
+// it they are the corners of either face within the other one and the crossings of their edges.
 #pragma once
 
 #include "geometry/touch.h"

@@ -35,15 +35,14 @@ inline Reach reach(const Vector& semi_axes, const Matrix3& axes, const Vector& n
   return {x, (1 / size) * (S - outer(x, x))};
 }
 
-// Newton's method on the sphere of directions, in double. Nothing where it does not converge: the ellipsoids are as
-// deep in each other as they are wide, and no direction is the one.
-inline std::optional<Vector> common_normal(const Vector& a, const RelativeFrame<double>& first, const Vector& b) {
+// Newton's method on the sphere of directions from one of them, in double. Nothing where it does not converge: the
+// ellipsoids are as deep in each other as they are wide, and no direction is the one. A semi-axis may be zero.
+inline std::optional<Vector> common_normal(const Vector& a, const RelativeFrame<double>& first, const Vector& b,
+                                           Vector n) {
   const Matrix3 R{first.x, first.y, first.z};
-  if (norm(first.p) == 0) return std::nullopt;
   const auto separation = [&](const Vector& m) {
     return dot(m, first.p) - dot(m, reach(a, R, m).farthest) - dot(m, reach(b, Matrix3::identity(), m).farthest);
   };
-  Vector n = first.p / norm(first.p);
   double h = separation(n), last = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 200; ++k) {
     const Reach A = reach(a, R, n), B = reach(b, Matrix3::identity(), n);
@@ -73,17 +72,10 @@ inline std::optional<Vector> common_normal(const Vector& a, const RelativeFrame<
   return std::nullopt;
 }
 
-// The same with what it changes by: one step of Newton's method from the converged direction.
+// The same with what it changes by: one step of Newton's method from the converged direction n.
 template <class T>
-std::optional<CommonNormal<T>> common_normal(const Ellipsoid& first, const RelativeFrame<T>& at,
-                                             const Ellipsoid& second) {
-  using std::sqrt;
+CommonNormal<T> common_normal_at(const Vector& n, const Vector& a, const RelativeFrame<T>& at, const Vector& b) {
   const RelativeFrame<double> frame{value_of(at.p), value_of(at.x), value_of(at.y), value_of(at.z)};
-  const auto found = common_normal(first.semi_axes, frame, second.semi_axes);
-  if (!found) return std::nullopt;
-  const Vector& a = first.semi_axes;
-  const Vector& b = second.semi_axes;
-  const Vector n = *found;
   const auto points = [&](const Vec3<T>& m) {
     const Vec3<T> in_first{dot(at.x, m) * a.x, dot(at.y, m) * a.y, dot(at.z, m) * a.z};
     const Vec3<T> in_second{m.x * b.x, m.y * b.y, m.z * b.z};
@@ -108,6 +100,17 @@ std::optional<CommonNormal<T>> common_normal(const Ellipsoid& first, const Relat
   const T s1 = (g1 * c22 - g2 * c12) * (1 / det), s2 = (g2 * c11 - g1 * c12) * (1 / det);
   const Vec3<T> to{n.x + s1 * t1.x + s2 * t2.x, n.y + s1 * t1.y + s2 * t2.y, n.z + s1 * t1.z + s2 * t2.z};
   return points(to / norm(to));
+}
+
+// Along the line of both centres it starts.
+template <class T>
+std::optional<CommonNormal<T>> common_normal(const Ellipsoid& first, const RelativeFrame<T>& at,
+                                             const Ellipsoid& second) {
+  const RelativeFrame<double> frame{value_of(at.p), value_of(at.x), value_of(at.y), value_of(at.z)};
+  if (norm(frame.p) == 0) return std::nullopt;
+  const auto n = common_normal(first.semi_axes, frame, second.semi_axes, frame.p / norm(frame.p));
+  if (!n) return std::nullopt;
+  return common_normal_at(*n, first.semi_axes, at, second.semi_axes);
 }
 
 }  // namespace dynalin::solid

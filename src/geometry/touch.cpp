@@ -6,6 +6,7 @@
 #include "geometry/cavity_touch.h"
 #include "geometry/common_normal.h"
 #include "geometry/ellipsoid_touch.h"
+#include "geometry/frustum_touch.h"
 #include "geometry/plane_touch.h"
 
 namespace dynalin {
@@ -42,6 +43,8 @@ std::size_t count_of([[maybe_unused]] const A& a, [[maybe_unused]] const B& b, b
   } else {
     if (B_reversed) return count_in_cavity(a, b);
     if constexpr (std::is_same_v<A, Box> && std::is_same_v<B, Box>) return box_touches;
+    if constexpr (std::is_same_v<A, Frustum> && std::is_same_v<B, Box>) return frustum_box_touches;
+    if constexpr (std::is_same_v<A, Frustum> && std::is_same_v<B, Frustum>) return frustum_touches;
     if constexpr (std::is_same_v<A, Ellipsoid>) return std::is_same_v<B, Torus> || std::is_same_v<B, Ball> ? 0 : 1;
     return std::is_same_v<A, Ball> || (std::is_same_v<A, Torus> && !std::is_same_v<B, Ball>) ? 1 : 0;
   }
@@ -171,6 +174,8 @@ void direct(const Side& A, const Side& B, const RelativeFrame<T>& A_from_B, std:
             out[0] = touch_ellipsoid(a, A_from_B, b);
           } else if constexpr (std::is_same_v<S, Box> && std::is_same_v<U, Box>) {
             touch_boxes(a, A_from_B, b, out);
+          } else if constexpr (std::is_same_v<S, Frustum> && (std::is_same_v<U, Box> || std::is_same_v<U, Frustum>)) {
+            touch_frustum(a, A_from_B, b, out);
           }
         }
       },

@@ -357,10 +357,9 @@ TEST(touch, of_a_spheroid_is_found_in_its_planes_of_symmetry) {
 }
 
 TEST(touch, has_pairs_without_a_formula) {
-  EXPECT_EQ(touch_count(box, cylinder), 0u);
   EXPECT_EQ(touch_count(reversed(torus), box), 0u);
   EXPECT_EQ(touch_count(ellipsoid, reversed(ball)), 0u);
-  EXPECT_EQ(touch_count(cylinder, cone), 0u);
+  EXPECT_EQ(touch_count(cylinder, reversed(torus)), 0u);
   EXPECT_EQ(touch_count(plane, plane), 0u);
   EXPECT_EQ(touch_count(reversed(ball), plane), 0u);
   EXPECT_EQ(touch_count(reversed(ball), reversed(ball)), 0u);

@@ -175,6 +175,33 @@ TEST_F(Contacts, goes_when_it_is_deactivated) {
   EXPECT_EQ(std::abs(sorted(r.eigenvalues(2)).back()), 0);
 }
 
+// A roller lies on a table of finite size as on the plane of its top.
+TEST_F(Contacts, roller_on_a_box_is_one_on_a_plane) {
+  const auto model = [&](const std::string& below) {
+    return head + below +
+           "PART/2, MASS=2, CM=2, IP=0.11,0.01,0.12, QG=0.1,0.05,0.0898\nMARKER/2\nMARKER/3, QP=0,-0.5,0.01, "
+           "REULER=0,-90D,0\nGRAPHICS/2, CYLINDER, CM=3, LENGTH=1, RADIUS=0.1\n"
+           "CONTACT/7, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=2E4, EXPONENT=1, DAMPING=30, DMAX=0.0001\n";
+  };
+  const std::string table = "MARKER/4, QP=-2,-3,-1\nGRAPHICS/1, BOX, CORNER=4, X=4, Y=6, Z=1\n";
+  expect_same(at_rest(model(table)), at_rest(model(floor)));
+  EXPECT_GT(std::abs(at_rest(model(table)).back()), 20);
+}
+
+// Two bars across each other: one place, as the springs of their common perpendicular say.
+TEST_F(Contacts, crossed_cylinders_press_with_one_force) {
+  const std::string model =
+      head +
+      "MARKER/4, QP=0,-1,0, REULER=0,-90D,0\nGRAPHICS/1, CYLINDER, CM=4, LENGTH=2, RADIUS=0.3\n"
+      "PART/2, MASS=2, CM=2, IP=0.1,0.1,0.1, QG=0,0,0.495\nMARKER/2\nMARKER/3, QP=-0.5,0,0, REULER=90D,90D,0\n"
+      "GRAPHICS/2, CYLINDER, CM=3, LENGTH=1, RADIUS=0.2\nMARKER/5\nJOINT/1, TRANSLATIONAL, I=2, J=1\n"
+      "CONTACT/7, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=2E4, EXPONENT=1.5, DAMPING=0, DMAX=0.0001\n";
+  // 2e4 g^1.5 = 20 at g = 0.01, where the stiffness is 1.5 · 20/0.01 = 3000.
+  const auto values = at_rest(model);
+  ASSERT_EQ(values.size(), 2u);
+  EXPECT_NEAR(std::abs(values[1].imag()), std::sqrt(3000 / 2.0) / (2 * std::numbers::pi), 1e-8);
+}
+
 TEST_F(Contacts, what_cannot_touch_is_an_error_at_its_place) {
   const auto with = [&](const std::string& geometry) { return refused("CONTACT/7, " + geometry + ", " + impact); };
   EXPECT_THAT(with("IGEOM=2, JGEOM=5"), AllOf(HasSubstr("[unknown-element]"), HasSubstr("model.adm:10:27")));
@@ -187,10 +214,11 @@ TEST_F(Contacts, what_cannot_touch_is_an_error_at_its_place) {
                       "CONTACT/7, IGEOM=2, JGEOM=3, " +
                       impact),
               AllOf(HasSubstr("[contact-shape]"), HasSubstr("a LINK")));
-  EXPECT_THAT(refused("GRAPHICS/3, CYLINDER, CM=1, LENGTH=1, RADIUS=1\nGRAPHICS/4, BOX, CORNER=2, X=1, Y=1, Z=1\n"
-                      "CONTACT/7, IGEOM=4, JGEOM=3, " +
-                      impact),
-              HasSubstr("[contact-pair-not-built]"));
+  EXPECT_THAT(
+      refused("GRAPHICS/3, TORUS, CM=1, MAJOR_RADIUS=1, MINOR_RADIUS=0.5\nGRAPHICS/4, BOX, CORNER=2, X=1, Y=1, Z=1\n"
+              "CONTACT/7, IGEOM=4, JGEOM=3, JFLIP_GEOMETRY=3, " +
+              impact),
+      HasSubstr("[contact-pair-not-built]"));
   EXPECT_THAT(with("IGEOM=2, JGEOM=1, IFLIP_GEOMETRY=1"), HasSubstr("[unexpected-value]"));
   EXPECT_THAT(with("IGEOM=2, JGEOM=1, JFLIP_GEOMETRY=1, JFLIP_NORMAL=1"), HasSubstr("[excluded-arguments]"));
   EXPECT_THAT(with("IGEOM=2, JGEOM=1, 1"), HasSubstr("[duplicate-argument]"));
