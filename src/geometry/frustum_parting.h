@@ -3,9 +3,10 @@
 //
 //     h(n) = min n·x of I − max n·x of J,
 //
-// is as large as in all directions nearby. Where they overlap these are normals of faces, common normals of two lines
-// (of mantles and edges), normals of a mantle or an edge where the other side has a corner or a rim, and those where
-// two rims meet. Of sides that are apart there is one more, between a corner and whatever is nearest to it.
+// is as large as in all directions nearby: normals of faces, common normals of two lines (of mantles and edges),
+// normals of a mantle or an edge where the other side has a corner or a rim, and those where two rims meet. These are
+// the normals of all smooth points on the surface of { x of I less x of J }; what is convex is what all planes there
+// leave of space, and so one of them parts what is apart, whatever is nearest to what.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +18,7 @@
 namespace dynalin::solid {
 
 struct PartingDirection {
-  enum class Of { face, lines, ruled_I, ruled_J, rims, apart };
+  enum class Of { face, lines, ruled_I, ruled_J, rims };
   Vector normal;  // out of J
   double separation = 0;
   Of of = Of::face;
@@ -25,7 +26,7 @@ struct PartingDirection {
   bool level = false;     // a whole circle of directions is as good
 };
 
-// In fixed room: most are those of the corners and of local maxima on four circles.
+// In fixed room: most are local maxima on up to four circles.
 class PartingDirections {
  public:
   void add(const PartingDirection& d) {
@@ -42,7 +43,7 @@ class PartingDirections {
   std::span<const PartingDirection> all() const { return {room_.data(), count_}; }
 
  private:
-  std::array<PartingDirection, 128> room_;
+  std::array<PartingDirection, 96> room_;
   std::size_t count_ = 0;
   double largest_ = -unbounded;
 };
@@ -73,29 +74,6 @@ template <class Visit>
 void for_each_normal(const PlacedBox<double>& b, const Visit& visit) {
   for (const Vector& a : b.axes) visit(a), visit(-a);
 }
-template <class Visit>
-void for_each_corner(const PlacedFrustum<double>& f, const Visit& visit) {
-  for (const bool upper : {false, true}) {
-    if (f.radius(upper) == 0) visit(f.centre(upper));
-  }
-}
-template <class Visit>
-void for_each_corner(const PlacedBox<double>& b, const Visit& visit) {
-  for (std::size_t k = 0; k < 8; ++k)
-    visit(b.at(
-        {k & 1 ? b.box.high.x : b.box.low.x, k & 2 ? b.box.high.y : b.box.low.y, k & 4 ? b.box.high.z : b.box.low.z}));
-}
-// Away from the nearest point of its surface.
-inline Vector outward(const PlacedFrustum<double>& f, const Vector& p) {
-  const Vector d = p - f.at.p;
-  const Vector n = distance(f.faces.f, Vector{dot(f.at.x, d), dot(f.at.y, d), dot(f.at.z, d)}).direction;
-  return f.at.x * n.x + f.at.y * n.y + f.at.z * n.z;
-}
-inline Vector outward(const PlacedBox<double>& b, const Vector& p) {
-  const Vector d = p - b.origin;
-  const Vector n = distance(b.box, Vector{dot(b.axes[0], d), dot(b.axes[1], d), dot(b.axes[2], d)}).direction;
-  return b.axes[0] * n.x + b.axes[1] * n.y + b.axes[2] * n.z;
-}
 
 // --- the search
 
@@ -115,8 +93,6 @@ class Parting {
     }
     search_circle(I.mantle(), -1, Of::ruled_I, 0);
     if constexpr (std::is_same_v<Other, PlacedFrustum<double>>) search_rims();
-    for_each_corner(J, [&](const Vector& p) { add(-outward(I, p), Of::apart); });
-    for_each_corner(I, [&](const Vector& p) { add(outward(J, p), Of::apart); });
     found_.sort(coincidence * size_);
   }
   std::span<const PartingDirection> all() const { return found_.all(); }

@@ -65,10 +65,7 @@ class PlacesAbout {
       std::optional<Touch<T>> t = value_of(ends) > 0 ? across(mantle, corner, false) : std::nullopt;
       put_end(t, ends, J, edge);
     }
-    // One of the ends itself counts as that.
-    const bool is_end =
-        d.of != PartingDirection::Of::ruled_J || std::abs(value_of(dot(J.axes[d.which], edge.axis))) > 0.5;
-    put_last(last, is_end ? ends : T(0.0));
+    put_last(last, ends);
   }
 
   void all(const PlacedFrustum<T>& I, const PlacedFrustum<T>& J, const PartingDirection& d) {
@@ -250,8 +247,6 @@ class PlacesAbout {
     }
     t = *found;
     if (std::abs(t.inside) <= tolerance_) t.inside = 0;
-    // Of sides that are apart none is closed.
-    if (separation_ >= 0 && value_of(t.gap) < separation_) t.gap = t.gap + (separation_ - value_of(t.gap));
   }
   void put_last(std::optional<Touch<T>> t, const T& ends) {
     if (t) t->weight *= 1.0 - ends;

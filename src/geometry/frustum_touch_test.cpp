@@ -288,6 +288,77 @@ TEST(FrustumTouch, parallel_cylinders_meet_at_both_ends) {
   EXPECT_NEAR(before[0], 1e-3, 1e-9);
 }
 
+// What the ends lose between both angles the crossing gains: by 3z² − 2z³ of sin².
+TEST(FrustumTouch, ends_pass_into_a_crossing_by_a_cubic) {
+  const Pair p{"", {roller}, {Frustum{-1, 0.3, 1, 0.3}}};
+  for (const double z : {0.25, 0.5, 0.75}) {
+    const double sine = std::sqrt(1e-6 + z * (1e-4 - 1e-6)), cosine = std::sqrt(1 - sine * sine);
+    const auto list = closed(p, {{0.399, 0, 0.2}, {1, 0, 0}, {0, cosine, -sine}, {0, sine, cosine}});
+    ASSERT_EQ(list.size(), 3u);
+    const double gained = z * z * (3 - 2 * z);
+    EXPECT_NEAR(list[0].weight, gained, 1e-9);
+    EXPECT_NEAR(list[1].weight, 1 - gained, 1e-9);
+    EXPECT_NEAR(list[2].weight, 1 - gained, 1e-9);
+  }
+}
+
+// Lines of cones are parallel where their axes are not, and the other way round.
+TEST(FrustumTouch, parallel_lines_of_cones_meet_at_both_ends) {
+  const Frustum taper{-0.5, 0.4, 0.5, 0.2};
+  const double slope = std::atan(0.2);
+  const Vector line{-std::sin(slope), 0, std::cos(slope)}, across{std::cos(slope), 0, std::sin(slope)};
+  // Upside down beside each other.
+  auto list =
+      closed({"", {taper}, {taper}}, {Vector{0.6 - 1e-3, 0, 0} + 0.1 * line, {-1, 0, 0}, {0, 1, 0}, {0, 0, -1}});
+  ASSERT_EQ(list.size(), 2u);
+  for (const Touch<double>& t : list) {
+    EXPECT_NEAR(t.gap, -1e-3 * std::cos(slope), 1e-12);
+    EXPECT_EQ(t.weight, 1);
+  }
+  // Both with the narrow end up, leaning towards each other.
+  const double lean = 2 * slope;
+  const Vector z{-std::sin(lean), 0, std::cos(lean)}, x{std::cos(lean), 0, std::sin(lean)};
+  // The middle of its line 0.001 beyond that of the other one.
+  const Vector on_J{0.3, 0, 0}, at = on_J - 1e-3 * across + 0.1 * line + 0.3 * x;
+  list = closed({"", {taper}, {taper}}, {at, x, {0, 1, 0}, z});
+  ASSERT_EQ(list.size(), 2u);
+  double ends = 0;
+  for (const Touch<double>& t : list) {
+    EXPECT_NEAR(t.gap, -1e-3, 1e-12);
+    EXPECT_EQ(t.weight, 1);
+    ends += dot(t.point - on_J, line);
+  }
+  EXPECT_NEAR(ends, 0.1, 1e-12);
+}
+
+// Hardly inclined coins whose rims cross: there, and with all its force, though their mantles are nearly parallel.
+TEST(FrustumTouch, coins_meet_where_their_rims_cross) {
+  const Frustum coin{-0.05, 0.5, 0.05, 0.5};
+  const double tilt = 0.005, s = std::sin(tilt), c = std::cos(tilt);
+  const auto list = closed({"", {coin}, {coin}}, {{0.7, 0, 0.1 + 1e-3}, {1, 0, 0}, {0, c, -s}, {0, s, c}});
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0].weight, 1);
+  EXPECT_NEAR(list[0].point.x, 0.35, 1e-3);
+  EXPECT_NEAR(list[0].point.y, std::sqrt(0.25 - 0.35 * 0.35), 1e-3);
+  EXPECT_NEAR(list[0].gap, 1e-3 - tilt * list[0].point.y, 1e-5);
+}
+
+// An end over the edge of a table, deepest where the edge leaves over the rim: there once.
+TEST(FrustumTouch, rim_over_an_edge_meets_it_once) {
+  const double tilt = 0.02, s = std::sin(tilt), c = std::cos(tilt);
+  // The end at z = -1 of the drum, lower against x.
+  const Vector z{-s, 0, c}, centre{0, 2.2, 0.005};
+  const auto list = closed({"", {drum}, {table}}, {centre + z, {c, 0, s}, {0, 1, 0}, z});
+  int there = 0;
+  for (const Touch<double>& t : list) {
+    EXPECT_EQ(t.weight, 1);
+    there += norm(t.point - Vector{-std::sqrt(0.25 - 0.04), 2, 0}) < 0.02 ||
+             norm(t.point - Vector{std::sqrt(0.25 - 0.04), 2, 0}) < 0.02;
+  }
+  EXPECT_EQ(there, 1);
+  EXPECT_EQ(list.size(), 1u);
+}
+
 TEST(FrustumTouch, cylinder_lies_on_a_box_with_both_rims_or_the_edge_below_it) {
   const Pair p{"", {roller}, {table}};
   auto list = closed(p, lying(0.3, {0.2, 0.1, 0.099}));
@@ -335,6 +406,25 @@ TEST(FrustumTouch, box_stands_on_an_end_with_its_corners) {
   list = closed(q, lying(0, {0.4, 0, 1.099}));
   ASSERT_EQ(list.size(), 2u);
   EXPECT_NEAR(list[0].point.x + list[1].point.x, -0.1 + 0.7, 1e-12);
+  // Exactly over it each of both holds half.
+  for (const double x : {0.19, 0.2, 0.21}) EXPECT_NEAR(resultant(q, lying(0, {x, 0, 1.099}))[2], 2e-3, 1e-12) << x;
+}
+
+// Nearest to each other are a corner and a rim, or a tip: other directions part them too.
+TEST(FrustumTouch, what_is_apart_at_a_corner_does_not_touch) {
+  const Frustum cone{-0.3, 0.4, 0.6, 0};
+  const Pair at_corner{"", {roller}, {Box{{0, 0, 0}, {1, 1, 1}}}};
+  const double third = std::sqrt(1.0 / 3), half = std::sqrt(0.5);
+  const Vector d{third, third, third}, u{half, -half, 0};
+  const Vector radial = half * (d + u), axis = half * (d - u);
+  const auto frame = [](const Vector& p, const Vector& x, const Vector& z) { return Frame{p, x, cross(z, x), z}; };
+  for (const double gap : {0.01, 1e-4, 1e-8}) {
+    EXPECT_TRUE(closed(at_corner, frame(-gap * d - 0.5 * axis - 0.1 * radial, radial, axis)).empty()) << gap;
+    EXPECT_TRUE(closed({"", {cone}, at_corner.J}, frame(-(gap + 0.6) * d, u, d)).empty()) << gap;
+    const Vector away{half, 0, half}, beside{0, 1, 0};
+    EXPECT_TRUE(closed({"", {cone}, {roller}}, frame(Vector{0.1, 0, 0.5} + (gap + 0.6) * away, beside, -away)).empty())
+        << gap;
+  }
 }
 
 // By no more than rounding of how near they are: there is always an answer.
@@ -359,7 +449,13 @@ TEST(FrustumTouch, has_no_place_where_a_circle_is_as_near) {
   };
   EXPECT_TRUE(undefined({"", {roller}, {table}}, upright));
   EXPECT_TRUE(undefined({"", {roller}, {drum}}, {{0.1, 0, 1.499}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
-  EXPECT_TRUE(undefined({"", {roller}, {drum}}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
+  const Frame within{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  EXPECT_TRUE(undefined({"", {roller}, {drum}}, within));
+  EXPECT_TRUE(undefined({"", {Frustum{-1, 0.06, 1, 0.06}}, {Frustum{-0.05, 0.5, 0.05, 0.5}}}, within));
+  // As near to parting one way as the other.
+  const Matrix3 turned = rotation_exponential({0.3, 0.2, 0.1});
+  EXPECT_TRUE(
+      undefined({"", {roller}, {Box{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}}}, {{0, 0, 0}, turned.x, turned.y, turned.z}));
 }
 
 }  // namespace

@@ -129,7 +129,8 @@ class Loader {
 
   void check_width(std::string_view line, const SourceText& text) {
     if (line.size() <= widest_include) return;
-    const auto begin = static_cast<std::uint32_t>(line.data() - text.text().data() + widest_include);
+    const auto begin =
+        static_cast<std::uint32_t>(static_cast<std::size_t>(line.data() - text.text().data()) + widest_include);
     diagnostics_.error(
         "include-long-line", {&text, begin, static_cast<std::uint32_t>(line.size() - widest_include)},
         fmt::format("the line of an INCLUDE has {} columns and may have {}", line.size(), widest_include),

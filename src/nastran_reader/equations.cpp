@@ -19,8 +19,6 @@ using Eigen::Matrix3d;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-constexpr Components all_six = 63;
-
 // What cancels up to rounding of terms of this size is zero.
 void clear_rounding(Eigen::Ref<Eigen::MatrixXd> m, double size) {
   const double unit = 8 * std::numeric_limits<double>::epsilon() * size;

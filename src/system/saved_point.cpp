@@ -54,7 +54,7 @@ std::vector<SavedPoint::Value> saved_values(std::vector<EntryKey> keys, const st
 // Puts what was saved where it belongs, and names what has no partner.
 class Restorer {
  public:
-  explicit Restorer(const System& system) : system_(system) { restored_.point = system.drawn(); }
+  explicit Restorer(const System& system) { restored_.point = system.drawn(); }
 
   template <class Saved, class Place>
   void restore(const std::vector<Saved>& saved, const std::vector<EntryKey>& here, const Place& place) {
@@ -81,7 +81,6 @@ class Restorer {
     if (known.insert(text).second) list.push_back(text);
   }
 
-  const System& system_;
   RestoredPoint restored_;
   std::set<std::string> not_here_, not_saved_;
 };

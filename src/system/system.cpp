@@ -84,7 +84,8 @@ void System::scale_coordinates() {
       preference_.push_back(e.offset + k);
     }
   }
-  std::ranges::stable_partition(preference_, [&](std::int32_t k) { return !layout_.followers.contains(k); });
+  std::stable_partition(preference_.begin(), preference_.end(),
+                        [&](std::int32_t k) { return !layout_.followers.contains(k); });
 }
 
 const Signals& System::signals() const { return *signals_; }

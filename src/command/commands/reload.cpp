@@ -49,7 +49,8 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
 // "PART/2, PART/3 and 4 more"
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 8;
-  const std::vector<std::string> first(names.begin(), names.begin() + std::min(most, names.size()));
+  const std::vector<std::string> first(names.begin(),
+                                       names.begin() + static_cast<std::ptrdiff_t>(std::min(most, names.size())));
   const std::string text = fmt::format("{}", fmt::join(first, ", "));
   return names.size() <= most ? text : fmt::format("{} and {} more", text, names.size() - most);
 }

@@ -185,7 +185,9 @@ std::string FunctionEquationKernel::singular_group(const Motion& motion) const {
     const auto m = static_cast<Eigen::Index>(group.size());
     Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(m, m);
     bool known = true;
-    const auto place = [&](std::size_t item) { return std::find(group.begin(), group.end(), item) - group.begin(); };
+    const auto place = [&members = group](std::size_t item) {
+      return std::find(members.begin(), members.end(), item) - members.begin();
+    };
     for (const std::size_t part : parts) {
       const Part& p = parts_[part];
       const Eigen::Index row = place(p.item);

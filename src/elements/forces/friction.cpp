@@ -298,7 +298,8 @@ class FrictionSet final : public TypedSet<Friction> {
       return;
     }
     for (const auto& [name, at] : e.sizes) {
-      const auto size = std::find_if(sizes.begin(), sizes.end(), [&](const SizeOf& s) { return s.argument == name; });
+      const auto size =
+          std::find_if(sizes.begin(), sizes.end(), [&sought = name](const SizeOf& s) { return s.argument == sought; });
       if (size->joints.find(type) != std::string_view::npos) continue;
       diagnostics.warning("unused-size", at,
                           fmt::format("{} of {} says nothing of {}, a {} joint", name, labels[k].text(), joint, type));
