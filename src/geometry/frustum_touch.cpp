@@ -35,7 +35,7 @@ class PlacesAbout {
     const bool in_face = near(value_of(face.normal()));
     std::optional<Touch<T>> last;
     if (d.of == PartingDirection::Of::ruled_I) {
-      last = touch_ruled(mantle, circle_at(corner_at(J)), mantle.angle_of(-n_), 0, false, tolerance_);
+      last = touch_ruled(mantle, circle_at(farthest(J, n_)), mantle.angle_of(-n_), 0, false, tolerance_);
     } else if (d.of == PartingDirection::Of::ruled_J) {
       const bool upper = upper_reaches(plain(I), -n_);
       last = across(lines(J, d.which, n_), I.rim(upper), true);
@@ -201,11 +201,6 @@ class PlacesAbout {
 
   // --- edges of a box
 
-  Vec3<T> corner_at(const PlacedBox<T>& b) const {
-    Vector p;
-    for (std::size_t k = 0; k < 3; ++k) p[k] = dot(value_of(b.axes[k]), n_) > 0 ? b.box.high[k] : b.box.low[k];
-    return b.at(p);
-  }
   Ruled<T> edge_beside(const Face<T>& face, const Ruled<T>& mantle) const {
     const Ruled<double> plain = mantle.plain();
     const Vector line = plain.line(plain.normal(plain.angle_of(-n_))).along;

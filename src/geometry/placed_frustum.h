@@ -40,9 +40,10 @@ inline bool upper_reaches(const PlacedFrustum<double>& f, const Vector& n) {
 inline Vector farthest(const PlacedFrustum<double>& f, const Vector& n) {
   return farthest(f.rim(upper_reaches(f, n)), n);
 }
-inline Vector farthest(const PlacedBox<double>& b, const Vector& n) {
+template <class T>
+Vec3<T> farthest(const PlacedBox<T>& b, const Vector& n) {
   Vector p;
-  for (std::size_t k = 0; k < 3; ++k) p[k] = dot(b.axes[k], n) > 0 ? b.box.high[k] : b.box.low[k];
+  for (std::size_t k = 0; k < 3; ++k) p[k] = dot(value_of(b.axes[k]), n) > 0 ? b.box.high[k] : b.box.low[k];
   return b.at(p);
 }
 

@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "geometry/least_on_circle.h"
@@ -17,7 +16,7 @@
 
 namespace dynalin::solid {
 
-// A line of one: its points and its length.
+// By its axis, and by the angle of its normals to that.
 template <class T>
 struct Ruled {
   Vec3<T> origin, axis, first, second;      // unit vectors, right-handed
@@ -40,9 +39,9 @@ struct Ruled {
     using std::cos, std::sin;
     return as<S>(second) * S(cos(u) * along_radius) - as<S>(first) * S(sin(u) * along_radius);
   }
-  // The one nearest to a direction.
+  // Of the normal nearest to a direction.
   double angle_of(const Vector& n) const { return std::atan2(dot(value_of(second), n), dot(value_of(first), n)); }
-  // That has a normal.
+  // All points that have a normal.
   Edge<T> line(const Vec3<T>& n) const {
     const Vec3<T> out = (n - axis * along_axis) / along_radius;
     return {origin + out * low_radius, axis * along_radius - out * along_axis, length};

@@ -360,8 +360,9 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
             "contact-pair-not-built", J.at,
             fmt::format("contact of {} of {} with {} of {} is not available yet", model.label(J.graphics).text(),
                         labels[k].text(), model.label(I.graphics).text(), labels[k].text()),
-            "all solids touch each other, a PLANE and the walls of a cavity, but ELLIPSOIDs no sphere or ELLIPSOID and "
-            "CYLINDERs, FRUSTUMs and BOXes no TORUS that are cavities; only one of two closed curves is a cavity");
+            "all solids touch each other, a PLANE and the walls of a cavity; but of cavities ELLIPSOIDs touch BOX, "
+            "CYLINDER "
+            "and FRUSTUM alone, and CYLINDERs, FRUSTUMs and BOXes no TORUS; only one of two closed curves is a cavity");
         return false;
       }
     }
