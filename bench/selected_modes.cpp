@@ -4,9 +4,9 @@
 //     selected_modes damped 2000 10           the same with springs and dampers in the hinges, which are those of peers
 //     selected_modes lattice 10 12 14 20      point masses in space, tied to their neighbours and to walls
 //     selected_modes hinged 9 9 9 1           bodies in space, hinged to their neighbours
-//     selected_modes rotor 1000 10 200        a turning shaft of n BEAMs in damped bearings, the modes from 10 to 200
-//     Hz selected_modes chain 2000 0             no modes: up to the perturbation equations selected_modes chain 2000
-//     write         the dataset alone, for the program itself
+//     selected_modes rotor 1000 10 200        a turning shaft of n BEAMs in damped bearings, the modes of 10 to 200 Hz
+//     selected_modes chain 2000 0             no modes: up to the perturbation equations
+//     selected_modes chain 2000 write         the dataset alone, for the program itself
 #include "linear/selected_modes.h"
 
 #include <fmt/format.h>

@@ -94,6 +94,11 @@ ConservativeModel::ConservativeModel(const Perturbation& perturbation)
   };
   take(PartialBy::position, stiffness, mass);
   take(PartialBy::acceleration, mass, stiffness);
+  std::vector<Triplet> of_accelerations;
+  for_each_entry(at_->equations.matrix(PartialBy::acceleration), [&](std::int32_t r, std::int32_t c, double v) {
+    if (r < n && v != 0) of_accelerations.push_back({r, c, v});
+  });
+  of_accelerations_ = compressed(n, n, of_accelerations);
   std::int32_t row = n;
   for (std::int32_t k = 0; k < at_->rows.size(); ++k) {
     if (!at_->choice.active[static_cast<std::size_t>(k)]) continue;
@@ -130,12 +135,10 @@ bool ConservativeModel::has_positive_mass() const {
 }
 
 Matrix ConservativeModel::forces(const Matrix& a) const {
-  const ColumnMatrix& M = at_->equations.matrix(PartialBy::acceleration);
-  Matrix f = Matrix::Zero(M.rows, a.cols());
-  for (Index c = 0; c < a.cols(); ++c)
-    M.multiply_add({a.col(c).data(), static_cast<std::size_t>(a.rows())},
-                   {f.col(c).data(), static_cast<std::size_t>(f.rows())});
-  return f.topRows(coordinates_);
+  const auto n = static_cast<std::size_t>(coordinates_);
+  Matrix f = Matrix::Zero(coordinates_, a.cols());
+  for (Index c = 0; c < a.cols(); ++c) of_accelerations_.multiply_add({a.col(c).data(), n}, {f.col(c).data(), n});
+  return f;
 }
 
 Matrix ConservativeModel::states_of(const Matrix& v) const {

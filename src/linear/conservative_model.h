@@ -50,6 +50,7 @@ class ConservativeModel {
   Eigen::Index coordinates_, rows_ = 0;
   ColumnMatrix stiffness_;
   std::vector<double> mass_;
+  ColumnMatrix of_accelerations_;  // M as the equations have it, all of it, without zeros
 };
 
 // Factors of [K − σM Gᵀ; G 0].

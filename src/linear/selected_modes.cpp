@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "base/cycle.h"
+#include "linear/backward_errors.h"
 #include "linear/conservative_search.h"
-#include "linear/dense_products.h"
 #include "linear/inertia_count.h"
 #include "linear/mode_region.h"
 #include "linear/near_zero.h"
@@ -359,52 +359,10 @@ class Solution {
       mode.cluster_size = static_cast<std::size_t>(found.trust[k].cluster);
       out.modes.push_back(std::move(mode));
     }
-    add_backward_errors(out);
+    add_backward_errors(equations_, out);
     out.selected = selected_;
     if (vectors == Vectors::none) out.vectors.resize(0, 0);
     return out;
-  }
-
-  Matrix rates_of(const Matrix& x) const {  // what the equations leave, of all unknowns of x
-    Matrix w(equations_.unknowns(), x.cols()), rates = Matrix::Zero(equations_.unknowns(), x.cols());
-    w.topRows(equations_.state_columns()) = equations_.complete(x);
-    w.bottomRows(x.rows()) = x;
-    const auto size = static_cast<std::size_t>(w.rows());
-    for (Index c = 0; c < x.cols(); ++c) {
-      equations_.products().multiply_add({w.col(c).data(), size}, {rates.col(c).data(), size});
-    }
-    return rates;
-  }
-  Matrix image(const Matrix& x) const { return equations_.reduced(rates_of(x)); }  // A x
-  // Against ‖A‖, estimated from what A makes of a few vectors of signs where it has many columns.
-  void add_backward_errors(EigenSolution& out) const {
-    constexpr Index probes = 16;
-    const Index n = op_.states();
-    Matrix signs = Matrix::Identity(n, n <= 4 * probes ? n : probes);
-    if (n > 4 * probes) {
-      for (Index c = 0; c < probes; ++c) {
-        const Eigen::VectorXcd v = arbitrary_vector(n, static_cast<unsigned>(51 + c));
-        for (Index k = 0; k < n; ++k) signs(k, c) = v(k).real() < 0 ? -0.25 : 0.25;
-      }
-    }
-    // All unknowns of a large model are many: few columns at a time.
-    constexpr Index at_a_time = 4;
-    double squares = 0;
-    for (Index first = 0; first < signs.cols(); first += 2 * at_a_time)
-      squares +=
-          rates_of(signs.middleCols(first, std::min(2 * at_a_time, signs.cols() - first))).bottomRows(n).squaredNorm();
-    const double size = std::sqrt(squares);
-    if (!(size > 0)) return;
-    for (Index first = 0; first < out.vectors.cols(); first += at_a_time) {
-      const Index count = std::min(at_a_time, out.vectors.cols() - first);
-      const ComplexMatrix images =
-          by_parts(out.vectors.middleCols(first, count), [&](const Matrix& x) { return image(x); });
-      for (Index c = 0; c < count; ++c) {
-        EigenMode& mode = out.modes[static_cast<std::size_t>(first + c)];
-        const Complex lambda = mode.eigenvalue_hz * cycle;
-        mode.backward_error = (images.col(c) - lambda * out.vectors.col(first + c)).norm() / size;
-      }
-    }
   }
 
   const System& system_;

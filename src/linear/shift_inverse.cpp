@@ -3,10 +3,14 @@
 #include <cmath>
 #include <random>
 
+#include "linear/dense_products.h"
+
 namespace dynalin {
 
 using Complex = std::complex<double>;
+using Matrix = Eigen::MatrixXd;
 using ComplexVector = Eigen::VectorXcd;
+using ComplexMatrix = Eigen::MatrixXcd;
 
 ComplexVector arbitrary_vector(Eigen::Index size, unsigned number) {
   std::mt19937_64 generator(number);
@@ -56,64 +60,60 @@ void ShiftInverse::find_units() {
   }
 }
 
-void ShiftInverse::apply(ComplexVector& x) const {
+void ShiftInverse::apply(Eigen::Ref<ComplexMatrix> x) const {
   if (symmetric_) return apply_symmetric(x);
-  ComplexVector b = ComplexVector::Zero(unknowns_);
-  b.tail(states()) = x.cwiseProduct(unit_);
-  lu_->solve(b);
-  x = b.tail(states()).cwiseQuotient(unit_);
+  for (auto column : x.colwise()) {
+    ComplexVector b = ComplexVector::Zero(unknowns_);
+    b.tail(states()) = column.cwiseProduct(unit_);
+    lu_->solve(b);
+    column = b.tail(states()).cwiseQuotient(unit_);
+  }
 }
 
-void ShiftInverse::apply_adjoint(ComplexVector& y) const {
+void ShiftInverse::apply_adjoint(Eigen::Ref<ComplexMatrix> y) const {
   if (symmetric_) return apply_symmetric_adjoint(y);
-  ComplexVector b = ComplexVector::Zero(unknowns_);
-  b.tail(states()) = y.cwiseQuotient(unit_);
-  lu_->solve_adjoint(b);
-  y = b.tail(states()).cwiseProduct(unit_);
+  for (auto column : y.colwise()) {
+    ComplexVector b = ComplexVector::Zero(unknowns_);
+    b.tail(states()) = column.cwiseQuotient(unit_);
+    lu_->solve_adjoint(b);
+    column = b.tail(states()).cwiseProduct(unit_);
+  }
 }
-
-namespace {
-
-Eigen::MatrixXd parts(const ComplexVector& v) {
-  Eigen::MatrixXd m(v.size(), 2);
-  m << v.real(), v.imag();
-  return m;
-}
-Complex complex(const Eigen::MatrixXd& m, Eigen::Index k) { return {m(k, 0), m(k, 1)}; }
-
-}  // namespace
 
 // (A − σ)(r; p) = b of rates and positions: r = b_p + σ p, and −(K + σ² M) p = M (b_r + σ b_p) along the constraints.
-void ShiftInverse::apply_symmetric(ComplexVector& x) const {
+void ShiftInverse::apply_symmetric(Eigen::Ref<ComplexMatrix> x) const {
   const ConservativeModel& model = symmetric_->model();
-  const ComplexVector b = x.cwiseProduct(unit_);
-  ComplexVector h = ComplexVector::Zero(states());
+  const ComplexMatrix b = unit_.asDiagonal() * x;
+  ComplexMatrix h = ComplexMatrix::Zero(states(), x.cols());
   for (std::size_t k = 0; k < model.positions().size(); ++k)
-    h(model.positions()[k]) = b(model.rates()[k]) + shift_ * b(model.positions()[k]);
-  const Eigen::MatrixXd p = model.states_of(symmetric_->solve(model.forces(parts(ComplexVector(model.motions(h))))));
+    h.row(model.positions()[k]) = b.row(model.rates()[k]) + shift_ * b.row(model.positions()[k]);
+  const ComplexMatrix p = by_parts(model.motions(h), [&](const Matrix& motions) {
+    return model.states_of(symmetric_->solve(model.forces(motions)));
+  });
   for (std::size_t k = 0; k < model.positions().size(); ++k) {
     const Eigen::Index position = model.positions()[k], rate = model.rates()[k];
-    x(position) = -complex(p, position);
-    x(rate) = b(position) + shift_ * x(position);
+    x.row(position) = -p.row(position);
+    x.row(rate) = b.row(position) + shift_ * x.row(position);
   }
-  x = x.cwiseQuotient(unit_).eval();
+  x = (unit_.cwiseInverse().asDiagonal() * x).eval();
 }
 
-void ShiftInverse::apply_symmetric_adjoint(ComplexVector& y) const {
+void ShiftInverse::apply_symmetric_adjoint(Eigen::Ref<ComplexMatrix> y) const {
   const ConservativeModel& model = symmetric_->model();
-  const ComplexVector c = y.cwiseQuotient(unit_);
+  const ComplexMatrix c = unit_.cwiseInverse().asDiagonal() * y;
   const Complex conjugate = std::conj(shift_);
-  ComplexVector h = ComplexVector::Zero(states());
+  ComplexMatrix h = ComplexMatrix::Zero(states(), y.cols());
   for (std::size_t k = 0; k < model.positions().size(); ++k)
-    h(model.positions()[k]) = c(model.positions()[k]) + conjugate * c(model.rates()[k]);
-  const Eigen::MatrixXd r =
-      model.motions_transposed(model.forces(symmetric_->solve(model.states_transposed(parts(h)))));
+    h.row(model.positions()[k]) = c.row(model.positions()[k]) + conjugate * c.row(model.rates()[k]);
+  const ComplexMatrix r = by_parts(h, [&](const Matrix& of_states) {
+    return model.motions_transposed(model.forces(symmetric_->solve(model.states_transposed(of_states))));
+  });
   for (std::size_t k = 0; k < model.positions().size(); ++k) {
     const Eigen::Index position = model.positions()[k], rate = model.rates()[k];
-    y(rate) = -complex(r, position);
-    y(position) = c(rate) + conjugate * y(rate);
+    y.row(rate) = -r.row(position);
+    y.row(position) = c.row(rate) + conjugate * y.row(rate);
   }
-  y = y.cwiseProduct(unit_).eval();
+  y = (unit_.asDiagonal() * y).eval();
 }
 
 }  // namespace dynalin

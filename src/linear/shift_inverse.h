@@ -29,16 +29,16 @@ class ShiftInverse {
   const Eigen::VectorXd& units() const { return unit_; }
 
   Eigen::Index states() const { return unit_.size(); }
-  // On vectors in these units.
-  void apply(Eigen::VectorXcd& x) const;
-  void apply_adjoint(Eigen::VectorXcd& y) const;
+  // On columns of vectors in these units.
+  void apply(Eigen::Ref<Eigen::MatrixXcd> x) const;
+  void apply_adjoint(Eigen::Ref<Eigen::MatrixXcd> y) const;
   ShiftedLu& factors();  // of the pencil, for other shifts meanwhile; move_to() takes them back
   // Those that are in force instead, if any.
   const ConservativeFactors* symmetric() const { return symmetric_ ? &*symmetric_ : nullptr; }
 
  private:
-  void apply_symmetric(Eigen::VectorXcd& x) const;
-  void apply_symmetric_adjoint(Eigen::VectorXcd& y) const;
+  void apply_symmetric(Eigen::Ref<Eigen::MatrixXcd> x) const;
+  void apply_symmetric_adjoint(Eigen::Ref<Eigen::MatrixXcd> y) const;
 
   const PerturbationEquations& equations_;
   Eigen::Index unknowns_;

@@ -215,15 +215,11 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
     out.unknown.middleCols(first, count) = equations.coefficient_roundings(y, w);
     // What goes through the rest of the model: (S − σ E)⁻¹ by (A − σ)⁻¹, with the algebraic unknowns taken out on both
     // sides.
-    ComplexMatrix R(n, count);
-    for (Index j = 0; j < count; ++j) {
-      ComplexVector c = reduced.col(j).cwiseQuotient(unit);
-      op.apply(c);
-      c = c.cwiseProduct(unit).eval();
-      c -= of.X * (of.Y.adjoint() * c);
-      R.col(j) = c;
-      size_of_right(first + j) = c.cwiseQuotient(unit).norm();
-    }
+    ComplexMatrix R = unit.cwiseInverse().asDiagonal() * reduced;
+    op.apply(R);
+    R = (unit.asDiagonal() * R).eval();
+    R -= of.X * (of.Y.adjoint() * R).eval();
+    size_of_right.segment(first, count) = (unit.cwiseInverse().asDiagonal() * R).colwise().norm();
     between.middleCols(first, count) =
         (left.of_algebraic.adjoint_times(right.value) + adjoint_product(left.of_states, R)).cwiseAbs();
   });
@@ -248,12 +244,13 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
     out.uncertainty += first_order_margin * (from_zero * through);
   }
 
-  for (Index j = 0; j < p; ++j) {
-    ComplexVector l = left.of_states.col(j).cwiseProduct(unit);
-    op.apply_adjoint(l);
-    l = l.cwiseQuotient(unit).eval();
-    size_of_left(j) = (l - of.Y * (of.X.adjoint() * l)).cwiseProduct(unit).norm();
-  }
+  for_few_columns(p, [&](Index first, Index count) {
+    ComplexMatrix L = unit.asDiagonal() * left.of_states.middleCols(first, count);
+    op.apply_adjoint(L);
+    L = (unit.cwiseInverse().asDiagonal() * L).eval();
+    L -= of.Y * (of.X.adjoint() * L).eval();
+    size_of_left.segment(first, count) = (unit.asDiagonal() * L).colwise().norm();
+  });
   const double amplified = 1 + margin_of_norms * reach * std::max(norm_beside(op, of.X, of.Y), 1 / distance);
   out.uncertainty += between + reach * amplified * size_of_left * size_of_right.transpose();
   out.uncertainty = upward_from_single * (out.uncertainty + out.unknown);

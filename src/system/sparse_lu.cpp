@@ -90,11 +90,16 @@ class MumpsFactors {
 
 // Several right-hand sides at a time go through the factors once, as many as KLU takes together, or few enough to stay
 // in the cache.
+// Those that are zero stay so: of rates where positions alone are given, and of imaginary parts.
 constexpr Eigen::Index at_once_by_klu = 4, at_once_by_mumps = 16;
 template <class Function>
 void for_blocks(Eigen::Ref<Eigen::MatrixXd>& B, Eigen::Index most, Function&& solve) {
-  for (Eigen::Index first = 0; first < B.cols(); first += most) {
-    solve(B.middleCols(first, std::min(most, B.cols() - first)));
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index c = 0; c < B.cols(); ++c) {
+    if (!B.col(c).isZero(0)) columns.push_back(c);
+    if (static_cast<Eigen::Index>(columns.size()) < most && c + 1 < B.cols()) continue;
+    if (!columns.empty()) solve(B(Eigen::all, columns));
+    columns.clear();
   }
 }
 
@@ -247,14 +252,14 @@ void SparseLu::solve(Eigen::Ref<Eigen::MatrixXd> B) const {
   const auto n = static_cast<std::size_t>(f.matrix.rows);
   if (n == 0) return;
   Eigen::MatrixXd b, x;
-  for_blocks(B, f.at_once(), [&](auto&& block) {
-    b = block, x = b;
+  for_blocks(B, f.at_once(), [&](auto&& columns) {
+    b = columns, x = b;
     f.solve(x);
     for (Eigen::Index c = 0; c < b.cols(); ++c) {
       f.matrix.multiply_add({x.col(c).data(), n}, {b.col(c).data(), n}, -1.0);
     }
     f.solve(b);
-    block = x + b;
+    columns = x + b;
   });
 }
 

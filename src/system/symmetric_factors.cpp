@@ -1,6 +1,10 @@
 #include "system/symmetric_factors.h"
 
+#include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <random>
 #include <vector>
 
 #include "system/klu_factors.h"
@@ -30,11 +34,11 @@ struct SymmetricFactors::Inertia {
   std::vector<double> value;
   std::int64_t negative = 0;
 
-  Inertia(const ColumnMatrix& lower, const ColumnMatrix& both) : rows(lower.rows) {
+  Inertia(const ColumnMatrix& lower, const std::optional<std::vector<std::int32_t>>& place) : rows(lower.rows) {
     mumps.control(13) = 1;        // all pivots are counted
     mumps.real_control(1) = 0.1;  // pivot threshold
     for_each_entry(lower, [&](std::int32_t r, std::int32_t c, double) { mumps.add_place(r, c); });
-    mumps.eliminate_in(nested_dissection(both));
+    mumps.eliminate_in(place);
   }
   bool factor(std::vector<double> values) {
     value = std::move(values);
@@ -45,6 +49,74 @@ struct SymmetricFactors::Inertia {
   void solve(Eigen::MatrixXd& b) {
     mumps.control(27) = static_cast<int>(b.cols());  // at once
     mumps.solve(b.data(), static_cast<int>(b.cols()));
+  }
+};
+
+// Eigen's, of the upper triangle in the order of elimination.
+struct SymmetricFactors::InOrder {
+  using Sparse = Eigen::SparseMatrix<double>;
+  struct Factors : Eigen::SimplicialLDLT<Sparse, Eigen::Upper, Eigen::NaturalOrdering<int>> {
+    Eigen::Index predicted_entries() const { return m_matrix.outerIndexPtr()[m_matrix.cols()]; }
+  };
+
+  std::vector<std::int32_t> place;     // of each unknown in the order
+  std::vector<std::int32_t> entry_of;  // of the triangle, by entries of the pattern
+  Sparse upper;
+  Factors factors;
+  std::int64_t negative = 0;
+  bool serves = false;
+
+  InOrder(const ColumnMatrix& lower, const std::vector<std::int32_t>& order) : place(order) {
+    constexpr Eigen::Index most_for_an_entry = 8;  // two of KLU's limit are one here
+    std::vector<Eigen::Triplet<double>> entries;
+    for_each_entry(lower, [&](std::int32_t r, std::int32_t c, double) {
+      const auto [first, last] = std::minmax({place_of(r), place_of(c)});
+      entries.emplace_back(first, last, static_cast<double>(entries.size()));
+    });
+    upper.resize(lower.rows, lower.rows);
+    upper.setFromTriplets(entries.begin(), entries.end());
+    entry_of.resize(entries.size());
+    for (Eigen::Index k = 0; k < upper.nonZeros(); ++k)
+      entry_of[static_cast<std::size_t>(upper.valuePtr()[k])] = static_cast<std::int32_t>(k);
+    factors.analyzePattern(upper);
+    serves = factors.predicted_entries() <= most_for_an_entry * upper.nonZeros();
+  }
+  std::int32_t place_of(std::int32_t k) const { return place[static_cast<std::size_t>(k)]; }
+
+  bool factor(const std::vector<double>& values) {
+    for (std::size_t k = 0; k < values.size(); ++k) upper.valuePtr()[entry_of[k]] = values[k];
+    factors.factorize(upper);
+    if (factors.info() != Eigen::Success) return false;
+    negative = (factors.vectorD().array() < 0).count();
+    return stands_for_the_matrix();
+  }
+
+  // With 1 − (factored)⁻¹ A less than 1 nothing between both is singular, and so they have the same signs. Vectors of
+  // random signs show its size, in units that make the entries of A alike.
+  bool stands_for_the_matrix() const {
+    constexpr double largest_difference = 0.1;
+    constexpr Eigen::Index probes = 4;
+    Eigen::VectorXd size = Eigen::VectorXd::Zero(upper.cols());
+    for (Eigen::Index c = 0; c < upper.cols(); ++c) {
+      for (Sparse::InnerIterator e(upper, c); e; ++e) {
+        for (const Eigen::Index k : {e.row(), e.col()}) size(k) = std::max(size(k), std::abs(e.value()));
+      }
+    }
+    if (!(size.minCoeff() > 0) || !size.allFinite()) return false;
+    std::mt19937 random(1);
+    Eigen::MatrixXd x(upper.cols(), probes);
+    for (Eigen::Index c = 0; c < probes; ++c) {
+      for (Eigen::Index k = 0; k < x.rows(); ++k) x(k, c) = (random() & 1u ? 1 : -1) / std::sqrt(size(k));
+    }
+    const Eigen::MatrixXd b = upper.selfadjointView<Eigen::Upper>() * x;
+    const Eigen::MatrixXd off = size.cwiseSqrt().asDiagonal() * (factors.solve(b) - x);
+    return off.allFinite() && off.colwise().norm().maxCoeff() <= largest_difference;
+  }
+  void solve(Eigen::MatrixXd& b) const {
+    Eigen::MatrixXd in_order(b.rows(), b.cols());
+    for (Eigen::Index k = 0; k < b.rows(); ++k) in_order.row(place[static_cast<std::size_t>(k)]) = b.row(k);
+    in_order = factors.solve(in_order).eval();
+    for (Eigen::Index k = 0; k < b.rows(); ++k) b.row(k) = in_order.row(place[static_cast<std::size_t>(k)]);
   }
 };
 
@@ -87,23 +159,39 @@ SymmetricFactors::SymmetricFactors(const ColumnMatrix& lower, FactorsFor use) {
     if (solving_->serves) return;
     solving_.reset();
   }
-  inertia_ = std::make_unique<Inertia>(lower, both);
+  place_ = nested_dissection(both);
+  if (use == FactorsFor::inertia && place_) {
+    in_order_ = std::make_unique<InOrder>(lower, *place_);
+    if (in_order_->serves) {
+      lower_ = lower;
+      return;
+    }
+    in_order_.reset();
+  }
+  inertia_ = std::make_unique<Inertia>(lower, place_);
 }
 
 SymmetricFactors::~SymmetricFactors() = default;
 
 bool SymmetricFactors::factor(std::vector<double> values) {
   if (solving_) return solving_->factor(values);
+  if (in_order_) {
+    if (in_order_->factor(values)) return true;
+    in_order_.reset();
+    inertia_ = std::make_unique<Inertia>(lower_, place_);
+  }
   return !inertia_ || inertia_->factor(std::move(values));
 }
 
 std::int64_t SymmetricFactors::negative_pivots() const {
   assert(!solving_);
+  if (in_order_) return in_order_->negative;
   return inertia_ ? inertia_->negative : 0;
 }
 
 void SymmetricFactors::solve(Eigen::MatrixXd& b) const {
   if (solving_) return solving_->klu.solve(b.data(), solving_->matrix.rows, static_cast<int>(b.cols()));
+  if (in_order_) return in_order_->solve(b);
   if (inertia_) inertia_->solve(b);
 }
 
