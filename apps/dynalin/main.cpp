@@ -1,6 +1,4 @@
 // The command-line program: arguments in, exit status out; everything else is the library's.
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -9,7 +7,6 @@
 #include <csignal>
 #include <cstring>
 #include <iostream>
-#include <iterator>
 #include <new>
 #include <string_view>
 #include <vector>
@@ -23,26 +20,11 @@
 #include "line_editor.h"
 #include "nastran_reader/nastran_program.h"
 #include "output/temporary_file.h"
+#include "process.h"
 #include "reduction/reduce_program.h"
 #include "routine/routine_context.h"
 
 namespace {
-
-// A standard stream that is closed would give its number to the next file that is opened, and what is meant for the
-// terminal would end up there. It is opened the wrong way round, so that using it fails.
-void open_standard_streams() {
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    if (::fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
-    const int opened = ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
-    if (opened >= 0 && opened != stream) ::close(opened);
-  }
-}
-
-// Commands that another program or a file gives; nobody waits for a device.
-bool has_piped_input() {
-  struct stat input {};
-  return ::fstat(STDIN_FILENO, &input) == 0 && (S_ISFIFO(input.st_mode) || S_ISREG(input.st_mode));
-}
 
 // Without memory for a stream.
 int fail(std::string_view text) {
@@ -63,10 +45,20 @@ void hint_at_usage(const CLI::App& run, int argc, char** argv) {
   if (words.empty()) {
     std::cerr << "A first run: dynalin run model.adm -c \"LINEAR/EIGENSOL\"\n";
   } else if (names_file(words[0])) {
-    std::cerr << "hint: dynalin run " << words[0] << '\n';
+    std::cerr << "hint: dynalin run " << words[0] << (words[0].ends_with(".acf") ? "\n" : " -c \"LINEAR/EIGENSOL\"\n");
   } else if (run.parsed() && words.size() > 2 && names_file(words[1]) && !words[2].starts_with('-')) {
     std::cerr << "hint: dynalin run " << words[1] << " -c \"" << words[2] << "\"\n";
   }
+}
+
+bool take_commands(dynalin::SessionOptions& options) {
+  auto text = read_commands();
+  if (text) {
+    options.standard_input = std::move(*text);
+  } else {
+    std::cerr << "error: standard input cannot be read: " << text.error() << '\n';
+  }
+  return text.has_value();
 }
 
 int run(int argc, char** argv) {
@@ -82,8 +74,9 @@ int run(int argc, char** argv) {
   CLI::App* run = app.add_subcommand("run", "run a command file (.acf), or a dataset (.adm) with commands given by -c");
   run->add_option("FILE", options.file)->required();
   run->add_option("-c", options.commands, "a command, may be repeated")->allow_extra_args(false);
-  run->add_option("--json", options.json, "write everything computed to this file");
-  run->add_option("--output", options.output_prefix, "prefix of the output files");
+  const CLI::Validator named([](const std::string& name) { return name.empty() ? "its name is empty" : ""; }, "");
+  run->add_option("--json", options.json, "write everything computed to this file")->check(named);
+  run->add_option("--output", options.output_prefix, "prefix of the output files")->check(named);
   run->add_option("--modes", options.modes, "so many of the lowest modes of every LINEAR/EIGENSOL instead of all")
       ->check(CLI::PositiveNumber);
   run->add_option("--dense-up-to", options.dense_up_to,
@@ -160,12 +153,11 @@ int run(int argc, char** argv) {
       hint_at_usage(*run, argc, argv);
       return wrong_usage;
     }
-    options.standard_input = std::string(std::istreambuf_iterator<char>(std::cin), {});
     if (options.file.empty()) options.file = "-";
-    return run_session(options, std::cout, std::cerr);
+    return take_commands(options) ? run_session(options, std::cout, std::cerr) : wrong_input;
   }
-  if (*run && options.file == "-") options.standard_input = std::string(std::istreambuf_iterator<char>(std::cin), {});
   if (*run) {
+    if (options.file == "-" && !take_commands(options)) return wrong_input;
     keep_freed_memory();
     return run_session(options, std::cout, std::cerr);
   }
@@ -204,6 +196,8 @@ int run_to_the_end(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   open_standard_streams();
+  if (!prepare_for_limited_memory(argv))
+    return fail("out of memory: the limit on it leaves less than 144 MB beside the program");
   dynalin::Team team;
   if (!team.leads()) return team.serve();
   // A reader that has gone and a limit on the size of files are errors of writing like any other.

@@ -170,7 +170,9 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
   for (int iteration = 0; iteration < position_iterations; ++iteration) {
     evaluate();
     const Violation v = position_violation(system, rows);
-    history.push_back(fmt::format("iteration {}: largest violation {:.3e}", iteration, v.relative));
+    history.push_back(std::isfinite(v.relative)
+                          ? fmt::format("iteration {}: largest violation {:.3e}", iteration, v.relative)
+                          : fmt::format("iteration {}: a constraint is no finite number", iteration));
     if (std::isnan(v.relative)) {
       return tl::unexpected(Failure{"initial conditions", undefined_value_text(system, op, v.row), history});
     }

@@ -10,13 +10,7 @@ volatile std::sig_atomic_t interruption_asked = 0;
 
 // The first one asks, and the next one ends the program as a signal does that nobody waits for.
 void note(int signal) {
-  if (interruption_asked != 0) {
-    struct sigaction ending {};
-    ending.sa_handler = SIG_DFL;
-    ::sigaction(signal, &ending, nullptr);
-    remove_temporary_files(signal);
-    return;
-  }
+  if (interruption_asked != 0) return remove_temporary_files(signal);
   interruption_asked = 1;
 }
 

@@ -33,7 +33,6 @@ struct Job {
   int xrf_digits = 0;                // decimals of the results file, 0 for none
   std::vector<std::string> opening;  // commands that led to it, as written
   bool goes_on = false;              // with the settings of the job before: further files for its model
-  std::vector<SourceRef> sources;    // that were read for it
 };
 
 }  // namespace dynalin

@@ -163,11 +163,14 @@ class Rules {
         error("unknown-word", name, fmt::format("{} is {} or {}, not {}", name, words[0], words[1], word.front()));
       }
     };
-    one_of("FORMAT", w_.format, {"MATRIXX", "MATLAB"});
+    static constexpr std::array<std::string_view, 2> formats = {"MATRIXX", "MATLAB"};
+    one_of("FORMAT", w_.format, formats);
     excluded("FORMAT", "DESCRIPTOR");
-    if (w_.descriptor && w_.file == "-")
+    const bool several = w_.descriptor || (!w_.format.empty() && find_keyword(w_.format.front(), formats) == 1);
+    if (several && w_.file == "-")
       error("wrong-option", "FILE",
-            "FILE of DESCRIPTOR is what the names of its files begin with, not standard output");
+            fmt::format("FILE of {} is what the names of its files begin with, not standard output",
+                        w_.descriptor ? "DESCRIPTOR" : "FORMAT=MATLAB"));
     one_of("TYPE", w_.type, box_types);
     if (w_.nastran_export && !given("TYPE"))
       error("missing-argument", "EXPORT", "EXPORT needs TYPE: OPENBOX or CLOSEDBOX");

@@ -45,7 +45,7 @@ class LiveSession {
   std::ostream& err_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   JsonResults json_;
-  RunFiles files_;
+  RunFiles files_{plan_.inputs};
   std::unique_ptr<OutputFile> message_;  // the message file of run_
   std::optional<RunState> run_;
   std::size_t job_ = 0, next_ = 0;  // the job that run_ is of, and its next command

@@ -6,7 +6,6 @@
 #include <map>
 
 #include "elements/settings/output_settings.h"
-#include "output/destination.h"
 
 namespace dynalin {
 
@@ -56,13 +55,8 @@ std::string command_path(const std::string& folder, const std::string& file) {
   return file == "-" ? file : (fs::path(folder) / file).string();
 }
 
-void check_outputs(const std::deque<Job>& jobs, const SessionOptions& options, const std::vector<SourceRef>& inputs,
+void check_outputs(const std::deque<Job>& jobs, const SessionOptions& options, const InputFiles& inputs,
                    Diagnostics& diagnostics) {
-  std::map<Destination::Place, std::string> read;
-  for (const SourceRef& source : inputs) {
-    if (const auto d = find_destination(source->name()); d && d->kind == Destination::Kind::replaced)
-      read.emplace(d->place(), source->name());
-  }
   std::map<Destination::Place, const PlannedFile*> known;
   const std::vector<PlannedFile> files = planned_files(jobs, options);
   for (const PlannedFile& file : files) {
@@ -72,17 +66,20 @@ void check_outputs(const std::deque<Job>& jobs, const SessionOptions& options, c
                         fmt::format("{} cannot write {}: {}", file.what, file.path, d.error()));
       continue;
     }
-    if (d->kind != Destination::Kind::replaced) continue;
-    if (const auto input = read.find(d->place()); input != read.end()) {
+    if (d->kind == Destination::Kind::written_to) continue;
+    if (const std::string* input = inputs.replaced_by(*d)) {
       diagnostics.error("file-in-use", file.at,
-                        fmt::format("{} would overwrite {}, which the run reads", file.what, input->second),
-                        file.path == input->second ? "" : fmt::format("{} is the same file", file.path));
+                        fmt::format("{} would overwrite {}, which the run reads", file.what, *input),
+                        file.path == *input ? "" : fmt::format("{} is the same file", file.path));
     }
-    const auto [other, fresh] = known.emplace(d->place(), &file);
+    static const Destination::Place standard_output{0, 0, "-"};
+    const bool to_output = d->kind == Destination::Kind::standard_output;
+    const auto [other, fresh] = known.emplace(to_output ? standard_output : d->place(), &file);
     if (fresh || (file.of_command && other->second->of_command)) continue;
     diagnostics.error(
         "file-in-use", other->second->at,
-        fmt::format("{} and {} are one file, {}", other->second->what, file.what, file.path),
+        fmt::format("{} and {} are one file, {}", other->second->what, file.what,
+                    to_output ? "standard output" : file.path),
         file.what == other->second->what ? "OUTPUT_PREFIX gives the files of a further model names of their own" : "");
   }
 }

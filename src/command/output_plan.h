@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "command/job.h"
+#include "output/destination.h"
 
 namespace dynalin {
 
@@ -13,7 +14,7 @@ namespace dynalin {
 std::string command_path(const std::string& folder, const std::string& file);
 
 // Reports files of the run that are among those it reads, that are not files, and that are two results at once.
-void check_outputs(const std::deque<Job>&, const SessionOptions&, const std::vector<SourceRef>& inputs, Diagnostics&);
+void check_outputs(const std::deque<Job>&, const SessionOptions&, const InputFiles& inputs, Diagnostics&);
 // Reports those that must not be written; nothing is.
 void check_permissions(const std::deque<Job>&, const SessionOptions&, Diagnostics&);
 

@@ -75,6 +75,14 @@ std::string_view trimmed(std::string_view s) {
   return s;
 }
 
+// Without a comment, which names may not look like: "car ! of 2019".
+std::string_view uncommented(std::string_view line) {
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    if (line[k] == '!' && (k == 0 || std::isspace(static_cast<unsigned char>(line[k - 1])))) return line.substr(0, k);
+  }
+  return line;
+}
+
 bool is_command_line(std::string_view line) {
   if (line.empty()) return true;
   const std::size_t slash = line.find('/');
@@ -95,26 +103,29 @@ bool is_analysis(const std::string& line) {
 
 Parsed<CommandFile> parse_command_file(SourceRef source) {
   FileParser parser(source);
-  const std::string_view first = trimmed(source->line(1));
-  if (source->text().empty() || is_command_line(first) || first.starts_with("!")) return parser.parse(source);
+  std::size_t named = 1;  // the line of the model, behind comments
+  while (named < source->line_count() && trimmed(source->line(named)).starts_with('!')) ++named;
+  const std::string_view first = trimmed(uncommented(source->line(named)));
+  if (source->text().empty() || is_command_line(first)) return parser.parse(source);
 
-  // Model and prefix stand on the first two lines; blank them out so that the rest keeps its places.
+  // Model and prefix stand on two lines; blank them out so that the rest keeps its places.
   std::string text(source->text());
-  for (std::size_t n = 1; n <= std::min<std::size_t>(2, source->line_count()); ++n) {
+  for (std::size_t n = named; n <= std::min(named + 1, source->line_count()); ++n) {
     const std::string_view line = source->line(n);
     text.replace(static_cast<std::size_t>(line.data() - source->text().data()), line.size(), line.size(), ' ');
   }
   const auto offset = static_cast<std::uint32_t>(first.data() - source->text().data());
-  const std::string prefix = source->line_count() > 1 ? std::string(trimmed(source->line(2))) : std::string();
+  const std::string prefix(named < source->line_count() ? trimmed(uncommented(source->line(named + 1)))
+                                                        : std::string_view());
   parser.name_model(std::string(first), {source.get(), offset, static_cast<std::uint32_t>(first.size())}, prefix);
   auto rest = std::make_shared<const SourceText>(source->name(), std::move(text));
   Parsed<CommandFile> file = parser.parse(rest);
   if (is_analysis(prefix)) {
-    const std::string_view line = source->line(2);
+    const std::string_view line = source->line(named + 1);
     const auto at = static_cast<std::uint32_t>(line.data() - source->text().data() +
                                                static_cast<std::ptrdiff_t>(line.find(prefix)));
     file.diagnostics.error("missing-prefix", {source.get(), at, static_cast<std::uint32_t>(prefix.size())},
-                           "the second line is the prefix of the output files, and here it is a command",
+                           "the line behind the model is the prefix of the output files, and here it is a command",
                            "put a prefix above it, or an empty line to take the name of the dataset");
   }
   file.value.source = rest;

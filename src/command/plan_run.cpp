@@ -57,8 +57,8 @@ class Reader {
     const bool kept =
         std::ranges::any_of(start->commands, [](const Command& c) { return c.action && c.action->reads_statements(); });
     std::optional<Planner> plan(std::in_place, options_, kept ? Statements::kept : Statements::released);
-    plan->diagnostics = std::move(reading.diagnostics), plan->sources = std::move(reading.sources);
-    plan->texts = std::move(reading.texts);
+    plan->diagnostics = std::move(reading.diagnostics), plan->texts = std::move(reading.texts);
+    plan->inputs = std::move(reading.inputs);
     plan->only_a_dataset = is_dataset;
     if (start->model) plan->open(*start->model);
     for (const Command& c : start->commands) plan->add(c);
@@ -66,7 +66,7 @@ class Reader {
     if (plan->jobs.empty() && !plan->diagnostics.has_errors())
       plan->diagnostics.error("missing-model", {source_.get(), 0, 0}, "the command file names no model",
                               "its first line is the name of the dataset");
-    if (!plan->diagnostics.has_errors()) check_outputs(plan->jobs, options_, plan->sources, plan->diagnostics);
+    if (!plan->diagnostics.has_errors()) check_outputs(plan->jobs, options_, plan->inputs, plan->diagnostics);
     err_ << render(plan->diagnostics);
     if (plan->diagnostics.has_errors()) return std::nullopt;
     return plan;
@@ -100,7 +100,7 @@ class Reader {
       }
       source_ = std::make_shared<const SourceText>(options_.file, std::move(*text));
     }
-    reading.sources.push_back(source_);
+    if (!piped) reading.inputs.add(options_.file);
     auto parsed = parse_command_file(source_);
     reading.diagnostics.append(std::move(parsed.diagnostics));
     Start start;

@@ -17,10 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// One name for one file, however it is written.
+// One name for one file, however it is written, and whether it is there or not.
 std::string canonical(const std::string& path) {
   std::error_code unknown;
-  const fs::path p = fs::weakly_canonical(path, unknown);
+  const fs::path p = fs::weakly_canonical(fs::absolute(path, unknown), unknown);
   return unknown ? path : p.string();
 }
 
@@ -38,8 +38,8 @@ SourceRef Planner::read(const std::string& path, std::string& why) {
     why = text.error();
     return nullptr;
   }
-  sources.push_back(std::make_shared<const SourceText>(path, std::move(*text)));
-  return sources.back();
+  inputs.add(path);
+  return texts.emplace_back(std::make_shared<const SourceText>(path, std::move(*text)));
 }
 
 // --- command files within command files -----------------------------------------------------------
@@ -110,8 +110,7 @@ void Planner::begin_job(std::string prefix, std::string folder) {
 
 bool Planner::finish_stage(Job& of, std::optional<Job::Stage> stage) {
   if (!stage) return sound_ = false;
-  of.sources.insert(of.sources.end(), stage->model->further_sources.begin(), stage->model->further_sources.end());
-  sources.insert(sources.end(), stage->model->further_sources.begin(), stage->model->further_sources.end());
+  for (const std::string& file : stage->model->input_files) inputs.add(file);
   of.stages.push_back(std::move(*stage));
   if (of.stages.size() == 1) {
     // RESULTS/XRF asks for the results file in XML; more digits say nothing more of a number.
@@ -142,7 +141,6 @@ void Planner::open(const Opening& o) {
             : o.prefix.empty() ? fs::path(o.path).stem().string()
                                : o.prefix,
             on_command_line ? std::string() : o.folder);
-  job().sources = sources;
   known_ = true;
   const bool sound = sound_;
   auto stage = stage_of_dataset(source, options_, statements_, texts, diagnostics);
@@ -189,7 +187,10 @@ void Planner::add(Command c) {
   if (action_of<commands::Reload>(c)) return add_reload(std::move(c));
   read_inputs(c);
   const CommandFiles files = c.action->files();
-  if (files.at_once) saved_files_.insert(canonical(command_path(c.folder, files.file)));
+  if (files.at_once) {
+    const std::string file = canonical(command_path(c.folder, files.file));
+    saved_files_.insert(file), own_files_.insert(file);
+  }
   if (known()) {
     c.stage = job().stages.size() - 1;
     if (sound_) c.action->check(*job().stages.back().model, c.at, diagnostics);
@@ -202,7 +203,6 @@ void Planner::read_inputs(Command& c) {
     std::string why;
     const SourceRef source = read(in_folder(c.folder, name), why);
     if (!source) diagnostics.error("unreadable-file", c.at, fmt::format("{} cannot be read: {}", name, why));
-    if (source && !jobs.empty()) job().sources.push_back(source);
     return source;
   };
   if (auto ready = c.action->with_inputs(read_text, diagnostics)) c.action = std::move(ready);
@@ -219,6 +219,8 @@ bool Planner::load(Command& c) {
   if (!text) return wrong(text.error());
   auto saved = read_saved(*text);
   if (!saved) return wrong(saved.error());
+  // What the run has saved itself it may save again.
+  if (!own_files_.contains(canonical(path))) inputs.add(path);
   if (action->system && !saved->system)
     return wrong("it has states and no model: RELOAD/STATES takes it, where a model is");
   if (action->system) {
@@ -250,9 +252,8 @@ void Planner::add_reload(Command c) {
   if (jobs.empty() || !reload.prefix.empty()) {
     std::optional<Job::Stage> now;
     if (was_known && !reload.system) now = job().stages.back();
-    const std::vector<SourceRef> read_before = jobs.empty() ? sources : job().sources;
     begin_job(reload.prefix.empty() ? fs::path(reload.file).stem().string() : reload.prefix, c.folder);
-    job().title = reload.title, job().sources = read_before;
+    job().title = reload.title;
     job().goes_on = !reload.system;
     if (now) {
       now->restated = {};

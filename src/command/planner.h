@@ -13,12 +13,15 @@
 #include <vector>
 
 #include "command/stages.h"
+#include "output/destination.h"
 
 namespace dynalin {
 
 class Planner {
  public:
-  Planner(const SessionOptions& options, Statements statements) : options_(options), statements_(statements) {}
+  Planner(const SessionOptions& options, Statements statements) : options_(options), statements_(statements) {
+    for (const std::string& library : options.user_libraries) inputs.add(library);
+  }
 
   // Commands with those of the files that FILE/COMMAND names in their places, up to STOP; nothing of them is planned.
   std::vector<Command> expanded(CommandFile, const std::string& folder);
@@ -42,9 +45,9 @@ class Planner {
 
   std::deque<Job> jobs;
   Diagnostics diagnostics;
-  std::vector<SourceRef> sources;  // all that was read
-  std::vector<SourceRef> texts;    // that diagnostics point into besides
-  bool only_a_dataset = false;     // is named for the run, and no command file
+  std::vector<SourceRef> texts;  // that diagnostics point into
+  InputFiles inputs;             // all that was read
+  bool only_a_dataset = false;   // is named for the run, and no command file
 
   // To take back what a command at a prompt has led to when it turns out to be wrong.
   struct Mark {
@@ -73,6 +76,7 @@ class Planner {
   std::vector<Command> early_;         // that wait for a model
   std::vector<std::string> opening_;   // commands before one
   std::set<std::string> saved_files_;  // by commands so far
+  std::set<std::string> own_files_;    // the same, and what was saved at a prompt before
 };
 
 // The whole run; every problem found goes to `err`, and then there is none.

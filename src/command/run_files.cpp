@@ -1,5 +1,7 @@
 #include "command/run_files.h"
 
+#include <fmt/format.h>
+
 #include <ctime>
 
 namespace dynalin {
@@ -9,6 +11,7 @@ RunFiles::Result RunFiles::add(const std::vector<Planned>& planned) {
   for (const Planned& p : planned) {
     auto file = create_output(p.path);
     if (!file) return tl::unexpected(file.error());
+    if (auto free = no_input((*file)->destination()); !free) return free;
     p.content((*file)->stream());
     if (auto complete = (*file)->complete(); !complete) return complete;
     made.push_back(std::move(*file));
@@ -18,9 +21,16 @@ RunFiles::Result RunFiles::add(const std::vector<Planned>& planned) {
 }
 
 RunFiles::Result RunFiles::add(std::unique_ptr<OutputFile> file) {
+  if (auto free = no_input(file->destination()); !free) return free;
   if (auto complete = file->complete(); !complete) return complete;
   keep(std::move(file));
   return {};
+}
+
+RunFiles::Result RunFiles::no_input(const Destination& d) const {
+  const std::string* input = inputs_.replaced_by(d);
+  if (!input) return {};
+  return tl::unexpected(fmt::format("{} would overwrite {}, which the run reads", d.name, *input));
 }
 
 void RunFiles::keep(std::unique_ptr<OutputFile> file) {

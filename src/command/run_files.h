@@ -16,6 +16,9 @@ namespace dynalin {
 
 class RunFiles {
  public:
+  // None of them may take the place of one of these, which live as long.
+  explicit RunFiles(const InputFiles& inputs) : inputs_(inputs) {}
+
   using Result = tl::expected<void, std::string>;
   struct Planned {
     std::string path;
@@ -29,10 +32,13 @@ class RunFiles {
   Result commit(std::ostream& standard_output);
   // Of files that are replaced as a whole, as the user wrote them, in the order of their making.
   std::vector<std::string> names() const;
+  const InputFiles& inputs() const { return inputs_; }
 
  private:
+  Result no_input(const Destination&) const;
   void keep(std::unique_ptr<OutputFile>);
 
+  const InputFiles& inputs_;
   std::vector<std::string> committed_;
   std::vector<std::unique_ptr<OutputFile>> files_;
   std::map<Destination::Place, std::size_t> place_of_file_;  // among files_

@@ -104,6 +104,7 @@ class Reader final : public ElementReader {
   }
 
   void keep(SourceRef source) override { model_.further_sources.push_back(std::move(source)); }
+  void reads(std::string path) override { model_.input_files.push_back(std::move(path)); }
   std::string folder() const override { return std::filesystem::path(source().name()).parent_path().string(); }
 
  private:
@@ -242,6 +243,7 @@ class Builder {
       : catalogue_(catalogue), finder_(catalogue), model_(std::make_unique<Model>()) {
     routines_ = with_user_routines(std::move(dataset), catalogue, options, routines, diagnostics_);
     model_->dataset = routines_.dataset;
+    model_->further_sources = routines_.further_texts, model_->input_files = routines_.files;
     if (model_->dataset == options.read_once) read_once_ = options.read_once.get();
     model_->title = model_->dataset->title;
     model_->markers.push_back({{"MARKER", 0, "", {}}, {}, false});

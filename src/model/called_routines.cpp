@@ -102,6 +102,7 @@ std::vector<CalledRoutines::Library> CalledRoutines::libraries_named(std::string
       if (!std::filesystem::is_regular_file(path, none)) continue;
       std::string reason;
       if (auto library = RoutineLibrary::load(path.string(), reason)) {
+        files.push_back(path.string());
         found.push_back(std::move(library));
       } else {
         diagnostics_.error("unusable-library", {}, fmt::format("{} cannot be loaded: {}", path.string(), reason));

@@ -40,6 +40,7 @@ class CalledRoutines {
   const WrittenArgument* argument(const Statement&, std::string_view name) const;
 
   std::vector<Expression> functions;
+  std::vector<std::string> files;  // the libraries that were loaded
 
  private:
   using Library = std::shared_ptr<const RoutineLibrary>;

@@ -103,7 +103,8 @@ struct Model {
   std::unordered_map<std::int64_t, MarkerId> marker_ids;
   std::map<std::string, std::unordered_map<std::int64_t, BodyId>, std::less<>> body_ids;
   std::shared_ptr<const Dataset> dataset;
-  std::vector<SourceRef> further_sources;
+  std::vector<SourceRef> further_sources;  // further texts that messages point into
+  std::vector<std::string> input_files;    // that statements name and the model is made of
 };
 
 // Reads every statement of the dataset by the catalogue. All problems are reported in one go; the model is

@@ -33,8 +33,10 @@ class ElementReader {
   virtual std::optional<VectorExpression> vector_expression(const WrittenArgument&) = 0;
   // The body statement that precedes this one in the file.
   virtual std::optional<BodyId> preceding_body() const = 0;
-  // Keeps the text of a further file alive as long as the model, for messages that point into it.
+  // Keeps a further text alive as long as the model, for messages that point into it.
   virtual void keep(SourceRef) {}
+  // A file that the model is made of, by its path: no result may take its place.
+  virtual void reads(std::string) {}
   // Folder of the dataset, for files it names.
   virtual std::string folder() const = 0;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "model/called_routines.h"
@@ -52,6 +53,12 @@ class Replacement {
         diagnostics_(diagnostics),
         called_(base, catalogue, routines, diagnostics) {
     if (!value_) return;
+    if (!std::isfinite(*value_)) {
+      diagnostics.error("value-out-of-range", {},
+                        fmt::format("{} cannot take the place of compiled routines: it is no finite number", *value_));
+      value_.reset();
+      return;
+    }
     std::string text = "CONSTANT/1";
     for (const std::string_view name :
          {"FUNCTION", "EVALUATE", "FX", "FY", "FZ", "TX", "TY", "TZ", "F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"})
@@ -70,7 +77,7 @@ class Replacement {
     bool calls = refuses_expression(s);
     if (s.name == state_equation_kinds().system.statement) return apply_to_state_equations(s);
     for (std::size_t k = 0; k < s.arguments.size();) {
-      if (!calls_routine(s.arguments[k])) {
+      if (!calls_routine(s.arguments[k]) || s.arguments[k].damaged) {
         ++k;
         continue;
       }
@@ -90,8 +97,11 @@ class Replacement {
 
   // Writes the calls into their statements.
   DatasetWithRoutines finish(std::shared_ptr<Dataset> out) {
-    if (constants_) out->origins.push_back(constants_);
     DatasetWithRoutines all;
+    if (constants_) {
+      out->origins.push_back(constants_);
+      all.further_texts.push_back(constants_->source);
+    }
     if (!calls_.empty()) {
       std::string text;
       for (const auto& [statement, arguments] : calls_) text += "CONSTANT/1" + arguments + "\n";
@@ -103,18 +113,28 @@ class Replacement {
       }
       out->origins.push_back(written);
       all.calls = written->source;
+      all.further_texts.push_back(written->source);
       all.functions = std::move(called_.functions);
     }
+    all.files = std::move(called_.files);
     all.dataset = std::move(out);
     return all;
   }
 
  private:
-  // Calls stand alone.
+  // Calls stand alone, and where one gives several values it does so in FUNCTION.
   bool refuses_expression(Statement& s) {
     bool refused = false;
     for (WrittenArgument& w : s.arguments) {
-      const Token* more = calls_routine(w) ? behind_call(w) : nullptr;
+      if (!calls_routine(w)) continue;
+      const Token* more = behind_call(w);
+      if (!more && is_one_of_several(s, w)) {
+        diagnostics_.error(
+            "routine-in-expression", span_of(w.value[0], *w.name.source),
+            fmt::format("a routine is called by the FUNCTION of {}, and gives all of its values", s.at.text()),
+            std::string(hint_of_routine_in_expression));
+        refused = w.damaged = true;
+      }
       if (!more) continue;
       diagnostics_.error("routine-in-expression", span_of(*more, *w.name.source),
                          fmt::format("USER(…) of {} is the whole of {}, and no part of an expression", s.at.text(),
@@ -123,6 +143,11 @@ class Replacement {
       refused = w.damaged = true;
     }
     return refused;
+  }
+
+  bool is_one_of_several(const Statement& s, const WrittenArgument& w) const {
+    const auto stand = std::ranges::find(stands, s.name, &Stand::statement);
+    return stand != stands.end() && stand->arguments.size() > 1 && called_.full_name(s, w) != "FUNCTION";
   }
 
   static std::shared_ptr<const Dataset> generated(std::string name, std::string text) {
@@ -227,7 +252,7 @@ bool concerns_code(const Statement& s) {
 DatasetWithRoutines with_user_routines(std::shared_ptr<const Dataset> base, Catalogue catalogue,
                                        const BuildOptions& options, const RoutineOptions& routines,
                                        Diagnostics& diagnostics) {
-  if (std::none_of(base->statements.begin(), base->statements.end(), concerns_code)) return {base, nullptr, {}};
+  if (std::none_of(base->statements.begin(), base->statements.end(), concerns_code)) return {base, nullptr, {}, {}, {}};
   Replacement replacement(*base, catalogue, options, routines, diagnostics);
   auto out = std::make_shared<Dataset>();
   out->source = base->source;

@@ -15,6 +15,8 @@ struct DatasetWithRoutines {
   // An argument whose value stands in this text is a number: that of one of the functions.
   SourceRef calls;
   std::vector<Expression> functions;
+  std::vector<std::string> files;        // of the libraries
+  std::vector<SourceRef> further_texts;  // that its statements and messages point into
 };
 DatasetWithRoutines with_user_routines(std::shared_ptr<const Dataset>, Catalogue, const BuildOptions&,
                                        const RoutineOptions&, Diagnostics&);

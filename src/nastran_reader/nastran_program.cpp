@@ -127,6 +127,16 @@ void print_response(const std::vector<ResponseCase>& cases, const Prepared& p, s
   }
 }
 
+// Before anything is computed.
+bool may_write(const std::string& name, const Prepared& p, std::ostream& err) {
+  InputFiles inputs;
+  for (const SourceRef& source : p.deck.text.sources) inputs.add(source->name());
+  const auto destination = find_destination(name);
+  const std::string* input = destination ? inputs.replaced_by(*destination) : nullptr;
+  if (input) fmt::print(err, "error: --json would overwrite {}, which is read\n", *input);
+  return !input;
+}
+
 int write_json(const Json& document, const std::string& name, std::ostream& out, std::ostream& err) {
   const auto fail = [&](const std::string& reason) {
     fmt::print(err, "error: {}\n", reason);
@@ -165,6 +175,7 @@ int solve_deck(const SolveOptions& options, std::ostream& out, std::ostream& err
     err << render(p.diagnostics);
     return wrong_input;
   }
+  if (!options.json.empty() && !may_write(options.json, p, err)) return wrong_input;
   const auto give_up = [&](const std::string& reason) {
     err << render(p.diagnostics);
     fmt::print(err, "error: {}: {}\n", options.deck, reason);

@@ -105,4 +105,16 @@ std::string why_not_writable(const Destination& d) {
   return exists && refused(d.path(), W_OK) ? std::strerror(errno) : "";
 }
 
+void InputFiles::add(const std::string& name) {
+  if (const auto d = find_destination(name); d && d->kind == Destination::Kind::replaced)
+    name_.emplace(d->place(), name);
+}
+
+void InputFiles::add(const InputFiles& more) { name_.insert(more.name_.begin(), more.name_.end()); }
+
+const std::string* InputFiles::replaced_by(const Destination& d) const {
+  const auto found = name_.find(d.place());
+  return d.kind == Destination::Kind::replaced && found != name_.end() ? &found->second : nullptr;
+}
+
 }  // namespace dynalin

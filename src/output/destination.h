@@ -5,6 +5,7 @@
 
 #include <sys/types.h>
 
+#include <map>
 #include <string>
 #include <tl/expected.hpp>
 #include <tuple>
@@ -29,5 +30,18 @@ struct Destination {
 tl::expected<Destination, std::string> find_destination(const std::string& name);
 // Whether it may be written, as far as permissions tell: empty, or a reason.
 std::string why_not_writable(const Destination&);
+
+// The files that a run reads: no result may take the place of one.
+class InputFiles {
+ public:
+  // What is no regular file stays what it is in any case.
+  void add(const std::string& name);
+  void add(const InputFiles&);
+  // The name under which the file was read that would be replaced; null if none is.
+  const std::string* replaced_by(const Destination&) const;
+
+ private:
+  std::map<Destination::Place, std::string> name_;
+};
 
 }  // namespace dynalin

@@ -121,13 +121,14 @@ void ResultsSteps::loads(const std::vector<Load>& list, const Use& use) const {
         (k > 0 && list[k - 1].element == l.element) || (k + 1 < list.size() && list[k + 1].element == l.element);
     const Owner owner{&l.element, &l.view_name, false, one_of_many ? l.marker_I : 0, nullptr};
     for (std::size_t c = 0; c < 6; ++c)
-      use(owner, Component{wrench_names[c], 0, c < 3 ? force : torque, nullptr}, c < 3 ? l.force[c] : l.torque[c - 3]);
+      use(owner, Component{wrench_names[c], 0, c < 3 ? Unit::force : Unit::torque, nullptr},
+          c < 3 ? l.force[c] : l.torque[c - 3]);
   }
 }
 
 template <class Use>
 void ResultsSteps::for_each(const OperatingState& state, const PointRequests& requests, const Use& use) const {
-  use(Owner{}, Component{"TIME", 0, time, nullptr}, state.time);
+  use(Owner{}, Component{"TIME", 0, Unit::time, nullptr}, state.time);
   const ResultsSettings& less = contents_.settings;
   const auto motion = [&](bool omitted, const auto& names, Triple BodyState::*first, Triple BodyState::*second,
                           Unit unit, Unit angular) {
@@ -139,32 +140,33 @@ void ResultsSteps::for_each(const OperatingState& state, const PointRequests& re
             Component{names[k], 0, k < 3 ? unit : angular, nullptr}, k < 3 ? (body.*first)[k] : (body.*second)[k - 3]);
     }
   };
-  motion(less.without_displacements, position_names, &BodyState::position, &BodyState::angles, length, angle);
-  motion(less.without_velocities, velocity_names, &BodyState::velocity, &BodyState::angular_velocity, velocity,
-         angular_velocity);
+  motion(less.without_displacements, position_names, &BodyState::position, &BodyState::angles, Unit::length,
+         Unit::angle);
+  motion(less.without_velocities, velocity_names, &BodyState::velocity, &BodyState::angular_velocity, Unit::velocity,
+         Unit::angular_velocity);
   motion(less.without_accelerations, acceleration_names, &BodyState::acceleration, &BodyState::angular_acceleration,
-         acceleration, angular_acceleration);
+         Unit::acceleration, Unit::angular_acceleration);
   if (!less.without_reactions) loads(state.reactions, use);
   if (!less.without_forces) loads(state.forces, use);
   if (!less.without_system_elements) {
     std::string name;
     for (const VariableValue& v : state.variables) {
       name = "VARIABLE/" + std::to_string(v.id);
-      use(Owner{&name, &v.view_name, false, 0, nullptr}, Component{"Q", 0, none, nullptr}, v.value);
+      use(Owner{&name, &v.view_name, false, 0, nullptr}, Component{"Q", 0, Unit::none, nullptr}, v.value);
     }
     const auto channels = [&](const std::vector<ChannelValues>& list, std::string_view component) {
       for (const ChannelValues& c : list) {
         for (std::size_t k = 0; k < c.values.size(); ++k)
           use(Owner{&c.element, &c.view_name, false, 0, nullptr},
-              Component{component, static_cast<int>(k) + 1, none, nullptr}, c.values[k]);
+              Component{component, static_cast<int>(k) + 1, Unit::none, nullptr}, c.values[k]);
       }
     };
     channels(state.plant_inputs, "IN");
     channels(state.plant_outputs, "OUT");
     for (const StateValue& z : state.states) {
       const Owner owner{&z.element, &z.view_name, false, 0, nullptr};
-      use(owner, Component{"Q", z.number, none, nullptr}, z.value);
-      use(owner, Component{"QDOT", z.number, none, nullptr}, z.rate);
+      use(owner, Component{"Q", z.number, Unit::none, nullptr}, z.value);
+      use(owner, Component{"QDOT", z.number, Unit::none, nullptr}, z.rate);
     }
   }
   for (std::size_t r = 0; r < requests.infos.size() && contents_.requests; ++r) {
@@ -173,17 +175,17 @@ void ResultsSteps::for_each(const OperatingState& state, const PointRequests& re
       const bool rotation = place > 4;
       switch (info.kind) {
         case RequestKind::displacement:
-          return rotation ? angle : length;
+          return rotation ? Unit::angle : Unit::length;
         case RequestKind::velocity:
-          return rotation ? angular_velocity : velocity;
+          return rotation ? Unit::angular_velocity : Unit::velocity;
         case RequestKind::acceleration:
-          return rotation ? angular_acceleration : acceleration;
+          return rotation ? Unit::angular_acceleration : Unit::acceleration;
         case RequestKind::force:
-          return rotation ? torque : force;
+          return rotation ? Unit::torque : Unit::force;
         case RequestKind::functions:
           break;
       }
-      return none;
+      return Unit::none;
     };
     for (std::size_t k = 0; k < info.components().size(); ++k) {
       const RequestComponent& c = info.components()[k];
@@ -199,7 +201,7 @@ std::string ResultsSteps::component(const Component& c, std::size_t id) const {
   if (c.number > 0) s += std::to_string(c.number);
   s += '"';
   const bool given = c.requested && !c.requested->unit.empty();
-  const std::string& unit = given ? c.requested->unit : unit_names_[c.unit];
+  const std::string& unit = given ? c.requested->unit : unit_names_[static_cast<std::size_t>(c.unit)];
   if (!unit.empty()) s += fmt::format(" unitsValue=\"{}\"", escaped(unit));
   if (c.requested && !c.requested->label.empty()) s += fmt::format(" plotLabel=\"{}\"", escaped(c.requested->label));
   return s + fmt::format(" id=\"{}\" />\n", id);

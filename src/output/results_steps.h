@@ -1,6 +1,7 @@
 // An operating point as a step of a results file: a map that says which number is what, and the numbers.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -27,7 +28,7 @@ class ResultsSteps {
   std::string units() const;
 
  private:
-  enum Unit {
+  enum class Unit : std::uint8_t {
     none,
     length,
     angle,
@@ -50,7 +51,7 @@ class ResultsSteps {
   struct Component {
     std::string_view name;
     int number = 0;  // behind the name, 0 for none
-    Unit unit = none;
+    Unit unit = Unit::none;
     const RequestComponent* requested = nullptr;
   };
   // use(owner, component, value) for every number of a step.

@@ -16,7 +16,18 @@ namespace dynalin {
 
 namespace {
 
-constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGHUP};
+// Those that others send, and those that the process brings upon itself.
+constexpr std::array ending_signals = {SIGINT,  SIGTERM,   SIGHUP,  SIGQUIT, SIGXCPU,
+                                       SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2};
+constexpr std::array crashes = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+
+void handle(int signal) {
+  struct sigaction then {};
+  then.sa_handler = remove_temporary_files;
+  ::sigemptyset(&then.sa_mask);
+  for (const int other : ending_signals) ::sigaddset(&then.sa_mask, other);
+  ::sigaction(signal, &then, nullptr);
+}
 
 }  // namespace
 
@@ -81,23 +92,31 @@ void TemporaryFile::keep() {
   std::exchange(slot_, nullptr)->taken = false;
 }
 
-// Only calls that are safe in a handler.
+// Only calls that are safe in a handler. A second signal, which may come to another thread, ends the process by this
+// function as well, and so only when all files are gone.
 void remove_temporary_files(int signal) {
   for (TemporaryFile::Slot* slot = TemporaryFile::Slot::first.load(); slot; slot = slot->next) {
     if (slot->exists.load()) ::unlink(slot->path);
   }
-  ::raise(signal);  // the handler is no longer set: the process ends as by the signal itself
+  // The process ends as by the signal itself.
+  struct sigaction by_default {};
+  by_default.sa_handler = SIG_DFL;
+  ::sigaction(signal, &by_default, nullptr);
+  sigset_t this_one;
+  ::sigemptyset(&this_one);
+  ::sigaddset(&this_one, signal);
+  ::pthread_sigmask(SIG_UNBLOCK, &this_one, nullptr);
+  ::raise(signal);
 }
 
 void remove_temporary_files_on_signals() {
+  struct sigaction now {};
   for (const int signal : ending_signals) {
-    struct sigaction now {};
-    if (::sigaction(signal, nullptr, &now) != 0 || now.sa_handler == SIG_IGN) continue;
-    struct sigaction then {};
-    then.sa_handler = remove_temporary_files;
-    then.sa_flags = static_cast<int>(SA_RESETHAND);
-    ::sigemptyset(&then.sa_mask);
-    ::sigaction(signal, &then, nullptr);
+    if (::sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN) handle(signal);
+  }
+  // Whoever wants to see crashes has a handler.
+  for (const int signal : crashes) {
+    if (::sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_DFL) handle(signal);
   }
 }
 

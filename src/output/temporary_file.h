@@ -31,9 +31,9 @@ class TemporaryFile {
   int descriptor_;
 };
 
-// In a handler of this signal, which is not handled any more: takes the temporary files with it and ends the process.
+// In a handler of this signal: takes the temporary files with it and ends the process.
 void remove_temporary_files(int signal);
-// Signals that end the process (SIGINT, SIGTERM, SIGHUP), but for those ignored, take the temporary files with them.
+// Signals that end the process, but for those that are ignored or handled, take the temporary files with them.
 void remove_temporary_files_on_signals();
 
 // While it lives this thread is not interrupted by those signals.

@@ -58,6 +58,12 @@ class Program {
       return wrong_input;
     }
     if (!read_model()) return tell(wrong_input);
+    InputFiles inputs;
+    for (const auto& source : sources_) inputs.add(source->name());
+    if (const std::string* input = inputs.replaced_by(*destination)) {
+      fmt::print(err_, "error: --output would overwrite {}, which is read\n", *input);
+      return wrong_input;
+    }
     auto reduction = reduce_model(model_, request_, diagnostics_);
     if (!reduction) {
       if (!diagnostics_.has_errors()) fmt::print(err_, "error: the reduction failed: {}\n", reduction.error());

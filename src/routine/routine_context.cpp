@@ -34,12 +34,18 @@ void write_all(std::string_view text) {
   }
 }
 
-// Nothing but what a signal handler may do; the disposition is the default again (SA_RESETHAND).
+constexpr std::array crashes = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+std::array<struct sigaction, crashes.size()> before_crash{};  // what handles them else
+
+// Nothing but what a signal handler may do.
 void on_crash(int signal) {
   if (const char* what = what_is_at_work) {
     write_all("dynalin: a signal ended the program in ");
     write_all(std::string_view(what, std::strlen(what)));
     write_all("\n");
+  }
+  for (std::size_t k = 0; k < crashes.size(); ++k) {
+    if (crashes[k] == signal) ::sigaction(signal, &before_crash[k], nullptr);
   }
   ::raise(signal);
 }
@@ -109,13 +115,12 @@ void name_routine_of_crash() {
   stack.ss_sp = spare.data();
   stack.ss_size = spare.size();
   ::sigaltstack(&stack, nullptr);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
-    struct sigaction before {};
-    if (::sigaction(signal, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) continue;
+  for (std::size_t k = 0; k < crashes.size(); ++k) {
+    if (::sigaction(crashes[k], nullptr, &before_crash[k]) != 0 || before_crash[k].sa_handler == SIG_IGN) continue;
     struct sigaction action {};
     action.sa_handler = on_crash;
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_ONSTACK | SA_NODEFER);
-    ::sigaction(signal, &action, nullptr);
+    action.sa_flags = static_cast<int>(SA_ONSTACK | SA_NODEFER);
+    ::sigaction(crashes[k], &action, nullptr);
   }
 }
 

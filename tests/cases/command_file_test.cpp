@@ -31,6 +31,19 @@ TEST_F(CommandFiles, lines_may_end_with_carriage_returns_alone) {
   EXPECT_TRUE(r.wrote("out.msg"));
 }
 
+TEST_F(CommandFiles, comments_stand_on_the_first_lines_as_everywhere) {
+  const RunResult above = commands("! the pendulum\n!\nmodel ! as drawn\nout! ! its files\nLINEAR/EIGENSOL\n");
+  EXPECT_EQ(above.status, 0) << above.err;
+  EXPECT_EQ(above.eigenvalues(0).size(), 2u);
+  EXPECT_TRUE(above.wrote("out!.msg"));
+  const RunResult in_place = commands("model\n! no prefix\nLINEAR/EIGENSOL\n");
+  EXPECT_EQ(in_place.status, 0) << in_place.err;
+  EXPECT_TRUE(in_place.wrote("model.msg"));
+  const RunResult alone = commands("! nothing\n! else\n");
+  EXPECT_EQ(alone.status, 1);
+  EXPECT_THAT(alone.err, HasSubstr("the command file names no model"));
+}
+
 TEST_F(CommandFiles, bytes_that_are_no_text_do_not_end_the_run) {
   const RunResult r = commands("model\nout\nLINEAR/EIGENSOL ! \xC4\xE9\n");
   EXPECT_NE(r.status, -1);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "cases/run.h"
@@ -192,6 +193,26 @@ TEST_F(UserRoutines, give_way_to_a_constant_with_a_warning_for_each) {
   ASSERT_EQ(two.status, 0) << two.err;
   EXPECT_THAT(two.err, HasSubstr("VARIABLE/1 calls a compiled routine"));
   EXPECT_THAT(two.err, HasSubstr("SFORCE/1 calls a compiled routine"));
+}
+
+// What is wrong beside the constant points into a text that nobody has written.
+TEST_F(UserRoutines, whose_statements_are_wrong_besides_are_errors_at_their_places) {
+  const RunResult twice = with(
+      "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=USER(1)\\FUNCTION=2\nMARKER/9, FLOATING\n"
+      "GFORCE/1, I=20, JFLOAT=9, RM=1, FUNCTION=USER(1)\\FX=1\n",
+      16.0);
+  EXPECT_EQ(twice.status, 1);
+  EXPECT_THAT(twice.err, HasSubstr("of SFORCE/1 is given twice"));
+  EXPECT_THAT(twice.err, HasSubstr("FX of GFORCE/1 is given twice"));
+  EXPECT_THAT(twice.err, HasSubstr("--user-value of "));
+  const RunResult one = with("MARKER/9, FLOATING, PART=1\nGFORCE/1, I=20, JFLOAT=9, RM=1, FX=USER(1)\\FY=0\n", 16.0);
+  EXPECT_EQ(one.status, 1);
+  EXPECT_THAT(one.err, HasSubstr("a routine is called by the FUNCTION of GFORCE/1, and gives all of its values"));
+  for (const double value : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    const RunResult r = with("VARIABLE/1, FUNCTION=USER(3)\n", value);
+    EXPECT_EQ(r.status, 1);
+    EXPECT_THAT(r.err, HasSubstr("cannot take the place of compiled routines: it is no finite number"));
+  }
 }
 
 TEST_F(UserRoutines, of_sensors_give_way_too) {

@@ -149,7 +149,7 @@ TEST_F(Export, overwrites_nothing_that_the_run_reads) {
   write("deck_KVVV.bdf", "title = kept\n");
   const RunResult r = run(model, "LINEAR/EXPORT, TYPE=CLOSEDBOX, FILE=deck, CONFIG=deck_KVVV.bdf\n");
   EXPECT_EQ(r.status, 2);
-  EXPECT_THAT(r.err, HasSubstr("the deck would overwrite "));
+  EXPECT_THAT(r.err, HasSubstr("deck_KVVV.bdf would overwrite "));
   EXPECT_EQ(read_file(folder_ / "deck_KVVV.bdf"), "title = kept\n");
   EXPECT_FALSE(r.wrote("deck.dat"));
 }

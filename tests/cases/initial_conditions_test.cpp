@@ -65,6 +65,15 @@ TEST_F(InitialConditions, find_no_root_where_there_is_none) {
 }
 
 // u = 1 + u²/5 with w = 10⁻⁹ u has u = 5 (1 − √0.2)/2, and dw/dz = −10⁻⁹/√0.2 of a term −10⁻⁹ z.
+TEST_F(InitialConditions, say_which_constraint_is_no_number) {
+  const RunResult r =
+      run(std::string(head) + "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nGCON/1, I=20, FUNCTION=1/DZ(20,1)\nEND\n",
+          "LINEAR/EIGENSOL\n");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_NE(r.err.find("GCON/1: division by 0"), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("iteration 0: a constraint is no finite number"), std::string::npos) << r.err;
+}
+
 TEST_F(InitialConditions, hold_for_the_smallest_value_beside_the_largest) {
   const RunResult r = run(head + slide(2, "1E15") + slide(3, "VARVAL(1)") +
                               "VARIABLE/1, FUNCTION=1E-9+VARVAL(1)**2*2E8-1E-9*DZ(30,93)\nEND\n",

@@ -60,7 +60,7 @@ TEST_F(Newcomer, forgets_the_prefix) {
   write("run.acf", "model\n  lin/eig\nstop\n");
   const RunResult r = run_file("run.acf");
   EXPECT_EQ(r.status, 1);
-  EXPECT_THAT(r.err, AllOf(HasSubstr("run.acf:2:3: error: the second line is the prefix of the output files"),
+  EXPECT_THAT(r.err, AllOf(HasSubstr("run.acf:2:3: error: the line behind the model is the prefix of the output files"),
                            HasSubstr("[missing-prefix]"), HasSubstr("an empty line")));
   // A folder may be called like a command.
   std::filesystem::create_directory(folder_ / "lin");

@@ -95,7 +95,8 @@ class StepOutputs : public Cases {
   std::optional<Planner> plan_;
   const Job* job_ = nullptr;  // of the plan
   JsonResults json_;
-  RunFiles files_;
+  InputFiles inputs_;
+  RunFiles files_{inputs_};
   std::vector<std::shared_ptr<const System>> systems_;
   std::optional<RunState> run_;
   std::ostringstream message_, err_;

@@ -135,6 +135,25 @@ TEST_F(Memory, too_little_for_the_matrices_is_an_error) {
   EXPECT_FALSE(there("m"));
 }
 
+// Threads of the linear algebra wait for their memory for ever: where there is little the program works and ends
+// without them.
+TEST_F(Memory, too_little_for_threads_is_an_error_or_enough_without_them) {
+  for (const rlim_t megabytes : {130, 170, 210, 250, 300, 400, 500}) {
+    for (const std::string command : {"SIMULATE/STATICS", "LINEAR/EIGENSOL"}) {
+      Surroundings little;
+      little.prepare = [&] {
+        ::unsetenv("OPENBLAS_NUM_THREADS");
+        limit(RLIMIT_AS, megabytes * megabyte);
+      };
+      const Outcome r = run({"run", "model.adm", "-c", command}, little);
+      EXPECT_EQ(r.signal, 0) << megabytes << " MB: " << r.err;
+      const bool must_do = megabytes >= 500;
+      EXPECT_TRUE(r.status == 0 || (!must_do && r.err.find("error: out of memory") != std::string::npos))
+          << megabytes << " MB: " << r.err;
+    }
+  }
+}
+
 // As pre-processors write it: an argument a line, names in comments. What the program takes for any dataset is left
 // out.
 TEST_F(Memory, of_a_large_dataset_is_at_most_six_times_its_size) {

@@ -31,6 +31,30 @@ TEST_F(Outputs, a_hyphen_is_standard_output) {
   write("model.acf", "model\nmodel\nLINEAR/STATEMAT, FILE=-\n");
   EXPECT_THAT(run({"run", "model.acf", "--quiet"}).out, HasSubstr("MATRIXx"));
   EXPECT_FALSE(there("-"));
+  const Outcome saved = run({"run", "model.adm", "-c", "SAVE/STATES, FILE=-"});
+  EXPECT_EQ(saved.status, 0) << saved.err;
+  EXPECT_TRUE(saved.out.starts_with("{")) << saved.out;
+  EXPECT_FALSE(there("-"));
+}
+
+TEST_F(Outputs, standard_output_is_one_file) {
+  write("model.acf", "model\nmodel\nLINEAR/STATEMAT, FILE=-\n");
+  const Outcome both = run({"run", "model.acf", "--json", "-"});
+  EXPECT_EQ(both.status, 1) << both.out;
+  EXPECT_THAT(both.err, HasSubstr("--json are one file, standard output"));
+  write("model.acf", "model\nmodel\nLINEAR/STATEMAT, FILE=-, FORMAT=MATLAB\n");
+  const Outcome several = run({"run", "model.acf"});
+  EXPECT_EQ(several.status, 1);
+  EXPECT_THAT(several.err, HasSubstr("FILE of FORMAT=MATLAB is what the names of its files begin with"));
+  EXPECT_THAT(names(), ElementsAre("model.acf", "model.adm"));
+}
+
+TEST_F(Outputs, names_are_not_empty) {
+  for (const std::string option : {"--json", "--output"}) {
+    const Outcome r = run({"run", "model.acf", option, ""});
+    EXPECT_EQ(r.status, 3);
+    EXPECT_THAT(r.err, HasSubstr(option + ": its name is empty"));
+  }
 }
 
 TEST_F(Outputs, a_pipe_is_written_to_and_stays_a_pipe) {
@@ -104,6 +128,62 @@ TEST_F(Outputs, no_file_that_the_run_reads_is_overwritten) {
   EXPECT_EQ(r.status, 1);
   EXPECT_THAT(r.err, HasSubstr("--json would overwrite model.adm, which the run reads"));
   EXPECT_EQ(text("model.adm"), dataset);
+}
+
+// Files that statements and options name besides: shapes that are drawn later, libraries, saved points.
+TEST_F(Outputs, no_further_file_of_the_run_is_overwritten) {
+  std::string dataset = pendulum;
+  dataset.insert(dataset.rfind("END"), "GRAPHICS/1, EXTERNAL, RM=20, FILE=shape.stl, ELEMENT=all\n");
+  write("model.adm", dataset);
+  const std::string shape =
+      "solid all\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+      "endsolid all\n";
+  write("shape.stl", shape);
+  const auto expect_refused = [&](const std::vector<std::string>& arguments, const std::string& file,
+                                  const std::string& content) {
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.status, 1) << r.out << r.err;
+    EXPECT_THAT(r.err, HasSubstr("would overwrite " + file));
+    EXPECT_EQ(text(file), content);
+  };
+  expect_refused({"run", "model.acf", "--json", "shape.stl"}, "shape.stl", shape);
+  write("routines.so", "no library");
+  expect_refused({"run", "model.acf", "--user-library", "routines.so", "--json", "routines.so"}, "routines.so",
+                 "no library");
+  ASSERT_EQ(run({"run", "model.adm", "-c", "SAVE/STATES, FILE=s.save", "-c", "SAVE/SYSTEM, FILE=y.save"}).status, 0);
+  const std::string states = text("s.save"), system = text("y.save");
+  expect_refused({"run", "model.adm", "-c", "RELOAD/STATES, FILE=s.save", "-c", "LINEAR/STATEMAT, FILE=./s.save"},
+                 "s.save", states);
+  expect_refused({"run", "model.adm", "-c", "RELOAD/SYSTEM, FILE=y.save", "-c", "LINEAR/EIGENSOL", "--json", "y.save"},
+                 "y.save", system);
+  // What the run has saved itself is its own.
+  const std::string save = "SAVE/STATES, FILE=own.save";
+  EXPECT_EQ(run({"run", "model.adm", "-c", save, "-c", "RELOAD/STATES, FILE=own.save", "-c", save}).status, 0);
+}
+
+TEST_F(Outputs, no_file_of_a_deck_or_a_reduction_is_overwritten) {
+  const std::string more =
+      "EIGC,1,CLAN,,,,,4\nGRID,1\nCELAS2,1,100.,1,1\nCONM2,2,1,,2.\nSPC1,1,23456,1\nPARAM,GRDPNT,0\n";
+  write("deck.dat", "SOL 107\nCEND\nCMETHOD = 1\nSPC = 1\nBEGIN BULK\nINCLUDE 'more.bdf'\nENDDATA\n");
+  write("more.bdf", more);
+  ASSERT_EQ(run({"nastran", "solve", "deck.dat", "--json", "fresh"}).status, 0) << text("more.bdf");
+  for (const std::string name : {"deck.dat", "./more.bdf"}) {
+    const std::string before = text(name);
+    const Outcome r = run({"nastran", "solve", "deck.dat", "--json", name});
+    EXPECT_EQ(r.status, 1) << r.out;
+    EXPECT_THAT(r.err, HasSubstr("--json would overwrite "));
+    EXPECT_EQ(text(name), before);
+  }
+  const std::string matrix = "%%MatrixMarket matrix coordinate real general\n3 3 3\n1 1 4\n2 2 4\n3 3 4\n";
+  write("k.mtx", matrix), write("m.mtx", matrix), write("k.dof", "1.1\n1.2\n1.3\n"), write("nodes", "1, 0, 0, 0\n");
+  for (const std::string name : {"k.mtx", "m.mtx", "k.dof", "./nodes"}) {
+    const std::string before = text(name);
+    const Outcome r = run({"reduce", "--stiffness", "k.mtx", "--mass", "m.mtx", "--nodes", "nodes", "--interface", "1",
+                           "--translations-only", "--output", name});
+    EXPECT_EQ(r.status, 1) << r.out;
+    EXPECT_THAT(r.err, HasSubstr("--output would overwrite ")) << name;
+    EXPECT_EQ(text(name), before);
+  }
 }
 
 TEST_F(Outputs, two_results_are_not_written_to_one_file) {
@@ -316,7 +396,7 @@ TEST_F(GrowingFiles, of_a_full_disk_are_not_there) {
 
 TEST_F(Disks, a_signal_takes_the_temporary_files_with_it) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1, SIGALRM}) {
     // The program waits for a reader when all else is on the disk under temporary names.
     const pid_t child = start({"run", "model.acf", "--json", "pipe"});
     for (int k = 0; k < 500 && names().size() < 6; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -325,6 +405,20 @@ TEST_F(Disks, a_signal_takes_the_temporary_files_with_it) {
     EXPECT_EQ(finish(child).signal, signal);
     EXPECT_THAT(names(), ElementsAre("m", "model.acf", "model.adm", "pipe"));
     EXPECT_EQ(text("m"), "old matrices");
+  }
+}
+
+// The second one may come while the first is seen to, and to another thread.
+TEST_F(Disks, two_signals_take_the_temporary_files_with_them) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  Surroundings threads;
+  threads.prepare = [] { ::unsetenv("OPENBLAS_NUM_THREADS"); };
+  for (int times = 0; times < 10; ++times) {
+    const pid_t child = start({"run", "model.acf", "--json", "pipe"}, threads);
+    for (int k = 0; k < 500 && names().size() < 6; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ::kill(child, SIGTERM), ::kill(child, SIGTERM), ::kill(child, SIGINT);
+    finish(child);
+    EXPECT_THAT(names(), ElementsAre("m", "model.acf", "model.adm", "pipe"));
   }
 }
 

@@ -191,5 +191,25 @@ TEST_F(Prompt, a_pipe_has_the_commands_for_a_dataset) {
   EXPECT_EQ(run({}).status, 3) << "nothing is waited for";
 }
 
+TEST_F(Prompt, a_pipe_without_an_end_is_refused) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"run", "-"}, {"model.adm"}}) {
+    int ends[2];
+    ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
+    Surroundings piped;
+    piped.prepare = [&] { ::dup2(ends[0], STDIN_FILENO); };
+    const pid_t child = start(arguments, piped);
+    ::close(ends[0]);
+    std::string lines;
+    for (int k = 0; k < 1000; ++k) lines += "simulate/statics\n";
+    ::signal(SIGPIPE, SIG_IGN);
+    while (::write(ends[1], lines.data(), lines.size()) > 0) {
+    }
+    ::close(ends[1]);
+    const Outcome r = finish(child);
+    EXPECT_EQ(r.status, 1) << r.signal << r.err;
+    EXPECT_THAT(r.err, HasSubstr("standard input cannot be read: it is longer than 16 MiB"));
+  }
+}
+
 }  // namespace
 }  // namespace dynalin::faults

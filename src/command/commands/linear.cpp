@@ -133,17 +133,6 @@ StudyResult<void> write_descriptor(const Linearization& linear, const LinearComm
   return {};
 }
 
-// A file of the deck that stands where one is that the run has read. Names of bodies and matrices are known only now.
-std::string overwritten_input(const std::string& path, const Job& job) {
-  const auto place = find_destination(path);
-  for (const SourceRef& source : job.sources) {
-    const auto read = find_destination(source->name());
-    if (place && read && read->kind == Destination::Kind::replaced && read->place() == place->place())
-      return source->name();
-  }
-  return {};
-}
-
 StudyResult<void> write_deck(const Linearization& linear, const LinearCommand& command, const OperatingState& state,
                              const nastran::Configuration& configuration, RunState& run) {
   auto deck = nastran::export_deck(linear, box_of(command), configuration.options, command.file);
@@ -153,9 +142,6 @@ StudyResult<void> write_deck(const Linearization& linear, const LinearCommand& c
   std::vector<std::string> paths;
   for (const nastran::DeckFile& file : deck->files) {
     paths.push_back(command_path(run.folder, file.name));
-    if (const std::string input = overwritten_input(paths.back(), run.job); !input.empty())
-      return tl::unexpected(
-          StudyFailure({"export", fmt::format("the deck would overwrite {}, which the run reads", input), {}}));
     planned.push_back({paths.back(), [&file](std::ostream& out) { out << file.text; }});
   }
   if (auto written = run.files.add(planned); !written)

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "command/output_plan.h"
@@ -51,7 +52,9 @@ SavedFile::Model saved_model(const RunState& run, const Job::Stage& stage) {
   model.text = source.text();
   model.edits = stage.edits;
   model.pade = run.options.pade;
+  const std::vector<std::string>& inputs = stage.model->input_files;
   for (const SourceRef& file : stage.model->further_sources) {
+    if (std::find(inputs.begin(), inputs.end(), file->name()) == inputs.end()) continue;
     const fs::path path = fs::absolute(file->name(), unknown);
     model.further.push_back({unknown ? file->name() : path.lexically_normal().string(), fingerprint(file->text())});
   }
@@ -87,11 +90,15 @@ StudyResult<void> Save::run(RunState& run) const {
   const auto text = saved_text(saved);
   if (!text) return tl::unexpected(failure(text.error()));
   const std::string path = command_path(run.folder, file);
-  RunFiles files;
+  // Under its name at once, for RELOAD. What goes to standard output waits for its turn.
+  const auto destination = find_destination(path);
+  const bool waits = destination && destination->kind == Destination::Kind::standard_output;
+  RunFiles own(run.files.inputs());
+  RunFiles& files = waits ? run.files : own;
   auto written = files.add({{path, [&](std::ostream& out) { out << *text; }}});
-  if (written) written = files.commit(run.terminal ? *run.terminal : run.message);
+  if (written && !waits) written = files.commit(run.message);
   if (!written) return tl::unexpected(failure(written.error()));
-  run.saved_files.push_back(path);
+  if (!waits) run.saved_files.push_back(path);
   fmt::print(run.message, "  Saved {} at time {:.9E} to {}\n", system ? "the system" : "the states", run.time(), path);
   if (run.terminal)
     fmt::print(*run.terminal, "saved {} at time {:g} to {}\n", system ? "the system" : "the states", run.time(), path);

@@ -177,6 +177,7 @@ void refuse(BodyFileType type, const std::string& path, const SourceText& file, 
 
 std::shared_ptr<ModalBody> read_body(const std::string& name, ElementReader& reader) {
   const std::string path = (std::filesystem::path(reader.folder()) / name).string();
+  reader.reads(path);
   auto text = dynalin::read_file(path);
   if (!text) {
     reader.error("unreadable-file", reader.at("MNF_FILE"),

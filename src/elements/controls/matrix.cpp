@@ -141,6 +141,7 @@ class MatrixSet final : public TypedSet<Matrix> {
       return;
     }
     const std::filesystem::path path = std::filesystem::path(reader.folder()) / m.file;
+    reader.reads(path.string());
     auto text = dynalin::read_file(path.string());
     if (!text) {
       reader.error(

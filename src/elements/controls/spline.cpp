@@ -130,6 +130,7 @@ class SplineSet final : public TypedSet<Spline> {
 
   static bool read_file(const WrittenSpline& w, SplineData& data, ElementReader& reader) {
     const std::filesystem::path path = std::filesystem::path(reader.folder()) / w.file;
+    reader.reads(path.string());
     auto text = dynalin::read_file(path.string());
     if (!text) {
       reader.error(

@@ -12,6 +12,7 @@ namespace dynalin::drawing {
 void External::complete(ElementReader& reader) {
   folder = reader.folder();
   at = reader.at("FILE");
+  reader.reads((std::filesystem::path(folder) / file).string());
 }
 
 void External::draw(Canvas& canvas) const {

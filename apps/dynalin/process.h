@@ -1,0 +1,19 @@
+// The process that the program is: its standard streams and the memory it may have.
+#pragma once
+
+#include <string>
+#include <tl/expected.hpp>
+
+// A standard stream that is closed would give its number to the next file that is opened, and what is meant for the
+// terminal would end up there. It is opened the wrong way round, so that using it fails.
+void open_standard_streams();
+
+// Commands that another program or a file gives; nobody waits for a device.
+bool has_piped_input();
+// All of standard input; the error is a reason.
+tl::expected<std::string, std::string> read_commands();
+
+// Where memory is limited the threads of the linear algebra would wait for theirs for ever, and the program with them
+// when it ends. They are there before it begins: it begins anew without them, and takes now what it needs itself. False
+// if that is too much already.
+bool prepare_for_limited_memory(char** arguments);
