@@ -29,8 +29,8 @@ class MatrixReader {
  public:
   MatrixReader(const Span& at, const std::string& owner, Diagnostics& out) : at_(at), owner_(owner), out_(out) {}
 
-  bool collect(const std::vector<NamedMatrix>& all) {
-    for (const NamedMatrix& m : all) {
+  bool collect(const std::vector<ModalMatrix>& all) {
+    for (const ModalMatrix& m : all) {
       if (m.name.empty()) {
         fail(fmt::format("{} of {} has no NAME that says what it holds", m.label, owner_), names());
       } else if (std::ranges::find(known, m.name) == known.end()) {
@@ -100,7 +100,7 @@ class MatrixReader {
   const Span& at_;
   const std::string& owner_;
   Diagnostics& out_;
-  std::map<std::string_view, const NamedMatrix*, std::less<>> by_name_;
+  std::map<std::string_view, const ModalMatrix*, std::less<>> by_name_;
   bool sound_ = true;
 };
 
@@ -142,7 +142,7 @@ ModalInertia inertia_of(MatrixReader& in, Index n) {
 
 }  // namespace
 
-std::optional<ModalBody> modal_body_of(const std::vector<NamedMatrix>& all, const Span& at, const std::string& owner,
+std::optional<ModalBody> modal_body_of(const std::vector<ModalMatrix>& all, const Span& at, const std::string& owner,
                                        Diagnostics& out) {
   MatrixReader in(at, owner, out);
   if (!in.collect(all)) return std::nullopt;

@@ -25,14 +25,15 @@
 
 namespace dynalin {
 
-struct NamedMatrix {
+// One of the MATRIX statements that a FLEX_BODY names.
+struct ModalMatrix {
   std::string name;   // upper case
   std::string label;  // "MATRIX/7"
   Eigen::Map<const Eigen::MatrixXd> values;
 };
 
 // Nothing after errors, which stand at `at`; `owner` is the body, "FLEX_BODY/2".
-std::optional<ModalBody> modal_body_of(const std::vector<NamedMatrix>&, const Span& at, const std::string& owner,
+std::optional<ModalBody> modal_body_of(const std::vector<ModalMatrix>&, const Span& at, const std::string& owner,
                                        Diagnostics&);
 
 }  // namespace dynalin

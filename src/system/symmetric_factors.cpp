@@ -66,8 +66,7 @@ struct SymmetricFactors::InOrder {
   std::int64_t negative = 0;
   bool serves = false;
 
-  InOrder(const ColumnMatrix& lower, const std::vector<std::int32_t>& order) : place(order) {
-    constexpr Eigen::Index most_for_an_entry = 8;  // two of KLU's limit are one here
+  InOrder(const ColumnMatrix& lower, const ColumnMatrix& both, const std::vector<std::int32_t>& order) : place(order) {
     std::vector<Eigen::Triplet<double>> entries;
     for_each_entry(lower, [&](std::int32_t r, std::int32_t c, double) {
       const auto [first, last] = std::minmax({place_of(r), place_of(c)});
@@ -79,7 +78,7 @@ struct SymmetricFactors::InOrder {
     for (Eigen::Index k = 0; k < upper.nonZeros(); ++k)
       entry_of[static_cast<std::size_t>(upper.valuePtr()[k])] = static_cast<std::int32_t>(k);
     factors.analyzePattern(upper);
-    serves = factors.predicted_entries() <= most_for_an_entry * upper.nonZeros();
+    serves = !wants_nested_dissection(both, 2 * static_cast<double>(factors.predicted_entries()));
   }
   std::int32_t place_of(std::int32_t k) const { return place[static_cast<std::size_t>(k)]; }
 
@@ -161,7 +160,7 @@ SymmetricFactors::SymmetricFactors(const ColumnMatrix& lower, FactorsFor use) {
   }
   place_ = nested_dissection(both);
   if (use == FactorsFor::inertia && place_) {
-    in_order_ = std::make_unique<InOrder>(lower, *place_);
+    in_order_ = std::make_unique<InOrder>(lower, both, *place_);
     if (in_order_->serves) {
       lower_ = lower;
       return;

@@ -40,17 +40,21 @@ TEST_F(Settings, of_every_statement_are_read) {
       "GRAPHICS/1, BOX, CORNER=20, X=20, Y=-10, Z=5\ngra/2, cylind, cm=20, len=50, r=4, seg=20, sides=10\n"
       "GRAPHICS/3, SPDP, I=20, J=1, COILS=10, DA=8\nGRAPHICS/4, OUTLINE=20,21\nGRAPHICS/5, FORCE, ETYPE=SFORCE, EID=7, "
       "EMARKER=20\nGRAPHICS/6, EXTERNAL, RM=20, FILE=a.xmt_txt, ELEMENT=SHELL_10, FACETING_TOLERANCE=300\n"
-      "MREQUEST/1, WHAT=EVER\nMATERIAL/1, NAME=steel\n");
+      "MREQUEST/1, WHAT=EVER\nMATERIAL/1, NAME=steel\nFEMDATA/1, LOADS\nFEMDATA/2, STRAIN\n");
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_EQ(count(r.err, "nothing here acts on"), 1u) << r.err;
   for (const char* name : {"EQUILIBRIUM/ATOL", "IC/MAXIT", "INTEGRATOR/CORRECTOR", "KINEMATICS/AERROR",
-                           "KINEMATICS/PATTERN", "OUTPUT/OSFORMAT", "DEBUG/EPRINT", "LSOLVER/AUTO"})
+                           "KINEMATICS/PATTERN", "OUTPUT/OSFORMAT", "DEBUG/EPRINT", "LSOLVER/AUTO", "FEMDATA"})
     EXPECT_EQ(count(r.err, name), 1u) << name;
   for (const char* acting :
        {"EQUILIBRIUM/MAXIT", "EQUILIBRIUM/ALIMIT", "EQUILIBRIUM/TLIMIT", "EQUILIBRIUM/ERROR", "EQUILIBRIUM/IMBALANCE",
         "EQUILIBRIUM/STABILITY", "EQUILIBRIUM/PATTERN", "EQUILIBRIUM/METHOD", "KINEMATICS/ERROR", "KINEMATICS/MAXIT",
         "KINEMATICS/HMAX", "RESULTS", "GRAPHICS", "OUTPUT/REQSAVE", "OUTPUT/DSCALE"})
     EXPECT_THAT(r.err, Not(HasSubstr(acting)));
+}
+
+TEST_F(Settings, of_graphics_over_time_are_passed_over) {
+  EXPECT_EQ(count(with("TIMGRAPHICS/1\nTIMGRAPHICS/2\n").err, "nothing here acts on TIMGRAPHICS, which is"), 1u);
 }
 
 TEST_F(Settings, that_do_not_exist_are_errors_at_their_place) {

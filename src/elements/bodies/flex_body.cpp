@@ -281,7 +281,7 @@ class FlexBodySet final : public TypedSet<FlexBody> {
  private:
   static std::shared_ptr<ModalBody> of_matrices(FlexBody& f, const std::string& name, const Model& model,
                                                 Diagnostics& diagnostics) {
-    std::vector<NamedMatrix> matrices;
+    std::vector<ModalMatrix> matrices;
     for (const ElementHandle& h : f.data) {
       const Matrix& m = *model.get<Matrix>(h);
       matrices.push_back({m.name,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/kind.h"
+#include "model/model.h"
 
 namespace dynalin {
 
@@ -13,6 +14,9 @@ class TextSet : public ElementSet {
     sound.push_back(true);
   }
   void read(std::size_t, ElementReader&) override {}
+  void finish(Model& model, Diagnostics&) override {
+    if (!labels.empty()) model.settings.passed_over.emplace_back(kind().statement);
+  }
 };
 
 // An element has an id that others may refer to, something inert need not.
