@@ -91,7 +91,7 @@ TEST(CablesInTime, catch_what_falls) {
       "Dropped\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=2, IP=1,1,1, "
       "QG=0,0,-0.5\nMARKER/2\nJOINT/1, TRANSLATIONAL, I=2, J=1\nCABLE/1, MARKERS=1,2, K=200, LENGTH=1\nEND\n");
   const auto lowest = study.simulate(request);
-  const BodyState& body = lowest.point.state().bodies.at(0);
+  const BodyState body = lowest.point.state().bodies.at(0);
   EXPECT_NEAR(body.position[2], -1 - stretch, 1e-6);
   EXPECT_NEAR(body.velocity[2], 0, 1e-5);
   EXPECT_GE(lowest.statistics.restarts, 1);
