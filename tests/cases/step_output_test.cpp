@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "cases/run.h"
 #include "command/planner.h"
@@ -19,8 +18,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-
-constexpr double pi = std::numbers::pi;
 
 // The crank turns at 1 rad/s about z; its tip, PART/2's BCS, is at (cos t, sin t, 0).
 const std::string crank =

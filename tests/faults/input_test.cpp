@@ -138,7 +138,7 @@ TEST_F(Memory, too_little_for_the_matrices_is_an_error) {
 // Threads of the linear algebra wait for their memory for ever: where there is little the program works and ends
 // without them.
 TEST_F(Memory, too_little_for_threads_is_an_error_or_enough_without_them) {
-  for (const rlim_t megabytes : {130, 170, 210, 250, 300, 400, 500}) {
+  for (const rlim_t megabytes : {130u, 170u, 210u, 250u, 300u, 400u, 500u}) {
     for (const std::string command : {"SIMULATE/STATICS", "LINEAR/EIGENSOL"}) {
       Surroundings little;
       little.prepare = [&] {
