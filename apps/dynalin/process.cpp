@@ -7,22 +7,27 @@
 #include <unistd.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <climits>
 #include <cstdlib>
 #include <cstring>
+#include <thread>
 
 #include "linear/dense_products.h"
 
 namespace {
 
-bool memory_is_limited() {
+constexpr std::size_t mebibyte = std::size_t{1} << 20, buffer = 128 * mebibyte;  // of each thread of OpenBLAS
+
+rlim_t memory_limit() {
   struct rlimit limit {};
+  rlim_t least = RLIM_INFINITY;
   for (const auto which : {RLIMIT_AS, RLIMIT_DATA}) {
-    if (::getrlimit(which, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) return true;
+    if (::getrlimit(which, &limit) == 0) least = std::min(least, limit.rlim_cur);
   }
-  return false;
+  return least;
 }
 
 bool can_have(std::size_t bytes) {
@@ -61,16 +66,17 @@ tl::expected<std::string, std::string> read_commands() {
 }
 
 bool prepare_for_limited_memory(char** arguments) {
-  if (!memory_is_limited()) return true;
+  const rlim_t limit = memory_limit();
+  if (limit == RLIM_INFINITY) return true;
+  const bool enough_for_threads = limit >= (std::thread::hardware_concurrency() + 1) * buffer + 1024 * mebibyte;
   constexpr const char* threads = "OPENBLAS_NUM_THREADS";
   const char* const now = std::getenv(threads);
+  const bool alone = now && std::strcmp(now, "1") == 0;
   std::array<char, PATH_MAX> program{};
-  if ((!now || std::strcmp(now, "1") != 0) && ::setenv(threads, "1", 1) == 0 &&
+  if (!enough_for_threads && !alone && ::setenv(threads, "1", 1) == 0 &&
       ::readlink("/proc/self/exe", program.data(), program.size() - 1) > 0)
     ::execv(program.data(), arguments);
-  // The buffer of a thread, and something to work with.
-  constexpr std::size_t buffer = std::size_t{128} << 20, least = std::size_t{16} << 20;
-  if (!can_have(buffer + least)) return false;
+  if (!can_have(buffer + 16 * mebibyte)) return false;
   constexpr Eigen::Index size = 200;  // small products need none
   const Eigen::MatrixXd ones = Eigen::MatrixXd::Ones(size, size);
   return dynalin::transposed_product(ones, ones)(0, 0) > 0;

@@ -13,7 +13,7 @@ bool has_piped_input();
 // All of standard input; the error is a reason.
 tl::expected<std::string, std::string> read_commands();
 
-// Where memory is limited the threads of the linear algebra would wait for theirs for ever, and the program with them
-// when it ends. They are there before it begins: it begins anew without them, and takes now what it needs itself. False
-// if that is too much already.
+// Where a limit on memory has no room for the threads of the linear algebra they would wait for theirs for ever, and
+// the program with them when it ends. They are there before it begins: it begins anew without them. Under any limit it
+// takes now what it needs itself; false if that is too much already.
 bool prepare_for_limited_memory(char** arguments);
