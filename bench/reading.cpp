@@ -99,7 +99,7 @@ int measure(const std::string& file) {
   auto parsed = parse_dataset(source);
   const auto dataset = std::make_shared<Dataset>(std::move(parsed.value));
   steps.done("statements");
-  auto built = build_model(dataset, catalogue());
+  auto built = build_model(dataset, catalogue(), {.read_once = dataset});  // as the program reads
   if (parsed.diagnostics.has_errors() || built.diagnostics.has_errors()) {
     fmt::print(stderr, "{}{}", render(parsed.diagnostics, 3), render(built.diagnostics, 3));
     return 1;

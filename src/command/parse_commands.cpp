@@ -53,7 +53,7 @@ class FileParser {
     }
     const CommandKind& kind = *find_command(s.name);
     if (!kind.read) {
-      diagnostics_.error("refused-command", s.keyword, fmt::format("{} is refused: {}", s.name, kind.summary));
+      diagnostics_.error("refused-command", s.keyword(), fmt::format("{} is refused: {}", s.name, kind.summary));
       return;
     }
     auto action = kind.read(reader);

@@ -102,8 +102,11 @@ void Planner::expand(CommandFile&& file, const std::string& folder, std::vector<
 void Planner::begin_job(std::string prefix, std::string folder) {
   Job& begun = jobs.emplace_back();
   // --output names the files of the first model; further ones have names of their own.
-  begun.prefix =
-      jobs.size() == 1 && !options_.output_prefix.empty() ? options_.output_prefix : in_folder(folder, prefix);
+  // One that ends in a slash is a folder for files that are called as they would be.
+  const std::string& wanted = options_.output_prefix;
+  begun.prefix = jobs.size() > 1 || wanted.empty() ? in_folder(folder, prefix)
+                 : wanted.ends_with('/')           ? wanted + fs::path(prefix).filename().string()
+                                                   : wanted;
   begun.opening = std::exchange(opening_, {});
   sound_ = !diagnostics.has_errors();
 }

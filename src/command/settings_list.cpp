@@ -155,7 +155,7 @@ class Stated {
  private:
   void take(const Statement& s) {
     if (command_ == "INTEGRATOR" && (s.name == "GSTIFF" || s.name == "WSTIFF")) {
-      shorthands_.emplace_back().name = s.keyword;
+      shorthands_.emplace_back().name = s.keyword();
       add(s.name, shorthands_.back());
     } else if (s.name != command_) {
       return;

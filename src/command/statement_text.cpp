@@ -10,12 +10,12 @@ std::string argument_text(const WrittenArgument& w) {
   std::string text;
   const std::string_view source = w.name.source->text();
   const Token* before = nullptr;
-  for (const Token& t : w.value) {
+  for (const Token& t : w.value()) {
     const std::string_view word = source.substr(t.offset, t.length);
     const bool blank = before && t.offset > before->offset + before->length;
     // Between numbers the mark of a line that continues is their comma; elsewhere it is nothing.
     const bool between_numbers =
-        before && before->kind == TokenKind::number && &t != &w.value.back() && ((&t) + 1)->kind != TokenKind::word;
+        before && before->kind == TokenKind::number && &t != &w.value().back() && ((&t) + 1)->kind != TokenKind::word;
     if (t.continuation) {
       if (between_numbers) text += ",";
       before = &t;

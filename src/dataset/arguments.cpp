@@ -15,6 +15,12 @@ namespace dynalin {
 
 namespace {
 
+// An argument whose value is tokens[begin, end) of the statement.
+struct ArgumentDraft {
+  WrittenArgument argument;
+  std::size_t begin = 0, end = 0;
+};
+
 constexpr std::size_t unmatched = std::numeric_limits<std::size_t>::max();
 
 // Symbols of units that are no beginning of any argument.
@@ -34,7 +40,7 @@ class ArgumentSplitter {
 
   SplitArguments split() {
     constexpr std::size_t usual = 8;
-    result_.drafts.reserve(usual);
+    result_.arguments.reserve(usual);
     while (skip_separators()) {
       if (word_at(at_)) {
         read_argument();
@@ -157,7 +163,7 @@ void ArgumentSplitter::read_argument() {
   const bool has_value = symbol_at(at_, '=');
   if (has_value) read_value(draft);
   result_.damaged = result_.damaged || draft.argument.damaged;
-  result_.drafts.push_back(draft);
+  result_.arguments.push_back(draft.argument);
   if (has_value || separator_or_end_at(at_) || (word_at(at_) && blank_before(at_))) return;
   report_unexpected("a comma or '=' is expected after " + std::string(draft.argument.name.text()));
 }
@@ -182,11 +188,11 @@ void ArgumentSplitter::read_value(ArgumentDraft& draft) {
                                        : end_of_text(at_, form);
   draft.end = at_;
   if (draft.begin < draft.end) {
-    argument.place_value(join(span(draft.begin), span(draft.end - 1)));
+    argument.set_value(tokens_.subspan(draft.begin, draft.end - draft.begin));
     check_tokens(draft, form);
     return;
   }
-  argument.place_value({&source_, tokens_[equals].offset + 1, 0});
+  argument.set_empty_value(tokens_[equals].offset + 1);
   if (form == ValueForm::rest_of_line) return;
   if (form == ValueForm::free_text || form == ValueForm::text_list) {
     diagnostics_.warning("missing-value", span(equals), std::string(argument.name.text()) + " has no value after '='");

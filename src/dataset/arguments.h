@@ -17,15 +17,9 @@
 
 namespace dynalin {
 
-// An argument whose value is tokens[begin, end) of the statement; `argument.value` is not set yet.
-struct ArgumentDraft {
-  WrittenArgument argument;
-  std::size_t begin = 0, end = 0;
-};
-
 struct SplitArguments {
-  std::vector<ArgumentDraft> drafts;
-  bool damaged = false;  // an error was reported
+  std::vector<WrittenArgument> arguments;  // with values among the tokens that were given
+  bool damaged = false;                    // an error was reported
 };
 
 // `tokens` are those behind keyword, slash and id; `statement` is the full keyword, "" if unknown.

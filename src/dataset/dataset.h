@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <memory_resource>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/block_memory.h"
 #include "base/diagnostics.h"
 #include "base/source.h"
 
@@ -44,39 +46,54 @@ class TokenStore {
   void release_before(std::span<const Token> stored);
 
  private:
-  std::vector<std::vector<Token>> blocks_;
+  std::vector<std::pmr::vector<Token>> blocks_;
   std::size_t released_ = 0;  // so many blocks
 };
 
-// `NAME = value` or a bare `NAME`. The tokens of the value exclude the separators around it.
-struct WrittenArgument {
+// `NAME = value` or a bare `NAME`.
+class WrittenArgument {
+ public:
   Span name;
-  std::span<const Token> value;  // into Dataset::tokens
-  std::uint32_t value_offset = 0, value_length = 0;
-  bool has_value = false;  // '=' was written
+
+  // The tokens of the value, which exclude the separators around it and belong to the dataset.
+  std::span<const Token> value() const { return {tokens_, count_}; }
+  void set_value(std::span<const Token> tokens);
+  void set_empty_value(std::uint32_t offset) { tokens_ = nullptr, count_ = 0, offset_ = offset; }
+  // From the first to the last token of the value; after '=' if empty.
+  Span value_span() const;
+
+ private:
+  const Token* tokens_ = nullptr;
+  std::uint32_t offset_ = 0;
+  std::uint32_t count_ : 30 = 0;
+
+ public:
+  bool has_value : 1 = false;  // '=' was written
   // An error inside of it is already reported: the readers below return nothing and add no second error, and
   // its tokens must not be parsed as an expression.
-  bool damaged = false;
-
-  // From the first to the last token of the value; after '=' if empty.
-  Span value_span() const { return {name.source, value_offset, value_length}; }
-  void place_value(const Span& at) { value_offset = at.offset, value_length = at.length; }
+  bool damaged : 1 = false;
 };
 
+// A copy has memory of its own, whatever that of the arguments of a dataset is.
+using WrittenArguments = std::pmr::vector<WrittenArgument>;
+
 struct Statement {
-  Span keyword;                    // as written
-  std::string_view name;           // full upper-case name out of the keyword table, "" if unknown
-  std::optional<std::int64_t> id;  // after the slash
-  Span at;                         // keyword and id together, the place to point at for the whole
-  std::string_view view_name;      // of a preceding `! adams_view_name='…'` comment
-  std::vector<WrittenArgument> arguments;
+  Span at{};                         // keyword and id together, the place to point at for the whole
+  std::string_view name{};           // full upper-case name out of the keyword table, "" if unknown
+  std::string_view view_name{};      // of a preceding `! adams_view_name='…'` comment
+  std::optional<std::int32_t> id{};  // after the slash
+  WrittenArguments arguments{};
+  std::uint32_t keyword_length = 0;
   bool damaged = false;   // an error in it is already reported: id or arguments may be missing
   bool inactive = false;  // taken out of the model by a command; its id still exists
+
+  Span keyword() const { return {at.source, at.offset, keyword_length}; }  // as written
 };
 
 // Can be moved and not copied, because the values of the arguments are spans into `tokens`. A single
 // statement may be copied as long as its dataset lives.
 struct Dataset {
+  std::unique_ptr<BlockMemory> memory = std::make_unique<BlockMemory>();  // of the arguments of statements as read
   SourceRef source;
   std::string title;                                    // at most 80 bytes
   TokenStore tokens;                                    // of the values of all arguments
@@ -90,9 +107,9 @@ struct Dataset {
 
   Dataset() = default;
   Dataset(Dataset&&) = default;
-  Dataset& operator=(Dataset&&) = default;
   Dataset(const Dataset&) = delete;
   Dataset& operator=(const Dataset&) = delete;
+  Dataset& operator=(Dataset&&) = delete;  // the old memory would go before what is in it
   ~Dataset() = default;
 };
 

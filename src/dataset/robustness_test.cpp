@@ -87,7 +87,7 @@ std::size_t use(const Parsed<Dataset>& parsed) {
     EXPECT_LE(statement.at.offset + statement.at.length, limit);
     for (const WrittenArgument& argument : statement.arguments) {
       EXPECT_LE(argument.value_span().offset + argument.value_span().length, limit);
-      for (const Token& token : argument.value) EXPECT_LE(token.offset + token.length, limit);
+      for (const Token& token : argument.value()) EXPECT_LE(token.offset + token.length, limit);
       read_real(argument, source, diagnostics);
       read_reals(argument, source, diagnostics, 3);
       read_integer(argument, source, diagnostics);
@@ -133,7 +133,7 @@ TEST(reading, survives_words_and_numbers_of_any_length) {
         "title\nPART/1, GROUND\nVARIABLE/1, FUNCTION=" + std::string(Token::longest + 9, c) + "\nEND\n";
     const auto parsed = parse_dataset(std::make_shared<SourceText>("a.adm", text));
     ASSERT_EQ(parsed.value.statements.size(), 2u);
-    EXPECT_EQ(parsed.value.statements[1].arguments.at(0).value.size(), 2u);
+    EXPECT_EQ(parsed.value.statements[1].arguments.at(0).value().size(), 2u);
     EXPECT_EQ(parsed.value.statements[1].arguments.at(0).value_span().length, Token::longest + 9);
   }
 }

@@ -154,8 +154,10 @@ void StatementReader::report_missing_end() {
 
 void StatementReader::read_statement(std::span<const Token> tokens, std::string_view view_name) {
   if (!is_statement(tokens)) return;
-  Statement statement;
-  statement.keyword = statement.at = token_span(tokens[0], text_);
+  Statement& statement =
+      dataset_.statements.emplace_back(Statement{.arguments = WrittenArguments(dataset_.memory.get())});
+  statement.at = token_span(tokens[0], text_);
+  statement.keyword_length = statement.at.length;
   statement.view_name = view_name;
   look_up(statement);
 
@@ -164,7 +166,6 @@ void StatementReader::read_statement(std::span<const Token> tokens, std::string_
     next = 2 + read_id(tokens.subspan(2), statement);
   }
   read_arguments(tokens.subspan(next), statement);
-  dataset_.statements.push_back(std::move(statement));
 }
 
 bool StatementReader::is_statement(std::span<const Token> tokens) {
@@ -216,7 +217,7 @@ std::string StatementReader::continuation_hint(std::span<const Token> tokens) co
 }
 
 void StatementReader::look_up(Statement& statement) {
-  const std::string_view word = statement.keyword.text();
+  const std::string_view word = statement.keyword().text();
   // Statements of one kind stand together.
   if (word == known_word_) {
     statement.name = known_name_;
@@ -237,12 +238,12 @@ void StatementReader::look_up(Statement& statement) {
       if (i > 0) list += i + 1 < ambiguous.size() ? ", " : " or ";
       list += ambiguous[i];
     }
-    diagnostics_.error("ambiguous-keyword", statement.keyword,
+    diagnostics_.error("ambiguous-keyword", statement.keyword(),
                        fmt::format("{} may mean several {}s", quoted(word), noun), fmt::format("it could be {}", list));
     return;
   }
   const std::string_view nearest = nearest_word(word, keywords_);
-  diagnostics_.error(language_ == Language::dataset ? "unknown-statement" : "unknown-command", statement.keyword,
+  diagnostics_.error(language_ == Language::dataset ? "unknown-statement" : "unknown-command", statement.keyword(),
                      fmt::format("there is no {} {}", noun, quoted(word)),
                      nearest.empty() ? std::string{} : fmt::format("did you mean {}?", nearest));
 }
@@ -259,7 +260,7 @@ std::size_t StatementReader::read_id(std::span<const Token> tokens, Statement& s
   };
   while (count < tokens.size() && touches(count)) ++count;
   const Span at = join(token_span(tokens[0], text_), token_span(tokens[count - 1], text_));
-  statement.at = join(statement.keyword, at);
+  statement.at = join(statement.keyword(), at);
 
   std::string_view digits = at.text();
   while (digits.size() > 1 && digits.front() == '0') digits.remove_prefix(1);
@@ -275,7 +276,7 @@ std::size_t StatementReader::read_id(std::span<const Token> tokens, Statement& s
                                    whole && !fits ? " up to 2147483647" : "", quoted(at.text())));
     return count;
   }
-  statement.id = id;
+  statement.id = static_cast<std::int32_t>(id);
   if (digits.size() > documented_id_digits) {
     diagnostics_.warning(
         "long-id", at, fmt::format("the id of {} has more than {} digits", statement.at.text(), documented_id_digits));
@@ -288,11 +289,17 @@ void StatementReader::read_arguments(std::span<const Token> tokens, Statement& s
   SplitArguments split =
       split_arguments(tokens, statement.name, text_, statement.name.empty() ? ignored : diagnostics_);
   statement.damaged = statement.damaged || split.damaged;
-  statement.arguments.reserve(split.drafts.size());
-  for (ArgumentDraft& draft : split.drafts) {
-    draft.argument.value = dataset_.tokens.add(tokens.subspan(draft.begin, draft.end - draft.begin));
-    statement.arguments.push_back(draft.argument);
+  statement.arguments.reserve(split.arguments.size());
+  for (WrittenArgument& argument : split.arguments) {
+    if (!argument.value().empty()) argument.set_value(dataset_.tokens.add(argument.value()));
+    statement.arguments.push_back(argument);
   }
+}
+
+template <class T>
+void give_back(std::pmr::vector<T>& list) {
+  list.clear();
+  list.shrink_to_fit();
 }
 
 }  // namespace
@@ -301,31 +308,42 @@ std::span<const Token> TokenStore::add(std::span<const Token> tokens) {
   constexpr std::size_t first_block = 256, largest_block = 65536;
   if (blocks_.empty() || blocks_.back().capacity() - blocks_.back().size() < tokens.size()) {
     const std::size_t next = blocks_.empty() ? first_block : std::min(2 * blocks_.back().capacity(), largest_block);
-    blocks_.emplace_back().reserve(std::max(next, tokens.size()));
+    blocks_.emplace_back(&system_pages()).reserve(std::max(next, tokens.size()));
   }
-  std::vector<Token>& block = blocks_.back();
+  std::pmr::vector<Token>& block = blocks_.back();
   block.insert(block.end(), tokens.begin(), tokens.end());
   return std::span<const Token>(block).last(tokens.size());
 }
 
 void TokenStore::release_before(std::span<const Token> stored) {
-  const auto holds = [&](const std::vector<Token>& block) {
+  const auto holds = [&](const std::pmr::vector<Token>& block) {
     const std::less_equal<const Token*> before;
     return !block.empty() && before(block.data(), stored.data()) && before(stored.data(), &block.back());
   };
   std::size_t here = released_;
   while (here < blocks_.size() && !holds(blocks_[here])) ++here;
   if (stored.empty() || here == blocks_.size()) return;
-  for (; released_ < here; ++released_) std::vector<Token>().swap(blocks_[released_]);
+  for (; released_ < here; ++released_) give_back(blocks_[released_]);
+}
+
+void WrittenArgument::set_value(std::span<const Token> tokens) {
+  constexpr std::size_t most = (1u << 30) - 1;  // a text of 4 GiB at most has no value of so many
+  tokens_ = tokens.data(), count_ = static_cast<std::uint32_t>(tokens.size()) & most, offset_ = tokens.front().offset;
+}
+
+Span WrittenArgument::value_span() const {
+  if (count_ == 0) return {name.source, offset_, 0};
+  const Token& last = tokens_[count_ - 1];
+  return {name.source, offset_, last.offset + last.length - offset_};
 }
 
 void Dataset::release_arguments(Statement& statement) {
-  for (const WrittenArgument& w : statement.arguments) tokens.release_before(w.value);
-  std::vector<WrittenArgument>().swap(statement.arguments);
+  for (const WrittenArgument& w : statement.arguments) tokens.release_before(w.value());
+  give_back(statement.arguments);
 }
 
 void Dataset::release_arguments() {
-  for (Statement& statement : statements) std::vector<WrittenArgument>().swap(statement.arguments);
+  for (Statement& statement : statements) give_back(statement.arguments);
   tokens = {};
 }
 

@@ -146,7 +146,7 @@ TEST(statements, are_found_by_their_short_forms) {
 TEST(statements, span_keyword_and_id) {
   const auto parsed = read("  SFORCE / 12, I=1\nIC/");
   EXPECT_EQ(parsed.value.statements.at(0).at.text(), "SFORCE / 12");
-  EXPECT_EQ(parsed.value.statements.at(0).keyword.text(), "SFORCE");
+  EXPECT_EQ(parsed.value.statements.at(0).keyword().text(), "SFORCE");
   EXPECT_EQ(parsed.value.statements.at(1).at.text(), "IC");
 }
 

@@ -40,7 +40,7 @@ inline std::vector<std::string> problems(const Diagnostics& diagnostics) {
 // The tokens of a value with one blank between them; continuation marks in angle brackets.
 inline std::string value_text(const WrittenArgument& argument, const SourceText& source) {
   std::string text;
-  for (const Token& token : argument.value) {
+  for (const Token& token : argument.value()) {
     if (!text.empty()) text += ' ';
     text += token.continuation ? "<,>" : std::string(token_text(token, source));
   }

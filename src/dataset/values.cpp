@@ -23,7 +23,7 @@ std::string_view name_of(const WrittenArgument& argument) { return argument.name
 // False if there is nothing to read, which is reported here unless it was before.
 bool has_readable_value(const WrittenArgument& argument, std::string_view what, Diagnostics& diagnostics) {
   if (argument.damaged) return false;
-  if (argument.has_value && !argument.value.empty()) return true;
+  if (argument.has_value && !argument.value().empty()) return true;
   diagnostics.error("missing-value", argument.name, fmt::format("{} needs {}", name_of(argument), what),
                     fmt::format("write {} = ...", name_of(argument)));
   return false;
@@ -48,7 +48,7 @@ class NumberList {
   }
 
  private:
-  std::span<const Token> tokens() const { return argument_.value; }
+  std::span<const Token> tokens() const { return argument_.value(); }
   bool symbol_here(char symbol) const { return at_ < tokens().size() && is_symbol(tokens()[at_], source_, symbol); }
 
   std::optional<WrittenReal> read_number() {
@@ -134,7 +134,7 @@ std::optional<WrittenInteger> as_integer(const WrittenArgument& argument, const 
 // One word, which may begin with digits (3DBEAM) as long as no blank stands in it.
 std::optional<Span> take_word(const WrittenArgument& argument, const SourceText& source, Diagnostics& diagnostics,
                               std::size_t& at) {
-  const std::span<const Token> tokens = argument.value;
+  const std::span<const Token> tokens = argument.value();
   while (at < tokens.size() && tokens[at].continuation) ++at;
   if (at == tokens.size()) {
     diagnostics.error("missing-value", token_span(tokens.back(), source),
@@ -208,8 +208,8 @@ std::optional<Span> read_word(const WrittenArgument& argument, const SourceText&
   if (!has_readable_value(argument, "a word", diagnostics)) return std::nullopt;
   std::size_t at = 0;
   const std::optional<Span> word = take_word(argument, source, diagnostics, at);
-  if (!word || at == argument.value.size()) return word;
-  report_not_a_word(argument, argument.value[at], source, "one word", diagnostics);
+  if (!word || at == argument.value().size()) return word;
+  report_not_a_word(argument, argument.value()[at], source, "one word", diagnostics);
   return std::nullopt;
 }
 
@@ -222,12 +222,12 @@ std::optional<std::vector<Span>> read_words(const WrittenArgument& argument, con
     const std::optional<Span> word = take_word(argument, source, diagnostics, at);
     if (!word) return std::nullopt;
     words.push_back(*word);
-    while (at < argument.value.size() && argument.value[at].continuation) ++at;
-    if (at == argument.value.size()) return words;
-    if (!is_symbol(argument.value[at], source, ':')) break;
+    while (at < argument.value().size() && argument.value()[at].continuation) ++at;
+    if (at == argument.value().size()) return words;
+    if (!is_symbol(argument.value()[at], source, ':')) break;
     ++at;
   }
-  report_not_a_word(argument, argument.value[at], source, "words with colons between them", diagnostics);
+  report_not_a_word(argument, argument.value()[at], source, "words with colons between them", diagnostics);
   return std::nullopt;
 }
 

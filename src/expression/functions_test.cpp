@@ -17,7 +17,7 @@ namespace dynalin::expression_test::functions_test {
 namespace {
 
 using Taylor = TimeTaylor<double>;
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 struct Row {
   std::string name;
@@ -124,7 +124,7 @@ std::string call_text(const std::string& name, std::size_t count) {
   return text + ")";
 }
 
-std::string shown(const Row& row) { return row.name + testing::PrintToString(row.argument); }
+std::string shown(const Row& row) { return row.name + ::testing::PrintToString(row.argument); }
 
 double tolerance(double x, double relative) { return relative * std::max(1.0, std::fabs(x)); }
 
@@ -257,7 +257,7 @@ TEST(ExpressionFunctions, kinks_take_the_documented_side) {
   for (const Kink& row : table) {
     const Result<double> r = evaluate(row.text, row.x);
     EXPECT_DOUBLE_EQ(r.value, row.value) << row.text;
-    EXPECT_THAT(r.partial, testing::Pointwise(testing::DoubleEq(), row.partial)) << row.text;
+    EXPECT_THAT(r.partial, ::testing::Pointwise(::testing::DoubleEq(), row.partial)) << row.text;
   }
 }
 

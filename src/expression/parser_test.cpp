@@ -12,9 +12,9 @@
 namespace dynalin::expression_test::parser_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 struct Precedence {
   const char* text;
@@ -232,7 +232,7 @@ TEST(ExpressionParser, errors_point_at_their_places) {
   };
   for (const Wrong& row : table) {
     const ParsedText parsed = parse(row.text);
-    EXPECT_THAT(parsed.problems(), testing::UnorderedElementsAreArray(row.problems)) << row.text;
+    EXPECT_THAT(parsed.problems(), ::testing::UnorderedElementsAreArray(row.problems)) << row.text;
     EXPECT_TRUE(parsed.expression.is_constant());
     EXPECT_EQ(evaluate<double>(parsed.expression, {}).value, 0.0);
   }
@@ -257,7 +257,7 @@ TEST(ExpressionParser, errors_keep_their_places_within_a_dataset) {
   ASSERT_FALSE(dataset.diagnostics.has_errors());
   const WrittenArgument& function = dataset.value.statements.at(0).arguments.at(1);
   Diagnostics diagnostics;
-  parse_expression(function.value, *source, diagnostics);
+  parse_expression(function.value(), *source, diagnostics);
   EXPECT_THAT(render(diagnostics), HasSubstr("model.adm:3:6: error: STEPP is no function"));
 }
 

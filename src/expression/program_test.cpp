@@ -13,7 +13,7 @@ namespace dynalin::expression_test::program_test {
 namespace {
 
 using Taylor = TimeTaylor<double>;
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

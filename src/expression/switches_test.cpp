@@ -14,9 +14,9 @@ namespace dynalin::expression_test::switches_test {
 namespace {
 
 using Taylor = TimeTaylor<double>;
-using testing::DoubleNear;
-using testing::ElementsAre;
-using testing::Pointwise;
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
+using ::testing::Pointwise;
 
 constexpr double pi = std::numbers::pi;
 

@@ -83,7 +83,7 @@ class Reader final : public ElementReader {
     const std::size_t before = diagnostics().error_count();
     Expression e = written.name.source == routines_.calls.get()
                        ? routine_at(written)
-                       : parse_expression(written.value, *written.name.source, diagnostics());
+                       : parse_expression(written.value(), *written.name.source, diagnostics());
     if (diagnostics().error_count() == before) check_references(e);
     if (diagnostics().error_count() > before) return std::nullopt;
     return e;
@@ -92,7 +92,7 @@ class Reader final : public ElementReader {
   std::optional<VectorExpression> vector_expression(const WrittenArgument& written) override {
     if (written.damaged) return std::nullopt;
     const std::size_t before = diagnostics().error_count();
-    VectorExpression v = parse_vector_expression(written.value, *written.name.source, diagnostics());
+    VectorExpression v = parse_vector_expression(written.value(), *written.name.source, diagnostics());
     for (std::size_t k = 0; k < 3 && diagnostics().error_count() == before; ++k) check_references(v.component[k]);
     if (diagnostics().error_count() > before) return std::nullopt;
     return v;

@@ -51,18 +51,20 @@ std::string unquoted(std::string_view text) {
 
 bool calls_routine(const WrittenArgument& w) {
   static constexpr std::array<std::string_view, 1> user = {"USER"};
-  if (w.damaged || w.value.size() < 2) return false;
-  const auto text = [&](std::size_t k) { return w.name.source->text().substr(w.value[k].offset, w.value[k].length); };
-  return w.value[0].kind == TokenKind::word && find_keyword(text(0), user) == 0 && text(0).size() == user[0].size() &&
+  if (w.damaged || w.value().size() < 2) return false;
+  const auto text = [&](std::size_t k) {
+    return w.name.source->text().substr(w.value()[k].offset, w.value()[k].length);
+  };
+  return w.value()[0].kind == TokenKind::word && find_keyword(text(0), user) == 0 && text(0).size() == user[0].size() &&
          text(1) == "(";
 }
 
 const Token* behind_call(const WrittenArgument& w) {
   int depth = 0;
-  for (std::size_t k = 1; k < w.value.size(); ++k) {
-    const std::string_view text = w.name.source->text().substr(w.value[k].offset, w.value[k].length);
+  for (std::size_t k = 1; k < w.value().size(); ++k) {
+    const std::string_view text = w.name.source->text().substr(w.value()[k].offset, w.value()[k].length);
     depth += text == "(" ? 1 : text == ")" ? -1 : 0;
-    if (depth == 0) return k + 1 < w.value.size() ? &w.value[k + 1] : nullptr;
+    if (depth == 0) return k + 1 < w.value().size() ? &w.value()[k + 1] : nullptr;
   }
   return nullptr;
 }
@@ -184,7 +186,7 @@ std::optional<std::size_t> CalledRoutines::size_of_list(std::string_view stateme
 // Between the parentheses of USER(…).
 std::optional<std::vector<double>> CalledRoutines::constants_of(const WrittenArgument& call, const std::string& label) {
   const SourceText& source = *call.name.source;
-  const auto tokens = call.value;
+  const auto tokens = call.value();
   const Token& last = tokens.back();
   if (source.text().substr(last.offset, last.length) != ")") {
     diagnostics_.error("unbalanced-parenthesis", {&source, tokens[0].offset, tokens[0].length},
@@ -193,10 +195,7 @@ std::optional<std::vector<double>> CalledRoutines::constants_of(const WrittenArg
   }
   if (tokens.size() <= 3) return std::vector<double>();
   WrittenArgument constants = call;
-  constants.value = tokens.subspan(2, tokens.size() - 3);
-  constants.place_value(
-      {&source, constants.value.front().offset,
-       constants.value.back().offset + constants.value.back().length - constants.value.front().offset});
+  constants.set_value(tokens.subspan(2, tokens.size() - 3));
   return read_reals(constants, source, diagnostics_);
 }
 

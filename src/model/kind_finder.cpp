@@ -39,7 +39,7 @@ const Kind* KindFinder::find(const Statement& s, std::size_t& variant_argument, 
   variant_argument = no_argument;
   const auto it = kinds_.find(s.name);
   if (it == kinds_.end()) {
-    diagnostics.error("statement-not-built", s.keyword, fmt::format("{} is not available yet", s.name));
+    diagnostics.error("statement-not-built", s.keyword(), fmt::format("{} is not available yet", s.name));
     return nullptr;
   }
   // No structured binding: clang 14 lets no lambda have one.

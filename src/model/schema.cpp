@@ -120,7 +120,7 @@ bool read_value(UserSubroutine& slot, const WrittenArgument& w, const ValueLimit
   if (w.damaged) return false;  // reported when the text was read
   static constexpr std::array<std::string_view, 1> user = {"USER"};
   const std::string owner = r.label().text();
-  const Span first = w.value.empty() ? w.value_span() : Span{w.name.source, w.value[0].offset, w.value[0].length};
+  const Span first = w.value().empty() ? w.value_span() : Span{w.name.source, w.value()[0].offset, w.value()[0].length};
   if (find_keyword(first.text(), user)) {
     r.error("function-not-built", first,
             fmt::format("{} calls the user subroutine {}; user subroutines are not available", owner, slot.name));

@@ -130,7 +130,7 @@ class Replacement {
       const Token* more = behind_call(w);
       if (!more && is_one_of_several(s, w)) {
         diagnostics_.error(
-            "routine-in-expression", span_of(w.value[0], *w.name.source),
+            "routine-in-expression", span_of(w.value()[0], *w.name.source),
             fmt::format("a routine is called by the FUNCTION of {}, and gives all of its values", s.at.text()),
             std::string(hint_of_routine_in_expression));
         refused = w.damaged = true;
@@ -162,7 +162,7 @@ class Replacement {
       std::erase_if(s.arguments, names_code);
       return;
     }
-    const Span at = call ? span_of(call->value[0], *call->name.source) : s.at;
+    const Span at = call ? span_of(call->value()[0], *call->name.source) : s.at;
     std::shared_ptr<const StateEquations> equations;
     if (called_.has_libraries()) {
       equations = called_.find_state_equations(s, call);
@@ -172,7 +172,7 @@ class Replacement {
                          "--user-library FILE.so names a library; no constant can take its place");
     }
     if (equations) calls_.emplace_back(&s, called_.written(equations, call ? call->value_span() : s.at));
-    std::vector<WrittenArgument> kept;
+    WrittenArguments kept;
     for (WrittenArgument& w : s.arguments) {
       if (names_code(w) || (equations && calls_routine(w))) continue;
       if (calls_routine(w)) w.damaged = true;
@@ -193,7 +193,7 @@ class Replacement {
     if (!routine) {
       if (diagnostics_.error_count() > errors) call.damaged = true;
       if (call.damaged || value_ || wanted.empty()) return call.damaged;
-      diagnostics_.error("missing-routine", span_of(call.value[0], *call.name.source),
+      diagnostics_.error("missing-routine", span_of(call.value()[0], *call.name.source),
                          fmt::format("{} calls {}, and no library has it", s.at.text(), wanted),
                          "--user-library names libraries; nm -D FILE.so lists what is in one");
       call.damaged = true;
@@ -206,7 +206,7 @@ class Replacement {
 
   void replace(Statement& s, std::size_t k) {
     WrittenArgument& call = s.arguments[k];
-    const Span at = span_of(call.value[0], *call.name.source);
+    const Span at = span_of(call.value()[0], *call.name.source);
     const auto stand =
         std::find_if(stands.begin(), stands.end(), [&](const Stand& r) { return r.statement == s.name; });
     if (!value_ || stand == stands.end()) {

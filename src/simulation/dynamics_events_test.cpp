@@ -10,7 +10,7 @@
 namespace dynalin::system_test::dynamics_events_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 struct Led {
   AdvancedPoint end;
@@ -81,7 +81,7 @@ TEST(DynamicsWithEvents, what_reads_senval_jumps_where_the_sensor_triggers) {
 
 TEST(DynamicsWithEvents, a_jump_is_located) {
   const Led r = lead("DIFF/1, IC=0, FUNCTION=IF(TIME-0.3701: 1, 1, -3)\n", 1, 0.1);
-  EXPECT_THAT(r.steps, testing::Contains(testing::DoubleNear(0.3701, 1e-10)));
+  EXPECT_THAT(r.steps, ::testing::Contains(::testing::DoubleNear(0.3701, 1e-10)));
   EXPECT_NEAR(r.end.point.state[0], 0.3701 - 3 * (1 - 0.3701), 1e-6);
 }
 

@@ -10,8 +10,8 @@
 namespace dynalin::system_test::events_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 // A DIFF whose state x is set by hand.
 const std::string state = "DIFF/1, IC=0, FUNCTION=1\n";
@@ -69,7 +69,7 @@ TEST(Events, of_equations_make_the_integration_begin_anew) {
   ASSERT_EQ(w.events.size(), 4u);
   EXPECT_FALSE(w.start(-1).restart);
   EXPECT_FALSE(w.go(1, 0.5).restart);  // STEP begins in a branch that is not taken
-  EXPECT_THAT(w.crossed, testing::Contains(1));
+  EXPECT_THAT(w.crossed, ::testing::Contains(1));
   EXPECT_TRUE(w.go(2, 1.5).restart);
   EXPECT_FALSE(w.go(3, 2.5).restart);
   EXPECT_TRUE(w.go(4, 3.5).restart);

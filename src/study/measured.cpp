@@ -15,7 +15,7 @@ std::shared_ptr<const Dataset> with_variables(const std::shared_ptr<const Datase
                                               std::span<const std::string> functions, std::int64_t& first) {
   first = 1;
   for (const Statement& s : base->statements) {
-    if (s.name == "VARIABLE" && s.id) first = std::max(first, *s.id + 1);
+    if (s.name == "VARIABLE" && s.id) first = std::max(first, std::int64_t{*s.id} + 1);
   }
   std::string text = "functions\n";
   for (std::size_t k = 0; k < functions.size(); ++k)

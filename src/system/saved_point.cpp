@@ -32,7 +32,10 @@ std::vector<EntryKey> keys_by_place(const System& system, const std::vector<Span
   if (!in.empty() && system.model().dataset) {
     for (const Statement& s : system.model().dataset->statements) {
       claim(s, s.at, s.at.offset + s.at.length);
-      for (const WrittenArgument& a : s.arguments) claim(s, a.name, a.value_offset + a.value_length);
+      for (const WrittenArgument& a : s.arguments) {
+        const Span value = a.value_span();
+        claim(s, a.name, value.offset + value.length);
+      }
     }
   }
   KeyCounter keys;

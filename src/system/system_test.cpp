@@ -276,7 +276,7 @@ TEST(System, switches_of_all_expressions_are_known) {
                            "DIFF/1, IMPLICIT, IC=0, FUNCTION=DIM(TIME,9)-DIF(1)\nDIFF/2, FUNCTION=DIF1(1)\n");
   OperatingPoint op = s->drawn();
   op.time = 100;
-  EXPECT_THAT(switches_of(*s, op), testing::UnorderedElementsAre(99, 98, 97, 96, 95, 94, 93, 92, 91));
+  EXPECT_THAT(switches_of(*s, op), ::testing::UnorderedElementsAre(99, 98, 97, 96, 95, 94, 93, 92, 91));
   op.time = -1;
   EXPECT_EQ(switches_of(*s, op).size(), 9u);
   // Those of elements that a command has taken out of the model are none.

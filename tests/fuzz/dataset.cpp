@@ -17,7 +17,7 @@ void use(const Dataset& dataset, Diagnostics diagnostics) {
     demand(std::size_t{statement.at.offset} + statement.at.length <= limit, "a statement outside its source");
     for (const WrittenArgument& argument : statement.arguments) {
       demand(std::size_t{argument.value_span().offset} + argument.value_span().length <= limit, "a value outside");
-      for (const Token& token : argument.value) demand(std::size_t{token.offset} + token.length <= limit, "a token");
+      for (const Token& token : argument.value()) demand(std::size_t{token.offset} + token.length <= limit, "a token");
       read_real(argument, source, diagnostics);
       read_reals(argument, source, diagnostics, 3);
       read_integer(argument, source, diagnostics);

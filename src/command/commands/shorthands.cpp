@@ -10,7 +10,7 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
   Statement whole = reader.statement();
   whole.name = "INTEGRATOR";
   WrittenArgument type;
-  type.name = whole.keyword;
+  type.name = whole.keyword();
   whole.arguments.insert(whole.arguments.begin(), type);
   const ElementLabel label{whole.name, 0, "", whole.at};
   CommandReader integrator(whole, reader.source(), reader.diagnostics(), label);

@@ -27,9 +27,6 @@ struct MarkerStatement {
   std::optional<Vector> angles, z_point, x_point;
   bool use_x_point = false, floating = false;
   MarkerId reference;
-  BodyId owner;
-  Span node_at;
-  Matrix3 axes = Matrix3::identity();
 
   static constexpr std::array<Argument<MarkerStatement>, 13> arguments = {{
       {.name = "PART",
@@ -77,6 +74,17 @@ struct MarkerStatement {
   }};
 };
 
+// What stays of it until all bodies are known.
+struct ReadMarker {
+  BodyId owner;
+  MarkerId reference;
+  std::optional<std::int64_t> node;
+  Span node_at;
+  Vector origin;
+  Matrix3 axes = Matrix3::identity();
+  bool floating = false;
+};
+
 // Arguments of the language that are known and missing here. They must not take abbreviations from the others.
 constexpr std::array<std::string_view, 3> not_built = {"CURVE", "SURFACE", "VELOCITY"};
 
@@ -96,34 +104,15 @@ bool names_what_is_not_built(ElementReader& reader) {
   return found;
 }
 
-class MarkerSet final : public TypedSet<MarkerStatement> {
+class MarkerSet final : public TypedSet<ReadMarker> {
  public:
   using TypedSet::TypedSet;
 
   void read(std::size_t k, ElementReader& reader) override {
-    MarkerStatement& m = elements[k];
+    MarkerStatement m;
     if (names_what_is_not_built(reader) || !read_arguments(m, reader)) return;
-    const std::array<std::pair<std::string_view, BodyId>, 4> owners = {
-        {{"PART", m.part}, {"POINT_MASS", m.point_mass}, {"FLEX_BODY", m.flex_body}, {"FE_PART", m.beam}}};
-    std::string_view first;
-    for (const auto& [word, owner] : owners) {
-      if (!owner.valid()) continue;
-      if (m.owner.valid()) {
-        reader.error("two-owners", reader.at(word),
-                     fmt::format("{} belongs to a {} and to a {}", reader.label().text(), first, word));
-        break;
-      }
-      m.owner = owner, first = word;
-    }
-    if (!m.owner.valid()) {
-      const auto body = reader.preceding_body();
-      if (!body) {
-        reader.error("missing-owner", reader.statement().at,
-                     fmt::format("{} states no owner and no body stands before it", reader.label().text()));
-        return;
-      }
-      m.owner = *body;
-    }
+    const auto owner = owner_of(m, reader);
+    if (!owner) return;
     if (m.floating && (reader.given("QP") || m.angles || m.z_point || m.x_point)) {
       reader.error("placed-floating-marker", reader.at("FLOATING"),
                    fmt::format("{} is FLOATING and takes no place of its own", reader.label().text()));
@@ -132,14 +121,19 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
       reader.error("missing-argument", reader.at("USEXP"), "USEXP needs XP");
       return;
     }
-    m.node_at = reader.at(m.label_of_node ? "NODE_LABEL" : "NODE_ID");
+    const Span node_at = reader.at(m.label_of_node ? "NODE_LABEL" : "NODE_ID");
     if (m.node && m.label_of_node) {
-      reader.error("two-owners", m.node_at, fmt::format("{} has NODE_ID and NODE_LABEL", reader.label().text()));
+      reader.error("two-owners", node_at, fmt::format("{} has NODE_ID and NODE_LABEL", reader.label().text()));
     }
-    if (m.label_of_node) m.node = m.label_of_node;
+    elements[k] = {.owner = *owner,
+                   .reference = m.reference,
+                   .node = m.label_of_node ? m.label_of_node : m.node,
+                   .node_at = node_at,
+                   .origin = m.origin,
+                   .floating = m.floating};
     const auto axes =
         orientation({m.angles, m.z_point, m.x_point, m.use_x_point, "REULER", "ZP", "XP"}, m.origin, reader);
-    if (axes) m.axes = *axes;
+    if (axes) elements[k].axes = *axes;
   }
 
   void finish(Model& model, Diagnostics& diagnostics) override {
@@ -162,28 +156,52 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
     for (std::size_t k = 0; k < elements.size(); ++k) refer(k, model, diagnostics);
     for (std::size_t k = 0; k < elements.size(); ++k) add_shapes(k, flexible, model);
     // All that counts is in the model now.
-    std::vector<MarkerStatement>().swap(elements);
+    std::vector<ReadMarker>().swap(elements);
     std::vector<State>().swap(state_);
   }
 
  private:
   enum class State : std::uint8_t { as_written, on_the_way, placed, faulty };
 
+  // The body that it names, or that is stated before it.
+  static std::optional<BodyId> owner_of(const MarkerStatement& m, ElementReader& reader) {
+    const std::array<std::pair<std::string_view, BodyId>, 4> owners = {
+        {{"PART", m.part}, {"POINT_MASS", m.point_mass}, {"FLEX_BODY", m.flex_body}, {"FE_PART", m.beam}}};
+    std::optional<BodyId> named;
+    std::string_view first;
+    for (const auto& [word, owner] : owners) {
+      if (!owner.valid()) continue;
+      if (named) {
+        reader.error("two-owners", reader.at(word),
+                     fmt::format("{} belongs to a {} and to a {}", reader.label().text(), first, word));
+        break;
+      }
+      named = owner, first = word;
+    }
+    if (named) return named;
+    const auto body = reader.preceding_body();
+    if (!body) {
+      reader.error("missing-owner", reader.statement().at,
+                   fmt::format("{} states no owner and no body stands before it", reader.label().text()));
+    }
+    return body;
+  }
+
   std::size_t reference_of(std::size_t k) const { return static_cast<std::size_t>(elements[k].reference.index) - 1; }
 
-  static const FlexibleBody* owner_of(const MarkerStatement& m, const std::vector<FlexibleBody>& flexible) {
+  static const FlexibleBody* flexible_owner(const ReadMarker& m, const std::vector<FlexibleBody>& flexible) {
     const auto found = std::ranges::find(flexible, m.owner, &FlexibleBody::body);
     return found == flexible.end() ? nullptr : &*found;
   }
 
-  static const BeamBody* beam_of(const MarkerStatement& m, const std::vector<BeamBody>& beams) {
+  static const BeamBody* beam_of(const ReadMarker& m, const std::vector<BeamBody>& beams) {
     const auto found = std::ranges::find(beams, m.owner, [](const BeamBody& b) { return b.nodes.front(); });
     return found == beams.end() ? nullptr : &*found;
   }
 
   // A node of a beam is a body of its own: QP counts from it along the axes of the BCS, and so do the axes.
   void put_on_beam(std::size_t k, const BeamBody& beam, Model& model, Diagnostics& diagnostics) {
-    const MarkerStatement& m = elements[k];
+    const ReadMarker& m = elements[k];
     const std::string name = labels[k].text(), owner = beam.label->text();
     if (!m.node) {
       diagnostics.error("missing-argument", labels[k].at, fmt::format("{} on {} needs NODE_LABEL", name, owner),
@@ -208,8 +226,8 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
   // On a flexible body QP counts from the node, but for one that is placed in the frame of another marker.
   void put_on_node(std::size_t k, const std::vector<FlexibleBody>& flexible, Model& model,
                    Diagnostics& diagnostics) const {
-    const MarkerStatement& m = elements[k];
-    const FlexibleBody* owner = owner_of(m, flexible);
+    const ReadMarker& m = elements[k];
+    const FlexibleBody* owner = flexible_owner(m, flexible);
     if (owner && !owner->flexible) return;  // its own statement has errors
     const std::string name = labels[k].text();
     if (!owner) {
@@ -242,8 +260,8 @@ class MarkerSet final : public TypedSet<MarkerStatement> {
   }
 
   void add_shapes(std::size_t k, const std::vector<FlexibleBody>& flexible, Model& model) const {
-    const MarkerStatement& m = elements[k];
-    const FlexibleBody* owner = owner_of(m, flexible);
+    const ReadMarker& m = elements[k];
+    const FlexibleBody* owner = flexible_owner(m, flexible);
     const auto node = owner && owner->flexible && m.node ? owner->flexible->node(*m.node) : std::nullopt;
     if (!node || owner->flexible->modes() == 0) return;
     const ModalBody& body = *owner->flexible;

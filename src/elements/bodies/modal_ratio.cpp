@@ -35,7 +35,7 @@ std::optional<Expression> parsed(const std::string& text, const Span& at, Diagno
   std::optional<Expression> e;
   if (!dataset.diagnostics.has_errors() && !dataset.value.statements.empty() &&
       !dataset.value.statements.front().arguments.empty())
-    e = parse_expression(dataset.value.statements.front().arguments.front().value, *source, problems);
+    e = parse_expression(dataset.value.statements.front().arguments.front().value(), *source, problems);
   if (e && !problems.has_errors()) return e;
   const auto& items = problems.has_errors() ? problems.items() : dataset.diagnostics.items();
   for (const Diagnostic& d : items) {
