@@ -76,7 +76,8 @@ int run(int argc, char** argv) {
   run->add_option("-c", options.commands, "a command, may be repeated")->allow_extra_args(false);
   const CLI::Validator named([](const std::string& name) { return name.empty() ? "its name is empty" : ""; }, "");
   run->add_option("--json", options.json, "write everything computed to this file")->check(named);
-  run->add_option("--output", options.output_prefix, "prefix of the output files")->check(named);
+  run->add_option("--output", options.output_prefix, "prefix of the output files; FOLDER/ for their folder alone")
+      ->check(named);
   run->add_option("--modes", options.modes, "so many of the lowest modes of every LINEAR/EIGENSOL instead of all")
       ->check(CLI::PositiveNumber);
   run->add_option("--dense-up-to", options.dense_up_to,

@@ -82,8 +82,13 @@ void Contributions::take(const std::vector<std::size_t>& pieces, std::vector<Mat
 }
 
 std::vector<Contribution> Contributions::of_elements() const {
-  std::unordered_set<const ElementLabel*> bodies, constraints;
-  for (const BodyBlock& b : system_.layout().bodies) bodies.insert(&b.label);
+  std::unordered_map<const ElementLabel*, Contribution::Of> bodies;
+  std::unordered_set<const ElementLabel*> constraints;
+  const auto& blocks = system_.layout().bodies;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const bool changes = points_.changes_shape({static_cast<std::int32_t>(b)});
+    bodies[&blocks[b].label] = changes ? Contribution::Of::changing_body : Contribution::Of::rigid_body;
+  }
   for (const ConstraintRow& r : system_.layout().rows) constraints.insert(r.owner);
   // One element may have several places in the trace: its forces, its reactions.
   std::vector<std::pair<const ElementLabel*, std::vector<std::size_t>>> elements;
@@ -98,10 +103,10 @@ std::vector<Contribution> Contributions::of_elements() const {
   std::vector<Contribution> list;
   for (const auto& [of, pieces] : elements) {
     Contribution c{of, Contribution::Of::force, {}};
-    if (constraints.contains(of))
+    if (const auto body = bodies.find(of); body != bodies.end())
+      c.of = body->second;
+    else if (constraints.contains(of))
       c.of = Contribution::Of::constraint;
-    else if (bodies.contains(of))
-      c.of = Contribution::Of::body;
     take(pieces, c.entries);
     add_up(c.entries);
     const bool exerts = c.of == Contribution::Of::force;  // one without partials may be wanted all the same

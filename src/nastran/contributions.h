@@ -24,7 +24,7 @@ struct MatrixEntry {
 void add_up(std::vector<MatrixEntry>&, double rounding = 2e-15);
 
 struct Contribution {
-  enum class Of : std::uint8_t { body, constraint, force };
+  enum class Of : std::uint8_t { rigid_body, changing_body, constraint, force };
   const ElementLabel* element;
   Of of;
   std::vector<MatrixEntry> entries;  // added up

@@ -32,7 +32,7 @@ std::span<const Directive> item_directives() {
        .ignored = in_closed_box},
       {.name = "all_flexbodies_editable",
        .slot = &O::all_flexbodies_editable,
-       .help = "each flexible body with matrices of its own",
+       .help = "each flexible body and each beam with matrices of its own",
        .ignored = in_closed_box},
       {.name = "flexbody_editable_by_id",
        .slot = Editables{&O::flexbody_editable, false, false},

@@ -18,13 +18,24 @@ StudyResult<void> add_modes(const Linearization& of, const OpenPoints& points, D
   const StateChoice& choice = of.linear.at->choice;
   const auto& bodies = of.system->layout().bodies;
 
-  std::map<std::int64_t, std::size_t> grids,
-      scalar_points;  // of bodies; of differential states, by place in the choice
+  std::map<std::int64_t, std::size_t> grids;  // of bodies
   for (std::size_t b = 1; b < bodies.size(); ++b) grids[points.grid({static_cast<std::int32_t>(b)})] = b;
-  for (std::size_t k = 0; k < choice.differential.size(); ++k)
-    scalar_points[points.dof(points.unknown_of_state(choice.differential[k])).point] = k;
+  // Rows of the modes themselves, or of their displacements.
+  struct Row {
+    const Eigen::MatrixXcd* of;
+    Eigen::Index at;
+  };
+  std::map<std::int64_t, Row> scalar_points;
+  for (std::size_t k = 0; k < choice.differential.size(); ++k) {
+    scalar_points[points.dof(points.unknown_of_state(choice.differential[k])).point] = {
+        &solution.vectors, choice.first_differential + static_cast<Eigen::Index>(k)};
+  }
+  for (const ExtraBlock& e : of.system->layout().extras) {
+    if (e.type != StateType::flex_body && e.type != StateType::fe_part) continue;
+    for (std::int32_t k = e.offset; k < e.offset + e.count; ++k) scalar_points[points.dof(k).point] = {&moved, k};
+  }
   for (const auto& [id, b] : grids) deck.mode_points.push_back(id);
-  for (const auto& [id, k] : scalar_points) deck.mode_points.push_back(id);
+  for (const auto& [id, row] : scalar_points) deck.mode_points.push_back(id);
 
   for (std::size_t m = 0; m < solution.modes.size(); ++m) {
     const auto column = static_cast<Eigen::Index>(m);
@@ -39,8 +50,7 @@ StudyResult<void> add_modes(const Linearization& of, const OpenPoints& points, D
         u[k] += u[3 + i] * arm[j] - u[3 + j] * arm[i];
       }
     }
-    for (const auto& [id, k] : scalar_points)
-      shape.push_back({solution.vectors(choice.first_differential + static_cast<Eigen::Index>(k), column)});
+    for (const auto& [id, row] : scalar_points) shape.push_back({(*row.of)(row.at, column)});
     Complex largest = 0;
     for (const auto& u : shape) {
       for (const Complex& v : u) {

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "elements/bodies/fe_part.h"
-#include "elements/bodies/flex_body.h"
 #include "linear/perturbed_point.h"
 #include "mechanics/pair_blocks.h"
 #include "nastran/export_point.h"
@@ -38,23 +36,6 @@ class OpenBox {
         wrenches_(system_) {}
 
   StudyResult<Deck> run() {
-    if (!options_.flexbody_editable.empty() && !options_.ignore_errors)
-      return tl::unexpected(StudyFailure({"export", "the model has no FLEX_BODY to be singled out", {}}));
-    if (const auto flexible = flexible_bodies(system_.model()); !flexible.empty()) {
-      return tl::unexpected(
-          StudyFailure({"export",
-                        fmt::format("{} is a flexible body: an open box of these is not available, a closed box is",
-                                    system_.layout().body(flexible.front().body).label.full_text()),
-                        {}}));
-    }
-    if (const auto beams = beam_bodies(system_.model()); !beams.empty()) {
-      return tl::unexpected(
-          StudyFailure({"export",
-                        fmt::format("{} is a beam of finite elements: an open box of these is not available, a closed "
-                                    "box is",
-                                    beams.front().label->full_text()),
-                        {}}));
-    }
     add_masses();
     if (auto done = markers_.add_asked(remarks_); !done) return tl::unexpected(done.error());
     if (auto done = markers_.add_channels(remarks_); !done) return tl::unexpected(done.error());
@@ -66,6 +47,7 @@ class OpenBox {
     OpenForces forces(system_, at_.motion, options_, ids_, deck_, points_, markers_, wrenches_);
     auto done = forces.add(contributions.of_elements(), std::move(of_states), remarks_);
     if (!done) return tl::unexpected(done.error());
+    warn_of_few_digits();
     const bool moving = moves(of_);
     if (options_.export_tic_cards || moving) add_velocities();
     add_graphics(system_.model(), of_.point.poses, options_, ids_, deck_, remarks_);
@@ -102,6 +84,7 @@ class OpenBox {
     for (std::size_t b = 1; b < bodies.size(); ++b) {
       const dynalin::Body& body = bodies[b];
       const BodyId id{static_cast<std::int32_t>(b)};
+      if (points_.changes_shape(id)) continue;
       ConcentratedMass m;
       m.body = points_.body_in_deck(id);
       m.name = name_of("mass", body.label, options_);
@@ -125,6 +108,22 @@ class OpenBox {
     remarks_.warning("export-differs", {},
                      fmt::format("a mass of {:g} is given to what has none, {}{}: it adds modes of very high frequency",
                                  small, fmt::join(massless, ", "), more ? " and others" : ""));
+  }
+
+  // What rounding leaves of the large entries of a stiffness holds the body where nothing held it.
+  void warn_of_few_digits() {
+    if (options_.use_dmig_long_format) return;
+    const auto& bodies = system_.layout().bodies;
+    for (std::size_t b = 1; b < bodies.size(); ++b) {
+      if (!points_.changes_shape({static_cast<std::int32_t>(b)})) continue;
+      remarks_.warning(
+          "export-differs", {},
+          fmt::format("three digits of the matrices of {}, which bends, do not leave it free to move as it "
+                      "stands: low eigenvalues of the exported deck may be far off",
+                      bodies[b].label.full_text()),
+          "use_dmig_long_format = yes");
+      return;
+    }
   }
 
   // A grid at a marker goes with the grid of its body, and on a body that changes its shape with its coordinates.

@@ -40,15 +40,20 @@ OpenForces::OpenForces(const System& system, const Motion& motion, const ExportO
 // Eight characters, of which one or, of symmetric and antisymmetric parts, two come first.
 std::size_t OpenForces::longest_suffix() const { return options_.split_dmigs ? 6 : 7; }
 
-StudyResult<void> OpenForces::take_suffix(const Editable& wanted, Diagnostics& remarks) {
-  const auto refuse = [&](std::string message) -> StudyResult<void> {
-    if (!options_.ignore_errors) return tl::unexpected(StudyFailure({"export", std::move(message), {}}));
-    remarks.warning("export-left-out", {}, message + "; the export goes on without it");
-    return {};
-  };
+StudyResult<void> OpenForces::refuse(std::string message, Diagnostics& remarks) const {
+  if (!options_.ignore_errors) return tl::unexpected(StudyFailure({"export", std::move(message), {}}));
+  remarks.warning("export-left-out", {}, message + "; the export goes on without it");
+  return {};
+}
+
+StudyResult<void> OpenForces::take_suffix_of_force(const Editable& wanted, Diagnostics& remarks) {
   if (std::ranges::find(force_types, wanted.type) == force_types.end())
-    return refuse(fmt::format("{} is no type of force that can be singled out", wanted.type));
-  const std::string statement = upper(wanted.type);
+    return refuse(fmt::format("{} is no type of force that can be singled out", wanted.type), remarks);
+  return take_suffix(wanted, wanted.type, remarks);
+}
+
+StudyResult<void> OpenForces::take_suffix(const Editable& wanted, std::string_view type, Diagnostics& remarks) {
+  const std::string statement = upper(type);
   const std::string name = wanted.id ? fmt::format("{}/{}", statement, *wanted.id) : wanted.name;
   const ElementLabel* found = nullptr;
   for (const auto& set : system_.model().sets) {
@@ -60,21 +65,23 @@ StudyResult<void> OpenForces::take_suffix(const Editable& wanted, Diagnostics& r
   }
   if (!found) {
     return refuse(wanted.id ? fmt::format("{} does not exist", name)
-                            : fmt::format("no {} has the name {}", statement, wanted.name));
+                            : fmt::format("no {} has the name {}", statement, wanted.name),
+                  remarks);
   }
   const bool plain = !wanted.suffix.empty() && std::ranges::all_of(wanted.suffix, [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0;
   });
   if (!plain || wanted.suffix.size() > longest_suffix()) {
     return refuse(fmt::format("{}: names of matrices end in up to {} letters and digits, not in \"{}\"", name,
-                              longest_suffix(), wanted.suffix));
+                              longest_suffix(), wanted.suffix),
+                  remarks);
   }
   for (const auto& [label, suffix] : suffix_) {
     if (suffix == upper(wanted.suffix) && !same_element(*label, *found))
-      return refuse(fmt::format("{} and {} both have the suffix {}", label->text(), name, wanted.suffix));
+      return refuse(fmt::format("{} and {} both have the suffix {}", label->text(), name, wanted.suffix), remarks);
   }
   if (taken_.contains(upper(wanted.suffix)) && !suffix_.contains(found))
-    return refuse(fmt::format("{}: other matrices have the suffix {} already", name, wanted.suffix));
+    return refuse(fmt::format("{}: other matrices have the suffix {} already", name, wanted.suffix), remarks);
   suffix_[found] = upper(wanted.suffix);
   taken_.insert(upper(wanted.suffix));
   return {};
@@ -83,8 +90,9 @@ StudyResult<void> OpenForces::take_suffix(const Editable& wanted, Diagnostics& r
 // The beginning of the statement and the id, or a number that nobody has.
 std::string OpenForces::automatic_suffix(const ElementLabel& label) {
   const std::string id = std::to_string(label.id);
-  std::string suffix;
-  if (label.id >= 0 && id.size() < 6) suffix = std::string(label.statement.substr(0, 6 - id.size())) + id;
+  std::string suffix, letters(label.statement);
+  std::erase(letters, '_');
+  if (label.id >= 0 && id.size() < 6) suffix = letters.substr(0, 6 - id.size()) + id;
   for (int k = 1; suffix.empty() || !taken_.insert(suffix).second; ++k) suffix = fmt::format("F{:05d}", k);
   return suffix;
 }
@@ -92,18 +100,22 @@ std::string OpenForces::automatic_suffix(const ElementLabel& label) {
 StudyResult<void> OpenForces::choose_suffixes(const std::vector<Contribution>& elements, Diagnostics& remarks) {
   taken_ = {options_.forces_dmig_name, options_.differentials_dmig_name};
   for (const Editable& e : options_.force_editable) {
-    if (auto done = take_suffix(e, remarks); !done) return done;
+    if (auto done = take_suffix_of_force(e, remarks); !done) return done;
+  }
+  for (const Editable& e : options_.flexbody_editable) {
+    if (auto done = take_suffix(e, "flex_body", remarks); !done) return done;
   }
   // By the labels of the contributions from here on.
   std::map<const ElementLabel*, std::string> of_contributions;
   std::map<std::pair<std::string_view, std::int64_t>, std::string> stated;
   for (const auto& [label, suffix] : suffix_) stated[{label->statement, label->id}] = suffix;
   for (const Contribution& c : elements) {
-    if (c.of != Contribution::Of::force) continue;
+    const bool body = c.of == Contribution::Of::changing_body;
+    if (c.of != Contribution::Of::force && !body) continue;
     const auto found = stated.find({c.element->statement, c.element->id});
     if (found != stated.end())
       of_contributions[c.element] = found->second;
-    else if (options_.all_forces_editable)
+    else if (body ? options_.all_flexbodies_editable : options_.all_forces_editable)
       of_contributions[c.element] = automatic_suffix(*c.element);
   }
   suffix_ = std::move(of_contributions);
@@ -248,7 +260,7 @@ StudyResult<void> OpenForces::add(std::vector<Contribution> elements, std::vecto
   if (auto done = choose_suffixes(elements, remarks); !done) return done;
   std::vector<MatrixEntry> in_common;
   for (Contribution& c : elements) {
-    if (c.of == Contribution::Of::body) continue;  // at rest a rigid body is its mass and no more
+    if (c.of == Contribution::Of::rigid_body) continue;  // at rest it is its mass and no more
     std::vector<MatrixEntry> own;
     for (const MatrixEntry& e : c.entries) (points_.is_coordinate(e.column) ? own : of_states).push_back(e);
     const auto singled_out = suffix_.find(c.element);
@@ -256,7 +268,7 @@ StudyResult<void> OpenForces::add(std::vector<Contribution> elements, std::vecto
       in_common.insert(in_common.end(), own.begin(), own.end());
       continue;
     }
-    if (options_.export_cbush) add_bush(*c.element, own);
+    if (options_.export_cbush && c.of == Contribution::Of::force) add_bush(*c.element, own);
     add_matrices(name_of(*c.element, options_), singled_out->second, std::move(own));
   }
   add_matrices("forces", options_.forces_dmig_name, std::move(in_common));

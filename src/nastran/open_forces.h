@@ -1,5 +1,6 @@
 // Applied forces of an OPENBOX: those that are singled out, each as CBUSH with what is left of its exact matrices or as
-// these alone, all others in common matrices with the geometric stiffness of reactions.
+// these alone, all others in common matrices with the geometric stiffness of reactions. Bodies that change their shape
+// are among them, each singled out with its mass, damping and stiffness or in the common matrices.
 //
 // A CBUSH stands between grids at the markers, along the axes that the force has its components in or, for a force
 // along the line between the markers, along that line alone. It has the diagonal of the stiffness and damping that the
@@ -42,7 +43,9 @@ class OpenForces {
   };
 
   StudyResult<void> choose_suffixes(const std::vector<Contribution>&, Diagnostics& remarks);
-  StudyResult<void> take_suffix(const Editable&, Diagnostics& remarks);
+  StudyResult<void> take_suffix_of_force(const Editable&, Diagnostics& remarks);
+  StudyResult<void> take_suffix(const Editable&, std::string_view statement, Diagnostics& remarks);
+  StudyResult<void> refuse(std::string message, Diagnostics& remarks) const;
   std::string automatic_suffix(const ElementLabel&);
   std::size_t longest_suffix() const;
 
@@ -62,7 +65,7 @@ class OpenForces {
   OpenPoints& points_;
   MarkerGrids& markers_;
   const SingleWrenches& wrenches_;
-  std::map<const ElementLabel*, std::string> suffix_;  // of forces that are singled out
+  std::map<const ElementLabel*, std::string> suffix_;  // of what is singled out
   std::set<std::string> taken_;
 };
 

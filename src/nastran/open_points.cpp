@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
+#include "elements/bodies/fe_part.h"
+#include "elements/bodies/flex_body.h"
 #include "nastran/names.h"
 
 namespace dynalin::nastran {
@@ -16,11 +20,25 @@ constexpr std::int64_t part_offset = 100000;
 }  // namespace
 
 OpenPoints::OpenPoints(const System& system, const Motion& motion, const ExportOptions& options, Ids& ids, Deck& deck)
-    : system_(system), motion_(motion), options_(options), ids_(ids), deck_(deck) {
+    : system_(system),
+      motion_(motion),
+      options_(options),
+      ids_(ids),
+      deck_(deck),
+      changes_shape_(system.model().bodies.size()) {
   const Layout& layout = system.layout();
+  for (const FlexibleBody& f : flexible_bodies(system.model()))
+    changes_shape_[static_cast<std::size_t>(f.body.index)] = true;
+  std::vector<std::string> nodes(layout.bodies.size());
+  for (const BeamBody& beam : beam_bodies(system.model())) {
+    for (std::size_t k = 0; k < beam.nodes.size(); ++k) {
+      const auto b = static_cast<std::size_t>(beam.nodes[k].index);
+      changes_shape_[b] = true, nodes[b] = fmt::format("{}, node {}", name_of(*beam.label, options), beam.numbers[k]);
+    }
+  }
   body_of_.resize(system.coordinates());
   dofs_.resize(system.coordinates());
-  for (std::size_t b = 0; b < layout.bodies.size(); ++b) add_body(b);
+  for (std::size_t b = 0; b < layout.bodies.size(); ++b) add_body(b, nodes[b]);
   for (const ExtraBlock& extra : layout.extras) {
     for (std::int32_t k = 0; k < extra.count; ++k) {
       ScalarPoint p;
@@ -69,7 +87,7 @@ std::int32_t OpenPoints::add_unknown(std::string name, std::int64_t wanted) {
   return static_cast<std::int32_t>(dofs_.size()) - 1;
 }
 
-void OpenPoints::add_body(std::size_t b) {
+void OpenPoints::add_body(std::size_t b, const std::string& node) {
   const BodyBlock& block = system_.layout().bodies[b];
   const dynalin::Body& body = system_.model().bodies[b];
   arms_.push_back(motion_.bodies[b].R * body.p_BC);
@@ -77,8 +95,9 @@ void OpenPoints::add_body(std::size_t b) {
   Grid g;
   g.id = ids_.take(IdSpace::point, options_.use_adams_ids ? offset + block.label.id : options_.grid_offset);
   g.body = static_cast<std::int32_t>(b) - 1;
-  g.name = block.kind == BodyKind::ground ? name_of(block.label, options_)
-                                          : name_of("centre of mass", block.label, options_);
+  g.name = !node.empty()                    ? node
+           : block.kind == BodyKind::ground ? name_of(block.label, options_)
+                                            : name_of("centre of mass", block.label, options_);
   g.position = motion_.bodies[b].r + arms_.back();
   grids_.push_back(g.id);
   if (block.kind == BodyKind::ground) {
@@ -87,7 +106,7 @@ void OpenPoints::add_body(std::size_t b) {
     deck_.grids.push_back(std::move(g));
     return;
   }
-  deck_.bodies.push_back({name_of(block.label, options_), g.id});
+  deck_.bodies.push_back({node.empty() ? name_of(block.label, options_) : node, g.id});
   if (!block.turns()) deck_.fixed_points.push_back({{g.body, g.name}, g.id, "456"});
   for (std::int32_t k = 0; k < block.count; ++k) {
     dofs_[static_cast<std::size_t>(block.offset + k)] = {g.id, k + 1};

@@ -1,5 +1,6 @@
-// The degrees of freedom of an OPENBOX: a GRID at the mass centre of each body along the global axes, an SPOINT for
-// each coordinate outside bodies and each differential state.
+// The degrees of freedom of an OPENBOX: a GRID at the mass centre of each body, of flexible ones that of the undeformed
+// one, and at each node of a beam, along the global axes; an SPOINT for each coordinate outside poses and each
+// differential state.
 //
 // Unknowns count as in the layout, the coordinates of a part taken at its mass centre instead of its BCS: with c from
 // the BCS to the mass centre
@@ -31,6 +32,8 @@ class OpenPoints {
   const Vector& arm(BodyId b) const { return arms_[static_cast<std::size_t>(b.index)]; }
   Vector centre(BodyId b) const { return motion_.body(b).r + arm(b); }
   std::int32_t body_in_deck(BodyId b) const { return b.index - 1; }  // −1 of the ground
+  // A flexible body, or a node of a beam: its inertia is in matrices.
+  bool changes_shape(BodyId b) const { return changes_shape_[static_cast<std::size_t>(b.index)]; }
 
   std::int32_t coordinates() const { return static_cast<std::int32_t>(body_of_.size()); }
   Dof dof(std::int32_t unknown) const { return dofs_[static_cast<std::size_t>(unknown)]; }
@@ -63,7 +66,7 @@ class OpenPoints {
   }
 
  private:
-  void add_body(std::size_t b);
+  void add_body(std::size_t b, const std::string& node);  // its name, empty of what is no node of a beam
 
   const System& system_;
   const Motion& motion_;
@@ -72,6 +75,7 @@ class OpenPoints {
   Deck& deck_;
   std::vector<std::int64_t> grids_;  // by body
   std::vector<Vector> arms_;         // by body
+  std::vector<bool> changes_shape_;  // by body
   std::vector<BodyId> body_of_;      // of coordinates, invalid outside bodies
   std::vector<Dof> dofs_;            // of unknowns
   std::vector<std::int32_t> states_;

@@ -82,12 +82,6 @@ class ProgramLibraryAndDecks : public ProgramAndLibrary {
       write("decks.acf", std::regex_replace(commands, std::regex("LINEAR/EXPORT, TYPE=CLOSEDBOX[^\n]*\n"), ""));
       with = Cases::run_file("decks.acf");
     }
-    const bool open =
-        with.err.find("an open box of these is not available") == std::string::npos;  // as of flexible bodies
-    if (!open) {
-      write("decks.acf", std::regex_replace(commands, std::regex("LINEAR/EXPORT, TYPE=OPENBOX[^\n]*\n"), ""));
-      with = Cases::run_file("decks.acf");
-    }
     EXPECT_EQ(with.status, 0) << with.err;
     if (with.status != 0) return r;
     int deck = 0;
@@ -96,9 +90,12 @@ class ProgramLibraryAndDecks : public ProgramAndLibrary {
       const std::vector<ExpectedRoot> expected = roots_of(result);
       const std::string number = std::to_string(++deck);
       if (closed) expect_roots((folder_ / ("closed" + number + ".dat")).string(), expected, 1e-8);
-      if (!open || !at_rest(result.at("operating_point"))) continue;
+      if (!at_rest(result.at("operating_point"))) continue;
       expect_roots((folder_ / ("open" + number + ".dat")).string(), expected, 1e-8);
-      expect_roots((folder_ / ("short" + number + ".dat")).string(), expected, 1e-3);
+      // Three digits of the stiffness of a body that bends leave nothing of its being free to move as it stands.
+      const std::string point = result.at("operating_point").dump();
+      if (point.find("FE_PART") == std::string::npos && point.find("FLEX_BODY") == std::string::npos)
+        expect_roots((folder_ / ("short" + number + ".dat")).string(), expected, 1e-3);
     }
     EXPECT_EQ(deck, decks);
     return r;

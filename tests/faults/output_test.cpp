@@ -57,6 +57,14 @@ TEST_F(Outputs, names_are_not_empty) {
   }
 }
 
+TEST_F(Outputs, go_into_a_folder_under_their_own_names) {
+  fs::create_directory(folder_ / "sub");
+  EXPECT_EQ(run({"run", "model.acf", "--output", "sub/"}).status, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "sub" / "model.msg"));
+  EXPECT_EQ(run({"run", "model.acf", "--output", "sub/other"}).status, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "sub" / "other.msg"));
+}
+
 TEST_F(Outputs, a_pipe_is_written_to_and_stays_a_pipe) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   const int reader = ::open((folder_ / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
