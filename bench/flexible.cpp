@@ -1,6 +1,7 @@
 // What flexible bodies cost: processor time and memory, by their modes.
 //
 //     flexible vehicle 200 50      a body of 200 modes on 50 bushings: read, at rest, linear model, modes
+//     flexible measured 200 50     the same on 50 forces that are expressions of displacements and velocities
 //     flexible rod 20 2            a slider-crank at 100 rad/s whose rod has 20 modes, for two turns of the crank
 #include <dynalin/study.h>
 #include <fmt/format.h>
@@ -113,17 +114,22 @@ class Laps {
   double first_ = now(), begun_ = first_;
 };
 
-void vehicle(int modes, int mounts, const std::filesystem::path& file) {
+void vehicle(int modes, int mounts, bool measured, const std::filesystem::path& file) {
   write(box({4, 1.6, 1.2}, {10, 8, 5}, modes, 1200, 20), file);
   std::string text =
       "bench\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nFLEX_BODY/2, MNF_FILE=" + file.string() +
       ", CRATIO=0.01\n";
   for (int k = 0; k < mounts; ++k) {
     const int node = 1 + k * 399 / std::max(mounts - 1, 1);
+    text += fmt::format("MARKER/{0}1, FLEX_BODY=2, NODE_ID={1}\nMARKER/{0}2, PART=1, QP={2:.17g},{3:.17g},{4:.17g}\n",
+                        k + 1, node, 4.0 * ((node - 1) % 10) / 9, 1.6 * ((node - 1) / 10 % 8) / 7,
+                        1.2 * ((node - 1) / 80) / 4);
     text += fmt::format(
-        "MARKER/{0}1, FLEX_BODY=2, NODE_ID={1}\nMARKER/{0}2, PART=1, QP={2:.17g},{3:.17g},{4:.17g}\n"
-        "BUSHING/{0}, I={0}1, J={0}2, K=2E5,3E5,4E5, KT=0,0,0, C=50,60,70, CT=0,0,0\n",
-        k + 1, node, 4.0 * ((node - 1) % 10) / 9, 1.6 * ((node - 1) / 10 % 8) / 7, 1.2 * ((node - 1) / 80) / 4);
+        fmt::runtime(measured ? "MARKER/{0}3, PART=1, FLOATING\nVFORCE/{0}, I={0}1, JFLOAT={0}3, RM={0}2\n"
+                                ", FX=-2E5*DX({0}1,{0}2)-50*VX({0}1,{0}2)\\FY=-3E5*DY({0}1,{0}2)-60*VY({0}1,{0}2)\\\n"
+                                ", FZ=-4E5*DZ({0}1,{0}2)-70*VZ({0}1,{0}2)\n"
+                              : "BUSHING/{0}, I={0}1, J={0}2, K=2E5,3E5,4E5, KT=0,0,0, C=50,60,70, CT=0,0,0\n"),
+        k + 1);
   }
   Laps laps;
   const library::Study study(library::Model::from_text(text + "END\n"));
@@ -167,12 +173,12 @@ void rod(int modes, double turns, const std::filesystem::path& file) {
 
 int main(int argc, char** argv) {
   const std::string which = argc > 1 ? argv[1] : "";
-  if (argc < 4 || (which != "vehicle" && which != "rod"))
-    return fmt::print(stderr, "usage: flexible vehicle MODES MOUNTS | flexible rod MODES TURNS\n"), 3;
+  if (argc < 4 || (which != "vehicle" && which != "measured" && which != "rod"))
+    return fmt::print(stderr, "usage: flexible vehicle|measured MODES MOUNTS | flexible rod MODES TURNS\n"), 3;
   const auto file = std::filesystem::temp_directory_path() / fmt::format("dynalin_bench_{}.fem", ::getpid());
   try {
-    which == "vehicle" ? vehicle(std::atoi(argv[2]), std::atoi(argv[3]), file)
-                       : rod(std::atoi(argv[2]), std::atof(argv[3]), file);
+    which == "rod" ? rod(std::atoi(argv[2]), std::atof(argv[3]), file)
+                   : vehicle(std::atoi(argv[2]), std::atoi(argv[3]), which == "measured", file);
   } catch (const std::exception& e) {
     std::filesystem::remove(file);
     return fmt::print(stderr, "{}\n", e.what()), 1;

@@ -102,24 +102,39 @@ Frame<Nested> nested_on_body(const Motion& motion, const MarkerFrame& marker, co
                              const Direction& outer) {
   using Of = CoordinateBlock::Kind;
   const MarkerPlace& place = marker.place();
-  // Coordinate k of its kind.
-  const auto seeded = [&](const Taylor& q, Of kind, std::size_t k) {
-    Nested x{NestedDual(q.value), NestedDual(q.rate), NestedDual(q.acceleration)};
-    const auto among = [&](const Direction& d) {
-      return d.block.kind == kind && d.block.moves(marker) && k >= d.block.first_shape &&
-             k < d.block.first_shape + d.block.count;
-    };
-    if (among(inner)) path::vary(x, k - inner.block.first_shape, inner.level);
-    if (among(outer)) {
-      NestedDual& c = outer.level == 0 ? x.value : outer.level == 1 ? x.rate : x.acceleration;
-      c.value.partial[k - outer.block.first_shape] += 1.0;
-    }
-    return x;
+  const auto varies = [&](const Direction& d, Of kind) { return d.block.kind == kind && d.block.moves(marker); };
+  const auto part_of = [](Nested& x, std::size_t level) -> NestedDual& {
+    return level == 0 ? x.value : level == 1 ? x.rate : x.acceleration;
   };
-  const auto modal = [&](std::size_t k) { return seeded(motion.outside_poses(place.shapes->first + k), Of::modal, k); };
+  // Seeds of a coordinate that moves x by `factor`, k of its block.
+  const auto vary_inner = [&](Nested& x, std::size_t k, double factor) {
+    part_of(x, inner.level).partial[k] += factor;
+  };
+  const auto vary_outer = [&](Nested& x, std::size_t k, double factor) {
+    part_of(x, outer.level).value.partial[k] += factor;
+  };
+  NodeMotion<Nested> node;
+  if (const NodeShapes* shapes = place.shapes) {
+    const NodeMotion<Taylor> unvaried = node_motion(*shapes, motion);
+    node = {lifted(unvaried.moved), lifted(unvaried.angle)};
+    const auto vary = [&](const Direction& d, const auto& vary_one) {
+      for (std::size_t k = 0; varies(d, Of::modal) && k < d.block.count; ++k) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          vary_one(node.moved[c], k, shapes->translation[d.block.first_shape + k][c]);
+          vary_one(node.angle[c], k, shapes->rotation[d.block.first_shape + k][c]);
+        }
+      }
+    };
+    vary(inner, vary_inner), vary(outer, vary_outer);
+  }
   Nested u{};
-  if (marker.curve) u = seeded(marker.along_motion(motion), Of::curve_parameter, 0);
-  const Frame<Nested> local = marker.template on_body<Nested>(modal, u);
+  if (marker.curve) {
+    const Taylor along = marker.along_motion(motion);
+    u = {NestedDual(along.value), NestedDual(along.rate), NestedDual(along.acceleration)};
+    if (varies(inner, Of::curve_parameter)) vary_inner(u, 0, 1.0);
+    if (varies(outer, Of::curve_parameter)) vary_outer(u, 0, 1.0);
+  }
+  const Frame<Nested> local = marker.on_body(node, u);
   const Mat3<Taylor> R = motion.body(place.body).axes();
   const Mat3<Nested> axes{lifted(R.x), lifted(R.y), lifted(R.z)};
   return {axes * local.origin, axes * local.axes};

@@ -37,24 +37,41 @@ Mat3<T> rotation_by(const Vec3<T>& a) {
   return {column(0), column(1), column(2)};
 }
 
-// What q makes of a marker's place in the BCS: how far it moves, and Q.
+// φ q and ψ q of a node.
+template <class T>
+struct NodeMotion {
+  Vec3<T> moved{T(0.0), T(0.0), T(0.0)}, angle{T(0.0), T(0.0), T(0.0)};
+};
+// q(k): the modal coordinate k of the body.
+template <class T, class Q>
+NodeMotion<T> node_motion(const NodeShapes& shapes, Q&& q) {
+  NodeMotion<T> node;
+  for (std::size_t k = 0; k < shapes.translation.size(); ++k) {
+    const T x = q(k);
+    node.moved += x * shapes.translation[k];
+    node.angle += x * shapes.rotation[k];
+  }
+  return node;
+}
+inline NodeMotion<Taylor> node_motion(const NodeShapes& shapes, const Motion& motion) {
+  return node_motion<Taylor>(shapes, [&](std::size_t k) { return motion.outside_poses(shapes.first + k); });
+}
+
+// What that makes of a marker's place in the BCS: how far it moves, and Q.
 template <class T>
 struct Deformation {
   Vec3<T> moved;
   Mat3<T> turned;
 };
-// q(k): the modal coordinate k of the body.
+template <class T>
+Deformation<T> deformation(const NodeShapes& shapes, const NodeMotion<T>& node) {
+  const Mat3<T> turned = rotation_by(node.angle);
+  const Vector& o = shapes.offset;
+  return {node.moved + turned * o - Vec3<T>{T(o.x), T(o.y), T(o.z)}, turned};
+}
 template <class T, class Q>
 Deformation<T> deformation(const NodeShapes& shapes, Q&& q) {
-  Vec3<T> moved{T(0.0), T(0.0), T(0.0)}, angle{T(0.0), T(0.0), T(0.0)};
-  for (std::size_t k = 0; k < shapes.translation.size(); ++k) {
-    const T x = q(k);
-    moved += x * shapes.translation[k];
-    angle += x * shapes.rotation[k];
-  }
-  const Mat3<T> turned = rotation_by(angle);
-  const Vector& o = shapes.offset;
-  return {moved + turned * o - Vec3<T>{T(o.x), T(o.y), T(o.z)}, turned};
+  return deformation(shapes, node_motion<T>(shapes, q));
 }
 
 }  // namespace dynalin

@@ -21,6 +21,8 @@ void vary(TimeTaylor<D>& q, std::size_t seed, std::size_t level) {
   (level == 0 ? q.value : level == 1 ? q.rate : q.acceleration).partial[seed] += 1.0;
 }
 
+inline Vec3<Taylor> constant_along(const Vector& v) { return {Taylor(v.x), Taylor(v.y), Taylor(v.z)}; }
+
 // The marker frame with path variations of a block as seeds: 6 a level, levels 0 … N/6 − 1. Measures are of
 // differences: origins count from the BCS of `from`.
 template <std::size_t N>
@@ -35,7 +37,7 @@ Frame<Seeded<N>> varied_frame(const Motion& motion, const MarkerFrame& marker, c
     for (std::size_t level = 0; level < levels; ++level) {
       for (std::size_t k = 0; k < 3; ++k) {
         const Vector e = unit_vectors[k];
-        vary(f.origin, largest * level + k, level, {Taylor(e.x), Taylor(e.y), Taylor(e.z)});
+        vary(f.origin, largest * level + k, level, constant_along(e));
         vary(f.origin, largest * level + 3 + k, level, turned(k, arm));
         for (std::size_t c = 0; c < 3; ++c) {
           vary(f.axes[c], largest * level + 3 + k, level, turned(k, plain.axes[c]));
@@ -45,19 +47,24 @@ Frame<Seeded<N>> varied_frame(const Motion& motion, const MarkerFrame& marker, c
     return f;
   }
   // What the coordinates do on the body, turned as the body is.
-  const auto seeded = [&](Seeded<N> q, std::size_t k) {
-    for (std::size_t level = 0; level < levels && k < block.count; ++level) vary(q, largest * level + k, level);
-    return q;
-  };
-  const auto modal = [&](std::size_t k) {
-    const Seeded<N> q = constant<N>(motion.outside_poses(marker.place().shapes->first + k));
-    const bool varied = block.kind == CoordinateBlock::Kind::modal && k >= block.first_shape;
-    return varied ? seeded(q, k - block.first_shape) : q;
-  };
+  NodeMotion<Seeded<N>> node;
+  if (const NodeShapes* shapes = marker.place().shapes) {
+    const NodeMotion<Taylor> unvaried = node_motion(*shapes, motion);
+    node = {constant<N>(unvaried.moved), constant<N>(unvaried.angle)};
+    const bool modal = block.kind == CoordinateBlock::Kind::modal;
+    for (std::size_t level = 0; level < levels; ++level) {
+      for (std::size_t k = 0; modal && k < block.count; ++k) {
+        const std::size_t seed = largest * level + k, shape = block.first_shape + k;
+        vary(node.moved, seed, level, constant_along(shapes->translation[shape]));
+        vary(node.angle, seed, level, constant_along(shapes->rotation[shape]));
+      }
+    }
+  }
   Seeded<N> u{};
   if (marker.curve) u = constant<N>(marker.along_motion(motion));
-  if (block.kind == CoordinateBlock::Kind::curve_parameter) u = seeded(u, 0);
-  const Frame<Seeded<N>> local = marker.template on_body<Seeded<N>>(modal, u);
+  for (std::size_t level = 0; level < levels && block.kind == CoordinateBlock::Kind::curve_parameter; ++level)
+    vary(u, largest * level, level);
+  const Frame<Seeded<N>> local = marker.on_body(node, u);
   const Mat3<Taylor> R = motion.body(marker.place().body).axes();
   const Mat3<Seeded<N>> axes{constant<N>(R.x), constant<N>(R.y), constant<N>(R.z)};
   const auto take_partials = [](Vec3<Seeded<N>>& to, const Vec3<Seeded<N>>& of) {

@@ -23,13 +23,13 @@ struct MarkerFrame {
     const Frame<T> local = curve->frame(u);
     return {carrier.origin + carrier.axes * local.origin, carrier.axes * local.axes};
   }
-  // The frame in the BCS, of which it knows the modal coordinates q(k) of the body and the curve parameter u.
-  template <class T, class Q>
-  Frame<T> on_body(Q&& q, const T& u) const {
+  // The frame in the BCS by the motion of its node, if the body changes its shape, and by the curve parameter u.
+  template <class T>
+  Frame<T> on_body(const NodeMotion<T>& node, const T& u) const {
     const auto constant = [](const Vector& v) { return Vec3<T>{T(v.x), T(v.y), T(v.z)}; };
     Frame<T> f{constant(place().p_BM), {constant(place().R_BM.x), constant(place().R_BM.y), constant(place().R_BM.z)}};
     if (place().shapes) {
-      const Deformation<T> d = deformation<T>(*place().shapes, q);
+      const Deformation<T> d = deformation(*place().shapes, node);
       f = {f.origin + d.moved, d.turned * f.axes};
     }
     return curve ? on_curve(f, u) : f;

@@ -1,6 +1,7 @@
 // How a System is made of a model: numbers, bindings, problems, and what its references lead to.
 #include "system/system.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "expression/expression.h"
@@ -43,6 +44,20 @@ TEST(System, displacements_compare_with_rotations_by_the_length_of_the_model) {
   EXPECT_DOUBLE_EQ(s->coordinate_scale(0), 5);
   EXPECT_DOUBLE_EQ(s->coordinate_scale(3), 1);
   EXPECT_DOUBLE_EQ(s->coordinate_scale(8), 5);
+}
+
+TEST(System, a_few_markers_far_out_are_no_length_of_the_model) {
+  const auto length = [](const std::string& far) {
+    return system_of(bodies + "MARKER/99, PART=1, QP=0,0," + far + "\n")->length();
+  };
+  EXPECT_DOUBLE_EQ(length("400"), std::hypot(400.0, 4.0));
+  EXPECT_LT(length("1E20"), 1e6);
+  EXPECT_DOUBLE_EQ(length("1E20"), length("1E19"));
+  // Those that stand at one place but for rounding are no length either.
+  std::string many;
+  for (int k = 0; k < 20; ++k)
+    many += fmt::format("MARKER/{}, PART=1, QP={},0,0\n", 100 + k, k % 2 ? "1" : "1.0000000000000002");
+  EXPECT_DOUBLE_EQ(system_of(many + "MARKER/99, PART=1, QP=1,0,3\n")->length(), std::hypot(1.0, 3.0));
 }
 
 TEST(System, a_partition_leaves_the_wanted_coordinate_and_names_redundant_rows) {

@@ -387,5 +387,30 @@ TEST_F(InitialConditions, take_a_controller_with_a_very_fast_pole) {
   }
 }
 
+// One part that is drawn far out is brought to its hinges as all others are: it is no scale for what a constraint may
+// be off.
+TEST_F(InitialConditions, a_part_drawn_far_out_is_no_scale_for_the_others) {
+  const auto chain = [](double shift) {
+    constexpr int n = 12;
+    std::string s = "Chain\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\n";
+    for (int k = 1; k <= n; ++k) {
+      s += fmt::format(
+          "PART/{0}, MASS=1, CM={0}0, IP=0.01,0.01,0.01, QG=0,{1:.17g},0\nMARKER/{0}0, QP=0,-0.05,0\nMARKER/{0}1\n"
+          "MARKER/{0}2, QP=0,-0.1,0\nJOINT/{0}, REVOLUTE, I={0}1, J={2}\n",
+          k + 1, -0.1 * (k - 1) + (k == 7 ? shift : 0), k == 1 ? "1" : fmt::format("{}2", k));
+    }
+    return s + "END\n";
+  };
+  const auto near = run(chain(0), "LINEAR/EIGENSOL\n").eigenvalues(0);
+  for (const double shift : {1e5, 1e9, 1e20}) {
+    const RunResult r = run(chain(shift), "LINEAR/EIGENSOL\n");
+    ASSERT_EQ(r.status, 0) << r.err;
+    const auto far = r.eigenvalues(0);
+    ASSERT_EQ(far.size(), near.size());
+    for (std::size_t k = 0; k < far.size(); ++k)
+      EXPECT_LE(std::abs(far[k] - near[k]), 1e-9 * std::abs(near[k])) << shift;
+  }
+}
+
 }  // namespace
 }  // namespace dynalin::cases::initial_conditions_test
