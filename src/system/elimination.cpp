@@ -12,52 +12,44 @@ namespace {
 // Entries this small, relative to the row as it was given, are rounding left behind by cancellation.
 constexpr double rounding = 1e-14;
 
+// Columns count by their places in the order.
 struct WorkRow {
   std::vector<std::pair<std::int32_t, double>> entries;  // ascending columns
   double first_size = 0;                                 // largest entry as given
   double size = 0;                                       // largest entry now
-  std::int32_t reach = 0;                                // the latest place in the order among its columns
   std::int32_t listed_for = -1;                          // the column that was offered last with this row
   bool active = true;
 
   const double* find(std::int32_t column) const {
+    // What stands before it was offered before: mostly nothing.
+    if (entries.front().first >= column) return entries.front().first == column ? &entries.front().second : nullptr;
     const auto it = std::lower_bound(entries.begin(), entries.end(), column,
                                      [](const auto& e, std::int32_t c) { return e.first < c; });
     return it != entries.end() && it->first == column ? &it->second : nullptr;
   }
-  void measure(const std::vector<std::int32_t>& place) {
-    size = 0;
-    reach = 0;
-    for (const auto& [c, v] : entries) {
-      size = std::max(size, std::abs(v));
-      reach = std::max(reach, place[static_cast<std::size_t>(c)]);
-    }
-  }
+  std::int32_t reach() const { return entries.back().first; }
 };
 
 class Eliminator {
  public:
   Eliminator(std::vector<SparseRow> rows, std::int32_t columns, std::span<const std::int32_t> order,
              const EliminationOptions& options)
-      : options_(options),
-        order_(order),
-        place_(static_cast<std::size_t>(columns)),
-        holders_(static_cast<std::size_t>(columns)) {
+      : options_(options), order_(order), holders_(static_cast<std::size_t>(columns)) {
+    std::vector<std::int32_t> place(static_cast<std::size_t>(columns));
     for (std::size_t k = 0; k < order.size(); ++k)
-      place_[static_cast<std::size_t>(order[k])] = static_cast<std::int32_t>(k);
+      place[static_cast<std::size_t>(order[k])] = static_cast<std::int32_t>(k);
     result_.pivot_column.assign(rows.size(), -1);
     result_.dependent.assign(static_cast<std::size_t>(columns), false);
     rows_.resize(rows.size());
-    for (std::size_t r = 0; r < rows.size(); ++r) load(r, rows[r]);
+    for (std::size_t r = 0; r < rows.size(); ++r) load(r, rows[r], place);
   }
 
   Elimination run() {
     // A row whose large entries were passed over may be left with them alone: offer those columns again.
     while (remaining_ > 0) {
       const std::size_t before = remaining_;
-      for (const std::int32_t c : order_) {
-        if (!result_.dependent[static_cast<std::size_t>(c)]) offer(c);
-        if (remaining_ == 0) break;
+      for (std::size_t k = 0; k < order_.size() && remaining_ > 0; ++k) {
+        if (!result_.dependent[static_cast<std::size_t>(order_[k])]) offer(static_cast<std::int32_t>(k));
       }
       if (remaining_ == before) break;
     }
@@ -65,13 +57,14 @@ class Eliminator {
   }
 
  private:
-  void load(std::size_t r, const SparseRow& given) {
+  void load(std::size_t r, const SparseRow& given, const std::vector<std::int32_t>& place) {
     WorkRow& row = rows_[r];
     for (std::size_t k = 0; k < given.column.size(); ++k) {
-      if (given.value[k] != 0.0) row.entries.emplace_back(given.column[k], given.value[k]);
+      if (given.value[k] == 0.0) continue;
+      row.entries.emplace_back(place[static_cast<std::size_t>(given.column[k])], given.value[k]);
+      row.size = std::max(row.size, std::abs(given.value[k]));
     }
     std::sort(row.entries.begin(), row.entries.end());
-    row.measure(place_);
     row.first_size = row.size;
     const double cut = rounding * row.size;
     std::erase_if(row.entries, [&](const auto& e) { return std::abs(e.second) <= cut; });
@@ -97,7 +90,7 @@ class Eliminator {
       if (!v) continue;
       row.listed_for = column;
       holders[kept++] = r;
-      const auto key = std::tuple(row.reach, row.entries.size(), r);
+      const auto key = std::tuple(row.reach(), row.entries.size(), r);
       if (std::abs(*v) >= options_.pivot_threshold * row.size && key < best_key) {
         best = r;
         best_key = key;
@@ -111,8 +104,9 @@ class Eliminator {
     const double pivot_value = *pivot.find(column);
     pivot.active = false;
     --remaining_;
-    result_.pivot_column[static_cast<std::size_t>(best)] = column;
-    result_.dependent[static_cast<std::size_t>(column)] = true;
+    const std::int32_t taken = order_[static_cast<std::size_t>(column)];
+    result_.pivot_column[static_cast<std::size_t>(best)] = taken;
+    result_.dependent[static_cast<std::size_t>(taken)] = true;
     ++result_.rank;
     for (const std::int32_t r : holders) {
       if (r != best) subtract(r, pivot, column, pivot_value);
@@ -124,26 +118,31 @@ class Eliminator {
     WorkRow& row = rows_[static_cast<std::size_t>(r)];
     const double factor = *row.find(column) / pivot_value;
     const double cut = rounding * std::max(row.first_size, std::abs(factor) * pivot.first_size);
-    merged_.clear();
-    auto a = row.entries.begin();
-    auto b = pivot.entries.begin();
-    while (a != row.entries.end() || b != pivot.entries.end()) {
-      if (b == pivot.entries.end() || (a != row.entries.end() && a->first < b->first)) {
-        merged_.push_back(*a++);
-        continue;
-      }
+    merged_.resize(row.entries.size() + pivot.entries.size());
+    auto out = merged_.begin();
+    double size = 0;
+    const auto keep = [&](std::int32_t c, double v) {
+      *out++ = {c, v};
+      size = std::max(size, std::abs(v));
+    };
+    auto a = row.entries.cbegin();
+    auto b = pivot.entries.cbegin();
+    const auto end_a = row.entries.cend(), end_b = pivot.entries.cend();
+    while (b != end_b) {
       const std::int32_t c = b->first;
-      const bool both = a != row.entries.end() && a->first == c;
+      for (; a != end_a && a->first < c; ++a) keep(a->first, a->second);
+      const bool both = a != end_a && a->first == c;
       const double v = (both ? a->second : 0.0) - factor * b->second;
       if (c != column && std::abs(v) > cut) {
-        merged_.emplace_back(c, v);
+        keep(c, v);
         if (!both) holders_[static_cast<std::size_t>(c)].push_back(r);
       }
       if (both) ++a;
       ++b;
     }
-    row.entries.assign(merged_.begin(), merged_.end());
-    row.measure(place_);
+    for (; a != end_a; ++a) keep(a->first, a->second);
+    row.entries.assign(merged_.begin(), out);
+    row.size = size;
     if (row.size <= options_.rank_tolerance * row.first_size) {
       result_.largest_dropped = std::max(result_.largest_dropped, row.size / row.first_size);
       row.active = false;
@@ -154,7 +153,6 @@ class Eliminator {
 
   EliminationOptions options_;
   std::span<const std::int32_t> order_;
-  std::vector<std::int32_t> place_;  // of each column in the order
   std::vector<WorkRow> rows_;
   std::vector<std::vector<std::int32_t>> holders_;  // rows that may hold a column
   std::vector<std::pair<std::int32_t, double>> merged_;
