@@ -17,7 +17,7 @@ using Index = Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 
 // All unknowns of a large model are many: few columns at a time.
-constexpr Index at_a_time = 4;
+constexpr Index at_a_time = 2;
 
 // What the equations leave, of all unknowns of x.
 Matrix rates_of(const PerturbationEquations& equations, const Matrix& x) {

@@ -1,233 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include "model/kind_finder.h"
-#include "model/model.h"
-#include "model/reader.h"
-#include "model/user_routines.h"
+#include "model/model_reader.h"
 
 namespace dynalin {
 
 namespace {
 
-// One statement of the dataset on its way into the model.
-struct Placement {
-  const Statement* statement;
-  ElementSet* set;                // nullptr: it makes no element, which is reported
-  std::int32_t index;             // in the set
-  std::int32_t variant_argument;  // the written argument that chose the kind, or no_variant
-  BodyId preceding_body;
-
-  std::size_t at() const { return static_cast<std::size_t>(index); }
-};
-constexpr std::int32_t no_variant = -1;
 constexpr std::size_t no_argument = KindFinder::no_argument;
-
-// Statements of which an atom function needs an argument, by name and id.
-using ExaminedStatements = std::map<std::pair<std::string_view, std::int64_t>, const Statement*>;
-bool is_examined(std::string_view statement) {
-  static const std::vector<std::string_view> names = [] {
-    std::vector<std::string_view> list;
-    for (const AtomFunction& f : atom_functions()) {
-      if (!f.required_argument.empty()) list.push_back(f.statement);
-    }
-    return list;
-  }();
-  return std::ranges::find(names, statement) != names.end();
-}
-
-class Reader final : public ElementReader {
- public:
-  Reader(Model& model, const Placement& placement, const ExaminedStatements& examined,
-         const DatasetWithRoutines& routines, const SourceText& source, Diagnostics& diagnostics)
-      : ElementReader(*placement.statement, source, diagnostics, placement.set->labels[placement.at()]),
-        model_(model),
-        placement_(placement),
-        examined_(examined),
-        routines_(routines) {
-    if (placement.variant_argument != no_variant) {
-      const auto& w = placement.statement->arguments[static_cast<std::size_t>(placement.variant_argument)];
-      assignments.push_back({placement.set->kind().variant, w.name});
-    }
-  }
-
-  std::optional<MarkerId> marker(const WrittenInteger& id, std::string_view argument) override {
-    const auto m = model_.find_marker(id.value);
-    if (!m || (id.value == 0)) {
-      report_missing("MARKER", "unknown-marker", id, argument);
-      return std::nullopt;
-    }
-    return m;
-  }
-
-  std::optional<BodyId> body(std::string_view statement, const WrittenInteger& id) override {
-    const auto b = model_.find_body(statement, id.value);
-    if (!b) {
-      error("unknown-body", id.at,
-            fmt::format("{} refers to {}/{}, which does not exist", label().text(), statement, id.value));
-    }
-    return b;
-  }
-
-  std::optional<ElementHandle> element(std::string_view statement, const WrittenInteger& id) override {
-    const auto h = model_.find(statement, id.value);
-    if (!h) report_missing(statement, "unknown-element", id, "");
-    return h;
-  }
-
-  std::optional<Expression> expression(const WrittenArgument& written) override {
-    if (written.damaged) return std::nullopt;  // reported when the text was read
-    const std::size_t before = diagnostics().error_count();
-    Expression e = written.name.source == routines_.calls.get()
-                       ? routine_at(written)
-                       : parse_expression(written.value(), *written.name.source, diagnostics());
-    if (diagnostics().error_count() == before) check_references(e);
-    if (diagnostics().error_count() > before) return std::nullopt;
-    return e;
-  }
-
-  std::optional<VectorExpression> vector_expression(const WrittenArgument& written) override {
-    if (written.damaged) return std::nullopt;
-    const std::size_t before = diagnostics().error_count();
-    VectorExpression v = parse_vector_expression(written.value(), *written.name.source, diagnostics());
-    for (std::size_t k = 0; k < 3 && diagnostics().error_count() == before; ++k) check_references(v.component[k]);
-    if (diagnostics().error_count() > before) return std::nullopt;
-    return v;
-  }
-
-  std::optional<BodyId> preceding_body() const override {
-    if (!placement_.preceding_body.valid()) return std::nullopt;
-    return placement_.preceding_body;
-  }
-
-  void keep(SourceRef source) override { model_.further_sources.push_back(std::move(source)); }
-  void reads(std::string path) override { model_.input_files.push_back(std::move(path)); }
-  std::string folder() const override { return std::filesystem::path(source().name()).parent_path().string(); }
-
- private:
-  const Expression& routine_at(const WrittenArgument& written) const {
-    Diagnostics ignored;
-    return routines_.functions[static_cast<std::size_t>(read_integer(written, *written.name.source, ignored)->value)];
-  }
-
-  void report_missing(std::string_view statement, std::string_view code, const WrittenInteger& id, std::string_view) {
-    error(code, id.at, fmt::format("{} refers to {}/{}, which does not exist", label().text(), statement, id.value),
-          near_ids(statement, id.value));
-  }
-
-  // "MARKER/112 and MARKER/1211 exist": ids that differ by one digit more, less or other. These few are looked up, so
-  // that the hint costs the same in models of any size.
-  std::string near_ids(std::string_view statement, std::int64_t id) const {
-    const std::string wanted = std::to_string(id);
-    std::vector<std::string> near;
-    const auto consider = [&](const std::string& digits) {
-      constexpr std::size_t most_digits = 10;
-      if (digits.empty() || digits.size() > most_digits || digits.front() == '0' || digits == wanted) return;
-      const std::int64_t candidate = std::stoll(digits);
-      const bool exists = statement == "MARKER" ? model_.find_marker(candidate).has_value()
-                                                : model_.find(statement, candidate).has_value();
-      if (exists) near.push_back(fmt::format("{}/{}", statement, candidate));
-    };
-    if (wanted.front() == '-') return {};
-    for (std::size_t k = 0; k <= wanted.size(); ++k) {
-      const std::string before = wanted.substr(0, k), here = wanted.substr(k, 1),
-                        after = wanted.substr(std::min(k + 1, wanted.size()));
-      if (!here.empty()) consider(before + after);
-      for (char digit = '0'; digit <= '9'; ++digit) {
-        if (!here.empty()) consider(before + digit + after);
-        consider(before + digit + here + after);
-      }
-    }
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
-    if (near.size() > 3) near.resize(3);
-    if (near.empty()) return {};
-    return fmt::format("{} {}", fmt::join(near, " and "), near.size() == 1 ? "exists" : "exist");
-  }
-
-  void check_id(const Atom& atom, std::size_t k, std::string_view statement) {
-    const std::int64_t id = atom.argument[k];
-    const bool is_marker = statement == "MARKER";
-    if (is_marker && id == 0) return;
-    if (is_marker ? model_.find_marker(id).has_value() : model_.find(statement, id).has_value()) return;
-    report_missing(statement, is_marker ? "unknown-marker" : "unknown-element", {id, atom.argument_at[k]}, "");
-  }
-
-  // SENVAL reads what an argument of its SENSOR yields, so that must be there.
-  void check_required_argument(const Atom& atom) {
-    const AtomFunction& f = *atom.function;
-    if (f.required_argument.empty()) return;
-    const auto found = examined_.find({f.statement, atom.argument[0]});
-    if (found == examined_.end()) return;
-    const auto& arguments = found->second->arguments;
-    const bool given = std::any_of(arguments.begin(), arguments.end(), [&](const WrittenArgument& w) {
-      return find_keyword(w.name.text(), std::span(&f.required_argument, 1)).has_value();
-    });
-    if (given) return;
-    error("missing-argument", atom.argument_at[0],
-          fmt::format("{} reads {} of {}/{}, which has none", f.name, f.required_argument, f.statement,
-                      atom.argument[0]));
-  }
-
-  void check_references(const Expression& e) {
-    for (const Atom& atom : e.atoms()) check_atom(atom);
-    for (const SplineUse& use : e.splines()) {
-      const std::string_view statement = use.statement();
-      if (use.spectrum && (model_.spectra.empty() || model_.spectra.back().id_at.offset != use.id_at.offset)) {
-        model_.spectra.push_back(use);  // once, where a vector reads it three times
-      }
-      if (!model_.find(statement, use.id)) report_missing(statement, "unknown-element", {use.id, use.id_at}, "");
-    }
-  }
-
-  void check_atom(const Atom& atom) {
-    const AtomFunction& f = *atom.function;
-    switch (f.family) {
-      case AtomFamily::time:
-        return;
-      case AtomFamily::marker_measure:
-      case AtomFamily::marker_force:
-        for (std::size_t k = 0; k < atom.argument_count; ++k) check_id(atom, k, "MARKER");
-        return;
-      case AtomFamily::data:
-        if (f.statement.empty()) return;
-        check_id(atom, 0, f.statement);
-        check_required_argument(atom);
-        if (atom.argument_count > 1 && atom.argument[1] < 1) {
-          error("value-out-of-range", atom.argument_at[1],
-                fmt::format("the second argument of {} counts from 1", f.name));
-        }
-        return;
-      case AtomFamily::delay:
-        check_references(atom.delayed->value);
-        check_references(atom.delayed->lag);
-        check_references(atom.delayed->history);
-        if (atom.delayed->array > 0 && !model_.find("ARRAY", atom.delayed->array))
-          report_missing("ARRAY", "unknown-element", {atom.delayed->array, atom.delayed->array_at}, "");
-        return;
-      case AtomFamily::element_force:
-        check_id(atom, 0, f.statement);
-        if (atom.argument[1] != 0 && atom.argument[1] != 1) {
-          error("value-out-of-range", atom.argument_at[1],
-                fmt::format("the second argument of {} is 0 (force on I) or 1 (force on J)", f.name));
-        }
-        if (atom.argument[2] < 1 || atom.argument[2] > 8) {
-          error("value-out-of-range", atom.argument_at[2],
-                fmt::format("the third argument of {} is a component, 1 to 8: FM FX FY FZ TM TX TY TZ", f.name));
-        }
-        if (atom.argument_count > 3) check_id(atom, 3, "MARKER");
-        return;
-    }
-  }
-
-  Model& model_;
-  const Placement& placement_;
-  const ExaminedStatements& examined_;
-  const DatasetWithRoutines& routines_;
-};
 
 bool is_ground(const Statement& s) {
   static constexpr std::array<std::string_view, 1> ground = {"GROUND"};
@@ -293,7 +76,8 @@ class Builder {
       const Kind* kind = finder_.find(s, variant_argument, diagnostics_);
       ElementSet* set = kind ? &set_of(*kind, !s.inactive) : nullptr;
       const bool chosen = variant_argument != no_argument;
-      placements_.push_back({&s, set, 0, chosen ? static_cast<std::int32_t>(variant_argument) : no_variant, {}});
+      placements_.push_back(
+          {&s, set, 0, chosen ? static_cast<std::int32_t>(variant_argument) : Placement::no_variant, {}});
       if (set) ++count[set];
     }
     for (const auto& [set, elements] : count) set->reserve(elements);
@@ -400,7 +184,7 @@ class Builder {
       }
       if (!p.set) continue;
       Diagnostics own;
-      Reader reader(*model_, p, examined_, routines_, *model_->dataset->source, own);
+      ModelReader reader(*model_, p, examined_, routines_, *model_->dataset->source, own);
       p.set->make(p.at());
       p.set->read(p.at(), reader);
       if (own.has_errors()) p.set->sound[p.at()] = false;
