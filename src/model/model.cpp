@@ -1,7 +1,8 @@
 #include "model/model.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+#include <utility>
 
 namespace dynalin {
 
@@ -34,24 +35,36 @@ std::optional<BodyId> Model::find_body(std::string_view statement, std::int64_t 
 
 namespace {
 
-// A radius about the middle of the points that holds three quarters of them; nothing where these are at one place but
-// for rounding.
-std::optional<double> radius_of_most(const std::vector<Vector>& points) {
-  const auto ranked = [](std::vector<double>& x, std::size_t k) {
-    std::ranges::nth_element(x, x.begin() + static_cast<std::ptrdiff_t>(k));
-    return x[k];
-  };
+double ranked(std::vector<double> x, std::size_t k) {
+  std::ranges::nth_element(x, x.begin() + static_cast<std::ptrdiff_t>(k));
+  return x[k];
+}
+
+// A radius about the middle of the points that holds three quarters of them.
+double radius_of_most(const std::vector<Vector>& points) {
   Vector middle;
   for (std::size_t c = 0; c < 3; ++c) {
     std::vector<double> x;
     for (const Vector& p : points) x.push_back(p[c]);
-    middle[c] = ranked(x, x.size() / 2);
+    middle[c] = ranked(std::move(x), points.size() / 2);
   }
   std::vector<double> distance;
   for (const Vector& p : points) distance.push_back(norm(p - middle));
-  const double radius = ranked(distance, (3 * (distance.size() - 1)) / 4);
-  constexpr double rounding = 1e3 * std::numeric_limits<double>::epsilon();
-  return radius > rounding * norm(middle) ? std::optional(radius) : std::nullopt;
+  return ranked(std::move(distance), (3 * (points.size() - 1)) / 4);
+}
+
+// The size of one body in the middle of all, from its mass centre to its markers or by its inertia; 0 without any.
+double size_of_bodies(const Model& model) {
+  std::vector<double> size;
+  for (const Body& b : model.bodies)
+    size.push_back(b.mass > 0 ? std::sqrt(std::max(0.0, trace(b.J_BC)) / b.mass) : 0.0);
+  for (const Marker& m : model.markers) {
+    const auto b = static_cast<std::size_t>(m.place.body.index);
+    if (!m.floating) size[b] = std::max(size[b], norm(m.place.p_BM - model.bodies[b].p_BC));
+  }
+  size.front() = 0;  // the ground may reach anywhere
+  std::erase(size, 0.0);
+  return size.empty() ? 0.0 : ranked(size, size.size() / 2);
 }
 
 }  // namespace
@@ -77,9 +90,11 @@ double Model::characteristic_length() const {
   const Vector b = farthest(a);
   const Vector c = farthest(b);
   double length = std::max(norm(b - a), norm(c - b));
-  // A few that are drawn far out are no scale for all others: what is small beside them would count as nothing.
+  // A few that are drawn far out are no scale for all others: what is small beside them would count as nothing. Markers
+  // that stand at one place but for rounding are none either, but bodies are not so small.
   constexpr double farther = 1e4;
-  if (const auto radius = radius_of_most(points)) length = std::min(length, farther * *radius);
+  if (const double size = size_of_bodies(*this); size > 0)
+    length = std::min(length, farther * std::max(radius_of_most(points), size));
   return length > 0 ? length : 1.0;
 }
 
