@@ -1,6 +1,8 @@
 #include "nastran/export_point.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "linear/perturbed_point.h"
 
@@ -20,7 +22,8 @@ StudyResult<Linearization> linearization_for(const Linearization& of, const Expo
 }
 
 bool moves(const Linearization& of) {
-  constexpr double rounding = 1e-12, balance = 1e-7;  // a static solution leaves some of its loads
+  // A static solution leaves some of its loads, and where there are none something of what its stiffness could hold.
+  constexpr double rounding = 1e-12, balance = 1e-7, unloaded = 1e-10;
   for (std::size_t k = 0; k < of.point.velocity.size(); ++k) {
     if (std::abs(of.point.velocity[k]) > rounding * of.system->coordinate_scale(static_cast<std::int32_t>(k)))
       return true;
@@ -29,8 +32,15 @@ bool moves(const Linearization& of) {
   const PerturbedPoint& at = *of.linear.at;
   std::vector<double> inertia(static_cast<std::size_t>(at.equations.size()));
   at.equations.matrix(PartialBy::acceleration).multiply_add(of.point.acceleration, inertia);
+  std::vector<double> held(inertia.size());
+  const ColumnMatrix& stiffness = at.equations.matrix(PartialBy::position);
+  for (std::int32_t c = 0; c < stiffness.columns; ++c) {
+    for_each_in_column(stiffness, c, [&](std::int32_t r, double v) {
+      held[static_cast<std::size_t>(r)] += std::abs(v) * of.system->coordinate_scale(c);
+    });
+  }
   for (std::size_t k = 0; k < of.system->coordinates(); ++k) {
-    if (std::abs(inertia[k]) > balance * at.equations.magnitude()[k]) return true;
+    if (std::abs(inertia[k]) > std::max(balance * at.equations.magnitude()[k], unloaded * held[k])) return true;
   }
   return false;
 }

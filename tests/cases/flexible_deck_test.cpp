@@ -93,6 +93,17 @@ TEST_F(FlexibleDeck, gives_bodies_matrices_of_their_own_or_none) {
   }
 }
 
+// Nothing but what a static solution leaves of nothing accelerates a free boom that is pulled straight.
+TEST_F(FlexibleDeck, is_at_rest_where_nothing_loads_it) {
+  const RunResult r = Cases::run(
+      "Free\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nFLEX_BODY/2, MNF_FILE=boom.fem\nMARKER/21, NODE_ID=1\n"
+      "PART/3, MASS=4E3, CM=30, IP=100,200,300, QG=0.1,0.2,0.3, REULER=20D,30D,40D\nMARKER/30\n"
+      "BUSHING/1, I=30, J=21, K=9E6,8E6,7E6, KT=9E5,8E5,7E5\nEND\n",
+      "SIMULATE/STATICS\nLINEAR/EXPORT, TYPE=OPENBOX, FILE=deck\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, Not(HasSubstr("moves or accelerates")));
+}
+
 TEST_F(FlexibleDeck, says_that_few_digits_are_too_few) {
   write("export.cfg", "use_dmig_long_format = no\n");
   const std::string commands = "LINEAR/EXPORT, TYPE=OPENBOX, FILE=deck";
