@@ -199,7 +199,8 @@ std::optional<ModalBody> modal_body_of(ModalText t, const SourceText& file, Diag
 bool check_modal_body(const ModalBody& b, const ModalPlaces& at, Diagnostics& out) {
   const MatrixXd& M = b.inertia.modal;
   const Index n = M.rows();
-  if (!(b.inertia.mass >= 0) || !std::isfinite(b.inertia.mass)) {
+  // INVARIANTS may leave none to a body without modes.
+  if (!(b.inertia.mass >= 0) || (b.inertia.mass == 0 && n > 0) || !std::isfinite(b.inertia.mass)) {
     out.error("body-mass", at.mass, fmt::format("the mass {:g} in {} is not positive", b.inertia.mass, at.file));
     return false;
   }
@@ -233,6 +234,15 @@ bool check_modal_body(const ModalBody& b, const ModalPlaces& at, Diagnostics& ou
   const MatrixXd coupling = rigid.eigenvectors().transpose() * whole.topRightCorner(6, n);
   const MatrixXd left = M - coupling.transpose() * inverse.asDiagonal() * coupling;
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> beside(left, M);
+  if (beside.eigenvalues()(0) < -rigid_content) {
+    const MatrixXd vectors = unit.cwiseInverse().asDiagonal() * beside.eigenvectors().leftCols(1);
+    out.error(
+        "body-mass", at.mass,
+        fmt::format("the inertia in {} is not positive: {} with the body as a whole {} less than no energy", at.file,
+                    list_of_modes(modes_in(vectors, b)), modes_in(vectors, b).size() == 1 ? "has" : "have"),
+        "the generalized mass and what the mass of the nodes makes of the shapes do not go together");
+    return false;
+  }
   if (const Index bad = below(beside.eigenvalues(), rigid_content); bad > 0) {
     const MatrixXd vectors = unit.cwiseInverse().asDiagonal() * beside.eigenvectors().leftCols(bad);
     const auto list = modes_in(vectors, b);
@@ -247,7 +257,7 @@ bool check_modal_body(const ModalBody& b, const ModalPlaces& at, Diagnostics& ou
   if (const Index bad = below(values, 1e-13 * std::abs(values(n - 1))); bad > 0) {
     const MatrixXd vectors = unit.cwiseInverse().asDiagonal() * of_stiffness.eigenvectors().leftCols(bad);
     out.error("body-stiffness", at.stiffness,
-              fmt::format("the generalized stiffness in {} is not positive: {} have none", at.file,
+              fmt::format("the generalized stiffness in {} is not positive: there is none for {}", at.file,
                           list_of_modes(modes_in(vectors, b))));
     return false;
   }

@@ -55,6 +55,16 @@ ComplexMatrix table_entries(const System& system, const OperatingPoint& op, cons
   return out;
 }
 
+// Modal coordinates of flexible bodies and of beams, which are in no table.
+ComplexMatrix entries_beside(const System& system, const ComplexMatrix& displacement) {
+  std::vector<Index> rows;
+  for (const ExtraBlock& e : system.layout().extras) {
+    if (e.type != StateType::flex_body && e.type != StateType::fe_part) continue;
+    for (Index k = e.offset; k < e.offset + e.count; ++k) rows.push_back(k);
+  }
+  return displacement(rows, Eigen::all);
+}
+
 // The first of entries that are equally large but for rounding.
 Complex largest_entry(const Eigen::VectorXcd& entries) {
   Complex largest = 0;
@@ -221,6 +231,7 @@ ModalMasses modal_masses(const System& system, const OperatingPoint& op, const L
   shapes.real() = root.of(displacement.real());
   shapes.imag() = root.of(displacement.imag());
   ComplexMatrix entries = table_entries(system, op, modes, displacement);
+  ComplexMatrix beside = entries_beside(system, displacement);
 
   ModalMasses out;
   for (Index d = 0; d < 6; ++d) out.total[static_cast<std::size_t>(d)] = rigid.col(d).squaredNorm();
@@ -237,9 +248,14 @@ ModalMasses modal_masses(const System& system, const OperatingPoint& op, const L
         const Complex part = other.dot(shapes.col(at)) / other.squaredNorm();
         shapes.col(at) -= other * part;
         entries.col(at) -= entries.col(static_cast<Index>(j)) * part;
+        beside.col(at) -= beside.col(static_cast<Index>(j)) * part;
       }
     }
-    const Complex largest = largest_entry(entries.col(at));
+    // Where a body bends and none moves, its modal coordinates are all that there is.
+    constexpr double still = 1e-9;
+    Complex largest = largest_entry(entries.col(at));
+    const Complex bending = largest_entry(beside.col(at));
+    if (std::abs(largest) <= still * std::abs(bending)) largest = bending;
     ModalMasses::Row& row = out.modes[k];
     if (!(shapes.col(at).norm() > 1e-7 * before) || largest == Complex(0)) {
       row.kind = before > 0 ? ModalMasses::Row::Kind::repeated : ModalMasses::Row::Kind::still;
@@ -247,7 +263,7 @@ ModalMasses modal_masses(const System& system, const OperatingPoint& op, const L
       continue;
     }
     shapes.col(at) /= largest;
-    entries.col(at) /= largest;
+    entries.col(at) /= largest, beside.col(at) /= largest;
     row.generalized = shapes.col(at).squaredNorm();
     // Relative to the sizes of its terms, what rounding makes of a sum that is zero.
     const double rounding =

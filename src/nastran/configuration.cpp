@@ -4,6 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
+#include <map>
+#include <string>
 
 #include "dataset/dataset.h"
 #include "nastran/configuration_text.h"
@@ -47,6 +50,7 @@ class Reader {
       if (!holding(ignored_bits(item) & of_jobs, box_, all)) store(item, of_job, said);
     }
     take(of_job);
+    check_distinct_suffixes();
     if (options().solution_number == 108) check_response();
     if (options().debug) echo(of_job);
     if (options().ignore_errors) forgive();
@@ -179,6 +183,33 @@ class Reader {
       check(c.options.force_editable[k].suffix, c.force_editable[k]);
     for (std::size_t k = 0; k < c.flexbody_editable.size(); ++k)
       check(c.options.flexbody_editable[k].suffix, c.flexbody_editable[k]);
+  }
+
+  // Two elements, or one and the matrices of all others, have no name in common.
+  void check_distinct_suffixes() {
+    const Configuration& c = made_.value;
+    const auto upper = [](std::string text) {
+      for (char& letter : text) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+      return text;
+    };
+    std::map<std::string, const Editable*> taken = {{upper(options().forces_dmig_name), nullptr},
+                                                    {upper(options().differentials_dmig_name), nullptr}};
+    const auto check = [&](const Editable& e, const Span& at) {
+      const auto [found, fresh] = taken.emplace(upper(e.suffix), &e);
+      const Editable* other = found->second;
+      if (fresh) return;
+      // One that is named here and numbered there may be the same.
+      const bool may_be_one =
+          other && other->type == e.type &&
+          (other->id.has_value() != e.id.has_value() || (other->id == e.id && other->name == e.name));
+      if (!may_be_one)
+        error("directive-value", at,
+              fmt::format("{} ends the names of {} already", e.suffix,
+                          other ? "another element's matrices" : "the matrices of all others"));
+    };
+    for (std::size_t k = 0; k < c.force_editable.size(); ++k) check(c.options.force_editable[k], c.force_editable[k]);
+    for (std::size_t k = 0; k < c.flexbody_editable.size(); ++k)
+      check(c.options.flexbody_editable[k], c.flexbody_editable[k]);
   }
 
   // --- debug and ignore_errors ---

@@ -160,7 +160,7 @@ class OpenBox {
     };
     for (std::size_t b = 1; b < bodies.size(); ++b) {
       const BodyMotion& m = at_.motion.bodies[b];
-      const Vector v = m.rdot + m.Rdot * system_.model().bodies[b].p_BC;
+      const Vector v = m.rdot + cross(m.w, points_.arm({static_cast<std::int32_t>(b)}));
       for (std::int32_t k = 0; k < bodies[b].count; ++k) {
         add(static_cast<std::int32_t>(b) - 1, bodies[b].label, points_.dof(bodies[b].offset + k),
             (k < 3 ? v : m.w)[static_cast<std::size_t>(k % 3)]);

@@ -38,7 +38,9 @@ OpenForces::OpenForces(const System& system, const Motion& motion, const ExportO
 // --- names of matrices -----------------------------------------------------------------------------------------------
 
 // Eight characters, of which one or, of symmetric and antisymmetric parts, two come first.
-std::size_t OpenForces::longest_suffix() const { return options_.split_dmigs ? 6 : 7; }
+std::size_t OpenForces::longest_suffix() const {
+  return options_.split_dmigs && options_.solution_number == 108 ? 6 : 7;
+}
 
 StudyResult<void> OpenForces::refuse(std::string message, Diagnostics& remarks) const {
   if (!options_.ignore_errors) return tl::unexpected(StudyFailure({"export", std::move(message), {}}));

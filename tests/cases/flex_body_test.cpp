@@ -256,7 +256,19 @@ TEST_F(FlexBody, wrong_files_are_errors_at_their_place) {
   const Vibration free = vibration(beam, 0);
   const ReducedBody rigid = reduced(beam, free.shapes.middleCols(4, 4));
   refused(modal_text(rigid.nodes, rigid.stiffness), "modes 1-2 in ");
+  // Masses of its nodes that go beyond its generalized mass.
+  ReducedBody heavy = body;
+  for (FlexibleNode& node : heavy.nodes) node.mass *= 30;
+  std::string text = modal_text(heavy.nodes, body.stiffness);
+  const auto record_of = [](const std::string& t) {
+    const std::size_t from = t.find("** RECORD GROUP 9");
+    return t.substr(from, t.find("** RECORD GROUP 10") - from);
+  };
+  text.replace(text.find(record_of(text)), record_of(text).size(), record_of(good));
+  refused(text, "beam.fem is not positive");
   write("beam.fem", good);
+  const RunResult both = run(held_beam(", MATRICES=1"), "STOP\n");
+  EXPECT_THAT(both.err, HasSubstr("FLEX_BODY/2 takes its data from MNF_FILE or from MATRICES, not from both"));
   const RunResult r =
       run("Beam\nPART/1, GROUND\nMARKER/1\nFLEX_BODY/2, MNF_FILE=beam.fem, CRATIO=TIME\nMARKER/21, NODE_ID=9\n"
           "MARKER/22\nMARKER/23, FLOATING\nEND\n",

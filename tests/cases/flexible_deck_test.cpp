@@ -2,6 +2,7 @@
 // deck are the eigenvalues of the model.
 #include <gmock/gmock.h>
 
+#include "cases/dataset_text.h"
 #include "cases/decks.h"
 #include "cases/fe_parts.h"
 #include "cases/flexible.h"
@@ -77,8 +78,8 @@ TEST_F(FlexibleDeck, gives_bodies_matrices_of_their_own_or_none) {
        {"BBUSHI1", "BBUSHI2", "BFLEXB2", "BSPRIN1", "KBUSHI1", "KBUSHI2", "KFEPAR4", "KFLEXB2", "KSPRIN1", "KVVV",
         "MFEPAR4", "MFLEXB2"}},
       {"all_flexbodies_editable = no\nall_forces_editable = no\n", {"BVVV", "KVVV", "MVVV"}},
-      {"all_flexbodies_editable = no\nall_forces_editable = no\nflexbody_editable_by_id = 2, OWN\n",
-       {"BOWN", "BVVV", "KOWN", "KVVV", "MOWN", "MVVV"}},
+      {"all_flexbodies_editable = no\nall_forces_editable = no\nflexbody_editable_by_id = 2, OFABOOM\n",
+       {"BOFABOOM", "BVVV", "KOFABOOM", "KVVV", "MOFABOOM", "MVVV"}},
       {"all_flexbodies_editable = no\nall_forces_editable = no\nflexbody_editable_by_name = boom, OWN\n",
        {"BOWN", "BVVV", "KOWN", "KVVV", "MOWN", "MVVV"}},
   };
@@ -136,6 +137,12 @@ TEST_F(FlexibleDeck, has_modal_coordinates_in_its_punch_file) {
   EXPECT_EQ(count(first_mode, "       S "), count(deck, "SPOINT"));
   EXPECT_EQ(count(deck, "SPOINT"), 4u + 3u * 3u + 3u * 2u);
   EXPECT_EQ(count(deck, "CONM2"), 1u);  // of the part
+  // Its grid is in the middle of the boom, 0.3 along its axis.
+  const Vector axis = rotation_313(0.4, 0.9, -1.1) * Vector{0.3, 0, 0};
+  EXPECT_THAT(deck, HasSubstr("$centre of mass of boom\n"));
+  const std::string card = deck.substr(deck.find("$centre of mass of boom\n") + 24, 80);
+  EXPECT_NEAR(std::stod(card.substr(40, 16)), 0.3 + axis.x, 0.05);
+  EXPECT_NEAR(std::stod(card.substr(56, 16)), -0.2 + axis.y, 0.05);
   EXPECT_THAT(deck, HasSubstr("FE_PART/4, node 2"));
 }
 

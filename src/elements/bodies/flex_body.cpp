@@ -214,7 +214,12 @@ class FlexBodySet final : public TypedSet<FlexBody> {
           word == "DYNAMIC_LIMIT" || word == "STABILITY_FACTOR" ? "" : "MNF_FILE= names a modal text file (.fem)");
       return;
     }
-    if (f.file.empty() == f.matrices.empty()) {
+    if (!f.file.empty() && !f.matrices.empty()) {
+      reader.error("excluded-arguments", reader.at("MATRICES"),
+                   fmt::format("{} takes its data from MNF_FILE or from MATRICES, not from both", name));
+      return;
+    }
+    if (f.file.empty() && f.matrices.empty()) {
       reader.error("missing-argument", reader.statement().at, fmt::format("{} needs MNF_FILE or MATRICES", name));
       return;
     }
