@@ -184,7 +184,8 @@ TEST(QuasiStatics, change_the_time_between_outputs_where_a_sensor_says) {
   std::vector<double> times;
   for (const OperatingPoint& op : r.outputs) times.push_back(op.time);
   ASSERT_EQ(times.size(), 5u);
-  for (const double t : {0.0, 1.0, 2.0, 2.5, 3.0}) EXPECT_THAT(times, ::testing::Contains(::testing::DoubleNear(t, 1e-9)));
+  for (const double t : {0.0, 1.0, 2.0, 2.5, 3.0})
+    EXPECT_THAT(times, ::testing::Contains(::testing::DoubleNear(t, 1e-9)));
 }
 
 }  // namespace
