@@ -110,13 +110,17 @@ TEST(OpenBoxCards, forces_that_are_singled_out_have_matrices_of_their_own) {
   EXPECT_THAT(refused({"bushing", 77, "", "A"}), HasSubstr("BUSHING/77 does not exist"));
   EXPECT_THAT(refused({"joint", 1, "", "A"}), HasSubstr("joint is no type of force"));
   EXPECT_THAT(refused({"sforce", {}, "model.nothing", "A"}), HasSubstr("no SFORCE has the name model.nothing"));
+  EXPECT_THAT(refused({"sforce", 77, "", "EIGHTEEN"}), HasSubstr("up to 7 letters"));
+  // Two letters before those of a matrix in two parts.
+  options.solution_number = 108;
   EXPECT_THAT(refused({"sforce", 77, "", "SEVENTY"}), HasSubstr("up to 6 letters"));
+  options.solution_number = 107;
   EXPECT_THAT(refused({"sforce", 77, "", "FQ"}), HasSubstr("FQ already"));
   options.force_editable = {{"sforce", 77, "", "A"}, {"sforce", 1234, "", "a"}};
   EXPECT_THAT(error_of(of, options), HasSubstr("both have the suffix a"));
   options.ignore_errors = true;
   EXPECT_THAT(remarks_of(of, options), ElementsAre(HasSubstr("both have the suffix a")));
-  options.split_dmigs = false, options.ignore_errors = false;
+  options.ignore_errors = false;
   EXPECT_EQ(refused({"sforce", 77, "", "SEVENTY"}), "");
 }
 
