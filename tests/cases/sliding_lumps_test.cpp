@@ -317,6 +317,10 @@ TEST_F(SlidingLumps, matrices_that_do_not_fit_are_errors) {
                     turned = "NAME=INVAR3, FULL=CORDER, ROWS=9, COLUMNS=1";
   EXPECT_THAT(said(body + std::string(data).replace(data.find(size), size.size(), turned)),
               HasSubstr("INVAR3 (MATRIX/103) of FLEX_BODY/2 must be 3 × 3, it is 9 × 1"));
+  const std::string mass = "NAME=INVAR1, FULL=CORDER, ROWS=1, COLUMNS=1, VALUES=";
+  const std::size_t value = data.find(mass) + mass.size();
+  EXPECT_THAT(said(body + std::string(data).replace(value, data.find('\n', value) - value, "0")),
+              HasSubstr("the mass 0 in FLEX_BODY/2 is not positive"));
   EXPECT_THAT(said("FLEX_BODY/2, MATRICES=100,999\n" + data), HasSubstr("999"));
   EXPECT_THAT(said(body + data + "MFORCE/1, FLEX_BODY=2, CASE_INDEX=1, SCALE=1\n"),
               HasSubstr("MFORCE/1 takes a modal load, and FLEX_BODY/2 has none"));
