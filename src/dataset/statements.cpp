@@ -6,6 +6,7 @@
 #include <charconv>
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "dataset/arguments.h"
@@ -327,7 +328,8 @@ void TokenStore::release_before(std::span<const Token> stored) {
 }
 
 void WrittenArgument::set_value(std::span<const Token> tokens) {
-  constexpr std::size_t most = (1u << 30) - 1;  // a text of 4 GiB at most has no value of so many
+  constexpr std::size_t most = (1u << 30) - 1;
+  if (tokens.size() > most) throw std::length_error("a value of an argument is too long");
   tokens_ = tokens.data(), count_ = static_cast<std::uint32_t>(tokens.size()) & most, offset_ = tokens.front().offset;
 }
 

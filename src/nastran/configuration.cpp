@@ -4,10 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <string>
 
+#include "dataset/characters.h"
 #include "dataset/dataset.h"
 #include "nastran/configuration_text.h"
 #include "nastran/directive_values.h"
@@ -188,14 +188,10 @@ class Reader {
   // Two elements, or one and the matrices of all others, have no name in common.
   void check_distinct_suffixes() {
     const Configuration& c = made_.value;
-    const auto upper = [](std::string text) {
-      for (char& letter : text) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
-      return text;
-    };
-    std::map<std::string, const Editable*> taken = {{upper(options().forces_dmig_name), nullptr},
-                                                    {upper(options().differentials_dmig_name), nullptr}};
+    std::map<std::string, const Editable*> taken = {{upper_case(options().forces_dmig_name), nullptr},
+                                                    {upper_case(options().differentials_dmig_name), nullptr}};
     const auto check = [&](const Editable& e, const Span& at) {
-      const auto [found, fresh] = taken.emplace(upper(e.suffix), &e);
+      const auto [found, fresh] = taken.emplace(upper_case(e.suffix), &e);
       const Editable* other = found->second;
       if (fresh) return;
       // One that is named here and numbered there may be the same.

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "dataset/characters.h"
 #include "nastran/names.h"
 
 namespace dynalin::nastran {
@@ -15,12 +16,6 @@ namespace {
 // Classes of forces that directives single out by name.
 constexpr std::array<std::string_view, 9> force_types = {"sforce", "springdamper", "bushing",  "beam",  "field",
                                                          "vforce", "vtorque",      "friction", "gforce"};
-
-std::string upper(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return out;
-}
 
 }  // namespace
 
@@ -55,7 +50,7 @@ StudyResult<void> OpenForces::take_suffix_of_force(const Editable& wanted, Diagn
 }
 
 StudyResult<void> OpenForces::take_suffix(const Editable& wanted, std::string_view type, Diagnostics& remarks) {
-  const std::string statement = upper(type);
+  const std::string statement = upper_case(type);
   const std::string name = wanted.id ? fmt::format("{}/{}", statement, *wanted.id) : wanted.name;
   const ElementLabel* found = nullptr;
   for (const auto& set : system_.model().sets) {
@@ -79,13 +74,13 @@ StudyResult<void> OpenForces::take_suffix(const Editable& wanted, std::string_vi
                   remarks);
   }
   for (const auto& [label, suffix] : suffix_) {
-    if (suffix == upper(wanted.suffix) && !same_element(*label, *found))
+    if (suffix == upper_case(wanted.suffix) && !same_element(*label, *found))
       return refuse(fmt::format("{} and {} both have the suffix {}", label->text(), name, wanted.suffix), remarks);
   }
-  if (taken_.contains(upper(wanted.suffix)) && !suffix_.contains(found))
+  if (taken_.contains(upper_case(wanted.suffix)) && !suffix_.contains(found))
     return refuse(fmt::format("{}: other matrices have the suffix {} already", name, wanted.suffix), remarks);
-  suffix_[found] = upper(wanted.suffix);
-  taken_.insert(upper(wanted.suffix));
+  suffix_[found] = upper_case(wanted.suffix);
+  taken_.insert(upper_case(wanted.suffix));
   return {};
 }
 

@@ -27,13 +27,13 @@ OpenPoints::OpenPoints(const System& system, const Motion& motion, const ExportO
       deck_(deck),
       changes_shape_(system.model().bodies.size()) {
   const Layout& layout = system.layout();
-  centres_.resize(layout.bodies.size());
-  for (std::size_t b = 0; b < layout.bodies.size(); ++b) centres_[b] = system.model().bodies[b].p_BC;
+  for (std::size_t b = 0; b < layout.bodies.size(); ++b)
+    arms_.push_back(motion.bodies[b].R * system.model().bodies[b].p_BC);
   for (const FlexibleBody& f : flexible_bodies(system.model())) {
     const auto b = static_cast<std::size_t>(f.body.index);
     const ModalInertia& inertia = f.flexible->inertia;
     changes_shape_[b] = true;
-    if (inertia.mass > 0) centres_[b] = inertia.first / inertia.mass;
+    if (inertia.mass > 0) arms_[b] = motion.bodies[b].R * (inertia.first / inertia.mass);
   }
   std::vector<std::string> nodes(layout.bodies.size());
   for (const BeamBody& beam : beam_bodies(system.model())) {
@@ -95,7 +95,6 @@ std::int32_t OpenPoints::add_unknown(std::string name, std::int64_t wanted) {
 
 void OpenPoints::add_body(std::size_t b, const std::string& node) {
   const BodyBlock& block = system_.layout().bodies[b];
-  arms_.push_back(motion_.bodies[b].R * centres_[b]);
   const std::int64_t offset = block.kind == BodyKind::point_mass ? options_.pointmass_offset : part_offset;
   Grid g;
   g.id = ids_.take(IdSpace::point, options_.use_adams_ids ? offset + block.label.id : options_.grid_offset);
@@ -103,7 +102,7 @@ void OpenPoints::add_body(std::size_t b, const std::string& node) {
   g.name = !node.empty()                    ? node
            : block.kind == BodyKind::ground ? name_of(block.label, options_)
                                             : name_of("centre of mass", block.label, options_);
-  g.position = motion_.bodies[b].r + arms_.back();
+  g.position = motion_.bodies[b].r + arms_[b];
   grids_.push_back(g.id);
   if (block.kind == BodyKind::ground) {
     g.position = {};

@@ -74,8 +74,7 @@ class OpenPoints {
   Ids& ids_;
   Deck& deck_;
   std::vector<std::int64_t> grids_;  // by body
-  std::vector<Vector> centres_;      // by body, BCS axes: of flexible ones undeformed
-  std::vector<Vector> arms_;         // by body
+  std::vector<Vector> arms_;         // by body; of flexible ones to the undeformed centre
   std::vector<bool> changes_shape_;  // by body
   std::vector<BodyId> body_of_;      // of coordinates, invalid outside bodies
   std::vector<Dof> dofs_;            // of unknowns

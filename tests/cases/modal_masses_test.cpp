@@ -294,29 +294,32 @@ TEST_F(ModalMasses, first_mode_of_a_cantilever) {
 
 // A body of 1 kg at its held end and 2 kg that its only mode moves away, by 1 a unit: no body moves in it.
 TEST_F(ModalMasses, of_a_body_that_bends_about_the_node_that_holds_it) {
-  int number = 0;
-  const auto matrix = [&](const std::string& name, int rows, int columns, const std::string& values) {
-    return fmt::format("MATRIX/{}, NAME={}, FULL=RORDER, ROWS={}, COLUMNS={}, VALUES={}\n", ++number, name, rows,
-                       columns, values);
-  };
   std::string s =
       "Lump\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n"
       "FLEX_BODY/2, MATRICES=1,2,3,4,5,6,7,8,9,10,11,12,13, CRATIO=0\nMARKER/21, NODE_ID=1\n"
       "JOINT/1, FIXED, I=21, J=1\nPART/3, MASS=5, CM=30, IP=1,1,1, QG=3,0,0\nMARKER/30\nMARKER/9, PART=1, QP=3,0,0\n"
       "BUSHING/1, I=30, J=9, K=10,20,30, KT=40,50,60\n";
-  s += matrix("SELNOD", 2, 4, "1,0,0,0, 2,1,0,0");
-  s += matrix("T_MODE", 6, 1, "0,0,0,1,0,0");
-  s += matrix("R_MODE", 6, 1, "0,0,0,0,0,0");
-  s += matrix("GENSTIFF", 1, 1, "800");
-  s += matrix("INVAR1", 1, 1, "3");
-  s += matrix("INVAR2", 3, 1, "2,0,0");
-  s += matrix("INVAR3", 3, 1, "2,0,0");
-  s += matrix("INVAR4", 3, 1, "0,0,0");
-  s += matrix("INVAR5", 3, 1, "0,0,0");
-  s += matrix("INVAR6", 1, 1, "2");
-  s += matrix("INVAR7", 3, 3, "0.1,0,0, 0,2,0, 0,0,2");
-  s += matrix("INVAR8", 3, 3, "0,0,0, 0,-2,0, 0,0,-2");
-  s += matrix("INVAR9", 3, 3, "0,0,0, 0,-2,0, 0,0,-2");
+  struct Data {
+    const char* name;
+    int rows, columns;
+    const char* values;
+  };
+  int number = 0;
+  for (const Data& m : std::initializer_list<Data>{{"SELNOD", 2, 4, "1,0,0,0, 2,1,0,0"},
+                                                   {"T_MODE", 6, 1, "0,0,0,1,0,0"},
+                                                   {"R_MODE", 6, 1, "0,0,0,0,0,0"},
+                                                   {"GENSTIFF", 1, 1, "800"},
+                                                   {"INVAR1", 1, 1, "3"},
+                                                   {"INVAR2", 3, 1, "2,0,0"},
+                                                   {"INVAR3", 3, 1, "2,0,0"},
+                                                   {"INVAR4", 3, 1, "0,0,0"},
+                                                   {"INVAR5", 3, 1, "0,0,0"},
+                                                   {"INVAR6", 1, 1, "2"},
+                                                   {"INVAR7", 3, 3, "0.1,0,0, 0,2,0, 0,0,2"},
+                                                   {"INVAR8", 3, 3, "0,0,0, 0,-2,0, 0,0,-2"},
+                                                   {"INVAR9", 3, 3, "0,0,0, 0,-2,0, 0,0,-2"}})
+    s += fmt::format("MATRIX/{}, NAME={}, FULL=RORDER, ROWS={}, COLUMNS={}, VALUES={}\n", ++number, m.name, m.rows,
+                     m.columns, m.values);
   const std::string t = tables(s + "END\n", "MASS_PER_MODE=ALL");
   const auto factors = row(t, "Modal participation factors", "7"), masses = row(t, "Modal effective mass", "7"),
              sum = row(t, "Modal effective mass", "Sum");
