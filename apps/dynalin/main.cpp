@@ -1,6 +1,8 @@
 // The command-line program: arguments in, exit status out; everything else is the library's.
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cctype>
 #include <cerrno>
@@ -74,15 +76,24 @@ int run(int argc, char** argv) {
   CLI::App* run = app.add_subcommand("run", "run a command file (.acf), or a dataset (.adm) with commands given by -c");
   run->add_option("FILE", options.file)->required();
   run->add_option("-c", options.commands, "a command, may be repeated")->allow_extra_args(false);
+  const auto at_least = [](int least) {
+    return CLI::Validator(
+        [least](const std::string& text) {
+          int value = least;
+          const bool is_less = CLI::detail::lexical_cast(text, value) && value < least;
+          return is_less ? fmt::format("{} is less than {}", text, least) : "";
+        },
+        fmt::format("from {}", least));
+  };
   const CLI::Validator named([](const std::string& name) { return name.empty() ? "its name is empty" : ""; }, "");
   run->add_option("--json", options.json, "write everything computed to this file")->check(named);
   run->add_option("--output", options.output_prefix, "prefix of the output files; FOLDER/ for their folder alone")
       ->check(named);
   run->add_option("--modes", options.modes, "so many of the lowest modes of every LINEAR/EIGENSOL instead of all")
-      ->check(CLI::PositiveNumber);
+      ->check(at_least(1));
   run->add_option("--dense-up-to", options.dense_up_to,
                   "states up to which selected modes are taken out of all (400) and state matrices are formed (5000)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(at_least(0));
   run->add_flag("--keep-going", options.keep_going, "go on after a command that failed");
   run->add_flag("--bounds", options.bounds, "say how exact each eigenvalue is");
   run->add_flag("--state", options.state, "print every operating point: positions, velocities, reactions, forces ...");
@@ -122,7 +133,7 @@ int run(int argc, char** argv) {
       ->delimiter(',')
       ->required();
   reduce->add_option("--also", body.also, "further nodes that the body file has")->delimiter(',');
-  reduce->add_option("--modes", body.modes, "fixed-interface modes, at most (20)")->check(CLI::NonNegativeNumber);
+  reduce->add_option("--modes", body.modes, "fixed-interface modes, at most (20)")->check(at_least(0));
   reduce->add_option("--frequency-limit", body.frequency_limit, "of these, cycles per unit of time");
   reduce->add_flag("--translations-only", body.translations_only, "interface nodes may be without rotations");
   reduce->add_option("--length-factor", body.length_factor, "1000 for metres to millimetres");

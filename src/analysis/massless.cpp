@@ -287,9 +287,7 @@ bool lacks_mass(const System& system) {
     if (axes_with_inertia(body, Matrix3::identity()).size() < 3) return true;
   }
   // Other coordinates outside bodies than modal ones and those of beams have no inertia.
-  return std::ranges::any_of(layout.extras, [](const ExtraBlock& e) {
-    return e.type != StateType::flex_body && e.type != StateType::fe_part;
-  });
+  return !std::ranges::all_of(layout.extras, &ExtraBlock::is_deformation);
 }
 
 MasslessDirections massless_directions(const System& system, const Motion& motion, const ConstraintRows& rows,

@@ -62,10 +62,15 @@ void for_each_outermost(const Box& b, const RelativeFrame<T>& I, const Place& pl
           0.0);
   }
 }
+template <class T, class Place, class Ring>
+void for_each_outermost(const Polyhedron& f, const RelativeFrame<T>& I, const Place& place, const Ring&) {
+  for (const Vector& c : f.body->corners()) place(I.p + I.x * c.x + I.y * c.y + I.z * c.z, 0.0);
+}
 inline std::size_t outermost(const Ball&) { return 1; }
 inline std::size_t outermost(const Torus&) { return 1; }
 inline std::size_t outermost(const Frustum&) { return 2; }
 inline std::size_t outermost(const Box&) { return 8; }
+inline std::size_t outermost(const Polyhedron& f) { return f.body->corners().size(); }
 
 // As many as `outermost` times `walls`.
 template <class T, class A, class B>

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double straight = 1e-9;  // of angles [rad] and of areas
 
-struct Side {
+struct OutlineSide {
   Vector direction, outwards;
 };
 
@@ -45,7 +45,7 @@ std::optional<std::vector<Vector>> rounded_outline(std::span<const Vector> corne
   if (n > 2 && area == 0) return std::nullopt;
   if (area < 0) std::reverse(at.begin(), at.end());
 
-  std::vector<Side> sides;  // from each corner to the next
+  std::vector<OutlineSide> sides;  // from each corner to the next
   for (std::size_t k = 0; k < n; ++k) {
     const Vector d = normalized(at[(k + 1) % n] - at[k]);
     sides.push_back({d, {d.y, -d.x, 0}});
@@ -53,7 +53,7 @@ std::optional<std::vector<Vector>> rounded_outline(std::span<const Vector> corne
   std::vector<Vector> outline;
   std::vector<std::size_t> first(n), last(n);  // points of the outline that belong to each corner
   for (std::size_t k = 0; k < n; ++k) {
-    const Side &in = sides[(k + n - 1) % n], &out = sides[k];
+    const OutlineSide &in = sides[(k + n - 1) % n], &out = sides[k];
     first[k] = outline.size();
     double angle = std::atan2(cross(in.direction, out.direction).z, dot(in.direction, out.direction));
     if (n == 2) angle = std::numbers::pi;

@@ -15,6 +15,7 @@ Bounds of(const Frustum& f) {
 Bounds of(const Torus& t) { return {{}, t.major + t.minor}; }
 Bounds of(const Box& b) { return {0.5 * (b.low + b.high), 0.5 * norm(b.high - b.low)}; }
 Bounds of(const Plane&) { return {{}, std::numeric_limits<double>::infinity()}; }
+Bounds of(const Polyhedron& f) { return {f.body->centre(), f.body->radius()}; }
 Bounds of(const Profile& p) { return {p.curve->centre(), p.curve->radius()}; }
 
 }  // namespace

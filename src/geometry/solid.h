@@ -1,5 +1,5 @@
-// Solids, surfaces and curves in closed form, each in the axes of a frame of its own: what contacts are calculated
-// from.
+// Solids, surfaces and curves in closed form, and facets, each in the axes of a frame of its own: what contacts are
+// calculated from.
 #pragma once
 
 #include <cmath>
@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "base/vec3.h"
+#include "geometry/facet_body.h"
 #include "geometry/plane_curve.h"
 
 namespace dynalin::solid {
@@ -35,12 +36,17 @@ struct Plane {
   double xmin = 0, xmax = 0, ymin = 0, ymax = 0;
 };
 
+// What facets bound.
+struct Polyhedron {
+  std::shared_ptr<const FacetBody> body;
+};
+
 // What a curve in the plane z = 0 bounds there: no solid. It touches others of its kind and points.
 struct Profile {
   std::shared_ptr<const PlaneCurve> curve;
 };
 
-using Shape = std::variant<Ball, Ellipsoid, Frustum, Torus, Box, Plane, Profile>;
+using Shape = std::variant<Ball, Ellipsoid, Frustum, Torus, Box, Plane, Polyhedron, Profile>;
 
 // One side of a contact: a shape, or what is left when it is taken out of space.
 struct Side {

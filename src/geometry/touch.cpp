@@ -6,6 +6,7 @@
 #include "geometry/cavity_touch.h"
 #include "geometry/common_normal.h"
 #include "geometry/ellipsoid_touch.h"
+#include "geometry/facet_touch.h"
 #include "geometry/frustum_touch.h"
 #include "geometry/plane_touch.h"
 
@@ -34,6 +35,9 @@ std::size_t count_of([[maybe_unused]] const A& a, [[maybe_unused]] const B& b, b
     if constexpr (std::is_same_v<A, Ball>) return a.radius == 0 ? 1 : 0;
     return std::is_same_v<A, Profile> ? most_plane_touches : 0;
   } else if constexpr (std::is_same_v<A, Profile> || std::is_same_v<A, Plane>) {
+    return 0;
+  } else if constexpr (std::is_same_v<B, Polyhedron>) {
+    if constexpr (std::is_same_v<A, Ball>) return facet_touches(a);
     return 0;
   } else if constexpr (std::is_same_v<B, Plane>) {
     if constexpr (std::is_same_v<A, Ellipsoid>)
@@ -127,8 +131,9 @@ void touch_plane(const Torus& t, const RelativeFrame<T>& I, const Plane& plane, 
   lowest.z -= T(t.minor * up);
   out[0] = touch_on_plane(lowest, up, plane, defined);
 }
-template <class T>
-void touch_plane(const Box& b, const RelativeFrame<T>& I, const Plane& plane, double up, std::span<Touch<T>> out) {
+// A shape with corners.
+template <class T, class A>
+void touch_plane(const A& b, const RelativeFrame<T>& I, const Plane& plane, double up, std::span<Touch<T>> out) {
   std::size_t next = 0;
   for_each_outermost(
       b, I, [&](const Vec3<T>& corner, double) { out[next++] = touch_on_plane(corner, up, plane); },
@@ -158,6 +163,8 @@ void direct(const Side& A, const Side& B, const RelativeFrame<T>& A_from_B, std:
             out[0] = touch_point(A_from_B.p, *b.curve, B.reversed);
         } else if constexpr (std::is_same_v<S, Profile> || std::is_same_v<S, Plane>) {
           return;
+        } else if constexpr (std::is_same_v<U, Polyhedron>) {
+          if constexpr (std::is_same_v<S, Ball>) touch_facets(a, A_from_B.p, *b.body, B.reversed, out);
         } else if constexpr (std::is_same_v<U, Plane>) {
           touch_plane(a, A_from_B, b, B.reversed ? -1.0 : 1.0, out);
         } else {

@@ -25,7 +25,7 @@ struct Touch {
   bool closed() const { return value_of(gap) < 0 && inside >= 0; }
 };
 
-// Most of all are those of the corners of a box with the walls of another that it is in.
+// Most of all are those of the corners of a box with the walls of another that it is in; but facets may have more.
 inline constexpr std::size_t most_touches_in_space = 48;
 
 // As many as the two sides have, whatever their positions; 0 where contact between them has no formula here.

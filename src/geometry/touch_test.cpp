@@ -94,7 +94,9 @@ double implicit(const Side& s, const Vector& p) {
       return std::max({p.x - b.high.x, b.low.x - p.x, p.y - b.high.y, b.low.y - p.y, p.z - b.high.z, b.low.z - p.z});
     }
     double operator()(const Plane&) const { return p.z; }
-    double operator()(const Profile&) const { return std::numeric_limits<double>::quiet_NaN(); }  // no solid
+    // Theirs are in facet_touch_test.cpp, and no solid.
+    double operator()(const Polyhedron&) const { return std::numeric_limits<double>::quiet_NaN(); }
+    double operator()(const Profile&) const { return std::numeric_limits<double>::quiet_NaN(); }
   } at{p};
   return std::visit(at, s.shape);
 }

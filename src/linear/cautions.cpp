@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cctype>
-#include <cmath>
-#include <numbers>
-
 #include "linear/configuration.h"
+#include "linear/motion_caution.h"
 #include "linear/reach.h"
 #include "linear/stiction_caution.h"
 
@@ -47,38 +44,6 @@ void disproportion(const System& system, const LinearSystem& linear, Diagnostics
                           system.layout().coordinate_text(found->coordinate), found->times, s.text, s.owner.text()));
 }
 
-void motion(const System& system, const OperatingPoint& op, const EigenSolution& modes, Diagnostics& out) {
-  // Against what the fastest mode does to the model as a whole, and gravity.
-  double fastest = 0;
-  for (const EigenMode& m : modes.modes) fastest = std::max(fastest, 2 * std::numbers::pi * std::abs(m.eigenvalue_hz));
-  const double L = system.length();
-  const double scale = std::max(norm(system.model().gravity), L * fastest * fastest);
-  double most = std::max(1e-6 * scale, 1e-12 * L);
-  struct {
-    const ElementLabel* part = nullptr;
-    double acceleration, turning, spin_up;
-  } found{};
-  const Motion motion = system.motion(op);
-  for (std::size_t b = 1; b < motion.bodies.size(); ++b) {
-    const BodyMotion& m = motion.bodies[b];
-    // Of the mass centre: where the origin of a part lies is the choice of its author.
-    const double a = norm(m.rddot + m.Rddot * system.model().bodies[b].p_BC), w = norm(m.w), spin_up = norm(m.wdot);
-    const double size = a + L * (w * w + spin_up);
-    if (size > most * (1 + 1e-9)) most = size, found = {&system.layout().bodies[b].label, a, w, spin_up};
-  }
-  if (!found.part) return;
-  const Units& units = system.model().units;
-  const std::string time = units.time_symbol();
-  std::string length = units.length.empty() ? "length" : units.length;
-  for (char& c : length) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  out.warning(
-      "accelerating-point", found.part->at,
-      fmt::format("the operating point accelerates or turns, most of all {0} (acceleration of its mass centre {1:.5g} "
-                  "{4}/{5}², angular velocity {2:.5g} rad/{5}, angular acceleration {3:.5g} rad/{5}²): the "
-                  "eigenvalues hold for this instant, and mode shapes may be strange",
-                  found.part->full_text(), found.acceleration, found.turning, found.spin_up, length, time));
-}
-
 void overdamping(const System& system, const LinearSystem& linear, const EigenSolution& modes, Diagnostics& out) {
   if (modes.without_damping) return;
   int falling = 0, others = 0;
@@ -108,7 +73,7 @@ Diagnostics cautions(const System& system, const OperatingPoint& op, const Linea
   singular_configuration(system, op, linear, out);
   empty_rows(system, op, out);
   disproportion(system, linear, out);
-  motion(system, op, modes, out);
+  motion_caution(system, op, modes, out);
   overdamping(system, linear, modes, out);
   stiction_cautions(system, op, linear, modes, out);
   return out;

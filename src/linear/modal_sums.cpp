@@ -59,7 +59,7 @@ ComplexMatrix table_entries(const System& system, const OperatingPoint& op, cons
 ComplexMatrix entries_beside(const System& system, const ComplexMatrix& displacement) {
   std::vector<Index> rows;
   for (const ExtraBlock& e : system.layout().extras) {
-    if (e.type != StateType::flex_body && e.type != StateType::fe_part) continue;
+    if (!e.is_deformation()) continue;
     for (Index k = e.offset; k < e.offset + e.count; ++k) rows.push_back(k);
   }
   return displacement(rows, Eigen::all);

@@ -44,6 +44,9 @@ struct ExtraBlock {
   ElementLabel label;
   StateType type;  // of these coordinates and of their rates as states, which are numbered alike
   std::vector<ExtraCoordinate> coordinates;
+
+  // Whether they are the shape of a body, which has inertia.
+  bool is_deformation() const { return type == StateType::flex_body || type == StateType::fe_part; }
 };
 
 class ParametricCurve;

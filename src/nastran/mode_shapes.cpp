@@ -31,7 +31,7 @@ StudyResult<void> add_modes(const Linearization& of, const OpenPoints& points, D
         &solution.vectors, choice.first_differential + static_cast<Eigen::Index>(k)};
   }
   for (const ExtraBlock& e : of.system->layout().extras) {
-    if (e.type != StateType::flex_body && e.type != StateType::fe_part) continue;
+    if (!e.is_deformation()) continue;
     for (std::int32_t k = e.offset; k < e.offset + e.count; ++k) scalar_points[points.dof(k).point] = {&moved, k};
   }
   for (const auto& [id, b] : grids) deck.mode_points.push_back(id);

@@ -133,7 +133,7 @@ class FlexibleAgreement : public ::testing::TestWithParam<std::uint64_t> {};
 TEST_P(FlexibleAgreement, state_matrices_equal_differences_of_the_nonlinear_model) { compare(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(generated, FlexibleAgreement, ::testing::Range<std::uint64_t>(271, 277));
 
-// Of solids that press on each other, three pairs in each: the list is in generator_solids.cpp.
+// Of solids that press on each other, four pairs in each: the list is in generator_solids.cpp.
 class SolidAgreement : public ::testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(SolidAgreement, state_matrices_equal_differences_of_the_nonlinear_model) { compare(GetParam()); }

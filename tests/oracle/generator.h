@@ -180,7 +180,7 @@ class Draw {
   bool must_call_ = false;             // compiled routines, from 261 to 270
   bool must_deform_ = false;           // a flexible body, from 271 to 280
   BeamPlane plane_ = BeamPlane::none;  // of a beam, from 281 to 290: each in turn
-  int meeting_ = -1;                   // the first of three pairs of solids, from 291 to 310
+  int meeting_ = -1;                   // the first of four pairs of solids, from 291 to 310
   bool may_rub_ = false;               // every second seed
   Mechanism m_;
   double L_ = 1, F_ = 10;  // natural length and force

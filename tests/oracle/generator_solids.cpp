@@ -13,10 +13,10 @@ namespace dynalin::oracle {
 namespace {
 
 constexpr SolidShape ellipsoid = SolidShape::ellipsoid, box_shape = SolidShape::box, frustum = SolidShape::frustum,
-                     torus = SolidShape::torus;
+                     torus = SolidShape::torus, wedge = SolidShape::wedge;
 
-// Seeds 291 + k and 301 + k have numbers k, k + 10 and k + 20.
-constexpr std::array<Meeting, 30> meetings{{
+// Seeds 291 + k and 301 + k have numbers k, k + 10, k + 20 and k + 30.
+constexpr std::array<Meeting, 40> meetings{{
     {torus, false, ellipsoid, false, false, Spot::any},       // 291
     {torus, false, frustum, true, false, Spot::mantle},       // 292
     {torus, false, torus, false, false, Spot::any},           // 293
@@ -47,12 +47,31 @@ constexpr std::array<Meeting, 30> meetings{{
     {torus, false, frustum, false, true, Spot::mantle},       // 298
     {ellipsoid, false, frustum, false, false, Spot::mantle},  // 299
     {ellipsoid, false, frustum, true, false, Spot::edge},     // 300
+    {ellipsoid, true, wedge, false, false, Spot::face},       // 291
+    {ellipsoid, true, wedge, false, false, Spot::edge},       // 292
+    {wedge, false, box_shape, false, true, Spot::any},        // 293
+    {wedge, false, frustum, false, true, Spot::mantle},       // 294
+    {wedge, false, ellipsoid, false, true, Spot::any},        // 295
+    {wedge, false, frustum, true, true, Spot::end},           // 296
+    {wedge, false, ellipsoid, true, true, Spot::any},         // 297
+    {ellipsoid, true, box_shape, false, false, Spot::edge},   // 298
+    {ellipsoid, true, frustum, false, false, Spot::edge},     // 299
+    {ellipsoid, true, wedge, false, false, Spot::edge},       // 300
 }};
 
 // Whether a normal in the axes of a box or frustum is one of such a spot. Edges: rims and corners as well.
 bool belongs_to(Spot spot, const Solid& s, const Vec& n) {
   constexpr Real exact = 1e-9L;
   if (spot == Spot::any) return true;
+  if (s.shape == SolidShape::wedge) {
+    const std::vector<Vec> at = corners(s, {});
+    bool face = std::fabs(n.z) > 1 - exact;
+    for (std::size_t k = 0; k < at.size(); k += 2) {
+      const Vec side = at[(k + 2) % at.size()] - at[k];
+      face = face || dot(n, normalized({side.y, -side.x, 0})) > 1 - exact;
+    }
+    return face == (spot == Spot::face);
+  }
   if (s.shape == SolidShape::box) {
     const bool face = std::max({std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)}) > 1 - exact;
     return face == (spot == Spot::face);
@@ -65,6 +84,10 @@ bool belongs_to(Spot spot, const Solid& s, const Vec& n) {
 // In the axes of its marker.
 Vec middle_of(const Solid& s) {
   if (s.shape == SolidShape::box) return 0.5L * to_vec(s.size);
+  if (s.shape == SolidShape::wedge) {
+    const Real half = s.size[2] / 2.0L, out = s.size[1] / 2.0L;
+    return {out * std::cos(half), out * std::sin(half), s.size[0] / 2.0L};
+  }
   return s.shape == SolidShape::frustum ? Vec{0, 0, s.size[0] / 2.0L} : Vec{};
 }
 
@@ -154,6 +177,9 @@ Solid Draw::solid(SolidShape shape, bool regular, double size) {
       s.size[0] = some() / 2;
       s.size[1] = s.size[0] * uniform(0.25, 0.4);
       break;
+    case SolidShape::wedge:
+      s.size = {signed_extent(), some(), uniform(1.2, 2.4)};
+      break;
   }
   return s;
 }
@@ -207,7 +233,7 @@ void Draw::check_regimes(const Touch& t) const {
 }
 
 void Draw::draw_meetings() {
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < 4; ++k) {
     const Meeting& meeting = meetings[static_cast<std::size_t>(meeting_) + 10 * k];
     bool drawn = false;
     for (int attempt = 0; attempt < 400 && !drawn; ++attempt) {

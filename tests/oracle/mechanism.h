@@ -217,8 +217,9 @@ struct Friction {
 };
 
 // A GRAPHICS that bounds a volume, with its numbers as they are written: scales; X, Y, Z; LENGTH, BOTTOM, TOP, a
-// CYLINDER where these agree; radii of the centre circle and of the tube.
-enum class SolidShape { ellipsoid, box, frustum, torus };
+// CYLINDER where these agree; radii of the centre circle and of the tube; LENGTH, RADIUS and RANGLE of a wedge, a part
+// of a CYLINDER that is drawn, and touched, in three pieces.
+enum class SolidShape { ellipsoid, box, frustum, torus, wedge };
 struct Solid {
   SolidShape shape = SolidShape::ellipsoid;
   Triple size{1, 1, 1};

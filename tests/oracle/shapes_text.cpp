@@ -32,6 +32,8 @@ std::string solid_text(int id, int marker, const Solid& s) {
       return graphics(id, "FRUSTUM", centre, {{"LENGTH", a}, {"BOTTOM", b}, {"TOP", c}});
     case SolidShape::torus:
       return graphics(id, "TORUS", centre, {{"MAJOR_RADIUS", a}, {"MINOR_RADIUS", b}});
+    case SolidShape::wedge:
+      return graphics(id, "CYLINDER", centre, {{"LENGTH", a}, {"RADIUS", b}, {"RANGLE", c}, {"SEG", 3}});
   }
   return {};
 }

@@ -113,6 +113,7 @@ std::vector<TouchPlace> places_in_cavity(const Solid& inside, const MarkerPose& 
     const auto add = [&](const Vec& centre, Real radius) { places.push_back(place_of(centre, radius, wall(centre))); };
     switch (inside.shape) {
       case SolidShape::box:
+      case SolidShape::wedge:
         for (const Vec& corner : corners(inside, pose)) add(corner, 0);
         break;
       case SolidShape::frustum:

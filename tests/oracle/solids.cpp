@@ -114,6 +114,37 @@ Distance from_frustum(const Triple& size, const Vec& p) {
   return nearest;
 }
 
+// The outline of a wedge, counter-clockwise from its axis.
+std::vector<Profile::Point> outline(const Triple& size) {
+  std::vector<Profile::Point> points{{0, 0}};
+  for (int k = 0; k <= 3; ++k)
+    points.push_back({size[1] * std::cos(size[2] * k / 3.0L), size[1] * std::sin(size[2] * k / 3.0L)});
+  return points;
+}
+
+// From a convex outline, and so much along z beyond the nearer end.
+Distance from_wedge(const Triple& size, const Vec& p) {
+  const std::vector<Profile::Point> corner = outline(size);
+  Distance across{-1e300L, {}}, apart{1e300L, {}};
+  for (std::size_t k = 0; k < corner.size(); ++k) {
+    const Profile::Point &a = corner[k], &b = corner[(k + 1) % corner.size()];
+    const Vec side{b.r - a.r, b.z - a.z, 0}, from{p.x - a.r, p.y - a.z, 0};
+    const Vec out = normalized({side.y, -side.x, 0});
+    if (const Real beyond = dot(out, from); beyond > across.value) across = {beyond, out};
+    const Real along = std::clamp<Real>(dot(from, side) / dot(side, side), 0, 1);
+    const Vec away = from - along * side;
+    if (const Real d = norm(away); d < apart.value) apart = {d, normalized(away)};
+  }
+  if (across.value > 0) across = apart;
+  const Real middle = p.z - size[0] / 2.0L, beyond = std::fabs(middle) - std::fabs(size[0]) / 2.0L;
+  const Vec up = sign(middle) * unit(2);
+  if (across.value > 0 && beyond > 0) {
+    const Vec both = across.value * across.gradient + beyond * up;
+    return {norm(both), normalized(both)};
+  }
+  return across.value > beyond ? across : Distance{beyond, up};
+}
+
 Distance from_torus(const Triple& size, const Vec& p) {
   const Real r = std::hypot(p.x, p.y), out = r - size[0], d = std::hypot(out, p.z);
   return {d - size[1], {out / d * p.x / r, out / d * p.y / r, p.z / d}};
@@ -129,6 +160,8 @@ Distance local_distance(const Solid& solid, const Vec& x) {
       return from_frustum(solid.size, x);
     case SolidShape::torus:
       return from_torus(solid.size, x);
+    case SolidShape::wedge:
+      return from_wedge(solid.size, x);
   }
   throw std::logic_error("no such solid");
 }
@@ -185,6 +218,12 @@ std::vector<Circle> rims(const Solid& frustum, const MarkerPose& pose) {
 
 std::vector<Vec> corners(const Solid& box, const MarkerPose& pose) {
   std::vector<Vec> points;
+  if (box.shape == SolidShape::wedge) {
+    for (const Profile::Point& p : outline(box.size)) {
+      for (const Real z : {Real(0), Real(box.size[0])}) points.push_back(pose.at({p.r, p.z, z}));
+    }
+    return points;
+  }
   for (int k = 0; k < 8; ++k) {
     points.push_back(pose.at({(k & 1) * box.size[0], (k >> 1 & 1) * box.size[1], (k >> 2) * box.size[2]}));
   }

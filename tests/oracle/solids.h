@@ -41,7 +41,7 @@ struct Circle {
 };
 [[nodiscard]] Circle centre_circle(const Solid& torus, const MarkerPose& pose);
 [[nodiscard]] std::vector<Circle> rims(const Solid& frustum, const MarkerPose& pose);  // bottom, top
-[[nodiscard]] std::vector<Vec> corners(const Solid& box, const MarkerPose& pose);
+[[nodiscard]] std::vector<Vec> corners(const Solid& box_or_wedge, const MarkerPose& pose);
 // The point of an ellipsoid farthest along a direction of any length.
 [[nodiscard]] Vec support(const Solid& ellipsoid, const MarkerPose& pose, const Vec& along);
 
@@ -62,7 +62,7 @@ struct TouchPlace {
   return {from.gradient, centre - ((radius + from.value) / 2) * from.gradient, from.value - radius};
 }
 
-// A torus with any solid, or an ellipsoid with a box or a frustum; the normal out of b.
+// A torus with any solid, or an ellipsoid with a box, a frustum or a wedge; the normal out of b.
 [[nodiscard]] TouchPlace place_between(const Solid& a, const MarkerPose& A, const Solid& b, const MarkerPose& B);
 // Of what is inside with every wall, closed or not; normals into the cavity.
 [[nodiscard]] std::vector<TouchPlace> places_in_cavity(const Solid& inside, const MarkerPose& pose, const Solid& cavity,

@@ -10,7 +10,7 @@ namespace {
 
 const Solid egg{SolidShape::ellipsoid, {0.9, 1.3, 1.1}}, brick{SolidShape::box, {0.8, -1.1, 0.9}},
     tin{SolidShape::frustum, {1.2, 0.5, 0.5}}, cup{SolidShape::frustum, {-1.1, 0.4, 0.6}},
-    ring{SolidShape::torus, {0.5, 0.15}};
+    ring{SolidShape::torus, {0.5, 0.15}}, cake{SolidShape::wedge, {0.6, 0.9, 1.7}};
 const MarkerPose upright{{}, {}}, askew{{0.2, -0.1, 0.3}, rotation_313(0.7L, 1.1L, -0.4L)};
 
 double number_of(Real x) { return static_cast<double>(x); }
@@ -29,7 +29,7 @@ std::vector<Vec> directions(int count) {
 Vec farthest(const Solid& s, const MarkerPose& pose, const Vec& along) {
   if (s.shape == SolidShape::ellipsoid) return support(s, pose, along);
   std::vector<Vec> points;
-  if (s.shape == SolidShape::box) points = corners(s, pose);
+  if (s.shape == SolidShape::box || s.shape == SolidShape::wedge) points = corners(s, pose);
   if (s.shape == SolidShape::frustum) {
     for (const Circle& rim : rims(s, pose)) {
       const Real x = dot(rim.x, along), y = dot(rim.y, along), size = std::hypot(x, y);
@@ -42,7 +42,7 @@ Vec farthest(const Solid& s, const MarkerPose& pose, const Vec& along) {
 
 // Of a convex solid: the largest distance of a point beyond a plane that touches it, negative inside.
 TEST(Oracle, distance_from_a_convex_solid_is_that_beyond_its_tangent_planes) {
-  for (const Solid& s : {egg, brick, tin, cup}) {
+  for (const Solid& s : {egg, brick, tin, cup, cake}) {
     const DistanceOf distance = distance_from(s, askew);
     for (const Vec& at :
          {Vec{1.1L, 0.4L, -0.3L}, Vec{0.3L, 0.2L, 0.5L}, Vec{-0.8L, -0.9L, 1.2L}, Vec{0.1L, -0.5L, 0}}) {
@@ -202,7 +202,7 @@ TEST(Oracle, gaps_of_drawn_solids_follow_the_velocity_of_the_material) {
   for (std::uint64_t seed = 291; seed <= 300; ++seed) {
     SCOPED_TRACE(seed);
     const Mechanism m = random_mechanism(seed);
-    ASSERT_EQ(m.touches.size(), 3u);
+    ASSERT_EQ(m.touches.size(), 4u);
     Model model(m);
     place(model, drawn_point(m));
     const std::vector<BodyMotion> here = model.motion;

@@ -15,7 +15,7 @@ namespace dynalin {
 namespace {
 
 using Seeded = Dual<12>;
-// Of one pair of shapes.
+// Of one pair of shapes, neither of which has more corners than a box.
 constexpr std::size_t most_touches = std::max({most_plane_touches, box_touches, most_touches_in_space});
 
 template <class T>
@@ -62,14 +62,17 @@ double apart(const RelativeFrame<T>& f, const solid::Side& I, const solid::Side&
 template <class T, class Visit, class Far>
 void for_each_pair(const ContactForce& c, const RelativeFrame<T>& I, const Visit& visit, const Far& far) {
   std::array<Touch<T>, most_touches> room;
+  std::vector<Touch<T>> more_room;
   for (const PlacedSide& on_I : c.I) {
     for (const PlacedSide& on_J : c.J) {
       const RelativeFrame<T> f = shape_from_shape(I, on_I, on_J);
-      const std::span<Touch<T>> touches(room.data(), touch_count(on_I.side, on_J.side));
+      const std::size_t count = touch_count(on_I.side, on_J.side);
       if (const double gap = apart(f, on_I.side, on_J.side); gap > 0) {
-        far(touches.size(), gap);
+        far(count, gap);
         continue;
       }
+      if (count > room.size()) more_room.resize(count);
+      const std::span<Touch<T>> touches(count > room.size() ? more_room.data() : room.data(), count);
       find_touches(on_I.side, on_J.side, f, touches);
       if (!on_J.is_first) {
         const Frame<double>& b = on_J.from_first;

@@ -23,9 +23,8 @@
 #include <memory>
 #include <numbers>
 
-#include "elements/families/contact_force.h"
+#include "elements/families/contact_sides.h"
 #include "elements/families/markers.h"
-#include "geometry/contact_shape.h"
 #include "model/linear_remarks.h"
 #include "model/schema.h"
 
@@ -94,14 +93,6 @@ struct Contact {
   }};
 };
 
-// A GRAPHICS of one side, and where the CONTACT names it.
-struct Listed {
-  std::int64_t id;
-  ElementHandle graphics;
-  Span at;
-  bool reversed = false;
-};
-
 // The ratio of damping that leaves r of the speed after a blow.
 double damping_ratio(double r) {
   const auto lost = [](double z) {
@@ -124,8 +115,7 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
     Contact& c = elements[k];
     sides_.resize(k + 1), forces_.resize(k + 1);
     if (!read_arguments(c, reader)) return;
-    sides_[k] = {listed("IGEOM", {"IFLIP_GEOMETRY", "IFLIP_NORMAL"}, reader),
-                 listed("JGEOM", {"JFLIP_GEOMETRY", "JFLIP_NORMAL"}, reader)};
+    sides_[k] = read_sides(reader);
     read_pressure(c, forces_[k], reader);
     read_friction(c, forces_[k], reader);
     if (c.augmented) {
@@ -139,10 +129,7 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       ContactForce& f = forces_[k];
       if (sides_[k][0].empty() || sides_[k][1].empty()) continue;  // reported
-      const std::size_t errors = diagnostics.error_count();
-      const bool placed = place(model, k, 0, f.I, f.i, diagnostics) && place(model, k, 1, f.J, f.j, diagnostics);
-      if (!placed || diagnostics.error_count() > errors) continue;
-      if (!check_pairs(model, k, diagnostics) || !check_planes(model, k, diagnostics)) continue;
+      if (!place_sides(model, labels[k], sides_[k], f, diagnostics)) continue;
       check_pair(model, labels[k], f.i, f.j, {true, turns(model, k, 0), turns(model, k, 1)}, diagnostics);
       if (elements[k].poisson) finish_poisson(model, k, diagnostics);
     }
@@ -166,57 +153,6 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
   }
 
  private:
-  using Names = std::array<std::string_view, 2>;
-
-  // All ids of an argument, each with its place.
-  static std::vector<Listed> ids_of(std::string_view name, ElementReader& reader) {
-    std::vector<Listed> list;
-    if (!reader.given(name)) return list;
-    const Span at = reader.at(name);
-    for (const WrittenArgument& w : reader.statement().arguments) {
-      if (w.name.offset != at.offset || w.name.source != at.source) continue;
-      Diagnostics known;  // what is wrong with the list itself was reported when it was read
-      const auto ids = read_integers(w, *w.name.source, known);
-      if (!ids) continue;
-      for (const WrittenInteger& id : *ids) {
-        const auto graphics = reader.element("GRAPHICS", id);
-        if (graphics) list.push_back({id.value, *graphics, id.at});
-      }
-    }
-    return list;
-  }
-
-  static std::vector<Listed> listed(std::string_view name, const Names& flips, ElementReader& reader) {
-    std::vector<Listed> list = ids_of(name, reader);
-    for (std::size_t k = 0; k < list.size(); ++k) {
-      for (std::size_t n = 0; n < k; ++n) {
-        if (list[n].id != list[k].id) continue;
-        reader.error("duplicate-argument", list[k].at,
-                     fmt::format("{} of {} lists GRAPHICS/{} twice", name, reader.label().text(), list[k].id));
-        return {};
-      }
-    }
-    for (const std::string_view flip : flips) {
-      for (const Listed& turned : ids_of(flip, reader)) {
-        const auto it = std::find_if(list.begin(), list.end(), [&](const Listed& l) { return l.id == turned.id; });
-        if (it == list.end()) {
-          reader.error("unexpected-value", turned.at,
-                       fmt::format("{} of {} lists GRAPHICS/{}, which {} does not", flip, reader.label().text(),
-                                   turned.id, name));
-          return {};
-        }
-        if (it->reversed) {
-          reader.error("excluded-arguments", turned.at,
-                       fmt::format("{} turns GRAPHICS/{} inside out twice", reader.label().text(), turned.id),
-                       fmt::format("{} and {} do the same: name it in one of them", flips[0], flips[1]));
-          return {};
-        }
-        it->reversed = true;
-      }
-    }
-    return list;
-  }
-
   static void excluded(std::initializer_list<std::string_view> names, std::string_view owner, ElementReader& reader) {
     for (const std::string_view name : names) {
       if (!reader.given(name)) continue;
@@ -294,105 +230,6 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
     f.friction_in_statics = word == 0;
   }
 
-  // All shapes of one side in the axes of the marker of the first one; false after an error, here or where they stand.
-  bool place(const Model& model, std::size_t k, std::size_t side, std::vector<PlacedSide>& out, MarkerId& first,
-             Diagnostics& diagnostics) const {
-    for (const Listed& l : sides_[k][side]) {
-      const ElementSet& set = model.set(l.graphics);
-      if (!set.sound[static_cast<std::size_t>(l.graphics.index)]) return false;
-      const auto* source = dynamic_cast<const ContactShapeSource*>(&set);
-      std::string what;
-      const auto shape =
-          source ? source->contact_shape(static_cast<std::size_t>(l.graphics.index), model, what) : std::nullopt;
-      if (!shape) {
-        if (what.empty()) return false;
-        diagnostics.error(
-            "contact-shape", l.at,
-            fmt::format("{} names {}, {}, which nothing can touch", labels[k].text(), model.label(l.graphics).text(),
-                        what),
-            "whole ELLIPSOIDs, CYLINDERs, FRUSTUMs and TORUSes, BOX, PLANE and POINT can be touched, or in a "
-            "plane CURVE, CIRCLE, ARC, OUTLINE and POINT");
-        return false;
-      }
-      const Marker& marker = model.marker(shape->marker);
-      if (marker.floating) return false;  // reported with the GRAPHICS
-      const MarkerPlace& place = marker.place;
-      if (out.empty()) {
-        first = shape->marker;
-        out.push_back({{shape->shape, l.reversed}, {{}, Matrix3::identity()}, true});
-        continue;
-      }
-      const MarkerPlace& at = model.marker(first).place;
-      if (place.body != at.body || place.shapes || at.shapes) {
-        const bool flexible = place.body == at.body;
-        diagnostics.error(flexible ? "contact-shape" : "foreign-marker", l.at,
-                          flexible ? fmt::format("{} of {} stands on a body that changes its shape, beside others",
-                                                 model.label(l.graphics).text(), labels[k].text())
-                                   : fmt::format("{} is on {}, the first shape of this side of {} on {}",
-                                                 model.label(l.graphics).text(), model.body(place.body).label.text(),
-                                                 labels[k].text(), model.body(at.body).label.text()),
-                          flexible ? "a CONTACT for each of them" : "a CONTACT for each pair of bodies");
-        return false;
-      }
-      const Frame<double> from_first{transpose_times(at.R_BM, place.p_BM - at.p_BM),
-                                     transpose_times(at.R_BM, place.R_BM)};
-      out.push_back({{shape->shape, l.reversed}, from_first, shape->marker == first});
-    }
-    return true;
-  }
-
-  bool check_pairs(const Model& model, std::size_t k, Diagnostics& diagnostics) const {
-    const ContactForce& f = forces_[k];
-    for (std::size_t a = 0; a < f.I.size(); ++a) {
-      for (std::size_t b = 0; b < f.J.size(); ++b) {
-        if (touch_count(f.I[a].side, f.J[b].side) > 0) continue;
-        const Listed &I = sides_[k][0][a], &J = sides_[k][1][b];
-        if (solid::is_profile(f.I[a].side) != solid::is_profile(f.J[b].side)) {
-          const bool curve_is_I = solid::is_profile(f.I[a].side);
-          diagnostics.error("contact-shape", J.at,
-                            fmt::format("{} lets {}, a curve, touch {}, which is no curve", labels[k].text(),
-                                        model.label((curve_is_I ? I : J).graphics).text(),
-                                        model.label((curve_is_I ? J : I).graphics).text()),
-                            "curves touch curves and POINTs, solids touch solids and POINTs");
-          return false;
-        }
-        diagnostics.error(
-            "contact-pair-not-built", J.at,
-            fmt::format("contact of {} of {} with {} of {} is not available yet", model.label(J.graphics).text(),
-                        labels[k].text(), model.label(I.graphics).text(), labels[k].text()),
-            "all solids touch each other, a PLANE and the walls of a cavity; but of cavities ELLIPSOIDs touch BOX, "
-            "CYLINDER "
-            "and FRUSTUM alone, and CYLINDERs, FRUSTUMs and BOXes no TORUS; only one of two closed curves is a cavity");
-        return false;
-      }
-    }
-    return true;
-  }
-
-  // Curves are seen along z of each other: that says nothing where their planes stand across each other.
-  bool check_planes(const Model& model, std::size_t k, Diagnostics& diagnostics) const {
-    static constexpr double least_cosine = 0.98;
-    const ContactForce& f = forces_[k];
-    const RelativeFrame<double> I = drawn_frame(model, f.i, f.j);
-    const auto z_of = [](const PlacedSide& s) { return s.from_first.axes.z; };
-    for (std::size_t a = 0; a < f.I.size(); ++a) {
-      for (std::size_t b = 0; b < f.J.size(); ++b) {
-        if (!solid::is_profile(f.I[a].side) || !solid::is_profile(f.J[b].side)) continue;
-        const Vector z = z_of(f.I[a]);
-        const double cosine = std::abs(dot(I.x * z.x + I.y * z.y + I.z * z.z, z_of(f.J[b])));
-        if (cosine >= least_cosine) continue;
-        diagnostics.error(
-            "contact-shape", sides_[k][1][b].at,
-            fmt::format("the planes of {} and {}, curves of {}, incline by {:.3g} degrees",
-                        model.label(sides_[k][0][a].graphics).text(), model.label(sides_[k][1][b].graphics).text(),
-                        labels[k].text(), std::acos(std::min(cosine, 1.0)) * 180 / std::numbers::pi),
-            "curves touch in one plane: z of their markers is the same or opposite");
-        return false;
-      }
-    }
-    return true;
-  }
-
   // Whether a side needs rotations: not a ball alone that slides.
   bool turns(const Model&, std::size_t k, std::size_t side) const {
     const ContactForce& f = forces_[k];
@@ -419,7 +256,7 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
       p.damping = 2 * damping_ratio(*elements[k].restitution) * std::sqrt(p.stiffness / inverse);
   }
 
-  std::vector<std::array<std::vector<Listed>, 2>> sides_;
+  std::vector<ContactSides> sides_;
   std::vector<ContactForce> forces_;
 };
 

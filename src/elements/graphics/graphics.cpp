@@ -229,11 +229,36 @@ class GraphicsSet final : public ElementSet, public ShapeSource, public ContactS
 
   std::optional<ContactShape> contact_shape(std::size_t k, const Model& model, std::string& why) const override {
     if (!drawings_[k]) return std::nullopt;
-    why = fmt::format("a {}", drawings_[k]->type());
-    return drawings_[k]->contact_shape(model, why);
+    const std::string_view type = drawings_[k]->type();
+    why = fmt::format("{} {}",
+                      type == External::type || type == Ellipsoid::type || type == Extrusion::type ? "an" : "a", type);
+    auto shape = drawings_[k]->contact_shape(model, why);
+    return shape || why.empty() ? shape : facets(k, model, why);
   }
 
  private:
+  // As it is drawn, in the axes of its first marker.
+  std::optional<ContactShape> facets(std::size_t k, const Model& model, std::string& why) const {
+    const std::vector<MarkerId> markers = drawings_[k]->markers();
+    if (markers.empty() || !sound[k]) return std::nullopt;
+    std::vector<Pose> poses;
+    for (const Body& b : model.bodies) poses.push_back(b.pose);
+    std::vector<Shape> shapes;
+    Diagnostics remarks;
+    Canvas canvas(model, poses, labels[k], drawings_[k]->origin(), shapes, remarks);
+    drawings_[k]->draw(canvas);
+    if (shapes.empty() && !remarks.items().empty()) why += fmt::format(" ({})", remarks.items().front().message);
+    if (shapes.size() != 1 || shapes.front().mesh.faces() == 0) return std::nullopt;
+    Mesh& mesh = shapes.front().mesh;
+    if (!mesh.closed) {
+      why += " whose facets do not bound a volume";
+      return std::nullopt;
+    }
+    const MarkerPlace& place = model.marker(markers.front()).place;
+    for (Vector& p : mesh.vertices) p = transpose_times(place.R_BM, p - place.p_BM);
+    return ContactShape{markers.front(), solid::Polyhedron{std::make_shared<const FacetBody>(mesh)}};
+  }
+
   void check_markers(std::size_t k, const Model& model, Diagnostics& diagnostics) const {
     if (!drawings_[k]) return;
     for (const MarkerId m : drawings_[k]->markers()) {

@@ -1,0 +1,192 @@
+#include "geometry/facet_body.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+
+#include "geometry/prism.h"
+
+namespace dynalin::facet_body_test {
+namespace {
+
+using Kind = FacetBody::Feature::Kind;
+
+// An octahedron, its triangles halved along all sides `times` times and its vertices moved to random radii.
+Mesh boulder(int times, double roughness) {
+  Mesh m;
+  for (const Vector& v : {Vector{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}) m.add(v);
+  for (const Mesh::Index top : {4u, 5u}) {
+    const std::array<Mesh::Index, 4> belt{0, 2, 1, 3};
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (top == 4)
+        m.triangles.push_back({belt[k], belt[(k + 1) % 4], top});
+      else
+        m.triangles.push_back({belt[(k + 1) % 4], belt[k], top});
+    }
+  }
+  for (; times > 0; --times) {
+    std::map<std::pair<Mesh::Index, Mesh::Index>, Mesh::Index> middle;
+    const auto between = [&](Mesh::Index a, Mesh::Index b) {
+      const auto [it, made] = middle.try_emplace(std::minmax(a, b), 0);
+      if (made) {
+        const Vector sum = m.vertices[a] + m.vertices[b];
+        it->second = m.add(sum / norm(sum));
+      }
+      return it->second;
+    };
+    std::vector<std::array<Mesh::Index, 3>> finer;
+    for (const auto& [a, b, c] : m.triangles) {
+      const auto ab = between(a, b), bc = between(b, c), ca = between(c, a);
+      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    m.triangles = finer;
+  }
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> share(1 - roughness, 1);
+  for (Vector& v : m.vertices) v = v * share(random);
+  close(m);
+  return m;
+}
+
+// The angle that the surface is seen under: 4π from inside, 0 from outside.
+double seen_from(const Mesh& m, const Vector& p) {
+  double sum = 0;
+  for (const auto& t : m.triangles) {
+    const Vector a = m.vertices[t[0]] - p, b = m.vertices[t[1]] - p, c = m.vertices[t[2]] - p;
+    const double down = norm(a) * norm(b) * norm(c) + dot(a, b) * norm(c) + dot(b, c) * norm(a) + dot(c, a) * norm(b);
+    sum += 2 * std::atan2(dot(a, cross(b, c)), down);
+  }
+  return sum;
+}
+
+// By points all over the surface: never less, and more by no more than they are apart.
+double sampled_distance(const Mesh& m, const Vector& p, int n) {
+  double least = 1e300;
+  for (const auto& t : m.triangles) {
+    for (int i = 0; i <= n; ++i) {
+      for (int k = 0; k <= n - i; ++k) {
+        const double a = static_cast<double>(i) / n, b = static_cast<double>(k) / n;
+        least = std::min(least, norm(m.vertices[t[0]] * a + m.vertices[t[1]] * b + m.vertices[t[2]] * (1 - a - b) - p));
+      }
+    }
+  }
+  return least;
+}
+
+// The corner that stands inwards is at z, its walls x = 0 and y = 0 where the other coordinate is positive.
+Mesh angle_iron() {
+  const std::vector<Vector> outline{{0, 0, -1}, {0, 1, -1}, {-1, 1, -1}, {-1, -1, -1}, {1, -1, -1}, {1, 0, -1}};
+  return prism(outline, Outline::closed, {0, 0, 2});
+}
+
+}  // namespace
+
+TEST(facet_body, has_the_nearest_place_and_its_side) {
+  const Mesh mesh = boulder(2, 0.3);
+  const FacetBody body(mesh);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> at(-1.3, 1.3);
+  int inside = 0, outside = 0;
+  for (int k = 0; k < 200; ++k) {
+    const Vector p{at(random), at(random), at(random)};
+    const auto place = body.nearest(p);
+    const double sampled = sampled_distance(mesh, p, 24);
+    EXPECT_LE(place.distance, sampled + 1e-12);
+    EXPECT_GE(place.distance, sampled - 0.02);
+    EXPECT_NEAR(norm(p - place.point), place.distance, 1e-12);
+    const bool is_inside = seen_from(mesh, p) > 2 * std::numbers::pi;
+    EXPECT_EQ(place.outside, !is_inside);
+    ++(is_inside ? inside : outside);
+    EXPECT_TRUE(place.definite);
+  }
+  EXPECT_GT(inside, 20);
+  EXPECT_GT(outside, 20);
+}
+
+// A box, whose faces are halved by diagonals, has none there and in the middle of its edges.
+TEST(facet_body, knows_faces_edges_and_corners_however_they_are_divided) {
+  Mesh mesh = box({2, 2, 2});
+  // A vertex in the middle of the upper face, and one in the middle of the edge along x at y = 0, z = 2.
+  const auto index_of = [&](const Vector& p) {
+    for (Mesh::Index v = 0; v < mesh.vertices.size(); ++v) {
+      if (norm(mesh.vertices[v] - p) < 1e-12) return v;
+    }
+    throw std::logic_error("no such vertex");
+  };
+  const auto centre = mesh.add({1, 1, 2}), half = mesh.add({1, 0, 2});
+  std::vector<std::array<Mesh::Index, 4>> kept;
+  for (const auto& q : mesh.quads) {
+    const bool upper = std::ranges::all_of(q, [&](auto v) { return mesh.vertices[v].z == 2; });
+    const bool front = std::ranges::all_of(q, [&](auto v) { return mesh.vertices[v].y == 0; });
+    if (!upper && !front) kept.push_back(q);
+  }
+  mesh.quads = kept;
+  const auto a = index_of({0, 0, 2}), b = index_of({2, 0, 2}), c = index_of({2, 2, 2}), d = index_of({0, 2, 2});
+  const auto e = index_of({0, 0, 0}), f = index_of({2, 0, 0});
+  mesh.triangles = {{a, half, centre}, {half, b, centre}, {b, c, centre}, {c, d, centre},
+                    {d, a, centre},    {e, f, half},      {e, half, a},   {f, b, half}};
+  mesh.closed = false;
+  close(mesh);
+  ASSERT_TRUE(mesh.closed);
+  const FacetBody body(mesh);
+  EXPECT_EQ(body.corners().size(), 8u);
+  const auto above = body.nearest({1, 1, 2.5});
+  EXPECT_EQ(above.feature.kind, Kind::face);
+  EXPECT_NEAR(norm(above.feature.direction - Vector{0, 0, 1}), 0, 1e-15);
+  const auto beside = body.nearest({1, -0.3, 2.4});
+  EXPECT_EQ(beside.feature.kind, Kind::edge);
+  EXPECT_DOUBLE_EQ(std::abs(beside.feature.direction.x), 1);
+  EXPECT_NEAR(beside.distance, 0.5, 1e-15);
+  EXPECT_EQ(body.nearest({0.7, -0.3, 2.4}).feature.kind, Kind::edge);
+  EXPECT_EQ(body.nearest({0.6, 0.4, 2.1}).feature.kind, Kind::face);
+  EXPECT_EQ(body.nearest({-0.1, -0.1, 2.2}).feature.kind, Kind::vertex);
+  EXPECT_FALSE(body.nearest({1, 1, 1}).definite);
+  EXPECT_FALSE(body.nearest({1, 1, 1}).outside);
+}
+
+// What stands inwards is no corner, and neither is the tip of a pit.
+TEST(facet_body, has_corners_where_it_stands_out) {
+  EXPECT_EQ(FacetBody(angle_iron()).corners().size(), 10u);
+  EXPECT_EQ(FacetBody(boulder(3, 0)).corners().size(), 258u);
+  Mesh pit = boulder(0, 0);
+  pit.vertices[4] = {0, 0, -0.5};
+  EXPECT_EQ(FacetBody(pit).corners().size(), 5u);
+}
+
+TEST(facet_body, has_a_place_for_each_piece_of_surface_in_a_ball) {
+  const FacetBody body(angle_iron());
+  std::vector<FacetBody::Place> places;
+  // In the corner: both walls, whose common edge is out of the ball.
+  body.nearest_of_pieces({0.45, 0.48, 0.1}, 0.5, false, places);
+  ASSERT_EQ(places.size(), 2u);
+  EXPECT_NEAR(norm(places[0].point - Vector{0, 0.48, 0.1}), 0, 1e-15);
+  EXPECT_NEAR(norm(places[1].point - Vector{0.45, 0, 0.1}), 0, 1e-15);
+  // Over a rounded way to both: one piece, the nearer wall.
+  body.nearest_of_pieces({0.3, 0.35, 0.1}, 0.5, false, places);
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_NEAR(places[0].distance, 0.3, 1e-15);
+  EXPECT_TRUE(places[0].definite);
+  body.nearest_of_pieces({0.3, 0.3, 0.1}, 0.5, false, places);
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_FALSE(places[0].definite);
+  // On the outer edge.
+  body.nearest_of_pieces({-1.3, 1.4, 0.1}, 0.55, false, places);
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_NEAR(places[0].distance, 0.5, 1e-15);
+  // The far side of a sheet, in the ball as well, looks away.
+  const FacetBody sheet(box({2, 2, 0.01}));
+  body.nearest_of_pieces({5, 5, 5}, 0.5, false, places);
+  EXPECT_TRUE(places.empty());
+  sheet.nearest_of_pieces({1, 1, 0.3}, 0.4, false, places);
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_NEAR(places[0].distance, 0.29, 1e-15);
+  sheet.nearest_of_pieces({1, 1, 0.3}, 0.4, true, places);
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_NEAR(places[0].distance, 0.3, 1e-15);
+}
+
+}  // namespace dynalin::facet_body_test

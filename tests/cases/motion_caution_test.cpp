@@ -1,0 +1,66 @@
+// The warning that a point accelerates or turns: where something is out of balance, however stiff the model is, and
+// nowhere else.
+#include <gmock/gmock.h>
+
+#include "cases/fe_parts.h"
+#include "cases/flexible.h"
+#include "cases/run.h"
+
+namespace dynalin::cases::motion_caution_test {
+namespace {
+
+class MotionCaution : public Cases {
+ protected:
+  std::string remarks(const std::string& model, const std::string& commands = "LINEAR/EIGENSOL\n") const {
+    const RunResult r = run(model, commands);
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.err;
+  }
+  static constexpr const char* code = "accelerating-point";
+};
+
+const std::string gravity = "ACCGRAV/KGRAV=-9.81\n";
+
+}  // namespace
+
+TEST_F(MotionCaution, of_a_fall_that_stiff_modes_would_hide) {
+  const std::string pair =
+      "Pair\nUNITS/SYSTEM=MKS\n" + gravity +
+      "PART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\n"
+      "PART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30\nBUSHING/1, I=20, J=30, K=1E12,1E12,1E12, KT=1E12,1E12,1E12\nEND\n";
+  EXPECT_THAT(remarks(pair), ::testing::HasSubstr("most of all PART/2 (acceleration of its mass centre 9.81 meter/s²"));
+}
+
+// A slow turn beside modes of megahertz.
+TEST_F(MotionCaution, of_a_turn_that_stiff_modes_would_hide) {
+  const std::string rotor =
+      "Rotor\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1, WZ=1\nMARKER/20\n"
+      "BUSHING/1, I=20, J=1, K=1E12,1E12,1E12, KT=1E12,1E12,0\nEND\n";
+  EXPECT_THAT(remarks(rotor), ::testing::HasSubstr("angular velocity 1 rad/s"));
+}
+
+// What is left of the balance of a stiff beam is rounding, loaded or not.
+TEST_F(MotionCaution, is_not_of_rounding) {
+  StraightBeam beam;
+  beam.E = 2.1e11, beam.density = 7800;
+  std::string model = clamped_beam(beam);
+  EXPECT_THAT(remarks(model), ::testing::Not(::testing::HasSubstr(code)));
+  model.insert(model.find("PART/1"), gravity);
+  EXPECT_THAT(remarks(model), ::testing::HasSubstr(code));
+  EXPECT_THAT(remarks(model, "SIMULATE/STATICS\nLINEAR/EIGENSOL\n"), ::testing::Not(::testing::HasSubstr(code)));
+}
+
+// The frame of the body is held at its first node; a mass on its second one begins to sink with the mode.
+TEST_F(MotionCaution, of_a_shape_that_accelerates) {
+  const std::vector<FlexibleNode> nodes = {{1, {0, 0, 0}, 1, {1, 1, 1}, {{0, 0, 0}}, {{0, 0, 0}}},
+                                           {2, {1, 0, 0}, 2, {1, 1, 1}, {{0, 0, 1}}, {{0, 0, 0}}}};
+  write("body.fem", modal_text(nodes, Eigen::MatrixXd::Constant(1, 1, 800)));
+  const std::string model =
+      "Sag\nUNITS/SYSTEM=MKS\n" + gravity +
+      "PART/1, GROUND\nMARKER/1\nFLEX_BODY/2, MNF_FILE=body.fem\nMARKER/21, FLEX_BODY=2, NODE_ID=1\n"
+      "JOINT/1, FIXED, I=21, J=1\nEND\n";
+  EXPECT_THAT(remarks(model), ::testing::HasSubstr("of a coordinate of its shape 9.81)"));
+  EXPECT_THAT(remarks(model, "SIMULATE/STATICS\nLINEAR/EIGENSOL\n"), ::testing::Not(::testing::HasSubstr(code)));
+}
+
+}  // namespace dynalin::cases::motion_caution_test

@@ -1,0 +1,36 @@
+// A ball that bounces in a groove of facets.
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "time/course.h"
+
+namespace dynalin::in_time::contact_facets_test {
+namespace {
+
+// From where it falls freely to where it rests again for an instant: two flights of v/g and, between them, what the
+// two walls, as stiff as 2 k cos²β together, take to turn v around: tan(ω t/2) = −v ω/g.
+TEST(ContactInTime, a_ball_bounces_in_a_groove_of_facets) {
+  constexpr double g = 10, m = 2, radius = 0.2, k = 1e5, beta = 0.6, height = 0.3;
+  const double cosine = std::cos(beta), omega = std::sqrt(2 * k / m) * cosine, v = std::sqrt(2 * g * height);
+  const double turned = 2 / omega * (std::numbers::pi - std::atan(v * omega / g)), whole = 2 * v / g + turned;
+  const double start = radius / cosine + height;
+  const Course c = led_through_time(
+      fmt::format("Groove\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-10\nPART/1, GROUND\nMARKER/1\n"
+                  "MARKER/9, PART=1, QP=0,-2,0, REULER=180D,90D,0\nMATRIX/1, FULL=RORDER, ROWS=6, COLUMNS=3\n"
+                  ", VALUES=0,0,0, 1,{0:.17g},0, 1,-1,0, -1,-1,0, -1,{0:.17g},0, 0,0,0\n"
+                  "CURVE/1, CLOSED, MATRIX=1, CURVE_POINTS, ORDER=2\nGRAPHICS/1, EXTRUSION, CID=1, CRM=9, LENGTH=4\n"
+                  "PART/2, MASS=2, CM=2, IP=0.1,0.1,0.1, QG=0,0.1,{1:.17g}\nMARKER/2\n"
+                  "GRAPHICS/2, ELLIPSOID, CM=2, XSCALE=0.4, YSCALE=0.4, ZSCALE=0.4\n"
+                  "CONTACT/1, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=1E5, EXPONENT=1, DAMPING=0, DMAX=1\n"
+                  "VARIABLE/1, FUNCTION=DZ(2)\nVARIABLE/2, FUNCTION=VZ(2)\nVARIABLE/3, FUNCTION=DX(2)\nEND\n",
+                  std::tan(beta), start),
+      {.end = whole, .steps = 1, .error = 1e-10});
+  ASSERT_TRUE(c.ok()) << c.failure;
+  EXPECT_NEAR(c.variables.at(1).back(), start, 1e-7);
+  EXPECT_NEAR(c.variables.at(2).back(), 0, 1e-6);
+  EXPECT_NEAR(c.variables.at(3).back(), 0, 1e-7);
+}
+
+}  // namespace
+}  // namespace dynalin::in_time::contact_facets_test
