@@ -1,7 +1,6 @@
 // The command-line program: arguments in, exit status out; everything else is the library's.
-#include <unistd.h>
-
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cctype>
