@@ -280,6 +280,33 @@ TEST_F(FePartFiles, states_have_code_27_and_energies_a_row) {
   EXPECT_NE(tables.find("FE_P/2       | 100.00"), std::string::npos) << tables;
 }
 
+// A shaft with a disc twists as sin βx with βL tan βL = J/J_D, and both have their shares of the kinetic energy.
+TEST_F(FePartFiles, share_the_kinetic_energy_of_twisting_with_a_disc) {
+  const StraightBeam shaft{.elements = 5, .height = 0.1, .width = 0.1};
+  const double own = shaft.mass_by_volume() * (shaft.yy() + shaft.zz()) * shaft.length, disc = 0.5 * own;
+  double low = 0, high = std::numbers::pi / 2;
+  for (int k = 0; k < 60; ++k) {
+    const double angle = 0.5 * (low + high);
+    (angle * std::tan(angle) < own / disc ? low : high) = angle;
+  }
+  const double of_shaft = own * (0.5 - std::sin(2 * low) / (4 * low)), of_disc = disc * std::pow(std::sin(low), 2);
+  const RunResult r = run(clamped_beam(shaft, fmt::format("PART/4, MASS=1E-9, CM=40, IP={:.17g},{:.17g},{:.17g}, "
+                                                          "QG=1,0,0\nMARKER/40\nJOINT/2, FIXED, I=40, J=22\n",
+                                                          disc, 1e-4 * disc, 1e-4 * disc)),
+                          "LINEAR/EIGENSOL, KINETIC=1,12\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  double largest = 0, beside = 0;
+  for (const auto& table : r.result(0).at("tables")) {
+    std::map<std::string, double> share;
+    for (const auto& row : table.at("rows")) {
+      if (row.contains("element")) share[row.at("element")] = row.at("values").back();
+    }
+    if (share["PART/4"] > largest) largest = share["PART/4"], beside = share["FE_PART/2"];
+  }
+  EXPECT_NEAR(largest, 100 * of_disc / (of_disc + of_shaft), 0.05);
+  EXPECT_NEAR(beside, 100 - largest, 1e-6);
+}
+
 TEST_F(FePartFiles, rows_of_energy_stand_in_the_order_of_statements) {
   const RunResult r = run(clamped_beam({.elements = 1, .height = 0.1, .width = 0.1},
                                        "MARKER/8, PART=1\nFIELD/1, I=22, J=8, CMATRIX=" + diagonal_of_field(1) +
