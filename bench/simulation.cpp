@@ -6,6 +6,7 @@
 //     simulation vehicle 100       parts in a row, two bushings between neighbours, every fifth on a rough road
 //     simulation fourbars 10       windows of the IFToMM benchmark, side by side: redundant hinges
 //     simulation contact 1         balls that bounce, an IMPACT of stiffness 1e8 each
+//     simulation bowl 100          a ball that rolls in a bowl of 2 n² facets
 //
 // A third argument is the time to simulate, a fourth the intervals of output, a fifth ERROR.
 #include "study/simulation.h"
@@ -117,6 +118,25 @@ std::string contact(int n) {
   return text + "END\n";
 }
 
+std::string bowl(int n) {
+  std::string points;
+  const auto add = [&](double x, double z) { points += fmt::format("\n, {:.17g},0,{:.17g}", x, z); };
+  for (int k = 0; k <= n; ++k) {
+    const double x = static_cast<double>(k) / n;
+    add(x, 0.3 * x * x);
+  }
+  add(1, -0.3), add(0, -0.3);
+  return head + fmt::format(
+                    "MARKER/9, PART=1\nMATRIX/1, FULL=RORDER, ROWS={}, COLUMNS=3, VALUES={}\n"
+                    "CURVE/1, OPEN, MATRIX=1, CURVE_POINTS, ORDER=2\nGRAPHICS/1, REVOLUTION, CID=1, CRM=9, SEG={}\n"
+                    "PART/2, MASS=2, CM=20, IP=0.008,0.008,0.008, QG=0.5,0.1,0.19, VY=1\nMARKER/20\n"
+                    "GRAPHICS/2, ELLIPSOID, CM=20, XSCALE=0.2, YSCALE=0.2, ZSCALE=0.2\n"
+                    "CONTACT/1, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=1E6, EXPONENT=1.5, DAMPING=1E3, DMAX=1E-4\n"
+                    ", COULOMB_FRICTION=ON, MU_STATIC=0.3, MU_DYNAMIC=0.2, STICTION_TRANSITION_VELOCITY=0.01\n"
+                    ", FRICTION_TRANSITION_VELOCITY=0.1\nEND\n",
+                    n + 3, points.substr(2), n);
+}
+
 struct Case {
   std::string text;
   double seconds;
@@ -173,14 +193,18 @@ int measure(const Case& c, double error) {
 
 int main(int argc, char** argv) {
   if (argc < 3)
-    return fmt::print(stderr,
-                      "usage: simulation chain|fall|spatial|vehicle|fourbars|contact N [TIME [INTERVALS [ERROR]]]\n"),
+    return fmt::print(
+               stderr,
+               "usage: simulation chain|fall|spatial|vehicle|fourbars|contact|bowl N [TIME [INTERVALS [ERROR]]]\n"),
            3;
   const int n = std::atoi(argv[2]);
-  const std::map<std::string, Case> cases = {
-      {"chain", {chain(n, 0.3), 1, 100}},       {"fall", {chain(n, 1.5707963267948966), 1, 100}},
-      {"spatial", {chain(n, 0.3, 60), 1, 100}}, {"vehicle", {vehicle(n), 1, 100}},
-      {"fourbars", {fourbars(n), 1, 100}},      {"contact", {contact(n), 1, 100}}};
+  const std::map<std::string, Case> cases = {{"chain", {chain(n, 0.3), 1, 100}},
+                                             {"fall", {chain(n, 1.5707963267948966), 1, 100}},
+                                             {"spatial", {chain(n, 0.3, 60), 1, 100}},
+                                             {"vehicle", {vehicle(n), 1, 100}},
+                                             {"fourbars", {fourbars(n), 1, 100}},
+                                             {"contact", {contact(n), 1, 100}},
+                                             {"bowl", {bowl(n), 1, 100}}};
   const auto found = cases.find(argv[1]);
   if (found == cases.end()) return fmt::print(stderr, "no such model: {}\n", argv[1]), 3;
   Case c = found->second;

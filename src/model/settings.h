@@ -2,6 +2,7 @@
 // the analysis its own.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -67,6 +68,11 @@ struct Settings {
   ResultsSettings results;
   std::vector<std::string> passed_over;  // "INTEGRATOR/HMAX": stated, and nothing acts on it
   Diagnostics remarks;                   // worth a sentence in every run
+
+  // Once, however often it is stated.
+  void pass_over(const std::string& name) {
+    if (std::ranges::find(passed_over, name) == passed_over.end()) passed_over.push_back(name);
+  }
 };
 
 // Values that `later` states replace those of `earlier`.

@@ -436,5 +436,17 @@ TEST_F(Massless, what_moves_most_is_found_by_displacements_and_turns) {
   EXPECT_EQ(r.result(0).at("modes")[0].at("moves_most"), "PART/2");
 }
 
+// A wheel that turns about its centre pushes a rack twice as far, wherever the BCS of the wheel is.
+TEST_F(Massless, what_moves_most_is_found_by_the_mass_centre_and_not_the_origin) {
+  const RunResult r =
+      run("Wheel and rack\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, REULER=90D,90D,0\n"
+          "PART/2, QG=10,0,0, CM=20\nMARKER/20, QP=-10,0,0\nPART/3, CM=30\nMARKER/30, REULER=90D,90D,0\n"
+          "JOINT/1, REVOLUTE, I=20, J=1\nJOINT/2, TRANSLATIONAL, I=30, J=2\n"
+          "COUPLER/1, JOINTS=1,2, TYPE=R:T, SCALES=1,0.5\nSPRINGDAMPER/1, ROTATIONAL, I=20, J=1, KT=2, CT=1\nEND\n",
+          "LINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.result(0).at("modes")[0].at("moves_most"), "PART/3");
+}
+
 }  // namespace
 }  // namespace dynalin::cases::massless_test

@@ -190,5 +190,30 @@ TEST_F(ModalTableRows, a_mode_is_named_after_the_body_with_most_kinetic_energy) 
   EXPECT_EQ(shape[16][0].get<double>(), 1);
 }
 
+// Two wheels that gears hold together about a common axis turn alike but for roundings: a spring between them has none
+// of an energy that is nothing.
+TEST_F(ModalTableRows, roundings_of_a_turn_are_no_share) {
+  const std::string axis = "REULER=0.3,0.7,1.1";
+  for (const double ratio : {3.7, 0.7, 1.9, 2.3, 0.3}) {
+    std::string model = "Wheels\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, " + axis + "\n";
+    for (const int k : {2, 3, 4})
+      model += fmt::format("PART/{0}, MASS=1, CM={0}0, IP=1,2,3\nMARKER/{0}0, {1}\nJOINT/{0}, REVOLUTE, I={0}0, J=1\n",
+                           k, axis);
+    model += fmt::format(
+        "COUPLER/1, JOINTS=2,3, TYPE=R:R, SCALES=1,-{0}\nCOUPLER/2, JOINTS=3,4, TYPE=R:R, SCALES={0},-1\n"
+        "SPRINGDAMPER/1, ROTATIONAL, I=20, J=40, KT=2E9\nEND\n",
+        ratio);
+    const RunResult r = run(model, "LINEAR/EIGENSOL, STRAIN=1\n");
+    ASSERT_EQ(r.status, 0) << r.err;
+    for (const auto& table : r.result(0).at("tables")) {
+      if (table.at("table") != "STRAIN") continue;
+      for (const auto& value : table.at("rows")[0].at("values")) {
+        if (value.is_null()) continue;
+        EXPECT_EQ(value.get<double>(), 0) << ratio;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dynalin::cases::modal_table_rows_test

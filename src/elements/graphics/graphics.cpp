@@ -211,11 +211,7 @@ class GraphicsSet final : public ElementSet, public ShapeSource, public ContactS
 
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < drawings_.size(); ++k) check_markers(k, model, diagnostics);
-    auto& all = model.settings.passed_over;
-    for (const std::string_view name : passed_over_) {
-      const std::string text = "GRAPHICS/" + std::string(name);
-      if (std::find(all.begin(), all.end(), text) == all.end()) all.push_back(text);
-    }
+    for (const std::string_view name : passed_over_) model.settings.pass_over("GRAPHICS/" + std::string(name));
   }
 
   void draw(const Model& model, std::span<const Pose> poses, const ShapeChoice& choice, std::vector<Shape>& shapes,

@@ -308,7 +308,7 @@ struct WrittenDebug {
   static constexpr std::array<std::string_view, 3> acting = {"EPRINT", "NOEPRINT", "LIST"};
   // As a statement: tables of iterations are for the eye that waits for them.
   void apply(Settings& s) const {
-    if (eprint) s.passed_over.push_back("DEBUG/EPRINT");
+    if (eprint) s.pass_over("DEBUG/EPRINT");
   }
 };
 
@@ -349,8 +349,8 @@ struct WrittenPreferences {
   // The session is no matter of the dataset.
   void apply(Settings& s) const {
     note(s.remarks);
-    if (simexit.given) s.passed_over.push_back("PREFERENCES/SIMEXIT");
-    if (status_message.given) s.passed_over.push_back("PREFERENCES/STATUS_MESSAGE");
+    if (simexit.given) s.pass_over("PREFERENCES/SIMEXIT");
+    if (status_message.given) s.pass_over("PREFERENCES/STATUS_MESSAGE");
   }
 };
 

@@ -1,9 +1,11 @@
 // MATERIAL/id, NAME=, DENSITY=, YOUNGS_MODULUS=, POISSONS_RATIO=
 //
 // An elastic material that is the same in all directions, G = E/(2 (1 + ν)). An FE_PART is made of it; on a rigid part
-// it has no effect, so that what else old datasets state here is passed over unless an FE_PART asks for it.
+// it has no effect, so that what else old datasets state here is passed over, with a warning, unless an FE_PART asks
+// for it.
 #include "elements/settings/material.h"
 
+#include "dataset/characters.h"
 #include "model/schema.h"
 
 namespace dynalin {
@@ -41,8 +43,15 @@ class MaterialSet final : public TypedSet<Material> {
       } else if (!elements[k].other.source) {
         elements[k].other = w.name;
       }
+      if (!row) passed_over_.push_back("MATERIAL/" + upper_case(w.name.text()));
     }
   }
+  void finish(Model& model, Diagnostics&) override {
+    for (const std::string& name : passed_over_) model.settings.pass_over(name);
+  }
+
+ private:
+  std::vector<std::string> passed_over_;
 };
 
 }  // namespace

@@ -48,10 +48,7 @@ class SettingSet final : public TypedSet<E> {
   }
   void finish(Model& model, Diagnostics&) override {
     for (const E& e : this->elements) e.apply(model.settings);
-    auto& all = model.settings.passed_over;
-    for (const std::string& name : passed_over_) {
-      if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
-    }
+    for (const std::string& name : passed_over_) model.settings.pass_over(name);
   }
 
  private:
