@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <unordered_map>
 #include <unsupported/Eigen/BVH>
@@ -43,14 +42,6 @@ bool is_pointed(const std::vector<Vector>& edges, const Vector& outward) {
 
 }  // namespace
 
-struct FacetBody::Near {
-  Index triangle = 0;
-  // 0 to 2: the corner; 3 to 5: the edge from corner n − 3 to the next one; 6: between them.
-  int part = 6;
-  Vector point;
-  double distance = std::numeric_limits<double>::infinity();
-};
-
 struct FacetBody::Tree {
   std::vector<int> items;
   std::vector<BoundingBox> boxes;
@@ -73,6 +64,7 @@ FacetBody::FacetBody(const Mesh& mesh) : vertices_(mesh.vertices) {
   for (const Vector& v : vertices_) radius_ = std::max(radius_, norm(v - centre_));
 
   find_neighbours();
+  find_fans();
   classify_vertices();
   tree_ = std::make_unique<Tree>();
   for (const Triangle& t : triangles_) {
@@ -94,6 +86,30 @@ void FacetBody::find_neighbours() {
   }
   for (Triangle& t : triangles_) {
     for (std::size_t n = 0; n < 3; ++n) t.across[n] = by_side.at(key(t.corner[(n + 1) % 3], t.corner[n]));
+  }
+}
+
+void FacetBody::find_fans() {
+  constexpr Index none = std::numeric_limits<Index>::max();
+  fan_of_.assign(triangles_.size(), {none, none, none});
+  const auto corner_at = [&](Index t, Index v) {
+    const auto& c = triangles_[t].corner;
+    return static_cast<std::size_t>(std::ranges::find(c, v) - c.begin());
+  };
+  for (Index first = 0; first < triangles_.size(); ++first) {
+    for (std::size_t n = 0; n < 3; ++n) {
+      if (fan_of_[first][n] != none) continue;
+      const Index v = triangles_[first].corner[n];
+      Fan fan{v, {}, {}};
+      // Over the edge that leads to the vertex comes the next triangle around it.
+      for (Index t = first; fan_of_[t][corner_at(t, v)] == none; t = triangles_[t].across[(corner_at(t, v) + 2) % 3]) {
+        const std::size_t at = corner_at(t, v);
+        fan_of_[t][at] = static_cast<Index>(fans_.size());
+        fan.triangles.push_back(t);
+        fan.edges.push_back(unit(vertices_[triangles_[t].corner[(at + 1) % 3]] - vertices_[v]));
+      }
+      fans_.push_back(std::move(fan));
+    }
   }
 }
 
@@ -180,7 +196,7 @@ bool FacetBody::same_place(const Near& a, const Near& b) const {
 }
 
 FacetBody::Place FacetBody::place_of(const Near& n, const Vector& p) const {
-  return {n.distance, is_outside(n, p), true, n.point, feature_of(n)};
+  return {n.distance, 1, is_outside(n, p), true, n.point, feature_of(n)};
 }
 
 namespace {
@@ -235,49 +251,6 @@ FacetBody::Place FacetBody::nearest(const Vector& p) const {
   find_within(p, best.distance + equally_near * radius_, as_near);
   place.definite = std::ranges::all_of(as_near, [&](const Near& n) { return same_place(n, best); });
   return place;
-}
-
-void FacetBody::nearest_of_pieces(const Vector& p, double radius, bool cavity, std::vector<Place>& places) const {
-  places.clear();
-  std::vector<Near> found;
-  find_within(p, radius, found);
-  // Triangles that meet along an edge within the radius are of one piece.
-  std::unordered_map<Index, std::size_t> index;
-  for (std::size_t k = 0; k < found.size(); ++k) index.emplace(found[k].triangle, k);
-  std::vector<std::size_t> piece(found.size());
-  std::iota(piece.begin(), piece.end(), std::size_t{0});
-  const auto root = [&](std::size_t k) {
-    while (piece[k] != k) k = piece[k] = piece[piece[k]];
-    return k;
-  };
-  const auto meets = [&](const Vector& a, const Vector& b) {
-    const Vector side = b - a;
-    const double s = std::clamp(dot(p - a, side) / dot(side, side), 0.0, 1.0);
-    return norm(p - a - side * s) <= radius;
-  };
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    const Triangle& t = triangles_[found[k].triangle];
-    for (std::size_t n = 0; n < 3; ++n) {
-      const auto other = index.find(t.across[n]);
-      if (other == index.end() || !meets(vertices_[t.corner[n]], vertices_[t.corner[(n + 1) % 3]])) continue;
-      piece[root(k)] = root(other->second);
-    }
-  }
-  std::map<std::size_t, std::size_t> nearest;  // of a piece
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    const auto [it, first] = nearest.emplace(root(k), k);
-    if (!first && found[k].distance < found[it->second].distance) it->second = k;
-  }
-  for (const auto& [of, best] : nearest) {
-    Place place = place_of(found[best], p);
-    if (place.outside == cavity) continue;
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      const bool as_near = root(k) == of && found[k].distance <= found[best].distance + equally_near * radius_;
-      place.definite = place.definite && (!as_near || same_place(found[k], found[best]));
-    }
-    places.push_back(place);
-  }
-  std::ranges::sort(places, {}, &Place::distance);
 }
 
 }  // namespace dynalin

@@ -1,9 +1,11 @@
-// A closed surface of triangles as something to touch: which of its places is nearest to a point, and whether that is
-// inside. Triangles near a point are found in a tree of boxes (Eigen's KdBVH).
+// A closed surface of triangles as something to touch: which of its places is nearest to a point, whether that is
+// inside, and where about it the distance is critical. Triangles near a point are found in a tree of boxes (Eigen's
+// KdBVH).
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -26,6 +28,7 @@ class FacetBody {
   };
   struct Place {
     double distance = 0;
+    double weight = 1;
     bool outside = true;   // of the body, the point that it is nearest to
     bool definite = true;  // no other place is as near
     Vector point;
@@ -33,9 +36,13 @@ class FacetBody {
   };
 
   Place nearest(const Vector& p) const;
-  // The nearest place of each piece of surface within `radius` of p that looks towards it, or away from it if the body
-  // is a cavity. Pieces that meet within the radius are one. The nearest comes first.
-  void nearest_of_pieces(const Vector& p, double radius, bool cavity, std::vector<Place>&) const;
+  // Places within `radius` of p where its distance from the surface is critical, on the side of p, or of the body if
+  // that is a cavity: least in a face or on an edge or vertex that stands out with the weight 1, most across an edge
+  // that stands in with the weight −1, and at vertices 1 less the number of sectors in which the distance falls
+  // (Banchoff's index of critical points). So a place that is born where two facets meet is born together with its
+  // opposite, and any function of the distance, summed up over all places by weight, goes on smoothly. The nearest
+  // comes first.
+  void critical_places(const Vector& p, double radius, bool cavity, std::vector<Place>&) const;
 
   // Vertices that are alone the farthest of their neighbourhood in some direction.
   const std::vector<Vector>& corners() const { return corners_; }
@@ -44,7 +51,14 @@ class FacetBody {
 
  private:
   using Index = Mesh::Index;
-  struct Near;  // the nearest place of one triangle
+  // The nearest place of one triangle.
+  struct Near {
+    Index triangle = 0;
+    // 0 to 2: the corner; 3 to 5: the edge from corner n − 3 to the next one; 6: between them.
+    int part = 6;
+    Vector point;
+    double distance = std::numeric_limits<double>::infinity();
+  };
   struct Tree;
 
   Near nearest_of(Index triangle, const Vector& p) const;
@@ -54,6 +68,7 @@ class FacetBody {
   void find_within(const Vector& p, double radius, std::vector<Near>&) const;
   Place place_of(const Near&, const Vector& p) const;
   void find_neighbours();
+  void find_fans();
   void classify_vertices();
 
   struct Triangle {
@@ -66,8 +81,18 @@ class FacetBody {
     Feature feature;
     Vector outward;  // sum of the normals of its triangles, each by its angle there
   };
+  // Triangles around a vertex one after the other; where lumps share a vertex it has several.
+  struct Fan {
+    Index vertex;
+    std::vector<Index> triangles;
+    std::vector<Vector> edges;  // unit vectors from the vertex, the one on which the triangle of the same number begins
+  };
+  class Critical;  // places about one point
+
   std::vector<Vector> vertices_;
   std::vector<Triangle> triangles_;
+  std::vector<Fan> fans_;
+  std::vector<std::array<Index, 3>> fan_of_;  // of each corner of each triangle
   std::vector<VertexFeature> vertex_features_;
   std::vector<Vector> corners_;
   Vector centre_;

@@ -158,36 +158,88 @@ TEST(facet_body, has_corners_where_it_stands_out) {
   EXPECT_EQ(FacetBody(pit).corners().size(), 5u);
 }
 
-TEST(facet_body, has_a_place_for_each_piece_of_surface_in_a_ball) {
+TEST(facet_body, has_critical_places_of_the_distance) {
   const FacetBody body(angle_iron());
   std::vector<FacetBody::Place> places;
+  const auto sum = [&] {
+    double all = 0;
+    for (const auto& p : places) all += p.weight;
+    return all;
+  };
   // In the corner: both walls, whose common edge is out of the ball.
-  body.nearest_of_pieces({0.45, 0.48, 0.1}, 0.5, false, places);
+  body.critical_places({0.45, 0.48, 0.1}, 0.5, false, places);
   ASSERT_EQ(places.size(), 2u);
   EXPECT_NEAR(norm(places[0].point - Vector{0, 0.48, 0.1}), 0, 1e-15);
   EXPECT_NEAR(norm(places[1].point - Vector{0.45, 0, 0.1}), 0, 1e-15);
-  // Over a rounded way to both: one piece, the nearer wall.
-  body.nearest_of_pieces({0.3, 0.35, 0.1}, 0.5, false, places);
-  ASSERT_EQ(places.size(), 1u);
-  EXPECT_NEAR(places[0].distance, 0.3, 1e-15);
-  EXPECT_TRUE(places[0].definite);
-  body.nearest_of_pieces({0.3, 0.3, 0.1}, 0.5, false, places);
-  ASSERT_EQ(places.size(), 1u);
-  EXPECT_FALSE(places[0].definite);
+  EXPECT_EQ(sum(), 2);
+  // Deeper, the edge between them too.
+  body.critical_places({0.3, 0.3, 0.1}, 0.5, false, places);
+  ASSERT_EQ(places.size(), 3u);
+  EXPECT_EQ(places[2].weight, -1);
+  EXPECT_NEAR(places[2].distance, std::hypot(0.3, 0.3), 1e-15);
+  EXPECT_EQ(sum(), 1);
   // On the outer edge.
-  body.nearest_of_pieces({-1.3, 1.4, 0.1}, 0.55, false, places);
+  body.critical_places({-1.3, 1.4, 0.1}, 0.55, false, places);
   ASSERT_EQ(places.size(), 1u);
   EXPECT_NEAR(places[0].distance, 0.5, 1e-15);
   // The far side of a sheet, in the ball as well, looks away.
   const FacetBody sheet(box({2, 2, 0.01}));
-  body.nearest_of_pieces({5, 5, 5}, 0.5, false, places);
+  body.critical_places({5, 5, 5}, 0.5, false, places);
   EXPECT_TRUE(places.empty());
-  sheet.nearest_of_pieces({1, 1, 0.3}, 0.4, false, places);
-  ASSERT_EQ(places.size(), 1u);
-  EXPECT_NEAR(places[0].distance, 0.29, 1e-15);
-  sheet.nearest_of_pieces({1, 1, 0.3}, 0.4, true, places);
-  ASSERT_EQ(places.size(), 1u);
-  EXPECT_NEAR(places[0].distance, 0.3, 1e-15);
+  // Near its edge as well: the diagonal of the face, right below, is none.
+  for (const Vector& p : {Vector{1, 1, 0.3}, {1.9, 0.7, 0.3}}) {
+    sheet.critical_places(p, 0.4, false, places);
+    ASSERT_EQ(places.size(), 1u);
+    EXPECT_NEAR(places[0].distance, 0.29, 1e-15);
+  }
+}
+
+// A ball that dips into a hilly surface anywhere, whichever hills and valleys are in it: what is summed up goes on
+// smoothly, and so does its derivative.
+TEST(facet_body, sums_of_the_distance_over_critical_places_are_smooth) {
+  const FacetBody body(boulder(3, 0.06));
+  constexpr double radius = 0.5;
+  const auto potential = [&](const Vector& p) {
+    std::vector<FacetBody::Place> places;
+    body.critical_places(p, radius, false, places);
+    double sum = 0;
+    for (const auto& q : places) sum += q.weight * std::pow(radius - q.distance, 2);
+    return sum;
+  };
+  const auto force = [&](const Vector& p) {
+    std::vector<FacetBody::Place> places;
+    body.critical_places(p, radius, false, places);
+    Vector sum{};
+    for (const auto& q : places) sum += (p - q.point) * (2 * q.weight * (radius - q.distance) / q.distance);
+    return sum;
+  };
+  std::mt19937 random(9);
+  std::normal_distribution<double> n;
+  int several = 0;
+  for (int k = 0; k < 60; ++k) {
+    const Vector out{n(random), n(random), n(random)}, way{n(random), n(random), n(random)};
+    const Vector from = out * (1.36 / norm(out)), along = way * (0.3 / norm(way));
+    constexpr int steps = 3000;
+    const auto at = [&](int i) { return from + along * (static_cast<double>(i) / steps); };
+    Vector before = force(at(0));
+    for (int i = 1; i <= steps; ++i) {
+      const Vector here = force(at(i));
+      // Of places with curvatures of at most 1/0.1 in a ball whose force is at most 2·0.4: no jumps.
+      ASSERT_LT(norm(here - before), 60 * norm(along) / steps) << k << ' ' << i;
+      before = here;
+      if (i % 100 != 0) continue;
+      std::vector<FacetBody::Place> places;
+      body.critical_places(at(i), radius, false, places);
+      several += places.size() > 2;
+      constexpr double h = 1e-6;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double slope =
+            (potential(at(i) + h * unit_vectors[c]) - potential(at(i) - h * unit_vectors[c])) / (2 * h);
+        EXPECT_NEAR(here[c], -slope, 1e-4);
+      }
+    }
+  }
+  EXPECT_GT(several, 50);
 }
 
 }  // namespace dynalin::facet_body_test

@@ -1,5 +1,7 @@
-// Where a ball or a point touches a body of facets: one place for each piece of surface that is in the ball, the
-// nearest one of it. A point, and a ball whose centre is in the body, have the nearest place of all.
+// Where a ball or a point touches a body of facets: at all places in the ball where the distance of its centre from the
+// surface is critical, by weight (facet_body.h). On a face, an edge or a corner that is one place, in a groove one on
+// each wall; across a groove so flat that its bottom is in the ball too, that counts against them. A point, and a ball
+// whose centre is in the body, have the nearest place of all.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +13,8 @@
 
 namespace dynalin {
 
-inline constexpr std::size_t most_pieces = 16;  // of surface in a ball; of more the last is not defined
-inline std::size_t facet_touches(const solid::Ball& ball) { return ball.radius == 0 ? 1 : most_pieces; }
+inline constexpr std::size_t most_facet_touches = 96;  // of a ball; of more the last is not defined
+inline std::size_t facet_touches(const solid::Ball& ball) { return ball.radius == 0 ? 1 : most_facet_touches; }
 
 namespace solid {
 
@@ -40,7 +42,9 @@ void touch_facets(const solid::Ball& ball, const Vec3<T>& centre, const FacetBod
                   std::span<Touch<T>> out) {
   const Vector p = value_of(centre);
   const auto touch = [&](const FacetBody::Place& place) {
-    return solid::touch_of_ball(ball.radius, centre, solid::distance(place, centre), cavity);
+    Touch<T> t = solid::touch_of_ball(ball.radius, centre, solid::distance(place, centre), cavity);
+    t.weight = T(place.weight);
+    return t;
   };
   const FacetBody::Place nearest = body.nearest(p);
   out[0] = touch(nearest);
@@ -50,7 +54,7 @@ void touch_facets(const solid::Ball& ball, const Vec3<T>& centre, const FacetBod
   const bool in_matter = nearest.outside == cavity;
   if (ball.radius == 0 || in_matter || nearest.distance >= ball.radius) return;
   std::vector<FacetBody::Place> places;
-  body.nearest_of_pieces(p, ball.radius, cavity, places);
+  body.critical_places(p, ball.radius, cavity, places);
   const std::size_t count = std::min(places.size(), out.size());
   for (std::size_t k = 0; k < count; ++k) out[k] = touch(places[k]);
   if (places.size() > out.size()) out.back().defined = false;

@@ -94,11 +94,11 @@ TEST_F(facet_touch, of_corners_with_planes_and_walls_is_that_of_a_box) {
 }
 
 TEST_F(facet_touch, ends_in_more_places_than_are_told_apart) {
-  // A comb of 20 blades into which a ball dips.
+  // A comb of 120 blades into which a ball dips.
   Mesh comb;
-  for (int k = 0; k < 20; ++k) {
-    Mesh blade = dynalin::box({0.02, 1, 1});
-    for (Vector& v : blade.vertices) v.x += 0.05 * k - 0.5;
+  for (int k = 0; k < 120; ++k) {
+    Mesh blade = dynalin::box({0.004, 1, 1});
+    for (Vector& v : blade.vertices) v.x += 0.008 * k - 0.5;
     append(comb, blade);
   }
   const Side J{Polyhedron{std::make_shared<const FacetBody>(comb)}};

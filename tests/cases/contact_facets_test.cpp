@@ -173,15 +173,28 @@ TEST_F(ContactFacets, says_what_facets_nothing_can_touch) {
                "contact of GRAPHICS/1 of CONTACT/1 with GRAPHICS/2 of CONTACT/1 is not available yet");
 }
 
-// A ball exactly over the ridge of a groove too flat to part its walls is as near to one as to the other.
-TEST_F(ContactFacets, refuses_a_point_that_is_as_near_to_two_walls_of_one_piece) {
-  const RunResult r = run(head + groove(0.02) +
-                              "PART/2, MASS=2, CM=2, IP=0.1,0.1,0.1, QG=0,0,0.195\nMARKER/2\nGRAPHICS/2, ELLIPSOID, "
-                              "CM=2, XSCALE=0.4, YSCALE=0.4, ZSCALE=0.4\nCONTACT/1, IGEOM=2, JGEOM=1, " +
-                              law + "END\n",
-                          "LINEAR/EIGENSOL\n");
-  EXPECT_NE(r.status, 0);
-  EXPECT_THAT(r.err, ::testing::HasSubstr("CONTACT/1"));
+// A groove so flat that its bottom is in the ball: two walls less the bottom, 2 U(r − h cos β) − U(r − h) with U = k
+// g²/2 for the height h of the centre. Across it the walls turn the force by as much as they incline, and the bottom
+// follows.
+TEST_F(ContactFacets, a_ball_in_a_flat_groove_is_held_by_both_walls_less_the_bottom) {
+  constexpr double k = 1e5, m = 2, radius = 0.2, beta = 0.02;
+  const double c = std::cos(beta), s = std::sin(beta);
+  // 2 k c (r − h c) − k (r − h) = m g
+  const double h = (2 * k * c * radius - k * radius - m * 10) / (2 * k * c * c - k);
+  ASSERT_LT(h, radius);
+  const auto v =
+      values(groove(beta) + fmt::format("PART/2, MASS=2, CM=2, IP=0.1,0.1,0.1, QG=0,0,{:.17g}\nMARKER/2\nGRAPHICS/2, "
+                                        "ELLIPSOID, CM=2, XSCALE=0.4, YSCALE=0.4, ZSCALE=0.4\nCONTACT/1, IGEOM=2, "
+                                        "JGEOM=1, IMPACT, STIFFNESS=1E5, EXPONENT=1, DAMPING=0, DMAX=1\n",
+                                        h));
+  ASSERT_EQ(v.size(), 12u);
+  // The bottom pulls with k (r − h), towards itself from wherever the centre is: (r − h)/h against coming back.
+  std::vector<double> wanted{2 * k * s * s + k * (radius - h) / h, 2 * k * c * c - k};
+  std::ranges::sort(wanted);
+  for (std::size_t n = 0; n < 2; ++n) {
+    const double expected = std::sqrt(wanted[n] / m) / (2 * std::numbers::pi);
+    EXPECT_NEAR(std::abs(v[8 + 2 * n]), expected, 1e-7 * expected);
+  }
 }
 
 }  // namespace dynalin::cases::contact_facets_test
