@@ -28,6 +28,7 @@ bool is_pointed(const std::vector<Vector>& edges, const Vector& outward) {
     return std::ranges::all_of(edges, [&](const Vector& u) { return dot(e, u) < -pointed; });
   };
   if (turns_away(unit(outward))) return true;
+  if (turns_away(-unit(outward))) return false;  // the bottom of a pit
   Vector sum{};
   for (std::size_t i = 0; i < edges.size(); ++i) {
     for (std::size_t k = 0; k < edges.size(); ++k) {

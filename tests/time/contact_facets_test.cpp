@@ -1,4 +1,4 @@
-// A ball that bounces in a groove of facets.
+// Balls that bounce on facets.
 #include <fmt/format.h>
 
 #include <numbers>
@@ -30,6 +30,35 @@ TEST(ContactInTime, a_ball_bounces_in_a_groove_of_facets) {
   EXPECT_NEAR(c.variables.at(1).back(), start, 1e-7);
   EXPECT_NEAR(c.variables.at(2).back(), 0, 1e-6);
   EXPECT_NEAR(c.variables.at(3).back(), 0, 1e-7);
+}
+
+// In a bowl whose seams run in and out under the ball, it keeps its energy whenever it is in the air.
+TEST(ContactInTime, a_ball_that_bounces_in_a_bowl_of_facets_keeps_its_energy) {
+  std::string profile;
+  for (const double x : {0.0, 0.3, 0.6, 0.8, 1.0}) profile += fmt::format("{},0,{:.17g}, ", x, 0.4 * x * x);
+  const Course c = led_through_time(
+      "Bowl\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-10\nPART/1, GROUND\nMARKER/1\nMARKER/9, PART=1\n"
+      "MATRIX/1, FULL=RORDER, ROWS=7, COLUMNS=3\n, VALUES=" +
+          profile +
+          "1,0,-0.3, 0,0,-0.3\nCURVE/1, OPEN, MATRIX=1, CURVE_POINTS, ORDER=2\n"
+          "GRAPHICS/1, REVOLUTION, CID=1, CRM=9, SEG=14\n"
+          "PART/2, MASS=2, CM=2, IP=0.1,0.1,0.1, QG=0.45,0.1,0.45, VY=0.8\nMARKER/2\n"
+          "GRAPHICS/2, ELLIPSOID, CM=2, XSCALE=0.5, YSCALE=0.5, ZSCALE=0.5\n"
+          "CONTACT/1, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=5E3, EXPONENT=1.5, DAMPING=0, DMAX=1\n"
+          "VARIABLE/1, FUNCTION=VX(2)**2+VY(2)**2+VZ(2)**2+20*DZ(2)\nVARIABLE/2, FUNCTION=CONTACT(1,0,1,0)\nEND\n",
+      {.end = 6, .steps = 300, .error = 1e-9});
+  ASSERT_TRUE(c.ok()) << c.failure;
+  int in_the_air = 0, touching = 0;
+  for (std::size_t k = 1; k < c.times.size(); ++k) {
+    if (c.variables.at(2)[k] != 0) {
+      ++touching;
+      continue;
+    }
+    ++in_the_air;
+    EXPECT_NEAR(c.variables.at(1)[k], c.variables.at(1)[0], 1e-5) << c.times[k];
+  }
+  EXPECT_GT(in_the_air, 50);
+  EXPECT_GT(touching, 20);
 }
 
 }  // namespace
