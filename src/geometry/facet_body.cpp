@@ -8,6 +8,8 @@
 #include <unordered_map>
 #include <unsupported/Eigen/BVH>
 
+#include "geometry/facet_planes.h"
+
 namespace dynalin {
 
 namespace {
@@ -15,6 +17,7 @@ namespace {
 constexpr double coplanar = 1e-6;      // sine of an angle between faces that are one: files hold single precision
 constexpr double pointed = 1e-5;       // sine by which all edges of a corner turn away from a plane through it
 constexpr double equally_near = 1e-9;  // of the size: places that are as near
+constexpr double one_place = 1e-7;     // of the size: places that are not told apart
 
 using BoundingBox = Eigen::AlignedBox3d;
 Eigen::Vector3d to_eigen(const Vector& v) { return {v.x, v.y, v.z}; }
@@ -65,6 +68,7 @@ FacetBody::FacetBody(const Mesh& mesh) : vertices_(mesh.vertices) {
   for (const Vector& v : vertices_) radius_ = std::max(radius_, norm(v - centre_));
 
   find_neighbours();
+  flatten();
   find_fans();
   classify_vertices();
   tree_ = std::make_unique<Tree>();
@@ -87,6 +91,22 @@ void FacetBody::find_neighbours() {
   }
   for (Triangle& t : triangles_) {
     for (std::size_t n = 0; n < 3; ++n) t.across[n] = by_side.at(key(t.corner[(n + 1) % 3], t.corner[n]));
+  }
+}
+
+void FacetBody::flatten() {
+  const std::vector<FacetPlane> planes = facet_planes(vertices_, radius_, triangles_.size(), [&](std::size_t t) {
+    const Triangle& f = triangles_[t];
+    return FacetOfPlane{f.corner, f.across, f.normal};
+  });
+  put_into_planes(vertices_, radius_, planes);
+  for (Triangle& t : triangles_) {
+    const Vector area =
+        cross(vertices_[t.corner[1]] - vertices_[t.corner[0]], vertices_[t.corner[2]] - vertices_[t.corner[0]]);
+    if (norm(area) > 0) t.normal = unit(area);
+  }
+  for (const FacetPlane& plane : planes) {
+    for (const Index t : plane.facets) triangles_[t].normal = plane.normal;
   }
 }
 
@@ -192,8 +212,10 @@ FacetBody::Feature FacetBody::feature_of(const Near& n) const {
   return {Feature::Kind::edge, from, unit(to - from)};
 }
 
+// On one face, or on two that do not stand in, distances grow at least as the places move apart: h² + s².
 bool FacetBody::same_place(const Near& a, const Near& b) const {
-  return norm(a.point - b.point) <= equally_near * radius_;
+  const double apart = norm(a.point - b.point), alike = one_place * radius_;
+  return apart * apart <= 4 * std::abs(a.distance * a.distance - b.distance * b.distance) + alike * alike;
 }
 
 FacetBody::Place FacetBody::place_of(const Near& n, const Vector& p) const {

@@ -16,7 +16,8 @@ namespace dynalin {
 
 class FacetBody {
  public:
-  // Of a mesh whose faces bound a volume and look outwards (mesh.h: close). Quadrilaterals are halved.
+  // Of a mesh whose faces bound a volume and look outwards (mesh.h: close). Quadrilaterals are halved. Facets that are
+  // of one plane but for the roundings of single precision, which files have, become so (facet_planes.h).
   explicit FacetBody(const Mesh&);
   ~FacetBody();
 
@@ -68,6 +69,7 @@ class FacetBody {
   void find_within(const Vector& p, double radius, std::vector<Near>&) const;
   Place place_of(const Near&, const Vector& p) const;
   void find_neighbours();
+  void flatten();
   void find_fans();
   void classify_vertices();
 

@@ -149,6 +149,54 @@ TEST(facet_body, knows_faces_edges_and_corners_however_they_are_divided) {
   EXPECT_FALSE(body.nearest({1, 1, 1}).outside);
 }
 
+// As a file in single precision holds an inclined plane: vertices and edges in its middle are places of a face.
+TEST(facet_body, has_faces_where_facets_are_of_one_plane_but_for_roundings) {
+  constexpr int n = 20;
+  Mesh mesh;
+  const auto single = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+  const auto top = [&](int i, int k) {
+    const double x = 0.2 * i - 2, y = 0.2 * k - 2;
+    return Vector{single(x), single(y), single(0.3 * x + 0.07 * y)};
+  };
+  for (const bool upper : {true, false}) {
+    for (int i = 0; i <= n; ++i) {
+      for (int k = 0; k <= n; ++k) mesh.add(upper ? top(i, k) : top(i, k) - Vector{0, 0, 2});
+    }
+  }
+  const auto at = [](bool upper, int i, int k) {
+    return static_cast<Mesh::Index>((upper ? 0 : (n + 1) * (n + 1)) + i * (n + 1) + k);
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int k = 0; k < n; ++k) {
+      mesh.triangles.push_back({at(true, i, k), at(true, i + 1, k), at(true, i + 1, k + 1)});
+      mesh.triangles.push_back({at(true, i, k), at(true, i + 1, k + 1), at(true, i, k + 1)});
+      mesh.quads.push_back({at(false, i, k), at(false, i, k + 1), at(false, i + 1, k + 1), at(false, i + 1, k)});
+    }
+    mesh.quads.push_back({at(false, i, 0), at(false, i + 1, 0), at(true, i + 1, 0), at(true, i, 0)});
+    mesh.quads.push_back({at(false, i + 1, n), at(false, i, n), at(true, i, n), at(true, i + 1, n)});
+    mesh.quads.push_back({at(false, 0, i + 1), at(false, 0, i), at(true, 0, i), at(true, 0, i + 1)});
+    mesh.quads.push_back({at(false, n, i), at(false, n, i + 1), at(true, n, i + 1), at(true, n, i)});
+  }
+  close(mesh);
+  ASSERT_TRUE(mesh.closed);
+  const FacetBody body(mesh);
+  EXPECT_EQ(body.corners().size(), 8u);
+  const Vector normal = Vector{-0.3, -0.07, 1} / norm(Vector{-0.3, -0.07, 1});
+  std::vector<FacetBody::Place> places;
+  for (const auto& [i, k] : {std::pair{10, 10}, {7, 12}, {13, 4}}) {
+    for (const Vector& aside : {Vector{}, {0.1, 0, 0.03}, {0.1, 0.1, 0.037}, {0.05, 0.05, 0.0185}}) {
+      const Vector p = top(i, k) + aside + normal * 0.095;
+      body.critical_places(p, 0.1, false, places);
+      ASSERT_EQ(places.size(), 1u);
+      EXPECT_EQ(places[0].feature.kind, Kind::face);
+      EXPECT_NEAR(places[0].distance, 0.095, 1e-6);
+      EXPECT_LT(norm(places[0].feature.direction - normal), 1e-5);
+      EXPECT_EQ(body.nearest(p).feature.kind, Kind::face);
+      EXPECT_TRUE(body.nearest(p).definite);
+    }
+  }
+}
+
 // What stands inwards is no corner, and neither is the tip of a pit.
 TEST(facet_body, has_corners_where_it_stands_out) {
   EXPECT_EQ(FacetBody(angle_iron()).corners().size(), 10u);

@@ -1,7 +1,10 @@
 #include "geometry/mesh.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -70,6 +73,25 @@ bool is_watertight(const Mesh& mesh) {
   bool both = true;
   for_each_side(mesh, [&](Index from, Index to) { both = both && sides.contains(key(to, from)); });
   return both;
+}
+
+std::string leak(const Mesh& mesh) {
+  std::unordered_map<std::uint64_t, int> uses;
+  for_each_side(mesh, [&](Index from, Index to) { ++uses[key(from, to)]; });
+  std::string found;
+  for_each_side(mesh, [&](Index from, Index to) {
+    if (!found.empty()) return;
+    const auto back = uses.find(key(to, from));
+    const int there = uses[key(from, to)], here = back == uses.end() ? 0 : back->second;
+    if (there == 1 && here == 1) return;
+    const Vector &a = mesh.vertices[from], &b = mesh.vertices[to];
+    found = fmt::format("the side from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}) {}", a.x, a.y, a.z, b.x,
+                        b.y, b.z,
+                        there + here == 1   ? "belongs to one facet alone"
+                        : there + here == 2 ? "belongs to two facets of which one is turned over"
+                                            : fmt::format("belongs to {} facets", there + here));
+  });
+  return found;
 }
 
 void drop_loose_vertices(Mesh& mesh) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "base/vec3.h"
@@ -39,6 +40,9 @@ void turn_over(Mesh&);
 double signed_volume(const Mesh&);
 // Whether each side of a face is a side of exactly one other face, which runs along it the other way.
 bool is_watertight(const Mesh&);
+// Where it is not so, and how: "the side from (0, 0, 1) to (1, 0, 1) belongs to one facet alone". Empty for a mesh that
+// is, or has no faces.
+std::string leak(const Mesh&);
 // Leaves out vertices that nothing uses.
 void drop_loose_vertices(Mesh&);
 // Marks a mesh whose faces bound a volume as closed and makes their normals point outwards.

@@ -210,9 +210,12 @@ class Replacement {
     const auto stand =
         std::find_if(stands.begin(), stands.end(), [&](const Stand& r) { return r.statement == s.name; });
     if (!value_ || stand == stands.end()) {
+      const bool callable = s.name == "GSE" || std::ranges::find(routine_kinds(), s.name, &RoutineKind::statement) !=
+                                                   routine_kinds().end();
       diagnostics_.error(
           "missing-routine", at,
-          fmt::format("{} calls a compiled routine, and no library that has it is named", s.at.text()),
+          fmt::format("{} calls a compiled routine, {}", s.at.text(),
+                      callable ? "and no library that has it is named" : "which its kind of statement cannot do yet"),
           stand == stands.end()
               ? "no constant can take its place"
               : "--user-library FILE.so names a library, --user-value X puts the constant X in the place of each call");

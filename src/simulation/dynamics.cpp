@@ -23,6 +23,9 @@ constexpr double least_left_out = 1e-7, left_out_errors = 100;
 // Events in a row with hardly time to gather speed between them, after which they are passed over for some steps.
 constexpr int event_limit = 200;
 constexpr std::int64_t steps_between_events = 20, steps_without_events = 200;
+// Events on next to no way, after which time does not pass in any number of them.
+constexpr int crowd_limit = 10000;
+constexpr double next_to_no_way = 1e-9;  // of the whole time
 // Steps that fail on hardly any way, after which there is no going on.
 constexpr int failure_limit = 4;
 constexpr double hardly_any_way = 1e-4;  // of the whole time
@@ -268,6 +271,14 @@ class Dynamics {
 
   // What follows from switches and sensors at the point; where nothing does the integration goes on.
   Result<EventAction> pass_event() {
+    if (point_.time - crowd_from_ > next_to_no_way * tolerance_.duration) crowd_from_ = point_.time, crowd_ = 0;
+    if (++crowd_ > crowd_limit) {
+      return tl::unexpected(Failure{
+          "dynamics",
+          fmt::format("at time {:.9g}: {} events within a billionth of the run", point_.time, crowd_limit),
+          {"the period of a sampling, or the time from one switch of a function to the next, is next to nothing "
+           "beside the time of the run"}});
+    }
     EventAction action = events_.at(integrator_->crossed(), point_);
     const bool anew = action.restart || action.output || action.ends() || action.refactor || action.step_size;
     if (anew) {
@@ -374,7 +385,8 @@ class Dynamics {
   OperatingPoint point_, last_output_;
   std::vector<double> y_, yp_;
   std::int64_t next_ = 1;  // output
-  int failures_ = 0, close_events_ = 0, steps_at_rounding_ = 0;
+  int failures_ = 0, close_events_ = 0, steps_at_rounding_ = 0, crowd_ = 0;
+  double crowd_from_ = 0;                                            // the time of the first event of a crowd
   bool stopped_ = false;                                             // by the watch
   double first_failure_ = -std::numeric_limits<double>::infinity();  // of those that are counted [time]
   std::int64_t last_event_ = -steps_between_events - 1;              // counted in steps

@@ -152,6 +152,26 @@ TEST_F(ContactFacets, plates_links_extrusions_and_wedges_have_flat_places) {
   }
 }
 
+// A corner of a flat face that is off by the roundings of a file: above the diagonal that divides it and elsewhere.
+TEST_F(ContactFacets, a_face_that_is_flat_but_for_roundings_is_flat) {
+  const auto flat =
+      values("MARKER/5, PART=1\nGRAPHICS/1, PLANE, RM=5, XMIN=-2, XMAX=2, YMIN=-2, YMAX=2\n" + ball("0,0,0.199"));
+  for (const double off : {1e-15, -1e-12, 1e-9, -1e-8, 1e-7, -1e-6}) {
+    std::string text = stl_of_box(2, 2, 2);
+    const std::string corner = "vertex 2 2 2\n";
+    for (std::size_t at = text.find(corner); at != std::string::npos; at = text.find(corner, at + 1))
+      text.replace(at, corner.size(), fmt::format("vertex 2 2 {:.17g}\n", 2 + off));
+    write("lump.stl", text);
+    SCOPED_TRACE(off);
+    const auto found =
+        values("MARKER/5, PART=1, QP=-1,-1,-2\nGRAPHICS/1, EXTERNAL, RM=5, FILE=lump.stl\n" + ball("0,0,0.199"));
+    ASSERT_EQ(found.size(), flat.size());
+    // The face itself is higher by half of it where the ball is.
+    for (std::size_t k = 0; k < found.size(); ++k)
+      EXPECT_LE(std::abs(found[k] - flat[k]), (1e-9 + 1e3 * std::abs(off)) * std::abs(flat.back())) << k;
+  }
+}
+
 TEST_F(ContactFacets, says_what_facets_nothing_can_touch) {
   write("lid.stl",
         "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
@@ -160,8 +180,10 @@ TEST_F(ContactFacets, says_what_facets_nothing_can_touch) {
   const auto file = [](const char* name) {
     return fmt::format("MARKER/5, PART=1, QP=-1,-1,-2\nGRAPHICS/1, EXTERNAL, RM=5, FILE={}\n", name);
   };
-  expect_error(file("lid.stl") + ball("0,0,0.2"),
-               "CONTACT/1 names GRAPHICS/1, an EXTERNAL whose facets do not bound a volume, which nothing can touch");
+  expect_error(
+      file("lid.stl") + ball("0,0,0.2"),
+      "CONTACT/1 names GRAPHICS/1, an EXTERNAL whose facets do not bound a volume: in the axes of MARKER/5, the "
+      "side from (0, 0, 0) to (1, 0, 0) belongs to one facet alone, which nothing can touch");
   expect_error(file("lid.x_t") + ball("0,0,0.2"),
                "CONTACT/1 names GRAPHICS/1, an EXTERNAL (GRAPHICS/1 is not drawn: lid.x_t has a format that is not "
                "read), which nothing can touch");

@@ -427,6 +427,13 @@ TEST_F(StateEquations, that_have_no_value_name_their_element) {
       move);
   EXPECT_EQ(stuck.status, 2);
   EXPECT_THAT(stuck.err, AllOf(HasSubstr("GSE/1: the time between its samples is"), HasSubstr("must be positive")));
+  // Time passes in no number of such samples.
+  const RunResult crowded = with(
+      sampled +
+          "state_equations::,state_equations::clock_update,state_equations::sampled_output, SAMPLE_PERIOD=1E-300\n",
+      move);
+  EXPECT_EQ(crowded.status, 2);
+  EXPECT_THAT(crowded.err, HasSubstr("10000 events within a billionth of the run"));
 }
 
 TEST_F(StateEquations, that_do_not_fit_are_refused_at_their_place) {

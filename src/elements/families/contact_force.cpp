@@ -201,12 +201,20 @@ void ContactKernel::switches(const Motion& motion, ExpressionScratch&, SwitchLis
       list.add(closed ? pressure(c.pressure, -t.gap, -dot(t.normal, velocity_at(t.point, I, rate))) : 1.0, closed);
       list.add(std::isfinite(t.inside) ? t.inside : 1.0, t.gap < 0);
     };
+    // Of many places, as facets have, each changes the force by little: the first that closes is told.
     for_each_pair(
-        c, I, [&](std::span<Touch<double>> touches) { std::for_each(touches.begin(), touches.end(), add); },
+        c, I,
+        [&](std::span<Touch<double>> touches) {
+          if (touches.size() <= most_touches) return std::for_each(touches.begin(), touches.end(), add), void();
+          const auto nearer = [](const Touch<double>& a, const Touch<double>& b) {
+            return std::pair(a.inside < 0, a.gap) < std::pair(b.inside < 0, b.gap);
+          };
+          add(*std::min_element(touches.begin(), touches.end(), nearer));
+        },
         [&](std::size_t count, double gap) {
           Touch<double> t;
           t.gap = gap;
-          for (std::size_t k = 0; k < count; ++k) add(t);
+          for (std::size_t k = 0; k < (count <= most_touches ? count : 1); ++k) add(t);
         });
   }
 }

@@ -246,12 +246,14 @@ class GraphicsSet final : public ElementSet, public ShapeSource, public ContactS
     if (shapes.empty() && !remarks.items().empty()) why += fmt::format(" ({})", remarks.items().front().message);
     if (shapes.size() != 1 || shapes.front().mesh.faces() == 0) return std::nullopt;
     Mesh& mesh = shapes.front().mesh;
+    const Marker& marker = model.marker(markers.front());
+    for (Vector& p : mesh.vertices) p = transpose_times(marker.place.R_BM, p - marker.place.p_BM);
     if (!mesh.closed) {
       why += " whose facets do not bound a volume";
+      if (const std::string where = leak(mesh); !where.empty())
+        why += fmt::format(": in the axes of {}, {}", marker.label.text(), where);
       return std::nullopt;
     }
-    const MarkerPlace& place = model.marker(markers.front()).place;
-    for (Vector& p : mesh.vertices) p = transpose_times(place.R_BM, p - place.p_BM);
     return ContactShape{markers.front(), solid::Polyhedron{std::make_shared<const FacetBody>(mesh)}};
   }
 
