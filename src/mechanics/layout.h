@@ -25,6 +25,7 @@ struct BodyBlock {
   std::int32_t offset = -1;  // first coordinate, −1 for ground
   std::int32_t count = 0;    // 0, 3 or 6
   ElementLabel label;
+  double largest_step = std::numeric_limits<double>::infinity();  // of an iteration [length]
 
   bool turns() const { return kind == BodyKind::part; }
 };

@@ -137,6 +137,23 @@ TEST_F(ContactFacets, a_ball_in_a_groove_is_held_by_both_walls) {
   }
 }
 
+// What falls on a solid from above rests on it, and has not got through it in one step.
+TEST_F(ContactFacets, statics_let_a_ball_fall_on_solids_and_into_grooves) {
+  write("lump.stl", stl_of_box(2, 2, 2));
+  const std::string marker = "MARKER/5, PART=1, QP=-1,-1,-2\n";
+  for (const std::string& shape : {marker + "GRAPHICS/1, EXTERNAL, RM=5, FILE=lump.stl\n",
+                                   marker + "GRAPHICS/1, BOX, CORNER=5, X=2, Y=2, Z=2\n", groove(0.05), groove(0.5)}) {
+    SCOPED_TRACE(shape);
+    const RunResult r =
+        run(head + shape +
+                "PART/2, MASS=2, CM=2, IP=0.1,0.1,0.1, QG=0.02,0,0.3\nMARKER/2\nGRAPHICS/2, "
+                "ELLIPSOID, CM=2, XSCALE=0.2, YSCALE=0.2, ZSCALE=0.2\nCONTACT/1, IGEOM=2, JGEOM=1, "
+                "IMPACT, STIFFNESS=1E5, EXPONENT=1.5, DAMPING=0, DMAX=1\nJPRIM/1, ORIENTATION, I=2, J=1\nEND\n",
+            "SIMULATE/STATICS\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+  }
+}
+
 // Flat places of what is drawn in facets are those of a plane.
 TEST_F(ContactFacets, plates_links_extrusions_and_wedges_have_flat_places) {
   const std::string at = "0.3,0.2,0.199";

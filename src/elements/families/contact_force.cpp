@@ -135,6 +135,20 @@ ForceAndTorque<T> contact_wrench(const ContactForce& c, const RelativeFrame<Time
   return sum;
 }
 
+// How far both bodies may move without a look at their shapes, so that a solid does not get through another one.
+double way_through(const ContactForce& c) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const PlacedSide& on_I : c.I) {
+    for (const PlacedSide& on_J : c.J) {
+      const double a = solid::bounds(on_I.side).radius, b = solid::bounds(on_J.side).radius;
+      if (!std::isfinite(a) || !std::isfinite(b)) continue;
+      if (solid::is_profile(on_I.side) || solid::is_profile(on_J.side)) continue;
+      least = std::min(least, 0.5 * std::max(std::min(a, b), 0.05 * std::max(a, b)));
+    }
+  }
+  return least;
+}
+
 RelativeFrame<double> plain(const PairMotion& pair) { return at_instant(pair.relative, &Taylor::value); }
 
 }  // namespace
@@ -150,7 +164,14 @@ double least_gap(const ContactForce& c, const Motion& motion, const MarkerPlace&
 ContactKernel::ContactKernel(const std::vector<ContactForce>& laws, const std::vector<ElementLabel>& labels,
                              Layout& layout)
     : labels_(&labels) {
-  for (const ContactForce& law : laws) forces_.push_back({&law, &layout.marker(law.i), &layout.marker(law.j)});
+  for (const ContactForce& law : laws) {
+    forces_.push_back({&law, &layout.marker(law.i), &layout.marker(law.j)});
+    const double way = way_through(law);
+    for (const MarkerPlace* m : {forces_.back().I, forces_.back().J}) {
+      double& largest = layout.bodies[static_cast<std::size_t>(m->body.index)].largest_step;
+      largest = std::min(largest, way);
+    }
+  }
 }
 
 PairForce ContactKernel::force_of(const Placed& p, const PairMotion& pair, const Motion& motion, bool with_partials) {
