@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 
+#include "geometry/facet_touch.h"
 #include "geometry/prism.h"
 
 namespace dynalin::facet_body_test {
@@ -230,6 +231,16 @@ TEST(facet_body, has_critical_places_of_the_distance) {
   body.critical_places({-1.3, 1.4, 0.1}, 0.55, false, places);
   ASSERT_EQ(places.size(), 1u);
   EXPECT_NEAR(places[0].distance, 0.5, 1e-15);
+  // In the same body as a cavity the corner stands out.
+  body.critical_places({-0.3, -0.3, 0.1}, 0.5, true, places);
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_EQ(places[0].weight, 1);
+  EXPECT_NEAR(places[0].distance, std::hypot(0.3, 0.3), 1e-15);
+  EXPECT_FALSE(places[0].outside);
+  const Vec3<double> centre{-0.3, -0.3, 0.1};
+  const auto from = solid::distance(places[0], centre);
+  EXPECT_NEAR(from.value, -std::hypot(0.3, 0.3), 1e-15);
+  EXPECT_NEAR(norm(from.direction - Vector{std::sqrt(0.5), std::sqrt(0.5), 0}), 0, 1e-15);
   // The far side of a sheet, in the ball as well, looks away.
   const FacetBody sheet(box({2, 2, 0.01}));
   body.critical_places({5, 5, 5}, 0.5, false, places);
