@@ -100,6 +100,15 @@ class Punched {
                            "stiffness and mass are symmetric");
         return std::nullopt;
       }
+      // A square matrix says both triangles.
+      const bool again = k + 1 < terms.size() && terms[k + 1].row == t.row && terms[k + 1].column == t.column;
+      if (m.form == 1 && t.row != t.column && t.value != 0 && !again) {
+        diagnostics_.error(
+            "fe-matrix-unsymmetric", here(t.from->at),
+            fmt::format("{}, a square matrix, has {:.6g} here and nothing in the other triangle", m.name, t.value),
+            "form 6 in its header is a symmetric matrix, of which one triangle is stated");
+        return std::nullopt;
+      }
       triplets.emplace_back(t.row, t.column, t.value);
       if (t.row != t.column) triplets.emplace_back(t.column, t.row, t.value);
     }

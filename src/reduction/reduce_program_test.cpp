@@ -127,6 +127,26 @@ TEST_F(Reduce, formats_give_the_same_body) {
   for (std::size_t k = 0; k < 12; ++k) EXPECT_NEAR(punched[13 * k] / stiffness[13 * k], 1, 1e-5);  // ten digits
 }
 
+// A square one has both triangles, and not one of them alone.
+TEST_F(Reduce, square_direct_matrices_are_stated_in_both_triangles) {
+  const FiniteElementModel beam = test::beam(4, 0.8);
+  ReduceOptions options = calculix(beam);
+  const std::string mass = cards(beam.mass, beam.freedoms, "MAAX");
+  std::string stiffness = cards(beam.stiffness, beam.freedoms, "KAAX");
+  stiffness.replace(stiffness.find(",6,2"), 4, ",1,2");
+  options.stiffness = options.mass = file("body.pch", stiffness + mass);
+  EXPECT_EQ(run(options), 1);
+  EXPECT_THAT(err_.str(), HasSubstr("KAAX, a square matrix, has"));
+  EXPECT_THAT(err_.str(), HasSubstr("here and nothing in the other triangle"));
+}
+
+TEST_F(Reduce, says_that_a_body_held_by_its_matrices_is_free_in_a_mechanism) {
+  FiniteElementModel beam = test::beam(4, 0.8);
+  for (Eigen::Index k = 0; k < 6; ++k) beam.stiffness.coeffRef(k, k) *= 1.5;
+  ASSERT_EQ(run(calculix(beam)), 0) << err_.str();
+  EXPECT_THAT(out_.str(), HasSubstr("only 0 of 6 rigid motions strain nothing\na FLEX_BODY is free all the same"));
+}
+
 TEST_F(Reduce, the_file_has_the_records_of_the_body) {
   const FiniteElementModel beam = test::beam(4, 0.8);
   ReduceOptions options = calculix(beam);

@@ -31,7 +31,12 @@ void print_report(std::ostream& out, const FiniteElementModel& model, const Redu
              r.constraint_modes, r.fixed_interface.size(), r.rigid_removed,
              r.massless > 0 ? fmt::format(" - {} without mass", r.massless) : "", r.shapes.cols());
   if (r.rigid_removed < 6)
-    fmt::print(out, "the matrices hold the body: only {} of 6 rigid motions strain nothing\n", r.rigid_removed);
+    fmt::print(
+        out,
+        "the matrices hold the body: only {} of 6 rigid motions strain nothing\n"
+        "a FLEX_BODY is free all the same: hold it again where they do, by a joint at a node of the file (--also), "
+        "or leave springs to ground to BUSHINGs\n",
+        r.rigid_removed);
   fmt::print(out, "rigid motions strain it by {:.1e} of its stiffness; modes are orthogonal to {:.1e}\n",
              r.strain_of_rigid, r.off_diagonal);
   fmt::print(out, "mass {:.12g}, in x, y and z equal to {:.1e}\n", p.mass, p.uneven);
