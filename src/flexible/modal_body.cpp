@@ -229,6 +229,14 @@ bool check_modal_body(const ModalBody& b, const ModalPlaces& at, Diagnostics& ou
   // What the modes have beside motions of the body as a whole, in parts of what they have.
   const MatrixXd whole = b.inertia.matrix(VectorXd::Zero(n));
   const Eigen::SelfAdjointEigenSolver<MatrixXd> rigid(MatrixXd(whole.topLeftCorner(6, 6)));
+  if (rigid.eigenvalues()(0) < -1e-9 * rigid.eigenvalues()(5)) {
+    out.error(
+        "body-mass", at.mass,
+        fmt::format("the inertia in {} is not positive: some motion of the body as a whole has less than no energy",
+                    at.file),
+        "mass, its first moment and the inertia tensor belong together");
+    return false;
+  }
   const double none = 1e-14 * std::max(rigid.eigenvalues().maxCoeff(), 1e-300);
   const VectorXd inverse = rigid.eigenvalues().unaryExpr([&](double x) { return x > none ? 1 / x : 0.0; });
   const MatrixXd coupling = rigid.eigenvectors().transpose() * whole.topRightCorner(6, n);

@@ -269,6 +269,11 @@ TEST_F(FlexBody, wrong_files_are_errors_at_their_place) {
   write("beam.fem", good);
   const RunResult both = run(held_beam(", MATRICES=1"), "STOP\n");
   EXPECT_THAT(both.err, HasSubstr("FLEX_BODY/2 takes its data from MNF_FILE or from MATRICES, not from both"));
+  // Mass and its first moment without the inertia tensor.
+  const RunResult halved = run(held_beam(", INVARIANTS=T:T:T:T:T:T:F:T:T"), "STOP\n");
+  EXPECT_NE(halved.status, 0);
+  EXPECT_THAT(halved.err, HasSubstr("the inertia in what INVARIANTS leaves of the body is not positive: some motion of "
+                                    "the body as a whole has less than no energy"));
   const RunResult r =
       run("Beam\nPART/1, GROUND\nMARKER/1\nFLEX_BODY/2, MNF_FILE=beam.fem, CRATIO=TIME\nMARKER/21, NODE_ID=9\n"
           "MARKER/22\nMARKER/23, FLOATING\nEND\n",
