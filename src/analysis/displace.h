@@ -16,8 +16,8 @@ struct StepLimits {
   double translation = std::numeric_limits<double>::infinity();
 };
 
-// What goes beyond the limits shortens the whole step, and so do the limits of bodies and of other coordinates. Returns
-// the factor that was used.
+// What goes beyond the limits shortens the whole step, and so do the limits of other coordinates. Returns the factor
+// that was used.
 inline double displace(const System& system, OperatingPoint& op, const Eigen::Ref<const Eigen::VectorXd>& step,
                        const StepLimits& limits) {
   const Layout& layout = system.layout();
@@ -28,10 +28,6 @@ inline double displace(const System& system, OperatingPoint& op, const Eigen::Re
   }
   double factor = turn > limits.rotation ? limits.rotation / turn : 1.0;
   if (factor * way > limits.translation) factor = limits.translation / way;
-  for (const BodyBlock& b : layout.bodies) {
-    if (b.count == 0 || !std::isfinite(b.largest_step)) continue;
-    factor = std::min(factor, b.largest_step / std::max(step.segment<3>(b.offset).norm(), b.largest_step * 1e-300));
-  }
   for (const ExtraBlock& e : layout.extras) {
     for (std::int32_t k = 0; k < e.count; ++k) {
       const double limit = e.coordinates[static_cast<std::size_t>(k)].largest_step;

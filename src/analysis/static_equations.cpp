@@ -382,9 +382,25 @@ void StaticEquations::measure_forces(const OperatingPoint& op) {
   force_scale_ = std::max(force_scale_, imbalance());
 }
 
+namespace {
+
+// The part of a step after which what bodies touch is looked at again.
+double part_within_shapes(const Layout& layout, const Eigen::VectorXd& step) {
+  double part = 1;
+  for (const BodyBlock& b : layout.bodies) {
+    if (b.count == 0) continue;
+    const double way = step.segment<3>(b.offset).norm();
+    if (way > b.largest_step) part = std::min(part, b.largest_step / way);
+  }
+  return part;
+}
+
+}  // namespace
+
 OperatingPoint moved(const System& system, const OperatingPoint& from, const AugmentedSystem& augmented,
                      const Eigen::VectorXd& step, double fraction, const StepLimits& limits, double* taken) {
   OperatingPoint to = from;
+  fraction *= part_within_shapes(system.layout(), fraction * step);
   const double f =
       fraction * displace(system, to, fraction * step.head(static_cast<Eigen::Index>(system.coordinates())), limits);
   if (taken) *taken = f;

@@ -25,7 +25,7 @@ struct BodyBlock {
   std::int32_t offset = -1;  // first coordinate, −1 for ground
   std::int32_t count = 0;    // 0, 3 or 6
   ElementLabel label;
-  double largest_step = std::numeric_limits<double>::infinity();  // of an iteration [length]
+  double largest_step = std::numeric_limits<double>::infinity();  // of a search for rest [length]
 
   bool turns() const { return kind == BodyKind::part; }
 };

@@ -32,6 +32,24 @@ TEST(ContactInTime, a_ball_bounces_in_a_groove_of_facets) {
   EXPECT_NEAR(c.variables.at(3).back(), 0, 1e-7);
 }
 
+// What may touch something small is led through time and put together like anything else: only searches for rest take
+// steps no longer than it.
+TEST(ContactInTime, what_may_touch_something_small_moves_as_far_as_it_does) {
+  const Course c = led_through_time(
+      "Fast\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=2, IP=0.1,0.1,0.1, QG=0,3,0, VX=50\n"
+      "MARKER/2\nGRAPHICS/2, ELLIPSOID, CM=2, XSCALE=0.02, YSCALE=0.02, ZSCALE=0.02\n"
+      "MARKER/3, PART=1, QP=0,0,-9\nGRAPHICS/1, BOX, CORNER=3, X=0.1, Y=0.1, Z=0.1\n"
+      "MARKER/4, PART=2, REULER=90D,90D,0\nMARKER/5, PART=1, REULER=90D,90D,0\nJOINT/1, TRANSLATIONAL, I=4, J=5\n"
+      "CONTACT/1, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=1E4, EXPONENT=1.5, DAMPING=0, DMAX=1\n"
+      "VARIABLE/1, FUNCTION=DX(2)\nVARIABLE/2, FUNCTION=DY(2)\nEND\n",
+      {.end = 1, .steps = 20, .error = 1e-6});
+  ASSERT_TRUE(c.ok()) << c.failure;
+  for (std::size_t k = 0; k < c.times.size(); ++k) {
+    EXPECT_NEAR(c.variables.at(1)[k], 50 * c.times[k], 1e-9);
+    EXPECT_NEAR(c.variables.at(2)[k], 0, 1e-9);
+  }
+}
+
 // In a bowl whose seams run in and out under the ball, it keeps its energy whenever it is in the air.
 TEST(ContactInTime, a_ball_that_bounces_in_a_bowl_of_facets_keeps_its_energy) {
   std::string profile;

@@ -141,7 +141,7 @@ double way_through(const ContactForce& c) {
   for (const PlacedSide& on_I : c.I) {
     for (const PlacedSide& on_J : c.J) {
       const double a = solid::bounds(on_I.side).radius, b = solid::bounds(on_J.side).radius;
-      if (!std::isfinite(a) || !std::isfinite(b)) continue;
+      if (!std::isfinite(a) || !std::isfinite(b) || a + b == 0) continue;
       if (solid::is_profile(on_I.side) || solid::is_profile(on_J.side)) continue;
       least = std::min(least, 0.5 * std::max(std::min(a, b), 0.05 * std::max(a, b)));
     }

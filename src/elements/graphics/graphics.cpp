@@ -226,8 +226,8 @@ class GraphicsSet final : public ElementSet, public ShapeSource, public ContactS
   std::optional<ContactShape> contact_shape(std::size_t k, const Model& model, std::string& why) const override {
     if (!drawings_[k]) return std::nullopt;
     const std::string_view type = drawings_[k]->type();
-    why = fmt::format("{} {}",
-                      type == External::type || type == Ellipsoid::type || type == Extrusion::type ? "an" : "a", type);
+    why =
+        fmt::format("{} {}", std::string_view("AEIO").find(type.front()) == std::string_view::npos ? "a" : "an", type);
     auto shape = drawings_[k]->contact_shape(model, why);
     return shape || why.empty() ? shape : facets(k, model, why);
   }
