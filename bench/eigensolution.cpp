@@ -59,8 +59,11 @@ int main(int argc, char** argv) {
   auto point = study.initial_conditions();
   report("initial conditions");
   point = study.static_equilibrium(point);
-  const int iterations = point.static_result().iterations;
-  report(fmt::format("statics, {} iterations", iterations));
+  report("statics");
+  // Which is found when it is asked for.
+  const auto found = point.static_result();
+  report("stability");
+  fmt::print("{} iterations, {}\n", found.iterations, found.stability.text());
   if (statics_only) return 0;
   const auto matrices = study.linearize(point).state_space();
   report("state matrix");

@@ -17,6 +17,7 @@
 #include "command/prompt.h"
 #include "command/session.h"
 #include "distributed/team.h"
+#include "dynalin/threads.h"
 #include "dynalin/version.h"
 #include "line_editor.h"
 #include "nastran_reader/nastran_program.h"
@@ -93,6 +94,9 @@ int run(int argc, char** argv) {
   run->add_option("--dense-up-to", options.dense_up_to,
                   "states up to which selected modes are taken out of all (400) and state matrices are formed (5000)")
       ->check(at_least(0));
+  std::size_t threads = thread_count();
+  run->add_option("--threads", threads, "that share the work, as many as there are cores; results do not depend on it")
+      ->check(at_least(1));
   run->add_flag("--keep-going", options.keep_going, "go on after a command that failed");
   run->add_flag("--bounds", options.bounds, "say how exact each eigenvalue is");
   run->add_flag("--state", options.state, "print every operating point: positions, velocities, reactions, forces ...");
@@ -170,6 +174,7 @@ int run(int argc, char** argv) {
   if (*run) {
     if (options.file == "-" && !take_commands(options)) return wrong_input;
     keep_freed_memory();
+    set_thread_count(threads);
     return run_session(options, std::cout, std::cerr);
   }
   if (*check) return check_file(options, std::cout, std::cerr);
@@ -207,6 +212,7 @@ int run_to_the_end(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   open_standard_streams();
+  use_kernels_of_processor(argv);
   if (!prepare_for_limited_memory(argv))
     return fail("out of memory: the limit on it leaves less than 144 MB beside the program");
   dynalin::Team team;

@@ -1,5 +1,6 @@
 #include "process.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -13,6 +14,7 @@
 #include <climits>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 #include <thread>
 
 #include "linear/dense_products.h"
@@ -35,7 +37,34 @@ bool can_have(std::size_t bytes) {
   return memory != MAP_FAILED && ::munmap(memory, bytes) == 0;
 }
 
+// With a variable of the environment that libraries have read by now. Returns where that cannot be.
+void begin_anew(char** arguments, const char* variable, const char* value) {
+  std::array<char, PATH_MAX> program{};
+  if (::setenv(variable, value, 1) == 0 && ::readlink("/proc/self/exe", program.data(), program.size() - 1) > 0)
+    ::execv(program.data(), arguments);
+}
+
+// Those of OpenBLAS that this processor is able to run, null for what is there anyway.
+const char* kernels_of_processor() {
+#ifdef __x86_64__
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd"))
+    return "SkylakeX";
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "Haswell";
+#endif
+  return nullptr;
+}
+
 }  // namespace
+
+void use_kernels_of_processor(char** arguments) {
+  constexpr const char* kernels = "OPENBLAS_CORETYPE";
+  constexpr std::string_view oldest = "Prescott";
+  const auto in_use = reinterpret_cast<const char* (*)()>(::dlsym(RTLD_DEFAULT, "openblas_get_corename"));
+  const char* const better = kernels_of_processor();
+  if (!std::getenv(kernels) && better && in_use && in_use() == oldest) begin_anew(arguments, kernels, better);
+}
 
 void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
@@ -72,10 +101,7 @@ bool prepare_for_limited_memory(char** arguments) {
   constexpr const char* threads = "OPENBLAS_NUM_THREADS";
   const char* const now = std::getenv(threads);
   const bool alone = now && std::strcmp(now, "1") == 0;
-  std::array<char, PATH_MAX> program{};
-  if (!enough_for_threads && !alone && ::setenv(threads, "1", 1) == 0 &&
-      ::readlink("/proc/self/exe", program.data(), program.size() - 1) > 0)
-    ::execv(program.data(), arguments);
+  if (!enough_for_threads && !alone) begin_anew(arguments, threads, "1");
   if (!can_have(buffer + 16 * mebibyte)) return false;
   constexpr Eigen::Index size = 200;  // small products need none
   const Eigen::MatrixXd ones = Eigen::MatrixXd::Ones(size, size);

@@ -14,6 +14,7 @@
 #include "dynalin/record.h"
 #include "dynalin/simulation.h"
 #include "dynalin/study.h"
+#include "dynalin/threads.h"
 #include "dynalin/version.h"
 
 // Inside, namespace dynalin has a Model, a Study and an OperatingPoint of its own, which no public header shows.

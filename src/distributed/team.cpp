@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "base/parallel.h"
 #include "distributed/orders.h"
 
 namespace dynalin {
@@ -90,6 +91,7 @@ Team::Team() {
   MPI_Comm_dup(MPI_COMM_WORLD, &joined().orders);
   MPI_Comm_rank(joined().orders, &joined().rank);
   MPI_Comm_size(joined().orders, &joined().size);
+  if (joined().size > 1) set_thread_count(1);  // a process for each core
 }
 
 Team::~Team() {

@@ -16,9 +16,6 @@ using Complex = std::complex<double>;
 using Index = Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 
-// All unknowns of a large model are many: few columns at a time.
-constexpr Index at_a_time = 2;
-
 // What the equations leave, of all unknowns of x.
 Matrix rates_of(const PerturbationEquations& equations, const Matrix& x) {
   Matrix w(equations.unknowns(), x.cols()), rates = Matrix::Zero(equations.unknowns(), x.cols());
@@ -42,12 +39,12 @@ double norm_of_state_matrix(const PerturbationEquations& equations) {
       for (Index k = 0; k < n; ++k) x(k, c) = v(k).real() < 0 ? -each : each;
     }
   }
-  double squares = 0;
-  for (Index first = 0; first < x.cols(); first += 2 * at_a_time) {
-    const Index count = std::min(2 * at_a_time, x.cols() - first);
-    squares += rates_of(equations, x.middleCols(first, count)).bottomRows(n).squaredNorm();
-  }
-  return std::sqrt(squares);
+  Eigen::VectorXd norms(x.cols());
+  for_few_columns(x.cols(), [&](Index first, Index count) {
+    norms.segment(first, count) =
+        rates_of(equations, x.middleCols(first, count)).bottomRows(n).colwise().norm().transpose();
+  });
+  return norms.norm();
 }
 
 }  // namespace
@@ -55,8 +52,7 @@ double norm_of_state_matrix(const PerturbationEquations& equations) {
 void add_backward_errors(const PerturbationEquations& equations, EigenSolution& solution) {
   const double size = norm_of_state_matrix(equations);
   if (!(size > 0)) return;
-  for (Index first = 0; first < solution.vectors.cols(); first += at_a_time) {
-    const Index count = std::min(at_a_time, solution.vectors.cols() - first);
+  for_few_columns(solution.vectors.cols(), [&](Index first, Index count) {
     const Eigen::MatrixXcd images = by_parts(solution.vectors.middleCols(first, count), [&](const Matrix& x) {
       return equations.reduced(rates_of(equations, x));
     });
@@ -65,7 +61,7 @@ void add_backward_errors(const PerturbationEquations& equations, EigenSolution& 
       const Complex lambda = mode.eigenvalue_hz * cycle;
       mode.backward_error = (images.col(c) - lambda * solution.vectors.col(first + c)).norm() / size;
     }
-  }
+  });
 }
 
 }  // namespace dynalin

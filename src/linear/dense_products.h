@@ -6,6 +6,8 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 
+#include "base/parallel.h"
+
 namespace dynalin {
 
 Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);          // A B
@@ -32,12 +34,24 @@ class TransposedFactor {
   Eigen::SparseMatrix<double> entries_;  // by columns of A
 };
 
-// visit(first, count) for all columns, as many at a time as make good use of a matrix product while what belongs to
-// them stays small.
+// visit(first, count) for all columns, so many at a time, by all threads: a visit may write what belongs to its columns
+// and nothing else.
+template <Eigen::Index at_a_time, class Function>
+void for_columns(Eigen::Index columns, Function&& visit) {
+  in_parallel(static_cast<std::size_t>((columns + at_a_time - 1) / at_a_time), [&](std::size_t block) {
+    const Eigen::Index first = at_a_time * static_cast<Eigen::Index>(block);
+    visit(first, std::min(at_a_time, columns - first));
+  });
+}
+// As many as make good use of a matrix product while what belongs to them stays small.
 template <class Function>
 void for_column_blocks(Eigen::Index columns, Function&& visit) {
-  constexpr Eigen::Index most = 64;
-  for (Eigen::Index first = 0; first < columns; first += most) visit(first, std::min(most, columns - first));
+  for_columns<64>(columns, visit);
+}
+// Of all unknowns of a large model, which are many even for a few modes. KLU solves for four real ones at a time.
+template <class Function>
+void for_few_columns(Eigen::Index columns, Function&& visit) {
+  for_columns<2>(columns, visit);
 }
 
 // A real linear map of real matrices, applied to a complex one.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 #include "linear/dense_products.h"
 #include "linear/rounding.h"
@@ -77,7 +78,9 @@ ComplexMatrix EigenResiduals::measure(const StructuredPencil& pencil) {
   ComplexMatrix reduced(n, count());
   rounding_share_ = Eigen::VectorXd::Zero(N);
   left_shares_.resize(N - n, count()), left_units_.resize(count());
+  std::mutex sharing;
   for_column_blocks(count(), [&](Index first, Index columns) {
+    Eigen::VectorXd rounding_share = Eigen::VectorXd::Zero(N);
     const ComplexMatrix x = pairs_.right.middleCols(first, columns), y = pairs_.left.middleCols(first, columns);
     const ComplexMatrix a = by_parts(x, [&](const Matrix& m) { return equations.complete(m); });
     const ComplexMatrix b = by_parts(y, [&](const Matrix& m) { return equations.complete_left(m); });
@@ -99,7 +102,11 @@ ComplexMatrix EigenResiduals::measure(const StructuredPencil& pencil) {
       }
       const double norm = of.rounding.norm();
       column_floor_(first + c, 0) = norm;
-      if (norm > 0) rounding_share_ = rounding_share_.cwiseMax(of.rounding / norm);
+      if (norm > 0) rounding_share = rounding_share.cwiseMax(of.rounding / norm);
+    }
+    {
+      const std::lock_guard lock(sharing);
+      rounding_share_ = rounding_share_.cwiseMax(rounding_share);
     }
     reduced.middleCols(first, columns) = by_parts(r, [&](const Matrix& m) { return equations.reduced(m); });
     for (Index c = 0; c < columns; ++c) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/parallel.h"
 #include "linear/rounding.h"
 #include "system/shifted_lu.h"
 
@@ -115,9 +116,14 @@ void refine_by_inverse_iteration(const StructuredPencil& pencil, std::vector<Ind
     return std::abs(value(pairs, {a, false})) < std::abs(value(pairs, {b, false}));
   });
   if (wanted.size() > most_refined) wanted.resize(most_refined);
-  ShiftedLu lu(pencil.equations().products(), pencil.equations().states());
-  if (lu.predicted_entries() > most_factor_entries) return;
-  for (const Index i : wanted) refine_one(pencil, lu, i, pairs, trust[static_cast<std::size_t>(i)]);
+  // Each thread has factors of its own.
+  const std::size_t shares = std::min(thread_count(), wanted.size());
+  in_parallel(shares, [&](std::size_t share) {
+    ShiftedLu lu(pencil.equations().products(), pencil.equations().states());
+    if (lu.predicted_entries() > most_factor_entries) return;
+    for (std::size_t k = share; k < wanted.size(); k += shares)
+      refine_one(pencil, lu, wanted[k], pairs, trust[static_cast<std::size_t>(wanted[k])]);
+  });
 }
 
 }  // namespace dynalin

@@ -136,13 +136,13 @@ Matrix PerturbationEquations::state_matrices(const Matrix& a) const {
   multiply_add(state_rates_on_algebraic_, a, rates, 1.0);
   multiply_add(state_rates_on_states_, Matrix::Identity(states_, columns), rates, 1.0);
   // Residuals of all equations at (a, x, x′) as computed.
-  std::vector<long double> sum(static_cast<std::size_t>(unknowns()));
-  const auto add = [&](const ColumnMatrix& m, std::int32_t column, long double factor) {
-    for_each_in_column(m, column, [&](std::int32_t row, double v) {
-      sum[static_cast<std::size_t>(row)] += factor * static_cast<long double>(v);
-    });
-  };
   for_column_blocks(columns, [&](Eigen::Index first, Eigen::Index count) {
+    std::vector<long double> sum(static_cast<std::size_t>(unknowns()));
+    const auto add = [&](const ColumnMatrix& m, std::int32_t column, long double factor) {
+      for_each_in_column(m, column, [&](std::int32_t row, double v) {
+        sum[static_cast<std::size_t>(row)] += factor * static_cast<long double>(v);
+      });
+    };
     Matrix residual(unknowns(), count);
     for (Eigen::Index c = first; c < first + count; ++c) {
       std::fill(sum.begin(), sum.end(), 0.0L);

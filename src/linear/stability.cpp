@@ -7,39 +7,86 @@
 #include <optional>
 
 #include "analysis/displace.h"
+#include "base/cycle.h"
+#include "linear/dense_products.h"
 #include "linear/eigen.h"
+#include "linear/rounding.h"
 
 namespace dynalin {
 
 namespace {
 
-using Solution = std::pair<LinearSystem, EigenSolution>;
+using Matrix = Eigen::MatrixXd;
 
-std::optional<Solution> modes_at(const System& system, const OperatingPoint& op, std::string& reason) {
+// A growth slower than that of its own oscillation is none.
+constexpr double least_growth = 1e-9;
+// What a rate of growth may be off, of the fastest rate of the model, where one cannot be told from none.
+constexpr double unnoticed = 1e-7;
+
+struct Value {
+  std::complex<double> hz;
+  double bound;
+
+  double least() const { return hz.real() - bound; }
+  double most() const { return hz.real() + bound; }
+  bool grows() const { return least() > 0 && hz.real() > least_growth * std::abs(hz); }
+  bool does_not_grow() const { return most() <= std::max(0.0, least_growth * std::abs(hz)); }
+};
+
+std::optional<LinearSystem> linear_at(const System& system, const OperatingPoint& op, std::string& reason) {
   auto linear = linearize(system, op, {});
-  if (!linear) {
-    reason = linear.error().message;
-    return std::nullopt;
-  }
-  auto modes = eigensolve(*linear);
-  if (!modes) {
-    reason = modes.error().message;
-    return std::nullopt;
-  }
-  return Solution{std::move(*linear), std::move(*modes)};
+  if (linear) return std::move(*linear);
+  reason = linear.error().message;
+  return std::nullopt;
 }
 
-std::ptrdiff_t structural_zeros(const EigenSolution& modes) {
-  return std::count_if(modes.modes.begin(), modes.modes.end(), [](const EigenMode& m) { return m.structural_zero; });
+ZeroModes zeros_of(const LinearSystem& linear) {
+  return split_zero_modes(linear.A, linear.rounding, linear.structural_zeros.get());
+}
+
+// To first order, of the residual and of rounding: |δλ| ≤ |y|ᵀ(|A x − λ x| + (n ε |A| + uncertainty) |x|) / |yᴴx|.
+std::vector<Value> bounded(const LinearSystem& linear, const EigenPairs& pairs) {
+  if (pairs.values.empty()) return {};
+  const auto n = static_cast<double>(linear.A.rows());
+  const Matrix off = n * eps * linear.A.cwiseAbs() + linear.rounding + linear.uncertainty;
+  const Matrix spread = off * pairs.right.cwiseAbs();
+  const Eigen::MatrixXcd image = real_product(linear.A, pairs.right);
+  std::vector<Value> values;
+  for (std::size_t k = 0; k < pairs.values.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    const Eigen::VectorXd residual = (image.col(at) - pairs.values[k] * pairs.right.col(at)).cwiseAbs();
+    const double off_by = pairs.left.col(at).cwiseAbs().dot(residual + spread.col(at));
+    values.push_back({pairs.values[k] / cycle, off_by / std::abs(pairs.left.col(at).dot(pairs.right.col(at))) / cycle});
+  }
+  return values;
+}
+
+// All eigenvalues but the structural zeros: as the QR iteration gives them where that says of each which way it goes,
+// and refined otherwise.
+std::optional<std::vector<Value>> values_of(const LinearSystem& linear, std::string& reason) {
+  if (const auto quick = unrefined_pairs(linear)) {
+    auto values = bounded(linear, quick->pairs);
+    if (std::all_of(values.begin(), values.end(), [](const Value& v) { return v.grows() || v.does_not_grow(); }))
+      return values;
+  }
+  const auto solution = eigensolve(linear);
+  if (!solution) {
+    reason = solution.error().message;
+    return std::nullopt;
+  }
+  std::vector<Value> values;
+  for (const EigenMode& m : solution->modes) {
+    if (!m.structural_zero) values.push_back({m.eigenvalue_hz, m.error_bound_hz});
+  }
+  return values;
 }
 
 // How all coordinates move along the motions that the linear model leaves free, in different shares.
-Eigen::VectorXd free_motion(const System& system, const LinearSystem& linear, const EigenSolution& modes) {
+Eigen::VectorXd free_motion(const System& system, const LinearSystem& linear, const Matrix& free) {
   Eigen::VectorXd motion = Eigen::VectorXd::Zero(system.layout().coordinate_count);
   double share = 1;
-  for (std::size_t k = 0; k < modes.modes.size(); ++k) {
-    if (!modes.modes[k].structural_zero) continue;
-    const Eigen::VectorXd moved = linear.displacements(modes.vectors.col(static_cast<Eigen::Index>(k))).col(0).real();
+  for (Eigen::Index k = 0; k < free.cols(); ++k) {
+    const Eigen::VectorXd moved = linear.displacements(free.col(k).cast<std::complex<double>>()).col(0).real();
     double size = 0;
     for (Eigen::Index c = 0; c < moved.size(); ++c)
       size = std::max(size, std::abs(moved(c)) / system.coordinate_scale(static_cast<std::int32_t>(c)));
@@ -62,7 +109,7 @@ std::string largest_of(const System& system, const Eigen::VectorXd& motion) {
 // Whether motions that nothing resists here are resisted, or driven, a little further on: then their force begins with
 // a higher order than the linear model has. Where the model is free it stays so.
 bool is_free_here_alone(const System& system, const OperatingPoint& at_rest, const Eigen::VectorXd& motion,
-                        std::ptrdiff_t zeros) {
+                        Eigen::Index zeros) {
   constexpr double distance = 1e-3;
   OperatingPoint there = at_rest;
   displace(system, there, distance * motion, {1.0});
@@ -71,8 +118,8 @@ bool is_free_here_alone(const System& system, const OperatingPoint& at_rest, con
   if (moved) moved = solve_acceleration(system, std::move(*moved), ignored);
   if (!moved) return true;
   std::string unused;
-  const auto beside = modes_at(system, *moved, unused);
-  return !beside || structural_zeros(beside->second) < zeros;
+  const auto beside = linear_at(system, *moved, unused);
+  return !beside || zeros_of(*beside).count < zeros;
 }
 
 }  // namespace
@@ -84,19 +131,30 @@ Stability stability_of(const System& system, const OperatingPoint& at_rest) {
     s.reason = "the model is too large to look at it in passing, LINEAR/EIGENSOL tells";
     return s;
   }
-  const auto found = modes_at(system, at_rest, s.reason);
-  if (!found) return s;
-  const auto& [linear, modes] = *found;
-  double largest = 0;
-  for (const EigenMode& m : modes.modes) largest = std::max(largest, std::abs(m.eigenvalue_hz));
-  for (const EigenMode& m : modes.modes) s.growing_modes += m.eigenvalue_hz.real() > 1e-7 * largest;
+  const auto linear = linear_at(system, at_rest, s.reason);
+  const auto values = linear ? values_of(*linear, s.reason) : std::nullopt;
+  if (!values) return s;
+  double largest = 0, hidden = 0;
+  for (const Value& v : *values) {
+    largest = std::max(largest, std::abs(v.hz));
+    if (v.grows()) {
+      ++s.growing_modes;
+    } else if (!v.does_not_grow()) {
+      hidden = std::max(hidden, v.most());
+    }
+  }
   if (s.growing_modes > 0) {
     s.verdict = Stability::Verdict::unstable;
     return s;
   }
-  const Eigen::VectorXd motion = free_motion(system, linear, modes);
+  if (hidden > unnoticed * largest) {
+    s.reason = fmt::format("rounding hides whether a mode grows by up to {:.2g} cycles per time", hidden);
+    return s;
+  }
+  const ZeroModes zeros = zeros_of(*linear);
+  const Eigen::VectorXd motion = free_motion(system, *linear, zeros.vectors());
   if (motion.size() > 0 && motion.cwiseAbs().maxCoeff() > 0 &&
-      is_free_here_alone(system, at_rest, motion, structural_zeros(modes))) {
+      is_free_here_alone(system, at_rest, motion, zeros.count)) {
     s.reason =
         fmt::format("to first order nothing holds {} here, and beside this point something does or drives it away",
                     largest_of(system, motion));

@@ -112,13 +112,6 @@ Matrix sizes_product(const ComplexMatrix& a, const Matrix& b) {
   return sum;
 }
 
-// visit(first, count): all unknowns of a large model are many, even for the columns of a few modes.
-template <class Function>
-void for_few_columns(Index columns, Function&& visit) {
-  constexpr Index most = 2;  // KLU solves for four real ones at a time
-  for (Index first = 0; first < columns; first += most) visit(first, std::min(most, columns - first));
-}
-
 // Columns of which a few digits are enough, each in a unit of its own: half the memory.
 class ShortColumns {
  public:

@@ -81,6 +81,21 @@ void Equations::note(PartialBy family, std::int32_t row, std::int32_t column, st
   }
 }
 
+void Equations::become_share_of(const Equations& whole, Share share) {
+  layout_ = whole.layout_, wanted_ = whole.wanted_, wants_any_ = whole.wants_any_;
+  share_ = share, keeps_ = true;
+  kept_.clear();
+}
+
+void Equations::take(const Contributions& c) {
+  for (const auto& r : c.residuals) add_residual(r.row, r.value);
+  std::size_t at = 0;
+  for (const auto& run : c.runs) {
+    add(run.family, run.row, run.column, std::span(c.values).subspan(at, run.count));
+    at += run.count;
+  }
+}
+
 void Equations::finish() {
   for (std::size_t k = 0; k < column_families; ++k) {
     if (wanted_[k]) matrices_[k].finish();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <ranges>
 #include <span>
 #include <vector>
 
@@ -101,6 +102,24 @@ enum class PartialBy : std::uint8_t {
 };
 inline constexpr std::size_t column_families = 8;
 
+// What one share of a pass adds, in its order, until it is its turn (Equations::take).
+struct Contributions {
+  struct Residual {
+    std::int32_t row;
+    double value;
+  };
+  struct Run {
+    PartialBy family;
+    std::int32_t row, column;
+    std::uint32_t count;
+  };
+  std::vector<Residual> residuals;
+  std::vector<Run> runs;
+  std::vector<double> values;  // of all runs
+
+  void clear() { residuals.clear(), runs.clear(), values.clear(); }
+};
+
 // Residuals of the force balance (one row a coordinate: inertia − applied − reactions = 0), of the algebraic
 // equations (w − g = 0) and of the differential ones (z′ − f = 0), in this order, and their partials.
 class Equations {
@@ -111,6 +130,32 @@ class Equations {
   void begin(std::initializer_list<PartialBy> wanted);
   void finish();  // builds patterns after a recording pass
   bool needs_second_pass() const { return recording_; }
+
+  // Where several threads share a pass, each evaluates shares of the elements of a kernel, in an object of its own that
+  // keeps what is added; taken share by share in order, it gives the sums of a single thread to the last bit.
+  struct Share {
+    std::size_t number = 0, of = 1;
+  };
+  void become_share_of(const Equations& whole, Share);
+  void take(const Contributions&);
+  const Contributions& contributions() const { return kept_; }
+  // Of the elements of a kernel those that are evaluated now: all, if it shares its work with nobody. Their places, or
+  // themselves.
+  auto share(std::size_t elements) const {
+    return std::views::iota(elements * share_.number / share_.of, elements * (share_.number + 1) / share_.of);
+  }
+  template <class Element>
+  std::span<const Element> share(const std::vector<Element>& all) const {
+    const auto places = share(all.size());
+    return std::span(all).subspan(*places.begin(), places.size());
+  }
+  // Where shares are evaluated, kept with their memory from pass to pass.
+  std::vector<Equations>& desks(std::size_t count) {
+    desks_.resize(count);
+    return desks_;
+  }
+  // What each element adds on its own can only be told one after the other.
+  bool can_be_shared() const { return !trace_; }
 
   // Later passes also note what each element adds on its own.
   void note_elements(ElementTrace* trace) { trace_ = trace; }
@@ -143,6 +188,7 @@ class Equations {
   }
 
   void add_residual(std::int32_t row, double value) {
+    if (keeps_) return kept_.residuals.push_back({row, value});
     if (trace_ && row < layout_->coordinate_count) trace_->loads.push_back({row, value});
     residual_[static_cast<std::size_t>(row)] += value;
     magnitude_[static_cast<std::size_t>(row)] += std::abs(value);
@@ -154,6 +200,7 @@ class Equations {
   }
   void add(PartialBy family, std::int32_t row, std::int32_t column, std::span<const double> values) {
     if (!wants(family)) return;
+    if (keeps_) return keep(family, row, column, values);
     if (trace_) note(family, row, column, values);
     matrices_[static_cast<std::size_t>(family)].add(row, column, values);
   }
@@ -187,6 +234,10 @@ class Equations {
 
  private:
   void note(PartialBy, std::int32_t row, std::int32_t column, std::span<const double> values);
+  void keep(PartialBy family, std::int32_t row, std::int32_t column, std::span<const double> values) {
+    kept_.runs.push_back({family, row, column, static_cast<std::uint32_t>(values.size())});
+    kept_.values.insert(kept_.values.end(), values.begin(), values.end());
+  }
 
   const Layout* layout_ = nullptr;
   ElementTrace* trace_ = nullptr;
@@ -195,6 +246,10 @@ class Equations {
   std::array<bool, column_families> wanted_{};
   bool wants_any_ = false;
   bool recording_ = false;
+  Share share_;
+  bool keeps_ = false;  // what is added, for another to take
+  Contributions kept_;
+  std::vector<Equations> desks_;
 };
 
 }  // namespace dynalin

@@ -93,6 +93,12 @@ class ChannelSource {
   ~ChannelSource() = default;
 };
 
+// Of elements that take some microseconds each.
+constexpr std::size_t shares_of(std::size_t elements) {
+  constexpr std::size_t of_a_share = 32;
+  return elements / of_a_share + 1;
+}
+
 class Kernel {
  public:
   virtual ~Kernel() = default;
@@ -116,6 +122,9 @@ class Kernel {
   virtual void course_rates(const Motion&, std::span<double> /*state_rates*/) const {}
   // Residuals of balance, algebraic and differential equations, and the partials that are wanted.
   virtual void equations(const Motion&, Equations&) const {}
+  // Into so many shares equations() may be divided for several threads. More than one: it goes once through elements
+  // that take nothing from each other, those of Equations::share.
+  virtual std::size_t shares() const { return 1; }
 
   // --- what others read of the elements, null where there is nothing ---------------------------------
   virtual const WrenchSource* wrenches() const { return nullptr; }

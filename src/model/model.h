@@ -106,6 +106,7 @@ struct Model {
   std::shared_ptr<const Dataset> dataset;
   std::vector<SourceRef> further_sources;  // further texts that messages point into
   std::vector<std::string> input_files;    // that statements name and the model is made of
+  bool calls_routines = false;             // compiled ones of the user: by one thread at a time
 };
 
 // Reads every statement of the dataset by the catalogue. All problems are reported in one go; the model is

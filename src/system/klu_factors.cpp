@@ -23,6 +23,7 @@ bool KluFactors::analyse(ColumnMatrix& m) {
 bool KluFactors::factor(ColumnMatrix& m) {
   klu_free_numeric(&numeric_, &common_);
   numeric_ = klu_factor(m.start.data(), m.row.data(), m.value.data(), symbolic_, &common_);
+  work_.follow(numeric_, 1);
   throw_if_out_of_memory();
   return numeric_ && common_.status != KLU_SINGULAR;
 }

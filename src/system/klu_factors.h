@@ -4,6 +4,7 @@
 #include <klu.h>
 
 #include "mechanics/accumulator.h"
+#include "system/klu_work.h"
 
 namespace dynalin {
 
@@ -27,9 +28,13 @@ class KluFactors {
   // The smallest pivot beside the terms Σ |l||u| that were taken from its place: what cancellation has left of it.
   double most_cancelled();
   int determinant_sign() const;  // 1 or −1
-  // In place, of columns that follow each other.
-  void solve(double* x, int n, int columns) { klu_solve(symbolic_, numeric_, n, columns, x, &common_); }
-  void solve_transposed(double* x, int n, int columns) { klu_tsolve(symbolic_, numeric_, n, columns, x, &common_); }
+  // In place, of columns that follow each other; in several threads at once if need be.
+  void solve(double* x, int n, int columns) const {
+    work_.with(common_, [&](klu_numeric* f, klu_common* c) { klu_solve(symbolic_, f, n, columns, x, c); });
+  }
+  void solve_transposed(double* x, int n, int columns) const {
+    work_.with(common_, [&](klu_numeric* f, klu_common* c) { klu_tsolve(symbolic_, f, n, columns, x, c); });
+  }
   std::size_t entries() const {
     return static_cast<std::size_t>(numeric_->lnz) + static_cast<std::size_t>(numeric_->unz);
   }
@@ -40,6 +45,7 @@ class KluFactors {
   klu_common common_{};
   klu_symbolic* symbolic_ = nullptr;
   klu_numeric* numeric_ = nullptr;
+  mutable KluWork work_;
 };
 
 }  // namespace dynalin

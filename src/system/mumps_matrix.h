@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
 #include <new>
 #include <optional>
 #include <vector>
@@ -65,9 +66,11 @@ class MumpsMatrix {
     if (id_.infog[0] == allocation_failed) throw std::bad_alloc();
     return id_.infog[0];
   }
-  // In place.
+  // In place, `at_once` of the columns together (ICNTL(27)); threads wait for each other.
   template <class Value>
-  void solve(Value* x, int columns, bool transposed = false) {
+  void solve(Value* x, int columns, bool transposed = false, int at_once = 0) {
+    const std::lock_guard lock(solving_);
+    if (at_once > 0) control(27) = at_once;
     id_.rhs = reinterpret_cast<decltype(id_.rhs)>(x), id_.nrhs = columns, id_.lrhs = id_.n;
     control(9) = transposed ? 0 : 1;
     call(3);
@@ -82,6 +85,7 @@ class MumpsMatrix {
   Problem id_{};
   std::vector<int> row_, column_, place_;
   bool analysed_ = false;
+  std::mutex solving_;
 };
 
 }  // namespace dynalin

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "system/klu_work.h"
 #include "system/lu_choice.h"
 #include "system/mumps_matrix.h"
 #include "system/row_matching.h"
@@ -45,9 +46,10 @@ struct ShiftedLu::Factors {
   ColumnMatrix matrix;                // with every shifted diagonal place
   std::vector<Complex> value;         // of S − σ E
   std::vector<std::size_t> diagonal;  // where the shifted places stand
-  mutable klu_common common{};
+  klu_common common{};
   klu_symbolic* symbolic = nullptr;
   klu_numeric* numeric = nullptr;
+  mutable KluWork work;
   mutable std::optional<ComplexMumps> mumps;
 };
 
@@ -89,6 +91,7 @@ bool ShiftedLu::factor(Complex shift) {
   klu_z_free_numeric(&f.numeric, &f.common);
   f.numeric = klu_z_factor(f.matrix.start.data(), f.matrix.row.data(), reinterpret_cast<double*>(f.value.data()),
                            f.symbolic, &f.common);
+  f.work.follow(f.numeric, 2);
   if (f.common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
   return f.numeric && f.common.status == KLU_OK;
 }
@@ -96,7 +99,9 @@ bool ShiftedLu::factor(Complex shift) {
 void ShiftedLu::solve(Eigen::VectorXcd& b) const {
   const Factors& f = *factors_;
   if (f.mumps) return f.mumps->solve(b.data(), 1, false);
-  klu_z_solve(f.symbolic, f.numeric, f.matrix.rows, 1, reinterpret_cast<double*>(b.data()), &f.common);
+  f.work.with(f.common, [&](klu_numeric* factors, klu_common* common) {
+    klu_z_solve(f.symbolic, factors, f.matrix.rows, 1, reinterpret_cast<double*>(b.data()), common);
+  });
 }
 
 void ShiftedLu::solve_adjoint(Eigen::VectorXcd& b) const {
@@ -107,7 +112,9 @@ void ShiftedLu::solve_adjoint(Eigen::VectorXcd& b) const {
     b = b.conjugate().eval();
     return;
   }
-  klu_z_tsolve(f.symbolic, f.numeric, f.matrix.rows, 1, reinterpret_cast<double*>(b.data()), 1, &f.common);
+  f.work.with(f.common, [&](klu_numeric* factors, klu_common* common) {
+    klu_z_tsolve(f.symbolic, factors, f.matrix.rows, 1, reinterpret_cast<double*>(b.data()), 1, common);
+  });
 }
 
 Complex ShiftedLu::log_determinant() const {

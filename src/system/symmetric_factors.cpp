@@ -47,8 +47,8 @@ struct SymmetricFactors::Inertia {
     return status == 0;
   }
   void solve(Eigen::MatrixXd& b) {
-    mumps.control(27) = static_cast<int>(b.cols());  // at once
-    mumps.solve(b.data(), static_cast<int>(b.cols()));
+    const auto columns = static_cast<int>(b.cols());
+    mumps.solve(b.data(), columns, false, columns);
   }
 };
 

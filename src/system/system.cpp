@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "system/shared_pass.h"
 #include "system/signal_table.h"
 #include "system/system_binder.h"
 
@@ -175,7 +176,7 @@ void System::equations(const Motion& motion, const ConstraintRows& rows, Equatio
                        std::initializer_list<PartialBy> wanted) const {
   const auto pass = [&] {
     eq.begin(wanted);
-    for (const auto& kernel : kernels_) kernel->equations(motion, eq);
+    add_equations(kernels_, motion, model_->calls_routines ? Threads::one : Threads::all, eq);
   };
   pass();
   if (eq.needs_second_pass()) {

@@ -242,6 +242,21 @@ TEST_F(StaticTruth, stability_is_not_known_where_force_begins_with_a_higher_orde
   EXPECT_THAT(free.out, HasSubstr("nothing grows"));
 }
 
+// What grows at 1 rad/s beside a mass that swings at 1e8 rad/s.
+TEST_F(StaticTruth, a_stiff_part_hides_no_growth_of_another) {
+  const auto beside = [&](const char* force) {
+    return rest(slide(force, .3) +
+                "PART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30\nJOINT/2, TRANSLATIONAL, I=30, J=1\n"
+                "SFORCE/2, TRANSLATIONAL, I=30, J=1, ACTIONONLY, FUNCTION=-1E16*DZ(30,1)\n");
+  };
+  const RunResult grows = beside("DZ(20,1)-.3"), swings = beside(".3-DZ(20,1)"),
+                  damped = beside("-VZ(20,1)+.3-DZ(20,1)"), driven = beside("1E-3*VZ(20,1)+.3-DZ(20,1)");
+  EXPECT_THAT(grows.out, HasSubstr("unstable: 1 mode grows")) << grows.err;
+  EXPECT_THAT(swings.out, HasSubstr("nothing grows")) << swings.err;
+  EXPECT_THAT(damped.out, HasSubstr("nothing grows")) << damped.err;
+  EXPECT_THAT(driven.out, HasSubstr("unstable: 1 mode grows")) << driven.err;
+}
+
 // A part without mass between springs: nothing gives it an acceleration, and rest asks for none.
 TEST_F(StaticTruth, parts_without_mass_need_none_to_rest) {
   const std::string text = dataset(

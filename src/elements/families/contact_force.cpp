@@ -198,7 +198,7 @@ PairForce ContactKernel::force_of(const Placed& p, const PairMotion& pair, const
 }
 
 void ContactKernel::equations(const Motion& motion, Equations& eq) const {
-  for (std::size_t k = 0; k < forces_.size(); ++k) {
+  for (const std::size_t k : eq.share(forces_.size())) {
     const Placed& p = forces_[k];
     eq.begin_element((*labels_)[k]);
     const PairMotion pair = pair_motion(motion, *p.I, *p.J);

@@ -34,6 +34,7 @@ class ContactKernel final : public Kernel, public WrenchSource {
   ContactKernel(const std::vector<ContactForce>&, const std::vector<ElementLabel>&, Layout&);
 
   void equations(const Motion&, Equations&) const override;
+  std::size_t shares() const override { return forces_.size() / 2 + 1; }  // facets take long
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return forces_[k].law->i; }
   MarkerId marker_J(std::size_t k) const override { return forces_[k].law->j; }

@@ -29,7 +29,7 @@ PairForce FunctionForceKernel::force_of(const Force& f, const PairMotion& pair, 
 }
 
 void FunctionForceKernel::equations(const Motion& motion, Equations& eq) const {
-  for (const Force& f : forces_) {
+  for (const Force& f : eq.share(forces_)) {
     eq.begin_element(*f.element.label);
     const double w = motion.algebraic[static_cast<std::size_t>(f.algebraic)];
     const std::int32_t row = eq.algebraic_row(f.algebraic);

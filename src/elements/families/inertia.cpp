@@ -23,7 +23,7 @@ InertiaKernel::InertiaKernel(const Model& model, BodyKind kind) : gravity_(model
 }
 
 void InertiaKernel::equations(const Motion& motion, Equations& eq) const {
-  for (const Mass& m : masses_) {
+  for (const Mass& m : eq.share(masses_)) {
     eq.begin_element(eq.layout().body(m.body).label);
     const BodyMotion& b = motion.body(m.body);
     const BodyBlock& block = eq.layout().body(m.body);

@@ -26,6 +26,7 @@ class InertiaKernel final : public Kernel {
   // All rigid bodies of one kind in the model.
   InertiaKernel(const Model&, BodyKind);
   void equations(const Motion&, Equations&) const override;
+  std::size_t shares() const override { return shares_of(masses_.size()); }
 
  private:
   struct Mass {

@@ -203,12 +203,13 @@ class JointKernel final : public Kernel, public WrenchSource {
   void equations(const Motion& motion, Equations& eq) const override {
     // The reaction itself is added from the constraint rows; here only its variation.
     if (!eq.wants(PartialBy::position)) return;
-    for (const Placed& p : joints_) {
+    for (const Placed& p : eq.share(joints_)) {
       eq.begin_constraint(p.first_row, static_cast<std::int32_t>(n));
       const PairMotion pair = pair_motion(motion, p.I, p.J);
       apply_partials(pair, spread(pair, reaction_of(p, pair, motion), true), eq);
     }
   }
+  std::size_t shares() const override { return shares_of(joints_.size()); }
 
   std::span<const StartCondition> starts() const override { return starts_; }
   void start_rows(const Motion& motion, std::int32_t first, ConstraintRows& rows) const override {

@@ -24,8 +24,9 @@ class LineForceKernel final : public Kernel, public WrenchSource {
     for (const E& e : elements) forces_.push_back({e, layout.marker(e.i), layout.marker(e.j)});
   }
 
+  std::size_t shares() const override { return shares_of(forces_.size()); }
   void equations(const Motion& motion, Equations& eq) const override {
-    for (std::size_t k = 0; k < forces_.size(); ++k) {
+    for (const std::size_t k : eq.share(forces_.size())) {
       const Force& f = forces_[k];
       const PairMotion pair = pair_motion(motion, f.I, f.J);
       eq.begin_element((*labels_)[k]);
@@ -76,8 +77,9 @@ class AxisTorqueKernel final : public Kernel, public WrenchSource {
     }
   }
 
+  std::size_t shares() const override { return shares_of(torques_.size()); }
   void equations(const Motion& motion, Equations& eq) const override {
-    for (std::size_t k = 0; k < torques_.size(); ++k) {
+    for (const std::size_t k : eq.share(torques_.size())) {
       const Torque& t = torques_[k];
       const PairMotion pair = pair_motion(motion, t.I, t.J);
       eq.begin_element((*labels_)[k]);

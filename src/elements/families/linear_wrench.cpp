@@ -129,7 +129,7 @@ PairForce LinearWrenchKernel::force_of(const Placed& p, const PairMotion& pair, 
 }
 
 void LinearWrenchKernel::equations(const Motion& motion, Equations& eq) const {
-  for (std::size_t k = 0; k < laws_.size(); ++k) {
+  for (const std::size_t k : eq.share(laws_.size())) {
     const Placed& p = laws_[k];
     eq.begin_element((*labels_)[k]);
     const PairMotion pair = pair_motion(motion, *p.I, *p.J);

@@ -54,6 +54,7 @@ class LinearWrenchKernel final : public Kernel, public WrenchSource {
  public:
   LinearWrenchKernel(const std::vector<LinearWrench>&, const std::vector<ElementLabel>&, Layout&);
   void equations(const Motion&, Equations&) const override;
+  std::size_t shares() const override { return shares_of(laws_.size()); }
   void remember(const Motion&, Memory&) const override;
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return laws_[k].law->i; }

@@ -49,7 +49,7 @@ void VectorForceKernel::wrench(const Motion& motion, std::size_t k, bool with_pa
 
 void VectorForceKernel::equations(const Motion& motion, Equations& eq) const {
   MarkerWrench w;
-  for (std::size_t k = 0; k < forces_.size(); ++k) {
+  for (const std::size_t k : eq.share(forces_.size())) {
     const Force& f = forces_[k];
     eq.begin_element((*labels_)[k]);
     for (const Component& c : f.components) {

@@ -25,6 +25,7 @@ class VectorForceKernel final : public Kernel, public WrenchSource {
   VectorForceKernel(std::vector<VectorForce>, const std::vector<ElementLabel>&, Components, Layout&);
   void bind(Binder&) override;
   void equations(const Motion&, Equations&) const override;
+  std::size_t shares() const override { return shares_of(forces_.size()); }
   void remember(const Motion&, Memory&) const override;
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return forces_[k].element.i; }
