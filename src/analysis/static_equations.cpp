@@ -22,6 +22,7 @@ StaticEquations::StaticEquations(const System& system)
     : system_(system), augmented_(system), coordinates_(system.layout().coordinate_count) {
   rows_.resize(system.layout());
   eq_.resize(system.layout());
+  eq_.keep_sizes();
   for (const DifferentialState& z : system.layout().states) held_.push_back(z.held_in_statics);
 }
 
@@ -38,6 +39,7 @@ void StaticEquations::evaluate(const OperatingPoint& op, bool with_partials) {
     else
       system_.equations(motion, rows_, eq_, {P::position, P::lambda, P::algebraic, P::state});
     undefined_ = !eq_.clear_undefined().empty();
+    eq_.clear_rounding(PartialBy::position);
   } else {
     system_.equations(motion, rows_, eq_, {});
   }

@@ -82,9 +82,10 @@ std::vector<double> RoundoffScales::roundings(const Equations& eq, PartialBy fam
   for_blocks(m, by_coordinates, [&](auto&& for_entries) {
     for_entries([&](std::size_t k, std::size_t at) { blocks[at].largest = std::max(blocks[at].largest, own[k]); });
     for_entries([&](std::size_t k, std::size_t at) {
-      // Sums that cancel, and inertia that passes on what turns, have larger sizes than the entries.
-      const bool single = own[k] <= std::abs(m.value[k]) && sizes[k] <= blocks[at].largest;
-      if (!single || !is_short(m.value[k], blocks[at].largest)) blocks[at].exact = false;
+      // Short as well must be what an entry is the sum of. Inertia that passes on what turns has larger sizes.
+      const bool exact = sizes[k] <= blocks[at].largest && is_short(own[k], blocks[at].largest) &&
+                         is_short(m.value[k], blocks[at].largest);
+      if (!exact) blocks[at].exact = false;
     });
     for_entries([&](std::size_t k, std::size_t at) {
       const bool measured = by_coordinates || family == PartialBy::lambda || m.row[k] < coordinates;

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -51,8 +52,8 @@ class Accumulator {
   void begin();   // of a pass: zero values (or an empty record)
   void finish();  // of the recording pass: builds the pattern
 
-  // Adds `values` to consecutive rows of one column.
-  void add(std::int32_t row, std::int32_t column, std::span<const double> values) {
+  // Adds `values` to consecutive rows of one column. Their sizes are those that they have, or what they are made of.
+  void add(std::int32_t row, std::int32_t column, std::span<const double> values, std::span<const double> sizes = {}) {
     if (!recorded_) {
       runs_.push_back({row, column, static_cast<std::int32_t>(values.size())});
       return;
@@ -63,7 +64,7 @@ class Accumulator {
     for (const double v : values) *target++ += v;
     if (!keeps_sizes_) return;
     double* size = sizes_.data() + slot;
-    for (const double v : values) *size++ += std::abs(v);
+    for (const double v : sizes.empty() ? values : sizes) *size++ += std::abs(v);
   }
   void add(std::int32_t row, std::int32_t column, double value) { add(row, column, {&value, 1}); }
 
@@ -78,6 +79,14 @@ class Accumulator {
         matrix_.value[k] = 0.0;
         if (keeps_sizes_) sizes_[k] = 0.0;
       }
+    }
+  }
+
+  // Entries that are no more than rounding of what has been added up to them become zero; sizes must be kept.
+  void clear_rounding() {
+    constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();
+    for (std::size_t k = 0; k < sizes_.size(); ++k) {
+      if (std::abs(matrix_.value[k]) <= roundings * sizes_[k]) matrix_.value[k] = 0.0;
     }
   }
 

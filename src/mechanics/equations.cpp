@@ -4,6 +4,14 @@
 
 namespace dynalin {
 
+namespace {
+
+std::array<double, 6> six(double factor, const Vector& f, const Vector& m) {
+  return {factor * f.x, factor * f.y, factor * f.z, factor * m.x, factor * m.y, factor * m.z};
+}
+
+}  // namespace
+
 void ConstraintRows::resize(const Layout& layout, std::size_t count) {
   layout_ = &layout;
   value_.assign(count, Taylor());
@@ -44,6 +52,7 @@ void Equations::resize(const Layout& layout) {
 }
 
 void Equations::keep_sizes() {
+  keeps_sizes_ = true;
   for (Accumulator& a : matrices_) a.keep_sizes();
 }
 
@@ -83,16 +92,18 @@ void Equations::note(PartialBy family, std::int32_t row, std::int32_t column, st
 
 void Equations::become_share_of(const Equations& whole, Share share) {
   layout_ = whole.layout_, wanted_ = whole.wanted_, wants_any_ = whole.wants_any_;
+  keeps_sizes_ = whole.keeps_sizes_;
   share_ = share, keeps_ = true;
   kept_.clear();
 }
 
 void Equations::take(const Contributions& c) {
-  for (const auto& r : c.residuals) add_residual(r.row, r.value);
+  for (const auto& r : c.residuals) add_residual(r.row, r.value, r.size);
   std::size_t at = 0;
   for (const auto& run : c.runs) {
-    add(run.family, run.row, run.column, std::span(c.values).subspan(at, run.count));
-    at += run.count;
+    const auto all = std::span(c.values).subspan(at, run.count + run.sizes);
+    add(run.family, run.row, run.column, all.first(run.count), all.last(run.sizes));
+    at += all.size();
   }
 }
 
@@ -112,6 +123,20 @@ void Equations::apply(BodyId body, const Vector& force, const Vector& moment, do
   }
 }
 
+void Equations::apply_at(BodyId body, const Vector& arm, const Vector& force, const Vector& torque, double factor) {
+  const BodyBlock& block = layout_->body(body);
+  if (block.count == 0) return;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto row = block.offset + static_cast<std::int32_t>(k);
+    add_residual(row, factor * force[k]);
+    if (!block.turns()) continue;
+    const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
+    const double one = arm[next] * force[last], other = arm[last] * force[next];
+    add_residual(row + 3, factor * (one - other + torque[k]),
+                 std::abs(factor) * (std::abs(one) + std::abs(other) + std::abs(torque[k])));
+  }
+}
+
 void Equations::add_block(PartialBy family, BodyId on, std::int32_t column, const Matrix3& force, const Matrix3& moment,
                           double factor, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) {
@@ -119,12 +144,23 @@ void Equations::add_block(PartialBy family, BodyId on, std::int32_t column, cons
   }
 }
 
+void Equations::add_block(PartialBy family, BodyId on, std::int32_t column, const Matrix3& force, const Matrix3& moment,
+                          const BlockSizes& sizes, double factor, std::size_t count) {
+  const BodyBlock& block = layout_->body(on);
+  if (block.count == 0 || !wants(family)) return;
+  const auto rows = static_cast<std::size_t>(block.count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto values = six(factor, force[k], moment[k]), of = six(factor, sizes.force[k], sizes.moment[k]);
+    add(family, block.offset, column + static_cast<std::int32_t>(k), std::span(values).first(rows),
+        std::span(of).first(rows));
+  }
+}
+
 void Equations::add_column(PartialBy family, BodyId on, std::int32_t column, const Vector& force, const Vector& moment,
                            double factor) {
   const BodyBlock& block = layout_->body(on);
   if (block.count == 0 || !wants(family)) return;
-  const std::array<double, 6> values = {factor * force.x,  factor * force.y,  factor * force.z,
-                                        factor * moment.x, factor * moment.y, factor * moment.z};
+  const std::array<double, 6> values = six(factor, force, moment);
   add(family, block.offset, column, std::span(values).first(static_cast<std::size_t>(block.count)));
 }
 

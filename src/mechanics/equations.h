@@ -106,16 +106,16 @@ inline constexpr std::size_t column_families = 8;
 struct Contributions {
   struct Residual {
     std::int32_t row;
-    double value;
+    double value, size;
   };
   struct Run {
     PartialBy family;
     std::int32_t row, column;
-    std::uint32_t count;
+    std::uint32_t count, sizes;
   };
   std::vector<Residual> residuals;
   std::vector<Run> runs;
-  std::vector<double> values;  // of all runs
+  std::vector<double> values;  // of all runs, those of each before its sizes
 
   void clear() { residuals.clear(), runs.clear(), values.clear(); }
 };
@@ -187,27 +187,40 @@ class Equations {
     return algebraic_row(static_cast<std::int32_t>(layout_->algebraic.size())) + k;
   }
 
-  void add_residual(std::int32_t row, double value) {
-    if (keeps_) return kept_.residuals.push_back({row, value});
+  void add_residual(std::int32_t row, double value) { add_residual(row, value, std::abs(value)); }
+  // `size` is what the value has been added up from.
+  void add_residual(std::int32_t row, double value, double size) {
+    if (keeps_) return kept_.residuals.push_back({row, value, size});
     if (trace_ && row < layout_->coordinate_count) trace_->loads.push_back({row, value});
     residual_[static_cast<std::size_t>(row)] += value;
-    magnitude_[static_cast<std::size_t>(row)] += std::abs(value);
+    magnitude_[static_cast<std::size_t>(row)] += size;
   }
   // Force and moment about the BCS origin that act on a body, global axes.
   void apply(BodyId body, const Vector& force, const Vector& moment, double factor = -1.0);
+  // The same of a force at a point, `arm` from the BCS origin, and a torque: what makes the moment may cancel.
+  void apply_at(BodyId body, const Vector& arm, const Vector& force, const Vector& torque, double factor = -1.0);
   void add(PartialBy family, std::int32_t row, std::int32_t column, double value) {
     add(family, row, column, {&value, 1});
   }
-  void add(PartialBy family, std::int32_t row, std::int32_t column, std::span<const double> values) {
+  // `sizes` are what the values have been added up from, nothing if they are what they are.
+  void add(PartialBy family, std::int32_t row, std::int32_t column, std::span<const double> values,
+           std::span<const double> sizes = {}) {
     if (!wants(family)) return;
-    if (keeps_) return keep(family, row, column, values);
+    if (keeps_) return keep(family, row, column, values, sizes);
     if (trace_) note(family, row, column, values);
-    matrices_[static_cast<std::size_t>(family)].add(row, column, values);
+    matrices_[static_cast<std::size_t>(family)].add(row, column, values, sizes);
   }
+  bool keeps_sizes() const { return keeps_sizes_; }
   // Partials of force and moment on `on` with respect to `count` coordinates starting at `column`:
   // column k of `force` and `moment` belongs to coordinate column + k.
   void add_block(PartialBy family, BodyId on, std::int32_t column, const Matrix3& force, const Matrix3& moment,
                  double factor = -1.0, std::size_t count = 3);
+  // What these have been added up from; asked for where sizes are kept.
+  struct BlockSizes {
+    Matrix3 force, moment;
+  };
+  void add_block(PartialBy family, BodyId on, std::int32_t column, const Matrix3& force, const Matrix3& moment,
+                 const BlockSizes&, double factor, std::size_t count);
   // The same with respect to one scalar unknown.
   void add_column(PartialBy family, BodyId on, std::int32_t column, const Vector& force, const Vector& moment,
                   double factor = -1.0);
@@ -219,6 +232,8 @@ class Equations {
     std::int32_t row, column;
   };
   std::vector<Undefined> clear_undefined();
+  // Those that have cancelled but for rounding, of which an iteration would make stiffness; sizes must be kept.
+  void clear_rounding(PartialBy family) { matrices_[static_cast<std::size_t>(family)].clear_rounding(); }
 
   std::span<const double> residual() const { return residual_; }
   std::span<double> residual() { return residual_; }
@@ -234,9 +249,12 @@ class Equations {
 
  private:
   void note(PartialBy, std::int32_t row, std::int32_t column, std::span<const double> values);
-  void keep(PartialBy family, std::int32_t row, std::int32_t column, std::span<const double> values) {
-    kept_.runs.push_back({family, row, column, static_cast<std::uint32_t>(values.size())});
+  void keep(PartialBy family, std::int32_t row, std::int32_t column, std::span<const double> values,
+            std::span<const double> sizes) {
+    kept_.runs.push_back(
+        {family, row, column, static_cast<std::uint32_t>(values.size()), static_cast<std::uint32_t>(sizes.size())});
     kept_.values.insert(kept_.values.end(), values.begin(), values.end());
+    kept_.values.insert(kept_.values.end(), sizes.begin(), sizes.end());
   }
 
   const Layout* layout_ = nullptr;
@@ -246,6 +264,7 @@ class Equations {
   std::array<bool, column_families> wanted_{};
   bool wants_any_ = false;
   bool recording_ = false;
+  bool keeps_sizes_ = false;
   Share share_;
   bool keeps_ = false;  // what is added, for another to take
   Contributions kept_;

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "mechanics/pair_blocks.h"
+#include "mechanics/pair_sizes.h"
 
 namespace dynalin {
 
@@ -190,8 +191,8 @@ void add_change_of_modal_rows(const Loaded& on, const PairBlock& by, Equations& 
 }  // namespace
 
 void apply(const PairMotion& p, const PairForce& f, Equations& eq, PartialBy velocity_family) {
-  eq.apply(p.body_I, f.force, cross(value(p.arm_I), f.force) + f.torque);
-  if (f.acts_on_J()) eq.apply(p.body_J, -f.force, -(cross(value(p.arm), f.force) + f.torque));
+  eq.apply_at(p.body_I, value(p.arm_I), f.force, f.torque);
+  if (f.acts_on_J()) eq.apply_at(p.body_J, value(p.arm), -f.force, -f.torque);
   if (const auto I = deformed(p, false)) add_to_modal_residuals(*I, {f.force, f.torque}, eq);
   if (f.acts_on_J()) {
     if (const auto J = deformed(p, true)) add_to_modal_residuals(*J, on_J(p, f.force, f.torque), eq);
@@ -211,10 +212,20 @@ void apply_partials(const PairMotion& p, const PairForce& f, Equations& eq, Part
     const Matrix3 none{}, moved = -(of_force * b.moves);
     const Matrix3& arm_I = b.of_J || translation ? none : moved;
     const Matrix3 arm_J = !b.of_J ? moved : translation ? of_force : none;
-    eq.add_block(PartialBy::position, p.body_I, b.column, on.force, to_I * on.force + on.torque + arm_I, -1.0, b.count);
-    if (f.acts_on_J())
-      eq.add_block(PartialBy::position, p.body_J, b.column, -on.force, -(to_J * on.force + on.torque + arm_J), -1.0,
-                   b.count);
+    // On the bodies of I and J.
+    const auto add = [&](PartialBy family, const Matrix3& F, const Matrix3& T, const Matrix3& I_moved,
+                         const Matrix3& J_moved, const Matrix3& size_of_F, const Matrix3& size_of_T) {
+      const auto add_to = [&](BodyId body, double sign, const Matrix3& to, const Matrix3& arm) {
+        const Matrix3 moment = to * F + T + arm;
+        if (!eq.keeps_sizes()) return eq.add_block(family, body, b.column, F, moment, sign, b.count);
+        eq.add_block(family, body, b.column, F, moment, {size_of_F, sizes(to) * size_of_F + size_of_T + sizes(arm)},
+                     sign, b.count);
+      };
+      add_to(p.body_I, -1.0, to_I, I_moved);
+      if (f.acts_on_J()) add_to(p.body_J, 1.0, to_J, J_moved);
+    };
+    const BlockPartials of = eq.keeps_sizes() ? sizes_by(p, b, f) : BlockPartials{};
+    add(PartialBy::position, on.force, on.torque, arm_I, arm_J, of.force, of.torque);
     if (I) {
       add_to_modal_rows(I->marker, PartialBy::position, b, on.force, on.torque, eq);
       if (!b.of_J) add_change_of_modal_rows(*I, b, eq);
@@ -226,8 +237,7 @@ void apply_partials(const PairMotion& p, const PairForce& f, Equations& eq, Part
     }
     if (!by_rate) return;
     const Matrix3 &Fv = on.force_by_rate, &Tv = on.torque_by_rate;
-    eq.add_block(velocity_family, p.body_I, b.column, Fv, to_I * Fv + Tv, -1.0, b.count);
-    if (f.acts_on_J()) eq.add_block(velocity_family, p.body_J, b.column, -Fv, -(to_J * Fv + Tv), -1.0, b.count);
+    add(velocity_family, Fv, Tv, none, none, of.force_by_rate, of.torque_by_rate);
     if (I) add_to_modal_rows(I->marker, velocity_family, b, Fv, Tv, eq);
     if (J) add_to_modal_rows(J->marker, velocity_family, b, -Fv, -(from_J * Fv + Tv), eq);
   });

@@ -1,0 +1,68 @@
+// What partials are made of is never less than they are, and not less than what cancels in them.
+#include "mechanics/pair_sizes.h"
+
+#include <gtest/gtest.h>
+
+#include "mechanics/paths_test_support.h"
+
+namespace dynalin::mechanics_test::pair_sizes_test {
+namespace {
+
+constexpr MarkerId I{2}, J{5};
+
+double largest(const Matrix3& m) {
+  double size = 0;
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c < 3; ++c) size = std::max(size, std::abs(m(r, c)));
+  }
+  return size;
+}
+
+TEST(PairSizes, are_no_less_than_the_partials) {
+  Paths p;
+  const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  RelativeWrench w;
+  w.force = p.vector(), w.torque = p.vector(), w.depends_on_rate = true;
+  for (std::size_t r = 0; r < 6; ++r) {
+    for (std::size_t c = 0; c < 6; ++c) w.on_pose[r][c] = p.vector().x, w.on_rate[r][c] = p.vector().y;
+  }
+  const PairForce force = spread(pair, w, true);
+  int blocks = 0;
+  for_each_block(pair, p.layout, [&](const PairBlock& b) {
+    const BlockPartials on = partials_by(b, force), of = sizes_by(pair, b, force);
+    for (const auto part : {&BlockPartials::force_by_rate, &BlockPartials::torque_by_rate}) {
+      for (std::size_t r = 0; r < 3; ++r) {
+        for (std::size_t c = 0; c < b.count; ++c) {
+          EXPECT_GE((of.*part)(r, c), std::abs((on.*part)(r, c)) * (1 - 1e-12));
+        }
+      }
+    }
+    ++blocks;
+  });
+  EXPECT_EQ(blocks, 4 + 2);  // with modes of both
+}
+
+// A spring from J to I written in the axes of J: turning these changes nothing, and all but rounding cancels.
+TEST(PairSizes, tell_what_has_cancelled) {
+  const Paths p;
+  const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  constexpr double stiffness = 1e6;
+  RelativeWrench w;
+  w.force = -stiffness * value(pair.relative.p);
+  for (std::size_t k = 0; k < 3; ++k) w.on_pose[k][k] = -stiffness;
+  const PairForce force = spread(pair, w, true);
+  const double cancelled = stiffness * norm(value(pair.delta));
+  ASSERT_LE(largest(force.force_on_position.axes_J), 1e-14 * cancelled);
+  // Even without an arm of the marker on its body.
+  PairBlock turn;
+  turn.kind = PairBlock::Kind::rotation, turn.of_J = true;
+  PairForce with_rest = force;
+  with_rest.force_on_position.axes_J.x.x = 1e-12;
+  EXPECT_GE(largest(sizes_by(pair, turn, with_rest).force), 0.5 * cancelled);
+  // Where a law knows nothing of the axes there is nothing to cancel.
+  with_rest.force_on_position.axes_J = {};
+  EXPECT_EQ(largest(sizes_by(pair, turn, with_rest).force), 0);
+}
+
+}  // namespace
+}  // namespace dynalin::mechanics_test::pair_sizes_test
