@@ -14,7 +14,7 @@ using Index = Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 
 // What may be of partials that rounding alone makes asymmetric, of the sizes of what was added up to them.
-constexpr double asymmetry_of_rounding = 1e-6;
+constexpr double asymmetry_of_rounding = 1e-8;
 
 bool vanishes(const ColumnMatrix& m, std::int32_t rows) {
   bool any = false;

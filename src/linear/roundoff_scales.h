@@ -1,9 +1,9 @@
 // What the entries of the equations are made of: the sizes that their rounding is measured against.
 //
-// An entry that cancels to nothing keeps the roundings of what was added up to it. The three by three entries of a
-// force or moment against the displacements or turns of a body come from one product of matrices and share the largest
-// of their sizes. A body that turns with ω passes on, to what is a derivative along the motion, ω times the size of
-// what is derived.
+// An entry that cancels to nothing keeps the roundings of what was added up to it (pair_sizes.h). The three by three
+// entries of a force or moment against the displacements or turns of a body come from one product of matrices and share
+// the largest of their sizes. A body that turns with ω passes on, to what is a derivative along the motion, ω times the
+// size of what is derived.
 //
 // How many roundings an entry has gone through is counted along the longest way from the data to it, to first order: a
 // sum of three products rounds three times. Axes of the markers are products of two rotations, the frame of I seen from

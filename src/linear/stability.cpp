@@ -18,7 +18,7 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-// A growth slower than that of its own oscillation is none.
+// Of the modulus of a value: what grows more slowly than that is taken for a swing.
 constexpr double least_growth = 1e-9;
 // What a rate of growth may be off, of the fastest rate of the model, where one cannot be told from none.
 constexpr double unnoticed = 1e-7;

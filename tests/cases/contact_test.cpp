@@ -15,7 +15,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 const std::string head = "Contact\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-10\nPART/1, GROUND\nMARKER/1\n";
 const std::string ball =
@@ -320,25 +319,23 @@ TEST_F(Contacts, one_that_touches_all_around_is_named) {
 }
 
 // A ball without friction in a hollow sphere swings as a pendulum does and turns as it likes. Which of the two is I
-// decides whether that is seen at once or where moments as large as force times distance cancel: their rounding moves
-// nothing.
+// decides whether that is seen at once or where moments as large as force times distance cancel: bounds cover the rest.
 TEST_F(Contacts, a_ball_in_a_hollow_sphere_is_free_to_turn_whatever_is_called_I) {
+  const double mass = 3.2, depth = std::pow(mass * 10 / 1e5, 1 / 1.5);
+  const double swings = std::sqrt(10 / (1.5 + depth)), bounces = std::sqrt(1.5e5 * std::sqrt(depth) / mass);
   for (const char* sides : {"IGEOM=2, JGEOM=1, JFLIP_GEOMETRY=1", "IGEOM=1, JGEOM=2, IFLIP_GEOMETRY=1"}) {
-    for (const char* drawn : {"QG=0.2,0.15,-1.2, REULER=-0.49,-0.01,-0.1", "QG=-0.1,0.3,-1.2, REULER=0.3,0.7,-0.8",
-                              "QG=0.01,0.02,-1.3, REULER=1,2,3"}) {
-      const double mass = 3.2;
+    for (const char* drawn : {"-0.49,-0.01,-0.1", "0.3,0.7,-0.8", "1,2,3", "0,0,0"}) {
       const RunResult r =
-          run(head + fmt::format("PART/2, MASS={}, CM=2, IP=0.1,0.12,0.15, {}\nMARKER/2\n", mass, drawn) +
+          run(head +
+                  fmt::format("PART/2, MASS={}, CM=2, IP=0.1,0.12,0.15, QG=0,0,{:.17g}, REULER={}\nMARKER/2\n", mass,
+                              -1.5 - depth, drawn) +
                   "GRAPHICS/2, ELLIPSOID, CM=2, XSCALE=1, YSCALE=1, ZSCALE=1\n"
                   "GRAPHICS/1, ELLIPSOID, CM=1, XSCALE=4, YSCALE=4, ZSCALE=4\nCONTACT/1, " +
                   sides + ", IMPACT, STIFFNESS=1E5, EXPONENT=1.5, DAMPING=10, DMAX=0.001\nEND\n",
-              "SIMULATE/STATICS\nLINEAR/EIGENSOL\n");
+              "LINEAR/EIGENSOL\n");
       ASSERT_EQ(r.status, 0) << sides << drawn << r.err;
-      EXPECT_THAT(r.out, Not(HasSubstr("unstable"))) << sides << drawn;
-      const double weight = mass * 10, depth = std::pow(weight / 1e5, 1 / 1.5);
-      const double swings = std::sqrt(10 / (1.5 + depth)), bounces = std::sqrt(1.5e5 * std::sqrt(depth) / mass);
       std::vector<double> others;
-      for (const auto& m : r.result(1).at("modes")) {
+      for (const auto& m : r.result(0).at("modes")) {
         const double value =
             2 * std::numbers::pi * std::hypot(m.at("real_hz").get<double>(), m.at("imag_hz").get<double>());
         if (value > 0.1) {
