@@ -49,16 +49,16 @@ class Tasks {
 };
 
 // Threads that are made meanwhile leave signals to those of the program, which know when they are not to be disturbed.
-class WithoutSignals {
+class SignalsHeldBack {
  public:
-  WithoutSignals() {
+  SignalsHeldBack() {
     sigset_t all;
     ::sigfillset(&all);
     ::pthread_sigmask(SIG_BLOCK, &all, &before_);
   }
-  ~WithoutSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  WithoutSignals(const WithoutSignals&) = delete;
-  WithoutSignals& operator=(const WithoutSignals&) = delete;
+  ~SignalsHeldBack() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsHeldBack(const SignalsHeldBack&) = delete;
+  SignalsHeldBack& operator=(const SignalsHeldBack&) = delete;
 
  private:
   sigset_t before_;
@@ -101,7 +101,7 @@ class Pool {
  private:
   // So many, or as many as the system lets there be.
   std::size_t call_helpers(std::size_t most) {
-    const WithoutSignals quiet;
+    const SignalsHeldBack quiet;
     try {
       while (threads_.size() < most) threads_.emplace_back([this](const std::stop_token& stop) { help(stop); });
     } catch (const std::system_error&) {

@@ -1,6 +1,7 @@
 #include "output/temporary_file.h"
 
 #include <fcntl.h>
+#include <pthread.h>
 #include <unistd.h>
 
 #include <array>
@@ -21,9 +22,20 @@ constexpr std::array ending_signals = {SIGINT,  SIGTERM,   SIGHUP,  SIGQUIT, SIG
                                        SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2};
 constexpr std::array crashes = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
-void handle(int signal) {
+// That makes the files: it alone knows when it is not to be interrupted (WithoutSignals), and a signal may come to any.
+pthread_t maker_of_files;
+
+void end_by(int signal) {
+  if (::pthread_equal(::pthread_self(), maker_of_files) == 0) {
+    ::pthread_kill(maker_of_files, signal);
+  } else {
+    remove_temporary_files(signal);
+  }
+}
+
+void handle(int signal, void (*by)(int)) {
   struct sigaction then {};
-  then.sa_handler = remove_temporary_files;
+  then.sa_handler = by;
   ::sigemptyset(&then.sa_mask);
   for (const int other : ending_signals) ::sigaddset(&then.sa_mask, other);
   ::sigaction(signal, &then, nullptr);
@@ -92,8 +104,8 @@ void TemporaryFile::keep() {
   std::exchange(slot_, nullptr)->taken = false;
 }
 
-// Only calls that are safe in a handler. A second signal, which may come to another thread, ends the process by this
-// function as well, and so only when all files are gone.
+// Only calls that are safe in a handler. A second signal ends the process by this function as well, and so only when
+// all files are gone.
 void remove_temporary_files(int signal) {
   for (TemporaryFile::Slot* slot = TemporaryFile::Slot::first.load(); slot; slot = slot->next) {
     if (slot->exists.load()) ::unlink(slot->path);
@@ -110,13 +122,14 @@ void remove_temporary_files(int signal) {
 }
 
 void remove_temporary_files_on_signals() {
+  maker_of_files = ::pthread_self();
   struct sigaction now {};
   for (const int signal : ending_signals) {
-    if (::sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN) handle(signal);
+    if (::sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN) handle(signal, end_by);
   }
   // Whoever wants to see crashes has a handler.
   for (const int signal : crashes) {
-    if (::sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_DFL) handle(signal);
+    if (::sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_DFL) handle(signal, remove_temporary_files);
   }
 }
 

@@ -33,7 +33,8 @@ class TemporaryFile {
 
 // In a handler of this signal: takes the temporary files with it and ends the process.
 void remove_temporary_files(int signal);
-// Signals that end the process, but for those that are ignored or handled, take the temporary files with them.
+// Signals that end the process, but for those that are ignored or handled, take the temporary files with them. To be
+// called by the thread that makes all of these.
 void remove_temporary_files_on_signals();
 
 // While it lives this thread is not interrupted by those signals.
