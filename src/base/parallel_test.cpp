@@ -9,16 +9,13 @@
 #include <thread>
 #include <vector>
 
+#include "places/thread_count.h"
+
 namespace dynalin::parallel_test {
 namespace {
 
-// With a number of threads of its own.
 class Parallel : public ::testing::Test {
- protected:
-  ~Parallel() override { set_thread_count(before_); }
-
- private:
-  const std::size_t before_ = thread_count();
+  const KeepsThreadCount kept_;
 };
 
 TEST_F(Parallel, every_task_is_done_once_whatever_the_number_of_threads) {

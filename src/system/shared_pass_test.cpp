@@ -10,18 +10,14 @@
 #include <stdexcept>
 #include <thread>
 
-#include "base/parallel.h"
+#include "places/thread_count.h"
 #include "system/model_test_support.h"
 
 namespace dynalin::system_test::shared_pass_test {
 namespace {
 
 class SharedPass : public ::testing::Test {
- protected:
-  ~SharedPass() override { set_thread_count(before_); }
-
- private:
-  const std::size_t before_ = thread_count();
+  const KeepsThreadCount kept_;
 };
 
 // Parts on joints in a row, each with forces of several kinds on the one before it.

@@ -1,18 +1,15 @@
 // What a run writes does not depend on how many threads have worked on it.
-#include "dynalin/threads.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "cases/run.h"
+#include "places/thread_count.h"
 
 namespace dynalin::cases::threads_test {
 namespace {
 
 class ThreadCount : public Cases {
  protected:
-  ~ThreadCount() override { set_thread_count(before_); }
-
   // Links that hang on springs and hinges, askew, so that all of their coordinates take part.
   static std::string links(int count, const std::string& damping) {
     std::string s = "Links\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-9.81\nPART/1, GROUND\nMARKER/1\n";
@@ -36,7 +33,7 @@ class ThreadCount : public Cases {
   }
 
  private:
-  const std::size_t before_ = thread_count();
+  const KeepsThreadCount kept_;
 };
 
 TEST_F(ThreadCount, changes_no_digit_of_selected_modes_of_all_modes_and_of_motions) {
