@@ -48,6 +48,10 @@ void hint_at_usage(const CLI::App& run, int argc, char** argv) {
     std::cerr << "A first run: dynalin run model.adm -c \"LINEAR/EIGENSOL\"\n";
   } else if (names_file(words[0])) {
     std::cerr << "hint: dynalin run " << words[0] << (words[0].ends_with(".acf") ? "\n" : " -c \"LINEAR/EIGENSOL\"\n");
+  } else if (run.parsed() && words.size() > 2 && names_file(words[1]) && names_file(words[2])) {
+    const std::string_view commands = words[words[1].ends_with(".acf") ? 1 : 2];
+    std::cerr << "hint: dynalin run " << commands
+              << "\n      a command file names its dataset itself, in its first line or in a command\n";
   } else if (run.parsed() && words.size() > 2 && names_file(words[1]) && !words[2].starts_with('-')) {
     std::cerr << "hint: dynalin run " << words[1] << " -c \"" << words[2] << "\"\n";
   }

@@ -10,6 +10,7 @@
 #include "analysis/initial.h"
 #include "analysis/outside_weight.h"
 #include "analysis/row_sizes.h"
+#include "analysis/stated_shape.h"
 #include "expression/parametric_curve.h"
 #include "system/undefined_rows.h"
 
@@ -166,6 +167,8 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
   SparseLu lu;
   std::vector<std::string> history;
   double before = std::numeric_limits<double>::infinity();
+  const std::vector<double> drawn_shape = op.extra;
+  bool looked_at_shape = false;
 
   for (int iteration = 0; iteration < position_iterations; ++iteration) {
     evaluate();
@@ -180,7 +183,15 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
       system.remember(op);
       return op;
     };
-    if (v.relative <= position_tolerance) return finished();
+    const auto goes_on = [&] {
+      if (std::exchange(looked_at_shape, true) || !put_back_shape(system, drawn_shape, 1, op.extra)) return false;
+      before = std::numeric_limits<double>::infinity();
+      return true;
+    };
+    if (v.relative <= position_tolerance) {
+      if (goes_on()) continue;
+      return finished();
+    }
     if (const auto reason = undefined_row(system, system.motion(op), rows)) {
       return tl::unexpected(Failure{"initial conditions", *reason, history});
     }
@@ -204,6 +215,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
     }
     // Rounding sets the floor: stop there rather than wander.
     if (above_rounding <= 0 || (left <= 1e-11 && left >= 0.5 * before)) {
+      if (contradicted.empty() && goes_on()) continue;
       if (contradicted.empty()) return finished();
       history.insert(history.begin(), contradicted.begin(), contradicted.end());
       return tl::unexpected(Failure{"initial conditions",

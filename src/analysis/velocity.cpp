@@ -6,6 +6,7 @@
 
 #include "analysis/initial.h"
 #include "analysis/outside_weight.h"
+#include "analysis/stated_shape.h"
 #include "elements/bodies/fe_part.h"
 #include "elements/bodies/flex_body.h"
 #include "system/undefined_rows.h"
@@ -298,6 +299,27 @@ bool constraints_met(const ConstraintRows& rows, const Eigen::VectorXd& velocity
   return true;
 }
 
+// Velocities that meet the conditions, with the rates of flexible bodies as at the start as far as these allow.
+void keep_shape(const System& system, const Motion& motion, const std::vector<Condition>& conditions,
+                const Eigen::VectorXd& start, double tolerance, Eigen::VectorXd& velocity) {
+  constexpr double close = 1e-10;  // where stated velocities contradict each other, the nearest are far from them
+  const auto met = [&](const Eigen::VectorXd& u) {
+    return std::all_of(conditions.begin(), conditions.end(), [&](const Condition& c) {
+      const Miss off = miss(c, u);
+      return std::abs(off.value) <= close * off.size;
+    });
+  };
+  if (conditions.empty() || !met(velocity)) return;
+  Eigen::VectorXd from = velocity;
+  const auto behind_bodies = [&](auto& u) {
+    return std::span(u.data(), static_cast<std::size_t>(u.size()))
+        .subspan(static_cast<std::size_t>(system.layout().body_coordinate_count));
+  };
+  if (!put_back_shape(system, behind_bodies(start), fastest_of(system, velocity), behind_bodies(from))) return;
+  auto kept = least_change(system, motion, conditions, from, tolerance);
+  if (kept && kept->contradicted.empty() && met(kept->velocity)) velocity = std::move(kept->velocity);
+}
+
 Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std::vector<Condition>& stated,
                              const Eigen::VectorXd& start, Findings& findings) {
   OperatingPoint rest = op;
@@ -353,6 +375,7 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
                       conditions[k].text, stated_value, value));
     }
   }
+  keep_shape(system, motion, conditions, start, tolerance, velocity);
   op.velocity.assign(velocity.data(), velocity.data() + velocity.size());
   return op;
 }

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "geometry/polygon.h"
@@ -129,13 +130,17 @@ class Collector {
     inside_ = has_the_name;
     found_ = found_ || has_the_name;
   }
-  bool is_wanted(std::string_view name) const { return !element_.empty() && name == element_; }
+  bool is_wanted(std::string_view name) {
+    if (!name.empty()) names_.emplace(name);
+    return !element_.empty() && name == element_;
+  }
   void add_polygon(std::vector<Vector> corners) { items_.push_back({std::move(corners), inside_, true}); }
   void add_line(std::vector<Vector> points) { items_.push_back({std::move(points), inside_, false}); }
 
   Facets facets() {
     Facets out;
     out.named_all = !found_;
+    out.parts.assign(names_.begin(), names_.end());
     for (const Item& item : items_) {
       if (found_ && !item.inside) continue;
       std::vector<Index> corners;
@@ -170,6 +175,7 @@ class Collector {
   std::string_view element_;
   bool inside_ = false, found_ = false;
   std::vector<Item> items_;
+  std::set<std::string, std::less<>> names_;
   std::map<std::array<double, 3>, Index> known_;
 };
 

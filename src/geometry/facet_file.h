@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
+#include <vector>
 
 #include "geometry/mesh.h"
 
@@ -16,6 +17,7 @@ struct Facets {
   Mesh mesh;              // points that are equal digit by digit are one vertex; only those that something uses
   std::size_t flat = 0;   // polygons left out, which have no area or cross themselves
   bool named_all = true;  // false: `element` named a part of the file, and the mesh is that part
+  std::vector<std::string> parts;  // names that the file gives to its solids, objects and groups, in alphabetical order
 };
 
 // Whether files with such an ending are read: "link.stl".

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "analysis/static_equations.h"
+#include "system/mass_centres.h"
 
 namespace dynalin {
 
@@ -57,10 +58,11 @@ struct Movement {
 
 std::vector<Movement> movements(const System& system, const Motion& motion) {
   std::vector<Movement> of(motion.bodies.size());
+  const std::vector<Vec3<Taylor>> centres = mass_centres(system, motion);
   for (std::size_t b = 1; b < of.size(); ++b) {
     const BodyMotion& m = motion.bodies[b];
     // Of the mass centre: where the origin of a part lies is the choice of its author.
-    of[b] = {norm(m.rddot + m.Rddot * system.model().bodies[b].p_BC), norm(m.w), norm(m.wdot)};
+    of[b] = {norm(acceleration(centres[b])), norm(m.w), norm(m.wdot)};
   }
   return of;
 }

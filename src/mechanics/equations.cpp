@@ -123,17 +123,17 @@ void Equations::apply(BodyId body, const Vector& force, const Vector& moment, do
   }
 }
 
-void Equations::apply_at(BodyId body, const Vector& arm, const Vector& force, const Vector& torque, double factor) {
+void Equations::apply_at(BodyId body, const Vector& arm, const Vector& force, const Vector& torque, double cancelled) {
   const BodyBlock& block = layout_->body(body);
   if (block.count == 0) return;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto row = block.offset + static_cast<std::int32_t>(k);
-    add_residual(row, factor * force[k]);
+    add_residual(row, -force[k]);
     if (!block.turns()) continue;
     const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
     const double one = arm[next] * force[last], other = arm[last] * force[next];
-    add_residual(row + 3, factor * (one - other + torque[k]),
-                 std::abs(factor) * (std::abs(one) + std::abs(other) + std::abs(torque[k])));
+    add_residual(row + 3, -(one - other + torque[k]),
+                 std::abs(one) + std::abs(other) + (torque[k] == 0 ? 0 : std::max(std::abs(torque[k]), cancelled)));
   }
 }
 

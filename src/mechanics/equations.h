@@ -197,8 +197,9 @@ class Equations {
   }
   // Force and moment about the BCS origin that act on a body, global axes.
   void apply(BodyId body, const Vector& force, const Vector& moment, double factor = -1.0);
-  // The same of a force at a point, `arm` from the BCS origin, and a torque: what makes the moment may cancel.
-  void apply_at(BodyId body, const Vector& arm, const Vector& force, const Vector& torque, double factor = -1.0);
+  // The same of a force at a point, `arm` from the BCS origin, and a torque: what makes the moment may cancel, and
+  // so may what the torque has been added up from, `cancelled` in size.
+  void apply_at(BodyId body, const Vector& arm, const Vector& force, const Vector& torque, double cancelled = 0);
   void add(PartialBy family, std::int32_t row, std::int32_t column, double value) {
     add(family, row, column, {&value, 1});
   }

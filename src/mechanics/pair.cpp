@@ -49,6 +49,7 @@ PairForce spread(const PairMotion& p, const RelativeWrench& w, bool with_partial
   out.force = R * w.force;
   out.torque = R * w.torque;
   out.depends_on_velocity = w.depends_on_rate;
+  out.levers = w.levers;
   if (!with_partials) return out;
 
   // δξ = Rᵀ G δ(p_I, φ_I, p_J, φ_J) with G = (1, 0, −1, Δ×) for d and (0, 1, 0, −1) for φ, all in global components.
@@ -191,8 +192,9 @@ void add_change_of_modal_rows(const Loaded& on, const PairBlock& by, Equations& 
 }  // namespace
 
 void apply(const PairMotion& p, const PairForce& f, Equations& eq, PartialBy velocity_family) {
-  eq.apply_at(p.body_I, value(p.arm_I), f.force, f.torque);
-  if (f.acts_on_J()) eq.apply_at(p.body_J, value(p.arm), -f.force, -f.torque);
+  const double cancelled = f.levers.force * f.levers.arm;
+  eq.apply_at(p.body_I, value(p.arm_I), f.force, f.torque, cancelled);
+  if (f.acts_on_J()) eq.apply_at(p.body_J, value(p.arm), -f.force, -f.torque, cancelled);
   if (const auto I = deformed(p, false)) add_to_modal_residuals(*I, {f.force, f.torque}, eq);
   if (f.acts_on_J()) {
     if (const auto J = deformed(p, true)) add_to_modal_residuals(*J, on_J(p, f.force, f.torque), eq);

@@ -31,6 +31,11 @@ enum class Reaction : std::uint8_t { at_I, at_J, none };
 // Which of the two a law gives.
 enum class Components : std::uint8_t { force, torque, force_and_torque };
 
+// What cancels in a torque that a law adds up of forces at arms: the sum of their sizes and the longest arm.
+struct Levers {
+  double force = 0, arm = 0;
+};
+
 // The force and torque on I at its origin, global axes.
 struct PairForce {
   Vector force, torque;
@@ -39,6 +44,7 @@ struct PairForce {
   bool depends_on_velocity = false;
   Reaction reaction = Reaction::at_I;
   Components components = Components::force_and_torque;
+  Levers levers;
 
   bool acts_on_J() const { return reaction != Reaction::none; }
 };
@@ -49,6 +55,7 @@ struct RelativeWrench {
   std::array<std::array<double, 6>, 6> on_pose{};  // ∂(force, torque)/∂ξ
   std::array<std::array<double, 6>, 6> on_rate{};  // ∂(force, torque)/∂ξ′
   bool depends_on_rate = false;
+  Levers levers;
 };
 PairForce spread(const PairMotion&, const RelativeWrench&, bool with_partials);
 

@@ -62,5 +62,22 @@ TEST(PairSizes, tell_what_has_cancelled) {
   EXPECT_EQ(largest(sizes_by(pair, turn, with_rest).force), 0);
 }
 
+// A force through the origin of I whose torque there is only rounding of force times arm.
+TEST(PairSizes, tell_what_a_law_has_cancelled_in_its_torque) {
+  const Paths p;
+  const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  RelativeWrench w;
+  w.force = {3, 4, 0}, w.torque = {1e-15, 0, 2e-16}, w.levers = {5, 2};
+  w.on_pose[0][0] = 1e6, w.on_pose[3][0] = 1e-10;
+  const PairForce force = spread(pair, w, true);
+  PairBlock move;
+  move.kind = PairBlock::Kind::translation, move.moves = Matrix3::identity();
+  // ρ × δF + δρ × F
+  EXPECT_GE(largest(sizes_by(pair, move, force).torque), 2e6 * 0.3 + 5);
+  PairForce plain = force;
+  plain.levers = {};
+  EXPECT_LT(largest(sizes_by(pair, move, plain).torque), 1e-9);
+}
+
 }  // namespace
 }  // namespace dynalin::mechanics_test::pair_sizes_test

@@ -160,9 +160,13 @@ class Reducer {
     }
     auto orthogonal = orthogonal_shapes(0.5 * (k + k.transpose()), 0.5 * (m + m.transpose()), rigid_coordinates);
     if (!orthogonal) {
-      diagnostics_.error("fe-matrix-not-positive", Span{},
-                         "stiffness or mass is not positive in the shapes of the reduction",
-                         "a part that is not connected, or a mechanism, can move without being strained");
+      diagnostics_.error(
+          "fe-matrix-not-positive", Span{}, "stiffness or mass is not positive in the shapes of the reduction",
+          free.directions.cols() > 0 && free.directions.cols() < 6
+              ? fmt::format("of its six rigid motions {} strain nothing: are the places of the nodes in the "
+                            "lengths of the matrices, and in the order of the freedoms?",
+                            free.directions.cols())
+              : "a part that is not connected, or a mechanism, can move without being strained");
       return told;
     }
     reduction_.shapes = shapes * orthogonal->coordinates;

@@ -143,6 +143,7 @@ class Program {
     auto list = read_nodes(*nodes, diagnostics_);
     if (!list) return false;
     model_.nodes = std::move(list->nodes);
+    const std::vector<RotationNode> asked_for = rotations_;
     rotations_.insert(rotations_.end(), list->rotation_nodes.begin(), list->rotation_nodes.end());
     if (has_cards(*stiffness)) {
       auto matrices =
@@ -153,7 +154,7 @@ class Program {
     } else if (!read_coordinates(*stiffness, *mass)) {
       return false;
     }
-    return turn_rotation_nodes() && check_nodes();
+    return have_freedoms(asked_for) && turn_rotation_nodes() && check_nodes();
   }
 
   bool read_coordinates(const SourceText& stiffness, const SourceText& mass) {
@@ -171,10 +172,32 @@ class Program {
     return true;
   }
 
+  bool have_freedoms(const std::vector<RotationNode>& asked_for) {
+    for (const RotationNode& r : asked_for) {
+      if (std::ranges::any_of(model_.freedoms, [&](const Freedom& f) { return f.node == r.rotation; })) continue;
+      diagnostics_.error("fe-node", Span{},
+                         fmt::format("node {}, which is to turn node {}, has no freedoms", r.rotation, r.reference),
+                         fmt::format("--interface {} alone, if it has rotations of its own", r.reference));
+      return false;
+    }
+    return true;
+  }
+
   // Translations of a rotation node are rotations of the node it turns.
   bool turn_rotation_nodes() {
-    std::map<NodeLabel, NodeLabel> reference;
-    for (const RotationNode& r : rotations_) reference[r.rotation] = r.reference;
+    std::map<NodeLabel, NodeLabel> reference, rotation;
+    for (const RotationNode& r : rotations_) {
+      const NodeLabel turned = reference.try_emplace(r.rotation, r.reference).first->second;
+      const NodeLabel turning = rotation.try_emplace(r.reference, r.rotation).first->second;
+      if (turned == r.reference && turning == r.rotation) continue;
+      const std::string what = turned != r.reference
+                                   ? fmt::format("node {} turns node {} and node {}", r.rotation, turned, r.reference)
+                                   : fmt::format("node {} and node {} turn node {}", turning, r.rotation, r.reference);
+      diagnostics_.error("fe-node", Span{}, what,
+                         "a rotation node belongs to one node and to none else, as *RIGID BODY lines and "
+                         "node:rotation-node of --interface say");
+      return false;
+    }
     std::map<Freedom, int> seen;
     for (Freedom& f : model_.freedoms) {
       const auto turned = reference.find(f.node);

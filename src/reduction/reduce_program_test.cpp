@@ -261,6 +261,23 @@ TEST_F(Reduce, a_rotation_node_turns_the_node_it_belongs_to) {
   options.nodes = file("job.inp", deck);
   ASSERT_EQ(run(options), 0) << err_.str();
   EXPECT_EQ(read("body.fem"), first);
+  std::filesystem::remove(path("body.fem"));
+  options.interface = {"1:77", "5"};
+  EXPECT_EQ(run(options), 1);
+  EXPECT_THAT(err_.str(), HasSubstr("node 77, which is to turn node 1, has no freedoms"));
+  options.interface = {"1", "5"};
+  // Both may say the same, but not different things.
+  options.interface = {"1:101", "5"};
+  ASSERT_EQ(run(options), 0) << err_.str();
+  EXPECT_EQ(read("body.fem"), first);
+  std::filesystem::remove(path("body.fem"));
+  options.interface = {"1:105", "5"};
+  EXPECT_EQ(run(options), 1);
+  EXPECT_THAT(err_.str(), HasSubstr("node 105 and node 101 turn node 1"));
+  options.interface = {"1", "2:105"};
+  EXPECT_EQ(run(options), 1);
+  EXPECT_THAT(err_.str(), HasSubstr("node 105 turns node 2 and node 5"));
+  EXPECT_FALSE(std::filesystem::exists(path("body.fem")));
 }
 
 TEST_F(Reduce, factors_of_units_change_the_numbers_of_the_body) {

@@ -8,6 +8,7 @@
 
 #include "elements/bodies/fe_part.h"
 #include "elements/controls/variable_list.h"
+#include "system/mass_centres.h"
 
 namespace dynalin {
 
@@ -38,6 +39,7 @@ class Reading {
     for (const BeamBody& b : beam_bodies(model_)) {
       for (std::size_t k = 0; k < b.nodes.size(); ++k) node[static_cast<std::size_t>(b.nodes[k].index)] = b.numbers[k];
     }
+    const std::vector<Vec3<Taylor>> centres = mass_centres(system_, motion_);
     for (std::size_t b = 1; b < motion_.bodies.size(); ++b) {
       const BodyMotion& m = motion_.bodies[b];
       const BodyBlock& block = layout_.bodies[b];
@@ -54,10 +56,9 @@ class Reading {
       if (block.kind == BodyKind::part) s.angles = angles_313(m.R);
       s.velocity = plain(m.rdot), s.angular_velocity = plain(m.w);
       s.acceleration = plain(m.rddot), s.angular_acceleration = plain(m.wdot);
-      const Vector p_BC = model_.bodies[b].p_BC;
-      s.centre_position = plain(m.r + m.R * p_BC);
-      s.centre_velocity = plain(m.rdot + m.Rdot * p_BC);
-      s.centre_acceleration = plain(m.rddot + m.Rddot * p_BC);
+      s.centre_position = plain(dynalin::value(centres[b]));
+      s.centre_velocity = plain(rate(centres[b]));
+      s.centre_acceleration = plain(acceleration(centres[b]));
       state_.bodies.push_back(std::move(s));
     }
   }

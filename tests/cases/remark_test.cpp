@@ -125,6 +125,7 @@ TEST(RemarkTable, has_every_code_but_those_that_other_tests_hold) {
       "export-left-out",
       "geometry-file",        // elements/graphics/graphics_test
       "geometry-format",      // the same
+      "geometry-part",        // the same
       "undrawn-shape",        // the same
       "passed-singular",      // simulation/kinematics_limits_test
       "equilibrium-jump",     // simulation/quasi_statics_test

@@ -154,6 +154,25 @@ void warn_of_unused(ElementReader& reader) {
                              fmt::join(unused, ", "), reader.label().text(), unused.size() == 1 ? "has" : "have"));
 }
 
+// Initial velocities out of the plane, in axes that are known while the statement is read.
+void warn_of_velocities_across(const FePart& f, ElementReader& reader) {
+  constexpr double flat = 1e-9;
+  const Vector v{f.vx.value_or(0), f.vy.value_or(0), f.vz.value_or(0)};
+  const Vector w = f.axes * Vector{f.wx.value_or(0), f.wy.value_or(0), f.wz.value_or(0)};
+  Vector in_plane = w;
+  in_plane[f.plane->normal] = 0;
+  const auto warn = [&](std::initializer_list<std::string_view> names, std::string_view which) {
+    const auto first = std::find_if(names.begin(), names.end(), [&](std::string_view n) { return reader.given(n); });
+    reader.warning("passed-over", reader.at(*first),
+                   fmt::format("the initial {} of {} has no influence: {} keeps to its plane", which,
+                               reader.label().text(), f.type));
+  };
+  constexpr std::array<std::string_view, 3> along = {"VX", "VY", "VZ"};
+  if (!f.vm.valid() && std::abs(v[f.plane->normal]) > flat * norm(v))
+    warn({along[f.plane->normal]}, "velocity across the plane");
+  if (!f.wm.valid() && norm(in_plane) > flat * norm(w)) warn({"WX", "WY", "WZ"}, "angular velocity along the plane");
+}
+
 }  // namespace
 
 Matrix3 axes_of_node(const FePart& f, std::size_t k) {
@@ -177,7 +196,9 @@ bool describes_beam(FePart& f, ElementReader& reader) {
 }
 
 void check_plane(const FePart& f, ElementReader& reader) {
-  if (lies_in_its_plane(f, reader)) warn_of_unused(reader);
+  if (!lies_in_its_plane(f, reader)) return;
+  warn_of_unused(reader);
+  warn_of_velocities_across(f, reader);
 }
 
 }  // namespace dynalin

@@ -105,6 +105,7 @@ Vec3<T> velocity_at(const Vec3<T>& point, const RelativeFrame<T>& I, const Relat
 template <class T>
 struct ForceAndTorque {
   Vec3<T> force{T(0.0), T(0.0), T(0.0)}, torque{T(0.0), T(0.0), T(0.0)};  // on I at its origin, axes of J
+  Levers levers;
 };
 
 template <class T>
@@ -129,8 +130,11 @@ ForceAndTorque<T> contact_wrench(const ContactForce& c, const RelativeFrame<Time
       const Vec3<T> slip = v - t.normal * apart;
       F -= slip * (friction_slope(*c.friction, slip) * share);
     }
+    const Vec3<T> arm = t.point - I.p;
     sum.force += F;
-    sum.torque += cross(t.point - I.p, F);
+    sum.torque += cross(arm, F);
+    sum.levers.force += norm(Vector{value_of(F.x), value_of(F.y), value_of(F.z)});
+    sum.levers.arm = std::max(sum.levers.arm, norm(Vector{value_of(arm.x), value_of(arm.y), value_of(arm.z)}));
   });
   return sum;
 }
@@ -182,6 +186,7 @@ PairForce ContactKernel::force_of(const Placed& p, const PairMotion& pair, const
   w.depends_on_rate = true;
   if (with_partials && is_closed(c, plain(pair))) {
     const ForceAndTorque<Seeded> sum = contact_wrench(c, path::seeded<12>(pair.relative), rubs);
+    w.levers = sum.levers;
     for (std::size_t r = 0; r < 6; ++r) {
       const Seeded& component = r < 3 ? sum.force[r] : sum.torque[r - 3];
       (r < 3 ? w.force[r] : w.torque[r - 3]) = component.value;
@@ -192,7 +197,7 @@ PairForce ContactKernel::force_of(const Placed& p, const PairMotion& pair, const
     }
   } else if (!with_partials) {
     const ForceAndTorque<double> sum = contact_wrench(c, pair.relative, rubs);
-    w.force = sum.force, w.torque = sum.torque;
+    w.force = sum.force, w.torque = sum.torque, w.levers = sum.levers;
   }
   return spread(pair, w, with_partials);
 }

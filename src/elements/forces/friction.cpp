@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "elements/families/joint.h"
 #include "elements/forces/friction_kernel.h"
@@ -260,6 +261,7 @@ class FrictionSet final : public TypedSet<Friction> {
       const auto* joints = dynamic_cast<const JointSetBase*>(&model.set(elements[k].joint));
       if (joints) take_joint(model, *joints, k, diagnostics);
     }
+    report_twice(model, diagnostics);
   }
 
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
@@ -305,6 +307,18 @@ class FrictionSet final : public TypedSet<Friction> {
                           fmt::format("{} of {} says nothing of {}, a {} joint", name, labels[k].text(), joint, type));
     }
     if (f.i.valid() && f.j.valid()) f.drawn_displacement = drawn_frame(model, f.i, f.j).p.z;
+  }
+
+  void report_twice(const Model& model, Diagnostics& diagnostics) const {
+    std::map<std::pair<std::int64_t, FrictionSurface>, std::size_t> first;
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      if (!elements[k].joint.valid()) continue;
+      const auto [at, fresh] = first.try_emplace({frictions_[k].joint, frictions_[k].surface}, k);
+      if (fresh) continue;
+      diagnostics.warning("friction-twice", labels[k].at,
+                          fmt::format("{} acts in {} beside {}: both count", labels[k].full_text(),
+                                      model.label(elements[k].joint).full_text(), labels[at->second].full_text()));
+    }
   }
 
   std::vector<JointFriction> frictions_;

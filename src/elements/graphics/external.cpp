@@ -1,6 +1,7 @@
 // Shapes out of files.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/read_file.h"
@@ -34,6 +35,15 @@ void External::draw(Canvas& canvas) const {
   if (!facets) {
     canvas.remark("geometry-file", at, fmt::format("{} is not drawn: {}: {}", name, path, facets.error()));
     return;
+  }
+  // The name of the only part is often that of the program that wrote it.
+  if (!element.empty() && facets->named_all && facets->parts.size() > 1) {
+    const std::size_t shown = std::min<std::size_t>(facets->parts.size(), 10);
+    canvas.remark(
+        "geometry-part", at, fmt::format("{} shows all of {}, which has no part {}", name, path, element),
+        fmt::format("its parts are: {}{}",
+                    fmt::join(facets->parts.begin(), facets->parts.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+                    facets->parts.size() > shown ? " …" : ""));
   }
   if (facets->flat > 0) {
     canvas.remark("undrawn-shape", at,

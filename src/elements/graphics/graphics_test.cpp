@@ -319,7 +319,21 @@ TEST_F(ExternalGraphics, comes_out_of_the_file_beside_the_dataset) {
   expect_closed(s.mesh, 2);
   EXPECT_NEAR(volume_of(s.mesh), 8.0 / 6, 1e-12);
   expect_near(extent_of(m, s).low, {0, 20, 4});
-  EXPECT_EQ(drawn("GRAPHICS/1, EXTERNAL, RM=31, FILE=corner.obj, ELEMENT=SHELL_1").shape().mesh.triangles.size(), 5u);
+}
+
+TEST_F(ExternalGraphics, say_when_a_file_of_several_parts_has_none_of_the_name) {
+  write("two.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\no corner\nf 1 3 2\nf 1 2 4\no lid\nf 1 2 3\n");
+  DrawnModel m = drawn("GRAPHICS/1, EXTERNAL, RM=31, FILE=two.obj, ELEMENT=Lid");
+  EXPECT_EQ(m.shape().mesh.triangles.size(), 3u);
+  ASSERT_EQ(m.remarks.items().size(), 1u) << render(m.remarks);
+  EXPECT_EQ(m.remarks.items().front().code, "geometry-part");
+  EXPECT_THAT(m.remarks.items().front().message, HasSubstr("which has no part Lid"));
+  EXPECT_THAT(m.remarks.items().front().hint, HasSubstr("corner, lid"));
+  // Names of the only part are what a program calls it.
+  write("one.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\no Unnamed\nf 1 3 2\n");
+  DrawnModel one = drawn("GRAPHICS/1, EXTERNAL, RM=31, FILE=one.obj, ELEMENT=SHELL_1");
+  EXPECT_EQ(one.shape().mesh.triangles.size(), 1u);
+  EXPECT_TRUE(one.remarks.items().empty()) << render(one.remarks);
 }
 
 TEST_F(ExternalGraphics, that_cannot_be_read_is_remarked_where_the_file_is_named) {
