@@ -167,6 +167,23 @@ class Parting {
         }
       }
     }
+    search_beside_ends(I_, J_, true), search_beside_ends(J_, I_, false);
+  }
+  // Where the deepest point below an end of `f` is a little outside of its rim, both rims have a common normal a little
+  // beside that of the end, tilted towards this point: between all directions that are looked at otherwise.
+  void search_beside_ends(const PlacedFrustum<double>& f, const PlacedFrustum<double>& other, bool of_I) {
+    for (const bool upper : {false, true}) {
+      if (f.radius(upper) == 0) continue;
+      const Vector out = f.end_normal(upper), from_centre = farthest(other, -out) - f.centre(upper);
+      const Vector aside = from_centre - dot(from_centre, out) * out;
+      const double outside = norm(aside) - f.radius(upper);
+      if (!(outside > 0)) continue;
+      for (const double share : {0.1, 1.0, 5.0}) {
+        const Vector tilted = out + std::min(0.3, share * outside / size_) / norm(aside) * aside;
+        const Vector n = (of_I ? -1 : 1) / norm(tilted) * tilted;
+        climb({n, separation(n), (upper_reaches(I_, -n) ? 2u : 0u) + (upper_reaches(J_, n) ? 1u : 0u)});
+      }
+    }
   }
   struct Start {
     Vector normal;

@@ -359,6 +359,30 @@ TEST(FrustumTouch, rim_over_an_edge_meets_it_once) {
   EXPECT_EQ(list.size(), 1u);
 }
 
+// The deepest point of a tilted cylinder below the end of another one, a little outside of its rim: there the rims meet
+// in a direction that is hardly another than that of the end.
+TEST(FrustumTouch, rims_meet_beside_the_direction_of_an_end) {
+  const Frustum cylinder{-0.3, 0.25, 0.3, 0.25};
+  const Pair p{"", {cylinder}, {cylinder}};
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> any(0, 1);
+  for (const double outside : {1e-2, 3.4e-4, 1e-5, 1e-7, -1e-7, -1e-4}) {
+    for (int draw = 0; draw < 8; ++draw) {
+      const double tilt = 0.3 + 0.8 * any(random), about = 2 * M_PI * any(random), towards = 2 * M_PI * any(random);
+      const Matrix3 R = rotation_exponential(tilt * Vector{std::cos(about), std::sin(about), 0});
+      // The lowest point of the tilted one about its centre, and where it is to be.
+      const Vector across = Vector{0, 0, 1} - R.z.z * R.z;
+      const Vector lowest = -0.3 * R.z - (0.25 / norm(across)) * across;
+      const Vector place =
+          (0.25 + outside) * Vector{std::cos(towards), std::sin(towards), 0} + Vector{0, 0, 0.3 - 0.0247};
+      const Frame at{place - lowest, R.x, R.y, R.z};
+      double deepest = 0;
+      for (const Touch<double>& t : closed(p, at)) deepest = std::max(deepest, -t.gap);
+      EXPECT_NEAR(deepest, -largest_separation(p, at), 1e-7) << outside << ", " << draw;
+    }
+  }
+}
+
 TEST(FrustumTouch, cylinder_lies_on_a_box_with_both_rims_or_the_edge_below_it) {
   const Pair p{"", {roller}, {table}};
   auto list = closed(p, lying(0.3, {0.2, 0.1, 0.099}));

@@ -68,6 +68,7 @@ struct DaeIntegrator::Memory {
   NewtonConvergence convergence;
   std::minstd_rand random{1};
   double t = 0;
+  double coefficient = 1;             // of the method where the matrix was made
   bool begun = false, fresh = false;  // fresh: no step has been made since the last start
   std::optional<double> stated_first;
   int standing = 0;  // steps in a row in which time did not go on
@@ -101,12 +102,15 @@ struct DaeIntegrator::Memory {
                       N_Vector) {
     Memory& m = of(self);
     m.convergence.begin_matrix();
+    m.coefficient = c;
     const ColumnMatrix* matrix = m.problem.jacobian(t, c, constant(y), constant(yp));
     return matrix && m.factors.factor(*matrix) ? 0 : recoverable;
   }
   static int solve(SUNLinearSolver by, SUNMatrix, N_Vector x, N_Vector b, double) {
     std::ranges::copy(constant(b), values(x).begin());
-    of(by->content).factors.solve(values(x));
+    Memory& m = of(by->content);
+    m.factors.solve(values(x));
+    m.scale_to_step(values(x));
     return 0;
   }
   static int weights(N_Vector y, N_Vector weight, void* self) {
@@ -122,6 +126,20 @@ struct DaeIntegrator::Memory {
     double c = 0;
     IDAGetCurrentCj(of(self).ida, &c);
     return of(self).convergence.test(newton, c, correction, left, weight);
+  }
+
+  // Where the matrix is that of another step the corrections of what is integrated are too large or too small, about by
+  // the mean of both coefficients. IDA scales all unknowns so; those that equations give at the instant (multipliers,
+  // VARIABLEs) would then keep a part of what was predicted for them, and as no error test holds them, rounding would
+  // grow from step to step until nothing is left of them.
+  void scale_to_step(std::span<double> correction) const {
+    double c = 0;
+    IDAGetCurrentCj(ida, &c);
+    if (c == coefficient) return;
+    const double factor = 2 / (1 + c / coefficient);
+    for (std::size_t k = 0; k < correction.size(); ++k) {
+      if (problem.differential()[k] != 0.0) correction[k] *= factor;
+    }
   }
 
   void allow_rounding(std::span<double> weights) {
@@ -173,6 +191,7 @@ struct DaeIntegrator::Memory {
     check(IDASetLinearSolver(ida, solver, matrix));
     check(IDASetJacFn(ida, &jacobian));
     check(IDASetDeltaCjLSetup(ida, stale_coefficient));
+    check(IDASetLinearSolutionScaling(ida, SUNFALSE));
   }
 
   void make() {

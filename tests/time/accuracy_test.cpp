@@ -41,6 +41,35 @@ TEST_P(Accuracy, is_in_proportion_to_ERROR) {
   }
 }
 
+// A mass on a spring, pushed sideways as far as it is away: z = 0.05 (1 + cos √500 t). What the motion does not go by,
+// a VARIABLE that only outputs and SENSORs read and the reaction of the slide, has as many digits after thousands of
+// steps as after the first.
+TEST(Accuracy, holds_for_what_nothing_in_the_motion_reads) {
+  const std::string mass =
+      "Mass\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/3, REULER=90D,90D,0\n"
+      "PART/2, MASS=2, CM=2, IP=1,1,1, QG=0,0,0.1\nMARKER/2\nJOINT/1, TRANSLATIONAL, I=2, J=1\n"
+      "SPRINGDAMPER/1, TRANSLATIONAL, I=2, J=1, K=1000, LENGTH=0.05\n"
+      "SFORCE/2, TRANSLATIONAL, ACTIONONLY, I=2, J=3, FUNCTION=1000*DZ(2,1)\n"
+      "VARIABLE/1, FUNCTION=-1000*(DZ(2,1)-0.05)\nVARIABLE/2, FUNCTION=JOINT(1,0,2,1)\nVARIABLE/3, FUNCTION=VZ(2,1)\n";
+  const Course course = led_through_time(mass + "END\n", {0.5, 5000, 1e-3});
+  ASSERT_TRUE(course.ok()) << course.failure;
+  const double omega = std::sqrt(500.0);
+  double error = 0, of_reaction = 0, of_velocity = 0;
+  for (std::size_t k = 0; k < course.times.size(); ++k) {
+    const double t = course.times[k], away = 50 * std::cos(omega * t);
+    error = std::max(error, std::abs(course.variables.at(1)[k] + away));
+    of_reaction = std::max(of_reaction, std::abs(course.variables.at(2)[k] + 50 + away));
+    of_velocity = std::max(of_velocity, std::abs(course.variables.at(3)[k] + 0.05 * omega * std::sin(omega * t)));
+  }
+  EXPECT_LT(error, 1e-4 * 50);
+  EXPECT_LT(of_reaction, 1e-4 * 50);
+  EXPECT_LT(of_velocity, 1e-4 * 0.05 * omega);
+  const Course stopped =
+      led_through_time(mass + "SENSOR/1, FUNCTION=VARVAL(1), VALUE=20, GE, HALT\nEND\n", {0.5, 5000, 1e-3});
+  ASSERT_FALSE(stopped.times.empty());
+  EXPECT_NEAR(stopped.times.back(), std::acos(-0.4) / omega, 1e-5);
+}
+
 INSTANTIATE_TEST_SUITE_P(Time, Accuracy, ::testing::ValuesIn(promises), [](const auto& its) {
   std::string name = its.param.mechanism().name;
   for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
