@@ -101,6 +101,11 @@ CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, st
     if (problem_.empty()) problem_ = asking.failure;
   }
   size_of_ = nullptr;
+  for (const RoutineRequest& r : requests_.list) {
+    const bool of_array = r.name == "ARRAY" && !r.ids.empty() && statement_.gse && statement_.gse->XD != 0;
+    if (of_array && r.ids.front() == statement_.gse->XD)
+      discrete_.insert(discrete_.end(), r.inputs.begin(), r.inputs.end());
+  }
   if (kind.arguments == RoutineArguments::field && problem_.empty() && !requests_.list.empty()) {
     problem_ = fmt::format(
         "it asks for {}({}); the force of a FIELD is a function of the displacement and the velocity "
@@ -220,6 +225,9 @@ std::string CompiledRoutine::evaluate(std::span<const double> inputs, std::span<
     if (derivatives && kind_->arguments == RoutineArguments::system) call_partials(inputs[0], partials, given);
   } catch (...) {
     c.fail("it threw an exception");
+  }
+  if (!given.empty()) {
+    for (const std::int32_t k : discrete_) given[static_cast<std::size_t>(k)] = true;
   }
   if (!c.failure.empty()) std::fill(values.begin(), values.end(), unknown);
   return c.failure;

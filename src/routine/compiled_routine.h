@@ -89,6 +89,8 @@ class CompiledRoutine final : public Routine {
   RoutineDifferences differences_;
   StatePartialRoutines state_partials_;
   RoutineRequests requests_;
+  // Discrete states: constants between samples and in linear models, of which no derivatives are asked.
+  std::vector<std::int32_t> discrete_;
   SizeOfList size_of_;
   std::string what_;  // for a crash
   std::string problem_;

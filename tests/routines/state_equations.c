@@ -183,7 +183,7 @@ void sampled_output(const int* id, const double* time, const double* par, const 
   c_gse_xd(xd, c_gse_nd());
   for (int k = 0; k < *no; ++k) y[k] = xd[k], partial[k + *no * k] = 1;
   id_of_xd = (int)par[3];
-  c_syspar("ARRAY", &id_of_xd, 1, partial, *no * c_gse_nd(), &error);
+  if (id_of_xd != 0) c_syspar("ARRAY", &id_of_xd, 1, partial, *no * c_gse_nd(), &error);
 }
 /* The sample's own time and number are what it gives. */
 void clock_update(const int* id, const double* time, const double* par, const int* npar, const int* dflag,

@@ -311,6 +311,22 @@ TEST_F(StateEquations, are_sampled_when_their_routine_says_so_and_never_warn_of_
   EXPECT_THAT(dense.err, Not(HasSubstr("dense-events")));
 }
 
+// Constants have no derivatives that anybody asks for.
+TEST_F(StateEquations, need_no_derivatives_by_discrete_states) {
+  for (const char* derivatives : {"5", "0"}) {
+    const RunResult r = with(slider +
+                                 "SFORCE/1, TRANSLATION, ACTIONONLY, I=21, J=2, FUNCTION=-50*DX(20,1,1)+ARYVAL(3,1)\n"
+                                 "ARRAY/3, Y\nARRAY/5, X, SIZE=2\nGSE/1, NO=2, Y=3, ND=2, XD=5, SAMPLE_PERIOD=0.1, "
+                                 "INTERFACE=::,clock_update,sampled_output, FUNCTION=USER(0,0,0," +
+                                 derivatives + ")\n",
+                             {"LINEAR/EIGENSOL"});
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_THAT(r.err, Not(HasSubstr("gives no derivatives"))) << derivatives;
+    ASSERT_EQ(r.eigenvalues(0).size(), 2u);
+    EXPECT_NEAR(std::abs(r.eigenvalues(0)[0]) * 2 * M_PI, 5, 1e-12);
+  }
+}
+
 // What is read at the same instant as it is sampled is what it was before, however the instants are rounded.
 TEST_F(StateEquations, of_two_elements_are_sampled_at_once) {
   const auto controller = [](int id, int u, int xd, const std::string& instants) {
