@@ -4,7 +4,10 @@
 // step of Newton's method on duals, s − g(s; q)/g′(s), has the derivatives of the implicit function theorem.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "geometry/distance.h"
@@ -20,20 +23,29 @@ struct LeastAngle {
 // `value` of a double; `slope` of a double and of a Dual<1>. `size`: what values compare with.
 template <class Value, class Slope>
 LeastAngle least_on_turn(const Value& value, const Slope& slope, double size) {
-  // Between neighbours of the least of so many the slope changes its sign.
+  // Between neighbours of one of so many that is less than both the slope changes its sign.
   constexpr int samples = 48;
   constexpr double step = 2 * std::numbers::pi / samples, level = 1e-9;
-  double best = 0, least = value(0.0);
-  for (int k = 1; k < samples; ++k) {
-    if (const double v = value(k * step); v < least) least = v, best = k * step;
+  std::array<double, samples> at;
+  for (int k = 0; k < samples; ++k) at[static_cast<std::size_t>(k)] = value(k * step);
+  const auto sample = [&](int k) { return at[static_cast<std::size_t>((k + samples) % samples)]; };
+  const double lowest = *std::min_element(at.begin(), at.end());
+  double best = 0, least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < samples; ++k) {
+    const double here = sample(k), before = sample(k - 1), behind = sample(k + 1);
+    if (here > before || here > behind) continue;
+    // A parabola through the three goes down by no more than an eighth of this; the least sample is always looked at.
+    if (here != lowest && here - (before - 2 * here + behind) > lowest) continue;
+    double low = (k - 1) * step, high = (k + 1) * step;
+    for (int i = 0; i < 200 && high - low > 1e-16 * (1 + std::abs(high)); ++i) {
+      const double middle = 0.5 * (low + high);
+      if (middle <= low || middle >= high) break;
+      (slope(middle) > 0 ? high : low) = middle;
+    }
+    const double angle = 0.5 * (low + high);
+    if (const double v = value(angle); v < least) least = v, best = angle;
   }
-  double low = best - step, high = best + step;
-  for (int k = 0; k < 200 && high - low > 1e-16 * (1 + std::abs(high)); ++k) {
-    const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) break;
-    (slope(middle) > 0 ? high : low) = middle;
-  }
-  LeastAngle found{0.5 * (low + high)};
+  LeastAngle found{best};
   const Dual<1> there = slope(Dual<1>(found.at, std::size_t{0}));
   found.curvature = there.partial[0];
   found.definite = found.curvature > level * size && std::abs(there.value) < level * size;
