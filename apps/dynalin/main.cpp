@@ -39,18 +39,19 @@ int fail(std::string_view text) {
 // Slips of those who do not know the program yet: a file without `run`, a command without -c.
 void hint_at_usage(const CLI::App& run, int argc, char** argv) {
   const std::vector<std::string_view> words(argv + 1, argv + argc);
-  const auto names_file = [](std::string_view w) {
+  const auto ends = [](std::string_view w, std::string_view with) {
     std::string end(w.substr(w.size() < 4 ? 0 : w.size() - 4));
     for (char& c : end) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return end == ".adm" || end == ".acf";
+    return end == with;
   };
+  const auto names_commands = [&](std::string_view w) { return ends(w, ".acf"); };
+  const auto names_file = [&](std::string_view w) { return ends(w, ".adm") || names_commands(w); };
   if (words.empty()) {
     std::cerr << "A first run: dynalin run model.adm -c \"LINEAR/EIGENSOL\"\n";
   } else if (names_file(words[0])) {
-    std::cerr << "hint: dynalin run " << words[0] << (words[0].ends_with(".acf") ? "\n" : " -c \"LINEAR/EIGENSOL\"\n");
-  } else if (run.parsed() && words.size() > 2 && names_file(words[1]) && names_file(words[2])) {
-    const std::string_view commands = words[words[1].ends_with(".acf") ? 1 : 2];
-    std::cerr << "hint: dynalin run " << commands
+    std::cerr << "hint: dynalin run " << words[0] << (names_commands(words[0]) ? "\n" : " -c \"LINEAR/EIGENSOL\"\n");
+  } else if (run.parsed() && words.size() > 2 && names_file(words[1]) && names_commands(words[2])) {
+    std::cerr << "hint: dynalin run " << words[2]
               << "\n      a command file names its dataset itself, in its first line or in a command\n";
   } else if (run.parsed() && words.size() > 2 && names_file(words[1]) && !words[2].starts_with('-')) {
     std::cerr << "hint: dynalin run " << words[1] << " -c \"" << words[2] << "\"\n";

@@ -265,7 +265,6 @@ TEST_F(Reduce, a_rotation_node_turns_the_node_it_belongs_to) {
   options.interface = {"1:77", "5"};
   EXPECT_EQ(run(options), 1);
   EXPECT_THAT(err_.str(), HasSubstr("node 77, which is to turn node 1, has no freedoms"));
-  options.interface = {"1", "5"};
   // Both may say the same, but not different things.
   options.interface = {"1:101", "5"};
   ASSERT_EQ(run(options), 0) << err_.str();
@@ -290,6 +289,13 @@ TEST_F(Reduce, factors_of_units_change_the_numbers_of_the_body) {
   EXPECT_DOUBLE_EQ(record("body.fem", 8)[0], shapes[0]);
   EXPECT_DOUBLE_EQ(record("body.fem", 8)[4], shapes[4] / 1000);
   EXPECT_DOUBLE_EQ(record("body.fem", 12)[12], whole[12] * 1e6);
+}
+
+TEST_F(Reduce, asks_about_places_that_do_not_fit_the_matrices) {
+  FiniteElementModel beam = test::beam(4, 0.8);
+  for (auto& [label, place] : beam.nodes) place *= 1000;
+  EXPECT_EQ(run(calculix(beam)), 1);
+  EXPECT_THAT(err_.str(), HasSubstr("strain nothing: are the places of the nodes in the lengths of the matrices"));
 }
 
 TEST_F(Reduce, says_where_the_input_is_wrong) {

@@ -318,8 +318,6 @@ TEST_F(Contacts, one_that_touches_all_around_is_named) {
   EXPECT_THAT(r.err, AllOf(HasSubstr("CONTACT/1"), HasSubstr("touch all around")));
 }
 
-// A ball without friction in a hollow sphere swings as a pendulum does and turns as it likes. Which of the two is I
-// decides whether that is seen at once or where moments as large as force times distance cancel: bounds cover the rest.
 // What of the moment of a force through the centre is not zero is rounding, and no reason to turn.
 TEST_F(Contacts, a_ball_comes_to_rest_in_a_hollow_sphere_wherever_it_is_drawn) {
   const double mass = 2, depth = std::pow(mass * 10 / 1e5, 1 / 1.5);
@@ -341,6 +339,8 @@ TEST_F(Contacts, a_ball_comes_to_rest_in_a_hollow_sphere_wherever_it_is_drawn) {
   }
 }
 
+// A ball without friction in a hollow sphere swings as a pendulum does and turns as it likes. Which of the two is I
+// decides whether that is seen at once or where moments as large as force times distance cancel: bounds cover the rest.
 TEST_F(Contacts, a_ball_in_a_hollow_sphere_is_free_to_turn_whatever_is_called_I) {
   const double mass = 3.2, depth = std::pow(mass * 10 / 1e5, 1 / 1.5);
   const double swings = std::sqrt(10 / (1.5 + depth)), bounces = std::sqrt(1.5e5 * std::sqrt(depth) / mass);

@@ -23,6 +23,14 @@ TEST_F(Outputs, a_link_to_standard_output_is_written_through_and_stays_a_link) {
   EXPECT_TRUE(fs::is_symlink(folder_ / "screen"));
 }
 
+TEST_F(Outputs, a_dataset_and_its_commands_are_one_file_to_run) {
+  const Outcome r = run({"run", "model.adm", "model.acf"});
+  EXPECT_EQ(r.status, 3);
+  EXPECT_THAT(r.err, HasSubstr("hint: dynalin run model.acf\n      a command file names its dataset itself"));
+  EXPECT_THAT(run({"run", "model.adm", "LINEAR/EIGENSOL"}).err,
+              HasSubstr("hint: dynalin run model.adm -c \"LINEAR/EIGENSOL\""));
+}
+
 TEST_F(Outputs, a_hyphen_is_standard_output) {
   const Outcome r = run({"run", "model.acf", "--json", "-"});
   EXPECT_EQ(r.status, 0) << r.err;
