@@ -75,6 +75,7 @@ CalledRoutines::CalledRoutines(const Dataset& dataset, Catalogue catalogue, cons
       catalogue_(catalogue),
       differences_(options.differences ? RoutineDifferences::everywhere : RoutineDifferences::not_in_linear_models),
       diagnostics_(diagnostics) {
+  if (!options.libraries.empty()) constant_arrays_ = constant_arrays();
   for (const std::string& file : options.libraries) {
     if (std::error_code none; std::filesystem::is_directory(file, none)) {
       folders_.push_back(file);
@@ -183,6 +184,16 @@ std::optional<std::size_t> CalledRoutines::size_of_list(std::string_view stateme
   return std::nullopt;
 }
 
+std::shared_ptr<const std::vector<int>> CalledRoutines::constant_arrays() const {
+  auto ids = std::make_shared<std::vector<int>>();
+  for (const Statement& s : dataset_.statements) {
+    if (s.name == "GSE") ids->push_back(integer(s, "XD"));
+    if (s.name == "ARRAY" && argument(s, "NUMBERS")) ids->push_back(static_cast<int>(s.id.value_or(0)));
+  }
+  std::ranges::sort(*ids);
+  return ids;
+}
+
 // Between the parentheses of USER(…).
 std::optional<std::vector<double>> CalledRoutines::constants_of(const WrittenArgument& call, const std::string& label) {
   const SourceText& source = *call.name.source;
@@ -203,6 +214,7 @@ std::optional<RoutineStatement> CalledRoutines::says(const Statement& s, const W
   RoutineStatement out;
   out.label = fmt::format("{}/{}", s.name, s.id.value_or(0));
   out.id = static_cast<int>(s.id.value_or(0));
+  out.constant_arrays = constant_arrays_;
   if (call) {
     auto constants = constants_of(*call, out.label);
     if (!constants) return std::nullopt;

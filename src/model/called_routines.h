@@ -47,6 +47,7 @@ class CalledRoutines {
   std::vector<Library> libraries_named(std::string_view name);
   int integer(const Statement&, std::string_view name) const;
   std::optional<std::size_t> size_of_list(std::string_view statement, std::int32_t id) const;
+  std::shared_ptr<const std::vector<int>> constant_arrays() const;
   std::optional<RoutineStatement> says(const Statement&, const WrittenArgument* call);
   std::optional<std::vector<double>> constants_of(const WrittenArgument& call, const std::string& label);
 
@@ -56,7 +57,7 @@ class CalledRoutines {
   std::shared_ptr<const CompiledRoutine> made(const Statement&, const Span& at, FoundRoutine, const RoutineKind&,
                                               std::size_t values, RoutineStatement, StatePartialRoutines = {});
   struct StateRoutineNames;
-  StateRoutineNames state_routine_names(const Statement&) const;
+  StateRoutineNames state_routine_names(const Statement&);
   std::vector<Expression> functions_of(const std::shared_ptr<const CompiledRoutine>&, std::size_t first,
                                        std::size_t count, const Span& at) const;
 
@@ -66,6 +67,7 @@ class CalledRoutines {
   Diagnostics& diagnostics_;
   std::vector<Library> libraries_;
   std::vector<std::string> folders_;
+  std::shared_ptr<const std::vector<int>> constant_arrays_;
 };
 
 }  // namespace dynalin

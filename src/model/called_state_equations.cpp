@@ -27,6 +27,9 @@ std::vector<std::string> names_in(std::string_view text) {
   return names;
 }
 
+// A library alone, "control::", leaves the name to its default.
+bool names_one(std::string_view written) { return !written.empty() && written.back() != ':'; }
+
 }  // namespace
 
 // By the order in which the language lists them.
@@ -34,19 +37,32 @@ struct CalledRoutines::StateRoutineNames {
   std::array<std::string, 4> interface {};  // gse_deriv, gse_update, gse_output, gse_samp
   std::array<std::string, 5> system{};      // gsesub, gsexx, gsexu, gseyx, gseyu
   bool asks_for_interface = false, asks_for_system = false;
+  bool fit = true;  // else an error was reported
 };
 
-CalledRoutines::StateRoutineNames CalledRoutines::state_routine_names(const Statement& s) const {
+CalledRoutines::StateRoutineNames CalledRoutines::state_routine_names(const Statement& s) {
   StateRoutineNames names;
+  const auto unfit = [&](std::string_view code, std::string_view word, std::string message) {
+    diagnostics_.error(code, argument(s, word)->name, std::move(message));
+    names.fit = false;
+  };
   const auto take = [&](std::string_view word, auto& into) {
     const WrittenArgument* w = argument(s, word);
     if (!w || !w->has_value) return false;
     const auto list = names_in(w->value_span().text());
+    if (list.size() > into.size()) {
+      unfit("wrong-count", word,
+            fmt::format("{} of {} names {} routines at most, not {}", word, s.at.text(), into.size(), list.size()));
+    }
     std::copy_n(list.begin(), std::min(list.size(), into.size()), into.begin());
     return true;
   };
   names.asks_for_interface = take("INTERFACE", names.interface);
   names.asks_for_system = take("ROUTINE", names.system);
+  if (names.asks_for_interface && names.asks_for_system) {
+    unfit("excluded-arguments", "ROUTINE",
+          fmt::format("{} names routines by INTERFACE or by ROUTINE, not both", s.at.text()));
+  }
   return names;
 }
 
@@ -99,19 +115,24 @@ std::shared_ptr<const StateEquations> CalledRoutines::find_state_equations(const
   const Span at = call ? call->value_span() : s.at;
   const StateEquationKinds& kinds = state_equation_kinds();
   const StateRoutineNames names = state_routine_names(s);
+  if (!names.fit) return nullptr;
   const auto find = [&](const std::string& written, std::initializer_list<std::string_view> by_default) {
     return find_named(written, {by_default.begin(), by_default.size()});
   };
   // Where it is named, or else where it is called.
   const auto missing = [&](const std::string& written, std::string_view by_default, std::string_view hint = {}) {
-    const bool named = !written.empty() && written.back() != ':';
-    const WrittenArgument* naming = named ? argument(s, names.asks_for_interface ? "INTERFACE" : "ROUTINE") : nullptr;
+    const WrittenArgument* naming = names_one(written) ? argument(s, names.asks_for_interface ? "INTERFACE" : "ROUTINE") : nullptr;
     diagnostics_.error(
         "missing-routine", naming ? naming->value_span() : at,
-        fmt::format("{} calls {}, and no library has it", s.at.text(), named ? written : by_default),
+        fmt::format("{} calls {}, and no library has it", s.at.text(), naming ? written : by_default),
         hint.empty() ? "--user-library names libraries; nm -D FILE.so lists what is in one" : std::string(hint));
     return nullptr;
   };
+  // Also what this GSE does not call: the name is a slip.
+  for (const std::string& written : names.asks_for_interface ? std::span<const std::string>(names.interface)
+                                                             : std::span<const std::string>(names.system)) {
+    if (names_one(written) && !find(written, {})) return missing(written, {});
+  }
 
   auto out = std::make_shared<StateEquations>();
   FoundRoutine derivatives = find(names.interface[0], {kinds.derivatives.routine});
@@ -119,7 +140,7 @@ std::shared_ptr<const StateEquations> CalledRoutines::find_state_equations(const
   FoundRoutine system = names.asks_for_interface ? FoundRoutine{} : find(names.system[0], {kinds.system.routine});
   const bool separate =
       names.asks_for_interface || (!names.asks_for_system && ((derivatives && ns > 0) || (outputs && no > 0)));
-  if (ns + no > 0 && !separate && names.asks_for_system && !system) return missing(names.system[0], "gsesub");
+  if (ns + no > 0 && !separate && names.asks_for_system && !system) return missing(names.system[0], kinds.system.routine);
   if (ns + no > 0 && !separate && system) {
     StatePartialRoutines partials = {find(names.system[1], {"gsexx"}), find(names.system[2], {"gsexu"}),
                                      find(names.system[3], {"gseyx"}), find(names.system[4], {"gseyu"})};

@@ -101,10 +101,11 @@ CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, st
     if (problem_.empty()) problem_ = asking.failure;
   }
   size_of_ = nullptr;
-  for (const RoutineRequest& r : requests_.list) {
-    const bool of_array = r.name == "ARRAY" && !r.ids.empty() && statement_.gse && statement_.gse->XD != 0;
-    if (of_array && r.ids.front() == statement_.gse->XD)
-      discrete_.insert(discrete_.end(), r.inputs.begin(), r.inputs.end());
+  const AtomFunction* entry = find_atom_function("ARYVAL");
+  for (std::size_t k = 0; k < requests_.inputs.size() && statement_.constant_arrays; ++k) {
+    const Atom& input = requests_.inputs[k];
+    if (input.function == entry && std::ranges::binary_search(*statement_.constant_arrays, input.argument[0]))
+      constants_.push_back(static_cast<std::int32_t>(k));
   }
   if (kind.arguments == RoutineArguments::field && problem_.empty() && !requests_.list.empty()) {
     problem_ = fmt::format(
@@ -227,7 +228,7 @@ std::string CompiledRoutine::evaluate(std::span<const double> inputs, std::span<
     c.fail("it threw an exception");
   }
   if (!given.empty()) {
-    for (const std::int32_t k : discrete_) given[static_cast<std::size_t>(k)] = true;
+    for (const std::int32_t k : constants_) given[static_cast<std::size_t>(k)] = true;
   }
   if (!c.failure.empty()) std::fill(values.begin(), values.end(), unknown);
   return c.failure;

@@ -5,6 +5,7 @@
 // the user asks for it.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,8 @@ struct RoutineStatement {
   bool action_only = false, rotation = false, static_hold = false, implicit = false;
   double initial = 0, initial_rate = 0;
   std::optional<sAdamsGSE> gse{};
+  // ARRAYs of numbers and of discrete states, ascending: constants in a linear model.
+  std::shared_ptr<const std::vector<int>> constant_arrays{};
 };
 
 // Routines that give the partial derivatives of a whole GSE: of x′ and of y, with respect to states and to inputs. One
@@ -89,8 +92,8 @@ class CompiledRoutine final : public Routine {
   RoutineDifferences differences_;
   StatePartialRoutines state_partials_;
   RoutineRequests requests_;
-  // Discrete states: constants between samples and in linear models, of which no derivatives are asked.
-  std::vector<std::int32_t> discrete_;
+  // Inputs that are constants in a linear model, of which no derivatives are asked.
+  std::vector<std::int32_t> constants_;
   SizeOfList size_of_;
   std::string what_;  // for a crash
   std::string problem_;

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <utility>
 
 namespace dynalin {
 
@@ -48,6 +50,16 @@ void on_crash(int signal) {
     if (crashes[k] == signal) ::sigaction(signal, &before_crash[k], nullptr);
   }
   ::raise(signal);
+}
+
+// STOP of Fortran, or exit: nothing of what was asked for is done, whatever status it gives.
+void on_exit_in_routine() {
+  const char* what = std::exchange(what_is_at_work, nullptr);
+  if (!what) return;
+  write_all("dynalin: the program was told to end by ");
+  write_all(std::string_view(what, std::strlen(what)));
+  write_all("\n");
+  ::raise(SIGABRT);
 }
 
 }  // namespace
@@ -109,6 +121,7 @@ const RoutineRequest* RoutineContext::ask(std::string_view name, std::span<const
 }
 
 void name_routine_of_crash() {
+  std::atexit(on_exit_in_routine);
   // A routine that runs out of stack needs another one to say so.
   static std::array<char, 65536> spare;
   stack_t stack{};

@@ -72,7 +72,8 @@ class RoutineContext {
 };
 
 // From now on a signal that kills the process in a routine says first which one that was, on the standard error
-// output. For programs; a library leaves signals alone.
+// output, and a routine that ends the process by itself counts as one that crashed. For programs; a library leaves
+// signals and exits alone.
 void name_routine_of_crash();
 
 }  // namespace dynalin

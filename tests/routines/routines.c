@@ -2,6 +2,7 @@
 #include <dynalin/user_routine.h>
 #include <math.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* -(k x + h x^3 + c v), x and v of marker par[0] from par[1]; with derivatives where `exact`. */
@@ -36,6 +37,25 @@ void Springc(const struct sAdamsSforce* s, double time, int dflag, int iflag, do
   const double par[5] = {s->I, s->J, s->PAR[0], s->PAR[1], s->PAR[2]};
   (void)time, (void)dflag, (void)iflag;
   spring(par, value, s->NPAR == 3 && s->ID == 1 && s->ACTION_ONLY == 1 && strcmp(s->Type, "TRANSLATION") == 0);
+}
+
+/* -k x with k the sum of entries of the ARRAYs par[2] and par[3], whose derivatives nobody gives. */
+void spring_by_arrays(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                      const int* iflag, double* value) {
+  const int at[2] = {(int)par[0], (int)par[1]}, arrays[2] = {(int)par[2], (int)par[3]};
+  double x, entries[2] = {0, 0}, k = 0;
+  int error, count, wanted;
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  for (int a = 0; a < 2; ++a) {
+    c_sysary("ARRAY", &arrays[a], 1, entries, &count, &error);
+    k += entries[0] + entries[1];
+  }
+  c_sysfnc("DX", at, 2, &x, &error);
+  *value = -k * x;
+  c_adams_needs_partials(&wanted);
+  if (!wanted) return;
+  const double by_x = -k;
+  c_syspar("DX", at, 2, &by_x, 1, &error);
 }
 
 /* par[0] VARVAL(par[1])^2 + par[2] TIME */
@@ -237,4 +257,10 @@ void crashes(const int* id, const double* time, const double* par, const int* np
   (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
   double* volatile nowhere = NULL;
   *value = par[0] > 0 ? *nowhere : 0;
+}
+void stops(const int* id, const double* time, const double* par, const int* npar, const int* dflag, const int* iflag,
+           double* value) {
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  *value = 0;
+  if (par[0] > 0) exit(0);
 }

@@ -483,6 +483,14 @@ TEST_F(StateEquations, that_do_not_fit_are_refused_at_their_place) {
   EXPECT_THAT(said("GSE/1, NO=1, Y=3, NS=20000, X=1, U=2" + call), HasSubstr("[value-out-of-range]"));
   EXPECT_THAT(said("GSE/1, NO=1, Y=3, NS=2, X=1, U=2, INTERFACE=::nobody" + call),
               HasSubstr("15:45: error: GSE/1 calls ::nobody, and no library has it [missing-routine]"));
+  EXPECT_THAT(said("GSE/1, NO=1, Y=3, NS=2, X=1, U=2, INTERFACE=::,::nobody,::" + call),
+              HasSubstr("GSE/1 calls ::nobody, and no library has it [missing-routine]"));
+  EXPECT_THAT(said("GSE/1, NO=1, Y=3, NS=2, X=1, U=2, ROUTINE=::gsesub,::gsexy" + call),
+              HasSubstr("GSE/1 calls ::gsexy, and no library has it [missing-routine]"));
+  EXPECT_THAT(said("GSE/1, NO=1, Y=3, NS=2, X=1, U=2, INTERFACE=::,::,::,::,::" + call),
+              HasSubstr("INTERFACE of GSE/1 names 4 routines at most, not 5 [wrong-count]"));
+  EXPECT_THAT(said("GSE/1, NO=1, Y=3, NS=2, X=1, U=2, INTERFACE=::, ROUTINE=::gsesub" + call),
+              HasSubstr("GSE/1 names routines by INTERFACE or by ROUTINE, not both [excluded-arguments]"));
   EXPECT_THAT(said("GSE/1, NO=1, Y=3, ND=1, XD=1, U=2, "
                    "INTERFACE=state_equations::,state_equations::nobody,state_equations::sampled_output" +
                    call),

@@ -51,6 +51,26 @@ TEST_F(UserRoutines, give_the_eigenvalues_of_the_same_expression) {
   expect_same(with(slider + called), with(slider + at_slider), 1e-14);
 }
 
+// Numbers, and discrete states of a GSE, are constants between samples.
+TEST_F(UserRoutines, need_no_derivatives_by_arrays_that_are_constant) {
+  const RunResult r = with(slider + along +
+                               "FUNCTION=USER(20,1,6,5), ROUTINE=routines::spring_by_arrays\n"
+                               "ARRAY/6, IC, NUMBERS=30,12\nARRAY/7, IC, NUMBERS=5,3\nARRAY/5, X\nARRAY/3, Y\n"
+                               "GSE/1, NO=2, Y=3, ND=2, XD=5, ICD=7, SAMPLE_PERIOD=0.1, "
+                               "INTERFACE=::,clock_update,sampled_output, FUNCTION=USER(0,0,0,0)\n",
+                           {C_ROUTINES, C_STATE_EQUATIONS});
+  EXPECT_THAT(r.err, Not(HasSubstr("gives no derivatives")));
+  expect_same(r, with(slider + along + "FUNCTION=-50*DX(20,1)\n"), 1e-14);
+  // An ARRAY of inputs is none.
+  const RunResult refused = with(slider + along +
+                                     "FUNCTION=USER(20,1,6,5), ROUTINE=routines::spring_by_arrays\n"
+                                     "ARRAY/6, IC, NUMBERS=30,12\nARRAY/5, U, VARIABLES=1,2\nVARIABLE/1, "
+                                     "FUNCTION=5\nVARIABLE/2, FUNCTION=3+DX(20,1)\n",
+                                 {C_ROUTINES});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("LINEAR refuses it"));
+}
+
 TEST_F(UserRoutines, without_derivatives_are_refused_in_linear_models_unless_differences_are_asked_for) {
   const std::string called =
       slider + along + "FUNCTION=USER(20,1,50,30,2), ROUTINE=routines::spring_without_derivatives\n";
@@ -314,6 +334,17 @@ TEST_F(UserRoutines, that_crash_are_named_before_the_program_dies) {
         with(slider + along + "FUNCTION=USER(20,1), ROUTINE=routines::crashes\n");
       },
       ::testing::KilledBySignal(SIGSEGV), "the routine crashes of .*, called for SFORCE/1");
+}
+
+TEST_F(UserRoutines, that_end_the_program_are_named_and_do_not_pass_for_success) {
+  if (sanitized) GTEST_SKIP() << "the sanitizer takes the signal";
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_EXIT(
+      {
+        name_routine_of_crash();
+        with(slider + along + "FUNCTION=USER(20,1), ROUTINE=routines::stops\n");
+      },
+      ::testing::KilledBySignal(SIGABRT), "told to end by the routine stops of .*, called for SFORCE/1");
 }
 
 }  // namespace

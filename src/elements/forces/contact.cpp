@@ -24,6 +24,7 @@
 #include <numbers>
 
 #include "elements/families/contact_sides.h"
+#include "elements/families/friction_coefficients.h"
 #include "elements/families/markers.h"
 #include "model/linear_remarks.h"
 #include "model/schema.h"
@@ -226,6 +227,7 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
                                reader.label().text(), *c.friction_speed, *c.stiction_speed));
       return;
     }
+    warn_of_coefficient_order(*c.mu_static, *c.mu_dynamic, reader);
     f.friction = SlipFriction{*c.mu_static, *c.mu_dynamic, *c.stiction_speed, *c.friction_speed};
     f.friction_in_statics = word == 0;
   }

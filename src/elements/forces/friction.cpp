@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <map>
 
+#include "elements/families/friction_coefficients.h"
 #include "elements/families/joint.h"
 #include "elements/forces/friction_kernel.h"
 #include "model/model.h"
@@ -41,7 +42,7 @@ struct Friction {
   std::optional<double> bristle_stiffness;
   double bristle_damping = 0, viscosity = 0;
   bool i_yoke = false, j_yoke = false;
-  std::vector<std::pair<std::string_view, Span>> sizes;  // of the surfaces, as written
+  std::vector<std::pair<std::string_view, Span>> by_joint;  // what is written and not every joint reads
 
   using F = Friction;
   static constexpr std::array<Argument<F>, 24> arguments = {{
@@ -127,25 +128,27 @@ struct Friction {
   }};
 };
 
-// Sizes that say nothing of another joint.
-struct SizeOf {
-  std::string_view argument, joints;
+// Arguments, and words of INPUTS, that say nothing of another joint.
+struct ReadBy {
+  std::string_view name, joints;
 };
-constexpr std::array sizes = {
-    SizeOf{"PIN_RADIUS", "REVOLUTE CYLINDRICAL HOOKE UNIVERSAL"},
-    SizeOf{"FRICTION_ARM", "REVOLUTE HOOKE UNIVERSAL"},
-    SizeOf{"BENDING_REACTION_ARM", "REVOLUTE HOOKE UNIVERSAL"},
-    SizeOf{"BALL_RADIUS", "SPHERICAL"},
-    SizeOf{"REACTION_ARM", "TRANSLATIONAL"},
-    SizeOf{"INITIAL_OVERLAP", "TRANSLATIONAL CYLINDRICAL"},
-    SizeOf{"OVERLAP_DELTA", "TRANSLATIONAL CYLINDRICAL"},
-    SizeOf{"FRICTION_FORCE_PRELOAD", "TRANSLATIONAL CYLINDRICAL"},
-    SizeOf{"FRICTION_TORQUE_PRELOAD", "REVOLUTE CYLINDRICAL HOOKE UNIVERSAL SPHERICAL"},
-    SizeOf{"I_YOKE", "HOOKE UNIVERSAL"},
-    SizeOf{"J_YOKE", "HOOKE UNIVERSAL"},
+constexpr std::array read_by = {
+    ReadBy{"PIN_RADIUS", "REVOLUTE CYLINDRICAL HOOKE UNIVERSAL"},
+    ReadBy{"FRICTION_ARM", "REVOLUTE HOOKE UNIVERSAL"},
+    ReadBy{"BENDING_REACTION_ARM", "REVOLUTE HOOKE UNIVERSAL"},
+    ReadBy{"BALL_RADIUS", "SPHERICAL"},
+    ReadBy{"REACTION_ARM", "TRANSLATIONAL"},
+    ReadBy{"INITIAL_OVERLAP", "TRANSLATIONAL CYLINDRICAL"},
+    ReadBy{"OVERLAP_DELTA", "TRANSLATIONAL CYLINDRICAL"},
+    ReadBy{"FRICTION_FORCE_PRELOAD", "TRANSLATIONAL CYLINDRICAL"},
+    ReadBy{"FRICTION_TORQUE_PRELOAD", "REVOLUTE CYLINDRICAL HOOKE UNIVERSAL SPHERICAL"},
+    ReadBy{"I_YOKE", "HOOKE UNIVERSAL"},
+    ReadBy{"J_YOKE", "HOOKE UNIVERSAL"},
+    ReadBy{"BENDING_MOMENT", "TRANSLATIONAL REVOLUTE CYLINDRICAL HOOKE UNIVERSAL"},
+    ReadBy{"TORSIONAL_MOMENT", "TRANSLATIONAL"},
 };
 
-// Which of `words` each written word begins; reports what begins none.
+// Which of `words` each written word begins; reports what begins none, and ALL or NONE beside others.
 bool find_words(const std::vector<std::string>& written, std::span<const std::string_view> words,
                 std::string_view argument, ElementReader& reader, std::vector<std::string_view>& found) {
   found.clear();
@@ -160,10 +163,28 @@ bool find_words(const std::vector<std::string>& written, std::span<const std::st
     }
     found.push_back(*at);
   }
+  for (const std::string_view alone : {"ALL", "NONE"}) {
+    if (found.size() < 2 || std::find(found.begin(), found.end(), alone) == found.end()) continue;
+    reader.error("excluded-arguments", reader.at(argument),
+                 fmt::format("{} stands alone in {} of {}", alone, argument, reader.label().text()));
+    return false;
+  }
   return true;
 }
 
-void read_options(const Friction& e, JointFriction& out, ElementReader& reader) {
+// One warning for those of the arguments that are written.
+void warn_of_unread(std::initializer_list<std::string_view> arguments, std::string_view beside, ElementReader& reader) {
+  std::vector<std::string_view> written;
+  for (const std::string_view a : arguments) {
+    if (reader.given(a)) written.push_back(a);
+  }
+  if (written.empty()) return;
+  reader.warning("unread-argument", reader.at(written.front()),
+                 fmt::format("{} of {} {} nothing with {}", fmt::join(written, " and "), reader.label().text(),
+                             written.size() == 1 ? "says" : "say", beside));
+}
+
+void read_options(Friction& e, JointFriction& out, ElementReader& reader) {
   std::vector<std::string_view> words;
   const auto has = [&](std::string_view word) { return std::find(words.begin(), words.end(), word) != words.end(); };
 
@@ -172,12 +193,22 @@ void read_options(const Friction& e, JointFriction& out, ElementReader& reader) 
     if (has("STICTION") != has("SLIDING"))
       out.law.effect = has("STICTION") ? FrictionEffect::stiction : FrictionEffect::sliding;
   }
+  if (out.law.effect == FrictionEffect::stiction) warn_of_unread({"MU_DYNAMIC"}, "EFFECT=STICTION", reader);
+  if (out.law.effect == FrictionEffect::sliding) {
+    warn_of_unread({"MU_STATIC", "TRANSITION_VELOCITY_COEFFICIENT", "MAX_STICTION_DEFORMATION"}, "EFFECT=SLIDING",
+                   reader);
+  }
   static constexpr std::array<std::string_view, 6> inputs = {
       "ALL", "NONE", "PRELOAD", "REACTION_FORCE", "BENDING_MOMENT", "TORSIONAL_MOMENT"};
   if (find_words(e.inputs, inputs, "INPUTS", reader, words) && !words.empty() && !has("ALL")) {
     out.of_force = has("REACTION_FORCE"), out.of_bending = has("BENDING_MOMENT");
     out.of_torsion = has("TORSIONAL_MOMENT");
-    if (!has("PRELOAD")) out.force_preload = out.torque_preload = 0;
+    for (const std::string_view word : words) e.by_joint.emplace_back(word, reader.at("INPUTS"));
+    if (!has("PRELOAD")) {
+      if (out.force_preload > 0) warn_of_unread({"FRICTION_FORCE_PRELOAD"}, "INPUTS without PRELOAD", reader);
+      if (out.torque_preload > 0) warn_of_unread({"FRICTION_TORQUE_PRELOAD"}, "INPUTS without PRELOAD", reader);
+      out.force_preload = out.torque_preload = 0;
+    }
   }
   static constexpr std::array<std::string_view, 3> deltas = {"CONSTANT", "INCREASE", "DECREASE"};
   if (find_words(e.overlap_delta, deltas, "OVERLAP_DELTA", reader, words))
@@ -207,6 +238,8 @@ void read_bristles(const Friction& e, FrictionLaw& law, ElementReader& reader) {
     reader.error("value-out-of-range", reader.at(e.mu_static > 0 ? "MU_DYNAMIC" : "MU_STATIC"),
                  fmt::format("the coefficients of {} must be more than 0 with LUGRE", reader.label().text()));
   }
+  warn_of_unread({"TRANSITION_VELOCITY_COEFFICIENT"}, "FORMULATION=LUGRE", reader);
+  if (e.bristle_stiffness) warn_of_unread({"MAX_STICTION_DEFORMATION"}, "BRISTLE_STIFFNESS_COEFFICIENT", reader);
   law.formulation = FrictionFormulation::lugre;
   law.bristle_stiffness = e.bristle_stiffness.value_or(e.mu_static / e.largest_deformation);
   law.bristle_damping = e.bristle_damping, law.viscosity = e.viscosity;
@@ -240,9 +273,10 @@ class FrictionSet final : public TypedSet<Friction> {
                    fmt::format("{} takes I_YOKE or J_YOKE, not both", reader.label().text()),
                    "a second FRICTION stands for the other bar of the cross");
     }
-    for (const SizeOf& s : sizes) {
-      if (reader.given(s.argument)) e.sizes.emplace_back(s.argument, reader.at(s.argument));
+    for (const ReadBy& r : read_by) {
+      if (reader.given(r.name)) e.by_joint.emplace_back(r.name, reader.at(r.name));
     }
+    warn_of_coefficient_order(e.mu_static, e.mu_dynamic, reader);
     JointFriction& f = frictions_[k];
     f.law.mu_static = e.mu_static, f.law.mu_dynamic = e.mu_dynamic;
     f.law.stiction_velocity = e.stiction_velocity, f.law.transition = e.transition;
@@ -299,11 +333,11 @@ class FrictionSet final : public TypedSet<Friction> {
                         "friction acts in TRANSLATIONAL, REVOLUTE, CYLINDRICAL, HOOKE, UNIVERSAL and SPHERICAL joints");
       return;
     }
-    for (const auto& [name, at] : e.sizes) {
-      const auto size =
-          std::find_if(sizes.begin(), sizes.end(), [&sought = name](const SizeOf& s) { return s.argument == sought; });
-      if (size->joints.find(type) != std::string_view::npos) continue;
-      diagnostics.warning("unused-size", at,
+    for (const auto& [name, at] : e.by_joint) {
+      const auto by = std::find_if(read_by.begin(), read_by.end(),
+                                   [&sought = name](const ReadBy& r) { return r.name == sought; });
+      if (by == read_by.end() || by->joints.find(type) != std::string_view::npos) continue;
+      diagnostics.warning("unread-argument", at,
                           fmt::format("{} of {} says nothing of {}, a {} joint", name, labels[k].text(), joint, type));
     }
     if (f.i.valid() && f.j.valid()) f.drawn_displacement = drawn_frame(model, f.i, f.j).p.z;
