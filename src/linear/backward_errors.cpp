@@ -17,9 +17,9 @@ using Index = Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 
 // What the equations leave, of all unknowns of x.
-Matrix rates_of(const PerturbationEquations& equations, const Matrix& x) {
+Matrix rates_of(const PerturbationEquations& equations, const Matrix& x, SparseLu::Refined refined) {
   Matrix w(equations.unknowns(), x.cols()), rates = Matrix::Zero(equations.unknowns(), x.cols());
-  w.topRows(equations.state_columns()) = equations.complete(x);
+  w.topRows(equations.state_columns()) = equations.complete(x, refined);
   w.bottomRows(x.rows()) = x;
   const auto size = static_cast<std::size_t>(w.rows());
   for (Index c = 0; c < x.cols(); ++c)
@@ -29,7 +29,7 @@ Matrix rates_of(const PerturbationEquations& equations, const Matrix& x) {
 
 // Of a few states what A makes of each, of many what it makes of a few vectors of signs.
 double norm_of_state_matrix(const PerturbationEquations& equations) {
-  constexpr Index few = 64, probes = 8;
+  constexpr Index few = 64, probes = 4;
   const Index n = equations.states();
   Matrix x = Matrix::Identity(n, n <= few ? n : probes);
   if (n > few) {
@@ -41,8 +41,11 @@ double norm_of_state_matrix(const PerturbationEquations& equations) {
   }
   Eigen::VectorXd norms(x.cols());
   for_few_columns(x.cols(), [&](Index first, Index count) {
-    norms.segment(first, count) =
-        rates_of(equations, x.middleCols(first, count)).bottomRows(n).colwise().norm().transpose();
+    norms.segment(first, count) = rates_of(equations, x.middleCols(first, count), SparseLu::Refined::no)
+                                      .bottomRows(n)
+                                      .colwise()
+                                      .norm()
+                                      .transpose();
   });
   return norms.norm();
 }
@@ -54,7 +57,7 @@ void add_backward_errors(const PerturbationEquations& equations, EigenSolution& 
   if (!(size > 0)) return;
   for_few_columns(solution.vectors.cols(), [&](Index first, Index count) {
     const Eigen::MatrixXcd images = by_parts(solution.vectors.middleCols(first, count), [&](const Matrix& x) {
-      return equations.reduced(rates_of(equations, x));
+      return equations.reduced(rates_of(equations, x, SparseLu::Refined::yes), SparseLu::Refined::no);
     });
     for (Index c = 0; c < count; ++c) {
       EigenMode& mode = solution.modes[static_cast<std::size_t>(first + c)];

@@ -47,7 +47,7 @@ NearSingularity near_singularity(const System& system, const ConstraintRows& row
   for (Eigen::Index k = 0; k < left.rows(); ++k) left(k, 0) = std::sin(1.0 + 1.7 * static_cast<double>(k));
   for (int pass = 0; pass < 3; ++pass) {
     left /= left.norm();
-    lu.solve(left);
+    lu.solve(left, SparseLu::Refined::no);
     const double grown = left.norm();
     left /= grown;
     lu.solve_transposed(left);

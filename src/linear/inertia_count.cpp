@@ -20,7 +20,7 @@ bool InertiaCount::stands_for_the_equations(double sigma) const {
   Matrix x = Matrix::Zero(equations.states(), 1);
   const Eigen::VectorXd start = arbitrary_vector(equations.states(), 3).real();
   for (const std::int32_t k : model.positions()) x(k, 0) = start(k);
-  Matrix v = factors_->solve(model.forces(equations.complete(x).topRows(model.coordinates())));
+  Matrix v = factors_->solve(model.forces(equations.complete(x, SparseLu::Refined::no).topRows(model.coordinates())));
   for (int step = 0; step < steps; ++step) {
     const double before = size(v);
     if (!(before > 0) || !std::isfinite(before)) return step > 0 && before == 0;

@@ -60,22 +60,22 @@ PerturbationEquations PerturbationEquations::of_state_matrix(const Matrix& A) {
   return p;
 }
 
-void PerturbationEquations::solve_levels(Matrix& b) const {
-  if (whole_) return whole_->solve(b);
-  level_[0]->solve(b.topRows(n_));
+void PerturbationEquations::solve_levels(Matrix& b, SparseLu::Refined refined) const {
+  if (whole_) return whole_->solve(b, refined);
+  level_[0]->solve(b.topRows(n_), refined);
   multiply_add(rates_on_positions_, b.topRows(n_), b.middleRows(n_, n_), -1.0);
-  level_[1]->solve(b.middleRows(n_, n_));
+  level_[1]->solve(b.middleRows(n_, n_), refined);
   multiply_add(augmented_on_positions_, b.topRows(n_), b.bottomRows(augmented_size_), -1.0);
   multiply_add(augmented_on_rates_, b.middleRows(n_, n_), b.bottomRows(augmented_size_), -1.0);
-  level_[2]->solve(b.bottomRows(augmented_size_));
+  level_[2]->solve(b.bottomRows(augmented_size_), refined);
 }
 
-Matrix PerturbationEquations::complete(const Matrix& x) const {
+Matrix PerturbationEquations::complete(const Matrix& x, SparseLu::Refined refined) const {
   Matrix a = Matrix::Zero(algebraic_, x.cols());
   Matrix padded = Matrix::Zero(on_states_.columns, x.cols());
   padded.topRows(x.rows()) = x;
   multiply_add(on_states_, padded, a, -1.0);
-  solve_levels(a);
+  solve_levels(a, refined);
   return a;
 }
 
@@ -122,9 +122,9 @@ Matrix PerturbationEquations::solve_transposed(Matrix a) const {
   return a;
 }
 
-Matrix PerturbationEquations::reduced(const Matrix& residuals) const {
+Matrix PerturbationEquations::reduced(const Matrix& residuals, SparseLu::Refined refined) const {
   Matrix a = residuals.topRows(algebraic_);
-  solve_levels(a);
+  solve_levels(a, refined);
   Matrix r = residuals.bottomRows(states_);
   multiply_add(state_rates_on_algebraic_, a, r, -1.0);
   return r;

@@ -49,15 +49,16 @@ class PerturbationEquations {
   std::int32_t state_columns() const { return algebraic_; }
 
   // a of columns (x; u) or x alone.
-  Eigen::MatrixXd complete(const Eigen::MatrixXd& states_and_inputs) const;
+  Eigen::MatrixXd complete(const Eigen::MatrixXd& states_and_inputs, SparseLu::Refined = SparseLu::Refined::yes) const;
   // The part of a that is motion, δq and δq′ of columns x.
   Eigen::MatrixXcd motions(const Eigen::MatrixXcd& of_states) const;
   // The left counterpart: y_a of the rows y_x of states, with y_aᵀ F + y_xᵀ P = 0.
   Eigen::MatrixXd complete_left(const Eigen::MatrixXd& of_states) const;
   // y with yᵀ F = bᵀ.
   Eigen::MatrixXd solve_transposed(Eigen::MatrixXd b) const;
-  // r_x − P F⁻¹ r_a of residuals (r_a; r_x): what they amount to in the equations of states.
-  Eigen::MatrixXd reduced(const Eigen::MatrixXd& residuals) const;
+  // r_x − P F⁻¹ r_a of residuals (r_a; r_x): what they amount to in the equations of states. Of what is rounding itself
+  // a few digits are enough.
+  Eigen::MatrixXd reduced(const Eigen::MatrixXd& residuals, SparseLu::Refined = SparseLu::Refined::yes) const;
   // [A B] of the columns a that complete(unit matrix) has given, corrected by a residual in long double: entries are as
   // good as those of the equations, however much cancels in them.
   Eigen::MatrixXd state_matrices(const Eigen::MatrixXd& a) const;
@@ -89,7 +90,7 @@ class PerturbationEquations {
  private:
   class Assembly;  // perturbation_assembly.cpp
 
-  void solve_levels(Eigen::MatrixXd& b) const;
+  void solve_levels(Eigen::MatrixXd& b, SparseLu::Refined) const;
 
   std::int32_t n_ = 0, augmented_size_ = 0, algebraic_ = 0, states_ = 0;
   std::array<std::shared_ptr<const SparseLu>, 3> level_;

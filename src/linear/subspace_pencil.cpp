@@ -199,7 +199,8 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
   for_few_columns(p, [&](Index first, Index count) {
     const ComplexMatrix w = completed(of.X.middleCols(first, count));
     const Residuals right = residuals(rows, w, U, F.middleCols(first, count));
-    const ComplexMatrix reduced = by_parts(right.value, [&](const Matrix& m) { return equations.reduced(m); });
+    const ComplexMatrix reduced =
+        by_parts(right.value, [&](const Matrix& m) { return equations.reduced(m, SparseLu::Refined::no); });
     const ComplexMatrix of_block = adjoint_product(y, right.value), other = adjoint_product(of.Y, reduced);
     G.middleCols(first, count) = of_block;
     out.uncertainty.middleCols(first, count) =

@@ -121,7 +121,8 @@ std::shared_ptr<const StateEquations> CalledRoutines::find_state_equations(const
   };
   // Where it is named, or else where it is called.
   const auto missing = [&](const std::string& written, std::string_view by_default, std::string_view hint = {}) {
-    const WrittenArgument* naming = names_one(written) ? argument(s, names.asks_for_interface ? "INTERFACE" : "ROUTINE") : nullptr;
+    const WrittenArgument* naming =
+        names_one(written) ? argument(s, names.asks_for_interface ? "INTERFACE" : "ROUTINE") : nullptr;
     diagnostics_.error(
         "missing-routine", naming ? naming->value_span() : at,
         fmt::format("{} calls {}, and no library has it", s.at.text(), naming ? written : by_default),
@@ -140,7 +141,8 @@ std::shared_ptr<const StateEquations> CalledRoutines::find_state_equations(const
   FoundRoutine system = names.asks_for_interface ? FoundRoutine{} : find(names.system[0], {kinds.system.routine});
   const bool separate =
       names.asks_for_interface || (!names.asks_for_system && ((derivatives && ns > 0) || (outputs && no > 0)));
-  if (ns + no > 0 && !separate && names.asks_for_system && !system) return missing(names.system[0], kinds.system.routine);
+  if (ns + no > 0 && !separate && names.asks_for_system && !system)
+    return missing(names.system[0], kinds.system.routine);
   if (ns + no > 0 && !separate && system) {
     StatePartialRoutines partials = {find(names.system[1], {"gsexx"}), find(names.system[2], {"gsexu"}),
                                      find(names.system[3], {"gseyx"}), find(names.system[4], {"gseyu"})};

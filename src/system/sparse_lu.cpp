@@ -247,7 +247,7 @@ bool SparseLu::factor(ColumnMatrix matrix) {
   return factors_->factor();
 }
 
-void SparseLu::solve(Eigen::Ref<Eigen::MatrixXd> B) const {
+void SparseLu::solve(Eigen::Ref<Eigen::MatrixXd> B, Refined refined) const {
   const Factors& f = *factors_;
   const auto n = static_cast<std::size_t>(f.matrix.rows);
   if (n == 0) return;
@@ -255,6 +255,10 @@ void SparseLu::solve(Eigen::Ref<Eigen::MatrixXd> B) const {
   for_blocks(B, f.at_once(), [&](auto&& columns) {
     b = columns, x = b;
     f.solve(x);
+    if (refined == Refined::no) {
+      columns = x;
+      return;
+    }
     for (Eigen::Index c = 0; c < b.cols(); ++c) {
       f.matrix.multiply_add({x.col(c).data(), n}, {b.col(c).data(), n}, -1.0);
     }

@@ -31,7 +31,9 @@ class SparseLu {
   // solve with then.
   bool factor(ColumnMatrix);
   // Solves in place with one step of iterative refinement; every column of B is a right-hand side.
-  void solve(Eigen::Ref<Eigen::MatrixXd> B) const;
+  // Refined once, or as the factors have it: as good as the matrix is well-conditioned, at half the price.
+  enum class Refined : bool { no, yes };
+  void solve(Eigen::Ref<Eigen::MatrixXd> B, Refined = Refined::yes) const;
   void solve_transposed(Eigen::Ref<Eigen::MatrixXd> B) const;
   int determinant_sign() const;  // 1 or −1
   std::size_t entries() const;   // of the factors

@@ -334,8 +334,8 @@ class FrictionSet final : public TypedSet<Friction> {
       return;
     }
     for (const auto& [name, at] : e.by_joint) {
-      const auto by = std::find_if(read_by.begin(), read_by.end(),
-                                   [&sought = name](const ReadBy& r) { return r.name == sought; });
+      const auto by =
+          std::find_if(read_by.begin(), read_by.end(), [&sought = name](const ReadBy& r) { return r.name == sought; });
       if (by == read_by.end() || by->joints.find(type) != std::string_view::npos) continue;
       diagnostics.warning("unread-argument", at,
                           fmt::format("{} of {} says nothing of {}, a {} joint", name, labels[k].text(), joint, type));
