@@ -11,6 +11,7 @@
 #include "analysis/acceleration_rounding.h"
 #include "analysis/augmented_system.h"
 #include "analysis/initial.h"
+#include "analysis/undetermined_reactions.h"
 #include "system/undefined_rows.h"
 
 namespace dynalin {
@@ -288,6 +289,8 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, Steps step
                       lost.of, lost.part));
     }
   }
+  if (!findings.redundant_rows.empty() && !equations.equations().matrix(PartialBy::lambda).value.empty())
+    warn_of_undetermined_reactions(system, equations, op, findings.warnings);
   return op;
 }
 

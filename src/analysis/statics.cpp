@@ -238,7 +238,12 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
 Result<OperatingPoint> static_operating_point(const System& system, OperatingPoint start, const StaticsOptions& options,
                                               StaticsReport& report, Findings& findings) {
   auto op = find_equilibrium(system, std::move(start), options, report, findings);
-  if (op) report.at_rest = *op;
+  if (op) {
+    // What statics alone evaluate keeps its value at rest where velocities come back.
+    system.remember(*op);
+    report.at_rest = *op;
+    op->mode = AnalysisMode::initial_conditions;
+  }
   if (op && op->time == 0 && options.restore_velocities) op = initial_velocity(system, std::move(*op), findings);
   if (op) op = reconcile_velocity(system, std::move(*op), findings);
   if (op) op = solve_acceleration(system, std::move(*op), findings);

@@ -12,6 +12,7 @@
 #include "linear/beam_states.h"
 #include "linear/original_states.h"
 #include "linear/user_coordinates.h"
+#include "mechanics/node_variations.h"
 
 namespace dynalin {
 
@@ -74,6 +75,15 @@ std::vector<StateCoordinate> listed_coordinates(const System& system, std::int64
   return list;
 }
 
+// How the modal coordinates of the body that carries a marker move it; nothing of one on a rigid body.
+std::vector<NodeVariations::One> moved_by_modes(const Motion& motion, const MarkerPlace& marker) {
+  std::vector<NodeVariations::One> by;
+  if (!marker.shapes) return by;
+  const NodeVariations variations(motion, marker.body, *marker.shapes);
+  for (std::size_t mode = 0; mode < marker.shapes->translation.size(); ++mode) by.push_back(variations.by(mode));
+  return by;
+}
+
 // Gradient rows of one body's coordinates relative to marker b:
 // translation R_bᵀ(r_B − r_b), rotation R_bᵀ(δθ_B − δθ_b); for the owner of b the ground seen from b.
 void add_relative_rows(const Motion& motion, const BodyBlock& block, BodyId body, const MarkerPlace& b,
@@ -86,6 +96,8 @@ void add_relative_rows(const Motion& motion, const BodyBlock& block, BodyId body
   const Vec3<Taylor> r = along_motion(own.r, own.rdot, own.rddot);
   const Vec3<Taylor> arm = r - r_ref;  // from the BCS of the marker's body to the point seen
   const Vec3<Taylor> none{};
+  const std::vector<NodeVariations::One> modes = moved_by_modes(motion, b);
+  const Vec3<Taylor> seen = arm - motion.arm(b);
   for (std::int32_t k = 0; k < block.count; ++k) {
     const Vec3<Taylor>& e = frame.axes[static_cast<std::size_t>(k % 3)];
     const std::int32_t row = first + k;
@@ -97,6 +109,12 @@ void add_relative_rows(const Motion& motion, const BodyBlock& block, BodyId body
     } else {
       if (!owner) rows.add_pose(row, body, none, e);
       if (b.body != ground_body) rows.add_pose(row, b.body, none, -e);
+    }
+    for (std::size_t m = 0; m < modes.size(); ++m) {
+      const Taylor along =
+          k < 3 ? dot(e, modes[m].moves) + dot(cross(seen, e), modes[m].turns) : dot(e, modes[m].turns);
+      rows.add_coordinate(row, rows.layout().body_coordinate_count + static_cast<std::int32_t>(b.shapes->first + m),
+                          -along);
     }
   }
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <ranges>
 #include <span>
 #include <vector>
 
@@ -102,6 +101,24 @@ enum class PartialBy : std::uint8_t {
 };
 inline constexpr std::size_t column_families = 8;
 
+// Places of elements from `first` on and before `last`, to be walked through: std::views::iota, which clang 14 does not
+// compile.
+struct ElementRange {
+  std::size_t first = 0, last = 0;
+
+  struct Place {
+    std::size_t k;
+    std::size_t operator*() const { return k; }
+    Place& operator++() {
+      ++k;
+      return *this;
+    }
+    bool operator==(const Place&) const = default;
+  };
+  Place begin() const { return {first}; }
+  Place end() const { return {last}; }
+};
+
 // What one share of a pass adds, in its order, until it is its turn (Equations::take).
 struct Contributions {
   struct Residual {
@@ -141,13 +158,13 @@ class Equations {
   const Contributions& contributions() const { return kept_; }
   // Of the elements of a kernel those that are evaluated now: all, if it shares its work with nobody. Their places, or
   // themselves.
-  auto share(std::size_t elements) const {
-    return std::views::iota(elements * share_.number / share_.of, elements * (share_.number + 1) / share_.of);
+  ElementRange share(std::size_t elements) const {
+    return {elements * share_.number / share_.of, elements * (share_.number + 1) / share_.of};
   }
   template <class Element>
   std::span<const Element> share(const std::vector<Element>& all) const {
-    const auto places = share(all.size());
-    return std::span(all).subspan(*places.begin(), places.size());
+    const ElementRange places = share(all.size());
+    return std::span(all).subspan(places.first, places.last - places.first);
   }
   // Where shares are evaluated, kept with their memory from pass to pass.
   std::vector<Equations>& desks(std::size_t count) {

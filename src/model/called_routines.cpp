@@ -41,6 +41,13 @@ std::string stem(std::string_view file) {
   return name;
 }
 
+bool is_rotational(const Statement& sforce) {
+  static constexpr std::array<std::string_view, 2> variants = {"ROTATIONAL", "TRANSLATIONAL"};
+  return std::any_of(sforce.arguments.begin(), sforce.arguments.end(), [](const WrittenArgument& w) {
+    return !w.has_value && find_keyword(w.name.text(), variants) == 0;
+  });
+}
+
 std::string unquoted(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\'' || text.front() == '"')) text.remove_prefix(1);
   while (!text.empty() && (text.back() == ' ' || text.back() == '\'' || text.back() == '"')) text.remove_suffix(1);
@@ -123,7 +130,8 @@ std::string_view CalledRoutines::full_name(const Statement& s, const WrittenArgu
     for (const ArgumentInfo& a : kind->arguments) names.push_back(a.name);
   }
   const auto k = find_keyword(w.name.text(), names);
-  return k ? names[*k] : std::string_view();
+  // A bare word may begin like one of the first two, as RO of a rotational SFORCE does.
+  return k && (w.has_value || *k > 1) ? names[*k] : std::string_view();
 }
 
 const WrittenArgument* CalledRoutines::argument(const Statement& s, std::string_view name) const {
@@ -222,7 +230,7 @@ std::optional<RoutineStatement> CalledRoutines::says(const Statement& s, const W
   }
   out.I = integer(s, "I"), out.J = integer(s, "J"), out.RM = integer(s, "RM"), out.JFLOAT = integer(s, "JFLOAT");
   out.action_only = argument(s, "ACTIONONLY") != nullptr;
-  out.rotation = argument(s, "ROTATION") != nullptr || argument(s, "ROTATIONAL") != nullptr;
+  out.rotation = s.name == "SFORCE" && is_rotational(s);
   out.static_hold = argument(s, "STATIC_HOLD") != nullptr;
   out.implicit = argument(s, "IMPLICIT") != nullptr;
   if (const auto* w = argument(s, "IC"); w && (s.name == "VARIABLE" || s.name == "DIFF") && !w->damaged) {

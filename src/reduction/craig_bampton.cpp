@@ -25,8 +25,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// 1/ω² below this part of the largest is rounding of a shape without mass.
-constexpr double massless = 1e-15;
+// 1/ω² below this part of the largest may be rounding: the shape counts as one without mass.
+constexpr double massless = 1e-11;
+
+// Shapes without mass count as if they vibrated so much faster than the fastest of the others, in squares: more would
+// cost digits of the lowest.
+constexpr double above_highest = 1e4;
+// Of rigid motions in units of the shapes, squared: they have no mass.
+constexpr double massless_rigid = 1e-12;
 
 // The rows and columns of these places.
 SparseMatrix part(const SparseMatrix& matrix, const std::vector<Index>& rows, const std::vector<Index>& columns) {
@@ -57,22 +63,37 @@ bool interface_holds(const MatrixXd& rigid_of_interface) {
 struct Orthogonal {
   MatrixXd coordinates;  // shapes out of columns of T
   VectorXd squares;
-  Index massless = 0;
+  MatrixXd massless;  // as well, those without mass, of stiffness 1
   double off_diagonal = 0;
 };
 
-// The modes of k, m in what is orthogonal in m to the columns of `rigid`.
-std::optional<Orthogonal> orthogonal_shapes(const MatrixXd& k, const MatrixXd& m, const MatrixXd& rigid) {
-  // Translations, rotations and modes have units of their own.
-  VectorXd unit(m.rows());
-  for (Index c = 0; c < unit.size(); ++c) unit[c] = 1 / std::sqrt(m(c, c) > 0 ? m(c, c) : k(c, c));
+// The rows that say that a vector is orthogonal to rigid motions in m; of those without mass, plainly.
+MatrixXd orthogonality(const MatrixXd& m, const MatrixXd& rigid) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> own(MatrixXd(rigid.transpose() * m * rigid));
+  const MatrixXd z = rigid * own.eigenvectors();
+  MatrixXd rows = m * z;
+  for (Index c = 0; c < rows.cols(); ++c) {
+    if (own.eigenvalues()[c] <= massless_rigid * own.eigenvalues().maxCoeff()) rows.col(c) = z.col(c);
+    rows.col(c).normalize();
+  }
+  return rows;
+}
+
+// The modes of k, m in what is orthogonal in m to the columns of `rigid`. `slowest`: 1/ω² of the slowest mode of the
+// body where it is held, beside which rounding shows itself where no shape has a mass.
+std::optional<Orthogonal> orthogonal_shapes(const MatrixXd& k, const MatrixXd& m, const MatrixXd& rigid,
+                                            double slowest) {
+  // Translations, rotations and modes have units of their own: those of stiffness, and of mass where they only move the
+  // whole.
+  const double square = slowest > 0 ? 1 / slowest : m.trace() > 0 ? k.trace() / m.trace() : 0.0;
+  const VectorXd unit = (k.diagonal() + square * m.diagonal()).cwiseSqrt().cwiseInverse();
   const auto D = unit.asDiagonal();
   const MatrixXd ms = D * m * D, ks = D * k * D;
   MatrixXd basis = MatrixXd::Identity(m.rows(), m.rows());
   if (rigid.cols() > 0) {
     MatrixXd z = unit.cwiseInverse().asDiagonal() * rigid;
     z.colwise().normalize();
-    const Eigen::HouseholderQR<MatrixXd> qr(ms * z);
+    const Eigen::HouseholderQR<MatrixXd> qr(orthogonality(ms, z));
     basis = columns_of_q(qr, m.rows()).rightCols(m.rows() - rigid.cols());
   }
   const MatrixXd kq = basis.transpose() * ks * basis, mq = basis.transpose() * ms * basis;
@@ -84,9 +105,11 @@ std::optional<Orthogonal> orthogonal_shapes(const MatrixXd& k, const MatrixXd& m
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(0.5 * (inverse + inverse.transpose())));
   const VectorXd values = eigen.eigenvalues().reverse();
   Index count = 0;
-  while (count < values.size() && values[count] > massless * values[0]) ++count;
-  if (count == 0 || values[values.size() - 1] < -1e-8 * values[0]) return std::nullopt;
-  MatrixXd v = basis * root.matrixU().solve(eigen.eigenvectors().rowwise().reverse().leftCols(count));
+  slowest = std::max(slowest, values[0]);
+  while (count < values.size() && values[count] > massless * slowest) ++count;
+  if (!(slowest > 0) || values[values.size() - 1] < -1e-8 * slowest) return std::nullopt;
+  const MatrixXd of_stiffness_1 = basis * root.matrixU().solve(eigen.eigenvectors().rowwise().reverse());
+  MatrixXd v = of_stiffness_1.leftCols(count);
   // Rounding of the high shapes is taken out by the low ones: Cholesky in ascending order.
   for (int pass = 0; pass < 2; ++pass) {
     const VectorXd size = (v.transpose() * ms * v).diagonal().cwiseSqrt();
@@ -99,7 +122,10 @@ std::optional<Orthogonal> orthogonal_shapes(const MatrixXd& k, const MatrixXd& m
   Orthogonal result;
   const MatrixXd k_of_v = v.transpose() * ks * v, m_of_v = v.transpose() * ms * v;
   result.squares = k_of_v.diagonal();
-  result.massless = values.size() - count;
+  MatrixXd s = of_stiffness_1.rightCols(values.size() - count);
+  s -= v * (result.squares.cwiseInverse().asDiagonal() * (v.transpose() * ks * s)).eval();
+  s = s * (s.transpose() * ks * s).diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
+  result.massless = D * s;
   for (Index c = 0; c < count; ++c) {
     for (Index r = 0; r < count; ++r) {
       if (r == c) continue;
@@ -158,7 +184,9 @@ class Reducer {
       reduction_.shapes.resize(shapes.rows(), 0), reduction_.squares.resize(0);
       return std::move(reduction_);
     }
-    auto orthogonal = orthogonal_shapes(0.5 * (k + k.transpose()), 0.5 * (m + m.transpose()), rigid_coordinates);
+    const VectorXd& held = reduction_.fixed_interface;
+    auto orthogonal = orthogonal_shapes(0.5 * (k + k.transpose()), 0.5 * (m + m.transpose()), rigid_coordinates,
+                                        held.size() > 0 ? 1 / held.minCoeff() : 0.0);
     if (!orthogonal) {
       diagnostics_.error(
           "fe-matrix-not-positive", Span{}, "stiffness or mass is not positive in the shapes of the reduction",
@@ -171,7 +199,7 @@ class Reducer {
     }
     reduction_.shapes = shapes * orthogonal->coordinates;
     reduction_.squares = std::move(orthogonal->squares);
-    reduction_.massless = orthogonal->massless;
+    add_massless(shapes * orthogonal->massless);
     reduction_.off_diagonal = orthogonal->off_diagonal;
     settle_signs(reduction_.shapes);
     return std::move(reduction_);
@@ -191,6 +219,20 @@ class Reducer {
       return false;
     };
     return refuse(model_.stiffness, "stiffness") && refuse(model_.mass, "mass");
+  }
+
+  // The file has a mass of 1 for each shape. What these yield belongs to the interface: they are kept, and too fast for
+  // that mass to matter. With the motions of the body they have no mass in common.
+  void add_massless(const MatrixXd& unit_stiffness) {
+    const Index first = reduction_.squares.size(), count = unit_stiffness.cols();
+    reduction_.massless = count;
+    if (count == 0) return;
+    const double square =
+        above_highest * (first > 0 ? reduction_.squares[first - 1] : reduction_.fixed_interface.maxCoeff());
+    reduction_.shapes.conservativeResize(Eigen::NoChange, first + count);
+    reduction_.shapes.rightCols(count) = std::sqrt(square) * unit_stiffness;
+    reduction_.squares.conservativeResize(first + count);
+    reduction_.squares.tail(count).setConstant(square);
   }
 
   // Fills the constraint modes inside the body and appends the fixed-interface modes.

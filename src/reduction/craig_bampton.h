@@ -27,14 +27,16 @@ struct ReductionRequest {
 };
 
 struct Reduction {
-  Eigen::MatrixXd shapes;           // n x N, in the order of frequency; M is E in them
+  Eigen::MatrixXd shapes;           // n x N, in the order of frequency; M is E in those with mass
   Eigen::VectorXd squares;          // N: ω², the diagonal of K in them [rad²/time²]
   Eigen::VectorXd fixed_interface;  // ω² of the fixed-interface modes that were taken
   Eigen::Index constraint_modes = 0;
   Eigen::Index rigid_removed = 0;  // motions of the whole: 6 of a body that nothing holds
-  Eigen::Index massless = 0;       // shapes without mass that were left out
-  double strain_of_rigid = 0;      // FreeMotions::strain
-  double off_diagonal = 0;         // how far shapes miss orthogonality, in M and, of each pair's frequencies, in K
+  // Of the shapes the last ones: they have no mass, as the rotations of lumped masses, and count as if they vibrated
+  // at 100 times the highest frequency of the others.
+  Eigen::Index massless = 0;
+  double strain_of_rigid = 0;  // FreeMotions::strain
+  double off_diagonal = 0;     // how far shapes miss orthogonality, in M and, of each pair's frequencies, in K
   MassProperties properties;
 };
 

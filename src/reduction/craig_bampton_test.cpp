@@ -73,6 +73,57 @@ TEST(CraigBampton, with_all_modes_nothing_is_lost) {
   for (Index k = 0; k < r.squares.size(); ++k) EXPECT_NEAR(r.squares[k] / all[6 + k], 1, 1e-9) << k;
 }
 
+// Lumped masses without rotary inertia: rotations of the interface yield all the same.
+TEST(CraigBampton, interface_freedoms_without_mass_keep_their_compliance) {
+  for (const bool also_translations : {false, true}) {
+    FiniteElementModel beam = test::beam(4, 0.8);
+    std::vector<Eigen::Triplet<double, std::int32_t>> lumps;
+    std::vector<Index> heavy, light;
+    for (std::size_t k = 0; k < beam.freedoms.size(); ++k) {
+      const Freedom& f = beam.freedoms[k];
+      const auto row = static_cast<Index>(k);
+      const bool has_mass = f.direction <= 3 && !(also_translations && f.node == 5);
+      (has_mass ? heavy : light).push_back(row);
+      if (has_mass) lumps.emplace_back(static_cast<std::int32_t>(row), static_cast<std::int32_t>(row), 0.3);
+    }
+    beam.mass.setZero();
+    beam.mass.setFromTriplets(lumps.begin(), lumps.end());
+    Diagnostics diagnostics;
+    const auto r = reduce_model(beam, {.interface = {1, 5}, .modes = 1000}, diagnostics);
+    ASSERT_TRUE(r) << r.error() << render(diagnostics);
+    EXPECT_TRUE(diagnostics.items().empty()) << render(diagnostics);
+    // Without what has no mass.
+    const MatrixXd K(beam.stiffness);
+    const MatrixXd condensed =
+        K(heavy, heavy) - K(heavy, light) * K(light, light).fullPivLu().solve(MatrixXd(K(light, heavy)));
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> exact(MatrixXd(0.5 * (condensed + condensed.transpose()) / 0.3));
+    // To turn about its axis the beam needs no force.
+    const Index modes = static_cast<Index>(heavy.size()) - 5;
+    ASSERT_EQ(r->squares.size() - r->massless, modes);
+    ASSERT_EQ(r->massless, also_translations ? 8 : 5);
+    for (Index k = 0; k < modes; ++k) EXPECT_NEAR(r->squares[k] / exact.eigenvalues()[5 + k], 1, 1e-9) << k;
+    // Held at one end, the other yields as the stiffness says: what all shapes have there.
+    std::vector<Index> free, held;
+    for (std::size_t k = 0; k < beam.freedoms.size(); ++k)
+      (beam.freedoms[k].node == 1 ? held : free).push_back(static_cast<Index>(k));
+    const MatrixXd compliance = MatrixXd(K(free, free)).inverse();
+    const MatrixXd S =
+        r->shapes(free, Eigen::all) -
+        rigid_motions(beam)(free, Eigen::all) *
+            MatrixXd(rigid_motions(beam)(held, Eigen::all)).fullPivLu().solve(MatrixXd(r->shapes(held, Eigen::all)));
+    const MatrixXd of_shapes = S * r->squares.cwiseInverse().asDiagonal() * S.transpose();
+    for (Index k = 0; k < compliance.rows(); ++k) {
+      if (beam.freedoms[static_cast<std::size_t>(free[static_cast<std::size_t>(k)])].node != 5) continue;
+      EXPECT_NEAR(of_shapes(k, k) / compliance(k, k), 1, 1e-8) << k;
+    }
+    const MatrixXd m = r->shapes.transpose() * beam.mass * r->shapes;
+    MatrixXd expected = MatrixXd::Zero(m.rows(), m.cols());
+    expected.diagonal().head(modes).setOnes();
+    EXPECT_LT((m - expected).cwiseAbs().maxCoeff(), 1e-8);
+    EXPECT_LT((rigid_motions(beam).transpose() * beam.mass * r->shapes).cwiseAbs().maxCoeff(), 1e-8);
+  }
+}
+
 TEST(CraigBampton, shapes_are_orthogonal_and_contain_no_rigid_motion) {
   const FiniteElementModel block = test::bricks({});
   const Reduction r = reduced(block, {.interface = {1, 9, 27, 81}, .modes = 10, .rotations_required = false});

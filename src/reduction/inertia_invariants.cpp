@@ -53,13 +53,14 @@ BodyFile body_of(const FiniteElementModel& model, const Reduction& reduction, co
   body.centre = reduction.properties.centre;
   body.inertia = reduction.properties.inertia;
   const MatrixXd rigid = rigid_motions(model);
-  const MatrixXd momenta = rigid.transpose() * (model.mass * U);
+  MatrixXd momentum = model.mass * U;
+  momentum.rightCols(reduction.massless).setZero();  // but for the rounding of shapes that are large
+  const MatrixXd momenta = rigid.transpose() * momentum;
   body.i3 = momenta.topRows(3), body.i4 = momenta.bottomRows(3);
   if (order == InertiaOrder::undeformed) return body;
   std::array<MatrixXd, 3> turned;
   for (int k = 0; k < 3; ++k) turned[static_cast<std::size_t>(k)] = crossed(row_of, k, U);
   body.i5.resize(3, N * N), body.i8.resize(3, 3 * N), body.i9.resize(3 * N, 3 * N);
-  const MatrixXd momentum = model.mass * U;
   for (Index l = 0; l < 3; ++l) {
     const MatrixXd& of_l = turned[static_cast<std::size_t>(l)];
     const MatrixXd pairs = momentum.transpose() * of_l;  // row k, column j: (G_l φ_j)ᵀ M φ_k

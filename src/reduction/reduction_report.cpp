@@ -27,9 +27,14 @@ void print_report(std::ostream& out, const FiniteElementModel& model, const Redu
   const MassProperties& p = r.properties;
   fmt::print(out, "{} freedoms, {} interface nodes with {} of them\n", model.freedoms.size(), request.interface.size(),
              r.constraint_modes);
-  fmt::print(out, "{} constraint modes + {} fixed-interface modes - {} rigid motions{} = {} modes\n",
-             r.constraint_modes, r.fixed_interface.size(), r.rigid_removed,
-             r.massless > 0 ? fmt::format(" - {} without mass", r.massless) : "", r.shapes.cols());
+  fmt::print(out, "{} constraint modes + {} fixed-interface modes - {} rigid motions = {} modes\n", r.constraint_modes,
+             r.fixed_interface.size(), r.rigid_removed, r.shapes.cols());
+  if (r.massless > 0)
+    fmt::print(
+        out,
+        "{} of them without mass, the last ones: they yield at the interface, as if they vibrated at 100 times "
+        "the highest frequency of the others\n",
+        r.massless);
   if (r.rigid_removed < 6)
     fmt::print(
         out,
@@ -45,7 +50,9 @@ void print_report(std::ostream& out, const FiniteElementModel& model, const Redu
   fmt::print(out, "inertia about it, xx yy zz xy xz yz: {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n", J(0, 0), J(1, 1),
              J(2, 2), J(0, 1), J(0, 2), J(1, 2));
   if (r.fixed_interface.size() > 0) print_frequencies(out, "frequencies with the interface held", r.fixed_interface);
-  print_frequencies(out, r.rigid_removed == 6 ? "frequencies of the free body" : "frequencies of the body", r.squares);
+  if (r.squares.size() == r.massless) return;
+  print_frequencies(out, r.rigid_removed == 6 ? "frequencies of the free body" : "frequencies of the body",
+                    r.squares.head(r.squares.size() - r.massless));
 }
 
 }  // namespace dynalin::reduction

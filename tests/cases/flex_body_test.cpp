@@ -363,5 +363,54 @@ TEST_F(FlexBody, nothing_accelerates_the_mass_centre_of_a_free_body) {
   EXPECT_THAT(r.err, HasSubstr("acceleration of its mass centre"));
 }
 
+// Coordinates relative to a marker on the flexible body: what the same expressions have, as outputs and as states.
+TEST_F(FlexBody, coordinates_relative_to_a_node_go_with_its_modes) {
+  const Vibration held = vibration(beam, 6);
+  const ReducedBody body = reduced(beam, held.shapes.leftCols(4));
+  write("beam.fem", modal_text(body.nodes, body.stiffness));
+  std::string measures, list;
+  int id = 0;
+  for (const int of : {31, 1}) {
+    for (const std::string name : {"DX", "DY", "DZ"})
+      measures += fmt::format("VARIABLE/{}, FUNCTION={}({},22,22)\n", ++id, name, of);
+  }
+  for (int v = 1; v <= id; ++v) list += fmt::format("{}{}", v > 1 ? "," : "", v);
+  const auto model = [&](const std::string& motion) {
+    return "Beam\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/3, MASS=3, CM=31, IP=4,5,6, QG=2,0.3,0.1" + motion +
+           "\nMARKER/31\nFLEX_BODY/2, MNF_FILE=beam.fem, CRATIO=0" +
+           (motion.empty() ? "" : ", VMODE=0.8,-0.4,0.5,0.2, WZ=0.7") +
+           "\nMARKER/21, FLEX_BODY=2, NODE_ID=1\nMARKER/22, FLEX_BODY=2, NODE_ID=4\n"
+           "BUSHING/1, I=22, J=31, K=1E5,1E5,2E5, KT=500,600,700\nBUSHING/2, I=21, J=1, K=1E5,2E5,1E5, "
+           "KT=500,600,700\n" +
+           measures + "POUTPUT/1, VARIABLES=" + list + "\nPSTATE/1, VARIABLES=" + list + "\nEND\n";
+  };
+  const RunResult r = run(model(""), "LINEAR/STATEMAT, FILE=x, RM=22, POUTPUT=1\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto C = r.matrix(0, "C");
+  ASSERT_EQ(C.size(), static_cast<std::size_t>(id));
+  for (std::size_t row = 0; row < C.size(); ++row) {
+    for (std::size_t k = 0; k < C[row].size(); ++k) {
+      if (std::abs(C[row][k]) < 1e-12) continue;
+      EXPECT_NEAR(C[row][k], 1, 1e-12);
+      const std::string label = r.result(0).at("states").at(k).at("label");
+      EXPECT_THAT(label, HasSubstr(row < 3 ? "(BCS,22,22) PART/3" : "(GROUND,22,22) FLEX_BODY/2"));
+      EXPECT_THAT(label, HasSubstr(row % 3 == 0 ? "DX" : row % 3 == 1 ? "DY" : "DZ"));
+    }
+  }
+  // In motion eigenvalues depend on the coordinates.
+  const RunResult moving =
+      run(model(", WZ=5, VX=2"), "LINEAR/EIGENSOL, RM=22\nLINEAR/EIGENSOL, RM=22, PSTATE=1\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(moving.status, 0) << moving.err;
+  const auto relative = moving.eigenvalues(0), own = moving.eigenvalues(1), global = moving.eigenvalues(2);
+  ASSERT_EQ(relative.size(), own.size());
+  double largest = 0, apart = 0;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    largest = std::max(largest, std::abs(own[k]));
+    apart = std::max(apart, std::abs(global[k] - own[k]));
+  }
+  for (std::size_t k = 0; k < own.size(); ++k) EXPECT_NEAR(std::abs(relative[k] - own[k]), 0, 1e-7 * largest) << k;
+  EXPECT_GT(apart, 1e-4 * largest);
+}
+
 }  // namespace
 }  // namespace dynalin::cases::flex_body_test

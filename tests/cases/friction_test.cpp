@@ -38,6 +38,50 @@ TEST_F(FrictionCases, what_does_not_stick_is_not_named) {
   EXPECT_FALSE(warned("FRICTION/4, JOINT=1\n", "DEACTIVATE/FRICTION, ID=4\n"));
 }
 
+// How redundant joints share a load nothing says; what bears none, or all of it, is another matter.
+TEST_F(FrictionCases, by_reactions_that_nothing_determines_is_warned_of) {
+  const auto warnings = [&](const std::string& joints, const std::string& gravity, const std::string& velocity = "VZ") {
+    const RunResult r =
+        run("guides\nUNITS/SYSTEM=MKS\nACCGRAV/" + gravity +
+                "\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=0,0,1\nMARKER/3, QP=2,0,0\n"
+                "PART/2, MASS=2, CM=20, IP=1,2,3, " +
+                velocity +
+                "=0.4\nMARKER/20, QP=0.3,0.1,0\nMARKER/21\n"
+                "MARKER/22, QP=0,0,1\nMARKER/23, QP=0,1,0\nPART/3, MASS=1, CM=30, IP=1,1,1, QG=0,1,0\nMARKER/30\n"
+                "MARKER/31\nMARKER/32, QP=2,0,0\nPART/4, MASS=1, CM=40, IP=1,1,1, QG=2,0,0\n"
+                "MARKER/40, QP=0,0.5,0\nMARKER/41\nMARKER/42, QP=0,1,0\n" +
+                joints + "END\n",
+            "LINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+    std::string found;
+    for (std::size_t at = 0;
+         (at = r.err.find("follows from reactions that nothing determines: how ", at)) != r.err.npos;) {
+      const auto name = r.err.rfind("warning: ", at) + 9, joined = r.err.find("how ", at) + 4;
+      found += r.err.substr(name, at - name) + "by " + r.err.substr(joined, r.err.find(" share", at) - joined) + "; ";
+      at = joined;
+    }
+    return found;
+  };
+  // Parts 3 and 4 stay where they are.
+  const std::string rest = "JOINT/8, FIXED, I=31, J=3\nJOINT/9, FIXED, I=41, J=1\n";
+  const std::string guides = rest + "JOINT/1, TRANSLATIONAL, I=21, J=1\nJOINT/2, TRANSLATIONAL, I=22, J=2\n";
+  const std::string friction = "FRICTION/4, JOINT=1\n";
+  EXPECT_EQ(warnings(guides + friction, "JGRAV=-9"), "FRICTION/4 by JOINT/1, JOINT/2; ");
+  EXPECT_EQ(warnings(guides + "FRICTION/4, JOINT=2\n", "JGRAV=-9"), "FRICTION/4 by JOINT/1, JOINT/2; ");
+  EXPECT_EQ(warnings(guides + "VARIABLE/3, FUNCTION=2*JOINT(1,0,3,0)\n", "JGRAV=-9"),
+            "VARIABLE/3 by JOINT/1, JOINT/2; ");
+  // Along the guides nothing is borne, and friction by preload asks for nothing.
+  EXPECT_EQ(warnings(guides + "FRICTION/4, JOINT=1, INPUTS=PRELOAD, FRICTION_FORCE_PRELOAD=3\n", "JGRAV=-9"), "");
+  EXPECT_EQ(warnings(rest + "JOINT/1, TRANSLATIONAL, I=21, J=1\n" + friction, "JGRAV=-9"), "");
+  // In a four-bar of hinges what is redundant lies across its plane, where nothing is borne but what comes from there.
+  const std::string four_bar =
+      "JOINT/1, REVOLUTE, I=21, J=1\nJOINT/2, REVOLUTE, I=23, J=31\nJOINT/3, REVOLUTE, I=32, J=42\n"
+      "JOINT/4, REVOLUTE, I=41, J=3\n" +
+      friction;
+  EXPECT_EQ(warnings(four_bar, "JGRAV=-9", "WZ"), "");
+  EXPECT_EQ(warnings(four_bar, "JGRAV=-9, KGRAV=-2", "WZ"), "FRICTION/4 by JOINT/1, JOINT/2, JOINT/3, JOINT/4; ");
+}
+
 // With bristles straight at the start, statics finds the equilibrium without friction; run down a slope, the block
 // stays where its bristles hold it, but for what goes without friction in statics.
 TEST_F(FrictionCases, statics_goes_by_the_creep_that_is_there) {

@@ -58,6 +58,12 @@ void spring_by_arrays(const int* id, const double* time, const double* par, cons
   c_syspar("DX", at, 2, &by_x, 1, &error);
 }
 
+/* 1 where the statement says what it is, a translation or with par[0] a rotation. */
+void Typec(const struct sAdamsSforce* s, double time, int dflag, int iflag, double* value) {
+  (void)time, (void)dflag, (void)iflag;
+  *value = strcmp(s->Type, s->PAR[0] > 0 ? "ROTATION" : "TRANSLATION") == 0;
+}
+
 /* par[0] VARVAL(par[1])^2 + par[2] TIME */
 void varsub(const int* id, const double* time, const double* par, const int* npar, const int* dflag, const int* iflag,
             double* value) {

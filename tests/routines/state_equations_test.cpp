@@ -83,11 +83,6 @@ class StateEquations : public WithLibraries {
     for (const std::string name : {"A", "B", "C", "D"}) compare(1, name);
     for (const std::string name : {"M", "KB", "P", "C", "D"}) compare(2, name);
   }
-  static std::vector<double> requested(const RunResult& r, std::size_t result) {
-    EXPECT_EQ(r.status, 0) << r.err;
-    if (r.json.is_null()) return {};
-    return r.result(result).at("operating_point").at("requests").at(0).at("values").get<std::vector<double>>();
-  }
   static void expect_same_course(const RunResult& a, const RunResult& b, double tolerance, std::size_t result = 2) {
     const auto x = requested(a, result), y = requested(b, result);
     ASSERT_EQ(x.size(), y.size());
@@ -340,14 +335,24 @@ TEST_F(StateEquations, of_two_elements_are_sampled_at_once) {
       "SFORCE/1, TRANSLATION, ACTIONONLY, I=21, J=2, FUNCTION=-50*DX(20,1,1)\nVARIABLE/1, FUNCTION=TIME\n"
       "VARIABLE/2, FUNCTION=ARYVAL(5,1)\nARRAY/1, U, VARIABLES=1\nARRAY/2, U, VARIABLES=2\n"
       "REQUEST/1, F2=ARYVAL(5,1)\\F3=ARYVAL(6,1)\n";
-  const std::string one = "SAMPLE_PERIOD=0.1, SAMPLE_OFFSET=0.1", other = "SAMPLE_PERIOD=0.3/3, SAMPLE_OFFSET=0.1";
-  for (const auto& [first, second] : {std::pair{one, other}, std::pair{other, one}}) {
+  // Also where one of them has had samples already and the other none.
+  struct Samplers {
+    std::string first, second;
+    double of_first, of_second;
+  };
+  const std::string every = "SAMPLE_PERIOD=0.1", late = "SAMPLE_PERIOD=0.1, SAMPLE_OFFSET=0.8",
+                    binary = "SAMPLE_PERIOD=0.25", late_binary = "SAMPLE_PERIOD=0.25, SAMPLE_OFFSET=0.75",
+                    offset = "SAMPLE_PERIOD=0.1, SAMPLE_OFFSET=0.1", thirds = "SAMPLE_PERIOD=0.3/3, SAMPLE_OFFSET=0.1";
+  for (const auto& [first, second, of_first, of_second] :
+       {Samplers{offset, thirds, 0.8, 0.7}, Samplers{thirds, offset, 0.8, 0.7}, Samplers{every, late, 0.8, 0.7},
+        Samplers{late, every, 0.8, 0}, Samplers{binary, late_binary, 0.75, 0.5},
+        Samplers{late_binary, binary, 0.75, 0}}) {
     const auto found = requested(with(model + controller(1, 1, 5, first) + controller(2, 2, 6, second),
                                       {"SIMULATE/TRANSIENT, END=0.85, STEPS=10", "SIMULATE/INITIAL"}),
                                  1);
     ASSERT_EQ(found.size(), 2u);
-    EXPECT_NEAR(found[0], 0.8, 1e-11);
-    EXPECT_NEAR(found[1], 0.7, 1e-11);
+    EXPECT_NEAR(found[0], of_first, 1e-11) << first << "; " << second;
+    EXPECT_NEAR(found[1], of_second, 1e-11) << first << "; " << second;
   }
 }
 
@@ -400,6 +405,9 @@ TEST_F(StateEquations, rest_in_statics_unless_they_are_held) {
   ASSERT_EQ(after.size(), 3u);
   constexpr double by_speed = 0.4 * 0.4;  // of an output by VX, which is not there in statics
   EXPECT_NEAR(after[1], free[1] - by_speed, 1e-9);
+  const auto at_once = requested(with(only, statics), 1);
+  ASSERT_EQ(at_once.size(), 3u);
+  EXPECT_NEAR(at_once[1], free[1] - by_speed, 1e-9);
   const RunResult linear = with(only, {"SIMULATE/STATIC", "LINEAR/EIGENSOL"});
   ASSERT_EQ(linear.status, 0) << linear.err;
   const double hz = std::sqrt(50.0 / 2) / (2 * M_PI);

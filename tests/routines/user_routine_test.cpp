@@ -51,6 +51,22 @@ TEST_F(UserRoutines, give_the_eigenvalues_of_the_same_expression) {
   expect_same(with(slider + called), with(slider + at_slider), 1e-14);
 }
 
+TEST_F(UserRoutines, of_an_sforce_are_told_which_type_it_has) {
+  std::string forces, expressions;
+  int id = 0;
+  for (const std::string type : {"TRANSLATION", "TRANSLATIONAL", "TR", "ROTATION", "ROTATIONAL", "RO", "R"}) {
+    const bool turns = type.front() == 'R';
+    forces += fmt::format("SFORCE/{}, {}, ACTIONONLY, I=20, J=1, FUNCTION=USER({}), ROUTINE=routines::Typec\n", ++id,
+                          type, turns ? 1 : 0);
+    expressions += fmt::format("VARIABLE/{0}, FUNCTION=SFORCE({0},0,{1},0)\n", id, turns ? 8 : 4);
+  }
+  const auto values = requested(with(oscillator + forces + expressions + "REQUEST/1, VARIABLES=1,2,3,4,5,6,7\n",
+                                     {C_ROUTINES}, false, {"SIMULATE/INITIAL"}),
+                                0);
+  ASSERT_EQ(values.size(), 7u);
+  for (std::size_t k = 0; k < values.size(); ++k) EXPECT_NEAR(values[k], 1, 1e-14) << k;
+}
+
 // Numbers, and discrete states of a GSE, are constants between samples.
 TEST_F(UserRoutines, need_no_derivatives_by_arrays_that_are_constant) {
   const RunResult r = with(slider + along +

@@ -29,6 +29,12 @@ class WithLibraries : public Cases {
     if (std::filesystem::exists(options.json)) r.json = nlohmann::json::parse(read_file(options.json));
     return r;
   }
+  // Of the first REQUEST.
+  static std::vector<double> requested(const RunResult& r, std::size_t result) {
+    EXPECT_EQ(r.status, 0) << r.err;
+    if (r.json.is_null()) return {};
+    return r.result(result).at("operating_point").at("requests").at(0).at("values").get<std::vector<double>>();
+  }
   // Relative to the largest.
   static void expect_same(const RunResult& a, const RunResult& b, double tolerance, std::size_t result = 0) {
     ASSERT_EQ(a.status, 0) << a.err;

@@ -30,7 +30,8 @@ class Sampling {
   double value(const Motion&, std::size_t n) const;
   // Positive behind the next instant of sampling.
   double crossing(const Motion&) const;
-  bool is_due(const Motion& motion) const { return crossing(motion) >= 0; }
+  // At that instant, or about to be: instants are equal where they differ by no more than samples are late.
+  bool is_due(const Motion& motion) const { return crossing(motion) >= -2 * slack(motion); }
   // Whether anything has changed.
   bool sample(const Motion&, Memory&) const;
   void remember(const Motion&, Memory&) const;
