@@ -140,6 +140,11 @@ UndefinedOperation ExpressionProgram::explain_value(std::size_t i, const std::ve
   if (!value_is_finite && node.kind == Kind::routine)
     return {name, places[i], routines[static_cast<std::size_t>(node.a)].routine->reason_of_value(arguments)};
   if (!value_is_finite) return {name, places[i], reason_of_value(node, arguments)};
+  if (node.kind == Kind::routine) {
+    const Routine& routine = *routines[static_cast<std::size_t>(node.a)].routine;
+    return {name, places[i],
+            routine.name() + " gives no derivative in time of its value: an entry ..._derivatives would"};
+  }
   return {name, places[i], fmt::format("a time derivative of {} is infinite at {}", name, in_words(arguments))};
 }
 

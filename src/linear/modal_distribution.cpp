@@ -422,7 +422,10 @@ std::vector<ModalRow<double>> ModalDistribution::force_rows(std::size_t mode, Pa
   double distance = 1;  // of the bodies from the origin, in lengths of the model
   for (const BodyMotion& b : motion_.bodies) distance = std::max(distance, norm(b.r) / system_.length());
   const double least = strain ? 64 * std::numeric_limits<double>::epsilon() * distance : rounding * rounding;
-  const bool nothing = parts <= least * without_cancellation || std::abs(total) <= rounding * parts;
+  // Nor of velocities, which are eigenvalues times displacements, where the eigenvalue is zero as far as it is known.
+  const EigenMode& of = solution_.modes[mode];
+  const bool at_rest = !strain && std::abs(of.eigenvalue_hz) <= of.error_bound_hz;
+  const bool nothing = at_rest || parts <= least * without_cancellation || std::abs(total) <= rounding * parts;
   for (auto& row : rows) {
     for (double& x : row.values) x = nothing ? x * 0 : 100 * x / total;
   }

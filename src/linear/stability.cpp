@@ -117,6 +117,9 @@ bool is_free_here_alone(const System& system, const OperatingPoint& at_rest, con
   auto moved = assemble_position(system, std::move(there), ignored);
   if (moved) moved = solve_acceleration(system, std::move(*moved), ignored);
   if (!moved) return true;
+  // Nothing does anything about it there, but for the rounding that accelerations have lost already.
+  if (std::all_of(moved->acceleration.begin(), moved->acceleration.end(), [](double a) { return a == 0; }))
+    return false;
   std::string unused;
   const auto beside = linear_at(system, *moved, unused);
   return !beside || zeros_of(*beside).count < zeros;

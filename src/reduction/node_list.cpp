@@ -122,6 +122,12 @@ std::optional<NodeList> read_grids(const SourceText& file, Diagnostics& diagnost
     if (d.severity == Severity::error) diagnostics.error(d.code, here(d.at), d.message, d.hint);
   }
   if (diagnostics.has_errors()) return std::nullopt;
+  if (const auto defaults = deck.unknown.find("GRDSET"); defaults != deck.unknown.end()) {
+    diagnostics.error("fe-node", here(defaults->second.first),
+                      "GRDSET, which may give GRIDs another system than the basic one, is not read",
+                      "write its fields into the GRIDs, or give the places of the nodes as lines of node, x, y, z");
+    return std::nullopt;
+  }
   NodeList list;
   for (const nastran_reader::Grid& grid : deck.grids) {
     if (grid.position_system.id != 0 || grid.system.id != 0) {

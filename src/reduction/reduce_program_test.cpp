@@ -298,6 +298,23 @@ TEST_F(Reduce, asks_about_places_that_do_not_fit_the_matrices) {
   EXPECT_THAT(err_.str(), HasSubstr("strain nothing: are the places of the nodes in the lengths of the matrices"));
 }
 
+TEST_F(Reduce, takes_grids_in_the_basic_system_alone) {
+  const FiniteElementModel beam = test::beam(4, 0.8);
+  std::string grids;
+  for (const auto& [label, place] : beam.nodes)
+    grids += fmt::format("GRID,{},,{:.6f},{:.6f},{:.6f}\n", label, place[0], place[1], place[2]);
+  ReduceOptions options = calculix(beam);
+  options.nodes = path("mesh.bdf");
+  file("mesh.bdf", "BEGIN BULK\n" + grids + "ENDDATA\n");
+  EXPECT_EQ(run(options), 0) << err_.str();
+  file("mesh.bdf", "BEGIN BULK\nGRDSET,,5\n" + grids + "ENDDATA\n");
+  EXPECT_EQ(run(options), 1);
+  EXPECT_THAT(err_.str(), HasSubstr("mesh.bdf:2:1: error: GRDSET, which may give GRIDs another system"));
+  file("mesh.bdf", "BEGIN BULK\n" + grids + "GRID,9,5,0.,0.,0.\nCORD2R,5,,0.,0.,0.,0.,0.,1.\n,1.,0.,1.\nENDDATA\n");
+  EXPECT_EQ(run(options), 1);
+  EXPECT_THAT(err_.str(), HasSubstr("GRID 9 is stated in another system than the basic one"));
+}
+
 TEST_F(Reduce, says_where_the_input_is_wrong) {
   const FiniteElementModel beam = test::beam(4, 0.8);
   const auto refused = [&](const ReduceOptions& options) {

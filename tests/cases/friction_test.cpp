@@ -25,6 +25,21 @@ TEST_F(FrictionCases, a_joint_in_stiction_is_named_with_its_mode) {
   EXPECT_THAT(r.err, HasSubstr("[joint-in-stiction]"));
 }
 
+// Of creep alone, whose eigenvalue is zero: its velocities are rounding, and nothing is shared out of them.
+TEST_F(FrictionCases, a_mode_of_creep_has_no_table_of_dissipated_power) {
+  const std::string second =
+      "PART/3, MASS=1.5, CM=3, IP=1,1,1, QG=0.5,0,0\nMARKER/3\nMARKER/33, REULER=90D,90D,0\nMARKER/12, PART=1, "
+      "QP=-1,0,0\nJOINT/2, TRANSLATIONAL, I=33, J=11\nSPRINGDAMPER/1, TRANSLATIONAL, I=3, J=2, K=100, C=2, "
+      "LENGTH=0.4\nSPRINGDAMPER/3, TRANSLATIONAL, I=3, J=12, K=20, C=1, LENGTH=1.5\n";
+  const RunResult r =
+      run(block("FRICTION/4, JOINT=1\n", second), "SIMULATE/STATICS\nLINEAR/EIGENSOL, DISSIPAT=1,3, STRAIN=1\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  ASSERT_LT(std::abs(r.eigenvalues(1)[0]), 1e-12);
+  const std::string text = r.text("model.txt"), note = "No force element dissipates power in this mode.";
+  EXPECT_NE(text.find(note), std::string::npos) << text;
+  EXPECT_EQ(text.find(note), text.rfind(note)) << text;
+}
+
 TEST_F(FrictionCases, what_does_not_stick_is_not_named) {
   const auto warned = [&](const std::string& friction, const std::string& commands = "") {
     const RunResult r = run(block(friction), commands + "LINEAR/EIGENSOL\n");

@@ -236,6 +236,18 @@ TEST_F(StaticTruth, stability_is_not_known_where_force_begins_with_a_higher_orde
     EXPECT_THAT(r.out, HasSubstr("stability not known: to first order nothing holds DZ of PART/2 here"));
     EXPECT_THAT(r.out, Not(HasSubstr("nothing grows")));
   }
+  // A box on a plane turns about the vertical as it likes, whichever way it stands: friction only slows it down.
+  for (const char* angle : {"0", "1D", "3D", "20D", "45D", "90D"}) {
+    const RunResult box =
+        rest(std::string("PART/2, MASS=2, CM=20, IP=0.02,0.03,0.04, QG=0.1,0,0.049, REULER=") + angle +
+                 ",0,0\nMARKER/20\nMARKER/21, QP=-0.1,-0.15,-0.05\nGRAPHICS/1, PLANE, RM=1, XMIN=-3, XMAX=3, YMIN=-3, "
+                 "YMAX=3\nGRAPHICS/2, BOX, CORNER=21, X=0.2, Y=0.3, Z=0.1\nCONTACT/1, IGEOM=2, JGEOM=1, IMPACT, "
+                 "STIFFNESS=2E4, EXPONENT=1.5, DAMPING=40, DMAX=0.001, COULOMB_FRICTION=ON, MU_STATIC=0.5, "
+                 "MU_DYNAMIC=0.3, STICTION_TRANSITION_VELOCITY=0.1, FRICTION_TRANSITION_VELOCITY=0.5\n",
+             "KGRAV=-10");
+    ASSERT_EQ(box.status, 0) << box.err;
+    EXPECT_THAT(box.out, HasSubstr("nothing grows")) << angle;
+  }
   // What is free stays free.
   const RunResult free = rest(slide("0", .3));
   ASSERT_EQ(free.status, 0) << free.err;

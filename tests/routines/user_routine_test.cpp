@@ -328,6 +328,16 @@ TEST_F(UserRoutines, read_markers_that_exist) {
   EXPECT_THAT(r.err, AllOf(HasSubstr("[unknown-marker]"), HasSubstr("SFORCE/1 refers to MARKER/99")));
 }
 
+// DIF1 of an algebraic DIFF is the rate of what the routine gives.
+TEST_F(UserRoutines, without_derivatives_in_time_are_named_where_a_rate_is_needed) {
+  const RunResult r = with(slider + along + "FUNCTION=DIF1(7)\nDIFF/7, IMPLICIT, FUNCTION=DIF(7)-VARVAL(2)\n" +
+                               "VARIABLE/2, FUNCTION=USER(2,1,3)\nVARIABLE/1, FUNCTION=DX(20,1)\n",
+                           {C_ROUTINES});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, HasSubstr("the routine varsub of"));
+  EXPECT_THAT(r.err, HasSubstr("gives no derivative in time of its value"));
+}
+
 TEST_F(UserRoutines, run_only_from_libraries_that_the_user_names) {
   const std::string file = C_ROUTINES;
   const RunResult r =
