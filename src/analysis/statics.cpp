@@ -242,9 +242,12 @@ Result<OperatingPoint> static_operating_point(const System& system, OperatingPoi
     // What statics alone evaluate keeps its value at rest where velocities come back.
     system.remember(*op);
     report.at_rest = *op;
-    op->mode = AnalysisMode::initial_conditions;
   }
   if (op && op->time == 0 && options.restore_velocities) op = initial_velocity(system, std::move(*op), findings);
+  const auto moves = [](const std::vector<double>& v) {
+    return std::ranges::any_of(v, [](double x) { return x != 0; });
+  };
+  if (op && moves(op->velocity)) op->mode = AnalysisMode::initial_conditions;
   if (op) op = reconcile_velocity(system, std::move(*op), findings);
   if (op) op = solve_acceleration(system, std::move(*op), findings);
   return op;

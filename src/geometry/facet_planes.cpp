@@ -54,7 +54,7 @@ std::vector<FacetPlane> facet_planes(std::span<const Vector> vertices, double si
     plane.normal = without_roundings(sum / norm(sum));
     plane.height = dot(plane.normal, origin + middle / area);
     std::ranges::sort(plane.vertices);
-    plane.vertices.erase(std::ranges::unique(plane.vertices).begin(), plane.vertices.end());
+    plane.vertices.erase(std::unique(plane.vertices.begin(), plane.vertices.end()), plane.vertices.end());
     const bool flat = std::ranges::all_of(plane.vertices, [&](Mesh::Index v) {
       return std::abs(dot(plane.normal, vertices[v]) - plane.height) <= farthest * size;
     });

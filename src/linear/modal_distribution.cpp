@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/cycle.h"
 #include "linear/original_states.h"
 #include "linear/wrench_work.h"
 #include "mechanics/pair_blocks.h"
@@ -377,6 +378,21 @@ std::vector<std::size_t> ModalDistribution::sets_with_rows() const {
   return list;
 }
 
+// Whether velocities are rounding: where the eigenvalue may be zero, no more than its bound, or next to nothing of the
+// fastest mode, makes of displacements, and in other proportions than these. Where the model moves they are more.
+bool ModalDistribution::rests(std::size_t mode, const Eigen::VectorXcd& z, const Eigen::VectorXcd& velocities) const {
+  constexpr double margin = 10, next_to_nothing = 1e-14, proportional = 1e-3;
+  const EigenMode& of = solution_.modes[mode];
+  if (of.structural_zero || !(std::abs(of.eigenvalue_hz) <= of.error_bound_hz)) return false;
+  const Eigen::VectorXcd u = displacements(z);
+  const auto largest = [](const Eigen::VectorXcd& x) { return x.cwiseAbs().maxCoeff(); };
+  double fastest = 0;
+  for (const EigenMode& m : solution_.modes) fastest = std::max(fastest, std::abs(m.eigenvalue_hz));
+  const double rate = cycle * std::max(margin * of.error_bound_hz, next_to_nothing * fastest);
+  return largest(velocities) <= rate * largest(u) &&
+         largest(velocities - cycle * of.eigenvalue_hz * u) > proportional * largest(velocities);
+}
+
 std::vector<ModalRow<double>> ModalDistribution::force_rows(std::size_t mode, PartialBy family) const {
   const bool strain = family == PartialBy::position;
   const Eigen::VectorXcd z = scaled_vector(mode);
@@ -422,10 +438,8 @@ std::vector<ModalRow<double>> ModalDistribution::force_rows(std::size_t mode, Pa
   double distance = 1;  // of the bodies from the origin, in lengths of the model
   for (const BodyMotion& b : motion_.bodies) distance = std::max(distance, norm(b.r) / system_.length());
   const double least = strain ? 64 * std::numeric_limits<double>::epsilon() * distance : rounding * rounding;
-  // Nor of velocities, which are eigenvalues times displacements, where the eigenvalue is zero as far as it is known.
-  const EigenMode& of = solution_.modes[mode];
-  const bool at_rest = !strain && std::abs(of.eigenvalue_hz) <= of.error_bound_hz;
-  const bool nothing = at_rest || parts <= least * without_cancellation || std::abs(total) <= rounding * parts;
+  const bool nothing =
+      (!strain && rests(mode, z, u)) || parts <= least * without_cancellation || std::abs(total) <= rounding * parts;
   for (auto& row : rows) {
     for (double& x : row.values) x = nothing ? x * 0 : 100 * x / total;
   }

@@ -71,6 +71,7 @@ class ModalDistribution {
   Eigen::VectorXd modal_coordinates(const FlexibleBody&) const;
   std::vector<std::size_t> sets_with_rows() const;
   std::vector<ModalRow<double>> force_rows(std::size_t mode, PartialBy family) const;
+  bool rests(std::size_t mode, const Eigen::VectorXcd& z, const Eigen::VectorXcd& velocities) const;
   Eigen::VectorXcd algebraic_change(const Eigen::VectorXcd& dq, PartialBy family) const;
   Eigen::VectorXd algebraic_size(const Eigen::VectorXcd& dq, PartialBy family) const;  // the same if nothing cancelled
 

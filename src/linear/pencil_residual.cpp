@@ -62,8 +62,9 @@ Eigen::VectorXcd StructuredPencil::left_residual(LongComplex lambda, const Eigen
   Eigen::VectorXcd out(size);
   for (Eigen::Index k = 0; k < size; ++k) {
     LongComplex sum = 0;
-    for_each_in_column(equations_.products(), static_cast<std::int32_t>(k),
-                       [&](std::int32_t r, double v) { sum += static_cast<long double>(v) * LongComplex(y(r)); });
+    for_each_in_column(equations_.products(), static_cast<std::int32_t>(k), [&](std::int32_t r, double v) {
+      sum += static_cast<long double>(v) * LongComplex(y(r));
+    });
     if (k >= first_state) sum -= std::conj(lambda) * LongComplex(y(k));
     out(k) = {static_cast<double>(sum.real()), static_cast<double>(sum.imag())};
   }

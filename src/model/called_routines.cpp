@@ -296,7 +296,7 @@ std::shared_ptr<const CompiledRoutine> CalledRoutines::made(const Statement& s, 
     const bool everywhere = differences_ == RoutineDifferences::everywhere;
     diagnostics_.warning(
         "differenced-routine", at,
-        fmt::format("{} of {} gives no derivatives: {}", routine->name(), s.at.text(),
+        fmt::format("{} of {} {}: {}", routine->name(), s.at.text(), routine->lack_of_derivatives(),
                     everywhere ? "differences take their place, and eigenvalues have no bound"
                                : "statics and dynamics take differences in their iterations, LINEAR refuses it"));
   }

@@ -119,7 +119,15 @@ CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, st
   std::vector<double> at_zero(requests_.inputs.size()), partials(values_ * at_zero.size());
   std::vector<char> given(at_zero.size());
   evaluate(at_zero, ignored, partials, given);
-  gives_derivatives_ = std::all_of(given.begin() + 2, given.end(), [](char g) { return g != 0; });
+  const auto missing = std::find(given.begin() + 2, given.end(), 0);
+  gives_derivatives_ = missing == given.end();
+  if (gives_derivatives_) return;
+  lack_of_derivatives_ = "gives no derivatives";
+  const auto told = std::count_if(given.begin() + 2, given.end(), [](char g) { return g != 0; });
+  if (told <= static_cast<std::ptrdiff_t>(constants_.size())) return;
+  const Atom& by = requests_.inputs[static_cast<std::size_t>(missing - given.begin())];
+  lack_of_derivatives_ = fmt::format("gives no derivative by {}({})", by.function->name,
+                                     fmt::join(std::span(by.argument).first(by.argument_count), ", "));
 }
 
 std::string CompiledRoutine::name() const {
@@ -274,8 +282,10 @@ void CompiledRoutine::difference(std::span<const double> inputs, std::size_t inp
     moved[input] = x;
     evaluate(moved, values, {}, {});
   };
-  const std::vector<double> slope = extrapolated_slope(at, inputs[input], values_);
-  for (std::size_t v = 0; v < values_; ++v) partials[v * inputs.size() + input] = slope[v];
+  const std::vector<Slope> slope = extrapolated_slope(at, inputs[input], values_);
+  // An iteration may go by what is not quite a derivative, a linear model may not.
+  for (std::size_t v = 0; v < values_; ++v)
+    partials[v * inputs.size() + input] = slope[v].agreed || inputs[1] != linear_mode ? slope[v].value : unknown;
 }
 
 const CompiledRoutine::Memory& CompiledRoutine::remembered(const RoutineInputs<double>& read,
@@ -406,7 +416,12 @@ std::string CompiledRoutine::reason_of_value(std::span<const double> inputs) con
 
 std::string CompiledRoutine::reason_of_partials(std::span<const double> inputs) const {
   if (gives_derivatives_) return fmt::format("{} gives no finite derivatives at TIME {:g}", name(), inputs[0]);
-  return fmt::format("{} gives no derivatives, and a linear model needs them: {}", name(),
+  if (differences_ == RoutineDifferences::everywhere) {
+    return fmt::format(
+        "{} {}, and differences of its values do not agree at TIME {:g}: it jumps here, or remembers how it was called",
+        name(), lack_of_derivatives_, inputs[0]);
+  }
+  return fmt::format("{} {}, and a linear model needs them: {}", name(), lack_of_derivatives_,
                      kind_->arguments == RoutineArguments::field
                          ? "all of dfddis and dfdvel, an entry with them, or --difference-user-routines"
                          : "c_syspar, an entry with them, or --difference-user-routines");

@@ -53,6 +53,8 @@ class CompiledRoutine final : public Routine {
   const std::string& problem() const { return problem_; }
   // Whether it gave derivatives with respect to all that it asked for, when it was called to try.
   bool gives_derivatives() const { return gives_derivatives_; }
+  // "gives no derivatives", or where it gave some "gives no derivative by VX(20, 1)", the first that it did not give.
+  const std::string& lack_of_derivatives() const { return lack_of_derivatives_; }
 
   double value(const RoutineInputs<double>&, std::size_t which) const override;
   TimeTaylor<double> value(const RoutineInputs<TimeTaylor<double>>&, std::size_t which) const override;
@@ -98,6 +100,7 @@ class CompiledRoutine final : public Routine {
   std::string what_;  // for a crash
   std::string problem_;
   bool gives_derivatives_ = false;
+  std::string lack_of_derivatives_;
   std::uint64_t serial_;  // of this one among all that ever were
 };
 

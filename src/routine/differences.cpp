@@ -10,14 +10,16 @@ namespace {
 constexpr double first_step = 1.0 / 128;  // of the size of x, 1 at least
 constexpr std::size_t most_steps = 24, most_orders = 4;
 constexpr double good_enough = 1e-11;  // relative change of the last extrapolation
+// The best extrapolation may be off by this part of itself, or make as little difference over the first step.
+constexpr double disagreement = 0.01, hidden_by_rounding = 1e-6;
 
 thread_local std::uint64_t counted_in_linear_models = 0;
 }  // namespace
 
 // Central differences are even in the step h, so that halving it removes h², h⁴ ... one after the other. The row whose
 // extrapolations agree best counts: first the steps are too wide, at last rounding rules.
-std::vector<double> extrapolated_slope(const std::function<void(double, std::span<double>)>& f, double x,
-                                       std::size_t values) {
+std::vector<Slope> extrapolated_slope(const std::function<void(double, std::span<double>)>& f, double x,
+                                      std::size_t values) {
   struct Column {
     std::vector<double> row;
     double best = std::numeric_limits<double>::quiet_NaN(), error = std::numeric_limits<double>::infinity();
@@ -44,8 +46,14 @@ std::vector<double> extrapolated_slope(const std::function<void(double, std::spa
     }
     if (done) break;
   }
-  std::vector<double> slope;
-  for (const Column& c : columns) slope.push_back(c.best);
+  const double width = first_step * std::max(1.0, std::abs(x));
+  std::vector<Slope> slope;
+  for (std::size_t v = 0; v < values; ++v) {
+    const Column& c = columns[v];
+    const double size = std::max(std::abs(above[v]), std::abs(below[v]));
+    slope.push_back(
+        {c.best, c.error <= disagreement * std::abs(c.best) || c.error * width <= hidden_by_rounding * size});
+  }
   return slope;
 }
 

@@ -65,6 +65,10 @@ void on_exit_in_routine() {
 }  // namespace
 
 RoutineContext* RoutineContext::current() { return at_work; }
+std::string_view RoutineContext::what() {
+  const char* what = what_is_at_work;
+  return what ? what : "";
+}
 
 RoutineContext::Scope::Scope(RoutineContext& context, const char* what)
     : before_(at_work), what_before_(what_is_at_work) {

@@ -52,6 +52,8 @@ class RoutineContext {
 
   // The one at work in this thread, null if none is.
   static RoutineContext* current();
+  // "the routine sfosub of friction.so, called for SFORCE/3", empty if none is.
+  static std::string_view what();
   // Makes one current as long as it lives. `what` names statement and routine if the process dies in it; it must
   // outlive this.
   class Scope {

@@ -6,7 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdio>
 #include <cstring>
+#include <mutex>
+#include <set>
+#include <string>
 
 #include "routine/routine_context.h"
 
@@ -97,12 +101,23 @@ void give_list(std::string_view name, int id, const double* partial, int count) 
   give(name, &id, 1, partial, count, &errflg);
 }
 
+// Iterations call a routine again and again: each text is said once, and no endless number of them.
+void say_once(std::string_view text) {
+  constexpr std::size_t most = 1000;
+  static std::mutex mutex;
+  static std::set<std::string, std::less<>> said;
+  const std::lock_guard lock(mutex);
+  if (said.size() >= most || !said.emplace(text).second) return;
+  fmt::print(stderr, "{}: {}\n", RoutineContext::what(), text);
+}
+
 void message(int flag, std::string_view text, std::string_view end) {
   RoutineContext* c = RoutineContext::current();
   if (!c || flag == 0 || c->phase == RoutineContext::Phase::asking) return;
   std::string word(end);
   std::ranges::transform(word, word.begin(), [](unsigned char x) { return static_cast<char>(std::toupper(x)); });
-  if (word == "STOP") c->fail(fmt::format("it says: {}", text));
+  if (word == "STOP") return c->fail(fmt::format("it says: {}", text));
+  say_once(text);
 }
 
 }  // namespace

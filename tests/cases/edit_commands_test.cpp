@@ -47,6 +47,22 @@ TEST_F(EditCommands, expressions_are_defined_anew_and_read_what_others_define) {
   expect_frequency(r, 4, 5);
 }
 
+// With all that goes with the one that it was.
+TEST_F(EditCommands, a_contact_changes_its_law) {
+  const RunResult r = run(
+      "ball\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,1,1, QG=0,0,0.4\nMARKER/20\n"
+      "JOINT/1, TRANSLATIONAL, I=20, J=1\nGRAPHICS/1, PLANE, RM=1, XMIN=-1, XMAX=1, YMIN=-1, YMAX=1\nGRAPHICS/2, "
+      "ELLIPSOID, CM=20, XSCALE=1, YSCALE=1, ZSCALE=1\nCONTACT/1, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=50, EXPONENT=1, "
+      "DAMPING=0, DMAX=0.01\nEND\n",
+      "LINEAR/EIGENSOL\nCONTACT/1, POISSON, PENALTY=200, RESTITUTION_COEFFICIENT=1\nLINEAR/EIGENSOL\nCONTACT/1, "
+      "IMPACT, "
+      "STIFFNESS=18, EXPONENT=1, DAMPING=0, DMAX=0.01\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  expect_frequency(r, 0, 5);
+  expect_frequency(r, 2, 10);
+  expect_frequency(r, 4, 3);
+}
+
 TEST_F(EditCommands, deactivated_elements_exert_nothing_and_come_back) {
   const RunResult r = run(oscillator +
                               "BUSHING/7, I=20, J=1, K=0,0,10\nSFORCE/9, TRANSLATIONAL, ACTIONONLY, I=20, J=1, "

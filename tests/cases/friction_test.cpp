@@ -35,7 +35,7 @@ TEST_F(FrictionCases, a_mode_of_creep_has_no_table_of_dissipated_power) {
       run(block("FRICTION/4, JOINT=1\n", second), "SIMULATE/STATICS\nLINEAR/EIGENSOL, DISSIPAT=1,3, STRAIN=1\n");
   ASSERT_EQ(r.status, 0) << r.err;
   ASSERT_LT(std::abs(r.eigenvalues(1)[0]), 1e-12);
-  const std::string text = r.text("model.txt"), note = "No force element dissipates power in this mode.";
+  const std::string text = r.text("model.txt"), note = "No element of this table dissipates power in this mode.";
   EXPECT_NE(text.find(note), std::string::npos) << text;
   EXPECT_EQ(text.find(note), text.rfind(note)) << text;
 }
@@ -51,6 +51,25 @@ TEST_F(FrictionCases, what_does_not_stick_is_not_named) {
   EXPECT_FALSE(warned("FRICTION/4, JOINT=1, EFFECT=SLIDING\n"));
   EXPECT_FALSE(warned("FRICTION/4, JOINT=1, INPUTS=NONE\n"));
   EXPECT_FALSE(warned("FRICTION/4, JOINT=1\n", "DEACTIVATE/FRICTION, ID=4\n"));
+}
+
+// Friction by the size of a load that is zero, where it may go to all sides.
+TEST_F(FrictionCases, without_a_load_slip_has_no_derivative_and_the_joint_is_named) {
+  const auto spin = [&](const std::string& friction) {
+    return run(
+        "Spin\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,1,1, WZ=3\nMARKER/20\n"
+        "PART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30\nMARKER/3, PART=1, FLOATING\n"
+        "VFORCE/1, I=20, JFLOAT=3, RM=1, FX=5*DX(30,1)\\FY=0\\FZ=0\n"
+        "JOINT/1, REVOLUTE, I=20, J=1\nFRICTION/4, JOINT=1, EFFECT=SLIDING" +
+            friction + "\nEND\n",
+        "LINEAR/EIGENSOL\n");
+  };
+  const RunResult r = spin("");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err,
+              HasSubstr("FRICTION/4: a force or moment that JOINT/1 bears across its surfaces is zero while they "
+                        "slip, and friction by its size has no derivative there"));
+  EXPECT_EQ(spin(", INPUTS=PRELOAD, FRICTION_TORQUE_PRELOAD=2").status, 0);
 }
 
 // How redundant joints share a load nothing says; what bears none, or all of it, is another matter.

@@ -56,7 +56,7 @@ TEST_F(ModalTableRows, modes_of_controllers_have_no_mass) {
       const std::string of_mode =
           text.substr(text.find(head), text.find("Energy table", text.find(head) + 10) - text.find(head));
       EXPECT_EQ(has_note(of_mode, "Nothing that has mass moves in this mode."), !moves) << of_mode;
-      EXPECT_EQ(has_note(of_mode, "No force element stores energy in this mode."), !moves) << of_mode;
+      EXPECT_EQ(has_note(of_mode, "No element of this table stores energy in this mode."), !moves) << of_mode;
       // The first twelve entries are those of the parts.
       const auto& shape = modes[k].at("shape");
       double motion = 0;
@@ -86,8 +86,8 @@ TEST_F(ModalTableRows, directions_that_nothing_moves_in_have_no_percentages) {
   EXPECT_EQ(row(text, "Modal effective mass", "Sum")[1], 0);
   EXPECT_EQ(row(text, "Modal effective mass", "perc.")[1], 0);
   EXPECT_EQ(row(text, "Modal effective mass", "perc.")[2], 0);
-  EXPECT_TRUE(has_note(text, "No force element dissipates power in this mode."));
-  EXPECT_FALSE(has_note(text, "No force element stores energy in this mode."));
+  EXPECT_TRUE(has_note(text, "No element of this table dissipates power in this mode."));
+  EXPECT_FALSE(has_note(text, "No element of this table stores energy in this mode."));
 }
 
 TEST_F(ModalTableRows, a_rigid_body_motion_strains_nothing) {
@@ -103,8 +103,8 @@ TEST_F(ModalTableRows, a_rigid_body_motion_strains_nothing) {
   ASSERT_EQ(r.status, 0) << r.err;
   const std::string text = r.text("model.txt");
   std::size_t notes = 0;
-  for (std::size_t at = text.find("No force element stores"); at != std::string::npos;
-       at = text.find("No force element stores", at + 1))
+  for (std::size_t at = text.find("No element of this table stores"); at != std::string::npos;
+       at = text.find("No element of this table stores", at + 1))
     ++notes;
   EXPECT_EQ(notes, 6u) << text;
 }

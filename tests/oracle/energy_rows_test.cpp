@@ -138,6 +138,10 @@ void compare(std::uint64_t seed, Seen& seen) {
     for (const Energy energy : {Energy::strain, Energy::dissipation}) {
       SCOPED_TRACE(energy == Energy::strain ? "strain" : "dissipation");
       const auto rows = energy == Energy::strain ? energies.strain(mode) : energies.dissipation(mode);
+      // Velocities of an eigenvalue that is zero as far as it is known may be rounding, and have no rows then.
+      const EigenMode& m = modes->modes[mode];
+      const bool may_rest = energy == Energy::dissipation && std::abs(m.eigenvalue_hz) <= m.error_bound_hz;
+      if (may_rest && std::ranges::all_of(rows, [](const auto& row) { return row.values[0] == 0; })) continue;
       double motion = 0;
       for (std::size_t k = 0; k < states.size(); ++k) {
         const auto kind = energy == Energy::strain ? ChosenState::Kind::coordinate : ChosenState::Kind::rate;

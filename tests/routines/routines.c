@@ -270,3 +270,33 @@ void stops(const int* id, const double* time, const double* par, const int* npar
   *value = 0;
   if (par[0] > 0) exit(0);
 }
+void speaks(const int* id, const double* time, const double* par, const int* npar, const int* dflag, const int* iflag,
+            double* value) {
+  spring_without_derivatives(id, time, par, npar, dflag, iflag, value);
+  c_usrmes(1, "a spring of 50", *id, "CONT");
+}
+/* -par[2] x, and a jump of par[3] at x = 0.1. */
+void jumps(const int* id, const double* time, const double* par, const int* npar, const int* dflag, const int* iflag,
+           double* value) {
+  const int at[2] = {(int)par[0], (int)par[1]};
+  double x;
+  int error;
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  c_sysfnc("DX", at, 2, &x, &error);
+  *value = -par[2] * x + (x > 0.1 ? par[3] : 0);
+}
+/* -par[2] x - par[3] v, with the derivative by x alone. */
+void forgets_damping(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                     const int* iflag, double* value) {
+  const int at[2] = {(int)par[0], (int)par[1]}, moving[3] = {at[0], at[1], at[1]};
+  double x, v;
+  int error, wanted;
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  c_sysfnc("DX", at, 2, &x, &error);
+  c_sysfnc("VX", moving, 3, &v, &error);
+  *value = -par[2] * x - par[3] * v;
+  c_adams_needs_partials(&wanted);
+  if (!wanted) return;
+  const double by_x = -par[2];
+  c_syspar("DX", at, 2, &by_x, 1, &error);
+}

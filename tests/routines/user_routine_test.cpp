@@ -338,6 +338,36 @@ TEST_F(UserRoutines, without_derivatives_in_time_are_named_where_a_rate_is_neede
   EXPECT_THAT(r.err, HasSubstr("gives no derivative in time of its value"));
 }
 
+TEST_F(UserRoutines, that_give_some_derivatives_are_told_which_are_missing) {
+  const RunResult r =
+      with(slider + along + "FUNCTION=USER(20,1,50,3), ROUTINE=routines::forgets_damping\n", {C_ROUTINES});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, AllOf(HasSubstr("gives no derivative by VX(20, 1, 1)"), HasSubstr("[differenced-routine]")));
+}
+
+// The marker is where the law jumps, at 0.1.
+TEST_F(UserRoutines, that_jump_have_no_differences) {
+  const auto linear = [&](const std::string& jump) {
+    return with(slider + along + "FUNCTION=USER(20,1,50," + jump + "), ROUTINE=routines::jumps\n", {C_ROUTINES}, true);
+  };
+  expect_same(linear("0"), with(slider + along + "FUNCTION=-50*DX(20,1)\n"), 1e-9);
+  for (const std::string jump : {"1", "-0.1", "1E3"}) {
+    const RunResult r = linear(jump);
+    EXPECT_EQ(r.status, 2) << jump;
+    EXPECT_THAT(r.err, HasSubstr("differences of its values do not agree at TIME 0: it jumps here")) << jump;
+  }
+}
+
+TEST_F(UserRoutines, say_what_they_have_to_say_once) {
+  ::testing::internal::CaptureStderr();
+  const RunResult r =
+      with(slider + along + "FUNCTION=USER(20,1,50,0,0), ROUTINE=routines::speaks\n", {C_ROUTINES}, true);
+  const std::string said = ::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(said, AllOf(HasSubstr("the routine speaks of"), HasSubstr("called for SFORCE/1: a spring of 50\n")));
+  EXPECT_EQ(said.find("a spring"), said.rfind("a spring")) << said;
+}
+
 TEST_F(UserRoutines, run_only_from_libraries_that_the_user_names) {
   const std::string file = C_ROUTINES;
   const RunResult r =

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace dynalin {
@@ -10,6 +11,7 @@ namespace {
 
 // Elements are exact up to half a turn between their ends; the formula of the relative rotation loses digits before.
 constexpr double widest_turn = 0.9 * std::numbers::pi;
+constexpr double half_a_turn = std::numbers::pi * (1 - 1e-9);
 // Of an iteration [rad]: middles turn little against halfway between the ends.
 constexpr double largest_middle_step = 0.3;
 // What a unit of slope at an end moves of an element, in lengths of it: the largest value of its cubic.
@@ -26,6 +28,20 @@ void add(PartialBy family, const BeamMatrix& m, std::size_t coordinates, const B
       if (first < coordinates) eq.add(family, at[first], at[c], {column + first, count});
     }
   }
+}
+
+// Which of its nodes are turned against each other by this angle or more, empty if none are.
+std::string turned_by(double limit, const BeamBody& b, const Motion& motion) {
+  for (std::size_t e = 0; e < b.elements->size(); ++e) {
+    double turn = (*b.elements)[e]->largest_turn(b.motion(motion, e));
+    if (turn < limit) continue;
+    if (std::isnan(turn)) turn = std::numbers::pi;
+    return fmt::format(
+        "nodes {} and {} of {} are turned against each other by {:.4g} degrees: the beam between them "
+        "needs more nodes",
+        b.numbers[e], b.numbers[e + 1], b.label->full_text(), turn * 180 / std::numbers::pi);
+  }
+  return {};
 }
 
 }  // namespace
@@ -90,16 +106,17 @@ void BeamBodyKernel::equations(const Motion& motion, Equations& eq) const {
 
 std::string BeamBodyKernel::domain_violation(const Motion& motion) const {
   for (const BeamBody& b : beams_) {
-    for (std::size_t e = 0; e < b.elements->size(); ++e) {
-      const double turn = (*b.elements)[e]->largest_turn(b.motion(motion, e));
-      if (turn < widest_turn) continue;
-      return fmt::format(
-          "nodes {} and {} of {} are turned against each other by {:.4g} degrees: the beam between them "
-          "needs more nodes",
-          b.numbers[e], b.numbers[e + 1], b.label->full_text(), turn * 180 / std::numbers::pi);
-    }
+    if (std::string reason = turned_by(widest_turn, b, motion); !reason.empty()) return reason;
   }
   return {};
+}
+
+// Half a turn has no direction.
+void BeamBodyKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const {
+  for (const BeamBody& b : beams_) {
+    if (std::string reason = turned_by(half_a_turn, b, motion); !reason.empty())
+      undefined.push_back({b.label, std::move(reason)});
+  }
 }
 
 }  // namespace dynalin

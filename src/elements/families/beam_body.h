@@ -15,6 +15,7 @@ class BeamBodyKernel final : public Kernel {
   void constraints(const Motion&, ConstraintRows&) const override;
   void equations(const Motion&, Equations&) const override;
   std::string domain_violation(const Motion&) const override;
+  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
 
  private:
   std::vector<BeamBody> beams_;

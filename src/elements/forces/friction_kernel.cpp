@@ -281,6 +281,23 @@ void JointFrictionKernel::wrench(const Motion& motion, std::size_t k, bool with_
                                                               : Components::torque;
 }
 
+// The size of a force or moment that is zero has no derivative.
+void JointFrictionKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const {
+  for (std::size_t k = 0; k < placed_.size(); ++k) {
+    const Placed& p = placed_[k];
+    if (!p.joint || (p.element->rests_in_statics && at_rest(motion))) continue;
+    const Evaluated at = evaluate(p, pair_motion(motion, *p.I, *p.J), motion);
+    const bool defined = std::ranges::all_of(
+        at.w, [](const D& w) { return std::ranges::all_of(w.partial, [](double x) { return std::isfinite(x); }); });
+    if (defined) continue;
+    undefined.push_back({&(*labels_)[k],
+                         fmt::format("{}: a force or moment that JOINT/{} bears across its surfaces is zero while they "
+                                     "slip, and friction by its size has no derivative there",
+                                     (*labels_)[k].full_text(), p.element->joint),
+                         false});
+  }
+}
+
 std::string JointFrictionKernel::domain_violation(const Motion& motion) const {
   for (std::size_t k = 0; k < placed_.size(); ++k) {
     const JointFriction& f = *placed_[k].element;

@@ -56,6 +56,7 @@ class JointFrictionKernel final : public Kernel, public WrenchSource, public Sti
   MarkerId marker_I(std::size_t k) const override { return placed_[k].element->i; }
   MarkerId marker_J(std::size_t k) const override { return placed_[k].element->j; }
   void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;
+  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
   std::string domain_violation(const Motion&) const override;
   void sticking(const Motion&, std::vector<Stiction>&) const override;
 
