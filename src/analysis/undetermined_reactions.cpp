@@ -19,6 +19,8 @@ constexpr double regularization = 1e-14;
 // Of a value, what a change has to be to count.
 constexpr double noticeable = 1e-6;
 constexpr std::size_t most_names = 6;
+// Rows and coordinates, whose factors fill up in lattices.
+constexpr std::int32_t affordable = 50000;
 
 // With rows G of size 1 in comparable coordinates the least reactions are λ = G (Gᵀ G)⁻¹ Gᵀ λ₀: of
 //     ⎡ 1    G  ⎤ ⎡ λ ⎤   ⎡   0   ⎤
@@ -61,6 +63,13 @@ void warn_of_undetermined_reactions(const System& system, AccelerationEquations&
   const Layout& layout = system.layout();
   const ConstraintRows& rows = equations.rows();
   const Equations& eq = equations.equations();
+  if (rows.size() + layout.coordinate_count > affordable) {
+    out.warning(
+        "undetermined-reaction", {},
+        "the model is too large to look whether functions and FRICTION read reactions of redundant constraints, "
+        "which nothing determines");
+    return;
+  }
   equations.evaluate(op, {});
   const std::vector<double> before(eq.residual().begin(), eq.residual().end());
   std::vector<bool> taking_part = equations.partition().active;

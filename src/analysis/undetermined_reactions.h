@@ -7,7 +7,7 @@
 namespace dynalin {
 
 // A warning for each element whose algebraic or differential equations would say something else by the least reactions
-// that balance the same. The equations are left at these.
+// that balance the same; of a model too large to look at, one warning that says so. The equations are left at these.
 void warn_of_undetermined_reactions(const System&, AccelerationEquations&, const OperatingPoint&, Diagnostics&);
 
 }  // namespace dynalin

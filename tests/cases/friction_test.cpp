@@ -116,6 +116,18 @@ TEST_F(FrictionCases, by_reactions_that_nothing_determines_is_warned_of) {
   EXPECT_EQ(warnings(four_bar, "JGRAV=-9, KGRAV=-2", "WZ"), "FRICTION/4 by JOINT/1, JOINT/2, JOINT/3, JOINT/4; ");
 }
 
+TEST_F(FrictionCases, of_a_model_that_is_too_large_to_look_at_its_reactions_that_is_said) {
+  std::string many =
+      "guides\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=0,0,1\nPART/2, MASS=2, CM=21, "
+      "IP=1,2,3, VZ=1\nMARKER/21\nMARKER/22, QP=0,0,1\nJOINT/1, TRANSLATIONAL, I=21, J=1\nJOINT/2, "
+      "TRANSLATIONAL, I=22, J=2\nFRICTION/4, JOINT=1\n";
+  for (int k = 100; k < 4400; ++k)
+    many += fmt::format("PART/{0}, MASS=1, CM={0}, IP=1,1,1\nMARKER/{0}\nJOINT/{0}, FIXED, I={0}, J=1\n", k);
+  const RunResult r = run(many + "END\n", "SIMULATE/INITIAL\n");
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("the model is too large to look whether functions and FRICTION read reactions of"));
+}
+
 // With bristles straight at the start, statics finds the equilibrium without friction; run down a slope, the block
 // stays where its bristles hold it, but for what goes without friction in statics.
 TEST_F(FrictionCases, statics_goes_by_the_creep_that_is_there) {
