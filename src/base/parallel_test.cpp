@@ -15,7 +15,7 @@ namespace dynalin::parallel_test {
 namespace {
 
 class Parallel : public ::testing::Test {
-  const KeepsThreadCount kept_;
+  KeepsThreadCount kept_;
 };
 
 TEST_F(Parallel, every_task_is_done_once_whatever_the_number_of_threads) {

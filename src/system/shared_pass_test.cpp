@@ -17,7 +17,7 @@ namespace dynalin::system_test::shared_pass_test {
 namespace {
 
 class SharedPass : public ::testing::Test {
-  const KeepsThreadCount kept_;
+  KeepsThreadCount kept_;
 };
 
 // Parts on joints in a row, each with forces of several kinds on the one before it.

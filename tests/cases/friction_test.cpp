@@ -1,4 +1,5 @@
 // FRICTION in what commands make of it: statics, the warning of a joint in stiction, deactivation.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "cases/run.h"

@@ -33,7 +33,7 @@ class ThreadCount : public Cases {
   }
 
  private:
-  const KeepsThreadCount kept_;
+  KeepsThreadCount kept_;
 };
 
 TEST_F(ThreadCount, changes_no_digit_of_selected_modes_of_all_modes_and_of_motions) {
