@@ -30,11 +30,10 @@ void print_report(std::ostream& out, const FiniteElementModel& model, const Redu
   fmt::print(out, "{} constraint modes + {} fixed-interface modes - {} rigid motions = {} modes\n", r.constraint_modes,
              r.fixed_interface.size(), r.rigid_removed, r.shapes.cols());
   if (r.massless > 0)
-    fmt::print(
-        out,
-        "{} of them without mass, the last ones: they yield at the interface, as if they vibrated at 100 times "
-        "the highest frequency of the others\n",
-        r.massless);
+    fmt::print(out,
+               "{} of them without mass, the last ones: they yield at the interface, as if they vibrated at 100 times "
+               "the highest frequency of the others\n",
+               r.massless);
   if (r.rigid_removed < 6)
     fmt::print(
         out,

@@ -13,7 +13,7 @@ namespace {
 std::string after_title(const std::string& dataset) { return dataset.substr(dataset.find('\n')); }
 
 TEST(AcceptedDraws, remembered_is_the_first_draw_of_a_seed_that_is_acceptable) {
-  for (const std::uint64_t seed : {14, 27}) {
+  for (const std::uint64_t seed : {14u, 27u}) {
     const std::string text = dataset_text(random_mechanism(seed));
     const auto attempt = accepted_attempt(seed);
     ASSERT_TRUE(attempt);

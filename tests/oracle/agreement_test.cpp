@@ -146,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(generated, SolidAgreement,
 TEST(Generated, mechanisms_hold_every_element_and_function_of_the_program) {
   std::string text;
   for (std::uint64_t seed = 1; seed <= 246; ++seed) text += dataset_text(random_mechanism(seed));
-  for (const std::uint64_t seed : {261, 271}) text += dataset_text(random_mechanism(seed));
+  for (const std::uint64_t seed : {261u, 271u}) text += dataset_text(random_mechanism(seed));
   const auto holds = [&](const std::string& word) { return text.find(word) != std::string::npos; };
   for (const Kind* kind : catalogue()) {
     if (kind->role == Kind::Role::inert) continue;

@@ -241,7 +241,7 @@ INSTANTIATE_TEST_SUITE_P(all, Generated, ::testing::Range<std::uint64_t>(1, 201,
 // The two that differ most, by 0.2 and 4 parts in a hundred at ten times the amplitude: a difference of first order
 // would stay.
 TEST(MatrixExponential, differences_go_with_the_square_of_the_amplitude) {
-  for (const std::uint64_t seed : {93, 107}) {
+  for (const std::uint64_t seed : {93u, 107u}) {
     const NamedModel model = generated_model(seed);
     const auto system = system_of({model.name, without_delays(model.text)});
     const auto drawn = initial_conditions(as_drawn(system));

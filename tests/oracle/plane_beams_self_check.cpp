@@ -157,7 +157,7 @@ TEST(PlaneBeams, elastic_loads_are_slopes_of_the_energy) {
     for (std::size_t k = 0; k < plane_freedoms; ++k)
       expected[k] = -slope([&](const Pose& q) { return hand.energy(q, drawn); }, bent, k);
     expect_loads(element.loads(jets(bent), {}), expected, 1e-10);
-    for (const std::size_t k : {0, 3, 5, 6}) EXPECT_GT(static_cast<double>(std::fabs(expected[k])), 0.5) << k;
+    for (const std::size_t k : {0u, 3u, 5u, 6u}) EXPECT_GT(static_cast<double>(std::fabs(expected[k])), 0.5) << k;
   }
 }
 
@@ -377,7 +377,7 @@ void expect_rows_as_along_a_motion(const Mechanism& drawn) {
 }
 
 TEST(PlaneBeams, rows_go_as_their_rates_and_gradients_say) {
-  for (const std::uint64_t seed : {281, 282, 283}) expect_rows_as_along_a_motion(random_mechanism(seed));
+  for (const std::uint64_t seed : {281u, 282u, 283u}) expect_rows_as_along_a_motion(random_mechanism(seed));
 }
 
 TEST(PlaneBeams, drawn_ones_are_accurate_and_varied) {
