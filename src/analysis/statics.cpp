@@ -244,11 +244,10 @@ Result<OperatingPoint> static_operating_point(const System& system, OperatingPoi
     report.at_rest = *op;
   }
   if (op && op->time == 0 && options.restore_velocities) op = initial_velocity(system, std::move(*op), findings);
-  const auto moves = [](const std::vector<double>& v) {
-    return std::ranges::any_of(v, [](double x) { return x != 0; });
-  };
-  if (op && moves(op->velocity)) op->mode = AnalysisMode::initial_conditions;
   if (op) op = reconcile_velocity(system, std::move(*op), findings);
+  // Those of the dataset, and those that a MOTION prescribes.
+  const bool moves = op && std::ranges::any_of(op->velocity, [](double v) { return v != 0; });
+  if (moves) op->mode = AnalysisMode::initial_conditions;
   if (op) op = solve_acceleration(system, std::move(*op), findings);
   return op;
 }

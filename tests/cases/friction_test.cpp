@@ -73,6 +73,14 @@ TEST_F(FrictionCases, without_a_load_slip_has_no_derivative_and_the_joint_is_nam
   EXPECT_EQ(spin(", INPUTS=PRELOAD, FRICTION_TORQUE_PRELOAD=2").status, 0);
 }
 
+TEST_F(FrictionCases, a_coefficient_that_is_not_read_is_not_compared) {
+  for (const std::string effect : {"EFFECT=SLIDING, MU_DYNAMIC=0.6", "EFFECT=STICTION, MU_STATIC=0.2"}) {
+    const RunResult r = run(block("FRICTION/4, JOINT=1, " + effect + "\n"), "LINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+    EXPECT_EQ(r.err.find("coefficient-order"), std::string::npos) << r.err;
+  }
+}
+
 // How redundant joints share a load nothing says; what bears none, or all of it, is another matter.
 TEST_F(FrictionCases, by_reactions_that_nothing_determines_is_warned_of) {
   const auto warnings = [&](const std::string& joints, const std::string& gravity, const std::string& velocity = "VZ") {

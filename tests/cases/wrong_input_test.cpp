@@ -113,6 +113,7 @@ const std::vector<Wrong>& table() {
     {Place::added, "FRICTION/9, JOINT=9, EFFECT=STICTION, MU_DYNAMIC=0.2\nJOINT/9, REVOLUTE, I=20, J=1", {"unread-argument 10:39"}},
     {Place::added, "FRICTION/9, JOINT=9, FORMULATION=LUGRE, TRANSITION=2, MAX=1, BRISTLE=9\nJOINT/9, REVOLUTE, I=20, J=1", {"unread-argument 10:41", "unread-argument 10:55"}},
     {Place::added, "FRICTION/9, JOINT=9, MU_DYNAMIC=0.6\nJOINT/9, REVOLUTE, I=20, J=1", {"coefficient-order 10:22"}},
+    {Place::added, "FRICTION/9, JOINT=9, MU_STATIC=0.2\nJOINT/9, REVOLUTE, I=20, J=1", {"coefficient-order 10:22"}},
     {Place::added, "FRICTION/9, JOINT=9, I_YOKE\nFRICTION/8, JOINT=9, J_YOKE\nFRICTION/7, JOINT=9\nJOINT/9, HOOKE, I=20, J=1", {"friction-twice 12:1"}},
     {Place::added, "FRICTION/9, JOINT=9, MU_STATIC=-1\nJOINT/9, REVOLUTE, I=20, J=1", {"value-out-of-range 10:32"}},
     {Place::added, "FRICTION/9, JOINT=9, TRANSITION=1, MAX=0\nJOINT/9, REVOLUTE, I=20, J=1", {"value-out-of-range 10:22", "value-out-of-range 10:36"}},

@@ -408,6 +408,22 @@ TEST_F(StateEquations, rest_in_statics_unless_they_are_held) {
   const auto at_once = requested(with(only, statics), 1);
   ASSERT_EQ(at_once.size(), 3u);
   EXPECT_NEAR(at_once[1], free[1] - by_speed, 1e-9);
+  // So it is where the velocity comes from a MOTION.
+  const auto driven = [&](const std::string& speed) {
+    std::string model = only;
+    model.replace(model.find("VX(20,1,1)"), 10, "VX(30,1,1)");
+    model.replace(model.find(", VX=0.4"), 8, "");
+    return requested(with(model +
+                              "PART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30\nMARKER/31, REULER=90D,90D,0D\n"
+                              "JOINT/3, TRANSLATIONAL, I=31, J=2\nMOTION/3, JOINT=3, FUNCTION=" +
+                              speed + "*TIME\n",
+                          statics),
+                     1);
+  };
+  const auto fast = driven("0.3"), still = driven("0");
+  ASSERT_EQ(fast.size(), 3u);
+  ASSERT_EQ(still.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(fast[k], still[k], 1e-10) << k;
   const RunResult linear = with(only, {"SIMULATE/STATIC", "LINEAR/EIGENSOL"});
   ASSERT_EQ(linear.status, 0) << linear.err;
   const double hz = std::sqrt(50.0 / 2) / (2 * M_PI);

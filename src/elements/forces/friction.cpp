@@ -276,7 +276,6 @@ class FrictionSet final : public TypedSet<Friction> {
     for (const ReadBy& r : read_by) {
       if (reader.given(r.name)) e.by_joint.emplace_back(r.name, reader.at(r.name));
     }
-    warn_of_coefficient_order(e.mu_static, e.mu_dynamic, reader);
     JointFriction& f = frictions_[k];
     f.law.mu_static = e.mu_static, f.law.mu_dynamic = e.mu_dynamic;
     f.law.stiction_velocity = e.stiction_velocity, f.law.transition = e.transition;
@@ -287,6 +286,7 @@ class FrictionSet final : public TypedSet<Friction> {
     f.force_preload = e.force_preload, f.torque_preload = e.torque_preload;
     read_options(e, f, reader);
     read_bristles(e, f.law, reader);
+    if (f.law.effect == FrictionEffect::all) warn_of_coefficient_order(e.mu_static, e.mu_dynamic, reader);
   }
 
   void finish(Model& model, Diagnostics& diagnostics) override {
