@@ -35,7 +35,7 @@ struct InitialConditionRequest {
 namespace library {
 
 // Holds nothing but its model: analyses take a point and return another one, so that several points of one run, and
-// studies in several threads, stand beside each other. What fails throws Error.
+// studies in several threads, stand beside each other. A point of another model throws, like all that fails, Error.
 class Study {
  public:
   explicit Study(Model model) : model_(std::move(model)) {}

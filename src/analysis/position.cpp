@@ -27,15 +27,34 @@ std::string_view stuck_axes(const System& system, const ConstraintRows& rows, st
   constexpr double parallel = 1e-3;
   if (static_cast<std::size_t>(k) >= system.layout().rows.size()) return {};
   const std::string_view name = system.layout().rows[static_cast<std::size_t>(k)].name;
-  const bool product = name.size() == 5 && name[2] == '.';
+  if (name.size() != 5 || name[2] != '.') return {};
   for (const auto& e : rows.row(k)) {
-    if (!product || std::abs(e.c.g) > parallel) return {};
+    if (std::abs(e.c.g) > parallel) return {};
   }
   return ", whose axes are parallel and must be perpendicular,";
 }
 
-std::vector<double> assembly_weights(const System& system) {
-  std::vector<double> weight(system.coordinates());
+// How a change of each coordinate counts, and what is added to it for the change of angles.
+struct AssemblyWeights {
+  std::vector<double> of_coordinates;
+  std::vector<Triplet> of_angles;
+};
+
+// The turns, of unit size, that change one of the angles ψ, θ and φ alone of Rz(ψ) Rx(θ) Rz(φ) most for their size.
+// Where z is vertical ψ and φ are one angle.
+std::array<Vector, 3> turns_of_angles(const Matrix3& R) {
+  constexpr double vertical = 1e-6;
+  const Vector up{0, 0, 1}, nodes = cross(up, R.z);
+  const double sine = norm(nodes);
+  if (sine <= vertical) return {up, R.x, up};
+  const Vector line = nodes / sine, by_psi = cross(line, R.z), by_phi = cross(line, up);
+  return {by_psi / norm(by_psi), line, by_phi / norm(by_phi)};
+}
+
+AssemblyWeights assembly_weights(const System& system, const OperatingPoint& drawn) {
+  AssemblyWeights weights;
+  std::vector<double>& weight = weights.of_coordinates;
+  weight.resize(system.coordinates());
   for (std::size_t k = 0; k < weight.size(); ++k) {
     const double s = system.coordinate_scale(static_cast<std::int32_t>(k));
     weight[k] = 1.0 / (s * s);
@@ -46,13 +65,25 @@ std::vector<double> assembly_weights(const System& system) {
   }
   for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
     const BodyBlock& block = layout.bodies[b];
+    const std::array<bool, 6>& exact = system.model().bodies[b].exact;
+    const bool all_angles = exact[3] && exact[4] && exact[5];
     for (std::int32_t k = 0; k < block.count; ++k) {
-      if (system.model().bodies[b].exact[static_cast<std::size_t>(k)]) {
+      if (k < 3 ? exact[static_cast<std::size_t>(k)] : all_angles)
         weight[static_cast<std::size_t>(block.offset + k)] *= exact_weight;
+    }
+    if (all_angles || !block.turns()) continue;
+    const auto turns = turns_of_angles(drawn.poses[b].R);
+    for (std::size_t angle = 0; angle < 3; ++angle) {
+      if (!exact[3 + angle]) continue;
+      for (std::int32_t r = 0; r < 3; ++r) {
+        for (std::int32_t c = 0; c < 3; ++c) {
+          const double product = turns[angle][static_cast<std::size_t>(r)] * turns[angle][static_cast<std::size_t>(c)];
+          weights.of_angles.push_back({block.offset + 3 + r, block.offset + 3 + c, exact_weight * product});
+        }
       }
     }
   }
-  return weight;
+  return weights;
 }
 
 std::string undefined_value_text(const System& system, const OperatingPoint& op, std::int32_t row) {
@@ -92,10 +123,11 @@ bool beyond_an_end(const Layout& layout, const OperatingPoint& op) {
 
 // The step of least change that meets the active rows to first order; some coordinates may have to stay.
 std::optional<Eigen::VectorXd> least_step(const ConstraintRows& rows, const Partition& part,
-                                          const std::vector<double>& weight, const std::vector<bool>& fixed,
+                                          const AssemblyWeights& weights, const std::vector<bool>& fixed,
                                           SparseLu& lu) {
+  const std::vector<double>& weight = weights.of_coordinates;
   const auto n = static_cast<std::int32_t>(weight.size()), m = rows.size();
-  std::vector<Triplet> entries;
+  std::vector<Triplet> entries = weights.of_angles;
   for (std::int32_t k = 0; k < n; ++k) entries.push_back({k, k, weight[static_cast<std::size_t>(k)]});
   Eigen::MatrixXd step = Eigen::MatrixXd::Zero(n + m, 1);
   for (std::int32_t k = 0; k < m; ++k) {
@@ -163,7 +195,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
       if (!system.starts()[k].displacement) rows.drop(first + static_cast<std::int32_t>(k));
     }
   };
-  std::vector<double> weight;
+  std::optional<AssemblyWeights> weights;
   SparseLu lu;
   std::vector<std::string> history;
   double before = std::numeric_limits<double>::infinity();
@@ -226,13 +258,13 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
     }
     before = left;
 
-    if (weight.empty()) weight = assembly_weights(system);
-    std::vector<bool> fixed(weight.size(), false);
-    std::optional<Eigen::VectorXd> step = least_step(rows, part, weight, fixed, lu);
+    if (!weights) weights = assembly_weights(system, op);
+    std::vector<bool> fixed(system.coordinates(), false);
+    std::optional<Eigen::VectorXd> step = least_step(rows, part, *weights, fixed, lu);
     if (step && ends == Ends::kept) {
       const Stopped stopped = stop_at_ends(layout, op, *step, fixed);
       if (stopped.moved) continue;
-      if (stopped.held) step = least_step(rows, part, weight, fixed, lu);
+      if (stopped.held) step = least_step(rows, part, *weights, fixed, lu);
     }
     if (!step) {
       return tl::unexpected(Failure{"initial conditions", "the constraints are singular at this position", history});

@@ -1,10 +1,12 @@
 // Assembly of positions: the least change, in closed form.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 
 #include "analysis/initial.h"
 #include "system/model_test_support.h"
+#include "system/operating_state.h"
 
 namespace dynalin::analysis_test::position_test {
 namespace {
@@ -61,6 +63,20 @@ TEST(Position, coordinates_named_by_exact_stay_while_others_can_move) {
   EXPECT_NEAR(kept->poses[1].r.x, 2, 1e-6);
   EXPECT_NEAR(kept->poses[1].r.y, -1, 1e-6);
   EXPECT_NEAR(both->poses[1].r.x, 0.5, 1e-12);  // neither can be kept
+}
+
+// None of ψ, θ and φ is a turn about an axis of the ground: where two of them are kept the third alone moves.
+TEST(Position, angles_named_by_exact_stay_while_others_can_change) {
+  const Triple drawn{0.4, 1.2, -0.7};
+  const std::array<const char*, 3> kept = {"THETA:PHI", "PSI:PHI", "PSI:THETA"};
+  for (std::size_t moved = 0; moved < 3; ++moved) {
+    const auto op = assembled(std::string("PART/2, MASS=1, CM=20, IP=1,1,1, REULER=0.4,1.2,-0.7, EXACT=") +
+                              kept[moved] + "\nMARKER/20\nGCON/1, FUNCTION=PSI(20,1)+THETA(20,1)+PHI(20,1)-1\n");
+    ASSERT_TRUE(op) << op.error().message;
+    const Triple found = angles_313(op->poses[1].R);
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(found[k], drawn[k] + (k == moved ? 0.1 : 0.0), 1e-3 * 0.1) << kept[moved] << ", angle " << k;
+  }
 }
 
 TEST(Position, a_point_that_fits_comes_back_untouched) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "analysis/assembly_moves.h"
 #include "analysis/damped_motion.h"
 #include "analysis/homotopy.h"
 #include "analysis/levenberg_marquardt.h"
@@ -138,8 +139,10 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   op.delays.reset();  // at rest the past is the present
   const std::vector<double> first_state = op.state;
   for (auto* x : {&op.velocity, &op.acceleration, &op.state_rate}) std::fill(x->begin(), x->end(), 0.0);
-  auto assembled = assemble_position(system, std::move(op), findings);
+  auto assembled = assemble_position(system, op, findings);
   if (!assembled) return assembled;
+  // Between points of a simulation nothing is drawn.
+  if (op.mode != AnalysisMode::quasi_statics) warn_of_moves(system, op, *assembled, findings.warnings);
   op = std::move(*assembled);
 
   StaticEquations equations(system);

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "elements/settings/output_settings.h"
 
@@ -15,8 +16,8 @@ namespace fs = std::filesystem;
 
 struct PlannedFile {
   std::string path, what;
-  Span at;                  // of the command, nothing for those of the command line
-  bool of_command = false;  // a later command may write the same file again
+  Span at;               // of the command, nothing for those of the command line
+  bool at_once = false;  // there when the command has run: a later one of the same kind may write it anew
 };
 
 std::vector<PlannedFile> planned_files(const std::deque<Job>& jobs, const SessionOptions& options) {
@@ -33,9 +34,9 @@ std::vector<PlannedFile> planned_files(const std::deque<Job>& jobs, const Sessio
       if (files.file.empty()) continue;
       const std::string base = command_path(c.folder, files.file);
       for (const std::string_view suffix : files.suffixes)
-        list.push_back({base + std::string(suffix), "FILE of " + c.text, c.at, true});
+        list.push_back({base + std::string(suffix), "FILE of " + c.text, c.at, files.at_once});
       for (const std::string& name : files.more)
-        list.push_back({command_path(c.folder, name), "FILE of " + c.text, c.at, true});
+        list.push_back({command_path(c.folder, name), "FILE of " + c.text, c.at, files.at_once});
     }
     if (tables) list.push_back({job.prefix + ".txt", "the file of modal tables", {}});
     if (job.xrf_digits > 0) list.push_back({job.prefix + ".res", "the results file", {}});
@@ -59,6 +60,7 @@ void check_outputs(const std::deque<Job>& jobs, const SessionOptions& options, c
                    Diagnostics& diagnostics) {
   std::map<Destination::Place, const PlannedFile*> known;
   const std::vector<PlannedFile> files = planned_files(jobs, options);
+  std::optional<std::uint32_t> warned_of;  // the place of a command
   for (const PlannedFile& file : files) {
     const auto d = find_destination(file.path);
     if (!d) {
@@ -75,12 +77,21 @@ void check_outputs(const std::deque<Job>& jobs, const SessionOptions& options, c
     static const Destination::Place standard_output{0, 0, "-"};
     const bool to_output = d->kind == Destination::Kind::standard_output;
     const auto [other, fresh] = known.emplace(to_output ? standard_output : d->place(), &file);
-    if (fresh || (file.of_command && other->second->of_command)) continue;
-    diagnostics.error(
-        "file-in-use", other->second->at,
-        fmt::format("{} and {} are one file, {}", other->second->what, file.what,
-                    to_output ? "standard output" : file.path),
-        file.what == other->second->what ? "OUTPUT_PREFIX gives the files of a further model names of their own" : "");
+    if (fresh) continue;
+    const PlannedFile& earlier = *other->second;
+    const std::string text =
+        fmt::format("{} and {} are one file, {}", earlier.what, file.what, to_output ? "standard output" : file.path);
+    // Commands one after the other: standard output has both; a file has the later point, or the later result.
+    const bool of_commands = earlier.at.source && file.at.source;
+    if (of_commands && (to_output || earlier.at_once == file.at_once)) {
+      const bool lost = !to_output && !file.at_once && file.at.offset != warned_of;
+      if (lost) diagnostics.warning("replaced-result", file.at, text, "it will hold the last result alone");
+      if (lost) warned_of = file.at.offset;
+      continue;
+    }
+    const bool same = file.what == earlier.what;
+    diagnostics.error("file-in-use", earlier.at.source ? earlier.at : file.at, text,
+                      same ? "OUTPUT_PREFIX gives the files of a further model names of their own" : "");
   }
 }
 

@@ -1,6 +1,7 @@
 // Reads the value of one argument as numbers, words or text.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -80,6 +81,16 @@ class NumberList {
                        fmt::format("a number is missing in the list of {}", name_of(argument_)));
   }
 
+  // What stands behind a number without a comma.
+  const char* hint_for(const Token& token) const {
+    const std::string_view word = token_span(token, source_).text();
+    const bool exponent = word.size() > 1 && (word[0] == 'd' || word[0] == 'D') &&
+                          std::all_of(word.begin() + 1, word.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (exponent) return "D behind a number means degrees; the letter of an exponent is E";
+    const bool is_word = token.kind == TokenKind::word;
+    return is_word ? "units are not written behind numbers; UNITS states them for the whole dataset" : "";
+  }
+
   // A comma at the end of a line and the mark at the start of the next are one.
   bool read_comma() {
     if (symbol_here(',')) {
@@ -93,8 +104,7 @@ class NumberList {
         number ? "expected-comma" : "expected-number", token_span(token, source_),
         number ? fmt::format("a comma is missing before {}", quoted(token, source_))
                : fmt::format("{} takes plain numbers, found {}", name_of(argument_), quoted(token, source_)),
-        token.kind == TokenKind::word ? "units are not written behind numbers; UNITS states them for the whole dataset"
-                                      : "");
+        hint_for(token));
     return false;
   }
 

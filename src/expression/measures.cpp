@@ -11,9 +11,19 @@ namespace dynalin {
 
 namespace {
 
+// Of a value alone nothing is known but the value.
+double rate_of(double x) { return detail::missing(x); }
+template <std::size_t N, class T>
+Dual<N, T> rate_of(const Dual<N, T>& x) {
+  return detail::missing(x);
+}
+template <class T>
+TimeTaylor<T> rate_of(const TimeTaylor<T>& x) {
+  return dynalin::differentiate(x);
+}
 template <class T>
 Vec3<T> differentiate(const Vec3<T>& v) {
-  return {dynalin::differentiate(v.x), dynalin::differentiate(v.y), dynalin::differentiate(v.z)};
+  return {rate_of(v.x), rate_of(v.y), rate_of(v.z)};
 }
 
 // ω = ½ Σ a × a′ over the axes a of the frame.
@@ -25,9 +35,17 @@ Vec3<T> angular_velocity(const Frame<T>& f) {
 }
 
 template <class T>
-T unknown() {
-  const auto none = detail::missing(decltype(T().value)());
+T unknown_like(const T& value) {
+  return detail::missing(value);
+}
+template <class T>
+TimeTaylor<T> unknown_like(const TimeTaylor<T>& x) {
+  const T none = detail::missing(x.value);
   return {none, none, none};
+}
+template <class T>
+T unknown() {
+  return unknown_like(T());
 }
 
 // Zero with a gradient that is not defined by whatever any of the numbers varies with.
@@ -56,6 +74,12 @@ TimeTaylor<T> size_of_zero(const Vec3<TimeTaylor<T>>& v) {
   m.acceleration = undefined_zero({v.x.value, v.y.value, v.z.value, v.x.rate, v.y.rate, v.z.rate, v.x.acceleration,
                                    v.y.acceleration, v.z.acceleration});
   return m;
+}
+
+double size_of_zero(const Vector&) { return 0.0; }
+template <std::size_t N, class T>
+Dual<N, T> size_of_zero(const Vec3<Dual<N, T>>& v) {
+  return undefined_zero({v.x, v.y, v.z});
 }
 
 // In units of the last place of what a difference is taken of.
@@ -134,6 +158,7 @@ T direction(const MeasureFrames<T>& f, std::size_t row, std::size_t column) {
 // The angle of the point (x, y), which are made of unit vectors. At the origin it has no value.
 template <class T>
 T angle_of_point(const T& y, const T& x) {
+  using std::atan2;
   const bool none = std::max(std::fabs(value_of(x)), std::fabs(value_of(y))) <= rounding;
   return none ? unknown<T>() : atan2(y, x);
 }
@@ -147,6 +172,7 @@ struct SmoothAngle {
 // 0 … π, with a kink at both ends.
 template <class T>
 T angle_of(const Vec3<T>& sine, const T& cosine, double size) {
+  using std::atan2;
   return atan2(magnitude(sine, size), cosine);
 }
 
@@ -207,6 +233,7 @@ T psi_with_phi(const MeasureFrames<T>& f, double sign) {
 }
 template <class T>
 FirstAndLast<T> psi_and_phi(const MeasureFrames<T>& f) {
+  using std::atan2;
   if (const Vec3<T> sine = sine_of_theta(f); largest(sine) <= rounding) {
     const T jump = size_of_zero(sine);
     return {psi_with_phi(f, value_of(direction(f, 3, 3)) > 0 ? 1.0 : -1.0) + jump, jump};
@@ -224,6 +251,7 @@ Vec3<T> cosine_of_pitch(const MeasureFrames<T>& f) {
 }
 template <class T>
 FirstAndLast<T> yaw_and_roll(const MeasureFrames<T>& f) {
+  using std::atan2;
   if (const Vec3<T> cosine = cosine_of_pitch(f); largest(cosine) <= rounding) {
     const T jump = size_of_zero(cosine);
     return {yaw_with_roll(f, value_of(direction(f, 3, 1)) > 0 ? 1.0 : -1.0) + jump, jump};
@@ -232,6 +260,7 @@ FirstAndLast<T> yaw_and_roll(const MeasureFrames<T>& f) {
 }
 template <class T>
 T pitch(const MeasureFrames<T>& f) {
+  using std::atan2;
   return atan2(direction(f, 3, 1), magnitude(cosine_of_pitch(f), 1.0));
 }
 
@@ -378,7 +407,7 @@ T evaluate_measure(Measure measure, const MeasureFrames<T>& f) {
     case Measure::DM: return magnitude(displacement(f), size_of_displacement(f));
     case Measure::VX: case Measure::VY: case Measure::VZ: return component(velocity(f), Measure::VX);
     case Measure::VM: return magnitude(velocity(f), size_of_velocity(f));
-    case Measure::VR: return dynalin::differentiate(magnitude(displacement(f), size_of_displacement(f)));
+    case Measure::VR: return rate_of(magnitude(displacement(f), size_of_displacement(f)));
     case Measure::WX: case Measure::WY: case Measure::WZ:
       return component(relative_angular_velocity(f), Measure::WX);
     case Measure::WM: return magnitude(relative_angular_velocity(f), size_of_angular_velocity(f));
@@ -420,6 +449,9 @@ T evaluate_measure(Measure measure, const MeasureFrames<T>& f) {
   return T(std::numeric_limits<double>::quiet_NaN());
 }
 
+template double evaluate_measure(Measure, const MeasureFrames<double>&);
+template Dual<6> evaluate_measure(Measure, const MeasureFrames<Dual<6>>&);
+template Dual<6, Dual<6>> evaluate_measure(Measure, const MeasureFrames<Dual<6, Dual<6>>>&);
 template TimeTaylor<double> evaluate_measure(Measure, const MeasureFrames<TimeTaylor<double>>&);
 template TimeTaylor<Dual<6>> evaluate_measure(Measure, const MeasureFrames<TimeTaylor<Dual<6>>>&);
 template TimeTaylor<Dual<12>> evaluate_measure(Measure, const MeasureFrames<TimeTaylor<Dual<12>>>&);

@@ -1,7 +1,8 @@
 // The marker measures of function expressions, DX to INCANG, each written once over the scalar type.
 //
-// Evaluated on TimeTaylor<double> a measure yields its value and rates, on TimeTaylor<Dual> with
-// path variations as seeds also its gradient (mechanics/path.h). Formulas: function expressions, marker kinematics.
+// Evaluated on TimeTaylor<double> a measure yields its value and rates, on TimeTaylor<Dual> with path variations as
+// seeds also its gradient (mechanics/path.h); one of displacements needs no rates and may be evaluated on double or
+// Dual alone, where all others are NaN. Formulas: function expressions, marker kinematics.
 #pragma once
 
 #include <cstdint>

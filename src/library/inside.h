@@ -54,6 +54,9 @@ struct LinearModel::Inside {
 [[noreturn]] void fail(const StudyFailure&, std::vector<Remark> said = {});
 [[noreturn]] void fail_for_missing(const std::string& what);
 
+// What a point says of the model; throws if it is one of another.
+const StudyPoint& point_of(const Model&, const OperatingPoint&);
+
 template <class T>
 T value_or_throw(StudyResult<T> result, const std::vector<Remark>& said = {}) {
   if (!result) fail(result.error(), said);

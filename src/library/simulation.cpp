@@ -1,10 +1,9 @@
 #include "study/simulation.h"
 
-#include <fmt/format.h>
-
 #include "analysis/static_settings.h"
 #include "dynalin/study.h"
 #include "library/inside.h"
+#include "library/request_checks.h"
 #include "study/history.h"
 
 namespace dynalin::library {
@@ -12,13 +11,6 @@ namespace dynalin::library {
 namespace {
 
 OutputTimes times_of(const SimulationRequest& request, double start) {
-  if (!(request.end > start))
-    fail(Failure{
-        "simulation", fmt::format("the end, {:g}, is not after the present time, {:g}", request.end, start), {}});
-  if (request.steps && request.output_step)
-    fail(Failure{"simulation", "either the time between outputs is stated or their number", {}});
-  if (request.steps ? *request.steps < 1 : request.output_step && !(*request.output_step > 0))
-    fail(Failure{"simulation", "the time between outputs and their number must be positive", {}});
   if (request.steps) return OutputTimes::of_count(start, request.end, *request.steps);
   return OutputTimes(start, request.end, request.output_step.value_or(request.end - start));
 }
@@ -26,6 +18,8 @@ OutputTimes times_of(const SimulationRequest& request, double start) {
 }  // namespace
 
 Simulation Study::simulate(const OperatingPoint& from, const SimulationRequest& request) const {
+  const StudyPoint& start = point_of(model_, from);
+  check(request, from.time());
   const Settings& stated = model_.inside().system->model().settings;
   dynalin::SimulationRequest whole{request.kind, times_of(request, from.time())};
   whole.integrator = stated.integrator;
@@ -40,14 +34,14 @@ Simulation Study::simulate(const OperatingPoint& from, const SimulationRequest& 
     if (step.output) append(history, step.system, step.point);
     if (!request.watch) return GoOn::yes;
     const auto point = [&] {
-      StudyPoint at = from.inside().point;
+      StudyPoint at = start;
       at.values = step.point, at.started = true, at.consistent = step.output;
       at.statics.reset();
       return OperatingPoint(std::make_shared<const OperatingPoint::Inside>(OperatingPoint::Inside{std::move(at), {}}));
     };
     return request.watch({step.point.time, step.output, step.statistics, point}) ? GoOn::yes : GoOn::no;
   };
-  SimulatedPoint found = value_or_throw(dynalin::simulate(from.inside().point, whole, watch));
+  SimulatedPoint found = value_or_throw(dynalin::simulate(start, whole, watch));
   return {OperatingPoint(std::make_shared<const OperatingPoint::Inside>(
               OperatingPoint::Inside{std::move(found.point), remarks_of(found.remarks)})),
           found.kind, found.end, found.statistics, std::move(history)};

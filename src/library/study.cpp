@@ -4,6 +4,7 @@
 
 #include "analysis/static_settings.h"
 #include "library/inside.h"
+#include "library/request_checks.h"
 #include "linear/physical_matrices.h"
 #include "study/modal_tables.h"
 
@@ -52,6 +53,15 @@ void fail(const StudyFailure& f, std::vector<Remark> said) {
 
 void fail_for_missing(const std::string& what) { fail(Failure{"results", fmt::format("{} does not exist", what), {}}); }
 
+const StudyPoint& point_of(const Model& model, const OperatingPoint& point) {
+  if (point.inside().point.system != model.inside().system)
+    fail(Failure{"study",
+                 "the point belongs to another model; Study::continued takes it over into this one, where this one was "
+                 "made of that",
+                 {}});
+  return point.inside().point;
+}
+
 OperatingPoint Study::as_drawn() const { return handed_out({dynalin::as_drawn(model_.inside().system), {}}); }
 
 OperatingPoint Study::continued(const OperatingPoint& before) const {
@@ -62,18 +72,20 @@ OperatingPoint Study::continued(const OperatingPoint& before) const {
 }
 
 OperatingPoint Study::initial_conditions(const OperatingPoint& from, const InitialConditionRequest& request) const {
-  StudyPoint start = from.inside().point;
+  check(request);
+  StudyPoint start = point_of(model_, from);
   if (request.error) start.values.redundancy_tolerance = *request.error;
   return handed_out(value_or_throw(dynalin::initial_conditions(std::move(start))));
 }
 
 OperatingPoint Study::static_equilibrium(const OperatingPoint& from, const StaticRequest& request) const {
+  check(request);
   const EquilibriumSettings& stated = model_.inside().system->model().settings.equilibrium;
-  return handed_out(value_or_throw(dynalin::static_equilibrium(from.inside().point, options_of(stated, request))));
+  return handed_out(value_or_throw(dynalin::static_equilibrium(point_of(model_, from), options_of(stated, request))));
 }
 
 LinearModel Study::linearize(const OperatingPoint& from, const LinearRequest& request) const {
-  const bool ready = from.is_consistent();
+  const bool ready = point_of(model_, from).consistent;
   const OperatingPoint point = ready ? from : initial_conditions(from);
   std::vector<Remark> remarks = ready ? std::vector<Remark>{} : point.remarks();
   const Reduction reduction{request.dense_up_to.value_or(selected_from_all_up_to)};
@@ -114,6 +126,7 @@ Modes LinearModel::modes(bool with_shapes) const {
 }
 
 Modes LinearModel::modes(const ModeSelection& selection, bool with_shapes) const {
+  check(selection);
   const Vectors wanted = with_shapes ? Vectors::right : Vectors::none;
   ModesFound found = value_or_throw(modes_of(inside_->linear, wanted, selection));
   return {std::move(found.solution), remarks_of(found.remarks)};

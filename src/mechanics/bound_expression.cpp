@@ -13,7 +13,10 @@ template <std::size_t N>
 void add_measure_gradient(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion,
                           const CoordinateBlock& block, Equations& eq, std::int32_t row, double factor,
                           bool passes_over, PartialBy velocity_family) {
-  const auto g = path::varied_measure<N>(measure, places, motion, block).value.partial;
+  const auto g = [&] {
+    if constexpr (N == 6) return path::varied_displacement(measure, places, motion, block).partial;
+    return path::varied_measure<N>(measure, places, motion, block).value.partial;
+  }();
   const std::array families = {PartialBy::position, velocity_family, PartialBy::acceleration};
   for (std::size_t level = 0; 6 * level < N; ++level) {
     for (std::int32_t k = 0; k < block.count; ++k) {
@@ -41,8 +44,14 @@ double BoundExpression::atom_value(const BoundAtom& a, const Motion& motion) con
       if (a.channel.kind == Channel::Kind::algebraic) return motion.algebraic[k];
       return a.channel.kind == Channel::Kind::state ? motion.state[k] : motion.state_rate[k];
     }
-    case Kind::measure:
-      return atom_along_motion(a, motion).value;
+    case Kind::measure: {
+      if (a.order > 0) return atom_along_motion(a, motion).value;
+      const auto frame = [&](std::size_t p) {
+        return path::at_instant(a.places[p].frame(motion, a.places[0].place().body));
+      };
+      const double value = evaluate_measure<double>(a.measure, {frame(0), frame(1), frame(2), frame(3)});
+      return a.memory < 0 ? value : unwrapped(value, motion.memory[static_cast<std::size_t>(a.memory)]);
+    }
     case Kind::force:
       return force_value(a, motion);
   }

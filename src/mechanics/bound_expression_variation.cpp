@@ -5,6 +5,8 @@
 //
 // with e_k, e_kl the derivatives of the expression by its atoms and G_ki those of atom k along unit displacement i
 // (position rows) or unit velocity i (velocity rows): in global axes those of poses.
+#include <algorithm>
+
 #include "mechanics/bound_expression.h"
 #include "mechanics/frame_variations.h"
 
@@ -192,7 +194,14 @@ void BoundExpression::add_reaction_partials(const Motion& motion, Equations& eq,
     scratch.taylor_atoms[k] = Taylor(atom_value(a, motion), 0.0, 0.0);
     if (a.kind != BoundAtom::Kind::measure) continue;
     for (std::size_t b = a.first_block; b < a.first_block + a.block_count; ++b) {
-      scratch.gradients[b] = path::varied_measure<12>(a.measure, a.places, motion, atom_blocks_[b]).value.partial;
+      auto& gradient = scratch.gradients[b];
+      if (a.order == 0) {
+        const auto by_position = path::varied_displacement(a.measure, a.places, motion, atom_blocks_[b]).partial;
+        gradient.fill(0.0);
+        std::copy(by_position.begin(), by_position.end(), gradient.begin());
+      } else {
+        gradient = path::varied_measure<12>(a.measure, a.places, motion, atom_blocks_[b]).value.partial;
+      }
     }
   }
   const std::size_t inner_level = row_level == RowLevel::position ? 0 : 1;
@@ -232,7 +241,10 @@ void BoundExpression::add_reaction_partials(const Motion& motion, Equations& eq,
           const auto frame = [&](std::size_t m) {
             return nested_frame(motion, a.places[m], inner, outer, a.places[0].place().body);
           };
-          const NestedDual m = evaluate_measure<Nested>(a.measure, {frame(0), frame(1), frame(2), frame(3)}).value;
+          const auto instant = [&](std::size_t m) { return path::at_instant(frame(m)); };
+          const NestedDual m =
+              a.order == 0 ? evaluate_measure<NestedDual>(a.measure, {instant(0), instant(1), instant(2), instant(3)})
+                           : evaluate_measure<Nested>(a.measure, {frame(0), frame(1), frame(2), frame(3)}).value;
           for (std::int32_t i = 0; i < forces.count; ++i) {
             for (std::int32_t j = 0; j < columns.count; ++j) {
               const double change = m.partial[static_cast<std::size_t>(i)].partial[static_cast<std::size_t>(j)];

@@ -79,6 +79,22 @@ Frame<Seeded<N>> varied_frame(const Motion& motion, const MarkerFrame& marker, c
   return f;
 }
 
+// A frame at its instant alone.
+template <class T>
+Frame<T> at_instant(const Frame<TimeTaylor<T>>& f) {
+  const auto of = [](const Vec3<TimeTaylor<T>>& v) { return Vec3<T>{v.x.value, v.y.value, v.z.value}; };
+  return {of(f.origin), {of(f.axes.x), of(f.axes.y), of(f.axes.z)}};
+}
+
+// A measure of displacements, which velocities take no part in: its value and gradient.
+inline Dual<6> varied_displacement(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion,
+                                   const CoordinateBlock& block) {
+  const auto frame = [&](std::size_t k) {
+    return at_instant(varied_frame<6>(motion, places[k], block, places[0].place().body));
+  };
+  return evaluate_measure<Dual<6>>(measure, {frame(0), frame(1), frame(2), frame(3)});
+}
+
 template <std::size_t N>
 Seeded<N> varied_measure(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion,
                          const CoordinateBlock& block) {

@@ -68,6 +68,7 @@ struct ConstraintRow {
   // Differential states that the row and its rate have with the factor −1: the courses of a MOTION. They enter rows
   // nowhere else.
   std::int32_t course = -1, course_rate = -1;
+  bool prescribed = false;  // moves parts from where they are drawn, as is meant: a MOTION
 };
 
 // A scalar value with one equation of its own: VARIABLE, FUNCTION-valued force, output of a controller.

@@ -19,10 +19,15 @@ Span ElementReader::at(std::string_view argument) const { return at_argument(arg
 
 namespace {
 
+// Commands and settings have no id.
+std::string owner_of(const ElementReader& r) {
+  return r.label().id > 0 ? r.label().text() : std::string(r.label().statement);
+}
+
 bool check_range(double value, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
   if (value >= limits.minimum && value <= limits.maximum) return true;
   const bool low = !(value >= limits.minimum);
-  const std::string owner = r.label().id > 0 ? r.label().text() : std::string(r.label().statement);
+  const std::string owner = owner_of(r);
   r.error("value-out-of-range", w.value_span(),
           fmt::format("{} of {} is {}, it must be at {} {}", limits.argument, owner, value, low ? "least" : "most",
                       low ? limits.minimum : limits.maximum));
@@ -119,7 +124,7 @@ bool read_value(OptionalWord& slot, const WrittenArgument& w, const ValueLimits&
 bool read_value(UserSubroutine& slot, const WrittenArgument& w, const ValueLimits& limits, ElementReader& r) {
   if (w.damaged) return false;  // reported when the text was read
   static constexpr std::array<std::string_view, 1> user = {"USER"};
-  const std::string owner = r.label().text();
+  const std::string owner = owner_of(r);
   const Span first = w.value().empty() ? w.value_span() : Span{w.name.source, w.value()[0].offset, w.value()[0].length};
   if (find_keyword(first.text(), user)) {
     r.error("function-not-built", first,
@@ -222,7 +227,7 @@ std::optional<std::size_t> find_argument(const WrittenArgument& written, std::sp
   const ArgumentInfo& info = infos[*k];
   for (const auto& a : r.assignments) {
     if (a.name == info.name && !info.repeats) {
-      r.error("duplicate-argument", written.name, fmt::format("{} of {} is given twice", info.name, r.label().text()));
+      r.error("duplicate-argument", written.name, fmt::format("{} of {} is given twice", info.name, owner_of(r)));
       return std::nullopt;
     }
   }
@@ -238,12 +243,23 @@ std::optional<std::size_t> find_argument(const WrittenArgument& written, std::sp
   return k;
 }
 
+void warn_of_degrees(std::string_view argument, std::string_view unit, const WrittenArgument& written,
+                     ElementReader& r) {
+  if (unit.empty() || unit.find("rad") != std::string_view::npos) return;
+  const auto value = written.value();
+  const auto degrees = std::find_if(value.begin(), value.end(), [](const Token& t) { return t.degrees; });
+  if (degrees == value.end()) return;
+  r.warning("degrees-without-angle", {&r.source(), degrees->offset, degrees->length},
+            fmt::format("D means degrees, and {} is no angle: its number is multiplied by π/180", argument),
+            fmt::format("{} takes [{}]; write E for an exponent", argument, unit));
+}
+
 bool check_required(std::span<const ArgumentInfo> infos, ElementReader& r) {
   if (r.statement().damaged) return false;  // what looks missing may stand in the part that could not be read
   bool ok = true;
   for (const ArgumentInfo& info : infos) {
     if (!info.required || r.given(info.name)) continue;
-    r.error("missing-argument", r.statement().at, fmt::format("{} needs {}", r.label().text(), info.name),
+    r.error("missing-argument", r.statement().at, fmt::format("{} needs {}", owner_of(r), info.name),
             info.help.empty() ? std::string() : std::string(info.help));
     ok = false;
   }

@@ -208,6 +208,8 @@ inline constexpr auto argument_names = [] {
 // Finds the argument a written name means; reports unknown and repeated ones.
 std::optional<std::size_t> find_argument(const WrittenArgument&, std::span<const ArgumentInfo>,
                                          std::span<const std::string_view> names, ElementReader&);
+// Warns of numbers in degrees, 90D, in a unit that has no angle in it.
+void warn_of_degrees(std::string_view argument, std::string_view unit, const WrittenArgument&, ElementReader&);
 // Reports arguments that are required and missing.
 bool check_required(std::span<const ArgumentInfo>, ElementReader&);
 
@@ -223,6 +225,8 @@ bool read_argument(E& element, const Argument<E>& a, const WrittenArgument& writ
         if constexpr (std::is_same_v<V, bool>) {
           return element.*member = true;
         } else {
+          if constexpr (!std::is_same_v<V, Expression> && !std::is_same_v<V, VectorExpression>)
+            warn_of_degrees(a.name, a.unit, written, reader);
           return read_value(element.*member, written, ValueLimits{a.name, a.minimum, a.maximum}, reader);
         }
       },

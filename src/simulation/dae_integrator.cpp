@@ -27,6 +27,7 @@ constexpr int recoverable = 1;
 // Of one step: convergence failures and error test failures before it is given up.
 constexpr int integrator_failures = 25;
 constexpr int standing_limit = 20;
+constexpr int short_steps_limit = 12;  // more than an order is kept for while steps grow
 constexpr double of_no_weight = 1e-20;
 // What an iteration may leave, as a part of the error of a step. IDA's own, 0.33, costs more than it saves: what is
 // left looks like an error of the step, and there are up to twice as many of these.
@@ -71,7 +72,8 @@ struct DaeIntegrator::Memory {
   double coefficient = 1;             // of the method where the matrix was made
   bool begun = false, fresh = false;  // fresh: no step has been made since the last start
   std::optional<double> stated_first;
-  int standing = 0;  // steps in a row in which time did not go on
+  int standing = 0;     // steps in a row in which time did not go on
+  int short_steps = 0;  // shorter than is allowed, in a row, that do not grow
   std::vector<int> crossed;
   std::string reason;
   std::int64_t at_its_rounding = -1;  // the unknown of which rounding leaves more than may be allowed
@@ -316,7 +318,9 @@ DaeIntegrator::Outcome DaeIntegrator::step(double latest) {
     check(IDAGetLastStep(m.ida, &used));
     check(IDAGetCurrentStep(m.ida, &next));
     // After a start steps are short, and grow.
-    if (next < *m.bounds.least && next < used) {
+    const bool is_short = next < *m.bounds.least;
+    m.short_steps = is_short && next <= used ? m.short_steps + 1 : 0;
+    if (is_short && (next < used || m.short_steps > short_steps_limit)) {
       m.reason = "the error that is allowed asks for steps shorter than HMIN";
       return Outcome::failed;
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/assembly_moves.h"
 #include "linear/stability.h"
 #include "system/operating_state.h"
 
@@ -84,6 +85,7 @@ StudyResult<FoundPoint> initial_conditions(StudyPoint from, const LevelWatch& wa
   tell(Level::position, false);
   auto op = assemble_position(system, from.values, findings, from.started ? Starts::ignored : Starts::held);
   if (!op) return tl::unexpected(StudyFailure(op.error()));
+  warn_of_moves(system, from.values, *op, findings.warnings);
   tell(Level::position, true);
   tell(Level::velocity, false);
   // An edited model goes on with the velocities it had.

@@ -77,6 +77,17 @@ TEST_F(DrawnAxes, that_others_make_parallel_are_named_where_the_assembly_ends) {
   EXPECT_THAT(r.err, HasSubstr("whose axes are parallel and must be perpendicular, cannot hold together"));
 }
 
+// An equation that nothing moves is no matter of axes.
+TEST_F(DrawnAxes, are_not_blamed_where_there_are_none) {
+  const RunResult r =
+      run("t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\n"
+          "GCON/1, FUNCTION=TIME-1\nEND\n",
+          "LINEAR/EIGENSOL\n");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, HasSubstr("GCON/1"));
+  EXPECT_THAT(r.err, Not(HasSubstr("axes")));
+}
+
 TEST_F(DrawnAxes, nothing_runs_where_they_are_impossible) {
   const RunResult r = run(drawn("JOINT/3, UNIVERSAL", "0,0,0"), "LINEAR/EIGENSOL\n");
   EXPECT_EQ(r.status, 1);

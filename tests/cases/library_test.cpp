@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -316,6 +317,59 @@ TEST(Library, takes_points_over_into_changed_models) {
 }
 
 // What any of the edits has stated anew since begins so; what was stated before the point was found does not again.
+// Its values would be found in the place of those of the model that is asked.
+TEST(Library, refuses_points_of_another_model) {
+  const auto before = dynalin::Model::from_text(pendulum);
+  const auto point = dynalin::Study(before).static_equilibrium();
+  const dynalin::Study after(before.with("ACCGRAV JGRAV", -4 * 9.81)), other = study_of(pendulum);
+  const std::vector<std::function<void()>> uses = {
+      [&] { after.linearize(point); }, [&] { after.initial_conditions(point); },
+      [&] { after.static_equilibrium(point); }, [&] { after.simulate(point, {.end = 0.1}); },
+      [&] { other.linearize(point); }};
+  for (const auto& use : uses) EXPECT_THAT(error_of(use).what(), HasSubstr("the point belongs to another model"));
+  const auto modes = after.linearize(after.continued(point)).modes();
+  EXPECT_NEAR(modes.modes.at(0).eigenvalue_hz.imag(), 2 * pendulum_hz, 1e-12);
+}
+
+TEST(Library, refuses_requests_that_are_out_of_range) {
+  const auto study = study_of(pendulum);
+  const auto start = study.initial_conditions();
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+  const auto refuses = [&](const auto& use, const char* why) { EXPECT_THAT(error_of(use).what(), HasSubstr(why)); };
+  const auto simulation = [&](dynalin::SimulationRequest request, const char* why) {
+    refuses([&] { study.simulate(start, request); }, why);
+  };
+  simulation({.end = infinite}, "the end, inf");
+  simulation({.end = 0}, "the end, 0, is not a time after the present one, 0");
+  simulation({.end = 1, .output_step = 0.1, .steps = 10}, "either the time between outputs is stated or their number");
+  simulation({.end = 1, .output_step = -0.1}, "output_step is -0.1");
+  simulation({.end = 1, .steps = 0}, "steps is 0");
+  simulation({.end = 1, .error = nan}, "error is nan");
+  simulation({.end = 1, .error = 0}, "error is 0 and must be more than 0");
+  simulation({.end = 1, .largest_step = -1}, "largest_step is -1");
+  simulation({.end = 1, .first_step = -1}, "first_step is -1");
+  simulation({.end = 1, .least_step = -1}, "least_step is -1 and may not be less than 0");
+  simulation({.end = 1, .largest_order = 0}, "largest_order is 0 and must be at least 1");
+  const auto statics = [&](dynalin::StaticRequest request, const char* why) {
+    refuses([&] { study.static_equilibrium(start, request); }, why);
+  };
+  statics({.error = -1}, "error is -1"), statics({.imbalance = nan}, "imbalance is nan");
+  statics({.translation_limit = -1}, "translation_limit is -1");
+  statics({.iteration_limit = 0}, "iteration_limit is 0");
+  statics({.settling_time = -1}, "settling_time is -1");
+  refuses([&] { study.initial_conditions(start, {.error = -1}); }, "error is -1");
+  const auto linear = study.linearize(start);
+  const auto modes = [&](dynalin::ModeSelection selection, const char* why) {
+    refuses([&] { linear.modes(selection); }, why);
+  };
+  modes(dynalin::ModesInBand{30, 10}, "0 ≤ low < high, not 30 and 10");
+  modes(dynalin::ModesInBand{-5, 1}, "not -5 and 1"), modes(dynalin::ModesInBand{0, nan}, "not 0 and nan");
+  modes(dynalin::NearestModes{1, -3}, "frequency is -3");
+  // All of it at once.
+  const Error both = error_of([&] { study.simulate(start, {.end = 1, .error = -1, .largest_step = -2}); });
+  EXPECT_THAT(both.what(), ::testing::AllOf(HasSubstr("error is -1"), HasSubstr("largest_step is -2")));
+}
+
 TEST(Library, takes_points_over_through_several_edits) {
   const auto before = study_of(pendulum);
   const auto rest = before.static_equilibrium();

@@ -27,6 +27,14 @@ const std::vector<Remark>& table() {
   static const std::vector<Remark> rows = {
       {"accelerating-point", 5, SLIDER(BODY) "ACCGRAV/KGRAV=-10\nEND\n", "LINEAR/EIGENSOL\n"},
       {"changed-velocity", 5, SLIDER("VX=1, " BODY) "END\n", "LINEAR/EIGENSOL\n"},
+      {"changed-position", 5,
+       SLIDER(BODY "EXACT=Z, ") "GCON/1, FUNCTION=DZ(20)-2\nMARKER/21, PART=2\nPART/3, MASS=1, CM=30, IP=1,1,1\n"
+                                "MARKER/30\nEND\n",
+       "LINEAR/EIGENSOL\n"},
+      {"drawn-open", 8,
+       SLIDER(BODY) "JPRIM/1, ATPOINT, I=20, J=2\nMARKER/2, PART=1, QP=0,0,2\nPART/3, MASS=1, CM=30, "
+                    "IP=1,1,1\nMARKER/30\nEND\n",
+       "LINEAR/EIGENSOL\n"},
       {"changed-start", 9,
        SLIDER(BODY) "DIFF/1, IMPLICIT, IC=0.3, FUNCTION=DIF1(1)+DIF1(2)+2*DIF(1)\nDIFF/2, IMPLICIT, IC=3, "
                     "FUNCTION=2*DIF1(1)+2*DIF1(2)+DIF(1)-2*DIF(2)\nEND\n",

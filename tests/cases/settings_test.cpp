@@ -80,6 +80,10 @@ TEST_F(Settings, that_do_not_exist_are_errors_at_their_place) {
   EXPECT_THAT(error("GRAPHICS/1, BALL, CM=20"), HasSubstr("[unknown-argument]"));
   EXPECT_THAT(error("DEBUG/EVERYTHING"), HasSubstr("[unknown-argument]"));
   EXPECT_THAT(error("PREFERENCES/SOLVERS=F77"), HasSubstr("[unknown-argument]"));
+  // Commands have no id.
+  EXPECT_THAT(with("", "SAVE/STATES\n").err, HasSubstr("SAVE needs FILE"));
+  EXPECT_THAT(error("PART/9, MASS=2.0d0"), HasSubstr("the letter of an exponent is E"));
+  EXPECT_THAT(error("PART/9, MASS=2 kg"), HasSubstr("units are not written behind numbers"));
   const RunResult command = with("", "EQUIL/MAXIT=20, FOO=3\nSIM/STAT\n");
   EXPECT_EQ(command.status, 1);
   EXPECT_THAT(command.err, HasSubstr("model.acf:3:17: error"));

@@ -1,4 +1,5 @@
 // A run that cannot go on ends, says when and why, and keeps what it had until then.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "time/course.h"
@@ -27,6 +28,18 @@ TEST(Failures, a_state_that_goes_to_infinity_is_named_with_its_time) {
   EXPECT_THAT(c.failure, ::testing::ContainsRegex("at time (0\\.9999|1)"));
   ASSERT_EQ(c.times.size(), 2u);  // what was before is there
   EXPECT_NEAR(c.last(1), 2, 1e-4);
+}
+
+// Steps that error allows are about 0.01 here: they grow up to there, and never become longer.
+TEST(Failures, steps_that_stay_shorter_than_is_allowed_end_the_run) {
+  const std::string spring =
+      "t\nINTEGRATOR/HMIN={}\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1, VZ=2\nMARKER/20\nJOINT/1, "
+      "TRANSLATIONAL, I=20, J=1\nSFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=-100*DZ(20,1)\n"
+      "VARIABLE/1, FUNCTION=DZ(20,1)\nEND\n";
+  const Course longer = led_through_time(fmt::format(fmt::runtime(spring), 0.5), {3, 6});
+  ASSERT_FALSE(longer.ok());
+  EXPECT_THAT(longer.failure, HasSubstr("steps shorter than HMIN"));
+  EXPECT_TRUE(led_through_time(fmt::format(fmt::runtime(spring), 1e-6), {3, 6}).ok());
 }
 
 TEST(Failures, a_force_without_value_is_named_with_its_function) {

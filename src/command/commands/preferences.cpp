@@ -8,7 +8,7 @@ namespace dynalin::commands {
 namespace {
 
 bool is_on(const OptionalWord& w) {
-  return w.word.empty() || !find_keyword(w.word, std::array<std::string_view, 2>{"OFF", "NO"});
+  return w.word.empty() || !find_keyword(w.word, std::array<std::string_view, 3>{"OFF", "NO", "FALSE"});
 }
 
 class Preferences final : public SettingOf<WrittenPreferences> {

@@ -57,6 +57,14 @@ class CouplerSet final : public TypedSet<Coupler> {
       if (type == "T" || type == "R") continue;
       reader.error("unknown-word", reader.at("TYPE"), fmt::format("TYPE takes T and R, not {}", type));
     }
+    const auto is_same = [&](std::size_t a, std::size_t b) {
+      return c.joints[a] == c.joints[b] && (c.types.size() != n || c.types[a] == c.types[b]);
+    };
+    if (is_same(0, 1) || (n == 3 && (is_same(0, 2) || is_same(1, 2)))) {
+      reader.error("same-joint-twice", reader.at("JOINTS"),
+                   fmt::format("{} couples the displacement of a joint with itself", name),
+                   "JOINTS takes different joints, or TYPE=T:R for both displacements of one");
+    }
   }
 
   void finish(Model& model, Diagnostics& diagnostics) override {

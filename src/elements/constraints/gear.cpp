@@ -38,6 +38,10 @@ class GearSet final : public TypedSet<Gear> {
     if (elements[k].joints.size() != 2) {
       reader.error("wrong-count", reader.at("JOINTS"),
                    fmt::format("{} needs two joints, here are {}", reader.label().text(), elements[k].joints.size()));
+    } else if (elements[k].joints[0] == elements[k].joints[1]) {
+      reader.error("same-joint-twice", reader.at("JOINTS"),
+                   fmt::format("both gears of {} hang on one joint", reader.label().text()),
+                   "JOINTS takes one for each gear");
     }
   }
 

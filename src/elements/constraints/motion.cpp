@@ -103,10 +103,11 @@ class MotionKernel final : public Kernel, public WrenchSource {
       const PrescribedMotion& e = elements[k];
       driven_.push_back(
           {e, {layout.marker(e.i), layout.marker(e.j), e.kind}, layout.add_row(labels[k], e.kind_text()), {}});
-      if (e.level == DriveLevel::displacement) continue;
-      layout.velocity_driven.push_back(&labels[k]);
       Driven& d = driven_.back();
       ConstraintRow& row = layout.rows[static_cast<std::size_t>(d.row)];
+      row.prescribed = true;
+      if (e.level == DriveLevel::displacement) continue;
+      layout.velocity_driven.push_back(&labels[k]);
       d.course = row.course = layout.add_state(course(labels[k], 1, e.start, !e.icdisp));
       if (e.level == DriveLevel::acceleration)
         d.course_rate = row.course_rate = layout.add_state(course(labels[k], 2, e.icvel.value_or(0.0), !e.icvel));

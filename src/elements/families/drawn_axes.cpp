@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace dynalin {
 
@@ -54,6 +55,19 @@ void check_drawn_axes(const Model& model, const ElementLabel& label, MarkerId i,
     diagnostics.error("parallel-axes", label.at, fmt::format("{}: {}", label.full_text(), text), std::string(hint));
     return;
   }
+}
+
+void warn_of_skew_axes(const Model& model, const ElementLabel& label, MarkerId i, MarkerId j,
+                       Diagnostics& diagnostics) {
+  const double cosine = drawn_frame(model, i, j).z.z;
+  if (cosine > nearly_parallel) return;
+  diagnostics.warning(
+      "skew-axes", label.at,
+      fmt::format("the z axes of {} and {} are {:.4g} degrees apart as drawn, and {} acts about that of {}",
+                  model.marker(i).label.text(), model.marker(j).label.text(),
+                  std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi, label.full_text(),
+                  model.marker(j).label.text()),
+      "they are meant to be parallel and to point the same way");
 }
 
 }  // namespace dynalin

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "elements/families/drawn_axes.h"
 #include "elements/families/joint.h"
 #include "elements/families/markers.h"
 #include "mechanics/kernel.h"
@@ -140,7 +141,8 @@ class TwoMarkerForceSet final : public TypedSet<E> {
     constexpr bool turns = E::acts_on_rotation;
     for (std::size_t k = 0; k < this->elements.size(); ++k) {
       const E& e = this->elements[k];
-      check_pair(model, this->labels[k], e.i, e.j, {true, turns, turns}, diagnostics);
+      if (!check_pair(model, this->labels[k], e.i, e.j, {true, turns, turns}, diagnostics)) continue;
+      if (turns) warn_of_skew_axes(model, this->labels[k], e.i, e.j, diagnostics);
     }
   }
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "elements/families/drawn_axes.h"
 #include "elements/families/function_force.h"
 #include "model/schema.h"
 
@@ -17,7 +18,9 @@ class SingleComponentSet final : public TypedSet<E> {
     for (std::size_t k = 0; k < this->elements.size(); ++k) {
       const E& e = this->elements[k];
       const bool turns = E::acts_on_rotation;
-      check_pair(model, this->labels[k], e.i, e.j, {!e.action_only, turns, turns && !e.action_only}, diagnostics);
+      const PairRequirements needs{!e.action_only, turns, turns && !e.action_only};
+      if (!check_pair(model, this->labels[k], e.i, e.j, needs, diagnostics)) continue;
+      if (turns && !e.action_only) warn_of_skew_axes(model, this->labels[k], e.i, e.j, diagnostics);
     }
   }
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "dataset/characters.h"
 #include "elements/settings/setting_set.h"
 
 namespace dynalin {
@@ -11,6 +12,9 @@ namespace {
 
 constexpr std::array<std::string_view, 4> methods = {"ORIGINAL", "ADVANCED", "AGGRESSIVE", "ALL"};
 constexpr std::array<std::string_view, 2> yes_or_no = {"TRUE", "FALSE"};
+constexpr std::array<std::string_view, 2> on_or_off = {"ON", "OFF"};
+constexpr std::array<std::string_view, 6> switches = {"ON", "OFF", "YES", "NO", "TRUE", "FALSE"};
+constexpr std::array<std::string_view, 4> solvers = {"F77", "FORTRAN", "CXX", "C++"};
 constexpr std::size_t longest_pattern = 10;
 
 bool begins(std::string_view word, std::string_view written) { return !written.empty() && word.starts_with(written); }
@@ -43,6 +47,7 @@ bool check_words(const std::vector<std::string>& written, const std::array<std::
 }  // namespace
 
 bool WrittenEquilibrium::check(ElementReader& reader) const {
+  if (!check_one_of(std::array<std::string_view, 2>{"STATIC", "DYNAMIC"}, reader)) return false;
   if (!check_words(method, methods, "METHOD", reader) || !check_words(pattern, yes_or_no, "PATTERN", reader))
     return false;
   if (method.size() > 1) {
@@ -53,6 +58,30 @@ bool WrittenEquilibrium::check(ElementReader& reader) const {
   reader.error("value-out-of-range", reader.at("PATTERN"),
                fmt::format("PATTERN of EQUILIBRIUM has at most {} entries", longest_pattern));
   return false;
+}
+
+bool WrittenIntegrator::check(ElementReader& reader) const {
+  static constexpr std::array<std::string_view, 9> types = {"GSTIFF",  "WSTIFF", "HASTIFF", "DSTIFF",      "HHT",
+                                                            "NEWMARK", "ABAM",   "RKF45",   "CONSTANT_BDF"};
+  static constexpr std::array<std::string_view, 3> formulations = {"I3", "SI2", "SI1"};
+  if (!check_one_of(types, reader) || !check_one_of(formulations, reader)) return false;
+  if (!check_words(interpolate, on_or_off, "INTERPOLATE", reader)) return false;
+  const auto refuse = [&](std::string_view argument, std::string why) {
+    reader.error("value-out-of-range", reader.at(argument), fmt::format("{} of INTEGRATOR {}", argument, why));
+    return false;
+  };
+  if (error == 0.0) return refuse("ERROR", "must be more than 0");
+  if (hmax == 0.0) return refuse("HMAX", "must be more than 0");
+  if (hmax && hmin && *hmax < *hmin) return refuse("HMAX", fmt::format("is {:g}, less than HMIN", *hmax));
+  return true;
+}
+
+bool WrittenPreferences::check(ElementReader& reader) const {
+  bool ok = check_words(solver, solvers, "SOLVER", reader);
+  for (const auto& [word, name] : {std::pair{&simexit, "SIMEXIT"}, std::pair{&status_message, "STATUS_MESSAGE"}}) {
+    if (word->given && !word->word.empty()) ok &= check_words({upper_case(word->word)}, switches, name, reader);
+  }
+  return ok;
 }
 
 EquilibriumSettings WrittenEquilibrium::stated() const {

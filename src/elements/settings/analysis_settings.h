@@ -193,6 +193,7 @@ struct WrittenIntegrator {
   static constexpr std::array<std::string_view, 21> acting = {
       "GSTIFF", "WSTIFF", "HASTIFF", "DSTIFF", "HHT",  "NEWMARK", "ABAM",  "RKF45",       "CONSTANT_BDF", "I3",  "SI2",
       "SI1",    "ERROR",  "HMAX",    "HINIT",  "HMIN", "KMAX",    "MAXIT", "INTERPOLATE", "DEFAULT",      "LIST"};
+  bool check(ElementReader&) const;
   IntegratorSettings stated() const {
     IntegratorSettings s;
     s.error = error, s.largest_step = hmax, s.first_step = hinit, s.least_step = hmin;
@@ -340,6 +341,7 @@ struct WrittenPreferences {
       {.name = "FUNCTION_ERROR", .slot = &E::value},
   }};
   static constexpr std::array<std::string_view, 4> acting = {"SOLVER", "LIST", "SIMEXIT", "STATUS_MESSAGE"};
+  bool check(ElementReader&) const;
   void note(Diagnostics& remarks) const {
     if (solver.empty() || !(solver.front().starts_with("F77") || solver.front().starts_with("FOR"))) return;
     remarks.warning("fortran-solver", {},

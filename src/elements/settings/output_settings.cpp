@@ -30,7 +30,9 @@ void for_each_statement(const Model& model, const Use& use) {
 }  // namespace
 
 bool WrittenOutput::check(ElementReader& reader) const {
-  bool ok = true;
+  using Pair = std::array<std::string_view, 2>;
+  bool ok = check_one_of(Pair{"REQSAVE", "NOREQSAVE"}, reader) && check_one_of(Pair{"GRSAVE", "NOGRSAVE"}, reader) &&
+            check_one_of(Pair{"PRINT", "NOPRINT"}, reader) && check_one_of(Pair{"YPR", "EULER"}, reader);
   for (const auto& [factors, name] : {std::pair{&dscale, "DSCALE"}, std::pair{&vscale, "VSCALE"},
                                       std::pair{&ascale, "ASCALE"}, std::pair{&fscale, "FSCALE"}}) {
     if (factors->size() <= 2) continue;

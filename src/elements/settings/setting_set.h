@@ -10,8 +10,12 @@
 //     bool check(ElementReader&) const;   // false after a reported error
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <memory>
+#include <string_view>
 
 #include "model/model.h"
 #include "model/schema.h"
@@ -34,6 +38,23 @@ template <class E>
 bool read_setting_arguments(E& element, ElementReader& reader) {
   if (!read_arguments(element, reader)) return false;
   if constexpr (requires { element.check(reader); }) return element.check(reader);
+  return true;
+}
+
+// False after a report: of words that exclude each other at most one may stand.
+template <std::size_t n>
+bool check_one_of(const std::array<std::string_view, n>& words, ElementReader& reader) {
+  std::string_view first;
+  for (const std::string_view word : words) {
+    if (!reader.given(word)) continue;
+    if (first.empty()) {
+      first = word;
+      continue;
+    }
+    reader.error("excluded-arguments", reader.at(word),
+                 fmt::format("{} takes {} or {}, not both", reader.label().statement, first, word));
+    return false;
+  }
   return true;
 }
 

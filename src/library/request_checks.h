@@ -1,0 +1,13 @@
+// What requests may ask for, as commands do by the ranges of their arguments: throws what is out of range.
+#pragma once
+
+#include "dynalin/study.h"
+
+namespace dynalin::library {
+
+void check(const InitialConditionRequest&);
+void check(const StaticRequest&);
+void check(const SimulationRequest&, double present_time);
+void check(const ModeSelection&);
+
+}  // namespace dynalin::library
