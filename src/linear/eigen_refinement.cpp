@@ -7,6 +7,7 @@
 
 #include "linear/dense_products.h"
 #include "linear/eigen_residuals.h"
+#include "linear/equal_values.h"
 #include "linear/included_values.h"
 #include "linear/inverse_iteration.h"
 #include "linear/isolated_values.h"
@@ -96,6 +97,7 @@ void doubt_rounding(const ZeroModes& zero, const EigenPairs& pairs, std::vector<
 std::vector<EigenTrust> refine(const PerturbationEquations& equations, const ZeroModes& zero,
                                const Eigen::MatrixXd& uncertainty, EigenPairs& pairs) {
   const StructuredPencil pencil(equations, zero, uncertainty);
+  separate_equal_values(equations, pairs);
   std::vector<EigenTrust> trust(pairs.values.size(), {std::numeric_limits<double>::infinity(), 0, false, 1});
   std::vector<double> gap;
   const auto well_apart = [&](Index i, double part) {

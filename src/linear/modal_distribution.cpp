@@ -393,14 +393,31 @@ bool ModalDistribution::rests(std::size_t mode, const Eigen::VectorXcd& z, const
          largest(velocities - cycle * of.eigenvalue_hz * u) > proportional * largest(velocities);
 }
 
+// Coordinates as large as vectors of this size are unclear: each may be this much or nothing.
+Eigen::VectorXcd ModalDistribution::unclear_motion(const Eigen::VectorXcd& u) const {
+  constexpr double unclear = 1e-13;
+  double size = 0;
+  const auto scale = [&](Eigen::Index k) { return system_.coordinate_scale(static_cast<std::int32_t>(k)); };
+  const auto coordinates = static_cast<Eigen::Index>(system_.coordinates());
+  for (Eigen::Index k = 0; k < coordinates; ++k) size = std::max(size, std::abs(u(k)) / scale(k));
+  Eigen::VectorXcd motion = unclear * u.cwiseAbs().cast<Complex>();
+  for (Eigen::Index k = 0; k < coordinates; ++k) motion(k) = unclear * size * scale(k);
+  return motion;
+}
+
 std::vector<ModalRow<double>> ModalDistribution::force_rows(std::size_t mode, PartialBy family) const {
   const bool strain = family == PartialBy::position;
   const Eigen::VectorXcd z = scaled_vector(mode);
   const Eigen::VectorXcd u = strain ? displacements(z) : velocities(z);
   const WrenchWork work(system_.layout(), family, u, algebraic_change(u, family), algebraic_size(u, family));
+  // What dampers do where nothing but the rounding of vectors moves them, is nothing: a power goes by their square.
+  const Eigen::VectorXcd unclear = strain ? u : unclear_motion(u);
+  const WrenchWork of_rounding(system_.layout(), family, unclear, algebraic_change(unclear, family),
+                               algebraic_size(unclear, family));
   std::vector<ModalRow<double>> rows;
   double total = 0, parts = 0;
   double without_cancellation = 0;  // what the energy would be if no motions cancelled
+  double of_unclear = 0;
   MarkerWrench w;
   for (const std::size_t s : sets_with_rows()) {
     const ElementSet& set = *system_.model().sets[s];
@@ -411,6 +428,7 @@ std::vector<ModalRow<double>> ModalDistribution::force_rows(std::size_t mode, Pa
       wrenches.wrench(motion_, which, true, w);
       const WrenchWork::Done done = work.of(w);
       without_cancellation += done.without_cancellation;
+      if (!strain) of_unclear += of_rounding.of(w).without_cancellation;
       ModalRow<double> row{&set.labels[wrenches.element_of_wrench(which)], 0, std::vector<double>(7, 0.0)};
       if (set.kind().energy_rows == Kind::EnergyRows::each_marker)
         row.part = system_.model().marker(wrenches.marker_I(which)).label.id;
@@ -438,8 +456,8 @@ std::vector<ModalRow<double>> ModalDistribution::force_rows(std::size_t mode, Pa
   double distance = 1;  // of the bodies from the origin, in lengths of the model
   for (const BodyMotion& b : motion_.bodies) distance = std::max(distance, norm(b.r) / system_.length());
   const double least = strain ? 64 * std::numeric_limits<double>::epsilon() * distance : rounding * rounding;
-  const bool nothing =
-      (!strain && rests(mode, z, u)) || parts <= least * without_cancellation || std::abs(total) <= rounding * parts;
+  const bool nothing = (!strain && (rests(mode, z, u) || parts <= of_unclear)) ||
+                       parts <= least * without_cancellation || std::abs(total) <= rounding * parts;
   for (auto& row : rows) {
     for (double& x : row.values) x = nothing ? x * 0 : 100 * x / total;
   }

@@ -72,6 +72,7 @@ class ModalDistribution {
   std::vector<std::size_t> sets_with_rows() const;
   std::vector<ModalRow<double>> force_rows(std::size_t mode, PartialBy family) const;
   bool rests(std::size_t mode, const Eigen::VectorXcd& z, const Eigen::VectorXcd& velocities) const;
+  Eigen::VectorXcd unclear_motion(const Eigen::VectorXcd& u) const;
   Eigen::VectorXcd algebraic_change(const Eigen::VectorXcd& dq, PartialBy family) const;
   Eigen::VectorXd algebraic_size(const Eigen::VectorXcd& dq, PartialBy family) const;  // the same if nothing cancelled
 

@@ -265,12 +265,13 @@ ModalMasses modal_masses(const System& system, const OperatingPoint& op, const L
     shapes.col(at) /= largest;
     entries.col(at) /= largest, beside.col(at) /= largest;
     row.generalized = shapes.col(at).squaredNorm();
-    // Relative to the sizes of its terms, what rounding makes of a sum that is zero.
+    // Beside the largest that a motion of this size can have, what rounding makes of a sum that is zero: of motions in
+    // this direction that cancel, and of one that is all there is in it and is rounding itself.
     const double rounding =
         std::min(1e-8, std::max(64.0, modes.modes[k].condition) * std::numeric_limits<double>::epsilon());
     for (Index d = 0; d < 6; ++d) {
       const Complex L = shapes.col(at).dot(rigid.col(d).cast<Complex>());
-      if (std::abs(L) <= rounding * shapes.col(at).cwiseAbs().dot(rigid.col(d).cwiseAbs())) continue;
+      if (std::abs(L) <= rounding * shapes.col(at).norm() * rigid.col(d).norm()) continue;
       row.participation[static_cast<std::size_t>(d)] = L / row.generalized;
       row.effective[static_cast<std::size_t>(d)] = std::norm(L) / row.generalized;
     }

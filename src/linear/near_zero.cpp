@@ -153,11 +153,7 @@ class Search {
 }  // namespace
 
 Matrix NearZero::vectors() const {
-  Matrix v = Matrix::Identity(count(), count());
-  for (Index c = 0; c < count(); ++c) {
-    for (RealVector next = chains * v.col(c); !next.isZero(0); next = chains * next) v.col(c) = next;
-  }
-  v = (directions * v).eval();
+  Matrix v = directions * last_links(chains);
   v.colwise().normalize();
   return v;
 }

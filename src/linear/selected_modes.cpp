@@ -28,8 +28,11 @@ using Side = EigenvalueSearch::Side;
 constexpr double beside_axis = 0.0137;  // shifts keep off the axis that undamped modes are on
 constexpr double next_to_zero = 0.05;   // of a shift: what may be a zero, as far as it is computed
 constexpr int most_rounds = 24;
-// States of a model whose state matrix costs nothing.
-constexpr Index most_for_state_matrix = 300;
+// States of a model whose state matrix costs nothing, and of one whose full solution is worth its seconds where the
+// search does not settle things.
+constexpr Index most_for_state_matrix = 300, most_for_full_solution = 1500;
+// Of these, so many found are so many that the full solution is cheaper: bounds of p modes together take p³.
+Index most_found(Index states) { return std::max<Index>(100, states / 4); }
 
 Failure no_convergence(std::string what) { return {"eigensolution", std::move(what), {}}; }
 
@@ -54,8 +57,10 @@ class Solution {
   Result<EigenSolution> run(Vectors vectors) {
     selected_.wanted = wanted_;
     if (!find_zeros()) return tl::unexpected(no_convergence("no shift near zero could be factored"));
+    if (too_many()) return tl::unexpected(no_convergence("too many zeros for the Krylov iteration"));
     const auto* nearest = std::get_if<NearestModes>(&wanted_);
     const bool found = nearest ? find_nearest(*nearest) : find_band(std::get<ModesInBand>(wanted_));
+    if (too_many()) return tl::unexpected(no_convergence("too many modes for the Krylov iteration"));
     if (!found) return tl::unexpected(no_convergence("the Krylov iteration did not converge"));
     by_inertia_.reset();
     auto bounded = bound();
@@ -73,6 +78,10 @@ class Solution {
       right_ = std::make_unique<EigenvalueSearch>(op_, Side::right);
       left_ = std::make_unique<EigenvalueSearch>(op_, Side::left);
     }
+  }
+  bool too_many() const {
+    const Index n = op_.states();
+    return n <= most_for_full_solution && right_->found() > most_found(n);
   }
   // Near the imaginary axis at that height, where no undamped mode is; symmetric factors exist on it alone.
   Complex shift_at(double height) const {
@@ -93,6 +102,7 @@ class Solution {
         for (const Complex& v : right_->glance(4 + 8 * round)) {
           if (std::abs(v) > 1e-3 * shift) least = std::min(least, std::abs(v));
           zeros_in_sight_ = zeros_in_sight_ || std::abs(v) <= next_to_zero * shift;
+          small_in_sight_ = small_in_sight_ || zeros_in_sight_;
         }
       }
       if (!std::isfinite(least) || (least >= 0.5 * shift && least <= 1e3 * shift)) break;
@@ -102,13 +112,23 @@ class Solution {
     return true;
   }
 
+  void find_zeros_of_matrix() {
+    if (const auto linear = reduce(system_, perturbation_)) zero_ = all_structural_zeros(*linear);
+  }
   bool find_zeros() {
     if (!place_near_zero()) return false;
     const double shift = std::abs(op_.shift()), near = near_ = next_to_zero * shift;
     // Zeros are the nearest to this shift: an arbitrary vector shows the first of them at a glance.
-    if (!zeros_in_sight_) return true;
+    if (!zeros_in_sight_) {
+      // What was small at first may have been soft, or zeros in chains, which rounding scatters wherever they are
+      // looked at from nearby.
+      if (small_in_sight_ && op_.states() <= most_for_full_solution) find_zeros_of_matrix();
+      return true;
+    }
     // All that are no farther from the shift than what is near zero, and once more from elsewhere.
-    for (int round = 0, empty = 0; round < most_rounds && empty < 2 && !right_->everything(); ++round) {
+    int empty = 0;
+    for (int round = 0; round < most_rounds && empty < 2 && !right_->everything(); ++round) {
+      if (too_many()) return true;
       const Index before = right_->found();
       right_->run(8, shift + near);
       const auto values = right_->values();
@@ -116,12 +136,15 @@ class Solution {
           std::any_of(values.begin() + before, values.end(), [&](Complex v) { return std::abs(v) <= near; });
       empty = any ? 0 : empty + 1;
     }
+    all_zeros_ = empty == 2 || right_->everything();
     const auto part = right_->part([&](Complex v) { return std::abs(v) <= near; });
     if (part.basis.cols() == 0) return true;
     if (op_.states() <= most_for_state_matrix) {
-      if (const auto linear = reduce(system_, perturbation_)) zero_ = all_structural_zeros(*linear);
+      find_zeros_of_matrix();
     } else {
       zero_ = structural_zeros_near(system_, perturbation_, op_.units().asDiagonal() * part.basis, op_.units());
+      // Long chains and speeds that mix zeros with others leave directions that are not clear enough.
+      if (zero_.count() < part.basis.cols() && op_.states() <= most_for_full_solution) find_zeros_of_matrix();
     }
     return true;
   }
@@ -213,7 +236,7 @@ class Solution {
     Index target = static_cast<Index>(std::min(nearest.count, static_cast<std::size_t>(op_.states()))) * per_mode + 4;
     if (nearest.frequency == 0) target += zero_.count();
     int fruitless = 0;
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < most_rounds && !too_many(); ++round) {
       const Index before = right_->found();
       if (right_->found() < target && !right_->everything()) right_->run(target - right_->found(), 0);
       const bool progress = right_->found() > before;
@@ -253,7 +276,7 @@ class Solution {
     start_anew();
     constexpr Index at_a_time = 30, most_from_a_shift = 90;
     // The middle of the band, then of its halves, quarters …; on the real axis, for all from there.
-    for (int level = 0; level < 6; ++level) {
+    for (int level = 0; level < 6 && !too_many(); ++level) {
       const int parts = both_members() ? 1 : 1 << level;
       for (int part = 0; part < parts; ++part) {
         const double half = 0.5 * (region_.high - region_.low) / parts;
@@ -273,7 +296,7 @@ class Solution {
         }
       }
       if (shifts_.empty()) continue;
-      for (int round = 0; round < most_rounds; ++round) {
+      for (int round = 0; round < most_rounds && !too_many(); ++round) {
         if (!look_for_more(std::hypot(region_.right, 0.5 * (region_.high - region_.low)))) break;
       }
       if (count() || right_->everything()) return true;
@@ -360,9 +383,25 @@ class Solution {
       out.modes.push_back(std::move(mode));
     }
     add_backward_errors(equations_, out);
+    // A value that may be anywhere in the region, or outside of it, is not known to be one of those that are wanted.
+    const double extent = (region_.is_disc ? region_.radius : std::max(region_.right, region_.high)) / cycle;
+    const bool known = std::all_of(out.modes.begin(), out.modes.end(), [&](const EigenMode& m) {
+      return m.structural_zero || m.error_bound_hz < std::max(extent, std::abs(m.eigenvalue_hz));
+    });
+    selected_.complete = selected_.complete && all_zeros_ && known && nearest_are_known(out.modes);
     out.selected = selected_;
     if (vectors == Vectors::none) out.vectors.resize(0, 0);
     return out;
+  }
+
+  // Whether bounds tell those that are in the disc from the next ones, half of the way to which is the border.
+  bool nearest_are_known(const std::vector<EigenMode>& modes) const {
+    if (!region_.is_disc || region_.radius == 0) return true;
+    if (right_->everything() && count_in(region_) == right_->found()) return true;
+    return std::all_of(modes.begin(), modes.end(), [&](const EigenMode& m) {
+      const double inside = region_.radius - std::abs(cycle * m.eigenvalue_hz - region_.centre);
+      return m.structural_zero || cycle * m.error_bound_hz <= inside;
+    });
   }
 
   const System& system_;
@@ -377,7 +416,7 @@ class Solution {
   ModeRegion region_, counted_region_;
   std::unique_ptr<InertiaCount> by_inertia_;  // while it is counted
   Index missing_ = 0;
-  bool zeros_in_sight_ = false;
+  bool zeros_in_sight_ = false, small_in_sight_ = false, all_zeros_ = true;
   double near_ = 0;  // the modulus of what may be a zero
   SelectedModes selected_;
 };
@@ -400,7 +439,7 @@ Result<EigenSolution> eigensolve_selected(const System& system, const Perturbati
   if (block_missing || states == 0) return from_all();
   auto solution = Solution(system, perturbation, wanted).run(vectors);
   const bool settled = solution && solution->selected->complete;
-  if (!settled && states <= most_for_state_matrix) return from_all();
+  if (!settled && states <= most_for_full_solution) return from_all();
   return solution;
 }
 

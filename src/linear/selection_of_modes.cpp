@@ -30,16 +30,19 @@ struct Region {
 
 // Of the disc that holds the nearest modes and no other: halfway to the next one.
 double radius_of(const std::vector<EigenMode>& modes, Complex centre, std::size_t count) {
-  std::vector<std::pair<double, double>> distances;  // and what makes no difference
+  std::vector<std::pair<double, double>> distances;  // and what makes no difference, or is not known of them
   for (const EigenMode& m : modes) {
-    if (!m.structural_zero)
-      distances.emplace_back(std::abs(m.eigenvalue_hz - centre),
-                             equal * std::max(std::abs(m.eigenvalue_hz), std::abs(centre)));
+    if (m.structural_zero) continue;
+    const double same = equal * std::max(std::abs(m.eigenvalue_hz), std::abs(centre));
+    distances.emplace_back(std::abs(m.eigenvalue_hz - centre),
+                           std::isfinite(m.error_bound_hz) ? std::max(same, m.error_bound_hz) : same);
   }
   if (distances.empty() || count == 0) return 0;
   std::sort(distances.begin(), distances.end());
   std::size_t last = std::min(count, distances.size()) - 1;
-  while (last + 1 < distances.size() && distances[last + 1].first <= distances[last].first + distances[last].second)
+  while (last + 1 < distances.size() &&
+         distances[last + 1].first <=
+             distances[last].first + std::max(distances[last].second, distances[last + 1].second))
     ++last;
   const double inside = distances[last].first;
   return last + 1 < distances.size() ? (inside + distances[last + 1].first) / 2 : 2 * inside;

@@ -247,12 +247,25 @@ class Splitter {
 
 }  // namespace
 
-Matrix ZeroModes::vectors() const {
-  Matrix v = Matrix::Identity(basis.rows(), count);
-  const auto N = block.topLeftCorner(count, count);
+Matrix last_links(const Matrix& chains) {
+  const Index count = chains.rows();
+  Matrix v = Matrix::Identity(count, count);
   for (Index c = 0; c < count; ++c) {
-    for (Eigen::VectorXd next = N * v.col(c).head(count); !next.isZero(0); next = N * next) v.col(c).head(count) = next;
+    // Each link ends above the one before. Along a chain lengths may grow beyond all numbers.
+    for (Index top = c; top > 0; --top) {
+      const Eigen::VectorXd next = chains.topLeftCorner(top, top + 1) * v.col(c).head(top + 1);
+      while (top > 0 && next(top - 1) == 0) --top;
+      if (top == 0) break;
+      v.col(c).setZero();
+      v.col(c).head(top) = next.head(top) / next.head(top).cwiseAbs().maxCoeff();
+    }
   }
+  return v;
+}
+
+Matrix ZeroModes::vectors() const {
+  Matrix v = Matrix::Zero(basis.rows(), count);
+  v.topRows(count) = last_links(block.topLeftCorner(count, count));
   return right() * v;
 }
 

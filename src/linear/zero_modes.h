@@ -33,6 +33,9 @@ struct ZeroModes {
   bool defective() const { return !block.topLeftCorner(count, count).isZero(0); }
 };
 
+// Of unit vectors, the last vector that a strictly upper triangular N makes of each before it makes nothing.
+Eigen::MatrixXd last_links(const Eigen::MatrixXd& N);
+
 // `rounding` holds what each entry of A may carry.
 ZeroModes split_zero_modes(const Eigen::MatrixXd& A, const Eigen::MatrixXd& rounding, const StructuralZeros* motions);
 
