@@ -25,10 +25,12 @@ constexpr int steps = 4;              // of the iteration for the subspace
 // Of T − I/(λ − σ) along the subspace, against 1/|λ − σ|: what is more belongs to a chain.
 constexpr double no_chain = 1e-3;
 
-// Whether left and right vectors of some columns are far from dual to each other.
+// Whether left and right vectors of some columns are far from dual to each other, or so nearly parallel that duals are
+// next to orthogonal.
 bool are_mixed(const EigenPairs& pairs, const std::vector<Index>& group) {
   for (const Index i : group) {
     const double unit = std::abs(pairs.left.col(i).dot(pairs.right.col(i)));
+    if (!(unit > least_rcond)) return true;
     for (const Index j : group) {
       if (j != i && !(std::abs(pairs.left.col(i).dot(pairs.right.col(j))) <= mixed * unit)) return true;
     }

@@ -14,6 +14,7 @@
 #include "linear/near_zero.h"
 #include "linear/perturbed_point.h"
 #include "linear/selected_pairs.h"
+#include "linear/zero_search.h"
 
 namespace dynalin {
 
@@ -26,13 +27,7 @@ using ComplexMatrix = Eigen::MatrixXcd;
 using Side = EigenvalueSearch::Side;
 
 constexpr double beside_axis = 0.0137;  // shifts keep off the axis that undamped modes are on
-constexpr double next_to_zero = 0.05;   // of a shift: what may be a zero, as far as it is computed
 constexpr int most_rounds = 24;
-// States of a model whose state matrix costs nothing, and of one whose full solution is worth its seconds where the
-// search does not settle things.
-constexpr Index most_for_state_matrix = 300, most_for_full_solution = 1500;
-// Of these, so many found are so many that the full solution is cheaper: bounds of p modes together take p³.
-Index most_found(Index states) { return std::max<Index>(100, states / 4); }
 
 Failure no_convergence(std::string what) { return {"eigensolution", std::move(what), {}}; }
 
@@ -56,7 +51,9 @@ class Solution {
 
   Result<EigenSolution> run(Vectors vectors) {
     selected_.wanted = wanted_;
-    if (!find_zeros()) return tl::unexpected(no_convergence("no shift near zero could be factored"));
+    auto zeros = zeros_near(system_, perturbation_, op_, *right_);
+    if (!zeros) return tl::unexpected(no_convergence("no shift near zero could be factored"));
+    zero_ = std::move(zeros->zero), near_ = zeros->near, all_zeros_ = zeros->all;
     if (too_many()) return tl::unexpected(no_convergence("too many zeros for the Krylov iteration"));
     const auto* nearest = std::get_if<NearestModes>(&wanted_);
     const bool found = nearest ? find_nearest(*nearest) : find_band(std::get<ModesInBand>(wanted_));
@@ -79,74 +76,10 @@ class Solution {
       left_ = std::make_unique<EigenvalueSearch>(op_, Side::left);
     }
   }
-  bool too_many() const {
-    const Index n = op_.states();
-    return n <= most_for_full_solution && right_->found() > most_found(n);
-  }
+  bool too_many() const { return costs_more_than_all(*right_, op_.states()); }
   // Near the imaginary axis at that height, where no undamped mode is; symmetric factors exist on it alone.
   Complex shift_at(double height) const {
     return conservative_ ? Complex(0, (1 + beside_axis) * height) : Complex(beside_axis * height, height);
-  }
-
-  // A shift on the positive real axis that is small against all that is not zero, and not too small.
-  bool place_near_zero() {
-    double shift = 1.0137;
-    for (int tries = 0; tries < 16; ++tries) {
-      if (!op_.move_to(shift)) {
-        shift *= 1.3719;
-        continue;
-      }
-      double least = std::numeric_limits<double>::infinity();
-      for (int round = 0; round < 3 && !std::isfinite(least); ++round) {
-        zeros_in_sight_ = false;
-        for (const Complex& v : right_->glance(4 + 8 * round)) {
-          if (std::abs(v) > 1e-3 * shift) least = std::min(least, std::abs(v));
-          zeros_in_sight_ = zeros_in_sight_ || std::abs(v) <= next_to_zero * shift;
-          small_in_sight_ = small_in_sight_ || zeros_in_sight_;
-        }
-      }
-      if (!std::isfinite(least) || (least >= 0.5 * shift && least <= 1e3 * shift)) break;
-      shift = 0.2137 * least;
-    }
-    op_.find_units();
-    return true;
-  }
-
-  void find_zeros_of_matrix() {
-    if (const auto linear = reduce(system_, perturbation_)) zero_ = all_structural_zeros(*linear);
-  }
-  bool find_zeros() {
-    if (!place_near_zero()) return false;
-    const double shift = std::abs(op_.shift()), near = near_ = next_to_zero * shift;
-    // Zeros are the nearest to this shift: an arbitrary vector shows the first of them at a glance.
-    if (!zeros_in_sight_) {
-      // What was small at first may have been soft, or zeros in chains, which rounding scatters wherever they are
-      // looked at from nearby.
-      if (small_in_sight_ && op_.states() <= most_for_full_solution) find_zeros_of_matrix();
-      return true;
-    }
-    // All that are no farther from the shift than what is near zero, and once more from elsewhere.
-    int empty = 0;
-    for (int round = 0; round < most_rounds && empty < 2 && !right_->everything(); ++round) {
-      if (too_many()) return true;
-      const Index before = right_->found();
-      right_->run(8, shift + near);
-      const auto values = right_->values();
-      const bool any =
-          std::any_of(values.begin() + before, values.end(), [&](Complex v) { return std::abs(v) <= near; });
-      empty = any ? 0 : empty + 1;
-    }
-    all_zeros_ = empty == 2 || right_->everything();
-    const auto part = right_->part([&](Complex v) { return std::abs(v) <= near; });
-    if (part.basis.cols() == 0) return true;
-    if (op_.states() <= most_for_state_matrix) {
-      find_zeros_of_matrix();
-    } else {
-      zero_ = structural_zeros_near(system_, perturbation_, op_.units().asDiagonal() * part.basis, op_.units());
-      // Long chains and speeds that mix zeros with others leave directions that are not clear enough.
-      if (zero_.count() < part.basis.cols() && op_.states() <= most_for_full_solution) find_zeros_of_matrix();
-    }
-    return true;
   }
 
   // Structural zeros are exactly that.
@@ -416,7 +349,7 @@ class Solution {
   ModeRegion region_, counted_region_;
   std::unique_ptr<InertiaCount> by_inertia_;  // while it is counted
   Index missing_ = 0;
-  bool zeros_in_sight_ = false, small_in_sight_ = false, all_zeros_ = true;
+  bool all_zeros_ = true;
   double near_ = 0;  // the modulus of what may be a zero
   SelectedModes selected_;
 };

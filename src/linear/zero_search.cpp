@@ -1,0 +1,99 @@
+#include "linear/zero_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "linear/perturbation.h"
+
+namespace dynalin {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Index = Eigen::Index;
+
+constexpr double next_to_zero = 0.05;  // of a shift: what may be a zero, as far as it is computed
+constexpr int most_rounds = 24;
+
+struct Sight {
+  bool zeros = false;  // from the last shift
+  bool small = false;  // from any of them
+};
+
+// A shift on the positive real axis that is small against all that is not zero, and not too small.
+std::optional<Sight> place_near_zero(ShiftInverse& op, ModeSearch& right) {
+  double shift = 1.0137;
+  Sight sight;
+  bool placed = false;
+  for (int tries = 0; tries < 16; ++tries) {
+    placed = op.move_to(shift);
+    if (!placed) {
+      shift *= 1.3719;
+      continue;
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < 3 && !std::isfinite(least); ++round) {
+      sight.zeros = false;
+      for (const Complex& v : right.glance(4 + 8 * round)) {
+        if (std::abs(v) > 1e-3 * shift) least = std::min(least, std::abs(v));
+        sight.zeros = sight.zeros || std::abs(v) <= next_to_zero * shift;
+      }
+      sight.small = sight.small || sight.zeros;
+    }
+    if (!std::isfinite(least) || (least >= 0.5 * shift && least <= 1e3 * shift)) break;
+    shift = 0.2137 * least;
+  }
+  if (!placed) return std::nullopt;
+  op.find_units();
+  return sight;
+}
+
+NearZero zeros_of_matrix(const System& system, const Perturbation& perturbation) {
+  const auto linear = reduce(system, perturbation);
+  const auto states = static_cast<Index>(perturbation.model.states.size());
+  return linear ? all_structural_zeros(*linear) : NearZero{Eigen::MatrixXd(states, 0), Eigen::MatrixXd(0, 0)};
+}
+
+}  // namespace
+
+bool costs_more_than_all(const ModeSearch& right, Index states) {
+  return states <= most_for_full_solution && right.found() > std::max<Index>(100, states / 4);
+}
+
+std::optional<ZerosFound> zeros_near(const System& system, const Perturbation& perturbation, ShiftInverse& op,
+                                     ModeSearch& right) {
+  const auto sight = place_near_zero(op, right);
+  if (!sight) return std::nullopt;
+  const Index states = op.states();
+  const double shift = std::abs(op.shift()), near = next_to_zero * shift;
+  ZerosFound found{{Eigen::MatrixXd(states, 0), Eigen::MatrixXd(0, 0)}, near};
+  // Zeros are the nearest to this shift: an arbitrary vector shows the first of them at a glance.
+  if (!sight->zeros) {
+    // What was small at first may have been soft, or zeros in chains, which rounding scatters wherever they are looked
+    // at from nearby.
+    if (sight->small && states <= most_for_full_solution) found.zero = zeros_of_matrix(system, perturbation);
+    return found;
+  }
+  // All that are no farther from the shift than what is near zero, and once more from elsewhere.
+  int empty = 0;
+  for (int round = 0; round < most_rounds && empty < 2 && !right.everything(); ++round) {
+    if (costs_more_than_all(right, states)) return found;
+    const Index before = right.found();
+    right.run(8, shift + near);
+    const auto values = right.values();
+    const bool any = std::any_of(values.begin() + before, values.end(), [&](Complex v) { return std::abs(v) <= near; });
+    empty = any ? 0 : empty + 1;
+  }
+  found.all = empty == 2 || right.everything();
+  const auto part = right.part([&](Complex v) { return std::abs(v) <= near; });
+  if (part.basis.cols() == 0) return found;
+  if (states > most_for_state_matrix)
+    found.zero = structural_zeros_near(system, perturbation, op.units().asDiagonal() * part.basis, op.units());
+  // Long chains and speeds that mix zeros with others leave directions that are not clear enough.
+  const bool unclear = states <= most_for_full_solution && found.zero.count() < part.basis.cols();
+  if (states <= most_for_state_matrix || unclear) found.zero = zeros_of_matrix(system, perturbation);
+  return found;
+}
+
+}  // namespace dynalin
