@@ -24,14 +24,12 @@ struct Move {
 
 Move move_of(const OperatingPoint& from, const OperatingPoint& to, std::size_t body) {
   const auto &a = from.poses[body], &b = to.poses[body];
-  double trace = 0, skew = 0;
   Matrix3 turn;
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t r = 0; r < 3; ++r) turn[c][r] = dot(a.R[r], b.R[c]);
   }
-  trace = turn[0][0] + turn[1][1] + turn[2][2];
-  skew = std::hypot(turn[1][2] - turn[2][1], turn[2][0] - turn[0][2], turn[0][1] - turn[1][0]);
-  return {norm(b.r - a.r), std::atan2(skew, trace - 1)};
+  const double twice_sine = std::hypot(turn[1][2] - turn[2][1], turn[2][0] - turn[0][2], turn[0][1] - turn[1][0]);
+  return {norm(b.r - a.r), std::atan2(twice_sine, turn[0][0] + turn[1][1] + turn[2][2] - 1)};
 }
 
 std::string text_of(const Move& m, double length) {
@@ -42,10 +40,9 @@ std::string text_of(const Move& m, double length) {
   return text;
 }
 
-// Of one constraint, the row that is open most, and the body it holds that moves most.
+// A constraint that is open as drawn, and the body it holds that moves most.
 struct OpenConstraint {
   const ElementLabel* owner = nullptr;
-  double open = 0;
   std::size_t body = 0;
   double moved = 0;
 };
@@ -79,7 +76,6 @@ std::vector<OpenConstraint> open_constraints(const System& system, const Operati
       continue;
     if (list.empty() || list.back().owner != row.owner) list.push_back({row.owner});
     OpenConstraint& constraint = list.back();
-    constraint.open = std::max(constraint.open, open);
     for (const auto& e : of_row) {
       if (e.column >= layout.body_coordinate_count) continue;
       const std::size_t body = body_of[static_cast<std::size_t>(e.column)];
@@ -91,7 +87,7 @@ std::vector<OpenConstraint> open_constraints(const System& system, const Operati
   return list;
 }
 
-// Of a body, what EXACT asks to keep and what is not kept: "X = 0.3 to 0".
+// Of a body, what EXACT asks to keep and what is not kept: "X from 0.3 to 0".
 std::vector<std::string> changed_coordinates(const System& system, const OperatingPoint& drawn,
                                              const OperatingPoint& assembled, std::size_t body) {
   static constexpr std::array<const char*, 6> names = {"X", "Y", "Z", "PSI", "THETA", "PHI"};
@@ -120,6 +116,16 @@ std::vector<std::string> changed_coordinates(const System& system, const Operati
 void warn_of_moves(const System& system, const OperatingPoint& drawn, const OperatingPoint& assembled,
                    Diagnostics& warnings) {
   const Layout& layout = system.layout();
+  const auto same = [](const Vector& a, const Vector& b) { return a.x == b.x && a.y == b.y && a.z == b.z; };
+  const auto stays = [&](std::size_t b) {
+    const auto &from = drawn.poses[b], &to = assembled.poses[b];
+    return same(from.r, to.r) && same(from.R.x, to.R.x) && same(from.R.y, to.R.y);
+  };
+  std::vector<std::size_t> moved;
+  for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
+    if (!stays(b)) moved.push_back(b);
+  }
+  if (moved.empty()) return;
   for (const OpenConstraint& c : open_constraints(system, drawn, assembled)) {
     const std::string what = text_of(move_of(drawn, assembled, c.body), system.length());
     if (what.empty()) continue;
@@ -128,8 +134,7 @@ void warn_of_moves(const System& system, const OperatingPoint& drawn, const Oper
         fmt::format("{} does not hold as drawn: of the parts it joins, {} moves most to meet it, assembly {}",
                     c.owner->full_text(), layout.bodies[c.body].label.full_text(), what));
   }
-  for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
-    if (layout.bodies[b].count == 0) continue;
+  for (const std::size_t b : moved) {
     const auto changed = changed_coordinates(system, drawn, assembled, b);
     if (changed.empty()) continue;
     warnings.warning("changed-position", layout.bodies[b].label.at,

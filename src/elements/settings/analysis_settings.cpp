@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 4> methods = {"ORIGINAL", "ADVANCED", "AG
 constexpr std::array<std::string_view, 2> yes_or_no = {"TRUE", "FALSE"};
 constexpr std::array<std::string_view, 2> on_or_off = {"ON", "OFF"};
 constexpr std::array<std::string_view, 6> switches = {"ON", "OFF", "YES", "NO", "TRUE", "FALSE"};
-constexpr std::array<std::string_view, 4> solvers = {"F77", "FORTRAN", "CXX", "C++"};
+constexpr std::array<std::string_view, 3> solvers = {"F77", "FORTRAN", "CXX"};
 constexpr std::size_t longest_pattern = 10;
 
 bool begins(std::string_view word, std::string_view written) { return !written.empty() && word.starts_with(written); }
@@ -71,8 +71,7 @@ bool WrittenIntegrator::check(ElementReader& reader) const {
     return false;
   };
   if (error == 0.0) return refuse("ERROR", "must be more than 0");
-  if (hmax == 0.0) return refuse("HMAX", "must be more than 0");
-  if (hmax && hmin && *hmax < *hmin) return refuse("HMAX", fmt::format("is {:g}, less than HMIN", *hmax));
+  if (hmin && hmax && *hmax > 0 && *hmax < *hmin) return refuse("HMAX", fmt::format("is {:g}, less than HMIN", *hmax));
   return true;
 }
 
