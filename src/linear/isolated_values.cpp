@@ -73,6 +73,7 @@ class Discs {
       if (!pairs_.real(i) && !(centre_(i).imag() > 0)) bound = infinity;
       bound += 2 * residuals_.zero_coupling(i) + 2 * eps * std::abs(centre_(i));
       const bool known = std::isfinite(bound);
+      out.all = out.all && known;
       out.values.push_back(known ? centre_(i) : value(pairs_, {i, false}));
       out.trust.push_back({known ? bound : infinity, residuals_.unknown(i), false, 1});
     }

@@ -212,5 +212,28 @@ INSTANTIATE_TEST_SUITE_P(
                       Ride{9, -22.437885590408591, 0.15790184030917298, -3.2167540225249075, 9.6937735153178220},
                       Ride{10, -24.624596350174000, 0.16105338653171554, -3.7201684043728757, 10.906811394762882}));
 
+// A thin disk that rolls along x. Beside five zeros of the structure, in chains, a zero is computed, which nothing
+// proves: it has a bound as every other value. The lean: A (A + m r²) s² + C (C + m r²) Ω² − A m g r = 0.
+TEST_F(Rolling, a_zero_beside_those_of_the_structure_has_a_bound) {
+  const RunResult r = run(
+      "t\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-9.8125\nPART/1, GROUND\nMARKER/1\nPART/3, MASS=2, CM=30, "
+      "IP=0.125,0.125,0.25, QG=0,0,0.5, REULER=0,90D,0, VX=2.0, WZ=-4, WY=0, WX=0\nMARKER/30\nMARKER/31, QP=0,0,1\n"
+      "GCON/1, FUNCTION=DZ(30)-0.5*SQRT(1-DZ(31,30)**2)\n"
+      "GCON/2, FUNCTION=VX(30)+WY(30)*(-0.5)*SQRT(1-DZ(31,30)**2)-WZ(30)*0.5*DZ(31,30)*DY(31,30)/SQRT(1-DZ(31,30)**2)\n"
+      "GCON/3, FUNCTION=VY(30)+WZ(30)*0.5*DZ(31,30)*DX(31,30)/SQRT(1-DZ(31,30)**2)+WX(30)*0.5*SQRT(1-DZ(31,30)**2)\n"
+      "END\n",
+      "LINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const double lean = std::sqrt((0.75 * 0.25 * 16 - 0.125 * 9.8125) / (0.625 * 0.125)) / (2 * std::numbers::pi);
+  const auto& modes = r.result(0).at("modes");
+  ASSERT_EQ(modes.size(), 7u);
+  for (const auto& m : modes) {
+    ASSERT_FALSE(m.at("error_bound_hz").is_null());
+    EXPECT_LT(m.at("error_bound_hz"), 1e-12);
+  }
+  for (std::size_t k = 0; k < 6; ++k) EXPECT_LE(std::abs(modes[k].at("real_hz").get<double>()), 1e-12);
+  EXPECT_NEAR(modes[6].at("imag_hz"), lean, 1e-13);
+}
+
 }  // namespace
 }  // namespace dynalin::cases::rolling_test
