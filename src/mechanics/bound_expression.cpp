@@ -14,8 +14,11 @@ void add_measure_gradient(Measure measure, const std::array<MarkerFrame, 4>& pla
                           const CoordinateBlock& block, Equations& eq, std::int32_t row, double factor,
                           bool passes_over, PartialBy velocity_family) {
   const auto g = [&] {
-    if constexpr (N == 6) return path::varied_displacement(measure, places, motion, block).partial;
-    return path::varied_measure<N>(measure, places, motion, block).value.partial;
+    if constexpr (N == 6) {
+      return path::varied_displacement(measure, places, motion, block).partial;
+    } else {
+      return path::varied_measure<N>(measure, places, motion, block).value.partial;
+    }
   }();
   const std::array families = {PartialBy::position, velocity_family, PartialBy::acceleration};
   for (std::size_t level = 0; 6 * level < N; ++level) {
