@@ -29,7 +29,8 @@ struct SelectedModes {
   std::size_t found = 0;    // eigenvalues in the region, conjugates and zeros included
   std::size_t counted = 0;  // the same, independently of having found them
   CountedBy by = CountedBy::nothing;
-  // Both agree and bounds tell which modes are in the region: none is missing, and no zero of the structure beside them.
+  // Both agree and bounds tell which modes are in the region: none is missing, and no zero of the structure beside
+  // them.
   bool complete = false;
 };
 
