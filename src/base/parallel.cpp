@@ -8,11 +8,14 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "base/blas_threads.h"
 
 namespace dynalin {
 
@@ -66,6 +69,7 @@ class SignalsHeldBack {
 
 class Pool {
  public:
+  Pool() { const OneBlasThread first; }  // whose own are there longer than the pool
   ~Pool() { stop(); }
 
   std::size_t size() const { return wanted_; }
@@ -73,6 +77,11 @@ class Pool {
     const std::lock_guard lock(busy_);
     stop();
     wanted_ = std::max<std::size_t>(1, wanted);
+    if (wanted_ > 1) {
+      alone_.reset();
+    } else if (!alone_) {
+      alone_.emplace();
+    }
   }
 
   // False if somebody else has it.
@@ -133,6 +142,7 @@ class Pool {
   Tasks* tasks_ = nullptr;
   std::size_t vacant_ = 0, at_work_ = 0;
   std::vector<std::jthread> threads_;
+  std::optional<OneBlasThread> alone_;  // who wants one thread wants none of the BLAS
 };
 
 Pool& pool() {
@@ -162,6 +172,8 @@ void in_parallel(std::size_t count, const std::function<void(std::size_t)>& task
     in_task = before;
   };
   Tasks tasks(count, marked);
+  std::optional<OneBlasThread> each;
+  if (count > 1) each.emplace();
   if (in_task || count == 1 || thread_count() == 1 || !pool().run(tasks, count)) {
     for (std::size_t k = 0; k < count; ++k) tasks.run(k);
   }

@@ -8,6 +8,7 @@
 
 #include "linear/balanced.h"
 #include "linear/configuration.h"
+#include "linear/dense_products.h"
 #include "linear/perturbation.h"
 #include "linear/perturbed_point.h"
 #include "linear/structural_zeros.h"
@@ -65,16 +66,14 @@ std::vector<StateReach> reach_of(const System& system, const Perturbation& p, co
   return reach;
 }
 
-// part(columns) of motions, few columns at a time: all unknowns of a large model are many.
+// part(columns) of motions.
 template <class Part>
 Eigen::MatrixXcd of_motions(const PerturbationEquations& equations, const Eigen::MatrixXcd& of_states, Part&& part) {
-  constexpr Eigen::Index at_a_time = 4;
   Eigen::MatrixXcd all(equations.coordinates(), of_states.cols());
-  for (Eigen::Index first = 0; first < of_states.cols(); first += at_a_time) {
-    const Eigen::Index count = std::min(at_a_time, of_states.cols() - first);
+  for_few_columns(of_states.cols(), [&](Eigen::Index first, Eigen::Index count) {
     const Eigen::MatrixXcd motions = equations.motions(of_states.middleCols(first, count));
     all.middleCols(first, count) = part(motions);
-  }
+  });
   return all;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "linear/mass_root.h"
 
 namespace dynalin {
@@ -62,27 +63,28 @@ void name_movers(const System& system, const OperatingPoint& op, const LinearSys
   for (Eigen::Index k = 0; k < states; ++k) {
     if (linear.model.states[static_cast<std::size_t>(k)].is_rate) rates.push_back(k);
   }
-  for (std::size_t m = 0; m < solution.modes.size(); ++m) {
-    const Eigen::VectorXcd z = solution.vectors.col(static_cast<Eigen::Index>(m)), dq = linear.displacements(z).col(0);
+  in_parallel(solution.modes.size(), [&](std::size_t m) {
+    const Eigen::VectorXcd z = solution.vectors.col(static_cast<Eigen::Index>(m));
+    const auto displacements = [&]() -> Eigen::VectorXcd { return linear.displacements(z).col(0); };
     EigenMode& mode = solution.modes[m];
     const bool at_rest = mode.eigenvalue_hz == std::complex<double>(0);
     Eigen::VectorXcd of_rates = Eigen::VectorXcd::Zero(states);
     of_rates(rates) = z(rates);
     const ElementLabel* body =
-        most_energetic(system, root, at_rest ? dq : Eigen::VectorXcd(linear.velocities(of_rates).col(0)));
+        most_energetic(system, root, at_rest ? displacements() : Eigen::VectorXcd(linear.velocities(of_rates).col(0)));
     // A freedom without mass is what a mode may consist of; controllers that turn it are named before it.
-    if (!body && z.tail(differential).norm() <= 1e-9 * z.norm()) body = furthest(system, op, dq);
+    if (!body && z.tail(differential).norm() <= 1e-9 * z.norm()) body = furthest(system, op, displacements());
     if (body) {
       mode.mover = body->element();
       mode.moves_most = body->full_text();
-      continue;
+      return;
     }
     const Eigen::Index first = differential > 0 ? states - differential : 0;
     Eigen::Index k = 0;
     z.tail(states - first).cwiseAbs().maxCoeff(&k);
     mode.mover = solution.states[static_cast<std::size_t>(first + k)].owner;
     mode.moves_most = mode.mover.text();
-  }
+  });
 }
 
 void map_shapes(const System& system, const LinearSystem& linear, EigenSolution& solution) {

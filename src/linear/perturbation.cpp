@@ -207,20 +207,15 @@ PerturbationEquations::Roundings PerturbationEquations::roundings(const Matrix& 
   return {units_of_rounding * unit * total, unit / 2 * of_coefficients.cwiseSqrt()};
 }
 
-Matrix PerturbationEquations::coefficient_roundings(const Eigen::MatrixXcd& left, const Eigen::MatrixXcd& right) const {
+Matrix PerturbationEquations::rounding_variances(const Eigen::MatrixXcd& right) const {
+  constexpr double half_unit = std::numeric_limits<double>::epsilon() / 2;
   Matrix sums = Matrix::Zero(unknowns(), right.cols());
   for (Eigen::Index c = 0; c < right.cols(); ++c) {
-    for_each_entry(roundings_,
-                   [&](std::int32_t r, std::int32_t k, double v) { sums(r, c) += v * v * std::norm(right(k, c)); });
+    for_each_entry(roundings_, [&](std::int32_t r, std::int32_t k, double v) {
+      sums(r, c) += v * v * std::norm(half_unit * right(k, c));
+    });
   }
-  constexpr Eigen::Index at_a_time = 4096;  // without a copy of all that is left
-  Matrix squares = Matrix::Zero(left.cols(), right.cols());
-  for (Eigen::Index first = 0; first < left.rows(); first += at_a_time) {
-    const Eigen::Index count = std::min(at_a_time, left.rows() - first);
-    squares +=
-        transposed_product(Matrix(left.middleRows(first, count).cwiseAbs2()), Matrix(sums.middleRows(first, count)));
-  }
-  return std::numeric_limits<double>::epsilon() / 2 * squares.cwiseSqrt();
+  return sums;
 }
 
 }  // namespace dynalin

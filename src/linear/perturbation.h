@@ -75,8 +75,8 @@ class PerturbationEquations {
   // Of the entries of products() where roundings are counted: the sizes of what they are made of (roundoff_scales.h).
   // They are found anew, as large as the equations themselves; selected modes of large models do not ask for them.
   static ColumnMatrix sizes(const System&, const PerturbedPoint&);
-  // The same of the coefficients alone between unknowns (a; x), one column each: √Σ(left·(rounding)·right)².
-  Eigen::MatrixXd coefficient_roundings(const Eigen::MatrixXcd& left, const Eigen::MatrixXcd& right) const;
+  // The same of the coefficients alone, row by row of all equations, for columns (a; x): Σ((rounding)·right)².
+  Eigen::MatrixXd rounding_variances(const Eigen::MatrixXcd& right) const;
 
   // Columns a that the equations leave open, of freedoms without mass: rates or accelerations that depend on
   // derivatives of inputs or, where the model moves, of coefficients. The states do not depend on them.

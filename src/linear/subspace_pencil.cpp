@@ -99,16 +99,25 @@ double norm_beside(const ShiftInverse& op, const ComplexMatrix& X, const Complex
   return norm;
 }
 
+// visit(first, count) for all rows, so many at a time that a copy of them stays small.
+template <class Visit>
+void for_row_blocks(Index rows, Visit&& visit) {
+  constexpr Index at_a_time = 4096;
+  for (Index first = 0; first < rows; first += at_a_time) visit(first, std::min(at_a_time, rows - first));
+}
+
+// Not by hypot, which is slow: nothing here is near the limits of the numbers.
+template <class Columns>
+Matrix sizes(const Columns& a) {
+  return a.cwiseAbs2().cwiseSqrt();
+}
+
 // |a|ᵀ b without a copy of a.
 Matrix sizes_product(const ComplexMatrix& a, const Matrix& b) {
-  constexpr Index at_a_time = 4096;
   Matrix sum = Matrix::Zero(a.cols(), b.cols());
-  for (Index first = 0; first < a.rows(); first += at_a_time) {
-    const Index count = std::min(at_a_time, a.rows() - first);
-    // Not by hypot: coefficient_roundings() squares the same numbers.
-    sum += transposed_product(Matrix(a.middleRows(first, count).cwiseAbs2().cwiseSqrt()),
-                              Matrix(b.middleRows(first, count)));
-  }
+  for_row_blocks(a.rows(), [&](Index first, Index count) {
+    sum += transposed_product(sizes(a.middleRows(first, count)), b.middleRows(first, count));
+  });
   return sum;
 }
 
@@ -126,13 +135,31 @@ class ShortColumns {
   }
   // Aᴴ b for the first rows of b.
   ComplexMatrix adjoint_times(const ComplexMatrix& b) const {
-    constexpr Index at_a_time = 4096;
     ComplexMatrix sum = ComplexMatrix::Zero(value_.cols(), b.cols());
-    for (Index first = 0; first < value_.rows(); first += at_a_time) {
-      const Index count = std::min(at_a_time, value_.rows() - first);
+    for_row_blocks(value_.rows(), [&](Index first, Index count) {
       sum += adjoint_product(value_.middleRows(first, count).cast<Complex>(), b.middleRows(first, count));
-    }
+    });
     return unit_.asDiagonal() * sum;
+  }
+  // Aᴴ b, |A|ᵀ `rounding_of_b`, and the root of the sum of |A|² `variance`.
+  struct Weighed {
+    ComplexMatrix product;
+    Matrix rounding, deviation;
+  };
+  Weighed weigh(const ComplexMatrix& b, const Matrix& rounding_of_b, const Matrix& variance) const {
+    const Index count = value_.cols(), columns = b.cols();
+    Weighed sum{ComplexMatrix::Zero(count, columns), Matrix::Zero(count, columns), Matrix::Zero(count, columns)};
+    for_row_blocks(value_.rows(), [&](Index first, Index rows) {
+      const ComplexMatrix a = value_.middleRows(first, rows).cast<Complex>();
+      sum.product += adjoint_product(a, b.middleRows(first, rows));
+      const Matrix squares = a.cwiseAbs2();
+      sum.rounding += transposed_product(squares.cwiseSqrt(), rounding_of_b.middleRows(first, rows));
+      sum.deviation += transposed_product(squares, variance.middleRows(first, rows));
+    });
+    sum.product = unit_.asDiagonal() * sum.product;
+    sum.rounding = unit_.asDiagonal() * sum.rounding;
+    sum.deviation = unit_.asDiagonal() * sum.deviation.cwiseSqrt();
+    return sum;
   }
 
  private:
@@ -143,20 +170,18 @@ class ShortColumns {
 // All unknowns of the left vectors, and their residuals Aᴴ Y − Y Bᴴ with the algebraic unknowns taken out. Those of
 // algebraic unknowns only meet other residuals, in what those may do at most.
 struct LeftResiduals {
-  ComplexMatrix y;
-  ShortColumns of_algebraic;
+  ShortColumns y, of_algebraic;
   ComplexMatrix of_states;
 };
 
 LeftResiduals left_residuals(const PerturbationEquations& equations, const Subspace& of) {
   const Index n = equations.states(), p = of.Y.cols(), algebraic = equations.unknowns() - n;
-  LeftResiduals left{ComplexMatrix(n + algebraic, p), ShortColumns(algebraic, p), ComplexMatrix(n, p)};
+  LeftResiduals left{ShortColumns(n + algebraic, p), ShortColumns(algebraic, p), ComplexMatrix(n, p)};
   const ComplexMatrix onto = of.B.adjoint();
   for_few_columns(p, [&](Index first, Index count) {
     const ComplexMatrix Y = of.Y.middleCols(first, count);
-    auto y = left.y.middleCols(first, count);
-    y.topRows(algebraic) = by_parts(Y, [&](const Matrix& m) { return equations.complete_left(m); });
-    y.bottomRows(n) = Y;
+    const ComplexMatrix y = with_algebraic(by_parts(Y, [&](const Matrix& m) { return equations.complete_left(m); }), Y);
+    left.y.set(first, y);
     auto L = left.of_states.middleCols(first, count);
     ComplexMatrix L_a;
     {
@@ -184,7 +209,6 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
     return with_algebraic(by_parts(x, [&](const Matrix& m) { return equations.complete(m); }), x);
   };
   const LeftResiduals left = left_residuals(equations, of);
-  const ComplexMatrix& y = left.y;
   ComplexMatrix U(n, p + z), F(p + z, p);
   U << of.X, of.V.cast<Complex>();
   F << of.B, of.C;
@@ -197,16 +221,23 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
   SubspacePencil out;
   out.uncertainty.resize(p, p), out.unknown.resize(p, p);
   for_few_columns(p, [&](Index first, Index count) {
-    const ComplexMatrix w = completed(of.X.middleCols(first, count));
-    const Residuals right = residuals(rows, w, U, F.middleCols(first, count));
+    Residuals right;
+    Matrix variances;
+    {
+      const ComplexMatrix w = completed(of.X.middleCols(first, count));
+      right = residuals(rows, w, U, F.middleCols(first, count));
+      variances = equations.rounding_variances(w);
+    }
+    right.rounding += static_cast<double>(n + algebraic) * eps * sizes(right.value);
     const ComplexMatrix reduced =
         by_parts(right.value, [&](const Matrix& m) { return equations.reduced(m, SparseLu::Refined::no); });
-    const ComplexMatrix of_block = adjoint_product(y, right.value), other = adjoint_product(of.Y, reduced);
+    const ShortColumns::Weighed by_left = left.y.weigh(right.value, right.rounding, variances);
+    // Two ways to the same: their difference shows what the factors, and y in few digits, have left.
+    const ComplexMatrix of_block = adjoint_product(of.Y, reduced);
     G.middleCols(first, count) = of_block;
     out.uncertainty.middleCols(first, count) =
-        sizes_product(y, right.rounding + static_cast<double>(n + algebraic) * eps * right.value.cwiseAbs()) +
-        margin_of_difference * (of_block - other).cwiseAbs();
-    out.unknown.middleCols(first, count) = equations.coefficient_roundings(y, w);
+        by_left.rounding + margin_of_difference * (by_left.product - of_block).cwiseAbs();
+    out.unknown.middleCols(first, count) = by_left.deviation;
     // What goes through the rest of the model: (S − σ E)⁻¹ by (A − σ)⁻¹, with the algebraic unknowns taken out on both
     // sides.
     ComplexMatrix R = unit.cwiseInverse().asDiagonal() * reduced;
@@ -228,7 +259,7 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
     // The equations hold the zeros to rounding only: to first order Yᴴ (A V − V N)(λ − N)⁻¹ C.
     ComplexMatrix of_zero = of.V.cast<Complex>();
     const Residuals zero = residuals(rows, completed(of_zero), of_zero, of.N.cast<Complex>());
-    const Matrix from_zero = adjoint_product(y, zero.value).cwiseAbs();
+    const Matrix from_zero = left.y.adjoint_times(zero.value).cwiseAbs();
     Matrix through(z, p);
     for (Index j = 0; j < p; ++j) {
       ComplexMatrix shifted = -of.N.cast<Complex>();

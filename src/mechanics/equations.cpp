@@ -28,6 +28,8 @@ ConstraintRows::Entry& ConstraintRows::entry(std::int32_t row, std::int32_t colu
   for (Entry& e : entries) {
     if (e.column == column) return e;
   }
+  constexpr std::size_t of_two_bodies = 12;  // what nearly all rows have, without room that nothing takes
+  if (entries.empty()) entries.reserve(of_two_bodies);
   return entries.emplace_back(Entry{.column = column});
 }
 

@@ -296,6 +296,7 @@ const std::vector<Wrong>& table() {
     {Place::command, "INTEGRATOR/SI2, I3", {"excluded-arguments 3:12"}},
     {Place::command, "INTEGRATOR/ERROR=0", {"value-out-of-range 3:12"}},
     {Place::command, "INTEGRATOR/HMAX=1, HMIN=2", {"value-out-of-range 3:12"}},
+    {Place::command, "INTEGRATOR/GSTIFF, KMAX=9", {"value-out-of-range 3:20"}},
     {Place::command, "INTEGRATOR/INTERPOLATE=MAYBE", {"unknown-word 3:12"}},
     {Place::command, "EQUILIBRIUM/STATIC, DYNAMIC", {"excluded-arguments 3:21"}},
     {Place::command, "PREFERENCES/SIMEXIT=MAYBE", {"unknown-word 3:13"}},

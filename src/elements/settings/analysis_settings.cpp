@@ -71,6 +71,8 @@ bool WrittenIntegrator::check(ElementReader& reader) const {
     return false;
   };
   if (error == 0.0) return refuse("ERROR", "must be more than 0");
+  const std::int64_t highest_order = abam ? 12 : 6;
+  if (kmax > highest_order) return refuse("KMAX", fmt::format("is {}, the highest order is {}", *kmax, highest_order));
   if (hmin && hmax && *hmax > 0 && *hmax < *hmin) return refuse("HMAX", fmt::format("is {:g}, less than HMIN", *hmax));
   return true;
 }

@@ -167,7 +167,7 @@ struct WrittenIntegrator {
       {.name = "HMAX", .slot = &E::hmax, .unit = "time", .minimum = 0, .help = "longest step; an interval of output"},
       {.name = "HINIT", .slot = &E::hinit, .unit = "time", .minimum = 0, .help = "first step"},
       {.name = "HMIN", .slot = &E::hmin, .unit = "time", .minimum = 0, .help = "a shorter step ends the simulation"},
-      {.name = "KMAX", .slot = &E::kmax, .minimum = 1, .help = "highest order, at most 5"},
+      {.name = "KMAX", .slot = &E::kmax, .minimum = 1, .help = "highest order; 5 is the most that is used"},
       {.name = "MAXIT", .slot = &E::maxit, .minimum = 1, .help = "iterations of a step, 4"},
       {.name = "CORRECTOR", .slot = &E::words},
       {.name = "INTERPOLATE", .slot = &E::interpolate, .help = "ON: steps may be longer than an interval of output"},
