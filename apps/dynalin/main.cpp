@@ -179,7 +179,7 @@ int run(int argc, char** argv) {
   if (*run) {
     if (options.file == "-" && !take_commands(options)) return wrong_input;
     keep_freed_memory();
-    set_thread_count(threads);
+    set_thread_count(has_memory_for_threads() ? threads : 1);
     return run_session(options, std::cout, std::cerr);
   }
   if (*check) return check_file(options, std::cout, std::cerr);

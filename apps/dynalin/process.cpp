@@ -17,6 +17,7 @@
 #include <string_view>
 #include <thread>
 
+#include "dynalin/threads.h"
 #include "linear/dense_products.h"
 
 namespace {
@@ -94,14 +95,19 @@ tl::expected<std::string, std::string> read_commands() {
   }
 }
 
+bool has_memory_for_threads() {
+  return memory_limit() >= (std::thread::hardware_concurrency() + 1) * buffer + 1024 * mebibyte;
+}
+
 bool prepare_for_limited_memory(char** arguments) {
-  const rlim_t limit = memory_limit();
-  if (limit == RLIM_INFINITY) return true;
-  const bool enough_for_threads = limit >= (std::thread::hardware_concurrency() + 1) * buffer + 1024 * mebibyte;
+  if (memory_limit() == RLIM_INFINITY) return true;
+  const bool enough_for_threads = has_memory_for_threads();
   constexpr const char* threads = "OPENBLAS_NUM_THREADS";
   const char* const now = std::getenv(threads);
   const bool alone = now && std::strcmp(now, "1") == 0;
   if (!enough_for_threads && !alone) begin_anew(arguments, threads, "1");
+  // Each of ours takes such a buffer as soon as it calls for a product.
+  if (!enough_for_threads) dynalin::set_thread_count(1);
   if (!can_have(buffer + 16 * mebibyte)) return false;
   constexpr Eigen::Index size = 200;  // small products need none
   const Eigen::MatrixXd ones = Eigen::MatrixXd::Ones(size, size);

@@ -22,3 +22,5 @@ void use_kernels_of_processor(char** arguments);
 // the program with them when it ends. They are there before it begins: it begins anew without them. Under any limit it
 // takes now what it needs itself; false if that is too much already.
 bool prepare_for_limited_memory(char** arguments);
+// Whether more threads than one may work under the limit.
+bool has_memory_for_threads();

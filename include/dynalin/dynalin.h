@@ -17,7 +17,7 @@
 #include "dynalin/threads.h"
 #include "dynalin/version.h"
 
-// Inside, namespace dynalin has a Model, a Study and an OperatingPoint of its own, which no public header shows.
+// Inside, namespace dynalin has a Model and an OperatingPoint of its own, which no public header shows.
 namespace dynalin {
 using library::export_nastran;
 using library::LinearModel;

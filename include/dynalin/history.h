@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "dynalin/request_values.h"
+
 namespace dynalin {
 
 struct VariableHistory {
@@ -15,7 +17,7 @@ struct VariableHistory {
 };
 
 struct RequestHistory {
-  std::string element;                      // "REQUEST/3"; of an MREQUEST "MREQUEST/1 PART/2"
+  RequestName request;
   std::string view_name;                    // empty if it has none
   std::vector<std::string> components;      // "MAG", "X" …
   std::vector<std::vector<double>> values;  // at each time those of all components; not finite where there is none

@@ -49,6 +49,7 @@ struct ModalTable {
     std::string name;       // view name of the element, empty if there is none
     std::vector<double> values;     // a missing one is NaN
     std::vector<double> imaginary;  // of a shape; else empty
+    std::string full_name = {};     // `name` with those of the model and of the part it is on: "car.wheel.cm"
   };
   std::string name;      // "KINETIC"; "MODE" for what stands above the tables of a mode
   std::size_t mode = 0;  // counted from 1; 0: all modes, a row each

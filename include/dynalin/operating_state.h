@@ -8,14 +8,18 @@
 #include <string>
 #include <vector>
 
+#include "dynalin/element_id.h"
+
 namespace dynalin {
 
 using Triple = std::array<double, 3>;
 
-// A PART or POINT_MASS. Position and motion are those of the origin of its body coordinate system (BCS).
+// A PART, POINT_MASS or FLEX_BODY, or a node of an FE_PART. Position and motion are those of the origin of its body
+// coordinate system (BCS).
 struct BodyState {
-  std::string name;               // "PART/2", or with its view name "PART/2 (wheel)"
-  std::string element;            // "PART/2"
+  std::string name;               // "PART/2", or with its view name "PART/2 (wheel)"; "FE_PART/3 node 1"
+  ElementId element;              // PART/2
+  std::int64_t node = 0;          // of an FE_PART, 0 for all others
   std::string view_name;          // "wheel", empty if it has none
   Triple position{};              // [length]
   std::array<Triple, 3> axes{};   // its x, y and z axis
@@ -31,7 +35,7 @@ struct BodyState {
 // A force and a torque that an element exerts on the body of its marker I, at the origin of I; the opposite acts at the
 // same point on the body of J.
 struct Load {
-  std::string element;    // "JOINT/3"
+  ElementId element;      // JOINT/3
   std::string variant;    // "REVOLUTE", empty if the statement has one kind only
   std::string view_name;  // empty if it has none
   std::int64_t marker_I = 0, marker_J = 0;
@@ -44,8 +48,8 @@ struct Load {
 
 // One equation of a constraint. The reaction is the multiplier times the gradient of the row.
 struct ConstraintValue {
-  std::string element;  // "JOINT/3"
-  std::string row;      // "Zi.Xj"
+  ElementId element;  // JOINT/3
+  std::string row;    // "Zi.Xj"
   double multiplier = 0;
   bool redundant = false;  // follows from others: it is left out, and its multiplier is zero
 };
@@ -58,7 +62,7 @@ struct VariableValue {
 
 // A differential state: of DIFF, LSE, GSE, TFSISO …
 struct StateValue {
-  std::string element;  // "LSE/4"
+  ElementId element;  // LSE/4
   std::string view_name;
   int number = 1;  // among the states of the element
   double value = 0, rate = 0;
@@ -66,14 +70,14 @@ struct StateValue {
 
 // A coordinate beside the poses of bodies: a parameter of a curve at a point of contact, a modal coordinate.
 struct ParameterValue {
-  std::string element;  // "PTCV/1"
+  ElementId element;  // PTCV/1
   std::string name;
   double value = 0, rate = 0;
 };
 
 // PINPUT and POUTPUT: the values of their VARIABLEs.
 struct ChannelValues {
-  std::string element;  // "PINPUT/1"
+  ElementId element;  // PINPUT/1
   std::string view_name;
   std::vector<double> values;
 };

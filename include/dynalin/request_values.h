@@ -4,10 +4,21 @@
 #include <string>
 #include <vector>
 
+#include "dynalin/element_id.h"
+
 namespace dynalin {
 
+// Which request: an MREQUEST stands for one of each element that it watches.
+struct RequestName {
+  ElementId element;  // REQUEST/3
+  std::string of;     // "PART/2", what an MREQUEST watches
+
+  std::string text() const { return of.empty() ? element.text() : element.text() + " " + of; }
+  friend auto operator<=>(const RequestName&, const RequestName&) = default;
+};
+
 struct RequestValues {
-  std::string element;                  // "REQUEST/3"; of an MREQUEST "MREQUEST/1 PART/2"
+  RequestName request;
   std::string view_name;                // empty if it has none
   std::vector<std::string> components;  // "MAG", "X" …, or as CNAMES names them
   std::vector<double> values;           // not finite where it has none

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double position_tolerance = 1e-13;  // relative to the scale of the row
 constexpr int position_iterations = 50;
-constexpr double exact_weight = 1e8;  // of coordinates that EXACT asks to keep
+constexpr double exact_weight = 1e16;  // of coordinates that EXACT asks to keep: far above that of deformations
 
 // Axes that should be perpendicular and are parallel: no turn changes their product to first order.
 std::string_view stuck_axes(const System& system, const ConstraintRows& rows, std::int32_t k) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dynalin {
 
@@ -16,6 +17,8 @@ constexpr int patience_with_steps = 40;
 constexpr double near_balance = 1e-9;   // of the forces at play: judged from here on
 constexpr double residual_noise = 100;  // residuals in units of rounding that say nothing
 constexpr double settled_move = 1e-6;   // of the size of an unknown
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 double farthest(const OperatingPoint& from, const OperatingPoint& to) {
   double largest = 0;
@@ -45,7 +48,7 @@ bool Descent::run(OperatingPoint& op, const std::vector<bool>* loose) {
     // One yardstick for the whole search, or a step could pass by growing what it is measured against.
     force_ = std::max(force_, equations_.force_scale());
     merit_ = equations_.merit(force_);
-    history_.add(equations_.imbalance_of_functions());
+    history_.add(std::isfinite(merit_) ? equations_.imbalance_of_functions() : infinite);
     if (!std::isfinite(merit_)) return false;
     if (iteration_ == 0) first_force_ = force_;
     if (iteration_ == 0 && !loose && balanced_to_rounding(equations_)) return true;

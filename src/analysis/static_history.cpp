@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace dynalin {
 
 void StaticHistory::add(double imbalance) {
@@ -15,7 +17,8 @@ void StaticHistory::add(double imbalance) {
 std::vector<std::string> StaticHistory::lines() const {
   std::vector<std::string> list;
   const auto line = [&](int at, double imbalance, std::string_view what) {
-    list.push_back(fmt::format("iteration {}: imbalance {:.5e}{}", at, imbalance, what));
+    list.push_back(std::isfinite(imbalance) ? fmt::format("iteration {}: imbalance {:.5e}{}", at, imbalance, what)
+                                            : fmt::format("iteration {}: a force is no finite number", at));
   };
   if (count_ > 0) line(0, first_, "");
   if (best_at_ > 0 && best_at_ < count_ - 1) line(best_at_, best_, ", the least");

@@ -64,7 +64,7 @@ bool contains(std::span<const ArgumentInfo> list, const ArgumentInfo& a) {
 // What all types share once, then what each has of its own.
 void print_statement(std::ostream& out, const std::vector<const Kind*>& kinds) {
   const Kind& first = *kinds.front();
-  const bool has_id = first.role != Kind::Role::singleton && first.role != Kind::Role::inert;
+  const bool has_id = first.role != Kind::Role::singleton && !is_beside_model(first);
   const bool has_types = !first.variant.empty();
   fmt::print(out, "{}/{}{}{}\n", first.statement, has_id ? "id" : "", has_types ? (has_id ? ", type" : "type") : "",
              first.arguments.empty() ? ""

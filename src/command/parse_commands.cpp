@@ -11,16 +11,30 @@ namespace dynalin {
 
 namespace {
 
+std::string_view trimmed(std::string_view s) {
+  while (!s.empty() && std::isspace(static_cast<unsigned char>(s.front()))) s.remove_prefix(1);
+  while (!s.empty() && std::isspace(static_cast<unsigned char>(s.back()))) s.remove_suffix(1);
+  return s;
+}
+
+// Without the marks of lines that continue: & or \ at the end of one, and of two commas one.
 std::string one_line(std::string_view text) {
   std::string out;
-  for (const char c : text) {
-    const bool blank = std::isspace(static_cast<unsigned char>(c)) != 0;
-    if (!blank)
-      out += c;
-    else if (!out.empty() && out.back() != ' ')
-      out += ' ';
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = trimmed(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (!text.empty() && (line.ends_with('&') || line.ends_with('\\'))) line = trimmed(line.substr(0, line.size() - 1));
+    if (out.ends_with(',') && line.starts_with(',')) line = trimmed(line.substr(1));
+    if (!out.empty() && !line.empty()) out += ' ';
+    for (const char c : line) {
+      const bool blank = std::isspace(static_cast<unsigned char>(c)) != 0;
+      if (!blank)
+        out += c;
+      else if (out.back() != ' ')
+        out += ' ';
+    }
   }
-  while (!out.empty() && out.back() == ' ') out.pop_back();
   return out;
 }
 
@@ -69,18 +83,18 @@ class FileParser {
   std::shared_ptr<Dataset> keep_;
 };
 
-std::string_view trimmed(std::string_view s) {
-  while (!s.empty() && std::isspace(static_cast<unsigned char>(s.front()))) s.remove_prefix(1);
-  while (!s.empty() && std::isspace(static_cast<unsigned char>(s.back()))) s.remove_suffix(1);
-  return s;
-}
-
 // Without a comment, which names may not look like: "car ! of 2019".
 std::string_view uncommented(std::string_view line) {
   for (std::size_t k = 0; k < line.size(); ++k) {
     if (line[k] == '!' && (k == 0 || std::isspace(static_cast<unsigned char>(line[k - 1])))) return line.substr(0, k);
   }
   return line;
+}
+
+// A name that stands in quotes, as those with blanks may.
+std::string_view unquoted(std::string_view name) {
+  const bool quoted = name.size() > 2 && (name.front() == '"' || name.front() == '\'') && name.back() == name.front();
+  return quoted ? name.substr(1, name.size() - 2) : name;
 }
 
 bool is_command_line(std::string_view line) {
@@ -115,9 +129,9 @@ Parsed<CommandFile> parse_command_file(SourceRef source) {
     text.replace(static_cast<std::size_t>(line.data() - source->text().data()), line.size(), line.size(), ' ');
   }
   const auto offset = static_cast<std::uint32_t>(first.data() - source->text().data());
-  const std::string prefix(named < source->line_count() ? trimmed(uncommented(source->line(named + 1)))
+  const std::string prefix(named < source->line_count() ? unquoted(trimmed(uncommented(source->line(named + 1))))
                                                         : std::string_view());
-  parser.name_model(std::string(first), {source.get(), offset, static_cast<std::uint32_t>(first.size())}, prefix);
+  parser.name_model(std::string(unquoted(first)), {source.get(), offset, static_cast<std::uint32_t>(first.size())}, prefix);
   auto rest = std::make_shared<const SourceText>(source->name(), std::move(text));
   Parsed<CommandFile> file = parser.parse(rest);
   if (is_analysis(prefix)) {

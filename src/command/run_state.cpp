@@ -89,12 +89,12 @@ void RunState::show_where_it_ended() {
 
 void RunState::say_undefined_requests(const System& of, const OperatingPoint& at, const PointRequests& requests) {
   const auto undefined = [&](const RequestValues& r) {
-    return !undefined_requests_.contains(r.element) &&
+    return !undefined_requests_.contains(r.request) &&
            !std::all_of(r.values.begin(), r.values.end(), [](double v) { return std::isfinite(v); });
   };
   if (std::none_of(requests.values.begin(), requests.values.end(), undefined)) return;
   for (const UndefinedRequest& u : undefined_requests(of, at)) {
-    if (undefined_requests_.insert(u.element).second) remarks.say("undefined-request", u.reason);
+    if (undefined_requests_.insert(u.request).second) remarks.say("undefined-request", u.reason);
   }
 }
 

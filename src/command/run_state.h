@@ -83,7 +83,7 @@ class RunState {
   bool shown = false;   // the point, where points are shown
 
  private:
-  std::set<std::string> undefined_requests_;
+  std::set<RequestName> undefined_requests_;
 };
 
 }  // namespace dynalin

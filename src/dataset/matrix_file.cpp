@@ -324,10 +324,4 @@ std::optional<MatrixData> read_matrix(const SourceText& file, std::string_view n
   return matrix;
 }
 
-std::vector<std::string> matrix_names(const SourceText& file) {
-  std::vector<std::string> names;
-  for (const Header& header : read_contents(file).headers) names.emplace_back(header.name.text());
-  return names;
-}
-
 }  // namespace dynalin

@@ -25,7 +25,4 @@ struct MatrixData {
 std::optional<MatrixData> read_matrix(const SourceText& file, std::string_view name, const Span& asked_at,
                                       Diagnostics& diagnostics);
 
-// The matrices of the file in their order.
-std::vector<std::string> matrix_names(const SourceText& file);
-
 }  // namespace dynalin

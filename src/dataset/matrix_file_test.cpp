@@ -64,7 +64,6 @@ TEST(fsave, keeps_directory_entries_apart_that_touch) {
   EXPECT_EQ(values(text, "AC"), (Values{1, 2}));
   EXPECT_EQ(values(text, "BC"), (Values{3, 4}));
   EXPECT_EQ(values(text, "CC1"), Values{5});
-  EXPECT_EQ(matrix_names(SourceText("m", text)), (Texts{"AC", "BC", "CC1"}));
 }
 
 TEST(fsave, reads_fields_that_touch_by_their_columns) {

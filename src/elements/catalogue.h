@@ -9,9 +9,10 @@ Catalogue catalogue();
 // Where a kind of the catalogue stands in the manual: the folder of its source, or "without effect".
 std::string_view catalogue_group(const Kind&);
 
-// Names of statements, each once, in alphabetical order: those of which a command defines arguments anew, and the
-// classes of elements that commands take out of the model.
+// Names of statements, each once, in alphabetical order: those of which a command defines arguments anew, the classes
+// of elements that commands take out of the model, and settings of analyses.
 std::span<const std::string_view> redefinable_statements();
 std::span<const std::string_view> deactivatable_statements();
+std::span<const std::string_view> setting_statements();
 
 }  // namespace dynalin

@@ -28,7 +28,12 @@ std::span<const std::string_view> redefinable_statements() {
 std::span<const std::string_view> deactivatable_statements() {
   // What is inert is taken in silence: it is never in the model.
   static const auto names =
-      names_of([](const Kind& kind) { return kind.can_be_deactivated && kind.role != Kind::Role::inert; });
+      names_of([](const Kind& kind) { return kind.can_be_deactivated && !is_beside_model(kind); });
+  return names;
+}
+
+std::span<const std::string_view> setting_statements() {
+  static const auto names = names_of([](const Kind& kind) { return kind.role == Kind::Role::setting; });
   return names;
 }
 

@@ -146,6 +146,17 @@ double ModalBody::reach(Index mode) const {
   return longest;
 }
 
+void ModalBody::make_rigid() {
+  ModalInertia rigid = empty_inertia(0);
+  rigid.mass = inertia.mass, rigid.first = inertia.first, rigid.tensor = inertia.tensor;
+  inertia = std::move(rigid);
+  translation.conservativeResize(Eigen::NoChange, 0), rotation.conservativeResize(Eigen::NoChange, 0);
+  stiffness.resize(0, 0), damping.resize(0, 0), generalized_damping.resize(0, 0);
+  displacement.resize(0), rate.resize(0);
+  number.clear(), holds_displacement.clear(), holds_rate.clear();
+  if (loads.size() > 0) loads.conservativeResize(6, Eigen::NoChange);
+}
+
 std::optional<ModalBody> modal_body_of(ModalText t, const SourceText& file, Diagnostics& out) {
   const bool sums = t.translation_sums && t.turning_sums;
   if (!t.lumped && !t.whole) {

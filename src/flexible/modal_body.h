@@ -26,6 +26,7 @@ struct ModalBody {
   Eigen::VectorXd displacement, rate;                // at the start
   std::vector<bool> holds_displacement, holds_rate;  // in the assembly
   bool lacks_inertia = false;  // a motion of it has none: a line of points does not resist its own turn
+  double length = 0;           // CHAR_LEN, or how far apart its nodes are [length]
   Eigen::MatrixXd loads;       // a column for each case: force, torque about the BCS, then of the modes
 
   Eigen::Index modes() const { return displacement.size(); }
@@ -34,6 +35,8 @@ struct ModalBody {
   std::string near_nodes(std::int64_t label) const;
   // How far a unit of a coordinate moves the body: its mass in the mean, or the node that goes farthest [length].
   double reach(Eigen::Index mode) const;
+  // The rigid body that is left without modes.
+  void make_rigid();
 };
 
 // The body of a file; nothing after an error.

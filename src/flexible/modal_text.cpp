@@ -116,6 +116,7 @@ class TextReader {
       return 0;
     }
     ++read_;
+    last_ = *w;
     return *value;
   }
   void expect(std::string what) { expected_ = std::move(what), read_ = 0; }
@@ -202,9 +203,11 @@ class TextReader {
       case 16:
         return read_rows(body_.tensor_sums, 9 * modes_);
       case 17:
-        return read_rows(body_.turning_products, 3 * modes_ * modes_);
+        read_rows(body_.turning_products, 3 * modes_ * modes_);
+        return check_turning_products();
       case 18:
-        return read_rows(body_.tensor_products, 9 * modes_ * modes_);
+        read_rows(body_.tensor_products, 9 * modes_ * modes_);
+        return check_tensor_products();
       default:
         error(place, "RECORD GROUP 19, stress stiffening, is not available",
               "take the record out: the body then has no geometric stiffness, or split it into several bodies");
@@ -285,16 +288,30 @@ class TextReader {
   }
 
   void read_lumped() {
-    const auto list = numbers(6 * nodes_, fmt::format("{} × 6 numbers", nodes_));
-    if (failed_) return;
-    auto& lumped = body_.lumped.emplace(nodes_);
-    for (std::size_t p = 0; p < nodes_; ++p)
-      std::copy_n(list.begin() + static_cast<std::ptrdiff_t>(6 * p), 6, lumped[p].begin());
+    expect(fmt::format("{} × 6 numbers", nodes_));
+    std::vector<std::array<double, 6>> lumped;
+    for (std::size_t p = 0; p < nodes_ && !failed_; ++p) {
+      auto& own = lumped.emplace_back();
+      for (double& x : own) {
+        x = number();
+        if (x < 0) return error(last_, fmt::format("a node has no mass or inertia of {:g}", x));
+      }
+    }
+    body_.lumped = std::move(lumped);
   }
 
   void read_whole() {
     const auto x = numbers(13, "13 numbers: mass, centre of mass, inertia");
     if (failed_) return;
+    if (!(x[0] > 0)) return error(body_.at[12], fmt::format("RECORD GROUP 12 states a mass of {:g}", x[0]));
+    for (const auto& [above, below] : {std::pair{5u, 7u}, {6u, 10u}, {9u, 11u}}) {
+      if (std::abs(x[above] - x[below]) <= 1e-8 * std::max({std::abs(x[4]), std::abs(x[8]), std::abs(x[12])})) continue;
+      return error(body_.at[12], fmt::format("the inertia of RECORD GROUP 12 is not symmetric: it has {:g} and {:g}",
+                                             x[above], x[below]));
+    }
+    for (const std::size_t k : {4u, 8u, 12u}) {
+      if (x[k] < 0) return error(body_.at[12], fmt::format("RECORD GROUP 12 states a moment of inertia of {:g}", x[k]));
+    }
     body_.whole = {x[0], {x[1], x[2], x[3]}, {{x[4], x[7], x[10]}, {x[5], x[8], x[11]}, {x[6], x[9], x[12]}}};
   }
 
@@ -302,10 +319,58 @@ class TextReader {
     rows = numbers(count, fmt::format("{} numbers", count));
   }
 
+  // I5 of a pair of modes is that of the exchanged pair with the opposite sign, as a product of vectors.
+  void check_turning_products() {
+    const auto entry = [&](std::size_t c, std::size_t j, std::size_t k) {
+      return (*body_.turning_products)[(c * modes_ + j) * modes_ + k];
+    };
+    check_pairs(*body_.turning_products, 3, [&](std::size_t c, std::size_t j, std::size_t k) {
+      return std::pair{entry(c, j, k), -entry(c, k, j)};
+    });
+  }
+  // I9 of a pair of modes is that of the exchanged pair, transposed.
+  void check_tensor_products() {
+    const auto entry = [&](std::size_t r, std::size_t j, std::size_t k, std::size_t c) {
+      return (*body_.tensor_products)[3 * ((r * modes_ + j) * modes_ + k) + c];
+    };
+    check_pairs(*body_.tensor_products, 9, [&](std::size_t rc, std::size_t j, std::size_t k) {
+      return std::pair{entry(rc / 3, j, k, rc % 3), entry(rc % 3, k, j, rc / 3)};
+    });
+  }
+  // entries(component, j, k) are to be equal for all pairs of modes. Where other programs come near to that, as for a
+  // mass that does not weigh all directions alike, the mean is taken.
+  template <class Entries>
+  void check_pairs(const std::vector<double>& all, std::size_t components, const Entries& entries) {
+    if (failed_ || all.empty()) return;
+    constexpr double rounding = 1e-6, near = 1e-2;
+    const double largest = std::abs(*std::ranges::max_element(all, {}, [](double v) { return std::abs(v); }));
+    double most = 0;
+    for (std::size_t j = 0; j < modes_; ++j) {
+      for (std::size_t k = 0; k <= j; ++k) {
+        for (std::size_t c = 0; c < components; ++c) {
+          const auto [one, other] = entries(c, j, k);
+          most = std::max(most, std::abs(one - other));
+          if (std::abs(one - other) <= near * largest) continue;
+          return error(body_.at[record_], fmt::format("RECORD GROUP {} is of no body: modes {} and {} have {:g} where "
+                                                      "modes {} and {} call for {:g}",
+                                                      record_, j + 1, k + 1, one, k + 1, j + 1, other));
+        }
+      }
+    }
+    if (most > rounding * largest) {
+      out_.warning(
+          "body-file-doubt", body_.at[record_],
+          fmt::format("what RECORD GROUP {} has of two modes differs by {:.1e} of its largest entry from what it "
+                      "has of them in the other order: the mean is taken",
+                      record_, most / largest));
+    }
+  }
+
   const SourceText& file_;
   std::string_view text_;
   Diagnostics& out_;
   std::size_t at_ = 0;
+  Span last_;  // number
   bool failed_ = false;
   ModalText body_;
   std::set<std::size_t> found_;

@@ -1,6 +1,7 @@
 // What stands behind the values that the library hands out.
 #pragma once
 
+#include <atomic>
 #include <mutex>
 
 #include "base/remark_of.h"
@@ -48,6 +49,7 @@ struct LinearModel::Inside {
  private:
   mutable std::once_flag formed_;
   mutable std::optional<Linearization> whole_;
+  mutable std::atomic<bool> has_whole_ = false;
 };
 
 // `said` are remarks that came before, and that the error takes along.

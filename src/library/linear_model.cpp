@@ -10,7 +10,10 @@ LinearModel::Inside::Inside(Linearization of, OperatingPoint point, std::vector<
 
 const Linearization& LinearModel::Inside::whole() const {
   if (linear.has_state_matrix()) return linear;
-  std::call_once(formed_, [&] { whole_ = value_or_throw(with_state_matrix(linear)); });
+  std::call_once(formed_, [&] {
+    whole_ = value_or_throw(with_state_matrix(linear));
+    has_whole_ = true;
+  });
   return *whole_;
 }
 
@@ -20,7 +23,7 @@ const Linearization& LinearModel::Inside::whole_of_matrices() const {
 }
 
 std::vector<Remark> LinearModel::Inside::remarks_of_whole() const {
-  return whole_ ? remarks_of(new_remarks(*whole_, linear)) : std::vector<Remark>{};
+  return has_whole_ ? remarks_of(new_remarks(*whole_, linear)) : std::vector<Remark>{};
 }
 
 DescriptorForm LinearModel::descriptor_form() const { return dynalin::descriptor_form(inside_->linear.linear); }

@@ -103,7 +103,8 @@ Model Model::with(const std::vector<ParameterChange>& values) const {
 Model Model::edited(const std::string& commands) const {
   static const auto names = [] {
     std::vector<std::string_view> list{activate, deactivate};
-    list.insert(list.end(), redefinable_statements().begin(), redefinable_statements().end());
+    for (const auto& statements : {redefinable_statements(), setting_statements()})
+      list.insert(list.end(), statements.begin(), statements.end());
     return list;
   }();
   auto parsed = parse_statements(std::make_shared<const SourceText>("edits", commands), names);

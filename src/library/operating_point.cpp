@@ -14,11 +14,10 @@ namespace {
 
 const dynalin::Model& model_of(const OperatingPoint& p) { return p.inside().point.system->model(); }
 
-BodyState body(const OperatingPoint& point, const std::string& statement, std::int64_t id) {
-  const std::string name = fmt::format("{}/{}", statement, id);
+BodyState body(const OperatingPoint& point, const ElementId& id) {
   const OperatingState state = point.state();
-  const auto found = std::ranges::find(state.bodies, name, &BodyState::element);
-  if (found == state.bodies.end()) fail_for_missing(name);
+  const auto found = std::ranges::find(state.bodies, id, &BodyState::element);
+  if (found == state.bodies.end()) fail_for_missing(id.text());
   return *found;
 }
 
@@ -31,8 +30,8 @@ const std::vector<Remark>& OperatingPoint::remarks() const { return inside_->rem
 
 OperatingState OperatingPoint::state() const { return operating_state(*inside_->point.system, inside_->point.values); }
 
-BodyState OperatingPoint::part(std::int64_t id) const { return body(*this, "PART", id); }
-BodyState OperatingPoint::point_mass(std::int64_t id) const { return body(*this, "POINT_MASS", id); }
+BodyState OperatingPoint::part(std::int64_t id) const { return body(*this, {"PART", id}); }
+BodyState OperatingPoint::point_mass(std::int64_t id) const { return body(*this, {"POINT_MASS", id}); }
 
 MarkerState OperatingPoint::marker(std::int64_t id) const {
   const auto marker = model_of(*this).find_marker(id);
@@ -52,7 +51,7 @@ double OperatingPoint::variable(std::int64_t id) const {
 Load OperatingPoint::load(const ElementId& id) const {
   const OperatingState state = this->state();
   for (const auto* loads : {&state.reactions, &state.forces}) {
-    const auto found = std::ranges::find(*loads, id.text(), &Load::element);
+    const auto found = std::ranges::find(*loads, id, &Load::element);
     if (found != loads->end()) return *found;
   }
   if (!model_of(*this).find(id.statement, id.id)) fail_for_missing(id.text());

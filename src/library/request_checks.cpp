@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -88,6 +89,27 @@ void check(const ModeSelection& selection) {
     const auto& band = std::get<ModesInBand>(selection);
     c.require(std::isfinite(band.high) && band.low >= 0 && band.low < band.high,
               fmt::format("a band takes frequencies 0 ≤ low < high, not {:g} and {:g}", band.low, band.high));
+  }
+  c.finish();
+}
+
+void check(const EigenSolution& modes, const LinearModel::Inside& of) {
+  const auto fits = [](const Eigen::MatrixXcd& columns, std::size_t rows, std::size_t count) {
+    return columns.rows() == static_cast<Eigen::Index>(rows) && columns.cols() == static_cast<Eigen::Index>(count);
+  };
+  RequestCheck c("tables of modes");
+  const std::size_t count = modes.modes.size();
+  if (count > 0 && modes.vectors.size() == 0) {
+    c.require(false, "they need mode shapes, and these modes were found without: modes() or modes(true) has them");
+  } else {
+    const auto same = [](const StateLabel& a, const StateLabel& b) {
+      return a.type == b.type && a.element == b.element && a.coordinate == b.coordinate && a.text == b.text;
+    };
+    c.require(std::ranges::equal(modes.states, of.linear.linear.model.states, same),
+              "the modes are those of a linear model with other states");
+    c.require(count == 0 || (fits(modes.vectors, modes.states.size(), count) &&
+                             fits(modes.shapes, modes.shape_labels.size(), count)),
+              fmt::format("there are {} modes, and vectors or shapes of other sizes", count));
   }
   c.finish();
 }

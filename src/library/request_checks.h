@@ -9,5 +9,7 @@ void check(const InitialConditionRequest&);
 void check(const StaticRequest&);
 void check(const SimulationRequest&, double present_time);
 void check(const ModeSelection&);
+// Whether these may be modes of the linear model, with shapes.
+void check(const EigenSolution&, const LinearModel::Inside&);
 
 }  // namespace dynalin::library

@@ -104,7 +104,7 @@ LinearModel Study::linearize(const OperatingPoint& from, const LinearRequest& re
 
 StateSpace LinearModel::state_space() const { return inside_->whole_of_matrices().linear.model; }
 SecondOrder LinearModel::second_order() const {
-  return value_or_throw(second_order_form(inside_->whole_of_matrices()));
+  return value_or_throw(second_order_form(inside_->whole_of_matrices()), inside_->remarks);
 }
 
 PhysicalMatrices LinearModel::physical_matrices() const { return equations_of(*inside_).whole(); }
@@ -133,7 +133,8 @@ Modes LinearModel::modes(const ModeSelection& selection, bool with_shapes) const
 }
 
 ModalTables LinearModel::tables(const EigenSolution& modes, const ModalTableRequest& request) const {
-  TablesFound found = value_or_throw(modal_tables(inside_->linear, modes, request));
+  check(modes, *inside_);
+  TablesFound found = value_or_throw(modal_tables(inside_->linear, modes, request), inside_->remarks);
   return {std::move(found.tables), remarks_of(found.remarks)};
 }
 

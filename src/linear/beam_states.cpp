@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <string>
+#include <vector>
 
 #include "elements/bodies/fe_part.h"
 
@@ -13,6 +15,11 @@ std::map<std::int32_t, StateCoordinate> beam_state_coordinates(const System& sys
                                        "rotation AX",     "rotation AY",     "rotation AZ"};
   const Layout& layout = system.layout();
   std::map<std::int32_t, StateCoordinate> list;
+  // Of coordinates beyond poses, one after the other.
+  std::vector<const std::string*> extra_names;
+  for (const ExtraBlock& e : layout.extras) {
+    for (std::int32_t k = 0; k < e.count; ++k) extra_names.push_back(&e.coordinates[static_cast<std::size_t>(k)].name);
+  }
   for (const BeamBody& b : beam_bodies(system.model(), layout)) {
     const auto nodes = static_cast<int>(b.nodes.size()), count = b.plane ? 4 * nodes : 12 * nodes - 3;
     const auto put = [&](std::int32_t at, int number, std::string text) {
@@ -25,11 +32,7 @@ std::map<std::int32_t, StateCoordinate> beam_state_coordinates(const System& sys
           fmt::format("Global {}(node {})", names[i], b.numbers[node]));
     };
     const auto extra = [&](std::size_t at, int number) {
-      for (const ExtraBlock& e : layout.extras) {
-        const auto coordinate = layout.body_coordinate_count + static_cast<std::int32_t>(at);
-        if (coordinate >= e.offset && coordinate < e.offset + e.count)
-          put(coordinate, number, e.coordinates[static_cast<std::size_t>(coordinate - e.offset)].name);
-      }
+      put(layout.body_coordinate_count + static_cast<std::int32_t>(at), number, *extra_names[at]);
     };
     if (b.plane) {
       // Place and slope in the plane; the others, which rows hold, have numbers behind all states.

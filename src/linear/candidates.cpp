@@ -23,8 +23,9 @@ constexpr std::int32_t first_modal_number = 1000000;
 constexpr std::array names = {"DX", "DY", "DZ", "AX", "AY", "AZ"};
 
 // Each coordinate of the layout as a state, those of bodies as they are seen from marker `rm` (0: global axes), which
-// `owner` carries.
-std::vector<StateCoordinate> listed_coordinates(const System& system, std::int64_t rm, BodyId owner) {
+// `owner` carries. Modal coordinates have the type `of_modes`.
+std::vector<StateCoordinate> listed_coordinates(const System& system, std::int64_t rm, BodyId owner,
+                                                StateType of_modes) {
   const Layout& layout = system.layout();
   const std::vector<const ModalBody*> flexible = flexible_by_body(system.model());
   std::vector<StateCoordinate> list(system.coordinates());
@@ -57,11 +58,10 @@ std::vector<StateCoordinate> listed_coordinates(const System& system, std::int64
   std::set<std::int32_t> modal;
   for (const FlexibleBody& f : flexible_bodies(system.model())) {
     const ElementLabel& of = layout.body(f.body).label;
-    const StateType type = rm == 0 ? StateType::flex_body : StateType::flex_body_relative;
     for (std::int32_t k = 0; k < static_cast<std::int32_t>(f.flexible->modes()); ++k) {
       const std::int32_t at = layout.body_coordinate_count + static_cast<std::int32_t>(f.first) + k;
       const auto number = static_cast<std::int32_t>(f.flexible->number[static_cast<std::size_t>(k)]) - 1;
-      put(at, type, of, first_modal_number + number, first_modal_number,
+      put(at, of_modes, of, first_modal_number + number, first_modal_number,
           fmt::format("Modal generalized coordinate Q{}", number + 1));
       modal.insert(at);
     }
@@ -169,7 +169,8 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
     if (auto failure = add_user_candidates(system, motion, *own, row, set)) return tl::unexpected(*failure);
     row += static_cast<std::int32_t>(set.own.size());
   }
-  std::vector<StateCoordinate> global = listed_coordinates(system, 0, {});
+  std::vector<StateCoordinate> global =
+      listed_coordinates(system, 0, {}, principal ? StateType::flex_body_euler : StateType::flex_body);
   const auto as_it_is = [&](std::int32_t k) {
     return Candidate{k, -1, std::move(global[static_cast<std::size_t>(k)])};
   };
@@ -200,7 +201,7 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
     add_relative_rows(motion, block, BodyId{static_cast<std::int32_t>(k)}, b, row, set.gradients);
     for (std::int32_t i = 0; i < block.count; ++i) row_of[static_cast<std::size_t>(block.offset + i)] = row++;
   }
-  std::vector<StateCoordinate> seen = listed_coordinates(system, id, b.body);
+  std::vector<StateCoordinate> seen = listed_coordinates(system, id, b.body, StateType::flex_body_relative);
   for (const std::int32_t coordinate : system.preference()) {
     const auto at = static_cast<std::size_t>(coordinate);
     // Coordinates outside bodies and those of beams know no frame: they are wanted as they are.

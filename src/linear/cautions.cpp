@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "linear/configuration.h"
+#include "linear/flexible_cautions.h"
 #include "linear/motion_caution.h"
 #include "linear/reach.h"
 #include "linear/stiction_caution.h"
@@ -74,6 +75,7 @@ Diagnostics cautions(const System& system, const OperatingPoint& op, const Linea
   empty_rows(system, op, out);
   disproportion(system, linear, out);
   motion_caution(system, op, modes, out);
+  flexible_cautions(system, op, out);
   overdamping(system, linear, modes, out);
   stiction_cautions(system, op, linear, modes, out);
   return out;

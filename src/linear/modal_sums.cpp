@@ -157,6 +157,10 @@ Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint
                                   {}});
   }
   const auto n = static_cast<Index>(position.size()), states = static_cast<Index>(linear.model.states.size());
+  EnergyPerMode out;
+  out.modes.resize(modes.modes.size());
+  out.counted.assign(modes.modes.size(), false);
+  if (n == 0) return out;  // differential states alone
   const MassRoot root(system, op);
   const Matrix B = root.of(linear.velocities(Matrix::Identity(states, states)(Eigen::all, rate)).real());
   const Matrix M = B.transpose() * B;
@@ -189,9 +193,6 @@ Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint
   const Eigen::VectorXcd eta = lu.solve(Eigen::VectorXcd(unit.cwiseProduct(x).cast<Complex>()));
   const Eigen::VectorXcd eta_rate = lu.solve(Eigen::VectorXcd(unit.cwiseProduct(v).cast<Complex>()));
 
-  EnergyPerMode out;
-  out.modes.resize(modes.modes.size());
-  out.counted.assign(modes.modes.size(), false);
   const auto share = [&](const Matrix& m, const Eigen::VectorXcd& e, Index i) {
     return std::real(std::conj(e(i)) * Phi.col(i).dot(times(m, Phi * e).col(0)));
   };

@@ -119,7 +119,7 @@ class Builder {
         continue;
       }
       // What has no effect of its own may be named all the same: the GRAPHICS of a CONTACT.
-      const bool has_id = needs_id || (kind->role == Kind::Role::inert && s.id);
+      const bool has_id = needs_id || (is_beside_model(*kind) && s.id);
       if (has_id && !register_id(*kind, label, *set, s, preceding, ground)) continue;
       if (kind->role == Kind::Role::element && s.id && is_examined(s.name))
         examined_.emplace(std::pair(s.name, *s.id), &s);

@@ -72,7 +72,9 @@ DatasetEditor::DatasetEditor(std::shared_ptr<const Dataset> base, std::shared_pt
   out_->statements = base->statements;
   for (std::size_t k = 0; k < base->statements.size(); ++k) {
     const Statement& s = base->statements[k];
-    if (!s.name.empty()) place_.try_emplace(key(s.name, s.id.value_or(0)), k);
+    if (s.name.empty()) continue;
+    const auto at = place_.try_emplace(key(s.name, s.id.value_or(0)), k).first;
+    if (is_setting(s.name)) at->second = k;  // of several the last decides
   }
   out_->origins = {std::move(base), std::move(written)};
 }
@@ -88,16 +90,22 @@ const Kind* DatasetEditor::kind_of(const Statement& s) const {
   return finder_.find(s, at, unused);
 }
 
+bool DatasetEditor::is_setting(std::string_view statement) const {
+  const auto& kinds = finder_.kinds_of(statement);
+  return !kinds.empty() && kinds.front()->role == Kind::Role::setting;
+}
+
 void DatasetEditor::redefine(const Statement& command) {
   const auto& kinds = finder_.kinds_of(command.name);
-  const bool singleton = !kinds.empty() && kinds.front()->role == Kind::Role::singleton;
-  if (!singleton && !command.id) {
+  const bool without_id =
+      !kinds.empty() && (kinds.front()->role == Kind::Role::singleton || kinds.front()->role == Kind::Role::setting);
+  if (!without_id && !command.id) {
     if (!command.damaged)
       diagnostics_.error("missing-id", command.at, fmt::format("{} needs an id: {}/1", command.name, command.name));
     return;
   }
   Statement* target = find(command.name, command.id.value_or(0));
-  if (!target && singleton) {
+  if (!target && without_id) {
     out_->statements.push_back(command);
     place_.emplace(key(command.name, 0), out_->statements.size() - 1);
     return;
@@ -116,6 +124,7 @@ void DatasetEditor::merge(Statement& target, const Statement& command) {
     if (!kind->variant.empty()) variants.push_back(kind->variant);
   }
   const Kind* kind = kind_of(target);
+  const Kind* const before_command = kind;
   // Another type first: it decides what the names of the others mean.
   for (const WrittenArgument& w : command.arguments) {
     if (w.has_value || !is_variant(w, variants, kind)) continue;
@@ -123,6 +132,13 @@ void DatasetEditor::merge(Statement& target, const Statement& command) {
                   [&](const WrittenArgument& old) { return !old.has_value && is_variant(old, variants, kind); });
     target.arguments.push_back(w);
     kind = kind_of(target);
+  }
+  if (kind != before_command && kind) {
+    // What only the type before has goes with it.
+    std::erase_if(target.arguments, [&](const WrittenArgument& old) {
+      const ArgumentInfo* info = info_of(kind, old.name.text());
+      return !is_variant(old, variants, kind) && (!info || info->elsewhere);
+    });
   }
   const std::size_t before = target.arguments.size();
   for (const WrittenArgument& w : command.arguments) {

@@ -40,6 +40,7 @@ class DatasetEditor {
  private:
   Statement* find(std::string_view statement, std::int64_t id);
   const Kind* kind_of(const Statement&) const;
+  bool is_setting(std::string_view statement) const;
   void merge(Statement& target, const Statement&);
   void note_start(const Statement&, const ArgumentInfo&);
   bool read_class(const WrittenArgument&, const Statement&, std::string_view& statement,

@@ -50,6 +50,7 @@ struct Kind {
     element,    // anything with an id
     singleton,  // at most one, without id
     inert,      // kept, without effect on a linear model
+    setting,    // of analyses: without id, may be stated several times
   };
 
   // Rows in the tables of strain energy and dissipated power of a mode: what its wrenches work, each element as a whole
@@ -69,7 +70,7 @@ struct Kind {
   bool can_be_deactivated = false;  // a command takes elements out of the model and into it again
   bool holds_for_good = false;      // no command defines it anew
   Gives gives = Gives::forces;
-  std::string_view example{};       // of a command that defines arguments anew, "PART/2, MASS=3.5"
+  std::string_view example{};  // of a command that defines arguments anew, "PART/2, MASS=3.5"
 
   constexpr Kind deactivatable() const {
     Kind kind = *this;
@@ -93,13 +94,16 @@ struct Kind {
   }
 };
 
+// Whether a statement is beside the model: nothing in it depends on it.
+constexpr bool is_beside_model(const Kind& kind) {
+  return kind.role == Kind::Role::inert || kind.role == Kind::Role::setting;
+}
+
 // Whether a command NAME/id, ARG=… defines arguments of such a statement anew.
-constexpr bool can_be_redefined(const Kind& kind) { return kind.role != Kind::Role::inert && !kind.holds_for_good; }
+constexpr bool can_be_redefined(const Kind& kind) { return !is_beside_model(kind) && !kind.holds_for_good; }
 
 // Whether functions may ask for the force of an element.
-constexpr bool can_exert(const Kind& kind) {
-  return kind.role != Kind::Role::inert && kind.gives == Kind::Gives::forces;
-}
+constexpr bool can_exert(const Kind& kind) { return !is_beside_model(kind) && kind.gives == Kind::Gives::forces; }
 
 using Catalogue = std::span<const Kind* const>;
 

@@ -22,8 +22,10 @@ Refusal refusal(std::string_view code, std::string message, std::string hint = {
 std::string name_of(const ElementId& e) { return e.id == 0 ? e.statement : e.text(); }
 
 bool takes_numbers(const ArgumentInfo& a) {
-  return a.repeats || a.value == "real" || a.value == "reals" || a.value == "x, y, z";
+  return a.repeats || a.value == "real" || a.value == "reals" || a.value == "x, y, z" || a.value == "integer";
 }
+// What may be a function or a word as well, and is a number where it is written so: CRATIO of a FLEX_BODY.
+bool may_be_number(const ArgumentInfo& a) { return a.value == "expression" || a.value == "text"; }
 
 // One argument of a statement that is a number or several.
 struct Place {
@@ -39,11 +41,7 @@ class Finder {
   Finder(const Dataset& dataset, Catalogue catalogue) : dataset_(dataset), kinds_(catalogue) {}
 
   tl::expected<Place, Diagnostic> find(const ParameterRef& p) const {
-    const auto& all = dataset_.statements;
-    const auto found = std::find_if(all.begin(), all.end(), [&](const Statement& s) {
-      return s.name == p.element.statement && s.id.value_or(0) == p.element.id;
-    });
-    Place place{found == all.end() ? nullptr : &*found, nullptr};
+    Place place{statement_of(p.element), nullptr};
     const auto kind = kind_of(p, place.statement);
     if (!kind) return Refusal(kind.error());
     std::vector<std::string_view> names;
@@ -56,16 +54,16 @@ class Finder {
                                   : fmt::format("did you mean {}?", near));
     }
     place.argument = &(*kind)->arguments[*k];
-    if (!takes_numbers(*place.argument)) {
-      return refusal("expected-number",
-                     fmt::format("{} of {} is {}, no number", place.argument->name, name_of(p.element),
-                                 place.argument->is_flag ? "a bare word" : place.argument->value));
-    }
     if (place.statement) {
       for (const WrittenArgument& w : place.statement->arguments) {
         const auto which = find_keyword(w.name.text(), names);
         if (which && *which == *k) place.written.push_back(&w);
       }
+    }
+    if (!takes_numbers(*place.argument) && !is_written_number(place)) {
+      return refusal("expected-number",
+                     fmt::format("{} of {} is {}, no number", place.argument->name, name_of(p.element),
+                                 place.argument->is_flag ? "a bare word" : place.argument->value));
     }
     const std::size_t count = place.argument->count;
     if (p.list != 1 && !place.argument->repeats)
@@ -90,7 +88,6 @@ class Finder {
       if (!values) return Refusal(problems.items().front());
       lists.push_back(std::move(*values));
     }
-    if (const auto wrong = beyond(p, lists)) return Refusal(*wrong);
     return lists;
   }
 
@@ -106,6 +103,26 @@ class Finder {
   }
 
  private:
+  // Of settings that are stated several times the last decides.
+  const Statement* statement_of(const ElementId& e) const {
+    const auto wanted = [&](const Statement& s) { return s.name == e.statement && s.id.value_or(0) == e.id; };
+    const auto& all = dataset_.statements;
+    const auto& kinds = kinds_.kinds_of(e.statement);
+    if (!kinds.empty() && kinds.front()->role == Kind::Role::setting) {
+      const auto last = std::find_if(all.rbegin(), all.rend(), wanted);
+      return last == all.rend() ? nullptr : &*last;
+    }
+    const auto found = std::find_if(all.begin(), all.end(), wanted);
+    return found == all.end() ? nullptr : &*found;
+  }
+
+  static bool is_written_number(const Place& place) {
+    if (!may_be_number(*place.argument) || place.written.size() != 1 || !place.written.front()->has_value) return false;
+    Diagnostics unread;
+    const auto values = read_reals(*place.written.front(), *place.written.front()->name.source, unread);
+    return values && values->size() == 1;
+  }
+
   tl::expected<const Kind*, Diagnostic> kind_of(const ParameterRef& p, const Statement* statement) const {
     if (statement) {
       Diagnostics unread;
@@ -114,7 +131,9 @@ class Finder {
       return Refusal(unread.items().front());
     }
     const auto& kinds = kinds_.kinds_of(p.element.statement);
-    if (p.element.id == 0 && !kinds.empty() && kinds.front()->role == Kind::Role::singleton) return kinds.front();
+    if (p.element.id == 0 && !kinds.empty() &&
+        (kinds.front()->role == Kind::Role::singleton || kinds.front()->role == Kind::Role::setting))
+      return kinds.front();
     return refusal("unknown-element", fmt::format("{} does not exist", name_of(p.element)), nearest_id(p.element));
   }
 
@@ -134,6 +153,11 @@ class Finder {
   const Dataset& dataset_;
   KindFinder kinds_;
 };
+
+// Whether a number is the next one behind a list that may have any length: IP[4] behind three.
+bool grows(const ArgumentInfo& a, const ParameterRef& p, std::size_t length) {
+  return a.count == 0 && !a.repeats && p.list == 1 && p.index == length + 1;
+}
 
 // The new values of one argument, of one that repeats all its lists, as a statement of their own.
 std::string statement_of(const ElementId& element, std::string_view argument, const Lists& lists) {
@@ -203,6 +227,7 @@ tl::expected<double, Diagnostic> parameter(const Dataset& dataset, const Paramet
   if (!place) return Refusal(place.error());
   const auto values = finder.numbers(p, *place);
   if (!values) return Refusal(values.error());
+  if (const auto wrong = Finder::beyond(p, *values)) return Refusal(*wrong);
   return (*values)[p.list - 1][p.index - 1];
 }
 
@@ -227,14 +252,15 @@ tl::expected<EditedDataset, Diagnostics> with_parameters(std::shared_ptr<const D
     }
     Lists& lists = arguments[{p.element, place->argument->name}];
     if (lists.empty()) {
-      const bool first_statement = place->written.empty() && place->argument->count == 1;
-      auto before = first_statement ? Lists{{value}} : finder.numbers(p, *place);
+      const bool is_first = place->written.empty() && (place->argument->count == 1 || grows(*place->argument, p, 0));
+      auto before = is_first ? Lists{{value}} : finder.numbers(p, *place);
       if (!before) {
         refuse(before.error());
         continue;
       }
       lists = std::move(*before);
     }
+    if (grows(*place->argument, p, lists.front().size())) lists.front().push_back(value);
     if (const auto missing = Finder::beyond(p, lists)) {
       refuse(*missing);
       continue;

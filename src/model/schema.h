@@ -175,7 +175,9 @@ constexpr ArgumentInfo argument_info(const Argument<E>& a) {
         info.elsewhere = std::is_same_v<V, ElsewhereOnly>;
         info.repeats = std::is_same_v<V, std::vector<std::vector<double>>>;
         info.value = value_text<V>();
-        if (std::is_same_v<V, double> || std::is_same_v<V, std::optional<double>>) info.count = 1;
+        if (std::is_same_v<V, double> || std::is_same_v<V, std::optional<double>> ||
+            std::is_same_v<V, std::optional<std::int64_t>> || std::is_same_v<V, WordOrCount>)
+          info.count = 1;
         if (std::is_same_v<V, Vector> || std::is_same_v<V, std::optional<Vector>>) info.count = 3;
         if (std::is_same_v<V, Vector>) info.of_list = 0;
       },

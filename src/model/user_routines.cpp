@@ -73,7 +73,7 @@ class Replacement {
   void apply(Statement& s) {
     const auto kind =
         std::find_if(catalogue_.begin(), catalogue_.end(), [&](const Kind* k) { return k->statement == s.name; });
-    if (kind == catalogue_.end() || (*kind)->role == Kind::Role::inert) return;
+    if (kind == catalogue_.end() || is_beside_model(**kind)) return;
     bool calls = refuses_expression(s);
     if (s.name == state_equation_kinds().system.statement) return apply_to_state_equations(s);
     for (std::size_t k = 0; k < s.arguments.size();) {

@@ -1,5 +1,7 @@
 #include "output/json_values.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace dynalin {
@@ -11,7 +13,7 @@ Json marker_or_null(std::int64_t id) { return id == 0 ? Json() : Json(id); }
 
 Json body(const BodyState& b) {
   return {
-      {"element", b.element},
+      {"element", b.node > 0 ? fmt::format("{} node {}", b.element.text(), b.node) : b.element.text()},
       {"name", b.view_name},
       {"position", b.position},
       {"angles", b.angles},
@@ -25,7 +27,7 @@ Json body(const BodyState& b) {
 }
 
 Json load(const Load& l) {
-  return {{"element", l.element},
+  return {{"element", l.element.text()},
           {"type", l.variant},
           {"name", l.view_name},
           {"i", l.marker_I},
@@ -49,7 +51,9 @@ Json finite(const std::vector<double>& values) {
   return list_of(values, [](double v) { return std::isfinite(v) ? Json(v) : Json(); });
 }
 
-Json channels(const ChannelValues& c) { return {{"element", c.element}, {"name", c.view_name}, {"values", c.values}}; }
+Json channels(const ChannelValues& c) {
+  return {{"element", c.element.text()}, {"name", c.view_name}, {"values", c.values}};
+}
 
 }  // namespace
 
@@ -66,12 +70,13 @@ Json json_of(const OperatingState& s) {
       {"bodies", list_of(s.bodies, body)},
       {"reactions", list_of(s.reactions, load)},
       {"forces", list_of(s.forces, load)},
-      {"constraints",
-       list_of(
-           s.constraints,
-           [](const ConstraintValue& c) -> Json {
-             return {{"element", c.element}, {"row", c.row}, {"multiplier", c.multiplier}, {"redundant", c.redundant}};
-           })},
+      {"constraints", list_of(s.constraints,
+                              [](const ConstraintValue& c) -> Json {
+                                return {{"element", c.element.text()},
+                                        {"row", c.row},
+                                        {"multiplier", c.multiplier},
+                                        {"redundant", c.redundant}};
+                              })},
       {"variables",
        list_of(s.variables,
                [](const VariableValue& v) -> Json {
@@ -79,7 +84,7 @@ Json json_of(const OperatingState& s) {
                })},
       {"states", list_of(s.states,
                          [](const StateValue& z) -> Json {
-                           return {{"element", z.element},
+                           return {{"element", z.element.text()},
                                    {"name", z.view_name},
                                    {"number", z.number},
                                    {"value", z.value},
@@ -88,7 +93,7 @@ Json json_of(const OperatingState& s) {
       {"curve_parameters",
        list_of(s.parameters,
                [](const ParameterValue& p) -> Json {
-                 return {{"element", p.element}, {"parameter", p.name}, {"value", p.value}, {"rate", p.rate}};
+                 return {{"element", p.element.text()}, {"parameter", p.name}, {"value", p.value}, {"rate", p.rate}};
                })},
       {"plant_inputs", list_of(s.plant_inputs, channels)},
       {"plant_outputs", list_of(s.plant_outputs, channels)}};
@@ -96,7 +101,10 @@ Json json_of(const OperatingState& s) {
 
 Json json_of(const std::vector<RequestValues>& requests) {
   return list_of(requests, [](const RequestValues& r) -> Json {
-    return {{"element", r.element}, {"name", r.view_name}, {"components", r.components}, {"values", finite(r.values)}};
+    return {{"element", r.request.text()},
+            {"name", r.view_name},
+            {"components", r.components},
+            {"values", finite(r.values)}};
   });
 }
 
@@ -106,9 +114,9 @@ Json json_of(const History& h) {
   for (const RequestHistory& r : h.requests) {
     Json values = Json::array();
     for (const std::vector<double>& step : r.values) values.push_back(finite(step));
-    constexpr std::string_view own = "REQUEST/";
-    requests[r.element.starts_with(own) ? r.element.substr(own.size()) : r.element] = {{"components", r.components},
-                                                                                       {"values", std::move(values)}};
+    // A REQUEST by its number, what an MREQUEST watches by its whole name.
+    const std::string key = r.request.of.empty() ? std::to_string(r.request.element.id) : r.request.text();
+    requests[key] = {{"components", r.components}, {"values", std::move(values)}};
   }
   return {{"times", h.times}, {"variables", std::move(variables)}, {"requests", std::move(requests)}};
 }

@@ -116,7 +116,7 @@ void write_shape(std::ostream& out, const ModalTableFormat& format, const ModalT
         cells += std::string(static_cast<std::size_t>(2 * t.width()), ' ');
       }
     }
-    t.row(labels[r], row.name, cells + " ");
+    t.row(labels[r], row.full_name, cells + " ");
   }
   t.rule({2 * columns});
   out << '\n';
@@ -142,7 +142,7 @@ void write_shares(std::ostream& out, const ModalTableFormat& format, const Modal
     const double sum = rows[r].values.back();
     const bool split = rows[r].values.size() > kind.columns.size();  // of flexible bodies and their models
     const std::string modal = split ? t.number(rows[r].values[kind.columns.size() - 1]) : blank;
-    t.row(labels[r], rows[r].name, cells + modal + " |" + t.number(sum) + " ");
+    t.row(labels[r], rows[r].full_name, cells + modal + " |" + t.number(sum) + " ");
     total += sum;
   }
   t.rule({columns, 1});
@@ -163,7 +163,7 @@ void write_numbers(std::ostream& out, const ModalTableFormat& format, const Moda
   for (std::size_t r = 0; r < rows.size(); ++r) {
     std::string cells;
     for (const double x : rows[r].values) cells += t.number(x);
-    t.row(labels[r], rows[r].name, cells + " ");
+    t.row(labels[r], rows[r].full_name, cells + " ");
   }
   t.rule({columns});
   out << '\n';

@@ -18,8 +18,8 @@ std::string lower(std::string text, std::string_view otherwise) {
   return text;
 }
 
-std::string named(const std::string& element, const std::string& view_name) {
-  return view_name.empty() ? element : element + " (" + view_name + ")";
+std::string named(const ElementId& element, const std::string& view_name) {
+  return view_name.empty() ? element.text() : element.text() + " (" + view_name + ")";
 }
 
 class Tables {
@@ -61,11 +61,11 @@ class Tables {
   static std::string label(const Load& l) {
     return fmt::format("{} on MARKER/{}", named(l.element, l.view_name), l.marker_I);
   }
-  static std::string label(const VariableValue& v) { return named("VARIABLE/" + std::to_string(v.id), v.view_name); }
+  static std::string label(const VariableValue& v) { return named({"VARIABLE", v.id}, v.view_name); }
   static std::string label(const StateValue& z) {
     return fmt::format("{} state {}", named(z.element, z.view_name), z.number);
   }
-  static std::string label(const ParameterValue& p) { return p.element + " " + p.name; }
+  static std::string label(const ParameterValue& p) { return p.element.text() + " " + p.name; }
   void widen(const std::string& text) { width_ = std::max(width_, std::min<std::size_t>(text.size(), 64)); }
 
   void head(std::string_view title, const Heads& heads) {

@@ -19,9 +19,9 @@ RequestFile::RequestFile(std::ostream& out, const std::string& title, const Unit
              requests.size() * columns_of_file.size(), title_field(title));
   fmt::print(out_, "{:5d}     {} {:.15E}\n", 0, unit_code(units), units_per_metre(units));
   for (const RequestInfo* r : requests) {
-    elements_.push_back(r->element);
-    fmt::print(out_, "{:10d}{:10d}{:10d}{:10d}{:10d}\n{}\n", r->id, static_cast<int>(r->kind), r->marker_I, r->marker_J,
-               r->axes, title_field(r->comment));
+    elements_.push_back(r->request);
+    fmt::print(out_, "{:10d}{:10d}{:10d}{:10d}{:10d}\n{}\n", r->request.element.id, static_cast<int>(r->kind),
+               r->marker_I, r->marker_J, r->axes, title_field(r->comment));
   }
 }
 
@@ -32,11 +32,11 @@ std::vector<std::string> RequestFile::add(double time, const PointRequests& at_t
   // Most often they are those of the head, one by one.
   std::vector<std::size_t> at(elements_.size(), requests.size());
   for (std::size_t k = 0; k < requests.size(); ++k) {
-    const bool same = k < elements_.size() && elements_[k] == requests[k]->element;
+    const bool same = k < elements_.size() && elements_[k] == requests[k]->request;
     const auto found = same ? elements_.begin() + static_cast<std::ptrdiff_t>(k)
-                            : std::find(elements_.begin(), elements_.end(), requests[k]->element);
+                            : std::find(elements_.begin(), elements_.end(), requests[k]->request);
     if (found == elements_.end())
-      left_out.push_back(requests[k]->element);
+      left_out.push_back(requests[k]->request.text());
     else
       at[static_cast<std::size_t>(found - elements_.begin())] = k;
   }
@@ -58,7 +58,7 @@ std::vector<std::string> without_place_in_request_file(const RequestInfos& reque
       const bool magnitude = r->kind != RequestKind::functions && (c.place == 1 || c.place == 5);
       const bool there = std::any_of(columns_of_file.begin(), columns_of_file.end(),
                                      [&](std::size_t k) { return static_cast<int>(k) + 1 == c.place; });
-      if (!there && !magnitude) list.push_back(c.name + " of " + r->element);
+      if (!there && !magnitude) list.push_back(c.name + " of " + r->request.text());
     }
   }
   return list;

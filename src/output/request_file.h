@@ -34,7 +34,7 @@ class RequestFile {
 
  private:
   std::ostream& out_;
-  std::vector<std::string> elements_;  // of the head
+  std::vector<RequestName> elements_;  // of the head
 };
 
 // Components that have no place among the six values: "F1 of REQUEST/3".

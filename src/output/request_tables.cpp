@@ -14,7 +14,7 @@ std::string marker(std::int64_t id) { return id == 0 ? "the global origin" : fmt
 
 std::string head_of(const RequestInfo& r) {
   static constexpr std::array<std::string_view, 4> names = {"DISPLACEMENT", "VELOCITY", "ACCELERATION", "FORCE"};
-  std::string text = r.element;
+  std::string text = r.request.text();
   if (!r.view_name.empty()) text += " (" + r.view_name + ")";
   if (r.kind != RequestKind::functions) {
     const bool force = r.kind == RequestKind::force;

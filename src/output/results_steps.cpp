@@ -24,17 +24,11 @@ std::string unit_name(const std::string& keyword) {
   return name;
 }
 
-std::string_view statement_of(std::string_view element) { return element.substr(0, element.find('/')); }
-std::string id_of(const std::string& element) { return element.substr(element.find('/') + 1); }
-
 // The last part of a view name, or "PART_2".
-std::string entity_name(const std::string& element, const std::string& view_name) {
-  if (const auto dot = view_name.rfind('.'); !view_name.empty())
-    return dot == std::string::npos ? view_name : view_name.substr(dot + 1);
-  std::string name = element;
-  std::ranges::replace_if(
-      name, [](char c) { return c == '/' || c == ' '; }, '_');
-  return name;
+std::string entity_name(const ElementId& element, const std::string& view_name) {
+  if (view_name.empty()) return fmt::format("{}_{}", element.statement, element.id);
+  const auto dot = view_name.rfind('.');
+  return dot == std::string::npos ? view_name : view_name.substr(dot + 1);
 }
 
 // Those of PART, JOINT, SFORCE, VARIABLE, PINPUT, POUTPUT and REQUEST are seen in files of others; the rest is formed
@@ -119,7 +113,7 @@ void ResultsSteps::loads(const std::vector<Load>& list, const Use& use) const {
     // Those of one element follow each other.
     const bool one_of_many =
         (k > 0 && list[k - 1].element == l.element) || (k + 1 < list.size() && list[k + 1].element == l.element);
-    const Owner owner{&l.element, &l.view_name, false, one_of_many ? l.marker_I : 0, nullptr};
+    const Owner owner{&l.element, &l.view_name, false, 0, one_of_many ? l.marker_I : 0, nullptr};
     for (std::size_t c = 0; c < 6; ++c)
       use(owner, Component{wrench_names[c], 0, c < 3 ? Unit::force : Unit::torque, nullptr},
           c < 3 ? l.force[c] : l.torque[c - 3]);
@@ -134,9 +128,9 @@ void ResultsSteps::for_each(const OperatingState& state, const PointRequests& re
                           Unit unit, Unit angular) {
     for (std::size_t b = 0; b < state.bodies.size() && !omitted; ++b) {
       const BodyState& body = state.bodies[b];
-      const std::size_t count = statement_of(body.element) == "POINT_MASS" ? 3 : 6;
+      const std::size_t count = body.element.statement == "POINT_MASS" ? 3 : 6;
       for (std::size_t k = 0; k < count; ++k)
-        use(Owner{&body.element, &body.view_name, true, 0, nullptr},
+        use(Owner{&body.element, &body.view_name, true, body.node, 0, nullptr},
             Component{names[k], 0, k < 3 ? unit : angular, nullptr}, k < 3 ? (body.*first)[k] : (body.*second)[k - 3]);
     }
   };
@@ -149,22 +143,21 @@ void ResultsSteps::for_each(const OperatingState& state, const PointRequests& re
   if (!less.without_reactions) loads(state.reactions, use);
   if (!less.without_forces) loads(state.forces, use);
   if (!less.without_system_elements) {
-    std::string name;
     for (const VariableValue& v : state.variables) {
-      name = "VARIABLE/" + std::to_string(v.id);
-      use(Owner{&name, &v.view_name, false, 0, nullptr}, Component{"Q", 0, Unit::none, nullptr}, v.value);
+      const ElementId variable{"VARIABLE", v.id};
+      use(Owner{&variable, &v.view_name, false, 0, 0, nullptr}, Component{"Q", 0, Unit::none, nullptr}, v.value);
     }
     const auto channels = [&](const std::vector<ChannelValues>& list, std::string_view component) {
       for (const ChannelValues& c : list) {
         for (std::size_t k = 0; k < c.values.size(); ++k)
-          use(Owner{&c.element, &c.view_name, false, 0, nullptr},
+          use(Owner{&c.element, &c.view_name, false, 0, 0, nullptr},
               Component{component, static_cast<int>(k) + 1, Unit::none, nullptr}, c.values[k]);
       }
     };
     channels(state.plant_inputs, "IN");
     channels(state.plant_outputs, "OUT");
     for (const StateValue& z : state.states) {
-      const Owner owner{&z.element, &z.view_name, false, 0, nullptr};
+      const Owner owner{&z.element, &z.view_name, false, 0, 0, nullptr};
       use(owner, Component{"Q", z.number, Unit::none, nullptr}, z.value);
       use(owner, Component{"QDOT", z.number, Unit::none, nullptr}, z.rate);
     }
@@ -190,8 +183,8 @@ void ResultsSteps::for_each(const OperatingState& state, const PointRequests& re
     for (std::size_t k = 0; k < info.components().size(); ++k) {
       const RequestComponent& c = info.components()[k];
       if (c.in_results)
-        use(Owner{&info.element, &info.view_name, false, 0, &info}, Component{c.called(), 0, unit_at(c.place), &c},
-            requests.values[r].values[k]);
+        use(Owner{&info.request.element, &info.view_name, false, 0, 0, &info},
+            Component{c.called(), 0, unit_at(c.place), &c}, requests.values[r].values[k]);
     }
   }
 }
@@ -218,12 +211,12 @@ std::string ResultsSteps::map(const OperatingState& state, const PointRequests& 
     std::string head = "<Entity name=\"time\">\n";
     if (owner.element) {
       std::string name = entity_name(*owner.element, *owner.view_name);
+      if (owner.node) name += "_node_" + std::to_string(owner.node);
       if (owner.marker) name += "_MARKER_" + std::to_string(owner.marker);
       if (owner.request && !owner.request->results_name.empty()) name = owner.request->results_name;
-      const std::string object = owner.request ? std::to_string(owner.request->id) : id_of(*owner.element);
       head = fmt::format("<Entity name=\"{}{}\" entity=\"{}\" entType=\"{}\" objectId=\"{}\">\n", escaped(name),
-                         owner.is_pose ? "_XFORM" : "", escaped(name),
-                         escaped(entity_type(statement_of(*owner.element))), object);
+                         owner.is_pose ? "_XFORM" : "", escaped(name), escaped(entity_type(owner.element->statement)),
+                         owner.element->id);
     }
     const auto [at, fresh] = place.emplace(head, entities.size());
     if (fresh) entities.push_back({std::move(head), {}});
@@ -238,13 +231,14 @@ std::string ResultsSteps::numbers(const OperatingState& state, const PointReques
                                   const std::function<std::string(double)>& number) const {
   std::string s;
   Owner before;
-  std::string name_before;
+  ElementId element_before;
   for_each(state, requests, [&](const Owner& owner, const Component&, double value) {
-    const std::string_view name = owner.element ? std::string_view(*owner.element) : std::string_view();
-    const bool same = name == name_before && owner.marker == before.marker && owner.request == before.request;
+    const ElementId element = owner.element ? *owner.element : ElementId();
+    const bool same = element == element_before && owner.node == before.node && owner.marker == before.marker &&
+                      owner.request == before.request;
     if (!s.empty()) s += same ? ' ' : '\n';
     s += number(value);
-    before = owner, name_before = name;
+    before = owner, element_before = element;
   });
   return s + "\n";
 }

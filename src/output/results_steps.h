@@ -42,9 +42,10 @@ class ResultsSteps {
   };
   // Whose a number is: nobody's is the time.
   struct Owner {
-    const std::string* element = nullptr;
+    const ElementId* element = nullptr;
     const std::string* view_name = nullptr;
     bool is_pose = false;     // of a body
+    std::int64_t node = 0;    // of an FE_PART
     std::int64_t marker = 0;  // of one of several wrenches
     const RequestInfo* request = nullptr;
   };

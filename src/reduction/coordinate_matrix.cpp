@@ -159,6 +159,23 @@ bool refuse_unsymmetric(const SparseMatrix& matrix, const SourceText& file, Diag
   return true;
 }
 
+// Of a symmetric matrix one triangle stands in the file, whichever it is.
+class OneTriangle {
+ public:
+  // The second of two entries on both sides of the diagonal is out of place.
+  void see(const Entry& e, const Span& at) {
+    if (e.row == e.column) return;
+    const bool above = e.row < e.column;
+    if (!above_) above_ = above;
+    if (*above_ != above && !wrong_) wrong_ = at;
+  }
+  const std::optional<Span>& wrong() const { return wrong_; }
+
+ private:
+  std::optional<bool> above_;
+  std::optional<Span> wrong_;
+};
+
 }  // namespace
 
 std::optional<SparseMatrix> read_coordinate_matrix(const SourceText& file, Eigen::Index size,
@@ -178,8 +195,11 @@ std::optional<SparseMatrix> read_coordinate_matrix(const SourceText& file, Eigen
   std::vector<Entry> entries;
   // Each takes six characters at least: a number of entries out of thin air sets nothing aside.
   entries.reserve(std::min(file.text().size() / 6, static_cast<std::size_t>(header.entries)));
-  if (!for_each_line(scanner, size, first_line_is_read, diagnostics,
-                     [&](const Entry& e, const Span&) { entries.push_back(e); }))
+  OneTriangle triangle;
+  if (!for_each_line(scanner, size, first_line_is_read, diagnostics, [&](const Entry& e, const Span& at) {
+        entries.push_back(e);
+        if (!header.whole) triangle.see(e, at);
+      }))
     return std::nullopt;
   if (header.market && static_cast<std::int64_t>(entries.size()) != header.entries) {
     diagnostics.error("fe-matrix-size", whole_file,
@@ -188,6 +208,11 @@ std::optional<SparseMatrix> read_coordinate_matrix(const SourceText& file, Eigen
     return std::nullopt;
   }
   if (!refuse_twice(entries, file, header, size, diagnostics)) return std::nullopt;
+  if (triangle.wrong()) {
+    diagnostics.error("fe-matrix-entry", *triangle.wrong(), "the entries before are those of the other triangle",
+                      "of a symmetric matrix one triangle is in the file");
+    return std::nullopt;
+  }
   std::vector<Eigen::Triplet<double, std::int32_t>> triplets;
   triplets.reserve(entries.size() * 2);
   for (const Entry& e : entries) {

@@ -160,6 +160,11 @@ class Reducer {
     const MatrixXd rigid = rigid_motions(model_);
     const FreeMotions free = free_motions(model_, rigid);
     reduction_.properties = mass_properties(model_, rigid);
+    if (reduction_.properties.mass == 0) {
+      diagnostics_.error("fe-matrix-not-positive", Span{}, "a translation of the body moves no mass",
+                         "the stiffness may stand where the mass belongs");
+      return told;
+    }
     reduction_.strain_of_rigid = free.strain;
     reduction_.rigid_removed = free.directions.cols();
     reduction_.constraint_modes = static_cast<Index>(b.size());

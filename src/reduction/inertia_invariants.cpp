@@ -63,7 +63,9 @@ BodyFile body_of(const FiniteElementModel& model, const Reduction& reduction, co
   body.i5.resize(3, N * N), body.i8.resize(3, 3 * N), body.i9.resize(3 * N, 3 * N);
   for (Index l = 0; l < 3; ++l) {
     const MatrixXd& of_l = turned[static_cast<std::size_t>(l)];
-    const MatrixXd pairs = momentum.transpose() * of_l;  // row k, column j: (G_l φ_j)ᵀ M φ_k
+    MatrixXd pairs = momentum.transpose() * of_l;  // row k, column j: (G_l φ_j)ᵀ M φ_k
+    // As of products of vectors; a mass that does not weigh all directions alike leaves a little more.
+    pairs = (0.5 * (pairs - pairs.transpose())).eval();
     for (Index j = 0; j < N; ++j) body.i5.row(l).segment(j * N, N) = pairs.col(j).transpose();
     const MatrixXd forces = model.mass * of_l;
     const MatrixXd with_rigid = rigid.rightCols(3).transpose() * forces;

@@ -21,6 +21,8 @@ using Eigen::VectorXd;
 constexpr Index dense_up_to = 400;
 // 1/ω² below this part of the largest is rounding of a freedom without mass.
 constexpr double massless_ratio = 1e-13;
+// Eigenvalues of the mass, with ones in its diagonal, that are rounding of entries as other programs print them.
+constexpr double rounding_of_mass = 1e-9, negative_mass = 1e-8;
 // Frequencies that differ by less belong to one mode, as those of a square section.
 constexpr double same_square = 1e-6;
 
@@ -59,34 +61,36 @@ class Search {
   Search(const SparseMatrix& stiffness, const SparseMatrix& mass, const SymmetricFactors& factors)
       : stiffness_(stiffness), mass_(mass), factors_(factors) {}
 
-  // All modes, by the flexibility of the freedoms with mass.
+  // All modes. With M = B Bᵀ, of as many columns as M has rank, 1/ω² are the eigenvalues of Bᵀ K⁻¹ B: shapes without
+  // mass, however soft they are, have no part in it.
   tl::expected<LowestModes, std::string> all(const std::vector<Index>& with_mass) const {
     const auto r = static_cast<Index>(with_mass.size());
-    MatrixXd flexible = MatrixXd::Zero(mass_.rows(), r);
-    for (Index k = 0; k < r; ++k) flexible(with_mass[static_cast<std::size_t>(k)], k) = 1;
-    factors_.solve(flexible);
-    const MatrixXd own = flexible(with_mass, Eigen::all);
-    const Eigen::LLT<MatrixXd> root(MatrixXd(0.5 * (own + own.transpose())));
-    if (root.info() != Eigen::Success) return tl::unexpected<std::string>("the stiffness is not positive definite");
     MatrixXd mass(r, r);
     for (Index c = 0; c < r; ++c) mass.col(c) = VectorXd(mass_.col(with_mass[static_cast<std::size_t>(c)]))(with_mass);
-    const MatrixXd L = root.matrixL();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(L.transpose() * mass * L));
-    const VectorXd& inverse_squares = eigen.eigenvalues();
-    const double largest = inverse_squares.maxCoeff();
-    if (inverse_squares.minCoeff() < -1e-8 * largest)
+    const VectorXd unit = mass.diagonal().cwiseSqrt();
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> of_mass(
+        MatrixXd(unit.cwiseInverse().asDiagonal() * mass * unit.cwiseInverse().asDiagonal()));
+    const VectorXd& masses = of_mass.eigenvalues();
+    if (masses[0] < -negative_mass * masses[r - 1])
       return tl::unexpected<std::string>("the mass has a negative eigenvalue");
-    LowestModes modes;
+    Index none = 0;
+    while (masses[none] <= rounding_of_mass * masses[r - 1]) ++none;
+    const Index rank = r - none;
+    const MatrixXd B =
+        unit.asDiagonal() * of_mass.eigenvectors().rightCols(rank) * masses.tail(rank).cwiseSqrt().asDiagonal();
+    MatrixXd flexible = MatrixXd::Zero(mass_.rows(), rank);
+    for (Index k = 0; k < r; ++k) flexible.row(with_mass[static_cast<std::size_t>(k)]) = B.row(k);
+    factors_.solve(flexible);
+    const MatrixXd H = B.transpose() * flexible(with_mass, Eigen::all);
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(0.5 * (H + H.transpose())));
+    const VectorXd& inverse_squares = eigen.eigenvalues();
+    if (!(inverse_squares[0] > -massless_ratio * inverse_squares[rank - 1]))
+      return tl::unexpected<std::string>("the stiffness is not positive definite");
     Index count = 0;
-    while (count < r && inverse_squares[r - 1 - count] > massless_ratio * largest) ++count;
-    modes.squares.resize(count);
-    MatrixXd loads(r, count);
-    for (Index k = 0; k < count; ++k) {
-      const double m = inverse_squares[r - 1 - k];
-      modes.squares[k] = 1 / m;
-      loads.col(k) = mass * (L * eigen.eigenvectors().col(r - 1 - k)) / (m * std::sqrt(m));
-    }
-    modes.shapes = flexible * loads;
+    while (count < rank && inverse_squares[rank - 1 - count] > massless_ratio * inverse_squares[rank - 1]) ++count;
+    LowestModes modes;
+    modes.squares = inverse_squares.reverse().head(count).cwiseInverse();
+    modes.shapes = flexible * (eigen.eigenvectors().rowwise().reverse().leftCols(count) * modes.squares.asDiagonal());
     return modes;
   }
 

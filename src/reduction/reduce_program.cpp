@@ -19,6 +19,7 @@
 #include "reduction/inertia_invariants.h"
 #include "reduction/node_list.h"
 #include "reduction/reduction_report.h"
+#include "reduction/rigid_motion.h"
 #include "reduction/text_scanner.h"
 
 namespace dynalin::reduction {
@@ -168,6 +169,17 @@ class Program {
     auto k = read_coordinate_matrix(stiffness, n, diagnostics_);
     auto m = k ? read_coordinate_matrix(mass, n, diagnostics_) : std::nullopt;
     if (!m) return false;
+    // CalculiX writes exact zeros as well.
+    const auto by_calculix = [](const SourceText& file, std::string_view suffix) {
+      return std::string_view(file.name()).ends_with(suffix) && !file.text().starts_with("%%");
+    };
+    if (by_calculix(stiffness, ".sti") && by_calculix(mass, ".mas") && k->nonZeros() != m->nonZeros()) {
+      diagnostics_.error("fe-matrix-size", Span{&mass, 0, 0},
+                         fmt::format("{} has fewer or more entries than {}, they have the same places", options_.mass,
+                                     options_.stiffness),
+                         "one of the files may be cut off, or of another model");
+      return false;
+    }
     model_.stiffness = std::move(*k), model_.mass = std::move(*m);
     return true;
   }
@@ -216,8 +228,22 @@ class Program {
       diagnostics_.error("fe-node", Span{}, fmt::format("{} {} is not in {}", what, label, options_.nodes));
       return false;
     };
-    for (const Freedom& f : model_.freedoms) {
-      if (f.direction != 0 && !model_.nodes.contains(f.node)) return refuse(f.node, "the place of node");
+    // What CalculiX adds inside elements, as the modes of C3D8I, has numbers behind those of the nodes: no motion of
+    // the whole body moves it.
+    std::vector<NodeLabel> inside;
+    for (Freedom& f : model_.freedoms) {
+      if (f.direction == 0 || model_.nodes.contains(f.node)) continue;
+      if (inside.empty() || inside.back() != f.node) inside.push_back(f.node);
+      f.direction = 0;
+    }
+    if (!inside.empty()) {
+      constexpr Eigen::Index all_motions = 6;
+      if (free_motions(model_, rigid_motions(model_)).directions.cols() < all_motions)
+        return refuse(inside.front(), "the place of node");
+      diagnostics_.warning("fe-node", Span{},
+                           fmt::format("{} node{} without a place in {}, {} the first: taken for coordinates inside "
+                                       "elements, as no motion of the body as a whole needs them",
+                                       inside.size(), inside.size() == 1 ? "" : "s", options_.nodes, inside.front()));
     }
     for (const NodeLabel label : also_) {
       if (!model_.nodes.contains(label)) return refuse(label, "node");

@@ -78,8 +78,9 @@ class Reduce : public ::testing::Test {
   ReduceOptions calculix(const FiniteElementModel& model) const {
     file("job.dof", freedom_lines(model));
     ReduceOptions options;
-    options.stiffness = file("job.sti", triangle(model.stiffness, false));
-    options.mass = file("job.mas", triangle(model.mass, false));
+    // In both files the same places, with their zeros.
+    options.stiffness = file("job.sti", triangle(model.stiffness + 0.0 * model.mass, false));
+    options.mass = file("job.mas", triangle(model.mass + 0.0 * model.stiffness, false));
     options.nodes = file("nodes.txt", node_lines(model));
     options.output = path("body.fem");
     options.interface = {"1", "5"};
@@ -338,6 +339,16 @@ TEST_F(Reduce, says_where_the_input_is_wrong) {
   EXPECT_THAT(refused(options), HasSubstr("29 rows and 29 columns, and there are 30 freedoms"));
   file("job.mas", "%%MatrixMarket matrix coordinate real symmetric\n30 30 2\n1 1 1\n");
   EXPECT_THAT(refused(options), HasSubstr("promises 2 entries, and 1 are there"));
+  file("job.mas", "%%MatrixMarket matrix coordinate real symmetric\n30 30 3\n1 1 1\n3 2 1\n4 5 1\n");
+  EXPECT_THAT(refused(options), HasSubstr("job.mas:5:1: error: the entries before are those of the other triangle"));
+  options = calculix(beam);
+  std::string cut = read("job.mas");
+  cut.resize(cut.rfind('\n', cut.size() / 2) + 1);
+  file("job.mas", cut);
+  EXPECT_THAT(refused(options), HasSubstr("job.mas has fewer or more entries than"));
+  options = calculix(beam);
+  std::swap(options.stiffness, options.mass);
+  EXPECT_THAT(refused(options), HasSubstr("a translation of the body moves no mass"));
   options = calculix(beam);
   file("job.dof", "1.1\n1.7\n");
   EXPECT_THAT(refused(options), HasSubstr("job.dof:2:1: error: a line is the number of a node and its direction"));

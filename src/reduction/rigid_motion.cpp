@@ -12,6 +12,8 @@ namespace {
 // A motion strains nothing if its forces are below this part of |K||R|. Matrices have at least eight digits; one node
 // in a million that is held gives more.
 constexpr double strains_nothing = 1e-7;
+// Of the sum of the sizes that make the mass of a translation.
+constexpr double massless_translation = 1e-9;
 
 }  // namespace
 
@@ -60,6 +62,9 @@ MassProperties mass_properties(const FiniteElementModel& model, const Eigen::Mat
   p.matrix = rigid.transpose() * (model.mass * rigid);
   const Eigen::Vector3d along = p.matrix.diagonal().head<3>();
   p.mass = along.mean();
+  const Eigen::MatrixXd sizes = rigid.leftCols<3>().cwiseAbs();
+  const SparseMatrix of_mass = model.mass.cwiseAbs();
+  if (!(p.mass > massless_translation * (sizes.transpose() * (of_mass * sizes)).trace())) p.mass = 0;
   p.uneven = p.mass > 0 ? (along.maxCoeff() - along.minCoeff()) / p.mass : 0;
   // The block of rotations and translations is I2^, of I2 = mass · centre.
   const Eigen::Matrix3d moment = p.matrix.block<3, 3>(3, 0);

@@ -28,7 +28,6 @@ class TextScanner {
   std::string_view line() const { return text_.substr(begin_, end_ - begin_); }
   Span line_span() const { return span(begin_, end_); }
   // Behind the last word of the line.
-  Span end_span() const { return span(end_, end_); }
 
   // The next word of the line, ended by blanks or a comma; empty at its end.
   std::string_view word() {

@@ -1,6 +1,5 @@
 #include "routine/routine_kinds.h"
 
-#include <algorithm>
 #include <array>
 
 namespace dynalin {
@@ -30,10 +29,5 @@ constexpr StateEquationKinds of_gse = {{"GSE", "gse_deriv", 0, counted},
 const StateEquationKinds& state_equation_kinds() { return of_gse; }
 
 std::span<const RoutineKind> routine_kinds() { return kinds; }
-
-const RoutineKind* find_routine_kind(std::string_view routine) {
-  const auto* found = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.routine == routine; });
-  return found == kinds.end() ? nullptr : found;
-}
 
 }  // namespace dynalin

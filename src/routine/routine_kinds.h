@@ -31,7 +31,5 @@ struct StateEquationKinds {
   RoutineKind derivatives, outputs, update, sample, system;
 };
 const StateEquationKinds& state_equation_kinds();
-// By the default name of the routine in lower case, nullptr if there is none.
-const RoutineKind* find_routine_kind(std::string_view routine);
 
 }  // namespace dynalin

@@ -27,7 +27,7 @@ void append(History& history, const System& system, const OperatingPoint& point,
   const std::vector<Variable> variables = variables_of(system.model());
   if (history.times.empty()) {
     for (const Variable& v : variables) history.variables.push_back({v.label->id, std::string(v.label->view_name), {}});
-    for (const RequestValues& r : requests) history.requests.push_back({r.element, r.view_name, r.components, {}});
+    for (const RequestValues& r : requests) history.requests.push_back({r.request, r.view_name, r.components, {}});
   }
   history.times.push_back(point.time);
   for (std::size_t k = 0; k < variables.size(); ++k) {

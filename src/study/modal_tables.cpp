@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 namespace dynalin {
 
@@ -29,6 +30,34 @@ std::vector<Row> plain(const std::vector<ModalRow<std::complex<double>>>& from) 
     for (const std::complex<double>& v : r.values) row.values.push_back(v.real()), row.imaginary.push_back(v.imag());
   }
   return rows;
+}
+
+// What a title "Adams View model name: car" says, nothing where it says something else.
+std::string_view model_name(std::string_view title) {
+  constexpr std::string_view before = "VIEW MODEL NAME:";
+  const auto found = std::search(title.begin(), title.end(), before.begin(), before.end(),
+                                 [](char t, char b) { return std::toupper(static_cast<unsigned char>(t)) == b; });
+  if (found == title.end()) return {};
+  std::string_view name = title.substr(static_cast<std::size_t>(found - title.begin()) + before.size());
+  while (name.starts_with(' ')) name.remove_prefix(1);
+  while (name.ends_with(' ')) name.remove_suffix(1);
+  return name;
+}
+
+// Names of View with the model and, of a marker, the part it is on.
+void name_in_full(const Model& model, std::vector<Row>& rows) {
+  const std::string_view of_model = model_name(model.title);
+  for (Row& row : rows) {
+    if (row.name.empty()) continue;
+    row.full_name = row.name;
+    if (row.name.find('.') != std::string::npos || of_model.empty()) continue;
+    std::string_view of_part;
+    if (row.element.statement == "MARKER") {
+      if (const auto m = model.find_marker(row.element.id))
+        of_part = model.body(model.marker(*m).place.body).label.view_name;
+    }
+    row.full_name = fmt::format("{}{}{}.{}", of_model, of_part.empty() ? "" : ".", of_part, row.name);
+  }
 }
 
 using Name = std::string_view;
@@ -60,8 +89,16 @@ ModalTable over_modes(std::string name, std::vector<std::string> columns, const 
   return table;
 }
 
-void look_for_missing(const ModalTableRequest& request, std::size_t count, Diagnostics& remarks) {
+void look_for_missing(const ModalTableRequest& request, const std::vector<EigenMode>& modes,
+                      std::string_view frequency_unit, Diagnostics& remarks) {
+  const std::size_t count = modes.size();
   for (const auto& [name, range] : request.modes) {
+    const auto is_there = [&, r = range](const EigenMode& m) { return r.has(0, m); };
+    if (range.highest_hz > 0 && std::ranges::none_of(modes, is_there)) {
+      remarks.warning("missing-mode", {},
+                      fmt::format("{} asks for modes between {:g} and {:g} {}, none is there", name, range.lowest_hz,
+                                  range.highest_hz, frequency_unit));
+    }
     if (range.last <= static_cast<std::int64_t>(count) || range.last == ModeRange::all().last) continue;
     remarks.warning("missing-mode", {},
                     fmt::format("{} asks for {} {}, the eigensolution has {} {}", name,
@@ -201,6 +238,7 @@ StudyResult<TablesFound> modal_tables(const Linearization& of, const EigenSoluti
                               k + 1,
                               {kind.columns.begin(), kind.columns.end()},
                               kind.rows(distribution, k, markers)});
+      name_in_full(model, found.tables.back().rows);
       // Models with flexible bodies have their modal part before the sum.
       ModalTable& table = found.tables.back();
       if (kind.totals && !table.rows.empty() && table.rows.front().values.size() > table.columns.size())
@@ -211,7 +249,7 @@ StudyResult<TablesFound> modal_tables(const Linearization& of, const EigenSoluti
     if (!kind.of_all || !request.of(std::string(kind.name)).any()) continue;
     if (auto made = kind.of_all(of, modes, request, found); !made) return tl::unexpected(made.error());
   }
-  look_for_missing(request, modes.modes.size(), found.remarks);
+  look_for_missing(request, modes.modes, model.units.frequency(), found.remarks);
   return found;
 }
 

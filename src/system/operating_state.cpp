@@ -45,11 +45,8 @@ class Reading {
       const BodyBlock& block = layout_.bodies[b];
       BodyState s;
       s.name = block.label.full_text();
-      s.element = block.label.text();
-      if (node[b] > 0) {
-        s.name += fmt::format(" node {}", node[b]);
-        s.element += fmt::format(" node {}", node[b]);
-      }
+      s.element = block.label.element(), s.node = node[b];
+      if (s.node > 0) s.name += fmt::format(" node {}", s.node);
       s.view_name = block.label.view_name;
       s.position = plain(m.r);
       s.axes = {plain(m.R[0]), plain(m.R[1]), plain(m.R[2])};
@@ -99,7 +96,7 @@ class Reading {
     wrench_.clear();
     wrenches.wrench(motion_, which, false, wrench_);
     Load l;
-    l.element = label.text();
+    l.element = label.element();
     l.variant = set.kind().variant;
     l.view_name = label.view_name;
     const auto id = [&](MarkerId m) { return m.valid() ? model_.marker(m).label.id : 0; };
@@ -121,7 +118,7 @@ class Reading {
     const Partition part = system_.partition(rows, true);
     for (std::size_t k = 0; k < layout_.rows.size(); ++k) {
       const ConstraintRow& row = layout_.rows[k];
-      state_.constraints.push_back({row.owner->text(), std::string(row.name), op_.lambda[k] + 0.0, !part.active[k]});
+      state_.constraints.push_back({row.owner->element(), std::string(row.name), op_.lambda[k] + 0.0, !part.active[k]});
     }
   }
 
@@ -151,7 +148,7 @@ class Reading {
           state_.variables.push_back(
               {label.id, std::string(label.view_name), value(system_.signals().variable({handle}))});
         } else if (gives == Kind::Gives::plant_inputs || gives == Kind::Gives::plant_outputs) {
-          ChannelValues c{label.text(), std::string(label.view_name), {}};
+          ChannelValues c{label.element(), std::string(label.view_name), {}};
           for (const VariableRef v : model_.get<VariableList>(handle)->variables)
             c.values.push_back(value(system_.signals().variable(v)));
           (gives == Kind::Gives::plant_inputs ? state_.plant_inputs : state_.plant_outputs).push_back(std::move(c));
@@ -161,13 +158,13 @@ class Reading {
     for (std::size_t k = 0; k < layout_.states.size(); ++k) {
       const DifferentialState& z = layout_.states[k];
       if (z.course_of_motion) continue;
-      state_.states.push_back({z.owner->text(), std::string(z.owner->view_name), z.coordinate, op_.state[k] + 0.0,
+      state_.states.push_back({z.owner->element(), std::string(z.owner->view_name), z.coordinate, op_.state[k] + 0.0,
                                op_.state_rate[k] + 0.0});
     }
     for (const ExtraBlock& e : layout_.extras) {
       for (std::int32_t k = 0; k < e.count; ++k) {
         const std::size_t at = layout_.extra_index(e.offset + k);
-        state_.parameters.push_back({e.label.text(), e.coordinates[static_cast<std::size_t>(k)].name,
+        state_.parameters.push_back({e.label.element(), e.coordinates[static_cast<std::size_t>(k)].name,
                                      op_.extra[at] + 0.0, op_.velocity[static_cast<std::size_t>(e.offset + k)] + 0.0});
       }
     }

@@ -23,7 +23,7 @@ PointRequests requests_at(const System& system, const OperatingPoint& point) {
     for (std::size_t k = 0; k < source.count(); ++k) {
       if (!motion) motion = system.motion(point);
       const RequestInfo& info = source.info(k);
-      RequestValues r{info.element, info.view_name, {}, {}};
+      RequestValues r{info.request, info.view_name, {}, {}};
       for (const RequestComponent& c : info.components()) r.components.push_back(c.called());
       source.evaluate(*motion, k, r.values);
       all.infos.push_back(&info), all.values.push_back(std::move(r));
@@ -38,7 +38,7 @@ std::vector<UndefinedRequest> undefined_requests(const System& system, const Ope
   for_each_source(system, [&](const RequestSource& source) {
     for (std::size_t k = 0; k < source.count(); ++k) {
       if (std::string reason = source.undefined_value(motion, k); !reason.empty())
-        list.push_back({source.info(k).element, std::move(reason)});
+        list.push_back({source.info(k).request, std::move(reason)});
     }
   });
   return list;

@@ -17,7 +17,8 @@ PointRequests requests_at(const System&, const OperatingPoint&);
 // Of each that has a component without a finite value, why: "F2 of REQUEST/3 has no finite value at time 1: SQRT of
 // -3".
 struct UndefinedRequest {
-  std::string element, reason;
+  RequestName request;
+  std::string reason;
 };
 std::vector<UndefinedRequest> undefined_requests(const System&, const OperatingPoint&);
 

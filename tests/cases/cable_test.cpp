@@ -80,6 +80,33 @@ TEST_F(Cables, slack_ones_exert_nothing) {
   EXPECT_EQ(edge.eigenvalues(0), values);
 }
 
+// The pattern of the equations is that of a taut cable, whatever it is at first.
+TEST_F(Cables, slack_at_first_carry_in_the_end) {
+  const RunResult hung = solve(
+      "MARKER/1, QP=0,0,5\nMARKER/9\nPART/2, MASS=2, CM=2, IP=1,1,1\nMARKER/2\nJOINT/1, TRANSLATIONAL, I=2, J=9\n"
+      "CABLE/1, MARKERS=1,2, K=100, C=2, LENGTH=5.5\n",
+      "SIMULATE/STATICS\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(hung.status, 0) << hung.err;
+  const auto place = hung.result(0).at("operating_point").at("bodies").at(0).at("position");
+  EXPECT_NEAR(place.at(2).get<double>(), 5 - 5.5 - 2 * 9.81 / 100, 1e-9);
+  EXPECT_NEAR(std::abs(hung.eigenvalues(1).at(0)), std::sqrt(100 / 2.0) / (2 * std::numbers::pi), 1e-9);
+  // A boom on a ball and a block on a bushing, joined to the ground by one cable: all of it slack as drawn.
+  const RunResult boom = solve(
+      "MARKER/1\nMARKER/2, QP=0.5,0.2,3\nPART/2, MASS=3, CM=22, IP=0.2,0.2,0.2\nMARKER/22, QP=0.6,0,0\nMARKER/20\n"
+      "MARKER/21, QP=1.2,0,0\nJOINT/1, SPHERICAL, I=20, J=1\nPART/3, MASS=2, CM=30, IP=0.3,0.3,0.3, QG=1.6,0.4,0.1\n"
+      "MARKER/30\nMARKER/3, PART=1, QP=1.6,0.4,0.1\nBUSHING/1, I=30, J=3, K=60,70,80, KT=9,9,9\n"
+      "CABLE/1, MARKERS=2,21,30, K=40, C=1, LENGTH=5\n",
+      "SIMULATE/STATICS\n");
+  ASSERT_EQ(boom.status, 0) << boom.err;
+  double tension = 0;
+  for (const auto& load : boom.result(0).at("operating_point").at("forces")) {
+    if (load.at("element") != "CABLE/1") continue;
+    const auto f = load.at("global_force").get<std::vector<double>>();
+    tension = std::hypot(f[0], f[1], f[2]);
+  }
+  EXPECT_GT(tension, 1);
+}
+
 // A mass dropped on a slack cable falls freely for d, then the cable stretches until m g (d + s) = K s²/2.
 TEST(CablesInTime, catch_what_falls) {
   const double K = 200, d = 0.5, g = 9.81, rest = g / K, w = std::sqrt(K), speed = std::sqrt(2 * g * d);

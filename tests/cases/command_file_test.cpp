@@ -44,6 +44,15 @@ TEST_F(CommandFiles, comments_stand_on_the_first_lines_as_everywhere) {
   EXPECT_THAT(alone.err, HasSubstr("the command file names no model"));
 }
 
+TEST_F(CommandFiles, names_may_stand_in_quotes_and_commands_on_several_lines) {
+  std::filesystem::copy(folder_ / "model.adm", folder_ / "my model.adm");
+  write("model.acf", "\"my model.adm\"\n'my run'\nLINEAR / EIGENSOL , &\n  , COORDS = 1\nSTOP\n");
+  const RunResult r = run_file("model.acf");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_TRUE(r.wrote("my run.txt"));
+  EXPECT_EQ(r.result(0).at("command"), "LINEAR / EIGENSOL , COORDS = 1");
+}
+
 TEST_F(CommandFiles, bytes_that_are_no_text_do_not_end_the_run) {
   const RunResult r = commands("model\nout\nLINEAR/EIGENSOL ! \xC4\xE9\n");
   EXPECT_NE(r.status, -1);

@@ -167,6 +167,19 @@ TEST_F(EditCommands, a_joint_may_become_another_type) {
   expect_frequency(r, 2, 3);
 }
 
+TEST_F(EditCommands, what_only_the_type_before_has_goes_with_it) {
+  const RunResult r = run(
+      "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=3,3,4\nMARKER/20\n"
+      "MARKER/2, PART=1, QP=0,0,-1\nJOINT/1, CYLINDRICAL, I=20, J=1\nSPRINGDAMPER/1, TRANSLATIONAL, I=20, J=2, K=25, "
+      "LENGTH=1\nBUSHING/1, I=20, J=1, K=0,0,25, KT=0,0,36\nEND\n",
+      "SPRINGDAMPER/1, ROTATIONAL, KT=64\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto values = r.eigenvalues(1);
+  ASSERT_EQ(values.size(), 4u);
+  EXPECT_NEAR(values[0].imag() * turn, 5, 1e-11);
+  EXPECT_NEAR(values[2].imag() * turn, 5, 1e-11);
+}
+
 TEST_F(EditCommands, before_the_first_analysis_edits_count_as_if_written_in_the_dataset) {
   const RunResult r =
       run("t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, "

@@ -330,7 +330,9 @@ TEST_F(FePartFiles, results_files_and_faults_name_its_nodes) {
   const StraightBeam beam{.elements = 1, .height = 0.1, .width = 0.1};
   const RunResult r = run(clamped_beam(beam, "RESULTS/XRF\n"), "SIMULATE/DYNAMIC, END=0.01, STEPS=1\n");
   ASSERT_EQ(r.status, 0) << r.err;
-  EXPECT_NE(r.text("model.res").find("node 2"), std::string::npos);
+  const std::string results = r.text("model.res");
+  for (const char* node : {"FE_PART_2_node_1", "FE_PART_2_node_2"})
+    EXPECT_NE(results.find(fmt::format("entity=\"{}\" entType=\"FE_PART\" objectId=\"2\"", node)), std::string::npos);
   const RunResult marker = run(clamped_beam(beam, "MARKER/9, FE_PART=2, NODE_LABEL=7\n"), "LINEAR/EIG\n");
   EXPECT_EQ(marker.status, 1);
   EXPECT_NE(marker.err.find("FE_PART/2 has no node 7"), std::string::npos) << marker.err;

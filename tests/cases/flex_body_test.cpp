@@ -11,6 +11,7 @@ namespace dynalin::cases::flex_body_test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class FlexBody : public Cases {};
 
@@ -224,6 +225,27 @@ TEST_F(FlexBody, drawn_off_its_joint_moves_as_a_whole) {
   for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-9 * expected[k]);
 }
 
+// It bends before a coordinate leaves where EXACT holds it.
+TEST_F(FlexBody, bends_where_exact_holds_it) {
+  const Vibration free = vibration(beam, 0);
+  const ReducedBody body = reduced(beam, free.shapes.middleCols(6, 8));
+  write("beam.fem", modal_text(body.nodes, body.stiffness));
+  const Vector end = body.nodes.back().at;
+  const RunResult r =
+      run(fmt::format("Beam\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, QP={:.17g},{:.17g},{:.17g}\nFLEX_BODY/2, "
+                      "MNF_FILE=beam.fem, CRATIO=0, EXACT=X:Y:Z:PSI:THETA:PHI\nMARKER/21, NODE_ID={}\nJPRIM/1, INLINE, "
+                      "I=21, J=1\nEND\n",
+                      end.x, end.y + 1e-3, end.z, body.nodes.back().label),
+          "SIMULATE/INITIAL\n");
+  ASSERT_EQ(r.status, 0) << r.err << r.message;
+  EXPECT_THAT(r.err, Not(HasSubstr("cannot keep")));
+  const auto& state = r.result(0).at("operating_point");
+  for (const double x : state.at("bodies").at(0).at("position").get<std::vector<double>>()) EXPECT_NEAR(x, 0, 1e-8);
+  double bent = 0;
+  for (const auto& q : state.at("curve_parameters")) bent = std::max(bent, std::abs(q.at("value").get<double>()));
+  EXPECT_GT(bent, 1e-5);
+}
+
 // A joint that the body can follow as a whole changes nothing of its shape, nor of how that changes.
 TEST_F(FlexBody, keeps_the_shape_that_is_stated_where_joints_allow_it) {
   const Vibration free = vibration(beam, 0);
@@ -274,6 +296,20 @@ TEST_F(FlexBody, wrong_files_are_errors_at_their_place) {
   refused(with("NORMAL MODE SHAPE #  1\n0", "NORMAL MODE SHAPE #  1\nnought"), "nought is no number");
   refused(std::string("\0\1\2MNF", 6), "is a binary modal neutral file: this format is not public");
   refused("bmod....", "give the .fem text file that it was made from");
+  const std::string masses = good.substr(good.find("** RECORD GROUP 11"));
+  const auto first = masses.find('\n') + 1;
+  std::string negative = good;
+  negative.insert(good.find(masses) + first, "-");
+  refused(negative, "a node has no mass or inertia of -");
+  const auto whole = [&](const std::string& numbers) { return good + "** RECORD GROUP 12\n" + numbers + "\n"; };
+  refused(whole("0 0 0 0 1 0 0 0 1 0 0 0 1"), "RECORD GROUP 12 states a mass of 0");
+  refused(whole("1 0 0 0 1 0.2 0 0.1 1 0 0 0 1"),
+          "the inertia of RECORD GROUP 12 is not symmetric: it has 0.2 and 0.1");
+  refused(whole("1 0 0 0 1 0 0 0 -1 0 0 0 1"), "RECORD GROUP 12 states a moment of inertia of -1");
+  refused(good + "** RECORD GROUP 17\n0 1 1 0 0 0 0 0 0 0 0 0\n", "RECORD GROUP 17 is of no body: modes 2 and 1");
+  std::string products = "** RECORD GROUP 18\n";
+  for (int k = 0; k < 36; ++k) products += k == 4 ? "1 " : "0 ";
+  refused(good + products + "\n", "RECORD GROUP 18 is of no body");
   // Modes that the body has already.
   const Vibration free = vibration(beam, 0);
   const ReducedBody rigid = reduced(beam, free.shapes.middleCols(4, 4));
@@ -322,6 +358,57 @@ TEST_F(FlexBody, states_have_their_codes) {
     EXPECT_THAT(states.dump(), HasSubstr("2000001"));
     EXPECT_THAT(states.dump(), HasSubstr("Modal generalized coordinate Q1"));
   }
+  const RunResult original = run(held_beam(""), "LINEAR/EIGENSOL, ORIGINAL\nSTOP\n");
+  ASSERT_EQ(original.status, 0) << original.err;
+  for (const auto& state : original.result(0).at("states")) EXPECT_EQ(state.at("type"), 8);
+}
+
+TEST_F(FlexBody, beyond_its_linear_modes_is_warned_of) {
+  const Vibration held = vibration(beam, 6);
+  const ReducedBody body = reduced(beam, held.shapes.leftCols(2));
+  write("beam.fem", modal_text(body.nodes, body.stiffness));
+  const double lowest = std::sqrt(held.squares(0));
+  double mass = 0;
+  for (const FlexibleNode& n : body.nodes) mass += n.mass;
+  const auto said = [&](const std::string& more) {
+    const RunResult r = run(fmt::format("Beam\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nFLEX_BODY/2, "
+                                        "MNF_FILE=beam.fem, CRATIO=0{}\nMARKER/21, NODE_ID=1\nJOINT/1, REVOLUTE, I=21, "
+                                        "J=1\nEND\n",
+                                        more),
+                            "LINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+    EXPECT_THAT(r.message, HasSubstr(fmt::format("FLEX_BODY/2: mass {:.6g}, 2 modes from ", mass)));
+    return r.err;
+  };
+  EXPECT_THAT(said(fmt::format(", WZ={}", 0.09 * lowest)), Not(HasSubstr("fast-flexible-body")));
+  EXPECT_THAT(said(fmt::format(", WZ={}", 0.11 * lowest)), HasSubstr("0.11 of its lowest frequency"));
+  EXPECT_THAT(said(""), Not(HasSubstr("far-bent-body")));
+  EXPECT_THAT(said(", DMODE=5,0"), HasSubstr("far-bent-body"));
+  EXPECT_THAT(said(", DMODE=0.01,0"), Not(HasSubstr("far-bent-body")));
+  EXPECT_THAT(said(", DMODE=0.01,0, CHAR_LEN=0.001"), HasSubstr("far-bent-body"));
+}
+
+// Mass, its moment and inertia are those of a rigid body.
+TEST_F(FlexBody, of_three_invariants_is_a_part) {
+  const Vibration held = vibration(beam, 6);
+  const ReducedBody body = reduced(beam, held.shapes.leftCols(2));
+  write("beam.fem", modal_text(body.nodes, body.stiffness));
+  const auto swinging = [&](const std::string& more) {
+    return run(
+        "Beam\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nFLEX_BODY/2, "
+        "MNF_FILE=beam.fem, REULER=-90D,0,0" +
+            more + "\nMARKER/21, NODE_ID=1\nJOINT/1, REVOLUTE, I=21, J=1\nEND\n",
+        "LINEAR/EIGENSOL\nSTOP\n");
+  };
+  const RunResult rigid = swinging(", INVARIANTS=T:T:F:F:F:F:T:F:F"), whole = swinging("");
+  ASSERT_EQ(rigid.status, 0) << rigid.err;
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  ASSERT_EQ(rigid.eigenvalues(0).size(), 2u);
+  EXPECT_GT(whole.eigenvalues(0).size(), 2u);
+  double first = 0, second = 0;
+  for (const FlexibleNode& n : body.nodes) first += n.mass * n.at.x, second += n.mass * n.at.x * n.at.x + n.own[2];
+  EXPECT_NEAR(std::abs(rigid.eigenvalues(0)[0].imag()) * 2 * std::numbers::pi, std::sqrt(9.81 * first / second),
+              1e-9 * std::sqrt(9.81 * first / second));
 }
 
 // Two masses 1 and 2 on the x axis of the BCS, at 0 and 1; the mode moves the one of 1 along z by -0.5 and the other by

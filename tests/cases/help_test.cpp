@@ -172,6 +172,7 @@ TEST(Explain, says_more_than_the_message) {
     EXPECT_THAT(r.out, AllOf(HasSubstr(std::string(e.text)), HasSubstr(std::string(e.advice))));
   }
   EXPECT_EQ(explain("[unknown-marker]").status, done);  // as it stands in a message
+  EXPECT_EQ(explain("Unknown-MARKER").status, done);
   const Printed slip = explain("unknwon-marker");
   EXPECT_EQ(slip.status, wrong_usage);
   EXPECT_THAT(slip.err, HasSubstr("unknown-marker exists"));

@@ -389,13 +389,34 @@ TEST(Library, takes_points_over_through_several_edits) {
   EXPECT_TRUE(after.continued(moved).is_consistent());
 }
 
+TEST(Library, tables_want_shapes_of_the_model_itself) {
+  const auto linear = study_of(pendulum).linearize();
+  dynalin::ModalTableRequest request;
+  request.modes["KINETIC"] = dynalin::ModeRange::all();
+  const auto refused = [&](const dynalin::EigenSolution& modes) {
+    try {
+      linear.tables(modes, request);
+    } catch (const dynalin::Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused(linear.modes()), "");
+  EXPECT_THAT(refused(linear.modes(false)), HasSubstr("they need mode shapes"));
+  auto cut = linear.modes();
+  cut.vectors.conservativeResize(Eigen::NoChange, 1);
+  EXPECT_THAT(refused(cut), HasSubstr("vectors or shapes of other sizes"));
+  const auto other = study_of(replaced(pendulum, "VARIABLE/3", "DIFF/7, FUNCTION=-DIF(7)\nVARIABLE/3")).linearize();
+  EXPECT_THAT(refused(other.modes()), HasSubstr("of a linear model with other states"));
+}
+
 TEST(Library, has_the_values_of_requests_at_a_point) {
   const auto study = study_of(replaced(
       pendulum, "VARIABLE/3", "REQUEST/1, DISPLACEMENT, I=20, J=1\nREQUEST/2, F2=2*DX(20,1)\\F6=VZ(20,1)\nVARIABLE/3"));
   const auto drawn = study.initial_conditions();
   const auto requests = drawn.requests();
   ASSERT_EQ(requests.size(), 2u);
-  EXPECT_EQ(requests[0].element, "REQUEST/1");
+  EXPECT_EQ(requests[0].request.text(), "REQUEST/1");
   EXPECT_EQ(requests[0].components.size(), requests[0].values.size());
   const auto value = [](const dynalin::RequestValues& r, const std::string& component) {
     const auto found = std::find(r.components.begin(), r.components.end(), component);

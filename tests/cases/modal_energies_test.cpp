@@ -253,6 +253,16 @@ TEST_F(ModalEnergies, equal_frequencies_are_not_singular) {
   EXPECT_NEAR(row(t, "Energies per mode", "Sum")[0], model.kinetic, 1e-12);
 }
 
+TEST_F(ModalEnergies, of_differential_states_alone_are_none) {
+  for (const char* body : {"", "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, FIXED, I=20, J=1\n"}) {
+    const RunResult r = run(
+        std::string("Filter\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nDIFF/1, FUNCTION=-DIF(1)\n") + body + "END\n",
+        "LINEAR/EIGENSOL, ENERGY_PER_MODE=ALL, MASS_PER_MODE=ALL\n");
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_EQ(row(r.text("model.txt"), "Energies per mode", "Sum")[0], 0);
+  }
+}
+
 TEST_F(ModalEnergies, velocity_constraints_are_refused) {
   const RunResult r =
       run("Sleigh\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,1,1, "

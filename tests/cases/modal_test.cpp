@@ -224,6 +224,28 @@ TEST_F(Modal, markers_move_with_their_bodies) {
   for (std::size_t k = 6; k < 12; ++k) EXPECT_EQ(other[k], part[k]);
 }
 
+// Below the title of View a model has a name, and a marker that of its part.
+TEST_F(Modal, names_of_view_are_whole) {
+  const std::string wheel =
+      "\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n! adams_view_name='wheel'\nPART/2, MASS=1, CM=20, IP=1,1,1\n"
+      "! adams_view_name='cm'\nMARKER/20\n! adams_view_name='tire'\nBUSHING/1, I=20, J=1, K=9,9,9, KT=1,1,1\nEND\n";
+  const std::string command = "LINEAR/EIGENSOL, COORDS=1, STRAIN=1, MRANGE=1, MLIST=20, TABLE_PRECISION=4, NAMES\n";
+  const auto table = [&](const std::string& title) {
+    const RunResult r = run(title + wheel, command);
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.text("model.txt");
+  };
+  const std::string car = table("ADAMS/View model name: car");
+  for (const char* name : {"| car.wheel\n", "| car.wheel.cm\n", "| car.tire\n"}) EXPECT_THAT(car, HasSubstr(name));
+  EXPECT_THAT(table("A car"), HasSubstr("| cm\n"));
+}
+
+TEST_F(Modal, ranges_of_frequency_that_hold_no_mode_are_warned_of) {
+  const RunResult r = run(two_bodies(""), "LINEAR/EIGENSOL, FKINETIC=1000,2000\n");
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("KINETIC asks for modes between 1000 and 2000 cycles/s, none is there"));
+}
+
 TEST_F(Modal, ranges_of_frequency_skip_real_modes) {
   const RunResult r = run(two_bodies("DIFF/7, FUNCTION=-DIF(7)\n"),
                           "LINEAR/EIGENSOL, FKINETIC=0.0001,1000\nLINEAR/EIGENSOL, KINETIC=1\n");

@@ -41,7 +41,7 @@ TEST_F(OperatingStates, of_the_library_hold_motion_reactions_and_values) {
   EXPECT_EQ(s.time, 0);
   ASSERT_EQ(s.bodies.size(), 1u);
   const BodyState& rod = s.bodies[0];
-  EXPECT_EQ(rod.element, "PART/2");
+  EXPECT_EQ(rod.element.text(), "PART/2");
   EXPECT_EQ(rod.view_name, ".plant.rod");
   expect_triple(rod.position, {2, 2, 0});
   expect_triple(rod.angles, {0, 0, 0});
@@ -53,7 +53,7 @@ TEST_F(OperatingStates, of_the_library_hold_motion_reactions_and_values) {
   // What the hinge exerts on the rod: m a − weight.
   ASSERT_EQ(s.reactions.size(), 1u);
   const Load& hinge = s.reactions[0];
-  EXPECT_EQ(hinge.element, "JOINT/5");
+  EXPECT_EQ(hinge.element.text(), "JOINT/5");
   EXPECT_EQ(hinge.variant, "REVOLUTE");
   EXPECT_EQ(hinge.marker_I, 21);
   EXPECT_EQ(hinge.marker_J, 1);
@@ -64,20 +64,20 @@ TEST_F(OperatingStates, of_the_library_hold_motion_reactions_and_values) {
   EXPECT_TRUE(s.forces.empty());
   ASSERT_EQ(s.constraints.size(), 5u);
   for (const ConstraintValue& row : s.constraints) {
-    EXPECT_EQ(row.element, "JOINT/5");
+    EXPECT_EQ(row.element.text(), "JOINT/5");
     EXPECT_FALSE(row.redundant);
   }
   ASSERT_EQ(s.variables.size(), 2u);
   EXPECT_EQ(s.variables[0].id, 7);
   EXPECT_NEAR(s.variables[0].value, 8, 1e-13);
   ASSERT_EQ(s.states.size(), 1u);
-  EXPECT_EQ(s.states[0].element, "DIFF/8");
+  EXPECT_EQ(s.states[0].element.text(), "DIFF/8");
   EXPECT_EQ(s.states[0].value, 0.5);
   EXPECT_NEAR(s.states[0].rate, 2.5, 1e-14);
   ASSERT_EQ(s.plant_outputs.size(), 1u);
   EXPECT_EQ(s.plant_outputs[0].values.size(), 2u);
   EXPECT_NEAR(s.plant_outputs[0].values[0], 8, 1e-13);
-  EXPECT_EQ(s.plant_inputs.at(0).element, "PINPUT/1");
+  EXPECT_EQ(s.plant_inputs.at(0).element.text(), "PINPUT/1");
   EXPECT_EQ(study.model().units().length, "METER");
 }
 
@@ -105,11 +105,11 @@ TEST_F(OperatingStates, hold_applied_forces_in_the_axes_of_their_markers) {
       "END\n");
   const OperatingState s = study.initial_conditions().state();
   ASSERT_EQ(s.forces.size(), 2u);
-  EXPECT_EQ(s.forces[0].element, "BUSHING/4");
+  EXPECT_EQ(s.forces[0].element.text(), "BUSHING/4");
   EXPECT_EQ(s.forces[0].axes, 1);
   expect_triple(s.forces[0].force_in_axes, {0, 1.5, 0});  // x of the ground is −y of J
   expect_triple(s.forces[0].force, {-1.5, 0, 0});
-  EXPECT_EQ(s.forces[1].element, "GFORCE/6");
+  EXPECT_EQ(s.forces[1].element.text(), "GFORCE/6");
   EXPECT_EQ(s.forces[1].axes, 3);
   expect_triple(s.forces[1].force_in_axes, {1, 2, 3});
   expect_triple(s.forces[1].torque_in_axes, {0, 0, 4});
@@ -129,7 +129,7 @@ TEST_F(OperatingStates, hold_what_a_coupler_does_to_each_of_its_joints) {
   ASSERT_EQ(s.reactions.size(), 4u);
   for (std::size_t k = 0; k < 2; ++k) {
     const Load& l = s.reactions[2 + k];
-    EXPECT_EQ(l.element, "COUPLER/7");
+    EXPECT_EQ(l.element.text(), "COUPLER/7");
     EXPECT_EQ(l.marker_I, k == 0 ? 20 : 30);
     EXPECT_EQ(l.marker_J, k == 0 ? 1 : 2);
     expect_triple(l.force, {0, 0, 0});
@@ -147,7 +147,7 @@ TEST_F(OperatingStates, hold_what_a_gear_does_to_each_of_its_joints) {
           .initial_conditions()
           .state();
   ASSERT_EQ(s.reactions.size(), 4u);
-  EXPECT_EQ(s.reactions[2].element, "GEAR/7");
+  EXPECT_EQ(s.reactions[2].element.text(), "GEAR/7");
   expect_triple(s.reactions[2].torque, {0, 0, 1.0 / 3});
   expect_triple(s.reactions[3].torque, {0, 0, 2.0 / 3});
   expect_triple(s.bodies.at(0).angular_acceleration, {0, 0, (5 + 1.0 / 3) / 2});
@@ -167,7 +167,7 @@ TEST_F(OperatingStates, hold_what_a_gcon_does_to_the_body_of_its_marker) {
             .state();
     EXPECT_EQ(s.reactions.size(), 2u) << "without I there is nothing to report it at";
     const Load l = s.reactions.at(1);
-    EXPECT_EQ(l.element, "GCON/4");
+    EXPECT_EQ(l.element.text(), "GCON/4");
     EXPECT_EQ(l.marker_I, 21);
     EXPECT_EQ(l.axes, 0);
     return l;

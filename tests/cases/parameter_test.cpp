@@ -102,6 +102,46 @@ TEST(Parameter, that_is_not_stated_is_what_holds_without_it) {
   EXPECT_EQ(value_of(*heavy, "ACCGRAV JGRAV"), 0);
 }
 
+// Settings of analyses have no id; of several statements the last one decides.
+TEST(Parameter, of_a_setting_is_read_and_replaced) {
+  const auto d = dataset_of(
+      "x\nPART/1, GROUND\nEQUILIBRIUM/ERROR=1E-6, MAXIT=40\nEQUILIBRIUM/ERROR=1E-5\nINTEGRATOR/HMAX=0.1\nEND\n");
+  EXPECT_EQ(value_of(*d, "EQUILIBRIUM ERROR"), 1e-5);
+  EXPECT_EQ(value_of(*d, "INTEGRATOR HMAX"), 0.1);
+  const auto other =
+      changed(d, {{named("EQUILIBRIUM ERROR"), 1e-8}, {named("INTEGRATOR KMAX"), 3}, {named("IC ERROR"), 1e-4}});
+  EXPECT_EQ(value_of(*other, "EQUILIBRIUM ERROR"), 1e-8);
+  const auto settings = build_model(other, catalogue()).value->settings;
+  EXPECT_EQ(settings.equilibrium.error, 1e-8);
+  EXPECT_EQ(settings.equilibrium.iteration_limit, 40);
+  EXPECT_EQ(settings.integrator.largest_order, 3);
+  EXPECT_EQ(settings.integrator.largest_step, 0.1);
+  EXPECT_EQ(settings.initial_conditions.error, 1e-4);
+}
+
+TEST(Parameter, may_be_a_whole_number_or_a_function_that_is_a_number) {
+  const auto d = dataset_of(
+      "x\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nARRAY/1, IC, SIZE=2, NUMBERS=1,2\n"
+      "SFORCE/1, TRANSLATIONAL, I=20, J=1, ACTIONONLY, FUNCTION=3.5\nSFORCE/2, TRANSLATIONAL, I=20, J=1, "
+      "ACTIONONLY, FUNCTION=2*TIME\nEND\n");
+  EXPECT_EQ(value_of(*d, "ARRAY/1 SIZE"), 2);
+  EXPECT_EQ(value_of(*d, "SFORCE/1 FUNCTION"), 3.5);
+  EXPECT_THAT(refusal_of(*d, "SFORCE/2 FUNCTION"), HasSubstr("no number"));
+  EXPECT_EQ(value_of(*changed(d, {{named("SFORCE/1 FUNCTION"), -4}}), "SFORCE/1 FUNCTION"), -4);
+  // Lists of any length grow number by number.
+  const auto grown = changed(d, {{named("ARRAY/1 SIZE"), 3}, {named("ARRAY/1 NUMBERS[3]"), 7}});
+  EXPECT_EQ(value_of(*grown, "ARRAY/1 NUMBERS[3]"), 7);
+  EXPECT_EQ(
+      value_of(*changed(d, {{named("PART/2 IP[4]"), 0.1}, {named("PART/2 IP[5]"), 0}, {named("PART/2 IP[6]"), 0}}),
+               "PART/2 IP[4]"),
+      0.1);
+  EXPECT_THAT(refusal_of(*d, "ARRAY/1 NUMBERS[4]"), HasSubstr("has 2 values, none is number 4"));
+  const std::array<ParameterChange, 1> gap{{{named("ARRAY/1 NUMBERS[4]"), 1}}};
+  EXPECT_FALSE(with_parameters(d, gap, catalogue()));
+  const std::array<ParameterChange, 1> half{{{named("ARRAY/1 SIZE"), 2.5}}};
+  EXPECT_TRUE(build_model(with_parameters(d, half, catalogue())->dataset, catalogue()).diagnostics.has_errors());
+}
+
 const std::string splines =
     "Splines\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,1,1\nMARKER/20\n"
     "JOINT/1, TRANSLATIONAL, I=20, J=1\nSPLINE/1, X=-2,-1,1,2, Y=-6,-3,3,6\n"

@@ -38,10 +38,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
   using namespace dynalin;
   const fuzz::TimeLimit limit;
   const SourceText file("fuzz.mat", fuzz::text_of(bytes, count));
-  std::vector<std::string> names = matrix_names(file);
+  // Words of the file, some of which are names of matrices.
   constexpr std::size_t enough = 20;
-  if (names.size() > enough) names.resize(enough);
-  for (const char* name : {"", "A", "x y"}) names.emplace_back(name);
+  std::vector<std::string> names{"", "A", "x y"};
+  std::istringstream words(std::string(file.text()));
+  for (std::string word; names.size() < enough && words >> word;) names.push_back(word);
   for (const std::string& name : names) {
     Diagnostics diagnostics;
     const auto matrix = read_matrix(file, name, Span{&file, 0, 0}, diagnostics);

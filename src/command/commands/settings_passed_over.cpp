@@ -1,4 +1,4 @@
-// Settings of simulations over time and of solvers: checked, and nothing acts on them.
+// LSOLVER: checked, and nothing acts on it.
 #include "command/commands/setting.h"
 #include "elements/settings/analysis_settings.h"
 

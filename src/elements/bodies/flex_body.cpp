@@ -151,7 +151,7 @@ struct FlexBody {
        .slot = &FlexBody::length,
        .unit = unit::length,
        .minimum = 0,
-       .help = "length of the body; has no effect"},
+       .help = "length of the body, beside which it is bent little; of its nodes where it is not stated"},
       {.name = "REPRESENTATION", .slot = &FlexBody::representation, .help = "MODAL; nothing else is available"},
   }};
 };
@@ -275,6 +275,7 @@ class FlexBodySet final : public TypedSet<FlexBody> {
              f.flexible->displacement(m), f.flexible->reach(m)});
       }
       f.flexible->lacks_inertia = lacks_inertia(I);
+      f.flexible->length = f.length > 0 ? f.length : extent_of(f.flexible->position);
       set_damping(f, labels[k], model.units, diagnostics);
     }
   }
@@ -284,6 +285,16 @@ class FlexBodySet final : public TypedSet<FlexBody> {
   }
 
  private:
+  // The diagonal of the box around the nodes.
+  static double extent_of(const std::vector<Vector>& nodes) {
+    if (nodes.empty()) return 0;
+    Vector low = nodes.front(), high = low;
+    for (const Vector& x : nodes) {
+      for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], x[k]), high[k] = std::max(high[k], x[k]);
+    }
+    return norm(high - low);
+  }
+
   static std::shared_ptr<ModalBody> of_matrices(FlexBody& f, const std::string& name, const Model& model,
                                                 Diagnostics& diagnostics) {
     std::vector<ModalMatrix> matrices;
@@ -376,6 +387,9 @@ class FlexBodySet final : public TypedSet<FlexBody> {
       which[k] = *word == 0;
     }
     f.flexible->inertia.keep(which);
+    // What is left of modes without mass and without a share in the motion of the body is rigid: T:T:F:F:F:F:T:F:F.
+    const auto of_modes = {which[2], which[3], which[4], which[5], which[7], which[8]};
+    if (std::ranges::none_of(of_modes, std::identity())) f.flexible->make_rigid();
     if (!check_modal_body(*f.flexible, {at, at, at, "what INVARIANTS leaves of the body"}, diagnostics))
       f.flexible = nullptr;
   }

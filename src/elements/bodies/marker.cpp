@@ -231,7 +231,9 @@ class MarkerSet final : public TypedSet<ReadMarker> {
     if (owner && !owner->flexible) return;  // its own statement has errors
     const std::string name = labels[k].text();
     if (!owner) {
-      if (m.node)
+      // A FLEX_BODY or FE_PART that is none has errors of its own.
+      const std::string_view statement = model.body(m.owner).label.statement;
+      if (m.node && statement != "FLEX_BODY" && statement != "FE_PART")
         diagnostics.error("unknown-node", m.node_at,
                           fmt::format("{} names a node, but {} is no FLEX_BODY and no FE_PART", name,
                                       model.body(m.owner).label.text()));

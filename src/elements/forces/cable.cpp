@@ -63,7 +63,7 @@ class CableKernel final : public Kernel, public WrenchSource {
       const Tension tension = look(p, motion, spans);
       for (std::size_t k = 0; k < spans.size(); ++k) {
         apply(spans[k], pull(spans[k], tension, eq.wants_partials()), eq);
-        if (!eq.wants_partials() || !tension.taut()) continue;
+        if (!eq.wants_partials()) continue;
         for (std::size_t l = 0; l < spans.size(); ++l) {
           if (l != k) apply_cross_partials(spans[k], spans[l], change(spans[k], spans[l], tension), eq);
         }
@@ -83,7 +83,7 @@ class CableKernel final : public Kernel, public WrenchSource {
     const Tension tension = look(cables_[at], motion, spans);
     out.pair = spans[k];
     out.force = pull(spans[k], tension, with_partials);
-    if (!with_partials || !tension.taut()) return;
+    if (!with_partials) return;
     for (std::size_t l = 0; l < spans.size(); ++l) {
       if (l == k) continue;
       const PairForce f = change(spans[k], spans[l], tension);
@@ -120,10 +120,12 @@ class CableKernel final : public Kernel, public WrenchSource {
     Cable cable;
     std::vector<MarkerPlace> places;
   };
+  // T, which is nothing where the law is negative. What it depends on stays the same: the pattern of the equations
+  // does not know whether the cable is taut.
   struct Tension {
-    double law = 0;                     // T, where that is positive
-    double on_length = 0, on_rate = 0;  // of the law
-    bool taut() const { return law > 0; }
+    double law = 0, value = 0;
+    double on_length = 0, on_rate = 0;
+    bool is_damped = false;
   };
 
   MarkerId marker(std::size_t w, std::size_t end) const {
@@ -138,12 +140,15 @@ class CableKernel final : public Kernel, public WrenchSource {
       spans.push_back(pair_motion(motion, p.places[k + 1], p.places[k]));
       length += norm(spans.back().delta);
     }
-    return {c.preload + c.stiffness * (length.value - c.free_length) + c.damping * length.rate, c.stiffness, c.damping};
+    const bool is_damped = c.damping != 0.0;
+    const double law = c.preload + c.stiffness * (length.value - c.free_length) + c.damping * length.rate;
+    return law > 0 ? Tension{law, law, c.stiffness, c.damping, is_damped} : Tension{law, 0, 0, 0, is_damped};
   }
   // On the second marker of a span; its partials are those with the length of the span itself.
   static PairForce pull(const PairMotion& span, const Tension& t, bool with_partials) {
-    const LineMagnitude push = t.taut() ? LineMagnitude{-t.law, -t.on_length, -t.on_rate} : LineMagnitude{};
-    return along_line(span, push, with_partials);
+    PairForce f = along_line(span, {-t.value, -t.on_length, -t.on_rate}, with_partials);
+    f.depends_on_velocity = t.is_damped;
+    return f;
   }
   // How that of `span` changes with the length of another: δf = −u (K δd + C δd′) with δd′ = w·δΔ′ + w′·δΔ.
   static PairForce change(const PairMotion& span, const PairMotion& other, const Tension& t) {
@@ -152,7 +157,7 @@ class CableKernel final : public Kernel, public WrenchSource {
     PairForce f;
     f.reaction = Reaction::at_J;
     f.components = Components::force;
-    f.depends_on_velocity = t.on_rate != 0.0;
+    f.depends_on_velocity = t.is_damped;
     const Matrix3 on_delta = -outer(u, t.on_length * value(w) + t.on_rate * rate(w));
     const Matrix3 on_delta_rate = -t.on_rate * outer(u, value(w));
     f.force_on_position.origin_I = on_delta, f.force_on_position.origin_J = -on_delta;

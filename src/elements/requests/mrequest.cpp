@@ -102,7 +102,7 @@ class ManyRequestsKernel final : public RequestKernel {
            std::vector<WantedRequest>& all) {
     const auto id = [&](MarkerId marker) { return marker.valid() ? model_.marker(marker).label.id : 0; };
     RequestInfo info;
-    info.element = label.text() + " " + of.text(), info.id = label.id;
+    info.request = {label.element(), of.text()};
     info.view_name = of.view_name, info.comment = m.comment;
     // The view name alone would be that of the element.
     info.results_name = fmt::format("{}_{}_{}_{}", label.statement, label.id, of.statement, of.id);

@@ -63,7 +63,7 @@ struct Request {
       {.name = "F6", .slot = &Request::function, .help = "a value", .ends = ended_by_functions},
       {.name = "F7", .slot = &Request::function, .help = "a value", .ends = ended_by_functions},
       {.name = "F8", .slot = &Request::function, .help = "a value", .ends = ended_by_functions},
-      {.name = "FUNCTION", .slot = &Request::text, .help = "USER(…), a compiled routine: left out"},
+      {.name = "FUNCTION", .slot = &Request::text, .help = "USER(…), a compiled routine"},
       {.name = "ROUTINE", .slot = &Request::routine, .help = "of FUNCTION"},
       {.name = "VARIABLES",
        .slot = &Request::variables,
@@ -109,7 +109,7 @@ class RequestSet final : public TypedSet<Request> {
   void read(std::size_t k, ElementReader& reader) override {
     Request& r = elements[k];
     if (!read_arguments(r, reader)) return;
-    r.info.element = reader.label().text(), r.info.id = reader.label().id;
+    r.info.request = {reader.label().element(), {}};
     r.info.view_name = reader.label().view_name;
     leniently(reader, [&] { return read_components(r, reader); });
     if (r.info.list) read_texts(r.info, reader);

@@ -107,7 +107,7 @@ void RequestKernel::bind_markers(const WantedRequest& w, const Signals& signals)
     if (signals.has_place(m)) continue;
     const std::string name = signals.layout().marker_label(m).full_text();
     return leave_out(
-        *w.label, w.info->element,
+        *w.label, w.info->request.text(),
         {Severity::warning, "request-left-out", {}, "nothing gives the floating " + name + " a place", {}, {}});
   }
   bound_.push_back({w.info, w.label, MarkerRequest(w.info->kind, signals, ids[0], ids[1], ids[2])});
@@ -119,7 +119,7 @@ void RequestKernel::bind_functions(const WantedRequest& w, Binder& binder) {
   functions.reserve(w.functions->size());
   for (const Expression& e : *w.functions) functions.emplace_back(e, reading, Binding::observation);
   if (reading.problem())
-    leave_out(*w.label, w.info->element, *reading.problem());
+    leave_out(*w.label, w.info->request.text(), *reading.problem());
   else
     bound_.push_back({w.info, w.label, std::move(functions)});
 }
@@ -147,7 +147,7 @@ std::string RequestKernel::undefined_value(const Motion& motion, std::size_t req
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (std::isfinite(values[k])) continue;
     const std::string text = fmt::format("{} of {} has no finite value at time {:g}", of.info->components()[k].name,
-                                         of.info->element, motion.time);
+                                         of.info->request.text(), motion.time);
     std::vector<UndefinedValue> found;
     if (const auto* functions = std::get_if<Functions>(&of.values))
       (*functions)[k].find_undefined(motion, *of.label, found);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dynalin/request_values.h"
 #include "mechanics/motion.h"
 
 namespace dynalin {
@@ -27,8 +28,7 @@ struct RequestComponent {
 };
 
 struct RequestInfo {
-  std::string element;  // "REQUEST/3"; of an MREQUEST "MREQUEST/1 PART/2"
-  std::int64_t id = 0;  // of the statement
+  RequestName request;
   std::string view_name = {}, results_name = {}, comment = {};
   std::vector<std::string> heads = {};  // TITLE: of the columns of its table, by place
   RequestKind kind = RequestKind::functions;

@@ -81,7 +81,7 @@ constexpr Kind setting(std::string_view statement, std::string_view summary) {
   return {statement,
           "",
           summary,
-          Kind::Role::inert,
+          Kind::Role::setting,
           detail::argument_infos<E>,
           [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<SettingSet<E>>(kind); }};
 }
