@@ -254,6 +254,10 @@ TEST_F(MotionOfVariables, follows_variables_that_depend_on_time_alone) {
       std::pair("VARVAL(1)",
                 "VARIABLE/1, FUNCTION=6*TIME*VARVAL(2)*VARVAL(2)\nVARIABLE/2, FUNCTION=VARVAL(3)-VARVAL(3)*"
                 "VARVAL(4)\nVARIABLE/3, FUNCTION=1\nVARIABLE/4, FUNCTION=TIME**2\n"),
+      std::pair("ARYVAL(1,2)*TIME*ARYVAL(1,3)", "ARRAY/1, IC, NUMBERS=7,3,2\n"),
+      std::pair("ARYVAL(2,1)*POUVAL(1,2)",
+                "ARRAY/2, U, VARIABLES=2\nVARIABLE/1, FUNCTION=SIN(2*TIME)\nVARIABLE/2, FUNCTION=3\nPOUTPUT/1, "
+                "VARIABLES=2,1\n"),
       std::pair("VARVAL(1)*VARVAL(2)", "VARIABLE/1, FUNCTION=SIN(2*TIME)\nVARIABLE/2, FUNCTION=3\n")};
   for (const auto& [function, variables] : cases) {
     const RunResult r = with(function, variables);
@@ -268,6 +272,12 @@ TEST_F(MotionOfVariables, that_depend_on_the_state_or_on_themselves_are_errors) 
   EXPECT_THAT(with("VARVAL(1)", "VARIABLE/1, FUNCTION=VARVAL(2)\nVARIABLE/2, FUNCTION=VARVAL(1)\n").err,
               HasSubstr("[function-of-state]"));
   EXPECT_THAT(with("VARVAL(1)", "VARIABLE/1, FUNCTION=VARVAL(1)*VARVAL(1)\n").err, HasSubstr("depends on itself"));
+  EXPECT_THAT(with("ARYVAL(1,1)", "ARRAY/1, U, VARIABLES=1\nVARIABLE/1, FUNCTION=DX(3)\n").err,
+              HasSubstr("DX(3), it may depend on TIME only"));
+  EXPECT_THAT(with("ARYVAL(1,1)", "ARRAY/1, X\nARRAY/2, U, VARIABLES=1\nVARIABLE/1, FUNCTION=0\nMATRIX/1, FULL, "
+                                  "CORDER, ROWS=1, COLUMNS=1, VALUES=-1\nLSE/1, X=1, A=1\n")
+                  .err,
+              HasSubstr("ARYVAL(1,1), it may depend on TIME only"));
 }
 
 TEST_F(MotionOfVariables, a_plant_input_that_a_motion_follows_is_named) {

@@ -143,6 +143,8 @@ TEST(RemarkTable, has_every_code_but_those_that_other_tests_hold) {
       "large-eigensolution",  // selected_modes_test
       "reloaded-in-part",     // save_reload_test
       "touching-contact",     // contact_test
+      "far-bent-body",        // flex_body_test
+      "fast-flexible-body",   // the same
   };
   for (const Remark& r : table()) covered.insert(r.code);
   static constexpr std::string_view codes[] = {

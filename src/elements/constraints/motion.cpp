@@ -1,7 +1,8 @@
 // MOTION/id, {JOINT= [, ROTATION | TRANSLATION] | I=, J=, {X | Y | Z | B1 | B2 | B3}}, FUNCTION=
 //     [, DISPLACEMENT | VELOCITY | ACCELERATION] [, ICDISP=] [, ICVEL=]
 //
-// FUNCTION depends on TIME, and on VARIABLEs that depend on TIME themselves; these are put into it.
+// FUNCTION depends on TIME, on numbers of an ARRAY, and on VARIABLEs that depend on these themselves, which are put
+// into it.
 //
 // Drives one displacement q of a joint or of a marker pair by a function of time (families/pair_displacement.h):
 //
@@ -16,7 +17,9 @@
 
 #include <algorithm>
 
+#include "elements/controls/array.h"
 #include "elements/controls/variable.h"
+#include "elements/controls/variable_list.h"
 #include "elements/families/pair_displacement.h"
 #include "mechanics/bound_expression.h"
 
@@ -226,28 +229,52 @@ class CourseInTime {
  private:
   std::optional<Expression> definition(const Atom& atom) {
     if (atom.function->family == AtomFamily::time) return std::nullopt;
-    const auto variable = model_.find("VARIABLE", atom.argument[0]);
-    if (atom.function->reads != DataSource::value || !variable) {
+    if (const auto number = constant(atom)) return Expression::constant(*number);
+    const auto variable = variable_of(atom);
+    if (!variable) {
       diagnostics_.error("function-of-state", atom.at,
                          fmt::format("{} depends on {}, it may depend on TIME only", label_.text(), atom.at.text()));
       return std::nullopt;
     }
-    if (std::find(within_.begin(), within_.end(), atom.argument[0]) != within_.end()) {
+    if (std::find(within_.begin(), within_.end(), *variable) != within_.end()) {
       diagnostics_.error("function-of-state", atom.at,
                          fmt::format("{}, which {} follows, depends on itself", atom.at.text(), label_.text()));
       return std::nullopt;
     }
-    model_.followed_in_time.push_back({&label_, {*variable}});
-    within_.push_back(atom.argument[0]);
-    auto course = of(variable_function(model_, {*variable}));
+    model_.followed_in_time.push_back({&label_, *variable});
+    within_.push_back(*variable);
+    auto course = of(variable_function(model_, *variable));
     within_.pop_back();
     return course;
+  }
+
+  static std::size_t entry(const Atom& atom) { return static_cast<std::size_t>(atom.argument[1] - 1); }
+  const Array* array_of(const Atom& atom) const {
+    if (atom.function->reads != DataSource::array_entry) return nullptr;
+    const auto handle = model_.find(atom.function->statement, atom.argument[0]);
+    return handle ? model_.get<Array>(*handle) : nullptr;
+  }
+  // Of an ARRAY of numbers.
+  std::optional<double> constant(const Atom& atom) const {
+    const Array* array = array_of(atom);
+    return array && entry(atom) < array->numbers.size() ? std::optional(array->numbers[entry(atom)]) : std::nullopt;
+  }
+  // The VARIABLE that an atom reads, by itself or as an entry of an ARRAY, PINPUT or POUTPUT.
+  std::optional<VariableRef> variable_of(const Atom& atom) const {
+    const auto handle = model_.find(atom.function->statement, atom.argument[0]);
+    if (!handle) return std::nullopt;
+    if (atom.function->reads == DataSource::value) return VariableRef{*handle};
+    const Array* array = array_of(atom);
+    const auto* list = atom.function->reads == DataSource::list_entry ? model_.get<VariableList>(*handle) : nullptr;
+    const std::vector<VariableRef>* variables = array ? &array->variables : list ? &list->variables : nullptr;
+    if (!variables || entry(atom) >= variables->size()) return std::nullopt;
+    return (*variables)[entry(atom)];
   }
 
   Model& model_;
   const ElementLabel& label_;
   Diagnostics& diagnostics_;
-  std::vector<std::int32_t> within_;  // VARIABLEs whose function is looked at
+  std::vector<VariableRef> within_;  // whose function is looked at
 };
 
 class MotionSet final : public TypedSet<PrescribedMotion> {
@@ -257,8 +284,10 @@ class MotionSet final : public TypedSet<PrescribedMotion> {
   void read(std::size_t k, ElementReader& reader) override {
     PrescribedMotion& m = elements[k];
     if (!read_arguments(m, reader)) return;
+    constexpr std::array data = {DataSource::value, DataSource::array_entry, DataSource::list_entry};
     for (const Atom& atom : m.function.atoms()) {
-      if (atom.function->family == AtomFamily::time || atom.function->reads == DataSource::value) continue;
+      const bool reads_data = std::find(data.begin(), data.end(), atom.function->reads) != data.end();
+      if (atom.function->family == AtomFamily::time || reads_data) continue;  // of which finish() looks what it is
       reader.error("function-of-state", atom.at,
                    fmt::format("FUNCTION of {} depends on {}, it may depend on TIME only", reader.label().text(),
                                atom.function->name));
