@@ -5,9 +5,8 @@
 
 namespace dynalin {
 
-// A body moves as a whole before it deforms, which costs energy; it deforms before a coordinate leaves where EXACT
-// holds it. What a beam has
-// beside its nodes counts as they do. All others follow.
+// A body moves as a whole before it deforms, which costs energy. What a beam has beside its nodes counts as they do.
+// All others follow.
 constexpr double deformation_weight = 1e8;
 constexpr double outside_weight(StateType of) {
   return of == StateType::flex_body ? deformation_weight : of == StateType::fe_part ? 1.0 : follower_weight;

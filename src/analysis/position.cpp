@@ -20,7 +20,7 @@ namespace {
 
 constexpr double position_tolerance = 1e-13;  // relative to the scale of the row
 constexpr int position_iterations = 50;
-constexpr double exact_weight = 1e16;  // of coordinates that EXACT asks to keep: far above that of deformations
+constexpr double exact_weight = 1e8;  // of coordinates that EXACT asks to keep
 
 // Axes that should be perpendicular and are parallel: no turn changes their product to first order.
 std::string_view stuck_axes(const System& system, const ConstraintRows& rows, std::int32_t k) {
@@ -180,7 +180,9 @@ Stopped stop_at_ends(const Layout& layout, OperatingPoint& op, const Eigen::Vect
   return s;
 }
 
-Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts starts, Ends ends) {
+// `held` coordinates stay; where it is empty none has to.
+Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts starts, Ends ends,
+                                const std::vector<bool>& held = {}) {
   const Layout& layout = system.layout();
   ConstraintRows rows;
   const std::size_t row_count = layout.row_count() + (starts == Starts::held ? system.starts().size() : 0);
@@ -259,7 +261,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
     before = left;
 
     if (!weights) weights = assembly_weights(system, op);
-    std::vector<bool> fixed(system.coordinates(), false);
+    std::vector<bool> fixed = held.empty() ? std::vector<bool>(system.coordinates(), false) : held;
     std::optional<Eigen::VectorXd> step = least_step(rows, part, *weights, fixed, lu);
     if (step && ends == Ends::kept) {
       const Stopped stopped = stop_at_ends(layout, op, *step, fixed);
@@ -316,10 +318,32 @@ std::optional<OperatingPoint> assemble_inside(const System& system, const Operat
   return best;
 }
 
+// Coordinates of bodies that deform which EXACT asks to keep, angles where it names all three; empty if there are none.
+std::vector<bool> exact_where_bodies_deform(const System& system) {
+  const Layout& layout = system.layout();
+  std::vector<bool> held;
+  for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
+    const Body& body = system.model().bodies[b];
+    if (body.modal.empty()) continue;
+    const std::array<bool, 6>& exact = body.exact;
+    const bool all_angles = exact[3] && exact[4] && exact[5];
+    for (std::int32_t k = 0; k < layout.bodies[b].count; ++k) {
+      if (k < 3 ? !exact[static_cast<std::size_t>(k)] : !all_angles) continue;
+      held.resize(system.coordinates());
+      held[static_cast<std::size_t>(layout.bodies[b].offset + k)] = true;
+    }
+  }
+  return held;
+}
+
 }  // namespace
 
 Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op, Findings&, Starts starts) {
   const Layout& layout = system.layout();
+  // A body deforms before a coordinate leaves where EXACT holds it, if that is enough.
+  if (const std::vector<bool> held = exact_where_bodies_deform(system); !held.empty()) {
+    if (auto bent = assemble(system, op, starts, Ends::passed, held)) return bent;
+  }
   const bool searches = starts == Starts::held && !layout.curve_points.empty();
   const OperatingPoint drawn = searches ? op : OperatingPoint();
   auto found = assemble(system, std::move(op), starts, Ends::passed);

@@ -240,7 +240,7 @@ TEST_F(FlexBody, bends_where_exact_holds_it) {
   ASSERT_EQ(r.status, 0) << r.err << r.message;
   EXPECT_THAT(r.err, Not(HasSubstr("cannot keep")));
   const auto& state = r.result(0).at("operating_point");
-  for (const double x : state.at("bodies").at(0).at("position").get<std::vector<double>>()) EXPECT_NEAR(x, 0, 1e-8);
+  for (const double x : state.at("bodies").at(0).at("position").get<std::vector<double>>()) EXPECT_NEAR(x, 0, 1e-13);
   double bent = 0;
   for (const auto& q : state.at("curve_parameters")) bent = std::max(bent, std::abs(q.at("value").get<double>()));
   EXPECT_GT(bent, 1e-5);
