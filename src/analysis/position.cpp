@@ -340,11 +340,12 @@ std::vector<bool> exact_where_bodies_deform(const System& system) {
 
 Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op, Findings&, Starts starts) {
   const Layout& layout = system.layout();
+  const bool searches = starts == Starts::held && !layout.curve_points.empty();
   // A body deforms before a coordinate leaves where EXACT holds it, if that is enough.
   if (const std::vector<bool> held = exact_where_bodies_deform(system); !held.empty()) {
-    if (auto bent = assemble(system, op, starts, Ends::passed, held)) return bent;
+    auto bent = assemble(system, op, starts, Ends::passed, held);
+    if (bent && !(searches && beyond_an_end(layout, *bent))) return bent;
   }
-  const bool searches = starts == Starts::held && !layout.curve_points.empty();
   const OperatingPoint drawn = searches ? op : OperatingPoint();
   auto found = assemble(system, std::move(op), starts, Ends::passed);
   if (searches && (!found || beyond_an_end(layout, *found))) {

@@ -131,7 +131,8 @@ Parsed<CommandFile> parse_command_file(SourceRef source) {
   const auto offset = static_cast<std::uint32_t>(first.data() - source->text().data());
   const std::string prefix(named < source->line_count() ? unquoted(trimmed(uncommented(source->line(named + 1))))
                                                         : std::string_view());
-  parser.name_model(std::string(unquoted(first)), {source.get(), offset, static_cast<std::uint32_t>(first.size())}, prefix);
+  parser.name_model(std::string(unquoted(first)), {source.get(), offset, static_cast<std::uint32_t>(first.size())},
+                    prefix);
   auto rest = std::make_shared<const SourceText>(source->name(), std::move(text));
   Parsed<CommandFile> file = parser.parse(rest);
   if (is_analysis(prefix)) {

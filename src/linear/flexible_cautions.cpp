@@ -38,7 +38,7 @@ void flexible_cautions(const System& system, const OperatingPoint& op, Diagnosti
     }
     const Eigen::Map<const Eigen::VectorXd> q(op.extra.data() + f.first, b.modes());
     const double bent = farthest_node(b.translation * q), turned = farthest_node(b.rotation * q);
-    if (bent > far * b.length || turned > largest_turn) {
+    if ((b.length > 0 && bent > far * b.length) || turned > largest_turn) {
       out.warning(
           "far-bent-body", label.at,
           fmt::format("{} is bent by {:.3g} of its length and turned within by {:.3g} degrees: linear modes hold "

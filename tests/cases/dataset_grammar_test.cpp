@@ -274,8 +274,9 @@ TEST_F(MotionOfVariables, that_depend_on_the_state_or_on_themselves_are_errors) 
   EXPECT_THAT(with("VARVAL(1)", "VARIABLE/1, FUNCTION=VARVAL(1)*VARVAL(1)\n").err, HasSubstr("depends on itself"));
   EXPECT_THAT(with("ARYVAL(1,1)", "ARRAY/1, U, VARIABLES=1\nVARIABLE/1, FUNCTION=DX(3)\n").err,
               HasSubstr("DX(3), it may depend on TIME only"));
-  EXPECT_THAT(with("ARYVAL(1,1)", "ARRAY/1, X\nARRAY/2, U, VARIABLES=1\nVARIABLE/1, FUNCTION=0\nMATRIX/1, FULL, "
-                                  "CORDER, ROWS=1, COLUMNS=1, VALUES=-1\nLSE/1, X=1, A=1\n")
+  EXPECT_THAT(with("ARYVAL(1,1)",
+                   "ARRAY/1, X\nARRAY/2, U, VARIABLES=1\nVARIABLE/1, FUNCTION=0\nMATRIX/1, FULL, "
+                   "CORDER, ROWS=1, COLUMNS=1, VALUES=-1\nLSE/1, X=1, A=1\n")
                   .err,
               HasSubstr("ARYVAL(1,1), it may depend on TIME only"));
 }
