@@ -133,6 +133,12 @@ class FlexibleAgreement : public ::testing::TestWithParam<std::uint64_t> {};
 TEST_P(FlexibleAgreement, state_matrices_equal_differences_of_the_nonlinear_model) { compare(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(generated, FlexibleAgreement, ::testing::Range<std::uint64_t>(271, 277));
 
+// Of bodies that run along curves with an axis.
+class RiderAgreement : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(RiderAgreement, state_matrices_equal_differences_of_the_nonlinear_model) { compare(GetParam()); }
+INSTANTIATE_TEST_SUITE_P(generated, RiderAgreement, ::testing::Range<std::uint64_t>(311, 321));
+
 // Of solids that press on each other, four pairs in each: the list is in generator_solids.cpp.
 class SolidAgreement : public ::testing::TestWithParam<std::uint64_t> {};
 

@@ -1,6 +1,7 @@
 // Contacts along curves, without coordinates of their own: two conditions that hold wherever the bodies are find the
 // points of contact, two distances are the constraint. PTCV: the foot of the point on the curve; how far it is across
-// the curve. PLCV: where the curve runs along the plane; how far it is above it. CVCV: tangents that are parallel in
+// the curve. AXCV: so, and the axes across z along the tangent. PLCV: where the curve runs along the plane; how far it
+// is above it. CVCV: tangents that are parallel in
 // the plane of J, and no distance along them; the distance across them, and out of the plane.
 #include <stdexcept>
 
@@ -208,6 +209,7 @@ T Evaluator<T>::gap(const Node& n) const {
   const Contact& contact = model_.mechanism_.contacts[k];
   const Relative<T> I = relative(view(contact.i), view(contact.j));
   const Parameters<T> u = contact_parameters(k);
+  if (n.ids[1] > 1) return dot(n.ids[1] == 2 ? I.x : I.y, touching.b.at(u[1], 1));
   const Vector3<T> d = gap_vector(touching, I, u);
   if (c.plane) return dot(I.z, d);
   if (!c.two_curves) {

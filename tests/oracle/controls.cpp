@@ -66,7 +66,7 @@ Real Model::load_value(const Node& n) const {
       return wrench_component(general_wrench(numbered(mechanism_.gforces, has_id)), Vec{}, n.ids);
     case Op::contact: {
       const std::size_t k = numbered(mechanism_.contacts, [&](const Contact& c) {
-        return c.id == n.ids[0] && !c.plane && c.two_curves == (n.ids[4] != 0);
+        return c.id == n.ids[0] && !c.plane && !c.axis && c.two_curves == (n.ids[4] != 0);
       });
       return wrench_component(contact_wrench(k), Vec{}, n.ids);
     }

@@ -142,7 +142,7 @@ std::string curve_text(const Curve& c) {
 }
 
 std::string contact_text(const Contact& c) {
-  Statement t(c.two_curves ? "CVCV" : c.plane ? "PLCV" : "PTCV", c.id);
+  Statement t(c.two_curves ? "CVCV" : c.plane ? "PLCV" : c.axis ? "AXCV" : "PTCV", c.id);
   const auto start = [&](const std::string& prefix, const auto& at, int axes, const auto& speed) {
     if (at) t.set(prefix + "DISP", *at).set(prefix + "ICM", axes);
     if (speed) t.set(prefix + "VEL", *speed);

@@ -79,7 +79,10 @@ Features features_of(const Mechanism& m) {
   f.motions = static_cast<int>(m.motions.size());
   for (const Gcon& g : m.gcons) f.velocity_constraints += g.of_rates ? 1 : 0;
   for (const Contact& c : m.contacts)
-    (c.two_curves ? f.curves_on_curves : c.plane ? f.planes_on_curves : f.points_on_curves) += 1;
+    (c.two_curves ? f.curves_on_curves
+     : c.plane    ? f.planes_on_curves
+     : c.axis     ? f.axes_on_curves
+                  : f.points_on_curves) += 1;
   for (const Diff& d : m.diffs) (d.kind == DiffKind::algebraic ? f.algebraic_diffs : f.differential_states) += 1;
   for (const Tfsiso& t : m.tfsisos) f.differential_states += static_cast<int>(t.denominator.size()) - 1;
   for (const Lse& e : m.lses) {

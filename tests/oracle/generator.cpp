@@ -304,6 +304,7 @@ Mechanism Draw::mechanism() {
   draw_gears();
   draw_contacts();
   if (whole_language_) draw_planes();
+  if (must_ride_) draw_axis();
   draw_motions();
   draw_measure_markers();
   draw_position_gcon();

@@ -46,6 +46,7 @@ class Draw {
         must_deform_(seed > 270 && seed <= 280),
         plane_(seed > 280 && seed <= 290 ? static_cast<BeamPlane>(1 + seed % 3) : BeamPlane::none),
         meeting_(seed > 290 && seed <= 310 ? static_cast<int>((seed - 291) % 10) : -1),
+        must_ride_(seed > 310 && seed <= 320),
         may_rub_(seed % 2 == 0) {}
   [[nodiscard]] Mechanism mechanism();
 
@@ -75,6 +76,18 @@ class Draw {
   void place_contact(const BodyRef& i_body, const BodyRef& j_body, bool two_curves);
   void draw_planes();
   void place_plane(const BodyRef& i_body, const BodyRef& j_body);
+  void draw_axis();
+  // A place on a curve of the second body, global; the direction of the curve there and its derivative in axes of J.
+  struct OnCurve {
+    Contact contact;
+    Frame J;
+    Vec at, slope, bend;
+    bool is_smooth = false;  // the place is no knot, nor is the curve bent sharply there
+  };
+  OnCurve draw_on_curve(const BodyRef& i_body, const BodyRef& j_body);
+  void add_contact(const OnCurve& on);
+  int add_floating(const BodyRef& on);
+  void place_axis(const BodyRef& i_body, const BodyRef& j_body);
   void draw_contact_starts();
   void draw_motions();
   void draw_position_gcon();
@@ -181,6 +194,7 @@ class Draw {
   bool must_deform_ = false;           // a flexible body, from 271 to 280
   BeamPlane plane_ = BeamPlane::none;  // of a beam, from 281 to 290: each in turn
   int meeting_ = -1;                   // the first of four pairs of solids, from 291 to 310
+  bool must_ride_ = false;             // an axis along a curve, from 311 to 320
   bool may_rub_ = false;               // every second seed
   Mechanism m_;
   double L_ = 1, F_ = 10;  // natural length and force

@@ -80,16 +80,8 @@ void Draw::place_contact(const BodyRef& i_body, const BodyRef& j_body, bool two_
   }
   if (!good) throw std::runtime_error("the contact is near a knot or hardly determined");
   c.i = add_marker(i_body, I), c.j = add_marker(j_body, J);
-  const auto floating = [&](const BodyRef& on) {
-    Marker marker;
-    marker.id = next_marker_++;
-    marker.body = on;
-    marker.floating = true;
-    m_.markers.push_back(marker);
-    return marker.id;
-  };
-  c.jfloat = floating(j_body);
-  if (two_curves) c.ifloat = floating(i_body);
+  c.jfloat = add_floating(j_body);
+  if (two_curves) c.ifloat = add_floating(i_body);
   m_.contacts.push_back(c);
   const auto note = [&](int marker, const CurveShape& shape, Real u) {
     const Vec d = shape.at(u, 1);
@@ -157,37 +149,83 @@ void Draw::draw_planes() {
   }
 }
 
+// A curve on the second body, and a place anywhere on it.
+Draw::OnCurve Draw::draw_on_curve(const BodyRef& i_body, const BodyRef& j_body) {
+  OnCurve on;
+  on.contact.id = static_cast<int>(m_.contacts.size()) + 1;
+  on.contact.v = uniform(-0.9, 0.9);
+  on.at = 0.5L * (to_vec(body(i_body).qg) + to_vec(body(j_body).qg)) + box(0.4 * L_);
+  on.contact.jcurve = draw_curve(false);
+  const CurveShape b = shape_of(m_, on.contact.jcurve);
+  on.J = {on.at, orientation()};
+  on.J.p = on.at - on.J.R * b.at(on.contact.v);
+  on.slope = b.at(on.contact.v, 1), on.bend = b.at(on.contact.v, 2);
+  on.is_smooth = b.clearance(on.contact.v) > 0.05L && norm(on.slope) > 0.4L * L_ && norm(on.bend) < 6 * L_;
+  return on;
+}
+
+int Draw::add_floating(const BodyRef& on) {
+  Marker floating;
+  floating.id = next_marker_++;
+  floating.body = on;
+  floating.floating = true;
+  m_.markers.push_back(floating);
+  return floating.id;
+}
+
+void Draw::add_contact(const OnCurve& on) {
+  m_.contacts.push_back(on.contact);
+  if (norm(cross(on.slope, on.bend)) > 0.4L * std::pow(norm(on.slope), 3.0L) / L_)
+    floating_.push_back(on.contact.jfloat);
+}
+
 // A plane along the tangent anywhere on the curve, which bends away from it.
 void Draw::place_plane(const BodyRef& i_body, const BodyRef& j_body) {
-  Contact c;
-  c.id = static_cast<int>(m_.contacts.size()) + 1;
+  OnCurve on = draw_on_curve(i_body, j_body);
+  Contact& c = on.contact;
   c.plane = true;
-  c.v = uniform(-0.9, 0.9);
-  const Vec at = 0.5L * (to_vec(body(i_body).qg) + to_vec(body(j_body).qg)) + box(0.4 * L_);
-  c.jcurve = draw_curve(false);
-  const CurveShape b = shape_of(m_, c.jcurve);
-  Frame J{at, orientation()};
-  J.p = at - J.R * b.at(c.v);
-  const Vec s = b.at(c.v, 1), s2 = b.at(c.v, 2);
-  const Vec x = (1 / norm(s)) * s;
+  const Vec x = (1 / norm(on.slope)) * on.slope;
   const Vec drawn = box(1), aside = drawn - dot(drawn, x) * x;
   const Vec z = (1 / norm(aside)) * aside;
-  if (!(b.clearance(c.v) > 0.05L && norm(s) > 0.4L * L_ && norm(s2) < 6 * L_) || std::fabs(dot(z, s2)) < 0.4L * L_) {
+  if (!on.is_smooth || std::fabs(dot(z, on.bend)) < 0.4L * L_)
     throw std::runtime_error("the contact is near a knot or hardly determined");
-  }
-  const Mat R = J.R * Mat{{x, cross(z, x), z}};
-  const Frame I{at + uniform(-0.5, 0.5) * L_ * R.column[0] + uniform(-0.5, 0.5) * L_ * R.column[1],
+  const Mat R = on.J.R * Mat{{x, cross(z, x), z}};
+  const Frame I{on.at + uniform(-0.5, 0.5) * L_ * R.column[0] + uniform(-0.5, 0.5) * L_ * R.column[1],
                 R * rotation_313(uniform(-3, 3), 0, 0)};
-  c.i = add_marker(i_body, I), c.j = add_marker(j_body, J);
-  for (const auto& [body, marker] : {std::pair(i_body, &c.ifloat), std::pair(j_body, &c.jfloat)}) {
-    Marker floating;
-    floating.id = *marker = next_marker_++;
-    floating.body = body;
-    floating.floating = true;
-    m_.markers.push_back(floating);
+  c.i = add_marker(i_body, I), c.j = add_marker(j_body, on.J);
+  c.ifloat = add_floating(i_body), c.jfloat = add_floating(j_body);
+  add_contact(on);
+}
+
+// Between bodies that would be free of each other otherwise, or nearly.
+void Draw::draw_axis() {
+  for (int attempt = 0; attempt < 40 && mobility() > 4; ++attempt) {
+    const BodyRef a = one_of(bodies_), b = one_of(bodies_);
+    if (a == b || a == ground || a.kind == BodyKind::point_mass || b.kind == BodyKind::point_mass) continue;
+    const Mechanism before = m_;
+    const int marker = next_marker_, matrix = next_matrix_;
+    try {
+      return place_axis(a, b);
+    } catch (const std::runtime_error&) {
+      m_ = before;
+      next_marker_ = marker, next_matrix_ = matrix;
+    }
   }
-  m_.contacts.push_back(c);
-  if (norm(cross(s, s2)) > 0.4L * std::pow(norm(s), 3.0L) / L_) floating_.push_back(c.jfloat);
+  throw std::runtime_error("the seed wants an axis along a curve");
+}
+
+// z of I along the tangent, either way, and turned about it at will.
+void Draw::place_axis(const BodyRef& i_body, const BodyRef& j_body) {
+  OnCurve on = draw_on_curve(i_body, j_body);
+  Contact& c = on.contact;
+  c.axis = true;
+  if (!on.is_smooth) throw std::runtime_error("the contact is near a knot");
+  const Vec z = ((chance(0.5) ? 1 : -1) / norm(on.slope)) * on.slope;
+  const Vec drawn = box(1), aside = drawn - dot(drawn, z) * z;
+  const Vec x = (1 / norm(aside)) * aside;
+  c.i = add_marker(i_body, {on.at, on.J.R * Mat{{x, cross(z, x), z}}}), c.j = add_marker(j_body, on.J);
+  c.jfloat = add_floating(j_body);
+  add_contact(on);
 }
 
 // Some contacts are stated where they are, in the axes of the curve or of another marker, and as fast as they are.

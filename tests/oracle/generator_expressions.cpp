@@ -116,10 +116,10 @@ Expr Draw::load() {
 Expr Draw::contact_load() {
   const Contact& c = one_of(m_.contacts);
   const int rm = chance(0.4) ? 0 : one_of(floating_.empty() || chance(0.5) ? oriented_ : floating_);
-  const bool torque = c.floats_on_i() && chance(0.3);  // there is none about a single point
+  const bool torque = (c.axis || c.floats_on_i()) && chance(0.3);  // there is none about a single point
   const int comp = torque ? 6 + pick(3) : 2 + pick(3);
   const double scale = 0.2 / (torque ? F_ * L_ : F_);
-  if (!c.plane && chance(0.6)) {
+  if (!c.plane && !c.axis && chance(0.6)) {
     const bool magnitude = !torque && chance(0.2);
     return scale * contact_reaction(c.two_curves, c.id, pick(2), magnitude ? 1 : comp, rm);
   }

@@ -143,12 +143,7 @@ void Draw::draw_general_forces() {
   int j = 0;
   std::tie(f.i, j) = distant_pair(true);
   if (body_of(f.i).kind == BodyKind::point_mass || body_of(f.i) == ground) return;
-  Marker floating;
-  floating.id = next_marker_++;
-  floating.body = body_of(j);
-  floating.floating = true;
-  m_.markers.push_back(floating);
-  f.jfloat = floating.id;
+  f.jfloat = add_floating(body_of(j));
   f.rm = one_of(oriented_);
   for (std::size_t k = 0; k < 6; ++k) {
     if (!chance(0.5)) continue;

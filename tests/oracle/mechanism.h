@@ -122,8 +122,8 @@ struct Curve {
   bool closed = false, controls = false;
   int order = 4;
 };
-// Of a curve on marker j and the origin of marker i (PTCV), the x-y plane of marker i (PLCV), or another curve on
-// marker i (CVCV), in their x-y planes.
+// Of a curve on marker j and the origin of marker i (PTCV; AXCV: and its z axis), the x-y plane of marker i (PLCV), or
+// another curve on marker i (CVCV), in their x-y planes.
 struct Contact {
   int id = 0;
   bool two_curves = false;
@@ -134,10 +134,10 @@ struct Contact {
   std::optional<Triple> at_i{}, at_j{};  // IDISP, and JDISP or DISP
   int axes_i = 0, axes_j = 0;            // IICM, and JICM or ICM
   std::optional<double> speed_i{}, speed_j{};
-  bool plane = false;
+  bool plane = false, axis = false;
 
   [[nodiscard]] bool floats_on_i() const { return two_curves || plane; }
-  [[nodiscard]] int equations() const { return plane ? 1 : 2; }
+  [[nodiscard]] int equations() const { return plane ? 1 : axis ? 4 : 2; }
 };
 
 // c0 + c1 t + c2 t^2 + c3 t^3 + amplitude sin(frequency t + phase)
@@ -401,7 +401,7 @@ struct Features {
   bool algebraic_loop = false, separate_im = false, units_factor = false;
   bool deep_reaction = false;  // a force reads a reaction through at least three VARVALs in a row
   int velocity_constraints = 0, algebraic_diffs = 0;
-  int points_on_curves = 0, curves_on_curves = 0, planes_on_curves = 0;
+  int points_on_curves = 0, curves_on_curves = 0, planes_on_curves = 0, axes_on_curves = 0;
 };
 [[nodiscard]] Features features_of(const Mechanism& mechanism);
 
