@@ -139,6 +139,12 @@ class RiderAgreement : public ::testing::TestWithParam<std::uint64_t> {};
 TEST_P(RiderAgreement, state_matrices_equal_differences_of_the_nonlinear_model) { compare(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(generated, RiderAgreement, ::testing::Range<std::uint64_t>(311, 321));
 
+// Of shafts on films of oil.
+class JournalAgreement : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(JournalAgreement, state_matrices_equal_differences_of_the_nonlinear_model) { compare(GetParam()); }
+INSTANTIATE_TEST_SUITE_P(generated, JournalAgreement, ::testing::Range<std::uint64_t>(321, 331));
+
 // Of solids that press on each other, four pairs in each: the list is in generator_solids.cpp.
 class SolidAgreement : public ::testing::TestWithParam<std::uint64_t> {};
 

@@ -110,6 +110,7 @@ Wrench Model::net_wrench(int i_id, int j_id) const {
     add(marker_index(t.i), marker_index(t.j), touch_wrench(k), true);
   }
   for (const LinearForce& f : mechanism_.linears) add(marker_index(f.i), marker_index(f.j), linear_wrench(f), true);
+  for (const Journal& f : mechanism_.journals) add(marker_index(f.i), marker_index(f.j), journal_wrench(f), true);
   for (std::size_t k = 0; k < mechanism_.gforces.size(); ++k) {
     // The floating marker stands at the origin of I.
     const GeneralForce& f = mechanism_.gforces[k];

@@ -305,6 +305,18 @@ std::string nforce_text(const Nforce& f) {
   return t.set("LENGTH", f.length).set("FORCE", f.force).text();
 }
 
+std::string journal_text(const Journal& f) {
+  return Statement("JOURNAL", f.id)
+      .set("I", f.i)
+      .set("J", f.j)
+      .set("RADIUS", f.radius)
+      .set("LENGTH", f.length)
+      .set("CLEARANCE", f.clearance)
+      .set("VISCOSITY", f.viscosity)
+      .set("SPEED", f.speed)
+      .text();
+}
+
 std::string cable_text(const Cable& f) {
   Statement t("CABLE", f.id);
   return t.set("MARKERS", integers(f.markers))
@@ -474,6 +486,7 @@ std::string dataset_text(const Mechanism& m) {
   for (const LinearForce& f : m.linears) text += linear_text(f);
   for (const Nforce& f : m.nforces) text += nforce_text(f);
   for (const Cable& f : m.cables) text += cable_text(f);
+  for (const Journal& f : m.journals) text += journal_text(f);
   for (const GeneralForce& f : m.gforces) text += gforce_text(f);
   for (const BeamLoad& l : m.beam_loads) text += beam_load_text(l);
   for (const ModalForce& f : m.mforces) text += modal_force_text(f);

@@ -37,6 +37,10 @@ std::vector<ForceLoad> Model::force_loads() const {
                      wrenches[m - 1], Taker::body_at_j, true, false});
     }
   }
+  for (const Journal& f : mechanism_.journals) {
+    all.push_back(
+        {"JOURNAL", f.id, 0, marker_index(f.i), marker_index(f.j), journal_wrench(f), Taker::body_at_i, true, true});
+  }
   for (std::size_t k = 0; k < mechanism_.sforces.size(); ++k) {
     const Sforce& s = mechanism_.sforces[k];
     const bool turns = s.direction == Direction::rotational;

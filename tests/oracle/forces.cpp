@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "gauss_points.h"
 #include "model.h"
 
 namespace dynalin::oracle {
@@ -228,6 +229,47 @@ void Model::apply_cables(std::vector<Wrench>& loads) const {
   }
 }
 
+// Pressures and shear of the film summed around the shaft. With the pressure integrated over the length,
+// P = mu L^3 a(t)/h^3 where a, the rate at which the film is squeezed, is positive; what turns the shaft is
+// -(h/2 dP/dt + mu omega R^2 L/h) R, the whole film shearing.
+Wrench Model::journal_wrench(const Journal& f) const {
+  const Displacements at = displacements(marker_index(f.i), marker_index(f.j));
+  const Real c = f.clearance, R = f.radius, L = f.length, mu = f.viscosity, omega = at.rate[5] + f.speed;
+  const Real a = at.rate[0] + omega * at.y[1] / 2, b = at.rate[1] - omega * at.y[0] / 2;
+  const Real pi = std::acos(-1.0L), middle = std::atan2(b, a);
+  constexpr int panels = 64;
+  std::array<Real, 6> load{};
+  for (const bool wet : {true, false}) {
+    for (int k = 0; k < panels; ++k) {
+      for (const GaussPoint& g : four_points()) {
+        const Real from_middle = pi * ((static_cast<Real>(k) + g.at) / panels - 0.5L) + (wet ? 0 : pi);
+        const Real cosine = std::cos(middle + from_middle), sine = std::sin(middle + from_middle);
+        const Real h = c - at.y[0] * cosine - at.y[1] * sine, slope = at.y[0] * sine - at.y[1] * cosine;
+        const Real weight = g.weight * pi / panels * R;
+        load[5] -= weight * mu * omega * R * R * L / h;
+        if (!wet) continue;
+        const Real squeeze = a * cosine + b * sine, squeeze_slope = b * cosine - a * sine;
+        const Real pressure = mu * L * L * L * squeeze / (h * h * h);
+        const Real pressure_slope =
+            mu * L * L * L * (squeeze_slope / (h * h * h) - 3 * squeeze * slope / (h * h * h * h));
+        load[0] -= weight * pressure * cosine;
+        load[1] -= weight * pressure * sine;
+        load[5] -= weight * h / 2 * pressure_slope;
+      }
+    }
+  }
+  return in_axes_of(marker_index(f.j), load);
+}
+
+void Model::apply_journals(std::vector<Wrench>& loads) const {
+  for (const Journal& f : mechanism_.journals) {
+    const Wrench w = journal_wrench(f);
+    const Vec at = markers_[static_cast<std::size_t>(marker_index(f.i))].p;
+    apply(loads, marker_index(f.i), at, w, 1);
+    apply(loads, marker_index(f.j), at, w, -1);
+  }
+}
+
 Wrench Model::general_wrench(std::size_t k) const {
   const MarkerMotion& rm = markers_[static_cast<std::size_t>(marker_index(mechanism_.gforces[k].rm))];
   Wrench out;
@@ -312,6 +354,7 @@ std::vector<Real> Model::algebra_residual() const {
   apply_linears(loads);
   apply_nforces(loads);
   apply_cables(loads);
+  apply_journals(loads);
   apply_frictions(loads);
   apply_touches(loads);
   apply_beams(loads);

@@ -319,6 +319,7 @@ Mechanism Draw::mechanism() {
   draw_linear_forces();
   draw_nforces();
   if (whole_language_) draw_cable();
+  if (must_float_) draw_journal();
   draw_controls();
   draw_sforces();
   read_gse();

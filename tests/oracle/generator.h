@@ -47,6 +47,7 @@ class Draw {
         plane_(seed > 280 && seed <= 290 ? static_cast<BeamPlane>(1 + seed % 3) : BeamPlane::none),
         meeting_(seed > 290 && seed <= 310 ? static_cast<int>((seed - 291) % 10) : -1),
         must_ride_(seed > 310 && seed <= 320),
+        must_float_(seed > 320 && seed <= 330),
         may_rub_(seed % 2 == 0) {}
   [[nodiscard]] Mechanism mechanism();
 
@@ -99,6 +100,7 @@ class Draw {
   void draw_linear_forces();
   void draw_nforces();
   void draw_cable();
+  void draw_journal();
   void draw_general_forces();
   void draw_controls();
   void draw_differential_elements();
@@ -195,6 +197,7 @@ class Draw {
   BeamPlane plane_ = BeamPlane::none;  // of a beam, from 281 to 290: each in turn
   int meeting_ = -1;                   // the first of four pairs of solids, from 291 to 310
   bool must_ride_ = false;             // an axis along a curve, from 311 to 320
+  bool must_float_ = false;            // a shaft on a film, from 321 to 330
   bool may_rub_ = false;               // every second seed
   Mechanism m_;
   double L_ = 1, F_ = 10;  // natural length and force

@@ -136,6 +136,26 @@ void Draw::draw_cable() {
   if (joins) m_.cables.push_back(f);
 }
 
+// Off the middle by up to two thirds of a wide clearance. The markers serve it alone.
+void Draw::draw_journal() {
+  std::vector<BodyRef> ends;
+  std::copy_if(bodies_.begin(), bodies_.end(), std::back_inserter(ends),
+               [](const BodyRef& b) { return b.kind != BodyKind::point_mass; });
+  const BodyRef shaft = one_of(ends), bearing = one_of(ends);
+  if (shaft == bearing || shaft == ground) throw std::runtime_error("the seed wants a shaft in a bearing");
+  Journal f;
+  f.id = 1;
+  f.radius = L_ * uniform(0.5, 1.5), f.length = L_ * uniform(0.5, 1.5), f.clearance = L_ * uniform(0.4, 1);
+  f.viscosity = F_ / (L_ * f.radius) * std::pow(f.clearance / f.length, 3.0) * uniform(0.05, 0.5);
+  f.speed = chance(0.5) ? uniform(-3, 3) : 0;
+  const Vec at = 0.5L * (to_vec(body(shaft).qg) + to_vec(body(bearing).qg)) + box(0.3 * L_);
+  const Mat R = orientation();
+  const double away = f.clearance * uniform(0.1, 0.65), angle = uniform(-3, 3);
+  const Vec offset{away * std::cos(angle), away * std::sin(angle), uniform(-0.3, 0.3) * L_};
+  f.j = add_marker(bearing, {at, R}), f.i = add_marker(shaft, {at + R * offset, orientation()});
+  m_.journals.push_back(f);
+}
+
 void Draw::draw_general_forces() {
   if (!chance(0.4)) return;
   GeneralForce f;

@@ -194,6 +194,11 @@ struct Cable {
   std::vector<int> markers;
   double k = 0, c = 0, length = 0, force = 0;
 };
+// The film between a shaft about the origin of i and a bore about z of j.
+struct Journal {
+  int id = 0, i = 0, j = 0;
+  double radius = 0, length = 0, clearance = 0, viscosity = 0, speed = 0;
+};
 // Six components on I in the axes of RM; a component without expression is zero.
 struct GeneralForce {
   int id = 0, i = 0, jfloat = 0, rm = 0;
@@ -362,6 +367,7 @@ struct Mechanism {
   std::vector<LinearForce> linears;
   std::vector<Nforce> nforces;
   std::vector<Cable> cables;
+  std::vector<Journal> journals;
   std::vector<GeneralForce> gforces;
   std::vector<Friction> frictions;
   std::vector<Touch> touches;

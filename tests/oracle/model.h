@@ -209,6 +209,7 @@ class Model {
   void apply_linears(std::vector<Wrench>& loads) const;
   void apply_nforces(std::vector<Wrench>& loads) const;
   void apply_cables(std::vector<Wrench>& loads) const;
+  void apply_journals(std::vector<Wrench>& loads) const;
   void apply_frictions(std::vector<Wrench>& loads) const;
   void apply_touches(std::vector<Wrench>& loads) const;
   // Of beams on their nodes, torques about them, and on slopes and middles: elasticity, inertia, weight and FE_LOADs.
@@ -227,6 +228,7 @@ class Model {
   [[nodiscard]] std::vector<Wrench> nforce_wrenches(const Nforce& f) const;  // on each marker
   // On the second marker of each span.
   [[nodiscard]] std::vector<Wrench> cable_wrenches(const Cable& f) const;
+  [[nodiscard]] Wrench journal_wrench(const Journal& f) const;
   [[nodiscard]] Wrench general_wrench(std::size_t k) const;
   [[nodiscard]] Wrench friction_wrench(std::size_t k) const;
   [[nodiscard]] Wrench touch_wrench(std::size_t k) const;
