@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -56,6 +58,33 @@ Eigen::VectorXd change_to_least_reactions(const System& system, const Constraint
   return change.allFinite() ? change : Eigen::VectorXd::Zero(count);
 }
 
+// What of the motion an equation depends on: where a friction is zero at rest its value says nothing, but its slope
+// does.
+constexpr std::array<PartialBy, 4> slopes = {PartialBy::position, PartialBy::velocity, PartialBy::damping,
+                                             PartialBy::state};
+std::array<ColumnMatrix, slopes.size()> slopes_of(const Equations& eq) {
+  std::array<ColumnMatrix, slopes.size()> all;
+  for (std::size_t k = 0; k < slopes.size(); ++k) all[k] = eq.matrix(slopes[k]);
+  return all;
+}
+// Beside the largest of the row.
+void mark_rows_that_change(const ColumnMatrix& a, const ColumnMatrix& b, std::vector<bool>& changes) {
+  std::map<std::pair<std::int32_t, std::int32_t>, double> difference;
+  std::vector<double> largest(changes.size(), 0);
+  const auto add = [&](const ColumnMatrix& m, double sign) {
+    for_each_entry(m, [&](std::int32_t row, std::int32_t column, double value) {
+      double& most = largest[static_cast<std::size_t>(row)];
+      most = std::max(most, std::abs(value));
+      difference[{row, column}] += sign * value;
+    });
+  };
+  add(a, 1), add(b, -1);
+  for (const auto& [at, value] : difference) {
+    const auto row = static_cast<std::size_t>(at.first);
+    if (std::abs(value) > noticeable * largest[row]) changes[row] = true;
+  }
+}
+
 }  // namespace
 
 void warn_of_undetermined_reactions(const System& system, AccelerationEquations& equations, const OperatingPoint& op,
@@ -70,20 +99,27 @@ void warn_of_undetermined_reactions(const System& system, AccelerationEquations&
         "which nothing determines");
     return;
   }
-  equations.evaluate(op, {});
+  const auto evaluate = [&](const OperatingPoint& at) {
+    equations.evaluate(at, {PartialBy::position, PartialBy::velocity, PartialBy::damping, PartialBy::state});
+  };
+  evaluate(op);
   const std::vector<double> before(eq.residual().begin(), eq.residual().end());
+  const std::array<ColumnMatrix, slopes.size()> slopes_before = slopes_of(eq);
   std::vector<bool> taking_part = equations.partition().active;
   for (const std::int32_t r : equations.partition().redundant) taking_part[static_cast<std::size_t>(r)] = true;
   const Eigen::VectorXd change = change_to_least_reactions(system, rows, taking_part, op.lambda);
   OperatingPoint least = op;
   for (std::size_t k = 0; k < least.lambda.size(); ++k) least.lambda[k] += change(static_cast<Eigen::Index>(k));
-  equations.evaluate(least, {});
+  evaluate(least);
+  std::vector<bool> changes(before.size(), false);
+  for (std::size_t k = 0; k < slopes.size(); ++k)
+    mark_rows_that_change(slopes_before[k], eq.matrix(slopes[k]), changes);
 
   std::vector<const ElementLabel*> readers;
   const auto look = [&](std::int32_t row, const ElementLabel* owner) {
     const auto at = static_cast<std::size_t>(row);
-    const bool changes = std::abs(eq.residual()[at] - before[at]) > noticeable * eq.magnitude()[at];
-    if (changes && std::find(readers.begin(), readers.end(), owner) == readers.end()) readers.push_back(owner);
+    const bool reads = changes[at] || std::abs(eq.residual()[at] - before[at]) > noticeable * eq.magnitude()[at];
+    if (reads && std::find(readers.begin(), readers.end(), owner) == readers.end()) readers.push_back(owner);
   };
   for (std::size_t k = 0; k < layout.algebraic.size(); ++k)
     look(eq.algebraic_row(static_cast<std::int32_t>(k)), layout.algebraic[k].owner);

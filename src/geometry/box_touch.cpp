@@ -65,7 +65,7 @@ Parting<T> parting(const PlacedBox<T>& I, const PlacedBox<T>& J) {
   for (std::size_t k = 0; k < count; ++k) {
     const bool alike = std::abs(dot(value_of(all[k].normal), value_of(normal))) >= least_cosine;
     const double less = std::abs(all[k].separation - most);
-    found.definite = found.definite && (alike || less > coincidence * size);
+    found.definite = found.definite && (alike || less > solid::coincidence * size);
     if (alike && k < 6 && less <= edge_preference * size) (k < 3 ? of_J : of_I) = true;
   }
   found.faces = of_I && of_J;
@@ -142,7 +142,7 @@ void touch_boxes(const solid::Box& I_box, const RelativeFrame<T>& R, const solid
   const PlacedBox<T> I{I_box, R.p, {R.x, R.y, R.z}}, J{J_box, {T(0.0), T(0.0), T(0.0)}, {x, y, z}};
   const Parting<T> part = parting(I, J);
   const Face<T> of_I(I, -value_of(part.normal)), of_J(J, value_of(part.normal));
-  const double tolerance = coincidence * std::min(I.size(), J.size());
+  const double tolerance = solid::coincidence * std::min(I.size(), J.size());
   const Vec3<T> normal = part.faces ? common_normal(of_I, of_J, tolerance) : part.normal;
   std::size_t count = 0;
   for (const Vec3<T>& c : of_I.corners) out[count++] = corner_of_I(c, of_J, normal, tolerance);

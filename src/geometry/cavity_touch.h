@@ -25,7 +25,7 @@ Distance<T> from_wall(const Box& b, std::size_t which, const Vec3<T>& p) {
 template <class T>
 Distance<T> from_wall(const Frustum& f, std::size_t which, const Vec3<T>& p) {
   const FrustumFaces faces(f);
-  return which == 0 ? faces.mantle(Meridional<T>(p), p) : which == 1 ? faces.below(p) : faces.above(p);
+  return which == 0 ? faces.mantle(Meridional<T>(p, faces.size), p) : which == 1 ? faces.below(p) : faces.above(p);
 }
 template <class T, class B>
 Distance<T> from_wall(const B& b, std::size_t, const Vec3<T>& p) {

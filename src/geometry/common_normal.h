@@ -107,7 +107,7 @@ template <class T>
 std::optional<CommonNormal<T>> common_normal(const Ellipsoid& first, const RelativeFrame<T>& at,
                                              const Ellipsoid& second) {
   const RelativeFrame<double> frame{value_of(at.p), value_of(at.x), value_of(at.y), value_of(at.z)};
-  if (norm(frame.p) == 0) return std::nullopt;
+  if (norm(frame.p) <= coincidence * norm(first.semi_axes)) return std::nullopt;
   const auto n = common_normal(first.semi_axes, frame, second.semi_axes, frame.p / norm(frame.p));
   if (!n) return std::nullopt;
   return common_normal_at(*n, first.semi_axes, at, second.semi_axes);

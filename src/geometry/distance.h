@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "base/dual.h"
@@ -21,16 +22,23 @@ struct Distance {
 
 namespace solid {
 
+// Of distances from faces, negative inside: whether two of them are the largest, where that is the distance.
+template <std::size_t n>
+bool is_tied(std::array<double, n> of_faces, double size) {
+  std::partial_sort(of_faces.begin(), of_faces.begin() + 2, of_faces.end(), std::greater<>());
+  return of_faces[0] <= coincidence * size && of_faces[0] - of_faces[1] <= coincidence * size;
+}
+
 template <class T>
 Vec3<T> constant(const Vector& v) {
   return {T(v.x), T(v.y), T(v.z)};
 }
 
-// From a point, with the direction away from it; without one at the point itself.
+// From a point, with the direction away from it; without one at the point itself. `size`: of what it is part of.
 template <class T>
-Distance<T> from_point(const Vec3<T>& p) {
+Distance<T> from_point(const Vec3<T>& p, double size) {
   Distance<T> d;
-  if (value_of(p.x) == 0 && value_of(p.y) == 0 && value_of(p.z) == 0) {
+  if (norm(value_of(p)) <= coincidence * size) {
     d.defined = false;
     return d;
   }
@@ -41,7 +49,7 @@ Distance<T> from_point(const Vec3<T>& p) {
 
 template <class T>
 Distance<T> distance(const Ball& b, const Vec3<T>& p) {
-  Distance<T> d = from_point(p);
+  Distance<T> d = from_point(p, b.radius);
   d.value -= T(b.radius);
   return d;
 }
@@ -53,9 +61,9 @@ struct Meridional {
   Vec3<T> outward{T(0.0), T(0.0), T(0.0)};
   bool on_axis = false;
 
-  explicit Meridional(const Vec3<T>& p) {
+  Meridional(const Vec3<T>& p, double size) {
     using std::sqrt;
-    on_axis = value_of(p.x) == 0 && value_of(p.y) == 0;
+    on_axis = std::hypot(value_of(p.x), value_of(p.y)) <= coincidence * size;
     if (on_axis) return;
     radius = sqrt(p.x * p.x + p.y * p.y);
     outward = {p.x / radius, p.y / radius, T(0.0)};
@@ -68,11 +76,13 @@ struct Meridional {
 // The faces of a frustum: a circle below, one above, and the mantle between them.
 struct FrustumFaces {
   double length, along_radius, along_z;  // of the mantle: from the lower rim to the upper one, and as a unit vector
+  double size;                           // of the larger end
   Frustum f;
 
   explicit FrustumFaces(const Frustum& frustum) : f(frustum) {
     const double dr = f.high_radius - f.low_radius, dz = f.high - f.low;
     length = std::hypot(dr, dz), along_radius = dr / length, along_z = dz / length;
+    size = std::max(f.low_radius, f.high_radius);
   }
   template <class T>
   Distance<T> below(const Vec3<T>& p) const {
@@ -94,7 +104,7 @@ struct FrustumFaces {
   template <class T>
   Distance<T> rim(double rim_radius, double height, const Meridional<T>& m, const Vec3<T>& p) const {
     using std::sqrt;
-    if (rim_radius == 0) return from_point(Vec3<T>{p.x, p.y, p.z - height});
+    if (rim_radius == 0) return from_point(Vec3<T>{p.x, p.y, p.z - height}, size);
     const T dr = m.radius - rim_radius, dz = p.z - height;
     const T away = sqrt(dr * dr + dz * dz);
     return {away, m.direction(dr / away, dz / away), !m.on_axis};
@@ -104,10 +114,11 @@ struct FrustumFaces {
 template <class T>
 Distance<T> distance(const Frustum& f, const Vec3<T>& p) {
   const FrustumFaces faces(f);
-  const Meridional<T> m(p);
+  const Meridional<T> m(p, faces.size);
   const double r = value_of(m.radius), z = value_of(p.z);
   const Distance<T> below = faces.below(p), above = faces.above(p), mantle = faces.mantle(m, p);
   const double b = value_of(below.value), a = value_of(above.value), s = value_of(mantle.value);
+  if (is_tied(std::array{b, a, s}, faces.size)) return {T(std::max({b, a, s})), {T(0.0), T(0.0), T(1.0)}, false};
   if (b <= 0 && a <= 0 && s <= 0) return s >= a && s >= b ? mantle : a >= b ? above : below;
   if (a > 0 && r <= f.high_radius) return above;
   if (b > 0 && r <= f.low_radius) return below;
@@ -120,9 +131,10 @@ Distance<T> distance(const Frustum& f, const Vec3<T>& p) {
 template <class T>
 Distance<T> distance(const Torus& t, const Vec3<T>& p) {
   using std::sqrt;
-  const Meridional<T> m(p);
+  const Meridional<T> m(p, t.major);
   const T dr = m.radius - t.major;
-  if (value_of(dr) == 0 && value_of(p.z) == 0) return {T(-t.minor), {T(0.0), T(0.0), T(1.0)}, false};
+  if (std::hypot(value_of(dr), value_of(p.z)) <= coincidence * t.minor)
+    return {T(-t.minor), {T(0.0), T(0.0), T(1.0)}, false};
   const T away = sqrt(dr * dr + p.z * p.z);
   return {away - t.minor, m.direction(dr / away, p.z / away), !m.on_axis};
 }
@@ -140,16 +152,20 @@ Distance<T> distance(const Box& b, const Vec3<T>& p) {
   Vec3<T> beyond{T(0.0), T(0.0), T(0.0)};
   std::size_t count = 0, last = 0;
   std::optional<Distance<T>> nearest;
+  std::array<double, 6> of_faces;
   for (std::size_t k = 0; k < 3; ++k) {
     for (const bool upper : {false, true}) {
       const Distance<T> d = face(b, k, upper, p);
+      of_faces[2 * k + (upper ? 1 : 0)] = value_of(d.value);
       if (value_of(d.value) > 0) beyond[k] = d.value * (upper ? 1.0 : -1.0), last = 2 * k + (upper ? 1 : 0), ++count;
       if (!nearest || d.value > nearest->value) nearest = d;
     }
   }
-  if (count == 0) return *nearest;
+  const double size = norm(b.high - b.low);
+  nearest->defined = !is_tied(of_faces, size);
+  if (count == 0 || !nearest->defined) return *nearest;
   if (count == 1) return face(b, last / 2, last % 2 == 1, p);
-  return from_point(beyond);
+  return from_point(beyond, size);
 }
 
 // The nearest point x of the surface: xₖ = aₖ² pₖ / (aₖ² + λ) with Σ (xₖ/aₖ)² = 1, the largest root λ.
@@ -182,7 +198,7 @@ Distance<T> distance(const Ellipsoid& e, const Vec3<T>& p) {
     lambda += step;
     if (!(std::abs(step) > 1e-16 * (middle + std::abs(lambda)))) break;
   }
-  if (!(lambda > -middle)) return {T(-a[least]), {T(0.0), T(0.0), T(1.0)}, false};
+  if (!(lambda + middle > coincidence * middle)) return {T(-a[least]), {T(0.0), T(0.0), T(1.0)}, false};
   T f(-1.0);
   for (std::size_t k = 0; k < 3; ++k) {
     const T q = p[k] * (a[k] / (a[k] * a[k] + lambda));

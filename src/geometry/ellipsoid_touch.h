@@ -186,13 +186,27 @@ Touch<T> touch_ellipsoid(const Ellipsoid& ellipsoid, const RelativeFrame<T>& at,
   const PlacedEllipsoid<T> e{ellipsoid.semi_axes, at};
   const PlacedEllipsoid<double> plain = e.plain();
   std::size_t best = features(s);
-  double most = -std::numeric_limits<double>::infinity();
+  Touch<double> most, next;
+  most.gap = next.gap = -std::numeric_limits<double>::infinity();
+  // Features that end where they touch lead to one place.
+  const auto is_elsewhere = [](const Touch<double>& a, const Touch<double>& b) {
+    return norm(a.normal - b.normal) > 1e-6;
+  };
   for (std::size_t k = 0; k < features(s); ++k) {
     const auto t = touch_feature(plain, s, k);
-    if (t && t->gap > most) most = t->gap, best = k;
+    if (!t) continue;
+    if (t->gap > most.gap) {
+      if (is_elsewhere(most, *t)) next = most;
+      most = *t, best = k;
+    } else if (t->gap > next.gap && is_elsewhere(most, *t)) {
+      next = *t;
+    }
   }
   if (best < features(s)) {
-    if (const auto t = touch_feature(e, s, best)) return *t;
+    if (auto t = touch_feature(e, s, best)) {
+      t->defined = t->defined && most.gap - next.gap > coincidence * norm(ellipsoid.semi_axes);
+      return *t;
+    }
   }
   // As deep in each other as they are wide: no direction is the one.
   Touch<T> t{T(-norm(ellipsoid.semi_axes)), {T(0.0), T(0.0), T(1.0)}, at.p};

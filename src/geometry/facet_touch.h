@@ -28,7 +28,8 @@ Distance<T> distance(const FacetBody::Place& place, const Vec3<T>& p) {
   if (kind == Kind::face) {
     d = {dot(from, direction), constant<T>(direction)};
   } else {
-    d = from_point(kind == Kind::edge ? from - constant<T>(direction) * dot(from, direction) : from);
+    // Of what is as near elsewhere the place knows.
+    d = from_point(kind == Kind::edge ? from - constant<T>(direction) * dot(from, direction) : from, 0);
     if (!place.outside) d.value = -d.value, d.direction = -d.direction;
   }
   d.defined = d.defined && place.definite;

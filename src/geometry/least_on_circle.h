@@ -17,7 +17,7 @@ namespace dynalin::solid {
 struct LeastAngle {
   double at = 0;
   double curvature = 0;  // g′ there
-  bool definite = true;  // false where the function is level or has a kink
+  bool definite = true;  // false where the function is level or has a kink, or is as low elsewhere
 };
 
 // `value` of a double; `slope` of a double and of a Dual<1>. `size`: what values compare with.
@@ -30,7 +30,7 @@ LeastAngle least_on_turn(const Value& value, const Slope& slope, double size) {
   for (int k = 0; k < samples; ++k) at[static_cast<std::size_t>(k)] = value(k * step);
   const auto sample = [&](int k) { return at[static_cast<std::size_t>((k + samples) % samples)]; };
   const double lowest = *std::min_element(at.begin(), at.end());
-  double best = 0, least = std::numeric_limits<double>::infinity();
+  double best = 0, least = std::numeric_limits<double>::infinity(), next = least;
   for (int k = 0; k < samples; ++k) {
     const double here = sample(k), before = sample(k - 1), behind = sample(k + 1);
     if (here > before || here > behind) continue;
@@ -43,12 +43,21 @@ LeastAngle least_on_turn(const Value& value, const Slope& slope, double size) {
       (slope(middle) > 0 ? high : low) = middle;
     }
     const double angle = 0.5 * (low + high);
-    if (const double v = value(angle); v < least) least = v, best = angle;
+    const double v = value(angle);
+    // Neighbouring samples as low as each other lead to one place.
+    const bool elsewhere = std::abs(std::remainder(angle - best, 2 * std::numbers::pi)) > 1e-6;
+    if (v < least) {
+      if (elsewhere) next = least;
+      least = v, best = angle;
+    } else if (elsewhere) {
+      next = std::min(next, v);
+    }
   }
   LeastAngle found{best};
   const Dual<1> there = slope(Dual<1>(found.at, std::size_t{0}));
   found.curvature = there.partial[0];
-  found.definite = found.curvature > level * size && std::abs(there.value) < level * size;
+  found.definite =
+      found.curvature > level * size && std::abs(there.value) < level * size && next - least > coincidence * size;
   return found;
 }
 

@@ -12,7 +12,6 @@ namespace dynalin {
 
 inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 inline constexpr double least_cosine = 0.9;  // of two directions that are taken for one
-inline constexpr double coincidence = 1e-9;  // of the size
 
 template <class T>
 struct PlacedBox {

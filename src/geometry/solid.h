@@ -12,6 +12,9 @@
 
 namespace dynalin::solid {
 
+// Of the size of a shape: what is told apart. A place as near as another one but for so much is not the nearest.
+inline constexpr double coincidence = 1e-9;
+
 // About the origin. A point is a ball of radius 0.
 struct Ball {
   double radius = 0;  // [length]

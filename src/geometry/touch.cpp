@@ -100,7 +100,7 @@ std::pair<Vec3<T>, bool> lowest_of_circle(const Vec3<T>& centre, const Vec3<T>& 
   // Down, less what of it is along the axis.
   const Vec3<T> down{axis.z * axis.x * up, axis.z * axis.y * up, (axis.z * axis.z - 1.0) * up};
   const T size = dot(down, down);
-  if (!(value_of(size) > 0)) return {centre, false};
+  if (!(value_of(size) > coincidence * coincidence)) return {centre, false};
   return {centre + down * (radius / sqrt(size)), true};
 }
 
@@ -145,7 +145,7 @@ void touch_ellipsoids(const Ellipsoid& a, const RelativeFrame<T>& I, const Ellip
   const auto c = common_normal(a, I, b);
   Touch<T>& t = out[0];
   if (!c) {
-    t = {T(-1.0) * norm(I.p), {T(0.0), T(0.0), T(1.0)}, I.p * 0.5};
+    t = {T(-norm(a.semi_axes)), {T(0.0), T(0.0), T(1.0)}, I.p * 0.5};
     t.defined = false;
     return;
   }

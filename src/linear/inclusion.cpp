@@ -46,7 +46,8 @@ class Inclusion {
   Index first(Index i) const { return schur_.first(i); }
   Index size(Index i) const { return schur_.size(i); }
 
-  // By powers of two: exact.
+  // By powers of two: exact. What is uncertain weighs with what is known: an entry that is nothing but rounding would
+  // be made as large as the others, and its uncertainty far larger.
   void balance() {
     for (bool changed = true; changed;) {
       changed = false;
@@ -54,7 +55,8 @@ class Inclusion {
         long double row = 0, column = 0;
         for (Index j = 0; j < n_; ++j) {
           if (j == i) continue;
-          row += std::abs(M_(i, j)), column += std::abs(M_(j, i));
+          row += std::abs(M_(i, j)) + static_cast<long double>(U_(i, j));
+          column += std::abs(M_(j, i)) + static_cast<long double>(U_(j, i));
         }
         if (row == 0 || column == 0) continue;
         const int exponent = static_cast<int>(std::lround(std::log2(row / column) / 2));
@@ -187,7 +189,7 @@ class Inclusion {
     radius_.assign(at(blocks()), infinity), tau_ = radius_;
     column_ = E_.colwise().maxCoeff().transpose().cwiseMax(least_size);
     row_ = E_ * column_.cwiseInverse();
-    bool all = true;
+    std::vector<std::pair<Index, Index>> wanted;
     for (Index i = 0; i < q; ++i) {
       double assumed = 0;
       Index joined = i;
@@ -202,12 +204,10 @@ class Inclusion {
         }
         assumed = 1.5 * r;
       }
-      if (std::isfinite(radius_[at(i)])) continue;
-      all = false;
-      if (joined == i) joined = nearest(i);
-      join(i, joined);
+      if (!std::isfinite(radius_[at(i)])) wanted.emplace_back(i, joined == i ? nearest(i) : joined);
     }
-    if (!all) return false;
+    if (!wanted.empty()) return join_nearest(wanted);
+    bool all = true;
     for (Index i = 0; i < q; ++i) {
       for (Index j = 0; j < i; ++j) {
         if (!touch(centre_[at(i)], centre_[at(j)], radius_[at(i)] + radius_[at(j)])) continue;
@@ -219,6 +219,18 @@ class Inclusion {
   }
   static bool touch(LongComplex a, LongComplex b, double radii) {
     return static_cast<double>(std::abs(a - b)) <= radii * upward;
+  }
+
+  // Two that are nearly one direction leave all others without a bound: once they are together the others are seen
+  // again.
+  bool join_nearest(const std::vector<std::pair<Index, Index>>& wanted) {
+    constexpr double as_near = 1e3;
+    double least = infinity;
+    for (const auto& [i, j] : wanted) least = std::min(least, distance(i, j));
+    for (const auto& [i, j] : wanted) {
+      if (distance(i, j) <= as_near * least) join(i, j);
+    }
+    return false;
   }
 
   // Whom a disc's mirror image meets: itself, or one other.

@@ -69,6 +69,30 @@ TEST(Inclusion, discs_hold_their_number_of_eigenvalues_whatever_the_entries_with
   EXPECT_GT(narrow, examined / 3);
 }
 
+// A freedom that nothing holds, x′ = v and v′ = 0 but for rounding, uncertain far above it: its two values near zero
+// are one direction, and what is known of the others does not suffer.
+TEST(Inclusion, others_keep_their_radius_beside_two_values_that_are_rounding) {
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(6, 6);
+  M(0, 1) = 1, M(1, 0) = 1e-30, M(1, 2) = 3e-14, M(2, 0) = 5e-16;
+  M(2, 3) = 14, M(3, 2) = 16, M(4, 5) = 9, M(5, 4) = -8, M(2, 4) = 4, M(5, 2) = 3;
+  Eigen::MatrixXd uncertainty = 1e-12 * Eigen::MatrixXd::Ones(6, 6);
+  uncertainty.row(0).setZero(), uncertainty.row(3).setZero();
+  const auto discs = inclusion_discs(M.cast<std::complex<long double>>(), uncertainty, true);
+  ASSERT_TRUE(discs);
+  Eigen::Index alone = 0;
+  for (const InclusionDisc& d : *discs) {
+    if (std::abs(d.centre) < 1) {
+      EXPECT_EQ(d.count, 2);
+      EXPECT_LT(d.radius, 1e-5);
+      continue;
+    }
+    EXPECT_EQ(d.count, 1);
+    EXPECT_LT(d.radius, 1e-10) << d.centre;
+    ++alone;
+  }
+  EXPECT_GE(alone, 3);
+}
+
 // k eigenvalues within the k-th root of what is uncertain.
 TEST(Inclusion, a_jordan_block_has_the_radius_of_its_order) {
   for (Eigen::Index k = 2; k <= 12; ++k) {

@@ -113,6 +113,8 @@ TEST_F(FrictionCases, by_reactions_that_nothing_determines_is_warned_of) {
   EXPECT_EQ(warnings(guides + "FRICTION/4, JOINT=2\n", "JGRAV=-9"), "FRICTION/4 by JOINT/1, JOINT/2; ");
   EXPECT_EQ(warnings(guides + "VARIABLE/3, FUNCTION=2*JOINT(1,0,3,0)\n", "JGRAV=-9"),
             "VARIABLE/3 by JOINT/1, JOINT/2; ");
+  // At rest no friction acts however the load is shared, but its slope does.
+  EXPECT_EQ(warnings(guides + friction, "JGRAV=-9", "VZ=0, VX"), "FRICTION/4 by JOINT/1, JOINT/2; ");
   // Along the guides nothing is borne, and friction by preload asks for nothing.
   EXPECT_EQ(warnings(guides + "FRICTION/4, JOINT=1, INPUTS=PRELOAD, FRICTION_FORCE_PRELOAD=3\n", "JGRAV=-9"), "");
   EXPECT_EQ(warnings(rest + "JOINT/1, TRANSLATIONAL, I=21, J=1\n" + friction, "JGRAV=-9"), "");

@@ -157,12 +157,27 @@ RelativeFrame<double> plain(const PairMotion& pair) { return at_instant(pair.rel
 
 }  // namespace
 
-double least_gap(const ContactForce& c, const Motion& motion, const MarkerPlace& I, const MarkerPlace& J) {
-  double least = std::numeric_limits<double>::infinity();
-  for_each_touch(c, plain(pair_motion(motion, I, J)), [&](const Touch<double>& t) {
-    if (t.inside >= 0) least = std::min(least, t.gap);
+std::vector<ContactBrink> brinks(const ContactForce& c, const Motion& motion, const MarkerPlace& place_I,
+                                 const MarkerPlace& place_J, double length) {
+  constexpr double near = 1e-9;
+  const PairMotion pair = pair_motion(motion, place_I, place_J);
+  const RelativeFrame<double> I = plain(pair), rate = at_instant(pair.relative, &Taylor::rate);
+  std::vector<ContactBrink> found;
+  using Brink = ContactBrink::Kind;
+  const auto add = [&](Brink kind, bool pushes) {
+    if (std::ranges::none_of(found, [&](const ContactBrink& b) { return b.kind == kind; }))
+      found.push_back({kind, pushes});
+  };
+  for_each_touch(c, I, [&](const Touch<double>& t) {
+    if (t.inside >= 0 && std::abs(t.gap) <= near * length) return add(Brink::touching, t.closed());
+    if (t.gap > 0) return;
+    if (std::abs(t.inside) <= near * length) add(Brink::end_of_plane, t.closed());
+    if (!t.closed()) return;
+    // The elastic part and that of the damper cancel.
+    const double N = pressure(c.pressure, -t.gap, -dot(t.normal, velocity_at(t.point, I, rate)));
+    if (std::abs(N) <= near * pressure(c.pressure, -t.gap, 0.0)) add(Brink::letting_go, N > 0);
   });
-  return least;
+  return found;
 }
 
 ContactKernel::ContactKernel(const std::vector<ContactForce>& laws, const std::vector<ElementLabel>& labels,

@@ -53,7 +53,14 @@ class ContactKernel final : public Kernel, public WrenchSource {
   const std::vector<ElementLabel>* labels_;
 };
 
-// The least gap of all places of a contact, negative where it is closed. [length]
-double least_gap(const ContactForce&, const Motion&, const MarkerPlace& I, const MarkerPlace& J);
+// Where a contact is on the brink of another law: on the one side of the point it pushes, on the other it does not.
+struct ContactBrink {
+  enum class Kind : std::uint8_t { touching, letting_go, end_of_plane };
+  Kind kind;
+  bool pushes;  // here
+};
+// Each kind once, of all places of the contact. `length`: how near counts, 1e-9 of it [length].
+std::vector<ContactBrink> brinks(const ContactForce&, const Motion&, const MarkerPlace& I, const MarkerPlace& J,
+                                 double length);
 
 }  // namespace dynalin

@@ -145,15 +145,19 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
   }
 
   void remark_at(const Model& model, const Motion& motion, double length, Diagnostics& remarks) const override {
-    constexpr double touching = 1e-9;
+    using Brink = ContactBrink::Kind;
     for (std::size_t k = 0; k < forces_.size(); ++k) {
       const ContactForce& f = forces_[k];
-      const double gap = least_gap(f, motion, model.marker(f.i).place, model.marker(f.j).place);
-      if (!(std::abs(gap) <= touching * length)) continue;
-      remarks.warning("touching-contact", labels[k].at,
-                      fmt::format("{} is just touching: it pushes on one side of this point and not on the other, and "
-                                  "the linear model holds for one of them, {}",
-                                  labels[k].full_text(), gap < 0 ? "that where it pushes" : "that where it is open"));
+      for (const ContactBrink& b : brinks(f, motion, model.marker(f.i).place, model.marker(f.j).place, length)) {
+        const std::string_view where = b.kind == Brink::touching     ? "just touching"
+                                       : b.kind == Brink::letting_go ? "just letting go"
+                                                                    : "just at the edge of its plane";
+        remarks.warning(
+            "touching-contact", labels[k].at,
+            fmt::format("{} is {}: it pushes on one side of this point and not on the other, and the "
+                        "linear model holds for one of them, {}",
+                        labels[k].full_text(), where, b.pushes ? "that where it pushes" : "that where it is open"));
+      }
     }
   }
 
