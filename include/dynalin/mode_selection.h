@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <variant>
 
 namespace dynalin {
@@ -32,6 +33,7 @@ struct SelectedModes {
   // Both agree and bounds tell which modes are in the region: none is missing, and no zero of the structure beside
   // them.
   bool complete = false;
+  std::string doubt = {};  // what else speaks against it where both agree, as the end of a sentence
 };
 
 }  // namespace dynalin

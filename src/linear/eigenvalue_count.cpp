@@ -19,13 +19,12 @@ constexpr double largest_step = 0.5;
 // would turn the phase of each by 2π, and be seen in none; in these nothing below 399 does.
 constexpr std::array<double, 5> pieces{0, 0.2, 0.37, 0.68, 1};
 constexpr double uneven_middle = 0.43;
-constexpr std::size_t most_points = 1500;
 constexpr double least_piece = 1e-9;  // of the border
 
 class Winding {
  public:
-  Winding(ShiftedLu& lu, const Border& border, const std::vector<Complex>& known)
-      : lu_(lu), border_(border), known_(known) {}
+  Winding(ShiftedLu& lu, const Border& border, const std::vector<Complex>& known, std::size_t most_points)
+      : lu_(lu), border_(border), known_(known), most_points_(most_points) {}
 
   // Of the smoothed determinant; nothing if the border is too near an eigenvalue.
   std::optional<double> phase() {
@@ -58,7 +57,7 @@ class Winding {
       }
       for (const double t : large.empty() ? all : large) {
         const auto next = std::find_if(points_.begin(), points_.end(), [&](const Point& p) { return p.t > t; });
-        if (points_.size() >= most_points || !add(next, t)) return std::nullopt;
+        if (points_.size() >= most_points_ || !add(next, t)) return std::nullopt;
       }
     }
   }
@@ -119,6 +118,7 @@ class Winding {
   ShiftedLu& lu_;
   const Border& border_;
   const std::vector<Complex>& known_;
+  const std::size_t most_points_;
   std::vector<Point> points_;
 };
 
@@ -161,8 +161,9 @@ Border rectangle(double left, double right, double low, double high) {
 }
 
 std::optional<Eigen::Index> eigenvalues_inside(ShiftedLu& lu, const Border& border, const std::vector<Complex>& known,
-                                               const std::function<bool(Complex)>& inside) {
-  const auto phase = Winding(lu, border, known).phase();
+                                               const std::function<bool(Complex)>& inside,
+                                               std::size_t most_factorizations) {
+  const auto phase = Winding(lu, border, known, most_factorizations).phase();
   if (!phase) return std::nullopt;
   const double turns = *phase / (border.upper_half ? pi : 2 * pi);
   // Both ends are real, or the same: what is not whole was not followed.

@@ -29,10 +29,11 @@ Border circle(std::complex<double> centre, double radius);  // its upper half if
 // left ≤ Re ≤ right, low ≤ Im ≤ high; with low = 0 the upper half of one twice as high.
 Border rectangle(double left, double right, double low, double high);
 
-// Nothing if an eigenvalue is too near the border. Where half a border is given `known` must hold the mirror image of
-// each value.
+// Nothing if an eigenvalue is too near the border, or it takes more than `most_factorizations`. Where half a border is
+// given `known` must hold the mirror image of each value.
 std::optional<Eigen::Index> eigenvalues_inside(ShiftedLu&, const Border&,
                                                const std::vector<std::complex<double>>& known,
-                                               const std::function<bool(std::complex<double>)>& inside);
+                                               const std::function<bool(std::complex<double>)>& inside,
+                                               std::size_t most_factorizations = 1500);
 
 }  // namespace dynalin

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/cycle.h"
@@ -25,19 +26,22 @@ KnownModes::KnownModes(const std::vector<Complex>& values) {
       (v.imag() > 0 ? upper_ : below).push_back(v.imag() > 0 ? v : std::conj(v));
     }
   }
-  // Each below is the other member of one above, or of a mode that is not above.
+  // Each below is the other member of one above, or of a mode that is not above. Far from the shift both come with
+  // roundings of their own: what has found no other at first may take one that is not as near.
   std::vector<bool> met(upper_.size(), false);
-  for (const Complex& v : below) {
-    std::size_t best = met.size();
-    for (std::size_t k = 0; k < met.size(); ++k) {
-      if (!met[k] && (best == met.size() || std::abs(upper_[k] - v) < std::abs(upper_[best] - v))) best = k;
-    }
-    if (best < met.size() && std::abs(upper_[best] - v) <= 1e-6 * std::abs(v)) {
+  for (const double as_near : {1e-6, 1e-3}) {
+    std::erase_if(below, [&](Complex v) {
+      std::size_t best = met.size();
+      for (std::size_t k = 0; k < met.size(); ++k) {
+        const bool free = !met[k] && upper_[k].imag() != 0;
+        if (free && (best == met.size() || std::abs(upper_[k] - v) < std::abs(upper_[best] - v))) best = k;
+      }
+      if (best == met.size() || std::abs(upper_[best] - v) > as_near * std::abs(v)) return false;
       met[best] = true;
-    } else {
-      upper_.push_back(v);
-    }
+      return true;
+    });
   }
+  upper_.insert(upper_.end(), below.begin(), below.end());
 }
 
 std::vector<Complex> KnownModes::all() const {
@@ -62,6 +66,20 @@ double ModeRegion::distance_to_border(Complex v) const {
   if (out_re > 0 || out_im > 0) return std::hypot(out_re, out_im);
   const double of_im = low > 0 ? std::min(f - low, high - f) : high - f;
   return std::min({v.real() - left, right - v.real(), of_im});
+}
+
+Complex ModeRegion::nearest_on_border(Complex v) const {
+  if (is_disc) {
+    const double away = std::abs(v - centre);
+    return centre + (away > 0 ? radius * (v - centre) / away : Complex(radius));
+  }
+  Complex p(std::clamp(v.real(), left, right), std::clamp(std::abs(v.imag()), low, high));
+  if (p != Complex(v.real(), std::abs(v.imag()))) return p;
+  const double below = low > 0 ? p.imag() - low : std::numeric_limits<double>::infinity();
+  const double least = std::min({p.real() - left, right - p.real(), high - p.imag(), below});
+  if (least == below) return {p.real(), low};
+  if (least == high - p.imag()) return {p.real(), high};
+  return {least == p.real() - left ? left : right, p.imag()};
 }
 
 Border ModeRegion::border() const { return is_disc ? circle(centre, radius) : rectangle(left, right, low, high); }

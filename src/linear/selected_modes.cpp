@@ -1,11 +1,15 @@
 #include "linear/selected_modes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 
+#include "base/blas_threads.h"
 #include "base/cycle.h"
 #include "linear/backward_errors.h"
 #include "linear/conservative_search.h"
@@ -28,6 +32,13 @@ using Side = EigenvalueSearch::Side;
 
 constexpr double beside_axis = 0.0137;  // shifts keep off the axis that undamped modes are on
 constexpr int most_rounds = 24;
+// How many factorizations the count around one border may take, and around how many borders it may come to nothing:
+// then it is not known. Where there is the full solution it is soon as cheap.
+struct CountingLimits {
+  std::size_t factorizations;
+  int borders;
+};
+constexpr CountingLimits counting = {600, 5}, counting_beside_full_solution = {150, 2};
 
 Failure no_convergence(std::string what) { return {"eigensolution", std::move(what), {}}; }
 
@@ -47,6 +58,7 @@ class Solution {
         op_(equations_, conservative_) {
     start_anew();
     zero_.directions.resize(op_.states(), 0);
+    if (op_.states() <= most_for_full_solution) counting_ = counting_beside_full_solution;
   }
 
   Result<EigenSolution> run(Vectors vectors) {
@@ -118,16 +130,57 @@ class Solution {
     counted_region_ = countable_region(0);
     return by_inertia_->eigenvalues_inside(counted_region_);
   }
-  std::optional<Index> counted_by_winding() {
+  // How many there are more than are known: by the winding number around one border, and around others where that says
+  // anything else than 0. Nothing if they contradict each other.
+  std::optional<Index> missing_by_winding() {
     const Complex shift = op_.shift();
-    std::optional<Index> counted;
-    for (int attempt = 0; attempt < 5 && !counted; ++attempt) {
+    std::map<Index, int> said;
+    std::optional<Index> missing;
+    for (int attempt = 0; attempt < 5 && !missing && counting_.borders > 0; ++attempt) {
       counted_region_ = countable_region(attempt);
-      counted = eigenvalues_inside(op_.factors(), counted_region_.border(), places(),
-                                   [&](Complex v) { return counted_region_.has(v); });
+      // Of a band that is off the real axis the border is around its upper half alone.
+      const bool half = !counted_region_.is_disc && counted_region_.low > 0;
+      const auto counted = eigenvalues_inside(
+          op_.factors(), counted_region_.border(), joined(places(), beside_border(counted_region_)),
+          [&](Complex v) { return counted_region_.has(v) && (!half || v.imag() > 0); }, counting_.factorizations);
+      if (!counted) {
+        --counting_.borders;
+        continue;
+      }
+      const Index more = half ? 2 * *counted - count_in(counted_region_) : *counted - count_in(counted_region_);
+      if (++said[more] == 2 || (more == 0 && said.size() == 1)) missing = more;
     }
     op_.move_to(shift);
-    return counted;
+    return missing;
+  }
+  // What stands near the border and is not known: two of them, passed by closely, turn the phase by 2π between two
+  // points that look alike. The nearest are looked for from where the border passes what is known.
+  std::vector<Complex> beside_border(const ModeRegion& region) {
+    constexpr std::size_t most_looks = 3;
+    constexpr Index nearest = 12;
+    std::vector<Complex> all = known().all();
+    std::erase_if(all, [](Complex v) { return v.imag() < 0; });
+    std::sort(all.begin(), all.end(),
+              [&](Complex a, Complex b) { return region.distance_to_border(a) < region.distance_to_border(b); });
+    std::vector<Complex> looked_from, found;
+    double seen = 0;  // how far the looks have reached
+    for (const Complex& v : all) {
+      if (looked_from.size() == most_looks) break;
+      const Complex from = region.nearest_on_border(v);
+      if (std::any_of(looked_from.begin(), looked_from.end(), [&](Complex p) { return std::abs(p - from) <= seen; }))
+        continue;
+      looked_from.push_back(from);
+      if (!op_.move_to(from)) continue;
+      for (const Complex& value : right_->glance(nearest)) {
+        const double away = std::abs(value - from);
+        const bool is_known = std::any_of(all.begin(), all.end(), [&](Complex k) {
+          return std::abs(k - value) <= 0.01 * away || std::abs(std::conj(k) - value) <= 0.01 * away;
+        });
+        seen = std::max(seen, away);
+        if (!is_known) found.push_back(value);
+      }
+    }
+    return KnownModes(found).all();
   }
 
   // The modes in region_ and how many there ought to be; the search goes on where they differ.
@@ -143,16 +196,18 @@ class Solution {
     }
     bool agreed = false;
     if (!by_inertia_ && conservative_) by_inertia_ = std::make_unique<InertiaCount>(conservative_);
-    std::optional<Index> counted = by_inertia_ ? counted_by_inertia() : std::nullopt;
-    const bool of_inertia = counted.has_value();
-    if (!counted) counted = counted_by_winding();
-    if (counted) {
-      const Index inside = count_in(region_), around = count_in(counted_region_);
-      selected_.by = of_inertia ? CountedBy::inertia : CountedBy::winding_number;
+    const std::optional<Index> counted = by_inertia_ ? counted_by_inertia() : std::nullopt;
+    const std::optional<Index> missing =
+        counted ? std::optional(*counted - count_in(counted_region_)) : missing_by_winding();
+    if (missing) {
+      const Index inside = count_in(region_);
+      selected_.by = counted ? CountedBy::inertia : CountedBy::winding_number;
       selected_.found = static_cast<std::size_t>(inside);
-      selected_.counted = static_cast<std::size_t>(std::max<Index>(0, *counted - (around - inside)));
-      missing_ = *counted - around;
+      selected_.counted = static_cast<std::size_t>(std::max<Index>(0, inside + *missing));
+      missing_ = *missing;
       agreed = missing_ == 0;
+    } else {
+      selected_.by = CountedBy::nothing;
     }
     selected_.complete = agreed;
     return agreed;
@@ -316,15 +371,49 @@ class Solution {
       out.modes.push_back(std::move(mode));
     }
     add_backward_errors(equations_, out);
-    // A value that may be anywhere in the region, or outside of it, is not known to be one of those that are wanted.
-    const double extent = (region_.is_disc ? region_.radius : std::max(region_.right, region_.high)) / cycle;
-    const bool known = std::all_of(out.modes.begin(), out.modes.end(), [&](const EigenMode& m) {
-      return m.structural_zero || m.error_bound_hz < std::max(extent, std::abs(m.eigenvalue_hz));
-    });
-    selected_.complete = selected_.complete && all_zeros_ && known && nearest_are_known(out.modes);
+    if (selected_.complete) {
+      selected_.doubt = doubt(out.modes);
+      selected_.complete = selected_.doubt.empty();
+    }
     out.selected = selected_;
     if (vectors == Vectors::none) out.vectors.resize(0, 0);
-    return out;
+    return selected_.complete ? without_others(std::move(out)) : out;
+  }
+
+  // Values that bounds have made one, as a double one on the real axis that looked like a pair, are as many as they
+  // are: what is farther than those that are asked for goes.
+  EigenSolution without_others(EigenSolution found) const {
+    const auto* nearest = std::get_if<NearestModes>(&wanted_);
+    const auto listed = static_cast<std::size_t>(std::ranges::count(found.modes, false, &EigenMode::structural_zero));
+    if (!nearest || listed <= nearest->count) return found;
+    EigenSolution fewer = selected_of(found, wanted_);
+    if (fewer.modes.size() == found.modes.size()) return found;
+    fewer.selected->by = selected_.by;
+    return fewer;
+  }
+
+  // What speaks against a selection whose count agrees.
+  std::string doubt(const std::vector<EigenMode>& modes) const {
+    const double extent = (region_.is_disc ? region_.radius : std::max(region_.right, region_.high)) / cycle;
+    Index eigenvalues = 0, listed = 0;
+    for (const EigenMode& m : modes) {
+      eigenvalues += m.is_real ? 1 : 2, listed += m.structural_zero ? 0 : 1;
+      if (m.structural_zero) continue;
+      // A value that may be anywhere in the region, or outside of it, is not known to be one of those that are wanted.
+      if (!(m.error_bound_hz < std::max(extent, std::abs(m.eigenvalue_hz))))
+        return fmt::format("the error bound of one, {:.2g} cycles per unit time, is as large as the region",
+                           m.error_bound_hz);
+      constexpr double surely = 1e-6;  // of the region
+      if (!(m.error_bound_hz < std::max(surely * extent, std::abs(m.eigenvalue_hz))))
+        return "some cannot be told from zeros that follow from the structure";
+    }
+    if (!all_zeros_) return "whether there are more zeros that follow from the structure is not known";
+    const auto* nearest = std::get_if<NearestModes>(&wanted_);
+    if (nearest && listed < static_cast<Index>(nearest->count) && eigenvalues < op_.states())
+      return fmt::format("the model has others besides these {} and the zeros that follow from its structure", listed);
+    if (!nearest_are_known(modes)) return "bounds do not tell which are the nearest";
+    if (!nearest && may_be_beyond_band(std::get<ModesInBand>(wanted_), modes)) return beyond_band;
+    return {};
   }
 
   // Whether bounds tell those that are in the disc from the next ones, half of the way to which is the border.
@@ -348,6 +437,7 @@ class Solution {
   NearZero zero_;
   ModeRegion region_, counted_region_;
   std::unique_ptr<InertiaCount> by_inertia_;  // while it is counted
+  CountingLimits counting_ = counting;        // what is left of them
   Index missing_ = 0;
   bool all_zeros_ = true;
   double near_ = 0;  // the modulus of what may be a zero
@@ -370,7 +460,11 @@ Result<EigenSolution> eigensolve_selected(const System& system, const Perturbati
   // No sparse equations have a block missing that the original implementation leaves out.
   const bool block_missing = at.without_damping && at.without_rate_coupling && perturbation.differential_states > 0;
   if (block_missing || states == 0) return from_all();
-  auto solution = Solution(system, perturbation, wanted).run(vectors);
+  auto solution = [&] {
+    // Blocks are narrow: its threads would cost more than they give, and round as many as there are.
+    const OneBlasThread alone;
+    return Solution(system, perturbation, wanted).run(vectors);
+  }();
   const bool settled = solution && solution->selected->complete;
   if (!settled && states <= most_for_full_solution) return from_all();
   return solution;

@@ -14,4 +14,8 @@ Result<EigenSolution> eigensolve_selected(const System&, const Perturbation&, co
 // The same out of all modes, where they are known.
 EigenSolution selected_of(const EigenSolution& all, const ModeSelection&);
 
+// Whether the bounds of one leave open on which side of the border of a band it is.
+bool may_be_beyond_band(const ModesInBand&, const std::vector<EigenMode>&);
+inline constexpr const char* beyond_band = "bounds do not tell whether one at the border is inside";
+
 }  // namespace dynalin

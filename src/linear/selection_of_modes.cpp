@@ -50,6 +50,18 @@ double radius_of(const std::vector<EigenMode>& modes, Complex centre, std::size_
 
 }  // namespace
 
+bool may_be_beyond_band(const ModesInBand& band, const std::vector<EigenMode>& modes) {
+  return std::ranges::any_of(modes, [&](const EigenMode& m) {
+    const double re = std::abs(m.eigenvalue_hz.real()), im = std::abs(m.eigenvalue_hz.imag());
+    const double bound = m.error_bound_hz, same = equal * std::abs(m.eigenvalue_hz);
+    if (m.structural_zero || !(bound > same)) return false;
+    const auto crosses = [&](double value, double border) { return std::abs(value - border) <= bound; };
+    const bool near_re = re <= band.high + bound, near_im = im <= band.high + bound && im >= band.low - bound;
+    return near_re && near_im &&
+           (crosses(re, band.high) || crosses(im, band.high) || (band.low > 0 && crosses(im, band.low)));
+  });
+}
+
 EigenSolution selected_of(const EigenSolution& all, const ModeSelection& wanted) {
   Region region;
   if (const auto* nearest = std::get_if<NearestModes>(&wanted)) {
@@ -71,7 +83,8 @@ EigenSolution selected_of(const EigenSolution& all, const ModeSelection& wanted)
     out.modes.push_back(m);
   }
   selected.counted = selected.found;
-  selected.complete = true;
+  if (region.band && may_be_beyond_band(*region.band, all.modes)) selected.doubt = beyond_band;
+  selected.complete = selected.doubt.empty();
 
   out.time = all.time;
   out.rm = all.rm, out.pstate = all.pstate;

@@ -154,8 +154,7 @@ class Splitter {
     for (const double least : {1e-8, 1e-10, 1e-12, rounding_of_entries, 0.0}) {
       Matrix sparse = without_small(v, least);
       if (excess(sparse) > std::max(1.0, 2 * as_given)) continue;
-      split_off(std::move(sparse));
-      return true;
+      return split_off(std::move(sparse));
     }
     return false;
   }
@@ -199,11 +198,17 @@ class Splitter {
     return least > margin_of_estimate * most_excess;
   }
 
-  // Brings v to [1; W] with complete pivoting; entries that cancel are zero.
+  // Brings v to [1; W] with complete pivoting; entries that cancel are zero. Columns that depend on others go: motions
+  // that differ in states which only follow them are one.
   void make_unit(Matrix& v) {
+    constexpr double dependent = 1e-9;  // of unit vectors
     for (Index c = 0; c < v.cols(); ++c) {
       Index row = 0, column = 0;
-      v.bottomRightCorner(v.rows() - c, v.cols() - c).cwiseAbs().maxCoeff(&row, &column);
+      const double most = v.bottomRightCorner(v.rows() - c, v.cols() - c).cwiseAbs().maxCoeff(&row, &column);
+      if (!(most > dependent)) {
+        v.conservativeResize(Eigen::NoChange, c);
+        return;
+      }
       v.col(c).swap(v.col(c + column));
       v.row(c).swap(v.row(c + row));
       exchange(out_.count + c, out_.count + c + row);
@@ -217,9 +222,11 @@ class Splitter {
     }
   }
 
-  void split_off(Matrix v) {
+  bool split_off(Matrix v) {
     make_unit(v);
+    if (v.cols() == 0) return false;
     eliminate(v);
+    return true;
   }
   // Takes directions [1; W] out.
   void eliminate(const Matrix& v) {

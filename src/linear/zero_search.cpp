@@ -21,31 +21,66 @@ struct Sight {
   bool small = false;  // from any of them
 };
 
+// What is in sight of a shift σ > 0.
+struct Glance {
+  double least = std::numeric_limits<double>::infinity();  // modulus of what is not next to zero
+  double zeros = 0;                                        // the largest next to it
+  bool any_zeros = false;
+
+  // Nothing is between what is next to zero and the modes, which are not far off: so far that their digits would be
+  // lost beside 1/σ of the zeros, and 1/σ² of those in chains.
+  bool is_good(double shift) const { return !std::isfinite(least) || (least >= 0.5 * shift && least <= 1e3 * shift); }
+};
+
+Glance glance_from(ModeSearch& right, double shift) {
+  Glance seen;
+  for (int round = 0; round < 3 && !std::isfinite(seen.least); ++round) {
+    seen = {};
+    for (const Complex& v : right.glance(4 + 8 * round)) {
+      const double size = std::abs(v);
+      if (size > next_to_zero * shift) {
+        seen.least = std::min(seen.least, size);
+      } else {
+        seen.zeros = std::max(seen.zeros, size), seen.any_zeros = true;
+      }
+    }
+  }
+  return seen;
+}
+
 // A shift on the positive real axis that is small against all that is not zero, and not too small.
 std::optional<Sight> place_near_zero(ShiftInverse& op, ModeSearch& right) {
+  constexpr double surely_zero = 1e-3;  // of a shift
   double shift = 1.0137;
   Sight sight;
-  bool placed = false;
+  const auto move_to = [&](double to) {
+    shift = to;
+    if (!op.move_to(shift)) return false;
+    op.find_units();  // without them rounding scatters the zeros widely
+    return true;
+  };
+  std::optional<double> good;  // where what is next to zero may be modes as well as zeros that rounding scatters
   for (int tries = 0; tries < 16; ++tries) {
-    placed = op.move_to(shift);
-    if (!placed) {
+    if (!move_to(shift)) {
       shift *= 1.3719;
       continue;
     }
-    double least = std::numeric_limits<double>::infinity();
-    for (int round = 0; round < 3 && !std::isfinite(least); ++round) {
-      sight.zeros = false;
-      for (const Complex& v : right.glance(4 + 8 * round)) {
-        if (std::abs(v) > 1e-3 * shift) least = std::min(least, std::abs(v));
-        sight.zeros = sight.zeros || std::abs(v) <= next_to_zero * shift;
-      }
-      sight.small = sight.small || sight.zeros;
+    const Glance seen = glance_from(right, shift);
+    sight.zeros = seen.any_zeros;
+    sight.small = sight.small || sight.zeros;
+    if (seen.is_good(shift)) {
+      if (seen.zeros <= surely_zero * shift) return sight;
+      // From nearby modes are modes still.
+      if (good) break;
+      good = shift;
+      shift = 0.2137 * seen.zeros;
+    } else {
+      if (good) break;
+      shift = 0.2137 * seen.least;
     }
-    if (!std::isfinite(least) || (least >= 0.5 * shift && least <= 1e3 * shift)) break;
-    shift = 0.2137 * least;
   }
-  if (!placed) return std::nullopt;
-  op.find_units();
+  if (!good || !move_to(*good)) return std::nullopt;
+  sight.zeros = true;
   return sight;
 }
 

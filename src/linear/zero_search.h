@@ -10,7 +10,7 @@ namespace dynalin {
 
 // States of a model whose state matrix costs nothing, and of one whose full solution is worth its seconds where the
 // search does not settle things.
-inline constexpr Eigen::Index most_for_state_matrix = 300, most_for_full_solution = 1500;
+inline constexpr Eigen::Index most_for_state_matrix = 300, most_for_full_solution = 2500;
 
 // Whether so many were found of a model of that kind that the full solution is cheaper: bounds of p modes together take
 // p³.

@@ -127,7 +127,10 @@ Diagnostics shortcomings(const EigenSolution& modes) {
             ? fmt::format("{} eigenvalues were found where modes are asked for, and whether these are all "
                           "of them is not known",
                           s.found)
-            : fmt::format("{} eigenvalues were found where modes are asked for, and {} are there", s.found, s.counted));
+        : s.doubt.empty()
+            ? fmt::format("{} eigenvalues were found where modes are asked for, and {} are there", s.found, s.counted)
+            : fmt::format("{} eigenvalues were found where modes are asked for, and counted there, but {}", s.found,
+                          s.doubt));
   }
   return remarks;
 }
