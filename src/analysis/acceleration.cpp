@@ -229,7 +229,7 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
 Result<OperatingPoint> solve(const System& system, OperatingPoint op, Steps steps, Findings& findings) {
   const Layout& layout = system.layout();
   AccelerationEquations equations(system, op);
-  if (const auto reason = undefined_row(system, system.motion(op), equations.rows())) return failure(*reason);
+  if (const auto reason = undefined_row(system, system.motion(op), equations.rows(), 2)) return failure(*reason);
   findings.redundant_rows = equations.partition().redundant;
   for (const std::int32_t r : findings.redundant_rows) op.lambda[static_cast<std::size_t>(r)] = 0.0;
   const std::vector<double> first_values = op.algebraic;

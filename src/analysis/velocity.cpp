@@ -329,7 +329,7 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
   ConstraintRows rows;
   rows.resize(system.layout());
   system.constraints(motion, rows);
-  if (const auto reason = undefined_row(system, motion, rows)) {
+  if (const auto reason = undefined_row(system, motion, rows, 1)) {
     return tl::unexpected(Failure{"velocity initial conditions", *reason, {}});
   }
   Eigen::VectorXd velocity = start;

@@ -22,6 +22,7 @@ constexpr double passage = 1e-4;       // in the same: on so short a way the row
 constexpr double leap = 1e-3;          // half of a way on which a singular configuration is leapt over
 constexpr double singular = 1e-5;      // rows that hold so much less than elsewhere leave nothing but rounding
 constexpr double loose = 1e-3;         // the same, for what is to blame where nothing goes on
+constexpr int creeping_limit = 500;    // steps in a row that are taken for being next to nothing alone
 constexpr std::size_t names_in_a_list = 6;
 
 Failure failure(double time, const std::string& message, std::vector<std::string> details = {}) {
@@ -77,6 +78,7 @@ class KinematicRun {
         h = std::max(2 * (next->time - at_.time), std::min(h, left));
         statistics_.step_size = next->time - at_.time;
         ++statistics_.steps;
+        if (creeps_ == creeping_limit) return tl::unexpected(contradicted_rates(*next));
         if (leaps) goes_on = look_at_leapt(*next, k);
         at_ = std::move(*next);
         if (leaps && (k > times_.count() || !goes_on)) break;
@@ -194,6 +196,7 @@ class KinematicRun {
     }
     orientation_ = orientation;
     hold_ = std::max(hold_, hold);
+    creeps_ = made.creeps ? creeps_ + 1 : 0;
     system_.remember(to);
     return to;
   }
@@ -221,6 +224,7 @@ class KinematicRun {
   // Δq = h/2 (v₀ + v₁) + h²/12 (a₀ − a₁) up to the fifth order, part by part, and how long it is.
   struct Way {
     bool continues = true;
+    bool creeps = false;  // what it is off is not looked at on so short a way
     double length = 0;
   };
   Way way_of(const OperatingPoint& to) const {
@@ -237,7 +241,9 @@ class KinematicRun {
       const double scale = system_.coordinate_scale(first);
       const double length = std::max(
           {change.segment(first, count).norm(), v0.segment(first, count).norm(), v1.segment(first, count).norm()});
-      if (!(off.segment(first, count).norm() <= std::max(continuation * length, no_way * scale))) way.continues = false;
+      const double away = off.segment(first, count).norm();
+      if (!(away <= std::max(continuation * length, no_way * scale))) way.continues = false;
+      way.creeps = way.creeps || (away > continuation * length && length > 0.01 * no_way * scale);
       way.length = std::max(way.length, length / scale);
     });
     return way;
@@ -260,6 +266,37 @@ class KinematicRun {
       return goes_on;
     }
     return true;
+  }
+
+  // What drives the mechanism otherwise than it says: the function of time in a row differs from one instant to the
+  // next by something else than what its rates make.
+  Failure contradicted_rates(const OperatingPoint& to) const {
+    ConstraintRows rows;
+    rows.resize(system_.layout());
+    const auto along = [&](double time) {
+      OperatingPoint there = to;
+      there.time = time;
+      std::fill(there.velocity.begin(), there.velocity.end(), 0.0);
+      std::fill(there.acceleration.begin(), there.acceleration.end(), 0.0);
+      system_.constraints(system_.motion(there), rows);
+      std::vector<Taylor> all;
+      for (std::int32_t k = 0; k < rows.size(); ++k) all.push_back(rows.along_motion(k));
+      return all;
+    };
+    const std::vector<Taylor> before = along(at_.time), after = along(to.time);
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      const double change = after[k].value - before[k].value,
+                   said = 0.5 * (to.time - at_.time) * (before[k].rate + after[k].rate);
+      if (std::abs(change - said) > continuation * std::max(std::abs(change), std::abs(said)))
+        names.push_back(system_.row_text(static_cast<std::int32_t>(k)));
+    }
+    const std::string named = names.empty() ? "the mechanism" : list(names);
+    return failure(at_.time,
+                   fmt::format("{} moves otherwise than its velocities and accelerations say: where a compiled routine "
+                               "drives it, the derivatives that it gives are not those of its function",
+                               named),
+                   std::move(names));
   }
 
   // Why no step leads on from the last accepted point.
@@ -310,6 +347,7 @@ class KinematicRun {
   int orientation_ = 0;  // of the rows at the accepted point, 0 if not known
   double hold_ = 0;      // most of what the rows have held so far
   double rows_chosen_at_ = std::numeric_limits<double>::quiet_NaN();
+  int creeps_ = 0;  // steps in a row that went on only because they were short
   // Of the last attempt: how long its way was to be, whether it came to where the rows hold nothing, what went wrong.
   double way_ = 0;
   bool nears_singular_ = false;

@@ -11,12 +11,16 @@ std::string undefined_value_of(const std::vector<UndefinedValue>& undefined_valu
   return found == undefined_values.end() ? std::string() : found->reason;
 }
 
-std::optional<std::string> undefined_row(const System& system, const Motion& motion, const ConstraintRows& rows) {
+std::optional<std::string> undefined_row(const System& system, const Motion& motion, const ConstraintRows& rows,
+                                         int order) {
   for (std::int32_t k = 0; k < rows.size(); ++k) {
     const auto row = rows.row(k);
-    const bool finite = std::all_of(row.begin(), row.end(), [](const ConstraintRows::Entry& e) {
-      return std::isfinite(e.c.g) && std::isfinite(e.c.v) && std::isfinite(e.c.a1) && std::isfinite(e.c.a0);
-    });
+    const Taylor& along = rows.along_motion(k);
+    const bool finite =
+        (order < 1 || std::isfinite(along.rate)) && (order < 2 || std::isfinite(along.acceleration)) &&
+        std::all_of(row.begin(), row.end(), [](const ConstraintRows::Entry& e) {
+          return std::isfinite(e.c.g) && std::isfinite(e.c.v) && std::isfinite(e.c.a1) && std::isfinite(e.c.a0);
+        });
     if (finite) continue;
     const auto at = static_cast<std::size_t>(k);
     std::string reason;

@@ -203,6 +203,20 @@ void motsub(const int* id, const double* time, const double* par, const int* npa
   *value = *iord == 0 ? par[0] * sin(a) : *iord == 1 ? par[0] * par[1] * cos(a) : -par[0] * par[1] * par[1] * sin(a);
 }
 
+/* sin t that stands still by what it says of its rates, as routines do whose author did not look at the order */
+void still_motsub(const int* id, const double* time, const double* par, const int* npar, const int* iord,
+                  const int* iflag, double* value) {
+  (void)id, (void)par, (void)npar, (void)iflag;
+  *value = *iord == 0 ? sin(*time) : 0;
+}
+/* t, without a number for the order par[0] */
+void lost_motsub(const int* id, const double* time, const double* par, const int* npar, const int* iord,
+                 const int* iflag, double* value) {
+  (void)id, (void)npar, (void)iflag;
+  *value = *iord == 0 ? *time : *iord == 1 ? 1 : 0;
+  if (*iord == (int)par[0]) *value = sqrt(-1 - *time);
+}
+
 void reqsub(const int* id, const double* time, const double* par, const int* npar, const int* iflag, double* value) {
   const int at[2] = {(int)par[0], (int)par[1]};
   double x;

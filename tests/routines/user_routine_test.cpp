@@ -306,6 +306,31 @@ TEST_F(UserRoutines, that_have_no_value_name_their_element) {
   EXPECT_THAT(said("is_not_there", 1), AllOf(HasSubstr("[missing-routine]"), HasSubstr("is_not_there of routines")));
 }
 
+TEST_F(UserRoutines, of_motions_that_have_no_value_or_other_rates_name_their_element) {
+  const auto said = [&](const std::string& constants, const std::string& routine, const std::string& command) {
+    const RunResult r = with(slider + "MOTION/1, JOINT=1, TRANSLATION, FUNCTION=USER(" + constants +
+                                 "), ROUTINE=routines::" + routine + "\n",
+                             {C_ROUTINES}, false, {command});
+    EXPECT_EQ(r.status, 2) << r.err;
+    return r.err;
+  };
+  for (const std::string command : {"SIMULATE/KINEMATICS, END=1, STEPS=2", "SIMULATE/INITIAL"}) {
+    EXPECT_THAT(said("0", "lost_motsub", command), AllOf(HasSubstr("MOTION/1"), HasSubstr("no finite number")));
+    EXPECT_THAT(said("1", "lost_motsub", command), HasSubstr("the first derivative of FUNCTION of MOTION/1 by time"));
+    EXPECT_THAT(said("2", "lost_motsub", command), HasSubstr("the second derivative of FUNCTION of MOTION/1 by time"));
+  }
+  EXPECT_THAT(said("0", "still_motsub", "SIMULATE/KINEMATICS, END=1, STEPS=2"),
+              HasSubstr("in MOTION/1 moves otherwise than its velocities and accelerations say"));
+}
+
+// What is no number neither triggers nor goes unnoticed: from 0.3 on.
+TEST_F(UserRoutines, and_functions_of_sensors_that_have_no_value_name_their_element) {
+  const RunResult r = with(slider + "SENSOR/3, GE, VALUE=5, ERROR=1E-3, HALT, FUNCTION=SQRT(0.3-TIME)\n", {}, false,
+                           {"SIMULATE/DYNAMICS, END=1, STEPS=10"});
+  EXPECT_EQ(r.status, 2) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("SENSOR/3"));
+}
+
 TEST_F(UserRoutines, are_no_part_of_expressions) {
   const auto said = [&](const std::string& function) {
     const RunResult r = with(slider + along + "FUNCTION=" + function + "\n");

@@ -158,8 +158,20 @@ class MotionKernel final : public Kernel, public WrenchSource {
     d.displacement.wrench(motion, lambda(d, motion), d.row, with_partials, out);
   }
   void undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined_values) const override {
-    for (std::size_t k = 0; k < driven_.size(); ++k)
-      driven_[k].function.find_undefined(motion, (*labels_)[k], undefined_values);
+    ExpressionScratch scratch;
+    for (std::size_t k = 0; k < driven_.size(); ++k) {
+      const std::size_t before = undefined_values.size();
+      const ElementLabel& label = (*labels_)[k];
+      driven_[k].function.find_undefined(motion, label, undefined_values);
+      if (undefined_values.size() > before) continue;
+      // A routine has functions of its own for them.
+      const Taylor f = driven_[k].function.along_motion(motion, scratch);
+      if (std::isfinite(f.rate) && std::isfinite(f.acceleration)) continue;
+      undefined_values.push_back({&label,
+                                  fmt::format("the {} derivative of FUNCTION of {} by time has no finite value",
+                                              std::isfinite(f.rate) ? "second" : "first", label.full_text()),
+                                  false});
+    }
   }
 
  private:

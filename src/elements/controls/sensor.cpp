@@ -85,6 +85,18 @@ class SensorKernel final : public Kernel, public EventSource {
     }
   }
 
+  // What has no value triggers nothing, and would do so in silence.
+  std::string domain_violation(const Motion& motion) const override {
+    const bool watched = motion.mode == AnalysisMode::dynamics || motion.mode == AnalysisMode::kinematics ||
+                         motion.mode == AnalysisMode::quasi_statics;
+    std::vector<UndefinedValue> undefined;
+    for (const Watch& w : watches_) {
+      if (watched && undefined.empty()) w.function.find_undefined(motion, *w.label, undefined);
+      if (!undefined.empty() && !undefined.back().in_value) undefined.clear();
+    }
+    return undefined.empty() ? std::string() : undefined.front().reason;
+  }
+
   const EventSource* events() const override { return this; }
   std::size_t event_count() const override { return watches_.size(); }
   void crossings(const Motion& motion, ExpressionScratch& scratch, SwitchList& out) const override {
