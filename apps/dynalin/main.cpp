@@ -100,7 +100,10 @@ int run(int argc, char** argv) {
                   "states up to which selected modes are taken out of all (400) and state matrices are formed (5000)")
       ->check(at_least(0));
   std::size_t threads = thread_count();
-  run->add_option("--threads", threads, "that share the work, as many as there are cores; results do not depend on it")
+  run->add_option(
+         "--threads", threads,
+         "that share the work, as many as there are cores; results depend on it by the rounding of all modes of "
+         "more than 500 states alone")
       ->check(at_least(1));
   run->add_flag("--keep-going", options.keep_going, "go on after a command that failed");
   run->add_flag("--bounds", options.bounds, "say how exact each eigenvalue is");

@@ -8,7 +8,9 @@
 #include <limits>
 #include <new>
 #include <numbers>
+#include <optional>
 
+#include "base/blas_threads.h"
 #include "base/cycle.h"
 #include "linear/dense_products.h"
 #include "linear/eigen_refinement.h"
@@ -73,6 +75,10 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   const Eigen::MatrixXd& A = linear.A;
   if (A.rows() == 0) return out;
   assert(A.allFinite());  // linearize() refuses what is not, by name
+  // Several threads of the BLAS halve the time of large models, and round otherwise than one.
+  constexpr Eigen::Index most_for_one_thread = 500;
+  std::optional<OneBlasThread> alone;
+  if (A.rows() <= most_for_one_thread) alone.emplace();
   std::optional<UnrefinedPairs> found = unrefined_pairs(linear);
   if (!found) return tl::unexpected(Failure{"eigensolution", "the QR iteration did not converge", {}});
   const ZeroModes& zero = found->zero;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/blas_threads.h"
 #include "linear/balanced.h"
 #include "linear/configuration.h"
 #include "linear/dense_products.h"
@@ -87,6 +88,7 @@ Eigen::MatrixXcd Perturbation::velocities(const Eigen::MatrixXcd& of_states) con
 }
 
 Result<LinearSystem> reduce(const System& system, Perturbation perturbation) {
+  const OneBlasThread alone;  // no digit depends on how many there are
   LinearSystem out;
   static_cast<Perturbation&>(out) = std::move(perturbation);
   const PerturbationEquations& p = *out.equations;

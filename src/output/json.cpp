@@ -189,6 +189,7 @@ Json selected(const SelectedModes& s) {
   region["counted"] = s.by == CountedBy::nothing ? Json() : Json(s.counted);
   region["counted_by"] = names[static_cast<std::size_t>(s.by)];
   region["complete"] = s.complete;
+  if (!s.doubt.empty()) region["doubt"] = s.doubt;
   return region;
 }
 
