@@ -1,7 +1,5 @@
 #include "linear/selected_modes.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,12 +10,14 @@
 #include "base/blas_threads.h"
 #include "base/cycle.h"
 #include "linear/backward_errors.h"
+#include "linear/border_places.h"
 #include "linear/conservative_search.h"
 #include "linear/inertia_count.h"
 #include "linear/mode_region.h"
 #include "linear/near_zero.h"
 #include "linear/perturbed_point.h"
 #include "linear/selected_pairs.h"
+#include "linear/selection_doubts.h"
 #include "linear/zero_search.h"
 
 namespace dynalin {
@@ -33,12 +33,13 @@ using Side = EigenvalueSearch::Side;
 constexpr double beside_axis = 0.0137;  // shifts keep off the axis that undamped modes are on
 constexpr int most_rounds = 24;
 // How many factorizations the count around one border may take, and around how many borders it may come to nothing:
-// then it is not known. Where there is the full solution it is soon as cheap.
+// then it is not known. Of middling models the full solution is soon as cheap, of small ones factors cost nothing.
 struct CountingLimits {
   std::size_t factorizations;
   int borders;
 };
-constexpr CountingLimits counting = {600, 5}, counting_beside_full_solution = {150, 2};
+constexpr CountingLimits counting_of_large = {600, 5}, counting_of_middling = {150, 2}, counting_of_small = {1500, 5};
+constexpr Index small = 400;  // states
 
 Failure no_convergence(std::string what) { return {"eigensolution", std::move(what), {}}; }
 
@@ -58,7 +59,9 @@ class Solution {
         op_(equations_, conservative_) {
     start_anew();
     zero_.directions.resize(op_.states(), 0);
-    if (op_.states() <= most_for_full_solution) counting_ = counting_beside_full_solution;
+    counting_ = op_.states() <= small                    ? counting_of_small
+                : op_.states() <= most_for_full_solution ? counting_of_middling
+                                                         : counting_of_large;
   }
 
   Result<EigenSolution> run(Vectors vectors) {
@@ -141,7 +144,8 @@ class Solution {
       // Of a band that is off the real axis the border is around its upper half alone.
       const bool half = !counted_region_.is_disc && counted_region_.low > 0;
       const auto counted = eigenvalues_inside(
-          op_.factors(), counted_region_.border(), joined(places(), beside_border(counted_region_)),
+          op_.factors(), counted_region_.border(),
+          joined(places(), beside_border(counted_region_, known().all(), op_, *right_)),
           [&](Complex v) { return counted_region_.has(v) && (!half || v.imag() > 0); }, counting_.factorizations);
       if (!counted) {
         --counting_.borders;
@@ -153,36 +157,6 @@ class Solution {
     op_.move_to(shift);
     return missing;
   }
-  // What stands near the border and is not known: two of them, passed by closely, turn the phase by 2π between two
-  // points that look alike. The nearest are looked for from where the border passes what is known.
-  std::vector<Complex> beside_border(const ModeRegion& region) {
-    constexpr std::size_t most_looks = 3;
-    constexpr Index nearest = 12;
-    std::vector<Complex> all = known().all();
-    std::erase_if(all, [](Complex v) { return v.imag() < 0; });
-    std::sort(all.begin(), all.end(),
-              [&](Complex a, Complex b) { return region.distance_to_border(a) < region.distance_to_border(b); });
-    std::vector<Complex> looked_from, found;
-    double seen = 0;  // how far the looks have reached
-    for (const Complex& v : all) {
-      if (looked_from.size() == most_looks) break;
-      const Complex from = region.nearest_on_border(v);
-      if (std::any_of(looked_from.begin(), looked_from.end(), [&](Complex p) { return std::abs(p - from) <= seen; }))
-        continue;
-      looked_from.push_back(from);
-      if (!op_.move_to(from)) continue;
-      for (const Complex& value : right_->glance(nearest)) {
-        const double away = std::abs(value - from);
-        const bool is_known = std::any_of(all.begin(), all.end(), [&](Complex k) {
-          return std::abs(k - value) <= 0.01 * away || std::abs(std::conj(k) - value) <= 0.01 * away;
-        });
-        seen = std::max(seen, away);
-        if (!is_known) found.push_back(value);
-      }
-    }
-    return KnownModes(found).all();
-  }
-
   // The modes in region_ and how many there ought to be; the search goes on where they differ.
   bool count() {
     constexpr Index few_unknowns = 10000;  // a count costs nothing there, and is a second opinion
@@ -372,58 +346,13 @@ class Solution {
     }
     add_backward_errors(equations_, out);
     if (selected_.complete) {
-      selected_.doubt = doubt(out.modes);
+      const bool everything = right_->everything() && count_in(region_) == right_->found();
+      selected_.doubt = doubt_of(out.modes, wanted_, {region_, op_.states(), all_zeros_, everything});
       selected_.complete = selected_.doubt.empty();
     }
     out.selected = selected_;
     if (vectors == Vectors::none) out.vectors.resize(0, 0);
-    return selected_.complete ? without_others(std::move(out)) : out;
-  }
-
-  // Values that bounds have made one, as a double one on the real axis that looked like a pair, are as many as they
-  // are: what is farther than those that are asked for goes.
-  EigenSolution without_others(EigenSolution found) const {
-    const auto* nearest = std::get_if<NearestModes>(&wanted_);
-    const auto listed = static_cast<std::size_t>(std::ranges::count(found.modes, false, &EigenMode::structural_zero));
-    if (!nearest || listed <= nearest->count) return found;
-    EigenSolution fewer = selected_of(found, wanted_);
-    if (fewer.modes.size() == found.modes.size()) return found;
-    fewer.selected->by = selected_.by;
-    return fewer;
-  }
-
-  // What speaks against a selection whose count agrees.
-  std::string doubt(const std::vector<EigenMode>& modes) const {
-    const double extent = (region_.is_disc ? region_.radius : std::max(region_.right, region_.high)) / cycle;
-    Index eigenvalues = 0, listed = 0;
-    for (const EigenMode& m : modes) {
-      eigenvalues += m.is_real ? 1 : 2, listed += m.structural_zero ? 0 : 1;
-      if (m.structural_zero) continue;
-      // A value that may be anywhere in the region, or outside of it, is not known to be one of those that are wanted.
-      if (!(m.error_bound_hz < std::max(extent, std::abs(m.eigenvalue_hz))))
-        return fmt::format("the error bound of one, {:.2g} cycles per unit time, is as large as the region",
-                           m.error_bound_hz);
-      constexpr double surely = 1e-6;  // of the region
-      if (!(m.error_bound_hz < std::max(surely * extent, std::abs(m.eigenvalue_hz))))
-        return "some cannot be told from zeros that follow from the structure";
-    }
-    if (!all_zeros_) return "whether there are more zeros that follow from the structure is not known";
-    const auto* nearest = std::get_if<NearestModes>(&wanted_);
-    if (nearest && listed < static_cast<Index>(nearest->count) && eigenvalues < op_.states())
-      return fmt::format("the model has others besides these {} and the zeros that follow from its structure", listed);
-    if (!nearest_are_known(modes)) return "bounds do not tell which are the nearest";
-    if (!nearest && may_be_beyond_band(std::get<ModesInBand>(wanted_), modes)) return beyond_band;
-    return {};
-  }
-
-  // Whether bounds tell those that are in the disc from the next ones, half of the way to which is the border.
-  bool nearest_are_known(const std::vector<EigenMode>& modes) const {
-    if (!region_.is_disc || region_.radius == 0) return true;
-    if (right_->everything() && count_in(region_) == right_->found()) return true;
-    return std::all_of(modes.begin(), modes.end(), [&](const EigenMode& m) {
-      const double inside = region_.radius - std::abs(cycle * m.eigenvalue_hz - region_.centre);
-      return m.structural_zero || cycle * m.error_bound_hz <= inside;
-    });
+    return selected_.complete ? without_farther_ones(std::move(out)) : out;
   }
 
   const System& system_;
@@ -437,7 +366,7 @@ class Solution {
   NearZero zero_;
   ModeRegion region_, counted_region_;
   std::unique_ptr<InertiaCount> by_inertia_;  // while it is counted
-  CountingLimits counting_ = counting;        // what is left of them
+  CountingLimits counting_;                   // what is left of them
   Index missing_ = 0;
   bool all_zeros_ = true;
   double near_ = 0;  // the modulus of what may be a zero

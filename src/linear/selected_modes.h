@@ -13,9 +13,8 @@ Result<EigenSolution> eigensolve_selected(const System&, const Perturbation&, co
 
 // The same out of all modes, where they are known.
 EigenSolution selected_of(const EigenSolution& all, const ModeSelection&);
-
-// Whether the bounds of one leave open on which side of the border of a band it is.
-bool may_be_beyond_band(const ModesInBand&, const std::vector<EigenMode>&);
-inline constexpr const char* beyond_band = "bounds do not tell whether one at the border is inside";
+// Of what selects the nearest modes: without those that are farther than as many as are asked for. Values that bounds
+// have made one, as a double one on the real axis that looked like a pair, are as many as they are.
+EigenSolution without_farther_ones(EigenSolution selected);
 
 }  // namespace dynalin

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "linear/selected_modes.h"
+#include "linear/selection_doubts.h"
 
 namespace dynalin {
 
@@ -11,17 +12,13 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Distances and borders that differ by less, relative to the eigenvalue, are equal: roots of multiplicity three come
-// with roundings of their own.
-constexpr double equal = 1e-9;
-
 struct Region {
   Complex centre;
   double radius = 0;                  // of a disc
   const ModesInBand* band = nullptr;  // instead of it
 
   bool has(Complex hz) const {
-    const double slack = equal * std::abs(hz);
+    const double slack = equal_distances * std::abs(hz);
     if (!band) return std::abs(hz - centre) <= radius;
     const double f = std::abs(hz.imag());
     return f >= band->low - slack && f <= band->high + slack && std::abs(hz.real()) <= band->high + slack;
@@ -33,7 +30,7 @@ double radius_of(const std::vector<EigenMode>& modes, Complex centre, std::size_
   std::vector<std::pair<double, double>> distances;  // and what makes no difference, or is not known of them
   for (const EigenMode& m : modes) {
     if (m.structural_zero) continue;
-    const double same = equal * std::max(std::abs(m.eigenvalue_hz), std::abs(centre));
+    const double same = equal_distances * std::max(std::abs(m.eigenvalue_hz), std::abs(centre));
     distances.emplace_back(std::abs(m.eigenvalue_hz - centre),
                            std::isfinite(m.error_bound_hz) ? std::max(same, m.error_bound_hz) : same);
   }
@@ -49,18 +46,6 @@ double radius_of(const std::vector<EigenMode>& modes, Complex centre, std::size_
 }
 
 }  // namespace
-
-bool may_be_beyond_band(const ModesInBand& band, const std::vector<EigenMode>& modes) {
-  return std::ranges::any_of(modes, [&](const EigenMode& m) {
-    const double re = std::abs(m.eigenvalue_hz.real()), im = std::abs(m.eigenvalue_hz.imag());
-    const double bound = m.error_bound_hz, same = equal * std::abs(m.eigenvalue_hz);
-    if (m.structural_zero || !(bound > same)) return false;
-    const auto crosses = [&](double value, double border) { return std::abs(value - border) <= bound; };
-    const bool near_re = re <= band.high + bound, near_im = im <= band.high + bound && im >= band.low - bound;
-    return near_re && near_im &&
-           (crosses(re, band.high) || crosses(im, band.high) || (band.low > 0 && crosses(im, band.low)));
-  });
-}
 
 EigenSolution selected_of(const EigenSolution& all, const ModeSelection& wanted) {
   Region region;
@@ -96,6 +81,16 @@ EigenSolution selected_of(const EigenSolution& all, const ModeSelection& wanted)
   out.shape_labels = all.shape_labels;
   if (all.shapes.size() > 0) out.shapes = all.shapes(Eigen::all, chosen);
   return out;
+}
+
+EigenSolution without_farther_ones(EigenSolution selected) {
+  const auto* nearest = std::get_if<NearestModes>(&selected.selected->wanted);
+  const auto listed = static_cast<std::size_t>(std::ranges::count(selected.modes, false, &EigenMode::structural_zero));
+  if (!nearest || listed <= nearest->count) return selected;
+  EigenSolution fewer = selected_of(selected, selected.selected->wanted);
+  if (fewer.modes.size() == selected.modes.size()) return selected;
+  fewer.selected->by = selected.selected->by;
+  return fewer;
 }
 
 }  // namespace dynalin

@@ -16,8 +16,9 @@ std::optional<std::string> undefined_row(const System& system, const Motion& mot
   for (std::int32_t k = 0; k < rows.size(); ++k) {
     const auto row = rows.row(k);
     const Taylor& along = rows.along_motion(k);
+    const int known = rows.level(k) == RowLevel::position ? order : 0;  // of others not all orders are there
     const bool finite =
-        (order < 1 || std::isfinite(along.rate)) && (order < 2 || std::isfinite(along.acceleration)) &&
+        (known < 1 || std::isfinite(along.rate)) && (known < 2 || std::isfinite(along.acceleration)) &&
         std::all_of(row.begin(), row.end(), [](const ConstraintRows::Entry& e) {
           return std::isfinite(e.c.g) && std::isfinite(e.c.v) && std::isfinite(e.c.a1) && std::isfinite(e.c.a0);
         });

@@ -165,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(generated, EnergyRows, ::testing::Range<std::uint64_t>(
 // Seeds with a journal bearing each.
 TEST(JournalEnergyRows, equal_the_work_of_forces_by_differences) {
   Seen seen;
-  for (std::uint64_t seed = 321; seed < 325; ++seed) compare(seed, seen);
+  for (std::uint64_t seed = 321; seed < 323; ++seed) compare(seed, seen);
   for (const Energy energy : {Energy::strain, Energy::dissipation})
     EXPECT_TRUE(seen.kinds.count(key_of("JOURNAL", energy)) > 0);
 }

@@ -145,10 +145,10 @@ void examine(const NamedModel& model, Tally& tally) {
 }
 
 // Few models have no such point, and few entries a kink nearby: shapes in contact overlap by less than differences
-// step.
+// step, and a film at rest about its middle is stiffer by what it moves, either way.
 void expect_nearly_all(const Tally& tally, int models) {
   EXPECT_GE(tally.models, models);
-  EXPECT_LE(static_cast<double>(tally.blunt), 3e-4 * static_cast<double>(tally.entries)) << tally.where;
+  EXPECT_LE(static_cast<double>(tally.blunt), 4e-4 * static_cast<double>(tally.entries)) << tally.where;
 }
 
 TEST(MotionJacobian, is_exact_for_shipped_models) {
