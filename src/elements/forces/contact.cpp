@@ -151,7 +151,7 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
       for (const ContactBrink& b : brinks(f, motion, model.marker(f.i).place, model.marker(f.j).place, length)) {
         const std::string_view where = b.kind == Brink::touching     ? "just touching"
                                        : b.kind == Brink::letting_go ? "just letting go"
-                                                                    : "just at the edge of its plane";
+                                                                     : "just at the edge of its plane";
         remarks.warning(
             "touching-contact", labels[k].at,
             fmt::format("{} is {}: it pushes on one side of this point and not on the other, and the "
