@@ -56,8 +56,13 @@ std::optional<Sight> place_near_zero(ShiftInverse& op, ModeSearch& right) {
   const auto move_to = [&](double to) {
     shift = to;
     if (!op.move_to(shift)) return false;
-    op.find_units();  // without them rounding scatters the zeros widely
+    // Without them rounding scatters the zeros of equations that are not symmetric widely.
+    if (!op.symmetric()) op.find_units();
     return true;
+  };
+  const auto settled = [&] {
+    if (op.symmetric()) op.find_units();
+    return sight;
   };
   std::optional<double> good;  // where what is next to zero may be modes as well as zeros that rounding scatters
   for (int tries = 0; tries < 16; ++tries) {
@@ -69,7 +74,7 @@ std::optional<Sight> place_near_zero(ShiftInverse& op, ModeSearch& right) {
     sight.zeros = seen.any_zeros;
     sight.small = sight.small || sight.zeros;
     if (seen.is_good(shift)) {
-      if (seen.zeros <= surely_zero * shift) return sight;
+      if (seen.zeros <= surely_zero * shift) return settled();
       // From nearby modes are modes still.
       if (good) break;
       good = shift;
@@ -81,7 +86,7 @@ std::optional<Sight> place_near_zero(ShiftInverse& op, ModeSearch& right) {
   }
   if (!good || !move_to(*good)) return std::nullopt;
   sight.zeros = true;
-  return sight;
+  return settled();
 }
 
 NearZero zeros_of_matrix(const System& system, const Perturbation& perturbation) {
