@@ -64,12 +64,14 @@ std::optional<Sight> place_near_zero(ShiftInverse& op, ModeSearch& right) {
     if (op.symmetric()) op.find_units();
     return sight;
   };
-  std::optional<double> good;  // where what is next to zero may be modes as well as zeros that rounding scatters
+  std::optional<double> good;    // where what is next to zero may be modes as well as zeros that rounding scatters
+  std::optional<double> placed;  // the last that could be factored
   for (int tries = 0; tries < 16; ++tries) {
     if (!move_to(shift)) {
       shift *= 1.3719;
       continue;
     }
+    placed = shift;
     const Glance seen = glance_from(right, shift);
     sight.zeros = seen.any_zeros;
     sight.small = sight.small || sight.zeros;
@@ -84,8 +86,8 @@ std::optional<Sight> place_near_zero(ShiftInverse& op, ModeSearch& right) {
       shift = 0.2137 * seen.least;
     }
   }
-  if (!good || !move_to(*good)) return std::nullopt;
-  sight.zeros = true;
+  if (good) sight.zeros = true;
+  if (!placed || !move_to(good.value_or(*placed))) return std::nullopt;
   return settled();
 }
 
