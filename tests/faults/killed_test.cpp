@@ -42,10 +42,15 @@ TEST_F(Killed, leaves_no_file_that_looks_complete_and_is_not) {
         "model\nmodel\nSAVE/SYSTEM, FILE=a.save\nLINEAR/EIGENSOL, COORDS=1\nLINEAR/STATEMAT, FILE=m\n"
         "SIMULATE/DYNAMICS, DURATION=0.2, STEPS=20\nSAVE/STATES, FILE=b.save\nLINEAR/EIGENSOL\n");
   const std::vector<std::string> arguments = {"run", "model.acf", "--json", "r.json"};
-  const auto begun = std::chrono::steady_clock::now();
-  const Outcome whole = run(arguments);
-  ASSERT_EQ(whole.status, 0) << whole.err;
-  const auto lasts = std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begun);
+  // The shortest of some: beside other work one may take several times as long.
+  auto lasts = std::chrono::microseconds::max();
+  for (int k = 0; k < 3; ++k) {
+    const auto begun = std::chrono::steady_clock::now();
+    const Outcome whole = run(arguments);
+    ASSERT_EQ(whole.status, 0) << whole.err;
+    lasts = std::min(lasts,
+                     std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begun));
+  }
   const std::vector<std::string> inputs = {"model.acf", "model.adm"};
   for (const std::string& name : names()) complete_[name] = text(name);
   EXPECT_EQ(complete_.size(), 9u) << "two inputs, msg, res, txt, json, m and two files of SAVE";
@@ -68,7 +73,7 @@ TEST_F(Killed, leaves_no_file_that_looks_complete_and_is_not) {
       if (!name.starts_with(".dynalin-")) expect_complete(name);
     }
   }
-  EXPECT_GT(unfinished, static_cast<std::size_t>(times) / 3);
+  EXPECT_GT(unfinished, static_cast<std::size_t>(times) / 5);
 }
 
 TEST_F(Killed, an_interrupted_simulation_writes_what_it_has) {
