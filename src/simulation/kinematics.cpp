@@ -22,7 +22,8 @@ constexpr double passage = 1e-4;       // in the same: on so short a way the row
 constexpr double leap = 1e-3;          // half of a way on which a singular configuration is leapt over
 constexpr double singular = 1e-5;      // rows that hold so much less than elsewhere leave nothing but rounding
 constexpr double loose = 1e-3;         // the same, for what is to blame where nothing goes on
-constexpr int creeping_limit = 500;    // steps in a row that are taken for being next to nothing alone
+constexpr int creeping_limit = 500;    // steps in a row that are taken for being next to nothing alone,
+constexpr double creeping = 1e-3;      // and are shorter than this part of those that are wanted
 constexpr std::size_t names_in_a_list = 6;
 
 Failure failure(double time, const std::string& message, std::vector<std::string> details = {}) {
@@ -196,7 +197,9 @@ class KinematicRun {
     }
     orientation_ = orientation;
     hold_ = std::max(hold_, hold);
-    creeps_ = made.creeps ? creeps_ + 1 : 0;
+    // A motion that is next to nothing itself is followed in steps as long as any.
+    const bool is_short = h < creeping * std::min(times_.step(), largest_step_);
+    creeps_ = made.creeps && is_short ? creeps_ + 1 : 0;
     system_.remember(to);
     return to;
   }

@@ -31,6 +31,17 @@ double angle(const KinematicRun& r, const OperatingPoint& op, std::int64_t marke
   return angle_about_z(r.frame(op, marker)).value;
 }
 
+// A slider that trembles by less than is looked at, between two outputs often: nothing contradicts anything.
+TEST(KinematicLimits, a_motion_next_to_nothing_is_followed_in_long_steps) {
+  KinematicRun r(
+      "PART/2, MASS=1, CM=20, IP=1,1,1, QG=1,0,0\nMARKER/20, REULER=90D,90D,0\nMARKER/2, PART=1, "
+      "REULER=90D,90D,0\nJOINT/1, TRANSLATIONAL, I=20, J=2\n"
+      "MOTION/1, JOINT=1, TRANSLATION, FUNCTION=1+2E-7*SIN(1000*TIME)\n",
+      7, 700);
+  ASSERT_TRUE(r.end) << r.end.error().message;
+  EXPECT_EQ(r.outputs.size(), 701u);
+}
+
 TEST(KinematicLimits, a_parallelogram_passes_its_change_points_and_says_so) {
   // At 180 and 360 degrees all links lie in one line.
   KinematicRun r(four_bar(1, 3, 1, 3, 0.3, 0, "FUNCTION=0.3+TIME"), 6.5, 13);

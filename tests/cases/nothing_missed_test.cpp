@@ -19,18 +19,9 @@ using Complex = std::complex<double>;
 class NothingMissed : public Cases {
  protected:
   RunResult solve(const std::string& dataset, const std::string& command, bool sparse) const {
-    write("model.adm", dataset);
-    write("model.acf", "model\nmodel\nLINEAR/EIGENSOL" + command + "\n");
     SessionOptions options;
-    options.file = (folder_ / "model.acf").string();
-    options.json = (folder_ / "results.json").string();
     if (sparse) options.dense_up_to = 0;
-    std::ostringstream out, err;
-    RunResult r;
-    r.status = run_session(options, out, err);
-    r.out = out.str(), r.err = err.str(), r.folder = folder_;
-    if (r.status == 0) r.json = nlohmann::json::parse(read_file(options.json));
-    return r;
+    return run(dataset, "LINEAR/EIGENSOL" + command + "\n", options);
   }
   struct Listed {
     std::size_t zeros = 0;

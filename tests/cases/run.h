@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command/session.h"
@@ -64,8 +65,7 @@ class Cases : public ::testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
 
-  RunResult run_file(const std::string& file) const {
-    SessionOptions options;
+  RunResult run_file(const std::string& file, SessionOptions options = {}) const {
     options.file = (folder_ / file).string();
     options.json = (folder_ / "results.json").string();
     std::ostringstream out, err;
@@ -78,14 +78,13 @@ class Cases : public ::testing::Test {
     return r;
   }
   // A dataset and the commands behind the two lines that name it.
-  RunResult run(const std::string& dataset, const std::string& commands) const {
+  RunResult run(const std::string& dataset, const std::string& commands, SessionOptions options = {}) const {
     write("model.adm", dataset);
     write("model.acf", "model\nmodel\n" + commands);
-    return run_file("model.acf");
+    return run_file("model.acf", std::move(options));
   }
   RunResult run_example(const std::string& folder, const std::string& file) const {
-    std::filesystem::copy(examples_folder() / folder, folder_,
-                          std::filesystem::copy_options::recursive);
+    std::filesystem::copy(examples_folder() / folder, folder_, std::filesystem::copy_options::recursive);
     return run_file(file);
   }
 

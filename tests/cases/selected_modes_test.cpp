@@ -26,18 +26,11 @@ class SelectedModes : public Cases {
  protected:
   // With these options, and once more through the library, which has the same JSON.
   RunResult run_with(SessionOptions options, const std::string& dataset, const std::string& commands) const {
-    write("model.adm", dataset);
-    write("model.acf", "model\nmodel\n" + commands);
+    RunResult r = run(dataset, commands, options);
+    if (r.status == wrong_input) return r;
     options.file = (folder_ / "model.acf").string();
     options.json = (folder_ / "results.json").string();
-    std::ostringstream out, err;
-    RunResult r;
-    r.status = run_session(options, out, err);
-    r.out = out.str(), r.err = err.str(), r.folder = folder_;
-    if (r.status == wrong_input) return r;
-    r.message = read_file(folder_ / "model.msg");
     const std::string written = read_file(options.json);
-    r.json = nlohmann::json::parse(written);
     nlohmann::ordered_json program = nlohmann::ordered_json::parse(written), library = Replay(options).run();
     for (auto* json : {&program, &library}) json->erase("files");
     EXPECT_EQ(program, library) << nlohmann::json::diff(program, library).dump(1).substr(0, 2000);

@@ -22,13 +22,13 @@ struct AxisOnCurve {
   std::array<std::shared_ptr<const ParametricCurve>, 1> curves;
 
   template <class T>
-  std::array<T, 5> rows(const RelativeFrame<T> &I, const std::array<T, 1> &u) const {
+  std::array<T, 5> rows(const RelativeFrame<T>& I, const std::array<T, 1>& u) const {
     const Vec3<T> d = I.p - curves[0]->at(u[0]), slope = curves[0]->at(u[0], 1);
     const double scale = 1 / curves[0]->least_speed();
     return {d.x, d.y, d.z, dot(I.x, slope) * scale, dot(I.y, slope) * scale};
   }
   template <class T>
-  Vec3<T> point(const RelativeFrame<T> &, const std::array<T, 1> &) const {
+  Vec3<T> point(const RelativeFrame<T>&, const std::array<T, 1>&) const {
     return {T(0.0), T(0.0), T(0.0)};
   }
 };

@@ -11,6 +11,7 @@
 // Sensors watch dynamics and kinematics; no statics, no linear model.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -87,14 +88,13 @@ class SensorKernel final : public Kernel, public EventSource {
 
   // What has no value triggers nothing, and would do so in silence.
   std::string domain_violation(const Motion& motion) const override {
-    const bool watched = motion.mode == AnalysisMode::dynamics || motion.mode == AnalysisMode::kinematics ||
-                         motion.mode == AnalysisMode::quasi_statics;
+    if (motion.mode != AnalysisMode::dynamics && motion.mode != AnalysisMode::kinematics &&
+        motion.mode != AnalysisMode::quasi_statics)
+      return {};
     std::vector<UndefinedValue> undefined;
-    for (const Watch& w : watches_) {
-      if (watched && undefined.empty()) w.function.find_undefined(motion, *w.label, undefined);
-      if (!undefined.empty() && !undefined.back().in_value) undefined.clear();
-    }
-    return undefined.empty() ? std::string() : undefined.front().reason;
+    for (const Watch& w : watches_) w.function.find_undefined(motion, *w.label, undefined);
+    const auto found = std::ranges::find_if(undefined, &UndefinedValue::in_value);
+    return found == undefined.end() ? std::string() : found->reason;
   }
 
   const EventSource* events() const override { return this; }
