@@ -1,7 +1,6 @@
 #include "linear/eigenvalue_search.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace dynalin {
 
@@ -42,7 +41,7 @@ bool EigenvalueSearch::run(Index wanted, double radius) {
 }
 
 std::vector<Complex> EigenvalueSearch::glance(Index count) {
-  const Complex of_space = std::exchange(at_, shift());
+  at_ = shift();
   KrylovSchur probe(op_->states());
   const auto apply = [&](Eigen::VectorXcd& v) { side_ == Side::right ? op_->apply(v) : op_->apply_adjoint(v); };
   probe.run(apply, count, 0.0, 1);
@@ -51,7 +50,6 @@ std::vector<Complex> EigenvalueSearch::glance(Index count) {
   for (const Complex& theta : probe.in_sight()) {
     if (theta != 0.0) all.push_back(value_of(theta));
   }
-  at_ = of_space;
   return all;
 }
 

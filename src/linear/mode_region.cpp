@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "base/cycle.h"
@@ -66,20 +65,6 @@ double ModeRegion::distance_to_border(Complex v) const {
   if (out_re > 0 || out_im > 0) return std::hypot(out_re, out_im);
   const double of_im = low > 0 ? std::min(f - low, high - f) : high - f;
   return std::min({v.real() - left, right - v.real(), of_im});
-}
-
-Complex ModeRegion::nearest_on_border(Complex v) const {
-  if (is_disc) {
-    const double away = std::abs(v - centre);
-    return centre + (away > 0 ? radius * (v - centre) / away : Complex(radius));
-  }
-  Complex p(std::clamp(v.real(), left, right), std::clamp(std::abs(v.imag()), low, high));
-  if (p != Complex(v.real(), std::abs(v.imag()))) return p;
-  const double below = low > 0 ? p.imag() - low : std::numeric_limits<double>::infinity();
-  const double least = std::min({p.real() - left, right - p.real(), high - p.imag(), below});
-  if (least == below) return {p.real(), low};
-  if (least == high - p.imag()) return {p.real(), high};
-  return {least == p.real() - left ? left : right, p.imag()};
 }
 
 Border ModeRegion::border() const { return is_disc ? circle(centre, radius) : rectangle(left, right, low, high); }

@@ -33,7 +33,6 @@ struct ModeRegion {
 
   bool has(std::complex<double>) const;
   double distance_to_border(std::complex<double>) const;
-  std::complex<double> nearest_on_border(std::complex<double>) const;  // with Im ≥ 0 for a band
   Border border() const;
   Eigen::Index count(const KnownModes&) const;  // eigenvalues inside
 };

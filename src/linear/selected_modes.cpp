@@ -10,7 +10,6 @@
 #include "base/blas_threads.h"
 #include "base/cycle.h"
 #include "linear/backward_errors.h"
-#include "linear/border_places.h"
 #include "linear/conservative_search.h"
 #include "linear/inertia_count.h"
 #include "linear/mode_region.h"
@@ -144,8 +143,7 @@ class Solution {
       // Of a band that is off the real axis the border is around its upper half alone.
       const bool half = !counted_region_.is_disc && counted_region_.low > 0;
       const auto counted = eigenvalues_inside(
-          op_.factors(), counted_region_.border(),
-          joined(places(), beside_border(counted_region_, known().all(), op_, *right_)),
+          op_.factors(), counted_region_.border(), places(),
           [&](Complex v) { return counted_region_.has(v) && (!half || v.imag() > 0); }, counting_.factorizations);
       if (!counted) {
         --counting_.borders;
