@@ -13,8 +13,9 @@ namespace dynalin {
 inline void keep_freed_memory() {
 #ifdef __GLIBC__
   constexpr int mebibyte = 1 << 20;
-  mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);
-  mallopt(M_TRIM_THRESHOLD, 256 * mebibyte);
+  mallopt(M_MMAP_THRESHOLD, 1024 * mebibyte);
+  mallopt(M_ARENA_MAX, 1);
+  mallopt(M_TRIM_THRESHOLD, 1024 * mebibyte);
 #endif
 }
 

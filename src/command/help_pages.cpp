@@ -149,6 +149,29 @@ void print_function(std::ostream& out, const FunctionEntry& f) {
   }
 }
 
+// What takes arguments of this name, with what each says of it.
+bool print_owners(std::ostream& out, std::string_view name) {
+  struct Owner {
+    std::string name;
+    ArgumentInfo argument;
+  };
+  std::vector<Owner> owners;
+  const auto take = [&](std::string owner, std::span<const ArgumentInfo> arguments) {
+    const auto a = std::ranges::find(arguments, name, &ArgumentInfo::name);
+    const bool known = std::ranges::find(owners, owner, &Owner::name) != owners.end();
+    if (a != arguments.end() && !known) owners.push_back({std::move(owner), *a});
+  };
+  for (const Kind* kind : catalogue()) take(std::string(kind->statement), kind->arguments);
+  for (const CommandKind& row : command_catalogue()) take(fmt::format("{} (command)", row.name), row.arguments);
+  if (owners.empty()) return false;
+  fmt::print(out, "{} is an argument of\n", name);
+  for (const Owner& owner : owners) {
+    fmt::print(out, "  {}\n", owner.name);
+    print_arguments(out, {owner.argument});
+  }
+  return true;
+}
+
 }  // namespace
 
 void print_names(std::ostream& out, const std::vector<std::string_view>& names, std::string_view indent) {
@@ -213,7 +236,7 @@ bool print_pages(const std::string& name, std::ostream& out) {
     next();
     print_statement(out, kinds_of(shown));
   }
-  return any;
+  return any || print_owners(out, name);
 }
 
 }  // namespace dynalin

@@ -14,8 +14,8 @@ std::vector<std::string_view> types_of(std::string_view statement);
 // Names one after the other, in as many lines as they need.
 void print_names(std::ostream& out, const std::vector<std::string_view>& names, std::string_view indent);
 
-// The pages of everything that has this upper-case name, shortened perhaps, or is a type of that name; false if there
-// is nothing.
+// The pages of everything that has this upper-case name, shortened perhaps, or is a type of that name, or else an
+// argument; false if there is nothing.
 bool print_pages(const std::string& name, std::ostream& out);
 
 }  // namespace dynalin

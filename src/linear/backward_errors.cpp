@@ -1,10 +1,8 @@
 #include "linear/backward_errors.h"
 
-#include <algorithm>
 #include <cmath>
 #include <complex>
 
-#include "base/cycle.h"
 #include "linear/dense_products.h"
 #include "linear/shift_inverse.h"
 
@@ -12,7 +10,6 @@ namespace dynalin {
 
 namespace {
 
-using Complex = std::complex<double>;
 using Index = Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 
@@ -26,6 +23,8 @@ Matrix rates_of(const PerturbationEquations& equations, const Matrix& x, SparseL
     equations.products().multiply_add({w.col(c).data(), size}, {rates.col(c).data(), size});
   return rates;
 }
+
+}  // namespace
 
 // Of a few states what A makes of each, of many what it makes of a few vectors of signs.
 double norm_of_state_matrix(const PerturbationEquations& equations) {
@@ -50,21 +49,13 @@ double norm_of_state_matrix(const PerturbationEquations& equations) {
   return norms.norm();
 }
 
-}  // namespace
-
-void add_backward_errors(const PerturbationEquations& equations, EigenSolution& solution) {
-  const double size = norm_of_state_matrix(equations);
-  if (!(size > 0)) return;
-  for_few_columns(solution.vectors.cols(), [&](Index first, Index count) {
-    const Eigen::MatrixXcd images = by_parts(solution.vectors.middleCols(first, count), [&](const Matrix& x) {
-      return equations.reduced(rates_of(equations, x, SparseLu::Refined::yes), SparseLu::Refined::no);
-    });
-    for (Index c = 0; c < count; ++c) {
-      EigenMode& mode = solution.modes[static_cast<std::size_t>(first + c)];
-      const Complex lambda = mode.eigenvalue_hz * cycle;
-      mode.backward_error = (images.col(c) - lambda * solution.vectors.col(first + c)).norm() / size;
-    }
+Eigen::VectorXd sizes_of_images(const PerturbationEquations& equations, const Matrix& v) {
+  Eigen::VectorXd sizes(v.cols());
+  for_few_columns(v.cols(), [&](Index first, Index count) {
+    const Matrix rates = rates_of(equations, v.middleCols(first, count), SparseLu::Refined::yes);
+    sizes.segment(first, count) = equations.reduced(rates, SparseLu::Refined::no).colwise().norm().transpose();
   });
+  return sizes;
 }
 
 }  // namespace dynalin

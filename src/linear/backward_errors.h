@@ -1,12 +1,14 @@
-// ‖A x − λ x‖/‖A‖ of modes of unit length, without the state matrix A.
+// What backward errors ‖A x − λ x‖/‖A‖ are made of, without the state matrix A.
 #pragma once
 
-#include "linear/eigen.h"
 #include "linear/perturbation.h"
 
 namespace dynalin {
 
-// Of all modes with vectors. ‖A‖ is Frobenius' norm, of a model with many states an estimate.
-void add_backward_errors(const PerturbationEquations&, EigenSolution&);
+// Frobenius' norm, of a model with many states an estimate.
+double norm_of_state_matrix(const PerturbationEquations&);
+
+// ‖A v‖ of columns v, one by one.
+Eigen::VectorXd sizes_of_images(const PerturbationEquations&, const Eigen::MatrixXd& v);
 
 }  // namespace dynalin

@@ -14,20 +14,20 @@ using Matrix = Eigen::MatrixXd;
 // the equations and what was factored, both have as many ω² below σ: the powers of 1 − (factored)⁻¹ T shrink.
 bool InertiaCount::stands_for_the_equations(double sigma) const {
   constexpr int steps = 4;
-  const ConservativeModel& model = factors_->model();
+  const ConservativeModel& model = factors_.model();
   const PerturbationEquations& equations = model.equations();
   const auto size = [&](const Matrix& v) { return std::sqrt(std::abs(v.col(0).dot(model.forces(v).col(0)))); };
   Matrix x = Matrix::Zero(equations.states(), 1);
   const Eigen::VectorXd start = arbitrary_vector(equations.states(), 3).real();
   for (const std::int32_t k : model.positions()) x(k, 0) = start(k);
-  Matrix v = factors_->solve(model.forces(equations.complete(x, SparseLu::Refined::no).topRows(model.coordinates())));
+  Matrix v = factors_.solve(model.forces(equations.complete(x, SparseLu::Refined::no).topRows(model.coordinates())));
   for (int step = 0; step < steps; ++step) {
     const double before = size(v);
     if (!(before > 0) || !std::isfinite(before)) return step > 0 && before == 0;
     // Of v as the equations have it, to the last digit.
     const Matrix all = equations.complete(model.states_of(v));
     v = all.topRows(model.coordinates());
-    v -= factors_->solve(model.forces(-all.middleRows(equations.accelerations(), model.coordinates()) - sigma * v));
+    v -= factors_.solve(model.forces(-all.middleRows(equations.accelerations(), model.coordinates()) - sigma * v));
     if (!(size(v) <= largest_difference * before)) return false;
   }
   return true;
@@ -36,9 +36,8 @@ bool InertiaCount::stands_for_the_equations(double sigma) const {
 std::optional<Index> InertiaCount::below(double sigma) {
   const auto [known, is_new] = below_.try_emplace(sigma);
   if (!is_new) return known->second;
-  if (!factors_) factors_ = std::make_unique<ConservativeFactors>(model_, FactorsFor::inertia);
-  if (!factors_->factor(sigma) || !stands_for_the_equations(sigma)) return std::nullopt;
-  return known->second = factors_->below();
+  if (!factors_.factor(sigma) || !stands_for_the_equations(sigma)) return std::nullopt;
+  return known->second = factors_.below();
 }
 
 std::optional<Index> InertiaCount::eigenvalues_inside(const ModeRegion& region) {

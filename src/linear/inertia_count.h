@@ -19,7 +19,8 @@ namespace dynalin {
 
 class InertiaCount {
  public:
-  explicit InertiaCount(std::shared_ptr<const ConservativeModel> model) : model_(std::move(model)) {}
+  // Analyses the pattern.
+  explicit InertiaCount(const std::shared_ptr<const ConservativeModel>& model) : factors_(model, FactorsFor::inertia) {}
 
   // Of a disc with its centre on the imaginary axis, or a band; both members of pairs. Nothing if not to be trusted.
   std::optional<Eigen::Index> eigenvalues_inside(const ModeRegion&);
@@ -31,8 +32,7 @@ class InertiaCount {
  private:
   bool stands_for_the_equations(double sigma) const;
 
-  std::shared_ptr<const ConservativeModel> model_;
-  std::unique_ptr<ConservativeFactors> factors_;
+  ConservativeFactors factors_;
   std::map<double, std::optional<Eigen::Index>> below_;
 };
 

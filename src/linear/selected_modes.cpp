@@ -9,6 +9,7 @@
 
 #include "base/blas_threads.h"
 #include "base/cycle.h"
+#include "base/parallel.h"
 #include "linear/backward_errors.h"
 #include "linear/conservative_search.h"
 #include "linear/inertia_count.h"
@@ -65,7 +66,14 @@ class Solution {
 
   Result<EigenSolution> run(Vectors vectors) {
     selected_.wanted = wanted_;
-    auto zeros = zeros_near(system_, perturbation_, op_, *right_);
+    std::optional<ZerosFound> zeros;
+    in_parallel(conservative_ ? 2 : 1, [&](std::size_t task) {
+      if (task == 0) {
+        zeros = zeros_near(system_, perturbation_, op_, *right_);
+      } else {
+        by_inertia_ = std::make_unique<InertiaCount>(conservative_);
+      }
+    });
     if (!zeros) return tl::unexpected(no_convergence("no shift near zero could be factored"));
     zero_ = std::move(zeros->zero), near_ = zeros->near, all_zeros_ = zeros->all;
     if (too_many()) return tl::unexpected(no_convergence("too many zeros for the Krylov iteration"));
@@ -167,7 +175,6 @@ class Solution {
       return selected_.complete = true;
     }
     bool agreed = false;
-    if (!by_inertia_ && conservative_) by_inertia_ = std::make_unique<InertiaCount>(conservative_);
     const std::optional<Index> counted = by_inertia_ ? counted_by_inertia() : std::nullopt;
     const std::optional<Index> missing =
         counted ? std::optional(*counted - count_in(counted_region_)) : missing_by_winding();
@@ -296,8 +303,14 @@ class Solution {
     // Of undamped pairs one member says all: the other is no nearer than twice its modulus.
     const auto is_mirror = [&](Complex v) { return conservative_ && v.imag() < 0 && -v.imag() > near_; };
     const auto chosen = [&](Complex v) { return in_part(v) && !is_mirror(v); };
-    auto right = right_->part(chosen);
-    const auto left = left_->part(chosen);
+    ModeSearch::Part right, left;
+    in_parallel(2, [&](std::size_t side) {
+      if (side == 0) {
+        right = right_->part(chosen);
+      } else {
+        left = left_->part(chosen);
+      }
+    });
     double distance = std::numeric_limits<double>::infinity();
     for (const Complex& v : right_->values()) {
       if (!in_part(v)) continue;
@@ -310,6 +323,7 @@ class Solution {
   }
 
   EigenSolution solution(BoundedPairs& found, Vectors vectors) {
+    const std::vector<Complex> computed = found.pairs.values;
     clear_rounding(found.pairs, found.trust);
     EigenSolution out;
     out.time = perturbation_.model.time;
@@ -323,9 +337,14 @@ class Solution {
     });
     const Index z = zero_.count();
     out.vectors.resize(op_.states(), z + static_cast<Index>(order.size()));
-    if (z > 0) out.vectors.leftCols(z) = zero_.vectors().cast<Complex>();
+    const double norm = norm_of_state_matrix(equations_);
+    const auto backward_error = [&](double residual) { return norm > 0 ? residual / norm : 0; };
+    const Matrix zeros = z > 0 ? zero_.vectors() : Matrix(op_.states(), 0);
+    out.vectors.leftCols(z) = zeros.cast<Complex>();
+    const Eigen::VectorXd of_zeros = sizes_of_images(equations_, zeros);
     for (Index k = 0; k < z; ++k) {
       EigenMode mode;
+      mode.backward_error = backward_error(of_zeros(k));
       mode.is_real = mode.structural_zero = true;
       mode.condition = zero_.defective() ? std::numeric_limits<double>::infinity() : 1.0;
       out.modes.push_back(std::move(mode));
@@ -337,12 +356,12 @@ class Solution {
       const auto at = static_cast<Index>(k);
       out.vectors.col(static_cast<Index>(out.modes.size())) = pairs.right.col(at);
       mode.condition = 1 / std::abs(pairs.left.col(at).dot(pairs.right.col(at)));
+      mode.backward_error = backward_error(found.residual[k] + std::abs(pairs.values[k] - computed[k]));
       mode.error_bound_hz = found.trust[k].bound / cycle;
       mode.refined = found.trust[k].refined;
       mode.cluster_size = static_cast<std::size_t>(found.trust[k].cluster);
       out.modes.push_back(std::move(mode));
     }
-    add_backward_errors(equations_, out);
     if (selected_.complete) {
       const bool everything = right_->everything() && count_in(region_) == right_->found();
       selected_.doubt = doubt_of(out.modes, wanted_, {region_, op_.states(), all_zeros_, everything});

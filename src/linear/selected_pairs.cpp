@@ -112,8 +112,9 @@ bool meet(Complex a, Complex b, double radii) { return std::abs(a - b) <= radii 
 // One entry for each eigenvalue with Im ≥ 0 of discs that are their own mirror images, or have one, or none.
 class Mirror {
  public:
-  Mirror(const Subspace& s, const NearZero& zero, std::vector<InclusionDisc> discs)
-      : s_(s), zero_(zero), discs_(std::move(discs)) {}
+  // `residual` is A X − X B − V C.
+  Mirror(const Subspace& s, const ComplexMatrix& residual, const NearZero& zero, std::vector<InclusionDisc> discs)
+      : s_(s), residual_(residual), zero_(zero), discs_(std::move(discs)) {}
 
   BoundedPairs run() {
     std::vector<bool> done(discs_.size(), false);
@@ -168,7 +169,6 @@ class Mirror {
   }
   void add(std::size_t at, bool conjugate, Complex value, double radius, Index count, Index cluster = 0) {
     const InclusionDisc& d = discs_[at];
-    if (conjugate) value = std::conj(value);
     // Equal values of independent vectors: any basis of their space is one of eigenvectors.
     const bool equal = count > 1 && d.powers[1] <= equal_values * std::abs(d.centre);
     for (Index k = 0; k < count; ++k) {
@@ -181,16 +181,20 @@ class Mirror {
         const ComplexVector along = -(s_.C * of_right);
         x += s_.V.cast<Complex>() * shifted.partialPivLu().solve(along);
       }
+      // To first order the part of V takes along what it leaves of A X.
+      const ComplexVector left_over = s_.B * of_right - value * of_right;
+      out_.residual.push_back((residual_ * of_right + s_.X * left_over).norm() / x.norm());
       if (conjugate) x = x.conjugate().eval(), y = y.conjugate().eval();
       x.normalize(), y.normalize();
       right_.push_back(std::move(x)), left_.push_back(std::move(y));
-      out_.pairs.values.push_back(value);
+      out_.pairs.values.push_back(conjugate ? std::conj(value) : value);
       const Index together = cluster > 0 ? cluster : count;
       out_.trust.push_back({radius + 2 * eps * std::abs(value), 0, together == 1, together});
     }
   }
 
   const Subspace& s_;
+  const ComplexMatrix& residual_;
   const NearZero& zero_;
   const std::vector<InclusionDisc> discs_;
   std::vector<ComplexVector> right_, left_;
@@ -214,7 +218,7 @@ std::optional<BoundedPairs> bounded_pairs(const PerturbationEquations& equations
   if (!pencil.uncertainty.allFinite()) return std::nullopt;
   auto discs = inclusion_discs(pencil.value, pencil.uncertainty, false);
   if (!discs) return std::nullopt;
-  return Mirror(*s, zero, std::move(*discs)).run();
+  return Mirror(*s, pencil.residual, zero, std::move(*discs)).run();
 }
 
 }  // namespace dynalin

@@ -18,6 +18,7 @@ struct TwoSided {
 struct BoundedPairs {
   EigenPairs pairs;  // those with Im ≥ 0; right and left vectors of states, unit length
   std::vector<EigenTrust> trust;
+  std::vector<double> residual;  // ‖A x − λ x‖ of each
 };
 
 // `zero` are structural zeros in the subspace; `distance` is that of other eigenvalues of the model from those of the

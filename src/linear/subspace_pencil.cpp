@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/parallel.h"
 #include "linear/dense_products.h"
 #include "linear/rounding.h"
 #include "linear/transposed.h"
@@ -97,6 +98,20 @@ double norm_beside(const ShiftInverse& op, const ComplexMatrix& X, const Complex
     v -= left * (right.adjoint() * v);
   }
   return norm;
+}
+
+// Of (A_c − σ)⁻ᴴ L, column by column.
+Eigen::VectorXd left_sizes(const ShiftInverse& op, const Subspace& of, const ComplexMatrix& of_states) {
+  const Eigen::VectorXd& unit = op.units();
+  Eigen::VectorXd size(of_states.cols());
+  for_few_columns(of_states.cols(), [&](Index first, Index count) {
+    ComplexMatrix L = unit.asDiagonal() * of_states.middleCols(first, count);
+    op.apply_adjoint(L);
+    L = (unit.cwiseInverse().asDiagonal() * L).eval();
+    L -= of.Y * (of.X.adjoint() * L).eval();
+    size.segment(first, count) = (unit.asDiagonal() * L).colwise().norm();
+  });
+  return size;
 }
 
 // visit(first, count) for all rows, so many at a time that a copy of them stays small.
@@ -219,7 +234,7 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
   Matrix between(p, p);
   Eigen::VectorXd size_of_right(p), size_of_left(p);
   SubspacePencil out;
-  out.uncertainty.resize(p, p), out.unknown.resize(p, p);
+  out.uncertainty.resize(p, p), out.unknown.resize(p, p), out.residual.resize(n, p);
   for_few_columns(p, [&](Index first, Index count) {
     Residuals right;
     Matrix variances;
@@ -229,8 +244,8 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
       variances = equations.rounding_variances(w);
     }
     right.rounding += static_cast<double>(n + algebraic) * eps * sizes(right.value);
-    const ComplexMatrix reduced =
-        by_parts(right.value, [&](const Matrix& m) { return equations.reduced(m, SparseLu::Refined::no); });
+    auto reduced = out.residual.middleCols(first, count);
+    reduced = by_parts(right.value, [&](const Matrix& m) { return equations.reduced(m, SparseLu::Refined::no); });
     const ShortColumns::Weighed by_left = left.y.weigh(right.value, right.rounding, variances);
     // Two ways to the same: their difference shows what the factors, and y in few digits, have left.
     const ComplexMatrix of_block = adjoint_product(of.Y, reduced);
@@ -269,14 +284,16 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
     out.uncertainty += first_order_margin * (from_zero * through);
   }
 
-  for_few_columns(p, [&](Index first, Index count) {
-    ComplexMatrix L = unit.asDiagonal() * left.of_states.middleCols(first, count);
-    op.apply_adjoint(L);
-    L = (unit.cwiseInverse().asDiagonal() * L).eval();
-    L -= of.Y * (of.X.adjoint() * L).eval();
-    size_of_left.segment(first, count) = (unit.asDiagonal() * L).colwise().norm();
+  // One column after the other: the rest of the way is made beside it.
+  double beside = 0;
+  in_parallel(2, [&](std::size_t task) {
+    if (task == 0) {
+      beside = norm_beside(op, of.X, of.Y);
+    } else {
+      size_of_left = left_sizes(op, of, left.of_states);
+    }
   });
-  const double amplified = 1 + margin_of_norms * reach * std::max(norm_beside(op, of.X, of.Y), 1 / distance);
+  const double amplified = 1 + margin_of_norms * reach * std::max(beside, 1 / distance);
   out.uncertainty += between + reach * amplified * size_of_left * size_of_right.transpose();
   out.uncertainty = upward_from_single * (out.uncertainty + out.unknown);
   return out;

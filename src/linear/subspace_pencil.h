@@ -26,6 +26,7 @@ struct SubspacePencil {
   LongComplexMatrix value;  // B + Yᴴ R
   Eigen::MatrixXd uncertainty;
   Eigen::MatrixXd unknown;  // the part of it that no better computation takes away
+  Eigen::MatrixXcd residual;  // R
 };
 
 // `distance` is how far eigenvalues of the subspace are from all others, at least, `reach` how far from the shift of

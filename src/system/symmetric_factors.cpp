@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -90,8 +91,10 @@ struct SymmetricFactors::InOrder {
     return stands_for_the_matrix();
   }
 
-  // With 1 − (factored)⁻¹ A less than 1 nothing between both is singular, and so they have the same signs. Vectors of
-  // random signs show its size, in units that make the entries of A alike.
+  // With all eigenvalues of M = 1 − (factored)⁻¹ A less than 1 nothing between both is singular, and so they have the
+  // same signs. No eigenvalue is larger than the k-th root of the size of Mᵏ, which vectors of random signs show, in
+  // units that make the entries of A alike. M itself is large where A is ill-conditioned, though no more than a part of
+  // what it is applied to: what it makes of any vector is nearly a mode next to the shift, and of that it leaves little.
   bool stands_for_the_matrix() const {
     constexpr double largest_difference = 0.1;
     constexpr Eigen::Index probes = 4;
@@ -107,9 +110,14 @@ struct SymmetricFactors::InOrder {
     for (Eigen::Index c = 0; c < probes; ++c) {
       for (Eigen::Index k = 0; k < x.rows(); ++k) x(k, c) = (random() & 1u ? 1 : -1) / std::sqrt(size(k));
     }
-    const Eigen::MatrixXd b = upper.selfadjointView<Eigen::Upper>() * x;
-    const Eigen::MatrixXd off = size.cwiseSqrt().asDiagonal() * (factors.solve(b) - x);
-    return off.allFinite() && off.colwise().norm().maxCoeff() <= largest_difference;
+    const auto multiply = [&] {
+      const Eigen::MatrixXd b = upper.selfadjointView<Eigen::Upper>() * x;
+      x -= factors.solve(b);
+      return x.allFinite() ? (size.cwiseSqrt().asDiagonal() * x).colwise().norm().maxCoeff()
+                           : std::numeric_limits<double>::infinity();
+    };
+    const double before = std::sqrt(static_cast<double>(x.rows())), once = multiply();
+    return once <= largest_difference * before && (once <= largest_difference || multiply() <= largest_difference);
   }
   void solve(Eigen::MatrixXd& b) const {
     Eigen::MatrixXd in_order(b.rows(), b.cols());
@@ -161,13 +169,9 @@ SymmetricFactors::SymmetricFactors(const ColumnMatrix& lower, FactorsFor use) {
   place_ = nested_dissection(both);
   if (use == FactorsFor::inertia && place_) {
     in_order_ = std::make_unique<InOrder>(lower, both, *place_);
-    if (in_order_->serves) {
-      lower_ = lower;
-      return;
-    }
-    in_order_.reset();
+    if (!in_order_->serves) in_order_.reset();
   }
-  inertia_ = std::make_unique<Inertia>(lower, place_);
+  lower_ = lower;
 }
 
 SymmetricFactors::~SymmetricFactors() = default;
@@ -177,7 +181,10 @@ bool SymmetricFactors::factor(std::vector<double> values) {
   if (in_order_) {
     if (in_order_->factor(values)) return true;
     in_order_.reset();
+  }
+  if (!inertia_ && lower_.rows > 0) {
     inertia_ = std::make_unique<Inertia>(lower_, place_);
+    lower_ = {};
   }
   return !inertia_ || inertia_->factor(std::move(values));
 }

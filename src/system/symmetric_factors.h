@@ -18,7 +18,7 @@ enum class FactorsFor : std::uint8_t { inertia, solving };
 
 class SymmetricFactors {
  public:
-  // The pattern of all that is factored: the lower triangle, analysed once.
+  // The pattern of all that is factored: the lower triangle, analysed once, by what may be at work for others beside it.
   explicit SymmetricFactors(const ColumnMatrix& lower, FactorsFor = FactorsFor::inertia);
   ~SymmetricFactors();
   SymmetricFactors(const SymmetricFactors&) = delete;
@@ -33,7 +33,7 @@ class SymmetricFactors {
   struct Inertia;
   struct InOrder;
   struct Solving;
-  // One of them, the second until it has failed once.
+  // One of them, the second until it has failed once; the first is made to factor only.
   std::unique_ptr<Inertia> inertia_;
   std::unique_ptr<InOrder> in_order_;
   std::unique_ptr<Solving> solving_;

@@ -69,6 +69,18 @@ TEST(Help, shows_all_statements_that_have_a_type) {
               AllOf(HasSubstr("JOINT/id"), HasSubstr("SFORCE/id"), HasSubstr("SPRINGDAMPER/id")));
 }
 
+TEST(Help, says_what_an_argument_belongs_to) {
+  EXPECT_THAT(help("eigensol").out,
+              AllOf(HasSubstr("EIGENSOL is an argument of\n  LINEAR (command)\n"), HasSubstr("eigenvalues")));
+  EXPECT_THAT(help("JFLOAT").out, AllOf(HasSubstr("  VFORCE\n"), HasSubstr("  PTCV\n"), Not(HasSubstr("command"))));
+  for (const CommandKind& row : command_catalogue()) {
+    for (const ArgumentInfo& a : row.arguments) {
+      if (a.name == "class") continue;  // stands for the names of classes
+      EXPECT_EQ(help(a.name).status, done) << row.name << ' ' << a.name;
+    }
+  }
+}
+
 TEST(Help, shows_what_a_function_takes) {
   const Printed step = help("step");
   EXPECT_EQ(step.status, done);
