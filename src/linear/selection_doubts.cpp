@@ -37,6 +37,7 @@ bool may_be_beyond_band(const ModesInBand& band, const std::vector<EigenMode>& m
 std::string doubt_of(const std::vector<EigenMode>& modes, const ModeSelection& wanted, const SelectionSeen& seen) {
   const ModeRegion& region = seen.region;
   const double extent = (region.is_disc ? region.radius : std::max(region.right, region.high)) / cycle;
+  const auto* nearest = std::get_if<NearestModes>(&wanted);
   Eigen::Index eigenvalues = 0;
   std::size_t listed = 0;
   for (const EigenMode& m : modes) {
@@ -47,12 +48,14 @@ std::string doubt_of(const std::vector<EigenMode>& modes, const ModeSelection& w
     if (!(m.error_bound_hz < std::max(extent, std::abs(m.eigenvalue_hz))))
       return fmt::format("the error bound of one, {:.2g} cycles per unit time, is as large as the region",
                          m.error_bound_hz);
-    constexpr double surely = 1e-4;  // of the region
-    if (!(m.error_bound_hz < std::max(surely * extent, std::abs(m.eigenvalue_hz))))
-      return "some cannot be told from zeros that follow from the structure";
+    const auto surely = [&](double of_region) {
+      return m.error_bound_hz < std::max(of_region * extent, std::abs(m.eigenvalue_hz));
+    };
+    if (!surely(1e-4)) return "some cannot be told from zeros that follow from the structure";
+    // Two of them are two of the modes that are asked for, or one, unless they are zeros for every purpose.
+    if (nearest && m.is_real && m.cluster_size > 1 && !surely(1e-6)) return "real values near zero may be slow pairs";
   }
   if (!seen.all_zeros) return "whether there are more zeros that follow from the structure is not known";
-  const auto* nearest = std::get_if<NearestModes>(&wanted);
   if (nearest && listed < nearest->count && eigenvalues < seen.states)
     return fmt::format("the model has others besides these {} and the zeros that follow from its structure", listed);
   if (!nearest_are_known(modes, seen)) return "bounds do not tell which are the nearest";

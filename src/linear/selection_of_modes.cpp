@@ -83,10 +83,13 @@ EigenSolution selected_of(const EigenSolution& all, const ModeSelection& wanted)
   return out;
 }
 
+std::size_t modes_in(const EigenSolution& solution) {
+  return static_cast<std::size_t>(std::ranges::count(solution.modes, false, &EigenMode::structural_zero));
+}
+
 EigenSolution without_farther_ones(EigenSolution selected) {
   const auto* nearest = std::get_if<NearestModes>(&selected.selected->wanted);
-  const auto listed = static_cast<std::size_t>(std::ranges::count(selected.modes, false, &EigenMode::structural_zero));
-  if (!nearest || listed <= nearest->count) return selected;
+  if (!nearest || modes_in(selected) <= nearest->count) return selected;
   EigenSolution fewer = selected_of(selected, selected.selected->wanted);
   if (fewer.modes.size() == selected.modes.size()) return selected;
   fewer.selected->by = selected.selected->by;

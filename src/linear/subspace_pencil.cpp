@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 #include "base/parallel.h"
 #include "linear/dense_products.h"
@@ -183,15 +184,24 @@ class ShortColumns {
 };
 
 // All unknowns of the left vectors, and their residuals Aᴴ Y − Y Bᴴ with the algebraic unknowns taken out. Those of
-// algebraic unknowns only meet other residuals, in what those may do at most.
+// algebraic unknowns only meet other residuals, rounding of rounding: of them stands here what any column has at most,
+// each in a unit of its own.
 struct LeftResiduals {
-  ShortColumns y, of_algebraic;
+  ShortColumns y;
   ComplexMatrix of_states;
+  Eigen::VectorXd largest, unit;
+
+  // Of products with residuals of algebraic unknowns, at most.
+  Matrix products(const ComplexMatrix& of_algebraic) const {
+    return unit * (largest.transpose() * sizes(of_algebraic));
+  }
 };
 
 LeftResiduals left_residuals(const PerturbationEquations& equations, const Subspace& of) {
   const Index n = equations.states(), p = of.Y.cols(), algebraic = equations.unknowns() - n;
-  LeftResiduals left{ShortColumns(n + algebraic, p), ShortColumns(algebraic, p), ComplexMatrix(n, p)};
+  LeftResiduals left{ShortColumns(n + algebraic, p), ComplexMatrix(n, p), Eigen::VectorXd::Zero(algebraic),
+                     Eigen::VectorXd::Zero(p)};
+  std::mutex of_largest;
   const ComplexMatrix onto = of.B.adjoint();
   for_few_columns(p, [&](Index first, Index count) {
     const ComplexMatrix Y = of.Y.middleCols(first, count);
@@ -210,7 +220,15 @@ LeftResiduals left_residuals(const PerturbationEquations& equations, const Subsp
       for_each_in_column(equations.by_states_and_inputs(), static_cast<std::int32_t>(k),
                          [&](std::int32_t r, double v) { L.row(k) -= v * L_a.row(r); });
     }
-    left.of_algebraic.set(first, L_a);
+    Matrix each = sizes(L_a);
+    for (Index c = 0; c < count; ++c) {
+      double& unit = left.unit(first + c);
+      if (algebraic > 0) unit = each.col(c).maxCoeff();
+      if (!each.col(c).allFinite()) unit = std::numeric_limits<double>::infinity();
+      if (unit > 0) each.col(c) /= unit;
+    }
+    const std::lock_guard lock(of_largest);
+    left.largest = left.largest.cwiseMax(each.rowwise().maxCoeff());
   });
   return left;
 }
@@ -261,7 +279,7 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
     R -= of.X * (of.Y.adjoint() * R).eval();
     size_of_right.segment(first, count) = (unit.cwiseInverse().asDiagonal() * R).colwise().norm();
     between.middleCols(first, count) =
-        (left.of_algebraic.adjoint_times(right.value) + adjoint_product(left.of_states, R)).cwiseAbs();
+        left.products(right.value.topRows(algebraic)) + adjoint_product(left.of_states, R).cwiseAbs();
   });
   out.uncertainty += long_eps * (of.B.cwiseAbs() + G.cwiseAbs());
   out.value = of.B.cast<std::complex<long double>>() + G.cast<std::complex<long double>>();

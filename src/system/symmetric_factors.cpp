@@ -94,7 +94,8 @@ struct SymmetricFactors::InOrder {
   // With all eigenvalues of M = 1 − (factored)⁻¹ A less than 1 nothing between both is singular, and so they have the
   // same signs. No eigenvalue is larger than the k-th root of the size of Mᵏ, which vectors of random signs show, in
   // units that make the entries of A alike. M itself is large where A is ill-conditioned, though no more than a part of
-  // what it is applied to: what it makes of any vector is nearly a mode next to the shift, and of that it leaves little.
+  // what it is applied to: what it makes of any vector is nearly a mode next to the shift, and of that it leaves
+  // little.
   bool stands_for_the_matrix() const {
     constexpr double largest_difference = 0.1;
     constexpr Eigen::Index probes = 4;
