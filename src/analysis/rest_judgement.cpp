@@ -177,7 +177,7 @@ std::optional<RestJudgement> judge(StaticEquations& equations, const OperatingPo
   x << -residual, samples;
   tangent.solve(x);
   if (!x.allFinite()) return std::nullopt;
-  j.step = x.col(0);
+  j.step = j.newton = x.col(0);
   const Eigen::VectorXd answer = tangent.answer();
   for (Eigen::Index k = 0; k < residual.size(); ++k) {
     const double by_rounding = x.row(k).tail(samples.cols()).cwiseAbs().maxCoeff();

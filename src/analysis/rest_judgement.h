@@ -13,7 +13,8 @@ namespace dynalin {
 struct RestJudgement {
   bool balanced = false;    // every equation, within its own terms or their rounding
   bool determined = false;  // Newton's step is small, or explained by rounding
-  Eigen::VectorXd step;     // Newton's; zero where rounding explains all of it
+  Eigen::VectorXd newton;   // Newton's step
+  Eigen::VectorXd step;     // the same, zero where rounding explains all of it
   Eigen::VectorXd size;     // of each unknown: model lengths, radians, what states and values are themselves
   double largest = 0;       // of |step| / size over coordinates, states and algebraic values
   Eigen::Index largest_at = -1;

@@ -51,7 +51,11 @@ bool Descent::run(OperatingPoint& op, const std::vector<bool>* loose) {
     history_.add(std::isfinite(merit_) ? equations_.imbalance_of_functions() : infinite);
     if (!std::isfinite(merit_)) return false;
     if (iteration_ == 0) first_force_ = force_;
-    if (iteration_ == 0 && !loose && balanced_to_rounding(equations_)) return true;
+    if (iteration_ == 0 && !loose && balanced_to_rounding(equations_)) {
+      // A load no larger than what rounding may do to stiff elements moves soft ones all the same.
+      const auto j = judge(equations_, op);
+      if (!j || (j->determined && equations_.excess() <= 1)) return true;
+    }
     if (escaped(system_, first_, op)) return false;
     note_arrivals();
     // Against the first yardstick: forces that grow without end do not make a point better.
@@ -104,8 +108,8 @@ void Descent::change_yardstick() {
 bool Descent::finish(OperatingPoint& op) {
   constexpr int steps = 60;
   OperatingPoint here = op;
-  double smallest = std::numeric_limits<double>::infinity();
-  int stuck = 0;
+  double smallest = infinite, least_excess = infinite;
+  int stuck = 0, unbalanced = 0;  // steps since the one that was shorter, and the one that brought balance closer
   std::optional<OperatingPoint> rest;
   for (int k = 0; k < steps; ++k) {
     equations_.settle(here);
@@ -115,11 +119,15 @@ bool Descent::finish(OperatingPoint& op) {
     if (k == 0) {
       if (j->largest < 0.8 * smallest_move_) smallest_move_ = j->largest, converging_ = iteration_;
     }
-    stuck = j->largest < 0.95 * smallest ? 0 : stuck + 1;
-    // What Newton's method cannot improve any more is determined as well as it can be.
-    const bool exact = (j->largest <= 1e-12 && stuck >= 3) || j->largest <= std::numeric_limits<double>::epsilon();
+    const double excess = equations_.excess();
+    unbalanced = excess < 0.5 * least_excess ? 0 : unbalanced + 1;
+    least_excess = std::min(least_excess, excess);
+    stuck = j->largest < 0.95 * smallest || unbalanced == 0 ? 0 : stuck + 1;
+    // What Newton's method cannot improve any more, neither step nor balance, is determined as well as it can be.
+    const bool exact = (j->largest <= 1e-12 && stuck >= 3) ||
+                       (j->largest <= std::numeric_limits<double>::epsilon() && unbalanced >= 2);
     if ((j->balanced || exact) && j->determined && came_to_rest(*j)) rest = here;
-    if (rest && (j->largest == 0 || stuck > 0)) break;
+    if (rest && ((j->largest == 0 && unbalanced > 0) || stuck > 0)) break;
     if (!rest && j->largest_at >= 0) {
       doubt_ = fmt::format("{} would still have to change by {:.3g} to balance a rest of {:.3g}",
                            equations_.equation_text(j->largest_at), j->step(j->largest_at),
@@ -128,7 +136,7 @@ bool Descent::finish(OperatingPoint& op) {
     if (j->largest > 1e-2 || stuck > 3) break;
     smallest = std::min(smallest, j->largest);
     double taken = 0;
-    here = moved(system_, here, equations_.augmented(), j->step, 1.0, options_.limits, &taken);
+    here = moved(system_, here, equations_.augmented(), determined_step(*j), 1.0, options_.limits, &taken);
     for (Eigen::Index i = 0; i < j->step.size(); ++i) {
       if (j->step(i) == 0 || move_.size() == 0) continue;
       move_(i) = std::abs(taken * j->step(i)) / j->size(i);
@@ -143,6 +151,19 @@ bool Descent::finish(OperatingPoint& op) {
   }
   equations_.evaluate(op, true);
   return false;
+}
+
+// All of Newton's step but what nothing determines. Unknowns that rounding moves as far as the step does may not be
+// left where they are one by one: those that stiff elements couple them with would move alone.
+Eigen::VectorXd Descent::determined_step(const RestJudgement& j) const {
+  Eigen::VectorXd step = j.newton;
+  if (std::ranges::find(j.indifferent, true) == j.indifferent.end()) return step;
+  const AugmentedSystem& augmented = equations_.augmented();
+  const Eigen::VectorXd open = undetermined_part(equations_, step);
+  const Eigen::Index states = step.size() - augmented.state(0);
+  step.head(augmented.lambda(0)) -= open.head(augmented.lambda(0));
+  step.tail(states) -= open.tail(states);
+  return step;
 }
 
 // What nothing but rounding determines may be anywhere. It is where it is because nothing moved it, or because what

@@ -37,6 +37,7 @@ class Descent {
   bool newton(OperatingPoint& op, double level);
   bool implicit(OperatingPoint& op);
   bool finish(OperatingPoint& op);
+  Eigen::VectorXd determined_step(const RestJudgement&) const;
   bool came_to_rest(const RestJudgement&);
   void note_arrivals();
   void note_move(const Eigen::VectorXd& step, double factor);

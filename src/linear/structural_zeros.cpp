@@ -51,6 +51,7 @@ class StructuralZeros::Contributions {
 
  private:
   Matrix beyond(const Matrix& earlier, const Directions& d, double limit) const {
+    if (d.states.cols() == 0) return Matrix(choice_.size(), 0);
     std::vector<Eigen::RowVectorXd> rows;
     add_rates_that_follow(d, rows);
     add_readings(d, rows);

@@ -144,4 +144,47 @@ TEST(FePartStatics, its_weight_is_carried_by_the_clamp) {
   EXPECT_NEAR(place_of(point, 22)[2], -(q * 16 / (8 * EI) + q * 4 / (2 * GA)), 2e-3 * q * 16 / (8 * EI));
 }
 
+// Loads so small that rounding of the positions might make as large forces of a beam that is all but rigid in shear or
+// stretch: they bend it all the same, and the clamp carries all of them.
+TEST(FePartStatics, what_rounding_of_stiff_terms_could_explain_is_carried_by_the_clamp) {
+  struct Case {
+    double E, area, inertia, q;
+    std::string further;
+  };
+  for (const Case& c : {Case{2e9, 1e-3, 1e-6, 0.01, ", ASY=1E-5, ASZ=1E-5"},
+                        Case{2e9, 1e-3, 1e-6, 0.1, ", ASY=1E-5, ASZ=1E-5"}, Case{2.1e11, 1, 0.0833, 0.001, ""}}) {
+    const auto point =
+        study_of(beam_model(fmt::format("MATERIAL/2, DENSITY=1000, YOUNGS_MODULUS={0:.17g}, POISSONS_RATIO=0.3\n"
+                                        "FE_PART/2, TYPE=3DBEAM, MATERIAL=2, NODE_LABELS=1,2,3,4,5, X=0,0.5,1,1.5,2\n"
+                                        ", AREA={1:.17g}, IYY={2:.17g}, IZZ={2:.17g}{3}\n"
+                                        "MARKER/21, FE_PART=2, NODE_LABEL=1\nMARKER/22, FE_PART=2, NODE_LABEL=5\n"
+                                        "JOINT/1, FIXED, I=21, J=1\nFE_LOAD/1, FE_PART=2, FY={4:.17g}\n",
+                                        c.E, c.area, c.inertia, c.further, -c.q)))
+            .static_equilibrium();
+    EXPECT_NEAR(point.load({"JOINT", 1}).force[1], 2 * c.q, 2e-8) << c.q;
+    EXPECT_NEAR(point.load({"JOINT", 1}).torque[2], 2 * c.q, 2e-8) << c.q;
+    const double bending = c.q * 16 / (8 * c.E * c.inertia);
+    if (!c.further.empty()) {
+      EXPECT_NEAR(place_of(point, 22)[1], -bending, 5e-3 * bending) << c.q;
+    }
+  }
+}
+
+// A beam that has to be pulled to its part first, by forces of 1e8 N, and is straight again in the end: pairs of equal
+// frequencies. Its soft bending and its stiff shear have to be found together.
+TEST(FePartStatics, a_beam_that_assembly_has_bent_is_straight_at_rest) {
+  const std::string dataset = beam_model(
+      "MATERIAL/2, DENSITY=2000, YOUNGS_MODULUS=2E9, POISSONS_RATIO=0.3\n"
+      "FE_PART/2, TYPE=3DBEAM, MATERIAL=2, NODE_LABELS=1,2,3, X=0,1,2, AREA=0.001, IYY=1E-8, IZZ=1E-8, ASY=0.001, "
+      "ASZ=0.001\nMARKER/21, FE_PART=2, NODE_LABEL=1\nMARKER/22, FE_PART=2, NODE_LABEL=3\nJOINT/1, FIXED, I=21, J=1\n"
+      "PART/3, MASS=0.2, CM=40, IP=1E-3,1E-3,1E-3, QG=1,1,0\nMARKER/40, PART=3\nJOINT/2, FIXED, I=40, J=22\n");
+  const auto point = study_of(dataset).static_equilibrium();
+  for (const std::int64_t joint : {1, 2}) {
+    for (const double f : point.load({"JOINT", joint}).force) EXPECT_NEAR(f, 0, 1e-6) << joint;
+  }
+  const Triple tip = place_of(point, 22);
+  EXPECT_NEAR(tip[0], 2, 1e-9);
+  EXPECT_NEAR(tip[1], 0, 1e-7);
+}
+
 }  // namespace dynalin::cases::fe_part_static_test

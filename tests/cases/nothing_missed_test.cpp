@@ -145,6 +145,19 @@ TEST_F(NothingMissed, beside_a_filter_that_reads_a_free_mass) {
   EXPECT_EQ(listed(band).modes.size(), 3u);
 }
 
+// A state that never changes and one that reads it, beside more than what a state matrix is made for: nothing moves
+// along any of them.
+TEST_F(NothingMissed, beside_states_that_read_a_constant_one) {
+  std::string s =
+      "Constant\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nDIFF/1, FUNCTION=0\n"
+      "DIFF/9, FUNCTION=-0.5*DIF(9)+DIF(1)\n";
+  for (int k = 0; k < 55; ++k) {
+    s += fmt::format("POINT_MASS/{0}, MASS=1, CM={0}\nMARKER/{0}\nBUSHING/{0}, I={0}, J=1, K={1},{2},{3}, C=1,1,1\n",
+                     1000 + k, 1e4 + 10 * k, 2e4 + 10 * k, 3e4 + 10 * k);
+  }
+  expect_nearest(s + "END\n", 2);
+}
+
 // Masses of their own springs, f² + 1/(16 π²) = (100 + k)/(4 π²), a hundred in a band beside hundreds more, too many
 // states for the full solution to help: the count off the real axis is that of the closed form.
 TEST_F(NothingMissed, of_a_dense_row_of_values_beside_a_border) {
