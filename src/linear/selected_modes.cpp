@@ -96,7 +96,7 @@ class Solution {
     if (!found) return tl::unexpected(no_convergence("the Krylov iteration did not converge"));
     by_inertia_.reset();
     auto bounded = bound();
-    if (!bounded) return tl::unexpected(no_convergence("left and right vectors do not belong together"));
+    if (!bounded) return tl::unexpected(no_convergence("left and right vectors do not agree"));
     return solution(*bounded, vectors);
   }
   void start_anew() {
@@ -330,7 +330,8 @@ class Solution {
       if (is_mirror(v)) distance = std::min(distance, 2 * std::abs(v));
     }
     const NearZero zero = counted_region_.has(0) ? zero_ : NearZero{Matrix(op_.states(), 0), Matrix(0, 0)};
-    return bounded_pairs(equations_, op_, {std::move(right.basis), std::move(right.matrix), left.basis}, zero,
+    const bool both = !conservative_ && counted_region_.centre.imag() == 0 && !upper_half;
+    return bounded_pairs(equations_, op_, {std::move(right.basis), std::move(right.matrix), left.basis, both}, zero,
                          distance);
   }
 

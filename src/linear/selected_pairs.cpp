@@ -116,7 +116,8 @@ class Mirror {
   Mirror(const Subspace& s, const ComplexMatrix& residual, const NearZero& zero, std::vector<InclusionDisc> discs)
       : s_(s), residual_(residual), zero_(zero), discs_(std::move(discs)) {}
 
-  BoundedPairs run() {
+  // Nothing if `both_members` of pairs ought to be here, and one stands alone: bounds do not hold then.
+  std::optional<BoundedPairs> run(bool both_members) {
     std::vector<bool> done(discs_.size(), false);
     for (std::size_t i = 0; i < discs_.size(); ++i) {
       if (done[i]) continue;
@@ -127,6 +128,7 @@ class Mirror {
       }
       const bool itself = std::find(met.begin(), met.end(), i) != met.end();
       if (met.empty()) {
+        if (both_members) return std::nullopt;
         add(i, discs_[i].centre.imag() < 0, discs_[i].centre, discs_[i].radius, discs_[i].count);
       } else if (!itself && met.size() == 1 && discs_[met.front()].count == discs_[i].count) {
         const std::size_t upper = discs_[i].centre.imag() > 0 ? i : met.front();
@@ -218,7 +220,7 @@ std::optional<BoundedPairs> bounded_pairs(const PerturbationEquations& equations
   if (!pencil.uncertainty.allFinite()) return std::nullopt;
   auto discs = inclusion_discs(pencil.value, pencil.uncertainty, false);
   if (!discs) return std::nullopt;
-  return Mirror(*s, pencil.residual, zero, std::move(*discs)).run();
+  return Mirror(*s, pencil.residual, zero, std::move(*discs)).run(of.both_members);
 }
 
 }  // namespace dynalin

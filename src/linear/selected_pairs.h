@@ -13,6 +13,7 @@ namespace dynalin {
 // In units of the operator: A Q = Q B, Aᴴ P = P (…), both orthonormal and of the same eigenvalues.
 struct TwoSided {
   Eigen::MatrixXcd Q, B, P;
+  bool both_members = false;  // of every pair of eigenvalues
 };
 
 struct BoundedPairs {
@@ -22,7 +23,7 @@ struct BoundedPairs {
 };
 
 // `zero` are structural zeros in the subspace; `distance` is that of other eigenvalues of the model from those of the
-// subspace. Nothing if left and right vectors do not belong together.
+// subspace. Nothing if left and right vectors do not belong together, or bounds contradict each other.
 std::optional<BoundedPairs> bounded_pairs(const PerturbationEquations&, const ShiftInverse&, const TwoSided&,
                                           const NearZero& zero, double distance);
 

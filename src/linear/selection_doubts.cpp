@@ -44,6 +44,7 @@ std::string doubt_of(const std::vector<EigenMode>& modes, const ModeSelection& w
     eigenvalues += m.is_real ? 1 : 2;
     if (m.structural_zero) continue;
     ++listed;
+    if (!std::isfinite(m.error_bound_hz)) return "one has no error bound";
     // A value that may be anywhere in the region, or outside of it, is not known to be one of those that are wanted.
     if (!(m.error_bound_hz < std::max(extent, std::abs(m.eigenvalue_hz))))
       return fmt::format("the error bound of one, {:.2g} cycles per unit time, is as large as the region",

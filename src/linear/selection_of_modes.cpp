@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/cycle.h"
 #include "linear/selected_modes.h"
 #include "linear/selection_doubts.h"
 
@@ -68,7 +69,11 @@ EigenSolution selected_of(const EigenSolution& all, const ModeSelection& wanted)
     out.modes.push_back(m);
   }
   selected.counted = selected.found;
-  if (region.band && may_be_beyond_band(*region.band, all.modes)) selected.doubt = beyond_band;
+  ModeRegion seen = region.band ? region_of(*region.band) : ModeRegion{};
+  if (!region.band) seen.centre = cycle * region.centre, seen.radius = cycle * region.radius;
+  selected.doubt = doubt_of(out.modes, wanted, {seen, static_cast<Eigen::Index>(all.states.size()), true, true});
+  if (selected.doubt.empty() && region.band && may_be_beyond_band(*region.band, all.modes))
+    selected.doubt = beyond_band;
   selected.complete = selected.doubt.empty();
 
   out.time = all.time;

@@ -207,6 +207,10 @@ std::optional<SparseMatrix> read_coordinate_matrix(const SourceText& file, Eigen
                       "the file may be cut off");
     return std::nullopt;
   }
+  if (entries.empty()) {
+    diagnostics.error("fe-matrix-size", whole_file, "the matrix has no entries", "an entry is row, column and value");
+    return std::nullopt;
+  }
   if (!refuse_twice(entries, file, header, size, diagnostics)) return std::nullopt;
   if (triangle.wrong()) {
     diagnostics.error("fe-matrix-entry", *triangle.wrong(), "the entries before are those of the other triangle",

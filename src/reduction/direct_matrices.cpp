@@ -58,6 +58,7 @@ class Punched {
     if (!m.has_header) return refuse("has no header");
     if (m.form != 6 && m.form != 1) return refuse("is not square");
     if (m.type > 2) return refuse("is complex");
+    if (m.terms.empty()) return refuse("has no entries");
     return true;
   }
 

@@ -141,6 +141,15 @@ TEST_F(Reduce, square_direct_matrices_are_stated_in_both_triangles) {
   EXPECT_THAT(err_.str(), HasSubstr("here and nothing in the other triangle"));
 }
 
+TEST_F(Reduce, a_direct_matrix_has_entries) {
+  const FiniteElementModel beam = test::beam(4, 0.8);
+  ReduceOptions options = calculix(beam);
+  options.stiffness = file("body.pch", "DMIG    KAAX           0       6       2       0\n");
+  options.mass = file("mass.pch", cards(beam.mass, beam.freedoms, "MAAX"));
+  EXPECT_EQ(run(options), 1);
+  EXPECT_THAT(err_.str(), HasSubstr("body.pch:1:1: error: KAAX has no entries"));
+}
+
 TEST_F(Reduce, says_that_a_body_held_by_its_matrices_is_free_in_a_mechanism) {
   FiniteElementModel beam = test::beam(4, 0.8);
   for (Eigen::Index k = 0; k < 6; ++k) beam.stiffness.coeffRef(k, k) *= 1.5;
@@ -339,6 +348,10 @@ TEST_F(Reduce, says_where_the_input_is_wrong) {
   EXPECT_THAT(refused(options), HasSubstr("29 rows and 29 columns, and there are 30 freedoms"));
   file("job.mas", "%%MatrixMarket matrix coordinate real symmetric\n30 30 2\n1 1 1\n");
   EXPECT_THAT(refused(options), HasSubstr("promises 2 entries, and 1 are there"));
+  for (const auto* const empty : {"", "%%MatrixMarket matrix coordinate real symmetric\n30 30 0\n"}) {
+    file("job.mas", empty);
+    EXPECT_THAT(refused(options), HasSubstr("job.mas:1:1: error: the matrix has no entries"));
+  }
   file("job.mas", "%%MatrixMarket matrix coordinate real symmetric\n30 30 3\n1 1 1\n3 2 1\n4 5 1\n");
   EXPECT_THAT(refused(options), HasSubstr("job.mas:5:1: error: the entries before are those of the other triangle"));
   options = calculix(beam);

@@ -145,15 +145,18 @@ TEST_F(NothingMissed, beside_a_filter_that_reads_a_free_mass) {
   EXPECT_EQ(listed(band).modes.size(), 3u);
 }
 
-// A state that never changes and one that reads it, beside more than what a state matrix is made for: nothing moves
-// along any of them.
+// A state that never changes and one that reads it, beside forces that are functions and more states than a state
+// matrix is made for: nothing moves along any of them.
 TEST_F(NothingMissed, beside_states_that_read_a_constant_one) {
   std::string s =
       "Constant\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nDIFF/1, FUNCTION=0\n"
       "DIFF/9, FUNCTION=-0.5*DIF(9)+DIF(1)\n";
-  for (int k = 0; k < 55; ++k) {
-    s += fmt::format("POINT_MASS/{0}, MASS=1, CM={0}\nMARKER/{0}\nBUSHING/{0}, I={0}, J=1, K={1},{2},{3}, C=1,1,1\n",
-                     1000 + k, 1e4 + 10 * k, 2e4 + 10 * k, 3e4 + 10 * k);
+  for (int k = 0; k < 52; ++k) {
+    s += fmt::format(
+        "POINT_MASS/{0}, MASS=1, CM={0}\nMARKER/{0}\nMARKER/2{0}, PART=1, FLOATING\nVFORCE/{0}, I={0}, JFLOAT=2{0}, "
+        "RM=1\n"
+        ", FX=-{1}*DX({0})-10*VX({0})\\FY=-{2}*DY({0})-10*VY({0})\\FZ=-{3}*DZ({0})-10*VZ({0})\n",
+        1000 + k, 1e4 + 10 * k, 2e4 + 10 * k, 3e4 + 10 * k);
   }
   expect_nearest(s + "END\n", 2);
 }

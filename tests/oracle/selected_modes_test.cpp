@@ -25,7 +25,8 @@ std::string text_of(const ModeSelection& wanted) {
 // Every mode found has one of its own among all that its bound and the other's reach.
 void expect_same(const EigenSolution& found, const EigenSolution& expected) {
   ASSERT_TRUE(found.selected);
-  EXPECT_TRUE(found.selected->complete);
+  // Where not even bounds of the full solution tell which modes these are, the selection must not say that it knows.
+  EXPECT_TRUE(found.selected->complete || !expected.selected->complete) << found.selected->doubt;
   EXPECT_EQ(found.selected->found, expected.selected->found);
   EXPECT_EQ(found.selected->counted, expected.selected->counted);
   // Where values are not told apart, pairs may be taken for two real ones.
@@ -55,7 +56,7 @@ void expect_same(const EigenSolution& found, const EigenSolution& expected) {
 class SelectedModesOfMechanisms : public ::testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(SelectedModesOfMechanisms, are_those_of_the_full_solution) {
-  int counted = 0, tried = 0;
+  int counted = 0, tried = 0, doubted = 0;
   for (std::uint64_t seed = GetParam(); seed < GetParam() + 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     auto dataset =
@@ -94,10 +95,12 @@ TEST_P(SelectedModesOfMechanisms, are_those_of_the_full_solution) {
       expect_same(*found, selected_of(*all, wanted));
       const CountedBy by = found->selected->by;
       counted += by == CountedBy::winding_number || by == CountedBy::inertia, ++tried;
+      doubted += !found->selected->complete;
     }
   }
   // Where bounds leave open what is a zero, all modes tell.
   EXPECT_GE(counted, 0.9 * tried) << "the full solution stands in for few";
+  EXPECT_LE(doubted, 0.05 * tried);
 }
 INSTANTIATE_TEST_SUITE_P(generated, SelectedModesOfMechanisms, ::testing::Range<std::uint64_t>(1, 221, 20));
 
