@@ -147,7 +147,7 @@ TEST_F(Reduce, a_direct_matrix_has_entries) {
   options.stiffness = file("body.pch", "DMIG    KAAX           0       6       2       0\n");
   options.mass = file("mass.pch", cards(beam.mass, beam.freedoms, "MAAX"));
   EXPECT_EQ(run(options), 1);
-  EXPECT_THAT(err_.str(), HasSubstr("body.pch:1:1: error: KAAX has no entries"));
+  EXPECT_THAT(err_.str(), HasSubstr("body.pch:1:9: error: KAAX has no entries"));
 }
 
 TEST_F(Reduce, says_that_a_body_held_by_its_matrices_is_free_in_a_mechanism) {
