@@ -25,7 +25,7 @@ struct Subspace {
 struct SubspacePencil {
   LongComplexMatrix value;  // B + Yᴴ R
   Eigen::MatrixXd uncertainty;
-  Eigen::MatrixXd unknown;  // the part of it that no better computation takes away
+  Eigen::MatrixXd unknown;    // the part of it that no better computation takes away
   Eigen::MatrixXcd residual;  // R
 };
 

@@ -92,9 +92,11 @@ double Model::characteristic_length() const {
   double length = std::max(norm(b - a), norm(c - b));
   // A few that are drawn far out are no scale for all others: what is small beside them would count as nothing. Markers
   // that stand at one place but for rounding are none either, but bodies are not so small.
-  constexpr double farther = 1e4;
-  if (const double size = size_of_bodies(*this); size > 0)
+  constexpr double farther = 1e4, coincide = 1e-12;
+  if (const double size = size_of_bodies(*this); size > 0) {
     length = std::min(length, farther * std::max(radius_of_most(points), size));
+    if (length <= coincide * size) length = size;
+  }
   return length > 0 ? length : 1.0;
 }
 

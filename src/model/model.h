@@ -87,7 +87,7 @@ struct Model {
 
   // The largest distance between the origins of two markers as drawn, 1 if there is none: the length by
   // which displacements and rotations are compared. At most 10 000 times the radius that holds three quarters of them
-  // or, if that is more, the size of a body. [length]
+  // or, if that is more, the size of a body; that size where all markers are at one place. [length]
   double characteristic_length() const;
 
   // VARIABLEs whose course in time a MOTION follows: they cannot be inputs of a linear model.

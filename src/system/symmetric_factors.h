@@ -18,7 +18,8 @@ enum class FactorsFor : std::uint8_t { inertia, solving };
 
 class SymmetricFactors {
  public:
-  // The pattern of all that is factored: the lower triangle, analysed once, by what may be at work for others beside it.
+  // The pattern of all that is factored: the lower triangle, analysed once, by what may be at work for others beside
+  // it.
   explicit SymmetricFactors(const ColumnMatrix& lower, FactorsFor = FactorsFor::inertia);
   ~SymmetricFactors();
   SymmetricFactors(const SymmetricFactors&) = delete;

@@ -57,6 +57,14 @@ TEST(System, a_few_markers_far_out_are_no_length_of_the_model) {
                              "MARKER/21, QP=1.2E-16,0,0\nMARKER/22, QP=0,-3E-15,0\nMARKER/23\nMARKER/24\n")
                        ->length(),
                    1);
+  // Where all do, and a body is thirty times as large: √(trace of inertia / mass).
+  for (const char* off : {"0", "6E-17"}) {
+    EXPECT_DOUBLE_EQ(
+        system_of(std::string("PART/2, MASS=4, CM=20, IP=1200,1200,1200\nMARKER/20\nMARKER/21, PART=1, QP=") + off +
+                  ",0,0\n")
+            ->length(),
+        30);
+  }
 }
 
 TEST(System, a_partition_leaves_the_wanted_coordinate_and_names_redundant_rows) {
