@@ -65,7 +65,8 @@ void AccelerationCorrections::drop_rounding() {
   const std::int32_t lambda = equations_.augmented().lambda(0);
   if (rounding_.size() == 0 && far_above_rounding(op_.acceleration, 0) && far_above_rounding(op_.lambda, lambda))
     return;
-  drop(op_.acceleration, 0, rounding());
+  // A force along its arm has a torque of rounding wherever the point is: shaking it does not bring that to light.
+  drop(op_.acceleration, 0, rounding().cwiseMax(rounding_of_solution(lu_, equations_.magnitude())));
   drop(op_.lambda, lambda, rounding());
 }
 

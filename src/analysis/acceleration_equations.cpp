@@ -120,11 +120,16 @@ Eigen::VectorXd AccelerationEquations::values(const OperatingPoint& op) const {
   return x;
 }
 
-Eigen::VectorXd AccelerationEquations::terms(const ColumnMatrix& m, const OperatingPoint& op) const {
-  Eigen::VectorXd terms = Eigen::VectorXd::Zero(m.rows);
+Eigen::VectorXd AccelerationEquations::magnitude() const {
+  Eigen::VectorXd sizes = Eigen::VectorXd::Zero(augmented_.size() + massless_.size());
   for (std::int32_t r = 0; r < equations_.size(); ++r) {
-    terms(augmented_.equation(r)) = equations_.magnitude()[static_cast<std::size_t>(r)];
+    sizes(augmented_.equation(r)) = equations_.magnitude()[static_cast<std::size_t>(r)];
   }
+  return sizes;
+}
+
+Eigen::VectorXd AccelerationEquations::terms(const ColumnMatrix& m, const OperatingPoint& op) const {
+  Eigen::VectorXd terms = magnitude();
   const Eigen::VectorXd x = values(op);
   for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) { terms(r) += std::abs(v * x(c)); });
   return terms;

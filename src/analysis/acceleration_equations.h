@@ -48,7 +48,9 @@ class AccelerationEquations {
     return massless_.size() > 0 ? massless_.bordered(augmented_matrix()) : augmented_matrix();
   }
   ColumnMatrix augmented_matrix() const;
-  // Of each equation, the sizes of the terms it was added up from.
+  // Of each equation at the point of the last evaluation, the sizes of the forces it was added up from; and of its
+  // linear terms as well.
+  Eigen::VectorXd magnitude() const;
   Eigen::VectorXd terms(const ColumnMatrix&, const OperatingPoint&) const;
 
   // Adds a step to all unknowns of a point. Forces that condensed freedoms lack are kept here: they enter linearly, so

@@ -167,5 +167,25 @@ TEST_F(StructuralZeros, a_parallelogram_without_a_spring_moves_freely) {
   for (const double angle : {1e-1, 0.7, 1.2}) EXPECT_EQ(zeros(solve(parallelogram(angle, 0, 0))), 2u);
 }
 
+// A part on a stretched spring at its mass centre turns freely, whatever accelerates: its angular acceleration is none,
+// though the torque of a force at an arm along it is rounding.
+TEST_F(StructuralZeros, a_part_that_is_pulled_at_its_mass_centre_turns_freely) {
+  for (const char* at : {"-0.94,-0.56,0.8", "-0.31,0.77,1.1", "0.5,0.25,0.125"}) {
+    const RunResult r =
+        run(fmt::format("Pulled\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, QP=-0.3,0.5,0.2\n"
+                        "PART/2, MASS=5.65, CM=20, IP=0.706,0.385,0.73, QG=-0.92,0.12,0.81\nMARKER/20\n"
+                        "MARKER/21, QP=0.11,-0.07,0.05\nMARKER/22, QP=-0.09,0.12,0.06\n"
+                        "PART/3, MASS=2.91, CM=30, IP=0.28,0.333,0.382, QG={}\nMARKER/30\n"
+                        "BUSHING/1, I=21, J=1, K=708,484,110, KT=66,77,56, C=0.54,0.37,0.084, CT=0.05,0.06,0.04\n"
+                        "SPRINGDAMPER/2, TRANSLATIONAL, I=22, J=30, K=1422, C=5.7, LENGTH=0.84\nEND\n",
+                        at),
+            "LINEAR/EIGENSOL\n");
+    ASSERT_EQ(r.status, 0) << r.err;
+    std::size_t zeros = 0;
+    for (const auto& m : r.result(0).at("modes")) zeros += m.at("structural_zero").get<bool>() ? 1u : 0u;
+    EXPECT_EQ(zeros, 6u) << at;
+  }
+}
+
 }  // namespace
 }  // namespace dynalin::cases::structural_zero_test
