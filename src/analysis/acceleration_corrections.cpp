@@ -66,7 +66,9 @@ void AccelerationCorrections::drop_rounding() {
   if (rounding_.size() == 0 && far_above_rounding(op_.acceleration, 0) && far_above_rounding(op_.lambda, lambda))
     return;
   // A force along its arm has a torque of rounding wherever the point is: shaking it does not bring that to light.
-  drop(op_.acceleration, 0, rounding().cwiseMax(rounding_of_solution(lu_, equations_.magnitude())));
+  Eigen::VectorXd of_evaluation = rounding_of_solution(lu_, equations_.magnitude());
+  equations_.spread_over_axes(of_evaluation);
+  drop(op_.acceleration, 0, rounding().cwiseMax(of_evaluation));
   drop(op_.lambda, lambda, rounding());
 }
 

@@ -9,7 +9,8 @@
 namespace dynalin {
 
 // Columns of all unknowns of large models come and go: given back to the system each time, they would have to be
-// cleared, page by page, a sixth of a run for selected modes. What is larger than this goes back: it would leave holes.
+// cleared, page by page, a third of a run for selected modes of very large ones. What one thread frees another takes:
+// all have one arena, as nothing that they share allocates much.
 inline void keep_freed_memory() {
 #ifdef __GLIBC__
   constexpr int mebibyte = 1 << 20;

@@ -177,15 +177,17 @@ class Mirror {
       const ComplexVector of_right = equal ? d.basis.col(k) : d.right.col(k);
       const ComplexVector of_left = equal ? d.dual.col(k) : d.left.col(k);
       ComplexVector x = s_.X * of_right, y = s_.Y * of_left;
-      if (zero_.count() > 0 && std::abs(d.centre) > d.radius) {
+      const bool among_zeros = zero_.count() > 0 && std::abs(d.centre) <= d.radius;
+      if (zero_.count() > 0 && !among_zeros) {
         ComplexMatrix shifted = zero_.chains.cast<Complex>();
         shifted.diagonal().array() -= d.centre;
         const ComplexVector along = -(s_.C * of_right);
         x += s_.V.cast<Complex>() * shifted.partialPivLu().solve(along);
       }
-      // To first order the part of V takes along what it leaves of A X.
-      const ComplexVector left_over = s_.B * of_right - value * of_right;
-      out_.residual.push_back((residual_ * of_right + s_.X * left_over).norm() / x.norm());
+      // The part of V, where there is one, takes along what A X has of it.
+      ComplexVector residual = residual_ * of_right + s_.X * (s_.B * of_right - value * of_right);
+      if (among_zeros) residual += s_.V.cast<Complex>() * (s_.C * of_right);
+      out_.residual.push_back(residual.norm() / x.norm());
       if (conjugate) x = x.conjugate().eval(), y = y.conjugate().eval();
       x.normalize(), y.normalize();
       right_.push_back(std::move(x)), left_.push_back(std::move(y));
