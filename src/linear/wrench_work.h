@@ -10,7 +10,7 @@
 #include <array>
 #include <complex>
 
-#include "mechanics/kernel.h"
+#include "mechanics/wrench_source.h"
 
 namespace dynalin {
 

@@ -5,6 +5,7 @@
 #include "expression/expression_test_support.h"
 #include "mechanics/bound_expression.h"
 #include "mechanics/paths_test_support.h"
+#include "mechanics/wrench_source.h"
 
 namespace dynalin::mechanics_test {
 

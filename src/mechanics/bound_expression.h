@@ -8,6 +8,8 @@
 #include "expression/measures.h"
 #include "mechanics/binder.h"
 #include "mechanics/coordinate_block.h"
+#include "mechanics/equations.h"
+#include "mechanics/undefined_value.h"
 
 namespace dynalin {
 

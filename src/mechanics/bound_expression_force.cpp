@@ -5,6 +5,7 @@
 #include "mechanics/frame_variations.h"
 #include "mechanics/marker_references.h"
 #include "mechanics/pair_blocks.h"
+#include "mechanics/wrench_source.h"
 
 namespace dynalin {
 

@@ -16,6 +16,8 @@
 
 namespace dynalin {
 
+struct Motion;
+
 class DelayHistory {
  public:
   struct Instant {
@@ -77,6 +79,18 @@ class DelayHistories {
  public:
   explicit DelayHistories(std::size_t calls) : of_call(calls) {}
   std::vector<DelayHistory> of_call;
+};
+
+// The calls of DELAY of a model.
+class DelaySource {
+ public:
+  // An accepted instant of a motion in time: what will be read of it is kept.
+  virtual void record(const Motion&, DelayHistories&) const = 0;
+  // The longest step in time that resolves the delays here.
+  virtual double longest_step(const Motion&) const = 0;
+
+ protected:
+  ~DelaySource() = default;
 };
 
 }  // namespace dynalin

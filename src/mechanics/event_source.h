@@ -1,4 +1,4 @@
-// Elements that watch a motion in time and act on its simulation: SENSORs.
+// Elements and the events of a motion in time: where they have kinks, and those that watch it and act, as SENSORs do.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +11,18 @@
 #include "mechanics/motion.h"
 
 namespace dynalin {
+
+// Elements with kinks or jumps of their own. Those of bound expressions (the ends of a STEP, the condition of an IF)
+// are known without.
+class SwitchSource {
+ public:
+  // Adds functions of the motion that change their sign where what the elements say has a kink or a jump: as many in
+  // the same order at every motion.
+  virtual void switches(const Motion&, ExpressionScratch&, SwitchList&) const = 0;
+
+ protected:
+  ~SwitchSource() = default;
+};
 
 // What is to be done at an instant.
 struct EventAction {

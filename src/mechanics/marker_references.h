@@ -6,6 +6,7 @@
 
 #include "mechanics/marker_frame.h"
 #include "mechanics/signals.h"
+#include "mechanics/wrench_source.h"
 
 namespace dynalin {
 

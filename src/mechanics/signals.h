@@ -6,11 +6,14 @@
 #include <string_view>
 
 #include "expression/expression.h"
+#include "mechanics/channel_source.h"
 #include "mechanics/handles.h"
-#include "mechanics/kernel.h"
 #include "mechanics/layout.h"
 
 namespace dynalin {
+
+class Kernel;
+class WrenchSource;
 
 class Signals {
  public:

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "dataset/characters.h"
+#include "mechanics/wrench_source.h"
 #include "nastran/names.h"
 
 namespace dynalin::nastran {

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "mechanics/wrench_source.h"
 #include "system/system.h"
 
 namespace dynalin::nastran {

@@ -8,6 +8,7 @@
 
 #include "elements/bodies/fe_part.h"
 #include "elements/controls/variable_list.h"
+#include "mechanics/wrench_source.h"
 #include "system/mass_centres.h"
 
 namespace dynalin {

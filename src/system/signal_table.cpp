@@ -2,6 +2,7 @@
 
 #include "elements/controls/array.h"
 #include "elements/controls/variable_list.h"
+#include "mechanics/wrench_source.h"
 
 namespace dynalin {
 

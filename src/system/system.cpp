@@ -57,9 +57,14 @@ void System::make_kernels(DelayReading delays) {
   binder.bind(kernels_);
   switching_ = binder.take_switching();
   for (const auto& kernel : kernels_) {
+    if (const SwitchSource* kinks = kernel->kinks()) switch_sources_.push_back(kinks);
     if (const EventSource* events = kernel->events()) event_sources_.push_back(events);
-    const auto own = kernel->starts();
-    starts_.insert(starts_.end(), own.begin(), own.end());
+    if (const DelaySource* delays_of = kernel->delays()) delay_sources_.push_back(delays_of);
+    if (const StartSource* starts = kernel->starts()) {
+      const auto own = starts->start_conditions();
+      start_sources_.push_back(starts);
+      starts_.insert(starts_.end(), own.begin(), own.end());
+    }
   }
 }
 
@@ -141,7 +146,7 @@ Motion System::motion(const OperatingPoint& op) const {
 
 void System::switches(const Motion& motion, ExpressionScratch& scratch, SwitchList& list) const {
   list.clear();
-  for (const auto& kernel : kernels_) kernel->switches(motion, scratch, list);
+  for (const SwitchSource* kinks : switch_sources_) kinks->switches(motion, scratch, list);
   for (const BoundExpression& e : switching_) e.switches(motion, scratch, list);
 }
 
@@ -150,13 +155,13 @@ void System::record(OperatingPoint& op) const {
   auto histories = op.delays ? std::make_shared<DelayHistories>(*op.delays)
                              : std::make_shared<DelayHistories>(layout_.delay_calls.size());
   const Motion m = motion(op);
-  for (const auto& kernel : kernels_) kernel->record(m, *histories);
+  for (const DelaySource* delays : delay_sources_) delays->record(m, *histories);
   op.delays = std::move(histories);
 }
 
 double System::longest_step(const Motion& motion) const {
   double longest = std::numeric_limits<double>::infinity();
-  for (const auto& kernel : kernels_) longest = std::min(longest, kernel->longest_step(motion));
+  for (const DelaySource* delays : delay_sources_) longest = std::min(longest, delays->longest_step(motion));
   return longest;
 }
 
@@ -166,9 +171,9 @@ void System::constraints(const Motion& motion, ConstraintRows& rows) const {
 }
 
 void System::start_rows(const Motion& motion, std::int32_t first_row, ConstraintRows& rows) const {
-  for (const auto& kernel : kernels_) {
-    kernel->start_rows(motion, first_row, rows);
-    first_row += static_cast<std::int32_t>(kernel->starts().size());
+  for (const StartSource* starts : start_sources_) {
+    starts->start_rows(motion, first_row, rows);
+    first_row += static_cast<std::int32_t>(starts->start_conditions().size());
   }
 }
 

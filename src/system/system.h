@@ -11,6 +11,7 @@
 #include "mechanics/event_source.h"
 #include "mechanics/kernel.h"
 #include "mechanics/signals.h"
+#include "mechanics/start_source.h"
 #include "model/model.h"
 #include "system/elimination.h"
 #include "system/operating_point.h"
@@ -95,7 +96,10 @@ class System {
   std::unique_ptr<SignalTable> signals_;
   std::vector<StartCondition> starts_;
   std::vector<BoundExpression> switching_;  // those with kinks or jumps
+  std::vector<const StartSource*> start_sources_;
+  std::vector<const SwitchSource*> switch_sources_;
   std::vector<const EventSource*> event_sources_;
+  std::vector<const DelaySource*> delay_sources_;
   double length_ = 1;
   std::vector<double> scale_;
   std::vector<std::int32_t> preference_;

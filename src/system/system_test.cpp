@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "expression/expression.h"
+#include "mechanics/wrench_source.h"
 #include "system/model_test_support.h"
 #include "system/signal_table.h"
 

@@ -7,6 +7,7 @@
 
 #include "expression/functions.h"
 #include "mechanics/bound_expression.h"
+#include "mechanics/wrench_source.h"
 #include "model/model.h"
 #include "model/schema.h"
 

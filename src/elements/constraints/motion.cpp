@@ -22,6 +22,7 @@
 #include "elements/controls/variable_list.h"
 #include "elements/families/pair_displacement.h"
 #include "mechanics/bound_expression.h"
+#include "mechanics/wrench_source.h"
 
 namespace dynalin {
 

@@ -9,7 +9,9 @@
 
 #include "elements/families/contact_law.h"
 #include "geometry/touch.h"
+#include "mechanics/event_source.h"
 #include "mechanics/kernel.h"
+#include "mechanics/wrench_source.h"
 #include "model/model.h"
 
 namespace dynalin {
@@ -29,19 +31,22 @@ struct ContactForce {
   bool friction_in_statics = true;
 };
 
-class ContactKernel final : public Kernel, public WrenchSource {
+class ContactKernel final : public Kernel, public WrenchSource, public SwitchSource {
  public:
   ContactKernel(const std::vector<ContactForce>&, const std::vector<ElementLabel>&, Layout&);
 
   void equations(const Motion&, Equations&) const override;
   std::size_t shares() const override { return forces_.size() / 2 + 1; }  // facets take long
+  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
+
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return forces_[k].law->i; }
   MarkerId marker_J(std::size_t k) const override { return forces_[k].law->j; }
   void wrench(const Motion&, std::size_t k, bool with_partials, MarkerWrench&) const override;
+
+  const SwitchSource* kinks() const override { return this; }
   // Where surfaces meet or part, where they hold each other no more, and where a plane ends.
   void switches(const Motion&, ExpressionScratch&, SwitchList&) const override;
-  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
 
  private:
   struct Placed {

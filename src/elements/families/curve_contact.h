@@ -30,8 +30,11 @@
 #include <vector>
 
 #include "elements/constraints/curve.h"
+#include "mechanics/event_source.h"
 #include "mechanics/kernel.h"
 #include "mechanics/path.h"
+#include "mechanics/start_source.h"
+#include "mechanics/wrench_source.h"
 #include "model/model.h"
 #include "model/schema.h"
 
@@ -72,7 +75,7 @@ bool check_start_axes(const Model&, const ElementLabel&, MarkerId axes, std::str
                       Diagnostics&);
 
 template <class E>
-class CurveContactKernel final : public Kernel, public WrenchSource {
+class CurveContactKernel final : public Kernel, public WrenchSource, public StartSource, public SwitchSource {
  public:
   static constexpr std::size_t n = E::row_names.size(), m = E::parameter_names.size(), seeds = 6 + m;
 
@@ -155,7 +158,8 @@ class CurveContactKernel final : public Kernel, public WrenchSource {
     }
   }
 
-  std::span<const StartCondition> starts() const override { return starts_; }
+  const StartSource* starts() const override { return this; }
+  std::span<const StartCondition> start_conditions() const override { return starts_; }
   // Arc from the point asked for, its rate exact where it is met.
   void start_rows(const Motion& motion, std::int32_t first, ConstraintRows& rows) const override {
     for (std::size_t k = 0; k < starts_.size(); ++k) {
@@ -207,6 +211,7 @@ class CurveContactKernel final : public Kernel, public WrenchSource {
     }
   }
 
+  const SwitchSource* kinks() const override { return this; }
   // Where the direction of the curve has a kink or a jump at the contact, and where the curve ends.
   void switches(const Motion& motion, ExpressionScratch&, SwitchList& list) const override {
     for (const Placed& p : contacts_) {

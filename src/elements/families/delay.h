@@ -17,14 +17,16 @@
 #include <vector>
 
 #include "mechanics/bound_expression.h"
+#include "mechanics/channel_source.h"
 #include "mechanics/delay_history.h"
+#include "mechanics/event_source.h"
 #include "mechanics/kernel.h"
 
 namespace dynalin {
 
 enum class DelayReading : std::uint8_t { first_order, pade };
 
-class DelayKernel final : public Kernel {
+class DelayKernel final : public Kernel, public DelaySource, public SwitchSource {
  public:
   explicit DelayKernel(DelayReading reading) : reading_(reading) {}
 
@@ -34,12 +36,16 @@ class DelayKernel final : public Kernel {
   void bind(Binder&) override;
   void equations(const Motion&, Equations&) const override;
   void remember(const Motion&, Memory&) const override;
+  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
+
+  const SwitchSource* kinks() const override { return this; }
   // Where t − τ passes a jump or a kink of e, a kink of the history before the start, or τ zero.
   void switches(const Motion&, ExpressionScratch&, SwitchList&) const override;
+
+  const DelaySource* delays() const override { return this; }
   void record(const Motion&, DelayHistories&) const override;
   // The shortest delay that is a number. One that varies may vanish on the way, and steps must not with it.
   double longest_step(const Motion&) const override;
-  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
 
  private:
   struct Call {

@@ -17,16 +17,19 @@
 
 #include "flexible/modal_body.h"
 #include "mechanics/kernel.h"
+#include "mechanics/start_source.h"
 #include "model/model.h"
 
 namespace dynalin {
 
-class FlexibleBodyKernel final : public Kernel {
+class FlexibleBodyKernel final : public Kernel, public StartSource {
  public:
   // All flexible bodies of the model.
   FlexibleBodyKernel(const Model&, const Layout&);
   void equations(const Motion&, Equations&) const override;
-  std::span<const StartCondition> starts() const override { return starts_; }
+
+  const StartSource* starts() const override { return this; }
+  std::span<const StartCondition> start_conditions() const override { return starts_; }
   void start_rows(const Motion&, std::int32_t first_row, ConstraintRows&) const override;
 
  private:

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "mechanics/bound_expression.h"
+#include "mechanics/channel_source.h"
 #include "mechanics/kernel.h"
 
 namespace dynalin {

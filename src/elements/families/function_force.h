@@ -10,6 +10,7 @@
 #include "elements/families/markers.h"
 #include "mechanics/bound_expression.h"
 #include "mechanics/kernel.h"
+#include "mechanics/wrench_source.h"
 #include "model/schema.h"
 
 namespace dynalin {

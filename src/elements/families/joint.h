@@ -34,6 +34,8 @@
 #include "elements/families/markers.h"
 #include "mechanics/kernel.h"
 #include "mechanics/path.h"
+#include "mechanics/start_source.h"
+#include "mechanics/wrench_source.h"
 #include "model/schema.h"
 
 namespace dynalin {
@@ -164,7 +166,7 @@ struct Joint {
 };
 
 template <class E>
-class JointKernel final : public Kernel, public WrenchSource {
+class JointKernel final : public Kernel, public WrenchSource, public StartSource {
  public:
   static constexpr std::size_t n = Joint<E>::n;
 
@@ -211,7 +213,8 @@ class JointKernel final : public Kernel, public WrenchSource {
   }
   std::size_t shares() const override { return shares_of(joints_.size()); }
 
-  std::span<const StartCondition> starts() const override { return starts_; }
+  const StartSource* starts() const override { return this; }
+  std::span<const StartCondition> start_conditions() const override { return starts_; }
   void start_rows(const Motion& motion, std::int32_t first, ConstraintRows& rows) const override {
     for (std::size_t k = 0; k < starts_.size(); ++k) {
       const StartPlace& p = start_places_[k];

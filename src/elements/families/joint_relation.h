@@ -2,6 +2,7 @@
 #pragma once
 
 #include "elements/families/pair_displacement.h"
+#include "mechanics/wrench_source.h"
 
 namespace dynalin {
 

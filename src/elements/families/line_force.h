@@ -13,6 +13,7 @@
 #include "elements/families/markers.h"
 #include "mechanics/kernel.h"
 #include "mechanics/path.h"
+#include "mechanics/wrench_source.h"
 #include "model/schema.h"
 
 namespace dynalin {

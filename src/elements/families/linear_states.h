@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "mechanics/channel_source.h"
 #include "mechanics/kernel.h"
 
 namespace dynalin {

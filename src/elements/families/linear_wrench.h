@@ -15,6 +15,7 @@
 #include "elements/families/markers.h"
 #include "expression/routine.h"
 #include "mechanics/kernel.h"
+#include "mechanics/wrench_source.h"
 #include "model/schema.h"
 
 namespace dynalin {

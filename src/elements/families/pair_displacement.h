@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "elements/families/joint.h"
+#include "mechanics/wrench_source.h"
 
 namespace dynalin {
 

@@ -13,6 +13,7 @@
 
 #include "elements/families/sampling.h"
 #include "mechanics/bound_expression.h"
+#include "mechanics/channel_source.h"
 #include "mechanics/event_source.h"
 #include "mechanics/kernel.h"
 

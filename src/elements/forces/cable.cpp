@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 
 #include "elements/families/markers.h"
+#include "mechanics/event_source.h"
 #include "mechanics/kernel.h"
 #include "mechanics/pair_blocks.h"
+#include "mechanics/wrench_source.h"
 #include "model/schema.h"
 
 namespace dynalin {
@@ -43,7 +45,7 @@ struct Cable {
   }};
 };
 
-class CableKernel final : public Kernel, public WrenchSource {
+class CableKernel final : public Kernel, public WrenchSource, public SwitchSource {
  public:
   CableKernel(const std::vector<Cable>& cables, const std::vector<ElementLabel>& labels, Layout& layout)
       : layout_(layout), labels_(&labels) {
@@ -98,6 +100,7 @@ class CableKernel final : public Kernel, public WrenchSource {
     }
   }
 
+  const SwitchSource* kinks() const override { return this; }
   void switches(const Motion& motion, ExpressionScratch&, SwitchList& list) const override {
     std::vector<PairMotion> spans;
     for (const Placed& p : cables_) list.add(look(p, motion, spans).law);

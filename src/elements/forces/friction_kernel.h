@@ -13,6 +13,7 @@
 #include "elements/forces/friction_law.h"
 #include "mechanics/kernel.h"
 #include "mechanics/stiction_source.h"
+#include "mechanics/wrench_source.h"
 
 namespace dynalin {
 

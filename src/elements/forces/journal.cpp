@@ -26,6 +26,7 @@
 #include <numbers>
 
 #include "elements/families/linear_wrench.h"
+#include "mechanics/wrench_source.h"
 
 namespace dynalin {
 

@@ -12,6 +12,7 @@
 #include "elements/controls/matrix.h"
 #include "elements/families/linear_wrench.h"
 #include "mechanics/pair_blocks.h"
+#include "mechanics/wrench_source.h"
 
 namespace dynalin {
 

@@ -1,6 +1,7 @@
 #include "elements/requests/marker_request.h"
 
 #include "expression/measures.h"
+#include "mechanics/wrench_source.h"
 
 namespace dynalin {
 

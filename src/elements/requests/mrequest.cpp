@@ -14,6 +14,7 @@
 #include "elements/bodies/part.h"
 #include "elements/requests/lenient.h"
 #include "elements/requests/request_kernel.h"
+#include "mechanics/wrench_source.h"
 #include "model/model.h"
 #include "model/schema.h"
 
