@@ -32,7 +32,8 @@ std::string too_far_out(const System& system, const OperatingPoint& op) {
     for (std::size_t c = 0; c < 3; ++c) at[c].push_back(p[c]);
   }
   if (at[0].size() < 3) return {};
-  const auto half = static_cast<std::ptrdiff_t>(at[0].size() / 2);
+  const auto half = static_cast<std::ptrdiff_t>(at[0].size() / 2),
+             most = static_cast<std::ptrdiff_t>(at[0].size() * 3 / 4);
   const auto middle = [&](std::vector<double>& x, std::ptrdiff_t k) {
     std::nth_element(x.begin(), x.begin() + k, x.end());
     return x[static_cast<std::size_t>(k)];
@@ -41,7 +42,7 @@ std::string too_far_out(const System& system, const OperatingPoint& op) {
   for (std::vector<double>& x : at) {
     const double centre = middle(x, half);
     for (double& v : x) v = std::abs(v - centre);
-    spread = std::max(spread, middle(x, half));
+    spread = std::max(spread, middle(x, most));
   }
   // Markers that are drawn in one place say nothing of the size.
   std::vector<double> distance;
@@ -52,7 +53,7 @@ std::string too_far_out(const System& system, const OperatingPoint& op) {
     const double off = norm(op.poses[b].r) * std::numeric_limits<double>::epsilon();
     if (off <= 1e-6 * spread || spread <= coincide) continue;
     return fmt::format(
-        "{} is so far out that its position is known to {:.1e} only, in a model of which half lies within "
+        "{} is so far out that its position is known to {:.1e} only, in a model most of which lies within "
         "{:.3g}",
         layout.bodies[b].label.full_text(), off, spread);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "geometry/placed_box.h"
 
@@ -96,27 +97,75 @@ Touch<T> corner_of_J(const Vec3<T>& corner, const Face<T>& I, const Vec3<T>& nor
   return t;
 }
 
-// Two edges that cross, seen along the normal. It counts with the square of the sine of their angle: where a corner
-// leaves over an edge, its two edges cross that one, and sin² and cos² of the same angle add up to what the corner had.
+// Where an edge of I and one of J cross, seen along the normal.
 template <class T>
-Touch<T> crossing(const Edge<T>& I, const Edge<T>& J, const Vec3<T>& normal, double tolerance) {
-  const Vec3<T>&u = I.along, &v = J.along;
+struct Crossing {
+  std::optional<Touch<T>> touch;           // nothing where they do not
+  T square_of_sine{};                      // of their angle
+  std::size_t beyond_I = 0, beyond_J = 0;  // the edges with which they meet at their ends outside of the other face
+};
+
+template <class T>
+Crossing<T> crossing(const Face<T>& I, std::size_t i, const Face<T>& J, std::size_t j, const Vec3<T>& normal,
+                     double tolerance) {
+  Crossing<T> found;
+  const Edge<T>&e = I.edges[i], &f = J.edges[j];
+  const Vec3<T>&u = e.along, &v = f.along;
   const T area = dot(cross(u, v), normal);
   const T un = dot(u, normal), vn = dot(v, normal);
-  const T weight = area * area / ((1.0 - un * un) * (1.0 - vn * vn));
-  if (!(value_of(weight) > least_sine * least_sine)) {
-    Touch<T> none = between(J.from, T(I.length + J.length), normal);
-    none.inside = -unbounded;
-    return none;
-  }
-  const Vec3<T> d = I.from - J.from;
+  found.square_of_sine = area * area / ((1.0 - un * un) * (1.0 - vn * vn));
+  if (!(value_of(found.square_of_sine) > least_sine * least_sine)) return found;
+  const Vec3<T> d = e.from - f.from;
   const T s = -dot(d, cross(v, normal)) / area, r = -dot(d, cross(u, normal)) / area;
   const T gap = dot(d + u * s - v * r, normal);
-  Touch<T> t = between(J.from + v * r, gap, normal);
-  t.weight = weight;
-  for (const double depth : {value_of(s), I.length - value_of(s), value_of(r), J.length - value_of(r)})
+  Touch<T> t = between(f.from + v * r, gap, normal);
+  for (const double depth : {value_of(s), e.length - value_of(s), value_of(r), f.length - value_of(r)})
     t.inside = std::min(t.inside, depth), t.weight *= T(share_inside(depth, tolerance));
-  return t;
+  if (std::abs(t.inside) <= tolerance) t.inside = 0;
+  found.touch = t;
+  // Edges go around their face: what lies on the side of its middle is in it.
+  const auto leaves_at_end = [&](const Vec3<T>& along, const Edge<T>& other, const Face<T>& face) {
+    const Vector beside = cross(value_of(other.along), value_of(normal));
+    const Vector middle = 0.5 * (value_of(face.corners[0]) + value_of(face.corners[2])) - value_of(other.from);
+    return dot(value_of(along), beside) * dot(middle, beside) < 0;
+  };
+  found.beyond_I = (i + (leaves_at_end(u, f, J) ? 1 : 3)) % 4;
+  found.beyond_J = (j + (leaves_at_end(v, e, I) ? 1 : 3)) % 4;
+  return found;
+}
+
+// Where a corner leaves over an edge, its two edges cross that one, as deep as the corner was: they share its force, by
+// sin² and cos² of the same angle. The less deep one of the two is the more the other has a whole force of its own.
+template <class T>
+T share_beside(const Crossing<T>& own, const Crossing<T>& other) {
+  if (!other.touch || other.touch->inside < 0 || value_of(own.touch->gap) >= 0) return T(1.0);
+  const T ratio = other.touch->gap / own.touch->gap;
+  if (value_of(ratio) <= 0) return T(1.0);
+  const T alone = value_of(ratio) < 1 ? T((1.0 - ratio) * (1.0 - ratio) * (1.0 + 2.0 * ratio)) : T(0.0);
+  return own.square_of_sine + (1.0 - own.square_of_sine) * alone;
+}
+
+template <class T>
+void touch_edges(const Face<T>& I, const Face<T>& J, const Vec3<T>& normal, double tolerance,
+                 std::span<Touch<T>, 16> out) {
+  std::array<std::array<Crossing<T>, 4>, 4> all;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) all[i][j] = crossing(I, i, J, j, normal, tolerance);
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      const Crossing<T>& c = all[i][j];
+      Touch<T>& t = out[4 * i + j];
+      if (!c.touch) {
+        t = between(J.edges[j].from, T(I.edges[i].length + J.edges[j].length), normal);
+        t.inside = -unbounded;
+        continue;
+      }
+      t = *c.touch;
+      const T by_I = share_beside(c, all[c.beyond_I][j]), by_J = share_beside(c, all[i][c.beyond_J]);
+      t.weight *= value_of(by_I) < value_of(by_J) ? by_I : by_J;
+    }
+  }
 }
 
 // Of parallel faces the one that holds more corners of the other one is the one whose normal stays where the boxes
@@ -147,9 +196,8 @@ void touch_boxes(const solid::Box& I_box, const RelativeFrame<T>& R, const solid
   std::size_t count = 0;
   for (const Vec3<T>& c : of_I.corners) out[count++] = corner_of_I(c, of_J, normal, tolerance);
   for (const Vec3<T>& c : of_J.corners) out[count++] = corner_of_J(c, of_I, normal, tolerance);
-  for (const Edge<T>& e : of_I.edges) {
-    for (const Edge<T>& f : of_J.edges) out[count++] = crossing(e, f, normal, tolerance);
-  }
+  touch_edges(of_I, of_J, normal, tolerance, out.subspan(count).template first<16>());
+  count += 16;
   for (Touch<T>& t : out.first(count)) {
     t.defined = part.definite;
     if (std::abs(t.inside) <= tolerance) t.inside = 0;

@@ -4,13 +4,14 @@
 #include <optional>
 
 #include "geometry/frustum_parting.h"
+#include "geometry/low_on_circle.h"
 
 namespace dynalin {
 
 namespace solid {
 namespace {
 
-constexpr double flat = 1e-6;  // sine of a rim that lies in a face with all of it
+constexpr double flat = 1e-6;  // sine of lines that are taken for parallel
 
 template <class T>
 Circle<T> circle_at(const Vec3<T>& point) {
@@ -145,28 +146,21 @@ class PlacesAbout {
     t.weight *= share;
     return t;
   }
-  // The deepest point of a circle below a plane; of one that lies flat all of it is as deep.
-  Touch<T> lowest(const Circle<T>& c, const Vec3<T>& plane, const Vec3<T>& n, bool out_of_J) const {
-    using std::sqrt;
-    const T x = dot(c.first, n), y = dot(c.second, n), square = x * x + y * y;
-    const bool lies_flat = c.radius > 0 && !(value_of(square) > flat * flat);
-    Vec3<T> p = c.centre;
-    if (c.radius > 0 && !lies_flat) p = p - (c.first * x + c.second * y) * (c.radius / sqrt(square));
-    const T gap = dot(p - plane, n);
-    Touch<T> t = between(Vec3<T>(p - n * gap), gap, n);
+  // The deepest place of a circle below a plane, and whether it stands flat there.
+  std::pair<Touch<T>, bool> lowest(const Circle<T>& c, const Vec3<T>& plane, const Vec3<T>& n, bool out_of_J) const {
+    const LowPlace<T> low = low_on_circle(-(c.first * dot(c.first, n) + c.second * dot(c.second, n)), c.radius);
+    const Vec3<T> p = c.centre + low.from_centre;
+    const T gap = dot(c.centre - plane, n) - low.depth;
+    Touch<T> t = between(Vec3<T>(p - n * dot(p - plane, n)), gap, n);
     if (!out_of_J) t.normal = -n;
-    t.defined = !lies_flat;
-    return t;
+    return {t, low.level};
   }
   Touch<T> rim_in_face(const PlacedFrustum<T>& I, bool upper, const Face<T>& J) const {
     const Circle<T> rim = I.rim(upper);
-    Touch<T> t = lowest(rim, J.corners[0], J.normal(), true);
-    if (t.defined) {
-      keep_within(J, Vec3<T>(t.point - t.normal * (t.gap * 0.5)), tolerance_, t);
-      return t;
-    }
-    // The face that is all in the circle stands on its corners.
-    bool all_in = true;
+    auto [t, level] = lowest(rim, J.corners[0], J.normal(), true);
+    keep_within(J, Vec3<T>(t.point - t.normal * (t.gap * 0.5)), tolerance_, t);
+    // Where the rim is flat on it, a face that is all in the circle stands on its corners.
+    bool all_in = level;
     for (const Vec3<T>& c : J.corners) {
       const Vector d = value_of(c) - value_of(rim.centre);
       all_in =
@@ -176,8 +170,13 @@ class PlacesAbout {
     return t;
   }
   Touch<T> point_in_end(const PlacedFrustum<T>& f, bool upper, const Circle<T>& c, bool out_of_J) const {
-    Touch<T> t = lowest(c, f.centre(upper), f.end_normal(upper), out_of_J);
-    if (!t.defined) return t;
+    auto [t, level] = lowest(c, f.centre(upper), f.end_normal(upper), out_of_J);
+    // Of two ends that stand flat on each other the smaller one stands on the larger.
+    const bool on_larger = f.radius(upper) > c.radius || (f.radius(upper) == c.radius && out_of_J);
+    if (level && !on_larger) {
+      t.inside = -unbounded;
+      return t;
+    }
     const Vector d = value_of(t.point) - value_of(f.at.p);
     t.inside = f.radius(upper) - std::hypot(dot(value_of(f.at.x), d), dot(value_of(f.at.y), d));
     t.weight = T(share_inside(t.inside, tolerance_));

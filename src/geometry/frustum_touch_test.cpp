@@ -465,14 +465,45 @@ TEST(FrustumTouch, is_determined_where_it_begins) {
   }
 }
 
+// In its middle where it is flat; on the circle from an inclination of a ten-thousandth on; and between them as the
+// derivative of the depth says.
+TEST(FrustumTouch, rim_that_stands_flat_bears_in_its_middle) {
+  struct Support {
+    Pair pair;
+    double top;
+  };
+  for (const auto& [pair, top] : {Support{{"", {roller}, {table}}, 0}, {{"", {roller}, {drum}}, 1}}) {
+    const auto inclined = [&](double angle) {
+      return Frame{{0.1, 0, top + 0.499},
+                   {std::cos(angle), 0, -std::sin(angle)},
+                   {0, 1, 0},
+                   {std::sin(angle), 0, std::cos(angle)}};
+    };
+    const auto flat = closed(pair, inclined(0));
+    ASSERT_EQ(flat.size(), 1u);
+    EXPECT_TRUE(flat[0].defined);
+    EXPECT_NEAR(flat[0].point.x, 0.1, 1e-12);
+    EXPECT_NEAR(flat[0].gap, -0.001 - 0.375 * 1e-4 * 0.1, 1e-12);
+    constexpr double step = 1e-8;
+    for (const double angle : {1e-6, 5e-5, 9.9e-5, 2e-4}) {
+      const auto here = closed(pair, inclined(angle));
+      ASSERT_EQ(here.size(), 1u) << angle;
+      const double slope =
+          (closed(pair, inclined(angle + step))[0].gap - closed(pair, inclined(angle - step))[0].gap) / (2 * step);
+      // Turning about y through the centre by an angle lowers what is at x from it by x.
+      EXPECT_NEAR(slope, -(here[0].point.x - 0.1), 1e-6) << angle;
+      if (angle > 1e-4) {
+        EXPECT_NEAR(here[0].point.x - 0.1, 0.1 * std::cos(angle) - 0.5 * std::sin(angle), 1e-9);
+      }
+    }
+  }
+}
+
 TEST(FrustumTouch, has_no_place_where_a_circle_is_as_near) {
-  const Frame upright{{0.1, 0, 0.499}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const auto undefined = [](const Pair& p, const Frame& at) {
     const auto list = closed(p, at);
     return !list.empty() && std::all_of(list.begin(), list.end(), [](const auto& t) { return !t.defined; });
   };
-  EXPECT_TRUE(undefined({"", {roller}, {table}}, upright));
-  EXPECT_TRUE(undefined({"", {roller}, {drum}}, {{0.1, 0, 1.499}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
   const Frame within{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   EXPECT_TRUE(undefined({"", {roller}, {drum}}, within));
   EXPECT_TRUE(undefined({"", {Frustum{-1, 0.06, 1, 0.06}}, {Frustum{-0.05, 0.5, 0.05, 0.5}}}, within));

@@ -8,6 +8,7 @@
 #include "geometry/ellipsoid_touch.h"
 #include "geometry/facet_touch.h"
 #include "geometry/frustum_touch.h"
+#include "geometry/low_on_circle.h"
 #include "geometry/plane_touch.h"
 
 namespace dynalin {
@@ -82,26 +83,24 @@ double inside(const Plane& p, const Vec3<T>& at) {
 }
 
 template <class T>
-Touch<T> touch_on_plane(const Vec3<T>& lowest, double up, const Plane& plane, bool defined = true) {
+Touch<T> touch_on_plane(const Vec3<T>& lowest, double up, const Plane& plane) {
   Touch<T> t;
   t.gap = lowest.z * up;
   t.normal = {T(0.0), T(0.0), T(up)};
   t.point = {lowest.x, lowest.y, lowest.z * 0.5};
   t.inside = inside(plane, lowest);
-  t.defined = defined;
   return t;
 }
 
-// The lowest point of a circle about `centre`, across the unit vector `axis`.
+// The lowest place of a circle about `centre`, across the unit vector `axis`.
 template <class T>
-std::pair<Vec3<T>, bool> lowest_of_circle(const Vec3<T>& centre, const Vec3<T>& axis, double radius, double up) {
-  using std::sqrt;
-  if (radius == 0) return {centre, true};
+Vec3<T> lowest_of_circle(const Vec3<T>& centre, const Vec3<T>& axis, double radius, double up) {
   // Down, less what of it is along the axis.
   const Vec3<T> down{axis.z * axis.x * up, axis.z * axis.y * up, (axis.z * axis.z - 1.0) * up};
-  const T size = dot(down, down);
-  if (!(value_of(size) > coincidence * coincidence)) return {centre, false};
-  return {centre + down * (radius / sqrt(size)), true};
+  const LowPlace<T> low = low_on_circle(down, radius);
+  Vec3<T> place = centre + low.from_centre;
+  place.z = centre.z - low.depth * up;
+  return place;
 }
 
 template <class T>
@@ -121,15 +120,15 @@ template <class T>
 void touch_plane(const Frustum& f, const RelativeFrame<T>& I, const Plane& plane, double up, std::span<Touch<T>> out) {
   for (const bool upper : {false, true}) {
     const Vec3<T> centre = I.p + I.z * (upper ? f.high : f.low);
-    const auto [lowest, defined] = lowest_of_circle(centre, I.z, upper ? f.high_radius : f.low_radius, up);
-    out[upper ? 1 : 0] = touch_on_plane(lowest, up, plane, defined);
+    const double radius = upper ? f.high_radius : f.low_radius;
+    out[upper ? 1 : 0] = touch_on_plane(lowest_of_circle(centre, I.z, radius, up), up, plane);
   }
 }
 template <class T>
 void touch_plane(const Torus& t, const RelativeFrame<T>& I, const Plane& plane, double up, std::span<Touch<T>> out) {
-  auto [lowest, defined] = lowest_of_circle(I.p, I.z, t.major, up);
+  Vec3<T> lowest = lowest_of_circle(I.p, I.z, t.major, up);
   lowest.z -= T(t.minor * up);
-  out[0] = touch_on_plane(lowest, up, plane, defined);
+  out[0] = touch_on_plane(lowest, up, plane);
 }
 // A shape with corners.
 template <class T, class A>

@@ -93,6 +93,7 @@ CalledRoutines::CalledRoutines(const Dataset& dataset, Catalogue catalogue, cons
       libraries_.push_back(std::move(library));
     } else {
       diagnostics_.error("unusable-library", {}, fmt::format("{} cannot be loaded: {}", file, reason));
+      lacks_library_ = true;
     }
   }
 }
@@ -215,7 +216,15 @@ std::optional<std::vector<double>> CalledRoutines::constants_of(const WrittenArg
   if (tokens.size() <= 3) return std::vector<double>();
   WrittenArgument constants = call;
   constants.set_value(tokens.subspan(2, tokens.size() - 3));
-  return read_reals(constants, source, diagnostics_);
+  auto values = read_reals(constants, source, diagnostics_);
+  constexpr std::size_t most = 30;
+  if (values && values->size() > most) {
+    diagnostics_.error("wrong-count", constants.value_span(),
+                       fmt::format("USER of {} has {} constants, and takes {} at most", label, values->size(), most),
+                       "a routine reads more from an ARRAY, by its id");
+    return std::nullopt;
+  }
+  return values;
 }
 
 std::optional<RoutineStatement> CalledRoutines::says(const Statement& s, const WrittenArgument* call) {

@@ -25,6 +25,8 @@ class CalledRoutines {
   CalledRoutines(const Dataset&, Catalogue, const RoutineOptions&, Diagnostics&);
 
   bool has_libraries() const { return !libraries_.empty() || !folders_.empty(); }
+  // Whether one that was named cannot be loaded, which is reported: what it should have is not missing as well.
+  bool lacks_library() const { return lacks_library_; }
   // The routine that the statement calls, null if no library has it (`wanted` says what was looked for) or after an
   // error.
   std::shared_ptr<const CompiledRoutine> find(const Statement&, const WrittenArgument& call, std::string& wanted);
@@ -66,6 +68,7 @@ class CalledRoutines {
   RoutineDifferences differences_;
   Diagnostics& diagnostics_;
   std::vector<Library> libraries_;
+  bool lacks_library_ = false;
   std::vector<std::string> folders_;
   std::shared_ptr<const std::vector<int>> constant_arrays_;
 };

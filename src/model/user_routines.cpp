@@ -166,7 +166,7 @@ class Replacement {
     std::shared_ptr<const StateEquations> equations;
     if (called_.has_libraries()) {
       equations = called_.find_state_equations(s, call);
-    } else {
+    } else if (!called_.lacks_library()) {
       diagnostics_.error("missing-routine", at,
                          fmt::format("{} calls compiled routines, and no library that has them is named", s.at.text()),
                          "--user-library FILE.so names a library; no constant can take its place");
@@ -185,8 +185,9 @@ class Replacement {
 
   // Whether that is done, or cannot be for a reason that is reported.
   bool call_library(Statement& s, std::size_t k) {
-    if (!called_.has_libraries()) return false;
     WrittenArgument& call = s.arguments[k];
+    if (called_.lacks_library() && !value_) call.damaged = true;
+    if (!called_.has_libraries()) return call.damaged;
     std::string wanted;
     const std::size_t errors = diagnostics_.error_count();
     const auto routine = called_.find(s, call, wanted);

@@ -12,7 +12,7 @@ Signature* as(void* address) {
 void call_with_addresses(void* address, RoutineArguments arguments, const RoutineStatement& s,
                          const RoutineArgumentsNow& now, double* values) {
   const auto npar = static_cast<int>(s.parameters.size());
-  const double* par = s.parameters.data();
+  const double* par = s.constants();
   switch (arguments) {
     case RoutineArguments::function:
     case RoutineArguments::of_time:
@@ -50,7 +50,7 @@ union WhatItSays {
 
 WhatItSays what_it_says(std::string_view statement, const RoutineStatement& s) {
   const auto npar = static_cast<int>(s.parameters.size());
-  const double* par = s.parameters.data();
+  const double* par = s.constants();
   WhatItSays all{};
   all.variable = {s.id, npar, par, s.initial};
   if (statement == "SFORCE")
@@ -103,7 +103,7 @@ void call_state_partials(const FoundRoutine& found, const RoutineStatement& s, c
   if (found.convention == RoutineConvention::addresses) {
     return as<void(const int*, const double*, const double*, const int*, const int*, const int*, const double*,
                    const int*, const double*, const int*, double*)>(found.address)(
-        &s.id, &now.time, s.parameters.data(), &npar, &now.iflag, &s.gse->NS, now.states.data(), &s.gse->NI,
+        &s.id, &now.time, s.constants(), &npar, &now.iflag, &s.gse->NS, now.states.data(), &s.gse->NI,
         now.inputs.data(), &s.gse->NO, matrix);
   }
   const WhatItSays all = what_it_says("GSE", s);

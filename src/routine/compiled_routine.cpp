@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "routine/call_routine.h"
-#include "routine/differences.h"
+#include "routine/routine_findings.h"
 #include "routine/utilities.h"
 
 namespace dynalin {
@@ -53,7 +53,8 @@ constexpr std::size_t first_of_field = 2, inputs_of_field = 12;
 // Components of a force follow each other, and each asks for all values again: the last call is remembered.
 struct CompiledRoutine::Memory {
   std::uint64_t serial = 0;
-  bool has_partials = false, differenced = false;
+  bool has_partials = false;
+  RoutineFindings findings;                      // of its partial derivatives
   std::vector<double> inputs, values, partials;  // partials: [value * inputs + input]
   std::vector<char> given;
 };
@@ -125,9 +126,7 @@ CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, st
   lack_of_derivatives_ = "gives no derivatives";
   const auto told = std::count_if(given.begin() + 2, given.end(), [](char g) { return g != 0; });
   if (told <= static_cast<std::ptrdiff_t>(constants_.size())) return;
-  const Atom& by = requests_.inputs[static_cast<std::size_t>(missing - given.begin())];
-  lack_of_derivatives_ = fmt::format("gives no derivative by {}({})", by.function->name,
-                                     fmt::join(std::span(by.argument).first(by.argument_count), ", "));
+  lack_of_derivatives_ = "gives no derivative by " + input_text(static_cast<std::size_t>(missing - given.begin()));
 }
 
 std::string CompiledRoutine::name() const {
@@ -255,7 +254,7 @@ std::string CompiledRoutine::evaluate_course(std::span<const double> inputs, int
   std::fill(partials.begin(), partials.end(), unknown);
   const dynalin_course course = {statement_.id,
                                  static_cast<int>(statement_.parameters.size()),
-                                 statement_.parameters.data(),
+                                 statement_.constants(),
                                  static_cast<int>(requests_.inputs.size()),
                                  static_cast<int>(values_),
                                  order,
@@ -275,17 +274,53 @@ bool CompiledRoutine::may_difference(double mode) const {
   return differences_ == RoutineDifferences::everywhere || mode != linear_mode;
 }
 
-// Differences of one input for all values at once.
-void CompiledRoutine::difference(std::span<const double> inputs, std::size_t input, std::span<double> partials) const {
+// Of all values at once.
+std::vector<Slope> CompiledRoutine::slopes(std::span<const double> inputs, std::size_t input) const {
   std::vector<double> moved(inputs.begin(), inputs.end());
   const auto at = [&](double x, std::span<double> values) {
     moved[input] = x;
     evaluate(moved, values, {}, {});
   };
-  const std::vector<Slope> slope = extrapolated_slope(at, inputs[input], values_);
-  // An iteration may go by what is not quite a derivative, a linear model may not.
-  for (std::size_t v = 0; v < values_; ++v)
-    partials[v * inputs.size() + input] = slope[v].agreed || inputs[1] != linear_mode ? slope[v].value : unknown;
+  return extrapolated_slope(at, inputs[input], values_);
+}
+
+void CompiledRoutine::difference(std::size_t input, Memory& memory) const {
+  const std::vector<Slope> slope = slopes(memory.inputs, input);
+  memory.findings.differenced = true;
+  for (std::size_t v = 0; v < values_; ++v) {
+    // An iteration may go by what is not quite a derivative, a linear model may not.
+    const bool taken = slope[v].agreed || memory.inputs[1] != linear_mode;
+    memory.partials[v * memory.inputs.size() + input] = taken ? slope[v].value : unknown;
+    if (slope[v].half_kink == 0) continue;
+    memory.findings.kinks.insert(
+        fmt::format("{} has a kink here: by {} its slope is {:.6g} on one side and {:.6g} on the other", what_,
+                    input_text(input), slope[v].value - slope[v].half_kink, slope[v].value + slope[v].half_kink));
+  }
+}
+
+// A wrong derivative has eigenvalues with narrow bounds like a right one: what differences contradict is said.
+void CompiledRoutine::doubt_given(Memory& memory) const {
+  if (!found_ || memory.inputs[1] != linear_mode) return;
+  constexpr double unlike = 1e-3;
+  const std::size_t n = memory.inputs.size();
+  for (std::size_t k = 2; k < n; ++k) {
+    if (!memory.given[k] || std::ranges::binary_search(constants_, static_cast<std::int32_t>(k))) continue;
+    const std::vector<Slope> slope = slopes(memory.inputs, k);
+    for (std::size_t v = 0; v < values_; ++v) {
+      const double given = memory.partials[v * n + k], size = std::max(std::abs(given), std::abs(slope[v].value));
+      const double off = std::abs(given - slope[v].value);
+      if (!slope[v].agreed || !(off > unlike * size + 4 * slope[v].error + slope[v].unseen)) continue;
+      if (slope[v].half_kink != 0 && off <= 1.01 * std::abs(slope[v].half_kink)) continue;  // one side, or between both
+      memory.findings.wrong_partials.insert(
+          fmt::format("{} gives {:.6g} as its derivative by {}, and its values change by {:.6g}", what_, given,
+                      input_text(k), slope[v].value));
+    }
+  }
+}
+
+std::string CompiledRoutine::input_text(std::size_t input) const {
+  const Atom& by = requests_.inputs[input];
+  return fmt::format("{}({})", by.function->name, fmt::join(std::span(by.argument).first(by.argument_count), ", "));
 }
 
 const CompiledRoutine::Memory& CompiledRoutine::remembered(const RoutineInputs<double>& read,
@@ -299,7 +334,7 @@ const CompiledRoutine::Memory& CompiledRoutine::remembered(const RoutineInputs<d
   if (same && (memory.has_partials || !with_partials)) return memory;
   memory.serial = serial_;
   memory.has_partials = with_partials;
-  memory.differenced = false;
+  memory.findings = {};
   memory.inputs = inputs;
   memory.values.resize(values_);
   if (!with_partials) {
@@ -313,15 +348,17 @@ const CompiledRoutine::Memory& CompiledRoutine::remembered(const RoutineInputs<d
     if (!evaluate_course(memory.inputs, 0, memory.values, memory.partials).empty())
       std::fill(memory.values.begin(), memory.values.end(), unknown);
     for (std::size_t v = 0; v < values_; ++v) memory.partials[v * n + 1] = 0.0;  // nothing depends on MODE smoothly
+    memory.given.assign(n, true);
+    doubt_given(memory);
     return memory;
   }
   evaluate(memory.inputs, memory.values, memory.partials, memory.given);
+  doubt_given(memory);
   // No equation has an unknown for time: what is not said of it is not asked for.
   for (std::size_t k = 2; k < n; ++k) {
     if (memory.given[k]) continue;
     if (may_difference(memory.inputs[1])) {
-      difference(memory.inputs, k, memory.partials);
-      memory.differenced = true;
+      difference(k, memory);
     } else {
       for (std::size_t v = 0; v < values_; ++v) memory.partials[v * n + k] = unknown;
     }
@@ -335,7 +372,8 @@ double CompiledRoutine::value(const RoutineInputs<double>& inputs, std::size_t w
 
 std::span<const double> CompiledRoutine::partials(const RoutineInputs<double>& inputs, std::size_t which) const {
   const Memory& memory = remembered(inputs, true);
-  if (memory.differenced && memory.inputs[1] == linear_mode) count_difference_in_linear_model();
+  RoutineFindings* findings = RoutineFindings::current();
+  if (findings && memory.inputs[1] == linear_mode) findings->add(memory.findings);
   return std::span(memory.partials).subspan(which * inputs.size(), inputs.size());
 }
 

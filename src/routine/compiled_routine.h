@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "expression/routine.h"
+#include "routine/differences.h"
 #include "routine/routine_context.h"
 #include "routine/routine_kinds.h"
 #include "routine/routine_library.h"
@@ -26,6 +27,11 @@ struct RoutineStatement {
   std::string label;  // "SFORCE/3"
   int id = 0;
   std::vector<double> parameters;
+  // Never null: some routines look at the first before they ask how many there are.
+  const double* constants() const {
+    static constexpr double none = 0;
+    return parameters.empty() ? &none : parameters.data();
+  }
   int I = 0, J = 0, RM = 0, JFLOAT = 0;
   bool action_only = false, rotation = false, static_hold = false, implicit = false;
   double initial = 0, initial_rate = 0;
@@ -80,7 +86,11 @@ class CompiledRoutine final : public Routine {
                        std::span<char> given) const;
   std::string evaluate_course(std::span<const double> inputs, int order, std::span<double> values,
                               std::span<double> partials) const;
-  void difference(std::span<const double> inputs, std::size_t input, std::span<double> partials) const;
+  std::vector<Slope> slopes(std::span<const double> inputs, std::size_t input) const;
+  void difference(std::size_t input, Memory&) const;
+  // Holds derivatives that the routine gives against differences.
+  void doubt_given(Memory&) const;
+  std::string input_text(std::size_t input) const;  // "VX(20, 1)"
   bool may_difference(double mode) const;
   const Memory& remembered(const RoutineInputs<double>&, bool with_partials) const;
   const CourseMemory& remembered(const RoutineInputs<Taylor>&) const;

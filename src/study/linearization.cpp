@@ -10,7 +10,7 @@
 #include "linear/selected_modes.h"
 #include "linear/still_modes.h"
 #include "model/linear_remarks.h"
-#include "routine/differences.h"
+#include "routine/routine_findings.h"
 
 namespace dynalin {
 
@@ -61,7 +61,8 @@ StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest&
   // Without reconciliation LINEAR takes the static solution as it was found; any other point is consistent anyway.
   const bool as_found = at.statics && (request.original || request.without_reconciliation);
   Linearization result{at.system, as_found ? at.statics->at_rest : at.values, as_found, request, {}};
-  const std::uint64_t differences = differences_in_linear_models();
+  RoutineFindings routines;
+  const RoutineFindings::Scope watch(routines);
   auto linear = reduction.has_linear_model ? linearize(*at.system, result.point, *options, reduction.up_to)
                                            : linearize_unreduced(*at.system, result.point, *options);
   if (!linear) return tl::unexpected(StudyFailure(linear.error()));
@@ -70,7 +71,10 @@ StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest&
     return tl::unexpected(StudyFailure({"linear analysis", reason, {}}, std::move(linear->warnings)));
   }
   result.linear = std::move(*linear);
-  result.differenced = differences_in_linear_models() != differences;
+  result.differenced = routines.differenced;
+  for (const std::string& kink : routines.kinks)
+    result.linear.warnings.warning("kink-of-routine", {}, kink + ": the linear model has the mean of both");
+  for (const std::string& wrong : routines.wrong_partials) result.linear.warnings.warning("wrong-derivative", {}, wrong);
   label(result.linear.model, request);
   const Motion motion = at.system->motion(result.point);
   for (const auto& set : at.system->model().sets) {

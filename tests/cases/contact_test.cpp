@@ -306,12 +306,46 @@ TEST_F(Contacts, boxes_as_deep_along_two_directions_are_named) {
   EXPECT_THAT(said, AllOf(HasSubstr("CONTACT/7"), HasSubstr("no place in particular")));
 }
 
-// Where a cylinder stands upright no point of its rim is the one.
+// What stands on a rim is held in its middle, and righted by 3/2 N r/0.0001 times its inclination.
+TEST_F(Contacts, cylinders_and_rings_stand_flat) {
+  const double mass = 2, N = 10 * mass, k = 1e5, r = 0.1, transverse = 0.01;
+  const double up = std::sqrt(k / mass) / (2 * std::numbers::pi);
+  struct Case {
+    const char *what, *shape, *under;
+    double radius, height, drawn;  // of the circle, of the mass centre above it, of the mass centre
+  };
+  const std::string box = "MARKER/9, PART=1, QP=-3,-3,-1\nGRAPHICS/1, BOX, CORNER=9, X=6, Y=6, Z=1\n";
+  const std::string drum = "MARKER/9, PART=1, QP=0.1,0.2,-1\nGRAPHICS/1, CYLINDER, CM=9, LENGTH=1, RADIUS=0.5\n";
+  const char* cylinder = "MARKER/3, PART=2, QP=0,0,-0.2\nGRAPHICS/2, CYLINDER, CM=3, LENGTH=0.3, RADIUS=0.1\n";
+  for (const Case& c :
+       {Case{"cylinder on a plane", cylinder, floor.c_str(), r, 0.2, 0.2},
+        {"cylinder on a box", cylinder, box.c_str(), r, 0.2, 0.2},
+        {"cylinder on a larger one", cylinder, drum.c_str(), r, 0.2, 0.2},
+        {"ring on a plane", "MARKER/3, PART=2, QP=0,0,-0.1\nGRAPHICS/2, TORUS, CM=3, MAJOR=0.4, MINOR=0.1\n",
+         floor.c_str(), 0.4, 0.1, 0.2}}) {
+    for (const char* inclined : {"", ", REULER=0.4,1E-5,0"}) {
+      const std::string model =
+          head + c.under +
+          fmt::format("PART/2, MASS={}, CM=2, IP={},{},0.014, QG=0,0,{}{}\nMARKER/2\n{}", mass, transverse, transverse,
+                      c.drawn, inclined, c.shape) +
+          fmt::format("CONTACT/1, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS={}, EXPONENT=1, DAMPING=0, DMAX=1\n", k);
+      const auto values = at_rest(model);
+      ASSERT_EQ(values.size(), 12u) << c.what;
+      const double rock = std::sqrt(N * (1.5 * c.radius / 1e-4 - c.height) / transverse) / (2 * std::numbers::pi);
+      EXPECT_NEAR(std::abs(values[7]), up, 1e-9 * up) << c.what;
+      EXPECT_NEAR(std::abs(values[9]), rock, 1e-9 * rock) << c.what;
+      EXPECT_NEAR(std::abs(values[11]), rock, 1e-9 * rock) << c.what;
+    }
+  }
+}
+
+// A ball on the axis of a cone has no place in particular on it.
 TEST_F(Contacts, one_that_touches_all_around_is_named) {
-  const RunResult r = run(head + floor +
-                              "PART/2, MASS=2, CM=2, IP=0.1,0.1,0.02, QG=0,0,0.1\nMARKER/2\n"
-                              "MARKER/3, PART=2, QP=0,0,-0.101\nGRAPHICS/2, CYLINDER, CM=3, LENGTH=0.2, RADIUS=0.1\n"
-                              "CONTACT/1, IGEOM=2, JGEOM=1, " +
+  const RunResult r = run(head +
+                              "MARKER/9, PART=1\nGRAPHICS/9, FRUSTUM, CM=9, LENGTH=1, BOTTOM=0.1, TOP=1\n"
+                              "PART/2, MASS=2, CM=2, IP=0.1,0.1,0.1, QG=0,0,0.5\nMARKER/2\n"
+                              "GRAPHICS/2, ELLIPSOID, CM=2, XSCALE=0.85, YSCALE=0.85, ZSCALE=0.85\n"
+                              "CONTACT/1, IGEOM=2, JGEOM=9, JFLIP_GEOMETRY=9, " +
                               impact + "\nEND\n",
                           "LINEAR/EIGENSOL\n");
   EXPECT_NE(r.status, 0);

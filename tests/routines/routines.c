@@ -314,3 +314,32 @@ void forgets_damping(const int* id, const double* time, const double* par, const
   const double by_x = -par[2];
   c_syspar("DX", at, 2, &by_x, 1, &error);
 }
+
+/* A spring of par[0] towards +x and par[1] towards -x, by DX of (par[2], par[3]), that tells no derivative. */
+void bent(const int* id, const double* time, const double* par, const int* npar, const int* dflag, const int* iflag,
+          double* value) {
+  const int at[3] = {(int)par[2], (int)par[3], (int)par[3]};
+  double x;
+  int error;
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  c_sysfnc("DX", at, 3, &x, &error);
+  *value = -par[x > 0.1 ? 0 : 1] * (x - 0.1);
+}
+/* -par[2] DX, with par[3] as what it says of the derivative. */
+void misled(const int* id, const double* time, const double* par, const int* npar, const int* dflag, const int* iflag,
+            double* value) {
+  const int at[3] = {(int)par[0], (int)par[1], (int)par[1]};
+  double x;
+  int error, wanted;
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  c_sysfnc("DX", at, 3, &x, &error);
+  *value = -par[2] * x;
+  c_adams_needs_partials(&wanted);
+  if (wanted) c_syspar("DX", at, 3, &par[3], 1, &error);
+}
+/* Looks at its first constant whether it has any or not. */
+void first_constant(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                    const int* iflag, double* value) {
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  *value = par[0];
+}

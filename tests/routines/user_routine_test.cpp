@@ -383,6 +383,55 @@ TEST_F(UserRoutines, that_jump_have_no_differences) {
   }
 }
 
+TEST_F(UserRoutines, with_a_kink_are_differenced_to_the_mean_with_a_warning) {
+  const auto linear = [&](const std::string& sides) {
+    return with(slider + along + "FUNCTION=USER(" + sides + ",20,1), ROUTINE=routines::bent\n", {C_ROUTINES}, true);
+  };
+  const RunResult kink = linear("30,70");
+  expect_same(kink, with(slider + along + "FUNCTION=-50*(DX(20,1)-0.1)\n"), 1e-9);
+  EXPECT_THAT(kink.err,
+              AllOf(HasSubstr("[kink-of-routine]"), HasSubstr("called for SFORCE/1 has a kink here: by DX(20, 1"),
+                    HasSubstr("its slope is -70 on one side and -30 on the other"),
+                    HasSubstr("the linear model has the mean of both")));
+  EXPECT_THAT(linear("50,50").err, Not(HasSubstr("kink-of-routine")));
+}
+
+TEST_F(UserRoutines, whose_derivatives_their_values_contradict_are_named) {
+  const auto linear = [&](const std::string& said) {
+    return with(slider + along + "FUNCTION=USER(20,1,50," + said + "), ROUTINE=routines::misled\n", {C_ROUTINES});
+  };
+  for (const std::string wrong : {"50", "-500", "0", "-50.1"}) {
+    const RunResult r = linear(wrong);
+    EXPECT_EQ(r.status, 0) << r.err;
+    EXPECT_THAT(r.err, AllOf(HasSubstr("[wrong-derivative]"), HasSubstr("called for SFORCE/1 gives " + wrong),
+                             HasSubstr("by DX(20, 1"), HasSubstr("its values change by -50")))
+        << wrong;
+  }
+  EXPECT_THAT(linear("-50").err, Not(HasSubstr("wrong-derivative")));
+}
+
+TEST_F(UserRoutines, have_thirty_constants_at_most_and_read_none_safely) {
+  std::string many = "1";
+  for (int k = 1; k < 30; ++k) many += ",1";
+  const auto called = [&](const std::string& constants) {
+    return with(slider + along + "FUNCTION=USER(" + constants + "), ROUTINE=routines::first_constant\n", {C_ROUTINES},
+                true, {"SIMULATE/INITIAL"});
+  };
+  EXPECT_EQ(called(many).status, 0) << called(many).err;
+  const RunResult more = called(many + ",1");
+  EXPECT_EQ(more.status, 1);
+  EXPECT_THAT(more.err,
+              AllOf(HasSubstr("USER of SFORCE/1 has 31 constants, and takes 30 at most"), HasSubstr("[wrong-count]")));
+  EXPECT_EQ(called("").status, 0) << called("").err;
+}
+
+TEST_F(UserRoutines, of_a_library_that_cannot_be_loaded_are_not_missing_as_well) {
+  write("broken.so", "no library");
+  const RunResult r = with(slider + along + "FUNCTION=USER(1)\n", {(folder_ / "broken.so").string()});
+  EXPECT_EQ(r.status, 1);
+  EXPECT_THAT(r.err, AllOf(HasSubstr("[unusable-library]"), Not(HasSubstr("missing-routine"))));
+}
+
 TEST_F(UserRoutines, say_what_they_have_to_say_once) {
   ::testing::internal::CaptureStderr();
   const RunResult r =

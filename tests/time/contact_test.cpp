@@ -195,6 +195,29 @@ TEST(ContactInTime, ten_balls_that_damp_lose_energy_alone) {
   for (const int k : {2, 3, 4}) EXPECT_LT(c.drift(k), 1e-4) << k;
 }
 
+// Where two edges meet they push with their whole force, and where a corner leaves over an edge its two edges have it
+// between them: what comes in goes out again.
+TEST(ContactInTime, boxes_that_tumble_into_each_other_keep_their_energy) {
+  for (const char* start : {"REULER=0.3,0.4,0.5, VZ=-3, WX=1, WY=2", "REULER=1.3,0.8,-0.5, VZ=-2, VX=0.3, WX=-1, WZ=2",
+                            "REULER=0.785398,0.785398,0, VZ=-3, WZ=1"}) {
+    const std::string text =
+        "Two bars\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=2, IP=0.3,0.3,0.3, QG=0.4,0.3,1.4, " +
+        std::string(start) +
+        "\nMARKER/2\nMARKER/4, PART=2, QP=-0.5,-0.5,-0.5\nGRAPHICS/2, BOX, CORNER=4, X=1, Y=1, Z=1\n"
+        "PART/3, MASS=3, CM=5, IP=0.5,0.5,0.5, QG=0,0,-0.5, REULER=0.785398,0.785398,0\nMARKER/5, PART=3\n"
+        "MARKER/6, PART=3, QP=-0.5,-0.5,-0.5\nGRAPHICS/3, BOX, CORNER=6, X=1, Y=1, Z=1\n"
+        "CONTACT/1, IGEOM=2, JGEOM=3, IMPACT, STIFFNESS=1E6, EXPONENT=1.5, DAMPING=0, DMAX=0.001\n"
+        "VARIABLE/1, FUNCTION=VM(2)**2+1.5*VM(5)**2+0.15*WM(2)**2+0.25*WM(5)**2\n"
+        "VARIABLE/2, FUNCTION=CONTACT(1,0,1,0)\nEND\n";
+    const Course c = led_through_time(text, {.end = 0.6, .steps = 60, .error = 1e-8});
+    ASSERT_TRUE(c.ok()) << start << c.failure;
+    const auto& energy = c.variables.at(1);
+    EXPECT_EQ(c.variables.at(2).back(), 0) << start;  // apart again
+    EXPECT_NEAR(energy.back(), energy.front(), 5e-3 * energy.front()) << start;
+    EXPECT_LT(*std::min_element(energy.begin(), energy.end()), 0.999 * energy.front()) << start;  // they have met
+  }
+}
+
 // Two boxes of one size in space, a corner of the one beside an edge of the other: what one loses the other gets.
 TEST(ContactInTime, boxes_that_meet_keep_their_momentum_and_spin) {
   std::string text =

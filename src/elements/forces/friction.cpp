@@ -340,7 +340,7 @@ class FrictionSet final : public TypedSet<Friction> {
       diagnostics.warning("unread-argument", at,
                           fmt::format("{} of {} says nothing of {}, a {} joint", name, labels[k].text(), joint, type));
     }
-    if (f.i.valid() && f.j.valid()) f.drawn_displacement = drawn_frame(model, f.i, f.j).p.z;
+    if (f.i.valid() && f.j.valid()) f.drawn = drawn_frame(model, f.i, f.j);
   }
 
   void report_twice(const Model& model, Diagnostics& diagnostics) const {

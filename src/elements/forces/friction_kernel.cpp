@@ -69,7 +69,7 @@ Vec3<T> axis_of(const JointFriction& f, const RelativeFrame<TimeTaylor<T>>& I) {
 
 template <class T>
 T overlap(const JointFriction& f, const T& displacement) {
-  return f.overlap + f.overlap_growth * (displacement - f.drawn_displacement);
+  return f.overlap + f.overlap_growth * (displacement - f.drawn.p.z);
 }
 
 // What presses the surfaces together: a force, or where the joint only turns its torque for a coefficient of 1.
@@ -118,13 +118,15 @@ JointFrictionKernel::JointFrictionKernel(const std::vector<JointFriction>& eleme
   for (std::size_t k = 0; k < elements.size(); ++k) {
     const JointFriction& f = elements[k];
     const std::size_t n = f.component_count();
-    Placed p{&f, &layout.marker(f.i), &layout.marker(f.j), static_cast<std::int32_t>(layout.algebraic.size()), -1};
+    Placed p{&f, &layout.marker(f.i), &layout.marker(f.j), static_cast<std::int32_t>(layout.algebraic.size()), -1, -1};
     for (std::size_t c = 0; c < n; ++c) layout.add_algebraic(labels[k], n == 1 ? 0 : static_cast<std::int32_t>(c) + 1);
     if (f.law.has_bristles()) {
       p.first_state = static_cast<std::int32_t>(layout.states.size());
-      // Nothing at rest says where bristles are: they stay as they are.
+      // Where there is no friction in equilibria bristles stay as they are.
       for (std::size_t c = 0; c < n; ++c)
-        layout.add_state({&labels[k], bristles, static_cast<std::int32_t>(c) + 1, 0.0, true});
+        layout.add_state({&labels[k], bristles, static_cast<std::int32_t>(c) + 1, 0.0, f.rests_in_statics});
+      p.first_memory = static_cast<std::int32_t>(layout.memory.size());
+      for (const double x : FrictionReference::of(f.drawn, {})) layout.add_memory(labels[k].at, x);
     }
     placed_.push_back(p);
   }
@@ -171,6 +173,7 @@ JointFrictionKernel::Evaluated JointFrictionKernel::evaluate(const Placed& p, co
     if (p.first_state < 0) return D(0.0);
     return D(motion.state[static_cast<std::size_t>(p.first_state) + c], first_creep_seed + c);
   };
+  if (p.first_state >= 0 && at_rest(motion)) out.creep = creep_here(p, I, motion);
   const Vec3<D> axis = axis_of(f, I), w = turning(I);
   const D pressing = load(f, force, torque, axis, I.p.z.value);
   const auto one = [&](const D& u, double preload) {
@@ -233,21 +236,85 @@ void JointFrictionKernel::equations(const Motion& motion, Equations& eq) const {
     w.clear();
     wrench(motion, k, eq.wants_partials(), w);
     const bool acts = p.joint && !(f.rests_in_statics && at_rest(motion));
-    const Evaluated at = acts ? evaluate(p, w.pair, motion) : Evaluated{};
+    const Evaluated at = acts ? evaluate(p, w.pair, motion) : inactive(p, motion);
     for (std::size_t c = 0; c < f.component_count(); ++c) {
       const std::int32_t a = p.first_algebraic + static_cast<std::int32_t>(c), row = eq.algebraic_row(a);
       eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(a)]);
       eq.add(PartialBy::algebraic, row, a, 1.0);
       add_row(row, at.w[c], at, p, w.pair, PartialBy::damping, eq);
       if (p.first_state < 0) continue;
-      const std::int32_t z = p.first_state + static_cast<std::int32_t>(c), of_z = eq.state_row(z);
-      eq.add_residual(of_z, motion.state_rate[static_cast<std::size_t>(z)]);
-      eq.add(PartialBy::state_rate, of_z, z, 1.0);
-      add_row(of_z, at.creep_rate[c], at, p, w.pair, PartialBy::velocity, eq);
+      add_creep(p, c, at, w.pair, motion, eq);
     }
     apply(w.pair, w.force, eq);
     for (const MarkerWrench::Scalar& s : w.scalars)
       apply_column(w.pair, s.force, s.torque, true, s.family, s.column, eq);
+  }
+}
+
+// z′ is what the law says; in equilibria, where z′ = 0, z is.
+void JointFrictionKernel::add_creep(const Placed& p, std::size_t component, const Evaluated& at, const PairMotion& pair,
+                                    const Motion& motion, Equations& eq) const {
+  const std::int32_t z = p.first_state + static_cast<std::int32_t>(component), row = eq.state_row(z);
+  const auto k = static_cast<std::size_t>(z);
+  const bool rests = at_rest(motion);
+  eq.add_residual(row, motion.state_rate[k] + (rests ? motion.state[k] : 0.0));
+  eq.add(PartialBy::state_rate, row, z, 1.0);
+  eq.add(PartialBy::state, row, z, rests ? 1.0 : 0.0);
+  add_row(row, rests ? at.creep[component] : at.creep_rate[component], at, p, pair, PartialBy::velocity, eq);
+}
+
+// Exerts nothing, and its bristles stay as they are.
+JointFrictionKernel::Evaluated JointFrictionKernel::inactive(const Placed& p, const Motion& motion) {
+  Evaluated out;
+  for (std::size_t c = 0; p.first_state >= 0 && c < p.element->component_count(); ++c)
+    out.creep[c] = D(reference(p, motion).creep(c));
+  return out;
+}
+
+FrictionReference JointFrictionKernel::reference(const Placed& p, const Motion& motion) {
+  return FrictionReference(std::span(motion.memory).subspan(static_cast<std::size_t>(p.first_memory)));
+}
+
+JointFrictionKernel::Values JointFrictionKernel::creep_here(const Placed& p, const RelativeFrame<TimeTaylor<D>>& I,
+                                                            const Motion& motion) {
+  const JointFriction& f = *p.element;
+  const FrictionReference before = reference(p, motion);
+  const auto now = [](const Vec3<TimeTaylor<D>>& a) { return Vec3<D>{a.x.value, a.y.value, a.z.value}; };
+  const Vec3<D> turned = before.rotation(now(I.x), now(I.y), now(I.z));
+  const D moved = I.p.z.value - before.displacement();
+  const double largest = f.law.largest_creep();
+  const auto one = [&](const D& displacement) {
+    return Values{creep_at_rest<D, 1>({before.creep(0)}, {displacement}, largest)[0], D(0.0), D(0.0)};
+  };
+  switch (f.surface) {
+    case FrictionSurface::slide:
+      return one(moved);
+    case FrictionSurface::sleeve: {
+      const auto z = creep_at_rest<D, 2>({before.creep(0), before.creep(1)}, {moved, f.pin_radius * turned.z}, largest);
+      return {z[0], z[1], D(0.0)};
+    }
+    case FrictionSurface::ball: {
+      const double r = f.ball_radius;
+      return creep_at_rest<D, 3>({before.creep(0), before.creep(1), before.creep(2)},
+                                 {r * turned.x, r * turned.y, r * turned.z}, largest);
+    }
+    default:
+      return one(f.pin_radius * dot(axis_of(f, I), turned));
+  }
+}
+
+// What a search for an equilibrium passes on its way is no motion.
+void JointFrictionKernel::remember(const Motion& motion, Memory& memory) const {
+  if (at_rest(motion)) return;
+  for (const Placed& p : placed_) {
+    if (p.first_state < 0) continue;
+    std::array<double, 3> creep{};
+    for (std::size_t c = 0; c < p.element->component_count(); ++c)
+      creep[c] = motion.state[static_cast<std::size_t>(p.first_state) + c];
+    const auto I = pair_motion(motion, *p.I, *p.J).relative;
+    const auto now = [](const Vec3<Taylor>& a) { return Vector{a.x.value, a.y.value, a.z.value}; };
+    const auto kept = FrictionReference::of({now(I.p), now(I.x), now(I.y), now(I.z)}, creep);
+    std::ranges::copy(kept, memory.begin() + p.first_memory);
   }
 }
 
@@ -281,11 +348,12 @@ void JointFrictionKernel::wrench(const Motion& motion, std::size_t k, bool with_
                                                               : Components::torque;
 }
 
-// The size of a force or moment that is zero has no derivative.
+// The size of a force or moment that is zero has no derivative. A search for an equilibrium does without.
 void JointFrictionKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const {
+  if (at_rest(motion)) return;
   for (std::size_t k = 0; k < placed_.size(); ++k) {
     const Placed& p = placed_[k];
-    if (!p.joint || (p.element->rests_in_statics && at_rest(motion))) continue;
+    if (!p.joint) continue;
     const Evaluated at = evaluate(p, pair_motion(motion, *p.I, *p.J), motion);
     const bool defined = std::ranges::all_of(
         at.w, [](const D& w) { return std::ranges::all_of(w.partial, [](double x) { return std::isfinite(x); }); });

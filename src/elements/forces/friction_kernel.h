@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/dual.h"
-#include "elements/forces/friction_law.h"
+#include "elements/forces/friction_at_rest.h"
 #include "mechanics/kernel.h"
 #include "mechanics/stiction_source.h"
 #include "mechanics/wrench_source.h"
@@ -31,7 +31,7 @@ struct JointFriction {
   double friction_arm = 1, bending_arm = 1;      // [length]
   double reaction_arm = 1, overlap = 1000;       // [length]
   double overlap_growth = 0;                     // by displacement along z of J: 1, −1 or 0
-  double drawn_displacement = 0;                 // [length]
+  RelativeFrame<double> drawn;                   // I seen from J
   double force_preload = 0, torque_preload = 0;  // [force], [force·length]
   bool of_force = true, of_bending = true, of_torsion = true;
   bool rests_in_statics = false;
@@ -57,6 +57,7 @@ class JointFrictionKernel final : public Kernel, public WrenchSource, public Sti
   MarkerId marker_I(std::size_t k) const override { return placed_[k].element->i; }
   MarkerId marker_J(std::size_t k) const override { return placed_[k].element->j; }
   void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;
+  void remember(const Motion&, Memory&) const override;
   void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
   std::string domain_violation(const Motion&) const override;
   void sticking(const Motion&, std::vector<Stiction>&) const override;
@@ -71,16 +72,23 @@ class JointFrictionKernel final : public Kernel, public WrenchSource, public Sti
     const JointFriction* element;
     const MarkerPlace *I, *J;
     std::int32_t first_algebraic, first_state;  // −1 without bristles
+    std::int32_t first_memory;                  // of a FrictionReference
     const WrenchSource* joint = nullptr;        // null while the joint is out of the model
     std::size_t which = 0;                      // of its wrenches
   };
   struct Evaluated {
     Values w, creep_rate;
+    Values creep;                                // in equilibria
     std::array<std::int32_t, most_rows> rows{};  // whose multipliers the seeds are
     std::size_t row_count = 0;
     double speed = 0;  // of the slip
   };
   Evaluated evaluate(const Placed&, const PairMotion&, const Motion&) const;
+  static Evaluated inactive(const Placed&, const Motion&);
+  static FrictionReference reference(const Placed&, const Motion&);
+  static Values creep_here(const Placed&, const RelativeFrame<TimeTaylor<D>>& I, const Motion&);
+  void add_creep(const Placed&, std::size_t component, const Evaluated&, const PairMotion&, const Motion&,
+                 Equations&) const;
   void add_row(std::int32_t row, const D& value, const Evaluated&, const Placed&, const PairMotion&,
                PartialBy velocity_family, Equations&) const;
 

@@ -81,6 +81,10 @@ struct FrictionLaw {
   double bristle_stiffness = 50, bristle_damping = 0, viscosity = 0;  // σ₀ [1/length], σ₁, σ₂ [time/length]
 
   bool has_bristles() const { return effect != FrictionEffect::sliding; }
+  // As far as bristles bend where nothing slips.
+  double largest_creep() const {
+    return formulation == FrictionFormulation::lugre ? mu_static / bristle_stiffness : largest_deformation;
+  }
 
   // 0 in stiction, 1 in sliding.
   template <class T>
