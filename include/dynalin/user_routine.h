@@ -134,6 +134,25 @@ void c_usrmes(int msgflg, const char* message, int id, const char* endflg);
 void c_timget(double* time);
 void c_getmod(int* mode);
 
+/* The numbers of an ARRAY, as c_sysary("ARRAY", ...) gives them. istat is 1 if there is none. */
+void c_gtaray(int id, double* array, int* number, int* istat);
+
+/* Functions of the language. iord 0 gives the value, 1 the first and 2 the second derivative by x; of c_impact and
+ * c_bistop vec holds the value, or those by x and dxdt, or those by x twice, by both and by dxdt twice. errflg is 1 where
+ * there is none. par are the coefficients behind the arguments that are named. */
+void c_step(double x, double x0, double h0, double x1, double h1, int iord, double* value, int* errflg);
+void c_step5(double x, double x0, double h0, double x1, double h1, int iord, double* value, int* errflg);
+void c_havsin(double x, double x0, double h0, double x1, double h1, int iord, double* value, int* errflg);
+void c_impact(double x, double dxdt, double x1, double k, double e, double cmax, double d, int iord, double* vec,
+              int* errflg);
+void c_bistop(double x, double dxdt, double x1, double x2, double k, double e, double cmax, double d, int iord,
+              double* vec, int* errflg);
+void c_shf(double x, double x0, double a, double w, double phi, double b, int iord, double* value, int* errflg);
+void c_poly(double x, double x0, const double* par, int npar, int iord, double* value, int* errflg);
+void c_cheby(double x, double x0, const double* par, int npar, int iord, double* value, int* errflg);
+void c_forcos(double x, double x0, double w, const double* par, int npar, int iord, double* value, int* errflg);
+void c_forsin(double x, double x0, double w, const double* par, int npar, int iord, double* value, int* errflg);
+
 /* Of the GSE that a routine is called for: how many states, discrete states, inputs and outputs, their values, and x'
  * of an implicit one. Partial derivatives with respect to them as c_syspar takes them. From Fortran: GSE_NS(ns),
  * GSE_X(x, ns), GSEPAR_X(partial, n) ... */

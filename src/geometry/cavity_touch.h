@@ -37,7 +37,7 @@ template <class T>
 Touch<T> touch_of_ball(double radius, const Vec3<T>& centre, Distance<T> d, bool reversed) {
   if (reversed) d.value = -d.value, d.direction = -d.direction;
   const Vec3<T> point = centre - d.direction * (0.5 * (d.value + radius));
-  return {d.value - radius, d.direction, point, std::numeric_limits<double>::infinity(), d.defined};
+  return {d.value - radius, d.direction, point, std::numeric_limits<double>::infinity(), d.defined, d.seam};
 }
 
 // Calls place(point) and circle(Circle, radius of the tube about it) for what a shape reaches farthest with.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "base/dual.h"
@@ -18,6 +19,8 @@ struct Distance {
   T value{};
   Vec3<T> direction{T(0.0), T(0.0), T(1.0)};
   bool defined = true;
+  // How far the nearest place is from where a face ends in an edge, and its curvature jumps [length].
+  double seam = std::numeric_limits<double>::infinity();
 };
 
 namespace solid {
@@ -120,12 +123,19 @@ Distance<T> distance(const Frustum& f, const Vec3<T>& p) {
   const double b = value_of(below.value), a = value_of(above.value), s = value_of(mantle.value);
   if (is_tied(std::array{b, a, s}, faces.size)) return {T(std::max({b, a, s})), {T(0.0), T(0.0), T(1.0)}, false};
   if (b <= 0 && a <= 0 && s <= 0) return s >= a && s >= b ? mantle : a >= b ? above : below;
-  if (a > 0 && r <= f.high_radius) return above;
-  if (b > 0 && r <= f.low_radius) return below;
   const double along = faces.along_mantle(r, z);
-  if (along <= 0) return faces.rim(f.low_radius, f.low, m, p);
-  if (along >= faces.length) return faces.rim(f.high_radius, f.high, m, p);
-  return mantle;
+  double seam = std::min(std::abs(along), std::abs(along - faces.length));
+  if (a > 0) seam = std::min(seam, std::abs(r - f.high_radius));
+  if (b > 0) seam = std::min(seam, std::abs(r - f.low_radius));
+  const auto with_seam = [&](Distance<T> d) {
+    d.seam = seam;
+    return d;
+  };
+  if (a > 0 && r <= f.high_radius) return with_seam(above);
+  if (b > 0 && r <= f.low_radius) return with_seam(below);
+  if (along <= 0) return with_seam(faces.rim(f.low_radius, f.low, m, p));
+  if (along >= faces.length) return with_seam(faces.rim(f.high_radius, f.high, m, p));
+  return with_seam(mantle);
 }
 
 template <class T>
@@ -164,8 +174,11 @@ Distance<T> distance(const Box& b, const Vec3<T>& p) {
   const double size = norm(b.high - b.low);
   nearest->defined = !is_tied(of_faces, size);
   if (count == 0 || !nearest->defined) return *nearest;
-  if (count == 1) return face(b, last / 2, last % 2 == 1, p);
-  return from_point(beyond, size);
+  Distance<T> d = count == 1 ? face(b, last / 2, last % 2 == 1, p) : from_point(beyond, size);
+  const auto outermost = std::max_element(of_faces.begin(), of_faces.end());
+  for (auto other = of_faces.begin(); other != of_faces.end(); ++other)
+    if (other != outermost) d.seam = std::min(d.seam, std::abs(*other));
+  return d;
 }
 
 // The nearest point x of the surface: xₖ = aₖ² pₖ / (aₖ² + λ) with Σ (xₖ/aₖ)² = 1, the largest root λ.

@@ -20,6 +20,7 @@ struct Touch {
   Vec3<T> point;   // half-way between both surfaces, from the origin of J in its axes
   double inside = std::numeric_limits<double>::infinity();  // how far from the edge of a plane, negative beyond it
   bool defined = true;  // false: the place is not determined, a whole circle is as near
+  double seam = std::numeric_limits<double>::infinity();  // how far from where a face ends in an edge
   T weight{1.0};  // of its force: less than 1 where places share what one has next to here, or count against others
 
   bool closed() const { return value_of(gap) < 0 && inside >= 0; }

@@ -10,15 +10,12 @@
 #include <limits>
 
 #include "routine/call_routine.h"
-#include "routine/routine_findings.h"
+#include "routine/routine_memory.h"
 #include "routine/utilities.h"
 
 namespace dynalin {
 
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double linear_mode = 7;  // of the function MODE
 
 std::uint64_t next_serial() {
   static std::atomic<std::uint64_t> last = 0;
@@ -50,14 +47,6 @@ std::vector<Atom> field_inputs(int i, int j) {
 }
 constexpr std::size_t first_of_field = 2, inputs_of_field = 12;
 
-// Components of a force follow each other, and each asks for all values again: the last call is remembered.
-struct CompiledRoutine::Memory {
-  std::uint64_t serial = 0;
-  bool has_partials = false;
-  RoutineFindings findings;                      // of its partial derivatives
-  std::vector<double> inputs, values, partials;  // partials: [value * inputs + input]
-  std::vector<char> given;
-};
 struct CompiledRoutine::CourseMemory {
   std::uint64_t serial = 0;
   std::vector<double> inputs;  // [3 input + derivative]
@@ -180,7 +169,7 @@ void CompiledRoutine::call_field(RoutineArgumentsNow now, double* values) const 
     std::ranges::copy(c.inputs.subspan(first_of_field, inputs_of_field), arguments.begin());
   }
   std::array<double, 72> partials{};
-  partials.fill(unknown);
+  partials.fill(unknown_value);
   now.displacement = arguments.data(), now.velocity = &arguments[6];
   now.by_displacement = partials.data(), now.by_velocity = &partials[36];
   call_routine(found_, *kind_, statement_, now, values);
@@ -204,7 +193,7 @@ void CompiledRoutine::call_partials(double time, std::span<double> partials, std
     const std::size_t inputs_in_all = requests_.inputs.size();
     const auto place = [&](const FoundRoutine& routine, int first, int rows) {
       const auto count = static_cast<std::size_t>(rows);
-      std::vector<double> matrix(count * by.values.size(), unknown);
+      std::vector<double> matrix(count * by.values.size(), unknown_value);
       if (matrix.empty()) return;
       call_state_partials(routine, statement_, now, matrix.data());
       for (std::size_t k = 0; k < matrix.size(); ++k) {
@@ -225,7 +214,7 @@ std::string CompiledRoutine::evaluate(std::span<const double> inputs, std::span<
   c.inputs = inputs;
   c.partials = partials;
   c.given = given;
-  std::fill(values.begin(), values.end(), unknown);
+  std::fill(values.begin(), values.end(), unknown_value);
   const bool derivatives = !partials.empty() && kind_->arguments != RoutineArguments::of_time;
   const RoutineContext::Scope scope(c, what_.c_str());
   try {
@@ -237,7 +226,7 @@ std::string CompiledRoutine::evaluate(std::span<const double> inputs, std::span<
   if (!given.empty()) {
     for (const std::int32_t k : constants_) given[static_cast<std::size_t>(k)] = true;
   }
-  if (!c.failure.empty()) std::fill(values.begin(), values.end(), unknown);
+  if (!c.failure.empty()) std::fill(values.begin(), values.end(), unknown_value);
   return c.failure;
 }
 
@@ -250,8 +239,8 @@ std::string CompiledRoutine::evaluate_course(std::span<const double> inputs, int
   plain.clear();
   for (std::size_t k = 0; k < inputs.size(); k += stride) plain.push_back(inputs[k]);
   c.inputs = plain;
-  std::fill(values.begin(), values.end(), unknown);
-  std::fill(partials.begin(), partials.end(), unknown);
+  std::fill(values.begin(), values.end(), unknown_value);
+  std::fill(partials.begin(), partials.end(), unknown_value);
   const dynalin_course course = {statement_.id,
                                  static_cast<int>(statement_.parameters.size()),
                                  statement_.constants(),
@@ -268,59 +257,6 @@ std::string CompiledRoutine::evaluate_course(std::span<const double> inputs, int
     c.fail("it threw an exception");
   }
   return c.failure;
-}
-
-bool CompiledRoutine::may_difference(double mode) const {
-  return differences_ == RoutineDifferences::everywhere || mode != linear_mode;
-}
-
-// Of all values at once.
-std::vector<Slope> CompiledRoutine::slopes(std::span<const double> inputs, std::size_t input) const {
-  std::vector<double> moved(inputs.begin(), inputs.end());
-  const auto at = [&](double x, std::span<double> values) {
-    moved[input] = x;
-    evaluate(moved, values, {}, {});
-  };
-  return extrapolated_slope(at, inputs[input], values_);
-}
-
-void CompiledRoutine::difference(std::size_t input, Memory& memory) const {
-  const std::vector<Slope> slope = slopes(memory.inputs, input);
-  memory.findings.differenced = true;
-  for (std::size_t v = 0; v < values_; ++v) {
-    // An iteration may go by what is not quite a derivative, a linear model may not.
-    const bool taken = slope[v].agreed || memory.inputs[1] != linear_mode;
-    memory.partials[v * memory.inputs.size() + input] = taken ? slope[v].value : unknown;
-    if (slope[v].half_kink == 0) continue;
-    memory.findings.kinks.insert(
-        fmt::format("{} has a kink here: by {} its slope is {:.6g} on one side and {:.6g} on the other", what_,
-                    input_text(input), slope[v].value - slope[v].half_kink, slope[v].value + slope[v].half_kink));
-  }
-}
-
-// A wrong derivative has eigenvalues with narrow bounds like a right one: what differences contradict is said.
-void CompiledRoutine::doubt_given(Memory& memory) const {
-  if (!found_ || memory.inputs[1] != linear_mode) return;
-  constexpr double unlike = 1e-3;
-  const std::size_t n = memory.inputs.size();
-  for (std::size_t k = 2; k < n; ++k) {
-    if (!memory.given[k] || std::ranges::binary_search(constants_, static_cast<std::int32_t>(k))) continue;
-    const std::vector<Slope> slope = slopes(memory.inputs, k);
-    for (std::size_t v = 0; v < values_; ++v) {
-      const double given = memory.partials[v * n + k], size = std::max(std::abs(given), std::abs(slope[v].value));
-      const double off = std::abs(given - slope[v].value);
-      if (!slope[v].agreed || !(off > unlike * size + 4 * slope[v].error + slope[v].unseen)) continue;
-      if (slope[v].half_kink != 0 && off <= 1.01 * std::abs(slope[v].half_kink)) continue;  // one side, or between both
-      memory.findings.wrong_partials.insert(
-          fmt::format("{} gives {:.6g} as its derivative by {}, and its values change by {:.6g}", what_, given,
-                      input_text(k), slope[v].value));
-    }
-  }
-}
-
-std::string CompiledRoutine::input_text(std::size_t input) const {
-  const Atom& by = requests_.inputs[input];
-  return fmt::format("{}({})", by.function->name, fmt::join(std::span(by.argument).first(by.argument_count), ", "));
 }
 
 const CompiledRoutine::Memory& CompiledRoutine::remembered(const RoutineInputs<double>& read,
@@ -346,7 +282,7 @@ const CompiledRoutine::Memory& CompiledRoutine::remembered(const RoutineInputs<d
   memory.given.assign(n, false);
   if (found_.derivatives) {
     if (!evaluate_course(memory.inputs, 0, memory.values, memory.partials).empty())
-      std::fill(memory.values.begin(), memory.values.end(), unknown);
+      std::fill(memory.values.begin(), memory.values.end(), unknown_value);
     for (std::size_t v = 0; v < values_; ++v) memory.partials[v * n + 1] = 0.0;  // nothing depends on MODE smoothly
     memory.given.assign(n, true);
     doubt_given(memory);
@@ -360,7 +296,7 @@ const CompiledRoutine::Memory& CompiledRoutine::remembered(const RoutineInputs<d
     if (may_difference(memory.inputs[1])) {
       difference(k, memory);
     } else {
-      for (std::size_t v = 0; v < values_; ++v) memory.partials[v * n + k] = unknown;
+      for (std::size_t v = 0; v < values_; ++v) memory.partials[v * n + k] = unknown_value;
     }
   }
   return memory;
@@ -396,7 +332,7 @@ void CompiledRoutine::fill_course(CourseMemory& m) const {
     c.inputs = at;
     const RoutineContext::Scope scope(c, what_.c_str());
     for (int order = 0; order < 3; ++order) {
-      course[static_cast<std::size_t>(order)] = unknown;
+      course[static_cast<std::size_t>(order)] = unknown_value;
       call(at[0], order, 0, &course[static_cast<std::size_t>(order)]);
     }
     m.values[0] = {course[0], course[1], course[2]};
@@ -412,11 +348,11 @@ void CompiledRoutine::fill_course(CourseMemory& m) const {
     double rate = 0;
     for (std::size_t k = 0; k < n; ++k) {
       const bool still = k == 1 || m.inputs[3 * k + 1] == 0.0;
-      const double p = k == 1 ? 0.0 : given[k] ? partials[v * n + k] : unknown;
-      m.partials[v * n + k] = k == 1 ? Taylor(0.0) : Taylor(p, unknown, unknown);
+      const double p = k == 1 ? 0.0 : given[k] ? partials[v * n + k] : unknown_value;
+      m.partials[v * n + k] = k == 1 ? Taylor(0.0) : Taylor(p, unknown_value, unknown_value);
       if (!still) rate += p * m.inputs[3 * k + 1];
     }
-    m.values[v] = {values[v], rate, unknown};
+    m.values[v] = {values[v], rate, unknown_value};
   }
 }
 
@@ -430,7 +366,7 @@ const CompiledRoutine::CourseMemory& CompiledRoutine::remembered(const RoutineIn
   if (memory.serial == serial_ && same_bits(memory.inputs, inputs)) return memory;
   memory.serial = serial_;
   memory.inputs = inputs;
-  memory.values.assign(values_, Taylor(unknown));
+  memory.values.assign(values_, Taylor(unknown_value));
   memory.partials.assign(values_ * read.size(), Taylor(0.0));
   fill_course(memory);
   return memory;

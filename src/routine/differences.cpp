@@ -16,7 +16,7 @@ constexpr double good_enough = 1e-11;  // relative change of the last extrapolat
 // The best extrapolation may be off by this part of itself, or make as little difference over the first step.
 constexpr double disagreement = 0.01, hidden_by_rounding = 1e-6;
 
-using Function = std::function<void(double, std::span<double>)>;
+using ValuesAt = std::function<void(double, std::span<double>)>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double largest(double a, double b) { return std::max(std::abs(a), std::abs(b)); }
@@ -114,7 +114,7 @@ double noise_of(std::array<double, noise_points> d) {
 
 // Of one value around a step that is as wide as its grains, if it has any. On both sides of x, of which the quieter one
 // counts: there may be a kink on the other. Two spacings: one of them may be a whole number of grains.
-double noise_beside(const Function& f, double x, double grain, std::size_t value, std::size_t values) {
+double noise_beside(const ValuesAt& f, double x, double grain, std::size_t value, std::size_t values) {
   double least = infinity;
   std::vector<double> at(values);
   for (const double side : {1.0, -1.0}) {
@@ -136,7 +136,7 @@ double noise_beside(const Function& f, double x, double grain, std::size_t value
 
 // Central differences are even in the step h, so that halving it removes h², h⁴ ... one after the other. The row whose
 // extrapolations agree best counts: first the steps are too wide, at last rounding rules.
-std::vector<Slope> extrapolated_slope(const Function& f, double x, std::size_t values) {
+std::vector<Slope> extrapolated_slope(const ValuesAt& f, double x, std::size_t values) {
   const double width = first_step * std::max(1.0, std::abs(x));
   std::vector<Course> courses(values);
   std::vector<double> here(values), above(values), below(values);

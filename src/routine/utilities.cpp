@@ -122,7 +122,7 @@ void message(int flag, std::string_view text, std::string_view end) {
 
 }  // namespace
 
-void keep_utilities() {}
+void keep_utilities() { keep_function_utilities(); }
 
 }  // namespace dynalin
 
@@ -144,6 +144,9 @@ void sysary_(const char* name, const int* ipar, const int* nsize, double* states
              std::size_t length) {
   read(text_of(name, length), ipar, *nsize, false, states, nstates, errflg);
 }
+
+void c_gtaray(int id, double* array, int* number, int* istat) { read("ARRAY", &id, 1, false, array, number, istat); }
+void gtaray_(const int* id, double* array, int* number, int* istat) { c_gtaray(*id, array, number, istat); }
 
 void c_adams_needs_partials(int* wanted) {
   const RoutineContext* c = RoutineContext::current();

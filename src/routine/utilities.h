@@ -4,5 +4,6 @@
 namespace dynalin {
 
 void keep_utilities();
+void keep_function_utilities();
 
 }  // namespace dynalin

@@ -74,7 +74,8 @@ StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest&
   result.differenced = routines.differenced;
   for (const std::string& kink : routines.kinks)
     result.linear.warnings.warning("kink-of-routine", {}, kink + ": the linear model has the mean of both");
-  for (const std::string& wrong : routines.wrong_partials) result.linear.warnings.warning("wrong-derivative", {}, wrong);
+  for (const std::string& wrong : routines.wrong_partials)
+    result.linear.warnings.warning("wrong-derivative", {}, wrong);
   label(result.linear.model, request);
   const Motion motion = at.system->motion(result.point);
   for (const auto& set : at.system->model().sets) {

@@ -166,6 +166,25 @@ TEST_F(Contacts, one_that_is_just_touching_is_named) {
   EXPECT_THAT(settled.err, Not(HasSubstr("touching-contact")));
 }
 
+// Over an edge of a box, and over the rim of a cylinder, the surface is flat on one side and bent on the other.
+TEST_F(Contacts, one_where_a_face_ends_is_named) {
+  for (const char* shape : {"MARKER/3, PART=1, QP=-1,-1,-1\nGRAPHICS/3, BOX, CORNER=3, X=1.1, Y=2, Z=1\n",
+                            "MARKER/3, PART=1, QP=-0.9,0.05,-1\nGRAPHICS/3, CYLINDER, CM=3, LENGTH=1, RADIUS=1\n"}) {
+    const auto said = [&](double off) {
+      return run(head + shape +
+                     fmt::format("PART/2, MASS=2, CM=2, IP=0.008,0.008,0.008, QG={},0.05,0.099\nMARKER/2\n"
+                                 "GRAPHICS/2, ELLIPSOID, CM=2, XSCALE=0.2, YSCALE=0.2, ZSCALE=0.2\n"
+                                 "CONTACT/7, IGEOM=2, JGEOM=3, {}\nEND\n",
+                                 0.1 + off, impact),
+                 "LINEAR/EIGENSOL\n")
+          .err;
+    };
+    EXPECT_THAT(said(0), HasSubstr("CONTACT/7 is just where a face ends in an edge")) << shape;
+    EXPECT_THAT(said(1e-6), Not(HasSubstr("touching-contact"))) << shape;
+    EXPECT_THAT(said(-1e-6), Not(HasSubstr("touching-contact"))) << shape;
+  }
+}
+
 TEST_F(Contacts, goes_when_it_is_deactivated) {
   const RunResult r =
       run(head + floor + fmt::format(fmt::runtime(ball), 0.0995) + "CONTACT/7, IGEOM=2, JGEOM=1, " + impact + "\nEND\n",
@@ -206,6 +225,7 @@ TEST_F(Contacts, what_cannot_touch_is_an_error_at_its_place) {
   const auto with = [&](const std::string& geometry) { return refused("CONTACT/7, " + geometry + ", " + impact); };
   EXPECT_THAT(with("IGEOM=2, JGEOM=5"), AllOf(HasSubstr("[unknown-element]"), HasSubstr("model.adm:10:27")));
   EXPECT_THAT(with("IGEOM=2, JGEOM=2"), HasSubstr("[same-body]"));
+  EXPECT_THAT(with("IGEOM=1, JGEOM=1"), HasSubstr("[same-body]"));  // whether planes could touch is no question
   EXPECT_THAT(with("IGEOM=2, 1, JGEOM=1"), HasSubstr("[foreign-marker]"));
   EXPECT_THAT(with("IGEOM=2, JGEOM=3\nGRAPHICS/3, CIRCLE, CM=1, RADIUS=1\n!"), AllOf(HasSubstr("[missing-variant]")));
   EXPECT_THAT(refused("GRAPHICS/3, CIRCLE, CM=1, RADIUS=1\nCONTACT/7, IGEOM=2, JGEOM=3, " + impact),

@@ -343,3 +343,57 @@ void first_constant(const int* id, const double* time, const double* par, const 
   (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
   *value = par[0];
 }
+
+/* The function par[0] (0 IMPACT, 1 BISTOP, 2 STEP, 3 STEP5, 4 HAVSIN, 5 SHF, 6 POLY, 7 CHEBY, 8 FORCOS, 9 FORSIN) of DX and
+ * VX of (par[1], par[2]) and of the numbers behind them, with its derivatives. */
+static void language(int which, double x, double v, const double* a, int n, int order, double* y, int* error) {
+  switch (which) {
+    case 0: c_impact(x, v, a[0], a[1], a[2], a[3], a[4], order, y, error); break;
+    case 1: c_bistop(x, v, a[0], a[1], a[2], a[3], a[4], a[5], order, y, error); break;
+    case 2: c_step(x, a[0], a[1], a[2], a[3], order, y, error); break;
+    case 3: c_step5(x, a[0], a[1], a[2], a[3], order, y, error); break;
+    case 4: c_havsin(x, a[0], a[1], a[2], a[3], order, y, error); break;
+    case 5: c_shf(x, a[0], a[1], a[2], a[3], a[4], order, y, error); break;
+    case 6: c_poly(x, a[0], a + 1, n - 1, order, y, error); break;
+    case 7: c_cheby(x, a[0], a + 1, n - 1, order, y, error); break;
+    case 8: c_forcos(x, a[0], a[1], a + 2, n - 2, order, y, error); break;
+    default: c_forsin(x, a[0], a[1], a + 2, n - 2, order, y, error); break;
+  }
+}
+void of_the_language(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                     const int* iflag, double* value) {
+  const int which = (int)par[0], i = (int)par[1], j = (int)par[2];
+  const int at[3] = {i, j, j}, moving[4] = {i, j, j, j};
+  double x, v, y[3] = {0, 0, 0};
+  int error, wanted;
+  (void)id, (void)time, (void)dflag, (void)iflag;
+  c_sysfnc("DX", at, 3, &x, &error);
+  c_sysfnc("VX", moving, 4, &v, &error);
+  language(which, x, v, par + 3, *npar - 3, 0, y, &error);
+  c_errmes(error, "there is no value", 0, "STOP");
+  *value = y[0];
+  c_adams_needs_partials(&wanted);
+  if (!wanted) return;
+  language(which, x, v, par + 3, *npar - 3, 1, y, &error);
+  if (which > 1) y[1] = 0;
+  c_syspar("DX", at, 3, &y[0], 1, &error);
+  c_syspar("VX", moving, 4, &y[1], 1, &error);
+}
+/* A second derivative of IMPACT by DX twice, by both, by VX twice: par[0] says which. */
+void curvature(const int* id, const double* time, const double* par, const int* npar, const int* dflag, const int* iflag,
+               double* value) {
+  double y[3];
+  int error;
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  c_impact(0.4, -0.2, 1, 100, 2.5, 7, 1, 2, y, &error);
+  *value = y[(int)par[0]];
+}
+/* The third number of the ARRAY par[0]. */
+void of_an_array(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                 const int* iflag, double* value) {
+  double numbers[3] = {0, 0, 0};
+  int count, status;
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  c_gtaray((int)par[0], numbers, &count, &status);
+  *value = numbers[2];
+}

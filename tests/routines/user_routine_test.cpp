@@ -425,6 +425,52 @@ TEST_F(UserRoutines, have_thirty_constants_at_most_and_read_none_safely) {
   EXPECT_EQ(called("").status, 0) << called("").err;
 }
 
+TEST_F(UserRoutines, evaluate_functions_of_the_language) {
+  struct Row {
+    const char *name, *constants;
+    bool of_rate;
+  };
+  // Of x = 0.1 and x' = 0.4.
+  int which = 0;
+  for (const Row& f : {Row{"IMPACT", "0.5,100,1.5,7,0.6", true},
+                       {"BISTOP", "-1,0.05,100,1.5,7,0.6", true},
+                       {"STEP", "0,0,0.3,-9", false},
+                       {"STEP5", "0,0,0.3,-9", false},
+                       {"HAVSIN", "0,0,0.3,-9", false},
+                       {"SHF", "0.2,-30,1.1,0.3,0.5", false},
+                       {"POLY", "0.3,1,-20,-5", false},
+                       {"CHEBY", "0.3,1,-20,-5", false},
+                       {"FORCOS", "0.2,1.5,1,-20,-5", false},
+                       {"FORSIN", "0.2,1.5,1,-20,-5", false}}) {
+    const RunResult r = with(slider + along + "FUNCTION=USER(" + std::to_string(which++) + ",20,1," + f.constants +
+                                 "), ROUTINE=routines::of_the_language\n",
+                             {C_ROUTINES});
+    const std::string arguments = std::string("DX(20,1,1)") + (f.of_rate ? ",VX(20,1,1,1)," : ",") + f.constants;
+    expect_same(r, with(slider + along + "FUNCTION=" + f.name + "(" + arguments + ")\n"), 1e-12);
+    EXPECT_THAT(r.err, Not(HasSubstr("wrong-derivative"))) << f.name;
+  }
+  // STEP with both ends at one place has no value.
+  EXPECT_THAT(
+      with(slider + along + "FUNCTION=USER(2,20,1,1,0,1,2), ROUTINE=routines::of_the_language\n", {C_ROUTINES}).err,
+      HasSubstr("it says: there is no value"));
+}
+
+// With g = x1 − x: k g^e − cmax STEP(g, 0, 0, d, 1) x'.
+TEST_F(UserRoutines, get_second_derivatives_and_arrays) {
+  const auto value = [&](const std::string& call) {
+    const RunResult r = with(
+        slider + "ARRAY/9, IC, SIZE=3, NUMBERS=4,5,6.5\nVARIABLE/1, FUNCTION=" + call + "\nREQUEST/1, VARIABLES=1\n",
+        {C_ROUTINES}, true, {"SIMULATE/INITIAL"});
+    return requested(r, 0).at(0);
+  };
+  const double g = 0.6;
+  EXPECT_NEAR(value("USER(0), ROUTINE=routines::curvature"), 100 * 2.5 * 1.5 * std::sqrt(g) + 7 * (6 - 12 * g) * 0.2,
+              1e-10);
+  EXPECT_NEAR(value("USER(1), ROUTINE=routines::curvature"), 7 * (6 * g - 6 * g * g), 1e-10);
+  EXPECT_NEAR(value("USER(2), ROUTINE=routines::curvature"), 0, 1e-12);
+  EXPECT_EQ(value("USER(9), ROUTINE=routines::of_an_array"), 6.5);
+}
+
 TEST_F(UserRoutines, of_a_library_that_cannot_be_loaded_are_not_missing_as_well) {
   write("broken.so", "no library");
   const RunResult r = with(slider + along + "FUNCTION=USER(1)\n", {(folder_ / "broken.so").string()});

@@ -173,6 +173,7 @@ std::vector<ContactBrink> brinks(const ContactForce& c, const Motion& motion, co
     if (t.gap > 0) return;
     if (std::abs(t.inside) <= near * length) add(Brink::end_of_plane, t.closed());
     if (!t.closed()) return;
+    if (t.seam <= near * length) add(Brink::end_of_face, true);
     // The elastic part and that of the damper cancel.
     const double N = pressure(c.pressure, -t.gap, -dot(t.normal, velocity_at(t.point, I, rate)));
     if (std::abs(N) <= near * pressure(c.pressure, -t.gap, 0.0)) add(Brink::letting_go, N > 0);

@@ -58,9 +58,10 @@ class ContactKernel final : public Kernel, public WrenchSource, public SwitchSou
   const std::vector<ElementLabel>* labels_;
 };
 
-// Where a contact is on the brink of another law: on the one side of the point it pushes, on the other it does not.
+// Where a contact is on the brink of another law: on the one side of the point it pushes and on the other it does not,
+// or pushes with another stiffness.
 struct ContactBrink {
-  enum class Kind : std::uint8_t { touching, letting_go, end_of_plane };
+  enum class Kind : std::uint8_t { touching, letting_go, end_of_plane, end_of_face };
   Kind kind;
   bool pushes;  // here
 };

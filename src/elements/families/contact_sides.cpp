@@ -174,6 +174,8 @@ bool place_sides(const Model& model, const ElementLabel& label, const ContactSid
   const bool placed =
       place(model, label, sides[0], f.I, f.i, diagnostics) && place(model, label, sides[1], f.J, f.j, diagnostics);
   if (!placed || diagnostics.error_count() > errors) return false;
+  // That is an error of its own, whatever the shapes.
+  if (model.marker(f.i).place.body == model.marker(f.j).place.body) return true;
   return check_pairs(model, label, sides, f, diagnostics) && check_planes(model, label, sides, f, diagnostics);
 }
 

@@ -149,6 +149,13 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
     for (std::size_t k = 0; k < forces_.size(); ++k) {
       const ContactForce& f = forces_[k];
       for (const ContactBrink& b : brinks(f, motion, model.marker(f.i).place, model.marker(f.j).place, length)) {
+        if (b.kind == Brink::end_of_face) {
+          remarks.warning("touching-contact", labels[k].at,
+                          fmt::format("{} is just where a face ends in an edge: beyond it the surface is bent, and the "
+                                      "linear model has the stiffness of one side",
+                                      labels[k].full_text()));
+          continue;
+        }
         const std::string_view where = b.kind == Brink::touching     ? "just touching"
                                        : b.kind == Brink::letting_go ? "just letting go"
                                                                      : "just at the edge of its plane";

@@ -196,6 +196,10 @@ JointFrictionKernel::Evaluated JointFrictionKernel::evaluate(const Placed& p, co
     default:
       one(f.pin_radius * dot(axis, w), f.torque_preload);
   }
+  // The size of a load that is zero: a search for an equilibrium goes by the mean of all sides.
+  for (D& value : out.w) {
+    for (double& by : value.partial) by = at_rest(motion) && std::isnan(by) ? 0.0 : by;
+  }
   return out;
 }
 
@@ -348,7 +352,7 @@ void JointFrictionKernel::wrench(const Motion& motion, std::size_t k, bool with_
                                                               : Components::torque;
 }
 
-// The size of a force or moment that is zero has no derivative. A search for an equilibrium does without.
+// The size of a force or moment that is zero has no derivative.
 void JointFrictionKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const {
   if (at_rest(motion)) return;
   for (std::size_t k = 0; k < placed_.size(); ++k) {
