@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <iostream>
@@ -79,7 +80,9 @@ int run(int argc, char** argv) {
   std::string word;
   app.add_option("FILE", options.file, "a dataset or command file for a session at a prompt");
   CLI::App* run = app.add_subcommand("run", "run a command file (.acf), or a dataset (.adm) with commands given by -c");
-  run->add_option("FILE", options.file)->required();
+  run->add_option("FILE", options.file,
+                  "a command file (.acf), a dataset (.adm) for -c, or - for commands on standard input")
+      ->required();
   run->add_option("-c", options.commands, "a command, may be repeated")->allow_extra_args(false);
   const auto at_least = [](int least) {
     return CLI::Validator(
@@ -91,6 +94,13 @@ int run(int argc, char** argv) {
         fmt::format("from {}", least));
   };
   const CLI::Validator named([](const std::string& name) { return name.empty() ? "its name is empty" : ""; }, "");
+  const CLI::Validator finite(
+      [](const std::string& text) {
+        double value = 0;
+        const bool is_number = CLI::detail::lexical_cast(text, value);
+        return is_number && !std::isfinite(value) ? fmt::format("{} is no finite number", text) : "";
+      },
+      "");
   run->add_option("--json", options.json, "write everything computed to this file")->check(named);
   run->add_option("--output", options.output_prefix, "prefix of the output files; FOLDER/ for their folder alone")
       ->check(named);
@@ -110,10 +120,13 @@ int run(int argc, char** argv) {
   run->add_flag("--state", options.state, "print every operating point: positions, velocities, reactions, forces ...");
   run->add_flag("--quiet", options.quiet, "no tables on the terminal");
   CLI::App* check = app.add_subcommand("check", "read and check a dataset or command file");
-  check->add_option("FILE", options.file)->required();
+  check
+      ->add_option("FILE", options.file, "a dataset (.adm) or command file (.acf), or - for commands on standard input")
+      ->required();
   for (CLI::App* reading : {run, check}) {
     reading->add_flag("--pade", options.pade, "a DELAY is a first-order Pade approximant with a state, not e - tau e'");
-    reading->add_option("--user-value", options.user_value, "a constant in the place of each compiled routine");
+    reading->add_option("--user-value", options.user_value, "a constant in the place of each compiled routine")
+        ->check(finite);
     reading
         ->add_option(
             "--user-library", options.user_libraries,
@@ -185,7 +198,10 @@ int run(int argc, char** argv) {
     set_thread_count(has_memory_for_threads() ? threads : 1);
     return run_session(options, std::cout, std::cerr);
   }
-  if (*check) return check_file(options, std::cout, std::cerr);
+  if (*check) {
+    if (options.file == "-" && !take_commands(options)) return wrong_input;
+    return check_file(options, std::cout, std::cerr);
+  }
   if (*check_nastran) return nastran_reader::check_deck(deck.deck, std::cout, std::cerr);
   if (*solve_nastran) return nastran_reader::solve_deck(deck, std::cout, std::cerr);
   if (*reduce) return reduction::reduce(body, std::cout, std::cerr);

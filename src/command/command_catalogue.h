@@ -6,7 +6,6 @@
 namespace dynalin {
 
 std::span<const CommandKind> command_catalogue();
-std::span<const std::string_view> command_names();
 const CommandKind* find_command(std::string_view name);  // by its whole name, nullptr if there is none
 
 }  // namespace dynalin

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "command/command_place.h"
 #include "command/command_reader.h"
 #include "model/dataset_edits.h"
 #include "study/study_point.h"
@@ -36,7 +37,7 @@ struct CommandFiles {
   bool tables = false;                            // it writes into the file of modal tables
   // It asks for files that points of the run go to: .req, .out and .gra.
   bool requests = false, request_tables = false, graphics = false;
-  bool at_once = false;                           // they are there when the command has run, not at the end
+  bool at_once = false;  // they are there when the command has run, not at the end
 };
 
 // The text of a file that a command names; nothing after a report.
@@ -51,7 +52,7 @@ class CommandAction {
   // The same with the files that it names read; nothing where it names none, or after a report.
   virtual std::shared_ptr<const CommandAction> with_inputs(const InputReader&, Diagnostics&) const { return nullptr; }
   // Ids it refers to must exist in its model before anything runs; reports those that do not.
-  virtual void check(const Model&, const Span& /*command*/, Diagnostics&) const {}
+  virtual void check(const Model&, const CommandPlace&, Diagnostics&) const {}
   virtual CommandFiles files() const { return {}; }
   // A command that changes the model does so before anything runs.
   virtual bool edits() const { return false; }

@@ -21,6 +21,8 @@ struct Command {
   std::string folder;                           // that names of files in it are relative to
   std::shared_ptr<const Dataset> written;       // the statements among which it stands
 
+  CommandPlace place() const { return {at, statement, kind ? kind->arguments : std::span<const ArgumentInfo>()}; }
+
   static constexpr std::size_t known_when_run = static_cast<std::size_t>(-1);
 };
 

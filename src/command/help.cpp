@@ -29,7 +29,8 @@ void list_statements(std::ostream& out) {
   std::string_view group, statement;
   std::vector<std::string_view> inert;
   for (const Kind* kind : catalogue()) {
-    if (kind->role == Kind::Role::inert && catalogue_group(*kind) == "without effect") {
+    const bool among_settings = catalogue_group(*kind) == "settings and output";
+    if (among_settings && (kind->role == Kind::Role::inert || kind->idle)) {
       inert.push_back(kind->statement);
       continue;
     }
@@ -48,7 +49,7 @@ void list_statements(std::ostream& out) {
   for (const std::string_view name : statement_names()) {
     if (name != "END" && !has_statement(name)) missing.push_back(name);
   }
-  fmt::print(out, "  settings and output, most of them without effect on a linear model\n");
+  fmt::print(out, "  read, without effect\n");
   print_names(out, inert, "    ");
   fmt::print(out, "  not available yet\n");
   print_names(out, missing, "    ");

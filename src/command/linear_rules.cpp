@@ -37,6 +37,7 @@ class Rules {
     qualifiers();
     selection();
     tables();
+    without_effect();
     files();
   }
 
@@ -141,6 +142,27 @@ class Rules {
     }
     if (given("MODAL_RM") && !given("MASS_PER_MODE"))
       error("missing-argument", "MODAL_RM", "MODAL_RM needs MASS_PER_MODE");
+  }
+
+  // What is allowed and changes nothing, as nothing that is asked for reads it.
+  void without_effect() {
+    if (!w_.eigensol) return;
+    const auto asked = [&](const ModalTableKind& kind) { return given(kind.name) || given(by_frequency(kind)); };
+    const auto kinds = modal_table_kinds();
+    const auto asked_with_elements = [&](const ModalTableKind& kind) {
+      return kind.asked != TableAsked::all_or_by_numbers && asked(kind);
+    };
+    if (given("TABLE_PRECISION") && std::ranges::none_of(kinds, asked))
+      pass_over("TABLE_PRECISION", "the command asks for no table of modes");
+    if (!given("NAMES")) return;
+    if (std::ranges::none_of(kinds, asked_with_elements))
+      pass_over("NAMES", "the command asks for no table with elements in it");
+    else if (w_.table_precision.value_or(2) == 2)
+      pass_over("NAMES", "names are printed with more than two decimals alone", "TABLE_PRECISION=3, NAMES");
+  }
+  void pass_over(std::string_view argument, std::string_view why, std::string hint = {}) {
+    reader_.warning("passed-over", reader_.at(argument), fmt::format("{} is passed over: {}", argument, why),
+                    std::move(hint));
   }
 
   void files() {

@@ -13,6 +13,16 @@
 
 namespace dynalin {
 
+namespace {
+
+std::string with_place(const Diagnostic& d) {
+  if (!d.at.source) return d.message;
+  const SourceText::Place place = d.at.source->place(d.at.offset);
+  return fmt::format("{}:{}:{}: {}", d.at.source->name(), place.line, place.column, d.message);
+}
+
+}  // namespace
+
 LiveSession::LiveSession(const SessionOptions& options, Planner& plan, std::ostream* terminal, std::ostream& out,
                          std::ostream& err)
     : options_(options),
@@ -21,7 +31,34 @@ LiveSession::LiveSession(const SessionOptions& options, Planner& plan, std::ostr
       out_(out),
       err_(err),
       json_(options.json.empty() ? JsonResults::Kept::nothing : JsonResults::Kept::results) {
-  for (const Diagnostic& d : plan.diagnostics.items()) json_.add_warning("", remark_of(d));
+  take_remarks_of_reading();
+}
+
+void LiveSession::take_remarks_of_reading() {
+  for (const Diagnostic& d : plan_.diagnostics.items()) {
+    json_.add_warning("", remark_of(d));
+    unwritten_.push_back(d);
+  }
+}
+
+void LiveSession::write_remarks_of_reading() {
+  const auto is_text_of = [](const Job& job, const SourceText* text) {
+    return !job.stages.empty() && job.model().dataset->source.get() == text;
+  };
+  const auto comes_later = [&](const Diagnostic& d) {
+    for (std::size_t k = job_ + 1; k < plan_.jobs.size(); ++k) {
+      if (is_text_of(plan_.jobs[k], d.at.source)) return true;
+    }
+    return false;
+  };
+  std::vector<Diagnostic> later;
+  for (Diagnostic& d : unwritten_) {
+    if (comes_later(d))
+      later.push_back(std::move(d));
+    else
+      write_block(run_->message, Block::warning, with_place(d));
+  }
+  unwritten_ = std::move(later);
 }
 
 bool LiveSession::begin_job() {
@@ -52,6 +89,7 @@ bool LiveSession::begin_job() {
   const std::string& named_by = job.opening.empty() && !job.commands.empty() ? job.commands.front().text : job.prefix;
   if (job_ > 0)
     json_.add_model(job.opening.empty() ? named_by : job.opening.back(), job.title_shown(), job.model().units);
+  write_remarks_of_reading();
   Remarks& remarks = run_->remarks;
   remarks.say(remarks_on(run_->system()));
   remarks.passed_over_already(job.model().settings.passed_over);
@@ -136,6 +174,8 @@ bool LiveSession::advance() {
 }
 
 bool LiveSession::advance_at_prompt() {
+  take_remarks_of_reading();
+  if (run_) write_remarks_of_reading();
   const bool goes_on = advance();
   const bool failed = ending_ != RunEnding::finished || status_ != done;
   const bool over = failed && run_ && run_->preferences.ends_after_failure && !interrupted();

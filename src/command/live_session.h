@@ -29,6 +29,9 @@ class LiveSession {
   const RunState* state() const { return run_ ? &*run_ : nullptr; }
 
  private:
+  // What reading has to say goes into the message file of the model that it is about, once there is one.
+  void take_remarks_of_reading();
+  void write_remarks_of_reading();
   bool begin_job();
   void close_job();
   RunFiles::Result add_growing_files();
@@ -52,8 +55,9 @@ class LiveSession {
   RunEnding ending_ = RunEnding::finished;
   int status_ = done;
   bool written_ = true;
-  std::vector<std::string> saved_;  // files of SAVE
-  Settings settings_;               // of the job that was closed last
+  std::vector<std::string> saved_;     // files of SAVE
+  std::vector<Diagnostic> unwritten_;  // remarks of reading whose message file is not there yet
+  Settings settings_;                  // of the job that was closed last
   OutputSettings output_;
   std::vector<Command> settings_done_;
   std::size_t told_ = 0;  // files that a prompt has told of

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 struct PlannedFile {
   std::string path, what;
-  Span at;               // of the command, nothing for those of the command line
+  Span at;               // of its name in the command, nothing for those of the command line
   bool at_once = false;  // there when the command has run: a later one of the same kind may write it anew
 };
 
@@ -34,9 +34,9 @@ std::vector<PlannedFile> planned_files(const std::deque<Job>& jobs, const Sessio
       if (files.file.empty()) continue;
       const std::string base = command_path(c.folder, files.file);
       for (const std::string_view suffix : files.suffixes)
-        list.push_back({base + std::string(suffix), "FILE of " + c.text, c.at, files.at_once});
+        list.push_back({base + std::string(suffix), "FILE of " + c.text, c.place().value("FILE"), files.at_once});
       for (const std::string& name : files.more)
-        list.push_back({command_path(c.folder, name), "FILE of " + c.text, c.at, files.at_once});
+        list.push_back({command_path(c.folder, name), "FILE of " + c.text, c.place().value("FILE"), files.at_once});
     }
     if (tables) list.push_back({job.prefix + ".txt", "the file of modal tables", {}});
     if (job.xrf_digits > 0) list.push_back({job.prefix + ".res", "the results file", {}});

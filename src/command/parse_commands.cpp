@@ -113,6 +113,22 @@ bool is_analysis(const std::string& line) {
   return parsed.value.commands.front().kind->use == CommandUse::analysis;
 }
 
+// Whether a line is a command beyond doubt: out/run_1 may be a prefix.
+bool is_command(const std::string& line) {
+  if (line.empty() || !is_command_line(line)) return line.empty();
+  const Parsed<CommandFile> parsed = parse_commands(std::make_shared<const SourceText>("", line));
+  const auto& commands = parsed.value.commands;
+  return !parsed.diagnostics.has_errors() || (!commands.empty() && commands.front().kind->use == CommandUse::analysis);
+}
+
+// Behind the line of the model and comments. Where a command follows those, they stand in the place of an empty prefix.
+std::size_t line_of_prefix(const SourceText& source, std::size_t named) {
+  std::size_t n = named + 1;
+  while (n <= source.line_count() && trimmed(source.line(n)).starts_with('!')) ++n;
+  if (n == named + 1) return n;
+  return n <= source.line_count() && !is_command(std::string(trimmed(uncommented(source.line(n))))) ? n : named + 1;
+}
+
 }  // namespace
 
 Parsed<CommandFile> parse_command_file(SourceRef source) {
@@ -122,21 +138,24 @@ Parsed<CommandFile> parse_command_file(SourceRef source) {
   const std::string_view first = trimmed(uncommented(source->line(named)));
   if (source->text().empty() || is_command_line(first)) return parser.parse(source);
 
-  // Model and prefix stand on two lines; blank them out so that the rest keeps its places.
+  // Model and prefix stand on lines of their own; blank them out so that the rest keeps its places.
+  const std::size_t prefix_line = line_of_prefix(*source, named);
   std::string text(source->text());
-  for (std::size_t n = named; n <= std::min(named + 1, source->line_count()); ++n) {
+  for (const std::size_t n : {named, prefix_line}) {
+    if (n > source->line_count()) continue;
     const std::string_view line = source->line(n);
     text.replace(static_cast<std::size_t>(line.data() - source->text().data()), line.size(), line.size(), ' ');
   }
   const auto offset = static_cast<std::uint32_t>(first.data() - source->text().data());
-  const std::string prefix(named < source->line_count() ? unquoted(trimmed(uncommented(source->line(named + 1))))
-                                                        : std::string_view());
+  const std::string prefix(prefix_line <= source->line_count()
+                               ? unquoted(trimmed(uncommented(source->line(prefix_line))))
+                               : std::string_view());
   parser.name_model(std::string(unquoted(first)), {source.get(), offset, static_cast<std::uint32_t>(first.size())},
                     prefix);
   auto rest = std::make_shared<const SourceText>(source->name(), std::move(text));
   Parsed<CommandFile> file = parser.parse(rest);
   if (is_analysis(prefix)) {
-    const std::string_view line = source->line(named + 1);
+    const std::string_view line = source->line(prefix_line);
     const auto at = static_cast<std::uint32_t>(line.data() - source->text().data() +
                                                static_cast<std::ptrdiff_t>(line.find(prefix)));
     file.diagnostics.error("missing-prefix", {source.get(), at, static_cast<std::uint32_t>(prefix.size())},

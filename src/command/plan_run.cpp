@@ -2,6 +2,7 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "base/read_file.h"
@@ -29,6 +30,22 @@ std::string existing_hint(const std::string& path) {
   return {};
 }
 
+// Whether a file of some other extension holds statements that only a dataset has: looked for at its beginning.
+bool holds_dataset(const std::string& path) {
+  constexpr std::size_t enough = 65536;
+  auto text = read_file(path);
+  if (!text) return false;
+  if (text->size() > enough) text->resize(std::min(text->rfind('\n', enough), enough));
+  const auto parsed = parse_dataset(std::make_shared<const SourceText>(path, std::move(*text)));
+  static constexpr std::array<std::string_view, 1> ground = {"GROUND"};
+  return std::ranges::any_of(parsed.value.statements, [&](const Statement& s) {
+    if (s.name == "UNITS") return true;
+    return s.name == "PART" && std::ranges::any_of(s.arguments, [](const WrittenArgument& w) {
+             return !w.has_value && find_keyword(w.name.text(), ground).has_value();
+           });
+  });
+}
+
 // What a run begins with: its commands, and the dataset that it names without one of them.
 struct Start {
   std::vector<Command> commands;
@@ -49,8 +66,9 @@ class Reader {
                  file);
       return std::nullopt;
     }
-    // A file that is run with commands of its own is a dataset whatever its name.
-    const bool is_dataset = has_commands || has_extension(file, ".adm");
+    // A file that is run with commands of its own is a dataset whatever its name, and so is one that looks like it.
+    const bool named_otherwise = file != "-" && !has_extension(file, ".acf") && !has_extension(file, ".adm");
+    const bool is_dataset = has_commands || has_extension(file, ".adm") || (named_otherwise && holds_dataset(file));
     Planner reading(options_, Statements::kept);
     const auto start = is_dataset ? std::optional(of_dataset(reading)) : of_command_file(reading);
     if (!start) return std::nullopt;

@@ -196,7 +196,7 @@ void Planner::add(Command c) {
   }
   if (known()) {
     c.stage = job().stages.size() - 1;
-    if (sound_) c.action->check(*job().stages.back().model, c.at, diagnostics);
+    if (sound_) c.action->check(*job().stages.back().model, c.place(), diagnostics);
   }
   job().commands.push_back(std::move(c));
 }
@@ -205,7 +205,8 @@ void Planner::read_inputs(Command& c) {
   const InputReader read_text = [&](const std::string& name) {
     std::string why;
     const SourceRef source = read(in_folder(c.folder, name), why);
-    if (!source) diagnostics.error("unreadable-file", c.at, fmt::format("{} cannot be read: {}", name, why));
+    if (!source)
+      diagnostics.error("unreadable-file", c.place().value("CONFIG"), fmt::format("{} cannot be read: {}", name, why));
     return source;
   };
   if (auto ready = c.action->with_inputs(read_text, diagnostics)) c.action = std::move(ready);
@@ -215,7 +216,8 @@ bool Planner::load(Command& c) {
   auto action = std::make_shared<commands::Reload>(*action_of<commands::Reload>(c));
   const std::string path = in_folder(c.folder, action->file);
   const auto wrong = [&](const std::string& why) {
-    diagnostics.error("unusable-save", c.at, fmt::format("{} cannot be reloaded: {}", action->file, why));
+    diagnostics.error("unusable-save", c.place().value("FILE"),
+                      fmt::format("{} cannot be reloaded: {}", action->file, why));
     return false;
   };
   auto text = read_file(path);
@@ -297,7 +299,7 @@ bool Planner::resolve(Job& of, std::size_t first, std::optional<std::size_t> sta
   }
   if (!c.action->edits()) {
     c.stage = stage.value();
-    c.action->check(*of.stages[*stage].model, c.at, diagnostics);
+    c.action->check(*of.stages[*stage].model, c.place(), diagnostics);
     return ok();
   }
   std::size_t last = first;

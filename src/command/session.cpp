@@ -48,7 +48,7 @@ int run_session(const SessionOptions& options, std::ostream& out, std::ostream& 
 
 int check_file(const SessionOptions& options, std::ostream& out, std::ostream& err) {
   if (!planned(options, err)) return wrong_input;
-  fmt::print(out, "{}: no errors\n", options.file);
+  fmt::print(out, "{}: no errors\n", options.file == "-" ? "standard input" : options.file);
   return done;
 }
 

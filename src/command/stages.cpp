@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "elements/catalogue.h"
 
 namespace dynalin {
@@ -21,6 +23,63 @@ bool add_system(Job::Stage& stage, const SessionOptions& options, Diagnostics& d
   }
   stage.system = std::move(*system);
   return true;
+}
+
+// The model after some edits, and all that is wrong with them and with it.
+struct EditedModel {
+  Job::Stage stage;
+  Diagnostics problems;
+};
+
+Diagnostic& add_to(Diagnostics& list, const Diagnostic& d, const Span& at) {
+  Diagnostic& added = d.severity == Severity::error ? list.error(d.code, at, d.message, d.hint)
+                                                    : list.warning(d.code, at, d.message, d.hint);
+  added.notes = d.notes;
+  return added;
+}
+
+EditedModel edited_model(const Job::Stage& from, std::span<const Command> edits, const SessionOptions& options) {
+  EditedModel made;
+  DatasetEditor editor(from.dataset, edits.front().written, catalogue(), made.problems);
+  made.stage.edits = from.edits;
+  for (const Command& c : edits) {
+    c.action->edit(editor);
+    made.stage.edits.emplace_back(c.whole.text());
+  }
+  EditedDataset now = std::move(editor).finish();
+  auto built = build_model(now.dataset, catalogue(), {options.user_value}, routine_options(options));
+  const SourceText* read_before = from.dataset->source.get();
+  for (const Diagnostic& d : built.diagnostics.items()) {
+    // Warnings of the dataset were given when it was read.
+    if (d.severity == Severity::error || d.at.source != read_before) add_to(made.problems, d, d.at);
+  }
+  made.stage.dataset = std::move(now.dataset), made.stage.model = std::move(built.value);
+  made.stage.restated = std::move(now.restated);
+  if (!made.problems.has_errors()) add_system(made.stage, options, made.problems);
+  return made;
+}
+
+// The edit that has brought a problem about, as the model before all of them had none: the last of the fewest that have
+// it too.
+const Command& cause_of(const Diagnostic& d, const Job::Stage& from, std::span<const Command> edits,
+                        const SessionOptions& options) {
+  std::size_t without = 0, with = edits.size();
+  while (with - without > 1) {
+    const std::size_t half = without + (with - without) / 2;
+    const EditedModel fewer = edited_model(from, edits.first(half), options);
+    const bool has_it =
+        std::ranges::any_of(fewer.problems.items(), [&](const Diagnostic& f) { return f.message == d.message; });
+    (has_it ? with : without) = half;
+  }
+  return edits[with - 1];
+}
+
+// A command of one argument is at fault by that.
+Span place_in(const Command& c) {
+  const auto& arguments = c.statement->arguments;
+  if (arguments.size() != 1) return c.at;
+  const WrittenArgument& w = arguments.front();
+  return w.has_value && !w.value().empty() ? join(w.name, w.value_span()) : w.name;
 }
 
 }  // namespace
@@ -53,29 +112,23 @@ std::optional<Job::Stage> stage_of_dataset(SourceRef source, const SessionOption
 std::optional<Job::Stage> edited_stage(const Job::Stage& from, std::span<const Command> edits,
                                        const SessionOptions& options, std::vector<SourceRef>& texts,
                                        Diagnostics& diagnostics) {
-  const std::size_t errors = diagnostics.error_count();
-  DatasetEditor editor(from.dataset, edits.front().written, catalogue(), diagnostics);
-  Job::Stage stage;
-  stage.edits = from.edits;
-  for (const Command& c : edits) {
-    c.action->edit(editor);
-    stage.edits.emplace_back(c.whole.text());
+  EditedModel edited = edited_model(from, edits, options);
+  keep_texts(edited.stage, texts);
+  if (!edited.problems.has_errors()) {
+    diagnostics.append(std::move(edited.problems));
+    return std::move(edited.stage);
   }
-  EditedDataset now = std::move(editor).finish();
-  auto built = build_model(now.dataset, catalogue(), {options.user_value}, routine_options(options));
-  const SourceText* read_before = from.dataset->source.get();
-  for (const Diagnostic& d : built.diagnostics.items()) {
-    if (d.severity == Severity::error) {
-      diagnostics.error(d.code, d.at, d.message, d.hint).notes = d.notes;
-    } else if (d.at.source != read_before) {
-      diagnostics.warning(d.code, d.at, d.message, d.hint).notes = d.notes;
+  for (const Diagnostic& d : edited.problems.items()) {
+    const bool at_edit = std::ranges::any_of(edits, [&](const Command& c) { return c.at.source == d.at.source; });
+    if (d.severity != Severity::error || at_edit) {
+      add_to(diagnostics, d, d.at);
+      continue;
     }
+    const Command& cause = cause_of(d, from, edits, options);
+    Diagnostic& moved = add_to(diagnostics, d, place_in(cause));
+    if (d.at.source) moved.notes.insert(moved.notes.begin(), {d.at, "what does not go with it stands here"});
   }
-  stage.dataset = std::move(now.dataset), stage.model = std::move(built.value);
-  keep_texts(stage, texts);
-  stage.restated = std::move(now.restated);
-  if (diagnostics.error_count() > errors || !add_system(stage, options, diagnostics)) return std::nullopt;
-  return stage;
+  return std::nullopt;
 }
 
 std::optional<Job::Stage> saved_stage(const SavedFile::Model& saved, const std::string& name,

@@ -1,5 +1,7 @@
 #include "dataset/arguments.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -95,6 +97,8 @@ class ArgumentSplitter {
                            const WrittenArgument& argument) const;
   bool value_ends_before_word(std::size_t begin, std::size_t i, const WrittenArgument& argument) const;
   void check_tokens(ArgumentDraft& draft, ValueForm form);
+  void check_number(ArgumentDraft& draft, std::size_t i);
+  void check_quote(const ArgumentDraft& draft, ValueForm form, std::size_t i);
   void damage(WrittenArgument& argument, std::string_view code, std::size_t i, std::string message,
               std::string hint = {});
 
@@ -305,6 +309,7 @@ void ArgumentSplitter::check_tokens(ArgumentDraft& draft, ValueForm form) {
   for (std::size_t i = draft.begin; i < draft.end; ++i) {
     const Token& token = tokens_[i];
     if (token.kind == TokenKind::other) {
+      check_quote(draft, form, i);
       const auto byte = static_cast<unsigned char>(source_.text()[token.offset]);
       if (byte >= 0x20 && byte != 0x7F) continue;
       if (form == ValueForm::free_text) {
@@ -316,22 +321,46 @@ void ArgumentSplitter::check_tokens(ArgumentDraft& draft, ValueForm form) {
       damage(draft.argument, "bad-character", i,
              quoted(token, source_) + " stands in the value of " + std::string(draft.argument.name.text()));
     }
-    if (form != ValueForm::tokens || token.kind != TokenKind::number) continue;
-    // Only very long numbers and those with an exponent may be too large.
-    constexpr std::uint32_t short_number = 300;
-    const bool may_overflow =
-        token.length > short_number || token_text(token, source_).find_first_of("eE") != std::string_view::npos;
-    if (may_overflow && std::isinf(token_value(token, source_))) {
-      damage(draft.argument, "number-overflow", i, "this number is too large");
-    }
-    const bool sign = symbol_at(i + 1, '+') || symbol_at(i + 1, '-');
-    const bool like_exponent = token.degrees && sign && i + 2 < draft.end && tokens_[i + 2].integer &&
-                               !blank_before(i + 1) && !blank_before(i + 2);
-    if (like_exponent) {
-      diagnostics_.warning("degrees-not-exponent", join(span(i), span(i + 2)),
-                           "D means degrees here and begins no exponent",
-                           "write E for an exponent, or a blank before the sign");
-    }
+    if (form == ValueForm::tokens && token.kind == TokenKind::number) check_number(draft, i);
+  }
+}
+
+// A quoted text ends in its line; a quote that opens one and has no partner is a part of the text.
+void ArgumentSplitter::check_quote(const ArgumentDraft& draft, ValueForm form, std::size_t i) {
+  const bool names = form == ValueForm::text || form == ValueForm::text_list;
+  const std::string_view text = token_text(tokens_[i], source_);
+  if (!names || (text != "\"" && text != "'")) return;
+  if (i > draft.begin && !symbol_at(i - 1, ',')) return;
+  diagnostics_.warning(
+      "bad-character", span(i),
+      fmt::format("the quote that opens here in {} is not closed in its line", draft.argument.name.text()),
+      "what follows counts as one text");
+}
+
+void ArgumentSplitter::check_number(ArgumentDraft& draft, std::size_t i) {
+  // Only very long numbers and those with an exponent may be out of the range of double.
+  constexpr std::uint32_t short_number = 300;
+  const std::string_view text = token_text(tokens_[i], source_);
+  if (tokens_[i].length > short_number || text.find_first_of("eE") != std::string_view::npos) {
+    const double value = token_value(tokens_[i], source_);
+    if (std::isinf(value)) damage(draft.argument, "number-overflow", i, "this number is too large");
+    const std::string_view mantissa = text.substr(0, text.find_first_of("eE"));
+    if (value == 0 && mantissa.find_first_of("123456789") != std::string_view::npos)
+      diagnostics_.warning("number-underflow", span(i), "this number is too small and is read as 0");
+  }
+  const bool sign = symbol_at(i + 1, '+') || symbol_at(i + 1, '-');
+  const bool like_exponent = tokens_[i].degrees && sign && i + 2 < draft.end && tokens_[i + 2].integer &&
+                             !blank_before(i + 1) && !blank_before(i + 2);
+  // Written as nobody writes an exponent, and going on as a sum does: 30D+2*TIME.
+  const auto is_sum = [&] {
+    const std::string_view next = i + 3 < draft.end ? token_text(tokens_[i + 3], source_) : " ";
+    const bool goes_on = std::string_view("*/+-").find(next.front()) != std::string_view::npos;
+    return goes_on && text.find('.') == std::string_view::npos && token_text(tokens_[i + 2], source_).front() != '0';
+  };
+  if (like_exponent && !is_sum()) {
+    diagnostics_.warning("degrees-not-exponent", join(span(i), span(i + 2)),
+                         "D means degrees here and begins no exponent",
+                         "write E for an exponent, or a blank before the sign");
   }
 }
 

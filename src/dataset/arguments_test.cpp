@@ -206,9 +206,26 @@ TEST(arguments, report_numbers_that_are_too_large) {
   EXPECT_EQ(split_faulty("PART/1, MASS=1E999, CM=1").problems, Texts{"2:14 number-overflow"});
 }
 
+TEST(arguments, warn_of_numbers_that_are_too_small) {
+  EXPECT_EQ(split_faulty("PART/1, MASS=1e-400, CM=1").problems, Texts{"2:14 number-underflow"});
+  EXPECT_EQ(split_faulty("VARIABLE/1, FUNCTION=2*1E-999").problems, Texts{"2:24 number-underflow"});
+  EXPECT_EQ(split("PART/1, MASS=0E-400, CM=1"), (Texts{"MASS=0E-400", "CM=1"}));
+  EXPECT_EQ(split("PART/1, MASS=5E-324"), Texts{"MASS=5E-324"});
+}
+
+TEST(arguments, warn_of_quotes_that_are_not_closed) {
+  EXPECT_EQ(split_faulty("REQUEST/1, CNAMES=\"a\", \"b").problems, Texts{"2:24 bad-character"});
+  EXPECT_EQ(split_faulty("MATRIX/1, FILE='a").problems, Texts{"2:16 bad-character"});
+  EXPECT_EQ(split_faulty("REQUEST/1, TITLE=don't").problems, Texts{});
+}
+
 TEST(arguments, warn_when_D_looks_like_an_exponent) {
   EXPECT_EQ(split_faulty("VARIABLE/1, FUNCTION=2*1.0D+02").problems, Texts{"2:24 degrees-not-exponent"});
+  EXPECT_EQ(split_faulty("VARIABLE/1, FUNCTION=3D+2").problems, Texts{"2:22 degrees-not-exponent"});
+  EXPECT_EQ(split_faulty("MARKER/1, REULER=3D+2, 0, 0").problems, Texts{"2:18 degrees-not-exponent"});
+  EXPECT_EQ(split_faulty("VARIABLE/1, FUNCTION=1.0D+02*TIME").problems, Texts{"2:22 degrees-not-exponent"});
   EXPECT_EQ(split("VARIABLE/1, FUNCTION=30D - 5"), Texts{"FUNCTION=30D - 5"});
+  EXPECT_EQ(split("VARIABLE/1, FUNCTION=30D+2*TIME"), Texts{"FUNCTION=30D + 2 * TIME"});
 }
 
 }  // namespace

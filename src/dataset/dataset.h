@@ -155,6 +155,8 @@ std::optional<std::size_t> find_keyword(std::string_view word, std::span<const s
 // Full name of a statement keyword by the priority table of the dataset language, "" if unknown.
 std::string_view statement_name(std::string_view word);
 std::span<const std::string_view> statement_names();
+// Every command of the language: which there are is the catalogue's to say (command/command_catalogue).
+std::span<const std::string_view> command_names();
 
 // The candidate nearest to a misspelt word, "" if none is near: for hints.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> candidates);

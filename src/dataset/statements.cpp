@@ -43,10 +43,12 @@ class StatementReader {
  private:
   bool first_line_is_statement() const;
   bool is_end(std::span<const Token> tokens) const;
+  void report_text_behind_end(std::span<const Token> tokens);
   void read_statement(std::span<const Token> tokens, std::string_view view_name);
   bool is_statement(std::span<const Token> tokens);
   void report_not_a_statement(std::span<const Token> tokens);
   std::string continuation_hint(std::span<const Token> tokens) const;
+  std::string other_language_hint(std::string_view word) const;
   void look_up(Statement& statement);
   std::size_t read_id(std::span<const Token> tokens, Statement& statement);
   void read_arguments(std::span<const Token> tokens, Statement& statement);
@@ -121,7 +123,12 @@ void StatementReader::read(std::uint32_t start) {
   std::vector<Token> tokens;
   while (!stopped() && lexer.next_statement(tokens)) {
     if (is_end(tokens)) {
-      if (language_ == Language::commands) read_statement(std::span(tokens).first(1), lexer.view_name());
+      // Text behind STOP is a remark; an id or arguments are what nobody can give it.
+      const bool asks = tokens.size() > 2 && is_symbol(tokens[1], text_, '/');
+      if (language_ == Language::commands)
+        read_statement(std::span(tokens).first(asks ? tokens.size() : 1), lexer.view_name());
+      else if (asks)
+        report_text_behind_end(tokens);
       ended_ = true;
       return;
     }
@@ -143,7 +150,14 @@ bool StatementReader::is_end(std::span<const Token> tokens) const {
     return tokens[0].kind == TokenKind::word && found && keywords_[*found] == "STOP";
   }
   if (!equal_ignoring_case(token_text(tokens[0], text_), "END")) return false;
-  return tokens.size() == 1 || (tokens.size() == 2 && is_symbol(tokens[1], text_, '/'));
+  return tokens.size() == 1 || is_symbol(tokens[1], text_, '/');
+}
+
+void StatementReader::report_text_behind_end(std::span<const Token> tokens) {
+  const Span behind = join(token_span(tokens[2], text_), token_span(tokens.back(), text_));
+  diagnostics_.error("unexpected-text", behind,
+                     fmt::format("END has no id and no arguments, found {}", quoted(behind.text())),
+                     "END ends the dataset: a statement with a longer name may have lost its letters");
 }
 
 void StatementReader::report_missing_end() {
@@ -211,10 +225,24 @@ std::string StatementReader::continuation_hint(std::span<const Token> tokens) co
     return fmt::format("begin the line with a comma if it continues {}", dataset_.statements.back().at.text());
   }
   const std::string_view word = token_text(tokens[0], text_);
+  if (tokens.size() == 1 && tokens[0].kind == TokenKind::word) {
+    if (std::string hint = other_language_hint(word); !hint.empty()) return hint;
+  }
   if (tokens.size() > 1 && tokens[1].kind == TokenKind::number && !statement_name(word).empty()) {
     return fmt::format("write {}/{}", word, token_text(tokens[1], text_));
   }
   return "a comment begins with '!', a line that continues a statement with a comma";
+}
+
+// A word of the other language: nothing for what is no word of it, or hardly one.
+std::string StatementReader::other_language_hint(std::string_view word) const {
+  constexpr std::size_t enough = 3;
+  const bool dataset = language_ == Language::dataset;
+  const std::span<const std::string_view> names = dataset ? command_names() : statement_names();
+  const auto found = word.size() < enough ? std::nullopt : find_keyword(word, names);
+  if (!found) return {};
+  return std::string(names[*found]) + (dataset ? " is a command: it belongs in a command file, or behind -c"
+                                               : " is a statement: it belongs in the dataset");
 }
 
 void StatementReader::look_up(Statement& statement) {
@@ -244,9 +272,10 @@ void StatementReader::look_up(Statement& statement) {
     return;
   }
   const std::string_view nearest = nearest_word(word, keywords_);
+  std::string hint = other_language_hint(word);
+  if (hint.empty() && !nearest.empty()) hint = fmt::format("did you mean {}?", nearest);
   diagnostics_.error(language_ == Language::dataset ? "unknown-statement" : "unknown-command", statement.keyword(),
-                     fmt::format("there is no {} {}", noun, quoted(word)),
-                     nearest.empty() ? std::string{} : fmt::format("did you mean {}?", nearest));
+                     fmt::format("there is no {} {}", noun, quoted(word)), std::move(hint));
 }
 
 // Reads the id if there is one; returns how many tokens belong to it.

@@ -56,6 +56,24 @@ TEST(dataset, ends_with_END) {
   EXPECT_EQ(problems(parsed.diagnostics), Texts{});
 }
 
+TEST(dataset, whose_END_has_an_id_is_wrong_and_ends_all_the_same) {
+  for (const char* end : {"END/5", "END/FOO", "end / 1, X=2"}) {
+    const auto parsed = read_whole(std::string("title\nPART/1, GROUND\n") + end + "\nPART/2\nEND\n");
+    EXPECT_EQ(heads(parsed), Texts{"PART/1"}) << end;
+    ASSERT_EQ(parsed.diagnostics.error_count(), 1u) << end;
+    EXPECT_EQ(parsed.diagnostics.items().front().code, "unexpected-text") << end;
+  }
+}
+
+// A word of the other language is no slip of the keyboard.
+TEST(keywords_of_commands, are_named_as_such_in_datasets) {
+  const auto hint = [](const std::string& text) { return read(text).diagnostics.items().front().hint; };
+  EXPECT_EQ(hint("SIMULATE/STATICS"), "SIMULATE is a command: it belongs in a command file, or behind -c");
+  EXPECT_EQ(hint("lin/eig"), "LINEAR is a command: it belongs in a command file, or behind -c");
+  EXPECT_EQ(hint("STOP"), "STOP is a command: it belongs in a command file, or behind -c");
+  EXPECT_EQ(hint("SFROCE/1"), "did you mean SFORCE?");
+}
+
 TEST(dataset, without_END_gets_a_warning_at_its_end) {
   const auto parsed = read_whole("title\nPART/1, GROUND\n\n");
   EXPECT_EQ(heads(parsed), Texts{"PART/1"});

@@ -6,7 +6,7 @@
 namespace dynalin {
 
 Catalogue catalogue();
-// Where a kind of the catalogue stands in the manual: the folder of its source, or "without effect".
+// Where a kind of the catalogue stands in the manual: the folder of its source, or "settings and output".
 std::string_view catalogue_group(const Kind&);
 
 // Names of statements, each once, in alphabetical order: those of which a command defines arguments anew, the classes

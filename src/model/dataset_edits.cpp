@@ -1,6 +1,7 @@
 #include "model/dataset_edits.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -51,6 +52,15 @@ bool is_variant(const WrittenArgument& w, Names variants, const Kind* kind) {
 bool is_list(const WrittenArgument& w, const Kind* kind) {
   return full_name(kind, w.name.text()) == w.name.text() && w.name.length == 4 &&
          find_keyword(w.name.text(), std::array<std::string_view, 1>{"LIST"}).has_value();
+}
+
+// What may be meant by a word that is no class: one of several that begin so, a misspelt one, or any.
+std::string class_hint(std::string_view word, Names classes) {
+  std::vector<std::string_view> tied;
+  if (find_keyword(word, classes, &tied)) tied.clear();
+  if (!tied.empty()) return fmt::format("it could be {}", fmt::join(tied, " or "));
+  const std::string_view near = nearest_word(word, classes);
+  return near.empty() ? fmt::format("one of {}", fmt::join(classes, ", ")) : fmt::format("did you mean {}?", near);
 }
 
 // Takes arguments that stood there before the edit out; their places stay until all are read.
@@ -175,7 +185,15 @@ void DatasetEditor::switch_elements(const Statement& command, bool inactive, Nam
                          "its arguments are a class, and ID or RANGE");
       return;
     }
-    (*which == 0 ? ids : range) = &w;
+    const WrittenArgument*& list = *which == 0 ? ids : range;
+    if (list) {
+      diagnostics_
+          .error("duplicate-argument", w.name, fmt::format("{} of {} is given twice", lists[*which], command.name),
+                 *which == 0 ? "one ID takes several ids: ID=1, 2" : "one RANGE a command")
+          .notes.push_back({list->name, "the first one is here"});
+      return;
+    }
+    list = &w;
   }
   if (statement.empty() || (!ids && !range)) {
     if (!command.damaged)
@@ -225,7 +243,7 @@ bool DatasetEditor::read_class(const WrittenArgument& w, const Statement& comman
   const bool can = contains(classes, name) || (!kinds.empty() && kinds.front()->can_be_deactivated);
   if (!can) {
     diagnostics_.error("unknown-word", w.name, fmt::format("{} is no class that {} takes", w.name.text(), command.name),
-                       fmt::format("one of {}", fmt::join(classes, ", ")));
+                       class_hint(w.name.text(), classes));
     return false;
   }
   if (!statement.empty()) {

@@ -69,12 +69,18 @@ struct Kind {
   EnergyRows energy_rows = EnergyRows::none;
   bool can_be_deactivated = false;  // a command takes elements out of the model and into it again
   bool holds_for_good = false;      // no command defines it anew
+  bool idle = false;                // of a setting: no argument of the statement acts
   Gives gives = Gives::forces;
   std::string_view example{};  // of a command that defines arguments anew, "PART/2, MASS=3.5"
 
   constexpr Kind deactivatable() const {
     Kind kind = *this;
     kind.can_be_deactivated = true;
+    return kind;
+  }
+  constexpr Kind without_effect() const {
+    Kind kind = *this;
+    kind.idle = true;
     return kind;
   }
   constexpr Kind for_good() const {

@@ -72,6 +72,14 @@ const Kind* KindFinder::find(const Statement& s, std::size_t& variant_argument, 
       });
     });
     const bool named = strange != s.arguments.end();
+    std::vector<std::string_view> tied;
+    if (named) find_keyword(strange->name.text(), variants, &tied);
+    if (!tied.empty()) {
+      diagnostics.error("missing-variant", strange->name,
+                        fmt::format("{} may mean several types of {}", strange->name.text(), s.name),
+                        fmt::format("it could be {}", fmt::join(tied, " or ")));
+      return nullptr;
+    }
     diagnostics.error("missing-variant", named ? strange->name : s.at,
                       named ? fmt::format("{} is no type of {}", strange->name.text(), s.name)
                             : fmt::format("{} needs its type", s.name),

@@ -201,6 +201,24 @@ bool read_value(std::vector<std::string>& slot, const WrittenArgument& w, const 
   return true;
 }
 
+namespace {
+
+// The argument whose value ends right before a bare word, without a comma between them.
+const WrittenArgument* goes_on_from(const WrittenArgument& word, const ElementReader& r) {
+  const auto& all = r.statement().arguments;
+  const auto at = std::find_if(all.begin(), all.end(), [&](const WrittenArgument& w) { return &w == &word; });
+  if (word.has_value || at == all.end() || at == all.begin()) return nullptr;
+  const WrittenArgument& before = *std::prev(at);
+  if (!before.has_value || before.name.source != word.name.source) return nullptr;
+  const Span value = before.value_span();
+  const std::uint32_t end = value.offset + value.length;
+  if (end > word.name.offset) return nullptr;
+  const std::string_view between = word.name.source->text().substr(end, word.name.offset - end);
+  return between.find(',') == std::string_view::npos ? &before : nullptr;
+}
+
+}  // namespace
+
 namespace detail {
 
 std::optional<std::size_t> find_argument(const WrittenArgument& written, std::span<const ArgumentInfo> infos,
@@ -219,6 +237,11 @@ std::optional<std::size_t> find_argument(const WrittenArgument& written, std::sp
       return std::nullopt;
     }
     const auto near = nearest_word(written.name.text(), names);
+    if (const WrittenArgument* before = goes_on_from(written, r)) {
+      r.error("unknown-argument", written.name, fmt::format("{} has no argument {}", owner, written.name.text()),
+              fmt::format("an operator or parentheses are missing before it if it belongs to {}", before->name.text()));
+      return std::nullopt;
+    }
     r.error("unknown-argument", written.name, fmt::format("{} has no argument {}", owner, written.name.text()),
             near.empty() ? fmt::format("its arguments are {}", fmt::join(names, ", "))
                          : fmt::format("did you mean {}?", near));

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -76,7 +78,9 @@ class Tables {
   void row(const std::string& name, const Triple& a, const Triple& b) {
     fmt::print(out_, "  {:{}}", name, width_);
     for (const Triple* t : {&a, &b}) {
-      for (const double v : *t) fmt::print(out_, " {:>12.6g}", v);
+      // A component below the rounding of its vector is what other axes would have left of it.
+      const double rounding = std::numeric_limits<double>::epsilon() / 2 * std::hypot((*t)[0], (*t)[1], (*t)[2]);
+      for (const double v : *t) fmt::print(out_, " {:>12.6g}", std::abs(v) <= rounding ? 0.0 : v);
     }
   }
   void rest(std::size_t count) {

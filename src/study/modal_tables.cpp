@@ -96,7 +96,7 @@ void look_for_missing(const ModalTableRequest& request, const std::vector<EigenM
     const auto is_there = [&, r = range](const EigenMode& m) { return r.has(0, m); };
     if (range.highest_hz > 0 && std::ranges::none_of(modes, is_there)) {
       remarks.warning("missing-mode", {},
-                      fmt::format("{} asks for modes between {:g} and {:g} {}, none is there", name, range.lowest_hz,
+                      fmt::format("F{} asks for modes between {:g} and {:g} {}, none is there", name, range.lowest_hz,
                                   range.highest_hz, frequency_unit));
     }
     if (range.last <= static_cast<std::int64_t>(count) || range.last == ModeRange::all().last) continue;

@@ -39,9 +39,22 @@ TEST_F(CommandFiles, comments_stand_on_the_first_lines_as_everywhere) {
   const RunResult in_place = commands("model\n! no prefix\nLINEAR/EIGENSOL\n");
   EXPECT_EQ(in_place.status, 0) << in_place.err;
   EXPECT_TRUE(in_place.wrote("model.msg"));
+  const RunResult between = commands("model\n! the prefix:\n  ! two lines\no7\nLINEAR/EIGENSOL\n");
+  EXPECT_EQ(between.status, 0) << between.err;
+  EXPECT_TRUE(between.wrote("o7.msg"));
+  EXPECT_EQ(between.eigenvalues(0).size(), 2u);
+  const RunResult setting = commands("model\n! no prefix\nEQUILIBRIUM/ERROR=1E-6\nLINEAR/EIGENSOL\n");
+  EXPECT_EQ(setting.status, 0) << setting.err;
   const RunResult alone = commands("! nothing\n! else\n");
   EXPECT_EQ(alone.status, 1);
   EXPECT_THAT(alone.err, HasSubstr("the command file names no model"));
+}
+
+TEST_F(CommandFiles, with_words_of_datasets_say_where_they_belong) {
+  EXPECT_THAT(commands("model\nout\nUNITS/SYSTEM=MKS\n").err,
+              HasSubstr("hint: UNITS is a statement: it belongs in the dataset"));
+  EXPECT_THAT(commands("model\nout\nRESULTS/XRF\n").err,
+              HasSubstr("hint: RESULTS is a statement: it belongs in the dataset"));
 }
 
 TEST_F(CommandFiles, names_may_stand_in_quotes_and_commands_on_several_lines) {

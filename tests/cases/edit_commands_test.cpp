@@ -284,6 +284,31 @@ TEST_F(EditCommands, mistakes_stand_at_their_place_and_nothing_runs) {
   EXPECT_THAT(error("DEACTIVATE/JOINT, ID=1, RANGE=1,2"), HasSubstr("[excluded-arguments]"));
   EXPECT_THAT(error("ACTIVATE/JOINT, MOTION, ID=1"), HasSubstr("[excluded-arguments]"));
   EXPECT_THAT(error("ACTIVATE/JOINT, IDS=1"), HasSubstr("[unknown-argument]"));
+  for (const char* switching : {"DEACTIVATE", "ACTIVATE"}) {
+    const std::string command = switching;
+    EXPECT_THAT(error(command + "/JOINT, ID=1, ID=2"), HasSubstr("ID of " + command + " is given twice [duplicate-"));
+    EXPECT_THAT(error(command + "/JOINT, RANGE=1,2, RANGE=3,4"), HasSubstr("[duplicate-argument]"));
+  }
+  EXPECT_THAT(error("DEACTIVATE/BUSHNG, ID=1"), HasSubstr("hint: did you mean BUSHING?"));
+  EXPECT_THAT(error("DEACTIVATE/G, ID=1"), HasSubstr("hint: it could be "));
+}
+
+// The dataset was sound: a note shows what in it does not go with the command.
+TEST_F(EditCommands, what_they_lead_to_is_reported_at_the_command) {
+  const auto error = [&](const std::string& commands) {
+    const RunResult r =
+        run(oscillator + "SFORCE/1, TRANSLATIONAL, I=20, J=1, FUNCTION=1\nEND\n", commands + "\nLINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 1) << commands;
+    return r.err;
+  };
+  const std::string alone = error("SFORCE/1, I=1");
+  EXPECT_THAT(alone, HasSubstr("model.acf:3:11: error: I and J of SFORCE/1 are both on PART/1"));
+  EXPECT_THAT(alone, HasSubstr("note: what does not go with it stands here"));
+  EXPECT_THAT(error("MARKER/20, PART=1"), HasSubstr("model.acf:3:12: error:"));
+  EXPECT_THAT(error("PART/2, CM=1"), HasSubstr("model.acf:3:9: error:"));
+  // Of several the one that has brought it about.
+  const std::string second = error("PART/2, MASS=3\nSFORCE/1, I=1, FUNCTION=2\nSPRINGDAMPER/1, K=5");
+  EXPECT_THAT(second, HasSubstr("model.acf:4:1: error: I and J of SFORCE/1 are both on PART/1"));
 }
 
 TEST_F(EditCommands, an_element_that_is_active_already_gets_a_warning) {

@@ -243,7 +243,7 @@ TEST_F(Modal, names_of_view_are_whole) {
 TEST_F(Modal, ranges_of_frequency_that_hold_no_mode_are_warned_of) {
   const RunResult r = run(two_bodies(""), "LINEAR/EIGENSOL, FKINETIC=1000,2000\n");
   EXPECT_EQ(r.status, 0) << r.err;
-  EXPECT_THAT(r.err, HasSubstr("KINETIC asks for modes between 1000 and 2000 cycles/s, none is there"));
+  EXPECT_THAT(r.err, HasSubstr("FKINETIC asks for modes between 1000 and 2000 cycles/s, none is there"));
 }
 
 TEST_F(Modal, ranges_of_frequency_skip_real_modes) {

@@ -75,7 +75,7 @@ TEST_F(NestedFiles, have_their_errors_at_their_own_lines) {
   EXPECT_EQ(r.status, 1);
   EXPECT_THAT(r.err, HasSubstr("inner/wrong.acf:3:17: error"));
   write("inner/wrong.acf", "LINEAR/EIGENSOL\nLINEAR/EIGENSOL, RM=99\n");
-  EXPECT_THAT(commands("model\nout\nFILE/COMMAND=inner/wrong\n").err, HasSubstr("inner/wrong.acf:2:1: error"));
+  EXPECT_THAT(commands("model\nout\nFILE/COMMAND=inner/wrong\n").err, HasSubstr("inner/wrong.acf:2:21: error"));
   EXPECT_THAT(commands("model\nout\nFILE/COMMAND=nowhere\n").err, HasSubstr("run.acf:3:6: error: the command file"));
 }
 
@@ -123,7 +123,7 @@ TEST_F(NestedFiles, standard_input_is_a_command_file) {
   EXPECT_THAT(out.str(), HasSubstr("0.3183099"));
   options.standard_input = "LINEAR/EIGENSOL, RM=99\n";
   EXPECT_EQ(run_session(options, out, err), 1);
-  EXPECT_THAT(err.str(), HasSubstr("standard input:1:1: error"));
+  EXPECT_THAT(err.str(), HasSubstr("standard input:1:21: error"));
 }
 
 }  // namespace

@@ -43,12 +43,37 @@ TEST_F(Newcomer, writes_a_type_that_does_not_exist) {
   EXPECT_THAT(r.err, AllOf(HasSubstr(":7:10: error: HINGE is no type of JOINT [missing-variant]"),
                            HasSubstr("one of REVOLUTE, TRANSLATIONAL")));
   EXPECT_THAT(check("JOINT/1, I=20, J=1").err, HasSubstr(":7:1: error: JOINT needs its type"));
+  EXPECT_THAT(check("JOINT/1, S, I=20, J=1").err, AllOf(HasSubstr(":7:10: error: S may mean several types of JOINT"),
+                                                        HasSubstr("hint: it could be SPHERICAL or SCREW")));
 }
 
 TEST_F(Newcomer, writes_units_behind_numbers) {
   const RunResult r = check("PART/3, MASS=1kg, CM=30, IP=1,1,1\nMARKER/30");
   EXPECT_THAT(r.err, AllOf(HasSubstr(":7:15: error: MASS takes plain numbers, found 'kg'"),
                            HasSubstr("hint: units are not written behind numbers; UNITS states them")));
+}
+
+TEST_F(Newcomer, shortens_a_unit_too_much) {
+  EXPECT_THAT(run("t\nUNITS/FORCE=POUND, MASS=SLUG, LENGTH=FOOT, TIME=SECOND\nPART/1, GROUND\nEND\n", "").err,
+              AllOf(HasSubstr("POUND may mean several units of FORCE"), HasSubstr("POUND_FORCE or POUNDAL")));
+}
+
+TEST_F(Newcomer, forgets_parentheses_of_a_function) {
+  EXPECT_THAT(check("REQUEST/1, F2=SIN TIME").err,
+              HasSubstr("hint: an operator or parentheses are missing before it if it belongs to F2"));
+}
+
+TEST_F(Newcomer, draws_a_bushing_at_right_angles) {
+  write("model.adm",
+        "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\n"
+        "MARKER/21, XP=0,0,-1, ZP=0,1,0\nBUSHING/1, I=21, J=1, K=1,1,1, KT=1,1,1\nEND\n");
+  const RunResult r = run_with("model.adm", {"LINEAR/EIGENSOL"});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err,
+              HasSubstr(":8:1: warning: BUSHING/1 reads the angle AY of MARKER/21 in MARKER/1, which is not "
+                        "defined as drawn: the z axis of MARKER/21 is along the y axis of MARKER/1 [skew-axes]"));
+  EXPECT_THAT(r.err,
+              HasSubstr("BUSHING/1: the angle AY is not defined where the z axis of I is along the y axis of J"));
 }
 
 TEST_F(Newcomer, writes_lists_in_parentheses) {
@@ -74,6 +99,16 @@ TEST_F(Newcomer, runs_a_dataset_of_another_extension) {
   const RunResult r = run_with("model.dat", {"LINEAR/EIGENSOL"});
   EXPECT_EQ(r.status, 0) << r.err;
   EXPECT_THAT(r.out, HasSubstr("moves most"));
+  const RunResult alone = run_with("model.dat", {});
+  EXPECT_EQ(alone.status, wrong_usage);
+  EXPECT_THAT(alone.err, HasSubstr("model.dat states a model, and no command says what to do with it"));
+  SessionOptions options;
+  options.file = (folder_ / "model.dat").string();
+  std::ostringstream out, err;
+  EXPECT_EQ(check_file(options, out, err), done) << err.str();
+  // Commands alone are none.
+  write("run.txt", "FILE/MODEL=model.dat\nPART/2, MASS=2\nLINEAR/EIGENSOL\n");
+  EXPECT_EQ(run_with("run.txt", {}).status, 0);
 }
 
 TEST_F(Newcomer, gives_commands_to_a_command_file) {

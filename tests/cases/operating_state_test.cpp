@@ -345,6 +345,18 @@ TEST_F(OperatingStates, are_printed_on_request_and_short_for_statics) {
               AllOf(HasSubstr("  Operating point at time"), HasSubstr("reactions on")));
 }
 
+// Tables are for the eye; other files have the number as it is.
+TEST_F(OperatingStates, show_no_component_below_the_rounding_of_its_vector) {
+  const RunResult r =
+      run("t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1, "
+          "QG=2,-3E-17,0\nMARKER/20\nPART/3, MASS=1, CM=30, IP=1,1,1, QG=0,-3E-17,0\nMARKER/30\nEND\n",
+          "SIMULATE/INITIAL_CONDITIONS\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.message, HasSubstr("PART/2              2            0            0"));
+  EXPECT_THAT(r.message, HasSubstr("PART/3              0       -3e-17            0"));
+  EXPECT_THAT(r.json.dump(), HasSubstr("[2.0,-3e-17,0.0]"));
+}
+
 TEST_F(OperatingStates, on_the_terminal_stop_after_some_rows_where_there_are_many) {
   std::string chain = "Chain\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-10\nPART/1, GROUND\nMARKER/1\n";
   for (int k = 2; k <= 10; ++k) {

@@ -171,6 +171,7 @@ TEST_F(JsonWarnings, of_reading_have_code_place_and_hint_and_those_of_a_command_
   EXPECT_EQ(read.at("at").at("column"), 31);
   EXPECT_EQ(read.at("hint"), "the statement FRICTION replaces it");
   EXPECT_TRUE(read.at("command").is_null());
+  EXPECT_THAT(r.message, HasSubstr("model.adm:7:31: friction as an argument of JOINT/1"));
   const auto& of_command = r.json.at("warnings").back();
   EXPECT_EQ(of_command.at("code"), "missing-mode");
   EXPECT_EQ(of_command.at("command"), "LINEAR/EIGENSOL, COORDS=5");

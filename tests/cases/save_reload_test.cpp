@@ -126,7 +126,7 @@ TEST_F(SaveReload, files_that_save_did_not_write_so_are_refused_before_anything_
     std::filesystem::remove(folder_ / "model.msg");
     const RunResult r = run(pendulum, "SIMULATE/INITIAL\nRELOAD/STATES, FILE=bad\n");
     EXPECT_EQ(r.status, 1) << why;
-    EXPECT_THAT(r.err, HasSubstr("model.acf:4:1: error: bad cannot be reloaded: " + why));
+    EXPECT_THAT(r.err, HasSubstr("model.acf:4:21: error: bad cannot be reloaded: " + why));
     EXPECT_THAT(r.err, HasSubstr("[unusable-save]"));
     EXPECT_FALSE(r.wrote("model.msg"));
   };

@@ -55,6 +55,45 @@ TEST_F(Settings, of_every_statement_are_read) {
     EXPECT_THAT(r.err, Not(HasSubstr(acting)));
 }
 
+// What is stated twice with one value, and what a DEFAULT has ended, says nothing new.
+TEST_F(Settings, that_take_the_place_of_others_get_a_warning_at_their_place) {
+  const RunResult r = with("EQUILIBRIUM/MAXIT=3, ERROR=1E-6\nEQUILIBRIUM/MAXIT=9\n", "LINEAR/EIGENSOL\n");
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("model.adm:11:13: warning: MAXIT of EQUILIBRIUM is given a second value, which takes "
+                               "the place of the first [duplicate-argument]"));
+  EXPECT_THAT(r.err, HasSubstr("model.adm:10:13: note: the first one is here"));
+  EXPECT_THAT(with("INTEGRATOR/GSTIFF\nINTEGRATOR/HHT\n").err,
+              HasSubstr("HHT of INTEGRATOR takes the place of GSTIFF, which was given before"));
+  for (const char* sound :
+       {"EQUILIBRIUM/MAXIT=3\nEQUILIBRIUM/ERROR=1E-6\n", "EQUILIBRIUM/MAXIT=3\nEQUILIBRIUM/MAXIT=3\n",
+        "EQUILIBRIUM/MAXIT=3\nEQUILIBRIUM/DEFAULT, MAXIT=9\n", "STRING/1, STRING=a\nSTRING/2, STRING=b\n"})
+    EXPECT_THAT(with(sound).err, Not(HasSubstr("[duplicate-argument]"))) << sound;
+}
+
+TEST_F(Settings, without_xrf_say_that_there_is_no_results_file) {
+  const RunResult none = with("RESULTS/\n");
+  EXPECT_EQ(none.status, 0) << none.err;
+  EXPECT_THAT(none.err, HasSubstr("model.adm:10:1: warning: no results file is written, as RESULTS does not say XRF"));
+  EXPECT_FALSE(none.wrote("model.res"));
+  const RunResult swallowed = with("RESULTS/COMMENT=foo, XRF\n");
+  EXPECT_THAT(swallowed.err, HasSubstr("COMMENT takes the rest of its line, and XRF in it asks for nothing"));
+  EXPECT_THAT(swallowed.err, HasSubstr("no results file is written"));
+  for (const char* sound : {"RESULTS/XRF, COMMENT=a, b: c\n", "RESULTS/NOLINEAR\nRESULTS/XRF\n"}) {
+    const RunResult r = with(sound);
+    EXPECT_THAT(r.err, Not(HasSubstr("[passed-over]"))) << sound;
+    EXPECT_TRUE(r.wrote("model.res")) << sound;
+  }
+}
+
+TEST_F(Settings, that_a_string_is_for_nobody_is_said_and_its_list_printed) {
+  const RunResult r = with("STRING/1, STRING=gains\n", "STRING/1, LIST\nLINEAR/EIGENSOL\n");
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(count(r.err, "nothing here acts on STRING, which is passed over"), 1u) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("Current STRING/1 data are:"));
+  EXPECT_THAT(r.out, HasSubstr("gains"));
+  EXPECT_THAT(with("", "STRING/1, LIST\n").err, HasSubstr("model.acf:3:1: error: STRING/1 does not exist"));
+}
+
 TEST_F(Settings, of_graphics_over_time_are_passed_over) {
   EXPECT_EQ(count(with("TIMGRAPHICS/1\nTIMGRAPHICS/2\n").err, "nothing here acts on TIMGRAPHICS, which is"), 1u);
 }

@@ -41,6 +41,27 @@ TEST_F(Inputs, a_file_that_cannot_be_read_at_any_place_is_refused) {
   expect_refused(run_dataset("memory.adm"), "memory.adm", "");
 }
 
+TEST_F(Inputs, commands_on_standard_input_are_checked_as_they_are_run) {
+  const auto check = [&](const std::string& commands) {
+    write("commands", commands);
+    return run({"check", "-"}, {{}, [] { redirect(STDIN_FILENO, "commands", O_RDONLY); }});
+  };
+  const Outcome sound = check("model\nmodel\nLINEAR/EIGENSOL\n");
+  EXPECT_EQ(sound.status, 0) << sound.err;
+  EXPECT_EQ(sound.out, "standard input: no errors\n");
+  const Outcome wrong = check("model\nmodel\nLINEAR/EIGENSOLE, RM=99\n");
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_THAT(wrong.err, HasSubstr("standard input:3:8: error:"));
+}
+
+TEST_F(Inputs, a_value_for_routines_that_is_no_finite_number_is_wrong_usage) {
+  for (const std::string value : {"nan", "inf", "-inf", "none"}) {
+    const Outcome r = run({"run", "model.adm", "-c", "LINEAR/EIGENSOL", "--user-value", value});
+    EXPECT_EQ(r.status, 3) << value << r.err;
+    EXPECT_THAT(r.err, HasSubstr("--user-value")) << value;
+  }
+}
+
 TEST_F(Inputs, folders_pipes_and_devices_are_no_datasets) {
   fs::create_directory(folder_ / "folder.adm");
   expect_refused(run_dataset("folder.adm"), "folder.adm", "it is a directory");

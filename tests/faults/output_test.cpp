@@ -134,7 +134,7 @@ TEST_F(Outputs, no_file_that_the_run_reads_is_overwritten) {
     write("model.acf", commands);
     const Outcome r = run({"run", "model.acf"});
     EXPECT_EQ(r.status, 1) << name << r.out << r.err;
-    EXPECT_THAT(r.err, HasSubstr("model.acf:3:1: error: FILE of LINEAR/STATEMAT, FILE=" + name + " would overwrite "));
+    EXPECT_THAT(r.err, HasSubstr("model.acf:3:23: error: FILE of LINEAR/STATEMAT, FILE=" + name + " would overwrite "));
     EXPECT_THAT(r.err, HasSubstr("[file-in-use]"));
     EXPECT_EQ(text("model.adm"), dataset) << name;
     EXPECT_EQ(text("model.acf"), commands) << name;

@@ -46,10 +46,10 @@ class Info final : public CommandAction {
       : quantity_(&quantity), i_(i), j_(j), rm_(rm) {}
 
   bool reads_statements() const override { return true; }
-  void check(const Model& model, const Span& at, Diagnostics& diagnostics) const override {
-    for (const std::int64_t id : {i_, j_, rm_}) {
+  void check(const Model& model, const CommandPlace& place, Diagnostics& diagnostics) const override {
+    for (const auto& [id, name] : {std::pair{i_, "I"}, std::pair{j_, "J"}, std::pair{rm_, "RM"}}) {
       if (!model.find_marker(id))
-        diagnostics.error("unknown-element", at,
+        diagnostics.error("unknown-element", place.value(name),
                           fmt::format("the command refers to MARKER/{}, which does not exist", id));
     }
   }
@@ -59,7 +59,8 @@ class Info final : public CommandAction {
       functions.push_back(quantity_->angles && k >= 3
                               ? fmt::format("{}({}, {})", quantity_->functions[k], i_, j_)
                               : fmt::format("{}({}, {}, {})", quantity_->functions[k], i_, j_, rm_));
-    const auto values = measured(run.point, functions, run.options.user_value, routine_options(run.options), run.options.pade);
+    const auto values =
+        measured(run.point, functions, run.options.user_value, routine_options(run.options), run.options.pade);
     if (!values) return tl::unexpected(values.error());
     const auto name = [](std::int64_t id) { return id == 0 ? std::string("ground") : fmt::format("MARKER/{}", id); };
     std::string text = fmt::format("\n  {} of {} relative to {} along the axes of {} at time {:.5E}\n",

@@ -275,28 +275,30 @@ CommandFiles Linear::files() const {
   return files;
 }
 
-void Linear::check(const Model& model, const Span& at, Diagnostics& diagnostics) const {
-  const auto need = [&](const std::optional<std::int64_t>& id, std::string_view statement, bool exists) {
-    if (id && !exists)
+void Linear::check(const Model& model, const CommandPlace& place, Diagnostics& diagnostics) const {
+  const auto need = [&](std::int64_t id, std::string_view statement, const Span& at) {
+    const bool exists =
+        statement == "MARKER" ? id > 0 && model.find_marker(id).has_value() : model.find(statement, id).has_value();
+    if (!exists)
       diagnostics.error("unknown-element", at,
-                        fmt::format("the command refers to {}/{}, which does not exist", statement, *id));
+                        fmt::format("the command refers to {}/{}, which does not exist", statement, id));
   };
-  const auto need_element = [&](const std::optional<std::int64_t>& id, std::string_view statement) {
-    need(id, statement, id && model.find(statement, *id).has_value());
-  };
-  const auto need_marker = [&](const std::optional<std::int64_t>& id) {
-    need(id, "MARKER", id && *id > 0 && model.find_marker(*id).has_value());
+  const auto need_named = [&](const std::optional<std::int64_t>& id, std::string_view statement,
+                              std::string_view argument) {
+    if (id) need(*id, statement, place.value(argument));
   };
   nastran::check_references(configuration, model, diagnostics);
-  need_element(command.pstate, "PSTATE");
-  need_element(command.pinput, "PINPUT");
-  need_element(command.poutput, "POUTPUT");
-  need_marker(command.tables.modal_rm);
-  for (const std::int64_t id : command.tables.markers) need_marker(id);
-  need_marker(command.rm);
+  for (const auto& [id, statement] : {std::pair{command.pstate, "PSTATE"}, std::pair{command.pinput, "PINPUT"},
+                                      std::pair{command.poutput, "POUTPUT"}}) {
+    need_named(id, statement, statement);
+  }
+  need_named(command.tables.modal_rm, "MARKER", "MODAL_RM");
+  for (std::size_t k = 0; k < command.tables.markers.size(); ++k)
+    need(command.tables.markers[k], "MARKER", place.number("MLIST", k));
+  need_named(command.rm, "MARKER", "RM");
   const auto rm = command.rm ? model.find_marker(*command.rm) : std::nullopt;
   if (rm && model.marker(*rm).floating)
-    diagnostics.error("floating-marker", at, fmt::format("RM=MARKER/{} is floating", *command.rm));
+    diagnostics.error("floating-marker", place.value("RM"), fmt::format("RM=MARKER/{} is floating", *command.rm));
 }
 
 std::span<const CommandKind> linear() {

@@ -11,7 +11,7 @@ class Linear final : public CommandAction {
   explicit Linear(LinearCommand c) : command(std::move(c)) {}
   StudyResult<void> run(RunState&) const override;
   std::shared_ptr<const CommandAction> with_inputs(const InputReader&, Diagnostics&) const override;
-  void check(const Model&, const Span& at, Diagnostics&) const override;
+  void check(const Model&, const CommandPlace&, Diagnostics&) const override;
   CommandFiles files() const override;
 
   LinearCommand command;

@@ -1,12 +1,10 @@
 // NAME/id, ARG=… for every statement whose Kind allows it: defines arguments of one anew, the others stay. LIST prints
 // it as it is then; alone it changes nothing.
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "command/commands/edit.h"
+#include "command/commands/list_statement.h"
 #include "command/run_state.h"
-#include "command/statement_text.h"
 #include "elements/catalogue.h"
 
 namespace dynalin::commands {
@@ -16,17 +14,6 @@ namespace {
 bool is_list(const WrittenArgument& w) {
   return !w.has_value && w.name.length == 4 &&
          find_keyword(w.name.text(), std::array<std::string_view, 1>{"LIST"}).has_value();
-}
-
-const Statement* find(const Dataset& dataset, const Statement& named) {
-  for (const Statement& s : dataset.statements) {
-    if (s.name == named.name && s.id.value_or(0) == named.id.value_or(0)) return &s;
-  }
-  return nullptr;
-}
-
-void print_statement(const Statement& named, RunState& run) {
-  if (const Statement* s = find(*run.system().model().dataset, named)) run.print(statement_list(*s));
 }
 
 class Redefine final : public Edit {
@@ -42,27 +29,9 @@ class Redefine final : public Edit {
   }
 };
 
-class ListStatement final : public CommandAction {
- public:
-  explicit ListStatement(const Statement& statement) : statement_(&statement) {}
-  bool reads_statements() const override { return true; }
-  void check(const Model& model, const Span& at, Diagnostics& diagnostics) const override {
-    if (!find(*model.dataset, *statement_))
-      diagnostics.error("unknown-element", at, fmt::format("{} does not exist", at.text()));
-  }
-  StudyResult<void> run(RunState& run) const override {
-    print_statement(*statement_, run);
-    return {};
-  }
-
- private:
-  const Statement* statement_;
-};
-
 std::shared_ptr<const CommandAction> read(CommandReader& reader) {
   const auto& arguments = reader.statement().arguments;
-  if (!arguments.empty() && std::ranges::all_of(arguments, is_list))
-    return std::make_shared<ListStatement>(reader.statement());
+  if (!arguments.empty() && std::ranges::all_of(arguments, is_list)) return list_of_statement(reader.statement());
   return std::make_shared<Redefine>(reader.statement());
 }
 

@@ -13,9 +13,10 @@ class Stop final : public CommandAction {
 };
 
 std::shared_ptr<const CommandAction> read(CommandReader& reader) {
-  Diagnostics& diagnostics = reader.diagnostics();
-  for (const WrittenArgument& w : reader.statement().arguments)
-    diagnostics.error("unknown-argument", w.name, "STOP takes no arguments");
+  const Statement& written = reader.statement();
+  if (written.id) reader.error("unexpected-text", written.at, "STOP has no id");
+  for (const WrittenArgument& w : written.arguments)
+    reader.error("unknown-argument", w.name, "STOP takes no arguments", "a comment begins with '!'");
   return std::make_shared<Stop>();
 }
 

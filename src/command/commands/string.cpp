@@ -1,7 +1,8 @@
 // STRING/id, STRING=text: text for compiled routines, which have no utility here that reads it. Read and passed over,
-// with a word.
+// with a word. LIST prints that of the dataset.
 #include <fmt/format.h>
 
+#include "command/commands/list_statement.h"
 #include "command/run_state.h"
 
 namespace dynalin::commands {
@@ -15,7 +16,7 @@ struct Written {
   using W = Written;
   static constexpr std::array<Argument<W>, 2> arguments = {{
       {.name = "STRING", .slot = &W::text, .help = "any text up to the end of the command"},
-      {.name = "LIST", .slot = &W::list, .help = "nothing here has a use for it"},
+      {.name = "LIST", .slot = &W::list, .help = "prints that of the dataset, and sets nothing"},
   }};
 };
 
@@ -36,7 +37,9 @@ constexpr CommandKind kind = {.name = "STRING",
                               .arguments = detail::argument_infos<Written>,
                               .read = [](CommandReader& reader) -> std::shared_ptr<const CommandAction> {
                                 Written w;
-                                return read_arguments(w, reader) ? std::make_shared<PassOver>() : nullptr;
+                                if (!read_arguments(w, reader)) return nullptr;
+                                if (w.list) return list_of_statement(reader.statement());
+                                return std::make_shared<PassOver>();
                               }};
 
 }  // namespace

@@ -17,6 +17,30 @@ std::array<T, 3> projected_angles(const RelativeFrame<T>& I) {
   return {atan2(-I.z.y, I.z.z), atan2(I.z.x, I.z.z), atan2(I.x.y, I.x.x)};
 }
 
+// An angle is not defined where an axis of I is along that axis of J about which nothing can be seen.
+struct Angle {
+  std::string_view name;
+  char axis_I, axis_J;
+};
+constexpr std::array<Angle, 3> angles_read = {{{"AX", 'z', 'x'}, {"AY", 'z', 'y'}, {"AZ", 'x', 'z'}}};
+
+// Of those that the law reads the first for which both arguments of ATAN2 vanish: below that they are roundings.
+const Angle* undefined_angle(const LinearWrench& law, const RelativeFrame<double>& I) {
+  constexpr double rounding = 1e-12;
+  const std::array<double, 3> sizes = {std::hypot(I.z.y, I.z.z), std::hypot(I.z.x, I.z.z), std::hypot(I.x.y, I.x.x)};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto reads = [&](const LinearWrench::Coupling& c) { return c.column == 3 + k; };
+    const bool read = law.routine || std::ranges::any_of(law.couplings, reads);
+    if (read && sizes[k] < rounding) return &angles_read[k];
+  }
+  return nullptr;
+}
+
+RelativeFrame<double> pose_of(const RelativeFrame<Taylor>& I) {
+  const auto values = [](const Vec3<Taylor>& v) { return Vector{v.x.value, v.y.value, v.z.value}; };
+  return {values(I.p), values(I.x), values(I.y), values(I.z)};
+}
+
 // What a routine reads: time, mode, y − LENGTH and y′.
 using Read = std::array<double, 14>;
 
@@ -62,6 +86,19 @@ LinearWrench::LinearWrench(const LinearLaw& law)
 bool LinearWrench::turns() const {
   return routine || std::any_of(force.begin() + 3, force.end(), [](double f) { return f != 0; }) ||
          std::any_of(couplings.begin(), couplings.end(), [](const Coupling& k) { return k.row >= 3 || k.column >= 3; });
+}
+
+void warn_of_undefined_angles(const Model& model, const ElementLabel& label, const LinearWrench& law,
+                              Diagnostics& diagnostics) {
+  const Angle* angle = undefined_angle(law, drawn_frame(model, law.i, law.j));
+  if (!angle) return;
+  const std::string name_I = model.marker(law.i).label.text(), name_J = model.marker(law.j).label.text();
+  diagnostics.warning(
+      "skew-axes", label.at,
+      fmt::format("{} reads the angle {} of {} in {}, which is not defined as drawn: the {} axis of {} "
+                  "is along the {} axis of {}",
+                  label.full_text(), angle->name, name_I, name_J, angle->axis_I, name_I, angle->axis_J, name_J),
+      "such a force is for small angles: give one of the markers the axes of the other");
 }
 
 RelativeDisplacement relative_displacement(const PairMotion& pair, std::span<const double> turns) {
@@ -154,9 +191,18 @@ void LinearWrenchKernel::undefined_values(const Motion& motion, std::vector<Unde
   const auto finite = [](double x) { return std::isfinite(x); };
   for (std::size_t k = 0; k < laws_.size(); ++k) {
     const Placed& p = laws_[k];
+    const PairMotion pair = pair_motion(motion, *p.I, *p.J);
+    if (const Angle* angle = undefined_angle(*p.law, pose_of(pair.relative))) {
+      undefined.push_back({&(*labels_)[k],
+                           fmt::format("{}: the angle {} is not defined where the {} axis of I is along the {} axis "
+                                       "of J",
+                                       (*labels_)[k].full_text(), angle->name, angle->axis_I, angle->axis_J),
+                           false});
+      continue;
+    }
     if (!p.law->routine) continue;
     const auto turns = std::span(motion.memory).subspan(static_cast<std::size_t>(p.memory), 3);
-    const Read read = read_by_routine(*p.law, relative_displacement(pair_motion(motion, *p.I, *p.J), turns), motion);
+    const Read read = read_by_routine(*p.law, relative_displacement(pair, turns), motion);
     bool has_values = true, has_slopes = true;
     for (std::size_t r = 0; r < 6; ++r) has_values = has_values && finite(p.law->routine->value(inputs(read), r));
     for (std::size_t r = 0; r < 6 && has_values; ++r) {

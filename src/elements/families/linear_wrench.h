@@ -46,6 +46,9 @@ struct LinearWrench {
   bool turns() const;
 };
 
+// Warns where the axes are drawn so that an angle which the force reads is not defined.
+void warn_of_undefined_angles(const Model&, const ElementLabel&, const LinearWrench&, Diagnostics&);
+
 // `turns` holds the total angles that AX, AY, AZ are unwrapped to.
 RelativeDisplacement relative_displacement(const PairMotion&, std::span<const double> turns);
 // Total angles for the memory.
@@ -87,6 +90,7 @@ class LinearWrenchSet final : public TypedSet<LinearWrench> {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const bool turns = elements[k].turns();
       check_pair(model, labels[k], elements[k].i, elements[k].j, {true, turns, turns}, diagnostics);
+      if (turns && !diagnostics.has_errors()) warn_of_undefined_angles(model, labels[k], elements[k], diagnostics);
     }
   }
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {

@@ -102,6 +102,8 @@ std::vector<std::string> texts_of(const ElementReader& reader, std::string_view 
   return w && w->has_value ? split_texts(w->value_span().text(), separator) : std::vector<std::string>();
 }
 
+constexpr std::size_t places_of_request = 8;  // but for VARIABLES, of which there are as many as are named
+
 class RequestSet final : public TypedSet<Request> {
  public:
   using TypedSet::TypedSet;
@@ -200,14 +202,29 @@ class RequestSet final : public TypedSet<Request> {
     return true;
   }
 
+  // What stands behind the last place has none to go to.
+  static void warn_of_surplus(const std::vector<std::string>& texts, std::size_t places, std::string_view argument,
+                              ElementReader& reader) {
+    const auto stated = std::find_if(texts.rbegin(), texts.rend(), [](const std::string& t) { return !t.empty(); });
+    const auto count = static_cast<std::size_t>(texts.rend() - stated);
+    if (count <= places) return;
+    reader.warning(
+        "wrong-count", reader.at(argument),
+        fmt::format("{} has {} texts for {} of {}, and what is too many is passed over", argument, count,
+                    places == 1 ? "the one place" : fmt::format("the {} places", places), reader.label().text()));
+  }
+
   // Texts belong to places, those of VARIABLES to the VARIABLEs in order.
-  static void read_texts(RequestInfo& info, const ElementReader& reader) {
+  static void read_texts(RequestInfo& info, ElementReader& reader) {
     info.comment = text_of(reader, "COMMENT"), info.results_name = text_of(reader, "RESULTS_NAME");
     const bool in_order = reader.given("VARIABLES");
     const auto names = texts_of(reader, "CNAMES", ','), units = texts_of(reader, "CUNITS", ','),
                labels = texts_of(reader, "CLABELS", ',');
     info.heads = texts_of(reader, "TITLE", ':');
-    info.heads.resize(std::min<std::size_t>(info.heads.size(), 8));
+    const std::size_t places = in_order ? info.components().size() : places_of_request;
+    warn_of_surplus(names, places, "CNAMES", reader), warn_of_surplus(units, places, "CUNITS", reader);
+    warn_of_surplus(labels, places, "CLABELS", reader), warn_of_surplus(info.heads, places_of_request, "TITLE", reader);
+    info.heads.resize(std::min(info.heads.size(), places_of_request));
     if (names.empty() && units.empty() && labels.empty()) return;
     std::vector<RequestComponent> components = info.components();
     for (std::size_t k = 0; k < components.size(); ++k) {

@@ -47,7 +47,6 @@ bool check_words(const std::vector<std::string>& written, const std::array<std::
 }  // namespace
 
 bool WrittenEquilibrium::check(ElementReader& reader) const {
-  if (!check_one_of(std::array<std::string_view, 2>{"STATIC", "DYNAMIC"}, reader)) return false;
   if (!check_words(method, methods, "METHOD", reader) || !check_words(pattern, yes_or_no, "PATTERN", reader))
     return false;
   if (method.size() > 1) {
@@ -61,10 +60,6 @@ bool WrittenEquilibrium::check(ElementReader& reader) const {
 }
 
 bool WrittenIntegrator::check(ElementReader& reader) const {
-  static constexpr std::array<std::string_view, 9> types = {"GSTIFF",  "WSTIFF", "HASTIFF", "DSTIFF",      "HHT",
-                                                            "NEWMARK", "ABAM",   "RKF45",   "CONSTANT_BDF"};
-  static constexpr std::array<std::string_view, 3> formulations = {"I3", "SI2", "SI1"};
-  if (!check_one_of(types, reader) || !check_one_of(formulations, reader)) return false;
   if (!check_words(interpolate, on_or_off, "INTERPOLATE", reader)) return false;
   const auto refuse = [&](std::string_view argument, std::string why) {
     reader.error("value-out-of-range", reader.at(argument), fmt::format("{} of INTEGRATOR {}", argument, why));
@@ -105,8 +100,9 @@ extern constinit const Kind equilibrium = setting<WrittenEquilibrium>("EQUILIBRI
 extern constinit const Kind ic = setting<WrittenInitialConditions>("IC", "Settings of the initial conditions.");
 extern constinit const Kind integrator = setting<WrittenIntegrator>("INTEGRATOR", "Settings of the integrator.");
 extern constinit const Kind kinematics = setting<WrittenKinematics>("KINEMATICS", "Settings of kinematic analyses.");
-extern constinit const Kind lsolver = setting<WrittenLinearSolver>("LSOLVER", "Choice of the linear solver.");
-extern constinit const Kind debug = setting<WrittenDebug>("DEBUG", "Diagnostic output.");
+extern constinit const Kind lsolver =
+    setting<WrittenLinearSolver>("LSOLVER", "Choice of the linear solver.").without_effect();
+extern constinit const Kind debug = setting<WrittenDebug>("DEBUG", "Diagnostic output.").without_effect();
 extern constinit const Kind preferences = setting<WrittenPreferences>("PREFERENCES", "Preferences of the solver.");
 
 }  // namespace dynalin

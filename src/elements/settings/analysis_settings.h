@@ -93,6 +93,7 @@ struct WrittenEquilibrium {
                                                               "SETTLING_TIME",
                                                               "TEND",
                                                               "LIST"};
+  static constexpr std::array<std::string_view, 1> alternatives = {"STATIC DYNAMIC"};
   bool check(ElementReader&) const;
   EquilibriumSettings stated() const;
   void apply(EquilibriumSettings& s) const {
@@ -193,6 +194,8 @@ struct WrittenIntegrator {
   static constexpr std::array<std::string_view, 21> acting = {
       "GSTIFF", "WSTIFF", "HASTIFF", "DSTIFF", "HHT",  "NEWMARK", "ABAM",  "RKF45",       "CONSTANT_BDF", "I3",  "SI2",
       "SI1",    "ERROR",  "HMAX",    "HINIT",  "HMIN", "KMAX",    "MAXIT", "INTERPOLATE", "DEFAULT",      "LIST"};
+  static constexpr std::array<std::string_view, 2> alternatives = {
+      "GSTIFF WSTIFF HASTIFF DSTIFF HHT NEWMARK ABAM RKF45 CONSTANT_BDF", "I3 SI2 SI1"};
   bool check(ElementReader&) const;
   IntegratorSettings stated() const {
     IntegratorSettings s;

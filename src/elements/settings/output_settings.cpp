@@ -1,7 +1,9 @@
 #include "elements/settings/output_settings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "dataset/characters.h"
 #include "elements/settings/setting_set.h"
 
 namespace dynalin {
@@ -14,8 +16,8 @@ struct WrittenString {
   static constexpr std::array<Argument<WrittenString>, 1> arguments = {{
       {.name = "STRING", .slot = &WrittenString::text, .help = "any text up to the end of the statement"},
   }};
-  static constexpr std::array<std::string_view, 1> acting = {"STRING"};
-  void apply(Settings&) const {}
+  static constexpr std::array<std::string_view, 1> acting = {"STRING"};  // its whole statement is passed over
+  void apply(Settings& s) const { s.pass_over("STRING"); }
 };
 
 template <class E, class Use>
@@ -30,9 +32,7 @@ void for_each_statement(const Model& model, const Use& use) {
 }  // namespace
 
 bool WrittenOutput::check(ElementReader& reader) const {
-  using Pair = std::array<std::string_view, 2>;
-  bool ok = check_one_of(Pair{"REQSAVE", "NOREQSAVE"}, reader) && check_one_of(Pair{"GRSAVE", "NOGRSAVE"}, reader) &&
-            check_one_of(Pair{"PRINT", "NOPRINT"}, reader) && check_one_of(Pair{"YPR", "EULER"}, reader);
+  bool ok = true;
   for (const auto& [factors, name] : {std::pair{&dscale, "DSCALE"}, std::pair{&vscale, "VSCALE"},
                                       std::pair{&ascale, "ASCALE"}, std::pair{&fscale, "FSCALE"}}) {
     if (factors->size() <= 2) continue;
@@ -42,6 +42,34 @@ bool WrittenOutput::check(ElementReader& reader) const {
     ok = false;
   }
   return ok;
+}
+
+bool WrittenResults::check(ElementReader& reader) const {
+  // The rest of the line is the comment, and what looks like an argument there asks for nothing.
+  constexpr std::size_t enough = 3;
+  std::vector<std::string> words;
+  for (std::size_t comma = comment.find(','); comma != std::string::npos; comma = comment.find(',', comma + 1)) {
+    std::string_view word = std::string_view(comment).substr(comma + 1);
+    word = word.substr(0, word.find(','));
+    while (!word.empty() && is_blank(word.front())) word.remove_prefix(1);
+    while (!word.empty() && is_blank(word.back())) word.remove_suffix(1);
+    if (word.size() >= enough && find_keyword(word, detail::argument_names<WrittenResults>))
+      words.push_back(upper_case(word));
+  }
+  if (words.empty()) return true;
+  const std::string list = fmt::format("{}", fmt::join(words, ", "));
+  reader.warning("passed-over", reader.at("COMMENT"),
+                 fmt::format("COMMENT takes the rest of its line, and {} in it {} for nothing", list,
+                             words.size() == 1 ? "asks" : "ask"),
+                 fmt::format("RESULTS/{}, COMMENT=…", list));
+  return true;
+}
+
+void WrittenResults::remark(std::span<const WrittenResults> all, std::span<const ElementLabel> labels,
+                            Diagnostics& diagnostics) {
+  if (all.empty() || std::ranges::any_of(all, &WrittenResults::xrf)) return;
+  diagnostics.warning("passed-over", labels.back().at, "no results file is written, as RESULTS does not say XRF",
+                      "RESULTS/XRF");
 }
 
 void WrittenOutput::apply(OutputSettings& s) const {
@@ -78,6 +106,6 @@ ResultsContents results_contents(const Model& model) {
 
 extern constinit const Kind output = setting<WrittenOutput>("OUTPUT", "What is written to which file.");
 extern constinit const Kind results = setting<WrittenResults>("RESULTS", "Contents of the results file.");
-extern constinit const Kind string = setting<WrittenString>("STRING", "Text for subroutines.");
+extern constinit const Kind string = setting<WrittenString>("STRING", "Text for subroutines.").without_effect();
 
 }  // namespace dynalin

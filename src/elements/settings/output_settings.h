@@ -65,6 +65,8 @@ struct WrittenOutput {
   static constexpr std::array<std::string_view, 20> acting = {
       "REQSAVE", "GRSAVE", "NOREQSAVE", "NOGRSAVE", "NOPRINT", "PRINT", "FIXED", "NOCHART", "DSCALE",  "DZERO",
       "VSCALE",  "VZERO",  "ASCALE",    "AZERO",    "FSCALE",  "FZERO", "YPR",   "EULER",   "DEFAULT", "LIST"};
+  static constexpr std::array<std::string_view, 4> alternatives = {"REQSAVE NOREQSAVE", "GRSAVE NOGRSAVE",
+                                                                   "PRINT NOPRINT", "YPR EULER"};
   bool check(ElementReader&) const;
   void apply(OutputSettings&) const;
   void apply(Settings&) const {}  // where output_settings finds it
@@ -118,6 +120,8 @@ struct WrittenResults {
                                                               "NOSYSTEMELEMENTS",
                                                               "NOTIRES",
                                                               "NOREQUESTS"};
+  bool check(ElementReader&) const;
+  static void remark(std::span<const WrittenResults>, std::span<const ElementLabel>, Diagnostics&);
   void apply(Settings& s) const {
     s.results.xrf = s.results.xrf || xrf;
     const auto take = [](bool& earlier, bool stated) { earlier = earlier || stated; };

@@ -83,7 +83,14 @@ const Entry* look_up(const std::array<Entry, n>& table, const std::vector<std::s
                      ElementReader& reader) {
   std::array<std::string_view, n> names;
   std::transform(table.begin(), table.end(), names.begin(), [](const Entry& e) { return e.name; });
-  if (const auto k = find_keyword(word.front(), names)) return &table[*k];
+  std::vector<std::string_view> tied;
+  if (const auto k = find_keyword(word.front(), names, &tied)) return &table[*k];
+  if (!tied.empty()) {
+    reader.error("unknown-unit", reader.at(argument),
+                 fmt::format("{} may mean several units of {}", word.front(), argument),
+                 fmt::format("it could be {}", fmt::join(tied, " or ")));
+    return nullptr;
+  }
   const auto near = nearest_word(word.front(), names);
   reader.error(
       "unknown-unit", reader.at(argument), fmt::format("{} is no unit of {}", word.front(), argument),
