@@ -138,8 +138,8 @@ void c_getmod(int* mode);
 void c_gtaray(int id, double* array, int* number, int* istat);
 
 /* Functions of the language. iord 0 gives the value, 1 the first and 2 the second derivative by x; of c_impact and
- * c_bistop vec holds the value, or those by x and dxdt, or those by x twice, by both and by dxdt twice. errflg is 1 where
- * there is none. par are the coefficients behind the arguments that are named. */
+ * c_bistop vec holds the value, or those by x and dxdt, or those by x twice, by both and by dxdt twice. errflg is 1
+ * where there is none. par are the coefficients behind the arguments that are named. */
 void c_step(double x, double x0, double h0, double x1, double h1, int iord, double* value, int* errflg);
 void c_step5(double x, double x0, double h0, double x1, double h1, int iord, double* value, int* errflg);
 void c_havsin(double x, double x0, double h0, double x1, double h1, int iord, double* value, int* errflg);

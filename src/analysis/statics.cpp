@@ -135,16 +135,19 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   }
   if (const std::string far = too_far_out(system, op); !far.empty())
     return tl::unexpected(Failure{"static analysis", far, {}});
-  // An equilibrium in the course of a quasi-static simulation is one of those.
-  if (op.mode != AnalysisMode::quasi_statics) op.mode = AnalysisMode::statics;
+  // An equilibrium in the course of a quasi-static simulation is one of those. Otherwise parts are put together first:
+  // what assembly moves has not slipped.
+  const bool in_course = op.mode == AnalysisMode::quasi_statics;
+  if (!in_course) op.mode = AnalysisMode::initial_conditions;
   op.delays.reset();  // at rest the past is the present
   const std::vector<double> first_state = op.state;
   for (auto* x : {&op.velocity, &op.acceleration, &op.state_rate}) std::fill(x->begin(), x->end(), 0.0);
   auto assembled = assemble_position(system, op, findings);
   if (!assembled) return assembled;
   // Between points of a simulation nothing is drawn.
-  if (op.mode != AnalysisMode::quasi_statics) warn_of_moves(system, op, *assembled, findings.warnings);
+  if (!in_course) warn_of_moves(system, op, *assembled, findings.warnings);
   op = std::move(*assembled);
+  if (!in_course) op.mode = AnalysisMode::statics;
 
   StaticEquations equations(system);
   StaticHistory history(options.progress);

@@ -123,8 +123,7 @@ class Reader {
     reading.diagnostics.append(std::move(parsed.diagnostics));
     Start start;
     if (!parsed.value.model.empty()) {
-      std::string path = (fs::path(folder) / parsed.value.model).string();
-      if (fs::path(path).extension().empty()) path += ".adm";
+      const std::string path = with_extension((fs::path(folder) / parsed.value.model).string(), ".adm");
       start.model = Planner::Opening{path, parsed.value.output_prefix, parsed.value.model_at, folder, ""};
     }
     start.commands = reading.expanded(std::move(parsed.value), folder);

@@ -25,12 +25,19 @@ std::string canonical(const std::string& path) {
 }
 
 std::string in_folder(const std::string& folder, const std::string& name, const char* extension = nullptr) {
-  fs::path path = fs::path(folder) / name;
-  if (extension && path.extension().empty()) path += extension;
-  return path.string();
+  const std::string path = (fs::path(folder) / name).string();
+  return extension ? with_extension(path, extension) : path;
 }
 
 }  // namespace
+
+std::string with_extension(const std::string& path, std::string_view extension) {
+  if (fs::path(path).extension() == extension) return path;
+  std::error_code none;
+  const std::string extended = path + std::string(extension);
+  const bool is_meant = fs::path(path).extension().empty() || (!fs::exists(path, none) && fs::exists(extended, none));
+  return is_meant ? extended : path;
+}
 
 SourceRef Planner::read(const std::string& path, std::string& why) {
   auto text = read_file(path);

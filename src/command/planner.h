@@ -10,12 +10,17 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "command/stages.h"
 #include "output/destination.h"
 
 namespace dynalin {
+
+// The path of a file that may be named without its extension. A dot may be part of the name: car_0.2 is car_0.2.adm
+// where there is no other.
+std::string with_extension(const std::string& path, std::string_view extension);
 
 class Planner {
  public:

@@ -335,10 +335,7 @@ TEST(touch, of_a_plane_ends_at_its_edge) {
 }
 
 TEST(touch, has_no_place_where_a_circle_is_as_near) {
-  std::array<Touch<double>, 2> t;
   const RelativeFrame<double> on_axis{{0, 0, 0.1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  find_touches<double>(cylinder, plane, on_axis, t);
-  EXPECT_FALSE(t[0].defined);
   std::array<Touch<double>, 3> in_cone;
   find_touches<double>(ball, reversed(cone), on_axis, in_cone);
   EXPECT_FALSE(in_cone[0].defined);

@@ -66,6 +66,13 @@ TEST_F(CommandFiles, names_may_stand_in_quotes_and_commands_on_several_lines) {
   EXPECT_EQ(r.result(0).at("command"), "LINEAR / EIGENSOL , COORDS = 1");
 }
 
+TEST_F(CommandFiles, name_models_with_a_dot_and_without_their_extension) {
+  std::filesystem::copy(folder_ / "model.adm", folder_ / "model_0.2.adm");
+  EXPECT_EQ(commands("model_0.2\nout\nLINEAR/EIGENSOL\n").status, 0);
+  EXPECT_EQ(commands("FILE/MODEL=model_0.2\nLINEAR/EIGENSOL\n").status, 0);
+  EXPECT_THAT(commands("model_0.3\nout\nLINEAR/EIGENSOL\n").err, HasSubstr("model_0.3 cannot be read"));
+}
+
 TEST_F(CommandFiles, bytes_that_are_no_text_do_not_end_the_run) {
   const RunResult r = commands("model\nout\nLINEAR/EIGENSOL ! \xC4\xE9\n");
   EXPECT_NE(r.status, -1);

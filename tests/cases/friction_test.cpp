@@ -167,6 +167,29 @@ TEST_F(FrictionCases, bears_in_statics_what_its_bristles_hold) {
   }
 }
 
+// What a command or assembly moves has not slipped.
+TEST_F(FrictionCases, goes_on_from_where_it_is_when_markers_are_put_elsewhere) {
+  const std::string pushed = "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=2, J=11, FUNCTION=6\n";
+  const std::string friction = "FRICTION/4, JOINT=1, MAX_STICTION_DEFORMATION=1E-4\n";
+  const auto place = [](const RunResult& r, std::size_t result) {
+    EXPECT_EQ(r.status, 0) << r.err;
+    for (const auto& body : r.result(result).at("operating_point").at("bodies")) {
+      if (body.at("element") == "PART/2") return body.at("position").at(0).get<double>();
+    }
+    return -1.0;
+  };
+  const RunResult edited = run(block(friction, pushed), "SIMULATE/STATICS\nMARKER/11, QP=1,0,0\nSIMULATE/STATICS\n");
+  EXPECT_NEAR(place(edited, 1), place(edited, 0), 1e-12);
+  EXPECT_NEAR(place(edited, 0), 4.257e-5, 5e-9);  // x (3 - x²)/2 = 0.6
+  // Drawn open by 0.2 in every direction.
+  std::string open = block(friction, pushed);
+  open.replace(open.find("IP=1,1,1"), 8, "IP=1,1,1, QG=0.2,0.2,0.2");
+  const RunResult assembled = run(open, "SIMULATE/INITIAL\nSIMULATE/STATICS\n"),
+                  at_once = run(open, "SIMULATE/STATICS\n");
+  EXPECT_NEAR(place(assembled, 1), place(assembled, 0) + place(edited, 0), 1e-12);
+  EXPECT_NEAR(place(at_once, 0), place(assembled, 1), 1e-12);
+}
+
 // What is borne, over what could be borne at most, is σ of the creep, and that is the way of the surface. More than
 // can be borne finds no equilibrium.
 TEST_F(FrictionCases, surfaces_give_way_in_statics_until_bristles_bear_the_load) {

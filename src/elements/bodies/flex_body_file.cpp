@@ -38,8 +38,7 @@ std::shared_ptr<ModalBody> read_body_file(const std::string& name, ElementReader
     reader.error("unreadable-file", reader.at("MNF_FILE"),
                  fmt::format("the file {} of {} cannot be read: {}", path, reader.label().text(), text.error()),
                  "`dynalin reduce` makes such a file out of a finite-element model; an example that needs one has a "
-                 "script for it, "
-                 "prepare");
+                 "script for it, prepare");
     return nullptr;
   }
   const BodyFileType type = body_file_type(*text);

@@ -7,9 +7,11 @@
 //
 // and, where words exclude each other, where a word may be wrong, and where something is to be said of all of them,
 //
-//     static constexpr std::array<std::string_view, n> alternatives;   // "REQSAVE NOREQSAVE": at most one of each
-//     entry bool check(ElementReader&) const;   // false after a reported error static void remark(std::span<const E>,
-//     std::span<const ElementLabel>, Diagnostics&);
+//     static constexpr std::array<std::string_view, n> alternatives;   // "REQSAVE NOREQSAVE": one of them at most
+//
+//     bool check(ElementReader&) const;   // false after a reported error
+//
+//     static void remark(std::span<const E>, std::span<const ElementLabel>, Diagnostics&);
 #pragma once
 
 #include <fmt/format.h>
