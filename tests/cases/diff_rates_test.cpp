@@ -90,6 +90,20 @@ TEST_F(DiffRates, splines_stand_in_conditions) {
   for (std::size_t k = 0; k < x.size(); ++k) EXPECT_NEAR(std::abs(x[k] - y[k]), 0, 1e-12);
 }
 
+// Three times the first equation less the second one has no rates: 2 z₁ = 0, and 0.9 − 3 · 0.3 is rounding.
+TEST_F(DiffRates, coefficients_that_cancel_but_for_rounding_are_in_no_condition) {
+  const RunResult r =
+      run("Rates\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n"
+          "DIFF/1, IC=0, IMPLICIT, FUNCTION=0.1*DIF1(1)+0.7*DIF1(2)+DIF(1)+0.3*DIF(2)\n"
+          "DIFF/2, IC=1, IMPLICIT, FUNCTION=0.3*DIF1(1)+2.1*DIF1(2)+5*DIF(1)+0.9*DIF(2)\nEND\n",
+          "LINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("DIFF/1 follows from a condition"));
+  ASSERT_EQ(r.eigenvalues(0).size(), 1u);
+  EXPECT_NEAR(r.eigenvalues(0)[0].real(), -3.0 / 7 / (2 * std::numbers::pi), 1e-14);
+  EXPECT_LT(r.result(0).at("modes").at(0).at("error_bound_hz").get<double>(), 1e-14);
+}
+
 TEST_F(DiffRates, held_in_dynamics_is_a_constant) {
   const std::string force = "-8*DIF(1)*" + z;
   for (const std::string& law : {"FUNCTION=2+" + v + "-DIF(1)", "IMPLICIT, FUNCTION=2+" + v + "-DIF(1)-DIF1(1)"}) {
