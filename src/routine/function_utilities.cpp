@@ -25,8 +25,7 @@ bool evaluate(std::string_view name, std::span<const double> at, std::size_t var
   // Along a straight course of the arguments.
   const auto along = [&](std::array<double, 2> rate) {
     std::vector<TimeTaylor<double>> course;
-    for (std::size_t k = 0; k < at.size(); ++k)
-      course.emplace_back(at[k], k < variables ? rate[std::min(k, std::size_t{1})] : 0.0, 0.0);
+    for (std::size_t k = 0; k < at.size(); ++k) course.emplace_back(at[k], k < variables ? rate[k] : 0.0, 0.0);
     return f(std::span<const TimeTaylor<double>>(course));
   };
   if (order == 0) {
@@ -46,7 +45,7 @@ bool evaluate(std::string_view name, std::span<const double> at, std::size_t var
   return std::all_of(out, out + results, [](double v) { return std::isfinite(v); });
 }
 
-// What is read of an id that is not there, or of too many numbers, is said by errflg alone.
+// What has no value, by its arguments or because of too many coefficients, is told by errflg alone.
 void evaluate(std::string_view name, std::initializer_list<double> at, std::size_t variables, int order, double* out,
               int* errflg) {
   *errflg = !evaluate(name, std::span(at.begin(), at.size()), variables, order, out);

@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "elements/constraints/curve.h"
+#include "elements/families/markers.h"
 #include "mechanics/event_source.h"
 #include "mechanics/kernel.h"
 #include "mechanics/path.h"
@@ -225,7 +226,7 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
         const Placed& p = contacts_[k];
         std::array<double, m> u;
         for (std::size_t a = 0; a < m; ++a) u[a] = motion.extra[p.first_extra + a];
-        const std::string reason = p.contact.element.undetermined(plain(pair_motion(motion, p.I, p.J).relative), u);
+        const std::string reason = p.contact.element.undetermined(pose_of(pair_motion(motion, p.I, p.J).relative), u);
         if (!reason.empty()) return (*labels_)[k].full_text() + reason;
       }
       for (std::size_t a = 0; a < m; ++a) {
@@ -286,9 +287,6 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
   static Reaction reaction_at_I(const Nested& work) {
     const auto& g = work.partial;
     return {{g[0], g[1], g[2]}, {g[3], g[4], g[5]}};
-  }
-  static RelativeFrame<double> plain(const RelativeFrame<Taylor>& I) {
-    return {value(I.p), value(I.x), value(I.y), value(I.z)};
   }
   static Vector plain(const Vec3<Dual<seeds>>& v) { return {v.x.value, v.y.value, v.z.value}; }
   static Vector slope(const Vec3<Dual<seeds>>& v, std::size_t seed) {

@@ -36,11 +36,6 @@ const Angle* undefined_angle(const LinearWrench& law, const RelativeFrame<double
   return nullptr;
 }
 
-RelativeFrame<double> pose_of(const RelativeFrame<Taylor>& I) {
-  const auto values = [](const Vec3<Taylor>& v) { return Vector{v.x.value, v.y.value, v.z.value}; };
-  return {values(I.p), values(I.x), values(I.y), values(I.z)};
-}
-
 // What a routine reads: time, mode, y − LENGTH and y′.
 using Read = std::array<double, 14>;
 

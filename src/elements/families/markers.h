@@ -19,5 +19,9 @@ bool check_pair(const Model&, const ElementLabel&, MarkerId i, MarkerId j, const
 
 // I seen from J as drawn.
 RelativeFrame<double> drawn_frame(const Model&, MarkerId i, MarkerId j);
+// The same along a motion, without its rates.
+inline RelativeFrame<double> pose_of(const RelativeFrame<Taylor>& I) {
+  return {value(I.p), value(I.x), value(I.y), value(I.z)};
+}
 
 }  // namespace dynalin

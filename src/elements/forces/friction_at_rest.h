@@ -51,8 +51,6 @@ class FrictionReference {
   std::span<const double> kept_;
 };
 
-constexpr double elastic_share = 0.9;  // of the largest creep
-
 // Creep after a displacement of the surfaces.
 template <class T, std::size_t n>
 std::array<T, n> creep_at_rest(const std::array<double, n>& creep, std::array<T, n> displacement, double largest) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "elements/families/markers.h"
 #include "mechanics/binder.h"
 #include "mechanics/pair_blocks.h"
 
@@ -315,9 +316,7 @@ void JointFrictionKernel::remember(const Motion& motion, Memory& memory) const {
     std::array<double, 3> creep{};
     for (std::size_t c = 0; c < p.element->component_count(); ++c)
       creep[c] = motion.state[static_cast<std::size_t>(p.first_state) + c];
-    const auto I = pair_motion(motion, *p.I, *p.J).relative;
-    const auto now = [](const Vec3<Taylor>& a) { return Vector{a.x.value, a.y.value, a.z.value}; };
-    const auto kept = FrictionReference::of({now(I.p), now(I.x), now(I.y), now(I.z)}, creep);
+    const auto kept = FrictionReference::of(pose_of(pair_motion(motion, *p.I, *p.J).relative), creep);
     std::ranges::copy(kept, memory.begin() + p.first_memory);
   }
 }

@@ -39,6 +39,9 @@ namespace dynalin {
 // Which part of the law acts: static friction fades out where sliding begins, or sliding alone without bristles.
 enum class FrictionEffect : std::uint8_t { all, stiction, sliding };
 
+// Up to this part of the largest deformation bristles follow the surfaces.
+inline constexpr double elastic_share = 0.9;
+
 enum class FrictionFormulation : std::uint8_t { stick_slip, lugre };
 
 template <class T>
@@ -136,13 +139,12 @@ struct FrictionLaw {
       for (std::size_t k = 0; k < n; ++k) u[k] -= back * z[k];
       return u;
     }
-    constexpr double elastic = 0.9;  // of z_max
     T outwards(0.0);
     for (std::size_t k = 0; k < n; ++k) outwards += u[k] * z[k];
     const T size = size_beside_itself(z);
     const T x = size * (1.0 / largest_deformation);
-    if (value_of(outwards) <= 0 || value_of(x) <= elastic) return u;
-    const T yields = value_of(x) < 1.0 ? smooth_step(T((x - elastic) * (1.0 / (1.0 - elastic)))) : T(1.0);
+    if (value_of(outwards) <= 0 || value_of(x) <= elastic_share) return u;
+    const T yields = value_of(x) < 1.0 ? smooth_step(T((x - elastic_share) * (1.0 / (1.0 - elastic_share)))) : T(1.0);
     const T back = yields * outwards / (size * size);
     for (std::size_t k = 0; k < n; ++k) u[k] -= back * z[k];
     return u;
