@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "base/freed_memory.h"
+#include "base/program_heap.h"
 #include "beam_rotor.h"
 #include "hanging_chain.h"
 #include "peak_memory.h"
@@ -37,7 +37,7 @@ std::string vehicle(int n) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  dynalin::keep_freed_memory();
+  dynalin::prepare_heap();
   const bool statics_only = argc == 4 && std::string(argv[3]) == "statics";
   const std::string kind = argc > 1 ? argv[1] : "";
   if ((argc != 3 && !statics_only) || (kind != "chain" && kind != "vehicle" && kind != "rotor")) {

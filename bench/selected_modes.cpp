@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "analysis/statics.h"
-#include "base/freed_memory.h"
+#include "base/program_heap.h"
 #include "beam_rotor.h"
 #include "elements/catalogue.h"
 #include "hanging_chain.h"
@@ -52,7 +52,7 @@ Problem problem(const std::string& kind, const std::vector<double>& v) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  keep_freed_memory();
+  prepare_heap();
   const std::string kind = argc > 1 ? argv[1] : "", last_word = argc > 1 ? argv[argc - 1] : "";
   std::vector<double> numbers;
   for (int k = 2; k < argc; ++k) numbers.push_back(std::atof(argv[k]));

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/freed_memory.h"
+#include "base/program_heap.h"
 #include "command/help.h"
 #include "command/prompt.h"
 #include "command/session.h"
@@ -194,7 +194,7 @@ int run(int argc, char** argv) {
   }
   if (*run) {
     if (options.file == "-" && !take_commands(options)) return wrong_input;
-    keep_freed_memory();
+    prepare_heap();
     set_thread_count(has_memory_for_threads() ? threads : 1);
     return run_session(options, std::cout, std::cerr);
   }
