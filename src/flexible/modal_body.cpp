@@ -19,6 +19,8 @@ using Eigen::VectorXd;
 
 // What files print of shapes and masses has nine digits and more.
 constexpr double rigid_content = 1e-7, not_positive = 1e-12, differing_mass = 1e-6;
+// Damping of fewer digits may have so much less than none.
+constexpr double feeding = 1e-6;
 
 std::optional<std::int64_t> integer(const std::string& word) {
   std::int64_t value = 0;
@@ -138,6 +140,23 @@ std::string ModalBody::near_nodes(std::int64_t label) const {
   return fmt::format("its file has the nodes {}", fmt::join(known, ", "));
 }
 
+std::string ModalBody::fed_modes() const {
+  const MatrixXd even = 0.5 * (damping + damping.transpose());
+  std::vector<std::int64_t> fed;
+  for (Index k = 0; k < even.rows(); ++k) {
+    // Without damping of its own a mode must have none together with others.
+    if (even(k, k) < 0 || (even(k, k) == 0 && !even.col(k).isZero(0)))
+      fed.push_back(number[static_cast<std::size_t>(k)]);
+  }
+  if (!fed.empty()) return list_of_modes(fed);
+  // Each compared with its own: one mode may be damped millions of times more than another.
+  const VectorXd unit = even.diagonal().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0.0; });
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> own(MatrixXd(unit.asDiagonal() * even * unit.asDiagonal()));
+  const Index bad =
+      std::count_if(own.eigenvalues().begin(), own.eigenvalues().end(), [](double x) { return x < -feeding; });
+  return bad == 0 ? "" : list_of_modes(modes_in(own.eigenvectors().leftCols(bad), *this));
+}
+
 double ModalBody::reach(Index mode) const {
   // Of the whole mass in the mean: nodes on the axis of a torsion do not move, and their places say nothing of it.
   double longest = std::sqrt(std::max(0.0, inertia.modal(mode, mode)) / inertia.mass);
@@ -203,7 +222,8 @@ std::optional<ModalBody> modal_body_of(ModalText t, const SourceText& file, Diag
   b.displacement = t.displacement, b.rate = t.rate;
   b.holds_displacement.assign(static_cast<std::size_t>(t.modes()), false);
   b.holds_rate = b.holds_displacement;
-  if (!check_modal_body(b, {t.at[9], t.at[10], t.at[8], file.name()}, out)) return std::nullopt;
+  if (!check_modal_body(b, {t.at[t.whole ? 12 : 11], t.at[9], t.at[10], t.at[8], file.name(), {}}, out))
+    return std::nullopt;
   return b;
 }
 
@@ -212,13 +232,13 @@ bool check_modal_body(const ModalBody& b, const ModalPlaces& at, Diagnostics& ou
   const Index n = M.rows();
   // INVARIANTS may leave none to a body without modes.
   if (!(b.inertia.mass >= 0) || (b.inertia.mass == 0 && n > 0) || !std::isfinite(b.inertia.mass)) {
-    out.error("body-mass", at.mass, fmt::format("the mass {:g} in {} is not positive", b.inertia.mass, at.file));
+    out.error("body-mass", at.whole, fmt::format("the mass {:g} in {} is not positive", b.inertia.mass, at.file));
     return false;
   }
   if (n == 0) return true;
   for (Index k = 0; k < n; ++k) {
     if (M(k, k) > 0) continue;
-    out.error("body-mass", at.mass,
+    out.error("body-mass", at.mass_of_mode ? at.mass_of_mode(k) : at.mass,
               fmt::format("the generalized mass of mode {} in {} is {:g}", b.number[static_cast<std::size_t>(k)],
                           at.file, M(k, k)),
               "a static shape without mass is no mode: give it its mass, or leave it out");
@@ -242,7 +262,7 @@ bool check_modal_body(const ModalBody& b, const ModalPlaces& at, Diagnostics& ou
   const Eigen::SelfAdjointEigenSolver<MatrixXd> rigid(MatrixXd(whole.topLeftCorner(6, 6)));
   if (rigid.eigenvalues()(0) < -1e-9 * rigid.eigenvalues()(5)) {
     out.error(
-        "body-mass", at.mass,
+        "body-mass", at.whole,
         fmt::format("the inertia in {} is not positive: some motion of the body as a whole has less than no energy",
                     at.file),
         "mass, its first moment and the inertia tensor belong together");

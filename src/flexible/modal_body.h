@@ -33,6 +33,9 @@ struct ModalBody {
   std::optional<std::size_t> node(std::int64_t label) const;
   // "11, 12 and 21": the nodes whose labels are nearest.
   std::string near_nodes(std::int64_t label) const;
+  // The modes that the damping which acts feeds with energy beyond rounding of what is written, "mode 3" or "modes
+  // 2-4": its symmetric part is negative for motions of them. Empty if it takes energy from every motion or none.
+  std::string fed_modes() const;
   // How far a unit of a coordinate moves the body: its mass in the mean, or the node that goes farthest [length].
   double reach(Eigen::Index mode) const;
   // The rigid body that is left without modes.
@@ -43,10 +46,11 @@ struct ModalBody {
 std::optional<ModalBody> modal_body_of(ModalText, const SourceText&, Diagnostics&);
 
 // Looks at what a body is made of: masses and stiffness that are positive, modes that are none of the rigid body.
-// False after an error; `at` says where each of the two stands.
+// False after an error; `at` says where each of them stands.
 struct ModalPlaces {
-  Span mass, stiffness, shapes;
+  Span whole, mass, stiffness, shapes;  // of the whole body, and generalized
   std::string file;
+  std::function<Span(Eigen::Index mode)> mass_of_mode;  // where that can be said
 };
 bool check_modal_body(const ModalBody&, const ModalPlaces&, Diagnostics&);
 

@@ -24,6 +24,8 @@ constexpr std::array<std::string_view, 16> known = {"SELNOD", "T_MODE", "R_MODE"
 constexpr std::array<std::string_view, 10> required = {"SELNOD", "T_MODE", "R_MODE", "GENSTIFF", "INVAR1",
                                                        "INVAR2", "INVAR3", "INVAR4", "INVAR6",   "INVAR7"};
 constexpr double as_written = 1e-8;  // of a symmetric matrix, by its largest entry
+// States are numbered 1000000 + mode and rates 2000000 + mode.
+constexpr std::int64_t highest_mode = 999'999;
 
 class MatrixReader {
  public:
@@ -32,34 +34,43 @@ class MatrixReader {
   bool collect(const std::vector<ModalMatrix>& all) {
     for (const ModalMatrix& m : all) {
       if (m.name.empty()) {
-        fail(fmt::format("{} of {} has no NAME that says what it holds", m.label, owner_), names());
+        fail(m.at, fmt::format("{} of {} has no NAME that says what it holds", m.label, owner_), names());
       } else if (std::ranges::find(known, m.name) == known.end()) {
-        fail(fmt::format("{} of {} is named {}, which is none of the matrices of a body", m.label, owner_, m.name),
+        fail(m.at,
+             fmt::format("{} of {} is named {}, which is none of the matrices of a body", m.label, owner_, m.name),
              names());
       } else if (!by_name_.emplace(m.name, &m).second) {
-        fail(fmt::format("{} has two matrices {}: {} and {}", owner_, m.name, by_name_.at(m.name)->label, m.label), "");
+        const ModalMatrix& other = *by_name_.at(m.name);
+        if (other.label == m.label) {
+          fail(at_, fmt::format("{} stands twice among the MATRICES of {}", m.label, owner_), "");
+        } else {
+          fail(m.at, fmt::format("{} has two matrices {}: {} and {}", owner_, m.name, other.label, m.label), "");
+        }
       } else if (!m.values.allFinite()) {
-        fail(fmt::format("{} ({}) of {} has a number that is not finite", m.name, m.label, owner_), "");
+        fail(m.at, fmt::format("{} ({}) of {} has a number that is not finite", m.name, m.label, owner_), "");
       }
     }
     std::vector<std::string_view> missing;
     std::ranges::copy_if(required, std::back_inserter(missing), [&](std::string_view name) { return !has(name); });
     if (!missing.empty())
-      fail(fmt::format("{} lacks {} among its MATRICES", owner_, fmt::join(missing, ", ")),
+      fail(at_, fmt::format("{} lacks {} among its MATRICES", owner_, fmt::join(missing, ", ")),
            "MATRIX statements with these NAMEs");
     return sound_;
   }
 
   bool has(std::string_view name) const { return by_name_.contains(name); }
-  Index rows(std::string_view name) const { return by_name_.find(name)->second->values.rows(); }
-  Index columns(std::string_view name) const { return by_name_.find(name)->second->values.cols(); }
+  Index rows(std::string_view name) const { return find(name).values.rows(); }
+  Index columns(std::string_view name) const { return find(name).values.cols(); }
+  const Span& statement(std::string_view name) const { return find(name).at; }
+  Span place(std::string_view name, Index row, Index column) const { return find(name).place(row, column); }
 
   // The matrix if it has that size; else zeros, and an error.
   MatrixXd take(std::string_view name, Index rows, Index columns) {
     if (const auto found = by_name_.find(name); found != by_name_.end()) {
       const Values& m = found->second->values;
       if (m.rows() == rows && m.cols() == columns) return m;
-      fail(fmt::format("{} ({}) of {} must be {} × {}, it is {} × {}", name, found->second->label, owner_, rows,
+      fail(found->second->at,
+           fmt::format("{} ({}) of {} must be {} × {}, it is {} × {}", name, found->second->label, owner_, rows,
                        columns, m.rows(), m.cols()),
            "");
     }
@@ -67,21 +78,27 @@ class MatrixReader {
   }
   MatrixXd take_symmetric(std::string_view name, Index size) {
     const MatrixXd m = take(name, size, size);
-    if (size > 0 && !((m - m.transpose()).cwiseAbs().maxCoeff() <= as_written * m.cwiseAbs().maxCoeff()))
-      fail(fmt::format("{} of {} is not symmetric", name, owner_), "");
+    Index r = 0, c = 0;
+    if (size > 0 && !((m - m.transpose()).cwiseAbs().maxCoeff(&r, &c) <= as_written * m.cwiseAbs().maxCoeff()))
+      fail(place(name, r, c),
+           fmt::format("{} of {} is not symmetric: {:g} at {}, {} and {:g} at {}, {}", name, owner_, m(r, c), r + 1,
+                       c + 1, m(c, r), c + 1, r + 1),
+           "");
     return 0.5 * (m + m.transpose());
   }
-  // The whole numbers in a column; `what` for the message: "a label of a node".
-  std::vector<std::int64_t> take_numbers(std::string_view name, const MatrixXd& m, std::string_view what) {
+  // The whole numbers from 1 to `largest` in the first column; `what` for the message: "the label of a node".
+  std::vector<std::int64_t> take_numbers(std::string_view name, const MatrixXd& m, std::int64_t largest,
+                                         std::string_view what) {
     std::vector<std::int64_t> numbers;
     std::set<std::int64_t> seen;
     for (Index k = 0; k < m.rows(); ++k) {
       const double x = m(k, 0);
-      constexpr double largest = 9e15;  // exact in a double
-      if (x != std::floor(x) || !(std::abs(x) < largest)) {
-        fail(fmt::format("{} of {} has {} in its first column, which is not {}", name, owner_, x, what), "");
+      if (x != std::floor(x) || !(x >= 1 && x <= static_cast<double>(largest))) {
+        fail(place(name, k, 0),
+             fmt::format("{} of {} has {} in its first column, which is not {}", name, owner_, x, what),
+             fmt::format("a whole number from 1 to {}", largest));
       } else if (!seen.insert(static_cast<std::int64_t>(x)).second) {
-        fail(fmt::format("{} of {} has {} twice", name, owner_, x), "");
+        fail(place(name, k, 0), fmt::format("{} of {} has {} twice", name, owner_, x), "");
       }
       if (!sound_) return numbers;
       numbers.push_back(static_cast<std::int64_t>(x));
@@ -91,9 +108,10 @@ class MatrixReader {
   bool sound() const { return sound_; }
 
  private:
+  const ModalMatrix& find(std::string_view name) const { return *by_name_.find(name)->second; }
   static std::string names() { return fmt::format("one of {}", fmt::join(known, ", ")); }
-  void fail(std::string message, std::string expected) {
-    out_.error("body-matrices", at_, std::move(message), std::move(expected));
+  void fail(const Span& at, std::string message, std::string expected) {
+    out_.error("body-matrices", at, std::move(message), std::move(expected));
     sound_ = false;
   }
 
@@ -156,11 +174,17 @@ std::optional<ModalBody> modal_body_of(const std::vector<ModalMatrix>& all, cons
   b.damping = MatrixXd::Zero(n, n);
   if (in.has("GENDAMP")) b.generalized_damping = in.take_symmetric("GENDAMP", n);
   b.loads = in.has("MODLOAD") ? in.take("MODLOAD", 6 + n, in.columns("MODLOAD")) : MatrixXd(6 + n, 0);
-  for (const std::int64_t label : in.take_numbers("SELNOD", selected, "the label of a node"))
+  constexpr std::int64_t largest_label = 9'000'000'000'000'000;  // exact in a double
+  for (const std::int64_t label : in.take_numbers("SELNOD", selected, largest_label, "the label of a node"))
     b.labels.push_back(std::to_string(label));
   for (Index p = 0; p < nodes; ++p) b.position.push_back({selected(p, 1), selected(p, 2), selected(p, 3)});
   if (in.has("SELMOD")) {
-    b.number = in.take_numbers("SELMOD", in.take("SELMOD", n, 1), "the number of a mode");
+    const Index columns = in.rows("SELMOD") == n && in.columns("SELMOD") == 2 ? 2 : 1;
+    const MatrixXd modes = in.take("SELMOD", n, columns);
+    if (in.sound()) b.number = in.take_numbers("SELMOD", modes, highest_mode, "the number of a mode");
+    if (columns == 2)
+      out.warning("body-file-doubt", in.statement("SELMOD"),
+                  fmt::format("the second column of SELMOD of {} is passed over", owner));
   } else {
     for (Index k = 1; k <= n; ++k) b.number.push_back(k);
   }
@@ -174,7 +198,13 @@ std::optional<ModalBody> modal_body_of(const std::vector<ModalMatrix>& all, cons
   b.displacement = b.rate = Eigen::VectorXd::Zero(n);
   b.holds_displacement.assign(static_cast<std::size_t>(n), false);
   b.holds_rate = b.holds_displacement;
-  if (!check_modal_body(b, {at, at, at, owner}, out)) return std::nullopt;
+  const auto diagonal = [&](std::string_view name) {
+    return [&in, name](Index k) { return in.place(name, k, in.columns(name) == 1 ? 0 : k); };
+  };
+  const ModalPlaces places{
+      in.statement("INVAR1"), in.statement("INVAR6"), in.statement("GENSTIFF"), in.statement("T_MODE"), owner,
+      diagonal("INVAR6")};
+  if (!check_modal_body(b, places, out)) return std::nullopt;
   return b;
 }
 

@@ -1,9 +1,4 @@
-// FLEX_BODY/id, {MNF_FILE= | MATRICES=} [, QG=, {REULER= | ZG=, XG=}, VX= … WZ=, VM=, WM=, EXACT=, CRATIO=,
-// GENERALIZED_DAMPING=, DMODE=, VMODE=, MODAL_EXACT_DISP=, MODAL_EXACT_VEL=, INVARIANTS=, CHAR_LEN=, REPRESENTATION=]
-//
-// An elastic body by its modes: it moves as a whole with its BCS and deforms by the modal coordinates q, of which the
-// file, or MATRIX statements, have shapes, generalized mass and stiffness. Deflections are small, motions of the whole
-// are not. Velocities are those of the BCS, along the axes of VM (global) and WM (its own).
+// The set of all FLEX_BODY statements: what the statement says is made a body of the model.
 #include "elements/bodies/flex_body.h"
 
 #include <fmt/format.h>
@@ -14,6 +9,7 @@
 
 #include "dataset/characters.h"
 #include "elements/bodies/flex_body_file.h"
+#include "elements/bodies/flex_body_statement.h"
 #include "elements/bodies/modal_ratio.h"
 #include "elements/controls/matrix.h"
 #include "elements/families/flexible_body.h"
@@ -25,135 +21,6 @@
 namespace dynalin {
 
 namespace {
-
-struct FlexBody {
-  std::string file, database, deck;
-  std::vector<std::int64_t> matrices;
-  std::optional<std::int64_t> index_in_database;
-  Vector origin;
-  std::optional<Vector> angles, z_point, x_point;
-  std::optional<double> vx, vy, vz, wx, wy, wz;
-  MarkerId vm, wm;
-  std::vector<std::string> exact;
-  std::string ratio, generalized_damping, representation;
-  std::vector<double> displacements, rates;
-  std::vector<std::int64_t> held_displacements, held_rates;
-  std::vector<std::string> invariants;
-  std::optional<double> dynamic_limit, stability_factor;
-  double length = 0;
-  Matrix3 axes = Matrix3::identity();
-  std::vector<ElementHandle> data;  // the MATRIX statements
-  // Where arguments stand that are looked at when the modes are known, and the expression of CRATIO, whose frequencies
-  // are known when the units are.
-  Span matrices_at, displacements_at, rates_at, held_displacements_at, held_rates_at, damping_at, invariants_at,
-      ratio_at;
-  bool adds_generalized_damping = false;
-  std::shared_ptr<ModalBody> flexible;
-
-  static constexpr std::array<Argument<FlexBody>, 29> arguments = {{
-      {.name = "MNF_FILE",
-       .slot = &FlexBody::file,
-       .help = "modal body file: text of nodes, shapes, generalized mass and stiffness",
-       .ends = "MATRICES"},
-      {.name = "MATRICES",
-       .slot = &FlexBody::matrices,
-       .help = "MATRIX statements that hold the body, each by its NAME",
-       .ends = "MNF_FILE"},
-      {.name = "DB_FILE", .slot = &FlexBody::database, .help = "database of bodies: not available"},
-      {.name = "INDEX_IN_DB", .slot = &FlexBody::index_in_database, .help = "which of DB_FILE: not available"},
-      {.name = "BDF_FILE", .slot = &FlexBody::deck, .help = "nonlinear body: not available"},
-      {.name = "QG",
-       .slot = &FlexBody::origin,
-       .unit = unit::length,
-       .help = "origin of the BCS",
-       .start = StatedStart::place},
-      {.name = "REULER",
-       .slot = &FlexBody::angles,
-       .unit = unit::angle,
-       .help = "3-1-3 angles of the BCS",
-       .ends = "ZG XG",
-       .start = StatedStart::place},
-      {.name = "ZG",
-       .slot = &FlexBody::z_point,
-       .unit = unit::length,
-       .help = "global point on +z of the BCS",
-       .ends = "REULER",
-       .start = StatedStart::place},
-      {.name = "XG",
-       .slot = &FlexBody::x_point,
-       .unit = unit::length,
-       .help = "global point in the x-z plane",
-       .ends = "REULER",
-       .start = StatedStart::place},
-      {.name = "VX",
-       .slot = &FlexBody::vx,
-       .unit = unit::velocity,
-       .help = "initial velocity of the BCS",
-       .start = StatedStart::velocity},
-      {.name = "VY",
-       .slot = &FlexBody::vy,
-       .unit = unit::velocity,
-       .help = "the same along y",
-       .start = StatedStart::velocity},
-      {.name = "VZ",
-       .slot = &FlexBody::vz,
-       .unit = unit::velocity,
-       .help = "the same along z",
-       .start = StatedStart::velocity},
-      {.name = "WX",
-       .slot = &FlexBody::wx,
-       .unit = unit::angular_velocity,
-       .help = "initial angular velocity",
-       .start = StatedStart::velocity},
-      {.name = "WY",
-       .slot = &FlexBody::wy,
-       .unit = unit::angular_velocity,
-       .help = "the same about y",
-       .start = StatedStart::velocity},
-      {.name = "WZ",
-       .slot = &FlexBody::wz,
-       .unit = unit::angular_velocity,
-       .help = "the same about z",
-       .start = StatedStart::velocity},
-      {.name = "VM",
-       .slot = &FlexBody::vm,
-       .help = "axes of VX, VY, VZ; global by default",
-       .start = StatedStart::velocity},
-      {.name = "WM",
-       .slot = &FlexBody::wm,
-       .help = "axes of WX, WY, WZ; those of the BCS by default",
-       .start = StatedStart::velocity},
-      {.name = "EXACT", .slot = &FlexBody::exact, .help = "coordinates the assembly should keep: X:Y:Z:PSI:THETA:PHI"},
-      {.name = "CRATIO",
-       .slot = &FlexBody::ratio,
-       .help = "damping of each mode in parts of the critical, an expression in FXFREQ (cycles/s) and FXMODE; 0.01 "
-               "below 100 cycles/s, 0.1 below 1000 and 1 above by default"},
-      {.name = "GENERALIZED_DAMPING",
-       .slot = &FlexBody::generalized_damping,
-       .help = "FULL or INTERNAL_ONLY adds the damping matrix of the file, OFF (default) does not"},
-      {.name = "DMODE",
-       .slot = &FlexBody::displacements,
-       .help = "modal coordinates at the start; those of the file by default",
-       .start = StatedStart::place},
-      {.name = "VMODE",
-       .slot = &FlexBody::rates,
-       .help = "their rates at the start; those of the file by default",
-       .start = StatedStart::velocity},
-      {.name = "MODAL_EXACT_DISP", .slot = &FlexBody::held_displacements, .help = "modes that keep DMODE"},
-      {.name = "MODAL_EXACT_VEL", .slot = &FlexBody::held_rates, .help = "modes that keep VMODE"},
-      {.name = "INVARIANTS",
-       .slot = &FlexBody::invariants,
-       .help = "nine times T or F: which inertia invariants count; all by default"},
-      {.name = "DYNAMIC_LIMIT", .slot = &FlexBody::dynamic_limit, .help = "modes without mass: not available"},
-      {.name = "STABILITY_FACTOR", .slot = &FlexBody::stability_factor, .help = "their damping: not available"},
-      {.name = "CHAR_LEN",
-       .slot = &FlexBody::length,
-       .unit = unit::length,
-       .minimum = 0,
-       .help = "length of the body, beside which it is bent little; of its nodes where it is not stated"},
-      {.name = "REPRESENTATION", .slot = &FlexBody::representation, .help = "MODAL; nothing else is available"},
-  }};
-};
 
 constexpr std::array<std::string_view, 6> pose_names = {"X", "Y", "Z", "PSI", "THETA", "PHI"};
 
@@ -181,10 +48,7 @@ class FlexBodySet final : public TypedSet<FlexBody> {
       reader.error("missing-argument", reader.statement().at, fmt::format("{} needs MNF_FILE or MATRICES", name));
       return;
     }
-    if (!f.representation.empty() && !equal_ignoring_case(f.representation, "MODAL")) {
-      reader.error("argument-not-built", reader.at("REPRESENTATION"),
-                   fmt::format("REPRESENTATION={} of {} is not available", f.representation, name));
-    }
+    read_representation(f, reader);
     for (const std::string& word : f.exact) {
       if (!find_keyword(word, pose_names)) {
         reader.error("unknown-word", reader.at("EXACT"), fmt::format("EXACT has no coordinate {}", word),
@@ -250,7 +114,11 @@ class FlexBodySet final : public TypedSet<FlexBody> {
       const Matrix& m = *model.get<Matrix>(h);
       matrices.push_back({m.name,
                           model.label(h).text(),
-                          {m.values.data(), static_cast<Eigen::Index>(m.rows), static_cast<Eigen::Index>(m.columns)}});
+                          {m.values.data(), static_cast<Eigen::Index>(m.rows), static_cast<Eigen::Index>(m.columns)},
+                          model.label(h).at,
+                          [&m](Eigen::Index row, Eigen::Index column) {
+                            return place_of(m, static_cast<std::size_t>(row), static_cast<std::size_t>(column));
+                          }});
     }
     auto body = modal_body_of(matrices, f.matrices_at, name, diagnostics);
     if (!body) return nullptr;
@@ -268,6 +136,23 @@ class FlexBodySet final : public TypedSet<FlexBody> {
                                            : fmt::format("{} has no damping, a MATRIX named GENDAMP", name));
     }
     read_invariants(f, diagnostics);
+    if (f.flexible && f.is_rigid) f.flexible->make_rigid();
+  }
+
+  static void read_representation(FlexBody& f, ElementReader& reader) {
+    if (f.representation.empty()) return;
+    static constexpr std::array<std::string_view, 3> words = {"MODAL", "RIGID", "NFORCE"};
+    const auto word = find_keyword(f.representation, words);
+    if (!word) {
+      reader.error("unknown-word", reader.at("REPRESENTATION"),
+                   fmt::format("REPRESENTATION is MODAL or RIGID, not {}", f.representation));
+    } else if (*word == 2) {
+      reader.error("argument-not-built", reader.at("REPRESENTATION"),
+                   fmt::format("REPRESENTATION=NFORCE of {} is not available", reader.label().text()),
+                   "MODAL, or RIGID: the body without its modes");
+    } else {
+      f.is_rigid = *word == 1;
+    }
   }
 
   static void read_start(FlexBody& f, const std::string& name, Diagnostics& diagnostics) {
@@ -338,7 +223,7 @@ class FlexBodySet final : public TypedSet<FlexBody> {
     // What is left of modes without mass and without a share in the motion of the body is rigid: T:T:F:F:F:F:T:F:F.
     const auto of_modes = {which[2], which[3], which[4], which[5], which[7], which[8]};
     if (std::ranges::none_of(of_modes, std::identity())) f.flexible->make_rigid();
-    if (!check_modal_body(*f.flexible, {at, at, at, "what INVARIANTS leaves of the body"}, diagnostics))
+    if (!check_modal_body(*f.flexible, {at, at, at, at, "what INVARIANTS leaves of the body", {}}, diagnostics))
       f.flexible = nullptr;
   }
 
@@ -362,7 +247,14 @@ class FlexBodySet final : public TypedSet<FlexBody> {
       for (const double x : hertz) ratio.push_back(default_ratio(x));
     }
     b.damping = modal_damping(own, [&](Eigen::Index k) { return ratio[static_cast<std::size_t>(k)]; });
-    if (f.adds_generalized_damping) b.damping += b.generalized_damping;
+    if (!f.adds_generalized_damping) return;
+    b.damping += b.generalized_damping;
+    if (const std::string fed = b.fed_modes(); !fed.empty()) {
+      diagnostics.warning("body-damping", f.damping_at,
+                          fmt::format("the damping of {} feeds energy into {}", label.text(), fed),
+                          fmt::format("{} has negative eigenvalues beyond the damping of CRATIO",
+                                      f.matrices.empty() ? "RECORD GROUP 13 of its file" : "its MATRIX named GENDAMP"));
+    }
   }
 };
 

@@ -11,6 +11,7 @@
 
 #include "base/read_file.h"
 #include "dataset/characters.h"
+#include "dataset/dataset.h"
 #include "dataset/matrix_file.h"
 #include "model/model.h"
 #include "model/schema.h"
@@ -72,6 +73,10 @@ class MatrixSet final : public TypedSet<Matrix> {
     } else {
       read_full(m, elements[k], reader);
     }
+    const Span at = reader.at(m.file.empty() ? "VALUES" : "FILE");
+    for (const WrittenArgument& w : reader.statement().arguments) {
+      if (w.name.offset == at.offset && w.name.source == at.source) elements[k].values_at = w.value_span();
+    }
     elements[k].name = m.name;
     for (char& c : elements[k].name) c = to_upper(c);
   }
@@ -98,8 +103,9 @@ class MatrixSet final : public TypedSet<Matrix> {
                    fmt::format("{} × {} values are needed, {} are given", rows, columns, m.values.size()));
       return;
     }
-    out = {rows, columns, m.values, {}};
+    out = {rows, columns, m.values, {}, Matrix::Written::by_columns, {}};
     if (order && *order == 1) return;
+    out.written = Matrix::Written::by_rows;
     for (std::size_t r = 0; r < rows; ++r) {
       for (std::size_t c = 0; c < columns; ++c) out.values[c * rows + r] = m.values[r * columns + c];
     }
@@ -128,6 +134,7 @@ class MatrixSet final : public TypedSet<Matrix> {
       return;
     }
     out.rows = static_cast<std::size_t>(rows), out.columns = static_cast<std::size_t>(columns);
+    out.written = Matrix::Written::by_entries;
     out.values.assign(out.rows * out.columns, 0.0);
     for (std::size_t k = 0; k < m.values.size(); ++k) {
       out.values[static_cast<std::size_t>(m.column_of[k] - 1) * out.rows + static_cast<std::size_t>(m.row_of[k] - 1)] =
@@ -156,11 +163,33 @@ class MatrixSet final : public TypedSet<Matrix> {
       out = {static_cast<std::size_t>(matrix->rows),
              static_cast<std::size_t>(matrix->columns),
              std::move(matrix->values),
+             {},
+             Matrix::Written::in_a_file,
              {}};
   }
 };
 
 }  // namespace
+
+Span place_of(const Matrix& m, std::size_t row, std::size_t column) {
+  const bool by_rows = m.written == Matrix::Written::by_rows;
+  if (!m.values_at.source || (!by_rows && m.written != Matrix::Written::by_columns)) return m.values_at;
+  // The arguments of a dataset are not kept: the list is read once more.
+  const std::string before = "t\nARRAY/1, NUMBERS=";
+  const auto source = std::make_shared<const SourceText>("", before + std::string(m.values_at.text()) + "\n");
+  const auto again = parse_dataset(source);
+  if (again.value.statements.empty() || again.value.statements.front().arguments.empty()) return m.values_at;
+  const auto tokens = again.value.statements.front().arguments.front().value();
+  std::size_t left = by_rows ? row * m.columns + column : column * m.rows + row;
+  for (std::size_t k = 0; k < tokens.size(); ++k) {
+    if (tokens[k].kind != TokenKind::number || left-- > 0) continue;
+    const bool sign = k > 0 && tokens[k - 1].kind == TokenKind::symbol &&
+                      std::string_view("+-").find(source->text()[tokens[k - 1].offset]) != std::string_view::npos;
+    const std::uint32_t from = tokens[sign ? k - 1 : k].offset, to = tokens[k].offset + tokens[k].length;
+    return {m.values_at.source, m.values_at.offset + from - static_cast<std::uint32_t>(before.size()), to - from};
+  }
+  return m.values_at;
+}
 
 extern constinit const Kind matrix = {
     "MATRIX",
