@@ -61,7 +61,8 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
 
   for (const auto& [a, b] : matches(extra_keys(old), extra_keys(now))) {
     const ExtraBlock &before = old.extras[a], &after = now.extras[b];
-    if (before.count != after.count) continue;
+    // The shape of a body starts anew with its place.
+    if (before.count != after.count || is_restated(restated, after.label.statement, after.label.id)) continue;
     copy_block(op.extra, static_cast<std::int32_t>(old.extra_index(before.offset)), out.extra,
                static_cast<std::int32_t>(now.extra_index(after.offset)), after.count);
     copy_block(op.velocity, before.offset, out.velocity, after.offset, after.count);

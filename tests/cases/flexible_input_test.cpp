@@ -169,5 +169,45 @@ TEST_F(FlexibleInput, a_rigid_one_is_the_part_of_its_mass) {
   ASSERT_EQ(changed.status, 0) << changed.err;
 }
 
+// Values and rates of the coordinates outside bodies after each analysis.
+std::vector<std::vector<double>> shapes(const RunResult& r) {
+  std::vector<std::vector<double>> list;
+  for (const auto& result : r.json.at("results")) {
+    if (!result.contains("operating_point")) continue;
+    auto& values = list.emplace_back();
+    for (const auto& c : result.at("operating_point").at("curve_parameters")) {
+      values.push_back(c.at("value").get<double>());
+      values.push_back(c.at("rate").get<double>());
+    }
+  }
+  return list;
+}
+
+TEST_F(FlexibleInput, a_shape_that_a_command_states_anew_is_taken) {
+  const RunResult r = run(dataset(", CRATIO=0, DMODE=0.01,0.02, VMODE=0.3,-0.2"),
+                          "SIMULATE/INITIAL\nFLEX_BODY/2, VMODE=1,2\nSIMULATE/INITIAL\nFLEX_BODY/2, "
+                          "DMODE=0.5,0.6\nSIMULATE/INITIAL\nFLEX_BODY/2, CRATIO=0.1\nSIMULATE/INITIAL\nSTOP\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(shapes(r), (std::vector<std::vector<double>>{
+                           {0.01, 0.3, 0.02, -0.2}, {0.01, 1, 0.02, 2}, {0.5, 1, 0.6, 2}, {0.5, 1, 0.6, 2}}));
+}
+
+// Places and slopes of a beam belong together: drawn at another place it is straight there.
+TEST_F(FlexibleInput, a_bent_beam_that_is_placed_anew_is_as_it_is_drawn) {
+  const RunResult r =
+      run("Beam\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=0,1,0\n"
+          "MATERIAL/1, DENSITY=7800, YOUNGS_MODULUS=2.1E10, POISSONS_RATIO=0.3\nFE_PART/2, TYPE=3DBEAM, MATERIAL=1, "
+          "NODE_LABELS=1,2, X=0,1, AREA=1E-4, IYY=8E-10, IZZ=8E-10\nMARKER/21, FE_PART=2, NODE_LABEL=1\n"
+          "BUSHING/1, I=21, J=1, K=1E6,1E6,1E6, KT=1E4,1E4,1E4\nEND\n",
+          "SIMULATE/STATIC\nFE_PART/2, QG=0,1,0\nBUSHING/1, J=2\nSIMULATE/INITIAL\nSTOP\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto all = shapes(r);
+  const auto& bent = all.front();
+  const auto& drawn = all.back();
+  ASSERT_EQ(drawn.size(), 18u);
+  EXPECT_LT(bent[2], -1e-4);
+  for (std::size_t k = 0; k < drawn.size(); ++k) EXPECT_NEAR(drawn[k], k == 0 || k == 6 ? 1 : 0, 1e-14) << k;
+}
+
 }  // namespace
 }  // namespace dynalin::cases::flexible_input_test
