@@ -234,4 +234,9 @@ std::optional<SparseMatrix> read_coordinate_matrix(const SourceText& file, Eigen
   return matrix;
 }
 
+Span diagonal_entry(const SourceText& file, Eigen::Index size, Eigen::Index row) {
+  const auto at = static_cast<std::int32_t>(row);
+  return place_of(file, size, at, at, false);
+}
+
 }  // namespace dynalin::reduction

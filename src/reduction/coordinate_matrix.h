@@ -13,4 +13,7 @@ namespace dynalin::reduction {
 // writes its .sti and .mas. `size` is the number of freedoms. Problems are told at their place; nothing then.
 std::optional<SparseMatrix> read_coordinate_matrix(const SourceText&, Eigen::Index size, Diagnostics&);
 
+// Where the diagonal entry of a row stands in such a file; its beginning if it is not written.
+Span diagonal_entry(const SourceText&, Eigen::Index size, Eigen::Index row);
+
 }  // namespace dynalin::reduction

@@ -1,6 +1,7 @@
 #include "reduction/craig_bampton.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -9,11 +10,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
+#include <numeric>
 
 #include "base/cycle.h"
 #include "base/dense_solvers.h"
 #include "reduction/interface_rows.h"
+#include "reduction/loose_parts.h"
 #include "reduction/lowest_modes.h"
 #include "reduction/symmetric_factors.h"
 
@@ -31,6 +33,8 @@ constexpr double massless = 1e-11;
 // Shapes without mass count as if they vibrated so much faster than the fastest of the others, in squares: more would
 // cost digits of the lowest.
 constexpr double above_highest = 1e4;
+// A pivot of stiffness that rounding may have left where nothing is strained.
+constexpr double unstrained = 1e-14;
 // Of rigid motions in units of the shapes, squared: they have no mass.
 constexpr double massless_rigid = 1e-12;
 
@@ -67,6 +71,12 @@ struct Orthogonal {
   double off_diagonal = 0;
 };
 
+// What is not positive, and a motion that shows it, out of columns of T; none if there is no mass.
+struct NotPositive {
+  std::string_view what;
+  VectorXd coordinates;
+};
+
 // The rows that say that a vector is orthogonal to rigid motions in m; of those without mass, plainly.
 MatrixXd orthogonality(const MatrixXd& m, const MatrixXd& rigid) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> own(MatrixXd(rigid.transpose() * m * rigid));
@@ -81,8 +91,8 @@ MatrixXd orthogonality(const MatrixXd& m, const MatrixXd& rigid) {
 
 // The modes of k, m in what is orthogonal in m to the columns of `rigid`. `slowest`: 1/ω² of the slowest mode of the
 // body where it is held, beside which rounding shows itself where no shape has a mass.
-std::optional<Orthogonal> orthogonal_shapes(const MatrixXd& k, const MatrixXd& m, const MatrixXd& rigid,
-                                            double slowest) {
+tl::expected<Orthogonal, NotPositive> orthogonal_shapes(const MatrixXd& k, const MatrixXd& m, const MatrixXd& rigid,
+                                                        double slowest) {
   // Translations, rotations and modes have units of their own: those of stiffness, and of mass where they only move the
   // whole.
   const double square = slowest > 0 ? 1 / slowest : m.trace() > 0 ? k.trace() / m.trace() : 0.0;
@@ -98,7 +108,13 @@ std::optional<Orthogonal> orthogonal_shapes(const MatrixXd& k, const MatrixXd& m
   }
   const MatrixXd kq = basis.transpose() * ks * basis, mq = basis.transpose() * ms * basis;
   const Eigen::LLT<MatrixXd> root(MatrixXd(0.5 * (kq + kq.transpose())));
-  if (root.info() != Eigen::Success) return std::nullopt;
+  const auto lowest = [&](const MatrixXd& of) {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> own(of);
+    return VectorXd(D * (basis * own.eigenvectors().col(0)));
+  };
+  // The rows have units such that what is stiff is near 1.
+  if (root.info() != Eigen::Success || MatrixXd(root.matrixL()).diagonal().cwiseAbs2().minCoeff() < unstrained)
+    return tl::unexpected(NotPositive{"stiffness", lowest(0.5 * (kq + kq.transpose()))});
   MatrixXd inverse = root.matrixL().solve(mq);
   inverse = root.matrixL().solve(inverse.transpose()).eval();
   // 1/ω² and not ω²: the lowest are the most exact ones, and shapes without mass end at zero.
@@ -107,7 +123,8 @@ std::optional<Orthogonal> orthogonal_shapes(const MatrixXd& k, const MatrixXd& m
   Index count = 0;
   slowest = std::max(slowest, values[0]);
   while (count < values.size() && values[count] > massless * slowest) ++count;
-  if (!(slowest > 0) || values[values.size() - 1] < -1e-8 * slowest) return std::nullopt;
+  if (!(slowest > 0) || values[values.size() - 1] < -1e-8 * slowest)
+    return tl::unexpected(NotPositive{"mass", lowest(0.5 * (mq + mq.transpose()))});
   const MatrixXd of_stiffness_1 = basis * root.matrixU().solve(eigen.eigenvectors().rowwise().reverse());
   MatrixXd v = of_stiffness_1.leftCols(count);
   // Rounding of the high shapes is taken out by the low ones: Cholesky in ascending order.
@@ -116,7 +133,7 @@ std::optional<Orthogonal> orthogonal_shapes(const MatrixXd& k, const MatrixXd& m
     v = v * size.cwiseInverse().asDiagonal();
     const MatrixXd m_of_v = v.transpose() * ms * v;
     const Eigen::LLT<MatrixXd> m_root(MatrixXd(0.5 * (m_of_v + m_of_v.transpose())));
-    if (m_root.info() != Eigen::Success) return std::nullopt;
+    if (m_root.info() != Eigen::Success) return tl::unexpected(NotPositive{"mass", lowest(mq)});
     v = m_root.matrixL().solve(v.transpose()).transpose();
   }
   Orthogonal result;
@@ -171,7 +188,9 @@ class Reducer {
     const MatrixXd rigid_of_interface = MatrixXd(rigid(b, Eigen::all)) * free.directions;
     if (!interface_holds(rigid_of_interface)) {
       diagnostics_.error("fe-interface", Span{},
-                         "the body can move as a rigid body while its interface nodes stand still",
+                         fmt::format("the body can move as a rigid body while its interface node{} {} stand{} still",
+                                     request_.interface.size() == 1 ? "" : "s", fmt::join(request_.interface, ", "),
+                                     request_.interface.size() == 1 ? "s" : ""),
                          "one node with rotations, or three nodes that are not on a line, hold it");
       return told;
     }
@@ -193,13 +212,20 @@ class Reducer {
     auto orthogonal = orthogonal_shapes(0.5 * (k + k.transpose()), 0.5 * (m + m.transpose()), rigid_coordinates,
                                         held.size() > 0 ? 1 / held.minCoeff() : 0.0);
     if (!orthogonal) {
-      diagnostics_.error(
-          "fe-matrix-not-positive", Span{}, "stiffness or mass is not positive in the shapes of the reduction",
-          free.directions.cols() > 0 && free.directions.cols() < 6
-              ? fmt::format("of its six rigid motions {} strain nothing: are the places of the nodes in the "
-                            "lengths of the matrices, and in the order of the freedoms?",
-                            free.directions.cols())
-              : "a part that is not connected, or a mechanism, can move without being strained");
+      const bool of_stiffness = orthogonal.error().what == "stiffness";
+      const SparseMatrix& matrix = of_stiffness ? model_.stiffness : model_.mass;
+      const auto motion = [&] {
+        const VectorXd moved = shapes * orthogonal.error().coordinates;
+        return VectorXd(matrix.diagonal().cwiseAbs().cwiseSqrt().cwiseProduct(moved));
+      };
+      refuse_motion(of_stiffness,
+                    fmt::format("the {} is not positive in the shapes of the reduction", orthogonal.error().what),
+                    all_freedoms(), motion,
+                    free.directions.cols() > 0 && free.directions.cols() < 6
+                        ? fmt::format("of its six rigid motions {} strain nothing: are the places of the nodes in the "
+                                      "lengths of the matrices, and in the order of the freedoms?",
+                                      free.directions.cols())
+                        : "a part that is not connected, or a mechanism, can move without being strained");
       return told;
     }
     reduction_.shapes = shapes * orthogonal->coordinates;
@@ -211,19 +237,42 @@ class Reducer {
   }
 
  private:
+  std::vector<Index> all_freedoms() const {
+    std::vector<Index> list(model_.freedoms.size());
+    std::iota(list.begin(), list.end(), Index{0});
+    return list;
+  }
+
+  // An error that names what is loose or, of a motion of these freedoms, the one that moves most, where it is written.
+  template <class Motion>
+  void refuse_motion(bool of_stiffness, std::string message, const std::vector<Index>& freedoms, const Motion& motion,
+                     std::string hint) {
+    const auto loose = of_stiffness ? loose_part(model_, request_.interface.front()) : std::nullopt;
+    Index row = 0;
+    if (loose) {
+      row = loose->row;
+      message += ": " + loose->text;
+    } else {
+      motion().cwiseAbs().maxCoeff(&row);
+      row = freedoms[static_cast<std::size_t>(row)];
+      message += fmt::format(", most of all where {} moves", name_of(model_.freedoms[static_cast<std::size_t>(row)]));
+    }
+    const auto& at = of_stiffness ? model_.stiffness_at : model_.mass_at;
+    diagnostics_.error("fe-matrix-not-positive", at ? at(row) : Span{}, std::move(message), std::move(hint));
+  }
+
   bool check_diagonals() {
-    const auto refuse = [&](const SparseMatrix& matrix, std::string_view what) {
+    const auto refuse = [&](const SparseMatrix& matrix, std::string_view what, const auto& at) {
       const VectorXd diagonal = matrix.diagonal();
       if (diagonal.minCoeff() >= 0) return true;
       Index row = 0;
       diagonal.minCoeff(&row);
       const Freedom& f = model_.freedoms[static_cast<std::size_t>(row)];
-      diagnostics_.error(
-          "fe-matrix-not-positive", Span{},
-          fmt::format("the {} of node {}, direction {} is negative: {:.6g}", what, f.node, f.direction, diagonal[row]));
+      diagnostics_.error("fe-matrix-not-positive", at ? at(row) : Span{},
+                         fmt::format("the {} of {} is negative: {:.6g}", what, name_of(f), diagonal[row]));
       return false;
     };
-    return refuse(model_.stiffness, "stiffness") && refuse(model_.mass, "mass");
+    return refuse(model_.stiffness, "stiffness", model_.stiffness_at) && refuse(model_.mass, "mass", model_.mass_at);
   }
 
   // The file has a mass of 1 for each shape. What these yield belongs to the interface: they are kept, and too fast for
@@ -246,11 +295,15 @@ class Reducer {
     const SparseMatrix k_ii = part(model_.stiffness, i, i), m_ii = part(model_.mass, i, i);
     const SymmetricFactors factors(k_ii);
     if (factors.null_pivots() > 0 || factors.negative() > 0) {
-      diagnostics_.error("fe-matrix-not-positive", Span{},
-                         factors.negative() > 0
-                             ? fmt::format("the stiffness inside has {} negative eigenvalues", factors.negative())
-                             : fmt::format("with the interface held, {} motions strain nothing", factors.null_pivots()),
-                         "a part that is not connected, or a mechanism, can move without being strained");
+      const Index count = factors.negative() > 0 ? factors.negative() : factors.null_pivots();
+      refuse_motion(
+          true,
+          factors.negative() > 0
+              ? fmt::format("the stiffness inside has {} negative eigenvalue{}", count, count == 1 ? "" : "s")
+              : fmt::format("with the interface held, {} motion{} nothing", count,
+                            count == 1 ? " strains" : "s strain"),
+          i, [&] { return weakest_motion(k_ii); },
+          "a part that is not connected, or a mechanism, can move without being strained");
       return tl::unexpected(std::string());
     }
     MatrixXd inside = -MatrixXd(part(model_.stiffness, i, b));

@@ -268,14 +268,69 @@ TEST(CraigBampton, refuses_matrices_that_are_not_positive) {
   EXPECT_THAT(refused(beam, request), ::testing::HasSubstr("the mass of node 3, direction 1 is negative"));
   beam = test::beam(6, 0.8);
   beam.stiffness.coeffRef(12, 13) = beam.stiffness.coeffRef(13, 12) = 1e12;
-  EXPECT_THAT(refused(beam, request), ::testing::HasSubstr("negative eigenvalue"));
+  EXPECT_THAT(
+      refused(beam, request),
+      ::testing::HasSubstr("the stiffness inside has 1 negative eigenvalue, most of all where node 3, direction"));
   beam = test::beam(6, 0.8);
   beam.mass.coeffRef(12, 13) = beam.mass.coeffRef(13, 12) = 1e3;
   EXPECT_FALSE(reduce_model(beam, request, *std::make_unique<Diagnostics>()).has_value());
   // A row that nothing strains.
   beam = test::beam(6, 0.8);
   for (Index k = 0; k < 42; ++k) beam.stiffness.coeffRef(15, k) = beam.stiffness.coeffRef(k, 15) = 0;
-  EXPECT_THAT(refused(beam, request), ::testing::HasSubstr("motions strain nothing"));
+  EXPECT_THAT(refused(beam, request),
+              ::testing::HasSubstr("with the interface held, 1 motion strains nothing: node 3, direction 4 has no "
+                                   "stiffness at all"));
+}
+
+// Rows and columns of these freedoms without stiffness to any other but these.
+void cut(SparseMatrix& k, Index first, Index last) {
+  for (Index c = 0; c < k.cols(); ++c) {
+    for (SparseMatrix::InnerIterator it(k, c); it; ++it) {
+      if ((c >= first && c < last) != (it.row() >= first && it.row() < last)) it.valueRef() = 0;
+    }
+  }
+}
+
+TEST(CraigBampton, names_what_is_loose) {
+  const ReductionRequest request{.interface = {1, 7}, .modes = 4};
+  // A motion inside that strains nothing, without a row of zeros: node 4 along y and twice as far node 5.
+  FiniteElementModel beam = test::beam(6, 0.8);
+  VectorXd motion = VectorXd::Zero(42);
+  motion[19] = 1, motion[25] = 2;
+  const VectorXd force = beam.stiffness * motion;
+  beam.stiffness =
+      SparseMatrix((MatrixXd(beam.stiffness) - force * force.transpose() / motion.dot(force)).sparseView(1, 1e-300));
+  const std::string said = "with the interface held, 1 motion strains nothing, most of all where node ";
+  EXPECT_THAT(refused(beam, request), ::testing::AnyOf(::testing::HasSubstr(said + "4, direction 2 moves"),
+                                                       ::testing::HasSubstr(said + "5, direction 2 moves")));
+  // An interface node of which a rotation is not tied to anything, and one of which nothing is.
+  beam = test::beam(6, 0.8);
+  cut(beam.stiffness, 39, 40);
+  beam.stiffness.coeffRef(39, 39) = 0;
+  EXPECT_THAT(refused(beam, request),
+              ::testing::HasSubstr("the stiffness is not positive in the shapes of the reduction: node 7, direction 4 "
+                                   "has no stiffness at all"));
+  beam = test::beam(6, 0.8);
+  Eigen::Matrix<double, 12, 12> of_element, unused;
+  test::beam_element(section, 0.8 / 6, of_element, unused);
+  for (Index r = 0; r < 12; ++r) {
+    for (Index c = 0; c < 12; ++c) beam.stiffness.coeffRef(18 + r, 18 + c) -= of_element(r, c);
+  }
+  EXPECT_THAT(refused(beam, request),
+              ::testing::HasSubstr("the stiffness falls into 2 parts: node 5 is not connected to node 1"));
+  // A pendant that is inside.
+  beam = test::beam(6, 0.8);
+  cut(beam.stiffness, 36, 42);
+  for (Index k = 36; k < 42; ++k) {
+    for (Index c = 36; c < 42; ++c) beam.stiffness.coeffRef(k, c) = k == c ? 0 : 1e3;
+  }
+  EXPECT_THAT(refused(beam, {.interface = {1}, .modes = 4}),
+              ::testing::HasSubstr("the stiffness falls into 2 parts: node 7 is not connected to node 1"));
+  // Mass that is less than none for a motion, though its diagonal is positive.
+  beam = test::beam(6, 0.8);
+  beam.mass.coeffRef(37, 38) = beam.mass.coeffRef(38, 37) = 1e3;
+  EXPECT_THAT(refused(beam, request), ::testing::HasSubstr("the mass is not positive in the shapes of the reduction, "
+                                                           "most of all where node"));
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ class Punched {
     return true;
   }
 
-  std::optional<SparseMatrix> build(const DirectMatrix& m, const std::map<Freedom, int>& rows) {
+  std::optional<SparseMatrix> build(const DirectMatrix& m, const std::map<Freedom, int>& rows, std::vector<Span>& at) {
     struct Term {
       int row, column;
       double value;
@@ -81,8 +81,11 @@ class Punched {
       return std::pair(a.column, a.row) < std::pair(b.column, b.row);
     });
     std::vector<double> diagonal(rows.size(), 0.0);
+    at.assign(rows.size(), here(m.at));
     for (const Term& t : terms) {
-      if (t.row == t.column) diagonal[static_cast<std::size_t>(t.row)] = std::abs(t.value);
+      if (t.row != t.column) continue;
+      diagonal[static_cast<std::size_t>(t.row)] = std::abs(t.value);
+      at[static_cast<std::size_t>(t.row)] = here(t.from->at);
     }
     std::vector<Eigen::Triplet<double, std::int32_t>> triplets;
     for (std::size_t k = 0; k < terms.size(); ++k) {
@@ -153,8 +156,8 @@ std::optional<DirectMatrices> read_direct_matrices(const SourceText& stiffness, 
     row = static_cast<int>(result.freedoms.size());
     result.freedoms.push_back(freedom);
   }
-  auto stiffness_matrix = first.build(*k, rows);
-  auto mass_matrix = stiffness_matrix ? second.build(*m, rows) : std::nullopt;
+  auto stiffness_matrix = first.build(*k, rows, result.stiffness_at);
+  auto mass_matrix = stiffness_matrix ? second.build(*m, rows, result.mass_at) : std::nullopt;
   if (!mass_matrix) return std::nullopt;
   result.stiffness = std::move(*stiffness_matrix), result.mass = std::move(*mass_matrix);
   return result;

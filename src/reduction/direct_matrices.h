@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/diagnostics.h"
 #include "reduction/finite_element_model.h"
@@ -12,6 +13,7 @@ namespace dynalin::reduction {
 struct DirectMatrices {
   std::vector<Freedom> freedoms;  // of grids (components 1 to 6) and scalar points (0)
   SparseMatrix stiffness, mass;
+  std::vector<Span> stiffness_at, mass_at;  // where the diagonal entry of each freedom, or else the matrix, stands
 };
 
 // Names are those of the matrices; an empty one takes the only matrix that begins with K (but not K4) or M. Both files

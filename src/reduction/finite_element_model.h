@@ -4,8 +4,11 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <vector>
+
+#include "base/source.h"
 
 namespace dynalin::reduction {
 
@@ -27,6 +30,8 @@ struct FiniteElementModel {
   std::map<NodeLabel, Eigen::Vector3d> nodes;  // places [length]; of every node of a freedom, and perhaps of others
   SparseMatrix stiffness;                      // n x n, symmetric, both triangles [force/length, force, force·length]
   SparseMatrix mass;                           // n x n, symmetric, both triangles [mass, mass·length, mass·length²]
+  // Where the diagonal entry of a row is written, for messages; empty where no file states the matrices.
+  std::function<Span(Eigen::Index row)> stiffness_at, mass_at;
 };
 
 }  // namespace dynalin::reduction

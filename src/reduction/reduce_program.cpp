@@ -152,6 +152,11 @@ class Program {
       if (!matrices) return false;
       model_.freedoms = std::move(matrices->freedoms);
       model_.stiffness = std::move(matrices->stiffness), model_.mass = std::move(matrices->mass);
+      const auto listed = [](std::vector<Span> places) {
+        return [places = std::move(places)](Eigen::Index row) { return places[static_cast<std::size_t>(row)]; };
+      };
+      model_.stiffness_at = listed(std::move(matrices->stiffness_at)),
+      model_.mass_at = listed(std::move(matrices->mass_at));
     } else if (!read_coordinates(*stiffness, *mass)) {
       return false;
     }
@@ -181,6 +186,8 @@ class Program {
       return false;
     }
     model_.stiffness = std::move(*k), model_.mass = std::move(*m);
+    model_.stiffness_at = [&stiffness, n](Eigen::Index row) { return diagonal_entry(stiffness, n, row); };
+    model_.mass_at = [&mass, n](Eigen::Index row) { return diagonal_entry(mass, n, row); };
     return true;
   }
 

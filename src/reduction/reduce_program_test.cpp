@@ -325,6 +325,44 @@ TEST_F(Reduce, takes_grids_in_the_basic_system_alone) {
   EXPECT_THAT(err_.str(), HasSubstr("GRID 9 is stated in another system than the basic one"));
 }
 
+TEST_F(Reduce, says_where_diagonals_and_parts_of_a_model_are_wrong) {
+  const auto refused = [&](const ReduceOptions& options) {
+    EXPECT_EQ(run(options), 1);
+    return err_.str();
+  };
+  FiniteElementModel beam = test::beam(4, 0.8);
+  // Line 2 of a file that begins with a comment is that of row 1, and so on down the upper triangle.
+  beam.mass.coeffRef(0, 0) = -1;
+  EXPECT_THAT(refused(calculix(beam)),
+              HasSubstr("job.mas:1:1: error: the mass of node 1, direction 1 is negative: -1"));
+  beam = test::beam(4, 0.8);
+  beam.stiffness.coeffRef(8, 8) = -7;
+  ReduceOptions options = calculix(beam);
+  const std::string text = read("job.sti");
+  const auto line_of = [](const std::string& t, const std::string& begin) {
+    return 1 + std::count(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(t.find("\n" + begin) + 1), '\n');
+  };
+  EXPECT_THAT(refused(options),
+              HasSubstr(fmt::format("job.sti:{}:1: error: the stiffness of node 2, direction 3 is negative: -7",
+                                    line_of(text, "9 9 "))));
+  // The same from cards, and a row that nothing holds.
+  const std::string punched = cards(beam.stiffness, beam.freedoms, "KAAX") + cards(beam.mass, beam.freedoms, "MAAX");
+  options.stiffness = options.mass = file("body.pch", punched);
+  EXPECT_THAT(refused(options), HasSubstr("body.pch:"));
+  EXPECT_THAT(err_.str(), HasSubstr("error: the stiffness of node 2, direction 3 is negative: -7"));
+  EXPECT_THAT(err_.str(), HasSubstr("-7.000000000D+00"));
+  beam = test::beam(4, 0.8);
+  for (Eigen::Index k = 0; k < 30; ++k) beam.stiffness.coeffRef(27, k) = beam.stiffness.coeffRef(k, 27) = 0;
+  options = calculix(beam);
+  EXPECT_THAT(refused(options), HasSubstr(fmt::format("job.sti:{}:1: error: the stiffness is not positive in the "
+                                                      "shapes of the reduction: node 5, direction 4 has no stiffness",
+                                                      line_of(read("job.sti"), "28 28 "))));
+  options = calculix(test::beam(4, 0.8));
+  options.interface = {"1"};
+  options.translations_only = true;
+  EXPECT_EQ(run(options), 0) << err_.str();
+}
+
 TEST_F(Reduce, says_where_the_input_is_wrong) {
   const FiniteElementModel beam = test::beam(4, 0.8);
   const auto refused = [&](const ReduceOptions& options) {
