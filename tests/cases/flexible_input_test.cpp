@@ -138,6 +138,11 @@ TEST_F(FlexibleInput, damping_that_feeds_energy_is_warned_of) {
   EXPECT_THAT(damped("5,0, 0,-6", ", CRATIO=0.04\\, GENERALIZED_DAMPING=FULL").err, Not(HasSubstr("feeds")));
   EXPECT_THAT(damped("5,0, 0,-6", ", CRATIO=0.03\\, GENERALIZED_DAMPING=FULL").err, HasSubstr(feeds + "mode 2"));
   EXPECT_THAT(damped("5,0, 0,-6", ", CRATIO=0").err, Not(HasSubstr("feeds")));
+  // None at all, by dataset or command.
+  const std::string none = "FLEX_BODY/2 has no damping, a MATRIX named GENDAMP";
+  SetUp();
+  EXPECT_THAT(said(full), HasSubstr(none));
+  EXPECT_THAT(run(dataset(), "SIMULATE/INITIAL\nFLEX_BODY/2, GENERALIZED_DAMPING=FULL\nSTOP\n").err, HasSubstr(none));
   const RunResult skew = damped("5,1, -1,6", full);
   EXPECT_NE(skew.status, 0);
   EXPECT_THAT(skew.err, HasSubstr("GENDAMP of FLEX_BODY/2 is not symmetric: "));

@@ -247,7 +247,7 @@ class FlexBodySet final : public TypedSet<FlexBody> {
       for (const double x : hertz) ratio.push_back(default_ratio(x));
     }
     b.damping = modal_damping(own, [&](Eigen::Index k) { return ratio[static_cast<std::size_t>(k)]; });
-    if (!f.adds_generalized_damping) return;
+    if (!f.adds_generalized_damping || b.generalized_damping.size() == 0) return;  // an error by now
     b.damping += b.generalized_damping;
     if (const std::string fed = b.fed_modes(); !fed.empty()) {
       diagnostics.warning("body-damping", f.damping_at,
