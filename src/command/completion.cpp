@@ -24,18 +24,17 @@ class Completion {
   }
   void offer_ids(std::string_view statement) {
     if (!model_) return;
-    std::vector<std::int64_t> ids;
+    std::vector<std::int32_t> ids;
+    const auto add = [&](std::int32_t id, const auto&) { ids.push_back(id); };
     if (statement == "MARKER") {
-      for (const auto& [id, marker] : model_->marker_ids) ids.push_back(id);
+      model_->marker_ids.for_each(add);
     } else if (const auto bodies = model_->body_ids.find(statement); bodies != model_->body_ids.end()) {
-      for (const auto& [id, body] : bodies->second) ids.push_back(id);
+      bodies->second.for_each(add);
     } else if (const auto elements = model_->ids.find(statement); elements != model_->ids.end()) {
-      for (const auto& [id, element] : elements->second) ids.push_back(id);
+      elements->second.for_each(add);
     }
     std::sort(ids.begin(), ids.end());
-    for (const std::int64_t id : ids) {
-      if (id > 0) offer(std::to_string(id));
-    }
+    for (const std::int32_t id : ids) offer(std::to_string(id));
   }
   std::vector<std::string> finish() && { return std::move(list_); }
 

@@ -80,9 +80,21 @@ struct Atom {
   const AtomFunction* function = nullptr;
   std::array<std::int32_t, 5> argument{};  // ids and indices as written, 0 where left out
   std::uint8_t argument_count = 0;
-  Span at;                                               // of the call
-  std::array<Span, 5> argument_at{};                     // of each argument, for messages about ids
+  Span at;  // of the call
+  // Of each argument in the source of the call, for messages about ids. Large models have a great many atoms.
+  struct Place {
+    std::uint32_t offset = 0, length = 0;
+  };
+  std::array<Place, 5> argument_place{};
   std::shared_ptr<const DelayedCall> delayed = nullptr;  // of DELAY: what stands between its parentheses
+
+  Span argument_at(std::size_t k) const { return {at.source, argument_place[k].offset, argument_place[k].length}; }
+  void set_argument_at(std::size_t k, const Span& written) { argument_place[k] = {written.offset, written.length}; }
+  // Where nothing of the text stands for arguments.
+  void set_place(const Span& call) {
+    at = call;
+    argument_place.fill({call.offset, call.length});
+  }
 };
 
 struct ExpressionNode;  // one instruction of the flat program

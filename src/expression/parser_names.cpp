@@ -200,7 +200,7 @@ void ExpressionParser::read_atom_argument(Atom& atom, std::size_t index) {
   }
   if (index >= atom.argument.size()) return;
   atom.argument[index] = static_cast<std::int32_t>(value);
-  atom.argument_at[index] = at;
+  atom.set_argument_at(index, at);
 }
 
 // The ranges that follow from the language alone.
@@ -228,7 +228,7 @@ void ExpressionParser::check_atom(const Atom& atom) {
     }
     if (atom.argument[k] >= least && atom.argument[k] <= most) continue;
     const bool bounded = most != std::numeric_limits<std::int32_t>::max();
-    diagnostics_.error("argument-range", atom.argument_at[k],
+    diagnostics_.error("argument-range", atom.argument_at(k),
                        fmt::format("argument {} of {} is {}, here is {}", k + 1, function.name,
                                    bounded ? fmt::format("a number from {} to {}", least, most)
                                            : argument_meaning(function, k) + fmt::format(", {} or more", least),

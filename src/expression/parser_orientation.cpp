@@ -103,8 +103,8 @@ Operand ExpressionParser::close_orientation(std::span<const Operand> arguments, 
   markers.argument_count = 2;
   markers.argument[0] = *i;
   markers.argument[1] = *j;
-  markers.argument_at[0] = arguments[2].at;
-  markers.argument_at[1] = arguments.back().at;
+  markers.set_argument_at(0, arguments[2].at);
+  markers.set_argument_at(1, arguments.back().at);
   const Cosines cosines(builder_, {marker_axis(0, markers), marker_axis(1, markers), marker_axis(2, markers)}, at);
   return sequence ? cosines.angle(sequences[static_cast<std::size_t>(*system - 1)], *component)
                   : cosines.euler_parameter(*component);

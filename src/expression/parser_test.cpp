@@ -91,7 +91,7 @@ TEST(ExpressionParser, identical_atoms_are_stored_once) {
   EXPECT_EQ(atom.argument[1], 2);
   EXPECT_EQ(atom.argument_count, 2);
   EXPECT_EQ(atom.at.text(), "DX(1,2)");
-  EXPECT_EQ(atom.argument_at[1].text(), "2");
+  EXPECT_EQ(atom.argument_at(1).text(), "2");
   EXPECT_EQ(parsed.expression.atoms()[2].function->family, AtomFamily::time);
   EXPECT_EQ(parsed.expression.at().text().size(), parsed.source->text().size());
 }

@@ -103,7 +103,7 @@ Operand ExpressionParser::close_special(const Pending& call, const Span& at) {
     const auto id = constant_id(arguments[k], "the id of a marker", k == 1 ? 1 : 0);
     if (!id) return builder_.placeholder(at);
     markers.argument[k - 1] = *id;
-    markers.argument_at[k - 1] = arguments[k].at;
+    markers.set_argument_at(k - 1, arguments[k].at);
   }
   return builder_.transform({marker_axis(0, markers), marker_axis(1, markers), marker_axis(2, markers)}, v, at);
 }

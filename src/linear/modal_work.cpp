@@ -125,7 +125,7 @@ std::vector<ModalRow<double>> ModalDistribution::force_rows(std::size_t mode, Pa
       if (!strain) of_unclear += of_rounding.of(w).without_cancellation;
       ModalRow<double> row{&set.labels[wrenches.element_of_wrench(which)], 0, std::vector<double>(7, 0.0)};
       if (set.kind().energy_rows == Kind::EnergyRows::each_marker)
-        row.part = system_.model().marker(wrenches.marker_I(which)).label.id;
+        row.part = system_.model().marker(wrenches.marker_I(which)).label->id;
       for (std::size_t k = 0; k < 6; ++k) {
         row.values[0] += done.along[k];
         parts += std::abs(done.along[k]);

@@ -2,6 +2,7 @@
 // its exact partial derivatives where they belong.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "expression/expression.h"
@@ -72,6 +73,11 @@ class BoundExpression {
     Signals::Wrench wrench;
     bool on_J = false;
   };
+  struct Force {
+    std::vector<ForceTerm> terms;
+    std::uint8_t component = 1;  // 1–8: FM FX FY FZ TM TX TY TZ
+    MarkerFrame axes_marker;
+  };
   struct BoundAtom {
     enum class Kind : std::uint8_t { time, mode, constant, remembered, channel, measure, force } kind;
     double constant = 0;
@@ -82,12 +88,11 @@ class BoundExpression {
     std::uint32_t first_block = 0, block_count = 0;  // what they depend on, in atom_blocks_
     std::int32_t memory = -1;                        // total angle of a measure that counts turns
     std::int32_t kept = -1;                          // where the memory holds what is remembered
-    std::vector<ForceTerm> terms;
-    std::uint8_t component = 1;  // 1–8: FM FX FY FZ TM TX TY TZ
-    MarkerFrame axes_marker;
+    std::shared_ptr<const Force> force;              // of the kind force alone: most atoms are none
   };
 
   BoundAtom bind(const Atom&, Binder&, Binding);
+  void bind_force(BoundAtom&, Force, const Signals&);
   void note_blocks(BoundAtom&, const MarkerFrame&, const Layout&, bool poses_too);
   std::span<const CoordinateBlock> blocks(const BoundAtom& a) const {
     return std::span(atom_blocks_).subspan(a.first_block, a.block_count);

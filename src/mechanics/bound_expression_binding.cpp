@@ -131,6 +131,12 @@ void BoundExpression::note_blocks(BoundAtom& a, const MarkerFrame& marker, const
   });
 }
 
+void BoundExpression::bind_force(BoundAtom& a, Force force, const Signals& signals) {
+  a.kind = BoundAtom::Kind::force;
+  note_blocks(a, force.axes_marker, signals.layout(), false);
+  a.force = std::make_shared<const Force>(std::move(force));
+}
+
 const Atom* BoundExpression::atom_on_curve() const {
   for (std::size_t k = 0; k < atoms_.size(); ++k) {
     for (const CoordinateBlock& b : blocks(atoms_[k]))
@@ -199,25 +205,26 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binde
       a.kind = Kind::channel;
       a.channel = binder.delayed(atom);
       break;
-    case AtomFamily::element_force:
-      a.kind = Kind::force;
+    case AtomFamily::element_force: {
+      Force force;
       if (const Signals::Wrench w = signals.wrench(f.statement, atom.argument[0]); w.source) {
-        a.terms.push_back({w, atom.argument[1] == 1});  // an element taken out of the model exerts nothing
+        force.terms.push_back({w, atom.argument[1] == 1});  // an element taken out of the model exerts nothing
       }
-      a.component = static_cast<std::uint8_t>(atom.argument[2]);
-      a.axes_marker = find_marker(binder, atom, atom.argument[3], true);
-      note_blocks(a, a.axes_marker, signals.layout(), false);
+      force.component = static_cast<std::uint8_t>(atom.argument[2]);
+      force.axes_marker = find_marker(binder, atom, atom.argument[3], true);
+      bind_force(a, std::move(force), signals);
       break;
+    }
     case AtomFamily::marker_force: {
-      a.kind = Kind::force;
+      Force force;
       static constexpr std::array<std::string_view, 8> names = {"FM", "FX", "FY", "FZ", "TM", "TX", "TY", "TZ"};
-      a.component = static_cast<std::uint8_t>(std::find(names.begin(), names.end(), f.name) - names.begin() + 1);
+      force.component = static_cast<std::uint8_t>(std::find(names.begin(), names.end(), f.name) - names.begin() + 1);
       const MarkerId i = signals.marker(atom.argument[0]);
       const bool from_all = atom.argument[1] == 0;
       const auto j = from_all ? std::nullopt : std::optional(signals.marker(atom.argument[1]));
-      for (const MarkerLoad& l : loads_on(signals, i, j)) a.terms.push_back({l.wrench, l.on_J});
-      a.axes_marker = find_marker(binder, atom, atom.argument[2], true);
-      note_blocks(a, a.axes_marker, signals.layout(), false);
+      for (const MarkerLoad& l : loads_on(signals, i, j)) force.terms.push_back({l.wrench, l.on_J});
+      force.axes_marker = find_marker(binder, atom, atom.argument[2], true);
+      bind_force(a, std::move(force), signals);
       break;
     }
   }

@@ -18,66 +18,68 @@ std::size_t axis_of(std::uint8_t component) { return (component - 2u) % 4u; }
 }  // namespace
 
 double BoundExpression::force_value(const BoundAtom& a, const Motion& motion) const {
+  const Force& of = *a.force;
   Vector sum{};
   MarkerWrench w;
-  for (const ForceTerm& t : a.terms) {
+  for (const ForceTerm& t : of.terms) {
     w.clear();
     t.wrench.source->wrench(motion, t.wrench.which, false, w);
-    sum += on_marker(w, t.on_J, part_of(a.component));
+    sum += on_marker(w, t.on_J, part_of(of.component));
   }
-  if (is_magnitude(a.component)) return norm(sum);
-  return dot(a.axes_marker.axes(motion)[axis_of(a.component)], sum);
+  if (is_magnitude(of.component)) return norm(sum);
+  return dot(of.axes_marker.axes(motion)[axis_of(of.component)], sum);
 }
 
 bool BoundExpression::is_size(const BoundAtom& a) {
-  if (a.kind == BoundAtom::Kind::force) return is_magnitude(a.component);
+  if (a.kind == BoundAtom::Kind::force) return is_magnitude(a.force->component);
   return a.kind == BoundAtom::Kind::measure &&
          (a.measure == Measure::DM || a.measure == Measure::VM || a.measure == Measure::WM ||
           a.measure == Measure::ACCM || a.measure == Measure::WDTM);
 }
 
 bool BoundExpression::is_size_of_nothing(const BoundAtom& a, const Motion& motion) const {
-  return is_magnitude(a.component) && force_value(a, motion) == 0.0;
+  return is_magnitude(a.force->component) && force_value(a, motion) == 0.0;
 }
 
 void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equations& eq, std::int32_t row,
                                 double factor, PartialBy velocity_family) const {
-  const LoadPart part = part_of(a.component);
+  const Force& of = *a.force;
+  const LoadPart part = part_of(of.component);
   const bool torque = part == LoadPart::torque;
-  std::vector<MarkerWrench> wrenches(a.terms.size());
+  std::vector<MarkerWrench> wrenches(of.terms.size());
   Vector sum{};
-  for (std::size_t t = 0; t < a.terms.size(); ++t) {
-    const ForceTerm& term = a.terms[t];
+  for (std::size_t t = 0; t < of.terms.size(); ++t) {
+    const ForceTerm& term = of.terms[t];
     term.wrench.source->wrench(motion, term.wrench.which, true, wrenches[t]);
     sum += on_marker(wrenches[t], term.on_J, part);
   }
   // The direction that picks the component: an axis of the marker, or that of the vector itself.
   Vector e{};
-  if (is_magnitude(a.component)) {
+  if (is_magnitude(of.component)) {
     const double size = norm(sum);
     if (size > 0) e = sum / size;
   } else {
-    e = a.axes_marker.axes(motion)[axis_of(a.component)];
+    e = of.axes_marker.axes(motion)[axis_of(of.component)];
     const Vector turn = cross(e, sum);
     for_each_turning_block(
-        motion, a.axes_marker.place(), eq.layout(), [&](std::int32_t column, std::size_t count, const Matrix3& turns) {
+        motion, of.axes_marker.place(), eq.layout(), [&](std::int32_t column, std::size_t count, const Matrix3& turns) {
           for (std::size_t k = 0; k < count; ++k)
             eq.add(PartialBy::position, row, column + static_cast<std::int32_t>(k), factor * dot(turns[k], turn));
         });
     for (const CoordinateBlock& block : blocks(a)) {
-      const auto axes = path::varied_frame<6>(motion, a.axes_marker, block, a.axes_marker.place().body).axes;
-      const auto& axis = axes[axis_of(a.component)];
+      const auto axes = path::varied_frame<6>(motion, of.axes_marker, block, of.axes_marker.place().body).axes;
+      const auto& axis = axes[axis_of(of.component)];
       const Vector slope{axis.x.value.partial[0], axis.y.value.partial[0], axis.z.value.partial[0]};
       eq.add(PartialBy::position, row, block.column, factor * dot(slope, sum));
     }
   }
 
   // The size of no force has a kink: what changes the force changes it in no defined way.
-  const bool kink = is_magnitude(a.component) && factor != 0.0 && norm(sum) == 0.0;
-  for (std::size_t t = 0; t < a.terms.size(); ++t) {
+  const bool kink = is_magnitude(of.component) && factor != 0.0 && norm(sum) == 0.0;
+  for (std::size_t t = 0; t < of.terms.size(); ++t) {
     const MarkerWrench& w = wrenches[t];
     const PairMotion& p = w.pair;
-    const bool on_J = a.terms[t].on_J;
+    const bool on_J = of.terms[t].on_J;
     if (on_J && !w.force.acts_on_J()) continue;
     const Vector delta = dynalin::value(p.delta);
     // e·(vector of interest) in terms of force and torque on I.

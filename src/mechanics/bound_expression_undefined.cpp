@@ -12,7 +12,7 @@ std::string BoundExpression::undefined_in_value(const Motion& motion, const std:
     if (std::isfinite(values[k])) continue;
     const BoundAtom& a = atoms_[k];
     const bool straight =
-        a.axes_marker.straight(motion) ||
+        (a.force && a.force->axes_marker.straight(motion)) ||
         std::any_of(a.places.begin(), a.places.end(), [&](const auto& p) { return p.straight(motion); });
     return std::string(expression_.atoms()[k].at.text()) +
            (straight ? " reads the y or z axis of a marker at a point of contact where the curve is straight"

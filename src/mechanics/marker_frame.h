@@ -14,7 +14,7 @@ struct MarkerFrame {
   const MarkerPlace* fixed = nullptr;  // of the layout
   const ParametricCurve* curve = nullptr;
   std::int32_t parameter = -1;  // among the coordinates
-  std::size_t extra = 0;        // and among those in Motion::extra
+  std::uint32_t extra = 0;      // and among those in Motion::extra
 
   const MarkerPlace& place() const { return *fixed; }
   // The frame at parameter u of the curve carried by `carrier`.

@@ -7,7 +7,8 @@ MarkerFrame frame_of_marker(const Signals& signals, MarkerId m, Axes axes) {
   const MarkerId followed = signals.place_of(m);
   const CurvePoint* on = layout.curve_point(m);
   if (!on || (axes == Axes::unread && !(followed == m))) return {&layout.marker(followed)};
-  return {&layout.marker(on->carrier), on->curve.get(), on->coordinate, layout.extra_index(on->coordinate)};
+  return {&layout.marker(on->carrier), on->curve.get(), on->coordinate,
+          static_cast<std::uint32_t>(layout.extra_index(on->coordinate))};
 }
 
 std::vector<MarkerLoad> loads_on(const Signals& signals, MarkerId i, std::optional<MarkerId> j) {

@@ -11,6 +11,7 @@ namespace dynalin {
 namespace {
 
 constexpr std::size_t no_argument = KindFinder::no_argument;
+constexpr ElementLabel label_of_global_frame = {"MARKER", 0, "", {}};
 
 bool is_ground(const Statement& s) {
   static constexpr std::array<std::string_view, 1> ground = {"GROUND"};
@@ -30,8 +31,7 @@ class Builder {
     model_->calls_routines = !routines_.files.empty();
     if (model_->dataset == options.read_once) read_once_ = options.read_once.get();
     model_->title = model_->dataset->title;
-    model_->markers.push_back({{"MARKER", 0, "", {}}, {}, false});
-    model_->marker_ids.emplace(0, global_frame);
+    model_->markers.emplace_back().label = &label_of_global_frame;
     Body ground;
     ground.kind = BodyKind::ground;
     ground.label = {"PART", 0, "ground", {}};
@@ -81,7 +81,20 @@ class Builder {
           {&s, set, 0, chosen ? static_cast<std::int32_t>(variant_argument) : Placement::no_variant, {}});
       if (set) ++count[set];
     }
-    for (const auto& [set, elements] : count) set->reserve(elements);
+    std::map<std::string_view, std::size_t> of_statement;
+    for (const auto& [set, elements] : count) {
+      set->reserve(elements);
+      of_statement[set->kind().statement] += elements;
+    }
+    for (const auto& [statement, elements] : of_statement) {
+      const Kind::Role role = finder_.kinds_of(statement).front()->role;
+      if (role == Kind::Role::marker)
+        model_->marker_ids.reserve(elements);
+      else if (role == Kind::Role::body)
+        model_->body_ids[std::string(statement)].reserve(elements);
+      else if (role == Kind::Role::element || role == Kind::Role::inert)
+        model_->ids[std::string(statement)].reserve(elements);
+    }
   }
 
   // First pass: every id becomes known, so statements may refer to later ones.
@@ -127,6 +140,7 @@ class Builder {
       p.index = static_cast<std::int32_t>(set->size());
       p.preceding_body = preceding;
       set->append(label);
+      if (kind->role == Kind::Role::marker) model_->markers.back().label = &set->labels.back();
     }
     if (!ground && !model_->dataset->statements.empty())
       diagnostics_.error("missing-ground", {}, "the dataset has no PART with GROUND");
@@ -141,17 +155,17 @@ class Builder {
     };
     if (kind.role == Kind::Role::marker) {
       const MarkerId m{static_cast<std::int32_t>(model_->markers.size())};
-      const auto [it, fresh] = model_->marker_ids.emplace(label.id, m);
-      if (!fresh) return duplicate(model_->marker(it->second).label.at);
-      model_->markers.push_back({label, {}, false});
+      const auto [known, fresh] = model_->marker_ids.emplace(*s.id, m);
+      if (!fresh) return duplicate(model_->marker(*known).label->at);
+      model_->markers.emplace_back();
       return true;
     }
     if (kind.role == Kind::Role::body) {
       const bool is_ground_part = kind.statement == "PART" && is_ground(s);
       const BodyId b = is_ground_part ? ground_body : BodyId{static_cast<std::int32_t>(model_->bodies.size())};
       auto& table = model_->body_ids[std::string(kind.statement)];
-      const auto [it, fresh] = table.emplace(label.id, b);
-      if (!fresh) return duplicate(model_->body(it->second).label.at);
+      const auto [known, fresh] = table.emplace(*s.id, b);
+      if (!fresh) return duplicate(model_->body(*known).label.at);
       if (is_ground_part) {
         if (ground) {
           diagnostics_.error("duplicate-ground", s.at, fmt::format("{} is a second ground", label.text()))
@@ -170,8 +184,8 @@ class Builder {
     }
     const std::int32_t index = set_index(kind, set.active);
     auto& table = model_->ids[std::string(kind.statement)];
-    const auto [it, fresh] = table.emplace(label.id, ElementHandle{index, static_cast<std::int32_t>(set.size())});
-    if (!fresh) return duplicate(it->second.valid() ? model_->label(it->second).at : Span{});
+    const auto [known, fresh] = table.emplace(*s.id, ElementHandle{index, static_cast<std::int32_t>(set.size())});
+    if (!fresh) return duplicate(known->valid() ? model_->label(*known).at : Span{});
     return true;
   }
 

@@ -317,10 +317,7 @@ std::string CalledRoutines::written(const Statement& s, const WrittenArgument& c
   const Span at = call.value_span();
   const RoutineKind& kind = *kind_for(s.name, full_name(s, call));
   std::vector<Atom> inputs = routine->inputs();
-  for (Atom& a : inputs) {
-    a.at = at;
-    a.argument_at.fill(at);
-  }
+  for (Atom& a : inputs) a.set_place(at);
   std::string text;
   // A FIELD takes the routine with all of its values over from the first.
   for (std::size_t v = 0; v < components_of(kind).size(); ++v) {

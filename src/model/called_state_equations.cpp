@@ -87,10 +87,7 @@ sAdamsGSE CalledRoutines::says_of_states(const Statement& s, const RoutineStatem
 std::vector<Expression> CalledRoutines::functions_of(const std::shared_ptr<const CompiledRoutine>& routine,
                                                      std::size_t first, std::size_t count, const Span& at) const {
   std::vector<Atom> inputs = routine->inputs();
-  for (Atom& a : inputs) {
-    a.at = at;
-    a.argument_at.fill(at);
-  }
+  for (Atom& a : inputs) a.set_place(at);
   std::vector<Expression> values;
   for (std::size_t v = first; v < first + count; ++v) values.push_back(routine_expression(inputs, routine, v, at));
   return values;

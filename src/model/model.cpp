@@ -9,9 +9,8 @@ namespace dynalin {
 std::optional<ElementHandle> Model::find(std::string_view statement, std::int64_t id) const {
   const auto table = ids.find(statement);
   if (table == ids.end()) return std::nullopt;
-  const auto it = table->second.find(id);
-  if (it == table->second.end()) return std::nullopt;
-  return it->second;
+  const ElementHandle* handle = table->second.find(id);
+  return handle ? std::optional(*handle) : std::nullopt;
 }
 
 bool Model::has(Kind::Gives what) const {
@@ -20,17 +19,16 @@ bool Model::has(Kind::Gives what) const {
 }
 
 std::optional<MarkerId> Model::find_marker(std::int64_t id) const {
-  const auto it = marker_ids.find(id);
-  if (it == marker_ids.end()) return std::nullopt;
-  return it->second;
+  if (id == 0) return global_frame;
+  const MarkerId* marker = marker_ids.find(id);
+  return marker ? std::optional(*marker) : std::nullopt;
 }
 
 std::optional<BodyId> Model::find_body(std::string_view statement, std::int64_t id) const {
   const auto table = body_ids.find(statement);
   if (table == body_ids.end()) return std::nullopt;
-  const auto it = table->second.find(id);
-  if (it == table->second.end()) return std::nullopt;
-  return it->second;
+  const BodyId* body = table->second.find(id);
+  return body ? std::optional(*body) : std::nullopt;
 }
 
 namespace {

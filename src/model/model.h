@@ -8,13 +8,13 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "base/diagnostics.h"
 #include "dynalin/units.h"
 #include "expression/spline.h"
 #include "mechanics/layout.h"
+#include "model/id_table.h"
 #include "model/kind.h"
 #include "model/settings.h"
 
@@ -45,7 +45,7 @@ struct Body {
 };
 
 struct Marker {
-  ElementLabel label;
+  const ElementLabel* label = nullptr;  // of its set
   MarkerPlace place;
   bool floating = false;
   MarkerId follows{};  // of a floating marker: the marker at whose origin an element holds it
@@ -100,9 +100,9 @@ struct Model {
   std::vector<SplineUse> spectra;
 
   // Id tables and the text that labels and spans point into.
-  std::map<std::string, std::unordered_map<std::int64_t, ElementHandle>, std::less<>> ids;
-  std::unordered_map<std::int64_t, MarkerId> marker_ids;
-  std::map<std::string, std::unordered_map<std::int64_t, BodyId>, std::less<>> body_ids;
+  std::map<std::string, IdTable<ElementHandle>, std::less<>> ids;
+  IdTable<MarkerId> marker_ids;
+  std::map<std::string, IdTable<BodyId>, std::less<>> body_ids;
   std::shared_ptr<const Dataset> dataset;
   std::vector<SourceRef> further_sources;  // further texts that messages point into
   std::vector<std::string> input_files;    // that statements name and the model is made of

@@ -124,7 +124,7 @@ void ModelReader::check_id(const Atom& atom, std::size_t k, std::string_view sta
   const bool is_marker = statement == "MARKER";
   if (is_marker && id == 0) return;
   if (is_marker ? model_.find_marker(id).has_value() : model_.find(statement, id).has_value()) return;
-  report_missing(statement, is_marker ? "unknown-marker" : "unknown-element", {id, atom.argument_at[k]});
+  report_missing(statement, is_marker ? "unknown-marker" : "unknown-element", {id, atom.argument_at(k)});
 }
 
 void ModelReader::check_required_argument(const Atom& atom) {
@@ -138,7 +138,7 @@ void ModelReader::check_required_argument(const Atom& atom) {
   });
   if (given) return;
   error(
-      "missing-argument", atom.argument_at[0],
+      "missing-argument", atom.argument_at(0),
       fmt::format("{} reads {} of {}/{}, which has none", f.name, f.required_argument, f.statement, atom.argument[0]));
 }
 
@@ -167,7 +167,7 @@ void ModelReader::check_atom(const Atom& atom) {
       check_id(atom, 0, f.statement);
       check_required_argument(atom);
       if (atom.argument_count > 1 && atom.argument[1] < 1) {
-        error("value-out-of-range", atom.argument_at[1],
+        error("value-out-of-range", atom.argument_at(1),
               fmt::format("the second argument of {} counts from 1", f.name));
       }
       return;
@@ -181,11 +181,11 @@ void ModelReader::check_atom(const Atom& atom) {
     case AtomFamily::element_force:
       check_id(atom, 0, f.statement);
       if (atom.argument[1] != 0 && atom.argument[1] != 1) {
-        error("value-out-of-range", atom.argument_at[1],
+        error("value-out-of-range", atom.argument_at(1),
               fmt::format("the second argument of {} is 0 (force on I) or 1 (force on J)", f.name));
       }
       if (atom.argument[2] < 1 || atom.argument[2] > 8) {
-        error("value-out-of-range", atom.argument_at[2],
+        error("value-out-of-range", atom.argument_at(2),
               fmt::format("the third argument of {} is a component, 1 to 8: FM FX FY FZ TM TX TY TZ", f.name));
       }
       if (atom.argument_count > 3) check_id(atom, 3, "MARKER");

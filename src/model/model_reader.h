@@ -42,6 +42,11 @@ class ModelReader final : public ElementReader {
   std::optional<BodyId> preceding_body() const override;
   void keep(SourceRef source) override { model_.further_sources.push_back(std::move(source)); }
   void reads(std::string path) override { model_.input_files.push_back(std::move(path)); }
+  Marker* own_marker() override {
+    // Marker k of its set is marker k + 1 of the model.
+    const bool is_marker = placement_.set->kind().role == Kind::Role::marker;
+    return is_marker ? &model_.markers[placement_.at() + 1] : nullptr;
+  }
   std::string folder() const override { return std::filesystem::path(source().name()).parent_path().string(); }
 
  private:

@@ -12,6 +12,8 @@
 
 namespace dynalin {
 
+struct Marker;
+
 class ElementReader {
  public:
   ElementReader(const Statement& statement, const SourceText& source, Diagnostics& diagnostics,
@@ -37,6 +39,8 @@ class ElementReader {
   virtual void keep(SourceRef) {}
   // A file that the model is made of, by its path: no result may take its place.
   virtual void reads(std::string) {}
+  // The marker that the statement defines, null where it defines none.
+  virtual Marker* own_marker() { return nullptr; }
   // Folder of the dataset, for files it names.
   virtual std::string folder() const = 0;
 

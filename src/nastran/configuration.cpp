@@ -250,7 +250,7 @@ class References {
       const IdRange& range = o.export_markers_by_id[k];
       if (range.first == range.last) marker(range.first, c_.export_markers_by_id[k]);
       for (const Marker& m : model_.markers) {
-        if (range.first < range.last && m.floating && m.label.id >= range.first && m.label.id <= range.last)
+        if (range.first < range.last && m.floating && m.label->id >= range.first && m.label->id <= range.last)
           floating(m, c_.export_markers_by_id[k]);
       }
     }
@@ -273,7 +273,7 @@ class References {
   }
   void floating(const Marker& m, const Span& at) {
     diagnostics_.error("floating-marker", at,
-                       fmt::format("{} is floating and cannot be exported", m.label.full_text()));
+                       fmt::format("{} is floating and cannot be exported", m.label->full_text()));
   }
   void of_channel(const ChannelMarker& channel, const Span& at) {
     if (channel.marker_id)
@@ -287,14 +287,15 @@ class References {
     if (model_.marker(*found).floating) floating(model_.marker(*found), at);
   }
   void marker(const std::string& name, const Span& at) {
-    const auto found = std::ranges::find_if(model_.markers, [&](const Marker& m) { return m.label.view_name == name; });
+    const auto found =
+        std::ranges::find_if(model_.markers, [&](const Marker& m) { return m.label->view_name == name; });
     if (found != model_.markers.end()) {
       if (found->floating) floating(*found, at);
       return;
     }
     std::vector<std::string_view> names;
     for (const Marker& m : model_.markers) {
-      if (!m.label.view_name.empty()) names.push_back(m.label.view_name);
+      if (!m.label->view_name.empty()) names.push_back(m.label->view_name);
     }
     const std::string_view near = nearest_word(name, names);
     unknown(at, fmt::format("no marker has the name {}", name),

@@ -35,10 +35,10 @@ StudyResult<void> MarkerGrids::add_asked(Diagnostics& remarks) {
   }
   for (std::int32_t k = 1; k < count; ++k) {
     const Marker& marker = model.marker({k});
-    const bool named = in_a_range(marker.label.id);
+    const bool named = in_a_range(marker.label->id);
     if (marker.floating) {
       if (!named) continue;
-      auto done = refuse(fmt::format("{} is floating and cannot be exported", marker.label.full_text()), remarks);
+      auto done = refuse(fmt::format("{} is floating and cannot be exported", marker.label->full_text()), remarks);
       if (!done) return done;
       continue;
     }
@@ -53,10 +53,10 @@ StudyResult<void> MarkerGrids::add_asked(Diagnostics& remarks) {
 
 StudyResult<void> MarkerGrids::add_by_name(std::string_view name, Diagnostics& remarks) {
   const auto& markers = system_.model().markers;
-  const auto found = std::ranges::find_if(markers, [&](const Marker& m) { return m.label.view_name == name; });
+  const auto found = std::ranges::find_if(markers, [&](const Marker& m) { return m.label->view_name == name; });
   if (found == markers.end()) return refuse(fmt::format("no marker has the name {}", name), remarks);
   if (found->floating)
-    return refuse(fmt::format("{} is floating and cannot be exported", found->label.full_text()), remarks);
+    return refuse(fmt::format("{} is floating and cannot be exported", found->label->full_text()), remarks);
   grid_of({static_cast<std::int32_t>(found - markers.begin())}, Axes::local);
   return {};
 }
@@ -73,12 +73,12 @@ StudyResult<MarkerId> MarkerGrids::marker_of(const ChannelMarker& at, const std:
     marker = *found;
   } else {
     const auto found =
-        std::ranges::find_if(model.markers, [&](const Marker& m) { return m.label.view_name == at.marker_name; });
+        std::ranges::find_if(model.markers, [&](const Marker& m) { return m.label->view_name == at.marker_name; });
     if (at.marker_name.empty() || found == model.markers.end())
       return fail(fmt::format("no marker has the name {}", at.marker_name));
     marker = {static_cast<std::int32_t>(found - model.markers.begin())};
   }
-  if (model.marker(marker).floating) return fail(model.marker(marker).label.full_text() + " is floating");
+  if (model.marker(marker).floating) return fail(model.marker(marker).label->full_text() + " is floating");
   return marker;
 }
 

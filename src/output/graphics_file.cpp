@@ -36,7 +36,7 @@ GraphicsFile::GraphicsFile(std::ostream& out, const Model& model, std::time_t wh
   for (const Body& b : model.bodies)
     fmt::print(out_, "{:11d}{:10d}\n", b.label.id, b.kind == BodyKind::point_mass ? 2 : 1);
   for (const Marker* m : markers) {
-    fmt::print(out_, "{:11d}{:10d}", m->label.id, model.body(m->place.body).label.id);
+    fmt::print(out_, "{:11d}{:10d}", m->label->id, model.body(m->place.body).label.id);
     for (const double x : plain(m->place.p_BM)) out_ << number_field(x, 13);
     fmt::print(out_, "{:8d}\n ", 0);
     for (const double angle : angles_313(m->place.R_BM)) out_ << number_field(angle, 13);

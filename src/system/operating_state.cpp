@@ -100,7 +100,7 @@ class Reading {
     l.element = label.element();
     l.variant = set.kind().variant;
     l.view_name = label.view_name;
-    const auto id = [&](MarkerId m) { return m.valid() ? model_.marker(m).label.id : 0; };
+    const auto id = [&](MarkerId m) { return m.valid() ? model_.marker(m).label->id : 0; };
     l.marker_I = id(wrenches.marker_I(which)), l.marker_J = id(wrenches.marker_J(which));
     l.force = plain(wrench_.force.force), l.torque = plain(wrench_.force.torque);
     const MarkerId of_axes = wrenches.marker_of_axes(which);

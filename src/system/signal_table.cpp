@@ -1,5 +1,7 @@
 #include "system/signal_table.h"
 
+#include <numeric>
+
 #include "elements/controls/array.h"
 #include "elements/controls/variable_list.h"
 #include "mechanics/wrench_source.h"
@@ -10,16 +12,24 @@ SignalTable::SignalTable(const Model& model, const Layout& layout)
     : model_(model), layout_(layout), kernel_of_set_(model.sets.size(), nullptr) {}
 
 void SignalTable::index_markers() {
-  at_marker_.resize(layout_.markers.size());
-  for (std::size_t s = 0; s < kernel_of_set_.size(); ++s) {
-    const WrenchSource* source = kernel_of_set_[s] ? kernel_of_set_[s]->wrenches() : nullptr;
-    if (!source) continue;
-    for (std::size_t k = 0; k < source->wrench_count(model_.sets[s]->size()); ++k) {
-      const MarkerId i = source->marker_I(k), j = source->marker_J(k);
-      at_marker_[static_cast<std::size_t>(i.index)].push_back({source, k});
-      if (!(i == j)) at_marker_[static_cast<std::size_t>(j.index)].push_back({source, k});
+  const auto for_each_end = [&](const auto& visit) {
+    for (std::size_t s = 0; s < kernel_of_set_.size(); ++s) {
+      const WrenchSource* source = kernel_of_set_[s] ? kernel_of_set_[s]->wrenches() : nullptr;
+      if (!source) continue;
+      for (std::size_t k = 0; k < source->wrench_count(model_.sets[s]->size()); ++k) {
+        const MarkerId i = source->marker_I(k), j = source->marker_J(k);
+        visit(static_cast<std::size_t>(i.index), Wrench{source, k});
+        if (!(i == j)) visit(static_cast<std::size_t>(j.index), Wrench{source, k});
+      }
     }
-  }
+  };
+  // Counted, then put where those of each marker begin.
+  first_at_marker_.assign(layout_.markers.size() + 1, 0);
+  for_each_end([&](std::size_t marker, const Wrench&) { ++first_at_marker_[marker + 1]; });
+  std::partial_sum(first_at_marker_.begin(), first_at_marker_.end(), first_at_marker_.begin());
+  at_marker_.resize(first_at_marker_.back());
+  std::vector<std::uint32_t> next = first_at_marker_;
+  for_each_end([&](std::size_t marker, const Wrench& wrench) { at_marker_[next[marker]++] = wrench; });
 }
 
 MarkerId SignalTable::marker(std::int64_t id) const { return model_.find_marker(id).value_or(global_frame); }

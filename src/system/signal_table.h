@@ -1,6 +1,8 @@
 // Which kernel holds the elements of each set of a model, and what its markers and data atoms lead to.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mechanics/signals.h"
@@ -28,7 +30,8 @@ class SignalTable final : public Signals {
   Element element(ElementHandle h) const override { return {kernel(h), static_cast<std::size_t>(h.index)}; }
   Wrench wrench(std::string_view statement, std::int64_t id) const override;
   std::span<const Wrench> wrenches_at(MarkerId m) const override {
-    return at_marker_[static_cast<std::size_t>(m.index)];
+    const auto k = static_cast<std::size_t>(m.index);
+    return std::span(at_marker_).subspan(first_at_marker_[k], first_at_marker_[k + 1] - first_at_marker_[k]);
   }
 
  private:
@@ -38,7 +41,8 @@ class SignalTable final : public Signals {
   const Model& model_;
   const Layout& layout_;
   std::vector<const Kernel*> kernel_of_set_;
-  std::vector<std::vector<Wrench>> at_marker_;
+  std::vector<Wrench> at_marker_;  // of marker k from first_at_marker_[k] to [k + 1]
+  std::vector<std::uint32_t> first_at_marker_;
 };
 
 }  // namespace dynalin

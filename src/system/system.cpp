@@ -33,14 +33,14 @@ void System::number_bodies() {
     if (!b.origin_at.valid()) continue;
     layout_.remarks.warning("distant-origin", b.label.at,
                             b.label.full_text() + " has its BCS far from all its markers: the origin of " +
-                                model_->marker(b.origin_at).label.full_text() +
+                                model_->marker(b.origin_at).label->full_text() +
                                 " is taken instead, and its translations are meant where they are those of the BCS");
   }
   layout_.markers.reserve(model_->markers.size());
   layout_.marker_labels.reserve(model_->markers.size());
   for (const Marker& m : model_->markers) {
     layout_.markers.push_back(&m.place);
-    layout_.marker_labels.push_back(&m.label);
+    layout_.marker_labels.push_back(m.label);
   }
 }
 

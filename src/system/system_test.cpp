@@ -261,7 +261,7 @@ TEST(SignalTable, markers_know_where_they_are_and_what_acts_on_them) {
   const auto s = system_of(signals_text);
   const Signals& t = s->signals();
   const Model& model = s->model();
-  const auto id = [&](MarkerId m) { return model.marker(m).label.id; };
+  const auto id = [&](MarkerId m) { return model.marker(m).label->id; };
   EXPECT_EQ(id(t.marker(30)), 30);
   EXPECT_EQ(t.marker(0), global_frame);
   EXPECT_EQ(id(t.place_of(t.marker(9))), 30);  // the floating marker of the force is at its I

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_map>
 
 #include "elements/bodies/fe_part.h"
 #include "elements/bodies/flex_body.h"
@@ -74,15 +75,15 @@ struct MarkerStatement {
   }};
 };
 
-// What stays of it until all bodies are known.
+// What stays of it, beside the marker of the model, until all bodies are known.
 struct ReadMarker {
-  BodyId owner;
   MarkerId reference;
-  std::optional<std::int64_t> node;
-  Span node_at;
-  Vector origin;
-  Matrix3 axes = Matrix3::identity();
-  bool floating = false;
+};
+
+// Of the few that a node carries.
+struct NamedNode {
+  std::int64_t number;
+  Span at;
 };
 
 // Arguments of the language that are known and missing here. They must not take abbreviations from the others.
@@ -125,29 +126,22 @@ class MarkerSet final : public TypedSet<ReadMarker> {
     if (m.node && m.label_of_node) {
       reader.error("two-owners", node_at, fmt::format("{} has NODE_ID and NODE_LABEL", reader.label().text()));
     }
-    elements[k] = {.owner = *owner,
-                   .reference = m.reference,
-                   .node = m.label_of_node ? m.label_of_node : m.node,
-                   .node_at = node_at,
-                   .origin = m.origin,
-                   .floating = m.floating};
+    elements[k].reference = m.reference;
+    if (const auto node = m.label_of_node ? m.label_of_node : m.node) nodes_.emplace(k, NamedNode{*node, node_at});
+    Marker& marker = *reader.own_marker();
+    marker.floating = m.floating;
+    marker.place.body = *owner, marker.place.p_BM = m.origin;
     const auto axes =
         orientation({m.angles, m.z_point, m.x_point, m.use_x_point, "REULER", "ZP", "XP"}, m.origin, reader);
-    if (axes) elements[k].axes = *axes;
+    if (axes) marker.place.R_BM = *axes;
   }
 
   void finish(Model& model, Diagnostics& diagnostics) override {
-    // Marker k of this set is marker k + 1 of the model.
     state_.assign(elements.size(), State::as_written);
-    for (std::size_t k = 0; k < elements.size(); ++k) {
-      Marker& marker = model.markers[k + 1];
-      marker.floating = elements[k].floating;
-      marker.place = {elements[k].owner, elements[k].origin, elements[k].axes};
-    }
     const std::vector<FlexibleBody> flexible = flexible_bodies(model);
     const std::vector<BeamBody> beams = beam_bodies(model);
     for (std::size_t k = 0; k < elements.size(); ++k) {
-      if (const BeamBody* beam = beam_of(elements[k], beams)) {
+      if (const BeamBody* beam = beam_of(marker_of(k, model), beams)) {
         put_on_beam(k, *beam, model, diagnostics);
       } else {
         put_on_node(k, flexible, model, diagnostics);
@@ -158,6 +152,7 @@ class MarkerSet final : public TypedSet<ReadMarker> {
     // All that counts is in the model now.
     std::vector<ReadMarker>().swap(elements);
     std::vector<State>().swap(state_);
+    nodes_.clear();
   }
 
  private:
@@ -189,36 +184,42 @@ class MarkerSet final : public TypedSet<ReadMarker> {
 
   std::size_t reference_of(std::size_t k) const { return static_cast<std::size_t>(elements[k].reference.index) - 1; }
 
-  static const FlexibleBody* flexible_owner(const ReadMarker& m, const std::vector<FlexibleBody>& flexible) {
-    const auto found = std::ranges::find(flexible, m.owner, &FlexibleBody::body);
+  // Marker k of this set is marker k + 1 of the model.
+  static Marker& marker_of(std::size_t k, Model& model) { return model.markers[k + 1]; }
+  const NamedNode* node_of(std::size_t k) const {
+    const auto found = nodes_.find(k);
+    return found == nodes_.end() ? nullptr : &found->second;
+  }
+
+  static const FlexibleBody* flexible_owner(const Marker& m, const std::vector<FlexibleBody>& flexible) {
+    const auto found = std::ranges::find(flexible, m.place.body, &FlexibleBody::body);
     return found == flexible.end() ? nullptr : &*found;
   }
 
-  static const BeamBody* beam_of(const ReadMarker& m, const std::vector<BeamBody>& beams) {
-    const auto found = std::ranges::find(beams, m.owner, [](const BeamBody& b) { return b.nodes.front(); });
+  static const BeamBody* beam_of(const Marker& m, const std::vector<BeamBody>& beams) {
+    const auto found = std::ranges::find(beams, m.place.body, [](const BeamBody& b) { return b.nodes.front(); });
     return found == beams.end() ? nullptr : &*found;
   }
 
   // A node of a beam is a body of its own: QP counts from it along the axes of the BCS, and so do the axes.
-  void put_on_beam(std::size_t k, const BeamBody& beam, Model& model, Diagnostics& diagnostics) {
-    const ReadMarker& m = elements[k];
+  void put_on_beam(std::size_t k, const BeamBody& beam, Model& model, Diagnostics& diagnostics) const {
+    const NamedNode* named = node_of(k);
     const std::string name = labels[k].text(), owner = beam.label->text();
-    if (!m.node) {
+    if (!named) {
       diagnostics.error("missing-argument", labels[k].at, fmt::format("{} on {} needs NODE_LABEL", name, owner),
                         "the node of the beam that carries it");
       return;
     }
-    const auto node = std::ranges::find(beam.numbers, *m.node);
+    const auto node = std::ranges::find(beam.numbers, named->number);
     if (node == beam.numbers.end()) {
-      diagnostics.error("unknown-node", m.node_at, fmt::format("{} has no node {}", owner, *m.node),
+      diagnostics.error("unknown-node", named->at, fmt::format("{} has no node {}", owner, named->number),
                         fmt::format("its nodes are {}", fmt::join(beam.numbers, ", ")));
       return;
     }
-    elements[k].owner = beam.nodes[static_cast<std::size_t>(node - beam.numbers.begin())];
-    MarkerPlace& place = model.markers[k + 1].place;
-    place.body = elements[k].owner;
-    if (m.reference.valid()) return;  // in the frame of a marker of the same node
-    const Matrix3 from_bcs = transpose(model.body(elements[k].owner).pose.R) * beam.drawn.R;
+    MarkerPlace& place = marker_of(k, model).place;
+    place.body = beam.nodes[static_cast<std::size_t>(node - beam.numbers.begin())];
+    if (elements[k].reference.valid()) return;  // in the frame of a marker of the same node
+    const Matrix3 from_bcs = transpose(model.body(place.body).pose.R) * beam.drawn.R;
     place.p_BM = from_bcs * place.p_BM;
     place.R_BM = from_bcs * place.R_BM;
   }
@@ -226,48 +227,47 @@ class MarkerSet final : public TypedSet<ReadMarker> {
   // On a flexible body QP counts from the node, but for one that is placed in the frame of another marker.
   void put_on_node(std::size_t k, const std::vector<FlexibleBody>& flexible, Model& model,
                    Diagnostics& diagnostics) const {
-    const ReadMarker& m = elements[k];
+    Marker& m = marker_of(k, model);
     const FlexibleBody* owner = flexible_owner(m, flexible);
     if (owner && !owner->flexible) return;  // its own statement has errors
+    const NamedNode* named = node_of(k);
+    if (!owner && !named) return;
     const std::string name = labels[k].text();
+    const ElementLabel& body = model.body(m.place.body).label;
     if (!owner) {
       // A FLEX_BODY or FE_PART that is none has errors of its own.
-      const std::string_view statement = model.body(m.owner).label.statement;
-      if (m.node && statement != "FLEX_BODY" && statement != "FE_PART")
-        diagnostics.error("unknown-node", m.node_at,
-                          fmt::format("{} names a node, but {} is no FLEX_BODY and no FE_PART", name,
-                                      model.body(m.owner).label.text()));
+      if (body.statement != "FLEX_BODY" && body.statement != "FE_PART")
+        diagnostics.error("unknown-node", named->at,
+                          fmt::format("{} names a node, but {} is no FLEX_BODY and no FE_PART", name, body.text()));
       return;
     }
     if (m.floating) {
       diagnostics.error("argument-not-built", labels[k].at,
-                        fmt::format("{} floats on {}: forces act on nodes of a flexible body", name,
-                                    model.body(m.owner).label.text()));
+                        fmt::format("{} floats on {}: forces act on nodes of a flexible body", name, body.text()));
       return;
     }
-    if (!m.node) {
-      diagnostics.error("missing-argument", labels[k].at,
-                        fmt::format("{} on {} needs NODE_ID", name, model.body(m.owner).label.text()),
+    if (!named) {
+      diagnostics.error("missing-argument", labels[k].at, fmt::format("{} on {} needs NODE_ID", name, body.text()),
                         "the node of the body that carries it");
       return;
     }
-    const auto node = owner->flexible->node(*m.node);
+    const auto node = owner->flexible->node(named->number);
     if (!node) {
-      diagnostics.error("unknown-node", m.node_at,
-                        fmt::format("{} has no node {}", model.body(m.owner).label.text(), *m.node),
-                        owner->flexible->near_nodes(*m.node));
+      diagnostics.error("unknown-node", named->at, fmt::format("{} has no node {}", body.text(), named->number),
+                        owner->flexible->near_nodes(named->number));
       return;
     }
-    if (!m.reference.valid()) model.markers[k + 1].place.p_BM += owner->flexible->position[*node];
+    if (!elements[k].reference.valid()) m.place.p_BM += owner->flexible->position[*node];
   }
 
   void add_shapes(std::size_t k, const std::vector<FlexibleBody>& flexible, Model& model) const {
-    const ReadMarker& m = elements[k];
-    const FlexibleBody* owner = flexible_owner(m, flexible);
-    const auto node = owner && owner->flexible && m.node ? owner->flexible->node(*m.node) : std::nullopt;
+    const NamedNode* named = node_of(k);
+    if (!named) return;
+    MarkerPlace& place = marker_of(k, model).place;
+    const FlexibleBody* owner = flexible_owner(marker_of(k, model), flexible);
+    const auto node = owner && owner->flexible ? owner->flexible->node(named->number) : std::nullopt;
     if (!node || owner->flexible->modes() == 0) return;
     const ModalBody& body = *owner->flexible;
-    MarkerPlace& place = model.markers[k + 1].place;
     auto shapes = std::make_unique<NodeShapes>();
     shapes->first = owner->first;
     shapes->offset = place.p_BM - body.position[*node];
@@ -300,15 +300,15 @@ class MarkerSet final : public TypedSet<ReadMarker> {
         diagnostics.error("circular-reference", labels[marker].at,
                           fmt::format("{} refers to itself through RM", labels[marker].text()));
         circular = marker != at;
-      } else if (elements[next].owner != elements[marker].owner) {
+      } else if (marker_of(next, model).place.body != marker_of(marker, model).place.body) {
         state_[marker] = State::faulty;
         diagnostics.error("foreign-reference", labels[marker].at,
                           fmt::format("RM of {} is on another body", labels[marker].text()));
       } else if (state_[next] == State::faulty) {
         state_[marker] = State::faulty;  // said of the other one
       } else {
-        MarkerPlace& place = model.markers[marker + 1].place;
-        const MarkerPlace& reference = model.markers[next + 1].place;
+        MarkerPlace& place = marker_of(marker, model).place;
+        const MarkerPlace& reference = marker_of(next, model).place;
         place.p_BM = reference.p_BM + reference.R_BM * place.p_BM;
         place.R_BM = reference.R_BM * place.R_BM;
         state_[marker] = State::placed;
@@ -317,6 +317,7 @@ class MarkerSet final : public TypedSet<ReadMarker> {
   }
 
   std::vector<State> state_;
+  std::unordered_map<std::size_t, NamedNode> nodes_;  // by marker
 };
 
 }  // namespace

@@ -236,7 +236,7 @@ class PartSet final : public TypedSet<Part> {
       if (model.marker(m).place.body == id && !model.marker(m).floating) return true;
       diagnostics.error("foreign-marker", label.at,
                         fmt::format("{} of {} must be a fixed marker of that part, {} is not", argument, label.text(),
-                                    model.marker(m).label.text()));
+                                    model.marker(m).label->text()));
       return false;
     };
     if (!owned(p.cm, "CM") || (p.im.valid() && !owned(p.im, "IM"))) return;

@@ -76,7 +76,7 @@ class GearSet final : public TypedSet<Gear> {
     if (!carrier_holds_J && model.marker(i).place.body != cv.body) {
       diagnostics.error("foreign-marker", labels[k].at,
                         fmt::format("neither marker of {} is on the carrier of {}, the body of {}", name,
-                                    labels[k].full_text(), model.marker(gear.cv).label.full_text()));
+                                    labels[k].full_text(), model.marker(gear.cv).label->full_text()));
       return;
     }
     // All on the carrier, so in its BCS.
@@ -87,7 +87,7 @@ class GearSet final : public TypedSet<Gear> {
     if (std::abs(b) <= 1e-6 * norm(arm) && std::abs(c) <= 1e-6) {
       diagnostics.warning("suspicious-gear", labels[k].at,
                           fmt::format("what {} can do hardly moves the teeth of {} along z of {}", name,
-                                      labels[k].full_text(), model.marker(gear.cv).label.full_text()));
+                                      labels[k].full_text(), model.marker(gear.cv).label->full_text()));
     }
     if (joints->rotates()) relation.terms.push_back({{i, marker_j, Displacement::rotation}, sign * b});
     if (joints->translates()) relation.terms.push_back({{i, marker_j, translation_of_joint}, sign * c});

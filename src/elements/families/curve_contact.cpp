@@ -15,7 +15,7 @@ bool check_contact_marker(Model& model, const ElementLabel& label, MarkerId floa
   if (!marker.floating) {
     diagnostics.error(
         "fixed-marker", label.at,
-        fmt::format("{} of {}, {}, must be a floating marker", argument, label.text(), marker.label.text()),
+        fmt::format("{} of {}, {}, must be a floating marker", argument, label.text(), marker.label->text()),
         "write FLOATING into the MARKER statement");
     return false;
   }
@@ -23,7 +23,7 @@ bool check_contact_marker(Model& model, const ElementLabel& label, MarkerId floa
   if (marker.place.body != body) {
     diagnostics.error("foreign-marker", label.at,
                       fmt::format("{} of {}, {}, must be on {}, which carries the curve", argument, label.text(),
-                                  marker.label.text(), model.body(body).label.text()));
+                                  marker.label->text(), model.body(body).label.text()));
     return false;
   }
   return true;
@@ -43,12 +43,12 @@ bool check_start_axes(const Model& model, const ElementLabel& label, MarkerId ax
   const BodyId body = model.marker(own).place.body;
   if (marker.floating) {
     diagnostics.error("floating-marker", label.at,
-                      fmt::format("{} of {}, {}, is floating", argument, label.text(), marker.label.text()),
+                      fmt::format("{} of {}, {}, is floating", argument, label.text(), marker.label->text()),
                       "a fixed marker is needed here");
   } else if (marker.place.body != body) {
     diagnostics.error("foreign-marker", label.at,
                       fmt::format("{} of {}, {}, must be on {}, which carries the curve", argument, label.text(),
-                                  marker.label.text(), model.body(body).label.text()));
+                                  marker.label->text(), model.body(body).label.text()));
   } else {
     return true;
   }

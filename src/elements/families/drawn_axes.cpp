@@ -40,7 +40,7 @@ void check_drawn_axes(const Model& model, const ElementLabel& label, MarkerId i,
                       std::span<const std::string_view> row_names, std::string_view hint, Diagnostics& diagnostics) {
   const RelativeFrame<double> I = drawn_frame(model, i, j);
   const bool z_axes_parallel = std::find(row_names.begin(), row_names.end(), "Zi.Xj") != row_names.end();
-  const std::string name_I = model.marker(i).label.text(), name_J = model.marker(j).label.text();
+  const std::string name_I = model.marker(i).label->text(), name_J = model.marker(j).label->text();
   for (const std::string_view row : row_names) {
     std::string text;
     if (is_product(row) && std::abs(component(axis_of(I, row[0]), row[3])) > nearly_parallel) {
@@ -64,9 +64,9 @@ void warn_of_skew_axes(const Model& model, const ElementLabel& label, MarkerId i
   diagnostics.warning(
       "skew-axes", label.at,
       fmt::format("the z axes of {} and {} are {:.4g} degrees apart as drawn, and {} acts about that of {}",
-                  model.marker(i).label.text(), model.marker(j).label.text(),
+                  model.marker(i).label->text(), model.marker(j).label->text(),
                   std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi, label.full_text(),
-                  model.marker(j).label.text()),
+                  model.marker(j).label->text()),
       "they are meant to be parallel and to point the same way");
 }
 

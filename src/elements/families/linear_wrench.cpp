@@ -87,7 +87,7 @@ void warn_of_undefined_angles(const Model& model, const ElementLabel& label, con
                               Diagnostics& diagnostics) {
   const Angle* angle = undefined_angle(law, drawn_frame(model, law.i, law.j));
   if (!angle) return;
-  const std::string name_I = model.marker(law.i).label.text(), name_J = model.marker(law.j).label.text();
+  const std::string name_I = model.marker(law.i).label->text(), name_J = model.marker(law.j).label->text();
   diagnostics.warning(
       "skew-axes", label.at,
       fmt::format("{} reads the angle {} of {} in {}, which is not defined as drawn: the {} axis of {} "

@@ -12,7 +12,7 @@ bool check_pair(const Model& model, const ElementLabel& label, MarkerId i, Marke
     const Body& body = model.body(marker.place.body);
     if (marker.floating) {
       diagnostics.error("floating-marker", label.at,
-                        fmt::format("{} uses {}, which is floating", label.text(), marker.label.text()),
+                        fmt::format("{} uses {}, which is floating", label.text(), marker.label->text()),
                         "a fixed marker is needed here");
       ok = false;
     }

@@ -123,14 +123,14 @@ void check_vector_force(Model& model, const ElementLabel& label, const VectorFor
   Marker& floating = model.markers[static_cast<std::size_t>(f.jfloat.index)];
   if (!floating.floating) {
     diagnostics.error("fixed-marker", label.at,
-                      fmt::format("JFLOAT of {}, {}, must be a floating marker", label.text(), floating.label.text()),
+                      fmt::format("JFLOAT of {}, {}, must be a floating marker", label.text(), floating.label->text()),
                       "write FLOATING into the MARKER statement");
     return;
   }
   for (const auto& [id, word] : {std::pair{f.i, "I"}, std::pair{f.rm, "RM"}}) {
     if (!model.marker(id).floating) continue;
     diagnostics.error("floating-marker", label.at,
-                      fmt::format("{} of {}, {}, is floating", word, label.text(), model.marker(id).label.text()),
+                      fmt::format("{} of {}, {}, is floating", word, label.text(), model.marker(id).label->text()),
                       "a fixed marker is needed here");
     return;
   }

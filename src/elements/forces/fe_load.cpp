@@ -239,7 +239,7 @@ class BeamLoadSet final : public TypedSet<BeamLoad> {
       const MarkerId rm = elements[k].rm;
       if (!rm.valid() || !model.marker(rm).floating) continue;
       diagnostics.error("floating-marker", labels[k].at,
-                        fmt::format("RM of {}, {}, is floating", labels[k].text(), model.marker(rm).label.text()),
+                        fmt::format("RM of {}, {}, is floating", labels[k].text(), model.marker(rm).label->text()),
                         "a fixed marker is needed here");
     }
   }

@@ -183,9 +183,10 @@ class ModalForceSet final : public TypedSet<ModalForce> {
                              Diagnostics& diagnostics) {
     const Marker& floating = model.marker(f.jfloat);
     if (!floating.floating) {
-      diagnostics.error("fixed-marker", label.at,
-                        fmt::format("JFLOAT of {}, {}, must be a floating marker", label.text(), floating.label.text()),
-                        "write FLOATING into the MARKER statement");
+      diagnostics.error(
+          "fixed-marker", label.at,
+          fmt::format("JFLOAT of {}, {}, must be a floating marker", label.text(), floating.label->text()),
+          "write FLOATING into the MARKER statement");
     } else if (floating.place.body == f.body) {
       diagnostics.error(
           "same-body", label.at,

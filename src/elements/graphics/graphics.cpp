@@ -251,7 +251,7 @@ class GraphicsSet final : public ElementSet, public ShapeSource, public ContactS
     if (!mesh.closed) {
       why += " whose facets do not bound a volume";
       if (const std::string where = leak(mesh); !where.empty())
-        why += fmt::format(": in the axes of {}, {}", marker.label.text(), where);
+        why += fmt::format(": in the axes of {}, {}", marker.label->text(), where);
       return std::nullopt;
     }
     return ContactShape{markers.front(), solid::Polyhedron{std::make_shared<const FacetBody>(mesh)}};
@@ -263,7 +263,7 @@ class GraphicsSet final : public ElementSet, public ShapeSource, public ContactS
       const Marker& marker = model.marker(m);
       if (!marker.floating) continue;
       diagnostics.error("floating-marker", labels[k].at,
-                        fmt::format("{} uses {}, which is floating", labels[k].text(), marker.label.text()),
+                        fmt::format("{} uses {}, which is floating", labels[k].text(), marker.label->text()),
                         "a fixed marker is needed here");
     }
     drawings_[k]->check(model, labels[k], diagnostics);

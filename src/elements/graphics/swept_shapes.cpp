@@ -54,7 +54,7 @@ void Plate::check(const Model& model, const ElementLabel& label, Diagnostics& di
     const Marker& marker = model.marker(m);
     if (marker.place.body == body) continue;
     diagnostics.error("foreign-marker", label.at,
-                      fmt::format("{} is a corner of {} and must be on {} as the first one is", marker.label.text(),
+                      fmt::format("{} is a corner of {} and must be on {} as the first one is", marker.label->text(),
                                   label.text(), model.body(body).label.text()));
   }
 }

@@ -101,7 +101,7 @@ class ManyRequestsKernel final : public RequestKernel {
 
   void add(const ManyRequests& m, const ElementLabel& label, const ElementLabel& of, MarkerId i, MarkerId j,
            std::vector<WantedRequest>& all) {
-    const auto id = [&](MarkerId marker) { return marker.valid() ? model_.marker(marker).label.id : 0; };
+    const auto id = [&](MarkerId marker) { return marker.valid() ? model_.marker(marker).label->id : 0; };
     RequestInfo info;
     info.request = {label.element(), of.text()};
     info.view_name = of.view_name, info.comment = m.comment;

@@ -37,9 +37,6 @@ struct Request {
   Obsolete text;
   std::string routine;
   std::vector<std::int64_t> variables;
-  // What they come to; without a list of components the request is left out.
-  RequestInfo info;
-  std::vector<Expression> functions;
 
   static constexpr std::array<Argument<Request>, 25> arguments = {{
       {.name = "DISPLACEMENT",
@@ -90,6 +87,12 @@ struct Request {
   }
 };
 
+// What its arguments come to; without a list of components the request is left out.
+struct RequestedValues {
+  RequestInfo info;
+  std::vector<Expression> functions;
+};
+
 std::string text_of(const ElementReader& reader, std::string_view name) {
   const WrittenArgument* w = written_argument(reader, name);
   if (!w || !w->has_value) return {};
@@ -104,23 +107,27 @@ std::vector<std::string> texts_of(const ElementReader& reader, std::string_view 
 
 constexpr std::size_t places_of_request = 8;  // but for VARIABLES, of which there are as many as are named
 
-class RequestSet final : public TypedSet<Request> {
+class RequestSet final : public TypedSet<RequestedValues> {
  public:
   using TypedSet::TypedSet;
 
   void read(std::size_t k, ElementReader& reader) override {
-    Request& r = elements[k];
+    Request r;
     if (!read_arguments(r, reader)) return;
-    r.info.request = {reader.label().element(), {}};
-    r.info.view_name = reader.label().view_name;
-    leniently(reader, [&] { return read_components(r, reader); });
-    if (r.info.list) read_texts(r.info, reader);
+    RequestedValues& values = elements[k];
+    values.info.request = {reader.label().element(), {}};
+    values.info.view_name = reader.label().view_name;
+    std::vector<RequestComponent> components;
+    leniently(reader, [&] { return read_components(r, values, components, reader); });
+    if (components.empty()) return;
+    read_texts(values.info, components, reader);
+    values.info.list = shared(std::move(components));
   }
 
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
     std::vector<WantedRequest> wanted;
     for (std::size_t k = 0; k < elements.size(); ++k) {
-      const Request& r = elements[k];
+      const RequestedValues& r = elements[k];
       if (r.info.list) wanted.push_back({&r.info, &labels[k], &r.functions});
     }
     return std::make_unique<RequestKernel>(std::move(wanted), layout);
@@ -132,8 +139,19 @@ class RequestSet final : public TypedSet<Request> {
     return false;
   }
 
-  static bool read_components(Request& r, ElementReader& reader) {
-    RequestInfo info = r.info;
+  using Components = std::vector<RequestComponent>;
+
+  // Most requests of a model have components like those of one before.
+  std::shared_ptr<const Components> shared(Components components) {
+    constexpr std::size_t most = 8;
+    const auto known = std::ranges::find_if(lists_, [&](const auto& list) { return *list == components; });
+    if (known != lists_.end()) return *known;
+    if (lists_.size() == most) lists_.erase(lists_.begin());
+    return lists_.emplace_back(std::make_shared<const Components>(std::move(components)));
+  }
+
+  static bool read_components(const Request& r, RequestedValues& values, Components& components,
+                              ElementReader& reader) {
     const auto kinds = r.kinds();
     bool any_function = false;
     for (const std::string_view name : column_names(RequestKind::functions))
@@ -146,21 +164,21 @@ class RequestSet final : public TypedSet<Request> {
       return wrong(reader, kinds.empty() && !any_function && r.variables.empty()
                                ? "it asks for nothing: neither markers nor functions nor VARIABLES"
                                : "it asks for more than one of markers, functions and VARIABLES");
-    if (any_function) return read_functions(r, reader);
-    if (!r.variables.empty()) return read_variables(r, reader);
+    if (any_function) return read_functions(values, components, reader);
+    if (!r.variables.empty()) return read_variables(r, values, components, reader);
     if (!r.i) return wrong(reader, "it needs the marker I");
     for (const auto& [id, name] : {std::pair{r.i, "I"}, std::pair{r.j, "J"}, std::pair{r.rm, "RM"}}) {
       if (id && *id != 0 && !reader.marker({*id, reader.at(name)}, name)) return false;
     }
+    RequestInfo& info = values.info;
     info.kind = kinds.front();
     info.marker_I = *r.i, info.marker_J = r.j.value_or(0), info.axes = r.rm.value_or(0);
-    info.list = components_of(info.kind);
-    r.info = std::move(info);
+    components = *components_of(info.kind);
     return true;
   }
 
-  static bool read_functions(Request& r, ElementReader& reader) {
-    std::vector<RequestComponent> components;
+  static bool read_functions(RequestedValues& values, Components& all, ElementReader& reader) {
+    Components components;
     int place = 0;
     for (const std::string_view name : column_names(RequestKind::functions)) {
       ++place;
@@ -171,15 +189,16 @@ class RequestSet final : public TypedSet<Request> {
         if (w->damaged) wrong(reader, std::string(name) + " cannot be read");
         return false;
       }
-      r.functions.push_back(std::move(*e));
+      values.functions.push_back(std::move(*e));
       components.push_back({.name = std::string(name), .place = place});
     }
-    r.info.list = std::make_shared<const std::vector<RequestComponent>>(std::move(components));
+    values.functions.shrink_to_fit();
+    all = std::move(components);
     return true;
   }
 
   // Six of them stand where the six values of a request file are.
-  static bool read_variables(Request& r, ElementReader& reader) {
+  static bool read_variables(const Request& r, RequestedValues& values, Components& components, ElementReader& reader) {
     constexpr std::array<int, 8> places = {2, 3, 4, 6, 7, 8, 1, 5};
     std::string text = "REQUEST/1";
     for (std::size_t k = 0; k < r.variables.size(); ++k) {
@@ -191,14 +210,12 @@ class RequestSet final : public TypedSet<Request> {
     reader.keep(source);
     static constexpr std::array<std::string_view, 1> keywords = {"REQUEST"};
     const Dataset read = parse_statements(source, keywords).value;
-    std::vector<RequestComponent> components;
     for (const WrittenArgument& w : read.statements.front().arguments) {
       const std::size_t k = components.size();
-      r.functions.push_back(*reader.expression(w));
+      values.functions.push_back(*reader.expression(w));
       components.push_back(
           {.name = fmt::format("VARIABLE/{}", r.variables[k]), .place = k < places.size() ? places[k] : 0});
     }
-    r.info.list = std::make_shared<const std::vector<RequestComponent>>(std::move(components));
     return true;
   }
 
@@ -215,18 +232,17 @@ class RequestSet final : public TypedSet<Request> {
   }
 
   // Texts belong to places, those of VARIABLES to the VARIABLEs in order.
-  static void read_texts(RequestInfo& info, ElementReader& reader) {
+  static void read_texts(RequestInfo& info, Components& components, ElementReader& reader) {
     info.comment = text_of(reader, "COMMENT"), info.results_name = text_of(reader, "RESULTS_NAME");
     const bool in_order = reader.given("VARIABLES");
     const auto names = texts_of(reader, "CNAMES", ','), units = texts_of(reader, "CUNITS", ','),
                labels = texts_of(reader, "CLABELS", ',');
     info.heads = texts_of(reader, "TITLE", ':');
-    const std::size_t places = in_order ? info.components().size() : places_of_request;
+    const std::size_t places = in_order ? components.size() : places_of_request;
     warn_of_surplus(names, places, "CNAMES", reader), warn_of_surplus(units, places, "CUNITS", reader);
     warn_of_surplus(labels, places, "CLABELS", reader), warn_of_surplus(info.heads, places_of_request, "TITLE", reader);
     info.heads.resize(std::min(info.heads.size(), places_of_request));
     if (names.empty() && units.empty() && labels.empty()) return;
-    std::vector<RequestComponent> components = info.components();
     for (std::size_t k = 0; k < components.size(); ++k) {
       RequestComponent& c = components[k];
       const std::size_t at = in_order ? k : static_cast<std::size_t>(c.place - 1);
@@ -234,8 +250,9 @@ class RequestSet final : public TypedSet<Request> {
       c.given = of(names), c.unit = of(units), c.label = of(labels);
       c.in_results = at >= names.size() || !c.given.empty();
     }
-    info.list = std::make_shared<const std::vector<RequestComponent>>(std::move(components));
   }
+
+  std::vector<std::shared_ptr<const Components>> lists_;  // made last
 };
 
 }  // namespace

@@ -25,6 +25,7 @@ struct RequestComponent {
   bool in_results = true;  // CNAMES leaves what it gives an empty name out of the results file
 
   const std::string& called() const { return given.empty() ? name : given; }
+  friend bool operator==(const RequestComponent&, const RequestComponent&) = default;
 };
 
 struct RequestInfo {
