@@ -18,7 +18,7 @@ namespace dynalin {
 
 namespace {
 
-constexpr int acceleration_iterations = 100;
+constexpr std::int64_t acceleration_iterations = 100;  // unless IC states AMAXIT
 // Solutions with undefined equations held, after which a reason is named.
 constexpr int held_limit = 5;
 constexpr int halving_limit = 40;
@@ -145,7 +145,9 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
   bool undefined = false;
   int held = 0, halved = 0;
   StepLength length;
-  for (int iteration = 0; iteration < acceleration_iterations; ++iteration) {
+  const auto stated_limit = op.initial_conditions.acceleration_iteration_limit;
+  const std::int64_t most = stated_limit.value_or(acceleration_iterations);
+  for (std::int64_t iteration = 0; iteration < most; ++iteration) {
     equations.release();
     if (auto looked = equations.look_at_massless(op); !looked) {
       const std::string reason = system.domain_violation(system.motion(op));
@@ -219,6 +221,7 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
     if (const std::string reason = system.undefined_value(system.motion(op)); !reason.empty())
       return failure(reason, history);
   }
+  if (stated_limit) history.insert(history.begin(), fmt::format("IC allows {} iterations (AMAXIT)", most));
   equations.evaluate(op, {});
   const std::string name = farthest_equation(system.layout(), equations.equations());
   return failure("the equations for accelerations, reactions and algebraic values did not converge" +

@@ -38,7 +38,8 @@ std::string unknown_text(const System& system, const AccelerationEquations& equa
 std::vector<std::int32_t> contradicted_accelerations(const System& system, const AccelerationEquations& equations,
                                                      const OperatingPoint& op, const Eigen::VectorXd& rounding) {
   const ConstraintRows& rows = equations.rows();
-  const double tolerance = std::max(contradicting_acceleration, 100 * op.redundancy_tolerance);
+  const double tolerance = std::max(contradicting_acceleration,
+                                    op.initial_conditions.acceleration_error.value_or(100 * op.redundancy_tolerance));
   std::vector<std::int32_t> contradicted;
   for (const std::int32_t k : equations.partition().redundant) {
     const bool position = rows.level(k) == RowLevel::position;

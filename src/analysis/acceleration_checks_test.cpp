@@ -57,6 +57,25 @@ TEST(AccelerationChecks, redundant_rows_that_differ_in_their_second_rate_contrad
   }
 }
 
+TEST(AccelerationChecks, redundant_rows_may_differ_by_what_ic_states_of_accelerations_and_no_more) {
+  const std::string model =
+      point + "GCON/1, FUNCTION=DX(20,1)-TIME**2\nGCON/2, FUNCTION=2*DX(20,1)-2.0000001*TIME**2\n";
+  Findings findings;
+  EXPECT_FALSE(solved(model, findings));
+  EXPECT_TRUE(solved(model + "IC/AERROR=1E-6\n", findings));
+  EXPECT_FALSE(solved(model + "IC/VERROR=1E-6\n", findings));
+}
+
+TEST(AccelerationChecks, iterations_are_as_many_as_ic_allows) {
+  const std::string model = point + "VARIABLE/1, IC=1, FUNCTION=COS(VARVAL(1))\n";
+  Findings findings;
+  EXPECT_TRUE(solved(model, findings));
+  EXPECT_TRUE(solved(model + "IC/AMAXIT=10\n", findings));
+  const auto op = solved(model + "IC/AMAXIT=2\n", findings);
+  ASSERT_FALSE(op);
+  EXPECT_THAT(op.error().details, ::testing::Contains("IC allows 2 iterations (AMAXIT)"));
+}
+
 TEST(AccelerationChecks, a_contradiction_is_measured_in_the_terms_of_its_row) {
   const auto system = system_of(point + "GCON/1, FUNCTION=DX(20,1)\nGCON/2, FUNCTION=DX(20,1)\n");
   OperatingPoint op = system->drawn();

@@ -18,9 +18,10 @@ namespace dynalin {
 
 namespace {
 
-constexpr double position_tolerance = 1e-13;  // relative to the scale of the row
-constexpr int position_iterations = 50;
-constexpr double exact_weight = 1e8;  // of coordinates that EXACT asks to keep
+constexpr double position_tolerance = 1e-13;      // relative to the scale of the row
+constexpr std::int64_t position_iterations = 50;  // unless IC states MAXIT
+constexpr double largest_turn = 0.5;              // of an iteration, unless IC states ALIMIT [rad]
+constexpr double exact_weight = 1e8;              // of coordinates that EXACT asks to keep
 
 // Axes that should be perpendicular and are parallel: no turn changes their product to first order.
 std::string_view stuck_axes(const System& system, const ConstraintRows& rows, std::int32_t k) {
@@ -204,7 +205,12 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
   const std::vector<double> drawn_shape = op.extra;
   bool looked_at_shape = false;
 
-  for (int iteration = 0; iteration < position_iterations; ++iteration) {
+  const InitialConditionSettings& ic = op.initial_conditions;
+  const std::int64_t most = ic.iteration_limit.value_or(position_iterations);
+  const StepLimits limits{ic.rotation_limit.value_or(largest_turn),
+                          ic.translation_limit.value_or(std::numeric_limits<double>::infinity())};
+  // The last point is looked at as well.
+  for (std::int64_t iteration = 0; iteration <= most; ++iteration) {
     evaluate();
     const Violation v = position_violation(system, rows);
     history.push_back(std::isfinite(v.relative)
@@ -259,6 +265,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
                                     history});
     }
     before = left;
+    if (iteration == most) break;
 
     if (!weights) weights = assembly_weights(system, op);
     std::vector<bool> fixed = held.empty() ? std::vector<bool>(system.coordinates(), false) : held;
@@ -271,10 +278,11 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
     if (!step) {
       return tl::unexpected(Failure{"initial conditions", "the constraints are singular at this position", history});
     }
-    displace(system, op, *step, {0.5});
+    displace(system, op, *step, limits);
   }
   evaluate();
   const Violation v = position_violation(system, rows);
+  if (ic.iteration_limit) history.insert(history.begin(), fmt::format("IC allows {} iterations (MAXIT)", most));
   history.insert(history.begin(),
                  "the parts of that constraint may be drawn too far from where they fit, or be too short to reach");
   return tl::unexpected(Failure{"initial conditions",

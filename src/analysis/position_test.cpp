@@ -115,6 +115,23 @@ TEST(Position, redundant_rows_may_differ_by_the_error_of_ic_and_no_more) {
   EXPECT_FALSE(assemble_position(*system, op, findings));
 }
 
+// From (3, 4, 0) to DX = 1: a way of 2, and one iteration where nothing bounds it.
+TEST(Position, steps_and_iterations_are_as_ic_bounds_them) {
+  const std::string moved = point + "GCON/1, FUNCTION=DX(20,1)-1\n";
+  EXPECT_TRUE(assembled(moved + "IC/MAXIT=1\n"));
+  EXPECT_TRUE(assembled(moved + "IC/MAXIT=4, TLIMIT=0.5\n"));
+  const auto short_of_it = assembled(moved + "IC/MAXIT=3, TLIMIT=0.5\n");
+  ASSERT_FALSE(short_of_it);
+  EXPECT_THAT(short_of_it.error().details, ::testing::Contains("IC allows 3 iterations (MAXIT)"));
+  EXPECT_THAT(short_of_it.error().message, HasSubstr("violated by 1.000e-01"));
+
+  // A quarter turn about z in steps of 30 degrees.
+  const std::string turned =
+      "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, REVOLUTE, I=20, J=1\nMOTION/1, JOINT=1, FUNCTION=PI/2\n";
+  EXPECT_TRUE(assembled(turned + "IC/MAXIT=4, ALIMIT=30D\n"));
+  EXPECT_FALSE(assembled(turned + "IC/MAXIT=2, ALIMIT=30D\n"));
+}
+
 TEST(Position, what_cannot_be_reached_is_named_with_its_violation) {
   const auto op = assembled(point + "GCON/5, FUNCTION=DX(20,1)**2+DY(20,1)**2+1\n");
   ASSERT_FALSE(op);

@@ -339,7 +339,8 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
   std::vector<Condition> conditions;
   if (!holds || !as_stated) conditions = constraint_conditions(rows);
   const std::size_t constraints = conditions.size();
-  const double tolerance = std::max(contradicting_velocity, 100 * op.redundancy_tolerance);
+  const double tolerance =
+      std::max(contradicting_velocity, op.initial_conditions.velocity_error.value_or(100 * op.redundancy_tolerance));
   if (!holds) {
     auto hard = least_change(system, motion, conditions, start, tolerance);
     if (!hard) return tl::unexpected(hard.error());

@@ -113,6 +113,15 @@ TEST(Velocity, constraints_that_contradict_each_other_fail_by_name) {
   EXPECT_THAT(s.op.error().details[0], HasSubstr("GCON/"));
 }
 
+TEST(Velocity, redundant_constraints_may_differ_by_what_ic_states_of_velocities_and_no_more) {
+  const std::string model =
+      "POINT_MASS/2, MASS=1, CM=20\nMARKER/20, POINT_MASS=2\nGCON/1, FUNCTION=DX(20,1)-TIME\n"
+      "GCON/2, FUNCTION=DX(20,1)-1.0000001*TIME\n";
+  EXPECT_FALSE(Start(model).op);
+  EXPECT_TRUE(Start(model + "IC/VERROR=1E-6\n").op);
+  EXPECT_FALSE(Start(model + "IC/AERROR=1E-6\n").op);
+}
+
 TEST(Velocity, redundant_constraints_that_agree_are_no_contradiction) {
   const Start s(
       "POINT_MASS/2, MASS=1, CM=20\nMARKER/20, POINT_MASS=2\nGCON/1, FUNCTION=DX(20,1)-TIME\n"

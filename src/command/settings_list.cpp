@@ -77,14 +77,14 @@ constexpr auto kinematics = std::to_array<Row>({
     {"HMAX", "HMAX", "none", Shown::number},
 });
 constexpr auto initial_conditions = std::to_array<Row>({
-    {"ALIMIT", "ALIMIT", without_effect, Shown::angle},
+    {"ALIMIT", "ALIMIT", "0.500000 (rad)", Shown::angle},
     {"ERROR", "ERROR", "   1.000000e-10", Shown::exponent},
-    {"MAXIT", "MAXIT", without_effect},
+    {"MAXIT", "MAXIT", "50"},
     {"PATTERN", "PATTERN", without_effect, Shown::pattern},
-    {"TLIMIT", "TLIMIT", without_effect, Shown::exponent},
-    {"VERROR", "VERROR", without_effect, Shown::exponent},
-    {"AERROR", "AERROR", without_effect, Shown::exponent},
-    {"AMAXIT", "AMAXIT", without_effect},
+    {"TLIMIT", "TLIMIT", "none", Shown::exponent},
+    {"VERROR", "VERROR", "   1.000000e-08", Shown::exponent},
+    {"AERROR", "AERROR", "   1.000000e-08", Shown::exponent},
+    {"AMAXIT", "AMAXIT", "100"},
     {"APATTERN", "APATTERN", without_effect, Shown::pattern},
 });
 constexpr auto linear_solver = std::to_array<Row>({

@@ -52,6 +52,7 @@ StudyPoint continued(const StudyPoint& before, std::shared_ptr<const System> edi
   point.redundant_rows = before.redundant_rows;
   if (!before.started) {
     point.values.redundancy_tolerance = before.values.redundancy_tolerance;
+    point.values.initial_conditions = before.values.initial_conditions;
     return point;
   }
   point.values = carried_over(*before.system, before.values, *point.system, restated);

@@ -46,7 +46,7 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
   OperatingPoint out = to.drawn();
   out.time = op.time;
   out.mode = op.mode;
-  out.redundancy_tolerance = op.redundancy_tolerance;
+  out.redundancy_tolerance = op.redundancy_tolerance, out.initial_conditions = op.initial_conditions;
 
   for (const auto& [a, b] : matches(body_keys(old), body_keys(now))) {
     const BodyBlock &before = old.bodies[a], &after = now.bodies[b];

@@ -3,9 +3,11 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mechanics/motion.h"
+#include "model/settings.h"
 
 namespace dynalin {
 
@@ -23,6 +25,8 @@ struct OperatingPoint {
   std::shared_ptr<const DelayHistories> delays;  // of the motion that led here, null before anything has moved in time
   // How far redundant constraint rows may be from following from the others, in scales of the row: ERROR of IC.
   double redundancy_tolerance = 1e-10;
+  // What IC states besides: of the other levels, and of the iterations.
+  InitialConditionSettings initial_conditions;
 };
 
 // Why an analysis did not deliver: what was tried and what is to blame, by name.
@@ -30,6 +34,7 @@ struct Failure {
   std::string analysis;
   std::string message;
   std::vector<std::string> details;
+  std::string_view code = {};  // as of a Diagnostic: what `dynalin explain` says more of
 };
 
 }  // namespace dynalin

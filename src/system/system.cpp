@@ -99,6 +99,7 @@ const Signals& System::signals() const { return *signals_; }
 OperatingPoint System::drawn() const {
   OperatingPoint op;
   op.redundancy_tolerance = model_->settings.initial_conditions.error.value_or(op.redundancy_tolerance);
+  op.initial_conditions = model_->settings.initial_conditions;
   op.poses.reserve(model_->bodies.size());
   for (const Body& b : model_->bodies) op.poses.push_back(b.pose);
   for (const ExtraBlock& e : layout_.extras) {

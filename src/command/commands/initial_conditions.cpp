@@ -1,4 +1,4 @@
-// IC/…: how far constraints may be from agreeing at the start.
+// IC/…: how far constraints may be from agreeing at the start, and how the iterations go that meet them.
 #include "command/commands/setting.h"
 #include "elements/settings/analysis_settings.h"
 
@@ -10,6 +10,7 @@ class InitialConditions final : public SettingOf<WrittenInitialConditions> {
  protected:
   void apply(RunState& run) const override {
     written.apply(run.settings);
+    run.point.values.initial_conditions = run.settings.initial_conditions;
     run.point.values.redundancy_tolerance =
         run.settings.initial_conditions.error.value_or(OperatingPoint().redundancy_tolerance);
   }

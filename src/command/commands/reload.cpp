@@ -87,6 +87,7 @@ StudyResult<void> Reload::run(RunState& run) const {
   const bool whole = restored.not_here.empty() && restored.not_saved.empty();
   StudyPoint& point = run.point;
   point.values = std::move(restored.point);
+  point.values.initial_conditions = run.settings.initial_conditions;
   point.started = saved->started;
   // In another model the same values need not agree with the constraints, and forces are others.
   point.consistent = saved->consistent && whole && same_model;

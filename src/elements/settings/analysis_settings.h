@@ -104,7 +104,8 @@ struct WrittenEquilibrium {
 };
 
 // IC: ERROR is how far redundant constraints may be from agreeing with the others, as a part of the model's length or
-// in radians. Positions, velocities and accelerations are found to rounding, whatever the rest asks.
+// in radians; VERROR and AERROR say so of velocities and accelerations, as a part of the terms of a constraint. MAXIT,
+// TLIMIT and ALIMIT bound the iteration for positions, AMAXIT that for accelerations. All are found to rounding.
 struct WrittenInitialConditions {
   std::optional<double> error, verror, aerror, tlimit, alimit;
   std::optional<std::int64_t> maxit, amaxit;
@@ -114,18 +115,30 @@ struct WrittenInitialConditions {
   using E = WrittenInitialConditions;
   static constexpr std::array<Argument<E>, 11> arguments = {{
       {.name = "ERROR", .slot = &E::error, .minimum = 0, .help = "of redundant constraints, 1e-10"},
-      {.name = "VERROR", .slot = &E::verror, .minimum = 0},
-      {.name = "AERROR", .slot = &E::aerror, .minimum = 0},
-      {.name = "MAXIT", .slot = &E::maxit, .minimum = 1},
-      {.name = "AMAXIT", .slot = &E::amaxit, .minimum = 1},
-      {.name = "TLIMIT", .slot = &E::tlimit, .unit = unit::length, .minimum = 0},
-      {.name = "ALIMIT", .slot = &E::alimit, .unit = unit::angle, .minimum = 0},
+      {.name = "VERROR", .slot = &E::verror, .minimum = 0, .help = "the same on velocities; 100 ERROR, at least 1e-8"},
+      {.name = "AERROR",
+       .slot = &E::aerror,
+       .minimum = 0,
+       .help = "the same on accelerations; 100 ERROR, at least 1e-8"},
+      {.name = "MAXIT", .slot = &E::maxit, .minimum = 1, .help = "iterations for positions, 50"},
+      {.name = "AMAXIT", .slot = &E::amaxit, .minimum = 1, .help = "iterations for accelerations, 100"},
+      {.name = "TLIMIT",
+       .slot = &E::tlimit,
+       .unit = unit::length,
+       .minimum = 0,
+       .help = "largest translation of an iteration"},
+      {.name = "ALIMIT",
+       .slot = &E::alimit,
+       .unit = unit::angle,
+       .minimum = 0,
+       .help = "largest rotation of an iteration, 0.5 rad"},
       {.name = "PATTERN", .slot = &E::pattern},
       {.name = "APATTERN", .slot = &E::apattern},
-      {.name = "DEFAULT", .slot = &E::defaults},
+      {.name = "DEFAULT", .slot = &E::defaults, .help = "all settings as they are without the statement"},
       {.name = "LIST", .slot = &E::list},
   }};
-  static constexpr std::array<std::string_view, 3> acting = {"ERROR", "DEFAULT", "LIST"};
+  static constexpr std::array<std::string_view, 9> acting = {"ERROR",  "VERROR", "AERROR",  "MAXIT", "AMAXIT",
+                                                             "TLIMIT", "ALIMIT", "DEFAULT", "LIST"};
   InitialConditionSettings stated() const { return {error, verror, aerror, tlimit, alimit, maxit, amaxit}; }
   void apply(InitialConditionSettings& s) const {
     if (defaults) s = {};
