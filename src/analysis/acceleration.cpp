@@ -66,8 +66,8 @@ void warn_of_changed_starts(const Layout& layout, const std::vector<double>& bef
   }
 }
 
-tl::unexpected<Failure> failure(std::string message, std::vector<std::string> details = {}) {
-  return tl::unexpected(Failure{"acceleration initial conditions", std::move(message), std::move(details)});
+tl::unexpected<Failure> failure(std::string message, std::string_view code, std::vector<std::string> details = {}) {
+  return tl::unexpected(Failure{"acceleration initial conditions", std::move(message), std::move(details), code});
 }
 
 // What an iteration leaves behind.
@@ -151,11 +151,12 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
     equations.release();
     if (auto looked = equations.look_at_massless(op); !looked) {
       const std::string reason = system.domain_violation(system.motion(op));
-      return tl::unexpected(reason.empty() ? looked.error() : failure(reason).value());
+      return tl::unexpected(reason.empty() ? looked.error() : failure(reason, "undefined-value").value());
     }
     Eigen::VectorXd next = equations.evaluate(op, AccelerationEquations::unknowns);
     bool holds = iteration == 0 && start == Start::reactions_held && equations.hold_reactions(next);
-    if (iteration == 0 && start == Start::reactions_held && !holds) return failure("no force depends on reactions");
+    if (iteration == 0 && start == Start::reactions_held && !holds)
+      return failure("no force depends on reactions", "unsolved-equations");
     if (!regular && held++ < held_limit) holds = equations.hold_undefined(next) || holds;
     // Partials without a finite value: the iteration does without them, and names them if it fails.
     if (!holds) undefined = equations.clear_undefined();
@@ -169,7 +170,7 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
         continue;
       }
       const std::string reason = system.undefined_value(system.motion(op));
-      return failure(reason.empty() ? "a force or constraint has no finite value" : reason, history);
+      return failure(reason.empty() ? "a force or constraint has no finite value" : reason, "undefined-value", history);
     }
     regular = !holds;
     halved = 0;
@@ -181,13 +182,13 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
       if (!found.lu.factor(std::move(matrix))) {
         if (undefined) {
           if (const std::string reason = system.undefined_value(system.motion(op)); !reason.empty())
-            return failure(reason);
+            return failure(reason, "undefined-value");
         }
         if (const std::string reason = system.domain_violation(system.motion(op)); !reason.empty())
-          return failure(reason);
+          return failure(reason, "undefined-value");
         const std::vector<std::string> free = undetermined(system, augmented, equations.augmented_matrix());
         const std::string named = free.empty() ? "" : fmt::format(": nothing fixes {}", fmt::join(free, ", "));
-        return failure("the accelerations are not determined" + named, free);
+        return failure("the accelerations are not determined" + named, "undetermined-accelerations", free);
       }
     }
     found.lu.solve(step);
@@ -219,20 +220,21 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
   }
   if (undefined) {
     if (const std::string reason = system.undefined_value(system.motion(op)); !reason.empty())
-      return failure(reason, history);
+      return failure(reason, "undefined-value", history);
   }
   if (stated_limit) history.insert(history.begin(), fmt::format("IC allows {} iterations (AMAXIT)", most));
   equations.evaluate(op, {});
   const std::string name = farthest_equation(system.layout(), equations.equations());
   return failure("the equations for accelerations, reactions and algebraic values did not converge" +
                      (name.empty() ? "" : "; farthest from being met is the equation of " + name),
-                 history);
+                 "unsolved-equations", history);
 }
 
 Result<OperatingPoint> solve(const System& system, OperatingPoint op, Steps steps, Findings& findings) {
   const Layout& layout = system.layout();
   AccelerationEquations equations(system, op);
-  if (const auto reason = undefined_row(system, system.motion(op), equations.rows(), 2)) return failure(*reason);
+  if (const auto reason = undefined_row(system, system.motion(op), equations.rows(), 2))
+    return failure(*reason, "undefined-value");
   findings.redundant_rows = equations.partition().redundant;
   for (const std::int32_t r : findings.redundant_rows) op.lambda[static_cast<std::size_t>(r)] = 0.0;
   const std::vector<double> first_values = op.algebraic;
@@ -249,7 +251,8 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, Steps step
   };
   op = std::move(solution->op);
   const SparseLu& lu = solution->lu;
-  if (const std::string reason = system.domain_violation(system.motion(op)); !reason.empty()) return failure(reason);
+  if (const std::string reason = system.domain_violation(system.motion(op)); !reason.empty())
+    return failure(reason, "undefined-value");
   warn_of_changed_starts(layout, first_values, op.algebraic, findings);
 
   AccelerationCorrections corrections(system, equations, lu, op);
@@ -274,7 +277,7 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, Steps step
       return failure(fmt::format("the constraints contradict each other on accelerations: {} cannot hold together with "
                                  "the others",
                                  fmt::join(names, ", ")),
-                     names);
+                     "contradicting-constraints", names);
     }
   }
   if (!solution->linear) {
@@ -282,7 +285,8 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, Steps step
         lost_digits(system, equations, lu, solution->factored, op, solution->terms, solution->uncertainty);
     if (lost.part >= loss_of_all) {
       return failure(
-          fmt::format("{} stands at a multiple root of its equations, where nothing has a derivative", lost.of));
+          fmt::format("{} stands at a multiple root of its equations, where nothing has a derivative", lost.of),
+          "multiple-root");
     }
     if (lost.part >= material_loss) {
       findings.warnings.warning(

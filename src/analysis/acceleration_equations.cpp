@@ -36,7 +36,7 @@ Result<void> AccelerationEquations::look_at_massless(const OperatingPoint& op) {
   auto looked = massless_.look(motion, rows_, equations_);
   if (!looked && undefined) {
     if (std::string reason = system_.undefined_value(motion); !reason.empty())
-      return tl::unexpected(Failure{"acceleration initial conditions", std::move(reason), {}});
+      return tl::unexpected(Failure{"acceleration initial conditions", std::move(reason), {}, "undefined-value"});
   }
   return looked;
 }

@@ -422,7 +422,8 @@ Result<std::optional<MasslessLimit>> massless_limit(const System& system, const 
                     "along it",
                     names,
                     request.without_damping ? "stiffness, and NODAMPIN leaves damping out" : "damping nor stiffness"),
-        {names}});
+        {names},
+        "undetermined-accelerations"});
   }
   return Out(std::move(limit));
 }

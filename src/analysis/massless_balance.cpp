@@ -129,7 +129,8 @@ Result<void> MasslessBalance::accept(const std::vector<double>& start, const Ope
                       "{:.5g}: a pose nearer to balance or SIMULATE/STATIC is needed, and velocities that load it must "
                       "agree with its pose",
                       name(column), std::abs(lacking_(worst))),
-          {fmt::format("it would balance about {:.5g} away", std::abs(off(worst)))}});
+          {fmt::format("it would balance about {:.5g} away", std::abs(off(worst)))},
+          "massless-freedom"});
     }
   }
   // Accelerations along the freedoms are not known where the model moves; nothing else may depend on them.
@@ -144,7 +145,8 @@ Result<void> MasslessBalance::accept(const std::vector<double>& start, const Ope
                   fmt::format("the acceleration of {}, which has no mass, is read by a force or a VARIABLE: that is "
                               "possible at rest only",
                               name(k)),
-                  {}});
+                  {},
+                  "massless-freedom"});
     }
   }
   const Eigen::VectorXd velocity = Eigen::Map<const Eigen::VectorXd>(found.velocity.data(), d.basis.rows());

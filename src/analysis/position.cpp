@@ -217,7 +217,8 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
                           ? fmt::format("iteration {}: largest violation {:.3e}", iteration, v.relative)
                           : fmt::format("iteration {}: a constraint is no finite number", iteration));
     if (std::isnan(v.relative)) {
-      return tl::unexpected(Failure{"initial conditions", undefined_value_text(system, op, v.row), history});
+      return tl::unexpected(
+          Failure{"initial conditions", undefined_value_text(system, op, v.row), history, "undefined-value"});
     }
     const auto finished = [&] {
       system.remember(op);
@@ -233,7 +234,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
       return finished();
     }
     if (const auto reason = undefined_row(system, system.motion(op), rows)) {
-      return tl::unexpected(Failure{"initial conditions", *reason, history});
+      return tl::unexpected(Failure{"initial conditions", *reason, history, "undefined-value"});
     }
     const Partition part = system.partition(rows, false);
     // What is left of the rows that can be met, and the redundant rows that do not follow from them.
@@ -262,7 +263,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
                                     fmt::format("the constraints contradict each other: {}{} cannot hold together "
                                                 "with the others (IC/ERROR is {:g} of a row's scale)",
                                                 contradicted.front(), stuck, op.redundancy_tolerance),
-                                    history});
+                                    history, "contradicting-constraints"});
     }
     before = left;
     if (iteration == most) break;
@@ -276,7 +277,8 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
       if (stopped.held) step = least_step(rows, part, *weights, fixed, lu);
     }
     if (!step) {
-      return tl::unexpected(Failure{"initial conditions", "the constraints are singular at this position", history});
+      return tl::unexpected(Failure{"initial conditions", "the constraints are singular at this position", history,
+                                    "singular-constraints"});
     }
     displace(system, op, *step, limits);
   }
@@ -288,7 +290,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
   return tl::unexpected(Failure{"initial conditions",
                                 fmt::format("the model could not be assembled: {} is violated by {:.3e} of its scale",
                                             system.row_text(v.row), v.relative),
-                                history});
+                                history, "not-assembled"});
 }
 
 // How far bodies have been moved, squared: radians and lengths of the model.

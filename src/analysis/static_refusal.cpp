@@ -90,7 +90,7 @@ std::vector<std::string> unheld_parts(StaticEquations& equations, const Operatin
 Failure static_refusal(StaticEquations& equations, OperatingPoint op, const std::vector<std::string>& proof,
                        std::vector<std::string> history) {
   const System& system = equations.system();
-  Failure f{"statics", "no equilibrium was found", std::move(history)};
+  Failure f{"statics", "no equilibrium was found", std::move(history), "no-equilibrium"};
   if (const auto unheld = proof.empty() ? unheld_parts(equations, op) : proof; !unheld.empty()) {
     f.message += fmt::format(": {}", fmt::join(unheld, "; "));
     return f;
@@ -98,7 +98,7 @@ Failure static_refusal(StaticEquations& equations, OperatingPoint op, const std:
   equations.settle(op);
   equations.evaluate(op, true);
   if (const Eigen::VectorXd sum = equations.residual() + equations.rounding(); !sum.allFinite()) {
-    f.message = system.undefined_value(system.motion(op));
+    f.message = system.undefined_value(system.motion(op)), f.code = "undefined-value";
     for (Eigen::Index k = 0; k < sum.size() && f.message.empty(); ++k) {
       if (!std::isfinite(sum(k)))
         f.message = "a term in the equation of " + equations.equation_text(k) + " has no finite value or slope";

@@ -129,12 +129,15 @@ bool asked_for(StaticEquations& equations, OperatingPoint& op, const StaticsOpti
 Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op, const StaticsOptions& options,
                                         StaticsReport& report, Findings& findings) {
   if (const auto& driven = system.layout().velocity_driven; !driven.empty()) {
-    Failure f{"static analysis", "motions that prescribe a velocity or an acceleration contradict rest", {}};
+    Failure f{"static analysis",
+              "motions that prescribe a velocity or an acceleration contradict rest",
+              {},
+              "motion-at-rest"};
     for (const ElementLabel* label : driven) f.details.push_back(label->full_text());
     return tl::unexpected(f);
   }
   if (const std::string far = too_far_out(system, op); !far.empty())
-    return tl::unexpected(Failure{"static analysis", far, {}});
+    return tl::unexpected(Failure{"static analysis", far, {}, "far-markers"});
   // An equilibrium in the course of a quasi-static simulation is one of those. Otherwise parts are put together first:
   // what assembly moves has not slipped.
   const bool in_course = op.mode == AnalysisMode::quasi_statics;

@@ -198,7 +198,8 @@ Result<LeastChange> least_change(const System& system, const Motion& motion, con
   }
   SparseLu lu;
   if (!lu.factor(compressed(static_cast<std::int32_t>(n + m), static_cast<std::int32_t>(n + m), entries))) {
-    return tl::unexpected(Failure{"velocity initial conditions", "the velocity conditions are singular", {}});
+    return tl::unexpected(
+        Failure{"velocity initial conditions", "the velocity conditions are singular", {}, "singular-constraints"});
   }
   lu.solve(x);
   LeastChange result{x.col(0).head(n), {}};
@@ -270,7 +271,8 @@ Result<Eigen::VectorXd> nearest(const System& system, const Motion& motion, cons
   SparseLu lu;
   const auto size = static_cast<std::int32_t>(change.rows());
   if (!lu.factor(compressed(size, size, entries)))
-    return tl::unexpected(Failure{"velocity initial conditions", "the velocity conditions are singular", {}});
+    return tl::unexpected(
+        Failure{"velocity initial conditions", "the velocity conditions are singular", {}, "singular-constraints"});
   lu.solve(change);
   return start + change.col(0).head(n);
 }
@@ -330,7 +332,7 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
   rows.resize(system.layout());
   system.constraints(motion, rows);
   if (const auto reason = undefined_row(system, motion, rows, 1)) {
-    return tl::unexpected(Failure{"velocity initial conditions", *reason, {}});
+    return tl::unexpected(Failure{"velocity initial conditions", *reason, {}, "undefined-value"});
   }
   Eigen::VectorXd velocity = start;
   const auto met = [&](const Condition& c) { return met_to_rounding(c, velocity); };
@@ -345,7 +347,10 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
     auto hard = least_change(system, motion, conditions, start, tolerance);
     if (!hard) return tl::unexpected(hard.error());
     if (!hard->contradicted.empty()) {
-      Failure f{"velocity initial conditions", "the constraints contradict each other on velocities", {}};
+      Failure f{"velocity initial conditions",
+                "the constraints contradict each other on velocities",
+                {},
+                "contradicting-constraints"};
       for (const std::size_t k : hard->contradicted) f.details.push_back(system.row_text(static_cast<std::int32_t>(k)));
       return tl::unexpected(f);
     }

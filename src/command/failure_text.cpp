@@ -7,7 +7,7 @@ namespace dynalin {
 namespace {
 
 std::string with_details(const Failure& f, std::size_t first, std::size_t last, const std::string& file) {
-  std::string text = fmt::format("{}: {}", f.analysis, f.message);
+  std::string text = fmt::format("{}: {}{}", f.analysis, f.message, f.code.empty() ? "" : fmt::format(" [{}]", f.code));
   const std::size_t count = f.details.size();
   for (std::size_t k = 0; k < count; ++k) {
     if (k == first && count > first + last + 1) {

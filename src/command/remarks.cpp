@@ -46,7 +46,7 @@ void Remarks::pass_over(const std::vector<std::string>& settings) {
 void Remarks::report(const Failure& f) {
   write_block(message_, Block::error, failure_text(f));
   fmt::print(err_, "error: {} failed\n{}\n", command_, short_failure_text(f, message_file_));
-  json_.add_failure(command_, fmt::format("{}: {}", f.analysis, f.message), f.details);
+  json_.add_failure(command_, fmt::format("{}: {}", f.analysis, f.message), f.details, f.code);
 }
 
 }  // namespace dynalin

@@ -75,7 +75,8 @@ void Record::add(const std::string& command, const Error& error) {
   inside_->failed = true;
   inside_->warn(command, error.remarks);
   const std::string message = error.problems.empty() ? error.what() : error.problems.front().message;
-  inside_->json.add_failure(command, error.analysis.empty() ? message : error.analysis + ": " + message, error.details);
+  inside_->json.add_failure(command, error.analysis.empty() ? message : error.analysis + ": " + message, error.details,
+                            error.problems.empty() ? std::string_view() : error.problems.front().code);
 }
 
 std::string Record::to_json() const {

@@ -42,7 +42,7 @@ void fail(const StudyFailure& f, std::vector<Remark> said) {
   for (const std::string& d : f.details) text += "\n  " + d;
   Remark why;
   why.severity = Remark::Severity::error;
-  why.message = f.message;
+  why.message = f.message, why.code = f.code;
   Error error(text, {std::move(why)});
   error.analysis = f.analysis;
   error.details = f.details;

@@ -80,7 +80,8 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   std::optional<OneBlasThread> alone;
   if (A.rows() <= most_for_one_thread) alone.emplace();
   std::optional<UnrefinedPairs> found = unrefined_pairs(linear);
-  if (!found) return tl::unexpected(Failure{"eigensolution", "the QR iteration did not converge", {}});
+  if (!found)
+    return tl::unexpected(Failure{"eigensolution", "the QR iteration did not converge", {}, "no-eigensolution"});
   const ZeroModes& zero = found->zero;
   EigenPairs& pairs = found->pairs;
   const Eigen::Index n = A.rows(), z = zero.count;

@@ -117,7 +117,7 @@ Result<LinearSystem> reduce(const System& system, Perturbation perturbation) {
   }
   model.A = without_rounding(out.A, out.rounding);
   if (const std::string overflow = overflown(model); !overflow.empty())
-    return tl::unexpected(Failure{"linear analysis", overflow, {}});
+    return tl::unexpected(Failure{"linear analysis", overflow, {}, "overflow"});
   out.structural_zeros = std::make_shared<const StructuralZeros>(system, out);
   return out;
 }
@@ -179,7 +179,8 @@ Result<void> look_at_near_dependence(const System& system, OperatingPoint op, Li
                     "distance below {:.0e}) and would leave {} more degree{} of freedom than right beside this point",
                     names_of(system, gained->rows), gained->rows.size() == 1 ? "s" : "", near.distance, gained->count,
                     gained->count == 1 ? "" : "s"),
-        {}});
+        {},
+        "too-near-singular"});
   }
   linear.warnings.warning(
       "constraint-left-out", system.layout().rows[static_cast<std::size_t>(near.rows.front())].owner->at,
@@ -236,7 +237,8 @@ Result<LinearSystem> linearize(const System& system, OperatingPoint op, const Li
                   fmt::format("the linear model depends on accelerations of freedoms without mass "
                               "({}), which are known at rest only",
                               names_of(system, limit.directions, Matrix::Identity(limit.count(), limit.count()))),
-                  {}});
+                  {},
+                  "massless-freedom"});
     }
   }
   if (auto looked = look_at_near_dependence(system, op, *linear); !looked) return tl::unexpected(looked.error());
@@ -254,7 +256,8 @@ Result<LinearSystem> linearize(const System& system, OperatingPoint op, const Li
                 fmt::format("the configuration is too near a singular one: {} all but depend on each other (relative "
                             "distance {:.1e}), and rounding of the velocities alone decides about the state matrix",
                             names_of(near), near.distance),
-                {}});
+                {},
+                "too-near-singular"});
   }
   // Elsewhere a state matrix may be nothing but rounding: that of a disc that turns freely.
   const Matrix& unknown = near.distance < worth_a_look ? linear->uncertainty : of_velocities;

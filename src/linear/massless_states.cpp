@@ -134,7 +134,8 @@ class Taker {
         Failure{"limit of vanishing mass",
                 fmt::format("no choice of states determines the freedoms without mass: {}",
                             names_of(system_, limit_.directions, Matrix::Identity(limit_.count(), limit_.count()))),
-                {}});
+                {},
+                "massless-freedom"});
   }
 
   // A unit of a chosen coordinate is what a unit of the scaled coordinates of the layout makes of it.

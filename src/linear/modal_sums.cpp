@@ -148,13 +148,15 @@ Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint
     return tl::unexpected(Failure{"energies per mode",
                                   "a model with coordinates of first order, of freedoms that have damping and no mass, "
                                   "has fewer rates than coordinates: its shapes do not share out its energy",
-                                  {}});
+                                  {},
+                                  "no-modal-energy"});
   }
   if (position.size() != rate.size()) {
     return tl::unexpected(Failure{"energies per mode",
                                   "a model with velocity constraints has fewer rates than coordinates: its shapes do "
                                   "not share out its energy",
-                                  {}});
+                                  {},
+                                  "no-modal-energy"});
   }
   const auto n = static_cast<Index>(position.size()), states = static_cast<Index>(linear.model.states.size());
   EnergyPerMode out;
@@ -184,7 +186,8 @@ Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint
         Failure{"energies per mode",
                 fmt::format("the modal matrix is singular: the shapes of all modes span {} of {} coordinates",
                             chosen.size(), n),
-                {}});
+                {},
+                "no-modal-energy"});
   }
   ComplexMatrix Phi(n, n);
   for (Index c = 0; c < n; ++c)

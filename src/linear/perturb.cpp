@@ -116,7 +116,8 @@ class Perturber {
           fmt::format("{} reads a rate or an acceleration of a freedom without mass, which depends on derivatives that "
                       "the linear model does not have{}",
                       open, at_->massless->at_rest ? "" : ": that is possible at rest only"),
-          {}});
+          {},
+          "massless-freedom"});
     }
     result_.equations = std::make_shared<const PerturbationEquations>(std::move(*equations));
     result_.at = std::move(at_);
@@ -216,7 +217,7 @@ class Perturber {
   }
 
   static tl::unexpected<Failure> refusal(std::string message) {
-    return tl::unexpected(Failure{"linear analysis", std::move(message), {}});
+    return tl::unexpected(Failure{"linear analysis", std::move(message), {}, "undefined-value"});
   }
 
   // The name of an output that reads what freedoms without mass leave open.

@@ -102,8 +102,10 @@ class PerturbationEquations::Assembly {
     if (choice_.splits_unequally()) {
       ColumnMatrix rates = level_matrix(rows_, choice_, choice_.velocity_active, choice_.has_rate, square);
       if (!square || !factor(1, std::move(rates))) {
-        return tl::unexpected(
-            Failure{"linear analysis", "the chosen rates do not determine the velocities of the model", {}});
+        return tl::unexpected(Failure{"linear analysis",
+                                      "the chosen rates do not determine the velocities of the model",
+                                      {},
+                                      "undetermined-states"});
       }
     } else {
       diagonal_[1] = diagonal_[0];
@@ -112,7 +114,7 @@ class PerturbationEquations::Assembly {
     const auto augmented = [&] { return augmented_.matrix(eq_, rows_, choice_.velocity_active, {}, cut_); };
     if (!factor(2, augmented())) {
       return tl::unexpected(Failure{"linear analysis", "the accelerations are not determined",
-                                    undetermined(system_, augmented_, augmented())});
+                                    undetermined(system_, augmented_, augmented()), "undetermined-accelerations"});
     }
     return {};
   }
@@ -219,7 +221,8 @@ class PerturbationEquations::Assembly {
           Failure{"limit of vanishing mass",
                   fmt::format("the balance of forces does not determine the freedoms without mass: {}",
                               names(Eigen::MatrixXd::Identity(d.count(), d.count()))),
-                  {}});
+                  {},
+                  "massless-freedom"});
     }
     p_.whole_ = std::move(lu);
     std::sort(open_rows_.begin(), open_rows_.end());
@@ -243,7 +246,8 @@ class PerturbationEquations::Assembly {
                       names(Eigen::MatrixXd::Identity(d.count(), d.count())),
                       massless_->at_rest ? "a plant input, which no state-space model has"
                                          : "forces along the motion: that is possible at rest only"),
-          {}});
+          {},
+          "massless-freedom"});
     }
     return {};
   }

@@ -51,7 +51,8 @@ class PhysicalEquations::Assembly {
     name();
     if (!find_motions()) return tl::unexpected(undetermined_positions());
     if (!solve())
-      return tl::unexpected(Failure{"linear analysis", "the values of the model do not follow from its motion", {}});
+      return tl::unexpected(Failure{
+          "linear analysis", "the values of the model do not follow from its motion", {}, "undetermined-states"});
     return std::move(out_);
   }
 

@@ -20,7 +20,8 @@ Result<SecondOrder> second_order(const StateSpace& model, std::size_t first_orde
     return tl::unexpected(Failure{"linear analysis",
                                   "a model with velocity constraints has fewer rates than coordinates and no "
                                   "second-order form",
-                                  {}});
+                                  {},
+                                  "no-second-order"});
   }
   // Coordinates of first order stand with the differential states, behind those that have a rate before them.
   if (first_order > 0) {

@@ -41,7 +41,7 @@ struct CountingLimits {
 constexpr CountingLimits counting_of_large = {600, 5}, counting_of_middling = {150, 2}, counting_of_small = {1500, 5};
 constexpr Index small = 400;  // states
 
-Failure no_convergence(std::string what) { return {"eigensolution", std::move(what), {}}; }
+Failure no_convergence(std::string what) { return {"eigensolution", std::move(what), {}, "no-eigensolution"}; }
 
 std::vector<Complex> joined(std::vector<Complex> a, const std::vector<Complex>& b) {
   a.insert(a.end(), b.begin(), b.end());

@@ -258,7 +258,10 @@ ColumnMatrix level_matrix(const ConstraintRows& rows, const StateChoice& choice,
 }
 
 Failure undetermined_positions() {
-  return {"linear analysis", "the chosen coordinates do not determine the position of the model", {}};
+  return {"linear analysis",
+          "the chosen coordinates do not determine the position of the model",
+          {},
+          "undetermined-states"};
 }
 
 Result<StateChoice> choose_states(const System& system, const Motion& motion, const ConstraintRows& rows,

@@ -113,7 +113,7 @@ Failure UndefinedPartials::named(const std::vector<Entry>& entries) const {
     }
     if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) sentences.push_back(sentence);
   }
-  return {"linear analysis", sentences.front(), {sentences.begin() + 1, sentences.end()}};
+  return {"linear analysis", sentences.front(), {sentences.begin() + 1, sentences.end()}, "undefined-derivative"};
 }
 
 }  // namespace dynalin

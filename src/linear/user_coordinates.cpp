@@ -56,7 +56,8 @@ class Chain {
         fmt::format("{}{} cannot be a PSTATE coordinate: it {}, and a coordinate is a smooth function of positions and "
                     "time",
                     place_text(place), system_.model().label(of_).full_text(), why),
-        {}};
+        {},
+        "unusable-coordinate"};
   }
   std::string reader(VariableRef variable) const {
     return variable == of_ ? "reads" : fmt::format("reads, through {},", system_.model().label(variable).text());

@@ -319,9 +319,11 @@ void JsonResults::add_warning(const std::string& command, const Remark& r) {
 }
 
 void JsonResults::add_failure(const std::string& command, const std::string& message,
-                              const std::vector<std::string>& details) {
+                              const std::vector<std::string>& details, std::string_view code) {
   if (!document_) return;
-  document_->errors.push_back({{"command", command}, {"message", message}, {"details", details}});
+  Json failure = {{"command", command}, {"message", message}, {"details", details}};
+  if (!code.empty()) failure["code"] = code;
+  document_->errors.push_back(std::move(failure));
 }
 
 void JsonResults::finish(const Units& units, int status, const std::vector<std::string>& files) {

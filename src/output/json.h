@@ -48,7 +48,8 @@ class JsonResults {
   void add_tables(const std::vector<ModalTable>&);
   // `command` is the one that it came up with, empty for what was found in reading.
   void add_warning(const std::string& command, const Remark&);
-  void add_failure(const std::string& command, const std::string& message, const std::vector<std::string>& details);
+  void add_failure(const std::string& command, const std::string& message, const std::vector<std::string>& details,
+                   std::string_view code = {});
   // What concerns the run as a whole.
   void finish(const Units&, int status, const std::vector<std::string>& files);
   void write(std::ostream&) const;  // of what was kept

@@ -204,7 +204,8 @@ class Dynamics {
   // Why the last step failed, as far as it can be told: what the integrator says, what has no value, and whether the
   // constraints can be met at all a little later.
   Failure failure() const {
-    Failure f{"dynamics", fmt::format("at time {:.9g}: {}", point_.time, integrator_->reason()), {}};
+    Failure f{
+        "dynamics", fmt::format("at time {:.9g}: {}", point_.time, integrator_->reason()), {}, "stopped-integration"};
     const std::string hardest = equations_->unknowns().text(integrator_->hardest_unknown());
     if (!hardest.empty()) f.details.push_back("what stood in the way most is " + hardest);
     if (!equations_->undefined().empty()) f.details.push_back(equations_->undefined());
@@ -277,7 +278,8 @@ class Dynamics {
           "dynamics",
           fmt::format("at time {:.9g}: {} events within a billionth of the run", point_.time, crowd_limit),
           {"the period of a sampling, or the time from one switch of a function to the next, is next to nothing "
-           "beside the time of the run"}});
+           "beside the time of the run"},
+          "stopped-integration"});
     }
     EventAction action = events_.at(integrator_->crossed(), point_);
     const bool anew = action.restart || action.output || action.ends() || action.refactor || action.step_size;

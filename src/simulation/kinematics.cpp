@@ -26,8 +26,8 @@ constexpr int creeping_limit = 500;    // steps in a row that are taken for bein
 constexpr double creeping = 1e-3;      // and are shorter than this part of those that are wanted
 constexpr std::size_t names_in_a_list = 6;
 
-Failure failure(double time, const std::string& message, std::vector<std::string> details = {}) {
-  return {"kinematic simulation", fmt::format("at time {:.9g}: {}", time, message), std::move(details)};
+Failure failure(double time, const std::string& message, std::string_view code, std::vector<std::string> details = {}) {
+  return {"kinematic simulation", fmt::format("at time {:.9g}: {}", time, message), std::move(details), code};
 }
 
 // A limit of zero is none that was stated.
@@ -110,7 +110,7 @@ class KinematicRun {
           "KINEMATICS needs a model without degrees of freedom, and this one has {}: nothing determines {}; "
           "SIMULATE/DYNAMICS or SIMULATE/TRANSIENT integrates its motion",
           count, list(free));
-      return tl::unexpected(failure(at_.time, std::move(message), std::move(free)));
+      return tl::unexpected(failure(at_.time, std::move(message), "freedoms-in-kinematics", std::move(free)));
     }
     auto complete = reconcile_velocity(system_, std::move(at_), findings_).and_then([&](OperatingPoint op) {
       return dynalin::solve_acceleration(system_, std::move(op), findings_);
@@ -299,12 +299,12 @@ class KinematicRun {
                    fmt::format("{} moves otherwise than its velocities and accelerations say: where a compiled routine "
                                "drives it, the derivatives that it gives are not those of its function",
                                named),
-                   std::move(names));
+                   "wrong-derivatives", std::move(names));
   }
 
   // Why no step leads on from the last accepted point.
   Failure explained() {
-    if (refused_) return failure(at_.time, refused_->message, refused_->details);
+    if (refused_) return failure(at_.time, refused_->message, refused_->code, refused_->details);
     const auto missed = missed_;
     OperatingPoint here = at_;
     const bool known = !equations_.solve_position(here, limits_);
@@ -315,7 +315,7 @@ class KinematicRun {
       return failure(at_.time,
                      fmt::format("the mechanism comes to a singular configuration, where {} no longer determine {}",
                                  list(loosest.rows), list(loosest.coordinates)),
-                     std::move(details));
+                     "stopped-mechanism", std::move(details));
     }
     if (missed == KinematicEquations::Missed::contradicted) {
       std::vector<std::string> rows;
@@ -325,11 +325,11 @@ class KinematicRun {
                      fmt::format("the constraints begin to contradict each other: {} cannot hold together with "
                                  "the others",
                                  named),
-                     std::move(rows));
+                     "contradicting-constraints", std::move(rows));
     }
     const std::string undefined = system_.undefined_value(system_.motion(at_));
-    if (!undefined.empty()) return failure(at_.time, undefined);
-    return failure(at_.time, "no position of the mechanism follows: what drives it jumps");
+    if (!undefined.empty()) return failure(at_.time, undefined, "undefined-value");
+    return failure(at_.time, "no position of the mechanism follows: what drives it jumps", "stopped-mechanism");
   }
 
   static Vector three(const std::vector<double>& x, std::int32_t first) {

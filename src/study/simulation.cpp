@@ -11,7 +11,7 @@ namespace dynalin {
 namespace {
 
 tl::unexpected<StudyFailure> refused(std::string why, Diagnostics said = {}) {
-  return tl::unexpected(StudyFailure(Failure{"simulation", std::move(why), {}}, std::move(said)));
+  return tl::unexpected(StudyFailure(Failure{"simulation", std::move(why), {}, "end-of-simulation"}, std::move(said)));
 }
 
 Result<AdvancedPoint> advance(const System& system, const SimulationRequest& request, std::size_t freedoms,

@@ -501,6 +501,12 @@ TEST(WrongInputTable, has_every_code_but_those_that_unit_tests_hold) {
 #undef DYNALIN_DIAGNOSTIC
   };
   for (const std::string_view code : remarks) covered.insert(std::string(code));  // remark_test
+  static constexpr std::string_view of_analyses[] = {
+#define DYNALIN_DIAGNOSTIC(code, text, advice) code,
+#include "base/diagnostics/failures.def"
+#undef DYNALIN_DIAGNOSTIC
+  };
+  for (const std::string_view code : of_analyses) covered.insert(std::string(code));  // failure_code_test
   static constexpr std::string_view of_decks[] = {
 #define DYNALIN_DIAGNOSTIC(code, text, advice) code,
 #include "base/diagnostics/nastran_reader.def"

@@ -63,7 +63,7 @@ SavedFile::Model saved_model(const RunState& run, const Job::Stage& stage) {
   return model;
 }
 
-StudyFailure failure(std::string why) { return StudyFailure({"saving", std::move(why), {}}); }
+StudyFailure failure(std::string why) { return StudyFailure({"saving", std::move(why), {}, "unwritable-file"}); }
 
 constexpr CommandKind kind = {.name = "SAVE",
                               .use = CommandUse::run,

@@ -200,8 +200,10 @@ StudyResult<void> Simulate::run_over_time(RunState& run) const {
   if (auto ready = run.make_consistent(); !ready) return ready;
   const double start = run.time(), last = end ? *end : start + *duration;
   if (!(last > start)) {
-    return tl::unexpected(StudyFailure(
-        Failure{"simulation", fmt::format("END={:g} is not after the present time, {:g}", last, start), {}}));
+    return tl::unexpected(StudyFailure(Failure{"simulation",
+                                               fmt::format("END={:g} is not after the present time, {:g}", last, start),
+                                               {},
+                                               "end-of-simulation"}));
   }
   const double step = output_step.value_or(last - start);
   SimulationRequest request{

@@ -1,0 +1,72 @@
+// Why an analysis has no result: a code that `dynalin explain` knows, on the terminal, in the message file and in JSON.
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "base/diagnostics.h"
+#include "cases/run.h"
+
+namespace dynalin::cases::failure_code_test {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Failing {
+  const char* code;
+  const char* dataset;
+  const char* commands;
+};
+
+#define HEAD "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=1,0,0\n"
+#define BAR HEAD "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nMARKER/21, QP=1,0,0\n"
+#define POINT HEAD "POINT_MASS/2, MASS=1, CM=20, QG=3,4,0\nMARKER/20, POINT_MASS=2\n"
+#define HINGE BAR "JOINT/1, REVOLUTE, I=20, J=1\n"
+#define SPRING "SPRINGDAMPER/1, ROTATIONAL, I=20, J=1, KT=1\n"
+
+const std::vector<Failing>& table() {
+  static const std::vector<Failing> rows = {
+      {"contradicting-constraints", POINT "GCON/1, FUNCTION=DX(20,1)-1\nGCON/2, FUNCTION=DX(20,1)-2\nEND\n",
+       "LINEAR/EIGENSOL\n"},
+      {"contradicting-constraints", POINT "GCON/1, FUNCTION=DX(20,1)-TIME\nGCON/2, FUNCTION=DX(20,1)-2*TIME\nEND\n",
+       "LINEAR/EIGENSOL\n"},
+      {"contradicting-constraints",
+       POINT "GCON/1, FUNCTION=DX(20,1)-TIME**2\nGCON/2, FUNCTION=DX(20,1)-2*TIME**2\nEND\n", "LINEAR/EIGENSOL\n"},
+      {"not-assembled", POINT "GCON/5, FUNCTION=DX(20,1)**2+DY(20,1)**2+1\nEND\n", "SIMULATE/INITIAL\n"},
+      {"undefined-value", POINT "GCON/5, FUNCTION=SQRT(DX(20,1)-9)\nEND\n", "SIMULATE/INITIAL\n"},
+      {"undefined-value", HINGE SPRING "SFORCE/1, ROTATION, I=20, J=1, FUNCTION=LOG(AZ(20,1)-1)\nEND\n",
+       "SIMULATE/INITIAL\n"},
+      {"undetermined-accelerations", HEAD "PART/2\nMARKER/20\nEND\n", "SIMULATE/INITIAL\n"},
+      {"unsolved-equations", HINGE SPRING "VARIABLE/1, IC=1, FUNCTION=COS(VARVAL(1))\nIC/AMAXIT=2\nEND\n",
+       "SIMULATE/INITIAL\n"},
+      {"no-equilibrium", BAR "ACCGRAV/KGRAV=-10\nEND\n", "SIMULATE/STATICS\n"},
+      {"motion-at-rest", HINGE SPRING "MOTION/1, JOINT=1, VELOCITY, FUNCTION=2\nEND\n", "SIMULATE/STATICS\n"},
+      {"freedoms-in-kinematics", HINGE "END\n", "SIMULATE/KINEMATICS, END=1, STEPS=2\n"},
+      {"end-of-simulation", HINGE "END\n",
+       "SIMULATE/DYNAMICS, END=0.1, STEPS=2\nSIMULATE/DYNAMICS, END=0.1, STEPS=2\n"},
+      {"undefined-derivative", HINGE SPRING "SFORCE/1, ROTATION, I=20, J=1, FUNCTION=SQRT(WZ(20,1))\nEND\n",
+       "LINEAR/EIGENSOL\n"},
+      {"no-second-order",
+       POINT "GCON/1, FUNCTION=VX(20,1)+VY(20,1)*DX(20,1)\nSFORCE/1, TRANSLATION, I=20, J=1, FUNCTION=-DM(20,1)\nEND\n",
+       "LINEAR/MKB, FILE=m\n"},
+  };
+  return rows;
+}
+
+class FailureCodes : public Cases, public ::testing::WithParamInterface<std::size_t> {};
+
+TEST_P(FailureCodes, stand_behind_the_message_and_are_explained) {
+  const Failing& f = table()[GetParam()];
+  SCOPED_TRACE(f.dataset);
+  const RunResult r = run(f.dataset, f.commands);
+  EXPECT_EQ(r.status, 2);
+  const std::string code = "[" + std::string(f.code) + "]";
+  EXPECT_THAT(r.err, HasSubstr(code));
+  EXPECT_THAT(r.message, HasSubstr(code));
+  ASSERT_FALSE(r.json.at("errors").empty());
+  EXPECT_EQ(r.json.at("errors").back().value("code", ""), f.code);
+  EXPECT_NE(find_explanation(f.code), nullptr);
+}
+INSTANTIATE_TEST_SUITE_P(table, FailureCodes, ::testing::Range<std::size_t>(0, table().size()));
+
+}  // namespace
+}  // namespace dynalin::cases::failure_code_test
