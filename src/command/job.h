@@ -23,6 +23,7 @@ struct Job {
     Restated restated;               // elements whose start the edits state
     std::vector<std::string> edits;  // all commands that have changed the dataset, as written
     bool anew = false;               // nothing of the stage before goes on in it
+    Diagnostics warned;              // what reading its statements, and those of the stages before, has warned of
   };
   std::vector<Stage> stages;
   const Model& model() const { return *stages.front().model; }

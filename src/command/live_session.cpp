@@ -80,6 +80,7 @@ bool LiveSession::begin_job() {
   run_.emplace(options_, job, terminal_, err_, json_, files_);
   run_->message.rdbuf(message_->stream().rdbuf());
   run_->preferences = preferences;
+  if (!job.goes_on) run_->take_printing();
   if (job.goes_on) run_->settings = settings_, run_->settings_done = settings_done_, run_->steps.settings = output_;
   run_->steps.open_results();
   write_banner(run_->message, version);

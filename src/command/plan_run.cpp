@@ -30,13 +30,11 @@ std::string existing_hint(const std::string& path) {
   return {};
 }
 
-// Whether a file of some other extension holds statements that only a dataset has: looked for at its beginning.
-bool holds_dataset(const std::string& path) {
+// Whether a text has statements that only a dataset has: looked for at its beginning.
+bool is_text_of_dataset(const std::string& name, std::string text) {
   constexpr std::size_t enough = 65536;
-  auto text = read_file(path);
-  if (!text) return false;
-  if (text->size() > enough) text->resize(std::min(text->rfind('\n', enough), enough));
-  const auto parsed = parse_dataset(std::make_shared<const SourceText>(path, std::move(*text)));
+  if (text.size() > enough) text.resize(std::min(text.rfind('\n', enough), enough));
+  const auto parsed = parse_dataset(std::make_shared<const SourceText>(name, std::move(text)));
   static constexpr std::array<std::string_view, 1> ground = {"GROUND"};
   return std::ranges::any_of(parsed.value.statements, [&](const Statement& s) {
     if (s.name == "UNITS") return true;
@@ -44,6 +42,11 @@ bool holds_dataset(const std::string& path) {
              return !w.has_value && find_keyword(w.name.text(), ground).has_value();
            });
   });
+}
+
+bool holds_dataset(const std::string& path) {
+  auto text = read_file(path);
+  return text && is_text_of_dataset(path, std::move(*text));
 }
 
 // What a run begins with: its commands, and the dataset that it names without one of them.
@@ -58,17 +61,24 @@ class Reader {
 
   std::optional<Planner> read() {
     const std::string& file = options_.file;
-    const bool has_commands = !options_.commands.empty();
-    if (has_commands && has_extension(file, ".acf")) {
+    const bool has_commands = !options_.commands.empty(), piped = file == "-";
+    if (piped && is_text_of_dataset("standard input", options_.standard_input.value_or(""))) {
+      fmt::print(err_,
+                 "error: standard input holds a dataset, and only commands are taken from there\nhint: name the file "
+                 "of the dataset: dynalin check model.adm, or dynalin run model.adm -c \"LINEAR/EIGENSOL\"\n");
+      return std::nullopt;
+    }
+    // What a file holds counts more than what it is called.
+    const bool named_dataset = !piped && (has_extension(file, ".adm") || holds_dataset(file));
+    if (has_commands && has_extension(file, ".acf") && !named_dataset) {
       fmt::print(err_,
                  "error: -c gives commands for a dataset, and {} is a command file\nhint: run the dataset that it "
                  "names with -c, or write the commands into it\n",
                  file);
       return std::nullopt;
     }
-    // A file that is run with commands of its own is a dataset whatever its name, and so is one that looks like it.
-    const bool named_otherwise = file != "-" && !has_extension(file, ".acf") && !has_extension(file, ".adm");
-    const bool is_dataset = has_commands || has_extension(file, ".adm") || (named_otherwise && holds_dataset(file));
+    // A file that is run with commands of its own is a dataset whatever its name.
+    const bool is_dataset = has_commands || named_dataset;
     Planner reading(options_, Statements::kept);
     const auto start = is_dataset ? std::optional(of_dataset(reading)) : of_command_file(reading);
     if (!start) return std::nullopt;

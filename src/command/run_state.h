@@ -31,6 +31,9 @@ class RunState {
   // At the first model of the job, as drawn; nothing goes to the terminal of a quiet run.
   RunState(const SessionOptions&, const Job&, std::ostream* terminal, std::ostream& err, JsonResults&, RunFiles&);
 
+  // What the dataset prints of the work of a solver.
+  void take_printing() { preferences.iterations = settings.prints_iterations.value_or(preferences.iterations); }
+
   const SessionOptions& options;
   const Job& job;
 

@@ -38,6 +38,13 @@ Diagnostic& add_to(Diagnostics& list, const Diagnostic& d, const Span& at) {
   return added;
 }
 
+bool is_among(const Diagnostics& list, const Diagnostic& d) {
+  return std::ranges::any_of(list.items(), [&](const Diagnostic& other) {
+    return other.code == d.code && other.message == d.message && other.at.source == d.at.source &&
+           other.at.offset == d.at.offset;
+  });
+}
+
 EditedModel edited_model(const Job::Stage& from, std::span<const Command> edits, const SessionOptions& options) {
   EditedModel made;
   DatasetEditor editor(from.dataset, edits.front().written, catalogue(), made.problems);
@@ -48,10 +55,11 @@ EditedModel edited_model(const Job::Stage& from, std::span<const Command> edits,
   }
   EditedDataset now = std::move(editor).finish();
   auto built = build_model(now.dataset, catalogue(), {options.user_value}, routine_options(options));
-  const SourceText* read_before = from.dataset->source.get();
+  made.stage.warned = from.warned;
   for (const Diagnostic& d : built.diagnostics.items()) {
-    // Warnings of the dataset were given when it was read.
-    if (d.severity == Severity::error || d.at.source != read_before) add_to(made.problems, d, d.at);
+    if (is_among(from.warned, d)) continue;
+    add_to(made.problems, d, d.at);
+    if (d.severity != Severity::error) add_to(made.stage.warned, d, d.at);
   }
   made.stage.dataset = std::move(now.dataset), made.stage.model = std::move(built.value);
   made.stage.restated = std::move(now.restated);
@@ -99,9 +107,10 @@ std::optional<Job::Stage> stage_of_dataset(SourceRef source, const SessionOption
       build_model(dataset, catalogue(), {.user_value = options.user_value, .read_once = kept ? nullptr : dataset},
                   routine_options(options));
   const bool sound = read && !built.diagnostics.has_errors();
+  Job::Stage stage;
+  for (const Diagnostic& d : built.diagnostics.items()) add_to(stage.warned, d, d.at);
   // Statements that could not be read leave gaps that the model would only complain about again.
   if (read || built.diagnostics.has_errors()) diagnostics.append(std::move(built.diagnostics));
-  Job::Stage stage;
   stage.dataset = dataset, stage.model = std::move(built.value);
   keep_texts(stage, texts);
   if (!kept) dataset->release_arguments();

@@ -66,8 +66,9 @@ struct Settings {
   IntegratorSettings integrator;
   KinematicsSettings kinematics;
   ResultsSettings results;
-  std::vector<std::string> passed_over;  // "INTEGRATOR/HMAX": stated, and nothing acts on it
-  Diagnostics remarks;                   // worth a sentence in every run
+  std::optional<bool> prints_iterations;  // DEBUG: EPRINT, NOEPRINT
+  std::vector<std::string> passed_over;   // "INTEGRATOR/HMAX": stated, and nothing acts on it
+  Diagnostics remarks;                    // worth a sentence in every run
 
   // Once, however often it is stated.
   void pass_over(const std::string& name) {

@@ -174,6 +174,11 @@ TEST_F(CommandTable, iterations_are_in_the_message_file_on_request) {
   const RunResult with = run(model, "DEBUG/EPRINT\nSIMULATE/STATICS\n"), without = run(model, "SIMULATE/STATICS\n");
   EXPECT_THAT(with.message, HasSubstr("  Iteration   Imbalance\n"));
   EXPECT_THAT(without.message, Not(HasSubstr("  Iteration   Imbalance\n")));
+  // In a dataset as well, until a command ends it.
+  std::string stated = model;
+  stated.replace(stated.rfind("END\n"), 4, "DEBUG/EPRINT\nEND\n");
+  EXPECT_THAT(run(stated, "SIMULATE/STATICS\n").message, HasSubstr("  Iteration   Imbalance\n"));
+  EXPECT_THAT(run(stated, "DEBUG/NOEPRINT\nSIMULATE/STATICS\n").message, Not(HasSubstr("  Iteration   Imbalance\n")));
 }
 
 TEST_F(CommandTable, shorthands_set_what_integrator_sets) {

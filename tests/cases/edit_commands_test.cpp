@@ -311,6 +311,25 @@ TEST_F(EditCommands, what_they_lead_to_is_reported_at_the_command) {
   EXPECT_THAT(second, HasSubstr("model.acf:4:1: error: I and J of SFORCE/1 are both on PART/1"));
 }
 
+// What an edit makes of a statement of the dataset is said there, once; what was said of the dataset is not said again.
+TEST_F(EditCommands, warnings_that_they_bring_about_in_the_dataset_are_said_once) {
+  const std::string door =
+      "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\n"
+      "MARKER/21, PART=2, REULER=0,9D,0\nJOINT/1, SPHERICAL, I=20, J=1\n"
+      "SFORCE/1, ROTATION, I=20, J=1, FUNCTION=-AZ(20,1)\nSFORCE/2, ROTATION, I=21, J=1, FUNCTION=-AZ(20,1)\nEND\n";
+  const RunResult r = run(door,
+                          "SIMULATE/INITIAL\nMARKER/20, REULER=0,10D,0\nSIMULATE/INITIAL\nPART/2, MASS=2\n"
+                          "LINEAR/EIGENSOL\n");
+  EXPECT_EQ(r.status, 0) << r.err;
+  const auto times = [&](const std::string& part) {
+    std::size_t n = 0;
+    for (auto at = r.err.find(part); at != std::string::npos; at = r.err.find(part, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(times("model.adm:9:1: warning: the z axes of MARKER/20"), 1u) << r.err;
+  EXPECT_EQ(times("model.adm:10:1: warning: the z axes of MARKER/21"), 1u) << r.err;
+}
+
 TEST_F(EditCommands, an_element_that_is_active_already_gets_a_warning) {
   const RunResult r = run(oscillator + "END\n", "ACTIVATE/JOINT, ID=1\nLINEAR/EIGENSOL\n");
   EXPECT_EQ(r.status, 0) << r.err;

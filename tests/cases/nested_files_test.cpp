@@ -126,5 +126,29 @@ TEST_F(NestedFiles, standard_input_is_a_command_file) {
   EXPECT_THAT(err.str(), HasSubstr("standard input:1:21: error"));
 }
 
+// What a file is, is told by what it holds.
+TEST_F(NestedFiles, a_dataset_is_one_whatever_its_name) {
+  const std::filesystem::path misnamed = folder_ / "misnamed.acf";
+  std::filesystem::copy_file(folder_ / "model.adm", misnamed);
+  SessionOptions options;
+  options.file = misnamed.string();
+  std::ostringstream out, err;
+  EXPECT_EQ(check_file(options, out, err), 0) << err.str();
+  options.commands = {"LINEAR/EIGENSOL"};
+  options.output_prefix = (folder_ / "named").string();
+  EXPECT_EQ(run_session(options, out, err), 0) << err.str();
+  EXPECT_THAT(out.str(), HasSubstr("0.3183099"));
+}
+
+TEST_F(NestedFiles, a_dataset_on_standard_input_is_refused_with_what_to_do) {
+  SessionOptions options;
+  options.file = "-";
+  options.standard_input = read_file(folder_ / "model.adm");
+  std::ostringstream out, err;
+  EXPECT_EQ(check_file(options, out, err), 1);
+  EXPECT_THAT(err.str(), HasSubstr("standard input holds a dataset"));
+  EXPECT_THAT(err.str(), HasSubstr("hint: name the file of the dataset"));
+}
+
 }  // namespace
 }  // namespace dynalin::cases::nested_files_test

@@ -46,7 +46,7 @@ TEST_F(Settings, of_every_statement_are_read) {
   EXPECT_EQ(count(r.err, "nothing here acts on"), 1u) << r.err;
   for (const char* name :
        {"EQUILIBRIUM/ATOL", "IC/PATTERN", "INTEGRATOR/CORRECTOR", "KINEMATICS/AERROR", "KINEMATICS/PATTERN",
-        "OUTPUT/OSFORMAT", "DEBUG/EPRINT", "LSOLVER/AUTO", "FEMDATA", "MATERIAL/HARDNESS"})
+        "OUTPUT/OSFORMAT", "DEBUG/NODUMP", "LSOLVER/AUTO", "FEMDATA", "MATERIAL/HARDNESS"})
     EXPECT_EQ(count(r.err, name), 1u) << name;
   for (const char* acting : {"IC/MAXIT",
                              "IC/VERROR",

@@ -68,6 +68,7 @@ StudyResult<void> Reload::run(RunState& run) const {
   if (system) {
     run.settings = run.system().model().settings;
     run.settings_done.clear();
+    run.take_printing();
     for (const Command& c : settings) {
       c.action->restore(run);
       run.settings_done.push_back(c);

@@ -102,7 +102,7 @@ extern constinit const Kind integrator = setting<WrittenIntegrator>("INTEGRATOR"
 extern constinit const Kind kinematics = setting<WrittenKinematics>("KINEMATICS", "Settings of kinematic analyses.");
 extern constinit const Kind lsolver =
     setting<WrittenLinearSolver>("LSOLVER", "Choice of the linear solver.").without_effect();
-extern constinit const Kind debug = setting<WrittenDebug>("DEBUG", "Diagnostic output.").without_effect();
+extern constinit const Kind debug = setting<WrittenDebug>("DEBUG", "Diagnostic output.");
 extern constinit const Kind preferences = setting<WrittenPreferences>("PREFERENCES", "Preferences of the solver.");
 
 }  // namespace dynalin

@@ -301,7 +301,7 @@ struct WrittenDebug {
 
   using E = WrittenDebug;
   static constexpr std::array<Argument<E>, 20> arguments = {{
-      {.name = "EPRINT", .slot = &E::eprint, .help = "as a command: iterations of statics in the message file"},
+      {.name = "EPRINT", .slot = &E::eprint, .help = "iterations of statics in the message file"},
       {.name = "NOEPRINT", .slot = &E::noeprint, .help = "without them"},
       {.name = "VERBOSE", .slot = &E::flag},
       {.name = "NOVERBOSE", .slot = &E::flag},
@@ -323,9 +323,8 @@ struct WrittenDebug {
       {.name = "LIST", .slot = &E::flag},
   }};
   static constexpr std::array<std::string_view, 3> acting = {"EPRINT", "NOEPRINT", "LIST"};
-  // As a statement: tables of iterations are for the eye that waits for them.
   void apply(Settings& s) const {
-    if (eprint) s.pass_over("DEBUG/EPRINT");
+    if (eprint || noeprint) s.prints_iterations = eprint;
   }
 };
 
