@@ -138,7 +138,9 @@ void Planner::open(const Opening& o) {
   std::string why;
   const SourceRef source = read(o.path, why);
   if (!source) {
-    diagnostics.error("missing-model", o.at, fmt::format("the dataset {} cannot be read: {}", o.path, why));
+    const bool on_a_line = o.at.source && o.echo.empty();
+    diagnostics.error("missing-model", o.at, fmt::format("the dataset {} cannot be read: {}", o.path, why),
+                      on_a_line ? "the first line of a command file is the name of its dataset" : "");
     sound_ = false;
     missed_ = true;
     return;

@@ -25,6 +25,20 @@ constexpr std::size_t most_errors = 1000;  // a file with more is not what it se
 constexpr std::size_t longest_title = 80;
 constexpr std::size_t documented_id_digits = 8;
 
+// The one name that has the word in it: ACCGRAV for GRAV. "" where several have.
+std::string_view only_with(std::string_view word, std::span<const std::string_view> names) {
+  constexpr std::size_t enough = 4;
+  if (word.size() < enough) return {};
+  const std::string part = upper_case(word);
+  std::string_view one;
+  for (const std::string_view name : names) {
+    if (name.find(part) == std::string_view::npos) continue;
+    if (!one.empty()) return {};
+    one = name;
+  }
+  return one;
+}
+
 class StatementReader {
  public:
   StatementReader(Language language, SourceRef source, std::span<const std::string_view> keywords)
@@ -47,7 +61,7 @@ class StatementReader {
   void read_statement(std::span<const Token> tokens, std::string_view view_name);
   bool is_statement(std::span<const Token> tokens);
   void report_not_a_statement(std::span<const Token> tokens);
-  std::string continuation_hint(std::span<const Token> tokens) const;
+  std::string continuation_hint(std::span<const Token> tokens);
   std::string other_language_hint(std::string_view word) const;
   void look_up(Statement& statement);
   std::size_t read_id(std::span<const Token> tokens, Statement& statement);
@@ -219,9 +233,10 @@ void StatementReader::report_not_a_statement(std::span<const Token> tokens) {
       continuation_hint(tokens));
 }
 
-std::string StatementReader::continuation_hint(std::span<const Token> tokens) const {
+std::string StatementReader::continuation_hint(std::span<const Token> tokens) {
   if (language_ == Language::commands) return "a command begins with its keyword";
   if (last_is_open_ && !dataset_.statements.empty()) {
+    dataset_.statements.back().damaged = true;  // what it lacks stands here
     return fmt::format("begin the line with a comma if it continues {}", dataset_.statements.back().at.text());
   }
   const std::string_view word = token_text(tokens[0], text_);
@@ -271,7 +286,8 @@ void StatementReader::look_up(Statement& statement) {
                        fmt::format("{} may mean several {}s", quoted(word), noun), fmt::format("it could be {}", list));
     return;
   }
-  const std::string_view nearest = nearest_word(word, keywords_);
+  std::string_view nearest = nearest_word(word, keywords_);
+  if (nearest.empty()) nearest = only_with(word, keywords_);
   std::string hint = other_language_hint(word);
   if (hint.empty() && !nearest.empty()) hint = fmt::format("did you mean {}?", nearest);
   diagnostics_.error(language_ == Language::dataset ? "unknown-statement" : "unknown-command", statement.keyword(),

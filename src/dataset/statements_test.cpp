@@ -72,6 +72,9 @@ TEST(keywords_of_commands, are_named_as_such_in_datasets) {
   EXPECT_EQ(hint("lin/eig"), "LINEAR is a command: it belongs in a command file, or behind -c");
   EXPECT_EQ(hint("STOP"), "STOP is a command: it belongs in a command file, or behind -c");
   EXPECT_EQ(hint("SFROCE/1"), "did you mean SFORCE?");
+  EXPECT_EQ(hint("grav/1"), "did you mean ACCGRAV?");
+  EXPECT_EQ(hint("DAMPER/1"), "did you mean SPRINGDAMPER?");
+  EXPECT_EQ(hint("ORCE/1"), "");  // of several
 }
 
 TEST(dataset, without_END_gets_a_warning_at_its_end) {

@@ -126,6 +126,11 @@ TEST_F(NestedFiles, standard_input_is_a_command_file) {
   EXPECT_THAT(err.str(), HasSubstr("standard input:1:21: error"));
 }
 
+TEST_F(NestedFiles, a_first_line_that_names_no_file_is_told_what_it_should_be) {
+  EXPECT_THAT(commands("model create model_name=car\nout\nLINEAR/EIGENSOL\n").err,
+              HasSubstr("hint: the first line of a command file is the name of its dataset"));
+}
+
 // What a file is, is told by what it holds.
 TEST_F(NestedFiles, a_dataset_is_one_whatever_its_name) {
   const std::filesystem::path misnamed = folder_ / "misnamed.acf";

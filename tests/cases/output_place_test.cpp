@@ -77,7 +77,7 @@ TEST_F(OutputPlaces, of_names_in_a_command_file_are_its_folder) {
   EXPECT_TRUE(fs::exists("../models/matm"));
   EXPECT_TRUE(fs::exists("../models/results.msg"));
   EXPECT_THAT(r.out, AllOf(HasSubstr("state matrices of 2 states: ../models/matrices\n"),
-                           HasSubstr("second-order matrices of 1 states: ../models/mat*, a file each\n"),
+                           HasSubstr("second-order matrices of 1 state: ../models/mat*, a file each\n"),
                            HasSubstr("wrote ../models/matkb\n"), HasSubstr("wrote ../models/results.msg\n")));
   // A prefix on the command line moves what has its name, and leaves what the command file names.
   options.output_prefix = "out/moved";

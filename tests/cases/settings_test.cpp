@@ -71,6 +71,13 @@ TEST_F(Settings, of_every_statement_are_read) {
     EXPECT_THAT(r.err, Not(HasSubstr(acting)));
 }
 
+TEST_F(Settings, units_by_their_symbols_get_the_names_of_the_language) {
+  const RunResult r = run("t\nUNITS/FORCE=NEWTON, MASS=kg, LENGTH=mm, TIME=ms\nPART/1, GROUND\nEND\n", "LINEAR/EIG\n");
+  EXPECT_EQ(r.status, 1);
+  for (const char* name : {"KILOGRAM", "MILLIMETER", "MILLISECONDS"})
+    EXPECT_THAT(r.err, HasSubstr("did you mean " + std::string(name) + "?"));
+}
+
 // What is stated twice with one value, and what a DEFAULT has ended, says nothing new.
 TEST_F(Settings, that_take_the_place_of_others_get_a_warning_at_their_place) {
   const RunResult r = with("EQUILIBRIUM/MAXIT=3, ERROR=1E-6\nEQUILIBRIUM/MAXIT=9\n", "LINEAR/EIGENSOL\n");

@@ -92,8 +92,8 @@ StudyResult<void> write_form(const Form& form, std::string_view which, const Lin
   run.json.add(run.command, form);
   run.json.add_point(state);
   if (run.terminal)
-    fmt::print(*run.terminal, "{} matrices of {} states: {}{}\n", which, form.states.size(), path,
-               command.format == "MATLAB" ? "*, a file each" : "");
+    fmt::print(*run.terminal, "{} matrices of {} state{}: {}{}\n", which, form.states.size(),
+               form.states.size() == 1 ? "" : "s", path, command.format == "MATLAB" ? "*, a file each" : "");
   return {};
 }
 

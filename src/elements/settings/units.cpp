@@ -78,6 +78,29 @@ struct UnitsStatement {
   }};
 };
 
+// Symbols of the SI and others, which the language does not know, and what they are called there.
+constexpr auto symbols = std::to_array<std::pair<std::string_view, std::string_view>>({
+    {"KG", "KILOGRAM"},
+    {"LB", "POUND_MASS"},
+    {"LBM", "POUND_MASS"},
+    {"LBF", "POUND_FORCE"},
+    {"MM", "MILLIMETER"},
+    {"CM", "CENTIMETER"},
+    {"KM", "KILOMETER"},
+    {"UM", "MICROMETER"},
+    {"FT", "FOOT"},
+    {"YD", "YARD"},
+    {"MS", "MILLISECONDS"},
+    {"HR", "HOUR"},
+});
+
+std::string_view name_of_symbol(std::string_view symbol, std::span<const std::string_view> names) {
+  for (const auto& [written, name] : symbols) {
+    if (written == symbol && std::ranges::find(names, name) != names.end()) return name;
+  }
+  return {};
+}
+
 template <std::size_t n, class Entry>
 const Entry* look_up(const std::array<Entry, n>& table, const std::vector<std::string>& word, std::string_view argument,
                      ElementReader& reader) {
@@ -91,7 +114,8 @@ const Entry* look_up(const std::array<Entry, n>& table, const std::vector<std::s
                  fmt::format("it could be {}", fmt::join(tied, " or ")));
     return nullptr;
   }
-  const auto near = nearest_word(word.front(), names);
+  const auto meant = name_of_symbol(word.front(), names);
+  const auto near = meant.empty() ? nearest_word(word.front(), names) : meant;
   reader.error(
       "unknown-unit", reader.at(argument), fmt::format("{} is no unit of {}", word.front(), argument),
       near.empty() ? fmt::format("known are {}", fmt::join(names, ", ")) : fmt::format("did you mean {}?", near));
@@ -107,6 +131,7 @@ class UnitsSet final : public TypedSet<UnitsStatement> {
     const int four = !u.force.empty() + !u.mass.empty() + !u.length.empty() + !u.time.empty();
     const int forms = (four > 0) + !u.system.empty() + u.ucf.has_value();
     if (forms != 1 || (four > 0 && four < 4)) {
+      if (reader.statement().damaged) return;
       reader.error("mixed-units", reader.statement().at,
                    "UNITS needs all of FORCE, MASS, LENGTH and TIME, or SYSTEM alone, or UCF alone");
       return;
