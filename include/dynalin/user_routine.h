@@ -20,6 +20,9 @@
  *     VFORCE      vfosub       3          dflag, iflag
  *     VTORQUE     vtosub       3          dflag, iflag
  *     FIELD       fiesub       6          disp, velo, dflag, iflag; behind the values dfddis and dfdvel
+ *     CONTACT     cnfsub       3          of NFUNCTION: see below
+ *                 cffsub       3          of FFUNCTION: see below
+ *     COUPLER     cousub       1          disp, ndisp, iflag: displacements of its joints; what is held at zero
  *     DIFF        difsub       1          dflag, iflag
  *     MOTION      motsub       1          iord, iflag: derivative 0, 1 or 2 with respect to time
  *     REQUEST     reqsub       8          iflag
@@ -39,6 +42,26 @@
  * fiesub gives force and torque on I along the axes of J as a function of disp (DX, DY, DZ, AX, AY, AZ of I from J less
  * LENGTH), of velo (VX, VY, VZ, WX, WY, WZ) and of time, and calls no utility for more. dfddis and dfdvel are 6 x 6,
  * column by column: dfddis[i + 6 * j] of force i by displacement j; where dflag is 1 all 72 are written.
+ *
+ * A COUPLER needs couxx and couxx2 as well, which take the same arguments and give the ndisp first and the ndisp x
+ * ndisp second partial derivatives, or the entry below. ROUTINE names three: ROUTINE = library::value, first, second.
+ * A function of time as well needs the entry. Those with a capital: const struct sAdamsCoupler*, time, disp, iflag,
+ * values. None of them calls a utility for more.
+ *
+ * A CONTACT calls its routines at every place where its shapes overlap:
+ *
+ *     cnfsub: id, time, par, npar, loci, ni, locj, nj, gap, gapdot, gapdotdot, area, dflag, iflag, values
+ *     Cnfsub: const struct sAdamsContactFriction*, time, loci, ni, locj, nj, gap, gapdot, ..., values (C: no addresses)
+ *     cffsub: id, time, par, npar, loci, locj, x, xdot, nforce, area, dflag, iflag, values
+ *     Cffsub: const struct sAdamsContactFriction*, time, loci, locj, x, xdot, nforce, area, dflag, iflag, values
+ *
+ * loci is the place on the surface of I from the origin of the marker of that GRAPHICS along its axes, ni the unit
+ * normal out of I along the same axes; locj and nj are those of J. gap is negative where they overlap, gapdot its rate.
+ * values[0] of cnfsub pushes them apart, the other two are 0. xdot[0] is the speed with which the material of I slips
+ * over that of J, xdot[1] always 0, xdot[2] the angular velocity of I seen from J about nj. nforce is what cnfsub (or
+ * the law of the CONTACT) gives. values of cffsub: force on I along the slip, force on I across it (about nj by a right
+ * angle ahead), torque on I about nj. gapdotdot, area and x are not known: they are not numbers, and neither is what is
+ * calculated with them. No utility gives these routines more.
  *
  * id is that of the statement, par and npar are the constants between the parentheses of USER, dflag is 1 where
  * derivatives are wanted. iflag is 0 where the values are wanted, 1 and 3 as above.
@@ -81,6 +104,24 @@ struct sAdamsField {
   int ID, NPAR;
   const double* PAR;
   int I, J;
+};
+/* IFLIP_GEOM and JFLIP_GEOM have a number for each of IGEOM and JGEOM: 1 where it is turned inside out. */
+struct sAdamsContact {
+  int ID, nIGEOM, nJGEOM;
+  const int *IGEOM, *JGEOM, *IFLIP_GEOM, *JFLIP_GEOM;
+};
+struct sAdamsContactFriction {
+  struct sAdamsContact contact;
+  int NPAR;
+  const double* PAR;
+};
+/* TYPE has T or R for each joint: whether its translation or its rotation is meant. */
+struct sAdamsCoupler {
+  int ID, NPAR;
+  const double* PAR;
+  int NJOINT;
+  int JOINTS[3];
+  char TYPE[3];
 };
 struct sAdamsDiff {
   int ID, NPAR;
@@ -174,7 +215,8 @@ struct dynalin_course {
   int id, npar;
   const double* par;
   int inputs;          /* time, a number without meaning, what was asked for, each once, in the order of asking; of a
-                          FIELD disp and velo instead */
+                          FIELD disp and velo instead; of a CONTACT loci, ni, locj, nj, gap and gapdot, or loci,
+                          locj, xdot and nforce; of a COUPLER disp */
   int values;          /* of the routine */
   int order;           /* 0: values and their partial derivatives; 2: also two time derivatives of both */
   const double* input; /* [(order + 1) * k + d]: derivative d of input k with respect to time */

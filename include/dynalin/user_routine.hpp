@@ -340,9 +340,27 @@ struct CallOfStateEquations {
   const Self& self() const { return static_cast<const Self&>(*this); }
 };
 
+// What formulas of a CONTACT get: number k of places, normals and slip, counted from 0. Those of its friction have no
+// normals, and other places.
+template <class Self, class T>
+struct CallOfContact {
+  T location_I(int k) const { return self().given(k); }
+  T normal_I(int k) const { return self().given(3 + k); }
+  T location_J(int k) const { return self().given(6 + k); }
+  T normal_J(int k) const { return self().given(9 + k); }
+  T gap() const { return self().given(12); }
+  T gap_rate() const { return self().given(13); }
+  T location_J_of_friction(int k) const { return self().given(3 + k); }
+  T slip(int k) const { return self().given(6 + k); }
+  T normal_force() const { return self().given(9); }
+
+ private:
+  const Self& self() const { return static_cast<const Self&>(*this); }
+};
+
 // What a formula reads. All it asks for must be the same each time, whatever the values are.
 template <class T>
-class Call : public CallOfStateEquations<Call<T>, T> {
+class Call : public CallOfStateEquations<Call<T>, T>, public CallOfContact<Call<T>, T> {
  public:
   Call(const dynalin_course& course, int first) : course_(&course), first_(first) {}
   int id() const { return course_->id; }
@@ -352,6 +370,8 @@ class Call : public CallOfStateEquations<Call<T>, T> {
   // Of a FIELD: number k of disp and of velo, counted from 0.
   T displacement(int k) const { return number(2 + k); }
   T velocity(int k) const { return number(8 + k); }
+  // What comes as an argument: of a COUPLER displacement k of its joints, of a CONTACT see above.
+  T given(int k) const { return number(2 + k); }
   // As c_sysfnc gives it.
   T measure(const char* name, std::initializer_list<int> ids) const {
     return number(dynalin_input(name, ids.begin(), static_cast<int>(ids.size())));
@@ -381,10 +401,15 @@ class Call : public CallOfStateEquations<Call<T>, T> {
 };
 
 template <>
-class Call<double> : public CallOfStateEquations<Call<double>, double> {
+class Call<double> : public CallOfStateEquations<Call<double>, double>, public CallOfContact<Call<double>, double> {
  public:
   Call(int id, double time, const double* par, int npar, const double* disp = nullptr, const double* velo = nullptr)
       : id_(id), time_(time), par_(par), npar_(npar), disp_(disp), velo_(velo) {}
+  Call(int id, double time, const double* par, int npar, std::initializer_list<double> given)
+      : id_(id), time_(time), par_(par), npar_(npar), disp_(nullptr), velo_(nullptr) {
+    std::copy(given.begin(), given.end(), given_.begin());
+  }
+  double given(int k) const { return given_[static_cast<std::size_t>(k)]; }
   int id() const { return id_; }
   double parameter(int k) const { return par_[k]; }
   int parameters() const { return npar_; }
@@ -411,6 +436,7 @@ class Call<double> : public CallOfStateEquations<Call<double>, double> {
   const double* par_;
   int npar_;
   const double *disp_, *velo_;
+  std::array<double, 14> given_{};
 };
 
 // Fills in the values and derivatives of a course, a pass of inputs at a time.
@@ -462,9 +488,43 @@ void fill_course(const dynalin_course& c) {
   extern "C" void name##_derivatives(const dynalin_course* course) { dynalin::user::fill_course<Formula>(*course); }
 
 // The same of a routine fiesub of a FIELD: a formula of call.displacement and call.velocity, with six values.
-#define DYNALIN_USER_FIELD(name, Formula)                                                                             \
-  extern "C" void name(const int* id, const double* time, const double* par, const int* npar, const double* disp,     \
-                       const double* velo, const int*, const int*, double* field, double*, double*) {                 \
-    Formula{}(dynalin::user::Call<double>(*id, *time, par, *npar, disp, velo), field);                                \
+#define DYNALIN_USER_FIELD(name, Formula)                                                                         \
+  extern "C" void name(const int* id, const double* time, const double* par, const int* npar, const double* disp, \
+                       const double* velo, const int*, const int*, double* field, double*, double*) {             \
+    Formula{}(dynalin::user::Call<double>(*id, *time, par, *npar, disp, velo), field);                            \
+  }                                                                                                               \
+  extern "C" void name##_derivatives(const dynalin_course* course) { dynalin::user::fill_course<Formula>(*course); }
+
+// The same of a routine cnfsub of a CONTACT: a formula of call.gap and call.gap_rate, of places and normals, with three
+// values.
+#define DYNALIN_USER_CONTACT(name, Formula)                                                                           \
+  extern "C" void name(const int* id, const double* time, const double* par, const int* npar, const double* loci,     \
+                       const double* ni, const double* locj, const double* nj, const double* gap,                     \
+                       const double* gapdot, const double*, const double*, const int*, const int*, double* value) {   \
+    Formula{}(dynalin::user::Call<double>(*id, *time, par, *npar,                                                     \
+                                          {loci[0], loci[1], loci[2], ni[0], ni[1], ni[2], locj[0], locj[1], locj[2], \
+                                           nj[0], nj[1], nj[2], *gap, *gapdot}),                                      \
+              value);                                                                                                 \
   }                                                                                                                   \
+  extern "C" void name##_derivatives(const dynalin_course* course) { dynalin::user::fill_course<Formula>(*course); }
+
+// The same of a routine cffsub of a CONTACT: a formula of call.slip and call.normal_force, with three values.
+#define DYNALIN_USER_CONTACT_FRICTION(name, Formula)                                                               \
+  extern "C" void name(const int* id, const double* time, const double* par, const int* npar, const double* loci,  \
+                       const double* locj, const double*, const double* xdot, const double* nforce, const double*, \
+                       const int*, const int*, double* value) {                                                    \
+    Formula{}(dynalin::user::Call<double>(                                                                         \
+                  *id, *time, par, *npar,                                                                          \
+                  {loci[0], loci[1], loci[2], locj[0], locj[1], locj[2], xdot[0], xdot[1], xdot[2], *nforce}),     \
+              value);                                                                                              \
+  }                                                                                                                \
+  extern "C" void name##_derivatives(const dynalin_course* course) { dynalin::user::fill_course<Formula>(*course); }
+
+// The same of a routine cousub of a COUPLER: a formula of call.given(k), displacement k of its joints, with one value.
+#define DYNALIN_USER_COUPLER(name, Formula)                                                                        \
+  extern "C" void name(const int* id, const double* time, const double* par, const int* npar, const double* disp,  \
+                       const int* ndisp, const int*, double* value) {                                              \
+    Formula{}(dynalin::user::Call<double>(*id, *time, par, *npar, {disp[0], disp[1], *ndisp > 2 ? disp[2] : 0.0}), \
+              value);                                                                                              \
+  }                                                                                                                \
   extern "C" void name##_derivatives(const dynalin_course* course) { dynalin::user::fill_course<Formula>(*course); }

@@ -9,12 +9,29 @@
 
 #include "analysis/joined_sets.h"
 #include "analysis/part_names.h"
+#include "mechanics/stiction_source.h"
 
 namespace dynalin {
 
 namespace {
 
 constexpr double negligible_force = 1e-9;  // of stiffnesses and forces, relative
+
+// "; FRICTION/1 bears 9.8, as much as …" of all whose limit is reached.
+std::string exhausted_friction(const System& system, const Motion& motion) {
+  std::vector<std::string> sentences;
+  for (std::size_t set = 0; set < system.model().sets.size(); ++set) {
+    const ElementSet& elements = *system.model().sets[set];
+    if (!elements.active || elements.size() == 0) continue;
+    const auto* source =
+        dynamic_cast<const StictionSource*>(system.signals().element({static_cast<std::int32_t>(set), 0}).kernel);
+    if (source) source->exhausted(motion, sentences);
+  }
+  constexpr std::size_t most = 5;
+  const std::size_t count = sentences.size();
+  if (count > most) sentences.resize(most), sentences.push_back(fmt::format("{} more do the same", count - most));
+  return sentences.empty() ? std::string() : fmt::format("; {}", fmt::join(sentences, "; "));
+}
 
 }  // namespace
 
@@ -92,7 +109,7 @@ Failure static_refusal(StaticEquations& equations, OperatingPoint op, const std:
   const System& system = equations.system();
   Failure f{"statics", "no equilibrium was found", std::move(history), "no-equilibrium"};
   if (const auto unheld = proof.empty() ? unheld_parts(equations, op) : proof; !unheld.empty()) {
-    f.message += fmt::format(": {}", fmt::join(unheld, "; "));
+    f.message += fmt::format(": {}", fmt::join(unheld, "; ")) + exhausted_friction(system, system.motion(op));
     return f;
   }
   equations.settle(op);
@@ -111,6 +128,7 @@ Failure static_refusal(StaticEquations& equations, OperatingPoint op, const std:
     return f;
   }
   if (const std::string worst = equations.worst(equations.force_scale()); !worst.empty()) f.message += ": " + worst;
+  f.message += exhausted_friction(system, system.motion(op));
   const auto names = undetermined(system, equations.augmented(), equations.tangent(0, 0));
   if (!names.empty()) f.message += fmt::format("; the tangent leaves {} undetermined", fmt::join(names, ", "));
   if (const std::string reason = system.domain_violation(system.motion(op)); !reason.empty())

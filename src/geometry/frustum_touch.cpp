@@ -1,6 +1,7 @@
 #include "geometry/frustum_touch.h"
 
 #include <algorithm>
+#include <numbers>
 #include <optional>
 
 #include "geometry/frustum_parting.h"
@@ -56,7 +57,11 @@ class PlacesAbout {
       else
         put_none();
     }
-    for (const Edge<T>& e : face.edges) put_passes(I, end, e, ruled_of(e, face.normal()), true, last);
+    std::array<Passes, 4> over_rim;
+    for (std::size_t n = 0; n < 4; ++n)
+      over_rim[n] = passes_over(I, end, face.edges[n], ruled_of(face.edges[n], face.normal()), true);
+    if (end) share_at_rim(I, *end, face, over_rim);
+    for (Passes& p : over_rim) put_but(p[0], last), put_but(p[1], last);
     for (const bool upper : {false, true}) {
       std::optional<Touch<T>> t = value_of(ends) > 0 ? across(edge, I.rim(upper), true) : std::nullopt;
       put_end(t, ends, J, edge);
@@ -185,16 +190,91 @@ class PlacesAbout {
 
   // --- and those of an edge or a line over the rim of an end, but not the one there is already
 
+  // Where it comes over the end and where it leaves it, along its direction.
+  using Passes = std::array<std::optional<Touch<T>>, 2>;
+  template <class S>
+  Passes passes_over(const PlacedFrustum<T>& f, std::optional<bool> end, const Edge<S>& line, const Ruled<T>& r,
+                     bool out_of_J) const {
+    Passes found;
+    if (!end) return found;
+    const auto at = passes({value_of(line.from), value_of(line.along), line.length}, plain(f).rim(*end));
+    for (std::size_t k = 0; k < 2; ++k) {
+      std::optional<Touch<T>>& t = found[k];
+      if (at[k]) t = touch_ruled(r, f.rim(*end), r.angle_of(out_of_J ? n_ : -n_), *at[k], out_of_J, tolerance_);
+    }
+    return found;
+  }
+  // One that is there already hands its share to that one.
+  void put_but(std::optional<Touch<T>>& t, std::optional<Touch<T>>& already) {
+    if (t && already && norm(value_of(t->point) - value_of(already->point)) < 1e3 * tolerance_) {
+      already->weight *= t->weight;
+      t.reset();
+    }
+    put(t);
+  }
   template <class S>
   void put_passes(const PlacedFrustum<T>& f, std::optional<bool> end, const Edge<S>& line, const Ruled<T>& r,
-                  bool out_of_J, const std::optional<Touch<T>>& already) {
-    std::array<std::optional<double>, 2> at;
-    if (end) at = passes({value_of(line.from), value_of(line.along), line.length}, plain(f).rim(*end));
-    for (const std::optional<double>& s : at) {
-      std::optional<Touch<T>> t;
-      if (s) t = touch_ruled(r, f.rim(*end), r.angle_of(out_of_J ? n_ : -n_), *s, out_of_J, tolerance_);
-      if (t && already && norm(value_of(t->point) - value_of(already->point)) < 1e3 * tolerance_) t.reset();
-      put(t);
+                  bool out_of_J, std::optional<Touch<T>>& already) {
+    for (std::optional<Touch<T>>& t : passes_over(f, end, line, r, out_of_J)) put_but(t, already);
+  }
+
+  // The angle by which the outline of what both have in common turns where it passes from an edge to the rim or back,
+  // in right angles. `sense`: 1 where the edge goes around its face as the rim goes around its axis, else −1.
+  T turn_at_rim(const Circle<T>& rim, const Vec3<T>& place, const Vec3<T>& edge, double sense) const {
+    using std::abs, std::atan2, std::sqrt;
+    const Vec3<T> from = place - rim.centre;
+    const T x = dot(rim.first, from), y = dot(rim.second, from), u = dot(rim.first, edge), v = dot(rim.second, edge);
+    const T outward = x * u + y * v, along = (x * v - y * u) * sense;
+    return atan2(value_of(outward) < 0 ? T(-outward) : outward, along) * (2 / std::numbers::pi);
+  }
+  // Where an edge passes over the rim it has the force of a corner times the angle a by which their outline turns
+  // there, in right angles. So two edges whose corner leaves over the rim share what that had, one that only just
+  // reaches over the rim has none, and no force jumps where an outline gains a corner or loses one. A place that is
+  // alone, with those that it would share with less deep or not there, has the more of a whole force:
+  //
+  //     a + (1 − a)(1 − r)²(1 + 2r),      r: the ratio of depths, theirs to its own
+  void share_at_rim(const PlacedFrustum<T>& f, bool upper, const Face<T>& face, std::array<Passes, 4>& over_rim) const {
+    const Circle<T> rim = f.rim(upper);
+    const auto there = [&](const std::optional<Touch<T>>& t) {
+      return t && t->inside >= -tolerance_ && value_of(t->gap) < 0;
+    };
+    const Vector around = cross(value_of(face.edges[0].along), value_of(face.edges[1].along));
+    const double sense = dot(around, cross(value_of(rim.first), value_of(rim.second))) < 0 ? -1 : 1;
+    std::array<std::array<T, 2>, 4> turns, shares;
+    for (std::size_t n = 0; n < 4; ++n) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        turns[n][k] =
+            there(over_rim[n][k]) ? turn_at_rim(rim, over_rim[n][k]->point, face.edges[n].along, sense) : T(0.0);
+      }
+    }
+    for (std::size_t n = 0; n < 4; ++n) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        if (!there(over_rim[n][k])) continue;
+        const Touch<T>& own = *over_rim[n][k];
+        const T& a = turns[n][k];
+        // The other end of what the edge has over the end: another place of these, or its corner.
+        const std::optional<Touch<T>>& across = over_rim[n][1 - k];
+        const Vec3<T>& corner = face.corners[k == 1 ? n : (n + 1) % 4];
+        const T at_other_end = across && across->inside >= -tolerance_
+                                   ? across->gap
+                                   : lowest(circle_at(corner), f.centre(upper), f.end_normal(upper), false).first.gap;
+        T ratio = at_other_end / own.gap;
+        // The edge that comes back from beyond the corner, the less of it the less that is over the end.
+        const std::size_t next = k == 1 ? (n + 1) % 4 : (n + 3) % 4;
+        if (there(over_rim[next][1 - k]) && value_of(a) < 1) {
+          const T part = turns[next][1 - k] / (1.0 - a), depth = over_rim[next][1 - k]->gap / own.gap;
+          const T of_next = value_of(part) < 1 ? T(depth * part) : depth;
+          if (value_of(of_next) > value_of(ratio)) ratio = of_next;
+        }
+        const T alone = value_of(ratio) <= 0  ? T(1.0)
+                        : value_of(ratio) < 1 ? T((1.0 - ratio) * (1.0 - ratio) * (1.0 + 2.0 * ratio))
+                                              : T(0.0);
+        shares[n][k] = a + (1.0 - a) * alone;
+      }
+    }
+    for (std::size_t n = 0; n < 4; ++n) {
+      for (std::size_t k = 0; k < 2; ++k)
+        if (there(over_rim[n][k])) over_rim[n][k]->weight *= shares[n][k];
     }
   }
 

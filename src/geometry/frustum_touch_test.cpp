@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <ostream>
 #include <random>
 #include <string>
@@ -341,6 +342,35 @@ TEST(FrustumTouch, coins_meet_where_their_rims_cross) {
   EXPECT_NEAR(list[0].point.x, 0.35, 1e-3);
   EXPECT_NEAR(list[0].point.y, std::sqrt(0.25 - 0.35 * 0.35), 1e-3);
   EXPECT_NEAR(list[0].gap, 1e-3 - tilt * list[0].point.y, 1e-5);
+}
+
+// A brick that slides flat over an end and out over its rim, at any angle: the outline of what both have in common
+// turns once around, by right angles at corners of the brick in it, by other angles where edges pass over the rim, and
+// along the rest of the rim. Each right angle has the force of one corner, and nothing jumps.
+TEST(FrustumTouch, corners_that_leave_over_a_rim_hand_their_force_to_edges) {
+  const Box brick{{-0.2, -0.3, 0}, {0.2, 0.3, 0.4}};
+  const Frustum disc{-0.1, 1, 0, 1};
+  const double depth = 1e-3;
+  for (const double angle : {0.0, 0.3, 0.7, 1.2}) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    for (double x = 0.6; x < 1.15; x += 5e-4) {
+      const auto places = closed({"", {brick}, {disc}}, {{x, 0.05, -depth}, {c, s, 0}, {-s, c, 0}, {0, 0, 1}});
+      double weights = 0;
+      for (const Touch<double>& t : places) {
+        weights += t.weight;
+        EXPECT_NEAR(t.gap, -depth, 1e-9);
+      }
+      // How much of the rim is under the brick.
+      const int parts = 20000;
+      int under = 0;
+      for (int k = 0; k < parts; ++k) {
+        const double a = 2 * std::numbers::pi * (k + 0.5) / parts;
+        const double u = std::cos(a) - x, v = std::sin(a) - 0.05;
+        under += std::abs(c * u + s * v) < 0.2 && std::abs(c * v - s * u) < 0.3;
+      }
+      EXPECT_NEAR(weights, 4 - 4.0 * under / parts, 1e-3) << angle << " " << x;
+    }
+  }
 }
 
 // An end over the edge of a table, deepest where the edge leaves over the rim: there once.

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <utility>
+
+#include "routine/given_inputs.h"
 
 namespace dynalin {
 
@@ -126,6 +129,7 @@ std::vector<CalledRoutines::Library> CalledRoutines::libraries_named(std::string
 
 std::string_view CalledRoutines::full_name(const Statement& s, const WrittenArgument& w) const {
   std::vector<std::string_view> names = {"ROUTINE", "INTERFACE"};
+  if (s.name == "CONTACT") names = {"NROUTINE", "FROUTINE"};
   for (const Kind* kind : catalogue_) {
     if (kind->statement != s.name) continue;
     for (const ArgumentInfo& a : kind->arguments) names.push_back(a.name);
@@ -148,6 +152,17 @@ int CalledRoutines::integer(const Statement& s, std::string_view name) const {
   Diagnostics ignored;
   const auto value = read_integer(*w, *w->name.source, ignored);
   return value ? static_cast<int>(value->value) : 0;
+}
+
+std::vector<int> CalledRoutines::integers(const Statement& s, std::string_view name) const {
+  std::vector<int> all;
+  const WrittenArgument* w = argument(s, name);
+  if (!w || !w->has_value || w->damaged) return all;
+  Diagnostics ignored;
+  if (const auto list = read_integers(*w, *w->name.source, ignored)) {
+    for (const WrittenInteger& i : *list) all.push_back(static_cast<int>(i.value));
+  }
+  return all;
 }
 
 std::optional<std::size_t> CalledRoutines::size_of_list(std::string_view statement, std::int32_t id) const {
@@ -227,6 +242,28 @@ std::optional<std::vector<double>> CalledRoutines::constants_of(const WrittenArg
   return values;
 }
 
+// Whoever reads the statement says what is wrong with it.
+std::vector<RoutineStatement::Coupled> CalledRoutines::coupled_by(const Statement& s) const {
+  std::string types;
+  if (const WrittenArgument* w = argument(s, "TYPE"); w && w->has_value) {
+    for (const char c : w->value_span().text())
+      if (c == 'T' || c == 'R') types += c;
+  }
+  static constexpr std::array<std::string_view, 1> translates = {"TRANSLATIONAL"};
+  std::vector<RoutineStatement::Coupled> all;
+  for (const int joint : integers(s, "JOINTS")) {
+    const auto found = std::find_if(dataset_.statements.begin(), dataset_.statements.end(),
+                                    [&](const Statement& j) { return j.name == "JOINT" && j.id == joint; });
+    const bool slides =
+        found != dataset_.statements.end() && std::ranges::any_of(found->arguments, [](const WrittenArgument& w) {
+          return !w.has_value && find_keyword(w.name.text(), translates);
+        });
+    all.push_back({joint, all.size() < types.size() ? types[all.size()] : slides ? 'T' : 'R'});
+  }
+  if (all.size() > most_given_to_coupler) all.resize(most_given_to_coupler);
+  return all;
+}
+
 std::optional<RoutineStatement> CalledRoutines::says(const Statement& s, const WrittenArgument* call) {
   RoutineStatement out;
   out.label = fmt::format("{}/{}", s.name, s.id.value_or(0));
@@ -240,6 +277,19 @@ std::optional<RoutineStatement> CalledRoutines::says(const Statement& s, const W
   out.I = integer(s, "I"), out.J = integer(s, "J"), out.RM = integer(s, "RM"), out.JFLOAT = integer(s, "JFLOAT");
   out.action_only = argument(s, "ACTIONONLY") != nullptr;
   out.rotation = s.name == "SFORCE" && is_rotational(s);
+  if (s.name == "COUPLER") out.coupled = coupled_by(s);
+  if (s.name == "CONTACT") {
+    auto sides = std::make_shared<RoutineStatement::Sides>();
+    const auto take = [&](std::string_view side, std::vector<int>& ids, std::vector<int>& reversed) {
+      ids = integers(s, fmt::format("{}GEOM", side));
+      std::vector<int> turned = integers(s, fmt::format("{}FLIP_GEOMETRY", side));
+      const std::vector<int> more = integers(s, fmt::format("{}FLIP_NORMAL", side));
+      turned.insert(turned.end(), more.begin(), more.end());
+      for (const int id : ids) reversed.push_back(std::ranges::find(turned, id) != turned.end());
+    };
+    take("I", sides->I, sides->reversed_I), take("J", sides->J, sides->reversed_J);
+    out.sides = std::move(sides);
+  }
   out.static_hold = argument(s, "STATIC_HOLD") != nullptr;
   out.implicit = argument(s, "IMPLICIT") != nullptr;
   if (const auto* w = argument(s, "IC"); w && (s.name == "VARIABLE" || s.name == "DIFF") && !w->damaged) {
@@ -258,19 +308,44 @@ std::shared_ptr<const CompiledRoutine> CalledRoutines::find(const Statement& s, 
   if (!kind || !has_libraries()) return nullptr;
   wanted = kind->routine;
   FoundRoutine found;
+  StatePartialRoutines partials;
   if (const auto* named = argument(s, kind->names_routine); named && named->has_value) {
-    const std::string text = unquoted(named->value_span().text());
+    std::string text = unquoted(named->value_span().text());
+    if (kind->arguments == RoutineArguments::coupler) partials = routines_beside(text);
     wanted = text;
     if (const auto last = text.find_last_of(':'); last != std::string::npos && last + 1 < text.size())
       wanted = text.substr(last + 1) + " of " + text.substr(0, text.find(':'));
     found = find_named(text, {});
   } else {
     found = find_routine(libraries_, kind->routine);
+    if (kind->arguments == RoutineArguments::coupler) {
+      partials.first = find_routine(libraries_, "couxx"), partials.second = find_routine(libraries_, "couxx2");
+    }
   }
   if (!found) return nullptr;
   auto what = says(s, &call);
   if (!what) return nullptr;
-  return made(s, call.value_span(), std::move(found), *kind, kind->values, std::move(*what));
+  return made(s, call.value_span(), std::move(found), *kind, kind->values, std::move(*what), std::move(partials));
+}
+
+// Of "library::value, first, second" the second and the third, in the library of the first where they name none;
+// `text` keeps the first.
+StatePartialRoutines CalledRoutines::routines_beside(std::string& text) {
+  StatePartialRoutines beside;
+  const std::string all = std::exchange(text, text.substr(0, text.find(',')));
+  text = unquoted(text);
+  const auto last = text.find_last_of(':');
+  const std::string library = last == std::string::npos ? "" : text.substr(0, last + 1);
+  std::size_t from = all.find(',');
+  for (FoundRoutine* routine : {&beside.first, &beside.second}) {
+    if (from == std::string::npos) break;
+    const std::size_t to = all.find(',', from + 1);
+    std::string name = unquoted(std::string_view(all).substr(from + 1, to == std::string::npos ? to : to - from - 1));
+    if (name.find(':') == std::string::npos) name.insert(0, library);
+    *routine = find_named(name, {});
+    from = to;
+  }
+  return beside;
 }
 
 FoundRoutine CalledRoutines::find_named(std::string_view written, std::span<const std::string_view> default_names) {
@@ -319,7 +394,7 @@ std::string CalledRoutines::written(const Statement& s, const WrittenArgument& c
   std::vector<Atom> inputs = routine->inputs();
   for (Atom& a : inputs) a.set_place(at);
   std::string text;
-  // A FIELD takes the routine with all of its values over from the first.
+  // A FIELD and a CONTACT take the routine with all of its values over from the first.
   for (std::size_t v = 0; v < components_of(kind).size(); ++v) {
     text += fmt::format(", {}={}", components_of(kind)[v], functions.size());
     functions.push_back(routine_expression(inputs, routine, v, at));

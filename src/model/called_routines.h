@@ -48,6 +48,7 @@ class CalledRoutines {
   using Library = std::shared_ptr<const RoutineLibrary>;
   std::vector<Library> libraries_named(std::string_view name);
   int integer(const Statement&, std::string_view name) const;
+  std::vector<int> integers(const Statement&, std::string_view name) const;
   std::optional<std::size_t> size_of_list(std::string_view statement, std::int32_t id) const;
   std::shared_ptr<const std::vector<int>> constant_arrays() const;
   std::optional<RoutineStatement> says(const Statement&, const WrittenArgument* call);
@@ -55,6 +56,8 @@ class CalledRoutines {
 
   // "friction::slip", "slip", "friction::" or "" (the default name) in what libraries it may stand in.
   FoundRoutine find_named(std::string_view written, std::span<const std::string_view> default_names);
+  StatePartialRoutines routines_beside(std::string& text);
+  std::vector<RoutineStatement::Coupled> coupled_by(const Statement&) const;
   sAdamsGSE says_of_states(const Statement&, const RoutineStatement&) const;
   std::shared_ptr<const CompiledRoutine> made(const Statement&, const Span& at, FoundRoutine, const RoutineKind&,
                                               std::size_t values, RoutineStatement, StatePartialRoutines = {});

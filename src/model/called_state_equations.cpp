@@ -141,8 +141,12 @@ std::shared_ptr<const StateEquations> CalledRoutines::find_state_equations(const
   if (ns + no > 0 && !separate && names.asks_for_system && !system)
     return missing(names.system[0], kinds.system.routine);
   if (ns + no > 0 && !separate && system) {
-    StatePartialRoutines partials = {find(names.system[1], {"gsexx"}), find(names.system[2], {"gsexu"}),
-                                     find(names.system[3], {"gseyx"}), find(names.system[4], {"gseyu"})};
+    StatePartialRoutines partials = {find(names.system[1], {"gsexx"}),
+                                     find(names.system[2], {"gsexu"}),
+                                     find(names.system[3], {"gseyx"}),
+                                     find(names.system[4], {"gseyu"}),
+                                     {},
+                                     {}};
     const auto routine = made(s, at, std::move(system), kinds.system, ns + no, *what, std::move(partials));
     if (!routine) return nullptr;
     out->derivatives = functions_of(routine, 0, ns, at), out->outputs = functions_of(routine, ns, no, at);

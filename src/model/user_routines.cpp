@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view hint_of_routine_in_expression =
     "VARIABLE/id, FUNCTION=USER(…) calls a routine, and expressions read VARVAL(id)";
-constexpr std::array<std::string_view, 2> names_of_code = {"ROUTINE", "INTERFACE"};
+constexpr std::array<std::string_view, 4> names_of_code = {"ROUTINE", "INTERFACE", "NROUTINE", "FROUTINE"};
 
 Span span_of(const Token& token, const SourceText& source) { return {&source, token.offset, token.length}; }
 

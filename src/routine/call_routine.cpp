@@ -1,5 +1,10 @@
 #include "routine/call_routine.h"
 
+#include <algorithm>
+#include <iterator>
+
+#include "routine/given_inputs.h"
+
 namespace dynalin {
 
 namespace {
@@ -8,6 +13,9 @@ template <class Signature>
 Signature* as(void* address) {
   return reinterpret_cast<Signature*>(address);
 }
+
+// What x of a friction routine points to.
+constexpr std::array<double, 3> no_deformation = {not_known, not_known, not_known};
 
 void call_with_addresses(void* address, RoutineArguments arguments, const RoutineStatement& s,
                          const RoutineArgumentsNow& now, double* values) {
@@ -34,10 +42,26 @@ void call_with_addresses(void* address, RoutineArguments arguments, const Routin
                      const int*, double*, double*, double*)>(address)(&s.id, &now.time, par, &npar, now.displacement,
                                                                       now.velocity, &now.flag, &now.iflag, values,
                                                                       now.by_displacement, now.by_velocity);
+    case RoutineArguments::coupler: {
+      const auto count = static_cast<int>(s.coupled.size());
+      return as<void(const int*, const double*, const double*, const int*, const double*, const int*, const int*,
+                     double*)>(address)(&s.id, &now.time, par, &npar, now.given, &count, &now.iflag, values);
+    }
+    case RoutineArguments::pressure:
+      return as<void(const int*, const double*, const double*, const int*, const double*, const double*, const double*,
+                     const double*, const double*, const double*, const double*, const double*, const int*, const int*,
+                     double*)>(address)(&s.id, &now.time, par, &npar, now.given, now.given + 3, now.given + 6,
+                                        now.given + 9, now.given + 12, now.given + 13, &not_known, &not_known,
+                                        &now.flag, &now.iflag, values);
+    case RoutineArguments::friction:
+      return as<void(const int*, const double*, const double*, const int*, const double*, const double*, const double*,
+                     const double*, const double*, const double*, const int*, const int*, double*)>(address)(
+          &s.id, &now.time, par, &npar, now.given, now.given + 3, no_deformation.data(), now.given + 6, now.given + 9,
+          &not_known, &now.flag, &now.iflag, values);
   }
 }
 
-// Every one of these begins with id and constants.
+// Every one of these but that of a CONTACT begins with id and constants.
 union WhatItSays {
   sAdamsVariable variable;
   sAdamsSforce sforce;
@@ -46,6 +70,8 @@ union WhatItSays {
   sAdamsDiff diff;
   sAdamsField field;
   sAdamsGSE gse;
+  sAdamsContactFriction contact;
+  sAdamsCoupler coupler;
 };
 
 WhatItSays what_it_says(std::string_view statement, const RoutineStatement& s) {
@@ -59,6 +85,18 @@ WhatItSays what_it_says(std::string_view statement, const RoutineStatement& s) {
   if (statement == "VFORCE" || statement == "VTORQUE") all.vforce = {s.id, npar, par, s.I, s.JFLOAT, s.RM};
   if (statement == "FIELD") all.field = {s.id, npar, par, s.I, s.J};
   if (statement == "DIFF") all.diff = {s.id, npar, par, s.static_hold, s.implicit, s.initial, s.initial_rate};
+  if (statement == "COUPLER") {
+    all.coupler = {s.id, npar, par, static_cast<int>(s.coupled.size()), {}, {}};
+    for (std::size_t k = 0; k < std::min(s.coupled.size(), std::size(all.coupler.JOINTS)); ++k)
+      all.coupler.JOINTS[k] = s.coupled[k].joint, all.coupler.TYPE[k] = s.coupled[k].type;
+  }
+  if (statement == "CONTACT") {
+    const RoutineStatement::Sides& sides = *s.sides;
+    all.contact = {{s.id, static_cast<int>(sides.I.size()), static_cast<int>(sides.J.size()), sides.I.data(),
+                    sides.J.data(), sides.reversed_I.data(), sides.reversed_J.data()},
+                   npar,
+                   par};
+  }
   if (statement == "GSE") {
     all.gse = *s.gse;
     all.gse.ID = s.id, all.gse.NPAR = npar, all.gse.PAR = par;
@@ -85,6 +123,18 @@ void call_with_statement(void* address, RoutineArguments arguments, const WhatIt
       return as<void(const void*, double, const double*, const double*, int, int, double*, double*, double*)>(address)(
           &s, now.time, now.displacement, now.velocity, now.flag, now.iflag, values, now.by_displacement,
           now.by_velocity);
+    case RoutineArguments::coupler:
+      return as<void(const void*, double, const double*, int, double*)>(address)(&s, now.time, now.given, now.iflag,
+                                                                                 values);
+    case RoutineArguments::pressure:
+      return as<void(const void*, double, const double*, const double*, const double*, const double*, double, double,
+                     double, double, int, int, double*)>(address)(&s, now.time, now.given, now.given + 3, now.given + 6,
+                                                                  now.given + 9, now.given[12], now.given[13],
+                                                                  not_known, not_known, now.flag, now.iflag, values);
+    case RoutineArguments::friction:
+      return as<void(const void*, double, const double*, const double*, const double*, const double*, double, double,
+                     int, int, double*)>(address)(&s, now.time, now.given, now.given + 3, no_deformation.data(),
+                                                  now.given + 6, now.given[9], not_known, now.flag, now.iflag, values);
   }
 }
 

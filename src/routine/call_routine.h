@@ -14,6 +14,7 @@ struct RoutineArgumentsNow {
   // Of a FIELD: six numbers each, and 6 × 6 derivatives of the force by them, column by column.
   const double *displacement = nullptr, *velocity = nullptr;
   double *by_displacement = nullptr, *by_velocity = nullptr;
+  const double* given = nullptr;  // of a CONTACT: given_inputs.h
 };
 
 void call_routine(const FoundRoutine&, const RoutineKind&, const RoutineStatement&, const RoutineArgumentsNow&,

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "routine/call_routine.h"
+#include "routine/given_inputs.h"
 #include "routine/routine_memory.h"
 #include "routine/utilities.h"
 
@@ -34,24 +35,28 @@ Atom atom_without_ids(std::string_view name) {
 
 }  // namespace
 
-// What the routine of a FIELD gets as arguments, in their order.
-std::vector<Atom> field_inputs(int i, int j) {
-  const std::array<int, 4> ids = {i, j, j, j};
-  std::vector<Atom> inputs;
-  const auto take = [&](std::initializer_list<std::string_view> names, std::size_t count) {
-    for (const std::string_view name : names) inputs.push_back(*single_measure(name, std::span(ids).first(count)));
-  };
-  take({"DX", "DY", "DZ"}, 3), take({"AX", "AY", "AZ"}, 2);
-  take({"VX", "VY", "VZ"}, 4), take({"WX", "WY", "WZ"}, 3);
-  return inputs;
-}
-constexpr std::size_t first_of_field = 2, inputs_of_field = 12;
+namespace {
+constexpr std::size_t inputs_of_field = 12;
 
-struct CompiledRoutine::CourseMemory {
-  std::uint64_t serial = 0;
-  std::vector<double> inputs;  // [3 input + derivative]
-  std::vector<Taylor> values, partials;
-};
+// Arguments that its interface has and nobody here can say.
+std::string_view what_is_not_known(RoutineArguments arguments) {
+  if (arguments == RoutineArguments::pressure) return "; GAPDOTDOT and AREA are not known here, and no numbers";
+  if (arguments == RoutineArguments::friction) return "; X and AREA are not known here, and no numbers";
+  return "";
+}
+
+std::string_view way_to_derivatives(RoutineArguments arguments) {
+  switch (arguments) {
+    case RoutineArguments::field:
+      return "all of dfddis and dfdvel, an entry with them, or --difference-user-routines";
+    case RoutineArguments::pressure:
+    case RoutineArguments::friction:
+      return "an entry with them, or --difference-user-routines";
+    default:
+      return "c_syspar, an entry with them, or --difference-user-routines";
+  }
+}
+}  // namespace
 
 CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, std::size_t values,
                                  RoutineStatement statement, RoutineDifferences differences, const SizeOfList& size_of,
@@ -67,9 +72,8 @@ CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, st
   keep_utilities();
   what_ = fmt::format("{}, called for {}", name(), statement_.label);
   requests_.inputs = {atom_without_ids("TIME"), atom_without_ids(knows_mode() ? "MODE" : "TIME")};
-  if (kind.arguments == RoutineArguments::field) {
-    for (const Atom& a : field_inputs(statement_.I, statement_.J)) requests_.inputs.push_back(a);
-  }
+  const std::vector<Atom> given_to_it = given_inputs(kind, statement_);
+  requests_.inputs.insert(requests_.inputs.end(), given_to_it.begin(), given_to_it.end());
   std::vector<double> ignored(values_);
   // Routines that pass over one of the first two ask when they are called for a value.
   for (const int iflag : {1, 3, 0}) {
@@ -97,11 +101,17 @@ CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, st
     if (input.function == entry && std::ranges::binary_search(*statement_.constant_arrays, input.argument[0]))
       constants_.push_back(static_cast<std::int32_t>(k));
   }
-  if (kind.arguments == RoutineArguments::field && problem_.empty() && !requests_.list.empty()) {
-    problem_ = fmt::format(
-        "it asks for {}({}); the force of a FIELD is a function of the displacement and the velocity "
-        "that its routine gets, and of time",
-        requests_.list.front().name, fmt::join(requests_.list.front().ids, ", "));
+  if (!given_to_it.empty() && problem_.empty() && !requests_.list.empty()) {
+    problem_ =
+        fmt::format("it asks for {}({}); the force of a {} is a function of {} that its routine gets, and of time",
+                    requests_.list.front().name, fmt::join(requests_.list.front().ids, ", "), kind.statement,
+                    kind.statement == "FIELD" ? "the displacement and the velocity" : "the arguments");
+  }
+  if (kind.arguments == RoutineArguments::coupler && !found_.derivatives && problem_.empty() &&
+      !(state_partials_.first && state_partials_.second)) {
+    problem_ =
+        "a COUPLER needs the first and second partial derivatives of what it holds at zero: the routines couxx and "
+        "couxx2 beside it, or an entry with them";
   }
   if (found_.derivatives != nullptr || kind.arguments == RoutineArguments::of_time) gives_derivatives_ = true;
   if (gives_derivatives_ || !problem_.empty()) return;
@@ -153,6 +163,9 @@ ReadArray read_array(const RoutineContext& c, int array, int size) {
 void CompiledRoutine::call(double time, int flag, int iflag, double* values) const {
   RoutineArgumentsNow now{time, flag, iflag, static_cast<int>(values_)};
   if (kind_->arguments == RoutineArguments::field) return call_field(now, values);
+  if (kind_->arguments == RoutineArguments::coupler) return call_coupler(now, found_, values);
+  if (kind_->arguments == RoutineArguments::pressure || kind_->arguments == RoutineArguments::friction)
+    return call_contact(now, values);
   if (kind_->arguments != RoutineArguments::system) return call_routine(found_, *kind_, statement_, now, values);
   const sAdamsGSE& gse = *statement_.gse;
   const RoutineContext& c = *RoutineContext::current();
@@ -161,12 +174,20 @@ void CompiledRoutine::call(double time, int flag, int iflag, double* values) con
   call_routine(found_, *kind_, statement_, now, values);
 }
 
+void CompiledRoutine::call_contact(RoutineArgumentsNow now, double* values) const {
+  const RoutineContext& c = *RoutineContext::current();
+  std::array<double, std::max(given_to_pressure, given_to_friction)> given{};
+  if (c.phase != RoutineContext::Phase::asking) std::ranges::copy(c.inputs.subspan(first_given), given.begin());
+  now.given = given.data();
+  call_routine(found_, *kind_, statement_, now, values);
+}
+
 // A column of derivatives counts if all of it is written.
 void CompiledRoutine::call_field(RoutineArgumentsNow now, double* values) const {
   RoutineContext& c = *RoutineContext::current();
   std::array<double, inputs_of_field> arguments{};
   if (c.phase != RoutineContext::Phase::asking) {
-    std::ranges::copy(c.inputs.subspan(first_of_field, inputs_of_field), arguments.begin());
+    std::ranges::copy(c.inputs.subspan(first_given, inputs_of_field), arguments.begin());
   }
   std::array<double, 72> partials{};
   partials.fill(unknown_value);
@@ -177,8 +198,8 @@ void CompiledRoutine::call_field(RoutineArgumentsNow now, double* values) const 
   for (std::size_t k = 0; k < inputs_of_field; ++k) {
     const auto column = std::span(partials).subspan(6 * k, 6);
     if (!std::ranges::all_of(column, [](double p) { return std::isfinite(p); })) continue;
-    for (std::size_t v = 0; v < 6; ++v) c.partials[v * c.inputs.size() + first_of_field + k] = column[v];
-    c.given[first_of_field + k] = true;
+    for (std::size_t v = 0; v < 6; ++v) c.partials[v * c.inputs.size() + first_given + k] = column[v];
+    c.given[first_given + k] = true;
   }
 }
 
@@ -220,6 +241,11 @@ std::string CompiledRoutine::evaluate(std::span<const double> inputs, std::span<
   try {
     call(inputs[0], derivatives ? 1 : 0, 0, values.data());
     if (derivatives && kind_->arguments == RoutineArguments::system) call_partials(inputs[0], partials, given);
+    if (derivatives && kind_->arguments == RoutineArguments::coupler && state_partials_.first) {
+      std::fill(partials.begin() + first_given, partials.end(), unknown_value);
+      call_coupler({inputs[0], 0, 0, 1}, state_partials_.first, partials.data() + first_given);
+      std::fill(given.begin() + first_given, given.end(), true);
+    }
   } catch (...) {
     c.fail("it threw an exception");
   }
@@ -325,6 +351,7 @@ void CompiledRoutine::fill_course(CourseMemory& m) const {
     for (std::size_t v = 0; v < values_; ++v) m.partials[v * n + 1] = Taylor(0.0);
     return;
   }
+  if (kind_->arguments == RoutineArguments::coupler) return fill_course_of_coupler(m);
   if (kind_->arguments == RoutineArguments::of_time && n == 2) {
     std::array<double, 3> course{};
     RoutineContext c = context(RoutineContext::Phase::evaluating);
@@ -384,11 +411,15 @@ std::span<const TimeTaylor<double>> CompiledRoutine::partials(const RoutineInput
 std::string CompiledRoutine::reason_of_value(std::span<const double> inputs) const {
   std::vector<double> values(values_);
   std::string reason = evaluate(inputs, values, {}, {});
-  if (reason.empty()) reason = "its value is no finite number";
+  if (reason.empty()) reason = fmt::format("its value is no finite number{}", what_is_not_known(kind_->arguments));
   return fmt::format("{} has no value at TIME {:g}: {}", name(), inputs[0], reason);
 }
 
 std::string CompiledRoutine::reason_of_partials(std::span<const double> inputs) const {
+  if (kind_->arguments == RoutineArguments::coupler && !found_.derivatives) {
+    return fmt::format("{} gives no third derivatives, and a linear model of what moves needs them: an entry with them",
+                       name());
+  }
   if (gives_derivatives_) return fmt::format("{} gives no finite derivatives at TIME {:g}", name(), inputs[0]);
   if (differences_ == RoutineDifferences::everywhere) {
     return fmt::format(
@@ -396,9 +427,7 @@ std::string CompiledRoutine::reason_of_partials(std::span<const double> inputs) 
         name(), lack_of_derivatives_, inputs[0]);
   }
   return fmt::format("{} {}, and a linear model needs them: {}", name(), lack_of_derivatives_,
-                     kind_->arguments == RoutineArguments::field
-                         ? "all of dfddis and dfdvel, an entry with them, or --difference-user-routines"
-                         : "c_syspar, an entry with them, or --difference-user-routines");
+                     way_to_derivatives(kind_->arguments));
 }
 
 }  // namespace dynalin

@@ -36,14 +36,26 @@ struct RoutineStatement {
   bool action_only = false, rotation = false, static_hold = false, implicit = false;
   double initial = 0, initial_rate = 0;
   std::optional<sAdamsGSE> gse{};
+  // Of a COUPLER: ids of its joints, and T or R for the displacement of each.
+  struct Coupled {
+    int joint;
+    char type;
+  };
+  std::vector<Coupled> coupled{};
+  // Of a CONTACT: ids of its GRAPHICS, and for each of them 1 where it is turned inside out.
+  struct Sides {
+    std::vector<int> I, J, reversed_I, reversed_J;
+  };
+  std::shared_ptr<const Sides> sides{};
   // ARRAYs of numbers and of discrete states, ascending: constants in a linear model.
   std::shared_ptr<const std::vector<int>> constant_arrays{};
 };
 
-// Routines that give the partial derivatives of a whole GSE: of x′ and of y, with respect to states and to inputs. One
-// that is not there has no address.
+// Routines that give the partial derivatives of a whole GSE: of x′ and of y, with respect to states and to inputs; and
+// those of a COUPLER, the first and the second by its displacements. One that is not there has no address.
 struct StatePartialRoutines {
   FoundRoutine of_x_by_x, of_x_by_u, of_y_by_x, of_y_by_u;
+  FoundRoutine first, second;
 };
 
 class CompiledRoutine final : public Routine {
@@ -52,7 +64,7 @@ class CompiledRoutine final : public Routine {
   CompiledRoutine(FoundRoutine, const RoutineKind&, std::size_t values, RoutineStatement, RoutineDifferences,
                   const SizeOfList&, StatePartialRoutines = {});
 
-  // TIME, MODE but for a MOTION, and what it asked for. Of a FIELD: displacement and velocity instead.
+  // TIME, MODE but for a MOTION, and what it asked for, or instead of that what it gets as arguments (given_inputs.h).
   const std::vector<Atom>& inputs() const { return requests_.inputs; }
   std::size_t values() const { return values_; }
   // What was wrong when it was asked what it reads, empty if nothing was.
@@ -79,6 +91,12 @@ class CompiledRoutine final : public Routine {
   struct CourseMemory;  // the same along the motion
   void call(double time, int flag, int iflag, double* values) const;
   void call_field(RoutineArgumentsNow, double* values) const;
+  void call_coupler(RoutineArgumentsNow, const FoundRoutine&, double* values) const;
+  // Along the motion, from the routines of first and second derivatives.
+  void fill_course_of_coupler(CourseMemory&) const;
+  // Whether the value at other times is the same to the last digit: there is no routine for its derivative in time.
+  bool depends_on_time(std::span<const double> inputs) const;
+  void call_contact(RoutineArgumentsNow, double* values) const;
   // Of a whole GSE: partial derivatives that routines of their own give.
   void call_partials(double time, std::span<double> partials, std::span<char> given) const;
   // All values, and with partials those too; says why there are none.

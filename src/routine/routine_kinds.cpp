@@ -6,13 +6,16 @@ namespace dynalin {
 
 namespace {
 using enum RoutineArguments;
-constexpr std::array<RoutineKind, 11> kinds = {{
+constexpr std::array<RoutineKind, 14> kinds = {{
     {"VARIABLE", "varsub", 1, function},
     {"SFORCE", "sfosub", 1, function},
     {"GFORCE", "gfosub", 6, function},
     {"VFORCE", "vfosub", 3, function},
     {"VTORQUE", "vtosub", 3, function},
     {"FIELD", "fiesub", 6, field},
+    {"CONTACT", "cnfsub", 3, pressure, "NFUNCTION", "NROUTINE"},
+    {"CONTACT", "cffsub", 3, friction, "FFUNCTION", "FROUTINE"},
+    {"COUPLER", "cousub", 1, coupler},
     {"DIFF", "difsub", 1, function},
     {"MOTION", "motsub", 1, of_time},
     {"REQUEST", "reqsub", 8, plain},

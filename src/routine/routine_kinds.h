@@ -15,6 +15,9 @@ enum class RoutineArguments : std::uint8_t {
   counted,   // dflag, iflag, how many values
   system,    // of a whole GSE: states and inputs come with it
   field,     // displacement, velocity, dflag, iflag, force, its derivatives by both
+  pressure,  // of a CONTACT: places, normals, gap with two rates, area, dflag, iflag
+  coupler,   // displacements of joints, how many, iflag
+  friction,  // of a CONTACT: places, deformation, slip, normal force, area, dflag, iflag
 };
 
 struct RoutineKind {

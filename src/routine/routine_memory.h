@@ -22,4 +22,11 @@ struct CompiledRoutine::Memory {
   std::vector<char> given;
 };
 
+// The same along the motion.
+struct CompiledRoutine::CourseMemory {
+  std::uint64_t serial = 0;
+  std::vector<double> inputs;  // [3 input + derivative]
+  std::vector<Taylor> values, partials;
+};
+
 }  // namespace dynalin

@@ -13,15 +13,17 @@ std::string undefined_value_of(const std::vector<UndefinedValue>& undefined_valu
 
 std::optional<std::string> undefined_row(const System& system, const Motion& motion, const ConstraintRows& rows,
                                          int order) {
+  // How accelerations of a row change with positions is asked by linear models alone.
+  const bool varied = motion.mode == AnalysisMode::linear;
   for (std::int32_t k = 0; k < rows.size(); ++k) {
     const auto row = rows.row(k);
     const Taylor& along = rows.along_motion(k);
     const int known = rows.level(k) == RowLevel::position ? order : 0;  // of others not all orders are there
-    const bool finite =
-        (known < 1 || std::isfinite(along.rate)) && (known < 2 || std::isfinite(along.acceleration)) &&
-        std::all_of(row.begin(), row.end(), [](const ConstraintRows::Entry& e) {
-          return std::isfinite(e.c.g) && std::isfinite(e.c.v) && std::isfinite(e.c.a1) && std::isfinite(e.c.a0);
-        });
+    const bool finite = (known < 1 || std::isfinite(along.rate)) && (known < 2 || std::isfinite(along.acceleration)) &&
+                        std::all_of(row.begin(), row.end(), [&](const ConstraintRows::Entry& e) {
+                          return std::isfinite(e.c.g) && std::isfinite(e.c.v) && std::isfinite(e.c.a1) &&
+                                 (std::isfinite(e.c.a0) || !varied);
+                        });
     if (finite) continue;
     const auto at = static_cast<std::size_t>(k);
     std::string reason;

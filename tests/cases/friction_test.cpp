@@ -7,6 +7,7 @@
 namespace dynalin::cases::friction_test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 class FrictionCases : public Cases {};
@@ -238,7 +239,11 @@ TEST_F(FrictionCases, surfaces_give_way_in_statics_until_bristles_bear_the_load)
         EXPECT_NEAR(x * (3 - x * x) / 2, share, 1e-9) << j.type << ' ' << j.way << share;
       }
     }
-    EXPECT_EQ(rest(1.1).status, 2) << j.type;
+    const RunResult over = rest(1.1);
+    EXPECT_EQ(over.status, 2) << j.type;
+    EXPECT_THAT(over.err, AllOf(HasSubstr("no equilibrium was found"), HasSubstr("FRICTION/4 bears "),
+                                HasSubstr("as much as JOINT/1 can bear by friction")))
+        << j.type;
   }
 }
 

@@ -50,3 +50,53 @@ struct Course {
   }
 };
 DYNALIN_USER_ROUTINE(course_by_formula, Course)
+
+// What cnfsub and cffsub of contact.c are, in the region between speed 0 and the second one.
+struct Pressure {
+  template <class T>
+  void operator()(const dynalin::user::Call<T>& call, T* value) const {
+    const T g = -1.0 * call.gap(), s = g / call.parameter(3);
+    const T share = s < 1.0 ? s * s * (3.0 - 2.0 * s) : T(1.0);
+    value[0] = call.parameter(0) * pow(g, call.parameter(1)) - call.parameter(2) * share * call.gap_rate();
+    if (value[0] < 0.0) value[0] = T(0.0);
+    value[1] = value[2] = T(0.0);
+  }
+};
+DYNALIN_USER_CONTACT(pressure_by_formula, Pressure)
+
+struct Slip {
+  template <class T>
+  void operator()(const dynalin::user::Call<T>& call, T* value) const {
+    const double still = call.parameter(2), sliding = call.parameter(3);
+    const T v = call.slip(0), u = v / still, s = (v - still) / (sliding - still);
+    const T rising = call.parameter(0) * 0.5 * u * (3.0 - u * u);
+    const T falling = call.parameter(0) + (call.parameter(1) - call.parameter(0)) * s * s * (3.0 - 2.0 * s);
+    const T mu = v < still ? rising : v < sliding ? falling : T(call.parameter(1));
+    value[0] = -1.0 * mu * call.normal_force();
+    value[1] = T(0.0);
+    value[2] = -call.parameter(4) * call.slip(2);
+  }
+};
+DYNALIN_USER_CONTACT_FRICTION(friction_by_formula, Slip)
+
+// What `places` of contact.c is.
+struct Places {
+  template <class T>
+  void operator()(const dynalin::user::Call<T>& call, T* value) const {
+    const T i = call.location_I(0), j = call.location_J(0);
+    value[0] = -call.parameter(0) * call.gap() / (1.0 + i * i + j * j) + 3.0 * call.normal_I(0) +
+               2.0 * call.normal_J(2) + call.location_I(2) + call.location_J(1);
+    value[1] = value[2] = T(0.0);
+  }
+};
+DYNALIN_USER_CONTACT(places_by_formula, Places)
+
+// What cousub of coupler.c is of two displacements, and with par[2] an oscillation in time.
+struct Coupled {
+  template <class T>
+  void operator()(const dynalin::user::Call<T>& call, T* value) const {
+    value[0] = call.given(0) - call.parameter(0) * sin(call.given(1)) - call.parameter(1) * call.given(1);
+    if (call.parameters() > 2) value[0] += call.parameter(2) * sin(call.time());
+  }
+};
+DYNALIN_USER_COUPLER(coupled_by_formula, Coupled)

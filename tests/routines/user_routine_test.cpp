@@ -3,7 +3,11 @@
 #include <gmock/gmock.h>
 
 #include <csignal>
+#include <filesystem>
 
+#include "dataset/dataset.h"
+#include "elements/catalogue.h"
+#include "model/routine_options.h"
 #include "places/sanitizers.h"
 #include "routine/routine_context.h"
 #include "routines/robot.h"
@@ -49,6 +53,22 @@ TEST_F(UserRoutines, give_the_eigenvalues_of_the_same_expression) {
       "FUNCTION=USER(50,30,2), ROUTINE=routines::Springc\nSFORCE/2, TRANSLATION, ACTIONONLY, I=21, J=2, "
       "FUNCTION=-7*DX(20,1)\n";
   expect_same(with(slider + called), with(slider + at_slider), 1e-14);
+}
+
+// Nobody has promised that routines bear several threads: not of a library that is named, nor of one in a folder.
+TEST_F(UserRoutines, are_called_by_one_thread) {
+  const auto calls = [](const std::string& force, const std::string& library) {
+    const auto text = std::make_shared<const SourceText>("model.adm", slider + along + force + "\nEND\n");
+    auto dataset = std::make_shared<const Dataset>(parse_dataset(text).value);
+    const auto built = build_model(dataset, catalogue(), {}, RoutineOptions{{library}});
+    EXPECT_FALSE(built.diagnostics.has_errors());
+    return built.value->calls_routines;
+  };
+  const std::string called = "FUNCTION=USER(20,1,50,30,2)", named = ", ROUTINE=routines::sfosub";
+  EXPECT_TRUE(calls(called, C_ROUTINES));
+  EXPECT_TRUE(calls(called + named, C_ROUTINES));
+  EXPECT_TRUE(calls(called + named, std::filesystem::path(C_ROUTINES).parent_path().string()));
+  EXPECT_FALSE(calls("FUNCTION=3", C_ROUTINES));
 }
 
 TEST_F(UserRoutines, of_an_sforce_are_told_which_type_it_has) {

@@ -1,14 +1,17 @@
-// COUPLER/id, JOINTS=id1, id2 [, id3], SCALES= [, TYPE=T:R]
+// COUPLER/id, JOINTS=id1, id2 [, id3], {SCALES= | FUNCTION=USER(…) [, ROUTINE=]} [, TYPE=T:R]
 //
 // Couples the displacements q of two or three joints, rotations in radians, measured from the zero of each joint:
 //
 //     r1 q1 + r2 q2 + r3 q3 = 0
 //
 // One scale fewer than joints means r1 = 1. TYPE says for each joint whether its translation or its rotation is meant,
-// which only a CYLINDRICAL joint needs.
+// which only a CYLINDRICAL joint needs. FUNCTION calls a compiled routine of the user, which says what of the
+// displacements is held at zero.
 #include <fmt/format.h>
 
 #include "elements/families/joint_relation.h"
+#include "expression/program.h"
+#include "routine/measures.h"
 
 namespace dynalin {
 
@@ -22,9 +25,12 @@ struct Coupler {
 
   static constexpr std::array<Argument<Coupler>, 4> arguments = {{
       {.name = "JOINTS", .slot = &Coupler::joints, .required = true, .help = "two or three joints"},
-      {.name = "SCALES", .slot = &Coupler::scales, .required = true, .help = "r1, r2, r3; r1 may be left out"},
+      {.name = "SCALES", .slot = &Coupler::scales, .help = "r1, r2, r3; r1 may be left out", .ends = "FUNCTION"},
       {.name = "TYPE", .slot = &Coupler::types, .help = "T or R for each joint"},
-      {.name = "FUNCTION", .slot = &Coupler::function, .help = "user subroutines are not available"},
+      {.name = "FUNCTION",
+       .slot = &Coupler::function,
+       .help = "USER(…): a compiled routine says what is held at zero",
+       .ends = "SCALES"},
   }};
 };
 
@@ -35,16 +41,31 @@ class CouplerSet final : public TypedSet<Coupler> {
   void read(std::size_t k, ElementReader& reader) override {
     Coupler& c = elements[k];
     const bool ok = read_arguments(c, reader);
-    if (reader.given("FUNCTION")) {
-      reader.error("argument-not-built", reader.at("FUNCTION"), "user subroutines are not available");
-    }
     if (!ok) return;
+    const bool calls = reader.given("FUNCTION");
+    if (calls == reader.given("SCALES")) {
+      if (calls) {
+        reader.error("excluded-arguments", reader.at("FUNCTION"),
+                     fmt::format("{} takes SCALES or FUNCTION, not both", reader.label().text()));
+      } else if (!reader.statement().damaged) {
+        reader.error("missing-argument", reader.statement().at, fmt::format("{} needs SCALES", reader.label().text()),
+                     "or FUNCTION=USER(…), which calls a compiled routine");
+      }
+      return;
+    }
+    if (calls && c.function.program().routines.empty()) {
+      reader.error("unknown-word", reader.at("FUNCTION"),
+                   fmt::format("FUNCTION of {} is USER(…), the call of a compiled routine, and no expression",
+                               reader.label().text()));
+      return;
+    }
     const std::size_t n = c.joints.size();
     const std::string name = reader.label().text();
     if (n != 2 && n != 3) {
       reader.error("wrong-count", reader.at("JOINTS"), fmt::format("{} couples two or three joints, not {}", name, n));
       return;
     }
+    if (calls) c.scales.assign(n, 0.0);  // nobody reads them
     if (c.scales.size() + 1 == n) c.scales.insert(c.scales.begin(), 1.0);
     if (c.scales.size() != n) {
       reader.error("wrong-count", reader.at("SCALES"),
@@ -76,6 +97,11 @@ class CouplerSet final : public TypedSet<Coupler> {
         const auto freedom = joint_freedom(model, labels[k], c.joints[j], type, diagnostics);
         if (freedom) relation.terms.push_back({*freedom, c.scales[j]});
       }
+      const auto& routines = c.function.program().routines;
+      if (!routines.empty() && relation.terms.size() == c.joints.size()) {
+        relation.function = of_displacements(model, relation, routines.front());
+        relation.routine = routines.front().routine;
+      }
       relations_.push_back(std::move(relation));
     }
   }
@@ -85,6 +111,19 @@ class CouplerSet final : public TypedSet<Coupler> {
   }
 
  private:
+  // The routine on the measures that the displacements are.
+  static Expression of_displacements(const Model& model, const JointRelation& relation, const RoutineUse& called) {
+    std::vector<Atom> inputs = {*single_measure("TIME", {}), *single_measure("MODE", {})};
+    for (const JointRelation::Term& t : relation.terms) {
+      const auto id = [&](MarkerId m) { return static_cast<int>(model.marker(m).label->id); };
+      const std::array<int, 3> ids = {id(t.freedom.i), id(t.freedom.j), id(t.freedom.j)};
+      const bool turns = is_angle(t.freedom.kind);
+      inputs.push_back(*single_measure(turns ? "AZ" : "DZ", std::span(ids).first(turns ? 2 : 3)));
+    }
+    for (Atom& a : inputs) a.set_place(called.at);
+    return routine_expression(std::move(inputs), called.routine, called.which, called.at);
+  }
+
   std::vector<JointRelation> relations_;
 };
 
@@ -93,7 +132,7 @@ class CouplerSet final : public TypedSet<Coupler> {
 extern constinit const Kind coupler = Kind{
     "COUPLER",
     "",
-    "Couples the displacements of two or three joints linearly.",
+    "Couples the displacements of two or three joints, linearly or by a compiled routine.",
     Kind::Role::element,
     detail::argument_infos<Coupler>,
     [](const Kind& kind) -> std::unique_ptr<ElementSet> {

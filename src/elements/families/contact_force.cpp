@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "elements/families/contact_routine.h"
 #include "geometry/box_touch.h"
 #include "geometry/plane_touch.h"
 
@@ -57,8 +58,8 @@ double apart(const RelativeFrame<T>& f, const solid::Side& I, const solid::Side&
   return norm(distance) - a.radius - b.radius;
 }
 
-// visit(pair of shapes, touches of it in the axes of J's first marker): those of all pairs that may be near each other.
-// far(pair of shapes, number of its touches, at least how far apart) of all others.
+// visit(touches of a pair of shapes, in the axes of J's first marker, and the pair): of all that may be near each
+// other. far(number of touches, at least how far apart) of all others.
 template <class T, class Visit, class Far>
 void for_each_pair(const ContactForce& c, const RelativeFrame<T>& I, const Visit& visit, const Far& far) {
   std::array<Touch<T>, most_touches> room;
@@ -78,14 +79,23 @@ void for_each_pair(const ContactForce& c, const RelativeFrame<T>& I, const Visit
         const Frame<double>& b = on_J.from_first;
         for (Touch<T>& t : touches) t.normal = b.axes * t.normal, t.point = b.origin + b.axes * t.point;
       }
-      visit(touches);
+      visit(touches, on_I, on_J);
     }
   }
 }
 template <class T, class Visit>
 void for_each_touch(const ContactForce& c, const RelativeFrame<T>& I, const Visit& visit) {
   for_each_pair(
-      c, I, [&](std::span<Touch<T>> touches) { std::for_each(touches.begin(), touches.end(), visit); },
+      c, I,
+      [&](std::span<Touch<T>> touches, const PlacedSide& on_I, const PlacedSide& on_J) {
+        for (const Touch<T>& t : touches) {
+          if constexpr (std::is_invocable_v<Visit, const Touch<T>&>) {
+            visit(t);
+          } else {
+            visit(t, on_I, on_J);
+          }
+        }
+      },
       [](std::size_t, double) {});
 }
 
@@ -102,6 +112,30 @@ Vec3<T> velocity_at(const Vec3<T>& point, const RelativeFrame<T>& I, const Relat
   return rate.p + along(rate, Vec3<T>{dot(I.x, arm), dot(I.y, arm), dot(I.z, arm)});
 }
 
+// As routines are told of it.
+template <class T>
+ContactPlace<T> place_of(const Touch<T>& t, const RelativeFrame<T>& I, const T& gap_rate, const PlacedSide& on_I,
+                         const PlacedSide& on_J) {
+  const auto seen_from_I = [&](const Vec3<T>& v) {
+    return transpose_times(on_I.from_first.axes, Vec3<T>{dot(I.x, v), dot(I.y, v), dot(I.z, v)});
+  };
+  const Vec3<T> half = t.normal * T(0.5 * t.gap);
+  ContactPlace<T> p;
+  p.point_I = seen_from_I(t.point + half - I.p) - transpose_times(on_I.from_first.axes, on_I.from_first.origin);
+  p.normal_I = seen_from_I(-t.normal);
+  p.point_J = transpose_times(on_J.from_first.axes, t.point - half - on_J.from_first.origin);
+  p.normal_J = transpose_times(on_J.from_first.axes, t.normal);
+  p.gap = t.gap, p.gap_rate = gap_rate;
+  return p;
+}
+
+// Angular velocity of I seen from J about a direction: ½ Σ a × a′ over the axes of I.
+template <class T>
+T spin_about(const Vec3<T>& direction, const RelativeFrame<T>& I, const RelativeFrame<T>& rate) {
+  const Vec3<T> twice = cross(I.x, rate.x) + cross(I.y, rate.y) + cross(I.z, rate.z);
+  return dot(direction, twice) * 0.5;
+}
+
 template <class T>
 struct ForceAndTorque {
   Vec3<T> force{T(0.0), T(0.0), T(0.0)}, torque{T(0.0), T(0.0), T(0.0)};  // on I at its origin, axes of J
@@ -109,16 +143,22 @@ struct ForceAndTorque {
 };
 
 template <class T>
-ForceAndTorque<T> contact_wrench(const ContactForce& c, const RelativeFrame<TimeTaylor<T>>& along_motion, bool rubs) {
+ForceAndTorque<T> contact_wrench(const ContactForce& c, const RelativeFrame<TimeTaylor<T>>& along_motion, bool rubs,
+                                 const Motion& motion) {
+  const auto mode = static_cast<double>(motion.mode);
   const RelativeFrame<T> I = at_instant(along_motion, &TimeTaylor<T>::value);
   const RelativeFrame<T> rate = at_instant(along_motion, &TimeTaylor<T>::rate);
   ForceAndTorque<T> sum;
-  for_each_touch(c, I, [&](const Touch<T>& t) {
+  for_each_touch(c, I, [&](const Touch<T>& t, const PlacedSide& on_I, const PlacedSide& on_J) {
     if (!t.closed()) return;
     const Vec3<T> v = velocity_at(t.point, I, rate);
     const T apart = dot(t.normal, v);
-    const T N = pressure(c.pressure, T(-t.gap), T(-apart));
-    if (!(value_of(N) > 0)) return;
+    const bool calls = c.normal_routine || c.friction_routine;
+    const ContactPlace<T> place = calls ? place_of(t, I, apart, on_I, on_J) : ContactPlace<T>();
+    const T N = c.normal_routine ? called_pressure(*c.normal_routine, place, motion.time, mode)
+                                 : pressure(c.pressure, T(-t.gap), T(-apart));
+    // A routine may also pull.
+    if (!c.normal_routine && !(value_of(N) > 0)) return;
     if (!t.defined) {  // undefined_values says what it is
       const T no(std::numeric_limits<double>::quiet_NaN());
       sum.force = sum.torque = {no, no, no};
@@ -126,11 +166,14 @@ ForceAndTorque<T> contact_wrench(const ContactForce& c, const RelativeFrame<Time
     }
     const T share = N * t.weight;
     Vec3<T> F = t.normal * share;
-    if (rubs) {
-      const Vec3<T> slip = v - t.normal * apart;
+    const Vec3<T> arm = t.point - I.p, slip = v - t.normal * apart;
+    if (c.friction_routine) {
+      const ContactFriction<T> friction = called_friction(*c.friction_routine, place, t.normal, slip,
+                                                          spin_about(t.normal, I, rate), share, motion.time, mode);
+      F += friction.force, sum.torque += friction.torque;
+    } else if (rubs) {
       F -= slip * (friction_slope(*c.friction, slip) * share);
     }
-    const Vec3<T> arm = t.point - I.p;
     sum.force += F;
     sum.torque += cross(arm, F);
     sum.levers.force += norm(Vector{value_of(F.x), value_of(F.y), value_of(F.z)});
@@ -174,6 +217,7 @@ std::vector<ContactBrink> brinks(const ContactForce& c, const Motion& motion, co
     if (std::abs(t.inside) <= near * length) add(Brink::end_of_plane, t.closed());
     if (!t.closed()) return;
     if (t.seam <= near * length) add(Brink::end_of_face, true);
+    if (c.normal_routine) return;  // its kinks are its own
     // The elastic part and that of the damper cancel.
     const double N = pressure(c.pressure, -t.gap, -dot(t.normal, velocity_at(t.point, I, rate)));
     if (std::abs(N) <= near * pressure(c.pressure, -t.gap, 0.0)) add(Brink::letting_go, N > 0);
@@ -201,7 +245,7 @@ PairForce ContactKernel::force_of(const Placed& p, const PairMotion& pair, const
   RelativeWrench w;
   w.depends_on_rate = true;
   if (with_partials && is_closed(c, plain(pair))) {
-    const ForceAndTorque<Seeded> sum = contact_wrench(c, path::seeded<12>(pair.relative), rubs);
+    const ForceAndTorque<Seeded> sum = contact_wrench(c, path::seeded<12>(pair.relative), rubs, motion);
     w.levers = sum.levers;
     for (std::size_t r = 0; r < 6; ++r) {
       const Seeded& component = r < 3 ? sum.force[r] : sum.torque[r - 3];
@@ -212,7 +256,7 @@ PairForce ContactKernel::force_of(const Placed& p, const PairMotion& pair, const
       }
     }
   } else if (!with_partials) {
-    const ForceAndTorque<double> sum = contact_wrench(c, pair.relative, rubs);
+    const ForceAndTorque<double> sum = contact_wrench(c, pair.relative, rubs, motion);
     w.force = sum.force, w.torque = sum.torque, w.levers = sum.levers;
   }
   return spread(pair, w, with_partials);
@@ -238,7 +282,7 @@ void ContactKernel::switches(const Motion& motion, ExpressionScratch&, SwitchLis
     const PairMotion pair = pair_motion(motion, *p.I, *p.J);
     const RelativeFrame<double> I = plain(pair), rate = at_instant(pair.relative, &Taylor::rate);
     const auto add = [&](const Touch<double>& t) {
-      const bool closed = t.closed();
+      const bool closed = t.closed() && !c.normal_routine;
       list.add(t.gap, t.inside >= 0);
       list.add(closed ? pressure(c.pressure, -t.gap, -dot(t.normal, velocity_at(t.point, I, rate))) : 1.0, closed);
       list.add(std::isfinite(t.inside) ? t.inside : 1.0, t.gap < 0);
@@ -246,7 +290,7 @@ void ContactKernel::switches(const Motion& motion, ExpressionScratch&, SwitchLis
     // Of many places, as facets have, each changes the force by little: the first that closes is told.
     for_each_pair(
         c, I,
-        [&](std::span<Touch<double>> touches) {
+        [&](std::span<Touch<double>> touches, const PlacedSide&, const PlacedSide&) {
           if (touches.size() <= most_touches) return std::for_each(touches.begin(), touches.end(), add), void();
           const auto nearer = [](const Touch<double>& a, const Touch<double>& b) {
             return std::pair(a.inside < 0, a.gap) < std::pair(b.inside < 0, b.gap);
@@ -261,18 +305,88 @@ void ContactKernel::switches(const Motion& motion, ExpressionScratch&, SwitchLis
   }
 }
 
+namespace {
+
+// Why the routines of a contact have no value or no derivative here, empty if they have all.
+struct RoutineLack {
+  std::string reason;
+  bool in_value = true;
+};
+RoutineLack lack_at(const detail::ContactArguments<double>& arguments, const Routine& routine, bool is_pressure) {
+  const auto finite = [](double x) { return std::isfinite(x); };
+  std::array<double, 3> values{};
+  for (std::size_t k = 0; k < 3; ++k) values[k] = arguments.called(routine, k);
+  if (!std::ranges::all_of(values, finite)) return {routine.reason_of_value(arguments.values())};
+  if (is_pressure && (values[1] != 0 || values[2] != 0)) {
+    return {
+        fmt::format("{} gives {:g} and {:g} behind its first value; a normal force is one number, and the other "
+                    "two are 0",
+                    routine.name(), values[1], values[2])};
+  }
+  for (std::size_t k = 0; k < (is_pressure ? 1 : 3); ++k) {
+    if (!std::ranges::all_of(routine.partials(arguments.plain(), k).subspan(first_given), finite))
+      return {routine.reason_of_partials(arguments.values()), false};
+  }
+  return {};
+}
+
+RoutineLack routine_lack(const ContactForce& c, const PairMotion& pair, const Motion& motion) {
+  const RelativeFrame<double> I = plain(pair), rate = at_instant(pair.relative, &Taylor::rate);
+  const auto mode = static_cast<double>(motion.mode);
+  RoutineLack lack;
+  for_each_touch(c, I, [&](const Touch<double>& t, const PlacedSide& on_I, const PlacedSide& on_J) {
+    if (!t.closed() || !t.defined || !lack.reason.empty()) return;
+    const Vector v = velocity_at(t.point, I, rate);
+    const double apart = dot(t.normal, v);
+    const ContactPlace<double> place = place_of(t, I, apart, on_I, on_J);
+    double N = pressure(c.pressure, -t.gap, -apart);
+    if (c.normal_routine) {
+      const auto arguments = pressure_arguments(place, motion.time, mode);
+      lack = lack_at(arguments, *c.normal_routine, true);
+      N = arguments.called(*c.normal_routine, 0);
+    }
+    if (!c.friction_routine || !lack.reason.empty() || (!c.normal_routine && !(N > 0))) return;
+    const Vector slip = v - t.normal * apart;
+    const double spin = spin_about(t.normal, I, rate), share = N * t.weight;
+    const auto arguments = friction_arguments(place, norm(slip), spin, share, motion.time, mode);
+    lack = lack_at(arguments, *c.friction_routine, false);
+    if (!lack.reason.empty()) return;
+    const Vector F = called_friction(*c.friction_routine, place, t.normal, slip, spin, share, motion.time, mode).force;
+    if (std::isfinite(F.x)) return;
+    lack.reason = fmt::format("{} gives a force of {:g} where nothing slips, and it has no direction there",
+                              c.friction_routine->name(), arguments.called(*c.friction_routine, 0));
+  });
+  return lack;
+}
+
+}  // namespace
+
 void ContactKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& values) const {
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     const Placed& p = forces_[k];
-    bool undefined = false;
-    for_each_touch(*p.law, plain(pair_motion(motion, *p.I, *p.J)),
-                   [&](const Touch<double>& t) { undefined = undefined || (t.closed() && !t.defined); });
-    if (!undefined) continue;
     const ElementLabel& label = (*labels_)[k];
-    values.push_back(
-        {&label, fmt::format("the shapes of {} touch all around or in more places than can be told apart, at "
-                             "no place in particular: its force has no one direction or place",
-                             label.full_text())});
+    const PairMotion pair = pair_motion(motion, *p.I, *p.J);
+    bool undefined = false;
+    for_each_touch(*p.law, plain(pair),
+                   [&](const Touch<double>& t) { undefined = undefined || (t.closed() && !t.defined); });
+    if (undefined) {
+      values.push_back(
+          {&label, fmt::format("the shapes of {} touch all around or in more places than can be told apart, at "
+                               "no place in particular: its force has no one direction or place",
+                               label.full_text())});
+    }
+    if (undefined || !(p.law->normal_routine || p.law->friction_routine)) continue;
+    const RoutineLack lack = routine_lack(*p.law, pair, motion);
+    if (!lack.reason.empty()) values.push_back({&label, label.full_text() + ": " + lack.reason, lack.in_value});
+  }
+}
+
+void ContactKernel::exhausted(const Motion& motion, std::vector<std::string>& sentences) const {
+  for (std::size_t k = 0; k < forces_.size(); ++k) {
+    const Placed& p = forces_[k];
+    if (!p.law->friction || !is_closed(*p.law, plain(pair_motion(motion, *p.I, *p.J)))) continue;
+    sentences.push_back(
+        fmt::format("friction of {} goes by the speed of slip and holds nothing at rest", (*labels_)[k].full_text()));
   }
 }
 

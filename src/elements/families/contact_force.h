@@ -4,13 +4,16 @@
 // the turning of the normal and the travel of the place of contact are in all derivatives.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "elements/families/contact_law.h"
+#include "expression/routine.h"
 #include "geometry/touch.h"
 #include "mechanics/event_source.h"
 #include "mechanics/kernel.h"
+#include "mechanics/stiction_source.h"
 #include "mechanics/wrench_source.h"
 #include "model/model.h"
 
@@ -29,9 +32,11 @@ struct ContactForce {
   Pressure pressure;
   std::optional<SlipFriction> friction;
   bool friction_in_statics = true;
+  // Compiled routines in the place of the two laws, null where those act.
+  std::shared_ptr<const Routine> normal_routine, friction_routine;
 };
 
-class ContactKernel final : public Kernel, public WrenchSource, public SwitchSource {
+class ContactKernel final : public Kernel, public WrenchSource, public SwitchSource, public StictionSource {
  public:
   ContactKernel(const std::vector<ContactForce>&, const std::vector<ElementLabel>&, Layout&);
 
@@ -47,6 +52,10 @@ class ContactKernel final : public Kernel, public WrenchSource, public SwitchSou
   const SwitchSource* kinks() const override { return this; }
   // Where surfaces meet or part, where they hold each other no more, and where a plane ends.
   void switches(const Motion&, ExpressionScratch&, SwitchList&) const override;
+
+  // Its friction has no bristles: nothing sticks, and at rest it bears nothing.
+  void sticking(const Motion&, std::vector<Stiction>&) const override {}
+  void exhausted(const Motion&, std::vector<std::string>&) const override;
 
  private:
   struct Placed {

@@ -117,10 +117,10 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
   }
 
   void constraints(const Motion& motion, ConstraintRows& rows) const override {
-    using Seeded = TimeTaylor<Dual<seeds>>;
+    using Parameter = TimeTaylor<Dual<seeds>>;
     for (const Placed& p : contacts_) {
       const PairMotion pair = pair_motion(motion, p.I, p.J);
-      std::array<Seeded, m> u;
+      std::array<Parameter, m> u;
       for (std::size_t a = 0; a < m; ++a) {
         u[a] = path::constant<seeds>(along_motion(p, a, motion));
         u[a].value.partial[6 + a] = 1.0;

@@ -1,5 +1,9 @@
 #include "elements/families/joint_relation.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 namespace dynalin {
 
 double drawn_value(const Model& model, const JointRelation& relation) {
@@ -12,9 +16,11 @@ double drawn_value(const Model& model, const JointRelation& relation) {
 
 JointRelationKernel::JointRelationKernel(const std::vector<JointRelation>& relations,
                                          const std::vector<ElementLabel>& labels, std::string_view row_name,
-                                         Layout& layout) {
+                                         Layout& layout)
+    : labels_(&labels), layout_(&layout) {
   for (std::size_t k = 0; k < relations.size(); ++k) {
-    Relation r{{}, relations[k].constant, layout.add_row(labels[k], row_name)};
+    Relation r{
+        {}, relations[k].constant, layout.add_row(labels[k], row_name), relations[k].function, relations[k].routine};
     for (const JointRelation::Term& t : relations[k].terms) {
       PairDisplacement q(layout.marker(t.freedom.i), layout.marker(t.freedom.j), t.freedom.kind);
       q.count_turns(layout, labels[k].at);
@@ -31,8 +37,18 @@ JointRelationKernel::JointRelationKernel(const std::vector<JointRelation>& relat
   }
 }
 
+void JointRelationKernel::bind(Binder& binder) {
+  for (Relation& r : relations_) {
+    if (r.written) r.function = BoundExpression(*r.written, binder);
+  }
+}
+
 void JointRelationKernel::constraints(const Motion& motion, ConstraintRows& rows) const {
   for (const Relation& r : relations_) {
+    if (r.written) {
+      rows.set(r.row, r.function.add_position(motion, rows, r.row));
+      continue;
+    }
     Taylor sum(-r.constant);
     for (const auto& [q, factor] : r.terms) {
       sum = sum + factor * q.along_motion(motion);
@@ -47,6 +63,10 @@ void JointRelationKernel::equations(const Motion& motion, Equations& eq) const {
   for (const Relation& r : relations_) {
     eq.begin_constraint(r.row);
     const double lambda = motion.lambda[static_cast<std::size_t>(r.row)];
+    if (r.written) {
+      r.function.add_reaction_partials(motion, eq, lambda, RowLevel::position);
+      continue;
+    }
     for (const auto& [q, factor] : r.terms) q.add_reaction_partials(motion, factor * lambda, eq);
   }
 }
@@ -56,8 +76,16 @@ void JointRelationKernel::wrench(const Motion& motion, std::size_t which, bool, 
   const Relation& r = relations_[joint.relation];
   const double lambda = motion.lambda[static_cast<std::size_t>(r.row)];
   Vector force, torque;
-  for (const auto& [q, factor] : std::span(r.terms).subspan(joint.first_term, joint.terms)) {
-    q.wrench(motion, factor * lambda, r.row, false, out);
+  ExpressionScratch scratch;
+  std::vector<double> slopes;
+  if (r.written) {
+    constexpr std::ptrdiff_t first_displacement = 2;
+    const std::span<const double> all = r.function.partials(motion, scratch);
+    slopes.assign(all.begin() + first_displacement, all.end());
+  }
+  for (std::size_t k = joint.first_term; k < joint.first_term + joint.terms; ++k) {
+    const auto& [q, factor] = r.terms[k];
+    q.wrench(motion, (r.written ? slopes[k] : factor) * lambda, r.row, false, out);
     force += out.force.force, torque += out.force.torque;
   }
   out.force.force = force, out.force.torque = torque;
@@ -66,6 +94,25 @@ void JointRelationKernel::wrench(const Motion& motion, std::size_t which, bool, 
 void JointRelationKernel::remember(const Motion& motion, Memory& memory) const {
   for (const Relation& r : relations_) {
     for (const auto& term : r.terms) term.first.remember(motion, memory);
+    if (r.written) r.function.remember(motion, memory);
+  }
+}
+
+void JointRelationKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const {
+  for (std::size_t k = 0; k < relations_.size(); ++k) {
+    const Relation& r = relations_[k];
+    if (!r.written) continue;
+    const std::size_t before = undefined.size();
+    r.function.find_undefined(motion, (*labels_)[k], undefined, BoundExpression::Derivatives::with_rates);
+    if (undefined.size() > before || motion.mode != AnalysisMode::linear) continue;
+    // A linear model takes one derivative more along the motion.
+    ConstraintRows varied;
+    varied.resize(*layout_, 1);
+    r.function.add_position(motion, varied, 0);
+    const auto finite = [](const ConstraintRows::Entry& e) { return std::isfinite(e.c.a0); };
+    if (std::ranges::all_of(varied.row(0), finite)) continue;
+    const std::array<double, 1> now = {motion.time};
+    undefined.push_back({&(*labels_)[k], (*labels_)[k].full_text() + ": " + r.routine->reason_of_partials(now), false});
   }
 }
 

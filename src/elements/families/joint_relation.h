@@ -1,7 +1,13 @@
-// A linear relation between displacements of joints, one position row:  Σ factor_k q_k = constant.
+// A relation between displacements of joints, one position row: Σ factor_k q_k = constant, or a function of them that
+// is held at zero.
 #pragma once
 
+#include <memory>
+#include <optional>
+
 #include "elements/families/pair_displacement.h"
+#include "expression/routine.h"
+#include "mechanics/bound_expression.h"
 #include "mechanics/wrench_source.h"
 
 namespace dynalin {
@@ -13,6 +19,9 @@ struct JointRelation {
   };
   std::vector<Term> terms;
   double constant = 0;
+  // In the place of factors and constant: of TIME, MODE and behind them the displacements, in the order of the terms.
+  std::optional<Expression> function{};
+  std::shared_ptr<const Routine> routine{};  // that it calls
 };
 
 // Σ factor_k q_k as drawn, angles as principal values.
@@ -22,9 +31,11 @@ class JointRelationKernel final : public Kernel, public WrenchSource {
  public:
   JointRelationKernel(const std::vector<JointRelation>&, const std::vector<ElementLabel>&, std::string_view row_name,
                       Layout&);
+  void bind(Binder&) override;
   void constraints(const Motion&, ConstraintRows&) const override;
   void equations(const Motion&, Equations&) const override;
   void remember(const Motion&, Memory&) const override;
+  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
   // What each joint bears of the relation, on its marker I with the opposite on J.
   const WrenchSource* reported_wrenches() const override { return this; }
   std::size_t wrench_count(std::size_t) const override { return joints_.size(); }
@@ -38,8 +49,13 @@ class JointRelationKernel final : public Kernel, public WrenchSource {
     std::vector<std::pair<PairDisplacement, double>> terms;
     double constant;
     std::int32_t row;
+    std::optional<Expression> written;
+    std::shared_ptr<const Routine> routine;
+    BoundExpression function{};
   };
   std::vector<Relation> relations_;
+  const std::vector<ElementLabel>* labels_;
+  const Layout* layout_;
   struct Joint {
     std::size_t relation, first_term, terms;
     MarkerId i, j;

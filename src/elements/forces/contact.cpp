@@ -1,7 +1,8 @@
 // CONTACT/id, IGEOM=id, …, JGEOM=id, …, IMPACT, STIFFNESS=, EXPONENT=, DAMPING=, DMAX=
 // CONTACT/id, IGEOM=id, …, JGEOM=id, …, POISSON, PENALTY=, RESTITUTION_COEFFICIENT=
+// CONTACT/id, IGEOM=id, …, JGEOM=id, …, NFUNCTION=USER(…) [, NROUTINE=]
 //         [, COULOMB_FRICTION=ON, MU_STATIC=, MU_DYNAMIC=, STICTION_TRANSITION_VELOCITY=,
-//         FRICTION_TRANSITION_VELOCITY=]
+//         FRICTION_TRANSITION_VELOCITY= | , FFUNCTION=USER(…) [, FROUTINE=]]
 //         [, IFLIP_GEOMETRY=id, …] [, JFLIP_GEOMETRY=id, …] [, IFLIP_NORMAL=id, …] [, JFLIP_NORMAL=id, …]
 //
 // GRAPHICS of two bodies push each other apart where they overlap (families/contact_force.h). With the penetration g
@@ -12,6 +13,8 @@
 // with the ζ that lets two free bodies that meet centrally part with the RESTITUTION_COEFFICIENT of the speed at which
 // they met: −ln r = 2 ζ acos ζ / √(1 − ζ²), of acosh where ζ > 1. The masses are those of the bodies, ground has no end
 // of it.
+//
+// NFUNCTION and FFUNCTION call compiled routines in the place of either law (families/contact_routine.h).
 //
 // The GRAPHICS are all solids (geometry/touch.h) or all curves in a plane (geometry/plane_touch.h); POINTs go with
 // both.
@@ -26,6 +29,7 @@
 #include "elements/families/contact_sides.h"
 #include "elements/families/friction_coefficients.h"
 #include "elements/families/markers.h"
+#include "expression/program.h"
 #include "model/linear_remarks.h"
 #include "model/schema.h"
 
@@ -40,7 +44,7 @@ struct Contact {
   std::optional<double> penalty, restitution;
   OptionalWord friction;
   std::optional<double> mu_static, mu_dynamic, stiction_speed, friction_speed;
-  UserSubroutine normal_function{"CNFSUB"}, friction_function{"CFFSUB"};
+  Expression normal_function, friction_function;
 
   static constexpr std::array<Argument<Contact>, 22> arguments = {{
       {.name = "IGEOM", .slot = &Contact::igeom, .required = true, .help = "GRAPHICS of the one body"},
@@ -48,11 +52,11 @@ struct Contact {
       {.name = "IMPACT",
        .slot = &Contact::impact,
        .help = "a spring and a damper in the penetration",
-       .ends = "POISSON PENALTY RESTITUTION_COEFFICIENT"},
+       .ends = "POISSON PENALTY RESTITUTION_COEFFICIENT NFUNCTION"},
       {.name = "POISSON",
        .slot = &Contact::poisson,
        .help = "a spring, and a damper after a coefficient of restitution",
-       .ends = "IMPACT STIFFNESS EXPONENT DAMPING DMAX"},
+       .ends = "IMPACT STIFFNESS EXPONENT DAMPING DMAX NFUNCTION"},
       {.name = "STIFFNESS",
        .slot = &Contact::stiffness,
        .unit = "force/length^EXPONENT",
@@ -74,7 +78,7 @@ struct Contact {
        .minimum = 1e-3,
        .help = "of POISSON: speed after a blow by that before it",
        .maximum = 1},
-      {.name = "COULOMB_FRICTION", .slot = &Contact::friction, .help = "ON, OFF or DYNAMICS_ONLY"},
+      {.name = "COULOMB_FRICTION", .slot = &Contact::friction, .help = "ON, OFF or DYNAMICS_ONLY", .ends = "FFUNCTION"},
       {.name = "MU_STATIC", .slot = &Contact::mu_static, .minimum = 0, .help = "coefficient at the first speed"},
       {.name = "MU_DYNAMIC",
        .slot = &Contact::mu_dynamic,
@@ -93,8 +97,14 @@ struct Contact {
       {.name = "IFLIP_NORMAL", .slot = &Contact::iflip_normal, .help = "the same as IFLIP_GEOMETRY"},
       {.name = "JFLIP_NORMAL", .slot = &Contact::jflip_normal, .help = "the same as JFLIP_GEOMETRY"},
       {.name = "AUGMENTED_LAGRANGIAN_FORMULATION", .slot = &Contact::augmented, .help = "read, without effect"},
-      {.name = "NFUNCTION", .slot = &Contact::normal_function, .help = "USER(…): not available"},
-      {.name = "FFUNCTION", .slot = &Contact::friction_function, .help = "USER(…): not available"},
+      {.name = "NFUNCTION",
+       .slot = &Contact::normal_function,
+       .help = "USER(…): a compiled routine gives the pressure",
+       .ends = "IMPACT STIFFNESS EXPONENT DAMPING DMAX POISSON PENALTY RESTITUTION_COEFFICIENT"},
+      {.name = "FFUNCTION",
+       .slot = &Contact::friction_function,
+       .help = "USER(…): a compiled routine gives the friction",
+       .ends = "COULOMB_FRICTION MU_STATIC MU_DYNAMIC STICTION_TRANSITION_VELOCITY FRICTION_TRANSITION_VELOCITY"},
   }};
 };
 
@@ -195,13 +205,20 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
   }
 
   static void read_pressure(const Contact& c, ContactForce& f, ElementReader& reader) {
+    if (reader.given("NFUNCTION")) {
+      f.normal_routine = routine_of(c.normal_function, "NFUNCTION", reader);
+      excluded({"IMPACT", "POISSON"}, "no NFUNCTION", reader);
+      excluded({"STIFFNESS", "EXPONENT", "DAMPING", "DMAX"}, "IMPACT", reader);
+      excluded({"PENALTY", "RESTITUTION_COEFFICIENT"}, "POISSON", reader);
+      return;
+    }
     if (c.impact == c.poisson) {
-      if (reader.given("NFUNCTION")) return;
       if (c.impact) {
         reader.error("duplicate-variant", reader.at("POISSON"),
                      fmt::format("{} is both IMPACT and POISSON", reader.label().text()));
       } else {
-        reader.error("missing-variant", reader.statement().at, "CONTACT needs its type", "IMPACT or POISSON");
+        reader.error("missing-variant", reader.statement().at, "CONTACT needs its type",
+                     "IMPACT, POISSON or NFUNCTION=USER(…)");
       }
       return;
     }
@@ -218,7 +235,25 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
     }
   }
 
+  // Null after an error.
+  static std::shared_ptr<const Routine> routine_of(const Expression& function, std::string_view name,
+                                                   ElementReader& reader) {
+    const auto& routines = function.program().routines;
+    if (!routines.empty()) return routines.front().routine;
+    reader.error("unknown-word", reader.at(name),
+                 fmt::format("{} of {} is USER(…), the call of a compiled routine, and no expression", name,
+                             reader.label().text()));
+    return nullptr;
+  }
+
   static void read_friction(const Contact& c, ContactForce& f, ElementReader& reader) {
+    if (reader.given("FFUNCTION")) {
+      f.friction_routine = routine_of(c.friction_function, "FFUNCTION", reader);
+      excluded({"COULOMB_FRICTION", "MU_STATIC", "MU_DYNAMIC", "STICTION_TRANSITION_VELOCITY",
+                "FRICTION_TRANSITION_VELOCITY"},
+               "no FFUNCTION", reader);
+      return;
+    }
     static constexpr std::array<std::string_view, 3> words = {"ON", "OFF", "DYNAMICS_ONLY"};
     const std::optional<std::size_t> word = c.friction.given ? find_keyword(c.friction.word, words) : 1;
     if (c.friction.given && (c.friction.word.empty() || !word)) {
@@ -251,7 +286,8 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
   bool turns(const Model&, std::size_t k, std::size_t side) const {
     const ContactForce& f = forces_[k];
     const auto& shapes = side == 0 ? f.I : f.J;
-    return f.friction || shapes.size() > 1 || !std::holds_alternative<solid::Ball>(shapes[0].side.shape);
+    return f.friction || f.friction_routine || shapes.size() > 1 ||
+           !std::holds_alternative<solid::Ball>(shapes[0].side.shape);
   }
 
   void finish_poisson(const Model& model, std::size_t k, Diagnostics& diagnostics) {

@@ -396,4 +396,22 @@ void JointFrictionKernel::sticking(const Motion& motion, std::vector<Stiction>& 
   }
 }
 
+void JointFrictionKernel::exhausted(const Motion& motion, std::vector<std::string>& sentences) const {
+  for (std::size_t k = 0; k < placed_.size(); ++k) {
+    const Placed& p = placed_[k];
+    const JointFriction& f = *p.element;
+    if (!p.joint || p.first_state < 0 || f.rests_in_statics) continue;
+    const Evaluated at = evaluate(p, pair_motion(motion, *p.I, *p.J), motion);
+    std::array<double, most_components> bent{}, borne{};
+    for (std::size_t c = 0; c < f.component_count(); ++c) bent[c] = at.creep[c].value, borne[c] = at.w[c].value;
+    if (!(std::sqrt(squared(bent)) > elastic_share * f.law.largest_creep())) continue;
+    std::string size = fmt::format("{:.5g}", std::sqrt(squared(borne)));
+    if (f.surface == FrictionSurface::sleeve)
+      size = fmt::format("{:.5g} along and {:.5g} about the axis", std::abs(borne[0]), std::abs(borne[1]));
+    sentences.push_back(
+        fmt::format("{} bears {}, as much as JOINT/{} can bear by friction there, and slides under what is left",
+                    (*labels_)[k].full_text(), size, f.joint));
+  }
+}
+
 }  // namespace dynalin

@@ -61,6 +61,7 @@ class JointFrictionKernel final : public Kernel, public WrenchSource, public Sti
   void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
   std::string domain_violation(const Motion&) const override;
   void sticking(const Motion&, std::vector<Stiction>&) const override;
+  void exhausted(const Motion&, std::vector<std::string>&) const override;
 
  private:
   static constexpr std::size_t most_rows = 5, most_components = 3;
