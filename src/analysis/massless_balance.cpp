@@ -130,7 +130,7 @@ Result<void> MasslessBalance::accept(const std::vector<double>& start, const Ope
                       "agree with its pose",
                       name(column), std::abs(lacking_(worst))),
           {fmt::format("it would balance about {:.5g} away", std::abs(off(worst)))},
-          "massless-freedom"});
+          "massless-motion"});
     }
   }
   // Accelerations along the freedoms are not known where the model moves; nothing else may depend on them.
@@ -146,7 +146,7 @@ Result<void> MasslessBalance::accept(const std::vector<double>& start, const Ope
                               "possible at rest only",
                               name(k)),
                   {},
-                  "massless-freedom"});
+                  "massless-motion"});
     }
   }
   const Eigen::VectorXd velocity = Eigen::Map<const Eigen::VectorXd>(found.velocity.data(), d.basis.rows());

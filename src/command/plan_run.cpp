@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
 
 #include "base/read_file.h"
@@ -30,14 +31,17 @@ std::string existing_hint(const std::string& path) {
   return {};
 }
 
+// What shows that a text is a dataset: in a command file UNITS may stand by mistake.
+enum class Sign : std::uint8_t { ground_part, ground_part_or_units };
+
 // Whether a text has statements that only a dataset has: looked for at its beginning.
-bool is_text_of_dataset(const std::string& name, std::string text) {
+bool is_text_of_dataset(const std::string& name, std::string text, Sign sign) {
   constexpr std::size_t enough = 65536;
   if (text.size() > enough) text.resize(std::min(text.rfind('\n', enough), enough));
   const auto parsed = parse_dataset(std::make_shared<const SourceText>(name, std::move(text)));
   static constexpr std::array<std::string_view, 1> ground = {"GROUND"};
   return std::ranges::any_of(parsed.value.statements, [&](const Statement& s) {
-    if (s.name == "UNITS") return true;
+    if (s.name == "UNITS") return sign == Sign::ground_part_or_units;
     return s.name == "PART" && std::ranges::any_of(s.arguments, [](const WrittenArgument& w) {
              return !w.has_value && find_keyword(w.name.text(), ground).has_value();
            });
@@ -46,7 +50,8 @@ bool is_text_of_dataset(const std::string& name, std::string text) {
 
 bool holds_dataset(const std::string& path) {
   auto text = read_file(path);
-  return text && is_text_of_dataset(path, std::move(*text));
+  const Sign sign = has_extension(path, ".acf") ? Sign::ground_part : Sign::ground_part_or_units;
+  return text && is_text_of_dataset(path, std::move(*text), sign);
 }
 
 // What a run begins with: its commands, and the dataset that it names without one of them.
@@ -62,7 +67,7 @@ class Reader {
   std::optional<Planner> read() {
     const std::string& file = options_.file;
     const bool has_commands = !options_.commands.empty(), piped = file == "-";
-    if (piped && is_text_of_dataset("standard input", options_.standard_input.value_or(""))) {
+    if (piped && is_text_of_dataset("standard input", options_.standard_input.value_or(""), Sign::ground_part)) {
       fmt::print(err_,
                  "error: standard input holds a dataset, and only commands are taken from there\nhint: name the file "
                  "of the dataset: dynalin check model.adm, or dynalin run model.adm -c \"LINEAR/EIGENSOL\"\n");

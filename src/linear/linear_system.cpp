@@ -238,7 +238,7 @@ Result<LinearSystem> linearize(const System& system, OperatingPoint op, const Li
                               "({}), which are known at rest only",
                               names_of(system, limit.directions, Matrix::Identity(limit.count(), limit.count()))),
                   {},
-                  "massless-freedom"});
+                  "massless-motion"});
     }
   }
   if (auto looked = look_at_near_dependence(system, op, *linear); !looked) return tl::unexpected(looked.error());

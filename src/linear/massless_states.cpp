@@ -135,7 +135,7 @@ class Taker {
                 fmt::format("no choice of states determines the freedoms without mass: {}",
                             names_of(system_, limit_.directions, Matrix::Identity(limit_.count(), limit_.count()))),
                 {},
-                "massless-freedom"});
+                "massless-motion"});
   }
 
   // A unit of a chosen coordinate is what a unit of the scaled coordinates of the layout makes of it.

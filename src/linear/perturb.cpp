@@ -117,7 +117,7 @@ class Perturber {
                       "the linear model does not have{}",
                       open, at_->massless->at_rest ? "" : ": that is possible at rest only"),
           {},
-          "massless-freedom"});
+          "massless-motion"});
     }
     result_.equations = std::make_shared<const PerturbationEquations>(std::move(*equations));
     result_.at = std::move(at_);

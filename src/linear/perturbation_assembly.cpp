@@ -222,7 +222,7 @@ class PerturbationEquations::Assembly {
                   fmt::format("the balance of forces does not determine the freedoms without mass: {}",
                               names(Eigen::MatrixXd::Identity(d.count(), d.count()))),
                   {},
-                  "massless-freedom"});
+                  "massless-motion"});
     }
     p_.whole_ = std::move(lu);
     std::sort(open_rows_.begin(), open_rows_.end());
@@ -247,7 +247,7 @@ class PerturbationEquations::Assembly {
                       massless_->at_rest ? "a plant input, which no state-space model has"
                                          : "forces along the motion: that is possible at rest only"),
           {},
-          "massless-freedom"});
+          "massless-motion"});
     }
     return {};
   }
