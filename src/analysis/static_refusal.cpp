@@ -10,6 +10,7 @@
 #include "analysis/joined_sets.h"
 #include "analysis/part_names.h"
 #include "mechanics/stiction_source.h"
+#include "system/sources.h"
 
 namespace dynalin {
 
@@ -20,13 +21,8 @@ constexpr double negligible_force = 1e-9;  // of stiffnesses and forces, relativ
 // "; FRICTION/1 bears 9.8, as much as …" of all whose limit is reached.
 std::string exhausted_friction(const System& system, const Motion& motion) {
   std::vector<std::string> sentences;
-  for (std::size_t set = 0; set < system.model().sets.size(); ++set) {
-    const ElementSet& elements = *system.model().sets[set];
-    if (!elements.active || elements.size() == 0) continue;
-    const auto* source =
-        dynamic_cast<const StictionSource*>(system.signals().element({static_cast<std::int32_t>(set), 0}).kernel);
-    if (source) source->exhausted(motion, sentences);
-  }
+  for_each_source<StictionSource>(
+      system, [&](const ElementSet&, const StictionSource& source) { source.exhausted(motion, sentences); });
   constexpr std::size_t most = 5;
   const std::size_t count = sentences.size();
   if (count > most) sentences.resize(most), sentences.push_back(fmt::format("{} more do the same", count - most));

@@ -8,6 +8,7 @@
 
 #include "linear/modal_distribution.h"
 #include "mechanics/stiction_source.h"
+#include "system/sources.h"
 
 namespace dynalin {
 
@@ -46,14 +47,9 @@ void stiction_cautions(const System& system, const OperatingPoint& op, const Lin
                        const EigenSolution& modes, Diagnostics& out) {
   const Motion motion = system.motion(op);
   std::optional<ModalDistribution> energies;
-  for (std::size_t set = 0; set < system.model().sets.size(); ++set) {
-    const ElementSet& elements = *system.model().sets[set];
-    if (!elements.active || elements.size() == 0) continue;
-    const auto* source =
-        dynamic_cast<const StictionSource*>(system.signals().element({static_cast<std::int32_t>(set), 0}).kernel);
-    if (!source) continue;
+  for_each_source<StictionSource>(system, [&](const ElementSet& elements, const StictionSource& source) {
     std::vector<Stiction> sticking;
-    source->sticking(motion, sticking);
+    source.sticking(motion, sticking);
     for (const Stiction& s : sticking) {
       const ElementLabel& friction = elements.labels[s.element];
       if (!energies) energies.emplace(system, op, linear, modes);
@@ -68,7 +64,7 @@ void stiction_cautions(const System& system, const OperatingPoint& op, const Lin
                               friction.full_text(), mode),
                   "EFFECT=SLIDING has no such stiffness");
     }
-  }
+  });
 }
 
 }  // namespace dynalin

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "routine/given_inputs.h"
+#include "routine/routine_memory.h"
 
 namespace dynalin {
 
@@ -14,8 +15,8 @@ Signature* as(void* address) {
   return reinterpret_cast<Signature*>(address);
 }
 
-// What x of a friction routine points to.
-constexpr std::array<double, 3> no_deformation = {not_known, not_known, not_known};
+// What x of a friction routine points to: whoever calculates with it gets no number.
+constexpr std::array<double, 3> no_deformation = {unknown_value, unknown_value, unknown_value};
 
 void call_with_addresses(void* address, RoutineArguments arguments, const RoutineStatement& s,
                          const RoutineArgumentsNow& now, double* values) {
@@ -51,13 +52,13 @@ void call_with_addresses(void* address, RoutineArguments arguments, const Routin
       return as<void(const int*, const double*, const double*, const int*, const double*, const double*, const double*,
                      const double*, const double*, const double*, const double*, const double*, const int*, const int*,
                      double*)>(address)(&s.id, &now.time, par, &npar, now.given, now.given + 3, now.given + 6,
-                                        now.given + 9, now.given + 12, now.given + 13, &not_known, &not_known,
+                                        now.given + 9, now.given + 12, now.given + 13, &unknown_value, &unknown_value,
                                         &now.flag, &now.iflag, values);
     case RoutineArguments::friction:
       return as<void(const int*, const double*, const double*, const int*, const double*, const double*, const double*,
                      const double*, const double*, const double*, const int*, const int*, double*)>(address)(
           &s.id, &now.time, par, &npar, now.given, now.given + 3, no_deformation.data(), now.given + 6, now.given + 9,
-          &not_known, &now.flag, &now.iflag, values);
+          &unknown_value, &now.flag, &now.iflag, values);
   }
 }
 
@@ -128,13 +129,14 @@ void call_with_statement(void* address, RoutineArguments arguments, const WhatIt
                                                                                  values);
     case RoutineArguments::pressure:
       return as<void(const void*, double, const double*, const double*, const double*, const double*, double, double,
-                     double, double, int, int, double*)>(address)(&s, now.time, now.given, now.given + 3, now.given + 6,
-                                                                  now.given + 9, now.given[12], now.given[13],
-                                                                  not_known, not_known, now.flag, now.iflag, values);
+                     double, double, int, int, double*)>(address)(
+          &s, now.time, now.given, now.given + 3, now.given + 6, now.given + 9, now.given[12], now.given[13],
+          unknown_value, unknown_value, now.flag, now.iflag, values);
     case RoutineArguments::friction:
       return as<void(const void*, double, const double*, const double*, const double*, const double*, double, double,
                      int, int, double*)>(address)(&s, now.time, now.given, now.given + 3, no_deformation.data(),
-                                                  now.given + 6, now.given[9], not_known, now.flag, now.iflag, values);
+                                                  now.given + 6, now.given[9], unknown_value, now.flag, now.iflag,
+                                                  values);
   }
 }
 

@@ -1,5 +1,8 @@
 #include "routine/given_inputs.h"
 
+#include <array>
+#include <cstdint>
+
 namespace dynalin {
 
 namespace {
@@ -25,6 +28,7 @@ constexpr AtomFunction argument_named(std::string_view name) {
           .statement = "",
           .built = true};
 }
+enum class Given : std::uint8_t { loci, ni, locj, nj, gap, gapdot, xdot, nforce, disp };
 constexpr std::array<AtomFunction, 9> arguments = {
     argument_named("LOCI"), argument_named("NI"),     argument_named("LOCJ"),
     argument_named("NJ"),   argument_named("GAP"),    argument_named("GAPDOT"),
@@ -32,14 +36,15 @@ constexpr std::array<AtomFunction, 9> arguments = {
 
 // Each with the numbers it has, counted from 1 where it has several.
 struct Listed {
-  std::size_t argument, numbers;
+  Given argument;
+  std::size_t numbers;
 };
 std::vector<Atom> listed(std::initializer_list<Listed> list) {
   std::vector<Atom> inputs;
   for (const Listed& l : list) {
     for (std::size_t k = 1; k <= l.numbers; ++k) {
       Atom atom;
-      atom.function = &arguments[l.argument];
+      atom.function = &arguments[static_cast<std::size_t>(l.argument)];
       if (l.numbers > 1) atom.argument[0] = static_cast<std::int32_t>(k), atom.argument_count = 1;
       inputs.push_back(atom);
     }
@@ -50,15 +55,16 @@ std::vector<Atom> listed(std::initializer_list<Listed> list) {
 }  // namespace
 
 std::vector<Atom> given_inputs(const RoutineKind& kind, const RoutineStatement& statement) {
+  using enum Given;
   switch (kind.arguments) {
     case RoutineArguments::field:
       return of_field(statement.I, statement.J);
     case RoutineArguments::pressure:
-      return listed({{0, 3}, {1, 3}, {2, 3}, {3, 3}, {4, 1}, {5, 1}});
+      return listed({{loci, 3}, {ni, 3}, {locj, 3}, {nj, 3}, {gap, 1}, {gapdot, 1}});
     case RoutineArguments::friction:
-      return listed({{0, 3}, {2, 3}, {6, 3}, {7, 1}});
+      return listed({{loci, 3}, {locj, 3}, {xdot, 3}, {nforce, 1}});
     case RoutineArguments::coupler:
-      return listed({{8, statement.coupled.size()}});
+      return listed({{disp, statement.coupled.size()}});
     default:
       return {};
   }

@@ -2,8 +2,6 @@
 // nothing else, and their derivatives count these inputs in this order.
 #pragma once
 
-#include <array>
-#include <limits>
 #include <vector>
 
 #include "routine/compiled_routine.h"
@@ -22,8 +20,5 @@ inline constexpr std::size_t most_given_to_coupler = 3;
 
 // Empty for a routine that asks for what it reads.
 std::vector<Atom> given_inputs(const RoutineKind&, const RoutineStatement&);
-
-// An argument of a routine that has no value here: whoever calculates with it gets no number.
-inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace dynalin

@@ -1,25 +1,13 @@
 #include "system/request_values.h"
 
+#include "system/sources.h"
+
 namespace dynalin {
-
-namespace {
-
-template <class Use>
-void for_each_source(const System& system, const Use& use) {
-  const auto& sets = system.model().sets;
-  for (std::size_t s = 0; s < sets.size(); ++s) {
-    if (sets[s]->size() == 0 || !sets[s]->active) continue;
-    const ElementHandle first{static_cast<std::int32_t>(s), 0};
-    if (const auto* source = dynamic_cast<const RequestSource*>(system.signals().element(first).kernel)) use(*source);
-  }
-}
-
-}  // namespace
 
 PointRequests requests_at(const System& system, const OperatingPoint& point) {
   PointRequests all;
   std::optional<Motion> motion;  // where there is any
-  for_each_source(system, [&](const RequestSource& source) {
+  for_each_source<RequestSource>(system, [&](const ElementSet&, const RequestSource& source) {
     for (std::size_t k = 0; k < source.count(); ++k) {
       if (!motion) motion = system.motion(point);
       const RequestInfo& info = source.info(k);
@@ -35,7 +23,7 @@ PointRequests requests_at(const System& system, const OperatingPoint& point) {
 std::vector<UndefinedRequest> undefined_requests(const System& system, const OperatingPoint& point) {
   const Motion motion = system.motion(point);
   std::vector<UndefinedRequest> list;
-  for_each_source(system, [&](const RequestSource& source) {
+  for_each_source<RequestSource>(system, [&](const ElementSet&, const RequestSource& source) {
     for (std::size_t k = 0; k < source.count(); ++k) {
       if (std::string reason = source.undefined_value(motion, k); !reason.empty())
         list.push_back({source.info(k).request, std::move(reason)});

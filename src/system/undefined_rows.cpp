@@ -13,7 +13,7 @@ std::string undefined_value_of(const std::vector<UndefinedValue>& undefined_valu
 
 std::optional<std::string> undefined_row(const System& system, const Motion& motion, const ConstraintRows& rows,
                                          int order) {
-  // How accelerations of a row change with positions is asked by linear models alone.
+  // How the acceleration of a row changes with positions moves nothing: it counts in linear models.
   const bool varied = motion.mode == AnalysisMode::linear;
   for (std::int32_t k = 0; k < rows.size(); ++k) {
     const auto row = rows.row(k);

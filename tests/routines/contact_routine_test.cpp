@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "routines/with_libraries.h"
 
@@ -58,6 +59,37 @@ TEST_F(ContactRoutines, are_the_laws_of_the_statement) {
   for (std::size_t k = 0; k < without.eigenvalues(0).size(); ++k)
     off = std::max(off, std::abs(without.eigenvalues(0)[k] - written.eigenvalues(0)[k]));
   EXPECT_GT(off, 0.1);
+}
+
+// Strain and dissipation of a routine that is the law of the statement are those of the law, mode by mode.
+TEST_F(ContactRoutines, have_their_rows_in_tables_of_energy) {
+  const std::string held = model + "BUSHING/1, I=2, J=1, K=50,60,70, KT=1,2,3, C=0.1,0.1,0.1, CT=0.01,0.01,0.01\n",
+                    formulas = ", NROUTINE=formulas::pressure_by_formula, " + friction +
+                               ", FROUTINE=formulas::friction_by_formula\n";
+  const std::vector<std::string> tables = {"LINEAR/EIGENSOL, STRAIN=1,6, DISSIPAT=1,6"};
+  const auto shares = [&](const std::string& contact) {
+    const RunResult r = with(held + between + contact, false, tables);
+    EXPECT_EQ(r.status, 0) << r.err;
+    std::map<std::string, std::vector<double>> of_table;
+    if (r.json.is_null()) return of_table;
+    for (const auto& table : r.result(0).at("tables")) {
+      for (const auto& row : table.at("rows")) {
+        if (row.value("element", "") != "CONTACT/1") continue;
+        auto& all = of_table[table.at("table").get<std::string>()];
+        for (const auto& share : row.at("values")) all.push_back(share.get<double>());
+      }
+    }
+    return of_table;
+  };
+  const auto law = shares(impact + ", " + coulomb + "\n"), called = shares(normal + formulas);
+  for (const std::string table : {"STRAIN", "DISSIPAT"}) {
+    ASSERT_TRUE(law.contains(table) && called.contains(table)) << table;
+    const std::vector<double>&expected = law.at(table), &found = called.at(table);
+    ASSERT_EQ(found.size(), expected.size());
+    EXPECT_GT(*std::ranges::max_element(expected), 1) << table;  // of a hundred
+    for (std::size_t k = 0; k < found.size(); ++k)
+      EXPECT_NEAR(found[k], expected[k], 1e-9 * (1 + std::abs(expected[k]))) << table << k;
+  }
 }
 
 // From a fall to rest, and linear there: equilibria and motions need no derivatives of the routine.
