@@ -194,6 +194,24 @@ void c_cheby(double x, double x0, const double* par, int npar, int iord, double*
 void c_forcos(double x, double x0, double w, const double* par, int npar, int iord, double* value, int* errflg);
 void c_forsin(double x, double x0, double w, const double* par, int npar, int iord, double* value, int* errflg);
 
+/* Data of the model, which are no measures: nobody must ask for them beforehand. Where a routine is only asked what it
+ * reads they give zeros. errflg or istat is 1 if there is no such statement.
+ *
+ * A SPLINE by Akima's method and as a cubic spline. iord 0: array[0] is y. iord 1: dy/dx, dy/dz. iord 2: the second
+ * derivatives by x twice, by both, by z twice. array has room for three. z counts for families of curves. */
+void c_akispl(double xval, double zval, int id, int iord, double* array, int* errflg);
+void c_cubspl(double xval, double zval, int id, int iord, double* array, int* errflg);
+/* A CURVE at the parameter alpha: x, y, z, or with iord 1 and 2 their derivatives. */
+void c_gtcurv(int id, double alpha, int iord, double* array, int* istat);
+/* The text of a STRING, 1024 characters at most with a 0 behind them, and how many it has. In Fortran blanks fill up
+ * what is longer than the text; one that is shorter gets its beginning, and istat is 1. */
+void c_gtstrg(int id, char* string, int* nchars, int* istat);
+/* Along the global axes, in length and time of the model. */
+void c_get_gravity(double* gx, double* gy, double* gz);
+/* Nothing comes of these: routines are called by one thread at a time. */
+void c_adams_declare_threadsafe(void);
+void c_adams_smp_group(int group);
+
 /* Of the GSE that a routine is called for: how many states, discrete states, inputs and outputs, their values, and x'
  * of an implicit one. Partial derivatives with respect to them as c_syspar takes them. From Fortran: GSE_NS(ns),
  * GSE_X(x, ns), GSEPAR_X(partial, n) ... */
@@ -227,6 +245,10 @@ struct dynalin_course {
 int dynalin_input(const char* name, const int* ipar, int nsize);
 /* The same of number n of what c_sysary gives. */
 int dynalin_input_of_array(const char* name, const int* ipar, int nsize, int n);
+/* A SPLINE around x and z, by 'A' Akima's method or 'C' as a cubic spline: y(x + s, z + h) = c0 + c1 s + c2 s^2 + c3
+ * s^3
+ * + h (c4 + c5 s + c6 s^2 + c7 s^3) on the piece there. 0 if there is none, and c0 is no number then. */
+int dynalin_spline(int method, int id, double x, double z, double* c);
 /* The id of the ARRAY of a GSE that 'X', 'D' (discrete states) or 'U' names, 0 if there is none. */
 int dynalin_gse_array(int which);
 

@@ -327,6 +327,35 @@ T max(const T& a, const T& b) {
   return value_of(a) < value_of(b) ? b : a;
 }
 
+template <class T>
+T value_of_spline(int method, const T& x, const T& z, int id) {
+  std::array<double, 8> c{};
+  dynalin_spline(method, id, value_of(x), value_of(z), c.data());
+  const T s = x - value_of(x), h = z - value_of(z);
+  const auto cubic = [&](int first) {
+    const double* a = c.data() + first;
+    return a[0] + s * (a[1] + s * (a[2] + s * a[3]));
+  };
+  return cubic(0) + h * cubic(4);
+}
+// The SPLINE id at x, on the curve z of a family, as the functions AKISPL and CUBSPL of the language read it.
+template <class T>
+T akispl(const T& x, const T& z, int id) {
+  return value_of_spline('A', x, z, id);
+}
+template <class T>
+T cubspl(const T& x, const T& z, int id) {
+  return value_of_spline('C', x, z, id);
+}
+template <Scalar T>
+T akispl(const T& x, double z, int id) {
+  return akispl(x, T(z), id);
+}
+template <Scalar T>
+T cubspl(const T& x, double z, int id) {
+  return cubspl(x, T(z), id);
+}
+
 // What formulas of a GSE read: its states, inputs and discrete states by their places, counted from 0, and x′ of an
 // implicit one.
 template <class Self, class T>

@@ -23,9 +23,8 @@ enum class CommandUse : std::uint8_t {
   analysis,
   model,  // changes the model: ACTIVATE, DEACTIVATE, and a class of statements, which defines one of them anew
   setting,
-  information,     // prints something of the point or of the run
-  run,             // which model, which environment, the end
-  without_effect,  // read and passed over
+  information,  // prints something of the point or of the run
+  run,          // which model, which environment, the end
   refused,
 };
 

@@ -60,13 +60,12 @@ void list_commands(std::ostream& out) {
     CommandUse use;
     std::string_view title;
   };
-  static constexpr std::array<Group, 7> groups = {{
+  static constexpr std::array<Group, 6> groups = {{
       {CommandUse::run, "of a run"},
       {CommandUse::analysis, "analyses"},
       {CommandUse::model, "changes of the model"},
       {CommandUse::setting, "settings"},
       {CommandUse::information, "information"},
-      {CommandUse::without_effect, "read, without effect"},
       {CommandUse::refused, "refused"},
   }};
   fmt::print(out, "Commands\n");
@@ -76,7 +75,7 @@ void list_commands(std::ostream& out) {
     for (const CommandKind& row : command_catalogue()) {
       if (row.use != group.use) continue;
       if (row.summary.empty() && !has_statement(row.name)) continue;
-      const bool plain = row.use == CommandUse::without_effect || row.use == CommandUse::refused;
+      const bool plain = row.use == CommandUse::refused;
       if (row.summary.empty() || plain)
         bare.push_back(row.name);
       else

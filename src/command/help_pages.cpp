@@ -106,10 +106,7 @@ void print_command(std::ostream& out, const CommandKind& row, bool is_statement)
   if (row.summary.empty())
     fmt::print(out, "  such a statement is not available yet\n");
   else
-    fmt::print(out, "  {}{}\n", row.summary,
-               row.use == CommandUse::refused          ? ", and is refused"
-               : row.use == CommandUse::without_effect ? "; read and passed over here"
-                                                       : "");
+    fmt::print(out, "  {}{}\n", row.summary, row.use == CommandUse::refused ? ", and is refused" : "");
   if (!row.arguments.empty()) fmt::print(out, "  arguments\n");
   print_arguments(out, {row.arguments.begin(), row.arguments.end()});
   if (!row.classes.empty())

@@ -102,6 +102,12 @@ const SplineCurves::Piece& SplineCurves::piece(std::size_t curve, double x) cons
   return pieces_[curve][k];
 }
 
+std::size_t SplineCurves::curve_below(double z) const {
+  const std::vector<double>& all = data_->z;
+  const auto above = std::upper_bound(all.begin() + 1, all.end() - 1, z);
+  return static_cast<std::size_t>(above - all.begin()) - 1;
+}
+
 template <class T>
 T SplineCurves::at(const T& x, const T& z, int derivative) const {
   const auto along = [&](std::size_t curve) {
@@ -114,11 +120,33 @@ T SplineCurves::at(const T& x, const T& z, int derivative) const {
   };
   if (pieces_.size() == 1) return along(0);
   const std::vector<double>& all = data_->z;
-  const auto above = std::upper_bound(all.begin() + 1, all.end() - 1, value_of(z));
-  const std::size_t k = static_cast<std::size_t>(above - all.begin()) - 1;
+  const std::size_t k = curve_below(value_of(z));
   const T share = (z - T(all[k])) * (1 / (all[k + 1] - all[k]));
   const T low = along(k);
   return low + share * (along(k + 1) - low);
+}
+
+SplineCurves::Expansion SplineCurves::expand(double x, double z) const {
+  const auto along = [&](std::size_t curve) -> std::array<double, 4> {
+    const Piece& p = piece(curve, x);
+    const double s = x - p.origin;
+    const auto& c = p.c;
+    return {c[0] + s * (c[1] + s * (c[2] + s * c[3])), c[1] + s * (2 * c[2] + s * (3 * c[3])), c[2] + s * (3 * c[3]),
+            c[3]};
+  };
+  Expansion e;
+  if (pieces_.size() == 1) {
+    e.along = along(0);
+    return e;
+  }
+  const std::vector<double>& all = data_->z;
+  const std::size_t k = curve_below(z);
+  const std::array<double, 4> low = along(k), high = along(k + 1);
+  for (std::size_t j = 0; j < low.size(); ++j) {
+    e.by_z[j] = (high[j] - low[j]) / (all[k + 1] - all[k]);
+    e.along[j] = low[j] + (z - all[k]) * e.by_z[j];
+  }
+  return e;
 }
 
 void SplineCurves::switches(double x, double z, int derivative, SwitchList& out) const {

@@ -8,6 +8,7 @@
 // through the two last. A family is interpolated linearly in its second variable z.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -40,6 +41,13 @@ class SplineCurves {
   template <class T>
   T at(const T& x, const T& z, int derivative) const;
 
+  // y(x + s, z + h) = (along_0 + along_1 s + along_2 s² + along_3 s³) + h (the same with by_z), exact on the piece
+  // there.
+  struct Expansion {
+    std::array<double, 4> along{}, by_z{};
+  };
+  Expansion expand(double x, double z) const;
+
   // Where the value, or that derivative of it, has a kink or a jump, and where the data end. At the points between a
   // jump of the second derivative is left to the error control of an integration: tables of measured data have
   // thousands of them.
@@ -52,6 +60,8 @@ class SplineCurves {
     double c[4] = {0, 0, 0, 0};
   };
   const Piece& piece(std::size_t curve, double x) const;
+  // Of a family: the curve below z, or the last but one.
+  std::size_t curve_below(double z) const;
 
   std::shared_ptr<const SplineData> data_;
   SplineMethod method_;

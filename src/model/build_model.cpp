@@ -5,6 +5,7 @@
 
 #include "model/kind_finder.h"
 #include "model/model_reader.h"
+#include "routine/routine_data.h"
 
 namespace dynalin {
 
@@ -28,7 +29,7 @@ class Builder {
     routines_ = with_user_routines(std::move(dataset), catalogue, options, routines, diagnostics_);
     model_->dataset = routines_.dataset;
     model_->further_sources = routines_.further_texts, model_->input_files = routines_.files;
-    model_->calls_routines = !routines_.functions.empty();
+    model_->calls_routines = !routines_.functions.empty(), model_->routine_data = routines_.data;
     if (model_->dataset == options.read_once) read_once_ = options.read_once.get();
     model_->title = model_->dataset->title;
     model_->markers.emplace_back().label = &label_of_global_frame;
@@ -48,6 +49,7 @@ class Builder {
         std::any_of(statements.begin(), statements.end(), [](const Statement& s) { return s.damaged; });
     if (!diagnostics_.has_errors() && !damaged) {
       for (auto& set : model_->sets) set->finish(*model_, diagnostics_);
+      if (model_->routine_data) model_->routine_data->gravity = model_->gravity, model_->routine_data->is_read = true;
     }
     return {std::move(model_), std::move(diagnostics_)};
   }

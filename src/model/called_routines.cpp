@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "routine/given_inputs.h"
+#include "routine/routine_data.h"
 
 namespace dynalin {
 
@@ -85,7 +86,7 @@ CalledRoutines::CalledRoutines(const Dataset& dataset, Catalogue catalogue, cons
       catalogue_(catalogue),
       differences_(options.differences ? RoutineDifferences::everywhere : RoutineDifferences::not_in_linear_models),
       diagnostics_(diagnostics) {
-  if (!options.libraries.empty()) constant_arrays_ = constant_arrays();
+  if (!options.libraries.empty()) constant_arrays_ = constant_arrays(), data_ = ids_of_data();
   for (const std::string& file : options.libraries) {
     if (std::error_code none; std::filesystem::is_directory(file, none)) {
       folders_.push_back(file);
@@ -218,6 +219,17 @@ std::shared_ptr<const std::vector<int>> CalledRoutines::constant_arrays() const 
   return ids;
 }
 
+std::shared_ptr<RoutineData> CalledRoutines::ids_of_data() const {
+  auto data = std::make_shared<RoutineData>();
+  for (const Statement& s : dataset_.statements) {
+    const int id = static_cast<int>(s.id.value_or(0));
+    if (s.name == "SPLINE") data->splines[id];
+    if (s.name == "CURVE") data->curves[id];
+    if (s.name == "STRING") data->strings[id];
+  }
+  return data;
+}
+
 // Between the parentheses of USER(…).
 std::optional<std::vector<double>> CalledRoutines::constants_of(const WrittenArgument& call, const std::string& label) {
   const SourceText& source = *call.name.source;
@@ -268,7 +280,7 @@ std::optional<RoutineStatement> CalledRoutines::says(const Statement& s, const W
   RoutineStatement out;
   out.label = fmt::format("{}/{}", s.name, s.id.value_or(0));
   out.id = static_cast<int>(s.id.value_or(0));
-  out.constant_arrays = constant_arrays_;
+  out.constant_arrays = constant_arrays_, out.data = data_;
   if (call) {
     auto constants = constants_of(*call, out.label);
     if (!constants) return std::nullopt;

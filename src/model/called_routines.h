@@ -24,6 +24,8 @@ class CalledRoutines {
   // Loads the libraries; those that cannot be are errors.
   CalledRoutines(const Dataset&, Catalogue, const RoutineOptions&, Diagnostics&);
 
+  // To be filled when the model is read; null without libraries.
+  std::shared_ptr<RoutineData> data() const { return data_; }
   bool has_libraries() const { return !libraries_.empty() || !folders_.empty(); }
   // Whether one that was named cannot be loaded, which is reported: what it should have is not missing as well.
   bool lacks_library() const { return lacks_library_; }
@@ -51,6 +53,7 @@ class CalledRoutines {
   std::vector<int> integers(const Statement&, std::string_view name) const;
   std::optional<std::size_t> size_of_list(std::string_view statement, std::int32_t id) const;
   std::shared_ptr<const std::vector<int>> constant_arrays() const;
+  std::shared_ptr<RoutineData> ids_of_data() const;
   std::optional<RoutineStatement> says(const Statement&, const WrittenArgument* call);
   std::optional<std::vector<double>> constants_of(const WrittenArgument& call, const std::string& label);
 
@@ -74,6 +77,7 @@ class CalledRoutines {
   bool lacks_library_ = false;
   std::vector<std::string> folders_;
   std::shared_ptr<const std::vector<int>> constant_arrays_;
+  std::shared_ptr<RoutineData> data_;
 };
 
 }  // namespace dynalin

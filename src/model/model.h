@@ -20,6 +20,8 @@
 
 namespace dynalin {
 
+struct RoutineData;
+
 // Initial velocity as stated: only the components that are given. Everything else may change freely.
 struct StatedVelocity {
   std::array<std::optional<double>, 3> of_cm;    // along the axes of `cm_axes`, the CM's velocity
@@ -104,9 +106,10 @@ struct Model {
   IdTable<MarkerId> marker_ids;
   std::map<std::string, IdTable<BodyId>, std::less<>> body_ids;
   std::shared_ptr<const Dataset> dataset;
-  std::vector<SourceRef> further_sources;  // further texts that messages point into
-  std::vector<std::string> input_files;    // that statements name and the model is made of
-  bool calls_routines = false;             // compiled ones of the user: by one thread at a time
+  std::vector<SourceRef> further_sources;     // further texts that messages point into
+  std::vector<std::string> input_files;       // that statements name and the model is made of
+  bool calls_routines = false;                // compiled ones of the user: by one thread at a time
+  std::shared_ptr<RoutineData> routine_data;  // what they read beside measures; null where there are none
 };
 
 // Reads every statement of the dataset by the catalogue. All problems are reported in one go; the model is

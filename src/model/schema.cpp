@@ -182,6 +182,11 @@ bool read_value(VectorExpression& slot, const WrittenArgument& w, const ValueLim
 }
 
 bool read_value(std::string& slot, const WrittenArgument& w, const ValueLimits&, ElementReader& r) {
+  // Where nothing may stand for a text, it was warned of when it was read.
+  if (w.has_value && !w.damaged && w.value().empty()) {
+    slot.clear();
+    return true;
+  }
   auto text = read_text(w, *w.name.source, r.diagnostics());
   if (!text) return false;
   slot = std::move(*text);

@@ -117,6 +117,7 @@ class Replacement {
       all.functions = std::move(called_.functions);
     }
     all.files = std::move(called_.files);
+    all.data = called_.data();
     all.dataset = std::move(out);
     return all;
   }
@@ -256,7 +257,8 @@ bool concerns_code(const Statement& s) {
 DatasetWithRoutines with_user_routines(std::shared_ptr<const Dataset> base, Catalogue catalogue,
                                        const BuildOptions& options, const RoutineOptions& routines,
                                        Diagnostics& diagnostics) {
-  if (std::none_of(base->statements.begin(), base->statements.end(), concerns_code)) return {base, nullptr, {}, {}, {}};
+  if (std::none_of(base->statements.begin(), base->statements.end(), concerns_code))
+    return {base, nullptr, {}, {}, nullptr, {}};
   Replacement replacement(*base, catalogue, options, routines, diagnostics);
   auto out = std::make_shared<Dataset>();
   out->source = base->source;

@@ -16,6 +16,7 @@ struct DatasetWithRoutines {
   SourceRef calls;
   std::vector<Expression> functions;
   std::vector<std::string> files;        // of the libraries
+  std::shared_ptr<RoutineData> data;     // of the model that its routines read; null without libraries
   std::vector<SourceRef> further_texts;  // that its statements and messages point into
 };
 DatasetWithRoutines with_user_routines(std::shared_ptr<const Dataset>, Catalogue, const BuildOptions&,

@@ -33,11 +33,6 @@ Atom atom_without_ids(std::string_view name) {
   return atom;
 }
 
-}  // namespace
-
-namespace {
-constexpr std::size_t inputs_of_field = 12;
-
 // Arguments that its interface has and nobody here can say.
 std::string_view what_is_not_known(RoutineArguments arguments) {
   if (arguments == RoutineArguments::pressure) return "; GAPDOTDOT and AREA are not known here, and no numbers";
@@ -56,6 +51,7 @@ std::string_view way_to_derivatives(RoutineArguments arguments) {
       return "c_syspar, an entry with them, or --difference-user-routines";
   }
 }
+
 }  // namespace
 
 CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, std::size_t values,
@@ -138,95 +134,8 @@ RoutineContext CompiledRoutine::context(RoutineContext::Phase phase) const {
   c.requests = &requests_;
   c.values = values_;
   c.gse = statement_.gse ? &*statement_.gse : nullptr;
+  c.data = statement_.data.get();
   return c;
-}
-
-namespace {
-
-// The ARRAY of states or inputs of a GSE among what its routine reads, and its values at this moment.
-struct ReadArray {
-  const RoutineRequest* request = nullptr;
-  std::vector<double> values;
-};
-ReadArray read_array(const RoutineContext& c, int array, int size) {
-  ReadArray out;
-  out.values.assign(static_cast<std::size_t>(size), 0.0);
-  out.request = array == 0 ? nullptr : c.known("ARRAY", {&array, 1}, false);
-  if (!out.request || c.phase == RoutineContext::Phase::asking) return out;
-  for (std::size_t k = 0; k < out.values.size(); ++k)
-    out.values[k] = c.inputs[static_cast<std::size_t>(out.request->inputs[k])];
-  return out;
-}
-
-}  // namespace
-
-void CompiledRoutine::call(double time, int flag, int iflag, double* values) const {
-  RoutineArgumentsNow now{time, flag, iflag, static_cast<int>(values_)};
-  if (kind_->arguments == RoutineArguments::field) return call_field(now, values);
-  if (kind_->arguments == RoutineArguments::coupler) return call_coupler(now, found_, values);
-  if (kind_->arguments == RoutineArguments::pressure || kind_->arguments == RoutineArguments::friction)
-    return call_contact(now, values);
-  if (kind_->arguments != RoutineArguments::system) return call_routine(found_, *kind_, statement_, now, values);
-  const sAdamsGSE& gse = *statement_.gse;
-  const RoutineContext& c = *RoutineContext::current();
-  const ReadArray states = read_array(c, gse.X, gse.NS), inputs = read_array(c, gse.U, gse.NI);
-  now.states = states.values, now.inputs = inputs.values;
-  call_routine(found_, *kind_, statement_, now, values);
-}
-
-void CompiledRoutine::call_contact(RoutineArgumentsNow now, double* values) const {
-  const RoutineContext& c = *RoutineContext::current();
-  std::array<double, std::max(given_to_pressure, given_to_friction)> given{};
-  if (c.phase != RoutineContext::Phase::asking) std::ranges::copy(c.inputs.subspan(first_given), given.begin());
-  now.given = given.data();
-  call_routine(found_, *kind_, statement_, now, values);
-}
-
-// A column of derivatives counts if all of it is written.
-void CompiledRoutine::call_field(RoutineArgumentsNow now, double* values) const {
-  RoutineContext& c = *RoutineContext::current();
-  std::array<double, inputs_of_field> arguments{};
-  if (c.phase != RoutineContext::Phase::asking) {
-    std::ranges::copy(c.inputs.subspan(first_given, inputs_of_field), arguments.begin());
-  }
-  std::array<double, 72> partials{};
-  partials.fill(unknown_value);
-  now.displacement = arguments.data(), now.velocity = &arguments[6];
-  now.by_displacement = partials.data(), now.by_velocity = &partials[36];
-  call_routine(found_, *kind_, statement_, now, values);
-  if (!c.wants_partials()) return;
-  for (std::size_t k = 0; k < inputs_of_field; ++k) {
-    const auto column = std::span(partials).subspan(6 * k, 6);
-    if (!std::ranges::all_of(column, [](double p) { return std::isfinite(p); })) continue;
-    for (std::size_t v = 0; v < 6; ++v) c.partials[v * c.inputs.size() + first_given + k] = column[v];
-    c.given[first_given + k] = true;
-  }
-}
-
-void CompiledRoutine::call_partials(double time, std::span<double> partials, std::span<char> given) const {
-  const sAdamsGSE& gse = *statement_.gse;
-  const RoutineContext& c = *RoutineContext::current();
-  const ReadArray states = read_array(c, gse.X, gse.NS), inputs = read_array(c, gse.U, gse.NI);
-  const RoutineArgumentsNow now{time, 1, 0, static_cast<int>(values_), states.values, inputs.values};
-  const auto take = [&](const ReadArray& by, const FoundRoutine& of_x, const FoundRoutine& of_y) {
-    const bool whole = (of_x || gse.NS == 0) && (of_y || gse.NO == 0);
-    if (!by.request || !whole) return;
-    const std::size_t inputs_in_all = requests_.inputs.size();
-    const auto place = [&](const FoundRoutine& routine, int first, int rows) {
-      const auto count = static_cast<std::size_t>(rows);
-      std::vector<double> matrix(count * by.values.size(), unknown_value);
-      if (matrix.empty()) return;
-      call_state_partials(routine, statement_, now, matrix.data());
-      for (std::size_t k = 0; k < matrix.size(); ++k) {
-        const std::size_t value = static_cast<std::size_t>(first) + k % count;
-        partials[value * inputs_in_all + static_cast<std::size_t>(by.request->inputs[k / count])] += matrix[k];
-      }
-    };
-    place(of_x, 0, gse.NS), place(of_y, gse.NS, gse.NO);
-    for (const std::int32_t k : by.request->inputs) given[static_cast<std::size_t>(k)] = true;
-  };
-  take(states, state_partials_.of_x_by_x, state_partials_.of_y_by_x);
-  take(inputs, state_partials_.of_x_by_u, state_partials_.of_y_by_u);
 }
 
 std::string CompiledRoutine::evaluate(std::span<const double> inputs, std::span<double> values,
@@ -358,11 +267,13 @@ void CompiledRoutine::fill_course(CourseMemory& m) const {
     const std::array<double, 2> at = {m.inputs[0], m.inputs[3]};
     c.inputs = at;
     const RoutineContext::Scope scope(c, what_.c_str());
-    for (int order = 0; order < 3; ++order) {
-      course[static_cast<std::size_t>(order)] = unknown_value;
-      call(at[0], order, 0, &course[static_cast<std::size_t>(order)]);
+    course.fill(unknown_value);
+    try {
+      for (int order = 0; order < 3; ++order) call(at[0], order, 0, &course[static_cast<std::size_t>(order)]);
+    } catch (...) {
+      c.fail("it threw an exception");
     }
-    m.values[0] = {course[0], course[1], course[2]};
+    m.values[0] = c.failure.empty() ? Taylor(course[0], course[1], course[2]) : Taylor(unknown_value);
     return;
   }
   // Values and what the chain rule makes of first derivatives; of second ones nothing is known.

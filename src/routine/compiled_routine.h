@@ -19,6 +19,7 @@
 namespace dynalin {
 
 struct RoutineArgumentsNow;
+struct RoutineData;
 
 enum class RoutineDifferences : std::uint8_t { not_in_linear_models, everywhere };
 
@@ -49,6 +50,7 @@ struct RoutineStatement {
   std::shared_ptr<const Sides> sides{};
   // ARRAYs of numbers and of discrete states, ascending: constants in a linear model.
   std::shared_ptr<const std::vector<int>> constant_arrays{};
+  std::shared_ptr<const RoutineData> data{};
 };
 
 // Routines that give the partial derivatives of a whole GSE: of x′ and of y, with respect to states and to inputs; and

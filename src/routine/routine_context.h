@@ -11,6 +11,8 @@
 
 namespace dynalin {
 
+struct RoutineData;
+
 // Something that a routine asked for, and which of its inputs that is.
 struct RoutineRequest {
   std::string name;
@@ -34,6 +36,7 @@ class RoutineContext {
   const RoutineRequests* requests = nullptr;  // while evaluating
   const SizeOfList* size_of = nullptr;
   const sAdamsGSE* gse = nullptr;  // of a routine that is called for one
+  const RoutineData* data = nullptr;
   std::span<const double> inputs;
   std::size_t values = 1;
   // Partial derivatives of all values with respect to all inputs, [value * inputs + input], and which inputs have them.

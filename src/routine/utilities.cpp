@@ -122,7 +122,10 @@ void message(int flag, std::string_view text, std::string_view end) {
 
 }  // namespace
 
-void keep_utilities() { keep_function_utilities(); }
+void keep_utilities() {
+  keep_function_utilities();
+  keep_data_utilities();
+}
 
 }  // namespace dynalin
 

@@ -5,5 +5,6 @@ namespace dynalin {
 
 void keep_utilities();
 void keep_function_utilities();
+void keep_data_utilities();
 
 }  // namespace dynalin

@@ -327,8 +327,14 @@ class KinematicRun {
                                  named),
                      "contradicting-constraints", std::move(rows));
     }
-    const std::string undefined = system_.undefined_value(system_.motion(at_));
-    if (!undefined.empty()) return failure(at_.time, undefined, "undefined-value");
+    // What is defined here and not a moment later has ended.
+    for (const double ahead :
+         {0.0, 2 * least_step * times_.step(), 32 * std::numeric_limits<double>::epsilon() * at_.time}) {
+      OperatingPoint later = at_;
+      later.time += ahead;
+      const std::string undefined = system_.undefined_value(system_.motion(later));
+      if (!undefined.empty()) return failure(at_.time, undefined, "undefined-value");
+    }
     return failure(at_.time, "no position of the mechanism follows: what drives it jumps", "stopped-mechanism");
   }
 

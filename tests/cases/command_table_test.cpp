@@ -29,7 +29,8 @@ const std::string model =
     "table\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,1,1\n"
     "MARKER/20\nMARKER/21, PART=2, QP=0,0,1\nMARKER/3, PART=1, QP=0,0,-2\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
     "SPRINGDAMPER/1, TRANSLATIONAL, I=21, J=3, K=800, C=3, LENGTH=3\nVARIABLE/1, FUNCTION=DZ(20,1)\n"
-    "SENSOR/1, FUNCTION=DZ(20,1), VALUE=9, GE, ERROR=1, HALT\nREQUEST/1, DISPLACEMENT, I=20, J=1\nEND\n";
+    "SENSOR/1, FUNCTION=DZ(20,1), VALUE=9, GE, ERROR=1, HALT\nREQUEST/1, DISPLACEMENT, I=20, J=1\n"
+    "STRING/1, STRING=gains\nEND\n";
 
 class CommandTable : public Cases {
  protected:
@@ -128,7 +129,7 @@ TEST_F(CommandTable, commands_act_or_are_named) {
       {"TIME", "  The present time is 0.000000000E+00"},
       {"HELP", "HELP is for a session at a prompt"},
       {"MENU", "MENU is for a session at a prompt"},
-      {"STRING/1, STRING=abc", "nothing here acts on STRING"},
+      {"STRING/1, LIST", "Current STRING/1 data are:\n   STRING = gains"},
       {"ENVIRONMENT/NAME=NOTHING, VALUE=1", "the environment variable NOTHING means nothing here"},
       {"SAVE/STATES, FILE=a.save", "  Saved the states at time"},
   };

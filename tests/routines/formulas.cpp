@@ -26,6 +26,18 @@ struct Wrench {
 };
 DYNALIN_USER_ROUTINE(wrench_by_formula, Wrench)
 
+// What of_a_spline of routines.c is.
+struct OfASpline {
+  template <class T>
+  void operator()(const dynalin::user::Call<T>& call, T* value) const {
+    const int of = static_cast<int>(call.parameter(0));
+    const int i = static_cast<int>(call.parameter(2)), j = static_cast<int>(call.parameter(3));
+    const T x = call.measure("DX", {i, j, j}), z = call.parameter(4) * call.measure("DY", {i, j, j});
+    value[0] = -(call.parameter(1) == 0 ? dynalin::user::akispl(x, z, of) : dynalin::user::cubspl(x, z, of));
+  }
+};
+DYNALIN_USER_ROUTINE(spline_by_formula, OfASpline)
+
 // What fiesub of routines.c is.
 struct Field {
   template <class T>

@@ -57,3 +57,28 @@ subroutine sfosub(id, time, par, npar, dflag, iflag, value)
   value = -(par(5) * z + par(6) * rate + par(7) * v)
   if (dflag) call give(par, -(par(6) * by_v + par(7)), -(par(5) + par(6) * by_z))
 end subroutine
+
+! A SPLINE par(1) at DX of (par(2), par(3)), with its derivative; nothing where the text of STRING/1 is not "against".
+subroutine of_a_spline(id, time, par, npar, dflag, iflag, value)
+  implicit none
+  integer, intent(in) :: id, npar
+  double precision, intent(in) :: time, par(*)
+  logical, intent(in) :: dflag, iflag
+  double precision, intent(out) :: value
+  double precision :: x, y(3), point(3), partial(1)
+  integer :: at(3), count
+  logical :: error
+  character(12) :: text
+  at = (/ nint(par(2)), nint(par(3)), nint(par(3)) /)
+  call sysfnc('DX', at, 3, x, error)
+  call gtstrg(1, text, count, error)
+  call gtcurv(1, 0d0, 0, point, error)
+  call akispl(x, 0d0, nint(par(1)), 0, y, error)
+  call errmes(error, 'there is no such spline', 0, 'STOP')
+  value = 0
+  if (text /= 'against') return
+  value = -y(1) + point(3)
+  call akispl(x, 0d0, nint(par(1)), 1, y, error)
+  partial(1) = -y(1)
+  if (dflag) call syspar('DX', at, 3, partial, 1, error)
+end subroutine

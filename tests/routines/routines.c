@@ -379,6 +379,46 @@ void of_the_language(const int* id, const double* time, const double* par, const
   c_syspar("DX", at, 3, &y[0], 1, &error);
   c_syspar("VX", moving, 4, &y[1], 1, &error);
 }
+/* -(SPLINE par[0] at DX of (par[2], par[3]), on the curve z = par[4] DY), by AKISPL if par[1] is 0 or CUBSPL, with its
+ * derivatives. */
+void of_a_spline(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                 const int* iflag, double* value) {
+  const int at[3] = {(int)par[2], (int)par[3], (int)par[3]};
+  double x, y, array[3] = {0, 0, 0};
+  int error, wanted, order;
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  c_adams_declare_threadsafe();
+  c_sysfnc("DX", at, 3, &x, &error);
+  c_sysfnc("DY", at, 3, &y, &error);
+  c_adams_needs_partials(&wanted);
+  for (order = wanted ? 1 : 0; order >= 0; --order) {
+    if (par[1] == 0) c_akispl(x, par[4] * y, (int)par[0], order, array, &error);
+    if (par[1] != 0) c_cubspl(x, par[4] * y, (int)par[0], order, array, &error);
+    c_errmes(error, "there is no such spline", 0, "STOP");
+    if (order == 0) break;
+    array[0] = -array[0], array[1] = -par[4] * array[1];
+    c_syspar("DX", at, 3, &array[0], 1, &error);
+    c_syspar("DY", at, 3, &array[1], 1, &error);
+  }
+  *value = -array[0];
+}
+/* Number par[2] of what a utility reads of statement par[1]: par[0] 0 and 1 second derivatives of a spline at (1.5,
+ * 0.5), 2 to 4 a curve and its derivatives at 0.25, 5 gravity, 6 the characters of a text, 7 how many they are. */
+void of_the_data(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                 const int* iflag, double* value) {
+  const int what = (int)par[0], of = (int)par[1], number = (int)par[2];
+  double array[3] = {0, 0, 0};
+  char text[1025] = "";
+  int error = 0, count = 0;
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  if (what == 0) c_akispl(1.5, 0.5, of, 2, array, &error);
+  if (what == 1) c_cubspl(1.5, 0.5, of, 2, array, &error);
+  if (what >= 2 && what <= 4) c_gtcurv(of, 0.25, what - 2, array, &error);
+  if (what == 5) c_get_gravity(&array[0], &array[1], &array[2]);
+  if (what >= 6) c_gtstrg(of, text, &count, &error);
+  c_errmes(error, "there is no such statement", 0, "STOP");
+  *value = what == 6 ? text[number] : what == 7 ? count : array[number];
+}
 /* A second derivative of IMPACT by DX twice, by both, by VX twice: par[0] says which. */
 void curvature(const int* id, const double* time, const double* par, const int* npar, const int* dflag, const int* iflag,
                double* value) {
@@ -396,4 +436,35 @@ void of_an_array(const int* id, const double* time, const double* par, const int
   (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
   c_gtaray((int)par[0], numbers, &count, &status);
   *value = numbers[2];
+}
+
+/* The time t, as a MOTION asks for it; no value from par[0] on: for a reason that it gives, or par[1] not 0 no number. */
+void stopping_motion(const int* id, const double* time, const double* par, const int* npar, const int* iord,
+                     const int* iflag, double* value) {
+  const int over = *time > par[0];
+  (void)npar, (void)iflag;
+  *value = *iord == 0 ? *time : *iord == 1 ? 1 : 0;
+  if (par[1] != 0 && over) *value = 0.0 / 0.0;
+  if (par[1] == 0) c_errmes(over, "the drive has burnt out", *id, "STOP");
+}
+/* EVALUATE of a SENSOR that has none, in the same ways by par[0]. */
+void stopping_evaluation(const int* id, const double* time, const double* par, const int* npar, const int* iflag,
+                         double* value) {
+  (void)time, (void)npar;
+  *value = par[0] != 0 && *iflag == 0 ? 0.0 / 0.0 : 1;
+  if (par[0] == 0) c_errmes(1, "the gauge is broken", *id, "STOP");
+}
+/* Discrete states of a GSE, in the same way. */
+void stopping_update(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                     const int* iflag, const int* count, double* values) {
+  int k;
+  (void)par, (void)npar, (void)dflag, (void)iflag;
+  for (k = 0; k < *count; ++k) values[k] = 1;
+  c_errmes(*time > 0.2, "the controller hangs", *id, "STOP");
+}
+void constant_output(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                     const int* iflag, const int* count, double* values) {
+  int k;
+  (void)id, (void)time, (void)par, (void)npar, (void)dflag, (void)iflag;
+  for (k = 0; k < *count; ++k) values[k] = 2;
 }

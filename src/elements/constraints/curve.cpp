@@ -12,6 +12,7 @@
 #include "elements/controls/matrix.h"
 #include "model/model.h"
 #include "model/schema.h"
+#include "routine/routine_data.h"
 
 namespace dynalin {
 
@@ -90,7 +91,10 @@ class CurveSet final : public TypedSet<Curve> {
   }
 
   void finish(Model& model, Diagnostics& diagnostics) override {
-    for (std::size_t k = 0; k < elements.size(); ++k) make(k, model, diagnostics);
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      make(k, model, diagnostics);
+      if (model.routine_data) model.routine_data->curves[static_cast<int>(labels[k].id)] = elements[k].shape;
+    }
   }
 
  private:

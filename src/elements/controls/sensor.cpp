@@ -92,7 +92,14 @@ class SensorKernel final : public Kernel, public EventSource {
         motion.mode != AnalysisMode::quasi_statics)
       return {};
     std::vector<UndefinedValue> undefined;
-    for (const Watch& w : watches_) w.function.find_undefined(motion, *w.label, undefined);
+    for (const Watch& w : watches_) {
+      w.function.find_undefined(motion, *w.label, undefined);
+      // What it left behind when it triggered.
+      if (!w.sensor->evaluates || std::isfinite(motion.memory[static_cast<std::size_t>(w.value_kept)])) continue;
+      w.evaluate.find_undefined(motion, *w.label, undefined);
+      undefined.push_back(
+          {w.label, fmt::format("EVALUATE of {} had no finite value when it triggered", w.label->full_text()), true});
+    }
     const auto found = std::ranges::find_if(undefined, &UndefinedValue::in_value);
     return found == undefined.end() ? std::string() : found->reason;
   }

@@ -18,6 +18,7 @@
 #include "elements/constraints/curve.h"
 #include "model/model.h"
 #include "model/schema.h"
+#include "routine/routine_data.h"
 
 namespace dynalin {
 
@@ -95,8 +96,20 @@ class SplineSet final : public TypedSet<Spline> {
     }
   }
 
-  // A power spectral density is not negative, and nothing but positive where its logarithm counts.
   void finish(Model& model, Diagnostics& diagnostics) override {
+    check_spectra(model, diagnostics);
+    if (!model.routine_data) return;
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      if (!elements[k].data) continue;
+      const auto curves = [&](SplineMethod by) { return std::make_shared<const SplineCurves>(elements[k].data, by); };
+      model.routine_data->splines[static_cast<int>(labels[k].id)] = {curves(SplineMethod::akima),
+                                                                     curves(SplineMethod::cubic)};
+    }
+  }
+
+ private:
+  // A power spectral density is not negative, and nothing but positive where its logarithm counts.
+  static void check_spectra(const Model& model, Diagnostics& diagnostics) {
     for (const SplineUse& use : model.spectra) {
       const Spline* s = model.get<Spline>(*model.find("SPLINE", use.id));
       if (!s || !s->data) continue;
@@ -108,7 +121,6 @@ class SplineSet final : public TypedSet<Spline> {
     }
   }
 
- private:
   static bool take_values(const WrittenSpline& w, SplineData& data, ElementReader& reader) {
     data.x = w.x;
     data.y = w.y;

@@ -72,6 +72,14 @@ void Sampling::remember(const Motion& motion, Memory& memory) const {
   period_.remember(motion, memory);
 }
 
+void Sampling::find_undefined(const Motion& motion, const ElementLabel& of,
+                              std::vector<UndefinedValue>& undefined) const {
+  if (!std::isfinite(next(motion))) period_.find_undefined(motion, of, undefined);
+  for (std::size_t n = 0; n < size(); ++n) {
+    if (!std::isfinite(value(motion, n))) update_[n].find_undefined(motion, of, undefined);
+  }
+}
+
 std::string Sampling::failure(const Motion& motion) const {
   if (!std::isfinite(next(motion))) {
     const std::string said_by = law_.period_name.empty() ? "" : fmt::format(", as {} says", law_.period_name);

@@ -129,8 +129,12 @@ void StateEquationsKernel::undefined_values(const Motion& motion, std::vector<Un
     const Element& e = elements_[k];
     const ElementLabel& label = (*labels_)[k];
     if (e.sampling.size() > 0) {
-      if (const std::string reason = e.sampling.failure(motion); !reason.empty())
-        undefined.push_back({&label, label.full_text() + ": " + reason, true});
+      if (const std::string reason = e.sampling.failure(motion); !reason.empty()) {
+        std::vector<UndefinedValue> why;
+        e.sampling.find_undefined(motion, label, why);
+        undefined.push_back(
+            {&label, label.full_text() + ": " + reason + (why.empty() ? "" : "; " + why.front().reason), true});
+      }
     }
     for (const BoundExpression& f : e.derivatives) f.find_undefined(motion, label, undefined);
     if (rests(e, motion)) continue;
@@ -198,8 +202,8 @@ bool StateEquationsKernel::sample(const Motion& motion, Memory& memory) const {
   return changed;
 }
 
-// The integration begins anew at a point that is made consistent. When this would be was known before: it is none of the
-// restarts that are counted, and warned of where a motion switches without end.
+// The integration begins anew at a point that is made consistent. When this would be was known before: it is none of
+// the restarts that are counted, and warned of where a motion switches without end.
 void StateEquationsKernel::act(const Motion& motion, std::span<const int> crossed, Memory& memory,
                                EventAction& action) const {
   const bool passed = std::any_of(crossed.begin(), crossed.end(), [](int way) { return way > 0; });

@@ -10,16 +10,6 @@ namespace dynalin {
 
 namespace {
 
-// STRING/id, STRING=text: for subroutines.
-struct WrittenString {
-  Obsolete text;
-  static constexpr std::array<Argument<WrittenString>, 1> arguments = {{
-      {.name = "STRING", .slot = &WrittenString::text, .help = "any text up to the end of the statement"},
-  }};
-  static constexpr std::array<std::string_view, 1> acting = {"STRING"};  // its whole statement is passed over
-  void apply(Settings& s) const { s.pass_over("STRING"); }
-};
-
 template <class E, class Use>
 void for_each_statement(const Model& model, const Use& use) {
   for (const auto& set : model.sets) {
@@ -106,6 +96,5 @@ ResultsContents results_contents(const Model& model) {
 
 extern constinit const Kind output = setting<WrittenOutput>("OUTPUT", "What is written to which file.");
 extern constinit const Kind results = setting<WrittenResults>("RESULTS", "Contents of the results file.");
-extern constinit const Kind string = setting<WrittenString>("STRING", "Text for subroutines.").without_effect();
 
 }  // namespace dynalin

@@ -1,0 +1,51 @@
+// STRING/id, STRING=text: text that compiled routines read with GTSTRG.
+#include <fmt/format.h>
+
+#include "model/model.h"
+#include "model/schema.h"
+#include "routine/routine_data.h"
+
+namespace dynalin {
+
+namespace {
+
+constexpr std::size_t most_characters = 1024;  // routines have room for so many
+
+struct Text {
+  std::string text;
+  static constexpr std::array<Argument<Text>, 1> arguments = {{
+      {.name = "STRING", .slot = &Text::text, .help = "any text up to the end of the statement"},
+  }};
+};
+
+class StringSet final : public TypedSet<Text> {
+ public:
+  using TypedSet::TypedSet;
+
+  void read(std::size_t k, ElementReader& reader) override {
+    if (!read_arguments(elements[k], reader) || elements[k].text.size() <= most_characters) return;
+    reader.error("value-out-of-range", reader.at("STRING"),
+                 fmt::format("the text of {} has {} characters, {} at most", reader.label().text(),
+                             elements[k].text.size(), most_characters));
+  }
+
+  void finish(Model& model, Diagnostics&) override {
+    if (!model.routine_data) return;
+    for (std::size_t k = 0; k < elements.size(); ++k)
+      model.routine_data->strings[static_cast<int>(labels[k].id)] = elements[k].text;
+  }
+};
+
+}  // namespace
+
+extern constinit const Kind string = Kind{
+    "STRING",
+    "",
+    "Text for compiled routines.",
+    Kind::Role::element,
+    detail::argument_infos<Text>,
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<StringSet>(kind);
+    }}.with_example("STRING/1, STRING=text");
+
+}  // namespace dynalin

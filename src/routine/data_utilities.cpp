@@ -1,0 +1,123 @@
+// Utilities of compiled routines that read data of the model: AKISPL, CUBSPL, GTCURV, GTSTRG and gravity, and the same
+// under the names by which Fortran calls them. Where a routine is only asked what it reads they give zeros.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "routine/routine_context.h"
+#include "routine/routine_data.h"
+#include "routine/utilities.h"
+
+namespace dynalin {
+
+namespace {
+
+// Null outside of routines.
+const RoutineData* data_at_work() {
+  const RoutineContext* c = RoutineContext::current();
+  return c ? c->data : nullptr;
+}
+bool gives_zeros() {
+  return !data_at_work()->is_read || RoutineContext::current()->phase == RoutineContext::Phase::asking;
+}
+
+// Whether there is such a SPLINE.
+bool expand(SplineMethod method, int id, double x, double z, SplineCurves::Expansion& out) {
+  const RoutineData* data = data_at_work();
+  if (!data) return false;
+  const auto found = data->splines.find(id);
+  if (found == data->splines.end()) return false;
+  if (!gives_zeros()) out = (method == SplineMethod::akima ? found->second.akima : found->second.cubic)->expand(x, z);
+  return true;
+}
+
+void interpolate(SplineMethod method, double x, double z, int id, int iord, double* array, int* errflg) {
+  SplineCurves::Expansion e;
+  *errflg = 1;
+  if (iord < 0 || iord > 2) return;
+  *errflg = !expand(method, id, x, z, e);
+  if (iord == 0) array[0] = e.along[0];
+  if (iord == 1) array[0] = e.along[1], array[1] = e.by_z[0];
+  if (iord == 2) array[0] = 2 * e.along[2], array[1] = e.by_z[1], array[2] = 0;
+}
+
+// Null where there is none.
+const std::string* text_of_string(int id) {
+  const RoutineData* data = data_at_work();
+  if (!data) return nullptr;
+  const auto found = data->strings.find(id);
+  return found == data->strings.end() ? nullptr : &found->second;
+}
+
+}  // namespace
+
+void keep_data_utilities() {}
+
+}  // namespace dynalin
+
+using namespace dynalin;
+
+extern "C" {
+
+void c_akispl(double xval, double zval, int id, int iord, double* array, int* errflg) {
+  interpolate(SplineMethod::akima, xval, zval, id, iord, array, errflg);
+}
+void akispl_(const double* xval, const double* zval, const int* id, const int* iord, double* array, int* errflg) {
+  c_akispl(*xval, *zval, *id, *iord, array, errflg);
+}
+void c_cubspl(double xval, double zval, int id, int iord, double* array, int* errflg) {
+  interpolate(SplineMethod::cubic, xval, zval, id, iord, array, errflg);
+}
+void cubspl_(const double* xval, const double* zval, const int* id, const int* iord, double* array, int* errflg) {
+  c_cubspl(*xval, *zval, *id, *iord, array, errflg);
+}
+int dynalin_spline(int method, int id, double x, double z, double* coefficients) {
+  SplineCurves::Expansion e;
+  const bool known = expand(method == 'A' ? SplineMethod::akima : SplineMethod::cubic, id, x, z, e);
+  if (!known) e.along[0] = std::numeric_limits<double>::quiet_NaN();
+  std::ranges::copy(e.along, coefficients);
+  std::ranges::copy(e.by_z, coefficients + e.along.size());
+  return known;
+}
+
+void c_gtcurv(int id, double alpha, int iord, double* array, int* istat) {
+  const RoutineData* data = data_at_work();
+  std::fill_n(array, 3, 0.0);
+  *istat = 1;
+  if (!data || !data->curves.contains(id) || iord < 0 || iord > 2) return;
+  *istat = 0;
+  if (gives_zeros()) return;
+  const Vec3<double> v = data->curves.at(id)->at(alpha, iord);
+  array[0] = v.x, array[1] = v.y, array[2] = v.z;
+}
+void gtcurv_(const int* id, const double* alpha, const int* iord, double* array, int* istat) {
+  c_gtcurv(*id, *alpha, *iord, array, istat);
+}
+
+void c_gtstrg(int id, char* string, int* nchars, int* istat) {
+  const std::string* text = text_of_string(id);
+  *istat = !text;
+  *nchars = text ? static_cast<int>(text->size()) : 0;
+  if (text) std::memcpy(string, text->c_str(), text->size() + 1);
+}
+void gtstrg_(const int* id, char* string, int* nchars, int* istat, std::size_t length) {
+  const std::string* text = text_of_string(*id);
+  *istat = !text || text->size() > length;
+  *nchars = text ? static_cast<int>(text->size()) : 0;
+  std::memset(string, ' ', length);
+  if (text) std::memcpy(string, text->data(), std::min(text->size(), length));
+}
+
+void c_get_gravity(double* gx, double* gy, double* gz) {
+  const RoutineData* data = data_at_work();
+  const Vec3<double> g = data ? data->gravity : Vec3<double>{};
+  *gx = g.x, *gy = g.y, *gz = g.z;
+}
+void get_gravity_(double* gx, double* gy, double* gz) { c_get_gravity(gx, gy, gz); }
+
+// Routines are called by one thread at a time, whatever they say.
+void c_adams_declare_threadsafe(void) {}
+void c_adams_smp_group(int) {}
+
+}  // extern "C"

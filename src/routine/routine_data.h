@@ -1,0 +1,26 @@
+// Data of a model that compiled routines read by utilities of their own. They stay what they are while the model moves.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "base/vec3.h"
+#include "expression/parametric_curve.h"
+#include "expression/spline.h"
+
+namespace dynalin {
+
+struct RoutineData {
+  struct Spline {
+    std::shared_ptr<const SplineCurves> akima, cubic;
+  };
+  // By ids of statements. They are known before the model is read, and what they hold when it is.
+  std::map<int, Spline> splines;
+  std::map<int, std::shared_ptr<const ParametricCurve>> curves;
+  std::map<int, std::string> strings;
+  Vec3<double> gravity{};  // [length/time²], global axes
+  bool is_read = false;
+};
+
+}  // namespace dynalin
