@@ -40,6 +40,10 @@ constexpr AtomFunction at_marker(std::string_view name, uint8_t maximum, std::st
           maximum,      "",
           true,         {maximum == 3 ? "i [, j [, k]]" : "i [, j]", meaning, unit, marker_of_force}};
 }
+// An FE_LOAD puts what it reads in its place; nothing else has any.
+constexpr AtomFunction of_place(std::string_view name, std::string_view meaning, std::string_view unit) {
+  return {name, data, by_reference, 1, 1, "", true, {"n", meaning, unit, "n  1, 2, 3 for x, y, z; in FE_LOAD alone"}};
+}
 enum Availability : bool { not_built = false, built = true };
 constexpr AtomFunction of_element(std::string_view name, std::string_view statement, Availability availability,
                                   std::string_view meaning) {
@@ -254,6 +258,9 @@ constexpr std::array atom_table = {
                  true,
                  {"", "place along the beam that an FE_LOAD acts on: 0 at its first node, 1 at its last", "",
                   "in FE_LOAD alone"}},
+    of_place("SD", "component n of the position of the beam at S, global axes", "length"),
+    of_place("SV", "component n of the velocity of the beam at S, global axes", "length/time"),
+    of_place("SA", "component n of the acceleration of the beam at S, global axes", "length/time²"),
 };
 
 }  // namespace
@@ -268,7 +275,8 @@ const AtomFunction* find_atom_function(std::string_view name) {
 }
 
 ReferenceClass reference_class(const AtomFunction& function, std::size_t argument) {
-  if (function.statement.empty()) return ReferenceClass::marker;
+  if (function.statement.empty())
+    return function.family == AtomFamily::data ? ReferenceClass::index : ReferenceClass::marker;
   if (argument == 0) return ReferenceClass::element;
   const bool axes = function.family == AtomFamily::element_force && argument == 3;
   return axes ? ReferenceClass::marker : ReferenceClass::index;

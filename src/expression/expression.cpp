@@ -31,6 +31,15 @@ Expression::Expression(std::shared_ptr<const ExpressionProgram> program) : progr
 
 Expression Expression::constant(double value) { return Expression(constant_program(value)); }
 
+Expression Expression::of_atom(const Atom& atom) {
+  auto program = std::make_shared<ExpressionProgram>();
+  program->at = atom.at;
+  program->atoms.push_back(atom);
+  program->nodes.push_back({.kind = ExpressionNode::Kind::atom, .a = 0});
+  program->places.push_back(atom.at);
+  return Expression(std::move(program));
+}
+
 Expression ExpressionParser::of_routine(std::vector<Atom> inputs, std::shared_ptr<const Routine> routine,
                                         std::size_t which, const Span& at) {
   auto program = std::make_shared<ExpressionProgram>();

@@ -50,6 +50,7 @@ enum class DataSource : std::uint8_t {
   state,        // DIF
   state_rate,   // DIF1
   list_entry,   // PINVAL, POUVAL
+  unknown,      // an algebraic unknown by its number in the layout: elements read theirs so, no text names one
 };
 
 // One function that yields an atom, as the parser knows it.
@@ -121,6 +122,7 @@ class Expression {
  public:
   Expression();  // the constant 0
   static Expression constant(double);
+  static Expression of_atom(const Atom&);
 
   std::span<const Atom> atoms() const;                  // each distinct atom once
   bool is_constant() const { return atoms().empty(); }  // a spline at constant arguments is

@@ -15,7 +15,7 @@ constexpr std::array constants = {
     NamedConstant{"RTOD", 180.0 / std::numbers::pi, {"", "180/π: radians times RTOD are degrees", "", ""}},
 };
 
-constexpr std::array<std::string_view, 4> calls_not_built = {"SA", "SD", "SV", "USER"};
+constexpr std::array<std::string_view, 1> calls_not_built = {"USER"};
 constexpr std::array<std::string_view, 7> names_alone_not_built = {"CPU",   "HSIZE",  "NJAC",  "NRHS",
                                                                    "ORDER", "FXFREQ", "FXMODE"};
 

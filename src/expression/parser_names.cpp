@@ -217,7 +217,9 @@ void ExpressionParser::check_atom(const Atom& atom) {
         least = 1;
         break;
       case ReferenceClass::index:
-        if (function.family != AtomFamily::element_force) {
+        if (function.statement.empty()) {
+          least = 1, most = 6;  // of a motion
+        } else if (function.family != AtomFamily::element_force) {
           least = 1;  // a position in a list
         } else if (k == 1) {
           most = 1;  // force on the first marker or on the second

@@ -12,6 +12,12 @@ double weight_of(std::size_t point, const BeamElement& e) { return 0.5 * e.lengt
 
 double beam_load_place(std::size_t point) { return 0.5 * (1 + four_places[point]); }
 
+BeamLinePoint beam_line_at(std::size_t point, const BeamElement& e) {
+  BeamLinePoint p{cubics(four_places[point], e.length()), {}};
+  for (std::size_t a = 0; a < p.at.size(); ++a) p.at[a] = static_cast<std::size_t>(cubic_at[a]);
+  return p;
+}
+
 void BeamLoadPoint::add(const Vector& force, const Vector& moment, BeamVector& out) const {
   for (std::size_t a = 0; a < line.size(); ++a) {
     for (std::size_t k = 0; k < 3; ++k) out(cubic_at[a] + static_cast<Eigen::Index>(k)) += line[a] * force[k];

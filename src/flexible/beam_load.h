@@ -14,6 +14,14 @@ namespace dynalin {
 // Where a load point lies along the undeformed element, from 0 to 1.
 double beam_load_place(std::size_t point);
 
+// The line there is Σ factor (r₁, r_s1, r₂, r_s2), each axis alike; `at` is where x of each stands among the
+// coordinates.
+struct BeamLinePoint {
+  std::array<double, 4> factor;
+  std::array<std::size_t, 4> at;
+};
+BeamLinePoint beam_line_at(std::size_t point, const BeamElement&);
+
 // δr and w there by the coordinates of the element, times W_g.
 struct BeamLoadPoint {
   std::array<double, 4> line{};                    // r₁, r_s1, r₂, r_s2, each axis alike

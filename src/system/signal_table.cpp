@@ -63,6 +63,7 @@ Channel SignalTable::array_entry(ArrayRef ref, std::size_t n) const {
 
 Channel SignalTable::data(const Atom& atom) const {
   const AtomFunction& f = *atom.function;
+  if (f.reads == DataSource::unknown) return {Channel::Kind::algebraic, atom.argument[0]};
   const auto handle = model_.find(f.statement, atom.argument[0]);
   if (!handle) return {};
   const auto n = static_cast<std::size_t>(atom.argument[1] - 1);
@@ -82,6 +83,7 @@ Channel SignalTable::data(const Atom& atom) const {
     case DataSource::none:
     case DataSource::analysis:
     case DataSource::sensor:
+    case DataSource::unknown:
       break;
   }
   return {};

@@ -398,14 +398,16 @@ const std::vector<Wrong>& table() {
     {Place::added, "FE_LOAD/9, FX=1", {"missing-argument 10:1"}},
     {Place::added, "FE_PART/9, TYPE=3DBEAM, MATERIAL=9, NODE_LABELS=1,2, X=0,1, AREA=1, IYY=1, IZZ=1\n"
      "MATERIAL/9, DENSITY=1, YOUNGS_MODULUS=1, POISSONS_RATIO=0\nMARKER/9, PART=2, FLOATING\n"
-     "FE_LOAD/1, FE_PART=9\nFE_LOAD/2, FE_PART=9, RM=77, FX=1\nFE_LOAD/3, FE_PART=9, FX=SD(1)\n"
+     "FE_LOAD/1, FE_PART=9\nFE_LOAD/2, FE_PART=9, RM=77, FX=1\nFE_LOAD/3, FE_PART=9, FX=SD(4)\n"
      "FE_LOAD/4, FE_PART=9, FUNCTION=USER(1)\nFE_LOAD/5, FE_PART=9, FUNCTION=3\nFE_LOAD/6, FE_PART=2, FX=1",
-     {"missing-argument 13:1", "unknown-marker 14:26", "function-not-built 15:26", "missing-routine 16:32",
+     {"missing-argument 13:1", "unknown-marker 14:26", "function-not-built 15:29", "missing-routine 16:32",
       "argument-not-built 17:23", "unknown-body 18:20"}},
     {Place::added, "FE_PART/9, TYPE=3DBEAM, MATERIAL=9, NODE_LABELS=1,2, X=0,1, AREA=1, IYY=1, IZZ=1\n"
      "MATERIAL/9, DENSITY=1, YOUNGS_MODULUS=1, POISSONS_RATIO=0\nMARKER/9, PART=2, FLOATING\n"
      "FE_LOAD/1, FE_PART=9, RM=9, FX=1", {"floating-marker 13:1"}},
     {Place::added, "VARIABLE/9, FUNCTION=1+S", {"misplaced-function 10:24"}},
+    {Place::added, "VARIABLE/9, FUNCTION=1+SV(2)", {"misplaced-function 10:24"}},
+    {Place::added, "VARIABLE/9, FUNCTION=SA(0)+SD(7)", {"argument-range 10:25", "argument-range 10:31"}},
     {Place::added, "FLEX_BODY/9\nMFORCE/9, FLEX_BODY=9, CASE_INDEX=1", {"missing-argument 10:1", "missing-argument 11:24"}},
     {Place::added, "FLEX_BODY/9\nMFORCE/9, FLEX_BODY=9, FORCE=USER(1)", {"missing-argument 10:1", "missing-routine 11:30"}},
     {Place::added, "PART/, MASS=1", {"missing-id 10:1"}},

@@ -2,9 +2,11 @@
 //
 // A force f and a moment m per undeformed length along a beam of finite elements, components in the axes of RM or
 // global ones, without a reaction. They work on the motion of the beam's line and on the spin of its sections
-// (flexible/beam_load.h). Components may read S, the place along the undeformed beam from 0 to 1.
+// (flexible/beam_load.h). Components may read S, the place along the undeformed beam from 0 to 1, and SD(n), SV(n) and
+// SA(n), position, velocity and acceleration of the line there.
 //
-// A component w is an algebraic unknown with w − e = 0; one that reads S is an unknown at each load point.
+// A component w is an algebraic unknown with w − e = 0; one that varies along the beam is an unknown at each load
+// point, and so is what it reads of the line, u − Σ h r = 0.
 #include <fmt/format.h>
 
 #include "elements/bodies/fe_part.h"
@@ -45,12 +47,25 @@ struct BeamLoad {
 
 bool is_place_along_beam(const Atom& a) { return a.function == find_atom_function("S"); }
 
-// The same at a place along the beam.
-Expression at_place(const Expression& e, double place) {
-  return e.with_definitions([&](const Atom& a) -> std::optional<Expression> {
-    return is_place_along_beam(a) ? std::optional(Expression::constant(place)) : std::nullopt;
-  });
+// Of SD, SV and SA: how many time derivatives of the line they read.
+constexpr std::array<std::string_view, 3> motions_of_line = {"SD", "SV", "SA"};
+std::optional<std::size_t> derivative_of_line(const Atom& a) {
+  const auto found = std::ranges::find(motions_of_line, a.function->name);
+  return found == motions_of_line.end() ? std::nullopt : std::optional(found - motions_of_line.begin());
 }
+bool varies_along_beam(const Atom& a) { return is_place_along_beam(a) || derivative_of_line(a); }
+
+constexpr std::int32_t components_of_line = 3;
+
+// What takes the place of those in an expression.
+constexpr AtomFunction unknown_of_line = {.name = "motion of the beam",
+                                          .family = AtomFamily::data,
+                                          .order = -1,
+                                          .minimum_arguments = 1,
+                                          .maximum_arguments = 1,
+                                          .statement = "",
+                                          .built = true,
+                                          .reads = DataSource::unknown};
 
 class BeamLoadKernel final : public Kernel {
  public:
@@ -60,17 +75,17 @@ class BeamLoadKernel final : public Kernel {
     const std::vector<BeamBody> beams = beam_bodies(model, layout);
     for (std::size_t k = 0; k < loads.size(); ++k) {
       const auto is_its = [&](const BeamBody& b) { return b.nodes.front() == loads[k].beam; };
-      Load load{*std::ranges::find_if(beams, is_its), std::nullopt, {}, {}};
+      Load load{*std::ranges::find_if(beams, is_its), std::nullopt, {}, {}, {}};
       if (loads[k].rm.valid()) load.rm = layout.marker(loads[k].rm);
       const std::vector<double> places = places_along(load.beam);
       for (std::size_t axis = 0; axis < component_names.size(); ++axis) {
         const auto& e = loads[k].component[axis];
         if (!e) continue;
-        const bool varies = std::ranges::any_of(e->atoms(), is_place_along_beam);
+        const bool varies = std::ranges::any_of(e->atoms(), varies_along_beam);
         Component c{axis, load.unknowns.size(), varies};
         for (std::size_t p = 0; p < (varies ? places.size() : 1); ++p) {
           const std::int32_t algebraic = layout.add_algebraic(labels[k], static_cast<std::int32_t>(axis) + 1);
-          load.unknowns.push_back({algebraic, varies ? at_place(*e, places[p]) : *e, {}});
+          load.unknowns.push_back({algebraic, varies ? at_point(*e, p, places[p], labels[k], layout, load) : *e, {}});
         }
         load.components.push_back(c);
       }
@@ -94,6 +109,7 @@ class BeamLoadKernel final : public Kernel {
         eq.add(PartialBy::algebraic, row, u.algebraic, 1.0);
         u.bound.add(motion, eq, row, -1.0, PartialBy::damping);
       }
+      for (const Read& r : l.read) read_line(l, r, motion, eq);
       for (std::size_t e = 0; e < l.beam.elements->size(); ++e) load_element(l, e, motion, eq);
     }
   }
@@ -121,12 +137,63 @@ class BeamLoadKernel final : public Kernel {
     bool varies;
     bool is_force() const { return axis < 3; }
   };
+  // What a component reads of the line at a load point: an axis of one of its derivatives.
+  struct Read {
+    std::size_t point, derivative, axis;
+    std::int32_t algebraic;
+  };
   struct Load {
     BeamBody beam;
     std::optional<MarkerPlace> rm;
     std::vector<Component> components;
     std::vector<Unknown> unknowns;
+    std::vector<Read> read;
   };
+
+  // The expression at a load point of the whole beam; what it reads of the line there becomes an unknown, once.
+  static Expression at_point(const Expression& e, std::size_t point, double place, const ElementLabel& of,
+                             Layout& layout, Load& load) {
+    return e.with_definitions([&](const Atom& a) -> std::optional<Expression> {
+      if (is_place_along_beam(a)) return Expression::constant(place);
+      const auto derivative = derivative_of_line(a);
+      if (!derivative) return std::nullopt;
+      const auto axis = static_cast<std::size_t>(a.argument[0] - 1);
+      auto known = std::ranges::find_if(
+          load.read, [&](const Read& r) { return r.point == point && r.derivative == *derivative && r.axis == axis; });
+      if (known == load.read.end()) {
+        const auto number = static_cast<std::int32_t>(component_names.size() + 3 * *derivative + axis) + 1;
+        known = load.read.insert(known, {point, *derivative, axis, layout.add_algebraic(of, number)});
+      }
+      Atom unknown = a;
+      unknown.function = &unknown_of_line;
+      unknown.argument = {known->algebraic};
+      return Expression::of_atom(unknown);
+    });
+  }
+
+  static void read_line(const Load& l, const Read& r, const Motion& motion, Equations& eq) {
+    const std::size_t element = r.point / beam_load_points;
+    const BeamLinePoint line = beam_line_at(r.point % beam_load_points, *(*l.beam.elements)[element]);
+    const BeamMotion m = l.beam.motion(motion, element);
+    const auto of_node = [&](std::size_t end) {
+      const BodyMotion& node = motion.body(l.beam.nodes[element + end]);
+      return r.derivative == 0 ? node.r : r.derivative == 1 ? node.rdot : node.rddot;
+    };
+    const auto of_slope = [&](std::size_t end) {
+      const auto& s = m.slope[end];
+      return r.derivative == 0 ? value(s) : r.derivative == 1 ? rate(s) : acceleration(s);
+    };
+    const std::array<Vector, 4> parts = {of_node(0), of_slope(0), of_node(1), of_slope(1)};
+    constexpr std::array family = {PartialBy::position, PartialBy::damping, PartialBy::acceleration};
+    const BeamColumns at = l.beam.columns(eq.layout(), element);
+    const std::int32_t row = eq.algebraic_row(r.algebraic);
+    eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(r.algebraic)]);
+    eq.add(PartialBy::algebraic, row, r.algebraic, 1.0);
+    for (std::size_t a = 0; a < parts.size(); ++a) {
+      eq.add_residual(row, -line.factor[a] * parts[a][r.axis]);
+      eq.add(family[r.derivative], row, at[line.at[a] + r.axis], -line.factor[a]);
+    }
+  }
 
   // Of all load points of the beam, by its undeformed length.
   static std::vector<double> places_along(const BeamBody& beam) {
@@ -227,6 +294,13 @@ class BeamLoadSet final : public TypedSet<BeamLoad> {
       if (!reader.given(component_names[c])) continue;
       l.component[c] = *written[c];
       any = true;
+      for (const Atom& a : l.component[c]->atoms()) {
+        if (!derivative_of_line(a) || a.argument[0] <= components_of_line) continue;
+        reader.error("function-not-built", a.argument_at(0),
+                     fmt::format("{}({}) is not available: of the motion at S there are the components 1 to 3 of the "
+                                 "line, and none of its turning",
+                                 a.function->name, a.argument[0]));
+      }
     }
     if (!any && !reader.statement().damaged) {
       reader.error("missing-argument", reader.statement().at, fmt::format("{} has no component", name),
