@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <utility>
 
 #include "base/parallel.h"
 
@@ -54,12 +55,12 @@ void for_few_columns(Eigen::Index columns, Function&& visit) {
   for_columns<2>(columns, visit);
 }
 
-// A real linear map of real matrices, applied to a complex one.
+// A real linear map of real matrices, applied to a complex one; it may take its argument for its own.
 template <class Function>
 Eigen::MatrixXcd by_parts(const Eigen::MatrixXcd& m, Function&& real_map) {
   Eigen::MatrixXd both(m.rows(), 2 * m.cols());
   both << m.real(), m.imag();
-  const Eigen::MatrixXd image = real_map(both);
+  const Eigen::MatrixXd image = real_map(std::move(both));
   Eigen::MatrixXcd out(image.rows(), m.cols());
   out.real() = image.leftCols(m.cols());
   out.imag() = image.rightCols(m.cols());

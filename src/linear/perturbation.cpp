@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "linear/dense_products.h"
 
@@ -60,7 +61,7 @@ PerturbationEquations PerturbationEquations::of_state_matrix(const Matrix& A) {
   return p;
 }
 
-void PerturbationEquations::solve_levels(Matrix& b, SparseLu::Refined refined) const {
+void PerturbationEquations::solve_levels(Eigen::Ref<Matrix> b, SparseLu::Refined refined) const {
   if (whole_) return whole_->solve(b, refined);
   level_[0]->solve(b.topRows(n_), refined);
   multiply_add(rates_on_positions_, b.topRows(n_), b.middleRows(n_, n_), -1.0);
@@ -122,8 +123,8 @@ Matrix PerturbationEquations::solve_transposed(Matrix a) const {
   return a;
 }
 
-Matrix PerturbationEquations::reduced(const Matrix& residuals, SparseLu::Refined refined) const {
-  Matrix a = residuals.topRows(algebraic_);
+Matrix PerturbationEquations::reduced(Matrix residuals, SparseLu::Refined refined) const {
+  auto a = residuals.topRows(algebraic_);
   solve_levels(a, refined);
   Matrix r = residuals.bottomRows(states_);
   multiply_add(state_rates_on_algebraic_, a, r, -1.0);
@@ -159,7 +160,7 @@ Matrix PerturbationEquations::state_matrices(const Matrix& a) const {
         residual(k, c - first) = static_cast<double>(sum[static_cast<std::size_t>(k)] - rate);
       }
     }
-    rates.middleCols(first, count) += reduced(residual);
+    rates.middleCols(first, count) += reduced(std::move(residual));
   });
   return rates;
 }

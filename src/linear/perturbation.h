@@ -58,7 +58,7 @@ class PerturbationEquations {
   Eigen::MatrixXd solve_transposed(Eigen::MatrixXd b) const;
   // r_x − P F⁻¹ r_a of residuals (r_a; r_x): what they amount to in the equations of states. Of what is rounding itself
   // a few digits are enough.
-  Eigen::MatrixXd reduced(const Eigen::MatrixXd& residuals, SparseLu::Refined = SparseLu::Refined::yes) const;
+  Eigen::MatrixXd reduced(Eigen::MatrixXd residuals, SparseLu::Refined = SparseLu::Refined::yes) const;
   // [A B] of the columns a that complete(unit matrix) has given, corrected by a residual in long double: entries are as
   // good as those of the equations, however much cancels in them.
   Eigen::MatrixXd state_matrices(const Eigen::MatrixXd& a) const;
@@ -90,7 +90,7 @@ class PerturbationEquations {
  private:
   class Assembly;  // perturbation_assembly.cpp
 
-  void solve_levels(Eigen::MatrixXd& b, SparseLu::Refined) const;
+  void solve_levels(Eigen::Ref<Eigen::MatrixXd> b, SparseLu::Refined) const;
 
   std::int32_t n_ = 0, augmented_size_ = 0, algebraic_ = 0, states_ = 0;
   std::array<std::shared_ptr<const SparseLu>, 3> level_;

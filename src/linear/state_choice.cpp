@@ -69,12 +69,13 @@ class Chooser {
     for (std::int32_t k = 0; k < rows_.size(); ++k) {
       rows.push_back(rows_.level(k) == RowLevel::position ? scaled_row(system_, rows_.row(k)) : SparseRow{});
     }
-    std::vector<Candidate> all = candidates_.wanted;
+    std::vector<const Candidate*> all;
     std::vector<std::int32_t> columns;
     std::int32_t next = n_;
-    add_candidate_rows(all, rows, columns, next);
-    add_candidate_rows(candidates_.fallback, rows, columns, next);
-    all.insert(all.end(), candidates_.fallback.begin(), candidates_.fallback.end());
+    for (const auto* list : {&candidates_.wanted, &candidates_.fallback}) {
+      add_candidate_rows(*list, rows, columns, next);
+      for (const Candidate& c : *list) all.push_back(&c);
+    }
 
     const std::vector<std::int32_t> order(columns.rbegin(), columns.rend());
     const Elimination e = eliminate(std::move(rows), next, order);
@@ -84,8 +85,8 @@ class Chooser {
     if (next == n_) note_redundant(e.largest_dropped);
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const bool dependent = e.dependent[static_cast<std::size_t>(columns[k])];
-      const bool unused = all[k].row >= 0 && is_constant(all[k]);
-      if (!dependent && !unused) take(all[k]);
+      const bool unused = all[k]->row >= 0 && is_constant(*all[k]);
+      if (!dependent && !unused) take(*all[k]);
     }
   }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <utility>
 
 #include "base/parallel.h"
 #include "linear/dense_products.h"
@@ -204,18 +205,19 @@ LeftResiduals left_residuals(const PerturbationEquations& equations, const Subsp
   std::mutex of_largest;
   const ComplexMatrix onto = of.B.adjoint();
   for_few_columns(p, [&](Index first, Index count) {
-    const ComplexMatrix Y = of.Y.middleCols(first, count);
-    const ComplexMatrix y = with_algebraic(by_parts(Y, [&](const Matrix& m) { return equations.complete_left(m); }), Y);
-    left.y.set(first, y);
     auto L = left.of_states.middleCols(first, count);
     ComplexMatrix L_a;
     {
+      const ComplexMatrix Y = of.Y.middleCols(first, count);
+      const ComplexMatrix y =
+          with_algebraic(by_parts(Y, [&](const Matrix& m) { return equations.complete_left(m); }), Y);
+      left.y.set(first, y);
       const ComplexMatrix value =
           residuals(equations.products(), y, of.Y, onto.middleCols(first, count), Rounding::left_out).value;
       L = value.bottomRows(n);
       L_a = value.topRows(algebraic);
     }
-    L_a = by_parts(L_a, [&](const Matrix& m) { return equations.solve_transposed(m); });
+    L_a = by_parts(L_a, [&](Matrix m) { return equations.solve_transposed(std::move(m)); });
     for (Index k = 0; k < n; ++k) {
       for_each_in_column(equations.by_states_and_inputs(), static_cast<std::int32_t>(k),
                          [&](std::int32_t r, double v) { L.row(k) -= v * L_a.row(r); });
@@ -262,9 +264,10 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
       variances = equations.rounding_variances(w);
     }
     right.rounding += static_cast<double>(n + algebraic) * eps * sizes(right.value);
-    auto reduced = out.residual.middleCols(first, count);
-    reduced = by_parts(right.value, [&](const Matrix& m) { return equations.reduced(m, SparseLu::Refined::no); });
     const ShortColumns::Weighed by_left = left.y.weigh(right.value, right.rounding, variances);
+    right.rounding.resize(0, 0), variances.resize(0, 0);
+    auto reduced = out.residual.middleCols(first, count);
+    reduced = by_parts(right.value, [&](Matrix m) { return equations.reduced(std::move(m), SparseLu::Refined::no); });
     // Two ways to the same: their difference shows what the factors, and y in few digits, have left.
     const ComplexMatrix of_block = adjoint_product(of.Y, reduced);
     G.middleCols(first, count) = of_block;

@@ -24,6 +24,8 @@ void Accumulator::resize(std::int32_t rows, std::int32_t columns) {
   matrix_.columns = columns;
 }
 
+void Accumulator::settle() { std::vector<std::int32_t>().swap(slots_); }
+
 void Accumulator::begin() {
   next_ = 0;
   if (recorded_) {

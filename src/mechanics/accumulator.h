@@ -51,6 +51,7 @@ class Accumulator {
 
   void begin();   // of a pass: zero values (or an empty record)
   void finish();  // of the recording pass: builds the pattern
+  void settle();  // there are no further passes: what they alone need goes
 
   // Adds `values` to consecutive rows of one column. Their sizes are those that they have, or what they are made of.
   void add(std::int32_t row, std::int32_t column, std::span<const double> values, std::span<const double> sizes = {}) {

@@ -115,6 +115,11 @@ void Equations::finish() {
   }
 }
 
+void Equations::settle() {
+  std::vector<Equations>().swap(desks_);
+  for (Accumulator& a : matrices_) a.settle();
+}
+
 void Equations::apply(BodyId body, const Vector& force, const Vector& moment, double factor) {
   const BodyBlock& block = layout_->body(body);
   if (block.count == 0) return;

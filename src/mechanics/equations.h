@@ -147,6 +147,8 @@ class Equations {
   void begin(std::initializer_list<PartialBy> wanted);
   void finish();  // builds patterns after a recording pass
   bool needs_second_pass() const { return recording_; }
+  // There are no further passes: of a large model the room that they need is a good part of all.
+  void settle();
 
   // Where several threads share a pass, each evaluates shares of the elements of a kernel, in an object of its own that
   // keeps what is added; taken share by share in order, it gives the sums of a single thread to the last bit.

@@ -23,6 +23,7 @@ class JsonResults {
   enum class Kept : bool { nothing, results };
   explicit JsonResults(Kept = Kept::results);
   ~JsonResults();
+  bool keeps_results() const { return document_ != nullptr; }
   void add_plain(const std::string& command, double time);  // a command without numbers of its own
   // One that prints something.
   void add_printed(const std::string& command, double time, const std::string& text);

@@ -253,7 +253,8 @@ void SparseLu::solve(Eigen::Ref<Eigen::MatrixXd> B, Refined refined) const {
   if (n == 0) return;
   Eigen::MatrixXd b, x;
   for_blocks(B, f.at_once(), [&](auto&& columns) {
-    b = columns, x = b;
+    x = columns;
+    if (refined == Refined::yes) b = x;
     f.solve(x);
     if (refined == Refined::no) {
       columns = x;

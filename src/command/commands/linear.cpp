@@ -224,8 +224,12 @@ StudyResult<void> Linear::run(RunState& run) const {
     }
   }
 
-  const OperatingState state = operating_state(run.system(), linear->point);
-  if (!run.shown && !linear->at_rest_as_found) run.show(StepKind::initial_conditions, state, linear->point);
+  // Of a large model it is long, and its redundant rows take a while.
+  const bool shows = !run.shown && !linear->at_rest_as_found;
+  OperatingState state;
+  if (shows || run.json.keeps_results()) state = operating_state(run.system(), linear->point);
+  if (shows) run.show(StepKind::initial_conditions, state, linear->point);
+  if (!run.json.keeps_results()) state = {};
   const auto written = [&]() -> StudyResult<void> {
     if (deck) return write_deck(*linear, command, state, configuration, run);
     if (command.option == LinearOption::eigensol) return solve_modes(*linear, command, selection, state, run);
