@@ -26,8 +26,8 @@ constexpr int halving_limit = 40;
 // an expression. A root of ninefold multiplicity still comes closer than that.
 constexpr int search_patience = 8;
 constexpr double search_progress = 0.4;
-// Of the largest unknown: next to nothing. What is zero but started as such has next to no terms either, and would go
-// on to vanish without end.
+// Of the largest unknown that there was: next to nothing. What is zero but started as such has next to no terms either,
+// and would go on to vanish without end.
 constexpr double next_to_nothing = 1e-60;
 // Of an unknown, or of its known rounding: what such steps may be for the point to count as found.
 constexpr double largest_hidden_rounding = 1e-6, hidden_units = 1e3;
@@ -97,12 +97,16 @@ double longest(const Eigen::VectorXd& step, const Eigen::VectorXd& unit) {
 // Decides by the steps of Newton's method, each measured in what rounding makes of its own unknown, when to stop.
 class StepLength {
  public:
+  // `start` are the unknowns that the iteration begins with.
+  explicit StepLength(const Eigen::VectorXd& start) : largest_(start.lpNorm<Eigen::Infinity>()) {}
+
   // `rounding` is that of the solution, and grows where steps show more. Near a multiple root steps shrink slowly, and
   // they count until rounding makes them.
   bool settled(const Eigen::VectorXd& step, Eigen::VectorXd& rounding, const Eigen::VectorXd& size,
                const std::function<Eigen::VectorXd()>& rounding_of_point) {
     constexpr double unit = 4 * std::numeric_limits<double>::epsilon();
-    Eigen::VectorXd allowed = rounding.cwiseMax(unit * size).cwiseMax(next_to_nothing * size.lpNorm<Eigen::Infinity>());
+    largest_ = std::max(largest_, size.lpNorm<Eigen::Infinity>());
+    Eigen::VectorXd allowed = rounding.cwiseMax(unit * size).cwiseMax(next_to_nothing * largest_);
     double now = longest(step, allowed);
     if (now > 1 && now > 0.1 * last_) {
       allowed = allowed.cwiseMax(rounding_units_of_step * rounding_of_point());
@@ -125,7 +129,7 @@ class StepLength {
   double last() const { return last_; }
 
  private:
-  double last_ = std::numeric_limits<double>::infinity();
+  double last_ = std::numeric_limits<double>::infinity(), largest_;
   std::vector<double> steps_;
 };
 
@@ -144,7 +148,7 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
   bool regular = false;  // an earlier point was
   bool undefined = false;
   int held = 0, halved = 0;
-  StepLength length;
+  StepLength length(equations.values(op));
   const auto stated_limit = op.initial_conditions.acceleration_iteration_limit;
   const std::int64_t most = stated_limit.value_or(acceleration_iterations);
   for (std::int64_t iteration = 0; iteration < most; ++iteration) {

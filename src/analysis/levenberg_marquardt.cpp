@@ -62,7 +62,13 @@ bool reduce_imbalance(StaticEquations& equations, OperatingPoint& op, int step_l
   equations.settle(op);
   equations.evaluate(op, true);
   const double force = equations.force_scale();
-  const Eigen::VectorXd row_unit = equations.row_units(force), column_unit = equations.column_units(op);
+  const Eigen::VectorXd row_unit = equations.row_units(force);
+  Eigen::VectorXd column_unit = equations.column_units(op);
+  // To keep its value is no equation among others, which a sum of squares would trade for them.
+  for (std::size_t z = 0; z < system.layout().states.size(); ++z) {
+    if (system.layout().states[z].held_in_statics)
+      column_unit(equations.augmented().state(static_cast<std::int32_t>(z))) = 0;
+  }
   double merit = equations.merit(force), mu = 1e-2, growth = 2;
   double earlier = std::numeric_limits<double>::infinity();
   SparseLu lu;

@@ -60,8 +60,8 @@ std::string too_far_out(const System& system, const OperatingPoint& op) {
   return {};
 }
 
-// Another place to begin: every part turned and moved, every state changed, at most as far as the model is long, a
-// radian or one; the same places in every run.
+// Another place to begin: every part turned and moved, every state changed that is not held, at most as far as the
+// model is long, a radian or one; the same places in every run.
 OperatingPoint elsewhere(const System& system, OperatingPoint op, int k) {
   std::mt19937_64 bits(static_cast<std::uint64_t>(k));
   const auto draw = [&](double size) { return size * (std::ldexp(static_cast<double>(bits() >> 11), -52) - 1); };
@@ -72,7 +72,10 @@ OperatingPoint elsewhere(const System& system, OperatingPoint op, int k) {
     op.poses[b].r += shift;
     op.poses[b].R = orthonormalized(rotation_exponential(turn) * op.poses[b].R);
   }
-  for (double& z : op.state) z += draw(3 * size);
+  for (std::size_t z = 0; z < op.state.size(); ++z) {
+    const double change = draw(3 * size);
+    if (!system.layout().states[z].held_in_statics) op.state[z] += change;
+  }
   return op;
 }
 

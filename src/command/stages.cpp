@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/read_file.h"
 #include "elements/catalogue.h"
 
 namespace dynalin {
@@ -140,6 +141,26 @@ std::optional<Job::Stage> edited_stage(const Job::Stage& from, std::span<const C
   return std::nullopt;
 }
 
+std::vector<SavedFile::Model::Further> files_of(const Model& model) {
+  std::vector<SavedFile::Model::Further> files;
+  for (const std::string& name : model.input_files) {
+    const auto kept =
+        std::ranges::find_if(model.further_sources, [&](const SourceRef& s) { return s->name() == name; });
+    if (kept != model.further_sources.end()) {
+      files.push_back({name, fingerprint((*kept)->text())});
+    } else if (const auto text = read_file(name)) {
+      files.push_back({name, fingerprint(*text)});
+    }
+  }
+  return files;
+}
+
+std::string fingerprint_of(const Job::Stage& stage) {
+  std::vector<std::string> more = stage.edits;
+  for (auto& file : files_of(*stage.model)) more.push_back(std::move(file.fingerprint));
+  return fingerprint(stage.dataset->source->text(), more);
+}
+
 std::optional<Job::Stage> saved_stage(const SavedFile::Model& saved, const std::string& name,
                                       const SessionOptions& options, std::vector<SourceRef>& texts,
                                       Diagnostics& diagnostics) {
@@ -164,10 +185,9 @@ std::optional<Job::Stage> saved_stage(const SavedFile::Model& saved, const std::
     if (!stage) return std::nullopt;
     stage->edits = saved.edits;
   }
-  for (const SourceRef& file : stage->model->further_sources) {
+  for (const auto& [file, contents] : files_of(*stage->model)) {
     for (const auto& known : saved.further) {
-      const bool same_name = known.path == file->name();
-      if (same_name && known.fingerprint != fingerprint(file->text()))
+      if (known.path == file && known.fingerprint != contents)
         diagnostics.warning(
             "reloaded-in-part", {},
             fmt::format("{} has changed since {} was saved, and counts as it is now", known.path, name));

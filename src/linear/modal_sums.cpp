@@ -224,9 +224,8 @@ ModalMasses modal_masses(const System& system, const OperatingPoint& op, const L
   Matrix3 axes = Matrix3::identity();
   if (frame.valid()) {
     const MarkerPlace& place = system.layout().marker(system.signals().place_of(frame));
-    const auto b = static_cast<std::size_t>(place.body.index);
-    origin = op.poses[b].r + op.poses[b].R * place.p_BM;
-    axes = op.poses[b].R * place.R_BM;
+    const Motion motion = system.motion(op);
+    origin = motion.point(place), axes = motion.axes(place);
   }
   const MassRoot root(system, op);
   const Matrix rigid = root.of_rigid_motion(origin, axes);

@@ -110,17 +110,19 @@ void motion_caution(const System& system, const OperatingPoint& op, const EigenS
   if (most == 0) return;
   const Movement& m = movement[most];
   const ElementLabel& part = layout.bodies[most].label;
+  const bool is_node =
+      std::ranges::count_if(layout.bodies, [&](const BodyBlock& b) { return b.label.element() == part.element(); }) > 1;
   const Units& units = system.model().units;
   const std::string time = units.time_symbol();
   std::string length = units.length.empty() ? "length" : units.length;
   for (char& c : length) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  out.warning(
-      "accelerating-point", part.at,
-      fmt::format("the operating point accelerates or turns, most of all {0} (acceleration of its mass centre {1:.5g} "
-                  "{4}/{5}², angular velocity {2:.5g} rad/{5}, angular acceleration {3:.5g} rad/{5}²{6}): the "
-                  "eigenvalues hold for this instant, and mode shapes may be strange",
-                  part.full_text(), m.acceleration, m.turning, m.spin_up, length, time,
-                  m.deformation > 0 ? fmt::format(", of a coordinate of its shape {:.5g}", m.deformation) : ""));
+  out.warning("accelerating-point", part.at,
+              fmt::format("the operating point accelerates or turns, most of all {0} (acceleration of {7} {1:.5g} "
+                          "{4}/{5}², angular velocity {2:.5g} rad/{5}, angular acceleration {3:.5g} rad/{5}²{6}): the "
+                          "eigenvalues hold for this instant, and mode shapes may be strange",
+                          part.full_text(), m.acceleration, m.turning, m.spin_up, length, time,
+                          m.deformation > 0 ? fmt::format(", of a coordinate of its shape {:.5g}", m.deformation) : "",
+                          is_node ? "one of its nodes" : "its mass centre"));
 }
 
 }  // namespace dynalin

@@ -36,9 +36,14 @@ EntryKey KeyCounter::next(std::string_view statement, std::int64_t id, std::stri
   return key;
 }
 
+// Of several that a beam has as its nodes, those of one with as many are the same: others have other places.
 std::vector<EntryKey> body_keys(const Layout& l) {
-  return keys_of(l.bodies,
-                 [](KeyCounter& keys, const BodyBlock& b) { return keys.next(b.label.statement, b.label.id, ""); });
+  std::map<std::pair<std::string_view, std::int64_t>, std::size_t> count;
+  for (const BodyBlock& b : l.bodies) ++count[{b.label.statement, b.label.id}];
+  return keys_of(l.bodies, [&](KeyCounter& keys, const BodyBlock& b) {
+    const std::size_t of = count[{b.label.statement, b.label.id}];
+    return keys.next(b.label.statement, b.label.id, of > 1 ? "one of " + std::to_string(of) : "");
+  });
 }
 
 std::vector<EntryKey> extra_keys(const Layout& l) {

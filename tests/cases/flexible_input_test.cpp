@@ -112,6 +112,15 @@ TEST_F(FlexibleInput, errors_stand_where_the_number_does) {
   EXPECT_THAT(run(twice, "STOP\n").err, HasSubstr("MATRIX/11 stands twice among the MATRICES of FLEX_BODY/2"));
 }
 
+// A shape of next to no mass is as stiff as that.
+TEST_F(FlexibleInput, of_stiffness_takes_any_size_beside_any_other) {
+  set("GENSTIFF", 2, 1, "800,3E20");
+  const RunResult r = run(dataset(), "LINEAR/EIGENSOL\n");
+  EXPECT_EQ(r.status, 0) << r.err;
+  set("GENSTIFF", 2, 2, "800,4E11, 4E11,1E20");
+  EXPECT_THAT(said(), HasSubstr("the generalized stiffness in FLEX_BODY/2 is not positive"));
+}
+
 TEST_F(FlexibleInput, damping_that_feeds_energy_is_warned_of) {
   const std::string full = ", CRATIO=0\\, GENERALIZED_DAMPING=FULL",
                     feeds = "the damping of FLEX_BODY/2 feeds energy into ";

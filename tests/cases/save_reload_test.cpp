@@ -40,6 +40,29 @@ TEST_F(SaveReload, states_come_back_to_the_last_bit_in_the_same_run) {
   EXPECT_THAT(r.err, Not(HasSubstr("reloaded-in-part"))) << r.err;
 }
 
+// Nodes of a beam that has another number of them stand elsewhere.
+TEST_F(SaveReload, a_beam_of_other_nodes_starts_as_drawn) {
+  const auto beam = [](const std::string& nodes) {
+    return "Beam\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-9.81\nPART/1, GROUND\nMARKER/1, PART=1\n"
+           "MATERIAL/1, DENSITY=2700, YOUNGS_MODULUS=7E9, POISSONS_RATIO=0.3\nFE_PART/2, TYPE=3DBEAM, MATERIAL=1, " +
+           nodes +
+           ", AREA=4E-4, IYY=3E-8, IZZ=1E-8\nMARKER/21, FE_PART=2, NODE_LABEL=1\n"
+           "MARKER/22, FE_PART=2, NODE_LABEL=5\nJOINT/1, FIXED, I=21, J=1\nVARIABLE/1, FUNCTION=DX(22)\n"
+           "REQUEST/1, VARIABLES=1\nEND\n";
+  };
+  const std::string five = beam("NODE_LABELS=1,2,3,4,5, X=0,.25,.5,.75,1"), three = "NODE_LABELS=1,3,5, X=0,.5,1";
+  const auto reach = [&](const RunResult& r, std::size_t k) {
+    EXPECT_EQ(r.status, 0) << r.err;
+    return point(r, k).at("requests").at(0).at("values").at(0).get<double>();
+  };
+  ASSERT_EQ(run(five, "SIMULATE/STATICS\nSAVE/STATES, FILE=five.save\n").status, 0);
+  const RunResult r = run(beam(three), "RELOAD/STATES, FILE=five.save\nSIMULATE/INITIAL_CONDITIONS\n");
+  EXPECT_NEAR(reach(r, 1), 1, 1e-9);
+  EXPECT_THAT(r.err, HasSubstr("FE_PART/2, which start as they are drawn"));
+  const RunResult edited = run(five, "SIMULATE/STATICS\nFE_PART/2, " + three + "\nSIMULATE/INITIAL_CONDITIONS\n");
+  EXPECT_NEAR(reach(edited, 2), 1, 1e-9);
+}
+
 TEST_F(SaveReload, a_static_solution_is_one_after_reloading) {
   const RunResult r = run(pendulum,
                           "SIMULATE/STATICS\nLINEAR/EIGENSOL, ORIGINAL\nSAVE/STATES, FILE=a.save\nSIMULATE/INITIAL\n"

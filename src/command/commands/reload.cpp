@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "command/run_state.h"
+#include "command/stages.h"
 
 namespace dynalin::commands {
 
@@ -76,7 +77,7 @@ StudyResult<void> Reload::run(RunState& run) const {
     for (const std::string& name : saved->system->environment) run.environment.set(name);
   }
   const Job::Stage& stage = run.job.stages[run.stage];
-  const bool same_model = saved->fingerprint == fingerprint(stage.dataset->source->text(), stage.edits);
+  const bool same_model = saved->fingerprint == fingerprint_of(stage);
   RestoredPoint restored = restored_point(saved->point, run.system());
   if (!restored.not_here.empty())
     run.remarks.say("reloaded-in-part",

@@ -10,6 +10,7 @@
 
 #include "command/output_plan.h"
 #include "command/run_state.h"
+#include "command/stages.h"
 #include "output/saved_file.h"
 
 namespace dynalin::commands {
@@ -52,11 +53,10 @@ SavedFile::Model saved_model(const RunState& run, const Job::Stage& stage) {
   model.text = source.text();
   model.edits = stage.edits;
   model.pade = run.options.pade;
-  const std::vector<std::string>& inputs = stage.model->input_files;
-  for (const SourceRef& file : stage.model->further_sources) {
-    if (std::find(inputs.begin(), inputs.end(), file->name()) == inputs.end()) continue;
-    const fs::path path = fs::absolute(file->name(), unknown);
-    model.further.push_back({unknown ? file->name() : path.lexically_normal().string(), fingerprint(file->text())});
+  for (SavedFile::Model::Further& file : files_of(*stage.model)) {
+    const fs::path path = fs::absolute(file.path, unknown);
+    if (!unknown) file.path = path.lexically_normal().string();
+    model.further.push_back(std::move(file));
   }
   for (const Command& c : run.settings_done) model.settings.emplace_back(c.whole.text());
   for (const std::string_view name : run.environment.names()) model.environment.emplace_back(name);
@@ -79,7 +79,7 @@ StudyResult<void> Save::run(RunState& run) const {
   const StudyPoint& point = run.point;
   SavedFile saved;
   saved.title = title, saved.model_title = stage.model->title;
-  saved.fingerprint = fingerprint(stage.dataset->source->text(), stage.edits);
+  saved.fingerprint = fingerprint_of(stage);
   if (system) saved.system = saved_model(run, stage);
   saved.started = point.started, saved.consistent = point.consistent;
   saved.restated_velocity = point.restated_velocity, saved.redundant_rows = point.redundant_rows;

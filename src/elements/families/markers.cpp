@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "mechanics/deformation.h"
+
 namespace dynalin {
 
 bool check_pair(const Model& model, const ElementLabel& label, MarkerId i, MarkerId j, const PairRequirements& needs,
@@ -33,12 +35,24 @@ bool check_pair(const Model& model, const ElementLabel& label, MarkerId i, Marke
   return ok;
 }
 
+namespace {
+
+// In global axes, on a flexible body with the shape that it starts in.
+Pose drawn_pose(const Model& model, const MarkerPlace& m) {
+  const Body& body = model.body(m.body);
+  const Pose& B = body.pose;
+  if (!m.shapes) return {B.r + B.R * m.p_BM, B.R * m.R_BM};
+  const auto shape = deformation<double>(*m.shapes, [&](std::size_t k) { return body.modal[k].initial; });
+  return {B.r + B.R * (m.p_BM + shape.moved), B.R * (shape.turned * m.R_BM)};
+}
+
+}  // namespace
+
 RelativeFrame<double> drawn_frame(const Model& model, MarkerId i, MarkerId j) {
-  const MarkerPlace &I = model.marker(i).place, &J = model.marker(j).place;
-  const Pose &B = model.body(I.body).pose, &C = model.body(J.body).pose;
-  const Matrix3 A = transpose(C.R * J.R_BM);
-  const Matrix3 axes = A * (B.R * I.R_BM);
-  return {A * (B.r + B.R * I.p_BM - C.r - C.R * J.p_BM), axes[0], axes[1], axes[2]};
+  const Pose I = drawn_pose(model, model.marker(i).place), J = drawn_pose(model, model.marker(j).place);
+  const Matrix3 A = transpose(J.R);
+  const Matrix3 axes = A * I.R;
+  return {A * (I.r - J.r), axes[0], axes[1], axes[2]};
 }
 
 }  // namespace dynalin
