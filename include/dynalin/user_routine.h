@@ -195,7 +195,7 @@ void c_forcos(double x, double x0, double w, const double* par, int npar, int io
 void c_forsin(double x, double x0, double w, const double* par, int npar, int iord, double* value, int* errflg);
 
 /* Data of the model, which are no measures: nobody must ask for them beforehand. Where a routine is only asked what it
- * reads they give zeros. errflg or istat is 1 if there is no such statement.
+ * reads they give zeros, but texts are there. errflg or istat is 1 if there is no such statement.
  *
  * A SPLINE by Akima's method and as a cubic spline. iord 0: array[0] is y. iord 1: dy/dx, dy/dz. iord 2: the second
  * derivatives by x twice, by both, by z twice. array has room for three. z counts for families of curves. */

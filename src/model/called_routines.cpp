@@ -225,7 +225,13 @@ std::shared_ptr<RoutineData> CalledRoutines::ids_of_data() const {
     const int id = static_cast<int>(s.id.value_or(0));
     if (s.name == "SPLINE") data->splines[id];
     if (s.name == "CURVE") data->curves[id];
-    if (s.name == "STRING") data->strings[id];
+    if (s.name != "STRING") continue;
+    // Routines look at texts when they are asked what they read.
+    std::string& text = data->strings[id];
+    const WrittenArgument* w = argument(s, "STRING");
+    if (!w || !w->has_value || w->damaged || w->value().empty()) continue;
+    Diagnostics ignored;
+    text = read_text(*w, *w->name.source, ignored).value_or("").substr(0, RoutineData::longest_text);
   }
   return data;
 }

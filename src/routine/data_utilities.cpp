@@ -1,5 +1,6 @@
 // Utilities of compiled routines that read data of the model: AKISPL, CUBSPL, GTCURV, GTSTRG and gravity, and the same
-// under the names by which Fortran calls them. Where a routine is only asked what it reads they give zeros.
+// under the names by which Fortran calls them. Where a routine is only asked what it reads they give zeros, but for
+// texts.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -28,8 +29,10 @@ bool expand(SplineMethod method, int id, double x, double z, SplineCurves::Expan
   if (!data) return false;
   const auto found = data->splines.find(id);
   if (found == data->splines.end()) return false;
-  if (!gives_zeros()) out = (method == SplineMethod::akima ? found->second.akima : found->second.cubic)->expand(x, z);
-  return true;
+  if (gives_zeros()) return true;
+  const auto& curves = method == SplineMethod::akima ? found->second.akima : found->second.cubic;
+  if (curves) out = curves->expand(x, z);
+  return curves != nullptr;
 }
 
 void interpolate(SplineMethod method, double x, double z, int id, int iord, double* array, int* errflg) {
@@ -86,9 +89,10 @@ void c_gtcurv(int id, double alpha, int iord, double* array, int* istat) {
   std::fill_n(array, 3, 0.0);
   *istat = 1;
   if (!data || !data->curves.contains(id) || iord < 0 || iord > 2) return;
-  *istat = 0;
-  if (gives_zeros()) return;
-  const Vec3<double> v = data->curves.at(id)->at(alpha, iord);
+  const auto& curve = data->curves.at(id);
+  *istat = !gives_zeros() && !curve;
+  if (gives_zeros() || !curve) return;
+  const Vec3<double> v = curve->at(alpha, iord);
   array[0] = v.x, array[1] = v.y, array[2] = v.z;
 }
 void gtcurv_(const int* id, const double* alpha, const int* iord, double* array, int* istat) {

@@ -12,10 +12,12 @@
 namespace dynalin {
 
 struct RoutineData {
+  static constexpr std::size_t longest_text = 1024;  // routines have room for so many characters
+
   struct Spline {
     std::shared_ptr<const SplineCurves> akima, cubic;
   };
-  // By ids of statements. They are known before the model is read, and what they hold when it is.
+  // By ids of statements. They are known before the model is read, and what they hold when it is; texts at once.
   std::map<int, Spline> splines;
   std::map<int, std::shared_ptr<const ParametricCurve>> curves;
   std::map<int, std::string> strings;

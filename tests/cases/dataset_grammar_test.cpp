@@ -79,6 +79,8 @@ TEST_F(DatasetGrammar, a_message_about_a_value_names_statements_as_they_are_writ
 
 TEST_F(DatasetGrammar, a_string_may_hold_anything_or_nothing) {
   expect_read("STRING/1, STRING=mdids://Foo/tab.tbl/x.rpf, and, more=things\n, over lines\n");
+  EXPECT_THAT(with("STRING/1, STRING=" + std::string(1025, 'x') + "\n").err,
+              HasSubstr("the text of STRING/1 has 1025 characters, 1024 at most"));
   const RunResult empty = with("STRING/1, STRING=\n");
   EXPECT_EQ(empty.status, 0) << empty.err;
   EXPECT_THAT(empty.err, HasSubstr("model.adm:10:17: warning"));

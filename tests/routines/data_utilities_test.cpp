@@ -100,6 +100,13 @@ TEST_F(DataOfRoutines, has_curves_texts_and_gravity) {
   EXPECT_EQ(of(7, 0), 7);
 }
 
+TEST_F(DataOfRoutines, has_texts_before_anything_is_evaluated) {
+  std::string named = pulled;
+  named.replace(named.find("STRING=against"), 14, "STRING=VX");
+  expect_same(with(named + force + "USER(1,20,1), ROUTINE=routines::named_by_text\n", {C_ROUTINES}),
+              with(pulled + force + "-5*VX(20,1,1)\n", {C_ROUTINES}), 1e-13);
+}
+
 TEST_F(DataOfRoutines, has_them_in_fortran) {
 #ifdef FORTRAN_FRICTION
   const std::string call = force + "USER(7,20,1), ROUTINE=fortran_friction::of_a_spline\n";

@@ -468,3 +468,18 @@ void constant_output(const int* id, const double* time, const double* par, const
   (void)id, (void)time, (void)par, (void)npar, (void)dflag, (void)iflag;
   for (k = 0; k < *count; ++k) values[k] = 2;
 }
+
+/* -5 times the measure of markers par[1] and par[2] whose name is the text of STRING par[0]. */
+void named_by_text(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                   const int* iflag, double* value) {
+  const int at[3] = {(int)par[1], (int)par[2], (int)par[2]};
+  char name[1025] = "";
+  double x = 0;
+  int error, count;
+  const double slope = -5;
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  c_gtstrg((int)par[0], name, &count, &error);
+  c_sysfnc(name, at, 3, &x, &error);
+  c_syspar(name, at, 3, &slope, 1, &error);
+  *value = slope * x;
+}

@@ -1,15 +1,12 @@
-// STRING/id, STRING=text: text that compiled routines read with GTSTRG.
+// STRING/id, STRING=text: text that compiled routines read with GTSTRG (model/called_routines.h hands it to them).
 #include <fmt/format.h>
 
-#include "model/model.h"
 #include "model/schema.h"
 #include "routine/routine_data.h"
 
 namespace dynalin {
 
 namespace {
-
-constexpr std::size_t most_characters = 1024;  // routines have room for so many
 
 struct Text {
   std::string text;
@@ -23,16 +20,10 @@ class StringSet final : public TypedSet<Text> {
   using TypedSet::TypedSet;
 
   void read(std::size_t k, ElementReader& reader) override {
-    if (!read_arguments(elements[k], reader) || elements[k].text.size() <= most_characters) return;
+    if (!read_arguments(elements[k], reader) || elements[k].text.size() <= RoutineData::longest_text) return;
     reader.error("value-out-of-range", reader.at("STRING"),
                  fmt::format("the text of {} has {} characters, {} at most", reader.label().text(),
-                             elements[k].text.size(), most_characters));
-  }
-
-  void finish(Model& model, Diagnostics&) override {
-    if (!model.routine_data) return;
-    for (std::size_t k = 0; k < elements.size(); ++k)
-      model.routine_data->strings[static_cast<int>(labels[k].id)] = elements[k].text;
+                             elements[k].text.size(), RoutineData::longest_text));
   }
 };
 
