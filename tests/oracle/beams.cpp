@@ -335,12 +335,25 @@ std::vector<Model::LoadedSpan> Model::loaded_spans(const Beam& beam, const std::
     for (std::size_t k = 0; k < mechanism_.beam_loads.size(); ++k) {
       if (mechanism_.beam_loads[k].beam == beam.id) span.loads.push_back(k);
     }
-    for (std::size_t g = 0; g < line_points; ++g)
-      span.place[g] = static_cast<double>((before + four_points()[g].at * l) / whole);
+    for (std::size_t g = 0; g < line_points; ++g) span.place[g] = (before + four_points()[g].at * l) / whole;
+    const std::size_t k = spans.size();
+    const std::array<BodyRef, 4> parts = {beam.node(k), beam.slope(k), beam.node(k + 1), beam.slope(k + 1)};
+    for (std::size_t p = 0; p < parts.size(); ++p) span.body[p] = static_cast<std::size_t>(body_index(parts[p]));
+    span.length = l;
     before += l;
     spans.push_back(span);
   }
   return spans;
+}
+
+LinePoint Model::line_point(const LoadedSpan& span, std::size_t point) const {
+  LinePoint out{span.place[point], {}};
+  const auto factor = cubics(four_points()[point].at, span.length);
+  for (std::size_t p = 0; p < span.body.size(); ++p) {
+    const BodyMotion& m = motion[span.body[p]];
+    out.motion[0] += factor[p] * m.p, out.motion[1] += factor[p] * m.v, out.motion[2] += factor[p] * m.a;
+  }
+  return out;
 }
 
 LineLoads Model::line_loads(const LoadedSpan& span) const {
@@ -351,7 +364,7 @@ LineLoads Model::line_loads(const LoadedSpan& span) const {
     for (std::size_t g = 0; g < line_points; ++g) {
       for (std::size_t c = 0; c < 6; ++c) {
         if (!load.component[c]) continue;
-        (c < 3 ? out.force : out.moment)[g] += evaluate(at_place(*load.component[c], span.place[g])) * axis[c % 3];
+        (c < 3 ? out.force : out.moment)[g] += evaluate_at(*load.component[c], line_point(span, g)) * axis[c % 3];
       }
     }
   }

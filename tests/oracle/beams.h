@@ -16,6 +16,12 @@ struct LineLoads {
   std::array<Vec, line_points> force, moment;
 };
 
+// A place along a beam: S, and position, velocity and acceleration of the line there.
+struct LinePoint {
+  Real place = 0;
+  std::array<Vec, 3> motion;
+};
+
 // Of r1, s1, r2, s2; x from 0 to 1.
 inline std::array<Real, 4> cubics(Real x, Real length) {
   const Real y = 1 - x;

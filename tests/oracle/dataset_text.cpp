@@ -386,6 +386,7 @@ std::string controls_text(const Mechanism& m) {
   for (const Diff& d : m.diffs) text += diff_text(d);
   for (const Array& a : m.arrays) text += array_text(a);
   for (const SplinePoints& p : m.splines) text += spline_text(p);
+  text += Statement("STRING", 1).set("STRING", std::string("of compiled routines")).text();
   text += Statement("REQUEST", 1).set("F2", std::string("1")).text();
   text += Statement("MREQUEST", 1).set("PARTS", std::string("ALL")).text();
   text += Statement("SENSOR", 1).set("FUNCTION", std::string("1")).set("EVALUATE", std::string("2")).text();

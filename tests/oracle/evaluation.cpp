@@ -103,7 +103,9 @@ T Evaluator<T>::node(const Node& n) const {
       if constexpr (std::is_same_v<T, Jet>) return {model_.time, variation_ == nullptr ? model_.clock : 0, 0};
       return T(model_.time);
     case Op::place:
-      throw std::logic_error("a place along a beam is asked for elsewhere");
+      return T(line_point().place);
+    case Op::line_motion:
+      return without_rate(component(line_point().motion[static_cast<std::size_t>(n.ids[0])], n.ids[1]));
     case Op::add:
       return argument(0) + argument(1);
     case Op::subtract:
@@ -303,6 +305,9 @@ template class Evaluator<Real>;
 template class Evaluator<Jet>;
 
 Real Model::evaluate(const Expr& expression) const { return Evaluator<Real>(*this)(expression); }
+Real Model::evaluate_at(const Expr& expression, const LinePoint& point) const {
+  return Evaluator<Real>(*this, nullptr, &point)(expression);
+}
 Jet Model::evaluate_along(const Expr& expression) const { return Evaluator<Jet>(*this)(expression); }
 
 // Inside the points only.

@@ -20,7 +20,9 @@ template <class T>
 class Evaluator {
  public:
   // A variation serves jets alone; without one their parameter is time.
-  explicit Evaluator(const Model& model, const Variation* variation = nullptr) : model_(model), variation_(variation) {}
+  // A place serves numbers alone.
+  explicit Evaluator(const Model& model, const Variation* variation = nullptr, const LinePoint* line_point = nullptr)
+      : model_(model), variation_(variation), line_point_(line_point) {}
   [[nodiscard]] T operator()(const Expr& e) const { return node(*e.node); }
   // Where a contact is on the curves of i and of j.
   [[nodiscard]] std::array<T, 2> contact_parameters(std::size_t k) const;
@@ -42,10 +44,15 @@ class Evaluator {
   [[nodiscard]] T state(int id) const;
   [[nodiscard]] View view(int id) const;
   [[nodiscard]] View contact_view(std::size_t contact, bool on_i) const;
+  [[nodiscard]] const LinePoint& line_point() const {
+    if (line_point_ == nullptr) throw std::logic_error("no place along a beam is given");
+    return *line_point_;
+  }
   [[nodiscard]] static T without_rate(Real value);  // a quantity whose derivatives are not known
 
   const Model& model_;
   const Variation* variation_;
+  const LinePoint* line_point_;
   mutable int depth_ = 0;
 };
 

@@ -19,6 +19,7 @@ constexpr std::array measure_names{"DX",   "DY",    "DZ",   "DM",     "VX",   "V
                                    "WDTY", "WDTZ",  "WDTM", "AX",     "AY",   "AZ",   "PSI",  "THETA", "PHI",
                                    "YAW",  "PITCH", "ROLL", "INCANG", "UVX",  "UVY",  "UVZ"};
 constexpr std::array linear_names{"BUSH", "FIELD", "BEAM"};
+constexpr std::array line_names{"SD", "SV", "SA"};
 constexpr std::array load_names{"FM", "FX", "FY", "FZ", "TM", "TX", "TY", "TZ"};
 constexpr std::array unit_vectors{"[1,0,0]", "[0,1,0]", "[0,0,1]"};
 
@@ -98,12 +99,7 @@ Expr constant(double value) {
 }
 Expr time_now() { return make(Op::time, {}); }
 Expr place_along_beam() { return make(Op::place, {}); }
-Expr at_place(const Expr& e, double place) {
-  if (e.node->op == Op::place) return constant(place);
-  Node copy = *e.node;
-  for (Expr& argument : copy.arguments) argument = at_place(argument, place);
-  return {std::make_shared<const Node>(std::move(copy))};
-}
+Expr line_motion(int derivative, int axis) { return make(Op::line_motion, {}, {derivative, axis}); }
 Expr operator+(const Expr& a, const Expr& b) { return make(Op::add, {a, b}); }
 Expr operator-(const Expr& a, const Expr& b) { return make(Op::subtract, {a, b}); }
 Expr operator*(const Expr& a, const Expr& b) { return make(Op::multiply, {a, b}); }
@@ -188,6 +184,8 @@ std::string expression_text(const Expr& expression) {
       return "TIME";
     case Op::place:
       return "S";
+    case Op::line_motion:
+      return line_names[static_cast<std::size_t>(n.ids[0])] + ("(" + std::to_string(n.ids[1] + 1)) + ")";
     case Op::add:
       return infix(" + ");
     case Op::subtract:

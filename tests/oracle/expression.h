@@ -17,7 +17,8 @@ struct Expr {
 enum class Op {
   constant,
   time,
-  place,  // S, along a beam
+  place,        // S, along a beam
+  line_motion,  // SD, SV, SA there: derivative by time, axis
   add,
   subtract,
   multiply,
@@ -84,8 +85,8 @@ struct Node {
 [[nodiscard]] Expr constant(double value);
 [[nodiscard]] Expr time_now();
 [[nodiscard]] Expr place_along_beam();
-// The same with a number for that place.
-[[nodiscard]] Expr at_place(const Expr& e, double place);
+// Of the beam there: its position or a derivative of it by time, along a global axis 0..2.
+[[nodiscard]] Expr line_motion(int derivative, int axis);
 [[nodiscard]] Expr operator+(const Expr& a, const Expr& b);
 [[nodiscard]] Expr operator-(const Expr& a, const Expr& b);
 [[nodiscard]] Expr operator*(const Expr& a, const Expr& b);

@@ -1,6 +1,7 @@
 // Beams of a draw: stated without deformation and held by what is joined to an end; their other nodes, all slopes and
 // middles are then somewhere else, far bent, stretched and spinning.
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <utility>
 
@@ -102,7 +103,7 @@ void Draw::draw_beams() {
   std::swap(random_, beam_random_);
 }
 
-// At least one of them varies along the beam.
+// At least one of them varies along the beam, by the place and by its motion there.
 void Draw::draw_beam_load() {
   if (m_.beams.empty()) return;
   std::swap(random_, beam_random_);
@@ -114,6 +115,11 @@ void Draw::draw_beam_load() {
     Expr e = constant(uniform(-0.5, 0.5)) + uniform(-0.4, 0.4) * shaped_kinematic();
     if (c == varying || chance(0.3))
       e = e + uniform(-0.6, 0.6) * call(Function::sin, {3.0 * S + constant(1)}) * kinematic();
+    if (c == varying || chance(0.3)) {
+      constexpr std::array<double, 3> sizes = {0.8, 0.6, 0.03};
+      const int derivative = pick(3);
+      e = e + (sizes[static_cast<std::size_t>(derivative)] * uniform(-1, 1) / L_) * line_motion(derivative, pick(3));
+    }
     if (chance(0.4)) e = e + uniform(-0.4, 0.4) * varval(one_of(features_));
     if (!states_.empty() && chance(0.4)) e = e + uniform(-0.5, 0.5) * one_of(states_);
     load.component[c] = ((c < 3 ? 1 / L_ : 0.3) * F_) * e;

@@ -198,7 +198,7 @@ void Draw::check() const {
   }
   for (const BeamLoad& l : m_.beam_loads) {
     for (const auto& e : l.component) {
-      if (e) check_nodes(model, at_place(*e, 0.5));
+      if (e) check_nodes(model, *e);
     }
   }
   for (const ModalForce& f : m_.mforces) check_nodes(model, f.scale);

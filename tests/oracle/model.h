@@ -139,6 +139,7 @@ class Model {
   [[nodiscard]] Vec elastic_force(std::size_t flexible) const;
   [[nodiscard]] std::size_t modes_of(std::size_t flexible) const { return flexible_data_[flexible].modes; }
   [[nodiscard]] Real evaluate(const Expr& expression) const;
+  [[nodiscard]] Real evaluate_at(const Expr& expression, const LinePoint& point) const;
   // A direction in which the surfaces of a friction slip, and the lever of what rubs along it.
   struct Slip {
     Vec axis;
@@ -277,10 +278,13 @@ class Model {
     std::array<Real, 2> parameter{};
     std::array<std::array<Real, 2>, 2> slopes{};
   };
-  struct LoadedSpan {                         // of an element of a beam
-    std::vector<std::size_t> loads;           // places in the mechanism
-    std::array<double, line_points> place{};  // S
+  struct LoadedSpan {                       // of an element of a beam
+    std::vector<std::size_t> loads;         // places in the mechanism
+    std::array<Real, line_points> place{};  // S
+    std::array<std::size_t, 4> body{};      // node, slope, node, slope
+    Real length = 0;
   };
+  [[nodiscard]] LinePoint line_point(const LoadedSpan& span, std::size_t point) const;
   [[nodiscard]] std::vector<LoadedSpan> loaded_spans(const Beam& beam, const std::vector<Real>& lengths) const;
   [[nodiscard]] LineLoads line_loads(const LoadedSpan& span) const;
   struct BeamPiece {  // between two nodes
