@@ -187,8 +187,9 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binde
         break;
       }
       if (f.reads == DataSource::none) {
-        binder.problem("misplaced-function", atom.at,
-                       std::string(f.name) + " belongs to a place along a beam, which only the components of an FE_LOAD have");
+        binder.problem(
+            "misplaced-function", atom.at,
+            std::string(f.name) + " belongs to a place along a beam, which only the components of an FE_LOAD have");
         a.kind = Kind::constant;
         break;
       }

@@ -362,9 +362,10 @@ LineLoads Model::line_loads(const LoadedSpan& span) const {
     const BeamLoad& load = mechanism_.beam_loads[l];
     const auto& axis = markers_[static_cast<std::size_t>(marker_index(load.rm))].axis;
     for (std::size_t g = 0; g < line_points; ++g) {
+      const LinePoint at = line_point(span, g);
       for (std::size_t c = 0; c < 6; ++c) {
         if (!load.component[c]) continue;
-        (c < 3 ? out.force : out.moment)[g] += evaluate_at(*load.component[c], line_point(span, g)) * axis[c % 3];
+        (c < 3 ? out.force : out.moment)[g] += evaluate_at(*load.component[c], at) * axis[c % 3];
       }
     }
   }

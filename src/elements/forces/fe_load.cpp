@@ -55,7 +55,7 @@ std::optional<std::size_t> derivative_of_line(const Atom& a) {
 }
 bool varies_along_beam(const Atom& a) { return is_place_along_beam(a) || derivative_of_line(a); }
 
-constexpr std::int32_t components_of_line = 3;
+constexpr std::size_t components_of_line = 3;
 
 // What takes the place of those in an expression.
 constexpr AtomFunction unknown_of_line = {.name = "motion of the beam",
@@ -75,9 +75,10 @@ class BeamLoadKernel final : public Kernel {
     const std::vector<BeamBody> beams = beam_bodies(model, layout);
     for (std::size_t k = 0; k < loads.size(); ++k) {
       const auto is_its = [&](const BeamBody& b) { return b.nodes.front() == loads[k].beam; };
-      Load load{*std::ranges::find_if(beams, is_its), std::nullopt, {}, {}, {}};
+      Load load{*std::ranges::find_if(beams, is_its), std::nullopt, {}, {}, {}, {}};
       if (loads[k].rm.valid()) load.rm = layout.marker(loads[k].rm);
       const std::vector<double> places = places_along(load.beam);
+      load.read_at.resize(places.size());
       for (std::size_t axis = 0; axis < component_names.size(); ++axis) {
         const auto& e = loads[k].component[axis];
         if (!e) continue;
@@ -89,6 +90,7 @@ class BeamLoadKernel final : public Kernel {
         }
         load.components.push_back(c);
       }
+      load.read_at = {};
       loads_.push_back(std::move(load));
     }
   }
@@ -148,6 +150,8 @@ class BeamLoadKernel final : public Kernel {
     std::vector<Component> components;
     std::vector<Unknown> unknowns;
     std::vector<Read> read;
+    // Their unknowns at each load point, derivative by derivative, while expressions are taken apart.
+    std::vector<std::array<std::optional<std::int32_t>, motions_of_line.size() * components_of_line>> read_at;
   };
 
   // The expression at a load point of the whole beam; what it reads of the line there becomes an unknown, once.
@@ -158,15 +162,15 @@ class BeamLoadKernel final : public Kernel {
       const auto derivative = derivative_of_line(a);
       if (!derivative) return std::nullopt;
       const auto axis = static_cast<std::size_t>(a.argument[0] - 1);
-      auto known = std::ranges::find_if(
-          load.read, [&](const Read& r) { return r.point == point && r.derivative == *derivative && r.axis == axis; });
-      if (known == load.read.end()) {
-        const auto number = static_cast<std::int32_t>(component_names.size() + 3 * *derivative + axis) + 1;
-        known = load.read.insert(known, {point, *derivative, axis, layout.add_algebraic(of, number)});
+      const std::size_t which = components_of_line * *derivative + axis;
+      std::optional<std::int32_t>& known = load.read_at[point][which];
+      if (!known) {
+        known = layout.add_algebraic(of, static_cast<std::int32_t>(component_names.size() + which) + 1);
+        load.read.push_back({point, *derivative, axis, *known});
       }
       Atom unknown = a;
       unknown.function = &unknown_of_line;
-      unknown.argument = {known->algebraic};
+      unknown.argument = {*known};
       return Expression::of_atom(unknown);
     });
   }
@@ -295,7 +299,7 @@ class BeamLoadSet final : public TypedSet<BeamLoad> {
       l.component[c] = *written[c];
       any = true;
       for (const Atom& a : l.component[c]->atoms()) {
-        if (!derivative_of_line(a) || a.argument[0] <= components_of_line) continue;
+        if (!derivative_of_line(a) || a.argument[0] <= static_cast<std::int32_t>(components_of_line)) continue;
         reader.error("function-not-built", a.argument_at(0),
                      fmt::format("{}({}) is not available: of the motion at S there are the components 1 to 3 of the "
                                  "line, and none of its turning",
