@@ -28,10 +28,10 @@
  *     REQUEST     reqsub       8          iflag
  *     SENSOR      sensub       1          iflag
  *                 sevsub       1          iflag: what EVALUATE = USER is when it triggers
- *     GSE         gse_deriv    NS         dflag, iflag, how many values: x', or with IMPLICIT what is zero
- *                 gse_output   NO         the same: y
- *                 gse_update   ND         the same: discrete states behind a sample
- *                 gse_samp     1          iflag: time to the next sample (also gse_sample)
+ *     FLEX_BODY   dmpsub       modes      freqs, nmode, stepsize: of CRATIO = USER, how much of critical damping each
+ * has GSE         gse_deriv    NS         dflag, iflag, how many values: x', or with IMPLICIT what is zero gse_output
+ * NO         the same: y gse_update   ND         the same: discrete states behind a sample gse_samp     1 iflag: time
+ * to the next sample (also gse_sample)
  *
  * A GSE may have gsesub instead of the first two, with gsexx, gsexu, gseyx and gseyu for its partial derivatives, each
  * a matrix column by column: of x' with respect to states and inputs, of y with respect to the same.
@@ -42,6 +42,9 @@
  * fiesub gives force and torque on I along the axes of J as a function of disp (DX, DY, DZ, AX, AY, AZ of I from J less
  * LENGTH), of velo (VX, VY, VZ, WX, WY, WZ) and of time, and calls no utility for more. dfddis and dfdvel are 6 x 6,
  * column by column: dfddis[i + 6 * j] of force i by displacement j; where dflag is 1 all 72 are written.
+ *
+ * dmpsub gets the frequencies of the modes in cycles per second, ascending. It is called before the model is whole, so
+ * it reads nothing of it, and what it gives must not change with time or stepsize.
  *
  * A COUPLER needs couxx and couxx2 as well, which take the same arguments and give the ndisp first and the ndisp x
  * ndisp second partial derivatives, or the entry below. ROUTINE names three: ROUTINE = library::value, first, second.
@@ -115,6 +118,14 @@ struct sAdamsContactFriction {
   int NPAR;
   const double* PAR;
 };
+struct sAdamsFlexBody {
+  int ID;
+};
+struct sAdamsCratio {
+  struct sAdamsFlexBody FlexBody;
+  int NPAR;
+  const double* PAR;
+};
 /* TYPE has T or R for each joint: whether its translation or its rotation is meant. */
 struct sAdamsCoupler {
   int ID, NPAR;
@@ -129,18 +140,25 @@ struct sAdamsDiff {
   int STATIC_HOLD, IMPLICIT;
   double IC_R1, IC_R2;
 };
-/* Of these the first three members alone are filled in. */
 struct sAdamsMotion {
   int ID, NPAR;
   const double* PAR;
+  int JOINT;
+  const char* Type; /* "TRANSLATION" or "ROTATION" */
+  int I, J;
+  char Which[2];   /* X, Y, Z, B1, B2 or B3 between markers, else zeros */
+  const char* DVA; /* "DISPLACEMENT", "VELOCITY" or "ACCELERATION" */
 };
 struct sAdamsRequest {
   int ID, NPAR;
   const double* PAR;
+  const char *COMMENT, *TITLE[8]; /* "" where nothing is written */
 };
 struct sAdamsSensor {
   int ID, NPAR;
   const double* PAR;
+  double VALUE, Error;
+  char Logic[2]; /* EQ, GE or LE, without a 0 behind it */
 };
 struct sAdamsGSE {
   int ID, NPAR;
@@ -208,9 +226,28 @@ void c_gtcurv(int id, double alpha, int iord, double* array, int* istat);
 void c_gtstrg(int id, char* string, int* nchars, int* istat);
 /* Along the global axes, in length and time of the model. */
 void c_get_gravity(double* gx, double* gy, double* gz);
-/* Nothing comes of these: routines are called by one thread at a time. */
+/* How many modal coordinates a FLEX_BODY has, and in their order the numbers of the modes in its file and their
+ * frequencies in cycles per second. */
+void c_nmodes(int id, int* nq, int* errflg);
+void c_modinf(int id, int* mode, double* freq, int* errflg);
+
+/* A rotation by one description from another, angles in radians: EULER or B313, B321, B312, B323, B123 (three angles
+ * about axes of the body, one after the other), YPR (as the functions YAW, PITCH, ROLL), EULPAR (4), RODPAR (3, Euler
+ * parameters by the first of them), COSINES (9, column by column), and as the second one AXAYAZ (as AX, AY, AZ). istat
+ * is 1 for other words, for what is no rotation, and for half a turn in RODPAR. */
+void c_rcnvrt(const char* sys1, const double* coord1, const char* sys2, double* coord2, int* istat);
+/* A number as text, with a 0 behind it, and how many characters it has. */
+void c_istrng(int number, char* string, int* length, int* istat);
+void c_rstrng(double reel, char* string, int* length, int* istat);
+/* "Dynalin" and its version; processor time of the run in seconds. */
+void c_getver(char* value);
+void c_getcpu(double* value);
+/* Routines are called by one thread at a time: 0 and 1, and nothing comes of the rest. */
+void c_get_thread_index(int* index);
+void c_get_nthread(int* n);
 void c_adams_declare_threadsafe(void);
 void c_adams_smp_group(int group);
+void c_set_partial_method(int method);
 
 /* Of the GSE that a routine is called for: how many states, discrete states, inputs and outputs, their values, and x'
  * of an implicit one. Partial derivatives with respect to them as c_syspar takes them. From Fortran: GSE_NS(ns),

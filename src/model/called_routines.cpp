@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "routine/given_inputs.h"
+#include "routine/damping_routine.h"
 #include "routine/routine_data.h"
 
 namespace dynalin {
@@ -43,13 +43,6 @@ std::string stem(std::string_view file) {
   if (const auto dot = name.find(".so"); dot != std::string::npos) name.resize(dot);
   if (name.starts_with("lib")) name.erase(0, 3);
   return name;
-}
-
-bool is_rotational(const Statement& sforce) {
-  static constexpr std::array<std::string_view, 2> variants = {"ROTATIONAL", "TRANSLATIONAL"};
-  return std::any_of(sforce.arguments.begin(), sforce.arguments.end(), [](const WrittenArgument& w) {
-    return !w.has_value && find_keyword(w.name.text(), variants) == 0;
-  });
 }
 
 std::string unquoted(std::string_view text) {
@@ -155,6 +148,14 @@ int CalledRoutines::integer(const Statement& s, std::string_view name) const {
   return value ? static_cast<int>(value->value) : 0;
 }
 
+double CalledRoutines::real(const Statement& s, std::string_view name) const {
+  const WrittenArgument* w = argument(s, name);
+  if (!w || !w->has_value || w->damaged) return 0;
+  Diagnostics ignored;
+  const auto list = read_reals(*w, *w->name.source, ignored);
+  return list && !list->empty() ? list->front() : 0;
+}
+
 std::vector<int> CalledRoutines::integers(const Statement& s, std::string_view name) const {
   std::vector<int> all;
   const WrittenArgument* w = argument(s, name);
@@ -225,6 +226,7 @@ std::shared_ptr<RoutineData> CalledRoutines::ids_of_data() const {
     const int id = static_cast<int>(s.id.value_or(0));
     if (s.name == "SPLINE") data->splines[id];
     if (s.name == "CURVE") data->curves[id];
+    if (s.name == "FLEX_BODY") data->flexible_bodies[id];
     if (s.name != "STRING") continue;
     // Routines look at texts when they are asked what they read.
     std::string& text = data->strings[id];
@@ -260,90 +262,49 @@ std::optional<std::vector<double>> CalledRoutines::constants_of(const WrittenArg
   return values;
 }
 
-// Whoever reads the statement says what is wrong with it.
-std::vector<RoutineStatement::Coupled> CalledRoutines::coupled_by(const Statement& s) const {
-  std::string types;
-  if (const WrittenArgument* w = argument(s, "TYPE"); w && w->has_value) {
-    for (const char c : w->value_span().text())
-      if (c == 'T' || c == 'R') types += c;
+FoundRoutine CalledRoutines::called_by(const Statement& s, const RoutineKind& kind, std::string& wanted,
+                                       StatePartialRoutines& partials) {
+  wanted = kind.routine;
+  if (const auto* named = argument(s, kind.names_routine); named && named->has_value) {
+    std::string text = unquoted(named->value_span().text());
+    if (kind.arguments == RoutineArguments::coupler) partials = routines_beside(text);
+    wanted = text;
+    if (const auto last = text.find_last_of(':'); last != std::string::npos && last + 1 < text.size())
+      wanted = text.substr(last + 1) + " of " + text.substr(0, text.find(':'));
+    return find_named(text, {});
   }
-  static constexpr std::array<std::string_view, 1> translates = {"TRANSLATIONAL"};
-  std::vector<RoutineStatement::Coupled> all;
-  for (const int joint : integers(s, "JOINTS")) {
-    const auto found = std::find_if(dataset_.statements.begin(), dataset_.statements.end(),
-                                    [&](const Statement& j) { return j.name == "JOINT" && j.id == joint; });
-    const bool slides =
-        found != dataset_.statements.end() && std::ranges::any_of(found->arguments, [](const WrittenArgument& w) {
-          return !w.has_value && find_keyword(w.name.text(), translates);
-        });
-    all.push_back({joint, all.size() < types.size() ? types[all.size()] : slides ? 'T' : 'R'});
+  if (kind.arguments == RoutineArguments::coupler) {
+    partials.first = find_routine(libraries_, "couxx"), partials.second = find_routine(libraries_, "couxx2");
   }
-  if (all.size() > most_given_to_coupler) all.resize(most_given_to_coupler);
-  return all;
-}
-
-std::optional<RoutineStatement> CalledRoutines::says(const Statement& s, const WrittenArgument* call) {
-  RoutineStatement out;
-  out.label = fmt::format("{}/{}", s.name, s.id.value_or(0));
-  out.id = static_cast<int>(s.id.value_or(0));
-  out.constant_arrays = constant_arrays_, out.data = data_;
-  if (call) {
-    auto constants = constants_of(*call, out.label);
-    if (!constants) return std::nullopt;
-    out.parameters = std::move(*constants);
-  }
-  out.I = integer(s, "I"), out.J = integer(s, "J"), out.RM = integer(s, "RM"), out.JFLOAT = integer(s, "JFLOAT");
-  out.action_only = argument(s, "ACTIONONLY") != nullptr;
-  out.rotation = s.name == "SFORCE" && is_rotational(s);
-  if (s.name == "COUPLER") out.coupled = coupled_by(s);
-  if (s.name == "CONTACT") {
-    auto sides = std::make_shared<RoutineStatement::Sides>();
-    const auto take = [&](std::string_view side, std::vector<int>& ids, std::vector<int>& reversed) {
-      ids = integers(s, fmt::format("{}GEOM", side));
-      std::vector<int> turned = integers(s, fmt::format("{}FLIP_GEOMETRY", side));
-      const std::vector<int> more = integers(s, fmt::format("{}FLIP_NORMAL", side));
-      turned.insert(turned.end(), more.begin(), more.end());
-      for (const int id : ids) reversed.push_back(std::ranges::find(turned, id) != turned.end());
-    };
-    take("I", sides->I, sides->reversed_I), take("J", sides->J, sides->reversed_J);
-    out.sides = std::move(sides);
-  }
-  out.static_hold = argument(s, "STATIC_HOLD") != nullptr;
-  out.implicit = argument(s, "IMPLICIT") != nullptr;
-  if (const auto* w = argument(s, "IC"); w && (s.name == "VARIABLE" || s.name == "DIFF") && !w->damaged) {
-    Diagnostics ignored;
-    if (const auto list = read_reals(*w, *w->name.source, ignored); list && !list->empty()) {
-      out.initial = list->front();
-      if (list->size() > 1) out.initial_rate = (*list)[1];
-    }
-  }
-  return out;
+  return find_routine(libraries_, kind.routine);
 }
 
 std::shared_ptr<const CompiledRoutine> CalledRoutines::find(const Statement& s, const WrittenArgument& call,
                                                             std::string& wanted) {
   const RoutineKind* kind = kind_for(s.name, full_name(s, call));
   if (!kind || !has_libraries()) return nullptr;
-  wanted = kind->routine;
-  FoundRoutine found;
   StatePartialRoutines partials;
-  if (const auto* named = argument(s, kind->names_routine); named && named->has_value) {
-    std::string text = unquoted(named->value_span().text());
-    if (kind->arguments == RoutineArguments::coupler) partials = routines_beside(text);
-    wanted = text;
-    if (const auto last = text.find_last_of(':'); last != std::string::npos && last + 1 < text.size())
-      wanted = text.substr(last + 1) + " of " + text.substr(0, text.find(':'));
-    found = find_named(text, {});
-  } else {
-    found = find_routine(libraries_, kind->routine);
-    if (kind->arguments == RoutineArguments::coupler) {
-      partials.first = find_routine(libraries_, "couxx"), partials.second = find_routine(libraries_, "couxx2");
-    }
-  }
+  FoundRoutine found = called_by(s, *kind, wanted, partials);
   if (!found) return nullptr;
   auto what = says(s, &call);
   if (!what) return nullptr;
   return made(s, call.value_span(), std::move(found), *kind, kind->values, std::move(*what), std::move(partials));
+}
+
+bool CalledRoutines::is_damping(const Statement& s, const WrittenArgument& call) const {
+  const RoutineKind* kind = kind_for(s.name, full_name(s, call));
+  return kind && kind->arguments == RoutineArguments::damping;
+}
+
+bool CalledRoutines::keep_damping(const Statement& s, const WrittenArgument& call, std::string& wanted) {
+  StatePartialRoutines none;
+  FoundRoutine found = called_by(s, *kind_for(s.name, full_name(s, call)), wanted, none);
+  if (!found) return false;
+  auto what = says(s, &call);
+  if (!what) return false;
+  data_->damping[what->id] =
+      std::make_shared<const DampingRoutine>(std::move(found), what->label, what->id, std::move(what->parameters));
+  return true;
 }
 
 // Of "library::value, first, second" the second and the third, in the library of the first where they name none;

@@ -32,6 +32,10 @@ class CalledRoutines {
   // The routine that the statement calls, null if no library has it (`wanted` says what was looked for) or after an
   // error.
   std::shared_ptr<const CompiledRoutine> find(const Statement&, const WrittenArgument& call, std::string& wanted);
+  // The same of CRATIO of a FLEX_BODY; it is kept with the data, for whoever reads the statement. Whether there is one.
+  bool keep_damping(const Statement&, const WrittenArgument& call, std::string& wanted);
+  // Whether an argument calls one of those.
+  bool is_damping(const Statement&, const WrittenArgument&) const;
   // The routines of a GSE, null after an error. `call` is null where INTERFACE stands without USER(…).
   std::shared_ptr<const StateEquations> find_state_equations(const Statement&, const WrittenArgument* call);
   // Its functions in the words of the statement.
@@ -57,10 +61,16 @@ class CalledRoutines {
   std::optional<RoutineStatement> says(const Statement&, const WrittenArgument* call);
   std::optional<std::vector<double>> constants_of(const WrittenArgument& call, const std::string& label);
 
+  FoundRoutine called_by(const Statement&, const RoutineKind&, std::string& wanted, StatePartialRoutines&);
   // "friction::slip", "slip", "friction::" or "" (the default name) in what libraries it may stand in.
   FoundRoutine find_named(std::string_view written, std::span<const std::string_view> default_names);
   StatePartialRoutines routines_beside(std::string& text);
+  double real(const Statement&, std::string_view name) const;
+  bool slides(int joint) const;
   std::vector<RoutineStatement::Coupled> coupled_by(const Statement&) const;
+  RoutineStatement::Drive drive_of(const Statement&) const;
+  RoutineStatement::Watch watch_of(const Statement&) const;
+  std::shared_ptr<const RoutineStatement::Heading> heading_of(const Statement&) const;
   sAdamsGSE says_of_states(const Statement&, const RoutineStatement&) const;
   std::shared_ptr<const CompiledRoutine> made(const Statement&, const Span& at, FoundRoutine, const RoutineKind&,
                                               std::size_t values, RoutineStatement, StatePartialRoutines = {});

@@ -191,8 +191,9 @@ class Replacement {
     if (!called_.has_libraries()) return call.damaged;
     std::string wanted;
     const std::size_t errors = diagnostics_.error_count();
-    const auto routine = called_.find(s, call, wanted);
-    if (!routine) {
+    const bool damping = called_.is_damping(s, call);
+    const auto routine = damping ? nullptr : called_.find(s, call, wanted);
+    if (damping ? !called_.keep_damping(s, call, wanted) : !routine) {
       if (diagnostics_.error_count() > errors) call.damaged = true;
       if (call.damaged || value_ || wanted.empty()) return call.damaged;
       diagnostics_.error("missing-routine", span_of(call.value()[0], *call.name.source),
@@ -201,7 +202,7 @@ class Replacement {
       call.damaged = true;
       return true;
     }
-    calls_.emplace_back(&s, called_.written(s, call, routine));
+    if (routine) calls_.emplace_back(&s, called_.written(s, call, routine));
     s.arguments.erase(s.arguments.begin() + static_cast<std::ptrdiff_t>(k));
     return true;
   }

@@ -48,6 +48,8 @@ void call_with_addresses(void* address, RoutineArguments arguments, const Routin
       return as<void(const int*, const double*, const double*, const int*, const double*, const int*, const int*,
                      double*)>(address)(&s.id, &now.time, par, &npar, now.given, &count, &now.iflag, values);
     }
+    case RoutineArguments::damping:
+      return;  // a class of its own calls it
     case RoutineArguments::pressure:
       return as<void(const int*, const double*, const double*, const int*, const double*, const double*, const double*,
                      const double*, const double*, const double*, const double*, const double*, const int*, const int*,
@@ -70,6 +72,9 @@ union WhatItSays {
   sAdamsVforce vforce;
   sAdamsDiff diff;
   sAdamsField field;
+  sAdamsMotion motion;
+  sAdamsRequest request;
+  sAdamsSensor sensor;
   sAdamsGSE gse;
   sAdamsContactFriction contact;
   sAdamsCoupler coupler;
@@ -86,6 +91,18 @@ WhatItSays what_it_says(std::string_view statement, const RoutineStatement& s) {
   if (statement == "VFORCE" || statement == "VTORQUE") all.vforce = {s.id, npar, par, s.I, s.JFLOAT, s.RM};
   if (statement == "FIELD") all.field = {s.id, npar, par, s.I, s.J};
   if (statement == "DIFF") all.diff = {s.id, npar, par, s.static_hold, s.implicit, s.initial, s.initial_rate};
+  if (statement == "MOTION") {
+    const RoutineStatement::Drive& d = s.drive;
+    all.motion = {s.id, npar, par, d.joint, d.type, s.I, s.J, {d.axis[0], d.axis[1]}, d.level};
+  }
+  if (statement == "SENSOR") {
+    const RoutineStatement::Watch& w = s.watch;
+    all.sensor = {s.id, npar, par, w.value, w.error, {w.condition[0], w.condition[1]}};
+  }
+  if (statement == "REQUEST") {
+    all.request = {s.id, npar, par, s.heading->comment.c_str(), {}};
+    for (std::size_t k = 0; k < s.heading->titles.size(); ++k) all.request.TITLE[k] = s.heading->titles[k].c_str();
+  }
   if (statement == "COUPLER") {
     all.coupler = {s.id, npar, par, static_cast<int>(s.coupled.size()), {}, {}};
     for (std::size_t k = 0; k < std::min(s.coupled.size(), std::size(all.coupler.JOINTS)); ++k)
@@ -127,6 +144,8 @@ void call_with_statement(void* address, RoutineArguments arguments, const WhatIt
     case RoutineArguments::coupler:
       return as<void(const void*, double, const double*, int, double*)>(address)(&s, now.time, now.given, now.iflag,
                                                                                  values);
+    case RoutineArguments::damping:
+      return;
     case RoutineArguments::pressure:
       return as<void(const void*, double, const double*, const double*, const double*, const double*, double, double,
                      double, double, int, int, double*)>(address)(

@@ -5,6 +5,7 @@
 // the user asks for it.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,6 +44,25 @@ struct RoutineStatement {
     char type;
   };
   std::vector<Coupled> coupled{};
+  // Of a MOTION: "TRANSLATION" or "ROTATION", "X" ... "B3" where it names an axis of J, "DISPLACEMENT", "VELOCITY" or
+  // "ACCELERATION".
+  struct Drive {
+    int joint = 0;
+    const char* type = "";
+    std::array<char, 2> axis{};
+    const char* level = "";
+  } drive{};
+  // Of a SENSOR: EQ, GE or LE.
+  struct Watch {
+    double value = 0, error = 1e-3;
+    std::array<char, 2> condition{};
+  } watch{};
+  // Of a REQUEST.
+  struct Heading {
+    std::string comment;
+    std::array<std::string, 8> titles;
+  };
+  std::shared_ptr<const Heading> heading{};
   // Of a CONTACT: ids of its GRAPHICS, and for each of them 1 where it is turned inside out.
   struct Sides {
     std::vector<int> I, J, reversed_I, reversed_J;

@@ -1,6 +1,6 @@
-// Utilities of compiled routines that read data of the model: AKISPL, CUBSPL, GTCURV, GTSTRG and gravity, and the same
-// under the names by which Fortran calls them. Where a routine is only asked what it reads they give zeros, but for
-// texts.
+// Utilities of compiled routines that read data of the model: AKISPL, CUBSPL, GTCURV, GTSTRG, NMODES, MODINF and
+// gravity, and the same under the names by which Fortran calls them. Where a routine is only asked what it reads they
+// give zeros, but for texts.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -14,9 +14,10 @@ namespace dynalin {
 
 namespace {
 
-// Null outside of routines.
+// Null outside of routines, and in those that are called before there is a model.
 const RoutineData* data_at_work() {
-  const RoutineContext* c = RoutineContext::current();
+  RoutineContext* c = RoutineContext::current();
+  if (c && !c->data) c->fail("it reads data of the model, which are not there yet when it is called");
   return c ? c->data : nullptr;
 }
 bool gives_zeros() {
@@ -43,6 +44,14 @@ void interpolate(SplineMethod method, double x, double z, int id, int iord, doub
   if (iord == 0) array[0] = e.along[0];
   if (iord == 1) array[0] = e.along[1], array[1] = e.by_z[0];
   if (iord == 2) array[0] = 2 * e.along[2], array[1] = e.by_z[1], array[2] = 0;
+}
+
+// Null where there is no such flexible body.
+const RoutineData::Modes* modes_of(int id) {
+  const RoutineData* data = data_at_work();
+  if (!data) return nullptr;
+  const auto found = data->flexible_bodies.find(id);
+  return found == data->flexible_bodies.end() ? nullptr : &found->second;
 }
 
 // Null where there is none.
@@ -113,15 +122,26 @@ void gtstrg_(const int* id, char* string, int* nchars, int* istat, std::size_t l
   if (text) std::memcpy(string, text->data(), std::min(text->size(), length));
 }
 
+void c_nmodes(int id, int* nq, int* errflg) {
+  const RoutineData::Modes* modes = modes_of(id);
+  *errflg = !modes;
+  *nq = modes ? static_cast<int>(modes->number.size()) : 0;
+}
+void nmodes_(const int* id, int* nq, int* errflg) { c_nmodes(*id, nq, errflg); }
+void c_modinf(int id, int* mode, double* freq, int* errflg) {
+  const RoutineData::Modes* modes = modes_of(id);
+  *errflg = !modes;
+  if (!modes) return;
+  std::ranges::copy(modes->number, mode);
+  std::ranges::copy(modes->frequency, freq);
+}
+void modinf_(const int* id, int* mode, double* freq, int* errflg) { c_modinf(*id, mode, freq, errflg); }
+
 void c_get_gravity(double* gx, double* gy, double* gz) {
   const RoutineData* data = data_at_work();
   const Vec3<double> g = data ? data->gravity : Vec3<double>{};
   *gx = g.x, *gy = g.y, *gz = g.z;
 }
 void get_gravity_(double* gx, double* gy, double* gz) { c_get_gravity(gx, gy, gz); }
-
-// Routines are called by one thread at a time, whatever they say.
-void c_adams_declare_threadsafe(void) {}
-void c_adams_smp_group(int) {}
 
 }  // extern "C"

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/vec3.h"
 #include "expression/parametric_curve.h"
@@ -11,17 +12,25 @@
 
 namespace dynalin {
 
+class DampingRoutine;
+
 struct RoutineData {
   static constexpr std::size_t longest_text = 1024;  // routines have room for so many characters
 
   struct Spline {
     std::shared_ptr<const SplineCurves> akima, cubic;
   };
+  struct Modes {
+    std::vector<int> number;
+    std::vector<double> frequency;  // [cycles/s]
+  };
   // By ids of statements. They are known before the model is read, and what they hold when it is; texts at once.
   std::map<int, Spline> splines;
   std::map<int, std::shared_ptr<const ParametricCurve>> curves;
   std::map<int, std::string> strings;
-  Vec3<double> gravity{};  // [length/time²], global axes
+  std::map<int, Modes> flexible_bodies;
+  std::map<int, std::shared_ptr<const DampingRoutine>> damping;  // of flexible bodies whose CRATIO calls a routine
+  Vec3<double> gravity{};                                        // [length/time²], global axes
   bool is_read = false;
 };
 

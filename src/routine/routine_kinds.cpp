@@ -6,7 +6,7 @@ namespace dynalin {
 
 namespace {
 using enum RoutineArguments;
-constexpr std::array<RoutineKind, 14> kinds = {{
+constexpr std::array<RoutineKind, 15> kinds = {{
     {"VARIABLE", "varsub", 1, function},
     {"SFORCE", "sfosub", 1, function},
     {"GFORCE", "gfosub", 6, function},
@@ -16,6 +16,7 @@ constexpr std::array<RoutineKind, 14> kinds = {{
     {"CONTACT", "cnfsub", 3, pressure, "NFUNCTION", "NROUTINE"},
     {"CONTACT", "cffsub", 3, friction, "FFUNCTION", "FROUTINE"},
     {"COUPLER", "cousub", 1, coupler},
+    {"FLEX_BODY", "dmpsub", 0, damping, "CRATIO"},
     {"DIFF", "difsub", 1, function},
     {"MOTION", "motsub", 1, of_time},
     {"REQUEST", "reqsub", 8, plain},

@@ -22,14 +22,6 @@ std::span<const int> ids_of(const int* ipar, int nsize) {
   return nsize > 0 && ipar ? std::span(ipar, static_cast<std::size_t>(nsize)) : std::span<const int>();
 }
 
-// Texts of Fortran have a length and blanks behind them.
-std::string_view text_of(const char* text, std::size_t length) {
-  std::string_view all(text, length);
-  if (const auto end = all.find('\0'); end != std::string_view::npos) all = all.substr(0, end);
-  while (!all.empty() && all.back() == ' ') all.remove_suffix(1);
-  return all;
-}
-
 double input_value(const RoutineContext& c, std::int32_t input) {
   return c.phase == RoutineContext::Phase::asking ? 0.0 : c.inputs[static_cast<std::size_t>(input)];
 }
@@ -122,9 +114,19 @@ void message(int flag, std::string_view text, std::string_view end) {
 
 }  // namespace
 
+std::string_view text_of(const char* text, std::size_t length) {
+  std::string_view all(text, length);
+  if (const auto end = all.find('\0'); end != std::string_view::npos) all = all.substr(0, end);
+  while (!all.empty() && all.back() == ' ') all.remove_suffix(1);
+  return all;
+}
+
 void keep_utilities() {
   keep_function_utilities();
   keep_data_utilities();
+  keep_rotation_utilities();
+  keep_text_utilities();
+  keep_missing_utilities();
 }
 
 }  // namespace dynalin

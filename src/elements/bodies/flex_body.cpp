@@ -17,6 +17,7 @@
 #include "elements/settings/time_unit.h"
 #include "flexible/modal_matrices.h"
 #include "model/schema.h"
+#include "routine/routine_data.h"
 
 namespace dynalin {
 
@@ -98,7 +99,7 @@ class FlexBodySet final : public TypedSet<FlexBody> {
       }
       f.flexible->lacks_inertia = lacks_inertia(I);
       f.flexible->length = f.length > 0 ? f.length : extent_of(f.flexible->position);
-      set_damping(f, labels[k], model.units, diagnostics);
+      set_damping(f, labels[k], model, diagnostics);
     }
   }
 
@@ -107,6 +108,16 @@ class FlexBodySet final : public TypedSet<FlexBody> {
   }
 
  private:
+  // In the order of the modal coordinates.
+  static void tell_routines(RoutineData& data, const ElementLabel& label, const RatioModes& modes) {
+    std::vector<std::pair<int, double>> all;
+    for (std::size_t k = 0; k < modes.number.size(); ++k)
+      all.emplace_back(static_cast<int>(modes.number[k]), modes.frequency[k]);
+    std::ranges::sort(all);
+    RoutineData::Modes& told = data.flexible_bodies[static_cast<int>(label.id)];
+    for (const auto& [number, frequency] : all) told.number.push_back(number), told.frequency.push_back(frequency);
+  }
+
   static std::shared_ptr<ModalBody> of_matrices(FlexBody& f, const std::string& name, const Model& model,
                                                 Diagnostics& diagnostics) {
     std::vector<ModalMatrix> matrices;
@@ -227,26 +238,34 @@ class FlexBodySet final : public TypedSet<FlexBody> {
       f.flexible = nullptr;
   }
 
-  void set_damping(FlexBody& f, const ElementLabel& label, const Units& units, Diagnostics& diagnostics) const {
+  // What holds where CRATIO is not written, or what it says; nothing after an error.
+  static std::optional<std::vector<double>> ratios(const FlexBody& f, const ElementLabel& label,
+                                                   const RatioModes& modes, const Model& model, Diagnostics& out) {
+    if (f.ratio_at.source) return written_ratios(f.ratio_at, modes, out);
+    std::vector<double> ratio;
+    for (const double hertz : modes.frequency) ratio.push_back(default_ratio(hertz));
+    if (!model.routine_data) return ratio;
+    const auto called = model.routine_data->damping.find(static_cast<int>(label.id));
+    if (called != model.routine_data->damping.end() && !called_ratios(*called->second, label, modes, ratio, out))
+      return std::nullopt;
+    return ratio;
+  }
+
+  void set_damping(FlexBody& f, const ElementLabel& label, const Model& model, Diagnostics& diagnostics) const {
     ModalBody& b = *f.flexible;
     if (b.modes() == 0) return;
-    const OwnModes own = own_modes(b, units.ucf);
-    std::vector<double> hertz, numbers;
+    const OwnModes own = own_modes(b, model.units.ucf);
+    RatioModes modes{label.text(), {}, {}};
     for (Eigen::Index k = 0; k < b.modes(); ++k) {
-      hertz.push_back(own.frequency(k) / (2 * std::numbers::pi * seconds_in(units.time)));
+      modes.frequency.push_back(own.frequency(k) / (2 * std::numbers::pi * seconds_in(model.units.time)));
       Eigen::Index mode = 0;
       own.shapes.col(k).cwiseProduct(own.mass.diagonal().cwiseSqrt()).cwiseAbs().maxCoeff(&mode);
-      numbers.push_back(static_cast<double>(b.number[static_cast<std::size_t>(own.diagonal ? mode : k)]));
+      modes.number.push_back(static_cast<double>(b.number[static_cast<std::size_t>(own.diagonal ? mode : k)]));
     }
-    std::vector<double> ratio;
-    if (f.ratio_at.source) {
-      auto written = written_ratios(f.ratio_at, {label.text(), hertz, numbers}, diagnostics);
-      if (!written) return;
-      ratio = std::move(*written);
-    } else {
-      for (const double x : hertz) ratio.push_back(default_ratio(x));
-    }
-    b.damping = modal_damping(own, [&](Eigen::Index k) { return ratio[static_cast<std::size_t>(k)]; });
+    if (model.routine_data) tell_routines(*model.routine_data, label, modes);
+    const auto ratio = ratios(f, label, modes, model, diagnostics);
+    if (!ratio) return;
+    b.damping = modal_damping(own, [&](Eigen::Index k) { return (*ratio)[static_cast<std::size_t>(k)]; });
     if (!f.adds_generalized_damping || b.generalized_damping.size() == 0) return;  // an error by now
     b.damping += b.generalized_damping;
     if (const std::string fed = b.fed_modes(); !fed.empty()) {

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "dataset/characters.h"
 #include "dataset/dataset.h"
 #include "expression/expression.h"
+#include "routine/damping_routine.h"
 
 namespace dynalin {
 
@@ -47,6 +49,17 @@ std::optional<Expression> parsed(const std::string& text, const Span& at, Diagno
   return std::nullopt;
 }
 
+bool are_ratios(std::span<const double> ratios, const Span& at, const RatioModes& modes, Diagnostics& out) {
+  for (std::size_t k = 0; k < ratios.size(); ++k) {
+    if (ratios[k] >= 0 && std::isfinite(ratios[k])) continue;
+    out.error("value-out-of-range", at,
+              fmt::format("CRATIO of {} is {:g} for its mode {} at {:g} cycles/s, it must not be negative", modes.owner,
+                          ratios[k], modes.number[k], modes.frequency[k]));
+    return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<std::vector<double>> written_ratios(const Span& at, const RatioModes& modes, Diagnostics& out) {
@@ -66,15 +79,18 @@ std::optional<std::vector<double>> written_ratios(const Span& at, const RatioMod
     ExpressionWorkspace<double> scratch;
     const std::array<double, 1> value{modes.frequency[k]};
     const double ratio = of_mode->evaluate(std::span<const double>(value).first(of_mode->atoms().size()), scratch);
-    if (!(ratio >= 0) || !std::isfinite(ratio)) {
-      out.error("value-out-of-range", at,
-                fmt::format("CRATIO of {} is {:g} for its mode {} at {:g} cycles/s, it must not be negative",
-                            modes.owner, ratio, modes.number[k], modes.frequency[k]));
-      return std::nullopt;
-    }
     ratios.push_back(ratio);
   }
-  return ratios;
+  return are_ratios(ratios, at, modes, out) ? std::optional(ratios) : std::nullopt;
+}
+
+bool called_ratios(const DampingRoutine& routine, const ElementLabel& label, const RatioModes& modes,
+                   std::vector<double>& ratios, Diagnostics& out) {
+  if (const std::string problem = routine.ratios(modes.frequency, ratios); !problem.empty()) {
+    out.error("routine-failed", label.at, fmt::format("{} gives no ratios: {}", routine.what(), problem));
+    return false;
+  }
+  return are_ratios(ratios, label.at, modes, out);
 }
 
 double default_ratio(double frequency) { return frequency < 100 ? 0.01 : frequency < 1000 ? 0.1 : 1.0; }
