@@ -10,8 +10,9 @@
 
 namespace dynalin {
 
-// Of an element's own size: rounding of its partials and of the motion that they are multiplied with.
-constexpr double vanishing = 1e-13;
+// Of an element's own size: rounding of its partials and of the motion that they are multiplied with; and where motions
+// are well conditioned, as most are.
+constexpr double vanishing = 1e-13, surely_vanishing = 4e-15;
 
 class CarriedForces {
  public:

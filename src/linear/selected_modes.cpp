@@ -331,7 +331,8 @@ class Solution {
     }
     const NearZero zero = counted_region_.has(0) ? zero_ : NearZero{Matrix(op_.states(), 0), Matrix(0, 0)};
     const bool both = !conservative_ && counted_region_.centre.imag() == 0 && !upper_half;
-    return bounded_pairs(equations_, op_, {std::move(right.basis), std::move(right.matrix), left.basis, both}, zero,
+    return bounded_pairs(equations_, op_,
+                         {std::move(right.basis), std::move(right.matrix), std::move(left.basis), both}, zero,
                          distance);
   }
 

@@ -207,14 +207,16 @@ class Mirror {
 
 }  // namespace
 
-std::optional<BoundedPairs> bounded_pairs(const PerturbationEquations& equations, const ShiftInverse& op,
-                                          const TwoSided& of, const NearZero& zero, double distance) {
+std::optional<BoundedPairs> bounded_pairs(const PerturbationEquations& equations, const ShiftInverse& op, TwoSided of,
+                                          const NearZero& zero, double distance) {
   if (of.Q.cols() <= zero.count()) {
     BoundedPairs none;
     none.pairs.right.resize(of.Q.rows(), 0), none.pairs.left.resize(of.Q.rows(), 0);
     return none;
   }
   std::optional<Subspace> s = without_zeros(op, of, zero);
+  // Of large models these are a good part of the memory that measuring takes.
+  of.Q.resize(0, 0), of.P.resize(0, 0);
   if (!s || !split(*s)) return std::nullopt;
   double reach = 0;
   for (const Complex& v : s->B.diagonal()) reach = std::max(reach, std::abs(v - op.shift()));

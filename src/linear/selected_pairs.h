@@ -24,7 +24,7 @@ struct BoundedPairs {
 
 // `zero` are structural zeros in the subspace; `distance` is that of other eigenvalues of the model from those of the
 // subspace. Nothing if left and right vectors do not belong together, or bounds contradict each other.
-std::optional<BoundedPairs> bounded_pairs(const PerturbationEquations&, const ShiftInverse&, const TwoSided&,
+std::optional<BoundedPairs> bounded_pairs(const PerturbationEquations&, const ShiftInverse&, TwoSided,
                                           const NearZero& zero, double distance);
 
 }  // namespace dynalin

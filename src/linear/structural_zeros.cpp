@@ -40,9 +40,9 @@ class StructuralZeros::Contributions {
   // Whether differential state k of the layout does not act on bodies.
   const std::vector<bool>& driven_states() const { return driven_; }
 
-  Matrix beyond(const Matrix& earlier) const {
+  Matrix beyond(const Matrix& earlier, double limit) const {
     if (!changes_.known()) return Matrix(choice_.size(), 0);
-    return beyond(earlier, changes_.beside(earlier), vanishing);
+    return beyond(earlier, changes_.beside(earlier), limit);
   }
   Matrix beyond(const Matrix& earlier, const Matrix& columns, double rounding) const {
     if (!changes_.known()) return Matrix(choice_.size(), 0);
@@ -186,8 +186,8 @@ StructuralZeros::StructuralZeros(const System& system, const Perturbation& pertu
 
 StructuralZeros::~StructuralZeros() = default;
 
-Eigen::MatrixXd StructuralZeros::beyond(const Eigen::MatrixXd& earlier) const {
-  return contributions_->beyond(earlier);
+Eigen::MatrixXd StructuralZeros::beyond(const Eigen::MatrixXd& earlier, double limit) const {
+  return contributions_->beyond(earlier, limit);
 }
 
 Eigen::MatrixXd StructuralZeros::beyond(const Matrix& earlier, const Matrix& columns, double rounding) const {

@@ -30,8 +30,8 @@ class StructuralZeros {
   ~StructuralZeros();
 
   // The directions of states (columns) that A maps into the span of `earlier` ones, which must come from here or be
-  // exact themselves, without those that are in it.
-  Eigen::MatrixXd beyond(const Eigen::MatrixXd& earlier) const;
+  // exact themselves, without those that are in it. `limit` is what counts as nothing of an element's own contribution.
+  Eigen::MatrixXd beyond(const Eigen::MatrixXd& earlier, double limit) const;
   // The same among the displacements of computed columns of states, which are exact to `rounding`.
   Eigen::MatrixXd beyond(const Eigen::MatrixXd& earlier, const Eigen::MatrixXd& columns, double rounding) const;
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "linear/balanced.h"
+#include "linear/carried_forces.h"
 #include "linear/rounding.h"
 #include "linear/structural_zeros.h"
 #include "linear/triangular_form.h"
@@ -107,14 +108,20 @@ class Splitter {
   // Motions that no element feels.
   bool take_motions() {
     if (!motions_ || !may_be_singular()) return false;
-    const Matrix found = motions_->beyond(out_.right().leftCols(out_.count));
-    if (found.cols() == 0) return false;
+    Matrix v = motions(vanishing);
+    // What the matrix makes of them beyond its own roundings may be a direction in which elements are soft: then they
+    // must not feel it at all.
+    if (v.cols() > 0 && excess(v) > 1) v = motions(surely_vanishing);
+    return v.cols() > 0 && split_off_sparsest(v);
+  }
+  // In the core, none where they cannot be told.
+  Matrix motions(double limit) {
+    const Matrix found = motions_->beyond(out_.right().leftCols(out_.count), limit);
     Matrix v = out_.scale.cwiseInverse().asDiagonal() * found;
     v.colwise().normalize();
     v = (out_.dual.transpose() * v).bottomRows(left()).eval();
-    follow(v);
-    if (v.cols() == 0 || !v.allFinite()) return false;
-    return split_off_sparsest(v);
+    if (v.cols() > 0) follow(v);
+    return v.allFinite() ? v : Matrix(left(), 0);
   }
   // What a motion does to states that only follow it.
   void follow(Matrix& v) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "cases/dataset_text.h"
@@ -222,6 +223,33 @@ TEST_F(ZeroModes, soft_directions_are_not_rigid) {
     const auto near =
         std::count_if(s.others.begin(), s.others.end(), [&](auto v) { return std::abs(std::abs(v) - w) < 1e-3 * w; });
     EXPECT_EQ(near, 2) << w;
+  }
+}
+
+// However soft a direction is beside the others, what is printed of it is the value within its bound.
+TEST_F(ZeroModes, the_softest_directions_are_within_their_bounds) {
+  for (const char* angles : {"0,0,0", "0.4,0.9,-0.7"}) {
+    for (const double ratio : {1e-11, 1e-12, 1e-13, 1e-14}) {
+      const double stiff = 1e9, mass = 2;
+      const RunResult r =
+          run(fmt::format("Soft\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, REULER={}\nPART/2, MASS={}, CM=20, "
+                          "IP=1,1,1\nMARKER/20, REULER={}\nBUSHING/1, I=20, J=1, K={},{},{}, KT={},{},{}\nEND\n",
+                          angles, mass, angles, stiff, ratio * stiff, stiff, stiff, stiff, stiff),
+              "LINEAR/EIGENSOL\nLINEAR/EIGENSOL, NMODES=2\n");
+      ASSERT_EQ(r.status, 0) << r.err;
+      const double expected = std::sqrt(ratio * stiff / mass) / (2 * std::numbers::pi);
+      for (std::size_t k = 0; k < 2; ++k) {
+        double nearest = std::numeric_limits<double>::infinity(), bound = 0;
+        for (const auto& m : r.result(k).at("modes")) {
+          const double size = std::hypot(m.at("real_hz").get<double>(), m.at("imag_hz").get<double>());
+          if (!(std::abs(size - expected) < nearest)) continue;
+          nearest = std::abs(size - expected);
+          const auto& of = m.at("error_bound_hz");
+          bound = of.is_null() ? std::numeric_limits<double>::infinity() : of.get<double>();
+        }
+        EXPECT_LE(nearest, bound + 1e-12 * expected) << angles << " " << ratio << " " << k;
+      }
+    }
   }
 }
 
