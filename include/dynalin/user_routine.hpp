@@ -12,18 +12,33 @@
 //     DYNALIN_USER_ROUTINE(sfosub, Friction)
 //
 // The formula is called with T = double for values, and with scalars that carry derivatives beside them. It takes
-// elementary functions without a namespace in front of them (sin, not std::sin), and compares scalars by their values.
+// functions without a namespace in front of them (sin, not std::sin), and compares scalars by their values: abs fabs
+// sqrt cbrt pow hypot, sin cos tan asin acos atan atan2, sinh cosh tanh asinh acosh atanh, exp exp2 expm1 log log2
+// log10 log1p, erf, floor ceil trunc fmod copysign. With `using namespace dynalin::user;` in it also value_of min max,
+// and of the language sign step step5 havsin impact bistop, whose arguments behind the first (of impact and bistop the
+// second) are plain numbers.
 #pragma once
+
+// Of these abs of a double is in no namespace; without them abs(v) would be that of an integer.
+#include <math.h>
+#include <stdlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <initializer_list>
 #include <vector>
 
 #include "dynalin/user_routine.h"
 
 namespace dynalin::user {
+
+// Of plain numbers, so that they are found beside those of other scalars.
+using std::abs, std::fabs, std::sqrt, std::cbrt, std::pow, std::hypot, std::sin, std::cos, std::tan, std::asin,
+    std::acos, std::atan, std::atan2, std::sinh, std::cosh, std::tanh, std::asinh, std::acosh, std::atanh, std::exp,
+    std::exp2, std::expm1, std::log, std::log2, std::log10, std::log1p, std::erf, std::floor, std::ceil, std::trunc,
+    std::fmod, std::copysign;
 
 // Inputs that are differentiated in one pass.
 inline constexpr int pass = 8;
@@ -79,13 +94,16 @@ template <class T>
 concept Scalar = std::same_as<T, Partials> || std::same_as<T, Course>;
 
 namespace slopes {
-using std::cos, std::sin, std::exp, std::log, std::sqrt, std::tanh, std::atan, std::pow, std::sinh, std::cosh;
 struct Inverse {
   template <class T>
   std::array<T, 3> of(const T& x) const;
 };
 }  // namespace slopes
 
+template <Scalar T>
+T operator+(const T& a) {
+  return a;
+}
 template <Scalar T>
 T operator-(const T& a) {
   return T(-1.0) * a;
@@ -173,6 +191,12 @@ bool operator<=(const A& a, const B& b) { return value_of(a) <= value_of(b); }
 template <class A, class B>
 requires Compared<A, B>
 bool operator>=(const A& a, const B& b) { return value_of(a) >= value_of(b); }
+template <class A, class B>
+requires Compared<A, B>
+bool operator==(const A& a, const B& b) { return value_of(a) == value_of(b); }
+template <class A, class B>
+requires Compared<A, B>
+bool operator!=(const A& a, const B& b) { return value_of(a) != value_of(b); }
 
 template <Scalar T>
 T sin(const T& a);
@@ -190,6 +214,16 @@ template <Scalar T>
 T atan(const T& a);
 template <Scalar T>
 T pow(const T& a, double n);
+template <Scalar T>
+T expm1(const T& a);
+template <Scalar T>
+T log1p(const T& a);
+template <Scalar T>
+T asinh(const T& a);
+template <Scalar T>
+T cbrt(const T& a);
+template <Scalar T>
+T erf(const T& a);
 
 namespace slopes {
 struct Sin {
@@ -249,6 +283,41 @@ struct Pow {
       return factor == 0.0 ? T(0.0) : factor * pow(x, exponent);
     };
     return {pow(x, n), term(n, n - 1), term(n * (n - 1), n - 2)};
+  }
+};
+struct Expm1 {
+  template <class T>
+  std::array<T, 3> of(const T& x) const {
+    const T e = exp(x);
+    return {expm1(x), e, e};
+  }
+};
+struct Log1p {
+  template <class T>
+  std::array<T, 3> of(const T& x) const {
+    const T i = inverse(1.0 + x);
+    return {log1p(x), i, -(i * i)};
+  }
+};
+struct Asinh {
+  template <class T>
+  std::array<T, 3> of(const T& x) const {
+    const T slope = inverse(sqrt(1.0 + x * x));
+    return {asinh(x), slope, -(x * (slope * slope * slope))};
+  }
+};
+struct Cbrt {
+  template <class T>
+  std::array<T, 3> of(const T& x) const {
+    const T r = cbrt(x), i = inverse(x), slope = r * i * (1.0 / 3.0);
+    return {r, slope, slope * i * (-2.0 / 3.0)};
+  }
+};
+struct Erf {
+  template <class T>
+  std::array<T, 3> of(const T& x) const {
+    const T slope = 1.1283791670955126 * exp(-(x * x));  // 2/√π
+    return {erf(x), slope, -2.0 * (x * slope)};
   }
 };
 }  // namespace slopes
@@ -316,8 +385,121 @@ T atan2(const T& y, const T& x) {
   const T plain = std::abs(value_of(x)) > std::abs(value_of(y)) ? atan(y / x) : -atan(x / y);
   return plain + (angle - value_of(plain));
 }
+template <Scalar T>
+T atan2(const T& y, double x) {
+  return atan2(y, T(x));
+}
+template <Scalar T>
+T atan2(double y, const T& x) {
+  return atan2(T(y), x);
+}
+template <Scalar T>
+T pow(double a, const T& b) {
+  return exp(b * std::log(a));
+}
+template <Scalar T>
+T expm1(const T& a) {
+  return apply(a, slopes::Expm1{});
+}
+template <Scalar T>
+T log1p(const T& a) {
+  return apply(a, slopes::Log1p{});
+}
+template <Scalar T>
+T asinh(const T& a) {
+  return apply(a, slopes::Asinh{});
+}
+template <Scalar T>
+T cbrt(const T& a) {
+  return apply(a, slopes::Cbrt{});
+}
+template <Scalar T>
+T erf(const T& a) {
+  return apply(a, slopes::Erf{});
+}
+template <Scalar T>
+T asin(const T& a) {
+  return atan2(a, sqrt((1.0 - a) * (1.0 + a)));
+}
+template <Scalar T>
+T acos(const T& a) {
+  return atan2(sqrt((1.0 - a) * (1.0 + a)), a);
+}
+template <Scalar T>
+T acosh(const T& a) {
+  return log(a + sqrt((a - 1.0) * (a + 1.0)));
+}
+template <Scalar T>
+T atanh(const T& a) {
+  return 0.5 * (log1p(a) - log1p(-a));
+}
+template <Scalar T>
+T exp2(const T& a) {
+  return exp(a * 0.6931471805599453);  // ln 2
+}
+template <Scalar T>
+T log2(const T& a) {
+  return log(a) / 0.6931471805599453;
+}
+template <Scalar T>
+T log10(const T& a) {
+  return log(a) / 2.302585092994046;
+}
+template <Scalar T>
+T hypot(const T& a, const T& b) {
+  return sqrt(a * a + b * b);
+}
+template <Scalar T>
+T hypot(const T& a, double b) {
+  return hypot(a, T(b));
+}
+template <Scalar T>
+T hypot(double a, const T& b) {
+  return hypot(T(a), b);
+}
+// Steps: their slope is zero.
+template <Scalar T>
+T floor(const T& a) {
+  return std::floor(value_of(a));
+}
+template <Scalar T>
+T ceil(const T& a) {
+  return std::ceil(value_of(a));
+}
+template <Scalar T>
+T trunc(const T& a) {
+  return std::trunc(value_of(a));
+}
+template <Scalar T>
+T fmod(const T& a, double b) {
+  return a - (value_of(a) - std::fmod(value_of(a), b));
+}
+template <Scalar T, class B>
+T copysign(const T& a, const B& b) {
+  return std::signbit(value_of(b)) == std::signbit(value_of(a)) ? a : -a;
+}
+template <Scalar T>
+T copysign(double a, const T& b) {
+  return std::copysign(a, value_of(b));
+}
 inline double min(double a, double b) { return std::min(a, b); }
 inline double max(double a, double b) { return std::max(a, b); }
+template <Scalar T>
+T min(const T& a, double b) {
+  return b < value_of(a) ? T(b) : a;
+}
+template <Scalar T>
+T min(double a, const T& b) {
+  return value_of(b) < a ? b : T(a);
+}
+template <Scalar T>
+T max(const T& a, double b) {
+  return value_of(a) < b ? T(b) : a;
+}
+template <Scalar T>
+T max(double a, const T& b) {
+  return a < value_of(b) ? b : T(a);
+}
 template <Scalar T>
 T min(const T& a, const T& b) {
   return value_of(b) < value_of(a) ? b : a;
@@ -325,6 +507,44 @@ T min(const T& a, const T& b) {
 template <Scalar T>
 T max(const T& a, const T& b) {
   return value_of(a) < value_of(b) ? b : a;
+}
+
+// Functions of the language, with the arguments that they have there.
+template <class T, class B>
+T sign(const T& a, const B& b) {
+  return value_of(b) < 0.0 ? -fabs(a) : fabs(a);
+}
+template <class T>
+T step(const T& x, double x0, double h0, double x1, double h1) {
+  const T share = (x - x0) / (x1 - x0);
+  if (value_of(share) <= 0.0) return T(h0);
+  if (value_of(share) >= 1.0) return T(h1);
+  return h0 + (h1 - h0) * (share * share * (3.0 - 2.0 * share));
+}
+template <class T>
+T step5(const T& x, double x0, double h0, double x1, double h1) {
+  const T share = (x - x0) / (x1 - x0);
+  if (value_of(share) <= 0.0) return T(h0);
+  if (value_of(share) >= 1.0) return T(h1);
+  return h0 + (h1 - h0) * (share * share * share * (10.0 - share * (15.0 - 6.0 * share)));
+}
+template <class T>
+T havsin(const T& x, double x0, double h0, double x1, double h1) {
+  const T share = (x - x0) / (x1 - x0);
+  if (value_of(share) <= 0.0) return T(h0);
+  if (value_of(share) >= 1.0) return T(h1);
+  return 0.5 * (h0 + h1) - (0.5 * (h1 - h0)) * cos(3.141592653589793 * share);
+}
+template <class T>
+T impact(const T& x, const T& rate, double x1, double k, double e, double cmax, double d) {
+  if (value_of(x) >= x1) return T(0.0);
+  const T force = k * pow(x1 - x, e) - cmax * (rate * step(x, x1 - d, 1.0, x1, 0.0));
+  return value_of(force) > 0.0 ? force : T(0.0);
+}
+template <class T>
+T bistop(const T& x, const T& rate, double x1, double x2, double k, double e, double cmax, double d) {
+  if (value_of(x) <= x2) return impact(x, rate, x1, k, e, cmax, d);
+  return -impact(T(-x), T(-rate), -x2, k, e, cmax, d);
 }
 
 template <class T>
@@ -393,7 +613,8 @@ class Call : public CallOfStateEquations<Call<T>, T>, public CallOfContact<Call<
  public:
   Call(const dynalin_course& course, int first) : course_(&course), first_(first) {}
   int id() const { return course_->id; }
-  double parameter(int k) const { return course_->par[k]; }
+  // Not a number where there is none.
+  double parameter(int k) const { return k >= 0 && k < course_->npar ? course_->par[k] : std::nan(""); }
   int parameters() const { return course_->npar; }
   T time() const { return number(0); }
   // Of a FIELD: number k of disp and of velo, counted from 0.
@@ -440,7 +661,7 @@ class Call<double> : public CallOfStateEquations<Call<double>, double>, public C
   }
   double given(int k) const { return given_[static_cast<std::size_t>(k)]; }
   int id() const { return id_; }
-  double parameter(int k) const { return par_[k]; }
+  double parameter(int k) const { return k >= 0 && k < npar_ ? par_[k] : std::nan(""); }
   int parameters() const { return npar_; }
   double time() const { return time_; }
   double displacement(int k) const { return disp_[k]; }
@@ -507,6 +728,20 @@ void fill_course(const dynalin_course& c) {
     Formula{}(dynalin::user::Call<double>(*id, *time, par, *npar), value);                                            \
   }                                                                                                                   \
   extern "C" void name##_derivatives(const dynalin_course* course) { dynalin::user::fill_course<Formula>(*course); }
+
+// The same of a routine reqsub of a REQUEST, with eight values, of which those that are not written are 0; of sensub or
+// sevsub of a SENSOR, with one. Nobody asks for their derivatives.
+#define DYNALIN_USER_REQUEST(name, Formula)                                                               \
+  extern "C" void name(const int* id, const double* time, const double* par, const int* npar, const int*, \
+                       double* value) {                                                                   \
+    std::fill_n(value, 8, 0.0);                                                                           \
+    Formula{}(dynalin::user::Call<double>(*id, *time, par, *npar), value);                                \
+  }
+#define DYNALIN_USER_SENSOR(name, Formula)                                                                \
+  extern "C" void name(const int* id, const double* time, const double* par, const int* npar, const int*, \
+                       double* value) {                                                                   \
+    Formula{}(dynalin::user::Call<double>(*id, *time, par, *npar), value);                                \
+  }
 
 // The same of a routine gse_deriv, gse_output or gse_update of a GSE.
 #define DYNALIN_USER_STATE_EQUATIONS(name, Formula)                                                                   \

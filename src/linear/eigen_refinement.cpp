@@ -32,7 +32,8 @@ void improve_vectors(const EigenResiduals& residuals, EigenPairs& pairs) {
     const Member me{i, false};
     residuals.for_others(i, [&](const Member& j) {
       const Complex gap = value(pairs, me) - value(pairs, j);
-      if (8 * std::max(std::abs(residuals.g(j, me)), std::abs(residuals.g(me, j))) > std::abs(gap)) return;
+      // Nor where nothing tells two of them apart: equal values of parts that do not touch.
+      if (8 * std::max(std::abs(residuals.g(j, me)), std::abs(residuals.g(me, j))) >= std::abs(gap)) return;
       const Complex unit = residuals.unit(j.at), own = residuals.unit(i);
       (j.conjugate ? right_conjugate : right)(j.at, i) = residuals.g(j, me) / gap;
       // Rows of the inverse are y_jᴴ/(y_jᴴ x_j).

@@ -252,7 +252,7 @@ std::optional<std::vector<double>> CalledRoutines::constants_of(const WrittenArg
   WrittenArgument constants = call;
   constants.set_value(tokens.subspan(2, tokens.size() - 3));
   auto values = read_reals(constants, source, diagnostics_);
-  constexpr std::size_t most = 30;
+  constexpr std::size_t most = RoutineConstants::most;
   if (values && values->size() > most) {
     diagnostics_.error("wrong-count", constants.value_span(),
                        fmt::format("USER of {} has {} constants, and takes {} at most", label, values->size(), most),
@@ -303,7 +303,7 @@ bool CalledRoutines::keep_damping(const Statement& s, const WrittenArgument& cal
   auto what = says(s, &call);
   if (!what) return false;
   data_->damping[what->id] =
-      std::make_shared<const DampingRoutine>(std::move(found), what->label, what->id, std::move(what->parameters));
+      std::make_shared<const DampingRoutine>(std::move(found), what->label, what->id, what->parameters);
   return true;
 }
 

@@ -179,7 +179,7 @@ std::shared_ptr<const StateEquations> CalledRoutines::find_state_equations(const
   if (period) {
     auto constants = constants_of(*period, what->label);
     if (!constants) return nullptr;
-    what->parameters = std::move(*constants);
+    what->parameters = RoutineConstants(*constants);
   }
   const auto samples = made(s, at, std::move(sample), kinds.sample, 1, *what);
   if (!samples) return nullptr;

@@ -96,7 +96,7 @@ std::optional<RoutineStatement> CalledRoutines::says(const Statement& s, const W
   if (call) {
     auto constants = constants_of(*call, out.label);
     if (!constants) return std::nullopt;
-    out.parameters = std::move(*constants);
+    out.parameters = RoutineConstants(*constants);
   }
   out.I = integer(s, "I"), out.J = integer(s, "J"), out.RM = integer(s, "RM"), out.JFLOAT = integer(s, "JFLOAT");
   out.action_only = argument(s, "ACTIONONLY") != nullptr;

@@ -20,8 +20,8 @@ constexpr std::array<double, 3> no_deformation = {unknown_value, unknown_value, 
 
 void call_with_addresses(void* address, RoutineArguments arguments, const RoutineStatement& s,
                          const RoutineArgumentsNow& now, double* values) {
-  const auto npar = static_cast<int>(s.parameters.size());
-  const double* par = s.constants();
+  const auto npar = s.parameters.count();
+  const double* par = s.parameters.data();
   switch (arguments) {
     case RoutineArguments::function:
     case RoutineArguments::of_time:
@@ -81,8 +81,8 @@ union WhatItSays {
 };
 
 WhatItSays what_it_says(std::string_view statement, const RoutineStatement& s) {
-  const auto npar = static_cast<int>(s.parameters.size());
-  const double* par = s.constants();
+  const auto npar = s.parameters.count();
+  const double* par = s.parameters.data();
   WhatItSays all{};
   all.variable = {s.id, npar, par, s.initial};
   if (statement == "SFORCE")
@@ -170,11 +170,11 @@ void call_routine(const FoundRoutine& found, const RoutineKind& kind, const Rout
 
 void call_state_partials(const FoundRoutine& found, const RoutineStatement& s, const RoutineArgumentsNow& now,
                          double* matrix) {
-  const auto npar = static_cast<int>(s.parameters.size());
+  const auto npar = s.parameters.count();
   if (found.convention == RoutineConvention::addresses) {
     return as<void(const int*, const double*, const double*, const int*, const int*, const int*, const double*,
                    const int*, const double*, const int*, double*)>(found.address)(
-        &s.id, &now.time, s.constants(), &npar, &now.iflag, &s.gse->NS, now.states.data(), &s.gse->NI,
+        &s.id, &now.time, s.parameters.data(), &npar, &now.iflag, &s.gse->NS, now.states.data(), &s.gse->NI,
         now.inputs.data(), &s.gse->NO, matrix);
   }
   const WhatItSays all = what_it_says("GSE", s);

@@ -86,7 +86,7 @@ CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, st
     try {
       call(0, 0, iflag, ignored.data());
     } catch (...) {
-      asking.fail("it threw an exception when it was asked what it reads");
+      asking.fail(caught_exception() + " when it was asked what it reads");
     }
     if (problem_.empty()) problem_ = asking.failure;
   }
@@ -114,11 +114,13 @@ CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, st
   // A trial at zero: what counts is whether it gives them, not what they are there.
   std::vector<double> at_zero(requests_.inputs.size()), partials(values_ * at_zero.size());
   std::vector<char> given(at_zero.size());
-  evaluate(at_zero, ignored, partials, given);
+  std::string miscount;
+  evaluate(at_zero, ignored, partials, given, &miscount);
   const auto missing = std::find(given.begin() + 2, given.end(), 0);
   gives_derivatives_ = missing == given.end();
   if (gives_derivatives_) return;
-  lack_of_derivatives_ = "gives no derivatives";
+  lack_of_derivatives_ = miscount.empty() ? "gives no derivatives" : miscount;
+  if (!miscount.empty()) return;
   const auto told = std::count_if(given.begin() + 2, given.end(), [](char g) { return g != 0; });
   if (told <= static_cast<std::ptrdiff_t>(constants_.size())) return;
   lack_of_derivatives_ = "gives no derivative by " + input_text(static_cast<std::size_t>(missing - given.begin()));
@@ -139,12 +141,14 @@ RoutineContext CompiledRoutine::context(RoutineContext::Phase phase) const {
 }
 
 std::string CompiledRoutine::evaluate(std::span<const double> inputs, std::span<double> values,
-                                      std::span<double> partials, std::span<char> given) const {
+                                      std::span<double> partials, std::span<char> given, std::string* miscount) const {
   RoutineContext c = context(RoutineContext::Phase::evaluating);
   c.inputs = inputs;
   c.partials = partials;
   c.given = given;
-  std::fill(values.begin(), values.end(), unknown_value);
+  // Whoever makes a table for a REQUEST may leave some of its columns out.
+  const bool is_table = kind_->arguments == RoutineArguments::plain && values_ > 1;
+  std::fill(values.begin(), values.end(), is_table ? 0.0 : unknown_value);
   const bool derivatives = !partials.empty() && kind_->arguments != RoutineArguments::of_time;
   const RoutineContext::Scope scope(c, what_.c_str());
   try {
@@ -156,11 +160,12 @@ std::string CompiledRoutine::evaluate(std::span<const double> inputs, std::span<
       std::fill(given.begin() + first_given, given.end(), true);
     }
   } catch (...) {
-    c.fail("it threw an exception");
+    c.fail(caught_exception());
   }
   if (!given.empty()) {
     for (const std::int32_t k : constants_) given[static_cast<std::size_t>(k)] = true;
   }
+  if (miscount) *miscount = c.miscount;
   if (!c.failure.empty()) std::fill(values.begin(), values.end(), unknown_value);
   return c.failure;
 }
@@ -177,8 +182,8 @@ std::string CompiledRoutine::evaluate_course(std::span<const double> inputs, int
   std::fill(values.begin(), values.end(), unknown_value);
   std::fill(partials.begin(), partials.end(), unknown_value);
   const dynalin_course course = {statement_.id,
-                                 static_cast<int>(statement_.parameters.size()),
-                                 statement_.constants(),
+                                 statement_.parameters.count(),
+                                 statement_.parameters.data(),
                                  static_cast<int>(requests_.inputs.size()),
                                  static_cast<int>(values_),
                                  order,
@@ -189,7 +194,7 @@ std::string CompiledRoutine::evaluate_course(std::span<const double> inputs, int
   try {
     found_.derivatives(&course);
   } catch (...) {
-    c.fail("it threw an exception");
+    c.fail(caught_exception());
   }
   return c.failure;
 }
@@ -271,8 +276,10 @@ void CompiledRoutine::fill_course(CourseMemory& m) const {
     try {
       for (int order = 0; order < 3; ++order) call(at[0], order, 0, &course[static_cast<std::size_t>(order)]);
     } catch (...) {
-      c.fail("it threw an exception");
+      c.fail(caught_exception());
     }
+    if (RoutineFindings* findings = RoutineFindings::current(); findings && c.failure.empty())
+      doubt_motion(at[0], course, *findings);
     m.values[0] = c.failure.empty() ? Taylor(course[0], course[1], course[2]) : Taylor(unknown_value);
     return;
   }
@@ -304,6 +311,7 @@ const CompiledRoutine::CourseMemory& CompiledRoutine::remembered(const RoutineIn
   if (memory.serial == serial_ && same_bits(memory.inputs, inputs)) return memory;
   memory.serial = serial_;
   memory.inputs = inputs;
+  memory.findings = {};
   memory.values.assign(values_, Taylor(unknown_value));
   memory.partials.assign(values_ * read.size(), Taylor(0.0));
   fill_course(memory);
@@ -316,7 +324,10 @@ TimeTaylor<double> CompiledRoutine::value(const RoutineInputs<Taylor>& inputs, s
 
 std::span<const TimeTaylor<double>> CompiledRoutine::partials(const RoutineInputs<Taylor>& inputs,
                                                               std::size_t which) const {
-  return std::span(remembered(inputs).partials).subspan(which * inputs.size(), inputs.size());
+  const CourseMemory& memory = remembered(inputs);
+  RoutineFindings* findings = RoutineFindings::current();
+  if (findings && memory.inputs[3] == linear_mode) findings->add(memory.findings);
+  return std::span(memory.partials).subspan(which * inputs.size(), inputs.size());
 }
 
 std::string CompiledRoutine::reason_of_value(std::span<const double> inputs) const {

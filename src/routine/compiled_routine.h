@@ -13,6 +13,7 @@
 
 #include "expression/routine.h"
 #include "routine/differences.h"
+#include "routine/routine_constants.h"
 #include "routine/routine_context.h"
 #include "routine/routine_kinds.h"
 #include "routine/routine_library.h"
@@ -20,6 +21,7 @@
 namespace dynalin {
 
 struct RoutineArgumentsNow;
+struct RoutineFindings;
 struct RoutineData;
 
 enum class RoutineDifferences : std::uint8_t { not_in_linear_models, everywhere };
@@ -28,12 +30,7 @@ enum class RoutineDifferences : std::uint8_t { not_in_linear_models, everywhere 
 struct RoutineStatement {
   std::string label;  // "SFORCE/3"
   int id = 0;
-  std::vector<double> parameters;
-  // Never null: some routines look at the first before they ask how many there are.
-  const double* constants() const {
-    static constexpr double none = 0;
-    return parameters.empty() ? &none : parameters.data();
-  }
+  RoutineConstants parameters{};
   int I = 0, J = 0, RM = 0, JFLOAT = 0;
   bool action_only = false, rotation = false, static_hold = false, implicit = false;
   double initial = 0, initial_rate = 0;
@@ -112,6 +109,7 @@ class CompiledRoutine final : public Routine {
   struct Memory;        // of the last call in this thread
   struct CourseMemory;  // the same along the motion
   void call(double time, int flag, int iflag, double* values) const;
+  void call_with_arguments(double time, int flag, int iflag, double* values) const;
   void call_field(RoutineArgumentsNow, double* values) const;
   void call_coupler(RoutineArgumentsNow, const FoundRoutine&, double* values) const;
   // Along the motion, from the routines of first and second derivatives.
@@ -123,13 +121,17 @@ class CompiledRoutine final : public Routine {
   void call_partials(double time, std::span<double> partials, std::span<char> given) const;
   // All values, and with partials those too; says why there are none.
   std::string evaluate(std::span<const double> inputs, std::span<double> values, std::span<double> partials,
-                       std::span<char> given) const;
+                       std::span<char> given, std::string* miscount = nullptr) const;
   std::string evaluate_course(std::span<const double> inputs, int order, std::span<double> values,
                               std::span<double> partials) const;
   std::vector<Slope> slopes(std::span<const double> inputs, std::size_t input) const;
   void difference(std::size_t input, Memory&) const;
-  // Holds derivatives that the routine gives against differences.
+  // Hold derivatives that the routine gives against differences: of a COUPLER its first and second ones, of a MOTION
+  // those by time, at some times of a run.
   void doubt_given(Memory&) const;
+  void doubt_coupler(std::span<const double> inputs, std::span<const double> slopes, std::span<const double> curvatures,
+                     RoutineFindings&) const;
+  void doubt_motion(double time, std::span<const double> course, RoutineFindings&) const;
   std::string input_text(std::size_t input) const;  // "VX(20, 1)"
   bool may_difference(double mode) const;
   const Memory& remembered(const RoutineInputs<double>&, bool with_partials) const;

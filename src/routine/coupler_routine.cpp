@@ -46,10 +46,11 @@ void CompiledRoutine::fill_course_of_coupler(CourseMemory& m) const {
       call_coupler({at[0], 0, 0, 1}, state_partials_.first, slopes.data());
       call_coupler({at[0], 0, 0, 1}, state_partials_.second, curvatures.data());
     } catch (...) {
-      c.fail("it threw an exception");
+      c.fail(caught_exception());
     }
   }
   if (!c.failure.empty()) value = unknown_value;
+  if (c.failure.empty() && at[1] == linear_mode) doubt_coupler(at, slopes, curvatures, m.findings);
   const auto rate = [&](std::size_t k) { return m.inputs[3 * (first_given + k) + 1]; };
   const auto acceleration = [&](std::size_t k) { return m.inputs[3 * (first_given + k) + 2]; };
   Taylor& f = m.values[0];

@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "routine/routine_context.h"
 #include "routine/utilities.h"
 
 namespace dynalin {
 
-DampingRoutine::DampingRoutine(FoundRoutine found, std::string label, int id, std::vector<double> parameters)
-    : found_(std::move(found)), id_(id), parameters_(std::move(parameters)) {
+DampingRoutine::DampingRoutine(FoundRoutine found, std::string label, int id, const RoutineConstants& parameters)
+    : found_(std::move(found)), id_(id), parameters_(parameters) {
   keep_utilities();
   what_ = fmt::format("the routine {} of {}, called for {}", found_.name, found_.library->file(), label);
 }
@@ -35,9 +36,8 @@ std::string DampingRoutine::call(double time, double step, std::span<const doubl
   RoutineContext c;
   c.requests = &nothing, c.inputs = time_and_mode, c.values = out.size();
   const RoutineContext::Scope scope(c, what_.c_str());
-  const auto npar = static_cast<int>(parameters_.size()), modes = static_cast<int>(out.size());
-  static constexpr double none = 0;
-  const double* par = parameters_.empty() ? &none : parameters_.data();
+  const int npar = parameters_.count(), modes = static_cast<int>(out.size());
+  const double* par = parameters_.data();
   try {
     if (found_.convention == RoutineConvention::addresses) {
       using Signature =
@@ -50,7 +50,7 @@ std::string DampingRoutine::call(double time, double step, std::span<const doubl
       reinterpret_cast<Signature*>(found_.address)(&statement, time, frequencies.data(), modes, step, out.data());
     }
   } catch (...) {
-    c.fail("it threw an exception");
+    c.fail(caught_exception());
   }
   return c.failure;
 }

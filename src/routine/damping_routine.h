@@ -3,8 +3,8 @@
 
 #include <span>
 #include <string>
-#include <vector>
 
+#include "routine/routine_constants.h"
 #include "routine/routine_library.h"
 
 namespace dynalin {
@@ -12,7 +12,7 @@ namespace dynalin {
 class DampingRoutine {
  public:
   // `label` and `id` are of the FLEX_BODY, `parameters` the constants of its USER(…).
-  DampingRoutine(FoundRoutine, std::string label, int id, std::vector<double> parameters);
+  DampingRoutine(FoundRoutine, std::string label, int id, const RoutineConstants& parameters);
 
   // By the frequencies of the modes in cycles per second, ascending. Says why there are no ratios: the routine's own
   // words, or that they change with time, as the damping of a body here does not.
@@ -25,7 +25,7 @@ class DampingRoutine {
   FoundRoutine found_;
   std::string what_;
   int id_;
-  std::vector<double> parameters_;
+  RoutineConstants parameters_;
 };
 
 }  // namespace dynalin

@@ -1,4 +1,6 @@
 // What a routine is given as arguments at this moment, by the kind of its statement.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,7 +33,24 @@ ReadArray read_array(const RoutineContext& c, int array, int size) {
 
 }  // namespace
 
+// Values that a routine writes beyond its own would be somebody else's: there is room behind them, and it is looked at.
 void CompiledRoutine::call(double time, int flag, int iflag, double* values) const {
+  constexpr std::size_t room = 64;
+  constexpr double untouched = -6.0221407e-301;
+  thread_local std::vector<double> guarded;
+  guarded.assign(values_ + room, untouched);
+  std::copy_n(values, values_, guarded.begin());
+  call_with_arguments(time, flag, iflag, guarded.data());
+  std::copy_n(guarded.begin(), values_, values);
+  const auto beyond = std::span(guarded).subspan(values_);
+  if (std::ranges::all_of(beyond, [](double v) { return v == untouched; })) return;
+  const auto last = std::find_if(beyond.rbegin(), beyond.rend(), [](double v) { return v != untouched; });
+  RoutineContext::current()->fail(fmt::format("it writes {} values, and {} has {}",
+                                              values_ + static_cast<std::size_t>(beyond.rend() - last),
+                                              statement_.label, values_));
+}
+
+void CompiledRoutine::call_with_arguments(double time, int flag, int iflag, double* values) const {
   RoutineArgumentsNow now{time, flag, iflag, static_cast<int>(values_)};
   if (kind_->arguments == RoutineArguments::field) return call_field(now, values);
   if (kind_->arguments == RoutineArguments::coupler) return call_coupler(now, found_, values);

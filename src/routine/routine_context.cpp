@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <utility>
 
 namespace dynalin {
@@ -68,6 +69,19 @@ RoutineContext* RoutineContext::current() { return at_work; }
 std::string_view RoutineContext::what() {
   const char* what = what_is_at_work;
   return what ? what : "";
+}
+
+RoutineContext::Named::Named(const char* what) : before_(what_is_at_work) { what_is_at_work = what; }
+RoutineContext::Named::~Named() { what_is_at_work = before_; }
+
+std::string caught_exception() {
+  try {
+    throw;
+  } catch (const std::exception& e) {
+    return fmt::format("it threw an exception: {}", e.what());
+  } catch (...) {
+    return "it threw an exception";
+  }
 }
 
 RoutineContext::Scope::Scope(RoutineContext& context, const char* what)

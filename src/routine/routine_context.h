@@ -43,6 +43,7 @@ class RoutineContext {
   std::span<double> partials;
   std::span<char> given;
   std::string failure;
+  std::string miscount;  // of partial derivatives, which are not taken then
 
   bool wants_partials() const { return !partials.empty(); }
   // Null, with the failure noted, if there is no such quantity or it was not asked for in time.
@@ -57,6 +58,17 @@ class RoutineContext {
   static RoutineContext* current();
   // "the routine sfosub of friction.so, called for SFORCE/3", empty if none is.
   static std::string_view what();
+  // Says who is at work as long as it lives, where a library runs before any routine of it.
+  class Named {
+   public:
+    explicit Named(const char* what);
+    ~Named();
+    Named(const Named&) = delete;
+    Named& operator=(const Named&) = delete;
+
+   private:
+    const char* before_;
+  };
   // Makes one current as long as it lives. `what` names statement and routine if the process dies in it; it must
   // outlive this.
   class Scope {
@@ -75,6 +87,9 @@ class RoutineContext {
   const RoutineRequest* ask(std::string_view name, std::span<const int> ids, bool single);
   mutable std::size_t next_ = 0;  // routines ask in the same order each time
 };
+
+// In a handler of any exception: "it threw an exception", and what that says.
+std::string caught_exception();
 
 // From now on a signal that kills the process in a routine says first which one that was, on the standard error
 // output, and a routine that ends the process by itself counts as one that crashed. For programs; a library leaves

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "routine/routine_context.h"
+
 namespace dynalin {
 
 namespace {
@@ -27,6 +29,8 @@ RoutineConvention convention_of(std::string_view name) {
 std::shared_ptr<const RoutineLibrary> RoutineLibrary::load(const std::string& file, std::string& reason) {
   // Without a slash the loader would look for it elsewhere.
   const std::string path = file.find('/') == std::string::npos ? "./" + file : file;
+  const std::string loading = "what " + file + " does when it is loaded";
+  const RoutineContext::Named named(loading.c_str());
   void* handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) {
     const char* why = ::dlerror();

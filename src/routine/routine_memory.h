@@ -25,6 +25,7 @@ struct CompiledRoutine::Memory {
 // The same along the motion.
 struct CompiledRoutine::CourseMemory {
   std::uint64_t serial = 0;
+  RoutineFindings findings;    // of its partial derivatives
   std::vector<double> inputs;  // [3 input + derivative]
   std::vector<Taylor> values, partials;
 };

@@ -3,9 +3,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
+#include "routine/call_routine.h"
 #include "routine/differences.h"
+#include "routine/given_inputs.h"
 #include "routine/routine_memory.h"
 
 namespace dynalin {
@@ -38,23 +42,93 @@ void CompiledRoutine::difference(std::size_t input, Memory& memory) const {
   }
 }
 
+namespace {
+
+// Whether a slope says something else than the derivative that was given, by more than either is known.
+bool contradicts(const Slope& slope, double given) {
+  constexpr double unlike = 1e-3;
+  const double size = std::max(std::abs(given), std::abs(slope.value)), off = std::abs(given - slope.value);
+  if (!slope.agreed || !(off > unlike * size + 4 * slope.error + slope.unseen)) return false;
+  return slope.half_kink == 0 || off > 1.01 * std::abs(slope.half_kink);  // one side, or between both
+}
+
+}  // namespace
+
 // A wrong derivative has eigenvalues with narrow bounds like a right one: what differences contradict is said.
 void CompiledRoutine::doubt_given(Memory& memory) const {
   if (!found_ || memory.inputs[1] != linear_mode) return;
-  constexpr double unlike = 1e-3;
   const std::size_t n = memory.inputs.size();
   for (std::size_t k = 2; k < n; ++k) {
     if (!memory.given[k] || std::ranges::binary_search(constants_, static_cast<std::int32_t>(k))) continue;
     const std::vector<Slope> slope = slopes(memory.inputs, k);
     for (std::size_t v = 0; v < values_; ++v) {
-      const double given = memory.partials[v * n + k], size = std::max(std::abs(given), std::abs(slope[v].value));
-      const double off = std::abs(given - slope[v].value);
-      if (!slope[v].agreed || !(off > unlike * size + 4 * slope[v].error + slope[v].unseen)) continue;
-      if (slope[v].half_kink != 0 && off <= 1.01 * std::abs(slope[v].half_kink)) continue;  // one side, or between both
+      const double given = memory.partials[v * n + k];
+      if (!contradicts(slope[v], given)) continue;
       memory.findings.wrong_partials.insert(
           fmt::format("{} gives {:.6g} as its derivative by {}, and its values change by {:.6g}", what_, given,
                       input_text(k), slope[v].value));
     }
+  }
+}
+
+void CompiledRoutine::doubt_coupler(std::span<const double> inputs, std::span<const double> first,
+                                    std::span<const double> second, RoutineFindings& findings) const {
+  const auto said = [&](const char* which, double given, const std::string& by, const char* what, double found) {
+    findings.wrong_partials.insert(
+        fmt::format("{} has {:.6g} as {} by {}, and {} changes by {:.6g}", what_, given, which, by, what, found));
+  };
+  const auto displacement = [](std::size_t k) { return fmt::format("displacement {}", k + 1); };
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    const Slope slope = slopes(inputs, first_given + k).front();
+    if (contradicts(slope, first[k])) said("its derivative", first[k], displacement(k), "its value", slope.value);
+    std::vector<double> moved(inputs.begin(), inputs.end());
+    const auto gradient = [&](double x, std::span<double> values) {
+      moved[first_given + k] = x;
+      std::ranges::fill(values, unknown_value);
+      RoutineContext c = context(RoutineContext::Phase::evaluating);
+      c.inputs = moved;
+      const RoutineContext::Scope scope(c, what_.c_str());
+      try {
+        call_coupler({moved[0], 0, 0, 1}, state_partials_.first, values.data());
+      } catch (...) {
+        c.fail(caught_exception());
+      }
+    };
+    const std::vector<Slope> of_gradient = extrapolated_slope(gradient, inputs[first_given + k], first.size());
+    for (std::size_t l = 0; l < first.size(); ++l) {
+      const double given = second[l + first.size() * k];
+      if (contradicts(of_gradient[l], given))
+        said("its second derivative", given, displacement(l) + " and " + displacement(k), "the first one",
+             of_gradient[l].value);
+    }
+  }
+}
+
+void CompiledRoutine::doubt_motion(double time, std::span<const double> course, RoutineFindings& findings) const {
+  const auto [found, fresh] = findings.motions.try_emplace(serial_, RoutineFindings::Times{time, time});
+  RoutineFindings::Times& times = found->second;
+  if (!fresh && !(time > times.next)) return;
+  times.next = times.first + 1.5 * (time - times.first);
+  const auto lower_orders = [&](double t, std::span<double> values) {
+    std::ranges::fill(values, unknown_value);
+    const std::array<double, 2> at = {t, 0};
+    RoutineContext c = context(RoutineContext::Phase::evaluating);
+    c.inputs = at;
+    const RoutineContext::Scope scope(c, what_.c_str());
+    try {
+      for (int order = 0; order < 2; ++order) call(t, order, 0, &values[static_cast<std::size_t>(order)]);
+    } catch (...) {
+      c.fail(caught_exception());
+    }
+  };
+  const std::vector<Slope> slope = extrapolated_slope(lower_orders, time, 2);
+  for (std::size_t order = 1; order < 3; ++order) {
+    if (!contradicts(slope[order - 1], course[order])) continue;
+    findings.wrong_partials.insert(
+        fmt::format("{} gives {:.6g} as derivative {} at TIME {:.6g}, and {} changes by {:.6g}", what_, course[order],
+                    order, time, order == 1 ? "its value" : "derivative 1", slope[order - 1].value));
+    times.next = std::numeric_limits<double>::infinity();  // once is enough
+    return;
   }
 }
 

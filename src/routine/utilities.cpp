@@ -39,15 +39,21 @@ void read(std::string_view name, const int* ipar, int nsize, bool single, double
   for (std::size_t k = 0; k < r->inputs.size(); ++k) out[k] = input_value(*c, r->inputs[k]);
 }
 
-void give_partials(RoutineContext& c, std::span<const std::int32_t> inputs, const double* partial, int count) {
-  if (!c.wants_partials()) return;
-  const std::size_t given = static_cast<std::size_t>(std::max(count, 0)) / c.values;
-  for (std::size_t s = 0; s < std::min(inputs.size(), given); ++s) {
+// Whether there are as many as there ought to be: one for each value and each input.
+bool give_partials(RoutineContext& c, std::string_view name, std::span<const std::int32_t> inputs,
+                   const double* partial, int count) {
+  if (const std::size_t wanted = inputs.size() * c.values; count < 0 || static_cast<std::size_t>(count) != wanted) {
+    c.miscount = fmt::format("tells {} partial derivatives by {}, and there are {}", count, name, wanted);
+    return false;
+  }
+  if (!c.wants_partials()) return true;
+  for (std::size_t s = 0; s < inputs.size(); ++s) {
     const auto input = static_cast<std::size_t>(inputs[s]);
     // What is asked for twice depends on the sum of both.
     for (std::size_t v = 0; v < c.values; ++v) c.partials[v * c.inputs.size() + input] += partial[v + c.values * s];
     c.given[input] = true;
   }
+  return true;
 }
 
 void give(std::string_view name, const int* ipar, int nsize, const double* partial, int count, int* errflg) {
@@ -57,15 +63,13 @@ void give(std::string_view name, const int* ipar, int nsize, const double* parti
   const auto ids = ids_of(ipar, nsize);
   if (ids.empty() && (name == "TIME" || name == "time")) {
     constexpr std::array<std::int32_t, 1> time = {0};
-    give_partials(*c, time, partial, count);
-    *errflg = 0;
+    *errflg = !give_partials(*c, "TIME", time, partial, count);
     return;
   }
   const RoutineRequest* r = c->known(name, ids, false);
   if (!r) r = c->known(name, ids, true);
   if (!r) return;
-  give_partials(*c, r->inputs, partial, count);
-  *errflg = 0;
+  *errflg = !give_partials(*c, name, r->inputs, partial, count);
 }
 
 // Of the GSE at work: 0 where none is.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "routine/routine_findings.h"
 #include "simulation/dynamics.h"
 #include "simulation/kinematics.h"
 #include "simulation/quasi_statics.h"
@@ -55,7 +56,10 @@ StudyResult<SimulatedPoint> simulate(StudyPoint from, const SimulationRequest& r
                               "SIMULATE/KINEMATICS finds it exactly");
   }
   result.point.statics.reset();
+  RoutineFindings routines;
+  const RoutineFindings::Scope watched(routines);
   auto advanced = advance(system, request, freedoms, watch, result, findings);
+  for (const std::string& wrong : routines.wrong_partials) findings.warnings.warning("wrong-derivative", {}, wrong);
   result.remarks.append(std::move(findings.warnings));
   if (!advanced) return tl::unexpected(StudyFailure(advanced.error(), std::move(result.remarks)));
   result.point.values = std::move(advanced->point);

@@ -247,5 +247,39 @@ TEST_F(FrictionCases, surfaces_give_way_in_statics_until_bristles_bear_the_load)
   }
 }
 
+// A slip of 1e-8 one way or the other is what the integrator leaves of none: the linear model is that of the
+// equilibrium.
+TEST_F(FrictionCases, that_has_come_to_rest_has_one_linear_model) {
+  const auto block = [](const char* law, const char* force) {
+    return std::string(
+               "Block\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-10\nPART/1, GROUND\nMARKER/1\n"
+               "MARKER/11, REULER=90D,90D,0\nPART/2, MASS=2, CM=2, IP=1,1,1\nMARKER/2, REULER=90D,90D,0\n"
+               "JOINT/1, TRANSLATIONAL, I=2, J=11\nSFORCE/1, TRANSLATION, I=2, J=11, ACTIONONLY, FUNCTION=") +
+           force + "\nFRICTION/1, JOINT=1, MU_STATIC=0.5, MU_DYNAMIC=0.5" + law + "\nEND\n";
+  };
+  const char* lugre = ", FORMULATION=LUGRE, BRISTLE_STIFFNESS_COEFFICIENT=30, DAMPING_COEFFICIENT=0.5";
+  struct Row {
+    const char *law, *load, *grown;
+  };
+  for (const Row& row : {Row{lugre, "6", "STEP(TIME,0,0,1,6)"}, Row{"", "9.95", "STEP(TIME,0,0,1,9.95)"}}) {
+    const RunResult still = run(block(row.law, row.load), "SIMULATE/STATICS\nLINEAR/EIGENSOL\n");
+    const RunResult moved = run(block(row.law, row.grown),
+                                "SIMULATE/DYNAMICS, END=6, STEPS=6\nLINEAR/EIGENSOL\nSIMULATE/DYNAMICS, END=7, "
+                                "STEPS=1\nLINEAR/EIGENSOL\nSIMULATE/DYNAMICS, END=60, STEPS=5\nLINEAR/EIGENSOL\n");
+    ASSERT_EQ(still.status, 0) << still.err;
+    ASSERT_EQ(moved.status, 0) << moved.err;
+    const auto expected = still.eigenvalues(1);
+    double frequency = 0;
+    for (const auto& e : expected) frequency = std::max(frequency, e.imag());
+    EXPECT_GT(frequency, 1);
+    for (const std::size_t k : {1u, 3u, 5u}) {
+      const auto found = moved.eigenvalues(k);
+      ASSERT_EQ(found.size(), expected.size());
+      for (std::size_t e = 0; e < found.size(); ++e)
+        EXPECT_LE(std::abs(found[e] - expected[e]), 1e-3 * frequency) << row.load << " " << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dynalin::cases::friction_test

@@ -52,3 +52,15 @@ void swings(const int* id, const double* time, const double* par, const int* npa
   (void)id, (void)npar, (void)iflag;
   *value = held(par, disp, *ndisp) + 0.01 * sin(*time);
 }
+/* Derivatives that are none of cousub: the second of the first ones is too large by a fifth, or the whole matrix negative. */
+void wrong_first(const int* id, const double* time, const double* par, const int* npar, const double* disp,
+                 const int* ndisp, const int* iflag, double* value) {
+  couxx(id, time, par, npar, disp, ndisp, iflag, value);
+  value[1] *= 1.2;
+}
+void wrong_second(const int* id, const double* time, const double* par, const int* npar, const double* disp,
+                  const int* ndisp, const int* iflag, double* value) {
+  int k;
+  couxx2(id, time, par, npar, disp, ndisp, iflag, value);
+  for (k = 0; k < *ndisp * *ndisp; ++k) value[k] *= -1;
+}

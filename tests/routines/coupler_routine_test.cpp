@@ -10,6 +10,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // A wheel that turns against a torsion spring, a slider in its own spring and a third one; what is held has slopes and
 // second derivatives that the springs and weights make felt.
@@ -140,6 +141,20 @@ TEST_F(CouplerRoutines, that_cannot_be_say_why) {
   EXPECT_THAT(said(two + ", SCALES=1,2"), HasSubstr("takes SCALES or FUNCTION, not both"));
   EXPECT_THAT(said("COUPLER/1, JOINTS=1,2, FUNCTION=3"), AllOf(HasSubstr("[unknown-word]"), HasSubstr("USER(")));
   EXPECT_THAT(said("COUPLER/1, JOINTS=1,2"), AllOf(HasSubstr("[missing-argument]"), HasSubstr("needs SCALES")));
+}
+
+TEST_F(CouplerRoutines, with_derivatives_that_are_not_those_of_their_values_are_named) {
+  const auto said = [&](const std::string& routines) {
+    const RunResult r =
+        with(model + two + ", ROUTINE=coupler::cousub," + routines + "\n", {"LINEAR/EIGENSOL", "LINEAR/EIGENSOL"});
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.err;
+  };
+  EXPECT_THAT(said("couxx,couxx2"), Not(HasSubstr("wrong-derivative")));
+  EXPECT_THAT(said("wrong_first,couxx2"), AllOf(HasSubstr("wrong-derivative"), HasSubstr("called for COUPLER/1 has"),
+                                                HasSubstr("as its derivative by displacement 2")));
+  EXPECT_THAT(said("couxx,wrong_second"), AllOf(HasSubstr("wrong-derivative"),
+                                                HasSubstr("second derivative by displacement 2 and displacement 2")));
 }
 
 }  // namespace

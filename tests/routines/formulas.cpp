@@ -12,6 +12,30 @@ struct Spring {
 };
 DYNALIN_USER_ROUTINE(spring_by_formula, Spring)
 
+// Drag by the square of the speed. Nothing but the header is included here: abs is that of numbers.
+struct Drag {
+  template <class T>
+  void operator()(const dynalin::user::Call<T>& call, T* value) const {
+    const T v = call.measure("VX", {20, 1, 1, 1});
+    value[0] = -call.parameter(0) * abs(v) * v;
+  }
+};
+DYNALIN_USER_ROUTINE(drag_by_formula, Drag)
+
+// Three columns of eight, and what a sensor watches.
+struct Columns {
+  void operator()(const dynalin::user::Call<double>& call, double* value) const {
+    value[0] = call.time(), value[2] = call.measure("VX", {20, 1, 1, 1}), value[5] = call.parameter(0);
+  }
+};
+DYNALIN_USER_REQUEST(columns_by_formula, Columns)
+struct Watched {
+  void operator()(const dynalin::user::Call<double>& call, double* value) const {
+    value[0] = call.time() * call.parameter(0);
+  }
+};
+DYNALIN_USER_SENSOR(watched_by_formula, Watched)
+
 // All six components in one, as smooth functions of a whole list of measures.
 struct Wrench {
   template <class T>

@@ -483,3 +483,38 @@ void named_by_text(const int* id, const double* time, const double* par, const i
   c_syspar(name, at, 3, &slope, 1, &error);
   *value = slope * x;
 }
+
+/* The time cubed for every order. */
+void forgetful_motion(const int* id, const double* time, const double* par, const int* npar, const int* iord,
+                      const int* iflag, double* value) {
+  (void)id, (void)par, (void)npar, (void)iord, (void)iflag;
+  *value = *time * *time * *time;
+}
+/* The same with its derivatives. */
+void cubic_motion(const int* id, const double* time, const double* par, const int* npar, const int* iord,
+                  const int* iflag, double* value) {
+  const double t = *time;
+  (void)id, (void)par, (void)npar, (void)iflag;
+  *value = *iord == 0 ? t * t * t : *iord == 1 ? 3 * t * t : 6 * t;
+}
+/* -DX of marker 20, whose derivative it tells as par[0] numbers. */
+void miscounted(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                const int* iflag, double* value) {
+  const int marker = 20;
+  const double partials[6] = {-1, 0, 0, 0, 0, 0};
+  double x;
+  int error, wanted;
+  (void)time, (void)npar, (void)dflag, (void)iflag;
+  c_sysfnc("DX", &marker, 1, &x, &error);
+  c_adams_needs_partials(&wanted);
+  if (wanted) c_syspar("DX", &marker, 1, partials, (int)par[0], &error);
+  *value = -x;
+  (void)id;
+}
+/* Writes par[0] values. */
+void overflowing(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                 const int* iflag, double* values) {
+  int k;
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  for (k = 0; k < (int)par[0]; ++k) values[k] = 0.5;
+}

@@ -191,7 +191,8 @@ void clock_update(const int* id, const double* time, const double* par, const in
   double xd[most];
   (void)id, (void)par, (void)npar, (void)dflag, (void)iflag;
   c_gse_xd(xd, *nd);
-  next[0] = *time, next[1] = xd[1] + 1;
+  next[0] = *time;
+  if (*nd > 1) next[1] = xd[1] + 1;
 }
 void gse_samp(const int* id, const double* time, const double* par, const int* npar, const int* iflag, double* step) {
   (void)id, (void)npar, (void)iflag;

@@ -10,6 +10,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::string driven =
     "Driven\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\n";
@@ -151,6 +152,76 @@ TEST_F(ModalDampingByRoutine, and_its_modes_are_known_to_other_routines) {
     EXPECT_EQ(values(dataset, 6 + k, 5).at(0), k + 1);
     EXPECT_NEAR(values(dataset, 9 + k, 5).at(0) / frequencies[static_cast<std::size_t>(k)], 1, 1e-9);
   }
+}
+
+// A slider that starts with some speed.
+const std::string sliding =
+    "Sliding\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, REULER=90D,90D,0\nPART/3, MASS=2, CM=20, IP=1,1,1, "
+    "VX=0.9\nMARKER/20\nMARKER/21, REULER=90D,90D,0\nJOINT/1, TRANSLATIONAL, I=21, J=2\n"
+    "REQUEST/1, F2=VX(20,1)\\\n";
+
+class FormulasInTime : public WithLibraries {};
+
+TEST_F(FormulasInTime, know_numbers_without_fractions_from_others) {
+  const std::vector<std::string> commands = {"SIMULATE/DYNAMICS, END=1, STEPS=10", "LINEAR/EIGENSOL"};
+  const std::string force = "SFORCE/1, TRANSLATION, ACTIONONLY, I=20, J=2, FUNCTION=";
+  const RunResult called =
+      with(sliding + force + "USER(5), ROUTINE=drag_by_formula\n", {CPP_ROUTINES}, false, commands);
+  // v' = −5/2 v², v = v0/(1 + 5/2 v0 t).
+  EXPECT_NEAR(requested(called, 0).at(0), 0.9 / (1 + 2.5 * 0.9), 1e-4);
+  expect_same(called, with(sliding + force + "-5*ABS(VX(20,1))*VX(20,1)\n", {CPP_ROUTINES}, false, commands), 1e-6, 1);
+}
+
+TEST_F(FormulasInTime, make_requests_and_sensors) {
+  const RunResult r = with(sliding +
+                               "REQUEST/2, FUNCTION=USER(7), ROUTINE=columns_by_formula\n"
+                               "SENSOR/1, FUNCTION=USER(2), ROUTINE=watched_by_formula, VALUE=0.7, GE, HALT\n",
+                           {CPP_ROUTINES}, false, {"SIMULATE/DYNAMICS, END=1, STEPS=10"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto values = r.result(0).at("operating_point").at("requests").at(1).at("values").get<std::vector<double>>();
+  ASSERT_EQ(values.size(), 8u);
+  EXPECT_NEAR(values[0], 0.35, 1e-9);
+  EXPECT_NEAR(values[2], 0.9, 1e-9);
+  EXPECT_EQ(values[5], 7);
+  EXPECT_EQ(values[1] + values[3] + values[4] + values[6] + values[7], 0);
+}
+
+// Orders that are not derivatives of each other: positions and velocities would contradict each other in silence.
+TEST_F(FormulasInTime, motions_that_forget_to_differentiate_are_named) {
+  const auto said = [&](const char* routine, const std::vector<std::string>& commands) {
+    const RunResult r =
+        with(sliding +
+                 "PART/4, MASS=1, CM=40, IP=1,1,1, QG=1,0,0\nMARKER/40\nSFORCE/1, TRANSLATION, I=40, J=20, "
+                 "FUNCTION=VX(40)\nMOTION/1, JOINT=1, FUNCTION=USER(1), ROUTINE=" +
+                 routine + "\n",
+             {C_ROUTINES}, false, commands);
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.err;
+  };
+  const std::vector<std::string> in_time = {"SIMULATE/DYNAMICS, END=1.5, STEPS=10"};
+  EXPECT_THAT(said("cubic_motion", in_time), Not(HasSubstr("wrong-derivative")));
+  EXPECT_THAT(said("forgetful_motion", in_time),
+              AllOf(HasSubstr("wrong-derivative"), HasSubstr("MOTION/1"), HasSubstr("as derivative 1 at TIME")));
+}
+
+class MiscountingRoutines : public WithLibraries {};
+
+TEST_F(MiscountingRoutines, are_told_what_they_counted) {
+  const std::string force = "SFORCE/1, TRANSLATION, ACTIONONLY, I=20, J=2, FUNCTION=USER(";
+  EXPECT_EQ(
+      with(driven + "MARKER/2, PART=1, REULER=90D,90D,0\n" + force + "1), ROUTINE=miscounted\n", {C_ROUTINES}).status,
+      0);
+  for (const char* count : {"0", "2", "6"}) {
+    const RunResult r =
+        with(driven + "MARKER/2, PART=1, REULER=90D,90D,0\n" + force + count + "), ROUTINE=miscounted\n", {C_ROUTINES});
+    EXPECT_NE(r.status, 0);
+    EXPECT_THAT(r.err, AllOf(HasSubstr("SFORCE/1"), HasSubstr(std::string("tells ") + count +
+                                                              " partial derivatives by DX, and there are 1: ")));
+  }
+  const RunResult r =
+      with(driven + "MARKER/2, PART=1, REULER=90D,90D,0\n" + force + "10), ROUTINE=overflowing\n", {C_ROUTINES}, true);
+  EXPECT_NE(r.status, 0);
+  EXPECT_THAT(r.err, AllOf(HasSubstr("SFORCE/1"), HasSubstr("it writes 10 values, and SFORCE/1 has 1")));
 }
 
 }  // namespace

@@ -100,15 +100,24 @@ T load(const JointFriction& f, const Vec3<T>& force, const Vec3<T>& torque, cons
 
 template <class T, std::size_t n>
 void take(const JointFriction& f, const T& load, const std::array<T, n>& u, const std::array<T, n>& z,
-          std::array<double, n> preload, std::array<double, n> lever, std::array<T, 3>& w, std::array<T, 3>& rate,
-          double& speed) {
-  speed = std::sqrt(squared(u).value);
+          std::array<double, n> preload, std::array<double, n> lever, std::array<T, 3>& w, std::array<T, 3>& rate) {
   const T pressed = product(load, f.law.coefficient(size_beside_itself(u)));
   const std::array<T, n> s = f.law.direction(u, z);
   for (std::size_t k = 0; k < n; ++k) w[k] = -(product(pressed, s[k]) * lever[k] + s[k] * preload[k]);
   if (!f.law.has_bristles()) return;
   const std::array<T, n> moves = f.law.creep_rate(u, z);
   for (std::size_t k = 0; k < n; ++k) rate[k] = moves[k];
+}
+
+// A slip that is none: what a simulation that has come to rest leaves of it has no direction, and the linear model is
+// that of bristles at rest.
+constexpr double no_slip = 1e-6;  // of the velocity up to which surfaces stick
+template <class T, std::size_t n>
+bool takes_rest(const JointFriction& f, std::array<T, n>& u) {
+  const double speed = std::sqrt(squared(u).value);
+  if (!(speed > 0) || !f.law.has_bristles() || speed > no_slip * f.law.stiction_velocity) return false;
+  for (T& x : u) x.value = 0;
+  return true;
 }
 
 }  // namespace
@@ -177,21 +186,31 @@ JointFrictionKernel::Evaluated JointFrictionKernel::evaluate(const Placed& p, co
   if (p.first_state >= 0 && at_rest(motion)) out.creep = creep_here(p, I, motion);
   const Vec3<D> axis = axis_of(f, I), w = turning(I);
   const D pressing = load(f, force, torque, axis, I.p.z.value);
+  const auto slips = [&]<std::size_t n>(std::array<D, n> u, std::array<D, n> z, std::array<double, n> preload,
+                                        std::array<double, n> lever) {
+    out.speed = std::sqrt(squared(u).value);
+    take<D, n>(f, pressing, u, z, preload, lever, out.w, out.creep_rate);
+    if (motion.mode != AnalysisMode::linear || !takes_rest(f, u)) return;
+    Values at_rest_w, at_rest_rate;
+    take<D, n>(f, pressing, u, z, preload, lever, at_rest_w, at_rest_rate);
+    for (std::size_t k = 0; k < n; ++k)
+      out.w[k].partial = at_rest_w[k].partial, out.creep_rate[k].partial = at_rest_rate[k].partial;
+  };
   const auto one = [&](const D& u, double preload) {
-    take<D, 1>(f, pressing, {u}, {creep(0)}, {preload}, {1.0}, out.w, out.creep_rate, out.speed);
+    slips(std::array{u}, std::array{creep(0)}, std::array{preload}, std::array{1.0});
   };
   switch (f.surface) {
     case FrictionSurface::slide:
       one(I.p.z.rate, f.force_preload);
       break;
     case FrictionSurface::sleeve:
-      take<D, 2>(f, pressing, {I.p.z.rate, f.pin_radius * w.z}, {creep(0), creep(1)},
-                 {f.force_preload, f.torque_preload}, {1.0, f.pin_radius}, out.w, out.creep_rate, out.speed);
+      slips(std::array{I.p.z.rate, f.pin_radius * w.z}, std::array{creep(0), creep(1)},
+            std::array{f.force_preload, f.torque_preload}, std::array{1.0, f.pin_radius});
       break;
     case FrictionSurface::ball: {
       const double r = f.ball_radius, T = f.torque_preload;
-      take<D, 3>(f, pressing, {r * w.x, r * w.y, r * w.z}, {creep(0), creep(1), creep(2)}, {T, T, T}, {1.0, 1.0, 1.0},
-                 out.w, out.creep_rate, out.speed);
+      slips(std::array{r * w.x, r * w.y, r * w.z}, std::array{creep(0), creep(1), creep(2)}, std::array{T, T, T},
+            std::array{1.0, 1.0, 1.0});
       break;
     }
     default:
