@@ -8,6 +8,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string_view>
@@ -93,7 +94,12 @@ int run(int argc, char** argv) {
         },
         fmt::format("from {}", least));
   };
-  const CLI::Validator named([](const std::string& name) { return name.empty() ? "its name is empty" : ""; }, "");
+  const CLI::Validator named(
+      [](const std::string& name) {
+        if (name.empty()) return std::string("its name is empty");
+        return name.starts_with("--") ? fmt::format("{} is an option; ./{} is a file of that name", name, name) : "";
+      },
+      "");
   const CLI::Validator finite(
       [](const std::string& text) {
         double value = 0;
@@ -185,6 +191,11 @@ int run(int argc, char** argv) {
       return run_prompt(options, lines, std::cout, std::cerr);
     }
     if (!has_piped_input()) {
+      std::error_code none;
+      if (!options.file.empty() && !std::filesystem::exists(options.file, none)) {
+        std::cerr << "error: " << options.file << " is no subcommand, and there is no such file\n";
+        return wrong_usage;
+      }
       std::cerr << app.help();
       hint_at_usage(*run, argc, argv);
       return wrong_usage;

@@ -26,7 +26,7 @@ class OperatingPoint {
   BodyState part(std::int64_t id) const;
   BodyState point_mass(std::int64_t id) const;
   MarkerState marker(std::int64_t id) const;  // 0 is the global frame
-  double variable(std::int64_t id) const;
+  double variable(std::int64_t id) const;     // of a point as drawn 0: nothing is solved for there
   // What an element exerts on its marker I: a constraint its reaction, or a force element (on the first of its I
   // markers, where there are several).
   Load load(const ElementId&) const;

@@ -60,6 +60,14 @@ std::string too_far_out(const System& system, const OperatingPoint& op) {
   return {};
 }
 
+// Whether anything has kinks, as contacts that close and the functions IMPACT and STEP.
+bool may_set_in(const System& system, const OperatingPoint& op) {
+  ExpressionScratch scratch;
+  SwitchList kinks;
+  system.switches(system.motion(op), scratch, kinks);
+  return !kinks.value.empty();
+}
+
 // Another place to begin: every part turned and moved, every state changed that is not held, at most as far as the
 // model is long, a radian or one; the same places in every run.
 OperatingPoint elsewhere(const System& system, OperatingPoint op, int k) {
@@ -177,12 +185,15 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
     equations.evaluate(drawn, true);
     // Nothing can be searched where the equations have no value.
     if (!equations.residual().allFinite()) return tl::unexpected(refuse());
-    // What nothing holds at the first point, at the best and at the last is held nowhere.
-    const auto unheld = unheld_parts(equations, drawn);
-    if (!unheld.empty() && unheld == unheld_parts(equations, lowest) && unheld == unheld_parts(equations, op))
-      return tl::unexpected(refuse());
-    proof = unheld_everywhere(equations, {drawn, lowest, op});
-    if (!proof.empty()) return tl::unexpected(refuse());
+    // What nothing holds at the first point, at the best and at the last is held nowhere, unless forces set in
+    // somewhere: contacts of inclined surfaces may have been passed by on the way.
+    if (!may_set_in(system, drawn)) {
+      const auto unheld = unheld_parts(equations, drawn);
+      if (!unheld.empty() && unheld == unheld_parts(equations, lowest) && unheld == unheld_parts(equations, op))
+        return tl::unexpected(refuse());
+      proof = unheld_everywhere(equations, {drawn, lowest, op});
+      if (!proof.empty()) return tl::unexpected(refuse());
+    }
   }
   std::vector<bool> loose;  // what nothing held to begin with
   if (!found) loose = free_unknowns(equations, drawn);

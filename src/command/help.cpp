@@ -132,6 +132,7 @@ std::vector<std::string_view> nearest_names(std::string_view word) {
 }  // namespace
 
 int print_help(std::string_view name, std::ostream& out, std::ostream& err) {
+  if (name.find('/') != 0) name = name.substr(0, name.find('/'));  // as commands are written: LINEAR/EIGENSOL
   if (name.empty()) {
     list_statements(out);
     fmt::print(out, "\n");

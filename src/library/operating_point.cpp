@@ -17,7 +17,10 @@ const dynalin::Model& model_of(const OperatingPoint& p) { return p.inside().poin
 BodyState body(const OperatingPoint& point, const ElementId& id) {
   const OperatingState state = point.state();
   const auto found = std::ranges::find(state.bodies, id, &BodyState::element);
-  if (found == state.bodies.end()) fail_for_missing(id.text());
+  if (found == state.bodies.end()) {
+    if (!model_of(point).find(id.statement, id.id)) fail_for_missing(id.text());
+    fail(Failure{"results", id.text() + " is the ground, which does not move", {}});
+  }
   return *found;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "model/called_routines.h"
@@ -258,8 +259,14 @@ bool concerns_code(const Statement& s) {
 DatasetWithRoutines with_user_routines(std::shared_ptr<const Dataset> base, Catalogue catalogue,
                                        const BuildOptions& options, const RoutineOptions& routines,
                                        Diagnostics& diagnostics) {
-  if (std::none_of(base->statements.begin(), base->statements.end(), concerns_code))
+  if (std::none_of(base->statements.begin(), base->statements.end(), concerns_code)) {
+    // Libraries that nothing calls are not loaded, but a wrong name is one.
+    for (const std::string& file : routines.libraries) {
+      if (std::error_code none; !std::filesystem::exists(file, none))
+        diagnostics.error("unusable-library", {}, fmt::format("{} cannot be loaded: there is no such file", file));
+    }
     return {base, nullptr, {}, {}, nullptr, {}};
+  }
   Replacement replacement(*base, catalogue, options, routines, diagnostics);
   auto out = std::make_shared<Dataset>();
   out->source = base->source;

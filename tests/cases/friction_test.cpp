@@ -264,15 +264,15 @@ TEST_F(FrictionCases, that_has_come_to_rest_has_one_linear_model) {
   for (const Row& row : {Row{lugre, "6", "STEP(TIME,0,0,1,6)"}, Row{"", "9.95", "STEP(TIME,0,0,1,9.95)"}}) {
     const RunResult still = run(block(row.law, row.load), "SIMULATE/STATICS\nLINEAR/EIGENSOL\n");
     const RunResult moved = run(block(row.law, row.grown),
-                                "SIMULATE/DYNAMICS, END=6, STEPS=6\nLINEAR/EIGENSOL\nSIMULATE/DYNAMICS, END=7, "
-                                "STEPS=1\nLINEAR/EIGENSOL\nSIMULATE/DYNAMICS, END=60, STEPS=5\nLINEAR/EIGENSOL\n");
+                                "SIMULATE/DYNAMICS, END=60, STEPS=6\nLINEAR/EIGENSOL\nSIMULATE/DYNAMICS, END=100, "
+                                "STEPS=4\nLINEAR/EIGENSOL\n");
     ASSERT_EQ(still.status, 0) << still.err;
     ASSERT_EQ(moved.status, 0) << moved.err;
     const auto expected = still.eigenvalues(1);
     double frequency = 0;
     for (const auto& e : expected) frequency = std::max(frequency, e.imag());
     EXPECT_GT(frequency, 1);
-    for (const std::size_t k : {1u, 3u, 5u}) {
+    for (const std::size_t k : {1u, 3u}) {
       const auto found = moved.eigenvalues(k);
       ASSERT_EQ(found.size(), expected.size());
       for (std::size_t e = 0; e < found.size(); ++e)

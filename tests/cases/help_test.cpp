@@ -161,6 +161,11 @@ TEST(Help, has_examples_of_commands_that_are_read) {
   }
 }
 
+TEST(Help, takes_commands_as_they_are_written) {
+  EXPECT_EQ(help("LINEAR/EIGENSOL").out, help("LINEAR").out);
+  EXPECT_EQ(help("LINEAR/EIGENSOL").status, done);
+}
+
 TEST(Help, names_what_is_near_to_an_unknown_word) {
   const Printed r = help("BUSHIGN");
   EXPECT_EQ(r.status, wrong_usage);

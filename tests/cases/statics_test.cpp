@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 #include "cases/dataset_text.h"
 
@@ -189,6 +190,29 @@ TEST_F(Statics, a_torque_turns_a_pendulum_as_far_as_its_weight_allows) {
   const RunResult spun = driven(11);
   EXPECT_EQ(spun.status, 2);
   EXPECT_THAT(spun.err, HasSubstr("PART/2"));
+}
+
+// Contacts that are open as drawn, and that what falls meets at a slant: a ball on a vertical guide over a plane that
+// is inclined by 45 degrees bears N cos 45° = m g by N = k p^e, and a free one rolls away.
+TEST_F(Statics, inclined_surfaces_below_are_met) {
+  const auto ball = [](const char* guide) {
+    return std::string(
+               "Ball\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-10\nPART/1, GROUND\nMARKER/1\n"
+               "MARKER/5, REULER=90D,45D,0\nGRAPHICS/5, PLANE, RM=5, XMIN=-5, XMAX=5, YMIN=-5, YMAX=5\n"
+               "PART/2, MASS=1, CM=20, IP=0.004,0.004,0.004, QG=0,0,0.15\nMARKER/20\nMARKER/21\n"
+               "GRAPHICS/2, ELLIPSOID, CM=20, XSCALE=0.2, YSCALE=0.2, ZSCALE=0.2\n"
+               "CONTACT/1, IGEOM=2, JGEOM=5, IMPACT, STIFFNESS=1E6, EXPONENT=1.5, DAMPING=1000, DMAX=0.0001\n") +
+           guide + "END\n";
+  };
+  const RunResult held =
+      run(ball("JOINT/1, TRANSLATIONAL, I=21, J=1\nREQUEST/1, F2=DZ(20,1)\\\n"), "SIMULATE/STATICS\n");
+  ASSERT_EQ(held.status, 0) << held.err;
+  const double p = std::pow(10 * std::numbers::sqrt2 / 1e6, 1 / 1.5);
+  EXPECT_NEAR(held.result(0).at("operating_point").at("requests").at(0).at("values").at(0).get<double>(),
+              (0.1 - p) * std::numbers::sqrt2, 1e-12);
+  const RunResult loose = run(ball(""), "SIMULATE/STATICS\n");
+  EXPECT_EQ(loose.status, 2);
+  EXPECT_THAT(loose.err, HasSubstr("no equilibrium was found"));
 }
 
 }  // namespace

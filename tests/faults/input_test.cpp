@@ -62,6 +62,18 @@ TEST_F(Inputs, a_value_for_routines_that_is_no_finite_number_is_wrong_usage) {
   }
 }
 
+TEST_F(Inputs, words_that_are_neither_subcommands_nor_files_are_named) {
+  const Outcome r = run({"linearize"});
+  EXPECT_EQ(r.status, 3);
+  EXPECT_EQ(r.err, "error: linearize is no subcommand, and there is no such file\n");
+}
+
+TEST_F(Inputs, libraries_that_are_not_there_are_missed_whether_they_are_called_or_not) {
+  const Outcome r = run({"check", "model.adm", "--user-library", "nosuch.so"});
+  EXPECT_EQ(r.status, 1);
+  EXPECT_THAT(r.err, HasSubstr("nosuch.so cannot be loaded: there is no such file"));
+}
+
 TEST_F(Inputs, folders_pipes_and_devices_are_no_datasets) {
   fs::create_directory(folder_ / "folder.adm");
   expect_refused(run_dataset("folder.adm"), "folder.adm", "it is a directory");

@@ -65,6 +65,13 @@ TEST_F(Outputs, names_are_not_empty) {
   }
 }
 
+TEST_F(Outputs, names_are_no_options) {
+  const Outcome r = run({"run", "model.acf", "--json", "--quiet"});
+  EXPECT_EQ(r.status, 3);
+  EXPECT_THAT(r.err, HasSubstr("--json: --quiet is an option"));
+  EXPECT_THAT(names(), ElementsAre("model.acf", "model.adm"));
+}
+
 TEST_F(Outputs, go_into_a_folder_under_their_own_names) {
   fs::create_directory(folder_ / "sub");
   EXPECT_EQ(run({"run", "model.acf", "--output", "sub/"}).status, 0);

@@ -163,22 +163,23 @@ const std::string sliding =
 class FormulasInTime : public WithLibraries {};
 
 TEST_F(FormulasInTime, know_numbers_without_fractions_from_others) {
-  const std::vector<std::string> commands = {"SIMULATE/DYNAMICS, END=1, STEPS=10", "LINEAR/EIGENSOL"};
+  const std::vector<std::string> commands = {"SIMULATE/DYNAMICS, END=1, STEPS=10", "SIMULATE/INITIAL",
+                                             "LINEAR/EIGENSOL"};
   const std::string force = "SFORCE/1, TRANSLATION, ACTIONONLY, I=20, J=2, FUNCTION=";
   const RunResult called =
       with(sliding + force + "USER(5), ROUTINE=drag_by_formula\n", {CPP_ROUTINES}, false, commands);
   // v' = −5/2 v², v = v0/(1 + 5/2 v0 t).
-  EXPECT_NEAR(requested(called, 0).at(0), 0.9 / (1 + 2.5 * 0.9), 1e-4);
-  expect_same(called, with(sliding + force + "-5*ABS(VX(20,1))*VX(20,1)\n", {CPP_ROUTINES}, false, commands), 1e-6, 1);
+  EXPECT_NEAR(requested(called, 1).at(0), 0.9 / (1 + 2.5 * 0.9), 1e-4);
+  expect_same(called, with(sliding + force + "-5*ABS(VX(20,1))*VX(20,1)\n", {CPP_ROUTINES}, false, commands), 1e-6, 2);
 }
 
 TEST_F(FormulasInTime, make_requests_and_sensors) {
   const RunResult r = with(sliding +
                                "REQUEST/2, FUNCTION=USER(7), ROUTINE=columns_by_formula\n"
-                               "SENSOR/1, FUNCTION=USER(2), ROUTINE=watched_by_formula, VALUE=0.7, GE, HALT\n",
-                           {CPP_ROUTINES}, false, {"SIMULATE/DYNAMICS, END=1, STEPS=10"});
+                               "SENSOR/1, FUNCTION=USER(2), ROUTINE=watched_by_formula, VALUE=0.7, GE, RETURN\n",
+                           {CPP_ROUTINES}, false, {"SIMULATE/DYNAMICS, END=1, STEPS=10", "SIMULATE/INITIAL"});
   ASSERT_EQ(r.status, 0) << r.err;
-  const auto values = r.result(0).at("operating_point").at("requests").at(1).at("values").get<std::vector<double>>();
+  const auto values = r.result(1).at("operating_point").at("requests").at(1).at("values").get<std::vector<double>>();
   ASSERT_EQ(values.size(), 8u);
   EXPECT_NEAR(values[0], 0.35, 1e-9);
   EXPECT_NEAR(values[2], 0.9, 1e-9);

@@ -12,7 +12,7 @@ constexpr CommandKind refused_for(std::string_view name, std::string_view reason
 }
 
 constexpr std::array kinds = {
-    refused_for("CONTROL", "a compiled routine would give the commands, and compiled routines are not loaded",
+    refused_for("CONTROL", "a compiled routine would give the commands, and routines are called by statements alone",
                 "CONTROL/FUNCTION=USER(1)"),
     refused_for("SYSTEM", "a command file runs no programs of the operating system", "SYSTEM"),
 };
