@@ -32,8 +32,9 @@ class LinearModel {
   std::vector<ElementMatrices> element_matrices() const;
   // Eigenvalues and mode shapes, or eigenvalues alone.
   Modes modes(bool with_shapes = true) const;
-  // Some of them, with the same values, vectors and bounds; `selected` says whether they are all that was asked for.
-  // Large models are solved for these alone: time and memory grow with the model, not with the cube and square of it.
+  // Some of them, with the same values and vectors; where the model is large bounds are those of the sparse equations,
+  // which may be wider. `selected` says whether they are all that was asked for. Large models are solved for these
+  // alone: time and memory grow with the model, not with the cube and square of it.
   Modes modes(const ModeSelection&, bool with_shapes = true) const;
   // What moves in them, and where the energy is; `modes` are those of this model. ENERGY_PER_MODE needs all of them.
   ModalTables tables(const EigenSolution& modes, const ModalTableRequest&) const;

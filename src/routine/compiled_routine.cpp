@@ -150,8 +150,7 @@ std::string CompiledRoutine::evaluate(std::span<const double> inputs, std::span<
   const bool is_table = kind_->arguments == RoutineArguments::plain && values_ > 1;
   std::fill(values.begin(), values.end(), is_table ? 0.0 : unknown_value);
   const bool derivatives = !partials.empty() && kind_->arguments != RoutineArguments::of_time;
-  const RoutineContext::Scope scope(c, what_.c_str());
-  try {
+  at_work(c, [&] {
     call(inputs[0], derivatives ? 1 : 0, 0, values.data());
     if (derivatives && kind_->arguments == RoutineArguments::system) call_partials(inputs[0], partials, given);
     if (derivatives && kind_->arguments == RoutineArguments::coupler && state_partials_.first) {
@@ -159,9 +158,7 @@ std::string CompiledRoutine::evaluate(std::span<const double> inputs, std::span<
       call_coupler({inputs[0], 0, 0, 1}, state_partials_.first, partials.data() + first_given);
       std::fill(given.begin() + first_given, given.end(), true);
     }
-  } catch (...) {
-    c.fail(caught_exception());
-  }
+  });
   if (!given.empty()) {
     for (const std::int32_t k : constants_) given[static_cast<std::size_t>(k)] = true;
   }
@@ -190,13 +187,7 @@ std::string CompiledRoutine::evaluate_course(std::span<const double> inputs, int
                                  inputs.data(),
                                  values.data(),
                                  partials.data()};
-  const RoutineContext::Scope scope(c, what_.c_str());
-  try {
-    found_.derivatives(&course);
-  } catch (...) {
-    c.fail(caught_exception());
-  }
-  return c.failure;
+  return at_work(c, [&] { found_.derivatives(&course); });
 }
 
 const CompiledRoutine::Memory& CompiledRoutine::remembered(const RoutineInputs<double>& read,
@@ -268,19 +259,15 @@ void CompiledRoutine::fill_course(CourseMemory& m) const {
   if (kind_->arguments == RoutineArguments::coupler) return fill_course_of_coupler(m);
   if (kind_->arguments == RoutineArguments::of_time && n == 2) {
     std::array<double, 3> course{};
-    RoutineContext c = context(RoutineContext::Phase::evaluating);
     const std::array<double, 2> at = {m.inputs[0], m.inputs[3]};
-    c.inputs = at;
-    const RoutineContext::Scope scope(c, what_.c_str());
     course.fill(unknown_value);
-    try {
-      for (int order = 0; order < 3; ++order) call(at[0], order, 0, &course[static_cast<std::size_t>(order)]);
-    } catch (...) {
-      c.fail(caught_exception());
-    }
-    if (RoutineFindings* findings = RoutineFindings::current(); findings && c.failure.empty())
+    const bool failed = !at_inputs(at, [&] {
+                           for (int order = 0; order < 3; ++order)
+                             call(at[0], order, 0, &course[static_cast<std::size_t>(order)]);
+                         }).empty();
+    if (RoutineFindings* findings = RoutineFindings::current(); findings && !failed)
       doubt_motion(at[0], course, *findings);
-    m.values[0] = c.failure.empty() ? Taylor(course[0], course[1], course[2]) : Taylor(unknown_value);
+    m.values[0] = failed ? Taylor(unknown_value) : Taylor(course[0], course[1], course[2]);
     return;
   }
   // Values and what the chain rule makes of first derivatives; of second ones nothing is known.

@@ -138,6 +138,23 @@ class CompiledRoutine final : public Routine {
   const CourseMemory& remembered(const RoutineInputs<Taylor>&) const;
   void fill_course(CourseMemory&) const;
   RoutineContext context(RoutineContext::Phase) const;
+  // `calls` call the routine, in that context or at these inputs; what went wrong there, empty if nothing did.
+  template <class Calls>
+  std::string at_work(RoutineContext& c, Calls&& calls) const {
+    const RoutineContext::Scope scope(c, what_.c_str());
+    try {
+      calls();
+    } catch (...) {
+      c.fail(caught_exception());
+    }
+    return c.failure;
+  }
+  template <class Calls>
+  std::string at_inputs(std::span<const double> inputs, Calls&& calls) const {
+    RoutineContext c = context(RoutineContext::Phase::evaluating);
+    c.inputs = inputs;
+    return at_work(c, calls);
+  }
 
   FoundRoutine found_;
   const RoutineKind* kind_;

@@ -38,19 +38,12 @@ void CompiledRoutine::fill_course_of_coupler(CourseMemory& m) const {
   for (std::size_t k = 0; k < n; ++k) at[k] = m.inputs[3 * k];
   double value = unknown_value;
   evaluate(at, {&value, 1}, {}, {});
-  RoutineContext c = context(RoutineContext::Phase::evaluating);
-  c.inputs = at;
-  {
-    const RoutineContext::Scope scope(c, what_.c_str());
-    try {
-      call_coupler({at[0], 0, 0, 1}, state_partials_.first, slopes.data());
-      call_coupler({at[0], 0, 0, 1}, state_partials_.second, curvatures.data());
-    } catch (...) {
-      c.fail(caught_exception());
-    }
-  }
-  if (!c.failure.empty()) value = unknown_value;
-  if (c.failure.empty() && at[1] == linear_mode) doubt_coupler(at, slopes, curvatures, m.findings);
+  const std::string failure = at_inputs(at, [&] {
+    call_coupler({at[0], 0, 0, 1}, state_partials_.first, slopes.data());
+    call_coupler({at[0], 0, 0, 1}, state_partials_.second, curvatures.data());
+  });
+  if (!failure.empty()) value = unknown_value;
+  if (failure.empty() && at[1] == linear_mode) doubt_coupler(at, slopes, curvatures, m.findings);
   const auto rate = [&](std::size_t k) { return m.inputs[3 * (first_given + k) + 1]; };
   const auto acceleration = [&](std::size_t k) { return m.inputs[3 * (first_given + k) + 2]; };
   Taylor& f = m.values[0];

@@ -85,14 +85,7 @@ void CompiledRoutine::doubt_coupler(std::span<const double> inputs, std::span<co
     const auto gradient = [&](double x, std::span<double> values) {
       moved[first_given + k] = x;
       std::ranges::fill(values, unknown_value);
-      RoutineContext c = context(RoutineContext::Phase::evaluating);
-      c.inputs = moved;
-      const RoutineContext::Scope scope(c, what_.c_str());
-      try {
-        call_coupler({moved[0], 0, 0, 1}, state_partials_.first, values.data());
-      } catch (...) {
-        c.fail(caught_exception());
-      }
+      at_inputs(moved, [&] { call_coupler({moved[0], 0, 0, 1}, state_partials_.first, values.data()); });
     };
     const std::vector<Slope> of_gradient = extrapolated_slope(gradient, inputs[first_given + k], first.size());
     for (std::size_t l = 0; l < first.size(); ++l) {
@@ -112,14 +105,9 @@ void CompiledRoutine::doubt_motion(double time, std::span<const double> course, 
   const auto lower_orders = [&](double t, std::span<double> values) {
     std::ranges::fill(values, unknown_value);
     const std::array<double, 2> at = {t, 0};
-    RoutineContext c = context(RoutineContext::Phase::evaluating);
-    c.inputs = at;
-    const RoutineContext::Scope scope(c, what_.c_str());
-    try {
+    at_inputs(at, [&] {
       for (int order = 0; order < 2; ++order) call(t, order, 0, &values[static_cast<std::size_t>(order)]);
-    } catch (...) {
-      c.fail(caught_exception());
-    }
+    });
   };
   const std::vector<Slope> slope = extrapolated_slope(lower_orders, time, 2);
   for (std::size_t order = 1; order < 3; ++order) {
