@@ -405,6 +405,10 @@ TEST_F(StateEquations, rest_in_statics_unless_they_are_held) {
   ASSERT_EQ(after.size(), 3u);
   constexpr double by_speed = 0.4 * 0.4;  // of an output by VX, which is not there in statics
   EXPECT_NEAR(after[1], free[1] - by_speed, 1e-9);
+  // States that keep what statics found have no rates.
+  const RunResult kept = with(only, {"SIMULATE/STATIC", "SIMULATE/INITIAL"});
+  for (const auto& state : kept.result(1).at("operating_point").at("states"))
+    EXPECT_EQ(state.at("rate").get<double>(), 0) << state;
   const auto at_once = requested(with(only, statics), 1);
   ASSERT_EQ(at_once.size(), 3u);
   EXPECT_NEAR(at_once[1], free[1] - by_speed, 1e-9);

@@ -84,7 +84,8 @@ void StateEquationsKernel::equations(const Motion& motion, Equations& eq) const 
         eq.add_residual(row, motion.state_rate[static_cast<std::size_t>(z)]);
         eq.add(PartialBy::state_rate, row, z, 1.0);
       }
-      e.derivatives[n].add(motion, eq, row, sign, by_velocity);
+      // What keeps its states has no rates.
+      if (!rests(e, motion)) e.derivatives[n].add(motion, eq, row, sign, by_velocity);
     }
     for (std::size_t n = 0; n < e.outputs.size(); ++n) {
       const std::int32_t y = e.first_output + static_cast<std::int32_t>(n), row = eq.algebraic_row(y);
