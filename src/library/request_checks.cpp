@@ -84,7 +84,7 @@ void check(const SimulationRequest& request, double present_time) {
 void check(const ModeSelection& selection) {
   RequestCheck c("eigensolution");
   if (const auto* nearest = std::get_if<NearestModes>(&selection)) {
-    c.require(nearest->count > 0, "so many modes must be at least one");
+    c.at_least_one("count", static_cast<std::int64_t>(nearest->count));
     c.at_least_zero("frequency", nearest->frequency);
   } else {
     const auto& band = std::get<ModesInBand>(selection);

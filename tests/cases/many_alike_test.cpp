@@ -8,6 +8,8 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <set>
+#include <string>
 
 #include "cases/run.h"
 
@@ -157,6 +159,37 @@ TEST_F(ManyAlike, tables_share_out_no_rounding) {
     return;
   }
   ADD_FAILURE() << "no effective masses";
+}
+
+// More states than are computed in long double, a defective pair among them, and two modes that are the same to the
+// last digit: nothing mixes their vectors, and nothing tells them apart.
+TEST_F(ManyAlike, equal_modes_of_parts_that_do_not_touch_have_vectors_of_their_own) {
+  const auto disc = [](int id, double stiffness, double damping) {
+    return fmt::format(
+        "PART/{0}, MASS=1, CM={0}, IP=1,1,1, QG={0},9,0\nMARKER/{0}\nMARKER/{1}, PART=1, QP={0},9,0\n"
+        "JOINT/{0}, REVOLUTE, I={0}, J={1}\nSFORCE/{0}, ROTATIONAL, I={0}, J={1}, "
+        "FUNCTION=-{2:.17g}*AZ({0},{1})-{3:.17g}*WZ({0},{1})\n",
+        id, 50000 + id, stiffness, damping);
+  };
+  const double once = 2 * std::numbers::pi;
+  std::string dataset =
+      head + disc(2, once * once, 0.1 * once) + disc(3, once * once, 0.1 * once) + disc(4, 2, std::sqrt(8.0));
+  for (int k = 0; k < 150; ++k) {
+    const double w = once * (10 + 0.5 * k);
+    dataset += disc(10 + k, w * w, 0.04 * w);
+  }
+  const RunResult r = run(dataset + "END\n", "LINEAR/EIGENSOL\nLINEAR/EIGENSOL, NMODES=4\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  for (std::size_t k = 0; k < 2; ++k) {
+    std::set<std::string> movers;
+    for (const auto& m : r.result(k).at("modes")) {
+      for (const auto& entry : m.at("vector")) ASSERT_TRUE(entry.at(0).is_number() && entry.at(1).is_number()) << k;
+      if (std::abs(std::hypot(m.at("real_hz").get<double>(), m.at("imag_hz").get<double>()) - 1) > 1e-9) continue;
+      EXPECT_TRUE(m.at("condition").is_number());
+      movers.insert(m.at("moves_most").get<std::string>());
+    }
+    EXPECT_THAT(movers, ::testing::ElementsAre("PART/2", "PART/3")) << k;
+  }
 }
 
 }  // namespace

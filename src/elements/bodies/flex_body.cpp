@@ -114,7 +114,7 @@ class FlexBodySet final : public TypedSet<FlexBody> {
     for (std::size_t k = 0; k < modes.number.size(); ++k)
       all.emplace_back(static_cast<int>(modes.number[k]), modes.frequency[k]);
     std::ranges::sort(all);
-    RoutineData::Modes& told = data.flexible_bodies[static_cast<int>(label.id)];
+    RoutineData::Modes& told = data.flexible_bodies[static_cast<int>(label.id)] = {};
     for (const auto& [number, frequency] : all) told.number.push_back(number), told.frequency.push_back(frequency);
   }
 
