@@ -39,7 +39,7 @@ double norm_of_state_matrix(const PerturbationEquations& equations) {
     }
   }
   Eigen::VectorXd norms(x.cols());
-  for_few_columns(x.cols(), [&](Index first, Index count) {
+  for_few_columns(equations.unknowns(), x.cols(), [&](Index first, Index count) {
     norms.segment(first, count) = rates_of(equations, x.middleCols(first, count), SparseLu::Refined::no)
                                       .bottomRows(n)
                                       .colwise()
@@ -51,7 +51,7 @@ double norm_of_state_matrix(const PerturbationEquations& equations) {
 
 Eigen::VectorXd sizes_of_images(const PerturbationEquations& equations, const Matrix& v) {
   Eigen::VectorXd sizes(v.cols());
-  for_few_columns(v.cols(), [&](Index first, Index count) {
+  for_few_columns(equations.unknowns(), v.cols(), [&](Index first, Index count) {
     const Matrix rates = rates_of(equations, v.middleCols(first, count), SparseLu::Refined::yes);
     sizes.segment(first, count) = equations.reduced(rates, SparseLu::Refined::no).colwise().norm().transpose();
   });

@@ -55,6 +55,16 @@ Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
 Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
   return multiply(CblasConjTrans, a, b);
 }
+Eigen::VectorXcd take_out(const Eigen::MatrixXcd& V, Eigen::Index columns, Eigen::VectorXcd& w) {
+  eigen_assert(V.rows() == w.size() && columns <= V.cols());
+  Eigen::VectorXcd along = Eigen::VectorXcd::Zero(columns);
+  if (columns == 0 || w.size() == 0) return along;
+  const std::complex<double> one = 1, minus_one = -1, zero = 0;
+  const auto rows = static_cast<int>(V.rows()), count = static_cast<int>(columns);
+  cblas_zgemv(CblasColMajor, CblasConjTrans, rows, count, &one, V.data(), rows, w.data(), 1, &zero, along.data(), 1);
+  cblas_zgemv(CblasColMajor, CblasNoTrans, rows, count, &minus_one, V.data(), rows, along.data(), 1, &one, w.data(), 1);
+  return along;
+}
 BothProducts both_products(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
   const Eigen::Index rows = a.cols(), columns = b.cols();
   Eigen::MatrixXd left(a.rows(), 2 * rows), right(b.rows(), 2 * columns);

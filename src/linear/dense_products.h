@@ -20,6 +20,9 @@ struct BothProducts {
 };
 BothProducts both_products(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
 
+// w −= V Vᴴ w for the first columns of V; Vᴴ w.
+Eigen::VectorXcd take_out(const Eigen::MatrixXcd& V, Eigen::Index columns, Eigen::VectorXcd& w);
+
 Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 // Aᵀ times block after block of columns. Where most of A is zero, as the inverse of a block-diagonal mass matrix is,
@@ -49,9 +52,12 @@ template <class Function>
 void for_column_blocks(Eigen::Index columns, Function&& visit) {
   for_columns<64>(columns, visit);
 }
-// Of all unknowns of a large model, which are many even for a few modes. KLU solves for four real ones at a time.
+// Of all unknowns of a large model, which are many even for a few modes. KLU solves for four real ones at a time; of
+// very large models even two complex columns, with all that is made of them, are a tenth of the memory.
 template <class Function>
-void for_few_columns(Eigen::Index columns, Function&& visit) {
+void for_few_columns(Eigen::Index rows, Eigen::Index columns, Function&& visit) {
+  constexpr Eigen::Index very_large = 1000000;
+  if (rows > very_large) return for_columns<1>(columns, visit);
   for_columns<2>(columns, visit);
 }
 

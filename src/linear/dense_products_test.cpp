@@ -23,5 +23,17 @@ TEST(TransposedFactor, of_no_rows_gives_nothing_in_its_size) {
   EXPECT_EQ(TransposedFactor(Eigen::MatrixXd::Zero(4, 3)) * Eigen::MatrixXd::Ones(4, 2), Eigen::MatrixXd::Zero(3, 2));
 }
 
+TEST(TakeOut, leaves_what_is_orthogonal_to_the_first_columns) {
+  const Eigen::MatrixXcd V = Eigen::MatrixXcd::Random(9, 4);
+  const Eigen::VectorXcd before = Eigen::VectorXcd::Random(9);
+  for (const Eigen::Index columns : {0, 3}) {
+    Eigen::VectorXcd w = before;
+    const Eigen::VectorXcd along = take_out(V, columns, w);
+    const Eigen::VectorXcd expected = V.leftCols(columns).adjoint() * before;
+    EXPECT_LT((along - expected).norm(), 1e-14);
+    EXPECT_LT((w - (before - V.leftCols(columns) * expected)).norm(), 1e-14);
+  }
+}
+
 }  // namespace
 }  // namespace dynalin::dense_products_test

@@ -75,11 +75,7 @@ bool KrylovSchur::run(const Operator& op, Index wanted, double least, int restar
   // Without its parts along the first `columns` of V, which are added to `share`.
   const auto without = [&](ComplexVector& w, Index columns, ComplexVector& share) {
     share = ComplexVector::Zero(columns);
-    for (int pass = 0; pass < 2; ++pass) {
-      const ComplexVector along = V.leftCols(columns).adjoint() * w;
-      w.noalias() -= V.leftCols(columns) * along;
-      share += along;
-    }
+    for (int pass = 0; pass < 2; ++pass) share += take_out(V, columns, w);
   };
   const auto start_at = [&](Index column) {
     for (;;) {

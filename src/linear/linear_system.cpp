@@ -71,7 +71,7 @@ std::vector<StateReach> reach_of(const System& system, const Perturbation& p, co
 template <class Part>
 Eigen::MatrixXcd of_motions(const PerturbationEquations& equations, const Eigen::MatrixXcd& of_states, Part&& part) {
   Eigen::MatrixXcd all(equations.coordinates(), of_states.cols());
-  for_few_columns(of_states.cols(), [&](Eigen::Index first, Eigen::Index count) {
+  for_few_columns(equations.unknowns(), of_states.cols(), [&](Eigen::Index first, Eigen::Index count) {
     const Eigen::MatrixXcd motions = equations.motions(of_states.middleCols(first, count));
     all.middleCols(first, count) = part(motions);
   });

@@ -34,7 +34,7 @@ PerturbedPoint::PerturbedPoint(const System& system, const OperatingPoint& op, c
   equations.keep_sizes();
   system.constraints(motion, rows);
   evaluate(system, motion, rows, equations);
-  equations.settle();
+  rows.settle(), equations.settle();
 }
 
 const ElementTrace& PerturbedPoint::trace() const {

@@ -39,7 +39,7 @@ struct CountingLimits {
   int borders;
 };
 constexpr CountingLimits counting_of_large = {600, 5}, counting_of_middling = {150, 2}, counting_of_small = {1500, 5};
-constexpr Index small = 400;  // states
+constexpr Index small = 400, middling = 1500;  // states
 
 Failure no_convergence(std::string what) { return {"eigensolution", std::move(what), {}, "no-eigensolution"}; }
 
@@ -59,9 +59,9 @@ class Solution {
         op_(equations_, conservative_) {
     start_anew();
     zero_.directions.resize(op_.states(), 0);
-    counting_ = op_.states() <= small                    ? counting_of_small
-                : op_.states() <= most_for_full_solution ? counting_of_middling
-                                                         : counting_of_large;
+    counting_ = op_.states() <= small      ? counting_of_small
+                : op_.states() <= middling ? counting_of_middling
+                                           : counting_of_large;
   }
 
   Result<EigenSolution> run(Vectors vectors) {
@@ -253,10 +253,14 @@ class Solution {
     region_ = region_of(band);
     if (region_.high == 0) return find_nearest({0, 0});  // structural zeros alone
     start_anew();
-    constexpr Index at_a_time = 30, most_from_a_shift = 90;
+    constexpr Index at_a_time = 30, enough_from_a_shift = 90, most_from_a_shift = 240;
+    // So much farther than the heights of its part: what is next to the band, where it is counted, is then known too.
+    constexpr double beyond = 1.3;
+    std::size_t inside_before = 0;
     // The middle of the band, then of its halves, quarters …; on the real axis, for all from there.
     for (int level = 0; level < 6 && !too_many(); ++level) {
       const int parts = both_members() ? 1 : 1 << level;
+      bool covered = true;
       for (int part = 0; part < parts; ++part) {
         const double half = 0.5 * (region_.high - region_.low) / parts;
         const double middle = region_.low + (2 * part + 1) * half;
@@ -265,20 +269,28 @@ class Solution {
         if (level == 0) op_.find_units();
         right_->follow_shift();
         shifts_.push_back(shift);
-        const double all = std::hypot(region_.right + shift.real(), both_members() ? region_.high : half);
-        for (Index from_here = 0; from_here < most_from_a_shift && !right_->everything();) {
+        const double height = both_members() ? region_.high : half,
+                     all = std::hypot(region_.right + shift.real(), height);
+        bool reached = false;
+        for (Index from_here = 0; from_here < most_from_a_shift && !reached && !right_->everything() && !too_many();) {
           const Index before = right_->found();
           right_->run(at_a_time, all);
           from_here += right_->found() - before;
-          if (right_->found() == before || right_->reached() >= all || (level > 0 && right_->reached() > 1.5 * half))
-            break;
+          const bool far_enough =
+              right_->reached() >= beyond * height && (level > 0 || from_here >= enough_from_a_shift);
+          reached = right_->found() == before || right_->reached() >= all || far_enough;
         }
+        covered = covered && (reached || right_->everything());
       }
-      if (shifts_.empty()) continue;
+      if (shifts_.empty() || !covered) continue;
       for (int round = 0; round < most_rounds && !too_many(); ++round) {
         if (!look_for_more(std::hypot(region_.right, 0.5 * (region_.high - region_.low)))) break;
       }
       if (count() || right_->everything()) return true;
+      // It cannot be counted, and smaller parts have brought nothing: nor will others.
+      const auto inside = static_cast<std::size_t>(count_in(region_));
+      if (selected_.by == CountedBy::nothing && level > 0 && inside == inside_before) break;
+      inside_before = inside;
     }
     return !shifts_.empty();
   }

@@ -106,7 +106,7 @@ double norm_beside(const ShiftInverse& op, const ComplexMatrix& X, const Complex
 Eigen::VectorXd left_sizes(const ShiftInverse& op, const Subspace& of, const ComplexMatrix& of_states) {
   const Eigen::VectorXd& unit = op.units();
   Eigen::VectorXd size(of_states.cols());
-  for_few_columns(of_states.cols(), [&](Index first, Index count) {
+  for_few_columns(of_states.rows(), of_states.cols(), [&](Index first, Index count) {
     ComplexMatrix L = unit.asDiagonal() * of_states.middleCols(first, count);
     op.apply_adjoint(L);
     L = (unit.cwiseInverse().asDiagonal() * L).eval();
@@ -204,7 +204,7 @@ LeftResiduals left_residuals(const PerturbationEquations& equations, const Subsp
                      Eigen::VectorXd::Zero(p)};
   std::mutex of_largest;
   const ComplexMatrix onto = of.B.adjoint();
-  for_few_columns(p, [&](Index first, Index count) {
+  for_few_columns(n + algebraic, p, [&](Index first, Index count) {
     auto L = left.of_states.middleCols(first, count);
     ComplexMatrix L_a;
     {
@@ -244,8 +244,9 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
     return with_algebraic(by_parts(x, [&](const Matrix& m) { return equations.complete(m); }), x);
   };
   const LeftResiduals left = left_residuals(equations, of);
-  ComplexMatrix U(n, p + z), F(p + z, p);
-  U << of.X, of.V.cast<Complex>();
+  ComplexMatrix with_zeros, F(p + z, p);
+  if (z > 0) with_zeros.resize(n, p + z), with_zeros << of.X, of.V.cast<Complex>();
+  const ComplexMatrix& U = z > 0 ? with_zeros : of.X;
   F << of.B, of.C;
   const ColumnMatrix rows = transposed(equations.products());
   const Eigen::VectorXd& unit = op.units();
@@ -255,7 +256,7 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
   Eigen::VectorXd size_of_right(p), size_of_left(p);
   SubspacePencil out;
   out.uncertainty.resize(p, p), out.unknown.resize(p, p), out.residual.resize(n, p);
-  for_few_columns(p, [&](Index first, Index count) {
+  for_few_columns(n + algebraic, p, [&](Index first, Index count) {
     Residuals right;
     Matrix variances;
     {

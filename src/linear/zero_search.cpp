@@ -100,7 +100,7 @@ NearZero zeros_of_matrix(const System& system, const Perturbation& perturbation)
 }  // namespace
 
 bool costs_more_than_all(const ModeSearch& right, Index states) {
-  return states <= most_for_full_solution && right.found() > std::max<Index>(100, states / 4);
+  return states <= most_for_full_solution && right.found() > std::max<Index>(100, states / 6);
 }
 
 std::optional<ZerosFound> zeros_near(const System& system, const Perturbation& perturbation, ShiftInverse& op,

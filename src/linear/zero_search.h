@@ -9,11 +9,11 @@
 namespace dynalin {
 
 // States of a model whose state matrix costs nothing, and of one whose full solution is worth its seconds where the
-// search does not settle things.
-inline constexpr Eigen::Index most_for_state_matrix = 300, most_for_full_solution = 2500;
+// search does not settle things: about a minute, and 2.5 GB.
+inline constexpr Eigen::Index most_for_state_matrix = 300, most_for_full_solution = 3000;
 
-// Whether so many were found of a model of that kind that the full solution is cheaper: bounds of p modes together take
-// p³.
+// Whether so many were found of a model of that kind that the full solution is cheaper: each vector is held against all
+// before it, and bounds of p modes together take p³.
 bool costs_more_than_all(const ModeSearch& right, Eigen::Index states);
 
 struct ZerosFound {

@@ -24,7 +24,29 @@ void Accumulator::resize(std::int32_t rows, std::int32_t columns) {
   matrix_.columns = columns;
 }
 
-void Accumulator::settle() { std::vector<std::int32_t>().swap(slots_); }
+void Accumulator::settle() {
+  std::vector<std::int32_t>().swap(slots_);
+  if (!recorded_) return;
+  std::size_t kept = 0;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(matrix_.columns); ++c) {
+    const auto first = static_cast<std::size_t>(matrix_.start[c]),
+               last = static_cast<std::size_t>(matrix_.start[c + 1]);
+    matrix_.start[c] = static_cast<std::int32_t>(kept);
+    // Behind `first`, which the column before has not reached.
+    for (std::size_t k = first; k < last; ++k) {
+      if (matrix_.value[k] == 0.0 && (!keeps_sizes_ || sizes_[k] == 0.0)) continue;
+      matrix_.row[kept] = matrix_.row[k], matrix_.value[kept] = matrix_.value[k];
+      if (keeps_sizes_) sizes_[kept] = sizes_[k];
+      ++kept;
+    }
+  }
+  matrix_.start.back() = static_cast<std::int32_t>(kept);
+  const auto shorten = [kept](auto& entries) {
+    entries.resize(std::min(kept, entries.size()));
+    entries.shrink_to_fit();
+  };
+  shorten(matrix_.row), shorten(matrix_.value), shorten(sizes_);
+}
 
 void Accumulator::begin() {
   next_ = 0;

@@ -1,7 +1,8 @@
 // Assembly of a sparse matrix whose pattern comes from topology and is decided once.
 //
 // The first pass records where every contribution goes; later passes make the same calls in the same
-// order and only add numbers. Explicit zeros stay, so a factorisation may re-use its symbolic analysis.
+// order and only add numbers. Explicit zeros stay, so a factorisation may re-use its symbolic analysis, until no
+// further pass is to come.
 #pragma once
 
 #include <cassert>
@@ -51,7 +52,8 @@ class Accumulator {
 
   void begin();   // of a pass: zero values (or an empty record)
   void finish();  // of the recording pass: builds the pattern
-  void settle();  // there are no further passes: what they alone need goes
+  // There are no further passes: what they alone need goes, and with it entries that are zero and made of nothing.
+  void settle();
 
   // Adds `values` to consecutive rows of one column. Their sizes are those that they have, or what they are made of.
   void add(std::int32_t row, std::int32_t column, std::span<const double> values, std::span<const double> sizes = {}) {

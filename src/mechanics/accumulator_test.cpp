@@ -133,6 +133,24 @@ TEST(Accumulator, entries_that_are_no_numbers_become_zero_and_are_named) {
   expect_same(places(a.matrix(), a.sizes()), {{{0, 2}, 4}, {{1, 0}, 1}, {{1, 1}, 0}, {{2, 2}, 0}});
 }
 
+// What has cancelled still says by its size how far it may be off; only what nothing was added to goes.
+TEST(Accumulator, settling_drops_places_that_hold_nothing) {
+  Accumulator with_sizes, without;
+  for (Accumulator* a : {&with_sizes, &without}) {
+    a->resize(3, 4);
+    if (a == &with_sizes) a->keep_sizes();
+    for (int time = 0; time < 2; ++time) {
+      pass(*a, {{0, 1, {1, 0, 2}}, {0, 2, {0, 0, 0}}, {1, 3, {5, -3}}, {1, 3, {-5}}}, 1);
+    }
+    a->settle();
+  }
+  expect_same(places(with_sizes.matrix(), with_sizes.matrix().value),
+              {{{1, 0}, 1}, {{1, 2}, 2}, {{3, 1}, 0}, {{3, 2}, -3}});
+  expect_same(places(with_sizes.matrix(), with_sizes.sizes()), {{{1, 0}, 1}, {{1, 2}, 2}, {{3, 1}, 10}, {{3, 2}, 3}});
+  EXPECT_EQ(with_sizes.matrix().start, (std::vector<std::int32_t>{0, 0, 2, 2, 4}));
+  expect_same(places(without.matrix(), without.matrix().value), {{{1, 0}, 1}, {{1, 2}, 2}, {{3, 2}, -3}});
+}
+
 TEST(Accumulator, a_new_size_forgets_the_pattern) {
   Accumulator a;
   a.resize(2, 2);

@@ -25,4 +25,24 @@ TEST(ConstraintRows, entries_keep_the_size_of_what_was_added) {
   EXPECT_EQ(rows.row(0)[0].size_of_g, 0);
 }
 
+TEST(ConstraintRows, settling_drops_places_that_hold_nothing) {
+  const Paths p;
+  ConstraintRows rows;
+  rows.resize(p.layout, 2);
+  rows.begin();
+  rows.add(0, 3, {.g = 2});
+  rows.add(0, 3, {.g = -2});
+  rows.add(0, 4, {});
+  rows.add(0, 5, {.a0 = 1});
+  rows.add(1, 0, {});
+  rows.settle();
+  const auto row = rows.row(0);
+  ASSERT_EQ(row.size(), 2u);
+  EXPECT_EQ(row[0].column, 3);
+  EXPECT_EQ(row[0].size_of_g, 4);
+  EXPECT_EQ(row[1].column, 5);
+  EXPECT_EQ(row[1].c.a0, 1);
+  EXPECT_TRUE(rows.row(1).empty());
+}
+
 }  // namespace dynalin::mechanics_test::constraint_rows_test

@@ -33,6 +33,16 @@ ConstraintRows::Entry& ConstraintRows::entry(std::int32_t row, std::int32_t colu
   return entries.emplace_back(Entry{.column = column});
 }
 
+void ConstraintRows::settle() {
+  const auto is_empty = [](const Entry& e) {
+    return e.size_of_g == 0 && e.c.g == 0 && e.c.v == 0 && e.c.a1 == 0 && e.c.a0 == 0;
+  };
+  for (std::vector<Entry>& entries : rows_) {
+    std::erase_if(entries, is_empty);
+    entries.shrink_to_fit();
+  }
+}
+
 void ConstraintRows::add_pose(std::int32_t row, BodyId body, const Vec3<Taylor>& on_r, const Vec3<Taylor>& on_theta) {
   const BodyBlock& block = layout_->body(body);
   for (std::int32_t k = 0; k < block.count; ++k) {

@@ -52,6 +52,9 @@ class ConstraintRows {
   void add_pose(std::int32_t row, BodyId body, const Vec3<Taylor>& on_r, const Vec3<Taylor>& on_theta);
   void add_coordinate(std::int32_t row, std::int32_t column, const Taylor& g) { accumulate(entry(row, column), g); }
 
+  // There are no further passes: places that nothing was added to go.
+  void settle();
+
   // Makes a row empty: it holds nothing.
   void drop(std::int32_t row) {
     value_[static_cast<std::size_t>(row)] = Taylor();

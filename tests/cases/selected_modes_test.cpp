@@ -1,5 +1,6 @@
 // NMODES and BAND of LINEAR/EIGENSOL, through program and library, with and without the state matrix: values, vectors
 // and tables are those of the full solution, and whatever is written says which modes these are.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -319,6 +320,35 @@ TEST_F(SelectedModes, know_what_moves_out_of_proportion) {
   ASSERT_TRUE(one && other);
   EXPECT_NEAR(one->times, other->times, 1e-12 * other->times);
   EXPECT_FALSE(largest_disproportion(*without.system, without.linear, 2 * one->times));
+}
+
+// Hinged bodies with a spring and a damper each, frequencies spread evenly: what is next to the border of a band is as
+// near as what is inside, and a sixth of all is inside.
+TEST_F(SelectedModes, of_a_dense_band_are_counted_beside_the_full_solution) {
+  constexpr int count = 800;
+  constexpr double damping_ratio = 0.01, low = 1, high = 1.5;
+  std::string dataset = "hinged bodies\nUNITS/SYSTEM=MKS\nPART/1, GROUND\n";
+  std::vector<double> inside;
+  for (int k = 2; k < count + 2; ++k) {
+    const double undamped = 0.1 + 3 * std::fmod(0.6180339887 * k, 1.0), omega = 2 * std::numbers::pi * undamped;
+    const double damped = undamped * std::sqrt(1 - damping_ratio * damping_ratio);
+    if (damped > low && damped < high) inside.push_back(damped);
+    dataset += fmt::format(
+        "PART/{0}, MASS=1, CM={0}0, IP=1,1,1, QG={0},0,0\nMARKER/{0}0, PART={0}\nMARKER/{0}1, PART=1, QP={0},0,0\n"
+        "JOINT/{0}, REVOLUTE, I={0}0, J={0}1\n"
+        "SFORCE/{0}, ROTATIONAL, I={0}0, J={0}1, FUNCTION=-({1})*AZ({0}0,{0}1)-({2})*WZ({0}0,{0}1)\n",
+        k, omega * omega, 2 * damping_ratio * omega);
+  }
+  const RunResult r = run(dataset + "END\n", fmt::format("LINEAR/EIGENSOL, NOVECTOR, BAND={},{}\nSTOP\n", low, high));
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto& selected = r.result(0).at("selected");
+  EXPECT_EQ(selected.at("counted_by"), "winding_number");
+  EXPECT_EQ(selected.at("complete"), true);
+  EXPECT_EQ(selected.at("counted"), 2 * inside.size());
+  std::vector<double> found = frequencies(r, 0);
+  std::sort(inside.begin(), inside.end()), std::sort(found.begin(), found.end());
+  ASSERT_EQ(found.size(), inside.size());
+  for (std::size_t k = 0; k < inside.size(); ++k) EXPECT_NEAR(found[k], inside[k], 1e-10 * inside[k]);
 }
 
 TEST_F(SelectedModes, cost_of_the_full_solution_is_said_above_a_size) {
