@@ -46,6 +46,20 @@
  * dmpsub gets the frequencies of the modes in cycles per second, ascending. It is called before the model is whole, so
  * it reads nothing of it, and what it gives must not change with time or stepsize.
  *
+ * nfosub of an NFORCE takes the arguments of sfosub and gives 6 values for each of IMARKERS, force and torque on it
+ * along the axes of J. What is in sAdamsNforce is a reading: the routine is none of the published ones of C.
+ *
+ * mfosub of an MFORCE gives a load on the coordinates of a flexible body, 6 + nmodes numbers: force and torque about
+ * the BCS along its axes, and one for each modal coordinate.
+ *
+ *     mfosub: id, time, par, npar, dflag, iflag, modloads, nmodes, ncases, scale, case, loadvec
+ *     Mfosub: const struct sAdamsMforce*, time, dflag, iflag, modloads, nmodes, ncases, scale, case, loadvec
+ *
+ * modloads are the loads of the body, column by column, 6 + nmodes numbers for each of ncases. FORCE = USER takes
+ * loadvec as it is, whatever the model does. FUNCTION = USER takes *scale times load *case, counted from 1, or times
+ * loadvec where *case is 0; the load is a function of time alone, so that c_syspar and the entry below tell derivatives
+ * of the scale, as if that were the only value.
+ *
  * A COUPLER needs couxx and couxx2 as well, which take the same arguments and give the ndisp first and the ndisp x
  * ndisp second partial derivatives, or the entry below. ROUTINE names three: ROUTINE = library::value, first, second.
  * A function of time as well needs the entry. Those with a capital: const struct sAdamsCoupler*, time, disp, iflag,
@@ -140,6 +154,19 @@ struct sAdamsDiff {
   int STATIC_HOLD, IMPLICIT;
   double IC_R1, IC_R2;
 };
+struct sAdamsNforce {
+  int ID, NPAR;
+  const double* PAR;
+  int NMARKERS;
+  const int* IMARKERS;
+  int J;
+};
+struct sAdamsMforce {
+  struct sAdamsFlexBody FlexBody;
+  int ID, NPAR;
+  const double* PAR;
+  int JFLOAT;
+};
 struct sAdamsMotion {
   int ID, NPAR;
   const double* PAR;
@@ -177,7 +204,8 @@ void c_sysfnc(const char* name, const int* ipar, int nsize, double* state, int* 
  * markers if nothing else is said: DISP (i, j, k) 6    TDISP (i, j, k) 3     RDISP (i, j) 3: PSI, THETA, PHI VEL (i, j,
  * k, l) 6  TVEL (i, j, k, l) 3   RVEL (i, j, k) 3 ACC (i, j, k, l) 6  TACC (i, j, k, l) 3   RACC (i, j, k, l) 3 FORCE
  * (i, j, k) 6   TFORCE (i, j, k) 3    RFORCE (i, j, k) 3 UVX, UVY, UVZ (i, j) 3                    DC (i, j) 9, row by
- * row: components along the axes of j ARRAY (id)          PINPUT (id)           POUTPUT (id) */
+ * row: components along the axes of j ARRAY (id)          PINPUT (id)           POUTPUT (id)
+ * Q, QDOT (id of a FLEX_BODY): its modal coordinates and their rates, in their order, as many as c_nmodes says */
 void c_sysary(const char* name, const int* ipar, int nsize, double* states, int* nstates, int* errflg);
 /* Whether partial derivatives are wanted, and what they are: partial[v + values * s] of value v of the routine with
  * respect to number s of what c_sysary or c_sysfnc gives for the same name and ipar. npartial is how many; 0 arguments
@@ -230,6 +258,12 @@ void c_get_gravity(double* gx, double* gy, double* gz);
  * frequencies in cycles per second. */
 void c_nmodes(int id, int* nq, int* errflg);
 void c_modinf(int id, int* mode, double* freq, int* errflg);
+/* A MATRIX: type is 1 where it is full and 2 where it is sparse, size how many numbers it has, of a sparse one those
+ * that are not zero. All numbers column by column, or those with their rows and columns, counted from 1; ierr is 1 if
+ * there is none, or if size is less than it takes. Type and order are readings. */
+void c_get_matrix_info(int id, int* type, int* nrows, int* ncols, int* size, int* ierr);
+void c_get_full_matrix_data(int id, double* vals, int size, int* ierr);
+void c_get_sparse_matrix_data(int id, int* rows, int* cols, double* vals, int size, int* ierr);
 
 /* A rotation by one description from another, angles in radians: EULER or B313, B321, B312, B323, B123 (three angles
  * about axes of the body, one after the other), YPR (as the functions YAW, PITCH, ROLL), EULPAR (4), RODPAR (3, Euler

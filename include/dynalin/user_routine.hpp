@@ -78,6 +78,8 @@ class Call : public CallOfStateEquations<Call<T>, T>, public CallOfContact<Call<
   T velocity(int k) const { return number(8 + k); }
   // What comes as an argument: of a COUPLER displacement k of its joints, of a CONTACT see above.
   T given(int k) const { return number(2 + k); }
+  // Of an MFORCE with FORCE: how many modal coordinates its body has.
+  int modes() const { return course_->values - 6; }
   // As c_sysfnc gives it.
   T measure(const char* name, std::initializer_list<int> ids) const {
     return number(dynalin_input(name, ids.begin(), static_cast<int>(ids.size())));
@@ -116,6 +118,11 @@ class Call<double> : public CallOfStateEquations<Call<double>, double>, public C
     std::copy(given.begin(), given.end(), given_.begin());
   }
   double given(int k) const { return given_[static_cast<std::size_t>(k)]; }
+  int modes() const { return modes_; }
+  Call& with_modes(int modes) {
+    modes_ = modes;
+    return *this;
+  }
   int id() const { return id_; }
   double parameter(int k) const { return k >= 0 && k < npar_ ? par_[k] : std::nan(""); }
   int parameters() const { return npar_; }
@@ -143,6 +150,7 @@ class Call<double> : public CallOfStateEquations<Call<double>, double>, public C
   int npar_;
   const double *disp_, *velo_;
   std::array<double, 14> given_{};
+  int modes_ = 0;
 };
 
 // Fills in the values and derivatives of a course, a pass of inputs at a time.
@@ -177,7 +185,8 @@ void fill_course(const dynalin_course& c) {
 
 }  // namespace dynalin::user
 
-// The routine `name` of a VARIABLE, SFORCE, GFORCE, VFORCE, VTORQUE, DIFF or MOTION, and its entry with derivatives.
+// The routine `name` of a VARIABLE, SFORCE, GFORCE, VFORCE, VTORQUE, NFORCE, DIFF or MOTION, and its entry with
+// derivatives.
 #define DYNALIN_USER_ROUTINE(name, Formula)                                                                           \
   extern "C" void name(const int* id, const double* time, const double* par, const int* npar, const int*, const int*, \
                        double* value) {                                                                               \
@@ -247,4 +256,23 @@ void fill_course(const dynalin_course& c) {
     Formula{}(dynalin::user::Call<double>(*id, *time, par, *npar, {disp[0], disp[1], *ndisp > 2 ? disp[2] : 0.0}), \
               value);                                                                                              \
   }                                                                                                                \
+  extern "C" void name##_derivatives(const dynalin_course* course) { dynalin::user::fill_course<Formula>(*course); }
+
+// The same of a routine mfosub of an MFORCE that FORCE calls: a formula with 6 + call.modes() values.
+#define DYNALIN_USER_MODAL_FORCE(name, Formula)                                                                       \
+  extern "C" void name(const int* id, const double* time, const double* par, const int* npar, const int*, const int*, \
+                       const double*, const int* nmodes, const int*, double*, int*, double* loadvec) {                \
+    Formula{}(dynalin::user::Call<double>(*id, *time, par, *npar).with_modes(*nmodes), loadvec);                      \
+  }                                                                                                                   \
+  extern "C" void name##_derivatives(const dynalin_course* course) { dynalin::user::fill_course<Formula>(*course); }
+
+// The same where FUNCTION calls it: a formula of the scale, with one value. Formula::load_case(call) says which of the
+// modal loads of the body it scales.
+#define DYNALIN_USER_MODAL_SCALE(name, Formula)                                                                       \
+  extern "C" void name(const int* id, const double* time, const double* par, const int* npar, const int*, const int*, \
+                       const double*, const int*, const int*, double* scale, int* load_case, double*) {               \
+    const dynalin::user::Call<double> call(*id, *time, par, *npar);                                                   \
+    *load_case = Formula::load_case(call);                                                                            \
+    Formula{}(call, scale);                                                                                           \
+  }                                                                                                                   \
   extern "C" void name##_derivatives(const dynalin_course* course) { dynalin::user::fill_course<Formula>(*course); }

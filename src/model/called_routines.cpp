@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "routine/damping_routine.h"
-#include "routine/routine_data.h"
 
 namespace dynalin {
 
@@ -167,77 +166,6 @@ std::vector<int> CalledRoutines::integers(const Statement& s, std::string_view n
   return all;
 }
 
-std::optional<std::size_t> CalledRoutines::size_of_list(std::string_view statement, std::int32_t id) const {
-  const auto find = [&](std::string_view name, std::int64_t of) -> const Statement* {
-    const auto found = std::find_if(dataset_.statements.begin(), dataset_.statements.end(),
-                                    [&](const Statement& s) { return s.name == name && s.id == of; });
-    return found == dataset_.statements.end() ? nullptr : &*found;
-  };
-  const Statement* s = find(statement, id);
-  if (!s) return std::nullopt;
-  Diagnostics ignored;
-  if (const auto* w = argument(*s, "VARIABLES"); w && !w->damaged) {
-    const auto list = read_integers(*w, *w->name.source, ignored);
-    return list ? std::optional(list->size()) : std::nullopt;
-  }
-  if (const auto* w = argument(*s, "NUMBERS"); w && !w->damaged) {
-    const auto list = read_reals(*w, *w->name.source, ignored);
-    return list ? std::optional(list->size()) : std::nullopt;
-  }
-  if (statement == "GSE") return static_cast<std::size_t>(std::max(integer(*s, "NS"), 0));
-  // Of states or outputs: the element that has them says how many.
-  for (const Statement& e : dataset_.statements) {
-    if (e.name != "GSE" && e.name != "LSE" && e.name != "TFSISO") continue;
-    if (integer(e, "X") == id) {
-      if (e.name == "GSE") return static_cast<std::size_t>(std::max(integer(e, "NS"), 0));
-      if (e.name == "TFSISO") {
-        const auto* w = argument(e, "DENOMINATOR");
-        const auto list = w && !w->damaged ? read_reals(*w, *w->name.source, ignored) : std::nullopt;
-        return list && !list->empty() ? std::optional(list->size() - 1) : std::nullopt;
-      }
-      const Statement* a = find("MATRIX", integer(e, "A"));
-      if (a && integer(*a, "ROWS") > 0) return static_cast<std::size_t>(integer(*a, "ROWS"));
-    }
-    if (e.name == "GSE" && integer(e, "XD") == id) return static_cast<std::size_t>(std::max(integer(e, "ND"), 0));
-    if (integer(e, "Y") == id) {
-      if (e.name == "GSE") return static_cast<std::size_t>(std::max(integer(e, "NO"), 0));
-      if (e.name == "TFSISO") return std::size_t{1};
-      const Statement* c = find("MATRIX", integer(e, integer(e, "C") > 0 ? "C" : "D"));
-      if (c && integer(*c, "ROWS") > 0) return static_cast<std::size_t>(integer(*c, "ROWS"));
-    }
-  }
-  if (const int size = integer(*s, "SIZE"); size > 0) return static_cast<std::size_t>(size);
-  return std::nullopt;
-}
-
-std::shared_ptr<const std::vector<int>> CalledRoutines::constant_arrays() const {
-  auto ids = std::make_shared<std::vector<int>>();
-  for (const Statement& s : dataset_.statements) {
-    if (s.name == "GSE") ids->push_back(integer(s, "XD"));
-    if (s.name == "ARRAY" && argument(s, "NUMBERS")) ids->push_back(static_cast<int>(s.id.value_or(0)));
-  }
-  std::ranges::sort(*ids);
-  return ids;
-}
-
-std::shared_ptr<RoutineData> CalledRoutines::ids_of_data() const {
-  auto data = std::make_shared<RoutineData>();
-  for (const Statement& s : dataset_.statements) {
-    const int id = static_cast<int>(s.id.value_or(0));
-    if (s.name == "SPLINE") data->splines[id];
-    if (s.name == "CURVE") data->curves[id];
-    if (s.name == "FLEX_BODY") data->flexible_bodies[id];
-    if (s.name != "STRING") continue;
-    // Routines look at texts when they are asked what they read.
-    std::string& text = data->strings[id];
-    const WrittenArgument* w = argument(s, "STRING");
-    if (!w || !w->has_value || w->damaged || w->value().empty()) continue;
-    Diagnostics ignored;
-    text = read_text(*w, *w->name.source, ignored).value_or("").substr(0, RoutineData::longest_text);
-  }
-  return data;
-}
-
 // Between the parentheses of USER(…).
 std::optional<std::vector<double>> CalledRoutines::constants_of(const WrittenArgument& call, const std::string& label) {
   const SourceText& source = *call.name.source;
@@ -281,14 +209,27 @@ FoundRoutine CalledRoutines::called_by(const Statement& s, const RoutineKind& ki
 
 std::shared_ptr<const CompiledRoutine> CalledRoutines::find(const Statement& s, const WrittenArgument& call,
                                                             std::string& wanted) {
-  const RoutineKind* kind = kind_for(s.name, full_name(s, call));
+  const std::string_view by = full_name(s, call);
+  const RoutineKind* kind = kind_for(s.name, by);
   if (!kind || !has_libraries()) return nullptr;
   StatePartialRoutines partials;
   FoundRoutine found = called_by(s, *kind, wanted, partials);
   if (!found) return nullptr;
   auto what = says(s, &call);
   if (!what) return nullptr;
-  return made(s, call.value_span(), std::move(found), *kind, kind->values, std::move(*what), std::move(partials));
+  std::size_t values = kind->values;
+  if (what->markers) values = 6 * what->markers->size();
+  if (kind->arguments == RoutineArguments::modal) {
+    what->modal = modal_load_of(s, by == "FUNCTION");
+    if (!what->modal) {
+      diagnostics_.error("routine-failed", call.value_span(),
+                         fmt::format("{} calls a routine for the modes of FLEX_BODY/{}, which are not known",
+                                     s.at.text(), integer(s, "FLEX_BODY")));
+      return nullptr;
+    }
+    values = 6 + what->modal->modes + (what->modal->scaled ? 1 : 0);
+  }
+  return made(s, call.value_span(), std::move(found), *kind, values, std::move(*what), std::move(partials));
 }
 
 bool CalledRoutines::is_damping(const Statement& s, const WrittenArgument& call) const {
@@ -353,6 +294,8 @@ std::shared_ptr<const CompiledRoutine> CalledRoutines::made(const Statement& s, 
                        fmt::format("{} of {} cannot be used: {}", routine->name(), s.at.text(), routine->problem()));
     return nullptr;
   }
+  for (const Atom& a : routine->inputs())
+    if (reads_modes(a)) data_->modes_read.insert(a.argument[0]);
   // What is called once in a while has nobody who asks for its derivatives.
   const bool has_slopes = kind.arguments != RoutineArguments::plain && &kind != &state_equation_kinds().update;
   if (!routine->gives_derivatives() && has_slopes) {

@@ -9,6 +9,7 @@
 
 #include "model/routine_options.h"
 #include "routine/compiled_routine.h"
+#include "routine/routine_data.h"
 #include "routine/state_equations.h"
 
 namespace dynalin {
@@ -56,6 +57,8 @@ class CalledRoutines {
   int integer(const Statement&, std::string_view name) const;
   std::vector<int> integers(const Statement&, std::string_view name) const;
   std::optional<std::size_t> size_of_list(std::string_view statement, std::int32_t id) const;
+  // Null where there is no such flexible body, or something is wrong with one.
+  const RoutineData::Modes* modes_of(std::int64_t flex_body) const;
   std::shared_ptr<const std::vector<int>> constant_arrays() const;
   std::shared_ptr<RoutineData> ids_of_data() const;
   std::optional<RoutineStatement> says(const Statement&, const WrittenArgument* call);
@@ -71,6 +74,7 @@ class CalledRoutines {
   RoutineStatement::Drive drive_of(const Statement&) const;
   RoutineStatement::Watch watch_of(const Statement&) const;
   std::shared_ptr<const RoutineStatement::Heading> heading_of(const Statement&) const;
+  std::shared_ptr<const RoutineStatement::ModalLoad> modal_load_of(const Statement&, bool scaled) const;
   sAdamsGSE says_of_states(const Statement&, const RoutineStatement&) const;
   std::shared_ptr<const CompiledRoutine> made(const Statement&, const Span& at, FoundRoutine, const RoutineKind&,
                                               std::size_t values, RoutineStatement, StatePartialRoutines = {});
@@ -88,6 +92,7 @@ class CalledRoutines {
   std::vector<std::string> folders_;
   std::shared_ptr<const std::vector<int>> constant_arrays_;
   std::shared_ptr<RoutineData> data_;
+  mutable std::shared_ptr<RoutineData> bodies_;  // what is known of modes beforehand, once that was asked for
 };
 
 }  // namespace dynalin

@@ -163,7 +163,7 @@ void ModelReader::check_atom(const Atom& atom) {
       for (std::size_t k = 0; k < atom.argument_count; ++k) check_id(atom, k, "MARKER");
       return;
     case AtomFamily::data:
-      if (f.statement.empty()) return;
+      if (f.statement.empty() || f.reads == DataSource::unknown) return;  // those name unknowns, and no statements
       check_id(atom, 0, f.statement);
       check_required_argument(atom);
       if (atom.argument_count > 1 && atom.argument[1] < 1) {

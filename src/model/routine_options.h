@@ -12,6 +12,7 @@ namespace dynalin {
 struct RoutineOptions {
   std::vector<std::string> libraries{};  // shared libraries, or folders with those that ROUTINE= names
   bool differences = false;              // also in linear models, of routines that give no derivatives
+  std::shared_ptr<RoutineData> data{};   // to be told of a model that calls none
 };
 
 // build_model of model.h calls none.

@@ -70,6 +70,15 @@ RoutineStatement::Watch CalledRoutines::watch_of(const Statement& s) const {
   return w;
 }
 
+// Null where the modes are not known.
+std::shared_ptr<const RoutineStatement::ModalLoad> CalledRoutines::modal_load_of(const Statement& s,
+                                                                                 bool scaled) const {
+  const RoutineData::Modes* modes = modes_of(integer(s, "FLEX_BODY"));
+  if (!modes) return nullptr;
+  return std::make_shared<const RoutineStatement::ModalLoad>(
+      RoutineStatement::ModalLoad{integer(s, "FLEX_BODY"), modes->number.size(), modes->cases, modes->loads, scaled});
+}
+
 std::shared_ptr<const RoutineStatement::Heading> CalledRoutines::heading_of(const Statement& s) const {
   RoutineStatement::Heading h;
   const auto text = [&](std::string_view name) {
@@ -101,6 +110,7 @@ std::optional<RoutineStatement> CalledRoutines::says(const Statement& s, const W
   out.I = integer(s, "I"), out.J = integer(s, "J"), out.RM = integer(s, "RM"), out.JFLOAT = integer(s, "JFLOAT");
   out.action_only = argument(s, "ACTIONONLY") != nullptr;
   out.rotation = s.name == "SFORCE" && is_rotational(s);
+  if (s.name == "NFORCE") out.markers = std::make_shared<const std::vector<int>>(integers(s, "IMARKERS"));
   if (s.name == "COUPLER") out.coupled = coupled_by(s);
   if (s.name == "MOTION") out.drive = drive_of(s);
   if (s.name == "SENSOR") out.watch = watch_of(s);

@@ -48,6 +48,13 @@ void call_with_addresses(void* address, RoutineArguments arguments, const Routin
       return as<void(const int*, const double*, const double*, const int*, const double*, const int*, const int*,
                      double*)>(address)(&s.id, &now.time, par, &npar, now.given, &count, &now.iflag, values);
     }
+    case RoutineArguments::modal: {
+      const auto modes = static_cast<int>(s.modal->modes), cases = static_cast<int>(s.modal->cases);
+      return as<void(const int*, const double*, const double*, const int*, const int*, const int*, const double*,
+                     const int*, const int*, double*, int*, double*)>(address)(
+          &s.id, &now.time, par, &npar, &now.flag, &now.iflag, s.modal->loads.data(), &modes, &cases, now.scale,
+          now.load_case, values);
+    }
     case RoutineArguments::damping:
       return;  // a class of its own calls it
     case RoutineArguments::pressure:
@@ -64,7 +71,7 @@ void call_with_addresses(void* address, RoutineArguments arguments, const Routin
   }
 }
 
-// Every one of these but that of a CONTACT begins with id and constants.
+// Every one of these but those of a CONTACT and an MFORCE begins with id and constants.
 union WhatItSays {
   sAdamsVariable variable;
   sAdamsSforce sforce;
@@ -78,6 +85,8 @@ union WhatItSays {
   sAdamsGSE gse;
   sAdamsContactFriction contact;
   sAdamsCoupler coupler;
+  sAdamsNforce nforce;
+  sAdamsMforce mforce;
 };
 
 WhatItSays what_it_says(std::string_view statement, const RoutineStatement& s) {
@@ -115,6 +124,9 @@ WhatItSays what_it_says(std::string_view statement, const RoutineStatement& s) {
                    npar,
                    par};
   }
+  if (statement == "NFORCE")
+    all.nforce = {s.id, npar, par, static_cast<int>(s.markers->size()), s.markers->data(), s.J};
+  if (statement == "MFORCE") all.mforce = {{s.modal->body}, s.id, npar, par, s.JFLOAT};
   if (statement == "GSE") {
     all.gse = *s.gse;
     all.gse.ID = s.id, all.gse.NPAR = npar, all.gse.PAR = par;
@@ -122,8 +134,8 @@ WhatItSays what_it_says(std::string_view statement, const RoutineStatement& s) {
   return all;
 }
 
-void call_with_statement(void* address, RoutineArguments arguments, const WhatItSays& s, const RoutineArgumentsNow& now,
-                         double* values) {
+void call_with_statement(void* address, RoutineArguments arguments, const WhatItSays& s,
+                         const RoutineStatement::ModalLoad* modal, const RoutineArgumentsNow& now, double* values) {
   switch (arguments) {
     case RoutineArguments::function:
     case RoutineArguments::of_time:
@@ -144,6 +156,10 @@ void call_with_statement(void* address, RoutineArguments arguments, const WhatIt
     case RoutineArguments::coupler:
       return as<void(const void*, double, const double*, int, double*)>(address)(&s, now.time, now.given, now.iflag,
                                                                                  values);
+    case RoutineArguments::modal:
+      return as<void(const void*, double, int, int, const double*, int, int, double*, int*, double*)>(address)(
+          &s, now.time, now.flag, now.iflag, modal->loads.data(), static_cast<int>(modal->modes),
+          static_cast<int>(modal->cases), now.scale, now.load_case, values);
     case RoutineArguments::damping:
       return;
     case RoutineArguments::pressure:
@@ -165,7 +181,8 @@ void call_routine(const FoundRoutine& found, const RoutineKind& kind, const Rout
                   const RoutineArgumentsNow& now, double* values) {
   if (found.convention == RoutineConvention::addresses)
     return call_with_addresses(found.address, kind.arguments, statement, now, values);
-  call_with_statement(found.address, kind.arguments, what_it_says(kind.statement, statement), now, values);
+  call_with_statement(found.address, kind.arguments, what_it_says(kind.statement, statement), statement.modal.get(),
+                      now, values);
 }
 
 void call_state_partials(const FoundRoutine& found, const RoutineStatement& s, const RoutineArgumentsNow& now,

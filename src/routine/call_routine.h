@@ -15,6 +15,9 @@ struct RoutineArgumentsNow {
   const double *displacement = nullptr, *velocity = nullptr;
   double *by_displacement = nullptr, *by_velocity = nullptr;
   const double* given = nullptr;  // of a CONTACT: given_inputs.h
+  // Of an MFORCE, whose values here are a load of its own.
+  double* scale = nullptr;
+  int* load_case = nullptr;
 };
 
 void call_routine(const FoundRoutine&, const RoutineKind&, const RoutineStatement&, const RoutineArgumentsNow&,

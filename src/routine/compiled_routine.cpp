@@ -122,8 +122,22 @@ CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, st
   lack_of_derivatives_ = miscount.empty() ? "gives no derivatives" : miscount;
   if (!miscount.empty()) return;
   const auto told = std::count_if(given.begin() + 2, given.end(), [](char g) { return g != 0; });
-  if (told <= static_cast<std::ptrdiff_t>(constants_.size())) return;
-  lack_of_derivatives_ = "gives no derivative by " + input_text(static_cast<std::size_t>(missing - given.begin()));
+  if (told > static_cast<std::ptrdiff_t>(constants_.size()))
+    lack_of_derivatives_ = "gives no derivative by " + input_text(static_cast<std::size_t>(missing - given.begin()));
+  const std::vector<std::string_view> absent = absent_partials();
+  if (!absent.empty()) lack_of_derivatives_ += fmt::format(" and has no {} beside it", fmt::join(absent, ", "));
+}
+
+std::vector<std::string_view> CompiledRoutine::absent_partials() const {
+  std::vector<std::string_view> absent;
+  if (kind_->arguments != RoutineArguments::system) return absent;
+  const sAdamsGSE& gse = *statement_.gse;
+  const auto look = [&](const FoundRoutine& routine, int of, int by, std::string_view name) {
+    if (of > 0 && by > 0 && !routine) absent.push_back(name);
+  };
+  look(state_partials_.of_x_by_x, gse.NS, gse.NS, "gsexx"), look(state_partials_.of_x_by_u, gse.NS, gse.NI, "gsexu");
+  look(state_partials_.of_y_by_x, gse.NO, gse.NS, "gseyx"), look(state_partials_.of_y_by_u, gse.NO, gse.NI, "gseyu");
+  return absent;
 }
 
 std::string CompiledRoutine::name() const {
@@ -134,7 +148,7 @@ RoutineContext CompiledRoutine::context(RoutineContext::Phase phase) const {
   RoutineContext c;
   c.phase = phase;
   c.requests = &requests_;
-  c.values = values_;
+  c.values = differentiated();
   c.gse = statement_.gse ? &*statement_.gse : nullptr;
   c.data = statement_.data.get();
   return c;
@@ -182,12 +196,19 @@ std::string CompiledRoutine::evaluate_course(std::span<const double> inputs, int
                                  statement_.parameters.count(),
                                  statement_.parameters.data(),
                                  static_cast<int>(requests_.inputs.size()),
-                                 static_cast<int>(values_),
+                                 static_cast<int>(differentiated()),
                                  order,
                                  inputs.data(),
                                  values.data(),
                                  partials.data()};
-  return at_work(c, [&] { found_.derivatives(&course); });
+  std::string failure = at_work(c, [&] { found_.derivatives(&course); });
+  if (order > 0 || differentiated() == values_ || !failure.empty()) return failure;
+  std::vector<double> all(values_);
+  failure = evaluate(std::vector<double>(plain), all, {}, {});
+  std::copy(all.begin() + static_cast<std::ptrdiff_t>(differentiated()), all.end(),
+            values.begin() + static_cast<std::ptrdiff_t>(differentiated()));
+  std::fill(partials.begin() + static_cast<std::ptrdiff_t>(differentiated() * plain.size()), partials.end(), 0.0);
+  return failure;
 }
 
 const CompiledRoutine::Memory& CompiledRoutine::remembered(const RoutineInputs<double>& read,

@@ -65,6 +65,16 @@ struct RoutineStatement {
     std::vector<int> I, J, reversed_I, reversed_J;
   };
   std::shared_ptr<const Sides> sides{};
+  // Of an NFORCE: ids of the markers that it acts on.
+  std::shared_ptr<const std::vector<int>> markers{};
+  // Of an MFORCE.
+  struct ModalLoad {
+    int body = 0;  // id of its FLEX_BODY
+    std::size_t modes = 0, cases = 0;
+    std::vector<double> loads{};  // 6 + modes numbers for each case
+    bool scaled = false;          // by FUNCTION: values are a scale and behind it the load; by FORCE the load alone
+  };
+  std::shared_ptr<const ModalLoad> modal{};
   // ARRAYs of numbers and of discrete states, ascending: constants in a linear model.
   std::shared_ptr<const std::vector<int>> constant_arrays{};
   std::shared_ptr<const RoutineData> data{};
@@ -86,6 +96,8 @@ class CompiledRoutine final : public Routine {
   // TIME, MODE but for a MOTION, and what it asked for, or instead of that what it gets as arguments (given_inputs.h).
   const std::vector<Atom>& inputs() const { return requests_.inputs; }
   std::size_t values() const { return values_; }
+  // Of how many of them derivatives are asked: not of the load that an MFORCE scales, a function of time alone.
+  std::size_t differentiated() const { return statement_.modal && statement_.modal->scaled ? 1 : values_; }
   // What was wrong when it was asked what it reads, empty if nothing was.
   const std::string& problem() const { return problem_; }
   // Whether it gave derivatives with respect to all that it asked for, when it was called to try.
@@ -117,6 +129,7 @@ class CompiledRoutine final : public Routine {
   // Whether the value at other times is the same to the last digit: there is no routine for its derivative in time.
   bool depends_on_time(std::span<const double> inputs) const;
   void call_contact(RoutineArgumentsNow, double* values) const;
+  void call_modal(RoutineArgumentsNow, double* values) const;
   // Of a whole GSE: partial derivatives that routines of their own give.
   void call_partials(double time, std::span<double> partials, std::span<char> given) const;
   // All values, and with partials those too; says why there are none.
@@ -133,6 +146,8 @@ class CompiledRoutine final : public Routine {
                      RoutineFindings&) const;
   void doubt_motion(double time, std::span<const double> course, RoutineFindings&) const;
   std::string input_text(std::size_t input) const;  // "VX(20, 1)"
+  // Of a whole GSE: the routines of partial derivatives that it would need and no library has.
+  std::vector<std::string_view> absent_partials() const;
   bool may_difference(double mode) const;
   const Memory& remembered(const RoutineInputs<double>&, bool with_partials) const;
   const CourseMemory& remembered(const RoutineInputs<Taylor>&) const;

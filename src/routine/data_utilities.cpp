@@ -1,6 +1,6 @@
-// Utilities of compiled routines that read data of the model: AKISPL, CUBSPL, GTCURV, GTSTRG, NMODES, MODINF and
-// gravity, and the same under the names by which Fortran calls them. Where a routine is only asked what it reads they
-// give zeros, but for texts.
+// Utilities of compiled routines that read data of the model: AKISPL, CUBSPL, GTCURV, GTSTRG, NMODES, MODINF,
+// matrices and gravity, and the same under the names by which Fortran calls them. Where a routine is only asked what it
+// reads they give zeros, but for texts.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -53,6 +53,16 @@ const RoutineData::Modes* modes_of(int id) {
   const auto found = data->flexible_bodies.find(id);
   return found == data->flexible_bodies.end() ? nullptr : &found->second;
 }
+
+// Null where there is no such MATRIX.
+const RoutineData::Numbers* matrix_of(int id) {
+  const RoutineData* data = data_at_work();
+  if (!data) return nullptr;
+  const auto found = data->matrices.find(id);
+  return found == data->matrices.end() ? nullptr : &found->second;
+}
+// A full one has all of its numbers, a sparse one those that are not zero.
+bool is_listed(const RoutineData::Numbers& m, double value) { return !m.by_entries || value != 0; }
 
 // Null where there is none.
 const std::string* text_of_string(int id) {
@@ -120,6 +130,40 @@ void gtstrg_(const int* id, char* string, int* nchars, int* istat, std::size_t l
   *nchars = text ? static_cast<int>(text->size()) : 0;
   std::memset(string, ' ', length);
   if (text) std::memcpy(string, text->data(), std::min(text->size(), length));
+}
+
+void c_get_matrix_info(int id, int* type, int* nrows, int* ncols, int* size, int* ierr) {
+  const RoutineData::Numbers* m = matrix_of(id);
+  *ierr = !m;
+  *type = m && m->by_entries ? 2 : 1;
+  *nrows = m ? static_cast<int>(m->rows) : 0, *ncols = m ? static_cast<int>(m->columns) : 0;
+  *size = m ? static_cast<int>(std::ranges::count_if(m->values, [&](double v) { return is_listed(*m, v); })) : 0;
+}
+void get_matrix_info_(const int* id, int* type, int* nrows, int* ncols, int* size, int* ierr) {
+  c_get_matrix_info(*id, type, nrows, ncols, size, ierr);
+}
+void c_get_full_matrix_data(int id, double* vals, int size, int* ierr) {
+  const RoutineData::Numbers* m = matrix_of(id);
+  *ierr = !m || size < 0 || static_cast<std::size_t>(size) < m->values.size();
+  if (!*ierr) std::ranges::copy(m->values, vals);
+}
+void get_full_matrix_data_(const int* id, double* vals, const int* size, int* ierr) {
+  c_get_full_matrix_data(*id, vals, *size, ierr);
+}
+void c_get_sparse_matrix_data(int id, int* rows, int* cols, double* vals, int size, int* ierr) {
+  const RoutineData::Numbers* m = matrix_of(id);
+  *ierr = !m;
+  int count = 0;
+  for (std::size_t k = 0; m && k < m->values.size(); ++k) {
+    if (!is_listed(*m, m->values[k])) continue;
+    *ierr = count >= size;
+    if (*ierr) return;
+    rows[count] = static_cast<int>(k % m->rows) + 1, cols[count] = static_cast<int>(k / m->rows) + 1;
+    vals[count++] = m->values[k];
+  }
+}
+void get_sparse_matrix_data_(const int* id, int* rows, int* cols, double* vals, const int* size, int* ierr) {
+  c_get_sparse_matrix_data(*id, rows, cols, vals, *size, ierr);
 }
 
 void c_nmodes(int id, int* nq, int* errflg) {

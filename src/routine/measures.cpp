@@ -51,6 +51,27 @@ constexpr AtomFunction rate_of_state_equations = {.name = "GSE_XDOT",
                                                   .built = true,
                                                   .reads = DataSource::state_rate};
 
+// The modal coordinates of a flexible body and their rates, unknowns of its own where a routine asks for them.
+constexpr AtomFunction list_of_modes(std::string_view name) {
+  return {.name = name,
+          .family = AtomFamily::data,
+          .order = -1,
+          .minimum_arguments = 2,
+          .maximum_arguments = 2,
+          .statement = "FLEX_BODY",
+          .built = true,
+          .reads = DataSource::unknown};
+}
+constexpr std::array<AtomFunction, 2> modal_lists = {list_of_modes("Q"), list_of_modes("QDOT")};
+
+Atom entry_of(const AtomFunction& list, std::int32_t id, std::size_t n) {
+  Atom atom;
+  atom.function = &list;
+  atom.argument = {id, static_cast<std::int32_t>(n)};
+  atom.argument_count = 2;
+  return atom;
+}
+
 std::optional<Atom> atom_of(std::string_view function, std::span<const int> ids) {
   Atom atom;
   atom.function = find_atom_function(function);
@@ -92,19 +113,19 @@ std::optional<std::vector<Atom>> measure_list(std::string_view name, std::span<c
       list.push_back(*atom_of(e.function, std::array{ids[0], static_cast<int>(n)}));
     return list;
   }
-  if (wanted == rate_of_state_equations.name && ids.size() == 1) {
-    const auto count = size_of(rate_of_state_equations.statement, ids[0]);
+  for (const AtomFunction* f : {&rate_of_state_equations, &modal_lists[0], &modal_lists[1]}) {
+    if (wanted != f->name || ids.size() != 1) continue;
+    const auto count = size_of(f->statement, ids[0]);
     if (!count) return std::nullopt;
-    for (std::size_t n = 1; n <= *count; ++n) {
-      Atom atom;
-      atom.function = &rate_of_state_equations;
-      atom.argument = {ids[0], static_cast<std::int32_t>(n)};
-      atom.argument_count = 2;
-      list.push_back(atom);
-    }
+    for (std::size_t n = 1; n <= *count; ++n) list.push_back(entry_of(*f, ids[0], n));
     return list;
   }
   return std::nullopt;
 }
+
+bool reads_modes(const Atom& atom) {
+  return atom.function->reads == DataSource::unknown && atom.function->statement == modal_lists[0].statement;
+}
+bool reads_modal_rate(const Atom& atom) { return atom.function->name == modal_lists[1].name; }
 
 }  // namespace dynalin

@@ -45,12 +45,6 @@ void c_gtcmat() { missing("GTCMAT"); }
 void gtcmat_() { missing("GTCMAT"); }
 void c_gtunts() { missing("GTUNTS"); }
 void gtunts_() { missing("GTUNTS"); }
-void c_get_matrix_info() { missing("GET_MATRIX_INFO"); }
-void get_matrix_info_() { missing("GET_MATRIX_INFO"); }
-void c_get_sparse_matrix_data() { missing("GET_SPARSE_MATRIX_DATA"); }
-void get_sparse_matrix_data_() { missing("GET_SPARSE_MATRIX_DATA"); }
-void c_get_full_matrix_data() { missing("GET_FULL_MATRIX_DATA"); }
-void get_full_matrix_data_() { missing("GET_FULL_MATRIX_DATA"); }
 void c_anlmod() { missing("ANLMOD"); }
 void anlmod_() { missing("ANLMOD"); }
 void c_getinm() { missing("GETINM"); }

@@ -56,6 +56,7 @@ void CompiledRoutine::call_with_arguments(double time, int flag, int iflag, doub
   if (kind_->arguments == RoutineArguments::coupler) return call_coupler(now, found_, values);
   if (kind_->arguments == RoutineArguments::pressure || kind_->arguments == RoutineArguments::friction)
     return call_contact(now, values);
+  if (kind_->arguments == RoutineArguments::modal) return call_modal(now, values);
   if (kind_->arguments != RoutineArguments::system) return call_routine(found_, *kind_, statement_, now, values);
   const sAdamsGSE& gse = *statement_.gse;
   const RoutineContext& c = *RoutineContext::current();
@@ -70,6 +71,24 @@ void CompiledRoutine::call_contact(RoutineArgumentsNow now, double* values) cons
   if (c.phase != RoutineContext::Phase::asking) std::ranges::copy(c.inputs.subspan(first_given), given.begin());
   now.given = given.data();
   call_routine(found_, *kind_, statement_, now, values);
+}
+
+// A load of its own counts where no load case is named. Those of FORCE have neither case nor scale.
+void CompiledRoutine::call_modal(RoutineArgumentsNow now, double* values) const {
+  const RoutineStatement::ModalLoad& m = *statement_.modal;
+  double scale = unknown_value;
+  int number = 0;
+  now.scale = &scale, now.load_case = &number;
+  call_routine(found_, *kind_, statement_, now, m.scaled ? values + 1 : values);
+  if (!m.scaled) return;
+  values[0] = scale;
+  RoutineContext& c = *RoutineContext::current();
+  if (number == 0 || c.phase == RoutineContext::Phase::asking) return;
+  if (number < 0 || static_cast<std::size_t>(number) > m.cases)
+    return c.fail(fmt::format("it takes modal load {}, and FLEX_BODY/{} has {}", number, m.body, m.cases));
+  const std::size_t count = 6 + m.modes;
+  std::copy_n(m.loads.begin() + static_cast<std::ptrdiff_t>(count * (static_cast<std::size_t>(number) - 1)), count,
+              values + 1);
 }
 
 // A column of derivatives counts if all of it is written.

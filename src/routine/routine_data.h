@@ -3,6 +3,8 @@
 
 #include <map>
 #include <memory>
+#include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,13 +25,22 @@ struct RoutineData {
   struct Modes {
     std::vector<int> number;
     std::vector<double> frequency;  // [cycles/s]
+    std::size_t cases = 0;          // modal loads
+    std::vector<double> loads;      // 6 + modes numbers for each
+  };
+  struct Numbers {
+    std::size_t rows = 0, columns = 0;
+    bool by_entries = false;         // SPARSE
+    std::span<const double> values;  // column by column, of the model
   };
   // By ids of statements. They are known before the model is read, and what they hold when it is; texts at once.
   std::map<int, Spline> splines;
   std::map<int, std::shared_ptr<const ParametricCurve>> curves;
   std::map<int, std::string> strings;
+  std::map<int, Numbers> matrices;
   std::map<int, Modes> flexible_bodies;
   std::map<int, std::shared_ptr<const DampingRoutine>> damping;  // of flexible bodies whose CRATIO calls a routine
+  std::set<int> modes_read;                                      // ids of flexible bodies whose Q or QDOT are read
   Vec3<double> gravity{};                                        // [length/time²], global axes
   bool is_read = false;
 };

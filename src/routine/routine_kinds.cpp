@@ -6,7 +6,7 @@ namespace dynalin {
 
 namespace {
 using enum RoutineArguments;
-constexpr std::array<RoutineKind, 15> kinds = {{
+constexpr std::array<RoutineKind, 18> kinds = {{
     {"VARIABLE", "varsub", 1, function},
     {"SFORCE", "sfosub", 1, function},
     {"GFORCE", "gfosub", 6, function},
@@ -17,6 +17,9 @@ constexpr std::array<RoutineKind, 15> kinds = {{
     {"CONTACT", "cffsub", 3, friction, "FFUNCTION", "FROUTINE"},
     {"COUPLER", "cousub", 1, coupler},
     {"FLEX_BODY", "dmpsub", 0, damping, "CRATIO"},
+    {"NFORCE", "nfosub", 0, function},
+    {"MFORCE", "mfosub", 0, modal},
+    {"MFORCE", "mfosub", 0, modal, "FORCE"},
     {"DIFF", "difsub", 1, function},
     {"MOTION", "motsub", 1, of_time},
     {"REQUEST", "reqsub", 8, plain},

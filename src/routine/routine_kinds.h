@@ -17,6 +17,7 @@ enum class RoutineArguments : std::uint8_t {
   field,     // displacement, velocity, dflag, iflag, force, its derivatives by both
   pressure,  // of a CONTACT: places, normals, gap with two rates, area, dflag, iflag
   coupler,   // displacements of joints, how many, iflag
+  modal,     // of an MFORCE: dflag, iflag, modal loads, how many modes and loads, scale, which load, a load
   damping,   // of a FLEX_BODY: frequencies, how many modes, step; damping_routine.h
   friction,  // of a CONTACT: places, deformation, slip, normal force, area, dflag, iflag
 };

@@ -5,6 +5,7 @@
 #include "elements/controls/array.h"
 #include "elements/controls/variable_list.h"
 #include "mechanics/wrench_source.h"
+#include "routine/measures.h"
 
 namespace dynalin {
 
@@ -61,8 +62,21 @@ Channel SignalTable::array_entry(ArrayRef ref, std::size_t n) const {
   return {Channel::Kind::constant, 0, a.numbers[n]};
 }
 
+Channel SignalTable::modal(const Atom& atom) const {
+  const auto body = model_.find_body("FLEX_BODY", atom.argument[0]);
+  const auto n = static_cast<std::size_t>(atom.argument[1] - 1);
+  for (std::size_t s = 0; body && s < kernel_of_set_.size(); ++s) {
+    if (!kernel_of_set_[s] || model_.sets[s]->kind().statement != "FLEX_BODY") continue;
+    const ChannelSource& bodies = *kernel_of_set_[s]->channels();
+    const auto at = static_cast<std::size_t>(body->index);
+    return reads_modal_rate(atom) ? bodies.output_channel(at, n) : bodies.state_channel(at, n);
+  }
+  return {};
+}
+
 Channel SignalTable::data(const Atom& atom) const {
   const AtomFunction& f = *atom.function;
+  if (reads_modes(atom)) return modal(atom);
   if (f.reads == DataSource::unknown) return {Channel::Kind::algebraic, atom.argument[0]};
   const auto handle = model_.find(f.statement, atom.argument[0]);
   if (!handle) return {};

@@ -37,6 +37,7 @@ class SignalTable final : public Signals {
  private:
   const Kernel* kernel(ElementHandle h) const { return kernel_of_set_[static_cast<std::size_t>(h.set)]; }
   Channel value_of(ElementHandle) const;
+  Channel modal(const Atom&) const;
 
   const Model& model_;
   const Layout& layout_;

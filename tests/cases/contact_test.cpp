@@ -254,7 +254,8 @@ TEST_F(Contacts, what_cannot_touch_is_an_error_at_its_place) {
       refused("GRAPHICS/3, TORUS, CM=1, MAJOR_RADIUS=1, MINOR_RADIUS=0.5\nGRAPHICS/4, BOX, CORNER=2, X=1, Y=1, Z=1\n"
               "CONTACT/7, IGEOM=4, JGEOM=3, JFLIP_GEOMETRY=3, " +
               impact),
-      HasSubstr("[contact-pair-not-built]"));
+      AllOf(HasSubstr("[contact-pair-not-built]"),
+            HasSubstr("CONTACT/7 lets GRAPHICS/3, the inside of a torus touch GRAPHICS/4, a box, which")));
   EXPECT_THAT(with("IGEOM=2, JGEOM=1, IFLIP_GEOMETRY=1"), HasSubstr("[unexpected-value]"));
   EXPECT_THAT(with("IGEOM=2, JGEOM=1, JFLIP_GEOMETRY=1, JFLIP_NORMAL=1"), HasSubstr("[excluded-arguments]"));
   EXPECT_THAT(with("IGEOM=2, JGEOM=1, 1"), HasSubstr("[duplicate-argument]"));

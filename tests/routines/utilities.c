@@ -7,7 +7,7 @@
 
 /* Not built, and so not in the header. */
 void c_modify(const char* command, int* istat);
-void c_get_matrix_info(int id, int* type, int* rows, int* columns, int* size, int* ierr);
+void c_gtcmat(int nmid, const int* mid, int ndim, double* c, int* istat);
 
 static void say(const char* text, int id) { c_errmes(1, text, id, "STOP"); }
 
@@ -107,7 +107,7 @@ void of_utilities(const int* id, const double* time, const double* par, const in
   } else if (what == 16) {
     c_modify("GFORCE/1", &status);
   } else {
-    c_get_matrix_info(1, &i, &j, &k, &count, &error);
+    c_gtcmat(1, &i, 6, value, &error);
   }
 }
 

@@ -92,7 +92,7 @@ TEST_F(Utilities, write_numbers_and_say_who_calculates) {
 
 // Their library loads; it is the call that is refused.
 TEST_F(Utilities, that_are_not_built_are_named) {
-  for (const auto& [what, name] : {std::pair{16, "MODIFY"}, {17, "GET_MATRIX_INFO"}}) {
+  for (const auto& [what, name] : {std::pair{16, "MODIFY"}, {17, "GTCMAT"}}) {
     const RunResult r = run_of(driven, what, 0);
     EXPECT_NE(r.status, 0) << name;
     EXPECT_THAT(r.err, AllOf(HasSubstr("VARIABLE/1"),

@@ -109,13 +109,16 @@ class FlexBodySet final : public TypedSet<FlexBody> {
 
  private:
   // In the order of the modal coordinates.
-  static void tell_routines(RoutineData& data, const ElementLabel& label, const RatioModes& modes) {
+  static void tell_routines(RoutineData& data, const ElementLabel& label, const RatioModes& modes,
+                            const ModalBody& body) {
     std::vector<std::pair<int, double>> all;
     for (std::size_t k = 0; k < modes.number.size(); ++k)
       all.emplace_back(static_cast<int>(modes.number[k]), modes.frequency[k]);
     std::ranges::sort(all);
     RoutineData::Modes& told = data.flexible_bodies[static_cast<int>(label.id)] = {};
     for (const auto& [number, frequency] : all) told.number.push_back(number), told.frequency.push_back(frequency);
+    told.cases = static_cast<std::size_t>(body.loads.cols());
+    told.loads.assign(body.loads.data(), body.loads.data() + body.loads.size());
   }
 
   static std::shared_ptr<ModalBody> of_matrices(FlexBody& f, const std::string& name, const Model& model,
@@ -253,16 +256,19 @@ class FlexBodySet final : public TypedSet<FlexBody> {
 
   void set_damping(FlexBody& f, const ElementLabel& label, const Model& model, Diagnostics& diagnostics) const {
     ModalBody& b = *f.flexible;
-    if (b.modes() == 0) return;
-    const OwnModes own = own_modes(b, model.units.ucf);
     RatioModes modes{label.text(), {}, {}};
+    if (b.modes() == 0) {
+      if (model.routine_data) tell_routines(*model.routine_data, label, modes, b);
+      return;
+    }
+    const OwnModes own = own_modes(b, model.units.ucf);
     for (Eigen::Index k = 0; k < b.modes(); ++k) {
       modes.frequency.push_back(own.frequency(k) / (2 * std::numbers::pi * seconds_in(model.units.time)));
       Eigen::Index mode = 0;
       own.shapes.col(k).cwiseProduct(own.mass.diagonal().cwiseSqrt()).cwiseAbs().maxCoeff(&mode);
       modes.number.push_back(static_cast<double>(b.number[static_cast<std::size_t>(own.diagonal ? mode : k)]));
     }
-    if (model.routine_data) tell_routines(*model.routine_data, label, modes);
+    if (model.routine_data) tell_routines(*model.routine_data, label, modes, b);
     const auto ratio = ratios(f, label, modes, model, diagnostics);
     if (!ratio) return;
     b.damping = modal_damping(own, [&](Eigen::Index k) { return (*ratio)[static_cast<std::size_t>(k)]; });

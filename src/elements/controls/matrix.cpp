@@ -15,6 +15,7 @@
 #include "dataset/matrix_file.h"
 #include "model/model.h"
 #include "model/schema.h"
+#include "routine/routine_data.h"
 
 namespace dynalin {
 
@@ -79,6 +80,14 @@ class MatrixSet final : public TypedSet<Matrix> {
     }
     elements[k].name = m.name;
     for (char& c : elements[k].name) c = to_upper(c);
+  }
+
+  void finish(Model& model, Diagnostics&) override {
+    for (std::size_t k = 0; k < elements.size() && model.routine_data; ++k) {
+      const Matrix& m = elements[k];
+      model.routine_data->matrices[static_cast<int>(labels[k].id)] = {
+          m.rows, m.columns, m.written == Matrix::Written::by_entries, m.values};
+    }
   }
 
  private:

@@ -110,6 +110,15 @@ bool place(const Model& model, const ElementLabel& label, const std::vector<List
   return true;
 }
 
+// "GRAPHICS/3, the inside of a torus".
+static std::string kind_of(const Model& model, const ListedShape& shape, const solid::Side& side) {
+  static constexpr std::array<std::string_view, 8> kinds = {
+      "a ball", "an ellipsoid", "a cylinder or frustum", "a torus", "a box", "a plane", "a body of facets", "a curve"};
+  static_assert(kinds.size() == std::variant_size_v<solid::Shape>);
+  return fmt::format("{}, {}{}", model.label(shape.graphics).text(), shape.reversed ? "the inside of " : "",
+                     kinds[side.shape.index()]);
+}
+
 bool check_pairs(const Model& model, const ElementLabel& label, const ContactSides& sides, const ContactForce& f,
                  Diagnostics& diagnostics) {
   for (std::size_t a = 0; a < f.I.size(); ++a) {
@@ -127,8 +136,8 @@ bool check_pairs(const Model& model, const ElementLabel& label, const ContactSid
       }
       diagnostics.error(
           "contact-pair-not-built", J.at,
-          fmt::format("contact of {} of {} with {} of {} is not available yet", model.label(J.graphics).text(),
-                      label.text(), model.label(I.graphics).text(), label.text()),
+          fmt::format("{} lets {} touch {}, which is not available yet", label.text(), kind_of(model, J, f.J[b].side),
+                      kind_of(model, I, f.I[a].side)),
           "all solids touch each other, a PLANE and the walls of a cavity; but what is drawn in facets touches balls, "
           "POINTs, PLANEs and the walls of cavities in closed form alone, of cavities ELLIPSOIDs touch BOX, CYLINDER "
           "and FRUSTUM alone, and CYLINDERs, FRUSTUMs and BOXes no TORUS; only one of two closed curves is a cavity");

@@ -1,9 +1,12 @@
 #include "elements/families/flexible_body.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <array>
 
 #include "elements/bodies/flex_body.h"
 #include "mechanics/path.h"
+#include "routine/routine_data.h"
 
 namespace dynalin {
 
@@ -250,7 +253,7 @@ ModalInertia dynamical(ModalInertia I, double ucf) {
 
 }  // namespace
 
-FlexibleBodyKernel::FlexibleBodyKernel(const Model& model, const Layout& layout) : gravity_(model.gravity) {
+FlexibleBodyKernel::FlexibleBodyKernel(const Model& model, Layout& layout) : gravity_(model.gravity) {
   for (const FlexibleBody& f : flexible_bodies(model)) {
     const Body& body = model.body(f.body);
     Item item{f.body,
@@ -270,8 +273,42 @@ FlexibleBodyKernel::FlexibleBodyKernel(const Model& model, const Layout& layout)
                          rate ? std::optional(f.flexible->rate(at)) : std::nullopt});
       start_places_.push_back({items_.size(), at});
     }
+    const bool read = model.routine_data && model.routine_data->modes_read.contains(static_cast<int>(body.label.id));
+    for (std::size_t m = 0; read && m < body.modal.size(); ++m) {
+      for (const int derivative : {0, 1}) {
+        readings_.push_back({f.body, m, derivative, item.first_column + static_cast<std::int32_t>(m),
+                             item.first_extra + m, layout.add_algebraic(body.label)});
+      }
+    }
     items_.push_back(std::move(item));
   }
+}
+
+Channel FlexibleBodyKernel::channel(std::size_t body, std::size_t mode, int derivative) const {
+  const auto found = std::ranges::find_if(readings_, [&](const Reading& r) {
+    return static_cast<std::size_t>(r.body.index) == body && r.mode == mode && r.derivative == derivative;
+  });
+  return found == readings_.end() ? Channel{} : Channel{Channel::Kind::algebraic, found->algebraic, 0};
+}
+
+bool FlexibleBodyKernel::add_rate_equation(std::int32_t algebraic, std::int32_t rate, Binder&) {
+  const auto found = std::ranges::find(readings_, algebraic, &Reading::algebraic);
+  if (found == readings_.end() || found->derivative > 1) return false;
+  Reading of_rate = *found;
+  ++of_rate.derivative, of_rate.algebraic = rate;
+  readings_.push_back(of_rate);
+  return true;
+}
+
+void FlexibleBodyKernel::read(const Reading& r, const Motion& motion, Equations& eq) {
+  constexpr std::array family = {PartialBy::position, PartialBy::damping, PartialBy::acceleration};
+  const std::array values = {motion.extra[r.extra], motion.extra_rate[r.extra], motion.extra_acceleration[r.extra]};
+  const auto d = static_cast<std::size_t>(r.derivative);
+  const std::int32_t row = eq.algebraic_row(r.algebraic);
+  eq.begin_element(eq.layout().body(r.body).label);
+  eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(r.algebraic)] - values[d]);
+  eq.add(PartialBy::algebraic, row, r.algebraic, 1.0);
+  eq.add(family[d], row, r.column, -1.0);
 }
 
 void FlexibleBodyKernel::start_rows(const Motion& motion, std::int32_t first_row, ConstraintRows& rows) const {
@@ -287,6 +324,7 @@ void FlexibleBodyKernel::start_rows(const Motion& motion, std::int32_t first_row
 }
 
 void FlexibleBodyKernel::equations(const Motion& motion, Equations& eq) const {
+  for (const Reading& r : readings_) read(r, motion, eq);
   for (const Item& item : items_) {
     eq.begin_element(eq.layout().body(item.body).label);
     const ModalInertia& I = item.inertia;

@@ -16,21 +16,29 @@
 #include <vector>
 
 #include "flexible/modal_body.h"
+#include "mechanics/channel_source.h"
 #include "mechanics/kernel.h"
 #include "mechanics/start_source.h"
 #include "model/model.h"
 
 namespace dynalin {
 
-class FlexibleBodyKernel final : public Kernel, public StartSource {
+// Of bodies whose modal coordinates or rates compiled routines read each is an unknown as well, u − q = 0.
+class FlexibleBodyKernel final : public Kernel, public StartSource, public ChannelSource {
  public:
   // All flexible bodies of the model.
-  FlexibleBodyKernel(const Model&, const Layout&);
+  FlexibleBodyKernel(const Model&, Layout&);
   void equations(const Motion&, Equations&) const override;
 
   const StartSource* starts() const override { return this; }
   std::span<const StartCondition> start_conditions() const override { return starts_; }
   void start_rows(const Motion&, std::int32_t first_row, ConstraintRows&) const override;
+
+  // Of the body of this BodyId: coordinate n as a state, its rate as an output.
+  const ChannelSource* channels() const override { return this; }
+  Channel state_channel(std::size_t body, std::size_t n) const override { return channel(body, n, 0); }
+  Channel output_channel(std::size_t body, std::size_t n) const override { return channel(body, n, 1); }
+  bool add_rate_equation(std::int32_t algebraic, std::int32_t rate, Binder&) override;
 
  private:
   struct Item {
@@ -42,8 +50,20 @@ class FlexibleBodyKernel final : public Kernel, public StartSource {
     bool couples = false;  // modes by the quadratic invariants
   };
   void add_stiffness(const Item&, const Motion&, Equations&) const;
+  // An unknown that is a modal coordinate (derivative 0), its rate or its acceleration.
+  struct Reading {
+    BodyId body;
+    std::size_t mode;
+    int derivative;
+    std::int32_t column;  // of the coordinate
+    std::size_t extra;
+    std::int32_t algebraic;
+  };
+  Channel channel(std::size_t body, std::size_t mode, int derivative) const;
+  static void read(const Reading&, const Motion&, Equations&);
 
   std::vector<Item> items_;
+  std::vector<Reading> readings_;
   Vector gravity_;
   std::vector<StartCondition> starts_;
   std::vector<std::pair<std::size_t, Eigen::Index>> start_places_;  // item and mode of each

@@ -1,14 +1,19 @@
 // MFORCE/id, FLEX_BODY= [, JFLOAT=], {CASE_INDEX=, SCALE= | FUNCTION=USER(…) | FORCE=USER(…)}
 //
-// A load on the coordinates of a flexible body: column CASE_INDEX of its modal loads, a force f and a torque t about
-// the BCS, along its axes A, and Q of the modes, times SCALE. With w = SCALE
+// A load on the coordinates of a flexible body: a force f and a torque t about the BCS, along its axes A, and Q of the
+// modes, times a scale w:
 //
 //     F = w A f,   L = w A t   on the body at the BCS,   Q w   on its modal coordinates
 //
 // and −F, −L at the same place on the body of the floating marker JFLOAT. What the modes take has no reaction.
+//
+// f, t and Q are column CASE_INDEX of the modal loads of the body, and w = SCALE. A compiled routine of the user gives
+// both (FUNCTION), where f, t and Q depend on time alone, or f, t and Q for w = 1 (FORCE). What is not a constant is an
+// algebraic unknown.
 #include <fmt/format.h>
 
 #include "elements/bodies/flex_body.h"
+#include "elements/families/called_values.h"
 #include "mechanics/binder.h"
 #include "mechanics/bound_expression.h"
 #include "mechanics/kernel.h"
@@ -23,16 +28,27 @@ struct ModalForce {
   MarkerId jfloat;
   std::optional<std::int64_t> index;
   Expression scale;
-  UserSubroutine function{"MFOSUB"}, force{"MFOSUB"};
+  Expression function, force;
+  bool scaled = false;  // FUNCTION calls a routine
   Span index_at;
 
   static constexpr std::array<Argument<ModalForce>, 6> arguments = {{
       {.name = "FLEX_BODY", .slot = &ModalForce::body, .required = true, .help = "the flexible body it acts on"},
       {.name = "JFLOAT", .slot = &ModalForce::jfloat, .help = "floating marker whose body takes the reaction"},
-      {.name = "CASE_INDEX", .slot = &ModalForce::index, .minimum = 1, .help = "which of the body's modal loads"},
-      {.name = "SCALE", .slot = &ModalForce::scale, .help = "factor of that load"},
-      {.name = "FUNCTION", .slot = &ModalForce::function, .help = "USER(…): not available"},
-      {.name = "FORCE", .slot = &ModalForce::force, .help = "USER(…): not available"},
+      {.name = "CASE_INDEX",
+       .slot = &ModalForce::index,
+       .minimum = 1,
+       .help = "which of the body's modal loads",
+       .ends = "FUNCTION FORCE"},
+      {.name = "SCALE", .slot = &ModalForce::scale, .help = "factor of that load", .ends = "FUNCTION FORCE"},
+      {.name = "FUNCTION",
+       .slot = &ModalForce::function,
+       .help = "USER(…): a compiled routine gives load and scale",
+       .ends = "CASE_INDEX SCALE FORCE"},
+      {.name = "FORCE",
+       .slot = &ModalForce::force,
+       .help = "USER(…): a compiled routine gives the load",
+       .ends = "CASE_INDEX SCALE FUNCTION"},
   }};
 };
 
@@ -44,92 +60,148 @@ class ModalForceKernel final : public Kernel {
     const std::vector<FlexibleBody> flexible = flexible_bodies(model);
     for (std::size_t k = 0; k < forces.size(); ++k) {
       const FlexibleBody& f = *std::ranges::find(flexible, forces[k].body, &FlexibleBody::body);
-      Load load{f.body,
-                std::nullopt,
-                {},
-                {},
-                {},
-                layout.body_coordinate_count + static_cast<std::int32_t>(f.first),
-                layout.add_algebraic(labels[k]),
-                forces[k].scale,
-                {}};
-      const Eigen::VectorXd column = f.flexible->loads.col(*forces[k].index - 1);
-      load.force = {column(0), column(1), column(2)}, load.torque = {column(3), column(4), column(5)};
-      load.of_modes.assign(column.data() + 6, column.data() + column.size());
+      Load load;
+      load.body = f.body, load.modes = layout.body_coordinate_count + static_cast<std::int32_t>(f.first);
+      const auto unknown = [&](const Expression& e) {
+        const auto number = static_cast<std::int32_t>(load.unknowns.size()) + 1;
+        load.unknowns.push_back(
+            {forces[k].index ? layout.add_algebraic(labels[k]) : layout.add_algebraic(labels[k], number), e, {}});
+      };
+      const std::size_t count = 6 + static_cast<std::size_t>(f.flexible->modes());
+      if (forces[k].index) {
+        const Eigen::VectorXd column = f.flexible->loads.col(*forces[k].index - 1);
+        load.constant.assign(column.data(), column.data() + column.size());
+        load.has_scale = true;
+        unknown(forces[k].scale);
+      } else {
+        load.has_scale = forces[k].scaled;
+        for (const Expression& e : values_of_routine(forces[k].scaled ? forces[k].function : forces[k].force,
+                                                     count + (forces[k].scaled ? 1 : 0)))
+          unknown(e);
+      }
       if (forces[k].jfloat.valid()) load.reacts_on = model.marker(forces[k].jfloat).place.body;
       loads_.push_back(std::move(load));
     }
   }
 
   void bind(Binder& binder) override {
-    for (Load& l : loads_) l.factor = BoundExpression(l.scale, binder);
+    for (Load& l : loads_) {
+      for (Unknown& u : l.unknowns) u.bound = BoundExpression(u.expression, binder);
+    }
   }
 
   void equations(const Motion& motion, Equations& eq) const override {
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       const Load& l = loads_[k];
       eq.begin_element((*labels_)[k]);
-      const double w = motion.algebraic[static_cast<std::size_t>(l.algebraic)];
-      const std::int32_t row = eq.algebraic_row(l.algebraic);
-      eq.add_residual(row, w);
-      eq.add(PartialBy::algebraic, row, l.algebraic, 1.0);
-      l.factor.add(motion, eq, row, -1.0, PartialBy::damping);
-
-      const Matrix3& A = motion.body(l.body).R;
-      const Vector force = A * l.force, torque = A * l.torque;  // by a unit of w
-      eq.apply(l.body, w * force, w * torque);
-      eq.add_column(PartialBy::algebraic, l.body, l.algebraic, force, torque);
-      for (std::size_t m = 0; m < l.of_modes.size(); ++m) {
-        const std::int32_t at = l.modes + static_cast<std::int32_t>(m);
-        eq.add_residual(at, -w * l.of_modes[m]);
-        eq.add(PartialBy::algebraic, at, l.algebraic, -l.of_modes[m]);
+      for (const Unknown& u : l.unknowns) {
+        const std::int32_t row = eq.algebraic_row(u.algebraic);
+        eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(u.algebraic)]);
+        eq.add(PartialBy::algebraic, row, u.algebraic, 1.0);
+        u.bound.add(motion, eq, row, -1.0, PartialBy::damping);
       }
+      const Now now = look(l, motion);
+      eq.apply(l.body, now.scale * now.force, now.scale * now.torque);
+      for (std::size_t m = 0; m < now.of_modes.size(); ++m)
+        eq.add_residual(l.modes + static_cast<std::int32_t>(m), -now.scale * now.of_modes[m]);
+      if (l.has_scale) {
+        const std::int32_t scale = l.unknowns.front().algebraic;
+        eq.add_column(PartialBy::algebraic, l.body, scale, now.force, now.torque);
+        for (std::size_t m = 0; m < now.of_modes.size(); ++m)
+          eq.add(PartialBy::algebraic, l.modes + static_cast<std::int32_t>(m), scale, -now.of_modes[m]);
+      }
+      for_each_component(l, [&](std::size_t c, std::int32_t unknown) {
+        const Vector e = now.scale * now.axes[c % 3];
+        if (c < 3) eq.add_column(PartialBy::algebraic, l.body, unknown, e, Vector{});
+        if (c >= 3 && c < 6) eq.add_column(PartialBy::algebraic, l.body, unknown, Vector{}, e);
+        if (c >= 6) eq.add(PartialBy::algebraic, l.modes + static_cast<std::int32_t>(c - 6), unknown, -now.scale);
+      });
       const std::int32_t own = eq.layout().body(l.body).offset;
       for (std::size_t a = 0; a < 3; ++a) {
-        const Vector turned_force = w * cross(unit_vectors[a], force),
-                     turned_torque = w * cross(unit_vectors[a], torque);
+        const Vector turned_force = now.scale * cross(unit_vectors[a], now.force),
+                     turned_torque = now.scale * cross(unit_vectors[a], now.torque);
         eq.add_column(PartialBy::position, l.body, own + 3 + static_cast<std::int32_t>(a), turned_force, turned_torque);
       }
-      if (l.reacts_on) react(l, motion, w, force, torque, eq);
+      if (l.reacts_on) react(l, motion, now, eq);
     }
   }
 
   void remember(const Motion& motion, Memory& memory) const override {
-    for (const Load& l : loads_) l.factor.remember(motion, memory);
+    for (const Load& l : loads_) {
+      for (const Unknown& u : l.unknowns) u.bound.remember(motion, memory);
+    }
   }
   void undefined_values(const Motion& motion, std::vector<UndefinedValue>& values) const override {
-    for (std::size_t k = 0; k < loads_.size(); ++k) loads_[k].factor.find_undefined(motion, (*labels_)[k], values);
+    for (std::size_t k = 0; k < loads_.size(); ++k) {
+      for (const Unknown& u : loads_[k].unknowns) u.bound.find_undefined(motion, (*labels_)[k], values);
+    }
   }
 
  private:
+  struct Unknown {
+    std::int32_t algebraic;
+    Expression expression;
+    BoundExpression bound;
+  };
   struct Load {
     BodyId body;
     std::optional<BodyId> reacts_on;
-    Vector force, torque;  // axes of the BCS
+    std::int32_t modes = 0;        // first column of the modal coordinates
+    bool has_scale = false;        // the first unknown
+    std::vector<double> constant;  // force, torque, of the modes; else all of them are unknowns, behind the scale
+    std::vector<Unknown> unknowns;
+  };
+  // A load at this moment by a unit of its scale, force and torque along global axes.
+  struct Now {
+    double scale = 1;
+    Matrix3 axes;
+    Vector force, torque;
     std::vector<double> of_modes;
-    std::int32_t modes;  // first column of the modal coordinates
-    std::int32_t algebraic;
-    Expression scale;
-    BoundExpression factor;
   };
 
-  // The opposite at the place of the BCS, on the body of JFLOAT; `force` and `torque` by a unit of w.
-  static void react(const Load& l, const Motion& motion, double w, const Vector& force, const Vector& torque,
-                    Equations& eq) {
+  static Now look(const Load& l, const Motion& motion) {
+    const auto at = [&](const Unknown& u) { return motion.algebraic[static_cast<std::size_t>(u.algebraic)]; };
+    std::vector<double> all = l.constant;
+    for_each_component(l, [&](std::size_t c, std::int32_t) { all.push_back(at(l.unknowns[first_component(l) + c])); });
+    Now now;
+    if (l.has_scale) now.scale = at(l.unknowns.front());
+    now.axes = motion.body(l.body).R;
+    now.force = now.axes * Vector{all[0], all[1], all[2]}, now.torque = now.axes * Vector{all[3], all[4], all[5]};
+    now.of_modes.assign(all.begin() + 6, all.end());
+    return now;
+  }
+  static std::size_t first_component(const Load& l) { return l.has_scale ? 1 : 0; }
+  // Those that are unknowns.
+  template <class Visit>
+  static void for_each_component(const Load& l, Visit&& visit) {
+    for (std::size_t k = first_component(l); k < l.unknowns.size(); ++k)
+      visit(k - first_component(l), l.unknowns[k].algebraic);
+  }
+
+  // The opposite at the place of the BCS, on the body of JFLOAT.
+  static void react(const Load& l, const Motion& motion, const Now& now, Equations& eq) {
     const BodyId on = *l.reacts_on;
     const BodyBlock& block = eq.layout().body(on);
     if (block.count == 0) return;
     const Vector arm = motion.body(l.body).r - motion.body(on).r;
     const auto about_origin = [&](const Vector& f, const Vector& t) { return t + cross(arm, f); };
-    eq.apply(on, -w * force, -w * about_origin(force, torque));
-    eq.add_column(PartialBy::algebraic, on, l.algebraic, -force, -about_origin(force, torque));
+    const auto add_opposite = [&](PartialBy family, std::int32_t column, const Vector& f, const Vector& t) {
+      eq.add_column(family, on, column, -f, -about_origin(f, t));
+    };
+    const double w = now.scale;
+    eq.apply(on, -w * now.force, -w * about_origin(now.force, now.torque));
+    if (l.has_scale) add_opposite(PartialBy::algebraic, l.unknowns.front().algebraic, now.force, now.torque);
+    for_each_component(l, [&](std::size_t c, std::int32_t unknown) {
+      if (c < 6)
+        add_opposite(PartialBy::algebraic, unknown, c < 3 ? w * now.axes[c] : Vector{},
+                     c < 3 ? Vector{} : w * now.axes[c - 3]);
+    });
     const std::int32_t loaded = eq.layout().body(l.body).offset;
     for (std::size_t a = 0; a < 3; ++a) {
       const auto k = static_cast<std::int32_t>(a);
       const Vector& e = unit_vectors[a];
-      const Vector turned_force = w * cross(e, force), turned_torque = w * cross(e, torque);
-      eq.add_column(PartialBy::position, on, loaded + 3 + k, -turned_force, -about_origin(turned_force, turned_torque));
-      const Vector by_arm = w * cross(e, force);
+      add_opposite(PartialBy::position, loaded + 3 + k, w * cross(e, now.force), w * cross(e, now.torque));
+      const Vector by_arm = w * cross(e, now.force);
       eq.add_column(PartialBy::position, on, loaded + k, Vector{}, -by_arm);
       eq.add_column(PartialBy::position, on, block.offset + k, Vector{}, by_arm);
     }
@@ -146,6 +218,7 @@ class ModalForceSet final : public TypedSet<ModalForce> {
   void read(std::size_t k, ElementReader& reader) override {
     if (!read_arguments(elements[k], reader)) return;
     const std::string name = reader.label().text();
+    if (reader.given("FUNCTION") || reader.given("FORCE")) return read_call(elements[k], reader);
     for (const auto& [word, other] : {std::pair{"CASE_INDEX", "SCALE"}, {"SCALE", "CASE_INDEX"}}) {
       if (reader.given(word)) continue;
       reader.error("missing-argument", reader.at(other),
@@ -163,7 +236,7 @@ class ModalForceSet final : public TypedSet<ModalForce> {
       const std::string name = labels[k].text(), body = model.body(f.body).label.text();
       if (f.jfloat.valid()) check_reaction(f, labels[k], model, diagnostics);
       const ModalBody* loaded = flexible[static_cast<std::size_t>(f.body.index)];
-      if (!loaded) continue;  // its own statement has errors
+      if (!loaded || !f.index) continue;  // its own statement has errors, or a routine gives the load
       if (loaded->loads.cols() == 0) {
         diagnostics.error("missing-load", f.index_at, fmt::format("{} takes a modal load, and {} has none", name, body),
                           "a MATRIX named MODLOAD among the MATRICES of the body");
@@ -179,6 +252,23 @@ class ModalForceSet final : public TypedSet<ModalForce> {
   }
 
  private:
+  static void read_call(ModalForce& f, ElementReader& reader) {
+    const std::string name = reader.label().text();
+    f.scaled = reader.given("FUNCTION");
+    const std::string_view word = f.scaled ? "FUNCTION" : "FORCE";
+    for (const std::string_view other : {"CASE_INDEX", "SCALE", "FORCE"}) {
+      if (other == word || !reader.given(other)) continue;
+      reader.error(
+          "excluded-arguments", reader.at(other),
+          fmt::format("{} takes CASE_INDEX and SCALE, FUNCTION, or FORCE, and not {} with {}", name, word, other));
+      return;
+    }
+    if ((f.scaled ? f.function : f.force).program().routines.empty()) {
+      reader.error("unknown-word", reader.at(word),
+                   fmt::format("{} of {} is USER(…), the call of a compiled routine, and no expression", word, name));
+    }
+  }
+
   static void check_reaction(const ModalForce& f, const ElementLabel& label, const Model& model,
                              Diagnostics& diagnostics) {
     const Marker& floating = model.marker(f.jfloat);

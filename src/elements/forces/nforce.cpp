@@ -1,4 +1,4 @@
-// NFORCE/id, IMARKERS=, J=, KMATRIX= [, CMATRIX= | CRATIO=] [, LENGTH=] [, FORCE=]
+// NFORCE/id, IMARKERS=, J=, {KMATRIX= [, CMATRIX= | CRATIO=] [, LENGTH=] [, FORCE=] | FUNCTION=USER(…)}
 //
 // A linear force among n markers as seen from J: with Y the 6 n displacements (DX, DY, DZ, AX, AY, AZ)(I_k, J) in the
 // axes of J and Y′ their velocities,
@@ -6,11 +6,15 @@
 //     (F_1, T_1, …, F_n, T_n) = FORCE − K (Y − LENGTH) − C Y′
 //
 // acts on the markers I_k, and on J's body what balances it: the opposite of each at the origin of I_k. K and C are
-// MATRIX statements of 6 n × 6 n, LENGTH and FORCE of 6 n × 1.
+// MATRIX statements of 6 n × 6 n, LENGTH and FORCE of 6 n × 1. FUNCTION calls a compiled routine of the user for all of
+// the 6 n components; each is an algebraic unknown w with w − e = 0.
 #include <fmt/format.h>
 
 #include "elements/controls/matrix.h"
+#include "elements/families/called_values.h"
 #include "elements/families/linear_wrench.h"
+#include "mechanics/binder.h"
+#include "mechanics/bound_expression.h"
 #include "mechanics/pair_blocks.h"
 #include "mechanics/wrench_source.h"
 
@@ -23,7 +27,7 @@ struct Nforce {
   MarkerId j;
   MatrixRef stiffness, damping, length, force;
   std::optional<double> ratio;
-  UserSubroutine function{"NFOSUB"};
+  Expression function;
   std::vector<MarkerId> markers;
 
   static constexpr std::array<Argument<Nforce>, 8> arguments = {{
@@ -32,7 +36,7 @@ struct Nforce {
        .slot = &Nforce::j,
        .required = true,
        .help = "marker whose body balances them, and whose axes count"},
-      {.name = "KMATRIX", .slot = &Nforce::stiffness, .help = "MATRIX of 6 n × 6 n: stiffness"},
+      {.name = "KMATRIX", .slot = &Nforce::stiffness, .help = "MATRIX of 6 n × 6 n: stiffness", .ends = "FUNCTION"},
       {.name = "CMATRIX", .slot = &Nforce::damping, .help = "MATRIX of 6 n × 6 n: damping", .ends = "CRATIO"},
       {.name = "CRATIO",
        .slot = &Nforce::ratio,
@@ -41,7 +45,10 @@ struct Nforce {
        .ends = "CMATRIX"},
       {.name = "LENGTH", .slot = &Nforce::length, .help = "MATRIX of 6 n × 1: displacements at which FORCE acts"},
       {.name = "FORCE", .slot = &Nforce::force, .help = "MATRIX of 6 n × 1"},
-      {.name = "FUNCTION", .slot = &Nforce::function, .help = "USER(…): not available"},
+      {.name = "FUNCTION",
+       .slot = &Nforce::function,
+       .help = "USER(…): a compiled routine gives all forces",
+       .ends = "KMATRIX CMATRIX CRATIO LENGTH FORCE"},
   }};
 };
 
@@ -51,6 +58,7 @@ struct Law {
   MarkerId j;
   std::size_t size = 0;
   std::vector<double> K, C, length, force;
+  std::vector<Expression> components;  // of a routine, in the place of those
 };
 
 class NforceKernel final : public Kernel, public WrenchSource {
@@ -59,7 +67,7 @@ class NforceKernel final : public Kernel, public WrenchSource {
       : layout_(layout), labels_(&labels) {
     for (const Law& law : laws) {
       const Span& owner = labels[laws_.size()].at;
-      Placed p{law, {}, layout.marker(law.j), {}};
+      Placed p{law, {}, layout.marker(law.j), {}, {}};
       for (const MarkerId m : law.markers) {
         p.I.push_back(layout.marker(m));
         p.memory.push_back(layout.add_memory(owner));
@@ -67,7 +75,16 @@ class NforceKernel final : public Kernel, public WrenchSource {
         layout.add_memory(owner);
         wrenches_.emplace_back(laws_.size(), p.I.size() - 1);
       }
+      for (std::size_t c = 0; c < law.components.size(); ++c)
+        p.components.push_back({layout.add_algebraic(labels[laws_.size()], static_cast<std::int32_t>(c) + 1), {}});
       laws_.push_back(std::move(p));
+    }
+  }
+
+  void bind(Binder& binder) override {
+    for (Placed& p : laws_) {
+      for (std::size_t c = 0; c < p.components.size(); ++c)
+        p.components[c].expression = BoundExpression(p.law.components[c], binder);
     }
   }
 
@@ -76,12 +93,22 @@ class NforceKernel final : public Kernel, public WrenchSource {
       const Placed& p = laws_[law];
       eq.begin_element((*labels_)[law]);
       const std::size_t n = p.I.size();
+      for (const Component& c : p.components) {
+        const std::int32_t row = eq.algebraic_row(c.algebraic);
+        eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(c.algebraic)]);
+        eq.add(PartialBy::algebraic, row, c.algebraic, 1.0);
+        c.expression.add(motion, eq, row, -1.0, PartialBy::damping);
+      }
       PairScratch& at = eq.pair_scratch;
       look(p, motion, at);
       for (std::size_t k = 0; k < n; ++k) {
         // The force itself turns with J and its arms move; each marker adds what its displacement changes.
-        apply(at.pairs[k], spread(at.pairs[k], total(p, k, at), eq.wants_partials()), eq);
+        apply(at.pairs[k], spread(at.pairs[k], total(p, k, motion, at), eq.wants_partials()), eq);
         if (!eq.wants_partials()) continue;
+        for_each_component(p, k, at.pairs[k], [&](std::int32_t column, const Vector& force, const Vector& torque) {
+          apply_column(at.pairs[k], force, torque, true, PartialBy::algebraic, column, eq);
+        });
+        if (!p.components.empty()) continue;
         for (std::size_t l = 0; l < n; ++l)
           apply_cross_partials(at.pairs[k], at.pairs[l], spread(at.pairs[l], change(p, k, l, at), true), eq);
       }
@@ -90,12 +117,18 @@ class NforceKernel final : public Kernel, public WrenchSource {
 
   void remember(const Motion& motion, Memory& memory) const override {
     for (const Placed& p : laws_) {
+      for (const Component& c : p.components) c.expression.remember(motion, memory);
       for (std::size_t k = 0; k < p.I.size(); ++k) {
         const auto at = static_cast<std::size_t>(p.memory[k]);
         const auto angles = total_angles(pair_motion(motion, p.I[k], p.J), std::span(memory).subspan(at, 3));
         std::copy(angles.begin(), angles.end(), memory.begin() + static_cast<std::ptrdiff_t>(at));
       }
     }
+  }
+
+  void undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const override {
+    for (std::size_t law = 0; law < laws_.size(); ++law)
+      for (const Component& c : laws_[law].components) c.expression.find_undefined(motion, (*labels_)[law], undefined);
   }
 
   // A wrench for each marker.
@@ -110,8 +143,12 @@ class NforceKernel final : public Kernel, public WrenchSource {
     PairScratch& all = out.scratch;
     look(p, motion, all);
     out.pair = all.pairs[k];
-    out.force = spread(out.pair, total(p, k, all), with_partials);
+    out.force = spread(out.pair, total(p, k, motion, all), with_partials);
     if (!with_partials) return;
+    for_each_component(p, k, out.pair, [&](std::int32_t column, const Vector& force, const Vector& torque) {
+      out.scalars.push_back({PartialBy::algebraic, column, force, torque});
+    });
+    if (!p.components.empty()) return;
     for (std::size_t l = 0; l < p.I.size(); ++l) {
       const PairForce f = spread(all.pairs[l], change(p, k, l, all), true);
       for_each_block(all.pairs[l], layout_, [&](const PairBlock& block) {
@@ -126,11 +163,16 @@ class NforceKernel final : public Kernel, public WrenchSource {
   }
 
  private:
+  struct Component {
+    std::int32_t algebraic;
+    BoundExpression expression;
+  };
   struct Placed {
     Law law;
     std::vector<MarkerPlace> I;
     MarkerPlace J;
     std::vector<std::int32_t> memory;
+    std::vector<Component> components{};
   };
   const Law& law_of(std::size_t w) const { return laws_[wrenches_[w].first].law; }
   static std::pair<double, double> entry(const Law& law, std::size_t row, std::size_t column) {
@@ -148,8 +190,12 @@ class NforceKernel final : public Kernel, public WrenchSource {
     }
   }
   // What acts on marker k.
-  static RelativeWrench total(const Placed& p, std::size_t k, const PairScratch& at) {
+  static RelativeWrench total(const Placed& p, std::size_t k, const Motion& motion, const PairScratch& at) {
     RelativeWrench w;
+    for (std::size_t r = 0; r < 6 && !p.components.empty(); ++r)
+      (r < 3 ? w.force[r] : w.torque[r - 3]) =
+          motion.algebraic[static_cast<std::size_t>(p.components[6 * k + r].algebraic)];
+    if (!p.components.empty()) return w;
     for (std::size_t r = 0; r < 6; ++r) {
       double sum = p.law.force[6 * k + r];
       for (std::size_t l = 0; l < p.I.size(); ++l) {
@@ -161,6 +207,16 @@ class NforceKernel final : public Kernel, public WrenchSource {
       (r < 3 ? w.force[r] : w.torque[r - 3]) = sum;
     }
     return w;
+  }
+  // Of a routine: force and torque on marker k by a unit of each of its components, global axes.
+  template <class Visit>
+  static void for_each_component(const Placed& p, std::size_t k, const PairMotion& pair, Visit&& visit) {
+    if (p.components.empty()) return;
+    const Matrix3 R = value(pair.axes_J);
+    for (std::size_t r = 0; r < 6; ++r) {
+      const Vector e = R[r % 3];
+      visit(p.components[6 * k + r].algebraic, r < 3 ? e : Vector{}, r < 3 ? Vector{} : e);
+    }
   }
   // How that changes with the displacement of marker l.
   static RelativeWrench change(const Placed& p, std::size_t k, std::size_t l, const PairScratch& at) {
@@ -193,8 +249,15 @@ class NforceSet final : public TypedSet<Nforce> {
     Nforce& n = elements[k];
     if (!read_arguments(n, reader)) return;
     const std::string name = reader.label().text();
-    if (!n.stiffness.valid()) {
-      reader.error("missing-argument", reader.statement().at, fmt::format("{} needs KMATRIX", name));
+    const bool calls = reader.given("FUNCTION");
+    if (calls && n.function.program().routines.empty()) {
+      reader.error("unknown-word", reader.at("FUNCTION"),
+                   fmt::format("FUNCTION of {} is USER(…), the call of a compiled routine, and no expression", name));
+    }
+    if (calls == n.stiffness.valid() && !reader.statement().damaged) {
+      reader.error(
+          calls ? "excluded-arguments" : "missing-argument", calls ? reader.at("KMATRIX") : reader.statement().at,
+          calls ? fmt::format("{} takes KMATRIX or FUNCTION, not both", name) : fmt::format("{} needs KMATRIX", name));
     }
     if (n.ratio && n.damping.valid()) {
       reader.error("excluded-arguments", reader.at("CRATIO"),
@@ -208,7 +271,7 @@ class NforceSet final : public TypedSet<Nforce> {
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const Nforce& n = elements[k];
-      Law law{n.markers, n.j, 6 * n.markers.size(), {}, {}, {}, {}};
+      Law law{n.markers, n.j, 6 * n.markers.size(), {}, {}, {}, {}, {}};
       for (const MarkerId i : n.markers) check_pair(model, labels[k], i, n.j, {true, true, true}, diagnostics);
       const auto take = [&](MatrixRef ref, std::string_view word, std::size_t columns) {
         if (!ref.valid()) return std::vector<double>();
@@ -221,6 +284,11 @@ class NforceSet final : public TypedSet<Nforce> {
         }
         return m.values;
       };
+      if (!n.stiffness.valid()) {
+        law.components = values_of_routine(n.function, law.size);
+        laws_.push_back(std::move(law));
+        continue;
+      }
       law.K = take(n.stiffness, "KMATRIX", law.size);
       law.C = take(n.damping, "CMATRIX", law.size);
       if (n.ratio) {
