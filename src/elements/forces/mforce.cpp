@@ -5,13 +5,15 @@
 //
 //     F = w A f,   L = w A t   on the body at the BCS,   Q w   on its modal coordinates
 //
-// and −F, −L at the same place on the body of the floating marker JFLOAT. What the modes take has no reaction.
+// and −F, −L at the same place on the body of the floating marker JFLOAT, or on its node. What the modes take has no
+// reaction.
 #include <fmt/format.h>
 
 #include "elements/bodies/flex_body.h"
 #include "mechanics/binder.h"
 #include "mechanics/bound_expression.h"
 #include "mechanics/kernel.h"
+#include "mechanics/pair.h"
 #include "model/schema.h"
 
 namespace dynalin {
@@ -44,19 +46,15 @@ class ModalForceKernel final : public Kernel {
     const std::vector<FlexibleBody> flexible = flexible_bodies(model);
     for (std::size_t k = 0; k < forces.size(); ++k) {
       const FlexibleBody& f = *std::ranges::find(flexible, forces[k].body, &FlexibleBody::body);
-      Load load{f.body,
-                std::nullopt,
-                {},
-                {},
-                {},
-                layout.body_coordinate_count + static_cast<std::int32_t>(f.first),
-                layout.add_algebraic(labels[k]),
-                forces[k].scale,
-                {}};
+      Load load;
+      load.bcs.body = f.body;
+      load.modes = layout.body_coordinate_count + static_cast<std::int32_t>(f.first);
+      load.algebraic = layout.add_algebraic(labels[k]);
+      load.scale = forces[k].scale;
       const Eigen::VectorXd column = f.flexible->loads.col(*forces[k].index - 1);
       load.force = {column(0), column(1), column(2)}, load.torque = {column(3), column(4), column(5)};
       load.of_modes.assign(column.data() + 6, column.data() + column.size());
-      if (forces[k].jfloat.valid()) load.reacts_on = model.marker(forces[k].jfloat).place.body;
+      if (forces[k].jfloat.valid()) load.reacts_on = layout.marker(forces[k].jfloat), load.has_reaction = true;
       loads_.push_back(std::move(load));
     }
   }
@@ -75,22 +73,20 @@ class ModalForceKernel final : public Kernel {
       eq.add(PartialBy::algebraic, row, l.algebraic, 1.0);
       l.factor.add(motion, eq, row, -1.0, PartialBy::damping);
 
-      const Matrix3& A = motion.body(l.body).R;
+      const PairMotion pair = pair_motion(motion, l.bcs, l.reacts_on);
+      const Matrix3& A = motion.body(l.bcs.body).R;
       const Vector force = A * l.force, torque = A * l.torque;  // by a unit of w
-      eq.apply(l.body, w * force, w * torque);
-      eq.add_column(PartialBy::algebraic, l.body, l.algebraic, force, torque);
+      PairForce load;
+      load.force = w * force, load.torque = w * torque;
+      load.force_on_position.axes_I = -skew(load.force), load.torque_on_position.axes_I = -skew(load.torque);
+      load.reaction = l.has_reaction ? Reaction::at_I : Reaction::none;
+      apply(pair, load, eq);
+      apply_column(pair, force, torque, l.has_reaction, PartialBy::algebraic, l.algebraic, eq);
       for (std::size_t m = 0; m < l.of_modes.size(); ++m) {
         const std::int32_t at = l.modes + static_cast<std::int32_t>(m);
         eq.add_residual(at, -w * l.of_modes[m]);
         eq.add(PartialBy::algebraic, at, l.algebraic, -l.of_modes[m]);
       }
-      const std::int32_t own = eq.layout().body(l.body).offset;
-      for (std::size_t a = 0; a < 3; ++a) {
-        const Vector turned_force = w * cross(unit_vectors[a], force),
-                     turned_torque = w * cross(unit_vectors[a], torque);
-        eq.add_column(PartialBy::position, l.body, own + 3 + static_cast<std::int32_t>(a), turned_force, turned_torque);
-      }
-      if (l.reacts_on) react(l, motion, w, force, torque, eq);
     }
   }
 
@@ -103,37 +99,15 @@ class ModalForceKernel final : public Kernel {
 
  private:
   struct Load {
-    BodyId body;
-    std::optional<BodyId> reacts_on;
+    MarkerPlace bcs, reacts_on;  // of ground where nothing takes the reaction
+    bool has_reaction = false;
     Vector force, torque;  // axes of the BCS
     std::vector<double> of_modes;
-    std::int32_t modes;  // first column of the modal coordinates
-    std::int32_t algebraic;
+    std::int32_t modes = 0;  // first column of the modal coordinates
+    std::int32_t algebraic = 0;
     Expression scale;
     BoundExpression factor;
   };
-
-  // The opposite at the place of the BCS, on the body of JFLOAT; `force` and `torque` by a unit of w.
-  static void react(const Load& l, const Motion& motion, double w, const Vector& force, const Vector& torque,
-                    Equations& eq) {
-    const BodyId on = *l.reacts_on;
-    const BodyBlock& block = eq.layout().body(on);
-    if (block.count == 0) return;
-    const Vector arm = motion.body(l.body).r - motion.body(on).r;
-    const auto about_origin = [&](const Vector& f, const Vector& t) { return t + cross(arm, f); };
-    eq.apply(on, -w * force, -w * about_origin(force, torque));
-    eq.add_column(PartialBy::algebraic, on, l.algebraic, -force, -about_origin(force, torque));
-    const std::int32_t loaded = eq.layout().body(l.body).offset;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const auto k = static_cast<std::int32_t>(a);
-      const Vector& e = unit_vectors[a];
-      const Vector turned_force = w * cross(e, force), turned_torque = w * cross(e, torque);
-      eq.add_column(PartialBy::position, on, loaded + 3 + k, -turned_force, -about_origin(turned_force, turned_torque));
-      const Vector by_arm = w * cross(e, force);
-      eq.add_column(PartialBy::position, on, loaded + k, Vector{}, -by_arm);
-      eq.add_column(PartialBy::position, on, block.offset + k, Vector{}, by_arm);
-    }
-  }
 
   const std::vector<ElementLabel>* labels_;
   std::vector<Load> loads_;
