@@ -42,7 +42,14 @@ constexpr AtomFunction at_marker(std::string_view name, uint8_t maximum, std::st
 }
 // An FE_LOAD puts what it reads in its place; nothing else has any.
 constexpr AtomFunction of_place(std::string_view name, std::string_view meaning, std::string_view unit) {
-  return {name, data, by_reference, 1, 1, "", true, {"n", meaning, unit, "n  1, 2, 3 for x, y, z; in FE_LOAD alone"}};
+  return {name,
+          data,
+          by_reference,
+          1,
+          1,
+          "",
+          true,
+          {"n", meaning, unit, "n  1, 2, 3 for x, y, z of the line, 4, 5, 6 of its sections; in FE_LOAD alone"}};
 }
 enum Availability : bool { not_built = false, built = true };
 constexpr AtomFunction of_element(std::string_view name, std::string_view statement, Availability availability,
@@ -258,9 +265,13 @@ constexpr std::array atom_table = {
                  true,
                  {"", "place along the beam that an FE_LOAD acts on: 0 at its first node, 1 at its last", "",
                   "in FE_LOAD alone"}},
-    of_place("SD", "component n of the position of the beam at S, global axes", "length"),
-    of_place("SV", "component n of the velocity of the beam at S, global axes", "length/time"),
-    of_place("SA", "component n of the acceleration of the beam at S, global axes", "length/time²"),
+    of_place("SD", "component n of the position of the beam at S, global axes; its angles PSI, THETA, PHI, n = 4 to 6",
+             "length, angle"),
+    of_place("SV", "component n of the velocity of the beam at S, global axes; of its angular velocity, n = 4 to 6",
+             "length/time, angle/time"),
+    of_place("SA",
+             "component n of the acceleration of the beam at S, global axes; of its angular acceleration, n = 4 to 6",
+             "length/time², angle/time²"),
 };
 
 }  // namespace

@@ -82,6 +82,12 @@ class BeamElement {
   // Spins of the sections at the load points, by the coordinates, global axes.
   using Spins = std::array<std::array<Vector, beam_coordinates>, beam_load_points>;
   virtual Spins spins(const BeamMotion&) const = 0;
+  // The section at one of them along a motion: its axes, global components, and its spins.
+  struct SectionMotion {
+    Mat3<BeamMotion::Scalar> axes;
+    std::array<Vec3<BeamMotion::Scalar>, beam_coordinates> spin;
+  };
+  virtual SectionMotion section_along(const BeamMotion&, std::size_t load_point) const = 0;
   // How what moments there do to the coordinates changes with these, while the moments keep their global components.
   using Moments = std::array<Vector, beam_load_points>;
   virtual BeamMatrix moments_by_position(const BeamMotion&, const Moments&) const = 0;

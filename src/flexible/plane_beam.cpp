@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "flexible/beam_points.h"
 
@@ -55,6 +56,11 @@ PlaneBeam::PlaneBeam(const BeamPlane& plane, const BeamMaterial& material, const
   const Eigen::Vector2d one = in(plane, axes[0].x), other = in(plane, axes[1].x),
                         middle = by_chord * in(plane, chord) - 0.25 * (one + other);
   undeformed_ << angle_between(middle, one), 0, angle_between(middle, other);
+  for (std::size_t end = 0; end < 2; ++end) {
+    const Matrix3& node = axes[end];
+    roll_[end] = std::atan2(node.y[plane.normal], node.z[plane.normal]);
+  }
+  roll_[1] = roll_[0] + std::remainder(roll_[1] - roll_[0], 2 * std::numbers::pi);
 }
 
 PlaneBeam::Directions PlaneBeam::directions(const BeamMotion& m) const {
@@ -165,6 +171,47 @@ BeamElement::Spins PlaneBeam::spins(const BeamMotion& m) const {
     add({N(0) * d[0].of_angle(), N(1) * d[1].of_angle(), N(2) * d[2].of_angle()}, by);
     for (std::size_t k = 0; k < coordinates(); ++k) out[g][k][plane_.normal] = by(static_cast<Eigen::Index>(k));
   }
+  return out;
+}
+
+BeamElement::SectionMotion PlaneBeam::section_along(const BeamMotion& m, std::size_t load_point) const {
+  using Scalar = BeamMotion::Scalar;
+  struct Direction2 {
+    Scalar first, second;
+  };
+  const auto in_plane = [&](const Vec3<Scalar>& v) { return Direction2{v[plane_.first], v[plane_.second]}; };
+  const Direction2 one = in_plane(m.slope[0]), chord = in_plane(m.chord), other = in_plane(m.slope[1]);
+  const auto middle = [&](const Scalar& c, const Scalar& s1, const Scalar& s2) {
+    return shares_(1, 2) * c - 0.25 * (s1 + s2);
+  };
+  const std::array<Direction2, 3> v = {
+      one, {middle(chord.first, one.first, other.first), middle(chord.second, one.second, other.second)}, other};
+  const double x = four_places[load_point];
+  const Eigen::Vector3d N = shape_of_angle(x);
+  SectionMotion out{};
+  Scalar angle = atan2(v[1].second, v[1].first);
+  for (std::size_t j = 0; j < 3; ++j) {
+    const double share = N(static_cast<Eigen::Index>(j));
+    if (j != 1)
+      angle += share * atan2(v[1].first * v[j].second - v[1].second * v[j].first,
+                             v[1].first * v[j].first + v[1].second * v[j].second);
+    // By v: a quarter of a turn from it, divided by |v|².
+    const Scalar square = v[j].first * v[j].first + v[j].second * v[j].second;
+    const Scalar by_first = (-share) * v[j].second / square, by_second = share * v[j].first / square;
+    for (std::size_t a = 0; a < 4; ++a) {
+      const double of_coordinate = shares_(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(a));
+      const auto at = static_cast<std::size_t>(cubic_at[a]);
+      out.spin[at + plane_.first][plane_.normal] += of_coordinate * by_first;
+      out.spin[at + plane_.second][plane_.normal] += of_coordinate * by_second;
+    }
+  }
+  const double roll = 0.5 * ((1 - x) * roll_[0] + (1 + x) * roll_[1]);
+  const Scalar c = cos(angle), s = sin(angle);
+  out.axes.x[plane_.first] = c, out.axes.x[plane_.second] = s;
+  out.axes.y[plane_.first] = -std::cos(roll) * s, out.axes.y[plane_.second] = std::cos(roll) * c;
+  out.axes.y[plane_.normal] = Scalar(std::sin(roll));
+  out.axes.z[plane_.first] = std::sin(roll) * s, out.axes.z[plane_.second] = -std::sin(roll) * c;
+  out.axes.z[plane_.normal] = Scalar(std::cos(roll));
   return out;
 }
 

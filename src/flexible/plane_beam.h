@@ -37,6 +37,7 @@ class PlaneBeam final : public BeamElement {
   double largest_turn(const BeamMotion&) const override;
   bool turns_sections(std::size_t coordinate) const override;
   Spins spins(const BeamMotion&) const override;
+  SectionMotion section_along(const BeamMotion&, std::size_t load_point) const override;
   BeamMatrix moments_by_position(const BeamMotion&, const Moments&) const override;
 
  private:
@@ -66,6 +67,9 @@ class PlaneBeam final : public BeamElement {
   Shares shares_;
   Eigen::Matrix3d stretching_, bending_;  // ∫EA N Nᵀ, ∫EI N′ N′ᵀ, of |v| and of the angles of v
   Eigen::Vector3d undeformed_;            // angles
+  // How far the sections of the ends are turned about x from where y lies in the plane; between them it varies
+  // linearly.
+  std::array<double, 2> roll_;
 };
 
 }  // namespace dynalin

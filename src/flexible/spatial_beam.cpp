@@ -335,6 +335,14 @@ BeamElement::Spins SpatialBeam::spins(const BeamMotion& m) const {
   return out;
 }
 
+BeamElement::SectionMotion SpatialBeam::section_along(const BeamMotion& m, std::size_t load_point) const {
+  const SectionRotation<Scalar> section(RotationField<Scalar>(m.axes[0], m.axes[1], m.middle), four_places[load_point],
+                                        length());
+  SectionMotion out{section.R, {}};
+  for (std::size_t i = 0; i < rotation_seeds; ++i) out.spin[static_cast<std::size_t>(spin_place(i))] = section.spin[i];
+  return out;
+}
+
 BeamMatrix SpatialBeam::moments_by_position(const BeamMotion& m, const Moments& moments) const {
   BeamMatrix out = BeamMatrix::Zero();
   const RotationField<Turning> field = varied(m);

@@ -31,6 +31,7 @@ class SpatialBeam final : public BeamElement {
   double largest_turn(const BeamMotion&) const override;
   bool turns_sections(std::size_t coordinate) const override;
   Spins spins(const BeamMotion&) const override;
+  SectionMotion section_along(const BeamMotion&, std::size_t load_point) const override;
   BeamMatrix moments_by_position(const BeamMotion&, const Moments&) const override;
 
  private:

@@ -27,7 +27,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// 1/ω² below this part of the largest may be rounding: the shape counts as one without mass.
+// 1/ω² below this part of the largest may be rounding: the shape counts as one without mass. So does one, whatever its
+// stiffness, that moves less than this part of the mass of the body, if all of that moved as far as the shape does at
+// most: masses are not known better beside each other, and another unit of its own costs digits of all that it is made
+// orthogonal to.
 constexpr double massless = 1e-11;
 
 // Shapes without mass count as if they vibrated so much faster than the fastest of the others, in squares: more would
@@ -91,8 +94,10 @@ MatrixXd orthogonality(const MatrixXd& m, const MatrixXd& rigid) {
 
 // The modes of k, m in what is orthogonal in m to the columns of `rigid`. `slowest`: 1/ω² of the slowest mode of the
 // body where it is held, beside which rounding shows itself where no shape has a mass.
+// `mass_share`: of shapes out of columns of T, by their mass.
+template <class MassShare>
 tl::expected<Orthogonal, NotPositive> orthogonal_shapes(const MatrixXd& k, const MatrixXd& m, const MatrixXd& rigid,
-                                                        double slowest) {
+                                                        double slowest, const MassShare& mass_share) {
   // Translations, rotations and modes have units of their own: those of stiffness, and of mass where they only move the
   // whole.
   const double square = slowest > 0 ? 1 / slowest : m.trace() > 0 ? k.trace() / m.trace() : 0.0;
@@ -120,13 +125,19 @@ tl::expected<Orthogonal, NotPositive> orthogonal_shapes(const MatrixXd& k, const
   // 1/ω² and not ω²: the lowest are the most exact ones, and shapes without mass end at zero.
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(0.5 * (inverse + inverse.transpose())));
   const VectorXd values = eigen.eigenvalues().reverse();
-  Index count = 0;
+  const bool only_these = slowest == 0;
   slowest = std::max(slowest, values[0]);
-  while (count < values.size() && values[count] > massless * slowest) ++count;
   if (!(slowest > 0) || values[values.size() - 1] < -1e-8 * slowest)
     return tl::unexpected(NotPositive{"mass", lowest(0.5 * (mq + mq.transpose()))});
   const MatrixXd of_stiffness_1 = basis * root.matrixU().solve(eigen.eigenvectors().rowwise().reverse());
-  MatrixXd v = of_stiffness_1.leftCols(count);
+  const VectorXd shares = mass_share(MatrixXd(D * of_stiffness_1), values);
+  std::vector<Index> heavy, light;
+  for (Index c = 0; c < values.size(); ++c) {
+    const bool has_mass = shares[c] > massless || (only_these && c == 0);
+    (values[c] > massless * slowest && has_mass ? heavy : light).push_back(c);
+  }
+  const auto count = static_cast<Index>(heavy.size());
+  MatrixXd v = of_stiffness_1(Eigen::all, heavy);
   // Rounding of the high shapes is taken out by the low ones: Cholesky in ascending order.
   for (int pass = 0; pass < 2; ++pass) {
     const VectorXd size = (v.transpose() * ms * v).diagonal().cwiseSqrt();
@@ -139,7 +150,7 @@ tl::expected<Orthogonal, NotPositive> orthogonal_shapes(const MatrixXd& k, const
   Orthogonal result;
   const MatrixXd k_of_v = v.transpose() * ks * v, m_of_v = v.transpose() * ms * v;
   result.squares = k_of_v.diagonal();
-  MatrixXd s = of_stiffness_1.rightCols(values.size() - count);
+  MatrixXd s = of_stiffness_1(Eigen::all, light);
   s -= v * (result.squares.cwiseInverse().asDiagonal() * (v.transpose() * ks * s)).eval();
   s = s * (s.transpose() * ks * s).diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
   result.massless = D * s;
@@ -210,7 +221,10 @@ class Reducer {
     }
     const VectorXd& held = reduction_.fixed_interface;
     auto orthogonal = orthogonal_shapes(0.5 * (k + k.transpose()), 0.5 * (m + m.transpose()), rigid_coordinates,
-                                        held.size() > 0 ? 1 / held.minCoeff() : 0.0);
+                                        held.size() > 0 ? 1 / held.minCoeff() : 0.0,
+                                        [&](const MatrixXd& coordinates, const VectorXd& masses) {
+                                          return mass_shares(all_freedoms(), shapes * coordinates, masses);
+                                        });
     if (!orthogonal) {
       const bool of_stiffness = orthogonal.error().what == "stiffness";
       const SparseMatrix& matrix = of_stiffness ? model_.stiffness : model_.mass;
@@ -241,6 +255,21 @@ class Reducer {
     std::vector<Index> list(model_.freedoms.size());
     std::iota(list.begin(), list.end(), Index{0});
     return list;
+  }
+
+  // Of the mass of the body, if all of it moved as far as each shape of these freedoms does at most; rotations move
+  // what is as far away as the radius of gyration.
+  VectorXd mass_shares(const std::vector<Index>& freedoms, const MatrixXd& shapes, const VectorXd& masses) const {
+    const MassProperties& p = reduction_.properties;
+    const double radius = std::sqrt(std::max(0.0, p.inertia.trace()) / p.mass);
+    VectorXd farthest = VectorXd::Zero(shapes.cols());
+    for (std::size_t k = 0; k < freedoms.size(); ++k) {
+      const int direction = model_.freedoms[static_cast<std::size_t>(freedoms[k])].direction;
+      if (direction < 1) continue;  // a coordinate without a place
+      const double arm = direction > 3 ? radius : 1.0;
+      farthest = farthest.cwiseMax(arm * shapes.row(static_cast<Index>(k)).transpose().cwiseAbs());
+    }
+    return masses.cwiseQuotient(p.mass * farthest.cwiseAbs2());
   }
 
   // An error that names what is loose or, of a motion of these freedoms, the one that moves most, where it is written.
@@ -309,17 +338,24 @@ class Reducer {
     MatrixXd inside = -MatrixXd(part(model_.stiffness, i, b));
     factors.solve(inside);
     const double w = cycle * request_.highest_frequency;
-    auto modes = lowest_modes(k_ii, m_ii, factors, {request_.modes, w * w});
+    const auto modes = lowest_modes(k_ii, m_ii, factors, {request_.modes, w * w});
     if (!modes) return tl::unexpected(modes.error());
-    const Index first = shapes.cols();
-    shapes.conservativeResize(Eigen::NoChange, first + modes->shapes.cols());
-    shapes.rightCols(modes->shapes.cols()).setZero();
+    // Inside the body what has no mass is moved by what has: it needs no shapes of its own.
+    const VectorXd shares = mass_shares(i, modes->shapes, VectorXd::Ones(modes->shapes.cols()));
+    std::vector<Index> heavy;
+    for (Index c = 0; c < shares.size(); ++c) {
+      if (shares[c] > massless) heavy.push_back(c);
+    }
+    const Index first = shapes.cols(), count = static_cast<Index>(heavy.size());
+    const MatrixXd taken = modes->shapes(Eigen::all, heavy);
+    shapes.conservativeResize(Eigen::NoChange, first + count);
+    shapes.rightCols(count).setZero();
     for (std::size_t k = 0; k < i.size(); ++k) {
       const auto row = static_cast<Index>(k);
       shapes.row(i[k]).head(first) = inside.row(row);
-      shapes.row(i[k]).tail(modes->shapes.cols()) = modes->shapes.row(row);
+      shapes.row(i[k]).tail(count) = taken.row(row);
     }
-    reduction_.fixed_interface = std::move(modes->squares);
+    reduction_.fixed_interface = modes->squares(heavy);
     return {};
   }
 

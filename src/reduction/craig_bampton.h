@@ -32,8 +32,8 @@ struct Reduction {
   Eigen::VectorXd fixed_interface;  // ω² of the fixed-interface modes that were taken
   Eigen::Index constraint_modes = 0;
   Eigen::Index rigid_removed = 0;  // motions of the whole: 6 of a body that nothing holds
-  // Of the shapes the last ones: they have no mass, as the rotations of lumped masses, and count as if they vibrated
-  // at 100 times the highest frequency of the others.
+  // Of the shapes the last ones: they have no mass, as the rotations of lumped masses, or hardly any beside that of the
+  // body, and count as if they vibrated at 100 times the highest frequency of the others.
   Eigen::Index massless = 0;
   double strain_of_rigid = 0;  // FreeMotions::strain
   double off_diagonal = 0;     // how far shapes miss orthogonality, in M and, of each pair's frequencies, in K

@@ -124,6 +124,64 @@ TEST(CraigBampton, interface_freedoms_without_mass_keep_their_compliance) {
   }
 }
 
+// Rotary inertia that is no more than rounding beside the mass of the body, and a node on soft springs that weighs as
+// little: what yields there is no vibration, in any units.
+TEST(CraigBampton, hardly_any_mass_counts_as_none) {
+  const auto lumped = [](double rotary, bool hangs, double length_unit) {
+    FiniteElementModel beam = test::beam(4, 0.8);
+    if (hangs) {
+      const auto n = static_cast<std::int32_t>(beam.freedoms.size());
+      test::Triplets springs;
+      for (Index c = 0; c < n; ++c) {
+        for (SparseMatrix::InnerIterator it(beam.stiffness, c); it; ++it)
+          springs.emplace_back(static_cast<std::int32_t>(it.row()), static_cast<std::int32_t>(c), it.value());
+      }
+      for (std::int32_t d = 0; d < 6; ++d) {
+        const double k = d < 3 ? 300 : 20;
+        const std::int32_t own = n + d, other = n - 6 + d;
+        springs.emplace_back(own, own, k), springs.emplace_back(other, other, k);
+        springs.emplace_back(own, other, -k), springs.emplace_back(other, own, -k);
+        beam.freedoms.push_back({6, d + 1});
+      }
+      beam.nodes[6] = beam.nodes.at(5);
+      beam.stiffness = test::matrix_of(n + 6, springs);
+    }
+    test::Triplets lumps, stiff;
+    const auto unit = [&](Index row) {
+      return beam.freedoms[static_cast<std::size_t>(row)].direction > 3 ? length_unit : 1.0;
+    };
+    for (std::size_t k = 0; k < beam.freedoms.size(); ++k) {
+      const Freedom& f = beam.freedoms[k];
+      const auto row = static_cast<std::int32_t>(k);
+      const double m = f.node == 6 ? 0.3 * rotary : f.direction > 3 ? 0.3 * rotary : 0.3;
+      if (m > 0) lumps.emplace_back(row, row, m * unit(row) * unit(row));
+    }
+    beam.mass = test::matrix_of(static_cast<Index>(beam.freedoms.size()), lumps);
+    for (Index c = 0; c < beam.stiffness.cols(); ++c) {
+      for (SparseMatrix::InnerIterator it(beam.stiffness, c); it; ++it) it.valueRef() *= unit(it.row()) * unit(c);
+    }
+    for (auto& [label, place] : beam.nodes) place *= length_unit;
+    return beam;
+  };
+  for (const bool hangs : {false, true}) {
+    const ReductionRequest request{.interface = {1, hangs ? 6 : 5}, .modes = 1000};
+    const Reduction none = reduced(lumped(0, hangs, 1), request);
+    for (const double unit : {1.0, 1000.0}) {
+      for (const double rotary : {1e-15, 1e-13, 1e-12}) {
+        SCOPED_TRACE(rotary);
+        const Reduction r = reduced(lumped(rotary, hangs, unit), request);
+        ASSERT_EQ(r.massless, none.massless);
+        ASSERT_EQ(r.squares.size(), none.squares.size());
+        ASSERT_EQ(r.fixed_interface.size(), none.fixed_interface.size());
+        for (Index k = 0; k < r.squares.size(); ++k) EXPECT_NEAR(r.squares[k] / none.squares[k], 1, 1e-9) << k;
+        EXPECT_LT(r.off_diagonal, 1e-12);
+      }
+    }
+    // One that counts does.
+    EXPECT_LT(reduced(lumped(1e-9, hangs, 1), request).massless, none.massless);
+  }
+}
+
 TEST(CraigBampton, shapes_are_orthogonal_and_contain_no_rigid_motion) {
   const FiniteElementModel block = test::bricks({});
   const Reduction r = reduced(block, {.interface = {1, 9, 27, 81}, .modes = 10, .rotations_required = false});

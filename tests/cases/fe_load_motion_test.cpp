@@ -1,4 +1,5 @@
-// Loads that read the motion of the beam where they act, SD, SV and SA, against closed forms and against inertia.
+// Loads that read the motion of the beam where they act, SD, SV and SA, against closed forms and against inertia: of
+// its line and of its sections.
 #include <dynalin/study.h>
 #include <gmock/gmock.h>
 
@@ -103,6 +104,51 @@ TEST(FeLoadMotion, is_measured_along_global_axes) {
   ASSERT_EQ(straight.size(), turned.size());
   for (std::size_t k = 0; k < straight.size(); ++k)
     EXPECT_NEAR(std::abs(straight[k]), std::abs(turned[k]), 1e-8 * std::abs(straight[k])) << k;
+}
+
+// Along the global z axis, with z of its sections along x: PSI turns it about itself. Its inertia there by length is
+// that of the density 100 and of 0.1^4/6.
+TEST(FeLoadMotion, is_a_bed_a_damper_and_an_inertia_of_turning) {
+  const auto turning = [](const std::string& components) {
+    return drawn(free_beam(components, ", REULER=90D,90D,90D"));
+  };
+  const double J = 100 * 1e-4 / 6;
+  EXPECT_TRUE(has(turning("TZ=-9*(SD(4)-PI/2)"), {0, std::sqrt(9 / J)}));
+  EXPECT_TRUE(has(turning(fmt::format("TZ=-9*(SD(4)-PI/2)-{:.17g}*SV(6)", 2 * J)), {-1, std::sqrt(9 / J - 1)}));
+  EXPECT_TRUE(has(turning(fmt::format("TZ=-9*(SD(4)-PI/2)-{:.17g}*SA(6)", 3 * J)), {0, std::sqrt(9 / (4 * J))}));
+}
+
+// Its sections stand as the global axes do, which leaves the angles no axis to turn about.
+TEST(FeLoadMotion, says_where_an_angle_has_no_derivative) {
+  const auto study = study_of(free_beam("TX=-9*SD(5)"));
+  try {
+    study.linearize(study.initial_conditions(), {});
+    FAIL();
+  } catch (const std::exception& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr("FE_LOAD/1: SD(5) has no derivative where it is 0 or π"));
+  }
+}
+
+// Damping of the turning of sections takes their rates alone: at any place of the beam the same.
+TEST(FeLoadMotion, of_sections_is_measured_along_global_axes) {
+  const auto damped = [](const std::string& place, const std::string& axes, const std::array<int, 3>& along) {
+    std::string text;
+    for (std::size_t k = 0; k < 3; ++k)
+      text += fmt::format("{}T{}=-{}*(1+S)*SV({})-{}*SA({})", k ? ", " : "", "XYZ"[k], 0.01 * along[k], k + 4,
+                          1e-6 * along[k], k + 4);
+    return beam_model(
+        StraightBeam{.elements = 3, .height = 0.05, .width = 0.04, .further = ", QG=" + place + axes}.text() +
+        "MARKER/3, PART=1, QP=" + place + axes + "\nJOINT/1, FIXED, I=21, J=3\n" + load(text));
+  };
+  // Its axes x, y, z are then the global y, z, x.
+  const Values straight = drawn(damped("0,0,0", "", {1, 2, 3})),
+               turned = drawn(damped("1,2,3", ", REULER=90D,90D,0D", {3, 1, 2}));
+  ASSERT_EQ(straight.size(), turned.size());
+  for (std::size_t k = 0; k < straight.size(); ++k)
+    EXPECT_NEAR(std::abs(straight[k]), std::abs(turned[k]), 1e-8 * std::abs(straight[k])) << k;
+  double most = 0;
+  for (const auto& z : straight) most = std::max(most, -z.real() / std::abs(z));
+  EXPECT_GT(most, 1e-3);
 }
 
 }  // namespace

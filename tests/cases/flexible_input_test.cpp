@@ -223,5 +223,48 @@ TEST_F(FlexibleInput, a_bent_beam_that_is_placed_anew_is_as_it_is_drawn) {
   for (std::size_t k = 0; k < drawn.size(); ++k) EXPECT_NEAR(drawn[k], k == 0 || k == 6 ? 1 : 0, 1e-14) << k;
 }
 
+// Its nodes are where they are stated last, and it bends by its weight from there: as one that was always drawn so.
+TEST_F(FlexibleInput, a_beam_whose_nodes_are_stated_anew_begins_there) {
+  const auto beam = [](const std::string& nodes) {
+    return "Beam\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\n"
+           "MATERIAL/1, DENSITY=7800, YOUNGS_MODULUS=2.1E10, POISSONS_RATIO=0.3\nFE_PART/2, " +
+           nodes +
+           ", MATERIAL=1, NODE_LABELS=1,2,3, AREA=1E-4, IYY=8E-10, IZZ=8E-10\nMARKER/21, FE_PART=2, NODE_LABEL=1\n"
+           "JOINT/1, FIXED, I=21, J=1\nEND\n";
+  };
+  // Places and axes of the nodes.
+  const auto nodes_of = [](const RunResult& r) {
+    EXPECT_EQ(r.status, 0) << r.err;
+    std::vector<double> values;
+    if (r.status != 0) return values;
+    for (const auto& body : r.json.at("results").back().at("operating_point").at("bodies")) {
+      for (const double x : body.at("position")) values.push_back(x);
+      for (const auto& axis : body.at("axes")) {
+        for (const double x : axis) values.push_back(x);
+      }
+    }
+    return values;
+  };
+  struct Edit {
+    std::string command, stated;
+  };
+  const std::string type = "TYPE=3DBEAM, ", straight = "X=0,0.5,1";
+  for (const auto& [command, stated] :
+       {Edit{"X=0,0.6,1.3", type + "X=0,0.6,1.3"}, Edit{"Z=0,0.1,0.2", type + straight + ", Z=0,0.1,0.2"},
+        Edit{"PHI=30D", type + straight + ", PHI=30D"}, Edit{"THETA=0.4", type + straight + ", THETA=0.4"},
+        Edit{"Y=0,0.1,0.2, PSI=0.2", type + straight + ", Y=0,0.1,0.2, PSI=0.2"},
+        Edit{"TYPE=2DBEAMXY", "TYPE=2DBEAMXY, " + straight}}) {
+    SCOPED_TRACE(command);
+    for (const std::string analysis : {"SIMULATE/INITIAL\n", "SIMULATE/STATIC\n"}) {
+      const auto edited =
+          nodes_of(run(beam(type + straight), "SIMULATE/STATIC\nFE_PART/2, " + command + "\n" + analysis + "STOP\n"));
+      const auto drawn = nodes_of(run(beam(stated), analysis + "STOP\n"));
+      ASSERT_EQ(edited.size(), drawn.size());
+      ASSERT_GE(edited.size(), 36u);
+      for (std::size_t k = 0; k < edited.size(); ++k) EXPECT_NEAR(edited[k], drawn[k], 1e-9) << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dynalin::cases::flexible_input_test

@@ -105,18 +105,31 @@ std::string dataset(const Mode& mode, bool twin) {
   t += "SFORCE/4, I=42, J=32, TRANSLATIONAL, FUNCTION=5*VARVAL(1)+20*SIN(AZ(32,2))-0.7*VX(42,32,32,32)\n";
   t += "MARKER/9, FLOATING, PART=1\n";
   t += "VFORCE/1, I=42, JFLOAT=9, RM=32, FX=8+VARVAL(1), FY=-2*WZ(32,1), FZ=0.05*FX(41,31,32)\n";
+  // What reacts on the lump wherever its own marker is, and a curve that rides on it.
+  t += fmt::format("MARKER/8, FLOATING, PART={0}\nMARKER/7, FLOATING, PART={0}\n", carrier);
+  t += "GFORCE/2, I=42, JFLOAT=8, RM=33, FX=4-3*DX(42,33)\\ , FY=2+VARVAL(1)\\ , TX=0.4-0.2*WX(42,8,8)\\ , TZ=0.7\n";
+  // y = x² + 0.2 x³ and z = 0.3 x² − 0.1 x of four points, between which a curve is one cubic.
+  t += "MATRIX/1, FULL=RORDER, ROWS=4, COLUMNS=3, VALUES=-0.9,0.6642,0.333, -0.3,0.0846,0.057, 0.3,0.0954,-0.003, "
+       "0.9,0.9558,0.153\n"
+       "CURVE/1, OPEN, MATRIX=1, CURVE_POINTS\n";
+  const Vector bead = node + along * Vector{0.2, 0.0416, -0.008};
+  t += fmt::format("PART/5, MASS=0.6, CM=50, IP=0.02,0.03,0.04{}{}\nMARKER/50, QP={}\n", place, turning(bead),
+                   text(bead));
+  t += "PTCV/1, I=50, JFLOAT=7, CURVE=1, RM=33\nJPRIM/5, ORIENTATION, I=50, J=20\n";
+  t += "SPRINGDAMPER/5, TRANSLATION, I=50, J=2, K=70, C=1, LENGTH=0.4\n";
   const Vector between = Vector{1.1, 0.6, -0.2} - Vector{0.2, -0.4, 0.3};
   t += fmt::format("GCON/1, FUNCTION=DX(42,32)*DX(42,32)+DY(42,32)*DY(42,32)+DZ(42,32)*DZ(42,32)-{:.17g}\n",
                    dot(between, between));
   t +=
       "VARIABLE/2, FUNCTION=DX(32,2,42)\nVARIABLE/3, FUNCTION=VY(31,1,32)\nVARIABLE/4, FUNCTION=ACCX(32,1,42)\n"
       "VARIABLE/5, FUNCTION=TZ(32,2,32)+FM(41,31)\nVARIABLE/6, FUNCTION=AY(32,40)\nVARIABLE/7, FUNCTION=WDTX(32,40,1)\n"
-      "POUTPUT/1, VARIABLES=2,3,4,5,6,7\n";
+      "VARIABLE/8, FUNCTION=GFORCE(2,1,6,33)+FY(8,42,7)\nVARIABLE/9, FUNCTION=PTCV(1,1,2,33)+WZ(7,20,20)\n"
+      "POUTPUT/1, VARIABLES=2,3,4,5,6,7,8,9\n";
   // States of both, as the linear model about a motion is one of its coordinates.
   t += fmt::format(
       "VARIABLE/11, FUNCTION={}(33,22{})\nVARIABLE/12, FUNCTION=AX(40,32)\nVARIABLE/13, FUNCTION=AY(40,1)\n",
       mode.turns ? "AZ" : "DZ", mode.turns ? "" : ",22");
-  t += "PSTATE/1, VARIABLES=11,12,13\nEND\n";
+  t += "VARIABLE/14, FUNCTION=DX(50,33,33)\nPSTATE/1, VARIABLES=11,12,13,14\nEND\n";
   return t;
 }
 
@@ -201,7 +214,7 @@ std::shared_ptr<const System> with_mode(const Mode& mode) {
   shape.translation = {(mode.turns ? mode.advance : 1.0) * direction};
   shape.rotation = {(mode.turns ? 1.0 : 0.0) * direction};
   model->bodies[1].modal = {{"Modal generalized coordinate Q1"}};
-  for (const std::int64_t id : {31, 32, 33}) {
+  for (const std::int64_t id : {31, 32, 33, 7, 8}) {
     MarkerPlace& place = model->markers[static_cast<std::size_t>(model->find_marker(id)->index)].place;
     auto own = std::make_unique<NodeShapes>(shape);
     own->offset = place.p_BM - node;
@@ -236,7 +249,7 @@ TEST(ModalBody, has_the_linear_model_of_its_rigid_twin) {
     SCOPED_TRACE(mode.name);
     const auto flexible = with_mode(mode), rigid = rigid_twin(mode);
     const LinearSystem a = linear_of(*flexible), b = linear_of(*rigid);
-    EXPECT_EQ(a.model.states.size(), 6u);  // the mode, and two freedoms of the pendulum
+    EXPECT_EQ(a.model.states.size(), 8u);  // the mode, two freedoms of the pendulum, and the bead
     expect_equal(a.model.A, b.model.A, "A");
     expect_equal(a.model.B, b.model.B, "B");
     expect_equal(a.model.C, b.model.C, "C");

@@ -398,9 +398,9 @@ const std::vector<Wrong>& table() {
     {Place::added, "FE_LOAD/9, FX=1", {"missing-argument 10:1"}},
     {Place::added, "FE_PART/9, TYPE=3DBEAM, MATERIAL=9, NODE_LABELS=1,2, X=0,1, AREA=1, IYY=1, IZZ=1\n"
      "MATERIAL/9, DENSITY=1, YOUNGS_MODULUS=1, POISSONS_RATIO=0\nMARKER/9, PART=2, FLOATING\n"
-     "FE_LOAD/1, FE_PART=9\nFE_LOAD/2, FE_PART=9, RM=77, FX=1\nFE_LOAD/3, FE_PART=9, FX=SD(4)\n"
+     "FE_LOAD/1, FE_PART=9\nFE_LOAD/2, FE_PART=9, RM=77, FX=1\nFE_LOAD/3, FE_PART=9, FX=SD(7)\n"
      "FE_LOAD/4, FE_PART=9, FUNCTION=USER(1)\nFE_LOAD/5, FE_PART=9, FUNCTION=3\nFE_LOAD/6, FE_PART=2, FX=1",
-     {"missing-argument 13:1", "unknown-marker 14:26", "function-not-built 15:29", "missing-routine 16:32",
+     {"missing-argument 13:1", "unknown-marker 14:26", "argument-range 15:29", "missing-routine 16:32",
       "argument-not-built 17:23", "unknown-body 18:20"}},
     {Place::added, "FE_PART/9, TYPE=3DBEAM, MATERIAL=9, NODE_LABELS=1,2, X=0,1, AREA=1, IYY=1, IZZ=1\n"
      "MATERIAL/9, DENSITY=1, YOUNGS_MODULUS=1, POISSONS_RATIO=0\nMARKER/9, PART=2, FLOATING\n"

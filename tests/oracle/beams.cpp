@@ -1,5 +1,7 @@
 #include "beams.h"
 
+#include <cmath>
+
 #include "model.h"
 
 namespace dynalin::oracle {
@@ -347,7 +349,7 @@ std::vector<Model::LoadedSpan> Model::loaded_spans(const Beam& beam, const std::
 }
 
 LinePoint Model::line_point(const LoadedSpan& span, std::size_t point) const {
-  LinePoint out{span.place[point], {}};
+  LinePoint out{span.place[point], {}, {}};
   const auto factor = cubics(four_points()[point].at, span.length);
   for (std::size_t p = 0; p < span.body.size(); ++p) {
     const BodyMotion& m = motion[span.body[p]];
@@ -356,13 +358,14 @@ LinePoint Model::line_point(const LoadedSpan& span, std::size_t point) const {
   return out;
 }
 
-LineLoads Model::line_loads(const LoadedSpan& span) const {
+LineLoads Model::line_loads(const LoadedSpan& span, const Turnings& turnings) const {
   LineLoads out;
   for (const std::size_t l : span.loads) {
     const BeamLoad& load = mechanism_.beam_loads[l];
     const auto& axis = markers_[static_cast<std::size_t>(marker_index(load.rm))].axis;
     for (std::size_t g = 0; g < line_points; ++g) {
-      const LinePoint at = line_point(span, g);
+      LinePoint at = line_point(span, g);
+      at.turning = turnings[g];
       for (std::size_t c = 0; c < 6; ++c) {
         if (!load.component[c]) continue;
         (c < 3 ? out.force : out.moment)[g] += evaluate_at(*load.component[c], at) * axis[c % 3];
@@ -421,12 +424,25 @@ const BeamDirections& Model::directions(std::size_t piece) const {
   return beam_directions_[piece];
 }
 
+Model::Turnings Model::turnings_of(const BeamPiece& piece) const {
+  Turnings out{};
+  if (piece.span.loads.empty()) return out;
+  const BeamShape<Jet> shape = piece.element.shape(pose_along_motion(piece));
+  for (std::size_t g = 0; g < line_points; ++g) {
+    const auto& axis = shape.line_axis[g];
+    const Vec ex = value(axis[0]), ey = value(axis[1]), ez = value(axis[2]);
+    out[g][0] = {std::atan2(ez.x, -ez.y), std::atan2(std::hypot(ez.x, ez.y), ez.z), std::atan2(ex.z, ey.z)};
+    out[g][1] = spin(axis), out[g][2] = spin_rate(axis);
+  }
+  return out;
+}
+
 void Model::apply_beams(std::vector<Wrench>& loads) const {
   for (std::size_t k = 0; k < pieces_.size(); ++k) {
     const BeamPiece& piece = pieces_[k];
     const BeamDirections& by = directions(k);
     std::array<Real, beam_freedoms> all = piece.element.loads(pose_along_motion(piece), by, to_vec(mechanism_.gravity));
-    const auto more = piece.element.loads(line_loads(piece.span), by);
+    const auto more = piece.element.loads(line_loads(piece.span, turnings_of(piece)), by);
     for (std::size_t a = 0; a < beam_freedoms; ++a) all[a] += more[a];
     for (std::size_t t = 0; t < triples.size(); ++t) {
       Wrench& on = loads[piece.body[triples[t].part]];

@@ -16,10 +16,11 @@ struct LineLoads {
   std::array<Vec, line_points> force, moment;
 };
 
-// A place along a beam: S, and position, velocity and acceleration of the line there.
+// A place along a beam: S, position, velocity and acceleration of the line there, and 3-1-3 angles, angular velocity
+// and angular acceleration of the section (of beams in space).
 struct LinePoint {
   Real place = 0;
-  std::array<Vec, 3> motion;
+  std::array<Vec, 3> motion, turning;
 };
 
 // Of r1, s1, r2, s2; x from 0 to 1.
@@ -70,9 +71,10 @@ class BeamElement {
   [[nodiscard]] Real mass(const BeamPose<Real>& pose, const BeamDirections& by, std::size_t a, std::size_t b) const;
   [[nodiscard]] Real length() const { return length_; }
 
- private:
   template <class T>
   [[nodiscard]] BeamShape<T> shape(const BeamPose<T>& pose) const;
+
+ private:
   [[nodiscard]] Vec spun(std::size_t point, const std::array<Vec, 3>& axes, const Vec& w) const;  // inertia times w
 
   Real length_ = 1;

@@ -455,6 +455,8 @@ std::string dataset_text(const Mechanism& m) {
     Statement s("MARKER", k.id);
     if (k.body.kind == BodyKind::beam_node) {
       s.set("FE_PART", k.body.id / 100).set("NODE_LABEL", k.body.id % 100 + 1);
+    } else if (k.body.kind == BodyKind::flexible_frame) {
+      s.set("FLEX_BODY", k.body.id);
     } else if (of_flexible(k.body.kind)) {
       s.set("FLEX_BODY", k.body.id / 100).set("NODE_ID", k.body.id % 100 + 1);
     } else {

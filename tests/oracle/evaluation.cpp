@@ -105,7 +105,9 @@ T Evaluator<T>::node(const Node& n) const {
     case Op::place:
       return T(line_point().place);
     case Op::line_motion:
-      return without_rate(component(line_point().motion[static_cast<std::size_t>(n.ids[0])], n.ids[1]));
+      return without_rate(
+          component((n.ids[1] < 3 ? line_point().motion : line_point().turning)[static_cast<std::size_t>(n.ids[0])],
+                    n.ids[1] % 3));
     case Op::add:
       return argument(0) + argument(1);
     case Op::subtract:

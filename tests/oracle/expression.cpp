@@ -99,7 +99,7 @@ Expr constant(double value) {
 }
 Expr time_now() { return make(Op::time, {}); }
 Expr place_along_beam() { return make(Op::place, {}); }
-Expr line_motion(int derivative, int axis) { return make(Op::line_motion, {}, {derivative, axis}); }
+Expr line_motion(int derivative, int component) { return make(Op::line_motion, {}, {derivative, component}); }
 Expr operator+(const Expr& a, const Expr& b) { return make(Op::add, {a, b}); }
 Expr operator-(const Expr& a, const Expr& b) { return make(Op::subtract, {a, b}); }
 Expr operator*(const Expr& a, const Expr& b) { return make(Op::multiply, {a, b}); }

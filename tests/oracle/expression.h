@@ -18,7 +18,7 @@ enum class Op {
   constant,
   time,
   place,        // S, along a beam
-  line_motion,  // SD, SV, SA there: derivative by time, axis
+  line_motion,  // SD, SV, SA there: derivative by time, component from 0 to 5
   add,
   subtract,
   multiply,
@@ -86,7 +86,7 @@ struct Node {
 [[nodiscard]] Expr time_now();
 [[nodiscard]] Expr place_along_beam();
 // Of the beam there: its position or a derivative of it by time, along a global axis 0..2.
-[[nodiscard]] Expr line_motion(int derivative, int axis);
+[[nodiscard]] Expr line_motion(int derivative, int component);
 [[nodiscard]] Expr operator+(const Expr& a, const Expr& b);
 [[nodiscard]] Expr operator-(const Expr& a, const Expr& b);
 [[nodiscard]] Expr operator*(const Expr& a, const Expr& b);

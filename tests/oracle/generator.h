@@ -28,6 +28,11 @@ struct Meeting {
   Spot spot;
 };
 
+// Nodes of a flexible body are one to the program.
+[[nodiscard]] inline bool are_one_body(const BodyRef& a, const BodyRef& b) {
+  return a == b || (a.kind == BodyKind::flexible_node && b.kind == a.kind && a.id / 100 == b.id / 100);
+}
+
 class Draw {
  public:
   Draw(std::uint64_t seed, std::uint64_t attempt)
@@ -132,6 +137,8 @@ class Draw {
   void draw_flexibles();
   void draw_flexible();
   void join_flexible(const Flexible& flexible);
+  void ride_on(const BodyRef& node, const std::vector<BodyRef>& solid);
+  void react_on(const BodyRef& body, int id);
   void draw_modal_forces();
   void check_frictions(const Model& model) const;
   void check_structure() const;

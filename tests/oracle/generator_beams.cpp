@@ -118,7 +118,12 @@ void Draw::draw_beam_load() {
     if (c == varying || chance(0.3)) {
       constexpr std::array<double, 3> sizes = {0.8, 0.6, 0.03};
       const int derivative = pick(3);
-      e = e + (sizes[static_cast<std::size_t>(derivative)] * uniform(-1, 1) / L_) * line_motion(derivative, pick(3));
+      // Of the line, and of beams in space of the sections as well; how those of a plane beam stand is no question of
+      // the language.
+      const int component = pick(plane_ == BeamPlane::none ? 6 : 3);
+      const double length = component < 3 ? L_ : 1;
+      e = e +
+          (sizes[static_cast<std::size_t>(derivative)] * uniform(-1, 1) / length) * line_motion(derivative, component);
     }
     if (chance(0.4)) e = e + uniform(-0.4, 0.4) * varval(one_of(features_));
     if (!states_.empty() && chance(0.4)) e = e + uniform(-0.5, 0.5) * one_of(states_);

@@ -11,7 +11,7 @@ namespace dynalin::oracle {
 std::pair<int, int> Draw::distant_pair(bool oriented_j) {
   for (int attempt = 0; attempt < 200; ++attempt) {
     const int i = one_of(all_), j = one_of(oriented_j ? oriented_ : all_);
-    if (body_of(i) == body_of(j)) continue;
+    if (are_one_body(body_of(i), body_of(j))) continue;
     if (norm(place_of(i) - place_of(j)) > 0.4 * L_) return {i, j};
   }
   throw std::runtime_error("no two markers are far enough apart");

@@ -1,5 +1,7 @@
 // Flexible bodies of a draw: nodes with masses and shapes at random, deformed and in motion where the dataset starts.
 #include <algorithm>
+#include <iterator>
+#include <stdexcept>
 #include <utility>
 
 #include "generator.h"
@@ -75,10 +77,27 @@ void Draw::join_flexible(const Flexible& f) {
   };
   if (!chance(0.15)) join(0);
   if (chance(0.3)) join(1);
+  // Tables of energy are compared where no curves are seen: every second seed has none here.
+  if (!may_rub_) ride_on(f.node(2), solid);
   for (const std::size_t node : {std::size_t{0}, std::size_t{1}, std::size_t{2}}) {
     const BodyRef ref = f.node(node);
     const int id = add_marker(ref, {to_vec(body(ref).qg) + box(0.3 * L_), orientation()});
     all_.push_back(id), oriented_.push_back(id), bodies_.push_back(ref);
+  }
+}
+
+// A curve on a node, and a body that follows it.
+void Draw::ride_on(const BodyRef& node, const std::vector<BodyRef>& solid) {
+  const bool two_curves = chance(0.5);
+  for (int attempt = 0; attempt < 20 && mobility() > 2; ++attempt) {
+    const Mechanism before = m_;
+    const int marker = next_marker_, matrix = next_matrix_;
+    try {
+      return place_contact(one_of(solid), node, two_curves);
+    } catch (const std::runtime_error&) {
+      m_ = before;
+      next_marker_ = marker, next_matrix_ = matrix;
+    }
   }
 }
 
@@ -96,21 +115,34 @@ void Draw::draw_modal_forces() {
   for (std::size_t load = 0; load < f.loads.size(); ++load) {
     ModalForce force{static_cast<int>(load) + 1, f.id, static_cast<int>(load), 0, {}};
     if (chance(0.5)) {
-      Marker floating;
-      floating.id = next_marker_++, floating.floating = true;
-      floating.body = body_of(one_of(oriented_));
-      if (!is_elastic(floating.body.kind)) {
-        m_.markers.push_back(floating);
-        force.jfloat = floating.id;
-      }
+      const BodyRef on = body_of(one_of(oriented_));
+      if (!is_elastic(on.kind)) force.jfloat = add_floating(on);
     }
     force.scale = constant(uniform(-0.5, 0.5)) + uniform(-0.6, 0.6) * shaped_kinematic() +
                   uniform(-0.4, 0.4) * varval(one_of(features_));
     if (!states_.empty() && chance(0.4)) force.scale = force.scale + uniform(-0.5, 0.5) * one_of(states_);
     m_.mforces.push_back(force);
   }
+  // What reacts on the body as if that were rigid, and on a node of it.
+  react_on(f.frame(), 11), react_on(f.node(static_cast<std::size_t>(pick(3))), 12);
   std::swap(random_, flexible_random_);
   check();
+}
+
+void Draw::react_on(const BodyRef& body, int id) {
+  std::vector<int> elsewhere;
+  std::copy_if(oriented_.begin(), oriented_.end(), std::back_inserter(elsewhere),
+               [&](int m) { return body_of(m) != ground && !of_flexible(body_of(m).kind); });
+  GeneralForce f;
+  f.id = id;
+  f.i = one_of(elsewhere), f.jfloat = add_floating(body), f.rm = one_of(oriented_);
+  for (std::size_t k = 0; k < 6; ++k) {
+    if (k != 1 && !chance(0.5)) continue;
+    const Expr e = constant(uniform(-0.4, 0.4)) + uniform(-0.4, 0.4) * shaped_kinematic() +
+                   uniform(-0.4, 0.4) * varval(one_of(features_));
+    f.component[k] = (k < 3 ? F_ : 0.5 * F_ * L_) * e;
+  }
+  m_.gforces.push_back(f);
 }
 
 }  // namespace dynalin::oracle

@@ -82,7 +82,7 @@ void Draw::draw_nforces() {
   const std::size_t n = 1 + static_cast<std::size_t>(pick(3));
   for (int attempt = 0; attempt < 20 && f.i.size() < n; ++attempt) {
     const BodyRef end = one_of(ends);
-    if (end != base) f.i.push_back(marker_on(end));
+    if (!are_one_body(end, base)) f.i.push_back(marker_on(end));
   }
   if (f.i.empty()) return;
   f.j = marker_on(base);

@@ -286,12 +286,14 @@ class Model {
   };
   [[nodiscard]] LinePoint line_point(const LoadedSpan& span, std::size_t point) const;
   [[nodiscard]] std::vector<LoadedSpan> loaded_spans(const Beam& beam, const std::vector<Real>& lengths) const;
-  [[nodiscard]] LineLoads line_loads(const LoadedSpan& span) const;
+  using Turnings = std::array<std::array<Vec, 3>, line_points>;
+  [[nodiscard]] LineLoads line_loads(const LoadedSpan& span, const Turnings& turnings) const;
   struct BeamPiece {  // between two nodes
     BeamElement element;
     std::array<std::size_t, 5> body{};  // both nodes, both slopes, the middle
     LoadedSpan span;
   };
+  [[nodiscard]] Turnings turnings_of(const BeamPiece& piece) const;
   struct PlanePiece {
     BeamPlane plane;
     PlaneElement element;

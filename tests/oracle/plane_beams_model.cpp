@@ -65,7 +65,7 @@ void Model::apply_plane_beams(std::vector<Wrench>& loads) const {
     const PlaneAxes axes = axes_of(piece.plane);
     const PlanePose<Jet> along = pose_along_motion(piece);
     const PlaneLoads own = piece.element.loads(along, to_vec(mechanism_.gravity));
-    const PlaneLoads more = piece.element.loads(still(along), line_loads(piece.span));
+    const PlaneLoads more = piece.element.loads(still(along), line_loads(piece.span, {}));
     for (std::size_t k = 0; k < plane_freedoms; ++k)
       loads[piece.body[k / 2]].f += (own[k] + more[k]) * unit(k % 2 == 0 ? axes.a : axes.b);
   }

@@ -241,11 +241,7 @@ class MarkerSet final : public TypedSet<ReadMarker> {
                           fmt::format("{} names a node, but {} is no FLEX_BODY and no FE_PART", name, body.text()));
       return;
     }
-    if (m.floating) {
-      diagnostics.error("argument-not-built", labels[k].at,
-                        fmt::format("{} floats on {}: forces act on nodes of a flexible body", name, body.text()));
-      return;
-    }
+    if (!named && m.floating) return;
     if (!named) {
       diagnostics.error("missing-argument", labels[k].at, fmt::format("{} on {} needs NODE_ID", name, body.text()),
                         "the node of the body that carries it");

@@ -1,12 +1,25 @@
 #include "elements/families/curve_contact.h"
 
+#include <algorithm>
+
 namespace dynalin {
 
+namespace {
+
+// Whether the modes of a body move both alike: always if they belong to one node.
+bool move_alike(const MarkerPlace& a, const MarkerPlace& b) {
+  if (!a.shapes || !b.shapes) return a.shapes == b.shapes;
+  const auto same = [](const Vector& v, const Vector& w) { return v.x == w.x && v.y == w.y && v.z == w.z; };
+  return std::ranges::equal(a.shapes->translation, b.shapes->translation, same) &&
+         std::ranges::equal(a.shapes->rotation, b.shapes->rotation, same);
+}
+
+}  // namespace
+
 double stated_parameter(const Model& model, const Curve& curve, const Vector& point, MarkerId own, MarkerId axes) {
-  const MarkerPlace& to = model.marker(own).place;
-  const MarkerPlace& from = model.marker(axes.valid() ? axes : own).place;
-  const Vector in_body = from.p_BM + from.R_BM * point;
-  return curve.shape->nearest(transpose_times(to.R_BM, in_body - to.p_BM));
+  const Pose to = drawn_on_body(model, own), from = drawn_on_body(model, axes.valid() ? axes : own);
+  const Vector in_body = from.r + from.R * point;
+  return curve.shape->nearest(transpose_times(to.R, in_body - to.r));
 }
 
 bool check_contact_marker(Model& model, const ElementLabel& label, MarkerId floating, std::string_view argument,
@@ -24,6 +37,14 @@ bool check_contact_marker(Model& model, const ElementLabel& label, MarkerId floa
     diagnostics.error("foreign-marker", label.at,
                       fmt::format("{} of {}, {}, must be on {}, which carries the curve", argument, label.text(),
                                   marker.label->text(), model.body(body).label.text()));
+    return false;
+  }
+  if (marker.place.shapes && !move_alike(marker.place, model.marker(own).place)) {
+    diagnostics.error(
+        "foreign-marker", label.at,
+        fmt::format("{} of {}, {}, is on another node of {} than {}, which carries the curve", argument, label.text(),
+                    marker.label->text(), model.body(body).label.text(), model.marker(own).label->text()),
+        "a floating marker of a flexible body needs no NODE_ID");
     return false;
   }
   return true;

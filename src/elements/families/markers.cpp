@@ -37,19 +37,24 @@ bool check_pair(const Model& model, const ElementLabel& label, MarkerId i, Marke
 
 namespace {
 
-// In global axes, on a flexible body with the shape that it starts in.
-Pose drawn_pose(const Model& model, const MarkerPlace& m) {
-  const Body& body = model.body(m.body);
-  const Pose& B = body.pose;
-  if (!m.shapes) return {B.r + B.R * m.p_BM, B.R * m.R_BM};
-  const auto shape = deformation<double>(*m.shapes, [&](std::size_t k) { return body.modal[k].initial; });
-  return {B.r + B.R * (m.p_BM + shape.moved), B.R * (shape.turned * m.R_BM)};
+Pose drawn_pose(const Model& model, MarkerId m) {
+  const Pose& B = model.body(model.marker(m).place.body).pose;
+  const Pose on_body = drawn_on_body(model, m);
+  return {B.r + B.R * on_body.r, B.R * on_body.R};
 }
 
 }  // namespace
 
+Pose drawn_on_body(const Model& model, MarkerId id) {
+  const MarkerPlace& m = model.marker(id).place;
+  if (!m.shapes) return {m.p_BM, m.R_BM};
+  const Body& body = model.body(m.body);
+  const auto shape = deformation<double>(*m.shapes, [&](std::size_t k) { return body.modal[k].initial; });
+  return {m.p_BM + shape.moved, shape.turned * m.R_BM};
+}
+
 RelativeFrame<double> drawn_frame(const Model& model, MarkerId i, MarkerId j) {
-  const Pose I = drawn_pose(model, model.marker(i).place), J = drawn_pose(model, model.marker(j).place);
+  const Pose I = drawn_pose(model, i), J = drawn_pose(model, j);
   const Matrix3 A = transpose(J.R);
   const Matrix3 axes = A * I.R;
   return {A * (I.r - J.r), axes[0], axes[1], axes[2]};

@@ -17,6 +17,8 @@ struct PairRequirements {
 // Reports floating markers, markers on one body and torques on a POINT_MASS; false if anything was wrong.
 bool check_pair(const Model&, const ElementLabel&, MarkerId i, MarkerId j, const PairRequirements&, Diagnostics&);
 
+// Where a marker stands in the BCS of its body as drawn: with the shape that a flexible body starts in.
+Pose drawn_on_body(const Model&, MarkerId);
 // I seen from J as drawn.
 RelativeFrame<double> drawn_frame(const Model&, MarkerId i, MarkerId j);
 // The same along a motion, without its rates.

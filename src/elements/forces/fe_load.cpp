@@ -3,13 +3,15 @@
 // A force f and a moment m per undeformed length along a beam of finite elements, components in the axes of RM or
 // global ones, without a reaction. They work on the motion of the beam's line and on the spin of its sections
 // (flexible/beam_load.h). Components may read S, the place along the undeformed beam from 0 to 1, and SD(n), SV(n) and
-// SA(n), position, velocity and acceleration of the line there.
+// SA(n): position, velocity and acceleration of the line there, n = 1 to 3, and 3-1-3 angles, angular velocity and
+// angular acceleration of the section, n = 4 to 6.
 //
 // A component w is an algebraic unknown with w − e = 0; one that varies along the beam is an unknown at each load
-// point, and so is what it reads of the line, u − Σ h r = 0.
+// point, and so is what it reads of the beam there, of the line u − Σ h r = 0.
 #include <fmt/format.h>
 
 #include "elements/bodies/fe_part.h"
+#include "elements/families/section_reading.h"
 #include "flexible/beam_load.h"
 #include "mechanics/binder.h"
 #include "mechanics/bound_expression.h"
@@ -47,18 +49,19 @@ struct BeamLoad {
 
 bool is_place_along_beam(const Atom& a) { return a.function == find_atom_function("S"); }
 
-// Of SD, SV and SA: how many time derivatives of the line they read.
-constexpr std::array<std::string_view, 3> motions_of_line = {"SD", "SV", "SA"};
-std::optional<std::size_t> derivative_of_line(const Atom& a) {
-  const auto found = std::ranges::find(motions_of_line, a.function->name);
-  return found == motions_of_line.end() ? std::nullopt : std::optional(found - motions_of_line.begin());
+// Of SD, SV and SA: how many time derivatives of the motion of the beam they read.
+constexpr std::array<std::string_view, 3> motions_of_beam = {"SD", "SV", "SA"};
+std::optional<std::size_t> derivative_of_beam(const Atom& a) {
+  const auto found = std::ranges::find(motions_of_beam, a.function->name);
+  return found == motions_of_beam.end() ? std::nullopt : std::optional(found - motions_of_beam.begin());
 }
-bool varies_along_beam(const Atom& a) { return is_place_along_beam(a) || derivative_of_line(a); }
+bool varies_along_beam(const Atom& a) { return is_place_along_beam(a) || derivative_of_beam(a); }
 
-constexpr std::size_t components_of_line = 3;
+// Of each derivative: three components of the line, three of the turning of its sections.
+constexpr std::size_t components_of_motion = 6;
 
 // What takes the place of those in an expression.
-constexpr AtomFunction unknown_of_line = {.name = "motion of the beam",
+constexpr AtomFunction unknown_of_beam = {.name = "motion of the beam",
                                           .family = AtomFamily::data,
                                           .order = -1,
                                           .minimum_arguments = 1,
@@ -111,7 +114,12 @@ class BeamLoadKernel final : public Kernel {
         eq.add(PartialBy::algebraic, row, u.algebraic, 1.0);
         u.bound.add(motion, eq, row, -1.0, PartialBy::damping);
       }
-      for (const Read& r : l.read) read_line(l, r, motion, eq);
+      for (const Read& r : l.read) {
+        if (r.is_of_line())
+          read_line(l, r, motion, eq);
+        else
+          read_section(l, r, motion, eq);
+      }
       for (std::size_t e = 0; e < l.beam.elements->size(); ++e) load_element(l, e, motion, eq);
     }
   }
@@ -123,7 +131,16 @@ class BeamLoadKernel final : public Kernel {
   }
   void undefined_values(const Motion& motion, std::vector<UndefinedValue>& values) const override {
     for (std::size_t k = 0; k < loads_.size(); ++k) {
-      for (const Unknown& u : loads_[k].unknowns) u.bound.find_undefined(motion, (*labels_)[k], values);
+      const Load& l = loads_[k];
+      const ElementLabel& label = (*labels_)[k];
+      for (const Unknown& u : l.unknowns) u.bound.find_undefined(motion, label, values);
+      for (const Read& r : l.read) {
+        if (!r.is_angle() || reading(l, r, motion).has_gradient()) continue;
+        values.push_back({&label,
+                          fmt::format("{}: SD({}) has no derivative {}", label.full_text(), r.component + 1,
+                                      place_without_gradient(section_angles[r.component - 3])),
+                          false});
+      }
     }
   }
 
@@ -139,10 +156,12 @@ class BeamLoadKernel final : public Kernel {
     bool varies;
     bool is_force() const { return axis < 3; }
   };
-  // What a component reads of the line at a load point: an axis of one of its derivatives.
+  // What a component of a load reads of the motion of the beam at a load point: a component of one of its derivatives.
   struct Read {
-    std::size_t point, derivative, axis;
+    std::size_t point, derivative, component;
     std::int32_t algebraic;
+    bool is_of_line() const { return component < 3; }
+    bool is_angle() const { return !is_of_line() && derivative == 0; }
   };
   struct Load {
     BeamBody beam;
@@ -151,25 +170,26 @@ class BeamLoadKernel final : public Kernel {
     std::vector<Unknown> unknowns;
     std::vector<Read> read;
     // Their unknowns at each load point, derivative by derivative, while expressions are taken apart.
-    std::vector<std::array<std::optional<std::int32_t>, motions_of_line.size() * components_of_line>> read_at;
+    std::vector<std::array<std::optional<std::int32_t>, motions_of_beam.size() * components_of_motion>> read_at;
   };
 
-  // The expression at a load point of the whole beam; what it reads of the line there becomes an unknown, once.
+  // The expression at a load point of the whole beam; what it reads of the motion there becomes an unknown, once.
   static Expression at_point(const Expression& e, std::size_t point, double place, const ElementLabel& of,
                              Layout& layout, Load& load) {
     return e.with_definitions([&](const Atom& a) -> std::optional<Expression> {
       if (is_place_along_beam(a)) return Expression::constant(place);
-      const auto derivative = derivative_of_line(a);
+      const auto derivative = derivative_of_beam(a);
       if (!derivative) return std::nullopt;
-      const auto axis = static_cast<std::size_t>(a.argument[0] - 1);
-      const std::size_t which = components_of_line * *derivative + axis;
+      const auto component = static_cast<std::size_t>(a.argument[0] - 1);
+      // Those of the line first.
+      const std::size_t which = 3 * motions_of_beam.size() * (component / 3) + 3 * *derivative + component % 3;
       std::optional<std::int32_t>& known = load.read_at[point][which];
       if (!known) {
         known = layout.add_algebraic(of, static_cast<std::int32_t>(component_names.size() + which) + 1);
-        load.read.push_back({point, *derivative, axis, *known});
+        load.read.push_back({point, *derivative, component, *known});
       }
       Atom unknown = a;
-      unknown.function = &unknown_of_line;
+      unknown.function = &unknown_of_beam;
       unknown.argument = {*known};
       return Expression::of_atom(unknown);
     });
@@ -194,8 +214,30 @@ class BeamLoadKernel final : public Kernel {
     eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(r.algebraic)]);
     eq.add(PartialBy::algebraic, row, r.algebraic, 1.0);
     for (std::size_t a = 0; a < parts.size(); ++a) {
-      eq.add_residual(row, -line.factor[a] * parts[a][r.axis]);
-      eq.add(family[r.derivative], row, at[line.at[a] + r.axis], -line.factor[a]);
+      eq.add_residual(row, -line.factor[a] * parts[a][r.component]);
+      eq.add(family[r.derivative], row, at[line.at[a] + r.component], -line.factor[a]);
+    }
+  }
+
+  static SectionReading reading(const Load& l, const Read& r, const Motion& motion) {
+    const std::size_t element = r.point / beam_load_points;
+    return section_reading(*(*l.beam.elements)[element], l.beam.motion(motion, element), r.point % beam_load_points,
+                           r.derivative, r.component - 3);
+  }
+
+  static void read_section(const Load& l, const Read& r, const Motion& motion, Equations& eq) {
+    const SectionReading read = reading(l, r, motion);
+    const std::size_t element = r.point / beam_load_points;
+    const BeamElement& e = *(*l.beam.elements)[element];
+    const BeamColumns at = l.beam.columns(eq.layout(), element);
+    const std::int32_t row = eq.algebraic_row(r.algebraic);
+    eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(r.algebraic)] - read.value);
+    eq.add(PartialBy::algebraic, row, r.algebraic, 1.0);
+    for (std::size_t k = 0; k < e.coordinates(); ++k) {
+      if (!e.turns_sections(k)) continue;
+      eq.add(PartialBy::position, row, at[k], -read.by_position[k]);
+      if (r.derivative > 0) eq.add(PartialBy::damping, row, at[k], -read.by_rate[k]);
+      if (r.derivative > 1) eq.add(PartialBy::acceleration, row, at[k], -read.by_acceleration[k]);
     }
   }
 
@@ -298,13 +340,6 @@ class BeamLoadSet final : public TypedSet<BeamLoad> {
       if (!reader.given(component_names[c])) continue;
       l.component[c] = *written[c];
       any = true;
-      for (const Atom& a : l.component[c]->atoms()) {
-        if (!derivative_of_line(a) || a.argument[0] <= static_cast<std::int32_t>(components_of_line)) continue;
-        reader.error("function-not-built", a.argument_at(0),
-                     fmt::format("{}({}) is not available: of the motion at S there are the components 1 to 3 of the "
-                                 "line, and none of its turning",
-                                 a.function->name, a.argument[0]));
-      }
     }
     if (!any && !reader.statement().damaged) {
       reader.error("missing-argument", reader.statement().at, fmt::format("{} has no component", name),

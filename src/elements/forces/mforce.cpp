@@ -5,7 +5,8 @@
 //
 //     F = w A f,   L = w A t   on the body at the BCS,   Q w   on its modal coordinates
 //
-// and −F, −L at the same place on the body of the floating marker JFLOAT. What the modes take has no reaction.
+// and −F, −L at the same place on the body of the floating marker JFLOAT, or on its node. What the modes take has no
+// reaction.
 //
 // f, t and Q are column CASE_INDEX of the modal loads of the body, and w = SCALE. A compiled routine of the user gives
 // both (FUNCTION), where f, t and Q depend on time alone, or f, t and Q for w = 1 (FORCE). What is not a constant is an
@@ -17,6 +18,7 @@
 #include "mechanics/binder.h"
 #include "mechanics/bound_expression.h"
 #include "mechanics/kernel.h"
+#include "mechanics/pair.h"
 #include "model/schema.h"
 
 namespace dynalin {
@@ -61,7 +63,7 @@ class ModalForceKernel final : public Kernel {
     for (std::size_t k = 0; k < forces.size(); ++k) {
       const FlexibleBody& f = *std::ranges::find(flexible, forces[k].body, &FlexibleBody::body);
       Load load;
-      load.body = f.body, load.modes = layout.body_coordinate_count + static_cast<std::int32_t>(f.first);
+      load.bcs.body = f.body, load.modes = layout.body_coordinate_count + static_cast<std::int32_t>(f.first);
       const auto unknown = [&](const Expression& e) {
         const auto number = static_cast<std::int32_t>(load.unknowns.size()) + 1;
         load.unknowns.push_back(
@@ -79,7 +81,7 @@ class ModalForceKernel final : public Kernel {
                                                      count + (forces[k].scaled ? 1 : 0)))
           unknown(e);
       }
-      if (forces[k].jfloat.valid()) load.reacts_on = model.marker(forces[k].jfloat).place.body;
+      if (forces[k].jfloat.valid()) load.reacts_on = layout.marker(forces[k].jfloat), load.has_reaction = true;
       loads_.push_back(std::move(load));
     }
   }
@@ -101,28 +103,29 @@ class ModalForceKernel final : public Kernel {
         u.bound.add(motion, eq, row, -1.0, PartialBy::damping);
       }
       const Now now = look(l, motion);
-      eq.apply(l.body, now.scale * now.force, now.scale * now.torque);
+      const PairMotion pair = pair_motion(motion, l.bcs, l.reacts_on);
+      PairForce load;
+      load.force = now.scale * now.force, load.torque = now.scale * now.torque;
+      load.force_on_position.axes_I = -skew(load.force), load.torque_on_position.axes_I = -skew(load.torque);
+      load.reaction = l.has_reaction ? Reaction::at_I : Reaction::none;
+      apply(pair, load, eq);
       for (std::size_t m = 0; m < now.of_modes.size(); ++m)
         eq.add_residual(l.modes + static_cast<std::int32_t>(m), -now.scale * now.of_modes[m]);
       if (l.has_scale) {
         const std::int32_t scale = l.unknowns.front().algebraic;
-        eq.add_column(PartialBy::algebraic, l.body, scale, now.force, now.torque);
+        apply_column(pair, now.force, now.torque, l.has_reaction, PartialBy::algebraic, scale, eq);
         for (std::size_t m = 0; m < now.of_modes.size(); ++m)
           eq.add(PartialBy::algebraic, l.modes + static_cast<std::int32_t>(m), scale, -now.of_modes[m]);
       }
       for_each_component(l, [&](std::size_t c, std::int32_t unknown) {
+        if (c >= 6) {
+          eq.add(PartialBy::algebraic, l.modes + static_cast<std::int32_t>(c - 6), unknown, -now.scale);
+          return;
+        }
         const Vector e = now.scale * now.axes[c % 3];
-        if (c < 3) eq.add_column(PartialBy::algebraic, l.body, unknown, e, Vector{});
-        if (c >= 3 && c < 6) eq.add_column(PartialBy::algebraic, l.body, unknown, Vector{}, e);
-        if (c >= 6) eq.add(PartialBy::algebraic, l.modes + static_cast<std::int32_t>(c - 6), unknown, -now.scale);
+        apply_column(pair, c < 3 ? e : Vector{}, c < 3 ? Vector{} : e, l.has_reaction, PartialBy::algebraic, unknown,
+                     eq);
       });
-      const std::int32_t own = eq.layout().body(l.body).offset;
-      for (std::size_t a = 0; a < 3; ++a) {
-        const Vector turned_force = now.scale * cross(unit_vectors[a], now.force),
-                     turned_torque = now.scale * cross(unit_vectors[a], now.torque);
-        eq.add_column(PartialBy::position, l.body, own + 3 + static_cast<std::int32_t>(a), turned_force, turned_torque);
-      }
-      if (l.reacts_on) react(l, motion, now, eq);
     }
   }
 
@@ -144,8 +147,8 @@ class ModalForceKernel final : public Kernel {
     BoundExpression bound;
   };
   struct Load {
-    BodyId body;
-    std::optional<BodyId> reacts_on;
+    MarkerPlace bcs, reacts_on;  // of ground where nothing takes the reaction
+    bool has_reaction = false;
     std::int32_t modes = 0;        // first column of the modal coordinates
     bool has_scale = false;        // the first unknown
     std::vector<double> constant;  // force, torque, of the modes; else all of them are unknowns, behind the scale
@@ -165,7 +168,7 @@ class ModalForceKernel final : public Kernel {
     for_each_component(l, [&](std::size_t c, std::int32_t) { all.push_back(at(l.unknowns[first_component(l) + c])); });
     Now now;
     if (l.has_scale) now.scale = at(l.unknowns.front());
-    now.axes = motion.body(l.body).R;
+    now.axes = motion.body(l.bcs.body).R;
     now.force = now.axes * Vector{all[0], all[1], all[2]}, now.torque = now.axes * Vector{all[3], all[4], all[5]};
     now.of_modes.assign(all.begin() + 6, all.end());
     return now;
@@ -176,35 +179,6 @@ class ModalForceKernel final : public Kernel {
   static void for_each_component(const Load& l, Visit&& visit) {
     for (std::size_t k = first_component(l); k < l.unknowns.size(); ++k)
       visit(k - first_component(l), l.unknowns[k].algebraic);
-  }
-
-  // The opposite at the place of the BCS, on the body of JFLOAT.
-  static void react(const Load& l, const Motion& motion, const Now& now, Equations& eq) {
-    const BodyId on = *l.reacts_on;
-    const BodyBlock& block = eq.layout().body(on);
-    if (block.count == 0) return;
-    const Vector arm = motion.body(l.body).r - motion.body(on).r;
-    const auto about_origin = [&](const Vector& f, const Vector& t) { return t + cross(arm, f); };
-    const auto add_opposite = [&](PartialBy family, std::int32_t column, const Vector& f, const Vector& t) {
-      eq.add_column(family, on, column, -f, -about_origin(f, t));
-    };
-    const double w = now.scale;
-    eq.apply(on, -w * now.force, -w * about_origin(now.force, now.torque));
-    if (l.has_scale) add_opposite(PartialBy::algebraic, l.unknowns.front().algebraic, now.force, now.torque);
-    for_each_component(l, [&](std::size_t c, std::int32_t unknown) {
-      if (c < 6)
-        add_opposite(PartialBy::algebraic, unknown, c < 3 ? w * now.axes[c] : Vector{},
-                     c < 3 ? Vector{} : w * now.axes[c - 3]);
-    });
-    const std::int32_t loaded = eq.layout().body(l.body).offset;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const auto k = static_cast<std::int32_t>(a);
-      const Vector& e = unit_vectors[a];
-      add_opposite(PartialBy::position, loaded + 3 + k, w * cross(e, now.force), w * cross(e, now.torque));
-      const Vector by_arm = w * cross(e, now.force);
-      eq.add_column(PartialBy::position, on, loaded + k, Vector{}, -by_arm);
-      eq.add_column(PartialBy::position, on, block.offset + k, Vector{}, by_arm);
-    }
   }
 
   const std::vector<ElementLabel>* labels_;
