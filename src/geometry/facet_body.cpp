@@ -71,6 +71,10 @@ FacetBody::FacetBody(const Mesh& mesh) : vertices_(mesh.vertices) {
   flatten();
   find_fans();
   classify_vertices();
+  convex_ = ConvexBody::of(vertices_, triangles_.size(), [&](std::size_t t) {
+    const Triangle& f = triangles_[t];
+    return FacetOfPlane{f.corner, f.across, f.normal};
+  });
   tree_ = std::make_unique<Tree>();
   for (const Triangle& t : triangles_) {
     BoundingBox box;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "geometry/convex_body.h"
 #include "geometry/mesh.h"
 
 namespace dynalin {
@@ -47,6 +48,8 @@ class FacetBody {
 
   // Vertices that are alone the farthest of their neighbourhood in some direction.
   const std::vector<Vector>& corners() const { return corners_; }
+  // The same body as faces and edges, null where it is not convex.
+  const ConvexBody* convex() const { return convex_.get(); }
   Vector centre() const { return centre_; }
   double radius() const { return radius_; }  // about the centre, of all of it
 
@@ -100,6 +103,7 @@ class FacetBody {
   Vector centre_;
   double radius_ = 0;
   std::unique_ptr<Tree> tree_;
+  std::shared_ptr<const ConvexBody> convex_;
 };
 
 }  // namespace dynalin
