@@ -164,6 +164,9 @@ ConvexBody::ConvexBody(std::vector<Vector> corners, std::vector<Face> faces)
     }
   }
   size_ = size_of(corners_);
+  for (const Vector& c : corners_) middle_ += c / static_cast<double>(corners_.size());
+  depth_ = size_;
+  for (const Face& f : faces_) depth_ = std::min(depth_, f.height - dot(f.normal, middle_));
 }
 
 // A surface that is closed, of one piece, without holes through it and bent outwards at each edge is that of a convex

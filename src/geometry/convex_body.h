@@ -45,6 +45,9 @@ class ConvexBody {
   const std::vector<Edge>& edges() const { return edges_; }
   const std::vector<Index>& faces_at(Index corner) const { return at_[corner].faces; }
   double size() const { return size_; }
+  // A ball about its middle that the body holds.
+  const Vector& middle() const { return middle_; }
+  double depth() const { return depth_; }
 
   // The corner that is farthest in a direction: from `start` on, each next one is a neighbour that is farther.
   Index farthest(const Vector& direction, Index start) const;
@@ -61,7 +64,8 @@ class ConvexBody {
   std::vector<Face> faces_;
   std::vector<Edge> edges_;
   std::vector<AtCorner> at_;
-  double size_ = 0;
+  double size_ = 0, depth_ = 0;
+  Vector middle_;
 };
 
 }  // namespace dynalin

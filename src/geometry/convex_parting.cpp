@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "geometry/placed_box.h"
@@ -18,40 +19,77 @@ constexpr double beside_an_edge = 1e-12;  // sine: what is between the normals o
 Vector turned(const RelativeFrame<double>& f, const Vector& v) { return f.x * v.x + f.y * v.y + f.z * v.z; }
 Vector turned_back(const RelativeFrame<double>& f, const Vector& v) { return {dot(f.x, v), dot(f.y, v), dot(f.z, v)}; }
 
-// By how much B is below each face of A, and with which of its corners.
-struct BelowFaces {
-  std::vector<double> overlap;
-  std::vector<Index> deepest;
-  Index least = 0;  // of these faces
-};
-BelowFaces below_faces(const ConvexBody& A, const ConvexBody& B, const RelativeFrame<double>& B_from_A) {
-  BelowFaces found;
-  const std::size_t count = A.faces().size();
-  found.overlap.resize(count), found.deepest.resize(count);
-  for (Index k = 0; k < count; ++k) {
-    const ConvexBody::Face& f = A.faces()[k];
-    const Vector down = -turned_back(B_from_A, f.normal);
-    found.deepest[k] = B.farthest(down, found.deepest[f.before]);
-    found.overlap[k] = f.height - dot(f.normal, B_from_A.p) + dot(down, B.corners()[found.deepest[k]]);
-    if (found.overlap[k] < found.overlap[found.least]) found.least = k;
+// By how much B is below each face of A, and with which of its corners: as far as it takes to know of which faces it is
+// least, and of which as little. It is below a face by what the ball in its middle is, or more, and by that alone it is
+// known of most faces that they are none of these.
+class BelowFaces {
+ public:
+  BelowFaces(const ConvexBody& A, const ConvexBody& B, const RelativeFrame<double>& B_from_A)
+      : A_(A), B_(B), B_from_A_(B_from_A), middle_(B_from_A.p + turned(B_from_A, B.middle())) {
+    overlap_.reserve(A.faces().size());
+    for (Index k = 0; k < A.faces().size(); ++k) {
+      overlap_.push_back(A.faces()[k].height - dot(A.faces()[k].normal, middle_) + B.depth());
+      if (overlap_[k] < overlap_[least_]) least_ = k;
+    }
+    deepest_.assign(overlap_.size(), unknown);
+    know(least_);
   }
-  return found;
-}
 
-// Edges of A about which less than `limit` may overlap. Across a direction between the normals of both faces A reaches
-// as far as the edge, and B at least as far as its corners that are deepest below either face; a reach n·w is least at
-// one of the two.
-std::vector<Index> near_edges(const ConvexBody& A, const BelowFaces& below, const ConvexBody& B,
+  // Makes known of all faces below which B is by less than `limit`, or by little more than what is least.
+  void know_up_to(double limit, double more) {
+    for (Index k = 0; k < overlap_.size(); ++k) {
+      if (overlap_[k] < std::min(limit, overlap_[least_] + more)) know(k);
+    }
+  }
+  Index least() const { return least_; }
+  double overlap() const { return overlap_[least_]; }
+  bool is_known(Index face) const { return deepest_[face] != unknown; }
+  double overlap(Index face) { return know(face), overlap_[face]; }
+  Index deepest(Index face) { return know(face), deepest_[face]; }
+  // Whether the ball in the middle of B alone says that it is below both faces at an edge, and between their normals,
+  // by `limit` or more: along a direction between them A reaches as far as the edge, as far from that middle as n·w,
+  // which is least at one of the two where it is positive there.
+  bool is_far_below(const ConvexBody::Edge& e, double limit) const {
+    const auto far = [&](const ConvexBody::Face& f) {
+      return f.height - dot(f.normal, middle_) >= std::max(0.0, limit - B_.depth());
+    };
+    return far(A_.faces()[e.left]) && far(A_.faces()[e.right]);
+  }
+
+ private:
+  static constexpr Index unknown = std::numeric_limits<Index>::max();
+
+  void know(Index k) {
+    if (is_known(k)) return;
+    const ConvexBody::Face& f = A_.faces()[k];
+    const Vector down = -turned_back(B_from_A_, f.normal);
+    last_ = deepest_[k] = B_.farthest(down, last_);
+    overlap_[k] = f.height - dot(f.normal, B_from_A_.p) + dot(down, B_.corners()[last_]);
+    if (overlap_[k] < overlap_[least_]) least_ = k;
+  }
+
+  const ConvexBody &A_, &B_;
+  const RelativeFrame<double>& B_from_A_;
+  Vector middle_;                // of B
+  std::vector<double> overlap_;  // where it is not known, no more than that
+  std::vector<Index> deepest_;
+  Index least_ = 0, last_ = 0;
+};
+
+// Edges of A about which less than `limit` may overlap: in the same way by the corners that are deepest below either
+// face.
+std::vector<Index> near_edges(const ConvexBody& A, BelowFaces& below, const ConvexBody& B,
                               const RelativeFrame<double>& B_from_A, double limit) {
   std::vector<Index> near;
   for (Index k = 0; k < A.edges().size(); ++k) {
     const ConvexBody::Edge& e = A.edges()[k];
+    if (below.is_far_below(e, limit)) continue;
     const auto beyond = [&](Index deepest, Index face) {
       const Vector from = A.corners()[e.from] - B_from_A.p - turned(B_from_A, B.corners()[deepest]);
       return dot(A.faces()[face].normal, from);
     };
-    const double by_left = std::min(below.overlap[e.left], beyond(below.deepest[e.left], e.right)),
-                 by_right = std::min(below.overlap[e.right], beyond(below.deepest[e.right], e.left));
+    const double by_left = std::min(below.overlap(e.left), beyond(below.deepest(e.left), e.right)),
+                 by_right = std::min(below.overlap(e.right), beyond(below.deepest(e.right), e.left));
     if (std::max(by_left, by_right) < limit) near.push_back(k);
   }
   return near;
@@ -112,19 +150,22 @@ RelativeFrame<double> seen_back(const RelativeFrame<double>& F) {
 ConvexParting convex_parting(const ConvexBody& I, const RelativeFrame<double>& I_from_J, const ConvexBody& J) {
   const double size = std::min(I.size(), J.size()), as_near = solid::coincidence * size;
   const RelativeFrame<double> J_from_I = seen_back(I_from_J);
-  const BelowFaces below_J = below_faces(J, I, I_from_J), below_I = below_faces(I, J, J_from_I);
-  const double by_J = below_J.overlap[below_J.least], by_I = below_I.overlap[below_I.least];
-  const Vector normal_J = J.faces()[below_J.least].normal,
-               normal_I = -turned(I_from_J, I.faces()[below_I.least].normal);
+  BelowFaces below_J(J, I, I_from_J), below_I(I, J, J_from_I);
+  const double more = 2 * preference * size;
+  below_J.know_up_to(below_I.overlap() + more, more);
+  below_I.know_up_to(below_J.overlap() + more, more);
+  const double by_J = below_J.overlap(), by_I = below_I.overlap();
+  const Index face_J = below_J.least(), face_I = below_I.least();
+  const Vector normal_J = J.faces()[face_J].normal, normal_I = -turned(I_from_J, I.faces()[face_I].normal);
 
   ConvexParting found;
   Vector normal = normal_J;
-  found.overlap = by_J, found.face_of_J = below_J.least;
+  found.overlap = by_J, found.face_of_J = face_J;
   if (by_I < by_J - preference * size)
-    found.overlap = by_I, normal = normal_I, found.face_of_J.reset(), found.face_of_I = below_I.least;
+    found.overlap = by_I, normal = normal_I, found.face_of_J.reset(), found.face_of_I = face_I;
   if (std::abs(by_I - by_J) <= preference * size && dot(normal_I, normal_J) >= least_cosine)
-    found.face_of_I = below_I.least, found.face_of_J = below_J.least;
-  found.deepest_of_I = below_J.deepest[below_J.least], found.deepest_of_J = below_I.deepest[below_I.least];
+    found.face_of_I = face_I, found.face_of_J = face_J;
+  found.deepest_of_I = below_J.deepest(face_J), found.deepest_of_J = below_I.deepest(face_I);
 
   const double limit = found.overlap + as_near;
   const std::vector<Index> of_J = near_edges(J, below_J, I, I_from_J, limit),
@@ -140,10 +181,11 @@ ConvexParting convex_parting(const ConvexBody& I, const RelativeFrame<double>& I
   const auto is_as_near = [&](double overlap) { return std::abs(overlap - found.overlap) <= as_near; };
   const auto is_another = [&](const Vector& n) { return dot(n, normal) < least_cosine; };
   for (Index k = 0; k < J.faces().size(); ++k)
-    if (is_as_near(below_J.overlap[k]) && (found.face_of_J ? k != *found.face_of_J : is_another(J.faces()[k].normal)))
+    if (below_J.is_known(k) && is_as_near(below_J.overlap(k)) &&
+        (found.face_of_J ? k != *found.face_of_J : is_another(J.faces()[k].normal)))
       found.definite = false;
   for (Index k = 0; k < I.faces().size(); ++k)
-    if (is_as_near(below_I.overlap[k]) &&
+    if (below_I.is_known(k) && is_as_near(below_I.overlap(k)) &&
         (found.face_of_I ? k != *found.face_of_I : is_another(-turned(I_from_J, I.faces()[k].normal))))
       found.definite = false;
   for (const AcrossEdges& e : edges)

@@ -46,13 +46,17 @@ struct OutlineEdge {
 };
 
 // What of a body looks in a direction: the face that looks most that way, and all to which it goes on in bends of less
-// than 45 degrees, as far as they are in view. Of a box that is one face.
+// than 45 degrees, as far as they are in view and reach to a height along it. Of a box that is one face.
 struct LookingSide {
   std::vector<Index> faces, beyond;  // beyond: those that the others end at
   std::vector<Index> corners;
   std::vector<OutlineEdge> outline;
 
-  LookingSide(const ConvexBody& body, Index most, const Vector& direction) {
+  LookingSide(const ConvexBody& body, Index most, const Vector& direction, double height) {
+    const auto reaches = [&](Index face) {
+      return std::ranges::any_of(body.faces()[face].corners,
+                                 [&](Index c) { return dot(direction, body.corners()[c]) >= height; });
+    };
     enum : std::uint8_t { unseen, looking, ending };
     std::vector<std::uint8_t> state(body.faces().size(), unseen);
     faces.push_back(most), state[most] = looking;
@@ -60,7 +64,8 @@ struct LookingSide {
       for (const Index other : body.faces()[faces[k]].across) {
         const Vector& normal = body.faces()[other].normal;
         if (state[other] == looking || dot(normal, direction) <= in_view) continue;
-        if (dot(normal, body.faces()[faces[k]].normal) > one_side) faces.push_back(other), state[other] = looking;
+        if (dot(normal, body.faces()[faces[k]].normal) > one_side && reaches(other))
+          faces.push_back(other), state[other] = looking;
       }
     }
     for (const Index f : faces) {
@@ -171,11 +176,15 @@ class Touching {
     for (const Index c : side.corners) placed.reach = std::max(placed.reach, dot(direction, X.corner(c)));
     return placed;
   }
-  static LookingSide looking(const PlacedConvex<double>& X, const std::optional<Index>& face,
-                             const std::vector<Index>& others, const Vector& direction) {
+  // As deep as the bodies overlap; where they have a normal of both, that is another one in the end.
+  LookingSide looking(const PlacedConvex<double>& X, const std::optional<Index>& face, const std::vector<Index>& others,
+                      const Vector& direction) const {
     const RelativeFrame<double>& f = X.frame;
     const Vector own{dot(f.x, direction), dot(f.y, direction), dot(f.z, direction)};
-    return {X.body, face ? *face : most_looking(X.body, others, own), own};
+    const Index most = face ? *face : most_looking(X.body, others, own);
+    if (part_.face_of_I && part_.face_of_J) return {X.body, most, own, -unbounded};
+    const Index top = X.body.farthest(own, X.body.faces()[most].corners[0]);
+    return {X.body, most, own, dot(own, X.body.corners()[top]) - part_.overlap - 2 * open()};
   }
   void place_sides() {
     const Vector n = value_of(normal_);

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <unsupported/Eigen/BVH>
 
+#include "geometry/convex_body.h"
 #include "geometry/facet_planes.h"
 
 namespace dynalin {

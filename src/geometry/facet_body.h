@@ -10,10 +10,11 @@
 #include <vector>
 
 #include "base/vec3.h"
-#include "geometry/convex_body.h"
 #include "geometry/mesh.h"
 
 namespace dynalin {
+
+class ConvexBody;
 
 class FacetBody {
  public:
