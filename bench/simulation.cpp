@@ -7,6 +7,7 @@
 //     simulation fourbars 10       windows of the IFToMM benchmark, side by side: redundant hinges
 //     simulation contact 1         balls that bounce, an IMPACT of stiffness 1e8 each
 //     simulation bowl 100          a ball that rolls in a bowl of 2 n² facets
+//     simulation eggs 50           a ball of 2 n² facets that falls on another one and rolls off it
 //
 // A third argument is the time to simulate, a fourth the intervals of output, a fifth ERROR.
 #include "study/simulation.h"
@@ -137,6 +138,23 @@ std::string bowl(int n) {
                     n + 3, points.substr(2), n);
 }
 
+std::string eggs(int n) {
+  std::string points;
+  for (int k = 0; k <= n; ++k) {
+    const double angle = k * 3.14159265358979324 / n;
+    points += fmt::format("\n, {:.17g},0,{:.17g}", k % n == 0 ? 0 : 0.1 * std::sin(angle), -0.1 * std::cos(angle));
+  }
+  return head + fmt::format(
+                    "MARKER/9, PART=1\nMATRIX/1, FULL=RORDER, ROWS={}, COLUMNS=3, VALUES={}\n"
+                    "CURVE/1, OPEN, MATRIX=1, CURVE_POINTS, ORDER=2\nGRAPHICS/1, REVOLUTION, CID=1, CRM=9, SEG={}\n"
+                    "PART/2, MASS=2, CM=20, IP=0.008,0.008,0.008, QG=0.005,0.003,0.21, REULER=0.3,0.5,0.7\n"
+                    "MARKER/20\nGRAPHICS/2, REVOLUTION, CID=1, CRM=20, SEG={}\n"
+                    "CONTACT/1, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=1E6, EXPONENT=1.5, DAMPING=1E3, DMAX=1E-4\n"
+                    ", COULOMB_FRICTION=ON, MU_STATIC=0.3, MU_DYNAMIC=0.2, STICTION_TRANSITION_VELOCITY=0.01\n"
+                    ", FRICTION_TRANSITION_VELOCITY=0.1\nEND\n",
+                    n + 1, points.substr(2), n, n);
+}
+
 struct Case {
   std::string text;
   double seconds;
@@ -193,9 +211,9 @@ int measure(const Case& c, double error) {
 
 int main(int argc, char** argv) {
   if (argc < 3)
-    return fmt::print(
-               stderr,
-               "usage: simulation chain|fall|spatial|vehicle|fourbars|contact|bowl N [TIME [INTERVALS [ERROR]]]\n"),
+    return fmt::print(stderr,
+                      "usage: simulation chain|fall|spatial|vehicle|fourbars|contact|bowl|eggs N [TIME [INTERVALS "
+                      "[ERROR]]]\n"),
            3;
   const int n = std::atoi(argv[2]);
   const std::map<std::string, Case> cases = {{"chain", {chain(n, 0.3), 1, 100}},
@@ -204,7 +222,8 @@ int main(int argc, char** argv) {
                                              {"vehicle", {vehicle(n), 1, 100}},
                                              {"fourbars", {fourbars(n), 1, 100}},
                                              {"contact", {contact(n), 1, 100}},
-                                             {"bowl", {bowl(n), 1, 100}}};
+                                             {"bowl", {bowl(n), 1, 100}},
+                                             {"eggs", {eggs(n), 1, 100}}};
   const auto found = cases.find(argv[1]);
   if (found == cases.end()) return fmt::print(stderr, "no such model: {}\n", argv[1]), 3;
   Case c = found->second;

@@ -11,7 +11,6 @@ namespace dynalin {
 
 namespace {
 
-constexpr double least_sine = 1e-6;       // of two edges that cross
 constexpr double edge_preference = 1e-6;  // of the size: by how much a direction across two edges must part more
 
 Vector half_of(const solid::Box& b) { return 0.5 * (b.high - b.low); }
@@ -135,14 +134,16 @@ Crossing<T> crossing(const Face<T>& I, std::size_t i, const Face<T>& J, std::siz
 }
 
 // Where a corner leaves over an edge, its two edges cross that one, as deep as the corner was: they share its force, by
-// sin² and cos² of the same angle. The less deep one of the two is the more the other has a whole force of its own.
+// sin² of their angles with it, which make one. The less deep one of the two is the more the other has a whole force of
+// its own.
 template <class T>
 T share_beside(const Crossing<T>& own, const Crossing<T>& other) {
   if (!other.touch || other.touch->inside < 0 || value_of(own.touch->gap) >= 0) return T(1.0);
   const T ratio = other.touch->gap / own.touch->gap;
   if (value_of(ratio) <= 0) return T(1.0);
   const T alone = value_of(ratio) < 1 ? T((1.0 - ratio) * (1.0 - ratio) * (1.0 + 2.0 * ratio)) : T(0.0);
-  return own.square_of_sine + (1.0 - own.square_of_sine) * alone;
+  const T share = own.square_of_sine / (own.square_of_sine + other.square_of_sine);
+  return share + (1.0 - share) * alone;
 }
 
 template <class T>

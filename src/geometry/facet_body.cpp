@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <unsupported/Eigen/BVH>
 
+#include "geometry/convex_body.h"
 #include "geometry/facet_planes.h"
 
 namespace dynalin {
@@ -71,6 +72,10 @@ FacetBody::FacetBody(const Mesh& mesh) : vertices_(mesh.vertices) {
   flatten();
   find_fans();
   classify_vertices();
+  convex_ = ConvexBody::of(vertices_, triangles_.size(), [&](std::size_t t) {
+    const Triangle& f = triangles_[t];
+    return FacetOfPlane{f.corner, f.across, f.normal};
+  });
   tree_ = std::make_unique<Tree>();
   for (const Triangle& t : triangles_) {
     BoundingBox box;

@@ -14,6 +14,8 @@
 
 namespace dynalin {
 
+class ConvexBody;
+
 class FacetBody {
  public:
   // Of a mesh whose faces bound a volume and look outwards (mesh.h: close). Quadrilaterals are halved. Facets that are
@@ -47,6 +49,8 @@ class FacetBody {
 
   // Vertices that are alone the farthest of their neighbourhood in some direction.
   const std::vector<Vector>& corners() const { return corners_; }
+  // The same body as faces and edges, null where it is not convex.
+  const ConvexBody* convex() const { return convex_.get(); }
   Vector centre() const { return centre_; }
   double radius() const { return radius_; }  // about the centre, of all of it
 
@@ -100,6 +104,7 @@ class FacetBody {
   Vector centre_;
   double radius_ = 0;
   std::unique_ptr<Tree> tree_;
+  std::shared_ptr<const ConvexBody> convex_;
 };
 
 }  // namespace dynalin

@@ -12,6 +12,7 @@ namespace dynalin {
 
 inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 inline constexpr double least_cosine = 0.9;  // of two directions that are taken for one
+inline constexpr double least_sine = 1e-6;   // of two edges that cross
 
 template <class T>
 struct PlacedBox {

@@ -5,6 +5,7 @@
 #include "geometry/box_touch.h"
 #include "geometry/cavity_touch.h"
 #include "geometry/common_normal.h"
+#include "geometry/convex_touch.h"
 #include "geometry/ellipsoid_touch.h"
 #include "geometry/facet_touch.h"
 #include "geometry/frustum_touch.h"
@@ -39,6 +40,11 @@ std::size_t count_of([[maybe_unused]] const A& a, [[maybe_unused]] const B& b, b
     return 0;
   } else if constexpr (std::is_same_v<B, Polyhedron>) {
     if constexpr (std::is_same_v<A, Ball>) return facet_touches(a);
+    const ConvexBody* body = b.body->convex();
+    if (!body || B_reversed) return 0;
+    if constexpr (std::is_same_v<A, Box>) return convex_touches(outermost(a), body->corners().size());
+    if constexpr (std::is_same_v<A, Polyhedron>)
+      return a.body->convex() ? convex_touches(a.body->convex()->corners().size(), body->corners().size()) : 0;
     return 0;
   } else if constexpr (std::is_same_v<B, Plane>) {
     if constexpr (std::is_same_v<A, Ellipsoid>)
@@ -164,6 +170,10 @@ void direct(const Side& A, const Side& B, const RelativeFrame<T>& A_from_B, std:
           return;
         } else if constexpr (std::is_same_v<U, Polyhedron>) {
           if constexpr (std::is_same_v<S, Ball>) touch_facets(a, A_from_B.p, *b.body, B.reversed, out);
+          if constexpr (std::is_same_v<S, Box>)
+            touch_convex(ConvexBody::box(a.low, a.high), A_from_B, *b.body->convex(), out);
+          if constexpr (std::is_same_v<S, Polyhedron>)
+            touch_convex(*a.body->convex(), A_from_B, *b.body->convex(), out);
         } else if constexpr (std::is_same_v<U, Plane>) {
           touch_plane(a, A_from_B, b, B.reversed ? -1.0 : 1.0, out);
         } else {

@@ -255,7 +255,7 @@ TEST_F(Contacts, what_cannot_touch_is_an_error_at_its_place) {
               "CONTACT/7, IGEOM=4, JGEOM=3, JFLIP_GEOMETRY=3, " +
               impact),
       AllOf(HasSubstr("[contact-pair-not-built]"),
-            HasSubstr("CONTACT/7 lets GRAPHICS/3, the inside of a torus touch GRAPHICS/4, a box, which")));
+            HasSubstr("CONTACT/7 lets GRAPHICS/3, the inside of a TORUS, touch GRAPHICS/4, a BOX, which")));
   EXPECT_THAT(with("IGEOM=2, JGEOM=1, IFLIP_GEOMETRY=1"), HasSubstr("[unexpected-value]"));
   EXPECT_THAT(with("IGEOM=2, JGEOM=1, JFLIP_GEOMETRY=1, JFLIP_NORMAL=1"), HasSubstr("[excluded-arguments]"));
   EXPECT_THAT(with("IGEOM=2, JGEOM=1, 1"), HasSubstr("[duplicate-argument]"));

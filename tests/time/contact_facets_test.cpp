@@ -79,5 +79,80 @@ TEST(ContactInTime, a_ball_that_bounces_in_a_bowl_of_facets_keeps_its_energy) {
   EXPECT_GT(touching, 20);
 }
 
+// Two bodies in space, a corner of the one beside an edge of the other. VARIABLEs: 1 to 6 momentum and spin, 7 energy
+// of motion, 8 the force.
+std::string two_bodies(const std::string& one, const std::string& other, const std::string& law) {
+  std::string text =
+      "Two bodies\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n"
+      "PART/2, MASS=2, CM=2, IP=0.3,0.3,0.3, QG=0.4,0.3,1.4, REULER=0.3,0.4,0.5, VZ=-3, WX=1, WY=2\nMARKER/2\n"
+      "MARKER/4, PART=2, QP=-0.5,-0.5,-0.5\n" +
+      one +
+      "PART/3, MASS=3, CM=5, IP=0.5,0.5,0.5, QG=0,0,-0.5, REULER=0.785398,0.785398,0\nMARKER/5, PART=3\n"
+      "MARKER/6, PART=3, QP=-0.5,-0.5,-0.5\n" +
+      other + "CONTACT/1, IGEOM=2, JGEOM=3, " + law;
+  const std::string axes = "XYZ";
+  for (std::size_t k = 0; k < 3; ++k) {
+    const char x = axes[k], y = axes[(k + 1) % 3], z = axes[(k + 2) % 3];
+    text += fmt::format("VARIABLE/{0}, FUNCTION=2*V{1}(2)+3*V{1}(5)\n", k + 1, x);
+    text += fmt::format(
+        "VARIABLE/{0}, FUNCTION=2*(D{2}(2)*V{3}(2)-D{3}(2)*V{2}(2))+3*(D{2}(5)*V{3}(5)-D{3}(5)*V{2}(5))"
+        "+0.3*W{1}(2)+0.5*W{1}(5)\n",
+        k + 4, x, y, z);
+  }
+  return text +
+         "VARIABLE/7, FUNCTION=VM(2)**2+1.5*VM(5)**2+0.15*WM(2)**2+0.25*WM(5)**2\n"
+         "VARIABLE/8, FUNCTION=CONTACT(1,0,1,0)\nEND\n";
+}
+std::string cube_of_facets(int id, int marker) {
+  return fmt::format(
+      "MATRIX/{0}, FULL=RORDER, ROWS=5, COLUMNS=3, VALUES=0,0,0, 1,0,0, 1,1,0, 0,1,0, 0,0,0\n"
+      "CURVE/{0}, CLOSED, MATRIX={0}, CURVE_POINTS, ORDER=2\nGRAPHICS/{0}, EXTRUSION, CID={0}, CRM={1}, LENGTH=1\n",
+      id, marker);
+}
+std::string cube(int id, int marker) { return fmt::format("GRAPHICS/{}, BOX, CORNER={}, X=1, Y=1, Z=1\n", id, marker); }
+// About the middle of its body, 0.5 in radius and height, of 16 bands.
+std::string ball_of_facets(int id, int marker) {
+  std::string points;
+  for (int k = 0; k <= 8; ++k) {
+    const double angle = k * std::numbers::pi / 8;
+    points += fmt::format("{}{:.17g},0,{:.17g}", k == 0 ? "" : ", ", k % 8 == 0 ? 0 : 0.5 * std::sin(angle),
+                          0.5 - 0.5 * std::cos(angle));
+  }
+  return fmt::format(
+      "MARKER/7{0}, RM={1}, QP=0.5,0.5,0\nMATRIX/{0}, FULL=RORDER, ROWS=9, COLUMNS=3, VALUES={2}\n"
+      "CURVE/{0}, OPEN, MATRIX={0}, CURVE_POINTS, ORDER=2\nGRAPHICS/{0}, REVOLUTION, CID={0}, CRM=7{0}, SEG=16\n",
+      id, marker, points);
+}
+
+const std::string elastic = "IMPACT, STIFFNESS=1E6, EXPONENT=1.5, DAMPING=0, DMAX=0.001\n";
+
+TEST(ContactInTime, cubes_of_facets_tumble_as_boxes_do) {
+  const in_time::Run run{.end = 0.6, .steps = 60, .error = 1e-8};
+  const Course boxes = led_through_time(two_bodies(cube(2, 4), cube(3, 6), elastic), run);
+  const Course facets = led_through_time(two_bodies(cube_of_facets(2, 4), cube_of_facets(3, 6), elastic), run);
+  ASSERT_TRUE(boxes.ok()) << boxes.failure;
+  ASSERT_TRUE(facets.ok()) << facets.failure;
+  EXPECT_GT(boxes.largest(8), 100);
+  for (const int k : {1, 2, 3, 4, 5, 6, 7}) {
+    for (std::size_t t = 0; t < boxes.times.size(); ++t)
+      EXPECT_NEAR(facets.variables.at(k)[t], boxes.variables.at(k)[t], 1e-4) << k << ' ' << t;
+  }
+}
+
+TEST(ContactInTime, bodies_of_facets_that_meet_keep_their_momentum_and_spin) {
+  const std::string law =
+      "IMPACT, STIFFNESS=2E5, EXPONENT=1.5, DAMPING=100, DMAX=0.001\n"
+      ", COULOMB_FRICTION=ON, MU_STATIC=0.3, MU_DYNAMIC=0.2, STICTION_TRANSITION_VELOCITY=0.1"
+      ", FRICTION_TRANSITION_VELOCITY=1\n";
+  for (const auto& other : {cube_of_facets(3, 6), ball_of_facets(3, 6), cube(3, 6)}) {
+    const Course c =
+        led_through_time(two_bodies(ball_of_facets(2, 4), other, law), {.end = 0.6, .steps = 60, .error = 1e-8});
+    ASSERT_TRUE(c.ok()) << c.failure;
+    for (const int k : {1, 2, 3, 4, 5, 6}) EXPECT_LT(c.drift(k), 1e-6) << k;
+    EXPECT_GT(c.largest(8), 10);
+    EXPECT_LT(c.variables.at(7).back(), c.variables.at(7).front());
+  }
+}
+
 }  // namespace
 }  // namespace dynalin::in_time::contact_facets_test

@@ -110,13 +110,23 @@ bool place(const Model& model, const ElementLabel& label, const std::vector<List
   return true;
 }
 
-// "GRAPHICS/3, the inside of a torus".
-static std::string kind_of(const Model& model, const ListedShape& shape, const solid::Side& side) {
-  static constexpr std::array<std::string_view, 8> kinds = {
-      "a ball", "an ellipsoid", "a cylinder or frustum", "a torus", "a box", "a plane", "a body of facets", "a curve"};
-  static_assert(kinds.size() == std::variant_size_v<solid::Shape>);
-  return fmt::format("{}, {}{}", model.label(shape.graphics).text(), shape.reversed ? "the inside of " : "",
-                     kinds[side.shape.index()]);
+// What an error calls it.
+std::string name_of(const solid::Side& side) {
+  using namespace solid;
+  struct Namer {
+    std::string_view operator()(const Ball& b) const { return b.radius == 0 ? "a POINT" : "a sphere"; }
+    std::string_view operator()(const Ellipsoid&) const { return "an ELLIPSOID"; }
+    std::string_view operator()(const Frustum&) const { return "a CYLINDER or FRUSTUM"; }
+    std::string_view operator()(const Torus&) const { return "a TORUS"; }
+    std::string_view operator()(const Box&) const { return "a BOX"; }
+    std::string_view operator()(const Plane&) const { return "a PLANE"; }
+    std::string_view operator()(const Polyhedron& f) const {
+      return f.body->convex() ? "a convex body of facets" : "a body of facets that is not convex";
+    }
+    std::string_view operator()(const Profile&) const { return "a curve"; }
+  };
+  const std::string_view name = std::visit(Namer{}, side.shape);
+  return side.reversed ? fmt::format("the inside of {}", name) : std::string(name);
 }
 
 bool check_pairs(const Model& model, const ElementLabel& label, const ContactSides& sides, const ContactForce& f,
@@ -136,11 +146,13 @@ bool check_pairs(const Model& model, const ElementLabel& label, const ContactSid
       }
       diagnostics.error(
           "contact-pair-not-built", J.at,
-          fmt::format("{} lets {} touch {}, which is not available yet", label.text(), kind_of(model, J, f.J[b].side),
-                      kind_of(model, I, f.I[a].side)),
+          fmt::format("{} lets {}, {}, touch {}, {}, which is not available yet", label.text(),
+                      model.label(J.graphics).text(), name_of(f.J[b].side), model.label(I.graphics).text(),
+                      name_of(f.I[a].side)),
           "all solids touch each other, a PLANE and the walls of a cavity; but what is drawn in facets touches balls, "
-          "POINTs, PLANEs and the walls of cavities in closed form alone, of cavities ELLIPSOIDs touch BOX, CYLINDER "
-          "and FRUSTUM alone, and CYLINDERs, FRUSTUMs and BOXes no TORUS; only one of two closed curves is a cavity");
+          "POINTs, PLANEs, the walls of cavities in closed form and, where it is convex, BOXes and other convex facets "
+          "alone (several convex bodies may stand for one that is not), of cavities ELLIPSOIDs touch BOX, CYLINDER and "
+          "FRUSTUM alone, and CYLINDERs, FRUSTUMs and BOXes no TORUS; only one of two closed curves is a cavity");
       return false;
     }
   }
