@@ -60,6 +60,12 @@
  * loadvec where *case is 0; the load is a function of time alone, so that c_syspar and the entry below tell derivatives
  * of the scale, as if that were the only value.
  *
+ * cursub of a CURVE gives the point x, y, z at the parameter alpha, or its derivative iord (0, 1, 2) by it. It knows no
+ * time, and is called before the model is whole: it reads nothing of it.
+ *
+ *     cursub: id, par, npar, alpha, iord, iflag, values         Cursub: const struct sAdamsCurve*, alpha, iord, iflag,
+ *     values
+ *
  * A COUPLER needs couxx and couxx2 as well, which take the same arguments and give the ndisp first and the ndisp x
  * ndisp second partial derivatives, or the entry below. ROUTINE names three: ROUTINE = library::value, first, second.
  * A function of time as well needs the entry. Those with a capital: const struct sAdamsCoupler*, time, disp, iflag,
@@ -147,6 +153,13 @@ struct sAdamsCoupler {
   int NJOINT;
   int JOINTS[3];
   char TYPE[3];
+};
+/* ORDER is 0 where nothing is written. */
+struct sAdamsCurve {
+  int ID, NPAR;
+  const double* PAR;
+  int CLOSED, ORDER;
+  double MINPAR, MAXPAR;
 };
 struct sAdamsDiff {
   int ID, NPAR;
@@ -305,7 +318,7 @@ struct dynalin_course {
   const double* par;
   int inputs;          /* time, a number without meaning, what was asked for, each once, in the order of asking; of a
                           FIELD disp and velo instead; of a CONTACT loci, ni, locj, nj, gap and gapdot, or loci,
-                          locj, xdot and nforce; of a COUPLER disp */
+                          locj, xdot and nforce; of a COUPLER disp; of a CURVE alpha */
   int values;          /* of the routine */
   int order;           /* 0: values and their partial derivatives; 2: also two time derivatives of both */
   const double* input; /* [(order + 1) * k + d]: derivative d of input k with respect to time */

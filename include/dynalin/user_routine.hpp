@@ -78,6 +78,8 @@ class Call : public CallOfStateEquations<Call<T>, T>, public CallOfContact<Call<
   T velocity(int k) const { return number(8 + k); }
   // What comes as an argument: of a COUPLER displacement k of its joints, of a CONTACT see above.
   T given(int k) const { return number(2 + k); }
+  // Of a CURVE.
+  T alpha() const { return given(0); }
   // Of an MFORCE with FORCE: how many modal coordinates its body has.
   int modes() const { return course_->values - 6; }
   // As c_sysfnc gives it.
@@ -118,6 +120,7 @@ class Call<double> : public CallOfStateEquations<Call<double>, double>, public C
     std::copy(given.begin(), given.end(), given_.begin());
   }
   double given(int k) const { return given_[static_cast<std::size_t>(k)]; }
+  double alpha() const { return given(0); }
   int modes() const { return modes_; }
   Call& with_modes(int modes) {
     modes_ = modes;
@@ -181,6 +184,17 @@ void fill_course(const dynalin_course& c) {
       take(Course());
     }
   }
+}
+
+// A point of a curve, or one of its first two derivatives.
+template <class Formula>
+void fill_curve(int id, const double* par, int npar, double alpha, int order, double* values) {
+  if (order == 0) return Formula{}(Call<double>(id, 0, par, npar, {alpha}), values);
+  const std::array<double, 9> input = {0, 0, 0, 0, 0, 0, alpha, 1, 0};
+  std::array<double, 9> value{};
+  std::array<double, 27> partial{};
+  fill_course<Formula>({id, npar, par, 3, 3, 2, input.data(), value.data(), partial.data()});
+  for (std::size_t v = 0; v < 3; ++v) values[v] = value[3 * v + static_cast<std::size_t>(order)];
 }
 
 }  // namespace dynalin::user
@@ -275,4 +289,12 @@ void fill_course(const dynalin_course& c) {
     *load_case = Formula::load_case(call);                                                                            \
     Formula{}(call, scale);                                                                                           \
   }                                                                                                                   \
+  extern "C" void name##_derivatives(const dynalin_course* course) { dynalin::user::fill_course<Formula>(*course); }
+
+// The same of a routine cursub of a CURVE: a formula of call.alpha(), with three values.
+#define DYNALIN_USER_CURVE(name, Formula)                                                                       \
+  extern "C" void name(const int* id, const double* par, const int* npar, const double* alpha, const int* iord, \
+                       const int*, double* values) {                                                            \
+    dynalin::user::fill_curve<Formula>(*id, par, *npar, *alpha, *iord, values);                                 \
+  }                                                                                                             \
   extern "C" void name##_derivatives(const dynalin_course* course) { dynalin::user::fill_course<Formula>(*course); }

@@ -3,6 +3,7 @@
 #include <Eigen/SparseLU>
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace dynalin {
 
@@ -69,6 +70,19 @@ std::vector<Vec3<double>> solve(const std::vector<Eigen::Triplet<double>>& entri
 ParametricCurve::ParametricCurve(const Points& points, Shape shape, Data data, int order)
     : shape_(shape), order_(static_cast<std::size_t>(order)) {
   shape == Shape::open ? take_open(points, data) : take_closed(points, data);
+  measure_speed();
+}
+
+ParametricCurve::ParametricCurve(std::shared_ptr<const CurveLaw> law, Shape shape, double first, double last)
+    : shape_(shape), order_(CurveLaw::highest_order + 1), law_(std::move(law)) {
+  constexpr std::size_t pieces = 64;  // which samples are spread over
+  for (std::size_t k = 0; k < pieces; ++k)
+    breaks_.push_back(first + (last - first) * (static_cast<double>(k) / static_cast<double>(pieces)));
+  breaks_.push_back(last);
+  measure_speed();
+}
+
+void ParametricCurve::measure_speed() {
   double fastest = 0;
   least_speed_ = std::numeric_limits<double>::infinity();
   for (const double u : samples(std::numeric_limits<std::size_t>::max())) {
@@ -169,6 +183,7 @@ bool ParametricCurve::corner_at(double u) const {
 }
 
 void ParametricCurve::switches(double u, int derivative, SwitchList& out) const {
+  if (law_) return;
   const int continuous = static_cast<int>(order_) - 2 - derivative;
   if (shape_ == Shape::closed) {
     if (continuous > 0) return;
@@ -187,7 +202,7 @@ void ParametricCurve::switches(double u, int derivative, SwitchList& out) const 
 }
 
 double ParametricCurve::difference(double u, double v) const {
-  return shape_ == Shape::closed ? std::remainder(u - v, 2.0) : u - v;
+  return shape_ == Shape::closed ? std::remainder(u - v, range()) : u - v;
 }
 
 std::vector<double> ParametricCurve::samples(std::size_t most) const {

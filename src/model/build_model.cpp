@@ -29,8 +29,9 @@ class Builder {
     routines_ = with_user_routines(std::move(dataset), catalogue, options, routines, diagnostics_);
     model_->dataset = routines_.dataset;
     model_->further_sources = routines_.further_texts, model_->input_files = routines_.files;
-    model_->calls_routines = !routines_.functions.empty();
     model_->routine_data = routines_.data ? routines_.data : routines.data;
+    const bool calls_curves = model_->routine_data && !model_->routine_data->called_curves.empty();
+    model_->calls_routines = !routines_.functions.empty() || calls_curves;
     if (model_->dataset == options.read_once) read_once_ = options.read_once.get();
     model_->title = model_->dataset->title;
     model_->markers.emplace_back().label = &label_of_global_frame;

@@ -232,17 +232,23 @@ std::shared_ptr<const CompiledRoutine> CalledRoutines::find(const Statement& s, 
   return made(s, call.value_span(), std::move(found), *kind, values, std::move(*what), std::move(partials));
 }
 
-bool CalledRoutines::is_damping(const Statement& s, const WrittenArgument& call) const {
+bool CalledRoutines::is_kept_apart(const Statement& s, const WrittenArgument& call) const {
   const RoutineKind* kind = kind_for(s.name, full_name(s, call));
-  return kind && kind->arguments == RoutineArguments::damping;
+  return kind && (kind->arguments == RoutineArguments::damping || kind->arguments == RoutineArguments::curve);
 }
 
-bool CalledRoutines::keep_damping(const Statement& s, const WrittenArgument& call, std::string& wanted) {
+bool CalledRoutines::keep_apart(const Statement& s, const WrittenArgument& call, std::string& wanted) {
   StatePartialRoutines none;
-  FoundRoutine found = called_by(s, *kind_for(s.name, full_name(s, call)), wanted, none);
+  const RoutineKind& kind = *kind_for(s.name, full_name(s, call));
+  FoundRoutine found = called_by(s, kind, wanted, none);
   if (!found) return false;
   auto what = says(s, &call);
   if (!what) return false;
+  if (kind.arguments == RoutineArguments::curve) {
+    data_->called_curves[what->id] =
+        std::make_shared<const CurveRoutine>(std::move(found), curve_of(s, *what), differences_);
+    return true;
+  }
   data_->damping[what->id] =
       std::make_shared<const DampingRoutine>(std::move(found), what->label, what->id, what->parameters);
   return true;

@@ -9,6 +9,7 @@
 
 #include "model/routine_options.h"
 #include "routine/compiled_routine.h"
+#include "routine/curve_routine.h"
 #include "routine/routine_data.h"
 #include "routine/state_equations.h"
 
@@ -33,10 +34,11 @@ class CalledRoutines {
   // The routine that the statement calls, null if no library has it (`wanted` says what was looked for) or after an
   // error.
   std::shared_ptr<const CompiledRoutine> find(const Statement&, const WrittenArgument& call, std::string& wanted);
-  // The same of CRATIO of a FLEX_BODY; it is kept with the data, for whoever reads the statement. Whether there is one.
-  bool keep_damping(const Statement&, const WrittenArgument& call, std::string& wanted);
+  // The same of CRATIO of a FLEX_BODY and FUNCTION of a CURVE; it is kept with the data, for whoever reads the
+  // statement. Whether there is one.
+  bool keep_apart(const Statement&, const WrittenArgument& call, std::string& wanted);
   // Whether an argument calls one of those.
-  bool is_damping(const Statement&, const WrittenArgument&) const;
+  bool is_kept_apart(const Statement&, const WrittenArgument&) const;
   // The routines of a GSE, null after an error. `call` is null where INTERFACE stands without USER(…).
   std::shared_ptr<const StateEquations> find_state_equations(const Statement&, const WrittenArgument* call);
   // Its functions in the words of the statement.
@@ -75,6 +77,7 @@ class CalledRoutines {
   RoutineStatement::Watch watch_of(const Statement&) const;
   std::shared_ptr<const RoutineStatement::Heading> heading_of(const Statement&) const;
   std::shared_ptr<const RoutineStatement::ModalLoad> modal_load_of(const Statement&, bool scaled) const;
+  CurveStatement curve_of(const Statement&, const RoutineStatement&) const;
   sAdamsGSE says_of_states(const Statement&, const RoutineStatement&) const;
   std::shared_ptr<const CompiledRoutine> made(const Statement&, const Span& at, FoundRoutine, const RoutineKind&,
                                               std::size_t values, RoutineStatement, StatePartialRoutines = {});

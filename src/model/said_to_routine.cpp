@@ -79,6 +79,13 @@ std::shared_ptr<const RoutineStatement::ModalLoad> CalledRoutines::modal_load_of
       RoutineStatement::ModalLoad{integer(s, "FLEX_BODY"), modes->number.size(), modes->cases, modes->loads, scaled});
 }
 
+CurveStatement CalledRoutines::curve_of(const Statement& s, const RoutineStatement& what) const {
+  CurveStatement c{what.label, what.id, what.parameters, argument(s, "CLOSED") != nullptr, integer(s, "ORDER")};
+  if (argument(s, "MINPAR")) c.first = real(s, "MINPAR");
+  if (argument(s, "MAXPAR")) c.last = real(s, "MAXPAR");
+  return c;
+}
+
 std::shared_ptr<const RoutineStatement::Heading> CalledRoutines::heading_of(const Statement& s) const {
   RoutineStatement::Heading h;
   const auto text = [&](std::string_view name) {

@@ -192,9 +192,9 @@ class Replacement {
     if (!called_.has_libraries()) return call.damaged;
     std::string wanted;
     const std::size_t errors = diagnostics_.error_count();
-    const bool damping = called_.is_damping(s, call);
-    const auto routine = damping ? nullptr : called_.find(s, call, wanted);
-    if (damping ? !called_.keep_damping(s, call, wanted) : !routine) {
+    const bool apart = called_.is_kept_apart(s, call);
+    const auto routine = apart ? nullptr : called_.find(s, call, wanted);
+    if (apart ? !called_.keep_apart(s, call, wanted) : !routine) {
       if (diagnostics_.error_count() > errors) call.damaged = true;
       if (call.damaged || value_ || wanted.empty()) return call.damaged;
       diagnostics_.error("missing-routine", span_of(call.value()[0], *call.name.source),

@@ -56,7 +56,8 @@ void call_with_addresses(void* address, RoutineArguments arguments, const Routin
           now.load_case, values);
     }
     case RoutineArguments::damping:
-      return;  // a class of its own calls it
+    case RoutineArguments::curve:
+      return;  // classes of their own call them
     case RoutineArguments::pressure:
       return as<void(const int*, const double*, const double*, const int*, const double*, const double*, const double*,
                      const double*, const double*, const double*, const double*, const double*, const int*, const int*,
@@ -161,6 +162,7 @@ void call_with_statement(void* address, RoutineArguments arguments, const WhatIt
           &s, now.time, now.flag, now.iflag, modal->loads.data(), static_cast<int>(modal->modes),
           static_cast<int>(modal->cases), now.scale, now.load_case, values);
     case RoutineArguments::damping:
+    case RoutineArguments::curve:
       return;
     case RoutineArguments::pressure:
       return as<void(const void*, double, const double*, const double*, const double*, const double*, double, double,

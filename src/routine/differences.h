@@ -18,4 +18,7 @@ struct Slope {
 std::vector<Slope> extrapolated_slope(const std::function<void(double, std::span<double>)>& f, double x,
                                       std::size_t values);
 
+// Whether a slope says something else than the derivative that was given, by more than either is known.
+bool contradicts(const Slope&, double given);
+
 }  // namespace dynalin

@@ -14,6 +14,7 @@
 
 namespace dynalin {
 
+class CurveRoutine;
 class DampingRoutine;
 
 struct RoutineData {
@@ -39,9 +40,10 @@ struct RoutineData {
   std::map<int, std::string> strings;
   std::map<int, Numbers> matrices;
   std::map<int, Modes> flexible_bodies;
-  std::map<int, std::shared_ptr<const DampingRoutine>> damping;  // of flexible bodies whose CRATIO calls a routine
-  std::set<int> modes_read;                                      // ids of flexible bodies whose Q or QDOT are read
-  Vec3<double> gravity{};                                        // [length/time²], global axes
+  std::map<int, std::shared_ptr<const DampingRoutine>> damping;      // of flexible bodies whose CRATIO calls a routine
+  std::map<int, std::shared_ptr<const CurveRoutine>> called_curves;  // of CURVEs whose FUNCTION calls one
+  std::set<int> modes_read;                                          // ids of flexible bodies whose Q or QDOT are read
+  Vec3<double> gravity{};                                            // [length/time²], global axes
   bool is_read = false;
 };
 

@@ -9,6 +9,7 @@
 namespace dynalin {
 
 struct RoutineFindings {
+  bool of_linear_model = false;          // is made; else the model moves or comes to rest
   bool differenced = false;              // slopes in the linear model are differences
   std::set<std::string> kinks;           // sentences: slopes that differ from side to side, of which the mean is taken
   std::set<std::string> wrong_partials;  // sentences: derivatives that differences contradict
@@ -18,6 +19,7 @@ struct RoutineFindings {
     double first, next;
   };
   std::map<std::uint64_t, Times> motions;
+  std::set<std::uint64_t> curves;  // those by routines whose derivatives were held against differences
 
   void add(const RoutineFindings&);
 

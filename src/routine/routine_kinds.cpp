@@ -6,7 +6,7 @@ namespace dynalin {
 
 namespace {
 using enum RoutineArguments;
-constexpr std::array<RoutineKind, 18> kinds = {{
+constexpr std::array<RoutineKind, 19> kinds = {{
     {"VARIABLE", "varsub", 1, function},
     {"SFORCE", "sfosub", 1, function},
     {"GFORCE", "gfosub", 6, function},
@@ -20,6 +20,7 @@ constexpr std::array<RoutineKind, 18> kinds = {{
     {"NFORCE", "nfosub", 0, function},
     {"MFORCE", "mfosub", 0, modal},
     {"MFORCE", "mfosub", 0, modal, "FORCE"},
+    {"CURVE", "cursub", 3, curve},
     {"DIFF", "difsub", 1, function},
     {"MOTION", "motsub", 1, of_time},
     {"REQUEST", "reqsub", 8, plain},

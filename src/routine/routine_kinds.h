@@ -18,6 +18,7 @@ enum class RoutineArguments : std::uint8_t {
   pressure,  // of a CONTACT: places, normals, gap with two rates, area, dflag, iflag
   coupler,   // displacements of joints, how many, iflag
   modal,     // of an MFORCE: dflag, iflag, modal loads, how many modes and loads, scale, which load, a load
+  curve,     // order of the derivative, iflag, and no time; curve_routine.h
   damping,   // of a FLEX_BODY: frequencies, how many modes, step; damping_routine.h
   friction,  // of a CONTACT: places, deformation, slip, normal force, area, dflag, iflag
 };

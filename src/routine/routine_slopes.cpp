@@ -42,17 +42,12 @@ void CompiledRoutine::difference(std::size_t input, Memory& memory) const {
   }
 }
 
-namespace {
-
-// Whether a slope says something else than the derivative that was given, by more than either is known.
 bool contradicts(const Slope& slope, double given) {
   constexpr double unlike = 1e-3;
   const double size = std::max(std::abs(given), std::abs(slope.value)), off = std::abs(given - slope.value);
   if (!slope.agreed || !(off > unlike * size + 4 * slope.error + slope.unseen)) return false;
   return slope.half_kink == 0 || off > 1.01 * std::abs(slope.half_kink);  // one side, or between both
 }
-
-}  // namespace
 
 // A wrong derivative has eigenvalues with narrow bounds like a right one: what differences contradict is said.
 void CompiledRoutine::doubt_given(Memory& memory) const {

@@ -62,6 +62,7 @@ StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest&
   const bool as_found = at.statics && (request.original || request.without_reconciliation);
   Linearization result{at.system, as_found ? at.statics->at_rest : at.values, as_found, request, {}};
   RoutineFindings routines;
+  routines.of_linear_model = true;
   const RoutineFindings::Scope watch(routines);
   auto linear = reduction.has_linear_model ? linearize(*at.system, result.point, *options, reduction.up_to)
                                            : linearize_unreduced(*at.system, result.point, *options);

@@ -46,6 +46,27 @@ struct Scale {
 };
 DYNALIN_USER_MODAL_SCALE(scale_by_formula, Scale)
 
+struct Cubic {
+  template <class T>
+  void operator()(const dynalin::user::Call<T>& call, T* c) const {
+    const T u = call.parameter(12) + call.parameter(13) * call.alpha();
+    for (int k = 0; k < 3; ++k) {
+      c[k] = call.parameter(4 * k) +
+             u * (call.parameter(4 * k + 1) + u * (call.parameter(4 * k + 2) + u * call.parameter(4 * k + 3)));
+    }
+  }
+};
+DYNALIN_USER_CURVE(cubic_by_formula, Cubic)
+
+struct Circle {
+  template <class T>
+  void operator()(const dynalin::user::Call<T>& call, T* c) const {
+    const T angle = 2 * 3.14159265358979323846 / call.parameter(1) * call.alpha();
+    c[0] = call.parameter(0) * cos(angle), c[1] = call.parameter(0) * sin(angle), c[2] = T(0.0);
+  }
+};
+DYNALIN_USER_CURVE(circle_by_formula, Circle)
+
 struct ScaleAlone {
   template <class T>
   void operator()(const dynalin::user::Call<T>& call, T* value) const {

@@ -1,5 +1,6 @@
-/* Forces on many markers and on modal coordinates, and what utilities say of data. */
+/* Forces on many markers and on modal coordinates, and curves. */
 #include <dynalin/user_routine.h>
+#include <math.h>
 
 /* ------------------------------------------------------------------------------------------------------------------
  * NFORCE: on marker a -k_r (y_a + s y_b) - c_r v_a, of all six components r, with s = 0.3 on the first marker and 0.1 on
@@ -117,6 +118,56 @@ void changes_its_load(const int* id, const double* time, const double* par, cons
   c_syspar("Q", &body, 1, &zero, 1, &errflg);
   for (k = 0; k < 6 + *nmodes; ++k) load[k] = (1 + q) * modloads[k];
   *scale = 2, *number = 0;
+}
+
+/* ------------------------------------------------------------------------------------------------------------------
+ * CURVE: a cubic of u = par[12] + par[13] alpha for each coordinate, its coefficients one after the other. */
+static void cubic(const double* par, double alpha, int order, double* c) {
+  const double u = par[12] + par[13] * alpha, f = pow(par[13], order);
+  int k;
+  for (k = 0; k < 3; ++k) {
+    const double* a = par + 4 * k;
+    c[k] = order == 0   ? a[0] + u * (a[1] + u * (a[2] + u * a[3]))
+           : order == 1 ? f * (a[1] + u * (2 * a[2] + u * 3 * a[3]))
+                        : f * (2 * a[2] + 6 * a[3] * u);
+  }
+}
+void cursub(const int* id, const double* par, const int* npar, const double* alpha, const int* iord, const int* iflag,
+            double* values) {
+  (void)id, (void)npar, (void)iflag;
+  cubic(par, *alpha, *iord, values);
+}
+void Cursubc(const struct sAdamsCurve* c, double alpha, int iord, int iflag, double* values) {
+  (void)iflag;
+  cubic(c->PAR, alpha, iord, values);
+  if (c->ID != 1 || c->CLOSED || c->MINPAR != -1 || c->MAXPAR != 1 || c->NPAR != 14) values[1] += 1;
+}
+void wrong_slope(const int* id, const double* par, const int* npar, const double* alpha, const int* iord,
+                 const int* iflag, double* values) {
+  cursub(id, par, npar, alpha, iord, iflag, values);
+  if (*iord == 1) values[1] *= 1.1;
+}
+void wrong_bend(const int* id, const double* par, const int* npar, const double* alpha, const int* iord,
+                const int* iflag, double* values) {
+  cursub(id, par, npar, alpha, iord, iflag, values);
+  if (*iord == 2) values[2] *= -1;
+}
+/* A circle of radius par[0], once round for alpha from 0 to par[1]. */
+void circle(const int* id, const double* par, const int* npar, const double* alpha, const int* iord, const int* iflag,
+            double* values) {
+  const double w = 2 * 3.14159265358979323846 / par[1], a = w * *alpha + *iord * 3.14159265358979323846 / 2;
+  (void)id, (void)npar, (void)iflag;
+  values[0] = par[0] * pow(w, *iord) * cos(a), values[1] = par[0] * pow(w, *iord) * sin(a), values[2] = 0;
+}
+void no_curve(const int* id, const double* par, const int* npar, const double* alpha, const int* iord, const int* iflag,
+              double* values) {
+  int ids[2] = {20, 1}, errflg, k;
+  double x;
+  (void)id, (void)npar, (void)iflag, (void)iord;
+  for (k = 0; k < (par[0] == 2 ? 4 : 3); ++k) values[k] = *alpha;
+  if (par[0] == 0) c_sysfnc("DX", ids, 2, &x, &errflg);
+  if (par[0] == 1) c_errmes(1, "no such curve", 1, "STOP");
+  if (par[0] == 3) values[2] = NAN;
 }
 
 /* ------------------------------------------------------------------------------------------------------------------

@@ -42,3 +42,16 @@ subroutine mfosub(id, time, par, npar, dflag, iflag, modloads, nmodes, ncases, s
     load(r) = (2 - 40 * q(1) - 3 * rate(1)) * modloads(r, 1) + 0.5d0 * modloads(r, 2)
   end do
 end subroutine
+
+subroutine cursub(id, par, npar, alpha, iord, iflag, values)
+  implicit none
+  integer :: id, npar, iord, iflag, r
+  double precision :: par(*), alpha, values(3), u, a(4)
+  u = par(13) + par(14) * alpha
+  do r = 1, 3
+    a = par(4 * r - 3:4 * r)
+    if (iord == 0) values(r) = a(1) + u * (a(2) + u * (a(3) + u * a(4)))
+    if (iord == 1) values(r) = par(14) * (a(2) + u * (2 * a(3) + u * 3 * a(4)))
+    if (iord == 2) values(r) = par(14)**2 * (2 * a(3) + 6 * a(4) * u)
+  end do
+end subroutine

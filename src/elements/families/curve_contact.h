@@ -24,6 +24,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -35,6 +36,7 @@
 #include "mechanics/kernel.h"
 #include "mechanics/path.h"
 #include "mechanics/start_source.h"
+#include "mechanics/undefined_value.h"
 #include "mechanics/wrench_source.h"
 #include "model/model.h"
 #include "model/schema.h"
@@ -88,7 +90,7 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
       std::vector<ExtraCoordinate> coordinates;
       for (std::size_t a = 0; a < m; ++a) {
         coordinates.push_back({std::string(E::parameter_names[a]), c.start[a].parameter,
-                               c.element.curves[a]->least_speed(), largest_step});
+                               c.element.curves[a]->least_speed(), largest_step * c.element.curves[a]->range()});
       }
       Placed p{c,
                layout.marker(c.i),
@@ -220,6 +222,25 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
         p.contact.element.curves[a]->switches(motion.extra[p.first_extra + a], 1, list);
     }
   }
+  // Of curves by routines.
+  void undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const override {
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      const Placed& p = contacts_[k];
+      for (std::size_t a = 0; a < m; ++a) {
+        const CurveLaw* law = p.contact.element.curves[a]->law();
+        if (!law) continue;
+        const double u = motion.extra[p.first_extra + a];
+        const auto report = [&](const std::string& reason, bool value) {
+          undefined.push_back({&(*labels_)[k], (*labels_)[k].full_text() + ": " + reason, value});
+        };
+        if (const std::string reason = law->reason_of_value(u); !reason.empty()) {
+          report(reason, true);
+        } else if (motion.mode == AnalysisMode::linear && lacks_derivatives(p, a, motion)) {
+          report(law->reason_of_derivatives(u), false);
+        }
+      }
+    }
+  }
   std::string domain_violation(const Motion& motion) const override {
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
       if constexpr (requires { &E::undetermined; }) {
@@ -245,7 +266,7 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
 
  private:
   using Nested = path::NestedDuals<seeds>;
-  static constexpr double largest_step = 0.1;  // of an iteration, a twentieth of the curve
+  static constexpr double largest_step = 0.05;  // of an iteration, as part of the curve
 
   struct Placed {
     CurveContact<E> contact;
@@ -276,6 +297,17 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
       u[a].partial[6 + a] = Dual<seeds>(1.0);
     }
     return u;
+  }
+  // Whether what a linear model takes of the rows is no number for want of a derivative of that curve.
+  static bool lacks_derivatives(const Placed& p, std::size_t a, const Motion& motion) {
+    const PairMotion pair = pair_motion(motion, p.I, p.J);
+    std::array<TimeTaylor<Dual<seeds>>, m> u;
+    for (std::size_t b = 0; b < m; ++b) u[b] = path::constant<seeds>(along_motion(p, b, motion));
+    u[a].value.partial[6 + a] = 1.0;
+    for (const auto& row : p.contact.element.rows(path::seeded<seeds>(pair.relative), u)) {
+      if (!std::isfinite(row.acceleration.partial[6 + a]) || !std::isfinite(row.rate.partial[6 + a])) return true;
+    }
+    return !std::isfinite(reaction_work(p, pair, motion).partial[6 + a].partial[6 + a]);
   }
   // Σ λ Φ with gradient and second variation.
   static Nested reaction_work(const Placed& p, const PairMotion& pair, const Motion& motion) {
