@@ -82,17 +82,18 @@ TEST_F(CurveRoutines, beads_move_along_them) {
 // Tangents in the rows of a constraint make a linear model read third derivatives at rest.
 TEST_F(CurveRoutines, curves_touch_curves_planes_and_axes) {
   const std::string wheel =
-      "PART/2, MASS=2, CM=20, IP=1,1,0.4, QG=0.1,0.4,0\nMARKER/20, QP=0,0.3,0\nMARKER/21\nMARKER/29, FLOATING\n"
+      "PART/2, MASS=2, CM=20, IP=1,1,0.4, QG=-0.0066,-0.095,0, REULER=-0.1765,0,0\nMARKER/20, "
+      "QP=0,0.3,0\nMARKER/21\nMARKER/29, FLOATING\n"
       "JOINT/1, PLANAR, I=20, J=1\nSPRINGDAMPER/1, ROTATIONAL, I=20, J=1, KT=9\n"
       "SPRINGDAMPER/2, TRANSLATION, I=20, J=8, K=30, C=0.1, LENGTH=0.1\nMARKER/8, PART=1, QP=0.1,3,0\n";
   const std::string on_curve = "CVCV/1, IFLOAT=29, ICURVE=1, IRM=21, JFLOAT=9, JCURVE=2, JRM=1\n";
   const std::string along =
-      "PART/2, MASS=3, CM=2, IP=1,2,3, QG=0.1,0.1,-0.1\nMARKER/2\nAXCV/1, I=2, CURVE=1, RM=1\n"
+      "PART/2, MASS=3, CM=2, IP=1,2,3, QG=0.1,0.1,-0.1\nMARKER/2\nAXCV/1, I=2, JFLOAT=9, CURVE=1, RM=1\n"
       "BUSHING/1, I=2, J=1, K=10,20,30, KT=5,6,7\n";
   const std::string under_plane =
-      "PART/2, MASS=2, CM=20, IP=1,1,0.4, QG=0,0.3,0, REULER=0,-90D,0\nMARKER/20\nMARKER/29, PART=2, FLOATING\n"
-      "BUSHING/1, I=20, J=1, K=10,20,30, KT=5,6,7\n"
-      "PLCV/1, I=20, JFLOAT=9, CURVE=1, RM=1\n";
+      "PART/2, MASS=2, CM=20, IP=1,1,0.4, QG=0,0.05,0, REULER=0.1,90D,0\nMARKER/20\nMARKER/29, PART=2, FLOATING\n"
+      "MARKER/3, PART=1, REULER=0.1,90D,0\nBUSHING/1, I=20, J=3, K=10,20,30, KT=5,6,7\n"
+      "PLCV/1, I=20, IFLOAT=29, JFLOAT=9, CURVE=1, RM=1\n";
   struct Row {
     std::string points, routine, model, name;
   };
