@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "time/course.h"
+#include "time/momenta.h"
 
 namespace dynalin::in_time::contact_facets_test {
 namespace {
@@ -90,16 +91,7 @@ std::string two_bodies(const std::string& one, const std::string& other, const s
       "PART/3, MASS=3, CM=5, IP=0.5,0.5,0.5, QG=0,0,-0.5, REULER=0.785398,0.785398,0\nMARKER/5, PART=3\n"
       "MARKER/6, PART=3, QP=-0.5,-0.5,-0.5\n" +
       other + "CONTACT/1, IGEOM=2, JGEOM=3, " + law;
-  const std::string axes = "XYZ";
-  for (std::size_t k = 0; k < 3; ++k) {
-    const char x = axes[k], y = axes[(k + 1) % 3], z = axes[(k + 2) % 3];
-    text += fmt::format("VARIABLE/{0}, FUNCTION=2*V{1}(2)+3*V{1}(5)\n", k + 1, x);
-    text += fmt::format(
-        "VARIABLE/{0}, FUNCTION=2*(D{2}(2)*V{3}(2)-D{3}(2)*V{2}(2))+3*(D{2}(5)*V{3}(5)-D{3}(5)*V{2}(5))"
-        "+0.3*W{1}(2)+0.5*W{1}(5)\n",
-        k + 4, x, y, z);
-  }
-  return text +
+  return text + momenta_of_two_bodies() +
          "VARIABLE/7, FUNCTION=VM(2)**2+1.5*VM(5)**2+0.15*WM(2)**2+0.25*WM(5)**2\n"
          "VARIABLE/8, FUNCTION=CONTACT(1,0,1,0)\nEND\n";
 }

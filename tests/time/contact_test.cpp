@@ -6,6 +6,7 @@
 #include <random>
 
 #include "time/course.h"
+#include "time/momenta.h"
 
 namespace dynalin::in_time {
 namespace {
@@ -229,16 +230,7 @@ TEST(ContactInTime, boxes_that_meet_keep_their_momentum_and_spin) {
       "CONTACT/1, IGEOM=2, JGEOM=3, IMPACT, STIFFNESS=2E5, EXPONENT=1.5, DAMPING=100, DMAX=0.001\n"
       ", COULOMB_FRICTION=ON, MU_STATIC=0.3, MU_DYNAMIC=0.2, STICTION_TRANSITION_VELOCITY=0.1"
       ", FRICTION_TRANSITION_VELOCITY=1\nVARIABLE/9, FUNCTION=VZ(5)\n";
-  const std::string axes = "XYZ";
-  for (std::size_t k = 0; k < 3; ++k) {
-    const char x = axes[k], y = axes[(k + 1) % 3], z = axes[(k + 2) % 3];
-    text += fmt::format("VARIABLE/{0}, FUNCTION=2*V{1}(2)+3*V{1}(5)\n", k + 1, x);
-    text += fmt::format(
-        "VARIABLE/{0}, FUNCTION=2*(D{2}(2)*V{3}(2)-D{3}(2)*V{2}(2))+3*(D{2}(5)*V{3}(5)-D{3}(5)*V{2}(5))"
-        "+0.3*W{1}(2)+0.5*W{1}(5)\n",
-        k + 4, x, y, z);
-  }
-  const Course c = led_through_time(text + "END\n", {.end = 0.3, .steps = 60, .error = 1e-8});
+  const Course c = led_through_time(text + momenta_of_two_bodies() + "END\n", {.end = 0.3, .steps = 60, .error = 1e-8});
   ASSERT_TRUE(c.ok()) << c.failure;
   for (const int k : {1, 2, 3, 4, 5, 6}) EXPECT_LT(c.drift(k), 1e-6) << k;
   EXPECT_LT(c.variables.at(9).back(), -1);
