@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "elements/families/defined_unknown.h"
+
 namespace dynalin {
 
 namespace {
@@ -49,9 +51,7 @@ void DelayKernel::bind(Binder& binder) {
 
 void DelayKernel::equations(const Motion& motion, Equations& eq) const {
   for (const Call& c : calls_) {
-    const std::int32_t row = eq.algebraic_row(c.unknown);
-    eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(c.unknown)]);
-    eq.add(PartialBy::algebraic, row, c.unknown, 1.0);
+    const std::int32_t row = begin_definition(motion, eq, c.unknown);
     const double tau = c.never ? 0.0 : c.lag.value(motion, eq.scratch);
     const bool rests = motion.mode == AnalysisMode::statics || motion.mode == AnalysisMode::quasi_statics;
     const bool linear = motion.mode == AnalysisMode::linear;
@@ -120,8 +120,7 @@ void DelayKernel::add_state(const Call& c, const Motion& motion, Equations& eq, 
   eq.add(PartialBy::state_rate, row, c.state, tau);
   add_partials(c.lag, motion, eq, row, rate);
   c.value.add(motion, eq, row, -1.0, PartialBy::velocity);
-  eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(c.unknown)]);
-  eq.add(PartialBy::algebraic, row, c.unknown, 1.0);
+  add_unknown(motion, eq, row, c.unknown);
 }
 
 void DelayKernel::remember(const Motion& motion, Memory& memory) const {

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "elements/bodies/flex_body.h"
+#include "elements/families/defined_unknown.h"
 #include "mechanics/path.h"
 #include "routine/routine_data.h"
 
@@ -304,10 +305,9 @@ void FlexibleBodyKernel::read(const Reading& r, const Motion& motion, Equations&
   constexpr std::array family = {PartialBy::position, PartialBy::damping, PartialBy::acceleration};
   const std::array values = {motion.extra[r.extra], motion.extra_rate[r.extra], motion.extra_acceleration[r.extra]};
   const auto d = static_cast<std::size_t>(r.derivative);
-  const std::int32_t row = eq.algebraic_row(r.algebraic);
   eq.begin_element(eq.layout().body(r.body).label);
-  eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(r.algebraic)] - values[d]);
-  eq.add(PartialBy::algebraic, row, r.algebraic, 1.0);
+  const std::int32_t row = begin_definition(motion, eq, r.algebraic);
+  eq.add_residual(row, -values[d]);
   eq.add(family[d], row, r.column, -1.0);
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <map>
 
+#include "elements/families/defined_unknown.h"
+
 namespace dynalin {
 
 namespace {
@@ -100,32 +102,24 @@ void FunctionEquationKernel::equations(const Motion& motion, Equations& eq) cons
   for (std::size_t k = 0; k < items_.size(); ++k) {
     const std::int32_t n = unknowns_[k].index;
     if (items_[k].form == Form::value) {
-      eq.add_residual(row_of(k), motion.algebraic[static_cast<std::size_t>(n)]);
-      eq.add(PartialBy::algebraic, row_of(k), n, 1.0);
+      add_unknown(motion, eq, row_of(k), n);
     } else if (items_[k].form == Form::rate && items_[k].terms.empty()) {
-      eq.add_residual(row_of(k), motion.state_rate[static_cast<std::size_t>(n)]);
-      eq.add(PartialBy::state_rate, row_of(k), n, 1.0);
+      add_state_rate(motion, eq, row_of(k), n);
     }
   }
   for (const Part& p : parts_) {
     // NODAMPIN leaves out what VARIABLEs see of velocities; the partials of a DIFF stay.
     p.function.add(motion, eq, row_of(p.item), p.factor,
                    items_[p.item].form == Form::value ? PartialBy::damping : PartialBy::velocity);
-    const auto n = static_cast<std::size_t>(p.rate.index);
     if (p.rate.kind == Channel::Kind::algebraic) {
-      eq.add_residual(row_of(p.item), motion.algebraic[n]);
-      eq.add(PartialBy::algebraic, row_of(p.item), p.rate.index, 1.0);
+      add_unknown(motion, eq, row_of(p.item), p.rate.index);
     } else if (p.rate.kind == Channel::Kind::state_rate) {
-      eq.add_residual(row_of(p.item), motion.state_rate[n]);
-      eq.add(PartialBy::state_rate, row_of(p.item), p.rate.index, 1.0);
+      add_state_rate(motion, eq, row_of(p.item), p.rate.index);
     }
   }
   for (const RateEquation& r : rates_) {
     const std::int32_t row = eq.algebraic_row(r.rate);
-    if (r.explicit_value) {
-      eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(r.rate)]);
-      eq.add(PartialBy::algebraic, row, r.rate, 1.0);
-    }
+    if (r.explicit_value) add_unknown(motion, eq, row, r.rate);
     r.function.add_rate(motion, eq, row, r.factor, PartialBy::velocity);
   }
 }

@@ -6,13 +6,13 @@ FunctionForceKernel::FunctionForceKernel(std::vector<FunctionForce> elements, La
   forces_.reserve(elements.size());
   for (FunctionForce& e : elements) {
     const MarkerPlace *I = &layout.marker(e.i), *J = &layout.marker(e.j);
-    const std::int32_t algebraic = layout.add_algebraic(*e.label);
-    forces_.push_back({std::move(e), I, J, algebraic, {}});
+    const DefinedUnknown magnitude(layout.add_algebraic(*e.label), e.magnitude);
+    forces_.push_back({std::move(e), I, J, magnitude});
   }
 }
 
 void FunctionForceKernel::bind(Binder& binder) {
-  for (Force& f : forces_) f.magnitude = BoundExpression(f.element.magnitude, binder);
+  for (Force& f : forces_) f.magnitude.bind(binder);
 }
 
 PairForce FunctionForceKernel::force_of(const Force& f, const PairMotion& pair, double magnitude, bool with_partials) {
@@ -31,18 +31,13 @@ PairForce FunctionForceKernel::force_of(const Force& f, const PairMotion& pair, 
 void FunctionForceKernel::equations(const Motion& motion, Equations& eq) const {
   for (const Force& f : eq.share(forces_)) {
     eq.begin_element(*f.element.label);
-    const double w = motion.algebraic[static_cast<std::size_t>(f.algebraic)];
-    const std::int32_t row = eq.algebraic_row(f.algebraic);
-    eq.add_residual(row, w);
-    eq.add(PartialBy::algebraic, row, f.algebraic, 1.0);
-    f.magnitude.add(motion, eq, row, -1.0, PartialBy::damping);
-
+    f.magnitude.add_equation(motion, eq);
     const PairMotion pair = pair_motion(motion, *f.I, *f.J);
-    const PairForce force = force_of(f, pair, w, eq.wants_partials());
+    const PairForce force = force_of(f, pair, f.magnitude.at(motion), eq.wants_partials());
     apply(pair, force, eq);
     if (!eq.wants(PartialBy::algebraic)) continue;
     const PairForce one = force_of(f, pair, 1.0, false);
-    apply_column(pair, one.force, one.torque, force.acts_on_J(), PartialBy::algebraic, f.algebraic, eq);
+    apply_column(pair, one.force, one.torque, force.acts_on_J(), PartialBy::algebraic, f.magnitude.column(), eq);
   }
 }
 
@@ -53,10 +48,10 @@ void FunctionForceKernel::remember(const Motion& motion, Memory& memory) const {
 void FunctionForceKernel::wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const {
   const Force& f = forces_[k];
   out.pair = pair_motion(motion, *f.I, *f.J);
-  out.force = force_of(f, out.pair, motion.algebraic[static_cast<std::size_t>(f.algebraic)], with_partials);
+  out.force = force_of(f, out.pair, f.magnitude.at(motion), with_partials);
   if (!with_partials) return;
   const PairForce one = force_of(f, out.pair, 1.0, false);
-  out.scalars.push_back({PartialBy::algebraic, f.algebraic, one.force, one.torque});
+  out.scalars.push_back({PartialBy::algebraic, f.magnitude.column(), one.force, one.torque});
 }
 
 void FunctionForceKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined_values) const {

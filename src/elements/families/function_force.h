@@ -1,14 +1,13 @@
 // A single force or torque whose magnitude is a function expression.
 //
-// The magnitude is one algebraic unknown w with the equation w − e = 0, so that expressions may refer to each
-// other and the Jacobian stays sparse; the element adds only the direction.
+// The magnitude is an unknown that the expression defines; the element adds only the direction.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "elements/families/defined_unknown.h"
 #include "elements/families/markers.h"
-#include "mechanics/bound_expression.h"
 #include "mechanics/kernel.h"
 #include "mechanics/wrench_source.h"
 #include "model/schema.h"
@@ -43,8 +42,7 @@ class FunctionForceKernel final : public Kernel, public WrenchSource {
   struct Force {
     FunctionForce element;
     const MarkerPlace *I, *J;  // of the layout
-    std::int32_t algebraic;
-    BoundExpression magnitude;
+    DefinedUnknown magnitude;
   };
   static PairForce force_of(const Force&, const PairMotion&, double magnitude, bool with_partials);
   std::vector<Force> forces_;

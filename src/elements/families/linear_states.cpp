@@ -1,5 +1,6 @@
 #include "elements/families/linear_states.h"
 
+#include "elements/families/defined_unknown.h"
 #include "mechanics/binder.h"
 
 namespace dynalin {
@@ -66,23 +67,17 @@ void LinearStatesKernel::equations(const Motion& motion, Equations& eq) const {
     for (Eigen::Index r = 0; r < e.law.A.rows(); ++r) {
       const std::int32_t z = e.first_state + static_cast<std::int32_t>(r);
       const std::int32_t row = eq.state_row(z);
-      eq.add_residual(row, motion.state_rate[static_cast<std::size_t>(z)]);
-      eq.add(PartialBy::state_rate, row, z, 1.0);
+      add_state_rate(motion, eq, row, z);
       add_row(e, row, e.law.A, e.law.B, r);
     }
     for (Eigen::Index r = 0; r < e.law.C.rows(); ++r) {
-      const std::int32_t y = e.first_output + static_cast<std::int32_t>(r);
-      const std::int32_t row = eq.algebraic_row(y);
-      eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(y)]);
-      eq.add(PartialBy::algebraic, row, y, 1.0);
+      const std::int32_t row = begin_definition(motion, eq, e.first_output + static_cast<std::int32_t>(r));
       add_row(e, row, e.law.C, e.law.D, r);
     }
   }
   for (const OutputRate& r : rates_) {
     const Element& e = elements_[r.element];
-    const std::int32_t row = eq.algebraic_row(r.rate);
-    eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(r.rate)]);
-    eq.add(PartialBy::algebraic, row, r.rate, 1.0);
+    const std::int32_t row = begin_definition(motion, eq, r.rate);
     for (Eigen::Index c = 0; c < e.law.C.cols(); ++c) {
       const std::int32_t z = e.first_state + static_cast<std::int32_t>(c);
       eq.add_residual(row, -e.law.C(r.output, c) * motion.state_rate[static_cast<std::size_t>(z)]);

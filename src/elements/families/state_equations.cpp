@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elements/families/defined_unknown.h"
+
 namespace dynalin {
 
 namespace {
@@ -70,26 +72,18 @@ bool StateEquationsKernel::rests(const Element& e, const Motion& motion) {
 }
 
 void StateEquationsKernel::equations(const Motion& motion, Equations& eq) const {
-  const auto add_unknown = [&](std::int32_t row, std::int32_t unknown) {
-    eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(unknown)]);
-    eq.add(PartialBy::algebraic, row, unknown, 1.0);
-  };
   // NODAMPIN leaves these partials alone.
   constexpr PartialBy by_velocity = PartialBy::velocity;
   for (const Element& e : elements_) {
     const double sign = e.solves_for_rates() ? 1.0 : -1.0;
     for (std::size_t n = 0; n < e.derivatives.size(); ++n) {
       const std::int32_t z = e.first_state + static_cast<std::int32_t>(n), row = eq.state_row(z);
-      if (!e.solves_for_rates()) {
-        eq.add_residual(row, motion.state_rate[static_cast<std::size_t>(z)]);
-        eq.add(PartialBy::state_rate, row, z, 1.0);
-      }
+      if (!e.solves_for_rates()) add_state_rate(motion, eq, row, z);
       // What keeps its states has no rates.
       if (!rests(e, motion)) e.derivatives[n].add(motion, eq, row, sign, by_velocity);
     }
     for (std::size_t n = 0; n < e.outputs.size(); ++n) {
-      const std::int32_t y = e.first_output + static_cast<std::int32_t>(n), row = eq.algebraic_row(y);
-      add_unknown(row, y);
+      const std::int32_t row = begin_definition(motion, eq, e.first_output + static_cast<std::int32_t>(n));
       if (rests(e, motion)) {
         eq.add_residual(row, -motion.memory[static_cast<std::size_t>(e.kept_outputs[n])]);
       } else {
@@ -97,14 +91,12 @@ void StateEquationsKernel::equations(const Motion& motion, Equations& eq) const 
       }
     }
     for (std::size_t n = 0; n < e.sampling.size(); ++n) {
-      const std::int32_t d = e.first_discrete + static_cast<std::int32_t>(n), row = eq.algebraic_row(d);
-      add_unknown(row, d);
+      const std::int32_t row = begin_definition(motion, eq, e.first_discrete + static_cast<std::int32_t>(n));
       eq.add_residual(row, -e.sampling.value(motion, n));
     }
   }
   for (const OutputRate& r : rates_) {
-    const std::int32_t row = eq.algebraic_row(r.rate);
-    add_unknown(row, r.rate);
+    const std::int32_t row = begin_definition(motion, eq, r.rate);
     if (r.function && !rests(elements_[r.element], motion)) r.function->add_rate(motion, eq, row, -1.0, by_velocity);
   }
 }

@@ -15,7 +15,8 @@ VectorForceKernel::VectorForceKernel(std::vector<VectorForce> elements, const st
             {}};
     for (std::size_t axis = 0; axis < 6; ++axis) {
       if (!f.element.component[axis]) continue;
-      f.components.push_back({axis, layout.add_algebraic(labels[k], static_cast<std::int32_t>(axis) + 1), {}});
+      const std::int32_t unknown = layout.add_algebraic(labels[k], static_cast<std::int32_t>(axis) + 1);
+      f.components.push_back({axis, {unknown, *f.element.component[axis]}});
     }
     forces_.push_back(std::move(f));
   }
@@ -23,7 +24,7 @@ VectorForceKernel::VectorForceKernel(std::vector<VectorForce> elements, const st
 
 void VectorForceKernel::bind(Binder& binder) {
   for (Force& f : forces_) {
-    for (Component& c : f.components) c.expression = BoundExpression(*f.element.component[c.axis], binder);
+    for (Component& c : f.components) c.value.bind(binder);
   }
 }
 
@@ -38,10 +39,11 @@ void VectorForceKernel::wrench(const Motion& motion, std::size_t k, bool with_pa
   const Matrix3 axes = motion.axes(f.RM);
   for (const Component& c : f.components) {
     const Vector e = axes[c.axis % 3];
-    const double w = motion.algebraic[static_cast<std::size_t>(c.algebraic)];
+    const double w = c.value.at(motion);
     (c.axis < 3 ? out.force.force : out.force.torque) += w * e;
     if (with_partials) {
-      out.scalars.push_back({PartialBy::algebraic, c.algebraic, c.axis < 3 ? e : Vector{}, c.axis < 3 ? Vector{} : e});
+      out.scalars.push_back(
+          {PartialBy::algebraic, c.value.column(), c.axis < 3 ? e : Vector{}, c.axis < 3 ? Vector{} : e});
     }
   }
   if (with_partials) out.turns.push_back({&f.RM, -skew(out.force.force), -skew(out.force.torque)});
@@ -52,12 +54,7 @@ void VectorForceKernel::equations(const Motion& motion, Equations& eq) const {
   for (const std::size_t k : eq.share(forces_.size())) {
     const Force& f = forces_[k];
     eq.begin_element((*labels_)[k]);
-    for (const Component& c : f.components) {
-      const std::int32_t row = eq.algebraic_row(c.algebraic);
-      eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(c.algebraic)]);
-      eq.add(PartialBy::algebraic, row, c.algebraic, 1.0);
-      c.expression.add(motion, eq, row, -1.0, PartialBy::damping);
-    }
+    for (const Component& c : f.components) c.value.add_equation(motion, eq);
     w.clear();
     wrench(motion, k, eq.wants_partials(), w);
     apply(w.pair, w.force, eq);
@@ -71,14 +68,13 @@ void VectorForceKernel::equations(const Motion& motion, Equations& eq) const {
 
 void VectorForceKernel::remember(const Motion& motion, Memory& memory) const {
   for (const Force& f : forces_) {
-    for (const Component& c : f.components) c.expression.remember(motion, memory);
+    for (const Component& c : f.components) c.value.remember(motion, memory);
   }
 }
 
 void VectorForceKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined_values) const {
   for (std::size_t k = 0; k < forces_.size(); ++k) {
-    for (const Component& c : forces_[k].components)
-      c.expression.find_undefined(motion, (*labels_)[k], undefined_values);
+    for (const Component& c : forces_[k].components) c.value.find_undefined(motion, (*labels_)[k], undefined_values);
   }
 }
 

@@ -1,14 +1,14 @@
 // A force and a torque on I given by expressions in the axes of RM, with the opposite on the body of a floating marker
 // at the same point: VFORCE, VTORQUE and GFORCE.
 //
-// Every component is an algebraic unknown w with w − e = 0, so that expressions may refer to each other.
+// Every component is an unknown that its expression defines.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "elements/families/defined_unknown.h"
 #include "elements/families/markers.h"
-#include "mechanics/bound_expression.h"
 #include "mechanics/kernel.h"
 #include "mechanics/wrench_source.h"
 #include "model/schema.h"
@@ -38,8 +38,7 @@ class VectorForceKernel final : public Kernel, public WrenchSource {
  private:
   struct Component {
     std::size_t axis;  // 0–2 force, 3–5 torque
-    std::int32_t algebraic;
-    BoundExpression expression;
+    DefinedUnknown value;
   };
   struct Force {
     VectorForce element;

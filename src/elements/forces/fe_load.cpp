@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "elements/bodies/fe_part.h"
+#include "elements/families/defined_unknown.h"
 #include "elements/families/section_reading.h"
 #include "flexible/beam_load.h"
 #include "mechanics/binder.h"
@@ -88,8 +89,8 @@ class BeamLoadKernel final : public Kernel {
         const bool varies = std::ranges::any_of(e->atoms(), varies_along_beam);
         Component c{axis, load.unknowns.size(), varies};
         for (std::size_t p = 0; p < (varies ? places.size() : 1); ++p) {
-          const std::int32_t algebraic = layout.add_algebraic(labels[k], static_cast<std::int32_t>(axis) + 1);
-          load.unknowns.push_back({algebraic, varies ? at_point(*e, p, places[p], labels[k], layout, load) : *e, {}});
+          const std::int32_t unknown = layout.add_algebraic(labels[k], static_cast<std::int32_t>(axis) + 1);
+          load.unknowns.emplace_back(unknown, varies ? at_point(*e, p, places[p], labels[k], layout, load) : *e);
         }
         load.components.push_back(c);
       }
@@ -100,7 +101,7 @@ class BeamLoadKernel final : public Kernel {
 
   void bind(Binder& binder) override {
     for (Load& l : loads_) {
-      for (Unknown& u : l.unknowns) u.bound = BoundExpression(u.expression, binder);
+      for (DefinedUnknown& u : l.unknowns) u.bind(binder);
     }
   }
 
@@ -108,12 +109,7 @@ class BeamLoadKernel final : public Kernel {
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       const Load& l = loads_[k];
       eq.begin_element((*labels_)[k]);
-      for (const Unknown& u : l.unknowns) {
-        const std::int32_t row = eq.algebraic_row(u.algebraic);
-        eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(u.algebraic)]);
-        eq.add(PartialBy::algebraic, row, u.algebraic, 1.0);
-        u.bound.add(motion, eq, row, -1.0, PartialBy::damping);
-      }
+      for (const DefinedUnknown& u : l.unknowns) u.add_equation(motion, eq);
       for (const Read& r : l.read) {
         if (r.is_of_line())
           read_line(l, r, motion, eq);
@@ -126,14 +122,14 @@ class BeamLoadKernel final : public Kernel {
 
   void remember(const Motion& motion, Memory& memory) const override {
     for (const Load& l : loads_) {
-      for (const Unknown& u : l.unknowns) u.bound.remember(motion, memory);
+      for (const DefinedUnknown& u : l.unknowns) u.remember(motion, memory);
     }
   }
   void undefined_values(const Motion& motion, std::vector<UndefinedValue>& values) const override {
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       const Load& l = loads_[k];
       const ElementLabel& label = (*labels_)[k];
-      for (const Unknown& u : l.unknowns) u.bound.find_undefined(motion, label, values);
+      for (const DefinedUnknown& u : l.unknowns) u.find_undefined(motion, label, values);
       for (const Read& r : l.read) {
         if (!r.is_angle() || reading(l, r, motion).has_gradient()) continue;
         values.push_back({&label,
@@ -145,11 +141,6 @@ class BeamLoadKernel final : public Kernel {
   }
 
  private:
-  struct Unknown {
-    std::int32_t algebraic;
-    Expression expression;
-    BoundExpression bound;
-  };
   struct Component {
     std::size_t axis;           // 0–2 force, 3–5 moment
     std::size_t first_unknown;  // of the load, one for each load point of the beam if it varies along it
@@ -167,7 +158,7 @@ class BeamLoadKernel final : public Kernel {
     BeamBody beam;
     std::optional<MarkerPlace> rm;
     std::vector<Component> components;
-    std::vector<Unknown> unknowns;
+    std::vector<DefinedUnknown> unknowns;
     std::vector<Read> read;
     // Their unknowns at each load point, derivative by derivative, while expressions are taken apart.
     std::vector<std::array<std::optional<std::int32_t>, motions_of_beam.size() * components_of_motion>> read_at;
@@ -210,9 +201,7 @@ class BeamLoadKernel final : public Kernel {
     const std::array<Vector, 4> parts = {of_node(0), of_slope(0), of_node(1), of_slope(1)};
     constexpr std::array family = {PartialBy::position, PartialBy::damping, PartialBy::acceleration};
     const BeamColumns at = l.beam.columns(eq.layout(), element);
-    const std::int32_t row = eq.algebraic_row(r.algebraic);
-    eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(r.algebraic)]);
-    eq.add(PartialBy::algebraic, row, r.algebraic, 1.0);
+    const std::int32_t row = begin_definition(motion, eq, r.algebraic);
     for (std::size_t a = 0; a < parts.size(); ++a) {
       eq.add_residual(row, -line.factor[a] * parts[a][r.component]);
       eq.add(family[r.derivative], row, at[line.at[a] + r.component], -line.factor[a]);
@@ -230,9 +219,8 @@ class BeamLoadKernel final : public Kernel {
     const std::size_t element = r.point / beam_load_points;
     const BeamElement& e = *(*l.beam.elements)[element];
     const BeamColumns at = l.beam.columns(eq.layout(), element);
-    const std::int32_t row = eq.algebraic_row(r.algebraic);
-    eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(r.algebraic)] - read.value);
-    eq.add(PartialBy::algebraic, row, r.algebraic, 1.0);
+    const std::int32_t row = begin_definition(motion, eq, r.algebraic);
+    eq.add_residual(row, -read.value);
     for (std::size_t k = 0; k < e.coordinates(); ++k) {
       if (!e.turns_sections(k)) continue;
       eq.add(PartialBy::position, row, at[k], -read.by_position[k]);
@@ -254,8 +242,8 @@ class BeamLoadKernel final : public Kernel {
     return places;
   }
 
-  static std::int32_t unknown_at(const Load& l, const Component& c, std::size_t point) {
-    return l.unknowns[c.first_unknown + (c.varies ? point : 0)].algebraic;
+  static const DefinedUnknown& value_at(const Load& l, const Component& c, std::size_t point) {
+    return l.unknowns[c.first_unknown + (c.varies ? point : 0)];
   }
 
   static void load_element(const Load& l, std::size_t element, const Motion& motion, Equations& eq) {
@@ -270,13 +258,13 @@ class BeamLoadKernel final : public Kernel {
     BeamVector load = BeamVector::Zero();
     for (std::size_t g = 0; g < beam_load_points; ++g) {
       for (const Component& c : l.components) {
-        const std::int32_t unknown = unknown_at(l, c, element * beam_load_points + g);
+        const DefinedUnknown& w = value_at(l, c, element * beam_load_points + g);
         const Vector& axis = axes[c.axis % 3];
-        (c.is_force() ? force[g] : moment[g]) += motion.algebraic[static_cast<std::size_t>(unknown)] * axis;
+        (c.is_force() ? force[g] : moment[g]) += w.at(motion) * axis;
         if (!eq.wants(PartialBy::algebraic)) continue;
         BeamVector by = BeamVector::Zero();
         points[g].add(c.is_force() ? axis : Vector{}, c.is_force() ? Vector{} : axis, by);
-        add_column(PartialBy::algebraic, unknown, by, {e, c.is_force(), !c.is_force()}, at, eq);
+        add_column(PartialBy::algebraic, w.column(), by, {e, c.is_force(), !c.is_force()}, at, eq);
       }
       points[g].add(force[g], moment[g], load);
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "elements/families/defined_unknown.h"
 #include "elements/families/markers.h"
 #include "mechanics/binder.h"
 #include "mechanics/pair_blocks.h"
@@ -262,9 +263,7 @@ void JointFrictionKernel::equations(const Motion& motion, Equations& eq) const {
     const bool acts = p.joint && !(f.rests_in_statics && at_rest(motion));
     const Evaluated at = acts ? evaluate(p, w.pair, motion) : inactive(p, motion);
     for (std::size_t c = 0; c < f.component_count(); ++c) {
-      const std::int32_t a = p.first_algebraic + static_cast<std::int32_t>(c), row = eq.algebraic_row(a);
-      eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(a)]);
-      eq.add(PartialBy::algebraic, row, a, 1.0);
+      const std::int32_t row = begin_definition(motion, eq, p.first_algebraic + static_cast<std::int32_t>(c));
       add_row(row, at.w[c], at, p, w.pair, PartialBy::damping, eq);
       if (p.first_state < 0) continue;
       add_creep(p, c, at, w.pair, motion, eq);
@@ -349,7 +348,7 @@ void JointFrictionKernel::wrench(const Motion& motion, std::size_t k, bool with_
   RelativeWrench sum;
   for (std::size_t c = 0; c < f.component_count(); ++c) {
     const std::int32_t a = p.first_algebraic + static_cast<std::int32_t>(c);
-    const double w = motion.algebraic[static_cast<std::size_t>(a)];
+    const double w = unknown_at(motion, a);
     Vector force, torque;
     if (f.pushes() && c == 0) {
       force.z = 1;

@@ -15,6 +15,7 @@
 
 #include "elements/bodies/flex_body.h"
 #include "elements/families/called_values.h"
+#include "elements/families/defined_unknown.h"
 #include "mechanics/binder.h"
 #include "mechanics/bound_expression.h"
 #include "mechanics/kernel.h"
@@ -66,8 +67,8 @@ class ModalForceKernel final : public Kernel {
       load.bcs.body = f.body, load.modes = layout.body_coordinate_count + static_cast<std::int32_t>(f.first);
       const auto unknown = [&](const Expression& e) {
         const auto number = static_cast<std::int32_t>(load.unknowns.size()) + 1;
-        load.unknowns.push_back(
-            {forces[k].index ? layout.add_algebraic(labels[k]) : layout.add_algebraic(labels[k], number), e, {}});
+        load.unknowns.emplace_back(
+            forces[k].index ? layout.add_algebraic(labels[k]) : layout.add_algebraic(labels[k], number), e);
       };
       const std::size_t count = 6 + static_cast<std::size_t>(f.flexible->modes());
       if (forces[k].index) {
@@ -88,7 +89,7 @@ class ModalForceKernel final : public Kernel {
 
   void bind(Binder& binder) override {
     for (Load& l : loads_) {
-      for (Unknown& u : l.unknowns) u.bound = BoundExpression(u.expression, binder);
+      for (DefinedUnknown& u : l.unknowns) u.bind(binder);
     }
   }
 
@@ -96,12 +97,7 @@ class ModalForceKernel final : public Kernel {
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       const Load& l = loads_[k];
       eq.begin_element((*labels_)[k]);
-      for (const Unknown& u : l.unknowns) {
-        const std::int32_t row = eq.algebraic_row(u.algebraic);
-        eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(u.algebraic)]);
-        eq.add(PartialBy::algebraic, row, u.algebraic, 1.0);
-        u.bound.add(motion, eq, row, -1.0, PartialBy::damping);
-      }
+      for (const DefinedUnknown& u : l.unknowns) u.add_equation(motion, eq);
       const Now now = look(l, motion);
       const PairMotion pair = pair_motion(motion, l.bcs, l.reacts_on);
       PairForce load;
@@ -112,7 +108,7 @@ class ModalForceKernel final : public Kernel {
       for (std::size_t m = 0; m < now.of_modes.size(); ++m)
         eq.add_residual(l.modes + static_cast<std::int32_t>(m), -now.scale * now.of_modes[m]);
       if (l.has_scale) {
-        const std::int32_t scale = l.unknowns.front().algebraic;
+        const std::int32_t scale = l.unknowns.front().column();
         apply_column(pair, now.force, now.torque, l.has_reaction, PartialBy::algebraic, scale, eq);
         for (std::size_t m = 0; m < now.of_modes.size(); ++m)
           eq.add(PartialBy::algebraic, l.modes + static_cast<std::int32_t>(m), scale, -now.of_modes[m]);
@@ -131,28 +127,23 @@ class ModalForceKernel final : public Kernel {
 
   void remember(const Motion& motion, Memory& memory) const override {
     for (const Load& l : loads_) {
-      for (const Unknown& u : l.unknowns) u.bound.remember(motion, memory);
+      for (const DefinedUnknown& u : l.unknowns) u.remember(motion, memory);
     }
   }
   void undefined_values(const Motion& motion, std::vector<UndefinedValue>& values) const override {
     for (std::size_t k = 0; k < loads_.size(); ++k) {
-      for (const Unknown& u : loads_[k].unknowns) u.bound.find_undefined(motion, (*labels_)[k], values);
+      for (const DefinedUnknown& u : loads_[k].unknowns) u.find_undefined(motion, (*labels_)[k], values);
     }
   }
 
  private:
-  struct Unknown {
-    std::int32_t algebraic;
-    Expression expression;
-    BoundExpression bound;
-  };
   struct Load {
     MarkerPlace bcs, reacts_on;  // of ground where nothing takes the reaction
     bool has_reaction = false;
     std::int32_t modes = 0;        // first column of the modal coordinates
     bool has_scale = false;        // the first unknown
     std::vector<double> constant;  // force, torque, of the modes; else all of them are unknowns, behind the scale
-    std::vector<Unknown> unknowns;
+    std::vector<DefinedUnknown> unknowns;
   };
   // A load at this moment by a unit of its scale, force and torque along global axes.
   struct Now {
@@ -163,11 +154,11 @@ class ModalForceKernel final : public Kernel {
   };
 
   static Now look(const Load& l, const Motion& motion) {
-    const auto at = [&](const Unknown& u) { return motion.algebraic[static_cast<std::size_t>(u.algebraic)]; };
     std::vector<double> all = l.constant;
-    for_each_component(l, [&](std::size_t c, std::int32_t) { all.push_back(at(l.unknowns[first_component(l) + c])); });
+    for_each_component(
+        l, [&](std::size_t c, std::int32_t) { all.push_back(l.unknowns[first_component(l) + c].at(motion)); });
     Now now;
-    if (l.has_scale) now.scale = at(l.unknowns.front());
+    if (l.has_scale) now.scale = l.unknowns.front().at(motion);
     now.axes = motion.body(l.bcs.body).R;
     now.force = now.axes * Vector{all[0], all[1], all[2]}, now.torque = now.axes * Vector{all[3], all[4], all[5]};
     now.of_modes.assign(all.begin() + 6, all.end());
@@ -178,7 +169,7 @@ class ModalForceKernel final : public Kernel {
   template <class Visit>
   static void for_each_component(const Load& l, Visit&& visit) {
     for (std::size_t k = first_component(l); k < l.unknowns.size(); ++k)
-      visit(k - first_component(l), l.unknowns[k].algebraic);
+      visit(k - first_component(l), l.unknowns[k].column());
   }
 
   const std::vector<ElementLabel>* labels_;

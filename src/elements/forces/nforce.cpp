@@ -12,6 +12,7 @@
 
 #include "elements/controls/matrix.h"
 #include "elements/families/called_values.h"
+#include "elements/families/defined_unknown.h"
 #include "elements/families/linear_wrench.h"
 #include "mechanics/binder.h"
 #include "mechanics/bound_expression.h"
@@ -76,15 +77,15 @@ class NforceKernel final : public Kernel, public WrenchSource {
         wrenches_.emplace_back(laws_.size(), p.I.size() - 1);
       }
       for (std::size_t c = 0; c < law.components.size(); ++c)
-        p.components.push_back({layout.add_algebraic(labels[laws_.size()], static_cast<std::int32_t>(c) + 1), {}});
+        p.components.emplace_back(layout.add_algebraic(labels[laws_.size()], static_cast<std::int32_t>(c) + 1),
+                                  law.components[c]);
       laws_.push_back(std::move(p));
     }
   }
 
   void bind(Binder& binder) override {
     for (Placed& p : laws_) {
-      for (std::size_t c = 0; c < p.components.size(); ++c)
-        p.components[c].expression = BoundExpression(p.law.components[c], binder);
+      for (DefinedUnknown& c : p.components) c.bind(binder);
     }
   }
 
@@ -93,12 +94,7 @@ class NforceKernel final : public Kernel, public WrenchSource {
       const Placed& p = laws_[law];
       eq.begin_element((*labels_)[law]);
       const std::size_t n = p.I.size();
-      for (const Component& c : p.components) {
-        const std::int32_t row = eq.algebraic_row(c.algebraic);
-        eq.add_residual(row, motion.algebraic[static_cast<std::size_t>(c.algebraic)]);
-        eq.add(PartialBy::algebraic, row, c.algebraic, 1.0);
-        c.expression.add(motion, eq, row, -1.0, PartialBy::damping);
-      }
+      for (const DefinedUnknown& c : p.components) c.add_equation(motion, eq);
       PairScratch& at = eq.pair_scratch;
       look(p, motion, at);
       for (std::size_t k = 0; k < n; ++k) {
@@ -117,7 +113,7 @@ class NforceKernel final : public Kernel, public WrenchSource {
 
   void remember(const Motion& motion, Memory& memory) const override {
     for (const Placed& p : laws_) {
-      for (const Component& c : p.components) c.expression.remember(motion, memory);
+      for (const DefinedUnknown& c : p.components) c.remember(motion, memory);
       for (std::size_t k = 0; k < p.I.size(); ++k) {
         const auto at = static_cast<std::size_t>(p.memory[k]);
         const auto angles = total_angles(pair_motion(motion, p.I[k], p.J), std::span(memory).subspan(at, 3));
@@ -128,7 +124,7 @@ class NforceKernel final : public Kernel, public WrenchSource {
 
   void undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const override {
     for (std::size_t law = 0; law < laws_.size(); ++law)
-      for (const Component& c : laws_[law].components) c.expression.find_undefined(motion, (*labels_)[law], undefined);
+      for (const DefinedUnknown& c : laws_[law].components) c.find_undefined(motion, (*labels_)[law], undefined);
   }
 
   // A wrench for each marker.
@@ -163,16 +159,12 @@ class NforceKernel final : public Kernel, public WrenchSource {
   }
 
  private:
-  struct Component {
-    std::int32_t algebraic;
-    BoundExpression expression;
-  };
   struct Placed {
     Law law;
     std::vector<MarkerPlace> I;
     MarkerPlace J;
     std::vector<std::int32_t> memory;
-    std::vector<Component> components{};
+    std::vector<DefinedUnknown> components{};
   };
   const Law& law_of(std::size_t w) const { return laws_[wrenches_[w].first].law; }
   static std::pair<double, double> entry(const Law& law, std::size_t row, std::size_t column) {
@@ -193,8 +185,7 @@ class NforceKernel final : public Kernel, public WrenchSource {
   static RelativeWrench total(const Placed& p, std::size_t k, const Motion& motion, const PairScratch& at) {
     RelativeWrench w;
     for (std::size_t r = 0; r < 6 && !p.components.empty(); ++r)
-      (r < 3 ? w.force[r] : w.torque[r - 3]) =
-          motion.algebraic[static_cast<std::size_t>(p.components[6 * k + r].algebraic)];
+      (r < 3 ? w.force[r] : w.torque[r - 3]) = p.components[6 * k + r].at(motion);
     if (!p.components.empty()) return w;
     for (std::size_t r = 0; r < 6; ++r) {
       double sum = p.law.force[6 * k + r];
@@ -215,7 +206,7 @@ class NforceKernel final : public Kernel, public WrenchSource {
     const Matrix3 R = value(pair.axes_J);
     for (std::size_t r = 0; r < 6; ++r) {
       const Vector e = R[r % 3];
-      visit(p.components[6 * k + r].algebraic, r < 3 ? e : Vector{}, r < 3 ? Vector{} : e);
+      visit(p.components[6 * k + r].column(), r < 3 ? e : Vector{}, r < 3 ? Vector{} : e);
     }
   }
   // How that changes with the displacement of marker l.
