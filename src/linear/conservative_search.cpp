@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/dense_solvers.h"
+#include "linear/dense_products.h"
 #include "linear/rounding.h"
 
 namespace dynalin {
@@ -90,32 +91,40 @@ bool ConservativeSearch::extend(Index wanted, double least, int restarts) {
   Matrix V(n, locked + most + at_a_time);
   V.leftCols(locked) = vectors_;
   const auto op = [&](const Matrix& v) { return op_->symmetric()->solve(model_->forces(v)); };
-  // Orthogonal to the first columns, whose parts in it are added to `share`; 0 if nothing is left of what it was. Twice
-  // is enough, unless the second time takes away much again.
-  const auto without = [&](Eigen::Ref<Eigen::VectorXd> w, Index columns, Eigen::Ref<Eigen::VectorXd> share, int fewest,
-                           double before) {
-    constexpr int most_passes = 3;
-    double size = 0;
+  // Orthogonal to the first columns, whose parts in it are added to `share`; 0 if nothing is left of what it was,
+  // `before`. Of the first `known` once is enough, unless the last time, before which its size was `size`, or this one
+  // takes away much.
+  const auto without = [&](Eigen::Ref<Eigen::VectorXd> w, Index known, Index columns, Eigen::Ref<Eigen::VectorXd> share,
+                           double size, double before) {
+    constexpr int most_passes = 4;
+    constexpr double much = 0.7;
     for (int pass = 0;; ++pass) {
       const Eigen::VectorXd f = model_->forces(w).col(0);
       const double now = std::sqrt(std::abs(w.dot(f)));
-      if (pass == 0) before = std::max(before, now);
-      const bool settled = pass >= fewest && now > 0.7 * size;
+      const bool little = now > much * size;
       size = now;
-      if (settled || pass == most_passes) break;
-      const Eigen::VectorXd along = V.leftCols(columns).transpose() * f;
-      w.noalias() -= V.leftCols(columns) * along;
-      share += along;
+      if (pass > 0 && (little || pass == most_passes)) break;
+      const Index from = little ? known : 0;
+      const Eigen::VectorXd along = V.middleCols(from, columns - from).transpose() * f;
+      w.noalias() -= V.middleCols(from, columns - from) * along;
+      share.tail(columns - from) += along;
     }
     if (!(size > 1e3 * eps * before)) return 0.0;
     w /= size;
     return size;
   };
+  const auto sizes = [](const Matrix& columns, const Matrix& images) -> Eigen::RowVectorXd {
+    return columns.cwiseProduct(images).colwise().sum().cwiseAbs().cwiseSqrt();
+  };
   const auto start_at = [&](Index column) {
-    Eigen::VectorXd ignored = Eigen::VectorXd::Zero(column);
     for (int tries = 0; tries < 20; ++tries) {
-      V.col(column) = op(arbitrary_vector(n, 500 + starts_++).real()).col(0);
-      if (without(V.col(column), column, ignored, 2, 0) > 0) return true;
+      Eigen::VectorXd ignored = Eigen::VectorXd::Zero(column);
+      Matrix start = op(arbitrary_vector(n, 500 + starts_++).real());
+      const Matrix image = model_->forces(start);
+      const double before = sizes(start, image)(0);
+      take_out(V, column, image, start);
+      V.col(column) = start.col(0);
+      if (without(V.col(column), 0, column, ignored, before, before) > 0) return true;
     }
     return false;
   };
@@ -125,7 +134,7 @@ bool ConservativeSearch::extend(Index wanted, double least, int restarts) {
     if (!start_at(locked + size)) return false;
   }
   Matrix H = Matrix::Zero(most + at_a_time, most);
-  double before = std::numeric_limits<double>::infinity();
+  double last_share = std::numeric_limits<double>::infinity();
   int stagnant = 0;
   for (int restart = 0; restart < restarts; ++restart) {
     while (processed < most) {
@@ -133,19 +142,21 @@ bool ConservativeSearch::extend(Index wanted, double least, int restarts) {
       if (block <= 0) break;
       Matrix images = op(V.middleCols(locked + processed, block));
       if (!images.allFinite()) return false;
-      // The first time for all columns of the block at once.
+      // Twice for all columns of the block at once.
       const Index known = locked + size;
-      const Matrix of_images = model_->forces(images);
-      const Eigen::RowVectorXd squares = images.cwiseProduct(of_images).colwise().sum();
-      const Matrix along = V.leftCols(known).transpose() * of_images;
-      images.noalias() -= V.leftCols(known) * along;
+      Matrix of_images = model_->forces(images);
+      const Eigen::RowVectorXd before = sizes(images, of_images);
+      Matrix along = take_out(V, known, of_images, images);
+      of_images = model_->forces(images);
+      const Eigen::RowVectorXd after = sizes(images, of_images);
+      along += take_out(V, known, of_images, images);
       for (Index b = 0; b < block; ++b, ++processed) {
-        Eigen::VectorXd w = images.col(b), share = Eigen::VectorXd::Zero(locked + size);
+        Eigen::VectorXd share = Eigen::VectorXd::Zero(locked + size);
         share.head(known) = along.col(b);
-        const double rest = without(w, locked + size, share, 1, std::sqrt(std::abs(squares(b))));
+        const double rest = without(images.col(b), known, locked + size, share, after(b), before(b));
         H.col(processed).head(size) = share.tail(size);
         if (rest == 0 || locked + size >= V.cols() || size >= left) continue;
-        V.col(locked + size) = w;
+        V.col(locked + size) = images.col(b);
         H(size++, processed) = rest;
       }
     }
@@ -172,8 +183,8 @@ bool ConservativeSearch::extend(Index wanted, double least, int restarts) {
                        std::abs(theta(done)) + residual(done) < 0.9 * least;
     // The first that is to come moves no longer: rounding has the last word.
     const double now = done < m ? residual(done) / std::abs(theta(done)) : 0;
-    stagnant = now > 0.9 * before && now < 1e-6 ? stagnant + 1 : 0;
-    before = now;
+    stagnant = now > 0.9 * last_share && now < 1e-6 ? stagnant + 1 : 0;
+    last_share = now;
     const bool success = done >= wanted || below || ended || done == m;
     const Index kept = success ? done : std::min(m - 1, done + std::max<Index>(1, (m - done) / 2));
     if (success || restart + 1 == restarts || stagnant >= 12) {
@@ -194,52 +205,52 @@ bool ConservativeSearch::extend(Index wanted, double least, int restarts) {
   return false;
 }
 
+// Rates are i times what stands in these columns, positions what does: both are real.
 ModeSearch::Part ConservativeSearch::part(const std::function<bool(Complex)>& which, bool left) const {
   std::vector<Index> chosen;
-  std::vector<bool> both;
-  std::vector<Complex> value;
+  std::vector<bool> both;  // of a pair; of real values always, which are on either side of every region alike
   for (std::size_t k = 0; k < squares_.size(); ++k) {
-    std::vector<Complex> in;
-    for (const Complex& v : values_of(squares_[k])) {
-      if (which(v)) in.push_back(v);
-    }
-    if (in.empty()) continue;
-    chosen.push_back(static_cast<Index>(k)), both.push_back(in.size() == 2), value.push_back(in.front());
+    const std::vector<Complex> all = values_of(squares_[k]);
+    const auto in = std::count_if(all.begin(), all.end(), which);
+    if (in == 0) continue;
+    chosen.push_back(static_cast<Index>(k)), both.push_back(in == 2 || squares_[k] <= 0);
   }
   const Matrix v = vectors_(Eigen::all, chosen);
   // From A (x; 0) = (0; x) and A (0; x) = (−ω² x; 0) of rates and positions, and its transpose.
   const Matrix shapes = left ? model_->motions_transposed(model_->forces(v)) : model_->states_of(v);
   const Index p =
       static_cast<Index>(chosen.size() + static_cast<std::size_t>(std::count(both.begin(), both.end(), true)));
-  ComplexMatrix W = ComplexMatrix::Zero(shapes.rows(), p), D = ComplexMatrix::Zero(p, p);
+  Matrix W = Matrix::Zero(shapes.rows(), p);
+  ComplexMatrix D = ComplexMatrix::Zero(p, p);
   Index at = 0;
   for (std::size_t c = 0; c < chosen.size(); ++c) {
     const double square = squares_[static_cast<std::size_t>(chosen[c])];
-    const auto put = [&](Index column, const std::vector<std::int32_t>& to, Complex factor) {
+    const auto put = [&](Index column, const std::vector<std::int32_t>& to, double factor) {
       for (std::size_t k = 0; k < to.size(); ++k)
         W(to[k], column) += factor * shapes(model_->positions()[k], static_cast<Index>(c));
     };
     if (both[c]) {
       put(at, model_->rates(), 1.0), put(at + 1, model_->positions(), 1.0);
-      D(at + 1, at) = 1, D(at, at + 1) = -square;
+      D(at + 1, at) = Complex(0, 1), D(at, at + 1) = Complex(0, square);
       at += 2;
     } else {
-      const Complex of_side = left ? std::conj(value[c]) : value[c];
-      put(at, model_->rates(), left ? 1.0 : of_side), put(at, model_->positions(), left ? of_side : 1.0);
-      D(at, at) = value[c];
+      // The upper value iω, of whose left vector this is i times.
+      const double omega = std::sqrt(square);
+      put(at, model_->rates(), left ? 1.0 : omega), put(at, model_->positions(), left ? omega : 1.0);
+      D(at, at) = Complex(0, omega);
       ++at;
     }
   }
-  W = (left ? ComplexMatrix(op_->units().asDiagonal() * W)
-            : ComplexMatrix(op_->units().cwiseInverse().asDiagonal() * W));
+  W = (left ? Matrix(op_->units().asDiagonal() * W) : Matrix(op_->units().cwiseInverse().asDiagonal() * W));
   const Eigen::VectorXd norm = W.colwise().norm();
   W = W * norm.cwiseInverse().asDiagonal();
   D = (norm.asDiagonal() * D * norm.cwiseInverse().asDiagonal()).eval();
-  const Eigen::HouseholderQR<ComplexMatrix> qr(W);
+  const Eigen::HouseholderQR<Matrix> qr(W);
   Part out;
-  out.basis = columns_of_q(qr, p);
+  out.basis = columns_of_q(qr, p).cast<Complex>();
+  for (const std::int32_t rate : model_->rates()) out.basis.row(rate) *= Complex(0, 1);
   if (left) return out;
-  const ComplexMatrix R = qr.matrixQR().topRows(p).triangularView<Eigen::Upper>();
+  const ComplexMatrix R = Matrix(qr.matrixQR().topRows(p).triangularView<Eigen::Upper>()).cast<Complex>();
   // R D R⁻¹
   const ComplexMatrix product = R * D;
   out.matrix = R.triangularView<Eigen::Upper>().solve<Eigen::OnTheRight>(product);

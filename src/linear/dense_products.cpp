@@ -65,6 +65,16 @@ Eigen::VectorXcd take_out(const Eigen::MatrixXcd& V, Eigen::Index columns, Eigen
   cblas_zgemv(CblasColMajor, CblasNoTrans, rows, count, &minus_one, V.data(), rows, along.data(), 1, &one, w.data(), 1);
   return along;
 }
+Eigen::MatrixXd take_out(const Eigen::MatrixXd& V, Eigen::Index columns, const Eigen::MatrixXd& F, Eigen::MatrixXd& W) {
+  eigen_assert(V.rows() == F.rows() && V.rows() == W.rows() && F.cols() == W.cols() && columns <= V.cols());
+  Eigen::MatrixXd along = Eigen::MatrixXd::Zero(columns, F.cols());
+  if (along.size() == 0 || F.rows() == 0) return along;
+  const auto rows = static_cast<int>(V.rows()), count = static_cast<int>(columns), at_once = static_cast<int>(F.cols());
+  gemm(CblasTrans, count, at_once, rows, V.data(), rows, F.data(), along.data());
+  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, at_once, count, -1.0, V.data(), rows, along.data(),
+              count, 1.0, W.data(), rows);
+  return along;
+}
 BothProducts both_products(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
   const Eigen::Index rows = a.cols(), columns = b.cols();
   Eigen::MatrixXd left(a.rows(), 2 * rows), right(b.rows(), 2 * columns);

@@ -22,6 +22,8 @@ BothProducts both_products(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b)
 
 // w −= V Vᴴ w for the first columns of V; Vᴴ w.
 Eigen::VectorXcd take_out(const Eigen::MatrixXcd& V, Eigen::Index columns, Eigen::VectorXcd& w);
+// W −= V VᵀF for the first columns of V; VᵀF.
+Eigen::MatrixXd take_out(const Eigen::MatrixXd& V, Eigen::Index columns, const Eigen::MatrixXd& F, Eigen::MatrixXd& W);
 
 Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 

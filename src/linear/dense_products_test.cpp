@@ -35,5 +35,18 @@ TEST(TakeOut, leaves_what_is_orthogonal_to_the_first_columns) {
   }
 }
 
+TEST(TakeOut, of_some_columns_at_once_along_images_of_theirs) {
+  const Eigen::MatrixXd V = Eigen::MatrixXd::Random(9, 4), before = Eigen::MatrixXd::Random(9, 2),
+                        images = Eigen::MatrixXd::Random(9, 2);
+  for (const Eigen::Index columns : {0, 3}) {
+    Eigen::MatrixXd w = before;
+    const Eigen::MatrixXd along = take_out(V, columns, images, w);
+    const Eigen::MatrixXd expected = V.leftCols(columns).transpose() * images;
+    EXPECT_EQ(along.rows(), columns);
+    EXPECT_LT((along - expected).norm(), 1e-14);
+    EXPECT_LT((w - (before - V.leftCols(columns) * expected)).norm(), 1e-14);
+  }
+}
+
 }  // namespace
 }  // namespace dynalin::dense_products_test

@@ -141,21 +141,20 @@ Matrix sizes_product(const ComplexMatrix& a, const Matrix& b) {
 // Columns of which a few digits are enough, each in a unit of its own: half the memory.
 class ShortColumns {
  public:
-  ShortColumns(Index rows, Index columns) : value_(rows, columns), unit_(columns) {}
+  ShortColumns(Index rows, Index columns) : re_(rows, columns), im_(rows, columns), unit_(columns) {}
 
   void set(Index first, const ComplexMatrix& columns) {
     for (Index c = 0; c < columns.cols(); ++c) {
       const double largest = columns.rows() > 0 ? columns.col(c).cwiseAbs2().maxCoeff() : 0.0;
       unit_(first + c) = largest > 0 ? std::sqrt(largest) : 1.0;
-      value_.col(first + c) = (columns.col(c) / unit_(first + c)).cast<std::complex<float>>();
+      re_.col(first + c) = (columns.col(c).real() / unit_(first + c)).cast<float>();
+      im_.col(first + c) = (columns.col(c).imag() / unit_(first + c)).cast<float>();
     }
   }
   // Aᴴ b for the first rows of b.
   ComplexMatrix adjoint_times(const ComplexMatrix& b) const {
-    ComplexMatrix sum = ComplexMatrix::Zero(value_.cols(), b.cols());
-    for_row_blocks(value_.rows(), [&](Index first, Index count) {
-      sum += adjoint_product(value_.middleRows(first, count).cast<Complex>(), b.middleRows(first, count));
-    });
+    ComplexMatrix sum = ComplexMatrix::Zero(re_.cols(), b.cols());
+    for_row_blocks(re_.rows(), [&](Index first, Index rows) { add_product(first, b.middleRows(first, rows), sum); });
     return unit_.asDiagonal() * sum;
   }
   // Aᴴ b, |A|ᵀ `rounding_of_b`, and the root of the sum of |A|² `variance`.
@@ -164,14 +163,14 @@ class ShortColumns {
     Matrix rounding, deviation;
   };
   Weighed weigh(const ComplexMatrix& b, const Matrix& rounding_of_b, const Matrix& variance) const {
-    const Index count = value_.cols(), columns = b.cols();
+    const Index count = re_.cols(), columns = b.cols();
     Weighed sum{ComplexMatrix::Zero(count, columns), Matrix::Zero(count, columns), Matrix::Zero(count, columns)};
-    for_row_blocks(value_.rows(), [&](Index first, Index rows) {
-      const ComplexMatrix a = value_.middleRows(first, rows).cast<Complex>();
-      sum.product += adjoint_product(a, b.middleRows(first, rows));
-      const Matrix squares = a.cwiseAbs2();
-      sum.rounding += transposed_product(squares.cwiseSqrt(), rounding_of_b.middleRows(first, rows));
-      sum.deviation += transposed_product(squares, variance.middleRows(first, rows));
+    for_row_blocks(re_.rows(), [&](Index first, Index rows) {
+      add_product(first, b.middleRows(first, rows), sum.product);
+      Matrix size = sizes_of_rows(first, rows).cast<double>();
+      sum.rounding += transposed_product(size, rounding_of_b.middleRows(first, rows));
+      size = size.cwiseAbs2();
+      sum.deviation += transposed_product(size, variance.middleRows(first, rows));
     });
     sum.product = unit_.asDiagonal() * sum.product;
     sum.rounding = unit_.asDiagonal() * sum.rounding;
@@ -180,7 +179,26 @@ class ShortColumns {
   }
 
  private:
-  Eigen::MatrixXcf value_;
+  void add_product(Index first, const ComplexMatrix& b, ComplexMatrix& sum) const {
+    const Index columns = b.cols();
+    Matrix parts(b.rows(), 2 * columns);
+    parts << b.real(), b.imag();
+    const auto times = [&](const Eigen::MatrixXf& a) {
+      return transposed_product(a.middleRows(first, b.rows()).cast<double>(), parts);
+    };
+    const Matrix re = times(re_), im = times(im_);
+    sum.real() += re.leftCols(columns) + im.rightCols(columns);
+    sum.imag() += re.rightCols(columns) - im.leftCols(columns);
+  }
+  // |A|, whose squares would be beyond the range of these numbers.
+  Eigen::ArrayXXf sizes_of_rows(Index first, Index rows) const {
+    const Eigen::ArrayXXf re = re_.middleRows(first, rows).array().abs(),
+                          im = im_.middleRows(first, rows).array().abs(),
+                          larger = re.max(im).max(std::numeric_limits<float>::min());
+    return larger * (1 + (re.min(im) / larger).square()).sqrt();
+  }
+
+  Eigen::MatrixXf re_, im_;
   Eigen::VectorXd unit_;
 };
 
