@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "simulation/newton_convergence.h"
+#include "simulation/order_trial.h"
 #include "simulation/step_factors.h"
 
 namespace dynalin {
@@ -67,6 +68,8 @@ struct DaeIntegrator::Memory {
   StepFactors factors;
   SUNNonlinearSolver newton = nullptr;
   NewtonConvergence convergence;
+  OrderTrial orders;
+  std::optional<int> next_order;  // the largest from the next step on, if it changes
   std::minstd_rand random{1};
   double t = 0;
   double coefficient = 1;             // of the method where the matrix was made
@@ -83,7 +86,8 @@ struct DaeIntegrator::Memory {
   Memory(DaeProblem& p, const StepBounds& b)
       : problem(p),
         bounds(b),
-        convergence(p.size(), std::max(1, b.iterations), [this](auto to) { return rounding(to); }) {}
+        convergence(p.size(), std::max(1, b.iterations), [this](auto to) { return rounding(to); }),
+        orders(largest_order()) {}
   ~Memory() {
     if (ida) IDAFree(&ida);
     if (newton) SUNNonlinSolFree(newton);
@@ -95,6 +99,7 @@ struct DaeIntegrator::Memory {
     if (context) SUNContext_Free(&context);
   }
 
+  int largest_order() const { return std::clamp(bounds.largest_order, 1, 5); }
   static Memory& of(void* self) { return *static_cast<Memory*>(self); }
 
   static int residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* self) {
@@ -213,7 +218,7 @@ struct DaeIntegrator::Memory {
       std::copy(problem.differential().begin(), problem.differential().end(), values(id).begin());
       check(IDASetId(ida, id));
       check(IDASetSuppressAlg(ida, SUNTRUE));
-      check(IDASetMaxOrd(ida, std::clamp(bounds.largest_order, 1, 5)));
+      check(IDASetMaxOrd(ida, largest_order()));
       check(IDASetMaxNumSteps(ida, -1));
       check(IDASetMaxErrTestFails(ida, integrator_failures));
       check(IDASetMaxConvFails(ida, integrator_failures));
@@ -283,6 +288,10 @@ void DaeIntegrator::limit_steps(double longest) { check(IDASetMaxStep(memory_->i
 
 DaeIntegrator::Outcome DaeIntegrator::step(double latest) {
   Memory& m = *memory_;
+  if (const auto order = std::exchange(m.next_order, std::nullopt)) {
+    check(IDASetMaxOrd(m.ida, *order));
+    m.begin(m.t, std::nullopt);
+  }
   check(IDASetStopTime(m.ida, latest));
   if (std::exchange(m.fresh, false))
     check(IDASetInitStep(m.ida, m.stated_first ? *m.stated_first : m.first_step(latest)));
@@ -325,6 +334,7 @@ DaeIntegrator::Outcome DaeIntegrator::step(double latest) {
       return Outcome::failed;
     }
   }
+  m.next_order = m.orders.after_step(m.t - before, latest - m.t);
   return Outcome::step;
 }
 
