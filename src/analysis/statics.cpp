@@ -14,11 +14,19 @@
 #include "analysis/original_method.h"
 #include "analysis/static_descent.h"
 #include "analysis/static_refusal.h"
+#include "analysis/turned_over.h"
 #include "analysis/unheld_motion.h"
 
 namespace dynalin {
 
 namespace {
+
+// Where nothing leads downhill, Newton's method may still: slender beams roll up by it.
+OriginalMethod newton_at_last() {
+  OriginalMethod method;
+  method.iteration_limit = 200;
+  return method;
+}
 
 // Whether rounding of positions is as large as the mechanism: then nothing can be told of forces. The spread is that of
 // half of the markers, which a few that are far out do not change.
@@ -123,7 +131,7 @@ bool asked_for(StaticEquations& equations, OperatingPoint& op, const StaticsOpti
   const bool found = options.original ? iterate_by_newton(equations, op, *options.original, history) &&
                                             Descent(equations, options, history).polish(op, loose)
                                       : settles(equations, op, options, *options.motion, loose, history);
-  if (found && !escaped(equations.system(), first, op)) return true;
+  if (found && !escaped(equations.system(), first, op) && !turned_over(equations.system(), first, op)) return true;
   findings.warnings.warning(
       "other-search", {},
       options.original
@@ -169,13 +177,22 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   equations.settle(op);
   const OperatingPoint drawn = op;
   bool found = asked_for(equations, op, options, history, findings);
-  if (!found) op = drawn, found = descent.run(op);
+  const ElementLabel* turned = nullptr;  // by a point that was balanced otherwise
+  const auto is_of_this_mechanism = [&] {
+    const ElementLabel* joint = turned_over(system, drawn, op);
+    if (joint) turned = joint;
+    return !joint;
+  };
+  if (!found) op = drawn, found = descent.run(op) && is_of_this_mechanism();
   const OperatingPoint lowest = descent.lowest();
   std::vector<std::string> proof;
   const auto refuse = [&] {
     equations.measure_by(Yardstick::model);
     Failure f = static_refusal(equations, lowest, proof, history.lines());
     if (!descent.doubt().empty()) f.message += "; " + descent.doubt();
+    if (turned) {
+      f.message += fmt::format("; there is one with {} turned over, which no motion leads to", turned->full_text());
+    }
     report.iterations = history.iterations();
     report.imbalance = equations.imbalance();
     return f;
@@ -201,7 +218,7 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   const auto descend = [&](OperatingPoint start) {
     op = std::move(start);
     Descent again(equations, options, history);
-    found = again.run(op, &loose) && !escaped(system, drawn, op);
+    found = again.run(op, &loose) && !escaped(system, drawn, op) && is_of_this_mechanism();
     held_states = again.held_states();
     equations.measure_by(Yardstick::model);
   };
@@ -210,6 +227,8 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
     OperatingPoint least = *start;
     if (go_on() && reduce_imbalance(equations, least, 100)) descend(std::move(least));
   }
+  if (OperatingPoint at = drawn; go_on() && iterate_by_newton(equations, at, newton_at_last(), history))
+    descend(std::move(at));
   for (const OperatingPoint* start : {&lowest, &drawn}) {
     for (const bool forward : {true, false}) {
       if (!go_on()) break;

@@ -2,11 +2,12 @@
 // rates are zero.
 //
 // The search, each step only where the one before it fails: (1) downhill, by Newton's method and implicit steps of a
-// damped motion (`static_descent.h`); (2) least squares (`levenberg_marquardt.h`); (3) continuation (`homotopy.h`); (4)
-// a damped motion with the model's masses (`damped_motion.h`); (5) least squares from other places. Newton's method as
-// it is (`original_method.h`) or (4) come before all of them where they are asked for. A point that is balanced to
-// rounding is accepted as it stands. A tolerance that is stated never ends the search early, but before (5) a point
-// within it is accepted. What cannot be found is explained (`static_refusal.h`, `unheld_motion.h`).
+// damped motion (`static_descent.h`); (2) least squares (`levenberg_marquardt.h`); (3) Newton's method as it is
+// (`original_method.h`); (4) continuation (`homotopy.h`); (5) a damped motion with the model's masses
+// (`damped_motion.h`); (6) least squares from other places. (3) or (5) come before all of them where they are asked
+// for. A point with a joint turned over is none (`turned_over.h`). A point that is balanced to rounding is accepted as
+// it stands. A tolerance that is stated never ends the search early, but before (6) a point within it is accepted. What
+// cannot be found is explained (`static_refusal.h`, `unheld_motion.h`).
 #pragma once
 
 #include <limits>

@@ -53,6 +53,19 @@ TEST(FePartStatics, an_end_moment_rolls_it_up_into_an_arc) {
   }
 }
 
+// Strips 200 and 500 times as long as thick, in one step of the whole moment: nothing downhill leads there.
+TEST(FePartStatics, slender_strips_roll_up_at_once) {
+  for (const StraightBeam& strip : {StraightBeam{.elements = 4, .height = 5e-3, .width = 5e-3, .type = "2DBEAMXY"},
+                                    StraightBeam{.elements = 8, .height = 2e-3, .width = 2e-3}}) {
+    const auto point =
+        study_of(clamped_beam(strip, fmt::format("VTORQUE/1, I=22, JFLOAT=2, RM=1, TZ={:.17g}\n", 2 * pi)))
+            .static_equilibrium();
+    EXPECT_NEAR(place_of(point, 22)[0], 0, 1e-8) << strip.type;
+    EXPECT_NEAR(place_of(point, 22)[1], 0, 1e-8) << strip.type;
+    EXPECT_NEAR(point.marker(22).axes[0][0], 1, 1e-9) << strip.type;
+  }
+}
+
 // Inextensible elastica, P L²/EI = a; published tables.
 TEST(FePartStatics, a_dead_force_bends_it_into_the_elastica) {
   struct Case {

@@ -32,6 +32,7 @@
 
 #include "elements/families/drawn_axes.h"
 #include "elements/families/markers.h"
+#include "mechanics/held_axes.h"
 #include "mechanics/kernel.h"
 #include "mechanics/path.h"
 #include "mechanics/start_source.h"
@@ -166,7 +167,7 @@ struct Joint {
 };
 
 template <class E>
-class JointKernel final : public Kernel, public WrenchSource, public StartSource {
+class JointKernel final : public Kernel, public WrenchSource, public StartSource, public HeldAxes {
  public:
   static constexpr std::size_t n = Joint<E>::n;
 
@@ -212,6 +213,17 @@ class JointKernel final : public Kernel, public WrenchSource, public StartSource
     }
   }
   std::size_t shares() const override { return shares_of(joints_.size()); }
+
+  Axes held_axes() const override {
+    constexpr auto has = [](std::string_view row) {
+      for (const std::string_view name : E::row_names) {
+        if (name == row) return true;
+      }
+      return false;
+    };
+    if constexpr (!has("Zi.Xj") || !has("Zi.Yj")) return Axes::none;
+    return has("Xi.Yj") ? Axes::all : Axes::z;
+  }
 
   const StartSource* starts() const override { return this; }
   std::span<const StartCondition> start_conditions() const override { return starts_; }
