@@ -39,11 +39,14 @@ constexpr double material_loss = 1e-9, loss_of_all = 0.1;
 // The algebraic or differential equation that is farthest from being met, relative to its own terms; empty if all are.
 std::string farthest_equation(const Layout& layout, const Equations& eq) {
   std::string name;
-  double worst = 1e-6;
+  double worst = 0, farthest = 0;
   const auto look = [&](std::int32_t row, const ElementLabel& owner) {
+    constexpr double met = 1e-6, alike = 0.1;
     const auto at = static_cast<std::size_t>(row);
-    const double relative = std::abs(eq.residual()[at]) / std::max(eq.magnitude()[at], 1e-300);
-    if (relative > worst) worst = relative, name = owner.full_text();
+    const double left = std::abs(eq.residual()[at]), relative = left / std::max(eq.magnitude()[at], 1e-300);
+    // Of those that are not met alike the one with the largest residual: what is rounding of nothing says least.
+    if (relative <= met || relative < alike * worst || (alike * relative < worst && left < farthest)) return;
+    worst = std::max(worst, relative), farthest = left, name = owner.full_text();
   };
   for (std::size_t k = 0; k < layout.algebraic.size(); ++k)
     look(eq.algebraic_row(static_cast<std::int32_t>(k)), *layout.algebraic[k].owner);
@@ -223,8 +226,12 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
     equations.move(op, step.col(0));
   }
   if (undefined) {
-    if (const std::string reason = system.undefined_value(system.motion(op)); !reason.empty())
-      return failure(reason, "undefined-value", history);
+    if (const std::string reason = system.undefined_value(system.motion(op)); !reason.empty()) {
+      return failure(reason +
+                         "; without it the iteration for accelerations does not settle, and there may be none that "
+                         "meet all equations",
+                     "undefined-value", history);
+    }
   }
   if (stated_limit) history.insert(history.begin(), fmt::format("IC allows {} iterations (AMAXIT)", most));
   equations.evaluate(op, {});

@@ -74,6 +74,23 @@ TEST_F(FrictionCases, without_a_load_slip_has_no_derivative_and_the_joint_is_nam
   EXPECT_EQ(spin(", INPUTS=PRELOAD, FRICTION_TORQUE_PRELOAD=2").status, 0);
 }
 
+// A pendulum of l = 0.1 with its pin of radius R: (I + m l²)|α| = μ R √((m g + m l ω²)² + (m l α)²) has no solution
+// once μ R m l > I + m l², here from R = 0.67 on.
+TEST_F(FrictionCases, that_locks_itself_is_said_to_have_no_solution) {
+  const auto pendulum = [&](double radius) {
+    return run(fmt::format("Pin\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-10\nPART/1, GROUND\nMARKER/1\n"
+                           "PART/2, MASS=1, CM=20, IP=0.01,0.01,0.01, QG=0,-0.1,0, VX=1, WZ=10\nMARKER/20\n"
+                           "MARKER/21, QP=0,0.1,0\nJOINT/1, REVOLUTE, I=21, J=1\n"
+                           "FRICTION/1, JOINT=1, PIN_RADIUS={}\nEND\n",
+                           radius),
+               "LINEAR/EIGENSOL\n");
+  };
+  EXPECT_EQ(pendulum(0.3).status, 0);
+  const RunResult r = pendulum(1);
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, AllOf(HasSubstr("FRICTION/1"), HasSubstr("there may be none that meet all equations")));
+}
+
 TEST_F(FrictionCases, a_coefficient_that_is_not_read_is_not_compared) {
   for (const std::string effect : {"EFFECT=SLIDING, MU_DYNAMIC=0.6", "EFFECT=STICTION, MU_STATIC=0.2"}) {
     const RunResult r = run(block("FRICTION/4, JOINT=1, " + effect + "\n"), "LINEAR/EIGENSOL\n");
