@@ -22,7 +22,9 @@ class Binder {
   virtual Channel delayed(const Atom&) = 0;
   // Where the memory holds what the SENSOR of that id gave when it last triggered.
   virtual std::int32_t sensor_value(std::int64_t id) = 0;
-  // An expression with kinks or jumps that is part of the equations.
+  // An expression that is part of the equations reads what kind of analysis it is evaluated in.
+  virtual void note_analysis() = 0;
+  // One with kinks or jumps.
   virtual void note_switches(const BoundExpression&) = 0;
   // Gives a call its SPLINE or CURVE.
   virtual void attach(SplineUse&) = 0;

@@ -175,6 +175,7 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binde
     case AtomFamily::data:
       if (f.reads == DataSource::analysis) {
         a.kind = Kind::mode;
+        if (binding != Binding::observation) binder.note_analysis();
         break;
       }
       if (f.reads == DataSource::sensor) {

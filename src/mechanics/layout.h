@@ -110,6 +110,7 @@ class Layout {
   std::vector<Span> memory_owners;                   // of each entry
   std::vector<Span> delay_calls;                     // the place of each call of DELAY, in the order of their histories
   std::vector<const ElementLabel*> velocity_driven;  // motions that contradict rest: no static analysis
+  bool reads_analysis = false;                       // by MODE: values change with the kind of analysis
   std::int32_t coordinate_count = 0;                 // all blocks
   std::int32_t body_coordinate_count = 0;            // of the bodies alone; extras follow them
 

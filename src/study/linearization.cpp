@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "analysis/initial.h"
 #include "linear/cautions.h"
 #include "linear/mode_shapes.h"
 #include "linear/second_order.h"
@@ -61,6 +62,14 @@ StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest&
   // Without reconciliation LINEAR takes the static solution as it was found; any other point is consistent anyway.
   const bool as_found = at.statics && (request.original || request.without_reconciliation);
   Linearization result{at.system, as_found ? at.statics->at_rest : at.values, as_found, request, {}};
+  Findings of_analysis;
+  if (at.system->layout().reads_analysis) {
+    // MODE is 7 from here on, in values and reactions as well as in their derivatives.
+    result.point.mode = AnalysisMode::linear;
+    auto solved = solve_acceleration(*at.system, std::move(result.point), of_analysis);
+    if (!solved) return tl::unexpected(StudyFailure(solved.error(), std::move(of_analysis.warnings)));
+    result.point = std::move(*solved);
+  }
   RoutineFindings routines;
   routines.of_linear_model = true;
   const RoutineFindings::Scope watch(routines);
@@ -72,6 +81,7 @@ StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest&
     return tl::unexpected(StudyFailure({"linear analysis", reason, {}}, std::move(linear->warnings)));
   }
   result.linear = std::move(*linear);
+  result.linear.warnings.append(std::move(of_analysis.warnings));
   result.differenced = routines.differenced;
   for (const std::string& kink : routines.kinks)
     result.linear.warnings.warning("kink-of-routine", {}, kink + ": the linear model has the mean of both");

@@ -35,6 +35,7 @@ class SystemBinder final : public Binder {
   Channel delayed(const Atom&) override;
   void attach(SplineUse&) override;
   std::int32_t sensor_value(std::int64_t id) override;
+  void note_analysis() override { layout_.reads_analysis = true; }
   void note_switches(const BoundExpression& e) override { switching_.push_back(e); }
   std::int32_t add_memory(const Span& owner, double initial) override { return layout_.add_memory(owner, initial); }
   void problem(std::string_view code, const Span& at, std::string text, std::string hint) override {

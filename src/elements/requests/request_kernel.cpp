@@ -37,7 +37,9 @@ class ReadingBinder final : public Binder {
     return {Channel::Kind::constant, 0, 0};
   }
   std::int32_t sensor_value(std::int64_t id) override { return of_.sensor_value(id); }
-  void note_switches(const BoundExpression&) override {}  // nothing follows from a request
+  // Nothing follows from a request.
+  void note_analysis() override {}
+  void note_switches(const BoundExpression&) override {}
   void attach(SplineUse& use) override { of_.attach(use); }
   std::int32_t add_memory(const Span& owner, double initial) override { return of_.add_memory(owner, initial); }
   void problem(std::string_view code, const Span& at, std::string text, std::string hint) override {
