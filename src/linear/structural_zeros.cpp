@@ -143,7 +143,12 @@ class StructuralZeros::Contributions {
     for (Index k = 0; k < all.rows(); ++k) {
       if (kind(k) > 0) all.row(k) /= kind(k);
     }
-    Matrix fresh = all.rightCols(found.cols());
+    // What earlier directions take others to may be nothing: an integrator alone has a motion that nothing follows.
+    std::vector<Index> moving;
+    for (Index c = earlier.cols(); c < all.cols(); ++c) {
+      if (!all.col(c).isZero(0)) moving.push_back(c);
+    }
+    Matrix fresh = all(Eigen::all, moving);
     fresh.colwise().normalize();
     if (earlier.cols() > 0) {
       const Eigen::ColPivHouseholderQR<Matrix> known(all.leftCols(earlier.cols()));

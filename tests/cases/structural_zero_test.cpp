@@ -187,5 +187,19 @@ TEST_F(StructuralZeros, a_part_that_is_pulled_at_its_mass_centre_turns_freely) {
   }
 }
 
+// An integrator that nothing follows takes away none of the motions of what floats: two bodies on a bushing have
+// twelve zeros and a clock one more.
+TEST_F(StructuralZeros, of_floating_bodies_stand_beside_integrators) {
+  const std::string bodies =
+      "Bodies\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=2, IP=1,2,2.5\nMARKER/2, PART=2\n"
+      "PART/3, MASS=1.3, CM=3, IP=1,2,2.5, QG=1,0,0\nMARKER/3, PART=3\nMARKER/4, PART=3, QP=-1,0,0\n"
+      "BUSHING/1, I=4, J=2, K=100,200,300, KT=10,20,30, C=0.1,0.2,0.3, CT=0.1,0.2,0.1\n";
+  EXPECT_EQ(zeros(solve(bodies + "END\n")), 12u);
+  for (const std::string more : {"DIFF/1, FUNCTION=1\n", "DIFF/1, FUNCTION=VZ(2,1,1)\n",
+                                 "VARIABLE/1, FUNCTION=DX(2)\nARRAY/1, U, VARIABLES=1\nARRAY/2, X\nARRAY/3, Y\n"
+                                 "TFSISO/1, U=1, X=2, Y=3, NUMERATOR=1, DENOMINATOR=0,1\n"})
+    EXPECT_EQ(zeros(solve(bodies + more + "END\n")), 13u) << more;
+}
+
 }  // namespace
 }  // namespace dynalin::cases::structural_zero_test
