@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "linear/user_choice.h"
@@ -37,6 +38,20 @@ class Chooser {
   }
 
  private:
+  // Columns as they are offered as pivots, the least wanted first: shapes of bodies last of all. They are states rather
+  // than how a body moves as a whole, whatever their units; stiffnesses of shapes then stand by themselves, where in
+  // dependent ones they would have to cancel.
+  std::vector<std::int32_t> offered(const std::vector<std::int32_t>& wanted, const auto& coordinate_of) const {
+    std::vector<std::int32_t> order(wanted.rbegin(), wanted.rend());
+    std::stable_partition(order.begin(), order.end(), [&](std::int32_t c) { return !is_shape(coordinate_of(c)); });
+    return order;
+  }
+  bool is_shape(std::int32_t coordinate) const {
+    return std::ranges::any_of(layout_.extras, [&](const ExtraBlock& e) {
+      return e.is_deformation() && coordinate >= e.offset && coordinate < e.offset + e.count;
+    });
+  }
+
   bool is_constant(const Candidate& c) const {
     const auto row = candidates_.gradients.row(c.row);
     return std::all_of(row.begin(), row.end(), [](const auto& e) { return e.c.g == 0.0; });
@@ -77,7 +92,7 @@ class Chooser {
       for (const Candidate& c : *list) all.push_back(&c);
     }
 
-    const std::vector<std::int32_t> order(columns.rbegin(), columns.rend());
+    const std::vector<std::int32_t> order = offered(columns, [](std::int32_t c) { return c; });
     const Elimination e = eliminate(std::move(rows), next, order);
     for (std::int32_t k = 0; k < rows_.size(); ++k) {
       choice_.active.push_back(e.pivot_column[static_cast<std::size_t>(k)] >= 0);
@@ -128,8 +143,10 @@ class Chooser {
       }
       for (const std::int32_t k : row.column) row.value.push_back(std::exchange(sum[static_cast<std::size_t>(k)], 0.0));
     }
-    std::vector<std::int32_t> order;
-    for (std::int32_t k = count; k-- > 0;) order.push_back(k);
+    std::vector<std::int32_t> wanted(static_cast<std::size_t>(count));
+    std::iota(wanted.begin(), wanted.end(), 0);
+    const auto order =
+        offered(wanted, [&](std::int32_t k) { return candidates_.wanted[static_cast<std::size_t>(k)].coordinate; });
     const Elimination e = eliminate(std::move(rows), count, order);
     for (std::int32_t k = 0; k < rows_.size(); ++k) {
       choice_.active.push_back(e.pivot_column[static_cast<std::size_t>(k)] >= 0);

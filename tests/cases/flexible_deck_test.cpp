@@ -94,6 +94,27 @@ TEST_F(FlexibleDeck, gives_bodies_matrices_of_their_own_or_none) {
   }
 }
 
+// What a joint holds on a node that bends follows from the shape: all modal coordinates are states, and stiff ones
+// need not cancel in the deck of a closed box.
+TEST_F(FlexibleDeck, shapes_are_states_where_a_part_hangs_on_them) {
+  const RunResult r =
+      run("Boom\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, QP=0.3,-0.2,0.7\nMARKER/2, QP=0.6,-0.2,0.7\n"
+          "FLEX_BODY/2, MNF_FILE=boom.fem, QG=0.3,-0.2,0.7\nMARKER/21, NODE_ID=1\nMARKER/22, NODE_ID=6\n"
+          "MARKER/23, NODE_ID=4\nPART/3, MASS=4E3, CM=31, IP=100,200,300, QG=0.9,-0.2,0.7\nMARKER/30\n"
+          "MARKER/31, QP=0.1,0.2,0.3\nJOINT/1, FIXED, I=22, J=30\n"
+          "BUSHING/1, I=21, J=1, K=9E6,8E6,7E6, KT=9E5,8E5,7E5\nBUSHING/2, I=23, J=2, K=9E6,8E6,7E6, KT=9E5,8E5,7E5\n"
+          "END\n",
+          "SIMULATE/STATICS\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  int modal = 0, all = 0;
+  for (const auto& state : r.result(1).at("states")) {
+    ++all;
+    modal += state.dump().find("Modal generalized coordinate Q") != std::string::npos ? 1 : 0;
+  }
+  EXPECT_EQ(all, 20);
+  EXPECT_EQ(modal, 4);
+}
+
 // Nothing but what a static solution leaves of nothing accelerates a free boom that is pulled straight.
 TEST_F(FlexibleDeck, is_at_rest_where_nothing_loads_it) {
   const RunResult r = Cases::run(
