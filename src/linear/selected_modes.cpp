@@ -1,5 +1,7 @@
 #include "linear/selected_modes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -40,6 +42,17 @@ struct CountingLimits {
 };
 constexpr CountingLimits counting_of_large = {600, 5}, counting_of_middling = {150, 2}, counting_of_small = {1500, 5};
 constexpr Index small = 400, middling = 1500;  // states
+// Of the state matrix, what A x − λ x may be of it: beyond the first a vector is not that of the mode at all, as where
+// zeros in long chains are amplified into it, beyond the second the full solution has better ones.
+constexpr double no_vector = 1e-9, inexact_vector = 1e-12;
+
+double largest_backward_error(const EigenSolution& solution) {
+  double largest = 0;
+  for (const EigenMode& m : solution.modes) {
+    if (!m.structural_zero && !(m.backward_error <= largest)) largest = m.backward_error;
+  }
+  return largest;
+}
 
 Failure no_convergence(std::string what) { return {"eigensolution", std::move(what), {}, "no-eigensolution"}; }
 
@@ -391,6 +404,9 @@ class Solution {
     if (selected_.complete) {
       const bool everything = right_->everything() && count_in(region_) == right_->found();
       selected_.doubt = doubt_of(out.modes, wanted_, {region_, op_.states(), all_zeros_, everything});
+      const double error = largest_backward_error(out);
+      if (selected_.doubt.empty() && !(error <= no_vector))
+        selected_.doubt = fmt::format("their vectors leave {:.1e} of the state matrix", error);
       selected_.complete = selected_.doubt.empty();
     }
     out.selected = selected_;
@@ -439,6 +455,9 @@ Result<EigenSolution> eigensolve_selected(const System& system, const Perturbati
   }();
   const bool settled = solution && solution->selected->complete;
   if (!settled && states <= most_for_full_solution) return from_all();
+  if (settled && states <= middling && !(largest_backward_error(*solution) <= inexact_vector)) {
+    if (auto all = from_all(); all && largest_backward_error(*all) < largest_backward_error(*solution)) return all;
+  }
   return solution;
 }
 
