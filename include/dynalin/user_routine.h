@@ -28,16 +28,18 @@
  *     REQUEST     reqsub       8          iflag
  *     SENSOR      sensub       1          iflag
  *                 sevsub       1          iflag: what EVALUATE = USER is when it triggers
- *     FLEX_BODY   dmpsub       modes      freqs, nmode, stepsize: of CRATIO = USER, how much of critical damping each
- * has GSE         gse_deriv    NS         dflag, iflag, how many values: x', or with IMPLICIT what is zero gse_output
- * NO         the same: y gse_update   ND         the same: discrete states behind a sample gse_samp     1 iflag: time
- * to the next sample (also gse_sample)
+ *     FLEX_BODY   dmpsub       modes      freqs, nmode, stepsize: parts of critical damping, of CRATIO = USER
+ *     GSE         gse_deriv    NS         dflag, iflag, how many values: x', or with IMPLICIT what is zero
+ *                 gse_output   NO         the same: y
+ *                 gse_update   ND         the same: discrete states behind a sample
+ *                 gse_samp     1          iflag: time to the next sample (also gse_sample)
  *
  * A GSE may have gsesub instead of the first two, with gsexx, gsexu, gseyx and gseyu for its partial derivatives, each
  * a matrix column by column: of x' with respect to states and inputs, of y with respect to the same.
  *
- *     gsesub: id, time, par, npar, dflag, iflag, ns, x, ni, u, no, x', y         gsexx: id, time, par, npar, iflag, ns,
- *     Gsesub: const struct sAdamsGSE*, time, dflag, iflag, ns, x, ni, u, no, x', y      x, ni, u, no, matrix
+ *     gsesub: id, time, par, npar, dflag, iflag, ns, x, ni, u, no, x', y
+ *     Gsesub: const struct sAdamsGSE*, time, dflag, iflag, ns, x, ni, u, no, x', y
+ *     gsexx:  id, time, par, npar, iflag, ns, x, ni, u, no, matrix
  *
  * fiesub gives force and torque on I along the axes of J as a function of disp (DX, DY, DZ, AX, AY, AZ of I from J less
  * LENGTH), of velo (VX, VY, VZ, WX, WY, WZ) and of time, and calls no utility for more. dfddis and dfdvel are 6 x 6,
@@ -63,8 +65,8 @@
  * cursub of a CURVE gives the point x, y, z at the parameter alpha, or its derivative iord (0, 1, 2) by it. It knows no
  * time, and is called before the model is whole: it reads nothing of it.
  *
- *     cursub: id, par, npar, alpha, iord, iflag, values         Cursub: const struct sAdamsCurve*, alpha, iord, iflag,
- *     values
+ *     cursub: id, par, npar, alpha, iord, iflag, values
+ *     Cursub: const struct sAdamsCurve*, alpha, iord, iflag, values
  *
  * A COUPLER needs couxx and couxx2 as well, which take the same arguments and give the ndisp first and the ndisp x
  * ndisp second partial derivatives, or the entry below. ROUTINE names three: ROUTINE = library::value, first, second.
@@ -214,10 +216,16 @@ struct sAdamsGSE {
  * arguments in ipar. errflg is 1 if there is none, or if it was not asked for when iflag was 1 or 3. */
 void c_sysfnc(const char* name, const int* ipar, int nsize, double* state, int* errflg);
 /* Several at once; nstates is how many, and states may be a null pointer for that alone. ipar in parentheses, ids of
- * markers if nothing else is said: DISP (i, j, k) 6    TDISP (i, j, k) 3     RDISP (i, j) 3: PSI, THETA, PHI VEL (i, j,
- * k, l) 6  TVEL (i, j, k, l) 3   RVEL (i, j, k) 3 ACC (i, j, k, l) 6  TACC (i, j, k, l) 3   RACC (i, j, k, l) 3 FORCE
- * (i, j, k) 6   TFORCE (i, j, k) 3    RFORCE (i, j, k) 3 UVX, UVY, UVZ (i, j) 3                    DC (i, j) 9, row by
- * row: components along the axes of j ARRAY (id)          PINPUT (id)           POUTPUT (id)
+ * markers if nothing else is said:
+ *
+ *     DISP (i, j, k) 6      TDISP (i, j, k) 3      RDISP (i, j) 3: PSI, THETA, PHI
+ *     VEL (i, j, k, l) 6    TVEL (i, j, k, l) 3    RVEL (i, j, k) 3
+ *     ACC (i, j, k, l) 6    TACC (i, j, k, l) 3    RACC (i, j, k, l) 3
+ *     FORCE (i, j, k) 6     TFORCE (i, j, k) 3     RFORCE (i, j, k) 3
+ *     UVX, UVY, UVZ (i, j) 3
+ *     DC (i, j) 9, row by row: components along the axes of j
+ *     ARRAY (id)            PINPUT (id)            POUTPUT (id)
+ *
  * Q, QDOT (id of a FLEX_BODY): its modal coordinates and their rates, in their order, as many as c_nmodes says */
 void c_sysary(const char* name, const int* ipar, int nsize, double* states, int* nstates, int* errflg);
 /* Whether partial derivatives are wanted, and what they are: partial[v + values * s] of value v of the routine with
