@@ -5,6 +5,7 @@
 #include "command/live_session.h"
 #include "command/output_plan.h"
 #include "output/destination.h"
+#include "study/study_point.h"
 
 namespace dynalin {
 
@@ -47,7 +48,14 @@ int run_session(const SessionOptions& options, std::ostream& out, std::ostream& 
 }
 
 int check_file(const SessionOptions& options, std::ostream& out, std::ostream& err) {
-  if (!planned(options, err)) return wrong_input;
+  const auto plan = planned(options, err);
+  if (!plan) return wrong_input;
+  // What a run says of each model before its first command.
+  for (const Job& job : plan->jobs) {
+    if (job.stages.empty()) continue;
+    const Diagnostics remarks = remarks_on(*job.stages.front().system);
+    for (const Diagnostic& d : remarks.items()) err << render(d);
+  }
   fmt::print(out, "{}: no errors\n", options.file == "-" ? "standard input" : options.file);
   return done;
 }

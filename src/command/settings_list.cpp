@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <optional>
 
+#include "analysis/static_settings.h"
 #include "command/command_catalogue.h"
 #include "command/run_state.h"
 #include "command/statement_text.h"
@@ -26,7 +28,7 @@ enum class Shown : std::uint8_t {
 // A setting is an argument with its value, or that one of several words which was stated last.
 struct Row {
   std::string_view label, words;  // blanks between the words
-  std::string_view unstated;      // what holds where it is not stated
+  std::string_view unstated;      // what holds where it is not stated, unless other settings say more (held)
   Shown shown = Shown::text;
 };
 
@@ -181,6 +183,12 @@ class Stated {
   std::deque<WrittenArgument> shorthands_;  // GSTIFF and WSTIFF as arguments of INTEGRATOR
 };
 
+std::string number_text(double number, Shown shown) {
+  if (shown == Shown::angle) return fmt::format("{:.6f} (rad)", number);
+  const bool plain = number == 0 || (std::abs(number) >= 1e-4 && std::abs(number) < 1e12);
+  return shown == Shown::exponent || !plain ? fmt::format("{:15.6e}", number) : fmt::format("{:.6f}", number);
+}
+
 std::string value_text(const WrittenArgument& w, Shown shown) {
   std::string text = argument_text(w);
   if (shown == Shown::pattern) {
@@ -190,10 +198,53 @@ std::string value_text(const WrittenArgument& w, Shown shown) {
   if (shown == Shown::text) return text;
   Diagnostics unused;
   const auto number = read_real(w, *w.name.source, unused);
-  if (!number) return text;
-  if (shown == Shown::angle) return fmt::format("{:.6f} (rad)", *number);
-  const bool plain = *number == 0 || (std::abs(*number) >= 1e-4 && std::abs(*number) < 1e12);
-  return shown == Shown::exponent || !plain ? fmt::format("{:15.6e}", *number) : fmt::format("{:.6f}", *number);
+  return number ? number_text(*number, shown) : text;
+}
+
+using Lines = std::vector<std::pair<std::string, std::string>>;
+
+// What holds where other arguments decide: defaults that follow them, and statements that they leave without effect.
+std::optional<std::string> held_in_statics(std::string_view label, bool stated, const EquilibriumSettings& settings) {
+  const StaticsOptions options = statics_options(settings);
+  const bool newton = options.original.has_value();
+  const OriginalMethod method = options.original.value_or(OriginalMethod());
+  if (label == "METHOD" && options.motion) return "DYNAMIC";
+  if (label == "METHOD" && !stated && newton) return "ORIGINAL";
+  if (label == "MAXIT") return fmt::format("{}", newton ? method.iteration_limit : options.iteration_limit);
+  if (label == "PATTERN" || label == "STABILITY") {
+    if (!newton) return std::string(stated ? without_effect : "none");
+    if (stated) return std::nullopt;
+    return label == "PATTERN" ? std::string("TTTTTTTTTT") : number_text(method.stability, Shown::number);
+  }
+  if (label == "TLIMIT") {
+    const double most = newton ? method.limits.translation : options.limits.translation;
+    return std::isfinite(most) ? number_text(most, Shown::number) : "none";
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> held(std::string_view command, std::string_view label, bool stated,
+                                const Settings& settings) {
+  if (command == "EQUILIBRIUM") return held_in_statics(label, stated, settings.equilibrium);
+  if (stated) return std::nullopt;
+  if (command == "INTEGRATOR" && label == "HMAX" && settings.integrator.interpolate.value_or(false)) return "none";
+  const double redundancy = settings.initial_conditions.error.value_or(1e-10);
+  if (command == "KINEMATICS" && label == "ERROR") return number_text(redundancy, Shown::exponent);
+  if (command == "IC" && (label == "VERROR" || label == "AERROR"))
+    return number_text(std::max(100 * redundancy, 1e-8), Shown::exponent);
+  return std::nullopt;
+}
+
+// How the damped motion ends, where one comes first.
+void add_motion(const EquilibriumSettings& settings, Lines& lines) {
+  const auto motion = statics_options(settings).motion;
+  if (!motion) return;
+  lines.emplace_back("GLOBAL_DAMPING", number_text(motion->global_damping, Shown::number));
+  lines.emplace_back("ACCELERATION_ERROR", number_text(motion->acceleration_error, Shown::number));
+  lines.emplace_back("KINETIC_ENERGY_ERROR", number_text(motion->kinetic_energy_error, Shown::number));
+  lines.emplace_back("SETTLING_TIME", std::isfinite(motion->longest_time)
+                                          ? number_text(motion->longest_time, Shown::number)
+                                          : std::string("none"));
 }
 
 }  // namespace
@@ -201,15 +252,17 @@ std::string value_text(const WrittenArgument& w, Shown shown) {
 std::string settings_list(std::string_view command, const RunState& run) {
   const Stated stated(command, run);
   const std::span<const Row> rows = rows_of(command);
-  std::vector<std::pair<std::string, std::string>> lines;
+  Lines lines;
   for (const Row& row : rows) {
     std::string_view word;
     const WrittenArgument* w = stated.last(row.words, word);
     std::string value(row.unstated);
     if (w && w->has_value) value = value_text(*w, row.shown);
     if (w && !w->has_value) value = row.words == word ? "ON" : word;
+    if (const auto in_force = held(command, row.label, w != nullptr, run.settings)) value = *in_force;
     lines.emplace_back(row.label, std::move(value));
   }
+  if (command == "EQUILIBRIUM") add_motion(run.settings.equilibrium, lines);
   // Settings without a list of their own: what was stated.
   if (rows.empty()) {
     for (const auto& [name, w] : stated.all()) lines.emplace_back(name, w->has_value ? argument_text(*w) : "ON");

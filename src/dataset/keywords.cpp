@@ -132,7 +132,10 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
     if (candidate.size() > word.size() + best_distance) continue;
     if (word.size() > candidate.size() + best_distance) continue;
     const std::size_t distance = edit_distance(word, candidate);
-    if (distance < best_distance && distance < candidate.size()) {
+    // Of two equally near ones a word that was left unfinished.
+    const bool finishes = distance == best_distance && !best.empty() && begins_with_ignoring_case(candidate, word) &&
+                          !begins_with_ignoring_case(best, word);
+    if ((distance < best_distance || finishes) && distance < candidate.size()) {
       best = candidate;
       best_distance = distance;
     }

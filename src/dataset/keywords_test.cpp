@@ -72,6 +72,10 @@ TEST(nearest_word, finds_what_was_probably_meant) {
   EXPECT_EQ(nearest_word("EQUILIBRUM", statement_names()), "EQUILIBRIUM");
 }
 
+TEST(nearest_word, finishes_what_was_left_unfinished) {
+  EXPECT_EQ(nearest_word("TIM", std::array<std::string_view, 2>{"TM", "TIME"}), "TIME");
+}
+
 TEST(nearest_word, finds_nothing_for_strange_words) {
   EXPECT_EQ(nearest_word("displacement", statement_names()), "");
   EXPECT_EQ(nearest_word("", statement_names()), "");

@@ -201,6 +201,21 @@ TEST(adamsmat, warns_where_fortran_would_imply_a_point) {
   EXPECT_EQ(file.found(), Texts{"5:3 matrix-implied-point"});
 }
 
+// FORTRAN reads 150 in F4.2 as 1.50; what has a point, and whole numbers in I, stay as they are.
+TEST(adamsmat, implies_points_in_columns) {
+  File file("ADAMSMAT\n1\nT\nT FULL RORDER 2 2 4 (2F4.2)\n 150 2.5\n   0-300\n");
+  EXPECT_EQ(file.read("T")->values, (Values{1.5, 0, 2.5, -3}));
+  EXPECT_EQ(file.found(), Texts{"5:2 matrix-implied-point"});
+  File sparse("ADAMSMAT\n1\nS\nS SPARSE 2 2 1 (2I4,E8.2)\n   1   2  5.0E+0\n");
+  EXPECT_EQ(sparse.read("S")->values, (Values{0, 0, 5, 0}));
+  EXPECT_EQ(sparse.found(), Texts{});
+  File exponent("ADAMSMAT\n1\nT\nT FULL RORDER 1 1 1 (E8.2)\n   150E2\n");
+  EXPECT_EQ(exponent.read("T")->values, Values{150});
+  File free("ADAMSMAT\n1\nT\nT FULL RORDER 1 1 1 (E8.2)\n150\n");
+  EXPECT_EQ(free.read("T")->values, Values{150});
+  EXPECT_EQ(free.found(), Texts{"5:1 matrix-implied-point"});
+}
+
 TEST(matrix_file, of_an_unknown_type_is_refused) {
   for (const char* text : {"", "matrixx\n", "1 2 3\n", "HELLO"}) {
     File file(text);

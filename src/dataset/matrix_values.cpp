@@ -66,7 +66,7 @@ FreeValues read_free(const MatrixBlock& block) {
         result.bad = span_in(block.file, word);
         return result;
       }
-      const bool point = word.find_first_of(".eEdD") != std::string_view::npos;
+      const bool point = word.find('.') != std::string_view::npos;
       if (!point && *value != 0 && !result.without_point.source) {
         result.without_point = span_in(block.file, word);
       }
@@ -79,9 +79,16 @@ FreeValues read_free(const MatrixBlock& block) {
   return result;
 }
 
-// Numbers in the columns that the format says; nothing if the text does not fit it exactly.
-std::optional<std::vector<double>> read_columns(const MatrixBlock& block, const FortranFormat& format) {
+struct ColumnValues {
   std::vector<double> values;
+  Span implied;  // the first number but 0 whose point the format implies; without source if there is none
+};
+
+// Numbers in the columns that the format says; nothing if the text does not fit it exactly. A number without a point
+// has it where the format says: 150 is 1.50 in F4.2.
+std::optional<ColumnValues> read_columns(const MatrixBlock& block, const FortranFormat& format) {
+  ColumnValues result;
+  std::vector<double>& values = result.values;
   std::size_t line_number = block.first_line;
   std::size_t column = 0, item = 0;
   const auto blank = [](std::string_view text) { return std::all_of(text.begin(), text.end(), is_blank); };
@@ -104,7 +111,10 @@ std::optional<std::vector<double>> read_columns(const MatrixBlock& block, const 
       while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
       const std::optional<double> value = parse_number(text, ShortExponent::yes);
       if (!value) return std::nullopt;
-      values.push_back(*value);
+      // One that ends before its column does was written free of them.
+      const bool implied = field.decimals > 0 && rest.size() >= field.width && text.find('.') == std::string_view::npos;
+      values.push_back(implied ? *value / std::pow(10.0, static_cast<double>(field.decimals)) : *value);
+      if (implied && *value != 0 && !result.implied.source) result.implied = span_in(block.file, text);
     } else if (!blank(rest.substr(0, field.width))) {
       return std::nullopt;
     }
@@ -115,7 +125,7 @@ std::optional<std::vector<double>> read_columns(const MatrixBlock& block, const 
   for (++line_number; line_number < block.end_line; ++line_number) {
     if (!blank(block.file.line(line_number))) return std::nullopt;
   }
-  return values;
+  return result;
 }
 
 // Behind the last character of the values that are there.
@@ -148,17 +158,26 @@ void report(const MatrixBlock& block, const FreeValues& found, bool format_known
                     file_ends ? message + " before the file ends" : message);
 }
 
-void warn_about_implied_point(const FreeValues& found, const FortranFormat& format, Diagnostics& diagnostics) {
-  if (!found.without_point.source) return;
+// Numbers that stand free of the columns: as they are written.
+void warn_about_numbers_as_written(const FreeValues& found, const FortranFormat& format, Diagnostics& diagnostics) {
   // In a format that mixes whole numbers and others it is not known which this one is.
   const bool implied = std::all_of(format.items.begin(), format.items.end(), [](const auto& item) {
     return item.kind != FortranItem::Kind::number || item.decimals > 0;
   });
-  if (!implied) return;
+  if (!implied || found.without_point.text().find_first_of("eEdD") != std::string_view::npos) return;
   diagnostics.warning(
       "matrix-implied-point", found.without_point,
       fmt::format("{} is read as it stands, where FORTRAN would imply a decimal point", found.without_point.text()),
       "write the point");
+}
+
+std::vector<double> values_in_columns(const MatrixBlock& block, ColumnValues found, Diagnostics& diagnostics) {
+  if (found.implied.source)
+    diagnostics.warning(
+        "matrix-implied-point", found.implied,
+        fmt::format("{} is read with the decimal point that {} implies", found.implied.text(), block.format),
+        "write the point");
+  return std::move(found.values);
 }
 
 }  // namespace
@@ -167,11 +186,16 @@ std::optional<std::vector<double>> read_matrix_values(const MatrixBlock& block, 
   FreeValues free = read_free(block);
   const std::optional<FortranFormat> format = parse_fortran_format(block.format);
   std::optional<std::vector<double>> values;
-  if (!free.bad.source && free.values.size() == block.value_count) {
-    if (format) warn_about_implied_point(free, *format, diagnostics);
+  const bool reads_free = !free.bad.source && free.values.size() == block.value_count;
+  // Numbers with points are the same either way.
+  if (format && (!reads_free || free.without_point.source)) {
+    auto columns = read_columns(block, *format);
+    if (columns && (!reads_free || columns->implied.source))
+      values = values_in_columns(block, std::move(*columns), diagnostics);
+  }
+  if (!values && reads_free) {
+    if (format && free.without_point.source) warn_about_numbers_as_written(free, *format, diagnostics);
     values = std::move(free.values);
-  } else if (format) {
-    values = read_columns(block, *format);
   }
   if (!values) {
     report(block, free, format.has_value(), diagnostics);

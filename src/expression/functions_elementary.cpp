@@ -167,8 +167,12 @@ constexpr auto power_of = []<class T>(const T& x, const T& n) { return power(x, 
 
 // --- where there is no value
 // -------------------------------------------------------------------------
+// With the digits that tell it from ±1.
 std::string cosine_range(std::string_view name, double a) {
-  return std::fabs(a) > 1.0 ? fmt::format("{} of {:.6g}, which is outside −1 … 1", name, a) : "";
+  if (!(std::fabs(a) > 1.0)) return "";
+  const bool just_outside = std::fabs(a) < 1.00001;
+  return fmt::format("{} of {}, which is outside −1 … 1", name,
+                     just_outside ? fmt::format("{}", a) : fmt::format("{:.6g}", a));
 }
 std::string acos_domain(std::span<const double> a) { return cosine_range("ACOS", a[0]); }
 std::string asin_domain(std::span<const double> a) { return cosine_range("ASIN", a[0]); }

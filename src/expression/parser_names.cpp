@@ -206,12 +206,11 @@ void ExpressionParser::read_atom_argument(Atom& atom, std::size_t index) {
 // The ranges that follow from the language alone.
 void ExpressionParser::check_atom(const Atom& atom) {
   const AtomFunction& function = *atom.function;
-  const bool incang = function.name == "INCANG";
   for (std::size_t k = 0; k < atom.argument_count; ++k) {
     std::int32_t least = 0, most = std::numeric_limits<std::int32_t>::max();
     switch (reference_class(function, k)) {
       case ReferenceClass::marker:
-        least = (k == 0 || incang) ? 1 : 0;
+        least = k == 0 && function.family == AtomFamily::marker_force ? 1 : 0;  // nothing acts on the global frame
         break;
       case ReferenceClass::element:
         least = 1;

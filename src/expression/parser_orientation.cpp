@@ -78,7 +78,7 @@ class Cosines {
 Operand ExpressionParser::close_orientation(std::span<const Operand> arguments, const Span& at) {
   const auto system = constant_id(arguments[0], "the number of an orientation system", 1);
   const auto component = constant_id(arguments[1], "the number of a component", 1);
-  const auto i = constant_id(arguments[2], "the id of a marker", 1);
+  const auto i = constant_id(arguments[2], "the id of a marker", 0);
   const auto j =
       arguments.size() > 3 ? constant_id(arguments[3], "the id of a marker", 0) : std::optional<std::int32_t>(0);
   if (!system || !component || !i || !j) return builder_.placeholder(at);

@@ -100,7 +100,7 @@ Operand ExpressionParser::close_special(const Pending& call, const Span& at) {
   markers.at = at;
   markers.argument_count = static_cast<std::uint8_t>(arguments.size() - 1);
   for (std::size_t k = 1; k < arguments.size(); ++k) {
-    const auto id = constant_id(arguments[k], "the id of a marker", k == 1 ? 1 : 0);
+    const auto id = constant_id(arguments[k], "the id of a marker", 0);
     if (!id) return builder_.placeholder(at);
     markers.argument[k - 1] = *id;
     markers.set_argument_at(k - 1, arguments[k].at);

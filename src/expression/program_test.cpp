@@ -130,6 +130,7 @@ TEST(ExpressionProgram, the_culprit_of_a_value_that_is_not_finite_is_named) {
       {"SIN(1/VARVAL(1))", {0}, "/", "1/VARVAL(1)", "division by 0"},
       {"LOG(VARVAL(1))", {0}, "LOG", "LOG(VARVAL(1))", "LOG of 0"},
       {"LOG10(VARVAL(1))", {-1}, "LOG10", "LOG10(VARVAL(1))", "LOG10 of -1"},
+      {"ASIN(VARVAL(1))", {-1.0000000001}, "ASIN", "ASIN(VARVAL(1))", "ASIN of -1.0000000001, which is outside −1 … 1"},
       {"2*ACOS(VARVAL(1))", {2}, "ACOS", "ACOS(VARVAL(1))", "ACOS of 2, which is outside −1 … 1"},
       {"(VARVAL(1)+1)**-2", {-1}, "**", "(VARVAL(1)+1)**-2", "0 to the power -2"},
       {"VARVAL(1)**.5", {-2}, "**", "VARVAL(1)**.5", "-2 to the power 0.5"},

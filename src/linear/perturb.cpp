@@ -183,9 +183,10 @@ class Perturber {
       if (unknown.rate >= 0) {
         result_.warnings.warning(
             "rate-of-input", unknown.owner->at,
-            fmt::format("{} is a plant input, and a DIF1 needs its time derivative, which no state-space model has: "
-                        "the linear model takes it as zero",
-                        unknown.owner->full_text()));
+            fmt::format(
+                "{} is a plant input, and a DIF1 or DELAY needs its time derivative, which no state-space model "
+                "has: the linear model takes it as zero",
+                unknown.owner->full_text()));
       }
       const bool depends = depends_on_anything(u);
       const double value = op_.algebraic[static_cast<std::size_t>(u)];

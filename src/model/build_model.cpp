@@ -146,8 +146,13 @@ class Builder {
       set->append(label);
       if (kind->role == Kind::Role::marker) model_->markers.back().label = &set->labels.back();
     }
-    if (!ground && !model_->dataset->statements.empty())
-      diagnostics_.error("missing-ground", {}, "the dataset has no PART with GROUND");
+    // Of a file without any text it has been said already.
+    const bool empty = model_->dataset->source->text().find_first_not_of(" \t\f\v\r\n") == std::string_view::npos;
+    if (ground || empty) return;
+    const bool none = std::ranges::all_of(statements, [](const Statement& s) { return s.name == "END"; });
+    diagnostics_.error("missing-ground", {},
+                       none ? "the dataset has no statements behind its title" : "the dataset has no PART with GROUND",
+                       none ? "a model has a PART/1, GROUND at least" : "");
   }
 
   bool register_id(const Kind& kind, const ElementLabel& label, const ElementSet& set, const Statement& s,

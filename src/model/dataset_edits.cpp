@@ -83,7 +83,7 @@ DatasetEditor::DatasetEditor(std::shared_ptr<const Dataset> base, std::shared_pt
   for (std::size_t k = 0; k < base->statements.size(); ++k) {
     const Statement& s = base->statements[k];
     if (s.name.empty()) continue;
-    const auto at = place_.try_emplace(key(s.name, s.id.value_or(0)), k).first;
+    const auto at = place_.try_emplace(key(s.name, finder_.identity_of(s)), k).first;
     if (is_setting(s.name)) at->second = k;  // of several the last decides
   }
   out_->origins = {std::move(base), std::move(written)};
@@ -106,15 +106,13 @@ bool DatasetEditor::is_setting(std::string_view statement) const {
 }
 
 void DatasetEditor::redefine(const Statement& command) {
-  const auto& kinds = finder_.kinds_of(command.name);
-  const bool without_id =
-      !kinds.empty() && (kinds.front()->role == Kind::Role::singleton || kinds.front()->role == Kind::Role::setting);
+  const bool without_id = finder_.needs_no_id(command.name);
   if (!without_id && !command.id) {
     if (!command.damaged)
       diagnostics_.error("missing-id", command.at, fmt::format("{} needs an id: {}/1", command.name, command.name));
     return;
   }
-  Statement* target = find(command.name, command.id.value_or(0));
+  Statement* target = find(command.name, finder_.identity_of(command));
   if (!target && without_id) {
     out_->statements.push_back(command);
     place_.emplace(key(command.name, 0), out_->statements.size() - 1);
@@ -145,10 +143,18 @@ void DatasetEditor::merge(Statement& target, const Statement& command) {
   }
   if (kind != before_command && kind) {
     // What only the type before has goes with it.
+    std::vector<std::string_view> dropped;
     std::erase_if(target.arguments, [&](const WrittenArgument& old) {
       const ArgumentInfo* info = info_of(kind, old.name.text());
-      return !is_variant(old, variants, kind) && (!info || info->elsewhere);
+      if (is_variant(old, variants, kind) || (info && !info->elsewhere)) return false;
+      dropped.push_back(full_name(before_command, old.name.text()));
+      return true;
     });
+    if (!dropped.empty())
+      diagnostics_.warning(
+          "dropped-argument", command.at,
+          fmt::format("{} of {} {} dropped with its type: {} has no such argument", fmt::join(dropped, ", "),
+                      target.at.text(), dropped.size() == 1 ? "is" : "are", kind->variant));
   }
   const std::size_t before = target.arguments.size();
   for (const WrittenArgument& w : command.arguments) {

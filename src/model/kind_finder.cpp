@@ -88,4 +88,13 @@ const Kind* KindFinder::find(const Statement& s, std::size_t& variant_argument, 
   return found;
 }
 
+bool KindFinder::needs_no_id(std::string_view statement) const {
+  const auto& kinds = kinds_of(statement);
+  if (kinds.empty()) return false;
+  const Kind::Role role = kinds.front()->role;
+  return role == Kind::Role::singleton || role == Kind::Role::setting;
+}
+
+std::int64_t KindFinder::identity_of(const Statement& s) const { return needs_no_id(s.name) ? 0 : s.id.value_or(0); }
+
 }  // namespace dynalin

@@ -18,6 +18,10 @@ class KindFinder {
   const Kind* find(const Statement&, std::size_t& variant_argument, Diagnostics&) const;
   // All kinds of a statement, empty if there is none.
   const std::vector<const Kind*>& kinds_of(std::string_view statement) const;
+  // Whether the keyword alone says which is meant: a setting, or what a dataset has once. An id names nothing there.
+  bool needs_no_id(std::string_view statement) const;
+  // The id that tells it from others of its keyword, 0 where it needs none.
+  std::int64_t identity_of(const Statement&) const;
 
  private:
   struct Variants {

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 namespace dynalin {
@@ -87,8 +88,19 @@ const Expression& ModelReader::routine_at(const WrittenArgument& written) const 
 }
 
 void ModelReader::report_missing(std::string_view statement, std::string_view code, const WrittenInteger& id) {
-  error(code, id.at, fmt::format("{} refers to {}/{}, which does not exist", label().text(), statement, id.value),
-        near_ids(statement, id.value));
+  report_once(code, id.at, fmt::format("{} refers to {}/{}, which does not exist", label().text(), statement, id.value),
+              near_ids(statement, id.value));
+}
+
+// What a vector function says of three components, or a rotation of nine, is one thing at one place.
+void ModelReader::report_once(std::string_view code, const Span& at, std::string message, std::string hint) {
+  constexpr std::size_t together = 32;  // of the same function at most
+  const auto& said = diagnostics().items();
+  const auto recent = std::span(said).last(std::min(said.size(), together));
+  const bool known = std::ranges::any_of(recent, [&](const Diagnostic& d) {
+    return d.at.source == at.source && d.at.offset == at.offset && d.message == message;
+  });
+  if (!known) error(code, at, std::move(message), std::move(hint));
 }
 
 std::string ModelReader::near_ids(std::string_view statement, std::int64_t id) const {
@@ -137,7 +149,7 @@ void ModelReader::check_required_argument(const Atom& atom) {
     return find_keyword(w.name.text(), std::span(&f.required_argument, 1)).has_value();
   });
   if (given) return;
-  error(
+  report_once(
       "missing-argument", atom.argument_at(0),
       fmt::format("{} reads {} of {}/{}, which has none", f.name, f.required_argument, f.statement, atom.argument[0]));
 }
@@ -167,8 +179,8 @@ void ModelReader::check_atom(const Atom& atom) {
       check_id(atom, 0, f.statement);
       check_required_argument(atom);
       if (atom.argument_count > 1 && atom.argument[1] < 1) {
-        error("value-out-of-range", atom.argument_at(1),
-              fmt::format("the second argument of {} counts from 1", f.name));
+        report_once("value-out-of-range", atom.argument_at(1),
+                    fmt::format("the second argument of {} counts from 1", f.name));
       }
       return;
     case AtomFamily::delay:
@@ -181,12 +193,12 @@ void ModelReader::check_atom(const Atom& atom) {
     case AtomFamily::element_force:
       check_id(atom, 0, f.statement);
       if (atom.argument[1] != 0 && atom.argument[1] != 1) {
-        error("value-out-of-range", atom.argument_at(1),
-              fmt::format("the second argument of {} is 0 (force on I) or 1 (force on J)", f.name));
+        report_once("value-out-of-range", atom.argument_at(1),
+                    fmt::format("the second argument of {} is 0 (force on I) or 1 (force on J)", f.name));
       }
       if (atom.argument[2] < 1 || atom.argument[2] > 8) {
-        error("value-out-of-range", atom.argument_at(2),
-              fmt::format("the third argument of {} is a component, 1 to 8: FM FX FY FZ TM TX TY TZ", f.name));
+        report_once("value-out-of-range", atom.argument_at(2),
+                    fmt::format("the third argument of {} is a component, 1 to 8: FM FX FY FZ TM TX TY TZ", f.name));
       }
       if (atom.argument_count > 3) check_id(atom, 3, "MARKER");
       return;

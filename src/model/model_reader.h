@@ -52,6 +52,7 @@ class ModelReader final : public ElementReader {
  private:
   const Expression& routine_at(const WrittenArgument& written) const;
   void report_missing(std::string_view statement, std::string_view code, const WrittenInteger& id);
+  void report_once(std::string_view code, const Span& at, std::string message, std::string hint = {});
   // "MARKER/112 and MARKER/1211 exist": ids that differ by one digit more, less or other. These few are looked up, so
   // that the hint costs the same in models of any size.
   std::string near_ids(std::string_view statement, std::int64_t id) const;

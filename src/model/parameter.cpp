@@ -105,7 +105,8 @@ class Finder {
  private:
   // Of settings that are stated several times the last decides.
   const Statement* statement_of(const ElementId& e) const {
-    const auto wanted = [&](const Statement& s) { return s.name == e.statement && s.id.value_or(0) == e.id; };
+    const std::int64_t id = kinds_.needs_no_id(e.statement) ? 0 : e.id;
+    const auto wanted = [&](const Statement& s) { return s.name == e.statement && kinds_.identity_of(s) == id; };
     const auto& all = dataset_.statements;
     const auto& kinds = kinds_.kinds_of(e.statement);
     if (!kinds.empty() && kinds.front()->role == Kind::Role::setting) {
@@ -130,10 +131,7 @@ class Finder {
       if (const Kind* kind = kinds_.find(*statement, variant, unread)) return kind;
       return Refusal(unread.items().front());
     }
-    const auto& kinds = kinds_.kinds_of(p.element.statement);
-    if (p.element.id == 0 && !kinds.empty() &&
-        (kinds.front()->role == Kind::Role::singleton || kinds.front()->role == Kind::Role::setting))
-      return kinds.front();
+    if (kinds_.needs_no_id(p.element.statement)) return kinds_.kinds_of(p.element.statement).front();
     return refusal("unknown-element", fmt::format("{} does not exist", name_of(p.element)), nearest_id(p.element));
   }
 

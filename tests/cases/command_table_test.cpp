@@ -108,6 +108,22 @@ TEST_F(CommandTable, commands_act_or_are_named) {
       {"EQUILIBRIUM/ALIMIT=0.5D, ERROR=0.5, MAXIT=20, LIST",
        "Current EQUILIBRIUM settings are:\n   ALIMIT    = 0.008727 (rad)\n   ERROR     = 0.500000\n   IMBALANCE = "
        "0.000100\n   MAXIT     = 20\n"},
+      {"EQUILIBRIUM/STABILITY=1E-3, LIST",
+       "   MAXIT     = 25\n   PATTERN   = TTTTTTTTTT\n   STABILITY = 0.001000\n   "
+       "TLIMIT    = 20.000000\n   METHOD    = ORIGINAL\n"},
+      {"EQUILIBRIUM/METHOD=ORIGINAL, MAXIT=7, LIST",
+       "   MAXIT     = 7\n   PATTERN   = TTTTTTTTTT\n   STABILITY =    1.000000e-05\n   TLIMIT    = 20.000000\n   "
+       "METHOD    = ORIGINAL\n"},
+      {"EQUILIBRIUM/METHOD=ADVANCED, STABILITY=1E-3, LIST",
+       "   MAXIT     = 500\n   PATTERN   = none\n   STABILITY = without effect\n   TLIMIT    = none\n   METHOD    = "
+       "ADVANCED\n"},
+      {"EQUILIBRIUM/DYNAMIC, GLOBAL_DAMPING=3, LIST",
+       "   GLOBAL_DAMPING       = 3.000000\n   ACCELERATION_ERROR   = "
+       "0.010000\n   KINETIC_ENERGY_ERROR = 0.010000\n   "
+       "SETTLING_TIME        = none\n"},
+      {"EQUILIBRIUM/DYNAMIC, METHOD=ORIGINAL, LIST", "   METHOD               = DYNAMIC\n"},
+      {"INTEGRATOR/INTERPOLATE=ON, LIST", "   HMAX        = none\n"},
+      {"IC/ERROR=1E-6, LIST", "   VERROR   =    1.000000e-04\n   AERROR   =    1.000000e-04\n"},
       {"INTEGRATOR/HHT, I3, ERROR=1E-5, LIST",
        "Current INTEGRATOR settings are:\n   TYPE        = HHT\n   FORMULATION = I3\n   CORRECTOR   = without effect\n "
        "  "
@@ -123,6 +139,7 @@ TEST_F(CommandTable, commands_act_or_are_named) {
       {"SPRINGDAMPER/1, K=900, LIST", "   K             = 900"},
       {"ACCGRAV/LIST", "   KGRAV = -9.81"},
       {"INFO/DISPLACEMENT, I=20, J=3, RM=1", "    Z     =   2.0000000E+00"},
+      {"INFO/DISPLACEMENT, I=0, J=3", "    Z     =   2.0000000E+00"},
       {"INFO/FORCE, I=21, J=3", "    FZ    = "},
       {"SHOW STATISTICS=SIMULATION", "          Simulation Statistics\n          ========== =========="},
       {"sho stat=sim", "Simulations over time"},

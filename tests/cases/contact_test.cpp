@@ -260,6 +260,8 @@ TEST_F(Contacts, what_cannot_touch_is_an_error_at_its_place) {
   EXPECT_THAT(with("IGEOM=2, JGEOM=1, JFLIP_GEOMETRY=1, JFLIP_NORMAL=1"), HasSubstr("[excluded-arguments]"));
   EXPECT_THAT(with("IGEOM=2, JGEOM=1, 1"), HasSubstr("[duplicate-argument]"));
   EXPECT_THAT(with("IGEOM=2, JGEOM=1, COULOMB_FRICTION=ON"), HasSubstr("[missing-argument]"));
+  EXPECT_THAT(with("IGEOM=2, JGEOM=1, COULOMB_FRICTION=DYNAMICS_ONLY"),
+              HasSubstr("COULOMB_FRICTION=DYNAMICS_ONLY of CONTACT/7 needs MU_STATIC"));
   EXPECT_THAT(with("IGEOM=2, JGEOM=1, MU_STATIC=0.3"), HasSubstr("[unexpected-argument]"));
   EXPECT_THAT(refused("CONTACT/7, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=1, EXPONENT=0.5, DAMPING=0, DMAX=1"),
               HasSubstr("[value-out-of-range]"));

@@ -252,6 +252,31 @@ TEST_F(EditCommands, gravity_may_be_switched_and_stated_for_the_first_time) {
   expect_frequency(r, 3, 3);
 }
 
+// What a dataset has once is found by its keyword, whatever id somebody wrote behind it.
+TEST_F(EditCommands, an_id_of_what_exists_once_means_nothing) {
+  const std::string pendulum =
+      "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, QG=0,-1,0, MASS=1, CM=20, IP=0,0,3\nMARKER/20\n"
+      "MARKER/21, QP=0,1,0\nJOINT/1, REVOLUTE, I=21, J=1\n";
+  for (const auto& [stated, command] :
+       {std::pair{"ACCGRAV/JGRAV=-16\n", "ACCGRAV/1, "}, std::pair{"ACCGRAV/1, JGRAV=-16\n", "ACCGRAV/"},
+        std::pair{"ACCGRAV/1, JGRAV=-16\n", "ACCGRAV/2, "}}) {
+    const RunResult r = run(pendulum + stated + "END\n", "LINEAR/EIGENSOL\n" + std::string(command) +
+                                                             "JGRAV=-36\nLINEAR/EIGENSOL\n" + command + "LIST\n");
+    ASSERT_EQ(r.status, 0) << r.err;
+    expect_frequency(r, 0, 2);
+    expect_frequency(r, 2, 3);
+    EXPECT_THAT(r.message, HasSubstr("JGRAV = -36")) << stated << command;
+  }
+}
+
+TEST_F(EditCommands, what_goes_with_the_type_before_is_named) {
+  const RunResult r = run(oscillator + "END\n", "SPRINGDAMPER/1, ROTATIONAL\nLINEAR/EIGENSOL\n");
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("model.acf:3:1: warning: K, LENGTH of SPRINGDAMPER/1 are dropped with its type: "
+                               "ROTATIONAL has no such argument [dropped-argument]"));
+  EXPECT_EQ(r.err.find("dropped-argument"), r.err.rfind("dropped-argument")) << r.err;
+}
+
 TEST_F(EditCommands, a_redundant_lock_comes_and_goes) {
   const RunResult r =
       run(oscillator + "JOINT/2, FIXED, I=20, J=1\nJPRIM/1, INPLANE, I=20, J=3\nMARKER/4, PART=1\nEND\n",

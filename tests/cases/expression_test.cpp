@@ -41,6 +41,21 @@ TEST_F(Expressions, vectors_are_what_their_components_are) {
 }
 
 // The points of a cubic, so that CUBSPL is the cubic itself and INTERP between its points too.
+// Marker 0 is the global frame, as the first argument as well.
+TEST_F(Expressions, the_first_marker_may_be_the_global_frame) {
+  const auto same = [&](const std::string& one, const std::string& other) {
+    const auto expected = solve(other);
+    ASSERT_FALSE(expected.empty()) << other;
+    expect_same(solve(one), expected, 1e-10);
+  };
+  same("3*DX(0,20)+5*DZ(0,30)", "-3*DX(20)-5*DZ(30)");
+  same("2*DM(0,20)", "2*DM(20)");
+  same("2*VZ(0,30)", "-2*VZ(30)");
+  same("7*DXYZ(0,30)*[0,1,0]", "-7*DY(30)");
+  same("7*TRANS(DXYZ(30),0)*[0,1,0]", "7*DY(30)");
+  same("4*UVZ(0,20)*UVX(0,20)+DX(20)+3*UVX(0,20)*[0,1,0]", "DX(20)+3*UVY(20)*[1,0,0]");
+}
+
 TEST_F(Expressions, splines_in_forces_are_the_functions_they_run_through) {
   std::string x = "X=", y = "Y=", y2;
   for (int k = -3; k <= 4; ++k) {

@@ -55,6 +55,18 @@ TEST_F(FrictionCases, what_does_not_stick_is_not_named) {
   EXPECT_FALSE(warned("FRICTION/4, JOINT=1\n", "DEACTIVATE/FRICTION, ID=4\n"));
 }
 
+// A block on springs whose joint is taken out has 12 states, and none of bristles that nothing bends; they are there
+// again with the joint.
+TEST_F(FrictionCases, has_no_bristles_without_its_joint) {
+  const RunResult r = run(block("FRICTION/4, JOINT=1, MU_STATIC=0.4\n", "BUSHING/1, I=2, J=11, K=10,20,30, KT=1,2,3\n"),
+                          "LINEAR/EIGENSOL\nDEACTIVATE/JOINT, ID=1\nLINEAR/EIGENSOL\nSIMULATE/DYNAMICS, END=0.1\n"
+                          "ACTIVATE/JOINT, ID=1\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.result(0).at("states").size(), 3u);
+  EXPECT_EQ(r.result(2).at("states").size(), 12u);
+  EXPECT_EQ(r.result(5).at("states").size(), 3u);
+}
+
 // Friction by the size of a load that is zero, where it may go to all sides.
 TEST_F(FrictionCases, without_a_load_slip_has_no_derivative_and_the_joint_is_named) {
   const auto spin = [&](const std::string& friction) {

@@ -111,6 +111,20 @@ TEST_F(Newcomer, runs_a_dataset_of_another_extension) {
   EXPECT_EQ(run_with("run.txt", {}).status, 0);
 }
 
+// A check warns of what a run would say before its first command, and a run says it once.
+TEST_F(Newcomer, hears_of_missing_units_from_a_check) {
+  write("model.adm", "t\nPART/1, GROUND\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nEND\n");
+  SessionOptions options;
+  options.file = (folder_ / "model.adm").string();
+  std::ostringstream out, err;
+  EXPECT_EQ(check_file(options, out, err), done);
+  EXPECT_THAT(err.str(), HasSubstr("the dataset states no UNITS"));
+  const RunResult r = run_with("model.adm", {"LINEAR/EIGENSOL"});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("[no-units]"));
+  EXPECT_EQ(r.err.find("[no-units]"), r.err.rfind("[no-units]")) << r.err;
+}
+
 TEST_F(Newcomer, gives_commands_to_a_command_file) {
   write("model.adm", pendulum);
   write("run.acf", "model\nout\nLINEAR/EIGENSOL\n");

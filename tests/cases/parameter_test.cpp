@@ -60,6 +60,17 @@ Eigen::MatrixXd state_matrix(const std::shared_ptr<const Dataset>& d) {
 double squared_frequency(const std::shared_ptr<const Dataset>& d) { return -state_matrix(d)(0, 1); }
 double damping_over_mass(const std::shared_ptr<const Dataset>& d) { return -state_matrix(d)(0, 0); }
 
+// An id behind a keyword that needs none says nothing, neither in the dataset nor in the name.
+TEST(Parameter, of_what_exists_once_is_found_by_the_keyword) {
+  std::string text = oscillator;
+  text.replace(text.find("ACCGRAV/"), 8, "ACCGRAV/1, ");
+  const auto d = dataset_of(text);
+  for (const char* name : {"ACCGRAV KGRAV", "ACCGRAV/1 KGRAV", "ACCGRAV/2 KGRAV"}) EXPECT_EQ(value_of(*d, name), -9.81);
+  const auto other = changed(d, {{named("ACCGRAV KGRAV"), -3}});
+  ASSERT_TRUE(other);
+  EXPECT_EQ(value_of(*other, "ACCGRAV KGRAV"), -3);
+}
+
 TEST(Parameter, is_named_by_element_argument_and_number) {
   const ParameterRef k = named("bushing/3 k[2]");
   EXPECT_EQ(k.element, (ElementId{"BUSHING", 3}));

@@ -20,7 +20,7 @@ struct Written {
       {.name = "VELOCITY", .slot = &W::velocity, .help = "velocity and angular velocity"},
       {.name = "ACCELERATION", .slot = &W::acceleration, .help = "acceleration and angular acceleration"},
       {.name = "FORCE", .slot = &W::force, .help = "force and torque on I of all elements between I and J"},
-      {.name = "I", .slot = &W::i, .required = true, .minimum = 1, .help = "a marker"},
+      {.name = "I", .slot = &W::i, .required = true, .minimum = 0, .help = "a marker; 0, but for FORCE, is the ground"},
       {.name = "J", .slot = &W::j, .minimum = 0, .help = "the marker that it is relative to; the ground"},
       {.name = "RM", .slot = &W::rm, .minimum = 0, .help = "the marker along whose axes; the global ones"},
   }};
@@ -83,6 +83,11 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
   if (std::count(asked.begin(), asked.end(), true) != 1) {
     reader.error("missing-option", reader.statement().at,
                  "INFO takes exactly one of DISPLACEMENT, VELOCITY, ACCELERATION, FORCE");
+    return nullptr;
+  }
+  if (w.force && *w.i == 0) {
+    reader.error("value-out-of-range", reader.at("I"),
+                 "I of INFO/FORCE is a marker, and nothing acts on the global frame");
     return nullptr;
   }
   const auto which = static_cast<std::size_t>(std::find(asked.begin(), asked.end(), true) - asked.begin());

@@ -4,14 +4,17 @@
 
 #include "command/run_state.h"
 #include "command/statement_text.h"
+#include "elements/catalogue.h"
+#include "model/kind_finder.h"
 
 namespace dynalin::commands {
 
 namespace {
 
 const Statement* find(const Dataset& dataset, const Statement& named) {
+  const KindFinder kinds(catalogue());
   for (const Statement& s : dataset.statements) {
-    if (s.name == named.name && s.id.value_or(0) == named.id.value_or(0)) return &s;
+    if (s.name == named.name && kinds.identity_of(s) == kinds.identity_of(named)) return &s;
   }
   return nullptr;
 }

@@ -78,6 +78,10 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
     if (w.initial && reader.given(name))
       refuse("unexpected-argument", reader.at(name), fmt::format("{} does not go with INITIAL_CONDITIONS", name));
   }
+  for (const char* name : {"DISPLACEMENT", "VELOCITY", "ACCELERATION"}) {
+    if (!w.initial && reader.given(name))
+      refuse("unexpected-argument", reader.at(name), fmt::format("{} goes with INITIAL_CONDITIONS alone", name));
+  }
   for (const char* name : {"DTOUT", "STEPS"}) {
     if (w.statics && !through_time && reader.given(name))
       refuse("missing-argument", reader.at(name), fmt::format("{} of STATICS goes with END or DURATION", name));

@@ -7,6 +7,7 @@
 
 #include "elements/bodies/fe_part_statement.h"
 #include "elements/families/beam_body.h"
+#include "elements/families/markers.h"
 #include "elements/families/orientation.h"
 #include "elements/settings/material.h"
 #include "flexible/spatial_beam.h"
@@ -37,6 +38,7 @@ class FePartSet final : public TypedSet<FePart> {
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       FePart& f = elements[k];
+      check_velocity_axes(model, labels[k], f.vm, f.wm, diagnostics);
       const auto material = material_of(f, labels[k], model, diagnostics);
       if (!material) continue;
       f.elements.reserve(f.numbers.size() - 1);

@@ -13,6 +13,7 @@
 #include "elements/bodies/modal_ratio.h"
 #include "elements/controls/matrix.h"
 #include "elements/families/flexible_body.h"
+#include "elements/families/markers.h"
 #include "elements/families/orientation.h"
 #include "elements/settings/time_unit.h"
 #include "flexible/modal_matrices.h"
@@ -80,6 +81,7 @@ class FlexBodySet final : public TypedSet<FlexBody> {
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       FlexBody& f = elements[k];
+      check_velocity_axes(model, labels[k], f.vm, f.wm, diagnostics);
       if (!f.data.empty()) f.flexible = of_matrices(f, labels[k].text(), model, diagnostics);
       if (!f.flexible) continue;
       Body& body = model.bodies[static_cast<std::size_t>(model.find_body("FLEX_BODY", labels[k].id)->index)];

@@ -13,6 +13,7 @@
 
 #include "elements/bodies/fe_part.h"
 #include "elements/bodies/flex_body.h"
+#include "elements/families/markers.h"
 #include "elements/families/orientation.h"
 #include "model/model.h"
 #include "model/schema.h"
@@ -300,6 +301,8 @@ class MarkerSet final : public TypedSet<ReadMarker> {
         state_[marker] = State::faulty;
         diagnostics.error("foreign-reference", labels[marker].at,
                           fmt::format("RM of {} is on another body", labels[marker].text()));
+      } else if (!check_fixed(model, labels[marker], elements[marker].reference, "RM", diagnostics)) {
+        state_[marker] = State::faulty;
       } else if (state_[next] == State::faulty) {
         state_[marker] = State::faulty;  // said of the other one
       } else {

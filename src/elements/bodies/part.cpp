@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "elements/families/inertia.h"
+#include "elements/families/markers.h"
 #include "elements/families/orientation.h"
 #include "model/schema.h"
 
@@ -166,6 +167,7 @@ class PartSet final : public TypedSet<Part> {
         if (const auto coordinate = exact_coordinate(word)) body.exact[*coordinate] = true;
       }
       place_mass(p, labels[k], id, model, body, diagnostics);
+      check_velocity_axes(model, labels[k], p.vm, p.wm, diagnostics);
       body.velocity = {{p.vx, p.vy, p.vz},
                        {p.wx, p.wy, p.wz},
                        p.vm.valid() ? p.vm : global_frame,

@@ -92,9 +92,10 @@ class PointMassSet final : public TypedSet<PointMass> {
       body.user_mass = p.mass;
       body.mass = p.mass / model.units.ucf;
       if (p.cm.valid()) {
-        if (model.marker(p.cm).place.body != id) {
+        if (model.marker(p.cm).place.body != id || model.marker(p.cm).floating) {
           diagnostics.error("foreign-marker", labels[k].at,
-                            fmt::format("CM of {} must be a marker of that point mass", labels[k].text()));
+                            fmt::format("CM of {} must be a fixed marker of that point mass, {} is not",
+                                        labels[k].text(), model.marker(p.cm).label->text()));
         }
         body.p_BC = model.marker(p.cm).place.p_BM;
       }

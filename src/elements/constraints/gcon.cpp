@@ -5,6 +5,7 @@
 // λ Φ_q, or λ Ψ_q′: a constraint force does no work in a permitted motion. I only says where a force is reported.
 #include <fmt/format.h>
 
+#include "elements/families/markers.h"
 #include "expression/functions.h"
 #include "mechanics/bound_expression.h"
 #include "mechanics/wrench_source.h"
@@ -150,6 +151,12 @@ class GeneralConstraintSet final : public TypedSet<GeneralConstraint> {
     }
     for (const Expression::Call& call : g.function.calls()) {
       if (has_kinks(call.name)) unfit(call.at, call.name, "which has kinks or jumps");
+    }
+  }
+
+  void finish(Model& model, Diagnostics& diagnostics) override {
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      if (elements[k].i.valid()) check_fixed(model, labels[k], elements[k].i, "I", diagnostics);
     }
   }
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "elements/families/joint_relation.h"
+#include "elements/families/markers.h"
 
 namespace dynalin {
 
@@ -47,6 +48,7 @@ class GearSet final : public TypedSet<Gear> {
 
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) {
+      if (!check_fixed(model, labels[k], elements[k].cv, "CV", diagnostics)) continue;
       JointRelation relation;
       for (std::size_t j = 0; j < 2; ++j) add_gear(model, k, j, relation, diagnostics);
       relation.constant = drawn_value(model, relation);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "elements/families/markers.h"
+
 namespace dynalin {
 
 namespace {
@@ -62,17 +64,11 @@ bool check_start_axes(const Model& model, const ElementLabel& label, MarkerId ax
   if (!axes.valid()) return true;
   const Marker& marker = model.marker(axes);
   const BodyId body = model.marker(own).place.body;
-  if (marker.floating) {
-    diagnostics.error("floating-marker", label.at,
-                      fmt::format("{} of {}, {}, is floating", argument, label.text(), marker.label->text()),
-                      "a fixed marker is needed here");
-  } else if (marker.place.body != body) {
-    diagnostics.error("foreign-marker", label.at,
-                      fmt::format("{} of {}, {}, must be on {}, which carries the curve", argument, label.text(),
-                                  marker.label->text(), model.body(body).label.text()));
-  } else {
-    return true;
-  }
+  if (!check_fixed(model, label, axes, argument, diagnostics)) return false;
+  if (marker.place.body == body) return true;
+  diagnostics.error("foreign-marker", label.at,
+                    fmt::format("{} of {}, {}, must be on {}, which carries the curve", argument, label.text(),
+                                marker.label->text(), model.body(body).label.text()));
   return false;
 }
 

@@ -83,6 +83,55 @@ bool LinearWrench::turns() const {
          std::any_of(couplings.begin(), couplings.end(), [](const Coupling& k) { return k.row >= 3 || k.column >= 3; });
 }
 
+bool LinearWrench::is_central() const {
+  if (routine) return false;
+  const auto is_zero = [](double x) { return x == 0; };
+  if (!std::all_of(force.begin(), force.begin() + 3, is_zero) ||
+      !std::all_of(length.begin(), length.begin() + 3, is_zero))
+    return false;
+  const auto alike = [&](const Coupling& c) {
+    return c.row == c.column && c.K == couplings.front().K && c.C == couplings.front().C;
+  };
+  return couplings.empty() || (couplings.size() == 3 && std::all_of(couplings.begin(), couplings.end(), alike));
+}
+
+namespace {
+
+// Whether the markers are at one point as drawn and bear nothing there: the moment begins with the square of the
+// motion.
+bool begins_at_nothing(const Model& model, const LinearWrench& law) {
+  const auto is_zero = [](double x) { return x == 0; };
+  if (law.routine || !std::ranges::all_of(law.force, is_zero) || !std::ranges::all_of(law.length, is_zero))
+    return false;
+  constexpr double rounding = 1e-12;
+  const MarkerPlace& J = model.marker(law.j).place;
+  return norm(drawn_frame(model, law.i, law.j).p) <= rounding * (norm(model.body(J.body).pose.r) + norm(J.p_BM));
+}
+
+}  // namespace
+
+void check_moment_on_J(const Model& model, const ElementLabel& label, const LinearWrench& law,
+                       Diagnostics& diagnostics) {
+  const Marker& J = model.marker(law.j);
+  const Body& body = model.body(J.place.body);
+  if (body.kind != BodyKind::point_mass) return;
+  const bool central = law.is_central();
+  if (!central && !begins_at_nothing(model, law)) {
+    diagnostics.error("rotation-of-point-mass", label.at,
+                      fmt::format("{} acts by {} on the rotation of {}, which has none: the opposite of its force acts "
+                                  "at the origin of {}",
+                                  label.text(), J.label->text(), body.label.text(), model.marker(law.i).label->text()),
+                      "let the marker of the point mass be I, or stiffness and damping the same in all directions");
+  } else if (!central || std::ranges::any_of(law.couplings, [](const auto& c) { return c.C != 0; })) {
+    diagnostics.warning(
+        "moment-on-point-mass", label.at,
+        fmt::format("{} has a moment about {} where {} moves away from it, and {} cannot turn: the "
+                    "moment is lost",
+                    label.text(), J.label->text(), model.marker(law.i).label->text(), body.label.text()),
+        "let the marker of the point mass be I");
+  }
+}
+
 void warn_of_undefined_angles(const Model& model, const ElementLabel& label, const LinearWrench& law,
                               Diagnostics& diagnostics) {
   const Angle* angle = undefined_angle(law, drawn_frame(model, law.i, law.j));

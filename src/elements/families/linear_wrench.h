@@ -44,7 +44,14 @@ struct LinearWrench {
   explicit LinearWrench(const LinearLaw&);
   // Whether rotations or torques are in it; without them POINT_MASSes will do.
   bool turns() const;
+  // Whether the force is along the line to the origin of J wherever I is at rest: K is the same in all directions, and
+  // nothing is added. Then the opposite has no moment about that origin.
+  bool is_central() const;
 };
+
+// A law without torques whose opposite turns the body of J all the same, because it acts at the origin of I: reported
+// where that body is a POINT_MASS.
+void check_moment_on_J(const Model&, const ElementLabel&, const LinearWrench&, Diagnostics&);
 
 // Warns where the axes are drawn so that an angle which the force reads is not defined.
 void warn_of_undefined_angles(const Model&, const ElementLabel&, const LinearWrench&, Diagnostics&);
@@ -90,6 +97,7 @@ class LinearWrenchSet final : public TypedSet<LinearWrench> {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const bool turns = elements[k].turns();
       check_pair(model, labels[k], elements[k].i, elements[k].j, {true, turns, turns}, diagnostics);
+      if (!turns) check_moment_on_J(model, labels[k], elements[k], diagnostics);
       if (turns && !diagnostics.has_errors()) warn_of_undefined_angles(model, labels[k], elements[k], diagnostics);
     }
   }

@@ -11,18 +11,13 @@ bool check_pair(const Model& model, const ElementLabel& label, MarkerId i, Marke
   bool ok = true;
   const auto check_one = [&](MarkerId m, bool needs_rotation) {
     const Marker& marker = model.marker(m);
-    const Body& body = model.body(marker.place.body);
     if (marker.floating) {
       diagnostics.error("floating-marker", label.at,
                         fmt::format("{} uses {}, which is floating", label.text(), marker.label->text()),
                         "a fixed marker is needed here");
       ok = false;
     }
-    if (needs_rotation && body.kind == BodyKind::point_mass) {
-      diagnostics.error("rotation-of-point-mass", label.at,
-                        fmt::format("{} acts on the rotation of {}, which has none", label.text(), body.label.text()));
-      ok = false;
-    }
+    if (needs_rotation && !check_rotation(model, label, m, diagnostics)) ok = false;
   };
   check_one(i, needs.rotation_of_I);
   check_one(j, needs.rotation_of_J);
@@ -33,6 +28,32 @@ bool check_pair(const Model& model, const ElementLabel& label, MarkerId i, Marke
     ok = false;
   }
   return ok;
+}
+
+bool check_fixed(const Model& model, const ElementLabel& label, MarkerId m, std::string_view argument,
+                 Diagnostics& diagnostics) {
+  const Marker& marker = model.marker(m);
+  if (!marker.floating) return true;
+  diagnostics.error("floating-marker", label.at,
+                    fmt::format("{} of {}, {}, is floating", argument, label.text(), marker.label->text()),
+                    "a fixed marker is needed here");
+  return false;
+}
+
+void check_velocity_axes(const Model& model, const ElementLabel& label, MarkerId vm, MarkerId wm,
+                         Diagnostics& diagnostics) {
+  if (vm.valid()) check_fixed(model, label, vm, "VM", diagnostics);
+  if (wm.valid()) check_fixed(model, label, wm, "WM", diagnostics);
+}
+
+bool check_rotation(const Model& model, const ElementLabel& label, MarkerId m, Diagnostics& diagnostics) {
+  const Marker& marker = model.marker(m);
+  const Body& body = model.body(marker.place.body);
+  if (body.kind != BodyKind::point_mass) return true;
+  diagnostics.error("rotation-of-point-mass", label.at,
+                    fmt::format("{} acts by {} on the rotation of {}, which has none", label.text(),
+                                marker.label->text(), body.label.text()));
+  return false;
 }
 
 namespace {

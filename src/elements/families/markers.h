@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "mechanics/path.h"
 #include "model/model.h"
@@ -16,6 +17,13 @@ struct PairRequirements {
 
 // Reports floating markers, markers on one body and torques on a POINT_MASS; false if anything was wrong.
 bool check_pair(const Model&, const ElementLabel&, MarkerId i, MarkerId j, const PairRequirements&, Diagnostics&);
+
+// Reports a floating marker as this argument of an element; false then.
+bool check_fixed(const Model&, const ElementLabel&, MarkerId, std::string_view argument, Diagnostics&);
+// The same of VM and WM of a body.
+void check_velocity_axes(const Model&, const ElementLabel&, MarkerId vm, MarkerId wm, Diagnostics&);
+// Reports that an element turns the body of a marker where that is a POINT_MASS; false then.
+bool check_rotation(const Model&, const ElementLabel&, MarkerId, Diagnostics&);
 
 // Where a marker stands in the BCS of its body as drawn: with the shape that a flexible body starts in.
 Pose drawn_on_body(const Model&, MarkerId);

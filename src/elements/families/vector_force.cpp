@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "expression/program.h"
+
 namespace dynalin {
 
 VectorForceKernel::VectorForceKernel(std::vector<VectorForce> elements, const std::vector<ElementLabel>& labels,
@@ -78,6 +82,17 @@ void VectorForceKernel::undefined_values(const Motion& motion, std::vector<Undef
   }
 }
 
+namespace {
+
+// A component written as 0 is none: whole sets of six are written by programs.
+bool is_nothing(const Expression& e) {
+  ExpressionWorkspace<double> workspace;
+  return e.is_constant() && e.splines().empty() && e.program().routines.empty() &&
+         e.evaluate<double>({}, workspace) == 0;
+}
+
+}  // namespace
+
 void take_components(const WrittenVectorForce& w, bool forces, bool torques, VectorForce& out, ElementReader& reader) {
   out.i = w.i, out.jfloat = w.jfloat, out.rm = w.rm;
   const std::string name = reader.label().text();
@@ -104,7 +119,9 @@ void take_components(const WrittenVectorForce& w, bool forces, bool torques, Vec
   if (forces) take_vector("FXYZ", w.fxyz, 0);
   if (torques) take_vector("TXYZ", w.txyz, 3);
   if (reader.given("FUNCTION")) {
-    reader.error("argument-not-built", reader.at("FUNCTION"), "user subroutines are not available");
+    reader.error("unknown-word", reader.at("FUNCTION"),
+                 fmt::format("FUNCTION of {} is USER(…), the call of a compiled routine, and no expression", name),
+                 forces ? "FX, FY … take expressions" : "TX, TY, TZ take expressions");
   } else if (!any && !reader.statement().damaged) {
     reader.error("missing-argument", reader.statement().at, fmt::format("{} has no component", name),
                  forces && torques ? "one or more of FX, FY, FZ, TX, TY, TZ"
@@ -113,8 +130,7 @@ void take_components(const WrittenVectorForce& w, bool forces, bool torques, Vec
   }
 }
 
-void check_vector_force(Model& model, const ElementLabel& label, const VectorForce& f, bool torques,
-                        Diagnostics& diagnostics) {
+void check_vector_force(Model& model, const ElementLabel& label, const VectorForce& f, Diagnostics& diagnostics) {
   if (!f.i.valid() || !f.jfloat.valid() || !f.rm.valid()) return;
   Marker& floating = model.markers[static_cast<std::size_t>(f.jfloat.index)];
   if (!floating.floating) {
@@ -123,18 +139,13 @@ void check_vector_force(Model& model, const ElementLabel& label, const VectorFor
                       "write FLOATING into the MARKER statement");
     return;
   }
-  for (const auto& [id, word] : {std::pair{f.i, "I"}, std::pair{f.rm, "RM"}}) {
-    if (!model.marker(id).floating) continue;
-    diagnostics.error("floating-marker", label.at,
-                      fmt::format("{} of {}, {}, is floating", word, label.text(), model.marker(id).label->text()),
-                      "a fixed marker is needed here");
-    return;
+  if (!check_fixed(model, label, f.i, "I", diagnostics) || !check_fixed(model, label, f.rm, "RM", diagnostics)) return;
+  const bool turns =
+      std::any_of(f.component.begin() + 3, f.component.end(), [](const auto& c) { return c && !is_nothing(*c); });
+  if (turns) {
+    for (const MarkerId m : {f.i, f.jfloat}) check_rotation(model, label, m, diagnostics);
   }
   const Body& body = model.body(model.marker(f.i).place.body);
-  if (torques && body.kind == BodyKind::point_mass) {
-    diagnostics.error("rotation-of-point-mass", label.at,
-                      fmt::format("{} acts on the rotation of {}, which has none", label.text(), body.label.text()));
-  }
   if (floating.place.body == model.marker(f.i).place.body) {
     diagnostics.error("same-body", label.at,
                       fmt::format("I and JFLOAT of {} are both on {}", label.text(), body.label.text()));

@@ -59,7 +59,7 @@ struct WrittenVectorForce {
 
 // Takes over what is written; `forces` and `torques` say which components the statement has.
 void take_components(const WrittenVectorForce&, bool forces, bool torques, VectorForce&, ElementReader&);
-void check_vector_force(Model&, const ElementLabel&, const VectorForce&, bool torques, Diagnostics&);
+void check_vector_force(Model&, const ElementLabel&, const VectorForce&, Diagnostics&);
 
 // E: WrittenVectorForce with arguments, keyword, summary, has_forces, has_torques.
 template <class E>
@@ -71,9 +71,7 @@ class VectorForceSet final : public TypedSet<VectorForce> {
     if (read_arguments(written, reader)) take_components(written, E::has_forces, E::has_torques, elements[k], reader);
   }
   void finish(Model& model, Diagnostics& diagnostics) override {
-    for (std::size_t k = 0; k < elements.size(); ++k) {
-      check_vector_force(model, labels[k], elements[k], E::has_torques, diagnostics);
-    }
+    for (std::size_t k = 0; k < elements.size(); ++k) check_vector_force(model, labels[k], elements[k], diagnostics);
   }
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
     constexpr Components components = !E::has_torques  ? Components::force

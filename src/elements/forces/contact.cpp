@@ -267,7 +267,7 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
     }
     if (word == 1) return;
     if (!needed({"MU_STATIC", "MU_DYNAMIC", "STICTION_TRANSITION_VELOCITY", "FRICTION_TRANSITION_VELOCITY"},
-                "COULOMB_FRICTION=ON", reader))
+                fmt::format("COULOMB_FRICTION={}", words[*word]), reader))
       return;
     if (!positive("STICTION_TRANSITION_VELOCITY", *c.stiction_speed, reader)) return;
     if (!(*c.friction_speed > *c.stiction_speed)) {

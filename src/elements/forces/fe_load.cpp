@@ -12,6 +12,7 @@
 
 #include "elements/bodies/fe_part.h"
 #include "elements/families/defined_unknown.h"
+#include "elements/families/markers.h"
 #include "elements/families/section_reading.h"
 #include "flexible/beam_load.h"
 #include "mechanics/binder.h"
@@ -338,10 +339,7 @@ class BeamLoadSet final : public TypedSet<BeamLoad> {
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const MarkerId rm = elements[k].rm;
-      if (!rm.valid() || !model.marker(rm).floating) continue;
-      diagnostics.error("floating-marker", labels[k].at,
-                        fmt::format("RM of {}, {}, is floating", labels[k].text(), model.marker(rm).label->text()),
-                        "a fixed marker is needed here");
+      if (rm.valid()) check_fixed(model, labels[k], rm, "RM", diagnostics);
     }
   }
 

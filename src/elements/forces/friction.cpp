@@ -24,6 +24,7 @@
 
 #include "elements/families/friction_coefficients.h"
 #include "elements/families/joint.h"
+#include "elements/families/markers.h"
 #include "elements/forces/friction_kernel.h"
 #include "model/model.h"
 
@@ -311,6 +312,7 @@ class FrictionSet final : public TypedSet<Friction> {
     const std::string joint = model.label(e.joint).full_text();
     f.joint = model.label(e.joint).id;
     f.i = joints.marker_I(index), f.j = joints.marker_J(index);
+    f.joint_acts = joints.active;
     const auto yoke = [&](std::size_t axis_of_I, std::size_t axis_of_J) {
       f.surface = e.j_yoke ? FrictionSurface::yoke_of_J : FrictionSurface::yoke_of_I;
       f.axis = e.j_yoke ? axis_of_J : axis_of_I;
@@ -332,6 +334,12 @@ class FrictionSet final : public TypedSet<Friction> {
                         fmt::format("{} refers to {}, a {} joint", labels[k].full_text(), joint, type),
                         "friction acts in TRANSLATIONAL, REVOLUTE, CYLINDRICAL, HOOKE, UNIVERSAL and SPHERICAL joints");
       return;
+    }
+    // A ball holds point masses as well, but its friction turns them.
+    if (f.surface == FrictionSurface::ball) {
+      for (const MarkerId m : {f.i, f.j}) {
+        if (m.valid()) check_rotation(model, labels[k], m, diagnostics);
+      }
     }
     for (const auto& [name, at] : e.by_joint) {
       const auto by =

@@ -132,9 +132,9 @@ JointFrictionKernel::JointFrictionKernel(const std::vector<JointFriction>& eleme
     Placed p{&f, &layout.marker(f.i), &layout.marker(f.j), static_cast<std::int32_t>(layout.algebraic.size()), -1, -1};
     for (std::size_t c = 0; c < n; ++c) layout.add_algebraic(labels[k], n == 1 ? 0 : static_cast<std::int32_t>(c) + 1);
     if (f.law.has_bristles()) {
-      p.first_state = static_cast<std::int32_t>(layout.states.size());
+      if (f.joint_acts) p.first_state = static_cast<std::int32_t>(layout.states.size());
       // Where there is no friction in equilibria bristles stay as they are.
-      for (std::size_t c = 0; c < n; ++c)
+      for (std::size_t c = 0; f.joint_acts && c < n; ++c)
         layout.add_state({&labels[k], bristles, static_cast<std::int32_t>(c) + 1, 0.0, f.rests_in_statics});
       p.first_memory = static_cast<std::int32_t>(layout.memory.size());
       for (const double x : FrictionReference::of(f.drawn, {})) layout.add_memory(labels[k].at, x);
@@ -330,9 +330,9 @@ JointFrictionKernel::Values JointFrictionKernel::creep_here(const Placed& p, con
 void JointFrictionKernel::remember(const Motion& motion, Memory& memory) const {
   if (at_rest(motion)) return;
   for (const Placed& p : placed_) {
-    if (p.first_state < 0) continue;
+    if (p.first_memory < 0) continue;
     std::array<double, 3> creep{};
-    for (std::size_t c = 0; c < p.element->component_count(); ++c)
+    for (std::size_t c = 0; p.first_state >= 0 && c < p.element->component_count(); ++c)
       creep[c] = motion.state[static_cast<std::size_t>(p.first_state) + c];
     const auto kept = FrictionReference::of(pose_of(pair_motion(motion, *p.I, *p.J).relative), creep);
     std::ranges::copy(kept, memory.begin() + p.first_memory);

@@ -35,6 +35,7 @@ struct JointFriction {
   double force_preload = 0, torque_preload = 0;  // [force], [force·length]
   bool of_force = true, of_bending = true, of_torsion = true;
   bool rests_in_statics = false;
+  bool joint_acts = true;  // false while the joint is out of the model: no friction then, and no bristles
 
   // The components of w: a force along z of J, torques about the axes of J or the bar of the cross.
   std::size_t component_count() const {
@@ -73,7 +74,7 @@ class JointFrictionKernel final : public Kernel, public WrenchSource, public Sti
     const JointFriction* element;
     const MarkerPlace *I, *J;
     std::int32_t first_algebraic, first_state;  // −1 without bristles
-    std::int32_t first_memory;                  // of a FrictionReference
+    std::int32_t first_memory;                  // of a FrictionReference, −1 for a law without bristles
     const WrenchSource* joint = nullptr;        // null while the joint is out of the model
     std::size_t which = 0;                      // of its wrenches
   };

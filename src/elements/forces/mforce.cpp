@@ -16,6 +16,7 @@
 #include "elements/bodies/flex_body.h"
 #include "elements/families/called_values.h"
 #include "elements/families/defined_unknown.h"
+#include "elements/families/markers.h"
 #include "mechanics/binder.h"
 #include "mechanics/bound_expression.h"
 #include "mechanics/kernel.h"
@@ -246,10 +247,8 @@ class ModalForceSet final : public TypedSet<ModalForce> {
       diagnostics.error(
           "same-body", label.at,
           fmt::format("JFLOAT of {} is on {}, which it acts on", label.text(), model.body(f.body).label.text()));
-    } else if (model.body(floating.place.body).kind == BodyKind::point_mass) {
-      diagnostics.error("rotation-of-point-mass", label.at,
-                        fmt::format("{} acts on the rotation of {}, which has none", label.text(),
-                                    model.body(floating.place.body).label.text()));
+    } else {
+      check_rotation(model, label, f.jfloat, diagnostics);
     }
   }
 };
