@@ -72,6 +72,8 @@ class Program {
     }
     err_ << render(diagnostics_);
     print_report(out_, model_, request_, *reduction);
+    if (options_.length_factor != 1 || options_.mass_factor != 1 || options_.force_factor != 1)
+      fmt::print(out_, "all of these are in the units of the matrices, the body file is in others\n");
     const bool condensed =
         std::any_of(model_.freedoms.begin(), model_.freedoms.end(), [](const Freedom& f) { return f.direction == 0; });
     if (condensed)

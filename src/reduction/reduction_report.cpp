@@ -46,7 +46,7 @@ void print_report(std::ostream& out, const FiniteElementModel& model, const Redu
   fmt::print(out, "mass {:.12g}, in x, y and z equal to {:.1e}\n", p.mass, p.uneven);
   fmt::print(out, "centre {:.12g} {:.12g} {:.12g}\n", p.centre[0], p.centre[1], p.centre[2]);
   const Eigen::Matrix3d& J = p.inertia;
-  fmt::print(out, "inertia about it, xx yy zz xy xz yz: {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n", J(0, 0), J(1, 1),
+  fmt::print(out, "inertia tensor about it, xx yy zz xy xz yz: {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n", J(0, 0), J(1, 1),
              J(2, 2), J(0, 1), J(0, 2), J(1, 2));
   if (r.fixed_interface.size() > 0) print_frequencies(out, "frequencies with the interface held", r.fixed_interface);
   if (r.squares.size() == r.massless) return;
