@@ -20,7 +20,12 @@ class Chooser {
         layout_(system.layout()),
         rows_(rows),
         candidates_(std::move(candidates)),
-        n_(layout_.coordinate_count) {}
+        n_(layout_.coordinate_count),
+        shape_(static_cast<std::size_t>(n_), false) {
+    for (const ExtraBlock& e : layout_.extras) {
+      if (e.is_deformation()) std::fill_n(shape_.begin() + e.offset, e.count, true);
+    }
+  }
 
   Result<StateChoice> run() {
     choice_.warnings = candidates_.warnings;
@@ -46,10 +51,11 @@ class Chooser {
     std::stable_partition(order.begin(), order.end(), [&](std::int32_t c) { return !is_shape(coordinate_of(c)); });
     return order;
   }
+  // So much less do their entries count where the pivot of a row has to be one of its larger ones: slopes of a shape
+  // may be many times what a body's own turn is.
+  static constexpr double weight_of_shapes = 1e-2;
   bool is_shape(std::int32_t coordinate) const {
-    return std::ranges::any_of(layout_.extras, [&](const ExtraBlock& e) {
-      return e.is_deformation() && coordinate >= e.offset && coordinate < e.offset + e.count;
-    });
+    return coordinate >= 0 && coordinate < n_ && shape_[static_cast<std::size_t>(coordinate)];
   }
 
   bool is_constant(const Candidate& c) const {
@@ -82,7 +88,11 @@ class Chooser {
   void choose_coordinates() {
     std::vector<SparseRow> rows;
     for (std::int32_t k = 0; k < rows_.size(); ++k) {
-      rows.push_back(rows_.level(k) == RowLevel::position ? scaled_row(system_, rows_.row(k)) : SparseRow{});
+      SparseRow& row =
+          rows.emplace_back(rows_.level(k) == RowLevel::position ? scaled_row(system_, rows_.row(k)) : SparseRow{});
+      for (std::size_t e = 0; e < row.column.size(); ++e) {
+        if (is_shape(row.column[e])) row.value[e] *= weight_of_shapes;
+      }
     }
     std::vector<const Candidate*> all;
     std::vector<std::int32_t> columns;
@@ -128,7 +138,8 @@ class Chooser {
       const auto at = static_cast<std::size_t>(k);
       const double unit = unit_of(system_, gradient_of(candidates_, candidates_.wanted[at]));
       for (const auto& [column, v] : candidates_.moves[at])
-        moved_by[static_cast<std::size_t>(column)].emplace_back(k, v * unit);
+        moved_by[static_cast<std::size_t>(column)].emplace_back(k,
+                                                                v * unit * (is_shape(column) ? weight_of_shapes : 1));
     }
     std::vector<SparseRow> rows(static_cast<std::size_t>(rows_.size()));
     std::vector<double> sum(static_cast<std::size_t>(count), 0.0);
@@ -213,6 +224,7 @@ class Chooser {
   const ConstraintRows& rows_;
   CandidateSet candidates_;
   std::int32_t n_;
+  std::vector<bool> shape_;  // coordinates of shapes of bodies
   StateChoice choice_;
   std::vector<double> own_units_;  // of the user's coordinates, which come first
 };

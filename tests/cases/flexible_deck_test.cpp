@@ -112,7 +112,7 @@ TEST_F(FlexibleDeck, shapes_are_states_where_a_part_hangs_on_them) {
     modal += state.dump().find("Modal generalized coordinate Q") != std::string::npos ? 1 : 0;
   }
   EXPECT_EQ(all, 20);
-  EXPECT_EQ(modal, 4);
+  EXPECT_EQ(modal, 8);
 }
 
 // Nothing but what a static solution leaves of nothing accelerates a free boom that is pulled straight.
