@@ -48,6 +48,8 @@ function(join_sources target)
     endforeach()
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # What a source has for itself alone looks to g++ as if it came from a header.
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  # What a source has for itself alone looks to g++ as if it came from a header, and to clang as if what comes behind it
+  # shadowed it.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>
+                                           $<$<CXX_COMPILER_ID:Clang>:-Wno-shadow>)
 endfunction()

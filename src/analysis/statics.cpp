@@ -227,8 +227,12 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
     OperatingPoint least = *start;
     if (go_on() && reduce_imbalance(equations, least, 100)) descend(std::move(least));
   }
-  if (OperatingPoint at = drawn; go_on() && iterate_by_newton(equations, at, newton_at_last(), history))
-    descend(std::move(at));
+  if (go_on()) {
+    OperatingPoint at = drawn;
+    StaticHistory apart({});  // its points need not meet any equation on the way: they say nothing of what is least
+    if (iterate_by_newton(equations, at, newton_at_last(), apart)) descend(std::move(at));
+    equations.measure_by(Yardstick::model);
+  }
   for (const OperatingPoint* start : {&lowest, &drawn}) {
     for (const bool forward : {true, false}) {
       if (!go_on()) break;

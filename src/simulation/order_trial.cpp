@@ -10,7 +10,7 @@ constexpr int stable_order = 2;
 constexpr std::int64_t window = 500;
 // Of a trial: steps that it takes to grow after a start, and those whose length counts.
 constexpr std::int64_t growing = 100, measured = 200;
-constexpr double long_run = 5000;    // steps ahead that are worth a trial
+constexpr double long_run = 30000;   // steps ahead that are worth a trial
 constexpr double much_longer = 1.5;  // steps that settle for the other order
 constexpr std::int64_t least_pause = 5000, most_pause = 1000000;
 

@@ -25,7 +25,7 @@ struct Parabola {
   }};
 };
 
-constexpr StateType type_of_s = StateType::fe_part;  // that no other element of the program has
+constexpr StateType type_of_s = StateType::cvcv;  // of a curve, like this one
 
 class ParabolaKernel final : public Kernel {
  public:

