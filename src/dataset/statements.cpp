@@ -249,10 +249,15 @@ std::string StatementReader::continuation_hint(std::span<const Token> tokens) {
   return "a comment begins with '!', a line that continues a statement with a comma";
 }
 
-// A word of the other language: nothing for what is no word of it, or hardly one.
+// A word of the other language, or a command that has no place among those taken here: nothing for what is neither, or
+// hardly a word.
 std::string StatementReader::other_language_hint(std::string_view word) const {
   constexpr std::size_t enough = 3;
   const bool dataset = language_ == Language::dataset;
+  if (!dataset && word.size() >= enough) {
+    if (const auto command = find_keyword(word, command_names()))
+      return std::string(command_names()[*command]) + " is a command that changes no model";
+  }
   const std::span<const std::string_view> names = dataset ? command_names() : statement_names();
   const auto found = word.size() < enough ? std::nullopt : find_keyword(word, names);
   if (!found) return {};

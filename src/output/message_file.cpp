@@ -137,8 +137,8 @@ std::string_view name_of(CountedBy by) {
 std::string selection_text(const SelectedModes& s, const std::string& unit) {
   std::string text;
   if (const auto* nearest = std::get_if<NearestModes>(&s.wanted)) {
-    text = fmt::format("  the {} modes nearest to {:g} {}, within {:.6g}", nearest->count, nearest->frequency, unit,
-                       s.radius_hz);
+    text = fmt::format("  the {} mode{} nearest to {:g} {}, within {:.6g}", nearest->count,
+                       nearest->count == 1 ? "" : "s", nearest->frequency, unit, s.radius_hz);
   } else {
     const auto& band = std::get<ModesInBand>(s.wanted);
     text = fmt::format("  all modes from {:g} to {:g} {}", band.low, band.high, unit);

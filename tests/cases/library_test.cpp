@@ -246,6 +246,8 @@ TEST(Library, reads_and_replaces_numbers_by_name) {
   EXPECT_EQ(model.value({{"BUSHING", 7}, "K", 3}), 10);
   EXPECT_EQ(model.value("BUSHING/7 C[3]"), 0);
   EXPECT_EQ(model.value("ACCGRAV KGRAV"), 0);
+  EXPECT_EQ(model.value("INTEGRATOR ERROR"), 1e-3);
+  EXPECT_EQ(model.value("EQUILIBRIUM IMBALANCE"), 1e-4);
   const auto stiff = model.with("SPRINGDAMPER/1 K", 50);
   EXPECT_EQ(stiff.value("SPRINGDAMPER/1 K"), 50);
   EXPECT_EQ(model.value("SPRINGDAMPER/1 K"), 8);
@@ -298,6 +300,7 @@ TEST(Library, changes_a_model_by_commands) {
   const Error wrong = error_of([&] { model.edited("SPRINGDAMPER/9, K=1\nSIMULATE/STATICS\nDEACTIVATE/PART, ID=2"); });
   ASSERT_EQ(wrong.problems.size(), 3u);
   EXPECT_THAT(wrong.what(), HasSubstr("edits:1:1: error: SPRINGDAMPER/9 does not exist"));
+  EXPECT_THAT(wrong.what(), HasSubstr("SIMULATE is a command that changes no model"));
   EXPECT_EQ(error_of([&] { model.edited("PART/2, MASS=-1"); }).problems.at(0).code, "value-out-of-range");
 }
 
