@@ -205,8 +205,8 @@ int run(int argc, char** argv) {
   }
   if (*run) {
     if (options.file == "-" && !take_commands(options)) return wrong_input;
-    prepare_heap();
     set_thread_count(has_memory_for_threads() ? threads : 1);
+    prepare_heap();
     return run_session(options, std::cout, std::cerr);
   }
   if (*check) {

@@ -1,8 +1,5 @@
 #include "base/parallel.h"
 
-#include <pthread.h>
-#include <signal.h>
-
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
@@ -16,6 +13,7 @@
 #include <vector>
 
 #include "base/blas_threads.h"
+#include "base/signals_held_back.h"
 
 namespace dynalin {
 
@@ -49,22 +47,6 @@ class Tasks {
   std::mutex mutex_;
   std::size_t failed_ = ~std::size_t{0};
   std::exception_ptr error_;
-};
-
-// Threads that are made meanwhile leave signals to those of the program, which know when they are not to be disturbed.
-class SignalsHeldBack {
- public:
-  SignalsHeldBack() {
-    sigset_t all;
-    ::sigfillset(&all);
-    ::pthread_sigmask(SIG_BLOCK, &all, &before_);
-  }
-  ~SignalsHeldBack() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  SignalsHeldBack(const SignalsHeldBack&) = delete;
-  SignalsHeldBack& operator=(const SignalsHeldBack&) = delete;
-
- private:
-  sigset_t before_;
 };
 
 class Pool {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "linear/perturbation.h"
 
 namespace dynalin {
@@ -15,6 +16,7 @@ using Matrix = Eigen::MatrixXd;
 
 // What may be of partials that rounding alone makes asymmetric, of the sizes of what was added up to them.
 constexpr double asymmetry_of_rounding = 1e-8;
+constexpr Index worth_sharing = 50000;  // rows of a column that a thread takes for itself
 
 bool vanishes(const ColumnMatrix& m, std::int32_t rows) {
   bool any = false;
@@ -137,7 +139,16 @@ bool ConservativeModel::has_positive_mass() const {
 Matrix ConservativeModel::forces(const Matrix& a) const {
   const auto n = static_cast<std::size_t>(coordinates_);
   Matrix f = Matrix::Zero(coordinates_, a.cols());
-  for (Index c = 0; c < a.cols(); ++c) of_accelerations_.multiply_add({a.col(c).data(), n}, {f.col(c).data(), n});
+  const auto multiply = [&](std::size_t column) {
+    const auto c = static_cast<Index>(column);
+    of_accelerations_.multiply_add({a.col(c).data(), n}, {f.col(c).data(), n});
+  };
+  const auto columns = static_cast<std::size_t>(a.cols());
+  if (coordinates_ > worth_sharing) {
+    in_parallel(columns, multiply);
+  } else {
+    for (std::size_t c = 0; c < columns; ++c) multiply(c);
+  }
   return f;
 }
 

@@ -191,11 +191,11 @@ bool ConservativeSearch::extend(Index wanted, double least, int restarts) {
       for (Index k = 0; k < m; ++k) {
         if (theta(k) != 0) (k < done ? squares_ : unsettled_).push_back(sigma + 1 / theta(k));
       }
-      vectors_.conservativeResize(Eigen::NoChange, locked + done);
-      vectors_.rightCols(done) = V.middleCols(locked, m) * U.leftCols(done);
+      combine_columns(V, locked, U.leftCols(done));
+      vectors_ = V.leftCols(locked + done);
       return success;
     }
-    V.middleCols(locked, kept) = (V.middleCols(locked, m) * U.leftCols(kept)).eval();
+    combine_columns(V, locked, U.leftCols(kept));
     for (Index b = 0; b < block; ++b) V.col(locked + kept + b) = V.col(locked + m + b).eval();
     H.setZero();
     H.topLeftCorner(kept, kept) = theta.head(kept).asDiagonal();

@@ -4,6 +4,7 @@
 
 #include <complex>
 #include <utility>
+#include <vector>
 
 namespace dynalin {
 
@@ -65,15 +66,30 @@ Eigen::VectorXcd take_out(const Eigen::MatrixXcd& V, Eigen::Index columns, Eigen
   cblas_zgemv(CblasColMajor, CblasNoTrans, rows, count, &minus_one, V.data(), rows, along.data(), 1, &one, w.data(), 1);
   return along;
 }
+// Sums over rows by blocks of them, in their order.
 Eigen::MatrixXd take_out(const Eigen::MatrixXd& V, Eigen::Index columns, const Eigen::MatrixXd& F, Eigen::MatrixXd& W) {
   eigen_assert(V.rows() == F.rows() && V.rows() == W.rows() && F.cols() == W.cols() && columns <= V.cols());
   Eigen::MatrixXd along = Eigen::MatrixXd::Zero(columns, F.cols());
   if (along.size() == 0 || F.rows() == 0) return along;
   const auto rows = static_cast<int>(V.rows()), count = static_cast<int>(columns), at_once = static_cast<int>(F.cols());
-  gemm(CblasTrans, count, at_once, rows, V.data(), rows, F.data(), along.data());
-  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, at_once, count, -1.0, V.data(), rows, along.data(),
-              count, 1.0, W.data(), rows);
+  std::vector<Eigen::MatrixXd> share(static_cast<std::size_t>(row_blocks(V.rows())), along);
+  for_row_blocks(V.rows(), [&](Eigen::Index first, Eigen::Index size) {
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, count, at_once, static_cast<int>(size), 1.0, V.data() + first,
+                rows, F.data() + first, rows, 0.0, share[static_cast<std::size_t>(first / rows_of_block)].data(),
+                count);
+  });
+  for (const Eigen::MatrixXd& s : share) along += s;
+  for_row_blocks(V.rows(), [&](Eigen::Index first, Eigen::Index size) {
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, static_cast<int>(size), at_once, count, -1.0,
+                V.data() + first, rows, along.data(), count, 1.0, W.data() + first, rows);
+  });
   return along;
+}
+void combine_columns(Eigen::MatrixXd& V, Eigen::Index first, const Eigen::MatrixXd& U) {
+  for_row_blocks(V.rows(), [&](Eigen::Index row, Eigen::Index size) {
+    const Eigen::MatrixXd combined = V.block(row, first, size, U.rows()) * U;
+    V.block(row, first, size, U.cols()) = combined;
+  });
 }
 BothProducts both_products(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
   const Eigen::Index rows = a.cols(), columns = b.cols();

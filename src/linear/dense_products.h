@@ -24,6 +24,8 @@ BothProducts both_products(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b)
 Eigen::VectorXcd take_out(const Eigen::MatrixXcd& V, Eigen::Index columns, Eigen::VectorXcd& w);
 // W −= V VᵀF for the first columns of V; VᵀF.
 Eigen::MatrixXd take_out(const Eigen::MatrixXd& V, Eigen::Index columns, const Eigen::MatrixXd& F, Eigen::MatrixXd& W);
+// As many columns of V as U has rows become V U, from the first of them on.
+void combine_columns(Eigen::MatrixXd& V, Eigen::Index first, const Eigen::MatrixXd& U);
 
 Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
@@ -61,6 +63,14 @@ void for_few_columns(Eigen::Index rows, Eigen::Index columns, Function&& visit) 
   constexpr Eigen::Index very_large = 1000000;
   if (rows > very_large) return for_columns<1>(columns, visit);
   for_columns<2>(columns, visit);
+}
+
+// visit(first, count) for all rows, so many at a time, by all threads: of few columns of very large models.
+constexpr Eigen::Index rows_of_block = 65536;
+constexpr Eigen::Index row_blocks(Eigen::Index rows) { return (rows + rows_of_block - 1) / rows_of_block; }
+template <class Function>
+void for_row_blocks(Eigen::Index rows, Function&& visit) {
+  for_columns<rows_of_block>(rows, visit);
 }
 
 // A real linear map of real matrices, applied to a complex one; it may take its argument for its own.

@@ -142,12 +142,7 @@ class Mirror {
       }
       done[i] = true;
     }
-    const auto columns = static_cast<Index>(right_.size());
-    out_.pairs.right.resize(s_.X.rows(), columns), out_.pairs.left.resize(s_.X.rows(), columns);
-    for (Index k = 0; k < columns; ++k) {
-      out_.pairs.right.col(k) = right_[static_cast<std::size_t>(k)];
-      out_.pairs.left.col(k) = left_[static_cast<std::size_t>(k)];
-    }
+    take_shapes();
     return std::move(out_);
   }
 
@@ -173,35 +168,61 @@ class Mirror {
     const InclusionDisc& d = discs_[at];
     // Equal values of independent vectors: any basis of their space is one of eigenvectors.
     const bool equal = count > 1 && d.powers[1] <= equal_values * std::abs(d.centre);
+    const Index together = cluster > 0 ? cluster : count;
     for (Index k = 0; k < count; ++k) {
-      const ComplexVector of_right = equal ? d.basis.col(k) : d.right.col(k);
-      const ComplexVector of_left = equal ? d.dual.col(k) : d.left.col(k);
-      ComplexVector x = s_.X * of_right, y = s_.Y * of_left;
-      const bool among_zeros = zero_.count() > 0 && std::abs(d.centre) <= d.radius;
-      if (zero_.count() > 0 && !among_zeros) {
-        ComplexMatrix shifted = zero_.chains.cast<Complex>();
-        shifted.diagonal().array() -= d.centre;
-        const ComplexVector along = -(s_.C * of_right);
-        x += s_.V.cast<Complex>() * shifted.partialPivLu().solve(along);
-      }
-      // The part of V, where there is one, takes along what A X has of it.
-      ComplexVector residual = residual_ * of_right + s_.X * (s_.B * of_right - value * of_right);
-      if (among_zeros) residual += s_.V.cast<Complex>() * (s_.C * of_right);
-      out_.residual.push_back(residual.norm() / x.norm());
-      if (conjugate) x = x.conjugate().eval(), y = y.conjugate().eval();
-      x.normalize(), y.normalize();
-      right_.push_back(std::move(x)), left_.push_back(std::move(y));
       out_.pairs.values.push_back(conjugate ? std::conj(value) : value);
-      const Index together = cluster > 0 ? cluster : count;
       out_.trust.push_back({radius + 2 * eps * std::abs(value), 0, together == 1, together});
+      shares_.push_back({equal ? d.basis.col(k) : d.right.col(k), equal ? d.dual.col(k) : d.left.col(k), value,
+                         d.centre, conjugate, zero_.count() > 0 && std::abs(d.centre) <= d.radius});
     }
   }
+  // Vectors of all at once: each pass through the bases takes as long as reading them.
+  void take_shapes() {
+    const Index p = s_.X.cols(), columns = static_cast<Index>(shares_.size()), z = zero_.count();
+    ComplexMatrix right(p, columns), left(p, columns), rest(p, columns), of_zeros(z, columns), in_images(z, columns);
+    for (Index k = 0; k < columns; ++k) {
+      const Share& share = shares_[static_cast<std::size_t>(k)];
+      right.col(k) = share.right, left.col(k) = share.left;
+      rest.col(k) = s_.B * share.right - share.value * share.right;
+      if (z == 0) continue;
+      // The part of V, where there is one, takes along what A X has of it.
+      const ComplexVector along = s_.C * share.right;
+      of_zeros.col(k).setZero(), in_images.col(k).setZero();
+      if (share.among_zeros) {
+        in_images.col(k) = along;
+      } else {
+        ComplexMatrix shifted = zero_.chains.cast<Complex>();
+        shifted.diagonal().array() -= share.centre;
+        of_zeros.col(k) = shifted.partialPivLu().solve(ComplexVector(-along));
+      }
+    }
+    ComplexMatrix x = product(s_.X, right), residual = product(residual_, right) + product(s_.X, rest);
+    if (z > 0) {
+      x += real_product(s_.V, of_zeros);
+      residual += real_product(s_.V, in_images);
+    }
+    ComplexMatrix y = product(s_.Y, left);
+    for (Index k = 0; k < columns; ++k) {
+      out_.residual.push_back(residual.col(k).norm() / x.col(k).norm());
+      if (!shares_[static_cast<std::size_t>(k)].conjugate) continue;
+      x.col(k) = x.col(k).conjugate().eval(), y.col(k) = y.col(k).conjugate().eval();
+    }
+    x.colwise().normalize(), y.colwise().normalize();
+    out_.pairs.right = std::move(x), out_.pairs.left = std::move(y);
+  }
+
+  // What a vector has of the bases.
+  struct Share {
+    ComplexVector right, left;
+    Complex value, centre;
+    bool conjugate, among_zeros;
+  };
 
   const Subspace& s_;
   const ComplexMatrix& residual_;
   const NearZero& zero_;
   const std::vector<InclusionDisc> discs_;
-  std::vector<ComplexVector> right_, left_;
+  std::vector<Share> shares_;
   BoundedPairs out_;
 };
 

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "base/parallel.h"
 #include "system/klu_factors.h"
 #include "system/lu_choice.h"
 #include "system/mumps_matrix.h"
@@ -157,6 +158,16 @@ struct SymmetricFactors::Solving {
     }
     return klu.factor(matrix);
   }
+
+  // Long columns two at a time by all threads.
+  void solve(Eigen::MatrixXd& b) const {
+    constexpr std::int32_t worth_sharing = 50000;
+    const auto columns = static_cast<int>(b.cols()), at_once = matrix.rows > worth_sharing ? 2 : std::max(1, columns);
+    in_parallel(static_cast<std::size_t>((columns + at_once - 1) / at_once), [&](std::size_t block) {
+      const int first = static_cast<int>(block) * at_once;
+      klu.solve(b.col(first).data(), matrix.rows, std::min(at_once, columns - first));
+    });
+  }
 };
 
 SymmetricFactors::SymmetricFactors(const ColumnMatrix& lower, FactorsFor use) {
@@ -197,7 +208,7 @@ std::int64_t SymmetricFactors::negative_pivots() const {
 }
 
 void SymmetricFactors::solve(Eigen::MatrixXd& b) const {
-  if (solving_) return solving_->klu.solve(b.data(), solving_->matrix.rows, static_cast<int>(b.cols()));
+  if (solving_) return solving_->solve(b);
   if (in_order_) return in_order_->solve(b);
   if (inertia_) inertia_->solve(b);
 }
