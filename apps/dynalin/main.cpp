@@ -160,9 +160,8 @@ int run(int argc, char** argv) {
   reduce->add_option("--stiffness-name", body.stiffness_name, "of DMIG where there are several");
   reduce->add_option("--mass-name", body.mass_name, "of DMIG where there are several");
   reduce->add_option("--interface", body.interface, "nodes for markers, 1,17 or, with a rotation node, 1001:1002")
-      ->delimiter(',')
       ->required();
-  reduce->add_option("--also", body.also, "further nodes that the body file has")->delimiter(',');
+  reduce->add_option("--also", body.also, "further nodes that the body file has");
   reduce->add_option("--modes", body.modes, "fixed-interface modes, at most (20)")->check(at_least(0));
   reduce->add_option("--frequency-limit", body.frequency_limit, "of these, cycles per unit of time");
   reduce->add_flag("--translations-only", body.translations_only, "interface nodes may be without rotations");

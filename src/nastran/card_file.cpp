@@ -12,6 +12,7 @@ void CardFile::begin(const Card& card, const Owner& owner) {
   if (!card.problem().empty())
     problems_.push_back(owner.name.empty() ? fmt::format("{}: {}", card.name(), card.problem())
                                            : fmt::format("{} of {}: {}", card.name(), owner.name, card.problem()));
+  has_wide_number_ |= card.has_wide_number();
   if (!heading_.empty()) {
     line("$ --- " + heading_ + " ---");
     last_heading_ = std::move(heading_);

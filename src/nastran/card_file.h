@@ -28,6 +28,7 @@ class CardFile {
   const std::string& text() const { return text_; }
   // What could not be written: "GRID of PART/2: a value is not finite".
   const std::vector<std::string>& problems() const { return problems_; }
+  bool has_wide_number() const { return has_wide_number_; }
 
  private:
   void begin(const Card&, const Owner&);
@@ -37,6 +38,7 @@ class CardFile {
   std::string before_names_;
   std::string text_, heading_, last_heading_, last_name_;
   std::vector<std::string> problems_;
+  bool has_wide_number_ = false;
 };
 
 }  // namespace dynalin::nastran

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -120,8 +121,10 @@ std::string real_text(double value, FieldWidth width, Exponent exponent) {
 }
 
 Card& Card::integer(std::int64_t value) {
-  if (value > Ids::largest || value < -Ids::largest / 10)
+  if (value > Ids::largest || value < -Ids::largest / 10) {
     problem_ = fmt::format("the number {} does not fit into eight columns", value);
+    has_wide_number_ = true;
+  }
   fields_.push_back(std::to_string(value));
   return *this;
 }
@@ -150,8 +153,10 @@ void Card::append_line(std::string& text, std::string_view begin, std::size_t fi
   text += begin;
   for (std::size_t k = first; k < first + count; ++k, wanted += static_cast<std::size_t>(width_)) {
     if (k >= fields_.size() || fields_[k].empty()) continue;
-    text.append(wanted - column, ' ') += fields_[k];
-    column = wanted + fields_[k].size();
+    // One that is too wide, which problem() tells, reaches into the next.
+    if (column < wanted) text.append(wanted - column, ' ');
+    text += fields_[k];
+    column = std::max(column, wanted) + fields_[k].size();
   }
   text += '\n';
 }

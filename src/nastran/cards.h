@@ -35,6 +35,7 @@ class Card {
   void append_to(std::string& text) const;
   // What does not fit into a field, empty if all is well: "a value is not finite".
   const std::string& problem() const { return problem_; }
+  bool has_wide_number() const { return has_wide_number_; }
   std::string_view name() const { return name_; }
 
  private:
@@ -44,6 +45,7 @@ class Card {
   FieldWidth width_;
   std::vector<std::string> fields_;
   std::string problem_;
+  bool has_wide_number_ = false;
 };
 
 // "PARAM,POST,0"

@@ -138,6 +138,17 @@ TEST(Card, names_what_does_not_fit) {
   EXPECT_THAT(Card("DMIG", FieldWidth::large).word("KSTEERING").problem(), ::testing::HasSubstr("KSTEERING"));
 }
 
+// Its line is none that anybody reads, but there is one.
+TEST(Card, has_a_line_with_what_does_not_fit) {
+  for (const std::int64_t wide : {100'000'000LL, 123'456'789'012'345'678LL}) {
+    const Card card = Card("GRID", FieldWidth::small).integer(wide).integer(7).blank().integer(8);
+    EXPECT_EQ(card.problem(), "the number " + std::to_string(wide) + " does not fit into eight columns");
+    EXPECT_TRUE(card.has_wide_number());
+    EXPECT_EQ(text_of(card).substr(8, std::to_string(wide).size() + 1), std::to_string(wide) + "7");
+  }
+  EXPECT_FALSE(Card("GRID", FieldWidth::small).integer(7).has_wide_number());
+}
+
 TEST(Card, of_parameters_is_free) { EXPECT_EQ(parameter_card("POST", "0"), "PARAM,POST,0\n"); }
 
 }  // namespace

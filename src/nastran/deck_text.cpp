@@ -130,10 +130,12 @@ class TextWriter {
  private:
   tl::expected<DeckText, std::vector<std::string>> finish(const std::string& control) {
     std::vector<std::string> problems;
+    bool has_wide_number = false;
     std::string includes;
     std::set<std::string> names;
     for (CardFile& file : files_.list()) {
       problems.insert(problems.end(), file.problems().begin(), file.problems().end());
+      has_wide_number |= file.has_wide_number();
       if (!names.insert(file.name()).second)
         problems.push_back(fmt::format("two files of the export have the name {}", file.name()));
       if (&file == &files_.main()) continue;
@@ -143,6 +145,8 @@ class TextWriter {
       else
         includes += *statement + "\n";
     }
+    if (has_wide_number && deck_.open && o_.use_adams_ids)
+      problems.emplace_back("use_adams_ids = no counts the cards, whatever the ids of the dataset are");
     if (!problems.empty()) return tl::unexpected(std::move(problems));
     const std::string title =
         fmt::format("$ Linear model at time {}, {}\n", deck_.time, deck_.open ? "OPENBOX" : "CLOSEDBOX");

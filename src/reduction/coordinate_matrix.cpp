@@ -16,6 +16,7 @@ namespace {
 
 // Both triangles of a matrix that is said to be symmetric agree to this much of the geometric mean of the diagonal.
 constexpr double mirrored_to = 1e-8;
+constexpr std::string_view market_header = "%%MatrixMarket matrix coordinate real symmetric";
 
 struct Entry {
   std::int32_t row, column;  // from 0
@@ -46,8 +47,7 @@ bool read_market_header(TextScanner& scanner, Header& header, Diagnostics& diagn
     header.whole = k == 3 && word == "general";
     if (word == wanted[k] || other_number || header.whole) continue;
     diagnostics.error("fe-matrix-header", word.empty() ? first : scanner.word_span(),
-                      fmt::format("a matrix of stiffness or mass is not '{}'", word),
-                      "%%MatrixMarket matrix coordinate real symmetric");
+                      fmt::format("a matrix of stiffness or mass is not '{}'", word), std::string(market_header));
     return false;
   }
   while (scanner.next_line()) {
@@ -101,7 +101,16 @@ TextScanner at_entries(const SourceText& file, Header& header, bool& first_line_
   TextScanner scanner(file);
   first_line_is_read = scanner.next_line();
   good = true;
-  if (!first_line_is_read || !lower_case(scanner.line()).starts_with("%%matrixmarket")) return scanner;
+  if (!first_line_is_read) return scanner;
+  const std::string first = lower_case(scanner.line());
+  if (!first.starts_with("%%matrixmarket")) {
+    const std::size_t word = first.find_first_not_of("% \t");
+    good = word == std::string::npos || !std::string_view(first).substr(word).starts_with("matrixmarket");
+    if (!good)
+      diagnostics.error("fe-matrix-header", scanner.line_span(), "the header of Matrix Market begins with two %",
+                        std::string(market_header));
+    return scanner;
+  }
   first_line_is_read = false;
   good = read_market_header(scanner, header, diagnostics);
   return scanner;
@@ -196,15 +205,20 @@ std::optional<SparseMatrix> read_coordinate_matrix(const SourceText& file, Eigen
   // Each takes six characters at least: a number of entries out of thin air sets nothing aside.
   entries.reserve(std::min(file.text().size() / 6, static_cast<std::size_t>(header.entries)));
   OneTriangle triangle;
+  std::optional<Span> first_beyond;  // what the header promises
   if (!for_each_line(scanner, size, first_line_is_read, diagnostics, [&](const Entry& e, const Span& at) {
+        if (header.market && static_cast<std::int64_t>(entries.size()) == header.entries) first_beyond = at;
         entries.push_back(e);
         if (!header.whole) triangle.see(e, at);
       }))
     return std::nullopt;
-  if (header.market && static_cast<std::int64_t>(entries.size()) != header.entries) {
-    diagnostics.error("fe-matrix-size", whole_file,
-                      fmt::format("the header promises {} entries, and {} are there", header.entries, entries.size()),
-                      "the file may be cut off");
+  const auto count = static_cast<std::int64_t>(entries.size());
+  if (header.market && count != header.entries) {
+    diagnostics.error("fe-matrix-size", first_beyond.value_or(whole_file),
+                      fmt::format("the header promises {} {}, and {} {} there", header.entries,
+                                  header.entries == 1 ? "entry" : "entries", count, count == 1 ? "is" : "are"),
+                      count < header.entries ? "the file may be cut off"
+                                             : "its last number is that of the lines behind it, each one entry");
     return std::nullopt;
   }
   if (entries.empty()) {

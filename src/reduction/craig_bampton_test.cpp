@@ -315,7 +315,7 @@ TEST(CraigBampton, refuses_what_does_not_hold_the_body) {
               ::testing::HasSubstr("can move as a rigid body"));
   EXPECT_THAT(refused(block, {.interface = {1, 9, 27}}),
               ::testing::HasSubstr("interface node 1 has no rotation 4, 5, 6"));
-  EXPECT_THAT(refused(block, {.interface = {82}}), ::testing::HasSubstr("nearest labels with freedoms are 81"));
+  EXPECT_THAT(refused(block, {.interface = {82}}), ::testing::HasSubstr("nearest label with freedoms is 81"));
   EXPECT_THAT(refused(block, {.interface = {}}), ::testing::HasSubstr("no interface node"));
 }
 

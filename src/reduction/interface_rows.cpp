@@ -20,13 +20,15 @@ std::string missing_directions(const Rows& rows, int first, int last) {
   return list;
 }
 
-// The labels below and above one that does not exist.
+// The labels below and above one that does not exist, as "the nearest label … is 5".
 std::string nearest(const std::map<NodeLabel, Rows>& nodes, NodeLabel label) {
+  if (nodes.empty()) return {};
   const auto above = nodes.lower_bound(label);
-  std::string text;
-  if (above != nodes.begin()) text = fmt::format("{}", std::prev(above)->first);
-  if (above != nodes.end()) text += fmt::format("{}{}", text.empty() ? "" : " and ", above->first);
-  return text;
+  constexpr std::string_view one = "the nearest label with freedoms is {}";
+  if (above == nodes.begin()) return fmt::format(one, above->first);
+  const NodeLabel below = std::prev(above)->first;
+  if (above == nodes.end()) return fmt::format(one, below);
+  return fmt::format("the nearest labels with freedoms are {} and {}", below, above->first);
 }
 
 }  // namespace
@@ -54,8 +56,7 @@ std::optional<InterfaceRows> interface_rows(std::span<const Freedom> freedoms, s
     if (!seen.insert(label).second) {
       refuse(fmt::format("interface node {} is asked for twice", label));
     } else if (node == nodes.end()) {
-      refuse(fmt::format("interface node {} has no freedoms", label),
-             nodes.empty() ? "" : fmt::format("the nearest labels with freedoms are {}", nearest(nodes, label)));
+      refuse(fmt::format("interface node {} has no freedoms", label), nearest(nodes, label));
     } else {
       const std::string translations = missing_directions(node->second, 1, 3);
       const std::string rotations = missing_directions(node->second, 4, 6);

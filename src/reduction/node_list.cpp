@@ -43,13 +43,19 @@ class Reader {
 
   // Keyword lines begin with one *, comments with two.
   void read_input_deck() {
-    bool in_nodes = false;
-    while (scanner_.next_line()) {
+    std::optional<Data> data = Data::others;
+    while (data && scanner_.next_line()) {
       const std::string_view word = scanner_.word();
       if (word.empty() || word.starts_with("**")) continue;
       if (word.starts_with('*')) {
-        in_nodes = read_keyword();
-      } else if (in_nodes && !read_node(word, Missing::zero)) {
+        data = read_keyword();
+      } else if (data == Data::nodes) {
+        if (!read_node(word, Missing::zero)) return;
+      } else if (data == Data::system && moves(word)) {
+        system_ = scanner_.line_span();
+      } else if (data == Data::instance && moves(word)) {
+        diagnostics_.error("fe-node", scanner_.line_span(), "an instance that is moved or turned is not read",
+                           "give the places of the nodes where the matrices have them, as lines of node, x, y, z");
         return;
       }
     }
@@ -57,27 +63,62 @@ class Reader {
   NodeList take() { return std::move(list_); }
 
  private:
-  // Whether lines of nodes follow.
-  bool read_keyword() {
-    std::string line = upper_case(scanner_.line());
-    std::erase_if(line, [](char c) { return c == ' ' || c == '\t'; });
+  // What the lines behind a keyword are.
+  enum class Data { nodes, system, instance, others };
+  // None after an error.
+  std::optional<Data> read_keyword() {
+    const Span at = scanner_.line_span();
+    const std::string line = keyword_line();
     const std::string_view keyword = std::string_view(line).substr(0, line.find(','));
     if (keyword == "*RIGIDBODY") {
-      const auto reference = parameter(line, ",REFNODE="), rotation = parameter(line, ",ROTNODE=");
+      const auto reference = number(line, ",REFNODE="), rotation = number(line, ",ROTNODE=");
       if (reference && rotation) list_.rotation_nodes.push_back({*reference, *rotation});
     }
-    if (keyword == "*NODE" && line.find("SYSTEM=") != std::string::npos) {
-      diagnostics_.error("fe-node", scanner_.line_span(), "nodes in another system are not read",
-                         "give the places of the nodes along global axes");
-      return false;
-    }
-    return keyword == "*NODE";
+    // *SYSTEM without lines goes back to global axes.
+    if (keyword == "*SYSTEM" || keyword == "*ENDPART" || keyword == "*ENDINSTANCE") system_.reset();
+    if (keyword == "*SYSTEM") return Data::system;
+    if (keyword == "*INSTANCE") return Data::instance;
+    if (keyword != "*NODE") return Data::others;
+    const bool is_curved = parameter(line, ",SYSTEM=").value_or("R") != "R";
+    if (!is_curved && !system_) return Data::nodes;
+    diagnostics_.error("fe-node", system_.value_or(at), "nodes in another system are not read",
+                       "give the places of the nodes along global axes");
+    return std::nullopt;
   }
-  static std::optional<NodeLabel> parameter(const std::string& line, std::string_view name) {
+  // In capitals and without blanks; it goes on in the next line behind a comma at its end.
+  std::string keyword_line() {
+    std::string line;
+    do {
+      std::string part = upper_case(scanner_.line());
+      std::erase_if(part, [](char c) { return c == ' ' || c == '\t'; });
+      if (!part.starts_with("**")) line += part;
+    } while (line.ends_with(',') && parameters_follow() && scanner_.next_line());
+    return line;
+  }
+  // Or a comment, behind which they may.
+  bool parameters_follow() const {
+    TextScanner ahead = scanner_;
+    if (!ahead.next_line()) return false;
+    const std::string_view word = ahead.word();
+    return word.starts_with("**") || (!word.empty() && std::isalpha(static_cast<unsigned char>(word[0])) != 0);
+  }
+  // Whether a line has anything but zeros.
+  bool moves(std::string_view word) {
+    for (; !word.empty(); word = scanner_.word()) {
+      const auto value = TextScanner::real(word);
+      if (!value || *value != 0) return true;
+    }
+    return false;
+  }
+  static std::optional<std::string_view> parameter(std::string_view line, std::string_view name) {
     const std::size_t at = line.find(name);
-    if (at == std::string::npos) return std::nullopt;
-    const std::string_view rest = std::string_view(line).substr(at + name.size());
-    return TextScanner::integer<NodeLabel>(rest.substr(0, rest.find(',')));
+    if (at == std::string_view::npos) return std::nullopt;
+    const std::string_view rest = line.substr(at + name.size());
+    return rest.substr(0, rest.find(','));
+  }
+  static std::optional<NodeLabel> number(std::string_view line, std::string_view name) {
+    const auto value = parameter(line, name);
+    return value ? TextScanner::integer<NodeLabel>(*value) : std::nullopt;
   }
   // Coordinates that are not written are zero in decks; a list has all three.
   enum class Missing { refused, zero };
@@ -108,6 +149,7 @@ class Reader {
   TextScanner scanner_;
   Diagnostics& diagnostics_;
   NodeList list_;
+  std::optional<Span> system_;  // that of the nodes that follow, where it is not the global one
 };
 
 std::optional<NodeList> read_grids(const SourceText& file, Diagnostics& diagnostics) {

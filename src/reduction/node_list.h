@@ -21,8 +21,9 @@ struct NodeList {
 };
 
 // The content decides. Lines `node x y z`, separated by blanks or commas, with comments behind # or %; or an input deck
-// of CalculiX or Abaqus, of which *NODE and *RIGID BODY are read; or a Nastran deck, of which GRID is (in the basic
-// system alone). A node that is stated twice at two places is an error.
+// of CalculiX or Abaqus, of which *NODE and *RIGID BODY are read, and what moves nodes, *SYSTEM and *INSTANCE, refused;
+// or a Nastran deck, of which GRID is (in the basic system alone). A node that is stated twice at two places is an
+// error.
 std::optional<NodeList> read_nodes(const SourceText&, Diagnostics&);
 
 }  // namespace dynalin::reduction

@@ -10,7 +10,9 @@
 #include <optional>
 
 #include "base/read_file.h"
+#include "dataset/characters.h"
 #include "output/output_file.h"
+#include "reduction/body_check.h"
 #include "reduction/body_file_writer.h"
 #include "reduction/coordinate_matrix.h"
 #include "reduction/craig_bampton.h"
@@ -35,7 +37,7 @@ bool has_cards(const SourceText& file) {
     const std::string_view word = scanner.word();
     if (word.empty()) continue;
     const auto c = static_cast<unsigned char>(word[0]);
-    return c == '$' || std::isalpha(c) != 0;
+    return c == '$' || (std::isalpha(c) != 0 && !upper_case(word).starts_with("MATRIXMARKET"));
   }
   return false;
 }
@@ -44,6 +46,26 @@ std::string beside(const std::string& path, std::string_view extension) {
   const std::size_t slash = path.find_last_of('/'), point = path.find_last_of('.');
   const bool has_extension = point != std::string::npos && (slash == std::string::npos || point > slash);
   return (has_extension ? path.substr(0, point) : path) + std::string(extension);
+}
+
+// The items of a list that is separated by commas or blanks; none if a comma has nothing on one of its sides.
+std::optional<std::vector<std::string>> items_of(const std::vector<std::string>& words) {
+  std::vector<std::string> items;
+  bool wanted = false;  // a comma stands before
+  for (const std::string& word : words) {
+    for (std::size_t at = 0; at < word.size();) {
+      const std::size_t end = std::min(word.find_first_of(", ", at), word.size());
+      if (end > at) {
+        items.push_back(word.substr(at, end - at));
+        wanted = false, at = end;
+        continue;
+      }
+      if (word[at++] == ' ') continue;
+      if (wanted || items.empty()) return std::nullopt;
+      wanted = true;
+    }
+  }
+  return wanted ? std::nullopt : std::optional(std::move(items));
 }
 
 class Program {
@@ -70,21 +92,22 @@ class Program {
       if (!diagnostics_.has_errors()) fmt::print(err_, "error: the reduction failed: {}\n", reduction.error());
       return tell(diagnostics_.has_errors() ? wrong_input : failed);
     }
-    err_ << render(diagnostics_);
-    print_report(out_, model_, request_, *reduction);
-    if (options_.length_factor != 1 || options_.mass_factor != 1 || options_.force_factor != 1)
-      fmt::print(out_, "all of these are in the units of the matrices, the body file is in others\n");
     const bool condensed =
         std::any_of(model_.freedoms.begin(), model_.freedoms.end(), [](const Freedom& f) { return f.direction == 0; });
-    if (condensed)
-      fmt::print(out_,
-                 "the matrices were condensed before: the inertia of the body file does not follow its deformation\n");
     std::vector<NodeLabel> nodes = request_.interface;
     nodes.insert(nodes.end(), also_.begin(), also_.end());
     const BodyFile body = in_other_units(
         body_of(model_, *reduction, nodes, condensed ? InertiaOrder::undeformed : InertiaOrder::follows_deformation,
                 fmt::format("reduced from {} freedoms", model_.freedoms.size())),
         {options_.length_factor, options_.mass_factor, options_.force_factor});
+    if (!check_body(body, *reduction, options_.output, diagnostics_)) return tell(wrong_input);
+    err_ << render(diagnostics_);
+    print_report(out_, model_, request_, *reduction);
+    if (options_.length_factor != 1 || options_.mass_factor != 1 || options_.force_factor != 1)
+      fmt::print(out_, "all of these are in the units of the matrices, the body file is in others\n");
+    if (condensed)
+      fmt::print(out_,
+                 "the matrices were condensed before: the inertia of the body file does not follow its deformation\n");
     return write(body, std::move(*destination));
   }
 
@@ -103,7 +126,9 @@ class Program {
       if (!(factor > 0) || !std::isfinite(factor)) return usage("factors of units are positive numbers");
     }
     if (!(options_.frequency_limit > 0)) return usage("the frequency up to which modes are taken is positive");
-    for (const std::string& word : options_.interface) {
+    const auto interface = items_of(options_.interface), also = items_of(options_.also);
+    if (!interface || !also) return usage(fmt::format("{} has an empty item", interface ? "--also" : "--interface"));
+    for (const std::string& word : *interface) {
       const std::size_t colon = word.find(':');
       const auto node = TextScanner::integer<NodeLabel>(std::string_view(word).substr(0, colon));
       if (!node) return usage(fmt::format("'{}' is not a node, or node:rotation-node", word));
@@ -113,7 +138,7 @@ class Program {
       if (!rotation) return usage(fmt::format("'{}' is not a node, or node:rotation-node", word));
       rotations_.push_back({*node, *rotation});
     }
-    for (const std::string& word : options_.also) {
+    for (const std::string& word : *also) {
       const auto node = TextScanner::integer<NodeLabel>(word);
       if (!node) return usage(fmt::format("'{}' is not a node", word));
       if (std::find(request_.interface.begin(), request_.interface.end(), *node) == request_.interface.end() &&

@@ -152,9 +152,37 @@ TEST_F(Reduce, a_direct_matrix_has_entries) {
 
 TEST_F(Reduce, says_that_a_body_held_by_its_matrices_is_free_in_a_mechanism) {
   FiniteElementModel beam = test::beam(4, 0.8);
-  for (Eigen::Index k = 0; k < 6; ++k) beam.stiffness.coeffRef(k, k) *= 1.5;
+  // Springs inside: the modes have motions of the whole in them, but are none.
+  for (Eigen::Index k = 12; k < 18; ++k) beam.stiffness.coeffRef(k, k) *= 1.5;
   ASSERT_EQ(run(calculix(beam)), 0) << err_.str();
   EXPECT_THAT(out_.str(), HasSubstr("only 0 of 6 rigid motions strain nothing\na FLEX_BODY is free all the same"));
+}
+
+TEST_F(Reduce, writes_no_body_that_no_mechanism_takes) {
+  FiniteElementModel beam = test::beam(4, 0.8);
+  for (Eigen::Index k = 0; k < 6; ++k) beam.stiffness.coeffRef(k, k) *= 1.5;
+  EXPECT_EQ(run(calculix(beam)), 1);
+  EXPECT_THAT(err_.str(), HasSubstr("error: no FLEX_BODY would take the reduced body"));
+  EXPECT_EQ(out_.str(), "");
+  EXPECT_FALSE(std::filesystem::exists(path("body.fem")));
+}
+
+TEST_F(Reduce, lists_of_nodes_have_no_empty_items) {
+  ReduceOptions options = calculix(test::beam(4, 0.8));
+  for (const std::vector<std::string>& list :
+       std::vector<std::vector<std::string>>{{"1,5"}, {"1,", "5"}, {"1", ",5"}, {"1, 5"}, {"1 5"}}) {
+    options.interface = list;
+    ASSERT_EQ(run(options), 0) << list[0] << err_.str();
+    EXPECT_EQ(record("body.fem", 2), (std::vector<double>{1, 5}));
+  }
+  for (const char* const list : {"1,", ",1", "1,,5", ",", "1, ,5"}) {
+    options.interface = {list};
+    EXPECT_EQ(run(options), 3) << list;
+    EXPECT_THAT(err_.str(), HasSubstr("error: --interface has an empty item"));
+  }
+  options.interface = {"1,5"}, options.also = {"3,"};
+  EXPECT_EQ(run(options), 3);
+  EXPECT_THAT(err_.str(), HasSubstr("error: --also has an empty item"));
 }
 
 TEST_F(Reduce, the_file_has_the_records_of_the_body) {
@@ -299,6 +327,16 @@ TEST_F(Reduce, factors_of_units_change_the_numbers_of_the_body) {
   EXPECT_DOUBLE_EQ(record("body.fem", 8)[0], shapes[0]);
   EXPECT_DOUBLE_EQ(record("body.fem", 8)[4], shapes[4] / 1000);
   EXPECT_DOUBLE_EQ(record("body.fem", 12)[12], whole[12] * 1e6);
+  const auto mass = record("body.fem", 9);
+  const auto in_metres = record("body.fem", 12), stiffness = record("body.fem", 10);
+  options.mass_factor = 1000;
+  ASSERT_EQ(run(options), 0) << err_.str();
+  EXPECT_THAT(out_.str(), HasSubstr("the body file is in others"));
+  EXPECT_DOUBLE_EQ(record("body.fem", 9)[0], mass[0] * 1e3);
+  EXPECT_EQ(record("body.fem", 10), stiffness);
+  EXPECT_DOUBLE_EQ(record("body.fem", 12)[0], whole[0] * 1e3);
+  EXPECT_DOUBLE_EQ(record("body.fem", 12)[1], in_metres[1]);
+  EXPECT_DOUBLE_EQ(record("body.fem", 12)[12], in_metres[12] * 1e3);
 }
 
 TEST_F(Reduce, asks_about_places_that_do_not_fit_the_matrices) {
@@ -385,7 +423,7 @@ TEST_F(Reduce, says_where_the_input_is_wrong) {
   file("job.mas", "%%MatrixMarket matrix coordinate real symmetric\n29 29 1\n1 1 1\n");
   EXPECT_THAT(refused(options), HasSubstr("29 rows and 29 columns, and there are 30 freedoms"));
   file("job.mas", "%%MatrixMarket matrix coordinate real symmetric\n30 30 2\n1 1 1\n");
-  EXPECT_THAT(refused(options), HasSubstr("promises 2 entries, and 1 are there"));
+  EXPECT_THAT(refused(options), HasSubstr("promises 2 entries, and 1 is there"));
   for (const auto* const empty : {"", "%%MatrixMarket matrix coordinate real symmetric\n30 30 0\n"}) {
     file("job.mas", empty);
     EXPECT_THAT(refused(options), HasSubstr("job.mas:1:1: error: the matrix has no entries"));

@@ -25,8 +25,8 @@ void print_frequencies(std::ostream& out, std::string_view title, const Eigen::V
 void print_report(std::ostream& out, const FiniteElementModel& model, const ReductionRequest& request,
                   const Reduction& r) {
   const MassProperties& p = r.properties;
-  fmt::print(out, "{} freedoms, {} interface nodes with {} of them\n", model.freedoms.size(), request.interface.size(),
-             r.constraint_modes);
+  fmt::print(out, "{} freedoms, {} interface node{} with {} of them\n", model.freedoms.size(), request.interface.size(),
+             request.interface.size() == 1 ? "" : "s", r.constraint_modes);
   fmt::print(out, "{} constraint modes + {} fixed-interface modes - {} rigid motions = {} modes\n", r.constraint_modes,
              r.fixed_interface.size(), r.rigid_removed, r.shapes.cols());
   if (r.massless > 0)
@@ -46,8 +46,8 @@ void print_report(std::ostream& out, const FiniteElementModel& model, const Redu
   fmt::print(out, "mass {:.12g}, in x, y and z equal to {:.1e}\n", p.mass, p.uneven);
   fmt::print(out, "centre {:.12g} {:.12g} {:.12g}\n", p.centre[0], p.centre[1], p.centre[2]);
   const Eigen::Matrix3d& J = p.inertia;
-  fmt::print(out, "inertia tensor about it, xx yy zz xy xz yz: {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n", J(0, 0), J(1, 1),
-             J(2, 2), J(0, 1), J(0, 2), J(1, 2));
+  fmt::print(out, "inertia tensor about it, xx yy zz xy xz yz: {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n", J(0, 0),
+             J(1, 1), J(2, 2), J(0, 1), J(0, 2), J(1, 2));
   if (r.fixed_interface.size() > 0) print_frequencies(out, "frequencies with the interface held", r.fixed_interface);
   if (r.squares.size() == r.massless) return;
   print_frequencies(out, r.rigid_removed == 6 ? "frequencies of the free body" : "frequencies of the body",

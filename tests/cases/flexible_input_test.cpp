@@ -175,6 +175,10 @@ TEST_F(FlexibleInput, a_rigid_one_is_the_part_of_its_mass) {
   ASSERT_EQ(run(dataset(", REPRESENTATION=modal, CRATIO=0"), "LINEAR/EIGENSOL\nSTOP\n").eigenvalues(0).size(), 4u);
   EXPECT_THAT(said(", REPRESENTATION=NFORCE"), HasSubstr("REPRESENTATION=NFORCE of FLEX_BODY/2 is not available"));
   EXPECT_THAT(said(", REPRESENTATION=FREE"), HasSubstr("REPRESENTATION is MODAL or RIGID, not FREE"));
+  // A mode is held once.
+  EXPECT_THAT(said(", MODAL_EXACT_DISP=1,2,1"), HasSubstr("MODAL_EXACT_DISP of FLEX_BODY/2 lists mode 1 twice"));
+  EXPECT_THAT(said(", MODAL_EXACT_VEL=2,2"), HasSubstr("MODAL_EXACT_VEL of FLEX_BODY/2 lists mode 2 twice"));
+  EXPECT_THAT(said(", MODAL_EXACT_DISP=1, MODAL_EXACT_VEL=1"), ::testing::Not(HasSubstr("twice")));
   // Changed between analyses.
   const RunResult changed =
       run(swinging(", REULER=90D,0,0, QG=1,-1,0, CRATIO=0"),

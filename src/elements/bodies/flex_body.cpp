@@ -186,18 +186,22 @@ class FlexBodySet final : public TypedSet<FlexBody> {
     };
     take(f.displacements, "DMODE", f.displacements_at, b.displacement);
     take(f.rates, "VMODE", f.rates_at, b.rate);
-    const auto hold = [&](const std::vector<std::int64_t>& modes, const Span& at, std::vector<bool>& held) {
+    const auto hold = [&](const std::vector<std::int64_t>& modes, std::string_view word, const Span& at,
+                          std::vector<bool>& held) {
       for (const std::int64_t m : modes) {
         const auto found = std::ranges::find(b.number, m);
-        if (found != b.number.end()) {
-          held[static_cast<std::size_t>(found - b.number.begin())] = true;
-        } else {
+        if (found == b.number.end()) {
           diagnostics.error("value-out-of-range", at, fmt::format("{} has no mode {}", name, m));
+          continue;
         }
+        const auto mode = static_cast<std::size_t>(found - b.number.begin());
+        if (held[mode])
+          diagnostics.error("duplicate-argument", at, fmt::format("{} of {} lists mode {} twice", word, name, m));
+        held[mode] = true;
       }
     };
-    hold(f.held_displacements, f.held_displacements_at, b.holds_displacement);
-    hold(f.held_rates, f.held_rates_at, b.holds_rate);
+    hold(f.held_displacements, "MODAL_EXACT_DISP", f.held_displacements_at, b.holds_displacement);
+    hold(f.held_rates, "MODAL_EXACT_VEL", f.held_rates_at, b.holds_rate);
   }
 
   static void read_damping(FlexBody& f, ElementReader& reader) {
