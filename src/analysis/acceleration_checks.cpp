@@ -21,6 +21,17 @@ double along_axes(const Layout& layout, const std::vector<double>& values, std::
   return std::max({std::abs(values[first]), std::abs(values[first + 1]), std::abs(values[first + 2])});
 }
 
+// Coordinates whose acceleration moves mass. That of others only follows: at rest from velocities squared, of which
+// nothing is left but rounding, and what reads it is looked at itself.
+std::vector<bool> with_inertia(const AccelerationEquations& equations) {
+  const std::int32_t coordinates = equations.augmented().lambda(0);
+  std::vector<bool> inertia(static_cast<std::size_t>(coordinates), false);
+  for_each_entry(equations.equations().matrix(PartialBy::acceleration), [&](std::int32_t r, std::int32_t c, double v) {
+    if (r < coordinates && v != 0) inertia[static_cast<std::size_t>(c)] = true;
+  });
+  return inertia;
+}
+
 std::string unknown_text(const System& system, const AccelerationEquations& equations, std::int32_t k) {
   const Layout& layout = system.layout();
   const AugmentedSystem& augmented = equations.augmented();
@@ -97,10 +108,12 @@ LostDigits lost_digits(const System& system, AccelerationEquations& equations, c
   Eigen::VectorXd rounding = rounding_of_solution(lu, terms);
   equations.spread_over_axes(rounding);
   const Eigen::VectorXd value = equations.values(op).cwiseAbs();
+  const std::vector<bool> inertia = with_inertia(equations);
   std::vector<double> parts(n, 0.0);
   for (std::int32_t k = 0; k < static_cast<std::int32_t>(count); ++k) {
     // An answer that is nothing but rounding is zero, and so has no digits to lose.
     if (size(k) <= 1e3 * rounding(k)) continue;
+    if (k < augmented.lambda(0) && !inertia[static_cast<std::size_t>(k)]) continue;
     // Nor has an algebraic value that is nothing but rounding a derivative to lose.
     const bool algebraic = k >= augmented.algebraic(0) && k < augmented.state(0);
     if (!(size(k) > 0) || !std::isfinite(change(k)) || (algebraic && value(k) <= 1e3 * bend(k))) continue;

@@ -115,5 +115,35 @@ TEST(AccelerationChecks, digits_are_lost_near_a_double_root) {
   EXPECT_THAT(on.error().message, HasSubstr("the value of VARIABLE/1"));
 }
 
+// A damped wheel without mass at rest, on a hinge along none of the axes: its velocity is nothing but rounding, and so
+// is what the rows of the hinge make of its square.
+TEST(AccelerationChecks, accelerations_of_what_has_no_mass_lose_nothing) {
+  for (const char* axes : {"1.7600,1.9317,-0.0898", "0.3,0.5,0.7", "2,1,0.5", "-1.1,0.4,2.2"}) {
+    const std::string of = std::string(", REULER=") + axes + "\n";
+    Findings findings;
+    const auto op = solved("MARKER/2, PART=1" + of + "PART/2, MASS=3, CM=20, IP=0.2,0.3,0.25\nMARKER/20" + of +
+                               "PART/6\nMARKER/60" + of +
+                               "JOINT/1, REVOLUTE, I=20, J=2\nJOINT/2, REVOLUTE, I=60, J=2\n"
+                               "SPRINGDAMPER/1, ROTATIONAL, I=60, J=20, KT=5, CT=0.3\n"
+                               "SPRINGDAMPER/2, ROTATIONAL, I=60, J=2, KT=7\n",
+                           findings);
+    ASSERT_TRUE(op) << op.error().message;
+    EXPECT_THAT(findings.warnings.items(), IsEmpty());
+  }
+}
+
+// Where the force of a damper has no slope, (v − 1)² = 0, its velocity is known to half the digits, mass or none.
+TEST(AccelerationChecks, velocities_of_what_has_no_mass_lose_digits_near_a_double_root) {
+  Findings findings;
+  const auto op = solved(
+      "PART/2\nMARKER/20\nJOINT/2, TRANSLATIONAL, I=20, J=1\n"
+      "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=1-2*VZ(20,1,1)+VZ(20,1,1)**2\n",
+      findings);
+  ASSERT_TRUE(op) << op.error().message;
+  ASSERT_EQ(findings.warnings.items().size(), 1u);
+  EXPECT_EQ(findings.warnings.items()[0].code, "lost-digits");
+  EXPECT_THAT(findings.warnings.items()[0].message, HasSubstr("the balance of freedoms without mass"));
+}
+
 }  // namespace
 }  // namespace dynalin::analysis_test::acceleration_checks_test

@@ -171,13 +171,6 @@ void drop_rounding(Matrix& values, const Matrix& sizes) {
   values = (values.array().abs() <= cancelled_units * epsilon * sizes.array()).select(0.0, values);
 }
 
-bool has_negative_direction(const Matrix& m) {
-  if (m.size() == 0) return false;
-  const Matrix symmetric = 0.5 * (m + m.transpose());
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(symmetric, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()(0) < -1e-12 * solver.eigenvalues().cwiseAbs().maxCoeff();
-}
-
 Matrix selected_rows(const Matrix& m, const std::vector<Index>& which) {
   Matrix out(static_cast<Index>(which.size()), m.cols());
   for (std::size_t k = 0; k < which.size(); ++k) out.row(static_cast<Index>(k)) = m.row(which[k]);
@@ -254,15 +247,14 @@ Matrix with_rounding(const System& system, const AugmentedSystem& augmented, con
   return size + rounding;
 }
 
-// Whether the columns of the augmented matrix vanish along what its left null vectors leave: an acceleration that a
-// force on the freedom itself reads stands for a mass.
-bool has_virtual_mass(const ColumnMatrix& m, const MasslessDirections& d, const Matrix& left_size, const Matrix& rest) {
-  for (std::size_t j = 0; j < d.coordinate.size(); ++j) {
-    Eigen::RowVectorXd size = Eigen::RowVectorXd::Zero(left_size.cols());
-    for_each_in_column(m, d.coordinate[j], [&](std::int32_t r, double v) { size += std::abs(v) * left_size.row(r); });
-    if ((rest.row(static_cast<Index>(j)).array().abs() > 1e-12 * size.array()).any()) return true;
-  }
-  return false;
+// Whether an acceleration that a force on the freedom itself reads stands for a mass, Yᵀ A N with the null vectors of
+// both sides: a left one alone would leave its rounding, times masses that have nothing to do with the freedom.
+bool has_virtual_mass(const ColumnMatrix& m, const Matrix& left, const Matrix& left_size, const Matrix& right) {
+  ColumnMatrix size = m;
+  for (double& v : size.value) v = std::abs(v);
+  const Matrix mass = left.transpose() * product(m, right);
+  const Matrix terms = left_size.transpose() * product(size, right.cwiseAbs());
+  return (mass.array().abs() > 1e-12 * terms.array()).any();
 }
 
 }  // namespace
@@ -376,7 +368,7 @@ Result<std::optional<MasslessLimit>> massless_limit(const System& system, const 
   limit.left = y.topRows(augmented.size());
   limit.right.conservativeResize(augmented.size(), Eigen::NoChange);
   const Matrix size = with_rounding(system, augmented, matrix, limit.left);
-  if (has_virtual_mass(matrix, limit.directions, size, y.bottomRows(k))) return Out();
+  if (has_virtual_mass(matrix, limit.left, size, limit.right)) return Out();
   // Components that are rounding of the solution would couple what has nothing to do with each other.
   for (Index c = 0; c < k; ++c) {
     auto column = limit.left.col(c);
@@ -404,15 +396,11 @@ Result<std::optional<MasslessLimit>> massless_limit(const System& system, const 
 
   const Matrix C = limit.on_rates * limit.directions.basis;
   limit.damping = rank_split(C, limit.on_rates_size * along);
-  Matrix CN = C;
-  drop_rounding(CN, limit.on_rates_size * along);
-  limit.outruns_damping = has_negative_direction(CN);
   const Matrix Z = limit.condensed_directions();
   limit.stiffness = limit.condensed_rows(limit.on_positions) * Z;
   const Matrix stiffness_size = limit.damping.left_null.cwiseAbs().transpose() * limit.on_positions_size *
                                 (along * limit.damping.right_null.cwiseAbs());
   drop_rounding(limit.stiffness, stiffness_size);
-  limit.outruns_stiffness = has_negative_direction(limit.stiffness);
   const RankSplit held = rank_split(limit.stiffness, stiffness_size);
   if (!held.other_column.empty()) {
     const std::string names = names_of(system, limit.directions, limit.damping.right_null * held.right_null);

@@ -40,7 +40,6 @@ struct MasslessLimit {
   Eigen::MatrixXd residual_on_rates;                                 // ∂R/∂q′ along the directions
   RankSplit damping;                                                 // of C
   Eigen::MatrixXd stiffness;                                         // K of what C leaves open
-  bool outruns_damping = false, outruns_stiffness = false;  // C, K not positive: the fast motion left out grows
 
   Eigen::Index count() const { return directions.count(); }
   Eigen::Index damped() const { return count() - condensed(); }

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "analysis/acceleration_equations.h"
+#include "analysis/massless_runaway.h"
 #include "system/model_test_support.h"
 
 namespace dynalin::analysis_test::massless_test {
@@ -99,7 +100,7 @@ TEST(Massless, springs_condense_a_point_and_dampers_make_it_of_first_order) {
   EXPECT_EQ((*a)->damped(), 0);
   EXPECT_NEAR((*a)->stiffness(0, 0), 12, 1e-12);
   EXPECT_NEAR((*a)->on_positions(0, 8), -7, 1e-12);  // of the mass
-  EXPECT_FALSE((*a)->outruns_stiffness);
+  EXPECT_EQ(runaway_by_stiffness(*held.system, **a).cols(), 0);
 
   const Limit damped(line + link(1, 20, 1, "5", "2") + link(2, 30, 20, "7", "3"));
   const auto b = damped.limit();
@@ -110,21 +111,71 @@ TEST(Massless, springs_condense_a_point_and_dampers_make_it_of_first_order) {
   EXPECT_NEAR((*b)->on_rates(0, 8), -3, 1e-12);
   EXPECT_NEAR((*b)->damped_rows((*b)->on_positions)(0, 2), 12, 1e-12);
   EXPECT_NEAR((*b)->damped_directions()(2, 0), 1, 1e-15);
-  EXPECT_FALSE((*b)->outruns_damping);
+  EXPECT_EQ(runaway_by_damping(*damped.system, **b).cols(), 0);
   EXPECT_EQ((*damped.limit(true))->condensed(), 1);  // NODAMPIN
 }
 
-TEST(Massless, negative_stiffness_and_damping_outrun) {
+TEST(Massless, negative_stiffness_and_damping_run_away) {
   const Limit spring(line + link(1, 20, 1, "5", "0") +
                      "SFORCE/1, TRANSLATIONAL, I=20, J=1, ACTIONONLY, FUNCTION=9*(DZ(20,1)-1)\n");
   const auto a = spring.limit();
   ASSERT_TRUE(a && *a);
-  EXPECT_TRUE((*a)->outruns_stiffness);
+  EXPECT_GT(runaway_by_stiffness(*spring.system, **a).cols(), 0);
   const Limit damper(line + link(1, 20, 1, "5", "1") +
                      "SFORCE/1, TRANSLATIONAL, I=20, J=1, ACTIONONLY, FUNCTION=9*VZ(20,1)\n");
   const auto b = damper.limit();
   ASSERT_TRUE(b && *b);
-  EXPECT_TRUE((*b)->outruns_damping);
+  EXPECT_GT(runaway_by_damping(*damper.system, **b).cols(), 0);
+}
+
+// A point that a force drives by its own displacements or velocities; along z it is held.
+std::string driven_point(const std::string& fx, const std::string& fy) {
+  return "POINT_MASS/2, MASS=0\nMARKER/20, POINT_MASS=2\nMARKER/11, PART=1, FLOATING\n"
+         "VFORCE/1, I=20, JFLOAT=11, RM=1, FX=" +
+         fx + "\\FY=" + fy + "\\FZ=-5*DZ(20,1)-VZ(20,1,1)\n";
+}
+
+// Of [5 3; −3 5] the eigenvalues 5 ± 3 j are no squares of frequencies; [1 30; 0 1] decays, though not along (1, −1).
+TEST(Massless, what_is_not_symmetric_runs_away_by_its_eigenvalues) {
+  const Limit flutter(driven_point("-5*DX(20,1)-3*DY(20,1)", "3*DX(20,1)-5*DY(20,1)"));
+  const auto a = flutter.limit();
+  ASSERT_TRUE(a && *a) << (a ? "" : a.error().message);
+  ASSERT_EQ((*a)->condensed(), 2);
+  const Eigen::MatrixXd grows = runaway_by_stiffness(*flutter.system, **a);
+  ASSERT_GT(grows.cols(), 0);
+  EXPECT_EQ(names_of(*flutter.system, (*a)->directions, grows), "DX of POINT_MASS/2, DY of POINT_MASS/2");
+  EXPECT_EQ(runaway_by_damping(*flutter.system, **a).cols(), 0);
+
+  const Limit decays(driven_point("-VX(20,1,1)-30*VY(20,1,1)", "-VY(20,1,1)"));
+  const auto b = decays.limit();
+  ASSERT_TRUE(b && *b) << (b ? "" : b.error().message);
+  ASSERT_EQ((*b)->damped(), 3);
+  EXPECT_EQ(runaway_by_damping(*decays.system, **b).cols(), 0);
+}
+
+TEST(Massless, an_acceleration_that_its_own_force_reads_is_a_mass) {
+  for (const char* mass : {"1E-2", "1E-12"}) {
+    const auto l = Limit(line + link(1, 20, 1, "5", "0") + link(2, 30, 20, "7", "0") +
+                         "SFORCE/1, TRANSLATIONAL, I=20, J=1, ACTIONONLY, FUNCTION=-" + mass + "*ACCZ(20,1)\n")
+                       .limit();
+    ASSERT_TRUE(l) << l.error().message;
+    EXPECT_FALSE(l->has_value()) << mass;
+  }
+}
+
+// Left null vectors reach masses by rounding alone where axes are none of the coordinates'.
+TEST(Massless, axes_that_stand_askew_bring_no_mass) {
+  for (const char* axes : {"2,1,0.5", "0.3,0.5,0.7", "-1.1,0.4,2.2", "1.76,1.9317,-0.0898"}) {
+    for (const char* joint : {"REVOLUTE", "CYLINDRICAL"}) {
+      const std::string of = std::string(", REULER=") + axes + "\n";
+      const auto l = Limit("MARKER/12, PART=1" + of + "PART/2, MASS=3, CM=20, IP=0.2,0.3,0.25\nMARKER/20\nMARKER/22" +
+                           of + "PART/6\nMARKER/62" + of + "JOINT/1, " + joint + ", I=62, J=22\n" +
+                           "BUSHING/1, I=62, J=12, K=50,60,70, KT=5,6,7\n")
+                         .limit();
+      ASSERT_TRUE(l) << l.error().message;
+      EXPECT_TRUE(l->has_value()) << axes << " " << joint;
+    }
+  }
 }
 
 TEST(Massless, two_points_that_one_damper_joins_are_one_of_each_kind) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/massless_runaway.h"
 #include "system/sparse_lu.h"
 
 namespace dynalin {
@@ -115,14 +116,14 @@ class Taker {
                             "and it is a state of first order (limit of vanishing mass)",
                             label.text, label.owner.text()));
     }
-    for (const auto& [grows, what] :
-         {std::pair(limit_.outruns_damping, "damping"), std::pair(limit_.outruns_stiffness, "stiffness")}) {
-      if (grows) {
+    for (const auto& [grows, what] : {std::pair(runaway_by_damping(system_, limit_), "damping"),
+                                      std::pair(runaway_by_stiffness(system_, limit_), "stiffness")}) {
+      if (grows.cols() > 0) {
         states_.remarks.warning(
             "massless-runaway", {},
-            fmt::format("the {} of freedoms without mass ({}) is negative: with a small mass they would run away at "
-                        "once, which the limit of vanishing mass does not show",
-                        what, names_of(system_, limit_.directions, Matrix::Identity(limit_.count(), limit_.count()))));
+            fmt::format("{} of freedoms without mass drives them on ({}): with a small mass, the same in all of them, "
+                        "they would run away at once, which the limit of vanishing mass does not show",
+                        what, names_of(system_, limit_.directions, grows)));
       }
     }
     return {};
