@@ -16,8 +16,10 @@ void keep_texts(const Job::Stage& stage, std::vector<SourceRef>& texts) {
 }
 
 // The equations, which show what is wrong with a model that can be read.
-bool add_system(Job::Stage& stage, const SessionOptions& options, Diagnostics& diagnostics) {
-  auto system = System::make(stage.model, {options.pade ? DelayReading::pade : DelayReading::first_order});
+bool add_system(Job::Stage& stage, const SessionOptions& options, Diagnostics& diagnostics,
+                const System* before = nullptr) {
+  auto system = System::make(stage.model, {options.pade ? DelayReading::pade : DelayReading::first_order,
+                                           before ? angle_names(before->layout()) : std::vector<AngleName>()});
   if (!system) {
     diagnostics.append(std::move(system.error()));
     return false;
@@ -64,7 +66,7 @@ EditedModel edited_model(const Job::Stage& from, std::span<const Command> edits,
   }
   made.stage.dataset = std::move(now.dataset), made.stage.model = std::move(built.value);
   made.stage.restated = std::move(now.restated);
-  if (!made.problems.has_errors()) add_system(made.stage, options, made.problems);
+  if (!made.problems.has_errors()) add_system(made.stage, options, made.problems, from.system.get());
   return made;
 }
 

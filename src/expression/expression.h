@@ -179,6 +179,7 @@ class Expression {
 // DELAY(e, tau, history [, id]): e as it was tau ago, history(TIME) where that lies before the start.
 struct DelayedCall {
   Expression value, lag, history;
+  std::string delayed;     // the first as written, in capitals and without blanks
   std::int32_t array = 0;  // ARRAY with settings of the interpolation, 0 for none
   Span array_at;
 };

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "dataset/characters.h"
 #include "dataset/tokens.h"
 #include "expression/parser.h"
 
@@ -35,6 +36,8 @@ void ExpressionParser::read_delay(const AtomFunction& function, const Span& name
     } else if (count < parts.size() && !within_delay_) {
       if (auto program = ExpressionParser(argument, source_, diagnostics_).parse_within_delay())
         *parts[count] = Expression(std::move(program));
+      if (count == 0)
+        for (const Token& t : argument) call.delayed += upper_case(token_text(t, source_));
     } else if (count == parts.size()) {
       const bool whole = argument.size() == 1 && argument[0].integer;
       const double id = whole ? token_value(argument[0], source_) : 0;

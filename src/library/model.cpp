@@ -18,11 +18,12 @@ constexpr std::string_view activate = "ACTIVATE", deactivate = "DEACTIVATE";
 
 std::shared_ptr<const Model::Inside> made(std::unique_ptr<dynalin::Model> model, Diagnostics diagnostics,
                                           const ReadingOptions& options, std::shared_ptr<const Dataset> statements = {},
-                                          EditHistory edits = {}) {
+                                          EditHistory edits = {}, const System* before = nullptr) {
   if (diagnostics.has_errors()) refuse(diagnostics);
   const std::vector<SourceRef> texts = model->further_sources;  // that messages point into
   const auto system =
-      System::make(std::move(model), {options.pade_delays ? DelayReading::pade : DelayReading::first_order});
+      System::make(std::move(model), {options.pade_delays ? DelayReading::pade : DelayReading::first_order,
+                                      before ? angle_names(before->layout()) : std::vector<AngleName>()});
   if (!system) refuse(system.error());
   auto remarks = remarks_of(diagnostics);
   append(remarks, remarks_of(remarks_on(**system)));
@@ -54,7 +55,7 @@ std::shared_ptr<const Model::Inside> rebuilt(const Model::Inside& before, Edited
                            routine_options(before.options));
   diagnostics.append(std::move(built.diagnostics));
   return made(std::move(built.value), std::move(diagnostics), before.options, std::move(edit.dataset),
-              before.edits.after(before.system, std::move(edit.restated)));
+              before.edits.after(before.system, std::move(edit.restated)), before.system.get());
 }
 
 }  // namespace

@@ -28,8 +28,9 @@ class Binder {
   virtual void note_switches(const BoundExpression&) = 0;
   // Gives a call its SPLINE or CURVE.
   virtual void attach(SplineUse&) = 0;
-  // `owner`: the place in the input that what is remembered belongs to.
-  virtual std::int32_t add_memory(const Span& owner, double initial) = 0;
+  virtual std::int32_t add_memory(const ElementLabel& owner, std::string_view name, double initial) = 0;
+  // Where the memory has AX, AY or AZ with all its turns.
+  virtual std::int32_t count_turns(Measure, MarkerId i, MarkerId j) = 0;
   // Notes why the model cannot be solved as it stands, and where that is written.
   virtual void problem(std::string_view code, const Span& at, std::string, std::string hint = {}) = 0;
 };

@@ -93,10 +93,15 @@ class SmallSystem final : public Signals, public Binder {
   }
   Channel delayed(const Atom&) override { return {Channel::Kind::algebraic, 1}; }
   void attach(SplineUse&) override {}
-  std::int32_t sensor_value(std::int64_t) override { return p.layout.add_memory({}, 0.0); }
+  std::int32_t sensor_value(std::int64_t) override { return p.layout.add_memory(owner, "value"); }
   void note_analysis() override { p.layout.reads_analysis = true; }
   void note_switches(const BoundExpression& e) override { switching.push_back(e); }
-  std::int32_t add_memory(const Span& at, double initial) override { return p.layout.add_memory(at, initial); }
+  std::int32_t add_memory(const ElementLabel& of, std::string_view name, double initial) override {
+    return p.layout.add_memory(of, name, initial);
+  }
+  std::int32_t count_turns(Measure measure, MarkerId i, MarkerId j) override {
+    return p.layout.count_turns(measure, i, j);
+  }
   void problem(std::string_view code, const Span&, std::string, std::string) override { problems.emplace_back(code); }
 
   Paths p;

@@ -258,12 +258,4 @@ void BoundExpression::switches(const Motion& motion, ExpressionScratch& scratch,
   expression_.switches(scratch.atoms, scratch.plain, out);
 }
 
-void BoundExpression::remember(const Motion& motion, Memory& memory) const {
-  for (const BoundAtom& a : atoms_) {
-    if (a.memory < 0) continue;
-    const double total = atom_along_motion(a, motion).value;
-    if (std::isfinite(total)) memory[static_cast<std::size_t>(a.memory)] = total;
-  }
-}
-
 }  // namespace dynalin

@@ -61,7 +61,6 @@ class BoundExpression {
   bool has_switches() const;
   void switches(const Motion&, ExpressionScratch&, SwitchList&) const;
 
-  void remember(const Motion&, Memory&) const;
   // Adds what is wrong when a value or partial is not finite: function, argument and reason.
   // With rates also what its time derivative or a second derivative does not have.
   enum class Derivatives : std::uint8_t { first, with_rates };

@@ -169,7 +169,8 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binde
       const bool one_body = a.places[0].place().body == a.places[1].place().body && rigid(0) && rigid(1);
       const bool constant = one_body && is_constant_on_a_body(a.measure);
       for (const MarkerFrame& place : a.places) note_blocks(a, place, signals.layout(), !constant);
-      if (counts_turns(a.measure)) a.memory = binder.add_memory(atom.at, 0.0);
+      if (counts_turns(a.measure))
+        a.memory = binder.count_turns(a.measure, signals.marker(atom.argument[0]), signals.marker(atom.argument[1]));
       break;
     }
     case AtomFamily::data:

@@ -163,6 +163,13 @@ DelayHistory DelayHistory::of(double start, const std::vector<Instant>& instants
   return h;
 }
 
+DelayHistory DelayHistory::from_oldest() const {
+  if (empty() || oldest() <= start_) return *this;
+  std::vector<Instant> kept = instants();
+  kept.front().begins = true;
+  return of(kept.front().time, kept);
+}
+
 void DelayHistory::add(const Instant& i) {
   end_ = i.time;
   if (i.begins) breaks_.push_back(i.time);

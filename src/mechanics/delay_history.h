@@ -31,8 +31,9 @@ class DelayHistory {
   };
 
   bool empty() const { return size() == 0; }
-  double start() const { return start_; }  // of the motion
-  double end() const { return end_; }      // the last accepted instant
+  double start() const { return start_; }            // of the motion
+  double end() const { return end_; }                // the last accepted instant
+  double oldest() const { return instant(0).time; }  // that is kept
   // At start() ≤ s ≤ end().
   Reading at(double s) const;
   // At end() < s ≤ t, where the value is `present` at t.
@@ -47,6 +48,8 @@ class DelayHistory {
   // What is kept, and the history that consists of that.
   std::vector<Instant> instants() const;
   static DelayHistory of(double start, const std::vector<Instant>&);
+  // For whoever may read further back than what is kept: it begins there.
+  DelayHistory from_oldest() const;
 
   std::size_t size() const { return full_.size() * chunk_size + recent_.size(); }  // of instants kept
 

@@ -46,10 +46,23 @@ std::int32_t Layout::add_state(const DifferentialState& state) {
   return last_index(states.size());
 }
 
-std::int32_t Layout::add_memory(const Span& owner, double initial) {
+std::int32_t Layout::add_memory(const ElementLabel& owner, std::string_view name, double initial) {
   memory.push_back(initial);
-  memory_owners.push_back(owner);
+  memory_owners.push_back({&owner, name});
   return last_index(memory.size());
+}
+
+std::int32_t Layout::count_turns(Measure measure, MarkerId i, MarkerId j) {
+  const auto bits = [](int index) { return static_cast<std::uint64_t>(index); };
+  const int about = static_cast<int>(measure) - static_cast<int>(Measure::AX);
+  const std::uint64_t key = bits(about) << 62 | bits(i.index) << 31 | bits(j.index);
+  const auto [it, fresh] = entry_of_angle_.emplace(key, static_cast<std::int32_t>(memory.size()));
+  if (fresh) {
+    memory.push_back(0);
+    memory_owners.emplace_back();
+    angles.push_back({measure, i, j, it->second});
+  }
+  return it->second;
 }
 
 std::string Layout::coordinate_text(std::int32_t coordinate) const {

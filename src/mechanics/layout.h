@@ -9,10 +9,12 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "base/diagnostics.h"
 #include "dynalin/results.h"
+#include "expression/measures.h"
 #include "mechanics/handles.h"
 #include "mechanics/motion.h"
 
@@ -71,6 +73,13 @@ struct ConstraintRow {
   bool prescribed = false;  // moves parts from where they are drawn, as is meant: a MOTION
 };
 
+// Bodies and coordinates of a flexible body whose deformation is small beside how it turns.
+struct TurningWhole {
+  std::vector<BodyId> bodies;
+  // Vectors along global axes that turn with it: the place of the first of three among coordinates outside bodies.
+  std::vector<std::size_t> vectors;
+};
+
 // A scalar value with one equation of its own: VARIABLE, FUNCTION-valued force, output of a controller.
 struct AlgebraicUnknown {
   const ElementLabel* owner = nullptr;
@@ -95,6 +104,27 @@ struct DifferentialState {
   bool varies() const { return !held_in_dynamics && !course_of_motion; }
 };
 
+// What an entry of the memory belongs to, by which it is found again in an edited model.
+struct MemoryOwner {
+  const ElementLabel* element = nullptr;  // null of an angle
+  std::string_view name;                  // of several that an element has; those of one name follow each other
+};
+
+// An angle that counts whole turns: AX, AY or AZ of marker i seen from j.
+struct CountedAngle {
+  Measure measure = Measure::AZ;
+  MarkerId i, j;
+  std::int32_t memory = -1;  // its entry there: the angle with all its turns
+};
+
+// What a call of DELAY delays, and the statement that it stands in.
+struct DelayOwner {
+  std::string statement;
+  std::int64_t id = 0;
+  std::string delayed;  // as written, in capitals and without blanks
+  std::int32_t state = -1;
+};
+
 class Layout {
  public:
   std::vector<BodyBlock> bodies;            // by BodyId
@@ -103,12 +133,14 @@ class Layout {
   std::vector<ExtraBlock> extras;
   std::set<std::int32_t> followers;  // coordinates that rows of their own element give: the last to become states
   std::vector<CurvePoint> curve_points;
+  std::vector<TurningWhole> turning_wholes;
   std::vector<ConstraintRow> rows;
   std::vector<AlgebraicUnknown> algebraic;
   std::vector<DifferentialState> states;
-  Memory memory;                                     // initial contents
-  std::vector<Span> memory_owners;                   // of each entry
-  std::vector<Span> delay_calls;                     // the place of each call of DELAY, in the order of their histories
+  Memory memory;                           // initial contents
+  std::vector<MemoryOwner> memory_owners;  // of each entry
+  std::vector<CountedAngle> angles;
+  std::vector<DelayOwner> delay_calls;               // in the order of their histories
   std::vector<const ElementLabel*> velocity_driven;  // motions that contradict rest: no static analysis
   bool reads_analysis = false;                       // by MODE: values change with the kind of analysis
   std::int32_t coordinate_count = 0;                 // all blocks
@@ -128,8 +160,9 @@ class Layout {
   std::int32_t add_row(const ElementLabel& owner, std::string_view name, RowLevel level = RowLevel::position);
   std::int32_t add_algebraic(const ElementLabel& owner, std::int32_t component = 0, double guess = 0);
   std::int32_t add_state(const DifferentialState&);
-  // `owner`: the place in the input that what is remembered belongs to, by which it is found again in an edited model.
-  std::int32_t add_memory(const Span& owner, double initial = 0);
+  std::int32_t add_memory(const ElementLabel& owner, std::string_view name, double initial = 0);
+  // Where the memory has the angle with all its turns: one entry for all that read it, so that they agree.
+  std::int32_t count_turns(Measure, MarkerId i, MarkerId j);
 
   std::size_t row_count() const { return rows.size(); }
   // The contact that holds a floating marker, null if none does.
@@ -139,6 +172,9 @@ class Layout {
   Diagnostics remarks;  // worth a warning in every run
   // "DX of PART/3" and the like, for messages.
   std::string coordinate_text(std::int32_t coordinate) const;
+
+ private:
+  std::unordered_map<std::uint64_t, std::int32_t> entry_of_angle_;
 };
 
 }  // namespace dynalin

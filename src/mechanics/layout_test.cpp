@@ -63,10 +63,22 @@ TEST(Layout, rows_values_states_and_memory_are_counted_from_zero) {
   EXPECT_EQ(l.algebraic[1].rate, -1);
   EXPECT_EQ(l.add_state({.owner = &value, .initial = 4}), 0);
   EXPECT_EQ(l.states[0].initial, 4);
-  EXPECT_EQ(l.add_memory({}, 1.5), 0);
-  EXPECT_EQ(l.add_memory({}), 1);
+  EXPECT_EQ(l.add_memory(value, "held", 1.5), 0);
+  EXPECT_EQ(l.add_memory(value, "next"), 1);
   EXPECT_EQ(l.memory, (Memory{1.5, 0.0}));
   EXPECT_EQ(l.memory_owners.size(), 2u);
+}
+
+TEST(Layout, an_angle_is_counted_once) {
+  Layout l;
+  const MarkerId a{3}, b{4};
+  EXPECT_EQ(l.count_turns(Measure::AX, a, b), 0);
+  EXPECT_EQ(l.count_turns(Measure::AY, a, b), 1);
+  EXPECT_EQ(l.count_turns(Measure::AZ, a, b), 2);
+  EXPECT_EQ(l.count_turns(Measure::AZ, b, a), 3);
+  EXPECT_EQ(l.count_turns(Measure::AY, a, b), 1);
+  EXPECT_EQ(l.angles.size(), 4u);
+  EXPECT_EQ(l.memory.size(), 4u);
 }
 
 TEST(Layout, a_floating_marker_is_found_by_its_contact_alone) {

@@ -12,7 +12,7 @@ namespace dynalin {
 namespace {
 
 constexpr std::string_view mark = "save";
-constexpr int version_written = 1;
+constexpr int version_written = 2;
 
 std::uint64_t hash(std::string_view text, std::uint64_t start = 0xcbf29ce484222325U) {  // FNV-1a
   for (const char c : text) start = (start ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
@@ -112,6 +112,12 @@ Json json_of(const SavedPoint& p) {
       instants.push_back({i.time, i.value, std::isfinite(i.slope) ? Json(i.slope) : Json(), i.begins});
     delays.push_back({{"of", json_of(d.of)}, {"start", d.start}, {"instants", std::move(instants)}});
   }
+  Json turns = Json::array();
+  for (const auto& [of, total] : p.turns)
+    turns.push_back({{"about", static_cast<int>(of.measure) - static_cast<int>(Measure::AX)},
+                     {"i", of.i},
+                     {"j", of.j},
+                     {"value", total}});
   return {{"time", p.time},
           {"analysis", static_cast<int>(p.mode)},
           {"redundancy_tolerance", p.redundancy_tolerance},
@@ -121,6 +127,7 @@ Json json_of(const SavedPoint& p) {
           {"values", json_of(p.values)},
           {"states", std::move(states)},
           {"memory", json_of(p.memory)},
+          {"turns", std::move(turns)},
           {"delays", std::move(delays)}};
 }
 
@@ -141,6 +148,10 @@ SavedPoint point_of(const Json& json) {
     p.coordinates.push_back({key_of(c.at("of")), c.at("values"), c.at("velocity"), c.at("acceleration")});
   p.multipliers = values_of(json.at("multipliers")), p.values = values_of(json.at("values"));
   p.memory = values_of(json.at("memory"));
+  for (const Json& t : json.at("turns")) {
+    const auto measure = static_cast<Measure>(static_cast<int>(Measure::AX) + t.at("about").get<int>());
+    p.turns.emplace(AngleName{measure, t.at("i"), t.at("j")}, t.at("value"));
+  }
   for (const Json& s : json.at("states")) p.states.push_back({key_of(s.at("of")), s.at("value"), s.at("rate")});
   for (const Json& d : json.at("delays")) {
     SavedPoint::Delay delay{key_of(d.at("of")), d.at("start"), {}};

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "system/entry_keys.h"
+#include "system/carried_past.h"
+#include "system/carried_turns.h"
 #include "system/moved_origin.h"
 
 namespace dynalin {
@@ -37,6 +38,15 @@ void take_up_courses(const System& system, const std::vector<bool>& known, Opera
     if (begins(r.course)) op.state[static_cast<std::size_t>(r.course)] += off.value;
     if (begins(r.course_rate)) op.state[static_cast<std::size_t>(r.course_rate)] += off.rate;
   }
+}
+
+// What no element has remembered before begins at the point.
+void take_over_memory(const System& from, const OperatingPoint& op, const System& to, OperatingPoint& out) {
+  OperatingPoint begun = out;
+  begun.mode = AnalysisMode::initial_conditions;
+  to.remember(begun);
+  out.memory = std::move(begun.memory);
+  for (const auto& [a, b] : matches(memory_keys(from.layout()), memory_keys(to.layout()))) out.memory[b] = op.memory[a];
 }
 
 }  // namespace
@@ -79,19 +89,27 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
   std::vector<bool> known(now.states.size(), false);
   for (const auto& [a, b] : matches(state_keys(old), state_keys(now))) {
     const ElementLabel* owner = now.states[b].owner;
+    if (now.states[b].type == StateType::delay) continue;  // these are numbered anew
     if (owner && is_restated(restated, owner->statement, owner->id)) continue;
     out.state[b] = op.state[a];
     out.state_rate[b] = op.state_rate[a];
     known[b] = true;
   }
 
-  // What is remembered belongs to a place in the text, which an edit leaves where it is.
-  for (const auto& [a, b] : matches(memory_places(old), memory_places(now))) out.memory[b] = op.memory[a];
+  for (const auto& [a, b] : matches(delay_keys(old), delay_keys(now))) {
+    const std::int32_t before = old.delay_calls[a].state, after = now.delay_calls[b].state;
+    if (before < 0 || after < 0) continue;
+    copy_block(op.state, before, out.state, after, 1);
+    copy_block(op.state_rate, before, out.state_rate, after, 1);
+  }
 
-  if (op.delays && !now.delay_calls.empty()) {
-    auto delays = std::make_shared<DelayHistories>(now.delay_calls.size());
-    for (const auto& [a, b] : matches(delay_places(old), delay_places(now))) delays->of_call[b] = op.delays->of_call[a];
-    out.delays = std::move(delays);
+  take_over_memory(from, op, to, out);
+  take_over_turns(known_turns(from, op), to, out);
+  if (op.delays) {
+    std::vector<KeptPast> kept;
+    const std::vector<EntryKey> calls = delay_keys(old);
+    for (std::size_t k = 0; k < calls.size(); ++k) kept.push_back({calls[k], &op.delays->of_call[k]});
+    out.delays = histories_of(pasts_of(delay_keys(now), kept));
   }
   take_up_courses(to, known, out);
   return out;

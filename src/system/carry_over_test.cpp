@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "system/carried_turns.h"
 #include "system/model_test_support.h"
 
 namespace dynalin::system_test::carry_over_test {
@@ -132,12 +133,118 @@ TEST(CarryOver, a_body_whose_origin_is_taken_elsewhere_keeps_its_place_and_motio
   EXPECT_NE(now.poses[1].r.y, op.poses[1].r.y);
 }
 
-TEST(CarryOver, turns_that_were_counted_stay_with_their_place_in_the_text) {
-  const auto s = system_of(part(3) + diff(1) + diff(2));
+// A rotor that has turned by 15 about the axes of several markers.
+constexpr double turned = 15;
+const std::string rotor =
+    "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nMARKER/21, REULER=1.2,0,0\nMARKER/22, REULER=0,180D,0\n"
+    "MARKER/23, REULER=0,90D,0\nMARKER/2, PART=1\nMARKER/3, PART=1, REULER=-0.5,0,0\n"
+    "MARKER/4, PART=1, REULER=0,90D,0\nJOINT/1, REVOLUTE, I=20, J=2\n";
+OperatingPoint turn(const System& s) {
+  OperatingPoint op = s.drawn();
+  constexpr int steps = 10;
+  for (int k = 0; k < steps; ++k) {
+    op.poses[1].R = rotation_exponential({0, 0, turned / steps}) * op.poses[1].R;
+    s.remember(op);
+  }
+  return op;
+}
+double angle(const System& s, const OperatingPoint& op, const AngleName& of) { return known_turns(s, op).at(of); }
+constexpr Measure AX = Measure::AX, AY = Measure::AY, AZ = Measure::AZ;
+
+TEST(CarryOver, all_that_reads_an_angle_counts_the_same_turns) {
+  const auto s = system_of(rotor +
+                           "VARIABLE/1, FUNCTION=AZ(20,2)\nVARIABLE/2, FUNCTION=2*AZ(20,2)\n"
+                           "SPRINGDAMPER/1, ROTATIONAL, I=20, J=2, KT=1\nBUSHING/1, I=20, J=2, K=1,1,1, KT=1,1,1\n");
+  EXPECT_EQ(s->layout().angles.size(), 3u);
+  EXPECT_NEAR(angle(*s, turn(*s), {AZ, 20, 2}), turned, 1e-12);
+}
+
+TEST(CarryOver, turns_go_on_whatever_the_edited_text_looks_like) {
+  const auto from = system_of(rotor + "SFORCE/1, ROTATIONAL, I=20, J=2, FUNCTION=-0.1*AZ(20,2)\n");
+  const auto to = system_of(rotor + "BUSHING/1, I=20, J=2, K=1,1,1, KT=1,1,1\nVARIABLE/7, FUNCTION=SIN(AZ(20,2)/9)\n");
+  EXPECT_NEAR(angle(*to, carried_over(*from, turn(*from), *to), {AZ, 20, 2}), turned, 1e-12);
+}
+
+TEST(CarryOver, turns_are_counted_on_where_nothing_reads_the_angle_for_a_while) {
+  const std::string spring = "SPRINGDAMPER/1, ROTATIONAL, I=20, J=2, KT=1\n";
+  const auto with = system_of(rotor + spring);
+  const auto without = system_of(rotor, {.counted_before = angle_names(with->layout())});
+  const auto again = system_of(rotor + spring, {.counted_before = angle_names(without->layout())});
+  OperatingPoint op = carried_over(*with, turn(*with), *without);
+  for (int k = 0; k < 3; ++k) {
+    op.poses[1].R = rotation_exponential({0, 0, 2}) * op.poses[1].R;
+    without->remember(op);
+  }
+  EXPECT_NEAR(angle(*again, carried_over(*without, op, *again), {AZ, 20, 2}), turned + 6, 1e-12);
+}
+
+// About the same axis of the same bodies angles differ by what they differed as drawn.
+TEST(CarryOver, an_angle_that_nothing_has_counted_takes_its_turns_from_one_about_the_same_axis) {
+  const auto from = system_of(rotor + "VARIABLE/1, FUNCTION=AZ(20,2)\n");
+  const auto to = system_of(rotor + "VARIABLE/1, FUNCTION=AZ(21,3)+AZ(2,20)+AZ(22,2)+AY(23,4)+AX(23,4)\n");
+  const OperatingPoint now = carried_over(*from, turn(*from), *to);
+  EXPECT_NEAR(angle(*to, now, {AZ, 21, 3}), turned + 1.7, 1e-12);
+  EXPECT_NEAR(angle(*to, now, {AZ, 2, 20}), -turned, 1e-12);
+  EXPECT_NEAR(angle(*to, now, {AZ, 22, 2}), turned, 1e-12);
+  EXPECT_NEAR(std::abs(angle(*to, now, {AY, 23, 4})), turned, 1e-12);
+}
+
+TEST(CarryOver, an_angle_whose_turns_nothing_tells_begins_within_half_a_turn) {
+  const auto from = system_of(rotor), to = system_of(rotor + "VARIABLE/1, FUNCTION=AZ(20,2)\n");
+  constexpr double pi = 3.14159265358979323846;
+  EXPECT_NEAR(angle(*to, carried_over(*from, turn(*from), *to), {AZ, 20, 2}), turned - 4 * pi, 1e-12);
+}
+
+// What is drawn counts as where the first turn begins, so that rounding there makes none.
+TEST(CarryOver, turns_begin_with_the_angle_as_drawn) {
+  const auto s = system_of(
+      "PART/2, MASS=1, CM=20, IP=1,1,1, REULER=3,0,0\nMARKER/20\nMARKER/2, PART=1\n"
+      "VARIABLE/1, FUNCTION=AZ(20,2)\n");
   OperatingPoint op = s->drawn();
-  ASSERT_EQ(op.memory.size(), 2u);
-  op.memory = {6.5, -13};
-  EXPECT_EQ(carried_over(*s, op, *s).memory, op.memory);
+  op.poses[1].R = rotation_exponential({0, 0, 0.5}) * op.poses[1].R;
+  s->remember(op);
+  EXPECT_NEAR(angle(*s, op, {AZ, 20, 2}), 3.5, 1e-12);
+}
+
+std::string delaying(const std::string& function) {
+  return "VARIABLE/1, FUNCTION=TIME\nVARIABLE/2, FUNCTION=" + function + "\n";
+}
+// The motion of VARIABLE/1 that was recorded until time 3.
+OperatingPoint recorded(const System& s) {
+  OperatingPoint op = s.drawn();
+  op.mode = AnalysisMode::dynamics;
+  for (int k = 0; k <= 300; ++k) {
+    op.time = 0.01 * k;
+    for (std::size_t w = 0; w < s.layout().algebraic.size(); ++w)
+      if (s.layout().algebraic[w].owner->id == 1) op.algebraic[w] = op.time;
+    s.record(op);
+  }
+  return op;
+}
+
+TEST(CarryOver, the_past_of_a_delay_belongs_to_what_is_delayed) {
+  const auto from = system_of(delaying("DELAY(VARVAL(1),2,0)"));
+  const OperatingPoint op = recorded(*from);
+  ASSERT_EQ(op.delays->of_call.size(), 1u);
+  const auto same = system_of(delaying("3*DELAY( varval(1), 1.5, 7) +0"));
+  const auto other = system_of(delaying("DELAY(2*VARVAL(1),2,0)"));
+  const auto past = carried_over(*from, op, *same).delays;
+  ASSERT_EQ(past->of_call.size(), 1u);
+  EXPECT_EQ(past->of_call[0].start(), 0);
+  EXPECT_NEAR(past->of_call[0].at(1.23).value, 1.23, 1e-12);
+  EXPECT_TRUE(carried_over(*from, op, *other).delays->of_call[0].empty());
+}
+
+// A longer delay cannot read what was not kept.
+TEST(CarryOver, a_past_begins_with_what_is_kept) {
+  const auto from = system_of(delaying("DELAY(VARVAL(1),0.02,0)"));
+  const auto to = system_of(delaying("DELAY(VARVAL(1),2.9,0)"));
+  const auto past = carried_over(*from, recorded(*from), *to).delays;
+  const DelayHistory& history = past->of_call.at(0);
+  EXPECT_GT(history.start(), 0.5);
+  EXPECT_LT(history.start(), 3 - 0.02);
+  EXPECT_EQ(history.start(), history.oldest());
+  EXPECT_TRUE(history.instants().front().begins);
 }
 
 // The course of a motion goes on under another function, and starts anew where that is stated.

@@ -1,15 +1,13 @@
 #include "system/entry_keys.h"
 
+#include <array>
+
 namespace dynalin {
 
 namespace {
 
 EntryKey key_of_owner(KeyCounter& keys, const ElementLabel* owner, std::string_view name) {
   return owner ? keys.next(owner->statement, owner->id, name) : keys.next("", 0, name);
-}
-
-EntryKey key_of_place(KeyCounter& keys, const Span& at) {
-  return keys.next(at.source ? at.source->name() : std::string(), static_cast<std::int64_t>(at.offset), "");
 }
 
 template <class Entries, class KeyOf>
@@ -66,9 +64,28 @@ std::vector<EntryKey> state_keys(const Layout& l) {
   });
 }
 
-std::vector<EntryKey> memory_places(const Layout& l) { return keys_of(l.memory_owners, key_of_place); }
+std::vector<EntryKey> memory_keys(const Layout& l) {
+  return keys_of(l.memory_owners,
+                 [](KeyCounter& keys, const MemoryOwner& m) { return key_of_owner(keys, m.element, m.name); });
+}
 
-std::vector<EntryKey> delay_places(const Layout& l) { return keys_of(l.delay_calls, key_of_place); }
+std::vector<EntryKey> delay_keys(const Layout& l) {
+  return keys_of(l.delay_calls,
+                 [](KeyCounter& keys, const DelayOwner& d) { return keys.next(d.statement, d.id, d.delayed); });
+}
+
+std::string AngleName::text() const {
+  static constexpr std::array names = {"AX", "AY", "AZ"};
+  const auto about = static_cast<std::size_t>(measure) - static_cast<std::size_t>(Measure::AX);
+  return names[about] + ("(" + std::to_string(i)) + "," + std::to_string(j) + ")";
+}
+
+std::vector<AngleName> angle_names(const Layout& l) {
+  std::vector<AngleName> names;
+  names.reserve(l.angles.size());
+  for (const CountedAngle& a : l.angles) names.push_back({a.measure, l.marker_label(a.i).id, l.marker_label(a.j).id});
+  return names;
+}
 
 std::vector<std::pair<std::size_t, std::size_t>> matches(const std::vector<EntryKey>& from,
                                                          const std::vector<EntryKey>& to) {

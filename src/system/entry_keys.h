@@ -30,9 +30,18 @@ std::vector<EntryKey> extra_keys(const Layout&);
 std::vector<EntryKey> row_keys(const Layout&);
 std::vector<EntryKey> value_keys(const Layout&);
 std::vector<EntryKey> state_keys(const Layout&);
-// Of what is remembered, by the place in the text that it belongs to: an edit leaves that where it is.
-std::vector<EntryKey> memory_places(const Layout&);
-std::vector<EntryKey> delay_places(const Layout&);  // and of calls of DELAY
+std::vector<EntryKey> memory_keys(const Layout&);  // of angles too: these have names of their own
+std::vector<EntryKey> delay_keys(const Layout&);   // of calls of DELAY, by the statement and what is delayed
+
+// An angle that counts turns, whatever reads it: AZ(20,2).
+struct AngleName {
+  Measure measure = Measure::AZ;
+  std::int64_t i = 0, j = 0;  // ids of markers
+
+  auto operator<=>(const AngleName&) const = default;
+  std::string text() const;
+};
+std::vector<AngleName> angle_names(const Layout&);
 
 // Pairs of places (in `from`, in `to`) with equal keys.
 std::vector<std::pair<std::size_t, std::size_t>> matches(const std::vector<EntryKey>& from,

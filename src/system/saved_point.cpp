@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "system/carried_past.h"
 #include "system/moved_origin.h"
 
 namespace dynalin {
@@ -16,36 +17,6 @@ std::vector<double> part(const std::vector<double>& all, std::int32_t offset, st
 
 void put(const std::vector<double>& values, std::vector<double>& all, std::int32_t offset) {
   std::copy(values.begin(), values.end(), all.begin() + offset);
-}
-
-// What is remembered belongs to an expression, or to an element as a whole, and a past to a call of DELAY; the element
-// is the statement that it stands in. Statements that edits changed have arguments in other texts.
-std::vector<EntryKey> keys_by_place(const System& system, const std::vector<Span>& owners) {
-  std::map<std::pair<const SourceText*, std::uint32_t>, const Statement*> in;
-  for (const Span& owner : owners) in.emplace(std::pair(owner.source, owner.offset), nullptr);
-  const auto claim = [&](const Statement& s, const Span& from, std::uint32_t end) {
-    for (auto it = in.lower_bound({from.source, from.offset}); it != in.end(); ++it) {
-      if (it->first.first != from.source || it->first.second >= end) return;
-      it->second = &s;
-    }
-  };
-  if (!in.empty() && system.model().dataset) {
-    for (const Statement& s : system.model().dataset->statements) {
-      claim(s, s.at, s.at.offset + s.at.length);
-      for (const WrittenArgument& a : s.arguments) {
-        const Span value = a.value_span();
-        claim(s, a.name, value.offset + value.length);
-      }
-    }
-  }
-  KeyCounter keys;
-  std::vector<EntryKey> list;
-  for (const Span& owner : owners) {
-    const Statement* s = in.at({owner.source, owner.offset});
-    const bool whole = s && s->at.source == owner.source && s->at.offset == owner.offset;
-    list.push_back(keys.next(s ? s->name : "", s ? s->id.value_or(0) : 0, whole ? "" : owner.text()));
-  }
-  return list;
 }
 
 std::vector<SavedPoint::Value> saved_values(std::vector<EntryKey> keys, const std::vector<double>& values) {
@@ -74,6 +45,22 @@ class Restorer {
     for (std::size_t k = 0; k < here.size(); ++k) {
       if (!found[k]) name(here[k], not_saved_, restored_.not_saved);
     }
+  }
+  void begin_anew(const std::vector<AngleName>& angles) {
+    for (const AngleName& a : angles) restored_.not_saved.push_back(a.text());
+  }
+  void restore_pasts(const std::vector<SavedPoint::Delay>& saved, const std::vector<EntryKey>& calls) {
+    std::vector<DelayHistory> histories;
+    for (const SavedPoint::Delay& d : saved) histories.push_back(DelayHistory::of(d.start, d.instants));
+    std::vector<KeptPast> kept;
+    for (std::size_t k = 0; k < saved.size(); ++k) kept.push_back({saved[k].of, &histories[k]});
+    const std::vector<const KeptPast*> pasts = pasts_of(calls, kept);
+    restored_.point.delays = histories_of(pasts);
+    std::set<const KeptPast*> taken(pasts.begin(), pasts.end());
+    for (const KeptPast& past : kept)
+      if (!taken.contains(&past)) name(past.of, not_here_, restored_.not_here);
+    for (std::size_t k = 0; k < calls.size(); ++k)
+      if (!pasts[k]) name(calls[k], not_saved_, restored_.not_saved);
   }
   OperatingPoint& point() { return restored_.point; }
   RestoredPoint finish() && { return std::move(restored_); }
@@ -109,12 +96,15 @@ SavedPoint saved_point(const System& system, const OperatingPoint& op) {
   }
   saved.multipliers = saved_values(row_keys(layout), op.lambda);
   saved.values = saved_values(value_keys(layout), op.algebraic);
-  saved.memory = saved_values(keys_by_place(system, layout.memory_owners), op.memory);
+  keys = memory_keys(layout);
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    if (layout.memory_owners[k].element) saved.memory.push_back({std::move(keys[k]), op.memory[k]});
+  saved.turns = known_turns(system, op);
   keys = state_keys(layout);
   for (std::size_t k = 0; k < keys.size(); ++k)
     saved.states.push_back({std::move(keys[k]), op.state[k], op.state_rate[k]});
   if (op.delays) {
-    keys = keys_by_place(system, layout.delay_calls);
+    keys = delay_keys(layout);
     for (std::size_t k = 0; k < keys.size(); ++k) {
       const DelayHistory& past = op.delays->of_call[k];
       saved.delays.push_back({std::move(keys[k]), past.start(), past.instants()});
@@ -158,20 +148,22 @@ RestoredPoint restored_point(const SavedPoint& saved, const System& system) {
   };
   restorer.restore(saved.multipliers, row_keys(layout), into(op.lambda));
   restorer.restore(saved.values, value_keys(layout), into(op.algebraic));
-  restorer.restore(saved.memory, keys_by_place(system, layout.memory_owners), into(op.memory));
+  std::vector<EntryKey> remembered = memory_keys(layout);
+  // Of what elements remember: angles have no key here.
+  std::erase_if(remembered, [](const EntryKey& key) { return key.statement.empty(); });
+  std::vector<std::size_t> entries;
+  for (std::size_t k = 0; k < layout.memory_owners.size(); ++k)
+    if (layout.memory_owners[k].element) entries.push_back(k);
+  restorer.restore(saved.memory, remembered, [&](const SavedPoint::Value& from, std::size_t k) {
+    op.memory[entries[k]] = from.value;
+    return true;
+  });
+  restorer.begin_anew(take_over_turns(saved.turns, system, op));
   restorer.restore(saved.states, state_keys(layout), [&](const SavedPoint::State& from, std::size_t k) {
     op.state[k] = from.value, op.state_rate[k] = from.rate;
     return true;
   });
-  if (!saved.delays.empty()) {
-    auto delays = std::make_shared<DelayHistories>(layout.delay_calls.size());
-    restorer.restore(saved.delays, keys_by_place(system, layout.delay_calls),
-                     [&](const SavedPoint::Delay& from, std::size_t k) {
-                       delays->of_call[k] = DelayHistory::of(from.start, from.instants);
-                       return true;
-                     });
-    op.delays = std::move(delays);
-  }
+  if (!saved.delays.empty()) restorer.restore_pasts(saved.delays, delay_keys(layout));
   return std::move(restorer).finish();
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mechanics/delay_history.h"
+#include "system/carried_turns.h"
 #include "system/entry_keys.h"
 #include "system/system.h"
 
@@ -43,6 +44,7 @@ struct SavedPoint {
   std::vector<Body> bodies;
   std::vector<Coordinates> coordinates;
   std::vector<Value> multipliers, values, memory;
+  KnownTurns turns;
   std::vector<State> states;
   std::vector<Delay> delays;  // none before anything has moved in time
 };

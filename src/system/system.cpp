@@ -13,9 +13,10 @@ tl::expected<std::shared_ptr<const System>, Diagnostics> System::make(std::share
                                                                       const SystemOptions& options) {
   std::shared_ptr<System> system(new System(std::move(model)));
   system->number_bodies();
-  system->make_kernels(options.delays);
+  system->make_kernels(options);
   if (system->layout_.problems.has_errors()) return tl::unexpected(std::move(system->layout_.problems));
   system->scale_coordinates();
+  system->turns_.remember(system->motion(system->drawn()), system->layout_.memory);
   return system;
 }
 
@@ -44,7 +45,7 @@ void System::number_bodies() {
   }
 }
 
-void System::make_kernels(DelayReading delays) {
+void System::make_kernels(const SystemOptions& options) {
   for (std::size_t s = 0; s < model_->sets.size(); ++s) {
     if (model_->sets[s]->size() == 0 || !model_->sets[s]->active) continue;
     if (auto kernel = model_->sets[s]->make_kernel(*model_, layout_)) {
@@ -53,9 +54,10 @@ void System::make_kernels(DelayReading delays) {
     }
   }
   signals_->index_markers();
-  SystemBinder binder(*model_, layout_, *signals_, delays);
+  SystemBinder binder(*model_, layout_, *signals_, options.delays);
   binder.bind(kernels_);
   switching_ = binder.take_switching();
+  find_angles(options.counted_before);
   for (const auto& kernel : kernels_) {
     if (const SwitchSource* kinks = kernel->kinks()) switch_sources_.push_back(kinks);
     if (const EventSource* events = kernel->events()) event_sources_.push_back(events);
@@ -66,6 +68,14 @@ void System::make_kernels(DelayReading delays) {
       starts_.insert(starts_.end(), own.begin(), own.end());
     }
   }
+}
+
+void System::find_angles(const std::vector<AngleName>& counted_before) {
+  for (const AngleName& a : counted_before) {
+    const auto i = model_->find_marker(a.i), j = model_->find_marker(a.j);
+    if (i && j && signals_->has_place(*i) && signals_->has_place(*j)) layout_.count_turns(a.measure, *i, *j);
+  }
+  turns_ = TurnCounter(*signals_);
 }
 
 void System::scale_coordinates() {
@@ -205,6 +215,7 @@ void System::course_rates(const Motion& motion, std::span<double> state_rates) c
 void System::remember(OperatingPoint& op) const {
   const Motion m = motion(op);
   for (const auto& kernel : kernels_) kernel->remember(m, op.memory);
+  turns_.remember(m, op.memory);
 }
 
 std::vector<UndefinedValue> System::undefined_values(const Motion& motion) const {

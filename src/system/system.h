@@ -12,8 +12,10 @@
 #include "mechanics/kernel.h"
 #include "mechanics/signals.h"
 #include "mechanics/start_source.h"
+#include "mechanics/turn_counter.h"
 #include "model/model.h"
 #include "system/elimination.h"
+#include "system/entry_keys.h"
 #include "system/operating_point.h"
 #include "system/sparse_lu.h"
 
@@ -28,6 +30,9 @@ struct Partition {
 
 struct SystemOptions {
   DelayReading delays = DelayReading::first_order;
+  // Angles whose turns another system of the model counts: those that nothing reads here go on being counted, for what
+  // an edit takes into the model again.
+  std::vector<AngleName> counted_before;
 };
 
 class SignalTable;
@@ -60,6 +65,8 @@ class System {
   // Of courses of motions, by their places among all states; other entries stay.
   void course_rates(const Motion&, std::span<double> state_rates) const;
   void remember(OperatingPoint&) const;
+  // The turns of angles alone.
+  void count_turns(const Motion& motion, Memory& memory) const { turns_.remember(motion, memory); }
   // Where functions have no finite value or no derivative; the first that has no value, or else the first.
   std::vector<UndefinedValue> undefined_values(const Motion&) const;
   std::string undefined_value(const Motion&) const;
@@ -87,13 +94,15 @@ class System {
  private:
   explicit System(std::shared_ptr<const Model>);
   void number_bodies();
-  void make_kernels(DelayReading);
+  void make_kernels(const SystemOptions&);
+  void find_angles(const std::vector<AngleName>& counted_before);
   void scale_coordinates();
 
   std::shared_ptr<const Model> model_;
   Layout layout_;
   std::vector<std::unique_ptr<Kernel>> kernels_;
   std::unique_ptr<SignalTable> signals_;
+  TurnCounter turns_;
   std::vector<StartCondition> starts_;
   std::vector<BoundExpression> switching_;  // those with kinks or jumps
   std::vector<const StartSource*> start_sources_;

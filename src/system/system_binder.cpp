@@ -6,12 +6,6 @@
 
 namespace dynalin {
 
-namespace {
-
-std::string text_of(const Statement& s) { return std::string(s.name) + (s.id ? "/" + std::to_string(*s.id) : ""); }
-
-}  // namespace
-
 void SystemBinder::bind(std::vector<std::unique_ptr<Kernel>>& kernels) {
   for (auto& kernel : kernels) kernel->bind(*this);
   kernels.push_back(std::move(own_));
@@ -38,14 +32,12 @@ Channel SystemBinder::rate_of(const Channel& c) {
   return {Channel::Kind::algebraic, it->second, 0};
 }
 
-Channel SystemBinder::delayed(const Atom& atom) {
-  return delays_.channel_of(atom, "in " + statement_at(atom.at), layout_);
-}
+Channel SystemBinder::delayed(const Atom& atom) { return delays_.channel_of(atom, place_of(atom.at), layout_); }
 
 // One that is taken out of the model keeps its value.
 std::int32_t SystemBinder::sensor_value(std::int64_t id) {
   const auto [it, fresh] = sensor_values_.emplace(id, -1);
-  if (fresh) it->second = layout_.add_memory(model_.label(*model_.find("SENSOR", id)).at, 0.0);
+  if (fresh) it->second = layout_.add_memory(model_.label(*model_.find("SENSOR", id)), "value");
   return it->second;
 }
 
@@ -73,21 +65,21 @@ void SystemBinder::make_rates(const std::vector<std::unique_ptr<Kernel>>& kernel
   }
 }
 
-// "SFORCE/3", the statement of the dataset in which something stands.
-std::string SystemBinder::statement_at(const Span& at) const {
+// The statement of the dataset in which something stands.
+DelayPlace SystemBinder::place_of(const Span& at) const {
   const auto& all = model_.dataset->statements;
   // What a command wrote stands elsewhere than its statement.
-  for (const Statement& s : all) {
-    if (at.source == s.at.source) break;
-    for (const WrittenArgument& w : s.arguments) {
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (at.source == all[k].at.source) break;
+    for (const WrittenArgument& w : all[k].arguments) {
       const Span v = w.value_span();
-      if (v.source == at.source && at.offset >= v.offset && at.offset < v.offset + v.length) return text_of(s);
+      if (v.source == at.source && at.offset >= v.offset && at.offset < v.offset + v.length) return {&all[k], k, true};
     }
   }
   const auto next = std::upper_bound(all.begin(), all.end(), at.offset,
                                      [](std::uint32_t offset, const Statement& s) { return offset < s.at.offset; });
   if (next == all.begin()) return {};
-  return text_of(*std::prev(next));
+  return {&*std::prev(next), static_cast<std::size_t>(next - all.begin()) - 1, false};
 }
 
 }  // namespace dynalin

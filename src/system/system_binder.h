@@ -37,14 +37,19 @@ class SystemBinder final : public Binder {
   std::int32_t sensor_value(std::int64_t id) override;
   void note_analysis() override { layout_.reads_analysis = true; }
   void note_switches(const BoundExpression& e) override { switching_.push_back(e); }
-  std::int32_t add_memory(const Span& owner, double initial) override { return layout_.add_memory(owner, initial); }
+  std::int32_t add_memory(const ElementLabel& owner, std::string_view name, double initial) override {
+    return layout_.add_memory(owner, name, initial);
+  }
+  std::int32_t count_turns(Measure measure, MarkerId i, MarkerId j) override {
+    return layout_.count_turns(measure, i, j);
+  }
   void problem(std::string_view code, const Span& at, std::string text, std::string hint) override {
     layout_.problems.error(code, at, std::move(text), std::move(hint));
   }
 
  private:
   void make_rates(const std::vector<std::unique_ptr<Kernel>>&);
-  std::string statement_at(const Span&) const;
+  DelayPlace place_of(const Span&) const;
 
   const Model& model_;
   Layout& layout_;

@@ -8,7 +8,6 @@ namespace dynalin::commands {
 class Reload final : public CommandAction {
  public:
   StudyResult<void> run(RunState&) const override;
-  bool reads_statements() const override { return true; }  // to which what is remembered belongs
 
   bool system = false;  // and not the states alone
   std::string file, prefix, title;

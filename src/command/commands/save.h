@@ -8,7 +8,6 @@ class Save final : public CommandAction {
  public:
   StudyResult<void> run(RunState&) const override;
   CommandFiles files() const override { return {.file = file, .at_once = true}; }
-  bool reads_statements() const override { return true; }
 
   bool system = false;  // and not the states alone
   std::string file, title;

@@ -73,14 +73,12 @@ class SensorKernel final : public Kernel, public EventSource {
       w.function = BoundExpression(w.sensor->function, binder, Binding::observation);
       w.evaluate = BoundExpression(w.sensor->evaluate, binder, Binding::observation);
       w.value_kept = binder.sensor_value(w.label->id);
-      w.state_kept = binder.add_memory(w.label->at, ready);
+      w.state_kept = binder.add_memory(*w.label, "state", ready);
     }
   }
   void remember(const Motion& motion, Memory& memory) const override {
     ExpressionScratch scratch;
     for (const Watch& w : watches_) {
-      w.function.remember(motion, memory);
-      w.evaluate.remember(motion, memory);
       double& state = memory[static_cast<std::size_t>(w.state_kept)];
       if (state != ready && w.is_past(w.distance(motion, scratch))) state = ready;
     }

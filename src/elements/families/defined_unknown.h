@@ -43,7 +43,6 @@ class DefinedUnknown {
   void add_equation(const Motion& motion, Equations& eq) const {
     bound_.add(motion, eq, begin_definition(motion, eq, unknown_), -1.0, PartialBy::damping);
   }
-  void remember(const Motion& motion, Memory& memory) const { bound_.remember(motion, memory); }
   void find_undefined(const Motion& motion, const ElementLabel& of, std::vector<UndefinedValue>& found) const {
     bound_.find_undefined(motion, of, found);
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 #include "elements/families/defined_unknown.h"
 
@@ -19,26 +20,30 @@ void add_partials(const BoundExpression& e, const Motion& motion, Equations& eq,
 
 }  // namespace
 
-Channel DelayKernel::channel_of(const Atom& atom, std::string owner, Layout& layout) {
-  const auto [known, fresh] = unknown_at_.emplace(atom.at.offset, -1);
+Channel DelayKernel::channel_of(const Atom& atom, const DelayPlace& place, Layout& layout) {
+  const auto [known, fresh] = unknown_at_.emplace(std::pair(atom.at.source, atom.at.offset), -1);
   if (!fresh) return {Channel::Kind::algebraic, known->second, 0};
-  Call& call =
-      calls_.emplace_back(Call{.at = atom.at, .written = atom.delayed, .owner = std::move(owner), .label = {}});
+  const std::string statement(place.statement ? place.statement->name : "");
+  const std::int64_t id = place.statement ? place.statement->id.value_or(0) : 0;
+  std::string owner = place.statement ? fmt::format("in {}/{}", statement, id) : std::string();
+  Call& call = calls_.emplace_back(
+      Call{.at = atom.at, .written = atom.delayed, .place = place, .owner = std::move(owner), .label = {}});
   call.label = {"DELAY", 0, call.owner, call.at};
   const Expression& lag = call.written->lag;
   ExpressionWorkspace<double> workspace;
   call.never = lag.is_constant() && lag.splines().empty() && !(lag.evaluate<double>({}, workspace) > 0);
   call.unknown = known->second = layout.add_algebraic(call.label);
   call.index = layout.delay_calls.size();
-  layout.delay_calls.push_back(call.at);
   if (reading_ == DelayReading::pade && !call.never) call.state = layout.add_state({&call.label, StateType::delay});
+  layout.delay_calls.push_back({statement, id, call.written->delayed, call.state});
   return {Channel::Kind::algebraic, call.unknown, 0};
 }
 
 void DelayKernel::bind(Binder& binder) {
   std::vector<Call*> order;
   for (Call& c : calls_) order.push_back(&c);
-  std::sort(order.begin(), order.end(), [](const Call* a, const Call* b) { return a->at.offset < b->at.offset; });
+  const auto place = [](const Call* c) { return std::tuple(c->place.number, c->place.edited, c->at.offset); };
+  std::stable_sort(order.begin(), order.end(), [&](const Call* a, const Call* b) { return place(a) < place(b); });
   for (std::size_t k = 0; k < order.size(); ++k) order[k]->label.id = static_cast<std::int64_t>(k) + 1;
   for (Call* c : order) {
     c->with_rate = reading_ == DelayReading::first_order && !c->never;
@@ -121,13 +126,6 @@ void DelayKernel::add_state(const Call& c, const Motion& motion, Equations& eq, 
   add_partials(c.lag, motion, eq, row, rate);
   c.value.add(motion, eq, row, -1.0, PartialBy::velocity);
   add_unknown(motion, eq, row, c.unknown);
-}
-
-void DelayKernel::remember(const Motion& motion, Memory& memory) const {
-  for (const Call& c : calls_) {
-    c.value.remember(motion, memory);
-    c.lag.remember(motion, memory);
-  }
 }
 
 void DelayKernel::switches(const Motion& motion, ExpressionScratch& scratch, SwitchList& out) const {

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "dataset/dataset.h"
 #include "mechanics/bound_expression.h"
 #include "mechanics/channel_source.h"
 #include "mechanics/delay_history.h"
@@ -26,16 +27,22 @@ namespace dynalin {
 
 enum class DelayReading : std::uint8_t { first_order, pade };
 
+// Where a call stands: in which statement, as which of the dataset, and whether a command wrote it.
+struct DelayPlace {
+  const Statement* statement = nullptr;
+  std::size_t number = 0;
+  bool edited = false;
+};
+
 class DelayKernel final : public Kernel, public DelaySource, public SwitchSource {
  public:
   explicit DelayKernel(DelayReading reading) : reading_(reading) {}
 
-  // The unknown of a call, made when it is met for the first time. `owner` names the statement it stands in.
-  Channel channel_of(const Atom&, std::string owner, Layout&);
+  // The unknown of a call, made when it is met for the first time.
+  Channel channel_of(const Atom&, const DelayPlace&, Layout&);
   // After all others, when every call is known.
   void bind(Binder&) override;
   void equations(const Motion&, Equations&) const override;
-  void remember(const Motion&, Memory&) const override;
   void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
 
   const SwitchSource* kinks() const override { return this; }
@@ -51,7 +58,8 @@ class DelayKernel final : public Kernel, public DelaySource, public SwitchSource
   struct Call {
     Span at;
     std::shared_ptr<const DelayedCall> written;
-    std::string owner;
+    DelayPlace place;
+    std::string owner;   // "in SFORCE/3"
     ElementLabel label;  // DELAY/1, DELAY/2 … in the order of the dataset
     std::int32_t unknown = -1, state = -1;
     std::size_t index = 0;  // among Layout::delay_calls
@@ -67,8 +75,8 @@ class DelayKernel final : public Kernel, public DelaySource, public SwitchSource
   void add_state(const Call&, const Motion&, Equations&, double tau) const;
 
   DelayReading reading_;
-  std::deque<Call> calls_;                            // labels stay where they are
-  std::map<std::uint32_t, std::int32_t> unknown_at_;  // by where a call begins in the dataset
+  std::deque<Call> calls_;                                                          // labels stay where they are
+  std::map<std::pair<const SourceText*, std::uint32_t>, std::int32_t> unknown_at_;  // by where a call begins
 };
 
 }  // namespace dynalin

@@ -124,12 +124,6 @@ void FunctionEquationKernel::equations(const Motion& motion, Equations& eq) cons
   }
 }
 
-void FunctionEquationKernel::remember(const Motion& motion, Memory& memory) const {
-  for (const Part& p : parts_) p.function.remember(motion, memory);
-  for (const Part& p : whole_) p.function.remember(motion, memory);
-  for (const RateEquation& r : rates_) r.function.remember(motion, memory);
-}
-
 void FunctionEquationKernel::undefined_values(const Motion& motion,
                                               std::vector<UndefinedValue>& undefined_values) const {
   for (const Part& p : parts_) p.function.find_undefined(motion, (*labels_)[p.of], undefined_values);

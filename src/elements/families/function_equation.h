@@ -45,7 +45,6 @@ class FunctionEquationKernel final : public Kernel, public ChannelSource {
   void bind(Binder&) override;
   bool add_rate_equation(std::int32_t algebraic, std::int32_t rate, Binder&) override;
   void equations(const Motion&, Equations&) const override;
-  void remember(const Motion&, Memory&) const override;
   const ChannelSource* channels() const override { return this; }
   Channel value_channel(std::size_t element) const override { return unknowns_[element]; }
   const BoundExpression* value_function(std::size_t element) const override;

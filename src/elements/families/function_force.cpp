@@ -41,10 +41,6 @@ void FunctionForceKernel::equations(const Motion& motion, Equations& eq) const {
   }
 }
 
-void FunctionForceKernel::remember(const Motion& motion, Memory& memory) const {
-  for (const Force& f : forces_) f.magnitude.remember(motion, memory);
-}
-
 void FunctionForceKernel::wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const {
   const Force& f = forces_[k];
   out.pair = pair_motion(motion, *f.I, *f.J);

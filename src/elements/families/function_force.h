@@ -31,7 +31,6 @@ class FunctionForceKernel final : public Kernel, public WrenchSource {
   void bind(Binder&) override;
   void equations(const Motion&, Equations&) const override;
   std::size_t shares() const override { return shares_of(forces_.size()); }
-  void remember(const Motion&, Memory&) const override;
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return forces_[k].element.i; }
   MarkerId marker_J(std::size_t k) const override { return forces_[k].element.j; }

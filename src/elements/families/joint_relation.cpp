@@ -23,7 +23,8 @@ JointRelationKernel::JointRelationKernel(const std::vector<JointRelation>& relat
         {}, relations[k].constant, layout.add_row(labels[k], row_name), relations[k].function, relations[k].routine};
     for (const JointRelation::Term& t : relations[k].terms) {
       PairDisplacement q(layout.marker(t.freedom.i), layout.marker(t.freedom.j), t.freedom.kind);
-      q.count_turns(layout, labels[k].at);
+      if (t.freedom.kind == Displacement::rotation)
+        q.count_turns(layout.count_turns(Measure::AZ, t.freedom.i, t.freedom.j));
       r.terms.emplace_back(q, t.factor);
       // Both freedoms of a CYLINDRICAL joint are one wrench.
       const bool again = !joints_.empty() && joints_.back().relation == k && joints_.back().i == t.freedom.i &&
@@ -89,13 +90,6 @@ void JointRelationKernel::wrench(const Motion& motion, std::size_t which, bool, 
     force += out.force.force, torque += out.force.torque;
   }
   out.force.force = force, out.force.torque = torque;
-}
-
-void JointRelationKernel::remember(const Motion& motion, Memory& memory) const {
-  for (const Relation& r : relations_) {
-    for (const auto& term : r.terms) term.first.remember(motion, memory);
-    if (r.written) r.function.remember(motion, memory);
-  }
 }
 
 void JointRelationKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const {

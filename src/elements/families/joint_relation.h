@@ -34,7 +34,6 @@ class JointRelationKernel final : public Kernel, public WrenchSource {
   void bind(Binder&) override;
   void constraints(const Motion&, ConstraintRows&) const override;
   void equations(const Motion&, Equations&) const override;
-  void remember(const Motion&, Memory&) const override;
   void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
   // What each joint bears of the relation, on its marker I with the opposite on J.
   const WrenchSource* reported_wrenches() const override { return this; }

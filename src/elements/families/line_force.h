@@ -75,7 +75,7 @@ class AxisTorqueKernel final : public Kernel, public WrenchSource {
       : labels_(&labels) {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const E& e = elements[k];
-      torques_.push_back({e, layout.marker(e.i), layout.marker(e.j), layout.add_memory(labels[k].at)});
+      torques_.push_back({e, layout.marker(e.i), layout.marker(e.j), layout.count_turns(Measure::AZ, e.i, e.j)});
     }
   }
 
@@ -86,13 +86,6 @@ class AxisTorqueKernel final : public Kernel, public WrenchSource {
       const PairMotion pair = pair_motion(motion, t.I, t.J);
       eq.begin_element((*labels_)[k]);
       apply(pair, torque_of(t, pair, motion, eq.wants_partials()), eq);
-    }
-  }
-  void remember(const Motion& motion, Memory& memory) const override {
-    for (const Torque& t : torques_) {
-      const PairMotion pair = pair_motion(motion, t.I, t.J);
-      auto& total = memory[static_cast<std::size_t>(t.memory)];
-      total = unwrapped(joint_rotation(pair.relative).value, total);
     }
   }
 

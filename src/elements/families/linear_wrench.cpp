@@ -170,12 +170,9 @@ RelativeDisplacement relative_displacement(const PairMotion& pair, std::span<con
   return d;
 }
 
-std::array<double, 3> total_angles(const PairMotion& pair, std::span<const double> turns) {
-  const auto angles = projected_angles(pair.relative);
-  std::array<double, 3> total{};
-  for (std::size_t k = 0; k < 3; ++k) total[k] = unwrapped(angles[k].value, turns[k]);
-  return total;
-}
+CountedAngles::CountedAngles(Layout& layout, MarkerId i, MarkerId j)
+    : entries_{layout.count_turns(Measure::AX, i, j), layout.count_turns(Measure::AY, i, j),
+               layout.count_turns(Measure::AZ, i, j)} {}
 
 LinearWrenchKernel::LinearWrenchKernel(const std::vector<LinearWrench>& laws, const std::vector<ElementLabel>& labels,
                                        Layout& layout)
@@ -183,16 +180,13 @@ LinearWrenchKernel::LinearWrenchKernel(const std::vector<LinearWrench>& laws, co
   laws_.reserve(laws.size());
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const LinearWrench& law = laws[k];
-    laws_.push_back({&law, &layout.marker(law.i), &layout.marker(law.j), layout.add_memory(labels[k].at)});
-    layout.add_memory(labels[k].at);
-    layout.add_memory(labels[k].at);
+    laws_.push_back({&law, &layout.marker(law.i), &layout.marker(law.j), CountedAngles(layout, law.i, law.j)});
   }
 }
 
 PairForce LinearWrenchKernel::force_of(const Placed& p, const PairMotion& pair, const Motion& motion,
                                        bool with_partials) {
-  const RelativeDisplacement d =
-      relative_displacement(pair, std::span(motion.memory).subspan(static_cast<std::size_t>(p.memory), 3));
+  const RelativeDisplacement d = relative_displacement(pair, p.angles.at(motion));
   RelativeWrench w;
   w.depends_on_rate = true;
   Array6 load = p.law->force;
@@ -218,14 +212,6 @@ void LinearWrenchKernel::equations(const Motion& motion, Equations& eq) const {
   }
 }
 
-void LinearWrenchKernel::remember(const Motion& motion, Memory& memory) const {
-  for (const Placed& p : laws_) {
-    const auto at = static_cast<std::size_t>(p.memory);
-    const auto total = total_angles(pair_motion(motion, *p.I, *p.J), std::span(memory).subspan(at, 3));
-    std::copy(total.begin(), total.end(), memory.begin() + static_cast<std::ptrdiff_t>(at));
-  }
-}
-
 void LinearWrenchKernel::wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const {
   out.pair = pair_motion(motion, *laws_[k].I, *laws_[k].J);
   out.force = force_of(laws_[k], out.pair, motion, with_partials);
@@ -245,8 +231,7 @@ void LinearWrenchKernel::undefined_values(const Motion& motion, std::vector<Unde
       continue;
     }
     if (!p.law->routine) continue;
-    const auto turns = std::span(motion.memory).subspan(static_cast<std::size_t>(p.memory), 3);
-    const Read read = read_by_routine(*p.law, relative_displacement(pair, turns), motion);
+    const Read read = read_by_routine(*p.law, relative_displacement(pair, p.angles.at(motion)), motion);
     bool has_values = true, has_slopes = true;
     for (std::size_t r = 0; r < 6; ++r) has_values = has_values && finite(p.law->routine->value(inputs(read), r));
     for (std::size_t r = 0; r < 6 && has_values; ++r) {

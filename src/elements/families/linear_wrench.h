@@ -58,15 +58,24 @@ void warn_of_undefined_angles(const Model&, const ElementLabel&, const LinearWre
 
 // `turns` holds the total angles that AX, AY, AZ are unwrapped to.
 RelativeDisplacement relative_displacement(const PairMotion&, std::span<const double> turns);
-// Total angles for the memory.
-std::array<double, 3> total_angles(const PairMotion&, std::span<const double> turns);
+// Where the memory has AX, AY, AZ of marker i seen from j with all their turns.
+class CountedAngles {
+ public:
+  CountedAngles(Layout&, MarkerId i, MarkerId j);
+  std::array<double, 3> at(const Motion& motion) const {
+    const auto total = [&](std::size_t k) { return motion.memory[static_cast<std::size_t>(entries_[k])]; };
+    return {total(0), total(1), total(2)};
+  }
+
+ private:
+  std::array<std::int32_t, 3> entries_;
+};
 
 class LinearWrenchKernel final : public Kernel, public WrenchSource {
  public:
   LinearWrenchKernel(const std::vector<LinearWrench>&, const std::vector<ElementLabel>&, Layout&);
   void equations(const Motion&, Equations&) const override;
   std::size_t shares() const override { return shares_of(laws_.size()); }
-  void remember(const Motion&, Memory&) const override;
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return laws_[k].law->i; }
   MarkerId marker_J(std::size_t k) const override { return laws_[k].law->j; }
@@ -77,7 +86,7 @@ class LinearWrenchKernel final : public Kernel, public WrenchSource {
   struct Placed {
     const LinearWrench* law;   // of the model
     const MarkerPlace *I, *J;  // of the layout
-    std::int32_t memory;       // of three total angles
+    CountedAngles angles;
   };
   static PairForce force_of(const Placed&, const PairMotion&, const Motion&, bool with_partials);
   std::vector<Placed> laws_;

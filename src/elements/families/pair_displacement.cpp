@@ -33,10 +33,6 @@ void PairDisplacement::wrench(const Motion& motion, double lambda, std::int32_t 
   if (with_partials) add_multiplier(displacement(kind_, path::nested(out.pair.relative)), row, out);
 }
 
-void PairDisplacement::remember(const Motion& motion, Memory& memory) const {
-  if (memory_ >= 0) memory[static_cast<std::size_t>(memory_)] = along_motion(motion).value;
-}
-
 std::optional<JointFreedom> joint_freedom(const Model& model, const ElementLabel& user, JointRef joint, char kind,
                                           Diagnostics& diagnostics) {
   const auto* joints = dynamic_cast<const JointSetBase*>(&model.set(joint));

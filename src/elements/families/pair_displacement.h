@@ -45,10 +45,8 @@ T displacement(Displacement d, const RelativeFrame<T>& I) {
 class PairDisplacement {
  public:
   PairDisplacement(const MarkerPlace& I, const MarkerPlace& J, Displacement kind) : I_(I), J_(J), kind_(kind) {}
-  // Angles count whole turns from now on.
-  void count_turns(Layout& layout, const Span& owner) {
-    if (is_angle(kind_)) memory_ = layout.add_memory(owner);
-  }
+  // The angle is that with whole turns, which the memory has there.
+  void count_turns(std::int32_t memory) { memory_ = memory; }
 
   Taylor along_motion(const Motion&) const;
   // Adds factor times the gradient to a position row.
@@ -57,7 +55,6 @@ class PairDisplacement {
   void add_reaction_partials(const Motion&, double lambda, Equations&) const;
   // The force itself on I, with its dependence on the multiplier of `row`.
   void wrench(const Motion&, double lambda, std::int32_t row, bool with_partials, MarkerWrench&) const;
-  void remember(const Motion&, Memory&) const;
 
  private:
   MarkerPlace I_, J_;

@@ -21,11 +21,11 @@ bool samples_in(AnalysisMode mode) { return mode == AnalysisMode::dynamics; }
 void Sampling::bind(const ElementLabel& owner, Binder& binder) {
   for (std::size_t n = 0; n < size(); ++n) {
     update_.emplace_back(law_.update[n], binder, Binding::observation);
-    kept_.push_back(binder.add_memory(owner.at, n < law_.initial.size() ? law_.initial[n] : 0.0));
+    kept_.push_back(binder.add_memory(owner, "discrete", n < law_.initial.size() ? law_.initial[n] : 0.0));
   }
   period_ = BoundExpression(law_.period, binder, Binding::observation);
-  next_kept_ = binder.add_memory(owner.at, law_.offset);
-  period_kept_ = binder.add_memory(owner.at, 0.0);
+  next_kept_ = binder.add_memory(owner, "next sample", law_.offset);
+  period_kept_ = binder.add_memory(owner, "period", 0.0);
 }
 
 double Sampling::value(const Motion& motion, std::size_t n) const {
@@ -65,11 +65,6 @@ bool Sampling::sample(const Motion& motion, Memory& memory) const {
   memory[static_cast<std::size_t>(next_kept_)] = then;
   memory[static_cast<std::size_t>(period_kept_)] = period;
   return changed || !std::isfinite(then);
-}
-
-void Sampling::remember(const Motion& motion, Memory& memory) const {
-  for (const BoundExpression& e : update_) e.remember(motion, memory);
-  period_.remember(motion, memory);
 }
 
 void Sampling::find_undefined(const Motion& motion, const ElementLabel& of,

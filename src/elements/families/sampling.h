@@ -34,7 +34,6 @@ class Sampling {
   bool is_due(const Motion& motion) const { return crossing(motion) >= -2 * slack(motion); }
   // Whether anything has changed.
   bool sample(const Motion&, Memory&) const;
-  void remember(const Motion&, Memory&) const;
   // Why there are no values, empty if there are.
   std::string failure(const Motion&) const;
   // What the functions that have given none have to say for it.

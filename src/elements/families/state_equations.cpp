@@ -48,7 +48,7 @@ void StateEquationsKernel::bind(Binder& binder) {
     for (const Expression& f : e.law.derivatives) e.derivatives.emplace_back(f, binder);
     for (const Expression& g : e.law.outputs) {
       e.outputs.emplace_back(g, binder);
-      if (e.law.in_statics_only) e.kept_outputs.push_back(binder.add_memory((*labels_)[k].at, 0.0));
+      if (e.law.in_statics_only) e.kept_outputs.push_back(binder.add_memory((*labels_)[k], "output", 0.0));
     }
     if (e.sampling.size() > 0) e.sampling.bind((*labels_)[k], binder);
   }
@@ -102,18 +102,12 @@ void StateEquationsKernel::equations(const Motion& motion, Equations& eq) const 
 }
 
 void StateEquationsKernel::remember(const Motion& motion, Memory& memory) const {
+  if (!is_static(motion.mode)) return;
   for (const Element& e : elements_) {
-    for (const auto* list : {&e.derivatives, &e.outputs})
-      for (const BoundExpression& f : *list) f.remember(motion, memory);
-    if (e.sampling.size() > 0) e.sampling.remember(motion, memory);
-    if (!is_static(motion.mode)) continue;
     for (std::size_t n = 0; n < e.kept_outputs.size(); ++n) {
       memory[static_cast<std::size_t>(e.kept_outputs[n])] =
           motion.algebraic[static_cast<std::size_t>(e.first_output) + n];
     }
-  }
-  for (const OutputRate& r : rates_) {
-    if (r.function) r.function->remember(motion, memory);
   }
 }
 

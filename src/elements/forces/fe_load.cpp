@@ -121,11 +121,6 @@ class BeamLoadKernel final : public Kernel {
     }
   }
 
-  void remember(const Motion& motion, Memory& memory) const override {
-    for (const Load& l : loads_) {
-      for (const DefinedUnknown& u : l.unknowns) u.remember(motion, memory);
-    }
-  }
   void undefined_values(const Motion& motion, std::vector<UndefinedValue>& values) const override {
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       const Load& l = loads_[k];

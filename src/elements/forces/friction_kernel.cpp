@@ -137,7 +137,7 @@ JointFrictionKernel::JointFrictionKernel(const std::vector<JointFriction>& eleme
       for (std::size_t c = 0; f.joint_acts && c < n; ++c)
         layout.add_state({&labels[k], bristles, static_cast<std::int32_t>(c) + 1, 0.0, f.rests_in_statics});
       p.first_memory = static_cast<std::int32_t>(layout.memory.size());
-      for (const double x : FrictionReference::of(f.drawn, {})) layout.add_memory(labels[k].at, x);
+      for (const double x : FrictionReference::of(f.drawn, {})) layout.add_memory(labels[k], "reference", x);
     }
     placed_.push_back(p);
   }

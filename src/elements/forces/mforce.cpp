@@ -126,11 +126,6 @@ class ModalForceKernel final : public Kernel {
     }
   }
 
-  void remember(const Motion& motion, Memory& memory) const override {
-    for (const Load& l : loads_) {
-      for (const DefinedUnknown& u : l.unknowns) u.remember(motion, memory);
-    }
-  }
   void undefined_values(const Motion& motion, std::vector<UndefinedValue>& values) const override {
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       for (const DefinedUnknown& u : loads_[k].unknowns) u.find_undefined(motion, (*labels_)[k], values);

@@ -67,13 +67,10 @@ class NforceKernel final : public Kernel, public WrenchSource {
   NforceKernel(const std::vector<Law>& laws, const std::vector<ElementLabel>& labels, Layout& layout)
       : layout_(layout), labels_(&labels) {
     for (const Law& law : laws) {
-      const Span& owner = labels[laws_.size()].at;
       Placed p{law, {}, layout.marker(law.j), {}, {}};
       for (const MarkerId m : law.markers) {
         p.I.push_back(layout.marker(m));
-        p.memory.push_back(layout.add_memory(owner));
-        layout.add_memory(owner);
-        layout.add_memory(owner);
+        p.angles.emplace_back(layout, m, law.j);
         wrenches_.emplace_back(laws_.size(), p.I.size() - 1);
       }
       for (std::size_t c = 0; c < law.components.size(); ++c)
@@ -107,17 +104,6 @@ class NforceKernel final : public Kernel, public WrenchSource {
         if (!p.components.empty()) continue;
         for (std::size_t l = 0; l < n; ++l)
           apply_cross_partials(at.pairs[k], at.pairs[l], spread(at.pairs[l], change(p, k, l, at), true), eq);
-      }
-    }
-  }
-
-  void remember(const Motion& motion, Memory& memory) const override {
-    for (const Placed& p : laws_) {
-      for (const DefinedUnknown& c : p.components) c.remember(motion, memory);
-      for (std::size_t k = 0; k < p.I.size(); ++k) {
-        const auto at = static_cast<std::size_t>(p.memory[k]);
-        const auto angles = total_angles(pair_motion(motion, p.I[k], p.J), std::span(memory).subspan(at, 3));
-        std::copy(angles.begin(), angles.end(), memory.begin() + static_cast<std::ptrdiff_t>(at));
       }
     }
   }
@@ -163,7 +149,7 @@ class NforceKernel final : public Kernel, public WrenchSource {
     Law law;
     std::vector<MarkerPlace> I;
     MarkerPlace J;
-    std::vector<std::int32_t> memory;
+    std::vector<CountedAngles> angles;
     std::vector<DefinedUnknown> components{};
   };
   const Law& law_of(std::size_t w) const { return laws_[wrenches_[w].first].law; }
@@ -176,9 +162,8 @@ class NforceKernel final : public Kernel, public WrenchSource {
     const std::size_t n = p.I.size();
     at.pairs.resize(n), at.displacements.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
-      const auto turns = std::span(motion.memory).subspan(static_cast<std::size_t>(p.memory[k]), 3);
       at.pairs[k] = pair_motion(motion, p.I[k], p.J);
-      at.displacements[k] = relative_displacement(at.pairs[k], turns);
+      at.displacements[k] = relative_displacement(at.pairs[k], p.angles[k].at(motion));
     }
   }
   // What acts on marker k.

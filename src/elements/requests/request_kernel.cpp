@@ -41,7 +41,10 @@ class ReadingBinder final : public Binder {
   void note_analysis() override {}
   void note_switches(const BoundExpression&) override {}
   void attach(SplineUse& use) override { of_.attach(use); }
-  std::int32_t add_memory(const Span& owner, double initial) override { return of_.add_memory(owner, initial); }
+  std::int32_t add_memory(const ElementLabel& owner, std::string_view name, double initial) override {
+    return of_.add_memory(owner, name, initial);
+  }
+  std::int32_t count_turns(Measure measure, MarkerId i, MarkerId j) override { return of_.count_turns(measure, i, j); }
   void problem(std::string_view code, const Span& at, std::string text, std::string hint) override {
     if (!problem_) problem_ = Diagnostic{Severity::warning, code, at, std::move(text), std::move(hint), {}};
   }
@@ -124,14 +127,6 @@ void RequestKernel::bind_functions(const WantedRequest& w, Binder& binder) {
     leave_out(*w.label, w.info->request.text(), *reading.problem());
   else
     bound_.push_back({w.info, w.label, std::move(functions)});
-}
-
-void RequestKernel::remember(const Motion& motion, Memory& memory) const {
-  for (const Bound& request : bound_) {
-    if (const auto* functions = std::get_if<Functions>(&request.values)) {
-      for (const BoundExpression& f : *functions) f.remember(motion, memory);
-    }
-  }
 }
 
 void RequestKernel::evaluate(const Motion& motion, std::size_t request, std::vector<double>& values) const {

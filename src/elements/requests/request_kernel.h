@@ -25,7 +25,6 @@ class RequestKernel : public Kernel, public RequestSource {
  public:
   RequestKernel(std::vector<WantedRequest> wanted, Layout& layout) : wanted_(std::move(wanted)), layout_(layout) {}
   void bind(Binder&) override;
-  void remember(const Motion&, Memory&) const override;
 
   std::size_t count() const override { return bound_.size(); }
   const RequestInfo& info(std::size_t request) const override { return *bound_[request].info; }
