@@ -13,6 +13,7 @@ constexpr double largest = 1e100;  // what a search for roots can still multiply
 void SwitchList::add(double switching, bool does_count) {
   value.push_back(std::isnan(switching) ? 1.0 : std::clamp(switching, -largest, largest));
   counts.push_back(does_count && !std::isnan(switching));
+  any_undefined = any_undefined || std::isnan(switching);
 }
 
 double knot_switch(std::span<const double> knots, double x, std::size_t first) {

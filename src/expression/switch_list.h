@@ -12,10 +12,11 @@ struct SwitchList {
   std::vector<double> value;  // always finite
   // Whether a change of sign means anything here: not in a branch of an IF that is not taken.
   std::vector<char> counts;
+  bool any_undefined = false;  // since it was cleared
 
   // One that has no value here, such as SQRT(x) − 1 at x < 0, is 1.
   void add(double switching, bool does_count = true);
-  void clear() { value.clear(), counts.clear(); }
+  void clear() { value.clear(), counts.clear(), any_undefined = false; }
 };
 
 // Changes its sign at every knot, of which the first is number `first` of all; continuous, negative before knot 0. One

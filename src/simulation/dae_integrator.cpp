@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "simulation/hidden_crossings.h"
 #include "simulation/newton_convergence.h"
 #include "simulation/order_trial.h"
 #include "simulation/step_factors.h"
@@ -78,6 +79,15 @@ struct DaeIntegrator::Memory {
   int standing = 0;     // steps in a row in which time did not go on
   int short_steps = 0;  // shorter than is allowed, in a row, that do not grow
   std::vector<int> crossed;
+  HiddenCrossings hidden;
+  // The end of a step whose beginning is all that has been handed out, as something crossed zero in it.
+  struct Rest {
+    double end;
+    Outcome outcome;
+    std::vector<int> crossed;
+  };
+  std::optional<Rest> rest;
+  std::vector<double> switches_now;
   std::string reason;
   std::int64_t at_its_rounding = -1;  // the unknown of which rounding leaves more than may be allowed
   IntegrationStatistics before;       // of what was before the last start
@@ -187,6 +197,37 @@ struct DaeIntegrator::Memory {
   }
   static void ignore(int, const char*, const char*, char*, void*) {}
 
+  std::span<const double> switches_at(double at, N_Vector place, N_Vector rate) {
+    switches_now.resize(problem.switch_count());
+    problem.switches(at, constant(place), constant(rate), switches_now);
+    return switches_now;
+  }
+  void place_at(double at) {
+    t = at;
+    check(IDAGetDky(ida, t, 0, y));
+    check(IDAGetDky(ida, t, 1, yp));
+  }
+
+  // The step from one instant to another, or as far as something crosses zero that is not seen at its end.
+  Outcome looked_into(double from, Rest to) {
+    const HiddenCrossings::Values inside = [&](double at, std::span<double> found) {
+      check(IDAGetDky(ida, at, 0, work));
+      check(IDAGetDky(ida, at, 1, weight));
+      problem.switches(at, constant(work), constant(weight), found);
+    };
+    if (t != to.end) place_at(to.end);
+    std::optional<double> first;
+    if (problem.switch_count() > 0) first = hidden.first(from, to.end, switches_at(t, y, yp), inside);
+    if (!first) {
+      if (to.outcome == Outcome::event) crossed = std::move(to.crossed);
+      return to.outcome;
+    }
+    place_at(*first);
+    crossed.assign(hidden.crossed().begin(), hidden.crossed().end());
+    rest = std::move(to);
+    return Outcome::event;
+  }
+
   void attach_solver() {
     matrix = check(SUNMatNewEmpty(context));
     matrix->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
@@ -240,6 +281,8 @@ struct DaeIntegrator::Memory {
     }
     stated_first = first_step ? first_step : bounds.first;
     fresh = true;
+    rest.reset();
+    hidden.begin(switches_at(t, y, yp));
   }
 
   // IDA's own choice takes the errors of the first step to be as large as what it changes: the shorter by far than they
@@ -288,6 +331,7 @@ void DaeIntegrator::limit_steps(double longest) { check(IDASetMaxStep(memory_->i
 
 DaeIntegrator::Outcome DaeIntegrator::step(double latest) {
   Memory& m = *memory_;
+  if (m.rest) return m.looked_into(m.t, *std::exchange(m.rest, std::nullopt));
   if (const auto order = std::exchange(m.next_order, std::nullopt)) {
     check(IDASetMaxOrd(m.ida, *order));
     m.begin(m.t, std::nullopt);
@@ -303,7 +347,7 @@ DaeIntegrator::Outcome DaeIntegrator::step(double latest) {
       break;
     case IDA_ROOT_RETURN:
       check(IDAGetRootInfo(m.ida, m.crossed.data()));
-      return Outcome::event;
+      return m.looked_into(before, {m.t, Outcome::event, m.crossed});
     case IDA_ERR_FAIL:
       return m.fail("no step is short enough for the error that is allowed");
     case IDA_REP_RES_ERR:
@@ -335,7 +379,7 @@ DaeIntegrator::Outcome DaeIntegrator::step(double latest) {
     }
   }
   m.next_order = m.orders.after_step(m.t - before, latest - m.t);
-  return Outcome::step;
+  return m.looked_into(before, {m.t, Outcome::step, {}});
 }
 
 double DaeIntegrator::time() const { return memory_->t; }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "simulation/dynamics.h"
 #include "system/model_test_support.h"
@@ -57,6 +58,15 @@ TEST(DynamicsWithEvents, ends_where_a_sensor_says) {
   }
 }
 
+// Its function ends at t = 0.5, behind where it triggers.
+TEST(DynamicsWithEvents, ends_where_a_sensor_says_before_its_function_does) {
+  for (const double step : {1.0, 0.1}) {
+    const Led r = lead(decay + "SENSOR/1, FUNCTION=SQRT(0.5-TIME), VALUE=0.1, LE, RETURN\n", 1, step);
+    EXPECT_EQ(r.end.end, SimulationEnd::returned);
+    EXPECT_NEAR(r.end.point.time, 0.49, 1e-9);
+  }
+}
+
 TEST(DynamicsWithEvents, writes_where_a_sensor_says_and_changes_the_time_between_outputs) {
   const Led r = lead(
       decay + "SENSOR/1, FUNCTION=DIF(1), VALUE=0.5, LE, PRINT\nSENSOR/2, FUNCTION=TIME, VALUE=2, GE, DT=0.5\n", 3, 1);
@@ -99,6 +109,19 @@ TEST(DynamicsWithEvents, late_feedback_follows_the_method_of_steps) {
   EXPECT_NEAR(lead(text, 1, 0.1).end.point.state[0], 0, 1e-7);
   EXPECT_NEAR(lead(text, 2, 0.1).end.point.state[0], -0.5, 1e-6);
   EXPECT_NEAR(lead(text, 3, 0.1).end.point.state[0], 1 - 3 + 2 - 1.0 / 6, 1e-6);
+}
+
+// A force that is there for 0.4 s of every second; an elastic ceiling that is met for a hundredth of a long flight,
+// from below and at less than two metres per second.
+TEST(DynamicsWithEvents, steps_over_nothing_that_comes_and_goes) {
+  const double on = 2 * (std::asin(1.0) - std::asin(0.3)) / (2 * std::numbers::pi);
+  EXPECT_NEAR(lead("DIFF/1, IC=0, FUNCTION=IF(SIN(2*PI*TIME)-0.3:0,0,1)\n", 5, 5, 1e-3).end.point.state[0], 5 * on,
+              1e-5);
+  const double v = std::sqrt(2.0), w = std::sqrt(1e5), touch = 2 * std::atan(v * w / 10) / w;
+  const Led r = lead("DIFF/1, IC=0, FUNCTION=DIF(2)\nDIFF/2, IC=10, FUNCTION=-10-1E5*MAX(0,DIF(1)-4.9)\n", 2, 2, 1e-6);
+  const double falling = 2 - touch - (10 - v) / 10;
+  EXPECT_NEAR(r.end.point.state[0], 4.9 - v * falling - 5 * falling * falling, 1e-5);
+  EXPECT_NEAR(r.end.point.state[1], -v - 10 * falling, 1e-5);
 }
 
 // x′ = −x(t − τ) with a delay far below the steps: x = exp(−λ t) with λ = exp(λ τ), from the history of that course.

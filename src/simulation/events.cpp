@@ -20,6 +20,13 @@ void Events::values(const Motion& motion, std::span<double> values) {
   std::copy(list_.value.begin(), list_.value.end(), values.begin());
 }
 
+bool Events::watched_is_finite(const Motion& motion) {
+  if (sensors_ == 0) return true;
+  list_.clear();
+  for (const EventSource* source : system_->event_sources()) source->crossings(motion, scratch_, list_);
+  return !list_.any_undefined;
+}
+
 EventAction Events::at_start(OperatingPoint& op) {
   EventAction action;
   const Motion motion = system_->motion(op);

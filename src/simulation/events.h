@@ -21,6 +21,8 @@ class Events {
   std::size_t switch_count() const { return switches_; }  // which come first
   // Functions that change their sign at an event: all switches of the system, then those of its sensors.
   void values(const Motion&, std::span<double>);
+  // Whether what sensors watch has values.
+  bool watched_is_finite(const Motion&);
   // Where a simulation begins: sensors whose condition holds trigger at once.
   EventAction at_start(OperatingPoint&);
   // Where functions have changed their sign: 1 upwards, −1 downwards, 0 not. Sensors that trigger evaluate EVALUATE,

@@ -9,6 +9,7 @@
 #include "simulation/kinematic_equations.h"
 #include "simulation/motion_courses.h"
 #include "simulation/pose_interpolation.h"
+#include "simulation/prescribed_turning.h"
 
 namespace dynalin {
 
@@ -54,6 +55,7 @@ class KinematicRun {
                IntegrationStatistics& statistics, const SimulationWatch& watch, Findings& findings)
       : system_(system),
         equations_(system),
+        turning_(system),
         times_(times),
         limits_(limits_of(settings, from)),
         largest_step_(stated(settings.largest_step, std::numeric_limits<double>::infinity())),
@@ -69,7 +71,7 @@ class KinematicRun {
     std::int64_t k = 1;  // the next output
     while (k <= times_.count() && goes_on) {
       const double target = times_.at(k), left = target - at_.time;
-      const double step = std::min({h, largest_step_, step_by_turns(left)});
+      const double step = turning_.step(at_, std::min({h, largest_step_, step_by_turns(left)}), 2 * largest_turn);
       // The last two steps before an output are equal.
       const double t = step >= left * (1 - 1e-9) ? target : at_.time + (2 * step > left ? 0.5 * left : step);
       auto next = attempt(t, passage);
@@ -345,6 +347,7 @@ class KinematicRun {
 
   const System& system_;
   KinematicEquations equations_;
+  PrescribedTurning turning_;
   const OutputTimes& times_;
   KinematicEquations::Limits limits_;
   double largest_step_;

@@ -217,5 +217,37 @@ TEST(Kinematics, go_over_a_velocity_that_jumps) {
   EXPECT_NEAR(r.variable(*r.end, 1), 0.53 + 3 * 0.47, 1e-12);
 }
 
+// A whole turn from rest to rest within one output, by displacement, velocity and acceleration, of a joint or a pair of
+// markers: a screw counts it.
+TEST(Kinematics, count_turns_that_begin_and_end_within_a_step) {
+  const std::string screw =
+      "PART/2, MASS=1, CM=20, IP=1,1,2\nMARKER/20\nPART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30\n"
+      "JOINT/1, REVOLUTE, I=20, J=1\nJOINT/2, TRANSLATIONAL, I=30, J=1\nJOINT/3, SCREW, I=30, J=20, PITCH=0.5\n"
+      "VARIABLE/1, FUNCTION=AZ(20,1)\nVARIABLE/2, FUNCTION=DZ(30,1)\n";
+  for (const char* driven :
+       {"MOTION/1, JOINT=1, FUNCTION=STEP(TIME,0.1,0,0.9,2*PI)\n",
+        "MOTION/1, I=20, J=1, B3, FUNCTION=STEP(TIME,0.6,0,0.9,2*PI)\n",
+        "MOTION/1, JOINT=1, VELOCITY, FUNCTION=STEP(TIME,0.1,0,0.5,2.5*PI)-STEP(TIME,0.5,0,0.9,2.5*PI)\n",
+        "MOTION/1, JOINT=1, ACCELERATION, FUNCTION=IF(TIME-0.5:8*PI,0,-8*PI)\n"}) {
+    KinematicRun r(screw + driven, 1, 1);
+    ASSERT_TRUE(r.end) << driven << r.end.error().message;
+    const double turn =
+        std::string(driven).find("VELOCITY") != std::string::npos ? std::numbers::pi : 2 * std::numbers::pi;
+    EXPECT_NEAR(r.variable(*r.end, 1), turn, 1e-9) << driven;
+    EXPECT_NEAR(r.variable(*r.end, 2), -0.5 * turn / (2 * std::numbers::pi), 1e-9) << driven;
+  }
+}
+
+// A speed that is there for 0.06 s of 2 s: no point at which a step is looked at lies in it.
+TEST(Kinematics, miss_no_pulse_of_a_speed) {
+  KinematicRun r(
+      "PART/2, MASS=1, CM=20, IP=1,1,2\nMARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
+      "MOTION/1, JOINT=1, VELOCITY, FUNCTION=STEP(TIME,1.02,0,1.05,1)-STEP(TIME,1.05,0,1.08,1)\n"
+      "VARIABLE/1, FUNCTION=DZ(20,1)\n",
+      2, 1);
+  ASSERT_TRUE(r.end) << r.end.error().message;
+  EXPECT_NEAR(r.variable(*r.end, 1), 0.03, 1e-12);
+}
+
 }  // namespace
 }  // namespace dynalin::simulation_test::kinematics_test

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <functional>
 
+#include "simulation/events.h"
+#include "simulation/hidden_crossings.h"
+
 namespace dynalin {
 
 namespace {
@@ -54,6 +57,37 @@ Eigen::VectorXd integral(const Integrand& f, double a, double b, const Eigen::Ve
   return integral(f, a, middle, allowed) + integral(f, middle, b, allowed);
 }
 
+// Instants between two others at which functions of time have kinks or jumps, as the ends of a STEP, in their order: 15
+// points may all lie beside what happens between two of them.
+std::vector<double> switching_times(const System& system, Motion motion, double from, double to) {
+  Events events(system);
+  const std::size_t n = events.switch_count();
+  std::vector<double> all(events.size()), at_from(n), at_to(n), now(n);
+  const auto values = [&](double t, std::span<double> of_time) {
+    motion.time = t;
+    events.values(motion, all);
+    std::copy_n(all.begin(), n, of_time.begin());
+  };
+  values(from, at_from), values(to, at_to);
+  HiddenCrossings hidden;
+  hidden.begin(at_from);
+  std::vector<double> times;
+  double last = from;
+  while (const auto t = hidden.first(last, to, at_to, values)) times.push_back(last = *t);
+  values(last, at_from);
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!(at_from[k] * at_to[k] < 0)) continue;
+    double low = last, high = to;
+    for (double t = 0.5 * (low + high); t > low && t < high; t = 0.5 * (low + high)) {
+      values(t, now);
+      (now[k] * at_from[k] > 0 ? low : high) = t;
+    }
+    times.push_back(high);
+  }
+  std::ranges::sort(times);
+  return times;
+}
+
 }  // namespace
 
 void advance_courses(const System& system, const OperatingPoint& from, OperatingPoint& to) {
@@ -79,8 +113,21 @@ void advance_courses(const System& system, const OperatingPoint& from, Operating
     return y;
   };
   const double h = to.time - from.time;
-  const Eigen::VectorXd first = kronrod(f, from.time, to.time).size;
-  const Eigen::VectorXd change = integral(f, from.time, to.time, std::numeric_limits<double>::epsilon() * first);
+  std::vector<double> ends =
+      switching_times(system, motion, std::min(from.time, to.time), std::max(from.time, to.time));
+  if (to.time < from.time) std::ranges::reverse(ends);
+  ends.push_back(to.time);
+  Eigen::VectorXd size = Eigen::VectorXd::Zero(2 * count), change = size;
+  double begin = from.time;
+  for (const double end : ends) {
+    size += kronrod(f, begin, end).size;
+    begin = end;
+  }
+  begin = from.time;
+  for (const double end : ends) {
+    change += integral(f, begin, end, std::numeric_limits<double>::epsilon() * size);
+    begin = end;
+  }
   for (Eigen::Index k = 0; k < count; ++k) {
     const ConstraintRow& row = *driven[static_cast<std::size_t>(k)];
     const auto s = static_cast<std::size_t>(row.course);

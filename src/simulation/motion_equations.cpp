@@ -113,8 +113,13 @@ bool MotionEquations::residual(double t, std::span<const double> y, std::span<co
     const auto state = static_cast<std::size_t>(unknowns_.state(static_cast<std::int32_t>(k)));
     if (system_.layout().states[k].held_in_dynamics) r[state] = yp[state];
   }
-  if (std::all_of(r.begin(), r.end(), [](double v) { return std::isfinite(v); })) return true;
-  undefined_ = system_.undefined_value(motion_);
+  if (!std::all_of(r.begin(), r.end(), [](double v) { return std::isfinite(v); })) {
+    undefined_ = system_.undefined_value(motion_);
+    return false;
+  }
+  // What sensors watch counts as well: a step may go beyond where one has triggered and its function ends.
+  if (events_.watched_is_finite(motion_)) return true;
+  undefined_ = system_.domain_violation(motion_);
   return false;
 }
 

@@ -8,15 +8,18 @@
 #include "analysis/displace.h"
 #include "simulation/events.h"
 #include "simulation/pose_change.h"
+#include "simulation/prescribed_turning.h"
 
 namespace dynalin {
 
 namespace {
 
-constexpr double least_rest_step = 1.0 / 256;  // of the time between outputs
+// Of the time between outputs, or of so many steps in which a MOTION turns as far as it may.
+constexpr double least_rest_step = 1.0 / 256, steps_of_turning = 8;
 // A step is no jump if it ends as near as this, in lengths of the model and radians, to where the last steps lead, or
 // within this part of its way.
 constexpr double near = 0.05, near_of_way = 0.5;
+constexpr double largest_turn = 1;  // that a step is predicted by, and that a MOTION makes in it [rad]
 // How near the instant at which a sensor triggers is found, as a part of the whole time, in how many equilibria at
 // most.
 constexpr double instant = 1e-12;
@@ -58,7 +61,8 @@ class QuasiStaticRun {
         statistics_(statistics),
         watch_(watch),
         findings_(findings),
-        events_(system) {
+        events_(system),
+        turning_(system) {
     nearby_ = options_;
     nearby_.restarts = 0;
     nearby_.tolerance.reset();
@@ -76,15 +80,17 @@ class QuasiStaticRun {
     double h = times_.step();
     while (begun && !end_) {
       const double target = times_.at(next_);
-      const double left = target - at_.time;
+      const double left = target - at_.time, turning = turning_.step(at_, times_.step(), largest_turn);
+      h = std::min(h, turning);
       const double t = h >= left * (1 - 1e-9) ? target : at_.time + (2 * h > left ? 0.5 * left : h);
       const double step = t - at_.time;
-      const bool least = step <= 1.5 * least_rest_step * times_.step();
+      const bool least = step <= 1.5 * least_rest_step * std::min(times_.step(), steps_of_turning * turning);
       auto next = solve(predicted(t), nearby_);
       if (!next && least) next = solve(from_here(t), options_);
       if (!next && least) return tl::unexpected(at_time(t, next.error()));
       const Eigen::VectorXd change = next ? change_between(system_, at_, *next) : Eigen::VectorXd();
-      const bool jumps = next && is_jump(change, step);
+      bool jumps = next && is_jump(change, step);
+      if (jumps && least && speed_.size() == 0) jumps = !goes_on_evenly(change, step);
       if (!least && (!next || jumps)) {
         ++(next ? statistics_.failed_error_tests : statistics_.failed_iterations);
         h = 0.5 * step;
@@ -124,7 +130,6 @@ class QuasiStaticRun {
   }
   OperatingPoint predicted(double t) const {
     OperatingPoint op = from_here(t);
-    constexpr double largest_turn = 1;
     if (speed_.size() > 0) displace(system_, op, (t - at_.time) * speed_, {largest_turn});
     return op;
   }
@@ -132,6 +137,12 @@ class QuasiStaticRun {
     const double way = length_of(system_, change);
     const double off = speed_.size() > 0 ? length_of(system_, change - step * speed_) : way;
     return off > std::max(near, speed_.size() > 0 ? near_of_way * way : 0.0);
+  }
+  // Whether the middle of a step lies between its ends, where nothing is known of steps before.
+  bool goes_on_evenly(const Eigen::VectorXd& change, double step) {
+    const auto middle = solve(from_here(at_.time + 0.5 * step), nearby_);
+    return middle && length_of(system_, change - 2 * change_between(system_, at_, *middle)) <=
+                         near_of_way * length_of(system_, change);
   }
   void tell_jump(double t, const Eigen::VectorXd& change) {
     findings_.warnings.warning(
@@ -231,6 +242,7 @@ class QuasiStaticRun {
   const SimulationWatch& watch_;
   Findings& findings_;
   Events events_;
+  PrescribedTurning turning_;
 
   OperatingPoint at_;
   std::int64_t next_ = 1;  // output

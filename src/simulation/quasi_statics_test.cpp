@@ -188,5 +188,36 @@ TEST(QuasiStatics, change_the_time_between_outputs_where_a_sensor_says) {
     EXPECT_THAT(times, ::testing::Contains(::testing::DoubleNear(t, 1e-9)));
 }
 
+// Ten turns of a drive in one output, and a second rotor that follows on torsion springs; a force that grows fast.
+// Nothing jumps.
+TEST(QuasiStatics, count_the_turns_of_a_drive) {
+  for (const std::int64_t count : {1, 5, 40}) {
+    QuasiStaticRun r(
+        "PART/2, MASS=1, CM=20, IP=1,1,2\nMARKER/20\nPART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30\n"
+        "JOINT/1, REVOLUTE, I=20, J=1\nJOINT/2, REVOLUTE, I=30, J=1\nMOTION/1, JOINT=1, FUNCTION=360D*TIME\n"
+        "SFORCE/1, ROTATIONAL, I=30, J=20, FUNCTION=-5*AZ(30,20)\n"
+        "SFORCE/2, ROTATIONAL, ACTIONONLY, I=30, J=1, FUNCTION=-AZ(30,1)\n"
+        "VARIABLE/1, FUNCTION=AZ(20,1)\nVARIABLE/2, FUNCTION=AZ(30,1)\n",
+        10, count);
+    ASSERT_TRUE(r.end) << r.end.error().message;
+    const double turned = 20 * std::numbers::pi;
+    const std::vector<double>& values = r.end->point.algebraic;  // of the torques, then of the VARIABLEs
+    ASSERT_EQ(values.size(), 4u);
+    EXPECT_NEAR(values[2], turned, 1e-9) << count;
+    EXPECT_NEAR(values[3], turned * 5 / 6, 1e-9) << count;
+    EXPECT_TRUE(r.findings.warnings.items().empty());
+  }
+}
+
+TEST(QuasiStatics, take_a_fast_course_for_no_jump) {
+  QuasiStaticRun r(
+      "PART/2, MASS=1, CM=20, IP=1,1,2\nMARKER/20\nJOINT/1, REVOLUTE, I=20, J=1\n"
+      "SFORCE/1, ROTATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=-AZ(20,1)+20*TIME\nVARIABLE/1, FUNCTION=AZ(20,1)\n",
+      2, 2);
+  ASSERT_TRUE(r.end) << r.end.error().message;
+  EXPECT_NEAR(r.end->point.algebraic.back(), 40, 1e-9);
+  EXPECT_TRUE(r.findings.warnings.items().empty());
+}
+
 }  // namespace
 }  // namespace dynalin::simulation_test::quasi_statics_test

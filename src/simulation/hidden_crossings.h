@@ -1,0 +1,35 @@
+// Functions that change their sign twice within a step of an integration: at its ends nothing is seen of it.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace dynalin {
+
+// Looks at two instants inside each step, and where the cubic through the four values has an extremum beyond zero, or
+// next to it. A function that is beyond zero for less than a third of a step and has more than one extremum in it may
+// still be missed.
+class HiddenCrossings {
+ public:
+  using Values = std::function<void(double t, std::span<double>)>;  // of all functions at an instant of the step
+
+  // Where steps begin.
+  void begin(std::span<const double> values) { before_.assign(values.begin(), values.end()); }
+  // The instant just behind the first change of a sign before the second instant, whose values are `at_end`: who calls
+  // knows what changes there. Without one the next stretch begins at the second instant, else at what was found.
+  std::optional<double> first(double from, double to, std::span<const double> at_end, const Values&);
+  // Of what was found: 1 upwards, −1 downwards, 0 not.
+  std::span<const int> crossed() const { return crossed_; }
+
+ private:
+  bool has_crossed(std::span<const double> values) const;
+  std::vector<double> suspects(std::span<const double> at_end) const;
+  double closed_in(double from, double beyond, double tolerance, const Values&);
+
+  std::vector<double> before_, first_third_, second_third_, now_;
+  std::vector<int> crossed_;
+};
+
+}  // namespace dynalin
