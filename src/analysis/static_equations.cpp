@@ -7,6 +7,7 @@
 
 #include "analysis/displace.h"
 #include "analysis/initial.h"
+#include "analysis/turned_wholes.h"
 
 namespace dynalin {
 
@@ -403,9 +404,10 @@ OperatingPoint moved(const System& system, const OperatingPoint& from, const Aug
                      const Eigen::VectorXd& step, double fraction, const StepLimits& limits, double* taken) {
   OperatingPoint to = from;
   fraction *= part_within_shapes(system.layout(), fraction * step);
-  const double f =
-      fraction * displace(system, to, fraction * step.head(static_cast<Eigen::Index>(system.coordinates())), limits);
+  const Eigen::VectorXd way = step.head(static_cast<Eigen::Index>(system.coordinates()));
+  const double f = fraction * displace(system, to, fraction * way, limits);
   if (taken) *taken = f;
+  turn_wholes(system.layout(), from, f * way, to);
   const auto add = [&](std::vector<double>& x, std::int32_t offset) {
     for (std::size_t k = 0; k < x.size(); ++k) x[k] += f * step(offset + static_cast<Eigen::Index>(k));
   };

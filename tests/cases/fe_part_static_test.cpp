@@ -37,6 +37,26 @@ TEST(FePartStatics, one_element_is_stretched_and_twisted_as_a_rod) {
   EXPECT_NEAR(point.marker(22).axes[1][2], std::sin(0.001 / (G * 3e-8)), 1e-9);
 }
 
+// A steel bar that hangs from a ball, let go in any attitude: it turns by up to half a turn, and is so stiff along
+// itself that a step of each node by itself would hardly move it.
+TEST(FePartStatics, a_stiff_bar_turns_to_where_it_hangs) {
+  const double g = std::hypot(0.3, 9.81), length = 1 + 0.78 * g / 2 / 2.1e7;
+  for (const char* attitude : {"0.3,0.6,-0.2", "0,0,0", "90D,30D,0", "0,30D,20D", "1,2,3"}) {
+    const auto point =
+        study_of(
+            fmt::format("bar\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, QP=.1,.2,.3\nMATERIAL/1, DENSITY=7800, "
+                        "YOUNGS_MODULUS=2.1E11, POISSONS_RATIO=0.3\nFE_PART/2, TYPE=3DBEAM, MATERIAL=1, "
+                        "NODE_LABELS=1,2,3, X=0,0.5,1, AREA=1E-4, IYY=8.333E-10, IZZ=9E-10, QG=.1,.2,.3, REULER={}\n"
+                        "MARKER/21, FE_PART=2, NODE_LABEL=1\nMARKER/23, FE_PART=2, NODE_LABEL=3\n"
+                        "ACCGRAV/IGRAV=0.3, KGRAV=-9.81\nJOINT/1, SPHERICAL, I=21, J=1\nEND\n",
+                        attitude))
+            .static_equilibrium();
+    EXPECT_NEAR(place_of(point, 23)[0], 0.1 + length * 0.3 / g, 1e-9) << attitude;
+    EXPECT_NEAR(place_of(point, 23)[1], 0.2, 1e-9) << attitude;
+    EXPECT_NEAR(place_of(point, 23)[2], 0.3 - length * 9.81 / g, 1e-9) << attitude;
+  }
+}
+
 // M = 2 π EI/L closes the circle; stretch and shear have no influence.
 TEST(FePartStatics, an_end_moment_rolls_it_up_into_an_arc) {
   for (const double part : {0.5, 1.0}) {

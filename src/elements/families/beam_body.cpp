@@ -70,6 +70,8 @@ BeamBodyKernel::BeamBodyKernel(const Model& model, Layout& layout) : gravity_(mo
   }
   beams_ = beam_bodies(model, layout);
   for (const BeamBody& b : beams_) {
+    TurningWhole& whole = layout.turning_wholes.emplace_back(b.nodes);
+    for (std::size_t k = 0; k < b.nodes.size(); ++k) whole.vectors.push_back(b.slope(k));
     if (b.plane) plane_rows_.emplace_back(b, model, layout);
   }
 }
