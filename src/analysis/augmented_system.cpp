@@ -59,6 +59,7 @@ std::vector<std::string> undetermined(const System& system, const AugmentedSyste
   // A random right-hand side, solved with a barely regularised matrix, grows along the null space.
   double largest = 0;
   for (const double v : m.value) largest = std::max(largest, std::abs(v));
+  if (largest == 0) largest = 1;  // nothing but VARIABLE/1, FUNCTION=VARVAL(1)+1
   std::vector<Triplet> entries;
   for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) { entries.push_back({r, c, v}); });
   for (std::int32_t c = 0; c < m.columns; ++c) entries.push_back({c, c, 1e-10 * largest});

@@ -163,6 +163,7 @@ TEST(AugmentedSystem, unknowns_that_nothing_determines_are_named) {
   const std::string held = "PART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30\n";
   EXPECT_EQ(names(held + "VARIABLE/1, FUNCTION=VARVAL(1)\nVARIABLE/2, FUNCTION=5\n"),
             std::vector<std::string>{"the value of VARIABLE/1"});
+  EXPECT_EQ(names("VARIABLE/7, FUNCTION=VARVAL(7)+1\n"), std::vector<std::string>{"the value of VARIABLE/7"});
   EXPECT_THAT(names(held + "POINT_MASS/2, MASS=0\nMARKER/20, POINT_MASS=2\n"), Contains("DX of POINT_MASS/2"));
 }
 

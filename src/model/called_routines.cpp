@@ -121,15 +121,21 @@ std::vector<CalledRoutines::Library> CalledRoutines::libraries_named(std::string
 }
 
 std::string_view CalledRoutines::full_name(const Statement& s, const WrittenArgument& w) const {
-  std::vector<std::string_view> names = {"ROUTINE", "INTERFACE"};
-  if (s.name == "CONTACT") names = {"NROUTINE", "FROUTINE"};
+  const std::string_view written = w.name.text();
+  std::vector<std::string_view> names;
+  std::vector<bool> bare;
   for (const Kind* kind : catalogue_) {
     if (kind->statement != s.name) continue;
-    for (const ArgumentInfo& a : kind->arguments) names.push_back(a.name);
+    for (const ArgumentInfo& a : kind->arguments) names.push_back(a.name), bare.push_back(a.is_flag);
   }
-  const auto k = find_keyword(w.name.text(), names);
-  // A bare word may begin like one of the first two, as RO of a rotational SFORCE does.
-  return k && (w.has_value || *k > 1) ? names[*k] : std::string_view();
+  const auto own = find_keyword(written, names);
+  // The statement's own names come first, as R of RM; a bare word has no value, as RO of a rotational SFORCE.
+  if (own && !(bare[*own] && w.has_value)) return names[*own];
+  std::vector<std::string_view> of_routines = {"ROUTINE", "INTERFACE"};
+  if (s.name == "CONTACT") of_routines = {"NROUTINE", "FROUTINE"};
+  const auto other = w.has_value ? find_keyword(written, of_routines) : std::nullopt;
+  if (other) return of_routines[*other];
+  return own ? names[*own] : std::string_view();
 }
 
 const WrittenArgument* CalledRoutines::argument(const Statement& s, std::string_view name) const {

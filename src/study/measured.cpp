@@ -42,7 +42,7 @@ StudyResult<std::vector<double>> measured(const StudyPoint& point, std::span<con
   auto model = build_model(dataset, catalogue(), {user_value}, routines);
   if (model.diagnostics.has_errors()) return tl::unexpected(failure(model.diagnostics));
   const std::vector<SourceRef> texts = model.value->further_sources;  // that messages point into
-  const auto system = System::make(std::move(model.value), {pade ? DelayReading::pade : DelayReading::first_order});
+  const auto system = System::make(std::move(model.value), {pade ? DelayReading::pade : DelayReading::first_order, {}});
   if (!system) return tl::unexpected(failure(system.error()));
   StudyPoint here = continued(point, *system, {});
   here.restated_velocity = point.restated_velocity;

@@ -211,7 +211,7 @@ TEST(SystemBinder, delays_are_called_by_their_order_and_the_statement_they_stand
   EXPECT_THAT(labels,
               ::testing::UnorderedElementsAre("VARIABLE/4", HasSubstr("(in VARIABLE/4)"), HasSubstr("(in DIFF/1)")));
   EXPECT_EQ(s->layout().states.size(), 1u);
-  const auto pade = system_of(text, {DelayReading::pade});
+  const auto pade = system_of(text, {DelayReading::pade, {}});
   EXPECT_EQ(pade->layout().states.size(), 3u);
 }
 

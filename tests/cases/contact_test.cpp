@@ -173,6 +173,32 @@ TEST(ContactsInTime, ball_bounces_with_the_coefficient_of_restitution) {
   }
 }
 
+// The ratio of damping z that leaves r of the speed: 2 z arccos z = −√(1 − z²) ln r, here where z is next to 1 and the
+// pair about to become two real values, which is where what is left of 1 − z decides.
+TEST_F(Contacts, poisson_next_to_critical_damping_keeps_its_digits) {
+  const auto values = [&](double r) {
+    return run(fmt::format(
+                   "Ball\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-10\nPART/1, GROUND\nMARKER/1\nGRAPHICS/1, PLANE, RM=1, "
+                   "XMIN=-5, XMAX=5, YMIN=-5, YMAX=5\nPART/2, MASS=2, CM=20, IP=.008,.008,.008, QG=0,0,.099\n"
+                   "MARKER/20\nGRAPHICS/2, ELLIPSOID, CM=20, XSCALE=.2, YSCALE=.2, ZSCALE=.2\nCONTACT/1, IGEOM=2, "
+                   "JGEOM=1, POISSON, PENALTY=2E4, RESTITUTION_COEFFICIENT={:.17g}\nEND\n",
+                   r),
+               "LINEAR/EIGENSOL\n")
+        .eigenvalues(0);
+  };
+  const auto highest = [](const std::vector<std::complex<double>>& all) {
+    return *std::ranges::max_element(all, {}, [](const auto& v) { return v.imag(); });
+  };
+  constexpr double pi = std::numbers::pi;
+  // By mpmath in 40 digits.
+  const double rest = 3.972138406920132e-6, z = 1 - rest;
+  const std::complex<double> pair = 2 * pi * highest(values(0.135336));
+  EXPECT_NEAR(pair.imag(), 100 * std::sqrt(rest * (1 + z)), 1e-9);
+  EXPECT_NEAR(pair.real(), -100 * z, 1e-9);
+  // Of e⁻² they are equal, as far as numbers can say so.
+  EXPECT_LT(2 * pi * highest(values(std::exp(-2))).imag(), 1e-5);
+}
+
 TEST_F(Contacts, one_that_is_just_touching_is_named) {
   const std::string model =
       head + floor + fmt::format(fmt::runtime(ball), 0.1) + "CONTACT/7, IGEOM=2, JGEOM=1, " + impact + "\nEND\n";

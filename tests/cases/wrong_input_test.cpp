@@ -174,6 +174,7 @@ const std::vector<Wrong>& table() {
     {Place::added, "POINT_MASS/9, MASS=1, CM=90\nMARKER/90\nMARKER/91, FLOATING\nGFORCE/9, I=20, JFLOAT=91, RM=1, FX=DX(90,20)\\TZ=0", {}},
     {Place::added, "POINT_MASS/9, MASS=1, CM=90\nMARKER/90\nBUSHING/9, I=20, J=90, K=2,2,2", {}},
     {Place::added, "POINT_MASS/9, MASS=1, CM=90\nMARKER/90\nBUSHING/9, I=90, J=20, K=1,2,3, C=.2,0,0", {}},
+    {Place::added, "POINT_MASS/9, MASS=1, CM=90\nMARKER/90\nJOINT/9, SPHERICAL, I=90, J=1\nFRICTION/9, JOINT=9", {"rotation-of-point-mass 13:1"}},
     {Place::added, "MARKER/9, PART=2, FLOATING\nPART/8, MASS=1, CM=80, IP=1,1,1, VX=1, VM=9\nMARKER/80", {"floating-marker 11:1"}},
     {Place::added, "MARKER/9, PART=2, FLOATING\nPART/8, MASS=1, CM=80, IP=1,1,1, WX=1, WM=9\nMARKER/80", {"floating-marker 11:1"}},
     {Place::added, "FE_PART/9, TYPE=3DBEAM, MATERIAL=9, NODE_LABELS=1,2, X=0,1, AREA=1, IYY=1, IZZ=1, VX=1, VM=9\n"

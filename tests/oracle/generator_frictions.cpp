@@ -46,7 +46,10 @@ void Draw::draw_frictions() {
                       joint.type == universal || joint.type == hooke || joint.type == cylindrical;
     const bool driven =
         std::any_of(m_.motions.begin(), m_.motions.end(), [&](const Motion& a) { return a.joint == joint.id; });
-    if (!rubs || driven || m_.frictions.size() > 1 || !chance(0.5)) continue;
+    // Friction of a ball turns what it holds.
+    const bool turns_point = joint.type == spherical && (body_of(joint.i).kind == BodyKind::point_mass ||
+                                                         body_of(joint.j).kind == BodyKind::point_mass);
+    if (!rubs || driven || turns_point || m_.frictions.size() > 1 || !chance(0.5)) continue;
     Friction f;
     f.id = static_cast<int>(m_.frictions.size()) + 1;
     f.joint = joint.id;

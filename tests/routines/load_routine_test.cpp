@@ -69,6 +69,9 @@ TEST_F(LoadRoutines, several_markers_feel_what_matrices_say) {
       expect_same(r, expected, 1e-8, result);
       EXPECT_THAT(r.err, AllOf(Not(HasSubstr("differenced-routine")), Not(HasSubstr("wrong-derivative")))) << routine;
     }
+    // Abbreviated as far as the statement itself allows, whatever arguments of routines begin with.
+    expect_same(with(three + "NFORCE/1, I=21,31, J=41, FUNCTION=USER(21,31,41), ROUTINE=loads::Nfosubc\n", commands),
+                expected, 1e-8, result);
 #ifdef FORTRAN_LOADS
     const RunResult differenced = with(three + by_routine + "\n", commands, {FORTRAN_LOADS}, true);
     expect_same(differenced, expected, 1e-7, result);

@@ -18,7 +18,7 @@ const std::string written_e = "SIN(2*TIME)+0.5*TIME";
 class Led {
  public:
   explicit Led(const std::string& text, DelayReading reading = DelayReading::first_order)
-      : system(system_of(text, {reading})), op(system->drawn()) {
+      : system(system_of(text, {reading, {}})), op(system->drawn()) {
     op.mode = AnalysisMode::dynamics;
     eq_.resize(system->layout());
     rows_.resize(system->layout());

@@ -110,9 +110,12 @@ struct Contact {
 
 // The ratio of damping that leaves r of the speed after a blow.
 double damping_ratio(double r) {
+  // 2 z arccos z / √(1 − z²), by an angle of the half that does not cancel where z is next to 1:
+  // arccos z = 2 arcsin √((1 − z)/2), arcosh z = 2 arsinh √((z − 1)/2).
   const auto lost = [](double z) {
-    if (std::abs(z - 1) < 1e-8) return 2.0;
-    return z < 1 ? 2 * z * std::acos(z) / std::sqrt(1 - z * z) : 2 * z * std::acosh(z) / std::sqrt(z * z - 1);
+    const double half = std::sqrt(0.5 * std::abs(1 - z)), root = half * std::sqrt(2 * (1 + z));
+    if (root == 0) return 2 * z;
+    return 4 * z * (z < 1 ? std::asin(half) : std::asinh(half)) / root;
   };
   double low = 0, high = 1e3;
   for (int k = 0; k < 200; ++k) {

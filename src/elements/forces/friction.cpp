@@ -24,6 +24,7 @@
 
 #include "elements/families/friction_coefficients.h"
 #include "elements/families/joint.h"
+#include "elements/families/markers.h"
 #include "elements/forces/friction_kernel.h"
 #include "model/model.h"
 
@@ -333,6 +334,12 @@ class FrictionSet final : public TypedSet<Friction> {
                         fmt::format("{} refers to {}, a {} joint", labels[k].full_text(), joint, type),
                         "friction acts in TRANSLATIONAL, REVOLUTE, CYLINDRICAL, HOOKE, UNIVERSAL and SPHERICAL joints");
       return;
+    }
+    // A ball holds point masses as well, but its friction turns them.
+    if (f.surface == FrictionSurface::ball) {
+      for (const MarkerId m : {f.i, f.j}) {
+        if (m.valid()) check_rotation(model, labels[k], m, diagnostics);
+      }
     }
     for (const auto& [name, at] : e.by_joint) {
       const auto by =
