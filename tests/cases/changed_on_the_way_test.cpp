@@ -1,6 +1,4 @@
 // Elements that commands take away and bring back between simulations over time, against closed forms.
-#include <dynalin/study.h>
-
 #include "cases/run.h"
 
 namespace dynalin::cases::changed_on_the_way_test {
@@ -127,29 +125,6 @@ TEST_F(ChangedOnTheWay, the_past_goes_on_where_the_same_is_delayed) {
   const RunResult reloaded = run(delayed, "RELOAD/SYSTEM, FILE=past.save\nSIM/DYN, END=2.2, STEPS=9\n");
   ASSERT_EQ(reloaded.status, 0) << reloaded.err;
   EXPECT_NEAR(ends_of(reloaded).at(0).at("1"), delayed_end, 1e-6);
-}
-
-// Two calls that stand at the same distance from the beginnings of two texts are two.
-TEST_F(ChangedOnTheWay, calls_of_delay_are_told_apart_by_their_texts) {
-  const std::size_t place = delayed.find("DELAY(DIF(2)");
-  const std::string edit = "DIFF/1, FUNCTION=-3*DELAY(DIF(1),1,1)";
-  const auto model = library::Model::from_text(delayed).edited(std::string(place - edit.find("DELAY"), '\n') + edit);
-  const library::Study study(model);
-  const auto end = study.simulate(study.initial_conditions(), {.end = 0.5, .steps = 5, .error = 1e-8});
-  EXPECT_NEAR(end.history.variables.at(0).values.back(), 1 - 3 * 0.5, 1e-6);
-  EXPECT_NEAR(end.history.variables.at(2).values.back(), 1 - 0.5, 1e-6);
-}
-
-// The library takes the same over.
-TEST_F(ChangedOnTheWay, points_of_the_library_know_their_turns_in_other_models) {
-  const auto model = library::Model::from_text(sprung + "END\n");
-  const library::Study away(model.edited("DEACTIVATE/SFORCE, ID=1"));
-  const auto turned = away.simulate(away.initial_conditions(), {.end = 0.5, .steps = 5}).point;
-  for (const auto& back : {model, away.model().edited("ACTIVATE/SFORCE, ID=1")}) {
-    const library::Study study(back);
-    const auto point = study.initial_conditions(study.continued(turned));
-    EXPECT_NEAR(point.load({"SFORCE", 1}).torque[2], -0.1 * speed * 0.5, 1e-6);
-  }
 }
 
 // A friction that is taken in again has no bristles that were bent before: a static equilibrium leaves it where it is.

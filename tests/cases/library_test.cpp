@@ -319,6 +319,33 @@ TEST(Library, takes_points_over_into_changed_models) {
   EXPECT_NEAR(moved.part(2).velocity[1], 3, 1e-12);
 }
 
+// Counted while the spring is away, whichever model the point goes on in.
+TEST(Library, points_know_their_turns_in_changed_models) {
+  const auto model = dynalin::Model::from_text(
+      "turns\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/2, PART=1\nPART/2, MASS=1, CM=20, IP=1,1,2, WZ=30\n"
+      "MARKER/20, PART=2\nJOINT/1, REVOLUTE, I=20, J=2\nSPRINGDAMPER/1, ROTATIONAL, I=20, J=2, KT=0.1\nEND\n");
+  const dynalin::Study away(model.edited("DEACTIVATE/SPRINGDAMPER, ID=1"));
+  const auto turned = away.simulate(away.initial_conditions(), {.end = 0.5, .steps = 5}).point;
+  for (const auto& back : {model, away.model().edited("ACTIVATE/SPRINGDAMPER, ID=1")}) {
+    const dynalin::Study study(back);
+    const auto point = study.initial_conditions(study.continued(turned));
+    EXPECT_NEAR(point.load({"SPRINGDAMPER", 1}).torque[2], -0.1 * 30 * 0.5, 1e-6);
+  }
+}
+
+// Two calls that stand as far from the beginnings of two texts are two.
+TEST(Library, tells_delays_apart_by_their_texts) {
+  const std::string dataset =
+      "delays\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nDIFF/1, IC=1, FUNCTION=-DIF(1)\n"
+      "DIFF/2, IC=1, FUNCTION=-DELAY(DIF(2),1,1)\nVARIABLE/1, FUNCTION=DIF(1)\nVARIABLE/2, FUNCTION=DIF(2)\nEND\n";
+  const std::string edit = "DIFF/1, FUNCTION=-3*DELAY(DIF(1),1,1)";
+  const std::size_t before = dataset.find("DELAY(") - edit.find("DELAY(");
+  const dynalin::Study study(dynalin::Model::from_text(dataset).edited(std::string(before, '\n') + edit));
+  const auto run = study.simulate(study.initial_conditions(), {.end = 0.5, .steps = 5});
+  EXPECT_NEAR(run.history.variables.at(0).values.back(), 1 - 3 * 0.5, 1e-6);
+  EXPECT_NEAR(run.history.variables.at(1).values.back(), 1 - 0.5, 1e-6);
+}
+
 // What any of the edits has stated anew since begins so; what was stated before the point was found does not again.
 // Its values would be found in the place of those of the model that is asked.
 TEST(Library, refuses_points_of_another_model) {
