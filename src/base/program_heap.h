@@ -15,7 +15,7 @@ namespace dynalin {
 // process is limited in its addresses all pages are small.
 //
 // The system clears pages as they are first written to, which of some gigabytes takes seconds. Where threads share the
-// work (set_thread_count comes before), another one goes ahead by 64 MB in heaps of more than half a gigabyte.
+// work (set_thread_count comes before), another one goes ahead by up to 96 MB in heaps of more than half a gigabyte.
 void prepare_heap();
 
 }  // namespace dynalin

@@ -48,7 +48,7 @@ void ShiftInverse::find_units() {
   constexpr double least_share = 1e-8;
   for (int round = 0; round < rounds; ++round) {
     ComplexVector of_rows = arbitrary_vector(states(), static_cast<unsigned>(11 + round)), of_columns = of_rows;
-    apply(of_rows), apply_adjoint(of_columns);
+    in_parallel(2, [&](std::size_t side) { side == 0 ? apply(of_rows) : apply_adjoint(of_columns); });
     const Eigen::VectorXd row = of_rows.cwiseAbs(), column = of_columns.cwiseAbs();
     if (!row.allFinite() || !column.allFinite()) return;
     const double least_row = least_share * row.maxCoeff(), least_column = least_share * column.maxCoeff();
