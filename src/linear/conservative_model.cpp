@@ -16,7 +16,6 @@ using Matrix = Eigen::MatrixXd;
 
 // What may be of partials that rounding alone makes asymmetric, of the sizes of what was added up to them.
 constexpr double asymmetry_of_rounding = 1e-8;
-constexpr Index worth_sharing = 50000;  // rows of a column that a thread takes for itself
 
 bool vanishes(const ColumnMatrix& m, std::int32_t rows) {
   bool any = false;
@@ -144,7 +143,7 @@ Matrix ConservativeModel::forces(const Matrix& a) const {
     of_accelerations_.multiply_add({a.col(c).data(), n}, {f.col(c).data(), n});
   };
   const auto columns = static_cast<std::size_t>(a.cols());
-  if (coordinates_ > worth_sharing) {
+  if (coordinates_ > long_column) {
     in_parallel(columns, multiply);
   } else {
     for (std::size_t c = 0; c < columns; ++c) multiply(c);

@@ -161,8 +161,7 @@ struct SymmetricFactors::Solving {
 
   // Long columns two at a time by all threads.
   void solve(Eigen::MatrixXd& b) const {
-    constexpr std::int32_t worth_sharing = 50000;
-    const auto columns = static_cast<int>(b.cols()), at_once = matrix.rows > worth_sharing ? 2 : std::max(1, columns);
+    const auto columns = static_cast<int>(b.cols()), at_once = matrix.rows > long_column ? 2 : std::max(1, columns);
     in_parallel(static_cast<std::size_t>((columns + at_once - 1) / at_once), [&](std::size_t block) {
       const int first = static_cast<int>(block) * at_once;
       klu.solve(b.col(first).data(), matrix.rows, std::min(at_once, columns - first));

@@ -16,6 +16,8 @@ namespace dynalin {
 
 enum class FactorsFor : std::uint8_t { inertia, solving };
 
+constexpr std::int32_t long_column = 50000;  // rows from which threads share the columns of a block
+
 class SymmetricFactors {
  public:
   // The pattern of all that is factored: the lower triangle, analysed once, by what may be at work for others beside
