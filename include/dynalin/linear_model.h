@@ -44,6 +44,9 @@ class LinearModel {
   const OperatingPoint& operating_point() const;
   // Of finding the point, if it was not consistent before, and of linearizing.
   const std::vector<Remark>& remarks() const;
+  // What makes matrices other than they look, as that the point accelerates; modes() says it of modes. Computed anew
+  // at each call.
+  std::vector<Remark> remarks_of_matrices() const;
 
   struct Inside;
   explicit LinearModel(std::shared_ptr<const Inside> inside) : inside_(std::move(inside)) {}

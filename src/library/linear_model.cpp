@@ -26,6 +26,10 @@ std::vector<Remark> LinearModel::Inside::remarks_of_whole() const {
   return has_whole_ ? remarks_of(new_remarks(*whole_, linear)) : std::vector<Remark>{};
 }
 
+std::vector<Remark> LinearModel::remarks_of_matrices() const {
+  return remarks_of(dynalin::remarks_of_matrices(inside_->linear));
+}
+
 DescriptorForm LinearModel::descriptor_form() const { return dynalin::descriptor_form(inside_->linear.linear); }
 
 }  // namespace dynalin::library

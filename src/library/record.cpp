@@ -25,6 +25,12 @@ struct Record::Inside {
     json.add_point(operating_state(*linear.system, linear.point));
     json.add_requests(requests_at(*linear.system, linear.point).values);
   }
+  template <class Result>
+  void add_matrices(const std::string& command, const LinearModel& of, const Result& result) {
+    add_linear(command, of, result);
+    warn(command, of.remarks_of_matrices());
+    warn(command, of.inside().remarks_of_whole());
+  }
 };
 
 Record::Record(const Model& model) : inside_(std::make_unique<Inside>()) {
@@ -53,15 +59,13 @@ void Record::add(const std::string& command, const Simulation& simulation) {
 }
 
 void Record::add(const std::string& command, const LinearModel& of, const StateSpace& result) {
-  inside_->add_linear(command, of, result);
-  inside_->warn(command, of.inside().remarks_of_whole());
+  inside_->add_matrices(command, of, result);
 }
 void Record::add(const std::string& command, const LinearModel& of, const SecondOrder& result) {
-  inside_->add_linear(command, of, result);
-  inside_->warn(command, of.inside().remarks_of_whole());
+  inside_->add_matrices(command, of, result);
 }
 void Record::add(const std::string& command, const LinearModel& of, const DescriptorForm& result) {
-  inside_->add_linear(command, of, result);
+  inside_->add_matrices(command, of, result);
 }
 void Record::add(const std::string& command, const LinearModel& of, const Modes& result, const ModalTables& tables) {
   inside_->add_linear<EigenSolution>(command, of, result);

@@ -66,16 +66,26 @@ void overdamping(const System& system, const LinearSystem& linear, const EigenSo
                           pairs, pairs == 1 ? " is" : "s are", number, slowest->moves_most));
 }
 
-}  // namespace
-
-Diagnostics cautions(const System& system, const OperatingPoint& op, const LinearSystem& linear,
-                     const EigenSolution& modes) {
+Diagnostics cautions_of_point(const System& system, const OperatingPoint& op, const LinearSystem& linear,
+                              const EigenSolution* modes) {
   Diagnostics out;
   singular_configuration(system, op, linear, out);
   empty_rows(system, op, out);
   disproportion(system, linear, out);
   motion_caution(system, op, modes, out);
   flexible_cautions(system, op, out);
+  return out;
+}
+
+}  // namespace
+
+Diagnostics cautions_of_matrices(const System& system, const OperatingPoint& op, const LinearSystem& linear) {
+  return cautions_of_point(system, op, linear, nullptr);
+}
+
+Diagnostics cautions(const System& system, const OperatingPoint& op, const LinearSystem& linear,
+                     const EigenSolution& modes) {
+  Diagnostics out = cautions_of_point(system, op, linear, &modes);
   overdamping(system, linear, modes, out);
   stiction_cautions(system, op, linear, modes, out);
   return out;

@@ -1,4 +1,4 @@
-// What makes the modes of a point other than they look (LINEAR command, "Advanced eigensolution issues").
+// What makes a linear model and its modes other than they look (LINEAR command, "Advanced eigensolution issues").
 #pragma once
 
 #include "linear/linear_system.h"
@@ -11,5 +11,7 @@ namespace dynalin {
 //   accelerate or turn at the point: the eigenvalues hold for this instant, overdamped modes: real pairs where
 //   vibrations would be without damping, joints in stiction, whose stiffness may make modes of its own.
 Diagnostics cautions(const System&, const OperatingPoint&, const LinearSystem&, const EigenSolution&);
+// Those among them that are true of matrices as well.
+Diagnostics cautions_of_matrices(const System&, const OperatingPoint&, const LinearSystem&);
 
 }  // namespace dynalin

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <complex>
 #include <utility>
 
 #include "base/parallel.h"
@@ -58,11 +59,11 @@ void for_column_blocks(Eigen::Index columns, Function&& visit) {
 }
 // Of all unknowns of a large model, which are many even for a few modes. KLU solves for four real ones at a time; of
 // very large models even two complex columns, with all that is made of them, are a tenth of the memory.
-template <class Function>
+template <class Scalar = std::complex<double>, class Function>
 void for_few_columns(Eigen::Index rows, Eigen::Index columns, Function&& visit) {
-  constexpr Eigen::Index very_large = 1000000;
-  if (rows > very_large) return for_columns<1>(columns, visit);
-  for_columns<2>(columns, visit);
+  constexpr Eigen::Index very_large = 1000000, one = sizeof(std::complex<double>) / sizeof(Scalar);
+  if (rows > very_large) return for_columns<one>(columns, visit);
+  for_columns<2 * one>(columns, visit);
 }
 
 // visit(first, count) for all rows, so many at a time, by all threads: of few columns of very large models.

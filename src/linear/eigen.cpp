@@ -61,6 +61,7 @@ std::optional<UnrefinedPairs> unrefined_pairs(const LinearSystem& linear) {
   UnrefinedPairs found{split_zero_modes(linear.A, linear.rounding, linear.structural_zeros.get()), {}};
   const Eigen::Index core = n - found.zero.count;
   if (!solve_core(found.zero.block.bottomRightCorner(core, core), found.pairs)) return std::nullopt;
+  split_pairs_of_equal_values(found.pairs);
   if (core > 0) map_to_states(found.zero, found.pairs);
   return found;
 }

@@ -12,6 +12,7 @@ namespace dynalin {
 
 namespace {
 
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double largest = 1e150;  // its square is a number
 
 // Of [N⁻¹ head; tail], where a tiny value beside long chains of zeros makes N⁻¹ too large for double.
@@ -23,6 +24,27 @@ Eigen::VectorXcd direction(const Eigen::MatrixXcd& N, const Eigen::VectorXcd& co
   x.head(N.rows()) = long_N.triangularView<Eigen::Upper>().solve(head);
   x.normalize();
   return x.cast<std::complex<double>>();
+}
+
+// The pair becomes two real values, if real and imaginary parts of its vectors are independent on both sides: by so
+// much of the squares of their products.
+bool split_pair(EigenPairs& pairs, std::size_t k, double value, double least) {
+  const auto at = static_cast<Eigen::Index>(k);
+  Eigen::MatrixXd right(pairs.right.rows(), 2), left(pairs.left.rows(), 2);
+  right << pairs.right.col(at).real(), pairs.right.col(at).imag();
+  left << pairs.left.col(at).real(), pairs.left.col(at).imag();
+  const Eigen::Matrix2d products = left.transpose() * right;
+  if (!(std::abs(products.determinant()) > least * products.squaredNorm())) return false;
+  left = (left * products.inverse().transpose()).eval();  // each sees one of the right ones alone
+  right.colwise().normalize(), left.colwise().normalize();
+  const Eigen::Index added = pairs.right.cols();
+  for (auto* vectors : {&pairs.right, &pairs.left}) vectors->conservativeResize(Eigen::NoChange, added + 1);
+  pairs.right.col(at) = right.col(0).cast<std::complex<double>>(),
+  pairs.right.col(added) = right.col(1).cast<std::complex<double>>();
+  pairs.left.col(at) = left.col(0).cast<std::complex<double>>(),
+  pairs.left.col(added) = left.col(1).cast<std::complex<double>>();
+  pairs.values[k] = value, pairs.values.emplace_back(value);
+  return true;
 }
 
 }  // namespace
@@ -40,31 +62,46 @@ void clear_rounding(EigenPairs& pairs, std::vector<EigenTrust>& trust) {
   }
 }
 
+void clear_phases(EigenPairs& pairs, const std::vector<EigenTrust>& trust) {
+  for (std::size_t k = 0; k < trust.size(); ++k) {
+    if (pairs.values[k].imag() != 0 || trust[k].cluster != 1) continue;
+    for (Eigen::MatrixXcd* side : {&pairs.right, &pairs.left}) {
+      auto vector = side->col(static_cast<Eigen::Index>(k));
+      Eigen::Index largest = 0;
+      if (vector.cwiseAbs2().maxCoeff(&largest) == 0) continue;  // a left one that is not known
+      const std::complex<double> phase = vector(largest) / std::abs(vector(largest));
+      vector = (std::conj(phase) * vector).real().normalized().cast<std::complex<double>>().eval();
+    }
+  }
+}
+
 void split_pairs_of_zeros(EigenPairs& pairs, std::vector<EigenTrust>& trust) {
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
   double fastest = 0;
   for (const std::complex<double>& v : pairs.values) fastest = std::max(fastest, std::abs(v));
   const std::size_t count = pairs.values.size();
   for (std::size_t k = 0; k < count; ++k) {
     const double modulus = std::abs(pairs.values[k]);
     if (pairs.values[k].imag() == 0 || modulus > epsilon * epsilon * fastest || modulus > trust[k].bound) continue;
-    const auto at = static_cast<Eigen::Index>(k);
-    Eigen::MatrixXd right(pairs.right.rows(), 2), left(pairs.left.rows(), 2);
-    right << pairs.right.col(at).real(), pairs.right.col(at).imag();
-    left << pairs.left.col(at).real(), pairs.left.col(at).imag();
-    const Eigen::Matrix2d products = left.transpose() * right;
-    if (!(std::abs(products.determinant()) > epsilon * products.squaredNorm())) continue;
-    left = (left * products.inverse().transpose()).eval();  // each sees one of the right ones alone
-    right.colwise().normalize(), left.colwise().normalize();
-    const Eigen::Index added = pairs.right.cols();
-    for (auto* vectors : {&pairs.right, &pairs.left}) vectors->conservativeResize(Eigen::NoChange, added + 1);
-    pairs.right.col(at) = right.col(0).cast<std::complex<double>>(),
-    pairs.right.col(added) = right.col(1).cast<std::complex<double>>();
-    pairs.left.col(at) = left.col(0).cast<std::complex<double>>(),
-    pairs.left.col(added) = left.col(1).cast<std::complex<double>>();
-    pairs.values[k] = 0, pairs.values.emplace_back(0);
+    if (!split_pair(pairs, k, 0, epsilon)) continue;
     trust[k].bound += modulus;
     trust.push_back(trust[k]);
+  }
+}
+
+void split_pairs_of_equal_values(EigenPairs& pairs) {
+  constexpr double equal = 1e-12, independent = 1e-6;
+  const std::size_t count = pairs.values.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::complex<double> v = pairs.values[k];
+    if (v.imag() == 0) continue;
+    // In unit vectors along the parts x + j y of a vector A is [re im·|y|/|x|; im·|x|/|y| re]: of a chain one is large.
+    double coupling = v.imag();
+    for (const Eigen::MatrixXcd* side : {&pairs.right, &pairs.left}) {
+      const auto vector = side->col(static_cast<Eigen::Index>(k));
+      const double x = vector.real().norm(), y = vector.imag().norm();
+      coupling = std::max(coupling, v.imag() * std::max(x / y, y / x));
+    }
+    if (coupling <= equal * std::abs(v.real())) split_pair(pairs, k, v.real(), independent);
   }
 }
 

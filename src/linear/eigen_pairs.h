@@ -40,10 +40,16 @@ inline std::complex<double> value(const EigenPairs& pairs, const Member& m) {
 // or of the other part, is zero as far as anybody can tell; what it was is in the bound then.
 void clear_rounding(EigenPairs&, std::vector<EigenTrust>&);
 
+// The vectors of a real value that stands alone are real but for a factor, which goes.
+void clear_phases(EigenPairs&, const std::vector<EigenTrust>&);
+
 // Two zeros beside each other may be computed as a conjugate pair, refined down to next to nothing: where a modulus is
 // no more than its bound and than the square of double precision of the fastest rate, the pair becomes two real zeros.
 // The new one stands last.
 void split_pairs_of_zeros(EigenPairs&, std::vector<EigenTrust>&);
+// So may equal real values of equal parts, off the axis by rounding: they become real where they have vectors of their
+// own. The new ones stand last.
+void split_pairs_of_equal_values(EigenPairs&);
 
 // Places of values in the order in which modes are printed: real ones first by ascending modulus, then complex pairs by
 // ascending imaginary part.

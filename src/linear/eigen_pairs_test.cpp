@@ -40,6 +40,44 @@ EigenPairs pair_next_to_zero(double modulus) {
   return pairs;
 }
 
+// The same at −1, off the axis by rounding.
+TEST(eigen_pairs, equal_real_values_computed_as_a_pair_become_real) {
+  EigenPairs pairs = pair_next_to_zero(1);
+  pairs.values[1] = {-1, 1e-15};
+  EigenPairs apart = pairs;
+  apart.values[1] = {-1, 1e-6};
+  split_pairs_of_equal_values(pairs), split_pairs_of_equal_values(apart);
+  ASSERT_EQ(pairs.values.size(), 3u);
+  EXPECT_EQ(apart.values.size(), 2u);
+  for (const Eigen::Index k : {1, 2}) {
+    EXPECT_EQ(pairs.values[static_cast<std::size_t>(k)], -1.0);
+    EXPECT_EQ(pairs.right.col(k).imag().norm() + pairs.left.col(k).imag().norm(), 0);
+    EXPECT_NEAR(std::abs(pairs.left.col(3 - k).dot(pairs.right.col(k))), 0, 1e-15);
+  }
+}
+
+// A chain of two has one vector: what is next to parallel stays a pair.
+TEST(eigen_pairs, a_defective_pair_stays_one) {
+  EigenPairs pairs = pair_next_to_zero(1);
+  pairs.values[1] = {-1, 1e-15};
+  pairs.right.col(1) << 0, std::complex<double>(1, 1e-8), std::complex<double>(0, 1e-9);
+  pairs.left.col(1) << 0, std::complex<double>(0, 1e-9), std::complex<double>(1, 1e-8);
+  split_pairs_of_equal_values(pairs);
+  EXPECT_EQ(pairs.values.size(), 2u);
+}
+
+// A factor of any phase is no part of the vector of a real value.
+TEST(eigen_pairs, vectors_of_single_real_values_are_real) {
+  EigenPairs pairs = pair_next_to_zero(1);
+  pairs.right.col(0) << std::polar(0.8, 1.0), std::polar(-0.6, 1.0), 0;
+  const Eigen::VectorXcd complex = pairs.right.col(1);
+  clear_phases(pairs, std::vector<EigenTrust>(2, {1e-15, 0, true, 1}));
+  EXPECT_EQ(pairs.right.col(0).imag().norm(), 0);
+  EXPECT_NEAR(pairs.right(0, 0).real(), 0.8, 1e-15);
+  EXPECT_NEAR(pairs.right(1, 0).real(), -0.6, 1e-15);
+  EXPECT_EQ(pairs.right.col(1), complex);
+}
+
 TEST(eigen_pairs, a_pair_next_to_zero_is_two_zeros) {
   EigenPairs pairs = pair_next_to_zero(1e-33);
   std::vector<EigenTrust> trust(2, {1e-15, 0, true, 1});

@@ -69,9 +69,10 @@ std::vector<Movement> movements(const System& system, const Motion& motion) {
 
 }  // namespace
 
-void motion_caution(const System& system, const OperatingPoint& op, const EigenSolution& modes, Diagnostics& out) {
+void motion_caution(const System& system, const OperatingPoint& op, const EigenSolution* modes, Diagnostics& out) {
   const Layout& layout = system.layout();
-  const double L = system.length(), slowest = slowest_mode(modes);
+  const double L = system.length(),
+               slowest = modes ? slowest_mode(*modes) : std::sqrt(norm(system.model().gravity) / L);
   const Motion motion = system.motion(op);
   std::vector<Movement> movement = movements(system, motion);
   double least = std::numeric_limits<double>::infinity();
@@ -118,11 +119,12 @@ void motion_caution(const System& system, const OperatingPoint& op, const EigenS
   for (char& c : length) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   out.warning("accelerating-point", part.at,
               fmt::format("the operating point accelerates or turns, most of all {0} (acceleration of {7} {1:.5g} "
-                          "{4}/{5}², angular velocity {2:.5g} rad/{5}, angular acceleration {3:.5g} rad/{5}²{6}): the "
-                          "eigenvalues hold for this instant, and mode shapes may be strange",
+                          "{4}/{5}², angular velocity {2:.5g} rad/{5}, angular acceleration {3:.5g} rad/{5}²{6}): {8}",
                           part.full_text(), m.acceleration, m.turning, m.spin_up, length, time,
                           m.deformation > 0 ? fmt::format(", of a coordinate of its shape {:.5g}", m.deformation) : "",
-                          is_node ? "one of its nodes" : "its mass centre"));
+                          is_node ? "one of its nodes" : "its mass centre",
+                          modes ? "the eigenvalues hold for this instant, and mode shapes may be strange"
+                                : "the matrices hold for this instant"));
 }
 
 }  // namespace dynalin

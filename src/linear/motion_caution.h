@@ -1,4 +1,4 @@
-// Parts that accelerate or turn where the model is linearized: the eigenvalues hold for this instant alone.
+// Parts that accelerate or turn where the model is linearized: the linear model holds for this instant alone.
 #pragma once
 
 #include "linear/linear_system.h"
@@ -7,7 +7,8 @@ namespace dynalin {
 
 // Adds one warning, at the part that moves most. A turn counts unless it is nothing beside the slowest mode that is not
 // a structural zero; an acceleration of a body or of coordinates of its shape where the forces on them do not balance,
-// within their own sizes or what their rounding explains, however stiff the model is.
-void motion_caution(const System&, const OperatingPoint&, const EigenSolution&, Diagnostics&);
+// within their own sizes or what their rounding explains, however stiff the model is. Of matrices alone there are no
+// modes: a turn counts beside what gravity makes of the size of the model.
+void motion_caution(const System&, const OperatingPoint&, const EigenSolution*, Diagnostics&);
 
 }  // namespace dynalin

@@ -208,7 +208,8 @@ PerturbationEquations::Roundings PerturbationEquations::roundings(const Matrix& 
   return {units_of_rounding * unit * total, unit / 2 * of_coefficients.cwiseSqrt()};
 }
 
-Matrix PerturbationEquations::rounding_variances(const Eigen::MatrixXcd& right) const {
+template <class Columns>
+Matrix PerturbationEquations::variances_of(const Columns& right) const {
   constexpr double half_unit = std::numeric_limits<double>::epsilon() / 2;
   Matrix sums = Matrix::Zero(unknowns(), right.cols());
   for (Eigen::Index c = 0; c < right.cols(); ++c) {
@@ -218,5 +219,7 @@ Matrix PerturbationEquations::rounding_variances(const Eigen::MatrixXcd& right) 
   }
   return sums;
 }
+Matrix PerturbationEquations::rounding_variances(const Eigen::MatrixXcd& right) const { return variances_of(right); }
+Matrix PerturbationEquations::rounding_variances(const Matrix& right) const { return variances_of(right); }
 
 }  // namespace dynalin

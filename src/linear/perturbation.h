@@ -77,6 +77,7 @@ class PerturbationEquations {
   static ColumnMatrix sizes(const System&, const PerturbedPoint&);
   // The same of the coefficients alone, row by row of all equations, for columns (a; x): Σ((rounding)·right)².
   Eigen::MatrixXd rounding_variances(const Eigen::MatrixXcd& right) const;
+  Eigen::MatrixXd rounding_variances(const Eigen::MatrixXd& right) const;
 
   // Columns a that the equations leave open, of freedoms without mass: rates or accelerations that depend on
   // derivatives of inputs or, where the model moves, of coefficients. The states do not depend on them.
@@ -90,6 +91,8 @@ class PerturbationEquations {
  private:
   class Assembly;  // perturbation_assembly.cpp
 
+  template <class Columns>
+  Eigen::MatrixXd variances_of(const Columns& right) const;
   void solve_levels(Eigen::Ref<Eigen::MatrixXd> b, SparseLu::Refined) const;
 
   std::int32_t n_ = 0, augmented_size_ = 0, algebraic_ = 0, states_ = 0;

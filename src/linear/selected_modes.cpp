@@ -109,8 +109,13 @@ class Solution {
     if (!found) return tl::unexpected(no_convergence("the Krylov iteration did not converge"));
     by_inertia_.reset();
     auto bounded = bound();
-    if (!bounded) return tl::unexpected(no_convergence("left and right vectors do not agree"));
-    return solution(*bounded, vectors);
+    if (bounded) return solution(*bounded, vectors);
+    // Right vectors alone: what there is, and that it may be anything.
+    selected_.complete = false, selected_.doubt = "left and right vectors do not agree";
+    const double zero = zero_.count() > 0 ? near_ : -1;
+    const ModeSearch::Part right = right_->part([&](Complex v) { return region_.has(v) && std::abs(v) > zero; });
+    BoundedPairs found_only = pairs_without_bounds(op_, right.basis, right.matrix);
+    return solution(found_only, vectors);
   }
   void start_anew() {
     if (conservative_) {
@@ -227,7 +232,8 @@ class Solution {
     const Index per_mode = nearest.frequency > 0 ? 1 : 2;
     Index target = static_cast<Index>(std::min(nearest.count, static_cast<std::size_t>(op_.states()))) * per_mode + 4;
     if (nearest.frequency == 0) target += zero_.count();
-    int fruitless = 0;
+    constexpr double beyond_border = 1.3;
+    int fruitless = 0, wider = 0;
     for (int round = 0; round < most_rounds && !too_many(); ++round) {
       const Index before = right_->found();
       if (right_->found() < target && !right_->everything()) right_->run(target - right_->found(), 0);
@@ -248,12 +254,22 @@ class Solution {
       // Inertia counts whatever was found: where it agrees, there is nothing to look for.
       if (conservative_ && count()) break;
       // From other start vectors as far as the border, until there is nothing more.
-      if (look_for_more(region_.radius + std::abs(op_.shift() - region_.centre))) continue;
-      if ((!conservative_ && count()) || right_->everything() || ++fruitless > 2) break;
+      if (look_for_more(reach_of_region())) continue;
+      if ((!conservative_ && count()) || right_->everything()) break;
+      // What is next to the border makes it countable, and may be nearer than some of what was found: a Krylov
+      // iteration takes the outermost first.
+      if (selected_.by == CountedBy::nothing) {
+        const Index before_more = right_->found();
+        right_->run(std::max<Index>(target / 2, 8), beyond_border * reach_of_region());
+        if (right_->found() > before_more && ++wider < 4) continue;
+      }
+      if (++fruitless > 2) break;
     }
     selected_.radius_hz = region_.radius / cycle;
     return true;
   }
+  // How far from the shift the disc reaches.
+  double reach_of_region() const { return region_.radius + std::abs(op_.shift() - region_.centre); }
   // Whether another start vector has found something in the region.
   bool look_for_more(double radius) {
     if (right_->everything()) return false;
@@ -364,6 +380,7 @@ class Solution {
   EigenSolution solution(BoundedPairs& found, Vectors vectors) {
     const std::vector<Complex> computed = found.pairs.values;
     clear_rounding(found.pairs, found.trust);
+    clear_phases(found.pairs, found.trust);
     EigenSolution out;
     out.time = perturbation_.model.time;
     out.kinematic_states = perturbation_.kinematic_states;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <regex>
 
 #include "system/model_test_support.h"
 
@@ -92,6 +93,43 @@ TEST(SelectedModes, of_a_lattice_have_all_their_multiplicities) {
   // The vectors of equal values are independent.
   const Eigen::MatrixXcd v = s.solution.vectors;
   EXPECT_GT(Eigen::MatrixXcd(v.adjoint() * v).ldlt().vectorD().cwiseAbs().minCoeff(), 1e-8);
+}
+
+// m λ² + c s λ + k s = 0, all of them real and many of them equal: the QR iteration computes some of these as pairs
+// next to the axis. Each has a bound, and a vector that is real.
+TEST(SelectedModes, of_an_overdamped_lattice_are_real_and_have_bounds) {
+  constexpr int n = 4;
+  std::vector<double> exact;
+  for (int i = 1; i <= n; ++i) {
+    for (int j = 1; j <= n; ++j) {
+      for (int k = 1; k <= n; ++k) {
+        double s = 0;
+        for (const int m : {i, j, k}) s += 4 * std::pow(std::sin(m * std::numbers::pi / 2 / (n + 1)), 2);
+        const double fast = -20 * s - std::sqrt(400 * s * s - 100 * s);
+        for (const double value : {100 * s / fast, fast}) exact.insert(exact.end(), 3, value / 2 / std::numbers::pi);
+      }
+    }
+  }
+  std::ranges::sort(exact, std::greater<>());
+  const std::string text =
+      std::regex_replace(lattice(n, n, n), std::regex("K=1E4,1E4,1E4"), "K=100,100,100, C=40,40,40");
+  const Selected s = selected_of_text(text, NearestModes{7, 0});
+  const auto linear = reduce(*s.system, s.perturbation);
+  ASSERT_TRUE(linear);
+  const auto all = eigensolve(*linear);
+  ASSERT_TRUE(all);
+  EXPECT_EQ(all->modes.size(), exact.size());
+  EXPECT_EQ(s.solution.modes.size(), 12u);
+  EXPECT_TRUE(s.solution.selected->complete);
+  for (const EigenSolution* solution : {&*all, &s.solution}) {
+    for (std::size_t k = 0; k < solution->modes.size(); ++k) {
+      const EigenMode& m = solution->modes[k];
+      EXPECT_NEAR(m.eigenvalue_hz.real(), exact[k], m.error_bound_hz + 1e-15 * std::abs(exact[k])) << k;
+      EXPECT_LE(m.error_bound_hz, 1e-9 * std::abs(exact[k])) << k;
+      EXPECT_TRUE(m.is_real) << k;
+      EXPECT_EQ(solution->vectors.col(static_cast<Eigen::Index>(k)).imag().norm(), 0) << k;
+    }
+  }
 }
 
 // Copies of a mechanism that do not know of each other: a Krylov space sees one of each.

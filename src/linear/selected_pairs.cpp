@@ -1,5 +1,6 @@
 #include "linear/selected_pairs.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
@@ -62,8 +63,11 @@ std::optional<Subspace> without_zeros(const ShiftInverse& op, const TwoSided& of
 // Brings B to blocks, one for each eigenvalue or cluster whose vectors are no good basis.
 bool split(Subspace& s) {
   const Index p = s.B.rows();
+  // Of undamped modes B is i times a real matrix: as a real one it leaves real and imaginary parts of the bases apart.
+  const Complex factor = (s.B.real().array() == 0).all() ? Complex(0, 1) : Complex(1, 0);
+  const LongComplexMatrix B = (s.B / factor).cast<std::complex<long double>>();
   ClusteredSchur schur;
-  if (!schur.compute(s.B.cast<std::complex<long double>>())) return false;
+  if (!schur.compute(B)) return false;
   LongComplexMatrix Z, inverse;
   for (;;) {
     Z = schur.bases();
@@ -93,14 +97,14 @@ bool split(Subspace& s) {
     schur.join(number);
   }
   if (!inverse.allFinite()) return false;
-  LongComplexMatrix D = times(inverse, times(LongComplexMatrix(s.B.cast<std::complex<long double>>()), Z));
+  LongComplexMatrix D = times(inverse, times(B, Z));
   for (Index j = 0; j < p; ++j) {
     for (Index i = 0; i < p; ++i) {
       if (schur.cluster_of(i) != schur.cluster_of(j)) D(i, j) = 0;
     }
   }
   const ComplexMatrix right = Z.cast<Complex>(), left = inverse.adjoint().cast<Complex>();
-  s.B = D.cast<Complex>();
+  s.B = factor * D.cast<Complex>();
   s.X = product(s.X, right);
   s.Y = product(s.Y, left);
   s.C = (s.C * right).eval();
@@ -246,6 +250,24 @@ std::optional<BoundedPairs> bounded_pairs(const PerturbationEquations& equations
   auto discs = inclusion_discs(pencil.value, pencil.uncertainty, false);
   if (!discs) return std::nullopt;
   return Mirror(*s, pencil.residual, zero, std::move(*discs)).run(of.both_members);
+}
+
+BoundedPairs pairs_without_bounds(const ShiftInverse& op, const ComplexMatrix& Q, const ComplexMatrix& B) {
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  BoundedPairs out;
+  const Eigen::ComplexEigenSolver<ComplexMatrix> solver(B);
+  std::vector<Index> upper;
+  for (Index k = 0; k < B.rows(); ++k) {
+    if (solver.eigenvalues()(k).imag() >= 0) upper.push_back(k);
+  }
+  for (const Index k : upper) out.pairs.values.push_back(solver.eigenvalues()(k));
+  const ComplexMatrix chosen = solver.eigenvectors()(Eigen::all, upper);
+  out.pairs.right = op.units().asDiagonal() * product(Q, chosen);
+  out.pairs.right.colwise().normalize();
+  out.pairs.left = ComplexMatrix::Zero(Q.rows(), chosen.cols());
+  out.trust.assign(upper.size(), {unknown, 0, false, 1});
+  out.residual.assign(upper.size(), unknown);
+  return out;
 }
 
 }  // namespace dynalin

@@ -27,4 +27,7 @@ struct BoundedPairs {
 std::optional<BoundedPairs> bounded_pairs(const PerturbationEquations&, const ShiftInverse&, TwoSided,
                                           const NearZero& zero, double distance);
 
+// The same of right vectors alone, A Q = Q B, where the left ones do not agree with them: nothing bounds the values.
+BoundedPairs pairs_without_bounds(const ShiftInverse&, const Eigen::MatrixXcd& Q, const Eigen::MatrixXcd& B);
+
 }  // namespace dynalin

@@ -21,13 +21,14 @@ ModalText records_of(const BodyFile& body) {
   ModalText t;
   t.displacement = t.rate = Eigen::VectorXd::Zero(body.mass.rows());
   t.mass = body.mass, t.stiffness = body.stiffness;
-  auto& whole = t.whole.emplace();
+  ModalText::Whole whole;
   whole.mass = body.total_mass;
   whole.centre = {body.centre[0], body.centre[1], body.centre[2]};
   for (Eigen::Index r = 0; r < 3; ++r) {
     for (Eigen::Index c = 0; c < 3; ++c)
       whole.inertia(static_cast<std::size_t>(r), static_cast<std::size_t>(c)) = body.inertia(r, c);
   }
+  t.whole = whole;
   t.translation_sums = row_by_row(body.i3), t.turning_sums = row_by_row(body.i4);
   return t;
 }

@@ -166,6 +166,10 @@ StudyResult<ModesFound> modes_of(const Linearization& of, Vectors wanted, const 
   return found;
 }
 
+Diagnostics remarks_of_matrices(const Linearization& of) {
+  return cautions_of_matrices(*of.system, of.point, of.linear);
+}
+
 StudyResult<Linearization> with_state_matrix(Linearization of) {
   if (of.has_state_matrix()) return of;
   const auto options = options_of(of.system->model(), of.request);

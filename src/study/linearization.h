@@ -51,6 +51,8 @@ struct ModesFound {
 };
 // Of a model with its state matrix.
 StudyResult<ModesFound> modes_of(const Linearization&, Vectors);
+// What a reader of the matrices has to know, as modes_of() says it beside modes.
+Diagnostics remarks_of_matrices(const Linearization&);
 // The selected ones of any.
 StudyResult<ModesFound> modes_of(const Linearization&, Vectors, const ModeSelection&);
 StudyResult<SecondOrder> second_order_form(const Linearization&);

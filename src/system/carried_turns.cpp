@@ -1,7 +1,9 @@
 #include "system/carried_turns.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace dynalin {
 
@@ -29,6 +31,7 @@ struct Turning {
     return motion.axes(m)[static_cast<std::size_t>(name.measure) - static_cast<std::size_t>(Measure::AX)];
   }
   Vector axis(const Motion& motion) const { return axis(motion, *J); }
+  std::pair<std::int32_t, std::int32_t> bodies() const { return std::minmax({I->body.index, J->body.index}); }
 };
 
 // How often one angle turns as the other does: once, backwards, or 0 where that is not known.
@@ -65,18 +68,22 @@ std::vector<AngleName> take_over_turns(const KnownTurns& known, const System& sy
   }
   if (unknown.empty()) return {};
 
-  std::vector<std::pair<Turning, double>> others;
+  // Those of the same two bodies alone come into question.
+  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::pair<Turning, double>>> others;
   for (const auto& [name, total] : known)
-    if (const auto turning = Turning::of(name, system)) others.emplace_back(*turning, total);
+    if (const auto turning = Turning::of(name, system)) others[turning->bodies()].emplace_back(*turning, total);
   const Motion here = system.motion(op), drawn = system.motion(system.drawn());
   std::vector<AngleName> begun;
   for (const std::size_t k : unknown) {
     const auto turning = Turning::of(names[k], system);
     std::optional<double> near;
-    for (std::size_t o = 0; turning && !near && o < others.size(); ++o) {
-      const auto& [other, total] = others[o];
-      const int way = turns_with(*turning, other, here);
-      if (way != 0) near = way * total + turning->principal(drawn) - way * other.principal(drawn);
+    if (const auto of_pair = turning ? others.find(turning->bodies()) : others.end(); of_pair != others.end()) {
+      for (const auto& [other, total] : of_pair->second) {
+        const int way = turns_with(*turning, other, here);
+        if (way == 0) continue;
+        near = way * total + turning->principal(drawn) - way * other.principal(drawn);
+        break;
+      }
     }
     if (!near) begun.push_back(names[k]);
     op.memory[static_cast<std::size_t>(layout.angles[k].memory)] = near.value_or(0.0);

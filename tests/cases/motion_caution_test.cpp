@@ -63,4 +63,18 @@ TEST_F(MotionCaution, of_a_shape_that_accelerates) {
   EXPECT_THAT(remarks(model, "SIMULATE/STATICS\nLINEAR/EIGENSOL\n"), ::testing::Not(::testing::HasSubstr(code)));
 }
 
+// Matrices hold for an instant as eigenvalues do.
+TEST_F(MotionCaution, of_matrices) {
+  const std::string pendulum =
+      "Pendulum\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\n"
+      "PART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20, QP=1,0,0\nMARKER/21\n"
+      "JOINT/1, REVOLUTE, I=21, J=1\nEND\n";
+  for (const std::string option : {"STATEMAT, FILE=a", "MKB, FILE=a", "STATEMAT, FILE=a, DESCRIPTOR"})
+    EXPECT_THAT(remarks(pendulum, "LINEAR/" + option + "\n"),
+                ::testing::HasSubstr("the matrices hold for this instant"))
+        << option;
+  EXPECT_THAT(remarks(pendulum, "SIMULATE/STATICS\nLINEAR/STATEMAT, FILE=a\n"),
+              ::testing::Not(::testing::HasSubstr(code)));
+}
+
 }  // namespace dynalin::cases::motion_caution_test

@@ -214,6 +214,7 @@ StudyResult<void> Linear::run(RunState& run) const {
   if (matrices && !command.descriptor) {
     if (auto fits = check_size_of_matrices(linear->states(), request); !fits) return fits;
   }
+  if (command.option != LinearOption::eigensol) run.remarks.say(remarks_of_matrices(*linear));
   if (command.option == LinearOption::eigensol && !selection) {
     run.remarks.say(cost_of_all_modes(linear->states()));
     if (!linear->has_state_matrix()) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace dynalin {
 
@@ -70,8 +71,9 @@ BeamBodyKernel::BeamBodyKernel(const Model& model, Layout& layout) : gravity_(mo
   }
   beams_ = beam_bodies(model, layout);
   for (const BeamBody& b : beams_) {
-    TurningWhole& whole = layout.turning_wholes.emplace_back(b.nodes);
+    TurningWhole whole{b.nodes, {}};
     for (std::size_t k = 0; k < b.nodes.size(); ++k) whole.vectors.push_back(b.slope(k));
+    layout.turning_wholes.push_back(std::move(whole));
     if (b.plane) plane_rows_.emplace_back(b, model, layout);
   }
 }
