@@ -18,7 +18,11 @@ struct Slope {
 std::vector<Slope> extrapolated_slope(const std::function<void(double, std::span<double>)>& f, double x,
                                       std::size_t values);
 
-// Whether a slope says something else than the derivative that was given, by more than either is known.
-bool contradicts(const Slope&, double given);
+// How much is made by a derivative over the way that the first steps at x go by.
+double change_by(double derivative, double x);
+
+// Whether a slope at x says something else than the derivative that was given, by more than either is known and by more
+// than is lost in the rounding of `greatest_change`, what any argument makes in the same value.
+bool contradicts(const Slope&, double given, double x = 0, double greatest_change = 0);
 
 }  // namespace dynalin

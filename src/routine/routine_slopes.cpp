@@ -42,23 +42,24 @@ void CompiledRoutine::difference(std::size_t input, Memory& memory) const {
   }
 }
 
-bool contradicts(const Slope& slope, double given) {
-  constexpr double unlike = 1e-3;
-  const double size = std::max(std::abs(given), std::abs(slope.value)), off = std::abs(given - slope.value);
-  if (!slope.agreed || !(off > unlike * size + 4 * slope.error + slope.unseen)) return false;
-  return slope.half_kink == 0 || off > 1.01 * std::abs(slope.half_kink);  // one side, or between both
-}
-
 // A wrong derivative has eigenvalues with narrow bounds like a right one: what differences contradict is said.
 void CompiledRoutine::doubt_given(Memory& memory) const {
   if (!found_ || memory.inputs[1] != linear_mode) return;
   const std::size_t n = memory.inputs.size();
+  // A value near 0 may be what is left of large ones.
+  std::vector<double> greatest(values_);
+  for (std::size_t v = 0; v < values_; ++v) {
+    for (std::size_t k = 2; k < n; ++k) {
+      if (const double change = change_by(memory.partials[v * n + k], memory.inputs[k]); change > greatest[v])
+        greatest[v] = change;
+    }
+  }
   for (std::size_t k = 2; k < n; ++k) {
     if (!memory.given[k] || std::ranges::binary_search(constants_, static_cast<std::int32_t>(k))) continue;
     const std::vector<Slope> slope = slopes(memory.inputs, k);
     for (std::size_t v = 0; v < values_; ++v) {
       const double given = memory.partials[v * n + k];
-      if (!contradicts(slope[v], given)) continue;
+      if (!contradicts(slope[v], given, memory.inputs[k], greatest[v])) continue;
       memory.findings.wrong_partials.insert(
           fmt::format("{} gives {:.6g} as its derivative by {}, and its values change by {:.6g}", what_, given,
                       input_text(k), slope[v].value));
@@ -73,9 +74,13 @@ void CompiledRoutine::doubt_coupler(std::span<const double> inputs, std::span<co
         fmt::format("{} has {:.6g} as {} by {}, and {} changes by {:.6g}", what_, given, which, by, what, found));
   };
   const auto displacement = [](std::size_t k) { return fmt::format("displacement {}", k + 1); };
+  double greatest = 0;
+  for (std::size_t k = 0; k < first.size(); ++k)
+    greatest = std::max(greatest, change_by(first[k], inputs[first_given + k]));
   for (std::size_t k = 0; k < first.size(); ++k) {
     const Slope slope = slopes(inputs, first_given + k).front();
-    if (contradicts(slope, first[k])) said("its derivative", first[k], displacement(k), "its value", slope.value);
+    if (contradicts(slope, first[k], inputs[first_given + k], greatest))
+      said("its derivative", first[k], displacement(k), "its value", slope.value);
     std::vector<double> moved(inputs.begin(), inputs.end());
     const auto gradient = [&](double x, std::span<double> values) {
       moved[first_given + k] = x;

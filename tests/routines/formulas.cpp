@@ -22,6 +22,27 @@ struct Drag {
 };
 DYNALIN_USER_ROUTINE(drag_by_formula, Drag)
 
+// What law_along of laws.c is with 0, of DX.
+struct Detent {
+  template <class T>
+  void operator()(const dynalin::user::Call<T>& call, T* value) const {
+    using dynalin::user::value_of;
+    const T x = call.measure("DX", {20, 1, 1}), s = x / call.parameter(0);
+    value[0] = value_of(abs(s)) < 1 ? -1e5 * x * (1.0 - s * s) * (1.0 - s * s) : T(0.0);
+  }
+};
+DYNALIN_USER_ROUTINE(detent_by_formula, Detent)
+
+// (1 + w²) x' + x³ + x - 0.8 with w = VARVAL(1).
+struct Implicit {
+  template <class T>
+  void operator()(const dynalin::user::Call<T>& call, T* value) const {
+    const T x = call.measure("DIF", {1}), rate = call.measure("DIF1", {1}), w = call.measure("VARVAL", {1});
+    value[0] = (1.0 + w * w) * rate + x * x * x + x - 0.8;
+  }
+};
+DYNALIN_USER_ROUTINE(implicit_by_formula, Implicit)
+
 // Three columns of eight, and what a sensor watches.
 struct Columns {
   void operator()(const dynalin::user::Call<double>& call, double* value) const {
