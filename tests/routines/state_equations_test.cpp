@@ -471,13 +471,30 @@ TEST_F(StateEquations, that_have_no_value_name_their_element) {
       move);
   EXPECT_EQ(stuck.status, 2);
   EXPECT_THAT(stuck.err, AllOf(HasSubstr("GSE/1: the time between its samples is"), HasSubstr("must be positive")));
+  // Nor is a sample after the one before if it is next to nothing later.
+  for (const std::string period : {"1E-17", "1E-300", "(1E-17+0*TIME)"}) {
+    const RunResult held = with(
+        sampled + "state_equations::,state_equations::clock_update,state_equations::sampled_output, SAMPLE_PERIOD=" +
+            period + ", SAMPLE_OFFSET=0.05\n",
+        move);
+    EXPECT_EQ(held.status, 2) << period;
+    EXPECT_THAT(held.err, AllOf(HasSubstr("GSE/1: the time between its samples is 1e-"),
+                                HasSubstr("must be more than 1e-12 of TIME")))
+        << period;
+  }
   // Time passes in no number of such samples.
   const RunResult crowded = with(
       sampled +
           "state_equations::,state_equations::clock_update,state_equations::sampled_output, SAMPLE_PERIOD=1E-300\n",
       move);
   EXPECT_EQ(crowded.status, 2);
-  EXPECT_THAT(crowded.err, HasSubstr("10000 events within a billionth of the run"));
+  EXPECT_THAT(crowded.err, HasSubstr("must be more than 1e-12 of TIME"));
+  const RunResult close =
+      with(sampled +
+               "state_equations::,state_equations::clock_update,state_equations::sampled_output, SAMPLE_PERIOD=1E-14\n",
+           move);
+  EXPECT_EQ(close.status, 2);
+  EXPECT_THAT(close.err, HasSubstr("10000 events within a billionth of the run"));
 }
 
 TEST_F(StateEquations, that_do_not_fit_are_refused_at_their_place) {

@@ -42,9 +42,11 @@ double Sampling::crossing(const Motion& motion) const {
   return motion.time - next(motion) - slack(motion);
 }
 
-// The first instant of sampling behind that time. Those of a constant period are counted, so that they do not drift.
+// The first instant of sampling behind that time, if there is one: the next must be later than this one is taken. Those
+// of a constant period are counted, so that they do not drift.
 double Sampling::behind(double time, double period) const {
-  if (!(period > 0) || !std::isfinite(period)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(period > 0) || !std::isfinite(period) || period <= part_later * std::abs(time))
+    return std::numeric_limits<double>::quiet_NaN();
   if (!period_.is_constant()) return time + period;
   const double later = time + part_later * (std::abs(time) + period);
   return law_.offset + (std::floor((later - law_.offset) / period) + 1) * period;
@@ -78,8 +80,10 @@ void Sampling::find_undefined(const Motion& motion, const ElementLabel& of,
 std::string Sampling::failure(const Motion& motion) const {
   if (!std::isfinite(next(motion))) {
     const std::string said_by = law_.period_name.empty() ? "" : fmt::format(", as {} says", law_.period_name);
-    return fmt::format("the time between its samples is {:g}{}, and must be positive",
-                       motion.memory[static_cast<std::size_t>(period_kept_)], said_by);
+    const double period = motion.memory[static_cast<std::size_t>(period_kept_)];
+    return fmt::format(
+        "the time between its samples is {:g}{}, and must be {}", period, said_by,
+        period > 0 && std::isfinite(period) ? fmt::format("more than {:g} of TIME", part_later) : "positive");
   }
   for (std::size_t n = 0; n < size(); ++n) {
     if (!std::isfinite(value(motion, n)))
