@@ -53,7 +53,7 @@ void on_crash(int signal) {
   ::raise(signal);
 }
 
-// STOP of Fortran, or exit: nothing of what was asked for is done, whatever status it gives.
+// STOP of Fortran, exit or quick_exit: nothing of what was asked for is done, whatever status it gives.
 void on_exit_in_routine() {
   const char* what = std::exchange(what_is_at_work, nullptr);
   if (!what) return;
@@ -140,6 +140,7 @@ const RoutineRequest* RoutineContext::ask(std::string_view name, std::span<const
 
 void name_routine_of_crash() {
   std::atexit(on_exit_in_routine);
+  std::at_quick_exit(on_exit_in_routine);
   // A routine that runs out of stack needs another one to say so.
   static std::array<char, 65536> spare;
   stack_t stack{};

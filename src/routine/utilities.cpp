@@ -125,6 +125,8 @@ std::string_view text_of(const char* text, std::size_t length) {
   return all;
 }
 
+std::string_view text_of(const char* text) { return text_of(text, std::strlen(text)); }
+
 void keep_utilities() {
   keep_function_utilities();
   keep_data_utilities();
@@ -140,14 +142,14 @@ using namespace dynalin;
 extern "C" {
 
 void c_sysfnc(const char* name, const int* ipar, int nsize, double* state, int* errflg) {
-  read(name, ipar, nsize, true, state, nullptr, errflg);
+  read(text_of(name), ipar, nsize, true, state, nullptr, errflg);
 }
 void sysfnc_(const char* name, const int* ipar, const int* nsize, double* state, int* errflg, std::size_t length) {
   read(text_of(name, length), ipar, *nsize, true, state, nullptr, errflg);
 }
 
 void c_sysary(const char* name, const int* ipar, int nsize, double* states, int* nstates, int* errflg) {
-  read(name, ipar, nsize, false, states, nstates, errflg);
+  read(text_of(name), ipar, nsize, false, states, nstates, errflg);
 }
 void sysary_(const char* name, const int* ipar, const int* nsize, double* states, int* nstates, int* errflg,
              std::size_t length) {
@@ -164,19 +166,19 @@ void c_adams_needs_partials(int* wanted) {
 void adams_needs_partials_(int* wanted) { c_adams_needs_partials(wanted); }
 
 void c_syspar(const char* name, const int* ipar, int nsize, const double* partial, int npartial, int* errflg) {
-  give(name, ipar, nsize, partial, npartial, errflg);
+  give(text_of(name), ipar, nsize, partial, npartial, errflg);
 }
 void syspar_(const char* name, const int* ipar, const int* nsize, const double* partial, const int* npartial,
              int* errflg, std::size_t length) {
   give(text_of(name, length), ipar, *nsize, partial, *npartial, errflg);
 }
 
-void c_errmes(int errflg, const char* text, int, const char* endflg) { message(errflg, text, endflg); }
+void c_errmes(int errflg, const char* text, int, const char* endflg) { message(errflg, text, text_of(endflg)); }
 void errmes_(const int* errflg, const char* text, const int*, const char* endflg, std::size_t length,
              std::size_t end_length) {
   message(*errflg, text_of(text, length), text_of(endflg, end_length));
 }
-void c_usrmes(int msgflg, const char* text, int, const char* endflg) { message(msgflg, text, endflg); }
+void c_usrmes(int msgflg, const char* text, int, const char* endflg) { message(msgflg, text, text_of(endflg)); }
 void usrmes_(const int* msgflg, const char* text, const int*, const char* endflg, std::size_t length,
              std::size_t end_length) {
   message(*msgflg, text_of(text, length), text_of(endflg, end_length));
@@ -226,12 +228,12 @@ int dynalin_gse_array(int which) {
 
 int dynalin_input(const char* name, const int* ipar, int nsize) {
   const RoutineContext* c = RoutineContext::current();
-  const RoutineRequest* r = c ? c->known(name, ids_of(ipar, nsize), true) : nullptr;
+  const RoutineRequest* r = c ? c->known(text_of(name), ids_of(ipar, nsize), true) : nullptr;
   return r ? r->inputs.front() : -1;
 }
 int dynalin_input_of_array(const char* name, const int* ipar, int nsize, int n) {
   const RoutineContext* c = RoutineContext::current();
-  const RoutineRequest* r = c ? c->known(name, ids_of(ipar, nsize), false) : nullptr;
+  const RoutineRequest* r = c ? c->known(text_of(name), ids_of(ipar, nsize), false) : nullptr;
   return r && n >= 0 && static_cast<std::size_t>(n) < r->inputs.size() ? r->inputs[static_cast<std::size_t>(n)] : -1;
 }
 

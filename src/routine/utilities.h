@@ -15,5 +15,7 @@ void keep_missing_utilities();
 
 // A text of Fortran, which has a length and blanks behind it.
 std::string_view text_of(const char* text, std::size_t length);
+// One of C, which may have such blanks.
+std::string_view text_of(const char* text);
 
 }  // namespace dynalin

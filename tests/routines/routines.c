@@ -282,7 +282,36 @@ void stops(const int* id, const double* time, const double* par, const int* npar
            double* value) {
   (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
   *value = 0;
-  if (par[0] > 0) exit(0);
+  if (par[0] > 0) par[1] > 0 ? quick_exit(0) : exit(0);
+}
+/* What is no routine of a REQUEST: one that writes too much, and those that ask for what is not there. */
+void unusable_request(const int* id, const double* time, const double* par, const int* npar, const int* iflag,
+                      double* value) {
+  const int at[2] = {20, 1};
+  double list[3];
+  int n, error;
+  (void)id, (void)time, (void)npar, (void)iflag;
+  if (par[0] == 0) {
+    for (int k = 0; k < 12; ++k) value[k] = k;
+  } else if (par[0] == 1) {
+    c_sysfnc("NONSENSE", at, 2, value, &error);
+  } else {
+    c_gtaray(88, list, &n, &error);
+    value[0] = error;
+  }
+}
+/* -par[0] DX(20,1) */
+void padded_names(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                  const int* iflag, double* value) {
+  const int at[2] = {20, 1};
+  const double by_x = -par[0];
+  double x;
+  int error;
+  (void)time, (void)npar, (void)dflag, (void)iflag;
+  c_sysfnc("DX   ", at, 2, &x, &error);
+  c_errmes(error, "DX is not there", *id, "STOP  ");
+  c_syspar("Dx ", at, 2, &by_x, 1, &error);
+  *value = -par[0] * x;
 }
 void speaks(const int* id, const double* time, const double* par, const int* npar, const int* dflag, const int* iflag,
             double* value) {

@@ -286,6 +286,16 @@ TEST_F(UserRoutines, of_requests_and_sensors_are_called) {
   EXPECT_THAT(stopped.err + stopped.out, HasSubstr("dynamics to 0.25:"));
 }
 
+TEST_F(UserRoutines, of_requests_that_cannot_be_are_no_missing_ones) {
+  for (const std::string what : {"0", "1", "2"}) {
+    const RunResult r =
+        with(slider + spring + "REQUEST/1, FUNCTION=USER(" + what + "), ROUTINE=routines::unusable_request\n",
+             {C_ROUTINES}, false, {"SIMULATE/INITIAL"});
+    EXPECT_NE(r.status, 0) << what;
+    EXPECT_THAT(r.err, AllOf(HasSubstr("unusable_request"), Not(HasSubstr("no library that has it is named")))) << what;
+  }
+}
+
 // Nothing pushes the slider: it goes on at 0.4 from 0.1, and is at 0.2 when the time is 0.25.
 TEST_F(UserRoutines, of_sensors_say_what_they_evaluate) {
   const auto kept = [&](const std::string& sensor) {
@@ -476,6 +486,12 @@ TEST_F(UserRoutines, evaluate_functions_of_the_language) {
 }
 
 // With g = x1 − x: k g^e − cmax STEP(g, 0, 0, d, 1) x'.
+// As Fortran writes names, some write them in C.
+TEST_F(UserRoutines, may_write_names_with_blanks_behind) {
+  expect_same(with(slider + along + "FUNCTION=USER(50), ROUTINE=routines::padded_names\n"),
+              with(slider + along + "FUNCTION=-50*DX(20,1)\n"), 1e-14);
+}
+
 TEST_F(UserRoutines, get_second_derivatives_and_arrays) {
   const auto value = [&](const std::string& call) {
     const RunResult r = with(
@@ -535,12 +551,14 @@ TEST_F(UserRoutines, that_crash_are_named_before_the_program_dies) {
 TEST_F(UserRoutines, that_end_the_program_are_named_and_do_not_pass_for_success) {
   if (sanitized) GTEST_SKIP() << "the sanitizer takes the signal";
   ::testing::FLAGS_gtest_death_test_style = "threadsafe";
-  EXPECT_EXIT(
-      {
-        name_routine_of_crash();
-        with(slider + along + "FUNCTION=USER(20,1), ROUTINE=routines::stops\n");
-      },
-      ::testing::KilledBySignal(SIGABRT), "told to end by the routine stops of .*, called for SFORCE/1");
+  for (const std::string quickly : {"0", "1"}) {
+    EXPECT_EXIT(
+        {
+          name_routine_of_crash();
+          with(slider + along + "FUNCTION=USER(20," + quickly + "), ROUTINE=routines::stops\n");
+        },
+        ::testing::KilledBySignal(SIGABRT), "told to end by the routine stops of .*, called for SFORCE/1");
+  }
 }
 
 }  // namespace

@@ -156,7 +156,9 @@ class RequestSet final : public TypedSet<RequestedValues> {
     bool any_function = false;
     for (const std::string_view name : column_names(RequestKind::functions))
       any_function = any_function || reader.given(name);
-    if (reader.given("FUNCTION"))
+    const WrittenArgument* call = written_argument(reader, "FUNCTION");
+    if (call && call->damaged) return false;  // what is wrong with it is said
+    if (call)
       return wrong(
           reader, "it calls a compiled routine, and no library that has it is named",
           "--user-library FILE.so names a library, --user-value X puts the constant X in the place of each call");
