@@ -276,6 +276,20 @@ TEST_F(FrictionCases, surfaces_give_way_in_statics_until_bristles_bear_the_load)
   }
 }
 
+// The search tries bristles that are bent farther than they go: what is said is the most that they bear.
+TEST_F(FrictionCases, of_bristles_that_bear_by_how_far_they_bend_is_said_at_most) {
+  for (const char* law : {"", ", FORMULATION=LUGRE"}) {
+    const RunResult r = run(std::string("Block\nUNITS/SYSTEM=MKS\nACCGRAV/IGRAV=5, JGRAV=-8.660254\nPART/1, GROUND\n"
+                                        "MARKER/11, REULER=90D,90D,0\nPART/2, MASS=2, CM=20, IP=1,1,1\nMARKER/20\n"
+                                        "MARKER/2, REULER=90D,90D,0\nJOINT/1, TRANSLATIONAL, I=2, J=11\n"
+                                        "FRICTION/1, JOINT=1, MU_STATIC=0.5") +
+                                law + "\nEND\n",
+                            "SIMULATE/STATICS\n");
+    EXPECT_EQ(r.status, 2) << law;
+    EXPECT_THAT(r.err, HasSubstr("FRICTION/1 bears 8.66")) << law;
+  }
+}
+
 // A slip of 1e-8 one way or the other is what the integrator leaves of none: the linear model is that of the
 // equilibrium.
 TEST_F(FrictionCases, that_has_come_to_rest_has_one_linear_model) {

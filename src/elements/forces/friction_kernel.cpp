@@ -420,9 +420,17 @@ void JointFrictionKernel::exhausted(const Motion& motion, std::vector<std::strin
     const JointFriction& f = *p.element;
     if (!p.joint || p.first_state < 0 || f.rests_in_statics) continue;
     const Evaluated at = evaluate(p, pair_motion(motion, *p.I, *p.J), motion);
-    std::array<double, most_components> bent{}, borne{};
-    for (std::size_t c = 0; c < f.component_count(); ++c) bent[c] = at.creep[c].value, borne[c] = at.w[c].value;
-    if (!(std::sqrt(squared(bent)) > elastic_share * f.law.largest_creep())) continue;
+    std::array<double, most_components> bent{}, borne{}, tried{};
+    for (std::size_t c = 0; c < f.component_count(); ++c) {
+      bent[c] = at.creep[c].value, borne[c] = at.w[c].value;
+      tried[c] = motion.state[static_cast<std::size_t>(p.first_state) + c];
+    }
+    const double largest = f.law.largest_creep(), size_tried = std::sqrt(squared(tried));
+    if (!(std::sqrt(squared(bent)) > elastic_share * largest)) continue;
+    // Bristles that bear the more the farther they bend may have been tried farther than they go.
+    if (f.law.formulation == FrictionFormulation::lugre && size_tried > largest) {
+      for (double& w : borne) w *= largest / size_tried;
+    }
     std::string size = fmt::format("{:.5g}", std::sqrt(squared(borne)));
     if (f.surface == FrictionSurface::sleeve)
       size = fmt::format("{:.5g} along and {:.5g} about the axis", std::abs(borne[0]), std::abs(borne[1]));
