@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/program_heap.h"
+#include "base/working_folder.h"
 #include "command/help.h"
 #include "command/prompt.h"
 #include "command/session.h"
@@ -182,7 +183,7 @@ int run(int argc, char** argv) {
     hint_at_usage(*run, argc, argv);
     return wrong_usage;
   }
-  if (!options.user_libraries.empty()) name_routine_of_crash();
+  if (!options.user_libraries.empty()) name_routine_of_crash(), keep_working_folder();
   const bool command_given = !app.get_subcommands().empty();
   if (!command_given) {
     if (::isatty(STDIN_FILENO) != 0) {

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <limits>
 
+#include "base/working_folder.h"
+
 namespace dynalin {
 
 namespace {
@@ -40,6 +42,7 @@ const char* kind_of(mode_t mode) {
 
 tl::expected<std::string, std::string> read_file(const std::string& path) {
   const auto failed = [](int error) { return tl::unexpected(std::string(std::strerror(error))); };
+  return_to_working_folder();
   // Without O_NONBLOCK a pipe that nobody writes to would hold the program here.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   if (file.get() < 0) return failed(errno);

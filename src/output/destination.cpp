@@ -11,6 +11,8 @@
 #include <climits>
 #include <cstring>
 
+#include "base/working_folder.h"
+
 namespace dynalin {
 
 namespace {
@@ -57,6 +59,7 @@ tl::expected<bool, std::string> follow_links(Destination& d) {
 }  // namespace
 
 tl::expected<Destination, std::string> find_destination(const std::string& name) {
+  return_to_working_folder();
   Destination d;
   d.name = name;
   if (name == "-") {

@@ -10,6 +10,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "base/working_folder.h"
+
 namespace dynalin {
 
 namespace {
@@ -89,6 +91,7 @@ tl::expected<void, std::string> OutputFile::so_far() const {
 
 tl::expected<void, std::string> OutputFile::complete() {
   if (!buffer_) return {};
+  return_to_working_folder();
   stream_->flush();
   if (buffer_->error() != 0) return failed(buffer_->error());
   const int descriptor = temporary_->descriptor();
@@ -120,6 +123,7 @@ OutputFile::Result OutputFile::deliver(std::ostream& standard_output) const {
 
 OutputFile::Result OutputFile::appear() {
   if (!temporary_) return {};
+  return_to_working_folder();
   const std::string path = destination_.path();
   const auto rename_with = [&](unsigned flags) {
     return ::renameat2(AT_FDCWD, temporary_->path(), AT_FDCWD, path.c_str(), flags) == 0;
