@@ -1,10 +1,13 @@
 #include "system/carry_over.h"
 
 #include <algorithm>
+#include <map>
 
+#include "mechanics/stiction_source.h"
 #include "system/carried_past.h"
 #include "system/carried_turns.h"
 #include "system/moved_origin.h"
+#include "system/sources.h"
 
 namespace dynalin {
 
@@ -40,13 +43,43 @@ void take_up_courses(const System& system, const std::vector<bool>& known, Opera
   }
 }
 
-// What no element has remembered before begins at the point.
-void take_over_memory(const System& from, const OperatingPoint& op, const System& to, OperatingPoint& out) {
+// Bristles between markers that an edit has swapped: with the sign that their states have now, or 0 where these are
+// others.
+using Swapped = std::map<std::pair<std::string_view, std::int64_t>, double>;
+Swapped swapped_bristles(const System& from, const System& to) {
+  const auto all = [](const System& system) {
+    std::vector<BristlesBetween> list;
+    for_each_source<StictionSource>(system,
+                                    [&](const ElementSet&, const StictionSource& source) { source.surfaces(list); });
+    return list;
+  };
+  using Ends = std::pair<std::int64_t, std::int64_t>;
+  const auto ends = [](const System& s, const BristlesBetween& b) {
+    return Ends(s.layout().marker_label(b.i).id, s.layout().marker_label(b.j).id);
+  };
+  std::map<std::pair<std::string_view, std::int64_t>, Ends> before;
+  for (const BristlesBetween& b : all(from)) before[{b.of->statement, b.of->id}] = ends(from, b);
+  Swapped swapped;
+  for (const BristlesBetween& b : all(to)) {
+    const auto was = before.find({b.of->statement, b.of->id});
+    const Ends now = ends(to, b);
+    if (was == before.end() || now.first == now.second || was->second != Ends(now.second, now.first)) continue;
+    swapped[was->first] = b.opposite_from_other_end ? -1 : 0;
+  }
+  return swapped;
+}
+
+// What no element has remembered before begins at the point, and so does what bristles saw from the other end.
+void take_over_memory(const System& from, const OperatingPoint& op, const System& to, const Swapped& swapped,
+                      OperatingPoint& out) {
   OperatingPoint begun = out;
   begun.mode = AnalysisMode::initial_conditions;
   to.remember(begun);
   out.memory = std::move(begun.memory);
-  for (const auto& [a, b] : matches(memory_keys(from.layout()), memory_keys(to.layout()))) out.memory[b] = op.memory[a];
+  for (const auto& [a, b] : matches(memory_keys(from.layout()), memory_keys(to.layout()))) {
+    const ElementLabel* owner = to.layout().memory_owners[b].element;
+    if (!owner || !swapped.contains({owner->statement, owner->id})) out.memory[b] = op.memory[a];
+  }
 }
 
 }  // namespace
@@ -87,12 +120,16 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
   }
 
   std::vector<bool> known(now.states.size(), false);
+  const Swapped swapped = swapped_bristles(from, to);
   for (const auto& [a, b] : matches(state_keys(old), state_keys(now))) {
     const ElementLabel* owner = now.states[b].owner;
     if (now.states[b].type == StateType::delay) continue;  // these are numbered anew
     if (owner && is_restated(restated, owner->statement, owner->id)) continue;
-    out.state[b] = op.state[a];
-    out.state_rate[b] = op.state_rate[a];
+    const auto turned = owner ? swapped.find({owner->statement, owner->id}) : swapped.end();
+    const double sign = turned == swapped.end() ? 1 : turned->second;
+    if (sign == 0) continue;
+    out.state[b] = sign * op.state[a];
+    out.state_rate[b] = sign * op.state_rate[a];
     known[b] = true;
   }
 
@@ -103,7 +140,7 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
     copy_block(op.state_rate, before, out.state_rate, after, 1);
   }
 
-  take_over_memory(from, op, to, out);
+  take_over_memory(from, op, to, swapped, out);
   take_over_turns(known_turns(from, op), to, out);
   if (op.delays) {
     std::vector<KeptPast> kept;

@@ -46,6 +46,8 @@ struct JointFriction {
     if (surface == FrictionSurface::ball) return ball_radius;
     return pushes() && component == 0 ? 1.0 : pin_radius;
   }
+  // Along or about z of both markers, not along axes of one.
+  bool is_along_common_z() const { return surface == FrictionSurface::hinge || pushes(); }
   bool pushes() const { return surface == FrictionSurface::slide || surface == FrictionSurface::sleeve; }
 };
 
@@ -63,6 +65,7 @@ class JointFrictionKernel final : public Kernel, public WrenchSource, public Sti
   std::string domain_violation(const Motion&) const override;
   void sticking(const Motion&, std::vector<Stiction>&) const override;
   void exhausted(const Motion&, std::vector<std::string>&) const override;
+  void surfaces(std::vector<BristlesBetween>&) const override;
 
  private:
   static constexpr std::size_t most_rows = 5, most_components = 3;
