@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <optional>
 
@@ -107,24 +108,34 @@ void for_blocks(Eigen::Ref<Eigen::MatrixXd>& B, Eigen::Index most, Function&& so
 // well; where that fails, beside what it has been added up from.
 constexpr double least_pivot = 1e-17, least_left_by_cancellation = 1e-14;
 
-// Units, powers of two, in which every row and every column of a matrix has a largest entry near 1.
+// Units, powers of two, of rows and columns.
 struct BalancingUnits {
   Eigen::VectorXd row, column;
 };
-BalancingUnits balancing_units(const ColumnMatrix& m) {
-  constexpr int sweeps = 12;
+// `largest`: every row and every column has a largest entry near 1. Masses next to nothing beside constraints, whose
+// rows and columns have such an entry as it is, take `mean`: entries are near 1 in the geometric mean of each.
+enum class Balance : std::uint8_t { largest, mean };
+BalancingUnits balancing_units(const ColumnMatrix& m, Balance balance) {
+  const int sweeps = balance == Balance::largest ? 12 : 40;
   BalancingUnits u{Eigen::VectorXd::Ones(m.rows), Eigen::VectorXd::Ones(m.columns)};
+  // Of the entries of a row or a column, as powers of two.
+  struct Sizes {
+    double largest = -std::numeric_limits<double>::infinity(), sum = 0;
+    int count = 0;
+    void add(double power) { largest = std::max(largest, power), sum += power, ++count; }
+  };
   for (int sweep = 0; sweep < sweeps; ++sweep) {
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(m.rows), column = Eigen::VectorXd::Zero(m.columns);
+    std::vector<Sizes> row(static_cast<std::size_t>(m.rows)), column(static_cast<std::size_t>(m.columns));
     for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) {
-      const double size = std::abs(v * u.row(r) * u.column(c));
-      row(r) = std::max(row(r), size), column(c) = std::max(column(c), size);
+      const double power = std::log2(std::abs(v * u.row(r) * u.column(c)));
+      if (!std::isfinite(power)) return;
+      row[static_cast<std::size_t>(r)].add(power), column[static_cast<std::size_t>(c)].add(power);
     });
-    const auto adjust = [](Eigen::VectorXd& unit, const Eigen::VectorXd& largest) {
+    const auto adjust = [&](Eigen::VectorXd& unit, const std::vector<Sizes>& sizes) {
       for (Eigen::Index k = 0; k < unit.size(); ++k) {
-        if (largest(k) > 0 && std::isfinite(largest(k))) {
-          unit(k) *= std::exp2(-std::round(0.5 * std::log2(largest(k))));
-        }
+        const Sizes& s = sizes[static_cast<std::size_t>(k)];
+        if (s.count > 0)
+          unit(k) *= std::exp2(-std::round(0.5 * (balance == Balance::largest ? s.largest : s.sum / s.count)));
       }
     };
     adjust(u.row, row);
@@ -197,11 +208,12 @@ struct SparseLu::Factors {
   bool factor() {
     units.reset();
     if (mumps) return mumps->factor(matrix, order);
-    return (klu->factor(matrix) && klu->least_pivot() > least_pivot) || factor_balanced();
+    return (klu->factor(matrix) && klu->least_pivot() > least_pivot) || factor_balanced(Balance::largest) ||
+           factor_balanced(Balance::mean);
   }
   // For units that differ so much that no pivot can be compared with another.
-  bool factor_balanced() {
-    units = balancing_units(matrix);
+  bool factor_balanced(Balance balance) {
+    units = balancing_units(matrix, balance);
     ColumnMatrix balanced = matrix;
     for (std::int32_t c = 0; c < balanced.columns; ++c) {
       for (auto k = static_cast<std::size_t>(balanced.start[static_cast<std::size_t>(c)]);

@@ -150,6 +150,34 @@ TEST(SparseLu, units_that_differ_by_twenty_orders_are_no_singularity) {
   }
 }
 
+// ⎡ M Gᵀ ⎤  Masses of next to nothing, beside which every row has an entry of a constraint near 1.
+// ⎣ G 0  ⎦
+TEST(SparseLu, small_masses_beside_constraints_are_no_singularity) {
+  std::mt19937 random(3);
+  for (const double mass : {1.0, 1e-12, 1e-20, 1e-30}) {
+    constexpr Eigen::Index n = 9, m = 3;
+    const Eigen::MatrixXd root = numbers(random, n, n), G = numbers(random, m, n);
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n + m, n + m);
+    A.topLeftCorner(n, n) = mass * (root * root.transpose() + Eigen::MatrixXd::Identity(n, n));
+    A.topRightCorner(n, m) = -G.transpose();
+    A.bottomLeftCorner(m, n) = G;
+    std::vector<Triplet> t;
+    for (std::int32_t r = 0; r < n + m; ++r) {
+      for (std::int32_t c = 0; c < n + m; ++c) {
+        if (A(r, c) != 0) t.push_back({r, c, A(r, c)});
+      }
+    }
+    SparseLu lu;
+    ASSERT_TRUE(lu.factor(compressed(n + m, n + m, t))) << mass;
+    Eigen::MatrixXd expected = numbers(random, n + m, 1);
+    expected.bottomRows(m) *= mass;
+    Eigen::MatrixXd x = A * expected;
+    lu.solve(x);
+    EXPECT_LE((x - expected).topRows(n).cwiseAbs().maxCoeff(), 1e-9) << mass;
+    EXPECT_LE((x - expected).bottomRows(m).cwiseAbs().maxCoeff(), 1e-9 * mass) << mass;
+  }
+}
+
 TEST(SparseLu, singular_matrices_are_refused) {
   const auto refused = [](const Eigen::MatrixXd& m) {
     std::vector<Triplet> t;
