@@ -57,7 +57,8 @@ SparseMatrix part(const SparseMatrix& matrix, const std::vector<Index>& rows, co
   return result;
 }
 
-// Whether the interface at rest holds the body: no free motion leaves all interface freedoms where they are.
+// Whether the interface at rest holds the body: no free motion leaves all interface freedoms where they are. All of
+// them as lengths: motions that rounding has mixed from translations and rotations have no unit of their own.
 bool interface_holds(const MatrixXd& rigid_of_interface) {
   if (rigid_of_interface.cols() == 0) return true;
   if (rigid_of_interface.rows() < rigid_of_interface.cols()) return false;
@@ -197,7 +198,7 @@ class Reducer {
     reduction_.rigid_removed = free.directions.cols();
     reduction_.constraint_modes = static_cast<Index>(b.size());
     const MatrixXd rigid_of_interface = MatrixXd(rigid(b, Eigen::all)) * free.directions;
-    if (!interface_holds(rigid_of_interface)) {
+    if (!interface_holds(arms(b).asDiagonal() * rigid_of_interface)) {
       diagnostics_.error("fe-interface", Span{},
                          fmt::format("the body can move as a rigid body while its interface node{} {} stand{} still",
                                      request_.interface.size() == 1 ? "" : "s", fmt::join(request_.interface, ", "),
@@ -257,19 +258,25 @@ class Reducer {
     return list;
   }
 
-  // Of the mass of the body, if all of it moved as far as each shape of these freedoms does at most; rotations move
-  // what is as far away as the radius of gyration.
-  VectorXd mass_shares(const std::vector<Index>& freedoms, const MatrixXd& shapes, const VectorXd& masses) const {
+  // What a unit of each of these freedoms moves its place by: of a rotation, what is as far away as the radius of
+  // gyration; nothing of a coordinate without a place.
+  VectorXd arms(const std::vector<Index>& freedoms) const {
     const MassProperties& p = reduction_.properties;
-    const double radius = std::sqrt(std::max(0.0, p.inertia.trace()) / p.mass);
-    VectorXd farthest = VectorXd::Zero(shapes.cols());
+    // All in one point it has none but for rounding, and rotations nothing to compare with.
+    const bool extended = p.inertia.trace() > 1e-12 * p.matrix.diagonal().tail<3>().sum();
+    const double radius = extended ? std::sqrt(p.inertia.trace() / p.mass) : 1.0;
+    VectorXd arm(static_cast<Index>(freedoms.size()));
     for (std::size_t k = 0; k < freedoms.size(); ++k) {
       const int direction = model_.freedoms[static_cast<std::size_t>(freedoms[k])].direction;
-      if (direction < 1) continue;  // a coordinate without a place
-      const double arm = direction > 3 ? radius : 1.0;
-      farthest = farthest.cwiseMax(arm * shapes.row(static_cast<Index>(k)).transpose().cwiseAbs());
+      arm[static_cast<Index>(k)] = direction < 1 ? 0.0 : direction > 3 ? radius : 1.0;
     }
-    return masses.cwiseQuotient(p.mass * farthest.cwiseAbs2());
+    return arm;
+  }
+
+  // Of the mass of the body, if all of it moved as far as each shape of these freedoms does at most.
+  VectorXd mass_shares(const std::vector<Index>& freedoms, const MatrixXd& shapes, const VectorXd& masses) const {
+    const VectorXd farthest = (arms(freedoms).asDiagonal() * shapes).cwiseAbs().colwise().maxCoeff().transpose();
+    return masses.cwiseQuotient(reduction_.properties.mass * farthest.cwiseAbs2());
   }
 
   // An error that names what is loose or, of a motion of these freedoms, the one that moves most, where it is written.

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/Geometry>
 #include <numbers>
 
 #include "reduction/test_models.h"
@@ -305,6 +306,30 @@ TEST(CraigBampton, freedoms_without_mass_follow_statically) {
   EXPECT_TRUE(r.squares.allFinite());
   EXPECT_LT(r.off_diagonal, 1e-6);
   EXPECT_NEAR(r.squares[0] / euler(4.73004074, 0.8, section.EIy, section.mass), 1, 0.02);
+}
+
+// Lengths are compared with lengths: the same beam in other units of length has the same frequencies.
+TEST(CraigBampton, units_of_length_change_nothing) {
+  const ReductionRequest request{.interface = {1, 7}, .modes = 10};
+  const Eigen::Matrix3d axes(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()));
+  const Reduction r = reduced(test::beam(6, 0.8, section, axes, {0.3, -0.2, 0.5}), request);
+  for (const double length : {1e-9, 1e-7, 1e-3, 1e3, 1e9}) {
+    FiniteElementModel model = test::beam(6, 0.8, section, axes, {0.3, -0.2, 0.5});
+    // Of a force by its freedom: [mass·length/time²], a torque has another length.
+    const auto unit = [&](Index row) {
+      return model.freedoms[static_cast<std::size_t>(row)].direction > 3 ? length : 1.0;
+    };
+    for (SparseMatrix* m : {&model.stiffness, &model.mass}) {
+      for (Index c = 0; c < m->outerSize(); ++c) {
+        for (SparseMatrix::InnerIterator it(*m, c); it; ++it) it.valueRef() *= unit(it.row()) * unit(c);
+      }
+    }
+    for (auto& [label, at] : model.nodes) at *= length;
+    const Reduction other = reduced(model, request);
+    ASSERT_EQ(other.squares.size(), r.squares.size()) << length;
+    for (Index k = 0; k < r.squares.size(); ++k)
+      EXPECT_NEAR(other.squares[k], r.squares[k], 1e-8 * r.squares[k] + 1e-10 * r.squares[0]) << length << " " << k;
+  }
 }
 
 TEST(CraigBampton, refuses_what_does_not_hold_the_body) {
