@@ -210,7 +210,17 @@ std::optional<ModalBody> modal_body_of(ModalText t, const SourceText& file, Diag
                               file.name()));
     }
   }
-  if (t.whole) take_whole(*t.whole, b.inertia);
+  if (t.whole) {
+    const double of_nodes = t.lumped ? b.inertia.mass : t.whole->mass;
+    if (std::abs(of_nodes - t.whole->mass) > differing_mass * t.whole->mass) {
+      out.warning("body-file-doubt", t.at[12],
+                  fmt::format("RECORD GROUP 12 states a mass of {:.7g}, the masses of the nodes add up to {:.7g}",
+                              t.whole->mass, of_nodes),
+                  "the file lists some of the nodes only, or one of them is in other units; RECORD GROUP 12 is taken, "
+                  "and the nodes for what the modes move of the body");
+    }
+    take_whole(*t.whole, b.inertia);
+  }
   take_sums(t, b.inertia);
   b.inertia.modal = t.mass;
   for (Index k = 1; k <= t.modes(); ++k) b.number.push_back(k);
@@ -314,6 +324,31 @@ bool lacks_inertia(const ModalInertia& I) {
   return !(solver.eigenvalues()(0) > not_positive);
 }
 
+namespace {
+
+// Off the diagonal, beside the root of the product of what stands on it: what files with seven digits leave.
+constexpr double rounded_coupling = 1e-6;
+bool all_but_diagonal(const MatrixXd& m) {
+  const VectorXd unit = m.diagonal().cwiseSqrt().cwiseInverse();
+  const MatrixXd scaled = unit.asDiagonal() * m * unit.asDiagonal();
+  return (scaled - MatrixXd(scaled.diagonal().asDiagonal())).cwiseAbs().maxCoeff() <= rounded_coupling;
+}
+
+// Each mode takes the coordinate with the largest share in it; where two of one frequency share theirs, as they come.
+std::vector<Index> nearest_coordinates(const OwnModes& m) {
+  MatrixXd share = (m.mass.diagonal().cwiseSqrt().asDiagonal() * m.shapes).cwiseAbs();
+  std::vector<Index> coordinate(static_cast<std::size_t>(m.shapes.cols()));
+  for (std::size_t taken = 0; taken < coordinate.size(); ++taken) {
+    Index row = 0, mode = 0;
+    share.maxCoeff(&row, &mode);
+    coordinate[static_cast<std::size_t>(mode)] = row;
+    share.row(row).setConstant(-1), share.col(mode).setConstant(-1);
+  }
+  return coordinate;
+}
+
+}  // namespace
+
 OwnModes own_modes(const ModalBody& b, double ucf) {
   OwnModes m;
   m.mass = b.inertia.modal / ucf;
@@ -330,12 +365,13 @@ OwnModes own_modes(const ModalBody& b, double ucf) {
       m.frequency(k) = std::sqrt(square(at));
       m.shapes(at, k) = 1 / std::sqrt(m.mass(at, at));
     }
+    m.coordinate = std::move(order);
     return m;
   }
-  m.diagonal = false;
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(b.stiffness, m.mass);
   m.frequency = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
   m.shapes = solver.eigenvectors();
+  if (all_but_diagonal(m.mass) && all_but_diagonal(b.stiffness)) m.coordinate = nearest_coordinates(m);
   return m;
 }
 

@@ -59,7 +59,8 @@ bool lacks_inertia(const ModalInertia&);
 
 // Modes of the body held in no way but for its BCS, K V = M V Ω², Vᵀ M V = 1 with M/ucf: by ascending frequency.
 struct OwnModes {
-  bool diagonal = true;       // they are the modes of the file
+  // Of each its coordinate, where they are the modes of the file but for rounding; empty where M or K couple these.
+  std::vector<Eigen::Index> coordinate;
   Eigen::VectorXd frequency;  // [rad/time]
   Eigen::MatrixXd shapes;
   Eigen::MatrixXd mass;  // M/ucf

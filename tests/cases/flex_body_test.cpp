@@ -104,6 +104,39 @@ TEST_F(FlexBody, damping_is_that_of_each_mode) {
   EXPECT_GT(stepped.back().first, 150);
 }
 
+// The number of a mode is that of the file, whose order is its own, also where rounding of the file couples modes.
+TEST_F(FlexBody, numbers_of_modes_are_those_of_the_file) {
+  const auto ratios = [&](double coupling) {
+    const Vector x{1, 0, 0}, y{0, 1, 0}, none{};
+    std::vector<FlexibleNode> nodes = {{1, x, 1, {.1, .1, .1}, {x, coupling * x}, {none, none}},
+                                       {2, -1.0 * x, 1, {.1, .1, .1}, {-1.0 * x, -coupling * x}, {none, none}},
+                                       {3, y, 1, {.1, .1, .1}, {none, y}, {none, none}},
+                                       {4, -1.0 * y, 1, {.1, .1, .1}, {none, -1.0 * y}, {none, none}}};
+    write("beam.fem", modal_text(nodes, Eigen::MatrixXd{{9000, 0}, {0, 4000}}));
+    const RunResult r =
+        run("Body\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nFLEX_BODY/2, MNF_FILE=beam.fem, CRATIO=FXMODE/100\nEND\n",
+            "LINEAR/EIGENSOL\nSTOP\n");
+    EXPECT_EQ(r.status, 0) << r.err << r.message;
+    std::vector<std::pair<double, double>> list;
+    for (const auto& e : r.eigenvalues(0)) {
+      if (e.imag() > 0) list.emplace_back(std::abs(e), -e.real() / std::abs(e));
+    }
+    std::ranges::sort(list);
+    return list;
+  };
+  for (const double coupling : {0.0, 1e-12, 1e-7}) {
+    const auto found = ratios(coupling);
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_NEAR(found[0].second, 0.02, 1e-9) << coupling;
+    EXPECT_NEAR(found[1].second, 0.01, 1e-9) << coupling;
+  }
+  // Shapes that are none of its modes: the lowest is the first.
+  const auto found = ratios(0.3);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NEAR(found[0].second, 0.01, 1e-9);
+  EXPECT_NEAR(found[1].second, 0.02, 1e-9);
+}
+
 // The same body in metres and in millimetres, with modal coordinates that are lengths.
 TEST_F(FlexBody, units_change_nothing) {
   const Vibration held = vibration(beam, 6);

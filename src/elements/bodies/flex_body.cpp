@@ -268,11 +268,14 @@ class FlexBodySet final : public TypedSet<FlexBody> {
       return;
     }
     const OwnModes own = own_modes(b, model.units.ucf);
+    // Coupled coordinates are no modes: their numbers in turn are given to those that the body has.
+    std::vector<std::int64_t> number = b.number;
+    if (own.coordinate.empty()) std::ranges::sort(number);
     for (Eigen::Index k = 0; k < b.modes(); ++k) {
       modes.frequency.push_back(own.frequency(k) / (2 * std::numbers::pi * seconds_in(model.units.time)));
-      Eigen::Index mode = 0;
-      own.shapes.col(k).cwiseProduct(own.mass.diagonal().cwiseSqrt()).cwiseAbs().maxCoeff(&mode);
-      modes.number.push_back(static_cast<double>(b.number[static_cast<std::size_t>(own.diagonal ? mode : k)]));
+      const auto at = static_cast<std::size_t>(k);
+      const std::size_t mode = own.coordinate.empty() ? at : static_cast<std::size_t>(own.coordinate[at]);
+      modes.number.push_back(static_cast<double>(number[mode]));
     }
     if (model.routine_data) tell_routines(*model.routine_data, label, modes, b);
     const auto ratio = ratios(f, label, modes, model, diagnostics);
