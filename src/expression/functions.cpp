@@ -13,11 +13,11 @@ constexpr std::array constants = {
     NamedConstant{
         "DTOR", std::numbers::pi / 180.0, {"", "π/180: a number of degrees times DTOR is in radians", "", ""}},
     NamedConstant{"RTOD", 180.0 / std::numbers::pi, {"", "180/π: radians times RTOD are degrees", "", ""}},
+    NamedConstant{"FXMODE", 0, {"", "the number of a mode in CRATIO of a FLEX_BODY, 0 anywhere else", "", ""}},
 };
 
 constexpr std::array<std::string_view, 1> calls_not_built = {"USER"};
-constexpr std::array<std::string_view, 7> names_alone_not_built = {"CPU",   "HSIZE",  "NJAC",  "NRHS",
-                                                                   "ORDER", "FXFREQ", "FXMODE"};
+constexpr std::array<std::string_view, 6> names_alone_not_built = {"CPU", "HSIZE", "NJAC", "NRHS", "ORDER", "FXFREQ"};
 
 }  // namespace
 

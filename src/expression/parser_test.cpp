@@ -25,6 +25,7 @@ TEST(ExpressionParser, operators_bind_as_the_language_says) {
   const double a = 2, b = 3, c = 0.5;
   const Precedence table[] = {
       {"1+2*3", 7},
+      {"1+FXMODE*3", 1},  // 0 but for CRATIO of a FLEX_BODY
       {"1-2-3", -4},
       {"8/4/2", 1},
       {"8/4*2", 4},

@@ -208,8 +208,9 @@ class Dynamics {
         "dynamics", fmt::format("at time {:.9g}: {}", point_.time, integrator_->reason()), {}, "stopped-integration"};
     const std::string hardest = equations_->unknowns().text(integrator_->hardest_unknown());
     if (!hardest.empty()) f.details.push_back("what stood in the way most is " + hardest);
-    if (!equations_->undefined().empty()) f.details.push_back(equations_->undefined());
-    std::string outside = system_.domain_violation(system_.motion(point_));
+    // At a point that was tried, or at the last one itself, which says the same.
+    std::string outside = equations_->undefined();
+    if (outside.empty()) outside = system_.domain_violation(system_.motion(point_));
     if (!outside.empty()) f.details.push_back(std::move(outside));
     OperatingPoint later = point_;
     later.time += just_beyond * tolerance_.duration;

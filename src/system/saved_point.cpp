@@ -36,8 +36,8 @@ class Restorer {
     for (const Saved& entry : saved) keys.push_back(entry.of);
     std::vector<bool> taken(saved.size()), found(here.size());
     for (const auto& [a, b] : matches(keys, here)) {
-      if (!place(saved[a], b)) continue;
       taken[a] = found[b] = true;
+      if (!place(saved[a], b)) name(here[b], others_, restored_.others);
     }
     for (std::size_t k = 0; k < saved.size(); ++k) {
       if (!taken[k]) name(keys[k], not_here_, restored_.not_here);
@@ -72,7 +72,7 @@ class Restorer {
   }
 
   RestoredPoint restored_;
-  std::set<std::string> not_here_, not_saved_;
+  std::set<std::string> not_here_, not_saved_, others_;
 };
 
 }  // namespace

@@ -55,6 +55,7 @@ struct RestoredPoint {
   OperatingPoint point;
   std::vector<std::string> not_here;   // elements that were saved and are not in this system
   std::vector<std::string> not_saved;  // elements of this system that start as they are drawn
+  std::vector<std::string> others;     // so do these: they have other coordinates than what was saved
 };
 RestoredPoint restored_point(const SavedPoint&, const System&);
 

@@ -2,6 +2,7 @@
 // that are not what SAVE wrote are refused before anything runs.
 #include <gmock/gmock.h>
 
+#include "cases/flexible.h"
 #include "cases/run.h"
 #include "output/saved_file.h"
 
@@ -38,6 +39,29 @@ TEST_F(SaveReload, states_come_back_to_the_last_bit_in_the_same_run) {
   EXPECT_EQ(point(r, 0), point(r, 5));
   EXPECT_THAT(r.message, HasSubstr("Reloaded the states at time"));
   EXPECT_THAT(r.err, Not(HasSubstr("reloaded-in-part"))) << r.err;
+}
+
+// A body whose file has got another mode keeps its place, not its shape.
+TEST_F(SaveReload, a_body_of_other_modes_is_said_to_have_these) {
+  const Vector up{0, 1, 0}, none{};
+  const auto body = [&](std::vector<Vector> first, std::vector<Vector> second) {
+    const auto modes = static_cast<Eigen::Index>(first.size());
+    const std::vector<Vector> still(first.size(), none);
+    const std::vector<FlexibleNode> nodes = {{1, {0, 0, 0}, 1, {.1, .1, .1}, std::move(first), still},
+                                             {2, {1, 0, 0}, 1, {.1, .1, .1}, std::move(second), still}};
+    write("body.fem", modal_text(nodes, 1e3 * Eigen::MatrixXd::Identity(modes, modes)));
+  };
+  const std::string dataset =
+      "Body\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nFLEX_BODY/2, MNF_FILE=body.fem\n"
+      "MARKER/21, NODE_ID=1\nJOINT/1, FIXED, I=21, J=1\nEND\n";
+  body({none}, {up});
+  ASSERT_EQ(run(dataset, "SIMULATE/STATICS\nSAVE/STATES, FILE=one.save\n").status, 0);
+  body({none, none}, {up, {0, 0, 1}});
+  const RunResult r = run(dataset, "RELOAD/STATES, FILE=one.save\nSIMULATE/INITIAL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("has other coordinates of FLEX_BODY/2 than the model"));
+  EXPECT_THAT(r.err, Not(HasSubstr("does not have")));
+  EXPECT_THAT(r.err, Not(HasSubstr("has no values of")));
 }
 
 // Nodes of a beam that has another number of them stand elsewhere.

@@ -86,7 +86,12 @@ StudyResult<void> Reload::run(RunState& run) const {
   if (!restored.not_saved.empty())
     run.remarks.say("reloaded-in-part", fmt::format("{} has no values of {}, which start as they are drawn", file,
                                                     listed(restored.not_saved)));
-  const bool whole = restored.not_here.empty() && restored.not_saved.empty();
+  if (!restored.others.empty())
+    run.remarks.say("reloaded-in-part",
+                    fmt::format("{} has other coordinates of {} than the model; they are not taken, and these start as "
+                                "they are drawn",
+                                file, listed(restored.others)));
+  const bool whole = restored.not_here.empty() && restored.not_saved.empty() && restored.others.empty();
   StudyPoint& point = run.point;
   point.values = std::move(restored.point);
   point.values.initial_conditions = run.settings.initial_conditions;

@@ -36,11 +36,13 @@ std::string turned_by(double limit, const BeamBody& b, const Motion& motion) {
   for (std::size_t e = 0; e < b.elements->size(); ++e) {
     double turn = (*b.elements)[e]->largest_turn(b.motion(motion, e));
     if (turn < limit) continue;
-    if (std::isnan(turn)) turn = std::numbers::pi;
+    if (std::isnan(turn)) turn = half_a_turn;
+    // Beyond that the formula says nothing of how far.
+    const std::string angle = turn < half_a_turn ? fmt::format("{:.4g} degrees", turn * 180 / std::numbers::pi)
+                                                 : std::string("half a turn or more");
     return fmt::format(
-        "nodes {} and {} of {} are turned against each other by {:.4g} degrees: the beam between them "
-        "needs more nodes",
-        b.numbers[e], b.numbers[e + 1], b.label->full_text(), turn * 180 / std::numbers::pi);
+        "nodes {} and {} of {} are turned against each other by {}: the beam between them needs more nodes",
+        b.numbers[e], b.numbers[e + 1], b.label->full_text(), angle);
   }
   return {};
 }
