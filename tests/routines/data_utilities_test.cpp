@@ -72,11 +72,13 @@ TEST_F(DataOfRoutines, go_along_a_motion_in_formulas) {
 }
 
 TEST_F(DataOfRoutines, has_second_derivatives) {
-  for (const auto& [method, name] : {std::pair("0", "AKISPL"), std::pair("1", "CUBSPL")}) {
+  for (const int method : {0, 1}) {
     const auto derivative = [&](int number) {
       return value(fmt::format("USER({},8,{}), ROUTINE=routines::of_the_data", method, number));
     };
-    const auto expression = [&](const char* arguments) { return value(fmt::format("{}({})", name, arguments)); };
+    const auto expression = [&](const char* arguments) {
+      return value(fmt::format("{}({})", method == 0 ? "AKISPL" : "CUBSPL", arguments));
+    };
     EXPECT_NEAR(derivative(0), expression("1.5,0.5,8,2"), 1e-10);
     // Linear in z, from -1 to 1.
     EXPECT_NEAR(derivative(1), 0.5 * (expression("1.5,1,8,1") - expression("1.5,-1,8,1")), 1e-10);
