@@ -14,7 +14,8 @@ namespace dynalin {
 struct Shake {
   Eigen::VectorXd step, velocity;
 };
-Shake shake(const Layout&, const OperatingPoint&, double units, std::minstd_rand&);
+// `size`: of each coordinate, what its last place is counted from.
+Shake shake(const Layout&, const OperatingPoint&, const std::vector<double>& size, double units, std::minstd_rand&);
 OperatingPoint shaken(const System&, OperatingPoint, const Shake&, double direction);
 
 // Minus the residuals at a point, in the order of the augmented matrix.

@@ -221,6 +221,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts 
           Failure{"initial conditions", undefined_value_text(system, op, v.row), history, "undefined-value"});
     }
     const auto finished = [&] {
+      put_back_shape(system, drawn_shape, 1, op.extra, left_by_rounding);
       system.remember(op);
       return op;
     };

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "expression/parametric_curve.h"
 #include "system/system.h"
 
 namespace dynalin {
@@ -18,7 +19,8 @@ inline double row_scale(const System& system, std::span<const ConstraintRows::En
   return scale > 0 ? scale : 1.0;
 }
 
-// Of each coordinate, what its last place is counted from: the farthest component of an origin, a radian.
+// Of each coordinate, what its last place is counted from: the farthest component of an origin, a radian, half the
+// parameters of a curve. A modal coordinate has no other size than its own: its unit is that of the shape.
 inline std::vector<double> coordinate_sizes(const Layout& layout, const OperatingPoint& op) {
   std::vector<double> size(static_cast<std::size_t>(layout.coordinate_count), 1.0);
   for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
@@ -27,9 +29,13 @@ inline std::vector<double> coordinate_sizes(const Layout& layout, const Operatin
     const Vector& r = op.poses[b].r;
     std::fill_n(size.begin() + block.offset, 3, std::max({std::abs(r.x), std::abs(r.y), std::abs(r.z)}));
   }
+  for (const CurvePoint& c : layout.curve_points) size[static_cast<std::size_t>(c.coordinate)] = 0.5 * c.curve->range();
+  for (const ExtraBlock& e : layout.extras) {
+    if (e.type == StateType::flex_body) std::fill_n(size.begin() + e.offset, e.count, 0.0);
+  }
   for (std::size_t k = 0; k < op.extra.size(); ++k) {
-    const auto at = static_cast<std::size_t>(layout.body_coordinate_count) + k;
-    size[at] = std::max(1.0, std::abs(op.extra[k]));
+    double& own = size[static_cast<std::size_t>(layout.body_coordinate_count) + k];
+    own = std::max(own, std::abs(op.extra[k]));
   }
   return size;
 }

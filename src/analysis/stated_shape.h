@@ -10,11 +10,14 @@
 
 namespace dynalin {
 
+// What weights leave of what moves beside the shape, and what rounding does.
+constexpr double left_by_weights = 1e-4, left_by_rounding = 1e-14;
+
 // Puts modal coordinates, or their rates, back to what is stated where they have left it by no more than weights
 // explain; both behind those of bodies. `size` is what moves beside them, in lengths of the model and radians (by
 // time). True if any was: another least change from there keeps them to rounding, or has to deform the body after all.
-inline bool put_back_shape(const System& system, std::span<const double> stated, double size, std::span<double> shape) {
-  constexpr double explained = 1e-4;
+inline bool put_back_shape(const System& system, std::span<const double> stated, double size, std::span<double> shape,
+                           double explained = left_by_weights) {
   const Layout& layout = system.layout();
   bool any = false;
   for (const ExtraBlock& e : layout.extras) {

@@ -9,6 +9,7 @@
 
 #include "analysis/acceleration_rounding.h"
 #include "analysis/displace.h"
+#include "analysis/row_sizes.h"
 #include "linear/reach.h"
 #include "system/elimination.h"
 #include "system/sparse_lu.h"
@@ -113,7 +114,7 @@ Eigen::MatrixXd rounding_of_velocities(const System& system, const OperatingPoin
   std::minstd_rand random(1);
   Eigen::MatrixXd worst = Eigen::MatrixXd::Zero(linear.A.rows(), linear.A.cols());
   for (int k = 0; k < samples; ++k) {
-    Shake s = shake(system.layout(), op, units, random);
+    Shake s = shake(system.layout(), op, coordinate_sizes(system.layout(), op), units, random);
     s.step.setZero();
     Findings ignored;
     auto there = reconcile_velocity(system, shaken(system, op, s, 1.0), ignored);
