@@ -87,7 +87,7 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   EigenPairs& pairs = found->pairs;
   const Eigen::Index n = A.rows(), z = zero.count;
   std::vector<EigenTrust> trust(pairs.values.size());
-  if (n > z) trust = refine(*linear.pencil, zero, linear.uncertainty, pairs);
+  if (n > z) trust = refine({*linear.pencil, zero, linear.uncertainty, linear.beside_coefficients}, zero, pairs);
 
   clear_rounding(pairs, trust);
   split_pairs_of_zeros(pairs, trust);

@@ -6,11 +6,13 @@
 #include <optional>
 
 #include "linear/dense_products.h"
+#include "linear/dual_vectors.h"
 #include "linear/eigen_residuals.h"
 #include "linear/equal_values.h"
 #include "linear/included_values.h"
 #include "linear/inverse_iteration.h"
 #include "linear/isolated_values.h"
+#include "linear/uncertainty_along.h"
 
 namespace dynalin {
 
@@ -95,10 +97,9 @@ void doubt_rounding(const ZeroModes& zero, const EigenPairs& pairs, std::vector<
 
 }  // namespace
 
-std::vector<EigenTrust> refine(const PerturbationEquations& equations, const ZeroModes& zero,
-                               const Eigen::MatrixXd& uncertainty, EigenPairs& pairs) {
-  const StructuredPencil pencil(equations, zero, uncertainty);
-  separate_equal_values(equations, pairs);
+std::vector<EigenTrust> refine(const StructuredPencil& pencil, const ZeroModes& zero, EigenPairs& pairs) {
+  separate_equal_values(pencil.equations(), pairs);
+  pairs = with_dual_vectors(std::move(pairs));
   std::vector<EigenTrust> trust(pairs.values.size(), {std::numeric_limits<double>::infinity(), 0, false, 1});
   std::vector<double> gap;
   const auto well_apart = [&](Index i, double part) {
@@ -124,10 +125,10 @@ std::vector<EigenTrust> refine(const PerturbationEquations& equations, const Zer
     std::optional<IncludedValues> found = included_values(pencil, zero);
     if (found && largest_bound(found->trust) <= largest_bound(trust)) {
       pairs = std::move(found->pairs), trust = std::move(found->trust);
+      const Eigen::MatrixXd along = uncertainty_along(pencil, pairs);
       for (std::size_t i = 0; i < trust.size(); ++i) {
         const auto at = static_cast<Index>(i);
-        const Eigen::VectorXd left = pairs.left.col(at).cwiseAbs(), right = pairs.right.col(at).cwiseAbs();
-        trust[i].unknown = left.dot(uncertainty * right) / std::abs(pairs.left.col(at).dot(pairs.right.col(at)));
+        trust[i].unknown = along(at, at) / std::abs(pairs.left.col(at).dot(pairs.right.col(at)));
       }
     }
   }

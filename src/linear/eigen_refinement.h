@@ -6,14 +6,13 @@
 #pragma once
 
 #include "linear/eigen_pairs.h"
-#include "linear/perturbation.h"
+#include "linear/pencil_residual.h"
 #include "linear/zero_modes.h"
 
 namespace dynalin {
 
-// Corrects `pairs` in place. The zero modes are those split off before; the bounds hold for all state matrices whose
-// entries differ by no more than `uncertainty` from those of the equations.
-std::vector<EigenTrust> refine(const PerturbationEquations&, const ZeroModes&, const Eigen::MatrixXd& uncertainty,
-                               EigenPairs& pairs);
+// Corrects `pairs` in place. The zero modes are those split off before; the bounds hold for all state matrices that the
+// uncertainty of the pencil leaves open.
+std::vector<EigenTrust> refine(const StructuredPencil&, const ZeroModes&, EigenPairs& pairs);
 
 }  // namespace dynalin

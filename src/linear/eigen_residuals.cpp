@@ -7,6 +7,7 @@
 
 #include "linear/dense_products.h"
 #include "linear/rounding.h"
+#include "linear/uncertainty_along.h"
 
 namespace dynalin {
 
@@ -18,7 +19,7 @@ using Matrix = Eigen::MatrixXd;
 using ComplexMatrix = Eigen::MatrixXcd;
 using ComplexVector = Eigen::VectorXcd;
 
-constexpr double least_product = 1e-12;  // |yᴴ x| of unit vectors
+constexpr double least_product = 1e-12;  // |yᴴ x| of |y|ᵀ|x|
 
 // The part that a row may have in any column of unit length, at most.
 Eigen::VectorXd largest_share(const Matrix& sizes) {
@@ -50,14 +51,17 @@ ComplexVector products_of_pairs(const EigenPairs& pairs) {
 EigenResiduals::EigenResiduals(const StructuredPencil& pencil, const ZeroModes& zero, const EigenPairs& pairs)
     : pairs_(pairs), floor_(Eigen::VectorXd::Zero(pairs.right.cols())) {
   unit_ = products_of_pairs(pairs);
-  complete_ = pairs.right.allFinite() && pairs.left.allFinite() && unit_.cwiseAbs().minCoeff() > least_product;
+  const Matrix right = pairs.right.cwiseAbs(), left = pairs.left.cwiseAbs();
+  const Eigen::VectorXd sums = left.cwiseProduct(right).colwise().sum().transpose();
+  complete_ = right.allFinite() && left.allFinite() && (unit_.cwiseAbs().array() > least_product * sums.array()).all();
   if (!complete_) return;
   BothProducts products = both_products(pairs.left, pairs.right);
   product_ = std::move(products.adjoint), product_conjugate_ = std::move(products.transposed);
   row_floor_.resize(count(), 3), column_floor_.resize(count(), 3);
   const ComplexVector of_unit = unit_.cwiseInverse();
-  const Matrix onto = pencil.uncertainty().transpose(), right = pairs.right.cwiseAbs(), left = pairs.left.cwiseAbs();
-  uncertain_ = of_unit.cwiseAbs().asDiagonal() * transposed_product(left, transposed_product(onto, right));
+  const double rounding = static_cast<double>(pairs.right.rows()) * eps;
+  product_rounding_ = rounding * of_unit.cwiseAbs().asDiagonal() * transposed_product(left, right);
+  uncertain_ = of_unit.cwiseAbs().asDiagonal() * uncertainty_along(pencil, pairs);
   const ComplexMatrix reduced = measure(pencil);
   const auto in_units = [&](ComplexMatrix& plain, ComplexMatrix& crossed) {
     plain = of_unit.asDiagonal() * plain;
@@ -142,7 +146,7 @@ void EigenResiduals::measure_floors(const StructuredPencil& pencil, const Comple
   Eigen::VectorXd of_p = Eigen::VectorXd::Zero(count()), of_g = of_p;
   for (Index i = 0; i < count(); ++i) {
     for_others(i, [&](const Member& j) {
-      const double share = std::abs(p({i, false}, j)) + static_cast<double>(n) * eps / std::abs(unit_(i));
+      const double share = std::abs(p({i, false}, j)) + product_rounding_(i, j.at);
       row_floor_(i, 2) = std::max(row_floor_(i, 2), share);
       of_p(j.at) += share;
       of_g(j.at) += std::abs(g({i, false}, j)) + floor(i, j.at);
@@ -157,7 +161,7 @@ void EigenResiduals::measure_floors(const StructuredPencil& pencil, const Comple
     double mixed = 0;
     for_others(i, [&](const Member& j) {
       const double onto = std::abs(g(j, me)) + floor(j.at, i);
-      mixed += (std::abs(p(me, j)) + static_cast<double>(n) * eps / std::abs(unit_(i))) * onto;
+      mixed += (std::abs(p(me, j)) + product_rounding_(i, j.at)) * onto;
     });
     floor_(i) += mixed;
   }

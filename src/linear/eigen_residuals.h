@@ -68,12 +68,14 @@ class EigenResiduals {
   Eigen::VectorXcd unit_;
   Eigen::VectorXd floor_, zero_coupling_;
   Eigen::VectorXd rounding_share_;  // of each equation in the rounding of any residual, at most
-  // |y_a| of each left vector in units of its largest: in single precision they cost less to keep than to solve for again.
+  // |y_a| of each left vector in units of its largest: in single precision they cost less to keep than to solve for
+  // again.
   Eigen::MatrixXf left_shares_;
   Eigen::VectorXd left_units_;
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> row_floor_, column_floor_;
   // Rows in units of y_iᴴ x_i; crossed: of y̅_i with r_j and x_j.
   Eigen::MatrixXcd along_, along_conjugate_, product_, product_conjugate_;
+  Eigen::MatrixXd product_rounding_;  // of P
   Eigen::MatrixXcd zero_share_;
   Eigen::MatrixXd uncertain_;  // of entries, by what is not known of the state matrix
 };

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "linear/rounding.h"
+#include "linear/uncertainty_along.h"
 #include "system/shifted_lu.h"
 
 namespace dynalin {
@@ -62,7 +63,7 @@ class Refinement {
   // |(S − λE)ᴴ y| · |z| with z the error of w is all that the quotient misses; z is known to a few digits.
   double error() const { return first_order_margin * second_order_ + floor_ + eps * std::abs(value()); }
   // By what is not known of the state matrix.
-  double unknown() const { return left().cwiseAbs().dot(pencil_.uncertainty() * right().cwiseAbs()) / std::abs(unit_); }
+  double unknown() const { return uncertainty_along(pencil_, y_, w_) / std::abs(unit_); }
 
  private:
   Complex of_states(const ComplexVector& a, const ComplexVector& b) const {

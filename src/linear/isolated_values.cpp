@@ -135,7 +135,8 @@ class Discs {
     for (Index i = 0; i < count; ++i) {
       for (Index j = 0; j < i; ++j) {
         const Member other{j, false};
-        const double mixing = size(i, other) + size(j, {i, false}) + diagonal(i) + diagonal(j);
+        // The mean of both couplings, whatever the units that make one large and the other small.
+        const double mixing = 2 * std::sqrt(size(i, other) * size(j, {i, false})) + diagonal(i) + diagonal(j);
         if (pairs_.real(i) != pairs_.real(j) || gap(i, other) > 4 * mixing) continue;
         const Index from = group_[at(i)], to = group_[at(j)];
         for (Index& g : group_) {

@@ -114,6 +114,7 @@ Result<LinearSystem> reduce(const System& system, Perturbation perturbation) {
     }
     // No sparse equations have this block missing; what remains is the matrix itself.
     out.pencil = std::make_shared<const PerturbationEquations>(PerturbationEquations::of_state_matrix(out.A));
+    out.beside_coefficients = out.uncertainty;
   }
   model.A = without_rounding(out.A, out.rounding);
   if (const std::string overflow = overflown(model); !overflow.empty())
@@ -246,6 +247,11 @@ Result<LinearSystem> linearize(const System& system, OperatingPoint op, const Li
   const Matrix of_velocities = rounding_of_velocities(system, op, *linear, at);
   if (of_velocities.size() == 0) return linear;
   linear->uncertainty += of_velocities;
+  if (linear->beside_coefficients.size() > 0) {
+    linear->beside_coefficients += of_velocities;
+  } else {
+    linear->beside_coefficients = of_velocities;
+  }
   const NearSingularity& near = linear->near_singularity;
   constexpr double worth_a_warning = 1e-6, worth_a_look = 1e-3, singular = 1e-7;
   // So near that accelerations, too, are lost in their own rounding, what velocities make of them tells nothing.

@@ -67,8 +67,9 @@ struct LinearSystem : Perturbation {
   Eigen::MatrixXd rounding;  // what the entries of A may carry of rounding, element by element
   // What A is not known to, by roundings of coefficients and near singular configurations of velocities.
   Eigen::MatrixXd uncertainty;
-  std::vector<StateReach> reach;       // of every state
-  std::vector<std::int32_t> left_out;  // constraint rows that depend on others
+  Eigen::MatrixXd beside_coefficients;  // the part of it that does not come of the pencil's coefficients, if any
+  std::vector<StateReach> reach;        // of every state
+  std::vector<std::int32_t> left_out;   // constraint rows that depend on others
   std::shared_ptr<const StructuralZeros> structural_zeros;
   // Whose eigenvalues are those of A: the equations, unless the original implementation leaves a block of A out.
   std::shared_ptr<const PerturbationEquations> pencil;

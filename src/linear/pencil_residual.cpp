@@ -9,8 +9,11 @@ namespace dynalin {
 using LongComplex = std::complex<long double>;
 
 StructuredPencil::StructuredPencil(const PerturbationEquations& equations, const ZeroModes& zero,
-                                   const Eigen::MatrixXd& uncertainty)
-    : equations_(equations), uncertainty_(uncertainty), rows_(transposed(equations.products())) {
+                                   const Eigen::MatrixXd& uncertainty, const Eigen::MatrixXd& beside_coefficients)
+    : equations_(equations),
+      uncertainty_(uncertainty),
+      beside_coefficients_(beside_coefficients),
+      rows_(transposed(equations.products())) {
   const Eigen::Index z = zero.count, n = equations.states();
   const Eigen::MatrixXd T0 = zero.right().leftCols(z);
   shares_ = zero.left().leftCols(z).transpose();
@@ -62,9 +65,8 @@ Eigen::VectorXcd StructuredPencil::left_residual(LongComplex lambda, const Eigen
   Eigen::VectorXcd out(size);
   for (Eigen::Index k = 0; k < size; ++k) {
     LongComplex sum = 0;
-    for_each_in_column(equations_.products(), static_cast<std::int32_t>(k), [&](std::int32_t r, double v) {
-      sum += static_cast<long double>(v) * LongComplex(y(r));
-    });
+    for_each_in_column(equations_.products(), static_cast<std::int32_t>(k),
+                       [&](std::int32_t r, double v) { sum += static_cast<long double>(v) * LongComplex(y(r)); });
     if (k >= first_state) sum -= std::conj(lambda) * LongComplex(y(k));
     out(k) = {static_cast<double>(sum.real()), static_cast<double>(sum.imag())};
   }

@@ -24,8 +24,11 @@ struct PencilResidual {
 // has them: a mode that runs far along them, as a slow one does beside rigid-body motion, is not driven by R.
 class StructuredPencil {
  public:
-  // `uncertainty` is what the entries of the state matrix may be off before anything is computed from them.
-  StructuredPencil(const PerturbationEquations&, const ZeroModes&, const Eigen::MatrixXd& uncertainty);
+  // `uncertainty` is what the entries of the state matrix may be off before anything is computed from them,
+  // `beside_coefficients` the part of it that does not come of roundings of coefficients, without entries if there is
+  // none.
+  StructuredPencil(const PerturbationEquations&, const ZeroModes&, const Eigen::MatrixXd& uncertainty,
+                   const Eigen::MatrixXd& beside_coefficients);
 
   const PerturbationEquations& equations() const { return equations_; }
   PencilResidual residual(std::complex<long double> lambda, const Eigen::VectorXcd& w) const;
@@ -37,12 +40,13 @@ class StructuredPencil {
   const Eigen::MatrixXd& zero_residuals() const { return residuals_; }
   const Eigen::MatrixXd& zero_shares() const { return shares_; }
   const Eigen::MatrixXd& uncertainty() const { return uncertainty_; }
+  const Eigen::MatrixXd& beside_coefficients() const { return beside_coefficients_; }
 
  private:
   PencilResidual as_assembled(std::complex<long double> lambda, const Eigen::VectorXcd& w) const;
 
   const PerturbationEquations& equations_;
-  const Eigen::MatrixXd& uncertainty_;
+  const Eigen::MatrixXd &uncertainty_, &beside_coefficients_;
   ColumnMatrix rows_;  // Sᵀ: a row's sum stays in the registers of long double
   Eigen::MatrixXd residuals_, shares_;
 };

@@ -81,6 +81,31 @@ std::optional<std::vector<Value>> values_of(const LinearSystem& linear, std::str
   return values;
 }
 
+// Whether time may as well run backwards: displacements make accelerations and rates make displacements, nothing else.
+bool is_reversible(const LinearSystem& linear) {
+  if (linear.differential_states > 0) return false;
+  for (std::size_t r = 0; r < linear.model.states.size(); ++r) {
+    for (std::size_t c = 0; c < linear.model.states.size(); ++c) {
+      if (linear.model.states[r].is_rate == linear.model.states[c].is_rate &&
+          linear.A(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) != 0)
+        return false;
+    }
+  }
+  return true;
+}
+
+// With λ also −λ̄ is an eigenvalue there: where a circle around the imaginary axis holds one alone, it is on the axis.
+bool stays_on_axis(const std::vector<Value>& values, std::size_t which) {
+  const Value& v = values[which];
+  const double radius = v.bound + std::abs(v.hz.real());
+  if (!(std::abs(v.hz.imag()) > radius)) return false;
+  const std::complex<double> centre(0, v.hz.imag());
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (k != which && std::abs(values[k].hz - centre) <= radius + values[k].bound) return false;
+  }
+  return true;
+}
+
 // How all coordinates move along the motions that the linear model leaves free, in different shares.
 Eigen::VectorXd free_motion(const System& system, const LinearSystem& linear, const Matrix& free) {
   Eigen::VectorXd motion = Eigen::VectorXd::Zero(system.layout().coordinate_count);
@@ -138,11 +163,13 @@ Stability stability_of(const System& system, const OperatingPoint& at_rest) {
   const auto values = linear ? values_of(*linear, s.reason) : std::nullopt;
   if (!values) return s;
   double largest = 0, hidden = 0;
-  for (const Value& v : *values) {
+  const bool reversible = is_reversible(*linear);
+  for (std::size_t k = 0; k < values->size(); ++k) {
+    const Value& v = (*values)[k];
     largest = std::max(largest, std::abs(v.hz));
     if (v.grows()) {
       ++s.growing_modes;
-    } else if (!v.does_not_grow()) {
+    } else if (!v.does_not_grow() && !(reversible && stays_on_axis(*values, k))) {
       hidden = std::max(hidden, v.most());
     }
   }
