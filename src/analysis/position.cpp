@@ -35,10 +35,11 @@ std::string_view stuck_axes(const System& system, const ConstraintRows& rows, st
   return ", whose axes are parallel and must be perpendicular,";
 }
 
-// How a change of each coordinate counts, and what is added to it for the change of angles.
+// How a change of each coordinate counts, and what is added to it for the change of angles and for that of neighbours
+// against each other.
 struct AssemblyWeights {
   std::vector<double> of_coordinates;
-  std::vector<Triplet> of_angles;
+  std::vector<Triplet> coupled;
 };
 
 // The turns, of unit size, that change one of the angles ψ, θ and φ alone of Rz(ψ) Rx(θ) Rz(φ) most for their size.
@@ -52,6 +53,24 @@ std::array<Vector, 3> turns_of_angles(const Matrix3& R) {
   return {by_psi / norm(by_psi), line, by_phi / norm(by_phi)};
 }
 
+// A beam follows as a whole where one of its nodes has to move: alone it would go past its neighbour, and fold the
+// element between them over. Over all of its nodes the way between neighbours counts as much as the way itself.
+void couple_neighbours(const Layout& layout, AssemblyWeights& weights) {
+  for (const TurningWhole& whole : layout.turning_wholes) {
+    const auto count = static_cast<double>(whole.bodies.size());
+    for (std::size_t b = 1; b < whole.bodies.size(); ++b) {
+      const std::int32_t one = layout.body(whole.bodies[b - 1]).offset, other = layout.body(whole.bodies[b]).offset;
+      for (std::int32_t k = 0; k < 3; ++k) {
+        const double weight = count * count * weights.of_coordinates[static_cast<std::size_t>(one + k)];
+        weights.coupled.insert(weights.coupled.end(), {{one + k, one + k, weight},
+                                                       {other + k, other + k, weight},
+                                                       {one + k, other + k, -weight},
+                                                       {other + k, one + k, -weight}});
+      }
+    }
+  }
+}
+
 AssemblyWeights assembly_weights(const System& system, const OperatingPoint& drawn) {
   AssemblyWeights weights;
   std::vector<double>& weight = weights.of_coordinates;
@@ -61,6 +80,7 @@ AssemblyWeights assembly_weights(const System& system, const OperatingPoint& dra
     weight[k] = 1.0 / (s * s);
   }
   const Layout& layout = system.layout();
+  couple_neighbours(layout, weights);
   for (const ExtraBlock& e : layout.extras) {
     for (std::int32_t k = 0; k < e.count; ++k) weight[static_cast<std::size_t>(e.offset + k)] *= outside_weight(e.type);
   }
@@ -79,7 +99,7 @@ AssemblyWeights assembly_weights(const System& system, const OperatingPoint& dra
       for (std::int32_t r = 0; r < 3; ++r) {
         for (std::int32_t c = 0; c < 3; ++c) {
           const double product = turns[angle][static_cast<std::size_t>(r)] * turns[angle][static_cast<std::size_t>(c)];
-          weights.of_angles.push_back({block.offset + 3 + r, block.offset + 3 + c, exact_weight * product});
+          weights.coupled.push_back({block.offset + 3 + r, block.offset + 3 + c, exact_weight * product});
         }
       }
     }
@@ -128,7 +148,7 @@ std::optional<Eigen::VectorXd> least_step(const ConstraintRows& rows, const Part
                                           SparseLu& lu) {
   const std::vector<double>& weight = weights.of_coordinates;
   const auto n = static_cast<std::int32_t>(weight.size()), m = rows.size();
-  std::vector<Triplet> entries = weights.of_angles;
+  std::vector<Triplet> entries = weights.coupled;
   for (std::int32_t k = 0; k < n; ++k) entries.push_back({k, k, weight[static_cast<std::size_t>(k)]});
   Eigen::MatrixXd step = Eigen::MatrixXd::Zero(n + m, 1);
   for (std::int32_t k = 0; k < m; ++k) {
