@@ -12,6 +12,7 @@
 #include "analysis/homotopy.h"
 #include "analysis/levenberg_marquardt.h"
 #include "analysis/original_method.h"
+#include "analysis/pushed_away.h"
 #include "analysis/static_descent.h"
 #include "analysis/static_refusal.h"
 #include "analysis/turned_over.h"
@@ -143,6 +144,42 @@ bool asked_for(StaticEquations& equations, OperatingPoint& op, const StaticsOpti
   return false;
 }
 
+struct Downhill {
+  OperatingPoint op;
+  bool moved = false, held_states = false;
+};
+
+// What loads push off a saddle goes down from there, perhaps to another one. A long way down is gone in parts: each
+// search ends after so many steps that bring it no closer to rest.
+Downhill off_saddles(StaticEquations& equations, const OperatingPoint& found, const OperatingPoint& drawn,
+                     const StaticsOptions& options, StaticHistory& history, Findings& findings) {
+  constexpr int most_searches = 12;
+  const System& system = equations.system();
+  Downhill last{found};
+  std::optional<Eigen::VectorXd> step = step_off_saddle(equations, found, drawn);
+  OperatingPoint op = found;
+  for (int k = 0; step && k < most_searches && equations.effort() < options.effort_limit; ++k) {
+    if (step->size() > 0) op = moved(system, op, equations.augmented(), *step, 1.0, options.limits);
+    Descent descent(equations, options, history);
+    if (descent.run(op) && !escaped(system, drawn, op)) {
+      last = {op, true, descent.held_states()};
+      step = step_off_saddle(equations, op, drawn);
+    } else if (escaped(system, drawn, op)) {
+      break;
+    } else {
+      step->resize(0);
+    }
+    equations.measure_by(Yardstick::model);
+  }
+  equations.measure_by(Yardstick::model);
+  if (step) {
+    findings.warnings.warning("saddle", {},
+                              "the equilibrium that was found is unstable: loads of the drawn model push it away, and "
+                              "the way down from there was not followed to its end");
+  }
+  return last;
+}
+
 }  // namespace
 
 Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op, const StaticsOptions& options,
@@ -176,7 +213,8 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   Descent descent(equations, options, history);
   equations.settle(op);
   const OperatingPoint drawn = op;
-  bool found = asked_for(equations, op, options, history, findings);
+  const bool asked = asked_for(equations, op, options, history, findings);
+  bool found = asked;
   const ElementLabel* turned = nullptr;  // by a point that was balanced otherwise
   const auto is_of_this_mechanism = [&] {
     const ElementLabel* joint = turned_over(system, drawn, op);
@@ -260,6 +298,11 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
     if (reduce_imbalance(equations, other, 60)) descend(std::move(other));
   }
   if (!found) return tl::unexpected(refuse());
+  // A simulation goes on where it is, and a search that is asked for finds what it finds.
+  if (!in_course && !asked) {
+    Downhill down = off_saddles(equations, op, drawn, options, history, findings);
+    if (down.moved && !turned_over(system, drawn, down.op)) op = std::move(down.op), held_states = down.held_states;
+  }
   if (held_states) {
     // A pure integrator that balances at its first value keeps it.
     OperatingPoint kept = op;
