@@ -340,7 +340,8 @@ TEST_F(FePartFiles, results_files_and_faults_name_its_nodes) {
 
 // Half a turn is where a rotation between two nodes has no direction; the formula ends before.
 TEST_F(FePartFiles, nodes_that_are_turned_too_far_are_named) {
-  for (const auto& [angle, said] : {std::pair{"150D", ""}, {"179D", "by 179 degrees"}, {"180D", "by 180 degrees"}}) {
+  for (const auto& [angle, said] :
+       {std::pair{"150D", ""}, {"179D", "by 179 degrees"}, {"180D", "by half a turn or more"}}) {
     const RunResult r = run(std::string("Turned\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMATERIAL/1, DENSITY=7800, "
                                         "YOUNGS_MODULUS=2E11, POISSONS_RATIO=0.3\nFE_PART/2, TYPE=3DBEAM, MATERIAL=1, "
                                         "NODE_LABELS=1,2,3, X=0,0.5,1, AREA=1E-4, IYY=1E-9, IZZ=1E-9, THETA=0,") +
