@@ -502,9 +502,10 @@ TEST(FrustumTouch, rim_that_stands_flat_bears_in_its_middle) {
     Pair pair;
     double top;
   };
-  for (const auto& [pair, top] : {Support{{"", {roller}, {table}}, 0}, {{"", {roller}, {drum}}, 1}}) {
+  for (const Support& on : {Support{{"", {roller}, {table}}, 0}, {{"", {roller}, {drum}}, 1}}) {
+    const Pair& pair = on.pair;
     const auto inclined = [&](double angle) {
-      return Frame{{0.1, 0, top + 0.499},
+      return Frame{{0.1, 0, on.top + 0.499},
                    {std::cos(angle), 0, -std::sin(angle)},
                    {0, 1, 0},
                    {std::sin(angle), 0, std::cos(angle)}};

@@ -67,7 +67,7 @@ Matrix uncertainty_along(const StructuredPencil& pencil, const EigenPairs& pairs
 
 double uncertainty_along(const StructuredPencil& pencil, const Eigen::VectorXcd& y, const Eigen::VectorXcd& x) {
   const Index n = pencil.equations().states();
-  double along = std::sqrt(y.cwiseAbs2().dot(pencil.equations().rounding_variances(x).col(0)));
+  double along = std::sqrt(y.cwiseAbs2().dot(pencil.equations().rounding_variances(Eigen::MatrixXcd(x)).col(0)));
   const Matrix& beside = pencil.beside_coefficients();
   if (beside.size() > 0) along += y.tail(n).cwiseAbs().dot(beside * x.tail(n).cwiseAbs());
   return along;
