@@ -161,11 +161,12 @@ Downhill off_saddles(StaticEquations& equations, const OperatingPoint& found, co
   for (int k = 0; step && k < most_searches && equations.effort() < options.effort_limit; ++k) {
     if (step->size() > 0) op = moved(system, op, equations.augmented(), *step, 1.0, options.limits);
     Descent descent(equations, options, history);
-    if (descent.run(op) && !escaped(system, drawn, op)) {
+    const bool rests = descent.run(op);
+    // Elements have no definite values everywhere, as curves that touch with the same curvature: no way goes on there.
+    if (escaped(system, drawn, op) || (rests && !system.domain_violation(system.motion(op)).empty())) break;
+    if (rests) {
       last = {op, true, descent.held_states()};
       step = step_off_saddle(equations, op, drawn);
-    } else if (escaped(system, drawn, op)) {
-      break;
     } else {
       step->resize(0);
     }
