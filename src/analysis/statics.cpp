@@ -162,8 +162,11 @@ Downhill off_saddles(StaticEquations& equations, const OperatingPoint& found, co
     if (step->size() > 0) op = moved(system, op, equations.augmented(), *step, 1.0, options.limits);
     Descent descent(equations, options, history);
     const bool rests = descent.run(op);
-    // Elements have no definite values everywhere, as curves that touch with the same curvature: no way goes on there.
-    if (escaped(system, drawn, op) || (rests && !system.domain_violation(system.motion(op)).empty())) break;
+    // No way goes on where a joint is turned over, or where elements have no definite values, as curves that touch with
+    // the same curvature.
+    const bool is_no_place =
+        rests && (turned_over(system, drawn, op) != nullptr || !system.domain_violation(system.motion(op)).empty());
+    if (is_no_place || escaped(system, drawn, op)) break;
     if (rests) {
       last = {op, true, descent.held_states()};
       step = step_off_saddle(equations, op, drawn);
@@ -302,7 +305,7 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   // A simulation goes on where it is, and a search that is asked for finds what it finds.
   if (!in_course && !asked) {
     Downhill down = off_saddles(equations, op, drawn, options, history, findings);
-    if (down.moved && !turned_over(system, drawn, down.op)) op = std::move(down.op), held_states = down.held_states;
+    if (down.moved) op = std::move(down.op), held_states = down.held_states;
   }
   if (held_states) {
     // A pure integrator that balances at its first value keeps it.

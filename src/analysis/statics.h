@@ -8,8 +8,7 @@
 // for. A point with a joint turned over is none (`turned_over.h`), and from a saddle that loads push off the search
 // goes on downhill (`pushed_away.h`). A point that is balanced to rounding is accepted as it stands. A tolerance that
 // is stated never ends the search early, but before (6) a point within it is accepted. What cannot be found is
-// explained
-// (`static_refusal.h`, `unheld_motion.h`).
+// explained (`static_refusal.h`, `unheld_motion.h`).
 #pragma once
 
 #include <limits>

@@ -22,13 +22,14 @@ ComplexMatrix with_conjugates(const EigenPairs& pairs, const ComplexMatrix& vect
   return all;
 }
 
-// y_iᴴ x_j / y_iᴴ x_i of others, summed up over i.
+// No y_iᴴ x_j of another beside y_iᴴ x_i. Many that are next to nothing add up in the residuals, which count them.
 bool are_dual(const ComplexMatrix& products) {
   constexpr double enough = 0.1;
   const Eigen::VectorXd own = products.diagonal().cwiseAbs();
   if (!(own.minCoeff() > 0)) return false;
-  const Eigen::MatrixXd others = own.cwiseInverse().asDiagonal() * products.cwiseAbs();
-  return others.colwise().sum().maxCoeff() - 1 <= enough;
+  Eigen::MatrixXd others = products.cwiseAbs();
+  others.diagonal().setZero();
+  return (others.rowwise().maxCoeff().array() <= enough * own.array()).all();
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ void doubt_rounding(const ZeroModes& zero, const EigenPairs& pairs, std::vector<
 }
 
 // A pair whose bound reaches the axis may be two real values: what is defective next to zero tells in its invariant
-// subspace alone.
+// subspace alone, which is worth a bound a few times as wide.
 bool reaches_its_mirror(const EigenPairs& pairs, const std::vector<EigenTrust>& trust) {
   for (std::size_t i = 0; i < trust.size(); ++i) {
     if (pairs.values[i].imag() != 0 && trust[i].bound >= std::abs(pairs.values[i].imag())) return true;
@@ -132,8 +132,8 @@ std::vector<EigenTrust> refine(const StructuredPencil& pencil, const ZeroModes& 
   }
   if (!all_apart) {
     std::optional<IncludedValues> found = included_values(pencil, zero);
-    if (found && (largest_bound(found->trust) <= largest_bound(trust) ||
-                  (reaches_its_mirror(pairs, trust) && std::isfinite(largest_bound(found->trust))))) {
+    const double no_wider = reaches_its_mirror(pairs, trust) ? 10 : 1;
+    if (found && largest_bound(found->trust) <= no_wider * largest_bound(trust)) {
       pairs = std::move(found->pairs), trust = std::move(found->trust);
       const Eigen::MatrixXd along = uncertainty_along(pencil, pairs);
       for (std::size_t i = 0; i < trust.size(); ++i) {

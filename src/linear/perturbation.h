@@ -28,6 +28,14 @@ namespace dynalin {
 
 struct PerturbedPoint;
 
+// All unknowns of the pencil, (a; x), in columns.
+template <class Columns>
+Columns all_unknowns(const Columns& a, const Columns& x) {
+  Columns all(a.rows() + x.rows(), x.cols());
+  all << a, x;
+  return all;
+}
+
 class PerturbationEquations {
  public:
   // `inputs` are algebraic unknowns that are cut free of their own equation.

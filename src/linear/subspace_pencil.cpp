@@ -27,13 +27,6 @@ using ComplexVector = Eigen::VectorXcd;
 // The norms of what the operator does beside the subspace are estimates.
 constexpr double margin_of_norms = 10;
 
-template <class Columns>
-Columns with_algebraic(const Columns& algebraic, const Columns& states) {
-  Columns all(algebraic.rows() + states.rows(), states.cols());
-  all << algebraic, states;
-  return all;
-}
-
 template <class S>
 struct Residuals {
   ColumnsOf<S> value;
@@ -188,7 +181,7 @@ LeftResiduals<S> left_residuals(const PerturbationEquations& equations, const Ph
     {
       const ColumnsOf<S> Y = of.Y().middleCols(first, count);
       const ColumnsOf<S> y =
-          with_algebraic<ColumnsOf<S>>(of.mapped(Y, [&](const Matrix& m) { return equations.complete_left(m); }), Y);
+          all_unknowns<ColumnsOf<S>>(of.mapped(Y, [&](const Matrix& m) { return equations.complete_left(m); }), Y);
       left.y.set(first, y);
       const ColumnsOf<S> value = residuals(of, equations.products(), y, of.Y(),
                                            of.left_onto().middleCols(first, count).eval(), Rounding::left_out)
@@ -221,7 +214,7 @@ SubspacePencil measured_as(const Phased& as, const PerturbationEquations& equati
   using S = typename Phased::Scalar;
   const Index n = equations.states(), p = of.X.cols(), z = of.V.cols(), algebraic = equations.unknowns() - n;
   const auto completed = [&](const ColumnsOf<S>& x) {
-    return with_algebraic<ColumnsOf<S>>(as.mapped(x, [&](const Matrix& m) { return equations.complete(m); }), x);
+    return all_unknowns<ColumnsOf<S>>(as.mapped(x, [&](const Matrix& m) { return equations.complete(m); }), x);
   };
   const LeftResiduals<S> left = left_residuals(equations, as);
   const ColumnMatrix rows = transposed(equations.products());

@@ -30,28 +30,24 @@ bool is_wide(const Matrix& along, const EigenPairs& pairs) {
   return false;
 }
 
-ComplexMatrix of_all_unknowns(const ComplexMatrix& algebraic, const ComplexMatrix& of_states) {
-  ComplexMatrix all(algebraic.rows() + of_states.rows(), of_states.cols());
-  all << algebraic, of_states;
-  return all;
-}
-
-// √Σ(|y_r| ρ_rc |x_c|)², rows without roundings left out.
+// √Σ(|y_r| ρ_rc |x_c|)², of rows with roundings alone.
 Matrix along_coefficients(const PerturbationEquations& equations, const EigenPairs& pairs) {
+  const Matrix each = equations.rounding_variances(Matrix(Matrix::Ones(equations.unknowns(), 1)));
+  std::vector<Index> rounded;
+  for (Index r = 0; r < each.rows(); ++r) {
+    if (each(r, 0) > 0) rounded.push_back(r);
+  }
   const Index count = pairs.right.cols();
-  Matrix variances(equations.unknowns(), count), left = variances;
+  Matrix variances(static_cast<Index>(rounded.size()), count), left = variances;
   for_column_blocks(count, [&](Index first, Index columns) {
     const ComplexMatrix x = pairs.right.middleCols(first, columns), y = pairs.left.middleCols(first, columns);
     variances.middleCols(first, columns) = equations.rounding_variances(
-        of_all_unknowns(by_parts(x, [&](const Matrix& m) { return equations.complete(m); }), x));
+        all_unknowns(by_parts(x, [&](const Matrix& m) { return equations.complete(m); }), x))(rounded, Eigen::all);
     left.middleCols(first, columns) =
-        of_all_unknowns(by_parts(y, [&](const Matrix& m) { return equations.complete_left(m); }), y).cwiseAbs2();
+        all_unknowns(by_parts(y, [&](const Matrix& m) { return equations.complete_left(m); }), y)(rounded, Eigen::all)
+            .cwiseAbs2();
   });
-  std::vector<Index> rounded;
-  for (Index r = 0; r < variances.rows(); ++r) {
-    if (variances.row(r).maxCoeff() > 0) rounded.push_back(r);
-  }
-  return transposed_product(left(rounded, Eigen::all), variances(rounded, Eigen::all)).cwiseSqrt();
+  return transposed_product(left, variances).cwiseSqrt();
 }
 
 }  // namespace

@@ -140,7 +140,7 @@ TEST(RemarkTable, has_every_code_but_those_that_other_tests_hold) {
       "equilibrium-jump",     // simulation/quasi_statics_test
       "other-search",         // settings_test
       "incomplete-modes",     // no model is known that brings it about
-      "saddle",               // the same
+      "saddle",               // routines/curve_routine_test
       "large-eigensolution",  // selected_modes_test
       "reloaded-in-part",     // save_reload_test
       "touching-contact",     // contact_test
