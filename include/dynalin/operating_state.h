@@ -85,7 +85,7 @@ struct ChannelValues {
 struct OperatingState {
   double time = 0;
   std::vector<BodyState> bodies;             // without the ground, in the order of the dataset
-  std::vector<Load> reactions;               // of JOINT, JPRIM, MOTION, PTCV, CVCV
+  std::vector<Load> reactions;               // of constraints that act on markers
   std::vector<Load> forces;                  // of force elements; one for each marker where an element acts on several
   std::vector<ConstraintValue> constraints;  // every row of every constraint; GCON, COUPLER and GEAR have nothing else
   std::vector<VariableValue> variables;

@@ -21,7 +21,8 @@ TEST(Homotopy, passes_the_fold_at_which_least_squares_stop) {
   EXPECT_TRUE(found);
 }
 
-// With the load f(0) = 4 taken off by s: 2 z³ − 3 z² … by hand: (1 − s) 1 = 1 + z at s = 1 gives z = −1.
+// f(z) = 1 + z of which the load f(0) = 1 is taken off at first: 1 + z = 1 − s, and so z goes from 0 to −1 as s grows
+// to 1.
 TEST(Homotopy, a_linear_equation_is_solved_on_a_straight_line) {
   Search s("DIFF/7, IC=0, FUNCTION=1+DIF(7)\n");
   const auto rest = follow_to_rest(s.equations, s.op, true);

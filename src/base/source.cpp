@@ -11,6 +11,7 @@ namespace dynalin {
 namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+constexpr char end_of_dos_text = '\x1A';  // Ctrl-Z, one or as many as filled a block of a disk
 
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
@@ -18,6 +19,7 @@ bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
 SourceText::SourceText(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {
   if (text_.starts_with(byte_order_mark)) text_.erase(0, byte_order_mark.size());
+  text_.erase(text_.find_last_not_of(end_of_dos_text) + 1);
   if (text_.size() >= std::numeric_limits<std::uint32_t>::max()) {
     throw std::length_error(name_ + " is longer than 4 GiB");
   }

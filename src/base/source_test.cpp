@@ -51,6 +51,13 @@ TEST(source_text, drops_a_byte_order_mark) {
   EXPECT_EQ(source.text(), "title\n");
 }
 
+TEST(source_text, ends_where_dos_ends_it) {
+  EXPECT_EQ(SourceText("a.adm", "title\r\nEND\x1A").text(), "title\r\nEND");
+  EXPECT_EQ(SourceText("a.adm", "title\nEND\n\x1A\x1A\x1A").text(), "title\nEND\n");
+  EXPECT_EQ(SourceText("a.adm", "\x1A").text(), "");
+  EXPECT_EQ(SourceText("a.adm", "a\x1A\n").text(), "a\x1A\n");
+}
+
 TEST(span, joins_from_the_start_of_the_first_to_the_end_of_the_last) {
   const SourceText source("a.adm", "SFORCE/12, I=1");
   const Span keyword{&source, 0, 6}, id{&source, 7, 2};

@@ -1,7 +1,7 @@
 // A quantity along the motion: its value and its first and second total time derivatives.
 //
 // Every constraint row, measure and expression is written once, for the value; evaluated on TimeTaylor
-// it delivers its rates too. With T = Dual and path variations as seeds (system/path.h) the dual
+// it delivers its rates too. With T = Dual and path variations as seeds (mechanics/path.h) the dual
 // parts are the partial derivatives of all three.
 //
 // A coefficient that is not known, because differentiate() used it up, is NaN and never zero: a

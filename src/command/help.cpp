@@ -4,7 +4,6 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "base/diagnostics.h"
 #include "command/command_catalogue.h"
@@ -167,7 +166,7 @@ int print_explanation(std::string_view code, std::ostream& out, std::ostream& er
   }
   std::string word(code);  // with the brackets that it has in a message
   std::erase_if(word, [](char c) { return c == '[' || c == ']'; });
-  std::ranges::transform(word, word.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  word = lower_case(word);
   if (const Explanation* e = find_explanation(word)) {
     fmt::print(out, "{}: {}\n\n{}\n", e->code, e->text, e->advice);
     return done;

@@ -17,12 +17,26 @@ std::string_view trimmed(std::string_view s) {
   return s;
 }
 
-// Without the marks of lines that continue: & or \ at the end of one, and of two commas one.
+// Up to the comment behind it.
+std::string_view without_comment(std::string_view line) {
+  char quote = 0;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    const char c = line[k];
+    if (quote == 0 && c == '!') return line.substr(0, k);
+    if (c == quote)
+      quote = 0;
+    else if (quote == 0 && (c == '\'' || c == '"'))
+      quote = c;
+  }
+  return line;
+}
+
+// Without comments and the marks of lines that continue: & or \ at the end of one, and of two commas one.
 std::string one_line(std::string_view text) {
   std::string out;
   while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = trimmed(text.substr(0, end));
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    std::string_view line = trimmed(without_comment(text.substr(0, end)));
     text.remove_prefix(std::min(end + 1, text.size()));
     if (!text.empty() && (line.ends_with('&') || line.ends_with('\\'))) line = trimmed(line.substr(0, line.size() - 1));
     if (out.ends_with(',') && line.starts_with(',')) line = trimmed(line.substr(1));

@@ -9,6 +9,7 @@
 #include "base/read_file.h"
 #include "command/output_plan.h"
 #include "command/planner.h"
+#include "dataset/characters.h"
 
 namespace dynalin {
 
@@ -17,9 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool has_extension(const std::string& path, std::string_view extension) {
-  std::string e = fs::path(path).extension().string();
-  for (char& c : e) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return e == extension;
+  return equal_ignoring_case(fs::path(path).extension().string(), extension);
 }
 
 // Where a name without its extension would have been right.

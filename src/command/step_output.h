@@ -1,7 +1,7 @@
 // Where the steps of a simulation over time go: into the message file, the files of steps and the history for programs.
 //
 //     StepOutput output(run, StepKind::dynamics, request.times, request.integrator);
-//     auto found = simulate(run.point, request, output.watch());
+//     auto found = simulate(run.point, request, [&](const SimulationStep& step) { return output.add(step); });
 //     if (auto written = output.end(); !written) return written;
 #pragma once
 
@@ -18,9 +18,6 @@ class StepOutput {
 
   // Takes every step. A simulation whose files cannot be written goes on no further.
   GoOn add(const SimulationStep&);
-  SimulationWatch watch() {
-    return [this](const SimulationStep& step) { return add(step); };
-  }
   // However the simulation ended, all steps so far are in the files and its history in the results for programs. The
   // failure of a file is the error.
   StudyResult<void> end();

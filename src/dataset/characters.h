@@ -14,11 +14,18 @@ constexpr bool is_word_part(char c) { return is_word_start(c) || is_digit(c); }
 constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
 constexpr bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 constexpr char to_upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+constexpr char to_lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 inline std::string upper_case(std::string_view text) {
   std::string upper(text);
   for (char& c : upper) c = to_upper(c);
   return upper;
+}
+
+inline std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = to_lower(c);
+  return lower;
 }
 
 constexpr bool equal_ignoring_case(std::string_view a, std::string_view b) {

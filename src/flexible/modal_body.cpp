@@ -136,8 +136,11 @@ std::string ModalBody::near_nodes(std::int64_t label) const {
     if (const auto n = integer(l)) known.push_back(*n);
   }
   std::ranges::stable_sort(known, {}, [&](std::int64_t n) { return std::abs(n - label); });
-  if (known.size() > 4) known.resize(4);
-  return fmt::format("its file has the nodes {}", fmt::join(known, ", "));
+  constexpr std::size_t enough = 4;
+  const bool all = known.size() <= enough;
+  known.resize(std::min(known.size(), enough));
+  return fmt::format("{} {}", all ? "its file has the nodes" : "of the nodes of its file the nearest are",
+                     fmt::join(known, ", "));
 }
 
 std::string ModalBody::fed_modes() const {

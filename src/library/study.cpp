@@ -19,10 +19,19 @@ OperatingPoint handed_out(FoundPoint found, std::vector<Remark> remarks = {}) {
 }
 
 StaticsOptions options_of(EquilibriumSettings settings, const StaticRequest& request) {
-  take_over(settings,
-            {request.error, request.imbalance, request.stability, request.translation_limit, request.rotation_limit,
-             request.iteration_limit, request.pattern, request.newton, request.by_motion, request.global_damping,
-             request.acceleration_error, request.kinetic_energy_error, request.settling_time});
+  take_over(settings, {.error = request.error,
+                       .imbalance = request.imbalance,
+                       .stability = request.stability,
+                       .translation_limit = request.translation_limit,
+                       .rotation_limit = request.rotation_limit,
+                       .iteration_limit = request.iteration_limit,
+                       .pattern = request.pattern,
+                       .newton = request.newton,
+                       .by_motion = request.by_motion,
+                       .global_damping = request.global_damping,
+                       .acceleration_error = request.acceleration_error,
+                       .kinetic_energy_error = request.kinetic_energy_error,
+                       .settling_time = request.settling_time});
   StaticsOptions options = statics_options(settings);
   options.restore_velocities = request.restore_velocities;
   options.progress = request.progress;

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <algorithm>
 
 #include "base/dense_solvers.h"
 #include "linear/clustered_schur.h"
@@ -40,7 +41,9 @@ void add_vectors(const LongComplexMatrix& M, const Eigen::VectorXd& scale, bool 
     const Eigen::JacobiSVD<ComplexMatrix> svd(D.cast<Complex>(), Eigen::ComputeFullU | Eigen::ComputeFullV);
     v = svd.matrixV().rowwise().reverse(), u = svd.matrixU().rowwise().reverse();
     const Eigen::VectorXd s = svd.singularValues().reverse();
-    const double small = 1e-10 * s(k - 1) + 10 * s(0);
+    // What the block is known to within has no directions: where all of it is rounding, one value may by chance be far
+    // below the others.
+    const double small = std::max(1e-10 * s(k - 1) + 10 * s(0), disc.tau);
     for (Index a = 1; a < k; ++a) {
       if (s(a) > small) v.col(a) = v.col(0), u.col(a) = u.col(0);
     }

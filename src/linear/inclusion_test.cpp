@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <cmath>
 #include <random>
 
@@ -146,6 +147,29 @@ TEST(Inclusion, equal_oscillators_share_a_disc_above_the_axis) {
       EXPECT_EQ(discs->front().count, count);
       EXPECT_NEAR(std::abs(discs->front().centre - Complex(0, std::sqrt(250.0))), 0, 1e-14);
       EXPECT_LE(discs->front().radius, 1e-14);
+    }
+  }
+}
+
+// −b bᵀ with entries that are integers, so that all but one of its eigenvalues are 0, with as many vectors.
+TEST(Inclusion, values_that_are_equal_without_a_defect_have_vectors_of_their_own) {
+  Random random(11);
+  std::uniform_int_distribution<int> entry(-4, 4);
+  for (Eigen::Index n = 3; n <= 9; ++n) {
+    for (int draw = 0; draw < 20; ++draw) {
+      Eigen::VectorXd b(n);
+      for (double& v : b) v = entry(random);
+      if (b.isZero(0)) continue;
+      const Eigen::MatrixXd A = -b * b.transpose();
+      const auto discs = inclusion_discs(A.cast<std::complex<long double>>(), 1e-16 * A.cwiseAbs(), true);
+      ASSERT_TRUE(discs);
+      for (const InclusionDisc& disc : *discs) {
+        const Eigen::Index vectors = disc.count == n - 1 ? n - 1 : 1;
+        EXPECT_EQ(disc.count, vectors);
+        for (const Eigen::MatrixXcd& side : {disc.right, disc.left})
+          EXPECT_GT(side.jacobiSvd().singularValues().tail<1>()(0), 1e-3) << n << " " << draw;
+        EXPECT_LT((A * disc.right - disc.right * disc.centre).norm(), 1e-13 * A.norm());
+      }
     }
   }
 }

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "analysis/static_equations.h"
+#include "dataset/characters.h"
 #include "system/mass_centres.h"
 
 namespace dynalin {
@@ -115,8 +115,7 @@ void motion_caution(const System& system, const OperatingPoint& op, const EigenS
       std::ranges::count_if(layout.bodies, [&](const BodyBlock& b) { return b.label.element() == part.element(); }) > 1;
   const Units& units = system.model().units;
   const std::string time = units.time_symbol();
-  std::string length = units.length.empty() ? "length" : units.length;
-  for (char& c : length) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string length = units.length.empty() ? "length" : lower_case(units.length);
   out.warning("accelerating-point", part.at,
               fmt::format("the operating point accelerates or turns, most of all {0} (acceleration of {7} {1:.5g} "
                           "{4}/{5}², angular velocity {2:.5g} rad/{5}, angular acceleration {3:.5g} rad/{5}²{6}): {8}",

@@ -255,6 +255,8 @@ std::optional<BoundedPairs> bounded_pairs(const PerturbationEquations& equations
 BoundedPairs pairs_without_bounds(const ShiftInverse& op, const ComplexMatrix& Q, const ComplexMatrix& B) {
   constexpr double unknown = std::numeric_limits<double>::infinity();
   BoundedPairs out;
+  out.pairs.right.resize(Q.rows(), 0), out.pairs.left.resize(Q.rows(), 0);
+  if (B.rows() == 0) return out;
   const Eigen::ComplexEigenSolver<ComplexMatrix> solver(B);
   std::vector<Index> upper;
   for (Index k = 0; k < B.rows(); ++k) {

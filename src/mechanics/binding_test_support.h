@@ -62,7 +62,6 @@ class SmallSystem final : public Signals, public Binder {
   bool has_place(MarkerId m) const override { return m.index != unplaced; }
   Channel variable(VariableRef) const override { return {}; }
   Channel array_entry(ArrayRef, std::size_t) const override { return {}; }
-  std::size_t array_size(ArrayRef) const override { return 0; }
   Channel data(const Atom& a) const override {
     const std::int32_t n = a.argument[0] - 1;
     switch (a.function->reads) {

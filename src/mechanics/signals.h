@@ -27,7 +27,6 @@ class Signals {
   virtual Channel variable(VariableRef) const = 0;
   // Entry `n` (0-based) of an ARRAY of any type.
   virtual Channel array_entry(ArrayRef, std::size_t n) const = 0;
-  virtual std::size_t array_size(ArrayRef) const = 0;
   // What a data atom reads: VARVAL, ARYVAL, DIF, PINVAL, POUVAL; of a DIF1 what it is the rate of.
   virtual Channel data(const Atom&) const = 0;
 

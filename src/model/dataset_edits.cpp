@@ -230,6 +230,12 @@ void DatasetEditor::switch_range(const WrittenArgument& range, std::string_view 
     diagnostics_.error("wrong-count", range.value_span(), fmt::format("RANGE takes 2 ids, found {}", ends->size()));
     return;
   }
+  if (ends->front().value > ends->back().value) {
+    diagnostics_.error(
+        "value-out-of-range", range.value_span(),
+        fmt::format("RANGE begins at {} and ends before, at {}", ends->front().value, ends->back().value));
+    return;
+  }
   bool any = false;
   for (Statement& s : out_->statements) {
     if (s.name != statement || !s.id || *s.id < ends->front().value || *s.id > ends->back().value) continue;

@@ -265,7 +265,8 @@ std::optional<std::size_t> find_argument(const WrittenArgument& written, std::sp
     return std::nullopt;
   }
   if (!info.is_flag && !info.value_optional && !written.has_value) {
-    r.error("missing-value", written.name, fmt::format("{} of {} needs a value: {}", info.name, owner, info.value));
+    r.error("missing-value", written.name, fmt::format("{} of {} needs a value: {}", info.name, owner, info.value),
+            std::string(info.help));
     return std::nullopt;
   }
   return k;

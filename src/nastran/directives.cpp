@@ -8,6 +8,7 @@
 
 #include "dataset/characters.h"
 #include "nastran/directive_values.h"
+#include "nastran/force_types.h"
 
 namespace dynalin::nastran {
 
@@ -50,8 +51,6 @@ constexpr std::array<std::string_view, 2> words_of<Spacing> = {"linear", "log"};
 template <>
 constexpr std::array<std::string_view, 3> words_of<FileStyle> = {"A", "B", "C"};
 
-constexpr std::array<std::string_view, 9> force_types = {"sforce", "springdamper", "bushing",  "beam",  "field",
-                                                         "vforce", "vtorque",      "friction", "gforce"};
 constexpr std::array<std::string_view, 2> unused_item_words = {"cbush", "grid"};
 constexpr std::size_t longest_line = 64;   // behind SUBTITLE = there are as many columns of 72, about
 constexpr std::size_t longest_suffix = 7;  // behind one letter
@@ -106,9 +105,9 @@ class Taker {
       return;
     }
     if (e.with_type) {
-      const auto type = read_choice(parts[0], force_types, place_);
+      const auto type = read_choice(parts[0], force_types(), place_);
       if (!type) return;
-      made.type = force_types[*type];
+      made.type = force_types()[*type];
     }
     if (e.by_name) {
       made.name = read_string(parts[first]);

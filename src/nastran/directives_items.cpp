@@ -23,8 +23,8 @@ std::span<const Directive> item_directives() {
       {.name = "force_editable_by_id",
        .slot = Editables{&O::force_editable, true, false},
        .help =
-           "a force with matrices of its own, whose names end so; types: sforce, springdamper, bushing, beam, field, "
-           "vforce, vtorque, friction, gforce; as many directives as forces",
+           "a force with matrices of its own, whose names end so; types: statements of forces, sforce, bushing, cable "
+           "and so on; as many directives as forces",
        .ignored = in_closed_box},
       {.name = "force_editable_by_name",
        .slot = Editables{&O::force_editable, true, true},

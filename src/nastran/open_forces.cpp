@@ -12,14 +12,6 @@
 
 namespace dynalin::nastran {
 
-namespace {
-
-// Classes of forces that directives single out by name.
-constexpr std::array<std::string_view, 9> force_types = {"sforce", "springdamper", "bushing",  "beam",  "field",
-                                                         "vforce", "vtorque",      "friction", "gforce"};
-
-}  // namespace
-
 OpenForces::OpenForces(const System& system, const Motion& motion, const ExportOptions& options, Ids& ids, Deck& deck,
                        OpenPoints& points, MarkerGrids& markers, const SingleWrenches& wrenches)
     : system_(system),
@@ -42,12 +34,6 @@ StudyResult<void> OpenForces::refuse(std::string message, Diagnostics& remarks) 
   if (!options_.ignore_errors) return tl::unexpected(StudyFailure({"export", std::move(message), {}}));
   remarks.warning("export-left-out", {}, message + "; the export goes on without it");
   return {};
-}
-
-StudyResult<void> OpenForces::take_suffix_of_force(const Editable& wanted, Diagnostics& remarks) {
-  if (std::ranges::find(force_types, wanted.type) == force_types.end())
-    return refuse(fmt::format("{} is no type of force that can be singled out", wanted.type), remarks);
-  return take_suffix(wanted, wanted.type, remarks);
 }
 
 StudyResult<void> OpenForces::take_suffix(const Editable& wanted, std::string_view type, Diagnostics& remarks) {
@@ -98,7 +84,7 @@ std::string OpenForces::automatic_suffix(const ElementLabel& label) {
 StudyResult<void> OpenForces::choose_suffixes(const std::vector<Contribution>& elements, Diagnostics& remarks) {
   taken_ = {options_.forces_dmig_name, options_.differentials_dmig_name};
   for (const Editable& e : options_.force_editable) {
-    if (auto done = take_suffix_of_force(e, remarks); !done) return done;
+    if (auto done = take_suffix(e, e.type, remarks); !done) return done;
   }
   for (const Editable& e : options_.flexbody_editable) {
     if (auto done = take_suffix(e, "flex_body", remarks); !done) return done;

@@ -43,7 +43,6 @@ class OpenForces {
   };
 
   StudyResult<void> choose_suffixes(const std::vector<Contribution>&, Diagnostics& remarks);
-  StudyResult<void> take_suffix_of_force(const Editable&, Diagnostics& remarks);
   StudyResult<void> take_suffix(const Editable&, std::string_view statement, Diagnostics& remarks);
   StudyResult<void> refuse(std::string message, Diagnostics& remarks) const;
   std::string automatic_suffix(const ElementLabel&);

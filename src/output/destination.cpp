@@ -113,8 +113,6 @@ void InputFiles::add(const std::string& name) {
     name_.emplace(d->place(), name);
 }
 
-void InputFiles::add(const InputFiles& more) { name_.insert(more.name_.begin(), more.name_.end()); }
-
 const std::string* InputFiles::replaced_by(const Destination& d) const {
   const auto found = name_.find(d.place());
   return d.kind == Destination::Kind::replaced && found != name_.end() ? &found->second : nullptr;

@@ -36,7 +36,6 @@ class InputFiles {
  public:
   // What is no regular file stays what it is in any case.
   void add(const std::string& name);
-  void add(const InputFiles&);
   // The name under which the file was read that would be replaced; null if none is.
   const std::string* replaced_by(const Destination&) const;
 

@@ -3,21 +3,19 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <span>
 #include <string>
 
+#include "dataset/characters.h"
+
 namespace dynalin {
 
 namespace {
 
-std::string lower(std::string text, std::string_view otherwise) {
-  if (text.empty()) return std::string(otherwise);
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
+std::string lower(const std::string& text, std::string_view otherwise) {
+  return text.empty() ? std::string(otherwise) : lower_case(text);
 }
 
 std::string named(const ElementId& element, const std::string& view_name) {

@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "dataset/characters.h"
+
 namespace dynalin {
 
 namespace {
@@ -18,10 +20,7 @@ std::string unit_name(const std::string& keyword) {
   const auto found =
       std::find_if(short_names.begin(), short_names.end(), [&](const auto& n) { return n.first == keyword; });
   if (found != short_names.end()) return std::string(found->second);
-  std::string name = keyword;
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name;
+  return lower_case(keyword);
 }
 
 // The last part of a view name, or "PART_2".

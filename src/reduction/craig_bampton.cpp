@@ -354,14 +354,10 @@ class Reducer {
       if (shares[c] > massless) heavy.push_back(c);
     }
     const Index first = shapes.cols(), count = static_cast<Index>(heavy.size());
-    const MatrixXd taken = modes->shapes(Eigen::all, heavy);
     shapes.conservativeResize(Eigen::NoChange, first + count);
     shapes.rightCols(count).setZero();
-    for (std::size_t k = 0; k < i.size(); ++k) {
-      const auto row = static_cast<Index>(k);
-      shapes.row(i[k]).head(first) = inside.row(row);
-      shapes.row(i[k]).tail(count) = taken.row(row);
-    }
+    shapes(i, Eigen::seqN(0, first)) = inside;
+    shapes(i, Eigen::seqN(first, count)) = modes->shapes(Eigen::all, heavy);
     reduction_.fixed_interface = modes->squares(heavy);
     return {};
   }

@@ -31,7 +31,6 @@ class CurveRoutine final : public CurveLaw {
 
   const CurveStatement& statement() const { return statement_; }
   std::string name() const;  // "the routine cursub of cam.so"
-  bool gives_third_derivatives() const { return found_.derivatives != nullptr; }
   // A sentence where a first or second derivative at u is not the one of what it belongs to, else empty.
   std::string wrong_derivative(double u) const;
 

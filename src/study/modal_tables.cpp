@@ -44,19 +44,25 @@ std::string_view model_name(std::string_view title) {
   return name;
 }
 
-// Names of View with the model and, of a marker, the part it is on.
+// Whether a name is that of something in another: car.arm.cm in car.arm.
+bool is_below(std::string_view name, std::string_view owner) {
+  return name.size() > owner.size() && name.starts_with(owner) && name[owner.size()] == '.';
+}
+
+// Names of View with the model and, of a marker, the part it is on. Names may hold dots of their own: SPRING_1.sforce.
 void name_in_full(const Model& model, std::vector<Row>& rows) {
   const std::string_view of_model = model_name(model.title);
   for (Row& row : rows) {
     if (row.name.empty()) continue;
     row.full_name = row.name;
-    if (row.name.find('.') != std::string::npos || of_model.empty()) continue;
+    if (of_model.empty() || is_below(row.name, of_model)) continue;
     std::string_view of_part;
     if (row.element.statement == "MARKER") {
       if (const auto m = model.find_marker(row.element.id))
         of_part = model.body(model.marker(*m).place.body).label.view_name;
     }
-    row.full_name = fmt::format("{}{}{}.{}", of_model, of_part.empty() ? "" : ".", of_part, row.name);
+    if (!of_part.empty() && !is_below(row.name, of_part)) row.full_name = fmt::format("{}.{}", of_part, row.full_name);
+    if (!is_below(row.full_name, of_model)) row.full_name = fmt::format("{}.{}", of_model, row.full_name);
   }
 }
 

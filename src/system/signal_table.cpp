@@ -49,8 +49,6 @@ Channel SignalTable::value_of(ElementHandle handle) const {
   return kernel(handle)->channels()->value_channel(static_cast<std::size_t>(handle.index));
 }
 
-std::size_t SignalTable::array_size(ArrayRef ref) const { return model_.get<Array>(ref)->entries(); }
-
 Channel SignalTable::array_entry(ArrayRef ref, std::size_t n) const {
   const Array& a = *model_.get<Array>(ref);
   if (n >= a.entries()) return {};

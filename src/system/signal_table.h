@@ -25,7 +25,6 @@ class SignalTable final : public Signals {
   bool has_place(MarkerId) const override;
   Channel variable(VariableRef ref) const override { return value_of(ref); }
   Channel array_entry(ArrayRef, std::size_t n) const override;
-  std::size_t array_size(ArrayRef) const override;
   Channel data(const Atom&) const override;
   Element element(ElementHandle h) const override { return {kernel(h), static_cast<std::size_t>(h.index)}; }
   Wrench wrench(std::string_view statement, std::int64_t id) const override;

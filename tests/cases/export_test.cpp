@@ -100,6 +100,19 @@ TEST_F(Export, says_what_its_configuration_does) {
       HasSubstr("export.cfg:3:1: warning: without effect on this export: spc_set (CLOSEDBOX) [ignored-directive]"));
 }
 
+// Whatever exerts a force has matrices of its own where the configuration asks for them.
+TEST_F(Export, a_cable_is_singled_out) {
+  write("export.cfg", "all_forces_editable = no\nforce_editable_by_id = cable, 4, CAB\n");
+  const RunResult r = run(
+      "cable\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, QP=-3,0,4\nMARKER/2, QP=3,0,4\nPART/2, MASS=2, CM=20, "
+      "IP=1,1,1\nMARKER/20\nBUSHING/1, I=20, J=3, K=1,1,1, KT=1,1,1\nMARKER/3, PART=1\nCABLE/4, MARKERS=1,20,2, K=50, "
+      "LENGTH=9\nEND\n",
+      "LINEAR/EXPORT, TYPE=OPENBOX, FILE=deck, CONFIG=export.cfg\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_TRUE(r.wrote("deck_KCAB.bdf"));
+  EXPECT_FALSE(r.wrote("deck_KB1.bdf"));
+}
+
 struct Refused {
   std::string configuration, type, error;
 };
@@ -122,6 +135,7 @@ TEST_F(Export, refuses_what_the_model_does_not_have_at_its_place) {
                    "export.cfg:1:27: error: FLEX_BODY/2 does not exist"},
            Refused{"force_editable_by_id = bushing, 1, OWN\nforce_editable_by_id = vforce, 1, own\n", "OPENBOX",
                    "export.cfg:2:24: error: own ends the names of another element's matrices already"},
+           Refused{"force_editable_by_id = part, 2, P2\n", "OPENBOX", "export.cfg:1:24: error: "},
            Refused{"force_editable_by_id = bushing, 1, VVV\n", "OPENBOX",
                    "export.cfg:1:24: error: VVV ends the names of the matrices of all others already"},
            Refused{response + "displacement_output_channel { name = o marker_id = 5 }\n", "CLOSEDBOX",

@@ -240,6 +240,21 @@ TEST_F(Modal, names_of_view_are_whole) {
   EXPECT_THAT(table("A car"), HasSubstr("| cm\n"));
 }
 
+// A dot in a name does not make it whole, as those of what View makes by the way (SPRING_1.sforce); the model's does.
+TEST_F(Modal, names_of_view_with_dots_are_whole_as_well) {
+  const RunResult r = run(
+      "ADAMS/View model name: car\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n! "
+      "adams_view_name='front.wheel'\nPART/2, "
+      "MASS=1, CM=20, IP=1,1,1\n! adams_view_name='front.wheel.cm'\nMARKER/20\n! adams_view_name='car.tire'\n"
+      "BUSHING/1, I=20, J=1, K=9,9,9, KT=1,1,1\n! adams_view_name='stop.sforce'\nSFORCE/1, TRANSLATIONAL, I=20, J=1, "
+      "ACTIONONLY, FUNCTION=-DZ(20)\nEND\n",
+      "LINEAR/EIGENSOL, COORDS=1, STRAIN=1, MRANGE=1, MLIST=20, TABLE_PRECISION=4, NAMES\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const std::string t = r.text("model.txt");
+  for (const char* name : {"| car.front.wheel\n", "| car.front.wheel.cm\n", "| car.tire\n", "| car.stop.sforce\n"})
+    EXPECT_THAT(t, HasSubstr(name));
+}
+
 TEST_F(Modal, ranges_of_frequency_that_hold_no_mode_are_warned_of) {
   const RunResult r = run(two_bodies(""), "LINEAR/EIGENSOL, FKINETIC=1000,2000\n");
   EXPECT_EQ(r.status, 0) << r.err;

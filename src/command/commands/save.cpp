@@ -27,7 +27,10 @@ struct Written {
   static constexpr std::array<Argument<W>, 4> arguments = {{
       {.name = "SYSTEM", .slot = &W::system, .help = "the model as it is now, its settings, and the states"},
       {.name = "STATES", .slot = &W::states, .help = "time and all values of the point"},
-      {.name = "FILE", .slot = &W::file, .required = true, .help = "written at once, whole or not at all"},
+      {.name = "FILE",
+       .slot = &W::file,
+       .required = true,
+       .help = "name of the file, which is written at once, whole or not at all"},
       {.name = "TITLE", .slot = &W::title, .help = "any text, kept in the file"},
   }};
 };

@@ -125,8 +125,8 @@ StudyResult<void> find_rest(RunState& run) {
   const StaticResult result = static_result(run.point);
   fmt::print(run.message, "  Stability: {}\n", result.stability.text());
   if (run.terminal)
-    fmt::print(*run.terminal, "static equilibrium after {} iterations, imbalance {:.3e}, {}\n", result.iterations,
-               result.imbalance, result.stability.text());
+    fmt::print(*run.terminal, "static equilibrium after {} iteration{}, imbalance {:.3e}, {}\n", result.iterations,
+               result.iterations == 1 ? "" : "s", result.imbalance, result.stability.text());
   const OperatingPoint& at_rest = run.point.statics->at_rest;
   run.show(StepKind::statics, result.at_rest, at_rest);
   // Velocities of the dataset that have come back make another point of it.
@@ -165,7 +165,8 @@ StepKind step_kind(SimulationKind kind) {
 std::string summary_of(const SimulatedPoint& found) {
   const IntegrationStatistics& s = found.statistics;
   const double t = found.point.values.time;
-  if (found.kind == SimulationKind::quasi_statics) return fmt::format("quasi-statics to {:g}: {} steps", t, s.steps);
+  if (found.kind == SimulationKind::quasi_statics)
+    return fmt::format("quasi-statics to {:g}: {} step{}", t, s.steps, s.steps == 1 ? "" : "s");
   const std::string_view name = found.kind == SimulationKind::kinematics ? "kinematics" : "dynamics";
   const std::string by = s.order > 0 ? fmt::format(", order {} at the end (SUNDIALS IDA)", s.order) : "";
   return fmt::format("{} to {:g}: {} steps, {} evaluations, {} Jacobians{}", name, t, s.steps, s.evaluations,

@@ -1,9 +1,10 @@
 // CURVE/id, {OPEN | CLOSED}, {MATRIX= [, CURVE_POINTS | , CONTROL_POINTS[=n]] [, ORDER=k] |
 //     FUNCTION=USER(…) [, MINPAR=] [, MAXPAR=]}
 //
-// A curve in space for PTCV, CVCV and the function CURVE: c(u), −1 ≤ u ≤ 1, a B-spline of order k (degree k − 1, 4
-// unless stated; 2 is the polygon) through the points that the rows of the MATRIX hold, or along them as its control
-// points (expression/parametric_curve.h). A closed one states its first point again as the last.
+// A curve in space for what moves along it (PTCV, CVCV, PLCV, AXCV) and the function CURVE: c(u), −1 ≤ u ≤ 1, a
+// B-spline of order k (degree k − 1, 4 unless stated; 2 is the polygon) through the points that the rows of the MATRIX
+// hold, or along them as its control points (expression/parametric_curve.h). A closed one states its first point again
+// as the last.
 //
 // FUNCTION calls a compiled routine of the user for the point and its derivatives. Between MINPAR and MAXPAR, −1 and 1
 // unless stated, a contact is looked for and the curve is drawn; a closed one repeats with that period, an open one has

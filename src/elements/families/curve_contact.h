@@ -1,4 +1,4 @@
-// Constraints with curve parameters as coordinates: PTCV, CVCV and PLCV.
+// Constraints with curve parameters as coordinates: PTCV, CVCV, PLCV and AXCV.
 //
 // Marker I and marker J carry what touches; the parameters u of the points of contact are coordinates of the system
 // beside those of the bodies, without inertia. A member of the family gives

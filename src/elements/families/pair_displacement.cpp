@@ -56,9 +56,9 @@ std::optional<JointFreedom> joint_freedom(const Model& model, const ElementLabel
   if ((kind == ' ' && both) || (kind == 'R' && !joints->rotates()) || (kind == 'T' && !joints->translates())) {
     diagnostics.error("wrong-freedom", user.at,
                       fmt::format("{} must name the freedom of {} that it drives", user.full_text(), name),
-                      both                ? "rotation or translation"
-                      : joints->rotates() ? "its rotation"
-                                          : "its translation");
+                      both                ? "it has two, a rotation and a translation"
+                      : joints->rotates() ? "it has one, a rotation"
+                                          : "it has one, a translation");
     return std::nullopt;
   }
   const bool turns = kind == ' ' ? joints->rotates() : kind == 'R';
