@@ -318,10 +318,4 @@ Result<OperatingPoint> solve_acceleration(const System& system, OperatingPoint o
   return solve(system, std::move(op), Steps::one_if_linear, findings);
 }
 
-Result<OperatingPoint> initial_conditions(const System& system, Findings& findings) {
-  return assemble_position(system, system.drawn(), findings, Starts::held)
-      .and_then([&](OperatingPoint op) { return initial_velocity(system, std::move(op), findings); })
-      .and_then([&](OperatingPoint op) { return solve_acceleration(system, std::move(op), findings); });
-}
-
 }  // namespace dynalin

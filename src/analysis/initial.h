@@ -5,6 +5,7 @@
 // Acceleration: accelerations, multipliers, algebraic values and state rates together, by Newton.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <tl/expected.hpp>
 #include <vector>
@@ -35,7 +36,16 @@ Result<OperatingPoint> initial_velocity(const System&, OperatingPoint, Findings&
 Result<OperatingPoint> reconcile_velocity(const System&, OperatingPoint, Findings&);
 // Accelerations and everything that follows from poses, velocities and states.
 Result<OperatingPoint> solve_acceleration(const System&, OperatingPoint, Findings&);
-// The three levels from the dataset.
+
+// Whose velocities hold as far as they can: those that the dataset states, or those of the point.
+enum class Velocities : bool { stated, kept };
+enum class Level { position, velocity, acceleration };
+// Called as each level begins and when it is done.
+using LevelWatch = std::function<void(Level, bool done)>;
+// The three levels in turn, with a word on what assembly moves.
+Result<OperatingPoint> initial_conditions(const System&, const OperatingPoint& from, Starts, Velocities, Findings&,
+                                          const LevelWatch& = {});
+// From the model as drawn, by all that the dataset states.
 Result<OperatingPoint> initial_conditions(const System&, Findings&);
 
 // Largest relative violation of the position rows (or of velocity rows) and the row that has it.

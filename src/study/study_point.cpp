@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/assembly_moves.h"
 #include "linear/stability.h"
 #include "system/operating_state.h"
 
@@ -78,27 +77,12 @@ StudyResult<FoundPoint> initial_conditions(StudyPoint from, const LevelWatch& wa
     from.statics.reset();
     return FoundPoint{std::move(from), {}};
   }
-  const auto tell = [&](Level level, bool done) {
-    if (watch) watch(level, done);
-  };
-  const System& system = *from.system;
-  Findings findings;
-  tell(Level::position, false);
-  auto op = assemble_position(system, from.values, findings, from.started ? Starts::ignored : Starts::held);
-  if (!op) return tl::unexpected(StudyFailure(op.error()));
-  warn_of_moves(system, from.values, *op, findings.warnings);
-  tell(Level::position, true);
-  tell(Level::velocity, false);
   // An edited model goes on with the velocities it had.
-  const bool goes_on = from.started && !from.restated_velocity;
-  op = goes_on ? reconcile_velocity(system, std::move(*op), findings)
-               : initial_velocity(system, std::move(*op), findings);
+  const Velocities velocities = from.started && !from.restated_velocity ? Velocities::kept : Velocities::stated;
+  Findings findings;
+  auto op = initial_conditions(*from.system, from.values, from.started ? Starts::ignored : Starts::held, velocities,
+                               findings, watch);
   if (!op) return tl::unexpected(StudyFailure(op.error()));
-  tell(Level::velocity, true);
-  tell(Level::acceleration, false);
-  op = solve_acceleration(system, std::move(*op), findings);
-  if (!op) return tl::unexpected(StudyFailure(op.error()));
-  tell(Level::acceleration, true);
   return found(std::move(from), std::move(*op), std::move(findings));
 }
 

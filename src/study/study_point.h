@@ -1,12 +1,12 @@
 // Operating points in the course of a study, and the analyses that lead from one to the next.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/initial.h"
 #include "analysis/statics.h"
 #include "dynalin/marker_state.h"
 #include "system/carry_over.h"
@@ -58,9 +58,6 @@ StudyPoint continued(const StudyPoint&, std::shared_ptr<const System> edited, co
 // A marker that is fixed on its body.
 MarkerState marker_state(const System&, const OperatingPoint&, MarkerId);
 
-enum class Level { position, velocity, acceleration };
-// Called as each level begins and when it is done.
-using LevelWatch = std::function<void(Level, bool done)>;
 // A point that is consistent already stays as it is, but it is no static solution any more.
 StudyResult<FoundPoint> initial_conditions(StudyPoint, const LevelWatch& = {});
 // From the pose of the point.
