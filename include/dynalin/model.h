@@ -43,7 +43,7 @@ class Model {
   const Units& units() const;
   // Every statement with an id, in the order of the dataset.
   std::vector<ElementId> elements() const;
-  // Warnings of reading.
+  // Warnings of reading; of a model that came out of a change those that the one before did not have.
   const std::vector<Remark>& remarks() const;
 
   // The number that the dataset states for a parameter, "BUSHING/1 K[2]", or that holds because it does not. Throws

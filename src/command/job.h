@@ -7,8 +7,7 @@
 
 #include "command/commands.h"
 #include "command/session.h"
-#include "model/model.h"
-#include "system/system.h"
+#include "study/model_source.h"
 
 namespace dynalin {
 
@@ -16,14 +15,9 @@ struct Job {
   std::vector<Command> commands;
   // The models of the job in order: that of the dataset, then one more for each group of commands that edit it, and
   // those that RELOAD/SYSTEM brings. Empty as long as the first of them is in a file that the run has yet to write.
-  struct Stage {
-    std::shared_ptr<const Dataset> dataset;
-    std::shared_ptr<const Model> model;
-    std::shared_ptr<const System> system;
-    Restated restated;               // elements whose start the edits state
+  struct Stage : MadeModel {
     std::vector<std::string> edits;  // all commands that have changed the dataset, as written
     bool anew = false;               // nothing of the stage before goes on in it
-    Diagnostics warned;              // what reading its statements, and those of the stages before, has warned of
   };
   std::vector<Stage> stages;
   const Model& model() const { return *stages.front().model; }

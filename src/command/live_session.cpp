@@ -109,7 +109,7 @@ void LiveSession::enter_stage(std::size_t stage) {
   const Diagnostics said = run_->system().layout().remarks;
   run_->stage = stage;
   run_->point = next.anew ? as_drawn(next.system) : continued(run_->point, next.system, next.restated);
-  run_->remarks.say_what_is_new(next.system->layout().remarks, said);
+  run_->remarks.say(new_remarks(next.system->layout().remarks, said));
 }
 
 // A command whose model was not known when the run was planned.

@@ -2,8 +2,6 @@
 
 #include <fmt/ostream.h>
 
-#include <algorithm>
-
 #include "base/remark_of.h"
 #include "command/failure_text.h"
 #include "output/message_file.h"
@@ -25,14 +23,6 @@ void Remarks::say(std::string_view code, std::string text) {
   Diagnostics one;
   one.warning(code, {}, std::move(text));
   say(one);
-}
-
-void Remarks::say_what_is_new(const Diagnostics& now, const Diagnostics& before) {
-  const auto& said = before.items();
-  for (const Diagnostic& d : now.items()) {
-    const auto same = [&](const Diagnostic& other) { return other.message == d.message; };
-    if (std::none_of(said.begin(), said.end(), same)) say(d);
-  }
 }
 
 void Remarks::pass_over(const std::vector<std::string>& settings) {

@@ -22,8 +22,6 @@ class Remarks {
   void say(const Diagnostic&);
   void say(const Diagnostics&);
   void say(std::string_view code, std::string text);
-  // The same but for what was said before, in these words.
-  void say_what_is_new(const Diagnostics& now, const Diagnostics& before);
   // Settings that nothing acts on are named once a run.
   void pass_over(const std::vector<std::string>& settings);
   void passed_over_already(const std::vector<std::string>& settings) {

@@ -15,59 +15,18 @@ void keep_texts(const Job::Stage& stage, std::vector<SourceRef>& texts) {
   texts.insert(texts.end(), stage.model->further_sources.begin(), stage.model->further_sources.end());
 }
 
-// The equations, which show what is wrong with a model that can be read.
-bool add_system(Job::Stage& stage, const SessionOptions& options, Diagnostics& diagnostics,
-                const System* before = nullptr) {
-  auto system = System::make(stage.model, {options.pade ? DelayReading::pade : DelayReading::first_order,
-                                           before ? angle_names(before->layout()) : std::vector<AngleName>()});
-  if (!system) {
-    diagnostics.append(std::move(system.error()));
-    return false;
-  }
-  stage.system = std::move(*system);
-  return true;
-}
-
 // The model after some edits, and all that is wrong with them and with it.
-struct EditedModel {
-  Job::Stage stage;
-  Diagnostics problems;
-};
-
-Diagnostic& add_to(Diagnostics& list, const Diagnostic& d, const Span& at) {
-  Diagnostic& added = d.severity == Severity::error ? list.error(d.code, at, d.message, d.hint)
-                                                    : list.warning(d.code, at, d.message, d.hint);
-  added.notes = d.notes;
-  return added;
-}
-
-bool is_among(const Diagnostics& list, const Diagnostic& d) {
-  return std::ranges::any_of(list.items(), [&](const Diagnostic& other) {
-    return other.code == d.code && other.message == d.message && other.at.source == d.at.source &&
-           other.at.offset == d.at.offset;
-  });
-}
-
-EditedModel edited_model(const Job::Stage& from, std::span<const Command> edits, const SessionOptions& options) {
-  EditedModel made;
-  DatasetEditor editor(from.dataset, edits.front().written, catalogue(), made.problems);
-  made.stage.edits = from.edits;
+Parsed<Job::Stage> after(const Job::Stage& from, std::span<const Command> edits, const SessionOptions& options) {
+  Parsed<EditedDataset> edit;
+  DatasetEditor editor(from.dataset, edits.front().written, catalogue(), edit.diagnostics);
+  std::vector<std::string> written = from.edits;
   for (const Command& c : edits) {
     c.action->edit(editor);
-    made.stage.edits.emplace_back(c.whole.text());
+    written.emplace_back(c.whole.text());
   }
-  EditedDataset now = std::move(editor).finish();
-  auto built = build_model(now.dataset, catalogue(), {options.user_value}, routine_options(options));
-  made.stage.warned = from.warned;
-  for (const Diagnostic& d : built.diagnostics.items()) {
-    if (is_among(from.warned, d)) continue;
-    add_to(made.problems, d, d.at);
-    if (d.severity != Severity::error) add_to(made.stage.warned, d, d.at);
-  }
-  made.stage.dataset = std::move(now.dataset), made.stage.model = std::move(built.value);
-  made.stage.restated = std::move(now.restated);
-  if (!made.problems.has_errors()) add_system(made.stage, options, made.problems, from.system.get());
-  return made;
+  edit.value = std::move(editor).finish();
+  auto made = edited_model(from, std::move(edit), model_options(options));
+  return {{std::move(made.value), std::move(written)}, std::move(made.diagnostics)};
 }
 
 // The edit that has brought a problem about, as the model before all of them had none: the last of the fewest that have
@@ -77,9 +36,9 @@ const Command& cause_of(const Diagnostic& d, const Job::Stage& from, std::span<c
   std::size_t without = 0, with = edits.size();
   while (with - without > 1) {
     const std::size_t half = without + (with - without) / 2;
-    const EditedModel fewer = edited_model(from, edits.first(half), options);
+    const auto fewer = after(from, edits.first(half), options);
     const bool has_it =
-        std::ranges::any_of(fewer.problems.items(), [&](const Diagnostic& f) { return f.message == d.message; });
+        std::ranges::any_of(fewer.diagnostics.items(), [&](const Diagnostic& f) { return f.message == d.message; });
     (has_it ? with : without) = half;
   }
   return edits[with - 1];
@@ -95,49 +54,37 @@ Span place_in(const Command& c) {
 
 }  // namespace
 
-RoutineOptions routine_options(const SessionOptions& options) {
-  return {options.user_libraries, options.difference_user_routines};
+ModelOptions model_options(const SessionOptions& options) {
+  return {options.user_value, {options.user_libraries, options.difference_user_routines}, options.pade};
 }
 
 std::optional<Job::Stage> stage_of_dataset(SourceRef source, const SessionOptions& options, Statements statements,
                                            std::vector<SourceRef>& texts, Diagnostics& diagnostics) {
-  auto parsed = parse_dataset(std::move(source));
-  const bool read = !parsed.diagnostics.has_errors();
-  diagnostics.append(std::move(parsed.diagnostics));
-  const auto dataset = std::make_shared<Dataset>(std::move(parsed.value));
-  const bool kept = statements == Statements::kept;
-  auto built =
-      build_model(dataset, catalogue(), {.user_value = options.user_value, .read_once = kept ? nullptr : dataset},
-                  routine_options(options));
-  const bool sound = read && !built.diagnostics.has_errors();
-  Job::Stage stage;
-  for (const Diagnostic& d : built.diagnostics.items()) add_to(stage.warned, d, d.at);
-  // Statements that could not be read leave gaps that the model would only complain about again.
-  if (read || built.diagnostics.has_errors()) diagnostics.append(std::move(built.diagnostics));
-  stage.dataset = dataset, stage.model = std::move(built.value);
+  auto made = made_model(parse_dataset(std::move(source)), statements, model_options(options));
+  Job::Stage stage{std::move(made.value), {}};
   keep_texts(stage, texts);
-  if (!kept) dataset->release_arguments();
-  if (!sound || !add_system(stage, options, diagnostics)) return std::nullopt;
-  return stage;
+  const bool sound = !made.diagnostics.has_errors();
+  diagnostics.append(std::move(made.diagnostics));
+  return sound ? std::optional(std::move(stage)) : std::nullopt;
 }
 
 std::optional<Job::Stage> edited_stage(const Job::Stage& from, std::span<const Command> edits,
                                        const SessionOptions& options, std::vector<SourceRef>& texts,
                                        Diagnostics& diagnostics) {
-  EditedModel edited = edited_model(from, edits, options);
-  keep_texts(edited.stage, texts);
-  if (!edited.problems.has_errors()) {
-    diagnostics.append(std::move(edited.problems));
-    return std::move(edited.stage);
+  auto edited = after(from, edits, options);
+  keep_texts(edited.value, texts);
+  if (!edited.diagnostics.has_errors()) {
+    diagnostics.append(std::move(edited.diagnostics));
+    return std::move(edited.value);
   }
-  for (const Diagnostic& d : edited.problems.items()) {
+  for (const Diagnostic& d : edited.diagnostics.items()) {
     const bool at_edit = std::ranges::any_of(edits, [&](const Command& c) { return c.at.source == d.at.source; });
     if (d.severity != Severity::error || at_edit) {
-      add_to(diagnostics, d, d.at);
+      repeat(d, d.at, diagnostics);
       continue;
     }
     const Command& cause = cause_of(d, from, edits, options);
-    Diagnostic& moved = add_to(diagnostics, d, place_in(cause));
+    Diagnostic& moved = repeat(d, place_in(cause), diagnostics);
     if (d.at.source) moved.notes.insert(moved.notes.begin(), {d.at, "what does not go with it stands here"});
   }
   return std::nullopt;

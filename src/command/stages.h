@@ -5,15 +5,12 @@
 #include <span>
 
 #include "command/job.h"
-#include "model/routine_options.h"
 #include "output/saved_file.h"
+#include "study/model_source.h"
 
 namespace dynalin {
 
-// Whether the statements of a dataset are needed when its model is made: for edits, for lists of them, for SAVE.
-enum class Statements : bool { released, kept };
-
-RoutineOptions routine_options(const SessionOptions&);
+ModelOptions model_options(const SessionOptions&);
 
 // `texts` keeps the files that were read for the model, which messages point into even where there is none.
 std::optional<Job::Stage> stage_of_dataset(SourceRef, const SessionOptions&, Statements, std::vector<SourceRef>& texts,

@@ -8,24 +8,23 @@
 #include "dynalin/record.h"
 #include "library/edit_history.h"
 #include "study/linearization.h"
+#include "study/model_source.h"
 
 namespace dynalin::library {
 
-struct Model::Inside {
-  std::shared_ptr<const System> system;  // and the model in it
+struct Model::Inside : MadeModel {
   std::vector<Remark> remarks;
   ReadingOptions options;
   EditHistory edits;  // that made it out of other models
 
-  Inside(std::shared_ptr<const System>, std::vector<Remark>, const ReadingOptions&,
-         std::shared_ptr<const Dataset> statements, EditHistory);
+  Inside(MadeModel, std::vector<Remark>, const ReadingOptions&, Statements, EditHistory);
   // The statements with their arguments. Those of a dataset as read have gone to bound its memory: the text, which
   // stays, is read once more when they are asked for.
   std::shared_ptr<const Dataset> statements() const;
 
  private:
   mutable std::once_flag read_;
-  mutable std::shared_ptr<const Dataset> statements_;
+  mutable std::shared_ptr<const Dataset> statements_;  // with their arguments
 };
 
 struct OperatingPoint::Inside {

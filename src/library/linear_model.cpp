@@ -23,7 +23,7 @@ const Linearization& LinearModel::Inside::whole_of_matrices() const {
 }
 
 std::vector<Remark> LinearModel::Inside::remarks_of_whole() const {
-  return has_whole_ ? remarks_of(new_remarks(*whole_, linear)) : std::vector<Remark>{};
+  return has_whole_ ? remarks_of(new_remarks(whole_->remarks(), linear.remarks())) : std::vector<Remark>{};
 }
 
 std::vector<Remark> LinearModel::remarks_of_matrices() const {

@@ -5,7 +5,6 @@
 #include "library/inside.h"
 #include "library/stated_elements.h"
 #include "model/parameter.h"
-#include "model/routine_options.h"
 
 namespace dynalin::library {
 
@@ -16,57 +15,38 @@ constexpr std::string_view activate = "ACTIVATE", deactivate = "DEACTIVATE";
 [[noreturn]] void refuse(const Diagnostics& problems) { throw Error(render(problems), remarks_of(problems)); }
 [[noreturn]] void refuse(const Diagnostic& problem) { throw Error(render(problem), {remark_of(problem)}); }
 
-std::shared_ptr<const Model::Inside> made(std::unique_ptr<dynalin::Model> model, Diagnostics diagnostics,
-                                          const ReadingOptions& options, std::shared_ptr<const Dataset> statements = {},
-                                          EditHistory edits = {}, const System* before = nullptr) {
-  if (diagnostics.has_errors()) refuse(diagnostics);
-  const std::vector<SourceRef> texts = model->further_sources;  // that messages point into
-  const auto system =
-      System::make(std::move(model), {options.pade_delays ? DelayReading::pade : DelayReading::first_order,
-                                      before ? angle_names(before->layout()) : std::vector<AngleName>()});
-  if (!system) refuse(system.error());
-  auto remarks = remarks_of(diagnostics);
-  append(remarks, remarks_of(remarks_on(**system)));
-  return std::make_shared<const Model::Inside>(*system, std::move(remarks), options, std::move(statements),
-                                               std::move(edits));
-}
-
-RoutineOptions routine_options(const ReadingOptions& options) {
-  return {options.user_libraries, options.difference_user_routines};
+ModelOptions model_options(const ReadingOptions& options) {
+  return {options.user_value, {options.user_libraries, options.difference_user_routines}, options.pade_delays};
 }
 
 // A dataset whose arguments nobody needs but the model.
 std::shared_ptr<const Model::Inside> read_as(Parsed<Dataset> parsed, const ReadingOptions& options) {
-  Diagnostics diagnostics = std::move(parsed.diagnostics);
-  if (!parsed.value.source) refuse(diagnostics);
-  const bool read = !diagnostics.has_errors();
-  const auto written = std::make_shared<Dataset>(std::move(parsed.value));
-  auto built = build_model(written, catalogue(), {.user_value = options.user_value, .read_once = written},
-                           routine_options(options));
-  if (built.value->dataset == written) written->release_arguments();
-  // Statements that could not be read leave gaps that the model would only complain about again.
-  if (read || built.diagnostics.has_errors()) diagnostics.append(std::move(built.diagnostics));
-  return made(std::move(built.value), std::move(diagnostics), options);
+  if (!parsed.value.source) refuse(parsed.diagnostics);
+  auto made = made_model(std::move(parsed), Statements::released, model_options(options));
+  if (made.diagnostics.has_errors()) refuse(made.diagnostics);
+  made.diagnostics.append(remarks_on(*made.value.system));
+  return std::make_shared<const Model::Inside>(std::move(made.value), remarks_of(made.diagnostics), options,
+                                               Statements::released, EditHistory());
 }
 
-std::shared_ptr<const Model::Inside> rebuilt(const Model::Inside& before, EditedDataset edit,
-                                             Diagnostics diagnostics = {}) {
-  auto built = build_model(edit.dataset, catalogue(), {.user_value = before.options.user_value},
-                           routine_options(before.options));
-  diagnostics.append(std::move(built.diagnostics));
-  return made(std::move(built.value), std::move(diagnostics), before.options, std::move(edit.dataset),
-              before.edits.after(before.system, std::move(edit.restated)), before.system.get());
+std::shared_ptr<const Model::Inside> rebuilt(const Model::Inside& before, Parsed<EditedDataset> edit) {
+  auto made = edited_model(before, std::move(edit), model_options(before.options));
+  if (made.diagnostics.has_errors()) refuse(made.diagnostics);
+  made.diagnostics.append(new_remarks(remarks_on(*made.value.system), remarks_on(*before.system)));
+  EditHistory edits = before.edits.after(before.system, std::move(made.value.restated));
+  return std::make_shared<const Model::Inside>(std::move(made.value), remarks_of(made.diagnostics), before.options,
+                                               Statements::kept, std::move(edits));
 }
 
 }  // namespace
 
-Model::Inside::Inside(std::shared_ptr<const System> made, std::vector<Remark> said, const ReadingOptions& read,
-                      std::shared_ptr<const Dataset> statements, EditHistory history)
-    : system(std::move(made)),
+Model::Inside::Inside(MadeModel made, std::vector<Remark> said, const ReadingOptions& read, Statements statements,
+                      EditHistory history)
+    : MadeModel(std::move(made)),
       remarks(std::move(said)),
       options(read),
       edits(std::move(history)),
-      statements_(std::move(statements)) {}
+      statements_(statements == Statements::kept ? dataset : nullptr) {}
 
 std::shared_ptr<const Dataset> Model::Inside::statements() const {
   std::call_once(read_, [this] {
@@ -98,7 +78,7 @@ Model Model::build(const std::string& title, const std::vector<StatedElement>& e
 Model Model::with(const std::vector<ParameterChange>& values) const {
   auto dataset = with_parameters(inside_->statements(), values, catalogue());
   if (!dataset) refuse(dataset.error());
-  return Model(rebuilt(*inside_, std::move(*dataset)));
+  return Model(rebuilt(*inside_, {std::move(*dataset), {}}));
 }
 
 Model Model::edited(const std::string& commands) const {
@@ -109,17 +89,18 @@ Model Model::edited(const std::string& commands) const {
     return list;
   }();
   auto parsed = parse_statements(std::make_shared<const SourceText>("edits", commands), names);
-  Diagnostics diagnostics = std::move(parsed.diagnostics);
+  Parsed<EditedDataset> edit{{}, std::move(parsed.diagnostics)};
   const auto written = std::make_shared<const Dataset>(std::move(parsed.value));
-  DatasetEditor editor(inside_->statements(), written, catalogue(), diagnostics);
+  DatasetEditor editor(inside_->statements(), written, catalogue(), edit.diagnostics);
   for (const Statement& s : written->statements) {
     if (s.name == activate || s.name == deactivate)
       editor.switch_elements(s, s.name == deactivate, deactivatable_statements());
     else if (!s.name.empty())
       editor.redefine(s);
   }
-  if (diagnostics.has_errors()) refuse(diagnostics);
-  return Model(rebuilt(*inside_, std::move(editor).finish(), std::move(diagnostics)));
+  if (edit.diagnostics.has_errors()) refuse(edit.diagnostics);
+  edit.value = std::move(editor).finish();
+  return Model(rebuilt(*inside_, std::move(edit)));
 }
 
 double Model::value(const ParameterRef& parameter) const {

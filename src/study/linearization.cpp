@@ -181,16 +181,6 @@ StudyResult<Linearization> with_state_matrix(Linearization of) {
   return of;
 }
 
-Diagnostics new_remarks(const Linearization& now, const Linearization& before) {
-  Diagnostics fresh;
-  for (const Diagnostic& d : now.remarks().items()) {
-    const bool said = std::ranges::any_of(
-        before.remarks().items(), [&](const Diagnostic& b) { return b.code == d.code && b.message == d.message; });
-    if (!said) fresh.warning(d.code, d.at, d.message, d.hint);
-  }
-  return fresh;
-}
-
 namespace {
 
 std::string duration(double seconds) {

@@ -57,9 +57,8 @@ Diagnostics remarks_of_matrices(const Linearization&);
 StudyResult<ModesFound> modes_of(const Linearization&, Vectors, const ModeSelection&);
 StudyResult<SecondOrder> second_order_form(const Linearization&);
 
-// The same with its state matrix, and what forming that has to say besides.
+// The same with its state matrix, and what forming that has to say besides (new_remarks).
 StudyResult<Linearization> with_state_matrix(Linearization);
-Diagnostics new_remarks(const Linearization& now, const Linearization& before);
 
 // What all modes of so many states cost, where that is worth a word.
 Diagnostics cost_of_all_modes(std::size_t states);

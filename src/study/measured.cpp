@@ -36,19 +36,17 @@ StudyFailure failure(const Diagnostics& why) { return StudyFailure({"measuring",
 }  // namespace
 
 StudyResult<std::vector<double>> measured(const StudyPoint& point, std::span<const std::string> functions,
-                                          std::optional<double> user_value, const RoutineOptions& routines, bool pade) {
+                                          const ModelOptions& options) {
   std::int64_t first = 0;
   const auto dataset = with_variables(point.system->model().dataset, functions, first);
-  auto model = build_model(dataset, catalogue(), {user_value}, routines);
-  if (model.diagnostics.has_errors()) return tl::unexpected(failure(model.diagnostics));
-  const std::vector<SourceRef> texts = model.value->further_sources;  // that messages point into
-  const auto system = System::make(std::move(model.value), {pade ? DelayReading::pade : DelayReading::first_order, {}});
-  if (!system) return tl::unexpected(failure(system.error()));
-  StudyPoint here = continued(point, *system, {});
+  const auto made = edited_model({.system = point.system}, {{dataset, {}}, {}}, options);
+  if (made.diagnostics.has_errors()) return tl::unexpected(failure(made.diagnostics));
+  const System& system = *made.value.system;
+  StudyPoint here = continued(point, made.value.system, {});
   here.restated_velocity = point.restated_velocity;
   auto found = initial_conditions(std::move(here));
   if (!found) return tl::unexpected(found.error());
-  const Layout& layout = (*system)->layout();
+  const Layout& layout = system.layout();
   std::vector<double> values(functions.size());
   for (std::size_t k = 0; k < layout.algebraic.size(); ++k) {
     const ElementLabel* owner = layout.algebraic[k].owner;

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "model/routine_options.h"
+#include "study/model_source.h"
 #include "study/study_point.h"
 
 namespace dynalin {
@@ -12,7 +12,6 @@ namespace dynalin {
 // The statements of the model must have their arguments. Where the point is not consistent the values are those of the
 // one that agrees with the constraints; the point itself stays.
 StudyResult<std::vector<double>> measured(const StudyPoint&, std::span<const std::string> functions,
-                                          std::optional<double> user_value = {}, const RoutineOptions& = {},
-                                          bool pade = false);
+                                          const ModelOptions& = {});
 
 }  // namespace dynalin

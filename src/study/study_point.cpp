@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "linear/stability.h"
+#include "study/model_source.h"
 #include "system/operating_state.h"
 
 namespace dynalin {
@@ -37,6 +40,16 @@ Diagnostics remarks_on(const System& system) {
   remarks.append(settings.remarks);
   remarks.append(passed_over(settings.passed_over));
   return remarks;
+}
+
+Diagnostics new_remarks(const Diagnostics& now, const Diagnostics& before) {
+  Diagnostics fresh;
+  for (const Diagnostic& d : now.items()) {
+    const bool said = std::ranges::any_of(
+        before.items(), [&](const Diagnostic& b) { return b.code == d.code && b.message == d.message; });
+    if (!said) repeat(d, d.at, fresh);
+  }
+  return fresh;
 }
 
 StudyPoint as_drawn(std::shared_ptr<const System> system) {

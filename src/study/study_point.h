@@ -48,6 +48,8 @@ struct FoundPoint {
 
 // Whatever reading and numbering a model gave rise to saying: of its units, its equations, its settings.
 Diagnostics remarks_on(const System&);
+// Those that do not stand among the ones before in the same words.
+Diagnostics new_remarks(const Diagnostics& now, const Diagnostics& before);
 // "nothing here acts on INTEGRATOR/HMAX, which is passed over"; nothing of none.
 Diagnostics passed_over(const std::vector<std::string>& settings);
 

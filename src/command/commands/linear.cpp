@@ -220,7 +220,7 @@ StudyResult<void> Linear::run(RunState& run) const {
     if (!linear->has_state_matrix()) {
       auto whole = with_state_matrix(*linear);
       if (!whole) return tl::unexpected(whole.error());
-      run.remarks.say(new_remarks(*whole, *linear));
+      run.remarks.say(new_remarks(whole->remarks(), linear->remarks()));
       linear = std::move(whole);
     }
   }
