@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "geometry/least_on_circle.h"
+#include "geometry/direction_patch.h"
+#include "geometry/ellipsoid_separation.h"
 #include "geometry/touch.h"
 
 namespace dynalin::solid {
@@ -80,6 +81,26 @@ Touch<T> touch_point_of_solid(const PlacedEllipsoid<T>& e, const Vec3<T>& in_its
   return t;
 }
 
+// With a corner or a rim along the direction of a patch that separates most: of what is inside of the ellipsoid the
+// nearest way out may lie on the far side, beyond the patch.
+template <class T>
+std::optional<Touch<T>> touch_patch(const PlacedEllipsoid<T>& e, const DirectionPatch& patch) {
+  const PlacedEllipsoid<double> plain = e.plain();
+  const auto largest = largest_on_patch(
+      patch, [&](const auto& n) { return plain.farthest(n); }, norm(e.semi_axes));
+  if (!largest) return std::nullopt;
+  T s(largest->s), t(largest->t);
+  const auto slope = patch.slopes(s, t, [&](const auto& n) { return e.farthest(n); });
+  const auto& J = largest->curvature;
+  const double determinant = J[0][0] * J[1][1] - J[0][1] * J[1][0];
+  s = s - (slope[0] * J[1][1] - slope[1] * J[0][1]) * (1 / determinant);
+  t = t - (slope[1] * J[0][0] - slope[0] * J[1][0]) * (1 / determinant);
+  const Vec3<T> n = patch.normal(s, t), nearest = e.farthest(-n);
+  Touch<T> touch = touch_between(nearest, T(dot(n, nearest - patch.support(s))), n);
+  touch.defined = largest->definite;
+  return touch;
+}
+
 // --- features of solids: how many, and the touch of one if its direction belongs to it
 
 inline constexpr double belongs = -1e-9;  // sines of directions
@@ -118,8 +139,17 @@ std::optional<Touch<T>> touch_feature(const PlacedEllipsoid<T>& e, const Frustum
   const double outward = radius > 0 ? (value_of(on_rim.x) * nx + value_of(on_rim.y) * ny) / radius : std::hypot(nx, ny);
   const double of_mantle = outward / faces.along_z,
                of_end = (value_of(t.normal.z) + of_mantle * faces.along_radius) * (upper ? 1 : -1);
-  if (of_mantle < belongs || of_end < belongs) return std::nullopt;
-  return t;
+  const bool between = of_mantle >= belongs && of_end >= belongs, deep = value_of(t.gap) < 0 && radius > 0;
+  if (between && (t.defined || !deep)) return t;
+  if (!deep) return std::nullopt;
+  const double sign = upper ? 1 : -1;
+  return touch_patch(e, {.pole = {0, 0, sign},
+                         .first = {1, 0, 0},
+                         .second = {0, 1, 0},
+                         .turn = 2 * std::numbers::pi,
+                         .reach = std::atan2(faces.along_z, -sign * faces.along_radius),
+                         .base = {0, 0, height},
+                         .radius = radius});
 }
 
 // Six faces, twelve edges, eight corners.
@@ -147,37 +177,54 @@ std::optional<Touch<T>> touch_feature(const PlacedEllipsoid<T>& e, const Box& b,
     for (std::size_t k = 0; k < 3; ++k) corner[k] = T(side(k, (which - 18) >> k & 1));
     const Vec3<T> seen = e.in_its_axes(corner - e.at.p);
     const Touch<T> t = touch_point_of_solid(e, seen, from_ellipsoid(seen));
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (!looks(t, k, (which - 18) >> k & 1)) return std::nullopt;
-    }
-    return t;
+    bool between = true;
+    for (std::size_t k = 0; k < 3; ++k) between = between && looks(t, k, (which - 18) >> k & 1);
+    const bool deep = value_of(t.gap) < 0;
+    if (between && (t.defined || !deep)) return t;
+    if (!deep) return std::nullopt;
+    const auto out = [&](std::size_t k) {
+      Vector n{0, 0, 0};
+      n[k] = (which - 18) >> k & 1 ? 1 : -1;
+      return n;
+    };
+    return touch_patch(e, {.pole = out(2),
+                           .first = out(0),
+                           .second = out(1),
+                           .turn = 0.5 * std::numbers::pi,
+                           .reach = 0.5 * std::numbers::pi,
+                           .base = value_of(corner)});
   }
   const std::size_t axis = (which - 6) / 4, one = (axis + 1) % 3, other = (axis + 2) % 3;
   const bool one_upper = (which - 6) % 2 == 1, other_upper = (which - 6) / 2 % 2 == 1;
-  Vec3<T> from, along{T(0.0), T(0.0), T(0.0)};
-  from[axis] = T(b.low[axis]), from[one] = T(side(one, one_upper)), from[other] = T(side(other, other_upper));
-  along[axis] = T(b.high[axis] - b.low[axis]);
-  const Vec3<T> start = e.in_its_axes(from - e.at.p), way = e.in_its_axes(along);
-  const Vector start0 = value_of(start), way0 = value_of(way);
+  Vec3<double> corner, first{0, 0, 0}, second{0, 0, 0};
+  corner[axis] = 0, corner[one] = side(one, one_upper), corner[other] = side(other, other_upper);
+  first[one] = one_upper ? 1 : -1, second[other] = other_upper ? 1 : -1;
+  const auto normal = [&](const auto& s) {
+    using S = std::decay_t<decltype(s)>;
+    using std::cos, std::sin;
+    return as<S>(first) * S(cos(s)) + as<S>(second) * S(sin(s));
+  };
+  const auto turned = [&](const auto& s) {
+    using S = std::decay_t<decltype(s)>;
+    using std::cos, std::sin;
+    return as<S>(second) * S(cos(s)) - as<S>(first) * S(sin(s));
+  };
+  const PlacedEllipsoid<double> plain = e.plain();
+  const auto gap = [&](double s) { return dot(normal(s), plain.farthest(-normal(s)) - corner); };
   const auto slope = [&](const auto& s) {
     using S = std::decay_t<decltype(s)>;
-    const Vec3<S> p{S(start0.x + s * way0.x), S(start0.y + s * way0.y), S(start0.z + s * way0.z)};
-    return dot(from_ellipsoid(p).direction, way0);
+    return dot(turned(s), plain.farthest(-normal(s)) - as<S>(corner));
   };
-  // The distance from what is convex is convex along a line.
-  double low = 0, high = 1;
-  if (!(slope(low) < 0) || !(slope(high) > 0)) return std::nullopt;
-  for (int k = 0; k < 100 && high - low > 1e-16; ++k) {
-    const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) break;
-    (slope(middle) > 0 ? high : low) = middle;
-  }
-  T s(0.5 * (low + high));
-  const double curvature = slope(Dual<1>(value_of(s), std::size_t{0})).partial[0];
-  s = s - dot(from_ellipsoid(Vec3<T>(start + way * s)).direction, way) * (1 / curvature);
-  const Vec3<T> seen = start + way * s;
-  const Touch<T> t = touch_point_of_solid(e, seen, from_ellipsoid(seen));
-  if (!looks(t, one, one_upper) || !looks(t, other, other_upper)) return std::nullopt;
+  const auto largest = largest_between(0, 0.5 * std::numbers::pi, gap, slope, norm(e.semi_axes));
+  if (!largest) return std::nullopt;
+  const double curvature = slope(Dual<1>(largest->at, std::size_t{0})).partial[0];
+  T s(largest->at);
+  s = s - dot(turned(s), e.farthest(-normal(s)) - as<T>(corner)) * (1 / curvature);
+  const Vec3<T> n = normal(s), nearest = e.farthest(-n);
+  // Beyond an end of the edge its corner is nearer.
+  if (!(value_of(nearest[axis]) >= b.low[axis] && value_of(nearest[axis]) <= b.high[axis])) return std::nullopt;
+  Touch<T> t = touch_between(nearest, T(dot(n, nearest - as<T>(corner))), n);
+  t.defined = largest->definite;
   return t;
 }
 
@@ -202,14 +249,23 @@ Touch<T> touch_ellipsoid(const Ellipsoid& ellipsoid, const RelativeFrame<T>& at,
       next = *t;
     }
   }
-  if (best < features(s)) {
+  const double size = norm(ellipsoid.semi_axes);
+  // What is found on one feature after the other is held against all directions.
+  const auto separation = [&](const Vector& n) {
+    const Vector m = plain.in_its_axes(n);
+    return dot(n, plain.at.p) - support(s, n) -
+           norm(Vector{m.x * ellipsoid.semi_axes.x, m.y * ellipsoid.semi_axes.y, m.z * ellipsoid.semi_axes.z});
+  };
+  const bool sound = best < features(s) && std::abs(separation(most.normal) - most.gap) <= 1e-9 * size &&
+                     (most.gap >= 0 || !some_direction_exceeds(most.gap + 1e-9 * size, separation));
+  if (sound) {
     if (auto t = touch_feature(e, s, best)) {
-      t->defined = t->defined && most.gap - next.gap > coincidence * norm(ellipsoid.semi_axes);
+      t->defined = t->defined && most.gap - next.gap > coincidence * size;
       return *t;
     }
   }
-  // As deep in each other as they are wide: no direction is the one.
-  Touch<T> t{T(-norm(ellipsoid.semi_axes)), {T(0.0), T(0.0), T(1.0)}, at.p};
+  // As deep in each other as they are wide, or nearly so: no direction is the one.
+  Touch<T> t{T(-size), {T(0.0), T(0.0), T(1.0)}, at.p};
   t.defined = false;
   return t;
 }

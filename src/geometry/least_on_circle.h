@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "geometry/distance.h"
 
@@ -58,6 +59,41 @@ LeastAngle least_on_turn(const Value& value, const Slope& slope, double size) {
   found.curvature = there.partial[0];
   found.definite =
       found.curvature > level * size && std::abs(there.value) < level * size && next - least > coincidence * size;
+  return found;
+}
+
+struct LargestAngle {
+  double at = 0;
+  bool definite = true;  // false where the function is as large elsewhere
+};
+
+// The largest value inside of an arc, nothing where the function has its largest at an end. `slope` of a double.
+template <class Value, class Slope>
+std::optional<LargestAngle> largest_between(double first, double last, const Value& value, const Slope& slope,
+                                            double size) {
+  constexpr int samples = 16;
+  const auto at = [&](int k) { return first + (last - first) * k / samples; };
+  std::optional<LargestAngle> found;
+  double most = -std::numeric_limits<double>::infinity();
+  double before = slope(first);
+  for (int k = 1; k <= samples; ++k) {
+    const double here = slope(at(k));
+    if (before > 0 && here <= 0) {
+      double low = at(k - 1), high = at(k);
+      for (int i = 0; i < 100; ++i) {
+        const double middle = 0.5 * (low + high);
+        if (middle <= low || middle >= high) break;
+        (slope(middle) > 0 ? low : high) = middle;
+      }
+      const double angle = 0.5 * (low + high), v = value(angle);
+      const bool apart = std::abs(v - most) > coincidence * size;
+      if (v > most)
+        found = LargestAngle{angle, apart}, most = v;
+      else if (!apart)
+        found->definite = false;
+    }
+    before = here;
+  }
   return found;
 }
 
