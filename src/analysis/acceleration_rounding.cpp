@@ -25,7 +25,7 @@ void add_determined_shapes(const System& system, const OperatingPoint& op, std::
   const std::int32_t n = layout.coordinate_count;
   std::vector<bool> is_shape(static_cast<std::size_t>(n), false);
   for (const ExtraBlock& e : layout.extras) {
-    if (e.type == StateType::flex_body) std::fill_n(is_shape.begin() + e.offset, e.count, true);
+    if (e.is_shape()) std::fill_n(is_shape.begin() + e.offset, e.count, true);
   }
   std::vector<std::int32_t> order(static_cast<std::size_t>(n));  // of columns, shapes last
   std::iota(order.begin(), order.end(), 0);

@@ -80,13 +80,14 @@ void add_momentum_rows(const System& system, const Motion& motion, std::vector<S
   const Layout& layout = system.layout();
   const std::vector<const ModalBody*> flexible = flexible_by_body(system.model());
   for (const FlexibleBody& f : flexible_bodies(system.model())) add_momentum_rows(layout, f, motion, rows);
-  // Each coordinate of a beam has inertia, as density, areas and second moments are positive, or follows one that has.
+  // Each coordinate of a node of a beam has inertia, as density, areas and second moments are positive, or follows one
+  // that has.
   const std::vector<bool> of_beams = beam_nodes(system.model());
   const auto add_coordinates = [&](std::int32_t first, std::int32_t count) {
     for (std::int32_t k = first; k < first + count; ++k) rows.push_back({{k}, {1.0}});
   };
   for (const ExtraBlock& e : layout.extras) {
-    if (e.type == StateType::fe_part) add_coordinates(e.offset, e.count);
+    if (e.kind.role == ExtraRole::nodal) add_coordinates(e.offset, e.count);
   }
   for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
     const BodyBlock& block = layout.bodies[b];
@@ -278,7 +279,7 @@ bool lacks_mass(const System& system) {
     if (determinant > 1e-9 * mean * mean * mean && mean > 1e-9 * body.mass * dot(body.p_BC, body.p_BC)) continue;
     if (axes_with_inertia(body, Matrix3::identity()).size() < 3) return true;
   }
-  // Other coordinates outside bodies than modal ones and those of beams have no inertia.
+  // Coordinates outside bodies by which none deforms have no inertia.
   return !std::ranges::all_of(layout.extras, &ExtraBlock::is_deformation);
 }
 

@@ -5,11 +5,18 @@
 
 namespace dynalin {
 
-// A body moves as a whole before it deforms, which costs energy. What a beam has beside its nodes counts as they do.
-// All others follow.
+// A body moves as a whole before it deforms, which costs energy. What nodes have beside their poses counts as these do.
 constexpr double deformation_weight = 1e8;
-constexpr double outside_weight(StateType of) {
-  return of == StateType::flex_body ? deformation_weight : of == StateType::fe_part ? 1.0 : follower_weight;
+constexpr double outside_weight(const ExtraBlock& block) {
+  switch (block.kind.role) {
+    case ExtraRole::shape:
+      return deformation_weight;
+    case ExtraRole::nodal:
+      return 1;
+    case ExtraRole::follower:
+      break;
+  }
+  return follower_weight;
 }
 
 }  // namespace dynalin

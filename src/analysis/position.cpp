@@ -82,7 +82,7 @@ AssemblyWeights assembly_weights(const System& system, const OperatingPoint& dra
   const Layout& layout = system.layout();
   couple_neighbours(layout, weights);
   for (const ExtraBlock& e : layout.extras) {
-    for (std::int32_t k = 0; k < e.count; ++k) weight[static_cast<std::size_t>(e.offset + k)] *= outside_weight(e.type);
+    for (std::int32_t k = 0; k < e.count; ++k) weight[static_cast<std::size_t>(e.offset + k)] *= outside_weight(e);
   }
   for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
     const BodyBlock& block = layout.bodies[b];

@@ -20,7 +20,7 @@ inline double row_scale(const System& system, std::span<const ConstraintRows::En
 }
 
 // Of each coordinate, what its last place is counted from: the farthest component of an origin, a radian, half the
-// parameters of a curve. A modal coordinate has no other size than its own: its unit is that of the shape.
+// parameters of a curve. The amplitude of a shape has no other size than its own: its unit is that of the shape.
 inline std::vector<double> coordinate_sizes(const Layout& layout, const OperatingPoint& op) {
   std::vector<double> size(static_cast<std::size_t>(layout.coordinate_count), 1.0);
   for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
@@ -31,7 +31,7 @@ inline std::vector<double> coordinate_sizes(const Layout& layout, const Operatin
   }
   for (const CurvePoint& c : layout.curve_points) size[static_cast<std::size_t>(c.coordinate)] = 0.5 * c.curve->range();
   for (const ExtraBlock& e : layout.extras) {
-    if (e.type == StateType::flex_body) std::fill_n(size.begin() + e.offset, e.count, 0.0);
+    if (e.is_shape()) std::fill_n(size.begin() + e.offset, e.count, 0.0);
   }
   for (std::size_t k = 0; k < op.extra.size(); ++k) {
     double& own = size[static_cast<std::size_t>(layout.body_coordinate_count) + k];

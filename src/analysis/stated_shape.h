@@ -21,7 +21,7 @@ inline bool put_back_shape(const System& system, std::span<const double> stated,
   const Layout& layout = system.layout();
   bool any = false;
   for (const ExtraBlock& e : layout.extras) {
-    if (e.type != StateType::flex_body) continue;
+    if (!e.is_shape()) continue;
     for (std::int32_t k = 0; k < e.count; ++k) {
       const std::size_t at = layout.extra_index(e.offset + k);
       const double change = std::abs(shape[at] - stated[at]);

@@ -111,7 +111,7 @@ void add_norm(const System& system, const Motion& motion, double weight, std::ve
   for (const ExtraBlock& e : system.layout().extras) {
     for (std::int32_t k = 0; k < e.count; ++k) {
       const double s = system.length() / system.coordinate_scale(e.offset + k);
-      entries.push_back({e.offset + k, e.offset + k, outside_weight(e.type) * weight * s * s});
+      entries.push_back({e.offset + k, e.offset + k, outside_weight(e) * weight * s * s});
     }
   }
 }

@@ -69,7 +69,7 @@ std::vector<StateCoordinate> listed_coordinates(const System& system, std::int64
   for (const ExtraBlock& e : layout.extras) {
     if (modal.contains(e.offset)) continue;
     for (std::int32_t k = 0; k < e.count; ++k)
-      put(e.offset + k, e.type, e.label, k, 0, e.coordinates[static_cast<std::size_t>(k)].name);
+      put(e.offset + k, e.kind.type, e.label, k, 0, e.coordinates[static_cast<std::size_t>(k)].name);
   }
   for (auto& [at, state] : beam_state_coordinates(system)) list[static_cast<std::size_t>(at)] = std::move(state);
   return list;

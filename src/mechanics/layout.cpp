@@ -16,10 +16,10 @@ std::int32_t Layout::add_body(BodyKind kind, ElementLabel label) {
   return last_index(bodies.size());
 }
 
-std::int32_t Layout::add_extra(ElementLabel label, StateType type, std::vector<ExtraCoordinate> coordinates) {
+std::int32_t Layout::add_extra(ElementLabel label, ExtraKind kind, std::vector<ExtraCoordinate> coordinates) {
   const std::int32_t offset = coordinate_count;
   const auto count = static_cast<std::int32_t>(coordinates.size());
-  extras.push_back({offset, count, std::move(label), type, std::move(coordinates)});
+  extras.push_back({offset, count, std::move(label), kind, std::move(coordinates)});
   coordinate_count += count;
   return offset;
 }

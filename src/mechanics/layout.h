@@ -40,16 +40,30 @@ struct ExtraCoordinate {
   double largest_step = std::numeric_limits<double>::infinity();  // of an iteration
 };
 
+// What coordinates outside bodies are to the motion of the model.
+enum class ExtraRole : std::uint8_t {
+  follower,  // no inertia: where something stands on a curve. It goes where bodies take it
+  shape,     // amplitudes of the shapes of a body, which moves as a whole before it deforms
+  nodal,     // of a node of a body that deforms, beside its pose: with inertia in each, moved as readily as the pose
+};
+
+// What an element says of its coordinates outside bodies.
+struct ExtraKind {
+  StateType type{};  // of these coordinates and of their rates as states, which are numbered alike
+  ExtraRole role = ExtraRole::follower;
+};
+
 // The coordinates outside bodies of one element.
 struct ExtraBlock {
   std::int32_t offset = 0;  // among all coordinates
   std::int32_t count = 0;
   ElementLabel label;
-  StateType type;  // of these coordinates and of their rates as states, which are numbered alike
+  ExtraKind kind;
   std::vector<ExtraCoordinate> coordinates;
 
-  // Whether they are the shape of a body, which has inertia.
-  bool is_deformation() const { return type == StateType::flex_body || type == StateType::fe_part; }
+  bool is_shape() const { return kind.role == ExtraRole::shape; }
+  // Whether a body deforms by them, with inertia.
+  bool is_deformation() const { return kind.role != ExtraRole::follower; }
 };
 
 class ParametricCurve;
@@ -152,7 +166,7 @@ class Layout {
 
   std::int32_t add_body(BodyKind, ElementLabel);
   // After all bodies, their modal coordinates first; returns the first coordinate.
-  std::int32_t add_extra(ElementLabel, StateType, std::vector<ExtraCoordinate>);
+  std::int32_t add_extra(ElementLabel, ExtraKind, std::vector<ExtraCoordinate>);
   // Where a coordinate outside bodies stands among those in Motion.
   std::size_t extra_index(std::int32_t coordinate) const {
     return static_cast<std::size_t>(coordinate - body_coordinate_count);

@@ -26,13 +26,25 @@ TEST(Layout, bodies_have_the_coordinates_of_their_kind_one_after_another) {
 TEST(Layout, coordinates_outside_bodies_stand_behind_them_and_keep_their_block) {
   Paths p;
   const ElementLabel label{"CVCV", 7, {}, {}};
-  EXPECT_EQ(p.layout.add_extra(label, StateType::cvcv, {{"S", 0.25, 2.0, 0.1}}), 29);
+  EXPECT_EQ(p.layout.add_extra(label, {StateType::cvcv}, {{"S", 0.25, 2.0, 0.1}}), 29);
   EXPECT_EQ(p.layout.coordinate_count, 30);
   EXPECT_EQ(p.layout.body_coordinate_count, 21);
   EXPECT_EQ(p.layout.extra_index(29), 8u);
   EXPECT_EQ(p.layout.extras.back().offset, 29);
   EXPECT_EQ(p.layout.extras.back().count, 1);
-  EXPECT_EQ(p.layout.extras.back().type, StateType::cvcv);
+  EXPECT_EQ(p.layout.extras.back().kind.type, StateType::cvcv);
+}
+
+TEST(Layout, coordinates_outside_bodies_follow_unless_their_element_says_that_a_body_deforms_by_them) {
+  Layout l;
+  const ElementLabel label{"FLEX_BODY", 7, {}, {}};
+  l.add_extra(label, {StateType::flex_body}, {{"S"}});
+  l.add_extra(label, {StateType::cvcv, ExtraRole::shape}, {{"Q1"}, {"Q2"}});
+  l.add_extra(label, {StateType::cvcv, ExtraRole::nodal}, {{"SX"}});
+  EXPECT_FALSE(l.extras[0].is_shape() || l.extras[0].is_deformation());
+  EXPECT_TRUE(l.extras[1].is_shape() && l.extras[1].is_deformation());
+  EXPECT_FALSE(l.extras[2].is_shape());
+  EXPECT_TRUE(l.extras[2].is_deformation());
 }
 
 TEST(Layout, coordinates_are_named_by_axis_and_owner) {

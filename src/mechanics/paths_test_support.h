@@ -152,9 +152,9 @@ class Paths {
         layout.marker_labels.push_back(&labels_.emplace_back(label("MARKER", 2 * b + k)));
       }
     }
-    layout.add_extra(label("PART", 2), StateType::flex_body, {{"Q1"}, {"Q2"}});
-    layout.add_extra(label("PART", 3), StateType::flex_body, {{"Q1"}, {"Q2"}, {"Q3"}, {"Q4"}});
-    layout.add_extra(label("PTCV", 1), StateType::ptcv, {{"U"}, {"V"}});
+    layout.add_extra(label("PART", 2), {StateType::flex_body, ExtraRole::shape}, {{"Q1"}, {"Q2"}});
+    layout.add_extra(label("PART", 3), {StateType::flex_body, ExtraRole::shape}, {{"Q1"}, {"Q2"}, {"Q3"}, {"Q4"}});
+    layout.add_extra(label("PTCV", 1), {StateType::ptcv}, {{"U"}, {"V"}});
     for (auto& u : extra) u = draw(0.4L);
     for (const BodyPath& p : bodies) {
       BodyMotion m;

@@ -44,6 +44,7 @@ struct Body {
   StatedVelocity velocity;
   std::array<bool, 6> exact{};         // X Y Z PSI THETA PHI held in the assembly
   std::vector<ExtraCoordinate> modal;  // coordinates of its own, where it changes its shape
+  ExtraKind modal_kind;                // what they are
 };
 
 struct Marker {

@@ -46,7 +46,7 @@ bool PointRefinement::find_nearest(const OperatingPoint& op) {
   const std::int32_t n = system_.layout().coordinate_count, m = rows_.size();
   std::vector<double> weight(static_cast<std::size_t>(n), 1.0);
   for (const ExtraBlock& e : system_.layout().extras)
-    std::fill_n(weight.begin() + e.offset, e.count, outside_weight(e.type));
+    std::fill_n(weight.begin() + e.offset, e.count, outside_weight(e));
   std::vector<Triplet> entries;
   for (std::int32_t k = 0; k < n; ++k) {
     const double s = system_.coordinate_scale(k);

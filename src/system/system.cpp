@@ -28,7 +28,7 @@ void System::number_bodies() {
   layout_.bodies.reserve(model_->bodies.size());
   for (const Body& b : model_->bodies) layout_.add_body(b.kind, b.label);
   for (const Body& b : model_->bodies) {
-    if (!b.modal.empty()) layout_.add_extra(b.label, StateType::flex_body, b.modal);
+    if (!b.modal.empty()) layout_.add_extra(b.label, b.modal_kind, b.modal);
   }
   for (const Body& b : model_->bodies) {
     if (!b.origin_at.valid()) continue;

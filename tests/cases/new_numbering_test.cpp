@@ -32,7 +32,7 @@ class ParabolaKernel final : public Kernel {
   ParabolaKernel(const std::vector<Parabola>& elements, const std::vector<ElementLabel>& labels, Layout& layout)
       : layout_(layout) {
     for (std::size_t k = 0; k < elements.size(); ++k) {
-      const std::int32_t s = layout.add_extra(labels[k], type_of_s, {{.name = "s"}});
+      const std::int32_t s = layout.add_extra(labels[k], {type_of_s}, {{.name = "s"}});
       const std::int32_t first = layout.add_row(labels[k], "x");
       layout.add_row(labels[k], "y");
       beads_.push_back({layout.marker(elements[k].i), elements[k].curvature, s, first});

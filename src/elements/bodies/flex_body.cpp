@@ -94,6 +94,7 @@ class FlexBodySet final : public TypedSet<FlexBody> {
       for (const std::string& word : f.exact) {
         if (const auto at = find_keyword(word, pose_names)) body.exact[*at] = true;
       }
+      body.modal_kind = {StateType::flex_body, ExtraRole::shape};
       for (Eigen::Index m = 0; m < f.flexible->modes(); ++m) {
         body.modal.push_back(
             {fmt::format("Modal generalized coordinate Q{}", f.flexible->number[static_cast<std::size_t>(m)]),

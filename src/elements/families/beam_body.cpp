@@ -69,7 +69,7 @@ BeamBodyKernel::BeamBodyKernel(const Model& model, Layout& layout) : gravity_(mo
              largest_middle_step});
       }
     }
-    layout.add_extra(*b.label, StateType::fe_part, std::move(coordinates));
+    layout.add_extra(*b.label, {StateType::fe_part, ExtraRole::nodal}, std::move(coordinates));
   }
   beams_ = beam_bodies(model, layout);
   for (const BeamBody& b : beams_) {

@@ -95,7 +95,7 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
       Placed p{c,
                layout.marker(c.i),
                layout.marker(c.j),
-               layout.add_extra(labels[k], E::state_type, std::move(coordinates)),
+               layout.add_extra(labels[k], {E::state_type, ExtraRole::follower}, std::move(coordinates)),
                0,
                0};
       p.first_extra = layout.extra_index(p.first_coordinate);
