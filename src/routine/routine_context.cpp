@@ -88,8 +88,10 @@ RoutineContext::Scope::Scope(RoutineContext& context, const char* what)
     : before_(at_work), what_before_(what_is_at_work) {
   at_work = &context;
   what_is_at_work = what;
+  std::fegetenv(&numbers_before_);
 }
 RoutineContext::Scope::~Scope() {
+  std::fesetenv(&numbers_before_);
   at_work = before_;
   what_is_at_work = what_before_;
 }

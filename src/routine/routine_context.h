@@ -1,6 +1,7 @@
 // What a compiled routine is asked at this moment, in this thread: the utilities that it calls look here.
 #pragma once
 
+#include <cfenv>
 #include <span>
 #include <string>
 #include <string_view>
@@ -70,7 +71,7 @@ class RoutineContext {
     const char* before_;
   };
   // Makes one current as long as it lives. `what` names statement and routine if the process dies in it; it must
-  // outlive this.
+  // outlive this. Rounding and traps of floating-point numbers are afterwards what they were before.
   class Scope {
    public:
     Scope(RoutineContext&, const char* what);
@@ -81,6 +82,7 @@ class RoutineContext {
    private:
     RoutineContext* before_;
     const char* what_before_;
+    std::fenv_t numbers_before_;
   };
 
  private:

@@ -1,5 +1,7 @@
 /* Routines as users write them, with addresses for arguments and with a statement first. */
+#define _GNU_SOURCE
 #include <dynalin/user_routine.h>
+#include <fenv.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -31,6 +33,14 @@ void spring_without_derivatives(const int* id, const double* time, const double*
                                 const int* iflag, double* value) {
   (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
   spring(par, value, 0);
+}
+/* Leaves numbers of the processor rounded upwards, and divisions by zero as signals. */
+void spring_that_rounds_upwards(const int* id, const double* time, const double* par, const int* npar, const int* dflag,
+                                const int* iflag, double* value) {
+  (void)id, (void)time, (void)npar, (void)dflag, (void)iflag;
+  spring(par, value, 1);
+  fesetround(FE_UPWARD);
+  feenableexcept(FE_DIVBYZERO | FE_INVALID);
 }
 /* A statement first: the markers are those of the SFORCE. */
 void Springc(const struct sAdamsSforce* s, double time, int dflag, int iflag, double* value) {

@@ -2,6 +2,7 @@
 // wrong.
 #include <gmock/gmock.h>
 
+#include <cfenv>
 #include <csignal>
 #include <filesystem>
 
@@ -53,6 +54,16 @@ TEST_F(UserRoutines, give_the_eigenvalues_of_the_same_expression) {
       "FUNCTION=USER(50,30,2), ROUTINE=routines::Springc\nSFORCE/2, TRANSLATION, ACTIONONLY, I=21, J=2, "
       "FUNCTION=-7*DX(20,1)\n";
   expect_same(with(slider + called), with(slider + at_slider), 1e-14);
+}
+
+// How the program calculates is not for routines to say.
+TEST_F(UserRoutines, leave_rounding_and_traps_of_numbers_as_they_were) {
+  const RunResult alone = with(slider + along + "FUNCTION=USER(20,1,50,30,2)\n"),
+                  upwards = with(slider + along +
+                                 "FUNCTION=USER(20,1,50,30,2), ROUTINE=routines::spring_that_rounds_upwards\n");
+  expect_same(upwards, alone, 0);
+  EXPECT_EQ(std::fegetround(), FE_TONEAREST);
+  EXPECT_EQ(::fegetexcept(), 0);
 }
 
 // Nobody has promised that routines bear several threads: not of a library that is named, nor of one in a folder.
