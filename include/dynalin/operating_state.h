@@ -21,6 +21,7 @@ struct BodyState {
   ElementId element;              // PART/2
   std::int64_t node = 0;          // of an FE_PART, 0 for all others
   std::string view_name;          // "wheel", empty if it has none
+  bool turns = true;              // false of a POINT_MASS, which has no angles
   Triple position{};              // [length]
   std::array<Triple, 3> axes{};   // its x, y and z axis
   Triple angles{};                // ψ, θ, φ of the body-fixed 3-1-3 sequence, REULER [rad]; zero for a POINT_MASS

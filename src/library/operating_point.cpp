@@ -45,10 +45,9 @@ MarkerState OperatingPoint::marker(std::int64_t id) const {
 }
 
 double OperatingPoint::variable(std::int64_t id) const {
-  const auto handle = model_of(*this).find("VARIABLE", id);
-  if (!handle) fail_for_missing(fmt::format("VARIABLE/{}", id));
-  const auto index = inside_->point.system->signals().variable({*handle}).index;
-  return inside_->point.values.algebraic[static_cast<std::size_t>(index)];
+  const auto value = variable_value(*inside_->point.system, inside_->point.values, id);
+  if (!value) fail_for_missing(fmt::format("VARIABLE/{}", id));
+  return *value;
 }
 
 Load OperatingPoint::load(const ElementId& id) const {

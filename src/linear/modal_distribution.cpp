@@ -284,6 +284,7 @@ std::vector<ModalRow<Complex>> ModalDistribution::markers(std::size_t mode, std:
       add(turned, times(b.turns, moves));
     });
     ModalRow<Complex> row{&layout.marker_label(m)};
+    row.carrier = &layout.body(layout.marker(m).body).label;
     for (const ComplexVector3& part : {moved, turned}) {
       for (const Complex& v : part) row.values.push_back(largest == Complex(0) ? Complex(0) : v / largest);
     }

@@ -30,6 +30,7 @@ struct ModalRow {
   const ElementLabel* element = nullptr;
   std::int64_t part = 0;  // the marker or state, where an element has a row for each
   std::vector<T> values{};
+  const ElementLabel* carrier = nullptr;  // the body that a marker is on
 };
 
 class ModalDistribution {

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mechanics/handles.h"
+
 namespace dynalin {
 
 class BoundExpression;
@@ -23,6 +25,8 @@ class ChannelSource {
   virtual const BoundExpression* value_function(std::size_t /*element*/) const { return nullptr; }
   virtual Channel state_channel(std::size_t /*element*/, std::size_t /*n*/) const { return {}; }
   virtual Channel output_channel(std::size_t /*element*/, std::size_t /*n*/) const { return {}; }
+  // The coordinate of shape n of a body that this source deforms, or its time derivative of that order.
+  virtual Channel shape_channel(BodyId, std::size_t /*n*/, int /*derivative*/) const { return {}; }
 
  protected:
   ~ChannelSource() = default;

@@ -127,7 +127,7 @@ void ResultsSteps::for_each(const OperatingState& state, const PointRequests& re
                           Unit unit, Unit angular) {
     for (std::size_t b = 0; b < state.bodies.size() && !omitted; ++b) {
       const BodyState& body = state.bodies[b];
-      const std::size_t count = body.element.statement == "POINT_MASS" ? 3 : 6;
+      const std::size_t count = body.turns ? 6 : 3;
       for (std::size_t k = 0; k < count; ++k)
         use(Owner{&body.element, &body.view_name, true, body.node, 0, nullptr},
             Component{names[k], 0, k < 3 ? unit : angular, nullptr}, k < 3 ? (body.*first)[k] : (body.*second)[k - 3]);

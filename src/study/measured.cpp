@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "elements/catalogue.h"
+#include "system/operating_state.h"
 
 namespace dynalin {
 
@@ -46,13 +47,9 @@ StudyResult<std::vector<double>> measured(const StudyPoint& point, std::span<con
   here.restated_velocity = point.restated_velocity;
   auto found = initial_conditions(std::move(here));
   if (!found) return tl::unexpected(found.error());
-  const Layout& layout = system.layout();
-  std::vector<double> values(functions.size());
-  for (std::size_t k = 0; k < layout.algebraic.size(); ++k) {
-    const ElementLabel* owner = layout.algebraic[k].owner;
-    if (!owner || owner->statement != "VARIABLE" || owner->id < first) continue;
-    values[static_cast<std::size_t>(owner->id - first)] = found->point.values.algebraic[k];
-  }
+  std::vector<double> values;
+  for (std::size_t k = 0; k < functions.size(); ++k)
+    values.push_back(variable_value(system, found->point.values, first + static_cast<std::int64_t>(k)).value());
   return values;
 }
 

@@ -13,20 +13,32 @@ namespace {
 using Row = ModalTable::Row;
 using Markers = std::span<const MarkerId>;
 
-Row row_of(const ElementLabel& label, std::int64_t part) {
-  return {{std::string(label.statement), label.id}, part, std::string(label.view_name), {}, {}};
+// Whether a name is that of something in another: car.arm.cm in car.arm.
+bool is_below(std::string_view name, std::string_view owner) {
+  return name.size() > owner.size() && name.starts_with(owner) && name[owner.size()] == '.';
+}
+
+template <class T>
+Row row_of(const ModalRow<T>& from) {
+  const ElementLabel& label = *from.element;
+  Row row{label.element(), from.part, std::string(label.view_name), {}, {}};
+  row.full_name = row.name;
+  if (from.carrier && !row.name.empty() && !from.carrier->view_name.empty() &&
+      !is_below(row.name, from.carrier->view_name))
+    row.full_name = fmt::format("{}.{}", from.carrier->view_name, row.name);
+  return row;
 }
 
 std::vector<Row> plain(const std::vector<ModalRow<double>>& from) {
   std::vector<Row> rows;
-  for (const auto& r : from) rows.emplace_back(row_of(*r.element, r.part)).values = r.values;
+  for (const auto& r : from) rows.emplace_back(row_of(r)).values = r.values;
   return rows;
 }
 
 std::vector<Row> plain(const std::vector<ModalRow<std::complex<double>>>& from) {
   std::vector<Row> rows;
   for (const auto& r : from) {
-    Row& row = rows.emplace_back(row_of(*r.element, r.part));
+    Row& row = rows.emplace_back(row_of(r));
     for (const std::complex<double>& v : r.values) row.values.push_back(v.real()), row.imaginary.push_back(v.imag());
   }
   return rows;
@@ -44,25 +56,15 @@ std::string_view model_name(std::string_view title) {
   return name;
 }
 
-// Whether a name is that of something in another: car.arm.cm in car.arm.
-bool is_below(std::string_view name, std::string_view owner) {
-  return name.size() > owner.size() && name.starts_with(owner) && name[owner.size()] == '.';
-}
-
-// Names of View with the model and, of a marker, the part it is on. Names may hold dots of their own: SPRING_1.sforce.
-void name_in_full(const Model& model, std::vector<Row>& rows) {
-  const std::string_view of_model = model_name(model.title);
+// Names of View, which have the part a marker is on, with the model before them where its name is known. Names may hold
+// dots of their own: SPRING_1.sforce.
+void name_in_full(std::string_view of_model, std::vector<Row>& rows) {
   for (Row& row : rows) {
     if (row.name.empty()) continue;
-    row.full_name = row.name;
-    if (of_model.empty() || is_below(row.name, of_model)) continue;
-    std::string_view of_part;
-    if (row.element.statement == "MARKER") {
-      if (const auto m = model.find_marker(row.element.id))
-        of_part = model.body(model.marker(*m).place.body).label.view_name;
-    }
-    if (!of_part.empty() && !is_below(row.name, of_part)) row.full_name = fmt::format("{}.{}", of_part, row.full_name);
-    if (!is_below(row.full_name, of_model)) row.full_name = fmt::format("{}.{}", of_model, row.full_name);
+    if (of_model.empty() || is_below(row.name, of_model))
+      row.full_name = row.name;
+    else if (!is_below(row.full_name, of_model))
+      row.full_name = fmt::format("{}.{}", of_model, row.full_name);
   }
 }
 
@@ -244,7 +246,7 @@ StudyResult<TablesFound> modal_tables(const Linearization& of, const EigenSoluti
                               k + 1,
                               {kind.columns.begin(), kind.columns.end()},
                               kind.rows(distribution, k, markers)});
-      name_in_full(model, found.tables.back().rows);
+      name_in_full(model_name(model.title), found.tables.back().rows);
       // Models with flexible bodies have their modal part before the sum.
       ModalTable& table = found.tables.back();
       if (kind.totals && !table.rows.empty() && table.rows.front().values.size() > table.columns.size())

@@ -51,7 +51,8 @@ class Reading {
       s.view_name = block.label.view_name;
       s.position = plain(m.r);
       s.axes = {plain(m.R[0]), plain(m.R[1]), plain(m.R[2])};
-      if (block.kind == BodyKind::part) s.angles = angles_313(m.R);
+      s.turns = block.turns();
+      if (s.turns) s.angles = angles_313(m.R);
       s.velocity = plain(m.rdot), s.angular_velocity = plain(m.w);
       s.acceleration = plain(m.rddot), s.angular_acceleration = plain(m.wdot);
       s.centre_position = plain(dynalin::value(centres[b]));
@@ -181,6 +182,12 @@ class Reading {
 };
 
 }  // namespace
+
+std::optional<double> variable_value(const System& system, const OperatingPoint& op, std::int64_t id) {
+  const auto handle = system.model().find(VariableClass::statement, id);
+  if (!handle) return std::nullopt;
+  return op.algebraic[static_cast<std::size_t>(system.signals().variable({*handle}).index)];
+}
 
 Triple angles_313(const Matrix3& R) {
   const double sine = std::hypot(R.z.x, R.z.y), theta = std::atan2(sine, R.z.z);

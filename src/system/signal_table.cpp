@@ -61,13 +61,13 @@ Channel SignalTable::array_entry(ArrayRef ref, std::size_t n) const {
 }
 
 Channel SignalTable::modal(const Atom& atom) const {
-  const auto body = model_.find_body("FLEX_BODY", atom.argument[0]);
+  const auto body = model_.find_body(atom.function->statement, atom.argument[0]);
   const auto n = static_cast<std::size_t>(atom.argument[1] - 1);
-  for (std::size_t s = 0; body && s < kernel_of_set_.size(); ++s) {
-    if (!kernel_of_set_[s] || model_.sets[s]->kind().statement != "FLEX_BODY") continue;
-    const ChannelSource& bodies = *kernel_of_set_[s]->channels();
-    const auto at = static_cast<std::size_t>(body->index);
-    return reads_modal_rate(atom) ? bodies.output_channel(at, n) : bodies.state_channel(at, n);
+  for (const Kernel* k : kernel_of_set_) {
+    const ChannelSource* source = body && k ? k->channels() : nullptr;
+    if (!source) continue;
+    const Channel c = source->shape_channel(*body, n, reads_modal_rate(atom) ? 1 : 0);
+    if (c.kind != Channel::Kind::none) return c;
   }
   return {};
 }

@@ -95,6 +95,17 @@ TEST_F(OperatingStates, have_the_angles_of_reuler) {
   expect_triple(angles("20D,180D,30D"), {-10 * pi / 180, pi, 0});
 }
 
+TEST_F(OperatingStates, tell_what_turns) {
+  const auto bodies = study_of(
+                          "Two\nPART/1, GROUND\nPART/2, MASS=1, CM=20, IP=1,2,2\nMARKER/20\nPOINT_MASS/3, MASS=1, "
+                          "CM=30\nMARKER/30\nEND\n")
+                          .as_drawn()
+                          .state()
+                          .bodies;
+  EXPECT_TRUE(bodies.at(0).turns);
+  EXPECT_FALSE(bodies.at(1).turns);
+}
+
 // In the axes that each statement documents: J of a BUSHING, RM of a GFORCE.
 TEST_F(OperatingStates, hold_applied_forces_in_the_axes_of_their_markers) {
   const auto study = study_of(

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <map>
 
 #include "cases/run.h"
 #include "command/planner.h"
@@ -205,6 +206,19 @@ TEST_F(StepOutputs, name_components_of_requests_as_the_dataset_does) {
   EXPECT_EQ(requests[4], json::parse(R"(["REQUEST_2", "F2", null, "Request", "2", null])"));
   EXPECT_EQ(requests[6][0], "MREQUEST_1_JOINT_1");
   EXPECT_EQ(requests[6][2], "newton");
+}
+
+TEST_F(StepOutputs, have_no_angles_of_what_does_not_turn) {
+  prepare("RESULTS/XRF\nPOINT_MASS/9, QG=0,0,4, MASS=1, CM=90\nMARKER/90, POINT_MASS=9\nJPRIM/1, ATPOINT, I=90, J=1\n");
+  simulate(StepKind::kinematics, 0, 1, 1);
+  finish();
+  const json a = parsed(folder_ / "model.res")[0];
+  std::map<std::string, std::vector<std::string>> components;
+  for (const auto& entry : a.at("map")) {
+    if (entry[3].is_string()) components[entry[3].get<std::string>()].push_back(entry[1].get<std::string>());
+  }
+  EXPECT_THAT(components["Point_Mass"], ElementsAre("X", "Y", "Z", "VX", "VY", "VZ", "ACCX", "ACCY", "ACCZ"));
+  EXPECT_EQ(components["Part"].size(), 18u);
 }
 
 TEST_F(StepOutputs, leave_requests_out_of_the_results_file_where_it_says_so) {

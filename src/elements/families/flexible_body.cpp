@@ -285,10 +285,9 @@ FlexibleBodyKernel::FlexibleBodyKernel(const Model& model, Layout& layout) : gra
   }
 }
 
-Channel FlexibleBodyKernel::channel(std::size_t body, std::size_t mode, int derivative) const {
-  const auto found = std::ranges::find_if(readings_, [&](const Reading& r) {
-    return static_cast<std::size_t>(r.body.index) == body && r.mode == mode && r.derivative == derivative;
-  });
+Channel FlexibleBodyKernel::shape_channel(BodyId body, std::size_t mode, int derivative) const {
+  const auto found = std::ranges::find_if(
+      readings_, [&](const Reading& r) { return r.body == body && r.mode == mode && r.derivative == derivative; });
   return found == readings_.end() ? Channel{} : Channel{Channel::Kind::algebraic, found->algebraic, 0};
 }
 

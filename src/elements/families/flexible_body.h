@@ -34,10 +34,8 @@ class FlexibleBodyKernel final : public Kernel, public StartSource, public Chann
   std::span<const StartCondition> start_conditions() const override { return starts_; }
   void start_rows(const Motion&, std::int32_t first_row, ConstraintRows&) const override;
 
-  // Of the body of this BodyId: coordinate n as a state, its rate as an output.
   const ChannelSource* channels() const override { return this; }
-  Channel state_channel(std::size_t body, std::size_t n) const override { return channel(body, n, 0); }
-  Channel output_channel(std::size_t body, std::size_t n) const override { return channel(body, n, 1); }
+  Channel shape_channel(BodyId, std::size_t mode, int derivative) const override;
   bool add_rate_equation(std::int32_t algebraic, std::int32_t rate, Binder&) override;
 
  private:
@@ -59,7 +57,6 @@ class FlexibleBodyKernel final : public Kernel, public StartSource, public Chann
     std::size_t extra;
     std::int32_t algebraic;
   };
-  Channel channel(std::size_t body, std::size_t mode, int derivative) const;
   static void read(const Reading&, const Motion&, Equations&);
 
   std::vector<Item> items_;
