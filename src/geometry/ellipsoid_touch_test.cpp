@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "geometry/moved_frame_test_support.h"
 #include "geometry/touch.h"
 #include "mechanics/path.h"
 
@@ -117,16 +118,6 @@ TEST(EllipsoidTouch, is_found_where_an_edge_goes_through_a_disc) {
   EXPECT_NEAR(t.gap, separation(d, t.normal), 1e-14);
   EXPECT_GE(t.gap, separation(d, n));
   EXPECT_LT(norm(t.normal - n), 0.05);
-}
-
-Frame moved(const Frame& f, std::size_t k, double h) {
-  Frame g = f;
-  if (k < 3) {
-    g.p[k] += h;
-    return g;
-  }
-  const Matrix3 turn = rotation_exponential(h * unit_vectors[k - 3]);
-  return {f.p, turn * f.x, turn * f.y, turn * f.z};
 }
 
 TEST(EllipsoidTouch, has_the_derivatives_of_differences) {

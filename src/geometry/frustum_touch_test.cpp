@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/moved_frame_test_support.h"
 #include "geometry/touch.h"
 
 namespace dynalin::frustum_touch_test {
@@ -153,16 +154,6 @@ TEST_P(FrustumTouch, one_place_is_as_deep_as_the_sides_are_from_parting) {
   }
   EXPECT_GT(apart, 5);
   EXPECT_GT(together, 5);
-}
-
-Frame moved(const Frame& f, std::size_t k, double h) {
-  Frame g = f;
-  if (k < 3) {
-    g.p[k] += h;
-    return g;
-  }
-  const Matrix3 turn = rotation_exponential(h * unit_vectors[k - 3]);
-  return {f.p, turn * f.x, turn * f.y, turn * f.z};
 }
 
 // The gap grows by the motion along the normal; normal, point and share are those of differences.

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/moved_frame_test_support.h"
+
 namespace dynalin::touch_test {
 namespace {
 
@@ -123,15 +125,6 @@ class Touches : public ::testing::TestWithParam<Pair> {
     // Deep in each other two bodies have several common normals.
     const double far = may_be_too_deep() ? 1.5 : 0.5;
     return {{far * n(random_), far * n(random_), far * n(random_)}, R.x, R.y, R.z};
-  }
-  static RelativeFrame<double> moved(const RelativeFrame<double>& f, std::size_t k, double h) {
-    if (k < 3) {
-      RelativeFrame<double> g = f;
-      g.p[k] += h;
-      return g;
-    }
-    const Matrix3 turn = rotation_exponential(h * unit_vectors[k - 3]);
-    return {f.p, turn * f.x, turn * f.y, turn * f.z};
   }
   static std::vector<Touch<double>> touches(const Side& I, const Side& J, const RelativeFrame<double>& f) {
     std::vector<Touch<double>> list(touch_count(I, J));
