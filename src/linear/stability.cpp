@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "analysis/displace.h"
+#include "analysis/rest_beside.h"
 #include "base/cycle.h"
 #include "linear/dense_products.h"
 #include "linear/eigen.h"
@@ -106,19 +107,24 @@ bool stays_on_axis(const std::vector<Value>& values, std::size_t which) {
   return true;
 }
 
-// How all coordinates move along the motions that the linear model leaves free, in different shares.
-Eigen::VectorXd free_motion(const System& system, const LinearSystem& linear, const Matrix& free) {
-  Eigen::VectorXd motion = Eigen::VectorXd::Zero(system.layout().coordinate_count);
-  double share = 1;
-  for (Eigen::Index k = 0; k < free.cols(); ++k) {
-    const Eigen::VectorXd moved = linear.displacements(free.col(k).cast<std::complex<double>>()).col(0).real();
+// How all coordinates move along what the linear model leaves free, each motion by as much as it is large.
+Matrix free_motions(const System& system, const LinearSystem& linear, const ZeroModes& zeros) {
+  Matrix motions = linear.displacements(zeros.vectors().cast<std::complex<double>>()).real();
+  for (Eigen::Index k = 0; k < motions.cols(); ++k) {
     double size = 0;
-    for (Eigen::Index c = 0; c < moved.size(); ++c)
-      size = std::max(size, std::abs(moved(c)) / system.coordinate_scale(static_cast<std::int32_t>(c)));
-    if (size > 0) motion += share / size * moved;
-    share *= -std::numbers::phi / 2;
+    for (Eigen::Index c = 0; c < motions.rows(); ++c)
+      size = std::max(size, std::abs(motions(c, k)) / system.coordinate_scale(static_cast<std::int32_t>(c)));
+    if (size > 0) motions.col(k) /= size;
   }
-  return motion;
+  return motions;
+}
+
+// All of them together, in different shares.
+Eigen::VectorXd together(const Matrix& motions) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(motions.rows());
+  double share = 1;
+  for (Eigen::Index k = 0; k < motions.cols(); ++k, share *= -std::numbers::phi / 2) sum += share * motions.col(k);
+  return sum;
 }
 
 std::string largest_of(const System& system, const Eigen::VectorXd& motion) {
@@ -132,13 +138,16 @@ std::string largest_of(const System& system, const Eigen::VectorXd& motion) {
 }
 
 // Whether motions that nothing resists here are resisted, or driven, a little further on: then their force begins with
-// a higher order than the linear model has. Where the model is free it stays so.
-bool is_free_here_alone(const System& system, const OperatingPoint& at_rest, const Eigen::VectorXd& motion,
+// a higher order than the linear model has. Where the model is free it stays so. A way that is straight in the
+// coordinates leaves the equilibria that lie along a curve, as those of a part that turns about an axis far from its
+// BCS: everything but the motions is brought to rest again.
+bool is_free_here_alone(const System& system, const OperatingPoint& at_rest, const Matrix& motions,
                         Eigen::Index zeros) {
   constexpr double distance = 1e-3;
   OperatingPoint there = at_rest;
-  displace(system, there, distance * motion, {1.0});
+  displace(system, there, distance * together(motions), {1.0});
   Findings ignored;
+  if (auto rest = rest_beside(system, there, motions)) there = std::move(*rest);
   auto moved = assemble_position(system, std::move(there), ignored);
   if (moved) moved = solve_acceleration(system, std::move(*moved), ignored);
   if (!moved) return true;
@@ -182,12 +191,12 @@ Stability stability_of(const System& system, const OperatingPoint& at_rest) {
     return s;
   }
   const ZeroModes zeros = zeros_of(*linear);
-  const Eigen::VectorXd motion = free_motion(system, *linear, zeros.vectors());
-  if (motion.size() > 0 && motion.cwiseAbs().maxCoeff() > 0 &&
-      is_free_here_alone(system, at_rest, motion, zeros.count)) {
+  const Matrix motions = free_motions(system, *linear, zeros);
+  if (motions.size() > 0 && motions.cwiseAbs().maxCoeff() > 0 &&
+      is_free_here_alone(system, at_rest, motions, zeros.count)) {
     s.reason =
         fmt::format("to first order nothing holds {} here, and beside this point something does or drives it away",
-                    largest_of(system, motion));
+                    largest_of(system, together(motions)));
     return s;
   }
   s.verdict = Stability::Verdict::stable;
