@@ -36,7 +36,7 @@ class Relaxation {
       equations_.evaluate(op, true);
       force = std::max(force, equations_.force_scale());
       const double level = std::sqrt(equations_.merit(force));
-      history.add(equations_.imbalance_of_functions());
+      history.add(equations_.imbalance_of_functions(), equations_.rate_of_states());
       if (!std::isfinite(level)) return false;
       if (level < 0.9 * lowest) lowest = level, improved = k;
       const bool slow =

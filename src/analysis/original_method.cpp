@@ -49,7 +49,7 @@ bool iterate_by_newton(StaticEquations& equations, OperatingPoint& op, const Ori
     lu.solve(step);
     if (!step.allFinite()) return false;
     const double largest = relative(equations, op, step.col(0));
-    history.add(imbalance(equations));
+    history.add(imbalance(equations), equations.rate_of_states());
     if (!met && largest <= options.tolerance.error && imbalance(equations) <= options.tolerance.imbalance) {
       met = true;
       left = more_iterations;

@@ -48,7 +48,7 @@ bool Descent::run(OperatingPoint& op, const std::vector<bool>* loose) {
     // One yardstick for the whole search, or a step could pass by growing what it is measured against.
     force_ = std::max(force_, equations_.force_scale());
     merit_ = equations_.merit(force_);
-    history_.add(std::isfinite(merit_) ? equations_.imbalance_of_functions() : infinite);
+    history_.add(std::isfinite(merit_) ? equations_.imbalance_of_functions() : infinite, equations_.rate_of_states());
     if (!std::isfinite(merit_)) return false;
     if (iteration_ == 0) first_force_ = force_;
     if (iteration_ == 0 && !loose && balanced_to_rounding(equations_)) {

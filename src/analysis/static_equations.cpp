@@ -108,6 +108,15 @@ double StaticEquations::imbalance_of_functions() const {
   return worst;
 }
 
+double StaticEquations::rate_of_states() const {
+  double fastest = 0;
+  for (Eigen::Index k = augmented_.state(0); k < residual_.size(); ++k) {
+    const double rate = std::abs(residual_(k));
+    if (rate > 100 * rounding_(k)) fastest = std::max(fastest, rate);
+  }
+  return fastest;
+}
+
 double StaticEquations::unit(Eigen::Index k, double force) const {
   if (yardstick_ == Yardstick::part && (k < coordinates_ || k >= augmented_.algebraic(0))) {
     const double scale = own_scale_(k);
@@ -165,8 +174,9 @@ std::string StaticEquations::worst(double force) const {
     return fmt::format("{} has no value that agrees with its own function", w.owner->full_text());
   }
   const auto& z = layout.states[static_cast<std::size_t>(at - augmented_.state(0))];
-  return fmt::format("the state of {} does not come to rest, its rate is still {:.3e}", z.owner->full_text(),
-                     std::abs(residual_(at)));
+  return fmt::format(
+      "the state of {} does not come to rest, its rate is still {:.3e} (with STATIC_HOLD it would keep its value)",
+      z.owner->full_text(), std::abs(residual_(at)));
 }
 
 void StaticEquations::measure_rounding(const OperatingPoint& op) {

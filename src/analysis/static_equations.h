@@ -40,6 +40,8 @@ class StaticEquations {
   double imbalance() const;
   // The same once forces have the values of their functions, to first order; of the last evaluation with partials.
   double imbalance_of_functions() const;
+  // The fastest rate of a state, but for rounding; of the last evaluation with partials.
+  double rate_of_states() const;
   // The size of the forces at play: reactions, weights, what is unbalanced.
   double force_scale() const { return force_scale_; }
   // Whether functions have no derivative at the last point that was evaluated with partials.

@@ -15,15 +15,19 @@ class StaticHistory {
  public:
   explicit StaticHistory(StaticProgress progress) : progress_(std::move(progress)) {}
 
-  void add(double imbalance);
+  // Forces that are out of balance, and the fastest rate of a state: it is at rest where both are nothing.
+  void add(double imbalance, double rate);
   int iterations() const { return count_; }
   // The first, the best and the last.
   std::vector<std::string> lines() const;
 
  private:
   StaticProgress progress_;
+  struct Iteration {
+    double imbalance = 0, rate = 0;
+  };
   int count_ = 0, best_at_ = 0;
-  double first_ = 0, best_ = std::numeric_limits<double>::infinity(), last_ = 0;
+  Iteration first_, best_{std::numeric_limits<double>::infinity(), 0}, last_;
 };
 
 }  // namespace dynalin

@@ -9,6 +9,9 @@
 namespace dynalin::cases::static_hold_test {
 namespace {
 
+using ::testing::HasSubstr;
+using ::testing::Not;
+
 class StaticHold : public Cases {
  protected:
   // The differential states at rest, in the order of the layout.
@@ -52,6 +55,36 @@ TEST_F(StaticHold, is_exact_in_quasi_statics) {
   ASSERT_EQ(z.size(), 2u);
   EXPECT_EQ(z[0], 0.4);
   EXPECT_NEAR(z[1], 1.4, 1e-9);
+}
+
+// Forces are in balance all along there: what is not at rest is the state.
+TEST_F(StaticHold, is_advised_where_the_input_of_an_integrator_does_not_vanish) {
+  const auto refused = [&](const std::string& statements) {
+    const RunResult r =
+        run("Held\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n" + statements + "END\n", "SIMULATE/STATICS\n");
+    EXPECT_EQ(r.status, 2) << statements;
+    return r.err;
+  };
+  const std::string slide =
+      "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
+      "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=-100*DZ(20,1)\n";
+  const std::string diff = refused(slide + "DIFF/1, IC=0, FUNCTION=DZ(20,1)-0.1\n");
+  EXPECT_THAT(diff,
+              HasSubstr("the state of DIFF/1 does not come to rest, its rate is still 1.000e-01 (with STATIC_HOLD "
+                        "it would keep its value)"));
+  EXPECT_THAT(diff, HasSubstr("iteration 0: imbalance 0.00000e+00 and a state that changes at a rate of 1.000e-01\n"));
+  const std::string transfer = refused(slide +
+                                       "VARIABLE/1, FUNCTION=DZ(20,1)-0.1\nARRAY/1, X\nARRAY/2, U, VARIABLES=1\n"
+                                       "ARRAY/3, Y\n"
+                                       "TFSISO/1, X=1, U=2, Y=3, NUMERATOR=1, DENOMINATOR=0,1\n");
+  EXPECT_THAT(transfer, HasSubstr("the state of TFSISO/1 does not come to rest"));
+  EXPECT_THAT(transfer, HasSubstr("with STATIC_HOLD it would keep its value"));
+  // A force that is out of balance is not described by states.
+  const std::string falls = refused(
+      "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\n"
+      "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=1\n");
+  EXPECT_THAT(falls, Not(HasSubstr("STATIC_HOLD")));
+  EXPECT_THAT(falls, Not(HasSubstr("rate")));
 }
 
 }  // namespace
