@@ -34,6 +34,18 @@ struct Value {
   bool does_not_grow() const { return most() <= std::max(0.0, least_growth * std::abs(hz)); }
 };
 
+// All eigenvalues but the structural zeros, and their vectors in columns.
+struct Spectrum {
+  std::vector<Value> values;
+  Eigen::MatrixXcd vectors;
+
+  double largest() const {
+    double modulus = 0;
+    for (const Value& v : values) modulus = std::max(modulus, std::abs(v.hz));
+    return modulus;
+  }
+};
+
 std::optional<LinearSystem> linear_at(const System& system, const OperatingPoint& op, std::string& reason) {
   auto linear = linearize(system, op, {});
   if (linear) return std::move(*linear);
@@ -62,24 +74,38 @@ std::vector<Value> bounded(const LinearSystem& linear, const EigenPairs& pairs) 
   return values;
 }
 
-// All eigenvalues but the structural zeros: as the QR iteration gives them where that says of each which way it goes,
-// and refined otherwise.
-std::optional<std::vector<Value>> values_of(const LinearSystem& linear, std::string& reason) {
+// As the QR iteration gives it where that says of each value which way it goes, and refined otherwise.
+std::optional<Spectrum> spectrum_of(const LinearSystem& linear, std::string& reason) {
   if (const auto quick = unrefined_pairs(linear)) {
     auto values = bounded(linear, quick->pairs);
     if (std::all_of(values.begin(), values.end(), [](const Value& v) { return v.grows() || v.does_not_grow(); }))
-      return values;
+      return Spectrum{std::move(values), quick->pairs.right};
   }
   const auto solution = eigensolve(linear);
   if (!solution) {
     reason = solution.error().message;
     return std::nullopt;
   }
-  std::vector<Value> values;
-  for (const EigenMode& m : solution->modes) {
-    if (!m.structural_zero) values.push_back({m.eigenvalue_hz, m.error_bound_hz});
+  Spectrum spectrum;
+  std::vector<Eigen::Index> columns;
+  for (std::size_t k = 0; k < solution->modes.size(); ++k) {
+    const EigenMode& m = solution->modes[k];
+    if (m.structural_zero) continue;
+    spectrum.values.push_back({m.eigenvalue_hz, m.error_bound_hz});
+    columns.push_back(static_cast<Eigen::Index>(k));
   }
-  return values;
+  spectrum.vectors = solution->vectors(Eigen::all, columns);
+  return spectrum;
+}
+
+// Which values cannot be told from zero, or are so small beside the fastest that what makes them may be no more than
+// that the equilibrium is known to rounding.
+std::vector<std::size_t> slow_ones(const std::vector<Value>& values, double limit) {
+  std::vector<std::size_t> slow;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (std::abs(values[k].hz) <= std::max(limit, values[k].bound)) slow.push_back(k);
+  }
+  return slow;
 }
 
 // Whether time may as well run backwards: displacements make accelerations and rates make displacements, nothing else.
@@ -107,14 +133,26 @@ bool stays_on_axis(const std::vector<Value>& values, std::size_t which) {
   return true;
 }
 
-// How all coordinates move along what the linear model leaves free, each motion by as much as it is large.
-Matrix free_motions(const System& system, const LinearSystem& linear, const ZeroModes& zeros) {
-  Matrix motions = linear.displacements(zeros.vectors().cast<std::complex<double>>()).real();
+// How all coordinates move along what the linear model leaves free, its zeros and modes that are hardly more, each
+// motion by as much as it is large.
+Matrix free_motions(const System& system, const LinearSystem& linear, const ZeroModes& zeros,
+                    const Eigen::MatrixXcd& slow) {
+  constexpr double moves_nothing = 1e-8;  // of a vector of unit length, what is computed of displacements
+  const Matrix of_zeros = linear.displacements(zeros.vectors().cast<std::complex<double>>()).real();
+  const Eigen::MatrixXcd of_slow = linear.displacements(slow);
+  Matrix motions(of_zeros.rows(), of_zeros.cols() + 2 * of_slow.cols());
+  motions.leftCols(of_zeros.cols()) = of_zeros;
+  motions.middleCols(of_zeros.cols(), of_slow.cols()) = of_slow.real();
+  motions.rightCols(of_slow.cols()) = of_slow.imag();
   for (Eigen::Index k = 0; k < motions.cols(); ++k) {
     double size = 0;
     for (Eigen::Index c = 0; c < motions.rows(); ++c)
       size = std::max(size, std::abs(motions(c, k)) / system.coordinate_scale(static_cast<std::int32_t>(c)));
-    if (size > 0) motions.col(k) /= size;
+    if (size > (k < of_zeros.cols() ? 0.0 : moves_nothing)) {
+      motions.col(k) /= size;
+    } else {
+      motions.col(k).setZero();
+    }
   }
   return motions;
 }
@@ -141,9 +179,10 @@ std::string largest_of(const System& system, const Eigen::VectorXd& motion) {
 // a higher order than the linear model has. Where the model is free it stays so. A way that is straight in the
 // coordinates leaves the equilibria that lie along a curve, as those of a part that turns about an axis far from its
 // BCS: everything but the motions is brought to rest again.
-bool is_free_here_alone(const System& system, const OperatingPoint& at_rest, const Matrix& motions,
-                        Eigen::Index zeros) {
+bool is_free_here_alone(const System& system, const OperatingPoint& at_rest, const Matrix& motions, Eigen::Index zeros,
+                        std::size_t slow, double limit) {
   constexpr double distance = 1e-3;
+  constexpr double as_slow = 10;  // times the limit, or what is a little faster there would be taken for held
   OperatingPoint there = at_rest;
   displace(system, there, distance * together(motions), {1.0});
   Findings ignored;
@@ -156,7 +195,12 @@ bool is_free_here_alone(const System& system, const OperatingPoint& at_rest, con
     return false;
   std::string unused;
   const auto beside = linear_at(system, *moved, unused);
-  return !beside || zeros_of(*beside).count < zeros;
+  if (!beside) return true;
+  const Eigen::Index zeros_beside = zeros_of(*beside).count;
+  if (slow == 0) return zeros_beside < zeros;
+  const auto spectrum = spectrum_of(*beside, unused);
+  return !spectrum || static_cast<std::size_t>(zeros_beside) + slow_ones(spectrum->values, as_slow * limit).size() <
+                          static_cast<std::size_t>(zeros) + slow;
 }
 
 }  // namespace
@@ -169,16 +213,15 @@ Stability stability_of(const System& system, const OperatingPoint& at_rest) {
     return s;
   }
   const auto linear = linear_at(system, at_rest, s.reason);
-  const auto values = linear ? values_of(*linear, s.reason) : std::nullopt;
-  if (!values) return s;
-  double largest = 0, hidden = 0;
+  const auto spectrum = linear ? spectrum_of(*linear, s.reason) : std::nullopt;
+  if (!spectrum) return s;
+  double hidden = 0;
   const bool reversible = is_reversible(*linear);
-  for (std::size_t k = 0; k < values->size(); ++k) {
-    const Value& v = (*values)[k];
-    largest = std::max(largest, std::abs(v.hz));
+  for (std::size_t k = 0; k < spectrum->values.size(); ++k) {
+    const Value& v = spectrum->values[k];
     if (v.grows()) {
       ++s.growing_modes;
-    } else if (!v.does_not_grow() && !(reversible && stays_on_axis(*values, k))) {
+    } else if (!v.does_not_grow() && !(reversible && stays_on_axis(spectrum->values, k))) {
       hidden = std::max(hidden, v.most());
     }
   }
@@ -186,14 +229,19 @@ Stability stability_of(const System& system, const OperatingPoint& at_rest) {
     s.verdict = Stability::Verdict::unstable;
     return s;
   }
-  if (hidden > unnoticed * largest) {
+  const double limit = unnoticed * spectrum->largest();
+  if (hidden > limit) {
     s.reason = fmt::format("rounding hides whether a mode grows by up to {:.2g} cycles per time", hidden);
     return s;
   }
   const ZeroModes zeros = zeros_of(*linear);
-  const Matrix motions = free_motions(system, *linear, zeros);
+  const std::vector<std::size_t> slow = slow_ones(spectrum->values, limit);
+  Eigen::MatrixXcd slow_vectors(linear->A.rows(), static_cast<Eigen::Index>(slow.size()));
+  for (std::size_t k = 0; k < slow.size(); ++k)
+    slow_vectors.col(static_cast<Eigen::Index>(k)) = spectrum->vectors.col(static_cast<Eigen::Index>(slow[k]));
+  const Matrix motions = free_motions(system, *linear, zeros, slow_vectors);
   if (motions.size() > 0 && motions.cwiseAbs().maxCoeff() > 0 &&
-      is_free_here_alone(system, at_rest, motions, zeros.count)) {
+      is_free_here_alone(system, at_rest, motions, zeros.count, slow.size(), limit)) {
     s.reason =
         fmt::format("to first order nothing holds {} here, and beside this point something does or drives it away",
                     largest_of(system, together(motions)));

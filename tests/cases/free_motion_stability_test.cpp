@@ -12,6 +12,7 @@ namespace dynalin::cases::free_motion_stability_test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class FreeMotionStability : public Cases {
  protected:
@@ -85,6 +86,23 @@ TEST_F(FreeMotionStability, equilibria_along_a_curve_are_told_from_a_force_along
   for (const double x : {0.0, 0.5, 2.0}) EXPECT_EQ(of(valley(x)), "stable") << x;
   for (const char* along : {"-DX(20,1)**3", "+DX(20,1)**3", "-DX(20,1)**2"})
     EXPECT_THAT(of(valley(0, along)), HasSubstr("to first order nothing holds DX of PART/2 here")) << along;
+}
+
+// A rod hangs straight down from a ball; a moment about its line begins with a higher order. Where the BCS is far from
+// the line rounding makes other numbers of the two zeros.
+TEST_F(FreeMotionStability, a_moment_of_higher_order_is_found_wherever_the_bcs_is) {
+  for (const Vector& place : {Vector{}, Vector{3, 1, -2}, Vector{-0.7, 20, 5}}) {
+    const auto rod = [&](const char* moment) {
+      return verdict(
+          fmt::format("MARKER/5, PART=1, QP=0,0.4,0, REULER=0,90D,0\nPART/2, MASS=1, CM=7, IP=.05,.05,.002, QG={}\n"
+                      "MARKER/3, QP={}, REULER=0,90D,0\nMARKER/7, QP={}\nJOINT/1, SPHERICAL, I=3, J=5\n"
+                      "SFORCE/1, ROTATION, ACTIONONLY, I=3, J=5, FUNCTION={}\n",
+                      xyz(place), xyz(Vector{0, 0.4, 0} - place), xyz(Vector{0, -0.2, 0} - place), moment));
+    };
+    EXPECT_EQ(rod("0"), "stable") << xyz(place);
+    for (const char* moment : {"-AZ(3,5)**3", "AZ(3,5)**3", "-AZ(3,5)**2"})
+      EXPECT_THAT(rod(moment), Not("stable")) << moment << ' ' << xyz(place);
+  }
 }
 
 }  // namespace dynalin::cases::free_motion_stability_test
