@@ -108,7 +108,6 @@ TEST(OpenBoxCards, forces_that_are_singled_out_have_matrices_of_their_own) {
   };
   EXPECT_THAT(refused({"sforce", 78, "", "A"}), HasSubstr("SFORCE/78 does not exist"));
   EXPECT_THAT(refused({"bushing", 77, "", "A"}), HasSubstr("BUSHING/77 does not exist"));
-  EXPECT_THAT(refused({"joint", 1, "", "A"}), HasSubstr("joint is no type of force"));
   EXPECT_THAT(refused({"sforce", {}, "model.nothing", "A"}), HasSubstr("no SFORCE has the name model.nothing"));
   EXPECT_THAT(refused({"sforce", 77, "", "EIGHTEEN"}), HasSubstr("up to 7 letters"));
   // Two letters before those of a matrix in two parts.
