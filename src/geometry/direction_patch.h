@@ -103,8 +103,10 @@ std::optional<LargestOnPatch> largest_on_patch(const DirectionPatch& patch, cons
     const bool same = found && norm(patch.normal(here.s, here.t) - patch.normal(found->s, found->t)) < 1e-6;
     if (same) continue;
     const bool apart = !found || std::abs(here.gap - found->gap) > coincidence * size;
-    if (!found || here.gap > found->gap) found = here;
-    found->definite = apart;
+    if (!found || here.gap > found->gap)
+      found = here, found->definite = apart;
+    else if (!apart)
+      found->definite = false;
   }
   return found;
 }

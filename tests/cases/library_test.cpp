@@ -16,10 +16,7 @@
 namespace {
 
 using dynalin::Error;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::StartsWith;
 
 const std::string pendulum =
     "Pendulum\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\n! adams_view_name='bob'\nPART/2, "
@@ -42,24 +39,6 @@ Error error_of(const Action& action) {
   }
   ADD_FAILURE() << "nothing was thrown";
   return Error("", {});
-}
-
-// Of the model before nothing is said again, not even that its units are missing.
-TEST(Library, says_of_a_changed_model_what_the_change_has_brought_about) {
-  const auto codes_of = [](const dynalin::Model& model) {
-    std::vector<std::string> codes;
-    for (const auto& remark : model.remarks()) codes.push_back(remark.code + " " + std::to_string(remark.line));
-    return codes;
-  };
-  const auto door = dynalin::Model::from_text(
-      "t\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nMARKER/21, PART=2, REULER=0,9D,0\n"
-      "JOINT/1, SPHERICAL, I=20, J=1\nSFORCE/1, ROTATION, I=20, J=1, FUNCTION=-AZ(20,1)\n"
-      "SFORCE/2, ROTATION, I=21, J=1, FUNCTION=-AZ(20,1)\nEND\n");
-  EXPECT_THAT(codes_of(door), ElementsAre(StartsWith("skew-axes 9"), StartsWith("no-units")));
-  const auto leaning = door.edited("MARKER/20, REULER=0,10D,0");
-  EXPECT_THAT(codes_of(leaning), ElementsAre(StartsWith("skew-axes 8")));
-  EXPECT_THAT(codes_of(leaning.with({{"PART/2 MASS", 2}})), IsEmpty());
-  EXPECT_THAT(codes_of(leaning.edited("MARKER/20, REULER=0,0,0").edited("MARKER/20, REULER=0,10D,0")), IsEmpty());
 }
 
 TEST(Library, exports_nastran_decks) {
