@@ -9,7 +9,8 @@
 
 namespace dynalin {
 
-// By column. Diagonals are taken where they are in the pattern. A matrix that is singular by its pattern alone has as
+// By column. Entries that are large in their column, rows in units of their largest entry, are taken where that can be,
+// diagonals first; else those that are small or zero. A matrix that is singular by its pattern alone has as
 // many pairs as it can, and the rows that are left in any order.
 std::vector<std::int32_t> matched_rows(const ColumnMatrix&);
 

@@ -37,6 +37,24 @@ TEST(RowMatching, pairs_as_many_as_there_are_in_a_singular_matrix) {
   EXPECT_EQ(pairs(compressed(3, 3, std::vector<Triplet>{{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}, {0, 2, 1}})), 2u);
 }
 
+// Of a pattern that has the diagonal: its entries are zero, next to nothing beside their column, or so in units of
+// their row alone.
+TEST(RowMatching, takes_entries_that_elimination_can_divide_by) {
+  const ColumnMatrix m =
+      compressed(4, 4,
+                 std::vector<Triplet>{
+                     {0, 0, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1e-3}, {2, 2, 1e6}, {2, 3, 1e9}, {3, 2, 2}, {3, 3, 1}});
+  EXPECT_EQ(matched_rows(m), (std::vector<std::int32_t>{1, 0, 3, 2}));
+}
+
+// The first two columns have one large entry, both in one row.
+TEST(RowMatching, takes_small_entries_and_zeros_where_large_ones_are_not_enough) {
+  EXPECT_EQ(pairs(compressed(
+                3, 3, std::vector<Triplet>{{0, 0, 1}, {1, 0, 0.01}, {0, 1, 1}, {1, 1, 0.01}, {1, 2, 1}, {2, 2, 1}})),
+            3u);
+  EXPECT_EQ(pairs(compressed(2, 2, std::vector<Triplet>{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}})), 2u);
+}
+
 TEST(RowMatching, puts_the_row_of_each_column_first_and_keeps_the_others) {
   // A cycle, so that no row stands first in its column of itself.
   constexpr std::int32_t n = 6;

@@ -2,10 +2,12 @@
 
 #include <klu.h>
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "system/klu_work.h"
 #include "system/lu_choice.h"
@@ -40,6 +42,14 @@ class ComplexMumps {
   MumpsMatrix<ZMUMPS_STRUC_C> mumps_{MumpsSymmetry::none, 60};
 };
 
+// The shift stands at these places, whatever it will be.
+ColumnMatrix with_large_places(ColumnMatrix m, std::span<const std::size_t> places) {
+  double largest = 0;
+  for (const double v : m.value) largest = std::max(largest, std::abs(v));
+  for (const std::size_t k : places) m.value[k] = largest;
+  return m;
+}
+
 }  // namespace
 
 struct ShiftedLu::Factors {
@@ -67,7 +77,7 @@ ShiftedLu::ShiftedLu(const ColumnMatrix& S, std::int32_t shifted) : factors_(std
   }
   klu_defaults(&f.common);
   f.common.tol = 0.1;
-  std::vector<std::int32_t> rows = rows_for_analysis(f.matrix);
+  std::vector<std::int32_t> rows = rows_for_analysis(with_large_places(f.matrix, f.diagonal));
   f.symbolic = klu_analyze(f.matrix.columns, f.matrix.start.data(), rows.data(), &f.common);
   if (f.common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
   if (f.symbolic && wants_nested_dissection(f.matrix, predicted_entries())) f.mumps.emplace(f.matrix);
