@@ -12,6 +12,7 @@
 
 #include "command/command_place.h"
 #include "command/command_reader.h"
+#include "command/setting_rows.h"
 #include "model/dataset_edits.h"
 #include "study/study_point.h"
 
@@ -74,6 +75,7 @@ struct CommandKind {
   std::string_view example = {};                   // "SIMULATE/STATICS"
   std::span<const ArgumentInfo> arguments = {};    // where it defines a statement anew those of the statement hold
   std::span<const std::string_view> acting = {};   // of a setting: arguments that something acts on
+  SettingList list = {};                           // of a setting: what LIST shows
   std::span<const std::string_view> classes = {};  // of elements that it takes
 
   // Checks the arguments; nothing after a report. Without it the command is refused, for the reason in `summary`.

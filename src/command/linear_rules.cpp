@@ -90,8 +90,10 @@ class Rules {
     } else if (!w_.band.empty() && !(w_.band[0] >= 0 && w_.band[1] > w_.band[0])) {
       error("value-out-of-range", "BAND", "BAND takes frequencies 0 ≤ f1 < f2");
     }
-    // It shares out an energy among all modes.
-    for (const auto name : {"NMODES", "BAND"}) excluded(name, "ENERGY_PER_MODE");
+    for (const ModalTableKind& kind : modal_table_kinds()) {
+      if (!kind.needs_all_modes) continue;
+      for (const auto name : {"NMODES", "BAND"}) excluded(name, kind.name);
+    }
   }
 
   void mode_range(std::string_view name, const Integers& range) {
@@ -140,8 +142,10 @@ class Rules {
       const std::string_view there = given("MLIST") ? "MLIST" : "MRANGE";
       error("missing-argument", there, fmt::format("{} needs {}", there, given("MLIST") ? "MRANGE" : "MLIST"));
     }
-    if (given("MODAL_RM") && !given("MASS_PER_MODE"))
-      error("missing-argument", "MODAL_RM", "MODAL_RM needs MASS_PER_MODE");
+    for (const ModalTableKind& kind : kinds) {
+      if (!kind.only_argument.empty() && given(kind.only_argument) && !given(kind.name))
+        error("missing-argument", kind.only_argument, fmt::format("{} needs {}", kind.only_argument, kind.name));
+    }
   }
 
   // What is allowed and changes nothing, as nothing that is asked for reads it.

@@ -189,12 +189,30 @@ void write_modal_title(std::ostream& out, double time) {
 void write_modal_table(std::ostream& out, const ModalTableFormat& format, const ModalTable& table) {
   if (table.name == "MODE") return write_summary(out, table);
   const ModalTableKind* kind = find_modal_table(table.name);
-  if (!kind || !kind->rows) return;  // of all modes: write_energies, write_masses
+  if (!kind || !kind->rows) return;  // of all modes: write_sums
   const bool complex =
       std::any_of(table.rows.begin(), table.rows.end(), [](const auto& r) { return !r.imaginary.empty(); });
   (complex ? write_shape : kind->totals ? write_shares : write_numbers)(out, format, *kind, table.rows);
   if (!kind->nothing.empty() && all_zero(table.rows) && (kind->totals || !table.rows.empty()))
     fmt::print(out, "  {}\n\n", kind->nothing);
+}
+
+// Numbers always carry their exponent: what is small here is not nothing.
+void write_sums(std::ostream& out, const ModalTableFormat& format, const SumsOverModes& sums) {
+  const int digits = std::max(format.precision, 5), width = digits + 10;
+  const std::string rule(79, '-');
+  fmt::print(out, "  {0}\n  {1}\n  {0}\n", rule, sums.title);
+  fmt::print(out, "  {:<8}", "Mode");
+  for (const std::string& name : sums.columns) fmt::print(out, "{:>{}}", name, width);
+  fmt::print(out, "\n");
+  for (const SumsOverModes::Line& line : sums.lines) {
+    fmt::print(out, "  {:<8}", line.label);
+    for (const double v : line.values) fmt::print(out, "{:{}.{}E}", v + 0.0, width, digits);
+    fmt::print(out, "\n");
+  }
+  if (!sums.below.empty()) fmt::print(out, "  {}\n", sums.below);
+  fmt::print(out, "\n");
+  for (const std::string& note : sums.notes) fmt::print(out, "  {}\n\n", note);
 }
 
 }  // namespace dynalin

@@ -1,8 +1,7 @@
-// The text file of modal tables: COORDS, KINETIC, STRAIN and DISSIPAT with their header, in the layout other programs
-// read.
+// The text file of modal tables: those of a mode with their header, in the layout other programs read, and those
+// of all modes.
 #pragma once
 
-#include <functional>
 #include <iosfwd>
 
 #include "study/modal_tables.h"
@@ -18,10 +17,7 @@ void write_modal_title(std::ostream&, double time);
 // One of a mode, what stands above them included.
 void write_modal_table(std::ostream&, const ModalTableFormat&, const ModalTable&);
 
-// One row a wanted mode, with shares in percent of what the wanted modes hold together, and the totals.
-using WantedMode = std::function<bool(std::size_t)>;
-void write_energies(std::ostream&, const ModalTableFormat&, const EnergyPerMode&, const WantedMode&);
-// `rm` is the marker of MODAL_RM, 0 for the global frame.
-void write_masses(std::ostream&, const ModalTableFormat&, const ModalMasses&, std::int64_t rm, const WantedMode&);
+// One of all modes.
+void write_sums(std::ostream&, const ModalTableFormat&, const SumsOverModes&);
 
 }  // namespace dynalin

@@ -83,20 +83,6 @@ ModalTable summary_of(std::size_t mode, const ModeHeader& h) {
           {std::move(row)}};
 }
 
-// A table of all modes: a row for each that is asked for.
-template <class Fill>
-ModalTable over_modes(std::string name, std::vector<std::string> columns, const EigenSolution& of,
-                      const ModeRange& range, const Fill& fill) {
-  ModalTable table{std::move(name), 0, std::move(columns), {}};
-  for (std::size_t k = 0; k < of.modes.size(); ++k) {
-    if (!range.has(k + 1, of.modes[k])) continue;
-    Row& row = table.rows.emplace_back();
-    row.part = static_cast<std::int64_t>(k + 1);
-    fill(k, row);
-  }
-  return table;
-}
-
 void look_for_missing(const ModalTableRequest& request, const std::vector<EigenMode>& modes,
                       std::string_view frequency_unit, Diagnostics& remarks) {
   const std::size_t count = modes.size();
@@ -117,48 +103,6 @@ void look_for_missing(const ModalTableRequest& request, const std::vector<EigenM
 
 StudyFailure no_such(std::string_view what) {
   return StudyFailure({"linear analysis", fmt::format("{} does not exist", what), {}});
-}
-
-StudyResult<void> energies_of_all(const Linearization& of, const EigenSolution& modes, const ModalTableRequest& request,
-                                  TablesFound& found) {
-  if (modes.selected) {
-    return tl::unexpected(StudyFailure({"energies per mode",
-                                        "they share out the energy of the model among all of its modes, and these are "
-                                        "selected ones",
-                                        {}}));
-  }
-  auto energies = energy_per_mode(*of.system, of.point, of.linear, modes);
-  if (!energies) return tl::unexpected(StudyFailure(energies.error()));
-  const auto fill = [&](std::size_t k, Row& row) {
-    const EnergyPerMode::Share& share = energies->modes[k];
-    row.values = {share.kinetic, share.potential, share.power};
-  };
-  found.tables.push_back(over_modes("ENERGY_PER_MODE", {"Kinetic", "Potential", "Diss. power"}, modes,
-                                    request.of("ENERGY_PER_MODE"), fill));
-  found.energies = std::move(*energies);
-  return {};
-}
-
-StudyResult<void> masses_of_all(const Linearization& of, const EigenSolution& modes, const ModalTableRequest& request,
-                                TablesFound& found) {
-  const auto frame = request.modal_rm ? of.system->model().find_marker(*request.modal_rm) : MarkerId{};
-  if (!frame) return tl::unexpected(no_such(fmt::format("MARKER/{}", *request.modal_rm)));
-  found.masses = modal_masses(*of.system, of.point, of.linear, modes, *frame);
-  const auto participation = [&](std::size_t k, Row& row) {
-    const ModalMasses::Row& m = found.masses->modes[k];
-    row.values = {m.generalized}, row.imaginary = {0};
-    for (const auto& f : m.participation) row.values.push_back(f.real()), row.imaginary.push_back(f.imag());
-  };
-  const auto effective = [&](std::size_t k, Row& row) {
-    const auto& masses = found.masses->modes[k].effective;
-    row.values.assign(masses.begin(), masses.end());
-  };
-  const std::vector<std::string> axes(six.begin(), six.end());
-  const ModeRange range = request.of("MASS_PER_MODE");
-  found.tables.push_back(
-      over_modes("PARTICIPATION", {"Gen. mass", "X", "Y", "Z", "RX", "RY", "RZ"}, modes, range, participation));
-  found.tables.push_back(over_modes("EFFECTIVE_MASS", axes, modes, range, effective));
-  return {};
 }
 
 constexpr std::array kinds = {
@@ -197,11 +141,13 @@ constexpr std::array kinds = {
     ModalTableKind{.name = "ENERGY_PER_MODE",
                    .help = "table of the energies of each mode",
                    .asked = TableAsked::all_or_by_numbers,
-                   .of_all = energies_of_all},
+                   .of_all = energies_of_all,
+                   .needs_all_modes = true},
     ModalTableKind{.name = "MASS_PER_MODE",
                    .help = "table of effective masses",
                    .asked = TableAsked::all_or_by_numbers,
-                   .of_all = masses_of_all},
+                   .of_all = masses_of_all,
+                   .only_argument = "MODAL_RM"},
 };
 
 }  // namespace
@@ -211,6 +157,12 @@ std::span<const ModalTableKind> modal_table_kinds() { return kinds; }
 const ModalTableKind* find_modal_table(std::string_view name) {
   const auto found = std::ranges::find(kinds, name, &ModalTableKind::name);
   return found == kinds.end() ? nullptr : &*found;
+}
+
+bool asks_for_all_modes(const ModalTableRequest& request) {
+  return std::ranges::any_of(kinds, [&](const ModalTableKind& kind) {
+    return kind.needs_all_modes && request.of(std::string(kind.name)).any();
+  });
 }
 
 bool ModeRange::has(std::size_t number, const EigenMode& mode) const {
@@ -255,7 +207,10 @@ StudyResult<TablesFound> modal_tables(const Linearization& of, const EigenSoluti
   }
   for (const ModalTableKind& kind : kinds) {
     if (!kind.of_all || !request.of(std::string(kind.name)).any()) continue;
-    if (auto made = kind.of_all(of, modes, request, found); !made) return tl::unexpected(made.error());
+    auto made = kind.of_all(of, modes, request);
+    if (!made) return tl::unexpected(made.error());
+    found.tables.insert(found.tables.end(), made->values.begin(), made->values.end());
+    found.sums.insert(found.sums.end(), made->texts.begin(), made->texts.end());
   }
   look_for_missing(request, modes.modes, model.units.frequency(), found.remarks);
   return found;

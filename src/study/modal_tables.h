@@ -5,15 +5,14 @@
 
 #include "dynalin/modal_table.h"
 #include "linear/modal_distribution.h"
-#include "linear/modal_sums.h"
 #include "study/linearization.h"
+#include "study/sums_over_modes.h"
 
 namespace dynalin {
 
 struct TablesFound {
   std::vector<ModalTable> tables;
-  std::optional<EnergyPerMode> energies;  // whole, if it was asked for
-  std::optional<ModalMasses> masses;
+  std::vector<SumsOverModes> sums;  // of those of all modes
   Diagnostics remarks;
 };
 
@@ -36,12 +35,15 @@ struct ModalTableKind {
   bool short_names = false;    // of statements, four letters
   std::vector<ModalTable::Row> (*rows)(const ModalDistribution&, std::size_t mode, std::span<const MarkerId>) = nullptr;
   // Instead of it, of one of all modes.
-  StudyResult<void> (*of_all)(const Linearization&, const EigenSolution&, const ModalTableRequest&,
-                              TablesFound&) = nullptr;
+  StudyResult<TablesOfAllModes> (*of_all)(const Linearization&, const EigenSolution&,
+                                          const ModalTableRequest&) = nullptr;
+  bool needs_all_modes = false;      // NMODES and BAND exclude it
+  std::string_view only_argument{};  // of LINEAR: nothing but this table reads it
 };
 // In the order in which they stand below a mode, then those of all modes.
 std::span<const ModalTableKind> modal_table_kinds();
 const ModalTableKind* find_modal_table(std::string_view name);
+bool asks_for_all_modes(const ModalTableRequest&);
 
 StudyResult<TablesFound> modal_tables(const Linearization&, const EigenSolution&, const ModalTableRequest&);
 

@@ -13,10 +13,23 @@ class Debug final : public SettingOf<WrittenDebug> {
   }
 };
 
+constexpr auto rows = std::to_array<SettingRow>({
+    {"EPRINT", "EPRINT NOEPRINT", "NOEPRINT"},
+    {"VERBOSE", "VERBOSE NOVERBOSE", "NOVERBOSE"},
+    {"DUMP", "DUMP NODUMP", "NODUMP"},
+    {"RHSDUMP", "RHSDUMP NORHSDUMP", "NORHSDUMP"},
+    {"JMDUMP", "JMDUMP NOJMDUMP", "NOJMDUMP"},
+    {"REQDUMP", "REQDUMP NOREQDUMP", "NOREQDUMP"},
+    {"TOPOLOGY", "TOPOLOGY NOTOPOLOGY", "NOTOPOLOGY"},
+    {"DOF", "DOF NODOF", "NODOF"},
+    {"SCREEN", "SCREEN NOSCREEN", "NOSCREEN"},
+});
+
 }  // namespace
 
 std::span<const CommandKind> debug() {
-  static constexpr CommandKind kind = setting<Debug>("DEBUG", "how much of its work a solver prints", "DEBUG/EPRINT");
+  static constexpr CommandKind kind =
+      setting<Debug>("DEBUG", "how much of its work a solver prints", "DEBUG/EPRINT", {.rows = rows});
   return {&kind, 1};
 }
 

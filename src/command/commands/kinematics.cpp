@@ -11,8 +11,28 @@ class Kinematics final : public SettingOf<WrittenKinematics> {
   void apply(RunState& run) const override { written.apply(run.settings); }
 };
 
-constexpr CommandKind kind =
-    setting<Kinematics>("KINEMATICS", "how SIMULATE/KINEMATICS goes through time", "KINEMATICS/HMAX=0.01, MAXIT=10");
+constexpr auto rows = std::to_array<SettingRow>({
+    {"ALIMIT", "ALIMIT", "0.523599 (rad)", Shown::angle},
+    {"ERROR", "ERROR", "   1.000000e-10", Shown::exponent},
+    {"MAXIT", "MAXIT", "25"},
+    {"PATTERN", "PATTERN", without_effect, Shown::pattern},
+    {"TLIMIT", "TLIMIT", "none", Shown::number},
+    {"AERROR", "AERROR", without_effect, Shown::number},
+    {"AMAXIT", "AMAXIT", without_effect},
+    {"APATTERN", "APATTERN", without_effect, Shown::pattern},
+    {"HMAX", "HMAX", "none", Shown::number},
+});
+
+// Constraints agree as well as those of the initial conditions.
+std::optional<std::string> held(std::string_view label, bool stated, const Settings& settings) {
+  if (stated || label != "ERROR") return std::nullopt;
+  return shown_number(settings.initial_conditions.error.value_or(1e-10), Shown::exponent);
+}
+
+constexpr SettingList list{.rows = rows, .held = held};
+
+constexpr CommandKind kind = setting<Kinematics>("KINEMATICS", "how SIMULATE/KINEMATICS goes through time",
+                                                 "KINEMATICS/HMAX=0.01, MAXIT=10", list);
 
 }  // namespace
 

@@ -17,6 +17,7 @@
 #include "output/destination.h"
 #include "output/message_file.h"
 #include "study/linearization.h"
+#include "study/modal_tables.h"
 #include "system/operating_state.h"
 
 namespace dynalin::commands {
@@ -45,7 +46,7 @@ LinearRequest request_of(const LinearCommand& command, const RunState& run) {
 // --modes stands for NMODES where the command says nothing itself and asks for nothing that needs all modes.
 std::optional<ModeSelection> selection_of(const LinearCommand& command, const SessionOptions& options) {
   if (command.option != LinearOption::eigensol) return std::nullopt;
-  if (command.selection || !options.modes || command.tables.of("ENERGY_PER_MODE").any()) return command.selection;
+  if (command.selection || !options.modes || asks_for_all_modes(command.tables)) return command.selection;
   return NearestModes{static_cast<std::size_t>(*options.modes), 0};
 }
 
@@ -127,8 +128,8 @@ StudyResult<void> write_descriptor(const Linearization& linear, const LinearComm
   run.json.add(run.command, form);
   run.json.add_point(state);
   if (run.terminal) {
-    fmt::print(*run.terminal, "sparse equations of {} states in {} unknowns: {}_E.mtx and others, {}.mat\n",
-               form.states.size(), form.A.rows(), base, base);
+    fmt::print(*run.terminal, "sparse equations of {} state{} in {} unknowns: {}_E.mtx and others, {}.mat\n",
+               form.states.size(), form.states.size() == 1 ? "" : "s", form.A.rows(), base, base);
   }
   return {};
 }

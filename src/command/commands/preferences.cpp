@@ -22,11 +22,23 @@ class Preferences final : public SettingOf<WrittenPreferences> {
   }
 };
 
+constexpr auto rows = std::to_array<SettingRow>({
+    {"SOLVER", "SOLVER", "CXX"},
+    {"SIMEXIT", "SIMEXIT", "OFF"},
+    {"STATUS_MESSAGE", "STATUS_MESSAGE", "ON"},
+    {"LIBPATH", "LIBPATH", ""},
+    {"CONTACT_GEOMETRY_LIBRARY", "CONTACT_GEOMETRY_LIBRARY", ""},
+    {"CONTACT_FACETING_TOLERANCE", "CONTACT_FACETING_TOLERANCE", ""},
+    {"NTHREADS", "NTHREADS THREAD", ""},
+    {"FLEX_LIMIT_CHECK", "FLEX_LIMIT_CHECK", ""},
+});
+
 }  // namespace
 
 std::span<const CommandKind> preferences() {
-  static constexpr CommandKind kind = setting<Preferences>(
-      "PREFERENCES", "of the session: its end after a failure, its status line", "PREFERENCES/SIMEXIT=ON");
+  static constexpr CommandKind kind =
+      setting<Preferences>("PREFERENCES", "of the session: its end after a failure, its status line",
+                           "PREFERENCES/SIMEXIT=ON", {.rows = rows});
   return {&kind, 1};
 }
 

@@ -43,7 +43,8 @@ std::shared_ptr<const CommandAction> read_setting(CommandReader& reader) {
 }
 
 template <class Action>
-constexpr CommandKind setting(std::string_view name, std::string_view summary, std::string_view example) {
+constexpr CommandKind setting(std::string_view name, std::string_view summary, std::string_view example,
+                              const SettingList& list = {}) {
   using Written = decltype(Action::written);
   return {.name = name,
           .use = CommandUse::setting,
@@ -51,6 +52,7 @@ constexpr CommandKind setting(std::string_view name, std::string_view summary, s
           .example = example,
           .arguments = detail::argument_infos<Written>,
           .acting = Written::acting,
+          .list = list,
           .read = read_setting<Action>};
 }
 

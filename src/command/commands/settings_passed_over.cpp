@@ -6,9 +6,14 @@ namespace dynalin::commands {
 
 namespace {
 
+constexpr auto rows = std::to_array<SettingRow>({
+    {"TYPE", "AUTO CALAHAN HARWELL UMF", without_effect},
+    {"STABILITY", "STABILITY", without_effect},
+});
+
 constexpr std::array kinds = {
     setting<SettingOf<WrittenLinearSolver>>("LSOLVER", "of the solver of equations: checked, nothing acts on it",
-                                            "LSOLVER/UMF"),
+                                            "LSOLVER/UMF", {.rows = rows}),
 };
 
 }  // namespace
