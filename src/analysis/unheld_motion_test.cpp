@@ -1,0 +1,82 @@
+#include "analysis/unheld_motion.h"
+
+#include <gtest/gtest.h>
+
+#include "analysis/static_refusal.h"
+#include "analysis/statics_test_support.h"
+
+namespace dynalin::unheld_motion_test {
+namespace {
+
+using analysis_test::gravity;
+using analysis_test::pendulum;
+using analysis_test::Search;
+
+std::string mass(int id, const std::string& place) {
+  const std::string n = std::to_string(id);
+  return "PART/" + n + ", MASS=" + n + ", CM=" + n + "0, IP=1,1,1, QG=" + place + "\nMARKER/" + n + "0\n";
+}
+
+TEST(UnheldMotion, a_part_that_falls_falls_by_its_weight) {
+  Search s(gravity + mass(2, "1,2,3"));
+  const auto motions = unheld_motions(s.equations, s.op);
+  ASSERT_EQ(motions.size(), 1u);
+  EXPECT_EQ(motions[0].bodies, (std::vector<std::size_t>{1}));
+  EXPECT_FALSE(motions[0].turning);
+  EXPECT_NEAR(motions[0].load.y, -20, 1e-12);
+  EXPECT_NEAR(motions[0].load.x, 0, 1e-12);
+}
+
+TEST(UnheldMotion, parts_that_a_spring_ties_to_each_other_fall_together) {
+  const std::string tied = gravity + mass(2, "0,0,0") + mass(3, "1,0,0") + "BUSHING/1, I=20, J=30, K=5,5,5, KT=5,5,5\n";
+  Search s(tied);
+  const auto motions = unheld_motions(s.equations, s.op);
+  ASSERT_EQ(motions.size(), 1u);
+  EXPECT_EQ(motions[0].bodies, (std::vector<std::size_t>{1, 2}));
+  EXPECT_NEAR(motions[0].load.y, -50, 1e-9);
+  const auto parts = unheld_parts(s.equations, s.op);
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_NE(parts[0].find("PART/2"), std::string::npos);
+  EXPECT_NE(parts[0].find("PART/3"), std::string::npos);
+}
+
+TEST(UnheldMotion, two_parts_that_are_not_tied_are_two_motions) {
+  Search s(gravity + mass(2, "0,0,0") + mass(3, "1,0,0"));
+  const auto motions = unheld_motions(s.equations, s.op);
+  ASSERT_EQ(motions.size(), 2u);
+  EXPECT_NEAR(motions[0].load.y, -20, 1e-12);
+  EXPECT_NEAR(motions[1].load.y, -30, 1e-12);
+}
+
+TEST(UnheldMotion, a_torque_about_a_free_hinge_turns) {
+  Search s(
+      "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, REVOLUTE, I=20, J=1\n"
+      "SFORCE/1, ROTATION, I=20, J=1, FUNCTION=7\n");
+  const auto motions = unheld_motions(s.equations, s.op);
+  ASSERT_EQ(motions.size(), 1u);
+  EXPECT_TRUE(motions[0].turning);
+  EXPECT_NEAR(motions[0].load.z, 7, 1e-12);
+}
+
+// A pendulum is held wherever it is not at rest, and what hangs on a spring is.
+TEST(UnheldMotion, what_something_opposes_is_none) {
+  Search swings(pendulum(0.4));
+  EXPECT_TRUE(unheld_motions(swings.equations, swings.op).empty());
+  EXPECT_TRUE(unheld_parts(swings.equations, swings.op).empty());
+  Search hangs(gravity + mass(2, "0,0,0") + "BUSHING/1, I=20, J=1, K=5,5,5, KT=5,5,5\n");
+  EXPECT_TRUE(unheld_motions(hangs.equations, hangs.op).empty());
+}
+
+// One place proves nothing: the force of the second one pulls back.
+TEST(UnheldMotion, everywhere_takes_all_points) {
+  Search s(
+      "POINT_MASS/2, MASS=1, CM=20\nMARKER/20, POINT_MASS=2\nMARKER/9, PART=1, FLOATING\n"
+      "VFORCE/1, I=20, JFLOAT=9, RM=1, FX=1-STEP(DX(20,1),1,0,2,2)\\, FY=-DY(20,1)\\, FZ=-DZ(20,1)\n");
+  OperatingPoint further = s.op, inside = s.op;
+  further.poses[1].r.x = 0.5, inside.poses[1].r.x = 1.5;
+  EXPECT_EQ(unheld_everywhere(s.equations, {s.op, further}).size(), 1u);
+  EXPECT_TRUE(unheld_everywhere(s.equations, {s.op, inside}).empty());
+}
+
+}  // namespace
+}  // namespace dynalin::unheld_motion_test
