@@ -33,6 +33,10 @@ constexpr AtomFunction from_data(std::string_view name, DataSource reads, uint8_
                                  FunctionText text) {
   return {name, data, by_reference, arguments, arguments, statement, true, text, {}, reads};
 }
+// Constant in each step, 0 before anything is integrated.
+constexpr AtomFunction of_integration(std::string_view name, DataSource reads, std::string_view meaning) {
+  return {name, data, 0, 0, 0, "", true, {"", meaning, "", "of a simulation over time; 0 before the first"}, {}, reads};
+}
 constexpr AtomFunction at_marker(std::string_view name, uint8_t maximum, std::string_view meaning,
                                  std::string_view unit) {
   return {name,         marker_force,
@@ -255,6 +259,11 @@ constexpr std::array atom_table = {
                  {"", "which analysis is at work: 3 initial conditions, 5 statics, 7 linear", "", ""},
                  {},
                  DataSource::analysis},
+    of_integration("CPU", DataSource::processor_time, "processor time that the run has taken so far, seconds"),
+    of_integration("HSIZE", DataSource::step_size, "length of the last step [time]"),
+    of_integration("ORDER", DataSource::step_order, "order of the last step"),
+    of_integration("NJAC", DataSource::jacobians, "how often the Jacobian has been evaluated"),
+    of_integration("NRHS", DataSource::evaluations, "how often the equations have been evaluated"),
     // An FE_LOAD puts numbers in its place; nothing else has any.
     AtomFunction{"S",
                  data,

@@ -43,15 +43,23 @@ enum class AtomFamily : std::uint8_t {
 // What an atom of the family `data` reads.
 enum class DataSource : std::uint8_t {
   none,
-  analysis,     // MODE: a number that the analysis decides
-  sensor,       // SENVAL
-  value,        // VARVAL
-  array_entry,  // ARYVAL
-  state,        // DIF
-  state_rate,   // DIF1
-  list_entry,   // PINVAL, POUVAL
-  unknown,      // an algebraic unknown by its number in the layout: elements read theirs so, no text names one
+  analysis,        // MODE: a number that the analysis decides
+  processor_time,  // CPU …
+  step_size,       // HSIZE
+  step_order,      // ORDER
+  jacobians,       // NJAC
+  evaluations,     // NRHS: how an integration over time goes, constant in each of its steps
+  sensor,          // SENVAL
+  value,           // VARVAL
+  array_entry,     // ARYVAL
+  state,           // DIF
+  state_rate,      // DIF1
+  list_entry,      // PINVAL, POUVAL
+  unknown,         // an algebraic unknown by its number in the layout: elements read theirs so, no text names one
 };
+
+// What no motion changes: a number that the analysis decides, how it goes, or what a SENSOR has stored.
+constexpr bool stands_still(DataSource reads) { return reads >= DataSource::analysis && reads <= DataSource::sensor; }
 
 // One function that yields an atom, as the parser knows it.
 struct AtomFunction {

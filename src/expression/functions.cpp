@@ -17,7 +17,7 @@ constexpr std::array constants = {
 };
 
 constexpr std::array<std::string_view, 1> calls_not_built = {"USER"};
-constexpr std::array<std::string_view, 6> names_alone_not_built = {"CPU", "HSIZE", "NJAC", "NRHS", "ORDER", "FXFREQ"};
+constexpr std::array<std::string_view, 1> names_alone_not_built = {"FXFREQ"};
 
 }  // namespace
 

@@ -11,11 +11,8 @@ namespace {
 
 using Kind = ExpressionNode::Kind;
 
-// Atoms that no motion changes: a SENSOR that stores another value makes the integration begin anew by itself.
-bool stands_still(const Atom& atom) {
-  const DataSource reads = atom.function->reads;
-  return reads == DataSource::analysis || reads == DataSource::sensor;
-}
+// A SENSOR that stores another value makes the integration begin anew by itself.
+bool stands_still(const Atom& atom) { return dynalin::stands_still(atom.function->reads); }
 
 }  // namespace
 

@@ -114,7 +114,7 @@ class Chain {
         break;
     }
     if (f.reads == DataSource::state_rate) return wrong("the rate of a differential equation");
-    if (f.reads == DataSource::analysis || f.reads == DataSource::sensor) return std::nullopt;
+    if (stands_still(f.reads)) return std::nullopt;
     const Channel channel = system_.signals().data(atom);
     if (channel.kind == Channel::Kind::constant || channel.kind == Channel::Kind::none) return std::nullopt;
     if (channel.kind != Channel::Kind::algebraic) return wrong("a differential state");

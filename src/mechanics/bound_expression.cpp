@@ -38,6 +38,8 @@ double BoundExpression::atom_value(const BoundAtom& a, const Motion& motion) con
       return motion.time;
     case Kind::mode:
       return static_cast<double>(motion.mode);
+    case Kind::progress:
+      return motion.progress.*a.progress;
     case Kind::constant:
       return a.constant;
     case Kind::remembered:

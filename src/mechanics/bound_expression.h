@@ -78,8 +78,9 @@ class BoundExpression {
     MarkerFrame axes_marker;
   };
   struct BoundAtom {
-    enum class Kind : std::uint8_t { time, mode, constant, remembered, channel, measure, force } kind;
+    enum class Kind : std::uint8_t { time, mode, progress, constant, remembered, channel, measure, force } kind;
     double constant = 0;
+    double IntegrationProgress::*progress = nullptr;
     Channel channel, rate;  // rate: of the channel, where it is wanted
     Measure measure = Measure::DX;
     std::int8_t order = 0;

@@ -34,6 +34,24 @@ bool reads_axes(Measure m, std::size_t k) {
   }
 }
 
+// Null where it reads something else.
+double IntegrationProgress::*read_of_integration(DataSource reads) {
+  switch (reads) {
+    case DataSource::processor_time:
+      return &IntegrationProgress::processor_time;
+    case DataSource::step_size:
+      return &IntegrationProgress::step_size;
+    case DataSource::step_order:
+      return &IntegrationProgress::order;
+    case DataSource::jacobians:
+      return &IntegrationProgress::jacobians;
+    case DataSource::evaluations:
+      return &IntegrationProgress::evaluations;
+    default:
+      return nullptr;
+  }
+}
+
 // Which of the markers i, j, k, l an argument names, if its measure looks at it. Sizes need no axes: their third
 // argument is the frame in which derivatives in time are taken. The rate of a distance is the same in all of them.
 std::optional<std::size_t> role_of_argument(Measure m, std::size_t argument) {
@@ -177,6 +195,11 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binde
       if (f.reads == DataSource::analysis) {
         a.kind = Kind::mode;
         if (binding != Binding::observation) binder.note_analysis();
+        break;
+      }
+      if (const auto progress = read_of_integration(f.reads)) {
+        a.kind = Kind::progress;
+        a.progress = progress;
         break;
       }
       if (f.reads == DataSource::sensor) {

@@ -54,9 +54,17 @@ using Memory = std::vector<double>;
 
 class DelayHistories;  // what DELAY reads: values in the past (mechanics/delay_history.h)
 
+// How an integration over time goes, up to its last step: what CPU, HSIZE, ORDER, NJAC and NRHS return.
+struct IntegrationProgress {
+  double processor_time = 0;  // of the program [s]
+  double step_size = 0;       // [time]
+  double order = 0, jacobians = 0, evaluations = 0;
+};
+
 struct Motion {
   double time = 0;
   AnalysisMode mode = AnalysisMode::initial_conditions;
+  IntegrationProgress progress;
   std::vector<BodyMotion> bodies;                             // ground first
   std::vector<double> extra, extra_rate, extra_acceleration;  // coordinates outside poses: modal, curve parameters
   std::vector<double> lambda;                                 // multipliers, one per constraint row

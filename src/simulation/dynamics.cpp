@@ -369,6 +369,7 @@ class Dynamics {
     statistics_.failed_iterations += now.failed_iterations;
     statistics_.restarts += now.restarts;
     statistics_.step_size = now.step_size, statistics_.order = now.order;
+    point_.progress = progress_of(statistics_);
   }
 
   const System& system_;

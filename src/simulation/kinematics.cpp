@@ -81,6 +81,7 @@ class KinematicRun {
         h = std::max(2 * (next->time - at_.time), std::min(h, left));
         statistics_.step_size = next->time - at_.time;
         ++statistics_.steps;
+        next->progress = progress_of(statistics_);
         if (creeps_ == creeping_limit) return tl::unexpected(contradicted_rates(*next));
         if (leaps) goes_on = look_at_leapt(*next, k);
         at_ = std::move(*next);

@@ -65,6 +65,7 @@ void MotionEquations::find_differential() {
 
 void MotionEquations::accept(const OperatingPoint& op) {
   motion_.mode = op.mode;
+  motion_.progress = op.progress;
   motion_.memory = op.memory;
   delays_ = op.delays;
   motion_.delays = delays_.get();

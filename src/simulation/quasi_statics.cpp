@@ -104,6 +104,7 @@ class QuasiStaticRun {
       at_ = std::move(*next);
       ++statistics_.steps;
       statistics_.step_size = step;
+      at_.progress = progress_of(statistics_);
       h = std::max(2 * step, std::min(h, left));
       begun = follow(crosses ? events_.at(crossed_, at_) : EventAction{}, at_.time == target);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <ctime>
 #include <functional>
 #include <string_view>
 
@@ -19,6 +20,15 @@ struct SimulationStep {
   const IntegrationStatistics& statistics;
   std::string_view text{};  // of SENSORs, for the message file: whole lines
 };
+
+// What expressions see of it from here on.
+inline IntegrationProgress progress_of(const IntegrationStatistics& s) {
+  return {.processor_time = static_cast<double>(std::clock()) / CLOCKS_PER_SEC,
+          .step_size = s.step_size,
+          .order = static_cast<double>(s.order),
+          .jacobians = static_cast<double>(s.jacobians),
+          .evaluations = static_cast<double>(s.evaluations)};
+}
 
 // Called with every step; a simulation that is not to go on ends there, at a consistent point.
 enum class GoOn : bool { no, yes };

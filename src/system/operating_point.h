@@ -15,6 +15,7 @@ namespace dynalin {
 struct OperatingPoint {
   double time = 0;
   AnalysisMode mode = AnalysisMode::initial_conditions;
+  IntegrationProgress progress;
   std::vector<Pose> poses;    // by body, ground first
   std::vector<double> extra;  // coordinates outside bodies
   std::vector<double> velocity, acceleration;

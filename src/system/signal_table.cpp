@@ -92,13 +92,9 @@ Channel SignalTable::data(const Atom& atom) const {
       const auto* list = model_.get<VariableList>(*handle);
       return list && n < list->variables.size() ? variable(list->variables[n]) : Channel{};
     }
-    case DataSource::none:
-    case DataSource::analysis:
-    case DataSource::sensor:
-    case DataSource::unknown:
-      break;
+    default:  // no channel has it
+      return {};
   }
-  return {};
 }
 
 Signals::Wrench SignalTable::wrench(std::string_view statement, std::int64_t id) const {

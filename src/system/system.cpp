@@ -129,6 +129,7 @@ Motion System::motion(const OperatingPoint& op) const {
   Motion m;
   m.time = op.time;
   m.mode = op.mode;
+  m.progress = op.progress;
   m.bodies.resize(layout_.bodies.size());
   const auto vector_at = [](const std::vector<double>& x, std::int32_t k) {
     const auto i = static_cast<std::size_t>(k);

@@ -90,7 +90,8 @@ TEST(Help, shows_what_a_function_takes) {
                               HasSubstr("[as h0, h1]")));
   EXPECT_THAT(help("DX").out, AllOf(HasSubstr("DX(i [, j [, k]])"), HasSubstr("[length]")));
   EXPECT_THAT(help("USER").out, AllOf(HasSubstr("compiled routine"), HasSubstr("ROUTINE=")));
-  EXPECT_THAT(help("HSIZE").out, HasSubstr("not available yet"));
+  EXPECT_THAT(help("HSIZE").out, HasSubstr("length of the last step"));
+  EXPECT_THAT(help("FXFREQ").out, HasSubstr("not available yet"));
 }
 
 // Names outside of brackets are required, those inside may be left out.
