@@ -236,12 +236,9 @@ void keep_as_stated(const std::vector<Condition>& conditions, std::size_t constr
 
 // The velocities that meet the constraints, which come first, and the other conditions in the sense of least squares;
 // what these leave open changes least from `start`.
-Result<Eigen::VectorXd> nearest(const System& system, const Motion& motion, const std::vector<Condition>& conditions,
-                                const Eigen::VectorXd& start) {
+Result<Eigen::VectorXd> nearest(const System& system, const Motion& motion, const ConstraintRows& rows,
+                                const std::vector<Condition>& conditions, const Eigen::VectorXd& start) {
   const auto n = static_cast<Eigen::Index>(system.coordinates());
-  ConstraintRows rows;
-  rows.resize(system.layout());
-  system.constraints(motion, rows);
   const std::vector<bool> active = system.partition(rows, true).active;
   std::vector<Triplet> entries;
   add_norm(system, motion, 1e-10, entries);
@@ -277,29 +274,77 @@ Result<Eigen::VectorXd> nearest(const System& system, const Motion& motion, cons
   return start + change.col(0).head(n);
 }
 
-// Φ′ = g·u + Φ_t = 0 at u: the rate at zero velocity is Φ_t; rows at rest.
-void set_condition(const ConstraintRows& rows, std::int32_t k, Condition& c) {
-  const bool position = rows.level(k) == RowLevel::position;
-  c.value = position ? -rows.along_motion(k).rate : -rows.along_motion(k).value;
-  c.column.clear(), c.coefficient.clear();
-  for (const auto& e : rows.row(k)) {
-    c.column.push_back(e.column);
-    c.coefficient.push_back(e.c.g);
+// Constraint rows as conditions that are affine in velocities u: Φ′ = g·u + Φ_t = 0 with Φ_t the rate at rest. Rows on
+// velocities need not be affine: Ψ(u₀) + g·(u − u₀) = 0 about velocities u₀.
+class AffineRows {
+ public:
+  AffineRows(const System& system, const OperatingPoint& op) : system_(system), op_(op) {
+    linearize_about(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(system.coordinates())));
   }
-}
-std::vector<Condition> constraint_conditions(const ConstraintRows& rows) {
-  std::vector<Condition> conditions(static_cast<std::size_t>(rows.size()));
-  for (std::int32_t k = 0; k < rows.size(); ++k) set_condition(rows, k, conditions[static_cast<std::size_t>(k)]);
-  return conditions;
-}
-bool constraints_met(const ConstraintRows& rows, const Eigen::VectorXd& velocity) {
-  Condition c;
-  for (std::int32_t k = 0; k < rows.size(); ++k) {
-    set_condition(rows, k, c);
-    if (!met_to_rounding(c, velocity)) return false;
+  void linearize_about(Eigen::VectorXd about) {
+    about_ = std::move(about);
+    op_.velocity.assign(about_.data(), about_.data() + about_.size());
+    std::fill(op_.acceleration.begin(), op_.acceleration.end(), 0.0);
+    rows_.resize(system_.layout());
+    system_.constraints(system_.motion(op_), rows_);
   }
-  return true;
-}
+  const ConstraintRows& rows() const { return rows_; }
+  std::string undefined() const { return undefined_row(system_, system_.motion(op_), rows_, 1).value_or(""); }
+
+  // Whether some row on velocities is another one about other velocities, in which all coordinates have a part.
+  bool are_curved() const {
+    const auto on_velocities = [&](std::int32_t k) { return rows_.level(k) == RowLevel::velocity; };
+    std::vector<std::int32_t> list;
+    for (std::int32_t k = 0; k < rows_.size(); ++k) {
+      if (on_velocities(k)) list.push_back(k);
+    }
+    if (list.empty()) return false;
+    AffineRows other(*this);
+    Eigen::VectorXd probe(about_.size());
+    for (Eigen::Index k = 0; k < probe.size(); ++k) {
+      const auto at = static_cast<std::int32_t>(k);
+      probe(k) = about_(k) + system_.coordinate_scale(at) * (1 + std::sin(static_cast<double>(k) + 1) / 2);
+    }
+    other.linearize_about(std::move(probe));
+    return std::any_of(list.begin(), list.end(), [&](std::int32_t k) {
+      const auto here = rows_.row(k), there = other.rows_.row(k);
+      return !std::equal(here.begin(), here.end(), there.begin(), there.end(), [](const auto& a, const auto& b) {
+        return a.column == b.column && std::abs(a.c.g - b.c.g) <= affine * std::max(std::abs(a.c.g), std::abs(b.c.g));
+      });
+    });
+  }
+  void set(std::int32_t k, Condition& c) const {
+    const bool position = rows_.level(k) == RowLevel::position;
+    c.value = position ? -rows_.along_motion(k).rate : -rows_.along_motion(k).value;
+    c.column.clear(), c.coefficient.clear();
+    for (const auto& e : rows_.row(k)) {
+      c.column.push_back(e.column);
+      c.coefficient.push_back(e.c.g);
+      if (about_(e.column) != 0) c.value += e.c.g * about_(e.column);
+    }
+  }
+  std::vector<Condition> conditions() const {
+    std::vector<Condition> list(static_cast<std::size_t>(rows_.size()));
+    for (std::int32_t k = 0; k < rows_.size(); ++k) set(k, list[static_cast<std::size_t>(k)]);
+    return list;
+  }
+  bool are_met(const Eigen::VectorXd& velocity) const {
+    Condition c;
+    for (std::int32_t k = 0; k < rows_.size(); ++k) {
+      set(k, c);
+      if (!met_to_rounding(c, velocity)) return false;
+    }
+    return true;
+  }
+
+ private:
+  static constexpr double affine = 1e-12;  // rounding of gradients
+
+  const System& system_;
+  OperatingPoint op_;
+  ConstraintRows rows_;
+  Eigen::VectorXd about_;
+};
 
 // Velocities that meet the conditions, with the rates of flexible bodies as at the start as far as these allow.
 void keep_shape(const System& system, const Motion& motion, const std::vector<Condition>& conditions,
@@ -322,24 +367,16 @@ void keep_shape(const System& system, const Motion& motion, const std::vector<Co
   if (kept && kept->contradicted.empty() && met(kept->velocity)) velocity = std::move(kept->velocity);
 }
 
-Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std::vector<Condition>& stated,
-                             const Eigen::VectorXd& start, Findings& findings) {
-  OperatingPoint rest = op;
-  std::fill(rest.velocity.begin(), rest.velocity.end(), 0.0);
-  std::fill(rest.acceleration.begin(), rest.acceleration.end(), 0.0);
-  const Motion motion = system.motion(rest);
-  ConstraintRows rows;
-  rows.resize(system.layout());
-  system.constraints(motion, rows);
-  if (const auto reason = undefined_row(system, motion, rows, 1)) {
-    return tl::unexpected(Failure{"velocity initial conditions", *reason, {}, "undefined-value"});
-  }
+// With the rows as they are about one velocity; `motion`: at rest.
+Result<Eigen::VectorXd> solve_affine(const System& system, const OperatingPoint& op, const Motion& motion,
+                                     const AffineRows& rows, const std::vector<Condition>& stated,
+                                     const Eigen::VectorXd& start, Diagnostics& warnings) {
   Eigen::VectorXd velocity = start;
   const auto met = [&](const Condition& c) { return met_to_rounding(c, velocity); };
-  const bool holds = constraints_met(rows, start);
+  const bool holds = rows.are_met(start);
   const bool as_stated = std::all_of(stated.begin(), stated.end(), met);
   std::vector<Condition> conditions;
-  if (!holds || !as_stated) conditions = constraint_conditions(rows);
+  if (!holds || !as_stated) conditions = rows.conditions();
   const std::size_t constraints = conditions.size();
   const double tolerance =
       std::max(contradicting_velocity, op.initial_conditions.velocity_error.value_or(100 * op.redundancy_tolerance));
@@ -366,7 +403,7 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
     velocity = contradicted ? start : std::move(kept->velocity);
     for (int pass = 0; pass < (contradicted ? 2 : 1); ++pass) {
       if (std::all_of(conditions.begin(), conditions.end(), met)) break;
-      auto found = nearest(system, motion, conditions, velocity);
+      auto found = nearest(system, motion, rows.rows(), conditions, velocity);
       if (!found) return tl::unexpected(found.error());
       velocity = std::move(*found);
     }
@@ -375,14 +412,62 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
     for (std::size_t k = constraints; k < conditions.size() && contradicted; ++k) {
       const double stated_value = conditions[k].value, value = stated_value + miss(conditions[k], velocity).value;
       if (follows(system, conditions[k], velocity, tolerance, unnoticed)) continue;
-      findings.warnings.warning(
-          "changed-velocity", conditions[k].at,
-          fmt::format("the initial velocity {} = {:g} contradicts the constraints and was changed to {:g}",
-                      conditions[k].text, stated_value, value));
+      warnings.warning("changed-velocity", conditions[k].at,
+                       fmt::format("the initial velocity {} = {:g} contradicts the constraints and was changed to {:g}",
+                                   conditions[k].text, stated_value, value));
     }
   }
   keep_shape(system, motion, conditions, start, tolerance, velocity);
-  op.velocity.assign(velocity.data(), velocity.data() + velocity.size());
+  return velocity;
+}
+
+// Newton's method for rows that are not affine in velocities, from those that are stated.
+Result<Eigen::VectorXd> solve_curved(const System& system, const OperatingPoint& op, const Motion& motion,
+                                     AffineRows& rows, const std::vector<Condition>& stated,
+                                     const Eigen::VectorXd& start, Diagnostics& warnings) {
+  constexpr int most = 50;
+  constexpr double unchanged = 1e-13;  // of the fastest
+  Eigen::VectorXd about = start;
+  if (!stated.empty()) {
+    if (auto from = least_change(system, motion, stated, start, contradicting_velocity))
+      about = std::move(from->velocity);
+  }
+  for (int k = 0; k < most; ++k) {
+    rows.linearize_about(about);
+    if (const std::string reason = rows.undefined(); !reason.empty())
+      return tl::unexpected(Failure{"velocity initial conditions", reason, {}, "undefined-value"});
+    Diagnostics remarks;
+    auto next = solve_affine(system, op, motion, rows, stated, start, remarks);
+    if (!next) return next;
+    if (!next->allFinite()) break;
+    const bool same = fastest_of(system, *next - about) <= unchanged * fastest_of(system, *next);
+    about = std::move(*next);
+    if (!same) continue;
+    warnings.append(std::move(remarks));
+    return about;
+  }
+  Failure f{"velocity initial conditions",
+            "no velocities were found that meet constraints which are not linear in them; stated velocities near them "
+            "help",
+            {},
+            "curved-velocity-constraints"};
+  return tl::unexpected(std::move(f));
+}
+
+Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std::vector<Condition>& stated,
+                             const Eigen::VectorXd& start, Findings& findings) {
+  OperatingPoint rest = op;
+  std::fill(rest.velocity.begin(), rest.velocity.end(), 0.0);
+  std::fill(rest.acceleration.begin(), rest.acceleration.end(), 0.0);
+  const Motion motion = system.motion(rest);
+  AffineRows rows(system, rest);
+  const bool curved = rows.are_curved();
+  if (const std::string reason = rows.undefined(); !curved && !reason.empty())
+    return tl::unexpected(Failure{"velocity initial conditions", reason, {}, "undefined-value"});
+  const auto velocity = curved ? solve_curved(system, op, motion, rows, stated, start, findings.warnings)
+                               : solve_affine(system, op, motion, rows, stated, start, findings.warnings);
+  if (!velocity) return tl::unexpected(velocity.error());
+  op.velocity.assign(velocity->data(), velocity->data() + velocity->size());
   return op;
 }
 
