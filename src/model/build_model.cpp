@@ -135,6 +135,9 @@ class Builder {
             .notes.push_back({set->labels.front().at, "the first one is here"});
         continue;
       }
+      if (kind->role == Kind::Role::singleton && s.id)
+        diagnostics_.warning("stray-id", s.at,
+                             fmt::format("{} exists once and takes no id: /{} means nothing", s.name, *s.id));
       // What has no effect of its own may be named all the same: the GRAPHICS of a CONTACT.
       const bool has_id = needs_id || (is_beside_model(*kind) && s.id);
       if (has_id && !register_id(*kind, label, *set, s, preceding, ground)) continue;

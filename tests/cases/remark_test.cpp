@@ -72,6 +72,7 @@ const std::vector<Remark>& table() {
        "LINEAR/EIGENSOL\n"},
       {"not-in-request-file", 0, SLIDER(BODY) "OUTPUT/REQSAVE\nREQUEST/1, F1=1\nEND\n", "LINEAR/EIGENSOL\n"},
       {"request-left-out", 8, SLIDER(BODY) "REQUEST/1, VELOCITY\nEND\n", "LINEAR/EIGENSOL\n"},
+      {"stray-id", 8, SLIDER(BODY) "ACCGRAV/1, KGRAV=-1\nEND\n", "LINEAR/EIGENSOL\n"},
       {"undefined-request", 0, SLIDER(BODY) "REQUEST/1, F2=LOG(-1*DZ(20))\nEND\n", "LINEAR/EIGENSOL\n"},
       {"options-disagree", 0, SLIDER(BODY) "END\n", "LINEAR/EIGENSOL, RM=1, ORIGINAL\n"},
       {"overdamped-modes", 0, SLIDER(BODY) "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, K=1, C=9, LENGTH=1\nEND\n",

@@ -301,6 +301,8 @@ const std::vector<Wrong>& table() {
     {Place::added, "PART/9, MASS=1, CM=90, IM=20\nMARKER/90, PART=9", {"foreign-marker 10:1"}},
     {Place::added, "MARKER/9, PART=2, USEXP, ZP=0,0,1", {"missing-argument 10:19"}},
     {Place::added, "MARKER/9, PART=2, ZP=1,0,0, USEXP, XP=2,0,0", {"degenerate-orientation 10:19"}},
+    {Place::added, "MARKER/9, PART=2, XP=0,0,2", {"degenerate-orientation 10:19"}},
+    {Place::added, "MARKER/9, PART=2, QP=1,1,0, XP=1,1,-3", {"degenerate-orientation 10:29"}},
     {Place::added, "PART/9, GROUND\nPART/10, GROUND", {"duplicate-ground 10:1", "duplicate-ground 11:1"}},
     {Place::added, "JOINT/1, FIXED, I=20, J=1", {"duplicate-id 10:1"}},
     {Place::added, "MARKER/20, PART=1", {"duplicate-id 10:1"}},

@@ -25,12 +25,12 @@ std::optional<Matrix3> orientation(const WrittenOrientation& w, const Vector& or
     reader.error("degenerate-orientation", reader.at(argument), std::move(what));
     return std::nullopt;
   };
-  // The leading axis runs through the exact point, the other point fixes the plane.
-  const bool x_leads = w.x_exact || !w.z_point;
+  // The leading axis runs through the exact point, the other point fixes the plane. Without ZP z stays what it is.
+  const bool x_leads = w.x_exact;
+  if (x_leads && !w.x_point) return fail(w.z_name, fmt::format("USEXP needs {}", w.x_name));
   const std::string_view lead_name = x_leads ? w.x_name : w.z_name;
   const auto& lead_point = x_leads ? w.x_point : w.z_point;
-  if (!lead_point) return fail(w.z_name, fmt::format("USEXP needs {}", w.x_name));
-  const Vector lead = *lead_point - origin;
+  const Vector lead = lead_point ? *lead_point - origin : Vector{0, 0, 1};
   if (norm(lead) == 0.0) {
     return fail(lead_name, fmt::format("{} of {} coincides with the origin", lead_name, reader.label().text()));
   }
@@ -44,6 +44,9 @@ std::optional<Matrix3> orientation(const WrittenOrientation& w, const Vector& or
   }
   const Vector normal = x_leads ? cross(towards, axis) : cross(axis, towards);
   if (norm(normal) <= degenerate * norm(towards) || norm(towards) == 0.0) {
+    if (!lead_point)
+      return fail(w.x_name, fmt::format("{} of {} is on the z axis, which stays as it is without {}", w.x_name,
+                                        reader.label().text(), w.z_name));
     return fail(x_leads ? w.z_name : w.x_name, fmt::format("{} and {} of {} lie on one line with the origin", w.z_name,
                                                            w.x_name, reader.label().text()));
   }
