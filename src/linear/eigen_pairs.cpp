@@ -106,14 +106,41 @@ void split_pairs_of_equal_values(EigenPairs& pairs) {
 }
 
 std::vector<std::size_t> printed_order(const std::vector<std::complex<double>>& values) {
+  constexpr double tie = 1e-10;
+  const auto key = [](const std::complex<double>& v) { return v.imag() == 0 ? std::abs(v.real()) : v.imag(); };
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     const std::complex<double> x = values[a], y = values[b];
     const bool x_real = x.imag() == 0, y_real = y.imag() == 0;
     if (x_real != y_real) return x_real;
-    return x_real ? std::abs(x.real()) < std::abs(y.real()) : x.imag() < y.imag();
+    return key(x) < key(y);
   });
+  // Values that differ by rounding alone come in no order that another way to compute them would have: those that are
+  // as far from zero, ±σ or ±σ + jω, are listed by their real part.
+  const auto at = [&](std::size_t k) { return values[order[k]]; };
+  const auto tied = [&](std::size_t k, std::size_t first) {
+    return (at(k).imag() == 0) == (at(first).imag() == 0) && key(at(k)) - key(at(first)) <= tie * std::abs(at(first));
+  };
+  for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
+    for (end = first + 1; end < order.size() && tied(end, first);) ++end;
+    const auto begin_of_ties = order.begin() + static_cast<std::ptrdiff_t>(first),
+               end_of_ties = order.begin() + static_cast<std::ptrdiff_t>(end);
+    // Equal ones keep the order in which they came.
+    std::vector<double> real;
+    for (std::size_t k = first; k < end; ++k) real.push_back(at(k).real());
+    std::sort(real.begin(), real.end());
+    const double unit = tie * std::abs(at(first));
+    const auto rank = [&](std::size_t k) {
+      double lowest = real.front();
+      for (const double x : real) {
+        if (x > values[k].real()) break;
+        if (x - lowest > unit) lowest = x;
+      }
+      return lowest;
+    };
+    std::stable_sort(begin_of_ties, end_of_ties, [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  }
   return order;
 }
 

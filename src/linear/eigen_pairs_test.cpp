@@ -106,5 +106,19 @@ TEST(eigen_pairs, slow_pairs_stay_pairs) {
   EXPECT_EQ(certain.values.size(), 2u);
 }
 
+// Reals before pairs, by size, then the negative one; what differs by rounding alone keeps its order.
+TEST(eigen_pairs, are_listed_in_one_order_however_they_were_found) {
+  using Complex = std::complex<double>;
+  const std::vector<Complex> values = {
+      {0.3, 2}, {2, 0}, {-0.3, 2 * (1 + 1e-14)}, {-2 * (1 + 1e-15), 0}, {-1, 0}, {1e-17, 1}, {-1e-17, 1}, {5, 1}};
+  const std::vector<std::size_t> expected = {4, 3, 1, 5, 6, 7, 2, 0};
+  EXPECT_EQ(printed_order(values), expected);
+  std::vector<Complex> back(values.rbegin(), values.rend());
+  std::vector<std::size_t> found = printed_order(back);
+  for (std::size_t& k : found) k = values.size() - 1 - k;
+  std::swap(found[3], found[4]);  // of rounding
+  EXPECT_EQ(found, expected);
+}
+
 }  // namespace
 }  // namespace dynalin::eigen_pairs_test

@@ -90,8 +90,9 @@ struct AlongStates {
 
 // Coordinates without mass that follow from a balance of forces are no states: they go along with those that are,
 // x = T s, x′ = T s′ + T′ s, in the physical matrices and from the left, where their balance vanishes.
-Result<AlongStates> along_states(const System& system, const LinearSystem& linear, const std::vector<Index>& position) {
-  auto physical = PhysicalEquations::make(system, linear);
+Result<AlongStates> along_states(const System& system, const LinearSystem& linear, const std::vector<Index>& position,
+                                 DampingOfForces damping) {
+  auto physical = PhysicalEquations::make(system, linear, damping);
   if (!physical) return tl::unexpected(physical.error());
   const MotionMap& Q = physical->whole().force;
   const double factor = system.model().units.ucf;
@@ -111,6 +112,28 @@ Result<AlongStates> along_states(const System& system, const LinearSystem& linea
   const Matrix left = factor * T.transpose();
   return AlongStates{left * Q.of_accelerations * T, left * Q.of_rates * T,
                      left * (Q.of_coordinates * T + Q.of_rates * T_rate)};
+}
+
+// Rates and accelerations at the point of the states that are coordinates.
+struct StateMotion {
+  Eigen::VectorXd rate, acceleration;
+};
+StateMotion motion_of_states(const OperatingPoint& op, const StateChoice& choice, const std::vector<Index>& position) {
+  const auto n = static_cast<Index>(position.size());
+  StateMotion motion{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
+  for (std::size_t k = 0; k < choice.coordinates.size(); ++k) {
+    const auto at = std::ranges::find(position, static_cast<Index>(choice.position_state[k]));
+    if (at == position.end()) continue;
+    double& rate = motion.rate(at - position.begin());
+    double& acceleration = motion.acceleration(at - position.begin());
+    if (const auto& x = choice.along_motion[k]) rate = x->rate;
+    for (const StateChoice::Entry& e : choice.gradient[k]) {
+      const auto q = static_cast<std::size_t>(e.column);
+      if (!choice.along_motion[k]) rate += e.c.g * op.velocity[q];
+      acceleration += e.c.g * op.acceleration[q] + e.c.v * op.velocity[q];
+    }
+  }
+  return motion;
 }
 
 // Numbers of modes whose shapes span the coordinates, vibrations before real modes. A shape that differs from earlier
@@ -166,16 +189,20 @@ Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint
   const MassRoot root(system, op);
   const Matrix B = root.of(linear.velocities(Matrix::Identity(states, states)(Eigen::all, rate)).real());
   const Matrix M = B.transpose() * B;
-  const auto along = along_states(system, linear, position);
+  const auto along = along_states(system, linear, position, DampingOfForces::as_linearized);
   if (!along) return tl::unexpected(along.error());
   const Matrix &C = along->C, &K = along->K;
-  // Rates and accelerations of the coordinates are those of the bodies, seen in their mass.
-  const auto seen = [&](const std::vector<double>& of_bodies) {
-    const Matrix column = Eigen::Map<const Eigen::VectorXd>(of_bodies.data(), static_cast<Index>(of_bodies.size()));
-    return Eigen::VectorXd(B.completeOrthogonalDecomposition().solve(Eigen::VectorXd(root.of(column).col(0))));
-  };
-  const Eigen::VectorXd v = seen(op.velocity), a = seen(op.acceleration);
-  const Eigen::VectorXd x = K.completeOrthogonalDecomposition().solve(Eigen::VectorXd(-(along->M * a + C * v)));
+  const auto [v, a] = motion_of_states(op, linear.at->choice, position);
+  // The accelerations are those of all forces, also where the linear model leaves their damping out.
+  Eigen::VectorXd balance = along->M * a;
+  if (linear.at->without_damping) {
+    const auto damped = along_states(system, linear, position, DampingOfForces::whole);
+    if (!damped) return tl::unexpected(damped.error());
+    balance += damped->C * v;
+  } else {
+    balance += C * v;
+  }
+  const Eigen::VectorXd x = K.completeOrthogonalDecomposition().solve(-balance);
 
   // Rows by the root of their mass, so that lengths and angles compare.
   const Eigen::VectorXd unit = M.diagonal().cwiseSqrt().unaryExpr([](double m) { return m > 0 ? m : 1.0; });

@@ -15,6 +15,9 @@ namespace dynalin {
 struct PerturbedPoint {
   PerturbedPoint(const System&, const OperatingPoint&, const LinearOptions&);
 
+  // What damping that NODAMPIN leaves out of forces does to outputs, directly or through other values: rows are
+  // outputs, columns rates of all coordinates. Empty where nothing is left out.
+  ColumnMatrix damping_in_outputs() const;
   // What outputs see of all unknowns a, a row each, and of columns of them (perturbation.h).
   ColumnMatrix outputs_by_unknowns(const PerturbationEquations&) const;
   Eigen::MatrixXd outputs_of(const PerturbationEquations&, const Eigen::MatrixXd& columns) const;

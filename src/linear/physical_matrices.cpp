@@ -34,7 +34,7 @@ MotionMap& MotionMap::operator+=(const MotionMap& other) {
 
 class PhysicalEquations::Assembly {
  public:
-  Assembly(const System& system, const Perturbation& perturbation)
+  Assembly(const System& system, const Perturbation& perturbation, DampingOfForces damping)
       : system_(system),
         augmented_(system),
         at_(*perturbation.at),
@@ -44,6 +44,7 @@ class PhysicalEquations::Assembly {
         cut_(system.layout().algebraic.size(), false) {
     for (const std::int32_t u : at_.inputs) cut_[static_cast<std::size_t>(u)] = true;
     out_.at_ = perturbation.at;
+    out_.without_damping_ = at_.without_damping && damping == DampingOfForces::as_linearized;
     whole().inputs = perturbation.model.inputs, whole().outputs = perturbation.model.outputs;
   }
 
@@ -153,7 +154,7 @@ class PhysicalEquations::Assembly {
     };
     subtract(PartialBy::position, v.dq);
     subtract(PartialBy::velocity, v.dqdot);
-    if (!at_.without_damping) subtract(PartialBy::damping, v.dqdot);
+    if (!out_.without_damping_) subtract(PartialBy::damping, v.dqdot);
     subtract(PartialBy::state, v.dz);
     std::vector<Triplet> by_rates, by_positions;
     const auto hold = [&](Index row, const auto& gradient) {
@@ -197,18 +198,15 @@ class PhysicalEquations::Assembly {
       state_rate.row(k) = v.dz_rate.row(choice_.differential[static_cast<std::size_t>(k)]);
     whole().state_rate = out_.split(state_rate);
     for (std::size_t k = 0; k < at_.outputs.size(); ++k) output.row(static_cast<Index>(k)) = v.dw.row(at_.outputs[k]);
-    if (at_.without_damping) see_damping(output);
+    if (out_.without_damping_) see_damping(output);
     whole().output = out_.split(output);
     return true;
   }
 
   // Outputs keep what they see of velocities where damping is left out.
   void see_damping(Matrix& outputs) const {
-    for_each_entry(eq_.matrix(PartialBy::damping), [&](std::int32_t r, std::int32_t c, double value) {
-      for (std::size_t k = 0; k < at_.outputs.size(); ++k) {
-        if (r == eq_.algebraic_row(at_.outputs[k]))
-          outputs.row(static_cast<Index>(k)) -= value * out_.variations_.dqdot.row(c);
-      }
+    for_each_entry(at_.damping_in_outputs(), [&](std::int32_t output, std::int32_t rate, double value) {
+      outputs.row(output) += value * out_.variations_.dqdot.row(rate);
     });
   }
 
@@ -222,8 +220,9 @@ class PhysicalEquations::Assembly {
   PhysicalEquations out_;
 };
 
-Result<PhysicalEquations> PhysicalEquations::make(const System& system, const Perturbation& perturbation) {
-  return Assembly(system, perturbation).run();
+Result<PhysicalEquations> PhysicalEquations::make(const System& system, const Perturbation& perturbation,
+                                                  DampingOfForces damping) {
+  return Assembly(system, perturbation, damping).run();
 }
 
 MotionMap PhysicalEquations::split(const Matrix& by_all) const {
@@ -279,7 +278,7 @@ MotionMap PhysicalEquations::of(const ElementLabel& label) const {
         at_->trace().partials.begin() + static_cast<std::ptrdiff_t>(at_->trace().elements[e].first_partial),
         at_->trace().partials.begin() + static_cast<std::ptrdiff_t>(at_->trace().end_of_partials(e)));
     std::erase_if(partials, [&](const ElementTrace::Partial& p) {
-      return p.row >= n || (at_->without_damping && p.family == PartialBy::damping);
+      return p.row >= n || (without_damping_ && p.family == PartialBy::damping);
     });
     std::stable_sort(partials.begin(), partials.end(), [](const auto& a, const auto& b) { return a.row < b.row; });
     for (std::size_t k = 0; k < partials.size();) {

@@ -22,10 +22,14 @@
 
 namespace dynalin {
 
+// NODAMPIN leaves the damping of forces out of a linear model: as it does, or what forces have all the same.
+enum class DampingOfForces : std::uint8_t { as_linearized, whole };
+
 class PhysicalEquations {
  public:
   // Coordinates without mass stay what they are: their rows and columns of M are zero.
-  static Result<PhysicalEquations> make(const System&, const Perturbation&);
+  static Result<PhysicalEquations> make(const System&, const Perturbation&,
+                                        DampingOfForces = DampingOfForces::as_linearized);
 
   const PhysicalMatrices& whole() const { return whole_; }
   // Elements that contribute, in the order of the model; the labels are those of the system.
@@ -47,6 +51,7 @@ class PhysicalEquations {
 
   PhysicalMatrices whole_;
   Eigen::MatrixXd velocities_;  // V
+  bool without_damping_ = false;
   Variations variations_;
   std::shared_ptr<const PerturbedPoint> at_;
 };

@@ -7,6 +7,7 @@
 
 #include <optional>
 
+#include "base/time_taylor.h"
 #include "linear/candidates.h"
 #include "system/sparse_lu.h"
 
@@ -19,9 +20,11 @@ struct RedundantRows {
 };
 
 struct StateChoice {
-  using Entry = ConstraintRows::Entry;        // of the gradient of a chosen coordinate
-  std::vector<StateCoordinate> coordinates;   // the chosen ones, in the order in which they are wanted
-  std::vector<std::vector<Entry>> gradient;   // x = gradient · q, along the motion
+  using Entry = ConstraintRows::Entry;       // of the gradient of a chosen coordinate
+  std::vector<StateCoordinate> coordinates;  // the chosen ones, in the order in which they are wanted
+  std::vector<std::vector<Entry>> gradient;  // x = gradient · q, along the motion
+  // x with its rate and acceleration at the point, of a coordinate of the user: TIME may move it as well.
+  std::vector<std::optional<Taylor>> along_motion;
   std::vector<bool> has_position;             // whether x is a state; without mass its forces may determine it
   std::vector<bool> has_rate;                 // whether x′ is a state as well
   std::vector<bool> active, velocity_active;  // rows that hold positions, and rates

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "linear/perturbed_point.h"
 #include "mechanics/pair_blocks.h"
@@ -155,8 +156,12 @@ class OpenBox {
 
   void add_velocities() {
     const auto& bodies = system_.layout().bodies;
+    // A freedom that a relation gives has no initial condition of its own.
+    std::set<Dof> dependent;
+    for (const Relation& r : deck_.relations) dependent.insert(r.terms.front().dof);
     const auto add = [&](std::int32_t body, const ElementLabel& label, Dof dof, double velocity) {
-      if (velocity != 0.0) deck_.initial_states.push_back({{body, name_of(label, options_)}, dof, 0, velocity});
+      if (velocity != 0.0 && !dependent.contains(dof))
+        deck_.initial_states.push_back({{body, name_of(label, options_)}, dof, 0, velocity});
     };
     for (std::size_t b = 1; b < bodies.size(); ++b) {
       const BodyMotion& m = at_.motion.bodies[b];

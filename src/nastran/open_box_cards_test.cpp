@@ -123,6 +123,19 @@ TEST(OpenBoxCards, forces_that_are_singled_out_have_matrices_of_their_own) {
   EXPECT_EQ(refused({"sforce", 77, "", "SEVENTY"}), "");
 }
 
+// A hinge as relations makes places of the pendulum dependent: its velocity at the start is that of its angle.
+TEST(OpenBoxCards, initial_conditions_are_those_of_independent_freedoms) {
+  ExportOptions options;
+  options.use_rjoints = false;
+  const Deck deck = box_of(linearization_of("PART/2, MASS=1, CM=20, IP=1,1,1, WZ=2\nMARKER/20, QP=0,-1,0\nMARKER/21\n"
+                                            "JOINT/1, REVOLUTE, I=21, J=1\n",
+                                            Start::as_stated),
+                           options);
+  ASSERT_EQ(deck.initial_states.size(), 1u);
+  EXPECT_EQ(deck.initial_states[0].dof.component, 6);
+  EXPECT_EQ(deck.initial_states[0].velocity, 2);
+}
+
 TEST(OpenBoxCards, damping_is_left_out_where_it_is_not_wanted) {
   const std::string further =
       "DIFF/1, FUNCTION=-3*DIF(1)+2*DX(30)-VY(20)\n"

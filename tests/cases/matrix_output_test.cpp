@@ -1,6 +1,8 @@
 // What STATEMAT, MKB and EIGENSOL leave behind in the results file, the message file and the JSON.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "cases/run.h"
 
 namespace dynalin::cases::matrix_output_test {
@@ -39,6 +41,29 @@ TEST_F(MatrixOutput, results_file_has_the_state_matrices_with_options_and_channe
               HasSubstr("<dl:Linear option=\"STATEMAT\" time=\"0\" rm=\"0\" pstate=\"0\" pinput=\"5\" poutput=\"6\""));
   EXPECT_THAT(res, HasSubstr("<dl:Inputs>"));
   EXPECT_THAT(run(model, "LINEAR/STATEMAT, FILE=m\n").text("model.res"), Not(HasSubstr("<dl:Inputs>")));
+}
+
+// NODAMPIN takes damping out of forces. An output sees velocities all the same, through other VARIABLEs too; one that
+// is an input as well is independent of everything.
+TEST_F(MatrixOutput, outputs_see_velocities_that_damp_nothing) {
+  const std::string seen =
+      "seen\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,1,1\nMARKER/20\n"
+      "JOINT/1, TRANSLATIONAL, I=20, J=1\nVARIABLE/5, FUNCTION=-6*DZ(20)-VZ(20)+4\nVARIABLE/6, FUNCTION=2*VARVAL(7)\n"
+      "VARIABLE/7, FUNCTION=3*VARVAL(8)+DZ(20)\nVARIABLE/8, FUNCTION=VZ(20)\n"
+      "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=-8*DZ(20)-VARVAL(8)+VARVAL(5)\n"
+      "PINPUT/5, VARIABLES=5\nPOUTPUT/6, VARIABLES=5,6,8\nEND\n";
+  for (const std::string command : {"STATEMAT", "MKB"}) {
+    const RunResult r = run(seen, "LINEAR/" + command + ", PINPUT=5, POUTPUT=6, NODAMPIN, FILE=m\n");
+    ASSERT_EQ(r.status, 0) << r.err;
+    auto C = r.matrix(0, "C");
+    ASSERT_EQ(C.size(), 3u);
+    for (auto& row : C) std::sort(row.begin(), row.end());
+    EXPECT_THAT(C[0], ::testing::Each(0.0)) << command;
+    EXPECT_EQ(C[1], (std::vector<double>{2, 6})) << command;
+    EXPECT_EQ(C[2], (std::vector<double>{0, 1})) << command;
+  }
+  const RunResult r = run(seen, "LINEAR/EIGENSOL, NODAMPIN\n");
+  EXPECT_EQ(r.eigenvalues(0)[0].real(), 0);
 }
 
 TEST_F(MatrixOutput, json_of_the_second_order_form_has_stiffness_and_damping_side_by_side) {

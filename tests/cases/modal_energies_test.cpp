@@ -263,6 +263,88 @@ TEST_F(ModalEnergies, of_differential_states_alone_are_none) {
   }
 }
 
+// An arm that is driven at 4, a slider of 3 at 2 on it with u′ = 2, on a spring of 300 and a damper of 6 with v = u′:
+// in u on the arm M = 3, C = 6, K = 300 − 3 · 16, and 3 u″ = 3 · 16 u − 300 (u − 1) − 6 u′ of u = 2.
+TEST_F(ModalEnergies, along_an_axis_that_is_driven) {
+  const std::string text =
+      "Driven\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=2, IP=1,1,1\nMARKER/2\n"
+      "MARKER/21, REULER=90D,90D,0\nPART/3, MASS=3, CM=30, IP=1,1,1, QG=2,0,0, VX=2\nMARKER/30\n"
+      "MARKER/31, REULER=90D,90D,0\nJOINT/1, REVOLUTE, I=2, J=1\nJOINT/2, TRANSLATIONAL, I=31, J=21\n"
+      "MOTION/1, ROTATIONAL, JOINT=1, FUNCTION=4*TIME\n"
+      "SPRINGDAMPER/1, TRANSLATIONAL, I=31, J=2, K=300, C=6, LENGTH=1\nEND\n";
+  const double a = 16 * 2 - 100 * 1.0 - 2 * 2, x = (3 * a + 6 * 2) / 252;
+  for (const std::string coordinates : {"RM=2, ", ""}) {
+    const auto sum = row(tables(text, coordinates + "ENERGY_PER_MODE=ALL"), "Energies per mode", "Sum");
+    EXPECT_NEAR(sum[0], 0.5 * 3 * 2 * 2, 1e-11) << coordinates;
+    EXPECT_NEAR(sum[4], 6 * 2 * 2, 1e-11) << coordinates;
+    if (!coordinates.empty()) EXPECT_NEAR(sum[2], 0.5 * 252 * x * x, 1e-10);
+  }
+}
+
+// The same wherever the BCS of the slider is: mass centre 10 out on an arm that turns freely at 10.
+TEST_F(ModalEnergies, whatever_bodies_are_referred_to) {
+  const auto potential = [&](const std::string& slider, const std::string& cm, const std::string& guide) {
+    return row(tables("Slider\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/6\nPART/2, MASS=3, CM=7, IP=10,10,10, WZ=10\n"
+                      "MARKER/5\nMARKER/7, QP=1,0,0\nMARKER/10, REULER=90D,90D,0\nPART/3, MASS=3, CM=8, IP=10,10,10, "
+                      "WZ=10" +
+                          slider + "\nMARKER/8, QP=" + cm + ",0,0\nMARKER/9, QP=" + guide +
+                          ",0,0, REULER=90D,90D,0\nJOINT/1, REVOLUTE, I=5, J=6\nJOINT/2, TRANSLATIONAL, I=9, J=10\n"
+                          "SPRINGDAMPER/1, TRANSLATIONAL, I=6, J=8, K=5, LENGTH=10\nEND\n",
+                      "RM=5, ENERGY_PER_MODE=ALL"),
+               "Energies per mode", "Sum")[2];
+  };
+  // 3 u″ = 3 ω² u and the Coriolis torque of it: K = 5 − 300, M u″ + C φ′ = 3000 − 6000.
+  const double x = 3000.0 / 295;
+  EXPECT_NEAR(potential("", "10", "0"), -0.5 * 295 * x * x, 1e-7);
+  EXPECT_NEAR(potential(", QG=10,0,0, VX=0, VY=100", "0", "-10"), -0.5 * 295 * x * x, 1e-7);
+}
+
+// A pendulum of length 1 at 45 degrees with a rate of 2, in x = sin φ: with c = cos φ it is
+// Q = x″/c² + x′² x/c⁴ + 10 x/c, and x″ = −10 sin φ cos φ − 4 sin φ.
+TEST_F(ModalEnergies, in_a_coordinate_that_bends) {
+  const double c = std::sqrt(0.5), x = c, v = 2 * c, a = -10 * x * c - 4 * x, c2 = c * c, c4 = c2 * c2;
+  const double M = 1 / c2, C = 2 * v * x / c4,
+               K = 2 * a * x / c4 + v * v * (1 / c4 + 4 * x * x / (c4 * c2)) + 10 * (1 / c + x * x / (c * c2));
+  const double off = (M * a + C * v) / K;
+  const auto sum = row(tables("Pendulum\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-10\nPART/1, GROUND\nMARKER/1\n"
+                              "PART/2, MASS=1, CM=20, IP=0,0,0, REULER=45D,0,0, WZ=2\nMARKER/20, QP=0,-1,0\nMARKER/21\n"
+                              "JOINT/1, REVOLUTE, I=21, J=1\nVARIABLE/1, FUNCTION=DX(20)\nPSTATE/1, VARIABLES=1\nEND\n",
+                              "PSTATE=1, ENERGY_PER_MODE=ALL"),
+                       "Energies per mode", "Sum");
+  EXPECT_NEAR(sum[0], 0.5 * M * v * v, 1e-12);
+  EXPECT_NEAR(sum[2], 0.5 * K * off * off, 1e-11);
+  EXPECT_NEAR(sum[4], C * v * v, 1e-11);
+}
+
+// x moves along with TIME: seen from where 3 TIME is, the mass comes back at 3 − 1.
+TEST_F(ModalEnergies, in_a_coordinate_that_time_moves) {
+  const auto sum =
+      row(tables("Bead\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,1,1, VZ=1\n"
+                 "MARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
+                 "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=-5*DZ(20)\n"
+                 "VARIABLE/1, FUNCTION=DZ(20)-3*TIME\nPSTATE/1, VARIABLES=1\nEND\n",
+                 "PSTATE=1, ENERGY_PER_MODE=ALL"),
+          "Energies per mode", "Sum");
+  EXPECT_NEAR(sum[0], 0.5 * 2 * 4, 1e-12);
+}
+
+// Two masses that stand 0.1 from rest: what holds them there does not depend on damping.
+TEST_F(ModalEnergies, potential_energy_is_the_same_without_damping) {
+  const std::string text =
+      "Two\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, REULER=90D,90D,0\nMARKER/3, QP=-1,0,0\n"
+      "PART/2, MASS=1, CM=2, IP=1,1,1, VX=1\nMARKER/2\nMARKER/21, REULER=90D,90D,0\n"
+      "PART/4, MASS=1, CM=4, IP=1,1,1, VX=3\nMARKER/4, QP=1,0,0\nMARKER/41, QP=1,0,0, REULER=90D,90D,0\n"
+      "JOINT/1, TRANSLATIONAL, I=21, J=1\nJOINT/2, TRANSLATIONAL, I=41, J=1\n"
+      "SPRINGDAMPER/1, TRANSLATIONAL, I=2, J=3, K=100, C=10, LENGTH=1.1\n"
+      "SPRINGDAMPER/2, TRANSLATIONAL, I=2, J=4, K=100, C=1, LENGTH=1\nEND\n";
+  for (const std::string damping : {"", "NODAMPIN, "}) {
+    const auto sum = row(tables(text, damping + "ENERGY_PER_MODE=ALL"), "Energies per mode", "Sum");
+    EXPECT_NEAR(sum[0], 0.5 * (1 + 9), 1e-12) << damping;
+    EXPECT_NEAR(sum[2], 0.5 * 100 * 0.1 * 0.1, 1e-12) << damping;
+    EXPECT_NEAR(sum[4], damping.empty() ? 10 * 1 + 1 * 4 : 0, 1e-12) << damping;
+  }
+}
+
 TEST_F(ModalEnergies, velocity_constraints_are_refused) {
   const RunResult r =
       run("Sleigh\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,1,1, "
