@@ -10,6 +10,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "model/restated.h"
 #include "system/system.h"
 
 namespace dynalin {
@@ -26,24 +27,22 @@ struct Findings {
 // Of coordinates outside bodies in the least change of positions and velocities, beside 1 for those of bodies.
 inline constexpr double follower_weight = 1e-16;
 
-// Whether what elements ask of the start (IC of joints) is to hold as well.
-enum class Starts : bool { ignored, held };
+// What of the statements about the start holds is said by the last argument of each: nothing where it is left out.
+//
 // Moves the poses onto the constraints by the least change; a consistent point comes back untouched.
-Result<OperatingPoint> assemble_position(const System&, OperatingPoint start, Findings&, Starts = Starts::ignored);
+Result<OperatingPoint> assemble_position(const System&, OperatingPoint start, Findings&, const Restated& = {});
 // Velocities by the dataset's initial conditions.
 Result<OperatingPoint> initial_velocity(const System&, OperatingPoint, Findings&);
 // Velocities of least change from those of the point itself.
-Result<OperatingPoint> reconcile_velocity(const System&, OperatingPoint, Findings&);
+Result<OperatingPoint> reconcile_velocity(const System&, OperatingPoint, Findings&, const Restated& = {});
 // Accelerations and everything that follows from poses, velocities and states.
 Result<OperatingPoint> solve_acceleration(const System&, OperatingPoint, Findings&);
 
-// Whose velocities hold as far as they can: those that the dataset states, or those of the point.
-enum class Velocities : bool { stated, kept };
 enum class Level { position, velocity, acceleration };
 // Called as each level begins and when it is done.
 using LevelWatch = std::function<void(Level, bool done)>;
 // The three levels in turn, with a word on what assembly moves.
-Result<OperatingPoint> initial_conditions(const System&, const OperatingPoint& from, Starts, Velocities, Findings&,
+Result<OperatingPoint> initial_conditions(const System&, const OperatingPoint& from, const Restated&, Findings&,
                                           const LevelWatch& = {});
 // From the model as drawn, by all that the dataset states.
 Result<OperatingPoint> initial_conditions(const System&, Findings&);

@@ -24,7 +24,7 @@ TEST(InitialConditions, take_one_level_after_the_other) {
   const auto system = system_of(hinged(0));
   Findings findings;
   std::vector<std::pair<Level, bool>> seen;
-  ASSERT_TRUE(initial_conditions(*system, system->drawn(), Starts::held, Velocities::stated, findings,
+  ASSERT_TRUE(initial_conditions(*system, system->drawn(), Restated::all(), findings,
                                  [&](Level level, bool done) { seen.emplace_back(level, done); }));
   EXPECT_THAT(seen, ElementsAre(Pair(Level::position, false), Pair(Level::position, true), Pair(Level::velocity, false),
                                 Pair(Level::velocity, true), Pair(Level::acceleration, false),
@@ -36,7 +36,7 @@ TEST(InitialConditions, end_at_the_level_that_fails) {
   const auto system = system_of(hinged(0) + "MARKER/2, PART=1, QP=0,0,1\nJOINT/2, SPHERICAL, I=21, J=2\n");
   Findings findings;
   std::vector<std::pair<Level, bool>> seen;
-  EXPECT_FALSE(initial_conditions(*system, system->drawn(), Starts::held, Velocities::stated, findings,
+  EXPECT_FALSE(initial_conditions(*system, system->drawn(), Restated::all(), findings,
                                   [&](Level level, bool done) { seen.emplace_back(level, done); }));
   EXPECT_THAT(seen, ElementsAre(Pair(Level::position, false)));
 }
@@ -48,16 +48,20 @@ TEST(InitialConditions, say_what_assembly_moves) {
   EXPECT_THAT(findings.warnings.items()[0].message, HasSubstr("JOINT/1"));
 }
 
-TEST(InitialConditions, keep_velocities_or_begin_with_those_of_the_dataset) {
+TEST(InitialConditions, keep_velocities_but_for_those_that_are_stated) {
   const auto system = system_of(hinged(0));
   Findings findings;
   OperatingPoint turning = system->drawn();
   turning.velocity = {0, 5, 0, 0, 0, 5};
-  const auto of = [&](Velocities velocities) {
-    return initial_conditions(*system, turning, Starts::ignored, velocities, findings).value();
+  const auto of = [&](const Restated& restated) {
+    return initial_conditions(*system, turning, restated, findings).value();
   };
   // ω² r towards the hinge
-  const auto kept = of(Velocities::kept), stated = of(Velocities::stated);
+  const auto kept = of({}), stated = of(Restated::all());
+  Restated of_another, of_it;
+  of_another.state({"PART", 3}, "WZ"), of_it.state({"PART", 2}, "WZ");
+  EXPECT_EQ(of(of_another).velocity, kept.velocity);
+  EXPECT_EQ(of(of_it).velocity, stated.velocity);
   EXPECT_NEAR(kept.velocity[5], 5, 1e-13);
   EXPECT_NEAR(kept.acceleration[0], -25, 1e-12);
   EXPECT_NEAR(stated.velocity[5], 3, 1e-13);

@@ -201,21 +201,32 @@ Stopped stop_at_ends(const Layout& layout, OperatingPoint& op, const Eigen::Vect
   return s;
 }
 
+// Which displacements that elements ask of the start hold, in their order; empty where none does.
+using Held = std::vector<bool>;
+Held held_starts(const System& system, const Restated& restated) {
+  Held held;
+  bool any = false;
+  for (const StartCondition& s : system.starts()) {
+    held.push_back(s.displacement && restated.holds(*s.owner, s.displacement_argument));
+    any = any || held.back();
+  }
+  return any ? held : Held();
+}
+
 // `held` coordinates stay; where it is empty none has to.
-Result<OperatingPoint> assemble(const System& system, OperatingPoint op, Starts starts, Ends ends,
+Result<OperatingPoint> assemble(const System& system, OperatingPoint op, const Held& starts, Ends ends,
                                 const std::vector<bool>& held = {}) {
   const Layout& layout = system.layout();
   ConstraintRows rows;
-  const std::size_t row_count = layout.row_count() + (starts == Starts::held ? system.starts().size() : 0);
-  rows.resize(layout, row_count);
+  rows.resize(layout, layout.row_count() + starts.size());
   const auto evaluate = [&] {
     const Motion motion = system.motion(op);
     system.constraints(motion, rows);
-    if (starts == Starts::ignored) return;
+    if (starts.empty()) return;
     const auto first = static_cast<std::int32_t>(layout.row_count());
     system.start_rows(motion, first, rows);
-    for (std::size_t k = 0; k < system.starts().size(); ++k) {
-      if (!system.starts()[k].displacement) rows.drop(first + static_cast<std::int32_t>(k));
+    for (std::size_t k = 0; k < starts.size(); ++k) {
+      if (!starts[k]) rows.drop(first + static_cast<std::int32_t>(k));
     }
   };
   std::optional<AssemblyWeights> weights;
@@ -327,7 +338,7 @@ double change(const System& system, const OperatingPoint& from, const OperatingP
 }
 
 // From the drawn place and, if that fails, from places all over the curves. The least change counts.
-std::optional<OperatingPoint> assemble_inside(const System& system, const OperatingPoint& drawn, Starts starts) {
+std::optional<OperatingPoint> assemble_inside(const System& system, const OperatingPoint& drawn, const Held& starts) {
   constexpr std::size_t places = 12;
   const Layout& layout = system.layout();
   std::optional<OperatingPoint> best;
@@ -369,9 +380,10 @@ std::vector<bool> exact_where_bodies_deform(const System& system) {
 
 }  // namespace
 
-Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op, Findings&, Starts starts) {
+Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op, Findings&, const Restated& restated) {
   const Layout& layout = system.layout();
-  const bool searches = starts == Starts::held && !layout.curve_points.empty();
+  const Held starts = held_starts(system, restated);
+  const bool searches = restated.is_all() && !layout.curve_points.empty();
   // A body deforms before a coordinate leaves where EXACT holds it, if that is enough.
   if (const std::vector<bool> held = exact_where_bodies_deform(system); !held.empty()) {
     auto bent = assemble(system, op, starts, Ends::passed, held);

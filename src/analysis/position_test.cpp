@@ -14,11 +14,11 @@ namespace {
 using system_test::system_of;
 using ::testing::HasSubstr;
 
-Result<OperatingPoint> assembled(const System& s, Starts starts = Starts::ignored) {
+Result<OperatingPoint> assembled(const System& s, const Restated& starts = {}) {
   Findings findings;
   return assemble_position(s, s.drawn(), findings, starts);
 }
-Result<OperatingPoint> assembled(const std::string& text, Starts starts = Starts::ignored) {
+Result<OperatingPoint> assembled(const std::string& text, const Restated& starts = {}) {
   return assembled(*system_of(text), starts);
 }
 const std::string point = "POINT_MASS/2, MASS=1, CM=20, QG=3,4,0\nMARKER/20, POINT_MASS=2\n";
@@ -92,10 +92,14 @@ TEST(Position, a_point_that_fits_comes_back_untouched) {
 TEST(Position, conditions_of_the_start_hold_only_where_they_are_asked_for) {
   const std::string slide =
       "PART/2, MASS=1, CM=20, IP=1,1,1, QG=0,0,2\nMARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1, IC=0.5,0\n";
-  const auto ignored = assembled(slide), held = assembled(slide, Starts::held);
+  const auto ignored = assembled(slide), held = assembled(slide, Restated::all());
   ASSERT_TRUE(ignored && held);
   EXPECT_EQ(ignored->poses[1].r.z, 2);
   EXPECT_NEAR(held->poses[1].r.z, 0.5, 1e-12);
+  Restated stated, of_another;
+  stated.state({"JOINT", 1}, "IC"), of_another.state({"JOINT", 2}, "IC");
+  EXPECT_NEAR(assembled(slide, stated)->poses[1].r.z, 0.5, 1e-12);
+  EXPECT_EQ(assembled(slide, of_another)->poses[1].r.z, 2);
 }
 
 TEST(Position, rows_that_contradict_each_other_are_named) {

@@ -24,8 +24,8 @@ struct Condition {
   Span at;           // of the statement
 };
 
-// What the dataset states, as conditions: the CM velocity along an axis a is a·(v + ω × c).
-std::vector<Condition> stated_velocities(const System& system, const Motion& motion) {
+// What holds of that which the dataset states, as conditions: the CM velocity along an axis a is a·(v + ω × c).
+std::vector<Condition> stated_velocities(const System& system, const Motion& motion, const Restated& restated) {
   static constexpr std::array cm_names = {"VX", "VY", "VZ"}, angular_names = {"WX", "WY", "WZ"};
   std::vector<Condition> conditions;
   const Model& model = system.model();
@@ -34,7 +34,7 @@ std::vector<Condition> stated_velocities(const System& system, const Motion& mot
     const BodyBlock& block = system.layout().bodies[b];
     const Vector c = motion.bodies[b].R * body.p_BC;
     for (std::size_t k = 0; k < 3; ++k) {
-      if (body.velocity.of_cm[k]) {
+      if (body.velocity.of_cm[k] && restated.holds(body.label, cm_names[k])) {
         const Vector a = motion.axes(system.layout().marker(body.velocity.cm_axes))[k];
         const Vector turn = cross(c, a);
         Condition s{{},
@@ -49,7 +49,7 @@ std::vector<Condition> stated_velocities(const System& system, const Motion& mot
         }
         conditions.push_back(std::move(s));
       }
-      if (body.velocity.angular[k] && block.turns()) {
+      if (body.velocity.angular[k] && block.turns() && restated.holds(body.label, angular_names[k])) {
         const MarkerId axes = body.velocity.angular_axes;  // those of the BCS, where no marker has them
         const Vector a = (axes.valid() ? motion.axes(system.layout().marker(axes)) : motion.bodies[b].R)[k];
         Condition s{{},
@@ -72,7 +72,7 @@ std::vector<Condition> stated_velocities(const System& system, const Motion& mot
   rows.begin();
   system.start_rows(motion, 0, rows);
   for (std::size_t k = 0; k < starts.size(); ++k) {
-    if (!starts[k].velocity) continue;
+    if (!starts[k].velocity || !restated.holds(*starts[k].owner, starts[k].velocity_argument)) continue;
     Condition s{{},
                 {},
                 *starts[k].velocity,
@@ -474,21 +474,28 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std:
 }  // namespace
 
 Result<OperatingPoint> initial_velocity(const System& system, OperatingPoint op, Findings& findings) {
-  const Motion motion = system.motion(op);
-  const auto stated = stated_velocities(system, motion);
-  Eigen::VectorXd start = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(system.coordinates()));
-  for (const FlexibleBody& f : flexible_bodies(system.model())) {
-    start.segment(system.layout().body_coordinate_count + static_cast<Eigen::Index>(f.first), f.flexible->modes()) =
-        f.flexible->rate;
-  }
-  start_beams(system.model(), system.layout(), motion, {start.data(), static_cast<std::size_t>(start.size())});
-  return solve(system, std::move(op), stated, start, findings);
+  return reconcile_velocity(system, std::move(op), findings, Restated::all());
 }
 
-Result<OperatingPoint> reconcile_velocity(const System& system, OperatingPoint op, Findings& findings) {
-  const Eigen::VectorXd start =
+Result<OperatingPoint> reconcile_velocity(const System& system, OperatingPoint op, Findings& findings,
+                                          const Restated& restated) {
+  Eigen::VectorXd start =
       Eigen::Map<const Eigen::VectorXd>(op.velocity.data(), static_cast<Eigen::Index>(op.velocity.size()));
-  return solve(system, std::move(op), {}, start, findings);
+  if (restated.empty()) return solve(system, std::move(op), {}, start, findings);
+  if (restated.is_all()) start.setZero();
+  const Layout& layout = system.layout();
+  const Motion motion = system.motion(op);
+  const auto stated = stated_velocities(system, motion, restated);
+  for (const FlexibleBody& f : flexible_bodies(system.model())) {
+    if (restated.holds(system.model().body(f.body).label, "VMODE"))
+      start.segment(layout.body_coordinate_count + static_cast<Eigen::Index>(f.first), f.flexible->modes()) =
+          f.flexible->rate;
+  }
+  for (const BeamBody& b : beam_bodies(system.model(), layout)) {
+    if (restated.holds_velocity(*b.label))
+      start_beam(b, system.model(), layout, motion, {start.data(), static_cast<std::size_t>(start.size())});
+  }
+  return solve(system, std::move(op), stated, start, findings);
 }
 
 }  // namespace dynalin

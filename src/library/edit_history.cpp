@@ -4,15 +4,6 @@
 
 namespace dynalin::library {
 
-namespace {
-
-void append_restated(Restated& to, const Restated& more) {
-  to.starts.insert(more.starts.begin(), more.starts.end());
-  to.velocities = to.velocities || more.velocities;
-}
-
-}  // namespace
-
 EditHistory EditHistory::after(const std::shared_ptr<const System>& from, Restated restated) const {
   EditHistory next;
   next.earlier_ = earlier_;
@@ -20,7 +11,7 @@ EditHistory EditHistory::after(const std::shared_ptr<const System>& from, Restat
     if (!e.from.expired())
       next.edits_.push_back(e);
     else
-      append_restated(next.edits_.empty() ? next.earlier_ : next.edits_.back().restated, e.restated);
+      (next.edits_.empty() ? next.earlier_ : next.edits_.back().restated).append(e.restated);
   }
   next.edits_.push_back({from, std::move(restated)});
   return next;
@@ -31,7 +22,7 @@ Restated EditHistory::restated_since(const std::shared_ptr<const System>& before
   auto first = std::find_if(edits_.begin(), edits_.end(), same);
   Restated all;
   if (first == edits_.end()) all = earlier_, first = edits_.begin();
-  for (; first != edits_.end(); ++first) append_restated(all, first->restated);
+  for (; first != edits_.end(); ++first) all.append(first->restated);
   return all;
 }
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "model/dataset_edits.h"
+#include "model/restated.h"
 #include "system/system.h"
 
 namespace dynalin::library {

@@ -15,6 +15,8 @@ struct StartCondition {
   const ElementLabel* owner = nullptr;
   std::string_view name;
   std::optional<double> displacement, velocity;
+  // Arguments that state them, by which commands may; none of a point of contact.
+  std::string_view displacement_argument{}, velocity_argument{};
 };
 
 class StartSource {

@@ -170,10 +170,12 @@ void DatasetEditor::merge(Statement& target, const Statement& command) {
 }
 
 void DatasetEditor::note_start(const Statement& command, const ArgumentInfo& argument) {
-  const StatedStart start = argument.start;
-  if (start == StatedStart::place || start == StatedStart::value)
-    restated_.starts.insert({std::string(command.name), *command.id});
-  restated_.velocities = restated_.velocities || start == StatedStart::place || start == StatedStart::velocity;
+  if (argument.start == StatedStart::nothing) return;
+  const Restated::Element element(command.name, *command.id);
+  if (argument.start == StatedStart::place || argument.start == StatedStart::value)
+    restated_.begin(element);
+  else
+    restated_.state(element, argument.name);
 }
 
 void DatasetEditor::switch_elements(const Statement& command, bool inactive, Names classes) {

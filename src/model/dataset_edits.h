@@ -2,20 +2,13 @@
 // model and into it again. A new model is made of what comes out.
 #pragma once
 
-#include <set>
 #include <string>
 #include <unordered_map>
-#include <utility>
 
 #include "model/kind_finder.h"
+#include "model/restated.h"
 
 namespace dynalin {
-
-// What was stated anew about the start.
-struct Restated {
-  std::set<std::pair<std::string, std::int64_t>> starts;  // "PART", 3: bodies and states that begin where it is stated
-  bool velocities = false;                                // and velocities of bodies count as stated
-};
 
 struct EditedDataset {
   std::shared_ptr<const Dataset> dataset;

@@ -91,30 +91,45 @@ TEST(DatasetEdits, take_what_another_argument_excludes) {
 }
 
 TEST(DatasetEdits, know_what_is_stated_of_the_start) {
+  using Arguments = std::set<std::string>;
   struct Row {
     std::string by;
-    bool starts, velocities;
+    bool anew;            // the whole element
+    Arguments arguments;  // else
   };
-  for (const auto& [by, starts, velocities] : std::vector<Row>{{"PART/1, MASS=2", false, false},
-                                                               {"PART/1, QG=1,2,3", true, true},
-                                                               {"PART/1, REULER=1,2,3", true, true},
-                                                               {"PART/1, XG=1,2,3", true, true},
-                                                               {"PART/1, WZ=1", false, true},
-                                                               {"PART/1, VM=3", false, true},
-                                                               {"POINT_MASS/1, VX=1", false, true},
-                                                               {"POINT_MASS/1, QG=1,2,3", true, true},
-                                                               {"DIFF/1, IC=1", true, false},
-                                                               {"DIFF/1, FUNCTION=1", false, false},
-                                                               {"VARIABLE/1, IC=1", true, false},
-                                                               {"MOTION/1, ICDISP=1", true, false},
-                                                               {"MOTION/1, ICVEL=1", true, false},
-                                                               {"MOTION/1, FUNCTION=1", false, false},
-                                                               {"MARKER/1, QP=1,2,3", false, false}}) {
+  for (const auto& [by, anew, arguments] :
+       std::vector<Row>{{"PART/1, MASS=2", false, {}},
+                        {"PART/1, QG=1,2,3", true, {}},
+                        {"PART/1, REULER=1,2,3", true, {}},
+                        {"PART/1, XG=1,2,3", true, {}},
+                        {"PART/1, EXACT=X:Y", false, {}},
+                        {"PART/1, WZ=1", false, {"WZ"}},
+                        {"PART/1, VX=1, wy=2", false, {"VX", "WY"}},
+                        {"PART/1, VM=3", false, {"VX", "VY", "VZ"}},
+                        {"PART/1, WM=3, VZ=1", false, {"VZ", "WX", "WY", "WZ"}},
+                        {"POINT_MASS/1, VX=1", false, {"VX"}},
+                        {"POINT_MASS/1, QG=1,2,3", true, {}},
+                        {"FLEX_BODY/1, DMODE=1,2", false, {"DMODE"}},
+                        {"FLEX_BODY/1, VMODE=1,2, VY=3", false, {"VMODE", "VY"}},
+                        {"FLEX_BODY/1, QG=1,2,3", true, {}},
+                        {"FE_PART/1, WX=1", false, {"WX"}},
+                        {"FE_PART/1, Z=1,2", true, {}},
+                        {"DIFF/1, IC=1", true, {}},
+                        {"DIFF/1, FUNCTION=1", false, {}},
+                        {"VARIABLE/1, IC=1", true, {}},
+                        {"MOTION/1, ICDISP=1", false, {"ICDISP"}},
+                        {"MOTION/1, ICVEL=1", false, {"ICVEL"}},
+                        {"MOTION/1, FUNCTION=1", false, {}},
+                        {"JOINT/1, REVOLUTE, IC=1,2", false, {"IC"}},
+                        {"JOINT/1, CYLINDRICAL, ICROT=1", false, {"ICROT"}},
+                        {"MARKER/1, QP=1,2,3", false, {}}}) {
     const std::string statement = by.substr(0, by.find('/'));
     const Edited e = edit(statement + "/1", by);
-    EXPECT_EQ(e.restated.velocities, velocities) << by;
-    EXPECT_EQ(e.restated.starts.contains({statement, 1}), starts) << by;
-    EXPECT_EQ(e.restated.starts.size(), starts ? 1u : 0u) << by;
+    using Elements = std::set<Restated::Element>;
+    EXPECT_EQ(e.restated.anew(), anew ? Elements({{statement, 1}}) : Elements()) << by;
+    const auto& of = e.restated.arguments();
+    EXPECT_EQ(of.contains({statement, 1}) ? of.at({statement, 1}) : Arguments(), arguments) << by;
+    EXPECT_EQ(of.size(), arguments.empty() ? 0u : 1u) << by;
   }
 }
 

@@ -17,8 +17,9 @@ namespace dynalin {
 struct Model;
 class ElementReader;
 
-// What an argument says of the start of the body, state or value that its statement defines.
-enum class StatedStart : std::uint8_t { nothing, place, velocity, value };
+// What an argument says of the start of the body, state or value that its statement defines: where all of it begins, a
+// value of a state, or no more than one component of a velocity or a thing of its own.
+enum class StatedStart : std::uint8_t { nothing, place, value, velocity, alone };
 
 // One argument as the manual and the reader of abbreviations see it.
 struct ArgumentInfo {

@@ -12,7 +12,7 @@ namespace dynalin {
 namespace {
 
 constexpr std::string_view mark = "save";
-constexpr int version_written = 2;
+constexpr int version_written = 3;
 
 std::uint64_t hash(std::string_view text, std::uint64_t start = 0xcbf29ce484222325U) {  // FNV-1a
   for (const char c : text) start = (start ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
@@ -185,6 +185,26 @@ SavedFile::Model model_of(const Json& json) {
   return m;
 }
 
+// Each element with the arguments that are stated anew; it begins with all that it has where it names none.
+Json json_of(const Restated& restated) {
+  Json list = Json::array();
+  for (const auto& [statement, id] : restated.anew()) list.push_back({{"statement", statement}, {"id", id}});
+  for (const auto& [element, arguments] : restated.arguments())
+    list.push_back({{"statement", element.first}, {"id", element.second}, {"arguments", arguments}});
+  return list;
+}
+
+Restated restated_of(const Json& json) {
+  Restated restated;
+  for (const Json& entry : json) {
+    const Restated::Element element(entry.at("statement"), entry.at("id"));
+    if (!entry.contains("arguments")) restated.begin(element);
+    for (const Json& argument : entry.value("arguments", Json::array()))
+      restated.state(element, argument.get<std::string>());
+  }
+  return restated;
+}
+
 bool all_finite(const Json& json) {
   if (json.is_number_float()) return std::isfinite(json.get<double>());
   for (const Json& inner : json) {
@@ -199,7 +219,7 @@ SavedFile file_of(const Json& json) {
   f.model_title = text_of(json.at("model")), f.fingerprint = json.at("fingerprint");
   if (const Json& system = json.at("system"); !system.is_null()) f.system = model_of(system);
   f.started = json.at("started"), f.consistent = json.at("consistent");
-  f.restated_velocity = json.at("restated_velocity");
+  f.restated = restated_of(json.at("restated"));
   f.redundant_rows = texts_of(json.at("redundant_rows"));
   f.point = point_of(json.at("point"));
   if (const Json& s = json.at("statics"); !s.is_null())
@@ -221,7 +241,7 @@ tl::expected<std::string, std::string> saved_text(const SavedFile& f) {
                         {"system", f.system ? json_of(*f.system) : Json()},
                         {"started", f.started},
                         {"consistent", f.consistent},
-                        {"restated_velocity", f.restated_velocity},
+                        {"restated", json_of(f.restated)},
                         {"redundant_rows", json_of_texts(f.redundant_rows)},
                         {"point", json_of(f.point)},
                         {"statics", std::move(statics)}};

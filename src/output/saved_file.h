@@ -7,6 +7,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "model/restated.h"
 #include "system/saved_point.h"
 
 namespace dynalin {
@@ -36,7 +37,8 @@ struct SavedFile {
   std::string model_title;  // of the dataset
   std::string fingerprint;  // of the dataset and its edits
   std::optional<Model> system;
-  bool started = false, consistent = false, restated_velocity = false;  // see StudyPoint
+  bool started = false, consistent = false;  // see StudyPoint
+  Restated restated;
   std::vector<std::string> redundant_rows;
   SavedPoint point;
   std::optional<Statics> statics;

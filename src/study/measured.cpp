@@ -43,9 +43,7 @@ StudyResult<std::vector<double>> measured(const StudyPoint& point, std::span<con
   const auto made = edited_model({.system = point.system}, {{dataset, {}}, {}}, options);
   if (made.diagnostics.has_errors()) return tl::unexpected(failure(made.diagnostics));
   const System& system = *made.value.system;
-  StudyPoint here = continued(point, made.value.system, {});
-  here.restated_velocity = point.restated_velocity;
-  auto found = initial_conditions(std::move(here));
+  auto found = initial_conditions(continued(point, made.value.system, {}));
   if (!found) return tl::unexpected(found.error());
   std::vector<double> values;
   for (std::size_t k = 0; k < functions.size(); ++k)

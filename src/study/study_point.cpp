@@ -16,7 +16,7 @@ namespace {
 FoundPoint found(StudyPoint before, OperatingPoint values, Findings findings) {
   std::vector<std::string> rows;
   for (const std::int32_t r : findings.redundant_rows) rows.push_back(before.system->row_text(r));
-  return {{std::move(before.system), std::move(values), true, true, false, std::nullopt, std::move(rows)},
+  return {{std::move(before.system), std::move(values), true, true, {}, std::nullopt, std::move(rows)},
           std::move(findings.warnings)};
 }
 
@@ -69,7 +69,8 @@ StudyPoint continued(const StudyPoint& before, std::shared_ptr<const System> edi
   }
   point.values = carried_over(*before.system, before.values, *point.system, restated);
   point.started = true;
-  point.restated_velocity = before.restated_velocity || restated.velocities;
+  point.restated = before.restated;
+  point.restated.append(restated);
   return point;
 }
 
@@ -90,11 +91,10 @@ StudyResult<FoundPoint> initial_conditions(StudyPoint from, const LevelWatch& wa
     from.statics.reset();
     return FoundPoint{std::move(from), {}};
   }
-  // An edited model goes on with the velocities it had.
-  const Velocities velocities = from.started && !from.restated_velocity ? Velocities::kept : Velocities::stated;
+  // An edited model goes on as it was but for what the edits state.
+  const Restated stated = from.started ? from.restated : Restated::all();
   Findings findings;
-  auto op = initial_conditions(*from.system, from.values, from.started ? Starts::ignored : Starts::held, velocities,
-                               findings, watch);
+  auto op = initial_conditions(*from.system, from.values, stated, findings, watch);
   if (!op) return tl::unexpected(StudyFailure(op.error()));
   return found(std::move(from), std::move(*op), std::move(findings));
 }

@@ -32,9 +32,9 @@ struct StaticSolution {
 struct StudyPoint {
   std::shared_ptr<const System> system;
   OperatingPoint values;
-  bool started = false;            // an analysis has been made; before that the point is as drawn
-  bool consistent = false;         // on the levels of position, velocity and acceleration
-  bool restated_velocity = false;  // an edit of the model has stated since where something starts
+  bool started = false;     // an analysis has been made; before that the point is as drawn
+  bool consistent = false;  // on the levels of position, velocity and acceleration
+  Restated restated{};      // what edits of the model have stated anew since
   // Of the last analysis, if that was a static one.
   std::optional<StaticSolution> statics;
   std::vector<std::string> redundant_rows;  // "Zi.Xj of JOINT/3"

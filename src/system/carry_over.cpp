@@ -13,8 +13,11 @@ namespace dynalin {
 
 namespace {
 
-bool is_restated(const Restated& restated, std::string_view statement, std::int64_t id) {
-  return restated.starts.contains({std::string(statement), id});
+// Whether a state begins as it is stated: a course of a MOTION may do so without its rate, and its rate without it.
+bool begins(const Restated& restated, const DifferentialState& state) {
+  if (!state.owner) return false;
+  if (!state.course_of_motion) return restated.begins(*state.owner);
+  return restated.holds(*state.owner, state.coordinate == 1 ? "ICDISP" : "ICVEL");
 }
 
 void copy_block(const std::vector<double>& from, std::int32_t at, std::vector<double>& to, std::int32_t into,
@@ -93,7 +96,7 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
 
   for (const auto& [a, b] : matches(body_keys(old), body_keys(now))) {
     const BodyBlock &before = old.bodies[a], &after = now.bodies[b];
-    if (before.count != after.count || is_restated(restated, after.label.statement, after.label.id)) continue;
+    if (before.count != after.count || restated.begins(after.label)) continue;
     out.poses[b] = op.poses[a];
     copy_block(op.velocity, before.offset, out.velocity, after.offset, after.count);
     copy_block(op.acceleration, before.offset, out.acceleration, after.offset, after.count);
@@ -105,9 +108,10 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
   for (const auto& [a, b] : matches(extra_keys(old), extra_keys(now))) {
     const ExtraBlock &before = old.extras[a], &after = now.extras[b];
     // The shape of a body starts anew with its place.
-    if (before.count != after.count || is_restated(restated, after.label.statement, after.label.id)) continue;
-    copy_block(op.extra, static_cast<std::int32_t>(old.extra_index(before.offset)), out.extra,
-               static_cast<std::int32_t>(now.extra_index(after.offset)), after.count);
+    if (before.count != after.count || restated.begins(after.label)) continue;
+    if (!restated.holds(after.label, "DMODE"))
+      copy_block(op.extra, static_cast<std::int32_t>(old.extra_index(before.offset)), out.extra,
+                 static_cast<std::int32_t>(now.extra_index(after.offset)), after.count);
     copy_block(op.velocity, before.offset, out.velocity, after.offset, after.count);
     copy_block(op.acceleration, before.offset, out.acceleration, after.offset, after.count);
   }
@@ -116,7 +120,7 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
 
   for (const auto& [a, b] : matches(value_keys(old), value_keys(now))) {
     const ElementLabel* owner = now.algebraic[b].owner;
-    if (!owner || !is_restated(restated, owner->statement, owner->id)) out.algebraic[b] = op.algebraic[a];
+    if (!owner || !restated.begins(*owner)) out.algebraic[b] = op.algebraic[a];
   }
 
   std::vector<bool> known(now.states.size(), false);
@@ -124,7 +128,7 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
   for (const auto& [a, b] : matches(state_keys(old), state_keys(now))) {
     const ElementLabel* owner = now.states[b].owner;
     if (now.states[b].type == StateType::delay) continue;  // these are numbered anew
-    if (owner && is_restated(restated, owner->statement, owner->id)) continue;
+    if (begins(restated, now.states[b])) continue;
     const auto turned = owner ? swapped.find({owner->statement, owner->id}) : swapped.end();
     const double sign = turned == swapped.end() ? 1 : turned->second;
     if (sign == 0) continue;

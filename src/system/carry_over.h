@@ -2,7 +2,7 @@
 // What is new starts as the dataset draws it.
 #pragma once
 
-#include "model/dataset_edits.h"
+#include "model/restated.h"
 #include "system/system.h"
 
 namespace dynalin {

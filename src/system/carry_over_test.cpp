@@ -89,7 +89,7 @@ TEST(CarryOver, what_is_stated_anew_starts_as_stated) {
   const auto from = system_of(part(2) + part(3, "4,0,0") + hinge + diff(1) + diff(2));
   const OperatingPoint op = numbered(*from, 10);
   Restated restated;
-  restated.starts = {{"PART", 3}, {"DIFF", 1}, {"VARIABLE", 2}};
+  for (const Restated::Element& e : {Restated::Element{"PART", 3}, {"DIFF", 1}, {"VARIABLE", 2}}) restated.begin(e);
   const OperatingPoint now = carried_over(*from, op, *from, restated);
   EXPECT_EQ(now.poses[1].r.x, op.poses[1].r.x);
   EXPECT_EQ(now.poses[2].r.x, 4);
@@ -99,6 +99,31 @@ TEST(CarryOver, what_is_stated_anew_starts_as_stated) {
   EXPECT_EQ(now.state[1], op.state[1]);
   EXPECT_EQ(now.algebraic[0], op.algebraic[0]);
   EXPECT_EQ(now.algebraic[1], 0);
+}
+
+// A velocity is brought about by the next analysis, not here.
+TEST(CarryOver, a_body_goes_on_where_only_a_velocity_of_it_is_stated_anew) {
+  const auto from = system_of(part(2) + part(3, "4,0,0"));
+  const OperatingPoint op = numbered(*from, 10);
+  Restated restated;
+  restated.state({"PART", 3}, "VX");
+  const OperatingPoint now = carried_over(*from, op, *from, restated);
+  EXPECT_EQ(now.poses[2].r.x, op.poses[2].r.x);
+  EXPECT_EQ(now.velocity, op.velocity);
+}
+
+// Of a motion that states its acceleration the one course may begin without the other.
+TEST(CarryOver, the_courses_of_a_motion_begin_each_by_its_own) {
+  const auto s = system_of(part(3) + hinge + "MOTION/1, JOINT=1, ACCELERATION, FUNCTION=1, ICDISP=2, ICVEL=5\n");
+  OperatingPoint op = s->drawn();
+  op.state = {9, 3};
+  const auto with = [&](const std::string& argument) {
+    Restated restated;
+    restated.state({"MOTION", 1}, argument);
+    return carried_over(*s, op, *s, restated).state;
+  };
+  EXPECT_EQ(with("ICDISP"), (std::vector<double>{2, 3}));
+  EXPECT_EQ(with("ICVEL"), (std::vector<double>{9, 5}));
 }
 
 TEST(CarryOver, a_body_of_another_kind_is_another_body) {
@@ -259,7 +284,7 @@ TEST(CarryOver, courses_of_motions_go_on_unless_their_start_is_stated) {
   EXPECT_EQ(carried_over(*from, op, *driven("ACCELERATION, FUNCTION=TIME, ICDISP=2")).state,
             (std::vector<double>{9, 3}));
   Restated restated;
-  restated.starts = {{"MOTION", 1}};
+  restated.begin({"MOTION", 1});
   EXPECT_EQ(carried_over(*from, op, *driven("ACCELERATION, FUNCTION=1, ICDISP=5, ICVEL=1"), restated).state,
             (std::vector<double>{5, 1}));
 }

@@ -182,8 +182,8 @@ TEST_F(SaveReload, files_that_save_did_not_write_so_are_refused_before_anything_
   refused("PART/1, GROUND\n", "it was not written by SAVE");
   refused("{\"results\": []}", "it was not written by SAVE");
   std::string version = good;
-  version.replace(version.find("\"version\": 2"), 12, "\"version\": 9");
-  refused(version, "it is of version 9, and this program reads version 2");
+  version.replace(version.find("\"version\": 3"), 12, "\"version\": 9");
+  refused(version, "it is of version 9, and this program reads version 3");
   std::string altered = good;
   altered.replace(altered.find("\"iterations\": "), 14, "\"iterations\": 1");
   refused(altered, "it was altered");

@@ -98,7 +98,7 @@ StudyResult<void> Reload::run(RunState& run) const {
   point.started = saved->started;
   // In another model the same values need not agree with the constraints, and forces are others.
   point.consistent = saved->consistent && whole && same_model;
-  point.restated_velocity = saved->restated_velocity;
+  point.restated = saved->restated;
   point.redundant_rows = saved->redundant_rows;
   point.statics.reset();
   if (saved->statics && point.consistent)

@@ -85,7 +85,7 @@ StudyResult<void> Save::run(RunState& run) const {
   saved.fingerprint = fingerprint_of(stage);
   if (system) saved.system = saved_model(run, stage);
   saved.started = point.started, saved.consistent = point.consistent;
-  saved.restated_velocity = point.restated_velocity, saved.redundant_rows = point.redundant_rows;
+  saved.restated = point.restated, saved.redundant_rows = point.redundant_rows;
   saved.point = saved_point(run.system(), point.values);
   if (point.statics)
     saved.statics = {point.statics->iterations, point.statics->imbalance,

@@ -51,7 +51,8 @@ std::vector<BeamBody> beam_bodies(const Model&, const Layout&);
 // By BodyId: whether it is a node.
 std::vector<bool> beam_nodes(const Model&);
 
-// Writes the velocities at the start that the statements state into `start`, of all coordinates.
-void start_beams(const Model&, const Layout&, const Motion&, std::span<double> start);
+// Writes the velocities at the start that the statement states into `start`, of all coordinates. The BCS goes with the
+// first node.
+void start_beam(const BeamBody&, const Model&, const Layout&, const Motion&, std::span<double> start);
 
 }  // namespace dynalin

@@ -84,12 +84,12 @@ struct PrescribedMotion {
        .slot = &M::icdisp,
        .unit = "length or rad",
        .help = "displacement at the start",
-       .start = StatedStart::value},
+       .start = StatedStart::alone},
       {.name = "ICVEL",
        .slot = &M::icvel,
        .unit = "length or rad, per time",
        .help = "velocity at the start",
-       .start = StatedStart::value},
+       .start = StatedStart::alone},
   }};
 
   std::string_view kind_text() const {

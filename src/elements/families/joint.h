@@ -61,9 +61,16 @@ struct JointArguments {
        .help = "RACKPIN: pitch diameter of the pinion"},
       {.name = "IC",
        .slot = &JointArguments::ic,
-       .help = "REVOLUTE, TRANSLATIONAL: displacement [, velocity] at the start"},
-      {.name = "ICTRAN", .slot = &JointArguments::ictran, .help = "CYLINDRICAL: the same along z"},
-      {.name = "ICROT", .slot = &JointArguments::icrot, .help = "CYLINDRICAL: the same about z"},
+       .help = "REVOLUTE, TRANSLATIONAL: displacement [, velocity] at the start",
+       .start = StatedStart::alone},
+      {.name = "ICTRAN",
+       .slot = &JointArguments::ictran,
+       .help = "CYLINDRICAL: the same along z",
+       .start = StatedStart::alone},
+      {.name = "ICROT",
+       .slot = &JointArguments::icrot,
+       .help = "CYLINDRICAL: the same about z",
+       .start = StatedStart::alone},
       // Friction as old datasets have it. It was moved to a statement of its own.
       {.name = "FRICTION", .slot = &JointArguments::friction, .help = obsolete_friction},
       {.name = "MU_STAT_ROT", .slot = &JointArguments::friction, .help = obsolete_friction},
@@ -148,6 +155,7 @@ inline void add_multiplier(const path::NestedDual& phi, std::int32_t row, Marker
 // What a joint asks of the start: displacement [length or rad] and velocity of its freedom.
 struct JointStart {
   std::optional<double> displacement, velocity;
+  std::string_view argument{};
 };
 
 // One joint with what its rows need beyond the markers.
@@ -181,7 +189,8 @@ class JointKernel final : public Kernel, public WrenchSource, public StartSource
       for (const bool turns : {true, false}) {
         const JointStart& start = turns ? joints[k].rotation : joints[k].translation;
         if (!start.displacement && !start.velocity) continue;
-        starts_.push_back({&labels[k], turns ? "rotation" : "translation", start.displacement, start.velocity});
+        starts_.push_back({&labels[k], turns ? "rotation" : "translation", start.displacement, start.velocity,
+                           start.argument, start.argument});
         start_places_.push_back({placed.I, placed.J, turns});
       }
       joints_.push_back(std::move(placed));
@@ -361,6 +370,7 @@ class JointSet final : public JointSetBase {
       reader.error("wrong-count", reader.at(name),
                    fmt::format("{} takes a displacement and a velocity, here are {} values", name, values.size()));
     } else {
+      start->argument = name;
       start->displacement = values[0];
       if (values.size() == 2) start->velocity = values[1];
     }
