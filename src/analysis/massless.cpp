@@ -8,9 +8,6 @@
 #include <cmath>
 #include <limits>
 
-#include "elements/bodies/fe_part.h"
-#include "elements/bodies/flex_body.h"
-
 namespace dynalin {
 
 namespace {
@@ -19,98 +16,6 @@ using Matrix = Eigen::MatrixXd;
 using Index = Eigen::Index;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-// A principal inertia below this many roundings of the tensor is what the mass matrix cannot tell from zero.
-constexpr double inertia_units = 4;
-
-// Principal axes (global) about which a body has inertia.
-std::vector<Vector> axes_with_inertia(const Body& body, const Matrix3& R) {
-  const Matrix3 J = R * body.J_BC * transpose(R);
-  Eigen::Matrix3d tensor;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) {
-      const auto i = static_cast<std::size_t>(r), j = static_cast<std::size_t>(c);
-      tensor(r, c) = 0.5 * (J(i, j) + J(j, i));
-    }
-  }
-  const double zero = inertia_units * epsilon * (tensor.cwiseAbs().maxCoeff() + body.mass * dot(body.p_BC, body.p_BC));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(tensor);
-  std::vector<Vector> axes;
-  for (int k = 0; k < 3; ++k) {
-    if (std::abs(solver.eigenvalues()(k)) <= zero) continue;
-    const Eigen::Vector3d v = solver.eigenvectors().col(k);
-    axes.push_back({v(0), v(1), v(2)});
-  }
-  return axes;
-}
-
-// The same of a flexible body: what its mass matrix tells from zero, in coordinates that have a unit each on its
-// diagonal.
-void add_momentum_rows(const Layout& layout, const FlexibleBody& f, const Motion& motion,
-                       std::vector<SparseRow>& rows) {
-  const Index n = f.flexible->modes();
-  const Matrix3& R = motion.body(f.body).R;
-  const Matrix mass = f.flexible->inertia.matrix(Eigen::Map<const Eigen::VectorXd>(motion.extra.data() + f.first, n));
-  const Eigen::VectorXd unit = mass.diagonal().cwiseSqrt();
-  const Eigen::VectorXd inverse = unit.unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(Matrix(inverse.asDiagonal() * mass * inverse.asDiagonal()));
-  const double zero = inertia_units * epsilon * static_cast<double>(6 + n);
-  const std::int32_t offset = layout.body(f.body).offset;
-  for (Index k = 0; k < 6 + n; ++k) {
-    if (solver.eigenvalues()(k) <= zero) continue;
-    const Eigen::VectorXd v = unit.cwiseProduct(solver.eigenvectors().col(k));
-    SparseRow row;
-    for (std::int32_t i = 0; i < 6; i += 3) {
-      const Vector global = R * Vector{v(i), v(i + 1), v(i + 2)};
-      for (std::int32_t c = 0; c < 3; ++c) {
-        row.column.push_back(offset + i + c);
-        row.value.push_back(global[static_cast<std::size_t>(c)]);
-      }
-    }
-    for (Index i = 0; i < n; ++i) {
-      row.column.push_back(layout.body_coordinate_count + static_cast<std::int32_t>(f.first) +
-                           static_cast<std::int32_t>(i));
-      row.value.push_back(v(6 + i));
-    }
-    rows.push_back(std::move(row));
-  }
-}
-
-// Rows of velocities that have momentum.
-void add_momentum_rows(const System& system, const Motion& motion, std::vector<SparseRow>& rows) {
-  const Layout& layout = system.layout();
-  const std::vector<const ModalBody*> flexible = flexible_by_body(system.model());
-  for (const FlexibleBody& f : flexible_bodies(system.model())) add_momentum_rows(layout, f, motion, rows);
-  // Each coordinate of a node of a beam has inertia, as density, areas and second moments are positive, or follows one
-  // that has.
-  const std::vector<bool> of_beams = beam_nodes(system.model());
-  const auto add_coordinates = [&](std::int32_t first, std::int32_t count) {
-    for (std::int32_t k = first; k < first + count; ++k) rows.push_back({{k}, {1.0}});
-  };
-  for (const ExtraBlock& e : layout.extras) {
-    if (e.kind.role == ExtraRole::nodal) add_coordinates(e.offset, e.count);
-  }
-  for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
-    const BodyBlock& block = layout.bodies[b];
-    const Body& body = system.model().bodies[b];
-    if (of_beams[b]) add_coordinates(block.offset, block.count);
-    if (block.count == 0 || flexible[b] || of_beams[b]) continue;
-    const Matrix3& R = motion.bodies[b].R;
-    const auto add = [&](const Vector& on_r, const Vector& on_theta) {
-      SparseRow row;
-      for (std::int32_t k = 0; k < block.count; ++k) {
-        row.column.push_back(block.offset + k);
-        row.value.push_back(k < 3 ? on_r[static_cast<std::size_t>(k)] : on_theta[static_cast<std::size_t>(k - 3)]);
-      }
-      rows.push_back(std::move(row));
-    };
-    if (body.mass != 0) {
-      const Vector c = R * body.p_BC;
-      for (std::size_t k = 0; k < 3; ++k) add(unit_vectors[k], cross(c, unit_vectors[k]));
-    }
-    if (!block.turns()) continue;
-    for (const Vector& axis : axes_with_inertia(body, R)) add({}, axis);
-  }
-}
 
 // Of the residuals in the order of the augmented equations: partials by q, q′ and z, and what they are made of.
 struct AugmentedPartials {
@@ -261,26 +166,9 @@ bool has_virtual_mass(const ColumnMatrix& m, const Matrix& left, const Matrix& l
 }  // namespace
 
 bool lacks_mass(const System& system) {
-  const Layout& layout = system.layout();
-  const std::vector<const ModalBody*> flexible = flexible_by_body(system.model());
-  const std::vector<bool> of_beams = beam_nodes(system.model());
-  for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
-    if (layout.bodies[b].count == 0 || of_beams[b]) continue;
-    if (flexible[b]) {
-      if (flexible[b]->lacks_inertia) return true;
-      continue;
-    }
-    const Body& body = system.model().bodies[b];
-    if (body.mass == 0) return true;
-    if (!layout.bodies[b].turns()) continue;
-    // Far from singular without a look at the principal values.
-    const Matrix3& J = body.J_BC;
-    const double mean = trace(J) / 3, determinant = dot(cross(J.x, J.y), J.z);
-    if (determinant > 1e-9 * mean * mean * mean && mean > 1e-9 * body.mass * dot(body.p_BC, body.p_BC)) continue;
-    if (axes_with_inertia(body, Matrix3::identity()).size() < 3) return true;
-  }
   // Coordinates outside bodies by which none deforms have no inertia.
-  return !std::ranges::all_of(layout.extras, &ExtraBlock::is_deformation);
+  return std::ranges::any_of(system.bodies(), &BodySource::lacks_inertia) ||
+         !std::ranges::all_of(system.layout().extras, &ExtraBlock::is_deformation);
 }
 
 MasslessDirections massless_directions(const System& system, const Motion& motion, const ConstraintRows& rows,
@@ -291,7 +179,7 @@ MasslessDirections massless_directions(const System& system, const Motion& motio
     if (active[static_cast<std::size_t>(k)]) all.push_back(scaled_row(system, rows.row(k)));
   }
   const std::size_t constraints = all.size();
-  add_momentum_rows(system, motion, all);
+  for (const BodySource* body : system.bodies()) body->add_momentum_rows(motion, all);
   for (std::size_t k = constraints; k < all.size(); ++k) {
     for (std::size_t e = 0; e < all[k].column.size(); ++e) all[k].value[e] *= system.coordinate_scale(all[k].column[e]);
   }

@@ -7,8 +7,6 @@
 #include "analysis/initial.h"
 #include "analysis/outside_weight.h"
 #include "analysis/stated_shape.h"
-#include "elements/bodies/fe_part.h"
-#include "elements/bodies/flex_body.h"
 #include "system/undefined_rows.h"
 
 namespace dynalin {
@@ -486,14 +484,10 @@ Result<OperatingPoint> reconcile_velocity(const System& system, OperatingPoint o
   const Layout& layout = system.layout();
   const Motion motion = system.motion(op);
   const auto stated = stated_velocities(system, motion, restated);
-  for (const FlexibleBody& f : flexible_bodies(system.model())) {
-    if (restated.holds(system.model().body(f.body).label, "VMODE"))
-      start.segment(layout.body_coordinate_count + static_cast<Eigen::Index>(f.first), f.flexible->modes()) =
-          f.flexible->rate;
-  }
-  for (const BeamBody& b : beam_bodies(system.model(), layout)) {
-    if (restated.holds_velocity(*b.label))
-      start_beam(b, system.model(), layout, motion, {start.data(), static_cast<std::size_t>(start.size())});
+  for (const BodySource* body : system.bodies()) {
+    const ElementLabel& label = layout.body(body->bodies().front()).label;
+    body->start_velocity(motion, [&](std::string_view argument) { return restated.holds(label, argument); },
+                         {start.data(), static_cast<std::size_t>(start.size())});
   }
   return solve(system, std::move(op), stated, start, findings);
 }

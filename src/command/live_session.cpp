@@ -9,7 +9,6 @@
 #include "base/remark_of.h"
 #include "command/interruption.h"
 #include "dynalin/version.h"
-#include "elements/bodies/flex_body_summary.h"
 
 namespace dynalin {
 
@@ -86,7 +85,9 @@ bool LiveSession::begin_job() {
   write_banner(run_->message, version);
   for (const std::string& line : job.opening) write_command(run_->message, line);
   write_title(run_->message, job.title_shown());
-  for (const std::string& line : flexible_body_lines(job.model())) fmt::print(run_->message, " {}\n", line);
+  for (const BodySource* body : run_->system().bodies()) {
+    if (const auto line = body->summary()) fmt::print(run_->message, " {}\n", *line);
+  }
   const std::string& named_by = job.opening.empty() && !job.commands.empty() ? job.commands.front().text : job.prefix;
   if (job_ > 0)
     json_.add_model(job.opening.empty() ? named_by : job.opening.back(), job.title_shown(), job.model().units);

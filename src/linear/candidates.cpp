@@ -4,12 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
 
-#include "elements/bodies/fe_part.h"
-#include "elements/bodies/flex_body.h"
 #include "elements/controls/variable_list.h"
-#include "linear/beam_states.h"
 #include "linear/original_states.h"
 #include "linear/user_coordinates.h"
 #include "mechanics/node_variations.h"
@@ -18,60 +14,35 @@ namespace dynalin {
 
 namespace {
 
-// Modal coordinates of bodies are numbered behind it as states, their rates behind the double of it.
-constexpr std::int32_t first_modal_number = 1000000;
 constexpr std::array names = {"DX", "DY", "DZ", "AX", "AY", "AZ"};
 
-// Each coordinate of the layout as a state, those of bodies as they are seen from marker `rm` (0: global axes), which
-// `owner` carries. Modal coordinates have the type `of_modes`.
+// Each coordinate of the layout as a state, those of rigid bodies and of the BCS of others as they are seen from marker
+// `rm` (0: global axes), which `owner` carries. `of` says which of the type codes they have.
 std::vector<StateCoordinate> listed_coordinates(const System& system, std::int64_t rm, BodyId owner,
-                                                StateType of_modes) {
+                                                StateType StateTypes::*of) {
   const Layout& layout = system.layout();
-  const std::vector<const ModalBody*> flexible = flexible_by_body(system.model());
   std::vector<StateCoordinate> list(system.coordinates());
-  const auto put = [&](std::int32_t at, StateType type, const ElementLabel& of, std::int32_t k, std::int32_t rates,
-                       std::string text) {
-    StateLabel label{type, of.id, static_cast<int>(k) + 1, std::move(text), of.element(), false};
-    list[static_cast<std::size_t>(at)] =
-        state_coordinate(std::move(label), type, static_cast<int>(rates + k) + 1, system.coordinate_scale(at));
-  };
   for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
     const BodyBlock& block = layout.bodies[b];
-    const bool point = block.kind == BodyKind::point_mass;
     const bool owns_marker = owner == BodyId{static_cast<std::int32_t>(b)};
-    const StateType type = rm == 0 ? (point         ? StateType::point_mass
-                                      : flexible[b] ? StateType::flex_body
-                                                    : StateType::part)
-                                   : (point         ? StateType::point_mass_relative
-                                      : flexible[b] ? StateType::flex_body_relative
-                                                    : StateType::part_relative);
     for (std::int32_t k = 0; k < block.count; ++k) {
-      const bool turns = k >= 3;
-      const std::string_view what = turns ? "rotation" : "displacement", name = names[static_cast<std::size_t>(k)];
-      const std::string_view seen = owns_marker ? "GROUND" : "BCS";
-      put(block.offset + k, type, block.label, k, block.count,
-          rm == 0 ? fmt::format("Global {} {}(BCS)", what, name)
-          : turns ? fmt::format("Relative {} {}({},{})", what, name, seen, rm)
-                  : fmt::format("Relative {} {}({},{},{})", what, name, seen, rm, rm));
-    }
-  }
-  std::set<std::int32_t> modal;
-  for (const FlexibleBody& f : flexible_bodies(system.model())) {
-    const ElementLabel& of = layout.body(f.body).label;
-    for (std::int32_t k = 0; k < static_cast<std::int32_t>(f.flexible->modes()); ++k) {
-      const std::int32_t at = layout.body_coordinate_count + static_cast<std::int32_t>(f.first) + k;
-      const auto number = static_cast<std::int32_t>(f.flexible->number[static_cast<std::size_t>(k)]) - 1;
-      put(at, of_modes, of, first_modal_number + number, first_modal_number,
-          fmt::format("Modal generalized coordinate Q{}", number + 1));
-      modal.insert(at);
+      StateCoordinate& state = list[static_cast<std::size_t>(block.offset + k)];
+      state = global_coordinate(system, block, k);
+      if (rm == 0 || block.is_node()) continue;
+      const std::string_view name = names[static_cast<std::size_t>(k)], seen = owns_marker ? "GROUND" : "BCS";
+      state.label.type = state.rate.type = block.listed.states.types.*of;
+      state.label.text = state.rate.text = k < 3 ? fmt::format("Relative displacement {}({},{},{})", name, seen, rm, rm)
+                                                 : fmt::format("Relative rotation {}({},{})", name, seen, rm);
     }
   }
   for (const ExtraBlock& e : layout.extras) {
-    if (modal.contains(e.offset)) continue;
-    for (std::int32_t k = 0; k < e.count; ++k)
-      put(e.offset + k, e.kind.type, e.label, k, 0, e.coordinates[static_cast<std::size_t>(k)].name);
+    for (std::int32_t k = 0; k < e.count; ++k) {
+      const ExtraCoordinate& c = e.coordinates[static_cast<std::size_t>(k)];
+      StateLabel label{e.kind.types.*of, e.label.id, c.number, c.name, e.label.element(), false};
+      list[static_cast<std::size_t>(e.offset + k)] = state_coordinate(
+          std::move(label), e.kind.types.*of, c.number + e.kind.rates_behind, system.coordinate_scale(e.offset + k));
+    }
   }
-  for (auto& [at, state] : beam_state_coordinates(system)) list[static_cast<std::size_t>(at)] = std::move(state);
   return list;
 }
 
@@ -145,6 +116,18 @@ StateCoordinate state_coordinate(StateLabel label, StateType rate_type, int rate
   return {std::move(label), std::move(rate), scale};
 }
 
+StateCoordinate global_coordinate(const System& system, const BodyBlock& block, std::int32_t k) {
+  const PoseStates& listed = block.listed.states;
+  const auto at = static_cast<std::size_t>(k);
+  const std::string of = block.is_node() ? fmt::format("node {}", block.listed.node) : std::string("BCS");
+  StateLabel label{
+      listed.types.global,   block.label.id,
+      listed.number[at],     fmt::format("Global {} {}({})", k < 3 ? "displacement" : "rotation", names[at], of),
+      block.label.element(), false};
+  return state_coordinate(std::move(label), listed.types.global, listed.number[at] + listed.rates_behind,
+                          system.coordinate_scale(block.offset + k));
+}
+
 Result<CandidateSet> state_candidates(const System& system, const Motion& motion, const LinearOptions& options) {
   const Layout& layout = system.layout();
   CandidateSet set;
@@ -170,7 +153,7 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
     row += static_cast<std::int32_t>(set.own.size());
   }
   std::vector<StateCoordinate> global =
-      listed_coordinates(system, 0, {}, principal ? StateType::flex_body_euler : StateType::flex_body);
+      listed_coordinates(system, 0, {}, principal ? &StateTypes::principal : &StateTypes::global);
   const auto as_it_is = [&](std::int32_t k) {
     return Candidate{k, -1, std::move(global[static_cast<std::size_t>(k)])};
   };
@@ -191,20 +174,19 @@ Result<CandidateSet> state_candidates(const System& system, const Motion& motion
   const MarkerPlace& b = layout.marker(options.rm);
   const std::int64_t id = layout.marker_label(options.rm).id;
   std::vector<std::int32_t> row_of(system.coordinates(), -1);
-  const std::vector<bool> of_beams = beam_nodes(system.model());
   for (std::size_t k = 1; k < layout.bodies.size(); ++k) {
     const BodyBlock& block = layout.bodies[k];
-    if (of_beams[k]) {
+    if (block.is_node()) {
       row += block.count;
       continue;
     }
     add_relative_rows(motion, block, BodyId{static_cast<std::int32_t>(k)}, b, row, set.gradients);
     for (std::int32_t i = 0; i < block.count; ++i) row_of[static_cast<std::size_t>(block.offset + i)] = row++;
   }
-  std::vector<StateCoordinate> seen = listed_coordinates(system, id, b.body, StateType::flex_body_relative);
+  std::vector<StateCoordinate> seen = listed_coordinates(system, id, b.body, &StateTypes::relative);
   for (const std::int32_t coordinate : system.preference()) {
     const auto at = static_cast<std::size_t>(coordinate);
-    // Coordinates outside bodies and those of beams know no frame: they are wanted as they are.
+    // Coordinates outside bodies and those of nodes know no frame: they are wanted as they are.
     if (row_of[at] < 0) {
       set.wanted.push_back({coordinate, -1, std::move(seen[at])});
       continue;

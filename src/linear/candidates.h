@@ -16,6 +16,9 @@ struct StateCoordinate {
 // The rate is listed with its own type and number.
 StateCoordinate state_coordinate(StateLabel, StateType rate_type, int rate_number, double scale);
 
+// Coordinate k of a body along the global axes.
+StateCoordinate global_coordinate(const System&, const BodyBlock&, std::int32_t k);
+
 // A coordinate that may become a state: its gradient along the motion and its name.
 struct Candidate {
   std::int32_t coordinate = -1;  // a coordinate of the layout itself, or

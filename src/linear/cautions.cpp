@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include "linear/configuration.h"
-#include "linear/flexible_cautions.h"
 #include "linear/motion_caution.h"
 #include "linear/reach.h"
 #include "linear/stiction_caution.h"
@@ -73,7 +72,8 @@ Diagnostics cautions_of_point(const System& system, const OperatingPoint& op, co
   empty_rows(system, op, out);
   disproportion(system, linear, out);
   motion_caution(system, op, modes, out);
-  flexible_cautions(system, op, out);
+  const Motion motion = system.motion(op);
+  for (const BodySource* body : system.bodies()) body->add_cautions(motion, out);
   return out;
 }
 

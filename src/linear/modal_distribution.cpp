@@ -19,19 +19,7 @@ using Complex = std::complex<double>;
 
 ModalDistribution::ModalDistribution(const System& system, const OperatingPoint& op, const LinearSystem& linear,
                                      const EigenSolution& solution)
-    : system_(system),
-      linear_(linear),
-      solution_(solution),
-      motion_(system.motion(op)),
-      flexible_(system.model().bodies.size()) {
-  for (const FlexibleBody& f : flexible_bodies(system.model())) flexible_[static_cast<std::size_t>(f.body.index)] = f;
-  beams_ = beam_bodies(system.model(), system.layout());
-  beam_of_.assign(flexible_.size(), nullptr);
-  node_.assign(flexible_.size(), 0);
-  for (const BeamBody& b : beams_) {
-    beam_of_[static_cast<std::size_t>(b.nodes.front().index)] = &b;
-    for (std::size_t k = 0; k < b.nodes.size(); ++k) node_[static_cast<std::size_t>(b.nodes[k].index)] = b.numbers[k];
-  }
+    : system_(system), linear_(linear), solution_(solution), motion_(system.motion(op)) {
   motion_.mode = AnalysisMode::linear;  // a DELAY follows what it delays, as in linearize()
   ConstraintRows rows;
   rows.resize(system.layout());
@@ -88,94 +76,23 @@ std::vector<std::size_t> ModalDistribution::bodies_by_id() const {
   return order;
 }
 
-// ½ m |v_C|² and ½ ωᴴ J ω term by term, global axes.
-std::array<double, 9> ModalDistribution::kinetic_terms(std::size_t body, const Eigen::VectorXcd& v) const {
-  if (beam_of_[body]) return beam_terms(*beam_of_[body], v);
-  if (node_[body] > 0) return {};  // the first one has it all
-  const Body& b = system_.model().bodies[body];
-  const BodyBlock& block = system_.layout().bodies[body];
-  std::array<double, 9> terms{};
-  ComplexVector3 of_cm = three(v, block.offset);
-  ComplexVector3 w{};
-  const Matrix3& R = motion_.bodies[body].R;
-  if (block.turns()) {
-    w = three(v, block.offset + 3);
-    add(of_cm, times(-skew(R * b.p_BC), w));
-  }
-  // In user units: no factor of consistency.
-  const double factor = b.mass > 0 ? b.user_mass / b.mass : 1.0;
-  for (std::size_t k = 0; k < 3; ++k) terms[k] = 0.5 * b.user_mass * std::norm(of_cm[k]);
-  const Matrix3 about = flexible_[body]
-                            ? flexible_[body]->flexible->inertia.tensor_at(modal_coordinates(*flexible_[body]))
-                            : factor * b.J_BC;
-  const Matrix3 J = R * about * transpose(R);
-  for (std::size_t k = 0; k < 3; ++k) terms[3 + k] = 0.5 * J(k, k) * std::norm(w[k]);
-  const auto product = [&](std::size_t i, std::size_t j) { return J(i, j) * std::real(w[i] * std::conj(w[j])); };
-  terms[6] = product(0, 1), terms[7] = product(0, 2), terms[8] = product(1, 2);
-  return terms;
+std::vector<std::pair<const ElementLabel*, KineticEnergy>> ModalDistribution::kinetic_energies(
+    const Eigen::VectorXcd& v) const {
+  std::vector<std::pair<const ElementLabel*, KineticEnergy>> list;
+  for (const BodySource* body : system_.bodies())
+    list.emplace_back(&system_.layout().body(body->bodies().front()).label, body->kinetic_energy(motion_, v));
+  std::ranges::stable_sort(list, {}, [](const auto& of) { return of.first->id; });
+  return list;
 }
 
-std::array<double, 9> ModalDistribution::beam_terms(const BeamBody& b, const Eigen::VectorXcd& v) const {
-  std::array<double, 9> terms{};
-  for (std::size_t e = 0; e < b.elements->size(); ++e) {
-    const BeamMotion motion = b.motion(motion_, e);
-    const auto own = rows_of(b.columns(system_.layout(), e), v);
-    for (const BeamVector& part : {BeamVector(own.real()), BeamVector(own.imag())}) {
-      const auto twice = (*b.elements)[e]->kinetic_terms(motion, part);
-      for (std::size_t k = 0; k < terms.size(); ++k) terms[k] += 0.5 * system_.model().units.ucf * twice[k];
-    }
-  }
-  return terms;
-}
-
-double ModalDistribution::beam_work(const BeamBody& b, const Eigen::VectorXcd& u, PartialBy family) const {
-  double sum = 0;
-  BeamForces f;
-  for (std::size_t e = 0; e < b.elements->size(); ++e) {
-    (*b.elements)[e]->forces(b.motion(motion_, e), {}, true, f);
-    const auto own = rows_of(b.columns(system_.layout(), e), u);
-    const BeamMatrix& m = family == PartialBy::position ? f.stiffness : f.damping;
-    for (const BeamVector& part : {BeamVector(own.real()), BeamVector(own.imag())}) sum += part.dot(m * part);
-  }
-  return sum;
-}
-
-Eigen::VectorXd ModalDistribution::modal_coordinates(const FlexibleBody& f) const {
-  return Eigen::Map<const Eigen::VectorXd>(motion_.extra.data() + f.first, f.flexible->modes());
-}
-
-double ModalDistribution::flexible_energy(const FlexibleBody& f, const Eigen::VectorXcd& v) const {
-  const BodyBlock& block = system_.layout().body(f.body);
-  const Matrix3& R = motion_.body(f.body).R;
-  Eigen::VectorXcd local(6 + f.flexible->modes());
-  for (std::size_t part = 0; part < 2; ++part) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      Complex sum = 0;
-      for (std::size_t c = 0; c < 3; ++c) sum += R(c, k) * v(block.offset + static_cast<Eigen::Index>(3 * part + c));
-      local(static_cast<Eigen::Index>(3 * part + k)) = sum;
-    }
-  }
-  local.tail(f.flexible->modes()) =
-      v.segment(system_.layout().body_coordinate_count + static_cast<Eigen::Index>(f.first), f.flexible->modes());
-  const Eigen::MatrixXd M = f.flexible->inertia.matrix(modal_coordinates(f));
-  return 0.5 * (local.real().dot(M * local.real()) + local.imag().dot(M * local.imag()));
-}
-
-std::vector<ModalRow<double>> ModalDistribution::flexible_rows(const Eigen::VectorXcd& u, PartialBy family) const {
+std::vector<ModalRow<double>> ModalDistribution::rows_of_bodies(const Eigen::VectorXcd& u, PartialBy family) const {
   std::vector<ModalRow<double>> rows;
-  for (const auto& f : flexible_) {
-    if (!f) continue;
-    const Eigen::VectorXcd q =
-        u.segment(system_.layout().body_coordinate_count + static_cast<Eigen::Index>(f->first), f->flexible->modes());
-    const Eigen::MatrixXd& m = family == PartialBy::position ? f->flexible->stiffness : f->flexible->damping;
-    ModalRow<double> row{&system_.layout().body(f->body).label, 0,
+  for (const BodySource* body : system_.bodies()) {
+    const std::optional<double> work = body->own_work(motion_, family, u);
+    if (!work) continue;
+    ModalRow<double> row{&system_.layout().body(body->bodies().front()).label, 0,
                          std::vector<double>(7, std::numeric_limits<double>::quiet_NaN())};
-    row.values[0] = 0.5 * (q.real().dot(m * q.real()) + q.imag().dot(m * q.imag()));
-    rows.push_back(std::move(row));
-  }
-  for (const BeamBody& b : beams_) {
-    ModalRow<double> row{b.label, 0, std::vector<double>(7, std::numeric_limits<double>::quiet_NaN())};
-    row.values[0] = 0.5 * beam_work(b, u, family);
+    row.values[0] = 0.5 * *work;
     rows.push_back(std::move(row));
   }
   std::ranges::stable_sort(rows, {},
@@ -205,13 +122,7 @@ ModeHeader ModalDistribution::header(std::size_t mode) const {
   }
   const auto energy = [&](const Eigen::VectorXcd& v) {
     double sum = 0;
-    for (const std::size_t b : bodies_by_id()) {
-      if (flexible_[b]) {
-        sum += flexible_energy(*flexible_[b], v);
-        continue;
-      }
-      for (const double term : kinetic_terms(b, v)) sum += term;
-    }
+    for (const auto& of : kinetic_energies(v)) sum += of.second.total();
     return sum;
   };
   ModeHeader h;
@@ -237,7 +148,7 @@ std::pair<std::vector<ModalRow<Complex>>, Complex> ModalDistribution::shape(std:
       turn = three(dq, block.offset + 3);
       add(of_cm, times(-skew(motion_.bodies[b].R * system_.model().bodies[b].p_BC), turn));
     }
-    rows.push_back({&block.label, node_[b], {of_cm[0], of_cm[1], of_cm[2], turn[0], turn[1], turn[2]}});
+    rows.push_back({&block.label, block.listed.node, {of_cm[0], of_cm[1], of_cm[2], turn[0], turn[1], turn[2]}});
   }
   const auto& states = system_.layout().states;
   for (std::size_t k = 0; k < states.size(); ++k) {
@@ -297,24 +208,16 @@ std::vector<ModalRow<double>> ModalDistribution::kinetic(std::size_t mode) const
   const Eigen::VectorXcd z = scaled_vector(mode);
   const bool at_rest = solution_.modes[mode].eigenvalue_hz == Complex(0);
   const Eigen::VectorXcd v = at_rest ? displacements(z) : velocities(z);
+  const auto energies = kinetic_energies(v);
+  const bool any_shapes = std::ranges::any_of(energies, [](const auto& of) { return of.second.whole.has_value(); });
   std::vector<ModalRow<double>> rows;
   double total = 0;
-  for (const std::size_t b : bodies_by_id()) {
-    if (node_[b] > 0 && !beam_of_[b]) continue;
-    const auto terms = kinetic_terms(b, v);
-    ModalRow<double> row{&system_.layout().bodies[b].label, 0, {terms.begin(), terms.end()}};
-    double sum = 0;
-    for (const double t : terms) sum += t;
-    const bool any_flexible = std::ranges::any_of(flexible_, [](const auto& f) { return f.has_value(); });
-    if (flexible_[b]) {
-      const double whole = flexible_energy(*flexible_[b], v);
-      row.values.push_back(whole - sum);
-      sum = whole;
-    } else if (any_flexible) {
-      row.values.push_back(std::numeric_limits<double>::quiet_NaN());
-    }
-    row.values.push_back(sum);
-    total += sum;
+  for (const auto& [label, energy] : energies) {
+    ModalRow<double> row{label, 0, {energy.terms.begin(), energy.terms.end()}};
+    if (any_shapes)
+      row.values.push_back(energy.whole ? *energy.whole - energy.sum() : std::numeric_limits<double>::quiet_NaN());
+    row.values.push_back(energy.total());
+    total += energy.total();
     rows.push_back(std::move(row));
   }
   for (auto& row : rows) {

@@ -9,8 +9,6 @@
 
 #include <optional>
 
-#include "elements/bodies/fe_part.h"
-#include "elements/bodies/flex_body.h"
 #include "linear/linear_system.h"
 #include "system/sparse_lu.h"
 
@@ -62,14 +60,10 @@ class ModalDistribution {
   std::vector<std::size_t> bodies_by_id() const;
   // Rows of bodies and states before they are scaled, and the largest value among them.
   std::pair<std::vector<ModalRow<std::complex<double>>>, std::complex<double>> shape(std::size_t mode) const;
-  std::array<double, 9> kinetic_terms(std::size_t body, const Eigen::VectorXcd& v) const;
-  // ½ vᴴ M v of a flexible body.
-  double flexible_energy(const FlexibleBody&, const Eigen::VectorXcd& v) const;
-  // The kinetic energy of a beam by its terms, and twice what its stiffness or damping works.
-  std::array<double, 9> beam_terms(const BeamBody&, const Eigen::VectorXcd& v) const;
-  double beam_work(const BeamBody&, const Eigen::VectorXcd& u, PartialBy family) const;
-  std::vector<ModalRow<double>> flexible_rows(const Eigen::VectorXcd& u, PartialBy family) const;
-  Eigen::VectorXd modal_coordinates(const FlexibleBody&) const;
+  // Of each body the kinetic energy, in the order of ids.
+  std::vector<std::pair<const ElementLabel*, KineticEnergy>> kinetic_energies(const Eigen::VectorXcd& v) const;
+  // What the law of each body that deforms works.
+  std::vector<ModalRow<double>> rows_of_bodies(const Eigen::VectorXcd& u, PartialBy family) const;
   std::vector<std::size_t> sets_with_rows() const;
   std::vector<ModalRow<double>> force_rows(std::size_t mode, PartialBy family) const;
   bool rests(std::size_t mode, const Eigen::VectorXcd& z, const Eigen::VectorXcd& velocities) const;
@@ -81,10 +75,6 @@ class ModalDistribution {
   const LinearSystem& linear_;
   const EigenSolution& solution_;
   Motion motion_;
-  std::vector<std::optional<FlexibleBody>> flexible_;  // by body
-  std::vector<BeamBody> beams_;
-  std::vector<const BeamBody*> beam_of_;  // by body: of the first node
-  std::vector<std::int64_t> node_;        // by body: number in its beam, else 0
   Equations eq_;
   std::optional<ConstraintRows> original_;  // gradients of the coordinates of the original implementation
   SparseLu algebraic_;

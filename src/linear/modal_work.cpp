@@ -136,7 +136,7 @@ std::vector<ModalRow<double>> ModalDistribution::force_rows(std::size_t mode, Pa
       rows.push_back(std::move(row));
     }
   }
-  if (auto of_bodies = flexible_rows(u, family); !of_bodies.empty()) {
+  if (auto of_bodies = rows_of_bodies(u, family); !of_bodies.empty()) {
     for (const ModalRow<double>& row : of_bodies) {
       total += row.values[0];
       parts += std::abs(row.values[0]);

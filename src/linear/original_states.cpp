@@ -6,10 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "elements/bodies/fe_part.h"
-#include "elements/bodies/flex_body.h"
-#include "linear/beam_states.h"
-
 namespace dynalin {
 
 namespace {
@@ -77,20 +73,17 @@ CandidateSet::Moves moves_of(const BodyBlock& block, std::size_t k, const Vector
   return moves;
 }
 
-StateCoordinate principal_coordinate(const System& system, const BodyBlock& block, std::int32_t k, bool renamed,
-                                     bool flexible) {
+StateCoordinate principal_coordinate(const System& system, const BodyBlock& block, std::int32_t k, bool renamed) {
   static constexpr std::array names = {"DX", "DY", "DZ", "PSI", "THETA", "PHI"};
   StateLabel label;
-  label.type = block.kind == BodyKind::point_mass ? StateType::point_mass_original
-               : flexible                         ? StateType::flex_body_euler
-                                                  : StateType::part_euler;
+  label.type = block.listed.states.types.principal;
   label.element = block.label.id;
   label.owner = block.label.element();
   label.coordinate = k + 1;
   label.text = fmt::format("Global {} {}(PBCS{})", k < 3 ? "displacement" : "angle", names[static_cast<std::size_t>(k)],
                            renamed && k >= 3 ? " yzx" : "");
   const StateType type = label.type;
-  const int rate = label.coordinate + static_cast<int>(block.count);
+  const int rate = label.coordinate + block.listed.states.rates_behind;
   return state_coordinate(std::move(label), type, rate, system.coordinate_scale(block.offset + k));
 }
 
@@ -127,18 +120,16 @@ std::int32_t add_principal_candidates(const System& system, const Motion& motion
   }
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return layout.bodies[a].label.id < layout.bodies[b].label.id; });
-  const std::vector<const ModalBody*> flexible = flexible_by_body(system.model());
-  const std::vector<bool> of_beams = beam_nodes(system.model());
-  const auto states_of_beams = beam_state_coordinates(system);
   const Vec3<Taylor> none{};
   for (const std::size_t b : order) {
     const BodyBlock& block = layout.bodies[b];
-    if (of_beams[b]) {  // as they are
-      for (std::int32_t k = block.offset; k < block.offset + block.count; ++k, ++row) {
+    if (block.is_node()) {  // as they are
+      for (std::int32_t k = 0; k < block.count; ++k, ++row) {
+        const std::int32_t coordinate = block.offset + k;
         set.gradients.set(row, Taylor());
-        set.gradients.add_coordinate(row, k, Taylor(1.0));
-        set.wanted.push_back({k, -1, states_of_beams.at(k)});
-        set.moves.push_back({{k, 1.0}});
+        set.gradients.add_coordinate(row, coordinate, Taylor(1.0));
+        set.wanted.push_back({coordinate, -1, global_coordinate(system, block, k)});
+        set.moves.push_back({{coordinate, 1.0}});
       }
       continue;
     }
@@ -162,7 +153,7 @@ std::int32_t add_principal_candidates(const System& system, const Motion& motion
       } else {
         set.gradients.add_pose(row, id, none, angles[i - 3]);
       }
-      set.wanted.push_back({-1, row, principal_coordinate(system, block, k, renamed, flexible[b])});
+      set.wanted.push_back({-1, row, principal_coordinate(system, block, k, renamed)});
       set.moves.push_back(moves_of(block, i, moving.R * axes.z, moving.R * body.p_BC));
     }
   }

@@ -13,6 +13,7 @@
 namespace dynalin {
 
 class Binder;
+class BodySource;
 class ChannelSource;
 class DelaySource;
 class EventSource;
@@ -66,6 +67,8 @@ class Kernel {
   virtual const SwitchSource* kinks() const { return nullptr; }
   virtual const EventSource* events() const { return nullptr; }
   virtual const DelaySource* delays() const { return nullptr; }
+  // Of those that are bodies, one for each.
+  virtual std::vector<const BodySource*> bodies() const { return {}; }
 };
 
 }  // namespace dynalin

@@ -8,9 +8,10 @@ namespace {
 std::int32_t last_index(std::size_t size) { return static_cast<std::int32_t>(size) - 1; }
 }  // namespace
 
-std::int32_t Layout::add_body(BodyKind kind, ElementLabel label) {
+std::int32_t Layout::add_body(BodyKind kind, ElementLabel label, const BodyListing& listed) {
   const std::int32_t count = kind == BodyKind::part ? 6 : kind == BodyKind::point_mass ? 3 : 0;
   bodies.push_back({kind, count > 0 ? coordinate_count : -1, count, std::move(label)});
+  bodies.back().listed = listed;
   coordinate_count += count;
   body_coordinate_count = coordinate_count;
   return last_index(bodies.size());
@@ -19,6 +20,9 @@ std::int32_t Layout::add_body(BodyKind kind, ElementLabel label) {
 std::int32_t Layout::add_extra(ElementLabel label, ExtraKind kind, std::vector<ExtraCoordinate> coordinates) {
   const std::int32_t offset = coordinate_count;
   const auto count = static_cast<std::int32_t>(coordinates.size());
+  for (std::int32_t k = 0; k < count; ++k) {
+    if (std::int32_t& number = coordinates[static_cast<std::size_t>(k)].number; number == 0) number = k + 1;
+  }
   extras.push_back({offset, count, std::move(label), kind, std::move(coordinates)});
   coordinate_count += count;
   return offset;

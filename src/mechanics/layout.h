@@ -4,6 +4,7 @@
 // coordinates of bodies, in the order of these, and any number for an element that brings coordinates of its own.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -22,14 +23,49 @@ namespace dynalin {
 
 enum class BodyKind : std::uint8_t { ground, part, point_mass };
 
+// What a body of the layout is to the motion of the model.
+enum class BodyRole : std::uint8_t {
+  rigid,   // its pose is all that moves of it
+  shaped,  // the BCS of a body that moves by the amplitudes of shapes as well
+  nodal,   // one of the nodes of a body that deforms between them, known by its number in that body
+};
+
+// The type codes of a coordinate as a state of linear models: along global axes, seen from a marker (RM), and among
+// those of the original implementation.
+struct StateTypes {
+  StateType global{}, relative{}, principal{};
+
+  constexpr StateTypes() = default;
+  constexpr StateTypes(StateType whichever) : global(whichever), relative(whichever), principal(whichever) {}
+  constexpr StateTypes(StateType global_, StateType relative_, StateType principal_)
+      : global(global_), relative(relative_), principal(principal_) {}
+};
+
+// How a pose is listed among the states of its element.
+struct PoseStates {
+  StateTypes types{StateType::part, StateType::part_relative, StateType::part_euler};
+  std::array<std::int32_t, 6> number = {1, 2, 3, 4, 5, 6};  // of δr and δθ
+  std::int32_t rates_behind = 6;  // by how much the number of a rate is more than that of its coordinate
+};
+
+// What its element says of a body.
+struct BodyListing {
+  BodyRole role = BodyRole::rigid;
+  std::int64_t node = 0;  // of a nodal one: its number as written
+  PoseStates states;
+};
+
 struct BodyBlock {
   BodyKind kind = BodyKind::ground;
   std::int32_t offset = -1;  // first coordinate, −1 for ground
   std::int32_t count = 0;    // 0, 3 or 6
   ElementLabel label;
   double largest_step = std::numeric_limits<double>::infinity();  // of a search for rest [length]
+  BodyListing listed{};
 
   bool turns() const { return kind == BodyKind::part; }
+  bool is_rigid() const { return listed.role == BodyRole::rigid; }
+  bool is_node() const { return listed.role == BodyRole::nodal; }
 };
 
 // A coordinate outside bodies.
@@ -38,6 +74,7 @@ struct ExtraCoordinate {
   double initial = 0;
   double speed = 0;  // the least length that a unit of it moves anything [length], 0 if it is like an angle
   double largest_step = std::numeric_limits<double>::infinity();  // of an iteration
+  std::int32_t number = 0;  // among the states of its element; 0: its place in the block, from 1
 };
 
 // What coordinates outside bodies are to the motion of the model.
@@ -49,8 +86,9 @@ enum class ExtraRole : std::uint8_t {
 
 // What an element says of its coordinates outside bodies.
 struct ExtraKind {
-  StateType type{};  // of these coordinates and of their rates as states, which are numbered alike
+  StateTypes types;  // of these coordinates and of their rates as states
   ExtraRole role = ExtraRole::follower;
+  std::int32_t rates_behind = 0;  // by how much the number of a rate is more than that of its coordinate
 };
 
 // The coordinates outside bodies of one element.
@@ -164,7 +202,7 @@ class Layout {
   const MarkerPlace& marker(MarkerId m) const { return *markers[static_cast<std::size_t>(m.index)]; }
   const ElementLabel& marker_label(MarkerId m) const { return *marker_labels[static_cast<std::size_t>(m.index)]; }
 
-  std::int32_t add_body(BodyKind, ElementLabel);
+  std::int32_t add_body(BodyKind, ElementLabel, const BodyListing& = {});
   // After all bodies, their modal coordinates first; returns the first coordinate.
   std::int32_t add_extra(ElementLabel, ExtraKind, std::vector<ExtraCoordinate>);
   // Where a coordinate outside bodies stands among those in Motion.

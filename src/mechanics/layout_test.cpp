@@ -32,7 +32,31 @@ TEST(Layout, coordinates_outside_bodies_stand_behind_them_and_keep_their_block) 
   EXPECT_EQ(p.layout.extra_index(29), 8u);
   EXPECT_EQ(p.layout.extras.back().offset, 29);
   EXPECT_EQ(p.layout.extras.back().count, 1);
-  EXPECT_EQ(p.layout.extras.back().kind.type, StateType::cvcv);
+  EXPECT_EQ(p.layout.extras.back().kind.types.global, StateType::cvcv);
+  EXPECT_EQ(p.layout.extras.back().kind.types.relative, StateType::cvcv);
+}
+
+TEST(Layout, coordinates_outside_bodies_are_numbered_by_their_place_unless_their_element_does) {
+  Layout l;
+  const ElementLabel label{"FLEX_BODY", 7, {}, {}};
+  l.add_extra(label, {StateType::flex_body}, {{"Q1"}, {.name = "Q2", .number = 12}, {"Q3"}});
+  ASSERT_EQ(l.extras.front().coordinates.size(), 3u);
+  EXPECT_EQ(l.extras.front().coordinates[0].number, 1);
+  EXPECT_EQ(l.extras.front().coordinates[1].number, 12);
+  EXPECT_EQ(l.extras.front().coordinates[2].number, 3);
+}
+
+TEST(Layout, bodies_are_listed_as_their_element_says) {
+  Layout l;
+  const ElementLabel label{"FE_PART", 7, {}, {}};
+  l.add_body(BodyKind::part, label);
+  l.add_body(BodyKind::part, label, {.role = BodyRole::nodal, .node = 40, .states = {.types = StateType::fe_part}});
+  EXPECT_TRUE(l.bodies[0].is_rigid());
+  EXPECT_FALSE(l.bodies[0].is_node());
+  EXPECT_TRUE(l.bodies[1].is_node());
+  EXPECT_FALSE(l.bodies[1].is_rigid());
+  EXPECT_EQ(l.bodies[1].listed.node, 40);
+  EXPECT_EQ(l.bodies[1].listed.states.types.principal, StateType::fe_part);
 }
 
 TEST(Layout, coordinates_outside_bodies_follow_unless_their_element_says_that_a_body_deforms_by_them) {

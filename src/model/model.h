@@ -45,6 +45,7 @@ struct Body {
   std::array<bool, 6> exact{};         // X Y Z PSI THETA PHI held in the assembly
   std::vector<ExtraCoordinate> modal;  // coordinates of its own, where it changes its shape
   ExtraKind modal_kind;                // what they are
+  BodyListing listed;                  // what it is and how its coordinates are listed
 };
 
 struct Marker {

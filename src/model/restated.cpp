@@ -1,8 +1,5 @@
 #include "model/restated.h"
 
-#include <algorithm>
-#include <array>
-
 namespace dynalin {
 
 namespace {
@@ -40,11 +37,6 @@ bool Restated::holds(const ElementLabel& label, std::string_view argument) const
   if (begins(label)) return true;
   const auto stated = arguments_.find(element_of(label));
   return stated != arguments_.end() && stated->second.contains(std::string(argument));
-}
-
-bool Restated::holds_velocity(const ElementLabel& label) const {
-  static constexpr std::array components = {"VX", "VY", "VZ", "WX", "WY", "WZ"};
-  return std::ranges::any_of(components, [&](const char* argument) { return holds(label, argument); });
 }
 
 }  // namespace dynalin

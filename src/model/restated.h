@@ -28,7 +28,6 @@ class Restated {
   bool begins(const ElementLabel&) const;
   // Whether what the argument states of the element holds.
   bool holds(const ElementLabel&, std::string_view argument) const;
-  bool holds_velocity(const ElementLabel&) const;  // of a body, any component
 
   bool is_all() const { return all_; }
   bool empty() const { return !all_ && anew_.empty() && arguments_.empty(); }

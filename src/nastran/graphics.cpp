@@ -3,7 +3,6 @@
 #include <map>
 #include <utility>
 
-#include "elements/bodies/flex_body.h"
 #include "geometry/shape_source.h"
 #include "model/model.h"
 #include "nastran/names.h"
@@ -15,7 +14,7 @@ namespace {
 class Drawer {
  public:
   Drawer(const Model& model, std::span<const Pose> poses, const ExportOptions& options, Ids& ids, Deck& deck)
-      : model_(model), poses_(poses), options_(options), ids_(ids), deck_(deck), flexible_(flexible_by_body(model)) {}
+      : model_(model), poses_(poses), options_(options), ids_(ids), deck_(deck) {}
 
   void add(const Shape& shape) {
     name_ = name_of(shape.label, options_);
@@ -63,7 +62,7 @@ class Drawer {
       grid.id = ids_.take(IdSpace::point, options_.graphics_grid_offset);
       grid.position = shape.global(v, poses_);
       // What is drawn on a flexible body stays where it is, as the LINEAR command leaves it.
-      if (body == ground_body || flexible_[static_cast<std::size_t>(body.index)])
+      if (body == ground_body || model_.body(body).listed.role == BodyRole::shaped)
         grid.fixed = "123456";
       else
         riding_[static_cast<std::size_t>(body.index - 1)].push_back(grid.id);
@@ -101,7 +100,6 @@ class Drawer {
   const ExportOptions& options_;
   Ids& ids_;
   Deck& deck_;
-  std::vector<const ModalBody*> flexible_;  // by body
   std::string name_;
   std::map<std::size_t, std::vector<std::int64_t>> riding_;  // by Deck::bodies
   std::int64_t shell_ = 0, rod_ = 0;

@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "elements/bodies/fe_part.h"
-#include "elements/bodies/flex_body.h"
 #include "nastran/names.h"
+#include "system/mass_centres.h"
 
 namespace dynalin::nastran {
 
@@ -20,31 +19,18 @@ constexpr std::int64_t part_offset = 100000;
 }  // namespace
 
 OpenPoints::OpenPoints(const System& system, const Motion& motion, const ExportOptions& options, Ids& ids, Deck& deck)
-    : system_(system),
-      motion_(motion),
-      options_(options),
-      ids_(ids),
-      deck_(deck),
-      changes_shape_(system.model().bodies.size()) {
+    : system_(system), motion_(motion), options_(options), ids_(ids), deck_(deck) {
   const Layout& layout = system.layout();
-  for (std::size_t b = 0; b < layout.bodies.size(); ++b)
-    arms_.push_back(motion.bodies[b].R * system.model().bodies[b].p_BC);
-  for (const FlexibleBody& f : flexible_bodies(system.model())) {
-    const auto b = static_cast<std::size_t>(f.body.index);
-    const ModalInertia& inertia = f.flexible->inertia;
-    changes_shape_[b] = true;
-    if (inertia.mass > 0) arms_[b] = motion.bodies[b].R * (inertia.first / inertia.mass);
+  Motion undeformed = motion;
+  for (const ExtraBlock& extra : layout.extras) {
+    for (std::int32_t k = 0; k < extra.count && extra.is_shape(); ++k)
+      undeformed.extra[layout.extra_index(extra.offset + k)] = 0;
   }
-  std::vector<std::string> nodes(layout.bodies.size());
-  for (const BeamBody& beam : beam_bodies(system.model())) {
-    for (std::size_t k = 0; k < beam.nodes.size(); ++k) {
-      const auto b = static_cast<std::size_t>(beam.nodes[k].index);
-      changes_shape_[b] = true, nodes[b] = fmt::format("{}, node {}", name_of(*beam.label, options), beam.numbers[k]);
-    }
-  }
+  const std::vector<Vec3<Taylor>> centres = centres_in_bodies(system, undeformed);
+  for (std::size_t b = 0; b < layout.bodies.size(); ++b) arms_.push_back(motion.bodies[b].R * value(centres[b]));
   body_of_.resize(system.coordinates());
   dofs_.resize(system.coordinates());
-  for (std::size_t b = 0; b < layout.bodies.size(); ++b) add_body(b, nodes[b]);
+  for (std::size_t b = 0; b < layout.bodies.size(); ++b) add_body(b);
   for (const ExtraBlock& extra : layout.extras) {
     for (std::int32_t k = 0; k < extra.count; ++k) {
       ScalarPoint p;
@@ -93,15 +79,15 @@ std::int32_t OpenPoints::add_unknown(std::string name, std::int64_t wanted) {
   return static_cast<std::int32_t>(dofs_.size()) - 1;
 }
 
-void OpenPoints::add_body(std::size_t b, const std::string& node) {
+void OpenPoints::add_body(std::size_t b) {
   const BodyBlock& block = system_.layout().bodies[b];
+  const std::string own = name_of(block.label, options_);
+  const std::string name = block.is_node() ? fmt::format("{}, node {}", own, block.listed.node) : own;
   const std::int64_t offset = block.kind == BodyKind::point_mass ? options_.pointmass_offset : part_offset;
   Grid g;
   g.id = ids_.take(IdSpace::point, options_.use_adams_ids ? offset + block.label.id : options_.grid_offset);
   g.body = static_cast<std::int32_t>(b) - 1;
-  g.name = !node.empty()                    ? node
-           : block.kind == BodyKind::ground ? name_of(block.label, options_)
-                                            : name_of("centre of mass", block.label, options_);
+  g.name = block.is_node() || block.kind == BodyKind::ground ? name : name_of("centre of mass", block.label, options_);
   g.position = motion_.bodies[b].r + arms_[b];
   grids_.push_back(g.id);
   if (block.kind == BodyKind::ground) {
@@ -110,7 +96,7 @@ void OpenPoints::add_body(std::size_t b, const std::string& node) {
     deck_.grids.push_back(std::move(g));
     return;
   }
-  deck_.bodies.push_back({node.empty() ? name_of(block.label, options_) : node, g.id});
+  deck_.bodies.push_back({name, g.id});
   if (!block.turns()) deck_.fixed_points.push_back({{g.body, g.name}, g.id, "456"});
   for (std::int32_t k = 0; k < block.count; ++k) {
     dofs_[static_cast<std::size_t>(block.offset + k)] = {g.id, k + 1};

@@ -33,7 +33,7 @@ class OpenPoints {
   Vector centre(BodyId b) const { return motion_.body(b).r + arm(b); }
   std::int32_t body_in_deck(BodyId b) const { return b.index - 1; }  // −1 of the ground
   // A flexible body, or a node of a beam: its inertia is in matrices.
-  bool changes_shape(BodyId b) const { return changes_shape_[static_cast<std::size_t>(b.index)]; }
+  bool changes_shape(BodyId b) const { return !system_.layout().body(b).is_rigid(); }
 
   std::int32_t coordinates() const { return static_cast<std::int32_t>(body_of_.size()); }
   Dof dof(std::int32_t unknown) const { return dofs_[static_cast<std::size_t>(unknown)]; }
@@ -66,7 +66,7 @@ class OpenPoints {
   }
 
  private:
-  void add_body(std::size_t b, const std::string& node);  // its name, empty of what is no node of a beam
+  void add_body(std::size_t b);
 
   const System& system_;
   const Motion& motion_;
@@ -75,7 +75,6 @@ class OpenPoints {
   Deck& deck_;
   std::vector<std::int64_t> grids_;  // by body
   std::vector<Vector> arms_;         // by body; of flexible ones to the undeformed centre
-  std::vector<bool> changes_shape_;  // by body
   std::vector<BodyId> body_of_;      // of coordinates, invalid outside bodies
   std::vector<Dof> dofs_;            // of unknowns
   std::vector<std::int32_t> states_;

@@ -11,12 +11,9 @@
 #include <span>
 #include <vector>
 
-namespace dynalin {
+#include "mechanics/sparse_row.h"
 
-struct SparseRow {
-  std::vector<std::int32_t> column;  // any order
-  std::vector<double> value;
-};
+namespace dynalin {
 
 struct EliminationOptions {
   double pivot_threshold = 0.1;  // τ

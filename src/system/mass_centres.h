@@ -7,8 +7,10 @@
 
 namespace dynalin {
 
-// Of each body, by BodyId, global axes: of a rigid one CM, of a flexible one A c/I1 with c of flexible_body.h, which
-// moves in the body as its modal coordinates do.
+// Of each body by BodyId, from its origin along the axes of its BCS. That of a body with shapes moves in it as its
+// modal coordinates do.
+std::vector<Vec3<Taylor>> centres_in_bodies(const System&, const Motion&);
+// The same places, global axes.
 std::vector<Vec3<Taylor>> mass_centres(const System&, const Motion&);
 
 }  // namespace dynalin

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 
-#include "elements/bodies/fe_part.h"
 #include "elements/controls/variable_list.h"
 #include "mechanics/wrench_source.h"
 #include "system/mass_centres.h"
@@ -36,17 +35,13 @@ class Reading {
 
  private:
   void read_bodies() {
-    std::vector<std::int64_t> node(motion_.bodies.size(), 0);  // of beams, whose nodes share a label
-    for (const BeamBody& b : beam_bodies(model_)) {
-      for (std::size_t k = 0; k < b.nodes.size(); ++k) node[static_cast<std::size_t>(b.nodes[k].index)] = b.numbers[k];
-    }
     const std::vector<Vec3<Taylor>> centres = mass_centres(system_, motion_);
     for (std::size_t b = 1; b < motion_.bodies.size(); ++b) {
       const BodyMotion& m = motion_.bodies[b];
       const BodyBlock& block = layout_.bodies[b];
       BodyState s;
       s.name = block.label.full_text();
-      s.element = block.label.element(), s.node = node[b];
+      s.element = block.label.element(), s.node = block.listed.node;
       if (s.node > 0) s.name += fmt::format(" node {}", s.node);
       s.view_name = block.label.view_name;
       s.position = plain(m.r);

@@ -26,7 +26,7 @@ System::~System() = default;
 
 void System::number_bodies() {
   layout_.bodies.reserve(model_->bodies.size());
-  for (const Body& b : model_->bodies) layout_.add_body(b.kind, b.label);
+  for (const Body& b : model_->bodies) layout_.add_body(b.kind, b.label, b.listed);
   for (const Body& b : model_->bodies) {
     if (!b.modal.empty()) layout_.add_extra(b.label, b.modal_kind, b.modal);
   }
@@ -67,7 +67,10 @@ void System::make_kernels(const SystemOptions& options) {
       start_sources_.push_back(starts);
       starts_.insert(starts_.end(), own.begin(), own.end());
     }
+    const std::vector<const BodySource*> bodies = kernel->bodies();
+    bodies_.insert(bodies_.end(), bodies.begin(), bodies.end());
   }
+  std::ranges::sort(bodies_, {}, [](const BodySource* b) { return b->bodies().front().index; });
 }
 
 void System::find_angles(const std::vector<AngleName>& counted_before) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "elements/families/delay.h"
+#include "mechanics/body_source.h"
 #include "mechanics/equations.h"
 #include "mechanics/event_source.h"
 #include "mechanics/kernel.h"
@@ -81,6 +82,9 @@ class System {
   // The longest step in time that resolves what elements do here; infinite if all is resolved by the error control.
   double longest_step(const Motion&) const;
 
+  // All that have mass or could, in the order of the layout.
+  std::span<const BodySource* const> bodies() const { return bodies_; }
+
   // Scale of a coordinate: the model length for translations, 1 for rotations, and what moves as far for the others.
   double coordinate_scale(std::int32_t coordinate) const { return scale_[static_cast<std::size_t>(coordinate)]; }
   // Elimination of the position rows (or of all rows on velocities) with columns in the default preference.
@@ -109,6 +113,7 @@ class System {
   std::vector<const SwitchSource*> switch_sources_;
   std::vector<const EventSource*> event_sources_;
   std::vector<const DelaySource*> delay_sources_;
+  std::vector<const BodySource*> bodies_;
   double length_ = 1;
   std::vector<double> scale_;
   std::vector<std::int32_t> preference_;

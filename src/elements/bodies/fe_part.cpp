@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "elements/bodies/beam_states.h"
 #include "elements/bodies/fe_part_statement.h"
 #include "elements/families/beam_body.h"
 #include "elements/families/markers.h"
@@ -90,8 +91,10 @@ class FePartSet final : public TypedSet<FePart> {
       Body& body = model.bodies.emplace_back();
       body.label = label;
     }
+    const BeamStates states(f.numbers.size(), f.plane);
     for (std::size_t k = 0; k < f.numbers.size(); ++k) {
       Body& body = model.bodies[static_cast<std::size_t>(f.nodes[k].index)];
+      body.listed = {BodyRole::nodal, f.numbers[k], {StateType::fe_part, states.of_pose(k), states.count()}};
       body.pose = {f.origin + f.axes * place_of_node(f, k), f.axes * axes_of_node(f, k)};
       for (std::size_t side = 0; side < 2; ++side) {  // the element before it, the one behind
         if (side == 0 ? k == 0 : k == f.elements.size()) continue;
@@ -163,41 +166,6 @@ std::vector<BeamBody> beam_bodies(const Model& model, const Layout& layout) {
     }
   }
   return list;
-}
-
-std::vector<bool> beam_nodes(const Model& model) {
-  std::vector<bool> is_node(model.bodies.size(), false);
-  for (const BeamBody& b : beam_bodies(model)) {
-    for (const BodyId node : b.nodes) is_node[static_cast<std::size_t>(node.index)] = true;
-  }
-  return is_node;
-}
-
-void start_beam(const BeamBody& b, const Model& model, const Layout& layout, const Motion& motion,
-                std::span<double> start) {
-  const Pose& first = model.body(b.nodes.front()).pose;
-  const BodyMotion& first_now = motion.body(b.nodes.front());
-  const Matrix3 turned = first_now.R * transpose(first.R);
-  const Pose now{first_now.r + turned * (b.drawn.r - first.r), turned * b.drawn.R};
-  const auto along = [&](const std::array<std::optional<double>, 3>& stated, const Matrix3& axes) {
-    Vector sum;
-    for (std::size_t k = 0; k < 3; ++k) sum += stated[k].value_or(0) * axes[k];
-    return sum;
-  };
-  const Vector v = along(b.velocity.of_cm, motion.axes(layout.marker(b.velocity.cm_axes)));
-  const Vector w = along(b.velocity.angular,
-                         b.velocity.angular_axes.valid() ? motion.axes(layout.marker(b.velocity.angular_axes)) : now.R);
-  const auto put = [&](std::int32_t at, const Vector& x) {
-    for (std::size_t k = 0; k < 3; ++k) start[static_cast<std::size_t>(at) + k] = x[k];
-  };
-  for (std::size_t k = 0; k < b.nodes.size(); ++k) {
-    const std::int32_t offset = layout.body(b.nodes[k]).offset;
-    put(offset, v + cross(w, motion.body(b.nodes[k]).r - now.r));
-    put(offset + 3, w);
-    const std::size_t s = b.slope(k);
-    put(layout.body_coordinate_count + static_cast<std::int32_t>(s),
-        cross(w, Vector{motion.extra[s], motion.extra[s + 1], motion.extra[s + 2]}));
-  }
 }
 
 extern constinit const Kind fe_part = Kind{

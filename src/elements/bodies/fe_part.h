@@ -1,6 +1,7 @@
 // What others ask of FE_PART statements. Each node is a body of the model with the label of its FE_PART: the first has
 // the place that the statement has among bodies, the others stand behind those of all statements. Mass and inertia of
-// these Bodies are what each node stands for, a scale for those who compare; the beam itself has the inertia.
+// these Bodies are what each node stands for, a scale for those who compare; the beam itself has the inertia and tells
+// it to others (elements/families/nodal_body.h).
 #pragma once
 
 #include <array>
@@ -29,6 +30,7 @@ struct BeamBody {
 
   std::size_t slope(std::size_t node) const { return first_extra + 3 * node; }
   std::size_t middle(std::size_t element) const { return first_extra + 3 * (nodes.size() + element); }
+  std::size_t extra_count() const { return 3 * (nodes.size() + (plane ? 0 : elements->size())); }
   BeamColumns columns(const Layout&, std::size_t element) const;
   BeamMotion motion(const Motion&, std::size_t element) const;
 };
@@ -48,11 +50,4 @@ auto rows_of(const BeamColumns& columns, const Eigen::MatrixBase<Derived>& all) 
 std::vector<BeamBody> beam_bodies(const Model&);
 // The same with them, when the layout has all coordinates.
 std::vector<BeamBody> beam_bodies(const Model&, const Layout&);
-// By BodyId: whether it is a node.
-std::vector<bool> beam_nodes(const Model&);
-
-// Writes the velocities at the start that the statement states into `start`, of all coordinates. The BCS goes with the
-// first node.
-void start_beam(const BeamBody&, const Model&, const Layout&, const Motion&, std::span<double> start);
-
 }  // namespace dynalin

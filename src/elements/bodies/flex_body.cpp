@@ -24,6 +24,10 @@ namespace dynalin {
 
 namespace {
 
+// Of the pose and of the modes as states. Modes have numbers behind this one, their rates behind its double.
+constexpr StateTypes flexible_types{StateType::flex_body, StateType::flex_body_relative, StateType::flex_body_euler};
+constexpr std::int32_t modal_numbers = 1000000;
+
 constexpr std::array<std::string_view, 6> pose_names = {"X", "Y", "Z", "PSI", "THETA", "PHI"};
 
 class FlexBodySet final : public TypedSet<FlexBody> {
@@ -82,9 +86,11 @@ class FlexBodySet final : public TypedSet<FlexBody> {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       FlexBody& f = elements[k];
       check_velocity_axes(model, labels[k], f.vm, f.wm, diagnostics);
+      Body& body = model.bodies[static_cast<std::size_t>(model.find_body("FLEX_BODY", labels[k].id)->index)];
+      body.listed.role = BodyRole::shaped;
+      body.listed.states.types = flexible_types;
       if (!f.data.empty()) f.flexible = of_matrices(f, labels[k].text(), model, diagnostics);
       if (!f.flexible) continue;
-      Body& body = model.bodies[static_cast<std::size_t>(model.find_body("FLEX_BODY", labels[k].id)->index)];
       body.pose = {f.origin, f.axes};
       const ModalInertia& I = f.flexible->inertia;
       body.user_mass = I.mass;
@@ -94,11 +100,13 @@ class FlexBodySet final : public TypedSet<FlexBody> {
       for (const std::string& word : f.exact) {
         if (const auto at = find_keyword(word, pose_names)) body.exact[*at] = true;
       }
-      body.modal_kind = {StateType::flex_body, ExtraRole::shape};
+      body.modal_kind = {flexible_types, ExtraRole::shape, modal_numbers};
       for (Eigen::Index m = 0; m < f.flexible->modes(); ++m) {
-        body.modal.push_back(
-            {fmt::format("Modal generalized coordinate Q{}", f.flexible->number[static_cast<std::size_t>(m)]),
-             f.flexible->displacement(m), f.flexible->reach(m)});
+        const std::int64_t number = f.flexible->number[static_cast<std::size_t>(m)];
+        body.modal.push_back({.name = fmt::format("Modal generalized coordinate Q{}", number),
+                              .initial = f.flexible->displacement(m),
+                              .speed = f.flexible->reach(m),
+                              .number = modal_numbers + static_cast<std::int32_t>(number)});
       }
       f.flexible->lacks_inertia = lacks_inertia(I);
       f.flexible->length = f.length > 0 ? f.length : extent_of(f.flexible->position);

@@ -184,8 +184,8 @@ class PartSet final : public TypedSet<Part> {
     std::vector<Part>().swap(elements);  // all that counts is in the model now
   }
 
-  std::unique_ptr<Kernel> make_kernel(const Model& model, Layout&) const override {
-    return std::make_unique<InertiaKernel>(model, BodyKind::part);
+  std::unique_ptr<Kernel> make_kernel(const Model& model, Layout& layout) const override {
+    return std::make_unique<InertiaKernel>(model, layout, BodyKind::part);
   }
 
  private:

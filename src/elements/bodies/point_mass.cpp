@@ -89,6 +89,9 @@ class PointMassSet final : public TypedSet<PointMass> {
       const BodyId id = *model.find_body("POINT_MASS", labels[k].id);
       Body& body = model.bodies[static_cast<std::size_t>(id.index)];
       body.pose = {p.origin, p.axes};
+      body.listed.states.types = {StateType::point_mass, StateType::point_mass_relative,
+                                  StateType::point_mass_original};
+      body.listed.states.rates_behind = 3;
       body.user_mass = p.mass;
       body.mass = p.mass / model.units.ucf;
       if (p.cm.valid()) {
@@ -104,8 +107,8 @@ class PointMassSet final : public TypedSet<PointMass> {
     }
   }
 
-  std::unique_ptr<Kernel> make_kernel(const Model& model, Layout&) const override {
-    return std::make_unique<InertiaKernel>(model, BodyKind::point_mass);
+  std::unique_ptr<Kernel> make_kernel(const Model& model, Layout& layout) const override {
+    return std::make_unique<InertiaKernel>(model, layout, BodyKind::point_mass);
   }
 };
 

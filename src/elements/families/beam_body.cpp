@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "elements/bodies/beam_states.h"
+
 namespace dynalin {
 
 namespace {
@@ -52,6 +54,7 @@ std::string turned_by(double limit, const BeamBody& b, const Motion& motion) {
 BeamBodyKernel::BeamBodyKernel(const Model& model, Layout& layout) : gravity_(model.gravity) {
   static constexpr std::array<char, 3> axes = {'X', 'Y', 'Z'};
   for (const BeamBody& b : beam_bodies(model)) {
+    const BeamStates states(b.nodes.size(), b.plane);
     std::vector<ExtraCoordinate> coordinates;
     for (std::size_t k = 0; k < b.nodes.size(); ++k) {
       const auto& elements = *b.elements;
@@ -59,25 +62,39 @@ BeamBodyKernel::BeamBodyKernel(const Model& model, Layout& layout) : gravity_(mo
       const Vector slope = model.body(b.nodes[k]).pose.R.x;
       // In a plane the node turns with its slope, which is like an angle.
       const double speed = b.plane ? 0 : slope_reach * l;
-      for (std::size_t i = 0; i < 3; ++i)
-        coordinates.push_back({fmt::format("Slope S{} of node {}", axes[i], b.numbers[k]), slope[i], speed});
-    }
-    for (std::size_t e = 0; !b.plane && e < b.elements->size(); ++e) {
+      const auto number = states.of_slope(k);
       for (std::size_t i = 0; i < 3; ++i) {
-        coordinates.push_back(
-            {fmt::format("Rotation B{} between nodes {} and {}", axes[i], b.numbers[e], b.numbers[e + 1]), 0, 0,
-             largest_middle_step});
+        coordinates.push_back({.name = fmt::format("Slope S{} of node {}", axes[i], b.numbers[k]),
+                               .initial = slope[i],
+                               .speed = speed,
+                               .number = number[i]});
       }
     }
-    layout.add_extra(*b.label, {StateType::fe_part, ExtraRole::nodal}, std::move(coordinates));
+    for (std::size_t e = 0; !b.plane && e < b.elements->size(); ++e) {
+      const auto number = states.of_middle(e);
+      for (std::size_t i = 0; i < 3; ++i) {
+        coordinates.push_back(
+            {.name = fmt::format("Rotation B{} between nodes {} and {}", axes[i], b.numbers[e], b.numbers[e + 1]),
+             .largest_step = largest_middle_step,
+             .number = number[i]});
+      }
+    }
+    layout.add_extra(*b.label, {StateType::fe_part, ExtraRole::nodal, states.count()}, std::move(coordinates));
   }
   beams_ = beam_bodies(model, layout);
   for (const BeamBody& b : beams_) {
+    bodies_.emplace_back(model, layout, b);
     TurningWhole whole{b.nodes, {}};
     for (std::size_t k = 0; k < b.nodes.size(); ++k) whole.vectors.push_back(b.slope(k));
     layout.turning_wholes.push_back(std::move(whole));
     if (b.plane) plane_rows_.emplace_back(b, model, layout);
   }
+}
+
+std::vector<const BodySource*> BeamBodyKernel::bodies() const {
+  std::vector<const BodySource*> list;
+  for (const NodalBody& b : bodies_) list.push_back(&b);
+  return list;
 }
 
 void BeamBodyKernel::constraints(const Motion& motion, ConstraintRows& rows) const {

@@ -3,6 +3,7 @@
 // plane rows hold them there (elements/families/plane_beam_rows.h).
 #pragma once
 
+#include "elements/families/nodal_body.h"
 #include "elements/families/plane_beam_rows.h"
 #include "mechanics/kernel.h"
 
@@ -16,9 +17,11 @@ class BeamBodyKernel final : public Kernel {
   void equations(const Motion&, Equations&) const override;
   std::string domain_violation(const Motion&) const override;
   void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
+  std::vector<const BodySource*> bodies() const override;
 
  private:
   std::vector<BeamBody> beams_;
+  std::vector<NodalBody> bodies_;  // of the same
   std::vector<PlaneBeamRows> plane_rows_;
   Vector gravity_;
 };

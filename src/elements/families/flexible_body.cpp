@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "elements/bodies/flex_body.h"
 #include "elements/families/defined_unknown.h"
 #include "mechanics/path.h"
 #include "routine/routine_data.h"
@@ -282,7 +281,14 @@ FlexibleBodyKernel::FlexibleBodyKernel(const Model& model, Layout& layout) : gra
       }
     }
     items_.push_back(std::move(item));
+    bodies_.emplace_back(model, layout, f);
   }
+}
+
+std::vector<const BodySource*> FlexibleBodyKernel::bodies() const {
+  std::vector<const BodySource*> list;
+  for (const ShapedBody& b : bodies_) list.push_back(&b);
+  return list;
 }
 
 Channel FlexibleBodyKernel::shape_channel(BodyId body, std::size_t mode, int derivative) const {

@@ -15,7 +15,7 @@
 #include <memory>
 #include <vector>
 
-#include "flexible/modal_body.h"
+#include "elements/families/shaped_body.h"
 #include "mechanics/channel_source.h"
 #include "mechanics/kernel.h"
 #include "mechanics/start_source.h"
@@ -29,6 +29,7 @@ class FlexibleBodyKernel final : public Kernel, public StartSource, public Chann
   // All flexible bodies of the model.
   FlexibleBodyKernel(const Model&, Layout&);
   void equations(const Motion&, Equations&) const override;
+  std::vector<const BodySource*> bodies() const override;
 
   const StartSource* starts() const override { return this; }
   std::span<const StartCondition> start_conditions() const override { return starts_; }
@@ -60,6 +61,7 @@ class FlexibleBodyKernel final : public Kernel, public StartSource, public Chann
   static void read(const Reading&, const Motion&, Equations&);
 
   std::vector<Item> items_;
+  std::vector<ShapedBody> bodies_;  // of the same
   std::vector<Reading> readings_;
   Vector gravity_;
   std::vector<StartCondition> starts_;

@@ -2,24 +2,29 @@
 
 #include <algorithm>
 
-#include "elements/bodies/fe_part.h"
-#include "elements/bodies/flex_body.h"
-
 namespace dynalin {
 
-InertiaKernel::InertiaKernel(const Model& model, BodyKind kind) : gravity_(model.gravity) {
-  masses_.reserve(static_cast<std::size_t>(std::ranges::count(model.bodies, kind, &Body::kind)));
-  const std::vector<const ModalBody*> flexible = flexible_by_body(model);
-  const std::vector<bool> of_beams = beam_nodes(model);
+InertiaKernel::InertiaKernel(const Model& model, const Layout& layout, BodyKind kind) : gravity_(model.gravity) {
+  const auto count = static_cast<std::size_t>(std::ranges::count(model.bodies, kind, &Body::kind));
+  masses_.reserve(count), bodies_.reserve(count);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
-    if (body.kind != kind || flexible[b] || of_beams[b]) continue;
+    if (body.kind != kind || body.listed.role != BodyRole::rigid) continue;
     const Vector& c = body.p_BC;
     const Matrix3& J = body.J_BC;
     // ∫ρρᵀ about the CM is tr(J)/2 − J; moving the point adds m c cᵀ.
     const Matrix3 S = Matrix3::diagonal(0.5 * trace(J)) - J + body.mass * outer(c, c);
-    masses_.push_back({BodyId{static_cast<std::int32_t>(b)}, body.mass, body.mass * c, S});
+    const BodyId id{static_cast<std::int32_t>(b)};
+    masses_.push_back({id, body.mass, body.mass * c, S});
+    bodies_.emplace_back(model, layout, id);
   }
+}
+
+std::vector<const BodySource*> InertiaKernel::bodies() const {
+  std::vector<const BodySource*> list;
+  list.reserve(bodies_.size());
+  for (const RigidBody& b : bodies_) list.push_back(&b);
+  return list;
 }
 
 void InertiaKernel::equations(const Motion& motion, Equations& eq) const {

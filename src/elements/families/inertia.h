@@ -16,6 +16,7 @@
 #include <memory>
 #include <vector>
 
+#include "elements/families/rigid_body.h"
 #include "mechanics/kernel.h"
 #include "model/model.h"
 
@@ -24,8 +25,9 @@ namespace dynalin {
 class InertiaKernel final : public Kernel {
  public:
   // All rigid bodies of one kind in the model.
-  InertiaKernel(const Model&, BodyKind);
+  InertiaKernel(const Model&, const Layout&, BodyKind);
   void equations(const Motion&, Equations&) const override;
+  std::vector<const BodySource*> bodies() const override;
   std::size_t shares() const override { return shares_of(masses_.size()); }
 
  private:
@@ -36,6 +38,7 @@ class InertiaKernel final : public Kernel {
     Matrix3 S;      // second moments about the BCS origin, BCS axes
   };
   std::vector<Mass> masses_;
+  std::vector<RigidBody> bodies_;  // of the same
   Vector gravity_;
 };
 
