@@ -7,83 +7,11 @@
 #include "analysis/initial.h"
 #include "analysis/outside_weight.h"
 #include "analysis/stated_shape.h"
-#include "system/undefined_rows.h"
+#include "analysis/velocity_conditions.h"
 
 namespace dynalin {
 
 namespace {
-
-// One linear condition on velocities: coefficients · velocity = value.
-struct Condition {
-  std::vector<std::int32_t> column;
-  std::vector<double> coefficient;
-  double value = 0;
-  std::string text;  // of what is stated; rows have their own
-  Span at;           // of the statement
-};
-
-// What holds of that which the dataset states, as conditions: the CM velocity along an axis a is a·(v + ω × c).
-std::vector<Condition> stated_velocities(const System& system, const Motion& motion, const Restated& restated) {
-  static constexpr std::array cm_names = {"VX", "VY", "VZ"}, angular_names = {"WX", "WY", "WZ"};
-  std::vector<Condition> conditions;
-  const Model& model = system.model();
-  for (std::size_t b = 1; b < model.bodies.size(); ++b) {
-    const Body& body = model.bodies[b];
-    const BodyBlock& block = system.layout().bodies[b];
-    const Vector c = motion.bodies[b].R * body.p_BC;
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (body.velocity.of_cm[k] && restated.holds(body.label, cm_names[k])) {
-        const Vector a = motion.axes(system.layout().marker(body.velocity.cm_axes))[k];
-        const Vector turn = cross(c, a);
-        Condition s{{},
-                    {},
-                    *body.velocity.of_cm[k],
-                    fmt::format("{} of {}", cm_names[k], body.label.full_text()),
-                    body.label.at};
-        for (std::int32_t i = 0; i < block.count; ++i) {
-          const auto at = static_cast<std::size_t>(i);
-          s.column.push_back(block.offset + i);
-          s.coefficient.push_back(i < 3 ? a[at] : turn[at - 3]);
-        }
-        conditions.push_back(std::move(s));
-      }
-      if (body.velocity.angular[k] && block.turns() && restated.holds(body.label, angular_names[k])) {
-        const MarkerId axes = body.velocity.angular_axes;  // those of the BCS, where no marker has them
-        const Vector a = (axes.valid() ? motion.axes(system.layout().marker(axes)) : motion.bodies[b].R)[k];
-        Condition s{{},
-                    {},
-                    *body.velocity.angular[k],
-                    fmt::format("{} of {}", angular_names[k], body.label.full_text()),
-                    body.label.at};
-        for (std::int32_t i = 0; i < 3; ++i) {
-          s.column.push_back(block.offset + 3 + i);
-          s.coefficient.push_back(a[static_cast<std::size_t>(i)]);
-        }
-        conditions.push_back(std::move(s));
-      }
-    }
-  }
-  // What elements ask: the rate of their row.
-  const std::vector<StartCondition>& starts = system.starts();
-  ConstraintRows rows;
-  rows.resize(system.layout(), starts.size());
-  rows.begin();
-  system.start_rows(motion, 0, rows);
-  for (std::size_t k = 0; k < starts.size(); ++k) {
-    if (!starts[k].velocity || !restated.holds(*starts[k].owner, starts[k].velocity_argument)) continue;
-    Condition s{{},
-                {},
-                *starts[k].velocity,
-                fmt::format("of the {} of {}", starts[k].name, starts[k].owner->full_text()),
-                starts[k].owner->at};
-    for (const auto& e : rows.row(static_cast<std::int32_t>(k))) {
-      s.column.push_back(e.column);
-      s.coefficient.push_back(e.c.g);
-    }
-    conditions.push_back(std::move(s));
-  }
-  return conditions;
-}
 
 // ½ Σ |v_C|² + L² |ω|² over all bodies, times `weight`.
 void add_norm(const System& system, const Motion& motion, double weight, std::vector<Triplet>& entries) {
@@ -114,20 +42,6 @@ void add_norm(const System& system, const Motion& motion, double weight, std::ve
   }
 }
 
-// How far velocities are from a condition, and the size of its terms.
-struct Miss {
-  double value, size;
-};
-Miss miss(const Condition& c, const Eigen::VectorXd& velocity) {
-  Miss m{-c.value, std::abs(c.value)};
-  for (std::size_t i = 0; i < c.column.size(); ++i) {
-    const double term = c.coefficient[i] * velocity(c.column[i]);
-    m.value += term;
-    m.size = std::max(m.size, std::abs(term));
-  }
-  return m;
-}
-
 // Redundant rows are combinations of the others to 1e-9 of themselves, and so is what they ask of velocities.
 constexpr double contradicting_velocity = 1e-8;
 // Of the fastest of all: what solving may leave of it elsewhere.
@@ -145,7 +59,7 @@ double fastest_of(const System& system, const Eigen::VectorXd& velocity) {
 // Whether velocities meet a condition as far as it follows from others, in the size of its own terms: those that axes
 // turned otherwise would show count as well. `tolerance` is relative, `rounding` is that of velocities, in lengths of
 // the model and radians.
-bool follows(const System& system, const Condition& c, const Eigen::VectorXd& velocity, double tolerance,
+bool follows(const System& system, const VelocityCondition& c, const Eigen::VectorXd& velocity, double tolerance,
              double rounding) {
   const Miss off = miss(c, velocity);
   double size = off.size, noise = 0;
@@ -164,8 +78,9 @@ struct LeastChange {
   Eigen::VectorXd velocity;
   std::vector<std::size_t> contradicted;
 };
-Result<LeastChange> least_change(const System& system, const Motion& motion, const std::vector<Condition>& conditions,
-                                 const Eigen::VectorXd& start, double tolerance) {
+Result<LeastChange> least_change(const System& system, const Motion& motion,
+                                 const std::vector<VelocityCondition>& conditions, const Eigen::VectorXd& start,
+                                 double tolerance) {
   const auto n = static_cast<Eigen::Index>(system.coordinates());
   const auto m = static_cast<Eigen::Index>(conditions.size());
   std::vector<SparseRow> scaled(conditions.size());
@@ -210,17 +125,13 @@ Result<LeastChange> least_change(const System& system, const Motion& motion, con
   return result;
 }
 
-bool met_to_rounding(const Condition& c, const Eigen::VectorXd& velocity) {
-  const Miss off = miss(c, velocity);
-  return std::abs(off.value) <= 4 * std::numeric_limits<double>::epsilon() * off.size;
-}
-
 // Stated values of single coordinates that come out but for rounding are exactly what is stated, if the constraints,
 // which come first, are still met: near singular configurations a unit in the last place decides accelerations.
-void keep_as_stated(const std::vector<Condition>& conditions, std::size_t constraints, Eigen::VectorXd& velocity) {
+void keep_as_stated(const std::vector<VelocityCondition>& conditions, std::size_t constraints,
+                    Eigen::VectorXd& velocity) {
   Eigen::VectorXd kept = velocity;
   for (std::size_t k = constraints; k < conditions.size(); ++k) {
-    const Condition& c = conditions[k];
+    const VelocityCondition& c = conditions[k];
     std::size_t at = 0, terms = 0;
     for (std::size_t i = 0; i < c.column.size(); ++i) {
       if (c.coefficient[i] != 0) at = i, ++terms;
@@ -228,21 +139,21 @@ void keep_as_stated(const std::vector<Condition>& conditions, std::size_t constr
     if (terms == 1 && met_to_rounding(c, velocity)) kept(c.column[at]) = c.value / c.coefficient[at];
   }
   const auto first = conditions.begin(), last = first + static_cast<std::ptrdiff_t>(constraints);
-  if (std::all_of(first, last, [&](const Condition& c) { return met_to_rounding(c, kept); }))
+  if (std::all_of(first, last, [&](const VelocityCondition& c) { return met_to_rounding(c, kept); }))
     velocity = std::move(kept);
 }
 
 // The velocities that meet the constraints, which come first, and the other conditions in the sense of least squares;
 // what these leave open changes least from `start`.
 Result<Eigen::VectorXd> nearest(const System& system, const Motion& motion, const ConstraintRows& rows,
-                                const std::vector<Condition>& conditions, const Eigen::VectorXd& start) {
+                                const std::vector<VelocityCondition>& conditions, const Eigen::VectorXd& start) {
   const auto n = static_cast<Eigen::Index>(system.coordinates());
   const std::vector<bool> active = system.partition(rows, true).active;
   std::vector<Triplet> entries;
   add_norm(system, motion, 1e-10, entries);
   Eigen::MatrixXd change = Eigen::MatrixXd::Zero(n + static_cast<Eigen::Index>(active.size()), 1);
   for (std::size_t k = active.size(); k < conditions.size(); ++k) {
-    const Condition& c = conditions[k];
+    const VelocityCondition& c = conditions[k];
     const double off = miss(c, start).value;
     for (std::size_t i = 0; i < c.column.size(); ++i) {
       change(c.column[i], 0) -= c.coefficient[i] * off;
@@ -272,84 +183,12 @@ Result<Eigen::VectorXd> nearest(const System& system, const Motion& motion, cons
   return start + change.col(0).head(n);
 }
 
-// Constraint rows as conditions that are affine in velocities u: Φ′ = g·u + Φ_t = 0 with Φ_t the rate at rest. Rows on
-// velocities need not be affine: Ψ(u₀) + g·(u − u₀) = 0 about velocities u₀.
-class AffineRows {
- public:
-  AffineRows(const System& system, const OperatingPoint& op) : system_(system), op_(op) {
-    linearize_about(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(system.coordinates())));
-  }
-  void linearize_about(Eigen::VectorXd about) {
-    about_ = std::move(about);
-    op_.velocity.assign(about_.data(), about_.data() + about_.size());
-    std::fill(op_.acceleration.begin(), op_.acceleration.end(), 0.0);
-    rows_.resize(system_.layout());
-    system_.constraints(system_.motion(op_), rows_);
-  }
-  const ConstraintRows& rows() const { return rows_; }
-  std::string undefined() const { return undefined_row(system_, system_.motion(op_), rows_, 1).value_or(""); }
-
-  // Whether some row on velocities is another one about other velocities, in which all coordinates have a part.
-  bool are_curved() const {
-    const auto on_velocities = [&](std::int32_t k) { return rows_.level(k) == RowLevel::velocity; };
-    std::vector<std::int32_t> list;
-    for (std::int32_t k = 0; k < rows_.size(); ++k) {
-      if (on_velocities(k)) list.push_back(k);
-    }
-    if (list.empty()) return false;
-    AffineRows other(*this);
-    Eigen::VectorXd probe(about_.size());
-    for (Eigen::Index k = 0; k < probe.size(); ++k) {
-      const auto at = static_cast<std::int32_t>(k);
-      probe(k) = about_(k) + system_.coordinate_scale(at) * (1 + std::sin(static_cast<double>(k) + 1) / 2);
-    }
-    other.linearize_about(std::move(probe));
-    return std::any_of(list.begin(), list.end(), [&](std::int32_t k) {
-      const auto here = rows_.row(k), there = other.rows_.row(k);
-      return !std::equal(here.begin(), here.end(), there.begin(), there.end(), [](const auto& a, const auto& b) {
-        return a.column == b.column && std::abs(a.c.g - b.c.g) <= affine * std::max(std::abs(a.c.g), std::abs(b.c.g));
-      });
-    });
-  }
-  void set(std::int32_t k, Condition& c) const {
-    const bool position = rows_.level(k) == RowLevel::position;
-    c.value = position ? -rows_.along_motion(k).rate : -rows_.along_motion(k).value;
-    c.column.clear(), c.coefficient.clear();
-    for (const auto& e : rows_.row(k)) {
-      c.column.push_back(e.column);
-      c.coefficient.push_back(e.c.g);
-      if (about_(e.column) != 0) c.value += e.c.g * about_(e.column);
-    }
-  }
-  std::vector<Condition> conditions() const {
-    std::vector<Condition> list(static_cast<std::size_t>(rows_.size()));
-    for (std::int32_t k = 0; k < rows_.size(); ++k) set(k, list[static_cast<std::size_t>(k)]);
-    return list;
-  }
-  bool are_met(const Eigen::VectorXd& velocity) const {
-    Condition c;
-    for (std::int32_t k = 0; k < rows_.size(); ++k) {
-      set(k, c);
-      if (!met_to_rounding(c, velocity)) return false;
-    }
-    return true;
-  }
-
- private:
-  static constexpr double affine = 1e-12;  // rounding of gradients
-
-  const System& system_;
-  OperatingPoint op_;
-  ConstraintRows rows_;
-  Eigen::VectorXd about_;
-};
-
 // Velocities that meet the conditions, with the rates of flexible bodies as at the start as far as these allow.
-void keep_shape(const System& system, const Motion& motion, const std::vector<Condition>& conditions,
+void keep_shape(const System& system, const Motion& motion, const std::vector<VelocityCondition>& conditions,
                 const Eigen::VectorXd& start, double tolerance, Eigen::VectorXd& velocity) {
   constexpr double close = 1e-10;  // where stated velocities contradict each other, the nearest are far from them
   const auto met = [&](const Eigen::VectorXd& u) {
-    return std::all_of(conditions.begin(), conditions.end(), [&](const Condition& c) {
+    return std::all_of(conditions.begin(), conditions.end(), [&](const VelocityCondition& c) {
       const Miss off = miss(c, u);
       return std::abs(off.value) <= close * off.size;
     });
@@ -367,13 +206,13 @@ void keep_shape(const System& system, const Motion& motion, const std::vector<Co
 
 // With the rows as they are about one velocity; `motion`: at rest.
 Result<Eigen::VectorXd> solve_affine(const System& system, const OperatingPoint& op, const Motion& motion,
-                                     const AffineRows& rows, const std::vector<Condition>& stated,
+                                     const AffineRows& rows, const std::vector<VelocityCondition>& stated,
                                      const Eigen::VectorXd& start, Diagnostics& warnings) {
   Eigen::VectorXd velocity = start;
-  const auto met = [&](const Condition& c) { return met_to_rounding(c, velocity); };
+  const auto met = [&](const VelocityCondition& c) { return met_to_rounding(c, velocity); };
   const bool holds = rows.are_met(start);
   const bool as_stated = std::all_of(stated.begin(), stated.end(), met);
-  std::vector<Condition> conditions;
+  std::vector<VelocityCondition> conditions;
   if (!holds || !as_stated) conditions = rows.conditions();
   const std::size_t constraints = conditions.size();
   const double tolerance =
@@ -421,7 +260,7 @@ Result<Eigen::VectorXd> solve_affine(const System& system, const OperatingPoint&
 
 // Newton's method for rows that are not affine in velocities, from those that are stated.
 Result<Eigen::VectorXd> solve_curved(const System& system, const OperatingPoint& op, const Motion& motion,
-                                     AffineRows& rows, const std::vector<Condition>& stated,
+                                     AffineRows& rows, const std::vector<VelocityCondition>& stated,
                                      const Eigen::VectorXd& start, Diagnostics& warnings) {
   constexpr int most = 50;
   constexpr double unchanged = 1e-13;  // of the fastest
@@ -452,7 +291,7 @@ Result<Eigen::VectorXd> solve_curved(const System& system, const OperatingPoint&
   return tl::unexpected(std::move(f));
 }
 
-Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std::vector<Condition>& stated,
+Result<OperatingPoint> solve(const System& system, OperatingPoint op, const std::vector<VelocityCondition>& stated,
                              const Eigen::VectorXd& start, Findings& findings) {
   OperatingPoint rest = op;
   std::fill(rest.velocity.begin(), rest.velocity.end(), 0.0);
