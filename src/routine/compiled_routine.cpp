@@ -82,11 +82,13 @@ CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, st
         if (array != 0) asking.request("ARRAY", {&array, 1}, false);
       }
     }
-    const RoutineContext::Scope scope(asking, what_.c_str());
-    try {
-      call(0, 0, iflag, ignored.data());
-    } catch (...) {
-      asking.fail(caught_exception() + " when it was asked what it reads");
+    {
+      const RoutineContext::Scope scope(asking, what_.c_str());
+      try {
+        call(0, 0, iflag, ignored.data());
+      } catch (...) {
+        asking.fail(caught_exception() + " when it was asked what it reads");
+      }
     }
     if (problem_.empty()) problem_ = asking.failure;
   }

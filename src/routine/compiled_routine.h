@@ -156,11 +156,13 @@ class CompiledRoutine final : public Routine {
   // `calls` call the routine, in that context or at these inputs; what went wrong there, empty if nothing did.
   template <class Calls>
   std::string at_work(RoutineContext& c, Calls&& calls) const {
-    const RoutineContext::Scope scope(c, what_.c_str());
-    try {
-      calls();
-    } catch (...) {
-      c.fail(caught_exception());
+    {
+      const RoutineContext::Scope scope(c, what_.c_str());
+      try {
+        calls();
+      } catch (...) {
+        c.fail(caught_exception());
+      }
     }
     return c.failure;
   }

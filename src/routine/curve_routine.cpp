@@ -35,11 +35,13 @@ std::string outside_of_model(const std::string& what, Calls&& calls) {
   static constexpr std::array<double, 2> time_and_mode{};
   RoutineContext c;
   c.requests = &nothing, c.inputs = time_and_mode, c.values = 3;
-  const RoutineContext::Scope scope(c, what.c_str());
-  try {
-    calls(c);
-  } catch (...) {
-    c.fail(caught_exception());
+  {
+    const RoutineContext::Scope scope(c, what.c_str());
+    try {
+      calls(c);
+    } catch (...) {
+      c.fail(caught_exception());
+    }
   }
   return c.failure;
 }

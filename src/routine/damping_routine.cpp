@@ -35,22 +35,24 @@ std::string DampingRoutine::call(double time, double step, std::span<const doubl
   const std::array<double, 2> time_and_mode = {time, 0};
   RoutineContext c;
   c.requests = &nothing, c.inputs = time_and_mode, c.values = out.size();
-  const RoutineContext::Scope scope(c, what_.c_str());
   const int npar = parameters_.count(), modes = static_cast<int>(out.size());
   const double* par = parameters_.data();
-  try {
-    if (found_.convention == RoutineConvention::addresses) {
-      using Signature =
-          void(const int*, const double*, const double*, const int*, const double*, const int*, const double*, double*);
-      reinterpret_cast<Signature*>(found_.address)(&id_, &time, par, &npar, frequencies.data(), &modes, &step,
-                                                   out.data());
-    } else {
-      using Signature = void(const sAdamsCratio*, double, const double*, int, double, double*);
-      const sAdamsCratio statement = {{id_}, npar, par};
-      reinterpret_cast<Signature*>(found_.address)(&statement, time, frequencies.data(), modes, step, out.data());
+  {
+    const RoutineContext::Scope scope(c, what_.c_str());
+    try {
+      if (found_.convention == RoutineConvention::addresses) {
+        using Signature = void(const int*, const double*, const double*, const int*, const double*, const int*,
+                               const double*, double*);
+        reinterpret_cast<Signature*>(found_.address)(&id_, &time, par, &npar, frequencies.data(), &modes, &step,
+                                                     out.data());
+      } else {
+        using Signature = void(const sAdamsCratio*, double, const double*, int, double, double*);
+        const sAdamsCratio statement = {{id_}, npar, par};
+        reinterpret_cast<Signature*>(found_.address)(&statement, time, frequencies.data(), modes, step, out.data());
+      }
+    } catch (...) {
+      c.fail(caught_exception());
     }
-  } catch (...) {
-    c.fail(caught_exception());
   }
   return c.failure;
 }

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <mutex>
 #include <utility>
 
 namespace dynalin {
@@ -17,6 +18,50 @@ namespace {
 
 thread_local RoutineContext* at_work = nullptr;
 thread_local const char* volatile what_is_at_work = nullptr;
+
+// Of all threads, each with what went wrong beside it: a thread that a routine has started does not say whose it is.
+class AllAtWork {
+ public:
+  void enter(RoutineContext& context, const char* what) {
+    const std::lock_guard lock(mutex_);
+    list_.push_back({&context, what, {}});
+  }
+  // What was noted meanwhile.
+  std::string leave(RoutineContext& context) {
+    const std::lock_guard lock(mutex_);
+    const auto at = std::ranges::find(list_, &context, &Entry::context);
+    std::string noted = std::move(at->noted);
+    list_.erase(at);
+    return noted;
+  }
+  void note_call_from_elsewhere() {
+    const std::lock_guard lock(mutex_);
+    for (Entry& entry : list_) {
+      if (!entry.noted.empty()) continue;
+      std::string others;
+      for (const Entry& other : list_) {
+        if (&other != &entry) others += (others.empty() ? "" : ", ") + std::string(other.what);
+      }
+      entry.noted = fmt::format(
+          "it{} calls a utility from a thread of its own; utilities may be called only from the thread that called the "
+          "routine",
+          others.empty() ? "" : fmt::format(", or another one at work at the time ({}),", others));
+    }
+  }
+
+ private:
+  struct Entry {
+    RoutineContext* context;
+    const char* what;
+    std::string noted;
+  };
+  std::mutex mutex_;
+  std::vector<Entry> list_;
+};
+AllAtWork& all_at_work() {
+  static AllAtWork all;
+  return all;
+}
 
 bool same_name(std::string_view a, std::string_view b) {
   return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) {
@@ -65,7 +110,11 @@ void on_exit_in_routine() {
 
 }  // namespace
 
-RoutineContext* RoutineContext::current() { return at_work; }
+RoutineContext* RoutineContext::current() {
+  // A library that is being loaded has no routine at work either.
+  if (!at_work && !what_is_at_work) all_at_work().note_call_from_elsewhere();
+  return at_work;
+}
 std::string_view RoutineContext::what() {
   const char* what = what_is_at_work;
   return what ? what : "";
@@ -85,13 +134,15 @@ std::string caught_exception() {
 }
 
 RoutineContext::Scope::Scope(RoutineContext& context, const char* what)
-    : before_(at_work), what_before_(what_is_at_work) {
+    : context_(context), before_(at_work), what_before_(what_is_at_work) {
+  all_at_work().enter(context, what);
   at_work = &context;
   what_is_at_work = what;
   std::fegetenv(&numbers_before_);
 }
 RoutineContext::Scope::~Scope() {
   std::fesetenv(&numbers_before_);
+  if (std::string noted = all_at_work().leave(context_); !noted.empty()) context_.fail(std::move(noted));
   at_work = before_;
   what_is_at_work = what_before_;
 }

@@ -55,7 +55,8 @@ class RoutineContext {
     if (failure.empty()) failure = std::move(reason);
   }
 
-  // The one at work in this thread, null if none is.
+  // The one at work in this thread, null if none is: a utility that a routine calls from a thread of its own. Those at
+  // work anywhere then fail for it when they are done.
   static RoutineContext* current();
   // "the routine sfosub of friction.so, called for SFORCE/3", empty if none is.
   static std::string_view what();
@@ -71,7 +72,8 @@ class RoutineContext {
     const char* before_;
   };
   // Makes one current as long as it lives. `what` names statement and routine if the process dies in it; it must
-  // outlive this. Rounding and traps of floating-point numbers are afterwards what they were before.
+  // outlive this. Rounding and traps of floating-point numbers are afterwards what they were before. Only then all is
+  // known that has failed.
   class Scope {
    public:
     Scope(RoutineContext&, const char* what);
@@ -80,6 +82,7 @@ class RoutineContext {
     Scope& operator=(const Scope&) = delete;
 
    private:
+    RoutineContext& context_;
     RoutineContext* before_;
     const char* what_before_;
     std::fenv_t numbers_before_;

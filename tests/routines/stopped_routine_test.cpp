@@ -54,5 +54,26 @@ TEST_F(StoppedRoutines, of_sensors_and_samples_are_not_forgotten) {
   EXPECT_THAT(said(samples, command), AllOf(HasSubstr("GSE/4"), HasSubstr("the controller hangs")));
 }
 
+// Utilities know what to give in the thread of the call alone: from another one they give nothing, and nothing goes on.
+TEST_F(StoppedRoutines, name_what_calls_utilities_from_a_thread_of_its_own) {
+  const auto model = [](const std::string& user) {
+    return "Threads\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=2, IP=1,1,1, QG=0,0,0.5\n"
+           "MARKER/2\nJOINT/1, TRANSLATIONAL, I=2, J=1\nVARIABLE/1, FUNCTION=DZ(2,1)\n"
+           "VARIABLE/7, FUNCTION=USER(" +
+           user + "), ROUTINE=threads::of_threads\nREQUEST/1, VARIABLES=7\n";
+  };
+  const std::vector<std::string> commands = {"SIMULATE/INITIAL_CONDITIONS", "SIMULATE/DYNAMICS, END=1, STEPS=2"};
+  for (const char* user : {"1,0", "2,0", "1,1", "1,2", "2,2"}) {
+    const RunResult r = with(model(user), {C_THREADS}, true, commands);
+    EXPECT_NE(r.status, 0) << user;
+    EXPECT_THAT(r.err, AllOf(HasSubstr("VARIABLE/7"), HasSubstr("it calls a utility from a thread of its own"),
+                             HasSubstr("only from the thread that called the routine")))
+        << user;
+  }
+  // What needs nothing of the model may be called from any.
+  const RunResult r = with(model("0,0"), {C_THREADS}, true, commands);
+  EXPECT_NEAR(requested(r, 0).at(0), 0.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace dynalin::cases
