@@ -12,6 +12,7 @@
 #include "analysis/row_sizes.h"
 #include "analysis/stated_shape.h"
 #include "expression/parametric_curve.h"
+#include "system/row_terms.h"
 #include "system/undefined_rows.h"
 
 namespace dynalin {
@@ -21,6 +22,7 @@ namespace {
 constexpr double position_tolerance = 1e-13;      // relative to the scale of the row
 constexpr std::int64_t position_iterations = 50;  // unless IC states MAXIT
 constexpr double largest_turn = 0.5;              // of an iteration, unless IC states ALIMIT [rad]
+constexpr double most_told = 1.5;                 // of two bodies against each other it makes less than half a turn
 constexpr double exact_weight = 1e8;              // of coordinates that EXACT asks to keep
 
 // Axes that should be perpendicular and are parallel: no turn changes their product to first order.
@@ -221,6 +223,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, const H
   rows.resize(layout, layout.row_count() + starts.size());
   const auto evaluate = [&] {
     const Motion motion = system.motion(op);
+    system.count_turns(motion, op.memory);  // from one iteration to the next: all of them may be more than half a turn
     system.constraints(motion, rows);
     if (starts.empty()) return;
     const auto first = static_cast<std::int32_t>(layout.row_count());
@@ -238,7 +241,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, const H
 
   const InitialConditionSettings& ic = op.initial_conditions;
   const std::int64_t most = ic.iteration_limit.value_or(position_iterations);
-  const StepLimits limits{ic.rotation_limit.value_or(largest_turn),
+  const StepLimits limits{std::min(ic.rotation_limit.value_or(largest_turn), most_told),
                           ic.translation_limit.value_or(std::numeric_limits<double>::infinity())};
   // The last point is looked at as well.
   for (std::int64_t iteration = 0; iteration <= most; ++iteration) {
@@ -271,14 +274,18 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, const H
     const Partition part = system.partition(rows, false);
     // What is left of the rows that can be met, and the redundant rows that do not follow from them.
     const std::vector<double> sizes = coordinate_sizes(layout, op);
+    std::vector<RowTerms> terms = row_terms(system, system.motion(op));
+    terms.resize(static_cast<std::size_t>(rows.size()));  // what starts ask for has none
     double left = 0, above_rounding = 0;
     std::vector<std::string> contradicted;
     std::string_view stuck;  // of the first
     for (std::int32_t k = 0; k < rows.size(); ++k) {
       if (rows.level(k) != RowLevel::position) continue;
-      const double scale = row_scale(system, rows.row(k)), rounding = row_rounding(sizes, rows.row(k)) / scale;
+      const auto at = static_cast<std::size_t>(k);
+      const double scale = row_scale(system, rows.row(k)),
+                   rounding = row_rounding(sizes, rows.row(k), terms[at]) / scale;
       const double relative = std::abs(rows.along_motion(k).value) / scale;
-      if (part.active[static_cast<std::size_t>(k)]) {
+      if (part.active[at]) {
         left = std::max(left, relative);
         above_rounding = std::max(above_rounding, relative - std::max(position_tolerance, rounding));
       } else if (relative > std::max(op.redundancy_tolerance, position_tolerance) * (1 + 1e-6) + rounding) {

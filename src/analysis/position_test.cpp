@@ -1,10 +1,13 @@
 // Assembly of positions: the least change, in closed form.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "analysis/initial.h"
+#include "system/carried_turns.h"
 #include "system/model_test_support.h"
 #include "system/operating_state.h"
 
@@ -134,6 +137,34 @@ TEST(Position, steps_and_iterations_are_as_ic_bounds_them) {
       "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, REVOLUTE, I=20, J=1\nMOTION/1, JOINT=1, FUNCTION=PI/2\n";
   EXPECT_TRUE(assembled(turned + "IC/MAXIT=4, ALIMIT=30D\n"));
   EXPECT_FALSE(assembled(turned + "IC/MAXIT=2, ALIMIT=30D\n"));
+}
+
+// Two wheels, the second `by` times as far as the first. What it turns the pose at the end does not tell.
+TEST(Position, turns_are_counted_from_one_iteration_to_the_next) {
+  const std::string wheels =
+      "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, REVOLUTE, I=20, J=1\n"
+      "MARKER/3, PART=1, QP=3,0,0\nPART/3, MASS=1, CM=30, IP=1,1,1, QG=3,0,0\nMARKER/30\n"
+      "JOINT/3, REVOLUTE, I=30, J=3\nVARIABLE/1, FUNCTION=AZ(20,1)+AZ(30,3)\n";
+  const auto coupled = [](double by) { return fmt::format("COUPLER/1, JOINTS=1,3, SCALES={},-1\n", by); };
+  const std::string gear = "MARKER/8, PART=1, QP=2,0,0, REULER=180D,90D,0\nGEAR/1, JOINTS=1,3, CV=8\n";
+  struct Case {
+    double turned, by;
+    std::string relation, more = "";
+  };
+  for (const Case& c :
+       {Case{80, 2, coupled(2)}, Case{100, 2, coupled(2)}, Case{-100, 2, coupled(2)}, Case{100, -5, coupled(-5)},
+        Case{170, 1 / 0.3, coupled(1 / 0.3)}, Case{80, -2, gear}, Case{100, -2, gear}, Case{170, -2, gear},
+        Case{100, 3, coupled(3), "IC/ALIMIT=10D, MAXIT=100\n"}, Case{100, 3, coupled(3), "IC/ALIMIT=400D\n"},
+        Case{100, 2, "COUPLER/1, JOINTS=1,3, SCALES=1,-0.5\n"}}) {
+    const auto system =
+        system_of(wheels + c.relation + c.more + fmt::format("MOTION/1, JOINT=1, FUNCTION={}D\n", c.turned));
+    const auto op = assembled(*system);
+    ASSERT_TRUE(op) << c.relation << c.turned << op.error().message;
+    const KnownTurns turns = known_turns(*system, *op);
+    const double first = c.turned * std::numbers::pi / 180;
+    for (const auto& [name, total] : turns) EXPECT_NEAR(total, name.i == 20 ? first : c.by * first, 1e-9) << c.relation;
+    EXPECT_EQ(turns.size(), 2u);
+  }
 }
 
 TEST(Position, what_cannot_be_reached_is_named_with_its_violation) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "expression/parametric_curve.h"
+#include "mechanics/row_terms.h"
 #include "system/system.h"
 
 namespace dynalin {
@@ -40,10 +41,12 @@ inline std::vector<double> coordinate_sizes(const Layout& layout, const Operatin
   return size;
 }
 
-// What the last places of the coordinates make of a row: it sums up some of them, and frames round as well.
-inline double row_rounding(const std::vector<double>& sizes, std::span<const ConstraintRows::Entry> row) {
+// What the last places of the coordinates, and those of its other terms, make of a row: it sums up some of them, and
+// frames round as well.
+inline double row_rounding(const std::vector<double>& sizes, std::span<const ConstraintRows::Entry> row,
+                           const RowTerms& terms) {
   constexpr double rounding_units = 8;
-  double sum = 0;
+  double sum = terms.size;
   for (const auto& e : row) sum += std::abs(e.c.g) * sizes[static_cast<std::size_t>(e.column)];
   return rounding_units * std::numeric_limits<double>::epsilon() * sum;
 }

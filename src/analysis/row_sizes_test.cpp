@@ -24,5 +24,15 @@ TEST(RowSizes, outside_bodies_are_told_by_their_role_alone) {
   }
 }
 
+// An angle that was turned a thousand times is rounded as one that is so large.
+TEST(RowSizes, rounding_is_that_of_all_terms) {
+  const std::vector<ConstraintRows::Entry> row = {{.column = 0, .c = {.g = -2}}};
+  const double alone = row_rounding({1.0}, row, {});
+  EXPECT_GT(alone, 0);
+  RowTerms turned;
+  turned.size = 6;
+  EXPECT_DOUBLE_EQ(row_rounding({1.0}, row, turned), 4 * alone);
+}
+
 }  // namespace
 }  // namespace dynalin::row_sizes_test

@@ -6,6 +6,7 @@
 
 #include "analysis/acceleration_rounding.h"
 #include "analysis/row_sizes.h"
+#include "system/row_terms.h"
 
 namespace dynalin {
 
@@ -63,9 +64,10 @@ double KinematicEquations::length_of(const Eigen::VectorXd& step) const {
 bool KinematicEquations::contradicted(const OperatingPoint& op, double tolerance) const {
   if (partition_.redundant.empty()) return false;
   const std::vector<double> sizes = coordinate_sizes(system_.layout(), op);
+  const std::vector<RowTerms> terms = row_terms(system_, system_.motion(op));
   return std::any_of(partition_.redundant.begin(), partition_.redundant.end(), [&](std::int32_t k) {
-    const double allowed =
-        std::max(tolerance, 1e-13) * row_scale(system_, rows_.row(k)) + row_rounding(sizes, rows_.row(k));
+    const double allowed = std::max(tolerance, 1e-13) * row_scale(system_, rows_.row(k)) +
+                           row_rounding(sizes, rows_.row(k), terms[static_cast<std::size_t>(k)]);
     return !(std::abs(rows_.along_motion(k).value) <= (1 + 1e-6) * allowed);
   });
 }

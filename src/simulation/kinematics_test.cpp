@@ -238,6 +238,31 @@ TEST(Kinematics, count_turns_that_begin_and_end_within_a_step) {
   }
 }
 
+// Turns that are done in the hundredth part of an output or less: the function knows where it begins and where it ends.
+// A coupler counts them.
+TEST(Kinematics, count_turns_that_are_over_soon) {
+  const std::string coupled =
+      "PART/2, MASS=1, CM=20, IP=1,1,2\nMARKER/20\nPART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30\n"
+      "JOINT/1, REVOLUTE, I=20, J=1\nJOINT/3, REVOLUTE, I=30, J=1\nCOUPLER/1, JOINTS=1,3, SCALES=1,-3\n"
+      "VARIABLE/1, FUNCTION=AZ(20,1)\nVARIABLE/2, FUNCTION=AZ(30,1)\nVARIABLE/3, FUNCTION=AZ(20,30)\n";
+  for (const char* driven : {"MOTION/1, JOINT=1, FUNCTION=STEP(TIME,0.3,0,0.31,720D)\n",
+                             "MOTION/1, JOINT=1, FUNCTION=STEP(TIME,0.3,0,0.30001,720D)\n",
+                             "MOTION/1, I=20, J=1, B3, FUNCTION=STEP(TIME,0.3,0,0.31,720D)\n",
+                             "MOTION/1, JOINT=1, FUNCTION=IF(TIME-0.2:0,360D,360D)+STEP(TIME,0.3,0,0.31,720D)\n",
+                             "MOTION/1, JOINT=1, VELOCITY, FUNCTION=IF(TIME-0.3:0,0,IF(TIME-0.31:720D/0.01,0,0))\n",
+                             "MOTION/1, JOINT=1, ACCELERATION, FUNCTION=IF(TIME-0.3:0,0,IF(TIME-0.31:720D/0.0001,0,"
+                             "IF(TIME-0.32:-720D/0.0001,0,0)))\n"}) {
+    for (const std::int64_t outputs : {1, 2, 3, 10}) {
+      KinematicRun r(coupled + driven, 1, outputs);
+      ASSERT_TRUE(r.end) << driven << r.end.error().message;
+      const double turned = 4 * std::numbers::pi;
+      EXPECT_NEAR(r.variable(*r.end, 1), turned, 1e-9) << driven << outputs;
+      EXPECT_NEAR(r.variable(*r.end, 2), turned / 3, 1e-9) << driven << outputs;
+      EXPECT_NEAR(r.variable(*r.end, 3), turned * 2 / 3, 1e-9) << driven << outputs;
+    }
+  }
+}
+
 // A speed that is there for 0.06 s of 2 s: no point at which a step is looked at lies in it.
 TEST(Kinematics, miss_no_pulse_of_a_speed) {
   KinematicRun r(

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "simulation/motion_equations.h"
+#include "system/row_terms.h"
 
 namespace dynalin {
 
@@ -30,14 +31,26 @@ void MotionEquations::terms(std::span<const double> y, std::span<const double> y
     at(extra) = std::abs(yp[static_cast<std::size_t>(extra)]);
     place[static_cast<std::size_t>(k)] = std::max(system_.coordinate_scale(k), value(extra));
   }
+  const std::vector<RowTerms> beside_poses = row_terms(system_, motion_);
   for (std::int32_t k = 0; k < rows_.size(); ++k) {
     const std::int32_t mu = unknowns_.mu(k), lambda = unknowns_.lambda(k);
     if (!active_[static_cast<std::size_t>(k)]) continue;
+    if (mu >= 0) at(mu) = beside_poses[static_cast<std::size_t>(k)].size;
+    double rate = 0, acceleration = 0;  // by motion alone
     for (const auto& e : rows_.row(k)) {
       const double g = static_cast<double>(e.size_of_g);
-      at(lambda) += g * value(unknowns_.velocity(e.column));
+      const auto velocity = static_cast<std::size_t>(unknowns_.velocity(e.column));
+      at(lambda) += g * std::abs(y[velocity]);
       if (mu >= 0) at(mu) += g * place[static_cast<std::size_t>(e.column)];
+      rate += e.c.g * y[velocity], acceleration += e.c.g * yp[velocity] + e.c.v * y[velocity];
     }
+    // Time itself is rounded from step to step. A second derivative that has no value is asked for nowhere else.
+    const auto in_last_place_of_time = [&](double by_time) {
+      return std::isfinite(by_time) ? std::abs(motion_.time * by_time) : 0.0;
+    };
+    const Taylor& along = rows_.along_motion(k);
+    if (mu >= 0) at(mu) += in_last_place_of_time(along.rate - rate);
+    at(lambda) += in_last_place_of_time((mu >= 0 ? along.acceleration : along.rate) - acceleration);
   }
   for (std::int32_t k = 0; k < eq_.size(); ++k)
     at(unknowns_.equation(k)) = eq_.magnitude()[static_cast<std::size_t>(k)];

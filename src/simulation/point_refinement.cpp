@@ -9,6 +9,7 @@
 #include "analysis/massless.h"
 #include "analysis/outside_weight.h"
 #include "analysis/row_sizes.h"
+#include "system/row_terms.h"
 
 namespace dynalin {
 
@@ -80,6 +81,7 @@ bool PointRefinement::refine_position(OperatingPoint& op) {
   for (int iteration = 0; iteration < iteration_limit; ++iteration) {
     if (iteration > 0) system_.constraints(system_.motion(op), rows_);
     const std::vector<double> sizes = coordinate_sizes(system_.layout(), op);
+    const std::vector<RowTerms> terms = row_terms(system_, system_.motion(op));
     Eigen::VectorXd missing = Eigen::VectorXd::Zero(rows_.size());
     double left = 0, left_out = 0, beyond_rounding = 0;
     for (std::int32_t k = 0; k < rows_.size(); ++k) {
@@ -93,7 +95,7 @@ bool PointRefinement::refine_position(OperatingPoint& op) {
       }
       missing(k) = -value;
       left = std::max(left, relative);
-      const double rounding = row_rounding(sizes, rows_.row(k)) / scale;
+      const double rounding = row_rounding(sizes, rows_.row(k), terms[static_cast<std::size_t>(k)]) / scale;
       beyond_rounding = std::max(beyond_rounding, relative - std::max(position_tolerance, rounding));
     }
     if (beyond_rounding <= 0) {

@@ -78,13 +78,15 @@ class QuasiStaticRun {
     }
     auto begun = follow(events_.at_start(at_), true);
     double h = times_.step();
+    double pace = h;  // of turning, which a MOTION that stops does not do at once
     while (begun && !end_) {
       const double target = times_.at(next_);
       const double left = target - at_.time, turning = turning_.step(at_, times_.step(), largest_turn);
       h = std::min(h, turning);
+      pace = std::min(pace, turning);
       const double t = h >= left * (1 - 1e-9) ? target : at_.time + (2 * h > left ? 0.5 * left : h);
       const double step = t - at_.time;
-      const bool least = step <= 1.5 * least_rest_step * std::min(times_.step(), steps_of_turning * turning);
+      const bool least = step <= 1.5 * least_rest_step * std::min(times_.step(), steps_of_turning * pace);
       auto next = solve(predicted(t), nearby_);
       if (!next && least) next = solve(from_here(t), options_);
       if (!next && least) return tl::unexpected(at_time(t, next.error()));
@@ -106,6 +108,7 @@ class QuasiStaticRun {
       statistics_.step_size = step;
       at_.progress = progress_of(statistics_);
       h = std::max(2 * step, std::min(h, left));
+      pace += step;
       begun = follow(crosses ? events_.at(crossed_, at_) : EventAction{}, at_.time == target);
     }
     if (!begun) return tl::unexpected(at_time(at_.time, begun.error()));

@@ -209,6 +209,37 @@ TEST(QuasiStatics, count_the_turns_of_a_drive) {
   }
 }
 
+// Two turns in a hundredth of the run, between the instants at which rates are looked at: a spring reads them.
+TEST(QuasiStatics, count_turns_that_are_over_soon) {
+  for (const std::int64_t count : {1, 2, 10}) {
+    QuasiStaticRun r(
+        "PART/2, MASS=1, CM=20, IP=1,1,2\nMARKER/20\nPART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30\n"
+        "JOINT/1, REVOLUTE, I=20, J=1\nJOINT/2, REVOLUTE, I=30, J=1\n"
+        "MOTION/1, JOINT=1, FUNCTION=STEP(TIME,0.3,0,0.31,720D)\n"
+        "SFORCE/1, ROTATIONAL, I=30, J=20, FUNCTION=-5*AZ(30,20)\n"
+        "SFORCE/2, ROTATIONAL, ACTIONONLY, I=30, J=1, FUNCTION=-AZ(30,1)\n"
+        "VARIABLE/1, FUNCTION=AZ(20,1)\nVARIABLE/2, FUNCTION=AZ(30,1)\n",
+        1, count);
+    ASSERT_TRUE(r.end) << r.end.error().message;
+    const double turned = 4 * std::numbers::pi;
+    const std::vector<double>& values = r.end->point.algebraic;
+    EXPECT_NEAR(values[2], turned, 1e-9) << count;
+    EXPECT_NEAR(values[3], turned * 5 / 6, 1e-9) << count;
+    EXPECT_TRUE(r.findings.warnings.items().empty());
+  }
+}
+
+TEST(QuasiStatics, a_drive_that_jumps_is_told_once) {
+  QuasiStaticRun r(
+      "PART/2, MASS=1, CM=20, IP=1,1,2\nMARKER/20\nJOINT/1, REVOLUTE, I=20, J=1\n"
+      "MOTION/1, JOINT=1, FUNCTION=IF(TIME-0.3:0,90D,90D)\nVARIABLE/1, FUNCTION=AZ(20,1)\n",
+      1, 4);
+  ASSERT_TRUE(r.end) << r.end.error().message;
+  EXPECT_NEAR(r.end->point.algebraic.back(), std::numbers::pi / 2, 1e-9);
+  EXPECT_EQ(r.findings.warnings.items().size(), 1u);
+  EXPECT_LT(r.statistics.steps, 40);
+}
+
 TEST(QuasiStatics, take_a_fast_course_for_no_jump) {
   QuasiStaticRun r(
       "PART/2, MASS=1, CM=20, IP=1,1,2\nMARKER/20\nJOINT/1, REVOLUTE, I=20, J=1\n"

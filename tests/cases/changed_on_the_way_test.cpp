@@ -1,4 +1,6 @@
 // Elements that commands take away and bring back between simulations over time, against closed forms.
+#include <fmt/format.h>
+
 #include "cases/run.h"
 
 namespace dynalin::cases::changed_on_the_way_test {
@@ -81,6 +83,21 @@ TEST_F(ChangedOnTheWay, turns_go_on_in_a_function_that_is_stated_anew) {
   const double angle = speed / omega * std::sin(omega);
   EXPECT_NEAR(ends_of(r).at(1).at("1"), 2 * angle, 1e-5);
   EXPECT_NEAR(ends_of(r).at(1).at("2"), -0.1 * angle, 1e-6);
+}
+
+// 20 rad behind the start, a wheel is turned on from 20/3 to 10: more than half a turn in one assembly.
+TEST_F(ChangedOnTheWay, a_coupler_of_other_scales_turns_as_far_as_it_says) {
+  for (const double scale : {2.0, 2.5, 4.0, -1.0}) {
+    const RunResult r =
+        run("geared\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, PART=1\nPART/2, MASS=1, CM=20, IP=1,1,2\n"
+            "MARKER/20, PART=2\nJOINT/1, REVOLUTE, I=20, J=1\nPART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30, PART=3\n"
+            "JOINT/3, REVOLUTE, I=30, J=1\nCOUPLER/1, JOINTS=1,3, SCALES=1,-3\n"
+            "MOTION/1, JOINT=1, FUNCTION=10*TIME\nVARIABLE/1, FUNCTION=AZ(20,1)\nVARIABLE/3, FUNCTION=AZ(30,1)\nEND\n",
+            fmt::format("SIM/KIN, END=2, STEPS=2\nCOUPLER/1, SCALES=1,{}\nSIM/KIN, END=3, STEPS=2\n", -scale));
+    ASSERT_EQ(r.status, 0) << scale << r.err;
+    EXPECT_NEAR(ends_of(r).at(1).at("1"), 30, 1e-9) << scale;
+    EXPECT_NEAR(ends_of(r).at(1).at("3"), 30 / scale, 1e-9) << scale;
+  }
 }
 
 // Nothing else reads the angle: it is counted while the spring is away.

@@ -22,6 +22,7 @@
 #include "elements/controls/variable_list.h"
 #include "elements/families/pair_displacement.h"
 #include "mechanics/bound_expression.h"
+#include "mechanics/row_terms.h"
 #include "mechanics/wrench_source.h"
 
 namespace dynalin {
@@ -99,7 +100,7 @@ struct PrescribedMotion {
   }
 };
 
-class MotionKernel final : public Kernel, public WrenchSource {
+class MotionKernel final : public Kernel, public WrenchSource, public RowTermsSource {
  public:
   MotionKernel(const std::vector<PrescribedMotion>& elements, const std::vector<ElementLabel>& labels, Layout& layout)
       : labels_(&labels) {
@@ -148,6 +149,16 @@ class MotionKernel final : public Kernel, public WrenchSource {
       const double f = d.function.value(motion, scratch);
       if (d.course_rate >= 0) state_rates[static_cast<std::size_t>(d.course)] = state(d.course_rate, motion);
       state_rates[static_cast<std::size_t>(d.course_rate >= 0 ? d.course_rate : d.course)] = f;
+    }
+  }
+
+  void tell_row_terms(const Motion& motion, std::span<RowTerms> rows) const override {
+    ExpressionScratch scratch;
+    for (const Driven& d : driven_) {
+      RowTerms& row = rows[static_cast<std::size_t>(d.row)];
+      const double to = d.course >= 0 ? state(d.course, motion) : d.function.value(motion, scratch);
+      row.size = std::abs(to);
+      if (is_angle(d.element.kind)) row.driven_angle = to;
     }
   }
 

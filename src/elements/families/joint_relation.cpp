@@ -72,21 +72,37 @@ void JointRelationKernel::equations(const Motion& motion, Equations& eq) const {
   }
 }
 
+void JointRelationKernel::tell_row_terms(const Motion& motion, std::span<RowTerms> rows) const {
+  for (const Relation& r : relations_) {
+    double& size = rows[static_cast<std::size_t>(r.row)].size;
+    size = std::abs(r.constant);
+    const std::vector<double> slope = slopes(r, motion);
+    for (std::size_t k = 0; k < r.terms.size(); ++k)
+      size += std::abs(slope[k] * r.terms[k].first.along_motion(motion).value);
+  }
+}
+
+std::vector<double> JointRelationKernel::slopes(const Relation& r, const Motion& motion) {
+  std::vector<double> slope;
+  if (!r.written) {
+    for (const auto& [q, factor] : r.terms) slope.push_back(factor);
+    return slope;
+  }
+  constexpr std::ptrdiff_t first_displacement = 2;
+  ExpressionScratch scratch;
+  const std::span<const double> all = r.function.partials(motion, scratch);
+  slope.assign(all.begin() + first_displacement, all.end());
+  return slope;
+}
+
 void JointRelationKernel::wrench(const Motion& motion, std::size_t which, bool, MarkerWrench& out) const {
   const Joint& joint = joints_[which];
   const Relation& r = relations_[joint.relation];
   const double lambda = motion.lambda[static_cast<std::size_t>(r.row)];
   Vector force, torque;
-  ExpressionScratch scratch;
-  std::vector<double> slopes;
-  if (r.written) {
-    constexpr std::ptrdiff_t first_displacement = 2;
-    const std::span<const double> all = r.function.partials(motion, scratch);
-    slopes.assign(all.begin() + first_displacement, all.end());
-  }
+  const std::vector<double> slope = slopes(r, motion);
   for (std::size_t k = joint.first_term; k < joint.first_term + joint.terms; ++k) {
-    const auto& [q, factor] = r.terms[k];
-    q.wrench(motion, (r.written ? slopes[k] : factor) * lambda, r.row, false, out);
+    r.terms[k].first.wrench(motion, slope[k] * lambda, r.row, false, out);
     force += out.force.force, torque += out.force.torque;
   }
   out.force.force = force, out.force.torque = torque;

@@ -8,6 +8,7 @@
 #include "elements/families/pair_displacement.h"
 #include "expression/routine.h"
 #include "mechanics/bound_expression.h"
+#include "mechanics/row_terms.h"
 #include "mechanics/wrench_source.h"
 
 namespace dynalin {
@@ -27,13 +28,14 @@ struct JointRelation {
 // Σ factor_k q_k as drawn, angles as principal values.
 double drawn_value(const Model&, const JointRelation&);
 
-class JointRelationKernel final : public Kernel, public WrenchSource {
+class JointRelationKernel final : public Kernel, public WrenchSource, public RowTermsSource {
  public:
   JointRelationKernel(const std::vector<JointRelation>&, const std::vector<ElementLabel>&, std::string_view row_name,
                       Layout&);
   void bind(Binder&) override;
   void constraints(const Motion&, ConstraintRows&) const override;
   void equations(const Motion&, Equations&) const override;
+  void tell_row_terms(const Motion&, std::span<RowTerms>) const override;
   void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
   // What each joint bears of the relation, on its marker I with the opposite on J.
   const WrenchSource* reported_wrenches() const override { return this; }
@@ -52,6 +54,9 @@ class JointRelationKernel final : public Kernel, public WrenchSource {
     std::shared_ptr<const Routine> routine;
     BoundExpression function{};
   };
+  // ∂row/∂q of its displacements.
+  static std::vector<double> slopes(const Relation&, const Motion&);
+
   std::vector<Relation> relations_;
   const std::vector<ElementLabel>* labels_;
   const Layout* layout_;

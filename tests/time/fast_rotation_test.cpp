@@ -1,0 +1,66 @@
+// Many turns at little error: rounding of an angle that is counted, or of a course in time, is no error of a step.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "time/course.h"
+
+namespace dynalin::in_time {
+namespace {
+
+const std::string wheel =
+    "t\nPART/1, GROUND\nMARKER/1, PART=1\nPART/2, MASS=1, CM=20, IP=1,1,2, WZ={}\nMARKER/20, PART=2\n"
+    "JOINT/1, REVOLUTE, I=20, J=1\nVARIABLE/1, FUNCTION=AZ(20,1)\nVARIABLE/2, FUNCTION=WZ(20)\n";
+std::string wheel_at(double speed) { return fmt::format(fmt::runtime(wheel), speed); }
+
+TEST(FastRotation, a_drive_of_many_turns_is_followed_at_any_error) {
+  for (const double error : {1e-6, 1e-8, 1e-9}) {
+    for (const char* motion : {"VELOCITY, FUNCTION=100", "FUNCTION=100*TIME"}) {
+      const Course c = led_through_time(wheel_at(100) + "MOTION/1, JOINT=1, " + motion + "\nEND\n", {1, 10, error});
+      ASSERT_TRUE(c.ok()) << motion << error << c.failure;
+      EXPECT_NEAR(c.last(1), 100, 100 * error) << motion;
+      EXPECT_NEAR(c.last(2), 100, 100 * error) << motion;
+    }
+  }
+}
+
+TEST(FastRotation, a_coupler_of_flywheels_turns_at_any_error) {
+  for (const double error : {1e-6, 1e-8, 1e-9}) {
+    const Course c = led_through_time(wheel_at(300) +
+                                          "PART/3, MASS=1, CM=30, IP=1,1,1, WZ=100\nMARKER/30, PART=3\n"
+                                          "JOINT/3, REVOLUTE, I=30, J=1\nCOUPLER/1, JOINTS=1,3, SCALES=1,-3\n"
+                                          "VARIABLE/3, FUNCTION=AZ(30,1)\nEND\n",
+                                      {1, 10, error});
+    ASSERT_TRUE(c.ok()) << error << c.failure;
+    EXPECT_NEAR(c.last(1), 300, 300 * error);
+    EXPECT_NEAR(c.last(3), 100, 100 * error);
+  }
+}
+
+TEST(FastRotation, a_drive_to_and_fro_over_many_turns_ends) {
+  const Course c =
+      led_through_time(wheel_at(2000) + "MOTION/1, JOINT=1, FUNCTION=100*SIN(20*TIME)\nEND\n", {0.5, 5, 1e-8});
+  ASSERT_TRUE(c.ok()) << c.failure;
+  EXPECT_NEAR(c.last(1), 100 * std::sin(10.0), 1e-6);
+}
+
+// Instants are rounded as well: a drive is as far off as it moves in that.
+TEST(FastRotation, drives_late_in_time_are_followed) {
+  for (const std::string driven :
+       {"REVOLUTE, I=20, J=1\nMOTION/1, JOINT=1, FUNCTION=SIN(100*(TIME-1E4))\nVARIABLE/1, FUNCTION=AZ(20,1)\n",
+        "TRANSLATIONAL, I=20, J=1\nMOTION/1, JOINT=1, FUNCTION=SIN(100*(TIME-1E4))\nVARIABLE/1, FUNCTION=DZ(20,1)\n",
+        "TRANSLATIONAL, I=20, J=1\nGCON/1, FUNCTION=DZ(20,1)-SIN(100*(TIME-1E4))\nVARIABLE/1, FUNCTION=DZ(20,1)\n"}) {
+    StudyPoint late = drawn_point(
+        "t\nPART/1, GROUND\nMARKER/1, PART=1\nPART/2, MASS=1, CM=20, IP=1,1,2\nMARKER/20, PART=2\nJOINT/1, " + driven +
+        "END\n");
+    late.values.time = 1e4;
+    const Course c = led_through_time(std::move(late), {1e4 + 1, 10, 1e-8});
+    ASSERT_TRUE(c.ok()) << driven << c.failure;
+    EXPECT_NEAR(c.last(1), std::sin(100.0), 1e-8) << driven;
+  }
+}
+
+}  // namespace
+}  // namespace dynalin::in_time
