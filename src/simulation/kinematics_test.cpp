@@ -210,6 +210,13 @@ TEST(Kinematics, integrate_a_motion_of_acceleration) {
   }
 }
 
+// Of the angle itself 1e-8 is rounding; of what is left without whole turns nothing is.
+TEST(Kinematics, go_on_from_ten_million_turns) {
+  KinematicRun r(wheel("VELOCITY, FUNCTION=1, ICDISP=1E8"), 1, 4);
+  ASSERT_TRUE(r.end) << r.end.error().message;
+  EXPECT_NEAR(r.variable(*r.end, 1) - r.variable(r.outputs[0], 1), 1, 1e-7);
+}
+
 TEST(Kinematics, go_over_a_velocity_that_jumps) {
   KinematicRun r(wheel("VELOCITY, FUNCTION=IF(TIME-0.53: 1, 1, 3)"), 1, 7);
   ASSERT_TRUE(r.end) << r.end.error().message;

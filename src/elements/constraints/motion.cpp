@@ -127,7 +127,7 @@ class MotionKernel final : public Kernel, public WrenchSource, public RowTermsSo
     for (const Driven& d : driven_) {
       const Taylor q = d.displacement.along_motion(motion), f = driven_along(d, motion, rows.scratch);
       Taylor row(q.value - f.value, q.rate - f.rate, q.acceleration - f.acceleration);
-      if (is_angle(d.element.kind)) row.value = std::remainder(row.value, 2 * std::numbers::pi);
+      if (is_angle(d.element.kind)) row.value = angle_between(q.value, f.value);
       rows.set(d.row, row);
       d.displacement.add_to_row(motion, 1.0, d.row, rows);
     }
@@ -217,6 +217,11 @@ class MotionKernel final : public Kernel, public WrenchSource, public RowTermsSo
       rate(last = d.course_rate);
     }
     d.function.add(motion, eq, eq.state_row(last), -1.0, PartialBy::velocity);
+  }
+  // Less whole turns, which are taken from the larger one first: no rounding of theirs is left.
+  static double angle_between(double q, double f) {
+    constexpr double turn = 2 * std::numbers::pi;
+    return std::remainder(q - std::remainder(f, turn), turn);
   }
   static double lambda(const Driven& d, const Motion& motion) { return motion.lambda[static_cast<std::size_t>(d.row)]; }
   // What the displacement is driven along, with its rates.
