@@ -80,6 +80,11 @@ void Expression::switches(std::span<const double> atom_values, ExpressionWorkspa
   if (has_switches()) program_->switches(atom_values, workspace, out);
 }
 
+void Expression::look_ahead(std::span<const double> from, std::span<const double> to,
+                            ExpressionWorkspace<double>& workspace, StepReach& reach) const {
+  if (has_tables()) program_->look_ahead(from, to, workspace, reach);
+}
+
 std::vector<Expression::Call> Expression::calls() const {
   std::vector<Call> calls;
   for (std::size_t k = 0; k < program_->nodes.size(); ++k) {

@@ -156,6 +156,11 @@ class Expression {
   bool has_switches() const;
   void switches(std::span<const double> atoms, ExpressionWorkspace<double>&, SwitchList&) const;
 
+  // Whether it reads tables at arguments that move, and what these have between the ends of a step.
+  bool has_tables() const { return has_switches() && !splines().empty(); }
+  void look_ahead(std::span<const double> from, std::span<const double> to, ExpressionWorkspace<double>&,
+                  StepReach&) const;
+
   // Functions that are called, IF among them, each call once.
   struct Call {
     std::string_view name;

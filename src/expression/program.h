@@ -62,6 +62,9 @@ class ExpressionProgram {
   void find_switching();
   // One sweep over all nodes, those of branches not taken included: as many switches whichever are.
   void switches(std::span<const double> atom_values, ExpressionWorkspace<double>&, SwitchList&) const;
+  // What tables have between the ends of a step.
+  void look_ahead(std::span<const double> from, std::span<const double> to, ExpressionWorkspace<double>&,
+                  StepReach&) const;
 
   // Forward sweep; afterwards the workspace holds the value of each node visited.
   template <class T>
@@ -90,6 +93,10 @@ class ExpressionProgram {
     const std::size_t entry = selection >= 0 ? static_cast<std::size_t>(selection) : 3;
     return static_cast<std::size_t>(operands[static_cast<std::size_t>(branch.b) + entry]);
   }
+  // A sweep over all nodes as far as the last of `switching`, each of which is visited with its number and whether an
+  // evaluation would come there.
+  template <class Visit>
+  void sweep_switching(std::span<const double> atom_values, std::vector<double>& value, const Visit&) const;
   void add_switches(const ExpressionNode&, const std::vector<double>& value, bool taken, SwitchList&) const;
   // Whether the chain rule holds for the result although a node has an infinite derivative (vanishing.cpp).
   template <class T>

@@ -89,10 +89,10 @@ void ExpressionProgram::add_switches(const ExpressionNode& node, const std::vect
   for (std::size_t k = first; k < out.counts.size(); ++k) out.counts[k] = false;
 }
 
-void ExpressionProgram::switches(std::span<const double> atom_values, ExpressionWorkspace<double>& workspace,
-                                 SwitchList& out) const {
+template <class Visit>
+void ExpressionProgram::sweep_switching(std::span<const double> atom_values, std::vector<double>& value,
+                                        const Visit& visit) const {
   assert(atom_values.size() == atoms.size());
-  std::vector<double>& value = workspace.value;
   if (value.size() < nodes.size()) value.resize(nodes.size());
   std::size_t taken = 0;  // the next node that an evaluation would visit
   auto next = switching.begin();
@@ -109,9 +109,39 @@ void ExpressionProgram::switches(std::span<const double> atom_values, Expression
       value[i] = value_of_node<double>(node, atom_values, value);
     }
     if (static_cast<std::size_t>(*next) != i) continue;
-    add_switches(node, value, visited, out);
+    visit(node, visited);
     ++next;
   }
+}
+
+void ExpressionProgram::switches(std::span<const double> atom_values, ExpressionWorkspace<double>& workspace,
+                                 SwitchList& out) const {
+  sweep_switching(atom_values, workspace.value,
+                  [&](const ExpressionNode& node, bool taken) { add_switches(node, workspace.value, taken, out); });
+}
+
+void ExpressionProgram::look_ahead(std::span<const double> from, std::span<const double> to,
+                                   ExpressionWorkspace<double>& workspace, StepReach& reach) const {
+  struct Place {
+    double x, z;
+    bool taken;
+  };
+  std::vector<Place> begins;
+  const auto place = [&](const ExpressionNode& node, bool taken) {
+    const auto argument = [&](std::size_t k) {
+      return workspace.value[static_cast<std::size_t>(operands[static_cast<std::size_t>(node.b) + k])];
+    };
+    return Place{argument(0), argument(1), taken};
+  };
+  sweep_switching(from, workspace.value, [&](const ExpressionNode& node, bool taken) {
+    if (node.kind == Kind::spline) begins.push_back(place(node, taken));
+  });
+  auto begin = begins.begin();
+  sweep_switching(to, workspace.value, [&](const ExpressionNode& node, bool taken) {
+    if (node.kind != Kind::spline) return;
+    const Place a = *begin++, b = place(node, taken);
+    if (a.taken || b.taken) splines[static_cast<std::size_t>(node.a)].look_ahead(a.x, a.z, b.x, b.z, reach);
+  });
 }
 
 }  // namespace dynalin

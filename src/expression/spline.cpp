@@ -92,6 +92,17 @@ SplineCurves::SplineCurves(std::shared_ptr<const SplineData> data, SplineMethod 
     pieces.push_back(beyond(n - 1, n - 2, n - 3));
     pieces_.push_back(std::move(pieces));
   }
+  for (std::size_t derivative = 0; derivative < range_.size(); ++derivative) {
+    const double factor = derivative == 2 ? 2 : 1;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const auto& curve : pieces_) {
+      for (std::size_t k = 1; k < curve.size(); ++k) {  // the last one begins at the last point
+        const double v = factor * curve[k].c[derivative];
+        low = std::min(low, v), high = std::max(high, v);
+      }
+    }
+    range_[derivative] = high - low;
+  }
 }
 
 const SplineCurves::Piece& SplineCurves::piece(std::size_t curve, double x) const {
@@ -161,6 +172,46 @@ void SplineCurves::switches(double x, double z, int derivative, SwitchList& out)
     out.add(x - knots.back());
   }
   if (data_->z.size() > 2) out.add(knot_switch(std::span(data_->z).subspan(1, data_->z.size() - 2), z));
+}
+
+// Knots between are compared with what is expected; of each piece the middle as well, which is all there is to see of a
+// bulge between two points alike. Steps end at knots, but a bulge that is ahead is entered.
+void SplineCurves::look_ahead(double x0, double z0, double x1, double z1, int derivative, StepReach& reach) const {
+  constexpr double just_behind = 1e-6;  // of the step: one that was to end at a knot may have ended right before it
+  constexpr double begun = 0.25;        // of a piece
+  const double allowed = reach.tolerance() * range_[static_cast<std::size_t>(derivative)];
+  const double from = x0 + just_behind * (x1 - x0);
+  if (!(from != x1) || !std::isfinite(x0) || !std::isfinite(x1) || !(allowed > 0)) return;
+  const Points& knots = data_->x;
+  // The knots between, in the order in which they are met, from `next` on; the number of the one before may be −1.
+  const bool up = x1 > x0;
+  const auto below = [&](double x) {  // how many
+    return std::lower_bound(knots.begin(), knots.end(), x) - knots.begin();
+  };
+  std::ptrdiff_t next = up ? below(from) : below(from) - 1;
+  const std::ptrdiff_t step = up ? 1 : -1, last = up ? below(x1) - 1 : below(x1);
+  if ((last - next) * step < 0) return;
+  const auto knot = [&](std::ptrdiff_t k) { return knots[static_cast<std::size_t>(k)]; };
+  const auto value = [&](double x) { return at(x, z0 + (x - x0) / (x1 - x0) * (z1 - z0), derivative); };
+  const std::ptrdiff_t before = next - step, count = static_cast<std::ptrdiff_t>(knots.size());
+  const auto share = [&](double x) { return (x - x0) / (x1 - x0); };
+  using Taylor = TimeTaylor<double>;
+  const Taylor begin = at(Taylor(from, 1.0, 0.0), Taylor(z0, (z1 - z0) / (x1 - x0), 0.0), derivative);
+  const ExpectedCourse expected(from, begin.value, begin.rate, x1, value(x1));
+  if (before >= 0 && before < count && (from - knot(before)) / (knot(next) - knot(before)) < begun) {
+    const double middle = 0.5 * (from + knot(next));
+    if (std::abs(value(middle) - 0.5 * (value(from) + value(knot(next)))) > allowed) reach.end_at(share(middle));
+  }
+  const auto is_expected = [&](double x) { return std::abs(value(x) - expected.at(x)) <= allowed; };
+  for (; (last - next) * step >= 0; next += step) {
+    if (share(knot(next)) >= reach.share()) return;
+    const double end = next == last ? x1 : knot(next + step);
+    if (!is_expected(knot(next)) || !is_expected(0.5 * (knot(next) + end))) return reach.end_at(share(knot(next)));
+  }
+}
+
+void SplineUse::look_ahead(double x0, double z0, double x1, double z1, StepReach& reach) const {
+  if (curves) curves->look_ahead(x0, z0, x1, z1, derivative, reach);
 }
 
 void SplineUse::switches(double x, double z, SwitchList& out) const {

@@ -20,6 +20,7 @@
 #include "base/time_taylor.h"
 #include "expression/parametric_curve.h"
 #include "expression/spectrum.h"
+#include "expression/step_reach.h"
 #include "expression/switch_list.h"
 
 namespace dynalin {
@@ -52,6 +53,9 @@ class SplineCurves {
   // jump of the second derivative is left to the error control of an integration: tables of measured data have
   // thousands of them.
   void switches(double x, double z, int derivative, SwitchList&) const;
+  // Ends a step that leads from x0 to x1 where it would pass over what the curve, or that derivative of it, does
+  // between.
+  void look_ahead(double x0, double z0, double x1, double z1, int derivative, StepReach&) const;
 
  private:
   // Coefficients of y = c0 + c1 s + c2 s² + c3 s³ with s = x − origin.
@@ -65,6 +69,7 @@ class SplineCurves {
 
   std::shared_ptr<const SplineData> data_;
   SplineMethod method_;
+  std::array<double, 3> range_{};           // of the values at the points, and of both derivatives
   std::vector<std::vector<Piece>> pieces_;  // of each curve: left of the data, between the points, right of the data
 };
 
@@ -86,6 +91,7 @@ struct SplineUse {
   template <class T>
   T evaluate(const T& x, const T& z) const;
   void switches(double x, double z, SwitchList&) const;
+  void look_ahead(double x0, double z0, double x1, double z1, StepReach&) const;
 };
 
 }  // namespace dynalin

@@ -135,5 +135,33 @@ TEST(Spline, switches_between_the_curves_of_a_family) {
   expect_places(changes(use(SplineMethod::cubic, family), -1, 6, true), {1, 2});
 }
 
+// The part of a step that may be made, up to the bump at 4 … 6 or away from it.
+TEST(Spline, steps_do_not_pass_over_what_is_between_points) {
+  const SplineData bump = {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, {}, {{0, 0, 0, 0, 0, 1, 0, 0, 0, 0}}, false};
+  const auto reach = [&](SplineMethod method, double from, double to) {
+    StepReach r(1e-3);
+    use(method, bump).look_ahead(from, 0, to, 0, r);
+    return from + r.share() * (to - from);
+  };
+  for (const SplineMethod m : {SplineMethod::akima, SplineMethod::linear}) {
+    EXPECT_EQ(reach(m, 0.5, 2.9), 2.9);
+    EXPECT_EQ(reach(m, 7.1, 20), 20);
+    EXPECT_NEAR(reach(m, 0.5, 8.5), 4, 1);
+    EXPECT_NEAR(reach(m, 8.5, 0.5), 6, 1);
+    EXPECT_GE(reach(m, 0.5, 8.5), 3);
+    EXPECT_LT(reach(m, 4, 8.5), 5.01);  // into it
+    EXPECT_EQ(reach(m, 0.5, 0.5), 0.5);
+  }
+  // Two points alike and a bulge between.
+  const SplineData bulge = {{0, 1, 2, 3, 4, 5}, {}, {{-2, -1, 0, 0, -1, -2}}, false};
+  StepReach r(1e-3);
+  use(SplineMethod::cubic, bulge).look_ahead(2, 0, 3.2, 0, r);
+  EXPECT_NEAR(r.share(), 0.5 / 1.2, 1e-3);
+  StepReach family(1e-3);
+  use(SplineMethod::linear, {{0, 1, 2, 3, 4}, {0, 1}, {{0, 0, 0, 0, 0}, {0, 0, 1, 0, 0}}, false})
+      .look_ahead(0.5, 0, 3.5, 1, family);
+  EXPECT_LT(family.share(), 0.6);
+}
+
 }  // namespace
 }  // namespace dynalin::spline_test

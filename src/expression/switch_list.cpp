@@ -16,6 +16,14 @@ void SwitchList::add(double switching, bool does_count) {
   any_undefined = any_undefined || std::isnan(switching);
 }
 
+bool changes_between(const SwitchList& a, const SwitchList& b) {
+  const auto sign = [](double v) { return (v > 0) - (v < 0); };
+  for (std::size_t k = 0; k < a.value.size(); ++k) {
+    if ((a.counts[k] || b.counts[k]) && sign(a.value[k]) != sign(b.value[k])) return true;
+  }
+  return false;
+}
+
 double knot_switch(std::span<const double> knots, double x, std::size_t first) {
   const std::size_t n = knots.size();
   const auto k = static_cast<std::size_t>(std::upper_bound(knots.begin(), knots.end(), x) - knots.begin());

@@ -19,6 +19,9 @@ struct SwitchList {
   void clear() { value.clear(), counts.clear(), any_undefined = false; }
 };
 
+// Whether one that counts at either motion has another sign at the second.
+bool changes_between(const SwitchList&, const SwitchList&);
+
 // Changes its sign at every knot, of which the first is number `first` of all; continuous, negative before knot 0. One
 // function serves any number of knots, but two that are passed in one step are not seen.
 double knot_switch(std::span<const double> knots, double x, std::size_t first = 0);

@@ -260,4 +260,24 @@ void BoundExpression::switches(const Motion& motion, ExpressionScratch& scratch,
   expression_.switches(scratch.atoms, scratch.plain, out);
 }
 
+void BoundExpression::look_ahead(const Motion& from, const Motion& to, ExpressionScratch& scratch,
+                                 StepReach& reach) const {
+  if (!has_tables()) return;
+  scratch.atoms.resize(atoms_.size());
+  std::vector<double> ahead(atoms_.size());
+  for (std::size_t k = 0; k < atoms_.size(); ++k) {
+    scratch.atoms[k] = atom_value(atoms_[k], from);
+    ahead[k] = atom_value(atoms_[k], to);
+  }
+  expression_.look_ahead(scratch.atoms, ahead, scratch.plain, reach);
+}
+
+bool BoundExpression::reads_states_only() const {
+  return std::all_of(atoms_.begin(), atoms_.end(), [](const BoundAtom& a) {
+    using Kind = BoundAtom::Kind;
+    if (a.kind == Kind::channel) return a.channel.kind == Channel::Kind::state;
+    return a.kind != Kind::force && (a.kind != Kind::measure || a.order < 2);
+  });
+}
+
 }  // namespace dynalin

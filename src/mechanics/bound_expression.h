@@ -60,6 +60,11 @@ class BoundExpression {
   // Functions that change their sign where it has a kink or a jump along the motion.
   bool has_switches() const;
   void switches(const Motion&, ExpressionScratch&, SwitchList&) const;
+  // What tables that it reads have between the ends of a step.
+  bool has_tables() const { return expression_.has_tables(); }
+  void look_ahead(const Motion& from, const Motion& to, ExpressionScratch&, StepReach&) const;
+  // Whether all it reads are positions, velocities, states and the time, none of which jumps without a slope that does.
+  bool reads_states_only() const;
 
   // Adds what is wrong when a value or partial is not finite: function, argument and reason.
   // With rates also what its time derivative or a second derivative does not have.

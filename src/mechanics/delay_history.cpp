@@ -60,11 +60,7 @@ void pass(Interpolation& course, const DelayHistory::Instant& i) {
 
 DelayHistory::Reading DelayHistory::at(double s) const {
   // The interval that holds s: behind an event where s is at one, before the last instant where s is there.
-  std::size_t low = 0, high = size();
-  while (high - low > 1) {
-    const std::size_t middle = low + (high - low) / 2;
-    (instant(middle).time <= s ? low : high) = middle;
-  }
+  std::size_t low = std::max<std::size_t>(instants_until(s), 1) - 1;
   if (low + 1 == size() && low > 0 && !instant(low).begins) --low;
   Interpolation course;
   if (low + 1 == size() || instant(low + 1).begins) {
@@ -128,11 +124,60 @@ bool DelayHistory::jumps(double value, double slope) const {
          std::abs(slope - last.slope) > slope_noise * largest_slope_;
 }
 
+double DelayHistory::next_break(double s) const {
+  const auto next = std::upper_bound(breaks_.begin(), breaks_.end(), s);
+  return next == breaks_.end() ? std::numeric_limits<double>::infinity() : *next;
+}
+
+void DelayHistory::look_ahead(double s0, double s1, StepReach& reach) const {
+  if (empty() || !(s1 > s0)) return;
+  const auto share = [&](double s) { return (s - s0) / (s1 - s0); };
+  const auto first = std::upper_bound(breaks_.begin(), breaks_.end(), s0);
+  const bool breaks_off = first != breaks_.end() && *first < s1;
+  if (breaks_off && first + 1 != breaks_.end() && first[1] < s1) reach.end_at(share(0.5 * (first[0] + first[1])));
+  // The instants of the smooth course ahead.
+  std::size_t low = instants_until(s0);
+  const std::size_t high = breaks_off ? instants_until(*first) - 1 : instants_until(s1);  // behind the last of them
+  if (s0 < oldest() || high < low + 2) return;
+  const Instant& last = instant(high - 1);
+  const Reading begin = at(s0);
+  const ExpectedCourse expected(s0, begin.value, begin.slope, last.time, last.value);
+  for (; low + 1 < high && share(instant(low).time) < reach.share(); ++low) {
+    const Instant& i = instant(low);
+    if (std::abs(i.value - expected.at(i.time)) > reach.tolerance() * largest_value_)
+      return reach.end_at(share(i.time));
+  }
+}
+
+std::size_t DelayHistory::instants_until(double s) const {
+  std::size_t low = 0, high = size();
+  while (low < high) {
+    const std::size_t middle = low + (high - low) / 2;
+    if (instant(middle).time <= s) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
+void DelayHistory::note_size(double value, double slope) {
+  largest_value_ = std::max(largest_value_, std::abs(value));
+  if (std::isfinite(slope)) largest_slope_ = std::max(largest_slope_, std::abs(slope));
+}
+
+void DelayHistory::append_behind(double time, double value, double slope, double oldest, bool changes) {
+  if (empty() || time < end_) return append(time, value, slope, oldest);
+  note_size(value, slope);
+  if (changes || jumps(value, slope)) add({time, value, slope, true});
+  drop(oldest);
+}
+
 void DelayHistory::append(double time, double value, double slope, double oldest) {
   const bool again = !empty() && same_time(time, end_);
   if (!empty() && !again && time < end_) *this = DelayHistory();
-  largest_value_ = std::max(largest_value_, std::abs(value));
-  if (std::isfinite(slope)) largest_slope_ = std::max(largest_slope_, std::abs(slope));
+  note_size(value, slope);
   if (empty()) {
     start_ = time;
     add({time, value, slope, true});

@@ -3,9 +3,9 @@
 //
 // Two neighbouring instants with known slopes are joined by the cubic that has values and slopes there, of fourth order
 // in the step. Without slopes it is the cubic through four neighbours. Where the value or its slope jumps (the start,
-// an event) an instant is there twice, and no cubic goes across. Behind the last accepted instant, where a delay is
-// shorter than the step, the course goes on to the present value: w = e(t − τ) then depends on e(t), smoothly, and
-// becomes e(t) as τ goes to 0.
+// an event) there is an instant on either side, and no cubic goes across. Behind the last accepted instant, where a
+// delay is shorter than the step, the course goes on to the present value: w = e(t − τ) then depends on e(t), smoothly,
+// and becomes e(t) as τ goes to 0.
 #pragma once
 
 #include <memory>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/source.h"
+#include "expression/step_reach.h"
 
 namespace dynalin {
 
@@ -40,10 +41,18 @@ class DelayHistory {
   Reading at(double s, double t, double present) const;
   // Changes its sign where s passes a jump or a kink.
   double switching(double s) const;
+  // The first jump or kink behind s, infinite if there is none.
+  double next_break(double s) const;
+  // Ends a step in which the past that is read goes from s0 to s1: between two jumps or kinks, which switching() shows
+  // one at a time alone, and where it would pass over something that the integration has once resolved.
+  void look_ahead(double s0, double s1, StepReach&) const;
 
-  // The next accepted instant; nothing before `oldest` is read any more. A second one at the same time is an event: it
-  // begins anew if the value or the slope has jumped. Where time has gone back everything does.
+  // The next accepted instant; nothing before `oldest` is read any more. A second one at the same time begins anew if
+  // the value or the slope has jumped. Where time has gone back everything does.
   void append(double time, double value, double slope, double oldest);
+  // The instant right behind an event, of which the last one is the other side. It begins anew if the value or the
+  // slope has jumped, or if the event `changes` the course beyond these.
+  void append_behind(double time, double value, double slope, double oldest, bool changes);
 
   // What is kept, and the history that consists of that.
   std::vector<Instant> instants() const;
@@ -61,12 +70,14 @@ class DelayHistory {
     return k / chunk_size < full_.size() ? (*full_[k / chunk_size])[k % chunk_size]
                                          : recent_[k - full_.size() * chunk_size];
   }
+  std::size_t instants_until(double s) const;  // how many of those kept
   // The next one on that side at least so far away, nothing if a jump or the end comes first.
   std::optional<std::size_t> instant_before(std::size_t k, double distance) const;
   std::optional<std::size_t> instant_behind(std::size_t k, double distance) const;
   void add(const Instant&);
   void drop(double oldest);
   bool jumps(double value, double slope) const;
+  void note_size(double value, double slope);
 
   // A copy shares what is complete, so that each accepted point has its own history at little cost.
   std::vector<std::shared_ptr<const Chunk>> full_;
@@ -89,6 +100,13 @@ class DelaySource {
  public:
   // An accepted instant of a motion in time: what will be read of it is kept.
   virtual void record(const Motion&, DelayHistories&) const = 0;
+  // Behind an event, after what was right before it has been recorded. `by_elements`: something other than a delay has
+  // a kink or a jump there.
+  virtual void record_behind(const Motion& before, const Motion& now, bool by_elements, DelayHistories&) const = 0;
+  // The first instant behind `time` at which a jump or a kink of the past acts, as far as that is known.
+  virtual double next_event(double time, const DelayHistories&) const = 0;
+  // Ends a step that leads from one motion about to another where the past would pass over what is between.
+  virtual void look_ahead(const Motion&, const Motion&, StepReach&) const = 0;
   // The longest step in time that resolves the delays here.
   virtual double longest_step(const Motion&) const = 0;
 

@@ -167,5 +167,42 @@ TEST(DelayHistory, begins_anew_where_time_goes_back) {
   EXPECT_EQ(past.start(), 0.5);
 }
 
+// What an event changes beyond value and slope is a place as well where who records it says so.
+TEST(DelayHistory, both_sides_of_an_event_are_kept) {
+  DelayHistory past;
+  for (const double t : {0.0, 0.5, 1.0 - 1e-12}) past.append(t, t, 1, forever);
+  past.append_behind(1, 1, 1, forever, false);
+  EXPECT_EQ(past.size(), 3u);
+  past.append(1.5, 1.5, 1, forever), past.append(2 - 1e-12, 2, 1, forever);
+  past.append_behind(2, 2, 1, forever, true);
+  EXPECT_EQ(past.size(), 6u);
+  past.append(3 - 1e-12, 3, 1, forever);
+  past.append_behind(3, 7, 0, forever, false);
+  past.append(4, 7, 0, forever);
+  EXPECT_NEAR(past.at(3 - 1e-9).value, 3, 1e-8);
+  EXPECT_NEAR(past.at(3).value, 7, 1e-14);
+  EXPECT_LT(past.switching(1.9) * past.switching(2.1), 0);
+  EXPECT_LT(past.switching(2.9) * past.switching(3.1), 0);
+}
+
+TEST(DelayHistory, steps_end_between_two_events_and_pass_over_nothing) {
+  DelayHistory past;
+  past.append(0, 0, 0, forever);
+  for (const double t : {1.0, 1.001}) {
+    past.append(t - 1e-12, 0, 0, forever);
+    past.append_behind(t, 0, 0, forever, true);
+  }
+  for (const double t : {2.0, 3.0, 3.1, 3.2, 4.0, 5.0}) past.append(t, t == 3.1 ? 1 : 0, 0, forever);
+  const auto end = [&](double from, double to) {
+    StepReach r(1e-3);
+    past.look_ahead(from, to, r);
+    return from + r.share() * (to - from);
+  };
+  EXPECT_NEAR(end(0.5, 1.5), 1.0005, 1e-9);
+  EXPECT_NEAR(end(0.5, 0.9), 0.9, 1e-12);
+  EXPECT_NEAR(end(2.5, 4.5), 3.1, 0.1 + 1e-9);
+  EXPECT_NEAR(end(3.3, 4.5), 4.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace dynalin::delay_history_test

@@ -296,6 +296,32 @@ struct DaeIntegrator::Memory {
     return change * longest > 1 ? std::sqrt(longest / change) : longest;
   }
 
+  // Where the next step has to end that may go on to an instant.
+  double end_of_step(double latest, std::optional<double> first) {
+    if (!problem.looks_ahead()) return latest;
+    double now = t, h = first.value_or(0);
+    if (!first) {
+      check(IDAGetCurrentTime(ida, &now));
+      check(IDAGetCurrentStep(ida, &h));
+    }
+    if (now != t) return latest;  // the rest of a step that is made
+    const double end = std::min(t + h, latest);
+    if (!(end > t)) return latest;
+    if (first) {
+      N_VLinearSum(1, y, end - t, yp, work);
+      N_VScale(1, yp, weight);
+    } else {
+      check(IDAGetDky(ida, end, 0, work));
+      check(IDAGetDky(ida, end, 1, weight));
+    }
+    const double part = problem.part_to_make({t, constant(y), constant(yp)}, {end, constant(work), constant(weight)});
+    // One that hardly goes on would count as none.
+    constexpr double least_part = 1e-6, least_roundings = 1000;
+    const double least = std::max(least_part * (end - t),
+                                  least_roundings * std::numeric_limits<double>::epsilon() * (std::abs(t) + end - t));
+    return part < 1 ? std::min(latest, t + std::max(least, part * (end - t))) : latest;
+  }
+
   // IDA counts anew from each start.
   IntegrationStatistics total() const {
     IntegrationStatistics s = before;
@@ -336,9 +362,12 @@ DaeIntegrator::Outcome DaeIntegrator::step(double latest) {
     check(IDASetMaxOrd(m.ida, *order));
     m.begin(m.t, std::nullopt);
   }
-  check(IDASetStopTime(m.ida, latest));
-  if (std::exchange(m.fresh, false))
-    check(IDASetInitStep(m.ida, m.stated_first ? *m.stated_first : m.first_step(latest)));
+  std::optional<double> first;
+  if (std::exchange(m.fresh, false)) {
+    first = m.stated_first ? *m.stated_first : m.first_step(latest);
+    check(IDASetInitStep(m.ida, *first));
+  }
+  check(IDASetStopTime(m.ida, m.end_of_step(latest, first)));
   const double before = m.t;
   const int flag = IDASolve(m.ida, latest, &m.t, m.y, m.yp, IDA_ONE_STEP);
   switch (flag) {

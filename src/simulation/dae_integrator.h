@@ -32,6 +32,14 @@ class DaeProblem {
   // Functions whose zeros end a step.
   virtual std::size_t switch_count() const = 0;
   virtual void switches(double t, std::span<const double> y, std::span<const double> yp, std::span<double> values) = 0;
+  // Whether steps may pass over something that is known beforehand, and the part of one that leads from a point to
+  // another, which it is expected to reach, that may be made.
+  virtual bool looks_ahead() const { return false; }
+  struct Instant {
+    double t;
+    std::span<const double> y, yp;
+  };
+  virtual double part_to_make(const Instant& /*from*/, const Instant& /*to*/) { return 1; }
 };
 
 struct StepBounds {

@@ -36,6 +36,11 @@ constexpr double largest_part_of_error = 0.1;  // in a step, of what rounding le
 constexpr int steps_held_by_rounding = 500;
 constexpr std::size_t remark_limit = 50;
 constexpr double part_that_jumps = 0.1;  // of a value, beside what changes with the point
+// Of the range of a table, what steps may pass over: ERROR within these.
+constexpr double least_passed_over = 1e-6, most_passed_over = 1e-3;
+// From an event to its sides, in roundings; what is less is no step.
+constexpr double way_around = 8, no_step = 1e3;
+constexpr double first_way_back = 1e3, next_way = 10, least_way_ahead = 4, most_way_ahead = 400;
 constexpr double shortest_bound = 1e-2;  // of steps, by what elements have to resolve: of the whole time
 
 class Dynamics {
@@ -46,6 +51,7 @@ class Dynamics {
     const double error = error_ = settings.error.value_or(default_integration_error);
     tolerance_.relative = std::clamp(part_of_error * std::pow(error, power_of_error), 1e-14, 1e-3);
     tolerance_.duration = times.end() - times.start();
+    tolerance_.passed_over = std::clamp(error, least_passed_over, most_passed_over);
     bounds_.loosest = std::max(1.0, largest_part_of_error * error / tolerance_.relative);
     bounds_.first = settings.first_step;
     bounds_.least = settings.least_step;
@@ -74,7 +80,14 @@ class Dynamics {
     if (auto begun = begin(at_start.step_size); !begun) return tl::unexpected(begun.error());
     while (true) {
       limit_steps();
-      const auto outcome = integrator_->step(times_.end());
+      const KnownEvent known = known_event();
+      if (known.before - point_.time < no_step * known.rounding()) {
+        auto action = pass_known_event(known);
+        if (!action) return tl::unexpected(action.error());
+        if (action->ends()) return AdvancedPoint{std::move(point_), end_of(*action)};
+        continue;
+      }
+      const auto outcome = integrator_->step(std::min(known.before, times_.end()));
       count();
       if (outcome == DaeIntegrator::Outcome::failed) {
         if (auto again = begin_again(); !again) return tl::unexpected(again.error());
@@ -82,14 +95,14 @@ class Dynamics {
       }
       bool going_on = true;
       if (auto done = hand_out_until(integrator_->time(), going_on); !done) return tl::unexpected(done.error());
-      accept();
+      accept(outcome == DaeIntegrator::Outcome::event);
       if (going_on && next_ > times_.count() && outcome != DaeIntegrator::Outcome::event) {
         last_output_.memory = point_.memory, last_output_.delays = point_.delays;
         return AdvancedPoint{std::move(last_output_), SimulationEnd::reached};
       }
       if (!going_on || !hand_out(point_, false)) return ended(SimulationEnd::stopped);
       if (outcome == DaeIntegrator::Outcome::event) {
-        auto action = pass_event();
+        auto action = pass_event(integrator_->crossed());
         if (!action) return tl::unexpected(action.error());
         if (action->ends()) return AdvancedPoint{std::move(point_), end_of(*action)};
         if (next_ > times_.count()) return ended(SimulationEnd::reached);
@@ -180,7 +193,12 @@ class Dynamics {
     auto again = consistent(point_);  // a copy: what goes wrong is said of the point
     if (!again) return tl::unexpected(again.error());
     point_ = std::move(*again);
-    system_.record(point_);
+    if (before_event_) {
+      system_.record_behind(*before_event_, point_);
+      before_event_.reset();
+    } else {
+      system_.record(point_);
+    }
     return {};
   }
   Result<void> begin_at_consistent() {
@@ -220,12 +238,57 @@ class Dynamics {
     return f;
   }
 
-  // The integrator's step becomes the point.
-  void accept() {
+  // The integrator's step becomes the point. At an event values are not those of either side yet.
+  void accept(bool event) {
+    before_event_.reset();
+    if (event && !system_.layout().delay_calls.empty()) before_event_ = right_before_event();
     equations_->unknowns().unpack(integrator_->time(), integrator_->y(), integrator_->yp(), point_);
+    if (event) leave_event();
     system_.remember(point_);
-    system_.record(point_);
+    if (before_event_) {
+      point_.delays = before_event_->delays;
+    } else {
+      system_.record(point_);
+    }
     equations_->accept(point_);
+  }
+
+  // Where a function that switches is exactly zero, an IF is on neither side: the point goes on by some roundings.
+  void leave_event() {
+    std::vector<double> values(events_.size());
+    const double at = point_.time, rounding = std::numeric_limits<double>::epsilon() * std::abs(at);
+    for (double ahead = least_way_ahead; ahead <= most_way_ahead; ahead *= next_way) {
+      events_.values(system_.motion(point_), values);
+      bool is_zero = false;
+      for (std::size_t k = 0; k < events_.switch_count(); ++k)
+        is_zero = is_zero || (integrator_->crossed()[k] != 0 && values[k] == 0);
+      if (!is_zero) return;
+      point_.time = at + ahead * rounding;
+      integrator_->interpolate(point_.time, y_, yp_);
+      equations_->unknowns().unpack(point_.time, y_, yp_, point_);
+    }
+  }
+
+  // The other side of an event, recorded: what DELAYs read jumps there. The last point where that is all there is.
+  OperatingPoint right_before_event() {
+    const double at = integrator_->time();
+    const std::span<const int> crossed = integrator_->crossed().first(events_.switch_count());
+    std::vector<double> values(events_.size());
+    double back = first_way_back * std::numeric_limits<double>::epsilon() * (std::abs(at) + at - point_.time);
+    for (; at - back > point_.time; back *= next_way) {
+      OperatingPoint before = point_;
+      integrator_->interpolate(at - back, y_, yp_);
+      equations_->unknowns().unpack(at - back, y_, yp_, before);
+      Findings unused;
+      if (auto balanced = accelerations(before, unused)) before = std::move(*balanced);
+      events_.values(system_.motion(before), values);
+      bool is_beyond = false;
+      for (std::size_t k = 0; k < crossed.size(); ++k) is_beyond = is_beyond || crossed[k] * values[k] > 0;
+      if (is_beyond) continue;
+      system_.record(before);
+      return before;
+    }
+    return point_;
   }
 
   // After a step without event: whether the constraints that were left out still follow from the others, and whether
@@ -271,8 +334,33 @@ class Dynamics {
     return action.halts ? SimulationEnd::halted : SimulationEnd::returned;
   }
 
+  // An event whose instant is known: no step goes over it, and the integration begins anew behind it.
+  struct KnownEvent {
+    double before, behind;
+    double rounding() const { return std::numeric_limits<double>::epsilon() * std::abs(behind); }
+  };
+  KnownEvent known_event() const {
+    const double at = system_.next_event(point_);
+    const double way = way_around * std::numeric_limits<double>::epsilon() * std::abs(at);
+    if (at + way < times_.end()) return {at - way, at + way};
+    return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  }
+  // From right before it, where the point is.
+  Result<EventAction> pass_known_event(const KnownEvent& known) {
+    std::vector<double> before(events_.size()), behind(events_.size());
+    std::vector<int> crossed(events_.size());
+    events_.values(system_.motion(point_), before);
+    before_event_ = point_;
+    point_.time = known.behind;
+    if (auto made = make_consistent(); !made) return tl::unexpected(made.error());
+    events_.values(system_.motion(point_), behind);
+    for (std::size_t k = 0; k < crossed.size(); ++k)
+      crossed[k] = before[k] * behind[k] < 0 ? (behind[k] > 0 ? 1 : -1) : 0;
+    return pass_event(crossed, true);
+  }
+
   // What follows from switches and sensors at the point; where nothing does the integration goes on.
-  Result<EventAction> pass_event() {
+  Result<EventAction> pass_event(std::span<const int> crossed, bool restart = false) {
     if (point_.time - crowd_from_ > next_to_no_way * tolerance_.duration) crowd_from_ = point_.time, crowd_ = 0;
     if (++crowd_ > crowd_limit) {
       return tl::unexpected(Failure{
@@ -282,7 +370,8 @@ class Dynamics {
            "beside the time of the run"},
           "stopped-integration"});
     }
-    EventAction action = events_.at(integrator_->crossed(), point_);
+    EventAction action = events_.at(crossed, point_);
+    action.restart = action.restart || restart;
     const bool anew = action.restart || action.output || action.ends() || action.refactor || action.step_size;
     if (anew) {
       const std::vector<double> values = point_.algebraic, rates = point_.state_rate;
@@ -387,6 +476,7 @@ class Dynamics {
   std::unique_ptr<PointRefinement> refinement_;
   IntegrationStatistics counted_before_;
   OperatingPoint point_, last_output_;
+  std::optional<OperatingPoint> before_event_;  // where the last step ended at one
   std::vector<double> y_, yp_;
   std::int64_t next_ = 1;  // output
   int failures_ = 0, close_events_ = 0, steps_at_rounding_ = 0, crowd_ = 0;

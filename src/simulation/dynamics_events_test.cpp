@@ -139,5 +139,107 @@ TEST(DynamicsWithEvents, a_delay_shorter_than_the_steps_converges) {
   EXPECT_LT(lead(text, 2, 0.5, 1e-2).statistics.steps, 150);
 }
 
+std::string delay(const std::string& e) { return "DELAY(" + e + ",0.2,0)"; }
+const std::string pulse = "100*(STEP(TIME,0.49,0,0.4901,1)-STEP(TIME,0.51,0,0.5101,1))";            // its integral: 2
+const std::string bump = "SPLINE/1, X=0,0.1,0.425,0.475,0.525,0.575,0.9,1, Y=0,0,0,10,10,0,0,0\n";  // by AKISPL: 1
+
+// Whatever e is at the instant itself, its course ends there and another one begins.
+TEST(DynamicsWithEvents, a_delayed_jump_is_one_still) {
+  for (const double error : {1e-3, 1e-6, 1e-9}) {
+    for (const char* e : {"IF(TIME-0.3:0,0,1)", "IF(TIME-0.3:0,0.5,1)", "IF(TIME-0.3:0,1,1)", "SIGN(0.5,TIME-0.3)+0.5",
+                          "0.5-SIGN(0.5,0.3-TIME)"}) {
+      const Led r = lead("DIFF/1, FUNCTION=" + delay(e) + "\n", 1, 1, error);
+      EXPECT_NEAR(r.end.point.state[0], 0.5, error) << e << ' ' << error;
+      EXPECT_EQ(r.warned, "");
+    }
+  }
+  EXPECT_NEAR(lead("DIFF/1, FUNCTION=" + delay("IF(TIME-0.3:0,100,IF(TIME-0.32:100,0,0))") + "\n", 1, 1, 1e-6)
+                  .end.point.state[0],
+              2, 1e-5);
+}
+
+TEST(DynamicsWithEvents, a_jump_of_what_a_variable_is_may_be_delayed) {
+  const Led r = lead("VARIABLE/4, FUNCTION=IF(TIME-0.3:0,0,1)\nDIFF/1, FUNCTION=" + delay("VARVAL(4)") +
+                         "\nDIFF/2, FUNCTION=VARVAL(4)\n",
+                     1, 1, 1e-6);
+  EXPECT_EQ(r.warned, "");
+  EXPECT_NEAR(r.end.point.state[0], 0.5, 1e-6);
+  EXPECT_NEAR(r.end.point.state[1], 0.7, 1e-6);
+}
+
+// x = 0.3 − t² until 0.2 after it is 0, at √0.3, then x″ = 2.
+TEST(DynamicsWithEvents, a_relay_that_acts_late) {
+  const double change = std::sqrt(0.3) + 0.2, left = 1 - change;
+  for (const double error : {1e-4, 1e-7}) {
+    const Led r =
+        lead("DIFF/1, IC=0.3, FUNCTION=DIF(2)\nDIFF/2, FUNCTION=-2*DELAY(SIGN(1,DIF(1)),0.2,1)\n", 1, 0.2, error);
+    EXPECT_NEAR(r.end.point.state[0], 0.3 - change * change - 2 * change * left + left * left, error);
+    EXPECT_NEAR(r.end.point.state[1], -2 * change + 2 * left, 2 * error);
+  }
+}
+
+TEST(DynamicsWithEvents, delayed_kinks_and_pulses) {
+  for (const auto& [e, integral] : {std::pair<std::string, double>{"MAX(0,0.1-ABS(TIME-0.3))*100", 1},
+                                    {"MAX(0,0.02-ABS(TIME-0.3))*1E4", 4},
+                                    {"MAX(0,TIME-0.3)", 0.125},
+                                    {pulse, 2},
+                                    {"AKISPL(TIME,0,1)", 1}}) {
+    for (const double error : {1e-3, 1e-6}) {
+      EXPECT_NEAR(lead(bump + "DIFF/1, FUNCTION=" + delay(e) + "\n", 1, 1, error).end.point.state[0], integral,
+                  2 * error * integral)
+          << e << ' ' << error;
+      EXPECT_NEAR(
+          lead(bump + "VARIABLE/1, FUNCTION=" + e + "\nDIFF/1, FUNCTION=" + delay("VARVAL(1)") + "\n", 1, 1, error)
+              .end.point.state[0],
+          integral, 2 * error * integral)
+          << e << " of a VARIABLE " << error;
+    }
+  }
+}
+
+// A bump that no step would meet by itself, whatever leads along the table.
+TEST(DynamicsWithEvents, what_a_table_does_between_the_ends_of_steps) {
+  for (const char* function : {"AKISPL(TIME,0,1)", "AKISPL(1-TIME,0,1)", "AKISPL(VARVAL(1),0,1)", "AKISPL(DIF(2),0,1)",
+                               "0.5*AKISPL(0.5*TIME,0,1)", "IF(TIME-2:AKISPL(TIME,0,1),0,0)"}) {
+    for (const double error : {1e-3, 1e-6}) {
+      const bool slow = std::string(function).find("0.5*TIME") != std::string::npos;
+      const Led r = lead(bump + "VARIABLE/1, FUNCTION=TIME\nDIFF/1, FUNCTION=" + function + "\nDIFF/2, FUNCTION=1\n",
+                         slow ? 2 : 1, 2, error);
+      EXPECT_NEAR(r.end.point.state[0], 1, error) << function << ' ' << error;
+    }
+  }
+  for (const auto& [function, integral] : {std::pair{"CUBSPL(TIME,0,1)", 0.0}, {"INTERP(TIME,1,1)", 1.0}}) {
+    const std::string text = bump + "DIFF/1, FUNCTION=" + function + "\n";
+    const double fine = lead(text, 1, 0.01, 1e-8).end.point.state[0];
+    if (integral != 0) {
+      EXPECT_NEAR(fine, integral, 1e-6);
+    }
+    EXPECT_NEAR(lead(text, 1, 1, 1e-6).end.point.state[0], fine, 2e-6) << function;
+  }
+}
+
+// A table that is denser than the steps costs none where it is smooth; a bump in it is not missed.
+TEST(DynamicsWithEvents, tables_denser_than_the_steps) {
+  const auto table = [](double (*f)(double)) {
+    std::string x = "SPLINE/1, X=0", y = "\n, Y=0";
+    for (int k = 1; k <= 5000; ++k) {
+      x += (k % 10 == 0 ? "\n," : ",") + std::to_string(k * 0.002);
+      char value[40];
+      std::snprintf(value, sizeof value, k % 10 == 0 ? "\n,%.12g" : ",%.12g", f(k * 0.002));
+      y += value;
+    }
+    return x + y + "\n";
+  };
+  const auto steps = [](const std::string& text, double error) { return lead(text, 10, 10, error).statistics.steps; };
+  const std::string waves = table([](double t) { return std::sin(2 * t); });
+  for (const double error : {1e-3, 1e-5}) {
+    EXPECT_LT(steps(waves + "DIFF/1, FUNCTION=CUBSPL(TIME,0,1)\n", error),
+              1.3 * static_cast<double>(steps("DIFF/1, FUNCTION=SIN(2*TIME)\n", error)));
+  }
+  const std::string bumped = table([](double t) { return t > 6.003 && t < 6.009 ? 100.0 : 0.0; });
+  EXPECT_NEAR(lead(bumped + "DIFF/1, FUNCTION=INTERP(TIME,1,1)\n", 10, 10, 1e-6).end.point.state[0], 0.6, 1e-6);
+  EXPECT_LT(steps(bumped + "DIFF/1, FUNCTION=INTERP(TIME,1,1)\n", 1e-3), 500);
+}
+
 }  // namespace
 }  // namespace dynalin::system_test::dynamics_events_test

@@ -281,5 +281,18 @@ TEST(Kinematics, miss_no_pulse_of_a_speed) {
   EXPECT_NEAR(r.variable(*r.end, 1), 0.03, 1e-12);
 }
 
+// The same of a table.
+TEST(Kinematics, miss_no_pulse_of_a_speed_that_a_table_gives) {
+  for (const auto& [course, way] : {std::pair{"VELOCITY", 1.0}, std::pair{"ACCELERATION", 0.5}}) {
+    KinematicRun r(std::string("PART/2, MASS=1, CM=20, IP=1,1,2\nMARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
+                               "SPLINE/1, X=0,0.1,0.425,0.475,0.525,0.575,0.9,1, Y=0,0,0,10,10,0,0,0\n"
+                               "VARIABLE/1, FUNCTION=DZ(20,1)\nMOTION/1, JOINT=1, FUNCTION=AKISPL(TIME,0,1), ") +
+                       course + "\n",
+                   1, 1);
+    ASSERT_TRUE(r.end) << r.end.error().message;
+    EXPECT_NEAR(r.variable(*r.end, 1), way, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace dynalin::simulation_test::kinematics_test

@@ -88,6 +88,22 @@ std::vector<double> switching_times(const System& system, Motion motion, double 
   return times;
 }
 
+// Instants up to which tables of time are as they are expected: of a pulse as well, nothing may be in 15 points.
+void add_points_of_tables(const System& system, Motion motion, double from, double to, std::vector<double>& times) {
+  constexpr double least_bump = 1e-9;  // of the range of a table
+  if (!system.looks_ahead()) return;
+  ExpressionScratch scratch;
+  Motion end = motion;
+  end.time = to, motion.time = from;
+  while (true) {
+    StepReach reach(least_bump);
+    system.look_ahead(motion, end, scratch, reach);
+    const double next = motion.time + reach.share() * (to - motion.time);
+    if (!(next > motion.time && next < to)) return;
+    times.push_back(motion.time = next);
+  }
+}
+
 }  // namespace
 
 void advance_courses(const System& system, const OperatingPoint& from, OperatingPoint& to) {
@@ -113,8 +129,10 @@ void advance_courses(const System& system, const OperatingPoint& from, Operating
     return y;
   };
   const double h = to.time - from.time;
-  std::vector<double> ends =
-      switching_times(system, motion, std::min(from.time, to.time), std::max(from.time, to.time));
+  const auto [earlier, later] = std::minmax(from.time, to.time);
+  std::vector<double> ends = switching_times(system, motion, earlier, later);
+  add_points_of_tables(system, motion, earlier, later, ends);
+  std::ranges::sort(ends);
   if (to.time < from.time) std::ranges::reverse(ends);
   ends.push_back(to.time);
   Eigen::VectorXd size = Eigen::VectorXd::Zero(2 * count), change = size;

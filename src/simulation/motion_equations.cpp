@@ -26,6 +26,7 @@ MotionEquations::MotionEquations(const System& system, Events& events, const Ope
       active_(std::move(active)),
       tolerance_(tolerance),
       motion_(system.motion(at)),
+      ahead_(motion_),
       charts_(system.layout().bodies.size()),
       differential_(unknowns_.size(), 0.0),
       largest_state_(system.layout().states.size(), 0.0) {
@@ -374,6 +375,15 @@ void MotionEquations::switches(double t, std::span<const double> y, std::span<co
   unknowns_.unpack(t, y, yp, motion_);
   events_.values(motion_, values);
   if (!switches_watched_) std::ranges::fill(values.first(events_.switch_count()), 1.0);
+}
+
+double MotionEquations::part_to_make(const Instant& from, const Instant& to) {
+  unknowns_.unpack(from.t, from.y, from.yp, motion_);
+  ahead_.mode = motion_.mode, ahead_.memory = motion_.memory, ahead_.delays = motion_.delays;
+  unknowns_.unpack(to.t, to.y, to.yp, ahead_);
+  StepReach reach(tolerance_.passed_over);
+  system_.look_ahead(motion_, ahead_, scratch_, reach);
+  return reach.share();
 }
 
 double MotionEquations::left_out_violation(const OperatingPoint& op) {

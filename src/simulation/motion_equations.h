@@ -25,7 +25,8 @@ namespace dynalin {
 // What errors are allowed: the part of a coordinate's length, of a velocity, of a state.
 struct ErrorTolerance {
   double relative = 1e-6;
-  double duration = 1;  // of the simulation [time]: a velocity counts by the way it makes
+  double duration = 1;        // of the simulation [time]: a velocity counts by the way it makes
+  double passed_over = 1e-3;  // part of the range of a table that steps need not see
 };
 
 class MotionEquations final : public DaeProblem {
@@ -48,6 +49,9 @@ class MotionEquations final : public DaeProblem {
   std::span<const double> differential() const override { return differential_; }
   std::size_t switch_count() const override { return events_.size(); }
   void switches(double t, std::span<const double> y, std::span<const double> yp, std::span<double> values) override;
+
+  bool looks_ahead() const override { return system_.looks_ahead(); }
+  double part_to_make(const Instant& from, const Instant& to) override;
 
   // Whether zeros of switches end steps; they do at first. Those of sensors always do.
   void watch_switches(bool watched) { switches_watched_ = watched; }
@@ -92,8 +96,9 @@ class MotionEquations final : public DaeProblem {
   MotionUnknowns unknowns_;
   std::vector<bool> active_;
   ErrorTolerance tolerance_;
-  Motion motion_;
+  Motion motion_, ahead_;                         // ahead_: where a step is expected to lead
   std::shared_ptr<const DelayHistories> delays_;  // that the motion reads
+  ExpressionScratch scratch_;
   ConstraintRows rows_;
   Equations eq_;
   Accumulator jacobian_;

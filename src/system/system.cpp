@@ -57,11 +57,14 @@ void System::make_kernels(const SystemOptions& options) {
   SystemBinder binder(*model_, layout_, *signals_, options.delays);
   binder.bind(kernels_);
   switching_ = binder.take_switching();
+  looks_ahead_ = std::ranges::any_of(switching_, [](const BoundExpression& e) { return e.has_tables(); });
   find_angles(options.counted_before);
   for (const auto& kernel : kernels_) {
-    if (const SwitchSource* kinks = kernel->kinks()) switch_sources_.push_back(kinks);
+    if (const SwitchSource* kinks = kernel->kinks())
+      (kernel->delays() ? delay_switches_ : switch_sources_).push_back(kinks);
     if (const EventSource* events = kernel->events()) event_sources_.push_back(events);
     if (const DelaySource* delays_of = kernel->delays()) delay_sources_.push_back(delays_of);
+    looks_ahead_ = looks_ahead_ || kernel->delays();
     if (const StartSource* starts = kernel->starts()) {
       const auto own = starts->start_conditions();
       start_sources_.push_back(starts);
@@ -161,17 +164,50 @@ Motion System::motion(const OperatingPoint& op) const {
 
 void System::switches(const Motion& motion, ExpressionScratch& scratch, SwitchList& list) const {
   list.clear();
+  for (const SwitchSource* kinks : delay_switches_) kinks->switches(motion, scratch, list);
+  switches_of_elements(motion, scratch, list);
+}
+
+void System::switches_of_elements(const Motion& motion, ExpressionScratch& scratch, SwitchList& list) const {
   for (const SwitchSource* kinks : switch_sources_) kinks->switches(motion, scratch, list);
   for (const BoundExpression& e : switching_) e.switches(motion, scratch, list);
 }
 
+void System::look_ahead(const Motion& from, const Motion& to, ExpressionScratch& scratch, StepReach& reach) const {
+  for (const DelaySource* delays : delay_sources_) delays->look_ahead(from, to, reach);
+  for (const BoundExpression& e : switching_) e.look_ahead(from, to, scratch, reach);
+}
+
+std::shared_ptr<DelayHistories> System::histories_of(const OperatingPoint& op) const {
+  return op.delays ? std::make_shared<DelayHistories>(*op.delays)
+                   : std::make_shared<DelayHistories>(layout_.delay_calls.size());
+}
+
 void System::record(OperatingPoint& op) const {
   if (layout_.delay_calls.empty()) return;
-  auto histories = op.delays ? std::make_shared<DelayHistories>(*op.delays)
-                             : std::make_shared<DelayHistories>(layout_.delay_calls.size());
+  auto histories = histories_of(op);
   const Motion m = motion(op);
   for (const DelaySource* delays : delay_sources_) delays->record(m, *histories);
   op.delays = std::move(histories);
+}
+
+void System::record_behind(const OperatingPoint& before, OperatingPoint& op) const {
+  if (layout_.delay_calls.empty()) return;
+  auto histories = histories_of(op);
+  const Motion a = motion(before), b = motion(op);
+  ExpressionScratch scratch;
+  SwitchList at_a, at_b;
+  switches_of_elements(a, scratch, at_a), switches_of_elements(b, scratch, at_b);
+  const bool by_elements = changes_between(at_a, at_b);
+  for (const DelaySource* delays : delay_sources_) delays->record_behind(a, b, by_elements, *histories);
+  op.delays = std::move(histories);
+}
+
+double System::next_event(const OperatingPoint& op) const {
+  double next = std::numeric_limits<double>::infinity();
+  if (!op.delays) return next;
+  for (const DelaySource* delays : delay_sources_) next = std::min(next, delays->next_event(op.time, *op.delays));
+  return next;
 }
 
 double System::longest_step(const Motion& motion) const {

@@ -79,6 +79,15 @@ class System {
   // Of an accepted instant of a motion in time, the start included: keeps what DELAYs will read. At an event, once
   // before and once behind it.
   void record(OperatingPoint&) const;
+  // The second, of which the first is `before`.
+  void record_behind(const OperatingPoint& before, OperatingPoint&) const;
+  // The first event behind the point that is known beforehand, infinite if none is: what DELAYs read jumps or has a
+  // kink.
+  double next_event(const OperatingPoint&) const;
+  // Ends a step that leads from one motion about to another where it would pass over what is known to be between: what
+  // tables have there, what has been before and is delayed.
+  bool looks_ahead() const { return looks_ahead_; }
+  void look_ahead(const Motion& from, const Motion& to, ExpressionScratch&, StepReach&) const;
   // The longest step in time that resolves what elements do here; infinite if all is resolved by the error control.
   double longest_step(const Motion&) const;
 
@@ -97,6 +106,8 @@ class System {
 
  private:
   explicit System(std::shared_ptr<const Model>);
+  void switches_of_elements(const Motion&, ExpressionScratch&, SwitchList&) const;  // delays aside; adds to the list
+  std::shared_ptr<DelayHistories> histories_of(const OperatingPoint&) const;
   void number_bodies();
   void make_kernels(const SystemOptions&);
   void find_angles(const std::vector<AngleName>& counted_before);
@@ -117,6 +128,8 @@ class System {
   double length_ = 1;
   std::vector<double> scale_;
   std::vector<std::int32_t> preference_;
+  std::vector<const SwitchSource*> delay_switches_;  // apart from the other sources of switches
+  bool looks_ahead_ = false;
 };
 
 // One row of the constraint matrix scaled to comparable columns, for the elimination.

@@ -143,15 +143,64 @@ void DelayKernel::switches(const Motion& motion, ExpressionScratch& scratch, Swi
   }
 }
 
-void DelayKernel::record(const Motion& motion, DelayHistories& histories) const {
+double DelayKernel::next_event(double time, const DelayHistories& histories) const {
+  ExpressionScratch scratch;
+  double next = std::numeric_limits<double>::infinity();
+  for (const Call& c : calls_) {
+    if (c.never || !c.lag.is_constant()) continue;
+    const double tau = c.lag.value(Motion(), scratch);
+    next = std::min(next, histories.of_call[c.index].next_break(time - tau) + tau);
+  }
+  return next;
+}
+
+void DelayKernel::look_ahead(const Motion& from, const Motion& to, StepReach& reach) const {
+  ExpressionScratch scratch;
+  for (const Call& c : calls_) {
+    const DelayHistory* history = c.never ? nullptr : kept(c, from);
+    if (history) history->look_ahead(from.time - c.lag.value(from, scratch), to.time - c.lag.value(to, scratch), reach);
+  }
+}
+
+namespace {
+
+bool switches_between(const BoundExpression& e, const Motion& before, const Motion& now, ExpressionScratch& scratch) {
+  SwitchList a, b;
+  e.switches(before, scratch, a);
+  e.switches(now, scratch, b);
+  return changes_between(a, b);
+}
+
+}  // namespace
+
+template <class Keep>
+void DelayKernel::record_each(const Motion& motion, DelayHistories& histories, const Keep& keep) const {
   ExpressionScratch scratch;
   for (const Call& c : calls_) {
     if (c.never) continue;
     const double slope = c.with_rate ? c.value.rate(motion, scratch) : std::numeric_limits<double>::quiet_NaN();
     const double oldest =
         c.lag.is_constant() ? motion.time - c.lag.value(motion, scratch) : -std::numeric_limits<double>::infinity();
-    histories.of_call[c.index].append(motion.time, c.value.value(motion, scratch), slope, oldest);
+    keep(c, histories.of_call[c.index], c.value.value(motion, scratch), slope, oldest);
   }
+}
+
+void DelayKernel::record(const Motion& motion, DelayHistories& histories) const {
+  record_each(motion, histories, [&](const Call&, DelayHistory& h, double value, double slope, double oldest) {
+    h.append(motion.time, value, slope, oldest);
+  });
+}
+
+// A pulse of STEPs begins without a jump of its value and its slope. What reads values that others make may have such
+// kinks of theirs: where there is something of any element, delays aside, it has one.
+void DelayKernel::record_behind(const Motion& before, const Motion& now, bool by_elements,
+                                DelayHistories& histories) const {
+  ExpressionScratch scratch;
+  record_each(now, histories, [&](const Call& c, DelayHistory& h, double value, double slope, double oldest) {
+    const bool changes =
+        (by_elements && !c.value.reads_states_only()) || switches_between(c.value, before, now, scratch);
+    h.append_behind(now.time, value, slope, oldest, changes);
+  });
 }
 
 double DelayKernel::longest_step(const Motion& motion) const {

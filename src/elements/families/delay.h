@@ -51,6 +51,9 @@ class DelayKernel final : public Kernel, public DelaySource, public SwitchSource
 
   const DelaySource* delays() const override { return this; }
   void record(const Motion&, DelayHistories&) const override;
+  void record_behind(const Motion&, const Motion&, bool, DelayHistories&) const override;
+  double next_event(double time, const DelayHistories&) const override;  // of delays that are numbers
+  void look_ahead(const Motion&, const Motion&, StepReach&) const override;
   // The shortest delay that is a number. One that varies may vanish on the way, and steps must not with it.
   double longest_step(const Motion&) const override;
 
@@ -68,6 +71,9 @@ class DelayKernel final : public Kernel, public DelaySource, public SwitchSource
     BoundExpression value{}, lag{};
     Expression history{};
   };
+  // `keep` takes the call, its history, value and slope now, and what is read no more.
+  template <class Keep>
+  void record_each(const Motion&, DelayHistories&, const Keep& keep) const;
   static const DelayHistory* kept(const Call&, const Motion&);  // null where nothing is
   static DelayHistory::Reading before_start(const Call&, double time, ExpressionScratch&);
   void add_past(const Call&, const Motion&, Equations&, std::int32_t row, double tau) const;
