@@ -10,12 +10,12 @@ namespace dynalin {
 
 namespace {
 
-constexpr double balance = 1e-9;       // of the terms of an equation
-constexpr double rest_step = 1e-9;     // of the size of an unknown; what is left after the step is far less
-constexpr double roundings = 100;      // that residuals may be off: the estimate counts each number once
-constexpr double explained = 30;       // times the largest step that rounding was seen to make
-constexpr double softest = 1e9;        // answer of an unknown that anything holds
-constexpr double indifference = 1e-6;  // a step that rounding makes, of the size of an unknown
+constexpr double balance = 1e-9;               // of the terms of an equation
+constexpr double roundings = 100;              // that residuals may be off: the estimate counts each number once
+constexpr double explained = 30;               // times the largest step that rounding was seen to make
+constexpr double softest = 1e13;               // answer of an unknown that more than rounding of the tangent holds
+constexpr double softest_with_identity = 1e9;  // the same where a little of the identity holds what nothing else does
+constexpr double indifference = 1e-6;          // a step that rounding makes, of the size of an unknown
 
 bool row_counts(const StaticEquations& equations, Eigen::Index k) {
   const AugmentedSystem& augmented = equations.augmented();
@@ -39,6 +39,11 @@ class ScaledTangent {
  public:
   explicit ScaledTangent(const ColumnMatrix& J) : scales_(J), matrix_(scales_.of(J)) {}
 
+  // With a little of the identity only where it is singular.
+  bool factor(StaticEquations& equations) {
+    regular_ = factor(equations, 0);
+    return regular_ || factor(equations, 1e-12);
+  }
   // Where a direction is indifferent, with a little of the identity.
   bool factor(StaticEquations& equations, double identity) {
     if (identity == 0) return equations.factor(lu_, matrix_);
@@ -55,14 +60,19 @@ class ScaledTangent {
     lu_.solve(x);
     x = scales_.column.asDiagonal() * x;
   }
-  // How much unknowns answer to a change of all equations by about their largest coefficient, in units of their scale.
-  Eigen::VectorXd answer() const {
+  // Whether unknowns answer to a change of all equations by about their largest coefficient as nothing does that is
+  // held by more than rounding of the matrix.
+  std::vector<bool> held_by_nothing() const {
     Eigen::MatrixXd x = random_signs(Eigen::VectorXd::Ones(matrix_.rows), 2);
     lu_.solve(x);
-    return x.cwiseAbs().rowwise().maxCoeff();
+    std::vector<bool> nothing;
+    for (Eigen::Index k = 0; k < x.rows(); ++k)
+      nothing.push_back(!(x.row(k).cwiseAbs().maxCoeff() < (regular_ ? softest : softest_with_identity)));
+    return nothing;
   }
 
  private:
+  bool regular_ = false;
   ComparableScales scales_;
   ColumnMatrix matrix_;
   SparseLu lu_;
@@ -123,10 +133,10 @@ std::vector<bool> free_unknowns(StaticEquations& equations, const OperatingPoint
     }
   }
   ScaledTangent tangent(compressed(J.rows, J.columns, entries));
-  if (tangent.factor(equations, 0) || tangent.factor(equations, 1e-12)) {
-    const Eigen::VectorXd answer = tangent.answer();
-    for (Eigen::Index k = 0; k < answer.size(); ++k) {
-      if (row_counts(equations, k) && !(answer(k) < softest)) free[static_cast<std::size_t>(k)] = true;
+  if (tangent.factor(equations)) {
+    const std::vector<bool> nothing = tangent.held_by_nothing();
+    for (std::size_t k = 0; k < nothing.size(); ++k) {
+      if (nothing[k] && row_counts(equations, static_cast<Eigen::Index>(k))) free[k] = true;
     }
   }
   // What is free may point elsewhere when its part has turned.
@@ -170,23 +180,28 @@ std::optional<RestJudgement> judge(StaticEquations& equations, const OperatingPo
   if (residual.size() == 0) return j;
 
   ScaledTangent tangent(J);
-  if (!tangent.factor(equations, 0) && !tangent.factor(equations, 1e-12)) return std::nullopt;
+  if (!tangent.factor(equations)) return std::nullopt;
   // What rounding does to the step: the largest of several steps with random signs of what rounding adds to residuals.
-  const Eigen::MatrixXd samples = random_signs(rounding, 5);
-  Eigen::MatrixXd x(residual.size(), samples.cols() + 1);
-  x << -residual, samples;
+  constexpr Eigen::Index samples = 5;
+  Eigen::MatrixXd x(residual.size(), 1 + 2 * samples);
+  x << -residual, random_signs(equations.rounding_of_terms(), samples), random_signs(rounding, samples);
   tangent.solve(x);
   if (!x.allFinite()) return std::nullopt;
   j.step = j.newton = x.col(0);
-  const Eigen::VectorXd answer = tangent.answer();
+  const std::vector<bool> nothing = tangent.held_by_nothing();
+  j.excused = true;
   for (Eigen::Index k = 0; k < residual.size(); ++k) {
-    const double by_rounding = x.row(k).tail(samples.cols()).cwiseAbs().maxCoeff();
-    const bool noise = std::abs(j.step(k)) <= explained * by_rounding;
     if (!row_counts(equations, k)) continue;
-    j.indifferent[static_cast<std::size_t>(k)] = by_rounding > indifference * j.size(k) || !(answer(k) < softest);
+    const auto largest = [&](Eigen::Index first) { return x.row(k).segment(first, samples).cwiseAbs().maxCoeff(); };
+    const double by_rounding = largest(1) + equations.rounding_of_unknowns()(k);
+    const double relative = std::abs(j.newton(k)) / j.size(k);
+    const bool noise = std::abs(j.newton(k)) <= explained * by_rounding;
+    const auto i = static_cast<std::size_t>(k);
+    j.indifferent[i] = by_rounding > indifference * j.size(k) || nothing[i];
     if (noise && by_rounding > rest_step * j.size(k)) j.step(k) = 0;
+    j.excused = j.excused && (relative <= rest_step || std::abs(j.newton(k)) <= explained * largest(1 + samples));
+    j.largest_of_all = std::max(j.largest_of_all, relative);
     if (noise) continue;
-    const double relative = std::abs(j.step(k)) / j.size(k);
     j.determined = j.determined && relative <= rest_step;
     if (relative > j.largest) j.largest = relative, j.largest_at = k;
   }

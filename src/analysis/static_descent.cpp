@@ -110,7 +110,7 @@ bool Descent::finish(OperatingPoint& op) {
   OperatingPoint here = op;
   double smallest = infinite, least_excess = infinite;
   int stuck = 0, unbalanced = 0;  // steps since the one that was shorter, and the one that brought balance closer
-  std::optional<OperatingPoint> rest;
+  std::optional<OperatingPoint> rest, faded;
   for (int k = 0; k < steps; ++k) {
     equations_.settle(here);
     equations_.evaluate(here, true);
@@ -124,9 +124,14 @@ bool Descent::finish(OperatingPoint& op) {
     least_excess = std::min(least_excess, excess);
     stuck = j->largest < 0.95 * smallest || unbalanced == 0 ? 0 : stuck + 1;
     // What Newton's method cannot improve any more, neither step nor balance, is determined as well as it can be.
-    const bool exact = (j->largest <= 1e-12 && stuck >= 3) ||
-                       (j->largest <= std::numeric_limits<double>::epsilon() && unbalanced >= 2);
-    if ((j->balanced || exact) && j->determined && came_to_rest(*j)) rest = here;
+    // So is what it would not change but in the last digits: one more step may lead where forces have no direction.
+    constexpr double epsilon = std::numeric_limits<double>::epsilon();
+    const bool exact = (j->largest <= 1e-12 && stuck >= 3) || (j->largest <= epsilon && unbalanced >= 2) ||
+                       j->largest_of_all <= epsilon;
+    const bool determined = j->determined || (j->excused && stuck >= 2);
+    const bool at_rest = (j->balanced || exact) && determined;
+    if (at_rest && came_to_rest(*j)) rest = here;
+    if (faded_where_it_is(*j) && came_to_rest(*j)) faded = here;
     if (rest && ((j->largest == 0 && unbalanced > 0) || stuck > 0)) break;
     if (!rest && j->largest_at >= 0) {
       doubt_ = fmt::format("{} would still have to change by {:.3g} to balance a rest of {:.3g}",
@@ -143,6 +148,7 @@ bool Descent::finish(OperatingPoint& op) {
       moved_at_[static_cast<std::size_t>(i)] = -1;
     }
   }
+  if (!rest) rest = std::move(faded);
   if (rest) {
     op = std::move(*rest);
     system_.remember(op);
@@ -151,6 +157,23 @@ bool Descent::finish(OperatingPoint& op) {
   }
   equations_.evaluate(op, true);
   return false;
+}
+
+// A force that vanishes in a higher order leaves a tangent that is lost in rounding before Newton's steps have come to
+// their end. It is nothing beside the most that acted where the last step, and the next, have become small; those of a
+// force that fades with distance stay large.
+bool Descent::faded_where_it_is(const RestJudgement& j) const {
+  constexpr double faint = 1e-2 * std::numeric_limits<double>::epsilon();  // of the terms of an equation, at their most
+  const AugmentedSystem& augmented = equations_.augmented();
+  for (Eigen::Index k = 0; k < move_.size(); ++k) {
+    const bool value = k >= augmented.algebraic(0) && k < augmented.state(0);
+    if (k >= augmented.lambda(0) && k < augmented.algebraic(0)) continue;
+    const double r = std::abs(equations_.residual()(k)), step = std::abs(j.step(k)) / j.size(k);
+    const bool vanishes = r <= faint * acted_(k);
+    if (!vanishes && r > residual_noise * equations_.rounding()(k)) return false;
+    if (!value && step > rest_step && !(vanishes && std::max(move_(k), step) <= settled_move)) return false;
+  }
+  return move_.size() > 0;
 }
 
 // All of Newton's step but what nothing determines. Unknowns that rounding moves as far as the step does may not be
@@ -224,7 +247,9 @@ void Descent::note_arrivals() {
     excess_ = Eigen::VectorXd::Zero(n);
     arrived_.assign(static_cast<std::size_t>(n), false);
     moved_at_.assign(static_cast<std::size_t>(n), -1);
+    acted_ = Eigen::VectorXd::Zero(n);
   }
+  acted_ = acted_.cwiseMax(equations_.magnitude());
   for (Eigen::Index k = 0; k < n; ++k) {
     const double r = std::abs(equations_.residual()(k));
     const double now = r == 0 ? 0.0 : r / equations_.rounding()(k);

@@ -39,6 +39,7 @@ class Descent {
   bool finish(OperatingPoint& op);
   Eigen::VectorXd determined_step(const RestJudgement&) const;
   bool came_to_rest(const RestJudgement&);
+  bool faded_where_it_is(const RestJudgement&) const;
   void note_arrivals();
   void note_move(const Eigen::VectorXd& step, double factor);
   void change_yardstick();
@@ -69,6 +70,7 @@ class Descent {
   std::vector<int> moved_at_;
   int pushes_ = 0;
   Eigen::VectorXd pushing_, blur_;
+  Eigen::VectorXd acted_;  // by equation, the most that its terms have been
   double turned_ = 0, turned_before_ = 0, steady_ = 0;
   double smallest_move_ = std::numeric_limits<double>::infinity();
   std::string doubt_;

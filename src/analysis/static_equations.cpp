@@ -190,27 +190,36 @@ void StaticEquations::measure_rounding(const OperatingPoint& op) {
     for (std::size_t k = 0; k < x.size(); ++k) size(offset + static_cast<Eigen::Index>(k)) = std::abs(x[k]);
   };
   sizes(op.extra, layout.body_coordinate_count);
+  // Slopes and turns of nodes are parts of directions, whose other components are one.
+  for (const ExtraBlock& e : layout.extras) {
+    if (e.kind.role == ExtraRole::nodal)
+      size.segment(e.offset, e.count) = size.segment(e.offset, e.count).cwiseMax(1.0);
+  }
   sizes(op.lambda, augmented_.lambda(0));
   sizes(op.algebraic, augmented_.algebraic(0));
   sizes(op.state, augmented_.state(0));
-  rounding_ = magnitude_;
-  const auto take = [&](PartialBy family, std::int32_t offset) {
+  rounding_of_terms_ = magnitude_;
+  Eigen::VectorXd by_place = Eigen::VectorXd::Zero(augmented_.size());
+  const auto take = [&](PartialBy family, std::int32_t offset, Eigen::VectorXd& sum) {
     for_each_entry(eq_.matrix(family), [&](std::int32_t r, std::int32_t c, double v) {
-      rounding_(augmented_.equation(r)) += std::abs(v) * size(offset + c);
+      sum(augmented_.equation(r)) += std::abs(v) * size(offset + c);
     });
   };
-  take(PartialBy::position, 0);
-  take(PartialBy::lambda, augmented_.lambda(0));
-  take(PartialBy::algebraic, augmented_.algebraic(0));
-  take(PartialBy::state, augmented_.state(0));
+  take(PartialBy::position, 0, by_place);
+  take(PartialBy::state, augmented_.state(0), by_place);
+  take(PartialBy::lambda, augmented_.lambda(0), rounding_of_terms_);
+  take(PartialBy::algebraic, augmented_.algebraic(0), rounding_of_terms_);
   for (std::int32_t k = 0; k < rows_.size(); ++k) {
     if (!part_.active[static_cast<std::size_t>(k)]) continue;
     for (const auto& e : rows_.row(k)) {
-      rounding_(augmented_.lambda(k)) += std::abs(e.c.g) * size(e.column);
-      rounding_(e.column) += std::abs(e.c.g) * size(augmented_.lambda(k));
+      by_place(augmented_.lambda(k)) += std::abs(e.c.g) * size(e.column);
+      rounding_of_terms_(e.column) += std::abs(e.c.g) * size(augmented_.lambda(k));
     }
   }
-  rounding_ *= std::numeric_limits<double>::epsilon();
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  rounding_of_terms_ *= epsilon;
+  rounding_ = rounding_of_terms_ + epsilon * by_place;
+  rounding_of_unknowns_ = epsilon * size;
 }
 
 void StaticEquations::measure_parts() {

@@ -33,6 +33,11 @@ class StaticEquations {
   // How far off residuals may be because numbers are rounded, ε (Σ |terms| + Σ |J| |x|): stiff elements turn the
   // rounding of positions into forces. Of the last evaluation with partials.
   const Eigen::VectorXd& rounding() const { return rounding_; }
+  // The part of it that rounding of places and states does not make: what their rounding adds to residuals, in both
+  // parts of an element alike, is undone by moving them as little.
+  const Eigen::VectorXd& rounding_of_terms() const { return rounding_of_terms_; }
+  // How far off coordinates, values and states are because they are rounded.
+  const Eigen::VectorXd& rounding_of_unknowns() const { return rounding_of_unknowns_; }
   // Largest residual in units of its rounding.
   double excess() const;
 
@@ -111,7 +116,7 @@ class StaticEquations {
   Equations eq_;
   Partition part_;
   std::vector<bool> held_;
-  Eigen::VectorXd residual_, magnitude_, rounding_;
+  Eigen::VectorXd residual_, magnitude_, rounding_, rounding_of_terms_, rounding_of_unknowns_;
   double force_scale_ = 0, stiffness_ = 0, effort_ = 0;
   Yardstick yardstick_ = Yardstick::model;
   Eigen::VectorXd own_scale_;          // by equation, the largest magnitude seen; a body's rows share theirs
