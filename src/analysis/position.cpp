@@ -20,7 +20,8 @@ namespace dynalin {
 namespace {
 
 constexpr double position_tolerance = 1e-13;      // relative to the scale of the row
-constexpr std::int64_t position_iterations = 50;  // unless IC states MAXIT
+constexpr std::int64_t position_iterations = 50;  // unless IC states MAXIT,
+constexpr std::int64_t longest_way = 20000;       // with those that go as far as they may
 constexpr double largest_turn = 0.5;              // of an iteration, unless IC states ALIMIT [rad]
 constexpr double most_told = 1.5;                 // of two bodies against each other it makes less than half a turn
 constexpr double exact_weight = 1e8;              // of coordinates that EXACT asks to keep
@@ -235,12 +236,12 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, const H
   std::optional<AssemblyWeights> weights;
   SparseLu lu;
   std::vector<std::string> history;
-  double before = std::numeric_limits<double>::infinity();
+  double before = std::numeric_limits<double>::infinity(), part_gone = 1;
   const std::vector<double> drawn_shape = op.extra;
   bool looked_at_shape = false;
 
   const InitialConditionSettings& ic = op.initial_conditions;
-  const std::int64_t most = ic.iteration_limit.value_or(position_iterations);
+  std::int64_t most = ic.iteration_limit.value_or(position_iterations);
   const StepLimits limits{std::min(ic.rotation_limit.value_or(largest_turn), most_told),
                           ic.translation_limit.value_or(std::numeric_limits<double>::infinity())};
   // The last point is looked at as well.
@@ -304,6 +305,9 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, const H
                                                 contradicted.front(), stuck, op.redundancy_tolerance),
                                     history, "contradicting-constraints"});
     }
+    // Many turns take many steps, each as good as its part of the way promises.
+    if (!ic.iteration_limit && part_gone < 1 && left <= (1 - 0.5 * part_gone) * before)
+      most = std::min(most + 1, longest_way);
     before = left;
     if (iteration == most) break;
 
@@ -319,7 +323,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, const H
       return tl::unexpected(Failure{"initial conditions", "the constraints are singular at this position", history,
                                     "singular-constraints"});
     }
-    displace(system, op, *step, limits);
+    part_gone = displace(system, op, *step, limits);
   }
   evaluate();
   const Violation v = position_violation(system, rows);

@@ -154,8 +154,8 @@ TEST(Position, turns_are_counted_from_one_iteration_to_the_next) {
   for (const Case& c :
        {Case{80, 2, coupled(2)}, Case{100, 2, coupled(2)}, Case{-100, 2, coupled(2)}, Case{100, -5, coupled(-5)},
         Case{170, 1 / 0.3, coupled(1 / 0.3)}, Case{80, -2, gear}, Case{100, -2, gear}, Case{170, -2, gear},
-        Case{100, 3, coupled(3), "IC/ALIMIT=10D, MAXIT=100\n"}, Case{100, 3, coupled(3), "IC/ALIMIT=400D\n"},
-        Case{100, 2, "COUPLER/1, JOINTS=1,3, SCALES=1,-0.5\n"}}) {
+        Case{100, 400, coupled(400)}, Case{100, 3, coupled(3), "IC/ALIMIT=10D, MAXIT=100\n"},
+        Case{100, 3, coupled(3), "IC/ALIMIT=400D\n"}, Case{100, 2, "COUPLER/1, JOINTS=1,3, SCALES=1,-0.5\n"}}) {
     const auto system =
         system_of(wheels + c.relation + c.more + fmt::format("MOTION/1, JOINT=1, FUNCTION={}D\n", c.turned));
     const auto op = assembled(*system);
