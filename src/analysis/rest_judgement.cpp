@@ -100,6 +100,25 @@ Eigen::VectorXd unknown_sizes(const StaticEquations& equations, const OperatingP
   return size;
 }
 
+// Nodes of a body that deforms share its elements: their rounding is not told apart from that of places.
+Eigen::VectorXd rounding_of_deformation(const StaticEquations& equations) {
+  const Layout& layout = equations.system().layout();
+  Eigen::VectorXd size = equations.rounding_of_terms();
+  const auto take = [&](std::int32_t first, std::int32_t count) {
+    size.segment(first, count) = equations.rounding().segment(first, count);
+  };
+  for (const TurningWhole& whole : layout.turning_wholes) {
+    for (const BodyId b : whole.bodies) {
+      const BodyBlock& block = layout.bodies[static_cast<std::size_t>(b.index)];
+      take(block.offset, block.count);
+    }
+  }
+  for (const ExtraBlock& e : layout.extras) {
+    if (e.kind.role == ExtraRole::nodal) take(e.offset, e.count);
+  }
+  return size;
+}
+
 }  // namespace
 
 bool balanced_to_rounding(const StaticEquations& equations) {
@@ -176,7 +195,7 @@ std::optional<RestJudgement> judge(StaticEquations& equations, const OperatingPo
   const ColumnMatrix J = equations.tangent(0, 0);
   j.size = unknown_sizes(equations, op, J);
   j.indifferent.assign(static_cast<std::size_t>(residual.size()), false);
-  j.determined = true;
+  j.determined = j.excused = true;
   if (residual.size() == 0) return j;
 
   ScaledTangent tangent(J);
@@ -184,12 +203,12 @@ std::optional<RestJudgement> judge(StaticEquations& equations, const OperatingPo
   // What rounding does to the step: the largest of several steps with random signs of what rounding adds to residuals.
   constexpr Eigen::Index samples = 5;
   Eigen::MatrixXd x(residual.size(), 1 + 2 * samples);
-  x << -residual, random_signs(equations.rounding_of_terms(), samples), random_signs(rounding, samples);
+  x << -residual, random_signs(equations.rounding_of_terms(), samples),
+      random_signs(rounding_of_deformation(equations), samples);
   tangent.solve(x);
   if (!x.allFinite()) return std::nullopt;
   j.step = j.newton = x.col(0);
   const std::vector<bool> nothing = tangent.held_by_nothing();
-  j.excused = true;
   for (Eigen::Index k = 0; k < residual.size(); ++k) {
     if (!row_counts(equations, k)) continue;
     const auto largest = [&](Eigen::Index first) { return x.row(k).segment(first, samples).cwiseAbs().maxCoeff(); };
@@ -199,7 +218,8 @@ std::optional<RestJudgement> judge(StaticEquations& equations, const OperatingPo
     const auto i = static_cast<std::size_t>(k);
     j.indifferent[i] = by_rounding > indifference * j.size(k) || nothing[i];
     if (noise && by_rounding > rest_step * j.size(k)) j.step(k) = 0;
-    j.excused = j.excused && (relative <= rest_step || std::abs(j.newton(k)) <= explained * largest(1 + samples));
+    j.excused =
+        j.excused && (noise || relative <= rest_step || std::abs(j.newton(k)) <= explained * largest(1 + samples));
     j.largest_of_all = std::max(j.largest_of_all, relative);
     if (noise) continue;
     j.determined = j.determined && relative <= rest_step;

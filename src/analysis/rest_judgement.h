@@ -16,11 +16,11 @@ inline constexpr double rest_step = 1e-9;
 struct RestJudgement {
   bool balanced = false;    // every equation, within its own terms or their rounding
   bool determined = false;  // Newton's step is small, or explained by rounding
-  bool excused = false;  // the same if rounding of each equation is one of its own: stiff elements' may push soft ones
-  Eigen::VectorXd newton;  // Newton's step
-  Eigen::VectorXd step;    // the same, zero where rounding explains all of it
-  Eigen::VectorXd size;    // of each unknown: model lengths, radians, what states and values are themselves
-  double largest = 0;      // of |step| / size over coordinates, states and algebraic values
+  bool excused = false;     // the same with all that rounding does in bodies that deform: theirs is not told apart
+  Eigen::VectorXd newton;   // Newton's step
+  Eigen::VectorXd step;     // the same, zero where rounding explains all of it
+  Eigen::VectorXd size;     // of each unknown: model lengths, radians, what states and values are themselves
+  double largest = 0;       // of |step| / size over coordinates, states and algebraic values
   Eigen::Index largest_at = -1;
   double largest_of_all = 0;      // the same of Newton's step
   std::vector<bool> indifferent;  // unknowns that nothing but rounding determines

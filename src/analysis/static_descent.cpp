@@ -128,8 +128,7 @@ bool Descent::finish(OperatingPoint& op) {
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
     const bool exact = (j->largest <= 1e-12 && stuck >= 3) || (j->largest <= epsilon && unbalanced >= 2) ||
                        j->largest_of_all <= epsilon;
-    const bool determined = j->determined || (j->excused && stuck >= 2);
-    const bool at_rest = (j->balanced || exact) && determined;
+    const bool at_rest = (j->balanced || exact) && (j->determined || (j->excused && stuck >= 2));
     if (at_rest && came_to_rest(*j)) rest = here;
     if (faded_where_it_is(*j) && came_to_rest(*j)) faded = here;
     if (rest && ((j->largest == 0 && unbalanced > 0) || stuck > 0)) break;

@@ -78,6 +78,26 @@ TEST(StiffStatics, so_do_three_in_a_row) {
   EXPECT_NEAR(w.sag(), 1.5 * w.expected(), 1e-6 * std::abs(w.expected()));
 }
 
+// What spins freely beside it says nothing of what is welded.
+TEST(StiffStatics, so_do_two_beside_a_part_that_turns_as_it_likes) {
+  const Welded w{.weld = bushing(1e9) +
+                         "PART/4,MASS=0.001,CM=40,IP=1,1,1,QG=500,0,0\nMARKER/40\nMARKER/41,PART=1,QP=500,0,0\n"
+                         "JOINT/4,SPHERICAL,I=40,J=41\n"};
+  EXPECT_NEAR(w.sag(), w.expected(), 1e-6 * std::abs(w.expected()));
+}
+
+// Beyond what 16 digits tell apart nothing is found rather than something wrong.
+TEST(StiffStatics, a_weld_whose_rounding_is_stiffer_than_the_support_is_refused) {
+  for (const double stiffness : {1e12, 1e13, 1e14, 1e15, 1e17}) {
+    const Welded w{.weld = bushing(stiffness)};
+    try {
+      EXPECT_NEAR(w.sag(), w.expected(), 1e-2 * std::abs(w.expected())) << stiffness;
+    } catch (const Error& e) {
+      EXPECT_THAT(std::string(e.what()), ::testing::HasSubstr("no equilibrium was found")) << stiffness;
+    }
+  }
+}
+
 // Newtons and meters, gravity in them: 1e12 N/m and 1 N/m at a kilometer.
 TEST(StiffStatics, units_make_no_difference) {
   const Welded w{.weld = bushing(1e12), .soft = 1, .away = 1, .units = "SYSTEM=MKS", .gravity = -9.80665};
