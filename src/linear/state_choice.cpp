@@ -127,8 +127,7 @@ class Chooser {
   void take(const Candidate& c) {
     choice_.coordinates.push_back(c.state);
     choice_.gradient.push_back(gradient_of(candidates_, c));
-    const bool own = std::ranges::any_of(candidates_.own, [&](const Candidate& of_user) { return &of_user == &c; });
-    choice_.along_motion.push_back(own ? std::optional(candidates_.gradients.along_motion(c.row)) : std::nullopt);
+    choice_.along_motion.emplace_back();
   }
 
   // The candidates are a change of coordinates: constraint rows are written in them, so that nothing else can be chosen

@@ -92,6 +92,7 @@ class Preference {
     units_.push_back(rest.norm());
     taken_.push_back(c.state);
     gradients_.push_back(std::move(gradient));
+    along_motion_.emplace_back(candidates_.gradients.along_motion(c.row));
   }
 
   // Of those taken before, the ones that make it up.
@@ -130,9 +131,11 @@ class Preference {
       if (e.dependent[k]) continue;
       taken_.push_back(choice_.coordinates[k]);
       gradients_.push_back(std::move(choice_.gradient[k]));
+      along_motion_.emplace_back();
     }
     choice_.coordinates = std::move(taken_);
     choice_.gradient = std::move(gradients_);
+    choice_.along_motion = std::move(along_motion_);
   }
 
   const System& system_;
@@ -145,6 +148,7 @@ class Preference {
   std::vector<double> sizes_, units_;
   std::vector<StateCoordinate> taken_;
   std::vector<std::vector<StateChoice::Entry>> gradients_;
+  std::vector<std::optional<Taylor>> along_motion_;
 };
 
 }  // namespace

@@ -277,7 +277,9 @@ TEST_F(ModalEnergies, along_an_axis_that_is_driven) {
     const auto sum = row(tables(text, coordinates + "ENERGY_PER_MODE=ALL"), "Energies per mode", "Sum");
     EXPECT_NEAR(sum[0], 0.5 * 3 * 2 * 2, 1e-11) << coordinates;
     EXPECT_NEAR(sum[4], 6 * 2 * 2, 1e-11) << coordinates;
-    if (!coordinates.empty()) EXPECT_NEAR(sum[2], 0.5 * 252 * x * x, 1e-10);
+    if (!coordinates.empty()) {
+      EXPECT_NEAR(sum[2], 0.5 * 252 * x * x, 1e-10);
+    }
   }
 }
 
