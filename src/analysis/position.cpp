@@ -222,15 +222,33 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, const H
   const Layout& layout = system.layout();
   ConstraintRows rows;
   rows.resize(layout, layout.row_count() + starts.size());
-  const auto evaluate = [&] {
+  const auto evaluate_here = [&] {
     const Motion motion = system.motion(op);
-    system.count_turns(motion, op.memory);  // from one iteration to the next: all of them may be more than half a turn
     system.constraints(motion, rows);
     if (starts.empty()) return;
     const auto first = static_cast<std::int32_t>(layout.row_count());
     system.start_rows(motion, first, rows);
     for (std::size_t k = 0; k < starts.size(); ++k) {
       if (!starts[k]) rows.drop(first + static_cast<std::int32_t>(k));
+    }
+  };
+  const auto evaluate = [&] {
+    system.count_turns(system.motion(op),
+                       op.memory);  // from one iteration to the next: all may be more than half a turn
+    evaluate_here();
+  };
+  const Memory first_memory = op.memory;
+  // Where no row asks for the turns that were made on the way, angles stay next to what they were: a way on which no
+  // constraint holds says nothing of them.
+  const auto take_back_turns = [&] {
+    std::vector<double> asked;
+    for (std::int32_t k = 0; k < rows.size(); ++k) asked.push_back(rows.along_motion(k).value);
+    Memory counted = std::exchange(op.memory, first_memory);
+    evaluate_here();
+    for (std::int32_t k = 0; k < rows.size(); ++k) {
+      if (rows.along_motion(k).value == asked[static_cast<std::size_t>(k)]) continue;
+      op.memory = std::move(counted);
+      return;
     }
   };
   std::optional<AssemblyWeights> weights;
@@ -256,6 +274,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, const H
           Failure{"initial conditions", undefined_value_text(system, op, v.row), history, "undefined-value"});
     }
     const auto finished = [&] {
+      take_back_turns();
       put_back_shape(system, drawn_shape, 1, op.extra, left_by_rounding);
       system.remember(op);
       return op;

@@ -167,6 +167,25 @@ TEST(Position, turns_are_counted_from_one_iteration_to_the_next) {
   }
 }
 
+// Axes far from parallel: on the way to where a lock holds the angle between them runs through more than half a turn.
+// No row asks for it, and the spring that reads it finds it next to where it was drawn.
+TEST(Position, turns_on_a_way_on_which_nothing_holds_do_not_count) {
+  const std::string parts =
+      "PART/2, MASS=1, CM=20, IP=1,1,1, REULER=-0.2,1.0,2.5\nMARKER/20\nMARKER/13, PART=2, REULER=1.8,1.9,-2.1\n"
+      "MARKER/70, PART=2, REULER=1.2,0.8,2.6\nPART/3, MASS=1, CM=30, IP=1,1,1, REULER=-3.0,-2.0,2.9\nMARKER/30\n"
+      "MARKER/17, PART=3, REULER=-0.8,1.2,0.6\nMARKER/71, PART=3, REULER=-0.6,-0.4,0.4\n"
+      "VARIABLE/1, FUNCTION=AZ(13,17)\n";
+  const auto turned = [](const std::string& text) {
+    const auto system = system_of(text);
+    const auto op = assembled(*system);
+    EXPECT_TRUE(op);
+    const KnownTurns turns = op ? known_turns(*system, *op) : KnownTurns();
+    EXPECT_EQ(turns.size(), 1u);
+    return turns.empty() ? 0.0 : turns.begin()->second;
+  };
+  EXPECT_LE(std::abs(turned(parts + "JPRIM/1, ORIENTATION, I=71, J=70\n") - turned(parts)), std::numbers::pi);
+}
+
 TEST(Position, what_cannot_be_reached_is_named_with_its_violation) {
   const auto op = assembled(point + "GCON/5, FUNCTION=DX(20,1)**2+DY(20,1)**2+1\n");
   ASSERT_FALSE(op);
