@@ -124,10 +124,11 @@ bool Descent::finish(OperatingPoint& op) {
     least_excess = std::min(least_excess, excess);
     stuck = j->largest < 0.95 * smallest || unbalanced == 0 ? 0 : stuck + 1;
     // What Newton's method cannot improve any more, neither step nor balance, is determined as well as it can be.
-    // So is what it would not change but in the last digits: one more step may lead where forces have no direction.
+    // So is what it would not change but in the last digits, where nothing better was found: one more step may lead
+    // where forces have no direction.
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
     const bool exact = (j->largest <= 1e-12 && stuck >= 3) || (j->largest <= epsilon && unbalanced >= 2) ||
-                       j->largest_of_all <= epsilon;
+                       (!rest && j->largest_of_all <= epsilon);
     const bool at_rest = (j->balanced || exact) && (j->determined || (j->excused && stuck >= 2));
     if (at_rest && came_to_rest(*j)) rest = here;
     if (faded_where_it_is(*j) && came_to_rest(*j)) faded = here;
