@@ -61,10 +61,11 @@ void measure(int n) {
   const double pairs = seconds([] { return 0; }, [&](int) { found = unrefined_pairs(*linear); });
   if (!found) return fmt::print("the QR iteration did not converge\n");
   const double zeros =
-      seconds([] { return 0; }, [&](int) { (void)split_zero_modes(linear->A, linear->rounding, linear->structural_zeros.get()); });
-  const Eigen::MatrixXd exact = Eigen::MatrixXd::Zero(linear->A.rows(), linear->A.cols());
-  const double refining =
-      seconds([&] { return found->pairs; }, [&](EigenPairs& p) { refine(*linear->pencil, found->zero, exact, p); });
+      seconds([] { return 0; },
+              [&](int) { (void)split_zero_modes(linear->A, linear->rounding, linear->structural_zeros.get()); });
+  const Eigen::MatrixXd exact = Eigen::MatrixXd::Zero(linear->A.rows(), linear->A.cols()), none;
+  const StructuredPencil pencil(*linear->pencil, found->zero, exact, none);
+  const double refining = seconds([&] { return found->pairs; }, [&](EigenPairs& p) { refine(pencil, found->zero, p); });
   // Backward errors; all else that eigensolve adds is a pass over the vectors.
   const double errors = seconds([] { return 0; }, [&](int) { real_product(linear->model.A, found->pairs.right); });
   const double whole = seconds([] { return 0; }, [&](int) { (void)eigensolve(*linear); });
