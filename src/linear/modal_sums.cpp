@@ -126,10 +126,13 @@ StateMotion motion_of_states(const OperatingPoint& op, const StateChoice& choice
     if (at == position.end()) continue;
     double& rate = motion.rate(at - position.begin());
     double& acceleration = motion.acceleration(at - position.begin());
-    if (const auto& x = choice.along_motion[k]) rate = x->rate;
+    if (const auto& x = choice.along_motion[k]) {
+      rate = x->rate, acceleration = x->acceleration;
+      continue;
+    }
     for (const StateChoice::Entry& e : choice.gradient[k]) {
       const auto q = static_cast<std::size_t>(e.column);
-      if (!choice.along_motion[k]) rate += e.c.g * op.velocity[q];
+      rate += e.c.g * op.velocity[q];
       acceleration += e.c.g * op.acceleration[q] + e.c.v * op.velocity[q];
     }
   }

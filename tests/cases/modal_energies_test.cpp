@@ -318,16 +318,17 @@ TEST_F(ModalEnergies, in_a_coordinate_that_bends) {
   EXPECT_NEAR(sum[4], C * v * v, 1e-11);
 }
 
-// x moves along with TIME: seen from where 3 TIME is, the mass comes back at 3 − 1.
+// TIME moves x = z − 3 t − t² as well: x′ = 1 − 3 and x″ = −2 where nothing pulls, so that K x = 2 · 2.
 TEST_F(ModalEnergies, in_a_coordinate_that_time_moves) {
   const auto sum =
       row(tables("Bead\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,1,1, VZ=1\n"
                  "MARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
                  "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=-5*DZ(20)\n"
-                 "VARIABLE/1, FUNCTION=DZ(20)-3*TIME\nPSTATE/1, VARIABLES=1\nEND\n",
+                 "VARIABLE/1, FUNCTION=DZ(20)-3*TIME-TIME**2\nPSTATE/1, VARIABLES=1\nEND\n",
                  "PSTATE=1, ENERGY_PER_MODE=ALL"),
           "Energies per mode", "Sum");
   EXPECT_NEAR(sum[0], 0.5 * 2 * 4, 1e-12);
+  EXPECT_NEAR(sum[2], 0.5 * 5 * 0.8 * 0.8, 1e-12);
 }
 
 // Two masses that stand 0.1 from rest: what holds them there does not depend on damping.
