@@ -379,7 +379,8 @@ void MotionEquations::switches(double t, std::span<const double> y, std::span<co
 
 double MotionEquations::part_to_make(const Instant& from, const Instant& to) {
   unknowns_.unpack(from.t, from.y, from.yp, motion_);
-  ahead_.mode = motion_.mode, ahead_.memory = motion_.memory, ahead_.delays = motion_.delays;
+  ahead_.mode = motion_.mode, ahead_.progress = motion_.progress;
+  ahead_.memory = motion_.memory, ahead_.delays = motion_.delays;
   unknowns_.unpack(to.t, to.y, to.yp, ahead_);
   StepReach reach(tolerance_.passed_over);
   system_.look_ahead(motion_, ahead_, scratch_, reach);
