@@ -13,29 +13,6 @@ namespace dynalin {
 
 namespace {
 
-// The words in which a statement takes values one by one.
-std::span<const std::string_view> components_of(const RoutineKind& kind) {
-  const std::string_view statement = kind.statement;
-  static constexpr std::array<std::string_view, 6> both = {"FX", "FY", "FZ", "TX", "TY", "TZ"};
-  static constexpr std::array<std::string_view, 8> request = {"F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"};
-  if (statement == "GFORCE") return both;
-  if (statement == "VFORCE") return std::span(both).first(3);
-  if (statement == "VTORQUE") return std::span(both).last(3);
-  if (statement == "REQUEST") return request;
-  return {&kind.argument, 1};
-}
-
-// By the argument that calls it; most have one such argument alone.
-const RoutineKind* kind_for(std::string_view statement, std::string_view argument) {
-  const RoutineKind* first = nullptr;
-  for (const RoutineKind& k : routine_kinds()) {
-    if (k.statement != statement) continue;
-    if (k.argument == argument) return &k;
-    if (!first) first = &k;
-  }
-  return first;
-}
-
 // "friction", "libfriction.so" and "friction.so" are one.
 std::string stem(std::string_view file) {
   std::string name = std::filesystem::path(file).filename().string();
@@ -60,6 +37,17 @@ bool calls_routine(const WrittenArgument& w) {
   };
   return w.value()[0].kind == TokenKind::word && find_keyword(text(0), user) == 0 && text(0).size() == user[0].size() &&
          text(1) == "(";
+}
+
+std::span<const RoutineKind> routines_of(Catalogue catalogue, std::string_view statement) {
+  const auto found = std::ranges::find(catalogue, statement, [](const Kind* kind) { return kind->statement; });
+  return found == catalogue.end() ? std::span<const RoutineKind>() : (*found)->routines;
+}
+
+std::vector<std::string_view> names_of_code(std::span<const RoutineKind> kinds) {
+  std::vector<std::string_view> names = {"ROUTINE", "INTERFACE"};
+  for (const RoutineKind& k : kinds) names.push_back(k.names_routine);
+  return names;
 }
 
 const Token* behind_call(const WrittenArgument& w) {
@@ -131,11 +119,15 @@ std::string_view CalledRoutines::full_name(const Statement& s, const WrittenArgu
   const auto own = find_keyword(written, names);
   // The statement's own names come first, as R of RM; a bare word has no value, as RO of a rotational SFORCE.
   if (own && !(bare[*own] && w.has_value)) return names[*own];
-  std::vector<std::string_view> of_routines = {"ROUTINE", "INTERFACE"};
-  if (s.name == "CONTACT") of_routines = {"NROUTINE", "FROUTINE"};
+  const std::vector<std::string_view> of_routines = names_of_code(routines_of(catalogue_, s.name));
   const auto other = w.has_value ? find_keyword(written, of_routines) : std::nullopt;
   if (other) return of_routines[*other];
   return own ? names[*own] : std::string_view();
+}
+
+bool CalledRoutines::names_code(const Statement& s, const WrittenArgument& w) const {
+  return w.has_value && w.name.length >= fewest_letters_of_code &&
+         std::ranges::count(names_of_code(routines_of(catalogue_, s.name)), full_name(s, w)) > 0;
 }
 
 const WrittenArgument* CalledRoutines::argument(const Statement& s, std::string_view name) const {
@@ -153,12 +145,25 @@ int CalledRoutines::integer(const Statement& s, std::string_view name) const {
   return value ? static_cast<int>(value->value) : 0;
 }
 
-double CalledRoutines::real(const Statement& s, std::string_view name) const {
+double CalledRoutines::real(const Statement& s, std::string_view name, std::size_t which) const {
   const WrittenArgument* w = argument(s, name);
   if (!w || !w->has_value || w->damaged) return 0;
   Diagnostics ignored;
   const auto list = read_reals(*w, *w->name.source, ignored);
-  return list && !list->empty() ? list->front() : 0;
+  return list && which < list->size() ? (*list)[which] : 0;
+}
+
+std::string CalledRoutines::text(const Statement& s, std::string_view name) const {
+  const WrittenArgument* w = argument(s, name);
+  if (!w || !w->has_value || w->damaged || w->value().empty()) return {};
+  Diagnostics ignored;
+  return read_text(*w, *w->name.source, ignored).value_or("");
+}
+
+const RoutineKind* CalledRoutines::kind_for(const Statement& s, std::string_view argument) const {
+  const auto kinds = routines_of(catalogue_, s.name);
+  const auto found = std::ranges::find(kinds, argument, &RoutineKind::argument);
+  return found != kinds.end() ? &*found : kinds.empty() ? nullptr : &kinds.front();
 }
 
 std::vector<int> CalledRoutines::integers(const Statement& s, std::string_view name) const {
@@ -216,15 +221,14 @@ FoundRoutine CalledRoutines::called_by(const Statement& s, const RoutineKind& ki
 std::shared_ptr<const CompiledRoutine> CalledRoutines::find(const Statement& s, const WrittenArgument& call,
                                                             std::string& wanted) {
   const std::string_view by = full_name(s, call);
-  const RoutineKind* kind = kind_for(s.name, by);
+  const RoutineKind* kind = kind_for(s, by);
   if (!kind || !has_libraries()) return nullptr;
   StatePartialRoutines partials;
   FoundRoutine found = called_by(s, *kind, wanted, partials);
   if (!found) return nullptr;
-  auto what = says(s, &call);
+  auto what = says(s, &call, *kind);
   if (!what) return nullptr;
-  std::size_t values = kind->values;
-  if (what->markers) values = 6 * what->markers->size();
+  std::size_t values = kind->values > 0 ? kind->values : what->told.values;
   if (kind->arguments == RoutineArguments::modal) {
     what->modal = modal_load_of(s, by == "FUNCTION");
     if (!what->modal) {
@@ -239,16 +243,16 @@ std::shared_ptr<const CompiledRoutine> CalledRoutines::find(const Statement& s, 
 }
 
 bool CalledRoutines::is_kept_apart(const Statement& s, const WrittenArgument& call) const {
-  const RoutineKind* kind = kind_for(s.name, full_name(s, call));
+  const RoutineKind* kind = kind_for(s, full_name(s, call));
   return kind && (kind->arguments == RoutineArguments::damping || kind->arguments == RoutineArguments::curve);
 }
 
 bool CalledRoutines::keep_apart(const Statement& s, const WrittenArgument& call, std::string& wanted) {
   StatePartialRoutines none;
-  const RoutineKind& kind = *kind_for(s.name, full_name(s, call));
+  const RoutineKind& kind = *kind_for(s, full_name(s, call));
   FoundRoutine found = called_by(s, kind, wanted, none);
   if (!found) return false;
-  auto what = says(s, &call);
+  auto what = says(s, &call, kind);
   if (!what) return false;
   if (kind.arguments == RoutineArguments::curve) {
     data_->called_curves[what->id] =
@@ -256,7 +260,7 @@ bool CalledRoutines::keep_apart(const Statement& s, const WrittenArgument& call,
     return true;
   }
   data_->damping[what->id] =
-      std::make_shared<const DampingRoutine>(std::move(found), what->label, what->id, what->parameters);
+      std::make_shared<const DampingRoutine>(std::move(found), what->label, what->id, *what->constants);
   return true;
 }
 
@@ -309,7 +313,7 @@ std::shared_ptr<const CompiledRoutine> CalledRoutines::made(const Statement& s, 
   for (const Atom& a : routine->inputs())
     if (reads_modes(a)) data_->modes_read.insert(a.argument[0]);
   // What is called once in a while has nobody who asks for its derivatives.
-  const bool has_slopes = kind.arguments != RoutineArguments::plain && &kind != &state_equation_kinds().update;
+  const bool has_slopes = kind.arguments != RoutineArguments::plain && !kind.sampled;
   if (!routine->gives_derivatives() && has_slopes) {
     const bool everywhere = differences_ == RoutineDifferences::everywhere;
     diagnostics_.warning(
@@ -324,15 +328,17 @@ std::shared_ptr<const CompiledRoutine> CalledRoutines::made(const Statement& s, 
 std::string CalledRoutines::written(const Statement& s, const WrittenArgument& call,
                                     std::shared_ptr<const CompiledRoutine> routine) {
   const Span at = call.value_span();
-  const RoutineKind& kind = *kind_for(s.name, full_name(s, call));
+  const RoutineKind& kind = *kind_for(s, full_name(s, call));
   std::vector<Atom> inputs = routine->inputs();
   for (Atom& a : inputs) a.set_place(at);
   std::string text;
+  const auto take = [&](std::string_view name, std::size_t value) {
+    text += fmt::format(", {}={}", name, functions.size());
+    functions.push_back(routine_expression(inputs, routine, value, at));
+  };
+  for (std::size_t v = 0; v < kind.components.size(); ++v) take(kind.components[v].name, v);
   // A FIELD and a CONTACT take the routine with all of its values over from the first.
-  for (std::size_t v = 0; v < components_of(kind).size(); ++v) {
-    text += fmt::format(", {}={}", components_of(kind)[v], functions.size());
-    functions.push_back(routine_expression(inputs, routine, v, at));
-  }
+  if (kind.components.empty()) take(kind.argument, 0);
   return text;
 }
 

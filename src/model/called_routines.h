@@ -18,6 +18,13 @@ namespace dynalin {
 // USER(…) and nothing else, or the beginning of it.
 bool calls_routine(const WrittenArgument&);
 
+// Those that a statement calls, none if it calls none.
+std::span<const RoutineKind> routines_of(Catalogue, std::string_view statement);
+
+// In which words it names code, of which so many letters are written at least.
+inline constexpr std::size_t fewest_letters_of_code = 4;
+std::vector<std::string_view> names_of_code(std::span<const RoutineKind>);
+
 // What stands behind the parenthesis that closes USER(…), null if nothing does.
 const Token* behind_call(const WrittenArgument&);
 
@@ -47,6 +54,10 @@ class CalledRoutines {
   std::string written(const Statement&, const WrittenArgument& call, std::shared_ptr<const CompiledRoutine>);
   // Of an argument that may be abbreviated.
   std::string_view full_name(const Statement&, const WrittenArgument&) const;
+  // Whether an argument names code: a routine, the library that has it.
+  bool names_code(const Statement&, const WrittenArgument&) const;
+  // Of the argument that calls it, null if the statement calls none; most have one such argument alone.
+  const RoutineKind* kind_for(const Statement&, std::string_view argument) const;
   // The written argument of that full name, null if there is none.
   const WrittenArgument* argument(const Statement&, std::string_view name) const;
 
@@ -63,22 +74,19 @@ class CalledRoutines {
   const RoutineData::Modes* modes_of(std::int64_t flex_body) const;
   std::shared_ptr<const std::vector<int>> constant_arrays() const;
   std::shared_ptr<RoutineData> ids_of_data() const;
-  std::optional<RoutineStatement> says(const Statement&, const WrittenArgument* call);
+  std::optional<RoutineStatement> says(const Statement&, const WrittenArgument* call, const RoutineKind&);
   std::optional<std::vector<double>> constants_of(const WrittenArgument& call, const std::string& label);
 
   FoundRoutine called_by(const Statement&, const RoutineKind&, std::string& wanted, StatePartialRoutines&);
   // "friction::slip", "slip", "friction::" or "" (the default name) in what libraries it may stand in.
   FoundRoutine find_named(std::string_view written, std::span<const std::string_view> default_names);
   StatePartialRoutines routines_beside(std::string& text);
-  double real(const Statement&, std::string_view name) const;
-  bool slides(int joint) const;
-  std::vector<RoutineStatement::Coupled> coupled_by(const Statement&) const;
-  RoutineStatement::Drive drive_of(const Statement&) const;
-  RoutineStatement::Watch watch_of(const Statement&) const;
-  std::shared_ptr<const RoutineStatement::Heading> heading_of(const Statement&) const;
+  class Words;
+  double real(const Statement&, std::string_view name, std::size_t which = 0) const;
+  std::string text(const Statement&, std::string_view name) const;
   std::shared_ptr<const RoutineStatement::ModalLoad> modal_load_of(const Statement&, bool scaled) const;
   CurveStatement curve_of(const Statement&, const RoutineStatement&) const;
-  sAdamsGSE says_of_states(const Statement&, const RoutineStatement&) const;
+  sAdamsGSE says_of_states(const Statement&, const RoutineConstants&) const;
   std::shared_ptr<const CompiledRoutine> made(const Statement&, const Span& at, FoundRoutine, const RoutineKind&,
                                               std::size_t values, RoutineStatement, StatePartialRoutines = {});
   struct StateRoutineNames;

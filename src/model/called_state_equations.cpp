@@ -66,21 +66,17 @@ CalledRoutines::StateRoutineNames CalledRoutines::state_routine_names(const Stat
   return names;
 }
 
-sAdamsGSE CalledRoutines::says_of_states(const Statement& s, const RoutineStatement& what) const {
+sAdamsGSE CalledRoutines::says_of_states(const Statement& s, const RoutineConstants& constants) const {
   sAdamsGSE gse{};
-  gse.ID = what.id;
+  gse.ID = static_cast<int>(s.id.value_or(0)), gse.NPAR = constants.count(), gse.PAR = constants.data();
   gse.NO = std::max(integer(s, "NO"), 0), gse.NS = std::max(integer(s, "NS"), 0);
   gse.ND = std::max(integer(s, "ND"), 0);
   gse.U = integer(s, "U"), gse.Y = integer(s, "Y"), gse.X = integer(s, "X"), gse.IC = integer(s, "IC");
   gse.XD = integer(s, "XD"), gse.ICD = integer(s, "ICD");
   gse.NI = gse.U == 0 ? 0 : static_cast<int>(size_of_list("ARRAY", gse.U).value_or(0));
-  gse.STATIC_HOLD = what.static_hold, gse.IMPLICIT = what.implicit;
+  gse.STATIC_HOLD = argument(s, "STATIC_HOLD") != nullptr, gse.IMPLICIT = argument(s, "IMPLICIT") != nullptr;
   gse.STATICS_ONLY = argument(s, "STATICS_ONLY") != nullptr;
-  if (const WrittenArgument* w = argument(s, "SAMPLE_OFFSET"); w && w->has_value && !w->damaged) {
-    Diagnostics ignored;
-    const auto list = read_reals(*w, *w->name.source, ignored);
-    if (list && !list->empty()) gse.SAMPLE_OFFSET = list->front();
-  }
+  gse.SAMPLE_OFFSET = real(s, "SAMPLE_OFFSET");
   return gse;
 }
 
@@ -95,10 +91,16 @@ std::vector<Expression> CalledRoutines::functions_of(const std::shared_ptr<const
 
 std::shared_ptr<const StateEquations> CalledRoutines::find_state_equations(const Statement& s,
                                                                            const WrittenArgument* call) {
-  auto what = says(s, call);
+  const auto kinds = routines_of(catalogue_, s.name);
+  const auto kind_of = [&](StateRoutine which) -> const RoutineKind& { return kinds[static_cast<std::size_t>(which)]; };
+  auto what = says(s, call, kind_of(StateRoutine::system));
   if (!what) return nullptr;
-  what->gse = says_of_states(s, *what);
-  const sAdamsGSE& gse = *what->gse;
+  const auto tell = [&] {
+    what->gse = std::make_shared<const sAdamsGSE>(says_of_states(s, *what->constants));
+    what->told.structure = what->gse;
+  };
+  tell();
+  const sAdamsGSE gse = *what->gse;
   // Whoever reads the statement says that these are too many, or that their ARRAYs are missing.
   const auto exists = [&](int array) {
     return std::any_of(dataset_.statements.begin(), dataset_.statements.end(),
@@ -110,7 +112,6 @@ std::shared_ptr<const StateEquations> CalledRoutines::find_state_equations(const
   const auto ns = static_cast<std::size_t>(gse.NS), no = static_cast<std::size_t>(gse.NO),
              nd = static_cast<std::size_t>(gse.ND);
   const Span at = call ? call->value_span() : s.at;
-  const StateEquationKinds& kinds = state_equation_kinds();
   const StateRoutineNames names = state_routine_names(s);
   if (!names.fit) return nullptr;
   const auto find = [&](const std::string& written, std::initializer_list<std::string_view> by_default) {
@@ -133,13 +134,14 @@ std::shared_ptr<const StateEquations> CalledRoutines::find_state_equations(const
   }
 
   auto out = std::make_shared<StateEquations>();
-  FoundRoutine derivatives = find(names.interface[0], {kinds.derivatives.routine});
-  FoundRoutine outputs = find(names.interface[2], {kinds.outputs.routine});
-  FoundRoutine system = names.asks_for_interface ? FoundRoutine{} : find(names.system[0], {kinds.system.routine});
+  FoundRoutine derivatives = find(names.interface[0], {kind_of(StateRoutine::derivatives).routine});
+  FoundRoutine outputs = find(names.interface[2], {kind_of(StateRoutine::outputs).routine});
+  FoundRoutine system =
+      names.asks_for_interface ? FoundRoutine{} : find(names.system[0], {kind_of(StateRoutine::system).routine});
   const bool separate =
       names.asks_for_interface || (!names.asks_for_system && ((derivatives && ns > 0) || (outputs && no > 0)));
   if (ns + no > 0 && !separate && names.asks_for_system && !system)
-    return missing(names.system[0], kinds.system.routine);
+    return missing(names.system[0], kind_of(StateRoutine::system).routine);
   if (ns + no > 0 && !separate && system) {
     StatePartialRoutines partials = {find(names.system[1], {"gsexx"}),
                                      find(names.system[2], {"gsexu"}),
@@ -147,41 +149,45 @@ std::shared_ptr<const StateEquations> CalledRoutines::find_state_equations(const
                                      find(names.system[4], {"gseyu"}),
                                      {},
                                      {}};
-    const auto routine = made(s, at, std::move(system), kinds.system, ns + no, *what, std::move(partials));
+    const auto routine =
+        made(s, at, std::move(system), kind_of(StateRoutine::system), ns + no, *what, std::move(partials));
     if (!routine) return nullptr;
     out->derivatives = functions_of(routine, 0, ns, at), out->outputs = functions_of(routine, ns, no, at);
   } else {
     constexpr std::string_view either = "a GSE calls gse_deriv and gse_output, or gsesub alone";
-    if (ns > 0 && !derivatives) return missing(names.interface[0], kinds.derivatives.routine, either);
-    if (no > 0 && !outputs) return missing(names.interface[2], kinds.outputs.routine, either);
+    if (ns > 0 && !derivatives) return missing(names.interface[0], kind_of(StateRoutine::derivatives).routine, either);
+    if (no > 0 && !outputs) return missing(names.interface[2], kind_of(StateRoutine::outputs).routine, either);
     const auto take = [&](FoundRoutine found, const RoutineKind& kind, std::size_t count, std::vector<Expression>& to) {
       if (count == 0) return true;
       const auto routine = made(s, at, std::move(found), kind, count, *what);
       if (routine) to = functions_of(routine, 0, count, at);
       return routine != nullptr;
     };
-    const bool first = take(std::move(derivatives), kinds.derivatives, ns, out->derivatives);
-    if (!take(std::move(outputs), kinds.outputs, no, out->outputs) || !first) return nullptr;
+    const bool first = take(std::move(derivatives), kind_of(StateRoutine::derivatives), ns, out->derivatives);
+    if (!take(std::move(outputs), kind_of(StateRoutine::outputs), no, out->outputs) || !first) return nullptr;
   }
   if (nd == 0) return out;
 
-  FoundRoutine update = find(names.interface[1], {kinds.update.routine});
-  if (!update) return missing(names.interface[1], kinds.update.routine, "ND discrete states need gse_update");
-  const auto updates = made(s, at, std::move(update), kinds.update, nd, *what);
+  FoundRoutine update = find(names.interface[1], {kind_of(StateRoutine::update).routine});
+  if (!update)
+    return missing(names.interface[1], kind_of(StateRoutine::update).routine, "ND discrete states need gse_update");
+  const auto updates = made(s, at, std::move(update), kind_of(StateRoutine::update), nd, *what);
   if (!updates) return nullptr;
   out->update = functions_of(updates, 0, nd, at), out->update_name = updates->name();
   const WrittenArgument* period = argument(s, "SAMPLE_PERIOD");
   if (period && !calls_routine(*period)) return out;
-  FoundRoutine sample = find(names.interface[3], {kinds.sample.routine, "gse_sample"});
+  FoundRoutine sample = find(names.interface[3], {kind_of(StateRoutine::sample).routine, "gse_sample"});
   if (!sample) {
-    return missing(names.interface[3], kinds.sample.routine, "SAMPLE_PERIOD= gives the time between samples as well");
+    return missing(names.interface[3], kind_of(StateRoutine::sample).routine,
+                   "SAMPLE_PERIOD= gives the time between samples as well");
   }
   if (period) {
     auto constants = constants_of(*period, what->label);
     if (!constants) return nullptr;
-    what->parameters = RoutineConstants(*constants);
+    what->constants = std::make_shared<const RoutineConstants>(*constants);
+    tell();
   }
-  const auto samples = made(s, at, std::move(sample), kinds.sample, 1, *what);
+  const auto samples = made(s, at, std::move(sample), kind_of(StateRoutine::sample), 1, *what);
   if (!samples) return nullptr;
   out->period = functions_of(samples, 0, 1, at).front(), out->period_name = samples->name();
   return out;

@@ -11,6 +11,7 @@
 #include "dataset/dataset.h"
 #include "mechanics/handles.h"
 #include "mechanics/kernel.h"
+#include "routine/routine_kinds.h"
 
 namespace dynalin {
 
@@ -72,7 +73,8 @@ struct Kind {
   bool holds_for_good = false;      // no command defines it anew
   bool idle = false;                // of a setting: no argument of the statement acts
   Gives gives = Gives::forces;
-  std::string_view example{};  // of a command that defines arguments anew, "PART/2, MASS=3.5"
+  std::string_view example{};               // of a command that defines arguments anew, "PART/2, MASS=3.5"
+  std::span<const RoutineKind> routines{};  // that its arguments call by USER(…)
 
   constexpr Kind deactivatable() const {
     Kind kind = *this;
@@ -94,6 +96,11 @@ struct Kind {
     kind.example = command;
     return kind;
   }
+  constexpr Kind calling(std::span<const RoutineKind> what) const {
+    Kind kind = *this;
+    kind.routines = what;
+    return kind;
+  }
   constexpr Kind giving(Gives what) const {
     Kind kind = *this;
     kind.gives = what;
@@ -113,7 +120,6 @@ constexpr bool can_be_redefined(const Kind& kind) { return !is_beside_model(kind
 constexpr bool can_exert(const Kind& kind) { return !is_beside_model(kind) && kind.gives == Kind::Gives::forces; }
 
 using Catalogue = std::span<const Kind* const>;
-
 // All elements of one kind in a model, contiguous, in the order of the dataset.
 class ElementSet {
  public:

@@ -6,69 +6,53 @@
 #include <string>
 
 #include "model/called_routines.h"
-#include "routine/given_inputs.h"
+#include "routine/statement_words.h"
 
 namespace dynalin {
 
-namespace {
+class CalledRoutines::Words final : public StatementWords {
+ public:
+  Words(const CalledRoutines& routines, const Statement& s, const RoutineConstants& constants)
+      : routines_(routines), statement_(s), constants_(constants) {}
 
-// Which of these words stands in the statement for itself, nothing if none does.
-std::optional<std::size_t> word_of(const Statement& s, std::span<const std::string_view> words) {
-  for (const WrittenArgument& w : s.arguments) {
-    if (w.has_value) continue;
-    if (const auto k = find_keyword(w.name.text(), words)) return k;
+  int id() const override { return static_cast<int>(statement_.id.value_or(0)); }
+  const RoutineConstants& constants() const override { return constants_; }
+  bool has(std::string_view argument) const override { return routines_.argument(statement_, argument) != nullptr; }
+  int integer(std::string_view argument) const override { return routines_.integer(statement_, argument); }
+  std::vector<int> integers(std::string_view argument) const override {
+    return routines_.integers(statement_, argument);
   }
-  return std::nullopt;
-}
-
-constexpr std::array<std::string_view, 2> ways = {"ROTATIONAL", "TRANSLATIONAL"};
-bool is_rotational(const Statement& s) { return word_of(s, ways) == std::size_t{0}; }
-
-}  // namespace
-
-bool CalledRoutines::slides(int joint) const {
-  const auto found = std::find_if(dataset_.statements.begin(), dataset_.statements.end(),
-                                  [&](const Statement& j) { return j.name == "JOINT" && j.id == joint; });
-  return found != dataset_.statements.end() && word_of(*found, ways) == std::size_t{1};
-}
-
-// Whoever reads the statement says what is wrong with it.
-std::vector<RoutineStatement::Coupled> CalledRoutines::coupled_by(const Statement& s) const {
-  std::string types;
-  if (const WrittenArgument* w = argument(s, "TYPE"); w && w->has_value) {
-    for (const char c : w->value_span().text())
-      if (c == 'T' || c == 'R') types += c;
+  double real(std::string_view argument, std::size_t which) const override {
+    return routines_.real(statement_, argument, which);
   }
-  std::vector<RoutineStatement::Coupled> all;
-  for (const int joint : integers(s, "JOINTS")) {
-    all.push_back({joint, all.size() < types.size() ? types[all.size()] : slides(joint) ? 'T' : 'R'});
+  std::string text(std::string_view argument) const override { return routines_.text(statement_, argument); }
+  std::string_view written(std::string_view argument) const override {
+    const WrittenArgument* w = routines_.argument(statement_, argument);
+    return w && w->has_value ? w->value_span().text() : std::string_view();
   }
-  if (all.size() > most_given_to_coupler) all.resize(most_given_to_coupler);
-  return all;
-}
+  std::optional<std::size_t> word_among(std::span<const std::string_view> words) const override {
+    return word_of(statement_, words);
+  }
+  bool slides(int joint) const override {
+    static constexpr std::array<std::string_view, 1> way = {"TRANSLATIONAL"};
+    return std::ranges::any_of(routines_.dataset_.statements, [&](const Statement& j) {
+      return j.name == "JOINT" && j.id == joint && word_of(j, way).has_value();
+    });
+  }
 
-RoutineStatement::Drive CalledRoutines::drive_of(const Statement& s) const {
-  static constexpr std::array<std::string_view, 6> axes = {"X", "Y", "Z", "B1", "B2", "B3"};
-  static constexpr std::array<std::string_view, 3> levels = {"DISPLACEMENT", "VELOCITY", "ACCELERATION"};
-  RoutineStatement::Drive d;
-  d.joint = integer(s, "JOINT");
-  d.level = levels[word_of(s, levels).value_or(0)].data();
-  const auto axis = word_of(s, axes);
-  if (axis) axes[*axis].copy(d.axis.data(), d.axis.size());
-  const auto way = word_of(s, ways);
-  const bool translates = axis ? *axis < 3 : way ? *way == 1 : slides(d.joint);
-  d.type = translates ? "TRANSLATION" : "ROTATION";
-  return d;
-}
+ private:
+  static std::optional<std::size_t> word_of(const Statement& s, std::span<const std::string_view> words) {
+    for (const WrittenArgument& w : s.arguments) {
+      if (w.has_value) continue;
+      if (const auto k = find_keyword(w.name.text(), words)) return k;
+    }
+    return std::nullopt;
+  }
 
-RoutineStatement::Watch CalledRoutines::watch_of(const Statement& s) const {
-  static constexpr std::array<std::string_view, 3> conditions = {"EQ", "GE", "LE"};
-  RoutineStatement::Watch w;
-  w.value = real(s, "VALUE");
-  if (argument(s, "ERROR")) w.error = real(s, "ERROR");
-  conditions[word_of(s, conditions).value_or(0)].copy(w.condition.data(), w.condition.size());
-  return w;
-}
+  const CalledRoutines& routines_;
+  const Statement& statement_;
+  const RoutineConstants& constants_;
+};
 
 // Null where the modes are not known.
 std::shared_ptr<const RoutineStatement::ModalLoad> CalledRoutines::modal_load_of(const Statement& s,
@@ -80,69 +64,27 @@ std::shared_ptr<const RoutineStatement::ModalLoad> CalledRoutines::modal_load_of
 }
 
 CurveStatement CalledRoutines::curve_of(const Statement& s, const RoutineStatement& what) const {
-  CurveStatement c{what.label, what.id, what.parameters, argument(s, "CLOSED") != nullptr, integer(s, "ORDER")};
+  CurveStatement c{what.label, what.id, *what.constants, argument(s, "CLOSED") != nullptr, integer(s, "ORDER")};
   if (argument(s, "MINPAR")) c.first = real(s, "MINPAR");
   if (argument(s, "MAXPAR")) c.last = real(s, "MAXPAR");
   return c;
 }
 
-std::shared_ptr<const RoutineStatement::Heading> CalledRoutines::heading_of(const Statement& s) const {
-  RoutineStatement::Heading h;
-  const auto text = [&](std::string_view name) {
-    const WrittenArgument* w = argument(s, name);
-    Diagnostics ignored;
-    if (!w || !w->has_value || w->damaged || w->value().empty()) return std::string();
-    return read_text(*w, *w->name.source, ignored).value_or("");
-  };
-  h.comment = text("COMMENT");
-  std::string titles = text("TITLE");
-  for (std::string& title : h.titles) {
-    const std::size_t end = std::min(titles.find(':'), titles.size());
-    title = titles.substr(0, end);
-    titles.erase(0, end + 1);
-  }
-  return std::make_shared<const RoutineStatement::Heading>(std::move(h));
-}
-
-std::optional<RoutineStatement> CalledRoutines::says(const Statement& s, const WrittenArgument* call) {
+std::optional<RoutineStatement> CalledRoutines::says(const Statement& s, const WrittenArgument* call,
+                                                     const RoutineKind& kind) {
   RoutineStatement out;
   out.label = fmt::format("{}/{}", s.name, s.id.value_or(0));
   out.id = static_cast<int>(s.id.value_or(0));
   out.constant_arrays = constant_arrays_, out.data = data_;
+  std::vector<double> constants;
   if (call) {
-    auto constants = constants_of(*call, out.label);
-    if (!constants) return std::nullopt;
-    out.parameters = RoutineConstants(*constants);
+    auto read = constants_of(*call, out.label);
+    if (!read) return std::nullopt;
+    constants = std::move(*read);
   }
-  out.I = integer(s, "I"), out.J = integer(s, "J"), out.RM = integer(s, "RM"), out.JFLOAT = integer(s, "JFLOAT");
-  out.action_only = argument(s, "ACTIONONLY") != nullptr;
-  out.rotation = s.name == "SFORCE" && is_rotational(s);
-  if (s.name == "NFORCE") out.markers = std::make_shared<const std::vector<int>>(integers(s, "IMARKERS"));
-  if (s.name == "COUPLER") out.coupled = coupled_by(s);
-  if (s.name == "MOTION") out.drive = drive_of(s);
-  if (s.name == "SENSOR") out.watch = watch_of(s);
-  if (s.name == "REQUEST") out.heading = heading_of(s);
-  if (s.name == "CONTACT") {
-    auto sides = std::make_shared<RoutineStatement::Sides>();
-    const auto take = [&](std::string_view side, std::vector<int>& ids, std::vector<int>& reversed) {
-      ids = integers(s, fmt::format("{}GEOM", side));
-      std::vector<int> turned = integers(s, fmt::format("{}FLIP_GEOMETRY", side));
-      const std::vector<int> more = integers(s, fmt::format("{}FLIP_NORMAL", side));
-      turned.insert(turned.end(), more.begin(), more.end());
-      for (const int id : ids) reversed.push_back(std::ranges::find(turned, id) != turned.end());
-    };
-    take("I", sides->I, sides->reversed_I), take("J", sides->J, sides->reversed_J);
-    out.sides = std::move(sides);
-  }
-  out.static_hold = argument(s, "STATIC_HOLD") != nullptr;
-  out.implicit = argument(s, "IMPLICIT") != nullptr;
-  if (const auto* w = argument(s, "IC"); w && (s.name == "VARIABLE" || s.name == "DIFF") && !w->damaged) {
-    Diagnostics ignored;
-    if (const auto list = read_reals(*w, *w->name.source, ignored); list && !list->empty()) {
-      out.initial = list->front();
-      if (list->size() > 1) out.initial_rate = (*list)[1];
-    }
-  }
+  out.constants = std::make_shared<const RoutineConstants>(constants);
+  if (kind.told) out.told = kind.told(Words(*this, s, *out.constants));
+  out.I = integer(s, "I"), out.J = integer(s, "J");
   return out;
 }
 

@@ -1,11 +1,13 @@
 #include "model/user_routines.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "model/called_routines.h"
@@ -16,34 +18,7 @@ namespace {
 
 constexpr std::string_view hint_of_routine_in_expression =
     "VARIABLE/id, FUNCTION=USER(…) calls a routine, and expressions read VARVAL(id)";
-constexpr std::array<std::string_view, 4> names_of_code = {"ROUTINE", "INTERFACE", "NROUTINE", "FROUTINE"};
-
 Span span_of(const Token& token, const SourceText& source) { return {&source, token.offset, token.length}; }
-
-bool names_code(const WrittenArgument& w) {
-  return w.has_value && w.name.length >= 4 && find_keyword(w.name.text(), names_of_code).has_value();
-}
-
-// Which arguments of which statements a constant can stand for; those of a FIELD are forces without stiffness.
-struct Stand {
-  std::string_view statement;
-  std::span<const std::string_view> arguments;
-};
-constexpr std::array<std::string_view, 1> one = {"FUNCTION"};
-constexpr std::array<std::string_view, 3> forces = {"FX", "FY", "FZ"}, torques = {"TX", "TY", "TZ"};
-constexpr std::array<std::string_view, 6> both = {"FX", "FY", "FZ", "TX", "TY", "TZ"};
-constexpr std::array<std::string_view, 2> field = {"KMATRIX", "FORCE"};
-constexpr std::array<std::string_view, 8> request = {"F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"};
-constexpr std::array<Stand, 10> stands = {{{"REQUEST", request},
-                                           {"VARIABLE", one},
-                                           {"SFORCE", one},
-                                           {"DIFF", one},
-                                           {"MOTION", one},
-                                           {"VFORCE", forces},
-                                           {"VTORQUE", torques},
-                                           {"GFORCE", both},
-                                           {"SENSOR", one},
-                                           {"FIELD", field}}};
 
 class Replacement {
  public:
@@ -61,13 +36,16 @@ class Replacement {
       return;
     }
     std::string text = "CONSTANT/1";
-    for (const std::string_view name :
-         {"FUNCTION", "EVALUATE", "FX", "FY", "FZ", "TX", "TY", "TZ", "F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"})
-      text += fmt::format(", {}={:.17g}", name, *value_);
-    text += ", KMATRIX=0";
-    for (int k = 1; k < 36; ++k) text += ",0";
-    text += fmt::format(", FORCE={:.17g}", *value_);
-    for (int k = 1; k < 6; ++k) text += fmt::format(",{:.17g}", *value_);
+    std::set<std::string_view> written;
+    for (const Kind* kind : catalogue) {
+      for (const RoutineKind& routine : kind->routines) {
+        for (const ValueArgument& a : routine.constants) {
+          if (!written.insert(a.name).second) continue;
+          const std::string number = a.zero ? "0" : fmt::format("{:.17g}", *value_);
+          text += fmt::format(", {}={}", a.name, fmt::join(std::vector<std::string>(a.numbers, number), ","));
+        }
+      }
+    }
     constants_ = generated("--user-value of " + base.source->name(), text + "\n");
   }
 
@@ -75,8 +53,11 @@ class Replacement {
     const auto kind =
         std::find_if(catalogue_.begin(), catalogue_.end(), [&](const Kind* k) { return k->statement == s.name; });
     if (kind == catalogue_.end() || is_beside_model(**kind)) return;
+    const auto routines = routines_of(catalogue_, s.name);
+    const bool is_request = (*kind)->gives == Kind::Gives::requests;
     bool calls = refuses_expression(s);
-    if (s.name == state_equation_kinds().system.statement) return apply_to_state_equations(s);
+    if (std::ranges::find(routines, RoutineArguments::system, &RoutineKind::arguments) != routines.end())
+      return apply_to_state_equations(s);
     for (std::size_t k = 0; k < s.arguments.size();) {
       if (!calls_routine(s.arguments[k]) || s.arguments[k].damaged) {
         ++k;
@@ -84,16 +65,16 @@ class Replacement {
       }
       calls = true;
       if (call_library(s, k)) continue;
-      if (s.name == "REQUEST" && !value_) return;  // without what it requests it is left out, where it is read
+      if (is_request && !value_) return;  // without what it requests it is left out, where it is read
       replace(s, k);
     }
-    const auto code = std::find_if(s.arguments.begin(), s.arguments.end(), names_code);
+    const auto code = std::ranges::find_if(s.arguments, [&](const auto& w) { return called_.names_code(s, w); });
     if (!calls && code != s.arguments.end()) {
-      if (s.name == "REQUEST") return;
+      if (is_request) return;
       diagnostics_.error("missing-routine", code->name,
                          fmt::format("{} names a compiled routine, and calls none with USER(…)", s.at.text()));
     }
-    std::erase_if(s.arguments, names_code);
+    drop_names_of_code(s);
   }
 
   // Writes the calls into their statements.
@@ -148,8 +129,11 @@ class Replacement {
   }
 
   bool is_one_of_several(const Statement& s, const WrittenArgument& w) const {
-    const auto stand = std::ranges::find(stands, s.name, &Stand::statement);
-    return stand != stands.end() && stand->arguments.size() > 1 && called_.full_name(s, w) != "FUNCTION";
+    const RoutineKind* kind = called_.kind_for(s, called_.full_name(s, w));
+    return kind && kind->constants.size() > 1 && called_.full_name(s, w) != kind->argument;
+  }
+  void drop_names_of_code(Statement& s) const {
+    std::erase_if(s.arguments, [&](const WrittenArgument& w) { return called_.names_code(s, w); });
   }
 
   static std::shared_ptr<const Dataset> generated(std::string name, std::string text) {
@@ -161,7 +145,7 @@ class Replacement {
   void apply_to_state_equations(Statement& s) {
     const WrittenArgument* call = called_.argument(s, "FUNCTION");
     if (call && !calls_routine(*call)) {  // whoever reads it says what is wrong
-      std::erase_if(s.arguments, names_code);
+      drop_names_of_code(s);
       return;
     }
     const Span at = call ? span_of(call->value()[0], *call->name.source) : s.at;
@@ -176,7 +160,7 @@ class Replacement {
     if (equations) calls_.emplace_back(&s, called_.written(equations, call ? call->value_span() : s.at));
     WrittenArguments kept;
     for (WrittenArgument& w : s.arguments) {
-      if (names_code(w) || (equations && calls_routine(w))) continue;
+      if (called_.names_code(s, w) || (equations && calls_routine(w))) continue;
       if (calls_routine(w)) w.damaged = true;
       kept.push_back(w);
     }
@@ -211,16 +195,14 @@ class Replacement {
   void replace(Statement& s, std::size_t k) {
     WrittenArgument& call = s.arguments[k];
     const Span at = span_of(call.value()[0], *call.name.source);
-    const auto stand =
-        std::find_if(stands.begin(), stands.end(), [&](const Stand& r) { return r.statement == s.name; });
-    if (!value_ || stand == stands.end()) {
-      const bool callable = s.name == "GSE" || std::ranges::find(routine_kinds(), s.name, &RoutineKind::statement) !=
-                                                   routine_kinds().end();
+    const RoutineKind* kind = called_.kind_for(s, called_.full_name(s, call));
+    const bool can_be_constant = kind && !kind->constants.empty();
+    if (!value_ || !can_be_constant) {
       diagnostics_.error(
           "missing-routine", at,
           fmt::format("{} calls a compiled routine, {}", s.at.text(),
-                      callable ? "and no library that has it is named" : "which its kind of statement cannot do yet"),
-          stand == stands.end()
+                      kind ? "and no library that has it is named" : "which its kind of statement cannot do yet"),
+          !can_be_constant
               ? "no constant can take its place"
               : "--user-library FILE.so names a library, --user-value X puts the constant X in the place of each call");
       call.damaged = true;
@@ -231,12 +213,12 @@ class Replacement {
         fmt::format("{} calls a compiled routine: the constant {:g} takes its place", s.at.text(), *value_));
     // One value stands in the place of its own call, several in that of the one call that gives them all.
     const std::string_view own = called_.full_name(s, call);
-    const bool single = stand->arguments.size() == 1;
+    const bool single = kind->constants.size() == 1;
     s.arguments.erase(s.arguments.begin() + static_cast<std::ptrdiff_t>(k));
     for (const WrittenArgument& w : constants_->statements.front().arguments) {
       const bool wanted =
           single ? w.name.text() == own
-                 : std::find(stand->arguments.begin(), stand->arguments.end(), w.name.text()) != stand->arguments.end();
+                 : std::ranges::find(kind->constants, w.name.text(), &ValueArgument::name) != kind->constants.end();
       if (wanted) s.arguments.push_back(w);
     }
   }
@@ -249,17 +231,34 @@ class Replacement {
   std::vector<std::pair<Statement*, std::string>> calls_;  // and what takes the place of USER(…)
 };
 
-bool concerns_code(const Statement& s) {
-  return std::any_of(s.arguments.begin(), s.arguments.end(),
-                     [](const WrittenArgument& w) { return calls_routine(w) || names_code(w); });
-}
+// Statements that may have to do with routines, found at the cost of a look at their arguments.
+class Concerned {
+ public:
+  explicit Concerned(Catalogue catalogue) {
+    std::set<std::string_view> all;
+    for (const Kind* kind : catalogue) {
+      for (const std::string_view name : names_of_code(kind->routines)) all.insert(name);
+    }
+    names_.assign(all.begin(), all.end());
+  }
+  bool operator()(const Statement& s) const {
+    return std::ranges::any_of(s.arguments, [this](const WrittenArgument& w) {
+      return calls_routine(w) || (w.has_value && w.name.length >= fewest_letters_of_code &&
+                                  find_keyword(w.name.text(), names_).has_value());
+    });
+  }
+
+ private:
+  std::vector<std::string_view> names_;
+};
 
 }  // namespace
 
 DatasetWithRoutines with_user_routines(std::shared_ptr<const Dataset> base, Catalogue catalogue,
                                        const BuildOptions& options, const RoutineOptions& routines,
                                        Diagnostics& diagnostics) {
-  if (std::none_of(base->statements.begin(), base->statements.end(), concerns_code)) {
+  const Concerned concerned(catalogue);
+  if (std::ranges::none_of(base->statements, concerned)) {
     // Libraries that nothing calls are not loaded, but a wrong name is one.
     for (const std::string& file : routines.libraries) {
       if (std::error_code none; !std::filesystem::exists(file, none))
@@ -273,7 +272,7 @@ DatasetWithRoutines with_user_routines(std::shared_ptr<const Dataset> base, Cata
   out->title = base->title;
   out->statements = base->statements;
   for (Statement& s : out->statements) {
-    if (concerns_code(s)) replacement.apply(s);
+    if (concerned(s)) replacement.apply(s);
   }
   out->origins = {base};
   return replacement.finish(std::move(out));

@@ -102,8 +102,9 @@ CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, st
   if (!given_to_it.empty() && problem_.empty() && !requests_.list.empty()) {
     problem_ =
         fmt::format("it asks for {}({}); the force of a {} is a function of {} that its routine gets, and of time",
-                    requests_.list.front().name, fmt::join(requests_.list.front().ids, ", "), kind.statement,
-                    kind.statement == "FIELD" ? "the displacement and the velocity" : "the arguments");
+                    requests_.list.front().name, fmt::join(requests_.list.front().ids, ", "),
+                    statement_.label.substr(0, statement_.label.find('/')),
+                    kind.arguments == RoutineArguments::field ? "the displacement and the velocity" : "the arguments");
   }
   if (kind.arguments == RoutineArguments::coupler && !found_.derivatives && problem_.empty() &&
       !(state_partials_.first && state_partials_.second)) {
@@ -151,7 +152,7 @@ RoutineContext CompiledRoutine::context(RoutineContext::Phase phase) const {
   c.phase = phase;
   c.requests = &requests_;
   c.values = differentiated();
-  c.gse = statement_.gse ? &*statement_.gse : nullptr;
+  c.gse = statement_.gse.get();
   c.data = statement_.data.get();
   return c;
 }
@@ -195,8 +196,8 @@ std::string CompiledRoutine::evaluate_course(std::span<const double> inputs, int
   std::fill(values.begin(), values.end(), unknown_value);
   std::fill(partials.begin(), partials.end(), unknown_value);
   const dynalin_course course = {statement_.id,
-                                 statement_.parameters.count(),
-                                 statement_.parameters.data(),
+                                 statement_.constants->count(),
+                                 statement_.constants->data(),
                                  static_cast<int>(requests_.inputs.size()),
                                  static_cast<int>(differentiated()),
                                  order,

@@ -13,10 +13,10 @@
 
 #include "expression/routine.h"
 #include "routine/differences.h"
-#include "routine/routine_constants.h"
 #include "routine/routine_context.h"
 #include "routine/routine_kinds.h"
 #include "routine/routine_library.h"
+#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -30,43 +30,10 @@ enum class RoutineDifferences : std::uint8_t { not_in_linear_models, everywhere 
 struct RoutineStatement {
   std::string label;  // "SFORCE/3"
   int id = 0;
-  RoutineConstants parameters{};
-  int I = 0, J = 0, RM = 0, JFLOAT = 0;
-  bool action_only = false, rotation = false, static_hold = false, implicit = false;
-  double initial = 0, initial_rate = 0;
-  std::optional<sAdamsGSE> gse{};
-  // Of a COUPLER: ids of its joints, and T or R for the displacement of each.
-  struct Coupled {
-    int joint;
-    char type;
-  };
-  std::vector<Coupled> coupled{};
-  // Of a MOTION: "TRANSLATION" or "ROTATION", "X" ... "B3" where it names an axis of J, "DISPLACEMENT", "VELOCITY" or
-  // "ACCELERATION".
-  struct Drive {
-    int joint = 0;
-    const char* type = "";
-    std::array<char, 2> axis{};
-    const char* level = "";
-  } drive{};
-  // Of a SENSOR: EQ, GE or LE.
-  struct Watch {
-    double value = 0, error = 1e-3;
-    std::array<char, 2> condition{};
-  } watch{};
-  // Of a REQUEST.
-  struct Heading {
-    std::string comment;
-    std::array<std::string, 8> titles;
-  };
-  std::shared_ptr<const Heading> heading{};
-  // Of a CONTACT: ids of its GRAPHICS, and for each of them 1 where it is turned inside out.
-  struct Sides {
-    std::vector<int> I, J, reversed_I, reversed_J;
-  };
-  std::shared_ptr<const Sides> sides{};
-  // Of an NFORCE: ids of the markers that it acts on.
-  std::shared_ptr<const std::vector<int>> markers{};
+  std::shared_ptr<const RoutineConstants> constants{};
+  ToldToRoutine told{};
+  int I = 0, J = 0;                        // of a FIELD
+  std::shared_ptr<const sAdamsGSE> gse{};  // of a GSE, which is what it is told
   // Of an MFORCE.
   struct ModalLoad {
     int body = 0;  // id of its FLEX_BODY

@@ -64,7 +64,7 @@ std::vector<Atom> given_inputs(const RoutineKind& kind, const RoutineStatement& 
     case RoutineArguments::friction:
       return listed({{loci, 3}, {locj, 3}, {xdot, 3}, {nforce, 1}});
     case RoutineArguments::coupler:
-      return listed({{disp, statement.coupled.size()}});
+      return listed({{disp, statement.told.displacements}});
     default:
       return {};
   }

@@ -19,6 +19,7 @@
 #include "flexible/modal_matrices.h"
 #include "model/schema.h"
 #include "routine/routine_data.h"
+#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -301,6 +302,9 @@ class FlexBodySet final : public TypedSet<FlexBody> {
   }
 };
 
+constexpr std::array<RoutineKind, 1> routines_of_flex_body = {
+    {{.routine = "dmpsub", .values = 0, .arguments = RoutineArguments::damping, .argument = "CRATIO"}}};
+
 }  // namespace
 
 std::vector<FlexibleBody> flexible_bodies(const Model& model) {
@@ -327,14 +331,14 @@ std::vector<const ModalBody*> flexible_by_body(const Model& model) {
   return list;
 }
 
-extern constinit const Kind flex_body = Kind{
-    "FLEX_BODY",
-    "",
-    "An elastic body by its modes.",
-    Kind::Role::body,
-    detail::argument_infos<FlexBody>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-      return std::make_unique<FlexBodySet>(kind);
-    }}.with_example("FLEX_BODY/2, CRATIO=0.02");
+extern constinit const Kind flex_body =
+    Kind{"FLEX_BODY",
+         "",
+         "An elastic body by its modes.",
+         Kind::Role::body,
+         detail::argument_infos<FlexBody>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<FlexBodySet>(kind); }}
+        .calling(routines_of_flex_body)
+        .with_example("FLEX_BODY/2, CRATIO=0.02");
 
 }  // namespace dynalin

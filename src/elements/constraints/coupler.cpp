@@ -11,7 +11,9 @@
 
 #include "elements/families/joint_relation.h"
 #include "expression/program.h"
+#include "routine/given_inputs.h"
 #include "routine/measures.h"
+#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -127,16 +129,32 @@ class CouplerSet final : public TypedSet<Coupler> {
   std::vector<JointRelation> relations_;
 };
 
+// TYPE says what is meant of a joint, else its own type does.
+ToldToRoutine told_of_coupler(const StatementWords& s) {
+  std::string types(s.written("TYPE"));
+  std::erase_if(types, [](char c) { return c != 'T' && c != 'R'; });
+  const std::vector<int> joints = s.integers("JOINTS");
+  const std::size_t count = std::min(joints.size(), most_given_to_coupler);
+  sAdamsCoupler said{s.id(), s.constants().count(), s.constants().data(), static_cast<int>(count), {}, {}};
+  for (std::size_t k = 0; k < count; ++k) {
+    said.JOINTS[k] = joints[k];
+    said.TYPE[k] = k < types.size() ? types[k] : s.slides(joints[k]) ? 'T' : 'R';
+  }
+  return {std::make_shared<const sAdamsCoupler>(said), 1, count};
+}
+constexpr std::array<RoutineKind, 1> coupler_routines = {
+    {{.routine = "cousub", .values = 1, .arguments = RoutineArguments::coupler, .told = told_of_coupler}}};
+
 }  // namespace
 
-extern constinit const Kind coupler = Kind{
-    "COUPLER",
-    "",
-    "Couples the displacements of two or three joints, linearly or by a compiled routine.",
-    Kind::Role::element,
-    detail::argument_infos<Coupler>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-      return std::make_unique<CouplerSet>(kind);
-    }}.deactivatable();
+extern constinit const Kind coupler =
+    Kind{"COUPLER",
+         "",
+         "Couples the displacements of two or three joints, linearly or by a compiled routine.",
+         Kind::Role::element,
+         detail::argument_infos<Coupler>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<CouplerSet>(kind); }}
+        .deactivatable()
+        .calling(coupler_routines);
 
 }  // namespace dynalin

@@ -20,6 +20,7 @@
 #include "model/schema.h"
 #include "routine/curve_routine.h"
 #include "routine/routine_data.h"
+#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -237,14 +238,19 @@ class CurveSet final : public TypedSet<Curve> {
   std::vector<WrittenCurve> written_;
 };
 
+constexpr std::array<RoutineKind, 1> routines_of_curve = {
+    {{.routine = "cursub", .values = 3, .arguments = RoutineArguments::curve}}};
+
 }  // namespace
 
-extern constinit const Kind curve = {
+extern constinit const Kind curve = Kind{
     "CURVE",
     "",
     "A curve in space, through points or along control points.",
     Kind::Role::element,
     detail::argument_infos<WrittenCurve>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<CurveSet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<CurveSet>(kind);
+    }}.calling(routines_of_curve);
 
 }  // namespace dynalin

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 
+#include "elements/constraints/motion_routine.h"
 #include "elements/controls/array.h"
 #include "elements/controls/variable.h"
 #include "elements/controls/variable_list.h"
@@ -169,20 +170,20 @@ class MotionKernel final : public Kernel, public WrenchSource, public RowTermsSo
     const Driven& d = driven_[k];
     d.displacement.wrench(motion, lambda(d, motion), d.row, with_partials, out);
   }
-  void undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined_values) const override {
+  void undefined_values(const Motion& motion, UndefinedValues& undefined_values) const override {
     ExpressionScratch scratch;
     for (std::size_t k = 0; k < driven_.size(); ++k) {
-      const std::size_t before = undefined_values.size();
+      const std::size_t before = undefined_values.values().size();
       const ElementLabel& label = (*labels_)[k];
       driven_[k].function.find_undefined(motion, label, undefined_values);
-      if (undefined_values.size() > before) continue;
+      if (undefined_values.values().size() > before) continue;
       // A routine has functions of its own for them.
       const Taylor f = driven_[k].function.along_motion(motion, scratch);
       if (std::isfinite(f.rate) && std::isfinite(f.acceleration)) continue;
-      undefined_values.push_back({&label,
-                                  fmt::format("the {} derivative of FUNCTION of {} by time has no finite value",
-                                              std::isfinite(f.rate) ? "second" : "first", label.full_text()),
-                                  false});
+      undefined_values.add(UndefinedValue{&label,
+                                          fmt::format("the {} derivative of FUNCTION of {} by time has no finite value",
+                                                      std::isfinite(f.rate) ? "second" : "first", label.full_text()),
+                                          false});
     }
   }
 
@@ -396,6 +397,7 @@ extern constinit const Kind motion =
          detail::argument_infos<PrescribedMotion>,
          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<MotionSet>(kind); }}
         .deactivatable()
+        .calling(motion_routines)
         .with_example("MOTION/1, FUNCTION=20*TIME");
 
 }  // namespace dynalin

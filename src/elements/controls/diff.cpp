@@ -20,6 +20,7 @@
 #include "elements/families/function_equation.h"
 #include "model/model.h"
 #include "model/schema.h"
+#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -186,16 +187,26 @@ class DiffSet final : public TypedSet<Diff> {
   }
 };
 
+constexpr std::array<RoutineKind, 1> diff_routines = {
+    {{.routine = "difsub",
+      .values = 1,
+      .arguments = RoutineArguments::function,
+      .told =
+          [](const StatementWords& s) {
+            return told<sAdamsDiff>(s, s.has("STATIC_HOLD"), s.has("IMPLICIT"), s.real("IC"), s.real("IC", 1));
+          },
+      .constants = value_of_function}}};
+
 }  // namespace
 
-extern constinit const Kind diff = Kind{
-    "DIFF",
-    "",
-    "One differential state given by an expression.",
-    Kind::Role::element,
-    detail::argument_infos<Diff>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-      return std::make_unique<DiffSet>(kind);
-    }}.with_example("DIFF/1, FUNCTION=-DIF(1)");
+extern constinit const Kind diff =
+    Kind{"DIFF",
+         "",
+         "One differential state given by an expression.",
+         Kind::Role::element,
+         detail::argument_infos<Diff>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<DiffSet>(kind); }}
+        .calling(diff_routines)
+        .with_example("DIFF/1, FUNCTION=-DIF(1)");
 
 }  // namespace dynalin

@@ -17,6 +17,7 @@
 #include "model/model.h"
 #include "model/schema.h"
 #include "routine/state_equations.h"
+#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -148,16 +149,29 @@ class GseSet final : public TypedSet<Gse> {
   }
 };
 
+constexpr RoutineKind interface_of_gse(std::string_view routine) {
+  return {.routine = routine, .values = 0, .arguments = RoutineArguments::counted, .names_routine = "INTERFACE"};
+}
+constexpr RoutineKind sampled(RoutineKind kind) {
+  kind.sampled = true;
+  return kind;
+}
+// In the order of StateRoutine.
+constexpr std::array<RoutineKind, 5> gse_routines = {
+    interface_of_gse("gse_deriv"), interface_of_gse("gse_output"), sampled(interface_of_gse("gse_update")),
+    RoutineKind{.routine = "gse_samp", .values = 1, .arguments = RoutineArguments::plain, .names_routine = "INTERFACE"},
+    RoutineKind{.routine = "gsesub", .values = 0, .arguments = RoutineArguments::system}};
+
 }  // namespace
 
-extern constinit const Kind gse = Kind{
-    "GSE",
-    "",
-    "State equations of compiled routines, continuous and sampled.",
-    Kind::Role::element,
-    detail::argument_infos<Gse>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-      return std::make_unique<GseSet>(kind);
-    }}.with_example("GSE/1, STATIC_HOLD");
+extern constinit const Kind gse =
+    Kind{"GSE",
+         "",
+         "State equations of compiled routines, continuous and sampled.",
+         Kind::Role::element,
+         detail::argument_infos<Gse>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<GseSet>(kind); }}
+        .calling(gse_routines)
+        .with_example("GSE/1, STATIC_HOLD");
 
 }  // namespace dynalin

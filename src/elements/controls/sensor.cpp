@@ -18,6 +18,7 @@
 #include "mechanics/bound_expression.h"
 #include "mechanics/event_source.h"
 #include "model/schema.h"
+#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -89,17 +90,17 @@ class SensorKernel final : public Kernel, public EventSource {
     if (motion.mode != AnalysisMode::dynamics && motion.mode != AnalysisMode::kinematics &&
         motion.mode != AnalysisMode::quasi_statics)
       return {};
-    std::vector<UndefinedValue> undefined;
+    UndefinedValues undefined;
     for (const Watch& w : watches_) {
       w.function.find_undefined(motion, *w.label, undefined);
       // What it left behind when it triggered.
       if (!w.sensor->evaluates || std::isfinite(motion.memory[static_cast<std::size_t>(w.value_kept)])) continue;
       w.evaluate.find_undefined(motion, *w.label, undefined);
-      undefined.push_back(
-          {w.label, fmt::format("EVALUATE of {} had no finite value when it triggered", w.label->full_text()), true});
+      undefined.add(UndefinedValue{
+          w.label, fmt::format("EVALUATE of {} had no finite value when it triggered", w.label->full_text()), true});
     }
-    const auto found = std::ranges::find_if(undefined, &UndefinedValue::in_value);
-    return found == undefined.end() ? std::string() : found->reason;
+    const auto found = std::ranges::find_if(undefined.values(), &UndefinedValue::in_value);
+    return found == undefined.values().end() ? std::string() : found->reason;
   }
 
   const EventSource* events() const override { return this; }
@@ -211,6 +212,28 @@ class SensorSet final : public TypedSet<Sensor> {
   }
 };
 
+ToldToRoutine told_of_sensor(const StatementWords& s) {
+  static constexpr std::array<std::string_view, 3> conditions = {"EQ", "GE", "LE"};
+  const std::string_view condition = conditions[s.word_among(conditions).value_or(0)];
+  const double error = s.has("ERROR") ? s.real("ERROR") : Sensor{}.error;
+  return {std::make_shared<const sAdamsSensor>(sAdamsSensor{
+      s.id(), s.constants().count(), s.constants().data(), s.real("VALUE"), error, {condition[0], condition[1]}})};
+}
+constexpr RoutineKind sensor_routine = {.routine = "sensub",
+                                        .values = 1,
+                                        .arguments = RoutineArguments::plain,
+                                        .told = told_of_sensor,
+                                        .constants = value_of_function};
+constexpr std::array<ValueArgument, 1> value_of_evaluate = {{{"EVALUATE"}}};
+constexpr RoutineKind evaluate_routine = {.routine = "sevsub",
+                                          .values = 1,
+                                          .arguments = RoutineArguments::plain,
+                                          .told = told_of_sensor,
+                                          .argument = "EVALUATE",
+                                          .names_routine = "EVALUATE_ROUTINE",
+                                          .constants = value_of_evaluate};
+constexpr std::array<RoutineKind, 2> sensor_routines = {sensor_routine, evaluate_routine};
+
 }  // namespace
 
 extern constinit const Kind sensor =
@@ -221,6 +244,7 @@ extern constinit const Kind sensor =
          detail::argument_infos<Sensor>,
          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<SensorSet>(kind); }}
         .deactivatable()
+        .calling(sensor_routines)
         .giving(Kind::Gives::events)
         .with_example("SENSOR/1, VALUE=0.5");
 

@@ -6,6 +6,7 @@
 
 #include "elements/families/function_equation.h"
 #include "model/schema.h"
+#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -34,6 +35,13 @@ class VariableSet final : public TypedSet<Variable> {
   }
 };
 
+constexpr std::array<RoutineKind, 1> variable_routines = {
+    {{.routine = "varsub",
+      .values = 1,
+      .arguments = RoutineArguments::function,
+      .told = [](const StatementWords& s) { return told<sAdamsVariable>(s, s.real("IC")); },
+      .constants = value_of_function}}};
+
 }  // namespace
 
 const Expression& variable_function(const Model& model, VariableRef ref) { return model.get<Variable>(ref)->function; }
@@ -45,6 +53,7 @@ extern constinit const Kind variable =
          Kind::Role::element,
          detail::argument_infos<Variable>,
          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<VariableSet>(kind); }}
+        .calling(variable_routines)
         .giving(Kind::Gives::value)
         .with_example("VARIABLE/1, FUNCTION=0.5");
 

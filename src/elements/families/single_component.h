@@ -6,6 +6,7 @@
 #include "elements/families/drawn_axes.h"
 #include "elements/families/function_force.h"
 #include "model/schema.h"
+#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -34,6 +35,18 @@ class SingleComponentSet final : public TypedSet<E> {
   }
 };
 
+// Its routine is told which of the two it is.
+inline ToldToRoutine told_of_sforce(const StatementWords& s) {
+  static constexpr std::array<std::string_view, 1> rotational = {"ROTATIONAL"};
+  return told<sAdamsSforce>(s, s.integer("I"), s.integer("J"), s.has("ACTIONONLY"),
+                            s.word_among(rotational) ? "ROTATION" : "TRANSLATION");
+}
+inline constexpr std::array<RoutineKind, 1> sforce_routines = {{{.routine = "sfosub",
+                                                                 .values = 1,
+                                                                 .arguments = RoutineArguments::function,
+                                                                 .told = told_of_sforce,
+                                                                 .constants = value_of_function}}};
+
 template <class E>
 constexpr Kind single_component() {
   return Kind{
@@ -44,7 +57,8 @@ constexpr Kind single_component() {
       detail::argument_infos<E>,
       [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<SingleComponentSet<E>>(kind); },
       Kind::EnergyRows::one}
-      .deactivatable();
+      .deactivatable()
+      .calling(sforce_routines);
 }
 
 }  // namespace dynalin

@@ -105,15 +105,15 @@ class CableKernel final : public Kernel, public WrenchSource, public SwitchSourc
     std::vector<PairMotion> spans;
     for (const Placed& p : cables_) list.add(look(p, motion, spans).law);
   }
-  void undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const override {
+  void undefined_values(const Motion& motion, UndefinedValues& undefined) const override {
     for (std::size_t at = 0; at < cables_.size(); ++at) {
       const Placed& p = cables_[at];
       const ElementLabel& label = (*labels_)[at];
       for (std::size_t k = 0; k + 1 < p.places.size(); ++k) {
         if (norm(motion.point(p.places[k + 1]) - motion.point(p.places[k])) != 0.0) continue;
-        undefined.push_back(
-            {&label, fmt::format("markers {} and {} of {} coincide, the cable between them has no direction",
-                                 p.cable.ids[k], p.cable.ids[k + 1], label.full_text())});
+        undefined.add(UndefinedValue{
+            &label, fmt::format("markers {} and {} of {} coincide, the cable between them has no direction",
+                                p.cable.ids[k], p.cable.ids[k + 1], label.full_text())});
       }
     }
   }

@@ -32,6 +32,7 @@
 #include "expression/program.h"
 #include "model/linear_remarks.h"
 #include "model/schema.h"
+#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -316,6 +317,41 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
   std::vector<ContactForce> forces_;
 };
 
+// Of each GRAPHICS also whether it is turned inside out.
+ToldToRoutine told_of_contact(const StatementWords& s) {
+  struct Side {
+    std::vector<int> shapes, reversed;
+  };
+  const auto side = [&](const std::string& which) {
+    Side out{s.integers(which + "GEOM"), {}};
+    std::vector<int> turned = s.integers(which + "FLIP_GEOMETRY");
+    const std::vector<int> more = s.integers(which + "FLIP_NORMAL");
+    turned.insert(turned.end(), more.begin(), more.end());
+    for (const int id : out.shapes) out.reversed.push_back(std::ranges::find(turned, id) != turned.end());
+    return out;
+  };
+  return told_with(std::array<Side, 2>{side("I"), side("J")}, [&](const std::array<Side, 2>& sides) {
+    const auto& [I, J] = sides;
+    return sAdamsContactFriction{{s.id(), static_cast<int>(I.shapes.size()), static_cast<int>(J.shapes.size()),
+                                  I.shapes.data(), J.shapes.data(), I.reversed.data(), J.reversed.data()},
+                                 s.constants().count(),
+                                 s.constants().data()};
+  });
+}
+constexpr RoutineKind normal_routine = {.routine = "cnfsub",
+                                        .values = 3,
+                                        .arguments = RoutineArguments::pressure,
+                                        .told = told_of_contact,
+                                        .argument = "NFUNCTION",
+                                        .names_routine = "NROUTINE"};
+constexpr RoutineKind friction_routine = {.routine = "cffsub",
+                                          .values = 3,
+                                          .arguments = RoutineArguments::friction,
+                                          .told = told_of_contact,
+                                          .argument = "FFUNCTION",
+                                          .names_routine = "FROUTINE"};
+constexpr std::array<RoutineKind, 2> contact_routines = {normal_routine, friction_routine};
+
 }  // namespace
 
 extern constinit const Kind contact =
@@ -327,6 +363,7 @@ extern constinit const Kind contact =
          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<ContactSet>(kind); },
          Kind::EnergyRows::one}
         .deactivatable()
+        .calling(contact_routines)
         .with_example("CONTACT/1, STIFFNESS=2E5");
 
 }  // namespace dynalin

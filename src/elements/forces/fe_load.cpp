@@ -121,17 +121,17 @@ class BeamLoadKernel final : public Kernel {
     }
   }
 
-  void undefined_values(const Motion& motion, std::vector<UndefinedValue>& values) const override {
+  void undefined_values(const Motion& motion, UndefinedValues& values) const override {
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       const Load& l = loads_[k];
       const ElementLabel& label = (*labels_)[k];
       for (const DefinedUnknown& u : l.unknowns) u.find_undefined(motion, label, values);
       for (const Read& r : l.read) {
         if (!r.is_angle() || reading(l, r, motion).has_gradient()) continue;
-        values.push_back({&label,
-                          fmt::format("{}: SD({}) has no derivative {}", label.full_text(), r.component + 1,
-                                      place_without_gradient(section_angles[r.component - 3])),
-                          false});
+        values.add(UndefinedValue{&label,
+                                  fmt::format("{}: SD({}) has no derivative {}", label.full_text(), r.component + 1,
+                                              place_without_gradient(section_angles[r.component - 3])),
+                                  false});
       }
     }
   }

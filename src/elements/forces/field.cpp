@@ -8,6 +8,7 @@
 
 #include "elements/families/linear_wrench.h"
 #include "expression/program.h"
+#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -83,8 +84,17 @@ struct Field {
   }
 };
 
+// A constant in the place of its routine is a force without stiffness.
+constexpr std::array<ValueArgument, 2> constants_of_field = {{{"KMATRIX", 36, true}, {"FORCE", 6}}};
+constexpr std::array<RoutineKind, 1> field_routines = {
+    {{.routine = "fiesub",
+      .values = 6,
+      .arguments = RoutineArguments::field,
+      .told = [](const StatementWords& s) { return told<sAdamsField>(s, s.integer("I"), s.integer("J")); },
+      .constants = constants_of_field}}};
+
 }  // namespace
 
-extern constinit const Kind field = linear_wrench<Field>().with_example("FIELD/1, CRATIO=0.02");
+extern constinit const Kind field = linear_wrench<Field>().calling(field_routines).with_example("FIELD/1, CRATIO=0.02");
 
 }  // namespace dynalin

@@ -370,7 +370,7 @@ void JointFrictionKernel::wrench(const Motion& motion, std::size_t k, bool with_
 }
 
 // The size of a force or moment that is zero has no derivative.
-void JointFrictionKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const {
+void JointFrictionKernel::undefined_values(const Motion& motion, UndefinedValues& undefined) const {
   if (at_rest(motion)) return;
   for (std::size_t k = 0; k < placed_.size(); ++k) {
     const Placed& p = placed_[k];
@@ -379,11 +379,12 @@ void JointFrictionKernel::undefined_values(const Motion& motion, std::vector<Und
     const bool defined = std::ranges::all_of(
         at.w, [](const D& w) { return std::ranges::all_of(w.partial, [](double x) { return std::isfinite(x); }); });
     if (defined) continue;
-    undefined.push_back({&(*labels_)[k],
-                         fmt::format("{}: a force or moment that JOINT/{} bears across its surfaces is zero while they "
-                                     "slip, and friction by its size has no derivative there",
-                                     (*labels_)[k].full_text(), p.element->joint),
-                         false});
+    undefined.add(
+        UndefinedValue{&(*labels_)[k],
+                       fmt::format("{}: a force or moment that JOINT/{} bears across its surfaces is zero while they "
+                                   "slip, and friction by its size has no derivative there",
+                                   (*labels_)[k].full_text(), p.element->joint),
+                       false});
   }
 }
 

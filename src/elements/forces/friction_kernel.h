@@ -61,7 +61,7 @@ class JointFrictionKernel final : public Kernel, public WrenchSource, public Sti
   MarkerId marker_J(std::size_t k) const override { return placed_[k].element->j; }
   void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;
   void remember(const Motion&, Memory&) const override;
-  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
+  void undefined_values(const Motion&, UndefinedValues&) const override;
   std::string domain_violation(const Motion&) const override;
   void sticking(const Motion&, std::vector<Stiction>&) const override;
   void exhausted(const Motion&, std::vector<std::string>&) const override;

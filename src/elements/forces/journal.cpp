@@ -120,24 +120,26 @@ class JournalKernel final : public Kernel, public WrenchSource {
     out.force = force_of(*placed_[k].bearing, out.pair, with_partials);
   }
 
-  void undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const override {
+  void undefined_values(const Motion& motion, UndefinedValues& undefined) const override {
     for (std::size_t k = 0; k < placed_.size(); ++k) {
       const Journal& bearing = *placed_[k].bearing;
       const RelativeDisplacement d = displacement_of(pair_motion(motion, *placed_[k].I, *placed_[k].J));
       const double x = d.y[0], y = d.y[1], omega = d.rate[5] + bearing.speed, away = std::hypot(x, y);
       const std::string name = (*labels_)[k].full_text();
       if (!(away < bearing.clearance)) {
-        undefined.push_back({&(*labels_)[k],
-                             fmt::format("the shaft of {} is {:.6g} from the axis of its bearing, whose clearance is "
-                                         "{:.6g}: there is no film left",
-                                         name, away, bearing.clearance),
-                             true});
+        undefined.add(
+            UndefinedValue{&(*labels_)[k],
+                           fmt::format("the shaft of {} is {:.6g} from the axis of its bearing, whose clearance is "
+                                       "{:.6g}: there is no film left",
+                                       name, away, bearing.clearance),
+                           true});
       } else if (away > 0 && d.rate[0] + omega * y / 2 == 0 && d.rate[1] - omega * x / 2 == 0) {
-        undefined.push_back({&(*labels_)[k],
-                             fmt::format("nothing moves in the film of {}, which could resist in any direction with "
-                                         "another force",
-                                         name),
-                             false});
+        undefined.add(
+            UndefinedValue{&(*labels_)[k],
+                           fmt::format("nothing moves in the film of {}, which could resist in any direction with "
+                                       "another force",
+                                       name),
+                           false});
       }
     }
   }

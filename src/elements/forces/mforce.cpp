@@ -22,6 +22,7 @@
 #include "mechanics/kernel.h"
 #include "mechanics/pair.h"
 #include "model/schema.h"
+#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -126,7 +127,7 @@ class ModalForceKernel final : public Kernel {
     }
   }
 
-  void undefined_values(const Motion& motion, std::vector<UndefinedValue>& values) const override {
+  void undefined_values(const Motion& motion, UndefinedValues& values) const override {
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       for (const DefinedUnknown& u : loads_[k].unknowns) u.find_undefined(motion, (*labels_)[k], values);
     }
@@ -248,16 +249,30 @@ class ModalForceSet final : public TypedSet<ModalForce> {
   }
 };
 
+ToldToRoutine told_of_mforce(const StatementWords& s) {
+  return {std::make_shared<const sAdamsMforce>(sAdamsMforce{
+      {s.integer("FLEX_BODY")}, s.id(), s.constants().count(), s.constants().data(), s.integer("JFLOAT")})};
+}
+// FUNCTION gives a scale and which load it scales or that load, FORCE the load alone.
+constexpr RoutineKind mforce_routine(std::string_view argument) {
+  return {.routine = "mfosub",
+          .values = 0,
+          .arguments = RoutineArguments::modal,
+          .told = told_of_mforce,
+          .argument = argument};
+}
+constexpr std::array<RoutineKind, 2> mforce_routines = {mforce_routine("FUNCTION"), mforce_routine("FORCE")};
+
 }  // namespace
 
-extern constinit const Kind mforce = Kind{
-    "MFORCE",
-    "",
-    "Load on the coordinates of a flexible body.",
-    Kind::Role::element,
-    detail::argument_infos<ModalForce>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-      return std::make_unique<ModalForceSet>(kind);
-    }}.deactivatable();
+extern constinit const Kind mforce =
+    Kind{"MFORCE",
+         "",
+         "Load on the coordinates of a flexible body.",
+         Kind::Role::element,
+         detail::argument_infos<ModalForce>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<ModalForceSet>(kind); }}
+        .deactivatable()
+        .calling(mforce_routines);
 
 }  // namespace dynalin

@@ -18,6 +18,7 @@
 #include "mechanics/bound_expression.h"
 #include "mechanics/pair_blocks.h"
 #include "mechanics/wrench_source.h"
+#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -108,7 +109,7 @@ class NforceKernel final : public Kernel, public WrenchSource {
     }
   }
 
-  void undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const override {
+  void undefined_values(const Motion& motion, UndefinedValues& undefined) const override {
     for (std::size_t law = 0; law < laws_.size(); ++law)
       for (const DefinedUnknown& c : laws_[law].components) c.find_undefined(motion, (*labels_)[law], undefined);
   }
@@ -287,6 +288,18 @@ class NforceSet final : public TypedSet<Nforce> {
   std::vector<Law> laws_;
 };
 
+ToldToRoutine told_of_nforce(const StatementWords& s) {
+  const std::vector<int> markers = s.integers("IMARKERS");
+  ToldToRoutine all = told_with(markers, [&](const std::vector<int>& ids) {
+    return sAdamsNforce{s.id(),     s.constants().count(), s.constants().data(), static_cast<int>(ids.size()),
+                        ids.data(), s.integer("J")};
+  });
+  all.values = 6 * markers.size();
+  return all;
+}
+constexpr std::array<RoutineKind, 1> nforce_routines = {
+    {{.routine = "nfosub", .values = 0, .arguments = RoutineArguments::function, .told = told_of_nforce}}};
+
 }  // namespace
 
 extern constinit const Kind nforce =
@@ -297,6 +310,7 @@ extern constinit const Kind nforce =
          detail::argument_infos<Nforce>,
          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<NforceSet>(kind); },
          Kind::EnergyRows::each_marker}
-        .deactivatable();
+        .deactivatable()
+        .calling(nforce_routines);
 
 }  // namespace dynalin

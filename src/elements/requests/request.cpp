@@ -18,6 +18,7 @@
 #include "elements/requests/request_kernel.h"
 #include "model/model.h"
 #include "model/schema.h"
+#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -257,6 +258,33 @@ class RequestSet final : public TypedSet<RequestedValues> {
   std::vector<std::shared_ptr<const Components>> lists_;  // made last
 };
 
+ToldToRoutine told_of_request(const StatementWords& s) {
+  struct Heading {
+    std::string comment;
+    std::array<std::string, 8> titles;
+  };
+  Heading heading{s.text("COMMENT"), {}};
+  std::string titles = s.text("TITLE");
+  for (std::string& title : heading.titles) {
+    const std::size_t end = std::min(titles.find(':'), titles.size());
+    title = titles.substr(0, end);
+    titles.erase(0, end + 1);
+  }
+  return told_with(std::move(heading), [&](const Heading& h) {
+    sAdamsRequest said{s.id(), s.constants().count(), s.constants().data(), h.comment.c_str(), {}};
+    for (std::size_t k = 0; k < h.titles.size(); ++k) said.TITLE[k] = h.titles[k].c_str();
+    return said;
+  });
+}
+constexpr std::array<ValueArgument, 8> columns_of_request = {
+    {{"F1"}, {"F2"}, {"F3"}, {"F4"}, {"F5"}, {"F6"}, {"F7"}, {"F8"}}};
+constexpr std::array<RoutineKind, 1> request_routines = {{{.routine = "reqsub",
+                                                           .values = 8,
+                                                           .arguments = RoutineArguments::plain,
+                                                           .told = told_of_request,
+                                                           .components = columns_of_request,
+                                                           .constants = columns_of_request}}};
+
 }  // namespace
 
 extern constinit const Kind request =
@@ -267,6 +295,7 @@ extern constinit const Kind request =
          detail::argument_infos<Request>,
          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<RequestSet>(kind); }}
         .deactivatable()
+        .calling(request_routines)
         .giving(Kind::Gives::requests)
         .with_example("REQUEST/1, DISPLACEMENT, I=20, J=1");
 
