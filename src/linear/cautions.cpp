@@ -44,6 +44,11 @@ void disproportion(const System& system, const LinearSystem& linear, Diagnostics
                           system.layout().coordinate_text(found->coordinate), found->times, s.text, s.owner.text()));
 }
 
+// A difference in a slope that the linear model does not see, or a jump.
+void kinks(const System& system, const Motion& motion, Diagnostics& out) {
+  for (const Kink& k : system.kinks(motion)) out.warning("kink", k.of->at, k.text);
+}
+
 void overdamping(const System& system, const LinearSystem& linear, const EigenSolution& modes, Diagnostics& out) {
   if (modes.without_damping) return;
   int falling = 0, others = 0;
@@ -73,6 +78,7 @@ Diagnostics cautions_of_point(const System& system, const OperatingPoint& op, co
   disproportion(system, linear, out);
   motion_caution(system, op, modes, out);
   const Motion motion = system.motion(op);
+  kinks(system, motion, out);
   for (const BodySource* body : system.bodies()) body->add_cautions(motion, out);
   return out;
 }

@@ -9,7 +9,8 @@ namespace dynalin {
 //   a singular configuration, whose dependent rows are independent right beside it: frequencies of nearby points
 //   differ, a coordinate that moves out of all proportion to the chosen ones, as near such a configuration, parts that
 //   accelerate or turn at the point: the eigenvalues hold for this instant, overdamped modes: real pairs where
-//   vibrations would be without damping, joints in stiction, whose stiffness may make modes of its own.
+//   vibrations would be without damping, joints in stiction, whose stiffness may make modes of its own, functions with
+//   a kink or jump right at the point.
 Diagnostics cautions(const System&, const OperatingPoint&, const LinearSystem&, const EigenSolution&);
 // Those among them that are true of matrices as well.
 Diagnostics cautions_of_matrices(const System&, const OperatingPoint&, const LinearSystem&);

@@ -143,12 +143,12 @@ class Chain {
     });
     if (fine) return std::nullopt;
     for (const Link& link : links_) {
-      std::vector<UndefinedValue> undefined_values;
+      UndefinedValues undefined_values;
       link.function->find_undefined(motion_, system_.model().label(link.variable), undefined_values,
                                     BoundExpression::Derivatives::with_rates);
-      if (!undefined_values.empty())
+      if (!undefined_values.values().empty())
         return refused(variable_function(system_.model(), link.variable).at(),
-                       "has no derivatives here (" + undefined_values.front().reason + ")");
+                       "has no derivatives here (" + undefined_values.values().front().reason + ")");
     }
     return refused({}, "has no derivatives here");
   }

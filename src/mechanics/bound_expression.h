@@ -67,10 +67,10 @@ class BoundExpression {
   bool reads_states_only() const;
 
   // Adds what is wrong when a value or partial is not finite: function, argument and reason.
-  // With rates also what its time derivative or a second derivative does not have.
+  // With rates also what its time derivative or a second derivative does not have. In a search for kinks adds the
+  // first of those instead.
   enum class Derivatives : std::uint8_t { first, with_rates };
-  void find_undefined(const Motion&, const ElementLabel& of, std::vector<UndefinedValue>&,
-                      Derivatives = Derivatives::first) const;
+  void find_undefined(const Motion&, const ElementLabel& of, UndefinedValues&, Derivatives = Derivatives::first) const;
 
  private:
   struct ForceTerm {
@@ -125,6 +125,8 @@ class BoundExpression {
   // Whether a partial of zero makes the gradient of an atom vanish where that is not defined.
   bool passes_over(std::size_t atom, const ExpressionScratch&) const;
   static bool is_size(const BoundAtom&);  // of a vector: never negative
+  void find_kink(const Motion&, double length, const ElementLabel& of, UndefinedValues&) const;
+  std::string kink_along(std::size_t moved, double size, std::vector<double>& values, ExpressionScratch&) const;
   std::string undefined_in_value(const Motion&, const std::vector<double>& atoms) const;
   std::string undefined_in_gradient(const Motion&, const std::vector<double>& atoms, Derivatives) const;
 

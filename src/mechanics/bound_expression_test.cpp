@@ -411,9 +411,10 @@ TEST(BoundExpression, what_has_no_value_or_derivative_is_named_with_its_reason) 
   SmallSystem s;
   const ElementLabel label{"VARIABLE", 1, {}, {}};
   const auto reason = [&](const std::string& text) {
-    std::vector<UndefinedValue> found;
+    UndefinedValues found;
     s.bound(text).find_undefined(s.p.motion, label, found);
-    return found.empty() ? std::string() : (found[0].in_value ? "value: " : "slope: ") + found[0].reason;
+    const std::vector<UndefinedValue>& all = found.values();
+    return all.empty() ? std::string() : (all[0].in_value ? "value: " : "slope: ") + all[0].reason;
   };
   EXPECT_EQ(reason("SQRT(VARVAL(1))"), "");
   EXPECT_EQ(reason("SQRT(VARVAL(2))"), "value: VARIABLE/1: SQRT of -0.8");

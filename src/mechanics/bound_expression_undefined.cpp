@@ -64,14 +64,15 @@ std::string BoundExpression::undefined_in_gradient(const Motion& motion, const s
   return found ? found->reason : std::string();
 }
 
-void BoundExpression::find_undefined(const Motion& motion, const ElementLabel& of,
-                                     std::vector<UndefinedValue>& undefined_values, Derivatives derivatives) const {
+void BoundExpression::find_undefined(const Motion& motion, const ElementLabel& of, UndefinedValues& found,
+                                     Derivatives derivatives) const {
+  if (found.length()) return find_kink(motion, *found.length(), of, found);
   std::vector<double> values;
   for (const BoundAtom& a : atoms_) values.push_back(atom_value(a, motion));
   std::string reason = undefined_in_value(motion, values);
   const bool in_value = !reason.empty();
   if (!in_value) reason = undefined_in_gradient(motion, values, derivatives);
-  if (!reason.empty()) undefined_values.push_back({&of, of.full_text() + ": " + reason, in_value});
+  if (!reason.empty()) found.add(UndefinedValue{&of, of.full_text() + ": " + reason, in_value});
 }
 
 }  // namespace dynalin

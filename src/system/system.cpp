@@ -259,9 +259,15 @@ void System::remember(OperatingPoint& op) const {
 }
 
 std::vector<UndefinedValue> System::undefined_values(const Motion& motion) const {
-  std::vector<UndefinedValue> found;
+  UndefinedValues found;
   for (const auto& kernel : kernels_) kernel->undefined_values(motion, found);
-  return found;
+  return found.values();
+}
+
+std::vector<Kink> System::kinks(const Motion& motion) const {
+  UndefinedValues found = UndefinedValues::search_for_kinks(length());
+  for (const auto& kernel : kernels_) kernel->undefined_values(motion, found);
+  return found.kinks();
 }
 
 std::string System::undefined_value(const Motion& motion) const {

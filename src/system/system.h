@@ -70,6 +70,8 @@ class System {
   void count_turns(const Motion& motion, Memory& memory) const { turns_.remember(motion, memory); }
   // Where functions have no finite value or no derivative; the first that has no value, or else the first.
   std::vector<UndefinedValue> undefined_values(const Motion&) const;
+  // Functions that have another value or slope on either side of the motion: a linear model has neither of them.
+  std::vector<Kink> kinks(const Motion&) const;
   std::string undefined_value(const Motion&) const;
   std::string domain_violation(const Motion&) const;
   // Of all elements and their expressions, as many in the same order at every motion; the list is emptied first.

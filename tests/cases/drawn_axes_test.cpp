@@ -53,6 +53,17 @@ TEST_F(DrawnAxes, of_crosses_must_be_perpendicular) {
   EXPECT_EQ(checked("JOINT/3, CONVEL", "0,0,0"), "");
 }
 
+TEST_F(DrawnAxes, of_pinion_and_rack_must_not_be_parallel) {
+  for (const char* parallel : {"0,0,0", "30D,0,0", "0,180D,0"}) {
+    EXPECT_THAT(checked("JOINT/3, RACKPIN, PD=0.2", parallel),
+                HasSubstr("model.adm:11:1: error: JOINT/3 (knuckle): the z axis of MARKER/21, about which the pinion "
+                          "turns, and the z axis of MARKER/12, along the rack, are drawn parallel [parallel-axes]"))
+        << parallel;
+  }
+  EXPECT_EQ(checked("JOINT/3, RACKPIN, PD=0.2", "0,90D,0"), "");
+  EXPECT_EQ(checked("JOINT/3, RACKPIN, PD=0.2", "0,20D,0"), "");
+}
+
 TEST_F(DrawnAxes, of_hinges_must_be_parallel) {
   for (const char* joint : {"JOINT/3, REVOLUTE", "JOINT/3, CYLINDRICAL", "JOINT/3, TRANSLATIONAL", "JOINT/3, FIXED",
                             "JOINT/3, PLANAR", "JPRIM/3, PARALLEL_AXES", "JPRIM/3, ORIENTATION"}) {

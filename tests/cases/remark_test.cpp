@@ -41,6 +41,7 @@ const std::vector<Remark>& table() {
        "LINEAR/EIGENSOL\n"},
       {"joint-in-stiction", 8, SLIDER(BODY) "FRICTION/1, JOINT=1, FRICTION_FORCE_PRELOAD=3\nEND\n",
        "LINEAR/EIGENSOL\n"},
+      {"kink", 8, SLIDER(BODY) "SFORCE/1, TRANSLATIONAL, I=20, J=1, FUNCTION=-ABS(DZ(20)-1)\nEND\n", "LINEAR/EIGENSOL\n"},
       {"implicit-diff", 8, SLIDER(BODY) "DIFF/1, IMPLICIT, FUNCTION=2*DIF(1)-DIF(2)\nDIFF/2, FUNCTION=-DIF(2)\nEND\n",
        "LINEAR/EIGENSOL\n"},
       {"dependent-coordinate", 0, SLIDER(BODY) "VARIABLE/1, FUNCTION=DX(20)\nPSTATE/1, VARIABLES=1\nEND\n",

@@ -97,7 +97,7 @@ class GeneralConstraintKernel final : public Kernel, public WrenchSource {
       r.function.add_reaction_partials(motion, eq, motion.lambda[static_cast<std::size_t>(r.row)], r.level);
     }
   }
-  void undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined_values) const override {
+  void undefined_values(const Motion& motion, UndefinedValues& undefined_values) const override {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       rows_[k].function.find_undefined(motion, (*labels_)[k], undefined_values,
                                        BoundExpression::Derivatives::with_rates);

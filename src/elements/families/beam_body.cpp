@@ -135,10 +135,10 @@ std::string BeamBodyKernel::domain_violation(const Motion& motion) const {
 }
 
 // Half a turn has no direction.
-void BeamBodyKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const {
+void BeamBodyKernel::undefined_values(const Motion& motion, UndefinedValues& undefined) const {
   for (const BeamBody& b : beams_) {
     if (std::string reason = turned_by(half_a_turn, b, motion); !reason.empty())
-      undefined.push_back({b.label, std::move(reason)});
+      undefined.add(UndefinedValue{b.label, std::move(reason)});
   }
 }
 

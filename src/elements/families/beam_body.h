@@ -16,7 +16,7 @@ class BeamBodyKernel final : public Kernel {
   void constraints(const Motion&, ConstraintRows&) const override;
   void equations(const Motion&, Equations&) const override;
   std::string domain_violation(const Motion&) const override;
-  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
+  void undefined_values(const Motion&, UndefinedValues&) const override;
   std::vector<const BodySource*> bodies() const override;
 
  private:

@@ -361,7 +361,7 @@ RoutineLack routine_lack(const ContactForce& c, const PairMotion& pair, const Mo
 
 }  // namespace
 
-void ContactKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& values) const {
+void ContactKernel::undefined_values(const Motion& motion, UndefinedValues& values) const {
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     const Placed& p = forces_[k];
     const ElementLabel& label = (*labels_)[k];
@@ -370,14 +370,14 @@ void ContactKernel::undefined_values(const Motion& motion, std::vector<Undefined
     for_each_touch(*p.law, plain(pair),
                    [&](const Touch<double>& t) { undefined = undefined || (t.closed() && !t.defined); });
     if (undefined) {
-      values.push_back(
-          {&label, fmt::format("the shapes of {} touch all around or in more places than can be told apart, at "
-                               "no place in particular: its force has no one direction or place",
-                               label.full_text())});
+      values.add(UndefinedValue{
+          &label, fmt::format("the shapes of {} touch all around or in more places than can be told apart, at "
+                              "no place in particular: its force has no one direction or place",
+                              label.full_text())});
     }
     if (undefined || !(p.law->normal_routine || p.law->friction_routine)) continue;
     const RoutineLack lack = routine_lack(*p.law, pair, motion);
-    if (!lack.reason.empty()) values.push_back({&label, label.full_text() + ": " + lack.reason, lack.in_value});
+    if (!lack.reason.empty()) values.add(UndefinedValue{&label, label.full_text() + ": " + lack.reason, lack.in_value});
   }
 }
 

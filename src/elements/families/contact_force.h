@@ -42,7 +42,7 @@ class ContactKernel final : public Kernel, public WrenchSource, public SwitchSou
 
   void equations(const Motion&, Equations&) const override;
   std::size_t shares() const override { return forces_.size() / 2 + 1; }  // facets take long
-  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
+  void undefined_values(const Motion&, UndefinedValues&) const override;
 
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return forces_[k].law->i; }

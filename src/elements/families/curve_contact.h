@@ -223,7 +223,7 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
     }
   }
   // Of curves by routines.
-  void undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const override {
+  void undefined_values(const Motion& motion, UndefinedValues& undefined) const override {
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
       const Placed& p = contacts_[k];
       for (std::size_t a = 0; a < m; ++a) {
@@ -231,7 +231,7 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
         if (!law) continue;
         const double u = motion.extra[p.first_extra + a];
         const auto report = [&](const std::string& reason, bool value) {
-          undefined.push_back({&(*labels_)[k], (*labels_)[k].full_text() + ": " + reason, value});
+          undefined.add(UndefinedValue{&(*labels_)[k], (*labels_)[k].full_text() + ": " + reason, value});
         };
         if (const std::string reason = law->reason_of_value(u); !reason.empty()) {
           report(reason, true);

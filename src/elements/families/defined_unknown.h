@@ -43,7 +43,7 @@ class DefinedUnknown {
   void add_equation(const Motion& motion, Equations& eq) const {
     bound_.add(motion, eq, begin_definition(motion, eq, unknown_), -1.0, PartialBy::damping);
   }
-  void find_undefined(const Motion& motion, const ElementLabel& of, std::vector<UndefinedValue>& found) const {
+  void find_undefined(const Motion& motion, const ElementLabel& of, UndefinedValues& found) const {
     bound_.find_undefined(motion, of, found);
   }
 

@@ -212,7 +212,7 @@ double DelayKernel::longest_step(const Motion& motion) const {
   return shortest;
 }
 
-void DelayKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined_values) const {
+void DelayKernel::undefined_values(const Motion& motion, UndefinedValues& undefined_values) const {
   ExpressionScratch scratch;
   for (const Call& c : calls_) {
     c.value.find_undefined(
@@ -221,9 +221,9 @@ void DelayKernel::undefined_values(const Motion& motion, std::vector<UndefinedVa
     c.lag.find_undefined(motion, c.label, undefined_values);
     if (c.state < 0) continue;
     if (const double tau = c.lag.value(motion, scratch); !(tau > 0)) {
-      undefined_values.push_back(
-          {&c.label,
-           fmt::format("{}: the Padé approximant needs a delay above 0, here it is {:g}", c.label.full_text(), tau)});
+      undefined_values.add(UndefinedValue{
+          &c.label,
+          fmt::format("{}: the Padé approximant needs a delay above 0, here it is {:g}", c.label.full_text(), tau)});
     }
   }
 }

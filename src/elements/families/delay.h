@@ -43,7 +43,7 @@ class DelayKernel final : public Kernel, public DelaySource, public SwitchSource
   // After all others, when every call is known.
   void bind(Binder&) override;
   void equations(const Motion&, Equations&) const override;
-  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
+  void undefined_values(const Motion&, UndefinedValues&) const override;
 
   const SwitchSource* kinks() const override { return this; }
   // Where t − τ passes a jump or a kink of e, a kink of the history before the start, or τ zero.

@@ -50,6 +50,10 @@ void check_drawn_axes(const Model& model, const ElementLabel& label, MarkerId i,
           "the angle from x of {0} to y of {1} must be that from y of {0} to x of {1}, and they are drawn as far apart "
           "as can be",
           name_I, name_J);
+    } else if (row == "DZ-PINION" && std::abs(I.z.z) > nearly_parallel) {
+      text = fmt::format(
+          "the z axis of {}, about which the pinion turns, and the z axis of {}, along the rack, are drawn parallel",
+          name_I, name_J);
     }
     if (text.empty()) continue;
     diagnostics.error("parallel-axes", label.at, fmt::format("{}: {}", label.full_text(), text), std::string(hint));

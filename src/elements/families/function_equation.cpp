@@ -124,8 +124,7 @@ void FunctionEquationKernel::equations(const Motion& motion, Equations& eq) cons
   }
 }
 
-void FunctionEquationKernel::undefined_values(const Motion& motion,
-                                              std::vector<UndefinedValue>& undefined_values) const {
+void FunctionEquationKernel::undefined_values(const Motion& motion, UndefinedValues& undefined_values) const {
   for (const Part& p : parts_) p.function.find_undefined(motion, (*labels_)[p.of], undefined_values);
   for (const RateEquation& r : rates_) {
     r.function.find_undefined(motion, (*labels_)[r.of], undefined_values, BoundExpression::Derivatives::with_rates);

@@ -49,7 +49,7 @@ class FunctionEquationKernel final : public Kernel, public ChannelSource {
   Channel value_channel(std::size_t element) const override { return unknowns_[element]; }
   const BoundExpression* value_function(std::size_t element) const override;
   Channel state_channel(std::size_t element, std::size_t) const override { return unknowns_[element]; }
-  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
+  void undefined_values(const Motion&, UndefinedValues&) const override;
   std::string domain_violation(const Motion&) const override;
 
  private:

@@ -50,11 +50,11 @@ void FunctionForceKernel::wrench(const Motion& motion, std::size_t k, bool with_
   out.scalars.push_back({PartialBy::algebraic, f.magnitude.column(), one.force, one.torque});
 }
 
-void FunctionForceKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined_values) const {
+void FunctionForceKernel::undefined_values(const Motion& motion, UndefinedValues& undefined_values) const {
   for (const Force& f : forces_) {
     if (f.element.direction == Direction::along_line && norm(motion.point(*f.I) - motion.point(*f.J)) == 0.0) {
-      undefined_values.push_back({f.element.label, "the markers of " + f.element.label->full_text() +
-                                                       " coincide, its line of action has no direction"});
+      undefined_values.add(UndefinedValue{f.element.label, "the markers of " + f.element.label->full_text() +
+                                                               " coincide, its line of action has no direction"});
     }
     f.magnitude.find_undefined(motion, *f.element.label, undefined_values);
   }

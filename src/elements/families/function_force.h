@@ -35,7 +35,7 @@ class FunctionForceKernel final : public Kernel, public WrenchSource {
   MarkerId marker_I(std::size_t k) const override { return forces_[k].element.i; }
   MarkerId marker_J(std::size_t k) const override { return forces_[k].element.j; }
   void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;
-  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
+  void undefined_values(const Motion&, UndefinedValues&) const override;
 
  private:
   struct Force {

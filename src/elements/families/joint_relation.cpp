@@ -108,13 +108,13 @@ void JointRelationKernel::wrench(const Motion& motion, std::size_t which, bool, 
   out.force.force = force, out.force.torque = torque;
 }
 
-void JointRelationKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const {
+void JointRelationKernel::undefined_values(const Motion& motion, UndefinedValues& undefined) const {
   for (std::size_t k = 0; k < relations_.size(); ++k) {
     const Relation& r = relations_[k];
     if (!r.written) continue;
-    const std::size_t before = undefined.size();
+    const std::size_t before = undefined.values().size();
     r.function.find_undefined(motion, (*labels_)[k], undefined, BoundExpression::Derivatives::with_rates);
-    if (undefined.size() > before || motion.mode != AnalysisMode::linear) continue;
+    if (undefined.values().size() > before || motion.mode != AnalysisMode::linear) continue;
     // A linear model takes one derivative more along the motion.
     ConstraintRows varied;
     varied.resize(*layout_, 1);
@@ -122,7 +122,8 @@ void JointRelationKernel::undefined_values(const Motion& motion, std::vector<Und
     const auto finite = [](const ConstraintRows::Entry& e) { return std::isfinite(e.c.a0); };
     if (std::ranges::all_of(varied.row(0), finite)) continue;
     const std::array<double, 1> now = {motion.time};
-    undefined.push_back({&(*labels_)[k], (*labels_)[k].full_text() + ": " + r.routine->reason_of_partials(now), false});
+    undefined.add(
+        UndefinedValue{&(*labels_)[k], (*labels_)[k].full_text() + ": " + r.routine->reason_of_partials(now), false});
   }
 }
 

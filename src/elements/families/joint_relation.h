@@ -36,7 +36,7 @@ class JointRelationKernel final : public Kernel, public WrenchSource, public Row
   void constraints(const Motion&, ConstraintRows&) const override;
   void equations(const Motion&, Equations&) const override;
   void tell_row_terms(const Motion&, std::span<RowTerms>) const override;
-  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
+  void undefined_values(const Motion&, UndefinedValues&) const override;
   // What each joint bears of the relation, on its marker I with the opposite on J.
   const WrenchSource* reported_wrenches() const override { return this; }
   std::size_t wrench_count(std::size_t) const override { return joints_.size(); }

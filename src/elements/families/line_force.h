@@ -43,13 +43,13 @@ class LineForceKernel final : public Kernel, public WrenchSource {
     out.pair = pair_motion(motion, forces_[k].I, forces_[k].J);
     out.force = force_of(forces_[k], out.pair, with_partials);
   }
-  void undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined_values) const override {
+  void undefined_values(const Motion& motion, UndefinedValues& undefined_values) const override {
     for (std::size_t k = 0; k < forces_.size(); ++k) {
       const Vector line = motion.point(forces_[k].I) - motion.point(forces_[k].J);
       if (norm(line) != 0.0) continue;
       const ElementLabel& label = (*labels_)[k];
-      undefined_values.push_back(
-          {&label, "the markers of " + label.full_text() + " coincide, its line of action has no direction"});
+      undefined_values.add(UndefinedValue{
+          &label, "the markers of " + label.full_text() + " coincide, its line of action has no direction"});
     }
   }
 

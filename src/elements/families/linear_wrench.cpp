@@ -217,17 +217,18 @@ void LinearWrenchKernel::wrench(const Motion& motion, std::size_t k, bool with_p
   out.force = force_of(laws_[k], out.pair, motion, with_partials);
 }
 
-void LinearWrenchKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const {
+void LinearWrenchKernel::undefined_values(const Motion& motion, UndefinedValues& undefined) const {
   const auto finite = [](double x) { return std::isfinite(x); };
   for (std::size_t k = 0; k < laws_.size(); ++k) {
     const Placed& p = laws_[k];
     const PairMotion pair = pair_motion(motion, *p.I, *p.J);
     if (const Angle* angle = undefined_angle(*p.law, pose_of(pair.relative))) {
-      undefined.push_back({&(*labels_)[k],
-                           fmt::format("{}: the angle {} is not defined where the {} axis of I is along the {} axis "
-                                       "of J",
-                                       (*labels_)[k].full_text(), angle->name, angle->axis_I, angle->axis_J),
-                           false});
+      undefined.add(
+          UndefinedValue{&(*labels_)[k],
+                         fmt::format("{}: the angle {} is not defined where the {} axis of I is along the {} axis "
+                                     "of J",
+                                     (*labels_)[k].full_text(), angle->name, angle->axis_I, angle->axis_J),
+                         false});
       continue;
     }
     if (!p.law->routine) continue;
@@ -240,7 +241,7 @@ void LinearWrenchKernel::undefined_values(const Motion& motion, std::vector<Unde
     if (has_values && has_slopes) continue;
     const std::string reason =
         has_values ? p.law->routine->reason_of_partials(read) : p.law->routine->reason_of_value(read);
-    undefined.push_back({&(*labels_)[k], (*labels_)[k].full_text() + ": " + reason, !has_values});
+    undefined.add(UndefinedValue{&(*labels_)[k], (*labels_)[k].full_text() + ": " + reason, !has_values});
   }
 }
 

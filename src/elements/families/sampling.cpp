@@ -69,8 +69,7 @@ bool Sampling::sample(const Motion& motion, Memory& memory) const {
   return changed || !std::isfinite(then);
 }
 
-void Sampling::find_undefined(const Motion& motion, const ElementLabel& of,
-                              std::vector<UndefinedValue>& undefined) const {
+void Sampling::find_undefined(const Motion& motion, const ElementLabel& of, UndefinedValues& undefined) const {
   if (!std::isfinite(next(motion))) period_.find_undefined(motion, of, undefined);
   for (std::size_t n = 0; n < size(); ++n) {
     if (!std::isfinite(value(motion, n))) update_[n].find_undefined(motion, of, undefined);

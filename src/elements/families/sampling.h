@@ -37,7 +37,7 @@ class Sampling {
   // Why there are no values, empty if there are.
   std::string failure(const Motion&) const;
   // What the functions that have given none have to say for it.
-  void find_undefined(const Motion&, const ElementLabel& of, std::vector<UndefinedValue>&) const;
+  void find_undefined(const Motion&, const ElementLabel& of, UndefinedValues&) const;
 
  private:
   double next(const Motion& motion) const { return motion.memory[static_cast<std::size_t>(next_kept_)]; }

@@ -111,16 +111,18 @@ void StateEquationsKernel::remember(const Motion& motion, Memory& memory) const 
   }
 }
 
-void StateEquationsKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined) const {
+void StateEquationsKernel::undefined_values(const Motion& motion, UndefinedValues& undefined) const {
   for (std::size_t k = 0; k < elements_.size(); ++k) {
     const Element& e = elements_[k];
     const ElementLabel& label = (*labels_)[k];
     if (e.sampling.size() > 0) {
       if (const std::string reason = e.sampling.failure(motion); !reason.empty()) {
-        std::vector<UndefinedValue> why;
+        UndefinedValues why;
         e.sampling.find_undefined(motion, label, why);
-        undefined.push_back(
-            {&label, label.full_text() + ": " + reason + (why.empty() ? "" : "; " + why.front().reason), true});
+        undefined.add(UndefinedValue{
+            &label,
+            label.full_text() + ": " + reason + (why.values().empty() ? "" : "; " + why.values().front().reason),
+            true});
       }
     }
     for (const BoundExpression& f : e.derivatives) f.find_undefined(motion, label, undefined);

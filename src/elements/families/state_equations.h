@@ -33,7 +33,7 @@ class StateEquationsKernel final : public Kernel, public ChannelSource, public E
   bool add_rate_equation(std::int32_t algebraic, std::int32_t rate, Binder&) override;
   void equations(const Motion&, Equations&) const override;
   void remember(const Motion&, Memory&) const override;
-  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
+  void undefined_values(const Motion&, UndefinedValues&) const override;
   std::string domain_violation(const Motion&) const override;
 
   const ChannelSource* channels() const override { return this; }

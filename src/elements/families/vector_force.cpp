@@ -70,7 +70,7 @@ void VectorForceKernel::equations(const Motion& motion, Equations& eq) const {
   }
 }
 
-void VectorForceKernel::undefined_values(const Motion& motion, std::vector<UndefinedValue>& undefined_values) const {
+void VectorForceKernel::undefined_values(const Motion& motion, UndefinedValues& undefined_values) const {
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     for (const Component& c : forces_[k].components) c.value.find_undefined(motion, (*labels_)[k], undefined_values);
   }

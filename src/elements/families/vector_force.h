@@ -32,7 +32,7 @@ class VectorForceKernel final : public Kernel, public WrenchSource {
   MarkerId marker_J(std::size_t k) const override { return forces_[k].element.jfloat; }
   MarkerId marker_of_axes(std::size_t k) const override { return forces_[k].element.rm; }
   void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;
-  void undefined_values(const Motion&, std::vector<UndefinedValue>&) const override;
+  void undefined_values(const Motion&, UndefinedValues&) const override;
 
  private:
   struct Component {
