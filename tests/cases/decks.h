@@ -7,12 +7,12 @@
 #include <numbers>
 #include <regex>
 
-#include "cases/both.h"
+#include "cases/selections.h"
 #include "deck_roots.h"
 
 namespace dynalin::cases {
 
-class ProgramLibraryAndDecks : public ProgramAndLibrary {
+class ProgramLibraryAndDecks : public ProgramLibraryAndSelections {
  protected:
   static std::vector<ExpectedRoot> roots_of(const nlohmann::json& result) {
     constexpr double cycle = 2 * std::numbers::pi;
@@ -28,12 +28,12 @@ class ProgramLibraryAndDecks : public ProgramAndLibrary {
     return list;
   }
 
-  RunResult run_file(const std::string& file) const { return exported(file, ProgramAndLibrary::run_file(file)); }
+  RunResult run_file(const std::string& file) const { return exported(file, ProgramLibraryAndSelections::run_file(file)); }
   RunResult run(const std::string& dataset, const std::string& commands) const {
-    return exported("model.acf", ProgramAndLibrary::run(dataset, commands));
+    return exported("model.acf", ProgramLibraryAndSelections::run(dataset, commands));
   }
   RunResult run_example(const std::string& folder, const std::string& file) const {
-    return exported(file, ProgramAndLibrary::run_example(folder, file));
+    return exported(file, ProgramLibraryAndSelections::run_example(folder, file));
   }
 
  private:
