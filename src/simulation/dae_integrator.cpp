@@ -79,6 +79,9 @@ struct DaeIntegrator::Memory {
   int standing = 0;     // steps in a row in which time did not go on
   int short_steps = 0;  // shorter than is allowed, in a row, that do not grow
   std::vector<int> crossed;
+  // The sides to which functions went where the last event was. Where the integration goes on from there they keep them
+  // while they are zero: IDA gives up on one that is zero at two instants in a row.
+  std::vector<int> side;
   HiddenCrossings hidden;
   // The end of a step whose beginning is all that has been handed out, as something crossed zero in it.
   struct Rest {
@@ -193,6 +196,9 @@ struct DaeIntegrator::Memory {
   static int switches(double t, N_Vector y, N_Vector yp, double* to, void* self) {
     DaeProblem& p = of(self).problem;
     p.switches(t, constant(y), constant(yp), {to, p.switch_count()});
+    const std::vector<int>& side = of(self).side;
+    for (std::size_t k = 0; k < side.size(); ++k)
+      if (to[k] == 0) to[k] = side[k] * std::numeric_limits<double>::min();
     return 0;
   }
   static void ignore(int, const char*, const char*, char*, void*) {}
@@ -282,6 +288,7 @@ struct DaeIntegrator::Memory {
     stated_first = first_step ? first_step : bounds.first;
     fresh = true;
     rest.reset();
+    side.clear();
     hidden.begin(switches_at(t, y, yp));
   }
 
@@ -376,6 +383,7 @@ DaeIntegrator::Outcome DaeIntegrator::step(double latest) {
       break;
     case IDA_ROOT_RETURN:
       check(IDAGetRootInfo(m.ida, m.crossed.data()));
+      m.side = m.crossed;
       return m.looked_into(before, {m.t, Outcome::event, m.crossed});
     case IDA_ERR_FAIL:
       return m.fail("no step is short enough for the error that is allowed");
@@ -386,6 +394,8 @@ DaeIntegrator::Outcome DaeIntegrator::step(double latest) {
     case IDA_LSOLVE_FAIL:
       m.reason = "the equations are singular";
       return Outcome::failed;
+    case IDA_ILL_INPUT:
+      return m.fail("a function that switches is zero at two instants that are hardly apart");
     default:
       return m.fail("the iteration of a step does not converge however short it is");
   }

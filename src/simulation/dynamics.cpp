@@ -8,6 +8,7 @@
 #include <memory>
 #include <set>
 
+#include "simulation/event_density.h"
 #include "simulation/motion_equations.h"
 #include "simulation/moving_rows.h"
 #include "simulation/point_refinement.h"
@@ -20,12 +21,6 @@ namespace {
 // Rows that were left out and are farther than this from being met, in their scales, do not follow from the others;
 // the same in errors that a step may have, which leave them so far where they hardly follow.
 constexpr double least_left_out = 1e-7, left_out_errors = 100;
-// Events in a row with hardly time to gather speed between them, after which they are passed over for some steps.
-constexpr int event_limit = 200;
-constexpr std::int64_t steps_between_events = 20, steps_without_events = 200;
-// Events on next to no way, after which time does not pass in any number of them.
-constexpr int crowd_limit = 10000;
-constexpr double next_to_no_way = 1e-9;  // of the whole time
 // Steps that fail on hardly any way, after which there is no going on.
 constexpr int failure_limit = 4;
 constexpr double hardly_any_way = 1e-4;  // of the whole time
@@ -35,7 +30,6 @@ constexpr double least_limit_of_moves =
 constexpr double largest_part_of_error = 0.1;  // in a step, of what rounding leaves no more exact
 constexpr int steps_held_by_rounding = 500;
 constexpr std::size_t remark_limit = 50;
-constexpr double part_that_jumps = 0.1;  // of a value, beside what changes with the point
 // Of the range of a table, what steps may pass over: ERROR within these.
 constexpr double least_passed_over = 1e-6, most_passed_over = 1e-3;
 // From an event to its sides, in roundings; what is less is no step.
@@ -183,7 +177,7 @@ class Dynamics {
     } else {
       equations_->accept(point_);
     }
-    equations_->watch_switches(close_events_ < event_limit);
+    equations_->watch_switches(density_.watches());
     equations_->unknowns().pack(point_, y_, yp_);
     integrator_->start(point_.time, y_, yp_, first_step);
     return {};
@@ -296,8 +290,7 @@ class Dynamics {
   Result<void> follow() {
     note_rounding();
     const bool strayed = equations_->left_out_violation(point_) > left_out_limit();
-    const bool look_again = close_events_ >= event_limit && statistics_.steps - last_event_ > steps_without_events;
-    if (look_again) close_events_ = 0;
+    const bool look_again = density_.watch_again(statistics_.steps);
     if (strayed || look_again) return begin_at_consistent();
     return {};
   }
@@ -361,28 +354,20 @@ class Dynamics {
 
   // What follows from switches and sensors at the point; where nothing does the integration goes on.
   Result<EventAction> pass_event(std::span<const int> crossed, bool restart = false) {
-    if (point_.time - crowd_from_ > next_to_no_way * tolerance_.duration) crowd_from_ = point_.time, crowd_ = 0;
-    if (++crowd_ > crowd_limit) {
-      return tl::unexpected(Failure{
-          "dynamics",
-          fmt::format("at time {:.9g}: {} events within a billionth of the run", point_.time, crowd_limit),
-          {"the period of a sampling, or the time from one switch of a function to the next, is next to nothing "
-           "beside the time of the run"},
-          "stopped-integration"});
-    }
+    if (auto passed = density_.pass(point_.time, tolerance_.duration); !passed) return tl::unexpected(passed.error());
     EventAction action = events_.at(crossed, point_);
     action.restart = action.restart || restart;
     const bool anew = action.restart || action.output || action.ends() || action.refactor || action.step_size;
     if (anew) {
       const std::vector<double> values = point_.algebraic, rates = point_.state_rate;
       if (auto made = make_consistent(); !made) return tl::unexpected(made.error());
-      if (action.restart) note_jumps(values, rates);
+      if (action.restart) density_.note_jumps(system_.layout(), values, rates, point_);
     }
     const bool output = action.output || action.ends();
     if ((output || !action.text.empty()) && !hand_out(point_, output, action.text)) action.returns = stopped_ = true;
     if (action.ends()) return action;
     if (action.output_step) change_outputs(*action.output_step);
-    if (action.restart) note_density();
+    if (action.restart) density_.note_restart(statistics_.steps, point_.time, findings_.warnings);
     if (!anew) {
       equations_->accept(point_);
     } else if (auto begun = begin(action.step_size); !begun) {
@@ -400,36 +385,6 @@ class Dynamics {
                                fmt::format("at time {:g} rounding leaves more of {} than the error that is allowed: "
                                            "steps are as short as it makes them, and a larger ERROR loses nothing",
                                            point_.time, equations_->unknowns().text(unknown)));
-  }
-
-  // What is on the other side of the event not what it was before.
-  void note_jumps(const std::vector<double>& values, const std::vector<double>& rates) {
-    jumping_.clear();
-    const auto note = [&](double from, double to, const ElementLabel& owner) {
-      if (std::abs(to - from) > part_that_jumps * std::max(std::abs(from), std::abs(to)))
-        jumping_.insert(owner.full_text());
-    };
-    const Layout& layout = system_.layout();
-    for (std::size_t k = 0; k < values.size(); ++k) note(values[k], point_.algebraic[k], *layout.algebraic[k].owner);
-    for (std::size_t k = 0; k < rates.size(); ++k) note(rates[k], point_.state_rate[k], *layout.states[k].owner);
-  }
-
-  void note_density() {
-    const bool close = statistics_.steps - last_event_ <= steps_between_events;
-    last_event_ = statistics_.steps;
-    close_events_ = close ? close_events_ + 1 : 0;
-    if (close_events_ == event_limit && said_.insert("dense-events").second) {
-      const std::string names = fmt::format("{}", fmt::join(jumping_, ", "));
-      findings_.warnings.warning(
-          "dense-events", {},
-          fmt::format("at time {:g} functions switch without end: from there on kinks and jumps are at times stepped "
-                      "over, within the error that is allowed{}",
-                      point_.time, names.empty() ? "" : "; what jumps to and fro is " + names),
-          names.empty()
-              ? ""
-              : "a jump that holds the motion at its own edge, like dry friction by SIGN or IF, asks for steps "
-                "of next to nothing: give it a slope (STEP)");
-    }
   }
 
   // From the point on, to the same end.
@@ -479,12 +434,11 @@ class Dynamics {
   std::optional<OperatingPoint> before_event_;  // where the last step ended at one
   std::vector<double> y_, yp_;
   std::int64_t next_ = 1;  // output
-  int failures_ = 0, close_events_ = 0, steps_at_rounding_ = 0, crowd_ = 0;
-  double crowd_from_ = 0;                                            // the time of the first event of a crowd
+  int failures_ = 0, steps_at_rounding_ = 0;
+  EventDensity density_;
   bool stopped_ = false;                                             // by the watch
   double first_failure_ = -std::numeric_limits<double>::infinity();  // of those that are counted [time]
-  std::int64_t last_event_ = -steps_between_events - 1;              // counted in steps
-  std::set<std::string> said_, jumping_;  // remarks so far; what had another value behind the last event
+  std::set<std::string> said_;                                       // remarks so far
 };
 
 }  // namespace

@@ -17,7 +17,8 @@ void Events::values(const Motion& motion, std::span<double> values) {
   system_->switches(motion, scratch_, list_);
   for (const EventSource* source : system_->event_sources()) source->crossings(motion, scratch_, list_);
   assert(list_.value.size() == size() && values.size() == size());
-  std::copy(list_.value.begin(), list_.value.end(), values.begin());
+  // Where a change of sign means nothing there is none.
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] = list_.counts[k] ? list_.value[k] : 1.0;
 }
 
 bool Events::watched_is_finite(const Motion& motion) {
