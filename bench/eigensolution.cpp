@@ -4,6 +4,7 @@
 //     eigensolution vehicle 200           n parts in a row, two bushings between neighbours
 //     eigensolution rotor 100             a shaft of n BEAMs with discs, turning in two bearings
 //     eigensolution rotor 1000 statics    no state matrix: it is dense
+//     eigensolution vehicle 200 write     the dataset alone, for the program itself
 #include <dynalin/dynalin.h>
 #include <fmt/format.h>
 
@@ -38,10 +39,11 @@ std::string vehicle(int n) {
 
 int main(int argc, char** argv) {
   dynalin::prepare_heap();
-  const bool statics_only = argc == 4 && std::string(argv[3]) == "statics";
+  const std::string word = argc == 4 ? argv[3] : "";
+  const bool statics_only = word == "statics", write = word == "write";
   const std::string kind = argc > 1 ? argv[1] : "";
-  if ((argc != 3 && !statics_only) || (kind != "chain" && kind != "vehicle" && kind != "rotor")) {
-    fmt::print("usage: eigensolution chain|vehicle|rotor NUMBER [statics]\n");
+  if ((argc != 3 && !statics_only && !write) || (kind != "chain" && kind != "vehicle" && kind != "rotor")) {
+    fmt::print("usage: eigensolution chain|vehicle|rotor NUMBER [statics|write]\n");
     return 3;
   }
   const int n = std::atoi(argv[2]);
@@ -52,9 +54,9 @@ int main(int argc, char** argv) {
                peak_megabytes());
     last = now;
   };
-  const dynalin::Study study(dynalin::Model::from_text(kind == "chain"     ? hanging_chain(n)
-                                                       : kind == "vehicle" ? vehicle(n)
-                                                                           : beam_rotor(n)));
+  const std::string text = kind == "chain" ? hanging_chain(n) : kind == "vehicle" ? vehicle(n) : beam_rotor(n);
+  if (write) return fmt::print("{}", text), 0;
+  const dynalin::Study study(dynalin::Model::from_text(text));
   report("reading");
   auto point = study.initial_conditions();
   report("initial conditions");
