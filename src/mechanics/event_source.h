@@ -37,6 +37,14 @@ struct EventAction {
   std::string text;                   // for the message file: whole lines
 
   bool ends() const { return returns || halts; }
+  // What is to be done at the same instant as well, behind it.
+  void add(const EventAction& more) {
+    restart = restart || more.restart, output = output || more.output, refactor = refactor || more.refactor;
+    returns = returns || more.returns, halts = halts || more.halts, dump = dump || more.dump;
+    if (more.output_step) output_step = more.output_step;
+    if (more.step_size) step_size = more.step_size;
+    text += more.text;
+  }
 };
 
 class EventSource {

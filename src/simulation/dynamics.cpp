@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "simulation/event_density.h"
 #include "simulation/motion_equations.h"
@@ -63,10 +64,10 @@ class Dynamics {
     if (!start) return tl::unexpected(start.error());
     point_ = std::move(*start);
     system_.record(point_);
-    const EventAction at_start = events_.at_start(point_);
-    if (at_start.restart) {
-      if (auto again = make_consistent(); !again) return tl::unexpected(again.error());
-    }
+    const auto begun_with = act_at_start();
+    if (!begun_with) return tl::unexpected(begun_with.error());
+    const EventAction& at_start = *begun_with;
+    watch_point();
     if (!hand_out(point_, true, at_start.text)) return AdvancedPoint{std::move(point_), SimulationEnd::stopped};
     if (at_start.ends()) return AdvancedPoint{std::move(point_), end_of(at_start)};
     if (at_start.output_step) change_outputs(*at_start.output_step);
@@ -244,6 +245,7 @@ class Dynamics {
     } else {
       system_.record(point_);
     }
+    if (!event) watch_point();
     equations_->accept(point_);
   }
 
@@ -352,17 +354,46 @@ class Dynamics {
     return pass_event(crossed, true);
   }
 
+  // What sensors watch at the point, which may jump from there to the next event.
+  void watch_point() {
+    if (events_.size() == events_.switch_count()) return;
+    watched_.resize(events_.size());
+    events_.values(system_.motion(point_), watched_);
+  }
+  // What sensors do at once may make the conditions of others hold.
+  Result<EventAction> act_at_start() {
+    EventAction action = events_.at_start(point_);
+    for (EventAction more = action; more.restart;) {
+      if (auto again = make_consistent(); !again) return tl::unexpected(again.error());
+      more = events_.at_start(point_);
+      action.add(more);
+    }
+    return action;
+  }
+
   // What follows from switches and sensors at the point; where nothing does the integration goes on.
   Result<EventAction> pass_event(std::span<const int> crossed, bool restart = false) {
     if (auto passed = density_.pass(point_.time, tolerance_.duration); !passed) return tl::unexpected(passed.error());
     EventAction action = events_.at(crossed, point_);
     action.restart = action.restart || restart;
-    const bool anew = action.restart || action.output || action.ends() || action.refactor || action.step_size;
-    if (anew) {
+    bool anew = false;
+    std::vector<char> seen(crossed.size());
+    std::ranges::transform(crossed, seen.begin(), [](int way) { return way != 0; });
+    for (EventAction next = action; next.restart || next.output || next.ends() || next.refactor || next.step_size;) {
+      anew = true;
       const std::vector<double> values = point_.algebraic, rates = point_.state_rate;
       if (auto made = make_consistent(); !made) return tl::unexpected(made.error());
-      if (action.restart) density_.note_jumps(system_.layout(), values, rates, point_);
+      if (next.restart) density_.note_jumps(system_.layout(), values, rates, point_);
+      // What sensors watch may have jumped with it; each acts once at an instant.
+      const std::vector<double> before = watched_;
+      watch_point();
+      std::vector<int> jumped = events_.passed(before, watched_);
+      for (std::size_t k = 0; k < jumped.size(); ++k)
+        if (std::exchange(seen[k], seen[k] || jumped[k] != 0)) jumped[k] = 0;
+      next = events_.at(jumped, point_);
+      action.add(next);
     }
+    if (!anew) watch_point();
     const bool output = action.output || action.ends();
     if ((output || !action.text.empty()) && !hand_out(point_, output, action.text)) action.returns = stopped_ = true;
     if (action.ends()) return action;
@@ -431,6 +462,7 @@ class Dynamics {
   std::unique_ptr<PointRefinement> refinement_;
   IntegrationStatistics counted_before_;
   OperatingPoint point_, last_output_;
+  std::vector<double> watched_;                 // by sensors, at the last point that they have acted on
   std::optional<OperatingPoint> before_event_;  // where the last step ended at one
   std::vector<double> y_, yp_;
   std::int64_t next_ = 1;  // output

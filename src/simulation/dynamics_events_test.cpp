@@ -89,6 +89,77 @@ TEST(DynamicsWithEvents, what_reads_senval_jumps_where_the_sensor_triggers) {
   EXPECT_NEAR(r.end.point.state[0], 0.25 + 2 * (2 - 0.75), 1e-9);
 }
 
+// A value that jumps at an instant passes what lies between without a crossing of its own.
+TEST(DynamicsWithEvents, sensors_see_what_jumps_at_an_event) {
+  const std::string steps = "VARIABLE/1, FUNCTION=IF(TIME-0.13: 0, 2, 2)\n";
+  for (const char* watched :
+       {"VARVAL(1), VALUE=1, GE", "2-VARVAL(1), VALUE=1, LE", "VARVAL(1), VALUE=1, EQ", "VARVAL(1), VALUE=2, GE",
+        "TIME+VARVAL(1), VALUE=1.5, GE", "DIF1(1)+DIF(1), VALUE=1, GE"}) {
+    const Led r = lead(
+        "DIFF/1, IC=1, FUNCTION=-DIF(1)+VARVAL(1)\n" + steps + "SENSOR/9, FUNCTION=" + watched + ", HALT\n", 0.4, 0.1);
+    EXPECT_EQ(r.end.end, SimulationEnd::halted) << watched;
+    EXPECT_NEAR(r.end.point.time, 0.13, 1e-9) << watched;
+  }
+  // What pushes from the touch on, at 0.5/2.1.
+  const Led touch = lead(
+      "UNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/3, MASS=1, CM=3, IP=1,1,1, QG=0,0,1.5, VZ=-2.1\nMARKER/3\n"
+      "GRAPHICS/1, PLANE, RM=1, XMIN=-9, XMAX=9, YMIN=-9, YMAX=9\nGRAPHICS/3, ELLIPSOID, CM=3, XSCALE=2, YSCALE=2, "
+      "ZSCALE=2\nCONTACT/1, IGEOM=3, JGEOM=1, POISSON, PENALTY=1000, RESTITUTION_COEFFICIENT=.2\n"
+      "SENSOR/9, FUNCTION=CONTACT(1,0,4,0), VALUE=20, GE, HALT\n",
+      0.4, 0.1);
+  EXPECT_EQ(touch.end.end, SimulationEnd::halted);
+  EXPECT_NEAR(touch.end.point.time, 0.5 / 2.1, 1e-9);
+  // It does not go so far.
+  const Led passes = lead(decay + steps + "SENSOR/9, FUNCTION=VARVAL(1), VALUE=2.5, GE, HALT\n", 0.4, 0.1);
+  EXPECT_EQ(passes.end.end, SimulationEnd::reached);
+}
+
+TEST(DynamicsWithEvents, sensors_see_what_others_set) {
+  const std::string sets =
+      decay + "SENSOR/5, FUNCTION=TIME, VALUE=0.13, GE, EVALUATE=2.5\nVARIABLE/1, FUNCTION=SENVAL(5)\n";
+  for (const char* watched : {"SENVAL(5), VALUE=1, GE", "VARVAL(1), VALUE=1, GE", "SENVAL(5)+TIME, VALUE=2, GE"}) {
+    const Led r = lead(sets + "SENSOR/9, FUNCTION=" + watched + ", HALT\n", 0.4, 0.1);
+    EXPECT_EQ(r.end.end, SimulationEnd::halted) << watched;
+    EXPECT_NEAR(r.end.point.time, 0.13, 1e-9) << watched;
+  }
+  // One after the other at one instant, each once; so do those that trigger where the run begins.
+  const Led chain = lead(sets +
+                             "SENSOR/6, FUNCTION=SENVAL(5), VALUE=1, GE, EVALUATE=SENVAL(5)+1\nSENSOR/7, "
+                             "FUNCTION=SENVAL(6), VALUE=1, GE, EVALUATE=SENVAL(6)+1, PRINT\n",
+                         0.4, 0.2);
+  EXPECT_THAT(chain.said, HasSubstr("SENSOR/7 triggers at time 0.13: FUNCTION is 3.5, EVALUATE is 4.5\n"));
+  EXPECT_EQ(chain.outputs.size(), 4u);
+  const Led at_once = lead(decay +
+                               "SENSOR/5, FUNCTION=DIF(1), VALUE=0.5, GE, EVALUATE=2.5\nSENSOR/9, "
+                               "FUNCTION=SENVAL(5), VALUE=1, GE, HALT\n",
+                           1, 0.5);
+  EXPECT_EQ(at_once.end.end, SimulationEnd::halted);
+  EXPECT_EQ(at_once.end.point.time, 0);
+}
+
+// Lateral and yaw velocity of a car on two axles that runs straight on decay to rounding, where each changes its sign
+// without end and nothing follows from it.
+TEST(DynamicsWithEvents, what_is_zero_but_for_rounding_stops_nothing) {
+  const auto car = [](const std::string& front, const std::string& rear, const std::string& more = "") {
+    return "UNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1500, CM=20, IP=2000,2000,2500, VX=30, VY=0.01\n"
+           "MARKER/20\nMARKER/21, QP=1,0,0\nMARKER/22, QP=-1,0,0\nMARKER/91, PART=1, FLOATING\nMARKER/92, PART=1, "
+           "FLOATING\nVFORCE/1, I=21, JFLOAT=91, RM=21, FY=" +
+           front + "\nVFORCE/2, I=22, JFLOAT=92, RM=22, FY=" + rear + "\n" + more;
+  };
+  const std::string linear_front = "-2E3*VY(21,0,21)", linear_rear = "-2.5E3*VY(22,0,22)";
+  for (const std::string& text :
+       {car("-6E4*ATAN2(VY(21,0,21),VX(21,0,21))", "-8E4*ATAN2(VY(22,0,22),VX(22,0,22))"),
+        car("IF(VX(21,0,21)-29: MAX(0,VY(21,0,21)), 0, " + linear_front + ")", linear_rear),
+        car(linear_front, linear_rear, "VARIABLE/1, FUNCTION=ATAN2(VY(21,0,21),VX(21,0,21))\n"),
+        car(linear_front, linear_rear, "SENSOR/1, FUNCTION=VY(21,0,21), VALUE=0, GE, EVALUATE=TIME\n")}) {
+    const Led r = lead(text, 30, 10, 1e-3);
+    EXPECT_EQ(r.end.end, SimulationEnd::reached);
+    EXPECT_EQ(r.end.point.time, 30);
+    EXPECT_NEAR(r.end.point.velocity[0], 30, 1e-4);
+    EXPECT_NEAR(r.end.point.velocity[5], 0, 1e-4);
+  }
+}
+
 TEST(DynamicsWithEvents, a_jump_is_located) {
   const Led r = lead("DIFF/1, IC=0, FUNCTION=IF(TIME-0.3701: 1, 1, -3)\n", 1, 0.1);
   EXPECT_THAT(r.steps, ::testing::Contains(::testing::DoubleNear(0.3701, 1e-10)));

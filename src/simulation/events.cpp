@@ -51,6 +51,14 @@ EventAction Events::at(std::span<const int> crossed, OperatingPoint& op) {
   return action;
 }
 
+std::vector<int> Events::passed(std::span<const double> from, std::span<const double> to) const {
+  std::vector<int> all(size(), 0);
+  const auto sign = [](double v) { return (v > 0) - (v < 0); };
+  for (std::size_t k = switches_; k < std::min({all.size(), from.size(), to.size()}); ++k)
+    if (sign(from[k]) != 0 && sign(from[k]) != sign(to[k])) all[k] = -sign(from[k]);
+  return all;
+}
+
 void Events::finish(EventAction& action, const OperatingPoint& op) const {
   if (action.dump) action.text += dump_of(*system_, op);
 }

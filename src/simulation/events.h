@@ -28,6 +28,9 @@ class Events {
   // Where functions have changed their sign: 1 upwards, −1 downwards, 0 not. Sensors that trigger evaluate EVALUATE,
   // and the memory of the point keeps it. Without a restart the integration goes on as if nothing had been.
   EventAction at(std::span<const int> crossed, OperatingPoint&);
+  // What sensors watch that has come to the other side of zero, or to it, from one list of values to another: 1
+  // upwards, −1 downwards, 0 not.
+  std::vector<int> passed(std::span<const double> from, std::span<const double> to) const;
 
  private:
   void finish(EventAction&, const OperatingPoint&) const;

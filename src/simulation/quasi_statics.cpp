@@ -76,7 +76,8 @@ class QuasiStaticRun {
     } else {
       return tl::unexpected(at_time(times_.start(), first.error()));
     }
-    auto begun = follow(events_.at_start(at_), true);
+    const auto at_start = act_at_start();
+    auto begun = at_start ? follow(*at_start, true) : tl::unexpected(at_start.error());
     double h = times_.step();
     double pace = h;  // of turning, which a MOTION that stops does not do at once
     while (begun && !end_) {
@@ -109,7 +110,8 @@ class QuasiStaticRun {
       at_.progress = progress_of(statistics_);
       h = std::max(2 * step, std::min(h, left));
       pace += step;
-      begun = follow(crosses ? events_.at(crossed_, at_) : EventAction{}, at_.time == target);
+      auto action = crosses ? act() : EventAction{};
+      begun = action ? follow(*action, at_.time == target) : tl::unexpected(action.error());
     }
     if (!begun) return tl::unexpected(at_time(at_.time, begun.error()));
     return end(*end_);
@@ -163,15 +165,8 @@ class QuasiStaticRun {
   }
   // Of sensors alone: kinks and jumps of forces need no step of their own.
   bool crosses(const std::vector<double>& from, const std::vector<double>& to) {
-    crossed_.assign(events_.size(), 0);
-    const auto sign = [](double v) { return (v > 0) - (v < 0); };
-    bool any = false;
-    for (std::size_t k = events_.switch_count(); k < from.size(); ++k) {
-      if (sign(from[k]) == 0 || sign(from[k]) == sign(to[k])) continue;
-      crossed_[k] = -sign(from[k]);
-      any = true;
-    }
-    return any;
+    crossed_ = events_.passed(from, to);
+    return std::ranges::any_of(crossed_, [](int way) { return way != 0; });
   }
 
   // Whether what sensors watch passes what it is compared with on the way to the next equilibrium, which then becomes
@@ -203,14 +198,45 @@ class QuasiStaticRun {
     return crosses(before, after);
   }
 
+  // Where a sensor has changed what forces follow from.
+  Result<void> solve_anew() {
+    auto again = solve(at_, options_);
+    if (!again) return tl::unexpected(again.error());
+    at_ = std::move(*again);
+    speed_ = {};
+    return {};
+  }
+  Result<EventAction> act_at_start() {
+    EventAction action = events_.at_start(at_);
+    for (EventAction more = action; more.restart;) {
+      if (auto again = solve_anew(); !again) return tl::unexpected(again.error());
+      more = events_.at_start(at_);
+      action.add(more);
+    }
+    return action;
+  }
+  // What crossed sensors do, and others whose values jump with it, each once.
+  Result<EventAction> act() {
+    EventAction action;
+    std::vector<int> seen = crossed_;
+    for (bool any = true; any;) {
+      const std::vector<double> before = watched(at_);
+      const EventAction more = events_.at(crossed_, at_);
+      action.add(more);
+      if (!more.restart) break;
+      if (auto again = solve_anew(); !again) return tl::unexpected(again.error());
+      crosses(before, watched(at_));
+      any = false;
+      for (std::size_t k = 0; k < seen.size(); ++k) {
+        if (seen[k] != 0) crossed_[k] = 0;
+        if (crossed_[k] != 0) seen[k] = crossed_[k], any = true;
+      }
+    }
+    return action;
+  }
+
   // Hands out the equilibrium at hand, as every one is, and does what sensors ask for there.
   Result<void> follow(const EventAction& action, bool output) {
-    if (action.restart) {
-      auto again = solve(at_, options_);
-      if (!again) return tl::unexpected(again.error());
-      at_ = std::move(*again);
-      speed_ = {};
-    }
     const bool handed_out = output || action.output || action.ends();
     const bool goes_on =
         !watch_ || watch_(SimulationStep{system_, at_, handed_out, statistics_, action.text}) == GoOn::yes;

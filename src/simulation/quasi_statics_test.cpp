@@ -174,6 +174,20 @@ TEST(QuasiStatics, end_where_a_sensor_says_and_follow_what_it_evaluates) {
   }
 }
 
+// From 1.1 to 1.17 at t = 2.5, where another sensor adds to the force.
+TEST(QuasiStatics, sensors_see_what_jumps_where_others_act) {
+  QuasiStaticRun r(
+      "PART/2, MASS=1, CM=20, IP=1,1,1, QG=0,0,1\nMARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
+      "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, K=100, LENGTH=1\n"
+      "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=4*TIME+SENVAL(2)\n"
+      "SENSOR/2, FUNCTION=DZ(20,1), VALUE=1.1, GE, EVALUATE=7\nSENSOR/1, FUNCTION=DZ(20,1), VALUE=1.15, GE, HALT\n",
+      10, 10);
+  ASSERT_TRUE(r.end) << r.end.error().message;
+  EXPECT_EQ(r.end->end, SimulationEnd::halted);
+  EXPECT_NEAR(r.end->point.time, 2.5, 1e-9);
+  EXPECT_NEAR(r.place(r.end->point, 20).z, 1.17, 1e-9);
+}
+
 TEST(QuasiStatics, change_the_time_between_outputs_where_a_sensor_says) {
   QuasiStaticRun r(
       "PART/2, MASS=1, CM=20, IP=1,1,1, QG=0,0,1\nMARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
