@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "linear/perturbed_point.h"
 #include "linear/physical_matrices.h"
@@ -164,10 +165,26 @@ class ClosedBox {
   }
 
   bool forces_read_reactions() const {
-    bool any = false;
-    for_each_entry(at_.equations.matrix(PartialBy::lambda),
-                   [&](std::int32_t, std::int32_t, double v) { any = any || v != 0.0; });
-    return any;
+    // Equations that do, through values as well; of values that nothing else reads nothing comes.
+    const Layout& layout = system_.layout();
+    const std::int32_t values = at_.equations.algebraic_row(0),
+                       states = values + static_cast<std::int32_t>(layout.algebraic.size());
+    std::vector<bool> reads(static_cast<std::size_t>(states) + layout.states.size());
+    bool found = false, any = false;
+    const auto mark = [&](std::int32_t row) {
+      if (reads[static_cast<std::size_t>(row)]) return;
+      reads[static_cast<std::size_t>(row)] = any = true;
+      found = found || row < values || row >= states;
+    };
+    for_each_entry(at_.equations.matrix(PartialBy::lambda), [&](std::int32_t row, std::int32_t, double v) {
+      if (v != 0.0) mark(row);
+    });
+    while (std::exchange(any, false) && !found) {
+      for_each_entry(at_.equations.matrix(PartialBy::algebraic), [&](std::int32_t row, std::int32_t value, double v) {
+        if (v != 0.0 && reads[static_cast<std::size_t>(values + value)]) mark(row);
+      });
+    }
+    return found;
   }
 
   const System& system_;

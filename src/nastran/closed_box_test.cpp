@@ -159,10 +159,15 @@ TEST(ClosedBox, response_at_markers_is_that_of_the_state_space) {
 }
 
 TEST(ClosedBox, says_that_forces_which_read_reactions_are_left_out_of_a_response) {
-  for (const bool reads : {false, true}) {
-    const Linearization of = linearization_of(moving + "SFORCE/7, TRANSLATIONAL, ACTIONONLY, I=30, J=1, FUNCTION=0.1*" +
-                                                  (reads ? "FX(21,12,1)" : "DX(20)") + "\n",
-                                              Start::as_stated);
+  const std::string force = "SFORCE/7, TRANSLATIONAL, ACTIONONLY, I=30, J=1, FUNCTION=0.1*",
+                    values = "VARIABLE/71, FUNCTION=FX(21,12,1)\nVARIABLE/72, FUNCTION=2*VARVAL(71)\n";
+  for (const auto& [more, reads] : {std::pair{force + "DX(20)\n", false},
+                                    {force + "FX(21,12,1)\n", true},
+                                    {values, false},
+                                    {values + force + "DX(20)\n", false},
+                                    {values + force + "VARVAL(72)\n", true}}) {
+    SCOPED_TRACE(more);
+    const Linearization of = linearization_of(moving + more, Start::as_stated);
     Diagnostics remarks;
     const Deck deck = value_or_throw(closed_box(of, response_of(31, 31, Axes::global), remarks));
     expect_roots(deck, eigenvalues_of(of), 1e-9);
