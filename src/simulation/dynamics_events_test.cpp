@@ -102,7 +102,7 @@ TEST(DynamicsWithEvents, sensors_see_what_jumps_at_an_event) {
   }
   // What pushes from the touch on, at 0.5/2.1.
   const Led touch = lead(
-      "UNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/3, MASS=1, CM=3, IP=1,1,1, QG=0,0,1.5, VZ=-2.1\nMARKER/3\n"
+      "PART/3, MASS=1, CM=3, IP=1,1,1, QG=0,0,1.5, VZ=-2.1\nMARKER/3\n"
       "GRAPHICS/1, PLANE, RM=1, XMIN=-9, XMAX=9, YMIN=-9, YMAX=9\nGRAPHICS/3, ELLIPSOID, CM=3, XSCALE=2, YSCALE=2, "
       "ZSCALE=2\nCONTACT/1, IGEOM=3, JGEOM=1, POISSON, PENALTY=1000, RESTITUTION_COEFFICIENT=.2\n"
       "SENSOR/9, FUNCTION=CONTACT(1,0,4,0), VALUE=20, GE, HALT\n",
@@ -141,7 +141,7 @@ TEST(DynamicsWithEvents, sensors_see_what_others_set) {
 // without end and nothing follows from it.
 TEST(DynamicsWithEvents, what_is_zero_but_for_rounding_stops_nothing) {
   const auto car = [](const std::string& front, const std::string& rear, const std::string& more = "") {
-    return "UNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1500, CM=20, IP=2000,2000,2500, VX=30, VY=0.01\n"
+    return "PART/2, MASS=1500, CM=20, IP=2000,2000,2500, VX=30, VY=0.01\n"
            "MARKER/20\nMARKER/21, QP=1,0,0\nMARKER/22, QP=-1,0,0\nMARKER/91, PART=1, FLOATING\nMARKER/92, PART=1, "
            "FLOATING\nVFORCE/1, I=21, JFLOAT=91, RM=21, FY=" +
            front + "\nVFORCE/2, I=22, JFLOAT=92, RM=22, FY=" + rear + "\n" + more;
