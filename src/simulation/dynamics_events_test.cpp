@@ -26,7 +26,7 @@ Led lead(const std::string& text, double end, double step, double error = 1e-4, 
   const auto system = system_of(text);
   Findings findings;
   Led r;
-  auto start = solve_acceleration(*system, system->drawn(), findings);
+  auto start = initial_conditions(*system, findings);
   if (!start) throw std::runtime_error(start.error().message);
   const SimulationWatch watch = [&](const SimulationStep& at) {
     if (at.output) r.outputs.push_back(at.point.time);
